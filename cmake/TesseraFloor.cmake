@@ -1,0 +1,30 @@
+# tessera_floor(NAME [PUBLIC targets...] [PRIVATE targets...])
+#
+# One library for one floor of the house: every .cpp below the calling folder, with its headers as an installable file
+# set. Headers are included by their path from the repository root ("scenes/Scene.h"), installed and not.
+function(tessera_floor name)
+    cmake_parse_arguments(FLOOR "" "" "PUBLIC;PRIVATE" ${ARGN})
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+    file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
+    add_library(tessera_${name} STATIC ${sources})
+    add_library(tessera::${name} ALIAS tessera_${name})
+    set_target_properties(tessera_${name} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
+    target_sources(tessera_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
+    target_link_libraries(tessera_${name} PUBLIC ${FLOOR_PUBLIC} PRIVATE ${FLOOR_PRIVATE})
+    tessera_compile_options(tessera_${name})
+    set_property(GLOBAL APPEND PROPERTY TESSERA_FLOORS tessera_${name})
+endfunction()
+
+# The language level, warnings and sanitizers that every target of the project is built with.
+function(tessera_compile_options target)
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    # Without contraction the CPU's sums do not depend on which multiply-adds a compiler happens to fuse.
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off)
+    if(TESSERA_WARNINGS_AS_ERRORS)
+        target_compile_options(${target} PRIVATE -Werror)
+    endif()
+    if(TESSERA_SANITIZE)
+        target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
+        target_link_options(${target} PRIVATE -fsanitize=address,undefined)
+    endif()
+endfunction()

@@ -1,0 +1,62 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "renderer/graph/Graph.h"
+
+namespace tessera::graph {
+
+/// What GL must be told before a pass because an earlier one wrote through an image or a storage buffer; a bit set that the
+/// backend turns into glMemoryBarrier bits.
+enum class Barrier : std::uint32_t {
+    None = 0,
+    TextureFetch = 1u << 0,
+    ShaderImage = 1u << 1,
+    ShaderStorage = 1u << 2,
+    Uniform = 1u << 3,
+    Framebuffer = 1u << 4,
+    TransferOrUpdate = 1u << 5
+};
+constexpr Barrier operator|(Barrier a, Barrier b) { return Barrier(std::uint32_t(a) | std::uint32_t(b)); }
+constexpr Barrier operator&(Barrier a, Barrier b) { return Barrier(std::uint32_t(a) & std::uint32_t(b)); }
+
+struct CompiledPass {
+    std::uint32_t pass; ///< index into Graph::passes()
+    Barrier before = Barrier::None;
+};
+
+struct CompiledResource {
+    std::uint32_t resource; ///< index into Graph::resources()
+    std::size_t bytes = 0;
+    int first = -1;   ///< position in CompiledGraph::order of the first use; -1: unused
+    int last = -1;    ///< position of the last use
+    int physical = -1;///< index of the allocation it lives in; -1 for imported and unused resources
+    int aliasOf = -1; ///< the resource (index) that first used that allocation, or -1 when this one did
+};
+
+struct Culled {
+    std::uint32_t pass;
+    std::string why; ///< plain words, naming the outputs that nobody needs
+};
+
+struct CompiledGraph {
+    std::vector<CompiledPass> order;
+    std::vector<Culled> culled;
+    std::vector<CompiledResource> resources; ///< parallel to Graph::resources()
+    std::vector<ResourceDesc> allocations;   ///< what a backend must provide, by CompiledResource::physical
+    std::size_t bytes = 0;                   ///< with aliasing, imported resources left out
+    std::size_t bytesWithoutAliasing = 0;
+};
+
+struct CompileOptions {
+    bool cull = true;  ///< off: every pass runs (prune = off)
+    bool alias = true; ///< off: every transient has an allocation of its own
+};
+
+/// Validates, culls, orders (declaration order wherever data flow allows), computes lifetimes and aliases transients of equal
+/// shape. Throws GraphError with every fault at once: cycle, stale handle, missing producer, expectation not met, two
+/// writers of one version, invalid handle, unfit access, attachments of one pass that differ in size or samples.
+CompiledGraph compile(const Graph& graph, const CompileOptions& options = {});
+
+} // namespace tessera::graph

@@ -1,0 +1,33 @@
+#pragma once
+#include <cstdint>
+#include <string_view>
+
+namespace tessera::graph {
+
+/// Texel formats of textures that passes exchange; the table behind formatInfo() is the only list of them.
+enum class Format : std::uint8_t {
+    Rgba32Float,
+    Rgba16Float,
+    R32Float,
+    Rgba16Unorm,
+    Rg16Snorm,
+    Rgba8Unorm,
+    Srgb8Alpha8,
+    Rg16Uint,
+    R32Uint,
+    R8Uint,
+    Depth32Float,
+    Count
+};
+
+struct FormatInfo {
+    Format format;
+    std::string_view name; ///< as in plans and documentation, e.g. "RGBA32F"
+    int bytes;             ///< a texel
+    bool depth;
+    bool integer;
+};
+
+const FormatInfo& formatInfo(Format format);
+
+} // namespace tessera::graph

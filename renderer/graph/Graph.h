@@ -1,0 +1,179 @@
+#pragma once
+#include <any>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "renderer/graph/Format.h"
+
+/// Declaration of a frame: passes, the resources they read and write, nothing of OpenGL. A recipe declares, compile()
+/// (Compile.h) checks and plans, execute() (Execute.h) runs the plan on a Backend.
+namespace tessera::gpu {
+class Texture;
+class Buffer;
+} // namespace tessera::gpu
+
+namespace tessera::graph {
+
+struct TextureDesc {
+    Format format = Format::Rgba32Float;
+    int width = 0;  ///< texels
+    int height = 0; ///< texels
+    int samples = 1;
+    bool operator==(const TextureDesc&) const = default;
+};
+
+struct BufferDesc {
+    std::size_t bytes = 0;
+    bool operator==(const BufferDesc&) const = default;
+};
+
+using ResourceDesc = std::variant<TextureDesc, BufferDesc>;
+std::size_t descBytes(const ResourceDesc& desc);
+
+/// Names one version of a resource: writing gives a new version, and the old handle is stale from then on.
+template <typename Tag>
+struct Handle {
+    static constexpr std::uint32_t kInvalid = 0xffffffffu;
+    std::uint32_t resource = kInvalid;
+    std::uint32_t version = 0;
+    explicit operator bool() const { return resource != kInvalid; }
+    bool operator==(const Handle&) const = default;
+};
+using TextureHandle = Handle<struct TextureTag>;
+using BufferHandle = Handle<struct BufferTag>;
+
+enum class Access : std::uint8_t {
+    Sampled,         ///< texture() or texelFetch()
+    ColorAttachment, ///< write: rasterised into
+    DepthAttachment, ///< write: depth-tested and written
+    DepthTest,       ///< read: depth-tested, not written; may be sampled as well
+    ImageRead,
+    ImageWrite,
+    UniformRead,
+    StorageRead,
+    StorageWrite,
+    TexelRead, ///< buffer texture
+    Download,  ///< read back or copied from
+    Upload     ///< write: by the CPU or copied to
+};
+
+class Graph;
+
+/// Handed to a pass's setup function: what is said here is all the graph knows of the pass.
+class PassBuilder {
+public:
+    /// A transient resource that this pass is the first to write.
+    TextureHandle create(std::string name, const TextureDesc& desc, Access write = Access::ColorAttachment);
+    BufferHandle create(std::string name, const BufferDesc& desc, Access write = Access::StorageWrite);
+
+    TextureHandle read(TextureHandle handle, Access access = Access::Sampled);
+    BufferHandle read(BufferHandle handle, Access access = Access::StorageRead);
+
+    /// Adds to what the version holds (a blend, a depth-tested draw): depends on it, and returns the next version.
+    TextureHandle write(TextureHandle handle, Access access = Access::ColorAttachment);
+    BufferHandle write(BufferHandle handle, Access access = Access::StorageWrite);
+
+    /// States what this pass needs of a texture it uses; a difference is a fault of compile().
+    void expect(TextureHandle handle, const TextureDesc& desc);
+
+    /// Keeps the pass though nobody needs its outputs (it reports, downloads, presents).
+    void keep();
+
+private:
+    friend class Graph;
+    PassBuilder(Graph& graph, std::uint32_t pass) : graph_(graph), pass_(pass) {}
+    Graph& graph_;
+    std::uint32_t pass_;
+};
+
+/// Resolves handles while a pass executes. Only handles the pass declared may be asked for.
+class PassContext {
+public:
+    virtual ~PassContext() = default;
+    virtual const gpu::Texture& texture(TextureHandle handle) const = 0;
+    virtual const gpu::Buffer& buffer(BufferHandle handle) const = 0;
+};
+
+class Graph {
+public:
+    struct Use {
+        std::uint32_t resource;
+        std::uint32_t version; ///< the version read, or the version that the write produced
+        Access access;
+        bool isWrite;
+        bool isTexture; ///< the kind of the handle that was passed
+        bool stale = false; ///< a write that was handed a version other than the newest
+    };
+    struct Expectation {
+        std::uint32_t resource;
+        TextureDesc desc;
+    };
+    struct Pass {
+        std::string name;
+        std::vector<Use> uses;
+        std::vector<Expectation> expectations;
+        bool keep = false;
+        std::function<void(const PassContext&)> execute;
+    };
+    struct Resource {
+        std::string name;
+        ResourceDesc desc;
+        bool imported = false;
+        std::uint32_t newestVersion = 0; ///< 0: before any write
+    };
+
+    Graph();
+    ~Graph();
+    Graph(Graph&&) noexcept;
+    Graph& operator=(Graph&&) noexcept;
+
+    /// Declares a pass: `setup(PassBuilder&, Data&)` fills Data with handles at once, `execute(const Data&, const PassContext&)`
+    /// runs later, if the pass is not culled. Returns the filled Data, the pass's typed outputs.
+    template <typename Data, typename Setup, typename Execute>
+    Data addPass(std::string name, Setup&& setup, Execute&& execute) {
+        const std::uint32_t pass = beginPass(std::move(name));
+        PassBuilder builder(*this, pass);
+        auto data = std::make_shared<Data>();
+        setup(builder, *data);
+        passes_[pass].execute = [data, run = std::forward<Execute>(execute)](const PassContext& context) { run(*data, context); };
+        return *data;
+    }
+
+    /// A resource that exists outside the frame (a history, a window). Reading it needs no producer.
+    TextureHandle import(std::string name, const TextureDesc& desc);
+    BufferHandle import(std::string name, const BufferDesc& desc);
+
+    /// Declares what the frame is for: passes that do not lead here are culled.
+    void output(TextureHandle handle);
+    void output(BufferHandle handle);
+
+    const std::vector<Pass>& passes() const { return passes_; }
+    const std::vector<Resource>& resources() const { return resources_; }
+    const std::vector<Use>& outputs() const { return outputs_; }
+    const TextureDesc& desc(TextureHandle handle) const;
+
+private:
+    friend class PassBuilder;
+    std::uint32_t beginPass(std::string name);
+    std::uint32_t addResource(std::string name, ResourceDesc desc, bool imported);
+    std::vector<Pass> passes_;
+    std::vector<Resource> resources_;
+    std::vector<Use> outputs_;
+};
+
+/// Every fault of a graph, one line each, naming pass and resource.
+class GraphError : public std::runtime_error {
+public:
+    explicit GraphError(std::vector<std::string> faults);
+    const std::vector<std::string>& faults() const { return faults_; }
+
+private:
+    std::vector<std::string> faults_;
+};
+
+} // namespace tessera::graph

@@ -1,0 +1,60 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "renderer/graph/Compile.h"
+
+namespace tessera::graph {
+
+/// What `tessera plan` tells of a frame: what runs, what was left out and why, and what it costs in bytes. The JSON is the
+/// `plan` record of the command line's documentation (schema kPlanSchema).
+struct Plan {
+    struct Pass {
+        std::string name;
+        std::vector<std::string> reads;
+        std::vector<std::string> writes;
+        std::optional<double> ms;
+    };
+    struct LeftOut {
+        std::string what;
+        std::string why;
+        std::size_t bytes = 0;
+        std::optional<double> ms;
+    };
+    struct Choice {
+        std::string what;
+        std::string chosen;
+        std::string why;
+    };
+    struct Resource {
+        std::string name;
+        std::string format; ///< "buffer" for buffers
+        int width = 0;      ///< texels; 0 for buffers
+        int height = 0;
+        std::size_t bytes = 0;
+        int first = -1; ///< index into passes
+        int last = -1;
+        std::string aliasOf; ///< empty: none
+    };
+    std::string scene;
+    std::string technique;
+    std::vector<Pass> passes;
+    std::vector<LeftOut> leftOut;
+    std::vector<Choice> choices;
+    std::vector<std::pair<std::string, std::uint64_t>> counters;
+    std::vector<Resource> resources;
+    std::size_t bytes = 0;
+    std::size_t bytesWithoutAliasing = 0;
+};
+inline constexpr int kPlanSchema = 1;
+
+/// The graph's share of a plan: passes, resources, bytes, and the culled passes among leftOut.
+Plan makePlan(const Graph& graph, const CompiledGraph& compiled);
+
+std::string planText(const Plan& plan); ///< for people, tables that fit 100 columns
+std::string planJson(const Plan& plan);
+std::string planDot(const Plan& plan); ///< Graphviz: passes as boxes, resources as ellipses
+
+} // namespace tessera::graph

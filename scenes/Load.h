@@ -1,0 +1,31 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "scenes/Scene.h"
+
+namespace tessera::scenes {
+
+struct LoadOptions {
+    std::optional<int> lights; ///< built-in scenes generate this many (0..65,536); files keep their first N
+    bool defaultLight = true;  ///< give a scene without lights, emission or unlit material one directional light
+    bool useAssets = true;     ///< let a built-in scene use the models under the folder TESSERA_ASSETS names
+};
+
+/// Loads `nameOrPath`: a built-in scene's name or a .gltf, .glb, .obj or .json file. The result has passed checkScene() and has
+/// at least one camera; a supplied default camera or light is named "default" and reported in `warnings`.
+/// Throws InputError, naming the file and what is wrong, or the nearest names when nothing is called that.
+Scene loadScene(const std::string& nameOrPath, const LoadOptions& options = {});
+
+/// A built-in scene: what `tessera scenes` lists.
+struct BuiltinScene {
+    std::string_view name;
+    std::string_view purpose; ///< one line: what it is for
+    Scene (*make)(const LoadOptions&);
+};
+std::span<const BuiltinScene> builtinScenes();
+
+} // namespace tessera::scenes
