@@ -14,4 +14,11 @@ foreach(file IN LISTS files)
     endwhile()
     string(APPEND entries "    {\"${path}\", ${literal}},\n")
 endforeach()
-file(WRITE ${OUTPUT} "#include \"${FUNCTION}.gen.h\"\nnamespace ${NAMESPACE} {\nstatic constexpr EmbeddedFile kFiles[] = {\n${entries}};\nstd::span<const EmbeddedFile> ${FUNCTION}() { return kFiles; }\n} // namespace ${NAMESPACE}\n")
+# The empty last entry keeps the array legal when there is no file; the span leaves it out.
+file(WRITE ${OUTPUT} "#include \"${FUNCTION}.gen.h\"
+namespace ${NAMESPACE} {
+static constexpr EmbeddedFile kFiles[] = {
+${entries}    {}};
+std::span<const EmbeddedFile> ${FUNCTION}() { return {kFiles, std::size(kFiles) - 1}; }
+} // namespace ${NAMESPACE}
+")
