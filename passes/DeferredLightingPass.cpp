@@ -1,0 +1,40 @@
+#include "passes/DeferredLightingPass.h"
+
+#include "renderer/gpu/Commands.h"
+#include "shaders/shared/slots.h"
+
+namespace tessera::passes {
+
+shader::ProgramDesc DeferredLightingPass::program(const frame::FrameSpec& spec) {
+    return frame::frameProgram(spec, "deferred_lighting", "passes/fullscreen.vert", "passes/deferred_lighting.frag",
+                               frame::channelDefines(spec.settings.layout, spec.channels));
+}
+
+DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
+                                                        const frame::FrameResources* resources) {
+    return graph.addPass<Outputs>(
+        "deferred_lighting",
+        [&](graph::PassBuilder& pass, Outputs& out) {
+            for (std::size_t i = 0; i < inputs.channels.size(); ++i) {
+                pass.expect(inputs.channels[i], spec.texture(spec.settings.layout.format(spec.channels[i])));
+                out.read.channels.push_back(pass.read(inputs.channels[i]));
+            }
+            pass.expect(inputs.depth, spec.texture(graph::Format::Depth32Float));
+            out.read.depth = pass.read(inputs.depth);
+            out.radiance = pass.create("radiance", spec.texture(graph::Format::Rgba32Float));
+        },
+        [resources, program = program(spec)](const Outputs& out, const graph::PassContext& context) {
+            gpu::bindFramebuffer(resources->framebuffers.get({{&context.texture(out.radiance)}, nullptr}));
+            gpu::setState({});
+            gpu::useProgram(resources->programs.get(program));
+            gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
+            gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, resources->lights);
+            for (std::size_t i = 0; i < out.read.channels.size(); ++i) {
+                gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), context.texture(out.read.channels[i]));
+            }
+            gpu::bindTexture(TEXTURE_UNIT_DEPTH, context.texture(out.read.depth));
+            gpu::drawFullscreenTriangle();
+        });
+}
+
+} // namespace tessera::passes

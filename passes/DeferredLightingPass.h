@@ -1,0 +1,29 @@
+#pragma once
+#include <vector>
+
+#include "renderer/frame/FrameResources.h"
+#include "renderer/frame/FrameSpec.h"
+#include "renderer/graph/Graph.h"
+
+namespace tessera::passes {
+
+/// Lights every covered pixel once from the G-buffer, or shows the view that the settings ask for.
+/// Reads   G-buffer channels, depth D32F, the frame's lights
+/// Writes  radiance RGBA32F, linear, before exposure; the background where nothing is drawn
+/// Space   lighting space
+/// Source  Walter 2007; Heitz 2014 (shaders/lib/brdf.glsl)
+struct DeferredLightingPass {
+    struct Inputs {
+        std::vector<graph::TextureHandle> channels; ///< by attachment, as FrameSpec::channels
+        graph::TextureHandle depth;
+    };
+    struct Outputs {
+        Inputs read;
+        graph::TextureHandle radiance;
+    };
+    static shader::ProgramDesc program(const frame::FrameSpec& spec);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
+                       const frame::FrameResources* resources);
+};
+
+} // namespace tessera::passes

@@ -1,0 +1,25 @@
+#pragma once
+#include "renderer/frame/FrameResources.h"
+#include "renderer/frame/FrameSpec.h"
+#include "renderer/graph/Graph.h"
+
+namespace tessera::passes {
+
+/// Turns radiance into what a display shows: exposure, tone map, sRGB transfer function.
+/// Reads   radiance RGBA32F, linear
+/// Writes  display RGBA8, sRGB code values
+/// Source  shaders/lib/tonemap.glsl names that of each curve
+struct DisplayPass {
+    struct Inputs {
+        graph::TextureHandle radiance;
+    };
+    struct Outputs {
+        graph::TextureHandle radiance; ///< as read
+        graph::TextureHandle display;
+    };
+    static shader::ProgramDesc program();
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
+                       const frame::FrameResources* resources);
+};
+
+} // namespace tessera::passes

@@ -1,0 +1,60 @@
+#include "passes/ForwardPass.h"
+
+#include "renderer/gpu/Commands.h"
+#include "shaders/shared/slots.h"
+
+namespace tessera::passes {
+
+namespace {
+
+gpu::PipelineState pipelineState(const ForwardPass::Params& params, bool prepassed) {
+    gpu::PipelineState state;
+    if (params.surfaces == ForwardPass::Surfaces::Transparent) {
+        state.depthTest = gpu::DepthTest::GreaterEqual;
+        state.blend = gpu::Blend::AlphaStraight;
+    } else {
+        state.depthTest = prepassed ? gpu::DepthTest::Equal : gpu::DepthTest::GreaterEqual;
+        state.depthWrite = !prepassed;
+    }
+    return state;
+}
+
+} // namespace
+
+shader::ProgramDesc ForwardPass::program(const frame::FrameSpec& spec, const Params& params) {
+    const bool blended = params.surfaces == Surfaces::Transparent;
+    return frame::frameProgram(spec, blended ? "transparent" : "forward", "passes/geometry.vert", "passes/forward.frag",
+                               {{"DEPTH_ONLY", "0"}, {"BLENDED", blended ? "1" : "0"}});
+}
+
+ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params,
+                                      const Inputs& inputs, const frame::FrameResources* resources) {
+    const bool transparent = params.surfaces == Surfaces::Transparent;
+    const bool prepassed = inputs.depth.has_value();
+    return graph.addPass<Outputs>(
+        transparent ? "transparent" : "forward",
+        [&](graph::PassBuilder& pass, Outputs& out) {
+            if (prepassed) {
+                pass.expect(*inputs.depth, spec.texture(graph::Format::Depth32Float));
+                out.depth = pass.read(*inputs.depth, graph::Access::DepthTest);
+            } else {
+                out.depth = pass.create("depth", spec.texture(graph::Format::Depth32Float), graph::Access::DepthAttachment);
+            }
+            out.radiance = inputs.radiance ? pass.write(*inputs.radiance)
+                                           : pass.create("radiance", spec.texture(graph::Format::Rgba32Float));
+        },
+        [resources, params, prepassed, keepsPicture = inputs.radiance.has_value(),
+         program = program(spec, params)](const Outputs& out, const graph::PassContext& context) {
+            gpu::bindFramebuffer(resources->framebuffers.get({{&context.texture(out.radiance)}, &context.texture(out.depth)}));
+            if (!keepsPicture) gpu::clearColor(0, resources->background);
+            if (!prepassed) gpu::clearDepth(0.0f);
+            gpu::useProgram(resources->programs.get(program));
+            gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
+            gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, resources->lights);
+            const frame::SceneGpu& scene = resources->scene;
+            scene.draw(params.surfaces == Surfaces::Transparent ? scene.transparent() : scene.opaque(),
+                       pipelineState(params, prepassed));
+        });
+}
+
+} // namespace tessera::passes

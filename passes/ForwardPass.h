@@ -1,0 +1,34 @@
+#pragma once
+#include <optional>
+
+#include "renderer/frame/FrameResources.h"
+#include "renderer/frame/FrameSpec.h"
+#include "renderer/graph/Graph.h"
+
+namespace tessera::passes {
+
+/// Shades surfaces as they are rasterised: all opaque ones, those that a prepass left in the depth buffer, or the transparent ones
+/// on top of a lit picture.
+/// Reads   the scene, the frame's lights; depth D32F after a prepass or under transparent surfaces
+/// Writes  radiance RGBA32F, linear, before exposure; depth D32F when it comes first
+/// Space   lighting space
+/// Source  Walter 2007; Heitz 2014 (shaders/lib/brdf.glsl)
+struct ForwardPass {
+    enum class Surfaces { Opaque, Transparent };
+    struct Params {
+        Surfaces surfaces = Surfaces::Opaque;
+    };
+    struct Inputs {
+        std::optional<graph::TextureHandle> depth;    ///< of a prepass, or of what lies under transparent surfaces
+        std::optional<graph::TextureHandle> radiance; ///< the picture to draw transparent surfaces on
+    };
+    struct Outputs {
+        graph::TextureHandle radiance;
+        graph::TextureHandle depth;
+    };
+    static shader::ProgramDesc program(const frame::FrameSpec& spec, const Params& params);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params, const Inputs& inputs,
+                       const frame::FrameResources* resources);
+};
+
+} // namespace tessera::passes

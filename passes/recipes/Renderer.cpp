@@ -1,0 +1,108 @@
+#include "passes/recipes/Renderer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "passes/recipes/PreparedFrame.h"
+#include "renderer/graph/Execute.h"
+#include "shaders/shared/display.h"
+#include "shaders/shared/frame.h"
+
+namespace tessera::recipes {
+
+namespace {
+
+shared::DisplayConstants displayConstants(const frame::FrameSettings& settings) {
+    shared::DisplayConstants constants{};
+    constants.exposure = glm::vec4(std::exp2(settings.exposureEV));
+    const frame::DisplayMapping mapping = frame::viewInfo(settings.view).mapping;
+    constants.mapping = glm::uvec4(unsigned(mapping), unsigned(settings.toneMap), 0u, 0u);
+    return constants;
+}
+
+/// GL's rows run from the bottom.
+template <typename T>
+std::vector<T> flipped(const std::vector<T>& rows, int width, int height) {
+    std::vector<T> result(rows.size());
+    const std::size_t pitch = std::size_t(width) * 4;
+    for (int y = 0; y < height; ++y) {
+        std::copy_n(rows.begin() + std::ptrdiff_t(std::size_t(height - 1 - y) * pitch), pitch,
+                    result.begin() + std::ptrdiff_t(std::size_t(y) * pitch));
+    }
+    return result;
+}
+
+} // namespace
+
+struct Renderer::Drawn {
+    frame::FrameSettings settings;
+    std::unique_ptr<frame::FrameResources> resources;
+    DeclaredFrame frame;
+    graph::CompiledGraph compiled;
+    std::unique_ptr<graph::Execution> execution;
+};
+
+Renderer::Renderer(gpu::Context& context, const scenes::Scene& scene, shader::SourceTree shaders)
+    : context_(context), scene_(scene), programs_(std::move(shaders)), backend_(context),
+      frameConstants_("frame constants", sizeof(shared::FrameConstants), gpu::BufferUse::Dynamic),
+      displayConstants_("display constants", sizeof(shared::DisplayConstants), gpu::BufferUse::Dynamic) {}
+
+Renderer::~Renderer() = default;
+
+void Renderer::prepareScene(const frame::FrameSpec& spec) {
+    // Light types change from frame to frame and do not concern the scene's buffers.
+    frame::FeatureSet features = spec.settings.prune ? frame::materialFeatures(scene_) : frame::allFeatures();
+    if (sceneGpu_ && features == sceneFeatures_) return;
+    sceneGpu_ = std::make_unique<frame::SceneGpu>(scene_, features);
+    sceneFeatures_ = features;
+}
+
+void Renderer::uploadLights(const frame::PackedLights& lights) {
+    const std::size_t bytes = std::max<std::size_t>(lights.texels.size(), 1) * sizeof(shared::LightTexels);
+    if (!lightBuffer_ || lightBuffer_->bytes() != bytes) {
+        const std::size_t most = context_.capabilities().maxTextureBufferTexels / LIGHT_TEXELS;
+        if (lights.texels.size() > most) {
+            throw InputError(fmt::format("{} lights are in view, and this driver's buffer textures hold {}: ask for fewer (--lights N)",
+                                         lights.texels.size(), most));
+        }
+        lightTexels_.reset();
+        lightBuffer_ = std::make_unique<gpu::Buffer>("lights", bytes, gpu::BufferUse::Dynamic);
+        lightTexels_ = std::make_unique<gpu::TexelBuffer>("lights", graph::Format::Rgba32Float, *lightBuffer_);
+    }
+    lightBuffer_->upload(lights.texels);
+}
+
+void Renderer::draw(Technique technique, const frame::FrameSettings& settings) {
+    const PreparedFrame prepared = prepareFrame(scene_, settings);
+    prepareScene(prepared.spec);
+    sceneGpu_->setView(prepared.view);
+    uploadLights(prepared.lights);
+    frameConstants_.uploadValue(prepared.view.constants);
+    displayConstants_.uploadValue(displayConstants(settings));
+
+    drawn_ = std::make_unique<Drawn>();
+    drawn_->settings = settings;
+    drawn_->resources = std::make_unique<frame::FrameResources>(
+        frame::FrameResources{*sceneGpu_, frameConstants_, displayConstants_, *lightTexels_, prepared.view.constants.background,
+                              programs_, backend_.framebuffers()});
+    drawn_->frame = declareFrame(technique, prepared.spec, drawn_->resources.get());
+    drawn_->compiled = graph::compile(drawn_->frame.graph, {.cull = settings.prune, .alias = settings.prune});
+    programs_.warm(drawn_->frame.programs);
+    drawn_->execution = std::make_unique<graph::Execution>(drawn_->frame.graph, drawn_->compiled, backend_);
+    drawn_->execution->run();
+}
+
+RenderedFrame Renderer::download() const {
+    RenderedFrame frame;
+    frame.width = drawn_->settings.sizePixels.x;
+    frame.height = drawn_->settings.sizePixels.y;
+    const gpu::Texture& radiance = drawn_->execution->texture(drawn_->frame.radiance);
+    const gpu::Texture& display = drawn_->execution->texture(drawn_->frame.display);
+    frame.radiance = flipped(radiance.downloadAs<float>(), frame.width, frame.height);
+    frame.display = flipped(display.downloadAs<std::uint8_t>(), frame.width, frame.height);
+    return frame;
+}
+
+} // namespace tessera::recipes

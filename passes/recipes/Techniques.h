@@ -1,0 +1,34 @@
+#pragma once
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "renderer/frame/FrameResources.h"
+#include "renderer/frame/FrameSpec.h"
+#include "renderer/graph/Graph.h"
+
+/// The techniques: how passes are wired into a frame. Passes know nothing of each other; here is the only place that connects them.
+namespace tessera::recipes {
+
+enum class Technique : std::uint8_t { Forward, ForwardPrepass, Deferred };
+struct TechniqueInfo {
+    Technique technique;
+    std::string_view name;
+    std::string_view geometry; ///< what is rasterised, in words
+    std::string_view lighting; ///< who lights what, in words
+};
+std::span<const TechniqueInfo> techniqueTable();
+
+/// A declared frame. The graph's outputs are radiance and display; both carry alpha 1 where something was drawn.
+struct DeclaredFrame {
+    graph::Graph graph;
+    graph::TextureHandle radiance; ///< RGBA32F, linear
+    graph::TextureHandle display;  ///< RGBA8, display code values
+    std::vector<shader::ProgramDesc> programs; ///< every program its passes use
+};
+
+/// Declares the frame of a technique. `resources` may be null when the graph is only planned; else it must be valid while the
+/// graph runs.
+DeclaredFrame declareFrame(Technique technique, const frame::FrameSpec& spec, const frame::FrameResources* resources);
+
+} // namespace tessera::recipes

@@ -1,0 +1,47 @@
+#pragma once
+#include <vector>
+
+#include "renderer/frame/CameraView.h"
+#include "scenes/Scene.h"
+
+namespace tessera::frame {
+
+/// One mesh at one node with one material.
+struct Draw {
+    int mesh = 0;
+    int material = 0;
+    int node = 0;
+    bool mirrored = false;  ///< the node's transform turns the winding round
+    glm::dvec3 centerWS{0}; ///< of the mesh's box, for the order of transparent draws
+};
+
+/// Draws [first, first + count) that share material and winding.
+struct Batch {
+    int first = 0;
+    int count = 0;
+    int material = 0;
+    bool mirrored = false;
+};
+
+/// Everything the scene draws. Opaque and masked draws come first, gathered by material so that binds are few; the
+/// transparent ones follow in document order. Every technique draws in this order.
+struct DrawList {
+    std::vector<Draw> draws;
+    std::vector<glm::dmat4> worldFromObject; ///< by node
+    std::vector<Batch> opaque;
+    int firstTransparent = 0;
+};
+DrawList makeDrawList(const scenes::Scene& scene);
+
+/// The transparent draws far to near by the view depth of their boxes' centres, ties by index; one batch each.
+std::vector<Batch> sortedTransparent(const DrawList& list, const CameraView& view);
+
+/// Per-draw vertex attributes (shaders/passes/geometry.vert): rows of LS-from-object and of its cofactor matrix, which carries
+/// normals through any transform, singular ones too; times the determinant's sign, which row 0's w holds.
+struct DrawRows {
+    glm::vec4 position[3];
+    glm::vec4 normal[3];
+};
+std::vector<DrawRows> makeDrawRows(const DrawList& list, const CameraView& view);
+
+} // namespace tessera::frame

@@ -1,0 +1,124 @@
+#include "renderer/frame/Features.h"
+
+namespace tessera::frame {
+
+namespace {
+
+constexpr FeatureInfo kTable[] = {
+    {Feature::SingleColor, "SINGLE_COLOR", "unlit surfaces", "no material is single_color"},
+    {Feature::Lambert, "LAMBERT", "model lambert", "no material is lambert"},
+    {Feature::Microfacet, "MICROFACET", "model microfacet", "no material is microfacet"},
+    {Feature::MetallicRoughness, "METALLIC_ROUGHNESS", "model metallic_roughness", "no material is metallic_roughness"},
+    {Feature::DirectionalLights, "DIRECTIONAL_LIGHTS", "directional lights", "no directional light is on"},
+    {Feature::PointLights, "POINT_LIGHTS", "point lights", "no point light is on and in view"},
+    {Feature::SpotLights, "SPOT_LIGHTS", "spot lights", "no spot light is on and in view"},
+    {Feature::AttenuationLights, "ATTENUATION_LIGHTS", "A B C falloff", "no light falls off by A + B d + C d^2"},
+    {Feature::BaseColorTexture, "BASE_COLOR_TEXTURE", "base-colour texture", "no material has one"},
+    {Feature::NormalTexture, "NORMAL_TEXTURE", "normal maps", "no material has one"},
+    {Feature::MetallicRoughnessTexture, "METALLIC_ROUGHNESS_TEXTURE", "roughness texture", "no material has one"},
+    {Feature::EmissiveTexture, "EMISSIVE_TEXTURE", "emissive texture", "no material has one"},
+    {Feature::SpecularFactorTexture, "SPECULAR_FACTOR_TEXTURE", "specular-strength texture", "no material has one"},
+    {Feature::SpecularColorTexture, "SPECULAR_COLOR_TEXTURE", "specular-colour texture", "no material has one"},
+    {Feature::IorTexture, "IOR_TEXTURE", "index-of-refraction texture", "no material has one"},
+    {Feature::TextureTransform, "TEXTURE_TRANSFORM", "texture transforms", "every texture lies as its coordinates say"},
+    {Feature::TexCoord1, "TEXCOORD1", "second texture coordinates", "no texture uses them"},
+    {Feature::VertexColor, "VERTEX_COLOR", "vertex colours", "no mesh has them"},
+    {Feature::TangentSpaceNormals, "TANGENT_SPACE_NORMALS", "tangents", "no normal map is in tangent space"},
+    {Feature::ObjectSpaceNormals, "OBJECT_SPACE_NORMALS", "object-space normal maps", "no normal map is in object space"},
+    {Feature::Emission, "EMISSION", "emission", "no material emits or is unlit"},
+    {Feature::Specular, "SPECULAR", "specular colour and strength", "every material keeps k_s = 1 or F0 = 0.04"},
+    {Feature::AlphaMask, "ALPHA_MASK", "alpha masks", "no material is alpha-masked"},
+    {Feature::Blend, "BLEND", "transparent pass", "no material is alpha-blended"},
+    {Feature::DoubleSided, "DOUBLE_SIDED", "two-sided normals", "no material is double-sided"},
+};
+static_assert(std::size(kTable) == kFeatureCount);
+
+Feature textureFeature(std::size_t slot) {
+    return static_cast<Feature>(static_cast<std::size_t>(Feature::BaseColorTexture) + slot);
+}
+
+bool changesSpecular(const scenes::Material& material) {
+    const bool tinted = material.specularColor != glm::vec3(1.0f) ||
+                        material.texture(scenes::TextureSlot::SpecularColor).image != scenes::kNone;
+    if (material.model == scenes::MaterialModel::Microfacet) return tinted;
+    return material.model == scenes::MaterialModel::MetallicRoughness &&
+           (tinted || material.ior != 1.5f || material.specularFactor != 1.0f ||
+            material.texture(scenes::TextureSlot::SpecularFactor).image != scenes::kNone);
+}
+
+void addMaterial(FeatureSet& set, const scenes::Material& material) {
+    using scenes::MaterialModel;
+    set.add(Feature::SingleColor, material.model == MaterialModel::SingleColor);
+    set.add(Feature::Lambert, material.model == MaterialModel::Lambert);
+    set.add(Feature::Microfacet, material.model == MaterialModel::Microfacet);
+    set.add(Feature::MetallicRoughness, material.model == MaterialModel::MetallicRoughness);
+    for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
+        const scenes::TextureUse& use = material.textures[slot];
+        if (use.image == scenes::kNone) continue;
+        set.add(textureFeature(slot));
+        set.add(Feature::TexCoord1, use.texCoordSet == 1);
+        set.add(Feature::TextureTransform, use.transform != scenes::TextureTransform{});
+    }
+    const bool normalMap = material.texture(scenes::TextureSlot::Normal).image != scenes::kNone;
+    const bool objectSpace = material.normalMapSpace == scenes::NormalMapSpace::Object;
+    set.add(Feature::TangentSpaceNormals, normalMap && !objectSpace);
+    set.add(Feature::ObjectSpaceNormals, normalMap && objectSpace);
+    set.add(Feature::Emission, material.emissive != glm::vec3(0.0f) || material.model == MaterialModel::SingleColor);
+    set.add(Feature::Specular, changesSpecular(material));
+    set.add(Feature::AlphaMask, material.alphaMode == scenes::AlphaMode::Mask);
+    set.add(Feature::Blend, material.alphaMode == scenes::AlphaMode::Blend);
+    set.add(Feature::DoubleSided, material.doubleSided);
+}
+
+} // namespace
+
+std::span<const FeatureInfo> featureTable() { return kTable; }
+
+bool FeatureSet::litModels() const {
+    return (*this)[Feature::Lambert] || (*this)[Feature::Microfacet] || (*this)[Feature::MetallicRoughness];
+}
+
+bool FeatureSet::textures() const {
+    for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
+        if ((*this)[textureFeature(slot)]) return true;
+    }
+    return false;
+}
+
+FeatureSet materialFeatures(const scenes::Scene& scene) {
+    FeatureSet set;
+    std::optional<scenes::MaterialModel> model;
+    bool several = false;
+    for (const scenes::Node& node : scene.nodes) {
+        for (const scenes::MeshInstance& instance : node.instances) {
+            const scenes::Material& material = scene.materials[static_cast<std::size_t>(instance.material)];
+            addMaterial(set, material);
+            set.add(Feature::VertexColor, !scene.meshes[static_cast<std::size_t>(instance.mesh)].colors.empty());
+            several = several || (model && *model != material.model);
+            model = material.model;
+        }
+    }
+    if (!several) set.soleModel = model;
+    return set;
+}
+
+FeatureSet allFeatures() {
+    FeatureSet set;
+    set.has.set();
+    return set;
+}
+
+Defines featureDefines(const FeatureSet& features) {
+    Defines defines;
+    for (const FeatureInfo& info : kTable) {
+        defines.emplace_back("HAS_" + std::string(info.define), features[info.feature] ? "1" : "0");
+    }
+    defines.emplace_back("HAS_LIT_MODELS", features.litModels() ? "1" : "0");
+    defines.emplace_back("HAS_TEXTURES", features.textures() ? "1" : "0");
+    if (features.soleModel) {
+        defines.emplace_back("SOLE_MODEL", std::to_string(static_cast<int>(*features.soleModel)) + "u");
+    }
+    return defines;
+}
+
+} // namespace tessera::frame

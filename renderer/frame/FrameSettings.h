@@ -1,0 +1,58 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include <glm/glm.hpp>
+
+#include "renderer/frame/GBufferLayout.h"
+
+/// What a user may ask of a frame besides its technique. Names are those of the command line; the tables are the only lists.
+namespace tessera::frame {
+
+enum class View : std::uint8_t { Final, Diffuse, NormalTexel, Normal, Distribution, Geometry, Fresnel, Depth };
+/// How a view's values become a display picture; its value is DISPLAY_* of shaders/shared/display.h.
+enum class DisplayMapping : std::uint8_t {
+    Radiance, ///< exposure, tone map, sRGB
+    Raw,      ///< code value = value
+    Signed,   ///< code value = value / 2 + 1/2
+    Distance  ///< 1 at the eye, 1/2 at 10 m, 0 at infinity
+};
+struct ViewInfo {
+    View view; ///< its value is VIEW of shaders/lib/views.glsl
+    int key;   ///< 1..7, or 0 for a view without a number
+    std::string_view name;
+    std::string_view meaning;
+    DisplayMapping mapping;
+};
+std::span<const ViewInfo> viewTable();
+const ViewInfo& viewInfo(View view);
+
+enum class ToneMap : std::uint8_t { None, KhronosNeutral, Aces, Agx };
+struct ToneMapInfo {
+    ToneMap toneMap; ///< its value is TONEMAP_* of shaders/shared/display.h
+    std::string_view name;
+    std::string_view summary;
+};
+std::span<const ToneMapInfo> toneMapTable();
+
+enum class TextureFilter : std::uint8_t { Hardware, Exact };
+enum class LightingSpace : std::uint8_t { World, View };
+
+struct FrameSettings {
+    glm::ivec2 sizePixels{1280, 720};
+    int camera = 0; ///< index into Scene::cameras
+    double timeSeconds = 0.0;
+    GBufferLayout layout;
+    View view = View::Final;
+    TextureFilter filter = TextureFilter::Hardware;
+    LightingSpace space = LightingSpace::World;
+    bool prune = true;
+    bool specular = true;
+    std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
+    float exposureEV = 0.0f;
+    ToneMap toneMap = ToneMap::None;
+};
+
+} // namespace tessera::frame

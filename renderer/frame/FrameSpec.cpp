@@ -1,0 +1,86 @@
+#include "renderer/frame/FrameSpec.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace tessera::frame {
+
+namespace {
+
+std::size_t vertexCount(const scenes::Scene& scene) {
+    std::size_t count = 0;
+    for (const scenes::Mesh& mesh : scene.meshes) count += mesh.positionsOS.size();
+    return count;
+}
+
+/// Bytes a vertex of the streams that only a feature asks for.
+std::size_t streamBytes(Feature feature) {
+    switch (feature) {
+    case Feature::TangentSpaceNormals: return sizeof(glm::vec4);
+    case Feature::TexCoord1: return sizeof(glm::vec2);
+    case Feature::VertexColor: return sizeof(glm::vec4);
+    default: return 0;
+    }
+}
+
+void addLights(std::vector<graph::Plan::LeftOut>& out, std::size_t count, const char* why) {
+    if (count == 0) return;
+    out.push_back({fmt::format("{} light{}", count, count == 1 ? "" : "s"), why, count * sizeof(shared::LightTexels), {}});
+}
+
+} // namespace
+
+FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings) {
+    FrameSpec spec;
+    spec.settings = settings;
+    if (settings.prune) {
+        spec.features = materialFeatures(scene);
+        spec.features.has |= lights.features.has;
+    } else {
+        spec.features = allFeatures();
+    }
+    spec.channels = neededChannels(spec.features, settings.view == View::NormalTexel);
+    return spec;
+}
+
+Defines frameDefines(const FrameSpec& spec) {
+    Defines defines = featureDefines(spec.features);
+    defines.emplace_back("VIEW", std::to_string(int(spec.settings.view)));
+    defines.emplace_back("FILTER_EXACT", spec.settings.filter == TextureFilter::Exact ? "1" : "0");
+    defines.emplace_back("SPECULAR_OFF", spec.settings.specular ? "0" : "1");
+    return defines;
+}
+
+shader::ProgramDesc frameProgram(const FrameSpec& spec, std::string name, std::string vertex, std::string fragment,
+                                 const Defines& extra) {
+    shader::ProgramDesc program;
+    program.name = std::move(name);
+    program.vertex = std::move(vertex);
+    program.fragment = std::move(fragment);
+    program.defines = frameDefines(spec);
+    program.defines.insert(program.defines.end(), extra.begin(), extra.end());
+    return program;
+}
+
+std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const FrameSpec& spec, const PackedLights& lights,
+                                          bool gbuffer) {
+    std::vector<graph::Plan::LeftOut> out;
+    const std::size_t pixels = std::size_t(spec.settings.sizePixels.x) * std::size_t(spec.settings.sizePixels.y);
+    for (const ChannelInfo& info : channelTable()) {
+        if (!gbuffer) break;
+        if (std::find(spec.channels.begin(), spec.channels.end(), info.channel) != spec.channels.end()) continue;
+        const auto bytes = std::size_t(graph::formatInfo(spec.settings.layout.format(info.channel)).bytes);
+        out.push_back({fmt::format("G-buffer channel {}", info.name), fmt::format("only {} need it", info.needed), pixels * bytes, {}});
+    }
+    for (const FeatureInfo& info : featureTable()) {
+        if (spec.features[info.feature]) continue;
+        out.push_back({std::string(info.what), std::string(info.absent), vertexCount(scene) * streamBytes(info.feature), {}});
+    }
+    addLights(out, lights.off, "off, or not the solo light");
+    addLights(out, lights.dark, "no intensity, range or cone");
+    addLights(out, lights.unseen, "their range ends outside the view");
+    return out;
+}
+
+} // namespace tessera::frame

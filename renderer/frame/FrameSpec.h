@@ -1,0 +1,39 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "renderer/frame/Features.h"
+#include "renderer/frame/FrameSettings.h"
+#include "renderer/frame/GBufferLayout.h"
+#include "renderer/frame/PackedLights.h"
+#include "renderer/graph/Plan.h"
+#include "renderer/shader/ProgramDesc.h"
+
+namespace tessera::frame {
+
+/// Everything that decides which passes run, with which programs and resources. Made without OpenGL, so that a plan can be
+/// shown, and every program checked, without a context.
+struct FrameSpec {
+    FrameSettings settings;
+    FeatureSet features;
+    std::vector<Channel> channels; ///< of the G-buffer, by attachment
+
+    graph::TextureDesc texture(graph::Format format) const {
+        return {format, settings.sizePixels.x, settings.sizePixels.y, 1};
+    }
+};
+FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings);
+
+/// What every geometry and lighting shader of the frame is compiled with.
+Defines frameDefines(const FrameSpec& spec);
+
+/// A program of the frame; `extra` defines stand after the frame's.
+shader::ProgramDesc frameProgram(const FrameSpec& spec, std::string name, std::string vertex, std::string fragment,
+                                 const Defines& extra);
+
+/// What the spec leaves out and why, for a plan; bytes are those of G-buffer channels (where the technique has a G-buffer), vertex
+/// streams and lights saved.
+std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const FrameSpec& spec, const PackedLights& lights,
+                                          bool gbuffer);
+
+} // namespace tessera::frame

@@ -1,0 +1,70 @@
+#include "renderer/frame/GBufferLayout.h"
+
+namespace tessera::frame {
+
+namespace {
+
+using graph::Format;
+
+constexpr ChannelInfo kChannels[] = {
+    {Channel::Albedo, "albedo", "ALBEDO", "k_d or base colour, metallic", Format::Rgba32Float, Format::Srgb8Alpha8,
+     "sRGB8, metallic linear 8 bit", "scenes with a lit model"},
+    {Channel::Normal, "normal", "NORMAL", "unit normal, lighting space", Format::Rgba32Float, Format::Rg16Snorm,
+     "octahedral 2 x 16 bit", "scenes with a lit model"},
+    {Channel::Microsurface, "microsurface", "MICROSURFACE", "alpha, model, ior or F90", Format::Rgba32Float, Format::Rg16Uint,
+     "perceptual roughness 16 bit, model 3 bit, (ior-1)/(ior+1) or F90 13 bit", "scenes with a glossy model or several models"},
+    {Channel::Specular, "specular", "SPECULAR", "k_s or dielectric F0", Format::Rgba32Float, Format::Rgb10A2Unorm,
+     "square root, 10 bit a colour, 0..1", "scenes that change k_s or the dielectric F0"},
+    {Channel::Emission, "emission", "EMISSION", "radiance without lights", Format::Rgba32Float, Format::R32Uint,
+     "shared exponent 9 9 9 5", "scenes with emissive or unlit materials"},
+    {Channel::NormalTexel, "normal_texel", "NORMAL_TEXEL", "normal map as stored", Format::Rgba32Float, Format::Rgba8Unorm,
+     "8 bit a component", "the view that shows it"},
+};
+static_assert(std::size(kChannels) == kChannelCount);
+
+constexpr GBufferLayout uniformLayout(Encoding encoding) {
+    GBufferLayout layout;
+    layout.encoding.fill(encoding);
+    return layout;
+}
+
+constexpr LayoutInfo kLayouts[] = {
+    {"exact", "fp32 everywhere; deferred equals forward to the last bit", uniformLayout(Encoding::Exact)},
+    {"packed", "at most 16 bytes a pixel and depth; relMse below 1e-4", uniformLayout(Encoding::Packed)},
+};
+
+} // namespace
+
+std::span<const ChannelInfo> channelTable() { return kChannels; }
+std::span<const LayoutInfo> layoutTable() { return kLayouts; }
+
+graph::Format GBufferLayout::format(Channel channel) const {
+    const ChannelInfo& info = kChannels[static_cast<std::size_t>(channel)];
+    return (*this)[channel] == Encoding::Exact ? info.exact : info.packed;
+}
+
+std::vector<Channel> neededChannels(const FeatureSet& features, bool normalTexel) {
+    const bool glossy = features[Feature::Microfacet] || features[Feature::MetallicRoughness];
+    std::vector<Channel> channels;
+    if (features.litModels()) {
+        channels.push_back(Channel::Albedo);
+        channels.push_back(Channel::Normal);
+    }
+    if (glossy || !features.soleModel) channels.push_back(Channel::Microsurface);
+    if (glossy && features[Feature::Specular]) channels.push_back(Channel::Specular);
+    if (features[Feature::Emission]) channels.push_back(Channel::Emission);
+    if (normalTexel) channels.push_back(Channel::NormalTexel);
+    return channels;
+}
+
+Defines channelDefines(const GBufferLayout& layout, std::span<const Channel> channels) {
+    Defines defines;
+    for (std::size_t attachment = 0; attachment < channels.size(); ++attachment) {
+        const std::string name = "GBUFFER_" + std::string(kChannels[static_cast<std::size_t>(channels[attachment])].define);
+        defines.emplace_back(name, std::to_string(attachment));
+        defines.emplace_back(name + "_PACKED", layout[channels[attachment]] == Encoding::Packed ? "1" : "0");
+    }
+    return defines;
+}
+
+} // namespace tessera::frame

@@ -1,0 +1,104 @@
+#include "renderer/frame/PackedLights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tessera::frame {
+
+namespace {
+
+/// colour x intensity, held inside fp32 so that an extreme light is very bright rather than infinite.
+glm::vec3 lightColor(const scenes::Light& light) {
+    const glm::dvec3 product = glm::dvec3(light.color) * double(light.intensity);
+    return glm::vec3(glm::min(product, glm::dvec3(1e30)));
+}
+
+bool isDark(const scenes::Light& light) {
+    if (lightColor(light) == glm::vec3(0.0f)) return true;
+    if (light.type == scenes::LightType::Directional) return false;
+    if (light.falloff == scenes::Falloff::InverseSquare && !(light.rangeMetres > 0.0f)) return true;
+    return light.type == scenes::LightType::Spot && !(light.outerConeRadians > 0.0f);
+}
+
+/// The distance beyond which the light is exactly 0, in metres.
+double reachMetres(const scenes::Light& light) {
+    if (light.type == scenes::LightType::Directional || light.falloff == scenes::Falloff::Attenuation) {
+        return std::numeric_limits<double>::infinity();
+    }
+    return light.rangeMetres;
+}
+
+bool isUnseen(const scenes::Light& light, const CameraView& view) {
+    const double reach = reachMetres(light);
+    if (std::isinf(reach)) return false;
+    const glm::dvec4 position(view.positionLS(light.positionWS), 1.0);
+    // The margin covers what rounding the packed position and the rebuilt surface positions to fp32 can move.
+    const double margin = 1e-5 * (reach + glm::length(glm::dvec3(position)));
+    return std::any_of(view.frustumPlanesLS.begin(), view.frustumPlanesLS.end(),
+                       [&](const glm::dvec4& plane) { return glm::dot(plane, position) < -(reach + margin); });
+}
+
+shared::LightTexels packLight(const scenes::Light& light, const CameraView& view) {
+    shared::LightTexels packed{};
+    const glm::dvec3 travelLS = view.lsFromWorld * light.directionWS;
+    int kind = LIGHT_DIRECTIONAL;
+    if (light.type == scenes::LightType::Directional) {
+        packed.position = glm::vec4(glm::vec3(-travelLS), 0.0f);
+    } else {
+        const double reach = reachMetres(light);
+        packed.position = glm::vec4(glm::vec3(view.positionLS(light.positionWS)), float(1.0 / (reach * reach)));
+        kind = light.type == scenes::LightType::Spot ? LIGHT_SPOT : LIGHT_POINT;
+        if (light.falloff == scenes::Falloff::Attenuation) {
+            kind |= LIGHT_ATTENUATION;
+            packed.attenuation = glm::vec4(light.attenuation, 0.0f);
+        }
+    }
+    if (light.type == scenes::LightType::Spot) {
+        // KHR_lights_punctual's cone: clamp((cos angle - cos outer) / max(0.001, cos inner - cos outer), 0, 1) squared.
+        const double cosOuter = std::cos(double(light.outerConeRadians));
+        const double scale = 1.0 / std::max(0.001, std::cos(double(light.innerConeRadians)) - cosOuter);
+        packed.axis = glm::vec4(glm::vec3(travelLS), float(scale));
+        packed.attenuation.w = float(-cosOuter * scale);
+    }
+    packed.color = glm::vec4(isDark(light) ? glm::vec3(0.0f) : lightColor(light), float(kind));
+    return packed;
+}
+
+void addFeatures(FeatureSet& features, const scenes::Light& light) {
+    features.add(Feature::DirectionalLights, light.type == scenes::LightType::Directional);
+    features.add(Feature::PointLights, light.type == scenes::LightType::Point);
+    features.add(Feature::SpotLights, light.type == scenes::LightType::Spot);
+    features.add(Feature::AttenuationLights,
+                 light.type != scenes::LightType::Directional && light.falloff == scenes::Falloff::Attenuation);
+}
+
+} // namespace
+
+PackedLights packLights(const scenes::Scene& scene, const CameraView& view, const FrameSettings& settings) {
+    PackedLights lights;
+    int firstOn = -1;
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const bool solo = settings.soloLight == int(i);
+        const scenes::Light light = lightAtTime(scene.lights[i], settings.timeSeconds);
+        if (!light.enabled || (settings.soloLight && !solo)) {
+            ++lights.off;
+            continue;
+        }
+        if (firstOn < 0) firstOn = int(i);
+        if (settings.prune && isDark(light)) {
+            ++lights.dark;
+        } else if (settings.prune && isUnseen(light, view)) {
+            ++lights.unseen;
+        } else {
+            lights.texels.push_back(packLight(light, view));
+            lights.sceneIndex.push_back(int(i));
+            addFeatures(lights.features, light);
+        }
+    }
+    const auto shown = std::find(lights.sceneIndex.begin(), lights.sceneIndex.end(), firstOn);
+    lights.shown = int(shown - lights.sceneIndex.begin());
+    return lights;
+}
+
+} // namespace tessera::frame

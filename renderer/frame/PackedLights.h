@@ -1,0 +1,28 @@
+#pragma once
+#include <vector>
+
+#include "renderer/frame/CameraView.h"
+#include "renderer/frame/Features.h"
+#include "renderer/frame/FrameSettings.h"
+#include "scenes/Scene.h"
+#include "shaders/shared/light.h"
+
+namespace tessera::frame {
+
+/// The lights of one frame as the GPU reads them, in document order. Lights that cannot change the picture are left out.
+struct PackedLights {
+    std::vector<shared::LightTexels> texels;
+    std::vector<int> sceneIndex; ///< parallel to texels: index into Scene::lights
+    FeatureSet features;         ///< the light types and falloffs among them
+    int shown = 0;               ///< index into texels of the first light that is on, which the D, G and F views show;
+                                 ///< texels.size() when it is left out, since it then reaches nothing in view
+    std::size_t off = 0;         ///< left out: disabled, or not the solo light
+    std::size_t dark = 0;        ///< left out: no intensity, no range or no cone
+    std::size_t unseen = 0;      ///< left out: the range ends outside the view
+};
+
+/// Packs the scene's lights as they are at settings.timeSeconds. Without settings.prune only lights that are off are left out:
+/// dark and unseen ones are evaluated and add exactly 0.
+PackedLights packLights(const scenes::Scene& scene, const CameraView& view, const FrameSettings& settings);
+
+} // namespace tessera::frame

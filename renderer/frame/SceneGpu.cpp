@@ -1,0 +1,181 @@
+#include "renderer/frame/SceneGpu.h"
+
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "renderer/frame/PackedMaterial.h"
+#include "renderer/frame/VertexStreams.h"
+#include "renderer/gpu/Commands.h"
+#include "shaders/shared/slots.h"
+
+namespace tessera::frame {
+
+namespace {
+
+/// What GL guarantees to accept as offset of a uniform range (the largest GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT allowed).
+constexpr std::size_t kUniformAlignment = 256;
+
+/// Anisotropy of material textures under the hardware filter. Doubles the cost of a textured pass on software rasterisers,
+/// so it stays at trilinear.
+constexpr float kAnisotropy = 1.0f;
+
+/// IEC 61966-2-1, decoded in double.
+float decodeSrgb(double code) {
+    return float(code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4));
+}
+
+/// Texels as linear fp32, for the formats that GL cannot decode from sRGB by itself. Alpha is linear as it is.
+std::vector<float> linearTexels(const scenes::Image& image) {
+    const std::size_t count = std::size_t(image.width) * std::size_t(image.height) * 4;
+    std::vector<float> linear(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        std::uint16_t code = 0;
+        std::memcpy(&code, image.texels.data() + i * sizeof code, sizeof code);
+        linear[i] = i % 4 == 3 ? float(code / 65535.0) : decodeSrgb(code / 65535.0);
+    }
+    return linear;
+}
+
+graph::Format storedFormat(scenes::TexelFormat format, bool srgb) {
+    switch (format) {
+    case scenes::TexelFormat::Rgba8Unorm: return srgb ? graph::Format::Srgb8Alpha8 : graph::Format::Rgba8Unorm;
+    case scenes::TexelFormat::Rgba16Unorm: return srgb ? graph::Format::Rgba32Float : graph::Format::Rgba16Unorm;
+    case scenes::TexelFormat::Rgba32Float: break;
+    }
+    return graph::Format::Rgba32Float; // a float picture holds linear colours whatever its slot
+}
+
+gpu::VertexAttribute attribute(std::uint32_t location, int components, const gpu::Buffer* buffer, std::size_t stride,
+                               std::size_t offset = 0, std::uint32_t divisor = 0) {
+    gpu::VertexAttribute result;
+    result.location = location;
+    result.components = components;
+    result.buffer = buffer;
+    result.stride = stride;
+    result.offset = offset;
+    result.divisor = divisor;
+    return result;
+}
+
+} // namespace
+
+SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features) : scene_(scene), drawList_(makeDrawList(scene)) {
+    uploadGeometry(features);
+    uploadMaterials();
+    uploadTextures();
+}
+
+void SceneGpu::uploadGeometry(const FeatureSet& features) {
+    const VertexStreams streams = makeVertexStreams(scene_, features);
+    drawRows_ = std::make_unique<gpu::Buffer>("draw rows", drawList_.draws.size() * sizeof(DrawRows), gpu::BufferUse::Dynamic);
+    std::vector<gpu::VertexAttribute> attributes;
+    const auto stream = [&](std::uint32_t location, const char* label, const auto& values) {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        if (values.empty()) return;
+        vertexBuffers_.push_back(std::make_unique<gpu::Buffer>(gpu::Buffer::of(label, values)));
+        attributes.push_back(attribute(location, Value::length(), vertexBuffers_.back().get(), sizeof(Value)));
+    };
+    stream(ATTRIBUTE_POSITION, "positions", streams.positionsOS);
+    stream(ATTRIBUTE_NORMAL, "normals", streams.normalsOS);
+    stream(ATTRIBUTE_TANGENT, "tangents", streams.tangentsOS);
+    stream(ATTRIBUTE_TEXCOORD0, "texture coordinates 0", streams.texCoords[0]);
+    stream(ATTRIBUTE_TEXCOORD1, "texture coordinates 1", streams.texCoords[1]);
+    stream(ATTRIBUTE_COLOR, "vertex colours", streams.colors);
+    for (std::uint32_t row = 0; row < 3; ++row) {
+        const std::size_t offset = row * sizeof(glm::vec4);
+        attributes.push_back(attribute(ATTRIBUTE_DRAW_POSITION_ROW0 + row, 4, drawRows_.get(), sizeof(DrawRows),
+                                       offsetof(DrawRows, position) + offset, 1));
+        attributes.push_back(attribute(ATTRIBUTE_DRAW_NORMAL_ROW0 + row, 4, drawRows_.get(), sizeof(DrawRows),
+                                       offsetof(DrawRows, normal) + offset, 1));
+    }
+    indices_ = std::make_unique<gpu::Buffer>(gpu::Buffer::of("indices", streams.indices));
+    vertexArray_ = std::make_unique<gpu::VertexArray>("scene", attributes, indices_.get());
+
+    std::vector<gpu::DrawIndexedCommand> commands;
+    for (const Draw& draw : drawList_.draws) {
+        const VertexStreams::Range& range = streams.ranges[std::size_t(draw.mesh)];
+        commands.push_back({range.indexCount, 1, range.firstIndex, range.baseVertex, std::uint32_t(commands.size())});
+    }
+    commands_ = std::make_unique<gpu::Buffer>(gpu::Buffer::of("draw commands", commands));
+}
+
+void SceneGpu::uploadMaterials() {
+    materialStride_ = (sizeof(shared::MaterialConstants) + kUniformAlignment - 1) / kUniformAlignment * kUniformAlignment;
+    std::vector<std::byte> bytes(materialStride_ * scene_.materials.size());
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+        const shared::MaterialConstants constants = packMaterial(scene_.materials[i]);
+        std::memcpy(bytes.data() + i * materialStride_, &constants, sizeof constants);
+    }
+    materials_ = std::make_unique<gpu::Buffer>(gpu::Buffer::of("materials", bytes));
+}
+
+void SceneGpu::uploadTextures() {
+    white_ = std::make_unique<gpu::Texture>("white", graph::TextureDesc{graph::Format::Rgba8Unorm, 1, 1, 1});
+    white_->upload(0, std::vector<std::uint8_t>(4, 255));
+    for (const scenes::Material& material : scene_.materials) {
+        for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
+            const scenes::TextureUse& use = material.textures[slot];
+            if (use.image == scenes::kNone) {
+                bound_.push_back({white_.get(), nullptr});
+            } else {
+                bound_.push_back({uploadImage(use.image, slotIsSrgb(scenes::TextureSlot(slot))), sampler(use.sampler)});
+            }
+        }
+    }
+}
+
+const gpu::Texture* SceneGpu::uploadImage(int index, bool srgb) {
+    std::unique_ptr<gpu::Texture>& texture = textures_[{index, srgb}];
+    if (texture) return texture.get();
+    const scenes::Image& image = scene_.images[std::size_t(index)];
+    const graph::TextureDesc desc{storedFormat(image.format, srgb), image.width, image.height, 1};
+    texture = std::make_unique<gpu::Texture>(image.name, desc, gpu::mipLevelsFor(image.width, image.height));
+    if (image.format == scenes::TexelFormat::Rgba16Unorm && srgb) {
+        texture->upload(0, linearTexels(image));
+    } else {
+        texture->upload(0, std::span<const std::byte>(image.texels));
+    }
+    texture->generateMips();
+    return texture.get();
+}
+
+const gpu::Sampler* SceneGpu::sampler(const scenes::Sampler& wanted) {
+    for (const auto& [known, object] : samplers_) {
+        if (known == wanted) return object.get();
+    }
+    const std::string label = fmt::format("material sampler {}", samplers_.size());
+    samplers_.emplace_back(wanted, std::make_unique<gpu::Sampler>(label, wanted, kAnisotropy));
+    return samplers_.back().second.get();
+}
+
+void SceneGpu::setView(const CameraView& view) {
+    drawRows_->upload(makeDrawRows(drawList_, view));
+    transparent_ = sortedTransparent(drawList_, view);
+}
+
+void SceneGpu::bindMaterial(int material) const {
+    gpu::bindUniformBuffer(UNIFORM_MATERIAL, *materials_, std::size_t(material) * materialStride_, sizeof(shared::MaterialConstants));
+    for (std::uint32_t slot = 0; slot < TEXTURE_SLOT_COUNT; ++slot) {
+        const BoundTexture& bound = bound_[std::size_t(material) * TEXTURE_SLOT_COUNT + slot];
+        gpu::bindTexture(slot, *bound.texture, bound.sampler);
+    }
+}
+
+void SceneGpu::draw(const std::vector<Batch>& batches, const gpu::PipelineState& state) const {
+    gpu::bindVertexArray(*vertexArray_);
+    int boundMaterial = -1;
+    for (const Batch& batch : batches) {
+        gpu::PipelineState batchState = state;
+        const bool doubleSided = scene_.materials[std::size_t(batch.material)].doubleSided;
+        batchState.cullFace = doubleSided ? gpu::CullFace::None : gpu::CullFace::Back;
+        batchState.frontFaceClockwise = batch.mirrored;
+        gpu::setState(batchState);
+        if (batch.material != boundMaterial) bindMaterial(batch.material);
+        boundMaterial = batch.material;
+        gpu::drawIndexedIndirect(*commands_, std::uint32_t(batch.first), std::uint32_t(batch.count));
+    }
+}
+
+} // namespace tessera::frame

@@ -1,0 +1,62 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "renderer/frame/DrawList.h"
+#include "renderer/frame/Features.h"
+#include "renderer/gpu/Buffer.h"
+#include "renderer/gpu/PipelineState.h"
+#include "renderer/gpu/Sampler.h"
+#include "renderer/gpu/Texture.h"
+#include "renderer/gpu/VertexArray.h"
+
+namespace tessera::frame {
+
+/// A scene's geometry, materials and textures on the GPU. What `features` does not hold is not uploaded. The scene must
+/// outlive the object.
+class SceneGpu {
+public:
+    SceneGpu(const scenes::Scene& scene, const FeatureSet& features);
+
+    /// Puts draws into the view's lighting space and sorts the transparent ones.
+    void setView(const CameraView& view);
+
+    const std::vector<Batch>& opaque() const { return drawList_.opaque; }
+    const std::vector<Batch>& transparent() const { return transparent_; }
+
+    /// Binds the vertex streams; then each batch of `batches` with its material, textures, winding and cull state.
+    /// `state` is the pass's pipeline state, of which culling and winding are the batch's.
+    void draw(const std::vector<Batch>& batches, const gpu::PipelineState& state) const;
+
+    std::size_t drawCount() const { return drawList_.draws.size(); }
+
+private:
+    struct BoundTexture {
+        const gpu::Texture* texture = nullptr;
+        const gpu::Sampler* sampler = nullptr;
+    };
+    void uploadGeometry(const FeatureSet& features);
+    void uploadMaterials();
+    void uploadTextures();
+    void bindMaterial(int material) const;
+    const gpu::Texture* uploadImage(int image, bool srgb);
+    const gpu::Sampler* sampler(const scenes::Sampler& sampler);
+
+    const scenes::Scene& scene_;
+    DrawList drawList_;
+    std::vector<Batch> transparent_;
+    std::vector<std::unique_ptr<gpu::Buffer>> vertexBuffers_;
+    std::unique_ptr<gpu::Buffer> indices_;
+    std::unique_ptr<gpu::Buffer> commands_; ///< one indirect draw a Draw; its baseInstance selects the draw's rows
+    std::unique_ptr<gpu::Buffer> drawRows_;
+    std::unique_ptr<gpu::VertexArray> vertexArray_;
+    std::unique_ptr<gpu::Buffer> materials_;
+    std::size_t materialStride_ = 0; ///< bytes
+    std::map<std::pair<int, bool>, std::unique_ptr<gpu::Texture>> textures_; ///< by image and whether it is decoded from sRGB
+    std::vector<std::pair<scenes::Sampler, std::unique_ptr<gpu::Sampler>>> samplers_;
+    std::unique_ptr<gpu::Texture> white_; ///< what an empty slot samples
+    std::vector<BoundTexture> bound_;     ///< material-major, kTextureSlotCount a material
+};
+
+} // namespace tessera::frame

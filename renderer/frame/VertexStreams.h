@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "renderer/frame/Features.h"
+#include "scenes/Scene.h"
+
+namespace tessera::frame {
+
+/// All meshes of a scene end to end, one array a vertex attribute. Streams that no feature needs are empty; where a mesh lacks
+/// an attribute that others have, it gets the neutral value (white, zero coordinates, computed tangents).
+struct VertexStreams {
+    struct Range {
+        std::uint32_t firstIndex = 0;
+        std::uint32_t indexCount = 0;
+        std::int32_t baseVertex = 0;
+    };
+    std::vector<Range> ranges; ///< by mesh
+    std::vector<std::uint32_t> indices;
+    std::vector<glm::vec3> positionsOS;
+    std::vector<glm::vec3> normalsOS;
+    std::vector<glm::vec4> tangentsOS;
+    std::vector<glm::vec2> texCoords[2];
+    std::vector<glm::vec4> colors;
+};
+VertexStreams makeVertexStreams(const scenes::Scene& scene, const FeatureSet& features);
+
+} // namespace tessera::frame

@@ -1,0 +1,219 @@
+// The G-buffer's channels: how a surface is stored in them and read back. Encoder and decoder of a channel stand side by side.
+// Which channels exist, at which attachment and in which encoding comes from the table kGBufferChannels
+// (renderer/frame/GBufferLayout.h) as defines: GBUFFER_<NAME> is the attachment, GBUFFER_<NAME>_PACKED its encoding.
+// GBUFFER_WRITE declares the channels as outputs, otherwise they are textures.
+#pragma once
+#include "shared/slots.h"
+#include "lib/surface.glsl"
+#include "lib/math.glsl"
+
+// ---- Encodings ------------------------------------------------------------------------------------------------------
+
+float signNotZero(float x) { return x >= 0.0 ? 1.0 : -1.0; }
+
+// Unit vector to the octahedral square -1..1. Source: Cigolle et al. 2014, "A Survey of Efficient Representations for
+// Independent Unit Vectors".
+vec2 encodeOctahedral(vec3 n)
+{
+    vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+    return n.z >= 0.0 ? p : (1.0 - abs(p.yx)) * vec2(signNotZero(p.x), signNotZero(p.y));
+}
+
+vec3 decodeOctahedral(vec2 p)
+{
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * vec2(signNotZero(n.x), signNotZero(n.y));
+    return normalize(n);
+}
+
+// Perceptual roughness in 16 bits; model and ior or F90 share the other 16. The ior is stored as (ior - 1)/(ior + 1), the
+// square root of the reflectance it causes, so that equal steps are equal steps of the picture; F90 lies in 0..1.
+uvec2 encodeMicrosurface(uint model, float alpha, float iorOrF90)
+{
+    float fresnel = model == MODEL_MICROFACET ? 0.5 + 0.5 * (iorOrF90 - 1.0) / (iorOrF90 + 1.0) : iorOrF90;
+    uint roughness = uint(clamp(sqrt(alpha), 0.0, 1.0) * 65535.0 + 0.5);
+    return uvec2(roughness, (model << 13) | uint(clamp(fresnel, 0.0, 1.0) * 8190.0 + 0.5));
+}
+
+void decodeMicrosurface(uvec2 stored, out uint model, out float alpha, out float iorOrF90)
+{
+    model = stored.y >> 13;
+    float roughness = float(stored.x) / 65535.0;
+    alpha = max(roughness * roughness, ALPHA_MIN);
+    float fresnel = float(stored.y & 8191u) / 8190.0;
+    float contrast = 2.0 * fresnel - 1.0;
+    iorOrF90 = model == MODEL_MICROFACET ? (1.0 + contrast) / max(1.0 - contrast, 1e-4) : fresnel;
+}
+
+// Shared-exponent RGB, 9 bits a colour and 5 for the exponent. Source: OpenGL 4.5 core specification, section 8.25.
+uint encodeSharedExponent(vec3 color)
+{
+    vec3 c = clamp(color, 0.0, 65408.0);
+    float largest = max(max(c.r, c.g), c.b);
+    int exponent = max(-16, int(floor(log2(max(largest, 1e-30))))) + 16;
+    if (uint(largest * exp2(float(24 - exponent)) + 0.5) == 512u) exponent += 1;
+    uvec3 mantissa = uvec3(c * exp2(float(24 - exponent)) + 0.5);
+    return mantissa.r | (mantissa.g << 9) | (mantissa.b << 18) | (uint(exponent) << 27);
+}
+
+vec3 decodeSharedExponent(uint stored)
+{
+    float scale = exp2(float(int(stored >> 27) - 24));
+    return vec3(stored & 511u, (stored >> 9) & 511u, (stored >> 18) & 511u) * scale;
+}
+
+// ---- Writing ----------------------------------------------------------------------------------------------------------
+
+#ifdef GBUFFER_WRITE
+
+#ifdef GBUFFER_ALBEDO
+layout(location = GBUFFER_ALBEDO) out vec4 albedoChannel;
+#endif
+#ifdef GBUFFER_NORMAL
+layout(location = GBUFFER_NORMAL) out vec4 normalChannel;
+#endif
+#ifdef GBUFFER_MICROSURFACE
+#if GBUFFER_MICROSURFACE_PACKED
+layout(location = GBUFFER_MICROSURFACE) out uvec4 microsurfaceChannel;
+#else
+layout(location = GBUFFER_MICROSURFACE) out vec4 microsurfaceChannel;
+#endif
+#endif
+#ifdef GBUFFER_SPECULAR
+layout(location = GBUFFER_SPECULAR) out vec4 specularChannel;
+#endif
+#ifdef GBUFFER_EMISSION
+#if GBUFFER_EMISSION_PACKED
+layout(location = GBUFFER_EMISSION) out uvec4 emissionChannel;
+#else
+layout(location = GBUFFER_EMISSION) out vec4 emissionChannel;
+#endif
+#endif
+#ifdef GBUFFER_NORMAL_TEXEL
+layout(location = GBUFFER_NORMAL_TEXEL) out vec4 normalTexelChannel;
+#endif
+
+void writeGBuffer(Surface surface)
+{
+#ifdef GBUFFER_ALBEDO
+    albedoChannel = vec4(surface.albedo, surface.metallic);
+#endif
+#ifdef GBUFFER_NORMAL
+#if GBUFFER_NORMAL_PACKED
+    normalChannel = vec4(encodeOctahedral(surface.normalLS), 0.0, 0.0);
+#else
+    normalChannel = vec4(surface.normalLS, 0.0);
+#endif
+#endif
+#ifdef GBUFFER_MICROSURFACE
+#if GBUFFER_MICROSURFACE_PACKED
+    microsurfaceChannel = uvec4(encodeMicrosurface(surface.model, surface.alpha, surface.iorOrF90), 0u, 0u);
+#else
+    microsurfaceChannel = vec4(surface.alpha, float(surface.model), surface.iorOrF90, 0.0);
+#endif
+#endif
+#ifdef GBUFFER_SPECULAR
+#if GBUFFER_SPECULAR_PACKED
+    specularChannel = vec4(sqrt(clamp(surface.specular, 0.0, 1.0)), 0.0);
+#else
+    specularChannel = vec4(surface.specular, 0.0);
+#endif
+#endif
+#ifdef GBUFFER_EMISSION
+#if GBUFFER_EMISSION_PACKED
+    emissionChannel = uvec4(encodeSharedExponent(surface.emission), 0u, 0u, 0u);
+#else
+    emissionChannel = vec4(surface.emission, 0.0);
+#endif
+#endif
+#ifdef GBUFFER_NORMAL_TEXEL
+    normalTexelChannel = vec4(surface.normalTexel, 0.0);
+#endif
+}
+
+#else // ---- Reading ---------------------------------------------------------------------------------------------------
+
+#ifdef GBUFFER_ALBEDO
+layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_ALBEDO) uniform sampler2D albedoChannel;
+#endif
+#ifdef GBUFFER_NORMAL
+layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_NORMAL) uniform sampler2D normalChannel;
+#endif
+#ifdef GBUFFER_MICROSURFACE
+#if GBUFFER_MICROSURFACE_PACKED
+layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_MICROSURFACE) uniform usampler2D microsurfaceChannel;
+#else
+layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_MICROSURFACE) uniform sampler2D microsurfaceChannel;
+#endif
+#endif
+#ifdef GBUFFER_SPECULAR
+layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_SPECULAR) uniform sampler2D specularChannel;
+#endif
+#ifdef GBUFFER_EMISSION
+#if GBUFFER_EMISSION_PACKED
+layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_EMISSION) uniform usampler2D emissionChannel;
+#else
+layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_EMISSION) uniform sampler2D emissionChannel;
+#endif
+#endif
+#ifdef GBUFFER_NORMAL_TEXEL
+layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_NORMAL_TEXEL) uniform sampler2D normalTexelChannel;
+#endif
+
+Surface surfaceFromGBuffer(ivec2 pixel)
+{
+    Surface surface;
+    surface.model = surfaceModel(MODEL_SINGLE_COLOR);
+    surface.albedo = vec3(0.0);
+    surface.metallic = 0.0;
+    surface.alpha = 1.0;
+    surface.iorOrF90 = 1.0;
+    surface.emission = vec3(0.0);
+    surface.normalLS = vec3(0.0, 0.0, 1.0);
+    surface.normalTexel = vec3(0.5, 0.5, 1.0);
+#ifdef GBUFFER_ALBEDO
+    vec4 albedo = texelFetch(albedoChannel, pixel, 0);
+    surface.albedo = albedo.rgb;
+    surface.metallic = albedo.a;
+#endif
+#ifdef GBUFFER_NORMAL
+#if GBUFFER_NORMAL_PACKED
+    surface.normalLS = decodeOctahedral(texelFetch(normalChannel, pixel, 0).xy);
+#else
+    surface.normalLS = texelFetch(normalChannel, pixel, 0).xyz;
+#endif
+#endif
+#ifdef GBUFFER_MICROSURFACE
+    uint model;
+#if GBUFFER_MICROSURFACE_PACKED
+    decodeMicrosurface(texelFetch(microsurfaceChannel, pixel, 0).xy, model, surface.alpha, surface.iorOrF90);
+#else
+    vec4 microsurface = texelFetch(microsurfaceChannel, pixel, 0);
+    surface.alpha = microsurface.x;
+    model = uint(microsurface.y);
+    surface.iorOrF90 = microsurface.z;
+#endif
+    surface.model = surfaceModel(model);
+#endif
+    surface.specular = defaultSpecular(surface.model);
+#ifdef GBUFFER_SPECULAR
+    vec3 specular = texelFetch(specularChannel, pixel, 0).rgb;
+#if GBUFFER_SPECULAR_PACKED
+    specular *= specular;
+#endif
+    surface.specular = specular;
+#endif
+#ifdef GBUFFER_EMISSION
+#if GBUFFER_EMISSION_PACKED
+    surface.emission = decodeSharedExponent(texelFetch(emissionChannel, pixel, 0).r);
+#else
+    surface.emission = texelFetch(emissionChannel, pixel, 0).rgb;
+#endif
+#endif
+#ifdef GBUFFER_NORMAL_TEXEL
+    surface.normalTexel = texelFetch(normalTexelChannel, pixel, 0).rgb;
+#endif
+    return surface;
+}
+
+#endif

@@ -1,0 +1,15 @@
+// Small numerics that every other library file may use.
+#pragma once
+
+const float kPi = 3.14159265358979323846;
+
+// Unit vector along v, or `fallback` where v is too short to have a direction (a zero-length normal texel, a singular node).
+// Vectors outside about 1e-19 .. 1e19 would leave fp32's range when squared, so the length is taken after scaling.
+vec3 safeNormalize(vec3 v, vec3 fallback)
+{
+    precise float largest = max(max(abs(v.x), abs(v.y)), abs(v.z));
+    if (!(largest > 0.0)) return fallback;
+    precise vec3 scaled = v / largest;
+    precise vec3 unit = scaled / sqrt(dot(scaled, scaled));
+    return unit;
+}

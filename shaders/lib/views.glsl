@@ -1,0 +1,55 @@
+// What a pixel shows: the lit surface, or one of the debug views of the table kViews (renderer/frame/Views.h), which gives
+// VIEW its number. Both families of techniques end here, so a view exists in each of them.
+#pragma once
+#include "lib/lighting.glsl"
+
+#define VIEW_FINAL 0
+#define VIEW_DIFFUSE 1
+#define VIEW_NORMAL_TEXEL 2
+#define VIEW_NORMAL 3
+#define VIEW_DISTRIBUTION 4
+#define VIEW_GEOMETRY 5
+#define VIEW_FRESNEL 6
+#define VIEW_DEPTH 7
+
+// D, G or F of the one light that frame.lights.y names, as rgb; 0 where the light is not visible from the point.
+vec3 specularFactorView(Surface surface, Viewpoint viewpoint)
+{
+    vec3 shown = vec3(0.0);
+#if HAS_METALLIC_ROUGHNESS || HAS_MICROFACET
+    Incident incident;
+    if (surface.model == MODEL_SINGLE_COLOR || surface.model == MODEL_LAMBERT) return shown;
+    if (int(frame.lights.y) >= int(frame.lights.x)) return shown;
+    if (!incidentLight(int(frame.lights.y), viewpoint.positionLS, incident)) return shown;
+    precise float nl = dot(surface.normalLS, incident.toLightLS);
+    if (!(nl > 0.0)) return shown;
+    SpecularTerms terms = specularTerms(surface, incident.toLightLS, viewpoint.toViewerLS, nl);
+#if VIEW == VIEW_DISTRIBUTION
+    shown = vec3(terms.d);
+#elif VIEW == VIEW_GEOMETRY
+    precise float nv = dot(surface.normalLS, viewpoint.toViewerLS);
+    precise float g = terms.v * (4.0 * nl * nv);
+    shown = vec3(g);
+#else
+    shown = terms.f;
+#endif
+#endif
+    return shown;
+}
+
+vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
+{
+#if VIEW == VIEW_FINAL
+    return shadeSurface(surface, viewpoint, pixel);
+#elif VIEW == VIEW_DIFFUSE
+    return surface.model == MODEL_SINGLE_COLOR ? surface.emission : surface.albedo;
+#elif VIEW == VIEW_NORMAL_TEXEL
+    return surface.normalTexel;
+#elif VIEW == VIEW_NORMAL
+    return mat3(frame.worldFromLS) * surface.normalLS;
+#elif VIEW == VIEW_DEPTH
+    return vec3(dot(viewpoint.positionLS, frame.forwardLS.xyz));
+#else
+    return specularFactorView(surface, viewpoint);
+#endif
+}

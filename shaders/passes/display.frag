@@ -1,0 +1,27 @@
+// Linear radiance to display code values: exposure, tone map, sRGB transfer function.
+#include "shared/slots.h"
+#include "shared/display.h"
+#include "lib/tonemap.glsl"
+
+layout(std140, binding = UNIFORM_DISPLAY) uniform DisplayBlock
+{
+    DisplayConstants display;
+};
+layout(binding = TEXTURE_UNIT_RADIANCE) uniform sampler2D radianceImage;
+layout(location = 0) out vec4 code;
+
+vec3 codeValues(vec3 value)
+{
+    switch (display.mapping.x) {
+    case DISPLAY_RAW: return value;
+    case DISPLAY_SIGNED: return value * 0.5 + 0.5;
+    case DISPLAY_DISTANCE: return vec3(10.0 / (10.0 + max(value, 0.0)));
+    default: return encodeSrgb(toneMapped(value * display.exposure.x, display.mapping.y));
+    }
+}
+
+void main()
+{
+    vec4 value = texelFetch(radianceImage, ivec2(gl_FragCoord.xy), 0);
+    code = vec4(codeValues(value.rgb), 1.0);
+}

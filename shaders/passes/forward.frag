@@ -1,0 +1,20 @@
+// Shades surfaces as they are rasterised.
+#include "lib/rasterised.glsl"
+#include "lib/views.glsl"
+
+layout(location = 0) out vec4 radiance;
+
+void main()
+{
+    Fragment fragment = rasterisedFragment();
+    vec4 baseColor = materialBaseColor(fragment);
+    Surface surface = surfaceFromMaterial(fragment, baseColor);
+    if (materialCutOut(baseColor)) discard;
+    Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, gl_FragCoord.z);
+    precise vec3 viewed = viewedRadiance(surface, viewpoint, gl_FragCoord.xy);
+#if BLENDED
+    radiance = vec4(viewed, clamp(baseColor.a, 0.0, 1.0));
+#else
+    radiance = vec4(viewed, 1.0);
+#endif
+}

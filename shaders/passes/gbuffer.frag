@@ -1,0 +1,13 @@
+// Stores the surface seen through each pixel.
+#define GBUFFER_WRITE
+#include "lib/rasterised.glsl"
+#include "lib/gbuffer.glsl"
+
+void main()
+{
+    Fragment fragment = rasterisedFragment();
+    vec4 baseColor = materialBaseColor(fragment);
+    Surface surface = surfaceFromMaterial(fragment, baseColor);
+    if (materialCutOut(baseColor)) discard;
+    writeGBuffer(surface);
+}

@@ -1,0 +1,70 @@
+// The one vertex function: every rasterising pass uses it, so a surface has the same depth to the last bit in all of them.
+#include "shared/slots.h"
+#include "lib/camera.glsl"
+
+layout(location = ATTRIBUTE_POSITION) in vec3 positionOS;
+layout(location = ATTRIBUTE_NORMAL) in vec3 normalOS;
+layout(location = ATTRIBUTE_TANGENT) in vec4 tangentOS;
+layout(location = ATTRIBUTE_TEXCOORD0) in vec2 inTexCoord0;
+layout(location = ATTRIBUTE_TEXCOORD1) in vec2 inTexCoord1;
+layout(location = ATTRIBUTE_COLOR) in vec4 inColor;
+
+// Per draw: rows of LS-from-object, and of its cofactor matrix times the sign of its determinant (xyz; w of the first row is
+// that sign).
+layout(location = ATTRIBUTE_DRAW_POSITION_ROW0) in vec4 drawRow0;
+layout(location = ATTRIBUTE_DRAW_POSITION_ROW0 + 1) in vec4 drawRow1;
+layout(location = ATTRIBUTE_DRAW_POSITION_ROW0 + 2) in vec4 drawRow2;
+layout(location = ATTRIBUTE_DRAW_NORMAL_ROW0) in vec4 drawNormal0;
+layout(location = ATTRIBUTE_DRAW_NORMAL_ROW0 + 1) in vec4 drawNormal1;
+layout(location = ATTRIBUTE_DRAW_NORMAL_ROW0 + 2) in vec4 drawNormal2;
+
+invariant gl_Position;
+#if !DEPTH_ONLY
+layout(location = 0) out vec3 normalLS;
+#endif
+#if HAS_TANGENT_SPACE_NORMALS && !DEPTH_ONLY
+layout(location = 1) out vec4 tangentLS;
+#endif
+#if HAS_TEXTURES
+layout(location = 2) out vec2 texCoord0;
+#if HAS_TEXCOORD1
+layout(location = 3) out vec2 texCoord1;
+#endif
+#endif
+#if HAS_VERTEX_COLOR
+layout(location = 4) out vec4 vertexColor;
+#endif
+#if HAS_OBJECT_SPACE_NORMALS && !DEPTH_ONLY
+layout(location = 5) flat out vec3 normalFromObject0;
+layout(location = 6) flat out vec3 normalFromObject1;
+layout(location = 7) flat out vec3 normalFromObject2;
+#endif
+
+void main()
+{
+    precise vec4 object = vec4(positionOS, 1.0);
+    precise vec3 positionLS = vec3(dot(drawRow0, object), dot(drawRow1, object), dot(drawRow2, object));
+    precise vec4 clip = frame.clipFromLS * vec4(positionLS, 1.0);
+    gl_Position = clip;
+#if !DEPTH_ONLY
+    normalLS = vec3(dot(drawNormal0.xyz, normalOS), dot(drawNormal1.xyz, normalOS), dot(drawNormal2.xyz, normalOS));
+#if HAS_TANGENT_SPACE_NORMALS
+    tangentLS = vec4(dot(drawRow0.xyz, tangentOS.xyz), dot(drawRow1.xyz, tangentOS.xyz), dot(drawRow2.xyz, tangentOS.xyz),
+                     tangentOS.w * drawNormal0.w);
+#endif
+#if HAS_OBJECT_SPACE_NORMALS
+    normalFromObject0 = drawNormal0.xyz;
+    normalFromObject1 = drawNormal1.xyz;
+    normalFromObject2 = drawNormal2.xyz;
+#endif
+#endif
+#if HAS_TEXTURES
+    texCoord0 = inTexCoord0;
+#if HAS_TEXCOORD1
+    texCoord1 = inTexCoord1;
+#endif
+#endif
+#if HAS_VERTEX_COLOR
+    vertexColor = inColor;
+#endif
+}

@@ -1,0 +1,23 @@
+#pragma once
+// A material's constants; one range of the material buffer, bound for each batch of draws.
+#include "interop.h"
+#include "slots.h"
+
+#define MATERIAL_FLAG_NORMAL_MAP 1u
+#define MATERIAL_FLAG_OBJECT_SPACE_NORMAL 2u
+#define MATERIAL_FLAG_ALPHA_MASK 4u
+#define MATERIAL_FLAG_DOUBLE_SIDED 8u
+
+SHARED_BEGIN
+
+struct MaterialConstants {
+    vec4 baseColor;       // rgb base colour, k_d or the colour; a opacity
+    vec4 emissive;        // rgb radiance; a alpha cutoff
+    vec4 microsurface;    // x metallic, y perceptual roughness or alpha (microfacet), z ior, w normal-map scale
+    vec4 specular;        // rgb k_s, or dielectric F0 before the specular textures; a specular factor
+    uvec4 kind;           // x model, y flags
+    vec4 uvRow0[TEXTURE_SLOT_COUNT]; // x y z: u' = x u + y v + z; w texture-coordinate set
+    vec4 uvRow1[TEXTURE_SLOT_COUNT]; // x y z: v' = x u + y v + z; w wrap modes, u + 4 v, for --filter exact
+};
+
+SHARED_END

@@ -1,0 +1,36 @@
+#pragma once
+// Where everything is bound. One list for C++ and GLSL; a number stands here and nowhere else.
+#include "interop.h"
+
+SHARED_BEGIN
+
+// Vertex attributes. The first group advances per vertex, the second per draw (baseInstance selects the draw).
+#define ATTRIBUTE_POSITION 0
+#define ATTRIBUTE_NORMAL 1
+#define ATTRIBUTE_TANGENT 2
+#define ATTRIBUTE_TEXCOORD0 3
+#define ATTRIBUTE_TEXCOORD1 4
+#define ATTRIBUTE_COLOR 5
+#define ATTRIBUTE_DRAW_POSITION_ROW0 6
+#define ATTRIBUTE_DRAW_NORMAL_ROW0 9
+
+// Uniform blocks.
+#define UNIFORM_FRAME 0
+#define UNIFORM_MATERIAL 1
+#define UNIFORM_DISPLAY 2
+
+// Texture units: the slots of scenes::TextureSlot in that order, then the G-buffer, then buffers.
+#define TEXTURE_SLOT_BASE_COLOR 0
+#define TEXTURE_SLOT_NORMAL 1
+#define TEXTURE_SLOT_METALLIC_ROUGHNESS 2
+#define TEXTURE_SLOT_EMISSIVE 3
+#define TEXTURE_SLOT_SPECULAR_FACTOR 4
+#define TEXTURE_SLOT_SPECULAR_COLOR 5
+#define TEXTURE_SLOT_IOR 6
+#define TEXTURE_SLOT_COUNT 7
+#define TEXTURE_UNIT_GBUFFER 7
+#define TEXTURE_UNIT_DEPTH 13
+#define TEXTURE_UNIT_LIGHTS 14
+#define TEXTURE_UNIT_RADIANCE 15
+
+SHARED_END
