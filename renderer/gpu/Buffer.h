@@ -1,0 +1,66 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <ranges>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "renderer/gpu/Id.h"
+
+namespace tessera::gpu {
+
+/// Static: written seldom. Dynamic: written every frame. Readback: lives where the CPU reads it cheaply.
+enum class BufferUse { Static, Dynamic, Readback };
+
+/// GPU memory of a fixed size, zeroed when made. No byte at all is rounded up to 16, so empty lists can be bound.
+class Buffer {
+public:
+    /// Throws std::runtime_error naming label and size when memory runs out.
+    Buffer(std::string label, std::size_t bytes, BufferUse use = BufferUse::Static);
+    /// Made and filled in one go: a Static buffer that holds a copy of `values`.
+    template <std::ranges::contiguous_range Range>
+    static Buffer of(std::string label, const Range& values, BufferUse use = BufferUse::Static) {
+        Buffer buffer(std::move(label), std::ranges::size(values) * sizeof(std::ranges::range_value_t<Range>), use);
+        buffer.upload(values);
+        return buffer;
+    }
+    ~Buffer();
+    Buffer(Buffer&&) noexcept = default;
+    Buffer& operator=(Buffer&&) noexcept = default;
+
+    /// Writes a vector, span or array of plain values at `offsetBytes`; must fit (asserted).
+    template <std::ranges::contiguous_range Range>
+    void upload(const Range& values, std::size_t offsetBytes = 0) const {
+        static_assert(std::is_trivially_copyable_v<std::ranges::range_value_t<Range>>);
+        uploadBytes(std::as_bytes(std::span(std::ranges::data(values), std::ranges::size(values))), offsetBytes);
+    }
+    template <typename T>
+    void uploadValue(const T& value, std::size_t offsetBytes = 0) const {
+        upload(std::span<const T>(&value, 1), offsetBytes);
+    }
+    void uploadBytes(std::span<const std::byte> source, std::size_t offsetBytes = 0) const;
+
+    /// Reads `target.size()` bytes from `offsetBytes`; waits for the GPU. Storage writes need a TransferOrUpdate
+    /// barrier first.
+    void download(std::span<std::byte> target, std::size_t offsetBytes = 0) const;
+    template <typename T>
+    std::vector<T> downloadAs(std::size_t count, std::size_t offsetBytes = 0) const {
+        static_assert(std::is_trivially_copyable_v<T>);
+        std::vector<T> values(count);
+        download(std::as_writable_bytes(std::span(values)), offsetBytes);
+        return values;
+    }
+
+    std::size_t bytes() const { return bytes_; }
+    std::uint32_t id() const { return id_.value(); }
+    const std::string& label() const { return label_; }
+
+private:
+    std::string label_;
+    std::size_t bytes_ = 0;
+    Id id_;
+};
+
+} // namespace tessera::gpu

@@ -1,0 +1,24 @@
+#pragma once
+#include <cstddef>
+#include <string>
+
+namespace tessera::gpu {
+
+/// What the context's driver says of itself, read once when the context is made.
+struct Capabilities {
+    std::string vendor;
+    std::string renderer;
+    std::string version;     ///< GL_VERSION
+    std::string glslVersion; ///< GL_SHADING_LANGUAGE_VERSION
+    std::string contextWay;  ///< how the context was made, e.g. "EGL surfaceless", "EGL device 0", "GLFW window"
+    bool isSoftware = false; ///< a CPU rasteriser (llvmpipe, softpipe, swrast): GPU timer queries mean nothing there
+    std::size_t maxTextureBufferTexels = 0;
+    std::size_t maxUniformBlockBytes = 0;
+    std::size_t maxStorageBlockBytes = 0;
+    int maxTextureSize = 0; ///< texels, of a 2D texture's side
+    int maxSamples = 0;     ///< of colour textures
+    float maxAnisotropy = 1.0f;
+    bool parallelShaderCompile = false; ///< KHR_parallel_shader_compile
+};
+
+} // namespace tessera::gpu

@@ -1,0 +1,56 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "renderer/gpu/Id.h"
+#include "renderer/gpu/Texture.h"
+
+namespace tessera::gpu {
+
+/// Where a pass rasterises to. A null colour leaves its output location unwritten.
+struct Attachments {
+    std::vector<const Texture*> colors;
+    const Texture* depth = nullptr;
+};
+
+class Framebuffer {
+public:
+    /// Throws std::runtime_error naming the attachments when the driver finds the framebuffer incomplete.
+    explicit Framebuffer(const Attachments& attachments);
+    ~Framebuffer();
+    Framebuffer(Framebuffer&&) noexcept = default;
+    Framebuffer& operator=(Framebuffer&&) noexcept = default;
+
+    std::uint32_t id() const { return id_.value(); }
+    int width() const { return width_; }   ///< pixels
+    int height() const { return height_; } ///< pixels
+
+private:
+    Id id_;
+    int width_ = 0;
+    int height_ = 0;
+};
+
+/// Framebuffers by attachments, so that passes just ask for the one they need.
+class FramebufferCache {
+public:
+    /// Made at the first request and kept until one of its textures dies. The reference holds as long as the textures
+    /// do.
+    const Framebuffer& get(const Attachments& attachments);
+    const Framebuffer& get(const Texture& color, const Texture* depth = nullptr);
+    /// Drops framebuffers of dead textures, which hold on to the textures' memory. Done by get() when it makes one.
+    void collect();
+    std::size_t size() const { return entries_.size(); }
+
+private:
+    struct Entry {
+        std::vector<std::weak_ptr<const std::uint64_t>> textures;
+        Framebuffer framebuffer;
+    };
+    std::map<std::vector<std::uint64_t>, Entry> entries_; ///< by texture serials, depth first; 0: none
+};
+
+} // namespace tessera::gpu

@@ -1,0 +1,81 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "renderer/gpu/Buffer.h"
+#include "renderer/gpu/Debug.h"
+#include "renderer/gpu/Framebuffer.h"
+#include "renderer/gpu/Texture.h"
+#include "renderer/gpu/Timer.h"
+#include "renderer/graph/Execute.h"
+
+namespace tessera::gpu {
+
+/// What one pass cost in the latest measured frame.
+struct PassTiming {
+    std::string name;
+    std::optional<double> gpuMs; ///< none: not measured (yet, or not measurable on this renderer without profiling)
+    double cpuMs = 0.0;          ///< time its calls took on the CPU
+};
+
+/// Runs compiled graphs on the current context. Keeps textures and buffers across frames by shape, and opens a debug
+/// group and timers around every pass. What the driver reports during a pass becomes an exception that names the pass.
+class GraphBackend : public graph::Backend {
+public:
+    GraphBackend();
+    ~GraphBackend() override;
+
+    /// On: glFinish and the CPU clock on both sides of every pass give gpuMs. It costs the overlap of passes, so
+    /// profiled frames are not the ones to compare; on software rasterisers it is the only figure that is true.
+    void setProfiling(bool on) { profiling_ = on; }
+    bool profiling() const { return profiling_; }
+
+    /// Begins a frame: what the previous frame's allocations held may be overwritten from now on.
+    void allocate(std::span<const graph::ResourceDesc> allocations) override;
+    const Texture& texture(int physical) override;
+    const Buffer& buffer(int physical) override;
+    void beginPass(std::string_view name, graph::Barrier barrier) override;
+    void endPass(std::string_view name) override;
+
+    /// Passes of the latest frame in order of execution. Without profiling gpuMs is some frames old.
+    std::vector<PassTiming> passTimings();
+    FramebufferCache& framebuffers() { return framebuffers_; }
+    /// Bytes held, pooled and idle ones included.
+    std::size_t poolBytes() const;
+
+private:
+    using Resource = std::variant<std::unique_ptr<Texture>, std::unique_ptr<Buffer>>;
+    struct Pooled {
+        graph::ResourceDesc desc;
+        Resource resource;
+        int idleFrames = 0;
+        bool taken = false;
+    };
+    struct PassRecord {
+        GpuTimer gpuTimer;
+        std::optional<double> profiledMs;
+        double cpuMs = 0.0;
+    };
+    using PassKey = std::pair<std::string, int>; ///< a pass may run several times a frame under one name
+
+    Pooled& take(const graph::ResourceDesc& desc);
+
+    FramebufferCache framebuffers_;
+    std::vector<std::unique_ptr<Pooled>> pool_;
+    std::vector<Pooled*> physical_;
+    std::map<PassKey, PassRecord> records_;
+    std::vector<PassKey> frame_; ///< passes of the frame, in order
+    std::map<std::string, int, std::less<>> runsOfName_;
+    bool profiling_ = false;
+    bool isSoftware_ = false;
+    std::unique_ptr<DebugGroup> group_; ///< of the open pass
+    CpuTimer clock_;
+};
+
+} // namespace tessera::gpu

@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+
+namespace tessera::gpu {
+
+/// Depth is reversed: 1 at the near plane, 0 infinitely far; "Greater" passes what is nearer than the stored depth.
+enum class DepthTest : std::uint8_t { Off, Greater, GreaterEqual, Equal, Less, LessEqual };
+enum class CullFace : std::uint8_t { None, Back, Front };
+enum class Blend : std::uint8_t {
+    None,
+    Additive,           ///< target + source, alpha too
+    AlphaPremultiplied, ///< source + (1 - alpha) target
+    AlphaStraight       ///< alpha source + (1 - alpha) target; the target's alpha becomes the coverage
+};
+
+/// The fixed-function state of a draw, set as a whole so that nothing leaks from one pass into the next.
+struct PipelineState {
+    DepthTest depthTest = DepthTest::Off;
+    bool depthWrite = false; ///< needs a depth test other than Off, as in GL
+    CullFace cullFace = CullFace::None;
+    bool frontFaceClockwise = false; ///< mirrored nodes: an odd number of negative scales
+    Blend blend = Blend::None;       ///< of every floating-point or normalised colour attachment
+    bool colorWrite = true;
+    bool alphaToCoverage = false;
+    bool depthClamp =
+        false; ///< nothing is clipped at the near and far plane (shadow casters behind the light's near plane)
+    bool operator==(const PipelineState&) const = default;
+};
+
+} // namespace tessera::gpu

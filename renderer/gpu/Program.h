@@ -1,0 +1,98 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/gpu/Id.h"
+
+namespace tessera::gpu {
+
+enum class Stage : std::uint8_t { Vertex, Fragment, Compute };
+std::string_view stageName(Stage stage); ///< "vertex", "fragment", "compute"
+
+struct StageSource {
+    Stage stage;
+    std::string source;
+};
+
+/// A program that does not compile or link. The text is the program's name and every stage's log.
+class ShaderError : public std::runtime_error {
+public:
+    struct StageLog {
+        Stage stage;
+        std::string text;
+    };
+    ShaderError(std::string program, std::vector<StageLog> stageLogs, std::string linkLog);
+    const std::string& program() const { return program_; }
+    const std::vector<StageLog>& stageLogs() const { return stageLogs_; } ///< of the stages that failed
+    const std::string& linkLog() const { return linkLog_; }               ///< empty when a stage failed
+
+private:
+    std::string program_;
+    std::vector<StageLog> stageLogs_;
+    std::string linkLog_;
+};
+
+enum class BlockKind { Uniform, Storage };
+
+/// A member of an interface block as the linked program lays it out; names as GL reports them ("lights[0].positionVS").
+struct BlockMember {
+    std::string name;
+    std::size_t offset = 0;         ///< bytes from the block's start
+    std::size_t arrayStride = 0;    ///< bytes, of an array of plain values; 0: no array
+    std::size_t matrixStride = 0;   ///< bytes between columns; 0: no matrix
+    std::size_t topArrayStride = 0; ///< bytes between elements of the outermost array of a storage block; 0: no array
+};
+
+class Program {
+public:
+    /// Compiles and links. Throws ShaderError with the driver's logs.
+    Program(std::string label, std::span<const StageSource> stages);
+    ~Program();
+    Program(Program&&) noexcept = default;
+    Program& operator=(Program&&) noexcept = default;
+
+    /// The active members of a uniform or storage block by offset; empty when the program has no such active block.
+    std::vector<BlockMember> blockMembers(std::string_view block, BlockKind kind) const;
+    /// GL_BUFFER_DATA_SIZE of the block, bytes; 0 when the program has no such active block.
+    std::size_t blockBytes(std::string_view block, BlockKind kind) const;
+    /// Binding slot of a block or of a sampler or image uniform; -1 when it is not active.
+    int blockSlot(std::string_view block, BlockKind kind) const;
+    int samplerUnit(std::string_view uniform) const;
+
+    std::uint32_t id() const { return id_.value(); }
+    const std::string& label() const { return label_; }
+
+private:
+    friend class PendingProgram;
+    Program(std::string label, Id id);
+    std::string label_;
+    Id id_;
+};
+
+/// A program on its way: the constructor only issues the work, so that a driver with KHR_parallel_shader_compile builds
+/// many at once; finish() collects.
+class PendingProgram {
+public:
+    PendingProgram(std::string label, std::span<const StageSource> stages);
+    ~PendingProgram();
+    PendingProgram(PendingProgram&&) noexcept = default;
+    PendingProgram& operator=(PendingProgram&&) noexcept = default;
+    /// Waits for the driver. Throws ShaderError.
+    Program finish();
+
+private:
+    struct PendingShader {
+        Stage stage;
+        Id id;
+    };
+    std::string label_;
+    std::vector<PendingShader> shaders_;
+    Id id_;
+};
+
+} // namespace tessera::gpu

@@ -1,0 +1,73 @@
+#pragma once
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <ranges>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "renderer/gpu/Id.h"
+#include "renderer/graph/Graph.h"
+
+namespace tessera::gpu {
+
+/// Levels of a full mip chain down to 1 x 1.
+int mipLevelsFor(int width, int height);
+
+/// Width and height of level `level` of a texture of this size.
+graph::TextureDesc mipDesc(const graph::TextureDesc& desc, int level);
+
+/// A 2D texture of immutable storage; samples > 1 makes it multisampled (one level, no upload, no download). Made with
+/// nearest filtering and clamped edges, which is what texelFetch and the G-buffer need; a Sampler overrides both.
+class Texture {
+public:
+    /// Throws std::runtime_error naming label, size and format when the size or the samples are beyond the driver or
+    /// memory runs out. Contents are undefined until written.
+    Texture(std::string label, const graph::TextureDesc& desc, int mipLevels = 1);
+    ~Texture();
+    Texture(Texture&&) noexcept = default;
+    Texture& operator=(Texture&&) noexcept = default;
+
+    /// Replaces one level. Rows tightly packed, in GL order: the first row is the one sampled at v = 0.
+    void upload(int level, std::span<const std::byte> texels) const;
+    template <std::ranges::contiguous_range Range>
+    requires(!std::convertible_to<Range, std::span<const std::byte>>) void upload(int level,
+                                                                                  const Range& texels) const {
+        upload(level, std::as_bytes(std::span(std::ranges::data(texels), std::ranges::size(texels))));
+    }
+    /// Fills levels 1.. from level 0 by the driver's box filter.
+    void generateMips() const;
+
+    /// One level's texels, tightly packed, rows in GL order (lower-left first for rendered pictures); waits for the
+    /// GPU.
+    std::vector<std::byte> downloadBytes(int level = 0) const;
+    template <typename T>
+    std::vector<T> downloadAs(int level = 0) const {
+        static_assert(std::is_trivially_copyable_v<T>);
+        std::vector<T> values(levelBytes(level) / sizeof(T));
+        downloadInto(level, std::as_writable_bytes(std::span(values)));
+        return values;
+    }
+
+    const graph::TextureDesc& desc() const { return desc_; }
+    int mipLevels() const { return mipLevels_; }
+    std::size_t levelBytes(int level) const;
+    std::uint32_t id() const { return id_.value(); }
+    const std::string& label() const { return label_; }
+
+    /// Unique among all textures ever made, unlike GL names, which are used again. Expires with the texture.
+    const std::shared_ptr<const std::uint64_t>& serial() const { return serial_; }
+
+private:
+    void downloadInto(int level, std::span<std::byte> texels) const;
+    std::string label_;
+    graph::TextureDesc desc_;
+    int mipLevels_ = 1;
+    std::shared_ptr<const std::uint64_t> serial_;
+    Id id_;
+};
+
+} // namespace tessera::gpu

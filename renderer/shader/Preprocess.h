@@ -1,0 +1,33 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "renderer/shader/SourceTree.h"
+
+namespace tessera::shader {
+
+using Defines = std::vector<std::pair<std::string, std::string>>; ///< name, value; an empty value is fine
+
+/// A shader as the driver gets it. #line directives carry (line, index into files), so that its messages can be mapped
+/// back.
+struct ExpandedSource {
+    std::string text;
+    std::vector<std::string> files; ///< paths below shaders/, the entry first
+};
+
+/// Resolves #include "path" (relative to shaders/, else to the including file) from an entry file. The text begins with
+/// #version 450 core and the defines. A file with #pragma once counts once, also when the first #include stands in a
+/// conditional that turns out false. Other preprocessor lines pass through; #includes in the C++ part of a shared
+/// header
+/// (#ifdef __cplusplus) do not. Throws InputError naming including file, line and remedy on a missing file, a cycle, a
+/// malformed #include or a #version of another version.
+ExpandedSource expand(const SourceTree& tree, std::string_view entryPath, const Defines& defines = {});
+
+/// Rewrites the places in a driver's log, "0:12(5): error: x" (Mesa), "0(12) : error C1: x" (NVIDIA), "ERROR: 0:12: x"
+/// (glslang and others), to "shaders/lib/brdf.glsl:12: error: x". Lines without a known place stay as they are.
+std::string mapLog(std::string_view log, std::span<const std::string> files);
+
+} // namespace tessera::shader

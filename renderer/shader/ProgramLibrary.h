@@ -1,0 +1,46 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "renderer/gpu/Program.h"
+#include "renderer/shader/ProgramDesc.h"
+
+namespace tessera::shader {
+
+/// Every program of the process, compiled once a distinct variant, on the context that is current when it is asked for.
+class ProgramLibrary {
+public:
+    explicit ProgramLibrary(SourceTree tree = SourceTree());
+
+    /// Compiles at the first request. The reference holds as long as the library, also across reload(). Throws
+    /// gpu::ShaderError whose log lines name file and line, or InputError when a source is missing.
+    const gpu::Program& get(const ProgramDesc& desc);
+    /// Issues all that are missing before collecting the first, so that drivers that can compile in parallel do. Throws
+    /// as get(), after every good one has been kept.
+    void warm(std::span<const ProgramDesc> descs);
+    /// Reads the sources again and recompiles what changed. A program whose new source is faulty keeps its last good
+    /// form. Returns one text a fault, with file and line.
+    std::vector<std::string> reload();
+    /// True once after a file of the source folder changed; always false for embedded sources.
+    bool sourcesChanged();
+
+    const SourceTree& tree() const { return tree_; }
+    std::size_t size() const { return entries_.size(); }
+
+private:
+    struct Entry {
+        ProgramDesc desc;
+        std::vector<ExpandedStage> stages;
+        gpu::Program program;
+    };
+    SourceTree tree_;
+    std::optional<std::filesystem::file_time_type> newestChange_;
+    std::map<std::string, std::unique_ptr<Entry>> entries_; ///< by ProgramDesc::key()
+};
+
+} // namespace tessera::shader

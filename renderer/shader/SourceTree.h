@@ -1,0 +1,34 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace tessera::shader {
+
+/// The shader files by their path below shaders/, e.g. "lib/brdf.glsl": those compiled into the library, or a folder's.
+class SourceTree {
+public:
+    /// The folder named by the environment variable TESSERA_SHADERS if that is set, else the embedded files.
+    SourceTree();
+    /// A folder's files. Throws InputError when it is no folder.
+    explicit SourceTree(std::filesystem::path folder);
+    /// The embedded files, whatever the environment says.
+    static SourceTree embedded();
+
+    /// A file as it is now (folders are read anew each time, so edits show); none when there is no such file. Throws
+    /// InputError when it exists and cannot be read.
+    std::optional<std::string> read(std::string_view path) const;
+    bool isEmbedded() const { return folder_.empty(); }
+    /// "embedded shaders" or the folder, for messages.
+    std::string describe() const;
+    /// When a file of the folder last changed, so that a viewer knows when to reload; none for embedded files.
+    std::optional<std::filesystem::file_time_type> newestChange() const;
+
+private:
+    struct Embedded {};
+    explicit SourceTree(Embedded) {}
+    std::filesystem::path folder_; ///< empty: embedded
+};
+
+} // namespace tessera::shader
