@@ -7,6 +7,7 @@
 
 #include "passes/recipes/PreparedFrame.h"
 #include "renderer/graph/Execute.h"
+#include "scenes/Error.h"
 #include "shaders/shared/display.h"
 #include "shaders/shared/frame.h"
 
@@ -45,7 +46,7 @@ struct Renderer::Drawn {
 };
 
 Renderer::Renderer(gpu::Context& context, const scenes::Scene& scene, shader::SourceTree shaders)
-    : context_(context), scene_(scene), programs_(std::move(shaders)), backend_(context),
+    : context_(context), scene_(scene), programs_(std::move(shaders)),
       frameConstants_("frame constants", sizeof(shared::FrameConstants), gpu::BufferUse::Dynamic),
       displayConstants_("display constants", sizeof(shared::DisplayConstants), gpu::BufferUse::Dynamic) {}
 

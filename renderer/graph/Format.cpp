@@ -15,6 +15,7 @@ constexpr std::array kFormats{
     FormatInfo{Format::Rg16Snorm, "RG16_SNORM", 4, false, false},
     FormatInfo{Format::Rgba8Unorm, "RGBA8", 4, false, false},
     FormatInfo{Format::Srgb8Alpha8, "SRGB8_ALPHA8", 4, false, false},
+    FormatInfo{Format::Rgb10A2Unorm, "RGB10_A2", 4, false, false},
     FormatInfo{Format::Rg16Uint, "RG16UI", 4, false, true},
     FormatInfo{Format::R32Uint, "R32UI", 4, false, true},
     FormatInfo{Format::R8Uint, "R8UI", 1, false, true},

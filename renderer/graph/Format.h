@@ -13,6 +13,7 @@ enum class Format : std::uint8_t {
     Rg16Snorm,
     Rgba8Unorm,
     Srgb8Alpha8,
+    Rgb10A2Unorm,
     Rg16Uint,
     R32Uint,
     R8Uint,
