@@ -33,8 +33,6 @@ void addCounters(graph::Plan& plan, const scenes::Scene& scene, const PreparedFr
                      {"pixels", std::uint64_t(prepared.spec.settings.sizePixels.x) * std::uint64_t(prepared.spec.settings.sizePixels.y)}};
 }
 
-bool usesGBuffer(Technique technique) { return technique == Technique::Deferred; }
-
 } // namespace
 
 graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings) {
@@ -44,7 +42,7 @@ graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const fra
     graph::Plan plan = graph::makePlan(frame.graph, compiled);
     plan.scene = scene.name;
     plan.technique = std::string(techniqueTable()[std::size_t(technique)].name);
-    for (graph::Plan::LeftOut& item : frame::leftOut(scene, prepared.spec, prepared.lights, usesGBuffer(technique))) {
+    for (graph::Plan::LeftOut& item : frame::leftOut(scene, prepared.spec, prepared.lights, techniqueTable()[std::size_t(technique)].usesGBuffer)) {
         plan.leftOut.push_back(std::move(item));
     }
     addChoices(plan, scene, prepared);

@@ -14,9 +14,9 @@ using namespace passes;
 using graph::TextureHandle;
 
 constexpr TechniqueInfo kTechniques[] = {
-    {Technique::Forward, "forward", "shaded as it is rasterised", "every fragment loops over all lights; the baseline"},
-    {Technique::ForwardPrepass, "forward_prepass", "depth first, then equal depth only", "each visible pixel once, all lights"},
-    {Technique::Deferred, "deferred", "G-buffer", "full screen, each covered pixel once, all lights"},
+    {Technique::Forward, "forward", "shaded as it is rasterised", "every fragment loops over all lights; the baseline", false},
+    {Technique::ForwardPrepass, "forward_prepass", "depth first, then equal depth only", "each visible pixel once, all lights", false},
+    {Technique::Deferred, "deferred", "G-buffer", "full screen, each covered pixel once, all lights", true},
 };
 
 /// Declares passes and notes their programs as it goes.

@@ -16,6 +16,7 @@ struct TechniqueInfo {
     std::string_view name;
     std::string_view geometry; ///< what is rasterised, in words
     std::string_view lighting; ///< who lights what, in words
+    bool usesGBuffer;
 };
 std::span<const TechniqueInfo> techniqueTable();
 

@@ -1,0 +1,24 @@
+#pragma once
+#include <CLI/CLI.hpp>
+
+#include "apps/Options.h"
+
+/// The program's commands. Each adds itself to the command line with its help and leaves its work in `run`, which main() calls
+/// once the line is parsed; the result is the exit code.
+namespace tessera::app {
+
+using Run = std::function<int()>;
+
+void addScenesCommand(CLI::App& app, Run& run);
+void addRenderCommand(CLI::App& app, const GlobalOptions& global, Run& run);
+void addCompareCommand(CLI::App& app, const GlobalOptions& global, Run& run);
+void addPlanCommand(CLI::App& app, const GlobalOptions& global, Run& run);
+void addDemoCommand(CLI::App& app, const GlobalOptions& global, Run& run);
+
+/// Exit codes of the documented command line.
+inline constexpr int kGood = 0;
+inline constexpr int kFailed = 1;
+inline constexpr int kBadInput = 2;
+inline constexpr int kToleranceMissed = 3;
+
+} // namespace tessera::app

@@ -1,0 +1,51 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "passes/recipes/Techniques.h"
+#include "renderer/frame/FrameSettings.h"
+#include "renderer/gpu/Context.h"
+#include "scenes/Load.h"
+
+/// What the command line says, and its translation into the library's terms. Every name is looked up in the library's tables, so
+/// an error can list what there is.
+namespace tessera::app {
+
+/// Options of the program itself, before or after the command.
+struct GlobalOptions {
+    bool quiet = false;
+    bool verbose = false;
+    std::string context = "auto";
+};
+void addGlobalOptions(CLI::App& app, GlobalOptions& options);
+gpu::ContextKind contextKind(const std::string& name);
+std::unique_ptr<gpu::Context> makeContext(const GlobalOptions& options);
+
+/// Options that every command that looks at a frame shares. Unset ones take what the scene asks for, else the default.
+struct FrameOptions {
+    std::string scene;
+    std::optional<std::string> technique, layout, camera, view, toneMap, size, filter, space, prune, specular;
+    std::optional<float> exposureEV;
+    std::optional<double> timeSeconds;
+    std::optional<int> lights, solo;
+    bool noDefaultLight = false;
+};
+void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string& defaultScene);
+
+/// A scene and how to look at it.
+struct Request {
+    scenes::Scene scene;
+    recipes::Technique technique = recipes::Technique::Deferred;
+    frame::FrameSettings settings;
+    std::string layoutName;
+};
+/// Loads the scene, warns of what it lacks, and resolves every name. Throws InputError.
+Request resolve(const FrameOptions& options);
+
+recipes::Technique techniqueNamed(const std::string& name);
+glm::ivec2 sizeNamed(const std::string& text);
+
+} // namespace tessera::app

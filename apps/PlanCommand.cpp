@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+
+#include "apps/Commands.h"
+#include "passes/recipes/Renderer.h"
+#include "validation/AtomicFile.h"
+#include "validation/Measure.h"
+
+namespace tessera::app {
+
+namespace {
+
+struct PlanOptions {
+    FrameOptions frame;
+    std::string json, dot;
+    bool measure = false;
+};
+
+int plan(const PlanOptions& options, const GlobalOptions& global) {
+    const Request request = resolve(options.frame);
+    graph::Plan plan = recipes::planFrame(request.scene, request.technique, request.settings);
+    if (options.measure) {
+        const std::unique_ptr<gpu::Context> context = makeContext(global);
+        recipes::Renderer renderer(*context, request.scene);
+        validation::measurePlan(plan, renderer, request.technique, request.settings);
+    }
+    if (!options.json.empty()) validation::writeFileAtomically(options.json, graph::planJson(plan));
+    if (!options.dot.empty()) validation::writeFileAtomically(options.dot, graph::planDot(plan));
+    fmt::print("{}", graph::planText(plan));
+    return kGood;
+}
+
+} // namespace
+
+void addPlanCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
+    CLI::App* command = app.add_subcommand("plan", "Tells what a frame runs, what it leaves out and why, and what it costs");
+    auto options = std::make_shared<PlanOptions>();
+    addFrameOptions(*command, options->frame, "");
+    command->add_option("--json", options->json, "Writes the plan as JSON")->type_name("FILE");
+    command->add_option("--dot", options->dot, "Writes the graph for Graphviz (dot -Tsvg FILE)")->type_name("FILE");
+    command->add_flag("--measure", options->measure, "Draws frames to fill in milliseconds");
+    command->callback([options, &global, &run] { run = [options, &global] { return plan(*options, global); }; });
+}
+
+} // namespace tessera::app

@@ -1,0 +1,96 @@
+#include "validation/TechniqueCompare.h"
+
+#include <fmt/format.h>
+
+#include "validation/PictureFile.h"
+#include "validation/Rendering.h"
+
+namespace tessera::validation {
+
+namespace {
+
+using recipes::Technique;
+
+std::string nameOf(Technique technique) { return std::string(recipes::techniqueTable()[std::size_t(technique)].name); }
+
+NamedPicture rendered(recipes::Renderer& renderer, Technique technique, const frame::FrameSettings& settings) {
+    const recipes::RenderedFrame frame = renderer.render(technique, settings);
+    return {nameOf(technique), toPicture(frame), toDisplayImage(frame)};
+}
+
+NamedPicture truthPicture(recipes::Renderer& renderer, const CompareRequest& request) {
+    if (const auto* technique = std::get_if<Technique>(&request.against)) {
+        NamedPicture truth = rendered(renderer, *technique, request.settings);
+        request.renderedOne();
+        return truth;
+    }
+    const std::string& path = std::get<std::string>(request.against);
+    NamedPicture truth{path, readPicture(path), {}};
+    truth.display = displayOf(truth.picture);
+    return truth;
+}
+
+bool isPacked(const frame::GBufferLayout& layout) { return !(layout == frame::layoutTable()[0].layout); }
+
+/// The error that each stored channel causes: what is left of the pair's relMse when that channel alone is fp32.
+std::vector<ChannelShare> channelShares(recipes::Renderer& renderer, const CompareRequest& request, Technique technique,
+                                        const Picture& truth, double relMse) {
+    std::vector<ChannelShare> shares;
+    const frame::FeatureSet features =
+        request.settings.prune ? frame::materialFeatures(renderer.scene()) : frame::allFeatures();
+    for (const frame::Channel channel : frame::neededChannels(features, false)) {
+        frame::FrameSettings settings = request.settings;
+        settings.layout.encoding[std::size_t(channel)] = frame::Encoding::Exact;
+        const Picture picture = toPicture(renderer.render(technique, settings));
+        const double without = errorFigures(picture, truth).relMse;
+        shares.push_back({std::string(frame::channelTable()[std::size_t(channel)].name), without, relMse - without});
+    }
+    return shares;
+}
+
+} // namespace
+
+std::size_t pictureCount(const CompareRequest& request) {
+    return request.techniques.size() + (std::holds_alternative<Technique>(request.against) ? 1 : 0);
+}
+
+Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout, bool isSoftware) {
+    Tolerance tolerance;
+    if (recipes::techniqueTable()[std::size_t(technique)].usesGBuffer && isPacked(layout)) {
+        tolerance.relMse = 1e-4;
+        tolerance.reason = "the packed layout's bound: quantised albedo and roughness cost 2 to 7e-5";
+    } else if (isSoftware) {
+        tolerance.bitEqual = 1.0;
+        tolerance.maxRel = 0.0;
+        tolerance.reason = "one lighting source, fp32 throughout and no contraction: software rasterisers agree to the last bit";
+    } else {
+        tolerance.maxRel = 1e-5;
+        tolerance.reason = "a hardware compiler may contract two programs differently: some 100 roundings of 2^-24";
+    }
+    return tolerance;
+}
+
+CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request) {
+    CompareResult result;
+    result.truth = truthPicture(renderer, request);
+    result.record.scene = renderer.scene().name;
+    result.record.width = request.settings.sizePixels.x;
+    result.record.height = request.settings.sizePixels.y;
+    result.record.renderer = gl.renderer;
+    for (const Technique technique : request.techniques) {
+        NamedPicture picture = rendered(renderer, technique, request.settings);
+        requireSameSize(picture.picture, picture.name, result.truth.picture, result.truth.name);
+        const Tolerance tolerance =
+            request.tolerance ? *request.tolerance : pairTolerance(technique, request.settings.layout, gl.isSoftware);
+        ComparePair pair = comparePair(picture.name, picture.picture, result.truth.name, result.truth.picture, tolerance);
+        if (recipes::techniqueTable()[std::size_t(technique)].usesGBuffer && isPacked(request.settings.layout)) {
+            pair.channels = channelShares(renderer, request, technique, result.truth.picture, pair.figures.relMse);
+        }
+        result.record.pairs.push_back(std::move(pair));
+        result.pictures.push_back(std::move(picture));
+        request.renderedOne();
+    }
+    return result;
+}
+
+} // namespace tessera::validation
