@@ -33,10 +33,9 @@ std::string headline(const Plan& plan) {
     const auto count = [](std::size_t number, const char* one, const char* many) {
         return fmt::format("{} {}", number, number == 1 ? one : many);
     };
-    return fmt::format("{}{} {}, {} left out, {} of memory ({} without aliasing)",
-                       subject.empty() ? "" : subject + ": ", count(plan.passes.size(), "pass", "passes"),
-                       plan.passes.size() == 1 ? "runs" : "run", count(plan.leftOut.size(), "thing", "things"),
-                       readableBytes(plan.bytes), readableBytes(plan.bytesWithoutAliasing));
+    return fmt::format("{}{} {}, {} left out", subject.empty() ? "" : subject + ": ",
+                       count(plan.passes.size(), "pass", "passes"), plan.passes.size() == 1 ? "runs" : "run",
+                       count(plan.leftOut.size(), "thing", "things"));
 }
 
 std::string runs(const Plan& plan) {
@@ -93,7 +92,8 @@ std::string sizeOf(const Plan::Resource& resource) {
 
 /// "1-3", with a bar that shows it on the row of passes.
 std::string lifetime(const Plan::Resource& resource, std::size_t passes) {
-    const std::string numbers = fmt::format("{:>2}-{:<2}", resource.first, resource.last);
+    const std::size_t digits = std::to_string(passes).size();
+    const std::string numbers = fmt::format("{:>{}}-{:<{}}", resource.first, digits, resource.last, digits);
     if (passes > kLongestBar) return numbers;
     std::string bar(passes, '.');
     for (int i = std::max(resource.first, 0); i <= resource.last && i < int(passes); ++i) bar[std::size_t(i)] = '#';
@@ -128,6 +128,8 @@ std::string counters(const Plan& plan) {
 std::string planText(const Plan& plan) {
     std::string text;
     for (const std::string& line : wrapText(headline(plan), kWidth)) text += line + "\n";
+    text += fmt::format("{} of memory, {} without aliasing\n", readableBytes(plan.bytes),
+                        readableBytes(plan.bytesWithoutAliasing));
     const auto section = [&](const char* title, bool empty, const std::string& table) {
         if (!empty) text += fmt::format("\n{}\n{}", title, table);
     };
