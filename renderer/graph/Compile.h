@@ -7,8 +7,8 @@
 
 namespace tessera::graph {
 
-/// What GL must be told before a pass because an earlier one wrote through an image or a storage buffer; a bit set that the
-/// backend turns into glMemoryBarrier bits.
+/// What GL must be told before a pass because an earlier one wrote through an image or a storage buffer; a bit set that
+/// the backend turns into glMemoryBarrier bits (the rule: Barriers.h).
 enum class Barrier : std::uint32_t {
     None = 0,
     TextureFetch = 1u << 0,
@@ -18,8 +18,12 @@ enum class Barrier : std::uint32_t {
     Framebuffer = 1u << 4,
     TransferOrUpdate = 1u << 5
 };
-constexpr Barrier operator|(Barrier a, Barrier b) { return Barrier(std::uint32_t(a) | std::uint32_t(b)); }
-constexpr Barrier operator&(Barrier a, Barrier b) { return Barrier(std::uint32_t(a) & std::uint32_t(b)); }
+constexpr Barrier operator|(Barrier a, Barrier b) {
+    return Barrier(std::uint32_t(a) | std::uint32_t(b));
+}
+constexpr Barrier operator&(Barrier a, Barrier b) {
+    return Barrier(std::uint32_t(a) & std::uint32_t(b));
+}
 
 struct CompiledPass {
     std::uint32_t pass; ///< index into Graph::passes()
@@ -29,20 +33,22 @@ struct CompiledPass {
 struct CompiledResource {
     std::uint32_t resource; ///< index into Graph::resources()
     std::size_t bytes = 0;
-    int first = -1;   ///< position in CompiledGraph::order of the first use; -1: unused
-    int last = -1;    ///< position of the last use
-    int physical = -1;///< index of the allocation it lives in; -1 for imported and unused resources
-    int aliasOf = -1; ///< the resource (index) that first used that allocation, or -1 when this one did
+    int first = -1;    ///< position in CompiledGraph::order of the first use; -1: unused
+    int last = -1;     ///< position of the last use; outputs live to the end of the frame
+    int physical = -1; ///< index of the allocation it lives in; -1 for imported and unused resources
+    int aliasOf = -1;  ///< the resource (index) that first used that allocation, or -1 when this one did
 };
 
 struct Culled {
     std::uint32_t pass;
-    std::string why; ///< plain words, naming the outputs that nobody needs
+    std::string why;          ///< plain words, naming the outputs that nobody needs
+    std::uint32_t before = 0; ///< position in CompiledGraph::order of the pass it would have run before
 };
 
 struct CompiledGraph {
     std::vector<CompiledPass> order;
-    std::vector<Culled> culled;
+    Barrier after = Barrier::None; ///< once all have run, for whoever uses outputs, imports or the allocations next
+    std::vector<Culled> culled;    ///< in the order in which they would have run
     std::vector<CompiledResource> resources; ///< parallel to Graph::resources()
     std::vector<ResourceDesc> allocations;   ///< what a backend must provide, by CompiledResource::physical
     std::size_t bytes = 0;                   ///< with aliasing, imported resources left out
@@ -54,9 +60,10 @@ struct CompileOptions {
     bool alias = true; ///< off: every transient has an allocation of its own
 };
 
-/// Validates, culls, orders (declaration order wherever data flow allows), computes lifetimes and aliases transients of equal
-/// shape. Throws GraphError with every fault at once: cycle, stale handle, missing producer, expectation not met, two
-/// writers of one version, invalid handle, unfit access, attachments of one pass that differ in size or samples.
+/// Validates, orders (declaration order wherever data flow allows), culls, computes lifetimes, aliases transients of
+/// equal shape and places barriers. Throws GraphError with every fault at once: cycle, stale handle, missing producer,
+/// expectation not met, two writers of one version, invalid handle, unfit access, attachments of one pass that differ
+/// in size or samples.
 CompiledGraph compile(const Graph& graph, const CompileOptions& options = {});
 
 } // namespace tessera::graph

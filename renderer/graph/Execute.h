@@ -17,6 +17,9 @@ public:
     /// Opens debug group and timers of a pass, after the barrier; `endPass` closes them, also when the pass throws.
     virtual void beginPass(std::string_view name, Barrier barrier) = 0;
     virtual void endPass(std::string_view name) = 0;
+    /// Issues CompiledGraph::after when every pass has run. By default a pass of its own, "end of frame", where there
+    /// is a barrier to issue.
+    virtual void endFrame(Barrier barrier);
 };
 
 /// The outside resources behind Graph::import().
@@ -29,23 +32,34 @@ struct ImportedBuffer {
     const gpu::Buffer* buffer;
 };
 
-/// Where a graph's resources are while (and after) it runs.
+/// Where a graph's resources are while (and after) it runs. Graph, compiled graph, backend and imported resources must
+/// outlive it.
 class Execution {
 public:
+    /// Throws std::logic_error when a resource that the frame imports and uses is not given.
     Execution(const Graph& graph, const CompiledGraph& compiled, Backend& backend,
               std::span<const ImportedTexture> textures = {}, std::span<const ImportedBuffer> buffers = {});
-    /// Runs every pass of the plan in order.
+    /// Runs every pass of the plan in order. What a pass throws is thrown on with the pass's name in front: as
+    /// InputError or std::logic_error where it was one, else as std::runtime_error, the original nested inside.
     void run();
-    /// A resource after run(); only outputs and imported ones still hold what was written.
+    /// A resource after run(): an output or an imported one, since only these still hold what was written; any other is
+    /// a std::logic_error.
     const gpu::Texture& texture(TextureHandle handle) const;
     const gpu::Buffer& buffer(BufferHandle handle) const;
 
 private:
+    class Context;
+    const gpu::Texture& resolve(TextureHandle handle) const;
+    const gpu::Buffer& resolve(BufferHandle handle) const;
+    void requireKept(std::uint32_t resource, std::uint32_t version, bool isTexture) const;
+    void runPass(const CompiledPass& compiledPass);
+
     const Graph& graph_;
     const CompiledGraph& compiled_;
     Backend& backend_;
-    std::vector<ImportedTexture> importedTextures_;
-    std::vector<ImportedBuffer> importedBuffers_;
+    std::vector<const gpu::Texture*> importedTextures_; ///< by resource
+    std::vector<const gpu::Buffer*> importedBuffers_;   ///< by resource
+    bool hasRun_ = false;
 };
 
 } // namespace tessera::graph

@@ -1,66 +1,22 @@
 #pragma once
-#include <any>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <variant>
+#include <utility>
 #include <vector>
 
-#include "renderer/graph/Format.h"
+#include "renderer/graph/Resource.h"
 
 /// Declaration of a frame: passes, the resources they read and write, nothing of OpenGL. A recipe declares, compile()
-/// (Compile.h) checks and plans, execute() (Execute.h) runs the plan on a Backend.
+/// (Compile.h) checks and plans, an Execution (Execute.h) runs the plan on a Backend.
 namespace tessera::gpu {
 class Texture;
 class Buffer;
 } // namespace tessera::gpu
 
 namespace tessera::graph {
-
-struct TextureDesc {
-    Format format = Format::Rgba32Float;
-    int width = 0;  ///< texels
-    int height = 0; ///< texels
-    int samples = 1;
-    bool operator==(const TextureDesc&) const = default;
-};
-
-struct BufferDesc {
-    std::size_t bytes = 0;
-    bool operator==(const BufferDesc&) const = default;
-};
-
-using ResourceDesc = std::variant<TextureDesc, BufferDesc>;
-std::size_t descBytes(const ResourceDesc& desc);
-
-/// Names one version of a resource: writing gives a new version, and the old handle is stale from then on.
-template <typename Tag>
-struct Handle {
-    static constexpr std::uint32_t kInvalid = 0xffffffffu;
-    std::uint32_t resource = kInvalid;
-    std::uint32_t version = 0;
-    explicit operator bool() const { return resource != kInvalid; }
-    bool operator==(const Handle&) const = default;
-};
-using TextureHandle = Handle<struct TextureTag>;
-using BufferHandle = Handle<struct BufferTag>;
-
-enum class Access : std::uint8_t {
-    Sampled,         ///< texture() or texelFetch()
-    ColorAttachment, ///< write: rasterised into
-    DepthAttachment, ///< write: depth-tested and written
-    DepthTest,       ///< read: depth-tested, not written; may be sampled as well
-    ImageRead,
-    ImageWrite,
-    UniformRead,
-    StorageRead,
-    StorageWrite,
-    TexelRead, ///< buffer texture
-    Download,  ///< read back or copied from
-    Upload     ///< write: by the CPU or copied to
-};
 
 class Graph;
 
@@ -78,7 +34,8 @@ public:
     TextureHandle write(TextureHandle handle, Access access = Access::ColorAttachment);
     BufferHandle write(BufferHandle handle, Access access = Access::StorageWrite);
 
-    /// States what this pass needs of a texture it uses; a difference is a fault of compile().
+    /// States what this pass needs of a texture it uses; a difference is a fault of compile(). A width, height or
+    /// sample count of 0 stands for any.
     void expect(TextureHandle handle, const TextureDesc& desc);
 
     /// Keeps the pass though nobody needs its outputs (it reports, downloads, presents).
@@ -104,9 +61,10 @@ public:
     struct Use {
         std::uint32_t resource;
         std::uint32_t version; ///< the version read, or the version that the write produced
+        std::uint32_t handed;  ///< the version of the handle that was passed
         Access access;
         bool isWrite;
-        bool isTexture; ///< the kind of the handle that was passed
+        bool isTexture;     ///< the kind of the handle that was passed
         bool stale = false; ///< a write that was handed a version other than the newest
     };
     struct Expectation {
@@ -132,15 +90,17 @@ public:
     Graph(Graph&&) noexcept;
     Graph& operator=(Graph&&) noexcept;
 
-    /// Declares a pass: `setup(PassBuilder&, Data&)` fills Data with handles at once, `execute(const Data&, const PassContext&)`
-    /// runs later, if the pass is not culled. Returns the filled Data, the pass's typed outputs.
+    /// Declares a pass: `setup(PassBuilder&, Data&)` fills Data with handles at once, `execute(const Data&, const
+    /// PassContext&)` runs later, if the pass is not culled. Returns the filled Data, the pass's typed outputs.
     template <typename Data, typename Setup, typename Execute>
     Data addPass(std::string name, Setup&& setup, Execute&& execute) {
         const std::uint32_t pass = beginPass(std::move(name));
         PassBuilder builder(*this, pass);
         auto data = std::make_shared<Data>();
         setup(builder, *data);
-        passes_[pass].execute = [data, run = std::forward<Execute>(execute)](const PassContext& context) { run(*data, context); };
+        passes_[pass].execute = [data, run = std::forward<Execute>(execute)](const PassContext& context) {
+            run(*data, context);
+        };
         return *data;
     }
 

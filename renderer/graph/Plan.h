@@ -8,20 +8,24 @@
 
 namespace tessera::graph {
 
-/// What `tessera plan` tells of a frame: what runs, what was left out and why, and what it costs in bytes. The JSON is the
-/// `plan` record of the command line's documentation (schema kPlanSchema).
+/// What `tessera plan` tells of a frame: what runs, what was left out and why, and what it costs in bytes. The JSON is
+/// the `plan` record of the command line's documentation (schema kPlanSchema).
 struct Plan {
     struct Pass {
         std::string name;
         std::vector<std::string> reads;
-        std::vector<std::string> writes;
+        std::vector<std::string> writes; ///< made by this pass, or added to
         std::optional<double> ms;
+        std::string barrier = {}; ///< in words, what GL must make visible before the pass; empty: nothing
     };
     struct LeftOut {
         std::string what;
         std::string why;
-        std::size_t bytes = 0;
+        std::size_t bytes = 0; ///< saved
         std::optional<double> ms;
+        std::vector<std::string> reads = {}; ///< of a pass; empty for anything else
+        std::vector<std::string> writes = {};
+        std::size_t before = 0; ///< index of the pass that a pass would have run before
     };
     struct Choice {
         std::string what;
@@ -37,6 +41,8 @@ struct Plan {
         int first = -1; ///< index into passes
         int last = -1;
         std::string aliasOf; ///< empty: none
+        int samples = 1;
+        bool imported = false; ///< not counted in the sums of bytes
     };
     std::string scene;
     std::string technique;
@@ -50,11 +56,15 @@ struct Plan {
 };
 inline constexpr int kPlanSchema = 1;
 
-/// The graph's share of a plan: passes, resources, bytes, and the culled passes among leftOut.
+/// The graph's share of a plan: passes, resources in use, bytes, and the culled passes among leftOut. Resources of the
+/// same name are told apart by a number, "blur", "blur (2)".
 Plan makePlan(const Graph& graph, const CompiledGraph& compiled);
 
 std::string planText(const Plan& plan); ///< for people, tables that fit 100 columns
-std::string planJson(const Plan& plan);
-std::string planDot(const Plan& plan); ///< Graphviz: passes as boxes, resources as ellipses
+std::string planJson(const Plan& plan); ///< bytes that are not UTF-8 are replaced
+std::string planDot(const Plan& plan);  ///< Graphviz: passes as boxes, resources as ellipses, left-out things dashed
+
+/// "512 B", "3.5 MiB", "100 GiB": binary units, one decimal below 100.
+std::string readableBytes(std::size_t bytes);
 
 } // namespace tessera::graph

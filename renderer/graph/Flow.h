@@ -1,0 +1,29 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "renderer/graph/Graph.h"
+
+namespace tessera::graph {
+
+/// Who makes and who reads each version of each resource. Uses of handles that name no resource are left out, so that a
+/// faulty graph can be looked at as well.
+class Flow {
+public:
+    explicit Flow(const Graph& graph);
+    /// The pass whose write made this version; none for version 0 and for versions that do not exist.
+    std::optional<std::uint32_t> writer(std::uint32_t resource, std::uint32_t version) const;
+    /// The passes that read this version, in declaration order, each once.
+    std::span<const std::uint32_t> readers(std::uint32_t resource, std::uint32_t version) const;
+
+private:
+    struct Version {
+        std::optional<std::uint32_t> writer;
+        std::vector<std::uint32_t> readers;
+    };
+    std::vector<std::vector<Version>> versions_; ///< [resource][version]
+};
+
+} // namespace tessera::graph

@@ -1,0 +1,38 @@
+#include "renderer/graph/Format.h"
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+
+namespace tessera::graph {
+namespace {
+
+constexpr std::array kFormats{
+    FormatInfo{Format::Rgba32Float, "RGBA32F", 16, false, false},
+    FormatInfo{Format::Rgba16Float, "RGBA16F", 8, false, false},
+    FormatInfo{Format::R32Float, "R32F", 4, false, false},
+    FormatInfo{Format::Rgba16Unorm, "RGBA16", 8, false, false},
+    FormatInfo{Format::Rg16Snorm, "RG16_SNORM", 4, false, false},
+    FormatInfo{Format::Rgba8Unorm, "RGBA8", 4, false, false},
+    FormatInfo{Format::Srgb8Alpha8, "SRGB8_ALPHA8", 4, false, false},
+    FormatInfo{Format::Rg16Uint, "RG16UI", 4, false, true},
+    FormatInfo{Format::R32Uint, "R32UI", 4, false, true},
+    FormatInfo{Format::R8Uint, "R8UI", 1, false, true},
+    FormatInfo{Format::Depth32Float, "D32F", 4, true, false},
+};
+
+constexpr bool isInOrderOfTheEnum() {
+    for (std::size_t i = 0; i < kFormats.size(); ++i)
+        if (kFormats[i].format != Format(i)) return false;
+    return kFormats.size() == std::size_t(Format::Count);
+}
+static_assert(isInOrderOfTheEnum());
+
+} // namespace
+
+const FormatInfo& formatInfo(Format format) {
+    assert(format < Format::Count);
+    return kFormats[std::size_t(format)];
+}
+
+} // namespace tessera::graph

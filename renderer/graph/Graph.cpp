@@ -1,0 +1,131 @@
+#include "renderer/graph/Graph.h"
+
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace tessera::graph {
+namespace {
+
+constexpr std::uint32_t kInvalid = TextureHandle::kInvalid;
+
+template <typename Tag>
+constexpr bool kIsTexture = std::is_same_v<Handle<Tag>, TextureHandle>;
+
+std::string joinFaults(const std::vector<std::string>& faults) {
+    if (faults.size() == 1) return "the render graph is faulty: " + faults.front();
+    std::string text = fmt::format("the render graph has {} faults:", faults.size());
+    for (const std::string& fault : faults) text += "\n" + fault;
+    return text;
+}
+
+template <typename Tag>
+Graph::Use readOf(Handle<Tag> handle, Access access) {
+    return {.resource = handle.resource,
+            .version = handle.version,
+            .handed = handle.version,
+            .access = access,
+            .isWrite = false,
+            .isTexture = kIsTexture<Tag>};
+}
+
+/// Records a write and returns the handle of the version it makes; an unusable handle stays unusable.
+template <typename Tag>
+Handle<Tag> writeTo(std::vector<Graph::Resource>& resources, std::vector<Graph::Use>& uses, Handle<Tag> handle,
+                    Access access) {
+    Graph::Use use = readOf(handle, access);
+    use.isWrite = true;
+    if (handle.resource < resources.size()) {
+        std::uint32_t& newest = resources[handle.resource].newestVersion;
+        use.stale = handle.version != newest;
+        use.version = ++newest;
+    }
+    uses.push_back(use);
+    return {handle.resource, use.version};
+}
+
+} // namespace
+
+std::size_t descBytes(const ResourceDesc& desc) {
+    if (const auto* buffer = std::get_if<BufferDesc>(&desc)) return buffer->bytes;
+    const auto& texture = std::get<TextureDesc>(desc);
+    return std::size_t(texture.width) * std::size_t(texture.height) * std::size_t(texture.samples) *
+           std::size_t(formatInfo(texture.format).bytes);
+}
+
+TextureHandle PassBuilder::create(std::string name, const TextureDesc& desc, Access access) {
+    return write(TextureHandle{graph_.addResource(std::move(name), desc, false), 0}, access);
+}
+
+BufferHandle PassBuilder::create(std::string name, const BufferDesc& desc, Access access) {
+    return write(BufferHandle{graph_.addResource(std::move(name), desc, false), 0}, access);
+}
+
+TextureHandle PassBuilder::read(TextureHandle handle, Access access) {
+    graph_.passes_[pass_].uses.push_back(readOf(handle, access));
+    return handle;
+}
+
+BufferHandle PassBuilder::read(BufferHandle handle, Access access) {
+    graph_.passes_[pass_].uses.push_back(readOf(handle, access));
+    return handle;
+}
+
+TextureHandle PassBuilder::write(TextureHandle handle, Access access) {
+    return writeTo(graph_.resources_, graph_.passes_[pass_].uses, handle, access);
+}
+
+BufferHandle PassBuilder::write(BufferHandle handle, Access access) {
+    return writeTo(graph_.resources_, graph_.passes_[pass_].uses, handle, access);
+}
+
+void PassBuilder::expect(TextureHandle handle, const TextureDesc& desc) {
+    graph_.passes_[pass_].expectations.push_back({handle.resource, desc});
+}
+
+void PassBuilder::keep() {
+    graph_.passes_[pass_].keep = true;
+}
+
+Graph::Graph() = default;
+Graph::~Graph() = default;
+Graph::Graph(Graph&&) noexcept = default;
+Graph& Graph::operator=(Graph&&) noexcept = default;
+
+TextureHandle Graph::import(std::string name, const TextureDesc& desc) {
+    return {addResource(std::move(name), desc, true), 0};
+}
+
+BufferHandle Graph::import(std::string name, const BufferDesc& desc) {
+    return {addResource(std::move(name), desc, true), 0};
+}
+
+void Graph::output(TextureHandle handle) {
+    outputs_.push_back(readOf(handle, Access::Download));
+}
+void Graph::output(BufferHandle handle) {
+    outputs_.push_back(readOf(handle, Access::Download));
+}
+
+const TextureDesc& Graph::desc(TextureHandle handle) const {
+    if (handle.resource == kInvalid) throw std::logic_error("Graph::desc was asked about an invalid texture handle");
+    if (handle.resource >= resources_.size() || !std::holds_alternative<TextureDesc>(resources_[handle.resource].desc))
+        throw std::logic_error("Graph::desc was asked about a texture handle of another graph");
+    return std::get<TextureDesc>(resources_[handle.resource].desc);
+}
+
+std::uint32_t Graph::beginPass(std::string name) {
+    passes_.push_back({.name = std::move(name), .uses = {}, .expectations = {}, .keep = false, .execute = {}});
+    return std::uint32_t(passes_.size() - 1);
+}
+
+std::uint32_t Graph::addResource(std::string name, ResourceDesc desc, bool imported) {
+    resources_.push_back({.name = std::move(name), .desc = std::move(desc), .imported = imported, .newestVersion = 0});
+    return std::uint32_t(resources_.size() - 1);
+}
+
+GraphError::GraphError(std::vector<std::string> faults)
+    : std::runtime_error(joinFaults(faults)), faults_(std::move(faults)) {}
+
+} // namespace tessera::graph

@@ -1,0 +1,182 @@
+#include "renderer/graph/Validate.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "renderer/graph/Access.h"
+
+namespace tessera::graph {
+namespace {
+
+class Validator {
+public:
+    Validator(const Graph& graph, const Flow& flow) : graph_(graph), flow_(flow) {}
+
+    std::vector<std::string> run() {
+        for (std::uint32_t resource = 0; resource < graph_.resources().size(); ++resource) checkShape(resource);
+        for (const Graph::Pass& pass : graph_.passes()) {
+            const std::string subject = fmt::format("pass '{}'", pass.name);
+            for (const Graph::Use& use : pass.uses) {
+                const std::string verb = subject + (use.isWrite ? " writes" : " reads");
+                if (!checkHandle(verb, use.resource, use.isTexture)) continue;
+                checkAccess(verb, use);
+                checkVersion(verb, use);
+            }
+            checkExpectations(subject, pass);
+            checkAttachments(subject, pass);
+        }
+        for (const Graph::Use& output : graph_.outputs()) checkOutput(output);
+        return std::move(faults_);
+    }
+
+private:
+    const Graph::Resource& resource(std::uint32_t index) const { return graph_.resources()[index]; }
+    const std::string& nameOf(const Graph::Use& use) const { return resource(use.resource).name; }
+
+    /// The same fault may show in several places; once is enough.
+    void report(std::string fault) {
+        if (std::find(faults_.begin(), faults_.end(), fault) == faults_.end()) faults_.push_back(std::move(fault));
+    }
+
+    void checkShape(std::uint32_t index) {
+        const Graph::Resource& made = resource(index);
+        const auto creator = flow_.writer(index, 1);
+        const std::string origin = made.imported || !creator
+                                       ? "imported"
+                                       : fmt::format("created by pass '{}'", graph_.passes()[*creator].name);
+        const auto* texture = std::get_if<TextureDesc>(&made.desc);
+        if (texture && (texture->width < 1 || texture->height < 1 || texture->samples < 1))
+            report(fmt::format("texture '{}', {}, is empty ({}): width, height and samples must be at least 1",
+                               made.name, origin, describeSize(made.desc)));
+        if (!texture && descBytes(made.desc) == 0)
+            report(fmt::format("buffer '{}', {}, is empty: it must have at least 1 byte", made.name, origin));
+    }
+
+    bool checkHandle(const std::string& verb, std::uint32_t index, bool isTexture) {
+        const char* kind = isTexture ? "texture" : "buffer";
+        if (index == TextureHandle::kInvalid)
+            report(fmt::format("{} an invalid {} handle: it was default-constructed and never filled in", verb, kind));
+        else if (index >= graph_.resources().size())
+            report(fmt::format("{} a {} handle of another graph: it names no resource of this one", verb, kind));
+        else if (std::holds_alternative<TextureDesc>(resource(index).desc) != isTexture)
+            report(fmt::format("{} '{}' by a {} handle, but it is a {}", verb, resource(index).name, kind,
+                               isTexture ? "buffer" : "texture"));
+        else
+            return true;
+        return false;
+    }
+
+    void checkAccess(const std::string& verb, const Graph::Use& use) {
+        const AccessInfo& info = accessInfo(use.access);
+        if (info.isWrite != use.isWrite) {
+            report(fmt::format("{} '{}' as {}, which is an access for {}", verb, nameOf(use), info.name,
+                               info.isWrite ? "writing; use write()" : "reading; use read()"));
+            return;
+        }
+        const std::string reason = unfitReason(resource(use.resource).desc, use.access);
+        if (!reason.empty()) report(fmt::format("{} '{}' as {}, but {}", verb, nameOf(use), info.name, reason));
+    }
+
+    bool exists(const Graph::Use& use) const {
+        if (use.handed == 0) return resource(use.resource).imported;
+        return use.handed <= resource(use.resource).newestVersion;
+    }
+
+    void checkVersion(const std::string& verb, const Graph::Use& use) {
+        if (use.isWrite && use.stale && use.handed < use.version)
+            report(fmt::format("{} version {} of '{}' by a stale handle: pass '{}' has already written it (two writers "
+                               "of one version); write the handle that pass '{}' returned",
+                               verb, use.handed, nameOf(use), writerName(use.resource, use.handed + 1),
+                               writerName(use.resource, use.version - 1)));
+        else if (use.isWrite && use.stale)
+            report(fmt::format("{} version {} of '{}' before any pass has produced it; declare its producer first",
+                               verb, use.handed, nameOf(use)));
+        else if (!use.isWrite && !exists(use))
+            report(fmt::format("{} version {} of '{}', which no pass produces", verb, use.handed, nameOf(use)));
+    }
+
+    std::string writerName(std::uint32_t index, std::uint32_t version) const {
+        return graph_.passes()[flow_.writer(index, version).value()].name;
+    }
+
+    void checkExpectations(const std::string& subject, const Graph::Pass& pass) {
+        for (const Graph::Expectation& expectation : pass.expectations) {
+            if (!checkHandle(subject + " expects something of", expectation.resource, true)) continue;
+            const std::string expects =
+                fmt::format("{} expects '{}' to have", subject, resource(expectation.resource).name);
+            const auto& is = std::get<TextureDesc>(resource(expectation.resource).desc);
+            const TextureDesc& wanted = expectation.desc;
+            if (is.format != wanted.format)
+                report(fmt::format("{} format {}, but it has {}", expects, formatInfo(wanted.format).name,
+                                   formatInfo(is.format).name));
+            if ((wanted.width != 0 && is.width != wanted.width) || (wanted.height != 0 && is.height != wanted.height))
+                report(fmt::format("{} size {} x {}, but it has {} x {}", expects, anyOr(wanted.width),
+                                   anyOr(wanted.height), is.width, is.height));
+            if (wanted.samples != 0 && is.samples != wanted.samples)
+                report(fmt::format("{} samples {}, but it has {}", expects, wanted.samples, is.samples));
+        }
+    }
+
+    static std::string anyOr(int size) { return size == 0 ? "any" : std::to_string(size); }
+
+    /// One framebuffer: equal size and samples, one depth texture, nothing attached twice, nothing sampled that is
+    /// drawn into (a feedback loop, undefined by the OpenGL 4.5 core specification, section 9.3.1).
+    void checkAttachments(const std::string& subject, const Graph::Pass& pass) {
+        const Graph::Use* first = nullptr;
+        const Graph::Use* depth = nullptr;
+        for (const Graph::Use& use : pass.uses) {
+            if (!isAttachment(use.access) || !isUsableTexture(use)) continue;
+            const auto& desc = std::get<TextureDesc>(resource(use.resource).desc);
+            if (!first) first = &use;
+            const auto& reference = std::get<TextureDesc>(resource(first->resource).desc);
+            if (desc.width != reference.width || desc.height != reference.height || desc.samples != reference.samples)
+                report(fmt::format("{} attaches '{}' ({}) and '{}' ({}), which must be equal in size and samples",
+                                   subject, nameOf(*first), describeSize(reference), nameOf(use), describeSize(desc)));
+            if (use.access != Access::ColorAttachment) {
+                if (depth && depth->resource != use.resource)
+                    report(fmt::format("{} attaches two depth textures, '{}' and '{}'", subject, nameOf(*depth),
+                                       nameOf(use)));
+                depth = &use;
+            }
+            if (use.isWrite) checkAlone(subject, pass, use);
+        }
+    }
+
+    void checkAlone(const std::string& subject, const Graph::Pass& pass, const Graph::Use& attached) {
+        for (const Graph::Use& other : pass.uses) {
+            if (&other == &attached || other.resource != attached.resource) continue;
+            if (other.isWrite && isAttachment(other.access))
+                report(fmt::format("{} attaches '{}' twice", subject, nameOf(attached)));
+            if (other.access == Access::Sampled)
+                report(fmt::format("{} samples '{}' while it draws into it", subject, nameOf(attached)));
+        }
+    }
+
+    bool isUsableTexture(const Graph::Use& use) const {
+        return use.resource < graph_.resources().size() &&
+               std::holds_alternative<TextureDesc>(resource(use.resource).desc);
+    }
+
+    void checkOutput(const Graph::Use& output) {
+        if (!checkHandle("the frame outputs", output.resource, output.isTexture)) return;
+        if (!exists(output))
+            report(fmt::format("the frame outputs version {} of '{}', which no pass produces", output.version,
+                               nameOf(output)));
+        else if (output.version < resource(output.resource).newestVersion)
+            report(fmt::format("the frame outputs version {} of '{}' by a stale handle: pass '{}' writes over it",
+                               output.version, nameOf(output), writerName(output.resource, output.version + 1)));
+    }
+
+    const Graph& graph_;
+    const Flow& flow_;
+    std::vector<std::string> faults_;
+};
+
+} // namespace
+
+std::vector<std::string> findFaults(const Graph& graph, const Flow& flow) {
+    return Validator(graph, flow).run();
+}
+
+} // namespace tessera::graph

@@ -1,0 +1,143 @@
+#include <gmock/gmock.h>
+
+#include "Frames.h"
+
+namespace tessera::graph::test {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<Barrier> barriersOf(const CompiledGraph& compiled) {
+    std::vector<Barrier> barriers;
+    for (const CompiledPass& pass : compiled.order) barriers.push_back(pass.before);
+    return barriers;
+}
+
+TextureHandle imageStore(Graph& graph, const std::string& pass, const std::string& name) {
+    TextureHandle handle;
+    declare(graph, pass, [&](PassBuilder& builder) { handle = builder.create(name, kColor, Access::ImageWrite); });
+    return handle;
+}
+
+BufferHandle bufferStore(Graph& graph, const std::string& pass, const std::string& name) {
+    BufferHandle handle;
+    declare(graph, pass, [&](PassBuilder& builder) { handle = builder.create(name, kBytes); });
+    return handle;
+}
+
+template <typename HandleType>
+void readKept(Graph& graph, HandleType handle, Access access) {
+    declare(graph, "read", [&](PassBuilder& builder) {
+        builder.read(handle, access);
+        builder.keep();
+    });
+}
+
+TEST(Barriers, rasterisedFrameNeverNeedsOne) {
+    Graph graph;
+    const TextureHandle depth = draw(graph, "prepass", "depth", {}, kDepth);
+    const TextureHandle a = draw(graph, "gbuffer", "a", {depth});
+    const TextureHandle b = draw(graph, "lighting", "b", {a});
+    graph.output(blend(graph, "fog", b, {depth}));
+    const CompiledGraph compiled = compile(graph);
+    EXPECT_THAT(barriersOf(compiled), ElementsAre(Barrier::None, Barrier::None, Barrier::None, Barrier::None));
+    EXPECT_EQ(compiled.after, Barrier::None);
+}
+
+TEST(Barriers, bitIsAlwaysThatOfTheLaterAccessToATexture) {
+    const std::vector<std::pair<Access, Barrier>> kCases{
+        {Access::Sampled, Barrier::TextureFetch},
+        {Access::ImageRead, Barrier::ShaderImage},
+        {Access::Download, Barrier::TransferOrUpdate | Barrier::Framebuffer}};
+    for (const auto& [access, expected] : kCases) {
+        Graph graph;
+        readKept(graph, imageStore(graph, "store", "image"), access);
+        EXPECT_EQ(compile(graph).order[1].before, expected);
+    }
+    for (const auto& [access, expected] :
+         std::vector<std::pair<Access, Barrier>>{{Access::ColorAttachment, Barrier::Framebuffer},
+                                                 {Access::ImageWrite, Barrier::ShaderImage},
+                                                 {Access::Upload, Barrier::TransferOrUpdate | Barrier::Framebuffer}}) {
+        Graph graph;
+        const TextureHandle image = imageStore(graph, "store", "image");
+        declare(graph, "write", [&](PassBuilder& builder) { graph.output(builder.write(image, access)); });
+        EXPECT_EQ(compile(graph).order[1].before, expected);
+    }
+}
+
+TEST(Barriers, bitIsAlwaysThatOfTheLaterAccessToABuffer) {
+    for (const auto& [access, expected] : std::vector<std::pair<Access, Barrier>>{
+             {Access::UniformRead, Barrier::Uniform},
+             {Access::StorageRead, Barrier::ShaderStorage},
+             {Access::TexelRead, Barrier::TextureFetch},
+             {Access::Download, Barrier::TransferOrUpdate | Barrier::Framebuffer}}) {
+        Graph graph;
+        readKept(graph, bufferStore(graph, "store", "lists"), access);
+        EXPECT_EQ(compile(graph).order[1].before, expected);
+    }
+}
+
+TEST(Barriers, bitIsNeverRepeatedUntilTheNextStore) {
+    Graph graph;
+    const BufferHandle lists = bufferStore(graph, "cull", "lists");
+    readKept(graph, lists, Access::StorageRead);
+    readKept(graph, lists, Access::StorageRead);
+    readKept(graph, lists, Access::TexelRead);
+    BufferHandle again;
+    declare(graph, "again", [&](PassBuilder& builder) { again = builder.write(lists); });
+    readKept(graph, again, Access::StorageRead);
+    EXPECT_THAT(barriersOf(compile(graph)),
+                ElementsAre(Barrier::ShaderStorage, Barrier::ShaderStorage, Barrier::None, Barrier::TextureFetch,
+                            Barrier::ShaderStorage, Barrier::ShaderStorage));
+}
+
+TEST(Barriers, oneBitAlwaysServesEveryStoreBeforeIt) {
+    Graph graph;
+    const TextureHandle a = imageStore(graph, "a", "a");
+    const TextureHandle b = imageStore(graph, "b", "b");
+    consume(graph, "read a", {a});
+    consume(graph, "read b", {b});
+    EXPECT_THAT(barriersOf(compile(graph)),
+                ElementsAre(Barrier::ShaderImage, Barrier::None, Barrier::TextureFetch, Barrier::None));
+}
+
+TEST(Barriers, storeAfterAFetchAlwaysWaitsForIt) {
+    Graph graph;
+    const BufferHandle uploaded = [&] {
+        BufferHandle handle;
+        declare(graph, "upload",
+                [&](PassBuilder& builder) { handle = builder.create("lights", kBytes, Access::Upload); });
+        return handle;
+    }();
+    readKept(graph, uploaded, Access::TexelRead);
+    declare(graph, "sort", [&](PassBuilder& builder) { graph.output(builder.write(uploaded)); });
+    EXPECT_THAT(barriersOf(compile(graph)), ElementsAre(Barrier::None, Barrier::None, Barrier::ShaderStorage));
+}
+
+TEST(Barriers, tenantsOfOneAllocationAlwaysShareTheirHazards) {
+    Graph graph;
+    const TextureHandle stored = imageStore(graph, "store", "stored");
+    readKept(graph, stored, Access::ImageRead);
+    const TextureHandle drawn = draw(graph, "draw", "drawn");
+    const TextureHandle result = draw(graph, "use", "result", {drawn});
+    graph.output(result);
+    const CompiledGraph aliased = compile(graph);
+    ASSERT_EQ(aliased.resources[drawn.resource].aliasOf, int(stored.resource));
+    EXPECT_THAT(barriersOf(aliased),
+                ElementsAre(Barrier::ShaderImage, Barrier::ShaderImage, Barrier::Framebuffer, Barrier::TextureFetch));
+    EXPECT_THAT(barriersOf(compile(graph, {.cull = true, .alias = false})),
+                ElementsAre(Barrier::ShaderImage, Barrier::ShaderImage, Barrier::None, Barrier::None));
+}
+
+TEST(Barriers, storesAreAlwaysMadeVisibleAfterTheFrame) {
+    Graph graph;
+    const TextureHandle image = imageStore(graph, "store", "image");
+    consume(graph, "show", {image});
+    graph.output(image);
+    const CompiledGraph compiled = compile(graph);
+    EXPECT_EQ(compiled.after & Barrier::TransferOrUpdate, Barrier::TransferOrUpdate);
+    EXPECT_EQ(compiled.after & Barrier::TextureFetch, Barrier::None) << "was issued before 'show'";
+}
+
+} // namespace
+} // namespace tessera::graph::test
