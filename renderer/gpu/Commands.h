@@ -21,7 +21,8 @@ class VertexArray;
 
 /// Binds and sets the viewport to the whole of it; scissoring is switched off.
 void bindFramebuffer(const Framebuffer& framebuffer);
-/// The window's own framebuffer, of this size in pixels.
+/// The window's own framebuffer, of this size in pixels; what is written there is encoded already, nothing is
+/// converted.
 void bindWindowFramebuffer(int width, int height);
 void setViewport(int x, int y, int width, int height);
 /// Restricts draws and clears to a rectangle of pixels (an atlas tile); off with the next bindFramebuffer().
@@ -32,7 +33,8 @@ void clearColor(int attachment, const glm::vec4& color);
 void clearColorUint(int attachment, const glm::uvec4& value);
 void clearDepth(float depth); ///< reverse-Z: 0 is infinitely far
 
-/// Copies (or resolves samples) between framebuffers of equal size: colour attachment 0 and/or depth.
+/// Copies (or resolves samples) between framebuffers of equal size: colour attachment 0 and/or depth. Scissoring is
+/// switched off.
 void blit(const Framebuffer& from, const Framebuffer& to, bool color, bool depth);
 /// Copies colour attachment 0 to the window's framebuffer.
 void blitToWindow(const Framebuffer& from, int windowWidth, int windowHeight);
@@ -58,9 +60,10 @@ void bindStorageBuffer(std::uint32_t slot, const Buffer& buffer, std::size_t off
 
 // ---- Work ----------------------------------------------------------------------------------------------------------
 
-/// One triangle that covers the target, from gl_VertexID alone: vertices 0, 1, 2 of the shader's choice.
+/// One triangle that covers the target, from gl_VertexID alone: vertices 0, 1, 2. Unbinds the vertex array.
 void drawFullscreenTriangle();
-/// `count` vertices (three a triangle) by gl_VertexID alone, `instances` times.
+/// `count` vertices (three a triangle) by gl_VertexID alone, `instances` times. Unbinds the vertex
+/// array.
 void drawVertices(int count, int instances = 1);
 void drawIndexed(std::uint32_t firstIndex, std::uint32_t indexCount, int baseVertex = 0, std::uint32_t baseInstance = 0,
                  std::uint32_t instances = 1);

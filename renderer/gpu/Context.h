@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -43,6 +44,8 @@ public:
     virtual void* windowHandle() const { return nullptr; }
 
     DebugLog& debugLog() { return *debugLog_; }
+    /// The vertex array of draws without vertex buffers; core profiles need one bound.
+    std::uint32_t emptyVertexArray() const { return emptyVertexArray_; }
 
 protected:
     using LoadFunction = void (*(*)(const char* name))();
@@ -57,6 +60,7 @@ private:
     Capabilities capabilities_;
     LoadFunction load_;
     std::unique_ptr<DebugLog> debugLog_;
+    std::uint32_t emptyVertexArray_ = 0;
 };
 
 } // namespace tessera::gpu

@@ -58,7 +58,7 @@ private:
         bool taken = false;
     };
     struct PassRecord {
-        GpuTimer gpuTimer;
+        std::optional<GpuTimer> gpuTimer; ///< absent on software rasterisers
         std::optional<double> profiledMs;
         double cpuMs = 0.0;
     };

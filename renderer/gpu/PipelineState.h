@@ -4,7 +4,7 @@
 namespace tessera::gpu {
 
 /// Depth is reversed: 1 at the near plane, 0 infinitely far; "Greater" passes what is nearer than the stored depth.
-enum class DepthTest : std::uint8_t { Off, Greater, GreaterEqual, Equal, Less, LessEqual };
+enum class DepthTest : std::uint8_t { Off, Greater, GreaterEqual, Equal, Less, LessEqual, Always };
 enum class CullFace : std::uint8_t { None, Back, Front };
 enum class Blend : std::uint8_t {
     None,

@@ -45,6 +45,7 @@ private:
     std::size_t next_ = 0;   ///< slot of the next begin()
     std::size_t oldest_ = 0; ///< first slot that may be pending
     bool open_ = false;
+    bool measuring_ = false;
     std::optional<double> latestMs_;
 };
 

@@ -1,0 +1,65 @@
+#include "renderer/gpu/Buffer.h"
+
+#include <cassert>
+
+#include <fmt/format.h>
+#include <glad/gl.h>
+
+#include "renderer/gpu/Debug.h"
+
+namespace tessera::gpu {
+namespace {
+
+constexpr std::size_t kLeastBytes = 16; // GL has no buffers of no bytes
+
+GLbitfield storageFlags(BufferUse use) {
+    switch (use) {
+    case BufferUse::Static:
+    case BufferUse::Dynamic:
+        return GL_DYNAMIC_STORAGE_BIT;
+    case BufferUse::Readback:
+        return GL_DYNAMIC_STORAGE_BIT | GL_MAP_READ_BIT | GL_CLIENT_STORAGE_BIT;
+    }
+    assert(false);
+    return 0;
+}
+
+} // namespace
+
+Buffer::Buffer(std::string label, std::size_t bytes, BufferUse use)
+    : label_(std::move(label)), bytes_(bytes == 0 ? kLeastBytes : bytes) {
+    throwIfFailed(fmt::format("before creating buffer '{}'", label_));
+    std::uint32_t id = 0;
+    glCreateBuffers(1, &id);
+    id_ = Id(id);
+    try {
+        glNamedBufferStorage(id, GLsizeiptr(bytes_), nullptr, storageFlags(use));
+        throwIfAllocationFailed(fmt::format("buffer '{}'", label_), bytes_);
+        const std::uint8_t zero = 0;
+        glClearNamedBufferData(id, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, &zero);
+        labelObject(LabelKind::Buffer, id, label_);
+        throwIfAllocationFailed(fmt::format("buffer '{}'", label_), bytes_);
+    } catch (...) {
+        glDeleteBuffers(1, &id);
+        throw;
+    }
+}
+
+Buffer::~Buffer() {
+    if (const std::uint32_t id = id_.value()) glDeleteBuffers(1, &id);
+}
+
+void Buffer::uploadBytes(std::span<const std::byte> source, std::size_t offsetBytes) const {
+    assert(offsetBytes + source.size() <= bytes_ && "upload beyond the buffer's end");
+    if (!source.empty())
+        glNamedBufferSubData(id_.value(), GLintptr(offsetBytes), GLsizeiptr(source.size()), source.data());
+}
+
+void Buffer::download(std::span<std::byte> target, std::size_t offsetBytes) const {
+    assert(offsetBytes + target.size() <= bytes_ && "download beyond the buffer's end");
+    if (!target.empty())
+        glGetNamedBufferSubData(id_.value(), GLintptr(offsetBytes), GLsizeiptr(target.size()), target.data());
+    throwIfFailed(fmt::format("reading buffer '{}'", label_));
+}
+
+} // namespace tessera::gpu

@@ -1,0 +1,140 @@
+#include "renderer/gpu/Context.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cctype>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glad/gl.h>
+
+#include "renderer/gpu/ContextWays.h"
+#include "renderer/gpu/Debug.h"
+
+namespace tessera::gpu {
+namespace {
+
+thread_local Context* currentContext = nullptr;
+
+// GL_MAX_TEXTURE_MAX_ANISOTROPY of ARB_texture_filter_anisotropic (core since 4.6).
+constexpr GLenum kMaxTextureMaxAnisotropy = 0x84FF;
+
+std::string text(GLenum name) {
+    const auto* value = reinterpret_cast<const char*>(glGetString(name));
+    return value ? value : "";
+}
+
+GLint64 integer(GLenum name) {
+    GLint64 value = 0;
+    glGetInteger64v(name, &value);
+    return value;
+}
+
+bool hasExtension(std::string_view wanted) {
+    const auto count = integer(GL_NUM_EXTENSIONS);
+    for (GLint64 i = 0; i < count; ++i)
+        if (wanted == reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, GLuint(i)))) return true;
+    return false;
+}
+
+bool isSoftwareRenderer(std::string renderer) {
+    std::transform(renderer.begin(), renderer.end(), renderer.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    constexpr std::array<std::string_view, 4> kNames{"llvmpipe", "softpipe", "swrast", "software rasterizer"};
+    return std::any_of(kNames.begin(), kNames.end(),
+                       [&](std::string_view name) { return renderer.find(name) != std::string::npos; });
+}
+
+void GLAD_API_PTR onDebugMessage(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                                 const GLchar* message, const void* log) {
+    // What the shader compiler says comes back in the program's own log, with ShaderError.
+    if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) return;
+    const std::string_view said =
+        length < 0 ? std::string_view(message) : std::string_view(message, std::size_t(length));
+    static_cast<DebugLog*>(const_cast<void*>(log))->add(type, id, severity, said);
+}
+
+Capabilities readCapabilities(std::string contextWay) {
+    Capabilities capabilities;
+    capabilities.vendor = text(GL_VENDOR);
+    capabilities.renderer = text(GL_RENDERER);
+    capabilities.version = text(GL_VERSION);
+    capabilities.glslVersion = text(GL_SHADING_LANGUAGE_VERSION);
+    capabilities.contextWay = std::move(contextWay);
+    capabilities.isSoftware = isSoftwareRenderer(capabilities.renderer);
+    capabilities.maxTextureBufferTexels = std::size_t(integer(GL_MAX_TEXTURE_BUFFER_SIZE));
+    capabilities.maxUniformBlockBytes = std::size_t(integer(GL_MAX_UNIFORM_BLOCK_SIZE));
+    capabilities.maxStorageBlockBytes = std::size_t(integer(GL_MAX_SHADER_STORAGE_BLOCK_SIZE));
+    capabilities.maxTextureSize = int(integer(GL_MAX_TEXTURE_SIZE));
+    capabilities.maxSamples = int(integer(GL_MAX_COLOR_TEXTURE_SAMPLES));
+    if (hasExtension("GL_ARB_texture_filter_anisotropic") || hasExtension("GL_EXT_texture_filter_anisotropic"))
+        glGetFloatv(kMaxTextureMaxAnisotropy, &capabilities.maxAnisotropy);
+    capabilities.parallelShaderCompile = GLAD_GL_KHR_parallel_shader_compile != 0;
+    return capabilities;
+}
+
+} // namespace
+
+std::unique_ptr<Context> Context::create(const ContextOptions& options) {
+    std::vector<std::string> answers;
+    std::unique_ptr<Context> context;
+    const bool egl = options.kind != ContextKind::Window;
+    const bool window = options.kind != ContextKind::Egl;
+    // A visible picture needs the window; EGL is then the fallback, so that a program still runs without a display.
+    if (window && options.visible) context = createWindowContext(options, answers);
+    if (!context && egl) context = createEglContext(options, answers);
+    if (!context && window && !options.visible) context = createWindowContext(options, answers);
+    if (context) return context;
+    throw std::runtime_error(fmt::format(
+        "no OpenGL 4.5 context can be made ({}); install a driver (Debian: libegl1 libgl1-mesa-dri{}, or the maker's)",
+        fmt::join(answers, "; "), window ? " libglx-mesa0 and a running display for windows" : ""));
+}
+
+Context::Context(std::string contextWay, LoadFunction load) : load_(load), debugLog_(std::make_unique<DebugLog>()) {
+    capabilities_.contextWay = std::move(contextWay);
+}
+
+Context::~Context() {
+    if (currentContext == this) currentContext = nullptr;
+}
+
+void Context::makeCurrent() {
+    if (currentContext == this) return;
+    makeCurrentImpl();
+    // Entry points may differ between drivers, and glad keeps one set.
+    gladLoadGL(load_);
+    currentContext = this;
+}
+
+Context* Context::current() {
+    return currentContext;
+}
+
+void Context::initialise(bool debug) {
+    const int version = gladLoadGL(load_);
+    if (version < GLAD_MAKE_VERSION(4, 5))
+        throw std::runtime_error(fmt::format("it offers OpenGL {}.{}, and 4.5 is needed", GLAD_VERSION_MAJOR(version),
+                                             GLAD_VERSION_MINOR(version)));
+    capabilities_ = readCapabilities(std::move(capabilities_.contextWay));
+    if (debug) {
+        glEnable(GL_DEBUG_OUTPUT);
+        glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+        glDebugMessageCallback(onDebugMessage, debugLog_.get());
+    }
+    if (capabilities_.parallelShaderCompile) glMaxShaderCompilerThreadsKHR(0xffffffffu); // as many as the driver likes
+
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glEnable(GL_FRAMEBUFFER_SRGB);
+    glDisable(GL_DITHER);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glCreateVertexArrays(1, &emptyVertexArray_);
+    currentContext = this;
+    throwIfFailed("while the context was set up");
+}
+
+} // namespace tessera::gpu

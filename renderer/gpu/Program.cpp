@@ -1,0 +1,122 @@
+#include "renderer/gpu/Program.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include <fmt/format.h>
+#include <glad/gl.h>
+
+#include "renderer/gpu/Debug.h"
+
+namespace tessera::gpu {
+namespace {
+
+GLenum glStage(Stage stage) {
+    switch (stage) {
+    case Stage::Vertex:
+        return GL_VERTEX_SHADER;
+    case Stage::Fragment:
+        return GL_FRAGMENT_SHADER;
+    case Stage::Compute:
+        return GL_COMPUTE_SHADER;
+    }
+    assert(false);
+    return GL_NONE;
+}
+
+std::string shaderLog(std::uint32_t shader) {
+    GLint length = 0;
+    glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+    std::string text(std::size_t(std::max(length, 0)), '\0');
+    if (length > 0) glGetShaderInfoLog(shader, length, nullptr, text.data());
+    while (!text.empty() && text.back() == '\0') text.pop_back();
+    return text.empty() ? "the driver gave no reason" : text;
+}
+
+std::string linkLog(std::uint32_t program) {
+    GLint length = 0;
+    glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
+    std::string text(std::size_t(std::max(length, 0)), '\0');
+    if (length > 0) glGetProgramInfoLog(program, length, nullptr, text.data());
+    while (!text.empty() && text.back() == '\0') text.pop_back();
+    return text.empty() ? "the driver gave no reason" : text;
+}
+
+std::string errorText(const std::string& program, const std::vector<ShaderError::StageLog>& stages,
+                      const std::string& link) {
+    std::string text = fmt::format("shader program '{}' cannot be built", program);
+    for (const ShaderError::StageLog& stage : stages)
+        text += fmt::format("\n{} shader:\n{}", stageName(stage.stage), stage.text);
+    if (!link.empty()) text += fmt::format("\nlinking:\n{}", link);
+    while (text.back() == '\n') text.pop_back();
+    return text;
+}
+
+} // namespace
+
+std::string_view stageName(Stage stage) {
+    switch (stage) {
+    case Stage::Vertex:
+        return "vertex";
+    case Stage::Fragment:
+        return "fragment";
+    case Stage::Compute:
+        return "compute";
+    }
+    assert(false);
+    return "";
+}
+
+ShaderError::ShaderError(std::string program, std::vector<StageLog> stageLogs, std::string linkLog)
+    : std::runtime_error(errorText(program, stageLogs, linkLog)), program_(std::move(program)),
+      stageLogs_(std::move(stageLogs)), linkLog_(std::move(linkLog)) {}
+
+PendingProgram::PendingProgram(std::string label, std::span<const StageSource> stages) : label_(std::move(label)) {
+    throwIfFailed(fmt::format("before compiling '{}'", label_));
+    id_ = Id(glCreateProgram());
+    labelObject(LabelKind::Program, id_.value(), label_);
+    for (const StageSource& stage : stages) {
+        PendingShader& shader =
+            shaders_.emplace_back(PendingShader{stage.stage, Id(glCreateShader(glStage(stage.stage)))});
+        const char* text = stage.source.data();
+        const GLint length = GLint(stage.source.size());
+        glShaderSource(shader.id.value(), 1, &text, &length);
+        labelObject(LabelKind::Shader, shader.id.value(), fmt::format("{} ({})", label_, stageName(stage.stage)));
+        glCompileShader(shader.id.value());
+        glAttachShader(id_.value(), shader.id.value());
+    }
+    glLinkProgram(id_.value());
+}
+
+PendingProgram::~PendingProgram() {
+    for (const PendingShader& shader : shaders_)
+        if (const std::uint32_t id = shader.id.value()) glDeleteShader(id);
+    if (const std::uint32_t id = id_.value()) glDeleteProgram(id);
+}
+
+Program PendingProgram::finish() {
+    std::vector<ShaderError::StageLog> faults;
+    for (const PendingShader& shader : shaders_) {
+        GLint compiled = GL_FALSE;
+        glGetShaderiv(shader.id.value(), GL_COMPILE_STATUS, &compiled);
+        if (!compiled) faults.push_back({shader.stage, shaderLog(shader.id.value())});
+    }
+    if (!faults.empty()) throw ShaderError(label_, std::move(faults), {});
+    GLint linked = GL_FALSE;
+    glGetProgramiv(id_.value(), GL_LINK_STATUS, &linked);
+    if (!linked) throw ShaderError(label_, {}, linkLog(id_.value()));
+    for (const PendingShader& shader : shaders_) glDetachShader(id_.value(), shader.id.value());
+    throwIfFailed(fmt::format("building '{}'", label_));
+    return Program(label_, std::move(id_));
+}
+
+Program::Program(std::string label, std::span<const StageSource> stages)
+    : Program(PendingProgram(std::move(label), stages).finish()) {}
+
+Program::Program(std::string label, Id id) : label_(std::move(label)), id_(std::move(id)) {}
+
+Program::~Program() {
+    if (const std::uint32_t id = id_.value()) glDeleteProgram(id);
+}
+
+} // namespace tessera::gpu
