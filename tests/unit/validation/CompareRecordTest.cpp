@@ -1,0 +1,136 @@
+#include "validation/CompareRecord.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "scenes/Error.h"
+#include "tests/unit/validation/Samples.h"
+#include "validation/FigureText.h"
+
+namespace tessera::validation {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+using Json = nlohmann::ordered_json;
+
+CompareRecord sampleRecord() {
+    const Picture b = greyPicture(4, 1, 1.f);
+    Picture a = b;
+    setPixel(a, 2, {1.5f, 1.f, 1.f});
+    CompareRecord record{"hall", 4, 1, "llvmpipe", {}};
+    record.pairs.push_back(comparePair("deferred", b, "forward", b, {.bitEqual = 1.0}));
+    record.pairs.push_back(comparePair("packed", a, "forward", b, {.maxRel = 0.25, .relMse = 1e-4}));
+    return record;
+}
+
+std::vector<std::string> keys(const Json& object) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : object.items()) names.push_back(name);
+    return names;
+}
+
+TEST(CompareRecord, jsonAlwaysHasExactlyTheAgreedFields) {
+    const Json json = Json::parse(compareJson(sampleRecord()));
+    EXPECT_THAT(keys(json), ElementsAre("schema", "scene", "size", "renderer", "pairs"));
+    EXPECT_EQ(json["schema"], 1);
+    EXPECT_EQ(json["scene"], "hall");
+    EXPECT_EQ(json["size"], Json::parse("[4, 1]"));
+    EXPECT_EQ(json["renderer"], "llvmpipe");
+    ASSERT_EQ(json["pairs"].size(), 2u);
+    for (const Json& pair : json["pairs"]) {
+        EXPECT_THAT(keys(pair),
+                    ElementsAre("a", "b", "maxAbs", "maxRel", "rmse", "relMse", "p50Rel", "p99Rel", "p999Rel", "bias",
+                                "bitEqual", "flip", "psnr", "nan", "inf", "negative", "excluded", "litShare",
+                                "meanLuminance", "tolerance", "ok", "missed", "why"));
+        EXPECT_THAT(keys(pair["tolerance"]), ElementsAre("maxRel", "bitEqual", "relMse", "p999Rel", "bias"));
+    }
+}
+
+TEST(CompareRecord, jsonAlwaysHoldsTheFiguresWithEveryDigit) {
+    const CompareRecord record = sampleRecord();
+    const Json pair = Json::parse(compareJson(record))["pairs"][1];
+    EXPECT_EQ(pair["a"], "packed");
+    EXPECT_EQ(pair["b"], "forward");
+    EXPECT_EQ(pair["maxAbs"].get<double>(), 0.5);
+    EXPECT_EQ(pair["rmse"].get<double>(), record.pairs[1].figures.rmse);
+    EXPECT_EQ(pair["relMse"].get<double>(), record.pairs[1].figures.relMse);
+    EXPECT_EQ(pair["bitEqual"].get<double>(), 0.75);
+    EXPECT_EQ(pair["tolerance"]["maxRel"].get<double>(), 0.25);
+    EXPECT_TRUE(pair["tolerance"]["bias"].is_null());
+    EXPECT_FALSE(pair["ok"].get<bool>());
+    EXPECT_EQ(pair["missed"][0], "maxRel is 0.5, at most 0.25 was asked");
+    EXPECT_EQ(pair["nan"], 0);
+}
+
+TEST(CompareRecord, everyNullFigureAlwaysHasAReason) {
+    CompareRecord record{"x", 2, 1, "r", {}};
+    Picture broken = greyPicture(2, 1, std::nanf(""));
+    Picture none = greyPicture(2, 1, 1.f);
+    none.covered = {0, 0};
+    const Picture black = greyPicture(2, 1, 0.f);
+    for (const Picture& picture : {broken, none, black, greyPicture(2, 1, 1.f)})
+        record.pairs.push_back(comparePair("a", picture, "b", picture, {}));
+    const Json json = Json::parse(compareJson(record));
+    for (const Json& pair : json["pairs"])
+        for (const auto& [name, value] : pair.items()) {
+            if (value.is_null()) {
+                EXPECT_FALSE(pair["why"].value(name, "").empty()) << name << " is null without a reason";
+            }
+        }
+    EXPECT_TRUE(json["pairs"][0]["maxRel"].is_null());
+    EXPECT_EQ(json["pairs"][0]["nan"], 2);
+    EXPECT_EQ(json["pairs"][0]["why"]["maxRel"], "no covered pixel is finite");
+    EXPECT_EQ(json["pairs"][1]["why"]["bitEqual"], "no pixel is covered");
+    EXPECT_THAT(keys(json["pairs"][3]["why"]), ElementsAre("flip", "psnr"));
+}
+
+TEST(CompareRecord, aNameThatIsNotUtf8NeverKeepsTheRecordFromBeingWritten) {
+    CompareRecord record = sampleRecord();
+    record.scene = "sc\xff"
+                   "ne.gltf";
+    EXPECT_NO_THROW(Json::parse(compareJson(record)));
+}
+
+TEST(CompareRecord, aRecordIsOkExactlyWhenItHasPairsAndAllHold) {
+    CompareRecord record = sampleRecord();
+    EXPECT_FALSE(record.ok());
+    record.pairs.pop_back();
+    EXPECT_TRUE(record.ok());
+    record.pairs.clear();
+    EXPECT_FALSE(record.ok());
+}
+
+TEST(CompareRecord, theTableAlwaysShowsEveryPairAndWhatItMissed) {
+    EXPECT_EQ(compareTable(sampleRecord()),
+              "hall  4x1  llvmpipe\n"
+              "pair                 bit-equal  max rel  p99.9 rel   relMSE     bias    lit  verdict\n"
+              "deferred vs forward      100 %        0          0        0        0  100 %  ok\n"
+              "packed vs forward     75.000 %  5.0e-01    5.0e-01  2.1e-02  2.7e-02  100 %  MISSED\n"
+              "missed: packed vs forward: maxRel is 0.5, at most 0.25 was asked\n"
+              "missed: packed vs forward: relMse is 0.0206270627, at most 0.0001 was asked\n");
+}
+
+TEST(CompareRecord, picturesOfTwoSizesAreAlwaysRefused) {
+    EXPECT_THROW(comparePair("a", greyPicture(1, 1, 1), "b", greyPicture(2, 1, 1), {}), InputError);
+}
+
+TEST(FigureText, aShareReadsHundredPercentExactlyWhenItIs) {
+    EXPECT_EQ(shareText(1.0), "100 %");
+    EXPECT_EQ(shareText(0.999999999), "99.999 %");
+    EXPECT_EQ(shareText(1e-9), "0.001 %");
+    EXPECT_EQ(shareText(0.0), "0 %");
+    EXPECT_EQ(shareText(0.5), "50.000 %");
+    EXPECT_EQ(figureText(std::nan("")), "-");
+    EXPECT_EQ(figureText(0.0), "0");
+    EXPECT_EQ(figureText(-1.25e-7), "-1.2e-07");
+    EXPECT_EQ(decibelText(std::nullopt), "-");
+    EXPECT_EQ(decibelText(40.04), "40.0 dB");
+}
+
+} // namespace
+} // namespace tessera::validation

@@ -1,0 +1,133 @@
+#include "validation/PictureFile.h"
+
+#include <bit>
+#include <cmath>
+#include <ctime>
+#include <limits>
+
+#include <fmt/chrono.h>
+#include <gmock/gmock.h>
+
+#include "scenes/Error.h"
+#include "tests/unit/validation/Samples.h"
+
+namespace tessera::validation {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+std::vector<std::uint32_t> colourBits(const Picture& picture) {
+    std::vector<std::uint32_t> bits;
+    for (std::size_t i = 0; i < picture.pixelCount(); ++i)
+        for (int c = 0; c < 3; ++c) bits.push_back(std::bit_cast<std::uint32_t>(picture.pixel(i)[c]));
+    return bits;
+}
+
+Picture extremes() {
+    using Limits = std::numeric_limits<float>;
+    Picture picture = pictureOf(3, 2,
+                                {{Limits::infinity(), -Limits::infinity(), Limits::quiet_NaN()},
+                                 {Limits::denorm_min(), -Limits::denorm_min(), Limits::min() / 3},
+                                 {Limits::max(), Limits::lowest(), Limits::min()},
+                                 {-0.f, 0.f, 1.f},
+                                 {0.1f, 1.f / 3.f, 65505.f},
+                                 {std::bit_cast<float>(0x7fc12345u), 1e-20f, 1e20f}});
+    picture.covered = {1, 0, 1, 0, 0, 1};
+    return picture;
+}
+
+TEST(PictureFile, exrAlwaysKeepsEveryBitAndTheCoverage) {
+    const TemporaryFolder folder;
+    const Picture written = extremes();
+    writeExr(folder.file("a.exr"), written);
+    const Picture read = readPicture(folder.file("a.exr"));
+    EXPECT_EQ(read.width, 3);
+    EXPECT_EQ(read.height, 2);
+    EXPECT_EQ(colourBits(read), colourBits(written));
+    EXPECT_EQ(read.covered, written.covered);
+    EXPECT_EQ(folder.entries(), 1u);
+}
+
+TEST(PictureFile, exrOfAPictureWithoutGeometryIsAlwaysReadBackUncovered) {
+    const TemporaryFolder folder;
+    Picture picture = greyPicture(2, 1, 1.f);
+    picture.covered = {0, 0};
+    writeExr(folder.file("a.exr"), picture);
+    EXPECT_THAT(readPicture(folder.file("a.exr")).covered, ElementsAre(0, 0));
+}
+
+TEST(PictureFile, exrOfOnePictureIsAlwaysTheSameFile) {
+    const TemporaryFolder folder;
+    writeExr(folder.file("a.exr"), extremes());
+    writeExr(folder.file("b.exr"), extremes());
+    EXPECT_EQ(readText(folder.file("a.exr")), readText(folder.file("b.exr")));
+    EXPECT_THAT(readText(folder.file("a.exr")), HasSubstr("tessera"));
+    const std::time_t now = std::time(nullptr);
+    EXPECT_THAT(readText(folder.file("a.exr")), Not(HasSubstr(fmt::format("{:%Y:%m}", *std::gmtime(&now)))));
+}
+
+TEST(PictureFile, pngIsAlwaysDecodedFromSrgbToLinear) {
+    const TemporaryFolder folder;
+    writePng(folder.file("a.png"), {2, 1, {0, 255, 188, 10, 11, 128}});
+    const Picture picture = readPicture(folder.file("a.png"));
+    EXPECT_THAT(picture.covered, ElementsAre(1, 1));
+    // IEC 61966-2-1 by hand: x / 12.92 up to 10/255, ((x + 0.055) / 1.055)^2.4 above; 1e-6 is what fp32 leaves.
+    EXPECT_EQ(picture.pixel(0)[0], 0.f);
+    EXPECT_EQ(picture.pixel(0)[1], 1.f);
+    EXPECT_NEAR(picture.pixel(0)[2], 0.502886458, 1e-6);
+    EXPECT_NEAR(picture.pixel(1)[0], 10.0 / 255.0 / 12.92, 1e-6);
+    EXPECT_NEAR(picture.pixel(1)[1], 0.00334653576, 1e-6);
+    EXPECT_NEAR(picture.pixel(1)[2], 0.215860500, 1e-6);
+}
+
+TEST(PictureFile, pfmIsAlwaysReadLinearAndFromTheTop) {
+    const TemporaryFolder folder;
+    // PFM stores its rows from the bottom; a negative scale says little-endian.
+    const float rows[2][3] = {{1.f, 2.f, 3.f}, {4.f, 5.f, 1e-20f}};
+    writeText(folder.file("a.pfm"), "PF\n1 2\n-1.0\n" + std::string(reinterpret_cast<const char*>(rows), sizeof(rows)));
+    const Picture picture = readPicture(folder.file("a.pfm"));
+    ASSERT_EQ(picture.height, 2);
+    EXPECT_THAT(picture.rgba, ElementsAre(4.f, 5.f, 1e-20f, 1.f, 1.f, 2.f, 3.f, 1.f));
+}
+
+TEST(PictureFile, aBrokenInputIsAlwaysAnInputErrorThatNamesTheFile) {
+    const TemporaryFolder folder;
+    writeExr(folder.file("whole.exr"), greyPicture(64, 64, 0.25f));
+    const std::string whole = readText(folder.file("whole.exr"));
+    writeText(folder.file("cut.exr"), whole.substr(0, whole.size() / 2));
+    writeText(folder.file("cut-in-header.exr"), whole.substr(0, 40));
+    writeText(folder.file("text.png"), "not a picture");
+    writeText(folder.file("empty.exr"), "");
+    writeText(folder.file("huge.pfm"), "PF\n2000000000 2000000000\n-1.0\n");
+    for (const char* name : {"cut.exr", "cut-in-header.exr", "text.png", "empty.exr", "huge.pfm", "absent.exr", ""}) {
+        const std::string path = folder.file(name);
+        const std::string message = errorOf<InputError>([&] { readPicture(path); });
+        EXPECT_THAT(message, AllOf(StartsWith(path + ": "), HasSubstr("; "), Not(HasSubstr("\n"))));
+    }
+}
+
+TEST(PictureFile, anUnwritableOutputIsAlwaysARuntimeErrorAndNeverAnInputError) {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("none/a.exr");
+    EXPECT_THROW(
+        {
+            try {
+                writeExr(path, greyPicture(1, 1, 1.f));
+            } catch (const InputError&) {
+                FAIL() << "an InputError means exit code 2; writing fails with 1";
+            }
+        },
+        std::runtime_error);
+    EXPECT_THAT(errorOf<std::runtime_error>([&] {
+                    writePng(path, {1, 1, {0, 0, 0}});
+                }),
+                HasSubstr("cannot write " + path));
+    EXPECT_EQ(folder.entries(), 0u);
+}
+
+} // namespace
+} // namespace tessera::validation

@@ -1,0 +1,99 @@
+#include "validation/Tolerance.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+
+#include "tests/unit/validation/Samples.h"
+#include "validation/CompareRecord.h"
+
+namespace tessera::validation {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Verdict verdictOf(const Picture& a, const Picture& b, const Tolerance& tolerance = {}) {
+    return checkTolerance(errorFigures(a, b), tolerance);
+}
+
+TEST(Tolerance, twoBlackPicturesNeverPass) {
+    const Picture black = greyPicture(4, 4, 0.f);
+    const Verdict verdict = verdictOf(black, black, {.bitEqual = 1.0});
+    EXPECT_FALSE(verdict.ok);
+    EXPECT_THAT(verdict.missed, ElementsAre("no signal: picture a is black (mean luminance 0)",
+                                            "no signal: picture b is black (mean luminance 0)"));
+}
+
+TEST(Tolerance, aPictureUnderATenthLitNeverPassesEvenAgainstItself) {
+    std::vector<Rgb> colours(100, Rgb{0, 0, 0});
+    for (std::size_t i = 0; i < 9; ++i) colours[i] = {1, 1, 1};
+    const Picture dim = pictureOf(10, 10, colours);
+    EXPECT_THAT(verdictOf(dim, dim).missed,
+                ElementsAre(HasSubstr("only 9 % of picture a is lit"), HasSubstr("only 9 % of picture b is lit")));
+    colours[9] = {1, 1, 1};
+    const Picture enough = pictureOf(10, 10, colours);
+    EXPECT_TRUE(verdictOf(enough, enough).ok);
+}
+
+TEST(Tolerance, aPictureOfNothingNeverPasses) {
+    Picture none = greyPicture(2, 2, 1.f);
+    none.covered.assign(4, 0);
+    EXPECT_FALSE(verdictOf(none, none).ok);
+}
+
+TEST(Tolerance, badPixelsNeverPassWhereverTheyAre) {
+    Picture b = greyPicture(10, 1, 1.f);
+    b.covered[9] = 0;
+    for (std::size_t at : {std::size_t{0}, std::size_t{9}})
+        for (float value : {std::nanf(""), std::numeric_limits<float>::infinity(), -1e-6f}) {
+            Picture a = b;
+            setPixel(a, at, {value, 1, 1});
+            EXPECT_FALSE(verdictOf(a, b).ok) << "pixel " << at << " is " << value;
+            EXPECT_FALSE(verdictOf(a, a).ok) << "pixel " << at << " of both is " << value;
+        }
+}
+
+TEST(Tolerance, overFivePercentExcludedNeverPasses) {
+    const Picture picture = greyPicture(20, 5, 1.f);
+    std::vector<std::uint8_t> excluded(100, 0);
+    for (std::size_t i = 0; i < 5; ++i) excluded[i] = 1;
+    EXPECT_TRUE(checkTolerance(errorFigures(picture, picture, excluded), {}).ok);
+    excluded[5] = 1;
+    EXPECT_THAT(checkTolerance(errorFigures(picture, picture, excluded), {}).missed,
+                ElementsAre("6 % of the covered pixels were excluded, at most 5 % may be"));
+}
+
+TEST(Tolerance, everyLimitIsCheckedExactlyAtItsValue) {
+    const Picture b = greyPicture(2, 1, 1.f);
+    Picture a = b;
+    setPixel(a, 0, {0.5f, 0.5f, 0.5f});
+    const ErrorFigures figures = errorFigures(a, b);
+    // By hand: maxRel = p999Rel = 0.5, bitEqual = 0.5, relMse = 0.125 / 1.01, bias = -0.25.
+    const auto passes = [&](const Tolerance& tolerance) { return checkTolerance(figures, tolerance).ok; };
+    EXPECT_TRUE(passes({}));
+    EXPECT_TRUE(passes({.maxRel = 0.5}));
+    EXPECT_FALSE(passes({.maxRel = 0.499}));
+    EXPECT_TRUE(passes({.bitEqual = 0.5}));
+    EXPECT_FALSE(passes({.bitEqual = 0.501}));
+    EXPECT_TRUE(passes({.relMse = 0.124}));
+    EXPECT_FALSE(passes({.relMse = 0.123}));
+    EXPECT_TRUE(passes({.p999Rel = 0.5}));
+    EXPECT_FALSE(passes({.p999Rel = 0.499}));
+    EXPECT_TRUE(passes({.bias = 0.2501}));
+    EXPECT_FALSE(passes({.bias = 0.2499})); // the magnitude counts: the bias is negative
+    EXPECT_THAT(checkTolerance(figures, {.maxRel = 0.25, .bitEqual = 1.0}).missed,
+                ElementsAre("maxRel is 0.5, at most 0.25 was asked", "bitEqual is 0.5, at least 1 was asked"));
+}
+
+TEST(Tolerance, aFigureThatCouldNotBeMeasuredNeverHolds) {
+    ErrorFigures figures = errorFigures(greyPicture(1, 1, 1.f), greyPicture(1, 1, 1.f));
+    figures.relMse = std::nan("");
+    EXPECT_THAT(checkTolerance(figures, {.relMse = 1.0}).missed, ElementsAre("relMse could not be measured"));
+    EXPECT_THAT(checkTolerance(figures, {}).missed, IsEmpty());
+}
+
+} // namespace
+} // namespace tessera::validation

@@ -1,0 +1,16 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace tessera::validation {
+
+/// Writes a whole file or nothing: the bytes go to a temporary file in the same folder, which then takes the name of
+/// `path`. When anything fails the temporary is removed, an earlier file of that name stays as it was, and
+/// std::runtime_error names the path, the reason and the remedy. Links are followed; the permissions of an earlier file
+/// are kept. Devices and pipes (/dev/stdout) cannot be replaced and are written straight.
+void writeFileAtomically(const std::string& path, std::string_view text);
+void writeFileAtomically(const std::string& path, std::span<const std::uint8_t> bytes);
+
+} // namespace tessera::validation

@@ -1,0 +1,143 @@
+#include "validation/CompareRecord.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "validation/FigureText.h"
+
+namespace tessera::validation {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+Json number(std::optional<double> value) {
+    return value ? number(*value) : Json(nullptr);
+}
+
+Json toleranceJson(const Tolerance& tolerance) {
+    return {{"maxRel", number(tolerance.maxRel)},
+            {"bitEqual", number(tolerance.bitEqual)},
+            {"relMse", number(tolerance.relMse)},
+            {"p999Rel", number(tolerance.p999Rel)},
+            {"bias", number(tolerance.bias)}};
+}
+
+/// A reason for every figure that is null.
+Json reasons(const Json& pair, const ErrorFigures& figures) {
+    Json why = Json::object();
+    for (const auto& [name, value] : pair.items()) {
+        if (!value.is_null()) continue;
+        if (name == "flip")
+            why[name] = figures.flipReason;
+        else if (name == "psnr")
+            why[name] = figures.psnrReason;
+        else if (figures.compared > 0)
+            why[name] = "it is not finite: picture b is black or holds values beyond measure";
+        else if (figures.covered > 0)
+            why[name] = "no covered pixel is finite";
+        else
+            why[name] = "no pixel is covered";
+    }
+    return why;
+}
+
+Json pairJson(const ComparePair& pair) {
+    const ErrorFigures& figures = pair.figures;
+    Json json = {{"a", pair.a},
+                 {"b", pair.b},
+                 {"maxAbs", number(figures.maxAbs)},
+                 {"maxRel", number(figures.maxRel)},
+                 {"rmse", number(figures.rmse)},
+                 {"relMse", number(figures.relMse)},
+                 {"p50Rel", number(figures.p50Rel)},
+                 {"p99Rel", number(figures.p99Rel)},
+                 {"p999Rel", number(figures.p999Rel)},
+                 {"bias", number(figures.bias)},
+                 {"bitEqual", number(figures.bitEqual)},
+                 {"flip", number(figures.flip)},
+                 {"psnr", number(figures.psnr)},
+                 {"nan", figures.bad.nan},
+                 {"inf", figures.bad.infinite},
+                 {"negative", figures.bad.negative},
+                 {"excluded", number(figures.excluded)},
+                 {"litShare", number(figures.litShare)},
+                 {"meanLuminance", number(figures.meanLuminance)}};
+    const Json why = reasons(json, figures);
+    json["tolerance"] = toleranceJson(pair.tolerance);
+    json["ok"] = pair.verdict.ok;
+    json["missed"] = pair.verdict.missed;
+    json["why"] = why;
+    return json;
+}
+
+constexpr std::size_t kColumns = 8;
+using Row = std::array<std::string, kColumns>;
+
+Row rowOf(const ComparePair& pair) {
+    const ErrorFigures& figures = pair.figures;
+    return {pair.a + " vs " + pair.b,    shareText(figures.bitEqual),      figureText(figures.maxRel),
+            figureText(figures.p999Rel), figureText(figures.relMse),       figureText(figures.bias),
+            shareText(figures.litShare), pair.verdict.ok ? "ok" : "MISSED"};
+}
+
+std::string textTable(const std::vector<Row>& rows) {
+    std::array<std::size_t, kColumns> widths{};
+    for (const Row& row : rows)
+        for (std::size_t column = 0; column < kColumns; ++column)
+            widths[column] = std::max(widths[column], row[column].size());
+    std::string text;
+    for (const Row& row : rows) {
+        text += fmt::format("{:<{}}", row[0], widths[0]);
+        for (std::size_t column = 1; column + 1 < kColumns; ++column)
+            text += fmt::format("  {:>{}}", row[column], widths[column]);
+        text += "  " + row.back() + "\n";
+    }
+    return text;
+}
+
+} // namespace
+
+bool CompareRecord::ok() const {
+    return !pairs.empty() &&
+           std::all_of(pairs.begin(), pairs.end(), [](const ComparePair& pair) { return pair.verdict.ok; });
+}
+
+ComparePair comparePair(std::string nameA, const Picture& a, std::string nameB, const Picture& b, Tolerance tolerance,
+                        std::span<const std::uint8_t> excluded) {
+    requireSameSize(a, nameA, b, nameB);
+    ComparePair pair{std::move(nameA), std::move(nameB), errorFigures(a, b, excluded), std::move(tolerance), {}};
+    pair.verdict = checkTolerance(pair.figures, pair.tolerance);
+    return pair;
+}
+
+std::string compareJson(const CompareRecord& record) {
+    Json pairs = Json::array();
+    for (const ComparePair& pair : record.pairs) pairs.push_back(pairJson(pair));
+    const Json json = {{"schema", 1},
+                       {"scene", record.scene},
+                       {"size", {record.width, record.height}},
+                       {"renderer", record.renderer},
+                       {"pairs", pairs}};
+    // A file's name need not be UTF-8, and must not keep the record from being written.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string compareTable(const CompareRecord& record) {
+    std::vector<Row> rows = {{"pair", "bit-equal", "max rel", "p99.9 rel", "relMSE", "bias", "lit", "verdict"}};
+    for (const ComparePair& pair : record.pairs) rows.push_back(rowOf(pair));
+    std::string text =
+        fmt::format("{}  {}x{}  {}\n", record.scene, record.width, record.height, record.renderer) + textTable(rows);
+    for (const ComparePair& pair : record.pairs)
+        for (const std::string& missed : pair.verdict.missed)
+            text += fmt::format("missed: {} vs {}: {}\n", pair.a, pair.b, missed);
+    return text;
+}
+
+} // namespace tessera::validation

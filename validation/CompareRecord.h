@@ -1,0 +1,41 @@
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "validation/ErrorFigures.h"
+#include "validation/Tolerance.h"
+
+namespace tessera::validation {
+
+/// One comparison: picture a against the truth b.
+struct ComparePair {
+    std::string a, b; ///< technique names, "reference", or a picture's file name
+    ErrorFigures figures;
+    Tolerance tolerance;
+    Verdict verdict;
+};
+
+/// What `tessera compare` found.
+struct CompareRecord {
+    std::string scene;
+    int width = 0, height = 0;
+    std::string renderer; ///< as GL reports it
+    std::vector<ComparePair> pairs;
+
+    /// There is a pair, and each holds.
+    bool ok() const;
+};
+
+/// Measures and judges one pair. `excluded` is as errorFigures() takes it.
+ComparePair comparePair(std::string nameA, const Picture& a, std::string nameB, const Picture& b, Tolerance tolerance,
+                        std::span<const std::uint8_t> excluded = {});
+
+/// The record as JSON, schema 1, indented and ending in a newline. Figures that could not be measured or are infinite
+/// are null, with the reason under `why`; `missed` says in words what a pair did not hold.
+std::string compareJson(const CompareRecord& record);
+
+/// The record for a terminal: a table of ASCII characters, then what was missed, each line ending in a newline.
+std::string compareTable(const CompareRecord& record);
+
+} // namespace tessera::validation

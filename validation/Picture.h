@@ -1,0 +1,33 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tessera::validation {
+
+/// What is compared: linear radiance, and where geometry was drawn.
+struct Picture {
+    int width = 0;
+    int height = 0;
+    std::vector<float> rgba; ///< 4 floats a pixel, rows from the top, linear Rec.709 radiance; alpha is not used
+    std::vector<std::uint8_t> covered; ///< 1 where geometry was drawn, one a pixel in the same order
+
+    std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
+    const float* pixel(std::size_t index) const { return &rgba[4 * index]; }
+    /// Both arrays have the length that the size asks for.
+    bool isConsistent() const {
+        return width > 0 && height > 0 && rgba.size() == 4 * pixelCount() && covered.size() == pixelCount();
+    }
+};
+
+/// What is shown: bytes that are already encoded for a display (sRGB).
+struct DisplayImage {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgb; ///< 3 bytes a pixel, rows from the top
+
+    std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
+    bool isConsistent() const { return width > 0 && height > 0 && rgb.size() == 3 * pixelCount(); }
+};
+
+} // namespace tessera::validation

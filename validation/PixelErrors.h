@@ -1,0 +1,39 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "validation/Picture.h"
+
+namespace tessera::validation {
+
+/// What a pixel of a pair is to the figures.
+enum class PixelState : std::uint8_t {
+    Compared,  ///< covered in either picture, not excluded, all six values finite
+    NotFinite, ///< covered and not excluded, with a NaN or an infinity in either picture
+    Uncovered, ///< geometry was drawn in neither picture
+    Excluded   ///< its primary triangle differs between the two (silhouettes), as the caller says
+};
+
+/// The relative error of picture a against the truth b, pixel by pixel.
+struct PixelErrors {
+    std::vector<PixelState> state;
+    /// max over R, G, B of |a - b| / max(|b|, 1e-3 m); 0 where the pixel is not Compared.
+    std::vector<double> rel;
+    /// 1e-4 of the 99th percentile of b's luminance over the compared pixels; lit is above it. NaN without such pixels.
+    double litThreshold;
+    /// m: the median luminance of b's lit compared pixels, at least 1e-30.
+    double typicalLuminance;
+};
+
+/// `excluded` is empty or holds one entry a pixel, 1 where the pixel is left out. The pictures must be of one size.
+PixelErrors pixelErrors(const Picture& a, const Picture& b, std::span<const std::uint8_t> excluded = {});
+
+/// Luminance of linear Rec.709 R, G, B (ITU-R BT.709-6).
+inline double luminance(const float* rgb) {
+    return 0.2126 * double(rgb[0]) + 0.7152 * double(rgb[1]) + 0.0722 * double(rgb[2]);
+}
+
+bool isFinite(const float* rgb);
+
+} // namespace tessera::validation

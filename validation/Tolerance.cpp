@@ -1,0 +1,58 @@
+#include "validation/Tolerance.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tessera::validation {
+namespace {
+
+constexpr double kLeastLitShare = 0.10;     // below it a picture shows too little to prove anything
+constexpr double kMostExcludedShare = 0.05; // silhouettes alone stay well under 2 %
+
+void checkSignal(std::vector<std::string>& missed, const char* name, double meanLuminance, double litShare) {
+    if (!(meanLuminance > 0.0))
+        missed.push_back(fmt::format("no signal: picture {} is black (mean luminance {:.3g})", name, meanLuminance));
+    else if (!(litShare >= kLeastLitShare))
+        missed.push_back(fmt::format("too little signal: only {:.3g} % of picture {} is lit, at least 10 % must be",
+                                     100.0 * litShare, name));
+}
+
+void checkBad(std::vector<std::string>& missed, const char* where, const BadPixels& bad) {
+    if (bad.sum() > 0)
+        missed.push_back(fmt::format("{} pixels: {} NaN, {} infinite, {} negative; there must be none", where, bad.nan,
+                                     bad.infinite, bad.negative));
+}
+
+void checkFigure(std::vector<std::string>& missed, const char* name, double value, std::optional<double> limit,
+                 bool isLeast = false) {
+    if (!limit) return;
+    if (std::isnan(value))
+        missed.push_back(fmt::format("{} could not be measured", name));
+    else if (isLeast ? value < *limit : value > *limit)
+        missed.push_back(
+            fmt::format("{} is {:.9g}, {} {:.9g} was asked", name, value, isLeast ? "at least" : "at most", *limit));
+}
+
+} // namespace
+
+Verdict checkTolerance(const ErrorFigures& figures, const Tolerance& tolerance) {
+    Verdict verdict;
+    std::vector<std::string>& missed = verdict.missed;
+    checkSignal(missed, "a", figures.meanLuminanceA, figures.litShareA);
+    checkSignal(missed, "b", figures.meanLuminance, figures.litShare);
+    checkBad(missed, "covered", figures.bad);
+    checkBad(missed, "uncovered or excluded", figures.badOutside);
+    if (figures.excluded > kMostExcludedShare)
+        missed.push_back(
+            fmt::format("{:.3g} % of the covered pixels were excluded, at most 5 % may be", 100.0 * figures.excluded));
+    checkFigure(missed, "maxRel", figures.maxRel, tolerance.maxRel);
+    checkFigure(missed, "bitEqual", figures.bitEqual, tolerance.bitEqual, true);
+    checkFigure(missed, "relMse", figures.relMse, tolerance.relMse);
+    checkFigure(missed, "p999Rel", figures.p999Rel, tolerance.p999Rel);
+    checkFigure(missed, "bias (magnitude)", std::abs(figures.bias), tolerance.bias);
+    verdict.ok = missed.empty();
+    return verdict;
+}
+
+} // namespace tessera::validation

@@ -1,0 +1,30 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/ErrorFigures.h"
+
+namespace tessera::validation {
+
+/// What a pair must hold; what is not set is not checked.
+struct Tolerance {
+    std::optional<double> maxRel = {};   ///< at most
+    std::optional<double> bitEqual = {}; ///< at least
+    std::optional<double> relMse = {};   ///< at most
+    std::optional<double> p999Rel = {};  ///< at most
+    std::optional<double> bias = {};     ///< at most, of its magnitude
+    std::string reason = {};             ///< why these values: one sentence
+};
+
+struct Verdict {
+    bool ok = false;
+    std::vector<std::string> missed; ///< one sentence each, empty exactly when ok
+};
+
+/// Whether a pair holds. Whatever the tolerance, it does not when there is no signal (mean luminance 0, or under 10 %
+/// of the pixels lit, in either picture: two black pictures never pass), when any pixel is NaN, infinite or negative,
+/// or when over 5 % of the covered pixels were excluded. A figure that could not be measured misses its tolerance.
+Verdict checkTolerance(const ErrorFigures& figures, const Tolerance& tolerance);
+
+} // namespace tessera::validation
