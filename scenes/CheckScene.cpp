@@ -1,0 +1,257 @@
+#include <cmath>
+#include <cstring>
+#include <initializer_list>
+#include <numbers>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "scenes/Error.h"
+#include "scenes/Scene.h"
+
+namespace tessera::scenes {
+namespace {
+
+/// How far the length of a unit vector, or a rotation's columns, may be off: what single precision and files with a few
+/// decimals lose, far below what would be seen.
+constexpr double kUnitTolerance = 1e-3;
+
+template <typename Vector>
+bool allFinite(const Vector& vector) {
+    for (glm::length_t i = 0; i < vector.length(); ++i) {
+        if (!std::isfinite(vector[i])) return false;
+    }
+    return true;
+}
+
+bool allFinite(const glm::dmat4& matrix) {
+    return allFinite(matrix[0]) && allFinite(matrix[1]) && allFinite(matrix[2]) && allFinite(matrix[3]);
+}
+
+template <typename Vector>
+bool allFiniteAndNotNegative(const Vector& vector) {
+    for (glm::length_t i = 0; i < vector.length(); ++i) {
+        if (!std::isfinite(vector[i]) || vector[i] < 0) return false;
+    }
+    return true;
+}
+
+bool between(double value, double low, double high) {
+    return value >= low && value <= high; // false for NaN
+}
+
+bool isUnit(const glm::dvec3& vector) {
+    return allFinite(vector) && std::abs(glm::length(vector) - 1.0) <= kUnitTolerance;
+}
+
+/// One element of a scene, as messages call it.
+class Element {
+public:
+    Element(const Scene& scene, std::string_view kind, std::size_t index, const std::string& name)
+        : scene_(scene), kind_(kind), index_(index), name_(name) {}
+
+    void require(bool holds, std::string_view problemAndRemedy) const {
+        if (holds) return;
+        const std::string quoted = name_.empty() ? std::string() : " '" + name_ + "'";
+        throw InputError(fmt::format("scene '{}': {} {}{}: {}", scene_.name, kind_, index_, quoted, problemAndRemedy));
+    }
+
+    void requireIndex(int index, std::size_t count, std::string_view kind) const {
+        if (index >= 0 && static_cast<std::size_t>(index) < count) return;
+        require(false, fmt::format("refers to {} {}, but the scene has {}", kind, index, count));
+    }
+
+private:
+    const Scene& scene_;
+    std::string_view kind_;
+    std::size_t index_;
+    const std::string& name_;
+};
+
+void checkImage(const Element& element, const Image& image) {
+    element.require(image.width > 0 && image.height > 0,
+                    fmt::format("{} x {} texels; both must be positive", image.width, image.height));
+    const std::size_t bytes =
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * texelBytes(image.format);
+    element.require(image.texels.size() == bytes, fmt::format("holds {} bytes of texels, but {} x {} texels need {}",
+                                                              image.texels.size(), image.width, image.height, bytes));
+    if (image.format != TexelFormat::Rgba32Float) return;
+    for (std::size_t offset = 0; offset < bytes; offset += sizeof(float)) {
+        float value = 0.0f;
+        std::memcpy(&value, image.texels.data() + offset, sizeof(value));
+        if (!std::isfinite(value)) element.require(false, "a texel is not finite");
+    }
+}
+
+void checkMaterial(const Element& element, const Material& material, std::size_t imageCount) {
+    element.require(material.model != MaterialModel::BlinnPhong,
+                    "the model blinn_phong is not shaded yet; use microfacet");
+    element.require(material.model != MaterialModel::MicrofacetAnisotropic,
+                    "the model microfacet_anisotropic is not shaded yet; use microfacet");
+    element.require(allFiniteAndNotNegative(material.baseColor), "the base colour must be finite and not negative");
+    element.require(allFiniteAndNotNegative(material.emissive), "the emission must be finite and not negative");
+    element.require(allFiniteAndNotNegative(material.specularColor),
+                    "the specular colour must be finite and not negative");
+    element.require(between(material.metallic, 0.0, 1.0), "metalness must be between 0 and 1");
+    element.require(between(material.perceptualRoughness, 0.0, 1.0), "roughness must be between 0 and 1");
+    element.require(std::isfinite(material.alpha) && material.alpha >= 0.0f, "alpha must be finite and not negative");
+    element.require(std::isfinite(material.ior) && material.ior >= 0.0f,
+                    "the index of refraction must be finite and not negative");
+    element.require(between(material.specularFactor, 0.0, 1.0), "the specular factor must be between 0 and 1");
+    element.require(std::isfinite(material.normalScale), "the normal map's scale must be finite");
+    element.require(std::isfinite(material.alphaCutoff), "the alpha cutoff must be finite");
+    for (const TextureUse& use : material.textures) {
+        if (use.image == kNone) continue;
+        element.requireIndex(use.image, imageCount, "image");
+        element.require(use.texCoordSet == 0 || use.texCoordSet == 1,
+                        "uses a texture coordinate set other than 0 and 1");
+        element.require(allFinite(use.transform.offset) && allFinite(use.transform.scale) &&
+                            std::isfinite(use.transform.rotationRadians),
+                        "a texture transform is not finite");
+    }
+}
+
+template <typename Vector>
+void checkAttribute(const Element& element, const std::vector<Vector>& values, std::size_t vertices,
+                    std::string_view what) {
+    if (values.size() != vertices) {
+        element.require(false, fmt::format("has {} positions but {} {}", vertices, values.size(), what));
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!allFinite(values[i])) element.require(false, fmt::format("entry {} of its {} is not finite", i, what));
+    }
+}
+
+void checkMesh(const Element& element, const Mesh& mesh) {
+    const std::size_t vertices = mesh.positionsOS.size();
+    checkAttribute(element, mesh.positionsOS, vertices, "positions");
+    checkAttribute(element, mesh.normalsOS, vertices, "normals");
+    if (!mesh.tangentsOS.empty()) checkAttribute(element, mesh.tangentsOS, vertices, "tangents");
+    for (const std::vector<glm::vec2>& set : mesh.texCoords) {
+        if (!set.empty()) checkAttribute(element, set, vertices, "texture coordinates");
+    }
+    if (!mesh.colors.empty()) checkAttribute(element, mesh.colors, vertices, "colours");
+    element.require(mesh.indices.size() % 3 == 0,
+                    fmt::format("has {} indices, which are no whole number of triangles", mesh.indices.size()));
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        if (mesh.indices[i] >= vertices) {
+            element.require(false,
+                            fmt::format("index {} is {}, but there are {} vertices", i, mesh.indices[i], vertices));
+        }
+    }
+}
+
+void checkNode(const Element& element, const Node& node, std::size_t index, const Scene& scene) {
+    element.require(node.parent >= kNone && node.parent < static_cast<int>(index),
+                    fmt::format("its parent {} does not stand before it", node.parent));
+    element.require(allFinite(node.parentFromNode), "its transform is not finite");
+    for (const MeshInstance& instance : node.instances) {
+        element.requireIndex(instance.mesh, scene.meshes.size(), "mesh");
+        element.requireIndex(instance.material, scene.materials.size(), "material");
+    }
+}
+
+void checkAnimation(const Element& element, const LightAnimation& animation) {
+    element.require(std::isfinite(animation.periodSeconds) && animation.periodSeconds > 0.0,
+                    "the period of its animation must be positive");
+    element.require(std::isfinite(animation.phase), "the phase of its animation is not finite");
+    element.require(allFinite(animation.centerWS) && allFinite(animation.amplitudeMetres),
+                    "its animation's centre and amplitude must be finite");
+    element.require(allFinite(animation.axisWS), "its animation's axis is not finite");
+    if (animation.kind == LightAnimationKind::Orbit) {
+        element.require(glm::length(animation.axisWS) > 0.0, "the axis of its orbit has no length");
+    }
+    for (const glm::dvec3& pointWS : animation.pointsWS) element.require(allFinite(pointWS), "a point is not finite");
+    if (animation.kind == LightAnimationKind::Path) {
+        element.require(animation.pointsWS.size() >= 2, "its path needs at least two points");
+    }
+    if (animation.kind == LightAnimationKind::Keyframes) {
+        const std::vector<double>& times = animation.timesSeconds;
+        element.require(!times.empty() && times.size() == animation.pointsWS.size(),
+                        fmt::format("has {} key times for {} key points; give as many of both, at least one",
+                                    times.size(), animation.pointsWS.size()));
+        for (std::size_t i = 0; i < times.size(); ++i) {
+            element.require(std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1]),
+                            "its key times must ascend");
+        }
+    }
+}
+
+void checkLight(const Element& element, const Light& light) {
+    element.require(allFiniteAndNotNegative(light.color), "its colour must be finite and not negative");
+    element.require(std::isfinite(light.intensity) && light.intensity >= 0.0f,
+                    "its intensity must be finite and not negative");
+    element.require(allFinite(light.positionWS), "its position is not finite");
+    element.require(isUnit(light.directionWS), "its direction must be of unit length");
+    element.require(light.rangeMetres >= 0.0f, "its range must not be negative");
+    element.require(allFiniteAndNotNegative(light.attenuation),
+                    "the attenuation coefficients A, B, C must be finite and not negative");
+    element.require(light.falloff != Falloff::Attenuation || light.attenuation != glm::vec3(0.0f),
+                    "the attenuation coefficients A, B, C are all 0; give at least one");
+    element.require(between(light.outerConeRadians, 0.0, std::numbers::pi_v<float>) &&
+                        between(light.innerConeRadians, 0.0, light.outerConeRadians),
+                    "its cones must be 0 <= inner <= outer <= pi");
+    if (light.animation) checkAnimation(element, *light.animation);
+}
+
+void checkCamera(const Element& element, const Camera& camera) {
+    const glm::dmat4& m = camera.worldFromCamera;
+    const glm::dmat3 rotation(m);
+    element.require(allFinite(m), "its transform is not finite");
+    element.require(isUnit(rotation[0]) && isUnit(rotation[1]) && isUnit(rotation[2]) &&
+                        std::abs(glm::determinant(rotation) - 1.0) <= 3.0 * kUnitTolerance && m[0].w == 0.0 &&
+                        m[1].w == 0.0 && m[2].w == 0.0 && m[3].w == 1.0,
+                    "its transform must only rotate and move");
+    element.require(camera.farMetres > camera.nearMetres, "its far plane must lie beyond its near plane");
+    if (camera.projection == Projection::Perspective) {
+        element.require(camera.fovYRadians > 0.0 && camera.fovYRadians < std::numbers::pi,
+                        "its field of view must be between 0 and pi");
+        element.require(std::isfinite(camera.nearMetres) && camera.nearMetres > 0.0, "its near plane must be positive");
+    } else {
+        element.require(std::isfinite(camera.halfHeightMetres) && camera.halfHeightMetres > 0.0,
+                        "its half height must be positive");
+        element.require(std::isfinite(camera.nearMetres) && camera.nearMetres >= 0.0,
+                        "its near plane must not be negative");
+    }
+}
+
+void checkSceneWide(const Scene& scene) {
+    const auto require = [&](bool holds, const std::string& problem) {
+        if (!holds) throw InputError(fmt::format("scene '{}': {}", scene.name, problem));
+    };
+    require(allFiniteAndNotNegative(scene.background), "the background must be finite and not negative");
+    const SceneOptions& options = scene.options;
+    require(!options.exposureEV || std::isfinite(*options.exposureEV), "the option exposure is not finite");
+    require(!options.sizePixels || (options.sizePixels->x > 0 && options.sizePixels->y > 0),
+            "the option size must be positive");
+    if (!options.camera) return;
+    bool found = false;
+    for (const Camera& camera : scene.cameras) found = found || camera.name == *options.camera;
+    require(found, fmt::format("the option camera names '{}', but no camera is called that", *options.camera));
+}
+
+} // namespace
+
+void checkScene(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.images.size(); ++i) {
+        checkImage({scene, "image", i, scene.images[i].name}, scene.images[i]);
+    }
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        checkMaterial({scene, "material", i, scene.materials[i].name}, scene.materials[i], scene.images.size());
+    }
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        checkMesh({scene, "mesh", i, scene.meshes[i].name}, scene.meshes[i]);
+    }
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        checkNode({scene, "node", i, scene.nodes[i].name}, scene.nodes[i], i, scene);
+    }
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        checkLight({scene, "light", i, scene.lights[i].name}, scene.lights[i]);
+    }
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        checkCamera({scene, "camera", i, scene.cameras[i].name}, scene.cameras[i]);
+    }
+    checkSceneWide(scene);
+}
+
+} // namespace tessera::scenes

@@ -1,0 +1,76 @@
+#include "scenes/Defaults.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/Error.h"
+#include "scenes/LookAt.h"
+
+namespace tessera::scenes {
+namespace {
+
+/// The picture's share that the bounding sphere leaves free on each side is set by this factor on the distance at which
+/// the sphere would touch the frame's edges.
+constexpr double kDistanceMargin = 1.2;
+/// Near plane as a share of the bounds' radius: small enough to walk close to things; depth is reversed and in floating
+/// point, so a small near plane costs no precision.
+constexpr double kNearShare = 1e-3;
+constexpr float kDefaultLightLux = 3.0f;
+
+const Camera& viewedCamera(const Scene& scene) {
+    assert(!scene.cameras.empty());
+    const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
+                                    [&](const Camera& camera) { return camera.name == scene.options.camera; });
+    return named == scene.cameras.end() ? scene.cameras.front() : *named;
+}
+
+/// Whether a material in use shines by itself or shows its colour unlit.
+bool showsWithoutLight(const Scene& scene) {
+    for (const Node& node : scene.nodes) {
+        for (const MeshInstance& instance : node.instances) {
+            const Material& material = scene.materials[static_cast<std::size_t>(instance.material)];
+            if (material.model == MaterialModel::SingleColor || material.emissive != glm::vec3(0.0f)) return true;
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+void addDefaultCamera(Scene& scene) {
+    if (!scene.cameras.empty()) return;
+    const Box3 boundsWS = worldBounds(scene);
+    const glm::dvec3 centerWS = boundsWS.empty() ? glm::dvec3(0.0) : 0.5 * (boundsWS.min + boundsWS.max);
+    double radiusMetres = boundsWS.empty() ? 0.0 : 0.5 * glm::length(boundsWS.max - boundsWS.min);
+    if (!std::isfinite(radiusMetres) || !std::isfinite(glm::length(centerWS))) {
+        throw InputError("scene '" + scene.name + "': its bounds are too large for a camera; check the nodes' scales");
+    }
+    if (radiusMetres == 0.0) radiusMetres = 1.0;
+
+    Camera camera;
+    camera.name = kDefaultName;
+    camera.fovYRadians = std::numbers::pi / 4.0;
+    const double distanceMetres = kDistanceMargin * radiusMetres / std::sin(camera.fovYRadians / 2.0);
+    const glm::dvec3 eyeWS = centerWS + distanceMetres * glm::normalize(glm::dvec3(1.0, 0.7, 1.0));
+    camera.worldFromCamera = worldFromLookAt(eyeWS, centerWS);
+    camera.nearMetres = kNearShare * radiusMetres;
+    scene.cameras.push_back(camera);
+    scene.warnings.push_back("the scene has no camera: looking at its whole through the camera 'default'");
+}
+
+void addDefaultLight(Scene& scene) {
+    if (!scene.lights.empty() || showsWithoutLight(scene)) return;
+    Light light;
+    light.name = kDefaultName;
+    light.type = LightType::Directional;
+    light.intensity = kDefaultLightLux;
+    light.directionWS = glm::normalize(-glm::dvec3(viewedCamera(scene).worldFromCamera[2]));
+    scene.lights.push_back(light);
+    scene.warnings.push_back(
+        "the scene has no light, emission or unlit material: lit by the directional light 'default' "
+        "of 3 lux along the view");
+}
+
+} // namespace tessera::scenes

@@ -1,0 +1,81 @@
+#include "scenes/Load.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+#include "scenes/Defaults.h"
+#include "scenes/Error.h"
+#include "scenes/Names.h"
+#include "scenes/import/Importers.h"
+
+namespace tessera::scenes {
+namespace {
+
+constexpr int kMostLights = 65536;
+
+struct Format {
+    std::string_view extension;
+    Scene (*import)(const std::filesystem::path&);
+};
+constexpr std::array kFormats = {Format{".gltf", importGltf}, Format{".glb", importGltf}, Format{".obj", importObj},
+                                 Format{".json", importSceneJson}};
+
+const Format* formatOf(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    const auto found = std::find_if(kFormats.begin(), kFormats.end(),
+                                    [&](const Format& format) { return format.extension == extension; });
+    return found == kFormats.end() ? nullptr : &*found;
+}
+
+const BuiltinScene* builtinCalled(const std::string& name) {
+    const std::span<const BuiltinScene> scenes = builtinScenes();
+    const auto found =
+        std::find_if(scenes.begin(), scenes.end(), [&](const BuiltinScene& s) { return s.name == name; });
+    return found == scenes.end() ? nullptr : &*found;
+}
+
+Scene importFile(const std::string& path) {
+    const std::filesystem::path file(path);
+    const Format* format = formatOf(file);
+    std::error_code failure;
+    if (!std::filesystem::exists(file, failure)) {
+        if (format != nullptr || file.has_parent_path()) throw InputError(path + ": no such file; check the path");
+        std::vector<std::string_view> names;
+        for (const BuiltinScene& scene : builtinScenes()) names.push_back(scene.name);
+        throw InputError("no built-in scene or file is called '" + path + "'; " + suggestNames(path, names));
+    }
+    if (format == nullptr || std::filesystem::is_directory(file, failure)) {
+        throw InputError(path + ": not a scene file; give a .gltf, .glb, .obj or .json file");
+    }
+    return format->import(file);
+}
+
+} // namespace
+
+Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
+    if (options.lights && (*options.lights < 0 || *options.lights > kMostLights)) {
+        throw InputError("cannot use " + std::to_string(*options.lights) + " lights; give a number from 0 to 65536");
+    }
+    Scene scene;
+    if (const BuiltinScene* builtin = builtinCalled(nameOrPath)) {
+        scene = builtin->make(options);
+    } else {
+        scene = importFile(nameOrPath);
+        if (options.lights && static_cast<std::size_t>(*options.lights) < scene.lights.size()) {
+            scene.lights.resize(static_cast<std::size_t>(*options.lights));
+        }
+    }
+    checkScene(scene);
+    addDefaultCamera(scene);
+    // Who asks for no lights gets none.
+    if (options.defaultLight && options.lights != 0) addDefaultLight(scene);
+    return scene;
+}
+
+} // namespace tessera::scenes

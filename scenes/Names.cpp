@@ -1,0 +1,71 @@
+#include "scenes/Names.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace tessera {
+namespace {
+
+char lower(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+/// Letters inserted, deleted, replaced or swapped with their neighbour to get from `a` to `b`, case aside.
+/// Source: Damerau 1964, "A technique for computer detection and correction of spelling errors", in the form that edits
+/// no place twice (optimal string alignment).
+std::size_t editDistance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> beforeLast(b.size() + 1);
+    std::vector<std::size_t> last(b.size() + 1);
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::swap(beforeLast, last);
+        std::swap(last, row);
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+            row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
+            const bool swapped =
+                i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+            if (swapped) row[j] = std::min(row[j], beforeLast[j - 2] + 1);
+        }
+    }
+    return row[b.size()];
+}
+
+std::string quotedAlternatives(const std::vector<std::string_view>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i > 0) text += i + 1 == names.size() ? " or " : ", ";
+        text.append("'").append(names[i]).append("'");
+    }
+    return text;
+}
+
+} // namespace
+
+std::string suggestNames(std::string_view name, std::span<const std::string_view> candidates) {
+    constexpr std::size_t kMostSuggestions = 3; // more would be a list, not a suggestion
+    std::vector<std::string_view> nearest;
+    std::size_t nearestDistance = 0;
+    for (const std::string_view candidate : candidates) {
+        // Near: at most a third of the letters differ, or one, but never all of them.
+        const std::size_t longest = std::max(name.size(), candidate.size());
+        const std::size_t distance = editDistance(name, candidate);
+        if (distance > std::max<std::size_t>(1, longest / 3) || distance >= longest) continue;
+        if (nearest.empty() || distance < nearestDistance) {
+            nearest.clear();
+            nearestDistance = distance;
+        }
+        if (distance == nearestDistance && nearest.size() < kMostSuggestions) nearest.push_back(candidate);
+    }
+    if (!nearest.empty()) return "did you mean " + quotedAlternatives(nearest) + "?";
+    if (candidates.empty()) return "there are none";
+
+    std::string all = "valid are ";
+    for (std::size_t i = 0; i < candidates.size(); ++i) all.append(i > 0 ? ", " : "").append(candidates[i]);
+    return all;
+}
+
+} // namespace tessera

@@ -1,0 +1,152 @@
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenes/Error.h"
+#include "tests/unit/scenes/TinyScene.h"
+
+namespace tessera::scenes {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+/// The message checkScene() gives for the tiny scene after `spoil`, or "" when it passes.
+std::string verdict(const std::function<void(Scene&)>& spoil) {
+    Scene scene = tinyScene();
+    scene.lights.emplace_back().name = "lamp";
+    scene.cameras.emplace_back().name = "eye";
+    spoil(scene);
+    try {
+        checkScene(scene);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(CheckScene, soundSceneAlwaysPasses) {
+    EXPECT_EQ(verdict([](Scene&) {}), "");
+    EXPECT_EQ(verdict([](Scene& s) { s = Scene(); }), "");
+}
+
+TEST(CheckScene, messageAlwaysNamesSceneAndElement) {
+    EXPECT_EQ(verdict([](Scene& s) { s.nodes[0].instances[0].mesh = 7; }),
+              "scene 'tiny': node 0 'root': refers to mesh 7, but the scene has 1");
+    EXPECT_EQ(verdict([](Scene& s) { s.nodes[0].instances[0].material = kNone; }),
+              "scene 'tiny': node 0 'root': refers to material -1, but the scene has 1");
+    EXPECT_EQ(verdict([](Scene& s) { s.meshes[0].indices[1] = 3; }),
+              "scene 'tiny': mesh 0 'triangle': index 1 is 3, but there are 3 vertices");
+    EXPECT_EQ(verdict([](Scene& s) { s.meshes[0].positionsOS[2].y = kNaN; }),
+              "scene 'tiny': mesh 0 'triangle': entry 2 of its positions is not finite");
+    EXPECT_EQ(verdict([](Scene& s) { s.meshes[0].normalsOS.pop_back(); }),
+              "scene 'tiny': mesh 0 'triangle': has 3 positions but 2 normals");
+    EXPECT_EQ(verdict([](Scene& s) {
+                  s.lights[0].falloff = Falloff::Attenuation;
+                  s.lights[0].attenuation = glm::vec3(0.0f);
+              }),
+              "scene 'tiny': light 0 'lamp': the attenuation coefficients A, B, C are all 0; give at least one");
+    EXPECT_EQ(verdict([](Scene& s) { s.materials[0].model = MaterialModel::BlinnPhong; }),
+              "scene 'tiny': material 0 'white': the model blinn_phong is not shaded yet; use microfacet");
+    EXPECT_EQ(verdict([](Scene& s) { s.options.camera = "door"; }),
+              "scene 'tiny': the option camera names 'door', but no camera is called that");
+}
+
+TEST(CheckScene, eachBrokenRuleIsAlwaysReported) {
+    using testing::HasSubstr;
+    const std::vector<std::pair<const char*, std::function<void(Scene&)>>> cases = {
+        {"both must be positive", [](Scene& s) { s.images.emplace_back(); }},
+        {"need 16",
+         [](Scene& s) {
+             Image& image = s.images.emplace_back();
+             image.width = image.height = 2;
+         }},
+        {"texel is not finite",
+         [](Scene& s) {
+             Image& image = s.images.emplace_back();
+             image.format = TexelFormat::Rgba32Float;
+             image.width = image.height = 1;
+             image.texels.assign(16, std::byte{0xff});
+         }},
+        {"base colour", [](Scene& s) { s.materials[0].baseColor.y = kNaN; }},
+        {"emission", [](Scene& s) { s.materials[0].emissive.x = -1.0f; }},
+        {"specular colour", [](Scene& s) { s.materials[0].specularColor.x = kInfinity; }},
+        {"metalness", [](Scene& s) { s.materials[0].metallic = 1.5f; }},
+        {"roughness", [](Scene& s) { s.materials[0].perceptualRoughness = kNaN; }},
+        {"alpha must", [](Scene& s) { s.materials[0].alpha = -0.1f; }},
+        {"index of refraction", [](Scene& s) { s.materials[0].ior = kInfinity; }},
+        {"specular factor", [](Scene& s) { s.materials[0].specularFactor = 2.0f; }},
+        {"normal map's scale", [](Scene& s) { s.materials[0].normalScale = kNaN; }},
+        {"cutoff", [](Scene& s) { s.materials[0].alphaCutoff = kNaN; }},
+        {"microfacet_anisotropic", [](Scene& s) { s.materials[0].model = MaterialModel::MicrofacetAnisotropic; }},
+        {"image 0, but the scene has 0", [](Scene& s) { s.materials[0].texture(TextureSlot::Normal).image = 0; }},
+        {"tangents", [](Scene& s) { s.meshes[0].tangentsOS.resize(2); }},
+        {"colours", [](Scene& s) { s.meshes[0].colors.resize(4, glm::vec4(1.0f)); }},
+        {"texture coordinates", [](Scene& s) { s.meshes[0].texCoords[1].resize(1); }},
+        {"whole number of triangles", [](Scene& s) { s.meshes[0].indices.pop_back(); }},
+        {"does not stand before it", [](Scene& s) { s.nodes[0].parent = 0; }},
+        {"does not stand before it", [](Scene& s) { s.nodes[0].parent = -2; }},
+        {"transform is not finite", [](Scene& s) { s.nodes[0].parentFromNode[3].x = kNaN; }},
+        {"colour must", [](Scene& s) { s.lights[0].color.x = -0.5f; }},
+        {"intensity", [](Scene& s) { s.lights[0].intensity = kInfinity; }},
+        {"position", [](Scene& s) { s.lights[0].positionWS.z = kNaN; }},
+        {"unit length", [](Scene& s) { s.lights[0].directionWS = glm::dvec3(0.0); }},
+        {"range", [](Scene& s) { s.lights[0].rangeMetres = -1.0f; }},
+        {"range", [](Scene& s) { s.lights[0].rangeMetres = kNaN; }},
+        {"A, B, C must",
+         [](Scene& s) {
+             s.lights[0].attenuation = {1.0f, -1.0f, 0.0f};
+         }},
+        {"cones", [](Scene& s) { s.lights[0].innerConeRadians = 1.0f; }},
+        {"cones", [](Scene& s) { s.lights[0].outerConeRadians = 3.2f; }},
+        {"cones", [](Scene& s) { s.lights[0].innerConeRadians = -0.1f; }},
+        {"period", [](Scene& s) { s.lights[0].animation.emplace().periodSeconds = 0.0; }},
+        {"axis of its orbit", [](Scene& s) { s.lights[0].animation.emplace().axisWS = glm::dvec3(0.0); }},
+        {"two points", [](Scene& s) { s.lights[0].animation.emplace().kind = LightAnimationKind::Path; }},
+        {"key times", [](Scene& s) { s.lights[0].animation.emplace().kind = LightAnimationKind::Keyframes; }},
+        {"ascend",
+         [](Scene& s) {
+             LightAnimation& animation = s.lights[0].animation.emplace();
+             animation.kind = LightAnimationKind::Keyframes;
+             animation.timesSeconds = {1.0, 1.0};
+             animation.pointsWS.assign(2, glm::dvec3(0.0));
+         }},
+        {"only rotate and move", [](Scene& s) { s.cameras[0].worldFromCamera[0].x = 2.0; }},
+        {"only rotate and move", [](Scene& s) { s.cameras[0].worldFromCamera[0].x = -1.0; }},
+        {"far plane", [](Scene& s) { s.cameras[0].farMetres = 0.05; }},
+        {"far plane", [](Scene& s) { s.cameras[0].farMetres = kNaN; }},
+        {"near plane", [](Scene& s) { s.cameras[0].nearMetres = 0.0; }},
+        {"field of view", [](Scene& s) { s.cameras[0].fovYRadians = 4.0; }},
+        {"half height",
+         [](Scene& s) {
+             s.cameras[0].projection = Projection::Orthographic;
+             s.cameras[0].halfHeightMetres = 0.0;
+         }},
+        {"background", [](Scene& s) { s.background.x = kNaN; }},
+        {"exposure", [](Scene& s) { s.options.exposureEV = kNaN; }},
+        {"size",
+         [](Scene& s) {
+             s.options.sizePixels = {0, 5};
+         }},
+    };
+    for (const auto& [text, spoil] : cases) EXPECT_THAT(verdict(spoil), HasSubstr(text));
+}
+
+TEST(CheckScene, extremesThatAreAllowedAlwaysPass) {
+    EXPECT_EQ(verdict([](Scene& s) {
+                  Light& light = s.lights[0];
+                  light.type = LightType::Spot;
+                  light.intensity = 1e20f;
+                  light.rangeMetres = 0.0f;
+                  light.innerConeRadians = light.outerConeRadians = 3.14159265f;
+                  s.cameras[0].farMetres = std::numeric_limits<double>::infinity();
+                  s.materials[0].ior = 1000.0f;
+                  s.materials[0].alpha = 0.0f;
+              }),
+              "");
+}
+
+} // namespace
+} // namespace tessera::scenes

@@ -1,0 +1,39 @@
+#include "scenes/Names.h"
+
+#include <array>
+
+#include <gtest/gtest.h>
+
+namespace tessera {
+namespace {
+
+constexpr std::array<std::string_view, 5> kScenes = {"hall", "spheres", "lattice", "room", "head"};
+
+TEST(Names, nearestNameIsAlwaysSuggested) {
+    EXPECT_EQ(suggestNames("hal", kScenes), "did you mean 'hall'?");
+    EXPECT_EQ(suggestNames("HALL", kScenes), "did you mean 'hall'?");
+    EXPECT_EQ(suggestNames("latice", kScenes), "did you mean 'lattice'?");
+    EXPECT_EQ(suggestNames("shperes", kScenes), "did you mean 'spheres'?");
+}
+
+TEST(Names, neighboursSwappedAlwaysCountAsOneEdit) {
+    constexpr std::array<std::string_view, 1> kRoom = {"room"};
+    EXPECT_EQ(suggestNames("orom", kRoom), "did you mean 'room'?"); // two edits would be too many for four letters
+    EXPECT_EQ(suggestNames("oorn", kRoom), "valid are room");
+}
+
+TEST(Names, equallyNearNamesAreAlwaysAllSuggested) {
+    constexpr std::array<std::string_view, 2> kTwo = {"tile_8", "tile_16"};
+    constexpr std::array<std::string_view, 3> kThree = {"bat", "cat", "hat"};
+    EXPECT_EQ(suggestNames("tile_1", kTwo), "did you mean 'tile_8' or 'tile_16'?");
+    EXPECT_EQ(suggestNames("at", kThree), "did you mean 'bat', 'cat' or 'hat'?");
+}
+
+TEST(Names, farNamesAreNeverSuggestedButListed) {
+    EXPECT_EQ(suggestNames("quetzalcoatl", kScenes), "valid are hall, spheres, lattice, room, head");
+    EXPECT_EQ(suggestNames("", kScenes), "valid are hall, spheres, lattice, room, head");
+    EXPECT_EQ(suggestNames("x", {}), "there are none");
+}
+
+} // namespace
+} // namespace tessera

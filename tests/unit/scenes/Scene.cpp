@@ -1,0 +1,120 @@
+#include "scenes/Scene.h"
+
+#include <cmath>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/unit/scenes/TinyScene.h"
+
+namespace tessera::scenes {
+namespace {
+
+/// Double rounding over a handful of operations on numbers near 10.
+constexpr double kRounding = 1e-14;
+
+void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
+    EXPECT_LE(glm::distance(a, b), tolerance) << a.x << ' ' << a.y << ' ' << a.z;
+}
+
+Light animatedLight(LightAnimationKind kind) {
+    Light light;
+    light.positionWS = {3.0, 1.0, 0.0};
+    LightAnimation& animation = light.animation.emplace();
+    animation.kind = kind;
+    animation.periodSeconds = 4.0;
+    return light;
+}
+
+TEST(Scene, texelBytesAreAlwaysFourChannelsOfTheFormat) {
+    EXPECT_EQ(texelBytes(TexelFormat::Rgba8Unorm), 4u);
+    EXPECT_EQ(texelBytes(TexelFormat::Rgba16Unorm), 8u);
+    EXPECT_EQ(texelBytes(TexelFormat::Rgba32Float), 16u);
+}
+
+TEST(Scene, childTransformsAreAlwaysAppliedBeforeTheirParents) {
+    Scene scene = tinyScene();
+    scene.nodes[0].parentFromNode = glm::scale(glm::dmat4(1.0), glm::dvec3(2.0));
+    Node child;
+    child.parent = 0;
+    child.parentFromNode = glm::translate(glm::dmat4(1.0), glm::dvec3(1.0, 0.0, 0.0));
+    child.instances.push_back({0, 0});
+    scene.nodes.push_back(child);
+
+    EXPECT_EQ(glm::dvec3(worldFromNodes(scene)[1] * glm::dvec4(0.0, 0.0, 0.0, 1.0)), glm::dvec3(2.0, 0.0, 0.0));
+    const Box3 boundsWS = worldBounds(scene);
+    EXPECT_EQ(boundsWS.min, glm::dvec3(0.0));
+    EXPECT_EQ(boundsWS.max, glm::dvec3(6.0, 8.0, 0.0));
+    EXPECT_EQ(triangleCount(scene), 2u);
+}
+
+TEST(Scene, boundsNeverCountVerticesThatNoTriangleUses) {
+    Scene scene = tinyScene();
+    scene.meshes[0].positionsOS.emplace_back(100.0f);
+    scene.meshes[0].normalsOS.emplace_back(0.0f, 0.0f, 1.0f);
+    EXPECT_EQ(worldBounds(scene).max, glm::dvec3(2.0, 4.0, 0.0));
+    scene.nodes.clear();
+    EXPECT_TRUE(worldBounds(scene).empty());
+}
+
+TEST(LightAnimation, orbitAlwaysTurnsCounterClockwiseAroundItsAxis) {
+    Light light = animatedLight(LightAnimationKind::Orbit);
+    light.animation->centerWS = {1.0, 0.0, 0.0};
+    light.animation->axisWS = {0.0, 5.0, 0.0}; // any length
+    expectNear(lightAtTime(light, 0.0).positionWS, {3.0, 1.0, 0.0}, kRounding);
+    expectNear(lightAtTime(light, 1.0).positionWS, {1.0, 1.0, -2.0}, kRounding);
+    expectNear(lightAtTime(light, 2.0).positionWS, {-1.0, 1.0, 0.0}, kRounding);
+    expectNear(lightAtTime(light, -1.0).positionWS, {1.0, 1.0, 2.0}, kRounding);
+    light.animation->phase = 0.25;
+    expectNear(lightAtTime(light, 0.0).positionWS, {1.0, 1.0, -2.0}, kRounding);
+}
+
+TEST(LightAnimation, wobbleAlwaysAddsAmplitudeTimesTheSineOfTheTime) {
+    Light light = animatedLight(LightAnimationKind::Wobble);
+    light.animation->amplitudeMetres = {0.5, 1.0, 0.0};
+    expectNear(lightAtTime(light, 1.0).positionWS, {3.5, 2.0, 0.0}, kRounding);
+    expectNear(lightAtTime(light, 0.5).positionWS, {3.0 + 0.5 * std::sqrt(0.5), 1.0 + std::sqrt(0.5), 0.0}, kRounding);
+}
+
+TEST(LightAnimation, pathAlwaysRunsAtConstantSpeedAndCloses) {
+    Light light = animatedLight(LightAnimationKind::Path);
+    // Sides of 3, 4 and 5 m: 3 m a second.
+    light.animation->pointsWS = {{0.0, 0.0, 0.0}, {3.0, 0.0, 0.0}, {3.0, 4.0, 0.0}};
+    expectNear(lightAtTime(light, 0.5).positionWS, {1.5, 0.0, 0.0}, kRounding);
+    expectNear(lightAtTime(light, 2.0).positionWS, {3.0, 3.0, 0.0}, kRounding);
+    expectNear(lightAtTime(light, 3.5).positionWS, {0.9, 1.2, 0.0}, kRounding);
+    expectNear(lightAtTime(light, 4.0).positionWS, {0.0, 0.0, 0.0}, kRounding);
+    light.animation->pointsWS.assign(2, {1.0, 2.0, 3.0});
+    EXPECT_EQ(lightAtTime(light, 1.0).positionWS, glm::dvec3(1.0, 2.0, 3.0));
+}
+
+TEST(LightAnimation, keyframesAreAlwaysClampedAtTheirEnds) {
+    Light light = animatedLight(LightAnimationKind::Keyframes);
+    light.animation->timesSeconds = {1.0, 2.0, 4.0};
+    light.animation->pointsWS = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 8.0, 0.0}};
+    EXPECT_EQ(lightAtTime(light, -9.0).positionWS, glm::dvec3(0.0));
+    EXPECT_EQ(lightAtTime(light, 1.5).positionWS, glm::dvec3(0.5, 0.0, 0.0));
+    EXPECT_EQ(lightAtTime(light, 2.0).positionWS, glm::dvec3(1.0, 0.0, 0.0));
+    EXPECT_EQ(lightAtTime(light, 2.5).positionWS, glm::dvec3(1.0, 2.0, 0.0));
+    EXPECT_EQ(lightAtTime(light, 99.0).positionWS, glm::dvec3(1.0, 8.0, 0.0));
+}
+
+TEST(LightAnimation, anyTimeIsAlwaysTheSameModuloThePeriod) {
+    Light light = animatedLight(LightAnimationKind::Orbit);
+    // 2^40 s is a whole number of periods of 4 s, exactly representable with its fraction.
+    expectNear(lightAtTime(light, std::ldexp(1.0, 40) + 1.25).positionWS, lightAtTime(light, 1.25).positionWS,
+               kRounding);
+}
+
+TEST(LightAnimation, directionalAndStillLightsNeverMove) {
+    Light light = animatedLight(LightAnimationKind::Wobble);
+    light.animation->amplitudeMetres = glm::dvec3(1.0);
+    light.type = LightType::Directional;
+    EXPECT_EQ(lightAtTime(light, 1.0).positionWS, light.positionWS);
+    light.type = LightType::Spot;
+    light.animation.reset();
+    EXPECT_EQ(lightAtTime(light, 1.0).positionWS, light.positionWS);
+}
+
+} // namespace
+} // namespace tessera::scenes
