@@ -74,6 +74,12 @@ Json pairJson(const ComparePair& pair) {
     json["ok"] = pair.verdict.ok;
     json["missed"] = pair.verdict.missed;
     json["why"] = why;
+    if (pair.channels.empty()) return json;
+    for (const ChannelShare& channel : pair.channels) {
+        json["channels"].push_back({{"channel", channel.channel},
+                                    {"relMseWithout", number(channel.relMseWithout)},
+                                    {"share", number(channel.share)}});
+    }
     return json;
 }
 
@@ -137,6 +143,12 @@ std::string compareTable(const CompareRecord& record) {
     for (const ComparePair& pair : record.pairs)
         for (const std::string& missed : pair.verdict.missed)
             text += fmt::format("missed: {} vs {}: {}\n", pair.a, pair.b, missed);
+    for (const ComparePair& pair : record.pairs) {
+        for (const ChannelShare& channel : pair.channels) {
+            text += fmt::format("{}: channel {} adds {} to relMSE ({} without it)\n", pair.a, channel.channel,
+                                figureText(channel.share), figureText(channel.relMseWithout));
+        }
+    }
     return text;
 }
 

@@ -8,12 +8,20 @@
 
 namespace tessera::validation {
 
+/// What one G-buffer channel's encoding adds to a pair's error.
+struct ChannelShare {
+    std::string channel;
+    double relMseWithout; ///< the pair's relMse when this channel alone is stored in fp32
+    double share;         ///< the pair's relMse minus that
+};
+
 /// One comparison: picture a against the truth b.
 struct ComparePair {
     std::string a, b; ///< technique names, "reference", or a picture's file name
     ErrorFigures figures;
     Tolerance tolerance;
     Verdict verdict;
+    std::vector<ChannelShare> channels = {}; ///< empty where no channel is packed
 };
 
 /// What `tessera compare` found.

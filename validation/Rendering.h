@@ -8,4 +8,7 @@ namespace tessera::validation {
 Picture toPicture(const recipes::RenderedFrame& frame);
 DisplayImage toDisplayImage(const recipes::RenderedFrame& frame);
 
+/// A linear picture as a display shows it without tone map: clamped, sRGB, 8 bits; for pictures that come from a file.
+DisplayImage toDisplayImage(const Picture& picture);
+
 } // namespace tessera::validation

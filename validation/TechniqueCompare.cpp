@@ -26,7 +26,7 @@ NamedPicture truthPicture(recipes::Renderer& renderer, const CompareRequest& req
     }
     const std::string& path = std::get<std::string>(request.against);
     NamedPicture truth{path, readPicture(path), {}};
-    truth.display = displayOf(truth.picture);
+    truth.display = toDisplayImage(truth.picture);
     return truth;
 }
 

@@ -19,6 +19,7 @@ constexpr std::array kFormats{
     GlFormat{Format::Rg16Snorm, GL_RG16_SNORM, GL_RG, GL_SHORT, false, true},
     GlFormat{Format::Rgba8Unorm, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, true, true},
     GlFormat{Format::Srgb8Alpha8, GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, false, false},
+    GlFormat{Format::Rgb10A2Unorm, GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, false, true},
     GlFormat{Format::Rg16Uint, GL_RG16UI, GL_RG_INTEGER, GL_UNSIGNED_SHORT, true, true},
     GlFormat{Format::R32Uint, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, true, true},
     GlFormat{Format::R8Uint, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, true, true},

@@ -1,0 +1,105 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "apps/Commands.h"
+#include "apps/Progress.h"
+#include "passes/recipes/Renderer.h"
+#include "scenes/Error.h"
+#include "scenes/Names.h"
+#include "validation/AtomicFile.h"
+#include "validation/HeatMap.h"
+#include "validation/PictureFile.h"
+#include "validation/TechniqueCompare.h"
+
+namespace tessera::app {
+
+namespace {
+
+struct CompareOptions {
+    FrameOptions frame;
+    std::string techniques;
+    std::string against = "forward";
+    std::string json, heatMaps;
+};
+
+std::vector<std::string> splitAtCommas(const std::string& text) {
+    std::vector<std::string> parts;
+    std::size_t begin = 0;
+    while (begin <= text.size()) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        parts.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return parts;
+}
+
+/// A technique's name, or the path of a picture that exists.
+std::variant<recipes::Technique, std::string> truthNamed(const std::string& name) {
+    std::vector<std::string_view> names;
+    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+        if (info.name == name) return info.technique;
+        names.push_back(info.name);
+    }
+    if (name == "reference") {
+        throw InputError("--against reference: the reference renderer is not part of this version; name a technique or a picture file");
+    }
+    if (std::filesystem::exists(name)) return name;
+    throw InputError(fmt::format("--against '{}' is neither a technique nor a picture file: {}", name, suggestNames(name, names)));
+}
+
+std::vector<recipes::Technique> techniquesOf(const CompareOptions& options,
+                                             const std::variant<recipes::Technique, std::string>& against) {
+    std::vector<recipes::Technique> techniques;
+    if (!options.techniques.empty()) {
+        for (const std::string& name : splitAtCommas(options.techniques)) techniques.push_back(techniqueNamed(name));
+        return techniques;
+    }
+    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+        const auto* truth = std::get_if<recipes::Technique>(&against);
+        if (!truth || *truth != info.technique) techniques.push_back(info.technique);
+    }
+    return techniques;
+}
+
+void writeHeatMaps(const std::string& folder, const validation::CompareResult& result) {
+    std::filesystem::create_directories(folder);
+    for (const validation::NamedPicture& picture : result.pictures) {
+        const std::string title = picture.name + " vs " + std::filesystem::path(result.truth.name).filename().string();
+        const validation::DisplayImage map = validation::errorHeatMap(picture.picture, result.truth.picture, title);
+        validation::writePng((std::filesystem::path(folder) / (picture.name + ".png")).string(), map);
+    }
+}
+
+int compare(const CompareOptions& options, const GlobalOptions& global) {
+    validation::CompareRequest comparison;
+    comparison.against = truthNamed(options.against);
+    comparison.techniques = techniquesOf(options, comparison.against);
+    const Request request = resolve(options.frame);
+    comparison.settings = request.settings;
+    const std::unique_ptr<gpu::Context> context = makeContext(global);
+    recipes::Renderer renderer(*context, request.scene);
+    Progress progress("comparing", validation::pictureCount(comparison), global.quiet);
+    comparison.renderedOne = [&progress] { progress.advance(); };
+    const validation::CompareResult result = validation::compareTechniques(renderer, context->capabilities(), comparison);
+    progress.finish();
+    if (!options.json.empty()) validation::writeFileAtomically(options.json, validation::compareJson(result.record));
+    if (!options.heatMaps.empty()) writeHeatMaps(options.heatMaps, result);
+    fmt::print("{}", validation::compareTable(result.record));
+    return result.record.ok() ? kGood : kToleranceMissed;
+}
+
+} // namespace
+
+void addCompareCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
+    CLI::App* command = app.add_subcommand("compare", "Renders a scene with several techniques and measures how they differ");
+    auto options = std::make_shared<CompareOptions>();
+    addFrameOptions(*command, options->frame, "");
+    command->add_option("--techniques", options->techniques, "Techniques to compare [all]")->type_name("A,B");
+    command->add_option("--against", options->against, "The truth: a technique or a picture file [forward]")->type_name("NAME|FILE");
+    command->add_option("--json", options->json, "Writes the figures as JSON")->type_name("FILE");
+    command->add_option("--heatmap", options->heatMaps, "Writes a map of the relative error of each pair")->type_name("DIR");
+    command->callback([options, &global, &run] { run = [options, &global] { return compare(*options, global); }; });
+}
+
+} // namespace tessera::app
