@@ -95,6 +95,11 @@ void GraphBackend::endPass(std::string_view name) {
     throwIfFailed(fmt::format("in pass '{}'", name));
 }
 
+void GraphBackend::endFrame(graph::Barrier barrier) {
+    memoryBarrier(barrier);
+    throwIfFailed("at the end of the frame");
+}
+
 std::vector<PassTiming> GraphBackend::passTimings() {
     std::vector<PassTiming> timings;
     for (const PassKey& key : frame_) {

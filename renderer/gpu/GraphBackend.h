@@ -42,6 +42,7 @@ public:
     const Buffer& buffer(int physical) override;
     void beginPass(std::string_view name, graph::Barrier barrier) override;
     void endPass(std::string_view name) override;
+    void endFrame(graph::Barrier barrier) override;
 
     /// Passes of the latest frame in order of execution. Without profiling gpuMs is some frames old.
     std::vector<PassTiming> passTimings();

@@ -18,10 +18,10 @@ struct ExpandedSource {
     std::vector<std::string> files; ///< paths below shaders/, the entry first
 };
 
-/// Resolves #include "path" (relative to shaders/, else to the including file) from an entry file. The text begins with
-/// #version 450 core and the defines. A file with #pragma once counts once, also when the first #include stands in a
-/// conditional that turns out false. Other preprocessor lines pass through; #includes in the C++ part of a shared
-/// header
+/// Resolves #include "path" (relative to shaders/ or to the folder that holds shaders/, as C++ sees shared headers,
+/// else to the including file) from an entry file. The text begins with #version 450 core and the defines. A file with
+/// #pragma once counts once, also when the first #include stands in a conditional that turns out false. Other
+/// preprocessor lines pass through; #includes in the C++ part of a shared header
 /// (#ifdef __cplusplus) do not. Throws InputError naming including file, line and remedy on a missing file, a cycle, a
 /// malformed #include or a #version of another version.
 ExpandedSource expand(const SourceTree& tree, std::string_view entryPath, const Defines& defines = {});

@@ -1,0 +1,58 @@
+#include <array>
+#include <regex>
+
+#include <fmt/format.h>
+
+#include "renderer/shader/Preprocess.h"
+#include "renderer/shader/ShaderPath.h"
+
+namespace tessera::shader {
+namespace {
+
+/// How a compiler writes a place, and what of the match follows it in the house's form.
+struct Dialect {
+    std::regex pattern;
+    std::size_t file, line; ///< groups of the source string's number and the line
+    std::size_t severity;   ///< group of a severity that stands before the place; 0: it follows by itself
+};
+
+const std::array<Dialect, 3>& dialects() {
+    static const std::array<Dialect, 3> list{
+        Dialect{std::regex(R"(^(\d+):(\d+)\(\d+\): )"), 1, 2, 0},           // Mesa "0:12(5): error: "
+        Dialect{std::regex(R"(^(\d+)\((\d+)\) : )"), 1, 2, 0},              // NVIDIA "0(12) : error C1008: "
+        Dialect{std::regex(R"(^(ERROR|WARNING): (\d+):(\d+): )"), 2, 3, 1}, // glslang, AMD, Intel "ERROR: 0:12: "
+    };
+    return list;
+}
+
+std::string mapLine(const std::string& line, std::span<const std::string> files) {
+    for (const Dialect& dialect : dialects()) {
+        std::smatch match;
+        if (!std::regex_search(line, match, dialect.pattern)) continue;
+        // More digits than any file list has entries make no index.
+        if (match.length(dialect.file) > 6) return line;
+        const std::size_t file = std::stoul(match.str(dialect.file));
+        if (file >= files.size()) return line;
+        std::string severity;
+        if (dialect.severity != 0) severity = match.str(dialect.severity) == "ERROR" ? "error: " : "warning: ";
+        return fmt::format("{}:{}: {}{}", displayPath(files[file]), match.str(dialect.line), severity,
+                           match.suffix().str());
+    }
+    return line;
+}
+
+} // namespace
+
+std::string mapLog(std::string_view log, std::span<const std::string> files) {
+    std::string mapped;
+    while (!log.empty()) {
+        const std::size_t end = log.find('\n');
+        mapped += mapLine(std::string(log.substr(0, end)), files);
+        if (end == std::string_view::npos) break;
+        mapped += '\n';
+        log.remove_prefix(end + 1);
+    }
+    return mapped;
+}
+
+} // namespace tessera::shader

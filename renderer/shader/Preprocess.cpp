@@ -1,0 +1,162 @@
+#include "renderer/shader/Preprocess.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "renderer/shader/Conditionals.h"
+#include "renderer/shader/LineScanner.h"
+#include "renderer/shader/ShaderPath.h"
+#include "scenes/Error.h"
+
+namespace tessera::shader {
+namespace {
+
+struct File {
+    std::string path;
+    std::vector<std::string> lines;
+    bool once = false;
+};
+
+std::vector<std::string> splitLines(std::string_view text) {
+    std::vector<std::string> lines;
+    while (!text.empty()) {
+        const std::size_t end = text.find('\n');
+        std::string_view line = text.substr(0, end);
+        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+        lines.emplace_back(line);
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    }
+    return lines;
+}
+
+bool hasPragmaOnce(const std::vector<std::string>& lines) {
+    LineScanner scanner;
+    return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+        const Directive directive = scanner.next(line);
+        return directive.name == "pragma" && directive.arguments == "once";
+    });
+}
+
+class Expander {
+public:
+    Expander(const SourceTree& tree, const Defines& defines) : tree_(tree) {
+        result_.text = "#version 450 core\n";
+        for (const auto& [name, value] : defines)
+            result_.text +=
+                value.empty() ? fmt::format("#define {}\n", name) : fmt::format("#define {} {}\n", name, value);
+    }
+
+    ExpandedSource run(std::string_view entryPath) {
+        const std::optional<std::size_t> entry = load(std::string(entryPath));
+        if (!entry)
+            throw InputError(fmt::format("{}: no such file in {}; correct the name of the program's stage",
+                                         displayPath(entryPath), tree_.describe()));
+        emit(*entry, false);
+        return std::move(result_);
+    }
+
+private:
+    /// Index of a file, read at its first request; none when there is no such file.
+    std::optional<std::size_t> load(const std::string& path) {
+        if (const auto known = indexOf_.find(path); known != indexOf_.end()) return known->second;
+        const std::optional<std::string> text = tree_.read(path);
+        if (!text) return std::nullopt;
+        File& file = files_.emplace_back(File{path, splitLines(*text)});
+        file.once = hasPragmaOnce(file.lines);
+        result_.files.push_back(path);
+        return indexOf_[path] = files_.size() - 1;
+    }
+
+    void emit(std::size_t index, bool conditional) {
+        stack_.push_back(index);
+        // Copied: loading further files moves the list.
+        const File file = files_[index];
+        const int fileIndex = int(index);
+        result_.text += fmt::format("#line 1 {}\n", fileIndex);
+        LineScanner scanner;
+        Conditionals conditionals;
+        for (std::size_t i = 0; i < file.lines.size(); ++i) {
+            const Place place{file.path, i + 1};
+            const Directive directive = scanner.next(file.lines[i]);
+            conditionals.follow(directive);
+            if (directive.name == "include") {
+                if (scanner.isOpen()) fail(place, "the #include must end on its line; so must a comment after it");
+                if (!conditionals.inCpp()) include(directive.arguments, place, conditional || conditionals.depth() > 0);
+                result_.text += conditionals.inCpp() ? "\n" : fmt::format("#line {} {}\n", place.line + 1, fileIndex);
+            } else if (directive.name == "pragma" && directive.arguments == "once") {
+                result_.text += '\n';
+            } else if (directive.name == "version") {
+                if (directive.arguments != "450 core" && directive.arguments != "450")
+                    fail(place, "every shader is '#version 450 core'; leave the #version out");
+                result_.text += '\n';
+            } else {
+                result_.text += file.lines[i] + '\n';
+            }
+        }
+        stack_.pop_back();
+    }
+
+    struct Place {
+        const std::string& file;
+        std::size_t line; ///< from 1
+    };
+
+    [[noreturn]] void fail(const Place& place, const std::string& what) const {
+        throw InputError(fmt::format("{}:{}: {}", displayPath(place.file), place.line, what));
+    }
+
+    void include(const std::string& argument, const Place& place, bool conditional) {
+        if (argument.size() < 3 || argument.front() != '"' || argument.find('"', 1) != argument.size() - 1)
+            fail(place, fmt::format("malformed #include {}; write #include \"lib/file.glsl\"", argument));
+        const std::string wanted = argument.substr(1, argument.size() - 2);
+        const std::optional<std::size_t> found = resolve(wanted, place.file);
+        if (!found)
+            fail(place,
+                 fmt::format("cannot include '{}': no such file below shaders/ or beside the including file, in {}",
+                             wanted, tree_.describe()));
+        if (const auto at = std::find(stack_.begin(), stack_.end(), *found); at != stack_.end())
+            fail(place, fmt::format("the #include of '{}' closes a cycle: {}; move what both need to a third file",
+                                    files_[*found].path, chain(at, *found)));
+        if (!files_[*found].once) return emit(*found, conditional);
+        // Where it counts already whatever the conditionals say, it is left out. Where only the driver can tell whether
+        // an earlier copy counts, the driver decides by a guard.
+        if (certain_.contains(*found)) return;
+        const bool guarded = conditional || possible_.contains(*found);
+        if (guarded) result_.text += fmt::format("#ifndef TESSERA_ONCE_{0}\n#define TESSERA_ONCE_{0}\n", *found);
+        (conditional ? possible_ : certain_).insert(*found);
+        emit(*found, conditional);
+        if (guarded) result_.text += "#endif\n";
+    }
+
+    std::optional<std::size_t> resolve(const std::string& wanted, const std::string& including) {
+        for (const std::string& path : includeCandidates(wanted, including))
+            if (const std::optional<std::size_t> found = load(path)) return found;
+        return std::nullopt;
+    }
+
+    std::string chain(std::vector<std::size_t>::const_iterator from, std::size_t closing) const {
+        std::string text;
+        for (auto at = from; at != stack_.end(); ++at) text += files_[*at].path + " -> ";
+        return text + files_[closing].path;
+    }
+
+    const SourceTree& tree_;
+    ExpandedSource result_;
+    std::vector<File> files_;
+    std::map<std::string, std::size_t> indexOf_;
+    std::vector<std::size_t> stack_; ///< files being expanded, the entry first
+    std::set<std::size_t> certain_;  ///< #pragma once files that count whatever the conditionals say
+    std::set<std::size_t> possible_; ///< those that stand in a conditional
+};
+
+} // namespace
+
+ExpandedSource expand(const SourceTree& tree, std::string_view entryPath, const Defines& defines) {
+    return Expander(tree, defines).run(entryPath);
+}
+
+} // namespace tessera::shader

@@ -1,0 +1,44 @@
+#include "renderer/shader/ProgramDesc.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "scenes/Error.h"
+
+namespace tessera::shader {
+
+std::string ProgramDesc::key() const {
+    std::string text = fmt::format("{}|{}|{}|{}|", name, vertex, fragment, compute);
+    Defines sorted = defines;
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+        text += fmt::format("{}{}={}", i == 0 ? "" : ";", sorted[i].first, sorted[i].second);
+    return text;
+}
+
+std::vector<ExpandedStage> expandStages(const SourceTree& tree, const ProgramDesc& desc) {
+    const bool rasterises = !desc.vertex.empty();
+    const bool computes = !desc.compute.empty();
+    if (rasterises == computes || (computes && !desc.fragment.empty()))
+        throw InputError(fmt::format("shader program '{}' needs either a vertex shader, with or without a fragment "
+                                     "shader, or a compute shader alone",
+                                     desc.name));
+    std::vector<ExpandedStage> stages;
+    const auto add = [&](gpu::Stage stage, const std::string& path) {
+        if (!path.empty()) stages.push_back({stage, expand(tree, path, desc.defines)});
+    };
+    add(gpu::Stage::Vertex, desc.vertex);
+    add(gpu::Stage::Fragment, desc.fragment);
+    add(gpu::Stage::Compute, desc.compute);
+    return stages;
+}
+
+std::vector<gpu::StageSource> programSources(const SourceTree& tree, const ProgramDesc& desc) {
+    std::vector<gpu::StageSource> sources;
+    for (ExpandedStage& stage : expandStages(tree, desc))
+        sources.push_back({stage.stage, std::move(stage.source.text)});
+    return sources;
+}
+
+} // namespace tessera::shader

@@ -1,0 +1,124 @@
+#include "renderer/shader/ProgramLibrary.h"
+
+#include <algorithm>
+#include <exception>
+
+#include <fmt/format.h>
+
+#include "scenes/Error.h"
+
+namespace tessera::shader {
+namespace {
+
+/// Name and defines, so that two variants can be told apart in messages.
+std::string label(const ProgramDesc& desc) {
+    std::string text = desc.name;
+    for (std::size_t i = 0; i < desc.defines.size(); ++i) {
+        const auto& [name, value] = desc.defines[i];
+        text += fmt::format("{}{}{}{}", i == 0 ? " [" : " ", name, value.empty() ? "" : "=", value);
+    }
+    return desc.defines.empty() ? text : text + "]";
+}
+
+std::vector<gpu::StageSource> sources(const std::vector<ExpandedStage>& stages) {
+    std::vector<gpu::StageSource> result;
+    for (const ExpandedStage& stage : stages) result.push_back({stage.stage, stage.source.text});
+    return result;
+}
+
+bool sameText(const std::vector<ExpandedStage>& a, const std::vector<ExpandedStage>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const ExpandedStage& x, const ExpandedStage& y) {
+        return x.stage == y.stage && x.source.text == y.source.text;
+    });
+}
+
+/// A build under way, with what it takes to name the places of its faults.
+struct Build {
+    ProgramDesc desc;
+    std::vector<ExpandedStage> stages;
+    gpu::PendingProgram pending;
+
+    Build(const ProgramDesc& ofDesc, std::vector<ExpandedStage> ofStages)
+        : desc(ofDesc), stages(std::move(ofStages)), pending(label(ofDesc), sources(stages)) {}
+
+    gpu::Program finish() {
+        try {
+            return pending.finish();
+        } catch (const gpu::ShaderError& error) {
+            std::vector<gpu::ShaderError::StageLog> logs = error.stageLogs();
+            for (gpu::ShaderError::StageLog& log : logs)
+                for (const ExpandedStage& stage : stages)
+                    if (stage.stage == log.stage) log.text = mapLog(log.text, stage.source.files);
+            throw gpu::ShaderError(error.program(), std::move(logs), error.linkLog());
+        }
+    }
+};
+
+} // namespace
+
+ProgramLibrary::ProgramLibrary(SourceTree tree) : tree_(std::move(tree)), newestChange_(tree_.newestChange()) {}
+
+const gpu::Program& ProgramLibrary::get(const ProgramDesc& desc) {
+    std::string key = desc.key();
+    auto found = entries_.find(key);
+    if (found == entries_.end()) {
+        Build build(desc, expandStages(tree_, desc));
+        gpu::Program program = build.finish();
+        auto entry = std::make_unique<Entry>(Entry{desc, std::move(build.stages), std::move(program)});
+        found = entries_.emplace(std::move(key), std::move(entry)).first;
+    }
+    return found->second->program;
+}
+
+void ProgramLibrary::warm(std::span<const ProgramDesc> descs) {
+    std::exception_ptr firstFault;
+    const auto keepGoing = [&firstFault](const auto& step) {
+        try {
+            step();
+        } catch (...) {
+            if (!firstFault) firstFault = std::current_exception();
+        }
+    };
+    std::map<std::string, Build> builds;
+    for (const ProgramDesc& desc : descs) {
+        const std::string key = desc.key();
+        if (entries_.contains(key) || builds.contains(key)) continue;
+        keepGoing([&] { builds.try_emplace(key, desc, expandStages(tree_, desc)); });
+    }
+    for (auto& [key, build] : builds)
+        keepGoing([&] {
+            gpu::Program program = build.finish();
+            entries_[key] = std::make_unique<Entry>(Entry{build.desc, std::move(build.stages), std::move(program)});
+        });
+    if (firstFault) std::rethrow_exception(firstFault);
+}
+
+std::vector<std::string> ProgramLibrary::reload() {
+    std::vector<std::string> faults;
+    std::vector<std::pair<Entry*, Build>> builds;
+    for (auto& [key, entry] : entries_) {
+        try {
+            std::vector<ExpandedStage> stages = expandStages(tree_, entry->desc);
+            if (!sameText(stages, entry->stages))
+                builds.emplace_back(entry.get(), Build(entry->desc, std::move(stages)));
+        } catch (const InputError& error) {
+            faults.emplace_back(error.what());
+        }
+    }
+    for (auto& [entry, build] : builds) {
+        try {
+            entry->program = build.finish();
+            entry->stages = std::move(build.stages);
+        } catch (const gpu::ShaderError& error) {
+            faults.emplace_back(error.what());
+        }
+    }
+    return faults;
+}
+
+bool ProgramLibrary::sourcesChanged() {
+    const auto newest = tree_.newestChange();
+    return std::exchange(newestChange_, newest) != newest;
+}
+
+} // namespace tessera::shader
