@@ -1,0 +1,114 @@
+#include "validation/HeatMap.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+
+#include "tests/unit/validation/Samples.h"
+#include "validation/ErrorScale.h"
+#include "validation/PixelErrors.h"
+
+namespace tessera::validation {
+namespace {
+
+Rgb8 at(const DisplayImage& image, int x, int y) {
+    const std::size_t index = 3 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
+    return {image.rgb[index], image.rgb[index + 1], image.rgb[index + 2]};
+}
+
+Rgb8 pictureColour(const DisplayImage& image, const HeatMapLayout& layout, int x, int y) {
+    return at(image, layout.pictureX + layout.scale * x + layout.scale / 2,
+              layout.pictureY + layout.scale * y + layout.scale / 2);
+}
+
+TEST(ErrorScale, lightnessAlwaysRisesAlongTheScale) {
+    double before = -1.0;
+    for (int step = 0; step <= 256; ++step) {
+        const Rgb8 colour = scaleColour(step / 256.0);
+        const float encoded[3] = {float(colour.r), float(colour.g), float(colour.b)};
+        const double luma = luminance(encoded); // of the encoded values: rises with lightness well enough to order by
+        EXPECT_GE(luma, before) << "step " << step;
+        before = luma;
+    }
+    EXPECT_EQ(scaleColour(0.0), (Rgb8{0x00, 0x00, 0x04}));
+    EXPECT_EQ(scaleColour(1.0), (Rgb8{0xfc, 0xff, 0xa4}));
+    EXPECT_EQ(scaleColour(4.0 / 9.0), (Rgb8{0xa5, 0x2c, 0x60}));
+    EXPECT_EQ(scaleColour(-1.0), scaleColour(0.0));
+    EXPECT_EQ(scaleColour(2.0), scaleColour(1.0));
+}
+
+TEST(ErrorScale, aDecadeIsAlwaysASeventhOfTheScale) {
+    EXPECT_EQ(scalePosition(0.0), 0.0);
+    EXPECT_EQ(scalePosition(1e-9), 0.0);
+    EXPECT_EQ(scalePosition(1e9), 1.0);
+    for (int exponent = -7; exponent <= 0; ++exponent) // 1e-12: what log10 and the division round
+        EXPECT_NEAR(scalePosition(std::pow(10.0, exponent)), (exponent + 7) / 7.0, 1e-12);
+}
+
+TEST(HeatMap, everyPixelAlwaysHasTheColourOfItsErrorOrItsState) {
+    Picture b = greyPicture(3, 2, 1.f);
+    Picture a = b;
+    setPixel(a, 1, {1.f, 2.f, 1.f});
+    setPixel(a, 2, {1.f, 1.f, 1.f + 1.f / 1024.f});
+    setPixel(a, 3, {std::numeric_limits<float>::quiet_NaN(), 1.f, 1.f});
+    a.covered[4] = b.covered[4] = 0;
+    const DisplayImage image = errorHeatMap(a, b, "title", std::vector<std::uint8_t>{0, 0, 0, 0, 0, 1});
+    const HeatMapLayout layout = heatMapLayout(3, 2);
+    ASSERT_TRUE(image.isConsistent());
+    EXPECT_EQ(image.width, layout.width);
+    EXPECT_EQ(image.height, layout.height);
+    EXPECT_EQ(pictureColour(image, layout, 0, 0), scaleColour(0.0));
+    EXPECT_EQ(pictureColour(image, layout, 1, 0), scaleColour(1.0));
+    EXPECT_EQ(pictureColour(image, layout, 2, 0), scaleColour(1.0 - std::log10(1024.0) / 7.0));
+    EXPECT_EQ(pictureColour(image, layout, 0, 1), kColourNotFinite);
+    EXPECT_EQ(pictureColour(image, layout, 1, 1), kColourUncovered);
+    EXPECT_EQ(pictureColour(image, layout, 2, 1), kColourExcluded);
+}
+
+TEST(HeatMap, theLegendIsAlwaysTheScaleFromEndToEnd) {
+    const Picture picture = greyPicture(640, 4, 1.f);
+    const DisplayImage image = errorHeatMap(picture, picture, "title");
+    const HeatMapLayout layout = heatMapLayout(640, 4);
+    for (int x = 0; x < layout.legendWidth; ++x)
+        EXPECT_EQ(at(image, layout.legendX + x, layout.legendY + layout.legendHeight - 1),
+                  scaleColour(double(x) / (layout.legendWidth - 1)));
+}
+
+TEST(HeatMap, aPictureIsNeverShrunkAndItsLayoutAlwaysHoldsIt) {
+    for (const auto& [width, height] : {std::pair{1, 1}, {1, 700}, {700, 1}, {64, 36}, {641, 359}, {1920, 1080}}) {
+        const HeatMapLayout layout = heatMapLayout(width, height);
+        EXPECT_GE(layout.scale, 1);
+        EXPECT_GE(layout.pictureX, 0);
+        EXPECT_LE(layout.pictureX + layout.scale * width, layout.width);
+        EXPECT_LE(layout.pictureY + layout.scale * height, layout.legendY);
+        EXPECT_LT(layout.legendY + layout.legendHeight, layout.height);
+    }
+}
+
+TEST(HeatMap, aTitleOfAnyLengthNeverLeavesTheImage) {
+    const Picture picture = greyPicture(2, 2, 1.f);
+    const DisplayImage image = errorHeatMap(picture, picture, std::string(1000, 'W'));
+    EXPECT_EQ(at(image, image.width - 1, 18), at(image, 0, 0));
+    EXPECT_TRUE(errorHeatMap(picture, picture, "").isConsistent());
+}
+
+TEST(BitmapFont, textIsAlwaysDrawnInItsCellsAndCutOffAtTheEdge) {
+    DisplayImage image{8, 10, std::vector<std::uint8_t>(240, 0)};
+    drawText(image, 1, 0, "-", {9, 9, 9});
+    std::vector<int> lit;
+    for (int i = 0; i < 80; ++i)
+        if (at(image, i % 8, i / 8) == Rgb8{9, 9, 9}) lit.push_back(i);
+    EXPECT_THAT(lit, testing::ElementsAre(3 * 8 + 2, 3 * 8 + 3, 3 * 8 + 4));
+    EXPECT_EQ(textWidth("ab", 2), 22);
+    EXPECT_EQ(textWidth(""), 0);
+    drawText(image, -3, -3, "WWWW", {1, 1, 1}, 3);
+    EXPECT_TRUE(image.isConsistent());
+    DisplayImage unknown{8, 10, std::vector<std::uint8_t>(240, 0)}, question = unknown;
+    drawText(unknown, 0, 0, "\x7f", {9, 9, 9});
+    drawText(question, 0, 0, "?", {9, 9, 9});
+    EXPECT_EQ(unknown.rgb, question.rgb);
+}
+
+} // namespace
+} // namespace tessera::validation

@@ -1,0 +1,120 @@
+#include "validation/HeatMap.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "validation/ErrorScale.h"
+#include "validation/PixelErrors.h"
+
+namespace tessera::validation {
+namespace {
+
+constexpr int kTextScale = 2;
+constexpr int kTextHeight = kTextScale * kGlyphHeight;
+constexpr int kMargin = 12;
+constexpr int kLeastWidth = 560; // what the legend needs to be read
+constexpr int kBarHeight = 16;
+constexpr int kTickHeight = 5;
+constexpr int kSwatch = 14;
+constexpr Rgb8 kBackground = {24, 24, 26};
+constexpr Rgb8 kInk = {232, 230, 224};
+constexpr Rgb8 kFaintInk = {168, 166, 160};
+
+Rgb8 colourOf(PixelState state, double rel) {
+    switch (state) {
+    case PixelState::NotFinite:
+        return kColourNotFinite;
+    case PixelState::Uncovered:
+        return kColourUncovered;
+    case PixelState::Excluded:
+        return kColourExcluded;
+    case PixelState::Compared:
+        break;
+    }
+    return scaleColour(scalePosition(rel));
+}
+
+/// Shortens text to what fits, its end cut off with dots.
+std::string fitted(const std::string& text, int width) {
+    const std::size_t fits = std::size_t(std::max(width, 0) / (kTextScale * kGlyphAdvance));
+    if (text.size() <= fits) return text;
+    return fits < 3 ? std::string() : text.substr(0, fits - 2) + "..";
+}
+
+void drawPicture(DisplayImage& image, const HeatMapLayout& layout, const PixelErrors& errors, int width) {
+    for (std::size_t i = 0; i < errors.state.size(); ++i) {
+        const int x = int(i % std::size_t(width)), y = int(i / std::size_t(width));
+        fillRectangle(image, layout.pictureX + layout.scale * x, layout.pictureY + layout.scale * y, layout.scale,
+                      layout.scale, colourOf(errors.state[i], errors.rel[i]));
+    }
+}
+
+void drawBar(DisplayImage& image, const HeatMapLayout& layout) {
+    const int span = layout.legendWidth - 1;
+    for (int x = 0; x <= span; ++x)
+        fillRectangle(image, layout.legendX + x, layout.legendY, 1, layout.legendHeight,
+                      scaleColour(double(x) / double(span)));
+    const int tickY = layout.legendY + layout.legendHeight;
+    for (int exponent = kErrorScaleLowExponent; exponent <= 0; ++exponent) {
+        const int x = layout.legendX + int(std::lround(span * scalePosition(std::pow(10.0, exponent))));
+        fillRectangle(image, x, tickY, 1, kTickHeight, kFaintInk);
+        const std::string label = exponent == 0 ? "1" : fmt::format("1e{}", exponent);
+        const int labelWidth = textWidth(label, kTextScale);
+        const int left =
+            std::clamp(x - labelWidth / 2, layout.legendX, layout.legendX + layout.legendWidth - labelWidth);
+        drawText(image, left, tickY + kTickHeight + 3, label, kInk, kTextScale);
+    }
+}
+
+void drawSwatches(DisplayImage& image, int x, int y) {
+    const struct {
+        Rgb8 colour;
+        const char* meaning;
+    } swatches[] = {{scaleColour(0.0), "below 1e-7"},
+                    {kColourNotFinite, "NaN or Inf"},
+                    {kColourUncovered, "not drawn"},
+                    {kColourExcluded, "excluded"}};
+    for (const auto& swatch : swatches) {
+        fillRectangle(image, x, y, kSwatch, kSwatch, kFaintInk);
+        fillRectangle(image, x + 1, y + 1, kSwatch - 2, kSwatch - 2, swatch.colour);
+        x += kSwatch + 6;
+        drawText(image, x, y, swatch.meaning, kFaintInk, kTextScale);
+        x += textWidth(swatch.meaning, kTextScale) + 16;
+    }
+}
+
+} // namespace
+
+HeatMapLayout heatMapLayout(int pictureWidth, int pictureHeight) {
+    HeatMapLayout layout;
+    // A picture of a few pixels is enlarged, but never to more than the height that the legend's width suggests.
+    const int fits = (kLeastWidth - 2 * kMargin) / std::max(pictureWidth, pictureHeight);
+    layout.scale = std::max(1, fits);
+    layout.width = std::max(kLeastWidth, layout.scale * pictureWidth + 2 * kMargin);
+    layout.pictureX = (layout.width - layout.scale * pictureWidth) / 2;
+    layout.pictureY = kMargin + kTextHeight + kMargin / 2;
+    layout.legendX = kMargin;
+    layout.legendY = layout.pictureY + layout.scale * pictureHeight + kMargin;
+    layout.legendWidth = layout.width - 2 * kMargin;
+    layout.legendHeight = kBarHeight;
+    layout.height = layout.legendY + kBarHeight + kTickHeight + 3 + kTextHeight + kMargin / 2 + kTextHeight + kMargin;
+    return layout;
+}
+
+DisplayImage errorHeatMap(const Picture& a, const Picture& b, const std::string& title,
+                          std::span<const std::uint8_t> excluded) {
+    const PixelErrors errors = pixelErrors(a, b, excluded);
+    const HeatMapLayout layout = heatMapLayout(a.width, a.height);
+    DisplayImage image{layout.width, layout.height, {}};
+    image.rgb.resize(3 * image.pixelCount());
+    fillRectangle(image, 0, 0, image.width, image.height, kBackground);
+    drawText(image, kMargin, kMargin, fitted(title, image.width - 2 * kMargin), kInk, kTextScale);
+    drawPicture(image, layout, errors, a.width);
+    drawBar(image, layout);
+    drawSwatches(image, layout.legendX, layout.legendY + kBarHeight + kTickHeight + 3 + kTextHeight + kMargin / 2);
+    return image;
+}
+
+} // namespace tessera::validation

@@ -1,0 +1,27 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "validation/Picture.h"
+
+namespace tessera::validation {
+
+/// Where the picture sits in a heat map, which is enlarged by whole numbers when it is small.
+struct HeatMapLayout {
+    int width = 0, height = 0;      ///< of the whole image
+    int pictureX = 0, pictureY = 0; ///< upper left corner of the picture
+    int scale = 1;                  ///< size of one of its pixels
+    int legendX = 0, legendY = 0;   ///< upper left corner of the colour bar
+    int legendWidth = 0, legendHeight = 0;
+};
+
+HeatMapLayout heatMapLayout(int pictureWidth, int pictureHeight);
+
+/// The relative error (PixelErrors::rel) of picture a against the truth b as colours on a logarithmic scale from 1e-7
+/// to 1, with the title above and the legend below. Pixels that are not finite are magenta, uncovered ones dark grey,
+/// excluded ones grey-blue (ErrorScale.h). `excluded` is as errorFigures() takes it.
+DisplayImage errorHeatMap(const Picture& a, const Picture& b, const std::string& title,
+                          std::span<const std::uint8_t> excluded = {});
+
+} // namespace tessera::validation
