@@ -74,8 +74,6 @@ void importCamera(Context& context, int nodeIndex, const glm::dmat4& worldFromNo
     const std::string place = fmt::format("/cameras/{}", node.camera);
     const tinygltf::Camera& stored = context.document.model.cameras[static_cast<std::size_t>(node.camera)];
     const nlohmann::json& written = context.document.json["cameras"][static_cast<std::size_t>(node.camera)];
-    if (!written.contains(stored.type))
-        context.document.fail(place, fmt::format("the property '{}' is missing", stored.type));
 
     Camera camera;
     camera.name = uniqueName(context.scene.cameras,

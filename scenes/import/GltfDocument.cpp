@@ -52,8 +52,9 @@ void checkVersion(const Json& json, const std::string& file) {
             fmt::format("{}: /asset: is missing; every glTF 2.0 file has one, glTF 1.0 is not supported", file));
     for (const char* key : {"minVersion", "version"}) {
         const auto version = asset->find(key);
-        if (version == asset->end() || !version->is_string()) continue;
-        const std::string& text = version->get_ref<const std::string&>();
+        if (version == asset->end()) continue;
+        // glTF 1.0 files write a number here.
+        const std::string text = version->is_string() ? version->get<std::string>() : version->dump();
         const bool good = std::string_view(key) == "version" ? text == "2" || text.starts_with("2.") : text == "2.0";
         if (!good)
             throw InputError(fmt::format(

@@ -59,6 +59,22 @@ std::string formatOf(std::span<const std::byte> bytes, const std::string& name) 
     return extension;
 }
 
+/// libpng prints a line of its own to stderr when a file ends early, so that is found out before it is asked.
+/// Source: PNG specification, section 5.3: a chunk is length, type, data, CRC, with the length big-endian.
+bool isCompletePng(std::span<const std::byte> bytes) {
+    constexpr std::size_t kSignatureBytes = 8;
+    constexpr std::size_t kFrameBytes = 12;
+    std::size_t at = kSignatureBytes;
+    while (bytes.size() - at >= kFrameBytes) {
+        std::size_t length = 0;
+        for (std::size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<std::size_t>(bytes[at + i]);
+        if (length > bytes.size() - at - kFrameBytes) return false;
+        if (std::memcmp(bytes.data() + at + 4, "IEND", 4) == 0) return true;
+        at += length + kFrameBytes;
+    }
+    return false;
+}
+
 std::string oneLine(std::string text) {
     std::ranges::replace(text, '\n', ' ');
     while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
@@ -111,6 +127,8 @@ Image decode(std::span<const std::byte> bytes, const std::string& name,
         throw InputError(fmt::format("{}: {}; convert the picture to PNG, JPEG, HDR or EXR", name,
                                      format.empty() ? "is in no known picture format"
                                                     : fmt::format("the picture format {} is not supported", format)));
+    if (format == "png" && (bytes.size() < 8 || !isCompletePng(bytes)))
+        throw InputError(fmt::format("{}: the png picture is broken or cut short", name));
     std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
     if (!input) {
         OIIO::geterror(); // clears the text, which lists plugins instead of saying what to do
