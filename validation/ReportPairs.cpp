@@ -32,11 +32,11 @@ std::string shareHtml(double share) {
 std::string askedHtml(const Tolerance& tolerance) {
     std::string html;
     const auto add = [&](const std::string& part) { html += (html.empty() ? "" : ", ") + part; };
-    if (tolerance.bitEqual) add("equal bits &ge; " + shareHtml(*tolerance.bitEqual));
-    if (tolerance.maxRel) add("max&nbsp;rel &le; " + figureHtml(*tolerance.maxRel));
-    if (tolerance.p999Rel) add("p99.9 &le; " + figureHtml(*tolerance.p999Rel));
-    if (tolerance.relMse) add("relMSE &le; " + figureHtml(*tolerance.relMse));
-    if (tolerance.bias) add("|bias| &le; " + figureHtml(*tolerance.bias));
+    if (tolerance.bitEqual) add("equal bits &ge;&nbsp;" + shareHtml(*tolerance.bitEqual));
+    if (tolerance.maxRel) add("max&nbsp;rel &le;&nbsp;" + figureHtml(*tolerance.maxRel));
+    if (tolerance.p999Rel) add("p99.9 &le;&nbsp;" + figureHtml(*tolerance.p999Rel));
+    if (tolerance.relMse) add("relMSE &le;&nbsp;" + figureHtml(*tolerance.relMse));
+    if (tolerance.bias) add("|bias| &le;&nbsp;" + figureHtml(*tolerance.bias));
     if (html.empty()) html = "signal and sound values only";
     if (!tolerance.reason.empty())
         html += fmt::format("<span class=\"reason\">{}</span>", escapedHtml(tolerance.reason));

@@ -137,7 +137,7 @@ TEST(Report, aPairWithoutPicturesNeverHasASlider) {
 
 TEST(Report, figuresAreAlwaysSetWithPowersOfTen) {
     EXPECT_THAT(reportHtml(sampleReport()),
-                HasSubstr("max&nbsp;rel &le; 1.0&#8239;&times;&#8239;10<sup>&minus;5</sup>"));
+                HasSubstr("max&nbsp;rel &le;&nbsp;1.0&#8239;&times;&#8239;10<sup>&minus;5</sup>"));
 }
 
 TEST(Html, bytesThatAreNotUtf8AndControlCharactersAreAlwaysReplaced) {
