@@ -1,0 +1,33 @@
+#include <cstddef>
+#include <cstdio>
+#include <exception>
+#include <memory>
+
+#include "passes/recipes/Renderer.h"
+#include "renderer/gpu/Context.h"
+#include "scenes/Load.h"
+
+using namespace tessera;
+
+/// Loads a built-in scene with the installed library and renders it small, as a program of somebody else would.
+int main() try {
+    const scenes::Scene scene = scenes::loadScene("lattice", {.lights = 4});
+    std::size_t triangles = 0;
+    for (const scenes::Mesh& mesh : scene.meshes) triangles += mesh.indices.size() / 3;
+
+    const std::unique_ptr<gpu::Context> context = gpu::Context::create();
+    recipes::Renderer renderer(*context, scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {64, 36};
+    const recipes::RenderedFrame frame = renderer.render(recipes::Technique::Deferred, settings);
+    std::size_t covered = 0;
+    for (std::size_t pixel = 0; pixel < frame.radiance.size() / 4; ++pixel)
+        covered += frame.radiance[pixel * 4 + 3] > 0;
+
+    std::printf("lattice: %zu triangles, %zu lights; %zu of 64x36 pixels covered\n", triangles, scene.lights.size(),
+                covered);
+    return 0;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+}

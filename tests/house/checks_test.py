@@ -1,0 +1,85 @@
+"""The checks of this folder find what they are there to find."""
+
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+
+import check_floors
+import check_packages
+import run_document
+
+
+class Floors(unittest.TestCase):
+    def messages(self, files):
+        """What check_floors says of a repository holding `files` (path: text)."""
+        with tempfile.TemporaryDirectory() as name:
+            root = pathlib.Path(name)
+            for path, text in files.items():
+                (root / path).parent.mkdir(parents=True, exist_ok=True)
+                (root / path).write_text(text)
+            return [message for path in files for message in check_floors.checkFile(root, root / path)]
+
+    def testAnIncludeUpwardsIsAlwaysNamedWithItsLine(self):
+        self.assertEqual(
+            self.messages({"scenes/A.cpp": '#include "scenes/A.h"\n#include "renderer/gpu/B.h"\n'}),
+            ["scenes/A.cpp:2: includes renderer/gpu/B.h: scenes may include nothing but itself; "
+             "renderer/gpu is not below it"])
+
+    def testANeighbourIncludedByItsBareNameIsNeverMistakenForAnotherFloor(self):
+        self.assertEqual(self.messages({"shaders/shared/a.h": '#include "b.h"\n', "shaders/shared/b.h": ""}), [])
+        self.assertEqual(len(self.messages({"renderer/graph/A.h": '#include "../gpu/B.h"\n', "renderer/gpu/B.h": ""})), 1)
+
+    def testAPassNeverIncludesAnotherPass(self):
+        self.assertEqual(
+            self.messages({"passes/ForwardPass.cpp": '#include "passes/ForwardPass.h"\n#include "passes/DepthPrepass.h"\n'}),
+            ["passes/ForwardPass.cpp:2: includes passes/DepthPrepass.h: "
+             "a pass does not know another pass; let a recipe wire them"])
+        self.assertEqual(len(self.messages({"passes/ForwardPass.h": '#include "passes/recipes/Renderer.h"\n'})), 1)
+        self.assertEqual(self.messages({"passes/recipes/R.cpp": '#include "passes/ForwardPass.h"\n'}), [])
+
+    def testOpenGlIsAlwaysKeptInTheSourcesOfRendererGpu(self):
+        line = "#include <glad/gl.h>\n"
+        self.assertEqual(self.messages({"renderer/gpu/Buffer.cpp": line}), [])
+        self.assertEqual(
+            self.messages({"renderer/gpu/Buffer.h": line}),
+            ["renderer/gpu/Buffer.h:1: includes glad/gl.h: "
+             "OpenGL stays inside the sources of renderer/gpu; use its wrapper"])
+        self.assertEqual(len(self.messages({"passes/A.cpp": line, "validation/B.cpp": line, "apps/C.cpp": line})), 3)
+
+    def testTheGraphNeverIncludesTheGpu(self):
+        self.assertEqual(len(self.messages({"renderer/graph/A.cpp": '#include "renderer/gpu/Buffer.h"\n'})), 1)
+        self.assertEqual(self.messages({"renderer/gpu/A.cpp": '#include "renderer/graph/Graph.h"\n'}), [])
+
+
+class Packages(unittest.TestCase):
+    table = "# comment\nlibfmt-dev build fmt text\ng++ build - compiler\n"
+
+    def testALibraryOnOneSideOnlyIsAlwaysNamed(self):
+        self.assertEqual(check_packages.faultsOf(self.table, {"dependencies": ["fmt"]}), [])
+        self.assertEqual(
+            check_packages.faultsOf(self.table, {"dependencies": [{"name": "glm"}]}),
+            ["vcpkg.json: lacks fmt, which tools/packages.txt gives for Debian's libfmt-dev",
+             "tools/packages.txt: names no Debian package for glm of vcpkg.json"])
+
+    def testALineWithoutItsColumnsIsAlwaysNamed(self):
+        self.assertEqual(
+            check_packages.faultsOf("g++\n", {"dependencies": []}),
+            ["tools/packages.txt:1: a line is: package, build or test, vcpkg port or -, what for"])
+
+
+class Documents(unittest.TestCase):
+    def testExactlyTheLinesOfShBlocksAreCommands(self):
+        text = "```sh\n# why\none \\\n  two\n\nthree\n```\n```console\nfour\n```\nfive\n  ```sh\n  six\n  ```\n"
+        self.assertEqual(run_document.commandsOf(text), [(3, "one two"), (6, "three"), (13, "six")])
+
+    def testACommandIsNeverLeftOutForItsBeginningAlone(self):
+        self.assertIsNone(run_document.exceptionOf("./tester"))
+        self.assertIsNone(run_document.exceptionOf("tessera render hall -o view.png"))
+        self.assertIsNotNone(run_document.exceptionOf("./test -R Graph   # one test"))
+
+
+if __name__ == "__main__":
+    unittest.main()
