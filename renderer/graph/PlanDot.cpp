@@ -64,12 +64,10 @@ public:
     std::string draw() {
         std::string title = plan_.scene;
         if (!plan_.technique.empty()) title += (title.empty() ? "" : ", ") + plan_.technique;
-        text_ = kHead;
-        text_ +=
-            fmt::format("  {};\n", label(title.empty() ? "frame" : title,
-                                         {fmt::format("{} of memory ({} without aliasing)", readableBytes(plan_.bytes),
-                                                      readableBytes(plan_.bytesWithoutAliasing)),
-                                          "resources of one tint share their memory"}));
+        std::vector<std::string> lines{fmt::format("{} of memory, {} without aliasing", readableBytes(plan_.bytes),
+                                                   readableBytes(plan_.bytesWithoutAliasing))};
+        if (!tints_.empty()) lines.push_back("resources of one tint share their memory");
+        text_ = kHead + fmt::format("  {};\n", label(title.empty() ? "frame" : title, lines));
         for (std::size_t i = 0; i <= plan_.passes.size(); ++i) {
             for (std::size_t j = 0; j < plan_.leftOut.size(); ++j)
                 if (isPass(plan_.leftOut[j]) && std::min(plan_.leftOut[j].before, plan_.passes.size()) == i)

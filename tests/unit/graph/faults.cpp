@@ -238,7 +238,7 @@ TEST(Faults, allOfThemAreAlwaysListedAtOnce) {
         compile(graph);
         FAIL() << "compiled";
     } catch (const GraphError& error) {
-        EXPECT_EQ(error.faults().size(), 2u);
+        ASSERT_EQ(error.faults().size(), 2u);
         EXPECT_STREQ(error.what(),
                      ("the render graph has 2 faults:\n" + error.faults()[0] + "\n" + error.faults()[1]).c_str());
     }

@@ -223,6 +223,22 @@ TEST(Plan, drawingAlwaysDashesWhatWasLeftOut) {
     EXPECT_THAT(dot, HasSubstr("leftOut1 [label=<<B>channel tangent</B>"));
 }
 
+TEST(Plan, drawingAlwaysShowsTheFlowAmongLeftOutPasses) {
+    Graph graph;
+    const TextureHandle image = draw(graph, "shade", "image");
+    graph.output(draw(graph, "copy", "shown", {image}));
+    const TextureHandle marked = blend(graph, "mark", image);
+    draw(graph, "inspect", "report", {marked});
+    const std::string dot = planDot(makePlan(graph, compile(graph)));
+    // The ellipses in order of drawing: image, shown, image as marked, report.
+    EXPECT_THAT(dot, HasSubstr("resource1 -> leftOut0 [style=dashed"));
+    EXPECT_THAT(dot, HasSubstr("leftOut0 -> resource3 [style=dashed"));
+    EXPECT_THAT(dot, HasSubstr("resource3 -> leftOut1 [style=dashed"));
+    EXPECT_THAT(dot, Not(HasSubstr("resource1 -> leftOut1")));
+    EXPECT_THAT(dot, HasSubstr("leftOut1 -> resource4 [style=dashed"));
+    EXPECT_THAT(dot, HasSubstr("resource1 -> pass1;"));
+}
+
 TEST(Plan, drawingAlwaysTintsExactlySharedMemory) {
     const std::string dot = planDot(examplePlan());
     const auto tintOf = [&](const std::string& node) {
