@@ -7,12 +7,12 @@ namespace {
 using graph::Format;
 
 constexpr ChannelInfo kChannels[] = {
-    {Channel::Albedo, "albedo", "ALBEDO", "k_d or base colour, metallic", Format::Rgba32Float, Format::Srgb8Alpha8,
-     "sRGB8, metallic linear 8 bit", "scenes with a lit model"},
+    {Channel::Albedo, "albedo", "ALBEDO", "k_d or base colour", Format::Rgba32Float, Format::Rgb10A2Unorm,
+     "square root, 10 bit a colour, 0..1", "scenes with a lit model"},
     {Channel::Normal, "normal", "NORMAL", "unit normal, lighting space", Format::Rgba32Float, Format::Rg16Snorm,
      "octahedral 2 x 16 bit", "scenes with a lit model"},
-    {Channel::Microsurface, "microsurface", "MICROSURFACE", "alpha, model, ior or F90", Format::Rgba32Float, Format::Rg16Uint,
-     "perceptual roughness 16 bit, model 3 bit, (ior-1)/(ior+1) or F90 13 bit", "scenes with a glossy model or several models"},
+    {Channel::Microsurface, "microsurface", "MICROSURFACE", "alpha, model, ior or F90, metallic", Format::Rgba32Float,
+     Format::R32Uint, "perceptual roughness 11 bit, (ior-1)/(ior+1) or F90 11 bit, metallic 7 bit, model 3 bit", "scenes with a glossy model or several models"},
     {Channel::Specular, "specular", "SPECULAR", "k_s or dielectric F0", Format::Rgba32Float, Format::Rgb10A2Unorm,
      "square root, 10 bit a colour, 0..1", "scenes that change k_s or the dielectric F0"},
     {Channel::Emission, "emission", "EMISSION", "radiance without lights", Format::Rgba32Float, Format::R32Uint,
@@ -30,7 +30,7 @@ constexpr GBufferLayout uniformLayout(Encoding encoding) {
 
 constexpr LayoutInfo kLayouts[] = {
     {"exact", "fp32 everywhere; deferred equals forward to the last bit", uniformLayout(Encoding::Exact)},
-    {"packed", "at most 16 bytes a pixel and depth; relMse below 1e-4", uniformLayout(Encoding::Packed)},
+    {"packed", "12 to 16 bytes a pixel and depth; relMse below 1e-4", uniformLayout(Encoding::Packed)},
 };
 
 } // namespace

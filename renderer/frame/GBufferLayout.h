@@ -30,8 +30,8 @@ struct ChannelInfo {
 };
 std::span<const ChannelInfo> channelTable();
 
-/// One encoding for every channel. `exact` keeps fp32; `packed` takes at most 16 bytes a pixel and depth in isotropic
-/// scenes, and 4 more where emission and specular colour meet.
+/// One encoding for every channel. `exact` keeps fp32; `packed` takes 12 bytes a pixel, 16 where materials change the specular
+/// colour, and 4 more where some emit; depth comes on top.
 struct GBufferLayout {
     std::array<Encoding, kChannelCount> encoding{};
 

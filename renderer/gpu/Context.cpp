@@ -82,6 +82,8 @@ Capabilities readCapabilities(std::string contextWay) {
 std::unique_ptr<Context> Context::create(const ContextOptions& options) {
     std::vector<std::string> answers;
     std::unique_ptr<Context> context;
+    Context* const previous = currentContext;
+    releaseCurrent();
     const bool egl = options.kind != ContextKind::Window;
     const bool window = options.kind != ContextKind::Egl;
     // A visible picture needs the window; EGL is then the fallback, so that a program still runs without a display.
@@ -89,6 +91,7 @@ std::unique_ptr<Context> Context::create(const ContextOptions& options) {
     if (!context && egl) context = createEglContext(options, answers);
     if (!context && window && !options.visible) context = createWindowContext(options, answers);
     if (context) return context;
+    if (previous) previous->makeCurrent();
     throw std::runtime_error(fmt::format(
         "no OpenGL 4.5 context can be made ({}); install a driver (Debian: libegl1 libgl1-mesa-dri{}, or the maker's)",
         fmt::join(answers, "; "), window ? " libglx-mesa0 and a running display for windows" : ""));
@@ -104,10 +107,17 @@ Context::~Context() {
 
 void Context::makeCurrent() {
     if (currentContext == this) return;
+    // X servers refuse a GLX context on a thread that still has one of EGL.
+    releaseCurrent();
     makeCurrentImpl();
     // Entry points may differ between drivers, and glad keeps one set.
     gladLoadGL(load_);
     currentContext = this;
+}
+
+void Context::releaseCurrent() {
+    if (currentContext) currentContext->releaseImpl();
+    currentContext = nullptr;
 }
 
 Context* Context::current() {

@@ -26,8 +26,8 @@ struct ContextOptions {
 /// belongs to the context that was current when it was made and must die before it, while it is current.
 class Context {
 public:
-    /// Makes a context and makes it current. Throws std::runtime_error when none can be had; the text says which ways
-    /// were tried, what each answered and what to install.
+    /// Makes a context and makes it current instead of the thread's present one. Throws std::runtime_error when none
+    /// can be had; the text says which ways were tried, what each answered and what to install.
     static std::unique_ptr<Context> create(const ContextOptions& options = {});
     virtual ~Context();
     Context(const Context&) = delete;
@@ -35,6 +35,8 @@ public:
 
     const Capabilities& capabilities() const { return capabilities_; }
     void makeCurrent();
+    /// Leaves the calling thread without a current context.
+    static void releaseCurrent();
     /// The calling thread's context, or null.
     static Context* current();
 
@@ -57,6 +59,7 @@ protected:
 
 private:
     virtual void makeCurrentImpl() = 0;
+    virtual void releaseImpl() = 0;
     Capabilities capabilities_;
     LoadFunction load_;
     std::unique_ptr<DebugLog> debugLog_;

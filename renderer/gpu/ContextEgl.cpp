@@ -123,6 +123,8 @@ private:
             fail("eglMakeCurrent");
     }
 
+    void releaseImpl() override { eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
+
     Display display_;
     Handle context_;
 };
@@ -140,6 +142,7 @@ public:
     /// Ends the search when the display gives a context of a hardware device.
     void tryDisplay(const std::string& way, EGLDisplay display) {
         if (done()) return;
+        Context::releaseCurrent(); // a failing attempt leaves no context current
         try {
             auto context = std::make_unique<EglContext>(way, display, options_.debug);
             auto& place = context->capabilities().isSoftware ? software_ : hardware_;

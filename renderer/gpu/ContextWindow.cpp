@@ -77,6 +77,8 @@ private:
         if (glfwGetCurrentContext() != window_.window) fail("glfwMakeContextCurrent");
     }
 
+    void releaseImpl() override { glfwMakeContextCurrent(nullptr); }
+
     Library library_;
     Window window_;
 };

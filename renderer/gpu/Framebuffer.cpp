@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glad/gl.h>
 
+#include "renderer/gpu/Context.h"
 #include "renderer/gpu/Debug.h"
 
 namespace tessera::gpu {
@@ -79,7 +80,10 @@ Framebuffer::Framebuffer(const Attachments& attachments) {
     try {
         throwIfFailed(fmt::format("making a framebuffer ({})", describe(attachments)));
         const GLenum status = glCheckNamedFramebufferStatus(id, GL_DRAW_FRAMEBUFFER);
-        if (status != GL_FRAMEBUFFER_COMPLETE) fail(attachments, statusName(status));
+        if (status != GL_FRAMEBUFFER_COMPLETE) {
+            Context::current()->debugLog().takeFailures(); // some drivers say the same through the debug output
+            fail(attachments, statusName(status));
+        }
     } catch (...) {
         glDeleteFramebuffers(1, &id);
         throw;

@@ -26,23 +26,30 @@ vec3 decodeOctahedral(vec2 p)
     return normalize(n);
 }
 
-// Perceptual roughness in 16 bits; model and ior or F90 share the other 16. The ior is stored as (ior - 1)/(ior + 1), the
-// square root of the reflectance it causes, so that equal steps are equal steps of the picture; F90 lies in 0..1.
-uvec2 encodeMicrosurface(uint model, float alpha, float iorOrF90)
+// Colours in 0..1 as their square root, so that equal steps are closer to equal ratios.
+vec3 encodeSquareRoot(vec3 color) { return sqrt(clamp(color, 0.0, 1.0)); }
+vec3 decodeSquareRoot(vec3 stored) { return stored * stored; }
+
+// One word: model 3 bits, metallic 7, ior or F90 11, perceptual roughness 11. The ior is stored as (ior - 1)/(ior + 1), the
+// square root of the reflectance it causes, on a scale that has ior 1 exactly; F90 lies in 0..1.
+uint encodeMicrosurface(Surface surface)
 {
-    float fresnel = model == MODEL_MICROFACET ? 0.5 + 0.5 * (iorOrF90 - 1.0) / (iorOrF90 + 1.0) : iorOrF90;
-    uint roughness = uint(clamp(sqrt(alpha), 0.0, 1.0) * 65535.0 + 0.5);
-    return uvec2(roughness, (model << 13) | uint(clamp(fresnel, 0.0, 1.0) * 8190.0 + 0.5));
+    float contrast = (surface.iorOrF90 - 1.0) / (surface.iorOrF90 + 1.0);
+    float fresnel = surface.model == MODEL_MICROFACET ? 0.5 + 0.5 * contrast : surface.iorOrF90;
+    uint roughness = uint(clamp(sqrt(surface.alpha), 0.0, 1.0) * 2047.0 + 0.5);
+    uint metallic = uint(clamp(surface.metallic, 0.0, 1.0) * 127.0 + 0.5);
+    return (surface.model << 29) | (metallic << 22) | (uint(clamp(fresnel, 0.0, 1.0) * 2046.0 + 0.5) << 11) | roughness;
 }
 
-void decodeMicrosurface(uvec2 stored, out uint model, out float alpha, out float iorOrF90)
+void decodeMicrosurface(uint stored, inout Surface surface)
 {
-    model = stored.y >> 13;
-    float roughness = float(stored.x) / 65535.0;
-    alpha = max(roughness * roughness, ALPHA_MIN);
-    float fresnel = float(stored.y & 8191u) / 8190.0;
+    surface.model = surfaceModel(stored >> 29);
+    surface.metallic = float((stored >> 22) & 127u) / 127.0;
+    float fresnel = float((stored >> 11) & 2047u) / 2046.0;
     float contrast = 2.0 * fresnel - 1.0;
-    iorOrF90 = model == MODEL_MICROFACET ? (1.0 + contrast) / max(1.0 - contrast, 1e-4) : fresnel;
+    surface.iorOrF90 = surface.model == MODEL_MICROFACET ? (1.0 + contrast) / max(1.0 - contrast, 1e-4) : fresnel;
+    float roughness = float(stored & 2047u) / 2047.0;
+    surface.alpha = max(roughness * roughness, ALPHA_MIN);
 }
 
 // Shared-exponent RGB, 9 bits a colour and 5 for the exponent. Source: OpenGL 4.5 core specification, section 8.25.
@@ -96,7 +103,11 @@ layout(location = GBUFFER_NORMAL_TEXEL) out vec4 normalTexelChannel;
 void writeGBuffer(Surface surface)
 {
 #ifdef GBUFFER_ALBEDO
-    albedoChannel = vec4(surface.albedo, surface.metallic);
+#if GBUFFER_ALBEDO_PACKED
+    albedoChannel = vec4(encodeSquareRoot(surface.albedo), 0.0);
+#else
+    albedoChannel = vec4(surface.albedo, 0.0);
+#endif
 #endif
 #ifdef GBUFFER_NORMAL
 #if GBUFFER_NORMAL_PACKED
@@ -107,14 +118,14 @@ void writeGBuffer(Surface surface)
 #endif
 #ifdef GBUFFER_MICROSURFACE
 #if GBUFFER_MICROSURFACE_PACKED
-    microsurfaceChannel = uvec4(encodeMicrosurface(surface.model, surface.alpha, surface.iorOrF90), 0u, 0u);
+    microsurfaceChannel = uvec4(encodeMicrosurface(surface), 0u, 0u, 0u);
 #else
-    microsurfaceChannel = vec4(surface.alpha, float(surface.model), surface.iorOrF90, 0.0);
+    microsurfaceChannel = vec4(surface.alpha, float(surface.model), surface.iorOrF90, surface.metallic);
 #endif
 #endif
 #ifdef GBUFFER_SPECULAR
 #if GBUFFER_SPECULAR_PACKED
-    specularChannel = vec4(sqrt(clamp(surface.specular, 0.0, 1.0)), 0.0);
+    specularChannel = vec4(encodeSquareRoot(surface.specular), 0.0);
 #else
     specularChannel = vec4(surface.specular, 0.0);
 #endif
@@ -172,9 +183,10 @@ Surface surfaceFromGBuffer(ivec2 pixel)
     surface.normalLS = vec3(0.0, 0.0, 1.0);
     surface.normalTexel = vec3(0.5, 0.5, 1.0);
 #ifdef GBUFFER_ALBEDO
-    vec4 albedo = texelFetch(albedoChannel, pixel, 0);
-    surface.albedo = albedo.rgb;
-    surface.metallic = albedo.a;
+    surface.albedo = texelFetch(albedoChannel, pixel, 0).rgb;
+#if GBUFFER_ALBEDO_PACKED
+    surface.albedo = decodeSquareRoot(surface.albedo);
+#endif
 #endif
 #ifdef GBUFFER_NORMAL
 #if GBUFFER_NORMAL_PACKED
@@ -184,24 +196,22 @@ Surface surfaceFromGBuffer(ivec2 pixel)
 #endif
 #endif
 #ifdef GBUFFER_MICROSURFACE
-    uint model;
 #if GBUFFER_MICROSURFACE_PACKED
-    decodeMicrosurface(texelFetch(microsurfaceChannel, pixel, 0).xy, model, surface.alpha, surface.iorOrF90);
+    decodeMicrosurface(texelFetch(microsurfaceChannel, pixel, 0).r, surface);
 #else
     vec4 microsurface = texelFetch(microsurfaceChannel, pixel, 0);
     surface.alpha = microsurface.x;
-    model = uint(microsurface.y);
+    surface.model = surfaceModel(uint(microsurface.y));
     surface.iorOrF90 = microsurface.z;
+    surface.metallic = microsurface.w;
 #endif
-    surface.model = surfaceModel(model);
 #endif
     surface.specular = defaultSpecular(surface.model);
 #ifdef GBUFFER_SPECULAR
-    vec3 specular = texelFetch(specularChannel, pixel, 0).rgb;
+    surface.specular = texelFetch(specularChannel, pixel, 0).rgb;
 #if GBUFFER_SPECULAR_PACKED
-    specular *= specular;
+    surface.specular = decodeSquareRoot(surface.specular);
 #endif
-    surface.specular = specular;
 #endif
 #ifdef GBUFFER_EMISSION
 #if GBUFFER_EMISSION_PACKED

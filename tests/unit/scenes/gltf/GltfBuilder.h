@@ -22,7 +22,7 @@ using Bytes = std::vector<std::byte>;
 template <typename T>
 Bytes bytesOf(const std::vector<T>& values) {
     Bytes bytes(values.size() * sizeof(T));
-    std::memcpy(bytes.data(), values.data(), bytes.size());
+    if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
     return bytes;
 }
 

@@ -1,0 +1,58 @@
+#pragma once
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdio>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+
+namespace tessera::app {
+
+/// Where and when a progress bar is drawn; the defaults are what programs want.
+struct ProgressOutput {
+    std::FILE* stream = stderr;
+    bool isTerminal = streamIsTerminal(stream); ///< nothing at all is written when it is not
+    int columns = 0;                            ///< width of the terminal; 0: ask it
+    double delaySeconds = 2.0;                  ///< what is over before then shows no bar
+    double intervalSeconds = 0.2;               ///< between two drawings
+
+    static bool streamIsTerminal(std::FILE* stream);
+};
+
+/// A progress bar with the time left, on stderr. It draws itself from a thread of its own, so that it also moves while
+/// one step takes long, and takes itself away at the end, also when an exception ends the work.
+class Progress {
+public:
+    Progress(std::string label, std::size_t total, bool quiet = false, ProgressOutput output = {});
+    ~Progress() { finish(); }
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// Counts finished steps; from any thread.
+    void advance(std::size_t steps = 1) { done_ += steps; }
+    /// Removes the bar; what follows on stderr starts on a clean line.
+    void finish();
+
+private:
+    void drawUntilStopped();
+
+    std::string label_;
+    std::size_t total_;
+    ProgressOutput output_;
+    std::atomic<std::size_t> done_ = 0;
+    std::mutex mutex_;
+    std::condition_variable stopping_;
+    bool isStopping_ = false; ///< under mutex_
+    std::thread thread_;
+};
+
+/// The bar as one line of at most `columns` characters, such as "rendering  [####------]  4/10  6 s left".
+std::string progressLine(std::string_view label, std::size_t done, std::size_t total, double elapsedSeconds,
+                         int columns);
+
+/// A span of time for people: "8 s", "3 min 20 s", "2 h 5 min".
+std::string durationText(double seconds);
+
+} // namespace tessera::app

@@ -1,0 +1,189 @@
+#include "renderer/gpu/GraphBackend.h"
+
+#include <gmock/gmock.h>
+
+#include "renderer/gpu/Commands.h"
+#include "renderer/gpu/Program.h"
+#include "tests/support/GlContext.h"
+
+namespace tessera::gpu {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class DebugTest : public test::GlTest {};
+class TimerTest : public test::GlTest {};
+
+std::vector<StageSource> compute(const std::string& body) {
+    return {{Stage::Compute, "#version 450 core\nlayout(local_size_x = 4) in;\n" + body}};
+}
+
+class GraphBackendTest : public test::GlTest {
+protected:
+    struct Doubled {
+        graph::BufferHandle numbers;
+    };
+    struct Summed {
+        graph::BufferHandle numbers, sum;
+    };
+
+    /// Two compute passes: numbers 1..4, then their squares' sum. `inSecond` runs within the second one.
+    graph::Graph twoPasses(const std::function<void()>& inSecond = [] {}) {
+        graph::Graph graph;
+        const auto first = graph.addPass<Doubled>(
+            "numbers",
+            [](graph::PassBuilder& builder, Doubled& data) { data.numbers = builder.create("numbers", {16}); },
+            [this](const Doubled& data, const graph::PassContext& context) {
+                useProgram(count);
+                bindStorageBuffer(0, context.buffer(data.numbers));
+                dispatch(1);
+            });
+        const auto second = graph.addPass<Summed>(
+            "sum of squares",
+            [&](graph::PassBuilder& builder, Summed& data) {
+                data.numbers = builder.read(first.numbers);
+                data.sum = builder.create("sum", {32});
+            },
+            [this, inSecond](const Summed& data, const graph::PassContext& context) {
+                useProgram(sum);
+                bindStorageBuffer(0, context.buffer(data.numbers));
+                bindStorageBuffer(1, context.buffer(data.sum));
+                dispatch(1);
+                inSecond();
+            });
+        output = second.sum;
+        graph.output(output);
+        return graph;
+    }
+
+    float run(const graph::Graph& graph) {
+        const graph::CompiledGraph compiled = graph::compile(graph);
+        graph::Execution execution(graph, compiled, backend);
+        execution.run();
+        memoryBarrier(graph::Barrier::TransferOrUpdate);
+        return execution.buffer(output).downloadAs<float>(1)[0];
+    }
+
+    const Program count{"count",
+                        compute("layout(binding = 0, std430) buffer N { float n[]; };\n"
+                                "void main() { n[gl_LocalInvocationIndex] = float(gl_LocalInvocationIndex) + 1.0; }")};
+    const Program sum{"sum", compute("layout(binding = 0, std430) buffer N { float n[]; };\n"
+                                     "layout(binding = 1, std430) buffer S { float s[]; };\n"
+                                     "void main() { s[0] = n[0]*n[0] + n[1]*n[1] + n[2]*n[2] + n[3]*n[3]; }")};
+    GraphBackend backend;
+    graph::BufferHandle output;
+};
+
+TEST_F(DebugTest, anErrorIsAlwaysThrownWithItsDebugGroups) {
+    const Buffer buffer("b", 16);
+    const DebugGroup frame("frame");
+    {
+        const DebugGroup pass("lighting");
+        bindStorageBuffer(100000, buffer); // no driver has so many slots
+    }
+    try {
+        throwIfFailed("in a test");
+        FAIL() << "expected an exception";
+    } catch (const std::runtime_error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("OpenGL failed in a test: frame / lighting: "));
+    }
+    EXPECT_NO_THROW(throwIfFailed()); // told once
+}
+
+TEST_F(DebugTest, anErrorIsAlwaysFoundWithoutDebugOutputToo) {
+    {
+        const auto plain = Context::create({.kind = ContextKind::Egl, .debug = false});
+        const Buffer buffer("b", 16);
+        bindStorageBuffer(100000, buffer);
+        try {
+            throwIfFailed();
+            FAIL() << "expected an exception";
+        } catch (const std::runtime_error& error) {
+            EXPECT_THAT(error.what(), HasSubstr("GL_INVALID_VALUE"));
+        }
+    }
+    context().makeCurrent();
+}
+
+TEST_F(DebugTest, aDestructionInTheWrongOrderNeverHappensInAMovedFromObject) {
+    Buffer first("first", 16);
+    const Buffer second = std::move(first);
+    EXPECT_NO_THROW(throwIfFailed());
+    EXPECT_GT(second.id(), 0u);
+}
+
+TEST_F(TimerTest, aFinishedStretchIsAlwaysReadWithoutWaiting) {
+    GpuTimer timer("t");
+    EXPECT_FALSE(timer.latestMs());
+    for (int i = 0; i < 20; ++i) { // more than the ring holds
+        timer.begin();
+        timer.end();
+    }
+    finish();
+    const std::optional<double> ms = timer.latestMs();
+    ASSERT_TRUE(ms);
+    EXPECT_GE(*ms, 0.0);
+    EXPECT_LT(*ms, 1000.0); // empty: far below a second on any machine, unless units are mistaken
+}
+
+TEST_F(GraphBackendTest, aGraphOfTwoPassesAlwaysGivesItsResult) {
+    const graph::Graph graph = twoPasses();
+    EXPECT_EQ(run(graph), 1.0f + 4.0f + 9.0f + 16.0f);
+}
+
+TEST_F(GraphBackendTest, aFaultOfThePassIsAlwaysThrownWithItsName) {
+    const graph::Graph graph = twoPasses([this] { bindStorageBuffer(100000, Buffer("b", 16)); });
+    try {
+        run(graph);
+        FAIL() << "expected an exception";
+    } catch (const std::runtime_error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("pass 'sum of squares'"));
+        EXPECT_THAT(error.what(), HasSubstr("sum of squares: GL_INVALID_VALUE"));
+    }
+    EXPECT_EQ(run(twoPasses()), 30.0f); // the backend is as good as before
+}
+
+TEST_F(GraphBackendTest, aPassThatThrowsIsAlwaysClosed) {
+    const graph::Graph graph = twoPasses([] { throw std::runtime_error("no lights"); });
+    EXPECT_THROW(run(graph), std::runtime_error);
+    EXPECT_EQ(run(twoPasses()), 30.0f);
+}
+
+TEST_F(GraphBackendTest, allocationsAreAlwaysKeptAcrossFramesOfEqualShape) {
+    const graph::Graph graph = twoPasses();
+    const graph::CompiledGraph compiled = graph::compile(graph);
+    backend.allocate(compiled.allocations);
+    const std::uint32_t first = backend.buffer(0).id();
+    backend.allocate(compiled.allocations);
+    EXPECT_EQ(backend.buffer(0).id(), first);
+    EXPECT_EQ(backend.poolBytes(), compiled.bytes);
+    const std::vector<graph::ResourceDesc> texture{graph::TextureDesc{graph::Format::Rgba8Unorm, 4, 4, 1}};
+    for (int frame = 0; frame < 10; ++frame) backend.allocate(texture);
+    EXPECT_EQ(backend.poolBytes(), 64u);
+    EXPECT_EQ(backend.texture(0).desc().width, 4);
+}
+
+TEST_F(GraphBackendTest, profiledPassesAlwaysHaveATimeThatHoldsTheirWork) {
+    backend.setProfiling(true);
+    run(twoPasses());
+    const std::vector<PassTiming> timings = backend.passTimings();
+    ASSERT_EQ(timings.size(), 2u);
+    EXPECT_EQ(timings[0].name, "numbers");
+    EXPECT_EQ(timings[1].name, "sum of squares");
+    for (const PassTiming& timing : timings) {
+        ASSERT_TRUE(timing.gpuMs);
+        EXPECT_GT(timing.cpuMs, 0.0);
+        EXPECT_GE(*timing.gpuMs, timing.cpuMs);
+    }
+}
+
+TEST_F(GraphBackendTest, unprofiledPassesOfASoftwareRasteriserNeverClaimAGpuTime) {
+    for (int frame = 0; frame < 3; ++frame) run(twoPasses());
+    finish();
+    for (const PassTiming& timing : backend.passTimings())
+        EXPECT_EQ(timing.gpuMs.has_value(), !context().capabilities().isSoftware) << timing.name;
+}
+
+} // namespace
+} // namespace tessera::gpu

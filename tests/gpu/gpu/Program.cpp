@@ -1,0 +1,83 @@
+#include "renderer/gpu/Program.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/support/GlContext.h"
+
+namespace tessera::gpu {
+namespace {
+
+using testing::HasSubstr;
+
+class ProgramTest : public test::GlTest {};
+
+std::vector<StageSource> compute(const std::string& body) {
+    return {{Stage::Compute, "#version 450 core\nlayout(local_size_x = 1) in;\n" + body}};
+}
+
+TEST_F(ProgramTest, aFaultyStageIsAlwaysNamedWithTheDriversLog) {
+    try {
+        const Program program("broken", compute("void main() { undeclaredName = 1.0; }"));
+        FAIL() << "expected a ShaderError";
+    } catch (const ShaderError& error) {
+        EXPECT_EQ(error.program(), "broken");
+        ASSERT_EQ(error.stageLogs().size(), 1u);
+        EXPECT_EQ(error.stageLogs()[0].stage, Stage::Compute);
+        EXPECT_THAT(error.stageLogs()[0].text, HasSubstr("undeclaredName"));
+        EXPECT_THAT(error.what(), HasSubstr("shader program 'broken' cannot be built\ncompute shader:\n"));
+        EXPECT_TRUE(error.linkLog().empty());
+    }
+}
+
+TEST_F(ProgramTest, aProgramThatDoesNotLinkIsAlwaysNamed) {
+    const std::vector<StageSource> sources{
+        {Stage::Vertex, "#version 450 core\nout vec4 a;\nvoid main() { a = vec4(1.0); gl_Position = a; }"},
+        {Stage::Fragment, "#version 450 core\nin vec2 a;\nout vec4 c;\nvoid main() { c = a.xyxy; }"}};
+    try {
+        const Program program("unlinked", sources);
+        FAIL() << "expected a ShaderError";
+    } catch (const ShaderError& error) {
+        EXPECT_TRUE(error.stageLogs().empty());
+        EXPECT_THAT(error.what(), HasSubstr("shader program 'unlinked' cannot be built\nlinking:\n"));
+    }
+}
+
+TEST_F(ProgramTest, blocksAlwaysTellTheirMembersAndTheirSize) {
+    const Program program("blocks", compute(R"(
+struct Light { vec3 positionVS; float rangeMetres; vec4 weights[2]; };
+layout(binding = 2, std140) uniform View { mat4 clipFromView; float timeSeconds; vec4 planes[3]; };
+layout(binding = 5, std430) buffer Lights { uint count; Light lights[]; };
+void main() {
+    count = uint(timeSeconds + planes[2].x + clipFromView[1].y + lights[3].rangeMetres + lights[1].positionVS.x
+                 + lights[0].weights[1].y);
+})"));
+    const auto view = program.blockMembers("View", BlockKind::Uniform);
+    ASSERT_EQ(view.size(), 3u);
+    EXPECT_EQ(view[0].name, "clipFromView");
+    EXPECT_EQ(view[0].matrixStride, 16u);
+    EXPECT_EQ(view[1].name, "timeSeconds");
+    EXPECT_EQ(view[1].offset, 64u);
+    EXPECT_EQ(view[2].name, "planes[0]");
+    EXPECT_EQ(view[2].offset, 80u);
+    EXPECT_EQ(view[2].arrayStride, 16u);
+    EXPECT_EQ(program.blockBytes("View", BlockKind::Uniform), 128u);
+    EXPECT_EQ(program.blockSlot("View", BlockKind::Uniform), 2);
+
+    const auto lights = program.blockMembers("Lights", BlockKind::Storage);
+    ASSERT_EQ(lights.size(), 4u);
+    EXPECT_EQ(lights[1].name, "lights[0].positionVS");
+    EXPECT_EQ(lights[1].offset, 16u);
+    EXPECT_EQ(lights[1].topArrayStride, 48u);
+    EXPECT_EQ(lights[2].offset, 28u);
+    EXPECT_EQ(lights[3].name, "lights[0].weights[0]");
+    EXPECT_EQ(lights[3].arrayStride, 16u);
+    EXPECT_EQ(program.blockSlot("Lights", BlockKind::Storage), 5);
+
+    EXPECT_TRUE(program.blockMembers("Nothing", BlockKind::Uniform).empty());
+    EXPECT_EQ(program.blockBytes("Nothing", BlockKind::Storage), 0u);
+    EXPECT_EQ(program.blockSlot("Nothing", BlockKind::Storage), -1);
+    EXPECT_EQ(program.samplerUnit("nothing"), -1);
+}
+
+} // namespace
+} // namespace tessera::gpu

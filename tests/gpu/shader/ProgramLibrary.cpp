@@ -1,0 +1,120 @@
+#include "renderer/shader/ProgramLibrary.h"
+
+#include <gmock/gmock.h>
+
+#include "renderer/gpu/Buffer.h"
+#include "renderer/gpu/Commands.h"
+#include "scenes/Error.h"
+#include "tests/support/GlContext.h"
+#include "tests/support/TempFolder.h"
+
+namespace tessera::shader {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class ProgramLibraryTest : public test::GlTest {
+protected:
+    ProgramLibraryTest() {
+        folder.write("answer.comp", "#include \"lib/answer.glsl\"\nlayout(local_size_x = 1) in;\n"
+                                    "layout(binding = 0, std430) buffer Answer { float answer[]; };\n"
+                                    "void main() { answer[0] = answerOf() + float(BIAS); }\n");
+        writeAnswer("return 40.0;");
+    }
+    void writeAnswer(const std::string& body) {
+        folder.write("lib/answer.glsl", "#pragma once\n\nfloat answerOf() {\n    " + body + "\n}\n");
+    }
+    ProgramDesc desc(const std::string& bias) { return {"answer", "", "", "answer.comp", {{"BIAS", bias}}}; }
+    float answer(const gpu::Program& program) {
+        const gpu::Buffer result("answer", sizeof(float));
+        gpu::useProgram(program);
+        gpu::bindStorageBuffer(0, result);
+        gpu::dispatch(1);
+        gpu::memoryBarrier(graph::Barrier::TransferOrUpdate);
+        return result.downloadAs<float>(1)[0];
+    }
+    test::TempFolder folder;
+};
+
+TEST_F(ProgramLibraryTest, everyVariantIsCompiledExactlyOnce) {
+    ProgramLibrary library{SourceTree(folder.path())};
+    const gpu::Program& two = library.get(desc("2"));
+    const gpu::Program& three = library.get(desc("3"));
+    EXPECT_EQ(&library.get(desc("2")), &two);
+    EXPECT_EQ(library.size(), 2u);
+    EXPECT_EQ(answer(two), 42.0f);
+    EXPECT_EQ(answer(three), 43.0f);
+}
+
+TEST_F(ProgramLibraryTest, faultsAreAlwaysReportedWithFileAndLine) {
+    writeAnswer("return undeclaredName;");
+    ProgramLibrary library{SourceTree(folder.path())};
+    try {
+        library.get(desc("2"));
+        FAIL() << "expected a ShaderError";
+    } catch (const gpu::ShaderError& error) {
+        EXPECT_EQ(error.program(), "answer [BIAS=2]");
+        EXPECT_THAT(error.what(), HasSubstr("shaders/lib/answer.glsl:4: error"));
+    }
+    EXPECT_EQ(library.size(), 0u);
+}
+
+TEST_F(ProgramLibraryTest, linesAfterAnIncludeAreAlwaysReportedRight) {
+    folder.write("answer.comp",
+                 "#include \"lib/answer.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() {\n  wrong = 1;\n}\n");
+    ProgramLibrary library{SourceTree(folder.path())};
+    try {
+        library.get(desc("2"));
+        FAIL() << "expected a ShaderError";
+    } catch (const gpu::ShaderError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("shaders/answer.comp:4: error"));
+    }
+}
+
+TEST_F(ProgramLibraryTest, warmingAlwaysKeepsTheGoodOnesAndReportsTheFirstFault) {
+    folder.write("broken.comp", "void main() { wrong = 1; }\n");
+    ProgramLibrary library{SourceTree(folder.path())};
+    const std::vector<ProgramDesc> descs{
+        desc("1"), {"missing", "", "", "no.comp", {}}, {"broken", "", "", "broken.comp", {}}, desc("2"), desc("1")};
+    EXPECT_THROW(library.warm(descs), InputError);
+    EXPECT_EQ(library.size(), 2u);
+    EXPECT_EQ(answer(library.get(desc("2"))), 42.0f);
+    EXPECT_THROW(library.warm(std::vector{descs[2]}), gpu::ShaderError);
+}
+
+TEST_F(ProgramLibraryTest, reloadingAlwaysReplacesTheProgramBehindItsReference) {
+    ProgramLibrary library{SourceTree(folder.path())};
+    const gpu::Program& program = library.get(desc("2"));
+    writeAnswer("return 50.0;");
+    EXPECT_THAT(library.reload(), IsEmpty());
+    EXPECT_EQ(answer(program), 52.0f);
+}
+
+TEST_F(ProgramLibraryTest, aBrokenEditAlwaysKeepsTheLastGoodProgram) {
+    ProgramLibrary library{SourceTree(folder.path())};
+    const gpu::Program& program = library.get(desc("2"));
+    writeAnswer("return 50.0");
+    EXPECT_THAT(library.reload(), ElementsAre(HasSubstr("shaders/lib/answer.glsl:5: error")));
+    EXPECT_EQ(answer(program), 42.0f);
+    std::filesystem::remove(folder.path() / "lib/answer.glsl");
+    EXPECT_THAT(library.reload(), ElementsAre(HasSubstr("shaders/answer.comp:1: cannot include")));
+    EXPECT_EQ(answer(program), 42.0f);
+    writeAnswer("return 60.0;");
+    EXPECT_THAT(library.reload(), IsEmpty());
+    EXPECT_EQ(answer(program), 62.0f);
+}
+
+TEST_F(ProgramLibraryTest, aChangeOfAFileIsAlwaysToldExactlyOnce) {
+    ProgramLibrary library{SourceTree(folder.path())};
+    EXPECT_FALSE(library.sourcesChanged());
+    const auto file = folder.path() / "answer.comp";
+    std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) + std::chrono::seconds(5));
+    EXPECT_TRUE(library.sourcesChanged());
+    EXPECT_FALSE(library.sourcesChanged());
+    EXPECT_FALSE(ProgramLibrary(SourceTree::embedded()).sourcesChanged());
+}
+
+} // namespace
+} // namespace tessera::shader

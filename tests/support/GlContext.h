@@ -1,0 +1,44 @@
+#pragma once
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "renderer/gpu/Context.h"
+#include "renderer/gpu/Debug.h"
+
+namespace tessera::test {
+
+/// The one context of a test program, made at its first use and given back before the program ends.
+class GlEnvironment final : public testing::Environment {
+public:
+    static gpu::Context& context() {
+        if (!instance()) instance() = gpu::Context::create();
+        instance()->makeCurrent();
+        return *instance();
+    }
+    void TearDown() override { instance().reset(); }
+
+private:
+    static std::unique_ptr<gpu::Context>& instance() {
+        static std::unique_ptr<gpu::Context> context;
+        return context;
+    }
+};
+inline testing::Environment* const kGlEnvironment = testing::AddGlobalTestEnvironment(new GlEnvironment);
+
+/// A test with a current context. It fails when it leaves an unreported driver message of high or medium severity
+/// behind.
+class GlTest : public testing::Test {
+protected:
+    void SetUp() override { context_ = &GlEnvironment::context(); }
+    void TearDown() override {
+        EXPECT_NO_THROW(gpu::throwIfFailed("after the test"));
+        for (const std::string& warning : context_->debugLog().takeWarnings()) ADD_FAILURE() << warning;
+    }
+    gpu::Context& context() { return *context_; }
+
+private:
+    gpu::Context* context_ = nullptr;
+};
+
+} // namespace tessera::test

@@ -1,0 +1,39 @@
+#pragma once
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace tessera::test {
+
+/// A new, empty folder that vanishes with its contents at the end of the test.
+class TempFolder {
+public:
+    TempFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "tessera-test-XXXXXX").string();
+        if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder can be made below " + name);
+        path_ = name;
+    }
+    ~TempFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    TempFolder(const TempFolder&) = delete;
+    TempFolder& operator=(const TempFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    /// Writes a file, with the folders it needs; replaces one that is there.
+    void write(const std::string& name, std::string_view text) const {
+        std::filesystem::create_directories((path_ / name).parent_path());
+        std::ofstream stream(path_ / name, std::ios::binary | std::ios::trunc);
+        stream << text;
+        if (!stream.flush()) throw std::runtime_error("cannot write " + (path_ / name).string());
+    }
+
+private:
+    std::filesystem::path path_;
+};
+
+} // namespace tessera::test

@@ -1,0 +1,138 @@
+#include <random>
+
+#include <gtest/gtest.h>
+#include <meshoptimizer.h>
+
+#include "GltfBuilder.h"
+
+namespace tessera::scenes::gltf::test {
+namespace {
+
+/// A document that uses most of what the importer reads.
+Json richDocument() {
+    Builder builder;
+    builder.material().merge_patch(Json::parse(R"({"alphaMode": "MASK", "normalTexture": {"index": 0, "scale": 0.5},
+        "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1], "baseColorTexture": {"index": 0, "texCoord": 1,
+            "extensions": {"KHR_texture_transform": {"offset": [0, 0], "rotation": 1, "scale": [2, 2], "texCoord": 0}}}},
+        "extensions": {"KHR_materials_ior": {"ior": 1.4}, "KHR_materials_specular": {"specularColorTexture": {"index": 0}}}})"));
+    builder.addTexture();
+    builder.merge(R"({"samplers": [{"magFilter": 9728, "wrapS": 33071}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1, "zfar": 10}},
+                    {"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": 0, "zfar": 10}}],
+        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "color": [1, 1, 1], "range": 5,
+            "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.5}}]}},
+        "nodes": [{"mesh": 0, "children": [1], "rotation": [0, 0, 0, 1]}, {"camera": 0, "children": [2], "scale": [1, 2, 3]},
+                  {"camera": 1, "extensions": {"KHR_lights_punctual": {"light": 0}}}]})");
+    builder.json["textures"][0]["sampler"] = 0;
+    builder.primitive()["attributes"]["TEXCOORD_0"] = builder.add(std::vector<float>(6, 0.5f), 5126, "VEC2", 3);
+    builder.primitive()["attributes"]["COLOR_0"] =
+        builder.add(std::vector<std::uint8_t>(12, 9), 5121, "VEC3", 3, true, 4);
+    builder.primitive()["indices"] = builder.add(std::vector<std::uint16_t>{0, 1, 2}, 5123, "SCALAR", 3);
+    const int targets = builder.addView(bytesOf(std::vector<std::uint8_t>{1}));
+    const int values = builder.addView(bytesOf(std::vector<float>{1, 2, 3}));
+    builder.json["accessors"][0]["sparse"] = {{"count", 1},
+                                              {"indices", {{"bufferView", targets}, {"componentType", 5121}}},
+                                              {"values", {{"bufferView", values}}}};
+
+    const std::vector<float> normals = {0, 0, 1, 0, 0, 1, 0, 0, 1};
+    std::vector<unsigned char> encoded(meshopt_encodeVertexBufferBound(3, 12));
+    encoded.resize(meshopt_encodeVertexBuffer(encoded.data(), encoded.size(), normals.data(), 3, 12));
+    builder.primitive()["attributes"]["NORMAL"] = builder.add(normals, 5126, "VEC3", 3);
+    const int source = builder.addView(bytesOf(encoded));
+    Json& view = builder.json["bufferViews"][static_cast<std::size_t>(source - 1)];
+    view["extensions"]["EXT_meshopt_compression"] = {{"buffer", source},     {"byteLength", encoded.size()},
+                                                     {"byteStride", 12},     {"count", 3},
+                                                     {"mode", "ATTRIBUTES"}, {"filter", "NONE"}};
+    return builder.json;
+}
+
+/// Imported, or refused as input: anything else escapes and fails the test.
+bool isImported(const std::filesystem::path& file) {
+    try {
+        importGltf(file);
+        return true;
+    } catch (const InputError& error) {
+        EXPECT_STRNE(error.what(), "");
+        return false;
+    }
+}
+
+TEST(GltfFuzz, unharmedDocumentIsAlwaysImported) {
+    const Folder folder;
+    EXPECT_TRUE(isImported(folder.write("model.gltf", richDocument().dump())));
+}
+
+TEST(GltfFuzz, anyOneValueReplacedIsAlwaysImportedOrRefused) {
+    const Folder folder;
+    const Json document = richDocument();
+    const Json leaves = document.flatten();
+    const char* evil[] = {"-1",
+                          "0",
+                          "1",
+                          "2",
+                          "7",
+                          "255",
+                          "65536",
+                          "2147483647",
+                          "4294967295",
+                          "9007199254740991",
+                          "0.5",
+                          "-0.0",
+                          "{}",
+                          "[]",
+                          "[0]",
+                          "null",
+                          "true",
+                          "\"\"",
+                          "\"x\"",
+                          "1e308",
+                          "1e38",
+                          "5121",
+                          "5126",
+                          "18446744073709551615",
+                          "-9223372036854775808"};
+    std::size_t importedCount = 0, triedCount = 0;
+    for (const auto& [pointer, leaf] : leaves.items())
+        for (const char* value : evil) {
+            Json harmed = document;
+            harmed[Json::json_pointer(pointer)] = Json::parse(value);
+            SCOPED_TRACE(pointer + " = " + value);
+            importedCount += isImported(folder.write("model.gltf", harmed.dump())) ? 1 : 0;
+            ++triedCount;
+        }
+    EXPECT_GT(importedCount, 0u);
+    EXPECT_LT(importedCount, triedCount);
+}
+
+TEST(GltfFuzz, anyOneValueRemovedIsAlwaysImportedOrRefused) {
+    const Folder folder;
+    const Json document = richDocument();
+    const Json leaves = document.flatten();
+    for (const auto& [pointer, leaf] : leaves.items())
+        for (Json::json_pointer place(pointer); !place.empty(); place.pop_back()) {
+            Json harmed = document;
+            Json& parent = harmed[place.parent_pointer()];
+            if (parent.is_array())
+                parent.erase(static_cast<std::size_t>(std::stoul(place.back())));
+            else
+                parent.erase(place.back());
+            SCOPED_TRACE("without " + place.to_string());
+            isImported(folder.write("model.gltf", harmed.dump()));
+        }
+}
+
+TEST(GltfFuzz, randomBytesChangedAreAlwaysImportedOrRefused) {
+    const Folder folder;
+    const std::string text = richDocument().dump();
+    std::mt19937 random(1); // the same changes in every run
+    for (int round = 0; round < 2000; ++round) {
+        std::string harmed = text;
+        for (int change = 0; change <= round % 4; ++change)
+            harmed[random() % harmed.size()] = static_cast<char>(random() % 256);
+        SCOPED_TRACE(round);
+        isImported(folder.write("model.gltf", harmed));
+    }
+}
+
+} // namespace
+} // namespace tessera::scenes::gltf::test

@@ -1,0 +1,186 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "renderer/shader/Preprocess.h"
+#include "scenes/Error.h"
+#include "tests/support/TempFolder.h"
+
+namespace tessera::shader {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+class Expand : public testing::Test {
+protected:
+    ExpandedSource expanded(const std::string& entry, const Defines& defines = {}) {
+        return expand(SourceTree(folder.path()), entry, defines);
+    }
+    std::string fault(const std::string& entry) {
+        try {
+            expanded(entry);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "no InputError";
+    }
+    test::TempFolder folder;
+};
+
+std::size_t count(const std::string& text, std::string_view piece) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1)) ++found;
+    return found;
+}
+
+TEST_F(Expand, versionAndDefinesAlwaysComeFirst) {
+    folder.write("main.frag", "void main() {}\n");
+    EXPECT_EQ(expanded("main.frag", {{"TILE", "16"}, {"SHADOWS", ""}}).text,
+              "#version 450 core\n#define TILE 16\n#define SHADOWS\n#line 1 0\nvoid main() {}\n");
+}
+
+TEST_F(Expand, anIncludeIsAlwaysFramedByLineDirectives) {
+    folder.write("passes/main.frag", "float a;\n#include \"lib/b.glsl\"\nfloat c;\n");
+    folder.write("lib/b.glsl", "float b;\n");
+    const ExpandedSource source = expanded("passes/main.frag");
+    EXPECT_EQ(source.text, "#version 450 core\n#line 1 0\nfloat a;\n#line 1 1\nfloat b;\n#line 3 0\nfloat c;\n");
+    EXPECT_THAT(source.files, ElementsAre("passes/main.frag", "lib/b.glsl"));
+}
+
+TEST_F(Expand, aFileBesideTheIncludingOneIsAlwaysFound) {
+    folder.write("main.frag", "#include \"lib/a.glsl\"\n");
+    folder.write("lib/a.glsl", "#include \"b.glsl\"\n#include \"../shared/c.h\"\n");
+    folder.write("lib/b.glsl", "float b;\n");
+    folder.write("shared/c.h", "float c;\n");
+    EXPECT_THAT(expanded("main.frag").files, ElementsAre("main.frag", "lib/a.glsl", "lib/b.glsl", "shared/c.h"));
+}
+
+TEST_F(Expand, aPathAsCppSeesItAlwaysMeansTheSameFile) {
+    folder.write("main.frag", "#include \"shared/a.h\"\n#include \"shaders/shared/a.h\"\n");
+    folder.write("shared/a.h", "#pragma once\nfloat a;\n");
+    EXPECT_EQ(count(expanded("main.frag").text, "float a;"), 1u);
+}
+
+TEST_F(Expand, aPathOutOfTheTreeIsNeverFollowed) {
+    folder.write("tree/main.frag", "#include \"../secret.glsl\"\n");
+    folder.write("secret.glsl", "float secret;\n");
+    EXPECT_THROW(expand(SourceTree(folder.path() / "tree"), "main.frag"), InputError);
+}
+
+TEST_F(Expand, aFileWithPragmaOnceIsExpandedExactlyOnce) {
+    folder.write("main.frag", "#include \"a.glsl\"\n#include \"b.glsl\"\n#include \"a.glsl\"\n");
+    folder.write("a.glsl", "#pragma once\nfloat a;\n");
+    folder.write("b.glsl", "#include \"a.glsl\"\nfloat b;\n");
+    EXPECT_EQ(count(expanded("main.frag").text, "float a;"), 1u);
+}
+
+TEST_F(Expand, aFileWithoutPragmaOnceIsAlwaysExpandedAgain) {
+    folder.write("main.frag", "#include \"a.glsl\"\n#include \"a.glsl\"\n");
+    folder.write("a.glsl", "X\n");
+    EXPECT_EQ(count(expanded("main.frag").text, "X\n"), 2u);
+}
+
+TEST_F(Expand, anIncludeInAConditionalNeverSwallowsALaterOne) {
+    folder.write("main.frag",
+                 "#ifdef NEVER_DEFINED\n#include \"a.glsl\"\n#endif\n#include \"a.glsl\"\n#include \"a.glsl\"\n");
+    folder.write("a.glsl", "#pragma once\nfloat a;\n");
+    const std::string text = expanded("main.frag").text;
+    EXPECT_EQ(count(text, "float a;"), 2u);
+    EXPECT_EQ(count(text, "#ifndef TESSERA_ONCE_1\n#define TESSERA_ONCE_1\n"), 2u);
+}
+
+TEST_F(Expand, anIncludeInACommentIsNeverFollowed) {
+    folder.write("main.frag",
+                 "// #include \"no.glsl\"\n/* #include \"no.glsl\"\n#include \"no.glsl\"\n*/\n"
+                 "// continued \\\n#include \"no.glsl\"\nfloat a; /* b */ // /*\n#include \"a.glsl\" // yes\n");
+    folder.write("a.glsl", "float included;\n");
+    const ExpandedSource source = expanded("main.frag");
+    EXPECT_THAT(source.files, ElementsAre("main.frag", "a.glsl"));
+    EXPECT_THAT(source.text, HasSubstr("// #include \"no.glsl\"\n"));
+}
+
+TEST_F(Expand, includesOfTheCppPartOfASharedHeaderAreNeverFollowed) {
+    folder.write("shared/a.h", "#pragma once\n#ifdef __cplusplus\n#include <glm/glm.hpp>\n#include \"renderer/No.h\"\n"
+                               "namespace a {\n#else\n#include \"b.h\"\n#endif\nstruct S { float x; };\n"
+                               "#ifndef __cplusplus\n#include \"c.h\"\n#endif\n#if defined( __cplusplus )\n"
+                               "#include <vector>\n}\n#endif\n");
+    folder.write("shared/b.h", "float b;\n");
+    folder.write("shared/c.h", "float c;\n");
+    const ExpandedSource source = expanded("shared/a.h");
+    EXPECT_THAT(source.files, ElementsAre("shared/a.h", "shared/b.h", "shared/c.h"));
+    EXPECT_THAT(source.text, HasSubstr("#ifdef __cplusplus\n\n\nnamespace a {\n#else\n"));
+    EXPECT_THAT(source.text, Not(HasSubstr("glm")));
+}
+
+TEST_F(Expand, otherPreprocessorLinesAlwaysPassThrough) {
+    const std::string lines =
+        "#extension GL_ARB_x : enable\n#if A && \\\n    B\n#define F(x) \\\n  (x)\n#elif C\n#endif\n"
+        "#pragma optimize(on)\n#undef F\n";
+    folder.write("main.frag", lines);
+    EXPECT_EQ(expanded("main.frag").text, "#version 450 core\n#line 1 0\n" + lines);
+}
+
+TEST_F(Expand, aMissingIncludeIsAlwaysNamedWithItsPlace) {
+    folder.write("main.frag", "\n#include \"lib/a.glsl\"\n");
+    folder.write("lib/a.glsl", "float a;\n\n#include \"brfd.glsl\"\n");
+    EXPECT_EQ(fault("main.frag"),
+              "shaders/lib/a.glsl:3: cannot include 'brfd.glsl': no such file below shaders/ or beside "
+              "the including file, in " +
+                  folder.path().string());
+}
+
+TEST_F(Expand, aMissingEntryIsAlwaysNamed) {
+    EXPECT_THAT(fault("passes/no.frag"), HasSubstr("shaders/passes/no.frag: "));
+}
+
+TEST_F(Expand, aCycleIsAlwaysNamedWithItsWholeWay) {
+    folder.write("main.frag", "#include \"a.glsl\"\n");
+    folder.write("a.glsl", "#pragma once\n#include \"b.glsl\"\n");
+    folder.write("b.glsl", "#pragma once\n\n#include \"a.glsl\"\n");
+    EXPECT_EQ(fault("main.frag"),
+              "shaders/b.glsl:3: the #include of 'a.glsl' closes a cycle: a.glsl -> b.glsl -> a.glsl; "
+              "move what both need to a third file");
+}
+
+TEST_F(Expand, aMalformedIncludeIsAlwaysRefused) {
+    for (const char* line :
+         {"#include <a.glsl>", "#include a.glsl", "#include \"a.glsl", "#include \"\"", "#include"}) {
+        folder.write("main.frag", std::string(line) + "\n");
+        EXPECT_THAT(fault("main.frag"), HasSubstr("shaders/main.frag:1: malformed #include")) << line;
+    }
+    folder.write("main.frag", "#include \"main.frag\" /* open\n*/\n");
+    EXPECT_THAT(fault("main.frag"), HasSubstr("must end on its line"));
+}
+
+TEST_F(Expand, anotherVersionIsAlwaysRefused) {
+    folder.write("main.frag", "#version 450 core\nfloat a;\n");
+    EXPECT_EQ(expanded("main.frag").text, "#version 450 core\n#line 1 0\n\nfloat a;\n");
+    folder.write("main.frag", "#version 330\n");
+    EXPECT_THAT(fault("main.frag"), HasSubstr("shaders/main.frag:1: every shader is '#version 450 core'"));
+}
+
+TEST_F(Expand, windowsLineEndsNeverReachTheDriver) {
+    folder.write("main.frag", "#include \"a.glsl\"\r\nfloat b;\r\n");
+    folder.write("a.glsl", "#pragma once\r\nfloat a;");
+    EXPECT_EQ(expanded("main.frag").text, "#version 450 core\n#line 1 0\n#line 1 1\n\nfloat a;\n#line 2 0\nfloat b;\n");
+}
+
+TEST(SourceTree, aMissingFolderIsAlwaysNamed) {
+    try {
+        SourceTree("no/such/folder");
+        FAIL() << "expected an InputError";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("no/such/folder: no such shader folder"));
+    }
+}
+
+TEST(SourceTree, embeddedFilesAreNeverReadFromDisk) {
+    const SourceTree tree = SourceTree::embedded();
+    EXPECT_TRUE(tree.isEmbedded());
+    EXPECT_FALSE(tree.newestChange());
+    EXPECT_FALSE(tree.read("no/such.glsl"));
+}
+
+} // namespace
+} // namespace tessera::shader

@@ -1,0 +1,49 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "renderer/shader/ProgramDesc.h"
+#include "scenes/Error.h"
+#include "tests/support/TempFolder.h"
+
+namespace tessera::shader {
+namespace {
+
+TEST(ProgramDesc, theKeyNeverDependsOnTheOrderOfTheDefines) {
+    const ProgramDesc a{"light", "v", "f", "", {{"A", "1"}, {"B", ""}}};
+    const ProgramDesc b{"light", "v", "f", "", {{"B", ""}, {"A", "1"}}};
+    EXPECT_EQ(a.key(), b.key());
+    EXPECT_EQ(a.key(), "light|v|f||A=1;B=");
+}
+
+TEST(ProgramDesc, differentVariantsAlwaysHaveDifferentKeys) {
+    const ProgramDesc base{"light", "v", "f", "", {{"A", "1"}}};
+    ProgramDesc other = base;
+    other.defines = {{"A", "2"}};
+    EXPECT_NE(base.key(), other.key());
+    other = base;
+    other.fragment = "g";
+    EXPECT_NE(base.key(), other.key());
+    EXPECT_NE(base, other);
+}
+
+TEST(ProgramDesc, everyStageAlwaysGetsTheDefines) {
+    test::TempFolder folder;
+    folder.write("a.vert", "void main() {}\n");
+    folder.write("a.frag", "void main() {}\n");
+    const SourceTree tree(folder.path());
+    const auto sources = programSources(tree, {"p", "a.vert", "a.frag", "", {{"A", "1"}}});
+    ASSERT_EQ(sources.size(), 2u);
+    EXPECT_EQ(sources[0].stage, gpu::Stage::Vertex);
+    EXPECT_EQ(sources[1].stage, gpu::Stage::Fragment);
+    for (const gpu::StageSource& source : sources) EXPECT_THAT(source.source, testing::HasSubstr("#define A 1\n"));
+}
+
+TEST(ProgramDesc, aSenselessSetOfStagesIsAlwaysRefused) {
+    const SourceTree tree = SourceTree::embedded();
+    for (const ProgramDesc& desc : {ProgramDesc{"p", "", "", "", {}}, ProgramDesc{"p", "", "f", "", {}},
+                                    ProgramDesc{"p", "v", "", "c", {}}, ProgramDesc{"p", "", "f", "c", {}}})
+        EXPECT_THROW(expandStages(tree, desc), InputError) << desc.key();
+}
+
+} // namespace
+} // namespace tessera::shader

@@ -1,0 +1,165 @@
+#include "validation/Report.h"
+
+#include <cctype>
+#include <regex>
+
+#include <gmock/gmock.h>
+
+#include "tests/unit/validation/Samples.h"
+#include "validation/Base64.h"
+#include "validation/HeatMap.h"
+#include "validation/Html.h"
+
+namespace tessera::validation {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+DisplayImage plainImage(std::uint8_t value) {
+    return {4, 2, std::vector<std::uint8_t>(24, value)};
+}
+
+Report sampleReport() {
+    const Picture b = greyPicture(4, 2, 1.f);
+    Picture a = b;
+    setPixel(a, 2, {1.5f, 1.f, 1.f});
+    Report report;
+    report.title = "hall & <friends>";
+    report.record = {"hall", 4, 2, "llvmpipe \"quoted\"", {}};
+    report.record.pairs.push_back(
+        comparePair("deferred", b, "forward", b, {.bitEqual = 1.0, .reason = "same < maths"}));
+    report.record.pairs.push_back(comparePair("packed", a, "forward", b, {.maxRel = 1e-5}));
+    report.choice = "Take deferred: it costs a third of forward here.";
+    report.facts = {{"Triangles", "212,480"}};
+    report.pictures = {
+        {"forward", "the truth", plainImage(10)}, {"deferred", "", plainImage(10)}, {"packed", "", plainImage(12)}};
+    for (const ComparePair& pair : report.record.pairs)
+        report.heatMaps.push_back({pair.a, pair.b, errorHeatMap(a, b, pair.a)});
+    report.plans = {{"deferred", "gbuffer -> deferred_lighting\n  left out: <shadows>"}};
+    report.commands = {"./run compare hall --json 'x&y.json'"};
+    return report;
+}
+
+std::size_t occurrences(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+    return count;
+}
+
+/// What is wrong with the nesting of tags and the quoting of attributes, or an empty string. Knows what reportHtml()
+/// may use: every element is closed, elements without content close themselves, style and script hold raw text.
+std::string faultOf(const std::string& html) {
+    std::vector<std::string> open;
+    std::size_t at = html.find("<html");
+    while ((at = html.find('<', at)) != std::string::npos) {
+        std::size_t end = at + 1;
+        for (char quote = 0; end < html.size() && (quote || html[end] != '>'); ++end) {
+            if (html[end] == '<') return "< inside a tag: " + html.substr(at, 80);
+            if (html[end] == '"') quote = quote ? 0 : '"';
+        }
+        const std::string tag = html.substr(at + 1, end - at - 1);
+        const bool isEnd = tag[0] == '/';
+        std::string name;
+        for (std::size_t i = isEnd; i < tag.size() && std::isalnum(static_cast<unsigned char>(tag[i])); ++i)
+            name += tag[i];
+        if (isEnd) {
+            if (open.empty() || open.back() != name) return "unexpected </" + name + ">";
+            open.pop_back();
+        } else if (tag.back() != '/') {
+            if (!std::regex_match(tag, std::regex("[a-z][a-z0-9]*( [a-z-]+=\"[^\"]*\")*")))
+                return "attributes of <" + tag + ">";
+            open.push_back(name);
+            if (name == "style" || name == "script") end = html.find("</" + name, end) - 1;
+        }
+        at = end + 1;
+    }
+    return open.empty() ? "" : "<" + open.back() + "> is never closed";
+}
+
+TEST(Report, theCheckerOfThisTestAlwaysFindsBrokenNesting) {
+    EXPECT_EQ(faultOf("<html><p>x</p></html>"), "");
+    EXPECT_NE(faultOf("<html><p>x</html>"), "");
+    EXPECT_NE(faultOf("<html><p a=x>x</p></html>"), "");
+    EXPECT_NE(faultOf("<html><p>a < b</p></html>"), "");
+}
+
+TEST(Report, theHtmlIsAlwaysWellFormedAndFullyEscaped) {
+    const std::string html = reportHtml(sampleReport());
+    EXPECT_EQ(faultOf(html), "");
+    EXPECT_THAT(html, HasSubstr("<h1>hall &amp; &lt;friends&gt;</h1>"));
+    EXPECT_THAT(html, HasSubstr("llvmpipe &quot;quoted&quot;"));
+    EXPECT_THAT(html, HasSubstr("same &lt; maths"));
+    EXPECT_THAT(html, HasSubstr("left out: &lt;shadows&gt;"));
+    EXPECT_THAT(html, HasSubstr("./run compare hall --json &#39;x&amp;y.json&#39;"));
+}
+
+TEST(Report, thePageNeverReachesOutsideItself) {
+    const std::string html = reportHtml(sampleReport());
+    EXPECT_THAT(html, Not(HasSubstr("http:")));
+    EXPECT_THAT(html, Not(HasSubstr("https:")));
+    EXPECT_THAT(html, Not(HasSubstr("@import")));
+    EXPECT_THAT(html, Not(HasSubstr("url(")));
+    const std::regex reference("(src|href)=\"([^\"]{0,12})");
+    for (auto found = std::sregex_iterator(html.begin(), html.end(), reference); found != std::sregex_iterator();
+         ++found)
+        EXPECT_TRUE((*found)[2].str().starts_with("data:") || (*found)[2].str().starts_with("#")) << found->str();
+}
+
+TEST(Report, everyPictureIsAlwaysEmbeddedExactlyOnce) {
+    const Report report = sampleReport();
+    const std::string html = reportHtml(report);
+    EXPECT_EQ(occurrences(html, "src=\"data:image/png;base64,"), report.pictures.size() + report.heatMaps.size());
+    EXPECT_THAT(html, HasSubstr(dataUri(report.pictures[2].image)));
+    EXPECT_THAT(html, HasSubstr("data-left=\"picture-0\" data-right=\"picture-2\""));
+    EXPECT_EQ(occurrences(html, " id=\"picture-2\""), 1u);
+}
+
+TEST(Report, theVerdictAlwaysSaysHowManyPairsMissed) {
+    Report report = sampleReport();
+    EXPECT_THAT(reportHtml(report), HasSubstr("1 of 2 comparisons missed what was asked."));
+    EXPECT_THAT(reportHtml(report), HasSubstr("<li>maxRel is 0.5, at most 1e-05 was asked</li>"));
+    report.record.pairs.pop_back();
+    EXPECT_THAT(reportHtml(report), HasSubstr("The comparison holds."));
+    report.record.pairs.clear();
+    EXPECT_THAT(reportHtml(report), HasSubstr("Nothing was compared."));
+    EXPECT_EQ(faultOf(reportHtml(report)), "");
+}
+
+TEST(Report, aPairWithoutPicturesNeverHasASlider) {
+    Report report = sampleReport();
+    report.pictures.clear();
+    report.heatMaps.clear();
+    EXPECT_THAT(reportHtml(report), Not(HasSubstr("data-left=")));
+    EXPECT_EQ(faultOf(reportHtml(report)), "");
+    EXPECT_EQ(faultOf(reportHtml(Report{})), "");
+}
+
+TEST(Report, figuresAreAlwaysSetWithPowersOfTen) {
+    EXPECT_THAT(reportHtml(sampleReport()),
+                HasSubstr("max&nbsp;rel &le;&nbsp;1.0&#8239;&times;&#8239;10<sup>&minus;5</sup>"));
+}
+
+TEST(Html, bytesThatAreNotUtf8AndControlCharactersAreAlwaysReplaced) {
+    EXPECT_EQ(escapedHtml("\xc3\xa4 \xe2\x82\xac \xf0\x9f\x8e\xa8"), "\xc3\xa4 \xe2\x82\xac \xf0\x9f\x8e\xa8");
+    const std::string replacement = "\xef\xbf\xbd";
+    EXPECT_EQ(escapedHtml("a\xff"
+                          "b"),
+              "a" + replacement + "b");
+    EXPECT_EQ(escapedHtml("\xc3"), replacement);                                     // cut short
+    EXPECT_EQ(escapedHtml("\xc0\xaf"), replacement + replacement);                   // overlong
+    EXPECT_EQ(escapedHtml("\xed\xa0\x80"), replacement + replacement + replacement); // a surrogate
+    EXPECT_EQ(escapedHtml(std::string_view("\0\x1b\n\t", 4)), replacement + replacement + "\n\t");
+}
+
+TEST(Base64, everyLengthIsAlwaysPaddedAsRfc4648Says) {
+    const std::string text = "foobar"; // the test vectors of RFC 4648 section 10
+    const char* encoded[] = {"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
+    for (std::size_t length = 0; length <= 6; ++length)
+        EXPECT_EQ(base64({reinterpret_cast<const std::uint8_t*>(text.data()), length}), encoded[length]);
+    const std::vector<std::uint8_t> high = {0xfb, 0xff, 0xbf};
+    EXPECT_EQ(base64(high), "+/+/");
+}
+
+} // namespace
+} // namespace tessera::validation

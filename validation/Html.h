@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "validation/Picture.h"
+
+namespace tessera::validation {
+
+/// Text as it may stand in HTML between tags and in quoted attributes. Bytes that are not UTF-8, and control characters
+/// that HTML does not allow, become U+FFFD.
+std::string escapedHtml(std::string_view text);
+
+/// The image as a PNG data URI. Throws std::runtime_error when it cannot be encoded.
+std::string dataUri(const DisplayImage& image);
+
+} // namespace tessera::validation
