@@ -1,0 +1,30 @@
+#pragma once
+#include <cstddef>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "scenes/import/GltfDocument.h"
+
+namespace tessera::scenes::gltf {
+
+/// The bytes behind buffer views: buffers are read, and compressed views decoded, the first time they are asked for.
+class Buffers {
+public:
+    explicit Buffers(const Document& document) : document_(document) {}
+
+    /// The bytes of a buffer view, decompressed, valid as long as this object. Throws InputError naming the view or the
+    /// buffer.
+    std::span<const std::byte> view(int bufferView);
+
+private:
+    std::span<const std::byte> buffer(int index);
+    std::span<const std::byte> slice(int bufferIndex, const nlohmann::json& range, const std::string& place);
+    std::vector<std::byte> decompress(int bufferView, const nlohmann::json& extension);
+
+    const Document& document_;
+    std::map<int, std::vector<std::byte>> buffers_;      ///< those read from URIs
+    std::map<int, std::vector<std::byte>> decompressed_; ///< by buffer view
+};
+
+} // namespace tessera::scenes::gltf

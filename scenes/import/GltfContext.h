@@ -1,0 +1,25 @@
+#pragma once
+#include <string>
+
+#include "scenes/Scene.h"
+#include "scenes/import/GltfAccessors.h"
+#include "scenes/import/GltfBuffers.h"
+#include "scenes/import/GltfDocument.h"
+
+namespace tessera::scenes::gltf {
+
+/// What every part of one import works on.
+struct Context {
+    const Document& document;
+    Buffers& buffers;
+    Accessors& accessors;
+    Scene& scene;
+
+    /// Adds "file: text" to the scene's warnings unless it already stands there.
+    void warn(const std::string& text);
+};
+
+/// `name` as the document gives it, else "`kind` `index`".
+std::string nameOr(const std::string& name, const char* kind, int index);
+
+} // namespace tessera::scenes::gltf

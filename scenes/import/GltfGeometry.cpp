@@ -1,0 +1,185 @@
+#include "scenes/import/GltfGeometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "scenes/import/GltfTriangles.h"
+
+namespace tessera::scenes::gltf {
+namespace {
+
+constexpr int kFirstTriangleMode = TINYGLTF_MODE_TRIANGLES; ///< points and lines come before it
+
+/// One attribute's accessor, read and checked against what the specification allows for it.
+class PrimitiveReader {
+public:
+    PrimitiveReader(Context& context, const tinygltf::Primitive& primitive, std::string place, std::string meshName)
+        : context_(context), primitive_(primitive), place_(std::move(place)), meshName_(std::move(meshName)) {}
+
+    bool has(const std::string& attribute) const { return primitive_.attributes.contains(attribute); }
+
+    void fillVertices(Mesh& mesh) {
+        const Elements positions = read("POSITION", {3});
+        vertexCount_ = positions.count;
+        mesh.positionsOS = vectors<glm::vec3>("POSITION", positions, true);
+        if (has("NORMAL")) mesh.normalsOS = vectors<glm::vec3>("NORMAL", readVertices("NORMAL", {3}), false);
+        if (has("TANGENT")) mesh.tangentsOS = vectors<glm::vec4>("TANGENT", readVertices("TANGENT", {4}), false);
+        for (std::size_t set = 0; set < mesh.texCoords.size(); ++set) {
+            const std::string name = fmt::format("TEXCOORD_{}", set);
+            if (has(name)) mesh.texCoords[set] = vectors<glm::vec2>(name, readVertices(name, {2}), true);
+        }
+        if (has("COLOR_0")) mesh.colors = vectors<glm::vec4>("COLOR_0", colors(), true);
+    }
+
+    /// Corner numbers in drawing order: the indices, or 0, 1, 2 ... without.
+    std::vector<std::uint32_t> corners() {
+        if (primitive_.indices < 0) {
+            if (vertexCount_ > std::numeric_limits<std::uint32_t>::max())
+                fail("POSITION", "has more vertices than 32-bit indices can name");
+            std::vector<std::uint32_t> all(vertexCount_);
+            std::iota(all.begin(), all.end(), 0u);
+            return all;
+        }
+        std::vector<std::uint32_t> indices = context_.accessors.indices(primitive_.indices);
+        for (std::size_t i = 0; i < indices.size(); ++i)
+            if (indices[i] >= vertexCount_)
+                context_.document.fail(fmt::format("/accessors/{}", primitive_.indices),
+                                       fmt::format("index {} is {}, but mesh '{}' ({}) has only {} vertices", i,
+                                                   indices[i], meshName_, place_, vertexCount_));
+        return indices;
+    }
+
+    void warnOfUnused() {
+        for (const auto& [name, accessor] : primitive_.attributes) {
+            const bool isExtraSet = (name.starts_with("TEXCOORD_") && name != "TEXCOORD_0" && name != "TEXCOORD_1") ||
+                                    (name.starts_with("COLOR_") && name != "COLOR_0");
+            if (isExtraSet)
+                context_.warn(fmt::format("vertex attribute {} is left out (only TEXCOORD_0, TEXCOORD_1 and "
+                                          "COLOR_0 are supported)",
+                                          name));
+        }
+    }
+
+private:
+    [[noreturn]] void fail(const std::string& attribute, const std::string& what) const {
+        const int accessor = primitive_.attributes.at(attribute);
+        context_.document.fail(fmt::format("{}/attributes/{}", place_, attribute),
+                               fmt::format("accessor {} of mesh '{}' {}", accessor, meshName_, what));
+    }
+
+    Elements read(const std::string& attribute, std::initializer_list<int> components) {
+        Elements elements = context_.accessors.elements(primitive_.attributes.at(attribute));
+        if (std::ranges::find(components, elements.components) == components.end())
+            fail(attribute, fmt::format("has {} components an element; {} needs {}", elements.components, attribute,
+                                        components.size() == 1 ? fmt::format("{}", *components.begin()) : "3 or 4"));
+        return elements;
+    }
+
+    Elements readVertices(const std::string& attribute, std::initializer_list<int> components) {
+        Elements elements = read(attribute, components);
+        if (elements.count != vertexCount_)
+            fail(attribute, fmt::format("has {} elements, but there are {} positions", elements.count, vertexCount_));
+        return elements;
+    }
+
+    /// RGB gets alpha 1. Integers that were not marked normalised cannot be meant as 0..255, so they are read as if
+    /// they were.
+    Elements colors() {
+        Elements elements = readVertices("COLOR_0", {3, 4});
+        if (!elements.normalized && elements.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
+            const double largest =
+                std::exp2(8.0 * tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(elements.componentType))) -
+                1.0;
+            for (float& value : elements.values) value = static_cast<float>(value / largest);
+            context_.warn(
+                fmt::format("{}/attributes/COLOR_0: holds integers that are not marked normalized; read as if they "
+                            "were",
+                            place_));
+        }
+        if (elements.components == 4) return elements;
+        std::vector<float> withAlpha;
+        withAlpha.reserve(elements.count * 4);
+        for (std::size_t i = 0; i < elements.count; ++i) {
+            withAlpha.insert(withAlpha.end(), &elements.values[i * 3], &elements.values[i * 3] + 3);
+            withAlpha.push_back(1.0f);
+        }
+        elements.values = std::move(withAlpha);
+        elements.components = 4;
+        return elements;
+    }
+
+    template <typename Vector>
+    std::vector<Vector> vectors(const std::string& attribute, const Elements& elements, bool mustBeFinite) const {
+        constexpr int kWidth = Vector::length();
+        std::vector<Vector> result(elements.count);
+        for (std::size_t i = 0; i < elements.count; ++i)
+            for (int c = 0; c < kWidth; ++c) {
+                const float value = elements.values[i * static_cast<std::size_t>(kWidth) + static_cast<std::size_t>(c)];
+                if (mustBeFinite && !std::isfinite(value))
+                    fail(attribute,
+                         fmt::format("holds {} in element {}; every {} must be finite", value, i, attribute));
+                result[i][c] = value;
+            }
+        return result;
+    }
+
+    Context& context_;
+    const tinygltf::Primitive& primitive_;
+    std::string place_;
+    std::string meshName_;
+    std::size_t vertexCount_ = 0;
+};
+
+void finishNormals(Context& context, const std::string& place, Mesh& mesh) {
+    if (mesh.normalsOS.empty()) return makeFlat(mesh);
+    if (const std::size_t broken = repairNormals(mesh); broken > 0)
+        context.warn(fmt::format("{}/attributes/NORMAL: {} normals have no direction; their triangles' are used", place,
+                                 broken));
+    if (!normalizeTangents(mesh)) {
+        mesh.tangentsOS.clear();
+        context.warn(fmt::format(
+            "{}/attributes/TANGENT: holds tangents without a direction; tangents are derived instead", place));
+    }
+}
+
+} // namespace
+
+std::optional<Mesh> importPrimitive(Context& context, int meshIndex, int primitiveIndex) {
+    const tinygltf::Mesh& stored = context.document.model.meshes[static_cast<std::size_t>(meshIndex)];
+    const tinygltf::Primitive& primitive = stored.primitives[static_cast<std::size_t>(primitiveIndex)];
+    const std::string place = fmt::format("/meshes/{}/primitives/{}", meshIndex, primitiveIndex);
+    Mesh mesh;
+    mesh.name = nameOr(stored.name, "mesh", meshIndex);
+    if (stored.primitives.size() > 1) mesh.name += fmt::format(" primitive {}", primitiveIndex);
+
+    PrimitiveReader reader(context, primitive, place, mesh.name);
+    if (primitive.mode < kFirstTriangleMode) {
+        context.warn(fmt::format("{}: mesh '{}' draws {}, which are left out", place, mesh.name,
+                                 primitive.mode == TINYGLTF_MODE_POINTS ? "points" : "lines"));
+        return std::nullopt;
+    }
+    if (!reader.has("POSITION")) {
+        context.warn(fmt::format("{}: mesh '{}' has no POSITION and is left out", place, mesh.name));
+        return std::nullopt;
+    }
+    reader.fillVertices(mesh);
+    std::vector<std::uint32_t> corners = reader.corners();
+    if (primitive.mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3 != 0)
+        context.warn(
+            fmt::format("{}: mesh '{}' has {} corners, which is no multiple of 3; the last triangle is left out", place,
+                        mesh.name, corners.size()));
+    mesh.indices = trianglesOf(primitive.mode, std::move(corners));
+    reader.warnOfUnused();
+    finishNormals(context, place, mesh);
+    if (mesh.indices.empty()) {
+        context.warn(fmt::format("{}: mesh '{}' has no triangle and is left out", place, mesh.name));
+        return std::nullopt;
+    }
+    return mesh;
+}
+
+} // namespace tessera::scenes::gltf

@@ -1,0 +1,250 @@
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "GltfBuilder.h"
+
+namespace tessera::scenes::gltf::test {
+namespace {
+
+/// A .glb of `json` and, when given, a binary chunk.
+Bytes glbOf(const Json& json, const Bytes* binary) {
+    std::string text = json.dump();
+    while (text.size() % 4 != 0) text += ' ';
+    std::vector<std::uint32_t> words = {0x46546c67, 2, 0, static_cast<std::uint32_t>(text.size()), 0x4e4f534a};
+    Bytes bytes = bytesOf(words);
+    const Bytes body = bytesOf(std::vector<char>(text.begin(), text.end()));
+    bytes.insert(bytes.end(), body.begin(), body.end());
+    if (binary != nullptr) {
+        const Bytes header =
+            bytesOf(std::vector<std::uint32_t>{static_cast<std::uint32_t>(binary->size()), 0x004e4942});
+        bytes.insert(bytes.end(), header.begin(), header.end());
+        bytes.insert(bytes.end(), binary->begin(), binary->end());
+    }
+    const auto length = static_cast<std::uint32_t>(bytes.size());
+    std::memcpy(&bytes[8], &length, 4);
+    return bytes;
+}
+
+Bytes triangleGlb() {
+    Builder builder;
+    builder.json["buffers"][0].erase("uri");
+    const Bytes binary = bytesOf(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0});
+    return glbOf(builder.json, &binary);
+}
+
+std::string errorOfBytes(const Bytes& bytes) {
+    const Folder folder;
+    return Builder::errorOf(folder.write("model.glb", bytes));
+}
+
+std::string errorOfText(const std::string& text) {
+    const Folder folder;
+    return Builder::errorOf(folder.write("model.gltf", text));
+}
+
+TEST(GltfDocument, glbIsReadLikeGltf) {
+    const Folder folder;
+    const Scene scene = importGltf(folder.write("model.glb", triangleGlb()));
+    EXPECT_EQ(scene.meshes.at(0).positionsOS.at(2), glm::vec3(0, 1, 0));
+}
+
+TEST(GltfDocument, brokenGlbIsAlwaysRefused) {
+    const Bytes good = triangleGlb();
+    for (std::size_t size = 0; size < good.size(); ++size)
+        EXPECT_NE(errorOfBytes(Bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size))), "") << size;
+    EXPECT_NE(errorOfBytes(Bytes(good.begin(), good.begin() + 100))
+                  .find("model.glb: the glb is cut short or broken: its header says"),
+              std::string::npos);
+    Bytes bad = good;
+    bad[0] = std::byte{'X'};
+    EXPECT_NE(errorOfBytes(bad).find("is neither glTF JSON (begins with '{') nor glb (begins with 'glTF')"),
+              std::string::npos);
+    bad = good;
+    bad[4] = std::byte{1};
+    EXPECT_NE(errorOfBytes(bad).find("is glb version 1; only version 2"), std::string::npos);
+    bad = good;
+    bad[15] = std::byte{0x7f};
+    EXPECT_NE(errorOfBytes(bad).find("chunk 0 says"), std::string::npos);
+    bad = good;
+    bad[16] = std::byte{'X'};
+    EXPECT_NE(errorOfBytes(bad).find("its first chunk is not JSON"), std::string::npos);
+}
+
+TEST(GltfDocument, whatIsNoGltfIsAlwaysRefused) {
+    const std::string folderName = std::filesystem::temp_directory_path().string();
+    EXPECT_NE(Builder::errorOf("/nowhere/model.gltf").find("/nowhere/model.gltf: there is no such file"),
+              std::string::npos);
+    EXPECT_NE(Builder::errorOf(folderName).find("is not a regular file"), std::string::npos);
+    EXPECT_NE(errorOfText("").find("model.gltf: the file is empty"), std::string::npos);
+    EXPECT_NE(errorOfText("solid cube").find("is neither glTF JSON"), std::string::npos);
+    EXPECT_NE(errorOfText("{\"asset\": ").find("is not JSON: parse error at line 1"), std::string::npos);
+    EXPECT_NE(errorOfText("{}").find("/asset: is missing"), std::string::npos);
+    EXPECT_NE(errorOfText(R"({"asset": {"version": "1.0"}})").find("/asset/version: is '1.0', but only glTF 2.0"),
+              std::string::npos);
+    EXPECT_NE(errorOfText(R"({"asset": {"version": "2.0", "minVersion": "2.1"}})").find("/asset/minVersion: is '2.1'"),
+              std::string::npos);
+    EXPECT_NE(errorOfText(R"({"asset": {}})").find("/asset: the required property 'version' is missing"),
+              std::string::npos);
+}
+
+TEST(GltfDocument, deeplyNestedJsonNeverOverflowsTheStack) {
+    const std::string deep = std::string(200000, '[') + std::string(200000, ']');
+    EXPECT_NE(errorOfText(R"({"asset": {"version": "2.0"}, "extras": )" + deep + "}").find("nests deeper than 64"),
+              std::string::npos);
+}
+
+TEST(GltfDocument, emptySceneIsAlwaysImported) {
+    const Folder folder;
+    EXPECT_TRUE(importGltf(folder.write("model.gltf", R"({"asset": {"version": "2.0"}})")).nodes.empty());
+}
+
+TEST(GltfDocument, requiredExtensionThatIsNotSupportedIsAlwaysRefused) {
+    Builder builder;
+    builder.merge(R"({"extensionsUsed": ["KHR_draco_mesh_compression", "KHR_texture_basisu"],
+                      "extensionsRequired": ["KHR_draco_mesh_compression", "KHR_texture_basisu"]})");
+    EXPECT_NE(builder.error().find(
+                  "/extensionsRequired: the model requires KHR_draco_mesh_compression, KHR_texture_basisu, which "
+                  "are not supported"),
+              std::string::npos);
+}
+
+TEST(GltfDocument, optionalExtensionThatIsNotSupportedIsAlwaysWarnedOf) {
+    Builder builder;
+    builder.merge(R"({"extensionsUsed": ["KHR_materials_clearcoat", "KHR_materials_unlit"]})");
+    const Scene scene = builder.import();
+    EXPECT_TRUE(hasWarning(scene, "the extension KHR_materials_clearcoat is not supported and was ignored"));
+    EXPECT_FALSE(hasWarning(scene, "unlit"));
+}
+
+TEST(GltfDocument, integersWithADecimalPointAreReadExactly) {
+    Builder builder;
+    builder.json["accessors"][0]["count"] = 3.0;
+    EXPECT_EQ(builder.import().meshes.at(0).positionsOS.size(), 3u);
+    builder.json["accessors"][0]["count"] = 2.5;
+    EXPECT_NE(builder.error().find("/accessors/0/count: must be an integer, but is 2.5"), std::string::npos);
+}
+
+struct Fault {
+    const char* pointer; ///< what is replaced
+    const char* value;
+    const char* error; ///< part of the text
+};
+
+class GltfFault : public testing::TestWithParam<Fault> {};
+
+TEST_P(GltfFault, isAlwaysRefusedWithItsPlace) {
+    Builder builder;
+    builder.material();
+    builder.json[Json::json_pointer(GetParam().pointer)] = Json::parse(GetParam().value);
+    const std::string error = builder.error();
+    EXPECT_NE(error.find(GetParam().error), std::string::npos) << "\"" << error << "\"";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Type, GltfFault,
+    testing::Values(
+        Fault{"/scene", "\"0\"", "/scene: must be an integer, but is string"},
+        Fault{"/scene", "-1", "/scene: is -1; it must be at least 0"},
+        Fault{"/scene", "3", "/scene: points at /scenes/3, but there are only 1"},
+        Fault{"/scenes", "{}", "/scenes: must be an array, but is object"},
+        Fault{"/scenes/0/nodes/0", "9", "/scenes/0/nodes/0: points at /nodes/9, but there are only 1"},
+        Fault{"/nodes", "[7]", "/nodes/0: must be an object, but is number"},
+        Fault{"/nodes/0/mesh", "1", "/nodes/0/mesh: points at /meshes/1, but there are only 1"},
+        Fault{"/nodes/0/camera", "0", "/nodes/0/camera: points at /cameras/0, but the document has no cameras"},
+        Fault{"/nodes/0/translation", "[1, 2]", "/nodes/0/translation: must hold 3 numbers, but holds 2"},
+        Fault{"/nodes/0/scale", "[1, 2, null]", "/nodes/0/scale/2: must be a number, but is null"},
+        Fault{"/nodes/0/matrix", "true", "/nodes/0/matrix: must be an array of numbers, but is boolean"},
+        Fault{"/nodes/0/translation", "[1e300, 0, 0]", "/nodes/0/translation/0: is 1e+300, which no 32-bit"},
+        Fault{"/nodes/0/name", "5", "/nodes/0/name: must be a string, but is number"},
+        Fault{"/meshes/0", "{}", "/meshes/0: the required property 'primitives' is missing"},
+        Fault{"/meshes/0/primitives", "{}", "/meshes/0/primitives: must be an array, but is object"},
+        Fault{"/meshes/0/primitives/0", "{}", "the required property 'attributes' is missing"},
+        Fault{"/meshes/0/primitives/0/mode", "7", "/mode: is 7; it must be at most 6"},
+        Fault{"/meshes/0/primitives/0/attributes/POSITION", "1", "points at /accessors/1, but there are only 1"},
+        Fault{"/meshes/0/primitives/0/indices", "-2", "/indices: is -2; it must be at least 0"},
+        Fault{"/materials/0/alphaMode", "\"GLASS\"", "is 'GLASS'; valid are OPAQUE, MASK, BLEND"},
+        Fault{"/materials/0/doubleSided", "1", "/materials/0/doubleSided: must be true or false, but is number"},
+        Fault{"/materials/0/normalTexture", "{}",
+              "/materials/0/normalTexture: the required property 'index' is missing"},
+        Fault{"/materials/0/emissiveTexture", "{\"index\": 0}", "but the document has no textures"},
+        Fault{"/materials/0/pbrMetallicRoughness", "{\"metallicFactor\": 2}",
+              "metallicFactor: is 2; it must be at most 1"},
+        Fault{"/materials/0/emissiveFactor", "[-1, 0, 0]",
+              "/materials/0/emissiveFactor/0: is -1; it must be at least 0"},
+        Fault{"/samplers", "[{\"wrapS\": 1}]", "/samplers/0/wrapS: is 1; valid are 33071, 33648, 10497"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Data, GltfFault,
+    testing::Values(
+        Fault{"/accessors/0/count", "4", "model.gltf: /accessors/0: reads 12 bytes past the end of buffer view 0"},
+        Fault{"/accessors/0/count", "0", "/accessors/0/count: is 0; it must be at least 1"},
+        Fault{"/accessors/0/count", "4000000000",
+              "/accessors/0: reads 47999999964 bytes past the end of buffer view 0"},
+        Fault{"/accessors/0/count", "9007199254740992", "/accessors/0: reads "},
+        Fault{"/accessors/0/count", "18446744073709551615", "/accessors/0/count: must be an integer, but is"},
+        Fault{"/accessors/0/byteOffset", "9007199254740991", "/accessors/0: reads 9007199254740991 bytes past the end"},
+        Fault{"/accessors/0/byteOffset", "-4", "/accessors/0/byteOffset: is -4; it must be at least 0"},
+        Fault{"/accessors/0/byteOffset", "4", "/accessors/0: reads 4 bytes past the end of buffer view 0"},
+        Fault{"/accessors/0/componentType", "5124",
+              "componentType: is 5124; valid are 5120, 5121, 5122, 5123, 5125, 5126"},
+        Fault{"/accessors/0/type", "\"VEC5\"", "/accessors/0/type: is 'VEC5'; valid are SCALAR"},
+        Fault{"/accessors/0/bufferView", "1",
+              "/accessors/0/bufferView: points at /bufferViews/1, but there are only 1"},
+        Fault{"/accessors/0/sparse", "{\"count\": 1}",
+              "/accessors/0/sparse: the required property 'indices' is missing"},
+        Fault{"/bufferViews/0/byteLength", "37", "/bufferViews/0: reads 1 bytes past the end of buffer 0"},
+        Fault{"/bufferViews/0/byteOffset", "9007199254740991",
+              "/bufferViews/0: reads 9007199254740991 bytes past the end of buffer 0"},
+        Fault{"/bufferViews/0/byteStride", "8", "has elements of 12 bytes, but buffer view 0 steps only 8 bytes"},
+        Fault{"/bufferViews/0/byteStride", "13", "/bufferViews/0/byteStride: is 13; it must be a multiple of 4"},
+        Fault{"/bufferViews/0/byteStride", "256", "/bufferViews/0/byteStride: is 256; it must be at most 252"},
+        Fault{"/bufferViews/0/buffer", "1", "/bufferViews/0/buffer: points at /buffers/1, but there are only 1"},
+        Fault{"/buffers/0/byteLength", "40", "/buffers/0: says 40 bytes, but its data has only 36"},
+        Fault{"/buffers/0/uri", "\"gone.bin\"", "gone.bin: there is no such file"},
+        Fault{"/buffers/0/uri", "\"\"", "/buffers/0: its uri is empty"},
+        Fault{"/buffers/0/uri", "\"data:nonsense\"", "/buffers/0: its data URI has no comma"},
+        Fault{"/buffers/0/uri", "\"data:;base64,AAAAA\"", "/buffers/0: its base64 is cut short"},
+        Fault{"/buffers/0/uri", "\"a%00b\"", "/buffers/0: its uri holds a zero character"},
+        Fault{"/buffers/0", "{\"byteLength\": 36}", "/buffers/0: has neither a uri nor a binary chunk"}));
+
+TEST(GltfDocument, accessorWithoutDataNeverReservesGigabytes) {
+    Builder builder;
+    builder.json["accessors"][0].erase("bufferView");
+    builder.json["accessors"][0]["count"] = 4000000000u;
+    EXPECT_NE(builder.error().find("/accessors/0: has 4000000000 elements but no buffer view"), std::string::npos);
+}
+
+TEST(GltfDocument, sparseFaultsAreAlwaysRefused) {
+    Builder builder;
+    const int targets = builder.addView(bytesOf(std::vector<std::uint8_t>{3}));
+    const int values = builder.addView(bytesOf(std::vector<float>{7, 8, 9}));
+    Json& sparse = builder.json["accessors"][0]["sparse"];
+    sparse = {{"count", 1},
+              {"indices", {{"bufferView", targets}, {"componentType", 5121}}},
+              {"values", {{"bufferView", values}}}};
+    EXPECT_NE(builder.error().find("/accessors/0: sparse index 0 is 3, but there are only 3 elements"),
+              std::string::npos);
+    sparse["count"] = 2;
+    EXPECT_NE(builder.error().find("/accessors/0: reads 1 bytes past the end of buffer view 1"), std::string::npos);
+    sparse["count"] = 2000000000;
+    EXPECT_NE(builder.error().find("/accessors/0: replaces 2000000000 elements, but has only 3"), std::string::npos);
+}
+
+TEST(GltfDocument, bufferIsReadTheSameFromAFileWithSpacesAndUnicode) {
+    Builder builder;
+    builder.folder.write("d\xc3\xa4ta 1%.bin", bytesOf(std::vector<float>{0, 0, 0, 5, 0, 0, 0, 5, 0}));
+    builder.json["buffers"][0]["uri"] = "d%C3%A4ta%201%25.bin";
+    EXPECT_EQ(builder.import().meshes.at(0).positionsOS.at(1), glm::vec3(5, 0, 0));
+    builder.json["buffers"][0]["uri"] = "d\xc3\xa4ta 1%.bin";
+    EXPECT_EQ(builder.import().meshes.at(0).positionsOS.at(1), glm::vec3(5, 0, 0));
+}
+
+TEST(GltfDocument, unusedBufferIsNeverRead) {
+    Builder builder;
+    builder.json["buffers"].push_back(Json::parse(R"({"uri": "gone.bin", "byteLength": 9})"));
+    EXPECT_EQ(builder.import().meshes.size(), 1u);
+}
+
+} // namespace
+} // namespace tessera::scenes::gltf::test

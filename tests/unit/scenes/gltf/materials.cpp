@@ -1,0 +1,214 @@
+#include <gtest/gtest.h>
+
+#include "GltfBuilder.h"
+
+namespace tessera::scenes::gltf::test {
+namespace {
+
+Material importedMaterial(const char* patch) {
+    Builder builder;
+    builder.material().merge_patch(Json::parse(patch));
+    builder.addTexture();
+    const Scene scene = builder.import();
+    return scene.materials.at(static_cast<std::size_t>(scene.nodes.at(0).instances.at(0).material));
+}
+
+TEST(GltfMaterials, factorsAreImportedExactly) {
+    const Material material = importedMaterial(R"({"pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 0.4],
+        "metallicFactor": 0.5, "roughnessFactor": 0.25}, "emissiveFactor": [1, 2, 3], "doubleSided": true})");
+    EXPECT_EQ(material.name, "paint");
+    EXPECT_EQ(material.model, MaterialModel::MetallicRoughness);
+    EXPECT_EQ(material.baseColor, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
+    EXPECT_EQ(material.metallic, 0.5f);
+    EXPECT_EQ(material.perceptualRoughness, 0.25f);
+    EXPECT_EQ(material.emissive, glm::vec3(1, 2, 3));
+    EXPECT_TRUE(material.doubleSided);
+}
+
+TEST(GltfMaterials, defaultsAreAlwaysThoseOfTheSpecification) {
+    const Material material = importedMaterial("{}");
+    EXPECT_EQ(material.baseColor, glm::vec4(1));
+    EXPECT_EQ(material.metallic, 1.0f);
+    EXPECT_EQ(material.perceptualRoughness, 1.0f);
+    EXPECT_EQ(material.emissive, glm::vec3(0));
+    EXPECT_EQ(material.ior, 1.5f);
+    EXPECT_EQ(material.alphaMode, AlphaMode::Opaque);
+    EXPECT_FALSE(material.doubleSided);
+    for (const TextureUse& use : material.textures) EXPECT_EQ(use.image, kNone);
+}
+
+TEST(GltfMaterials, alphaModesAreImportedExactly) {
+    const Material mask = importedMaterial(R"({"alphaMode": "MASK", "alphaCutoff": 0.75})");
+    EXPECT_EQ(mask.alphaMode, AlphaMode::Mask);
+    EXPECT_EQ(mask.alphaCutoff, 0.75f);
+    EXPECT_EQ(importedMaterial(R"({"alphaMode": "MASK"})").alphaCutoff, 0.5f);
+    EXPECT_EQ(importedMaterial(R"({"alphaMode": "BLEND"})").alphaMode, AlphaMode::Blend);
+}
+
+TEST(GltfMaterials, everyTextureAlwaysLandsInItsSlot) {
+    const std::pair<const char*, TextureSlot> places[] = {
+        {R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})", TextureSlot::BaseColor},
+        {R"({"pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": 0}}})", TextureSlot::MetallicRoughness},
+        {R"({"normalTexture": {"index": 0}})", TextureSlot::Normal},
+        {R"({"emissiveTexture": {"index": 0}})", TextureSlot::Emissive},
+        {R"({"extensions": {"KHR_materials_specular": {"specularTexture": {"index": 0}}}})",
+         TextureSlot::SpecularFactor},
+        {R"({"extensions": {"KHR_materials_specular": {"specularColorTexture": {"index": 0}}}})",
+         TextureSlot::SpecularColor},
+    };
+    for (const auto& [patch, slot] : places) {
+        const Material material = importedMaterial(patch);
+        for (std::size_t i = 0; i < kTextureSlotCount; ++i)
+            EXPECT_EQ(material.textures[i].image, i == static_cast<std::size_t>(slot) ? 0 : kNone) << patch;
+    }
+}
+
+TEST(GltfMaterials, normalScaleIsImportedExactly) {
+    EXPECT_EQ(importedMaterial(R"({"normalTexture": {"index": 0, "scale": 0.5}})").normalScale, 0.5f);
+    EXPECT_EQ(importedMaterial(R"({"normalTexture": {"index": 0}})").normalScale, 1.0f);
+}
+
+TEST(GltfMaterials, occlusionIsAlwaysWarnedOf) {
+    Builder builder;
+    builder.material()["occlusionTexture"]["index"] = 0;
+    builder.addTexture();
+    const Scene scene = builder.import();
+    EXPECT_TRUE(hasWarning(scene, "occlusion textures are left out"));
+    EXPECT_TRUE(scene.images.empty());
+}
+
+TEST(GltfMaterials, unlitIsAlwaysASingleColor) {
+    const Material material = importedMaterial(R"({"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 1],
+        "baseColorTexture": {"index": 0}}, "emissiveFactor": [1, 1, 1], "extensions": {"KHR_materials_unlit": {}}})");
+    EXPECT_EQ(material.model, MaterialModel::SingleColor);
+    EXPECT_EQ(material.baseColor, glm::vec4(0.5f, 0.25f, 1, 1));
+    EXPECT_EQ(material.texture(TextureSlot::BaseColor).image, 0);
+    EXPECT_EQ(material.emissive, glm::vec3(0));
+}
+
+TEST(GltfMaterials, emissiveStrengthAlwaysMultipliesTheEmission) {
+    EXPECT_EQ(importedMaterial(R"({"emissiveFactor": [1, 0.5, 0],
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 8}}})")
+                  .emissive,
+              glm::vec3(8, 4, 0));
+}
+
+TEST(GltfMaterials, iorIsImportedExactly) {
+    EXPECT_EQ(importedMaterial(R"({"extensions": {"KHR_materials_ior": {"ior": 1.25}}})").ior, 1.25f);
+    EXPECT_EQ(importedMaterial(R"({"extensions": {"KHR_materials_ior": {}}})").ior, 1.5f);
+    EXPECT_EQ(importedMaterial(R"({"extensions": {"KHR_materials_ior": {"ior": 0}}})").ior, 0.0f);
+    EXPECT_THROW(importedMaterial(R"({"extensions": {"KHR_materials_ior": {"ior": 0.5}}})"), InputError);
+}
+
+TEST(GltfMaterials, specularFactorsAreImportedExactly) {
+    const Material material = importedMaterial(
+        R"({"extensions": {"KHR_materials_specular": {"specularFactor": 0.25, "specularColorFactor": [1, 2, 0.5]}}})");
+    EXPECT_EQ(material.specularFactor, 0.25f);
+    EXPECT_EQ(material.specularColor, glm::vec3(1, 2, 0.5f));
+}
+
+// ---- Textures ------------------------------------------------------------------------------------------------------
+
+TextureUse importedUse(const char* info, const char* sampler = nullptr) {
+    Builder builder;
+    builder.material()["pbrMetallicRoughness"]["baseColorTexture"] = Json::parse(info);
+    builder.addTexture();
+    if (sampler != nullptr) {
+        builder.json["samplers"] = Json::array({Json::parse(sampler)});
+        builder.json["textures"][0]["sampler"] = 0;
+    }
+    return builder.import().materials.at(0).texture(TextureSlot::BaseColor);
+}
+
+TEST(GltfTextures, samplerSettingsAreImportedExactly) {
+    const TextureUse use =
+        importedUse(R"({"index": 0})", R"({"magFilter": 9728, "minFilter": 9985, "wrapS": 33071, "wrapT": 33648})");
+    EXPECT_EQ(use.sampler,
+              (Sampler{Filter::Nearest, Filter::LinearMipmapNearest, Wrap::ClampToEdge, Wrap::MirroredRepeat}));
+    const Filter filters[] = {Filter::NearestMipmapNearest, Filter::LinearMipmapNearest, Filter::NearestMipmapLinear,
+                              Filter::LinearMipmapLinear};
+    for (int i = 0; i < 4; ++i) {
+        const std::string sampler = "{\"minFilter\": " + std::to_string(9984 + i) + "}";
+        EXPECT_EQ(importedUse(R"({"index": 0})", sampler.c_str()).sampler.minification, filters[i]);
+    }
+}
+
+TEST(GltfTextures, samplerDefaultsAreAlwaysRepeatAndTrilinear) {
+    const Sampler trilinear{Filter::Linear, Filter::LinearMipmapLinear, Wrap::Repeat, Wrap::Repeat};
+    EXPECT_EQ(importedUse(R"({"index": 0})").sampler, trilinear);
+    EXPECT_EQ(importedUse(R"({"index": 0})", "{}").sampler, trilinear);
+}
+
+TEST(GltfTextures, transformIsImportedExactly) {
+    const TextureUse use = importedUse(R"({"index": 0, "texCoord": 0, "extensions": {"KHR_texture_transform":
+        {"offset": [0.5, 0.25], "scale": [2, 3], "rotation": 0.125, "texCoord": 1}}})");
+    EXPECT_EQ(use.transform, (TextureTransform{{0.5f, 0.25f}, {2, 3}, 0.125f}));
+    EXPECT_EQ(use.texCoordSet, 1);
+    EXPECT_EQ(importedUse(R"({"index": 0})").transform, TextureTransform{});
+}
+
+TEST(GltfTextures, transformInsideAnExtensionIsImportedExactly) {
+    const Material material =
+        importedMaterial(R"({"extensions": {"KHR_materials_specular": {"specularTexture": {"index": 0,
+        "texCoord": 1, "extensions": {"KHR_texture_transform": {"scale": [4, 5]}}}}}})");
+    EXPECT_EQ(material.texture(TextureSlot::SpecularFactor).transform.scale, glm::vec2(4, 5));
+    EXPECT_EQ(material.texture(TextureSlot::SpecularFactor).texCoordSet, 1);
+}
+
+TEST(GltfTextures, secondTexCoordSetIsImportedAndAThirdIsAlwaysWarnedOf) {
+    EXPECT_EQ(importedUse(R"({"index": 0, "texCoord": 1})").texCoordSet, 1);
+    EXPECT_EQ(importedUse(R"({"index": 0, "texCoord": 2})").image, kNone);
+}
+
+TEST(GltfTextures, imageIsReadTheSameFromDataUriFileAndBufferView) {
+    Builder builder;
+    builder.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
+    builder.addTexture();
+    const Image embedded = builder.import().images.at(0);
+    EXPECT_EQ(embedded.name, "image 0");
+    EXPECT_EQ(embedded.width, 2);
+
+    builder.folder.write("my pictures/r\xc3\xb6t.png", pngRedBlue());
+    builder.json["images"][0] = Json::parse(R"({"uri": "my%20pictures/r%C3%B6t.png"})");
+    const Image external = builder.import().images.at(0);
+    EXPECT_EQ(external.texels, embedded.texels);
+    builder.json["images"][0]["uri"] = "my pictures/r\xc3\xb6t.png";
+    EXPECT_EQ(builder.import().images.at(0).texels, embedded.texels);
+
+    const int view = builder.addView(pngRedBlue());
+    builder.json["images"][0] = {{"bufferView", view}, {"mimeType", "image/png"}, {"name", "in a view"}};
+    const Image inView = builder.import().images.at(0);
+    EXPECT_EQ(inView.texels, embedded.texels);
+    EXPECT_EQ(inView.name, "in a view");
+}
+
+TEST(GltfTextures, imageUsedTwiceIsAlwaysDecodedOnce) {
+    Builder builder;
+    builder.material().merge_patch(Json::parse(R"({"normalTexture": {"index": 0}, "emissiveTexture": {"index": 1}})"));
+    builder.addTexture();
+    builder.json["textures"].push_back(Json::parse(R"({"source": 0})"));
+    EXPECT_EQ(builder.import().images.size(), 1u);
+}
+
+TEST(GltfTextures, missingOrBrokenImageIsAlwaysRefusedByName) {
+    Builder builder;
+    builder.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
+    builder.addTexture();
+    builder.json["images"][0] = Json::parse(R"({"uri": "gone.png"})");
+    EXPECT_NE(builder.error().find("gone.png: there is no such file"), std::string::npos);
+    EXPECT_NE(builder.error().find("model.gltf: /images/0: "), std::string::npos);
+    builder.json["images"][0] = Json::parse(R"({"uri": "https://example.org/a.png"})");
+    EXPECT_NE(builder.error().find("/images/0: its uri 'https://example.org/a.png' is not a relative path"),
+              std::string::npos);
+    builder.json["images"][0] = Json::parse(R"({"uri": "data:image/png;base64,QUJD"})");
+    EXPECT_NE(builder.error().find("/images/0: is in no known picture format"), std::string::npos);
+    builder.json["images"][0] = Json::parse(R"({"uri": "data:image/png;base64,*"})");
+    EXPECT_NE(builder.error().find("/images/0: its base64 has an invalid character at position 0"), std::string::npos);
+    builder.json["images"][0] = Json::object();
+    EXPECT_NE(builder.error().find("/images/0: has neither a uri nor a bufferView"), std::string::npos);
+    builder.json["textures"][0] = Json::object();
+    EXPECT_NE(builder.error().find("/textures/0: has no source in a supported format"), std::string::npos);
+}
+
+} // namespace
+} // namespace tessera::scenes::gltf::test

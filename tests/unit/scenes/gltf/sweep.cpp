@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "GltfBuilder.h"
+
+namespace tessera::scenes::gltf::test {
+namespace {
+
+std::vector<std::filesystem::path> modelsBelow(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> models;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        const std::string extension = entry.path().extension().string();
+        if (entry.is_regular_file() && (extension == ".gltf" || extension == ".glb")) models.push_back(entry.path());
+    }
+    std::ranges::sort(models);
+    return models;
+}
+
+std::size_t drawnTriangles(const Scene& scene) {
+    std::size_t triangles = 0;
+    for (const Node& node : scene.nodes)
+        for (const MeshInstance& instance : node.instances)
+            triangles += scene.meshes.at(static_cast<std::size_t>(instance.mesh)).indices.size() / 3;
+    return triangles;
+}
+
+/// What the scene's contract promises of meshes, wherever they come from.
+void expectSound(const Scene& scene) {
+    for (const Mesh& mesh : scene.meshes) {
+        const std::size_t count = mesh.positionsOS.size();
+        EXPECT_EQ(mesh.normalsOS.size(), count);
+        EXPECT_TRUE(mesh.tangentsOS.empty() || mesh.tangentsOS.size() == count);
+        EXPECT_TRUE(mesh.colors.empty() || mesh.colors.size() == count);
+        EXPECT_EQ(mesh.indices.size() % 3, 0u);
+        for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, count);
+    }
+    for (const Node& node : scene.nodes)
+        for (const MeshInstance& instance : node.instances)
+            EXPECT_LT(static_cast<std::size_t>(instance.material), scene.materials.size());
+    const int imageCount = static_cast<int>(scene.images.size());
+    for (const Material& material : scene.materials)
+        for (const TextureUse& use : material.textures) EXPECT_LT(use.image, imageCount);
+}
+
+/// Every model imports, or is refused with a reason; the refusals and the empty ones are printed to be judged by eye.
+void sweep(const std::filesystem::path& folder) {
+    std::size_t importedCount = 0;
+    const std::vector<std::filesystem::path> models = modelsBelow(folder);
+    for (const std::filesystem::path& model : models) {
+        SCOPED_TRACE(model.string());
+        const std::string name = std::filesystem::relative(model, folder).string();
+        try {
+            const Scene scene = importGltf(model);
+            expectSound(scene);
+            ++importedCount;
+            if (drawnTriangles(scene) == 0) {
+                std::printf("%-60s draws nothing\n", name.c_str());
+                for (const std::string& warning : scene.warnings) std::printf("%60s %s\n", "", warning.c_str());
+            }
+        } catch (const InputError& error) {
+            EXPECT_STRNE(error.what(), "");
+            std::printf("%-60s refused: %s\n", name.c_str(), error.what());
+        } catch (const std::exception& error) {
+            ADD_FAILURE() << "neither imported nor refused as input: " << error.what();
+        }
+    }
+    std::printf("%zu of %zu models imported\n", importedCount, models.size());
+    EXPECT_GT(importedCount, 0u);
+}
+
+TEST(GltfSweep, everyPackagedModelIsAlwaysImportedOrRefused) {
+    const std::filesystem::path folder = "/usr/share/assimp/models"; // Debian's assimp-testmodels
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the package assimp-testmodels is not installed";
+    sweep(folder);
+}
+
+TEST(GltfSweep, everyModelOfTheAssetsFolderIsAlwaysImportedOrRefused) {
+    const char* folder = std::getenv("TESSERA_ASSETS");
+    if (folder == nullptr) GTEST_SKIP() << "TESSERA_ASSETS is not set";
+    sweep(folder);
+}
+
+} // namespace
+} // namespace tessera::scenes::gltf::test
