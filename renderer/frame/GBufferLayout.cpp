@@ -8,13 +8,13 @@ using graph::Format;
 
 constexpr ChannelInfo kChannels[] = {
     {Channel::Albedo, "albedo", "ALBEDO", "k_d or base colour", Format::Rgba32Float, Format::Rgb10A2Unorm,
-     "square root, 10 bit a colour, 0..1", "scenes with a lit model"},
+     "square root in 1020 steps of 10 bit, 0..1", "scenes with a lit model"},
     {Channel::Normal, "normal", "NORMAL", "unit normal, lighting space", Format::Rgba32Float, Format::Rg16Snorm,
      "octahedral 2 x 16 bit", "scenes with a lit model"},
     {Channel::Microsurface, "microsurface", "MICROSURFACE", "alpha, model, ior or F90, metallic", Format::Rgba32Float,
      Format::R32Uint, "perceptual roughness 11 bit, (ior-1)/(ior+1) or F90 11 bit, metallic 7 bit, model 3 bit", "scenes with a glossy model or several models"},
     {Channel::Specular, "specular", "SPECULAR", "k_s or dielectric F0", Format::Rgba32Float, Format::Rgb10A2Unorm,
-     "square root, 10 bit a colour, 0..1", "scenes that change k_s or the dielectric F0"},
+     "square root in 1020 steps of 10 bit, 0..1", "scenes that change k_s or the dielectric F0"},
     {Channel::Emission, "emission", "EMISSION", "radiance without lights", Format::Rgba32Float, Format::R32Uint,
      "shared exponent 9 9 9 5", "scenes with emissive or unlit materials"},
     {Channel::NormalTexel, "normal_texel", "NORMAL_TEXEL", "normal map as stored", Format::Rgba32Float, Format::Rgba8Unorm,

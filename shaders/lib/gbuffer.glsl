@@ -26,9 +26,16 @@ vec3 decodeOctahedral(vec2 p)
     return normalize(n);
 }
 
-// Colours in 0..1 as their square root, so that equal steps are closer to equal ratios.
-vec3 encodeSquareRoot(vec3 color) { return sqrt(clamp(color, 0.0, 1.0)); }
-vec3 decodeSquareRoot(vec3 stored) { return stored * stored; }
+// Colours in 0..1 by their square root, so that equal steps are closer to equal ratios, in 1020 steps of a 10-bit channel.
+// 1020 because then 1 and the 0.04 of a common dielectric come back exactly, as (1020^2) / 1020^2 and (204^2) / 1020^2: a
+// scene that needs no specular channel looks the same to the last bit with and without one.
+vec3 encodeSquareRoot(vec3 color) { return floor(sqrt(clamp(color, 0.0, 1.0)) * 1020.0 + 0.5) / 1023.0; }
+vec3 decodeSquareRoot(vec3 stored)
+{
+    precise vec3 n = floor(stored * 1023.0 + 0.5);
+    precise vec3 color = (n * n) / 1040400.0;
+    return color;
+}
 
 // One word: model 3 bits, metallic 7, ior or F90 11, perceptual roughness 11. The ior is stored as (ior - 1)/(ior + 1), the
 // square root of the reflectance it causes, on a scale that has ior 1 exactly; F90 lies in 0..1.
