@@ -39,18 +39,15 @@ quietly() {
 
 aptGet() {
     local elevate=()
-    if [ "$(id -u)" -ne 0 ]; then
-        elevate=(sudo)
-        sudo -n true 2>/dev/null || [ ! -t 0 ] || sudo -v # ask for the password where the question can be seen
-    fi
+    [ "$(id -u)" -eq 0 ] || elevate=(sudo)
     "${elevate[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=120 "$@"
 }
 
 # ensurePackages SETS...: installs what the table lists and the machine lacks. The answer is kept, because dpkg-query
 # takes longer than a finished build does.
 ensurePackages() {
-    local stamp
-    stamp=$root/build/.packages-${*// /-}-$(cksum <"$packageTable" | tr ' ' '-')
+    local sets=$* stamp
+    stamp=$root/build/.packages-${sets// /-}-$(cksum <"$packageTable" | tr ' ' '-')
     [ ! -e "$stamp" ] || return 0
     if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
         local tool lacking=()
@@ -63,10 +60,11 @@ ensurePackages() {
     missing=$(packagesOf "$@" | missingPackages | tr '\n' ' ')
     missing=${missing% }
     if [ -n "$missing" ]; then
-        if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then
-            fail "Packages are missing and there is no sudo; as root: apt-get install --no-install-recommends $missing"
-        fi
         echo "Installing Debian packages: $missing" >&2
+        # sudo asks for the password here, before what it runs is silenced.
+        if [ "$(id -u)" -ne 0 ] && ! { command -v sudo >/dev/null && sudo -v; }; then
+            fail "That needs root: apt-get install --no-install-recommends $missing"
+        fi
         # Fresh machines have no package lists, old ones may name versions that are gone: then update and try again.
         # shellcheck disable=SC2086 # one word a package
         aptGet install --no-install-recommends --yes $missing >/dev/null 2>&1 </dev/null ||

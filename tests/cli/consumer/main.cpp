@@ -12,9 +12,6 @@ using namespace tessera;
 /// Loads a built-in scene with the installed library and renders it small, as a program of somebody else would.
 int main() try {
     const scenes::Scene scene = scenes::loadScene("lattice", {.lights = 4});
-    std::size_t triangles = 0;
-    for (const scenes::Mesh& mesh : scene.meshes) triangles += mesh.indices.size() / 3;
-
     const std::unique_ptr<gpu::Context> context = gpu::Context::create();
     recipes::Renderer renderer(*context, scene);
     frame::FrameSettings settings;
@@ -24,8 +21,8 @@ int main() try {
     for (std::size_t pixel = 0; pixel < frame.radiance.size() / 4; ++pixel)
         covered += frame.radiance[pixel * 4 + 3] > 0;
 
-    std::printf("lattice: %zu triangles, %zu lights; %zu of 64x36 pixels covered\n", triangles, scene.lights.size(),
-                covered);
+    std::printf("lattice: %zu triangles, %zu lights; %zu of 64x36 pixels covered\n", scenes::triangleCount(scene),
+                scene.lights.size(), covered);
     return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
