@@ -84,7 +84,7 @@ Mesh vase() {
                                 .arcAround({0.165, 1.135}, kPi, 4)
                                 .curveThrough({{0.08, 1.05}, {0.07, 0.95}}, 3);
     Mesh mesh;
-    appendLathe(mesh, amphora, 32);
+    appendLathe(mesh, amphora, 28);
     // Two handles from the shoulder to the neck.
     for (const double side : {-1.0, 1.0}) {
         const auto spine = [&](double t) {

@@ -109,7 +109,7 @@ Scene makeHall(const LoadOptions& options) {
     addPointLights(scene, options.lights.value_or(kDefaultLights));
     addSkyLight(scene);
     addCamera(scene, "nave", {0.9, 1.75, 17.6}, {-0.25, 4.35, 0.0}, 62.0);
-    addCamera(scene, "aisle", {-5.3, 1.7, 13.2}, {-6.1, 2.5, 3.0}, 58.0);
+    addCamera(scene, "aisle", {-5.6, 1.7, 13.0}, {-6.4, 2.4, 6.0}, 60.0);
     addCamera(scene, "gallery", {-1.4, 8.6, -17.4}, {0.7, 4.6, 0.0}, 62.0);
     return scene;
 }

@@ -45,31 +45,40 @@ void addFixtures(std::vector<Light>& places) {
     for (const double side : {-1.0, 1.0}) {
         for (int c = 0; c < kBays; ++c) { // the column at the portal has none
             const double z = columnZ(c);
-            addPlace(places, "column foot", {side * 3.15, 0.55, z + 0.62}, kAmber, 1.3f, 2.6f);
-            addPlace(places, "capital", {side * 3.3, 4.55, z + 0.5}, kAmber, 1.7f, 3.0f);
-            addPlace(places, "aisle", {side * 5.1, 3.4, z}, c % 2 == 0 ? kTeal : kViolet, 2.2f, 3.4f);
+            addPlace(places, "column foot", {side * 3.15, 0.55, z + 0.62}, kAmber, 2.0f, 3.0f);
+            addPlace(places, "capital", {side * 3.3, 4.55, z + 0.5}, kAmber, 2.8f, 3.4f);
+            addPlace(places, "aisle", {side * 6.2, 4.3, z}, c % 2 == 0 ? kTeal : kViolet, 8.0f, 5.0f);
         }
         for (int b = 0; b < kBays; ++b) {
             const double z = bayZ(b);
-            addPlace(places, "arch", {side * kColumnX, 6.35, z}, b % 2 == 0 ? kRose : kAmber, 1.6f, 2.6f);
+            addPlace(places, "arch", {side * kColumnX, 6.35, z}, b % 2 == 0 ? kRose : kAmber, 2.6f, 3.0f);
             addPlace(places, "niche", {side * 7.75, 3.0, z}, b % 2 == 0 ? glm::vec3(1.0f, 0.78f, 0.55f) : kTeal, 1.5f,
                      2.8f);
-            addPlace(places, "cornice", {side * 2.95, 8.95, z - 1.0}, kViolet, 2.4f, 3.6f);
-            addPlace(places, "cornice", {side * 2.95, 8.95, z + 1.0}, kSky, 2.4f, 3.6f);
-            addPlace(places, "vault", {side * 1.5, 12.6, z}, b % 2 == 0 ? kSky : kViolet, 2.6f, 4.0f);
+            addPlace(places, "cornice", {side * 2.95, 8.95, z - 1.0}, kViolet, 3.8f, 4.0f);
+            addPlace(places, "cornice", {side * 2.95, 8.95, z + 1.0}, kSky, 3.8f, 4.0f);
+            addPlace(places, "vault", {side * 1.5, 12.6, z}, b % 2 == 0 ? kSky : kViolet, 8.0f, 4.5f);
         }
     }
 }
 
 /// A crown of lamps around the apse.
 void addApse(std::vector<Light>& places) {
-    constexpr int kLamps = 24;
+    constexpr int kLamps = 20;
     for (int i = 0; i < kLamps; ++i) {
         const double angle = kPi * (i + 0.5) / kLamps;
         const double radius = i % 2 == 0 ? 2.45 : 1.9;
         const double y = i % 2 == 0 ? 5.9 : 1.1;
         const glm::dvec3 positionWS(radius * std::cos(angle), y, -kHalfLength - radius * std::sin(angle));
-        addPlace(places, "apse", positionWS, i % 2 == 0 ? kAmber : kRose, 1.4f, 3.2f);
+        addPlace(places, "apse", positionWS, i % 2 == 0 ? kAmber : kRose, 2.2f, 3.4f);
+    }
+}
+
+/// Two lamps on each side of the portal.
+void addPortal(std::vector<Light>& places) {
+    for (const double side : {-1.0, 1.0}) {
+        for (const double y : {2.6, 6.4}) {
+            addPlace(places, "portal", {side * 2.4, y, kHalfLength - 0.9}, kAmber, 6.0f, 4.5f);
+        }
     }
 }
 
@@ -82,7 +91,7 @@ void addWisps(std::vector<Light>& places) {
         const double angle = 2.0 * kPi * 5.0 * way + kPi * (i % 2);
         const glm::dvec3 positionWS(1.75 * std::cos(angle), 2.4 + 1.35 * std::sin(angle),
                                     -kHalfLength + 1.5 + (2.0 * kHalfLength - 4.0) * way);
-        addPlace(places, "wisp", positionWS, hueColor(0.08 + 0.9 * way), 1.5f, 3.0f);
+        addPlace(places, "wisp", positionWS, hueColor(0.08 + 0.9 * way), 3.2f, 3.4f);
         LightAnimation& drift = places.back().animation.emplace();
         drift.kind = LightAnimationKind::Wobble;
         drift.periodSeconds = 5.0 + static_cast<double>(i % 4);
@@ -97,6 +106,7 @@ void addPointLights(Scene& scene, int count) {
     std::vector<Light> places;
     addFixtures(places);
     addApse(places);
+    addPortal(places);
     addWisps(places);
     assert(places.size() == kPlaces);
 
@@ -129,7 +139,7 @@ void addSkyLight(Scene& scene) {
     sky.type = LightType::Directional;
     sky.directionWS = glm::normalize(glm::dvec3(0.62, -0.72, -0.3));
     sky.color = {0.62f, 0.76f, 1.0f};
-    sky.intensity = 0.35f;
+    sky.intensity = 0.7f;
     scene.lights.push_back(sky);
 }
 

@@ -29,8 +29,9 @@ struct Coffer {
         const double along = metres / kBayLength;
         return {around0 + around, around1 - around, along0 + along, along1 - along};
     }
+    /// Counter-clockwise seen from inside the hall.
     glm::dvec3 corner(int i, double depth) const {
-        return vaultPoint(i == 0 || i == 3 ? around0 : around1, i < 2 ? along0 : along1, depth);
+        return vaultPoint(i < 2 ? around0 : around1, i == 0 || i == 3 ? along0 : along1, depth);
     }
 };
 
@@ -48,9 +49,9 @@ void appendRing(Mesh& mesh, const Coffer& outer, double outerDepth, const Coffer
     }
 }
 
-constexpr double kFrameMetres = 0.13;
+constexpr double kFrameMetres = 0.1;
 constexpr double kStepMetres = 0.09;
-constexpr double kInnerMetres = 0.09;
+constexpr double kInnerMetres = 0.07;
 constexpr double kDepth = 0.2;
 
 Coffer ground(const Coffer& coffer) {
