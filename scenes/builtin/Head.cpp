@@ -78,7 +78,7 @@ void addLights(Scene& scene) {
     fill.color = {0.55f, 0.68f, 1.0f};
     fill.intensity = 0.8f;
     scene.lights.push_back(fill);
-    addSpot(scene, "backdrop", {0.0, 2.3, -0.4}, {0.15, 0.7, -1.4}, {1.0f, 0.72f, 0.5f}, 6.0f, 5.0f, 48.0f);
+    addSpot(scene, "backdrop", {-0.2, 2.3, 0.0}, {-0.25, 0.75, -1.4}, {1.0f, 0.72f, 0.5f}, 9.0f, 8.0f, 56.0f);
 }
 
 } // namespace
