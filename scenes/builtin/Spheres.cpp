@@ -57,6 +57,7 @@ void addPointLight(Scene& scene, const std::string& name, const glm::dvec3& posi
 Scene makeSpheres(const LoadOptions& options) {
     Scene scene;
     scene.name = "spheres";
+    scene.background = {0.03f, 0.034f, 0.042f};
     addSpheres(scene);
     Mesh floor;
     appendFloor(floor, {0.0, -0.05, -2.0}, {60.0, 60.0}, {30, 30});
@@ -76,7 +77,7 @@ Scene makeSpheres(const LoadOptions& options) {
     scene.lights.push_back(sun);
     keepFirstLights(scene, options);
 
-    addCamera(scene, "front", {0.0, 4.4, 8.2}, {0.0, 0.75, -1.7}, 40.0);
+    addCamera(scene, "front", {0.0, 4.7, 9.2}, {0.0, 0.6, -1.9}, 40.0);
     addCamera(scene, "mirror row", {-6.2, 2.6, 3.2}, {-2.0, 0.8, -2.4}, 45.0);
     return scene;
 }
