@@ -26,8 +26,9 @@ vec3 decodeOctahedral(vec2 p)
     return normalize(n);
 }
 
-// Colours in 0..1 as their square root, so that equal steps are closer to equal ratios.
-vec3 encodeSquareRoot(vec3 color) { return sqrt(clamp(color, 0.0, 1.0)); }
+// Colours in 0..1 as their square root in 10 bits, so that equal steps are closer to equal ratios. Rounded here and stored a
+// quarter of a step higher, since OpenGL lets a driver round either way (4.5 core, section 2.3.5.2) and some truncate.
+vec3 encodeSquareRoot(vec3 color) { return (floor(sqrt(clamp(color, 0.0, 1.0)) * 1023.0 + 0.5) + 0.25) / 1023.0; }
 vec3 decodeSquareRoot(vec3 stored) { return stored * stored; }
 
 // One word: model 3 bits, metallic 7, ior or F90 11, perceptual roughness 11. The ior is stored as (ior - 1)/(ior + 1), the
