@@ -77,7 +77,7 @@ int runProgram(int argc, char** argv) {
     addCompareCommand(app, global, run);
     addPlanCommand(app, global, run);
     addScenesCommand(app, run);
-    //DEMO
+    addDemoCommand(app, global, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& wanted) { // --help

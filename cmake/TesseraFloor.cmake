@@ -25,6 +25,8 @@ function(tessera_compile_options target)
     target_compile_features(${target} PUBLIC cxx_std_20)
     # Without contraction the CPU's sums do not depend on which multiply-adds a compiler happens to fuse.
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off)
+    # GCC 12 vectorises double(float(x)), x double, of neighbouring values into x itself: the rounding to single is lost.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
     if(TESSERA_WARNINGS_AS_ERRORS)
         target_compile_options(${target} PRIVATE -Werror)
     endif()

@@ -1,7 +1,10 @@
 #include "validation/Measure.h"
 
 #include <algorithm>
+#include <chrono>
 #include <map>
+
+#include "renderer/gpu/Commands.h"
 
 
 namespace tessera::validation {
@@ -55,6 +58,24 @@ void measurePlan(graph::Plan& plan, recipes::Renderer& renderer, recipes::Techni
     const std::size_t wholeBytes = recipes::planFrame(renderer.scene(), technique, whole).bytes;
     plan.leftOut.push_back({"all of these together", "measured against prune = off", wholeBytes - std::min(wholeBytes, plan.bytes),
                             median(unpruned.totalMs) - median(asPlanned.totalMs)});
+}
+
+std::vector<double> frameMs(recipes::Renderer& renderer, const std::vector<recipes::Technique>& techniques,
+                            const frame::FrameSettings& settings, int frames) {
+    std::vector<std::vector<double>> times(techniques.size());
+    for (int i = 0; i <= frames; ++i) {
+        for (std::size_t t = 0; t < techniques.size(); ++t) {
+            gpu::finish();
+            const auto start = std::chrono::steady_clock::now();
+            renderer.draw(techniques[t], settings);
+            gpu::finish();
+            const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+            if (i > 0) times[t].push_back(elapsed.count()); // the first round compiles shaders
+        }
+    }
+    std::vector<double> medians;
+    for (const std::vector<double>& sample : times) medians.push_back(median(sample));
+    return medians;
 }
 
 } // namespace tessera::validation

@@ -9,4 +9,9 @@ namespace tessera::validation {
 void measurePlan(graph::Plan& plan, recipes::Renderer& renderer, recipes::Technique technique,
                  const frame::FrameSettings& settings);
 
+/// Median wall time in milliseconds of a whole frame by each technique, from its first call to the return of glFinish. The techniques
+/// take turns, so that a machine that changes its pace treats all alike.
+std::vector<double> frameMs(recipes::Renderer& renderer, const std::vector<recipes::Technique>& techniques,
+                            const frame::FrameSettings& settings, int frames);
+
 } // namespace tessera::validation

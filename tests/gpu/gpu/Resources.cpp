@@ -46,7 +46,10 @@ TEST_F(BufferTest, aNewBufferIsAlwaysZeroAndNeverEmpty) {
     const Buffer empty("empty", 0);
     EXPECT_EQ(empty.bytes(), 16u);
     EXPECT_THAT(empty.downloadAs<std::uint32_t>(4), Each(0u));
-    EXPECT_THAT(Buffer("large", 1 << 20).downloadAs<std::uint32_t>(1 << 18), Each(0u));
+    // Used memory is what a driver may hand out again as it is; llvmpipe zeroes it by itself, others do not.
+    const auto make = [](int i) { return Buffer("small " + std::to_string(i), 256); };
+    for (int i = 0; i < 64; ++i) fillBuffer(make(i), 0xffffffffu);
+    for (int i = 0; i < 64; ++i) EXPECT_THAT(make(i).downloadAs<std::uint32_t>(64), Each(0u));
 }
 
 TEST_F(BufferTest, fillAndCopyAlwaysReachTheBytesTheyName) {

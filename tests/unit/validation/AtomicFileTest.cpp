@@ -1,8 +1,11 @@
 #include "validation/AtomicFile.h"
 
 #include <csignal>
+#include <fcntl.h>
 #include <stdexcept>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <gmock/gmock.h>
 
@@ -12,7 +15,6 @@ namespace tessera::validation {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 using testing::StartsWith;
 
 /// Makes every write beyond `bytes` of a file fail, as a full disk does, while it lives.
@@ -72,11 +74,30 @@ TEST(AtomicFile, theMessageAlwaysNamesThePathTheReasonAndTheRemedy) {
     EXPECT_EQ(folder.entries(), 0u);
 }
 
-TEST(AtomicFile, aDeviceIsNeverReplacedByAFile) {
-    writeFileAtomically("/dev/null", "x");
-    EXPECT_TRUE(fs::is_character_file("/dev/null"));
-    EXPECT_THAT(errorOf<std::runtime_error>([] { writeFileAtomically("/dev/full", "x"); }),
-                HasSubstr("cannot write /dev/full: No space left on device"));
+TEST(AtomicFile, aPipeIsNeverReplacedByAFile) {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("pipe");
+    ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    const int reader = ::open(path.c_str(), O_RDWR | O_NONBLOCK); // a pipe without a reader would make the writer wait
+    ASSERT_GE(reader, 0);
+    writeFileAtomically(path, "text");
+    char bytes[8] = {};
+    EXPECT_EQ(::read(reader, bytes, sizeof(bytes)), 4);
+    EXPECT_STREQ(bytes, "text");
+    EXPECT_TRUE(fs::is_fifo(path));
+    ::close(reader);
+}
+
+TEST(AtomicFile, aFileGivenAsADeviceIsNeverReplaced) {
+    const TemporaryFolder folder;
+    const int file = ::open(folder.file("out").c_str(), O_RDWR | O_CREAT, 0600);
+    ASSERT_GE(file, 0);
+    // As when standard output is redirected to a file: what is written later through it must reach that same file.
+    writeFileAtomically(fmt::format("/dev/fd/{}", file), "text");
+    char bytes[8] = {};
+    EXPECT_EQ(::read(file, bytes, sizeof(bytes)), 4);
+    EXPECT_STREQ(bytes, "text");
+    ::close(file);
 }
 
 TEST(AtomicFile, aLinkAlwaysStaysALinkAndItsTargetIsWritten) {

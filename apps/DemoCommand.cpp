@@ -1,0 +1,129 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "apps/Commands.h"
+#include "apps/Progress.h"
+#include "passes/recipes/Renderer.h"
+#include "renderer/graph/Plan.h"
+#include "validation/AtomicFile.h"
+#include "validation/HeatMap.h"
+#include "validation/Measure.h"
+#include "validation/PictureFile.h"
+#include "validation/Report.h"
+#include "validation/TechniqueCompare.h"
+
+namespace tessera::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using recipes::Technique;
+using validation::CompareResult;
+
+constexpr int kTimedFrames = 3;
+
+struct DemoOptions {
+    FrameOptions frame;
+    std::string folder = "out";
+};
+
+std::string nameOf(Technique technique) { return std::string(recipes::techniqueTable()[std::size_t(technique)].name); }
+
+/// The pairs of the packed layout under names of their own, joined to those of the exact one.
+void joinPacked(CompareResult& result, CompareResult&& packed) {
+    for (std::size_t i = 0; i < packed.record.pairs.size(); ++i) {
+        packed.record.pairs[i].a += " (packed)";
+        packed.pictures[i].name += " (packed)";
+        result.record.pairs.push_back(std::move(packed.record.pairs[i]));
+        result.pictures.push_back(std::move(packed.pictures[i]));
+    }
+}
+
+std::string choiceOf(const std::vector<Technique>& techniques, const std::vector<double>& ms, bool agree) {
+    const std::size_t best = std::size_t(std::min_element(ms.begin(), ms.end()) - ms.begin());
+    const std::string pace = best == 0 ? "the fastest here"
+                                       : fmt::format("{:.1f}x the speed of {} ({:.0f} ms)", ms[0] / ms[best], nameOf(techniques[0]), ms[0]);
+    return fmt::format("Take {} for this scene on this machine: {:.0f} ms a frame, {}, and {}.", nameOf(techniques[best]), ms[best],
+                       pace, agree ? "the same picture" : "beware: the pictures do not agree");
+}
+
+validation::Report makeReport(const Request& request, const CompareResult& result, const std::vector<Technique>& techniques,
+                              const std::vector<double>& ms) {
+    validation::Report report;
+    report.title = fmt::format("{}, rendered {} ways", request.scene.name, techniques.size());
+    report.record = result.record;
+    report.choice = choiceOf(techniques, ms, result.record.ok());
+    report.facts = {{"Triangles", fmt::format("{}", scenes::triangleCount(request.scene))},
+                    {"Lights", fmt::format("{}", request.scene.lights.size())},
+                    {"Materials", fmt::format("{}", request.scene.materials.size())}};
+    for (std::size_t i = 0; i < techniques.size(); ++i) {
+        report.facts.push_back({nameOf(techniques[i]), fmt::format("{:.0f} ms a frame", ms[i])});
+        report.plans.push_back(
+            {nameOf(techniques[i]), graph::planText(recipes::planFrame(request.scene, techniques[i], request.settings))});
+    }
+    report.pictures.push_back({result.truth.name, "the truth of every pair below", result.truth.display});
+    for (const validation::NamedPicture& picture : result.pictures) {
+        report.pictures.push_back({picture.name, "", picture.display});
+        report.heatMaps.push_back({picture.name, result.truth.name,
+                                   validation::errorHeatMap(picture.picture, result.truth.picture,
+                                                            picture.name + " vs " + result.truth.name)});
+    }
+    const std::string size = fmt::format("{}x{}", request.settings.sizePixels.x, request.settings.sizePixels.y);
+    report.commands = {fmt::format("tessera compare {} --size {}", request.scene.name, size),
+                       fmt::format("tessera compare {} --size {} --layout packed", request.scene.name, size),
+                       fmt::format("tessera plan {} --size {}", request.scene.name, size)};
+    return report;
+}
+
+void writePictures(const fs::path& folder, const Request& request, const CompareResult& result) {
+    fs::create_directories(folder);
+    validation::writeExr((folder / (request.scene.name + ".exr")).string(), result.truth.picture);
+    validation::writePng((folder / (result.truth.name + ".png")).string(), result.truth.display);
+    for (std::size_t i = 0; i < result.pictures.size(); ++i) {
+        std::string name = result.pictures[i].name;
+        std::replace(name.begin(), name.end(), ' ', '_');
+        std::erase_if(name, [](char c) { return c == '(' || c == ')'; });
+        validation::writePng((folder / (name + ".png")).string(), result.pictures[i].display);
+    }
+}
+
+int demo(const DemoOptions& options, const GlobalOptions& global) {
+    const Request request = resolve(options.frame);
+    const std::unique_ptr<gpu::Context> context = makeContext(global);
+    recipes::Renderer renderer(*context, request.scene);
+    std::vector<Technique> techniques;
+    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) techniques.push_back(info.technique);
+
+    validation::CompareRequest exact;
+    exact.techniques.assign(techniques.begin() + 1, techniques.end());
+    exact.settings = request.settings;
+    validation::CompareRequest packed = exact;
+    packed.techniques = {Technique::Deferred};
+    packed.settings.layout = frame::layoutTable()[1].layout;
+    Progress progress("rendering", validation::pictureCount(exact) + validation::pictureCount(packed) + 1, global.quiet);
+    exact.renderedOne = packed.renderedOne = [&progress] { progress.advance(); };
+    CompareResult result = validation::compareTechniques(renderer, context->capabilities(), exact);
+    joinPacked(result, validation::compareTechniques(renderer, context->capabilities(), packed));
+    const std::vector<double> ms = validation::frameMs(renderer, techniques, request.settings, kTimedFrames);
+    progress.finish();
+
+    writePictures(options.folder, request, result);
+    const fs::path page = fs::path(options.folder) / "index.html";
+    validation::writeFileAtomically(page.string(), validation::reportHtml(makeReport(request, result, techniques, ms)));
+    fmt::print("{}\n{}\nreport    {}\npictures  {}\n", validation::compareTable(result.record),
+               choiceOf(techniques, ms, result.record.ok()), page.string(), (fs::path(options.folder) / "*.png").string());
+    return result.record.ok() ? kGood : kToleranceMissed;
+}
+
+} // namespace
+
+void addDemoCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
+    CLI::App* command = app.add_subcommand("demo", "Renders a scene with every technique, checks that they match, writes a report");
+    auto options = std::make_shared<DemoOptions>();
+    addFrameOptions(*command, options->frame, "hall");
+    command->add_option("-o,--output", options->folder, "Where pictures and index.html go [out]")->type_name("DIR");
+    command->callback([options, &global, &run] { run = [options, &global] { return demo(*options, global); }; });
+}
+
+} // namespace tessera::app

@@ -1,0 +1,81 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "scenes/Load.h"
+#include "scenes/LookAt.h"
+#include "scenes/Scene.h"
+
+/// Short forms in which the built-in scenes are written down.
+namespace tessera::scenes::builtin {
+
+inline int addImage(Scene& scene, Image image) {
+    scene.images.push_back(std::move(image));
+    return static_cast<int>(scene.images.size()) - 1;
+}
+
+inline int addMaterial(Scene& scene, Material material) {
+    scene.materials.push_back(std::move(material));
+    return static_cast<int>(scene.materials.size()) - 1;
+}
+
+inline int addMesh(Scene& scene, const std::string& name, Mesh mesh) {
+    mesh.name = name;
+    scene.meshes.push_back(std::move(mesh));
+    return static_cast<int>(scene.meshes.size()) - 1;
+}
+
+inline void addNode(Scene& scene, const std::string& name, const glm::dmat4& worldFromNode,
+                    std::vector<MeshInstance> instances) {
+    Node node;
+    node.name = name;
+    node.parentFromNode = worldFromNode;
+    node.instances = std::move(instances);
+    scene.nodes.push_back(std::move(node));
+}
+
+inline void addCamera(Scene& scene, const std::string& name, const glm::dvec3& eyeWS, const glm::dvec3& targetWS,
+                      double fovYDegrees) {
+    Camera camera;
+    camera.name = name;
+    camera.worldFromCamera = worldFromLookAt(eyeWS, targetWS);
+    camera.fovYRadians = glm::radians(fovYDegrees);
+    scene.cameras.push_back(camera);
+}
+
+inline Material metallicRoughness(const std::string& name, const glm::vec3& baseColor, float metallic,
+                                  float perceptualRoughness) {
+    Material material;
+    material.name = name;
+    material.baseColor = glm::vec4(baseColor, 1.0f);
+    material.metallic = metallic;
+    material.perceptualRoughness = perceptualRoughness;
+    return material;
+}
+
+inline Material lambert(const std::string& name, const glm::vec3& diffuse) {
+    Material material;
+    material.name = name;
+    material.model = MaterialModel::Lambert;
+    material.baseColor = glm::vec4(diffuse, 1.0f);
+    return material;
+}
+
+inline Material microfacet(const std::string& name, const glm::vec3& diffuse, float ior, float alpha) {
+    Material material;
+    material.name = name;
+    material.model = MaterialModel::Microfacet;
+    material.baseColor = glm::vec4(diffuse, 1.0f);
+    material.ior = ior;
+    material.alpha = alpha;
+    return material;
+}
+
+/// Scenes with a few placed lights keep the first `options.lights` of them.
+inline void keepFirstLights(Scene& scene, const LoadOptions& options) {
+    if (options.lights && static_cast<std::size_t>(*options.lights) < scene.lights.size()) {
+        scene.lights.resize(static_cast<std::size_t>(*options.lights));
+    }
+}
+
+} // namespace tessera::scenes::builtin

@@ -1,0 +1,18 @@
+#pragma once
+#include "scenes/Load.h"
+
+/// The built-in scenes, one function each; builtinScenes() lists them. All are the same on every machine.
+namespace tessera::scenes::builtin {
+
+/// A colonnaded hall; `lights` point lights (256 by default, weaker where there are more) and one directional.
+Scene makeHall(const LoadOptions& options);
+/// Spheres in rows of growing metalness and columns of growing roughness.
+Scene makeSpheres(const LoadOptions& options);
+/// The benchmark scene: 256 spheres and boxes, `lights` point lights (256 by default), every number of it specified.
+Scene makeLattice(const LoadOptions& options);
+/// A closed room whose radiance is known in closed form (Room.h); `lights` share the one lamp's place and intensity.
+Scene makeRoom(const LoadOptions& options);
+/// A bust with an object-space normal map; a scanned head where TESSERA_ASSETS holds one and `useAssets` is set.
+Scene makeHead(const LoadOptions& options);
+
+} // namespace tessera::scenes::builtin

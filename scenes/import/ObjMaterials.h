@@ -1,0 +1,51 @@
+#pragma once
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenes/Scene.h"
+#include "scenes/import/MtlLibrary.h"
+
+namespace tessera::scenes::obj {
+
+/// Adds materials of MTL files to a scene, with the pictures they name; a picture used twice is decoded once.
+///
+/// Every material becomes metallic_roughness, so that those of one file keep their relative brightness (`lambert` has
+/// no 1/pi), except for illum 0, MTL's constant colour, which becomes single_color.
+///   base colour   Kd x map_Kd, white where not stated
+///   opacity       d (or 1 - Tr) x map_d; alpha mode Mask with map_d, else Blend where d < 1
+///   roughness     Pr x map_Pr, else from Ns (Blinn-Phong exponent to GGX alpha), else 0.5
+///   metalness     Pm x map_Pm, else 0
+///   specular      Ks x map_Ks tints the dielectric reflectance; illum 1 has none
+///   ior           Ni where it exceeds 1 (exporters write 1 for "not set"), else 1.5
+///   emission      Ke x map_Ke
+///   normals       norm, else map_bump or bump taken for a tangent-space normal map, with a warning
+/// Values above what a parameter allows are clamped to it.
+class MaterialConverter {
+public:
+    explicit MaterialConverter(Scene& scene) : scene_(scene) {}
+
+    /// The index of the new material. Throws InputError naming MTL file, material and picture when one cannot be read.
+    int add(const MtlMaterial& mtl);
+
+    /// For faces without a material, or with an undefined one: grey, half rough, not metallic.
+    int addDefault(const std::string& name);
+
+private:
+    TextureUse textureUse(const MtlMaterial& mtl, const char* keyword, const std::string& name,
+                          const tinyobj::texture_option_t& options);
+    int image(const MtlMaterial& mtl, const char* keyword, const std::string& name);
+    void setOpacity(const MtlMaterial& mtl, Material& material);
+    void setMetallicRoughness(const MtlMaterial& mtl, Material& material);
+    void setSpecular(const MtlMaterial& mtl, Material& material);
+    void setNormalMap(const MtlMaterial& mtl, Material& material);
+    void warn(const MtlMaterial& mtl, const std::string& what);
+
+    Scene& scene_;
+    std::map<std::string, int> imageOfFile_;
+    std::map<std::pair<int, int>, int> colourAndOpacity_;      ///< packed image of two images, either may be kNone
+    std::map<std::pair<int, int>, int> roughnessAndMetalness_; ///< likewise
+};
+
+} // namespace tessera::scenes::obj

@@ -1,0 +1,122 @@
+"""./run and ./test on machines made up of stand-ins for dpkg-query, apt-get, cmake, ninja and ctest."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+# What the scripts take from every Unix system; nothing else of the real machine is in their PATH.
+UTILITIES = ["awk", "bash", "cat", "cksum", "dirname", "env", "flock", "grep", "mkdir", "mktemp", "readlink", "rm", "tee", "tr"]
+
+STAND_INS = {
+    "id": "echo 0",
+    # Knows every package but the one in the file `missing`.
+    "dpkg-query": 'for name in "${@:3}"; do [ "$name" = "$(cat "$MACHINE/missing")" ] || echo "installed $name"; done',
+    "apt-get": ': > "$MACHINE/missing"',
+    "cmake": 'mkdir -p build/release build/asan; : > build/release/build.ninja; : > build/asan/build.ninja',
+    "ninja": 'cat "$MACHINE/ninja-says"; exit $(cat "$MACHINE/ninja-code")',
+    "glad": "",
+    "ctest": 'echo "100% tests passed"',
+}
+
+
+class Scripts(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.machine = pathlib.Path(folder.name)
+        self.root = self.machine / "tessera"
+        self.root.mkdir()
+        for name in ("run", "test"):
+            shutil.copy(REPOSITORY / name, self.root)
+        shutil.copytree(REPOSITORY / "tools", self.root / "tools")
+        (self.machine / "bin").mkdir()
+        for name in UTILITIES:
+            (self.machine / "bin" / name).symlink_to(shutil.which(name))
+        for name, text in STAND_INS.items():
+            self.script(self.machine / "bin" / name, f'echo "{name} $*" >> "$MACHINE/log"\n{text}')
+        self.script(self.root / "build/release/apps/tessera", 'echo "$PWD: tessera $*"')
+        self.write("missing", "")
+        self.ninja("ninja: Entering directory\nninja: no work to do.\n", 0)
+        self.write("log", "")
+
+    def write(self, name, text):
+        (self.machine / name).write_text(text)
+
+    def ninja(self, says, code):
+        self.write("ninja-says", says)
+        self.write("ninja-code", str(code))
+
+    def script(self, path, text):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(f"#!{shutil.which('bash')}\n{text}\n")
+        path.chmod(0o755)
+
+    def run_(self, *command):
+        """Runs a script of the repository from another folder; what it called is in self.calls."""
+        self.write("log", "")
+        result = subprocess.run([self.root / command[0], *command[1:]], cwd=self.machine, text=True, capture_output=True,
+                                env={"PATH": str(self.machine / "bin"), "MACHINE": str(self.machine)}, timeout=60)
+        self.calls = (self.machine / "log").read_text().splitlines()
+        return result
+
+    def called(self, program):
+        return [call for call in self.calls if call.startswith(program + " ")]
+
+    def testExactlyTheMissingPackagesAreInstalled(self):
+        self.write("missing", "libfmt-dev")
+        result = self.run_("run", "scenes")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual([call.split("--yes ")[1] for call in self.called("apt-get")], ["libfmt-dev"])
+        self.assertIn("Installing Debian packages: libfmt-dev", result.stderr)
+
+    def testTheSecondRunNeverAsksAnythingAndSaysOnlyWhatTheProgramSays(self):
+        self.run_("run", "scenes")
+        result = self.run_("run", "render", "a b.gltf")
+        self.assertEqual(result.stderr, "")
+        self.assertEqual(result.stdout, f"{self.machine}: tessera render a b.gltf\n")
+        self.assertEqual([call.split()[0] for call in self.calls], ["ninja"])
+
+    def testRunAloneIsAlwaysTheDemonstration(self):
+        self.assertEqual(self.run_("run").stdout, f"{self.machine}: tessera demo -o {self.root}/out\n")
+
+    def testAChangedPackageTableIsAlwaysCheckedAgain(self):
+        self.run_("run")
+        with (self.root / "tools/packages.txt").open("a") as table:
+            table.write("libnew-dev build - something new\n")
+        self.write("missing", "libnew-dev")
+        self.run_("run")
+        self.assertEqual(len(self.called("apt-get")), 1)
+
+    def testAFailedBuildAlwaysShowsWhatTheCompilerSaidAndNeverRuns(self):
+        self.ninja("[1/2] Building A.o\nFAILED: A.o\nA.cpp:3:1: error: what\n", 1)
+        result = self.run_("run", "scenes")
+        self.assertEqual((result.returncode, result.stdout), (1, ""))
+        self.assertIn("A.cpp:3:1: error: what\n", result.stderr)
+        self.assertNotIn("[1/2]", result.stderr)
+
+    def testWithoutAptTheMessageAlwaysNamesWhatToInstall(self):
+        for name in ("apt-get", "ninja"):
+            (self.machine / "bin" / name).unlink()
+        result = self.run_("run")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("(ninja)", result.stderr)
+        self.assertIn("vcpkg.json", result.stderr)
+
+    def testEverydayTestsNeverIncludeTheSlowOnesAndPassArgumentsOn(self):
+        result = self.run_("test", "-R", "Graph")
+        self.assertIn("100% tests passed", result.stdout)
+        (call,) = self.called("ctest")
+        self.assertTrue(call.endswith("-LE slow -R Graph"), call)
+        self.assertIn("--no-tests=error", call)
+        self.run_("test", "--all", "--asan")
+        (call,) = self.called("ctest")
+        self.assertNotIn("slow", call)
+        self.assertIn(f"--test-dir {self.root}/build/asan", call)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include "renderer/graph/Plan.h"
+#include "scenes/Load.h"
+#include "tests/support/GlContext.h"
+#include "tests/support/TestScenes.h"
+#include "validation/Rendering.h"
+#include "validation/TechniqueCompare.h"
+
+namespace tessera {
+namespace {
+
+using recipes::Technique;
+
+class Invariance : public test::GlTest {
+protected:
+    static frame::FrameSettings small() {
+        frame::FrameSettings settings;
+        settings.sizePixels = {320, 181};
+        return settings;
+    }
+    validation::Picture picture(const scenes::Scene& scene, const frame::FrameSettings& settings,
+                                Technique technique = Technique::Deferred) {
+        recipes::Renderer renderer(context(), scene);
+        return validation::toPicture(renderer.render(technique, settings));
+    }
+};
+
+TEST_F(Invariance, pruningNeverChangesABitOfAnyBuiltinScene) {
+    for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
+        const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
+        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+            for (const frame::LayoutInfo& layout : frame::layoutTable()) {
+                SCOPED_TRACE(fmt::format("{} {} {}", builtin.name, technique.name, layout.name));
+                frame::FrameSettings settings = small();
+                settings.layout = layout.layout;
+                const validation::Picture pruned = picture(scene, settings, technique.technique);
+                settings.prune = false;
+                const validation::Picture whole = picture(scene, settings, technique.technique);
+                EXPECT_EQ(pruned.rgba, whole.rgba);
+                EXPECT_GT(validation::errorFigures(whole, pruned).litShare, 0.1);
+            }
+        }
+    }
+}
+
+TEST_F(Invariance, plansAlwaysNameWhatThreeDifferentScenesLeaveOut) {
+    const auto left = [](const char* name) {
+        const scenes::Scene scene = scenes::loadScene(name);
+        std::string all;
+        for (const graph::Plan::LeftOut& item : recipes::planFrame(scene, Technique::Deferred, small()).leftOut) {
+            EXPECT_FALSE(item.why.empty());
+            all += item.what + "\n";
+        }
+        return all;
+    };
+    const std::string lattice = left("lattice"), room = left("room"), head = left("head");
+    EXPECT_NE(lattice.find("normal maps"), std::string::npos);
+    EXPECT_NE(lattice.find("G-buffer channel emission"), std::string::npos);
+    EXPECT_EQ(room.find("G-buffer channel emission"), std::string::npos);
+    EXPECT_EQ(head.find("normal maps\n"), std::string::npos);
+    EXPECT_NE(head.find("tangents"), std::string::npos);
+    EXPECT_NE(lattice, room);
+    EXPECT_NE(room, head);
+}
+
+TEST_F(Invariance, picturesAreAlwaysBitIdenticalFromRunToRun) {
+    const scenes::Scene scene = scenes::loadScene("hall");
+    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+        const validation::Picture first = picture(scene, small(), technique.technique);
+        const validation::Picture second = picture(scenes::loadScene("hall"), small(), technique.technique);
+        EXPECT_EQ(first.rgba, second.rgba) << technique.name;
+    }
+}
+
+TEST_F(Invariance, worldAndViewSpaceLightingAlwaysAgree) {
+    const scenes::Scene scene = test::everythingScene();
+    frame::FrameSettings settings = small();
+    const validation::Picture world = picture(scene, settings);
+    settings.space = frame::LightingSpace::View;
+    const validation::Picture view = picture(scene, settings);
+    const validation::ErrorFigures figures = validation::errorFigures(view, world);
+    // Rotating positions and normals costs one fp32 rounding each; a sharp highlight multiplies it by up to 1/alpha^2.
+    EXPECT_LE(figures.relMse, 1e-8);
+    EXPECT_LT(figures.bitEqual, 1.0) << "view space was not used";
+}
+
+TEST_F(Invariance, aSceneFarFromTheOriginAlwaysLooksAsAtTheOrigin) {
+    const scenes::Scene near = test::everythingScene();
+    scenes::Scene far = near;
+    // 2^20 m along each axis: nodes, lights and camera move; meshes stay relative to their nodes.
+    const glm::dvec3 offset(1048576.0, -1048576.0, 1048576.0);
+    for (scenes::Node& node : far.nodes) node.parentFromNode[3] += glm::dvec4(offset, 0.0);
+    for (scenes::Light& light : far.lights) light.positionWS += offset;
+    for (scenes::Camera& camera : far.cameras) camera.worldFromCamera[3] += glm::dvec4(offset, 0.0);
+    const validation::ErrorFigures figures = validation::errorFigures(picture(far, small()), picture(near, small()));
+    // Doubles keep 2e-10 m at this distance; what remains is how that rounds into fp32.
+    EXPECT_LE(figures.relMse, 1e-8);
+}
+
+TEST_F(Invariance, aLightThatIsOffDarkOrOutOfReachNeverChangesABit) {
+    const scenes::Scene scene = test::everythingScene();
+    const validation::Picture before = picture(scene, small());
+    scenes::Scene more = scene;
+    scenes::Light off = test::pointLight({0, 1, 1}, 100.0f);
+    off.enabled = false;
+    scenes::Light dark = test::pointLight({0, 1, 1}, 0.0f);
+    scenes::Light behind = test::pointLight({0, 2, 60}, 100.0f);
+    behind.rangeMetres = 5.0f;
+    scenes::Light closed = test::pointLight({0, 3, 1}, 100.0f);
+    closed.type = scenes::LightType::Spot;
+    closed.outerConeRadians = 0.0f;
+    scenes::Light rangeless = test::pointLight({0, 1, 1}, 100.0f);
+    rangeless.rangeMetres = 0.0f;
+    more.lights.insert(more.lights.end(), {off, dark, behind, closed, rangeless});
+    for (const bool prune : {true, false}) {
+        frame::FrameSettings settings = small();
+        settings.prune = prune;
+        EXPECT_EQ(picture(more, settings).rgba, before.rgba) << "prune " << prune;
+    }
+}
+
+} // namespace
+} // namespace tessera

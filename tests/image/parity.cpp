@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include "scenes/Load.h"
+#include "tests/support/GlContext.h"
+#include "tests/support/TestScenes.h"
+#include "validation/TechniqueCompare.h"
+
+namespace tessera {
+namespace {
+
+using recipes::Technique;
+
+class Parity : public test::GlTest {
+protected:
+    validation::CompareRecord compare(const scenes::Scene& scene, const frame::FrameSettings& settings) {
+        recipes::Renderer renderer(context(), scene);
+        validation::CompareRequest request;
+        request.techniques = {Technique::ForwardPrepass, Technique::Deferred};
+        request.settings = settings;
+        return validation::compareTechniques(renderer, context().capabilities(), request).record;
+    }
+
+    void expectAgreement(const scenes::Scene& scene, const frame::FrameSettings& settings) {
+        const validation::CompareRecord record = compare(scene, settings);
+        EXPECT_TRUE(record.ok()) << validation::compareTable(record);
+        for (const validation::ComparePair& pair : record.pairs) {
+            EXPECT_EQ(pair.figures.bad.sum() + pair.figures.badOutside.sum(), 0u);
+            EXPECT_GE(pair.figures.litShare, 0.1);
+        }
+    }
+};
+
+/// The sizes: one that tiles evenly and one that is odd both ways.
+constexpr glm::ivec2 kSizes[] = {{640, 360}, {641, 359}};
+
+TEST_F(Parity, everyBuiltinSceneIsExactlyTheSameWithEveryTechnique) {
+    for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
+        const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
+        for (const glm::ivec2 size : kSizes) {
+            SCOPED_TRACE(fmt::format("{} {}x{}", builtin.name, size.x, size.y));
+            frame::FrameSettings settings;
+            settings.sizePixels = size;
+            expectAgreement(scene, settings);
+        }
+    }
+}
+
+TEST_F(Parity, packedLayoutAlwaysStaysWithinItsErrorBoundAndAttributesIt) {
+    for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
+        SCOPED_TRACE(builtin.name);
+        const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
+        frame::FrameSettings settings;
+        settings.sizePixels = kSizes[1];
+        settings.layout = frame::layoutTable()[1].layout;
+        const validation::CompareRecord record = compare(scene, settings);
+        EXPECT_TRUE(record.ok()) << validation::compareTable(record);
+        const validation::ComparePair& deferred = record.pairs.back();
+        EXPECT_LE(deferred.figures.relMse, 1e-4);
+        EXPECT_LT(deferred.figures.bitEqual, 1.0) << "a packed G-buffer that costs nothing was not used";
+        EXPECT_FALSE(deferred.channels.empty());
+        fmt::print("{}", validation::compareTable(record));
+    }
+}
+
+TEST_F(Parity, aSceneOfEveryFeatureIsExactlyTheSameWithEveryTechniqueAndOption) {
+    const scenes::Scene scene = test::everythingScene();
+    for (const glm::ivec2 size : {glm::ivec2(320, 180), glm::ivec2(321, 179)}) {
+        frame::FrameSettings settings;
+        settings.sizePixels = size;
+        expectAgreement(scene, settings);
+        settings.filter = frame::TextureFilter::Exact;
+        expectAgreement(scene, settings);
+        settings.space = frame::LightingSpace::View;
+        expectAgreement(scene, settings);
+        settings.specular = false;
+        expectAgreement(scene, settings);
+        settings.prune = false;
+        expectAgreement(scene, settings);
+    }
+}
+
+TEST_F(Parity, everyViewIsExactlyTheSameInForwardAndDeferred) {
+    scenes::Scene scene = test::everythingScene();
+    recipes::Renderer renderer(context(), scene);
+    for (const frame::ViewInfo& view : frame::viewTable()) {
+        SCOPED_TRACE(view.name);
+        frame::FrameSettings settings;
+        settings.sizePixels = {161, 90};
+        settings.view = view.view;
+        const std::vector<float> forward = renderer.render(Technique::Forward, settings).radiance;
+        const std::vector<float> deferred = renderer.render(Technique::Deferred, settings).radiance;
+        EXPECT_EQ(forward, deferred);
+        EXPECT_GT(*std::max_element(forward.begin(), forward.end()), 0.0f);
+    }
+}
+
+TEST_F(Parity, anOrthographicCameraIsExactlyTheSameWithEveryTechnique) {
+    scenes::Scene scene = test::everythingScene();
+    scene.cameras[0].projection = scenes::Projection::Orthographic;
+    scene.cameras[0].halfHeightMetres = 2.5;
+    frame::FrameSettings settings;
+    settings.sizePixels = {321, 179};
+    expectAgreement(scene, settings);
+    scene.cameras[0].farMetres = 20.0;
+    expectAgreement(scene, settings);
+}
+
+TEST_F(Parity, aFarPlaneNeverChangesWhatLiesBeforeIt) {
+    scenes::Scene scene = test::everythingScene();
+    frame::FrameSettings settings;
+    settings.sizePixels = {161, 90};
+    const validation::Picture endless = [&] {
+        recipes::Renderer renderer(context(), scene);
+        const recipes::RenderedFrame frame = renderer.render(Technique::Deferred, settings);
+        return validation::Picture{frame.width, frame.height, frame.radiance, std::vector<std::uint8_t>(161 * 90, 1)};
+    }();
+    scene.cameras[0].farMetres = 60.0;
+    recipes::Renderer renderer(context(), scene);
+    const recipes::RenderedFrame frame = renderer.render(Technique::Deferred, settings);
+    const validation::Picture bounded{frame.width, frame.height, frame.radiance, std::vector<std::uint8_t>(161 * 90, 1)};
+    // Depth is stored on another scale, so positions move by its rounding: 1e-7 of the distance, and highlights with them.
+    EXPECT_LE(validation::errorFigures(bounded, endless).relMse, 1e-8);
+}
+
+} // namespace
+} // namespace tessera

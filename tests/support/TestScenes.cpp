@@ -1,0 +1,204 @@
+#include "tests/support/TestScenes.h"
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace tessera::test {
+
+using namespace scenes;
+
+namespace {
+
+/// A picture of smooth, different values in every channel.
+Image pattern(const std::string& name, int size, bool normalMap) {
+    Image image;
+    image.name = name;
+    image.width = image.height = size;
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+            const double u = double(x) / size, v = double(y) / size, turn = 2.0 * std::numbers::pi;
+            const glm::dvec3 bumpy(0.3 * std::sin(3 * turn * u), 0.3 * std::cos(2 * turn * v), 1.0);
+            const glm::dvec3 value = normalMap ? glm::normalize(bumpy) * 0.5 + 0.5
+                                               : glm::dvec3(0.6 + 0.4 * std::sin(turn * (u + v)), 0.3 + 0.6 * u, 0.2 + 0.7 * v);
+            for (int c = 0; c < 3; ++c) image.texels.push_back(std::byte(std::lround(255.0 * value[c])));
+            image.texels.push_back(std::byte((x / 4 + y / 4) % 3 == 0 ? 40 : 220));
+        }
+    }
+    return image;
+}
+
+Mesh quad() {
+    Mesh mesh;
+    mesh.name = "quad";
+    mesh.positionsOS = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    mesh.normalsOS.assign(4, {0, 0, 1});
+    mesh.texCoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    mesh.texCoords[1] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
+    mesh.colors = {{1, 1, 1, 1}, {0.5, 1, 1, 1}, {1, 0.5, 1, 1}, {1, 1, 0.5, 1}};
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    return mesh;
+}
+
+Mesh sphere(int slices, int stacks) {
+    Mesh mesh;
+    mesh.name = "sphere";
+    for (int j = 0; j <= stacks; ++j) {
+        for (int i = 0; i <= slices; ++i) {
+            const double theta = std::numbers::pi * j / stacks, phi = 2.0 * std::numbers::pi * i / slices;
+            const glm::vec3 n(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi));
+            mesh.positionsOS.push_back(n);
+            mesh.normalsOS.push_back(n);
+            mesh.texCoords[0].push_back({float(i) / float(slices), float(j) / float(stacks)});
+        }
+    }
+    const auto index = [&](int i, int j) { return std::uint32_t(j * (slices + 1) + i); };
+    for (int j = 0; j < stacks; ++j) {
+        for (int i = 0; i < slices; ++i) {
+            for (const std::uint32_t corner : {index(i, j), index(i, j + 1), index(i + 1, j + 1), index(i, j), index(i + 1, j + 1),
+                                               index(i + 1, j)}) {
+                mesh.indices.push_back(corner);
+            }
+        }
+    }
+    return mesh;
+}
+
+TextureUse textured(int image) {
+    TextureUse use;
+    use.image = image;
+    return use;
+}
+
+std::vector<Material> everyMaterial() {
+    constexpr int kColors = 0, kNormals = 1;
+    std::vector<Material> materials;
+    const auto add = [&](MaterialModel model, const char* name) -> Material& {
+        Material material;
+        material.name = name;
+        material.model = model;
+        materials.push_back(material);
+        return materials.back();
+    };
+    Material& unlit = add(MaterialModel::SingleColor, "unlit");
+    unlit.baseColor = {0.2f, 0.5f, 1.4f, 1.0f};
+    Material& lambert = add(MaterialModel::Lambert, "lambert");
+    lambert.baseColor = {0.7f, 0.4f, 0.3f, 1.0f};
+    lambert.texture(TextureSlot::BaseColor) = textured(kColors);
+    lambert.texture(TextureSlot::BaseColor).transform = {{0.1f, 0.2f}, {2.0f, 3.0f}, 0.4f};
+    Material& microfacet = add(MaterialModel::Microfacet, "microfacet, object-space normals");
+    microfacet.baseColor = {0.3f, 0.5f, 0.3f, 1.0f};
+    microfacet.alpha = 0.6f;
+    microfacet.ior = 1.6f;
+    microfacet.specularColor = {0.9f, 0.7f, 0.5f};
+    microfacet.normalMapSpace = NormalMapSpace::Object;
+    microfacet.texture(TextureSlot::Normal) = textured(kNormals);
+    microfacet.texture(TextureSlot::SpecularColor) = textured(kColors);
+    microfacet.texture(TextureSlot::MetallicRoughness) = textured(kColors);
+    microfacet.texture(TextureSlot::Ior) = textured(kNormals);
+    Material& metal = add(MaterialModel::MetallicRoughness, "metallic-roughness, tangent-space normals");
+    metal.baseColor = {0.9f, 0.8f, 0.5f, 1.0f};
+    metal.perceptualRoughness = 0.8f;
+    metal.normalScale = 0.7f;
+    metal.emissive = {0.02f, 0.01f, 0.05f};
+    metal.texture(TextureSlot::Normal) = textured(kNormals);
+    metal.texture(TextureSlot::MetallicRoughness) = textured(kColors);
+    metal.texture(TextureSlot::Emissive) = textured(kColors);
+    Material& specular = add(MaterialModel::MetallicRoughness, "dielectric with specular textures, uv 1");
+    specular.baseColor = {0.5f, 0.2f, 0.2f, 1.0f};
+    specular.metallic = 0.0f;
+    specular.perceptualRoughness = 0.4f;
+    specular.ior = 1.8f;
+    specular.specularFactor = 0.8f;
+    specular.specularColor = {1.0f, 0.9f, 0.6f};
+    specular.doubleSided = true;
+    specular.texture(TextureSlot::SpecularFactor) = textured(kColors);
+    specular.texture(TextureSlot::BaseColor) = textured(kColors);
+    specular.texture(TextureSlot::BaseColor).texCoordSet = 1;
+    Material& masked = add(MaterialModel::MetallicRoughness, "masked");
+    masked.metallic = 0.0f;
+    masked.alphaMode = AlphaMode::Mask;
+    masked.doubleSided = true;
+    masked.texture(TextureSlot::BaseColor) = textured(kColors);
+    Material& glass = add(MaterialModel::MetallicRoughness, "blended");
+    glass.baseColor = {0.4f, 0.6f, 0.9f, 0.5f};
+    glass.metallic = 0.0f;
+    glass.perceptualRoughness = 0.2f;
+    glass.alphaMode = AlphaMode::Blend;
+    glass.doubleSided = true;
+    return materials;
+}
+
+Node nodeAt(const glm::dvec3& positionWS, const glm::dvec3& scale, int mesh, int material, double turnDegrees = 0.0) {
+    Node node;
+    node.name = "node";
+    node.parentFromNode = glm::rotate(glm::translate(glm::dmat4(1.0), positionWS), glm::radians(turnDegrees), glm::dvec3(1, 0, 0));
+    node.parentFromNode = glm::scale(node.parentFromNode, scale);
+    node.instances = {{mesh, material}};
+    return node;
+}
+
+Camera cameraAt(const glm::dvec3& eyeWS, const glm::dvec3& targetWS) {
+    Camera camera;
+    camera.name = "camera";
+    camera.worldFromCamera = glm::inverse(glm::lookAt(eyeWS, targetWS, glm::dvec3(0, 1, 0)));
+    return camera;
+}
+
+} // namespace
+
+Light pointLight(const glm::dvec3& positionWS, float candela) {
+    Light light;
+    light.name = "point";
+    light.positionWS = positionWS;
+    light.intensity = candela;
+    return light;
+}
+
+Scene everythingScene() {
+    Scene scene;
+    scene.name = "everything";
+    scene.images = {pattern("colours", 64, false), pattern("normals", 64, true)};
+    scene.materials = everyMaterial();
+    scene.meshes = {quad(), sphere(32, 20)};
+    scene.nodes = {nodeAt({0, -1, 0}, {6, 6, 1}, 0, 1, -90.0),   nodeAt({-3, 0, -1}, {0.8, 0.8, 0.8}, 1, 0),
+                   nodeAt({-1, 0, -1}, {0.9, 0.7, 0.9}, 1, 2),   nodeAt({1, 0, -1}, {-0.9, 0.9, 0.9}, 1, 3),
+                   nodeAt({3, 0, -1}, {0.8, 0.8, 0.8}, 0, 4, 160.0), nodeAt({-0.5, 0.6, 1}, {0.7, 0.7, 0.7}, 0, 5),
+                   nodeAt({1.2, 0.4, 1.5}, {0.6, 0.6, 0.6}, 0, 6), nodeAt({1.6, 0.6, 2}, {0.5, 0.5, 0.5}, 0, 6)};
+    Light sun = pointLight({}, 1.0f);
+    sun.type = LightType::Directional;
+    sun.directionWS = glm::normalize(glm::dvec3(-0.4, -1.0, -0.5));
+    Light spot = pointLight({0, 4, 2}, 30.0f);
+    spot.type = LightType::Spot;
+    spot.directionWS = glm::normalize(glm::dvec3(0.1, -1.0, -0.5));
+    spot.innerConeRadians = 0.2f;
+    spot.outerConeRadians = 0.6f;
+    Light ranged = pointLight({-2, 1.5, 0.5}, 4.0f);
+    ranged.rangeMetres = 4.0f;
+    ranged.color = {1.0f, 0.6f, 0.3f};
+    Light attenuated = pointLight({2.5, 1.0, 0.5}, 1.0f);
+    attenuated.falloff = Falloff::Attenuation;
+    attenuated.attenuation = {0.5f, 0.3f, 0.6f};
+    Light off = pointLight({0, 1, 1}, 9.0f);
+    off.enabled = false;
+    scene.lights = {sun, spot, ranged, off, attenuated, pointLight({0, 2, 3}, 3.0f)};
+    scene.cameras = {cameraAt({0, 1.5, 6}, {0, 0, 0})};
+    scene.background = {0.05f, 0.06f, 0.08f};
+    return scene;
+}
+
+Scene quadScene(const Material& material) {
+    Scene scene;
+    scene.name = "quad";
+    scene.materials = {material};
+    scene.meshes = {quad()};
+    scene.meshes[0].colors.clear();
+    scene.nodes = {nodeAt({0, 0, 0}, {1, 1, 1}, 0, 0)};
+    scene.cameras = {cameraAt({0, 0, 3}, {0, 0, 0})};
+    scene.cameras[0].fovYRadians = 0.5;
+    return scene;
+}
+
+} // namespace tessera::test

@@ -1,0 +1,17 @@
+#pragma once
+#include "scenes/Scene.h"
+
+namespace tessera::test {
+
+/// A small scene that uses every feature there is: all shaded models, textures in every slot, both normal-map spaces, two
+/// texture-coordinate sets, texture transforms, vertex colours, alpha mask and blend, double-sided and mirrored geometry, emission, every
+/// light type and falloff. The camera looks at a grid of quads and spheres in front of a floor.
+scenes::Scene everythingScene();
+
+/// One quad of 2 x 2 m in the plane z = 0 facing +z, lit by nothing, seen by a camera at (0, 0, 3) that it fills.
+scenes::Scene quadScene(const scenes::Material& material);
+
+/// A point light without range.
+scenes::Light pointLight(const glm::dvec3& positionWS, float candela);
+
+} // namespace tessera::test

@@ -1,0 +1,255 @@
+#include <cmath>
+
+#include "scenes/import/Importers.h"
+#include "tests/unit/scenes/TempFolder.h"
+
+namespace tessera::scenes {
+namespace {
+
+using test::TempFolder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using Texels = std::vector<std::array<std::uint8_t, 4>>;
+
+constexpr std::string_view kVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+/// The scene of one triangle whose material "paint" is the given MTL text.
+Scene painted(const TempFolder& folder, const std::string& mtl) {
+    folder.write("paint.mtl", "newmtl paint\n" + mtl);
+    Scene scene =
+        importObj(folder.write("model.obj", "mtllib paint.mtl\n" + std::string(kVertices) + "usemtl paint\nf 1 2 3\n"));
+    checkScene(scene);
+    return scene;
+}
+
+Texels texelsOf(const Image& image) {
+    EXPECT_EQ(image.format, TexelFormat::Rgba8Unorm);
+    Texels texels;
+    for (std::size_t i = 0; i + 3 < image.texels.size(); i += 4) {
+        const auto at = [&](std::size_t channel) { return std::to_integer<std::uint8_t>(image.texels[i + channel]); };
+        texels.push_back({at(0), at(1), at(2), at(3)});
+    }
+    return texels;
+}
+
+const Image& imageOf(const Scene& scene, TextureSlot slot) {
+    return scene.images.at(static_cast<std::size_t>(scene.materials.at(0).texture(slot).image));
+}
+
+TEST(ObjMaterials, facesWithoutAMaterialAlwaysGetTheDefaultOne) {
+    const TempFolder folder;
+    const Scene scene = importObj(folder.write("model.obj", std::string(kVertices) + "f 1 2 3\n"));
+    ASSERT_EQ(scene.materials.size(), 1u);
+    EXPECT_EQ(scene.materials[0].name, "default");
+    EXPECT_EQ(scene.materials[0].baseColor, glm::vec4(0.8f, 0.8f, 0.8f, 1.0f));
+    EXPECT_EQ(scene.materials[0].metallic, 0.0f);
+}
+
+TEST(ObjMaterials, diffuseColorIsAlwaysTheBaseColor) {
+    const TempFolder folder;
+    const Scene scene = painted(folder, "Kd 0.25 0.5 0.75\n");
+    EXPECT_EQ(scene.materials[0].name, "paint");
+    EXPECT_EQ(scene.materials[0].model, MaterialModel::MetallicRoughness);
+    EXPECT_EQ(scene.materials[0].baseColor, glm::vec4(0.25f, 0.5f, 0.75f, 1.0f));
+    EXPECT_EQ(scene.materials[0].metallic, 0.0f);
+    EXPECT_EQ(painted(folder, "Kd 0.25\n").materials[0].baseColor, glm::vec4(0.25f, 0.25f, 0.25f, 1.0f));
+    EXPECT_EQ(painted(folder, "Ns 1\n").materials[0].baseColor, glm::vec4(1.0f));
+}
+
+TEST(ObjMaterials, theSpecularExponentAlwaysSetsTheRoughness) {
+    const TempFolder folder;
+    // alpha = sqrt(2 / (p + 2)), perceptual roughness its root; 1e-6: rounding of single precision.
+    EXPECT_NEAR(painted(folder, "Ns 0\n").materials[0].perceptualRoughness, 1.0f, 1e-6f);
+    EXPECT_NEAR(painted(folder, "Ns 30\n").materials[0].perceptualRoughness, 0.5f, 1e-6f);
+    EXPECT_EQ(painted(folder, "Kd 1 1 1\n").materials[0].perceptualRoughness, 0.5f);
+}
+
+TEST(ObjMaterials, thePbrExtensionAlwaysOverridesTheExponent) {
+    const TempFolder folder;
+    const Material material = painted(folder, "Pr 0.3\nPm 0.7\nNs 30\n").materials[0];
+    EXPECT_EQ(material.perceptualRoughness, 0.3f);
+    EXPECT_EQ(material.metallic, 0.7f);
+}
+
+TEST(ObjMaterials, specularColorAndIorAlwaysShapeTheReflectance) {
+    const TempFolder folder;
+    const Material material = painted(folder, "Ks 0.5 0.25 2\nNi 1.8\n").materials[0];
+    EXPECT_EQ(material.specularColor, glm::vec3(0.5f, 0.25f, 1.0f));
+    EXPECT_EQ(material.ior, 1.8f);
+    EXPECT_EQ(material.specularFactor, 1.0f);
+    EXPECT_EQ(painted(folder, "Ni 1.0\n").materials[0].ior, 1.5f);
+}
+
+TEST(ObjMaterials, theIlluminationModelAlwaysDecidesAboutHighlights) {
+    const TempFolder folder;
+    EXPECT_EQ(painted(folder, "illum 0\n").materials[0].model, MaterialModel::SingleColor);
+    EXPECT_EQ(painted(folder, "illum 1\n").materials[0].specularFactor, 0.0f);
+    EXPECT_EQ(painted(folder, "illum 2\n").materials[0].specularFactor, 1.0f);
+    EXPECT_EQ(painted(folder, "illum 1\n").materials[0].model, MaterialModel::MetallicRoughness);
+}
+
+TEST(ObjMaterials, emissionIsAlwaysKept) {
+    const TempFolder folder;
+    EXPECT_EQ(painted(folder, "Ke 1 2 3\n").materials[0].emissive, glm::vec3(1, 2, 3));
+    folder.writePicture("glow.tga", 1, 1, {{255, 0, 0, 255}});
+    const Scene scene = painted(folder, "map_Ke glow.tga\n");
+    EXPECT_EQ(scene.materials[0].emissive, glm::vec3(1.0f));
+    EXPECT_EQ(texelsOf(imageOf(scene, TextureSlot::Emissive)), (Texels{{255, 0, 0, 255}}));
+}
+
+TEST(ObjMaterials, opacityAlwaysBlends) {
+    const TempFolder folder;
+    EXPECT_EQ(painted(folder, "d 1\n").materials[0].alphaMode, AlphaMode::Opaque);
+    for (const char* text : {"d 0.25\n", "Tr 0.75\n", "d 0.25\nTr 0.5\n", "d -halo 0.25\n"}) {
+        const Material material = painted(folder, text).materials[0];
+        EXPECT_EQ(material.alphaMode, AlphaMode::Blend) << text;
+        EXPECT_EQ(material.baseColor.w, 0.25f) << text;
+    }
+}
+
+TEST(ObjMaterials, picturesAlwaysFillTheirSlots) {
+    const TempFolder folder;
+    folder.writePicture("colour.tga", 1, 1, {{10, 20, 30, 255}});
+    folder.writePicture("maps/normal map.tga", 1, 1, {{128, 128, 255, 255}});
+    folder.writePicture("shine.tga", 1, 1, {{50, 60, 70, 255}});
+    const Scene scene =
+        painted(folder, "map_Kd colour.tga\nnorm maps\\normal map.tga\nmap_Ks shine.tga\nmap_kd colour.tga\n");
+    EXPECT_THAT(scene.warnings, IsEmpty());
+    EXPECT_EQ(texelsOf(imageOf(scene, TextureSlot::BaseColor)), (Texels{{10, 20, 30, 255}}));
+    EXPECT_EQ(texelsOf(imageOf(scene, TextureSlot::Normal)), (Texels{{128, 128, 255, 255}}));
+    EXPECT_EQ(texelsOf(imageOf(scene, TextureSlot::SpecularColor)), (Texels{{50, 60, 70, 255}}));
+    EXPECT_EQ(scene.materials[0].normalMapSpace, NormalMapSpace::Tangent);
+    EXPECT_EQ(scene.materials[0].baseColor, glm::vec4(1.0f));
+}
+
+TEST(ObjMaterials, bumpMapsAlwaysServeAsNormalMapsWithAWarning) {
+    const TempFolder folder;
+    folder.writePicture("bump.tga", 1, 1, {{128, 128, 255, 255}});
+    for (const std::string keyword : {"map_bump", "bump", "map_Bump"}) {
+        const Scene scene = painted(folder, keyword + " -bm 0.5 bump.tga\n");
+        EXPECT_EQ(texelsOf(imageOf(scene, TextureSlot::Normal)), (Texels{{128, 128, 255, 255}}));
+        EXPECT_EQ(scene.materials[0].normalScale, 0.5f);
+        EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("taken for a tangent-space normal map")));
+    }
+}
+
+TEST(ObjMaterials, opacityMapsAlwaysBecomeTheColorsAlpha) {
+    const TempFolder folder;
+    folder.writePicture("colour.tga", 2, 1, {{10, 20, 30, 255}, {40, 50, 60, 255}});
+    folder.writePicture("mask.tga", 1, 1, {{77, 77, 77, 255}});
+    folder.writePicture("matte.tga", 1, 1, {{1, 2, 3, 88}});
+    const Scene grey = painted(folder, "map_Kd colour.tga\nmap_d mask.tga\n");
+    EXPECT_EQ(grey.materials[0].alphaMode, AlphaMode::Mask);
+    EXPECT_EQ(texelsOf(imageOf(grey, TextureSlot::BaseColor)), (Texels{{10, 20, 30, 77}, {40, 50, 60, 77}}));
+    const Scene matte = painted(folder, "map_d matte.tga\nmap_Kd colour.tga\n");
+    EXPECT_EQ(texelsOf(imageOf(matte, TextureSlot::BaseColor)), (Texels{{10, 20, 30, 88}, {40, 50, 60, 88}}));
+    const Scene alone = painted(folder, "Kd 0.5 0.5 0.5\nmap_d mask.tga\n");
+    EXPECT_EQ(texelsOf(imageOf(alone, TextureSlot::BaseColor)), (Texels{{255, 255, 255, 77}}));
+    const Scene same = painted(folder, "map_Kd matte.tga\nmap_d matte.tga\n");
+    EXPECT_EQ(same.images.size(), 1u);
+    EXPECT_EQ(texelsOf(imageOf(same, TextureSlot::BaseColor)), (Texels{{1, 2, 3, 88}}));
+}
+
+TEST(ObjMaterials, roughnessAndMetalnessMapsAreAlwaysPackedAsGreenAndBlue) {
+    const TempFolder folder;
+    folder.writePicture("rough.tga", 2, 1, {{11, 0, 0, 255}, {22, 0, 0, 255}});
+    folder.writePicture("metal.tga", 1, 1, {{33, 0, 0, 255}});
+    folder.writePicture("both.tga", 1, 1, {{1, 2, 3, 255}});
+    const Scene both = painted(folder, "map_Pr rough.tga\nmap_Pm metal.tga\n");
+    EXPECT_EQ(texelsOf(imageOf(both, TextureSlot::MetallicRoughness)),
+              (Texels{{255, 11, 33, 255}, {255, 22, 33, 255}}));
+    EXPECT_EQ(both.materials[0].perceptualRoughness, 1.0f);
+    EXPECT_EQ(both.materials[0].metallic, 1.0f);
+    const Scene rough = painted(folder, "map_Pr rough.tga\nPr 0.5\n");
+    EXPECT_EQ(texelsOf(imageOf(rough, TextureSlot::MetallicRoughness)),
+              (Texels{{255, 11, 255, 255}, {255, 22, 255, 255}}));
+    EXPECT_EQ(rough.materials[0].perceptualRoughness, 0.5f);
+    EXPECT_EQ(rough.materials[0].metallic, 0.0f);
+    const Scene packed = painted(folder, "map_Pr both.tga\nmap_Pm both.tga\n");
+    EXPECT_EQ(texelsOf(imageOf(packed, TextureSlot::MetallicRoughness)), (Texels{{1, 2, 3, 255}}));
+}
+
+TEST(ObjMaterials, textureOptionsAlwaysPlaceThePicture) {
+    const TempFolder folder;
+    folder.writePicture("colour.tga", 1, 1, {{10, 20, 30, 255}});
+    const Scene scene = painted(folder, "map_Kd -s 2 4 -o 0.25 0.5 0 -clamp on colour.tga\n");
+    const TextureUse& use = scene.materials[0].texture(TextureSlot::BaseColor);
+    // From the bottom: v' = 4 v + 0.5; from the top: 1 - v' = 4 (1 - v) + (1 - 4 - 0.5).
+    EXPECT_EQ(use.transform.scale, glm::vec2(2, 4));
+    EXPECT_EQ(use.transform.offset, glm::vec2(0.25f, -3.5f));
+    EXPECT_EQ(use.sampler.wrapU, Wrap::ClampToEdge);
+    EXPECT_EQ(use.sampler.wrapV, Wrap::ClampToEdge);
+    EXPECT_THAT(scene.warnings, IsEmpty());
+    EXPECT_THAT(painted(folder, "map_Kd -mm 0 2 -blendu off colour.tga\n").warnings,
+                ElementsAre(HasSubstr("texture options that are not supported are left out: -blendu, -mm")));
+}
+
+TEST(ObjMaterials, eachMaterialOfAShapeAlwaysHasItsOwnMesh) {
+    const TempFolder folder;
+    folder.write("a.mtl", "newmtl warm red\nKd 1 0 0\nnewmtl unused\nmap_Kd none.png\n");
+    folder.write("b.mtl", "newmtl warm blue\nKd 0 0 1\nnewmtl warm red\nKd 0 1 0\n");
+    const Scene scene = importObj(folder.write(
+        "model.obj", "mtllib a.mtl b.mtl\n" + std::string(kVertices) +
+                         "o box\nusemtl warm red\nf 1 2 3\nusemtl warm blue\nf 1 3 2\nusemtl warm red\nf 1 2 3\n"));
+    ASSERT_EQ(scene.nodes.size(), 1u);
+    ASSERT_EQ(scene.nodes[0].instances.size(), 2u);
+    EXPECT_EQ(scene.meshes[0].name, "box, warm red");
+    EXPECT_EQ(scene.meshes[0].indices.size(), 6u);
+    EXPECT_EQ(scene.meshes[1].name, "box, warm blue");
+    ASSERT_EQ(scene.materials.size(), 2u);
+    EXPECT_EQ(scene.materials[0].baseColor, glm::vec4(1, 0, 0, 1));
+    EXPECT_EQ(scene.materials[1].baseColor, glm::vec4(0, 0, 1, 1));
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(ObjMaterials, aMissingLibraryAlwaysWarnsAndKeepsTheMaterialsNames) {
+    const TempFolder folder;
+    const std::filesystem::path file =
+        folder.write("model.obj", "mtllib no such.mtl\n" + std::string(kVertices) + "usemtl skin\nf 1 2 3\n");
+    const Scene scene = importObj(file);
+    EXPECT_EQ(scene.materials.at(0).name, "skin");
+    EXPECT_EQ(scene.materials.at(0).baseColor, glm::vec4(0.8f, 0.8f, 0.8f, 1.0f));
+    EXPECT_THAT(
+        scene.warnings,
+        ElementsAre(file.string() + ": its material library 'no such.mtl' is missing; default materials are used",
+                    file.string() + ": no material library defines 'skin'; a default material of that name is used"));
+}
+
+TEST(ObjMaterials, aMissingPictureIsAlwaysAnErrorNamingIt) {
+    const TempFolder folder;
+    const std::string error = test::inputErrorOf([&] { painted(folder, "map_Kd no picture.png\n"); });
+    EXPECT_EQ(error, (folder.path() / "paint.mtl").string() +
+                         ": material 'paint', map_Kd: " + (folder.path() / "no picture.png").string() +
+                         ": there is no such file; check the name and the folder");
+}
+
+TEST(ObjMaterials, unsupportedStatementsAlwaysWarn) {
+    const TempFolder folder;
+    EXPECT_THAT(painted(folder, "Ka 1 1 1\nKd 1 1 1\ndisp a.png\nfoo 1\nKs spectral x.rfl\n").warnings,
+                ElementsAre((folder.path() / "paint.mtl").string() +
+                            ": statements that are not supported are left out: Ks spectral, disp, foo"));
+}
+
+TEST(ObjMaterials, brokenTextIsAlwaysRefusedWithFileAndLine) {
+    const TempFolder folder;
+    const auto errorOf = [&](const std::string& mtl) {
+        const std::string error = test::inputErrorOf([&] { painted(folder, mtl); });
+        const std::string file = (folder.path() / "paint.mtl").string();
+        EXPECT_TRUE(error.starts_with(file + ":")) << error;
+        return error.substr(std::min(error.size(), file.size() + 1));
+    };
+    EXPECT_EQ(errorOf("Kd 1 red 1\n"), "2: 'Kd' needs a number, not 'red'");
+    EXPECT_EQ(errorOf("Kd 1 1\n"), "2: 'Kd' needs 3 numbers");
+    EXPECT_EQ(errorOf("Kd 1 -1 1\n"), "2: 'Kd' is -1; it must not be negative");
+    EXPECT_EQ(errorOf("\nd 1.5\n"), "3: 'd' is 1.5; it must lie between 0 and 1");
+    EXPECT_EQ(errorOf("Ns nan\n"), "2: 'Ns' is given nan, which is not a finite number in single precision");
+    EXPECT_EQ(errorOf("illum 1.5\n"), "2: 'illum' is 1.5; it must be a whole number");
+    EXPECT_EQ(errorOf("Kd\n"), "2: 'Kd' gives no value");
+    EXPECT_EQ(errorOf("map_Kd -s 1 1 1\n"), "2: 'map_Kd' names no picture");
+    EXPECT_EQ(errorOf("map_Kd -z 1 a.png\n"), "2: 'map_Kd' has the unknown option '-z'");
+    EXPECT_EQ(errorOf("newmtl\n"), "2: 'newmtl' gives no name");
+}
+
+} // namespace
+} // namespace tessera::scenes
