@@ -27,7 +27,8 @@ public:
     glm::dvec3 around(const glm::dvec3& n, double minCosine, double maxCosine) {
         const glm::dvec3 other = std::abs(n.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
         const glm::dvec3 t = glm::normalize(glm::cross(n, other)), b = glm::cross(n, t);
-        const double c = between(minCosine, maxCosine), s = std::sqrt(std::max(0.0, 1.0 - c * c)), phi = between(0.0, 2.0 * pi);
+        const double c = between(minCosine, maxCosine), s = std::sqrt(std::max(0.0, 1.0 - c * c)),
+                     phi = between(0.0, 2.0 * pi);
         return t * (s * std::cos(phi)) + b * (s * std::sin(phi)) + n * c;
     }
 

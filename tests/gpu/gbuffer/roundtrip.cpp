@@ -50,7 +50,8 @@ protected:
         shader::Defines defines = frame::channelDefines(layout, channels);
         defines.emplace_back("WIDTH", std::to_string(kWidth));
 
-        const gpu::Program& store = bench.library().get({"store", "passes/fullscreen.vert", "test/store.frag", "", defines});
+        const gpu::Program& store =
+            bench.library().get({"store", "passes/fullscreen.vert", "test/store.frag", "", defines});
         const gpu::Buffer in = gpu::Buffer::of("surfaces", padded);
         gpu::FramebufferCache framebuffers;
         gpu::bindFramebuffer(framebuffers.get(attachments));
@@ -59,7 +60,8 @@ protected:
         gpu::bindStorageBuffer(0, in);
         gpu::drawFullscreenTriangle();
 
-        for (std::size_t i = 0; i < textures.size(); ++i) gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), *textures[i]);
+        for (std::size_t i = 0; i < textures.size(); ++i)
+            gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), *textures[i]);
         const std::vector<glm::vec4> out = bench.run("load.comp", defines, {glm::vec4(0.0f)}, padded.size(), 5);
         std::vector<StoredSurface> result(padded.size());
         std::memcpy(static_cast<void*>(result.data()), out.data(), result.size() * sizeof(StoredSurface));
@@ -80,7 +82,8 @@ std::vector<StoredSurface> randomSurfaces(int count) {
         s.normal = glm::vec3(random.direction());
         s.alpha = float(random.logarithmic(ALPHA_MIN, 1.0));
         s.specular = {random.unit(), random.unit(), random.unit()};
-        constexpr unsigned kStoredModels[] = {MODEL_LAMBERT, MODEL_SINGLE_COLOR, MODEL_MICROFACET, MODEL_METALLIC_ROUGHNESS};
+        constexpr unsigned kStoredModels[] = {MODEL_LAMBERT, MODEL_SINGLE_COLOR, MODEL_MICROFACET,
+                                              MODEL_METALLIC_ROUGHNESS};
         s.model = float(kStoredModels[i % 4]);
         s.iorOrF90 = i % 4 == 2 ? float(random.logarithmic(0.2, 20.0)) : float(random.unit());
         s.emission = glm::vec3(random.unit(), random.unit(), random.unit()) * float(random.logarithmic(1e-3, 1e4));
@@ -88,8 +91,9 @@ std::vector<StoredSurface> randomSurfaces(int count) {
         surfaces.push_back(s);
     }
     // The axes and the seams of the octahedron, where a sign of zero decides.
-    for (const glm::vec3 n : {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, -1, 0), glm::vec3(0, 0, 1),
-                              glm::vec3(0, 0, -1), glm::vec3(-0.6f, 0, -0.8f), glm::vec3(0, 0.6f, -0.8f)}) {
+    for (const glm::vec3 n :
+         {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, -1, 0), glm::vec3(0, 0, 1),
+          glm::vec3(0, 0, -1), glm::vec3(-0.6f, 0, -0.8f), glm::vec3(0, 0.6f, -0.8f)}) {
         surfaces.emplace_back().normal = n;
     }
     return surfaces;
@@ -127,8 +131,9 @@ TEST_F(GBufferTest, packedColoursAlwaysStayWithinHalfAStepOfTheirSquareRoot) {
     const std::vector<StoredSurface> back = roundTrip(surfaces, frame::Encoding::Packed);
     const auto expectClose = [](const glm::vec3& was, const glm::vec3& is, std::size_t i) {
         for (int c = 0; c < 3; ++c) {
-            // 10 bits hold the square root to half of 1/1023; 1e-6 for the fp32 root and the conversion to fixed point.
-            ASSERT_NEAR(std::sqrt(double(was[c])), std::sqrt(double(is[c])), 0.5 / 1023.0 + 1e-6) << "surface " << i;
+            // 11, 11 and 10 bits hold the square root; 1e-6 for the fp32 root and its scaling.
+            ASSERT_NEAR(std::sqrt(double(was[c])), std::sqrt(double(is[c])), 0.5 / (c == 2 ? 1023.0 : 2047.0) + 1e-6)
+                << "surface " << i;
             if (was[c] == 0.0f || was[c] == 1.0f) {
                 ASSERT_EQ(was[c], is[c]) << "surface " << i;
             }
@@ -148,7 +153,8 @@ TEST_F(GBufferTest, thePackedMicrosurfaceAlwaysStaysWithinHalfAStepAndKeepsItsMo
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         const StoredSurface &was = surfaces[i], &is = back[i];
         ASSERT_EQ(is.model, was.model) << "surface " << i;
-        ASSERT_NEAR(std::sqrt(double(is.alpha)), std::sqrt(double(was.alpha)), 0.5 / 2047.0 + kRounding) << "surface " << i;
+        ASSERT_NEAR(std::sqrt(double(is.alpha)), std::sqrt(double(was.alpha)), 0.5 / 2047.0 + kRounding)
+            << "surface " << i;
         ASSERT_GE(is.alpha, float(ALPHA_MIN)) << "surface " << i;
         ASSERT_NEAR(is.metallic, was.metallic, 0.5 / 127.0 + kRounding) << "surface " << i;
         if (was.metallic == 0.0f || was.metallic == 1.0f) {
@@ -190,9 +196,11 @@ TEST_F(GBufferTest, packedEmissionAlwaysStaysWithinHalfAStepOfItsLargestColour) 
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         const glm::vec3 &was = surfaces[i].emission, &is = back[i].emission;
         const double largest = std::max({was.x, was.y, was.z});
-        // 9 bits of mantissa shared: half a step is at most 1/512 of the largest colour, or of 2^-15 below the smallest exponent.
+        // 9 bits of mantissa shared: half a step is at most 1/512 of the largest colour, or of 2^-15 below the smallest
+        // exponent.
         for (int c = 0; c < 3; ++c)
-            ASSERT_NEAR(is[c], was[c], std::max(largest, 0x1p-15) / 512.0 * (1.0 + 1e-6)) << "surface " << i << " of " << largest;
+            ASSERT_NEAR(is[c], was[c], std::max(largest, 0x1p-15) / 512.0 * (1.0 + 1e-6))
+                << "surface " << i << " of " << largest;
     }
     EXPECT_EQ(back.back().emission, glm::vec3(0.0f));
 }

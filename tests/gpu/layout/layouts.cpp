@@ -113,9 +113,12 @@ TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexel) {
     const gpu::Buffer buffer = gpu::Buffer::of("lights", lights);
     const gpu::TexelBuffer texels("lights", graph::Format::Rgba32Float, buffer);
     gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, texels);
-    const shader::Defines noLights{
-        {"HAS_DIRECTIONAL_LIGHTS", "0"}, {"HAS_POINT_LIGHTS", "0"}, {"HAS_SPOT_LIGHTS", "0"}, {"HAS_ATTENUATION_LIGHTS", "0"}};
-    const std::vector<glm::vec4> out = bench.run("light_texels.comp", noLights, {glm::vec4(0.0f)}, lights.size(), LIGHT_TEXELS);
+    const shader::Defines noLights{{"HAS_DIRECTIONAL_LIGHTS", "0"},
+                                   {"HAS_POINT_LIGHTS", "0"},
+                                   {"HAS_SPOT_LIGHTS", "0"},
+                                   {"HAS_ATTENUATION_LIGHTS", "0"}};
+    const std::vector<glm::vec4> out =
+        bench.run("light_texels.comp", noLights, {glm::vec4(0.0f)}, lights.size(), LIGHT_TEXELS);
     for (std::size_t i = 0; i < lights.size(); ++i) {
         EXPECT_EQ(out[4 * i], lights[i].position);
         EXPECT_EQ(out[4 * i + 1], lights[i].color);

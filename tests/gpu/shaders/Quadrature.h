@@ -12,9 +12,9 @@ struct HalfVector {
     double weight; ///< steradians
 };
 
-/// Midpoint rule over the half vectors h of GGX at `alpha`, by tan theta = alpha tan psi with psi and phi equally spaced: D cos theta
-/// becomes sin 2 psi / 2 pi, so the lobe is resolved alike for every alpha. phi runs over half a turn only, doubled by the weight,
-/// as every integrand here is even in phi.
+/// Midpoint rule over the half vectors h of GGX at `alpha`, by tan theta = alpha tan psi with psi and phi equally
+/// spaced: D cos theta becomes sin 2 psi / 2 pi, so the lobe is resolved alike for every alpha. phi runs over half a
+/// turn only, doubled by the weight, as every integrand here is even in phi.
 template <typename Visit>
 void forHalfVectors(double alpha, int psiSteps, int phiSteps, const Visit& visit) {
     using std::numbers::pi;

@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kPsiSteps = 384;
 constexpr int kPhiSteps = 96;
-// The midpoint rule's own error at these steps, measured against 4 times as many: 1.0e-4 where mu = 0.02 and grazing half vectors
-// cut the lobe, below 2e-5 from mu = 0.1 on.
+// The midpoint rule's own error at these steps, measured against 4 times as many: 1.0e-4 where mu = 0.02 and grazing
+// half vectors cut the lobe, below 2e-5 from mu = 0.1 on.
 constexpr double kQuadrature = 2e-5;
 constexpr double kQuadratureGrazing = 2e-4;
 
@@ -32,7 +32,9 @@ protected:
         test::forHalfVectors(alpha, kPsiSteps, kPhiSteps, [&](const test::HalfVector& half) {
             const double vh = glm::dot(v, half.h);
             const double nl = 2.0 * vh * half.h.z - mu;
-            inputs.insert(inputs.end(), {{0, 0, 1, float(alpha)}, {glm::vec3(half.h), float(std::max(nl, 0.0))}, {float(mu), 1, 1, 0}});
+            inputs.insert(
+                inputs.end(),
+                {{0, 0, 1, float(alpha)}, {glm::vec3(half.h), float(std::max(nl, 0.0))}, {float(mu), 1, 1, 0}});
             solidAngle.push_back(half.weight * half.h.z);
             sinkSphere.push_back(half.weight * 4.0 * std::max(vh, 0.0));
             sinkLight.push_back(half.weight * 4.0 * std::max(vh, 0.0) * std::max(nl, 0.0));
@@ -57,7 +59,8 @@ protected:
 };
 
 TEST_F(FurnaceTest, theDistributionAlwaysIntegratesToOne) {
-    // fp32 D is right to 1e-4 at alpha 0.002 and to twice that at the floor 0.001; its errors have both signs and average out.
+    // fp32 D is right to 1e-4 at alpha 0.002 and to twice that at the floor 0.001; its errors have both signs and
+    // average out.
     for (const double alpha : {0.001, 0.002, 0.01, 0.05, 0.3, 1.0})
         EXPECT_NEAR(furnace(0.5, alpha).normalisation, 1.0, kQuadrature) << "alpha " << alpha;
 }
@@ -91,7 +94,8 @@ TEST_F(FurnaceTest, correlatedEnergyIsExactlyTheTabulatedOne) {
     for (std::size_t m = 0; m < 5; ++m) {
         for (std::size_t a = 0; a < 6; ++a) {
             // The table is given to 2e-4.
-            EXPECT_NEAR(furnace(kMu[m], kAlpha[a]).correlated, kEnergy[m][a], 2e-4 + kQuadrature) << "mu " << kMu[m] << " alpha " << kAlpha[a];
+            EXPECT_NEAR(furnace(kMu[m], kAlpha[a]).correlated, kEnergy[m][a], 2e-4 + kQuadrature)
+                << "mu " << kMu[m] << " alpha " << kAlpha[a];
         }
     }
 }
@@ -117,8 +121,11 @@ TEST_F(FurnaceTest, aWhiteMetalNeverReflectsMoreThanArrivesAndExactlyItsClosedFo
                 if (vh <= 0.0) return;
                 const glm::vec3 l(2.0 * vh * half.h - v);
                 weight.push_back(half.weight * 4.0 * vh);
-                inputs.insert(inputs.end(), {{1, 1, 1, 1}, {0, 0, 1, float(alpha)}, {0.04f, 0.04f, 0.04f, 1},
-                                             {l, float(MODEL_METALLIC_ROUGHNESS)}, {glm::vec3(v), 1}});
+                inputs.insert(inputs.end(), {{1, 1, 1, 1},
+                                             {0, 0, 1, float(alpha)},
+                                             {0.04f, 0.04f, 0.04f, 1},
+                                             {l, float(MODEL_METALLIC_ROUGHNESS)},
+                                             {glm::vec3(v), 1}});
             });
             const std::vector<glm::vec4> out = bench.run("reflect.comp", models, inputs, weight.size(), 3);
             double energy = 0.0;

@@ -1,4 +1,5 @@
-// What lights send to points: the packed lights of the product, read by the product's shader, against the formulas in double.
+// What lights send to points: the packed lights of the product, read by the product's shader, against the formulas in
+// double.
 #include <gtest/gtest.h>
 
 #include "renderer/frame/PackedLights.h"
@@ -50,7 +51,9 @@ protected:
     frame::PackedLights packed;
 };
 
-bool isFinite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool isFinite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 /// shading.md section 2, with the scene's own numbers.
 double expectedIntensity(const Light& light, const glm::dvec3& position) {
@@ -102,13 +105,14 @@ TEST_F(IncidentTest, everyKindOfLightAlwaysSendsWhatItsFormulaSays) {
     int reached = 0;
     for (std::size_t i = 0; i < probes.size(); ++i) {
         const double expected = expectedIntensity(lights[i], glm::dvec3(probes[i].position));
-        // The windows subtract from one: near the range and the cone's edge only the unwindowed light bounds the error. The cone's
-        // scale is at most 1000, times the roundings of a cosine: 1000 x 2e-7, squared near one.
+        // The windows subtract from one: near the range and the cone's edge only the unwindowed light bounds the error.
+        // The cone's scale is at most 1000, times the roundings of a cosine: 1000 x 2e-7, squared near one.
         Light open = lights[i];
         open.rangeMetres = scenes::kInfinity;
         if (open.type == LightType::Spot) open.type = LightType::Point;
         const double unwindowed = expectedIntensity(open, glm::dvec3(probes[i].position));
-        const double scale = 1.0 / std::max(0.001, std::cos(double(lights[i].innerConeRadians)) - std::cos(double(lights[i].outerConeRadians)));
+        const double scale = 1.0 / std::max(0.001, std::cos(double(lights[i].innerConeRadians)) -
+                                                       std::cos(double(lights[i].outerConeRadians)));
         const double coneError = lights[i].type == LightType::Spot ? 1e-6 * scale : 0.0;
         ASSERT_NEAR(double(arrivals[i].intensity.x), expected, (3e-6 + coneError) * unwindowed) << "light " << i;
         if (!arrivals[i].reaches) continue;
@@ -154,8 +158,9 @@ TEST_F(IncidentTest, extremeLightsNeverSendNaNInfiniteOrNegativeLight) {
             for (const float intensity : {0.0f, 1e-20f, 1.0f, 1e20f})
                 for (const float range : {0.0f, 1e-30f, 1e-6f, 1.0f, 1e6f, 1e30f, scenes::kInfinity})
                     for (const float outer : {0.0f, 1e-4f, 1.0f, 3.14159265f})
-                        for (const glm::vec3 abc : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1), glm::vec3(1e-30f, 0, 0),
-                                                    glm::vec3(1e30f), glm::vec3(0, 0, 1e-38f)}) {
+                        for (const glm::vec3 abc :
+                             {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1), glm::vec3(1e-30f, 0, 0),
+                              glm::vec3(1e30f), glm::vec3(0, 0, 1e-38f)}) {
                             Light light;
                             light.type = type;
                             light.falloff = falloff;
@@ -166,8 +171,9 @@ TEST_F(IncidentTest, extremeLightsNeverSendNaNInfiniteOrNegativeLight) {
                             light.attenuation = abc;
                             lights.push_back(light);
                         }
-    const std::vector<glm::vec3> positions{{0, 0, 0},  {1e-6f, 0, 0}, {0, 0, -1e-6f}, {1, 1, -1},  {0, 0, -1},      {0, 0, 1},
-                                           {1e6f, 0, 0}, {0, 0, -1e6f}, {1e-30f, 0, 0}, {1e19f, 0, 0}, {0, 1e30f, 1e30f}};
+    const std::vector<glm::vec3> positions{{0, 0, 0},      {1e-6f, 0, 0}, {0, 0, -1e-6f},   {1, 1, -1},
+                                           {0, 0, -1},     {0, 0, 1},     {1e6f, 0, 0},     {0, 0, -1e6f},
+                                           {1e-30f, 0, 0}, {1e19f, 0, 0}, {0, 1e30f, 1e30f}};
     std::vector<Probe> probes;
     for (std::size_t i = 0; i < lights.size(); ++i)
         for (const glm::vec3& position : positions) probes.push_back({position, int(i)});

@@ -36,7 +36,10 @@ protected:
         std::vector<glm::vec4> inputs;
         inputs.reserve(cases.size() * 5);
         for (const Case& c : cases) {
-            inputs.insert(inputs.end(), {{c.albedo, c.metallic}, {c.n, c.alpha}, {c.specular, c.iorOrF90}, {c.l, float(c.model)},
+            inputs.insert(inputs.end(), {{c.albedo, c.metallic},
+                                         {c.n, c.alpha},
+                                         {c.specular, c.iorOrF90},
+                                         {c.l, float(c.model)},
                                          {c.v, c.intensity}});
         }
         const std::vector<glm::vec4> out = bench.run("reflect.comp", kModels, inputs, cases.size(), 3);
@@ -68,12 +71,23 @@ Case randomCase(test::Random& random, unsigned model) {
     c.l = glm::vec3(random.around(n, -1.0, 1.0));
     c.v = glm::vec3(random.around(n, -1.0, 1.0));
     switch (random.index(8)) {
-    case 0: c.v = -c.l; break;
-    case 1: c.v = c.l; break;
-    case 2: c.v = glm::vec3(glm::reflect(-glm::dvec3(c.l), n)); break; // the peak
-    case 3: c.l = glm::vec3(random.around(n, -1e-6, 1e-6)); break;     // grazing light
-    case 4: c.v = glm::vec3(random.around(n, -1e-6, 1e-6)); break;     // grazing view
-    default: break;
+    case 0:
+        c.v = -c.l;
+        break;
+    case 1:
+        c.v = c.l;
+        break;
+    case 2:
+        c.v = glm::vec3(glm::reflect(-glm::dvec3(c.l), n));
+        break; // the peak
+    case 3:
+        c.l = glm::vec3(random.around(n, -1e-6, 1e-6));
+        break; // grazing light
+    case 4:
+        c.v = glm::vec3(random.around(n, -1e-6, 1e-6));
+        break; // grazing view
+    default:
+        break;
     }
     c.intensity = float(random.logarithmic(1e-20, 1e20));
     return c;
@@ -91,7 +105,8 @@ TEST_F(LimitsTest, aRandomSurfaceIsNeverNaNInfiniteOrNegative) {
             int lit = 0;
             for (std::size_t i = 0; i < results.size(); ++i) {
                 const Result& r = results[i];
-                ASSERT_TRUE(isFiniteAndPositive(r.share) && isFiniteAndPositive(r.lit)) << "model " << model << " sample " << i;
+                ASSERT_TRUE(isFiniteAndPositive(r.share) && isFiniteAndPositive(r.lit))
+                    << "model " << model << " sample " << i;
                 ASSERT_TRUE(isFiniteAndPositive({r.d, r.v, r.f})) << "model " << model << " sample " << i;
                 lit += r.share.x > 0.0f;
             }
@@ -144,8 +159,9 @@ TEST_F(LimitsTest, specularIsExactlyZeroWhereItsDirectionsHaveNoLobe) {
     for (const unsigned model : {MODEL_MICROFACET, MODEL_METALLIC_ROUGHNESS}) {
         for (const float alpha : {float(ALPHA_MIN), 0.1f, 1.0f}) {
             std::vector<Case> cases;
-            for (const auto& [l, v] : {std::pair(side, up), std::pair(up, side), std::pair(side, side), std::pair(slant, -slant),
-                                       std::pair(below, up), std::pair(slant, below), std::pair(side, -side), std::pair(up, -up)}) {
+            for (const auto& [l, v] :
+                 {std::pair(side, up), std::pair(up, side), std::pair(side, side), std::pair(slant, -slant),
+                  std::pair(below, up), std::pair(slant, below), std::pair(side, -side), std::pair(up, -up)}) {
                 Case c;
                 c.model = model;
                 c.alpha = alpha;
@@ -157,8 +173,10 @@ TEST_F(LimitsTest, specularIsExactlyZeroWhereItsDirectionsHaveNoLobe) {
             }
             const std::vector<Result> results = run(cases);
             for (std::size_t i = 0; i < results.size(); ++i) {
-                EXPECT_EQ(results[i].d * results[i].v, 0.0f) << "model " << model << " alpha " << alpha << " case " << i;
-                EXPECT_TRUE(isFiniteAndPositive(results[i].share)) << "model " << model << " alpha " << alpha << " case " << i;
+                EXPECT_EQ(results[i].d * results[i].v, 0.0f)
+                    << "model " << model << " alpha " << alpha << " case " << i;
+                EXPECT_TRUE(isFiniteAndPositive(results[i].share))
+                    << "model " << model << " alpha " << alpha << " case " << i;
                 if (!(results[i].nl > 0.0f)) {
                     EXPECT_EQ(results[i].share, glm::vec3(0.0f));
                 }

@@ -15,7 +15,8 @@ struct FresnelCase {
     float ior, cosine;
 };
 
-/// The unpolarised dielectric reflectance as the mean of its s and p parts. Source: Born and Wolf, "Principles of Optics", 1.5.2.
+/// The unpolarised dielectric reflectance as the mean of its s and p parts. Source: Born and Wolf, "Principles of
+/// Optics", 1.5.2.
 double fresnelOfPolarisations(double ior, double c) {
     const double eta = 1.0 / ior; // n1 / n2
     const double beta2 = 1.0 / (eta * eta) + c * c - 1.0;
@@ -53,7 +54,8 @@ protected:
 
     std::vector<double> fresnel(const std::vector<FresnelCase>& cases) {
         std::vector<glm::vec4> inputs;
-        for (const FresnelCase& c : cases) inputs.insert(inputs.end(), {{0, 0, 1, 1}, {0, 0, 1, 1}, {1, c.ior, c.cosine, 0}});
+        for (const FresnelCase& c : cases)
+            inputs.insert(inputs.end(), {{0, 0, 1, 1}, {0, 0, 1, 1}, {1, c.ior, c.cosine, 0}});
         const std::vector<glm::vec4> out = bench.run("terms.comp", {}, inputs, cases.size(), 2);
         std::vector<double> f;
         for (std::size_t i = 0; i < cases.size(); ++i) f.push_back(double(out[2 * i].w));
@@ -63,7 +65,8 @@ protected:
 };
 
 TEST_F(PrecisionTest, theDistributionAlwaysKeepsItsDigitsAtSmallAlpha) {
-    // shading.md: the cross product keeps what 1 - (n.h)^2 loses. n x h cancels to about alpha, so fp32 leaves 6e-8 / alpha of it.
+    // shading.md: the cross product keeps what 1 - (n.h)^2 loses. n x h cancels to about alpha, so fp32 leaves 6e-8 /
+    // alpha of it.
     EXPECT_LE(distributionError(0.002f, 200000), 1e-4);
     EXPECT_LE(distributionError(0.01f, 200000), 2e-5);
     EXPECT_LE(distributionError(0.3f, 200000), 2e-6);
@@ -72,10 +75,12 @@ TEST_F(PrecisionTest, theDistributionAlwaysKeepsItsDigitsAtSmallAlpha) {
 TEST_F(PrecisionTest, fresnelAlwaysEqualsTheMeanOfItsPolarisations) {
     test::Random random(2);
     std::vector<FresnelCase> cases;
-    for (int i = 0; i < 200000; ++i) cases.push_back({float(random.logarithmic(1.0001, 1000.0)), float(random.between(1e-4, 1.0))});
+    for (int i = 0; i < 200000; ++i)
+        cases.push_back({float(random.logarithmic(1.0001, 1000.0)), float(random.between(1e-4, 1.0))});
     for (const float away : {1e-6f, 2e-6f, 1e-5f, 1e-4f})
         for (int i = 1; i <= 200; ++i)
-            for (const float sign : {-1.0f, 1.0f}) cases.push_back({1.0f + sign * away, 0.5f + 0.5f * float(i) / 200.0f});
+            for (const float sign : {-1.0f, 1.0f})
+                cases.push_back({1.0f + sign * away, 0.5f + 0.5f * float(i) / 200.0f});
     const std::vector<double> f = fresnel(cases);
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const double expected = fresnelOfPolarisations(cases[i].ior, cases[i].cosine);
@@ -120,7 +125,8 @@ TEST_F(PrecisionTest, schlickAlwaysMeetsItsEndPointsExactly) {
     std::vector<glm::vec4> inputs;
     const std::vector<float> f0s{0.0f, 0.04f, 0.5f, 1.0f};
     for (const float f0 : f0s)
-        for (const float cosine : {1.0f, 0.0f}) inputs.insert(inputs.end(), {{0, 0, 1, 1}, {0, 0, 1, 1}, {1, 1, cosine, f0}});
+        for (const float cosine : {1.0f, 0.0f})
+            inputs.insert(inputs.end(), {{0, 0, 1, 1}, {0, 0, 1, 1}, {1, 1, cosine, f0}});
     const std::vector<glm::vec4> out = bench.run("terms.comp", {}, inputs, f0s.size() * 2, 2);
     for (std::size_t i = 0; i < f0s.size(); ++i) {
         EXPECT_EQ(out[4 * i + 1].x, f0s[i]);

@@ -41,17 +41,22 @@ Projected project(const CameraView& view, const glm::dvec3& positionLS) {
 
 /// viewpointFromDepth of shaders/lib/camera.glsl, in fp32 as it runs there.
 glm::vec3 rebuilt(const shared::FrameConstants& c, const Projected& p) {
-    const float viewDepth = (c.depthToViewDepth.x + c.depthToViewDepth.y * p.depth) / (c.depthToViewDepth.z + c.depthToViewDepth.w * p.depth);
-    const glm::vec3 ray = glm::vec3(c.rayOriginLS) + p.pixel.x * glm::vec3(c.rayDxLS) + p.pixel.y * glm::vec3(c.rayDyLS);
+    const float viewDepth = (c.depthToViewDepth.x + c.depthToViewDepth.y * p.depth) /
+                            (c.depthToViewDepth.z + c.depthToViewDepth.w * p.depth);
+    const glm::vec3 ray =
+        glm::vec3(c.rayOriginLS) + p.pixel.x * glm::vec3(c.rayDxLS) + p.pixel.y * glm::vec3(c.rayDyLS);
     return c.forwardLS.w != 0.0f ? ray + viewDepth * glm::vec3(c.forwardLS) : viewDepth * ray;
 }
 
 /// A random point of the view volume between two depths, by its place in the picture.
-glm::dvec3 pointInView(test::Random& random, const CameraView& view, const scenes::Camera& camera, double nearest, double farthest) {
+glm::dvec3 pointInView(test::Random& random, const CameraView& view, const scenes::Camera& camera, double nearest,
+                       double farthest) {
     const double depth = random.logarithmic(nearest, farthest);
-    const double halfHeight = camera.projection == scenes::Projection::Perspective ? depth * std::tan(0.5 * camera.fovYRadians)
-                                                                                   : camera.halfHeightMetres;
-    const glm::dvec3 positionVS(random.between(-0.999, 0.999) * halfHeight * kSize.x / kSize.y, random.between(-0.999, 0.999) * halfHeight, -depth);
+    const double halfHeight = camera.projection == scenes::Projection::Perspective
+                                  ? depth * std::tan(0.5 * camera.fovYRadians)
+                                  : camera.halfHeightMetres;
+    const glm::dvec3 positionVS(random.between(-0.999, 0.999) * halfHeight * kSize.x / kSize.y,
+                                random.between(-0.999, 0.999) * halfHeight, -depth);
     return view.lsFromWorld * (glm::dmat3(camera.worldFromCamera) * positionVS);
 }
 
@@ -62,7 +67,8 @@ double depthAt(const CameraView& view, double viewDepth) {
 
 TEST(CameraView, depthIsExactlyOneAtTheNearPlaneAndZeroAtTheFarOne) {
     for (const LightingSpace space : {LightingSpace::World, LightingSpace::View}) {
-        for (const scenes::Camera& camera : {perspective(0.1, 100.0), orthographic(0.1, 100.0), orthographic(0.0, 100.0)}) {
+        for (const scenes::Camera& camera :
+             {perspective(0.1, 100.0), orthographic(0.1, 100.0), orthographic(0.0, 100.0)}) {
             const CameraView view = makeCameraView(camera, kSize, space, glm::vec3(0.0f));
             EXPECT_NEAR(depthAt(view, camera.nearMetres), 1.0, 1e-12); // double rounding of a rotation
             EXPECT_NEAR(depthAt(view, camera.farMetres), 0.0, 1e-12);
@@ -78,18 +84,20 @@ TEST(CameraView, depthIsExactlyOneAtTheNearPlaneAndZeroAtTheFarOne) {
 TEST(CameraView, aPointIsAlwaysRebuiltFromItsPixelAndDepth) {
     test::Random random(1);
     for (const LightingSpace space : {LightingSpace::World, LightingSpace::View}) {
-        for (const scenes::Camera& camera : {perspective(0.1, kEndless), perspective(0.1, 100.0), orthographic(0.1, 100.0)}) {
+        for (const scenes::Camera& camera :
+             {perspective(0.1, kEndless), perspective(0.1, 100.0), orthographic(0.1, 100.0)}) {
             const CameraView view = makeCameraView(camera, kSize, space, glm::vec3(0.0f));
             const bool flat = camera.projection == scenes::Projection::Orthographic;
             for (int i = 0; i < 5000; ++i) {
                 const glm::dvec3 point = pointInView(random, view, camera, 0.11, 99.0);
                 const glm::dvec3 back(rebuilt(view.constants, project(view, point)));
-                // Perspective: depth has half an ulp of itself, so the distance keeps about 4 roundings of 6e-8; a finite far plane
-                // adds a = near / far = 1e-3 to depths that are 1e-5 there, so up to 1e-3 / depth more. Orthographic: half an ulp of
-                // one over the whole range of 100 m, and roundings of it.
+                // Perspective: depth has half an ulp of itself, so the distance keeps about 4 roundings of 6e-8; a
+                // finite far plane adds a = near / far = 1e-3 to depths that are 1e-5 there, so up to 1e-3 / depth
+                // more. Orthographic: half an ulp of one over the whole range of 100 m, and roundings of it.
                 const double depth = glm::dot(point, view.forwardLS);
                 const bool endless = std::isinf(camera.farMetres);
-                const double bound = flat ? 100.0 * 3e-7 : glm::length(point) * (endless ? 1e-6 : 1e-6 + 1e-7 * depth / 100.0);
+                const double bound =
+                    flat ? 100.0 * 3e-7 : glm::length(point) * (endless ? 1e-6 : 1e-6 + 1e-7 * depth / 100.0);
                 ASSERT_LE(glm::distance(point, back), bound) << "at " << depth << " m";
             }
         }
@@ -119,14 +127,17 @@ TEST(CameraView, frustumPlanesAlwaysHoldExactlyWhatTheCameraSees) {
     for (const LightingSpace space : {LightingSpace::World, LightingSpace::View}) {
         for (const scenes::Camera& camera : {perspective(0.5, kEndless), orthographic(0.5, 100.0)}) {
             const CameraView view = makeCameraView(camera, kSize, space, glm::vec3(0.0f));
-            for (const glm::dvec4& plane : view.frustumPlanesLS) EXPECT_NEAR(glm::length(glm::dvec3(plane)), 1.0, 1e-12);
+            for (const glm::dvec4& plane : view.frustumPlanesLS)
+                EXPECT_NEAR(glm::length(glm::dvec3(plane)), 1.0, 1e-12);
             int seen = 0;
             for (int i = 0; i < 20000; ++i) {
                 const glm::dvec3 point = view.forwardLS * 10.0 + random.direction() * random.between(0.0, 20.0);
                 const glm::dvec4 clip = view.clipFromLS * glm::dvec4(point, 1.0);
-                const bool inPicture = std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w && glm::dot(point, view.forwardLS) >= 0.5;
+                const bool inPicture =
+                    std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w && glm::dot(point, view.forwardLS) >= 0.5;
                 bool inPlanes = true;
-                for (const glm::dvec4& plane : view.frustumPlanesLS) inPlanes = inPlanes && glm::dot(plane, glm::dvec4(point, 1.0)) >= 0.0;
+                for (const glm::dvec4& plane : view.frustumPlanesLS)
+                    inPlanes = inPlanes && glm::dot(plane, glm::dvec4(point, 1.0)) >= 0.0;
                 ASSERT_EQ(inPlanes, inPicture);
                 seen += inPicture;
             }

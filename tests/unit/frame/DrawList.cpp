@@ -15,7 +15,8 @@ using testing::ElementsAre;
 
 CameraView defaultView(LightingSpace space = LightingSpace::World) {
     scenes::Camera camera;
-    camera.worldFromCamera = glm::translate(glm::dmat4(1.0), {1.0, 2.0, 3.0}) * glm::rotate(glm::dmat4(1.0), 0.4, {0.6, 0.8, 0.0});
+    camera.worldFromCamera =
+        glm::translate(glm::dmat4(1.0), {1.0, 2.0, 3.0}) * glm::rotate(glm::dmat4(1.0), 0.4, {0.6, 0.8, 0.0});
     return makeCameraView(camera, {64, 64}, space, glm::vec3(0.0f));
 }
 
@@ -31,7 +32,8 @@ scenes::Scene mixedScene() {
     for (int i = 0; i < 12; ++i) {
         scenes::Node& node = scene.nodes.emplace_back();
         const double mirror = i % 3 == 0 ? -1.0 : 1.0;
-        node.parentFromNode = glm::translate(glm::dmat4(1.0), {0.0, 0.0, -double(i)}) * glm::scale(glm::dmat4(1.0), {mirror, 1.0, 1.0});
+        node.parentFromNode =
+            glm::translate(glm::dmat4(1.0), {0.0, 0.0, -double(i)}) * glm::scale(glm::dmat4(1.0), {mirror, 1.0, 1.0});
         node.instances = {{i % 2, (3 * i) % 4}, {2, 0}, {0, 2}};
     }
     return scene;
@@ -114,7 +116,8 @@ TEST(DrawList, positionRowsAlwaysTakeObjectSpaceToLightingSpace) {
     test::Random random(1);
     for (const LightingSpace space : {LightingSpace::World, LightingSpace::View}) {
         const CameraView view = defaultView(space);
-        const glm::dmat4 worldFromObject = glm::translate(glm::dmat4(1.0), {1.5, 2.5, 3.5}) * glm::rotate(glm::dmat4(1.0), 1.0, {0, 1, 0}) *
+        const glm::dmat4 worldFromObject = glm::translate(glm::dmat4(1.0), {1.5, 2.5, 3.5}) *
+                                           glm::rotate(glm::dmat4(1.0), 1.0, {0, 1, 0}) *
                                            glm::scale(glm::dmat4(1.0), {2.0, -3.0, 0.5});
         const DrawRows rows = rowsOf(worldFromObject, view);
         for (int i = 0; i < 100; ++i) {
@@ -127,19 +130,22 @@ TEST(DrawList, positionRowsAlwaysTakeObjectSpaceToLightingSpace) {
 
 TEST(DrawList, normalRowsAlwaysAgreeWithTheInverseTransposeUpToLength) {
     test::Random random(2);
-    for (const glm::dvec3& scale : {glm::dvec3(1.0), glm::dvec3(2, 0.1, 5), glm::dvec3(-1, 1, 1), glm::dvec3(-2, -3, -0.5), glm::dvec3(1e-20), glm::dvec3(1e15, 1e15, -1e14)}) {
+    for (const glm::dvec3& scale : {glm::dvec3(1.0), glm::dvec3(2, 0.1, 5), glm::dvec3(-1, 1, 1),
+                                    glm::dvec3(-2, -3, -0.5), glm::dvec3(1e-20), glm::dvec3(1e15, 1e15, -1e14)}) {
         for (int i = 0; i < 50; ++i) {
-            const glm::dmat4 worldFromObject = glm::rotate(glm::dmat4(1.0), random.between(0.0, 6.0), random.direction()) *
-                                               glm::scale(glm::dmat4(1.0), scale) *
-                                               glm::rotate(glm::dmat4(1.0), random.between(0.0, 6.0), random.direction());
+            const glm::dmat4 worldFromObject =
+                glm::rotate(glm::dmat4(1.0), random.between(0.0, 6.0), random.direction()) *
+                glm::scale(glm::dmat4(1.0), scale) *
+                glm::rotate(glm::dmat4(1.0), random.between(0.0, 6.0), random.direction());
             const CameraView view = defaultView(i % 2 == 0 ? LightingSpace::World : LightingSpace::View);
             const DrawRows rows = rowsOf(worldFromObject, view);
             const glm::dvec3 normalOS = random.direction();
-            const glm::dvec3 expected =
-                glm::normalize(view.lsFromWorld * (glm::transpose(glm::inverse(glm::dmat3(worldFromObject))) * normalOS));
+            const glm::dvec3 expected = glm::normalize(
+                view.lsFromWorld * (glm::transpose(glm::inverse(glm::dmat3(worldFromObject))) * normalOS));
             const glm::dvec3 found = glm::normalize(apply(rows.normal, glm::dvec4(normalOS, 0.0)));
             // fp32 entries of order one; a stretch of 50:1 may cancel that much of them.
-            ASSERT_LE(glm::distance(found, expected), 50 * 2e-7) << "scale " << scale.x << " " << scale.y << " " << scale.z;
+            ASSERT_LE(glm::distance(found, expected), 50 * 2e-7)
+                << "scale " << scale.x << " " << scale.y << " " << scale.z;
             ASSERT_EQ(rows.normal[0].w, scale.x * scale.y * scale.z < 0.0 ? -1.0f : 1.0f);
         }
     }
@@ -149,7 +155,8 @@ TEST(DrawList, aSingularTransformAlwaysKeepsTheNormalOfItsPlane) {
     const CameraView view = makeCameraView(scenes::Camera{}, {64, 64}, LightingSpace::World, glm::vec3(0.0f));
     const DrawRows flat = rowsOf(glm::scale(glm::dmat4(1.0), {2.0, 3.0, 0.0}), view); // squashed into z = 0
     EXPECT_EQ(apply(flat.normal, {0, 0, 1, 0}), glm::dvec3(0, 0, 1));
-    const DrawRows line = rowsOf(glm::scale(glm::dmat4(1.0), {2.0, 0.0, 0.0}), view); // no plane left: no normal, no NaN
+    const DrawRows line =
+        rowsOf(glm::scale(glm::dmat4(1.0), {2.0, 0.0, 0.0}), view); // no plane left: no normal, no NaN
     EXPECT_EQ(apply(line.normal, {0, 0, 1, 0}), glm::dvec3(0.0));
 }
 

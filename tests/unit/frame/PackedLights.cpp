@@ -21,7 +21,8 @@ Light light(LightType type, const glm::dvec3& positionWS = {0, 0, -5}) {
 }
 
 /// Seen by the default camera: at the origin, along -z, 45 degrees.
-PackedLights pack(const std::vector<Light>& lights, const FrameSettings& settings = {}, const scenes::Camera& camera = {}) {
+PackedLights pack(const std::vector<Light>& lights, const FrameSettings& settings = {},
+                  const scenes::Camera& camera = {}) {
     scenes::Scene scene;
     scene.lights = lights;
     return packLights(scene, makeCameraView(camera, {640, 360}, settings.space, glm::vec3(0.0f)), settings);
@@ -35,7 +36,8 @@ TEST(PackedLights, everyKindIsAlwaysPackedAsItsShaderReadsIt) {
     ranged.rangeMetres = 4.0f;
     ranged.color = {1.0f, 0.5f, 0.25f};
     ranged.intensity = 8.0f;
-    const PackedLights packed = pack({light(LightType::Directional), light(LightType::Point), ranged, light(LightType::Spot), attenuated});
+    const PackedLights packed =
+        pack({light(LightType::Directional), light(LightType::Point), ranged, light(LightType::Spot), attenuated});
     ASSERT_EQ(packed.texels.size(), 5u);
     EXPECT_THAT(packed.sceneIndex, ElementsAre(0, 1, 2, 3, 4));
     EXPECT_EQ(packed.texels[0].position, glm::vec4(0, 0, 1, 0)); // towards the light, which travels along -z
@@ -84,7 +86,8 @@ TEST(PackedLights, theSetAlwaysHoldsExactlyTheKindsThatWerePacked) {
 }
 
 TEST(PackedLights, offDarkAndUnseenLightsAreLeftOutExactlyWhenPruning) {
-    Light off = light(LightType::Point), black = light(LightType::Point), noRange = black, noCone = light(LightType::Spot);
+    Light off = light(LightType::Point), black = light(LightType::Point), noRange = black,
+          noCone = light(LightType::Spot);
     off.enabled = false;
     black.intensity = 0.0f;
     noRange.rangeMetres = 0.0f;
@@ -103,7 +106,8 @@ TEST(PackedLights, offDarkAndUnseenLightsAreLeftOutExactlyWhenPruning) {
     EXPECT_THAT(whole.sceneIndex, ElementsAre(1, 2, 3, 4, 5));
     EXPECT_EQ(whole.off, 1u);
     EXPECT_EQ(whole.dark + whole.unseen, 0u);
-    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(glm::vec3(whole.texels[i].color), glm::vec3(0.0f)) << "dark lights add exactly 0";
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_EQ(glm::vec3(whole.texels[i].color), glm::vec3(0.0f)) << "dark lights add exactly 0";
 }
 
 TEST(PackedLights, aLightThatIsLeftOutNeverReachesAPointInTheFrustum) {
@@ -115,7 +119,8 @@ TEST(PackedLights, aLightThatIsLeftOutNeverReachesAPointInTheFrustum) {
         camera.halfHeightMetres = 5.0;
         std::vector<Light> lights;
         for (int i = 0; i < 2000; ++i) {
-            lights.push_back(light(random.index(2) == 0 ? LightType::Point : LightType::Spot, random.direction() * random.between(0.0, 30.0)));
+            lights.push_back(light(random.index(2) == 0 ? LightType::Point : LightType::Spot,
+                                   random.direction() * random.between(0.0, 30.0)));
             lights.back().rangeMetres = float(random.between(0.5, 10.0));
         }
         const PackedLights packed = pack(lights, {}, camera);
@@ -126,12 +131,14 @@ TEST(PackedLights, aLightThatIsLeftOutNeverReachesAPointInTheFrustum) {
         const double aspect = 640.0 / 360.0, slope = std::tan(0.5 * camera.fovYRadians);
         for (int i = 0; i < 4000; ++i) {
             const double depth = random.between(0.5, 40.0);
-            const double halfHeight = projection == scenes::Projection::Perspective ? slope * depth : camera.halfHeightMetres;
+            const double halfHeight =
+                projection == scenes::Projection::Perspective ? slope * depth : camera.halfHeightMetres;
             // Half of the points on the frustum's surface, where a wrong plane would show first.
             const auto place = [&] { return i % 2 == 0 ? random.between(-1.0, 1.0) : double(random.index(2) * 2 - 1); };
             const glm::dvec3 point(place() * halfHeight * aspect, place() * halfHeight, -depth);
             for (std::size_t j = 0; j < lights.size(); ++j)
-                ASSERT_TRUE(kept[j] || glm::distance(point, lights[j].positionWS) >= double(lights[j].rangeMetres)) << "light " << j;
+                ASSERT_TRUE(kept[j] || glm::distance(point, lights[j].positionWS) >= double(lights[j].rangeMetres))
+                    << "light " << j;
         }
     }
 }
@@ -140,7 +147,9 @@ TEST(PackedLights, lightsWithoutEndAreNeverLeftOut) {
     Light attenuated = light(LightType::Point, {0, 0, 1000});
     attenuated.falloff = Falloff::Attenuation;
     attenuated.rangeMetres = 1.0f; // of the other falloff
-    EXPECT_EQ(pack({attenuated, light(LightType::Point, {0, 0, 1e6}), light(LightType::Directional, {0, 0, 1e6})}).texels.size(), 3u);
+    EXPECT_EQ(pack({attenuated, light(LightType::Point, {0, 0, 1e6}), light(LightType::Directional, {0, 0, 1e6})})
+                  .texels.size(),
+              3u);
 }
 
 TEST(PackedLights, soloAlwaysLeavesExactlyThatLight) {

@@ -13,7 +13,8 @@ using scenes::TextureSlot;
 
 TEST(PackedMaterial, theUsualDielectricIsExactlyFourPercent) {
     const shared::MaterialConstants packed = packMaterial(Material{});
-    EXPECT_EQ(glm::vec3(packed.specular), glm::vec3(0.04f)) << "defaultSpecular() of surface.glsl, so that pruning changes no bit";
+    EXPECT_EQ(glm::vec3(packed.specular), glm::vec3(0.04f))
+        << "defaultSpecular() of surface.glsl, so that pruning changes no bit";
     EXPECT_EQ(packed.specular.w, 1.0f);
     Material material;
     material.ior = 1.0f;
@@ -21,7 +22,8 @@ TEST(PackedMaterial, theUsualDielectricIsExactlyFourPercent) {
     material.ior = 3.0f;
     material.specularColor = {1.0f, 0.5f, 0.0f};
     material.specularFactor = 0.5f;
-    EXPECT_EQ(packMaterial(material).specular, glm::vec4(0.25f, 0.125f, 0.0f, 0.5f)) << "the factor is applied after the textures";
+    EXPECT_EQ(packMaterial(material).specular, glm::vec4(0.25f, 0.125f, 0.0f, 0.5f))
+        << "the factor is applied after the textures";
 }
 
 TEST(PackedMaterial, everyMemberIsAlwaysTheMaterialsOwnValue) {
@@ -43,7 +45,8 @@ TEST(PackedMaterial, everyMemberIsAlwaysTheMaterialsOwnValue) {
     EXPECT_EQ(glm::vec3(packed.specular), glm::vec3(0.7f, 0.8f, 0.9f)) << "k_s as it is";
     EXPECT_EQ(packed.kind, glm::uvec4(unsigned(MaterialModel::Microfacet), 0u, 0u, 0u));
     material.model = MaterialModel::MetallicRoughness;
-    EXPECT_EQ(packMaterial(material).microsurface.y, 0.6f) << "perceptual roughness, squared in the shader after its texture";
+    EXPECT_EQ(packMaterial(material).microsurface.y, 0.6f)
+        << "perceptual roughness, squared in the shader after its texture";
 }
 
 TEST(PackedMaterial, flagsAreAlwaysExactlyWhatTheMaterialHas) {
@@ -54,7 +57,8 @@ TEST(PackedMaterial, flagsAreAlwaysExactlyWhatTheMaterialHas) {
     };
     EXPECT_EQ(flags([](Material&) {}), 0u);
     EXPECT_EQ(flags([](Material& m) { m.texture(TextureSlot::Normal).image = 0; }), MATERIAL_FLAG_NORMAL_MAP);
-    EXPECT_EQ(flags([](Material& m) { m.normalMapSpace = scenes::NormalMapSpace::Object; }), MATERIAL_FLAG_OBJECT_SPACE_NORMAL);
+    EXPECT_EQ(flags([](Material& m) { m.normalMapSpace = scenes::NormalMapSpace::Object; }),
+              MATERIAL_FLAG_OBJECT_SPACE_NORMAL);
     EXPECT_EQ(flags([](Material& m) { m.alphaMode = scenes::AlphaMode::Mask; }), MATERIAL_FLAG_ALPHA_MASK);
     EXPECT_EQ(flags([](Material& m) { m.alphaMode = scenes::AlphaMode::Blend; }), 0u);
     EXPECT_EQ(flags([](Material& m) { m.doubleSided = true; }), MATERIAL_FLAG_DOUBLE_SIDED);
@@ -92,8 +96,10 @@ TEST(PackedMaterial, setsAndWrapModesAlwaysGoToTheirSlot) {
 }
 
 TEST(PackedMaterial, exactlyTheColourSlotsAreSrgb) {
-    for (const TextureSlot slot : {TextureSlot::BaseColor, TextureSlot::Emissive, TextureSlot::SpecularColor}) EXPECT_TRUE(slotIsSrgb(slot));
-    for (const TextureSlot slot : {TextureSlot::Normal, TextureSlot::MetallicRoughness, TextureSlot::SpecularFactor, TextureSlot::Ior})
+    for (const TextureSlot slot : {TextureSlot::BaseColor, TextureSlot::Emissive, TextureSlot::SpecularColor})
+        EXPECT_TRUE(slotIsSrgb(slot));
+    for (const TextureSlot slot :
+         {TextureSlot::Normal, TextureSlot::MetallicRoughness, TextureSlot::SpecularFactor, TextureSlot::Ior})
         EXPECT_FALSE(slotIsSrgb(slot));
 }
 

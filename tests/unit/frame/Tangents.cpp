@@ -75,7 +75,8 @@ TEST(Tangents, coordinatesWithoutAreaAlwaysGiveAStableFrame) {
         ASSERT_NEAR(glm::length(glm::vec3(points[0])), 1.0f, 3e-7f);
         ASSERT_NEAR(glm::dot(glm::vec3(points[0]), mesh.normalsOS[0]), 0.0f, 3e-7f);
         ASSERT_EQ(points[0].w, 1.0f);
-        // Stable: a normal a little aside has a frame a little aside, except at the seam near n = -z (n.z < 0 and back).
+        // Stable: a normal a little aside has a frame a little aside, except at the seam near n = -z (n.z < 0 and
+        // back).
         const glm::dvec3 aside = glm::normalize(n + 1e-4 * random.direction());
         if ((aside.z < 0.0) != (n.z < 0.0) || n.z < -0.999) continue;
         mesh.normalsOS.assign(4, glm::vec3(aside));

@@ -53,7 +53,8 @@ TEST(VertexStreams, streamsThatNothingNeedsAreAlwaysEmpty) {
     const VertexStreams streams = makeVertexStreams(twoMeshes(), FeatureSet{});
     EXPECT_EQ(streams.positionsOS.size(), 6u);
     EXPECT_EQ(streams.normalsOS.size(), 6u);
-    EXPECT_TRUE(streams.tangentsOS.empty() && streams.texCoords[0].empty() && streams.texCoords[1].empty() && streams.colors.empty());
+    EXPECT_TRUE(streams.tangentsOS.empty() && streams.texCoords[0].empty() && streams.texCoords[1].empty() &&
+                streams.colors.empty());
     FeatureSet textured;
     textured.add(Feature::BaseColorTexture);
     EXPECT_EQ(makeVertexStreams(twoMeshes(), textured).texCoords[0].size(), 6u);
@@ -64,10 +65,12 @@ TEST(VertexStreams, tangentsAreComputedExactlyForMeshesWithATangentSpaceMapAndNo
     scenes::Scene scene = twoMeshes();
     scene.meshes[1].tangentsOS.clear();
     scene.images.emplace_back();
-    scene.materials.emplace_back().texture(scenes::TextureSlot::Normal) = {.image = 0, .sampler = {}, .texCoordSet = 1, .transform = {}};
+    scene.materials.emplace_back().texture(scenes::TextureSlot::Normal) = {
+        .image = 0, .sampler = {}, .texCoordSet = 1, .transform = {}};
     FeatureSet features;
     features.add(Feature::TangentSpaceNormals);
-    EXPECT_THAT(makeVertexStreams(scene, features).tangentsOS, Each(glm::vec4(1, 0, 0, 1))) << "no instance has the map";
+    EXPECT_THAT(makeVertexStreams(scene, features).tangentsOS, Each(glm::vec4(1, 0, 0, 1)))
+        << "no instance has the map";
     scene.nodes[0].instances.back().material = 1;
     const VertexStreams streams = makeVertexStreams(scene, features);
     const std::vector<glm::vec4> expected = computeTangents(scene.meshes[1], 1);
