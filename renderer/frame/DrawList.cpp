@@ -34,7 +34,8 @@ DrawList makeDrawList(const scenes::Scene& scene) {
         for (const scenes::MeshInstance& instance : scene.nodes[node].instances) {
             if (scene.meshes[std::size_t(instance.mesh)].indices.empty()) continue;
             const glm::dvec3 centerWS(worldFromObject * glm::dvec4(centersOS[std::size_t(instance.mesh)], 1.0));
-            list.draws.push_back({instance.mesh, instance.material, int(node), mirrored, centerWS});
+            const bool colored = !scene.meshes[std::size_t(instance.mesh)].colors.empty();
+            list.draws.push_back({instance.mesh, instance.material, int(node), mirrored, colored, centerWS});
         }
     }
     const auto transparent = std::stable_partition(list.draws.begin(), list.draws.end(),
@@ -78,9 +79,10 @@ std::vector<DrawRows> makeDrawRows(const DrawList& list, const CameraView& view)
         double largest = 0.0;
         for (int c = 0; c < 3; ++c) largest = std::max({largest, std::abs(normal[c].x), std::abs(normal[c].y), std::abs(normal[c].z)});
         if (largest > 0.0) normal /= largest;
+        const double extra[3] = {sign, list.draws[i].colored ? 1.0 : 0.0, 0.0};
         for (int r = 0; r < 3; ++r) {
             rows[i].position[r] = glm::vec4(linear[0][r], linear[1][r], linear[2][r], originLS[r]);
-            rows[i].normal[r] = glm::vec4(normal[0][r], normal[1][r], normal[2][r], r == 0 ? sign : 0.0);
+            rows[i].normal[r] = glm::vec4(normal[0][r], normal[1][r], normal[2][r], extra[r]);
         }
     }
     return rows;

@@ -21,6 +21,7 @@ layout(location = 3) in vec2 texCoord1;
 #endif
 #if HAS_VERTEX_COLOR
 layout(location = 4) in vec4 vertexColor;
+layout(location = 8) flat in float vertexColored;
 #endif
 
 Fragment rasterisedFragment()
@@ -49,7 +50,7 @@ Fragment rasterisedFragment()
 #endif
 #endif
 #if HAS_VERTEX_COLOR
-    fragment.color = vertexColor;
+    if (vertexColored != 0.0) fragment.color = vertexColor;
 #endif
     fragment.frontFacing = gl_FrontFacing;
     return fragment;
