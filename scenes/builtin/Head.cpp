@@ -1,0 +1,105 @@
+#include <numbers>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "scenes/builtin/Author.h"
+#include "scenes/builtin/Builtin.h"
+#include "scenes/builtin/HeadScan.h"
+#include "scenes/builtin/Shapes.h"
+#include "scenes/builtin/bust/Bust.h"
+
+namespace tessera::scenes::builtin {
+namespace {
+
+/// Bottom of the bust above the floor, and its height; a scan is fitted to the same.
+constexpr double kPlinthTopY = 0.12;
+constexpr double kBustHeightMetres = 0.6;
+
+void addBust(Scene& scene) {
+    Bust bust = makeBust(168, 112, kBustHeightMetres, 1024);
+    Material skin = microfacet("marble", glm::vec3(1.0f), 1.4f, 0.35f);
+    skin.normalMapSpace = NormalMapSpace::Object;
+    skin.texture(TextureSlot::BaseColor).image = addImage(scene, std::move(bust.albedoMap));
+    skin.texture(TextureSlot::Normal).image = addImage(scene, std::move(bust.normalMap));
+    // The maps wrap around the bust but not from its crown to its bottom.
+    skin.texture(TextureSlot::BaseColor).sampler.wrapV = Wrap::ClampToEdge;
+    skin.texture(TextureSlot::Normal).sampler.wrapV = Wrap::ClampToEdge;
+    const int mesh = addMesh(scene, "bust", std::move(bust.mesh));
+    addNode(scene, "bust", glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, kPlinthTopY, 0.0)),
+            {{mesh, addMaterial(scene, skin)}});
+}
+
+void addSurroundings(Scene& scene) {
+    Mesh plinth;
+    appendLathe(plinth,
+                Profile({0.34, 0.0})
+                    .lineTo({0.34, 0.03})
+                    .curveThrough({{0.31, 0.045}, {0.3, 0.07}}, 6)
+                    .curveThrough({{0.31, 0.095}, {0.33, 0.1}}, 6)
+                    .lineTo({0.33, kPlinthTopY})
+                    .lineTo({0.0, kPlinthTopY}),
+                96);
+    addNode(scene, "plinth", glm::dmat4(1.0),
+            {{addMesh(scene, "plinth", std::move(plinth)),
+              addMaterial(scene, metallicRoughness("slate", {0.035f, 0.037f, 0.042f}, 0.0f, 0.32f))}});
+    Mesh floor;
+    appendFloor(floor, {0.0, 0.0, 0.5}, {12.0, 6.0}, {24, 12});
+    addNode(scene, "floor", glm::dmat4(1.0),
+            {{addMesh(scene, "floor", std::move(floor)),
+              addMaterial(scene, metallicRoughness("floor", {0.16f, 0.11f, 0.08f}, 0.0f, 0.38f))}});
+    // The wall curves into nothing sharp: a plain backdrop 1.4 m behind.
+    Mesh wall;
+    appendQuad(wall, {-6.0, 0.0, -1.4}, {6.0, 0.0, -1.4}, {6.0, 5.0, -1.4}, {-6.0, 5.0, -1.4});
+    addNode(scene, "wall", glm::dmat4(1.0),
+            {{addMesh(scene, "wall", std::move(wall)), addMaterial(scene, lambert("wall", {0.1f, 0.115f, 0.13f}))}});
+}
+
+void addSpot(Scene& scene, const std::string& name, const glm::dvec3& positionWS, const glm::dvec3& targetWS,
+             const glm::vec3& color, float candela, float innerDegrees, float outerDegrees) {
+    Light light;
+    light.name = name;
+    light.type = LightType::Spot;
+    light.positionWS = positionWS;
+    light.directionWS = glm::normalize(targetWS - positionWS);
+    light.color = color;
+    light.intensity = candela;
+    light.innerConeRadians = glm::radians(innerDegrees);
+    light.outerConeRadians = glm::radians(outerDegrees);
+    scene.lights.push_back(light);
+}
+
+void addLights(Scene& scene) {
+    const glm::dvec3 faceWS(0.0, 0.52, 0.0);
+    addSpot(scene, "key", {-1.1, 1.35, 1.35}, faceWS, {1.0f, 0.88f, 0.74f}, 4.2f, 14.0f, 32.0f);
+    addSpot(scene, "rim", {1.0, 1.2, -1.1}, faceWS, {0.62f, 0.78f, 1.0f}, 5.0f, 16.0f, 34.0f);
+    Light fill;
+    fill.name = "fill";
+    fill.positionWS = {1.5, 0.7, 1.5};
+    fill.color = {0.55f, 0.68f, 1.0f};
+    fill.intensity = 0.8f;
+    scene.lights.push_back(fill);
+    addSpot(scene, "backdrop", {0.0, 2.3, -0.4}, {0.15, 0.7, -1.4}, {1.0f, 0.72f, 0.5f}, 6.0f, 5.0f, 48.0f);
+}
+
+} // namespace
+
+Scene makeHead(const LoadOptions& options) {
+    Scene scene;
+    scene.name = "head";
+    const std::optional<std::filesystem::path> scan = options.useAssets ? headScanFolder() : std::nullopt;
+    if (scan) {
+        addHeadScan(scene, *scan, kPlinthTopY, kBustHeightMetres);
+    } else {
+        addBust(scene);
+    }
+    addSurroundings(scene);
+    addLights(scene);
+    keepFirstLights(scene, options);
+    addCamera(scene, "portrait", {0.33, 0.56, 1.5}, {0.0, 0.41, 0.0}, 29.0);
+    addCamera(scene, "three-quarter", {1.2, 0.6, 1.0}, {0.0, 0.43, 0.0}, 32.0);
+    addCamera(scene, "close", {-0.22, 0.6, 0.75}, {0.0, 0.53, 0.0}, 32.0);
+    for (Camera& camera : scene.cameras) camera.nearMetres = 0.02;
+    return scene;
+}
+
+} // namespace tessera::scenes::builtin

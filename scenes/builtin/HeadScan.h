@@ -1,0 +1,16 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+
+#include "scenes/Scene.h"
+
+namespace tessera::scenes::builtin {
+
+/// The folder LeePerrySmith below the one the environment variable TESSERA_ASSETS names, if it holds head.obj.
+std::optional<std::filesystem::path> headScanFolder();
+
+/// Adds the scanned head (Infinite Realities, CC BY 3.0) with its albedo, specular and object-space normal map,
+/// standing on `bottomY` and `heightMetres` high. Throws InputError naming the file that is missing or broken.
+void addHeadScan(Scene& scene, const std::filesystem::path& folder, double bottomY, double heightMetres);
+
+} // namespace tessera::scenes::builtin

@@ -1,0 +1,246 @@
+#include "scenes/builtin/bust/Bust.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "scenes/builtin/Noise.h"
+#include "scenes/builtin/Parallel.h"
+#include "scenes/builtin/Pictures.h"
+#include "scenes/builtin/Shapes.h"
+#include "scenes/builtin/bust/BustField.h"
+
+namespace tessera::scenes::builtin {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Where rays towards the skin start and how steeply they rise, by height on the bust: level through the shoulders and
+/// neck, fanning out around the skull, so that every ray meets the skin once and no quad is stretched under the chin.
+struct RayKnot {
+    double up; ///< 0 at the bottom, 1 at the crown
+    double originY;
+    double originZ;
+    double elevationDegrees;
+};
+constexpr double kFootZ = -0.32; // the axis of the foot
+constexpr std::array kRayKnots = {RayKnot{0.0, kBustBottomY, kFootZ, 0.0}, RayKnot{0.1, -2.6, kFootZ, 0.0},
+                                  RayKnot{0.3, -1.45, -0.36, 0.0},         RayKnot{0.4, -0.95, -0.3, -20.0},
+                                  RayKnot{0.46, -0.6, -0.2, -33.0},        RayKnot{0.75, 0.05, -0.1, 3.0},
+                                  RayKnot{0.85, 0.2, -0.12, 32.0},         RayKnot{1.0, 0.3, -0.16, 90.0}};
+
+struct Ray {
+    glm::dvec3 originBU;
+    glm::dvec3 directionBU;
+};
+
+Ray rayTowardsSkin(double around, double up) {
+    std::size_t i = 0;
+    while (i + 2 < kRayKnots.size() && up > kRayKnots[i + 1].up) ++i;
+    const RayKnot& a = kRayKnots[i];
+    const RayKnot& b = kRayKnots[i + 1];
+    const double t = (up - a.up) / (b.up - a.up);
+    // More columns in front: the longitude grows slower there. u = 0 and 1 lie at the back.
+    const double longitude = 2.0 * kPi * (around - 0.5) - 0.55 * std::sin(2.0 * kPi * (around - 0.5));
+    // Only the chin calls for falling rays; at the sides they would graze the shoulders.
+    double elevationDegrees = glm::mix(a.elevationDegrees, b.elevationDegrees, t);
+    if (elevationDegrees < 0.0) elevationDegrees *= 0.5 + 0.5 * std::cos(longitude);
+    const double elevation = glm::radians(elevationDegrees);
+    return {
+        {0.0, glm::mix(a.originY, b.originY, t), glm::mix(a.originZ, b.originZ, t)},
+        {std::cos(elevation) * std::sin(longitude), std::sin(elevation), std::cos(elevation) * std::cos(longitude)}};
+}
+
+/// Distance along the ray to the outermost point of the skin. The march starts from `guess` if that lies a little
+/// outside, else from beyond the shoulders; then the crossing is narrowed by false position (the Illinois variant,
+/// Dowell and Jarratt 1971).
+double skinAlong(const Ray& ray, double guess) {
+    constexpr double kOutside = 2.6;
+    constexpr double kCaution = 0.7; // fillets make the field steeper than a distance in places
+    constexpr double kShortestStep = 0.004;
+    const auto field = [&](double along) { return bustField(ray.originBU + along * ray.directionBU); };
+    double far = guess + 0.12;
+    double farValue = field(far);
+    if (farValue <= 0.0 || farValue > 0.3) {
+        far = kOutside;
+        farValue = field(far);
+    }
+    double near = far;
+    double nearValue = farValue;
+    while (nearValue > 0.0 && near > 0.0) {
+        far = near;
+        farValue = nearValue;
+        near -= std::max(kCaution * nearValue, kShortestStep);
+        nearValue = field(near);
+    }
+    for (int i = 0; i < 8 && far - near > 1e-6; ++i) {
+        const double middle = near + (far - near) * nearValue / (nearValue - farValue);
+        const double value = field(middle);
+        if (value > 0.0) {
+            far = middle;
+            farValue = value;
+            nearValue *= 0.5;
+        } else {
+            near = middle;
+            nearValue = value;
+            farValue *= 0.5;
+        }
+    }
+    return 0.5 * (near + far);
+}
+
+/// Four samples of the field at a tetrahedron's corners.
+glm::dvec3 fieldGradient(const glm::dvec3& p) {
+    constexpr double kStep = 0.006; // a little under the finest feature of the field
+    static constexpr std::array<glm::dvec3, 4> kCorners = {
+        {{1.0, -1.0, -1.0}, {-1.0, -1.0, 1.0}, {-1.0, 1.0, -1.0}, {1.0, 1.0, 1.0}}};
+    glm::dvec3 sum(0.0);
+    for (const glm::dvec3& corner : kCorners) sum += bustField(p + kStep * corner) * corner;
+    return sum / (4.0 * kStep);
+}
+
+/// The skin on a grid over (u, v): points in bust units and unit normals, for meshes and for textures to interpolate.
+struct Skin {
+    int columns;
+    int rows;
+    std::vector<glm::dvec3> pointsBU;
+    std::vector<glm::dvec3> normals;
+
+    Skin(int columnCount, int rowCount) : columns(columnCount), rows(rowCount) {
+        pointsBU.resize(at(0, rows + 1));
+        normals.resize(pointsBU.size());
+        parallelFor(columns, [&](int i) {
+            double along = 0.0;
+            for (int j = 0; j <= rows; ++j) {
+                const Ray ray = rayTowardsSkin(static_cast<double>(i) / columns, 1.0 - static_cast<double>(j) / rows);
+                along = skinAlong(ray, along);
+                pointsBU[at(i, j)] = ray.originBU + along * ray.directionBU;
+                normals[at(i, j)] = glm::normalize(fieldGradient(pointsBU[at(i, j)]));
+            }
+        });
+        // The last column is the first, to the bit, so that the seam is closed.
+        for (int j = 0; j <= rows; ++j) {
+            pointsBU[at(columns, j)] = pointsBU[at(0, j)];
+            normals[at(columns, j)] = normals[at(0, j)];
+        }
+    }
+
+    std::size_t at(int i, int j) const {
+        return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns + 1) + static_cast<std::size_t>(i);
+    }
+
+    glm::dvec3 interpolated(const std::vector<glm::dvec3>& values, double u, double v) const {
+        const int i = std::min(static_cast<int>(u * columns), columns - 1);
+        const int j = std::min(static_cast<int>(v * rows), rows - 1);
+        const double s = u * columns - i;
+        const double t = v * rows - j;
+        return glm::mix(glm::mix(values[at(i, j)], values[at(i + 1, j)], s),
+                        glm::mix(values[at(i, j + 1)], values[at(i + 1, j + 1)], s), t);
+    }
+};
+
+/// The skin's mesh, of every `stride`th point.
+Mesh meshOf(const Skin& skin, int stride, double heightMetres) {
+    const double metresPerUnit = heightMetres / (kBustTopY - kBustBottomY);
+    const glm::dvec3 footBU(0.0, kBustBottomY, kFootZ);
+    const int columns = skin.columns / stride;
+    const int rows = skin.rows / stride;
+    Mesh mesh;
+    appendPatch(mesh, columns, rows, [&](double u, double v) {
+        const int i = stride * static_cast<int>(std::lround(u * columns));
+        const int j = stride * static_cast<int>(std::lround(v * rows));
+        const std::size_t at = skin.at(i, j);
+        return SurfacePoint{metresPerUnit * (skin.pointsBU[at] - footBU), skin.normals[at], {u, v}};
+    });
+    return mesh;
+}
+
+/// The skin and its relief at each texel of a map.
+struct SkinMap {
+    int size;
+    std::vector<glm::dvec3> pointsBU;
+    std::vector<glm::dvec3> normals;
+    std::vector<double> heightsBU;
+
+    SkinMap(const Skin& skin, int sizeTexels) : size(sizeTexels) {
+        pointsBU.resize(at(0, size));
+        normals.resize(pointsBU.size());
+        heightsBU.resize(pointsBU.size());
+        parallelFor(size, [&](int y) {
+            for (int x = 0; x < size; ++x) {
+                const double u = (x + 0.5) / size;
+                const double v = (y + 0.5) / size;
+                pointsBU[at(x, y)] = skin.interpolated(skin.pointsBU, u, v);
+                normals[at(x, y)] = glm::normalize(skin.interpolated(skin.normals, u, v));
+                heightsBU[at(x, y)] = bustRelief(pointsBU[at(x, y)]);
+            }
+        });
+    }
+
+    /// Around the bust columns go on, upwards rows end.
+    std::size_t at(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
+               static_cast<std::size_t>((x + size) % size);
+    }
+
+    /// The normal of the skin raised by its relief: n - (surface gradient of the height), from the differences to the
+    /// neighbouring texels and the metric they are taken in.
+    glm::dvec3 reliefNormal(int x, int y) const {
+        const int above = std::max(y - 1, 0);
+        const int below = std::min(y + 1, size - 1);
+        const glm::dvec3 n = normals[at(x, y)];
+        const glm::dvec3 du = pointsBU[at(x + 1, y)] - pointsBU[at(x - 1, y)];
+        const glm::dvec3 dv = pointsBU[at(x, below)] - pointsBU[at(x, above)];
+        const double hu = heightsBU[at(x + 1, y)] - heightsBU[at(x - 1, y)];
+        const double hv = heightsBU[at(x, below)] - heightsBU[at(x, above)];
+        const double uu = glm::dot(du, du);
+        const double uv = glm::dot(du, dv);
+        const double vv = glm::dot(dv, dv);
+        const double determinant = uu * vv - uv * uv;
+        if (determinant < 1e-6 * uu * vv || uu * vv == 0.0) return n; // at the crown all columns meet
+        const glm::dvec3 slope = ((hu * vv - hv * uv) * du + (hv * uu - hu * uv) * dv) / determinant;
+        return glm::normalize(n - (slope - glm::dot(slope, n) * n));
+    }
+};
+
+/// Linear colour of weathered marble: warm white, veined, darker where dust gathers.
+glm::dvec3 marble(const glm::dvec3& pointBU, double heightBU) {
+    constexpr glm::dvec3 kStone(0.66, 0.60, 0.51);
+    constexpr glm::dvec3 kVein(0.36, 0.33, 0.31);
+    constexpr glm::dvec3 kDust(0.20, 0.135, 0.085);
+    constexpr glm::dvec3 kHair(0.47, 0.36, 0.25);
+    constexpr glm::dvec3 kLips(0.58, 0.38, 0.31);
+    const BustRegions regions = bustRegions(pointBU);
+    const double cloud = fractalNoise(2.2 * pointBU, 3, 17);
+    const double vein = std::exp(-std::pow(14.0 * fractalNoise(1.1 * pointBU + 0.35 * cloud, 3, 19), 2.0));
+    glm::dvec3 color = kStone * (1.0 + 0.12 * cloud);
+    color = glm::mix(color, kVein, 0.4 * vein);
+    color = glm::mix(color, kHair, 0.75 * regions.hair);
+    color = glm::mix(color, kLips, 0.45 * regions.lips);
+    color = glm::mix(color, kHair, 0.5 * regions.brow);
+    const double hollow = std::clamp(-heightBU / 0.012, 0.0, 1.0);
+    return glm::mix(color, kDust, 0.7 * hollow);
+}
+
+} // namespace
+
+Mesh bustMesh(int columns, int rows, double heightMetres) {
+    return meshOf(Skin(columns, rows), 1, heightMetres);
+}
+
+Bust makeBust(int columns, int rows, double heightMetres, int mapTexels) {
+    constexpr int kMapStride = 2; // the maps see the sculpture twice as finely as the mesh
+    const Skin skin(kMapStride * columns, kMapStride * rows);
+    const SkinMap map(skin, mapTexels);
+    Bust bust;
+    bust.mesh = meshOf(skin, kMapStride, heightMetres);
+    bust.normalMap =
+        drawNormals("bust normals", mapTexels, mapTexels, [&](int x, int y) { return map.reliefNormal(x, y); });
+    bust.albedoMap = drawColors("bust albedo", mapTexels, mapTexels, [&](int x, int y) {
+        return marble(map.pointsBU[map.at(x, y)], map.heightsBU[map.at(x, y)]);
+    });
+    return bust;
+}
+
+} // namespace tessera::scenes::builtin

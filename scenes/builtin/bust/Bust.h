@@ -1,0 +1,20 @@
+#pragma once
+#include "scenes/Scene.h"
+
+/// The bust as a mesh and as textures on it. Texture coordinates are 0..1 around (u, the seam at the back) and upwards
+/// (v = 1 at the bottom).
+namespace tessera::scenes::builtin {
+
+struct Bust {
+    Mesh mesh;       ///< smooth: vertex normals without the fine relief
+    Image normalMap; ///< object-space normals (2 texel - 1) with the fine relief, 16 bits a channel
+    Image albedoMap; ///< weathered marble, sRGB
+};
+
+/// The bust standing on y = 0, `heightMetres` high, its front towards +Z, with maps of `mapTexels` squared.
+Bust makeBust(int columns, int rows, double heightMetres, int mapTexels);
+
+/// The bust without maps, for places where it is small.
+Mesh bustMesh(int columns, int rows, double heightMetres);
+
+} // namespace tessera::scenes::builtin

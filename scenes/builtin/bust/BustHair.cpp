@@ -1,0 +1,64 @@
+#include "scenes/builtin/bust/BustHair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/builtin/Noise.h"
+
+namespace tessera::scenes::builtin {
+namespace {
+
+constexpr std::uint32_t kSeed = 29;
+constexpr double kCellBU = 0.27;   // about one curl a cell
+constexpr double kDomeBU = 0.05;   // height of a curl's middle
+constexpr double kPitchBU = 0.055; // from one turn of the spiral to the next
+
+} // namespace
+
+BustCurl bustCurl(const glm::dvec3& pointBU) {
+    // Curls are the cells around points scattered one to a cube (Worley 1996, "A cellular texture basis function").
+    const glm::dvec3 scaled = pointBU / kCellBU;
+    const glm::ivec3 cell(glm::floor(scaled));
+    double nearest = 9.0;
+    double second = 9.0;
+    glm::dvec3 centerBU(0.0);
+    double turn = 0.0;
+    for (int k = -1; k <= 1; ++k) {
+        for (int j = -1; j <= 1; ++j) {
+            for (int i = -1; i <= 1; ++i) {
+                const glm::ivec3 c = cell + glm::ivec3(i, j, k);
+                const glm::dvec3 scatter(hashUnit(c.x, c.y, c.z, kSeed), hashUnit(c.x, c.y, c.z, kSeed + 1),
+                                         hashUnit(c.x, c.y, c.z, kSeed + 2));
+                const glm::dvec3 point = glm::dvec3(c) + 0.2 + 0.6 * scatter;
+                const double distance = glm::distance(scaled, point);
+                if (distance < nearest) {
+                    second = nearest;
+                    nearest = distance;
+                    centerBU = kCellBU * point;
+                    turn = scatter.x;
+                } else {
+                    second = std::min(second, distance);
+                }
+            }
+        }
+    }
+    // The spiral lies in the plane that touches the skull below the curl.
+    const glm::dvec3 out = glm::normalize(centerBU - glm::dvec3(0.0, 0.1, -0.15));
+    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.13, 0.98, 0.15), out));
+    const glm::dvec3 up = glm::cross(out, right);
+    const glm::dvec3 arm = pointBU - centerBU;
+    const double x = glm::dot(arm, right);
+    const double y = glm::dot(arm, up);
+    const double radius = std::hypot(x, y);
+    const double angle = std::atan2(y, x) * (turn < 0.5 ? 1.0 : -1.0);
+
+    BustCurl curl;
+    const double t = std::clamp((second - nearest) / 0.5, 0.0, 1.0);
+    curl.inside = t * t * (3.0 - 2.0 * t);
+    curl.height = kDomeBU * curl.inside;
+    curl.groove = std::cos(angle + 2.0 * std::numbers::pi * (radius / kPitchBU + turn));
+    return curl;
+}
+
+} // namespace tessera::scenes::builtin
