@@ -1,0 +1,96 @@
+#pragma once
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
+
+namespace tessera::scenes {
+
+class JsonObject;
+
+/// A value of a JSON document that knows where it stands. Every function throws InputError "file:/json/pointer: what"
+/// unless the value is what the function says. The document and its path must outlive it.
+class JsonValue {
+public:
+    JsonValue(const nlohmann::json& value, const std::filesystem::path& file, std::string pointer = {})
+        : value_(&value), file_(&file), pointer_(std::move(pointer)) {}
+
+    const std::filesystem::path& file() const { return *file_; }
+    bool isNull() const { return value_->is_null(); }
+    bool isNumber() const { return value_->is_number(); }
+    bool isText() const { return value_->is_string(); }
+    bool isArray() const { return value_->is_array(); }
+    bool isObject() const { return value_->is_object(); }
+
+    /// Within the limits, both included.
+    double number(double least = -std::numeric_limits<double>::infinity(),
+                  double most = std::numeric_limits<double>::infinity()) const;
+    /// The same, also finite in single precision.
+    float single(double least = -std::numeric_limits<float>::max(),
+                 double most = std::numeric_limits<float>::max()) const;
+    double positive() const;
+    int integer(int least, int most) const;
+    bool boolean() const;
+    std::string text() const; ///< not empty
+    std::vector<JsonValue> elements(std::size_t least = 0,
+                                    std::size_t most = std::numeric_limits<std::size_t>::max()) const;
+    glm::vec2 vector2() const;
+    glm::dvec3 vector3() const;
+    glm::dvec3 direction() const; ///< normalised; must have a length
+    glm::vec3 color() const;      ///< three numbers from 0
+    JsonObject object() const;
+
+    /// The one of `choices` that the text names; `what` says what they are ("light", "wrap mode").
+    template <typename Choice>
+    Choice oneOf(std::string_view what, std::span<const std::pair<std::string_view, Choice>> choices) const {
+        const std::string name = text();
+        std::vector<std::string_view> names;
+        for (const auto& [known, choice] : choices) {
+            if (known == name) return choice;
+            names.push_back(known);
+        }
+        failUnknown(what, name, names);
+    }
+
+    [[noreturn]] void fail(const std::string& what) const;
+    /// "there is no WHAT 'name'; did you mean ...".
+    [[noreturn]] void failUnknown(std::string_view what, std::string_view name,
+                                  std::span<const std::string_view> known) const;
+
+private:
+    friend class JsonObject;
+    [[noreturn]] void failType(std::string_view needed) const;
+
+    const nlohmann::json* value_;
+    const std::filesystem::path* file_;
+    std::string pointer_;
+};
+
+/// An object whose keys are read one by one; done() refuses those that nobody asked for.
+class JsonObject {
+public:
+    explicit JsonObject(JsonValue value);
+
+    std::optional<JsonValue> find(std::string_view key);
+    JsonValue require(std::string_view key);
+    bool has(std::string_view key) const { return value_.value_->contains(key); }
+    const JsonValue& value() const { return value_; }
+
+    /// Throws InputError for the first unknown key, with the nearest of those asked for; `what` names the kind of
+    /// object.
+    void done(std::string_view what) const;
+
+private:
+    JsonValue value_;
+    std::vector<std::string> known_;
+};
+
+} // namespace tessera::scenes

@@ -1,0 +1,112 @@
+#include "scenes/import/JsonText.h"
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "scenes/Error.h"
+
+namespace tessera::scenes {
+namespace {
+
+using nlohmann::json;
+
+/// Reads past a document's values and looks at what a parsed one does not tell any more.
+class Checker : public nlohmann::json_sax<json> {
+public:
+    Checker(std::string_view text, const std::filesystem::path& file) : text_(text), file_(file) {}
+
+    bool null() override { return value(); }
+    bool boolean(bool) override { return value(); }
+    bool number_integer(number_integer_t) override { return value(); }
+    bool number_unsigned(number_unsigned_t) override { return value(); }
+    bool number_float(number_float_t, const string_t&) override { return value(); }
+    bool string(string_t&) override { return value(); }
+    bool binary(binary_t&) override { return value(); }
+    bool start_object(std::size_t) override { return open(); }
+    bool end_object() override { return close(); }
+    bool start_array(std::size_t) override { return open(); }
+    bool end_array() override { return close(); }
+
+    bool key(string_t& name) override {
+        if (!open_.back().keys.insert(name).second)
+            throw InputError(
+                fmt::format("{}:{}: the key '{}' is given twice; keep one", file_.string(), pointer(), name));
+        open_.back().step = name;
+        return true;
+    }
+
+    bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) override {
+        // The position counts characters read, the last of which is the offending one.
+        const std::size_t last = std::min(position > 0 ? position - 1 : 0, text_.size());
+        const std::string_view before = text_.substr(0, last);
+        const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+        const std::size_t lineStart = before.rfind('\n') + 1; // npos + 1 is 0
+        std::string what = error.what();
+        // The library's own position and number of the error say nothing more.
+        for (const std::string_view prefixEnd : {"] ", "column "})
+            if (const std::size_t at = what.find(prefixEnd); at != std::string::npos)
+                what.erase(0, at + prefixEnd.size());
+        if (const std::size_t colon = what.find(": "); colon != std::string::npos && colon < 8)
+            what.erase(0, colon + 2);
+        throw InputError(fmt::format("{}:{}:{}: {}", file_.string(), line, last - lineStart + 1, what));
+    }
+
+private:
+    struct Level {
+        std::set<std::string> keys;
+        std::string step;      ///< key of the value being read; unused in an array
+        std::size_t index = 0; ///< of the value being read, in an array
+    };
+
+    bool value() {
+        if (!open_.empty()) ++open_.back().index;
+        return true;
+    }
+
+    bool open() {
+        open_.emplace_back();
+        return true;
+    }
+
+    bool close() {
+        open_.pop_back();
+        return value();
+    }
+
+    std::string pointer() const {
+        std::string text;
+        for (std::size_t i = 0; i + 1 < open_.size(); ++i)
+            text = jsonPointerTo(text, open_[i].keys.empty() ? std::to_string(open_[i].index) : open_[i].step);
+        return text.empty() ? "/" : text;
+    }
+
+    std::string_view text_;
+    const std::filesystem::path& file_;
+    std::vector<Level> open_;
+};
+
+} // namespace
+
+json parseJson(std::string_view text, const std::filesystem::path& file) {
+    Checker checker(text, file);
+    json::sax_parse(text, &checker);
+    return json::parse(text);
+}
+
+std::string jsonPointerTo(const std::string& pointer, std::string_view key) {
+    std::string text = pointer + '/';
+    for (const char c : key) {
+        if (c == '~')
+            text += "~0";
+        else if (c == '/')
+            text += "~1";
+        else
+            text += c;
+    }
+    return text;
+}
+
+} // namespace tessera::scenes

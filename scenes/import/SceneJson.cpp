@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <cctype>
+#include <system_error>
+
+#include "scenes/Error.h"
+#include "scenes/import/AppendScene.h"
+#include "scenes/import/FileBytes.h"
+#include "scenes/import/Importers.h"
+#include "scenes/import/JsonText.h"
+#include "scenes/import/SceneJsonLights.h"
+#include "scenes/import/SceneJsonMaterials.h"
+#include "scenes/import/SceneJsonOverrides.h"
+#include "scenes/import/SceneJsonTransform.h"
+
+namespace tessera::scenes {
+namespace {
+
+using namespace scenejson;
+
+/// Included files in all, nested ones counted: documents that each include the next one twice would grow without end.
+constexpr int kMostIncludes = 4096;
+constexpr int kVersion = 1;
+constexpr int kMostPixelsASide = 16384; ///< the largest target of current hardware
+
+class Importer {
+public:
+    Scene import(const std::filesystem::path& file) {
+        chain_.push_back(file);
+        const std::vector<std::byte> bytes = readFileBytes(file);
+        if (bytes.empty()) throw InputError(file.string() + ": the file is empty; start with {\"tessera\": 1}");
+        const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        const nlohmann::json document = parseJson(text, file);
+        Scene scene = readDocument(JsonValue(document, file), file);
+        chain_.pop_back();
+        return scene;
+    }
+
+private:
+    Scene readDocument(const JsonValue& value, const std::filesystem::path& file) {
+        JsonObject document = value.object();
+        Scene scene;
+        readHeader(document, file, scene);
+        const auto elementsOf = [&](std::string_view key) {
+            const std::optional<JsonValue> list = document.find(key);
+            return list ? list->elements() : std::vector<JsonValue>();
+        };
+        // Everything that is quick to check comes before the files, and unknown keys before all of it.
+        const std::vector<JsonValue> includes = elementsOf("include");
+        const std::vector<JsonValue> materials = elementsOf("materials");
+        const std::vector<JsonValue> overrides = elementsOf("overrides");
+        const std::vector<JsonValue> lights = elementsOf("lights");
+        const std::vector<JsonValue> cameras = elementsOf("cameras");
+        const std::optional<JsonValue> environment = document.find("environment");
+        const std::optional<JsonValue> options = document.find("options");
+        document.done("a scene");
+        if (environment) readEnvironment(*environment, scene);
+        std::vector<Light> ownLights;
+        std::vector<Camera> ownCameras;
+        for (std::size_t i = 0; i < lights.size(); ++i) ownLights.push_back(readLight(lights[i], i));
+        for (std::size_t i = 0; i < cameras.size(); ++i) addUnique(readCamera(cameras[i], i), cameras[i], ownCameras);
+
+        for (const JsonValue& include : includes) addInclude(include, scene);
+        scene.lights.insert(scene.lights.end(), ownLights.begin(), ownLights.end());
+        scene.cameras.insert(scene.cameras.end(), ownCameras.begin(), ownCameras.end());
+        addMaterials(materials, overrides, file, scene);
+        if (options) readOptions(*options, scene);
+        return scene;
+    }
+
+    static void readHeader(JsonObject& document, const std::filesystem::path& file, Scene& scene) {
+        const JsonValue version = document.require("tessera");
+        if (!version.isNumber() || version.number() != kVersion)
+            version.fail(fmt::format("must be {}, the version of the format that this program reads", kVersion));
+        if (const auto schema = document.find("$schema")) schema->text();
+        scene.name = file.stem().string();
+        if (const auto name = document.find("name")) scene.name = name->text();
+    }
+
+    static void readEnvironment(const JsonValue& value, Scene& scene) {
+        JsonObject environment = value.object();
+        for (const char* key : {"map", "file", "texture"})
+            if (environment.has(key)) value.fail("environment maps are not shaded yet; give a 'background' colour");
+        if (const auto background = environment.find("background")) scene.background = background->color();
+        environment.done("an environment");
+    }
+
+    template <typename Element>
+    static void addUnique(Element element, const JsonValue& value, std::vector<Element>& elements,
+                          std::size_t first = 0) {
+        for (std::size_t i = first; i < elements.size(); ++i)
+            if (elements[i].name == element.name)
+                value.fail(fmt::format("the name '{}' is taken by element {}; give another", element.name, i - first));
+        elements.push_back(std::move(element));
+    }
+
+    void addInclude(const JsonValue& value, Scene& scene) {
+        JsonObject object = value.object();
+        const JsonValue file = object.require("file");
+        const glm::dmat4 worldFromPart = readTransform(object);
+        const std::optional<JsonValue> name = object.find("name");
+        const std::string rootName = name ? name->text() : std::string();
+        object.done("an include");
+        if (++includes_ > kMostIncludes)
+            file.fail(fmt::format("is include number {} of the scene; at most {} are read", includes_, kMostIncludes));
+        Scene part = load(file);
+        const std::string partName = part.name;
+        appendScene(scene, std::move(part), name ? rootName : partName, worldFromPart);
+    }
+
+    Scene load(const JsonValue& name) {
+        const std::filesystem::path file = resolveFile(name);
+        std::string extension = file.extension().string();
+        std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+        if (extension == ".gltf" || extension == ".glb") return importGltf(file);
+        if (extension == ".obj") return importObj(file);
+        if (extension != ".json")
+            name.fail(fmt::format("'{}' is not a scene file; give a .gltf, .glb, .obj or .json file", name.text()));
+        refuseCycle(name, file);
+        return import(file);
+    }
+
+    void refuseCycle(const JsonValue& name, const std::filesystem::path& file) const {
+        std::error_code failure;
+        const auto start = std::ranges::find_if(chain_, [&](const std::filesystem::path& open) {
+            return std::filesystem::equivalent(open, file, failure);
+        });
+        if (start == chain_.end()) return;
+        std::string text;
+        for (auto open = start; open != chain_.end(); ++open) text += open->filename().string() + " -> ";
+        name.fail(fmt::format("includes itself: {}{}; remove one of the includes", text, file.filename().string()));
+    }
+
+    static void addMaterials(const std::vector<JsonValue>& materials, const std::vector<JsonValue>& overrides,
+                             const std::filesystem::path& file, Scene& scene) {
+        const std::size_t ownMaterials = scene.materials.size();
+        Images images(scene);
+        for (const JsonValue& material : materials)
+            addUnique(readMaterial(material, images), material, scene.materials, ownMaterials);
+        std::vector<bool> wasUsed = usedMaterials(scene);
+        for (const JsonValue& override : overrides) applyOverride(override, scene, ownMaterials, images);
+        dropReplacedMaterials(scene, ownMaterials, wasUsed, file);
+    }
+
+    static void readOptions(const JsonValue& value, Scene& scene) {
+        JsonObject object = value.object();
+        SceneOptions& options = scene.options;
+        if (const auto technique = object.find("technique")) options.technique = technique->text();
+        if (const auto layout = object.find("layout")) options.layout = layout->text();
+        if (const auto toneMap = object.find("toneMap")) options.toneMap = toneMap->text();
+        if (const auto exposure = object.find("exposureEV")) options.exposureEV = exposure->single();
+        if (const auto size = object.find("size")) {
+            const std::vector<JsonValue> sides = size->elements(2, 2);
+            options.sizePixels = {sides[0].integer(1, kMostPixelsASide), sides[1].integer(1, kMostPixelsASide)};
+        }
+        if (const auto camera = object.find("camera")) {
+            options.camera = camera->text();
+            std::vector<std::string_view> names;
+            for (const Camera& known : scene.cameras) names.push_back(known.name);
+            if (std::ranges::find(names, *options.camera) == names.end())
+                camera->failUnknown("camera", *options.camera, names);
+        }
+        object.done("an options object");
+    }
+
+    std::vector<std::filesystem::path> chain_; ///< the documents being read, each included by the one before
+    int includes_ = 0;
+};
+
+} // namespace
+
+Scene importSceneJson(const std::filesystem::path& file) {
+    return Importer().import(file);
+}
+
+} // namespace tessera::scenes

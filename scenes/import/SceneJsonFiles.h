@@ -1,0 +1,35 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "scenes/Scene.h"
+#include "scenes/import/JsonReader.h"
+
+namespace tessera::scenes::scenejson {
+
+/// The file that a name in a document means: relative names start at the document's folder, and ${TESSERA_ASSETS}
+/// stands for that environment variable, as nothing else does. Throws InputError when the variable is not set or the
+/// file is missing.
+std::filesystem::path resolveFile(const JsonValue& name);
+
+/// The pictures of a scene, each decoded once however often it is named.
+class Images {
+public:
+    explicit Images(Scene& scene) : scene_(scene) {}
+
+    /// Throws InputError naming the place in the document and the file.
+    int image(const JsonValue& fileName);
+
+private:
+    Scene& scene_;
+    std::map<std::string, int> imageOfFile_;
+};
+
+/// A file name alone, or {file, texCoord, transform: {offset, scale, rotationDegrees},
+/// sampler: {magFilter, minFilter, wrapU, wrapV}}.
+/// The second form reads those keys of an object that has more.
+TextureUse readTexture(const JsonValue& value, Images& images);
+TextureUse readTexture(JsonObject& object, Images& images);
+
+} // namespace tessera::scenes::scenejson

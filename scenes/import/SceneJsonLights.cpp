@@ -1,0 +1,145 @@
+#include "scenes/import/SceneJsonLights.h"
+
+#include <algorithm>
+#include <array>
+
+#include <glm/trigonometric.hpp>
+
+namespace tessera::scenes::scenejson {
+namespace {
+
+using TypeName = std::pair<std::string_view, LightType>;
+constexpr std::array kTypes = {TypeName{"directional", LightType::Directional}, TypeName{"point", LightType::Point},
+                               TypeName{"spot", LightType::Spot}};
+constexpr std::array<std::string_view, 2> kNotShadedYet = {"area", "environment"};
+
+using FalloffName = std::pair<std::string_view, Falloff>;
+constexpr std::array kFalloffs = {FalloffName{"inverse_square", Falloff::InverseSquare},
+                                  FalloffName{"attenuation", Falloff::Attenuation}};
+
+using AnimationName = std::pair<std::string_view, LightAnimationKind>;
+constexpr std::array kAnimations = {
+    AnimationName{"orbit", LightAnimationKind::Orbit}, AnimationName{"wobble", LightAnimationKind::Wobble},
+    AnimationName{"path", LightAnimationKind::Path}, AnimationName{"keyframes", LightAnimationKind::Keyframes}};
+
+LightType readType(const JsonValue& value) {
+    if (const std::string name = value.text(); std::ranges::find(kNotShadedYet, name) != kNotShadedYet.end())
+        value.fail(fmt::format("lights of type '{}' are not shaded yet; shaded are directional, point, spot", name));
+    return value.oneOf<LightType>("light type", kTypes);
+}
+
+float readCoefficient(JsonObject& object, std::string_view key) {
+    const std::optional<JsonValue> value = object.find(key);
+    if (!value) return 0.0f;
+    if (value->number() < 0.0)
+        value->fail(fmt::format("the attenuation coefficient {} is {}; it must not be negative", key, value->number()));
+    return value->single();
+}
+
+void readFalloff(const JsonValue& value, Light& light) {
+    JsonObject object = value.object();
+    light.falloff = object.require("type").oneOf<Falloff>("falloff", kFalloffs);
+    if (light.falloff == Falloff::InverseSquare) {
+        if (const auto range = object.find("range")) light.rangeMetres = range->single(0.0);
+        object.done("an inverse_square falloff");
+        return;
+    }
+    light.attenuation = {readCoefficient(object, "A"), readCoefficient(object, "B"), readCoefficient(object, "C")};
+    object.done("an attenuation falloff");
+    if (light.attenuation == glm::vec3(0.0f))
+        value.fail("the attenuation coefficients A, B and C are all 0, which divides by 0; give at least one above 0");
+}
+
+std::vector<glm::dvec3> readPoints(const JsonValue& value, std::size_t least) {
+    std::vector<glm::dvec3> points;
+    for (const JsonValue& point : value.elements(least)) points.push_back(point.vector3());
+    return points;
+}
+
+void readKeyframes(JsonObject& object, LightAnimation& animation) {
+    const JsonValue times = object.require("times");
+    for (const JsonValue& time : times.elements(1)) {
+        animation.timesSeconds.push_back(time.number());
+        const std::size_t count = animation.timesSeconds.size();
+        if (count > 1 && !(animation.timesSeconds[count - 1] > animation.timesSeconds[count - 2]))
+            time.fail(fmt::format("is {}, which does not follow {}; times must ascend",
+                                  animation.timesSeconds[count - 1], animation.timesSeconds[count - 2]));
+    }
+    const JsonValue points = object.require("points");
+    animation.pointsWS = readPoints(points, 1);
+    if (animation.pointsWS.size() != animation.timesSeconds.size())
+        points.fail(fmt::format("has {} elements for {} times; give one for each", animation.pointsWS.size(),
+                                animation.timesSeconds.size()));
+}
+
+LightAnimation readAnimation(const JsonValue& value) {
+    JsonObject object = value.object();
+    LightAnimation animation;
+    const JsonValue type = object.require("type");
+    animation.kind = type.oneOf<LightAnimationKind>("animation", kAnimations);
+    if (animation.kind == LightAnimationKind::Keyframes) {
+        readKeyframes(object, animation);
+    } else {
+        animation.periodSeconds = object.require("periodSeconds").positive();
+        if (const auto phase = object.find("phase")) animation.phase = phase->number(0.0, 1.0);
+    }
+    if (animation.kind == LightAnimationKind::Orbit) {
+        if (const auto center = object.find("center")) animation.centerWS = center->vector3();
+        if (const auto axis = object.find("axis")) animation.axisWS = axis->direction();
+    } else if (animation.kind == LightAnimationKind::Wobble) {
+        animation.amplitudeMetres = object.require("amplitude").vector3();
+    } else if (animation.kind == LightAnimationKind::Path) {
+        animation.pointsWS = readPoints(object.require("points"), 2);
+    }
+    object.done(fmt::format("a {} animation", type.text()));
+    return animation;
+}
+
+void readDirection(JsonObject& object, Light& light) {
+    const std::optional<JsonValue> direction = object.find("direction");
+    const std::optional<JsonValue> target = light.type == LightType::Spot ? object.find("target") : std::nullopt;
+    if (direction && target) target->fail("is given beside 'direction'; keep one");
+    if (target) {
+        const glm::dvec3 toTargetWS = target->vector3() - light.positionWS;
+        if (toTargetWS == glm::dvec3(0.0)) target->fail("is the light's own position; give another point");
+        light.directionWS = glm::normalize(toTargetWS);
+    } else {
+        light.directionWS = object.require("direction").direction();
+    }
+}
+
+void readCones(JsonObject& object, Light& light) {
+    // 90 degrees is KHR_lights_punctual's limit.
+    if (const auto outer = object.find("outerDegrees")) light.outerConeRadians = glm::radians(outer->single(0.0, 90.0));
+    if (const auto inner = object.find("innerDegrees")) {
+        light.innerConeRadians = glm::radians(inner->single(0.0, 90.0));
+        if (light.innerConeRadians > light.outerConeRadians)
+            inner->fail(fmt::format("is {}, wider than the outer cone of {} degrees; make it narrower", inner->number(),
+                                    glm::degrees(light.outerConeRadians)));
+    }
+}
+
+} // namespace
+
+Light readLight(const JsonValue& value, std::size_t index) {
+    JsonObject object = value.object();
+    Light light;
+    const JsonValue type = object.require("type");
+    light.type = readType(type);
+    light.name = fmt::format("light {}", index);
+    if (const auto name = object.find("name")) light.name = name->text();
+    if (const auto enabled = object.find("enabled")) light.enabled = enabled->boolean();
+    if (const auto color = object.find("color")) light.color = color->color();
+    if (const auto intensity = object.find("intensity")) light.intensity = intensity->single(0.0);
+    if (light.type != LightType::Directional) {
+        light.positionWS = object.require("position").vector3();
+        if (const auto falloff = object.find("falloff")) readFalloff(*falloff, light);
+        if (const auto animation = object.find("animation")) light.animation = readAnimation(*animation);
+    }
+    if (light.type != LightType::Point) readDirection(object, light);
+    if (light.type == LightType::Spot) readCones(object, light);
+    object.done(fmt::format("a {} light", type.text()));
+    return light;
+}
+
+} // namespace tessera::scenes::scenejson

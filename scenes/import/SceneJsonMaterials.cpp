@@ -1,0 +1,186 @@
+#include "scenes/import/SceneJsonMaterials.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tessera::scenes::scenejson {
+namespace {
+
+using ModelName = std::pair<std::string_view, MaterialModel>;
+constexpr std::array kModels = {ModelName{"single_color", MaterialModel::SingleColor},
+                                ModelName{"lambert", MaterialModel::Lambert},
+                                ModelName{"microfacet", MaterialModel::Microfacet},
+                                ModelName{"metallic_roughness", MaterialModel::MetallicRoughness}};
+constexpr std::array<std::string_view, 2> kNotShadedYet = {"blinn_phong", "microfacet_anisotropic"};
+
+using AlphaModeName = std::pair<std::string_view, AlphaMode>;
+constexpr std::array kAlphaModes = {AlphaModeName{"opaque", AlphaMode::Opaque}, AlphaModeName{"mask", AlphaMode::Mask},
+                                    AlphaModeName{"blend", AlphaMode::Blend}};
+
+using SpaceName = std::pair<std::string_view, NormalMapSpace>;
+constexpr std::array kSpaces = {SpaceName{"tangent", NormalMapSpace::Tangent},
+                                SpaceName{"object", NormalMapSpace::Object}};
+
+MaterialModel readModel(const JsonValue& value) {
+    if (const std::string name = value.text(); std::ranges::find(kNotShadedYet, name) != kNotShadedYet.end()) {
+        std::vector<std::string_view> shaded;
+        for (const auto& [known, model] : kModels) shaded.push_back(known);
+        value.fail(fmt::format("the model '{}' is not shaded yet; shaded are {}", name, fmt::join(shaded, ", ")));
+    }
+    return value.oneOf<MaterialModel>("material model", kModels);
+}
+
+/// Reads one material's parameters, each either a factor or {factor, texture}.
+class Parameters {
+public:
+    Parameters(JsonObject& object, Material& material, Images& images)
+        : object_(object), material_(material), images_(images) {}
+
+    /// `readFactor` is called with the factor, where one is given.
+    template <typename ReadFactor>
+    void read(std::string_view key, TextureSlot slot, ReadFactor readFactor) {
+        const std::optional<JsonValue> value = object_.find(key);
+        if (!value) return;
+        if (!value->isObject()) return readFactor(*value);
+        JsonObject parts = value->object();
+        if (const auto factor = parts.find("factor")) readFactor(*factor);
+        if (const auto texture = parts.find("texture")) setTexture(*texture, slot);
+        parts.done("a parameter with a texture");
+    }
+
+    void number(std::string_view key, TextureSlot slot, float& factor, double least, double most) {
+        read(key, slot, [&](const JsonValue& value) { factor = value.single(least, most); });
+    }
+
+    void color(std::string_view key, TextureSlot slot, glm::vec3& factor) {
+        read(key, slot, [&](const JsonValue& value) { factor = value.color(); });
+    }
+
+    /// RGB, or RGB and opacity.
+    void baseColor(std::string_view key) {
+        read(key, TextureSlot::BaseColor, [&](const JsonValue& value) {
+            const std::vector<JsonValue> channels = value.elements(3, 4);
+            for (glm::length_t i = 0; i < 3; ++i)
+                material_.baseColor[i] = channels[static_cast<std::size_t>(i)].single(0.0);
+            if (channels.size() == 4) material_.baseColor.w = channels[3].single(0.0, 1.0);
+        });
+    }
+
+    void normalMap() {
+        const std::optional<JsonValue> value = object_.find("normalMap");
+        if (!value) return;
+        TextureUse& use = material_.texture(TextureSlot::Normal);
+        if (value->isNull()) {
+            use = TextureUse{};
+            return;
+        }
+        material_.normalMapSpace = NormalMapSpace::Tangent;
+        material_.normalScale = 1.0f;
+        if (value->isText()) {
+            use = readTexture(*value, images_);
+            return;
+        }
+        JsonObject map = value->object();
+        if (const auto space = map.find("space"))
+            material_.normalMapSpace = space->oneOf<NormalMapSpace>("normal map space", kSpaces);
+        if (const auto scale = map.find("scale")) {
+            if (material_.normalMapSpace == NormalMapSpace::Object)
+                scale->fail("only a tangent-space normal map can be scaled; remove it");
+            material_.normalScale = scale->single();
+        }
+        use = readTexture(map, images_);
+        map.done("a normal map");
+    }
+
+    void setTexture(const JsonValue& value, TextureSlot slot) {
+        material_.texture(slot) = value.isNull() ? TextureUse{} : readTexture(value, images_);
+    }
+
+    void emission() {
+        color("emissive", TextureSlot::Emissive, material_.emissive);
+        if (const auto strength = object_.find("emissiveStrength")) {
+            const double factor = strength->number(0.0);
+            const glm::dvec3 radiance = glm::dvec3(material_.emissive) * factor;
+            if (std::max({radiance.x, radiance.y, radiance.z}) > std::numeric_limits<float>::max())
+                strength->fail("emissive times emissiveStrength is not finite in single precision; lower it");
+            material_.emissive = glm::vec3(radiance);
+        }
+    }
+
+private:
+    JsonObject& object_;
+    Material& material_;
+    Images& images_;
+};
+
+constexpr double kMost = std::numeric_limits<float>::max();
+
+void readModelParameters(JsonObject& object, Material& material, Images& images) {
+    Parameters parameters(object, material, images);
+    switch (material.model) {
+    case MaterialModel::SingleColor:
+        parameters.baseColor("color");
+        return;
+    case MaterialModel::Lambert:
+        parameters.baseColor("k_d");
+        break;
+    case MaterialModel::Microfacet:
+        parameters.baseColor("k_d");
+        parameters.color("k_s", TextureSlot::SpecularColor, material.specularColor);
+        parameters.number("alpha", TextureSlot::MetallicRoughness, material.alpha, 0.0, kMost);
+        parameters.read("ior", TextureSlot::Ior, [&](const JsonValue& value) {
+            value.positive();
+            material.ior = value.single();
+        });
+        break;
+    case MaterialModel::MetallicRoughness:
+        parameters.baseColor("baseColor");
+        if (const auto metallic = object.find("metallic")) material.metallic = metallic->single(0.0, 1.0);
+        if (const auto roughness = object.find("perceptualRoughness"))
+            material.perceptualRoughness = roughness->single(0.0, 1.0);
+        if (const auto texture = object.find("metallicRoughnessTexture"))
+            parameters.setTexture(*texture, TextureSlot::MetallicRoughness);
+        // 0 and above 1 as KHR_materials_ior has them: 0 reflects everything.
+        parameters.read("ior", TextureSlot::Ior, [&](const JsonValue& value) {
+            material.ior = value.single(0.0);
+            if (material.ior > 0.0f && material.ior < 1.0f)
+                value.fail(fmt::format("is {}; 0 or at least 1 is needed", material.ior));
+        });
+        parameters.number("specularFactor", TextureSlot::SpecularFactor, material.specularFactor, 0.0, 1.0);
+        parameters.color("specularColor", TextureSlot::SpecularColor, material.specularColor);
+        parameters.emission();
+        break;
+    case MaterialModel::BlinnPhong:
+    case MaterialModel::MicrofacetAnisotropic:
+        return; // refused where the model is read; no importer makes them
+    }
+    parameters.normalMap();
+}
+
+std::string_view nameOf(MaterialModel model) {
+    const auto found = std::ranges::find(kModels, model, &ModelName::second);
+    return found == kModels.end() ? "material" : found->first;
+}
+
+} // namespace
+
+Material readMaterial(const JsonValue& value, Images& images) {
+    JsonObject object = value.object();
+    Material material;
+    material.name = object.require("name").text();
+    object.require("model");
+    changeMaterial(object, material, images);
+    return material;
+}
+
+void changeMaterial(JsonObject& object, Material& material, Images& images) {
+    if (const auto model = object.find("model")) material.model = readModel(*model);
+    readModelParameters(object, material, images);
+    if (const auto mode = object.find("alphaMode"))
+        material.alphaMode = mode->oneOf<AlphaMode>("alpha mode", kAlphaModes);
+    if (const auto cutoff = object.find("alphaCutoff")) material.alphaCutoff = cutoff->single(0.0);
+    if (const auto sides = object.find("doubleSided")) material.doubleSided = sides->boolean();
+    object.done(fmt::format("a {} material", nameOf(material.model)));
+}
+
+} // namespace tessera::scenes::scenejson

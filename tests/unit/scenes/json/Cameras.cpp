@@ -1,0 +1,125 @@
+#include <numbers>
+
+#include "tests/unit/scenes/json/SceneFiles.h"
+
+namespace tessera::scenes {
+namespace {
+
+using test::SceneFolder;
+
+Camera cameraOf(const SceneFolder& folder, const std::string& camera) {
+    return folder.import(R"({"tessera": 1, "cameras": [)" + camera + "]}").cameras.at(0);
+}
+
+std::string errorOf(const SceneFolder& folder, const std::string& camera) {
+    return folder.errorOf(R"({"tessera": 1, "cameras": [)" + camera + "]}");
+}
+
+TEST(SceneJsonCameras, aCameraAlwaysLooksFromItsPositionAtItsTarget) {
+    const SceneFolder folder;
+    const Camera camera = cameraOf(
+        folder,
+        R"({"name": "c", "position": [5, 0, 0], "target": [0, 0, 0], "fovYDegrees": 90, "near": 2, "far": 30})");
+    EXPECT_EQ(camera.name, "c");
+    EXPECT_EQ(camera.projection, Projection::Perspective);
+    EXPECT_EQ(glm::dvec3(camera.worldFromCamera[3]), glm::dvec3(5, 0, 0));
+    EXPECT_EQ(glm::dvec3(camera.worldFromCamera[2]), glm::dvec3(1, 0, 0));
+    EXPECT_EQ(glm::dvec3(camera.worldFromCamera[1]), glm::dvec3(0, 1, 0));
+    EXPECT_DOUBLE_EQ(camera.fovYRadians, std::numbers::pi / 2);
+    EXPECT_EQ(camera.nearMetres, 2.0);
+    EXPECT_EQ(camera.farMetres, 30.0);
+    const Camera plain = cameraOf(folder, R"({"position": [0, 0, 1], "direction": [0, 0, -2]})");
+    EXPECT_EQ(plain.name, "camera 0");
+    EXPECT_EQ(glm::dvec3(plain.worldFromCamera[2]), glm::dvec3(0, 0, 1));
+    EXPECT_EQ(plain.farMetres, std::numeric_limits<double>::infinity());
+}
+
+TEST(SceneJsonCameras, upAlwaysTurnsThePicture) {
+    const SceneFolder folder;
+    const Camera camera = cameraOf(folder, R"({"position": [0, 0, 1], "direction": [0, 0, -1], "up": [3, 0, 0]})");
+    EXPECT_EQ(glm::dvec3(camera.worldFromCamera[1]), glm::dvec3(1, 0, 0));
+}
+
+TEST(SceneJsonCameras, anOrthographicCameraAlwaysHasItsHalfHeight) {
+    const SceneFolder folder;
+    const Camera camera = cameraOf(
+        folder,
+        R"({"type": "orthographic", "position": [0, 9, 0], "direction": [0, -1, 0], "halfHeight": 3, "near": 0})");
+    EXPECT_EQ(camera.projection, Projection::Orthographic);
+    EXPECT_EQ(camera.halfHeightMetres, 3.0);
+    EXPECT_EQ(camera.nearMetres, 0.0);
+    EXPECT_EQ(errorOf(folder, R"({"type": "orthographic", "position": [0, 9, 0], "direction": [0, -1, 0]})"),
+              "/cameras/0: lacks the key 'halfHeight'; add it");
+}
+
+TEST(SceneJsonCameras, aMatrixAlwaysPlacesTheCamera) {
+    const SceneFolder folder;
+    const Camera camera = cameraOf(folder, R"({"matrix": [0, 0, -1, 0,  0, 1, 0, 0,  1, 0, 0, 0,  4, 5, 6, 1]})");
+    EXPECT_EQ(glm::dvec3(camera.worldFromCamera[2]), glm::dvec3(1, 0, 0));
+    EXPECT_EQ(glm::dvec3(camera.worldFromCamera[3]), glm::dvec3(4, 5, 6));
+    EXPECT_EQ(folder.errorBeyondSchemaOf(
+                  R"({"tessera": 1, "cameras": [{"matrix": [2, 0, 0, 0,  0, 2, 0, 0,  0, 0, 2, 0,  0, 0, 0, 1]}]})"),
+              "/cameras/0/matrix: a camera's matrix must only rotate and move; remove its scale");
+    EXPECT_EQ(errorOf(folder, R"({"matrix": [1, 0, 0, 0,  0, 1, 0, 0,  0, 0, 1, 0,  0, 0, 0, 1], "up": [0, 1, 0]})"),
+              "/cameras/0/up: is given beside 'matrix'; keep one");
+    EXPECT_EQ(errorOf(folder, R"({"matrix": [1, 0, 0]})"), "/cameras/0/matrix: has 3 elements; exactly 16 are needed");
+}
+
+TEST(SceneJsonCameras, impossibleCamerasAreAlwaysRefused) {
+    const SceneFolder folder;
+    const std::string start = R"({"position": [0, 0, 1], "target": [0, 0, 0], )";
+    EXPECT_EQ(errorOf(folder, start + R"("fovYDegrees": 180})"),
+              "/cameras/0/fovYDegrees: is 180; less than 180 is needed");
+    EXPECT_EQ(errorOf(folder, start + R"("fovYDegrees": 0})"), "/cameras/0/fovYDegrees: is 0; more than 0 is needed");
+    EXPECT_EQ(errorOf(folder, start + R"("near": 0})"), "/cameras/0/near: is 0; more than 0 is needed");
+    EXPECT_EQ(errorOf(folder, start + R"("direction": [0, 0, 1]})"),
+              "/cameras/0/target: is given beside 'direction'; keep one");
+    EXPECT_EQ(errorOf(folder, start + R"("type": "fisheye"})"),
+              "/cameras/0/type: there is no projection 'fisheye'; valid are perspective, orthographic");
+    EXPECT_EQ(errorOf(folder, R"({"position": [0, 0, 1]})"), "/cameras/0: lacks the key 'target'; add it");
+    EXPECT_EQ(
+        folder.errorBeyondSchemaOf(R"({"tessera": 1, "cameras": [{"position": [0, 0, 1], "target": [0, 0, 1]}]})"),
+        "/cameras/0/target: is the camera's own position; give another point");
+    EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "cameras": [)" + start + R"("near": 2, "far": 2}]})"),
+              "/cameras/0/far: is 2, not beyond the near plane at 2; move it away");
+    EXPECT_EQ(folder.errorBeyondSchemaOf(
+                  R"({"tessera": 1, "cameras": [{"name": "a", "position": [0, 0, 1], "target": [0, 0, 0]},
+                                                {"name": "a", "position": [0, 0, 1], "target": [0, 0, 0]}]})"),
+              "/cameras/1: the name 'a' is taken by element 0; give another");
+}
+
+TEST(SceneJsonOptions, optionsAndBackgroundAreAlwaysKept) {
+    const SceneFolder folder;
+    const Scene scene = folder.import(R"({"tessera": 1,
+        "cameras": [{"name": "front", "position": [0, 0, 1], "target": [0, 0, 0]}],
+        "environment": {"background": [0.5, 1, 2]},
+        "options": {"technique": "deferred", "layout": "packed", "camera": "front", "toneMap": "none",
+                    "exposureEV": -1.5, "size": [640, 361]}})");
+    EXPECT_EQ(scene.background, glm::vec3(0.5f, 1, 2));
+    EXPECT_EQ(scene.options.technique, "deferred");
+    EXPECT_EQ(scene.options.layout, "packed");
+    EXPECT_EQ(scene.options.camera, "front");
+    EXPECT_EQ(scene.options.toneMap, "none");
+    EXPECT_EQ(scene.options.exposureEV, -1.5f);
+    EXPECT_EQ(scene.options.sizePixels, glm::ivec2(640, 361));
+    const Scene plain = folder.import(R"({"tessera": 1})");
+    EXPECT_FALSE(plain.options.technique || plain.options.layout || plain.options.camera || plain.options.toneMap ||
+                 plain.options.exposureEV || plain.options.sizePixels);
+}
+
+TEST(SceneJsonOptions, wrongOptionsAreAlwaysRefused) {
+    const SceneFolder folder;
+    EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "options": {"size": [0, 1]}})"),
+              "/options/size/0: is 0; at least 1 is needed");
+    EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "options": {"size": [1.5, 1]}})"),
+              "/options/size/0: is 1.5; a whole number is needed");
+    EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "options": {"exposure": 1}})"),
+              "/options: an options object has no key 'exposure'; did you mean 'exposureEV'?");
+    EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "options": {"camera": "back"}})"),
+              "/options/camera: there is no camera 'back'; there are none");
+    EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "environment": {"map": "sky.hdr"}})"),
+              "/environment: environment maps are not shaded yet; give a 'background' colour");
+}
+
+} // namespace
+} // namespace tessera::scenes

@@ -1,0 +1,49 @@
+#include <fstream>
+#include <sstream>
+
+#include "scenes/Schema.h"
+#include "tests/unit/scenes/json/SceneFiles.h"
+
+namespace tessera::scenes {
+namespace {
+
+std::string textOf(const std::filesystem::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+}
+
+const std::filesystem::path kRepository = TESSERA_SOURCE_DIR;
+
+TEST(SceneFormat, theEmbeddedSchemaIsExactlyTheShippedFile) {
+    EXPECT_EQ(sceneSchema(), textOf(kRepository / "scenes" / "schema" / "scene.schema.json"));
+}
+
+TEST(SceneFormat, everyDocumentedExampleAlwaysLoads) {
+    const test::SceneFolder folder;
+    const std::string text = textOf(kRepository / "docs" / "scene-format.md");
+    constexpr std::string_view kOpening = "```json\n";
+    int examples = 0;
+    for (std::size_t at = text.find(kOpening); at != std::string::npos; at = text.find(kOpening, at)) {
+        at += kOpening.size();
+        const std::size_t end = text.find("```", at);
+        ASSERT_NE(end, std::string::npos);
+        EXPECT_NO_THROW(folder.import(text.substr(at, end - at))) << text.substr(at, end - at);
+        ++examples;
+        at = end;
+    }
+    EXPECT_GE(examples, 5);
+}
+
+TEST(SceneFormat, everyShippedSceneAlwaysPassesTheSchema) {
+    int scenes = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(kRepository / "scenes" / "files")) {
+        if (entry.path().extension() != ".json") continue;
+        EXPECT_TRUE(test::schemaAccepts(textOf(entry.path()))) << entry.path();
+        ++scenes;
+    }
+    EXPECT_GE(scenes, 1);
+}
+
+} // namespace
+} // namespace tessera::scenes

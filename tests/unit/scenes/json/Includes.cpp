@@ -1,0 +1,235 @@
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+
+#include "tests/unit/scenes/json/SceneFiles.h"
+
+namespace tessera::scenes {
+namespace {
+
+using test::SceneFolder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// Sets TESSERA_ASSETS for one test, or unsets it.
+class AssetsFolder {
+public:
+    explicit AssetsFolder(const char* folder) {
+        if (const char* before = std::getenv("TESSERA_ASSETS")) before_ = before;
+        set(folder);
+    }
+    ~AssetsFolder() { set(before_ ? before_->c_str() : nullptr); }
+    AssetsFolder(const AssetsFolder&) = delete;
+    AssetsFolder& operator=(const AssetsFolder&) = delete;
+
+private:
+    static void set(const char* folder) {
+        if (folder != nullptr)
+            setenv("TESSERA_ASSETS", folder, 1);
+        else
+            unsetenv("TESSERA_ASSETS");
+    }
+    std::optional<std::string> before_;
+};
+
+std::string including(const std::string& include) {
+    return R"({"tessera": 1, "include": [)" + include + "]}";
+}
+
+TEST(SceneJsonInclude, anIncludeIsAlwaysANodeAboveTheFilesOwn) {
+    const SceneFolder folder;
+    const Scene scene = folder.import(including(
+        R"({"file": "models/bust.obj"}, {"file": "models/bust.obj", "name": "second"}, {"file": "parts/lamps.json"})"));
+    std::vector<std::string> names;
+    std::vector<int> parents;
+    for (const Node& node : scene.nodes) {
+        names.push_back(node.name);
+        parents.push_back(node.parent);
+    }
+    EXPECT_THAT(names, ElementsAre("bust", "bust", "second", "bust", "lamps", "lamp", "shade"));
+    EXPECT_THAT(parents, ElementsAre(-1, 0, -1, 2, -1, 4, 5));
+    EXPECT_EQ(scene.meshes.size(), 3u);
+    EXPECT_EQ(scene.nodes[6].instances.at(0).mesh, 2);
+    EXPECT_EQ(scene.materials.at(static_cast<std::size_t>(scene.nodes[6].instances[0].material)).name, "brass");
+    EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("no material library defines 'brass'")));
+}
+
+TEST(SceneJsonInclude, picturesOfAnIncludeAlwaysStayWithItsMaterials) {
+    const SceneFolder folder;
+    folder.write("models/paint.mtl", "newmtl paint\nmap_Kd ../pictures/specular.tga\n");
+    folder.write("models/painted.obj", "mtllib paint.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paint\nf 1 2 3\n");
+    folder.write("models/first.mtl", "newmtl paint\nmap_Kd ../pictures/albedo.tga\n");
+    folder.write("models/first.obj", "mtllib first.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paint\nf 1 2 3\n");
+    const Scene scene = folder.import(including(R"({"file": "models/first.obj"}, {"file": "models/painted.obj"})"));
+    const auto redOf = [&](std::size_t material) {
+        const int image = scene.materials.at(material).texture(TextureSlot::BaseColor).image;
+        return std::to_integer<int>(scene.images.at(static_cast<std::size_t>(image)).texels.at(0));
+    };
+    EXPECT_EQ(redOf(0), 10);
+    EXPECT_EQ(redOf(1), 40);
+}
+
+TEST(SceneJsonInclude, transformsAlwaysScaleThenRotateThenTranslate) {
+    const SceneFolder folder;
+    const auto placed = [&](const std::string& placement) {
+        const Scene scene = folder.import(including(R"({"file": "models/bust.obj", )" + placement + "}"));
+        return glm::dvec3(worldFromNodes(scene).at(1) * glm::dvec4(1.0, 2.0, 3.0, 1.0));
+    };
+    const auto expectNear = [](const glm::dvec3& a, const glm::dvec3& b) {
+        EXPECT_LT(glm::distance(a, b), 1e-12) << a.x << ' ' << a.y << ' ' << a.z; // rounding of sine and cosine
+    };
+    expectNear(placed(R"("transform": {})"), {1, 2, 3});
+    expectNear(placed(R"("transform": {"translation": [10, 20, 30]})"), {11, 22, 33});
+    expectNear(placed(R"("transform": {"scale": 2})"), {2, 4, 6});
+    expectNear(placed(R"("transform": {"scale": [2, 3, -1]})"), {2, 6, -3});
+    expectNear(placed(R"("transform": {"rotation": [0, 0, 1, 1]})"), {-2, 1, 3});
+    expectNear(placed(R"("transform": {"eulerDegrees": [0, 0, 90]})"), {-2, 1, 3});
+    // About X first: (1, -3, 2), then about Z: (3, 1, 2).
+    expectNear(placed(R"("transform": {"eulerDegrees": [90, 0, 90]})"), {3, 1, 2});
+    expectNear(placed(R"("transform": {"translation": [10, 0, 0], "scale": 2, "eulerDegrees": [0, 0, 90]})"),
+               {6, 2, 6});
+    expectNear(placed(R"("matrix": [0, 1, 0, 0,  -1, 0, 0, 0,  0, 0, 1, 0,  10, 0, 0, 1])"), {8, 1, 3});
+}
+
+TEST(SceneJsonInclude, lightsAndCamerasAlwaysMoveAlong) {
+    const SceneFolder folder;
+    const Scene scene = folder.import(including(
+        R"({"file": "parts/lamps.json", "transform": {"scale": 2, "eulerDegrees": [0, 0, 90], "translation": [0, 0, 1]}})"));
+    const Light& light = scene.lights.at(0);
+    const auto expectNear = [](const glm::dvec3& a, const glm::dvec3& b) {
+        EXPECT_LT(glm::distance(a, b), 1e-12) << a.x << ' ' << a.y << ' ' << a.z; // rounding of sine and cosine
+    };
+    expectNear(light.positionWS, {-4, 2, 7});
+    expectNear(light.directionWS, {0, 1, 0});
+    EXPECT_EQ(light.rangeMetres, 7.0f);
+    const glm::dmat4& camera = scene.cameras.at(0).worldFromCamera;
+    expectNear(glm::dvec3(camera[3]), {-4, 2, 7});
+    expectNear(glm::dvec3(camera[2]), {0, 0, 1});
+    expectNear(glm::dvec3(camera[1]), {-1, 0, 0});
+}
+
+TEST(SceneJsonInclude, animationsAlwaysMoveAlong) {
+    const SceneFolder folder;
+    folder.write("parts/moving.json", R"({"tessera": 1, "lights": [
+        {"type": "point", "position": [1, 0, 0], "animation": {"type": "orbit", "periodSeconds": 4}},
+        {"type": "point", "position": [1, 0, 0],
+         "animation": {"type": "wobble", "amplitude": [0, 1, 0], "periodSeconds": 4}},
+        {"type": "point", "position": [0, 0, 0],
+         "animation": {"type": "keyframes", "times": [0, 2], "points": [[0, 0, 0], [2, 0, 0]]}}]})");
+    const Scene alone = folder.import(including(R"({"file": "parts/moving.json"})"));
+    // Mirrored, turned and moved: at every time, the moved light is the light, moved.
+    const Scene moved = folder.import(
+        including(R"({"file": "parts/moving.json", "matrix": [0, 1, 0, 0,  1, 0, 0, 0,  0, 0, 1, 0,  5, 6, 7, 1]})"));
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (const double seconds : {0.0, 0.3, 1.0, 2.5}) {
+            const glm::dvec3 at = lightAtTime(alone.lights.at(i), seconds).positionWS;
+            const glm::dvec3 expected(at.y + 5.0, at.x + 6.0, at.z + 7.0);
+            // Rounding of sine and cosine.
+            EXPECT_LT(glm::distance(lightAtTime(moved.lights.at(i), seconds).positionWS, expected), 1e-12);
+        }
+    }
+}
+
+TEST(SceneJsonInclude, backgroundAndOptionsOfAnIncludeNeverCount) {
+    const SceneFolder folder;
+    const Scene scene = folder.import(including(R"({"file": "parts/lamps.json"})"));
+    EXPECT_EQ(scene.background, glm::vec3(0));
+    EXPECT_FALSE(scene.options.technique);
+}
+
+TEST(SceneJsonInclude, fileNamesAreAlwaysRelativeToTheirOwnDocument) {
+    const SceneFolder folder;
+    EXPECT_EQ(folder.import(including(R"({"file": "parts/lamps.json"})")).meshes.size(), 1u);
+}
+
+TEST(SceneJsonInclude, theAssetsFolderIsAlwaysTakenFromTheEnvironment) {
+    const SceneFolder folder;
+    const std::string text = including(R"({"file": "${TESSERA_ASSETS}/bust.obj"})");
+    {
+        const AssetsFolder assets((folder.path() / "models").c_str());
+        EXPECT_EQ(folder.import(text).meshes.size(), 1u);
+        EXPECT_EQ(folder.errorBeyondSchemaOf(including(R"({"file": "${HOME}/bust.obj"})")),
+                  "/include/0/file: '${HOME}/bust.obj': only ${TESSERA_ASSETS} is replaced in file names, once");
+    }
+    const AssetsFolder unset(nullptr);
+    EXPECT_EQ(folder.errorBeyondSchemaOf(text),
+              "/include/0/file: needs the environment variable TESSERA_ASSETS, which is not set; set it to the folder "
+              "of the third-party models");
+}
+
+TEST(SceneJsonInclude, wrongFilesAreAlwaysRefused) {
+    const SceneFolder folder;
+    EXPECT_EQ(folder.errorBeyondSchemaOf(including(R"({"file": "none.obj"})")),
+              "/include/0/file: there is no file '" + folder.path().string() +
+                  "/none.obj'; names are relative to the document's folder");
+    EXPECT_EQ(folder.errorBeyondSchemaOf(including(R"({"file": "pictures/albedo.tga"})")),
+              "/include/0/file: 'pictures/albedo.tga' is not a scene file; give a .gltf, .glb, .obj or .json file");
+    EXPECT_EQ(folder.errorOf(including(R"({"name": "x"})")), "/include/0: lacks the key 'file'; add it");
+}
+
+TEST(SceneJsonInclude, aCycleIsAlwaysRefusedNamingItsChain) {
+    const SceneFolder folder;
+    folder.write("b.json", R"({"tessera": 1, "include": [{"file": "parts/c.json"}]})");
+    const std::filesystem::path last =
+        folder.write("parts/c.json", R"({"tessera": 1, "include": [{"file": "lamps.json"}, {"file": "../b.json"}]})");
+    const std::filesystem::path file = folder.write("scene.json", including(R"({"file": "b.json"})"));
+    EXPECT_EQ(test::inputErrorOf([&] { importSceneJson(file); }),
+              (folder.path() / "parts/../parts/c.json").lexically_normal().string() +
+                  ":/include/1/file: includes itself: b.json -> c.json -> b.json; remove one of the includes");
+    EXPECT_EQ(folder.errorBeyondSchemaOf(including(R"({"file": "scene.json"})")),
+              "/include/0/file: includes itself: scene.json -> scene.json; remove one of the includes");
+}
+
+TEST(SceneJsonInclude, includesWithoutEndAreAlwaysRefused) {
+    const SceneFolder folder;
+    folder.write("d12.json", R"({"tessera": 1})");
+    for (int level = 11; level >= 0; --level) {
+        const std::string next = R"({"file": "d)" + std::to_string(level + 1) + R"(.json"})";
+        folder.write("d" + std::to_string(level) + ".json", including(next + ", " + next));
+    }
+    const std::string error = test::inputErrorOf([&] { importSceneJson(folder.path() / "d0.json"); });
+    EXPECT_THAT(error, HasSubstr("is include number 4097 of the scene; at most 4096 are read"));
+}
+
+TEST(SceneJsonInclude, impossibleTransformsAreAlwaysRefused) {
+    const SceneFolder folder;
+    const auto errorOf = [&](const std::string& placement) {
+        return folder.errorOf(including(R"({"file": "models/bust.obj", )" + placement + "}"));
+    };
+    EXPECT_EQ(errorOf(R"("transform": {"scale": 0})"),
+              "/include/0/transform/scale: is 0 along an axis; nothing would be left");
+    EXPECT_EQ(errorOf(R"("transform": {"rotation": [0, 0, 0, 0]})"),
+              "/include/0/transform/rotation: has no length; give a unit quaternion x, y, z, w");
+    EXPECT_EQ(errorOf(R"("transform": {"rotation": [0, 0, 0, 1], "eulerDegrees": [0, 0, 0]})"),
+              "/include/0/transform/eulerDegrees: is given beside 'rotation'; keep one");
+    EXPECT_EQ(errorOf(R"("transform": {}, "matrix": [1, 0, 0, 0,  0, 1, 0, 0,  0, 0, 1, 0,  0, 0, 0, 1])"),
+              "/include/0/matrix: is given beside 'transform'; keep one");
+    EXPECT_EQ(errorOf(R"("matrix": [1, 0, 0, 5,  0, 1, 0, 0,  0, 0, 1, 0,  0, 0, 0, 1])"),
+              "/include/0/matrix: is not affine: its fourth row, every fourth number, must be 0, 0, 0, 1; write it "
+              "column by column");
+    EXPECT_EQ(
+        errorOf(R"("transform": {"move": [1, 0, 0]})"),
+        "/include/0/transform: a transform has no key 'move'; valid are translation, rotation, eulerDegrees, scale");
+    EXPECT_EQ(folder.errorBeyondSchemaOf(including(
+                  R"({"file": "models/bust.obj", "matrix": [1, 0, 0, 0,  1, 0, 0, 0,  0, 0, 1, 0,  0, 0, 0, 1]})")),
+              "/include/0/matrix: flattens what it places; its first three columns must be independent");
+}
+
+TEST(SceneJsonInclude, theLeePerrySmithSceneAlwaysBindsItsMaps) {
+    const char* assets = std::getenv("TESSERA_ASSETS");
+    if (assets == nullptr || !std::filesystem::exists(std::filesystem::path(assets) / "LeePerrySmith" / "head.obj"))
+        GTEST_SKIP() << "TESSERA_ASSETS does not hold LeePerrySmith";
+    const Scene scene =
+        importSceneJson(std::filesystem::path(TESSERA_SOURCE_DIR) / "scenes" / "files" / "lee_perry_smith.json");
+    checkScene(scene);
+    EXPECT_EQ(triangleCount(scene), 17684u);
+    ASSERT_EQ(scene.materials.size(), 1u);
+    EXPECT_EQ(scene.images.size(), 3u);
+    EXPECT_EQ(scene.materials[0].normalMapSpace, NormalMapSpace::Object);
+    EXPECT_EQ(
+        scene.images[static_cast<std::size_t>(scene.materials[0].texture(TextureSlot::SpecularColor).image)].width,
+        2048);
+}
+
+} // namespace
+} // namespace tessera::scenes
