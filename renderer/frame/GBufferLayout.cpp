@@ -7,18 +7,19 @@ namespace {
 using graph::Format;
 
 constexpr ChannelInfo kChannels[] = {
-    {Channel::Albedo, "albedo", "ALBEDO", "k_d or base colour", Format::Rgba32Float, Format::Rgb10A2Unorm,
-     "square root in 1020 steps of 10 bit, 0..1", "scenes with a lit model"},
+    {Channel::Albedo, "albedo", "ALBEDO", "k_d or base colour", Format::Rgba32Float, Format::R32Uint,
+     "square root, 11 11 10 bit, 0..1", "scenes with a lit model"},
     {Channel::Normal, "normal", "NORMAL", "unit normal, lighting space", Format::Rgba32Float, Format::Rg16Snorm,
      "octahedral 2 x 16 bit", "scenes with a lit model"},
     {Channel::Microsurface, "microsurface", "MICROSURFACE", "alpha, model, ior or F90, metallic", Format::Rgba32Float,
-     Format::R32Uint, "perceptual roughness 11 bit, (ior-1)/(ior+1) or F90 11 bit, metallic 7 bit, model 3 bit", "scenes with a glossy model or several models"},
-    {Channel::Specular, "specular", "SPECULAR", "k_s or dielectric F0", Format::Rgba32Float, Format::Rgb10A2Unorm,
-     "square root in 1020 steps of 10 bit, 0..1", "scenes that change k_s or the dielectric F0"},
+     Format::R32Uint, "perceptual roughness 11 bit, (ior-1)/(ior+1) or F90 11 bit, metallic 7 bit, model 3 bit",
+     "scenes with a glossy model or several models"},
+    {Channel::Specular, "specular", "SPECULAR", "k_s or dielectric F0", Format::Rgba32Float, Format::R32Uint,
+     "square root, 11 11 10 bit, 0..1", "scenes that change k_s or the dielectric F0"},
     {Channel::Emission, "emission", "EMISSION", "radiance without lights", Format::Rgba32Float, Format::R32Uint,
      "shared exponent 9 9 9 5", "scenes with emissive or unlit materials"},
-    {Channel::NormalTexel, "normal_texel", "NORMAL_TEXEL", "normal map as stored", Format::Rgba32Float, Format::Rgba8Unorm,
-     "8 bit a component", "the view that shows it"},
+    {Channel::NormalTexel, "normal_texel", "NORMAL_TEXEL", "normal map as stored", Format::Rgba32Float,
+     Format::Rgba8Unorm, "8 bit a component", "the view that shows it"},
 };
 static_assert(std::size(kChannels) == kChannelCount);
 
@@ -35,8 +36,12 @@ constexpr LayoutInfo kLayouts[] = {
 
 } // namespace
 
-std::span<const ChannelInfo> channelTable() { return kChannels; }
-std::span<const LayoutInfo> layoutTable() { return kLayouts; }
+std::span<const ChannelInfo> channelTable() {
+    return kChannels;
+}
+std::span<const LayoutInfo> layoutTable() {
+    return kLayouts;
+}
 
 graph::Format GBufferLayout::format(Channel channel) const {
     const ChannelInfo& info = kChannels[static_cast<std::size_t>(channel)];
@@ -60,7 +65,8 @@ std::vector<Channel> neededChannels(const FeatureSet& features, bool normalTexel
 Defines channelDefines(const GBufferLayout& layout, std::span<const Channel> channels) {
     Defines defines;
     for (std::size_t attachment = 0; attachment < channels.size(); ++attachment) {
-        const std::string name = "GBUFFER_" + std::string(kChannels[static_cast<std::size_t>(channels[attachment])].define);
+        const std::string name =
+            "GBUFFER_" + std::string(kChannels[static_cast<std::size_t>(channels[attachment])].define);
         defines.emplace_back(name, std::to_string(attachment));
         defines.emplace_back(name + "_PACKED", layout[channels[attachment]] == Encoding::Packed ? "1" : "0");
     }

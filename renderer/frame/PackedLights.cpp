@@ -39,6 +39,12 @@ bool isUnseen(const scenes::Light& light, const CameraView& view) {
                        [&](const glm::dvec4& plane) { return glm::dot(plane, position) < -(reach + margin); });
 }
 
+/// 1/range^2, rounded up by eight times fp32's step: the shader multiplies it with a squared distance that three
+/// roundings may have made too small, and at the range the light must be exactly 0.
+float inverseSquaredRange(double rangeMetres) {
+    return float((1.0 + 0x1p-20) / (rangeMetres * rangeMetres));
+}
+
 shared::LightTexels packLight(const scenes::Light& light, const CameraView& view) {
     shared::LightTexels packed{};
     const glm::dvec3 travelLS = view.lsFromWorld * light.directionWS;
@@ -46,8 +52,8 @@ shared::LightTexels packLight(const scenes::Light& light, const CameraView& view
     if (light.type == scenes::LightType::Directional) {
         packed.position = glm::vec4(glm::vec3(-travelLS), 0.0f);
     } else {
-        const double reach = reachMetres(light);
-        packed.position = glm::vec4(glm::vec3(view.positionLS(light.positionWS)), float(1.0 / (reach * reach)));
+        packed.position =
+            glm::vec4(glm::vec3(view.positionLS(light.positionWS)), inverseSquaredRange(reachMetres(light)));
         kind = light.type == scenes::LightType::Spot ? LIGHT_SPOT : LIGHT_POINT;
         if (light.falloff == scenes::Falloff::Attenuation) {
             kind |= LIGHT_ATTENUATION;

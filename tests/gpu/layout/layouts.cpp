@@ -1,0 +1,131 @@
+// Structs shared by C++ and GLSL lie in both where the driver says.
+#include <cstddef>
+
+#include <gmock/gmock.h>
+
+#include "renderer/gpu/TexelBuffer.h"
+#include "shaders/shared/display.h"
+#include "shaders/shared/frame.h"
+#include "shaders/shared/light.h"
+#include "shaders/shared/material.h"
+#include "tests/gpu/shaders/ShaderBench.h"
+
+namespace tessera {
+namespace {
+
+using testing::ElementsAre;
+
+/// Name, offset, and the stride of its array or columns (0: neither).
+using Place = std::tuple<std::string, std::size_t, std::size_t>;
+
+constexpr std::size_t kOutputs = 18 + 2 * TEXTURE_SLOT_COUNT;
+
+class LayoutTest : public test::GlTest {
+protected:
+    std::vector<Place> places(const std::string& block) {
+        std::vector<Place> result;
+        for (const gpu::BlockMember& member : program().blockMembers(block, gpu::BlockKind::Uniform))
+            result.emplace_back(member.name, member.offset, member.arrayStride + member.matrixStride);
+        return result;
+    }
+    std::size_t bytes(const std::string& block) { return program().blockBytes(block, gpu::BlockKind::Uniform); }
+    const gpu::Program& program() { return bench.library().get({"blocks.comp", "", "", "test/blocks.comp", {}}); }
+    test::ShaderBench bench;
+};
+
+TEST_F(LayoutTest, frameConstantsLieExactlyWhereTheDriverReadsThem) {
+    using shared::FrameConstants;
+    EXPECT_EQ(bytes("FrameBlock"), sizeof(FrameConstants));
+    EXPECT_THAT(places("FrameBlock"),
+                ElementsAre(Place("frame.clipFromLS", offsetof(FrameConstants, clipFromLS), sizeof(glm::vec4)),
+                            Place("frame.worldFromLS", offsetof(FrameConstants, worldFromLS), sizeof(glm::vec4)),
+                            Place("frame.rayOriginLS", offsetof(FrameConstants, rayOriginLS), 0),
+                            Place("frame.rayDxLS", offsetof(FrameConstants, rayDxLS), 0),
+                            Place("frame.rayDyLS", offsetof(FrameConstants, rayDyLS), 0),
+                            Place("frame.forwardLS", offsetof(FrameConstants, forwardLS), 0),
+                            Place("frame.depthToViewDepth", offsetof(FrameConstants, depthToViewDepth), 0),
+                            Place("frame.background", offsetof(FrameConstants, background), 0),
+                            Place("frame.lights", offsetof(FrameConstants, lights), 0)));
+}
+
+TEST_F(LayoutTest, materialConstantsLieExactlyWhereTheDriverReadsThem) {
+    using shared::MaterialConstants;
+    EXPECT_EQ(bytes("MaterialBlock"), sizeof(MaterialConstants));
+    EXPECT_THAT(places("MaterialBlock"),
+                ElementsAre(Place("material.baseColor", offsetof(MaterialConstants, baseColor), 0),
+                            Place("material.emissive", offsetof(MaterialConstants, emissive), 0),
+                            Place("material.microsurface", offsetof(MaterialConstants, microsurface), 0),
+                            Place("material.specular", offsetof(MaterialConstants, specular), 0),
+                            Place("material.kind", offsetof(MaterialConstants, kind), 0),
+                            Place("material.uvRow0[0]", offsetof(MaterialConstants, uvRow0), sizeof(glm::vec4)),
+                            Place("material.uvRow1[0]", offsetof(MaterialConstants, uvRow1), sizeof(glm::vec4))));
+}
+
+TEST_F(LayoutTest, displayConstantsLieExactlyWhereTheDriverReadsThem) {
+    using shared::DisplayConstants;
+    EXPECT_EQ(bytes("DisplayBlock"), sizeof(DisplayConstants));
+    EXPECT_THAT(places("DisplayBlock"), ElementsAre(Place("display.exposure", offsetof(DisplayConstants, exposure), 0),
+                                                    Place("display.mapping", offsetof(DisplayConstants, mapping), 0)));
+}
+
+TEST_F(LayoutTest, blocksAreAlwaysBoundWhereTheSharedListSays) {
+    EXPECT_EQ(program().blockSlot("FrameBlock", gpu::BlockKind::Uniform), UNIFORM_FRAME);
+    EXPECT_EQ(program().blockSlot("MaterialBlock", gpu::BlockKind::Uniform), UNIFORM_MATERIAL);
+    EXPECT_EQ(program().blockSlot("DisplayBlock", gpu::BlockKind::Uniform), UNIFORM_DISPLAY);
+}
+
+TEST_F(LayoutTest, theShaderAlwaysReadsTheValuesThatCppWrote) {
+    shared::FrameConstants frame{};
+    frame.clipFromLS[3] = {1, 2, 3, 4};
+    frame.depthToViewDepth = {5, 6, 7, 8};
+    frame.lights = {9, 10, 11, 12};
+    shared::MaterialConstants material{};
+    material.kind = {1, 2, 3, 4};
+    material.uvRow0[6] = {5, 6, 7, 8};
+    material.uvRow1[6] = {9, 10, 11, 12};
+    shared::DisplayConstants display{};
+    display.mapping = {13, 14, 15, 16};
+    const gpu::Buffer frameBuffer("frame", sizeof frame), materialBuffer("material", sizeof material),
+        displayBuffer("display", sizeof display);
+    frameBuffer.uploadValue(frame);
+    materialBuffer.uploadValue(material);
+    displayBuffer.uploadValue(display);
+    gpu::bindUniformBuffer(UNIFORM_FRAME, frameBuffer);
+    gpu::bindUniformBuffer(UNIFORM_MATERIAL, materialBuffer);
+    gpu::bindUniformBuffer(UNIFORM_DISPLAY, displayBuffer);
+    const std::vector<glm::vec4> out = bench.run("blocks.comp", {}, {glm::vec4(0.0f)}, 1, kOutputs);
+    EXPECT_EQ(out[1], frame.clipFromLS[3]);
+    EXPECT_EQ(out[8], frame.depthToViewDepth);
+    EXPECT_EQ(out[10], glm::vec4(frame.lights));
+    EXPECT_EQ(out[15], glm::vec4(material.kind));
+    EXPECT_EQ(out[16 + 6], material.uvRow0[6]);
+    EXPECT_EQ(out[16 + TEXTURE_SLOT_COUNT + 6], material.uvRow1[6]);
+    EXPECT_EQ(out.back(), glm::vec4(display.mapping));
+}
+
+TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexel) {
+    static_assert(sizeof(shared::LightTexels) == LIGHT_TEXELS * sizeof(glm::vec4));
+    std::vector<shared::LightTexels> lights(100);
+    float next = 0.0f;
+    for (shared::LightTexels& light : lights)
+        for (glm::vec4* member : {&light.position, &light.color, &light.axis, &light.attenuation})
+            for (int i = 0; i < 4; ++i) (*member)[i] = next++;
+    const gpu::Buffer buffer = gpu::Buffer::of("lights", lights);
+    const gpu::TexelBuffer texels("lights", graph::Format::Rgba32Float, buffer);
+    gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, texels);
+    const shader::Defines noLights{{"HAS_DIRECTIONAL_LIGHTS", "0"},
+                                   {"HAS_POINT_LIGHTS", "0"},
+                                   {"HAS_SPOT_LIGHTS", "0"},
+                                   {"HAS_ATTENUATION_LIGHTS", "0"}};
+    const std::vector<glm::vec4> out =
+        bench.run("light_texels.comp", noLights, {glm::vec4(0.0f)}, lights.size(), LIGHT_TEXELS);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        EXPECT_EQ(out[4 * i], lights[i].position);
+        EXPECT_EQ(out[4 * i + 1], lights[i].color);
+        EXPECT_EQ(out[4 * i + 2], lights[i].axis);
+        EXPECT_EQ(out[4 * i + 3], lights[i].attenuation);
+    }
+}
+
+} // namespace
+} // namespace tessera

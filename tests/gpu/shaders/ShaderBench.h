@@ -1,0 +1,62 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "renderer/gpu/Buffer.h"
+#include "renderer/gpu/Commands.h"
+#include "renderer/shader/ProgramLibrary.h"
+#include "shaders/shared/slots.h"
+#include "tests/support/GlContext.h"
+#include "tests/support/TempFolder.h"
+
+namespace tessera::test {
+
+/// Runs the product's shader functions on numbers of a test's choice: compute shaders of tests/gpu/shaders/ that
+/// include them. They see the product's shader tree as it lies in the source folder.
+class ShaderBench {
+public:
+    ShaderBench() : library_(shader::SourceTree(sources())) {}
+
+    /// One invocation a record. A shader reads vec4 inputs[] (binding 0) and writes vec4 outputs[] (binding 1), a fixed
+    /// number of each a record, which the shader knows.
+    std::vector<glm::vec4> run(const std::string& file, const shader::Defines& defines,
+                               const std::vector<glm::vec4>& inputs, std::size_t records,
+                               std::size_t outputsPerRecord) {
+        const gpu::Program& program = library_.get({file, "", "", "test/" + file, defines});
+        const gpu::Buffer in = gpu::Buffer::of("inputs", inputs);
+        const gpu::Buffer out("outputs", records * outputsPerRecord * sizeof(glm::vec4), gpu::BufferUse::Readback);
+        gpu::useProgram(program);
+        gpu::bindStorageBuffer(0, in);
+        gpu::bindStorageBuffer(1, out);
+        gpu::dispatch(std::uint32_t((records + kGroup - 1) / kGroup));
+        gpu::memoryBarrier(graph::Barrier::TransferOrUpdate);
+        return out.downloadAs<glm::vec4>(records * outputsPerRecord);
+    }
+
+    shader::ProgramLibrary& library() { return library_; }
+
+private:
+    static constexpr std::size_t kGroup = 64; ///< local_size_x of every test shader
+
+    const std::filesystem::path& sources() {
+        const std::filesystem::path root(TESSERA_SOURCE_DIR);
+        const auto recursive = std::filesystem::copy_options::recursive;
+        std::filesystem::copy(root / "shaders", folder_.path(), recursive);
+        std::filesystem::create_directories(folder_.path() / "test");
+        for (const char* part : {"shaders", "layout", "gbuffer"}) {
+            for (const auto& entry : std::filesystem::directory_iterator(root / "tests/gpu" / part)) {
+                if (entry.path().extension() == ".cpp" || entry.path().extension() == ".h") continue;
+                std::filesystem::copy_file(entry.path(), folder_.path() / "test" / entry.path().filename());
+            }
+        }
+        return folder_.path();
+    }
+
+    TempFolder folder_;
+    shader::ProgramLibrary library_;
+};
+
+} // namespace tessera::test

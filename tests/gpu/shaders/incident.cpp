@@ -1,0 +1,206 @@
+// What lights send to points: the packed lights of the product, read by the product's shader, against the formulas in
+// double.
+#include <gtest/gtest.h>
+
+#include "renderer/frame/PackedLights.h"
+#include "renderer/gpu/TexelBuffer.h"
+#include "tests/gpu/shaders/ShaderBench.h"
+#include "tests/support/Random.h"
+
+namespace tessera {
+namespace {
+
+using scenes::Falloff;
+using scenes::Light;
+using scenes::LightType;
+
+struct Arrival {
+    glm::vec3 intensity;
+    glm::vec3 toLight;
+    bool reaches;
+};
+struct Probe {
+    glm::vec3 position;
+    int light;
+};
+
+class IncidentTest : public test::GlTest {
+protected:
+    /// The eye is the world's origin and looks along -z, so world and lighting space are one.
+    std::vector<Arrival> run(const std::vector<Light>& lights, const std::vector<Probe>& probes) {
+        scenes::Scene scene;
+        scene.lights = lights;
+        frame::FrameSettings settings;
+        settings.prune = false;
+        const frame::CameraView view =
+            frame::makeCameraView(scenes::Camera{}, {64, 64}, frame::LightingSpace::World, glm::vec3(0.0f));
+        packed = frame::packLights(scene, view, settings);
+        const gpu::Buffer buffer = gpu::Buffer::of("lights", packed.texels);
+        const gpu::TexelBuffer texels("lights", graph::Format::Rgba32Float, buffer);
+        gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, texels);
+        std::vector<glm::vec4> inputs;
+        for (const Probe& probe : probes) inputs.emplace_back(probe.position, float(probe.light));
+        const std::vector<glm::vec4> out =
+            bench.run("incident.comp", frame::featureDefines(frame::allFeatures()), inputs, probes.size(), 2);
+        std::vector<Arrival> arrivals;
+        for (std::size_t i = 0; i < probes.size(); ++i)
+            arrivals.push_back({glm::vec3(out[2 * i]), glm::vec3(out[2 * i + 1]), out[2 * i].w != 0.0f});
+        return arrivals;
+    }
+    test::ShaderBench bench;
+    frame::PackedLights packed;
+};
+
+bool isFinite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// shading.md section 2, with the scene's own numbers.
+double expectedIntensity(const Light& light, const glm::dvec3& position) {
+    if (light.type == LightType::Directional) return light.intensity;
+    const glm::dvec3 toLight = light.positionWS - position;
+    const double d = glm::length(toLight);
+    double falloff = 0.0;
+    if (light.falloff == Falloff::InverseSquare) {
+        const double window = std::clamp(1.0 - std::pow(d / double(light.rangeMetres), 4.0), 0.0, 1.0);
+        falloff = window * window / std::max(d * d, 1e-4);
+    } else {
+        const glm::dvec3 abc(light.attenuation);
+        falloff = 1.0 / std::max(abc.x + abc.y * d + abc.z * d * d, 1e-4);
+    }
+    double cone = 1.0;
+    if (light.type == LightType::Spot) {
+        const double outer = std::cos(double(light.outerConeRadians)), inner = std::cos(double(light.innerConeRadians));
+        const double angle = glm::dot(-toLight / d, light.directionWS);
+        cone = std::clamp((angle - outer) / std::max(0.001, inner - outer), 0.0, 1.0);
+        if (!(light.outerConeRadians > 0.0f)) cone = 0.0;
+    }
+    return double(light.intensity) * falloff * cone * cone;
+}
+
+Light randomLight(test::Random& random) {
+    Light light;
+    light.type = std::array{LightType::Directional, LightType::Point, LightType::Spot}[std::size_t(random.index(3))];
+    light.falloff = random.index(2) == 0 ? Falloff::InverseSquare : Falloff::Attenuation;
+    light.intensity = float(random.logarithmic(0.01, 100.0));
+    // Exact in fp32, so that the packed position is the scene's.
+    light.positionWS = glm::dvec3(glm::vec3(random.direction() * 10.0));
+    light.directionWS = random.direction();
+    light.rangeMetres = random.index(3) == 0 ? scenes::kInfinity : float(random.between(5.0, 30.0));
+    light.attenuation = {random.unit(), random.unit(), random.unit()};
+    light.outerConeRadians = float(random.between(0.1, 3.1));
+    light.innerConeRadians = float(random.unit() * light.outerConeRadians);
+    return light;
+}
+
+TEST_F(IncidentTest, everyKindOfLightAlwaysSendsWhatItsFormulaSays) {
+    test::Random random(8);
+    std::vector<Light> lights;
+    std::vector<Probe> probes;
+    for (int i = 0; i < 20000; ++i) {
+        lights.push_back(randomLight(random));
+        probes.push_back({glm::vec3(random.direction() * random.between(0.0, 20.0)), i});
+    }
+    const std::vector<Arrival> arrivals = run(lights, probes);
+    int reached = 0;
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+        const double expected = expectedIntensity(lights[i], glm::dvec3(probes[i].position));
+        // The windows subtract from one: near the range and the cone's edge only the unwindowed light bounds the error.
+        // The cone's scale is at most 1000, times the roundings of a cosine: 1000 x 2e-7, squared near one.
+        Light open = lights[i];
+        open.rangeMetres = scenes::kInfinity;
+        if (open.type == LightType::Spot) open.type = LightType::Point;
+        const double unwindowed = expectedIntensity(open, glm::dvec3(probes[i].position));
+        const double scale = 1.0 / std::max(0.001, std::cos(double(lights[i].innerConeRadians)) -
+                                                       std::cos(double(lights[i].outerConeRadians)));
+        const double coneError = lights[i].type == LightType::Spot ? 1e-6 * scale : 0.0;
+        ASSERT_NEAR(double(arrivals[i].intensity.x), expected, (3e-6 + coneError) * unwindowed) << "light " << i;
+        if (!arrivals[i].reaches) continue;
+        ++reached;
+        const glm::dvec3 direction = lights[i].type == LightType::Directional
+                                         ? -lights[i].directionWS
+                                         : glm::normalize(lights[i].positionWS - glm::dvec3(probes[i].position));
+        ASSERT_LE(glm::length(glm::dvec3(arrivals[i].toLight) - direction), 5e-7) << "light " << i; // a few ulp of one
+    }
+    EXPECT_GT(reached, 5000);
+}
+
+TEST_F(IncidentTest, atItsRangeAndBeyondALightIsExactlyZero) {
+    test::Random random(9);
+    std::vector<Light> lights;
+    std::vector<Probe> probes;
+    for (int i = 0; i < 20000; ++i) {
+        Light light;
+        light.type = i % 2 == 0 ? LightType::Point : LightType::Spot;
+        light.outerConeRadians = 3.0f;
+        light.intensity = 1e20f;
+        light.rangeMetres = float(random.logarithmic(1e-3, 1e4));
+        lights.push_back(light);
+        const int axis = random.index(3);
+        glm::vec3 position(0.0f);
+        position[axis] = light.rangeMetres; // along an axis the distance is the range to the last bit
+        if (i % 3 == 1) position[axis] = -std::nextafter(light.rangeMetres, scenes::kInfinity);
+        if (i % 3 == 2) {
+            // Any direction, a distance that fp32 rounds to at least the range.
+            position = glm::vec3(random.direction() * (double(light.rangeMetres) * (1.0 + 2e-7)));
+        }
+        probes.push_back({position, i});
+    }
+    const std::vector<Arrival> arrivals = run(lights, probes);
+    for (std::size_t i = 0; i < probes.size(); ++i)
+        ASSERT_EQ(arrivals[i].intensity, glm::vec3(0.0f)) << "range " << lights[i].rangeMetres << " probe " << i;
+}
+
+TEST_F(IncidentTest, extremeLightsNeverSendNaNInfiniteOrNegativeLight) {
+    std::vector<Light> lights;
+    for (const LightType type : {LightType::Directional, LightType::Point, LightType::Spot})
+        for (const Falloff falloff : {Falloff::InverseSquare, Falloff::Attenuation})
+            for (const float intensity : {0.0f, 1e-20f, 1.0f, 1e20f})
+                for (const float range : {0.0f, 1e-30f, 1e-6f, 1.0f, 1e6f, 1e30f, scenes::kInfinity})
+                    for (const float outer : {0.0f, 1e-4f, 1.0f, 3.14159265f})
+                        for (const glm::vec3 abc :
+                             {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1), glm::vec3(1e-30f, 0, 0),
+                              glm::vec3(1e30f), glm::vec3(0, 0, 1e-38f)}) {
+                            Light light;
+                            light.type = type;
+                            light.falloff = falloff;
+                            light.intensity = intensity;
+                            light.rangeMetres = range;
+                            light.outerConeRadians = outer;
+                            light.innerConeRadians = 0.5f * outer;
+                            light.attenuation = abc;
+                            lights.push_back(light);
+                        }
+    const std::vector<glm::vec3> positions{{0, 0, 0},      {1e-6f, 0, 0}, {0, 0, -1e-6f},   {1, 1, -1},
+                                           {0, 0, -1},     {0, 0, 1},     {1e6f, 0, 0},     {0, 0, -1e6f},
+                                           {1e-30f, 0, 0}, {1e19f, 0, 0}, {0, 1e30f, 1e30f}};
+    std::vector<Probe> probes;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        for (const glm::vec3& position : positions) probes.push_back({position, int(i)});
+    const std::vector<Arrival> arrivals = run(lights, probes);
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+        const Arrival& a = arrivals[i];
+        const Light& light = lights[std::size_t(probes[i].light)];
+        ASSERT_TRUE(isFinite(a.intensity) && isFinite(a.toLight) && a.intensity.x >= 0.0f) << "probe " << i;
+        const bool windowed = light.type != LightType::Directional && light.falloff == Falloff::InverseSquare;
+        const bool dark = light.intensity == 0.0f || (windowed && light.rangeMetres == 0.0f) ||
+                          (light.type == LightType::Spot && light.outerConeRadians == 0.0f);
+        if (dark) {
+            ASSERT_EQ(a.intensity.x, 0.0f) << "probe " << i;
+        }
+    }
+}
+
+TEST_F(IncidentTest, aSpotOfHalfAnAngleOfPiNeverLeavesADirectionDarkButItsOwnBack) {
+    Light spot;
+    spot.type = LightType::Spot;
+    spot.innerConeRadians = 3.1f;
+    spot.outerConeRadians = 3.14159265f;
+    std::vector<Probe> probes;
+    test::Random random(10);
+    for (int i = 0; i < 1000; ++i) probes.push_back({glm::vec3(random.around({0, 0, -1}, -0.99, 1.0)), 0});
+    for (const Arrival& a : run({spot}, probes)) ASSERT_GT(a.intensity.x, 0.0f);
+}
+
+} // namespace
+} // namespace tessera

@@ -1,0 +1,138 @@
+// Digits of the microfacet terms against double precision at the same fp32 arguments.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "tests/gpu/shaders/ShaderBench.h"
+#include "tests/support/Random.h"
+
+namespace tessera {
+namespace {
+
+using test::pi;
+
+struct FresnelCase {
+    float ior, cosine;
+};
+
+/// The unpolarised dielectric reflectance as the mean of its s and p parts. Source: Born and Wolf, "Principles of
+/// Optics", 1.5.2.
+double fresnelOfPolarisations(double ior, double c) {
+    const double eta = 1.0 / ior; // n1 / n2
+    const double beta2 = 1.0 / (eta * eta) + c * c - 1.0;
+    if (beta2 < 0.0) return 1.0;
+    const double beta = std::sqrt(beta2);
+    const double s = (c - beta) / (c + beta);
+    const double p = (eta * eta * beta - c) / (eta * eta * beta + c);
+    return 0.5 * (s * s + p * p);
+}
+
+class PrecisionTest : public test::GlTest {
+protected:
+    /// Largest relative error of D at `alpha` over half vectors in and around the lobe of random normals.
+    double distributionError(float alpha, int count) {
+        test::Random random(1);
+        std::vector<glm::vec4> inputs;
+        std::vector<double> expected;
+        while (int(expected.size()) < count) {
+            const glm::vec3 n(random.direction());
+            const double theta = std::atan(alpha * std::tan(0.49 * pi * random.unit())); // most of them within the lobe
+            const glm::vec3 h(random.around(glm::normalize(glm::dvec3(n)), std::cos(theta), std::cos(theta)));
+            const glm::dvec3 across = glm::cross(glm::dvec3(n), glm::dvec3(h));
+            const double c = glm::dot(glm::dvec3(n), glm::dvec3(h)), a2 = double(alpha) * double(alpha);
+            if (!(c > 0.01)) continue;
+            const double t = a2 * c * c + glm::dot(across, across);
+            expected.push_back(a2 / (pi * t * t));
+            inputs.insert(inputs.end(), {{n, alpha}, {h, 1}, {1, 1, 1, 0}});
+        }
+        const std::vector<glm::vec4> out = bench.run("terms.comp", {}, inputs, expected.size(), 2);
+        double worst = 0.0;
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            worst = std::max(worst, std::abs(double(out[2 * i].x) / expected[i] - 1.0));
+        return worst;
+    }
+
+    std::vector<double> fresnel(const std::vector<FresnelCase>& cases) {
+        std::vector<glm::vec4> inputs;
+        for (const FresnelCase& c : cases)
+            inputs.insert(inputs.end(), {{0, 0, 1, 1}, {0, 0, 1, 1}, {1, c.ior, c.cosine, 0}});
+        const std::vector<glm::vec4> out = bench.run("terms.comp", {}, inputs, cases.size(), 2);
+        std::vector<double> f;
+        for (std::size_t i = 0; i < cases.size(); ++i) f.push_back(double(out[2 * i].w));
+        return f;
+    }
+    test::ShaderBench bench;
+};
+
+TEST_F(PrecisionTest, theDistributionAlwaysKeepsItsDigitsAtSmallAlpha) {
+    // shading.md: the cross product keeps what 1 - (n.h)^2 loses. n x h cancels to about alpha, so fp32 leaves 6e-8 /
+    // alpha of it.
+    EXPECT_LE(distributionError(0.002f, 200000), 1e-4);
+    EXPECT_LE(distributionError(0.01f, 200000), 2e-5);
+    EXPECT_LE(distributionError(0.3f, 200000), 2e-6);
+}
+
+TEST_F(PrecisionTest, fresnelAlwaysEqualsTheMeanOfItsPolarisations) {
+    test::Random random(2);
+    std::vector<FresnelCase> cases;
+    for (int i = 0; i < 200000; ++i)
+        cases.push_back({float(random.logarithmic(1.0001, 1000.0)), float(random.between(1e-4, 1.0))});
+    for (const float away : {1e-6f, 2e-6f, 1e-5f, 1e-4f})
+        for (int i = 1; i <= 200; ++i)
+            for (const float sign : {-1.0f, 1.0f})
+                cases.push_back({1.0f + sign * away, 0.5f + 0.5f * float(i) / 200.0f});
+    const std::vector<double> f = fresnel(cases);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const double expected = fresnelOfPolarisations(cases[i].ior, cases[i].cosine);
+        // About ten roundings of 6e-8, some squared, stay below 1e-5 when nothing cancels.
+        ASSERT_NEAR(f[i], expected, 1e-5 * expected) << "ior " << cases[i].ior << " cosine " << cases[i].cosine;
+    }
+}
+
+TEST_F(PrecisionTest, fresnelBelowOneIsAlwaysRightUpToItsCriticalAngle) {
+    test::Random random(3);
+    std::vector<FresnelCase> cases;
+    std::vector<double> g2;
+    while (cases.size() < 100000) {
+        const float ior = float(random.between(0.2, 0.999));
+        const double critical = std::sqrt(1.0 - double(ior) * double(ior));
+        const bool near = cases.size() % 2 == 0;
+        const float cosine = float(near ? critical + random.between(-5e-5, 5e-5) : random.between(1e-4, 1.0));
+        if (!(cosine > 0.0f && cosine <= 1.0f)) continue;
+        cases.push_back({ior, cosine});
+        g2.push_back(double(ior) * double(ior) - 1.0 + double(cosine) * double(cosine));
+    }
+    const std::vector<double> f = fresnel(cases);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const double expected = fresnelOfPolarisations(cases[i].ior, cases[i].cosine);
+        // Within 1e-4 of the critical angle g = sqrt(g2) has lost half of its digits, and F falls from 1 like 1 - k g.
+        const double allowed = std::abs(g2[i]) < 1e-4 ? 5e-3 : 1e-4;
+        ASSERT_NEAR(f[i], expected, allowed) << "ior " << cases[i].ior << " cosine " << cases[i].cosine;
+        ASSERT_LE(f[i], 1.0 + 1e-6);
+        if (g2[i] < -1e-6) {
+            ASSERT_EQ(f[i], 1.0) << "total internal reflection at ior " << cases[i].ior;
+        }
+    }
+}
+
+TEST_F(PrecisionTest, fresnelOfEqualMediaIsExactlyZero) {
+    std::vector<FresnelCase> cases;
+    for (int i = -100; i <= 100; ++i) cases.push_back({1.0f, float(i) / 100.0f});
+    for (const double f : fresnel(cases)) EXPECT_EQ(f, 0.0);
+}
+
+TEST_F(PrecisionTest, schlickAlwaysMeetsItsEndPointsExactly) {
+    std::vector<glm::vec4> inputs;
+    const std::vector<float> f0s{0.0f, 0.04f, 0.5f, 1.0f};
+    for (const float f0 : f0s)
+        for (const float cosine : {1.0f, 0.0f})
+            inputs.insert(inputs.end(), {{0, 0, 1, 1}, {0, 0, 1, 1}, {1, 1, cosine, f0}});
+    const std::vector<glm::vec4> out = bench.run("terms.comp", {}, inputs, f0s.size() * 2, 2);
+    for (std::size_t i = 0; i < f0s.size(); ++i) {
+        EXPECT_EQ(out[4 * i + 1].x, f0s[i]);
+        EXPECT_NEAR(out[4 * i + 3].x, 1.0f, 6e-8f) << "f0 + (1 - f0) rounds twice";
+    }
+}
+
+} // namespace
+} // namespace tessera

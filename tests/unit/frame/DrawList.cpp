@@ -1,0 +1,164 @@
+#include "renderer/frame/DrawList.h"
+
+#include <algorithm>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gmock/gmock.h>
+
+#include "tests/support/Random.h"
+#include "tests/unit/scenes/TinyScene.h"
+
+namespace tessera::frame {
+namespace {
+
+using testing::ElementsAre;
+
+CameraView defaultView(LightingSpace space = LightingSpace::World) {
+    scenes::Camera camera;
+    camera.worldFromCamera =
+        glm::translate(glm::dmat4(1.0), {1.0, 2.0, 3.0}) * glm::rotate(glm::dmat4(1.0), 0.4, {0.6, 0.8, 0.0});
+    return makeCameraView(camera, {64, 64}, space, glm::vec3(0.0f));
+}
+
+/// Opaque, masked and blended materials over nodes of which some are mirrored, and a mesh without a triangle.
+scenes::Scene mixedScene() {
+    scenes::Scene scene = scenes::tinyScene();
+    scene.materials.resize(4);
+    scene.materials[1].alphaMode = scenes::AlphaMode::Mask;
+    scene.materials[2].alphaMode = scenes::AlphaMode::Blend;
+    scene.meshes.push_back(scene.meshes[0]);
+    scene.meshes.emplace_back(); // nothing to draw
+    scene.nodes.clear();
+    for (int i = 0; i < 12; ++i) {
+        scenes::Node& node = scene.nodes.emplace_back();
+        const double mirror = i % 3 == 0 ? -1.0 : 1.0;
+        node.parentFromNode =
+            glm::translate(glm::dmat4(1.0), {0.0, 0.0, -double(i)}) * glm::scale(glm::dmat4(1.0), {mirror, 1.0, 1.0});
+        node.instances = {{i % 2, (3 * i) % 4}, {2, 0}, {0, 2}};
+    }
+    return scene;
+}
+
+TEST(DrawList, batchesAlwaysCoverEveryDrawExactlyOnce) {
+    const scenes::Scene scene = mixedScene();
+    const DrawList list = makeDrawList(scene);
+    EXPECT_EQ(list.draws.size(), 24u); // 12 nodes x 2 meshes that have triangles
+    std::vector<int> drawn(list.draws.size(), 0);
+    std::vector<Batch> batches = list.opaque;
+    for (const Batch& batch : sortedTransparent(list, defaultView())) batches.push_back(batch);
+    for (const Batch& batch : batches) {
+        for (int i = batch.first; i < batch.first + batch.count; ++i) {
+            ++drawn.at(std::size_t(i));
+            EXPECT_EQ(list.draws[std::size_t(i)].material, batch.material);
+            EXPECT_EQ(list.draws[std::size_t(i)].mirrored, batch.mirrored);
+        }
+    }
+    EXPECT_THAT(drawn, testing::Each(1));
+    std::vector<std::tuple<int, int, int>> expected, found;
+    for (std::size_t node = 0; node < scene.nodes.size(); ++node)
+        for (const scenes::MeshInstance& instance : scene.nodes[node].instances)
+            if (instance.mesh != 2) expected.emplace_back(int(node), instance.mesh, instance.material);
+    for (const Draw& draw : list.draws) found.emplace_back(draw.node, draw.mesh, draw.material);
+    EXPECT_THAT(found, testing::UnorderedElementsAreArray(expected));
+}
+
+TEST(DrawList, batchesOfTheSameMaterialAndWindingAreNeverApart) {
+    const DrawList list = makeDrawList(mixedScene());
+    std::vector<std::pair<int, bool>> seen;
+    for (const Batch& batch : list.opaque) seen.emplace_back(batch.material, batch.mirrored);
+    EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+    EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end());
+}
+
+TEST(DrawList, blendedMaterialsAreAlwaysLastAndMaskedOnesAreNot) {
+    const scenes::Scene scene = mixedScene();
+    const DrawList list = makeDrawList(scene);
+    for (std::size_t i = 0; i < list.draws.size(); ++i)
+        EXPECT_EQ(list.draws[i].material == 2, int(i) >= list.firstTransparent);
+}
+
+TEST(DrawList, transparentDrawsAlwaysRunFarToNearWithTiesInDocumentOrder) {
+    scenes::Scene scene = scenes::tinyScene();
+    scene.materials[0].alphaMode = scenes::AlphaMode::Blend;
+    scene.nodes.clear();
+    for (const double z : {-5.0, -9.0, -5.0, -1.0, -9.0}) {
+        scenes::Node& node = scene.nodes.emplace_back();
+        node.parentFromNode = glm::translate(glm::dmat4(1.0), {0.0, 0.0, z});
+        node.instances = {{0, 0}};
+    }
+    const CameraView view = makeCameraView(scenes::Camera{}, {64, 64}, LightingSpace::World, glm::vec3(0.0f));
+    const DrawList list = makeDrawList(scene);
+    std::vector<int> nodes;
+    for (const Batch& batch : sortedTransparent(list, view)) nodes.push_back(list.draws[std::size_t(batch.first)].node);
+    EXPECT_THAT(nodes, ElementsAre(1, 4, 0, 2, 3));
+    EXPECT_TRUE(list.opaque.empty());
+}
+
+TEST(DrawList, anEmptySceneAlwaysDrawsNothing) {
+    scenes::Scene scene;
+    const DrawList list = makeDrawList(scene);
+    EXPECT_TRUE(list.draws.empty() && list.opaque.empty() && sortedTransparent(list, defaultView()).empty());
+    EXPECT_TRUE(makeDrawRows(list, defaultView()).empty());
+}
+
+/// The one draw's rows for a node with this transform.
+DrawRows rowsOf(const glm::dmat4& worldFromObject, const CameraView& view) {
+    scenes::Scene scene = scenes::tinyScene();
+    scene.nodes[0].parentFromNode = worldFromObject;
+    return makeDrawRows(makeDrawList(scene), view).at(0);
+}
+
+glm::dvec3 apply(const glm::vec4 rows[3], const glm::dvec4& v) {
+    return {glm::dot(glm::dvec4(rows[0]), v), glm::dot(glm::dvec4(rows[1]), v), glm::dot(glm::dvec4(rows[2]), v)};
+}
+
+TEST(DrawList, positionRowsAlwaysTakeObjectSpaceToLightingSpace) {
+    test::Random random(1);
+    for (const LightingSpace space : {LightingSpace::World, LightingSpace::View}) {
+        const CameraView view = defaultView(space);
+        const glm::dmat4 worldFromObject = glm::translate(glm::dmat4(1.0), {1.5, 2.5, 3.5}) *
+                                           glm::rotate(glm::dmat4(1.0), 1.0, {0, 1, 0}) *
+                                           glm::scale(glm::dmat4(1.0), {2.0, -3.0, 0.5});
+        const DrawRows rows = rowsOf(worldFromObject, view);
+        for (int i = 0; i < 100; ++i) {
+            const glm::dvec4 pointOS(random.direction(), 1.0);
+            const glm::dvec3 expected = view.positionLS(glm::dvec3(worldFromObject * pointOS));
+            EXPECT_LE(glm::distance(apply(rows.position, pointOS), expected), 1e-6); // fp32 rows of order one
+        }
+    }
+}
+
+TEST(DrawList, normalRowsAlwaysAgreeWithTheInverseTransposeUpToLength) {
+    test::Random random(2);
+    for (const glm::dvec3& scale : {glm::dvec3(1.0), glm::dvec3(2, 0.1, 5), glm::dvec3(-1, 1, 1),
+                                    glm::dvec3(-2, -3, -0.5), glm::dvec3(1e-20), glm::dvec3(1e15, 1e15, -1e14)}) {
+        for (int i = 0; i < 50; ++i) {
+            const glm::dmat4 worldFromObject =
+                glm::rotate(glm::dmat4(1.0), random.between(0.0, 6.0), random.direction()) *
+                glm::scale(glm::dmat4(1.0), scale) *
+                glm::rotate(glm::dmat4(1.0), random.between(0.0, 6.0), random.direction());
+            const CameraView view = defaultView(i % 2 == 0 ? LightingSpace::World : LightingSpace::View);
+            const DrawRows rows = rowsOf(worldFromObject, view);
+            const glm::dvec3 normalOS = random.direction();
+            const glm::dvec3 expected = glm::normalize(
+                view.lsFromWorld * (glm::transpose(glm::inverse(glm::dmat3(worldFromObject))) * normalOS));
+            const glm::dvec3 found = glm::normalize(apply(rows.normal, glm::dvec4(normalOS, 0.0)));
+            // fp32 entries of order one; a stretch of 50:1 may cancel that much of them.
+            ASSERT_LE(glm::distance(found, expected), 50 * 2e-7)
+                << "scale " << scale.x << " " << scale.y << " " << scale.z;
+            ASSERT_EQ(rows.normal[0].w, scale.x * scale.y * scale.z < 0.0 ? -1.0f : 1.0f);
+        }
+    }
+}
+
+TEST(DrawList, aSingularTransformAlwaysKeepsTheNormalOfItsPlane) {
+    const CameraView view = makeCameraView(scenes::Camera{}, {64, 64}, LightingSpace::World, glm::vec3(0.0f));
+    const DrawRows flat = rowsOf(glm::scale(glm::dmat4(1.0), {2.0, 3.0, 0.0}), view); // squashed into z = 0
+    EXPECT_EQ(apply(flat.normal, {0, 0, 1, 0}), glm::dvec3(0, 0, 1));
+    const DrawRows line =
+        rowsOf(glm::scale(glm::dmat4(1.0), {2.0, 0.0, 0.0}), view); // no plane left: no normal, no NaN
+    EXPECT_EQ(apply(line.normal, {0, 0, 1, 0}), glm::dvec3(0.0));
+}
+
+} // namespace
+} // namespace tessera::frame

@@ -1,0 +1,163 @@
+#include "renderer/frame/Features.h"
+
+#include <functional>
+#include <set>
+
+#include <gmock/gmock.h>
+
+#include "tests/unit/scenes/TinyScene.h"
+
+namespace tessera::frame {
+namespace {
+
+using scenes::Material;
+using scenes::MaterialModel;
+using scenes::TextureSlot;
+using testing::Contains;
+using testing::Pair;
+
+/// A scene with one lambert triangle: nothing else is needed.
+scenes::Scene plainScene() {
+    scenes::Scene scene = scenes::tinyScene();
+    scene.materials[0].model = MaterialModel::Lambert;
+    return scene;
+}
+
+void addTexture(Material& material, TextureSlot slot) {
+    material.texture(slot).image = 0;
+}
+
+struct Change {
+    Feature feature;
+    std::function<void(scenes::Scene&)> apply; ///< makes the scene need the feature
+};
+
+std::vector<Change> changes() {
+    const auto material = [](const std::function<void(Material&)>& change) {
+        return [change](scenes::Scene& scene) { change(scene.materials[0]); };
+    };
+    const auto model = [&](MaterialModel value) { return material([value](Material& m) { m.model = value; }); };
+    const auto texture = [&](TextureSlot slot) { return material([slot](Material& m) { addTexture(m, slot); }); };
+    return {
+        {Feature::SingleColor, model(MaterialModel::SingleColor)},
+        {Feature::Microfacet, model(MaterialModel::Microfacet)},
+        {Feature::MetallicRoughness, model(MaterialModel::MetallicRoughness)},
+        {Feature::BaseColorTexture, texture(TextureSlot::BaseColor)},
+        {Feature::NormalTexture, texture(TextureSlot::Normal)},
+        {Feature::MetallicRoughnessTexture, texture(TextureSlot::MetallicRoughness)},
+        {Feature::EmissiveTexture, texture(TextureSlot::Emissive)},
+        {Feature::SpecularFactorTexture, texture(TextureSlot::SpecularFactor)},
+        {Feature::SpecularColorTexture, texture(TextureSlot::SpecularColor)},
+        {Feature::IorTexture, texture(TextureSlot::Ior)},
+        {Feature::TextureTransform, material([](Material& m) {
+             addTexture(m, TextureSlot::BaseColor);
+             m.texture(TextureSlot::BaseColor).transform.rotationRadians = 1.0f;
+         })},
+        {Feature::TexCoord1, material([](Material& m) {
+             addTexture(m, TextureSlot::Emissive);
+             m.texture(TextureSlot::Emissive).texCoordSet = 1;
+         })},
+        {Feature::VertexColor, [](scenes::Scene& scene) { scene.meshes[0].colors.assign(3, glm::vec4(1.0f)); }},
+        {Feature::TangentSpaceNormals, texture(TextureSlot::Normal)},
+        {Feature::ObjectSpaceNormals, material([](Material& m) {
+             addTexture(m, TextureSlot::Normal);
+             m.normalMapSpace = scenes::NormalMapSpace::Object;
+         })},
+        {Feature::Emission, material([](Material& m) {
+             m.emissive = {0.0f, 0.1f, 0.0f};
+         })},
+        {Feature::Specular, material([](Material& m) {
+             m.model = MaterialModel::MetallicRoughness;
+             m.ior = 1.4f;
+         })},
+        {Feature::AlphaMask, material([](Material& m) { m.alphaMode = scenes::AlphaMode::Mask; })},
+        {Feature::Blend, material([](Material& m) { m.alphaMode = scenes::AlphaMode::Blend; })},
+        {Feature::DoubleSided, material([](Material& m) { m.doubleSided = true; })},
+    };
+}
+
+TEST(Features, aFeatureIsInTheSetExactlyWhenAMaterialInUseNeedsIt) {
+    EXPECT_TRUE(materialFeatures(plainScene())[Feature::Lambert]);
+    EXPECT_EQ(materialFeatures(plainScene()).has.count(), 1u);
+    for (const Change& change : changes()) {
+        scenes::Scene scene = plainScene();
+        EXPECT_FALSE(materialFeatures(scene)[change.feature]) << featureTable()[std::size_t(change.feature)].define;
+        change.apply(scene);
+        EXPECT_TRUE(materialFeatures(scene)[change.feature]) << featureTable()[std::size_t(change.feature)].define;
+    }
+}
+
+TEST(Features, everyFeatureOfMaterialsAlwaysHasASceneWithItAndOneWithout) {
+    std::set<Feature> tested{Feature::Lambert, Feature::DirectionalLights, Feature::PointLights, Feature::SpotLights,
+                             Feature::AttenuationLights}; // the lights' are packLights' business
+    for (const Change& change : changes()) tested.insert(change.feature);
+    EXPECT_EQ(tested.size(), kFeatureCount);
+}
+
+TEST(Features, materialsThatNothingUsesNeverCount) {
+    scenes::Scene scene = plainScene();
+    Material& unused = scene.materials.emplace_back();
+    unused.emissive = glm::vec3(1.0f);
+    unused.doubleSided = true;
+    EXPECT_EQ(materialFeatures(scene), materialFeatures(plainScene()));
+    scene.materials[0].texture(TextureSlot::BaseColor).transform.rotationRadians =
+        1.0f; // an empty slot's transform moves nothing
+    EXPECT_EQ(materialFeatures(scene), materialFeatures(plainScene()));
+}
+
+TEST(Features, everyWayToChangeTheSpecularLobeIsAlwaysSeen) {
+    const auto changed = [](MaterialModel model, const std::function<void(Material&)>& change) {
+        scenes::Scene scene = plainScene();
+        scene.materials[0].model = model;
+        change(scene.materials[0]);
+        return materialFeatures(scene)[Feature::Specular];
+    };
+    const auto nothing = [](Material&) {};
+    const auto tint = [](Material& m) { m.specularColor.g = 0.5f; };
+    const auto factor = [](Material& m) { m.specularFactor = 0.5f; };
+    const auto ior = [](Material& m) { m.ior = 1.4f; };
+    const auto factorMap = [](Material& m) { addTexture(m, TextureSlot::SpecularFactor); };
+    const auto colorMap = [](Material& m) { addTexture(m, TextureSlot::SpecularColor); };
+    for (const auto& change : std::vector<std::function<void(Material&)>>{tint, factor, ior, factorMap, colorMap})
+        EXPECT_TRUE(changed(MaterialModel::MetallicRoughness, change));
+    EXPECT_FALSE(changed(MaterialModel::MetallicRoughness, nothing));
+    EXPECT_FALSE(changed(MaterialModel::Lambert, tint));
+    EXPECT_TRUE(changed(MaterialModel::Microfacet, tint));
+    EXPECT_TRUE(changed(MaterialModel::Microfacet, colorMap));
+    EXPECT_FALSE(changed(MaterialModel::Microfacet, ior)) << "the microfacet model's ior is no colour of its own";
+    EXPECT_FALSE(changed(MaterialModel::Microfacet, nothing));
+}
+
+TEST(Features, theSoleModelIsSetExactlyWhenEverySurfaceHasIt) {
+    scenes::Scene scene = plainScene();
+    EXPECT_EQ(materialFeatures(scene).soleModel, MaterialModel::Lambert);
+    scene.materials.emplace_back().model = MaterialModel::Lambert;
+    scene.nodes[0].instances.push_back({0, 1});
+    EXPECT_EQ(materialFeatures(scene).soleModel, MaterialModel::Lambert);
+    scene.materials.emplace_back().model = MaterialModel::Microfacet;
+    scene.nodes[0].instances.push_back({0, 2});
+    EXPECT_EQ(materialFeatures(scene).soleModel, std::nullopt);
+    scene.nodes.clear();
+    EXPECT_EQ(materialFeatures(scene).soleModel, std::nullopt);
+}
+
+TEST(Features, everyFeatureAlwaysBecomesADefineOfZeroOrOne) {
+    const Defines none = featureDefines(FeatureSet{}), all = featureDefines(allFeatures());
+    EXPECT_EQ(all.size(), kFeatureCount + 2);
+    for (const FeatureInfo& info : featureTable()) {
+        EXPECT_THAT(none, Contains(Pair("HAS_" + std::string(info.define), "0")));
+        EXPECT_THAT(all, Contains(Pair("HAS_" + std::string(info.define), "1")));
+        EXPECT_EQ(&info, &featureTable()[std::size_t(info.feature)]) << "the table follows the enumeration";
+        EXPECT_FALSE(info.what.empty() || info.absent.empty());
+    }
+    for (const char* sum : {"HAS_LIT_MODELS", "HAS_TEXTURES"}) {
+        EXPECT_THAT(none, Contains(Pair(sum, "0")));
+        EXPECT_THAT(all, Contains(Pair(sum, "1")));
+    }
+    FeatureSet sole;
+    sole.soleModel = MaterialModel::Microfacet;
+    EXPECT_THAT(featureDefines(sole), Contains(Pair("SOLE_MODEL", "3u")));
+}
+
+} // namespace
+} // namespace tessera::frame

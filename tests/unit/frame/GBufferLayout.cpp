@@ -1,0 +1,91 @@
+#include "renderer/frame/GBufferLayout.h"
+
+#include <functional>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+
+#include "tests/unit/scenes/TinyScene.h"
+
+namespace tessera::frame {
+namespace {
+
+using scenes::MaterialModel;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+FeatureSet featuresOf(
+    MaterialModel model, const std::function<void(scenes::Material&)>& change = [](scenes::Material&) {}) {
+    scenes::Scene scene = scenes::tinyScene();
+    scene.materials[0].model = model;
+    change(scene.materials[0]);
+    return materialFeatures(scene);
+}
+
+int bytesPerPixel(const GBufferLayout& layout, const std::vector<Channel>& channels) {
+    int bytes = 0;
+    for (const Channel channel : channels) bytes += graph::formatInfo(layout.format(channel)).bytes;
+    return bytes;
+}
+
+const GBufferLayout& namedLayout(std::string_view name) {
+    for (const LayoutInfo& info : layoutTable())
+        if (info.name == name) return info.layout;
+    throw std::runtime_error("no such layout");
+}
+
+TEST(GBufferLayout, theTableAlwaysFollowsTheEnumeration) {
+    ASSERT_EQ(channelTable().size(), kChannelCount);
+    for (std::size_t i = 0; i < kChannelCount; ++i) EXPECT_EQ(std::size_t(channelTable()[i].channel), i);
+    EXPECT_EQ(layoutTable()[0].name, "exact");
+}
+
+TEST(GBufferLayout, theExactLayoutIsAlwaysFp32) {
+    for (const ChannelInfo& info : channelTable())
+        EXPECT_EQ(namedLayout("exact").format(info.channel), graph::Format::Rgba32Float) << info.name;
+}
+
+TEST(GBufferLayout, channelsAreAllocatedExactlyWhenASurfaceNeedsThem) {
+    const auto channels = [](const FeatureSet& features) { return neededChannels(features, false); };
+    EXPECT_THAT(channels(featuresOf(MaterialModel::SingleColor)), ElementsAre(Channel::Emission));
+    EXPECT_THAT(channels(featuresOf(MaterialModel::Lambert)), ElementsAre(Channel::Albedo, Channel::Normal));
+    EXPECT_THAT(channels(featuresOf(MaterialModel::Microfacet)),
+                ElementsAre(Channel::Albedo, Channel::Normal, Channel::Microsurface));
+    EXPECT_THAT(channels(featuresOf(MaterialModel::MetallicRoughness, [](scenes::Material& m) { m.ior = 1.4f; })),
+                ElementsAre(Channel::Albedo, Channel::Normal, Channel::Microsurface, Channel::Specular));
+    EXPECT_THAT(channels(featuresOf(MaterialModel::Lambert, [](scenes::Material& m) { m.emissive.r = 1.0f; })),
+                ElementsAre(Channel::Albedo, Channel::Normal, Channel::Emission));
+    EXPECT_THAT(neededChannels(featuresOf(MaterialModel::Lambert), true),
+                ElementsAre(Channel::Albedo, Channel::Normal, Channel::NormalTexel));
+    EXPECT_EQ(channels(allFeatures()).size(), kChannelCount - 1);
+
+    FeatureSet mixed = featuresOf(MaterialModel::Lambert); // with unlit surfaces, so that a pixel must say which it is
+    mixed.add(Feature::SingleColor);
+    mixed.soleModel.reset();
+    EXPECT_THAT(channels(mixed), ElementsAre(Channel::Albedo, Channel::Normal, Channel::Microsurface));
+}
+
+TEST(GBufferLayout, packedIsNeverMoreThanSixteenBytesForSurfacesThatDoNotEmit) {
+    const GBufferLayout& packed = namedLayout("packed");
+    EXPECT_EQ(bytesPerPixel(packed, neededChannels(featuresOf(MaterialModel::Lambert), false)), 8);
+    EXPECT_EQ(bytesPerPixel(packed, neededChannels(featuresOf(MaterialModel::MetallicRoughness), false)), 12);
+    FeatureSet all = allFeatures();
+    EXPECT_EQ(bytesPerPixel(packed, neededChannels(all, false)), 20);
+    all.has.reset(std::size_t(Feature::Emission));
+    EXPECT_EQ(bytesPerPixel(packed, neededChannels(all, false)), 16);
+    EXPECT_EQ(bytesPerPixel(namedLayout("exact"), neededChannels(all, false)), 64);
+}
+
+TEST(GBufferLayout, definesAlwaysNumberTheChannelsInOrder) {
+    GBufferLayout layout;
+    layout.encoding[std::size_t(Channel::Normal)] = Encoding::Packed;
+    const std::vector<Channel> channels{Channel::Normal, Channel::Emission};
+    EXPECT_EQ(channelDefines(layout, channels), (Defines{{"GBUFFER_NORMAL", "0"},
+                                                         {"GBUFFER_NORMAL_PACKED", "1"},
+                                                         {"GBUFFER_EMISSION", "1"},
+                                                         {"GBUFFER_EMISSION_PACKED", "0"}}));
+    EXPECT_THAT(channelDefines(layout, {}), IsEmpty());
+}
+
+} // namespace
+} // namespace tessera::frame

@@ -1,0 +1,203 @@
+#include "renderer/frame/PackedLights.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/support/Random.h"
+
+namespace tessera::frame {
+namespace {
+
+using scenes::Falloff;
+using scenes::Light;
+using scenes::LightType;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+Light light(LightType type, const glm::dvec3& positionWS = {0, 0, -5}) {
+    Light result;
+    result.type = type;
+    result.positionWS = positionWS;
+    return result;
+}
+
+/// Seen by the default camera: at the origin, along -z, 45 degrees.
+PackedLights pack(const std::vector<Light>& lights, const FrameSettings& settings = {},
+                  const scenes::Camera& camera = {}) {
+    scenes::Scene scene;
+    scene.lights = lights;
+    return packLights(scene, makeCameraView(camera, {640, 360}, settings.space, glm::vec3(0.0f)), settings);
+}
+
+TEST(PackedLights, everyKindIsAlwaysPackedAsItsShaderReadsIt) {
+    Light attenuated = light(LightType::Spot);
+    attenuated.falloff = Falloff::Attenuation;
+    attenuated.attenuation = {1.0f, 2.0f, 3.0f};
+    Light ranged = light(LightType::Point);
+    ranged.rangeMetres = 4.0f;
+    ranged.color = {1.0f, 0.5f, 0.25f};
+    ranged.intensity = 8.0f;
+    const PackedLights packed =
+        pack({light(LightType::Directional), light(LightType::Point), ranged, light(LightType::Spot), attenuated});
+    ASSERT_EQ(packed.texels.size(), 5u);
+    EXPECT_THAT(packed.sceneIndex, ElementsAre(0, 1, 2, 3, 4));
+    EXPECT_EQ(packed.texels[0].position, glm::vec4(0, 0, 1, 0)); // towards the light, which travels along -z
+    EXPECT_EQ(packed.texels[0].color.w, float(LIGHT_DIRECTIONAL));
+    EXPECT_EQ(packed.texels[1].position, glm::vec4(0, 0, -5, 0)); // no range: 1/range^2 is 0
+    EXPECT_EQ(packed.texels[1].color.w, float(LIGHT_POINT));
+    EXPECT_NEAR(packed.texels[2].position.w, 1.0f / 16.0f, 1e-6f); // rounded up by up to 1e-6 of itself
+    EXPECT_GE(packed.texels[2].position.w, 1.0f / 16.0f);
+    EXPECT_EQ(glm::vec3(packed.texels[2].color), glm::vec3(8.0f, 4.0f, 2.0f));
+    EXPECT_EQ(packed.texels[3].color.w, float(LIGHT_SPOT));
+    EXPECT_EQ(glm::vec3(packed.texels[3].axis), glm::vec3(0, 0, -1));
+    EXPECT_EQ(packed.texels[4].color.w, float(LIGHT_SPOT | LIGHT_ATTENUATION));
+    EXPECT_EQ(glm::vec3(packed.texels[4].attenuation), glm::vec3(1, 2, 3));
+    EXPECT_EQ(packed.texels[4].position.w, 0.0f);
+}
+
+TEST(PackedLights, theConeIsAlwaysScaledFromOneInsideToZeroOutside) {
+    Light spot = light(LightType::Spot);
+    spot.innerConeRadians = 0.3f;
+    spot.outerConeRadians = 0.9f;
+    const shared::LightTexels packed = pack({spot}).texels.at(0);
+    const auto cone = [&](double angle) { return std::cos(angle) * packed.axis.w + packed.attenuation.w; };
+    EXPECT_NEAR(cone(0.3), 1.0, 1e-6); // fp32 scale and offset of order one
+    EXPECT_NEAR(cone(0.9), 0.0, 1e-6);
+    spot.innerConeRadians = spot.outerConeRadians; // a hard edge is held at KHR_lights_punctual's least width
+    EXPECT_EQ(pack({spot}).texels.at(0).axis.w, 1000.0f);
+}
+
+TEST(PackedLights, theSetAlwaysHoldsExactlyTheKindsThatWerePacked) {
+    Light attenuated = light(LightType::Point);
+    attenuated.falloff = Falloff::Attenuation;
+    Light off = light(LightType::Spot);
+    off.enabled = false;
+    const auto features = [](const std::vector<Light>& lights) { return pack(lights).features.has; };
+    const auto only = [](std::initializer_list<Feature> list) {
+        FeatureSet set;
+        for (const Feature feature : list) set.add(feature);
+        return set.has;
+    };
+    EXPECT_EQ(features({}), only({}));
+    EXPECT_EQ(features({off}), only({}));
+    EXPECT_EQ(features({light(LightType::Directional)}), only({Feature::DirectionalLights}));
+    EXPECT_EQ(features({light(LightType::Point)}), only({Feature::PointLights}));
+    EXPECT_EQ(features({light(LightType::Spot)}), only({Feature::SpotLights}));
+    EXPECT_EQ(features({attenuated}), only({Feature::PointLights, Feature::AttenuationLights}));
+}
+
+TEST(PackedLights, offDarkAndUnseenLightsAreLeftOutExactlyWhenPruning) {
+    Light off = light(LightType::Point), black = light(LightType::Point), noRange = black,
+          noCone = light(LightType::Spot);
+    off.enabled = false;
+    black.intensity = 0.0f;
+    noRange.rangeMetres = 0.0f;
+    noCone.outerConeRadians = 0.0f;
+    Light behind = light(LightType::Point, {0, 0, 10});
+    behind.rangeMetres = 5.0f;
+    const std::vector<Light> lights{off, black, noRange, noCone, behind, light(LightType::Point)};
+    const PackedLights pruned = pack(lights);
+    EXPECT_THAT(pruned.sceneIndex, ElementsAre(5));
+    EXPECT_EQ(pruned.off, 1u);
+    EXPECT_EQ(pruned.dark, 3u);
+    EXPECT_EQ(pruned.unseen, 1u);
+    FrameSettings keep;
+    keep.prune = false;
+    const PackedLights whole = pack(lights, keep);
+    EXPECT_THAT(whole.sceneIndex, ElementsAre(1, 2, 3, 4, 5));
+    EXPECT_EQ(whole.off, 1u);
+    EXPECT_EQ(whole.dark + whole.unseen, 0u);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_EQ(glm::vec3(whole.texels[i].color), glm::vec3(0.0f)) << "dark lights add exactly 0";
+}
+
+TEST(PackedLights, aLightThatIsLeftOutNeverReachesAPointInTheFrustum) {
+    test::Random random(4);
+    for (const scenes::Projection projection : {scenes::Projection::Perspective, scenes::Projection::Orthographic}) {
+        scenes::Camera camera;
+        camera.projection = projection;
+        camera.nearMetres = 0.5;
+        camera.halfHeightMetres = 5.0;
+        std::vector<Light> lights;
+        for (int i = 0; i < 2000; ++i) {
+            lights.push_back(light(random.index(2) == 0 ? LightType::Point : LightType::Spot,
+                                   random.direction() * random.between(0.0, 30.0)));
+            lights.back().rangeMetres = float(random.between(0.5, 10.0));
+        }
+        const PackedLights packed = pack(lights, {}, camera);
+        EXPECT_GT(packed.unseen, 500u);
+        EXPECT_GT(packed.texels.size(), 500u);
+        std::vector<bool> kept(lights.size(), false);
+        for (const int i : packed.sceneIndex) kept[std::size_t(i)] = true;
+        const double aspect = 640.0 / 360.0, slope = std::tan(0.5 * camera.fovYRadians);
+        for (int i = 0; i < 4000; ++i) {
+            const double depth = random.between(0.5, 40.0);
+            const double halfHeight =
+                projection == scenes::Projection::Perspective ? slope * depth : camera.halfHeightMetres;
+            // Half of the points on the frustum's surface, where a wrong plane would show first.
+            const auto place = [&] { return i % 2 == 0 ? random.between(-1.0, 1.0) : double(random.index(2) * 2 - 1); };
+            const glm::dvec3 point(place() * halfHeight * aspect, place() * halfHeight, -depth);
+            for (std::size_t j = 0; j < lights.size(); ++j)
+                ASSERT_TRUE(kept[j] || glm::distance(point, lights[j].positionWS) >= double(lights[j].rangeMetres))
+                    << "light " << j;
+        }
+    }
+}
+
+TEST(PackedLights, lightsWithoutEndAreNeverLeftOut) {
+    Light attenuated = light(LightType::Point, {0, 0, 1000});
+    attenuated.falloff = Falloff::Attenuation;
+    attenuated.rangeMetres = 1.0f; // of the other falloff
+    EXPECT_EQ(pack({attenuated, light(LightType::Point, {0, 0, 1e6}), light(LightType::Directional, {0, 0, 1e6})})
+                  .texels.size(),
+              3u);
+}
+
+TEST(PackedLights, soloAlwaysLeavesExactlyThatLight) {
+    FrameSettings solo;
+    solo.soloLight = 1;
+    const std::vector<Light> lights{light(LightType::Point), light(LightType::Spot), light(LightType::Directional)};
+    const PackedLights packed = pack(lights, solo);
+    EXPECT_THAT(packed.sceneIndex, ElementsAre(1));
+    EXPECT_EQ(packed.off, 2u);
+    EXPECT_EQ(packed.shown, 0);
+}
+
+TEST(PackedLights, theShownLightIsAlwaysTheFirstThatIsOnOrNoneWhenItIsLeftOut) {
+    Light off = light(LightType::Point), behind = light(LightType::Point, {0, 0, 10});
+    off.enabled = false;
+    behind.rangeMetres = 1.0f;
+    EXPECT_EQ(pack({off, light(LightType::Point), light(LightType::Spot)}).shown, 0);
+    const PackedLights hidden = pack({off, behind, light(LightType::Spot)});
+    EXPECT_THAT(hidden.sceneIndex, ElementsAre(2));
+    EXPECT_EQ(hidden.shown, 1) << "no light of the list: the other one must not be shown in its place";
+    EXPECT_EQ(pack({}).shown, 0);
+    EXPECT_THAT(pack({}).texels, IsEmpty());
+}
+
+TEST(PackedLights, extremeIntensitiesAlwaysStayFinite) {
+    Light bright = light(LightType::Point);
+    bright.color = glm::vec3(1e20f);
+    bright.intensity = 1e20f;
+    EXPECT_EQ(pack({bright}).texels.at(0).color.x, 1e30f);
+}
+
+TEST(PackedLights, positionsAlwaysKeepTheirDigitsFarFromTheOrigin) {
+    scenes::Camera camera;
+    camera.worldFromCamera[3] = {1e7, 0, 0, 1};
+    const PackedLights packed = pack({light(LightType::Point, {1e7 + 0.125, 0.0, -1.0})}, {}, camera);
+    EXPECT_EQ(glm::vec3(packed.texels.at(0).position), glm::vec3(0.125f, 0.0f, -1.0f));
+}
+
+TEST(PackedLights, anAnimatedLightIsAlwaysPackedWhereItIsAtThatTime) {
+    Light moving = light(LightType::Point);
+    moving.animation = scenes::LightAnimation{};
+    moving.animation->kind = scenes::LightAnimationKind::Keyframes;
+    moving.animation->timesSeconds = {0.0, 2.0};
+    moving.animation->pointsWS = {{0, 0, -5}, {4, 0, -5}};
+    FrameSettings settings;
+    settings.timeSeconds = 1.0;
+    EXPECT_EQ(glm::vec3(pack({moving}, settings).texels.at(0).position), glm::vec3(2, 0, -5));
+}
+
+} // namespace
+} // namespace tessera::frame

@@ -1,0 +1,107 @@
+#include "renderer/frame/PackedMaterial.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace tessera::frame {
+namespace {
+
+using scenes::Material;
+using scenes::MaterialModel;
+using scenes::TextureSlot;
+
+TEST(PackedMaterial, theUsualDielectricIsExactlyFourPercent) {
+    const shared::MaterialConstants packed = packMaterial(Material{});
+    EXPECT_EQ(glm::vec3(packed.specular), glm::vec3(0.04f))
+        << "defaultSpecular() of surface.glsl, so that pruning changes no bit";
+    EXPECT_EQ(packed.specular.w, 1.0f);
+    Material material;
+    material.ior = 1.0f;
+    EXPECT_EQ(glm::vec3(packMaterial(material).specular), glm::vec3(0.0f));
+    material.ior = 3.0f;
+    material.specularColor = {1.0f, 0.5f, 0.0f};
+    material.specularFactor = 0.5f;
+    EXPECT_EQ(packMaterial(material).specular, glm::vec4(0.25f, 0.125f, 0.0f, 0.5f))
+        << "the factor is applied after the textures";
+}
+
+TEST(PackedMaterial, everyMemberIsAlwaysTheMaterialsOwnValue) {
+    Material material;
+    material.model = MaterialModel::Microfacet;
+    material.baseColor = {0.1f, 0.2f, 0.3f, 0.4f};
+    material.emissive = {5, 6, 7};
+    material.alphaCutoff = 0.75f;
+    material.metallic = 0.5f;
+    material.perceptualRoughness = 0.6f;
+    material.alpha = 0.02f;
+    material.ior = 1.33f;
+    material.normalScale = 2.0f;
+    material.specularColor = {0.7f, 0.8f, 0.9f};
+    const shared::MaterialConstants packed = packMaterial(material);
+    EXPECT_EQ(packed.baseColor, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
+    EXPECT_EQ(packed.emissive, glm::vec4(5.0f, 6.0f, 7.0f, 0.75f));
+    EXPECT_EQ(packed.microsurface, glm::vec4(0.5f, 0.02f, 1.33f, 2.0f)) << "alpha as it is";
+    EXPECT_EQ(glm::vec3(packed.specular), glm::vec3(0.7f, 0.8f, 0.9f)) << "k_s as it is";
+    EXPECT_EQ(packed.kind, glm::uvec4(unsigned(MaterialModel::Microfacet), 0u, 0u, 0u));
+    material.model = MaterialModel::MetallicRoughness;
+    EXPECT_EQ(packMaterial(material).microsurface.y, 0.6f)
+        << "perceptual roughness, squared in the shader after its texture";
+}
+
+TEST(PackedMaterial, flagsAreAlwaysExactlyWhatTheMaterialHas) {
+    const auto flags = [](const auto& change) {
+        Material material;
+        change(material);
+        return packMaterial(material).kind.y;
+    };
+    EXPECT_EQ(flags([](Material&) {}), 0u);
+    EXPECT_EQ(flags([](Material& m) { m.texture(TextureSlot::Normal).image = 0; }), MATERIAL_FLAG_NORMAL_MAP);
+    EXPECT_EQ(flags([](Material& m) { m.normalMapSpace = scenes::NormalMapSpace::Object; }),
+              MATERIAL_FLAG_OBJECT_SPACE_NORMAL);
+    EXPECT_EQ(flags([](Material& m) { m.alphaMode = scenes::AlphaMode::Mask; }), MATERIAL_FLAG_ALPHA_MASK);
+    EXPECT_EQ(flags([](Material& m) { m.alphaMode = scenes::AlphaMode::Blend; }), 0u);
+    EXPECT_EQ(flags([](Material& m) { m.doubleSided = true; }), MATERIAL_FLAG_DOUBLE_SIDED);
+}
+
+TEST(PackedMaterial, textureCoordinatesAreAlwaysScaledThenTurnedThenMoved) {
+    Material material;
+    scenes::TextureUse& use = material.texture(TextureSlot::Emissive);
+    use.transform = {.offset = {0.25f, -0.5f}, .scale = {2.0f, 3.0f}, .rotationRadians = 0.7f};
+    const shared::MaterialConstants packed = packMaterial(material);
+    const glm::vec4 row0 = packed.uvRow0[TEXTURE_SLOT_EMISSIVE], row1 = packed.uvRow1[TEXTURE_SLOT_EMISSIVE];
+    const double c = std::cos(0.7f), s = std::sin(0.7f);
+    for (const glm::dvec2 uv : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(0.3, 0.9)}) {
+        // KHR_texture_transform with v down: a positive angle turns u towards -v.
+        const glm::dvec2 expected(0.25 + c * 2.0 * uv.x + s * 3.0 * uv.y, -0.5 - s * 2.0 * uv.x + c * 3.0 * uv.y);
+        EXPECT_NEAR(row0.x * uv.x + row0.y * uv.y + row0.z, expected.x, 1e-6); // fp32 rows of order one
+        EXPECT_NEAR(row1.x * uv.x + row1.y * uv.y + row1.z, expected.y, 1e-6);
+    }
+    EXPECT_EQ(glm::vec3(packed.uvRow0[TEXTURE_SLOT_NORMAL]), glm::vec3(1, 0, 0)) << "other slots lie as they are";
+    EXPECT_EQ(glm::vec3(packed.uvRow1[TEXTURE_SLOT_NORMAL]), glm::vec3(0, 1, 0));
+}
+
+TEST(PackedMaterial, setsAndWrapModesAlwaysGoToTheirSlot) {
+    for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
+        Material material;
+        material.textures[slot].texCoordSet = 1;
+        material.textures[slot].sampler.wrapU = scenes::Wrap::ClampToEdge;
+        material.textures[slot].sampler.wrapV = scenes::Wrap::MirroredRepeat;
+        const shared::MaterialConstants packed = packMaterial(material);
+        for (std::size_t other = 0; other < scenes::kTextureSlotCount; ++other) {
+            EXPECT_EQ(packed.uvRow0[other].w, other == slot ? 1.0f : 0.0f);
+            EXPECT_EQ(packed.uvRow1[other].w, other == slot ? 1.0f + 4.0f * 2.0f : 0.0f);
+        }
+    }
+}
+
+TEST(PackedMaterial, exactlyTheColourSlotsAreSrgb) {
+    for (const TextureSlot slot : {TextureSlot::BaseColor, TextureSlot::Emissive, TextureSlot::SpecularColor})
+        EXPECT_TRUE(slotIsSrgb(slot));
+    for (const TextureSlot slot :
+         {TextureSlot::Normal, TextureSlot::MetallicRoughness, TextureSlot::SpecularFactor, TextureSlot::Ior})
+        EXPECT_FALSE(slotIsSrgb(slot));
+}
+
+} // namespace
+} // namespace tessera::frame
