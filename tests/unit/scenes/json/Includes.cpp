@@ -157,6 +157,15 @@ TEST(SceneJsonInclude, theAssetsFolderIsAlwaysTakenFromTheEnvironment) {
               "of the third-party models");
 }
 
+TEST(SceneJsonInclude, builtinScenesAreAlwaysIncludedByName) {
+    const SceneFolder folder;
+    const Scene scene = folder.import(including(R"({"file": "builtin:room", "name": "cell"})"));
+    EXPECT_EQ(scene.nodes.at(0).name, "cell");
+    EXPECT_GT(triangleCount(scene), 0u);
+    EXPECT_EQ(folder.errorBeyondSchemaOf(including(R"({"file": "builtin:rom"})")),
+              "/include/0/file: there is no built-in scene 'rom'; did you mean 'room'?");
+}
+
 TEST(SceneJsonInclude, wrongFilesAreAlwaysRefused) {
     const SceneFolder folder;
     EXPECT_EQ(folder.errorBeyondSchemaOf(including(R"({"file": "none.obj"})")),
