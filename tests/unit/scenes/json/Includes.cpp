@@ -94,7 +94,8 @@ TEST(SceneJsonInclude, transformsAlwaysScaleThenRotateThenTranslate) {
 TEST(SceneJsonInclude, lightsAndCamerasAlwaysMoveAlong) {
     const SceneFolder folder;
     const Scene scene = folder.import(including(
-        R"({"file": "parts/lamps.json", "transform": {"scale": 2, "eulerDegrees": [0, 0, 90], "translation": [0, 0, 1]}})"));
+        R"({"file": "parts/lamps.json", 
+            "transform": {"scale": 2, "eulerDegrees": [0, 0, 90], "translation": [0, 0, 1]}})"));
     const Light& light = scene.lights.at(0);
     const auto expectNear = [](const glm::dvec3& a, const glm::dvec3& b) {
         EXPECT_LT(glm::distance(a, b), 1e-12) << a.x << ' ' << a.y << ' ' << a.z; // rounding of sine and cosine
