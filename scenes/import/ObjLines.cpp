@@ -115,6 +115,8 @@ std::string readText(const std::filesystem::path& file) {
     const std::vector<std::byte> bytes = readFileBytes(file);
     std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+        throw InputError(file.string() + ": the text is UTF-16; save it as UTF-8");
     if (text.empty()) throw InputError(file.string() + ": the file is empty; export the model again");
     return text;
 }

@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "scenes/Error.h"
+#include "scenes/Load.h"
 #include "scenes/import/AppendScene.h"
 #include "scenes/import/FileBytes.h"
 #include "scenes/import/Importers.h"
@@ -108,6 +109,9 @@ private:
     }
 
     Scene load(const JsonValue& name) {
+        constexpr std::string_view kBuiltin = "builtin:";
+        if (const std::string text = name.text(); text.starts_with(kBuiltin))
+            return builtinCalled(name, text.substr(kBuiltin.size()));
         const std::filesystem::path file = resolveFile(name);
         std::string extension = file.extension().string();
         std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -117,6 +121,15 @@ private:
             name.fail(fmt::format("'{}' is not a scene file; give a .gltf, .glb, .obj or .json file", name.text()));
         refuseCycle(name, file);
         return import(file);
+    }
+
+    static Scene builtinCalled(const JsonValue& value, const std::string& name) {
+        std::vector<std::string_view> names;
+        for (const BuiltinScene& builtin : builtinScenes()) {
+            if (builtin.name == name) return builtin.make(LoadOptions{});
+            names.push_back(builtin.name);
+        }
+        value.failUnknown("built-in scene", name, names);
     }
 
     void refuseCycle(const JsonValue& name, const std::filesystem::path& file) const {

@@ -94,7 +94,8 @@ TEST(SceneJsonInclude, transformsAlwaysScaleThenRotateThenTranslate) {
 TEST(SceneJsonInclude, lightsAndCamerasAlwaysMoveAlong) {
     const SceneFolder folder;
     const Scene scene = folder.import(including(
-        R"({"file": "parts/lamps.json", "transform": {"scale": 2, "eulerDegrees": [0, 0, 90], "translation": [0, 0, 1]}})"));
+        R"({"file": "parts/lamps.json", 
+            "transform": {"scale": 2, "eulerDegrees": [0, 0, 90], "translation": [0, 0, 1]}})"));
     const Light& light = scene.lights.at(0);
     const auto expectNear = [](const glm::dvec3& a, const glm::dvec3& b) {
         EXPECT_LT(glm::distance(a, b), 1e-12) << a.x << ' ' << a.y << ' ' << a.z; // rounding of sine and cosine
@@ -155,6 +156,15 @@ TEST(SceneJsonInclude, theAssetsFolderIsAlwaysTakenFromTheEnvironment) {
     EXPECT_EQ(folder.errorBeyondSchemaOf(text),
               "/include/0/file: needs the environment variable TESSERA_ASSETS, which is not set; set it to the folder "
               "of the third-party models");
+}
+
+TEST(SceneJsonInclude, builtinScenesAreAlwaysIncludedByName) {
+    const SceneFolder folder;
+    const Scene scene = folder.import(including(R"({"file": "builtin:room", "name": "cell"})"));
+    EXPECT_EQ(scene.nodes.at(0).name, "cell");
+    EXPECT_GT(triangleCount(scene), 0u);
+    EXPECT_EQ(folder.errorBeyondSchemaOf(including(R"({"file": "builtin:rom"})")),
+              "/include/0/file: there is no built-in scene 'rom'; did you mean 'room'?");
 }
 
 TEST(SceneJsonInclude, wrongFilesAreAlwaysRefused) {

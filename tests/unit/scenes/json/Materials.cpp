@@ -69,7 +69,8 @@ TEST(SceneJsonMaterials, microfacetAlwaysHasItsFourParametersAndTheirTextures) {
     const Scene textured = sceneOf(folder, R"("model": "microfacet",
         "k_d": {"texture": "pictures/albedo.tga"},
         "k_s": {"factor": [0.5, 0.5, 0.5], "texture": {"file": "pictures/specular.tga"}},
-        "alpha": {"factor": 0.7, "texture": "pictures/normal.tga"}, "ior": {"factor": 2, "texture": "pictures/albedo.tga"})");
+        "alpha": {"factor": 0.7, "texture": "pictures/normal.tga"},
+        "ior": {"factor": 2, "texture": "pictures/albedo.tga"})");
     EXPECT_EQ(redOf(textured, TextureSlot::BaseColor), 10);
     EXPECT_EQ(redOf(textured, TextureSlot::SpecularColor), 40);
     EXPECT_EQ(redOf(textured, TextureSlot::MetallicRoughness), 128);

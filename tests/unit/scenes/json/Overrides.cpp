@@ -68,7 +68,8 @@ TEST(SceneJsonOverrides, replacedMaterialsAndTheirPicturesAreAlwaysDropped) {
 TEST(SceneJsonOverrides, theDocumentsOwnMaterialIsAlwaysFoundFirst) {
     const SceneFolder folder;
     const Scene scene = folder.import(threeParts(
-        R"("materials": [{"name": "brass", "model": "lambert"}], "overrides": [{"node": "left", "material": "brass"}])"));
+        R"("materials": [{"name": "brass", "model": "lambert"}],
+           "overrides": [{"node": "left", "material": "brass"}])"));
     EXPECT_EQ(scene.materials.at(static_cast<std::size_t>(scene.nodes[1].instances.at(0).material)).model,
               MaterialModel::Lambert);
 }
@@ -88,7 +89,8 @@ TEST(SceneJsonOverrides, aMaterialOverrideAlwaysChangesOnlyWhatItGives) {
 TEST(SceneJsonOverrides, aMaterialOverrideMayAlwaysChangeTheModel) {
     const SceneFolder folder;
     const Scene scene = folder.import(threeParts(
-        R"("overrides": [{"material": "default", "model": "microfacet", "alpha": 0.125}, {"material": "default", "ior": 2}])"));
+        R"("overrides": [{"material": "default", "model": "microfacet", "alpha": 0.125},
+                         {"material": "default", "ior": 2}])"));
     for (const std::size_t i : {0u, 1u}) {
         EXPECT_EQ(scene.materials[i].model, MaterialModel::Microfacet);
         EXPECT_EQ(scene.materials[i].alpha, 0.125f);
@@ -126,7 +128,8 @@ TEST(SceneJsonOverrides, anOverrideThatMatchesNothingIsAlwaysRefusedWithTheNeare
               "/overrides/0: an override of a node has no key 'metallic'; valid are node, material");
     folder.write("parts/empty.json", R"({"tessera": 1})");
     EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "include": [{"file": "parts/empty.json"}],
-                  "materials": [{"name": "m", "model": "lambert"}], "overrides": [{"node": "empty", "material": "m"}]})"),
+                  "materials": [{"name": "m", "model": "lambert"}],
+                  "overrides": [{"node": "empty", "material": "m"}]})"),
               "/overrides/0/node: nothing is drawn at or below the nodes 'empty'; name one that has a mesh");
 }
 

@@ -258,6 +258,7 @@ TEST(Obj, brokenTextIsAlwaysRefusedWithFileAndLine) {
         return error.substr(std::min(error.size(), file.string().size() + 1));
     };
     EXPECT_EQ(errorOf(""), " the file is empty; export the model again");
+    EXPECT_EQ(errorOf("\xff\xfev"), " the text is UTF-16; save it as UTF-8");
     EXPECT_EQ(errorOf("v 0 0 0\nv 1 0 0\nv 0 1 0\n"),
               " has no faces ('f' statements); export the model with its polygons");
     EXPECT_EQ(errorOf("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"),
