@@ -140,18 +140,52 @@ struct Skin {
     }
 };
 
-/// The skin's mesh, of every `stride`th point.
+/// In a sharp crease the mean of the faces' normals may point away from a small face: it is turned until it sees them
+/// all.
+glm::dvec3 towardsAll(glm::dvec3 normal, const std::vector<glm::dvec3>& faces) {
+    constexpr double kLeastCosine = 0.05;
+    constexpr int kMostTurns = 32;
+    for (int turn = 0; turn < kMostTurns; ++turn) {
+        glm::dvec3 worst = normal;
+        for (const glm::dvec3& face : faces) {
+            const double length = glm::length(face);
+            if (length > 0.0 && glm::dot(face, normal) < length * glm::dot(worst, normal)) worst = face / length;
+        }
+        if (glm::dot(worst, normal) >= kLeastCosine) break;
+        normal = glm::normalize(normal + 0.25 * worst);
+    }
+    return normal;
+}
+
+/// The skin's mesh, of every `stride`th point. Its normals are the mean of the faces around each vertex, weighted by
+/// their areas: what the sculpture has between the vertices is the normal map's to tell.
 Mesh meshOf(const Skin& skin, int stride, double heightMetres) {
     const double metresPerUnit = heightMetres / (kBustTopY - kBustBottomY);
     const glm::dvec3 footBU(0.0, kBustBottomY, kFootZ);
     const int columns = skin.columns / stride;
     const int rows = skin.rows / stride;
+    const auto point = [&](int i, int j) {
+        return skin.pointsBU[skin.at(stride * ((i + columns) % columns), stride * j)];
+    };
+    const auto normal = [&](int i, int j) {
+        if (j == 0) return glm::dvec3(0.0, 1.0, 0.0); // the crown, where all columns meet
+        std::vector<glm::dvec3> faces;                // twice their areas long, outwards
+        glm::dvec3 sum(0.0);
+        for (int row = std::max(j - 1, 0); row < std::min(j + 1, rows); ++row) {
+            for (int column = i - 1; column <= i; ++column) {
+                const glm::dvec3 diagonal = point(column + 1, row + 1) - point(column, row);
+                faces.push_back(glm::cross(diagonal, point(column + 1, row) - point(column, row)));
+                faces.push_back(glm::cross(point(column, row + 1) - point(column, row), diagonal));
+                sum += faces[faces.size() - 2] + faces.back();
+            }
+        }
+        return towardsAll(glm::normalize(sum), faces);
+    };
     Mesh mesh;
     appendPatch(mesh, columns, rows, [&](double u, double v) {
-        const int i = stride * static_cast<int>(std::lround(u * columns));
-        const int j = stride * static_cast<int>(std::lround(v * rows));
-        const std::size_t at = skin.at(i, j);
-        return SurfacePoint{metresPerUnit * (skin.pointsBU[at] - footBU), skin.normals[at], {u, v}};
+        const int i = static_cast<int>(std::lround(u * columns));
+        const int j = static_cast<int>(std::lround(v * rows));
+        return SurfacePoint{metresPerUnit * (point(i, j) - footBU), normal(i, j), {u, v}};
     });
     return mesh;
 }

@@ -51,8 +51,8 @@ void appendShaft(Mesh& mesh) {
 glm::dvec3 leafPoint(double s, double t, double footY, double height, double footRadius) {
     const double roll = std::max(0.0, t - 0.62) / 0.38; // over the last part of its length
     const double halfWidth = 0.085 * (0.75 + 0.9 * t * (1.0 - t)) * (1.0 - 0.55 * roll * roll);
-    const double out = footRadius + 0.05 * t + 0.13 * roll * roll - 0.035 * s * s * (1.0 - 0.4 * roll) +
-                       0.012 * std::cos(3.0 * kPi * s);
+    const double out =
+        footRadius + 0.05 * t + 0.13 * roll * roll - 0.035 * s * s * (1.0 - 0.4 * roll) + 0.012 * std::cos(kPi * s);
     const double y = footY + height * (t - 0.20 * roll * roll * roll * t);
     return {halfWidth * s, y, out};
 }

@@ -14,8 +14,9 @@ constexpr double kCarpetHalf = 1.2;
 } // namespace
 
 Mesh floor() {
+    constexpr double kThreshold = 0.5; // on into the portal; the apse has a floor of its own
     Mesh mesh;
-    appendFloor(mesh, {0.0, 0.0, -1.0}, {2.0 * kAisleOuterX, 2.0 * kHalfLength + 3.0}, {8, 22});
+    appendFloor(mesh, {0.0, 0.0, 0.5 * kThreshold}, {2.0 * kAisleOuterX, 2.0 * kHalfLength + kThreshold}, {8, 20});
     return mesh;
 }
 

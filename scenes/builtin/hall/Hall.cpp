@@ -90,7 +90,7 @@ void addFurnishings(Scene& scene, const Finishes& f) {
     // The colossus in the apse: a head twice a man's height on three steps.
     constexpr double kColossusScale = 2.6;
     const double apseZ = -kHalfLength - 1.0;
-    addNode(scene, "dais", placed(0.0, 0.0, apseZ + 0.4), {{addMesh(scene, "dais", dais()), f.column}});
+    addNode(scene, "dais", placed(0.0, 0.0, apseZ + 0.75), {{addMesh(scene, "dais", dais()), f.column}});
     addNode(scene, "colossus", glm::scale(placed(0.0, 0.48 + 0.9, apseZ), glm::dvec3(kColossusScale)),
             {{bust, f.statue}});
     addNode(scene, "colossus pedestal", glm::scale(placed(0.0, 0.48, apseZ), glm::dvec3(2.4, 2.0, 2.4)),

@@ -162,7 +162,7 @@ Mesh bayTrim() {
                  .lineTo({0.0, s + 0.04}),
              -kAisleOuterX);
     // Sill of the niche.
-    appendBox(mesh, {-kAisleOuterX - 0.02, kNicheSillY - 0.1, -kNicheRadius - 0.16},
+    appendBox(mesh, {-kAisleOuterX, kNicheSillY - 0.1, -kNicheRadius - 0.16},
               {-kAisleOuterX + 0.14, kNicheSillY, kNicheRadius + 0.16});
     // Pilaster and vault rib at the bay's end towards -Z.
     appendBox(mesh, {-kAisleOuterX, 0.0, -half - 0.28}, {-kAisleOuterX + 0.14, s - 0.16, -half + 0.28});

@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "scenes/Load.h"
+#include "scenes/builtin/Builtin.h"
+#include "scenes/builtin/hall/Lights.h"
+#include "tests/unit/scenes/MeshRules.h"
+
+namespace tessera::scenes {
+namespace {
+
+/// The generated scenes, never a scan that this machine may have.
+LoadOptions withoutAssets() {
+    LoadOptions options;
+    options.useAssets = false;
+    return options;
+}
+
+/// FNV-1a (Fowler, Noll, Vo) over everything a renderer reads.
+class Digest {
+public:
+    template <typename T>
+    void add(const std::vector<T>& values) {
+        for (std::size_t i = 0; i < values.size() * sizeof(T); ++i) {
+            hash_ = (hash_ ^ reinterpret_cast<const unsigned char*>(values.data())[i]) * 1099511628211u;
+        }
+    }
+    template <typename T>
+    void add(const T& value) {
+        add(std::vector<T>{value});
+    }
+    std::uint64_t value() const { return hash_; }
+
+private:
+    std::uint64_t hash_ = 14695981039346656037u;
+};
+
+std::uint64_t digest(const Scene& scene) {
+    Digest digest;
+    for (const Image& image : scene.images) digest.add(image.texels);
+    for (const Mesh& mesh : scene.meshes) {
+        digest.add(mesh.positionsOS);
+        digest.add(mesh.normalsOS);
+        digest.add(mesh.texCoords[0]);
+        digest.add(mesh.indices);
+    }
+    for (const Node& node : scene.nodes) {
+        digest.add(node.parentFromNode);
+        digest.add(node.instances);
+    }
+    for (const Material& material : scene.materials) {
+        digest.add(material.baseColor);
+        digest.add(material.emissive);
+        digest.add(glm::vec4(material.metallic, material.perceptualRoughness, material.alpha, material.ior));
+    }
+    for (const Light& light : scene.lights) {
+        digest.add(light.positionWS);
+        digest.add(light.directionWS);
+        digest.add(glm::vec4(light.color, light.intensity));
+        digest.add(light.rangeMetres);
+    }
+    for (const Camera& camera : scene.cameras) digest.add(camera.worldFromCamera);
+    return digest.value();
+}
+
+void expectCamerasWithinReach(const Scene& scene) {
+    const Box3 boundsWS = worldBounds(scene);
+    const double radiusMetres = 0.5 * glm::length(boundsWS.max - boundsWS.min);
+    for (const Camera& camera : scene.cameras) {
+        const glm::dvec3 eyeWS(camera.worldFromCamera[3]);
+        EXPECT_LT(glm::distance(eyeWS, 0.5 * (boundsWS.min + boundsWS.max)), 1.5 * radiusMetres) << camera.name;
+        EXPECT_GT(eyeWS.y, boundsWS.min.y) << camera.name;
+    }
+}
+
+/// Nothing is stored that no instance refers to, and whatever is textured has the coordinates for it.
+void expectAllUsed(const Scene& scene) {
+    std::vector<bool> meshUsed(scene.meshes.size());
+    std::vector<bool> materialUsed(scene.materials.size());
+    std::vector<bool> imageUsed(scene.images.size());
+    for (const Node& node : scene.nodes) {
+        for (const MeshInstance& instance : node.instances) {
+            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+            meshUsed[static_cast<std::size_t>(instance.mesh)] = true;
+            materialUsed[static_cast<std::size_t>(instance.material)] = true;
+            for (const TextureUse& use : scene.materials[static_cast<std::size_t>(instance.material)].textures) {
+                if (use.image == kNone) continue;
+                imageUsed[static_cast<std::size_t>(use.image)] = true;
+                EXPECT_EQ(mesh.texCoords[static_cast<std::size_t>(use.texCoordSet)].size(), mesh.positionsOS.size())
+                    << mesh.name;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < meshUsed.size(); ++i) EXPECT_TRUE(meshUsed[i]) << scene.meshes[i].name;
+    for (std::size_t i = 0; i < materialUsed.size(); ++i) EXPECT_TRUE(materialUsed[i]) << scene.materials[i].name;
+    for (std::size_t i = 0; i < imageUsed.size(); ++i) EXPECT_TRUE(imageUsed[i]) << scene.images[i].name;
+}
+
+class BuiltinScenes : public testing::TestWithParam<BuiltinScene> {};
+
+TEST_P(BuiltinScenes, areAlwaysSoundAndFaceTheirNormals) {
+    const Scene scene = GetParam().make(withoutAssets());
+    EXPECT_NO_THROW(checkScene(scene));
+    EXPECT_EQ(scene.name, GetParam().name);
+    EXPECT_FALSE(scene.cameras.empty());
+    EXPECT_FALSE(scene.lights.empty());
+    EXPECT_TRUE(scene.warnings.empty());
+    expectCamerasWithinReach(scene);
+    expectAllUsed(scene);
+    for (const Mesh& mesh : scene.meshes) expectMeshRules(mesh);
+}
+
+TEST_P(BuiltinScenes, areAlwaysTheSameTwice) {
+    EXPECT_EQ(digest(GetParam().make(withoutAssets())), digest(GetParam().make(withoutAssets())));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BuiltinScenes, testing::ValuesIn(builtinScenes().begin(), builtinScenes().end()),
+                         [](const auto& scene) { return std::string(scene.param.name); });
+
+LoadOptions withLights(int count) {
+    LoadOptions options = withoutAssets();
+    options.lights = count;
+    return options;
+}
+
+/// What the hall's point lights would shed in all: the sum of colour times intensity.
+double power(int count) {
+    Scene scene;
+    builtin::hall::addPointLights(scene, count);
+    double sum = 0.0;
+    for (const Light& light : scene.lights) sum += light.intensity * (light.color.x + light.color.y + light.color.z);
+    return sum;
+}
+
+TEST(Hall, alwaysHasWhatItIsKnownFor) {
+    const Scene scene = builtin::makeHall(withoutAssets());
+    EXPECT_GE(triangleCount(scene), 200000u);
+    EXPECT_GE(scene.materials.size(), 8u);
+    EXPECT_GE(scene.cameras.size(), 3u);
+    const Box3 boundsWS = worldBounds(scene);
+    EXPECT_NEAR(boundsWS.min.z, -23.0, 1e-5) << "20 m to the end wall, an apse of 3 m";
+    EXPECT_NEAR(boundsWS.max.x - boundsWS.min.x, 17.6, 1e-5) << "16 m from wall to wall, a niche of 0.8 m on each side";
+    EXPECT_EQ(boundsWS.min.y, 0.0);
+    ASSERT_EQ(scene.lights.size(), 257u);
+    EXPECT_EQ(scene.lights.back().type, LightType::Directional);
+    for (std::size_t i = 0; i < 256; ++i) {
+        const Light& light = scene.lights[i];
+        EXPECT_EQ(light.type, LightType::Point);
+        EXPECT_GE(light.rangeMetres, 2.0f);
+        EXPECT_LE(light.rangeMetres, 5.0f);
+        EXPECT_TRUE(glm::all(glm::greaterThan(light.positionWS, boundsWS.min))) << light.name;
+        EXPECT_TRUE(glm::all(glm::lessThan(light.positionWS, boundsWS.max))) << light.name;
+    }
+}
+
+TEST(Hall, brightnessNeverDependsOnTheNumberOfLights) {
+    const double usual = power(256);
+    // 64 lights may be four times as strong; they are spread over places of unlike strength.
+    EXPECT_NEAR(power(64), usual, 0.2 * usual);
+    EXPECT_NEAR(power(1000), usual, 0.05 * usual);
+    // 65,536 roundings of an intensity to single precision.
+    EXPECT_NEAR(power(65536), usual, 1e-5 * usual);
+}
+
+TEST(Hall, askedForNumberOfLightsIsAlwaysExactlyMade) {
+    for (const int count : {0, 1, 255, 257, 4097, 65536}) {
+        Scene scene;
+        builtin::hall::addPointLights(scene, count);
+        EXPECT_EQ(scene.lights.size(), static_cast<std::size_t>(count));
+        EXPECT_NO_THROW(checkScene(scene));
+    }
+    EXPECT_EQ(builtin::makeHall(withLights(3)).lights.size(), 4u) << "and the sky";
+}
+
+TEST(Spheres, alwaysSpanRoughnessAndMetalness) {
+    const Scene scene = builtin::makeSpheres(withoutAssets());
+    int spheres = 0;
+    for (const Material& material : scene.materials) {
+        if (material.name.find("metalness") == 0) ++spheres;
+    }
+    EXPECT_EQ(spheres, 55);
+    EXPECT_EQ(scene.lights.size(), 4u);
+    EXPECT_EQ(builtin::makeSpheres(withLights(2)).lights.size(), 2u);
+}
+
+TEST(Head, generatedBustAlwaysHasObjectSpaceNormals) {
+    const Scene scene = builtin::makeHead(withoutAssets());
+    const Material* bust = nullptr;
+    for (const Material& material : scene.materials) {
+        if (material.texture(TextureSlot::Normal).image != kNone) bust = &material;
+    }
+    ASSERT_NE(bust, nullptr);
+    EXPECT_EQ(bust->model, MaterialModel::Microfacet);
+    EXPECT_EQ(bust->normalMapSpace, NormalMapSpace::Object);
+    EXPECT_FLOAT_EQ(bust->ior, 1.4f);
+    EXPECT_GE(scene.lights.size(), 3u);
+    for (const Mesh& mesh : scene.meshes) {
+        if (mesh.name != "bust") continue;
+        EXPECT_GE(mesh.indices.size() / 3, 20000u);
+        EXPECT_LE(mesh.indices.size() / 3, 40000u);
+    }
+}
+
+TEST(Head, objectSpaceNormalsAlwaysAgreeWithTheMeshTheyRefine) {
+    const Scene scene = builtin::makeHead(withoutAssets());
+    const auto bust =
+        std::find_if(scene.meshes.begin(), scene.meshes.end(), [](const Mesh& m) { return m.name == "bust"; });
+    const auto map =
+        std::find_if(scene.images.begin(), scene.images.end(), [](const Image& i) { return i.name == "bust normals"; });
+    ASSERT_NE(bust, scene.meshes.end());
+    ASSERT_NE(map, scene.images.end());
+    double agreement = 0.0;
+    for (std::size_t i = 0; i < bust->positionsOS.size(); ++i) {
+        const glm::vec2 uv = bust->texCoords[0][i];
+        const int x = std::min(static_cast<int>(uv.x * static_cast<float>(map->width)), map->width - 1);
+        const int y = std::min(static_cast<int>(uv.y * static_cast<float>(map->height)), map->height - 1);
+        std::uint16_t texel[4];
+        std::memcpy(texel, map->texels.data() + 8 * (y * map->width + x), sizeof(texel));
+        const glm::dvec3 n = glm::dvec3(texel[0], texel[1], texel[2]) / 65535.0 * 2.0 - 1.0;
+        EXPECT_NEAR(glm::length(n), 1.0, 1e-4); // 16 bits a component
+        agreement += glm::dot(n, glm::dvec3(bust->normalsOS[i]));
+    }
+    agreement /= static_cast<double>(bust->positionsOS.size());
+    EXPECT_GT(agreement, 0.9) << "relief turns normals by some degrees";
+    EXPECT_LT(agreement, 0.9999) << "but relief there is";
+}
+
+} // namespace
+} // namespace tessera::scenes

@@ -1,0 +1,101 @@
+#include "scenes/Load.h"
+
+#include <cstdlib>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "scenes/Error.h"
+#include "tests/unit/scenes/TempFolder.h"
+
+namespace tessera::scenes {
+namespace {
+
+std::string complaint(const std::string& nameOrPath, const LoadOptions& options = {}) {
+    try {
+        loadScene(nameOrPath, options);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(LoadScene, unknownNamesAlwaysBringTheNearest) {
+    EXPECT_EQ(complaint("latice"), "no built-in scene or file is called 'latice'; did you mean 'lattice'?");
+    EXPECT_EQ(complaint("quetzalcoatl"),
+              "no built-in scene or file is called 'quetzalcoatl'; valid are hall, spheres, lattice, room, head");
+}
+
+TEST(LoadScene, missingAndForeignFilesAreAlwaysNamed) {
+    EXPECT_EQ(complaint("nowhere/scene.gltf"), "nowhere/scene.gltf: no such file; check the path");
+    EXPECT_EQ(complaint("nowhere.obj"), "nowhere.obj: no such file; check the path");
+    const test::TempFolder folder;
+    folder.write("scene.fbx", "x");
+    const std::string fbx = (folder.path() / "scene.fbx").string();
+    EXPECT_EQ(complaint(fbx), fbx + ": not a scene file; give a .gltf, .glb, .obj or .json file");
+    const std::string directory = folder.path().string();
+    EXPECT_EQ(complaint(directory), directory + ": not a scene file; give a .gltf, .glb, .obj or .json file");
+}
+
+TEST(LoadScene, numberOfLightsIsAlwaysFrom0To65536) {
+    LoadOptions options;
+    options.lights = -1;
+    EXPECT_EQ(complaint("lattice", options), "cannot use -1 lights; give a number from 0 to 65536");
+    options.lights = 65537;
+    EXPECT_EQ(complaint("lattice", options), "cannot use 65537 lights; give a number from 0 to 65536");
+    options.lights = 0;
+    EXPECT_TRUE(loadScene("lattice", options).lights.empty()) << "who asks for none gets no default light either";
+}
+
+TEST(LoadScene, filesWithoutViewOrLightAlwaysGetTheDefaults) {
+    const test::TempFolder folder;
+    folder.write("triangle.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const std::string file = (folder.path() / "triangle.OBJ").string();
+    const Scene scene = loadScene(file);
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    EXPECT_EQ(scene.cameras[0].name, "default");
+    ASSERT_EQ(scene.lights.size(), 1u);
+    EXPECT_EQ(scene.lights[0].name, "default");
+    EXPECT_GE(scene.warnings.size(), 2u);
+
+    LoadOptions options;
+    options.defaultLight = false;
+    EXPECT_TRUE(loadScene(file, options).lights.empty());
+}
+
+TEST(LoadScene, filesAlwaysKeepTheirFirstLights) {
+    const test::TempFolder folder;
+    folder.write("lamps.json",
+                 R"({"tessera": 1, "lights": [{"type": "point", "name": "a", "position": [0, 0, 0]},
+                                  {"type": "point", "name": "b", "position": [0, 0, 0]}]})");
+    LoadOptions options;
+    options.lights = 1;
+    const Scene scene = loadScene((folder.path() / "lamps.json").string(), options);
+    ASSERT_EQ(scene.lights.size(), 1u);
+    EXPECT_EQ(scene.lights[0].name, "a");
+}
+
+/// The scan is third-party and found only where TESSERA_ASSETS says.
+TEST(LoadScene, headUsesTheScanExactlyWhenAssetsHoldIt) {
+    const char* assets = std::getenv("TESSERA_ASSETS");
+    if (assets == nullptr) GTEST_SKIP() << "TESSERA_ASSETS is not set";
+    const auto meshCalledBust = [](const Scene& scene) {
+        for (const Mesh& mesh : scene.meshes) {
+            if (mesh.name == "bust") return true;
+        }
+        return false;
+    };
+    const Scene scan = loadScene("head");
+    EXPECT_FALSE(meshCalledBust(scan));
+    EXPECT_EQ(scan.images.size(), 3u);
+    LoadOptions options;
+    options.useAssets = false;
+    const Scene bust = loadScene("head", options);
+    EXPECT_TRUE(meshCalledBust(bust));
+    // Both stand on the plinth and reach equally high; single precision of half a metre.
+    EXPECT_EQ(scan.cameras.size(), bust.cameras.size());
+    EXPECT_NEAR(worldBounds(scan).max.y, worldBounds(bust).max.y, 1e-6);
+}
+
+} // namespace
+} // namespace tessera::scenes
