@@ -42,7 +42,7 @@ bool changesSpecular(const scenes::Material& material) {
                         material.texture(scenes::TextureSlot::SpecularColor).image != scenes::kNone;
     if (material.model == scenes::MaterialModel::Microfacet) return tinted;
     return material.model == scenes::MaterialModel::MetallicRoughness &&
-           (tinted || material.ior != 1.5f || material.specularFactor != 1.0f ||
+           (tinted || material.ior != 1.5f || material.texture(scenes::TextureSlot::Ior).image != scenes::kNone || material.specularFactor != 1.0f ||
             material.texture(scenes::TextureSlot::SpecularFactor).image != scenes::kNone);
 }
 

@@ -26,6 +26,7 @@ glm::uint materialFlags(const scenes::Material& material) {
     if (material.normalMapSpace == scenes::NormalMapSpace::Object) flags |= MATERIAL_FLAG_OBJECT_SPACE_NORMAL;
     if (material.alphaMode == scenes::AlphaMode::Mask) flags |= MATERIAL_FLAG_ALPHA_MASK;
     if (material.doubleSided) flags |= MATERIAL_FLAG_DOUBLE_SIDED;
+    if (material.texture(TextureSlot::Ior).image != scenes::kNone) flags |= MATERIAL_FLAG_IOR_TEXTURE;
     return flags;
 }
 
@@ -48,11 +49,8 @@ shared::MaterialConstants packMaterial(const scenes::Material& material) {
     packed.microsurface = glm::vec4(material.metallic, metallicRoughness ? material.perceptualRoughness : material.alpha,
                                     material.ior, material.normalScale);
     packed.specular = glm::vec4(material.specularColor, material.specularFactor);
-    if (metallicRoughness) {
-        // F0 of a smooth dielectric, in double so that ior 1.5 gives exactly the 0.04f of defaultSpecular() in surface.glsl.
-        const double contrast = (double(material.ior) - 1.0) / (double(material.ior) + 1.0);
-        packed.specular = glm::vec4(glm::vec3(glm::dvec3(material.specularColor) * contrast * contrast), material.specularFactor);
-    }
+    const double contrast = (double(material.ior) - 1.0) / (double(material.ior) + 1.0);
+    packed.dielectric = glm::vec4(float(contrast * contrast), 0.0f, 0.0f, 0.0f);
     packed.kind = glm::uvec4(glm::uint(material.model), materialFlags(material), 0u, 0u);
     for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
         packTexture(material.textures[slot], packed.uvRow0[slot], packed.uvRow1[slot]);

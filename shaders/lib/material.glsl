@@ -144,8 +144,15 @@ Surface surfaceFromMaterial(Fragment fragment, vec4 baseColor)
         surface.metallic = roughnessMetallic.y;
         surface.iorOrF90 = specularFactor;
 #if HAS_SPECULAR
+        precise float reflectance = material.dielectric.x;
+#if HAS_IOR_TEXTURE
+        if ((material.kind.y & MATERIAL_FLAG_IOR_TEXTURE) != 0u) {
+            precise float contrast = (ior - 1.0) / (ior + 1.0);
+            reflectance = contrast * contrast;
+        }
+#endif
         // KHR_materials_specular: the dielectric F0 is tinted, held to 1, then scaled.
-        precise vec3 f0 = min(specularColor, vec3(1.0)) * specularFactor;
+        precise vec3 f0 = min(specularColor * reflectance, vec3(1.0)) * specularFactor;
         surface.specular = f0;
 #endif
     }
