@@ -15,7 +15,8 @@ glm::dvec3 anyPerpendicular(const glm::dvec3& n) {
 }
 
 glm::vec4 tangentAt(const glm::dvec3& normal, const glm::dvec3& alongU, const glm::dvec3& alongV) {
-    const glm::dvec3 flat = alongU - normal * glm::dot(normal, alongU);
+    // The normal's length is off by its rounding to fp32, which matters where the texture runs nearly along it.
+    const glm::dvec3 flat = alongU - normal * (glm::dot(normal, alongU) / glm::dot(normal, normal));
     const double length = glm::length(flat);
     // Below this share of its own length the direction is rounding noise.
     if (!(length > 1e-12 * glm::length(alongU)) || length == 0.0) return {glm::vec3(anyPerpendicular(normal)), 1.0f};

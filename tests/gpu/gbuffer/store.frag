@@ -2,7 +2,8 @@
 #define GBUFFER_WRITE
 #include "lib/gbuffer.glsl"
 
-// Five vec4 a surface: (albedo, metallic), (normal, alpha), (specular, ior or F90), (emission, model), (normal texel, 0).
+// Five vec4 a surface: (albedo, metallic), (normal, alpha), (specular, ior or F90), (emission, model),
+// (normal texel, 0).
 layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };
 
 void main()

@@ -1,4 +1,4 @@
-// The light texels as they are fetched, four a light.
+// The light texels as they are fetched, four vec4 a light as C++ has them.
 #include "lib/light.glsl"
 
 layout(local_size_x = 64) in;
@@ -7,8 +7,8 @@ layout(std430, binding = 1) writeonly buffer Outputs { vec4 outputs[]; };
 void main()
 {
     int i = int(gl_GlobalInvocationID.x);
-    if (i * LIGHT_TEXELS >= outputs.length()) return;
-    for (int texel = 0; texel < LIGHT_TEXELS; ++texel) {
-        outputs[i * LIGHT_TEXELS + texel] = texelFetch(lightTexels, i * LIGHT_TEXELS + texel);
+    if (i * 4 >= outputs.length()) return;
+    for (int texel = 0; texel < 4; ++texel) {
+        outputs[i * 4 + texel] = texelFetch(lightTexels, i * LIGHT_TEXELS + texel);
     }
 }

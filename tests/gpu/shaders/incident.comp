@@ -1,4 +1,5 @@
-// What lights send to points. In: (position, index of the light). Out: (intensity, 1 when the light reaches), (direction, 0).
+// What lights send to points. In: (position, index of the light).
+// Out: (intensity, 1 when the light reaches), (direction, 0).
 #include "lib/light.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,5 +1,6 @@
-// One light direction on one surface. In: (albedo, metallic), (normal, alpha), (specular, ior or F90), (l, model), (v, 0).
-// Out: (reflected share, n.l), (d, v, F.g, 0), the share times (intensity of v's w).
+// One light direction on one surface. In: (albedo, metallic), (normal, alpha), (specular, ior or F90), (l, model),
+// (v, intensity).
+// Out: (reflected share, n.l), (d, v, F.g, 0), (share times intensity, 0).
 #include "lib/lighting.glsl"
 
 layout(local_size_x = 64) in;
