@@ -106,6 +106,15 @@ std::string heatMapHtml(const Report& report, const ComparePair& pair) {
         found->image.width, found->image.height, nameHtml(pair), dataUri(found->image));
 }
 
+std::string channelsHtml(const ComparePair& pair) {
+    if (pair.channels.empty()) return "";
+    std::string html = "<p>What each packed G-buffer channel adds to relMSE, found by storing that channel alone in fp32:</p>\n<ul>\n";
+    for (const ChannelShare& channel : pair.channels) {
+        html += fmt::format("<li>{}: {}</li>\n", escapedHtml(channel.channel), figureHtml(channel.share));
+    }
+    return html + "</ul>\n";
+}
+
 } // namespace
 
 std::string pictureId(const Report& report, const std::string& name) {
@@ -147,6 +156,7 @@ std::string pairHtml(const Report& report, std::size_t index) {
         for (const std::string& missed : pair.verdict.missed) html += fmt::format("<li>{}</li>\n", escapedHtml(missed));
         html += "</ul>\n";
     }
+    html += channelsHtml(pair);
     const std::string views = sliderHtml(report, pair) + heatMapHtml(report, pair);
     if (!views.empty()) html += fmt::format("<div class=\"views\">\n{}</div>\n", views);
     return html + fmt::format("<details><summary>All figures</summary>\n{}</details>\n</article>\n",
