@@ -24,12 +24,14 @@ public:
     TempFolder& operator=(const TempFolder&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
-    /// Writes a file, with the folders it needs; replaces one that is there.
-    void write(const std::string& name, std::string_view text) const {
-        std::filesystem::create_directories((path_ / name).parent_path());
-        std::ofstream stream(path_ / name, std::ios::binary | std::ios::trunc);
+    /// Writes a file, with the folders it needs; replaces one that is there. Returns its path.
+    std::filesystem::path write(const std::string& name, std::string_view text) const {
+        const std::filesystem::path file = path_ / name;
+        std::filesystem::create_directories(file.parent_path());
+        std::ofstream stream(file, std::ios::binary | std::ios::trunc);
         stream << text;
-        if (!stream.flush()) throw std::runtime_error("cannot write " + (path_ / name).string());
+        if (!stream.flush()) throw std::runtime_error("cannot write " + file.string());
+        return file;
     }
 
 private:
