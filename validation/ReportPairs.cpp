@@ -108,11 +108,12 @@ std::string heatMapHtml(const Report& report, const ComparePair& pair) {
 
 std::string channelsHtml(const ComparePair& pair) {
     if (pair.channels.empty()) return "";
-    std::string html = "<p>What each packed G-buffer channel adds to relMSE, found by storing that channel alone in fp32:</p>\n<ul>\n";
+    std::string shares;
     for (const ChannelShare& channel : pair.channels) {
-        html += fmt::format("<li>{}: {}</li>\n", escapedHtml(channel.channel), figureHtml(channel.share));
+        shares += fmt::format("{}{} {}", shares.empty() ? "" : ", ", escapedHtml(channel.channel), figureHtml(channel.share));
     }
-    return html + "</ul>\n";
+    return fmt::format("<p>What each packed G-buffer channel adds to relMSE, found by storing that channel alone in fp32: {}.</p>\n",
+                       shares);
 }
 
 } // namespace

@@ -14,8 +14,8 @@ constexpr ViewInfo kViews[] = {
     {View::NormalTexel, 2, "normal_texel", "the normal map's texel as stored", DisplayMapping::Raw},
     {View::Normal, 3, "normal", "the normal that is lit, world space", DisplayMapping::Signed},
     {View::Distribution, 4, "distribution", "D of one light: --solo N, else the first", DisplayMapping::Radiance},
-    {View::Geometry, 5, "geometry", "G of one light", DisplayMapping::Raw},
-    {View::Fresnel, 6, "fresnel", "F of one light", DisplayMapping::Raw},
+    {View::Geometry, 5, "geometry", "G of one light", DisplayMapping::Radiance},
+    {View::Fresnel, 6, "fresnel", "F of one light", DisplayMapping::Radiance},
     {View::Depth, 0, "depth", "distance along the view axis in metres", DisplayMapping::Distance},
 };
 

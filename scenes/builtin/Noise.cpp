@@ -57,6 +57,7 @@ double gradientNoise(const glm::dvec3& point, std::uint32_t seed, const glm::ive
     };
     const glm::dvec3 w(fade(f.x), fade(f.y), fade(f.z));
     const auto edge = [&](int j, int k) { return glm::mix(corner(0, j, k), corner(1, j, k), w.x); };
+    if (f.z == 0.0) return glm::mix(edge(0, 0), edge(1, 0), w.y); // a plane of grid points: the next has no weight
     return glm::mix(glm::mix(edge(0, 0), edge(1, 0), w.y), glm::mix(edge(0, 1), edge(1, 1), w.y), w.z);
 }
 

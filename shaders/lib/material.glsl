@@ -115,7 +115,8 @@ Surface surfaceFromMaterial(Fragment fragment, vec4 baseColor)
 
     surface.normalTexel = vec3(0.5, 0.5, 1.0);
 #if HAS_NORMAL_TEXTURE
-    surface.normalTexel = sampleSlot(normalTexture, TEXTURE_SLOT_NORMAL, fragment).rgb;
+    vec3 normalTexel = sampleSlot(normalTexture, TEXTURE_SLOT_NORMAL, fragment).rgb;
+    if ((material.kind.y & MATERIAL_FLAG_NORMAL_MAP) != 0u) surface.normalTexel = normalTexel;
 #endif
     surface.normalLS = materialNormal(fragment, surface.normalTexel);
 

@@ -92,7 +92,7 @@ void addFurnishings(Scene& scene, const Finishes& f) {
     const double apseZ = -kHalfLength - 1.0;
     addNode(scene, "dais", placed(0.0, 0.0, apseZ + 0.75), {{addMesh(scene, "dais", dais()), f.column}});
     addNode(scene, "colossus", glm::scale(placed(0.0, 0.48 + 0.9, apseZ), glm::dvec3(kColossusScale)),
-            {{bust, f.statue}});
+            {{addMesh(scene, "colossus", bustMesh(112, 88, 1.25)), f.statue}});
     addNode(scene, "colossus pedestal", glm::scale(placed(0.0, 0.48, apseZ), glm::dvec3(2.4, 2.0, 2.4)),
             {{stand, f.plinth}});
 }

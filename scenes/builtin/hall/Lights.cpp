@@ -61,15 +61,18 @@ void addFixtures(std::vector<Light>& places) {
     }
 }
 
-/// A crown of lamps around the apse.
+/// A crown of lamps around the apse, and two before its colossus.
 void addApse(std::vector<Light>& places) {
-    constexpr int kLamps = 20;
+    constexpr int kLamps = 18;
     for (int i = 0; i < kLamps; ++i) {
         const double angle = kPi * (i + 0.5) / kLamps;
         const double radius = i % 2 == 0 ? 2.45 : 1.9;
         const double y = i % 2 == 0 ? 5.9 : 1.1;
         const glm::dvec3 positionWS(radius * std::cos(angle), y, -kHalfLength - radius * std::sin(angle));
-        addPlace(places, "apse", positionWS, i % 2 == 0 ? kAmber : kRose, 2.2f, 3.4f);
+        addPlace(places, "apse", positionWS, i % 2 == 0 ? kAmber : kRose, 1.6f, 3.4f);
+    }
+    for (const double side : {-1.0, 1.0}) { // from below on the colossus
+        addPlace(places, "dais", {side * 1.3, 1.1, -kHalfLength + 0.9}, kAmber, 5.0f, 4.5f);
     }
 }
 

@@ -18,7 +18,7 @@ glm::dvec2 texelCenter(int x, int y, int width, int height) {
 
 /// Noise that tiles over the picture, `frequency` cells across.
 double tiling(const glm::dvec2& p, int frequency, int octaves, std::uint32_t seed) {
-    return fractalNoise({frequency * p.x, frequency * p.y, 0.37}, octaves, seed, glm::ivec2(frequency));
+    return fractalNoise({frequency * p.x, frequency * p.y, 0.0}, octaves, seed, glm::ivec2(frequency));
 }
 
 /// 1 on a vein of marble, 0 away from it: where a warped noise crosses zero.

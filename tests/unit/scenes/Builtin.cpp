@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstring>
+#include <ostream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,12 @@
 #include "tests/unit/scenes/MeshRules.h"
 
 namespace tessera::scenes {
+
+/// How GoogleTest shows a scene in a test's name.
+void PrintTo(const BuiltinScene& scene, std::ostream* out) {
+    *out << scene.name;
+}
+
 namespace {
 
 /// The generated scenes, never a scan that this machine may have.
