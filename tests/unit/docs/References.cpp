@@ -1,0 +1,77 @@
+// What the documents point at: files by links, tests by name.
+#include <regex>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/docs/Tables.h"
+
+namespace tessera {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Every first group of `pattern` in `text`.
+std::vector<std::string> matches(const std::string& text, const std::regex& pattern) {
+    std::vector<std::string> found;
+    for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it) found.push_back(it->str(1));
+    return found;
+}
+
+/// Anchors of a document's headings, as GitHub makes them: lower case, spaces to hyphens, punctuation dropped.
+std::set<std::string> anchorsOf(const fs::path& document) {
+    std::set<std::string> anchors;
+    for (const std::string& heading : matches(test::textOf(document), std::regex("(?:^|\n)#+ ([^\n]+)"))) {
+        std::string anchor;
+        for (const char c : heading) {
+            if (std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_')
+                anchor += char(std::tolower(static_cast<unsigned char>(c)));
+            else if (c == ' ')
+                anchor += '-';
+        }
+        anchors.insert(anchor);
+    }
+    return anchors;
+}
+
+TEST(Documentation, everyLinkWithinTheRepositoryAlwaysLeadsSomewhere) {
+    int links = 0;
+    for (const fs::path& document : test::documents()) {
+        for (const std::string& link : matches(test::textOf(document), std::regex(R"(\]\(([^)\s]+)\))"))) {
+            if (link.find("://") != std::string::npos) continue;
+            const std::size_t hash = std::min(link.find('#'), link.size());
+            const fs::path file = hash == 0 ? document : document.parent_path() / link.substr(0, hash);
+            EXPECT_TRUE(fs::exists(file)) << document.filename() << ": " << link;
+            if (hash < link.size()) {
+                EXPECT_TRUE(anchorsOf(file).count(link.substr(hash + 1))) << document.filename() << ": " << link;
+            }
+            ++links;
+        }
+    }
+    EXPECT_GT(links, 20);
+}
+
+TEST(Documentation, everyTestThatIsNamedAlwaysExists) {
+    std::string sources;
+    for (const auto& entry : fs::recursive_directory_iterator(test::kRepository / "tests")) {
+        const fs::path& path = entry.path();
+        if (path.extension() == ".cpp" || path.filename() == "CMakeLists.txt") sources += test::textOf(path);
+    }
+    int named = 0;
+    for (const fs::path& document : test::documents()) {
+        // `Suite.nameOfTheTest`; a name of one word would be a file or a member.
+        const std::regex name(R"(`([A-Z]\w+\.[a-z]+[A-Z]\w+)`)");
+        for (const std::string& test : matches(test::textOf(document), name)) {
+            const std::size_t dot = test.find('.');
+            const std::string suite = test.substr(0, dot), contract = test.substr(dot + 1);
+            const bool isGoogleTest = sources.find("(" + suite + ", " + contract + ")") != std::string::npos;
+            const bool isHouseTest = suite == "House" && sources.find("house_test(" + contract) != std::string::npos;
+            EXPECT_TRUE(isGoogleTest || isHouseTest) << document.filename() << ": " << test;
+            ++named;
+        }
+    }
+    EXPECT_GT(named, 20);
+}
+
+} // namespace
+} // namespace tessera

@@ -1,0 +1,70 @@
+// Tables of the documentation that repeat tables of the program.
+#include "tests/unit/docs/Tables.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "passes/recipes/Techniques.h"
+#include "renderer/frame/FrameSettings.h"
+#include "renderer/frame/GBufferLayout.h"
+
+namespace tessera {
+namespace {
+
+using test::Rows;
+
+std::string code(std::string_view text) {
+    return fmt::format("`{}`", text);
+}
+
+void expectTable(const char* document, const std::vector<std::string>& head, const Rows& rows) {
+    const std::string table = test::markdownTable(head, rows);
+    EXPECT_TRUE(test::holdsTable(test::textOf(test::kRepository / document), table))
+        << document << " should hold exactly\n"
+        << table;
+}
+
+TEST(Documentation, theChannelsOfTheGBufferAreExactlyThoseOfTheProgram) {
+    Rows rows;
+    for (const frame::ChannelInfo& info : frame::channelTable()) {
+        const graph::FormatInfo& packed = graph::formatInfo(info.packed);
+        rows.push_back({code(info.name), std::string(info.meaning), std::string(graph::formatInfo(info.exact).name),
+                        fmt::format("{}, {} bytes", packed.name, packed.bytes), std::string(info.packedEncoding),
+                        std::string(info.needed)});
+    }
+    expectTable("docs/how-it-works.md", {"channel", "holds", "`exact`", "`packed`", "packed as", "allocated for"},
+                rows);
+}
+
+TEST(Documentation, theTechniquesAreExactlyThoseOfTheProgram) {
+    Rows rows;
+    for (const recipes::TechniqueInfo& info : recipes::techniqueTable())
+        rows.push_back({code(info.name), std::string(info.geometry), std::string(info.lighting)});
+    expectTable("README.md", {"technique", "geometry", "lighting"}, rows);
+}
+
+TEST(Documentation, theViewsAreExactlyThoseOfTheProgram) {
+    Rows rows;
+    for (const frame::ViewInfo& info : frame::viewTable())
+        rows.push_back({info.key ? std::to_string(info.key) : "", code(info.name), std::string(info.meaning)});
+    expectTable("docs/command-line.md", {"number", "name", "shows"}, rows);
+}
+
+template <typename Table>
+std::string namesIn(const Table& table) {
+    std::string names;
+    for (const auto& row : table) names += (names.empty() ? "" : ", ") + code(row.name);
+    return names;
+}
+
+TEST(Documentation, theNamesThatOptionsTakeAreExactlyThoseOfTheProgram) {
+    const std::string text = test::textOf(test::kRepository / "docs" / "command-line.md");
+    for (const std::string& row : {"| `--technique` | " + namesIn(recipes::techniqueTable()) + " (",
+                                   "| `--layout` | " + namesIn(frame::layoutTable()) + " (",
+                                   "| `--tonemap` | " + namesIn(frame::toneMapTable()) + " ("}) {
+        EXPECT_NE(text.find(row), std::string::npos) << "docs/command-line.md should have a row that begins " << row;
+    }
+}
+
+} // namespace
+} // namespace tessera
