@@ -19,7 +19,9 @@ PreparedFrame prepareFrame(const scenes::Scene& scene, const frame::FrameSetting
     }
     PreparedFrame prepared;
     const scenes::Camera& camera = scene.cameras[std::size_t(settings.camera)];
-    prepared.view = frame::makeCameraView(camera, settings.sizePixels, settings.space, scene.background);
+    // A debug view shows quantities of surfaces; where there is none it shows 0.
+    const glm::vec3 background = settings.view == frame::View::Final ? scene.background : glm::vec3(0.0f);
+    prepared.view = frame::makeCameraView(camera, settings.sizePixels, settings.space, background);
     prepared.lights = frame::packLights(scene, prepared.view, settings);
     prepared.view.constants.lights = glm::uvec4(prepared.lights.texels.size(), prepared.lights.shown, 0u, 0u);
     prepared.spec = frame::makeFrameSpec(scene, prepared.lights, settings);

@@ -71,7 +71,7 @@ std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const Fram
         if (!gbuffer) break;
         if (std::find(spec.channels.begin(), spec.channels.end(), info.channel) != spec.channels.end()) continue;
         const auto bytes = std::size_t(graph::formatInfo(spec.settings.layout.format(info.channel)).bytes);
-        out.push_back({fmt::format("G-buffer channel {}", info.name), fmt::format("only {} need it", info.needed), pixels * bytes, {}});
+        out.push_back({fmt::format("G-buffer channel {}", info.name), fmt::format("needed only by {}", info.needed), pixels * bytes, {}});
     }
     for (const FeatureInfo& info : featureTable()) {
         if (spec.features[info.feature]) continue;

@@ -15,7 +15,9 @@ protected:
     validation::CompareRecord compare(const scenes::Scene& scene, const frame::FrameSettings& settings) {
         recipes::Renderer renderer(context(), scene);
         validation::CompareRequest request;
-        request.techniques = {Technique::ForwardPrepass, Technique::Deferred};
+        for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+            if (info.technique != Technique::Forward) request.techniques.push_back(info.technique);
+        }
         request.settings = settings;
         return validation::compareTechniques(renderer, context().capabilities(), request).record;
     }
