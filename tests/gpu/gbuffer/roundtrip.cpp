@@ -51,7 +51,7 @@ protected:
         defines.emplace_back("WIDTH", std::to_string(kWidth));
 
         const gpu::Program& store =
-            bench.library().get({"store", "passes/fullscreen.vert", "test/store.frag", "", defines});
+            bench.programs().get({"store", "passes/fullscreen.vert", "test/store.frag", "", defines});
         const gpu::Buffer in = gpu::Buffer::of("surfaces", padded);
         gpu::FramebufferCache framebuffers;
         gpu::bindFramebuffer(framebuffers.get(attachments));

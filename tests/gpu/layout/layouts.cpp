@@ -29,7 +29,7 @@ protected:
         return result;
     }
     std::size_t bytes(const std::string& block) { return program().blockBytes(block, gpu::BlockKind::Uniform); }
-    const gpu::Program& program() { return bench.library().get({"blocks.comp", "", "", "test/blocks.comp", {}}); }
+    const gpu::Program& program() { return bench.programs().get({"blocks.comp", "", "", "test/blocks.comp", {}}); }
     test::ShaderBench bench;
 };
 

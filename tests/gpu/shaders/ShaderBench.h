@@ -36,7 +36,7 @@ public:
         return out.downloadAs<glm::vec4>(records * outputsPerRecord);
     }
 
-    shader::ProgramLibrary& library() { return library_; }
+    shader::ProgramLibrary& programs() { return library_; }
 
 private:
     static constexpr std::size_t kGroup = 64; ///< local_size_x of every test shader
