@@ -42,10 +42,12 @@ std::variant<recipes::Technique, std::string> truthNamed(const std::string& name
         names.push_back(info.name);
     }
     if (name == "reference") {
-        throw InputError("--against reference: the reference renderer is not part of this version; name a technique or a picture file");
+        throw InputError("--against reference: the reference renderer is not part of this version; name a technique or "
+                         "a picture file");
     }
     if (std::filesystem::exists(name)) return name;
-    throw InputError(fmt::format("--against '{}' is neither a technique nor a picture file: {}", name, suggestNames(name, names)));
+    throw InputError(
+        fmt::format("--against '{}' is neither a technique nor a picture file: {}", name, suggestNames(name, names)));
 }
 
 std::vector<recipes::Technique> techniquesOf(const CompareOptions& options,
@@ -81,7 +83,8 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
     recipes::Renderer renderer(*context, request.scene);
     Progress progress("comparing", validation::pictureCount(comparison), global.quiet);
     comparison.renderedOne = [&progress] { progress.advance(); };
-    const validation::CompareResult result = validation::compareTechniques(renderer, context->capabilities(), comparison);
+    const validation::CompareResult result =
+        validation::compareTechniques(renderer, context->capabilities(), comparison);
     progress.finish();
     if (!options.json.empty()) validation::writeFileAtomically(options.json, validation::compareJson(result.record));
     if (!options.heatMaps.empty()) writeHeatMaps(options.heatMaps, result);
@@ -92,13 +95,16 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
 } // namespace
 
 void addCompareCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
-    CLI::App* command = app.add_subcommand("compare", "Renders a scene with several techniques and measures how they differ");
+    CLI::App* command =
+        app.add_subcommand("compare", "Renders a scene with several techniques and measures how they differ");
     auto options = std::make_shared<CompareOptions>();
     addFrameOptions(*command, options->frame, "");
     command->add_option("--techniques", options->techniques, "Techniques to compare [all]")->type_name("A,B");
-    command->add_option("--against", options->against, "The truth: a technique or a picture file [forward]")->type_name("NAME|FILE");
+    command->add_option("--against", options->against, "The truth: a technique or a picture file [forward]")
+        ->type_name("NAME|FILE");
     command->add_option("--json", options->json, "Writes the figures as JSON")->type_name("FILE");
-    command->add_option("--heatmap", options->heatMaps, "Writes a map of the relative error of each pair")->type_name("DIR");
+    command->add_option("--heatmap", options->heatMaps, "Writes a map of the relative error of each pair")
+        ->type_name("DIR");
     command->callback([options, &global, &run] { run = [options, &global] { return compare(*options, global); }; });
 }
 

@@ -40,7 +40,8 @@ struct NamedFilter {
     std::string_view name;
     frame::TextureFilter filter;
 };
-constexpr NamedFilter kFilters[] = {{"hardware", frame::TextureFilter::Hardware}, {"exact", frame::TextureFilter::Exact}};
+constexpr NamedFilter kFilters[] = {{"hardware", frame::TextureFilter::Hardware},
+                                    {"exact", frame::TextureFilter::Exact}};
 
 struct NamedSpace {
     std::string_view name;
@@ -72,7 +73,8 @@ frame::View viewNamed(const std::string& name) {
 }
 
 /// The user's word, else the scene's, else none.
-const std::optional<std::string>& firstOf(const std::optional<std::string>& user, const std::optional<std::string>& scene) {
+const std::optional<std::string>& firstOf(const std::optional<std::string>& user,
+                                          const std::optional<std::string>& scene) {
     return user ? user : scene;
 }
 
@@ -86,8 +88,10 @@ void resolveSettings(const FrameOptions& options, Request& request) {
     if (const auto& name = firstOf(options.toneMap, wish.toneMap)) {
         settings.toneMap = rowNamed(frame::toneMapTable(), *name, "tone map").toneMap;
     }
-    if (options.size) settings.sizePixels = sizeNamed(*options.size);
-    else if (wish.sizePixels) settings.sizePixels = *wish.sizePixels;
+    if (options.size)
+        settings.sizePixels = sizeNamed(*options.size);
+    else if (wish.sizePixels)
+        settings.sizePixels = *wish.sizePixels;
     settings.exposureEV = options.exposureEV ? *options.exposureEV : wish.exposureEV.value_or(0.0f);
     if (options.view) settings.view = viewNamed(*options.view);
     if (options.filter) settings.filter = rowNamed(kFilters, *options.filter, "filter").filter;
@@ -103,11 +107,14 @@ void resolveSettings(const FrameOptions& options, Request& request) {
 void addGlobalOptions(CLI::App& app, GlobalOptions& options) {
     app.add_flag("--quiet", options.quiet, "Errors only: no warnings, no progress");
     app.add_flag("--verbose", options.verbose, "More detail; with --version the OpenGL strings");
-    app.add_option("--context", options.context, "auto, window or egl: where pictures are made. auto takes EGL, which needs no display")
+    app.add_option("--context", options.context,
+                   "auto, window or egl: where pictures are made. auto takes EGL, which needs no display")
         ->type_name("KIND");
 }
 
-gpu::ContextKind contextKind(const std::string& name) { return rowNamed(kContexts, name, "context").kind; }
+gpu::ContextKind contextKind(const std::string& name) {
+    return rowNamed(kContexts, name, "context").kind;
+}
 
 std::unique_ptr<gpu::Context> makeContext(const GlobalOptions& options) {
     gpu::ContextOptions contextOptions;
@@ -123,25 +130,33 @@ void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string
                                             "A .gltf, .glb, .obj or .json file, or a built-in scene (tessera scenes)");
     scene->type_name("SCENE");
     if (defaultScene.empty()) scene->required();
-    const auto text = [&](const char* flag, std::optional<std::string>& target, const std::string& help, const char* type) {
+    const auto text = [&](const char* flag, std::optional<std::string>& target, const std::string& help,
+                          const char* type) {
         command.add_option(flag, target, help)->type_name(type)->group("Frame");
     };
     text("--technique", options.technique, "One of: " + namesOf(recipes::techniqueTable()) + " [deferred]", "NAME");
     text("--layout", options.layout, "G-buffer layout, one of: " + namesOf(frame::layoutTable()) + " [exact]", "NAME");
     text("--size", options.size, "Picture size in pixels [1280x720]", "WxH");
     text("--camera", options.camera, "A camera of the scene [its first]", "NAME");
-    command.add_option("--time", options.timeSeconds, "Moves animated lights to this time [0]")->type_name("SECONDS")->group("Frame");
+    command.add_option("--time", options.timeSeconds, "Moves animated lights to this time [0]")
+        ->type_name("SECONDS")
+        ->group("Frame");
     command.add_option("--lights", options.lights, "Built-in scenes make this many lights, files keep their first N")
         ->type_name("N")
         ->group("Frame");
     text("--view", options.view, "What to show: 1 to 7 or one of: " + namesOf(frame::viewTable()) + " [final]", "NAME");
-    command.add_option("--solo", options.solo, "Only this light shines, counted from 0")->type_name("N")->group("Frame");
+    command.add_option("--solo", options.solo, "Only this light shines, counted from 0")
+        ->type_name("N")
+        ->group("Frame");
     text("--specular", options.specular, "on or off: leaves the specular lobe out", "SWITCH");
     text("--filter", options.filter, "Textures by hardware, or exact: bilinear in fp32 at level 0 [hardware]", "NAME");
     text("--space", options.space, "Lighting in world or view space; the pictures agree [world]", "NAME");
     text("--prune", options.prune, "on, or off: keeps what the scene does not need; the picture is the same", "SWITCH");
-    command.add_flag("--no-default-light", options.noDefaultLight, "Leaves a scene without lights dark")->group("Frame");
-    command.add_option("--exposure", options.exposureEV, "Multiplies the display picture by 2^EV [0]")->type_name("EV")->group("Display");
+    command.add_flag("--no-default-light", options.noDefaultLight, "Leaves a scene without lights dark")
+        ->group("Frame");
+    command.add_option("--exposure", options.exposureEV, "Multiplies the display picture by 2^EV [0]")
+        ->type_name("EV")
+        ->group("Display");
     command.add_option("--tonemap", options.toneMap, "One of: " + namesOf(frame::toneMapTable()) + " [none]")
         ->type_name("NAME")
         ->group("Display");
@@ -176,7 +191,8 @@ glm::ivec2 sizeNamed(const std::string& text) {
     const auto height = hasCross ? std::from_chars(width.ptr + 1, end, size.y) : width;
     const bool good = hasCross && height.ec == std::errc() && height.ptr == end;
     if (!good || size.x < 1 || size.y < 1 || size.x > kLargestSide || size.y > kLargestSide) {
-        throw InputError(fmt::format("--size '{}' is not WIDTHxHEIGHT in pixels, each 1 to {}, as in 1280x720", text, kLargestSide));
+        throw InputError(
+            fmt::format("--size '{}' is not WIDTHxHEIGHT in pixels, each 1 to {}, as in 1280x720", text, kLargestSide));
     }
     return size;
 }

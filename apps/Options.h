@@ -10,8 +10,8 @@
 #include "renderer/gpu/Context.h"
 #include "scenes/Load.h"
 
-/// What the command line says, and its translation into the library's terms. Every name is looked up in the library's tables, so
-/// an error can list what there is.
+/// What the command line says, and its translation into the library's terms. Every name is looked up in the library's
+/// tables, so an error can list what there is.
 namespace tessera::app {
 
 /// Options of the program itself, before or after the command.

@@ -32,7 +32,8 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
 } // namespace
 
 void addPlanCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
-    CLI::App* command = app.add_subcommand("plan", "Tells what a frame runs, what it leaves out and why, and what it costs");
+    CLI::App* command =
+        app.add_subcommand("plan", "Tells what a frame runs, what it leaves out and why, and what it costs");
     auto options = std::make_shared<PlanOptions>();
     addFrameOptions(*command, options->frame, "");
     command->add_option("--json", options->json, "Writes the plan as JSON")->type_name("FILE");

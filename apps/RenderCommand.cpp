@@ -32,11 +32,13 @@ void writePicture(const std::string& path, const recipes::RenderedFrame& frame) 
 void requirePictureExtension(const std::string& path) {
     const std::string extension = std::filesystem::path(path).extension().string();
     if (extension != ".exr" && extension != ".png") {
-        throw InputError(fmt::format("{}: pictures end in .exr (linear, 32 bit) or .png (as a display shows it)", path));
+        throw InputError(
+            fmt::format("{}: pictures end in .exr (linear, 32 bit) or .png (as a display shows it)", path));
     }
 }
 
-int renderFrames(const RenderOptions& options, Request& request, recipes::Renderer& renderer, const GlobalOptions& global) {
+int renderFrames(const RenderOptions& options, Request& request, recipes::Renderer& renderer,
+                 const GlobalOptions& global) {
     const FramePattern pattern(options.output);
     Progress progress("rendering", std::size_t(options.frames), global.quiet);
     const double start = request.settings.timeSeconds;
@@ -51,7 +53,8 @@ int renderFrames(const RenderOptions& options, Request& request, recipes::Render
 int render(const RenderOptions& options, const GlobalOptions& global) {
     requirePictureExtension(options.output);
     if (options.frames < 0) throw InputError(fmt::format("--frames {} is less than one frame", options.frames));
-    if (!(options.framesPerSecond > 0.0)) throw InputError(fmt::format("--fps {} must be more than 0", options.framesPerSecond));
+    if (!(options.framesPerSecond > 0.0))
+        throw InputError(fmt::format("--fps {} must be more than 0", options.framesPerSecond));
     if (options.frames > 0) FramePattern check(options.output);
     Request request = resolve(options.frame);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
@@ -67,10 +70,12 @@ void addRenderCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     CLI::App* command = app.add_subcommand("render", "Renders a scene to a picture, or to a numbered sequence");
     auto options = std::make_shared<RenderOptions>();
     addFrameOptions(*command, options->frame, "");
-    command->add_option("-o,--output", options->output, "The picture: .exr is linear radiance, .png as a display shows it")
+    command
+        ->add_option("-o,--output", options->output, "The picture: .exr is linear radiance, .png as a display shows it")
         ->type_name("FILE")
         ->required();
-    command->add_option("--frames", options->frames, "Renders N pictures; FILE then holds a pattern such as f_%04d.png")->type_name("N");
+    command->add_option("--frames", options->frames, "Renders N pictures; FILE then holds a pattern such as f_%04d.png")
+        ->type_name("N");
     command->add_option("--fps", options->framesPerSecond, "Frames a second of scene time [30]")->type_name("R");
     command->callback([options, &global, &run] { run = [options, &global] { return render(*options, global); }; });
 }

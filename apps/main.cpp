@@ -24,7 +24,9 @@ Exit codes: 0 good, 1 failure while running or writing, 2 unusable input, 3 a to
 void configureLog(const GlobalOptions& options) {
     auto logger = spdlog::stderr_logger_st("tessera");
     logger->set_pattern("tessera: %l: %v");
-    logger->set_level(options.quiet ? spdlog::level::err : options.verbose ? spdlog::level::debug : spdlog::level::warn);
+    logger->set_level(options.quiet     ? spdlog::level::err
+                      : options.verbose ? spdlog::level::debug
+                                        : spdlog::level::warn);
     spdlog::set_default_logger(logger);
 }
 
@@ -33,8 +35,8 @@ int printVersion(const GlobalOptions& options) {
     if (!options.verbose) return kGood;
     const std::unique_ptr<gpu::Context> context = makeContext(options);
     const gpu::Capabilities& gl = context->capabilities();
-    fmt::print("context    {}\nvendor     {}\nrenderer   {}{}\nOpenGL     {}\nGLSL       {}\n", gl.contextWay, gl.vendor, gl.renderer,
-               gl.isSoftware ? " (software)" : "", gl.version, gl.glslVersion);
+    fmt::print("context    {}\nvendor     {}\nrenderer   {}{}\nOpenGL     {}\nGLSL       {}\n", gl.contextWay,
+               gl.vendor, gl.renderer, gl.isSoftware ? " (software)" : "", gl.version, gl.glslVersion);
     fmt::print("limits     texture side {}, buffer texels {}, uniform block {} B, samples {}\n", gl.maxTextureSize,
                gl.maxTextureBufferTexels, gl.maxUniformBlockBytes, gl.maxSamples);
     return kGood;
@@ -64,7 +66,8 @@ int fail(const std::string& text, int code) {
 }
 
 int runProgram(int argc, char** argv) {
-    CLI::App app("Tessera renders scenes with very many lights, by several techniques that must agree, and proves it.", "tessera");
+    CLI::App app("Tessera renders scenes with very many lights, by several techniques that must agree, and proves it.",
+                 "tessera");
     app.footer(kFooter);
     app.get_formatter()->column_width(26);
     GlobalOptions global;
