@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "apps/Commands.h"
+#include "apps/OutputFolder.h"
 #include "apps/Progress.h"
 #include "passes/recipes/Renderer.h"
 #include "scenes/Error.h"
@@ -54,7 +56,12 @@ std::vector<recipes::Technique> techniquesOf(const CompareOptions& options,
                                              const std::variant<recipes::Technique, std::string>& against) {
     std::vector<recipes::Technique> techniques;
     if (!options.techniques.empty()) {
-        for (const std::string& name : splitAtCommas(options.techniques)) techniques.push_back(techniqueNamed(name));
+        for (const std::string& name : splitAtCommas(options.techniques)) {
+            const recipes::Technique technique = techniqueNamed(name);
+            if (std::find(techniques.begin(), techniques.end(), technique) != techniques.end())
+                throw InputError(fmt::format("--techniques {} names {} twice", options.techniques, name));
+            techniques.push_back(technique);
+        }
         return techniques;
     }
     for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
@@ -65,7 +72,7 @@ std::vector<recipes::Technique> techniquesOf(const CompareOptions& options,
 }
 
 void writeHeatMaps(const std::string& folder, const validation::CompareResult& result) {
-    std::filesystem::create_directories(folder);
+    makeFolder(folder);
     for (const validation::NamedPicture& picture : result.pictures) {
         const std::string title = picture.name + " vs " + std::filesystem::path(result.truth.name).filename().string();
         const validation::DisplayImage map = validation::errorHeatMap(picture.picture, result.truth.picture, title);
@@ -77,6 +84,8 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
     validation::CompareRequest comparison;
     comparison.against = truthNamed(options.against);
     comparison.techniques = techniquesOf(options, comparison.against);
+    if (!options.json.empty()) validation::requireWritable(options.json);
+    if (!options.heatMaps.empty()) requireFolderPlace(options.heatMaps);
     const Request request = resolve(options.frame);
     comparison.settings = request.settings;
     const std::unique_ptr<gpu::Context> context = makeContext(global);
@@ -105,6 +114,12 @@ void addCompareCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     command->add_option("--json", options->json, "Writes the figures as JSON")->type_name("FILE");
     command->add_option("--heatmap", options->heatMaps, "Writes a map of the relative error of each pair")
         ->type_name("DIR");
+    command->footer(R"(Examples
+  tessera compare hall                                       every technique against forward
+  tessera compare hall --layout packed --json packed.json    what a packed G-buffer costs
+  tessera compare room --against room.exr --heatmap maps     against a picture; maps of the error
+
+Exit code 3 says that a tolerance was missed.)");
     command->callback([options, &global, &run] { run = [options, &global] { return compare(*options, global); }; });
 }
 

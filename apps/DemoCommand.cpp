@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/Commands.h"
+#include "apps/OutputFolder.h"
 #include "apps/Progress.h"
 #include "passes/recipes/Renderer.h"
 #include "renderer/graph/Plan.h"
@@ -81,7 +82,7 @@ validation::Report makeReport(const Request& request, const CompareResult& resul
 }
 
 void writePictures(const fs::path& folder, const Request& request, const CompareResult& result) {
-    fs::create_directories(folder);
+    makeFolder(folder.string());
     validation::writeExr((folder / (request.scene.name + ".exr")).string(), result.truth.picture);
     validation::writePng((folder / (result.truth.name + ".png")).string(), result.truth.display);
     for (std::size_t i = 0; i < result.pictures.size(); ++i) {
@@ -93,6 +94,7 @@ void writePictures(const fs::path& folder, const Request& request, const Compare
 }
 
 int demo(const DemoOptions& options, const GlobalOptions& global) {
+    requireFolderPlace(options.folder);
     const Request request = resolve(options.frame);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     recipes::Renderer renderer(*context, request.scene);
@@ -130,6 +132,9 @@ void addDemoCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     auto options = std::make_shared<DemoOptions>();
     addFrameOptions(*command, options->frame, "hall");
     command->add_option("-o,--output", options->folder, "Where pictures and index.html go [out]")->type_name("DIR");
+    command->footer(R"(Examples
+  tessera demo                          the scene hall; open out/index.html
+  tessera demo model.glb -o report      a scene of one's own)");
     command->callback([options, &global, &run] { run = [options, &global] { return demo(*options, global); }; });
 }
 
