@@ -3,8 +3,8 @@
 
 #include "apps/Options.h"
 
-/// The program's commands. Each adds itself to the command line with its help and leaves its work in `run`, which main() calls
-/// once the line is parsed; the result is the exit code.
+/// The program's commands. Each adds itself to the command line with its help and leaves its work in `run`, which
+/// main() calls once the line is parsed; the result is the exit code.
 namespace tessera::app {
 
 using Run = std::function<int()>;

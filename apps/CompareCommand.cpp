@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "apps/Commands.h"
+#include "apps/OutputFolder.h"
 #include "apps/Progress.h"
 #include "passes/recipes/Renderer.h"
 #include "scenes/Error.h"
@@ -42,17 +44,24 @@ std::variant<recipes::Technique, std::string> truthNamed(const std::string& name
         names.push_back(info.name);
     }
     if (name == "reference") {
-        throw InputError("--against reference: the reference renderer is not part of this version; name a technique or a picture file");
+        throw InputError("--against reference: the reference renderer is not part of this version; name a technique or "
+                         "a picture file");
     }
     if (std::filesystem::exists(name)) return name;
-    throw InputError(fmt::format("--against '{}' is neither a technique nor a picture file: {}", name, suggestNames(name, names)));
+    throw InputError(
+        fmt::format("--against '{}' is neither a technique nor a picture file: {}", name, suggestNames(name, names)));
 }
 
 std::vector<recipes::Technique> techniquesOf(const CompareOptions& options,
                                              const std::variant<recipes::Technique, std::string>& against) {
     std::vector<recipes::Technique> techniques;
     if (!options.techniques.empty()) {
-        for (const std::string& name : splitAtCommas(options.techniques)) techniques.push_back(techniqueNamed(name));
+        for (const std::string& name : splitAtCommas(options.techniques)) {
+            const recipes::Technique technique = techniqueNamed(name);
+            if (std::find(techniques.begin(), techniques.end(), technique) != techniques.end())
+                throw InputError(fmt::format("--techniques {} names {} twice", options.techniques, name));
+            techniques.push_back(technique);
+        }
         return techniques;
     }
     for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
@@ -63,7 +72,7 @@ std::vector<recipes::Technique> techniquesOf(const CompareOptions& options,
 }
 
 void writeHeatMaps(const std::string& folder, const validation::CompareResult& result) {
-    std::filesystem::create_directories(folder);
+    makeFolder(folder);
     for (const validation::NamedPicture& picture : result.pictures) {
         const std::string title = picture.name + " vs " + std::filesystem::path(result.truth.name).filename().string();
         const validation::DisplayImage map = validation::errorHeatMap(picture.picture, result.truth.picture, title);
@@ -75,13 +84,16 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
     validation::CompareRequest comparison;
     comparison.against = truthNamed(options.against);
     comparison.techniques = techniquesOf(options, comparison.against);
+    if (!options.json.empty()) validation::requireWritable(options.json);
+    if (!options.heatMaps.empty()) requireFolderPlace(options.heatMaps);
     const Request request = resolve(options.frame);
     comparison.settings = request.settings;
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     recipes::Renderer renderer(*context, request.scene);
     Progress progress("comparing", validation::pictureCount(comparison), global.quiet);
     comparison.renderedOne = [&progress] { progress.advance(); };
-    const validation::CompareResult result = validation::compareTechniques(renderer, context->capabilities(), comparison);
+    const validation::CompareResult result =
+        validation::compareTechniques(renderer, context->capabilities(), comparison);
     progress.finish();
     if (!options.json.empty()) validation::writeFileAtomically(options.json, validation::compareJson(result.record));
     if (!options.heatMaps.empty()) writeHeatMaps(options.heatMaps, result);
@@ -92,13 +104,22 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
 } // namespace
 
 void addCompareCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
-    CLI::App* command = app.add_subcommand("compare", "Renders a scene with several techniques and measures how they differ");
+    CLI::App* command =
+        app.add_subcommand("compare", "Renders a scene with several techniques and measures how they differ");
     auto options = std::make_shared<CompareOptions>();
     addFrameOptions(*command, options->frame, "");
     command->add_option("--techniques", options->techniques, "Techniques to compare [all]")->type_name("A,B");
-    command->add_option("--against", options->against, "The truth: a technique or a picture file [forward]")->type_name("NAME|FILE");
+    command->add_option("--against", options->against, "The truth: a technique or a picture file [forward]")
+        ->type_name("NAME|FILE");
     command->add_option("--json", options->json, "Writes the figures as JSON")->type_name("FILE");
-    command->add_option("--heatmap", options->heatMaps, "Writes a map of the relative error of each pair")->type_name("DIR");
+    command->add_option("--heatmap", options->heatMaps, "Writes a map of the relative error of each pair")
+        ->type_name("DIR");
+    command->footer(R"(Examples
+  tessera compare hall                                       every technique against forward
+  tessera compare hall --layout packed --json packed.json    what a packed G-buffer costs
+  tessera compare room --against room.exr --heatmap maps     against a picture; maps of the error
+
+Exit code 3 says that a tolerance was missed.)");
     command->callback([options, &global, &run] { run = [options, &global] { return compare(*options, global); }; });
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/Commands.h"
+#include "apps/OutputFolder.h"
 #include "apps/Progress.h"
 #include "passes/recipes/Renderer.h"
 #include "renderer/graph/Plan.h"
@@ -28,7 +29,9 @@ struct DemoOptions {
     std::string folder = "out";
 };
 
-std::string nameOf(Technique technique) { return std::string(recipes::techniqueTable()[std::size_t(technique)].name); }
+std::string nameOf(Technique technique) {
+    return std::string(recipes::techniqueTable()[std::size_t(technique)].name);
+}
 
 /// The pairs of the packed layout under names of their own, joined to those of the exact one.
 void joinPacked(CompareResult& result, CompareResult&& packed) {
@@ -42,14 +45,16 @@ void joinPacked(CompareResult& result, CompareResult&& packed) {
 
 std::string choiceOf(const std::vector<Technique>& techniques, const std::vector<double>& ms, bool agree) {
     const std::size_t best = std::size_t(std::min_element(ms.begin(), ms.end()) - ms.begin());
-    const std::string pace = best == 0 ? "the fastest here"
-                                       : fmt::format("{:.1f}x the speed of {} ({:.0f} ms)", ms[0] / ms[best], nameOf(techniques[0]), ms[0]);
-    return fmt::format("Take {} for this scene on this machine: {:.0f} ms a frame, {}, and {}.", nameOf(techniques[best]), ms[best],
-                       pace, agree ? "the same picture" : "beware: the pictures do not agree");
+    const std::string pace =
+        best == 0 ? "the fastest here"
+                  : fmt::format("{:.1f}x the speed of {} ({:.0f} ms)", ms[0] / ms[best], nameOf(techniques[0]), ms[0]);
+    return fmt::format("Take {} for this scene on this machine: {:.0f} ms a frame, {}, and {}.",
+                       nameOf(techniques[best]), ms[best], pace,
+                       agree ? "the same picture" : "beware: the pictures do not agree");
 }
 
-validation::Report makeReport(const Request& request, const CompareResult& result, const std::vector<Technique>& techniques,
-                              const std::vector<double>& ms) {
+validation::Report makeReport(const Request& request, const CompareResult& result,
+                              const std::vector<Technique>& techniques, const std::vector<double>& ms) {
     validation::Report report;
     report.title = fmt::format("{}, rendered {} ways", request.scene.name, techniques.size());
     report.record = result.record;
@@ -59,8 +64,8 @@ validation::Report makeReport(const Request& request, const CompareResult& resul
                     {"Materials", fmt::format("{}", request.scene.materials.size())}};
     for (std::size_t i = 0; i < techniques.size(); ++i) {
         report.facts.push_back({nameOf(techniques[i]), fmt::format("{:.0f} ms a frame", ms[i])});
-        report.plans.push_back(
-            {nameOf(techniques[i]), graph::planText(recipes::planFrame(request.scene, techniques[i], request.settings))});
+        report.plans.push_back({nameOf(techniques[i]),
+                                graph::planText(recipes::planFrame(request.scene, techniques[i], request.settings))});
     }
     report.pictures.push_back({result.truth.name, "the truth of every pair below", result.truth.display});
     for (const validation::NamedPicture& picture : result.pictures) {
@@ -77,7 +82,7 @@ validation::Report makeReport(const Request& request, const CompareResult& resul
 }
 
 void writePictures(const fs::path& folder, const Request& request, const CompareResult& result) {
-    fs::create_directories(folder);
+    makeFolder(folder.string());
     validation::writeExr((folder / (request.scene.name + ".exr")).string(), result.truth.picture);
     validation::writePng((folder / (result.truth.name + ".png")).string(), result.truth.display);
     for (std::size_t i = 0; i < result.pictures.size(); ++i) {
@@ -89,6 +94,7 @@ void writePictures(const fs::path& folder, const Request& request, const Compare
 }
 
 int demo(const DemoOptions& options, const GlobalOptions& global) {
+    requireFolderPlace(options.folder);
     const Request request = resolve(options.frame);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     recipes::Renderer renderer(*context, request.scene);
@@ -101,7 +107,8 @@ int demo(const DemoOptions& options, const GlobalOptions& global) {
     validation::CompareRequest packed = exact;
     packed.techniques = {Technique::Deferred};
     packed.settings.layout = frame::layoutTable()[1].layout;
-    Progress progress("rendering", validation::pictureCount(exact) + validation::pictureCount(packed) + 1, global.quiet);
+    Progress progress("rendering", validation::pictureCount(exact) + validation::pictureCount(packed) + 1,
+                      global.quiet);
     exact.renderedOne = packed.renderedOne = [&progress] { progress.advance(); };
     CompareResult result = validation::compareTechniques(renderer, context->capabilities(), exact);
     joinPacked(result, validation::compareTechniques(renderer, context->capabilities(), packed));
@@ -112,17 +119,22 @@ int demo(const DemoOptions& options, const GlobalOptions& global) {
     const fs::path page = fs::path(options.folder) / "index.html";
     validation::writeFileAtomically(page.string(), validation::reportHtml(makeReport(request, result, techniques, ms)));
     fmt::print("{}\n{}\nreport    {}\npictures  {}\n", validation::compareTable(result.record),
-               choiceOf(techniques, ms, result.record.ok()), page.string(), (fs::path(options.folder) / "*.png").string());
+               choiceOf(techniques, ms, result.record.ok()), page.string(),
+               (fs::path(options.folder) / "*.png").string());
     return result.record.ok() ? kGood : kToleranceMissed;
 }
 
 } // namespace
 
 void addDemoCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
-    CLI::App* command = app.add_subcommand("demo", "Renders a scene with every technique, checks that they match, writes a report");
+    CLI::App* command =
+        app.add_subcommand("demo", "Renders a scene with every technique, checks that they match, writes a report");
     auto options = std::make_shared<DemoOptions>();
     addFrameOptions(*command, options->frame, "hall");
     command->add_option("-o,--output", options->folder, "Where pictures and index.html go [out]")->type_name("DIR");
+    command->footer(R"(Examples
+  tessera demo                          the scene hall; open out/index.html
+  tessera demo model.glb -o report      a scene of one's own)");
     command->callback([options, &global, &run] { run = [options, &global] { return demo(*options, global); }; });
 }
 

@@ -12,7 +12,8 @@ FramePattern::FramePattern(const std::string& pattern) {
     static const std::regex place("%(0?)([1-9]?)d");
     const auto first = std::sregex_iterator(pattern.begin(), pattern.end(), place);
     if (std::distance(first, std::sregex_iterator()) != 1) {
-        throw InputError(fmt::format("{}: a sequence needs exactly one place for the frame number, as in f_%04d.png", pattern));
+        throw InputError(
+            fmt::format("{}: a sequence needs exactly one place for the frame number, as in f_%04d.png", pattern));
     }
     before_ = first->prefix();
     after_ = first->suffix();

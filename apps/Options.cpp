@@ -1,10 +1,12 @@
 #include "apps/Options.h"
 
 #include <charconv>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "apps/Numbers.h"
 #include "scenes/Error.h"
 #include "scenes/Names.h"
 
@@ -40,7 +42,8 @@ struct NamedFilter {
     std::string_view name;
     frame::TextureFilter filter;
 };
-constexpr NamedFilter kFilters[] = {{"hardware", frame::TextureFilter::Hardware}, {"exact", frame::TextureFilter::Exact}};
+constexpr NamedFilter kFilters[] = {{"hardware", frame::TextureFilter::Hardware},
+                                    {"exact", frame::TextureFilter::Exact}};
 
 struct NamedSpace {
     std::string_view name;
@@ -68,34 +71,67 @@ frame::View viewNamed(const std::string& name) {
     for (const frame::ViewInfo& info : frame::viewTable()) {
         if (info.key != 0 && std::to_string(info.key) == name) return info.view;
     }
+    const bool isNumber = !name.empty() && name.find_first_not_of("0123456789") == std::string::npos;
+    if (isNumber) throw InputError(fmt::format("unknown view '{}': views are numbered 1 to 7", name));
     return rowNamed(frame::viewTable(), name, "view").view;
 }
 
-/// The user's word, else the scene's, else none.
-const std::optional<std::string>& firstOf(const std::optional<std::string>& user, const std::optional<std::string>& scene) {
-    return user ? user : scene;
+/// 2^EV must be a number a picture can be multiplied by.
+float exposureOf(double exposureEV) {
+    constexpr double kMostEV = 120.0; // fp32 spans 2^-126 to 2^128
+    if (std::abs(exposureEV) > kMostEV)
+        throw InputError(
+            fmt::format("--exposure {} is beyond any picture; give -{} to {}", exposureEV, kMostEV, kMostEV));
+    return float(exposureEV);
 }
 
-void resolveSettings(const FrameOptions& options, Request& request) {
-    const scenes::SceneOptions& wish = request.scene.options;
+/// What can be read without the scene: a mistake in it is found before a large scene is read for nothing.
+void resolveOptions(const FrameOptions& options, Request& request) {
     frame::FrameSettings& settings = request.settings;
-    if (const auto& name = firstOf(options.technique, wish.technique)) request.technique = techniqueNamed(*name);
-    request.layoutName = firstOf(options.layout, wish.layout).value_or(std::string(frame::layoutTable()[0].name));
-    settings.layout = rowNamed(frame::layoutTable(), request.layoutName, "layout").layout;
-    if (const auto& name = firstOf(options.camera, wish.camera)) settings.camera = cameraNamed(request.scene, *name);
-    if (const auto& name = firstOf(options.toneMap, wish.toneMap)) {
-        settings.toneMap = rowNamed(frame::toneMapTable(), *name, "tone map").toneMap;
-    }
+    if (options.technique) request.technique = techniqueNamed(*options.technique);
+    if (options.layout) settings.layout = rowNamed(frame::layoutTable(), *options.layout, "layout").layout;
+    if (options.toneMap) settings.toneMap = rowNamed(frame::toneMapTable(), *options.toneMap, "tone map").toneMap;
     if (options.size) settings.sizePixels = sizeNamed(*options.size);
-    else if (wish.sizePixels) settings.sizePixels = *wish.sizePixels;
-    settings.exposureEV = options.exposureEV ? *options.exposureEV : wish.exposureEV.value_or(0.0f);
+    if (options.exposureEV) settings.exposureEV = exposureOf(*options.exposureEV);
     if (options.view) settings.view = viewNamed(*options.view);
-    if (options.filter) settings.filter = rowNamed(kFilters, *options.filter, "filter").filter;
-    if (options.space) settings.space = rowNamed(kSpaces, *options.space, "space").space;
-    if (options.prune) settings.prune = rowNamed(kSwitch, *options.prune, "prune value").on;
-    if (options.specular) settings.specular = rowNamed(kSwitch, *options.specular, "specular value").on;
+    if (options.filter) settings.filter = rowNamed(kFilters, *options.filter, "--filter").filter;
+    if (options.space) settings.space = rowNamed(kSpaces, *options.space, "--space").space;
+    if (options.prune) settings.prune = rowNamed(kSwitch, *options.prune, "--prune").on;
+    if (options.specular) settings.specular = rowNamed(kSwitch, *options.specular, "--specular").on;
     settings.timeSeconds = options.timeSeconds.value_or(0.0);
     settings.soloLight = options.solo;
+}
+
+/// What the scene wishes where the user says nothing, and the names of things in the scene.
+void resolveWishes(const FrameOptions& options, Request& request) {
+    const scenes::SceneOptions& wish = request.scene.options;
+    frame::FrameSettings& settings = request.settings;
+    const auto wished = [&](const char* key, const auto& said, const auto& wanted, auto&& take) {
+        if (said || !wanted) return;
+        try {
+            take(*wanted);
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("{}:/options/{}: {}", options.scene, key, error.what()));
+        }
+    };
+    wished("technique", options.technique, wish.technique,
+           [&](const std::string& name) { request.technique = techniqueNamed(name); });
+    wished("layout", options.layout, wish.layout,
+           [&](const std::string& name) { settings.layout = rowNamed(frame::layoutTable(), name, "layout").layout; });
+    wished("toneMap", options.toneMap, wish.toneMap, [&](const std::string& name) {
+        settings.toneMap = rowNamed(frame::toneMapTable(), name, "tone map").toneMap;
+    });
+    wished("camera", options.camera, wish.camera,
+           [&](const std::string& name) { settings.camera = cameraNamed(request.scene, name); });
+    wished("size", options.size, wish.sizePixels, [&](glm::ivec2 size) { settings.sizePixels = size; });
+    wished("exposureEV", options.exposureEV, wish.exposureEV,
+           [&](float exposureEV) { settings.exposureEV = exposureEV; });
+    if (options.camera) settings.camera = cameraNamed(request.scene, *options.camera);
+    const std::size_t lightCount = request.scene.lights.size();
+    if (options.solo && (*options.solo < 0 || std::size_t(*options.solo) >= lightCount)) {
+        throw InputError(fmt::format("--solo {}: {} has {} light{}, counted from 0", *options.solo, request.scene.name,
+                                     lightCount, lightCount == 1 ? "" : "s"));
+    }
 }
 
 } // namespace
@@ -103,11 +139,20 @@ void resolveSettings(const FrameOptions& options, Request& request) {
 void addGlobalOptions(CLI::App& app, GlobalOptions& options) {
     app.add_flag("--quiet", options.quiet, "Errors only: no warnings, no progress");
     app.add_flag("--verbose", options.verbose, "More detail; with --version the OpenGL strings");
-    app.add_option("--context", options.context, "auto, window or egl: where pictures are made. auto takes EGL, which needs no display")
+    const auto check = [&options](const std::string& name) {
+        contextKind(name);
+        options.context = name;
+    };
+    app.add_option_function<std::string>(
+           "--context", check,
+           "Where pictures are made: window, egl (needs no display), or auto, which tries "
+           "egl first [auto]")
         ->type_name("KIND");
 }
 
-gpu::ContextKind contextKind(const std::string& name) { return rowNamed(kContexts, name, "context").kind; }
+gpu::ContextKind contextKind(const std::string& name) {
+    return rowNamed(kContexts, name, "context").kind;
+}
 
 std::unique_ptr<gpu::Context> makeContext(const GlobalOptions& options) {
     gpu::ContextOptions contextOptions;
@@ -119,47 +164,46 @@ std::unique_ptr<gpu::Context> makeContext(const GlobalOptions& options) {
 
 void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string& defaultScene) {
     options.scene = defaultScene;
-    CLI::Option* scene = command.add_option("scene", options.scene,
-                                            "A .gltf, .glb, .obj or .json file, or a built-in scene (tessera scenes)");
+    const std::string preset = defaultScene.empty() ? "" : " [" + defaultScene + "]";
+    CLI::Option* scene = command.add_option(
+        "scene", options.scene, "A .gltf, .glb, .obj or .json file, or a built-in scene (tessera scenes)" + preset);
     scene->type_name("SCENE");
     if (defaultScene.empty()) scene->required();
-    const auto text = [&](const char* flag, std::optional<std::string>& target, const std::string& help, const char* type) {
-        command.add_option(flag, target, help)->type_name(type)->group("Frame");
+    const auto text = [&](const char* flag, std::optional<std::string>& target, const std::string& help,
+                          const char* type, const char* group = "Frame") {
+        command.add_option(flag, target, help)->type_name(type)->group(group);
     };
-    text("--technique", options.technique, "One of: " + namesOf(recipes::techniqueTable()) + " [deferred]", "NAME");
-    text("--layout", options.layout, "G-buffer layout, one of: " + namesOf(frame::layoutTable()) + " [exact]", "NAME");
+    text("--technique", options.technique, "One of " + namesOf(recipes::techniqueTable()) + " [deferred]", "NAME");
+    text("--layout", options.layout, "G-buffer layout, one of " + namesOf(frame::layoutTable()) + " [exact]", "NAME");
     text("--size", options.size, "Picture size in pixels [1280x720]", "WxH");
     text("--camera", options.camera, "A camera of the scene [its first]", "NAME");
-    command.add_option("--time", options.timeSeconds, "Moves animated lights to this time [0]")->type_name("SECONDS")->group("Frame");
-    command.add_option("--lights", options.lights, "Built-in scenes make this many lights, files keep their first N")
-        ->type_name("N")
+    addNumber(command, "--time", options.timeSeconds, "Moves animated lights to this time [0]", "SECONDS")
         ->group("Frame");
-    text("--view", options.view, "What to show: 1 to 7 or one of: " + namesOf(frame::viewTable()) + " [final]", "NAME");
-    command.add_option("--solo", options.solo, "Only this light shines, counted from 0")->type_name("N")->group("Frame");
-    text("--specular", options.specular, "on or off: leaves the specular lobe out", "SWITCH");
+    addWholeNumber(command, "--lights", options.lights,
+                   "Built-in scenes make this many lights, files keep their first N", "N")
+        ->group("Frame");
+    text("--view", options.view, "What to show: 1 to 7, or one of " + namesOf(frame::viewTable()) + " [final]", "NAME");
+    addWholeNumber(command, "--solo", options.solo, "Only this light shines, counted from 0", "N")->group("Frame");
+    text("--specular", options.specular, "off leaves the specular lobe out [on]", "on|off");
     text("--filter", options.filter, "Textures by hardware, or exact: bilinear in fp32 at level 0 [hardware]", "NAME");
     text("--space", options.space, "Lighting in world or view space; the pictures agree [world]", "NAME");
-    text("--prune", options.prune, "on, or off: keeps what the scene does not need; the picture is the same", "SWITCH");
-    command.add_flag("--no-default-light", options.noDefaultLight, "Leaves a scene without lights dark")->group("Frame");
-    command.add_option("--exposure", options.exposureEV, "Multiplies the display picture by 2^EV [0]")->type_name("EV")->group("Display");
-    command.add_option("--tonemap", options.toneMap, "One of: " + namesOf(frame::toneMapTable()) + " [none]")
-        ->type_name("NAME")
+    text("--prune", options.prune, "off keeps what the scene does not need; the picture is the same [on]", "on|off");
+    command.add_flag("--no-default-light", options.noDefaultLight, "Leaves a scene without lights dark")
+        ->group("Frame");
+    addNumber(command, "--exposure", options.exposureEV, "Multiplies the display picture by 2^EV [0]", "EV")
         ->group("Display");
+    text("--tonemap", options.toneMap, "One of " + namesOf(frame::toneMapTable()) + " [none]", "NAME", "Display");
 }
 
 Request resolve(const FrameOptions& options) {
     Request request;
-    // Names are checked before a large scene is read for nothing.
-    if (options.technique) techniqueNamed(*options.technique);
-    if (options.layout) rowNamed(frame::layoutTable(), *options.layout, "layout");
-    if (options.view) viewNamed(*options.view);
-    if (options.size) sizeNamed(*options.size);
+    resolveOptions(options, request);
     scenes::LoadOptions load;
     load.lights = options.lights;
     load.defaultLight = !options.noDefaultLight;
     request.scene = scenes::loadScene(options.scene, load);
+    resolveWishes(options, request);
     for (const std::string& warning : request.scene.warnings) spdlog::warn("{}: {}", request.scene.name, warning);
-    resolveSettings(options, request);
     return request;
 }
 
@@ -176,7 +220,8 @@ glm::ivec2 sizeNamed(const std::string& text) {
     const auto height = hasCross ? std::from_chars(width.ptr + 1, end, size.y) : width;
     const bool good = hasCross && height.ec == std::errc() && height.ptr == end;
     if (!good || size.x < 1 || size.y < 1 || size.x > kLargestSide || size.y > kLargestSide) {
-        throw InputError(fmt::format("--size '{}' is not WIDTHxHEIGHT in pixels, each 1 to {}, as in 1280x720", text, kLargestSide));
+        throw InputError(
+            fmt::format("--size '{}' is not WIDTHxHEIGHT in pixels, each 1 to {}, as in 1280x720", text, kLargestSide));
     }
     return size;
 }

@@ -10,8 +10,8 @@
 #include "renderer/gpu/Context.h"
 #include "scenes/Load.h"
 
-/// What the command line says, and its translation into the library's terms. Every name is looked up in the library's tables, so
-/// an error can list what there is.
+/// What the command line says, and its translation into the library's terms. Every name is looked up in the library's
+/// tables, so an error can list what there is.
 namespace tessera::app {
 
 /// Options of the program itself, before or after the command.
@@ -28,8 +28,7 @@ std::unique_ptr<gpu::Context> makeContext(const GlobalOptions& options);
 struct FrameOptions {
     std::string scene;
     std::optional<std::string> technique, layout, camera, view, toneMap, size, filter, space, prune, specular;
-    std::optional<float> exposureEV;
-    std::optional<double> timeSeconds;
+    std::optional<double> exposureEV, timeSeconds;
     std::optional<int> lights, solo;
     bool noDefaultLight = false;
 };
@@ -40,9 +39,8 @@ struct Request {
     scenes::Scene scene;
     recipes::Technique technique = recipes::Technique::Deferred;
     frame::FrameSettings settings;
-    std::string layoutName;
 };
-/// Loads the scene, warns of what it lacks, and resolves every name. Throws InputError.
+/// Loads the scene, resolves every name, and when all is well warns of what the scene lacks. Throws InputError.
 Request resolve(const FrameOptions& options);
 
 recipes::Technique techniqueNamed(const std::string& name);

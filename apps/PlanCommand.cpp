@@ -16,6 +16,8 @@ struct PlanOptions {
 };
 
 int plan(const PlanOptions& options, const GlobalOptions& global) {
+    for (const std::string& path : {options.json, options.dot})
+        if (!path.empty()) validation::requireWritable(path);
     const Request request = resolve(options.frame);
     graph::Plan plan = recipes::planFrame(request.scene, request.technique, request.settings);
     if (options.measure) {
@@ -32,12 +34,17 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
 } // namespace
 
 void addPlanCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
-    CLI::App* command = app.add_subcommand("plan", "Tells what a frame runs, what it leaves out and why, and what it costs");
+    CLI::App* command =
+        app.add_subcommand("plan", "Tells what a frame runs, what it leaves out and why, and what it costs");
     auto options = std::make_shared<PlanOptions>();
     addFrameOptions(*command, options->frame, "");
     command->add_option("--json", options->json, "Writes the plan as JSON")->type_name("FILE");
     command->add_option("--dot", options->dot, "Writes the graph for Graphviz (dot -Tsvg FILE)")->type_name("FILE");
     command->add_flag("--measure", options->measure, "Draws frames to fill in milliseconds");
+    command->footer(R"(Examples
+  tessera plan hall                                     passes, what is left out and why, memory
+  tessera plan hall --technique forward --measure       with milliseconds
+  tessera plan hall --dot hall.dot; dot -Tsvg -O hall.dot)");
     command->callback([options, &global, &run] { run = [options, &global] { return plan(*options, global); }; });
 }
 

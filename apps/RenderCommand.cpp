@@ -4,9 +4,11 @@
 
 #include "apps/Commands.h"
 #include "apps/FramePattern.h"
+#include "apps/Numbers.h"
 #include "apps/Progress.h"
 #include "passes/recipes/Renderer.h"
 #include "scenes/Error.h"
+#include "validation/AtomicFile.h"
 #include "validation/PictureFile.h"
 #include "validation/Rendering.h"
 
@@ -14,11 +16,13 @@ namespace tessera::app {
 
 namespace {
 
+constexpr double kFramesPerSecond = 30.0;
+
 struct RenderOptions {
     FrameOptions frame;
     std::string output;
-    int frames = 0;
-    double framesPerSecond = 30.0;
+    std::optional<int> frames; ///< none: one picture
+    std::optional<double> framesPerSecond;
 };
 
 void writePicture(const std::string& path, const recipes::RenderedFrame& frame) {
@@ -32,32 +36,44 @@ void writePicture(const std::string& path, const recipes::RenderedFrame& frame) 
 void requirePictureExtension(const std::string& path) {
     const std::string extension = std::filesystem::path(path).extension().string();
     if (extension != ".exr" && extension != ".png") {
-        throw InputError(fmt::format("{}: pictures end in .exr (linear, 32 bit) or .png (as a display shows it)", path));
+        throw InputError(
+            fmt::format("{}: pictures end in .exr (linear, 32 bit) or .png (as a display shows it)", path));
     }
 }
 
-int renderFrames(const RenderOptions& options, Request& request, recipes::Renderer& renderer, const GlobalOptions& global) {
+/// Frame i shows the time start + i / fps.
+void renderFrames(const RenderOptions& options, Request& request, recipes::Renderer& renderer,
+                  const GlobalOptions& global) {
     const FramePattern pattern(options.output);
-    Progress progress("rendering", std::size_t(options.frames), global.quiet);
+    Progress progress("rendering", std::size_t(*options.frames), global.quiet);
     const double start = request.settings.timeSeconds;
-    for (int i = 0; i < options.frames; ++i) {
-        request.settings.timeSeconds = start + i / options.framesPerSecond;
+    for (int i = 0; i < *options.frames; ++i) {
+        request.settings.timeSeconds = start + i / options.framesPerSecond.value_or(kFramesPerSecond);
         writePicture(pattern.path(i), renderer.render(request.technique, request.settings));
         progress.advance();
     }
-    return kGood;
+}
+
+void check(const RenderOptions& options) {
+    requirePictureExtension(options.output);
+    if (options.framesPerSecond && !options.frames)
+        throw InputError("--fps needs --frames: how many pictures to render");
+    if (options.frames && *options.frames < 1)
+        throw InputError(fmt::format("--frames {} is less than one picture", *options.frames));
+    if (options.framesPerSecond && !(*options.framesPerSecond > 0.0))
+        throw InputError(fmt::format("--fps {} must be more than 0", *options.framesPerSecond));
+    validation::requireWritable(options.frames ? FramePattern(options.output).path(0) : options.output);
 }
 
 int render(const RenderOptions& options, const GlobalOptions& global) {
-    requirePictureExtension(options.output);
-    if (options.frames < 0) throw InputError(fmt::format("--frames {} is less than one frame", options.frames));
-    if (!(options.framesPerSecond > 0.0)) throw InputError(fmt::format("--fps {} must be more than 0", options.framesPerSecond));
-    if (options.frames > 0) FramePattern check(options.output);
+    check(options);
     Request request = resolve(options.frame);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     recipes::Renderer renderer(*context, request.scene);
-    if (options.frames > 0) return renderFrames(options, request, renderer, global);
-    writePicture(options.output, renderer.render(request.technique, request.settings));
+    if (options.frames)
+        renderFrames(options, request, renderer, global);
+    else
+        writePicture(options.output, renderer.render(request.technique, request.settings));
     return kGood;
 }
 
@@ -67,11 +83,18 @@ void addRenderCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     CLI::App* command = app.add_subcommand("render", "Renders a scene to a picture, or to a numbered sequence");
     auto options = std::make_shared<RenderOptions>();
     addFrameOptions(*command, options->frame, "");
-    command->add_option("-o,--output", options->output, "The picture: .exr is linear radiance, .png as a display shows it")
+    command
+        ->add_option("-o,--output", options->output, "The picture: .exr is linear radiance, .png as a display shows it")
         ->type_name("FILE")
         ->required();
-    command->add_option("--frames", options->frames, "Renders N pictures; FILE then holds a pattern such as f_%04d.png")->type_name("N");
-    command->add_option("--fps", options->framesPerSecond, "Frames a second of scene time [30]")->type_name("R");
+    addWholeNumber(*command, "--frames", options->frames,
+                   "Renders N pictures; FILE then holds a place such as f_%04d.png", "N");
+    addNumber(*command, "--fps", options->framesPerSecond, "Frames a second of scene time [30]", "R");
+    command->footer(R"(Examples
+  tessera render hall -o hall.png                       as a display shows it
+  tessera render model.glb -o model.exr                 linear radiance, 32 bits a channel
+  tessera render hall -o normals.png --view normal      what the lighting works with
+  tessera render scene.json -o f_%04d.png --frames 90   a sequence of 3 seconds)");
     command->callback([options, &global, &run] { run = [options, &global] { return render(*options, global); }; });
 }
 

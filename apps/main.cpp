@@ -1,12 +1,18 @@
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <exception>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include "apps/Commands.h"
+#include "apps/HelpFormat.h"
+#include "apps/Interrupt.h"
+#include "apps/ParseMessage.h"
 #include "scenes/Error.h"
-#include "scenes/Names.h"
 
 namespace {
 
@@ -24,49 +30,47 @@ Exit codes: 0 good, 1 failure while running or writing, 2 unusable input, 3 a to
 void configureLog(const GlobalOptions& options) {
     auto logger = spdlog::stderr_logger_st("tessera");
     logger->set_pattern("tessera: %l: %v");
-    logger->set_level(options.quiet ? spdlog::level::err : options.verbose ? spdlog::level::debug : spdlog::level::warn);
+    logger->set_level(options.quiet     ? spdlog::level::err
+                      : options.verbose ? spdlog::level::debug
+                                        : spdlog::level::warn);
     spdlog::set_default_logger(logger);
 }
 
 int printVersion(const GlobalOptions& options) {
+    // The context comes first: where it cannot be made, only the error is printed.
+    const std::unique_ptr<gpu::Context> context = options.verbose ? makeContext(options) : nullptr;
     fmt::print("tessera {}\n", TESSERA_VERSION);
-    if (!options.verbose) return kGood;
-    const std::unique_ptr<gpu::Context> context = makeContext(options);
+    if (!context) return kGood;
     const gpu::Capabilities& gl = context->capabilities();
-    fmt::print("context    {}\nvendor     {}\nrenderer   {}{}\nOpenGL     {}\nGLSL       {}\n", gl.contextWay, gl.vendor, gl.renderer,
-               gl.isSoftware ? " (software)" : "", gl.version, gl.glslVersion);
+    fmt::print("context    {}\nvendor     {}\nrenderer   {}{}\nOpenGL     {}\nGLSL       {}\n", gl.contextWay,
+               gl.vendor, gl.renderer, gl.isSoftware ? " (software)" : "", gl.version, gl.glslVersion);
     fmt::print("limits     texture side {}, buffer texels {}, uniform block {} B, samples {}\n", gl.maxTextureSize,
                gl.maxTextureBufferTexels, gl.maxUniformBlockBytes, gl.maxSamples);
     return kGood;
 }
 
-/// One line for what the parser objects to; a mistyped command is answered with the nearest ones.
-std::string parseMessage(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
-    std::vector<std::string_view> commands;
-    for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        if (word.empty() || word.front() == '-') continue;
-        if (std::find(commands.begin(), commands.end(), word) != commands.end()) break;
-        return fmt::format("unknown command '{}': {}", word, suggestNames(word, commands));
-    }
-    std::string text = error.what();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text + " (see --help)";
-}
-
+/// An error is one line, whatever its origin: a shader compiler's log has many.
 int fail(const std::string& text, int code) {
-    // An error is one line, whatever its origin.
-    std::string line = text;
-    while (!line.empty() && line.back() == '\n') line.pop_back();
+    std::string line;
+    std::istringstream lines(text);
+    for (std::string part; std::getline(lines, part);) {
+        if (!part.empty()) line += (line.empty() ? "" : "; ") + part;
+    }
     fmt::print(stderr, "tessera: error: {}\n", line);
     return code;
 }
 
+/// What was printed may still wait in memory; a full disk shows only when it leaves.
+int flushed(int code) {
+    if (code == kFailed || (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)) return code;
+    return fail(fmt::format("cannot write the output: {}; free some space", std::strerror(errno)), kFailed);
+}
+
 int runProgram(int argc, char** argv) {
-    CLI::App app("Tessera renders scenes with very many lights, by several techniques that must agree, and proves it.", "tessera");
-    app.footer(kFooter);
-    app.get_formatter()->column_width(26);
+    CLI::App app("Tessera renders scenes with very many lights, by several techniques that must agree, and proves it.",
+                 "tessera");
+    app.formatter(helpFormat());
+    app.set_help_flag("-h,--help", "This text; also after a command");
     GlobalOptions global;
     bool version = false;
     addGlobalOptions(app, global);
@@ -78,6 +82,7 @@ int runProgram(int argc, char** argv) {
     addPlanCommand(app, global, run);
     addScenesCommand(app, run);
     addDemoCommand(app, global, run);
+    app.footer(kFooter);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& wanted) { // --help
@@ -98,7 +103,8 @@ int runProgram(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
-        return runProgram(argc, argv);
+        cleanUpWhenInterrupted();
+        return flushed(runProgram(argc, argv));
     } catch (const tessera::InputError& error) {
         return fail(error.what(), kBadInput);
     } catch (const std::exception& error) {

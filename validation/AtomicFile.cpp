@@ -1,5 +1,7 @@
 #include "validation/AtomicFile.h"
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
@@ -22,7 +24,9 @@ namespace fs = std::filesystem;
 }
 
 [[noreturn]] void failWithErrno(const std::string& path, int error) {
-    fail(path, std::generic_category().message(error) + "; free the place or name another file");
+    const bool isFull = error == ENOSPC || error == EDQUOT || error == EFBIG;
+    fail(path, std::generic_category().message(error) +
+                   (isFull ? "; free some space or name another place" : "; name another place"));
 }
 
 void writeAndClose(std::FILE* file, std::string_view bytes, const std::string& path, bool toDisk) {
@@ -45,19 +49,52 @@ bool mayWriteOver(const fs::path& target) {
 #endif
 }
 
+/// The name of a temporary where a signal handler finds it: it may neither allocate nor wait for a lock.
+struct ListedName {
+    enum State : int { kFree, kClaimed, kListed };
+    std::atomic<int> state = kFree;
+    std::array<char, 4096> text{}; ///< PATH_MAX of Linux; longer names cannot be opened
+};
+static_assert(std::atomic<int>::is_always_lock_free);
+std::array<ListedName, 8> listedNames; ///< a program rarely writes two files at a time
+
+/// Lists a name as long as it lives. When all places are taken, it does not.
+class NameListing {
+public:
+    explicit NameListing(const std::string& name) {
+        for (ListedName& place : listedNames) {
+            int expected = ListedName::kFree;
+            if (name.size() >= place.text.size()) return;
+            if (!place.state.compare_exchange_strong(expected, ListedName::kClaimed)) continue;
+            name.copy(place.text.data(), name.size());
+            place.text[name.size()] = '\0';
+            place.state = ListedName::kListed;
+            place_ = &place;
+            return;
+        }
+    }
+    ~NameListing() {
+        if (place_ != nullptr) place_->state = ListedName::kFree;
+    }
+    NameListing(const NameListing&) = delete;
+    NameListing& operator=(const NameListing&) = delete;
+
+private:
+    ListedName* place_ = nullptr;
+};
+
+/// A name of its own, because the target's with a suffix can exceed what the file system allows.
+fs::path temporaryName(const fs::path& folder) {
+    std::random_device random;
+    return folder / fmt::format(".tessera-{:08x}{:08x}.tmp", random(), random());
+}
+
 /// A new file beside the target, gone again unless it has taken the target's name.
 class Temporary {
 public:
-    Temporary(const fs::path& folder, const std::string& shownPath) {
-        std::random_device random;
-        for (int attempt = 0; attempt < 100; ++attempt) {
-            // A name of its own, because the target's with a suffix can exceed what the file system allows.
-            path_ = folder / fmt::format(".tessera-{:08x}{:08x}.tmp", random(), random());
-            file_ = std::fopen(path_.c_str(), "wbx");
-            if (file_ != nullptr) return;
-            if (errno != EEXIST) break;
-        }
-        failWithErrno(shownPath, errno);
+    Temporary(const fs::path& folder, const std::string& shownPath)
+        : path_(temporaryName(folder)), listing_(path_.string()), file_(std::fopen(path_.c_str(), "wbx")) {
+        if (file_ == nullptr) failWithErrno(shownPath, errno);
     }
     Temporary(const Temporary&) = delete;
     Temporary& operator=(const Temporary&) = delete;
@@ -77,25 +114,26 @@ public:
 
 private:
     fs::path path_;
-    std::FILE* file_ = nullptr;
+    NameListing listing_; ///< before the file exists and until it is gone or renamed
+    std::FILE* file_;
     bool renamed_ = false;
 };
 
-} // namespace
+/// Where the bytes go: into a file that replaces `target`, or straight into a device or pipe.
+struct Place {
+    fs::file_status status;
+    bool isStream;
+    fs::path target, folder;
+};
 
-void writeFileAtomically(const std::string& path, std::string_view text) {
+Place placeOf(const std::string& path) {
     if (path.empty()) fail("\"\"", "the name is empty; name a file");
     std::error_code ignored;
     const fs::file_status status = fs::status(path, ignored);
     if (fs::is_directory(status)) fail(path, "it is a folder; name a file in it");
 
     const bool isStream = fs::exists(status) && !fs::is_regular_file(status);
-    if (isStream || path.starts_with("/dev/")) {
-        std::FILE* file = std::fopen(path.c_str(), "wb");
-        if (file == nullptr) failWithErrno(path, errno);
-        writeAndClose(file, text, path, false);
-        return;
-    }
+    if (isStream || path.starts_with("/dev/")) return {status, true, path, {}};
 
     fs::path target = path;
     if (fs::is_symlink(fs::symlink_status(target, ignored))) {
@@ -107,15 +145,48 @@ void writeFileAtomically(const std::string& path, std::string_view text) {
     if (!fs::is_directory(folder, ignored))
         fail(path, fmt::format("there is no folder {}; create it or name another", folder.string()));
     if (fs::exists(status) && !mayWriteOver(target)) fail(path, "it is write-protected; name another file");
+    return {status, false, target, folder};
+}
 
-    Temporary temporary(folder, path);
+} // namespace
+
+void writeFileAtomically(const std::string& path, std::string_view text) {
+    const Place place = placeOf(path);
+    if (place.isStream) {
+        std::FILE* file = std::fopen(path.c_str(), "wb");
+        if (file == nullptr) failWithErrno(path, errno);
+        writeAndClose(file, text, path, false);
+        return;
+    }
+    Temporary temporary(place.folder, path);
     writeAndClose(temporary.file(), text, path, true);
-    if (fs::exists(status)) fs::permissions(temporary.path(), status.permissions(), ignored);
-    temporary.renameTo(target, path);
+    std::error_code ignored;
+    if (fs::exists(place.status)) fs::permissions(temporary.path(), place.status.permissions(), ignored);
+    temporary.renameTo(place.target, path);
 }
 
 void writeFileAtomically(const std::string& path, std::span<const std::uint8_t> bytes) {
     writeFileAtomically(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+void requireWritable(const std::string& path) {
+    const Place place = placeOf(path);
+    // A file that is made and removed at once is the only question every file system answers truly.
+    if (!place.isStream) {
+        const Temporary probe(place.folder, path);
+        std::fclose(probe.file());
+    }
+}
+
+void removeTemporaries() noexcept {
+    for (const ListedName& name : listedNames) {
+        if (name.state != ListedName::kListed) continue;
+#if __has_include(<unistd.h>)
+        ::unlink(name.text.data()); // std::remove() need not be async-signal-safe
+#else
+        std::remove(name.text.data());
+#endif
+    }
 }
 
 } // namespace tessera::validation

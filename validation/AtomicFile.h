@@ -13,4 +13,11 @@ namespace tessera::validation {
 void writeFileAtomically(const std::string& path, std::string_view text);
 void writeFileAtomically(const std::string& path, std::span<const std::uint8_t> bytes);
 
+/// Throws what writeFileAtomically() would throw for a place where no file can be: before work that would be in vain.
+void requireWritable(const std::string& path);
+
+/// Removes the temporaries of the writes under way in any thread. Async-signal-safe, for the handlers of signals that
+/// end the program; the writes themselves must not go on afterwards.
+void removeTemporaries() noexcept;
+
 } // namespace tessera::validation

@@ -13,10 +13,11 @@ namespace tessera::validation {
 /// What to compare with what.
 struct CompareRequest {
     std::vector<recipes::Technique> techniques;
-    std::variant<recipes::Technique, std::string> against = recipes::Technique::Forward; ///< a technique or a picture file
+    std::variant<recipes::Technique, std::string> against =
+        recipes::Technique::Forward; ///< a technique or a picture file
     frame::FrameSettings settings;
-    std::optional<Tolerance> tolerance;                     ///< instead of the one each pair is held to by itself
-    std::function<void()> renderedOne = [] {};              ///< called after each picture, for progress
+    std::optional<Tolerance> tolerance;        ///< instead of the one each pair is held to by itself
+    std::function<void()> renderedOne = [] {}; ///< called after each picture, for progress
 };
 
 /// A picture of the comparison, linear and as shown.
@@ -35,10 +36,12 @@ struct CompareResult {
 /// Pictures that compareTechniques() renders, for progress.
 std::size_t pictureCount(const CompareRequest& request);
 
-/// Renders every technique and measures it against the truth. Pairs that must agree to the last bit (no G-buffer, or the exact
-/// layout, on a software rasteriser) are held to that; see pairTolerance(). Where the G-buffer is packed, each channel's share of
-/// the error is found by storing that channel alone in fp32.
-CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request);
+/// Renders every technique and measures it against the truth. Pairs that must agree to the last bit (no G-buffer, or
+/// the exact layout, on a software rasteriser) are held to that; see pairTolerance(). Where the G-buffer is packed,
+/// each channel's share of the error is found by storing that channel alone in fp32, and against a technique the
+/// picture with all of them in fp32 must hold the exact layout's tolerance.
+CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabilities& gl,
+                                const CompareRequest& request);
 
 /// What a technique is held to against another, with the reason in Tolerance::reason.
 Tolerance pairTolerance(recipes::Technique technique, const frame::GBufferLayout& layout, bool isSoftware);

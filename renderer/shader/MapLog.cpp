@@ -29,13 +29,14 @@ std::string mapLine(const std::string& line, std::span<const std::string> files)
     for (const Dialect& dialect : dialects()) {
         std::smatch match;
         if (!std::regex_search(line, match, dialect.pattern)) continue;
-        // More digits than any file list has entries make no index.
-        if (match.length(dialect.file) > 6) return line;
-        const std::size_t file = std::stoul(match.str(dialect.file));
+        // More digits than any file list has entries, or any file lines, make no place.
+        if (match.length(dialect.file) > 6 || match.length(dialect.line) > 10) return line;
+        const std::size_t number = std::stoull(match.str(dialect.line));
+        const std::size_t file = number < kLinesAFile ? std::stoul(match.str(dialect.file)) : number / kLinesAFile;
         if (file >= files.size()) return line;
         std::string severity;
         if (dialect.severity != 0) severity = match.str(dialect.severity) == "ERROR" ? "error: " : "warning: ";
-        return fmt::format("{}:{}: {}{}", displayPath(files[file]), match.str(dialect.line), severity,
+        return fmt::format("{}:{}: {}{}", displayPath(files[file]), number % kLinesAFile, severity,
                            match.suffix().str());
     }
     return line;

@@ -71,12 +71,15 @@ private:
         return indexOf_[path] = files_.size() - 1;
     }
 
+    static std::string lineDirective(std::size_t line, std::size_t fileIndex) {
+        return fmt::format("#line {} {}\n", fileIndex * kLinesAFile + line, fileIndex);
+    }
+
     void emit(std::size_t index, bool conditional) {
         stack_.push_back(index);
         // Copied: loading further files moves the list.
         const File file = files_[index];
-        const int fileIndex = int(index);
-        result_.text += fmt::format("#line 1 {}\n", fileIndex);
+        result_.text += lineDirective(1, index);
         LineScanner scanner;
         Conditionals conditionals;
         for (std::size_t i = 0; i < file.lines.size(); ++i) {
@@ -86,7 +89,7 @@ private:
             if (directive.name == "include") {
                 if (scanner.isOpen()) fail(place, "the #include must end on its line; so must a comment after it");
                 if (!conditionals.inCpp()) include(directive.arguments, place, conditional || conditionals.depth() > 0);
-                result_.text += conditionals.inCpp() ? "\n" : fmt::format("#line {} {}\n", place.line + 1, fileIndex);
+                result_.text += conditionals.inCpp() ? "\n" : lineDirective(place.line + 1, index);
             } else if (directive.name == "pragma" && directive.arguments == "once") {
                 result_.text += '\n';
             } else if (directive.name == "version") {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,8 +12,12 @@ namespace tessera::shader {
 
 using Defines = std::vector<std::pair<std::string, std::string>>; ///< name, value; an empty value is fine
 
-/// A shader as the driver gets it. #line directives carry (line, index into files), so that its messages can be mapped
-/// back.
+/// Line i of file f is numbered f * kLinesAFile + i: Mesa keeps a message's line but, past the syntax, says file 0 (its
+/// glsl_parser.yy clears the source of every location it combines).
+inline constexpr std::size_t kLinesAFile = 1'000'000;
+
+/// A shader as the driver gets it. #line directives carry (numbered line, index into files), so that its messages can
+/// be mapped back.
 struct ExpandedSource {
     std::string text;
     std::vector<std::string> files; ///< paths below shaders/, the entry first

@@ -45,11 +45,19 @@ public:
             return all;
         }
         std::vector<std::uint32_t> indices = context_.accessors.indices(primitive_.indices);
-        for (std::size_t i = 0; i < indices.size(); ++i)
-            if (indices[i] >= vertexCount_)
-                context_.document.fail(fmt::format("/accessors/{}", primitive_.indices),
-                                       fmt::format("index {} is {}, but mesh '{}' ({}) has only {} vertices", i,
-                                                   indices[i], meshName_, place_, vertexCount_));
+        const std::uint32_t restart = restartIndex(primitive_.indices);
+        for (std::size_t i = 0; i < indices.size(); ++i) {
+            if (indices[i] < vertexCount_ && indices[i] != restart) continue;
+            const std::string what =
+                indices[i] == restart
+                    ? fmt::format("index {} of mesh '{}' ({}) is {}, which restarts a primitive and so names no vertex "
+                                  "(glTF 2.0 section 3.7.2.1); {}",
+                                  i, meshName_, place_, restart,
+                                  restart < kWidestRestart ? "use a wider index type" : "split the mesh")
+                    : fmt::format("index {} is {}, but mesh '{}' ({}) has only {} vertices", i, indices[i], meshName_,
+                                  place_, vertexCount_);
+            context_.document.fail(fmt::format("/accessors/{}", primitive_.indices), what);
+        }
         return indices;
     }
 
@@ -65,6 +73,15 @@ public:
     }
 
 private:
+    static constexpr std::uint32_t kWidestRestart = std::numeric_limits<std::uint32_t>::max();
+
+    /// The largest value of the index type.
+    std::uint32_t restartIndex(int accessor) const {
+        const int type = context_.document.model.accessors[static_cast<std::size_t>(accessor)].componentType;
+        const int bits = 8 * tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type));
+        return kWidestRestart >> (32 - bits);
+    }
+
     [[noreturn]] void fail(const std::string& attribute, const std::string& what) const {
         const int accessor = primitive_.attributes.at(attribute);
         context_.document.fail(fmt::format("{}/attributes/{}", place_, attribute),

@@ -44,7 +44,7 @@ TEST_F(Expand, anIncludeIsAlwaysFramedByLineDirectives) {
     folder.write("passes/main.frag", "float a;\n#include \"lib/b.glsl\"\nfloat c;\n");
     folder.write("lib/b.glsl", "float b;\n");
     const ExpandedSource source = expanded("passes/main.frag");
-    EXPECT_EQ(source.text, "#version 450 core\n#line 1 0\nfloat a;\n#line 1 1\nfloat b;\n#line 3 0\nfloat c;\n");
+    EXPECT_EQ(source.text, "#version 450 core\n#line 1 0\nfloat a;\n#line 1000001 1\nfloat b;\n#line 3 0\nfloat c;\n");
     EXPECT_THAT(source.files, ElementsAre("passes/main.frag", "lib/b.glsl"));
 }
 
@@ -163,7 +163,8 @@ TEST_F(Expand, anotherVersionIsAlwaysRefused) {
 TEST_F(Expand, windowsLineEndsNeverReachTheDriver) {
     folder.write("main.frag", "#include \"a.glsl\"\r\nfloat b;\r\n");
     folder.write("a.glsl", "#pragma once\r\nfloat a;");
-    EXPECT_EQ(expanded("main.frag").text, "#version 450 core\n#line 1 0\n#line 1 1\n\nfloat a;\n#line 2 0\nfloat b;\n");
+    EXPECT_EQ(expanded("main.frag").text,
+              "#version 450 core\n#line 1 0\n#line 1000001 1\n\nfloat a;\n#line 2 0\nfloat b;\n");
 }
 
 TEST(SourceTree, aMissingFolderIsAlwaysNamed) {

@@ -13,6 +13,12 @@ TEST(MapLog, placesOfMesaAreAlwaysMapped) {
               "shaders/lib/brdf.glsl:12: error: `x' undeclared\nshaders/passes/light.frag:3: warning: w\n");
 }
 
+TEST(MapLog, theFileInALineNumberAlwaysWinsOverMesasFileZero) {
+    EXPECT_EQ(mapLog("0:1000012(5): error: cannot access field `x' of structure\n", kFiles),
+              "shaders/lib/brdf.glsl:12: error: cannot access field `x' of structure\n");
+    EXPECT_EQ(mapLog("0:2000012(5): error: beyond the list", kFiles), "0:2000012(5): error: beyond the list");
+}
+
 TEST(MapLog, placesOfNvidiaAreAlwaysMapped) {
     EXPECT_EQ(mapLog("1(12) : error C1503: undefined variable \"x\"\n", kFiles),
               "shaders/lib/brdf.glsl:12: error C1503: undefined variable \"x\"\n");

@@ -274,6 +274,33 @@ TEST(GltfGeometry, indexBeyondTheVerticesIsAlwaysRefused) {
     EXPECT_NE(floats.error().find("/accessors/1: holds indices, so it must be SCALAR of"), std::string::npos);
 }
 
+TEST(GltfGeometry, indexThatRestartsAPrimitiveIsAlwaysRefused) {
+    const auto errorOf = [](const auto& indices, int componentType) {
+        // As many vertices as bytes can name, so that 255 is refused for its meaning and not for its size.
+        constexpr std::size_t kVertices = 256;
+        Builder builder;
+        builder.primitive()["attributes"]["POSITION"] =
+            builder.add(std::vector<float>(3 * kVertices, 0.5f), kFloat, "VEC3", kVertices);
+        builder.primitive()["indices"] = builder.add(indices, componentType, "SCALAR", indices.size());
+        return builder.error();
+    };
+    EXPECT_EQ(errorOf(std::vector<std::uint8_t>{0, 1, 254}, kUnsignedByte), "");
+    EXPECT_EQ(errorOf(std::vector<std::uint16_t>{0, 1, 255}, kUnsignedShort), "");
+    const std::string bytes = errorOf(std::vector<std::uint8_t>{0, 1, 255}, kUnsignedByte);
+    EXPECT_NE(
+        bytes.find("model.gltf: /accessors/2: index 2 of mesh 'mesh 0' (/meshes/0/primitives/0) is 255, which "
+                   "restarts a primitive and so names no vertex (glTF 2.0 section 3.7.2.1); use a wider index type"),
+        std::string::npos)
+        << bytes;
+    const std::string shorts = errorOf(std::vector<std::uint16_t>{65535, 1, 2}, kUnsignedShort);
+    EXPECT_NE(shorts.find("index 0 of mesh 'mesh 0' (/meshes/0/primitives/0) is 65535, which restarts"),
+              std::string::npos)
+        << shorts;
+    const std::string ints = errorOf(Indices{0, 4294967295u, 2}, kUnsignedInt);
+    EXPECT_NE(ints.find("is 4294967295, which restarts"), std::string::npos) << ints;
+    EXPECT_NE(ints.find("; split the mesh"), std::string::npos) << ints;
+}
+
 TEST(GltfGeometry, morphTargetsAreAlwaysWarnedOfOnce) {
     Builder builder;
     builder.primitive()["targets"] = Json::parse(R"([{"POSITION": 0}, {"POSITION": 0}])");

@@ -1,0 +1,9 @@
+#pragma once
+
+namespace tessera::app {
+
+/// From now on a signal that ends the program (Ctrl-C, a closed terminal, kill) first removes the files that are not
+/// written whole. The program then ends by that signal, so that a shell sees why.
+void cleanUpWhenInterrupted();
+
+} // namespace tessera::app

@@ -1,0 +1,42 @@
+#include "apps/OutputFolder.h"
+
+#include <filesystem>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "validation/AtomicFile.h"
+
+namespace tessera::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& folder, const std::string& reason) {
+    throw std::runtime_error(fmt::format("cannot write into the folder '{}': {}; name another", folder, reason));
+}
+
+} // namespace
+
+void requireFolderPlace(const std::string& folder) {
+    if (folder.empty()) fail(folder, "its name is empty");
+    std::error_code ignored;
+    fs::path existing = fs::absolute(folder);
+    while (!fs::exists(fs::symlink_status(existing, ignored)) && existing.has_relative_path())
+        existing = existing.parent_path();
+    if (!fs::is_directory(existing, ignored)) fail(folder, existing.string() + " is not a folder");
+    try {
+        validation::requireWritable((existing / "index.html").string());
+    } catch (const std::runtime_error&) {
+        fail(folder, existing.string() + " cannot be written to");
+    }
+}
+
+void makeFolder(const std::string& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) fail(folder, error.message());
+}
+
+} // namespace tessera::app

@@ -1,0 +1,11 @@
+#pragma once
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace tessera::app {
+
+/// One line for what the parser objects to: it names the word, the nearest valid ones and where to read more.
+std::string parseMessage(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv);
+
+} // namespace tessera::app

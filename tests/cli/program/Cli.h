@@ -1,0 +1,49 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/Process.h"
+#include "tests/support/TempFolder.h"
+#include "validation/Picture.h"
+
+namespace tessera::test {
+
+using Words = std::vector<std::string>;
+
+/// Runs the program in a folder of the test's own.
+class Cli : public testing::Test {
+protected:
+    using Environment = std::map<std::string, std::string>;
+
+    ProcessResult run(const Words& arguments, const Environment& environment = {}) const;
+    /// Expects exit code 0 and a silent stderr; returns stdout.
+    std::string runGood(const Words& arguments, const Environment& environment = {}) const;
+    /// Expects the exit code, nothing on stdout, exactly one line on stderr that begins with "tessera: error: " and
+    /// holds all of `parts`, and every file of the folder as it was.
+    void expectError(int exitCode, const Words& arguments, const Words& parts,
+                     const Environment& environment = {}) const;
+
+    std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+    std::string text(const std::string& name) const;
+    nlohmann::json json(const std::string& name) const { return nlohmann::json::parse(text(name)); }
+    validation::Picture picture(const std::string& name) const;
+    std::map<std::string, std::string> files() const; ///< contents by name, folders and devices without
+
+    /// "quad.json": a square that fills the picture, turned a little from the camera, in the material given as JSON
+    /// ("name": "paint"), with the JSON list of lights.
+    void writeQuad(const std::string& material, const std::string& lights) const;
+
+    TempFolder folder_;
+};
+
+/// Programs of another kind, in the same folder: the shell.
+ProcessResult runShell(const std::string& script, const std::filesystem::path& folder);
+
+inline constexpr const char* kProgram = TESSERA_PROGRAM;
+
+} // namespace tessera::test

@@ -1,0 +1,111 @@
+#include "tests/cli/program/Cli.h"
+
+namespace tessera::test {
+namespace {
+
+constexpr int kBadInput = 2;
+
+class BadOptions : public Cli {
+protected:
+    void SetUp() override { folder_.write("a.png", "an older picture"); }
+
+    /// `render room -o a.png` with more.
+    void expectRefused(const Words& more, const Words& parts) const {
+        Words arguments{"render", "room", "-o", "a.png"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        expectError(kBadInput, arguments, parts);
+    }
+};
+
+TEST_F(BadOptions, unknownNamesAreAlwaysAnsweredWithTheNearest) {
+    expectError(kBadInput, {"rendr"}, {"unknown command 'rendr'", "did you mean 'render'?"});
+    expectError(kBadInput, {"--context", "egl", "plann", "room"}, {"unknown command 'plann'", "did you mean 'plan'?"});
+    expectError(kBadInput, {"render", "romm", "-o", "a.png"}, {"'romm'", "did you mean 'room'?"});
+    expectRefused({"--technique", "defered"}, {"unknown technique 'defered'", "did you mean 'deferred'?"});
+    expectRefused({"--technique", "zzz"}, {"unknown technique 'zzz'", "forward, forward_prepass, deferred"});
+    expectRefused({"--layout", "pakced"}, {"unknown layout 'pakced'", "did you mean 'packed'?"});
+    expectRefused({"--view", "depht"}, {"unknown view 'depht'", "did you mean 'depth'?"});
+    expectRefused({"--view", "8"}, {"unknown view '8'", "1 to 7"});
+    expectRefused({"--tonemap", "acess"}, {"unknown tone map 'acess'", "did you mean 'aces'?"});
+    expectRefused({"--camera", "cornr"}, {"room: unknown camera 'cornr'", "did you mean 'corner'?"});
+    expectRefused({"--filter", "exacct"}, {"'exacct'", "did you mean 'exact'?"});
+    expectRefused({"--space", "wrld"}, {"'wrld'", "did you mean 'world'?"});
+    expectRefused({"--prune", "maybe"}, {"--prune 'maybe'", "on, off"});
+    expectRefused({"--specular", "0"}, {"--specular '0'", "on, off"});
+    expectRefused({"--context", "elg"}, {"unknown context 'elg'", "did you mean 'egl'?"});
+    expectError(kBadInput, {"scenes", "--context", "elg"}, {"unknown context 'elg'"});
+    expectError(kBadInput, {"compare", "room", "--techniques", "forward,defered"}, {"'defered'", "'deferred'"});
+    expectError(kBadInput, {"compare", "room", "--against", "forwad"}, {"'forwad'", "'forward'"});
+}
+
+TEST_F(BadOptions, unknownOptionsAndStrayWordsAreAlwaysNamed) {
+    expectRefused({"--techniqe", "deferred"}, {"unknown option '--techniqe'", "did you mean '--technique'?"});
+    expectRefused({"--sise=4x4"}, {"unknown option '--sise'", "did you mean '--size'?"});
+    expectRefused({"--qiet"}, {"unknown option '--qiet'", "did you mean '--quiet'?"});
+    expectRefused({"--nonsense"}, {"unknown option '--nonsense'", "tessera render --help"});
+    expectRefused({"other"}, {"render: unexpected argument 'other'"});
+    expectRefused({"-o", "b.png"}, {"--output"});
+    expectRefused({"--size"}, {"--size"});
+    expectError(kBadInput, {"--nonsense"}, {"unknown option '--nonsense'", "tessera --help"});
+    expectError(kBadInput, {"render"}, {"render: ", "required", "tessera render --help"});
+    expectError(kBadInput, {"render", "room"}, {"--output is required"});
+}
+
+TEST_F(BadOptions, sizesThatNoPictureHasAreAlwaysRefused) {
+    for (const char* size : {"0x0", "-1x5", "16385x9", "9x999999999999", "12", "16x", "16X9", "16x9x3", "+16x9", ""})
+        expectRefused({"--size", size}, {std::string("--size '") + size + "'", "1 to 16384"});
+}
+
+TEST_F(BadOptions, numbersThatAreNoneAreAlwaysRefused) {
+    for (const char* option : {"--exposure", "--time"})
+        for (const char* value : {"nan", "-inf", "1e999", "1,5", ""})
+            expectRefused({option, value}, {std::string(option) + " '" + value + "' is not a finite number"});
+    expectRefused({"--exposure", "1000"}, {"--exposure 1000", "-120 to 120"});
+    for (const char* option : {"--lights", "--solo", "--frames"})
+        for (const char* value : {"1.5", "99999999999", ""})
+            expectRefused({option, value}, {std::string(option) + " '" + value + "' is not a whole number"});
+}
+
+TEST_F(BadOptions, lightsThatASceneCannotHaveAreAlwaysRefused) {
+    expectRefused({"--lights", "-1"}, {"-1 lights", "0 to 65536"});
+    expectRefused({"--lights", "65537"}, {"65537 lights", "0 to 65536"});
+    expectRefused({"--solo", "1"}, {"--solo 1: room has 1 light, counted from 0"});
+    expectRefused({"--solo", "-1"}, {"--solo -1: room has 1 light"});
+    expectError(kBadInput, {"render", "lattice", "--lights", "0", "--solo", "0", "-o", "a.png"},
+                {"lattice has 0 lights"});
+}
+
+TEST_F(BadOptions, sequencesThatCannotBeNumberedAreAlwaysRefused) {
+    const auto expectSequenceRefused = [&](const Words& more, const Words& parts) {
+        Words arguments{"render", "room"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        expectError(kBadInput, arguments, parts);
+    };
+    for (const char* pattern : {"a.png", "a_%d_%d.png", "a_%x.png"})
+        expectSequenceRefused({"--frames", "2", "-o", pattern}, {pattern, "f_%04d.png"});
+    expectSequenceRefused({"--frames", "0", "-o", "a_%d.png"}, {"--frames 0"});
+    expectSequenceRefused({"--frames", "-2", "-o", "a_%d.png"}, {"--frames -2"});
+    for (const char* fps : {"0", "-1"})
+        expectSequenceRefused({"--frames", "2", "--fps", fps, "-o", "a_%d.png"}, {std::string("--fps ") + fps});
+    for (const char* fps : {"nan", "inf"})
+        expectSequenceRefused({"--frames", "2", "--fps", fps, "-o", "a_%d.png"}, {std::string("--fps '") + fps});
+    expectSequenceRefused({"--fps", "25", "-o", "a.png"}, {"--fps needs --frames"});
+}
+
+TEST_F(BadOptions, picturesOfOtherKindsAreAlwaysRefused) {
+    for (const char* name : {"b.jpg", "b", ".png", ""})
+        expectError(kBadInput, {"render", "room", "-o", name}, {".exr", ".png"});
+}
+
+TEST_F(BadOptions, comparisonsThatCannotBeMadeAreAlwaysRefused) {
+    expectError(kBadInput, {"compare", "room", "--techniques", "forward,forward"}, {"forward twice"});
+    expectError(kBadInput, {"compare", "room", "--techniques", "forward,"}, {"unknown technique ''"});
+    expectError(kBadInput, {"compare", "room", "--against", "nix.exr"}, {"nix.exr"});
+    expectError(kBadInput, {"compare", "room", "--size", "16x9", "--against", "a.png"},
+                {"a.png", "not a readable picture"});
+    folder_.write("empty.exr", "");
+    expectError(kBadInput, {"compare", "room", "--size", "16x9", "--against", "empty.exr"}, {"empty.exr", "empty"});
+}
+
+} // namespace
+} // namespace tessera::test

@@ -1,0 +1,127 @@
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "tests/cli/program/Cli.h"
+#include "tests/unit/scenes/gltf/GltfBuilder.h"
+
+namespace tessera::test {
+namespace {
+
+using scenes::gltf::test::Builder;
+using scenes::gltf::test::Json;
+
+constexpr int kBadInput = 2;
+constexpr int kFloat = 5126, kUnsignedByte = 5121;
+
+class BadScenes : public Cli {
+protected:
+    void SetUp() override { folder_.write("a.png", "an older picture"); }
+
+    void expectRefused(const std::string& file, const Words& parts) const {
+        Words all = parts;
+        all.push_back(file);
+        expectError(kBadInput, {"render", file, "-o", "a.png"}, all);
+    }
+    void expectRefused(const Builder& builder, const Words& parts) const {
+        folder_.write("m.gltf", builder.json.dump());
+        expectRefused("m.gltf", parts);
+    }
+    void expectSceneRefused(const std::string& text, const std::string& place) const {
+        folder_.write("s.json", text);
+        expectRefused("s.json", {"s.json:" + place});
+    }
+};
+
+TEST_F(BadScenes, missingAndEmptyFilesAreAlwaysRefused) {
+    for (const char* name : {"m.gltf", "m.glb", "m.obj", "m.json"}) {
+        expectRefused(name, {"no such file"});
+        folder_.write(name, "");
+        expectRefused(name, {"empty"});
+    }
+    folder_.write("m.txt", "text");
+    expectRefused("m.txt", {"not a scene file", ".gltf, .glb, .obj or .json"});
+    expectError(kBadInput, {"render", ".", "-o", "a.png"}, {"not a scene file"});
+}
+
+TEST_F(BadScenes, truncatedGlbIsAlwaysRefused) {
+    std::string text = Builder().json.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const auto word = [](std::size_t value) {
+        std::string bytes;
+        for (int shift = 0; shift < 32; shift += 8) bytes += char(value >> shift & 0xff);
+        return bytes;
+    };
+    const std::string whole = "glTF" + word(2) + word(20 + text.size()) + word(text.size()) + "JSON" + text;
+    folder_.write("m.glb", whole);
+    EXPECT_EQ(run({"render", "m.glb", "--size", "16x9", "-o", "b.png"}).exitCode, 0);
+    for (const std::size_t length :
+         {std::size_t(1), std::size_t(11), std::size_t(19), whole.size() / 2, whole.size() - 1}) {
+        folder_.write("m.glb", whole.substr(0, length));
+        expectRefused("m.glb", {});
+    }
+}
+
+TEST_F(BadScenes, gltfDataOutOfRangeIsAlwaysRefusedByName) {
+    Builder accessor;
+    accessor.json["accessors"][0]["count"] = 300;
+    expectRefused(accessor, {"/accessors/0", "past the end"});
+    Builder index;
+    index.primitive()["indices"] = index.add(std::vector<std::uint8_t>{0, 1, 3}, kUnsignedByte, "SCALAR", 3);
+    expectRefused(index, {"/accessors/1", "index 2 is 3", "only 3 vertices"});
+    Builder restart;
+    restart.primitive()["indices"] = restart.add(std::vector<std::uint8_t>{0, 1, 255}, kUnsignedByte, "SCALAR", 3);
+    expectRefused(restart, {"/accessors/1", "255, which restarts"});
+    Builder positions;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    positions.primitive()["attributes"]["POSITION"] =
+        positions.add(std::vector<float>{0, 0, 0, 1, nan, 0, 0, 1, 0}, kFloat, "VEC3", 3);
+    expectRefused(positions, {"POSITION", "nan in element 1"});
+    Builder texture;
+    texture.material()["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
+    texture.json["textures"] = Json::parse(R"([{"source": 0}])");
+    texture.json["images"] = Json::parse(R"([{"uri": "nix.png"}])");
+    expectRefused(texture, {"nix.png"});
+    Builder cycle;
+    cycle.json["nodes"] = Json::parse(R"([{"mesh": 0, "children": [1]}, {"children": [0]}])");
+    expectRefused(cycle, {"/nodes"});
+    Builder extension;
+    extension.json["extensionsUsed"] = extension.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    expectRefused(extension, {"KHR_draco_mesh_compression"});
+}
+
+TEST_F(BadScenes, gltfThatIsNoneIsAlwaysRefused) {
+    for (const char* text : {"{", "[]", "{\"asset\": {}}", "glTF"}) {
+        folder_.write("m.gltf", text);
+        expectRefused("m.gltf", {});
+        folder_.write("m.glb", text);
+        expectRefused("m.glb", {});
+    }
+}
+
+TEST_F(BadScenes, brokenObjIsAlwaysRefusedByLine) {
+    folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+    expectRefused("m.obj", {"4"});
+    folder_.write("m.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
+    expectRefused("m.obj", {"2"});
+}
+
+TEST_F(BadScenes, mistakesInASceneFileAreAlwaysNamedByFileAndPointer) {
+    expectSceneRefused("{\"tessera\": 1,}", "1:");
+    expectSceneRefused(R"({"tessera": 2})", "/tessera: ");
+    expectSceneRefused(R"({"tessera": 1, "lihgts": []})", "/: ");
+    expectSceneRefused(R"({"tessera": 1, "lights": [{"type": "point", "position": [0, 0]}]})", "/lights/0/position: ");
+    expectSceneRefused(R"({"tessera": 1, "lights": [{"type": "point", "position": [0, 0, 0], "intensty": 1}]})",
+                       "/lights/0: ");
+    expectSceneRefused(R"({"tessera": 1, "include": [{"file": "nix.obj"}]})", "/include/0/file: ");
+    expectSceneRefused(R"({"tessera": 1, "include": [{"file": "s.json"}]})", "/include/0/file: ");
+    expectSceneRefused(R"({"tessera": 1, "overrides": [{"node": "nix", "material": "m"}]})", "/overrides/0/");
+    expectSceneRefused(R"({"tessera": 1, "options": {"technique": "defered"}})", "/options/technique: ");
+    expectSceneRefused(R"({"tessera": 1, "options": {"layout": "pakced"}})", "/options/layout: ");
+    expectSceneRefused(R"({"tessera": 1, "options": {"toneMap": "acess"}})", "/options/toneMap: ");
+    expectSceneRefused(R"({"tessera": 1, "options": {"camera": "nix"}})", "/options/camera: ");
+    expectSceneRefused(R"({"tessera": 1, "options": {"size": [0, 9]}})", "/options/size");
+}
+
+} // namespace
+} // namespace tessera::test

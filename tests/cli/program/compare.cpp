@@ -1,0 +1,174 @@
+#include <filesystem>
+#include <set>
+
+#include "tests/cli/program/Cli.h"
+
+namespace tessera::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr int kGood = 0, kBadInput = 2, kToleranceMissed = 3;
+
+std::set<std::string> keysOf(const Json& object) {
+    std::set<std::string> keys;
+    for (const auto& [key, value] : object.items()) keys.insert(key);
+    return keys;
+}
+
+class Compare : public Cli {
+protected:
+    static Words lattice(const Words& more) {
+        Words words{"compare", "lattice", "--lights", "8", "--size", "160x90"};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+};
+
+TEST_F(Compare, theJsonHasExactlyTheDocumentedFields) {
+    const std::string table = runGood(lattice({"--json", "c.json", "--layout", "packed"}));
+    EXPECT_THAT(table, testing::HasSubstr("deferred vs forward"));
+    const Json record = json("c.json");
+    EXPECT_EQ(keysOf(record), (std::set<std::string>{"schema", "scene", "size", "renderer", "pairs"}));
+    EXPECT_EQ(record["schema"], 1);
+    EXPECT_EQ(record["scene"], "lattice");
+    EXPECT_EQ(record["size"], Json::parse("[160, 90]"));
+    EXPECT_FALSE(record["renderer"].get<std::string>().empty());
+    // `missed` and `why` explain verdicts and nulls; `channels` is there where a channel is packed.
+    const std::set<std::string> fields{
+        "a",        "b",        "maxAbs",        "maxRel",    "rmse", "relMse", "p50Rel", "p99Rel",
+        "p999Rel",  "bias",     "bitEqual",      "flip",      "psnr", "nan",    "inf",    "negative",
+        "excluded", "litShare", "meanLuminance", "tolerance", "ok",   "missed", "why"};
+    ASSERT_EQ(record["pairs"].size(), 2u);
+    for (const Json& pair : record["pairs"]) {
+        std::set<std::string> keys = keysOf(pair);
+        EXPECT_EQ(keys.erase("channels"), pair["a"] == "deferred" ? 1u : 0u);
+        EXPECT_EQ(keys, fields);
+        EXPECT_EQ(keysOf(pair["tolerance"]),
+                  (std::set<std::string>{"maxRel", "bitEqual", "relMse", "p999Rel", "bias"}));
+        EXPECT_EQ(pair["b"], "forward");
+        EXPECT_EQ(pair["ok"], true);
+        EXPECT_EQ(pair["missed"], Json::array());
+        for (const char* share : {"bitEqual", "excluded", "litShare"}) {
+            EXPECT_GE(pair[share], 0.0);
+            EXPECT_LE(pair[share], 1.0);
+        }
+        EXPECT_GE(pair["litShare"], 0.1);
+        for (const auto& [key, value] : pair.items()) EXPECT_TRUE(!value.is_null() || pair["why"].contains(key)) << key;
+    }
+    EXPECT_EQ(record["pairs"][0]["a"], "forward_prepass");
+    EXPECT_EQ(record["pairs"][0]["bitEqual"], 1.0);
+}
+
+TEST_F(Compare, techniquesAreExactlyThoseAskedForAndHeatMapsAlwaysShowEach) {
+    runGood(lattice({"--techniques", "deferred,forward", "--against", "forward_prepass", "--json", "c.json",
+                     "--heatmap", "maps/of"}));
+    const Json pairs = json("c.json")["pairs"];
+    ASSERT_EQ(pairs.size(), 2u);
+    EXPECT_EQ(pairs[0]["a"], "deferred");
+    EXPECT_EQ(pairs[1]["a"], "forward");
+    EXPECT_EQ(pairs[1]["b"], "forward_prepass");
+    for (const char* name : {"maps/of/deferred.png", "maps/of/forward.png"})
+        EXPECT_GE(picture(name).width, 160) << name;
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path() / "maps/of"), fs::directory_iterator()), 2);
+}
+
+TEST_F(Compare, aPictureThatRenderWroteAlwaysEqualsEveryTechniqueBitForBit) {
+    runGood({"render", "lattice", "--lights", "8", "--size", "160x90", "-o", "truth.exr"});
+    runGood(lattice({"--against", "truth.exr", "--json", "c.json"}));
+    const Json pairs = json("c.json")["pairs"];
+    ASSERT_EQ(pairs.size(), 3u);
+    for (const Json& pair : pairs) {
+        EXPECT_EQ(pair["bitEqual"], 1.0) << pair["a"];
+        EXPECT_EQ(pair["b"], "truth.exr");
+    }
+}
+
+TEST_F(Compare, aPictureOfAnotherSizeIsAlwaysRefused) {
+    runGood({"render", "room", "--size", "32x18", "-o", "small.exr"});
+    expectError(kBadInput, {"compare", "room", "--size", "160x90", "--against", "small.exr", "--json", "c.json"},
+                {"small.exr", "32x18", "160x90"});
+}
+
+TEST_F(Compare, aPictureOfAnotherSceneAlwaysMissesAndSaysWhat) {
+    runGood({"render", "room", "--size", "160x90", "-o", "room.exr"});
+    const ProcessResult result =
+        run(lattice({"--techniques", "deferred", "--against", "room.exr", "--json", "c.json"}));
+    EXPECT_EQ(result.exitCode, kToleranceMissed);
+    EXPECT_EQ(result.err, "");
+    EXPECT_THAT(result.out, testing::AllOf(testing::HasSubstr("MISSED"), testing::HasSubstr("missed: deferred vs ")));
+    const Json pair = json("c.json")["pairs"][0];
+    EXPECT_EQ(pair["ok"], false);
+    EXPECT_FALSE(pair["missed"].empty());
+}
+
+TEST_F(Compare, aBlackPictureNeverPasses) {
+    const ProcessResult result = run({"compare", "lattice", "--lights", "0", "--size", "160x90"});
+    EXPECT_EQ(result.exitCode, kToleranceMissed);
+    EXPECT_THAT(result.out, testing::HasSubstr("no signal"));
+}
+
+/// Shaders that are wrong in one place, in deferred only: what compare is there to find.
+class Sabotage : public Cli {
+protected:
+    void SetUp() override {
+        fs::copy(fs::path(TESSERA_SOURCE_DIR) / "shaders", folder_.path() / "shaders", fs::copy_options::recursive);
+    }
+
+    /// Replaces every `from` in a shader; the test fails when there is none.
+    void replace(const std::string& file, const std::string& from, const std::string& to) const {
+        std::string source = text("shaders/" + file);
+        std::size_t place = source.find(from);
+        ASSERT_NE(place, std::string::npos) << file << " no longer holds: " << from;
+        for (; place != std::string::npos; place = source.find(from, place + to.size()))
+            source.replace(place, from.size(), to);
+        folder_.write("shaders/" + file, source);
+    }
+
+    void expectExitCode(int exitCode) const {
+        for (const char* layout : {"exact", "packed"}) {
+            SCOPED_TRACE(layout);
+            const ProcessResult result =
+                run({"compare", "lattice", "--size", "160x90", "--techniques", "deferred", "--layout", layout},
+                    {{"TESSERA_SHADERS", path("shaders")}});
+            EXPECT_EQ(result.exitCode, exitCode) << result.out;
+            EXPECT_EQ(result.err, "");
+            EXPECT_EQ(result.out.find("missed: ") != std::string::npos, exitCode == kToleranceMissed);
+        }
+    }
+};
+
+TEST_F(Sabotage, anUntouchedCopyOfTheShadersAlwaysPasses) {
+    expectExitCode(kGood);
+}
+
+TEST_F(Sabotage, swappedChannelsAlwaysMissTheTolerance) {
+    replace("lib/gbuffer.glsl", "surface.albedo = texelFetch(albedoChannel, pixel, 0).rgb;",
+            "surface.albedo = texelFetch(albedoChannel, pixel, 0).bgr;");
+    replace("lib/gbuffer.glsl", "surface.albedo = decodeSquareRoot(texelFetch(albedoChannel, pixel, 0).r);",
+            "surface.albedo = decodeSquareRoot(texelFetch(albedoChannel, pixel, 0).r).bgr;");
+    expectExitCode(kToleranceMissed);
+}
+
+TEST_F(Sabotage, oneSkippedLightAlwaysMissesTheTolerance) {
+    // GBUFFER_ALBEDO without GBUFFER_WRITE: the pass that reads the G-buffer.
+    replace("lib/light_cursor.glsl", "    return LightCursor(0, int(frame.lights.x));",
+            "#if !defined(GBUFFER_WRITE) && defined(GBUFFER_ALBEDO)\n    return LightCursor(1, int(frame.lights.x));\n"
+            "#else\n    return LightCursor(0, int(frame.lights.x));\n#endif");
+    expectExitCode(kToleranceMissed);
+}
+
+TEST_F(Sabotage, aShaderThatDoesNotCompileIsAlwaysNamedInOneLine) {
+    replace("lib/light_cursor.glsl", "    light = cursor.next;", "    light = cursor.nix;\n    light = cursor.nox;");
+    const ProcessResult result = run({"render", "room", "-o", "a.png"}, {{"TESSERA_SHADERS", path("shaders")}});
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_THAT(result.err, testing::StartsWith("tessera: error: "));
+    EXPECT_THAT(result.err, testing::HasSubstr("lib/light_cursor.glsl:"));
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_FALSE(fs::exists(path("a.png")));
+    expectError(kBadInput, {"render", "room", "-o", "a.png"}, {"nix", "TESSERA_SHADERS"}, {{"TESSERA_SHADERS", "nix"}});
+}
+
+} // namespace
+} // namespace tessera::test

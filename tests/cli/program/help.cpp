@@ -1,0 +1,68 @@
+#include <sstream>
+
+#include "tests/cli/program/Cli.h"
+
+namespace tessera::test {
+namespace {
+
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+
+class Help : public Cli {
+protected:
+    static void expectReadable(const std::string& text) {
+        EXPECT_THAT(text, AllOf(HasSubstr("Usage: tessera"), HasSubstr("--help"), HasSubstr("Examples\n  tessera ")));
+        std::istringstream lines(text);
+        int blank = 0;
+        for (std::string line; std::getline(lines, line);) {
+            EXPECT_LE(line.size(), 100u) << line; // what two windows beside each other show
+            blank = line.empty() ? blank + 1 : 0;
+            EXPECT_LE(blank, 1) << "two blank lines in a row";
+        }
+    }
+};
+
+TEST_F(Help, everyCommandAlwaysExplainsItselfWithExamples) {
+    for (const char* command : {"render", "compare", "plan", "demo"}) {
+        SCOPED_TRACE(command);
+        const std::string text = runGood({command, "--help"});
+        expectReadable(text);
+        EXPECT_THAT(text, HasSubstr(std::string("Usage: tessera ") + command + " "));
+        for (const char* option :
+             {"--technique NAME", "--layout NAME", "--size WxH", "--camera NAME", "--time SECONDS", "--lights N",
+              "--view NAME", "--exposure EV", "--tonemap NAME", "--prune on|off", "--filter NAME", "--solo N",
+              "--specular on|off", "--space NAME", "--no-default-light", "--quiet", "--context KIND"})
+            EXPECT_THAT(text, HasSubstr(option));
+    }
+    EXPECT_THAT(runGood({"render", "-h"}), HasSubstr("Usage: tessera render SCENE -o FILE [options]"));
+    EXPECT_THAT(runGood({"scenes", "--help"}), HasSubstr("Usage: tessera scenes"));
+}
+
+TEST_F(Help, noArgumentAlwaysPrintsTheHelp) {
+    const std::string text = runGood({});
+    expectReadable(text);
+    EXPECT_EQ(text, runGood({"--help"}));
+    for (const char* command : {"render", "compare", "plan", "scenes", "demo", "Exit codes: 0 "})
+        EXPECT_THAT(text, HasSubstr(command));
+}
+
+TEST_F(Help, versionIsAlwaysOneLineAndVerboseAlwaysAddsWhatOpenGLSays) {
+    EXPECT_THAT(runGood({"--version"}), testing::MatchesRegex("tessera [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+    const ProcessResult verbose = run({"--version", "--verbose"});
+    EXPECT_EQ(verbose.exitCode, 0);
+    EXPECT_THAT(verbose.out, AllOf(HasSubstr("tessera "), ContainsRegex("\nvendor +[^ ]"),
+                                   ContainsRegex("\nrenderer +[^ ]"), ContainsRegex("\nOpenGL +4\\.[5-9]"),
+                                   ContainsRegex("\nGLSL +4"), ContainsRegex("\ncontext +[^ ]")));
+}
+
+TEST_F(Help, scenesAlwaysListsTheFiveBuiltinOnes) {
+    const std::string list = runGood({"scenes"});
+    for (const char* row : {"\nhall +[0-9]+ +257 +[0-9]+  [a-z]", "\nspheres +[0-9]+", "\nlattice +192000 +256 +9  ",
+                            "\nroom +30 +1 +10  ", "\nhead +[0-9]+"})
+        EXPECT_THAT(list, ContainsRegex(row));
+    EXPECT_EQ(std::count(list.begin(), list.end(), '\n'), 6);
+}
+
+} // namespace
+} // namespace tessera::test

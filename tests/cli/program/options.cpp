@@ -1,0 +1,158 @@
+#include <set>
+
+#include <fmt/format.h>
+
+#include "tests/cli/program/Cli.h"
+#include "validation/ErrorFigures.h"
+#include "validation/PictureFile.h"
+
+namespace tessera::test {
+namespace {
+
+using validation::Picture;
+
+constexpr const char* kGlossy =
+    R"({"name": "paint", "model": "metallic_roughness", "baseColor": [0.6, 0.3, 0.1], "metallic": 0.5,
+        "perceptualRoughness": 0.4})";
+constexpr const char* kTwoLights = R"([{"type": "point", "position": [1, 0, 1], "intensity": 3},
+                                       {"type": "point", "position": [-1, 0.5, 1], "intensity": 2}])";
+
+/// What each option of a frame does, on a square that two lights shine on.
+class FrameOptions : public Cli {
+protected:
+    void SetUp() override { writeQuad(kGlossy, kTwoLights); }
+
+    std::string rendered(const Words& more, const std::string& extension = ".exr", const char* scene = "quad.json") {
+        const std::string name = fmt::format("{}{}", ++made_, extension);
+        Words words{"render", scene, "--size", "48x27", "-o", name};
+        words.insert(words.end(), more.begin(), more.end());
+        EXPECT_EQ(runGood(words), "");
+        return name;
+    }
+    Picture pictureOf(const Words& more, const char* scene = "quad.json") {
+        return picture(rendered(more, ".exr", scene));
+    }
+    std::string pngOf(const Words& more) { return text(rendered(more, ".png")); }
+
+    static double mean(const Picture& picture) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < picture.pixelCount(); ++i)
+            for (std::size_t c = 0; c < 3; ++c) sum += double(picture.pixel(i)[c]);
+        return sum / double(3 * picture.pixelCount());
+    }
+
+private:
+    int made_ = 0;
+};
+
+TEST_F(FrameOptions, exposureAlwaysMultipliesTheDisplayPictureByTwoToItsPower) {
+    writeQuad(R"({"name": "paint", "model": "single_color", "color": [0.25, 0.125, 0.03125]})", "[]");
+    const auto red = [&](const char* exposureEV) {
+        return picture(rendered({"--exposure", exposureEV}, ".png")).pixel(0)[0];
+    };
+    const float step = 0.005f; // one of 8-bit sRGB's steps near 1/2
+    EXPECT_NEAR(red("0"), 0.25f, step);
+    EXPECT_NEAR(red("1"), 0.5f, step);
+    EXPECT_NEAR(red("-1"), 0.125f, step);
+    EXPECT_EQ(red("9"), 1.0f);
+    EXPECT_EQ(pictureOf({"--exposure", "1"}).pixel(0)[0], 0.25f) << "radiance is before exposure";
+}
+
+TEST_F(FrameOptions, everyToneMapAlwaysShowsTheSceneItsOwnWay) {
+    std::set<std::string> shown;
+    for (const char* name : {"none", "khronos_neutral", "aces", "agx"})
+        shown.insert(pngOf({"--exposure", "1", "--tonemap", name}));
+    EXPECT_EQ(shown.size(), 4u);
+    EXPECT_TRUE(shown.contains(pngOf({"--exposure", "1"}))) << "none is the default";
+}
+
+TEST_F(FrameOptions, everyViewIsExactlyTheSameByNumberAndByName) {
+    const char* names[] = {"diffuse", "normal_texel", "normal", "distribution", "geometry", "fresnel", "final"};
+    std::set<std::string> shown;
+    for (int key = 1; key <= 7; ++key) {
+        SCOPED_TRACE(key);
+        const std::string byName = pngOf({"--view", names[key - 1]});
+        EXPECT_TRUE(byName == pngOf({"--view", std::to_string(key)}));
+        shown.insert(byName);
+    }
+    EXPECT_EQ(shown.size(), 7u) << "two views show the same";
+    EXPECT_TRUE(shown.contains(pngOf({}))) << "final is the default";
+}
+
+TEST_F(FrameOptions, pruneOffNeverChangesABit) {
+    EXPECT_TRUE(text(rendered({"--prune", "off"})) == text(rendered({})));
+    EXPECT_TRUE(text(rendered({"--prune", "off", "--technique", "forward"})) == text(rendered({"--prune", "on"})));
+}
+
+TEST_F(FrameOptions, everyTechniqueIsExactlyTheSameWithTheExactLayoutAndNearWithThePackedOne) {
+    const std::string deferred = text(rendered({}));
+    for (const char* technique : {"forward", "forward_prepass", "deferred"})
+        EXPECT_TRUE(text(rendered({"--technique", technique, "--layout", "exact"})) == deferred) << technique;
+    const std::string packed = rendered({"--layout", "packed"});
+    EXPECT_FALSE(text(packed) == deferred);
+    EXPECT_LE(validation::errorFigures(picture(packed), pictureOf({})).relMse, 1e-4); // the layout's promise
+}
+
+TEST_F(FrameOptions, lightingInViewSpaceAlwaysGivesThePictureOfWorldSpace) {
+    // Other roundings of the same lighting: fp32 against double is at 1e-10 already.
+    EXPECT_LE(validation::errorFigures(pictureOf({"--space", "view"}), pictureOf({"--space", "world"})).relMse, 1e-9);
+}
+
+TEST_F(FrameOptions, specularOffAlwaysLeavesOnlyTheDiffuseLobe) {
+    const double with = mean(pictureOf({})), without = mean(pictureOf({"--specular", "off"}));
+    EXPECT_LT(without, 0.95 * with);
+    EXPECT_GT(without, 0.0);
+    // A Lambert square has no lobe to lose.
+    writeQuad(R"({"name": "paint", "model": "lambert"})", kTwoLights);
+    EXPECT_TRUE(text(rendered({"--specular", "off"})) == text(rendered({"--specular", "on"})));
+}
+
+TEST_F(FrameOptions, theLightsAloneAlwaysAddUpToTheWhole) {
+    const Picture first = pictureOf({"--solo", "0"}), second = pictureOf({"--solo", "1"}), both = pictureOf({});
+    for (std::size_t i = 0; i < both.pixelCount(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float sum = first.pixel(i)[c] + second.pixel(i)[c];
+            ASSERT_GT(first.pixel(i)[c], 0.0f);
+            ASSERT_NEAR(sum, both.pixel(i)[c], 1e-6f * sum); // the rounding of a few additions
+        }
+    }
+}
+
+TEST_F(FrameOptions, lightsAlwaysKeepsTheFirstOfAFileAndCountsThoseOfABuiltinScene) {
+    EXPECT_TRUE(text(rendered({"--lights", "1"})) == text(rendered({"--solo", "0"})));
+    EXPECT_EQ(mean(pictureOf({"--lights", "0"})), 0.0);
+    runGood({"plan", "lattice", "--lights", "37", "--json", "p.json"});
+    EXPECT_EQ(json("p.json")["counters"]["lights"], 37);
+}
+
+TEST_F(FrameOptions, noDefaultLightAlwaysLeavesASceneWithoutLightsDark) {
+    writeQuad(kGlossy, "[]");
+    const Words render{"render", "quad.json", "--size", "48x27", "-o", "lit.exr"};
+    const ProcessResult lit = run(render);
+    EXPECT_EQ(lit.exitCode, 0);
+    EXPECT_THAT(lit.err, testing::HasSubstr("warning"));
+    EXPECT_GT(mean(picture("lit.exr")), 0.0);
+    EXPECT_EQ(mean(pictureOf({"--no-default-light"})), 0.0);
+}
+
+TEST_F(FrameOptions, filterExactAlwaysInterpolatesInSinglePrecision) {
+    validation::DisplayImage texture{2, 2, {0, 0, 0, 255, 255, 255, 255, 255, 255, 0, 0, 0}};
+    validation::writePng(path("t.png"), texture);
+    writeQuad(R"({"name": "paint", "model": "single_color", "color": {"texture": "t.png"}})", "[]");
+    const Picture exact = pictureOf({"--filter", "exact"}), hardware = pictureOf({"--filter", "hardware"});
+    EXPECT_TRUE(hardware.rgba == pictureOf({}).rgba) << "hardware is the default";
+    // Hardware interpolates with 8-bit weights and texels: at most a few of 256 steps between black and white apart.
+    double largest = 0.0;
+    for (std::size_t i = 0; i < exact.pixelCount(); ++i)
+        largest = std::max(largest, std::abs(double(exact.pixel(i)[0]) - double(hardware.pixel(i)[0])));
+    EXPECT_GT(largest, 0.0);
+    EXPECT_LT(largest, 4.0 / 256.0);
+}
+
+TEST_F(FrameOptions, cameraAlwaysChoosesTheView) {
+    EXPECT_TRUE(text(rendered({"--camera", "corner"}, ".exr", "room")) == text(rendered({}, ".exr", "room")));
+    EXPECT_FALSE(text(rendered({"--camera", "back"}, ".exr", "room")) == text(rendered({}, ".exr", "room")));
+}
+
+} // namespace
+} // namespace tessera::test

@@ -1,0 +1,74 @@
+#include <set>
+
+#include "tests/cli/program/Cli.h"
+
+namespace tessera::test {
+namespace {
+
+using Json = nlohmann::json;
+using testing::HasSubstr;
+
+/// Neither a driver for EGL nor a display.
+const std::map<std::string, std::string> kNoGraphics{
+    {"__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent"}, {"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
+
+class Plan : public Cli {
+protected:
+    static void expectKeys(const Json& object, const std::set<std::string>& wanted) {
+        for (const std::string& key : wanted) EXPECT_TRUE(object.contains(key)) << key << " in " << object;
+    }
+};
+
+TEST_F(Plan, theJsonAlwaysHasTheDocumentedFields) {
+    const std::string said = runGood({"plan", "lattice", "--lights", "8", "--json", "p.json", "--dot", "p.dot"});
+    EXPECT_THAT(said, testing::StartsWith("lattice, deferred: 3 passes run, "));
+    const Json plan = json("p.json");
+    expectKeys(plan, {"schema", "scene", "technique", "passes", "left_out", "choices", "counters", "resources", "bytes",
+                      "bytesWithoutAliasing"});
+    EXPECT_EQ(plan["scene"], "lattice");
+    EXPECT_EQ(plan["technique"], "deferred");
+    EXPECT_EQ(plan["counters"]["lights"], 8);
+    for (const Json& pass : plan["passes"]) expectKeys(pass, {"name", "reads", "writes"});
+    for (const Json& item : plan["left_out"]) expectKeys(item, {"what", "why", "bytes", "ms"});
+    for (const Json& choice : plan["choices"]) expectKeys(choice, {"what", "chosen", "why"});
+    for (const Json& resource : plan["resources"])
+        expectKeys(resource, {"name", "format", "width", "height", "bytes", "first", "last", "aliasOf"});
+    EXPECT_FALSE(plan["passes"].empty() || plan["left_out"].empty() || plan["choices"].empty() ||
+                 plan["resources"].empty());
+    for (const Json& item : plan["left_out"]) EXPECT_TRUE(item["ms"].is_null()) << "not measured";
+    EXPECT_THAT(text("p.dot"), testing::StartsWith("digraph"));
+    EXPECT_THAT(text("p.dot"), HasSubstr("deferred_lighting"));
+}
+
+TEST_F(Plan, measureAlwaysFillsInMilliseconds) {
+    runGood({"plan", "room", "--size", "160x90", "--measure", "--json", "p.json"});
+    const Json plan = json("p.json");
+    for (const Json& pass : plan["passes"]) EXPECT_GT(pass["ms"], 0.0) << pass;
+    bool isMeasured = false;
+    for (const Json& item : plan["left_out"]) isMeasured = isMeasured || item["ms"].is_number();
+    EXPECT_TRUE(isMeasured);
+}
+
+TEST_F(Plan, pruneOffNeverLeavesAnythingOutOfThePlan) {
+    runGood({"plan", "lattice", "--json", "on.json"});
+    runGood({"plan", "lattice", "--prune", "off", "--json", "off.json"});
+    EXPECT_GT(json("on.json")["left_out"].size(), json("off.json")["left_out"].size());
+    EXPECT_LT(json("on.json")["bytes"], json("off.json")["bytes"]);
+}
+
+TEST_F(Plan, neverNeedsGraphicsButWhatDoesAlwaysSaysWhatToInstall) {
+    EXPECT_THAT(runGood({"plan", "room"}, kNoGraphics), HasSubstr("deferred_lighting"));
+    EXPECT_THAT(runGood({"scenes"}, kNoGraphics), HasSubstr("room"));
+    const Words remedy{"no OpenGL 4.5 context can be made", "EGL surfaceless", "install", "libegl1 libgl1-mesa-dri"};
+    expectError(1, {"render", "room", "-o", "a.png"}, remedy, kNoGraphics);
+    expectError(1, {"render", "room", "-o", "a.png", "--context", "egl"}, remedy, kNoGraphics);
+    expectError(1, {"render", "room", "-o", "a.png", "--context", "window"}, {"GLFW window", "install", "display"},
+                kNoGraphics);
+    expectError(1, {"compare", "room"}, remedy, kNoGraphics);
+    expectError(1, {"plan", "room", "--measure"}, remedy, kNoGraphics);
+    expectError(1, {"demo", "room"}, remedy, kNoGraphics);
+    expectError(1, {"--version", "--verbose"}, remedy, kNoGraphics);
+}
+
+} // namespace
+} // namespace tessera::test

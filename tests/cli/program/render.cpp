@@ -1,0 +1,106 @@
+#include <OpenImageIO/imageio.h>
+
+#include "tests/cli/program/Cli.h"
+#include "validation/ErrorFigures.h"
+
+namespace tessera::test {
+namespace {
+
+using validation::Picture;
+
+class Render : public Cli {
+protected:
+    OIIO::ImageSpec specOf(const std::string& name) const {
+        const auto input = OIIO::ImageInput::open(path(name));
+        EXPECT_TRUE(input) << OIIO::geterror();
+        return input ? input->spec() : OIIO::ImageSpec();
+    }
+};
+
+TEST_F(Render, picturesAlwaysHaveTheSizeAndFormatThatWasAskedFor) {
+    EXPECT_EQ(runGood({"render", "lattice", "--lights", "8", "--size", "161x91", "-o", "a.exr"}), "");
+    EXPECT_EQ(runGood({"render", "lattice", "--lights", "8", "--size", "161x91", "-o", "a.png"}), "");
+    const OIIO::ImageSpec exr = specOf("a.exr"), png = specOf("a.png");
+    EXPECT_EQ(exr.width, 161);
+    EXPECT_EQ(exr.height, 91);
+    EXPECT_EQ(exr.nchannels, 4);
+    EXPECT_EQ(exr.format, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT));
+    EXPECT_EQ(exr.get_string_attribute("oiio:ColorSpace"), "Linear");
+    EXPECT_EQ(png.width, 161);
+    EXPECT_EQ(png.height, 91);
+    EXPECT_EQ(png.nchannels, 3);
+    EXPECT_EQ(png.format, OIIO::TypeDesc(OIIO::TypeDesc::UINT8));
+    EXPECT_EQ(files().size(), 2u);
+}
+
+TEST_F(Render, exrIsAlwaysTheLinearPictureThatPngShows) {
+    // Unlit colour c is radiance c exactly, and shown as sRGB of c.
+    writeQuad(R"({"name": "paint", "model": "single_color", "color": [0.5, 0.25, 4]})", "[]");
+    runGood({"render", "quad.json", "--size", "16x9", "-o", "a.exr"});
+    runGood({"render", "quad.json", "--size", "16x9", "-o", "a.png"});
+    const Picture exr = picture("a.exr"), png = picture("a.png");
+    const float step = 0.005f; // one of 8-bit sRGB's steps near 1/2
+    for (std::size_t i = 0; i < exr.pixelCount(); ++i) {
+        ASSERT_EQ(exr.pixel(i)[0], 0.5f);
+        ASSERT_EQ(exr.pixel(i)[1], 0.25f);
+        ASSERT_EQ(exr.pixel(i)[2], 4.0f);
+        ASSERT_NEAR(png.pixel(i)[0], 0.5f, step);
+        ASSERT_NEAR(png.pixel(i)[1], 0.25f, step);
+        ASSERT_EQ(png.pixel(i)[2], 1.0f);
+    }
+}
+
+TEST_F(Render, runToRunPicturesAreAlwaysTheSameAndReplaceOlderOnes) {
+    folder_.write("a.exr", "an older picture");
+    const Words words{"render", "lattice", "--lights", "8", "--size", "160x90", "-o", "a.exr"};
+    runGood(words);
+    const std::string first = text("a.exr");
+    folder_.write("a.exr", "an older picture");
+    runGood(words);
+    EXPECT_TRUE(text("a.exr") == first);
+    EXPECT_EQ(files().size(), 1u);
+}
+
+TEST_F(Render, frameKOfASequenceIsAlwaysThePictureAtItsTime) {
+    writeQuad(R"({"name": "paint", "model": "lambert"})",
+              R"([{"type": "point", "position": [2, 0, 1], "intensity": 3,
+                   "animation": {"type": "orbit", "center": [0, 0, 1], "axis": [0, 0, 1], "periodSeconds": 4}}])");
+    const Words common{"render", "quad.json", "--size", "32x18"};
+    const auto with = [&](Words more) {
+        more.insert(more.begin(), common.begin(), common.end());
+        return more;
+    };
+    runGood(with({"--frames", "3", "--fps", "2", "-o", "f_%04d.exr"}));
+    EXPECT_EQ(files().size(), 5u);
+    std::map<std::string, std::string> made = files();
+    EXPECT_TRUE(made["f_0000.exr"] != made["f_0001.exr"] && made["f_0001.exr"] != made["f_0002.exr"] &&
+                made["f_0000.exr"] != made["f_0002.exr"]);
+    const char* times[] = {"0", "0.5", "1"};
+    for (int k = 0; k < 3; ++k) {
+        runGood(with({"--time", times[k], "-o", "t.exr"}));
+        EXPECT_TRUE(text("t.exr") == made["f_000" + std::to_string(k) + ".exr"]) << "frame " << k;
+    }
+    runGood(with({"--time", "0.5", "--frames", "1", "-o", "g%d.exr"}));
+    EXPECT_TRUE(text("g0.exr") == made["f_0001.exr"]) << "--time is where a sequence starts";
+}
+
+TEST_F(Render, quietAlwaysSilencesWarningsAndNothingElse) {
+    folder_.write("tri.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
+    const ProcessResult loud = run({"render", "tri.obj", "--size", "16x9", "-o", "a.png"});
+    EXPECT_EQ(loud.exitCode, 0);
+    EXPECT_THAT(loud.err, testing::HasSubstr("tessera: warning: tri: ")) << "the scene has no camera and no light";
+    const std::string first = text("a.png");
+    EXPECT_EQ(runGood({"--quiet", "render", "tri.obj", "--size", "16x9", "-o", "a.png"}), "");
+    EXPECT_EQ(runGood({"render", "tri.obj", "--size", "16x9", "-o", "b.png", "--quiet"}), "");
+    EXPECT_TRUE(text("a.png") == first && text("b.png") == first);
+    expectError(2, {"--quiet", "render", "nix.obj", "-o", "a.png"}, {"nix.obj"});
+}
+
+TEST_F(Render, warningsNeverComeBeforeAnError) {
+    folder_.write("tri.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
+    expectError(2, {"render", "tri.obj", "--camera", "nix", "-o", "a.png"}, {"unknown camera 'nix'"});
+    expectError(2, {"render", "tri.obj", "--solo", "7", "-o", "a.png"}, {"--solo 7"});
+}
+
+} // namespace
+} // namespace tessera::test
