@@ -1,0 +1,77 @@
+#pragma once
+#include <array>
+
+#include "tests/support/GlContext.h"
+#include "tests/support/TestScenes.h"
+#include "validation/Rendering.h"
+
+namespace tessera::test {
+
+inline constexpr int kSide = 8; ///< pixels of a picture, and texels of its texture
+
+/// The quad seen by an orthographic camera that it fills exactly: pixel (x, y) is texel (x, y).
+class FlatTest : public GlTest {
+protected:
+    static scenes::Scene flatScene(const scenes::Material& material) {
+        scenes::Scene scene = quadScene(material);
+        scene.cameras[0].projection = scenes::Projection::Orthographic;
+        scene.cameras[0].halfHeightMetres = 1.0;
+        return scene;
+    }
+    recipes::RenderedFrame frame(const scenes::Scene& scene, frame::FrameSettings settings = {}) {
+        settings.sizePixels = {kSide, kSide};
+        recipes::Renderer renderer(context(), scene);
+        const recipes::RenderedFrame forward = renderer.render(recipes::Technique::Forward, settings);
+        const recipes::RenderedFrame deferred = renderer.render(recipes::Technique::Deferred, settings);
+        EXPECT_EQ(forward.radiance, deferred.radiance);
+        EXPECT_EQ(forward.display, deferred.display);
+        return deferred;
+    }
+    static glm::vec4 pixel(const recipes::RenderedFrame& frame, int x, int y) {
+        const float* p = &frame.radiance[std::size_t(4 * (y * kSide + x))];
+        return {p[0], p[1], p[2], p[3]};
+    }
+    glm::vec4 center(const scenes::Scene& scene) { return pixel(frame(scene), kSide / 2, kSide / 2); }
+};
+
+/// A picture whose texel (x, y) is value(x, y).
+template <class Value>
+scenes::Image image8(Value value) {
+    scenes::Image image;
+    image.name = "texels";
+    image.width = image.height = kSide;
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            for (const int c : std::array<int, 4>(value(x, y))) image.texels.push_back(std::byte(c));
+        }
+    }
+    return image;
+}
+inline scenes::Image uniformImage(std::array<int, 4> texel) {
+    return image8([=](int, int) { return texel; });
+}
+/// Every texel has its own colour: red tells its column, green its row.
+inline scenes::Image mapImage() {
+    return image8([](int x, int y) { return std::array<int, 4>{30 * x, 30 * y, 0, 255}; });
+}
+
+inline scenes::TextureUse nearest() {
+    scenes::TextureUse use;
+    use.image = 0;
+    use.sampler.magnification = use.sampler.minification = scenes::Filter::Nearest;
+    return use;
+}
+
+inline scenes::Material unlit() {
+    scenes::Material material;
+    material.model = scenes::MaterialModel::SingleColor;
+    return material;
+}
+
+inline scenes::Scene texturedScene(scenes::Scene scene, scenes::TextureSlot slot, scenes::Image image) {
+    scene.images = {std::move(image)};
+    scene.materials[0].texture(slot) = nearest();
+    return scene;
+}
+
+} // namespace tessera::test

@@ -1,0 +1,207 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "tests/image/Textbook.h"
+#include "tests/support/GlContext.h"
+#include "tests/support/TestScenes.h"
+#include "validation/Rendering.h"
+
+namespace tessera {
+namespace {
+
+using recipes::Technique;
+using scenes::Light;
+using scenes::Material;
+using scenes::MaterialModel;
+
+constexpr int kSide = 96;
+
+struct Errors {
+    double p999 = 0.0;
+    double worst = 0.0;
+    double brightest = 0.0;
+};
+
+/// Quads head on whose every pixel is computed a second time in double precision.
+class KnownAnswers : public test::GlTest {
+protected:
+    Errors errors(const Material& material, const Light& light, Technique technique) {
+        scenes::Scene scene = test::quadScene(material);
+        scene.lights = {light};
+        const scenes::Camera& camera = scene.cameras[0];
+        frame::FrameSettings settings;
+        settings.sizePixels = {kSide, kSide};
+        recipes::Renderer renderer(context(), scene);
+        const validation::Picture picture = validation::toPicture(renderer.render(technique, settings));
+
+        const glm::dvec3 eyeWS(camera.worldFromCamera[3]);
+        const double half = eyeWS.z * std::tan(0.5 * camera.fovYRadians);
+        std::vector<glm::dvec3> truths;
+        std::vector<double> channels;
+        for (int y = 0; y < kSide; ++y) {
+            for (int x = 0; x < kSide; ++x) {
+                const glm::dvec3 positionWS((2.0 * (x + 0.5) / kSide - 1.0) * half,
+                                            (1.0 - 2.0 * (y + 0.5) / kSide) * half, 0.0);
+                glm::dvec3 toLightWS;
+                const glm::dvec3 intensity = test::textbook::incident(light, positionWS, toLightWS);
+                const glm::dvec3 share =
+                    test::textbook::reflected(material, {0, 0, 1}, toLightWS, glm::normalize(eyeWS - positionWS));
+                truths.push_back(intensity * share + glm::dvec3(material.emissive));
+                for (int c = 0; c < 3; ++c) {
+                    if (truths.back()[c] > 0.0) channels.push_back(truths.back()[c]);
+                }
+            }
+        }
+        Errors result;
+        if (channels.empty()) return result;
+        std::ranges::sort(channels);
+        result.brightest = channels.back();
+        // Where a window or cone lets almost nothing through, fp32 has no relative precision left; there a thousandth
+        // of the picture's median is the unit (the measure of every comparison).
+        const double floor = 1e-3 * channels[channels.size() / 2];
+        std::vector<double> relative;
+        for (std::size_t i = 0; i < truths.size(); ++i) {
+            double worst = 0.0;
+            for (int c = 0; c < 3; ++c) {
+                worst = std::max(worst, std::abs(picture.pixel(i)[c] - truths[i][c]) / std::max(truths[i][c], floor));
+            }
+            relative.push_back(worst);
+        }
+        std::ranges::sort(relative);
+        result.worst = relative.back();
+        result.p999 = relative[std::size_t(0.999 * double(relative.size() - 1))];
+        return result;
+    }
+
+    void expectAnswer(const char* what, const Material& material, const Light& light, double tolerance) {
+        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+            SCOPED_TRACE(fmt::format("{} {}", what, technique.name));
+            const Errors found = errors(material, light, technique.technique);
+            EXPECT_GT(found.brightest, 1e-3) << "the light does not reach the quad";
+            EXPECT_LE(found.p999, tolerance);
+            if (technique.technique == Technique::Deferred) {
+                fmt::print("{:<62} p99.9 {:.1e}  worst {:.1e}  brightest {:.3g}\n", what, found.p999, found.worst,
+                           found.brightest);
+            }
+        }
+    }
+};
+
+Material lambert() {
+    Material material;
+    material.model = MaterialModel::Lambert;
+    material.baseColor = {0.75f, 0.5f, 0.25f, 1.0f};
+    return material;
+}
+
+/// metallic_roughness without a specular lobe: rho / pi.
+Material chalk() {
+    Material material;
+    material.baseColor = {0.75f, 0.5f, 0.25f, 1.0f};
+    material.metallic = 0.0f;
+    material.specularFactor = 0.0f;
+    return material;
+}
+
+// fp32 rounding of the position, squared by the falloff: four roundings of 2^-24, with the sums around them ten.
+constexpr double kPlain = 6e-7;
+// Where a window closes, its factor is a difference of nearly equal numbers: near the floor of 1e-3 a window w of 0.03
+// loses 2^-20 (the packed range's safety) x 4 / w = 1e-4.
+constexpr double kWindowed = 3e-4;
+
+struct NamedLight {
+    const char* name;
+    Light light;
+    double tolerance = kPlain;
+};
+
+std::vector<NamedLight> everyLight() {
+    std::vector<NamedLight> lights;
+    const Light point = test::pointLight({0.3, -0.2, 0.8}, 2.5f);
+    lights.push_back({"point light without range", point});
+    Light ranged = point;
+    ranged.rangeMetres = 1.1f;
+    lights.push_back({"point light whose range ends on the quad", ranged, kWindowed});
+    for (const glm::vec3 abc :
+         {glm::vec3(1, 0, 0), glm::vec3(0, 2, 0), glm::vec3(0, 0, 3), glm::vec3(0.5f, 0.25f, 1.5f)}) {
+        Light attenuated = point;
+        attenuated.falloff = scenes::Falloff::Attenuation;
+        attenuated.attenuation = abc;
+        lights.push_back({"attenuation A B C", attenuated});
+    }
+    Light spot = point;
+    spot.type = scenes::LightType::Spot;
+    spot.directionWS = glm::normalize(glm::dvec3(-0.2, 0.1, -1.0));
+    spot.innerConeRadians = 0.25f;
+    spot.outerConeRadians = 0.7f;
+    lights.push_back({"spot, soft cone", spot, kWindowed});
+    spot.rangeMetres = 1.3f;
+    lights.push_back({"spot, soft cone and range", spot, kWindowed});
+    Light sun = point;
+    sun.type = scenes::LightType::Directional;
+    sun.directionWS = glm::normalize(glm::dvec3(0.4, -0.7, -1.0));
+    sun.color = {1.0f, 0.5f, 0.25f};
+    lights.push_back({"directional, coloured", sun});
+    return lights;
+}
+
+TEST_F(KnownAnswers, lambertIsAlwaysAlbedoTimesIntensityTimesCosine) {
+    for (const NamedLight& named : everyLight()) expectAnswer(named.name, lambert(), named.light, named.tolerance);
+}
+
+TEST_F(KnownAnswers, metallicRoughnessWithoutLobeIsAlwaysLambertOverPi) {
+    for (const NamedLight& named : everyLight()) expectAnswer(named.name, chalk(), named.light, named.tolerance);
+}
+
+// End to end in fp32 a highlight's slope multiplies the rounding of n, l and v by up to 1/alpha; 3e-4 is the
+// specification's bar for the sharpest highlight it names, alpha = 0.002.
+constexpr double kHighlight = 3e-4;
+
+TEST_F(KnownAnswers, microfacetHighlightsAreAlwaysTheTextbooks) {
+    Light sun = everyLight().back().light;
+    sun.directionWS = glm::normalize(glm::dvec3(0.05, -0.08, -1.0)); // its reflection is in the picture
+    for (const float alpha : {0.01f, 0.05f, 0.3f, 1.0f}) {
+        for (const float ior : {1.05f, 1.5f, 2.4f}) {
+            Material material;
+            material.model = MaterialModel::Microfacet;
+            material.baseColor = {0.2f, 0.1f, 0.05f, 1.0f};
+            material.specularColor = {1.0f, 0.75f, 0.5f};
+            material.alpha = alpha;
+            material.ior = ior;
+            expectAnswer(fmt::format("microfacet alpha {} ior {}, point", alpha, ior).c_str(), material,
+                         everyLight().front().light, kHighlight);
+            expectAnswer(fmt::format("microfacet alpha {} ior {}, directional", alpha, ior).c_str(), material, sun,
+                         kHighlight);
+        }
+    }
+}
+
+TEST_F(KnownAnswers, totalInternalReflectionIsAlwaysTheTextbooks) {
+    Material material;
+    material.model = MaterialModel::Microfacet;
+    material.alpha = 0.4f;
+    material.ior = 0.6f;
+    // Grazing, so that part of the quad lies beyond the critical angle of 37 degrees.
+    expectAnswer("microfacet ior 0.6", material, test::pointLight({1.5, 0.4, 0.5}, 2.0f), kHighlight);
+}
+
+TEST_F(KnownAnswers, metallicRoughnessHighlightsAreAlwaysTheTextbooks) {
+    for (const float roughness : {0.1f, 0.3f, 0.7f, 1.0f}) {
+        for (const float metallic : {0.0f, 0.5f, 1.0f}) {
+            Material material;
+            material.baseColor = {0.9f, 0.6f, 0.3f, 1.0f};
+            material.perceptualRoughness = roughness;
+            material.metallic = metallic;
+            material.ior = 1.8f;
+            material.specularFactor = 0.75f;
+            material.specularColor = {1.0f, 0.8f, 0.5f};
+            material.emissive = {0.01f, 0.02f, 0.03f};
+            expectAnswer(fmt::format("metallic_roughness {} metallic {}", roughness, metallic).c_str(), material,
+                         test::pointLight({0.3, -0.2, 0.8}, 2.5f), kHighlight);
+        }
+    }
+}
+
+} // namespace
+} // namespace tessera

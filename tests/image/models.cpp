@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "scenes/Defaults.h"
+#include "scenes/Error.h"
+#include "scenes/Load.h"
+#include "tests/support/GlContext.h"
+#include "validation/ErrorFigures.h"
+#include "validation/Rendering.h"
+
+namespace tessera {
+namespace {
+
+using recipes::Technique;
+
+std::vector<std::filesystem::path> modelsBelow(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> models;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        const std::string extension = entry.path().extension().string();
+        const bool model = extension == ".gltf" || extension == ".glb" || extension == ".obj";
+        if (entry.is_regular_file() && model) models.push_back(entry.path());
+    }
+    std::ranges::sort(models);
+    return models;
+}
+
+/// The scene from the opposite side: for surfaces that all turn their backs to the supplied camera.
+scenes::Scene fromBehind(scenes::Scene scene) {
+    const scenes::Box3 bounds = scenes::worldBounds(scene);
+    const glm::dvec3 centerWS = 0.5 * (bounds.min + bounds.max);
+    const glm::dvec3 eyeWS = 2.0 * centerWS - glm::dvec3(scene.cameras[0].worldFromCamera[3]);
+    scene.cameras[0].worldFromCamera = glm::inverse(glm::lookAt(eyeWS, centerWS, glm::dvec3(0, 1, 0)));
+    for (scenes::Light& light : scene.lights) {
+        if (light.name == scenes::kDefaultName) light.directionWS = -light.directionWS;
+    }
+    return scene;
+}
+
+enum class Verdict { Drawn, DrawsNothing, Refused, Wrong };
+
+class Models : public test::GlTest {
+protected:
+    /// Loads and draws one model and prints its line.
+    Verdict judge(const std::filesystem::path& model, const std::string& shownName) {
+        const auto start = std::chrono::steady_clock::now();
+        std::size_t triangles = 0;
+        std::string why;
+        const Verdict verdict = tryModel(model, triangles, why);
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        fmt::print("{:<62} {:>8} {:>5.1f} s  {}\n", shownName, triangles, seconds, why);
+        return verdict;
+    }
+
+    void sweep(const std::filesystem::path& folder) {
+        std::size_t drawn = 0, refused = 0, empty = 0;
+        for (const std::filesystem::path& model : modelsBelow(folder)) {
+            const std::string name = std::filesystem::relative(model, folder).string();
+            SCOPED_TRACE(name);
+            const Verdict verdict = judge(model, name);
+            drawn += verdict == Verdict::Drawn;
+            refused += verdict == Verdict::Refused;
+            empty += verdict == Verdict::DrawsNothing;
+        }
+        fmt::print("{} drawn, {} draw nothing, {} refused\n", drawn, empty, refused);
+        EXPECT_GT(drawn, 0u);
+    }
+
+private:
+    Verdict tryModel(const std::filesystem::path& model, std::size_t& triangles, std::string& why) {
+        try {
+            const scenes::Scene scene = scenes::loadScene(model.string());
+            triangles = scenes::triangleCount(scene);
+            if (triangles == 0) {
+                why = "draws nothing: no triangles";
+                return Verdict::DrawsNothing;
+            }
+            return draw(scene, why);
+        } catch (const InputError& error) {
+            why = fmt::format("refused: {}", error.what());
+            EXPECT_STRNE(error.what(), "");
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "not one line: " << error.what();
+            return Verdict::Refused;
+        } catch (const std::exception& error) {
+            why = fmt::format("FAILED: {}", error.what());
+            ADD_FAILURE() << "neither drawn nor refused as input: " << error.what();
+            return Verdict::Wrong;
+        }
+    }
+
+    struct Pair {
+        validation::Picture forward, deferred;
+        std::ptrdiff_t covered = 0; ///< pixels
+    };
+    Pair drawBoth(const scenes::Scene& scene) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {160, 90};
+        recipes::Renderer renderer(context(), scene);
+        Pair pair;
+        pair.forward = validation::toPicture(renderer.render(Technique::Forward, settings));
+        pair.deferred = validation::toPicture(renderer.render(Technique::Deferred, settings));
+        pair.covered = std::ranges::count(pair.forward.covered, 1);
+        return pair;
+    }
+
+    Verdict draw(const scenes::Scene& scene, std::string& why) {
+        Pair pair = drawBoth(scene);
+        const bool suppliedCamera = scene.cameras[0].name == scenes::kDefaultName;
+        const bool turned = pair.covered == 0 && suppliedCamera;
+        if (turned) pair = drawBoth(fromBehind(scene));
+        const validation::ErrorFigures figures = validation::errorFigures(pair.deferred, pair.forward);
+        const bool finite = figures.bad.sum() + figures.badOutside.sum() == 0;
+        const bool alike = pair.deferred.rgba == pair.forward.rgba && pair.deferred.covered == pair.forward.covered;
+        EXPECT_TRUE(finite) << "NaN, infinite or negative pixels";
+        EXPECT_TRUE(alike) << "deferred differs from forward";
+        EXPECT_GT(pair.covered, 0) << "no triangle is in view";
+        EXPECT_GT(figures.meanLuminance, 0.0) << "a black picture";
+        const double share = 100.0 * double(pair.covered) / double(pair.forward.pixelCount());
+        why = fmt::format("drawn{}: {:.1f} % covered, mean luminance {:.2g}, {} light(s)", turned ? " from behind" : "",
+                          share, figures.meanLuminance, scene.lights.size());
+        return finite && alike && pair.covered > 0 && figures.meanLuminance > 0.0 ? Verdict::Drawn : Verdict::Wrong;
+    }
+};
+
+TEST_F(Models, everyPackagedModelIsAlwaysDrawnAlikeByForwardAndDeferredOrRefused) {
+    const std::filesystem::path folder = "/usr/share/assimp/models"; // Debian's assimp-testmodels
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the package assimp-testmodels is not installed";
+    sweep(folder);
+}
+
+TEST_F(Models, everyModelOfTheAssetsFolderIsAlwaysDrawnAlikeByForwardAndDeferredOrRefused) {
+    const char* folder = std::getenv("TESSERA_ASSETS");
+    if (folder == nullptr) GTEST_SKIP() << "TESSERA_ASSETS is not set";
+    sweep(folder);
+}
+
+} // namespace
+} // namespace tessera

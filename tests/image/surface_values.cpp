@@ -1,0 +1,135 @@
+#include <numbers>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "tests/image/FlatTest.h"
+
+namespace tessera {
+namespace {
+
+using namespace test;
+using scenes::Material;
+using scenes::MaterialModel;
+using scenes::Scene;
+using scenes::TextureSlot;
+
+class SurfaceValues : public FlatTest {};
+
+TEST_F(SurfaceValues, alphaMaskAlwaysKeepsWhatReachesTheCutoff) {
+    Scene scene = texturedScene(flatScene(unlit()), TextureSlot::BaseColor, image8([](int x, int) {
+                                    return std::array<int, 4>{255, 255, 255, 32 * x};
+                                }));
+    scene.materials[0].alphaMode = scenes::AlphaMode::Mask;
+    for (const float cutoff : {0.0f, 0.3f, 0.5f, 1.0f}) {
+        scene.materials[0].alphaCutoff = cutoff;
+        const recipes::RenderedFrame shown = frame(scene);
+        for (int x = 0; x < kSide; ++x)
+            EXPECT_EQ(pixel(shown, x, 3).a, float(32 * x) / 255.0f >= cutoff ? 1.0f : 0.0f) << x;
+    }
+}
+
+TEST_F(SurfaceValues, blendingAlwaysWeighsTheSurfaceByItsOpacity) {
+    Scene scene = flatScene(unlit());
+    scene.background = {0.2f, 0.4f, 0.8f};
+    scene.materials[0].baseColor = {1.0f, 0.5f, 0.25f, 0.25f};
+    scene.materials[0].alphaMode = scenes::AlphaMode::Blend;
+    const glm::vec3 wanted = 0.25f * glm::vec3(1.0f, 0.5f, 0.25f) + 0.75f * scene.background;
+    EXPECT_NEAR(glm::distance(glm::vec3(center(scene)), wanted), 0.0f, 1e-6f);
+    scene.materials[0].alphaMode = scenes::AlphaMode::Opaque; // then opacity does not count
+    EXPECT_EQ(glm::vec3(center(scene)), glm::vec3(1.0f, 0.5f, 0.25f));
+}
+
+TEST_F(SurfaceValues, aBackFaceIsAlwaysLitAsAFrontWhenDoubleSidedAndNeverDrawnOtherwise) {
+    Material material;
+    material.model = MaterialModel::Lambert;
+    Scene scene = flatScene(material);
+    scene.lights = {test::pointLight({0.1, 0.2, 1.0}, 1.0f)};
+    const glm::vec4 front = center(scene);
+    EXPECT_GT(front.r, 0.1f);
+    scene.nodes[0].parentFromNode = glm::rotate(glm::dmat4(1.0), std::numbers::pi, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(center(scene), glm::vec4(0.0f));
+    scene.materials[0].doubleSided = true;
+    EXPECT_NEAR(center(scene).r, front.r, 1e-6f * front.r);
+}
+
+TEST_F(SurfaceValues, aMirroredNodeIsAlwaysDrawnMirroredWithTheSameLighting) {
+    Material material;
+    material.model = MaterialModel::Lambert;
+    Scene scene = texturedScene(flatScene(material), TextureSlot::BaseColor, mapImage());
+    scene.lights = {test::pointLight({0.0, 0.2, 1.0}, 1.0f)};
+    const recipes::RenderedFrame straight = frame(scene);
+    scene.nodes[0].parentFromNode = glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1));
+    const recipes::RenderedFrame mirrored = frame(scene);
+    for (int x = 0; x < kSide; ++x) {
+        EXPECT_NEAR(glm::distance(pixel(mirrored, x, 5), pixel(straight, kSide - 1 - x, 5)), 0.0f, 1e-6f) << x;
+    }
+    EXPECT_GT(pixel(straight, 7, 5).r, 0.1f);
+}
+
+/// A normal that leans towards +y, as a texel.
+constexpr std::array<int, 4> kLeaning = {128, 192, 238, 255};
+constexpr std::array<int, 4> kFlipped = {128, 63, 238, 255};
+
+TEST_F(SurfaceValues, theGreenOfANormalMapAlwaysPointsUpInBothSpaces) {
+    for (const scenes::NormalMapSpace space : {scenes::NormalMapSpace::Tangent, scenes::NormalMapSpace::Object}) {
+        SCOPED_TRACE(space == scenes::NormalMapSpace::Tangent ? "tangent" : "object");
+        Material material;
+        material.model = MaterialModel::Lambert;
+        material.normalMapSpace = space;
+        Scene lit = flatScene(material);
+        lit.lights = {test::pointLight({0.0, 2.0, 1.0}, 4.0f)};
+        const float flat = center(lit).r;
+        const float leaning = center(texturedScene(lit, TextureSlot::Normal, uniformImage(kLeaning))).r;
+        const float flipped = center(texturedScene(lit, TextureSlot::Normal, uniformImage(kFlipped))).r;
+        EXPECT_GT(leaning, 1.2f * flat); // n.l goes from 0.45 to 0.83, and to 0
+        EXPECT_LT(flipped, 0.2f * flat);
+    }
+}
+
+TEST_F(SurfaceValues, anObjectSpaceMapAlwaysTurnsWithItsObjectAndATangentSpaceMapWithItsTexture) {
+    Material material;
+    material.model = MaterialModel::Lambert;
+    Scene scene = texturedScene(flatScene(material), TextureSlot::Normal, uniformImage(kLeaning));
+    scene.lights = {test::pointLight({0.0, 2.0, 1.0}, 4.0f)};
+    for (const scenes::NormalMapSpace space : {scenes::NormalMapSpace::Tangent, scenes::NormalMapSpace::Object}) {
+        scene.materials[0].normalMapSpace = space;
+        scene.nodes[0].parentFromNode = glm::dmat4(1.0);
+        const float upright = center(scene).r;
+        scene.nodes[0].parentFromNode = glm::rotate(glm::dmat4(1.0), std::numbers::pi, glm::dvec3(0, 0, 1));
+        EXPECT_LT(center(scene).r, 0.5f * upright); // upside down: leans away from the light
+    }
+    // A picture turned upside down on the same quad: only what the texture carries turns.
+    scene.nodes[0].parentFromNode = glm::dmat4(1.0);
+    scene.materials[0].normalMapSpace = scenes::NormalMapSpace::Object;
+    const float objectSpace = center(scene).r;
+    for (glm::vec2& uv : scene.meshes[0].texCoords[0]) uv = 1.0f - uv;
+    EXPECT_EQ(center(scene).r, objectSpace);
+    scene.materials[0].normalMapSpace = scenes::NormalMapSpace::Tangent;
+    EXPECT_LT(center(scene).r, 0.5f * objectSpace);
+}
+
+TEST_F(SurfaceValues, aNormalScaleOfZeroIsAlwaysTheFlatSurface) {
+    Material material;
+    material.model = MaterialModel::Lambert;
+    Scene scene = flatScene(material);
+    scene.lights = {test::pointLight({0.0, 2.0, 1.0}, 4.0f)};
+    const glm::vec4 flat = center(scene);
+    Scene mapped = texturedScene(scene, TextureSlot::Normal, uniformImage(kLeaning));
+    mapped.materials[0].normalScale = 0.0f;
+    EXPECT_NEAR(center(mapped).r, flat.r, 1e-6f * flat.r);
+}
+
+TEST_F(SurfaceValues, emissionIsAlwaysAddedToWhatLightsGive) {
+    Material material;
+    material.metallic = 0.0f;
+    Scene scene = flatScene(material);
+    scene.lights = {test::pointLight({0.1, 0.2, 1.0}, 1.0f)};
+    const glm::vec4 lit = center(scene);
+    scene.materials[0].emissive = {0.5f, 2.0f, 0.0f};
+    EXPECT_NEAR(glm::distance(center(scene) - lit, glm::vec4(0.5f, 2.0f, 0.0f, 0.0f)), 0.0f, 1e-6f);
+    scene.lights.clear();
+    EXPECT_EQ(glm::vec3(center(scene)), scene.materials[0].emissive);
+}
+
+} // namespace
+} // namespace tessera

@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "tests/image/FlatTest.h"
+
+namespace tessera {
+namespace {
+
+using namespace test;
+using scenes::Material;
+using scenes::Scene;
+using scenes::TextureSlot;
+
+class TextureValues : public FlatTest {};
+
+/// Implementations may approximate the decoding of 8-bit sRGB; Mesa's llvmpipe takes a polynomial that is off by up
+/// to 1.2e-3. Without decoding, a texel of 128 would be off by 0.29.
+constexpr double kDecoding = 1.5e-3;
+
+/// IEC 61966-2-1.
+double linearFromSrgb(double code) {
+    return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+}
+
+TEST_F(TextureValues, baseColourTexelsAreAlwaysSrgbAndRoughnessTexelsLinear) {
+    Scene colored = texturedScene(flatScene(unlit()), TextureSlot::BaseColor, uniformImage({128, 64, 255, 255}));
+    const glm::vec4 color = center(colored);
+    EXPECT_NEAR(color.r, 0.2158605, kDecoding);
+    EXPECT_NEAR(color.g, linearFromSrgb(64.0 / 255.0), kDecoding);
+    EXPECT_EQ(color.b, 1.0f);
+
+    Material glossy;
+    glossy.metallic = 1.0f;
+    glossy.perceptualRoughness = 128.0f / 255.0f;
+    Scene factor = flatScene(glossy);
+    factor.lights = {test::pointLight({0.3, 0.2, 1.0}, 3.0f)};
+    Scene texel = texturedScene(factor, TextureSlot::MetallicRoughness, uniformImage({0, 128, 255, 255}));
+    texel.materials[0].perceptualRoughness = 1.0f;
+    const glm::vec4 wanted = center(factor), found = center(texel);
+    EXPECT_GT(wanted.r, 0.01f);
+    EXPECT_NEAR(found.r, wanted.r, 1e-6f * wanted.r); // 0.50196 either way, to a rounding
+}
+
+TEST_F(TextureValues, sixteenBitAndFloatTexelsAreAlwaysReadInFull) {
+    scenes::Image image;
+    image.width = image.height = 1;
+    image.format = scenes::TexelFormat::Rgba16Unorm;
+    const std::array<std::uint16_t, 4> words = {1000, 30001, 65535, 65535};
+    image.texels.assign(reinterpret_cast<const std::byte*>(words.data()),
+                        reinterpret_cast<const std::byte*>(words.data() + 4));
+    const glm::vec4 sixteen = center(texturedScene(flatScene(unlit()), TextureSlot::BaseColor, image));
+    for (int c = 0; c < 3; ++c) {
+        const double wanted = linearFromSrgb(words[std::size_t(c)] / 65535.0);
+        EXPECT_NEAR(sixteen[c], wanted, 1e-3 * wanted) << c; // eight bits would be off by 1 % in red
+    }
+    image.format = scenes::TexelFormat::Rgba32Float;
+    const std::array<float, 4> floats = {0.123456f, 7.5f, 1e-4f, 1.0f};
+    image.texels.assign(reinterpret_cast<const std::byte*>(floats.data()),
+                        reinterpret_cast<const std::byte*>(floats.data() + 4));
+    // Float pictures are linear by nature: no transfer function in any slot.
+    const glm::vec4 found = center(texturedScene(flatScene(unlit()), TextureSlot::BaseColor, image));
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(found[c], floats[std::size_t(c)]) << c;
+}
+
+struct Place {
+    int x, y;
+};
+
+/// Where pixel (x, y) finds its texel.
+void expectTexels(const recipes::RenderedFrame& frame, const std::function<Place(int, int)>& texelOf) {
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            const Place texel = texelOf(x, y);
+            const float* p = &frame.radiance[std::size_t(4 * (y * kSide + x))];
+            EXPECT_NEAR(p[0], linearFromSrgb(30.0 * texel.x / 255.0), kDecoding) << "column at " << x << "," << y;
+            EXPECT_NEAR(p[1], linearFromSrgb(30.0 * texel.y / 255.0), kDecoding) << "row at " << x << "," << y;
+        }
+    }
+}
+
+class Transforms : public FlatTest {
+protected:
+    recipes::RenderedFrame moved(scenes::TextureTransform transform, scenes::Wrap wrap = scenes::Wrap::Repeat) {
+        Scene scene = texturedScene(flatScene(unlit()), TextureSlot::BaseColor, mapImage());
+        scenes::TextureUse& use = scene.materials[0].texture(TextureSlot::BaseColor);
+        use.transform = transform;
+        use.sampler.wrapU = use.sampler.wrapV = wrap;
+        return frame(scene);
+    }
+};
+
+TEST_F(Transforms, anUntransformedPictureIsAlwaysShownTexelForPixel) {
+    expectTexels(moved({}), [](int x, int y) { return Place{x, y}; });
+}
+
+TEST_F(Transforms, anOffsetAlwaysMovesThePictureAgainstIt) {
+    expectTexels(moved({{0.25f, 0.5f}, {1, 1}, 0}), [](int x, int y) { return Place{(x + 2) % 8, (y + 4) % 8}; });
+}
+
+TEST_F(Transforms, aScaleAlwaysRepeatsThePictureThatOften) {
+    // Texel 2x + 1/2 of pixel x's centre lies on an edge; a shift of a quarter takes it inside.
+    expectTexels(moved({{0.03125f, 0.03125f}, {2, 2}, 0}), [](int x, int y) {
+        return Place{(2 * x + 1) % 8, (2 * y + 1) % 8};
+    });
+}
+
+TEST_F(Transforms, aQuarterTurnAlwaysTurnsThePictureClockwise) {
+    // KHR_texture_transform: coordinates turn counter-clockwise about the top-left corner, the picture clockwise; the
+    // offset brings it back. The picture's top-left texel ends up at the top right.
+    const float quarter = float(std::numbers::pi / 2.0);
+    expectTexels(moved({{0.0f, 1.0f}, {1, 1}, quarter}), [](int x, int y) { return Place{y, 7 - x}; });
+}
+
+TEST_F(Transforms, wrapModesAlwaysContinueThePictureTheirWay) {
+    // Two picture widths side by side, shifted so that a whole period shows on both sides of the edge.
+    const scenes::TextureTransform wide{{-0.46875f, -0.46875f}, {2, 2}, 0};
+    const auto column = [](int x) { return 2 * x + 1 - 4; }; // texel column of pixel x, before wrapping
+    expectTexels(moved(wide, scenes::Wrap::Repeat), [&](int x, int y) {
+        return Place{(column(x) + 8) % 8, (column(y) + 8) % 8};
+    });
+    expectTexels(moved(wide, scenes::Wrap::ClampToEdge), [&](int x, int y) {
+        return Place{std::clamp(column(x), 0, 7), std::clamp(column(y), 0, 7)};
+    });
+    const auto mirrored = [](int texel) { return texel < 0 ? -1 - texel : texel > 7 ? 15 - texel : texel; };
+    expectTexels(moved(wide, scenes::Wrap::MirroredRepeat), [&](int x, int y) {
+        return Place{mirrored(column(x)), mirrored(column(y))};
+    });
+}
+
+TEST_F(TextureValues, linearMagnificationAlwaysBlendsAndNearestNeverDoes) {
+    Scene scene = texturedScene(flatScene(unlit()), TextureSlot::BaseColor, image8([](int x, int) {
+                                    return std::array<int, 4>{x < 4 ? 0 : 255, 0, 0, 255};
+                                }));
+    scenes::TextureUse& use = scene.materials[0].texture(TextureSlot::BaseColor);
+    use.transform = {{0.25f, 0.0f}, {0.5f, 1.0f}, 0.0f}; // two pixels a texel
+    const auto shades = [&] {
+        const recipes::RenderedFrame shown = frame(scene);
+        return std::ranges::count_if(shown.radiance, [](float v) { return v > 0.01f && v < 0.99f; });
+    };
+    EXPECT_EQ(shades(), 0);
+    use.sampler.magnification = scenes::Filter::Linear;
+    EXPECT_EQ(shades(), 2 * kSide); // the two columns beside the step
+}
+
+TEST_F(TextureValues, secondUvSetAndVertexColoursAlwaysCountExactly) {
+    Scene scene = texturedScene(flatScene(unlit()), TextureSlot::BaseColor, mapImage());
+    scene.materials[0].texture(TextureSlot::BaseColor).texCoordSet = 1;
+    scene.meshes[0].texCoords[1] = {{1, 1}, {0, 1}, {0, 0}, {1, 0}}; // the first set, mirrored in u
+    expectTexels(frame(scene), [](int x, int y) { return Place{7 - x, y}; });
+
+    Scene colored = flatScene(unlit());
+    colored.materials[0].baseColor = {0.5f, 0.5f, 0.5f, 1.0f};
+    colored.meshes[0].colors.assign(4, {0.25f, 0.5f, 1.0f, 1.0f});
+    EXPECT_NEAR(glm::distance(center(colored), glm::vec4(0.125f, 0.25f, 0.5f, 1.0f)), 0.0f,
+                1e-6f); // interpolation rounds
+}
+
+} // namespace
+} // namespace tessera
