@@ -2,6 +2,7 @@
 
 #include "apps/Commands.h"
 #include "scenes/Load.h"
+#include "scenes/Schema.h"
 
 namespace tessera::app {
 
@@ -17,11 +18,18 @@ int listScenes() {
     return kGood;
 }
 
+int printSchema() {
+    fmt::print("{}\n", scenes::sceneSchema());
+    return kGood;
+}
+
 } // namespace
 
 void addScenesCommand(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("scenes", "Lists the built-in scenes");
-    command->callback([&run] { run = listScenes; });
+    auto schema = std::make_shared<bool>(false);
+    command->add_flag("--schema", *schema, "Prints the JSON Schema of .json scenes instead, for editors");
+    command->callback([schema, &run] { run = *schema ? printSchema : listScenes; });
 }
 
 } // namespace tessera::app

@@ -10,8 +10,8 @@ shader::ProgramDesc DeferredLightingPass::program(const frame::FrameSpec& spec) 
                                frame::channelDefines(spec.settings.layout, spec.channels));
 }
 
-DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
-                                                        const frame::FrameResources* resources) {
+DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
+                                                        const Inputs& inputs, const frame::FrameResources* resources) {
     return graph.addPass<Outputs>(
         "deferred_lighting",
         [&](graph::PassBuilder& pass, Outputs& out) {

@@ -6,7 +6,8 @@
 namespace tessera::passes {
 
 shader::ProgramDesc DepthPrepass::program(const frame::FrameSpec& spec) {
-    return frame::frameProgram(spec, "depth_prepass", "passes/geometry.vert", "passes/depth_prepass.frag", {{"DEPTH_ONLY", "1"}});
+    return frame::frameProgram(spec, "depth_prepass", "passes/geometry.vert", "passes/depth_prepass.frag",
+                               {{"DEPTH_ONLY", "1"}});
 }
 
 DepthPrepass::Outputs DepthPrepass::add(graph::Graph& graph, const frame::FrameSpec& spec,

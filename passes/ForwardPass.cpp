@@ -38,14 +38,16 @@ ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpe
                 pass.expect(*inputs.depth, spec.texture(graph::Format::Depth32Float));
                 out.depth = pass.read(*inputs.depth, graph::Access::DepthTest);
             } else {
-                out.depth = pass.create("depth", spec.texture(graph::Format::Depth32Float), graph::Access::DepthAttachment);
+                out.depth =
+                    pass.create("depth", spec.texture(graph::Format::Depth32Float), graph::Access::DepthAttachment);
             }
             out.radiance = inputs.radiance ? pass.write(*inputs.radiance)
                                            : pass.create("radiance", spec.texture(graph::Format::Rgba32Float));
         },
         [resources, params, prepassed, keepsPicture = inputs.radiance.has_value(),
          program = program(spec, params)](const Outputs& out, const graph::PassContext& context) {
-            gpu::bindFramebuffer(resources->framebuffers.get({{&context.texture(out.radiance)}, &context.texture(out.depth)}));
+            gpu::bindFramebuffer(
+                resources->framebuffers.get({{&context.texture(out.radiance)}, &context.texture(out.depth)}));
             if (!keepsPicture) gpu::clearColor(0, resources->background);
             if (!prepassed) gpu::clearDepth(0.0f);
             gpu::useProgram(resources->programs.get(program));

@@ -7,12 +7,10 @@
 
 namespace tessera::passes {
 
-/// Shades surfaces as they are rasterised: all opaque ones, those that a prepass left in the depth buffer, or the transparent ones
-/// on top of a lit picture.
-/// Reads   the scene, the frame's lights; depth D32F after a prepass or under transparent surfaces
-/// Writes  radiance RGBA32F, linear, before exposure; depth D32F when it comes first
-/// Space   lighting space
-/// Source  Walter 2007; Heitz 2014 (shaders/lib/brdf.glsl)
+/// Shades surfaces as they are rasterised: all opaque ones, those that a prepass left in the depth buffer, or the
+/// transparent ones on top of a lit picture. Reads   the scene, the frame's lights; depth D32F after a prepass or under
+/// transparent surfaces Writes  radiance RGBA32F, linear, before exposure; depth D32F when it comes first Space
+/// lighting space Source  Walter 2007; Heitz 2014 (shaders/lib/brdf.glsl)
 struct ForwardPass {
     enum class Surfaces { Opaque, Transparent };
     struct Params {

@@ -11,19 +11,22 @@ shader::ProgramDesc GBufferPass::program(const frame::FrameSpec& spec) {
     return frame::frameProgram(spec, "gbuffer", "passes/geometry.vert", "passes/gbuffer.frag", defines);
 }
 
-GBufferPass::Outputs GBufferPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const frame::FrameResources* resources) {
+GBufferPass::Outputs GBufferPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
+                                      const frame::FrameResources* resources) {
     return graph.addPass<Outputs>(
         "gbuffer",
         [&](graph::PassBuilder& pass, Outputs& out) {
             for (const frame::Channel channel : spec.channels) {
                 const std::string name(frame::channelTable()[std::size_t(channel)].name);
-                out.channels.push_back(pass.create("gbuffer." + name, spec.texture(spec.settings.layout.format(channel))));
+                out.channels.push_back(
+                    pass.create("gbuffer." + name, spec.texture(spec.settings.layout.format(channel))));
             }
             out.depth = pass.create("depth", spec.texture(graph::Format::Depth32Float), graph::Access::DepthAttachment);
         },
         [resources, program = program(spec)](const Outputs& out, const graph::PassContext& context) {
             gpu::Attachments attachments;
-            for (const graph::TextureHandle channel : out.channels) attachments.colors.push_back(&context.texture(channel));
+            for (const graph::TextureHandle channel : out.channels)
+                attachments.colors.push_back(&context.texture(channel));
             attachments.depth = &context.texture(out.depth);
             gpu::bindFramebuffer(resources->framebuffers.get(attachments));
             // Channels of uncovered pixels are never read: depth 0 says that nothing is there.

@@ -15,8 +15,8 @@ struct LoadOptions {
     bool useAssets = true;     ///< let a built-in scene use the models under the folder TESSERA_ASSETS names
 };
 
-/// Loads `nameOrPath`: a built-in scene's name or a .gltf, .glb, .obj or .json file. The result has passed checkScene() and has
-/// at least one camera; a supplied default camera or light is named "default" and reported in `warnings`.
+/// Loads `nameOrPath`: a built-in scene's name or a .gltf, .glb, .obj or .json file. The result has passed checkScene()
+/// and has at least one camera; a supplied default camera or light is named "default" and reported in `warnings`.
 /// Throws InputError, naming the file and what is wrong, or the nearest names when nothing is called that.
 Scene loadScene(const std::string& nameOrPath, const LoadOptions& options = {});
 

@@ -5,8 +5,8 @@
 
 namespace tessera {
 
-/// The end of an error message about an unknown name: "did you mean 'a' or 'b'?" with the candidates nearest to `name` by
-/// edit distance, or "valid are a, b, c" when none is near.
+/// The end of an error message about an unknown name: "did you mean 'a' or 'b'?" with the candidates nearest to `name`
+/// by edit distance, or "valid are a, b, c" when none is near.
 std::string suggestNames(std::string_view name, std::span<const std::string_view> candidates);
 
 } // namespace tessera

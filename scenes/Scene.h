@@ -9,9 +9,9 @@
 
 #include <glm/glm.hpp>
 
-/// A scene as plain data, as its author wrote it: nothing here is packed for a GPU and nothing is derived that a renderer
-/// could derive (tangents, culling radii, cone scales). World space is right-handed, Y up, metres; colours are linear
-/// unless a texture slot says otherwise. Indices are -1 where something is absent.
+/// A scene as plain data, as its author wrote it: nothing here is packed for a GPU and nothing is derived that a
+/// renderer could derive (tangents, culling radii, cone scales). World space is right-handed, Y up, metres; colours are
+/// linear unless a texture slot says otherwise. Indices are -1 where something is absent.
 namespace tessera::scenes {
 
 inline constexpr int kNone = -1;
@@ -51,8 +51,9 @@ struct Sampler {
     bool operator==(const Sampler&) const = default;
 };
 
-/// Applied to a texture coordinate as offset + rotation(scale * uv), after KHR_texture_transform (v points down, the origin is
-/// the picture's top-left corner, a positive angle turns the coordinates counter-clockwise in that convention).
+/// Applied to a texture coordinate as offset + rotation(scale * uv), after KHR_texture_transform (v points down, the
+/// origin is the picture's top-left corner, a positive angle turns the coordinates counter-clockwise in that
+/// convention).
 struct TextureTransform {
     glm::vec2 offset{0.0f};
     glm::vec2 scale{1.0f};
@@ -130,8 +131,8 @@ struct Box3 {
     }
 };
 
-/// Indexed triangles, counter-clockwise seen from the front. Positions and normals are always there and of one length; every
-/// other attribute is either empty or of that length too.
+/// Indexed triangles, counter-clockwise seen from the front. Positions and normals are always there and of one length;
+/// every other attribute is either empty or of that length too.
 struct Mesh {
     std::string name;
     std::vector<glm::vec3> positionsOS;
@@ -165,10 +166,10 @@ enum class Falloff : std::uint8_t {
 };
 
 enum class LightAnimationKind : std::uint8_t {
-    Orbit,     ///< circles `axis` through `center` once in `periodSeconds`
-    Wobble,    ///< position + amplitude * sin(2 pi (t / period + phase)), each axis
-    Path,      ///< runs along the closed polyline `points` at constant speed once in `periodSeconds`
-    Keyframes  ///< linear between (times, points), clamped at the ends
+    Orbit,    ///< circles `axis` through `center` once in `periodSeconds`
+    Wobble,   ///< position + amplitude * sin(2 pi (t / period + phase)), each axis
+    Path,     ///< runs along the closed polyline `points` at constant speed once in `periodSeconds`
+    Keyframes ///< linear between (times, points), clamped at the ends
 };
 
 /// Moves a light's position (point, spot) as a closed function of time, so that any time can be asked for directly.
@@ -192,10 +193,10 @@ struct Light {
     glm::dvec3 positionWS{0.0};
     glm::dvec3 directionWS{0.0, 0.0, -1.0}; ///< unit, the way the light travels
     Falloff falloff = Falloff::InverseSquare;
-    float rangeMetres = kInfinity;             ///< InverseSquare: the light is exactly 0 from here on
-    glm::vec3 attenuation{1.0f, 0.0f, 0.0f};   ///< A, B (1/m), C (1/m^2) of Falloff::Attenuation, >= 0, not all 0
-    float innerConeRadians = 0.0f;             ///< Spot: half angle of full intensity
-    float outerConeRadians = 0.7853981634f;    ///< Spot: half angle beyond which there is no light
+    float rangeMetres = kInfinity;           ///< InverseSquare: the light is exactly 0 from here on
+    glm::vec3 attenuation{1.0f, 0.0f, 0.0f}; ///< A, B (1/m), C (1/m^2) of Falloff::Attenuation, >= 0, not all 0
+    float innerConeRadians = 0.0f;           ///< Spot: half angle of full intensity
+    float outerConeRadians = 0.7853981634f;  ///< Spot: half angle beyond which there is no light
     std::optional<LightAnimation> animation;
 };
 
@@ -211,8 +212,8 @@ struct Camera {
     Projection projection = Projection::Perspective;
     glm::dmat4 worldFromCamera{1.0}; ///< rigid; the camera looks along -Z, Y up
     double fovYRadians = 0.7853981633974483;
-    double halfHeightMetres = 1.0;                             ///< Orthographic
-    double nearMetres = 0.1;                                   ///< > 0 (Perspective), may be 0 (Orthographic)
+    double halfHeightMetres = 1.0;                              ///< Orthographic
+    double nearMetres = 0.1;                                    ///< > 0 (Perspective), may be 0 (Orthographic)
     double farMetres = std::numeric_limits<double>::infinity(); ///< nothing beyond is drawn
 };
 

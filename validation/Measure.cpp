@@ -6,7 +6,6 @@
 
 #include "renderer/gpu/Commands.h"
 
-
 namespace tessera::validation {
 
 namespace {
@@ -56,7 +55,8 @@ void measurePlan(graph::Plan& plan, recipes::Renderer& renderer, recipes::Techni
     }
     if (!settings.prune || plan.leftOut.empty()) return;
     const std::size_t wholeBytes = recipes::planFrame(renderer.scene(), technique, whole).bytes;
-    plan.leftOut.push_back({"all of these together", "measured against prune = off", wholeBytes - std::min(wholeBytes, plan.bytes),
+    plan.leftOut.push_back({"all of these together", "measured against prune = off",
+                            wholeBytes - std::min(wholeBytes, plan.bytes),
                             median(unpruned.totalMs) - median(asPlanned.totalMs)});
 }
 

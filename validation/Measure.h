@@ -4,13 +4,13 @@
 
 namespace tessera::validation {
 
-/// Fills in a plan's milliseconds: each pass as the median of profiled frames, and what all that was left out would have cost,
-/// the difference to frames with prune = off, drawn in turn with them.
+/// Fills in a plan's milliseconds: each pass as the median of profiled frames, and what all that was left out would
+/// have cost, the difference to frames with prune = off, drawn in turn with them.
 void measurePlan(graph::Plan& plan, recipes::Renderer& renderer, recipes::Technique technique,
                  const frame::FrameSettings& settings);
 
-/// Median wall time in milliseconds of a whole frame by each technique, from its first call to the return of glFinish. The techniques
-/// take turns, so that a machine that changes its pace treats all alike.
+/// Median wall time in milliseconds of a whole frame by each technique, from its first call to the return of glFinish.
+/// The techniques take turns, so that a machine that changes its pace treats all alike.
 std::vector<double> frameMs(recipes::Renderer& renderer, const std::vector<recipes::Technique>& techniques,
                             const frame::FrameSettings& settings, int frames);
 

@@ -13,7 +13,8 @@ Picture toPicture(const recipes::RenderedFrame& frame) {
     picture.height = frame.height;
     picture.rgba = frame.radiance;
     picture.covered.resize(picture.pixelCount());
-    for (std::size_t i = 0; i < picture.covered.size(); ++i) picture.covered[i] = frame.radiance[4 * i + 3] > 0.0f ? 1 : 0;
+    for (std::size_t i = 0; i < picture.covered.size(); ++i)
+        picture.covered[i] = frame.radiance[4 * i + 3] > 0.0f ? 1 : 0;
     return picture;
 }
 

@@ -110,10 +110,12 @@ std::string channelsHtml(const ComparePair& pair) {
     if (pair.channels.empty()) return "";
     std::string shares;
     for (const ChannelShare& channel : pair.channels) {
-        shares += fmt::format("{}{} {}", shares.empty() ? "" : ", ", escapedHtml(channel.channel), figureHtml(channel.share));
+        shares +=
+            fmt::format("{}{} {}", shares.empty() ? "" : ", ", escapedHtml(channel.channel), figureHtml(channel.share));
     }
-    return fmt::format("<p>What each packed G-buffer channel adds to relMSE, found by storing that channel alone in fp32: {}.</p>\n",
-                       shares);
+    return fmt::format(
+        "<p>What each packed G-buffer channel adds to relMSE, found by storing that channel alone in fp32: {}.</p>\n",
+        shares);
 }
 
 } // namespace

@@ -9,10 +9,13 @@ namespace {
 
 void addChoices(graph::Plan& plan, const scenes::Scene& scene, const PreparedFrame& prepared) {
     const frame::FrameSettings& settings = prepared.spec.settings;
-    plan.choices.push_back({"camera", scene.cameras[std::size_t(settings.camera)].name, "asked for, or the scene's first"});
-    plan.choices.push_back({"light store", "buffer texture, RGBA32F",
-                            "read fastest of uniform, storage and texture buffers on software rasterisers, and has no 64 KiB limit"});
-    plan.choices.push_back({"lighting space", settings.space == frame::LightingSpace::World ? "world, relative to the eye" : "view",
+    plan.choices.push_back(
+        {"camera", scene.cameras[std::size_t(settings.camera)].name, "asked for, or the scene's first"});
+    plan.choices.push_back(
+        {"light store", "buffer texture, RGBA32F",
+         "read fastest of uniform, storage and texture buffers on software rasterisers, and has no 64 KiB limit"});
+    plan.choices.push_back({"lighting space",
+                            settings.space == frame::LightingSpace::World ? "world, relative to the eye" : "view",
                             "the subtraction happens in double precision, so far scenes keep their digits"});
     for (const std::string& warning : scene.warnings) plan.choices.push_back({"scene", scene.name, warning});
 }
@@ -30,7 +33,8 @@ void addCounters(graph::Plan& plan, const scenes::Scene& scene, const PreparedFr
                      {"lightsEvaluated", prepared.lights.texels.size()},
                      {"lightListBytes", prepared.lights.texels.size() * sizeof(shared::LightTexels)},
                      {"gbufferBytesPerPixel", gbufferBytes},
-                     {"pixels", std::uint64_t(prepared.spec.settings.sizePixels.x) * std::uint64_t(prepared.spec.settings.sizePixels.y)}};
+                     {"pixels", std::uint64_t(prepared.spec.settings.sizePixels.x) *
+                                    std::uint64_t(prepared.spec.settings.sizePixels.y)}};
 }
 
 } // namespace
@@ -38,11 +42,13 @@ void addCounters(graph::Plan& plan, const scenes::Scene& scene, const PreparedFr
 graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings) {
     const PreparedFrame prepared = prepareFrame(scene, settings);
     const DeclaredFrame frame = declareFrame(technique, prepared.spec, nullptr);
-    const graph::CompiledGraph compiled = graph::compile(frame.graph, {.cull = settings.prune, .alias = settings.prune});
+    const graph::CompiledGraph compiled =
+        graph::compile(frame.graph, {.cull = settings.prune, .alias = settings.prune});
     graph::Plan plan = graph::makePlan(frame.graph, compiled);
     plan.scene = scene.name;
     plan.technique = std::string(techniqueTable()[std::size_t(technique)].name);
-    for (graph::Plan::LeftOut& item : frame::leftOut(scene, prepared.spec, prepared.lights, techniqueTable()[std::size_t(technique)].usesGBuffer)) {
+    for (graph::Plan::LeftOut& item :
+         frame::leftOut(scene, prepared.spec, prepared.lights, techniqueTable()[std::size_t(technique)].usesGBuffer)) {
         plan.leftOut.push_back(std::move(item));
     }
     addChoices(plan, scene, prepared);

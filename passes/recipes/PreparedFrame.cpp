@@ -8,10 +8,12 @@ namespace tessera::recipes {
 
 PreparedFrame prepareFrame(const scenes::Scene& scene, const frame::FrameSettings& settings) {
     if (settings.sizePixels.x < 1 || settings.sizePixels.y < 1) {
-        throw InputError(fmt::format("a picture of {}x{} pixels has no pixel", settings.sizePixels.x, settings.sizePixels.y));
+        throw InputError(
+            fmt::format("a picture of {}x{} pixels has no pixel", settings.sizePixels.x, settings.sizePixels.y));
     }
     if (settings.camera < 0 || settings.camera >= int(scene.cameras.size())) {
-        throw InputError(fmt::format("{}: there is no camera {}; the scene has {}", scene.name, settings.camera, scene.cameras.size()));
+        throw InputError(fmt::format("{}: there is no camera {}; the scene has {}", scene.name, settings.camera,
+                                     scene.cameras.size()));
     }
     if (settings.soloLight && (*settings.soloLight < 0 || *settings.soloLight >= int(scene.lights.size()))) {
         throw InputError(fmt::format("{}: there is no light {} to show alone; the scene has {} (0 to {})", scene.name,

@@ -65,8 +65,9 @@ void Renderer::uploadLights(const frame::PackedLights& lights) {
     if (!lightBuffer_ || lightBuffer_->bytes() != bytes) {
         const std::size_t most = context_.capabilities().maxTextureBufferTexels / LIGHT_TEXELS;
         if (lights.texels.size() > most) {
-            throw InputError(fmt::format("{} lights are in view, and this driver's buffer textures hold {}: ask for fewer (--lights N)",
-                                         lights.texels.size(), most));
+            throw InputError(fmt::format(
+                "{} lights are in view, and this driver's buffer textures hold {}: ask for fewer (--lights N)",
+                lights.texels.size(), most));
         }
         lightTexels_.reset();
         lightBuffer_ = std::make_unique<gpu::Buffer>("lights", bytes, gpu::BufferUse::Dynamic);
@@ -86,8 +87,8 @@ void Renderer::draw(Technique technique, const frame::FrameSettings& settings) {
     drawn_ = std::make_unique<Drawn>();
     drawn_->settings = settings;
     drawn_->resources = std::make_unique<frame::FrameResources>(
-        frame::FrameResources{*sceneGpu_, frameConstants_, displayConstants_, *lightTexels_, prepared.view.constants.background,
-                              programs_, backend_.framebuffers()});
+        frame::FrameResources{*sceneGpu_, frameConstants_, displayConstants_, *lightTexels_,
+                              prepared.view.constants.background, programs_, backend_.framebuffers()});
     drawn_->frame = declareFrame(technique, prepared.spec, drawn_->resources.get());
     drawn_->compiled = graph::compile(drawn_->frame.graph, {.cull = settings.prune, .alias = settings.prune});
     programs_.warm(drawn_->frame.programs);

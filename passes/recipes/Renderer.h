@@ -16,16 +16,16 @@ struct RenderedFrame {
     std::vector<std::uint8_t> display; ///< RGBA, display code values
 };
 
-/// Renders pictures of one scene, with any technique and settings, on the context that is current. Everything derived from the
-/// scene is made once and kept.
+/// Renders pictures of one scene, with any technique and settings, on the context that is current. Everything derived
+/// from the scene is made once and kept.
 class Renderer {
 public:
     /// The scene must outlive the renderer.
     Renderer(gpu::Context& context, const scenes::Scene& scene, shader::SourceTree shaders = shader::SourceTree());
     ~Renderer();
 
-    /// Draws one frame and waits for nothing; download() reads it, passTimings() times it. Throws InputError when the settings name
-    /// what the scene lacks, std::runtime_error when GL fails.
+    /// Draws one frame and waits for nothing; download() reads it, passTimings() times it. Throws InputError when the
+    /// settings name what the scene lacks, std::runtime_error when GL fails.
     void draw(Technique technique, const frame::FrameSettings& settings);
 
     /// The picture of the latest draw().

@@ -14,8 +14,10 @@ using namespace passes;
 using graph::TextureHandle;
 
 constexpr TechniqueInfo kTechniques[] = {
-    {Technique::Forward, "forward", "shaded as it is rasterised", "every fragment loops over all lights; the baseline", false},
-    {Technique::ForwardPrepass, "forward_prepass", "depth first, then equal depth only", "each visible pixel once, all lights", false},
+    {Technique::Forward, "forward", "shaded as it is rasterised", "every fragment loops over all lights; the baseline",
+     false},
+    {Technique::ForwardPrepass, "forward_prepass", "depth first, then equal depth only",
+     "each visible pixel once, all lights", false},
     {Technique::Deferred, "deferred", "G-buffer", "full screen, each covered pixel once, all lights", true},
 };
 
@@ -70,16 +72,21 @@ OpaquePicture opaqueDeferred(Recipe& recipe) {
 
 OpaquePicture opaquePicture(Technique technique, Recipe& recipe) {
     switch (technique) {
-    case Technique::Forward: return opaqueForward(recipe);
-    case Technique::ForwardPrepass: return opaqueForwardPrepass(recipe);
-    case Technique::Deferred: break;
+    case Technique::Forward:
+        return opaqueForward(recipe);
+    case Technique::ForwardPrepass:
+        return opaqueForwardPrepass(recipe);
+    case Technique::Deferred:
+        break;
     }
     return opaqueDeferred(recipe);
 }
 
 } // namespace
 
-std::span<const TechniqueInfo> techniqueTable() { return kTechniques; }
+std::span<const TechniqueInfo> techniqueTable() {
+    return kTechniques;
+}
 
 DeclaredFrame declareFrame(Technique technique, const frame::FrameSpec& spec, const frame::FrameResources* resources) {
     DeclaredFrame frame;

@@ -7,7 +7,8 @@
 #include "renderer/frame/FrameSpec.h"
 #include "renderer/graph/Graph.h"
 
-/// The techniques: how passes are wired into a frame. Passes know nothing of each other; here is the only place that connects them.
+/// The techniques: how passes are wired into a frame. Passes know nothing of each other; here is the only place that
+/// connects them.
 namespace tessera::recipes {
 
 enum class Technique : std::uint8_t { Forward, ForwardPrepass, Deferred };
@@ -23,13 +24,13 @@ std::span<const TechniqueInfo> techniqueTable();
 /// A declared frame. The graph's outputs are radiance and display; both carry alpha 1 where something was drawn.
 struct DeclaredFrame {
     graph::Graph graph;
-    graph::TextureHandle radiance; ///< RGBA32F, linear
-    graph::TextureHandle display;  ///< RGBA8, display code values
+    graph::TextureHandle radiance;             ///< RGBA32F, linear
+    graph::TextureHandle display;              ///< RGBA8, display code values
     std::vector<shader::ProgramDesc> programs; ///< every program its passes use
 };
 
-/// Declares the frame of a technique. `resources` may be null when the graph is only planned; else it must be valid while the
-/// graph runs.
+/// Declares the frame of a technique. `resources` may be null when the graph is only planned; else it must be valid
+/// while the graph runs.
 DeclaredFrame declareFrame(Technique technique, const frame::FrameSpec& spec, const frame::FrameResources* resources);
 
 } // namespace tessera::recipes

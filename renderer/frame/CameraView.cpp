@@ -41,9 +41,13 @@ Lens makeLens(const scenes::Camera& camera, double aspect) {
     return lens;
 }
 
-glm::dvec4 row(const glm::dmat4& m, int i) { return {m[0][i], m[1][i], m[2][i], m[3][i]}; }
+glm::dvec4 row(const glm::dmat4& m, int i) {
+    return {m[0][i], m[1][i], m[2][i], m[3][i]};
+}
 
-glm::dvec4 unitPlane(const glm::dvec4& plane) { return plane / glm::length(glm::dvec3(plane)); }
+glm::dvec4 unitPlane(const glm::dvec4& plane) {
+    return plane / glm::length(glm::dvec3(plane));
+}
 
 } // namespace
 

@@ -46,7 +46,8 @@ DrawList makeDrawList(const scenes::Scene& scene) {
     list.firstTransparent = int(transparent - list.draws.begin());
     for (int i = 0; i < list.firstTransparent; ++i) {
         const Draw& draw = list.draws[std::size_t(i)];
-        if (list.opaque.empty() || list.opaque.back().material != draw.material || list.opaque.back().mirrored != draw.mirrored) {
+        if (list.opaque.empty() || list.opaque.back().material != draw.material ||
+            list.opaque.back().mirrored != draw.mirrored) {
             list.opaque.push_back({i, 0, draw.material, draw.mirrored});
         }
         ++list.opaque.back().count;
@@ -62,8 +63,9 @@ std::vector<Batch> sortedTransparent(const DrawList& list, const CameraView& vie
         depth[std::size_t(i)] = glm::dot(view.forwardLS, view.positionLS(draw.centerWS));
         batches.push_back({i, 1, draw.material, draw.mirrored});
     }
-    std::stable_sort(batches.begin(), batches.end(),
-                     [&](const Batch& a, const Batch& b) { return depth[std::size_t(a.first)] > depth[std::size_t(b.first)]; });
+    std::stable_sort(batches.begin(), batches.end(), [&](const Batch& a, const Batch& b) {
+        return depth[std::size_t(a.first)] > depth[std::size_t(b.first)];
+    });
     return batches;
 }
 
@@ -77,7 +79,8 @@ std::vector<DrawRows> makeDrawRows(const DrawList& list, const CameraView& view)
         glm::dmat3 normal = cofactor(linear) * sign;
         // Scaled to order one: the cofactors of a node scaled by 1e-20 would leave fp32's range.
         double largest = 0.0;
-        for (int c = 0; c < 3; ++c) largest = std::max({largest, std::abs(normal[c].x), std::abs(normal[c].y), std::abs(normal[c].z)});
+        for (int c = 0; c < 3; ++c)
+            largest = std::max({largest, std::abs(normal[c].x), std::abs(normal[c].y), std::abs(normal[c].z)});
         if (largest > 0.0) normal /= largest;
         const double extra[3] = {sign, list.draws[i].colored ? 1.0 : 0.0, 0.0};
         for (int r = 0; r < 3; ++r) {

@@ -37,9 +37,10 @@ DrawList makeDrawList(const scenes::Scene& scene);
 /// The transparent draws far to near by the view depth of their boxes' centres, ties by index; one batch each.
 std::vector<Batch> sortedTransparent(const DrawList& list, const CameraView& view);
 
-/// Per-draw vertex attributes (shaders/passes/geometry.vert): rows of LS-from-object and of its cofactor matrix, which carries
-/// normals through any transform, singular ones too; times the determinant's sign, which row 0's w holds. Row 1's w is 1 when the
-/// mesh has vertex colours: white would not do, since interpolating 1 in perspective does not always give 1.
+/// Per-draw vertex attributes (shaders/passes/geometry.vert): rows of LS-from-object and of its cofactor matrix, which
+/// carries normals through any transform, singular ones too; times the determinant's sign, which row 0's w holds. Row
+/// 1's w is 1 when the mesh has vertex colours: white would not do, since interpolating 1 in perspective does not
+/// always give 1.
 struct DrawRows {
     glm::vec4 position[3];
     glm::vec4 normal[3];

@@ -24,7 +24,8 @@ constexpr FeatureInfo kTable[] = {
     {Feature::TexCoord1, "TEXCOORD1", "second texture coordinates", "no texture uses them"},
     {Feature::VertexColor, "VERTEX_COLOR", "vertex colours", "no mesh has them"},
     {Feature::TangentSpaceNormals, "TANGENT_SPACE_NORMALS", "tangents", "no normal map is in tangent space"},
-    {Feature::ObjectSpaceNormals, "OBJECT_SPACE_NORMALS", "object-space normal maps", "no normal map is in object space"},
+    {Feature::ObjectSpaceNormals, "OBJECT_SPACE_NORMALS", "object-space normal maps",
+     "no normal map is in object space"},
     {Feature::Emission, "EMISSION", "emission", "no material emits or is unlit"},
     {Feature::Specular, "SPECULAR", "specular colour and strength", "every material keeps k_s = 1 or F0 = 0.04"},
     {Feature::AlphaMask, "ALPHA_MASK", "alpha masks", "no material is alpha-masked"},
@@ -42,7 +43,8 @@ bool changesSpecular(const scenes::Material& material) {
                         material.texture(scenes::TextureSlot::SpecularColor).image != scenes::kNone;
     if (material.model == scenes::MaterialModel::Microfacet) return tinted;
     return material.model == scenes::MaterialModel::MetallicRoughness &&
-           (tinted || material.ior != 1.5f || material.texture(scenes::TextureSlot::Ior).image != scenes::kNone || material.specularFactor != 1.0f ||
+           (tinted || material.ior != 1.5f || material.texture(scenes::TextureSlot::Ior).image != scenes::kNone ||
+            material.specularFactor != 1.0f ||
             material.texture(scenes::TextureSlot::SpecularFactor).image != scenes::kNone);
 }
 
@@ -72,7 +74,9 @@ void addMaterial(FeatureSet& set, const scenes::Material& material) {
 
 } // namespace
 
-std::span<const FeatureInfo> featureTable() { return kTable; }
+std::span<const FeatureInfo> featureTable() {
+    return kTable;
+}
 
 bool FeatureSet::litModels() const {
     return (*this)[Feature::Lambert] || (*this)[Feature::Microfacet] || (*this)[Feature::MetallicRoughness];

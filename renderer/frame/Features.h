@@ -8,8 +8,8 @@
 #include "renderer/shader/Preprocess.h"
 #include "scenes/Scene.h"
 
-/// What a scene uses, derived once from the scene. The set decides shader defines, G-buffer channels and vertex streams; what is
-/// not in it is left out, and the picture stays the same to the last bit.
+/// What a scene uses, derived once from the scene. The set decides shader defines, G-buffer channels and vertex
+/// streams; what is not in it is left out, and the picture stays the same to the last bit.
 namespace tessera::frame {
 
 enum class Feature : std::uint8_t {

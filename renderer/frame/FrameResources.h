@@ -7,8 +7,8 @@
 
 namespace tessera::frame {
 
-/// What passes draw with while a frame executes. Passes get a pointer when they are declared; it is null when only a plan is wanted
-/// and must be valid when the graph runs.
+/// What passes draw with while a frame executes. Passes get a pointer when they are declared; it is null when only a
+/// plan is wanted and must be valid when the graph runs.
 struct FrameResources {
     const SceneGpu& scene;
     const gpu::Buffer& frameConstants;

@@ -26,17 +26,23 @@ constexpr ToneMapInfo kToneMaps[] = {
     {ToneMap::Agx, "agx", "soft, hues go to white (AgX base look)"},
 };
 static_assert(static_cast<unsigned>(ToneMap::KhronosNeutral) == TONEMAP_KHRONOS_NEUTRAL);
-static_assert(static_cast<unsigned>(ToneMap::Aces) == TONEMAP_ACES && static_cast<unsigned>(ToneMap::Agx) == TONEMAP_AGX);
+static_assert(static_cast<unsigned>(ToneMap::Aces) == TONEMAP_ACES &&
+              static_cast<unsigned>(ToneMap::Agx) == TONEMAP_AGX);
 static_assert(static_cast<unsigned>(DisplayMapping::Raw) == DISPLAY_RAW);
 static_assert(static_cast<unsigned>(DisplayMapping::Signed) == DISPLAY_SIGNED);
 static_assert(static_cast<unsigned>(DisplayMapping::Distance) == DISPLAY_DISTANCE);
 
 } // namespace
 
-std::span<const ViewInfo> viewTable() { return kViews; }
-std::span<const ToneMapInfo> toneMapTable() { return kToneMaps; }
+std::span<const ViewInfo> viewTable() {
+    return kViews;
+}
+std::span<const ToneMapInfo> toneMapTable() {
+    return kToneMaps;
+}
 const ViewInfo& viewInfo(View view) {
-    return *std::find_if(std::begin(kViews), std::end(kViews), [view](const ViewInfo& info) { return info.view == view; });
+    return *std::find_if(std::begin(kViews), std::end(kViews),
+                         [view](const ViewInfo& info) { return info.view == view; });
 }
 
 } // namespace tessera::frame

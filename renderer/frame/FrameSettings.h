@@ -8,7 +8,8 @@
 
 #include "renderer/frame/GBufferLayout.h"
 
-/// What a user may ask of a frame besides its technique. Names are those of the command line; the tables are the only lists.
+/// What a user may ask of a frame besides its technique. Names are those of the command line; the tables are the only
+/// lists.
 namespace tessera::frame {
 
 enum class View : std::uint8_t { Final, Diffuse, NormalTexel, Normal, Distribution, Geometry, Fresnel, Depth };

@@ -17,16 +17,21 @@ std::size_t vertexCount(const scenes::Scene& scene) {
 /// Bytes a vertex of the streams that only a feature asks for.
 std::size_t streamBytes(Feature feature) {
     switch (feature) {
-    case Feature::TangentSpaceNormals: return sizeof(glm::vec4);
-    case Feature::TexCoord1: return sizeof(glm::vec2);
-    case Feature::VertexColor: return sizeof(glm::vec4);
-    default: return 0;
+    case Feature::TangentSpaceNormals:
+        return sizeof(glm::vec4);
+    case Feature::TexCoord1:
+        return sizeof(glm::vec2);
+    case Feature::VertexColor:
+        return sizeof(glm::vec4);
+    default:
+        return 0;
     }
 }
 
 void addLights(std::vector<graph::Plan::LeftOut>& out, std::size_t count, const char* why) {
     if (count == 0) return;
-    out.push_back({fmt::format("{} light{}", count, count == 1 ? "" : "s"), why, count * sizeof(shared::LightTexels), {}});
+    out.push_back(
+        {fmt::format("{} light{}", count, count == 1 ? "" : "s"), why, count * sizeof(shared::LightTexels), {}});
 }
 
 } // namespace
@@ -71,11 +76,15 @@ std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const Fram
         if (!gbuffer) break;
         if (std::find(spec.channels.begin(), spec.channels.end(), info.channel) != spec.channels.end()) continue;
         const auto bytes = std::size_t(graph::formatInfo(spec.settings.layout.format(info.channel)).bytes);
-        out.push_back({fmt::format("G-buffer channel {}", info.name), fmt::format("needed only by {}", info.needed), pixels * bytes, {}});
+        out.push_back({fmt::format("G-buffer channel {}", info.name),
+                       fmt::format("needed only by {}", info.needed),
+                       pixels * bytes,
+                       {}});
     }
     for (const FeatureInfo& info : featureTable()) {
         if (spec.features[info.feature]) continue;
-        out.push_back({std::string(info.what), std::string(info.absent), vertexCount(scene) * streamBytes(info.feature), {}});
+        out.push_back(
+            {std::string(info.what), std::string(info.absent), vertexCount(scene) * streamBytes(info.feature), {}});
     }
     addLights(out, lights.off, "off, or not the solo light");
     addLights(out, lights.dark, "no intensity, range or cone");

@@ -11,8 +11,8 @@
 
 namespace tessera::frame {
 
-/// Everything that decides which passes run, with which programs and resources. Made without OpenGL, so that a plan can be
-/// shown, and every program checked, without a context.
+/// Everything that decides which passes run, with which programs and resources. Made without OpenGL, so that a plan can
+/// be shown, and every program checked, without a context.
 struct FrameSpec {
     FrameSettings settings;
     FeatureSet features;
@@ -31,8 +31,8 @@ Defines frameDefines(const FrameSpec& spec);
 shader::ProgramDesc frameProgram(const FrameSpec& spec, std::string name, std::string vertex, std::string fragment,
                                  const Defines& extra);
 
-/// What the spec leaves out and why, for a plan; bytes are those of G-buffer channels (where the technique has a G-buffer), vertex
-/// streams and lights saved.
+/// What the spec leaves out and why, for a plan; bytes are those of G-buffer channels (where the technique has a
+/// G-buffer), vertex streams and lights saved.
 std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const FrameSpec& spec, const PackedLights& lights,
                                           bool gbuffer);
 

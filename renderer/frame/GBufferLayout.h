@@ -9,8 +9,8 @@
 #include "renderer/frame/Features.h"
 #include "renderer/graph/Format.h"
 
-/// The G-buffer as a table of channels. The table drives textures, shader defines (encoder and decoder in shaders/lib/gbuffer.glsl),
-/// plans and the error attribution.
+/// The G-buffer as a table of channels. The table drives textures, shader defines (encoder and decoder in
+/// shaders/lib/gbuffer.glsl), plans and the error attribution.
 namespace tessera::frame {
 
 enum class Channel : std::uint8_t { Albedo, Normal, Microsurface, Specular, Emission, NormalTexel, Count };
@@ -30,8 +30,8 @@ struct ChannelInfo {
 };
 std::span<const ChannelInfo> channelTable();
 
-/// One encoding for every channel. `exact` keeps fp32; `packed` takes 12 bytes a pixel, 16 where materials change the specular
-/// colour, and 4 more where some emit; depth comes on top.
+/// One encoding for every channel. `exact` keeps fp32; `packed` takes 12 bytes a pixel, 16 where materials change the
+/// specular colour, and 4 more where some emit; depth comes on top.
 struct GBufferLayout {
     std::array<Encoding, kChannelCount> encoding{};
 
@@ -48,8 +48,8 @@ struct LayoutInfo {
 /// The named layouts, `exact` first.
 std::span<const LayoutInfo> layoutTable();
 
-/// The channels that surfaces of these features need, in table order: attachment i is element i. `normalTexel` is for the view
-/// that shows it.
+/// The channels that surfaces of these features need, in table order: attachment i is element i. `normalTexel` is for
+/// the view that shows it.
 std::vector<Channel> neededChannels(const FeatureSet& features, bool normalTexel);
 
 /// GBUFFER_<NAME> = attachment and GBUFFER_<NAME>_PACKED = 0 or 1 of each channel.

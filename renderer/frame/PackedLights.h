@@ -9,7 +9,8 @@
 
 namespace tessera::frame {
 
-/// The lights of one frame as the GPU reads them, in document order. Lights that cannot change the picture are left out.
+/// The lights of one frame as the GPU reads them, in document order. Lights that cannot change the picture are left
+/// out.
 struct PackedLights {
     std::vector<shared::LightTexels> texels;
     std::vector<int> sceneIndex; ///< parallel to texels: index into Scene::lights
@@ -21,8 +22,8 @@ struct PackedLights {
     std::size_t unseen = 0;      ///< left out: the range ends outside the view
 };
 
-/// Packs the scene's lights as they are at settings.timeSeconds. Without settings.prune only lights that are off are left out:
-/// dark and unseen ones are evaluated and add exactly 0.
+/// Packs the scene's lights as they are at settings.timeSeconds. Without settings.prune only lights that are off are
+/// left out: dark and unseen ones are evaluated and add exactly 0.
 PackedLights packLights(const scenes::Scene& scene, const CameraView& view, const FrameSettings& settings);
 
 } // namespace tessera::frame

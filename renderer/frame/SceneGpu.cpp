@@ -17,8 +17,8 @@ namespace {
 /// What GL guarantees to accept as offset of a uniform range (the largest GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT allowed).
 constexpr std::size_t kUniformAlignment = 256;
 
-/// Anisotropy of material textures under the hardware filter. Doubles the cost of a textured pass on software rasterisers,
-/// so it stays at trilinear.
+/// Anisotropy of material textures under the hardware filter. Doubles the cost of a textured pass on software
+/// rasterisers, so it stays at trilinear.
 constexpr float kAnisotropy = 1.0f;
 
 /// IEC 61966-2-1, decoded in double.
@@ -40,9 +40,12 @@ std::vector<float> linearTexels(const scenes::Image& image) {
 
 graph::Format storedFormat(scenes::TexelFormat format, bool srgb) {
     switch (format) {
-    case scenes::TexelFormat::Rgba8Unorm: return srgb ? graph::Format::Srgb8Alpha8 : graph::Format::Rgba8Unorm;
-    case scenes::TexelFormat::Rgba16Unorm: return srgb ? graph::Format::Rgba32Float : graph::Format::Rgba16Unorm;
-    case scenes::TexelFormat::Rgba32Float: break;
+    case scenes::TexelFormat::Rgba8Unorm:
+        return srgb ? graph::Format::Srgb8Alpha8 : graph::Format::Rgba8Unorm;
+    case scenes::TexelFormat::Rgba16Unorm:
+        return srgb ? graph::Format::Rgba32Float : graph::Format::Rgba16Unorm;
+    case scenes::TexelFormat::Rgba32Float:
+        break;
     }
     return graph::Format::Rgba32Float; // a float picture holds linear colours whatever its slot
 }
@@ -61,7 +64,8 @@ gpu::VertexAttribute attribute(std::uint32_t location, int components, const gpu
 
 } // namespace
 
-SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features) : scene_(scene), drawList_(makeDrawList(scene)) {
+SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features)
+    : scene_(scene), drawList_(makeDrawList(scene)) {
     uploadGeometry(features);
     uploadMaterials();
     uploadTextures();
@@ -69,7 +73,8 @@ SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features) : sce
 
 void SceneGpu::uploadGeometry(const FeatureSet& features) {
     const VertexStreams streams = makeVertexStreams(scene_, features);
-    drawRows_ = std::make_unique<gpu::Buffer>("draw rows", drawList_.draws.size() * sizeof(DrawRows), gpu::BufferUse::Dynamic);
+    drawRows_ =
+        std::make_unique<gpu::Buffer>("draw rows", drawList_.draws.size() * sizeof(DrawRows), gpu::BufferUse::Dynamic);
     std::vector<gpu::VertexAttribute> attributes;
     const auto stream = [&](std::uint32_t location, const char* label, const auto& values) {
         using Value = typename std::decay_t<decltype(values)>::value_type;
@@ -102,7 +107,8 @@ void SceneGpu::uploadGeometry(const FeatureSet& features) {
 }
 
 void SceneGpu::uploadMaterials() {
-    materialStride_ = (sizeof(shared::MaterialConstants) + kUniformAlignment - 1) / kUniformAlignment * kUniformAlignment;
+    materialStride_ =
+        (sizeof(shared::MaterialConstants) + kUniformAlignment - 1) / kUniformAlignment * kUniformAlignment;
     std::vector<std::byte> bytes(materialStride_ * scene_.materials.size());
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
         const shared::MaterialConstants constants = packMaterial(scene_.materials[i]);
@@ -156,7 +162,8 @@ void SceneGpu::setView(const CameraView& view) {
 }
 
 void SceneGpu::bindMaterial(int material) const {
-    gpu::bindUniformBuffer(UNIFORM_MATERIAL, *materials_, std::size_t(material) * materialStride_, sizeof(shared::MaterialConstants));
+    gpu::bindUniformBuffer(UNIFORM_MATERIAL, *materials_, std::size_t(material) * materialStride_,
+                           sizeof(shared::MaterialConstants));
     for (std::uint32_t slot = 0; slot < TEXTURE_SLOT_COUNT; ++slot) {
         const BoundTexture& bound = bound_[std::size_t(material) * TEXTURE_SLOT_COUNT + slot];
         gpu::bindTexture(slot, *bound.texture, bound.sampler);

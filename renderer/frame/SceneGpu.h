@@ -53,7 +53,8 @@ private:
     std::unique_ptr<gpu::VertexArray> vertexArray_;
     std::unique_ptr<gpu::Buffer> materials_;
     std::size_t materialStride_ = 0; ///< bytes
-    std::map<std::pair<int, bool>, std::unique_ptr<gpu::Texture>> textures_; ///< by image and whether it is decoded from sRGB
+    std::map<std::pair<int, bool>, std::unique_ptr<gpu::Texture>>
+        textures_; ///< by image and whether it is decoded from sRGB
     std::vector<std::pair<scenes::Sampler, std::unique_ptr<gpu::Sampler>>> samplers_;
     std::unique_ptr<gpu::Texture> white_; ///< what an empty slot samples
     std::vector<BoundTexture> bound_;     ///< material-major, kTextureSlotCount a material

@@ -16,8 +16,8 @@ void append(std::vector<T>& stream, const std::vector<T>& values, std::size_t co
     }
 }
 
-/// The texture-coordinate set of the tangent-space normal map that a mesh is drawn with, or -1 without one. A mesh drawn with
-/// two such maps on different sets follows the first.
+/// The texture-coordinate set of the tangent-space normal map that a mesh is drawn with, or -1 without one. A mesh
+/// drawn with two such maps on different sets follows the first.
 std::vector<int> normalMapSets(const scenes::Scene& scene) {
     std::vector<int> sets(scene.meshes.size(), -1);
     for (const scenes::Node& node : scene.nodes) {
@@ -47,8 +47,8 @@ VertexStreams makeVertexStreams(const scenes::Scene& scene, const FeatureSet& fe
         append(streams.normalsOS, mesh.normalsOS, count, glm::vec3(0.0f));
         if (features[Feature::TangentSpaceNormals]) {
             const bool computed = mesh.tangentsOS.empty() && tangentSets[i] >= 0;
-            append(streams.tangentsOS, computed ? computeTangents(mesh, std::size_t(tangentSets[i])) : mesh.tangentsOS, count,
-                   glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
+            append(streams.tangentsOS, computed ? computeTangents(mesh, std::size_t(tangentSets[i])) : mesh.tangentsOS,
+                   count, glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
         }
         if (features.textures()) append(streams.texCoords[0], mesh.texCoords[0], count, glm::vec2(0.0f));
         if (features[Feature::TexCoord1]) append(streams.texCoords[1], mesh.texCoords[1], count, glm::vec2(0.0f));

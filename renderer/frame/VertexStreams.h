@@ -9,8 +9,8 @@
 
 namespace tessera::frame {
 
-/// All meshes of a scene end to end, one array a vertex attribute. Streams that no feature needs are empty; where a mesh lacks
-/// an attribute that others have, it gets the neutral value (white, zero coordinates, computed tangents).
+/// All meshes of a scene end to end, one array a vertex attribute. Streams that no feature needs are empty; where a
+/// mesh lacks an attribute that others have, it gets the neutral value (white, zero coordinates, computed tangents).
 struct VertexStreams {
     struct Range {
         std::uint32_t firstIndex = 0;

@@ -1,21 +1,21 @@
 #pragma once
-// What every pass of a frame knows: the camera, in lighting space (LS). Lighting space is world space moved to the eye, or view
-// space, as RenderSettings::space says; the CPU puts draws, lights and rays into it in double precision, and shaders do
-// not know which it is.
+// What every pass of a frame knows: the camera, in lighting space (LS). Lighting space is world space moved to the eye,
+// or view space, as RenderSettings::space says; the CPU puts draws, lights and rays into it in double precision, and
+// shaders do not know which it is.
 #include "interop.h"
 
 SHARED_BEGIN
 
 struct FrameConstants {
     mat4 clipFromLS;
-    mat4 worldFromLS;        // rotation only, for views that show world-space directions
-    vec4 rayOriginLS;        // ray through pixel p: rayOrigin + p.x rayDx + p.y rayDy, window coordinates, lower-left origin
-    vec4 rayDxLS;            // perspective: a direction of length 1 along forward; orthographic: a point of the image plane
+    mat4 worldFromLS; // rotation only, for views that show world-space directions
+    vec4 rayOriginLS; // ray through pixel p: rayOrigin + p.x rayDx + p.y rayDy, window coordinates, lower-left origin
+    vec4 rayDxLS;     // perspective: a direction of length 1 along forward; orthographic: a point of the image plane
     vec4 rayDyLS;
-    vec4 forwardLS;          // unit; w is 1 for an orthographic camera, else 0
-    vec4 depthToViewDepth;   // view depth in metres = (x + y depth) / (z + w depth)
-    vec4 background;         // radiance where nothing is drawn; a is 0, the coverage
-    uvec4 lights;            // x number of lights, y index of the light that the D, G and F views show
+    vec4 forwardLS;        // unit; w is 1 for an orthographic camera, else 0
+    vec4 depthToViewDepth; // view depth in metres = (x + y depth) / (z + w depth)
+    vec4 background;       // radiance where nothing is drawn; a is 0, the coverage
+    uvec4 lights;          // x number of lights, y index of the light that the D, G and F views show
 };
 
 SHARED_END

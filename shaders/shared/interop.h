@@ -1,6 +1,6 @@
 #pragma once
-// Lets one file declare a struct for C++ and GLSL alike. Such structs hold only vec4, uvec4, mat4 and arrays of them, whose
-// std140, std430 and C++ layouts are the same; the gpu tests compare the offsets with what the driver reports.
+// Lets one file declare a struct for C++ and GLSL alike. Such structs hold only vec4, uvec4, mat4 and arrays of them,
+// whose std140, std430 and C++ layouts are the same; the gpu tests compare the offsets with what the driver reports.
 #ifdef __cplusplus
 #include <cstdint>
 #include <glm/glm.hpp>

@@ -1,6 +1,7 @@
 #pragma once
 // A light as four RGBA32F texels of the light buffer texture. A buffer texture, because that is the fastest store
-// measured on software rasterisers (2 to 3 times faster a light-pixel pair than a storage buffer) and has no 64 KiB limit.
+// measured on software rasterisers (2 to 3 times faster a light-pixel pair than a storage buffer) and has no 64 KiB
+// limit.
 #include "interop.h"
 
 // Kinds, stored as plain numbers: small integers stored as float bits would be denormals, which hardware may flush.
@@ -14,9 +15,9 @@
 SHARED_BEGIN
 
 struct LightTexels {
-    vec4 position;    // xyz position LS in metres (directional: unit direction to the light); w 1/range^2, 0 when infinite
-    vec4 color;       // rgb colour x intensity; w kind
-    vec4 axis;        // spot: xyz unit direction of travel LS, w cone scale 1/max(0.001, cos inner - cos outer)
+    vec4 position; // xyz position LS in metres (directional: unit direction to the light); w 1/range^2, 0 when infinite
+    vec4 color;    // rgb colour x intensity; w kind
+    vec4 axis;     // spot: xyz unit direction of travel LS, w cone scale 1/max(0.001, cos inner - cos outer)
     vec4 attenuation; // xyz A, B, C; w cone offset -cos outer x scale
 };
 

@@ -12,12 +12,12 @@
 SHARED_BEGIN
 
 struct MaterialConstants {
-    vec4 baseColor;       // rgb base colour, k_d or the colour; a opacity
-    vec4 emissive;        // rgb radiance; a alpha cutoff
-    vec4 microsurface;    // x metallic, y perceptual roughness or alpha (microfacet), z ior, w normal-map scale
-    vec4 specular;        // rgb k_s, or the tint of the dielectric F0; a specular factor
-    vec4 dielectric;      // x F0 of the ior, computed in double so that ior 1.5 gives 0.04 to the last bit
-    uvec4 kind;           // x model, y flags
+    vec4 baseColor;    // rgb base colour, k_d or the colour; a opacity
+    vec4 emissive;     // rgb radiance; a alpha cutoff
+    vec4 microsurface; // x metallic, y perceptual roughness or alpha (microfacet), z ior, w normal-map scale
+    vec4 specular;     // rgb k_s, or the tint of the dielectric F0; a specular factor
+    vec4 dielectric;   // x F0 of the ior, computed in double so that ior 1.5 gives 0.04 to the last bit
+    uvec4 kind;        // x model, y flags
     vec4 uvRow0[TEXTURE_SLOT_COUNT]; // x y z: u' = x u + y v + z; w texture-coordinate set
     vec4 uvRow1[TEXTURE_SLOT_COUNT]; // x y z: v' = x u + y v + z; w wrap modes, u + 4 v, for --filter exact
 };

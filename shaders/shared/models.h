@@ -9,5 +9,6 @@
 #define MODEL_MICROFACET_ANISOTROPIC 4u
 #define MODEL_METALLIC_ROUGHNESS 5u
 
-// The floor of GGX alpha on every path, the reference included: below it D's denominator leaves fp32's range at the peak.
+// The floor of GGX alpha on every path, the reference included: below it D's denominator leaves fp32's range at the
+// peak.
 #define ALPHA_MIN 1e-3

@@ -21,8 +21,9 @@ Image pattern(const std::string& name, int size, bool normalMap) {
         for (int x = 0; x < size; ++x) {
             const double u = double(x) / size, v = double(y) / size, turn = 2.0 * std::numbers::pi;
             const glm::dvec3 bumpy(0.3 * std::sin(3 * turn * u), 0.3 * std::cos(2 * turn * v), 1.0);
-            const glm::dvec3 value = normalMap ? glm::normalize(bumpy) * 0.5 + 0.5
-                                               : glm::dvec3(0.6 + 0.4 * std::sin(turn * (u + v)), 0.3 + 0.6 * u, 0.2 + 0.7 * v);
+            const glm::dvec3 value =
+                normalMap ? glm::normalize(bumpy) * 0.5 + 0.5
+                          : glm::dvec3(0.6 + 0.4 * std::sin(turn * (u + v)), 0.3 + 0.6 * u, 0.2 + 0.7 * v);
             for (int c = 0; c < 3; ++c) image.texels.push_back(std::byte(std::lround(255.0 * value[c])));
             image.texels.push_back(std::byte((x / 4 + y / 4) % 3 == 0 ? 40 : 220));
         }
@@ -57,8 +58,8 @@ Mesh sphere(int slices, int stacks) {
     const auto index = [&](int i, int j) { return std::uint32_t(j * (slices + 1) + i); };
     for (int j = 0; j < stacks; ++j) {
         for (int i = 0; i < slices; ++i) {
-            for (const std::uint32_t corner : {index(i, j), index(i, j + 1), index(i + 1, j + 1), index(i, j), index(i + 1, j + 1),
-                                               index(i + 1, j)}) {
+            for (const std::uint32_t corner : {index(i, j), index(i, j + 1), index(i + 1, j + 1), index(i, j),
+                                               index(i + 1, j + 1), index(i + 1, j)}) {
                 mesh.indices.push_back(corner);
             }
         }
@@ -134,7 +135,8 @@ std::vector<Material> everyMaterial() {
 Node nodeAt(const glm::dvec3& positionWS, const glm::dvec3& scale, int mesh, int material, double turnDegrees = 0.0) {
     Node node;
     node.name = "node";
-    node.parentFromNode = glm::rotate(glm::translate(glm::dmat4(1.0), positionWS), glm::radians(turnDegrees), glm::dvec3(1, 0, 0));
+    node.parentFromNode =
+        glm::rotate(glm::translate(glm::dmat4(1.0), positionWS), glm::radians(turnDegrees), glm::dvec3(1, 0, 0));
     node.parentFromNode = glm::scale(node.parentFromNode, scale);
     node.instances = {{mesh, material}};
     return node;
@@ -163,10 +165,10 @@ Scene everythingScene() {
     scene.images = {pattern("colours", 64, false), pattern("normals", 64, true)};
     scene.materials = everyMaterial();
     scene.meshes = {quad(), sphere(32, 20)};
-    scene.nodes = {nodeAt({0, -1, 0}, {6, 6, 1}, 0, 1, -90.0),   nodeAt({-3, 0, -1}, {0.8, 0.8, 0.8}, 1, 0),
-                   nodeAt({-1, 0, -1}, {0.9, 0.7, 0.9}, 1, 2),   nodeAt({1, 0, -1}, {-0.9, 0.9, 0.9}, 1, 3),
+    scene.nodes = {nodeAt({0, -1, 0}, {6, 6, 1}, 0, 1, -90.0),       nodeAt({-3, 0, -1}, {0.8, 0.8, 0.8}, 1, 0),
+                   nodeAt({-1, 0, -1}, {0.9, 0.7, 0.9}, 1, 2),       nodeAt({1, 0, -1}, {-0.9, 0.9, 0.9}, 1, 3),
                    nodeAt({3, 0, -1}, {0.8, 0.8, 0.8}, 0, 4, 160.0), nodeAt({-0.5, 0.6, 1}, {0.7, 0.7, 0.7}, 0, 5),
-                   nodeAt({1.2, 0.4, 1.5}, {0.6, 0.6, 0.6}, 0, 6), nodeAt({1.6, 0.6, 2}, {0.5, 0.5, 0.5}, 0, 6)};
+                   nodeAt({1.2, 0.4, 1.5}, {0.6, 0.6, 0.6}, 0, 6),   nodeAt({1.6, 0.6, 2}, {0.5, 0.5, 0.5}, 0, 6)};
     Light sun = pointLight({}, 1.0f);
     sun.type = LightType::Directional;
     sun.directionWS = glm::normalize(glm::dvec3(-0.4, -1.0, -0.5));

@@ -3,9 +3,10 @@
 
 namespace tessera::test {
 
-/// A small scene that uses every feature there is: all shaded models, textures in every slot, both normal-map spaces, two
-/// texture-coordinate sets, texture transforms, vertex colours, alpha mask and blend, double-sided and mirrored geometry, emission, every
-/// light type and falloff. The camera looks at a grid of quads and spheres in front of a floor.
+/// A small scene that uses every feature there is: all shaded models, textures in every slot, both normal-map spaces,
+/// two texture-coordinate sets, texture transforms, vertex colours, alpha mask and blend, double-sided and mirrored
+/// geometry, emission, every light type and falloff. The camera looks at a grid of quads and spheres in front of a
+/// floor.
 scenes::Scene everythingScene();
 
 /// One quad of 2 x 2 m in the plane z = 0 facing +z, lit by nothing, seen by a camera at (0, 0, 3) that it fills.

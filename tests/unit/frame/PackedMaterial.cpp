@@ -13,8 +13,7 @@ using scenes::TextureSlot;
 
 TEST(PackedMaterial, theUsualDielectricIsExactlyFourPercent) {
     const shared::MaterialConstants packed = packMaterial(Material{});
-    EXPECT_EQ(packed.dielectric.x, 0.04f)
-        << "defaultSpecular() of surface.glsl, so that pruning changes no bit";
+    EXPECT_EQ(packed.dielectric.x, 0.04f) << "defaultSpecular() of surface.glsl, so that pruning changes no bit";
     EXPECT_EQ(packed.specular.w, 1.0f);
     Material material;
     material.ior = 1.0f;
