@@ -1,0 +1,297 @@
+#include <functional>
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "tests/support/GlContext.h"
+#include "tests/support/TestScenes.h"
+#include "validation/ErrorFigures.h"
+#include "validation/Rendering.h"
+
+namespace tessera {
+namespace {
+
+using recipes::Technique;
+using scenes::Light;
+using scenes::Material;
+using scenes::MaterialModel;
+using scenes::Scene;
+using scenes::TextureSlot;
+
+/// Indices into test::everythingScene().
+enum : std::size_t { kUnlit, kFloor, kGloss, kMetal, kDielectric, kMasked, kGlass };
+enum : std::size_t { kSun, kSpot, kRanged, kOff, kAttenuated, kPoint };
+constexpr std::size_t kQuadMesh = 0, kSphereMesh = 1, kMirroredNode = 3;
+
+struct Change {
+    const char* what;
+    std::function<void(Scene&)> apply;
+};
+
+/// Each change alone, applied to the scene of every feature, must show.
+class Features : public test::GlTest {
+protected:
+    static frame::FrameSettings small() {
+        frame::FrameSettings settings;
+        settings.sizePixels = {160, 90};
+        return settings;
+    }
+    static std::size_t changedPixels(const validation::Picture& a, const validation::Picture& b) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < a.pixelCount(); ++i) count += !std::equal(a.pixel(i), a.pixel(i) + 3, b.pixel(i));
+        return count;
+    }
+    void expectEachShows(const std::vector<Change>& changes) {
+        const Scene base = test::everythingScene();
+        recipes::Renderer baseRenderer(context(), base);
+        const validation::Picture before = validation::toPicture(baseRenderer.render(Technique::Deferred, small()));
+        for (const Change& change : changes) {
+            SCOPED_TRACE(change.what);
+            Scene scene = base;
+            change.apply(scene);
+            ASSERT_NO_THROW(scenes::checkScene(scene));
+            recipes::Renderer renderer(context(), scene);
+            const validation::Picture deferred = validation::toPicture(renderer.render(Technique::Deferred, small()));
+            EXPECT_GT(changedPixels(before, deferred), 10u) << "the picture did not change";
+            const validation::Picture forward = validation::toPicture(renderer.render(Technique::Forward, small()));
+            EXPECT_EQ(forward.rgba, deferred.rgba) << "forward and deferred do not agree on it";
+            const validation::ErrorFigures figures = validation::errorFigures(deferred, forward);
+            EXPECT_EQ(figures.bad.sum() + figures.badOutside.sum(), 0u);
+        }
+    }
+};
+
+/// A change of one material's field or texture.
+Change material(const char* what, std::size_t index, std::function<void(Material&)> apply) {
+    return {what, [=](Scene& scene) { apply(scene.materials[index]); }};
+}
+Change light(const char* what, std::size_t index, std::function<void(Light&)> apply) {
+    return {what, [=](Scene& scene) { apply(scene.lights[index]); }};
+}
+Change camera(const char* what, std::function<void(scenes::Camera&)> apply) {
+    return {what, [=](Scene& scene) { apply(scene.cameras[0]); }};
+}
+Change withoutTexture(const char* what, std::size_t index, TextureSlot slot) {
+    return material(what, index, [=](Material& m) { m.texture(slot) = {}; });
+}
+
+TEST_F(Features, everyTextureSlotAlwaysChangesThePicture) {
+    expectEachShows({
+        withoutTexture("base colour of lambert", kFloor, TextureSlot::BaseColor),
+        withoutTexture("base colour of metallic_roughness", kDielectric, TextureSlot::BaseColor),
+        withoutTexture("normal, object space", kGloss, TextureSlot::Normal),
+        withoutTexture("normal, tangent space", kMetal, TextureSlot::Normal),
+        withoutTexture("alpha of microfacet", kGloss, TextureSlot::MetallicRoughness),
+        withoutTexture("metallic and roughness", kMetal, TextureSlot::MetallicRoughness),
+        withoutTexture("emissive", kMetal, TextureSlot::Emissive),
+        withoutTexture("specular factor", kDielectric, TextureSlot::SpecularFactor),
+        withoutTexture("k_s", kGloss, TextureSlot::SpecularColor),
+        withoutTexture("ior", kGloss, TextureSlot::Ior),
+        material("specular tint", kDielectric,
+                 [](Material& m) { m.texture(TextureSlot::SpecularColor) = m.texture(TextureSlot::SpecularFactor); }),
+        material("base colour of single_color", kUnlit,
+                 [](Material& m) { m.texture(TextureSlot::BaseColor).image = 0; }),
+    });
+}
+
+TEST_F(Features, everyTextureSettingAlwaysChangesThePicture) {
+    const auto floor = [](const char* what, std::function<void(scenes::TextureUse&)> apply) {
+        return material(what, kFloor, [=](Material& m) { apply(m.texture(TextureSlot::BaseColor)); });
+    };
+    expectEachShows({
+        floor("offset", [](scenes::TextureUse& use) { use.transform.offset.x += 0.3f; }),
+        floor("scale", [](scenes::TextureUse& use) { use.transform.scale.y *= 0.5f; }),
+        floor("rotation", [](scenes::TextureUse& use) { use.transform.rotationRadians = -0.4f; }),
+        floor("coordinate set", [](scenes::TextureUse& use) { use.texCoordSet = 1; }),
+        floor("wrap u, clamp", [](scenes::TextureUse& use) { use.sampler.wrapU = scenes::Wrap::ClampToEdge; }),
+        floor("wrap v, clamp", [](scenes::TextureUse& use) { use.sampler.wrapV = scenes::Wrap::ClampToEdge; }),
+        floor("wrap u, mirror", [](scenes::TextureUse& use) { use.sampler.wrapU = scenes::Wrap::MirroredRepeat; }),
+        floor("wrap v, mirror", [](scenes::TextureUse& use) { use.sampler.wrapV = scenes::Wrap::MirroredRepeat; }),
+        floor("minification", [](scenes::TextureUse& use) { use.sampler.minification = scenes::Filter::Nearest; }),
+        floor("magnification",
+              [](scenes::TextureUse& use) {
+                  use.transform.scale = glm::vec2(0.05f);
+                  use.sampler.magnification = scenes::Filter::Nearest;
+              }),
+        material("transform of the normal map", kMetal,
+                 [](Material& m) { m.texture(TextureSlot::Normal).transform.scale = glm::vec2(2.0f); }),
+        material("transform of the roughness map", kGloss,
+                 [](Material& m) { m.texture(TextureSlot::MetallicRoughness).transform.offset = glm::vec2(0.5f); }),
+        material("transform of the emissive map", kMetal,
+                 [](Material& m) { m.texture(TextureSlot::Emissive).transform.rotationRadians = 1.0f; }),
+        {"texels of the colours",
+         [](Scene& s) {
+             s.images[0].texels[0] = s.images[0].texels[4 * 2080] = std::byte(255);
+             s.images[0].texels.assign(s.images[0].texels.size(), std::byte(90));
+         }},
+    });
+}
+
+TEST_F(Features, everyMaterialParameterAlwaysChangesThePicture) {
+    expectEachShows({
+        material("colour of single_color", kUnlit, [](Material& m) { m.baseColor.r = 0.9f; }),
+        material("k_d of lambert", kFloor, [](Material& m) { m.baseColor.g = 0.1f; }),
+        material("k_d of microfacet", kGloss, [](Material& m) { m.baseColor.b = 0.9f; }),
+        material("base colour", kMetal, [](Material& m) { m.baseColor.r = 0.2f; }),
+        material("emission", kMetal, [](Material& m) { m.emissive.b = 0.5f; }),
+        material("emission of lambert", kFloor, [](Material& m) { m.emissive.r = 0.01f; }),
+        material("metallic", kMetal, [](Material& m) { m.metallic = 0.3f; }),
+        material("perceptual roughness", kMetal, [](Material& m) { m.perceptualRoughness = 0.3f; }),
+        material("alpha", kGloss, [](Material& m) { m.alpha = 0.2f; }),
+        material("ior of microfacet", kGloss, [](Material& m) { m.ior = 2.4f; }),
+        material("ior of metallic_roughness", kDielectric, [](Material& m) { m.ior = 1.2f; }),
+        material("specular factor", kDielectric, [](Material& m) { m.specularFactor = 0.2f; }),
+        material("k_s", kGloss,
+                 [](Material& m) {
+                     m.specularColor = {0.1f, 0.9f, 0.9f};
+                 }),
+        material("specular tint", kDielectric,
+                 [](Material& m) {
+                     m.specularColor = {0.1f, 0.2f, 0.9f};
+                 }),
+        material("normal scale", kMetal, [](Material& m) { m.normalScale = 0.2f; }),
+        material("normal-map space", kMetal, [](Material& m) { m.normalMapSpace = scenes::NormalMapSpace::Object; }),
+        material("alpha cutoff", kMasked, [](Material& m) { m.alphaCutoff = 0.1f; }),
+        material("mask off", kMasked, [](Material& m) { m.alphaMode = scenes::AlphaMode::Opaque; }),
+        material("opacity of a blended surface", kGlass, [](Material& m) { m.baseColor.a = 0.9f; }),
+        material("blend off", kGlass, [](Material& m) { m.alphaMode = scenes::AlphaMode::Opaque; }),
+        material("double-sided, seen from behind", kDielectric, [](Material& m) { m.doubleSided = false; }),
+        material("unlit", kDielectric, [](Material& m) { m.model = MaterialModel::SingleColor; }),
+        material("lambert", kDielectric, [](Material& m) { m.model = MaterialModel::Lambert; }),
+        material("microfacet", kDielectric, [](Material& m) { m.model = MaterialModel::Microfacet; }),
+    });
+}
+
+TEST_F(Features, everyVertexAttributeAndTransformAlwaysChangesThePicture) {
+    expectEachShows({
+        {"vertex colours", [](Scene& s) { s.meshes[kQuadMesh].colors.clear(); }},
+        {"a vertex colour",
+         [](Scene& s) {
+             s.meshes[kQuadMesh].colors[2] = {0, 0, 0, 1};
+         }},
+        {"vertex opacity",
+         [](Scene& s) {
+             for (glm::vec4& color : s.meshes[kQuadMesh].colors) color.a = 0.3f;
+         }},
+        {"first uv set",
+         [](Scene& s) {
+             for (glm::vec2& uv : s.meshes[kQuadMesh].texCoords[0]) uv *= 0.5f;
+         }},
+        {"second uv set",
+         [](Scene& s) {
+             for (glm::vec2& uv : s.meshes[kQuadMesh].texCoords[1]) uv = {uv.y, uv.x * 0.5f};
+         }},
+        {"normals",
+         [](Scene& s) {
+             for (glm::vec3& n : s.meshes[kSphereMesh].normalsOS) n = {0, 0, 1};
+         }},
+        {"authored tangents",
+         [](Scene& s) {
+             // Not what the texture coordinates would give: turned by half a right angle, and mirrored.
+             for (const glm::vec3& n : s.meshes[kSphereMesh].normalsOS) {
+                 const glm::vec3 other = std::abs(n.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+                 s.meshes[kSphereMesh].tangentsOS.emplace_back(
+                     glm::normalize(glm::cross(n, other) + glm::cross(n, glm::cross(n, other))), -1.0f);
+             }
+         }},
+        {"mirrored node",
+         [](Scene& s) {
+             s.nodes[kMirroredNode].parentFromNode =
+                 glm::scale(s.nodes[kMirroredNode].parentFromNode, glm::dvec3(-1, 1, 1));
+         }},
+        {"parent's transform",
+         [](Scene& s) {
+             s.nodes[4].parent = 3;
+             s.nodes[4].parentFromNode = glm::translate(glm::dmat4(1.0), glm::dvec3(-1.6, 0.2, 0.4));
+         }},
+    });
+}
+
+TEST_F(Features, everyLightParameterAlwaysChangesThePicture) {
+    expectEachShows({
+        light("disabled", kSun, [](Light& l) { l.enabled = false; }),
+        light("enabled", kOff, [](Light& l) { l.enabled = true; }),
+        light("directional to point", kSun, [](Light& l) { l.type = scenes::LightType::Point; }),
+        light("point to spot", kPoint, [](Light& l) { l.type = scenes::LightType::Spot; }),
+        light("colour", kPoint,
+              [](Light& l) {
+                  l.color = {0.2f, 0.4f, 1.0f};
+              }),
+        light("intensity", kPoint, [](Light& l) { l.intensity *= 1.5f; }),
+        light("position", kPoint, [](Light& l) { l.positionWS.x += 0.5; }),
+        light("direction of the sun", kSun,
+              [](Light& l) { l.directionWS = glm::normalize(glm::dvec3(0.4, -1, -0.5)); }),
+        light("direction of the spot", kSpot,
+              [](Light& l) { l.directionWS = glm::normalize(glm::dvec3(-0.4, -1, -0.5)); }),
+        light("range", kRanged, [](Light& l) { l.rangeMetres = 2.0f; }),
+        light("inner cone", kSpot, [](Light& l) { l.innerConeRadians = 0.4f; }),
+        light("outer cone", kSpot, [](Light& l) { l.outerConeRadians = 0.4f; }),
+        light("attenuation A", kAttenuated, [](Light& l) { l.attenuation.x = 0.1f; }),
+        light("attenuation B", kAttenuated, [](Light& l) { l.attenuation.y = 0.9f; }),
+        light("attenuation C", kAttenuated, [](Light& l) { l.attenuation.z = 0.0f; }),
+        light("falloff", kAttenuated, [](Light& l) { l.falloff = scenes::Falloff::InverseSquare; }),
+        light("animation at time 0", kPoint,
+              [](Light& l) {
+                  l.animation.emplace();
+                  l.animation->kind = scenes::LightAnimationKind::Wobble;
+                  l.animation->phase = 0.25;
+                  l.animation->amplitudeMetres = {1.0, 0.0, 0.0};
+              }),
+    });
+}
+
+TEST_F(Features, everyCameraParameterAlwaysChangesThePicture) {
+    expectEachShows({
+        camera("place", [](scenes::Camera& c) { c.worldFromCamera[3].y += 0.2; }),
+        camera("field of view", [](scenes::Camera& c) { c.fovYRadians = 0.6; }),
+        camera("near plane", [](scenes::Camera& c) { c.nearMetres = 5.0; }),
+        camera("far plane", [](scenes::Camera& c) { c.farMetres = 6.0; }),
+        camera("orthographic", [](scenes::Camera& c) { c.projection = scenes::Projection::Orthographic; }),
+        {"background", [](Scene& s) { s.background.g = 0.5f; }},
+    });
+}
+
+TEST_F(Features, anAnimatedLightAlwaysMovesWithTimeAndOthersNever) {
+    Scene scene = test::everythingScene();
+    recipes::Renderer still(context(), scene);
+    frame::FrameSettings settings = small();
+    const std::vector<float> atStart = still.render(Technique::Deferred, settings).radiance;
+    settings.timeSeconds = 0.25;
+    EXPECT_EQ(still.render(Technique::Deferred, settings).radiance, atStart);
+    scene.lights[kPoint].animation.emplace();
+    scene.lights[kPoint].animation->centerWS = {0, 2, 0};
+    recipes::Renderer moving(context(), scene);
+    EXPECT_NE(moving.render(Technique::Deferred, settings).radiance, atStart);
+}
+
+TEST_F(Features, everyFrameSettingChangesExactlyWhatItIsAbout) {
+    const Scene scene = test::everythingScene();
+    recipes::Renderer renderer(context(), scene);
+    const recipes::RenderedFrame base = renderer.render(Technique::Deferred, small());
+    struct Setting {
+        const char* what;
+        bool radiance; ///< whether radiance changes; the display picture always does
+        std::function<void(frame::FrameSettings&)> apply;
+    };
+    const std::vector<Setting> settings = {
+        {"exposure", false, [](frame::FrameSettings& s) { s.exposureEV = 1.0f; }},
+        {"khronos_neutral", false, [](frame::FrameSettings& s) { s.toneMap = frame::ToneMap::KhronosNeutral; }},
+        {"aces", false, [](frame::FrameSettings& s) { s.toneMap = frame::ToneMap::Aces; }},
+        {"agx", false, [](frame::FrameSettings& s) { s.toneMap = frame::ToneMap::Agx; }},
+        {"specular off", true, [](frame::FrameSettings& s) { s.specular = false; }},
+        {"solo light", true, [](frame::FrameSettings& s) { s.soloLight = int(kSpot); }},
+        {"view", true, [](frame::FrameSettings& s) { s.view = frame::View::Normal; }},
+        {"filter", true, [](frame::FrameSettings& s) { s.filter = frame::TextureFilter::Exact; }},
+    };
+    for (const Setting& setting : settings) {
+        SCOPED_TRACE(setting.what);
+        frame::FrameSettings changed = small();
+        setting.apply(changed);
+        const recipes::RenderedFrame frame = renderer.render(Technique::Deferred, changed);
+        EXPECT_NE(frame.display, base.display);
+        EXPECT_EQ(frame.radiance != base.radiance, setting.radiance);
+    }
+}
+
+} // namespace
+} // namespace tessera
