@@ -14,7 +14,7 @@ struct MtlMaterial {
     std::string name;
     std::filesystem::path file;   ///< that defines it; pictures are named relative to its folder. Empty: none does
     std::set<std::string> stated; ///< keywords the file gives, in MTL's spelling: an absent value is not 0
-    tinyobj::material_t values;
+    tinyobj::material_t values{};
 
     bool states(const char* keyword) const { return stated.contains(keyword); }
 };
