@@ -1,9 +1,11 @@
 #include "apps/Options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include "apps/Numbers.h"
@@ -85,6 +87,14 @@ float exposureOf(double exposureEV) {
     return float(exposureEV);
 }
 
+int tileOf(int pixels) {
+    if (std::find(std::begin(culling::kTileSides), std::end(culling::kTileSides), pixels) ==
+        std::end(culling::kTileSides))
+        throw InputError(
+            fmt::format("--tile {}: tiles are {} pixels wide", pixels, fmt::join(culling::kTileSides, ", ")));
+    return pixels;
+}
+
 /// What can be read without the scene: a mistake in it is found before a large scene is read for nothing.
 void resolveOptions(const FrameOptions& options, Request& request) {
     frame::FrameSettings& settings = request.settings;
@@ -98,6 +108,11 @@ void resolveOptions(const FrameOptions& options, Request& request) {
     if (options.space) settings.space = rowNamed(kSpaces, *options.space, "--space").space;
     if (options.prune) settings.prune = rowNamed(kSwitch, *options.prune, "--prune").on;
     if (options.specular) settings.specular = rowNamed(kSwitch, *options.specular, "--specular").on;
+    if (options.culling)
+        settings.culling.method = rowNamed(culling::methodTable(), *options.culling, "--culling").method;
+    if (options.tile) settings.culling.tilePixels = tileOf(*options.tile);
+    if (options.cullOn)
+        settings.culling.builder = rowNamed(culling::builderTable(), *options.cullOn, "--cull-on").builder;
     settings.timeSeconds = options.timeSeconds.value_or(0.0);
     settings.soloLight = options.solo;
 }
@@ -175,6 +190,13 @@ void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string
     };
     text("--technique", options.technique, "One of " + namesOf(recipes::techniqueTable()) + " [deferred]", "NAME");
     text("--layout", options.layout, "G-buffer layout, one of " + namesOf(frame::layoutTable()) + " [exact]", "NAME");
+    text("--culling", options.culling,
+         "How lights are culled, one of " + namesOf(culling::methodTable()) + " [the technique's own]", "NAME");
+    addWholeNumber(command, "--tile", options.tile, "Side of a light-culling tile, 8, 16, 32 or 64 [by backend]",
+                   "PIXELS")
+        ->group("Frame");
+    text("--cull-on", options.cullOn,
+         "Who builds the light lists, one of " + namesOf(culling::builderTable()) + " [by backend]", "NAME");
     text("--size", options.size, "Picture size in pixels [1280x720]", "WxH");
     text("--camera", options.camera, "A camera of the scene [its first]", "NAME");
     addNumber(command, "--time", options.timeSeconds, "Moves animated lights to this time [0]", "SECONDS")

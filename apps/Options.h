@@ -27,9 +27,10 @@ std::unique_ptr<gpu::Context> makeContext(const GlobalOptions& options);
 /// Options that every command that looks at a frame shares. Unset ones take what the scene asks for, else the default.
 struct FrameOptions {
     std::string scene;
-    std::optional<std::string> technique, layout, camera, view, toneMap, size, filter, space, prune, specular;
+    std::optional<std::string> technique, layout, camera, view, toneMap, size, filter, space, prune, specular, culling,
+        cullOn;
     std::optional<double> exposureEV, timeSeconds;
-    std::optional<int> lights, solo;
+    std::optional<int> lights, solo, tile;
     bool noDefaultLight = false;
 };
 void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string& defaultScene);

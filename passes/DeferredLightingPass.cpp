@@ -6,8 +6,10 @@
 namespace tessera::passes {
 
 shader::ProgramDesc DeferredLightingPass::program(const frame::FrameSpec& spec) {
+    frame::Defines defines = frame::channelDefines(spec.settings.layout, spec.channels);
+    frame::addCursorDefines(spec, false, defines);
     return frame::frameProgram(spec, "deferred_lighting", "passes/fullscreen.vert", "passes/deferred_lighting.frag",
-                               frame::channelDefines(spec.settings.layout, spec.channels));
+                               defines);
 }
 
 DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
@@ -21,6 +23,7 @@ DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, con
             }
             pass.expect(inputs.depth, spec.texture(graph::Format::Depth32Float));
             out.read.depth = pass.read(inputs.depth);
+            if (inputs.lists) out.read.lists = frame::readLightLists(pass, *inputs.lists);
             out.radiance = pass.create("radiance", spec.texture(graph::Format::Rgba32Float));
         },
         [resources, program = program(spec)](const Outputs& out, const graph::PassContext& context) {
@@ -29,6 +32,7 @@ DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, con
             gpu::useProgram(resources->programs.get(program));
             gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
             gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, resources->lights);
+            if (out.read.lists) resources->lightLists.bind();
             for (std::size_t i = 0; i < out.read.channels.size(); ++i) {
                 gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), context.texture(out.read.channels[i]));
             }

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "renderer/frame/FrameResources.h"
@@ -8,7 +9,7 @@
 namespace tessera::passes {
 
 /// Lights every covered pixel once from the G-buffer, or shows the view that the settings ask for.
-/// Reads   G-buffer channels, depth D32F, the frame's lights
+/// Reads   G-buffer channels, depth D32F, the frame's lights and light lists
 /// Writes  radiance RGBA32F, linear, before exposure; the background where nothing is drawn
 /// Space   lighting space
 /// Source  Walter 2007; Heitz 2014 (shaders/lib/brdf.glsl)
@@ -16,6 +17,7 @@ struct DeferredLightingPass {
     struct Inputs {
         std::vector<graph::TextureHandle> channels; ///< by attachment, as FrameSpec::channels
         graph::TextureHandle depth;
+        std::optional<frame::LightListHandles> lists; ///< where FrameSpec::culling asks for them
     };
     struct Outputs {
         Inputs read;

@@ -23,8 +23,10 @@ gpu::PipelineState pipelineState(const ForwardPass::Params& params, bool prepass
 
 shader::ProgramDesc ForwardPass::program(const frame::FrameSpec& spec, const Params& params) {
     const bool blended = params.surfaces == Surfaces::Transparent;
+    frame::Defines defines{{"DEPTH_ONLY", "0"}, {"BLENDED", blended ? "1" : "0"}};
+    frame::addCursorDefines(spec, blended, defines);
     return frame::frameProgram(spec, blended ? "transparent" : "forward", "passes/geometry.vert", "passes/forward.frag",
-                               {{"DEPTH_ONLY", "0"}, {"BLENDED", blended ? "1" : "0"}});
+                               defines);
 }
 
 ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params,
@@ -41,6 +43,7 @@ ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpe
                 out.depth =
                     pass.create("depth", spec.texture(graph::Format::Depth32Float), graph::Access::DepthAttachment);
             }
+            if (inputs.lists) out.lists = frame::readLightLists(pass, *inputs.lists);
             out.radiance = inputs.radiance ? pass.write(*inputs.radiance)
                                            : pass.create("radiance", spec.texture(graph::Format::Rgba32Float));
         },
@@ -53,6 +56,7 @@ ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpe
             gpu::useProgram(resources->programs.get(program));
             gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
             gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, resources->lights);
+            if (out.lists) resources->lightLists.bind();
             const frame::SceneGpu& scene = resources->scene;
             scene.draw(params.surfaces == Surfaces::Transparent ? scene.transparent() : scene.opaque(),
                        pipelineState(params, prepassed));

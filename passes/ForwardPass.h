@@ -8,9 +8,11 @@
 namespace tessera::passes {
 
 /// Shades surfaces as they are rasterised: all opaque ones, those that a prepass left in the depth buffer, or the
-/// transparent ones on top of a lit picture. Reads   the scene, the frame's lights; depth D32F after a prepass or under
-/// transparent surfaces Writes  radiance RGBA32F, linear, before exposure; depth D32F when it comes first Space
-/// lighting space Source  Walter 2007; Heitz 2014 (shaders/lib/brdf.glsl)
+/// transparent ones on top of a lit picture.
+/// Reads   the scene, the frame's lights and light lists; depth D32F after a prepass or under transparent surfaces
+/// Writes  radiance RGBA32F, linear, before exposure; depth D32F when it comes first
+/// Space   lighting space
+/// Source  Walter 2007; Heitz 2014 (shaders/lib/brdf.glsl)
 struct ForwardPass {
     enum class Surfaces { Opaque, Transparent };
     struct Params {
@@ -19,8 +21,10 @@ struct ForwardPass {
     struct Inputs {
         std::optional<graph::TextureHandle> depth;    ///< of a prepass, or of what lies under transparent surfaces
         std::optional<graph::TextureHandle> radiance; ///< the picture to draw transparent surfaces on
+        std::optional<frame::LightListHandles> lists; ///< where FrameSpec::culling asks for them
     };
     struct Outputs {
+        std::optional<frame::LightListHandles> lists; ///< as read
         graph::TextureHandle radiance;
         graph::TextureHandle depth;
     };

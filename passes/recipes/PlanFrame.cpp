@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/PreparedFrame.h"
 #include "passes/recipes/Renderer.h"
 
@@ -40,7 +41,7 @@ void addCounters(graph::Plan& plan, const scenes::Scene& scene, const PreparedFr
 } // namespace
 
 graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings) {
-    const PreparedFrame prepared = prepareFrame(scene, settings);
+    const PreparedFrame prepared = prepareFrame(scene, technique, settings);
     const DeclaredFrame frame = declareFrame(technique, prepared.spec, nullptr);
     const graph::CompiledGraph compiled =
         graph::compile(frame.graph, {.cull = settings.prune, .alias = settings.prune});
@@ -52,13 +53,15 @@ graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const fra
         plan.leftOut.push_back(std::move(item));
     }
     addChoices(plan, scene, prepared);
+    for (graph::Plan::Choice& choice : cullingChoices(technique, settings, prepared.spec.culling))
+        plan.choices.push_back(std::move(choice));
     addCounters(plan, scene, prepared);
     return plan;
 }
 
 std::vector<shader::ProgramDesc> framePrograms(const scenes::Scene& scene, Technique technique,
                                                const frame::FrameSettings& settings) {
-    return declareFrame(technique, prepareFrame(scene, settings).spec, nullptr).programs;
+    return declareFrame(technique, prepareFrame(scene, technique, settings).spec, nullptr).programs;
 }
 
 } // namespace tessera::recipes

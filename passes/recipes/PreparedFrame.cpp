@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "passes/recipes/ChooseCulling.h"
+#include "renderer/culling/TileGrid.h"
 #include "scenes/Error.h"
 
 namespace tessera::recipes {
 
-PreparedFrame prepareFrame(const scenes::Scene& scene, const frame::FrameSettings& settings) {
+PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings) {
     if (settings.sizePixels.x < 1 || settings.sizePixels.y < 1) {
         throw InputError(
             fmt::format("a picture of {}x{} pixels has no pixel", settings.sizePixels.x, settings.sizePixels.y));
@@ -25,8 +27,16 @@ PreparedFrame prepareFrame(const scenes::Scene& scene, const frame::FrameSetting
     const glm::vec3 background = settings.view == frame::View::Final ? scene.background : glm::vec3(0.0f);
     prepared.view = frame::makeCameraView(camera, settings.sizePixels, settings.space, background);
     prepared.lights = frame::packLights(scene, prepared.view, settings);
-    prepared.view.constants.lights = glm::uvec4(prepared.lights.texels.size(), prepared.lights.shown, 0u, 0u);
+    const std::size_t lightCount = prepared.lights.texels.size();
+    prepared.view.constants.lights =
+        glm::uvec4(lightCount, prepared.lights.shown, prepared.lights.everywhere, (lightCount + 31) / 32);
     prepared.spec = frame::makeFrameSpec(scene, prepared.lights, settings);
+    frame::FrameSpec& spec = prepared.spec;
+    spec.culling = chooseCulling(technique, settings, spec.features, prepared.lights);
+    if (spec.culling.method == culling::Method::None) return prepared;
+    spec.lightsEverywhere = !settings.prune || prepared.lights.everywhere > 0;
+    culling::setTileGrid(prepared.view.constants, settings.sizePixels, spec.culling.tilePixels);
+    prepared.cullLights = frame::cullLights(prepared.lights.texels, prepared.view);
     return prepared;
 }
 

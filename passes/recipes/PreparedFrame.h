@@ -1,5 +1,7 @@
 #pragma once
+#include "passes/recipes/Techniques.h"
 #include "renderer/frame/CameraView.h"
+#include "renderer/frame/CullLights.h"
 #include "renderer/frame/FrameSpec.h"
 #include "renderer/frame/PackedLights.h"
 
@@ -10,9 +12,11 @@ struct PreparedFrame {
     frame::CameraView view;
     frame::PackedLights lights;
     frame::FrameSpec spec;
+    std::vector<shared::CullLight> cullLights; ///< parallel to lights.texels; empty where no lists are built
 };
 
-/// Throws InputError when the settings name a camera or light that the scene lacks, or a size that no picture has.
-PreparedFrame prepareFrame(const scenes::Scene& scene, const frame::FrameSettings& settings);
+/// Throws InputError when the settings name a camera or light that the scene lacks, a size that no picture has, or a
+/// culling method that the technique does not take.
+PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings);
 
 } // namespace tessera::recipes

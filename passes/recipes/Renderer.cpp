@@ -39,6 +39,7 @@ std::vector<T> flipped(const std::vector<T>& rows, int width, int height) {
 
 struct Renderer::Drawn {
     frame::FrameSettings settings;
+    PreparedFrame prepared;
     std::unique_ptr<frame::FrameResources> resources;
     DeclaredFrame frame;
     graph::CompiledGraph compiled;
@@ -76,23 +77,34 @@ void Renderer::uploadLights(const frame::PackedLights& lights) {
     lightBuffer_->upload(lights.texels);
 }
 
-void Renderer::draw(Technique technique, const frame::FrameSettings& settings) {
-    const PreparedFrame prepared = prepareFrame(scene_, settings);
+void Renderer::draw(Technique technique, const frame::FrameSettings& asked) {
+    frame::FrameSettings settings = asked;
+    settings.softwareBackend = context_.capabilities().isSoftware;
+    auto drawn = std::make_unique<Drawn>();
+    drawn->prepared = prepareFrame(scene_, technique, settings);
+    const PreparedFrame& prepared = drawn->prepared;
     prepareScene(prepared.spec);
     sceneGpu_->setView(prepared.view);
     uploadLights(prepared.lights);
     frameConstants_.uploadValue(prepared.view.constants);
     displayConstants_.uploadValue(displayConstants(settings));
 
-    drawn_ = std::make_unique<Drawn>();
+    drawn_ = std::move(drawn);
     drawn_->settings = settings;
-    drawn_->resources = std::make_unique<frame::FrameResources>(
-        frame::FrameResources{*sceneGpu_, frameConstants_, displayConstants_, *lightTexels_,
-                              prepared.view.constants.background, programs_, backend_.framebuffers()});
+    drawn_->resources = std::make_unique<frame::FrameResources>(frame::FrameResources{
+        *sceneGpu_, frameConstants_, displayConstants_, *lightTexels_, lightLists_, prepared.view.constants,
+        prepared.cullLights, prepared.view.constants.background, programs_, backend_.framebuffers()});
     drawn_->frame = declareFrame(technique, prepared.spec, drawn_->resources.get());
     drawn_->compiled = graph::compile(drawn_->frame.graph, {.cull = settings.prune, .alias = settings.prune});
     programs_.warm(drawn_->frame.programs);
-    drawn_->execution = std::make_unique<graph::Execution>(drawn_->frame.graph, drawn_->compiled, backend_);
+    std::vector<graph::ImportedBuffer> imported;
+    if (const std::optional<frame::LightListHandles>& lists = drawn_->frame.lists) {
+        imported = {{lists->tiles, &lightLists_.tiles.buffer()},
+                    {lists->cells, &lightLists_.cells.buffer()},
+                    {lists->entries, &lightLists_.entries.buffer()}};
+    }
+    drawn_->execution = std::make_unique<graph::Execution>(drawn_->frame.graph, drawn_->compiled, backend_,
+                                                           std::span<const graph::ImportedTexture>{}, imported);
     drawn_->execution->run();
 }
 

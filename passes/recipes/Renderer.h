@@ -51,6 +51,7 @@ private:
     gpu::GraphBackend backend_;
     gpu::Buffer frameConstants_;
     gpu::Buffer displayConstants_;
+    frame::LightListBuffers lightLists_;
     std::unique_ptr<gpu::Buffer> lightBuffer_;
     std::unique_ptr<gpu::TexelBuffer> lightTexels_;
     std::unique_ptr<frame::SceneGpu> sceneGpu_;

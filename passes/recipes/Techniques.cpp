@@ -5,6 +5,8 @@
 #include "passes/DisplayPass.h"
 #include "passes/ForwardPass.h"
 #include "passes/GBufferPass.h"
+#include "passes/LightListsPass.h"
+#include "passes/TransparentDepthPass.h"
 
 namespace tessera::recipes {
 
@@ -13,12 +15,25 @@ namespace {
 using namespace passes;
 using graph::TextureHandle;
 
+using culling::Method;
+constexpr Method kAllLights[] = {Method::None};
+constexpr Method kTiled[] = {Method::Tile25d, Method::TileMinmax, Method::None};
+constexpr Method kClustered[] = {Method::Cluster, Method::Zbin, Method::None};
+
 constexpr TechniqueInfo kTechniques[] = {
     {Technique::Forward, "forward", "shaded as it is rasterised", "every fragment loops over all lights; the baseline",
-     false},
+     false, kAllLights},
     {Technique::ForwardPrepass, "forward_prepass", "depth first, then equal depth only",
-     "each visible pixel once, all lights", false},
-    {Technique::Deferred, "deferred", "G-buffer", "full screen, each covered pixel once, all lights", true},
+     "each visible pixel once, all lights", false, kAllLights},
+    {Technique::Deferred, "deferred", "G-buffer", "full screen, each covered pixel once, all lights", true, kAllLights},
+    {Technique::TiledDeferred, "tiled_deferred", "G-buffer", "full screen, each covered pixel once, its tile's lights",
+     true, kTiled},
+    {Technique::ForwardPlus, "forward_plus", "depth first, then equal depth only",
+     "each visible pixel once, its tile's lights", false, kTiled},
+    {Technique::ClusteredDeferred, "clustered_deferred", "G-buffer",
+     "full screen, each covered pixel once, its cluster's lights", true, kClustered},
+    {Technique::ClusteredForward, "clustered_forward", "depth first, then equal depth only",
+     "each visible pixel once, its cluster's lights", false, kClustered},
 };
 
 /// Declares passes and notes their programs as it goes.
@@ -41,7 +56,18 @@ struct Recipe {
     }
     TextureHandle deferredLighting(const GBufferPass::Outputs& gbuffer) {
         frame.programs.push_back(DeferredLightingPass::program(spec));
-        return DeferredLightingPass::add(frame.graph, spec, {gbuffer.channels, gbuffer.depth}, resources).radiance;
+        return DeferredLightingPass::add(frame.graph, spec, {gbuffer.channels, gbuffer.depth, frame.lists}, resources)
+            .radiance;
+    }
+    /// Light lists for what lies at these depths, where the frame culls lights.
+    void lightLists(TextureHandle depth) {
+        if (spec.culling.method == Method::None) return;
+        LightListsPass::Inputs inputs{depth, {}};
+        if (spec.features[frame::Feature::Blend]) {
+            frame.programs.push_back(TransparentDepthPass::program(spec));
+            inputs.transparentDepth = TransparentDepthPass::add(frame.graph, spec, {depth}, resources).transparentDepth;
+        }
+        frame.lists = LightListsPass::add(frame.graph, spec, inputs, resources).lists;
     }
     TextureHandle display(TextureHandle radiance) {
         frame.programs.push_back(DisplayPass::program());
@@ -62,11 +88,13 @@ OpaquePicture opaqueForward(Recipe& recipe) {
 
 OpaquePicture opaqueForwardPrepass(Recipe& recipe) {
     const TextureHandle depth = recipe.depthPrepass();
-    return {recipe.forward({}, {depth, {}}).radiance, depth};
+    recipe.lightLists(depth);
+    return {recipe.forward({}, {depth, {}, recipe.frame.lists}).radiance, depth};
 }
 
 OpaquePicture opaqueDeferred(Recipe& recipe) {
     const GBufferPass::Outputs gbuffer = recipe.gbuffer();
+    recipe.lightLists(gbuffer.depth);
     return {recipe.deferredLighting(gbuffer), gbuffer.depth};
 }
 
@@ -75,8 +103,12 @@ OpaquePicture opaquePicture(Technique technique, Recipe& recipe) {
     case Technique::Forward:
         return opaqueForward(recipe);
     case Technique::ForwardPrepass:
+    case Technique::ForwardPlus:
+    case Technique::ClusteredForward:
         return opaqueForwardPrepass(recipe);
     case Technique::Deferred:
+    case Technique::TiledDeferred:
+    case Technique::ClusteredDeferred:
         break;
     }
     return opaqueDeferred(recipe);
@@ -95,7 +127,7 @@ DeclaredFrame declareFrame(Technique technique, const frame::FrameSpec& spec, co
     frame.radiance = opaque.radiance;
     if (spec.features[frame::Feature::Blend]) {
         const ForwardPass::Params params{ForwardPass::Surfaces::Transparent};
-        frame.radiance = recipe.forward(params, {opaque.depth, opaque.radiance}).radiance;
+        frame.radiance = recipe.forward(params, {opaque.depth, opaque.radiance, frame.lists}).radiance;
     }
     frame.display = recipe.display(frame.radiance);
     frame.graph.output(frame.radiance);

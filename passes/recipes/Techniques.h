@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -11,22 +12,32 @@
 /// connects them.
 namespace tessera::recipes {
 
-enum class Technique : std::uint8_t { Forward, ForwardPrepass, Deferred };
+enum class Technique : std::uint8_t {
+    Forward,
+    ForwardPrepass,
+    Deferred,
+    TiledDeferred,
+    ForwardPlus,
+    ClusteredDeferred,
+    ClusteredForward
+};
 struct TechniqueInfo {
     Technique technique;
     std::string_view name;
     std::string_view geometry; ///< what is rasterised, in words
     std::string_view lighting; ///< who lights what, in words
     bool usesGBuffer;
+    std::span<const culling::Method> methods; ///< of light culling that it takes, the one it prefers first
 };
 std::span<const TechniqueInfo> techniqueTable();
 
 /// A declared frame. The graph's outputs are radiance and display; both carry alpha 1 where something was drawn.
 struct DeclaredFrame {
     graph::Graph graph;
-    graph::TextureHandle radiance;             ///< RGBA32F, linear
-    graph::TextureHandle display;              ///< RGBA8, display code values
-    std::vector<shader::ProgramDesc> programs; ///< every program its passes use
+    graph::TextureHandle radiance;                ///< RGBA32F, linear
+    graph::TextureHandle display;                 ///< RGBA8, display code values
+    std::vector<shader::ProgramDesc> programs;    ///< every program its passes use
+    std::optional<frame::LightListHandles> lists; ///< imported; absent where every pixel visits every light
 };
 
 /// Declares the frame of a technique. `resources` may be null when the graph is only planned; else it must be valid

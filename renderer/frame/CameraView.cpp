@@ -60,7 +60,8 @@ CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, L
     CameraView view;
     view.eyeWS = glm::dvec3(camera.worldFromCamera[3]);
     view.lsFromWorld = space == LightingSpace::World ? glm::dmat3(1.0) : glm::transpose(worldFromView);
-    const glm::dmat3 lsFromView = view.lsFromWorld * worldFromView;
+    view.lsFromView = view.lsFromWorld * worldFromView;
+    const glm::dmat3& lsFromView = view.lsFromView;
     view.clipFromLS = lens.clipFromView * glm::dmat4(glm::transpose(lsFromView));
     view.forwardLS = lsFromView * glm::dvec3(0.0, 0.0, -1.0);
 
@@ -80,6 +81,10 @@ CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, L
     c.depthToViewDepth = glm::vec4(lens.depthToViewDepth);
     c.background = glm::vec4(background, 0.0f);
     c.lights = glm::uvec4(0u);
+    c.lensVS = glm::vec4(-lens.halfExtent.x, pixelStep.x, -lens.halfExtent.y, pixelStep.y);
+    c.tileGrid = glm::uvec4(0u);
+    // b/distance - a is the depth of a perspective camera; what is added back makes the key's sum b/distance.
+    c.depthKey = glm::vec4(orthographic ? 1.0f : c.depthToViewDepth.z, 0.0f, 0.0f, 0.0f);
     return view;
 }
 

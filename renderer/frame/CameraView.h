@@ -14,10 +14,11 @@ namespace tessera::frame {
 struct CameraView {
     glm::dvec3 eyeWS{0.0};
     glm::dmat3 lsFromWorld{1.0}; ///< rotation
+    glm::dmat3 lsFromView{1.0};  ///< rotation; view space looks along -z
     glm::dmat4 clipFromLS{1.0};
     glm::dvec3 forwardLS{0.0, 0.0, -1.0};
     std::array<glm::dvec4, 5> frustumPlanesLS; ///< n.p + d >= 0 inside: left, right, bottom, top, near
-    shared::FrameConstants constants;          ///< lights is left 0 for packLights
+    shared::FrameConstants constants;          ///< lights and tileGrid are left 0
 
     glm::dvec3 positionLS(const glm::dvec3& positionWS) const { return lsFromWorld * (positionWS - eyeWS); }
 };

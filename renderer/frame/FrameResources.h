@@ -1,4 +1,7 @@
 #pragma once
+#include <span>
+
+#include "renderer/frame/LightListBuffers.h"
 #include "renderer/frame/SceneGpu.h"
 #include "renderer/gpu/Buffer.h"
 #include "renderer/gpu/Framebuffer.h"
@@ -14,6 +17,9 @@ struct FrameResources {
     const gpu::Buffer& frameConstants;
     const gpu::Buffer& displayConstants;
     const gpu::TexelBuffer& lights;
+    LightListBuffers& lightLists;
+    const shared::FrameConstants& constants;       ///< what frameConstants holds
+    std::span<const shared::CullLight> cullLights; ///< parallel to `lights`
     glm::vec4 background; ///< what the radiance target is cleared to where no pass writes the background itself
     shader::ProgramLibrary& programs;
     gpu::FramebufferCache& framebuffers;

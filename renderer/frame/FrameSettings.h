@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include "renderer/culling/CullingMethod.h"
 #include "renderer/frame/GBufferLayout.h"
 
 /// What a user may ask of a frame besides its technique. Names are those of the command line; the tables are the only
@@ -52,6 +53,8 @@ struct FrameSettings {
     bool prune = true;
     bool specular = true;
     std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
+    culling::Settings culling;
+    bool softwareBackend = true; ///< what open choices are made for; the renderer says what it runs on
     float exposureEV = 0.0f;
     ToneMap toneMap = ToneMap::None;
 };

@@ -57,6 +57,25 @@ Defines frameDefines(const FrameSpec& spec) {
     return defines;
 }
 
+void addCursorDefines(const FrameSpec& spec, bool transparent, Defines& defines) {
+    using culling::Method;
+    const char* const cursor = spec.culling.method == Method::None   ? "LIGHT_CURSOR_ALL"
+                               : spec.culling.method == Method::Zbin ? "LIGHT_CURSOR_BITS"
+                                                                     : "LIGHT_CURSOR_LIST";
+    defines.emplace_back("LIGHT_CURSOR", cursor);
+    if (spec.culling.method == Method::None) return;
+    defines.emplace_back("LIGHT_LAYER", transparent ? "LIGHT_LAYER_TRANSPARENT" : "LIGHT_LAYER_OPAQUE");
+    defines.emplace_back("HAS_LIGHTS_EVERYWHERE", spec.lightsEverywhere ? "1" : "0");
+}
+
+std::size_t lightTileCount(const FrameSpec& spec) {
+    const auto along = [&](int pixels) {
+        return std::size_t(pixels + spec.culling.tilePixels - 1) / std::size_t(spec.culling.tilePixels);
+    };
+    return along(spec.settings.sizePixels.x) * along(spec.settings.sizePixels.y) *
+           (spec.features[Feature::Blend] ? 2 : 1);
+}
+
 shader::ProgramDesc frameProgram(const FrameSpec& spec, std::string name, std::string vertex, std::string fragment,
                                  const Defines& extra) {
     shader::ProgramDesc program;

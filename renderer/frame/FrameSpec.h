@@ -17,6 +17,8 @@ struct FrameSpec {
     FrameSettings settings;
     FeatureSet features;
     std::vector<Channel> channels; ///< of the G-buffer, by attachment
+    culling::Choice culling;
+    bool lightsEverywhere = false; ///< some lights reach everywhere, while others do not
 
     graph::TextureDesc texture(graph::Format format) const {
         return {format, settings.sizePixels.x, settings.sizePixels.y, 1};
@@ -26,6 +28,12 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
 
 /// What every geometry and lighting shader of the frame is compiled with.
 Defines frameDefines(const FrameSpec& spec);
+
+/// How a pass that shades opaque or transparent surfaces finds its lights.
+void addCursorDefines(const FrameSpec& spec, bool transparent, Defines& defines);
+
+/// Tiles that light lists of the frame have, those of the transparent layer included.
+std::size_t lightTileCount(const FrameSpec& spec);
 
 /// A program of the frame; `extra` defines stand after the frame's.
 shader::ProgramDesc frameProgram(const FrameSpec& spec, std::string name, std::string vertex, std::string fragment,

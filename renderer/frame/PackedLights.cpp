@@ -98,6 +98,8 @@ PackedLights packLights(const scenes::Scene& scene, const CameraView& view, cons
             ++lights.unseen;
         } else {
             lights.texels.push_back(packLight(light, view));
+            // Directional lights and infinite ranges.
+            if (lights.texels.back().position.w == 0.0f) ++lights.everywhere;
             lights.sceneIndex.push_back(int(i));
             addFeatures(lights.features, light);
         }

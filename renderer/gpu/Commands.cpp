@@ -43,9 +43,10 @@ GLenum depthFunction(DepthTest test) {
 
 void setBlend(Blend blend) {
     setEnabled(GL_BLEND, blend != Blend::None);
-    glBlendEquation(GL_FUNC_ADD);
+    glBlendEquation(blend == Blend::Max ? GL_MAX : GL_FUNC_ADD);
     switch (blend) {
     case Blend::None:
+    case Blend::Max: // takes no factors
         break;
     case Blend::Additive:
         glBlendFunc(GL_ONE, GL_ONE);

@@ -10,6 +10,7 @@ enum class Blend : std::uint8_t {
     None,
     Additive,           ///< target + source, alpha too
     AlphaPremultiplied, ///< source + (1 - alpha) target
+    Max,                ///< the larger of target and source, by channel
     AlphaStraight       ///< alpha source + (1 - alpha) target; the target's alpha becomes the coverage
 };
 

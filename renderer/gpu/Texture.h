@@ -44,6 +44,8 @@ public:
     /// One level's texels, tightly packed, rows in GL order (lower-left first for rendered pictures); waits for the
     /// GPU.
     std::vector<std::byte> downloadBytes(int level = 0) const;
+    /// The same into memory of levelBytes(level).
+    void downloadInto(int level, std::span<std::byte> texels) const;
     template <typename T>
     std::vector<T> downloadAs(int level = 0) const {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -62,7 +64,6 @@ public:
     const std::shared_ptr<const std::uint64_t>& serial() const { return serial_; }
 
 private:
-    void downloadInto(int level, std::span<std::byte> texels) const;
     std::string label_;
     graph::TextureDesc desc_;
     int mipLevels_ = 1;

@@ -8,6 +8,7 @@ namespace tessera::graph {
 enum class Format : std::uint8_t {
     Rgba32Float,
     Rgba16Float,
+    Rg32Float,
     R32Float,
     Rgba16Unorm,
     Rg16Snorm,
@@ -15,6 +16,8 @@ enum class Format : std::uint8_t {
     Srgb8Alpha8,
     Rgb10A2Unorm,
     Rg16Uint,
+    Rgba32Uint,
+    Rg32Uint,
     R32Uint,
     R8Uint,
     Depth32Float,

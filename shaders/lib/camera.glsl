@@ -16,6 +16,7 @@ Viewpoint viewpointFromDepth(vec2 pixel, float depth)
                               / (frame.depthToViewDepth.z + frame.depthToViewDepth.w * depth);
     precise vec3 ray = frame.rayOriginLS.xyz + pixel.x * frame.rayDxLS.xyz + pixel.y * frame.rayDyLS.xyz;
     Viewpoint viewpoint;
+    viewpoint.depth = depth;
     if (frame.forwardLS.w != 0.0) {
         precise vec3 position = ray + viewDepth * frame.forwardLS.xyz;
         viewpoint.positionLS = position;

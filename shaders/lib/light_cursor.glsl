@@ -1,14 +1,47 @@
-// Which lights a pixel visits, always in ascending index order, so that every technique adds the same terms in the same order.
-// LIGHT_CURSOR selects the list: ALL visits every light of the frame.
+// Which lights a pixel visits, always in ascending index order, so that every technique adds the same terms in the same
+// order. LIGHT_CURSOR says how: ALL lights of the frame; the LIST of the pixel's cell, merged with the lights that reach
+// everywhere; or the BITS that the pixel's tile and depth bin have in common (shared/light_lists.h).
 #pragma once
 #include "lib/camera.glsl"
+#include "shared/light_lists.h"
+
+#define LIGHT_CURSOR_ALL 0
+#define LIGHT_CURSOR_LIST 1
+#define LIGHT_CURSOR_BITS 2
+#ifndef LIGHT_CURSOR
+#define LIGHT_CURSOR LIGHT_CURSOR_ALL
+#endif
+
+#if LIGHT_CURSOR != LIGHT_CURSOR_ALL
+layout(binding = TEXTURE_UNIT_LIGHT_TILES) uniform usamplerBuffer lightTiles;
+layout(binding = TEXTURE_UNIT_LIGHT_CELLS) uniform usamplerBuffer lightCells;
+layout(binding = TEXTURE_UNIT_LIGHT_ENTRIES) uniform usamplerBuffer lightEntries;
+
+uvec4 lightTile(vec2 pixel)
+{
+    uvec2 tile = uvec2(uint(pixel.x), frame.tileGrid.z - 1u - uint(pixel.y)) >> frame.tileGrid.w;
+    uint index = tile.y * frame.tileGrid.x + tile.x;
+#if LIGHT_LAYER == LIGHT_LAYER_TRANSPARENT
+    index += frame.tileGrid.x * frame.tileGrid.y;
+#endif
+    return texelFetch(lightTiles, int(index));
+}
+
+uint depthSlice(float depth, uint slices)
+{
+    precise float sum = frame.depthKey.x + depth;
+    return sliceOfKey(floatBitsToUint(sum), slices);
+}
+#endif
+
+#if LIGHT_CURSOR == LIGHT_CURSOR_ALL
 
 struct LightCursor {
     int next;
     int end;
 };
 
-LightCursor lightCursor(vec2 pixel, vec3 positionLS)
+LightCursor lightCursor(vec2 pixel, float depth)
 {
     return LightCursor(0, int(frame.lights.x));
 }
@@ -19,3 +52,100 @@ bool nextLight(inout LightCursor cursor, out int light)
     cursor.next += 1;
     return light < cursor.end;
 }
+
+#elif LIGHT_CURSOR == LIGHT_CURSOR_LIST
+
+#if HAS_LIGHTS_EVERYWHERE
+// Two ascending runs merged; the heads are what either offers next.
+struct LightCursor {
+    int next;
+    int end;
+    int nextEverywhere;
+    int headOfList;
+    int headEverywhere;
+};
+const int kNoLight = 0x7fffffff;
+#else
+struct LightCursor {
+    int next;
+    int end;
+};
+#endif
+
+LightCursor lightCursor(vec2 pixel, float depth)
+{
+    uvec4 tile = lightTile(pixel);
+    uint slice = depthSlice(depth, tile.y);
+    // The cells of a tile are those of its occupied slices, so a slice's rank among them finds its cell.
+    uint below = slice < 32u ? tile.z & ((1u << slice) - 1u) : tile.z;
+    uint belowHigh = slice < 32u ? 0u : tile.w & ((1u << (slice & 31u)) - 1u);
+    uvec2 cell = texelFetch(lightCells, int(tile.x) + bitCount(below) + bitCount(belowHigh)).xy;
+#if HAS_LIGHTS_EVERYWHERE
+    LightCursor cursor = LightCursor(int(cell.x), int(cell.x + cell.y), 0, kNoLight, kNoLight);
+    if (cell.y > 0u) cursor.headOfList = int(texelFetch(lightEntries, cursor.next).x);
+    if (frame.lights.z > 0u) cursor.headEverywhere = int(texelFetch(lightEntries, 0).x);
+    return cursor;
+#else
+    return LightCursor(int(cell.x), int(cell.x + cell.y));
+#endif
+}
+
+bool nextLight(inout LightCursor cursor, out int light)
+{
+#if HAS_LIGHTS_EVERYWHERE
+    bool fromList = cursor.headOfList < cursor.headEverywhere;
+    light = fromList ? cursor.headOfList : cursor.headEverywhere;
+    if (fromList) {
+        cursor.next += 1;
+    } else {
+        cursor.nextEverywhere += 1;
+    }
+    int at = fromList ? cursor.next : cursor.nextEverywhere;
+    int end = fromList ? cursor.end : int(frame.lights.z);
+    int head = at < end ? int(texelFetch(lightEntries, at).x) : kNoLight;
+    if (fromList) {
+        cursor.headOfList = head;
+    } else {
+        cursor.headEverywhere = head;
+    }
+    return light != kNoLight;
+#else
+    if (cursor.next >= cursor.end) return false;
+    light = int(texelFetch(lightEntries, cursor.next).x);
+    cursor.next += 1;
+    return true;
+#endif
+}
+
+#else
+
+struct LightCursor {
+    int tileWords; // index of the tile's mask among the entries
+    int binWords;
+    int word;
+    int end;
+    uint bits; // not yet visited of the current word
+};
+
+LightCursor lightCursor(vec2 pixel, float depth)
+{
+    uvec4 tile = lightTile(pixel);
+    uint bin = depthSlice(depth, tile.y);
+    uvec2 words = texelFetch(lightCells, int(bin)).xy;
+    return LightCursor(int(tile.x), int(bin * frame.lights.w), int(words.x) - 1, int(words.y), 0u);
+}
+
+bool nextLight(inout LightCursor cursor, out int light)
+{
+    while (cursor.bits == 0u) {
+        cursor.word += 1;
+        if (cursor.word >= cursor.end) return false;
+        cursor.bits = texelFetch(lightEntries, cursor.tileWords + cursor.word).x
+                      & texelFetch(lightEntries, cursor.binWords + cursor.word).x;
+    }
+    light = cursor.word * 32 + findLSB(cursor.bits);
+    cursor.bits &= cursor.bits - 1u;
+    return true;
+}
+
+#endif

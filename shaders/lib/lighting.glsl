@@ -78,7 +78,7 @@ vec3 shadeSurface(Surface surface, Viewpoint viewpoint, vec2 pixel)
 #if HAS_SINGLE_COLOR
     if (surface.model == MODEL_SINGLE_COLOR) return radiance;
 #endif
-    LightCursor cursor = lightCursor(pixel, viewpoint.positionLS);
+    LightCursor cursor = lightCursor(pixel, viewpoint.depth);
     int light;
     while (nextLight(cursor, light)) {
         Incident incident;

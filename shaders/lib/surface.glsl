@@ -19,6 +19,7 @@ struct Surface {
 struct Viewpoint {
     vec3 positionLS;
     vec3 toViewerLS; // unit
+    float depth;     // as stored in the depth buffer
 };
 
 // The model of every surface when the scene uses only one, else the stored one.

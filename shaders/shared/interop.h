@@ -1,19 +1,31 @@
 #pragma once
-// Lets one file declare a struct for C++ and GLSL alike. Such structs hold only vec4, uvec4, mat4 and arrays of them,
-// whose std140, std430 and C++ layouts are the same; the gpu tests compare the offsets with what the driver reports.
+// Lets one file declare a struct, or define a function, for C++ and GLSL alike. Such structs hold only vec4, uvec4,
+// mat4 and arrays of them, whose std140, std430 and C++ layouts are the same; the gpu tests compare the offsets with
+// what the driver reports. Shared functions take and return such values and plain numbers.
 #ifdef __cplusplus
 #include <cstdint>
 #include <glm/glm.hpp>
 namespace tessera::shared {
 using glm::mat4;
+using glm::max;
+using glm::min;
+using glm::sqrt;
+using glm::uvec2;
 using glm::uvec4;
+using glm::vec2;
+using glm::vec3;
 using glm::vec4;
+using uint = std::uint32_t;
 } // namespace tessera::shared
 #define SHARED_BEGIN namespace tessera::shared {
 #define SHARED_END }
 #define SHARED_CONST inline constexpr int
+#define SHARED_FUNCTION inline
+#define SHARED_PRECISE // C++ is compiled without contraction
 #else
 #define SHARED_BEGIN
 #define SHARED_END
 #define SHARED_CONST const int
+#define SHARED_FUNCTION
+#define SHARED_PRECISE precise
 #endif

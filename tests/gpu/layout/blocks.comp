@@ -34,4 +34,7 @@ void main()
     }
     outputs[16 + 2 * TEXTURE_SLOT_COUNT] = display.exposure;
     outputs[17 + 2 * TEXTURE_SLOT_COUNT] = vec4(display.mapping);
+    outputs[18 + 2 * TEXTURE_SLOT_COUNT] = frame.lensVS;
+    outputs[19 + 2 * TEXTURE_SLOT_COUNT] = vec4(frame.tileGrid);
+    outputs[20 + 2 * TEXTURE_SLOT_COUNT] = frame.depthKey;
 }

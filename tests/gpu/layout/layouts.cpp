@@ -18,7 +18,7 @@ using testing::ElementsAre;
 /// Name, offset, and the stride of its array or columns (0: neither).
 using Place = std::tuple<std::string, std::size_t, std::size_t>;
 
-constexpr std::size_t kOutputs = 18 + 2 * TEXTURE_SLOT_COUNT;
+constexpr std::size_t kOutputs = 21 + 2 * TEXTURE_SLOT_COUNT;
 
 class LayoutTest : public test::GlTest {
 protected:
@@ -45,7 +45,10 @@ TEST_F(LayoutTest, frameConstantsLieExactlyWhereTheDriverReadsThem) {
                             Place("frame.forwardLS", offsetof(FrameConstants, forwardLS), 0),
                             Place("frame.depthToViewDepth", offsetof(FrameConstants, depthToViewDepth), 0),
                             Place("frame.background", offsetof(FrameConstants, background), 0),
-                            Place("frame.lights", offsetof(FrameConstants, lights), 0)));
+                            Place("frame.lights", offsetof(FrameConstants, lights), 0),
+                            Place("frame.lensVS", offsetof(FrameConstants, lensVS), 0),
+                            Place("frame.tileGrid", offsetof(FrameConstants, tileGrid), 0),
+                            Place("frame.depthKey", offsetof(FrameConstants, depthKey), 0)));
 }
 
 TEST_F(LayoutTest, materialConstantsLieExactlyWhereTheDriverReadsThem) {
@@ -80,6 +83,8 @@ TEST_F(LayoutTest, theShaderAlwaysReadsTheValuesThatCppWrote) {
     frame.clipFromLS[3] = {1, 2, 3, 4};
     frame.depthToViewDepth = {5, 6, 7, 8};
     frame.lights = {9, 10, 11, 12};
+    frame.tileGrid = {13, 14, 15, 16};
+    frame.depthKey = {17, 18, 19, 20};
     shared::MaterialConstants material{};
     material.kind = {1, 2, 3, 4};
     material.uvRow0[6] = {5, 6, 7, 8};
@@ -101,7 +106,9 @@ TEST_F(LayoutTest, theShaderAlwaysReadsTheValuesThatCppWrote) {
     EXPECT_EQ(out[15], glm::vec4(material.kind));
     EXPECT_EQ(out[16 + 6], material.uvRow0[6]);
     EXPECT_EQ(out[16 + TEXTURE_SLOT_COUNT + 6], material.uvRow1[6]);
-    EXPECT_EQ(out.back(), glm::vec4(display.mapping));
+    EXPECT_EQ(out[17 + 2 * TEXTURE_SLOT_COUNT], glm::vec4(display.mapping));
+    EXPECT_EQ(out[19 + 2 * TEXTURE_SLOT_COUNT], glm::vec4(frame.tileGrid));
+    EXPECT_EQ(out.back(), frame.depthKey);
 }
 
 TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexel) {

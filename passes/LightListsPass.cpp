@@ -1,0 +1,62 @@
+#include "passes/LightListsPass.h"
+
+#include "renderer/gpu/Texture.h"
+
+namespace tessera::passes {
+
+namespace {
+
+/// Buffers outlive the frame, since how much they must hold is only known while it runs.
+frame::LightListHandles importBuffers(graph::Graph& graph, const frame::FrameSpec& spec,
+                                      const frame::FrameResources* resources) {
+    const frame::LightListBuffers* held = resources ? &resources->lightLists : nullptr;
+    const std::size_t tiles = frame::lightTileCount(spec) * sizeof(shared::LightTile);
+    const auto bytes = [](const frame::GrowingTexelBuffer& buffer) { return buffer.buffer().bytes(); };
+    const std::size_t least = 16; // counted while the frame runs
+    return {graph.import("light_tiles", graph::BufferDesc{held ? bytes(held->tiles) : tiles}),
+            graph.import("light_cells", graph::BufferDesc{held ? bytes(held->cells) : least}),
+            graph.import("light_entries", graph::BufferDesc{held ? bytes(held->entries) : least})};
+}
+
+culling::DepthPicture download(const gpu::Texture& texture, bool isRange, std::vector<float>& memory) {
+    const graph::TextureDesc& desc = texture.desc();
+    memory.resize(std::size_t(desc.width) * std::size_t(desc.height) * (isRange ? 2 : 1));
+    texture.downloadInto(0, std::as_writable_bytes(std::span(memory)));
+    return {memory, isRange};
+}
+
+void build(const frame::FrameSpec& spec, const frame::FrameResources& resources, const LightListsPass::Inputs& read,
+           const graph::PassContext& context) {
+    frame::LightListBuffers& lists = resources.lightLists;
+    const culling::DepthPicture opaque = download(context.texture(read.depth), false, lists.depth);
+    culling::DepthPicture transparent;
+    if (read.transparentDepth)
+        transparent = download(context.texture(*read.transparentDepth), true, lists.transparentDepth);
+    lists.upload(lists.builder.build({resources.constants, spec.settings.sizePixels, resources.cullLights,
+                                      spec.culling.method, opaque, read.transparentDepth ? &transparent : nullptr}));
+}
+
+} // namespace
+
+LightListsPass::Outputs LightListsPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
+                                            const frame::FrameResources* resources) {
+    const frame::LightListHandles buffers = importBuffers(graph, spec, resources);
+    return graph.addPass<Outputs>(
+        "light_lists",
+        [&](graph::PassBuilder& pass, Outputs& out) {
+            pass.expect(inputs.depth, spec.texture(graph::Format::Depth32Float));
+            out.read.depth = pass.read(inputs.depth, graph::Access::Download);
+            if (inputs.transparentDepth) {
+                pass.expect(*inputs.transparentDepth, spec.texture(graph::Format::Rg32Float));
+                out.read.transparentDepth = pass.read(*inputs.transparentDepth, graph::Access::Download);
+            }
+            out.lists.tiles = pass.write(buffers.tiles, graph::Access::Upload);
+            out.lists.cells = pass.write(buffers.cells, graph::Access::Upload);
+            out.lists.entries = pass.write(buffers.entries, graph::Access::Upload);
+        },
+        [resources, spec](const Outputs& out, const graph::PassContext& context) {
+            build(spec, *resources, out.read, context);
+        });
+}
+
+} // namespace tessera::passes

@@ -1,0 +1,25 @@
+#pragma once
+#include "renderer/frame/FrameResources.h"
+#include "renderer/frame/FrameSpec.h"
+#include "renderer/graph/Graph.h"
+
+namespace tessera::passes {
+
+/// Draws the depths between which each pixel shades transparent surfaces, so that light lists cover them.
+/// Reads   the scene, depth D32F of opaque surfaces
+/// Writes  transparent_depth RG32F: x nearest depth, y farthest depth negated; x is 0 where nothing transparent shows
+/// Space   lighting space, through the vertex function that every pass shares
+struct TransparentDepthPass {
+    struct Inputs {
+        graph::TextureHandle depth;
+    };
+    struct Outputs {
+        Inputs read;
+        graph::TextureHandle transparentDepth;
+    };
+    static shader::ProgramDesc program(const frame::FrameSpec& spec);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
+                       const frame::FrameResources* resources);
+};
+
+} // namespace tessera::passes

@@ -1,0 +1,73 @@
+#include "passes/recipes/ChooseCulling.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "scenes/Error.h"
+
+namespace tessera::recipes {
+
+namespace {
+
+using culling::Method;
+
+std::string_view nameOf(Method method) {
+    return culling::methodTable()[std::size_t(method)].name;
+}
+
+const TechniqueInfo& infoOf(Technique technique) {
+    return techniqueTable()[std::size_t(technique)];
+}
+
+bool takes(const TechniqueInfo& info, Method method) {
+    return std::find(info.methods.begin(), info.methods.end(), method) != info.methods.end();
+}
+
+void requireMethod(const TechniqueInfo& info, Method method) {
+    if (takes(info, method)) return;
+    std::string techniques;
+    for (const TechniqueInfo& other : techniqueTable()) {
+        if (takes(other, method)) techniques += (techniques.empty() ? "" : ", ") + std::string(other.name);
+    }
+    throw InputError(
+        fmt::format("technique {} does not take --culling {}; {} do", info.name, nameOf(method), techniques));
+}
+
+/// Whether lists would leave anything out: some light must end somewhere, and some surface must be lit.
+bool canCull(const frame::FeatureSet& features, const frame::PackedLights& lights) {
+    return features.litModels() && lights.everywhere < lights.texels.size();
+}
+
+} // namespace
+
+culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& settings,
+                              const frame::FeatureSet& features, const frame::PackedLights& lights) {
+    const TechniqueInfo& info = infoOf(technique);
+    culling::Choice choice;
+    if (settings.culling.method) requireMethod(info, *settings.culling.method);
+    choice.method = settings.culling.method.value_or(info.methods.front());
+    if (settings.prune && !canCull(features, lights)) choice.method = Method::None;
+    choice.tilePixels = settings.culling.tilePixels.value_or(16);
+    choice.builder = settings.culling.builder.value_or(culling::Builder::Cpu);
+    return choice;
+}
+
+std::vector<graph::Plan::Choice> cullingChoices(Technique technique, const frame::FrameSettings& settings,
+                                                const culling::Choice& choice) {
+    if (infoOf(technique).methods.front() == Method::None) return {};
+    const auto why = [](bool asked, const char* otherwise) { return std::string(asked ? "asked for" : otherwise); };
+    const bool nothingToCull = choice.method == Method::None && settings.culling.method != Method::None;
+    std::vector<graph::Plan::Choice> choices{
+        {"culling", std::string(nameOf(choice.method)),
+         nothingToCull ? "no light ends inside the view, or nothing is lit"
+                       : why(settings.culling.method.has_value(), "the technique's tightest")}};
+    if (choice.method == Method::None) return choices;
+    choices.push_back({"tile", fmt::format("{} pixels", choice.tilePixels),
+                       why(settings.culling.tilePixels.has_value(), "measured fastest on this kind of backend")});
+    choices.push_back({"lists built by", std::string(culling::builderTable()[std::size_t(choice.builder)].name),
+                       why(settings.culling.builder.has_value(), "measured fastest on this kind of backend")});
+    return choices;
+}
+
+} // namespace tessera::recipes

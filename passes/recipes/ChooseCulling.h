@@ -1,0 +1,20 @@
+#pragma once
+#include <vector>
+
+#include "passes/recipes/Techniques.h"
+#include "renderer/frame/FrameSettings.h"
+#include "renderer/frame/PackedLights.h"
+#include "renderer/graph/Plan.h"
+
+namespace tessera::recipes {
+
+/// What a frame does to cull lights: what was asked for, else what is measured to be fastest on the backend, and
+/// nothing where nothing can be culled (settings.prune). Throws InputError when the technique cannot do what was asked.
+culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& settings,
+                              const frame::FeatureSet& features, const frame::PackedLights& lights);
+
+/// The same in words, for a plan; empty for techniques without lists.
+std::vector<graph::Plan::Choice> cullingChoices(Technique technique, const frame::FrameSettings& settings,
+                                                const culling::Choice& choice);
+
+} // namespace tessera::recipes

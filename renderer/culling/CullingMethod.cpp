@@ -1,0 +1,31 @@
+#include "renderer/culling/CullingMethod.h"
+
+namespace tessera::culling {
+
+namespace {
+
+constexpr MethodInfo kMethods[] = {
+    {Method::None, "none", "no lists: every pixel visits every light"},
+    {Method::TileMinmax, "tile_minmax", "one list a tile: its frustum between the nearest and farthest surface"},
+    {Method::Tile25d, "tile_2.5d", "one list a tile: only the slices of depth that hold a surface"},
+    {Method::Cluster, "cluster", "one list for each slice of a tile's depth that holds a surface"},
+    {Method::Zbin, "zbin", "a bitmask a tile and one a depth bin; a pixel visits what is in both"},
+};
+
+constexpr BuilderInfo kBuilders[] = {
+    {Builder::Cpu, "cpu", "all cores, from the depth buffer read back"},
+    {Builder::Compute, "compute", "compute shaders"},
+    {Builder::Fragment, "fragment", "fragment shaders, one fragment a tile"},
+};
+
+} // namespace
+
+std::span<const MethodInfo> methodTable() {
+    return kMethods;
+}
+
+std::span<const BuilderInfo> builderTable() {
+    return kBuilders;
+}
+
+} // namespace tessera::culling

@@ -1,0 +1,46 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+/// How the lights that a pixel visits are chosen. Names are those of the command line; the table is the only list.
+namespace tessera::culling {
+
+enum class Method : std::uint8_t { None, TileMinmax, Tile25d, Cluster, Zbin };
+struct MethodInfo {
+    Method method;
+    std::string_view name;
+    std::string_view summary;
+};
+std::span<const MethodInfo> methodTable();
+
+/// Who builds the lists.
+enum class Builder : std::uint8_t { Cpu, Compute, Fragment };
+struct BuilderInfo {
+    Builder builder;
+    std::string_view name;
+    std::string_view summary;
+};
+std::span<const BuilderInfo> builderTable();
+
+/// Tile sides, in pixels.
+inline constexpr int kTileSides[] = {8, 16, 32, 64};
+
+/// What was asked of light culling; what is left open is chosen by the technique and the backend (chooseCulling).
+struct Settings {
+    std::optional<Method> method;
+    std::optional<int> tilePixels; ///< one of kTileSides
+    std::optional<Builder> builder;
+    bool operator==(const Settings&) const = default;
+};
+
+/// What a frame does.
+struct Choice {
+    Method method = Method::None;
+    int tilePixels = 16;
+    Builder builder = Builder::Cpu;
+    bool operator==(const Choice&) const = default;
+};
+
+} // namespace tessera::culling

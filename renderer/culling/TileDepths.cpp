@@ -1,0 +1,108 @@
+#include "renderer/culling/TileDepths.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace tessera::culling {
+
+namespace {
+
+/// Nearest and farthest depth of pixel i; equal for one depth a pixel.
+struct PixelDepths {
+    float nearest, farthest;
+};
+template <bool kIsRange>
+PixelDepths pixelDepths(const float* depth, std::size_t i) {
+    if constexpr (kIsRange)
+        return {depth[2 * i], -depth[2 * i + 1]};
+    else
+        return {depth[i], depth[i]};
+}
+
+struct PixelRows {
+    int left, right, bottom, top; ///< right and top are one beyond
+};
+
+PixelRows pixelsOf(const shared::FrameConstants& frame, int widthPixels, int column, int row) {
+    const int side = 1 << frame.tileGrid.w;
+    const int height = int(frame.tileGrid.z);
+    return {column * side, std::min((column + 1) * side, widthPixels), std::max(0, height - (row + 1) * side),
+            height - row * side};
+}
+
+std::uint64_t bitsFromTo(std::uint32_t first, std::uint32_t last) {
+    return (~std::uint64_t(0) >> (63 - (last - first))) << first;
+}
+
+template <bool kIsRange>
+TileDepths tileDepthsOf(const float* depth, const shared::FrameConstants& frame, int widthPixels,
+                        const PixelRows& pixels) {
+    TileDepths tile;
+    tile.farthest = 2.0f;
+    for (int y = pixels.bottom; y < pixels.top; ++y) {
+        const std::size_t start = std::size_t(y) * std::size_t(widthPixels);
+        for (int x = pixels.left; x < pixels.right; ++x) {
+            const PixelDepths d = pixelDepths<kIsRange>(depth, start + std::size_t(x));
+            tile.nearest = std::max(tile.nearest, d.nearest);
+            if (d.nearest > 0.0f) tile.farthest = std::min(tile.farthest, d.farthest);
+        }
+    }
+    if (!(tile.nearest > 0.0f)) return {};
+
+    const float bias = frame.depthKey.x;
+    const std::uint32_t low = std::bit_cast<std::uint32_t>(bias + tile.farthest);
+    const std::uint32_t high = std::bit_cast<std::uint32_t>(bias + tile.nearest);
+    auto shift = std::uint32_t(frame.depthKey.y);
+    while ((high >> shift) - (low >> shift) >= LIGHT_TILE_SLICES) ++shift;
+    tile.slicing = shared::packSlices((low >> shift) << shift, shift);
+    if (low >> shift == high >> shift) {
+        tile.slices = 1;
+        return tile;
+    }
+    for (int y = pixels.bottom; y < pixels.top; ++y) {
+        const std::size_t start = std::size_t(y) * std::size_t(widthPixels);
+        for (int x = pixels.left; x < pixels.right; ++x) {
+            const PixelDepths d = pixelDepths<kIsRange>(depth, start + std::size_t(x));
+            if (!(d.nearest > 0.0f)) continue;
+            const std::uint32_t last = shared::sliceOfKey(std::bit_cast<std::uint32_t>(bias + d.nearest), tile.slicing);
+            if constexpr (kIsRange) {
+                const std::uint32_t first =
+                    shared::sliceOfKey(std::bit_cast<std::uint32_t>(bias + d.farthest), tile.slicing);
+                tile.slices |= bitsFromTo(first, last);
+            } else {
+                tile.slices |= std::uint64_t(1) << last;
+            }
+        }
+    }
+    return tile;
+}
+
+DepthRun runBetween(float nearest, float farthest, const shared::FrameConstants& frame) {
+    return {shared::viewDepthMetres(frame.depthToViewDepth, nearest),
+            shared::viewDepthMetres(frame.depthToViewDepth, farthest)};
+}
+
+} // namespace
+
+TileDepths tileDepths(const DepthPicture& picture, const shared::FrameConstants& frame, int widthPixels, int column,
+                      int row) {
+    const PixelRows pixels = pixelsOf(frame, widthPixels, column, row);
+    return picture.isRange ? tileDepthsOf<true>(picture.depth.data(), frame, widthPixels, pixels)
+                           : tileDepthsOf<false>(picture.depth.data(), frame, widthPixels, pixels);
+}
+
+DepthRun depthRun(const TileDepths& tile, const shared::FrameConstants& frame) {
+    return runBetween(tile.nearest, tile.farthest, frame);
+}
+
+DepthRun depthRun(const TileDepths& tile, int firstSlice, int lastSlice, const shared::FrameConstants& frame) {
+    const std::uint32_t shift = tile.slicing & 31u;
+    const std::uint32_t first = shared::firstKeyOfSlices(tile.slicing) + (std::uint32_t(firstSlice) << shift);
+    const std::uint32_t beyond = shared::firstKeyOfSlices(tile.slicing) + (std::uint32_t(lastSlice + 1) << shift);
+    const float bias = frame.depthKey.x;
+    const float farthest = std::max(tile.farthest, std::bit_cast<float>(first) - bias);
+    const float nearest = std::min(tile.nearest, std::bit_cast<float>(beyond) - bias);
+    return runBetween(nearest, farthest, frame);
+}
+
+} // namespace tessera::culling

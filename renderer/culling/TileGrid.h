@@ -1,0 +1,26 @@
+#pragma once
+#include <cstdint>
+
+#include "shaders/shared/culling.h"
+#include "shaders/shared/frame.h"
+
+namespace tessera::culling {
+
+/// The tiles of a picture; (0, 0) is its top left one.
+struct TileGrid {
+    std::uint32_t columns = 0, rows = 0;
+    std::uint32_t sidePixels = 0;
+    glm::uvec2 sizePixels{0u};
+    glm::vec4 lensVS{0.0f};
+    bool orthographic = false;
+
+    glm::vec4 rays(std::uint32_t column, std::uint32_t row) const {
+        return shared::tileRays(lensVS, column, row, sidePixels, sizePixels);
+    }
+};
+TileGrid tileGrid(const shared::FrameConstants& frame, glm::ivec2 sizePixels);
+
+/// Sets frame.tileGrid, and the finest slices of depth: about as deep as a tile is wide, so that cells are cubes.
+void setTileGrid(shared::FrameConstants& frame, glm::ivec2 sizePixels, int tilePixels);
+
+} // namespace tessera::culling

@@ -1,0 +1,60 @@
+#include "renderer/frame/CullLights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera::frame {
+
+namespace {
+
+struct Sphere {
+    glm::dvec3 center;
+    double radius;
+};
+
+/// The smallest sphere around a cone of `reach` metres with a spherical cap.
+Sphere sphereAroundCone(const glm::dvec3& apex, const glm::dvec3& axis, double cosOuter, double reach) {
+    if (cosOuter <= 0.0) return {apex, reach};
+    const double sinOuter = std::sqrt(1.0 - cosOuter * cosOuter);
+    // Narrow cones: through apex and rim. Wide ones: around the rim's circle.
+    if (cosOuter > sinOuter) return {apex + axis * (0.5 * reach / cosOuter), 0.5 * reach / cosOuter};
+    return {apex + axis * (reach * cosOuter), reach * sinOuter};
+}
+
+shared::CullLight cullLight(const shared::LightTexels& light, const glm::dmat3& cameraFromLS) {
+    shared::CullLight cull{};
+    cull.axis.w = -2.0f;
+    cull.sphere.w = -1.0f;
+    const int kind = int(light.color.w);
+    if (kind == LIGHT_DIRECTIONAL || light.position.w == 0.0f) return cull;
+
+    const glm::dvec3 position = cameraFromLS * glm::dvec3(light.position);
+    const double reach = 1.0 / std::sqrt(double(light.position.w));
+    // What rounding the packed position and the rebuilt surface positions to fp32 can move.
+    const double margin = 1e-5 * (reach + glm::length(position));
+    Sphere sphere{position, reach};
+    if ((kind & LIGHT_SPOT) != 0) {
+        // The shader's cosine is off by some 1e-7; a cone wider by 1e-6 in the cosine encloses whatever it lights.
+        const double cosOuter = std::clamp(double(-light.attenuation.w) / double(light.axis.w) - 1e-6, -1.0, 1.0);
+        const glm::dvec3 axis = glm::normalize(cameraFromLS * glm::dvec3(light.axis));
+        sphere = sphereAroundCone(position, axis, cosOuter, reach);
+        cull.apex = glm::vec4(glm::vec3(position), float(std::sqrt(1.0 - cosOuter * cosOuter)));
+        cull.axis = glm::vec4(glm::vec3(axis), float(cosOuter));
+    }
+    cull.sphere = glm::vec4(glm::vec3(sphere.center), float(sphere.radius + margin));
+    return cull;
+}
+
+} // namespace
+
+std::vector<shared::CullLight> cullLights(std::span<const shared::LightTexels> lights, const CameraView& view) {
+    // Right, up and ahead: view space looks along -z.
+    glm::dmat3 cameraFromLS = glm::transpose(view.lsFromView);
+    for (int column = 0; column < 3; ++column) cameraFromLS[column][2] = -cameraFromLS[column][2];
+    std::vector<shared::CullLight> culls(lights.size());
+    std::transform(lights.begin(), lights.end(), culls.begin(),
+                   [&](const shared::LightTexels& light) { return cullLight(light, cameraFromLS); });
+    return culls;
+}
+
+} // namespace tessera::frame

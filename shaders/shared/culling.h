@@ -1,0 +1,80 @@
+#pragma once
+// The test of light culling, for C++ and GLSL: may a light reach a cell, the part of the view that a tile sees between
+// two depths? It never says no where the light changes a pixel (sound); where it says yes too often is counted by the
+// oracle. View space (VS) here is metres to the right, up and ahead of the camera.
+#include "interop.h"
+
+SHARED_BEGIN
+
+// Where a light is not exactly 0. Every length is enlarged by what rounding of positions to fp32 can move.
+struct CullLight {
+    vec4 sphere; // xyz centre VS, w radius: encloses all of it; w < 0: reaches everywhere
+    vec4 apex;   // spot: xyz position VS, w sine of the outer angle
+    vec4 axis;   // spot: xyz unit direction of travel VS, w cosine of the outer angle; else w is -2
+};
+
+struct CellBox {
+    vec4 low;  // xyz VS
+    vec4 high; // xyz VS
+};
+
+// What the centres of tile (column, row)'s pixels see: x, y least and most to the right, z, w least and most up, in the
+// units of lensVS. Centres, since nothing else of a pixel is shaded. `size` is the picture's, in pixels.
+SHARED_FUNCTION vec4 tileRays(vec4 lensVS, uint column, uint row, uint side, uvec2 size) {
+    float left = float(column * side) + 0.5f;
+    float right = float(min((column + 1u) * side, size.x)) - 0.5f;
+    float top = float(size.y - row * side) - 0.5f;
+    float bottom = float(size.y - min((row + 1u) * side, size.y)) + 0.5f;
+    return vec4(lensVS.x + lensVS.y * left, lensVS.x + lensVS.y * right, lensVS.z + lensVS.w * bottom,
+                lensVS.z + lensVS.w * top);
+}
+
+// Whether a sphere reaches between the two planes through the camera (orthographic: parallel to its axis) that a row or
+// a column of tiles lies between; `across` is the centre's coordinate to the right or up.
+SHARED_FUNCTION bool sphereTouchesSlab(float across, float ahead, float radius, vec2 rays, bool orthographic) {
+    float low = orthographic ? rays.x : rays.x * ahead;
+    float high = orthographic ? rays.y : rays.y * ahead;
+    float lowLength = orthographic ? 1.0f : sqrt(1.0f + rays.x * rays.x);
+    float highLength = orthographic ? 1.0f : sqrt(1.0f + rays.y * rays.y);
+    return across - low >= -radius * lowLength && across - high <= radius * highLength;
+}
+
+// The box around what a tile sees between two view depths in metres, near < far.
+SHARED_FUNCTION CellBox cellBox(vec4 rays, float nearMetres, float farMetres, bool orthographic) {
+    float n = nearMetres * (1.0f - 1e-5f);
+    float f = farMetres * (1.0f + 1e-5f);
+    float n1 = orthographic ? 1.0f : n;
+    float f1 = orthographic ? 1.0f : f;
+    CellBox box;
+    box.low = vec4(min(rays.x * n1, rays.x * f1), min(rays.z * n1, rays.z * f1), n, 0.0f);
+    box.high = vec4(max(rays.y * n1, rays.y * f1), max(rays.w * n1, rays.w * f1), f, 0.0f);
+    return box;
+}
+
+// Whether any point of the box can lie in the cone, by the sphere around the box. Source: the distance of a point from
+// a cone's surface is |v| sin(angle - outer); beyond a right angle that underestimates, so it stays sound for every
+// cone.
+SHARED_FUNCTION bool coneTouchesBox(CullLight light, CellBox box) {
+    vec3 center = 0.5f * (vec3(box.low) + vec3(box.high));
+    vec3 halfSize = 0.5f * (vec3(box.high) - vec3(box.low));
+    vec3 v = center - vec3(light.apex);
+    float length2 = dot(v, v);
+    float radius = sqrt(dot(halfSize, halfSize)) * (1.0f + 1e-4f) + 1e-4f * sqrt(length2);
+    float along = dot(v, vec3(light.axis));
+    float across = sqrt(max(length2 - along * along, 0.0f));
+    return light.axis.w * across - light.apex.w * along <= radius;
+}
+
+SHARED_FUNCTION bool lightTouchesBox(CullLight light, CellBox box) {
+    vec3 center = vec3(light.sphere);
+    vec3 gap = max(max(vec3(box.low) - center, center - vec3(box.high)), vec3(0.0f));
+    if (dot(gap, gap) > light.sphere.w * light.sphere.w) return false;
+    return light.axis.w < -1.5f || coneTouchesBox(light, box);
+}
+
+// View depth in metres at a depth-buffer value, by FrameConstants::depthToViewDepth.
+SHARED_FUNCTION float viewDepthMetres(vec4 depthToViewDepth, float depth) {
+    return (depthToViewDepth.x + depthToViewDepth.y * depth) / (depthToViewDepth.z + depthToViewDepth.w * depth);
+}
+
+SHARED_END

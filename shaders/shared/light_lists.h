@@ -1,0 +1,47 @@
+#pragma once
+// Light lists: which lights a pixel visits. Every culling method builds this one structure, and the light cursor
+// (lib/light_cursor.glsl) reads it. The picture is divided into square tiles, tile (0, 0) at its top left; a tile's
+// depth range into at most 64 slices, of which those that hold a surface have a cell each; a cell names a run of
+// entries.
+//
+//   tiles    RGBA32UI, a LightTile each: first all tiles for opaque surfaces, then all tiles for transparent ones
+//   cells    RG32UI, x index of the first entry, y number of entries (zbin: x first word with a bit, y one past the
+//   last) entries  R32UI, indices of lights in ascending order; in front of all runs those of the lights that reach
+//   everywhere
+//
+// zbin keeps bitmasks over the lights instead of runs: a tile names its own mask among the entries, all tiles share one
+// division of depth into bins, cell b is bin b's, whose mask follows the one before it from entry 0 on, and a light is
+// visited where both masks have its bit.
+#include "interop.h"
+
+#define LIGHT_LAYER_OPAQUE 0
+#define LIGHT_LAYER_TRANSPARENT 1
+
+// Most depth slices of a tile: its bits fit a LightTile. Most depth bins of a frame.
+#define LIGHT_TILE_SLICES 64u
+#define ZBIN_COUNT 256u
+
+SHARED_BEGIN
+
+// A surface's depth key, floatBitsToUint(bias + depth), grows towards the viewer. Its high bits slice depth evenly in
+// the logarithm of the distance for a perspective camera, where bias + depth is proportional to 1/distance, and evenly
+// in the distance for an orthographic one, whose bias is 1. No logarithm is taken, so CPU and GPU agree on every bit.
+
+// A tile's slices: slice 0 begins at `first`, a multiple of 2^shift, and a slice is 2^shift keys deep. Packed in one
+// word, since shift needs 5 bits and is at least 5.
+SHARED_FUNCTION uint packSlices(uint first, uint shift) {
+    return first | shift;
+}
+SHARED_FUNCTION uint firstKeyOfSlices(uint slices) {
+    return slices & ~31u;
+}
+SHARED_FUNCTION uint sliceOfKey(uint key, uint slices) {
+    return (key - firstKeyOfSlices(slices)) >> (slices & 31u);
+}
+
+struct LightTile {
+    uvec4 words; // x first cell (zbin: first word of the mask); y packSlices(); z, w bits 0 to 31, 32 to 63: occupied
+                 // slices
+};
+
+SHARED_END
