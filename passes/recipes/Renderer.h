@@ -43,7 +43,6 @@ public:
 private:
     struct Drawn;
     void prepareScene(const frame::FrameSpec& spec);
-    void uploadLights(const frame::PackedLights& lights);
 
     gpu::Context& context_;
     const scenes::Scene& scene_;
@@ -51,9 +50,8 @@ private:
     gpu::GraphBackend backend_;
     gpu::Buffer frameConstants_;
     gpu::Buffer displayConstants_;
+    frame::LightBuffers lights_;
     frame::LightListBuffers lightLists_;
-    std::unique_ptr<gpu::Buffer> lightBuffer_;
-    std::unique_ptr<gpu::TexelBuffer> lightTexels_;
     std::unique_ptr<frame::SceneGpu> sceneGpu_;
     frame::FeatureSet sceneFeatures_; ///< what sceneGpu_ was made with
     std::unique_ptr<Drawn> drawn_;    ///< the latest frame

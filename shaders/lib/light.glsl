@@ -5,6 +5,9 @@
 #include "shared/light.h"
 
 layout(binding = TEXTURE_UNIT_LIGHTS) uniform samplerBuffer lightTexels;
+#if HAS_SPOT_LIGHTS || HAS_ATTENUATION_LIGHTS
+layout(binding = TEXTURE_UNIT_LIGHT_SHAPES) uniform samplerBuffer lightShapeTexels;
+#endif
 
 // Light as it arrives at a point.
 struct Incident {
@@ -32,7 +35,7 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
     precise float falloff = (window * window) / max(distance2, 1e-4);
 #if HAS_ATTENUATION_LIGHTS || HAS_SPOT_LIGHTS
     vec4 attenuation = vec4(0.0);
-    if (kind != LIGHT_POINT) attenuation = texelFetch(lightTexels, index * LIGHT_TEXELS + 3);
+    if (kind != LIGHT_POINT) attenuation = texelFetch(lightShapeTexels, index * LIGHT_SHAPE_TEXELS + 1);
 #endif
 #if HAS_ATTENUATION_LIGHTS
     if ((kind & LIGHT_ATTENUATION) != 0) {
@@ -45,7 +48,7 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
     precise vec3 direction = distance2 > 0.0 ? toLight / sqrt(distance2) : vec3(0.0);
 #if HAS_SPOT_LIGHTS
     if ((kind & LIGHT_SPOT) != 0) {
-        vec4 axis = texelFetch(lightTexels, index * LIGHT_TEXELS + 2);
+        vec4 axis = texelFetch(lightShapeTexels, index * LIGHT_SHAPE_TEXELS);
         precise float cone = clamp(-dot(direction, axis.xyz) * axis.w + attenuation.w, 0.0, 1.0);
         if (!(cone > 0.0)) return false;
         falloff *= cone * cone;
