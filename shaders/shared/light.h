@@ -12,6 +12,14 @@
 
 #define LIGHT_TEXELS 4
 
+// Where a shader reads lights from (lib/light_store.glsl).
+#define LIGHT_STORE_TEXEL 0 // what every pass of a frame uses
+#define LIGHT_STORE_UNIFORM 1
+#define LIGHT_STORE_STORAGE 2
+
+// Lights of a uniform block: 16 KiB, which OpenGL 4.5 guarantees.
+#define LIGHT_UNIFORM_LIGHTS 256
+
 SHARED_BEGIN
 
 struct LightTexels {

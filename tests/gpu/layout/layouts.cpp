@@ -111,9 +111,9 @@ TEST_F(LayoutTest, theShaderAlwaysReadsTheValuesThatCppWrote) {
     EXPECT_EQ(out.back(), frame.depthKey);
 }
 
-TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexel) {
+TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexelOfEveryStore) {
     static_assert(sizeof(shared::LightTexels) == LIGHT_TEXELS * sizeof(glm::vec4));
-    std::vector<shared::LightTexels> lights(100);
+    std::vector<shared::LightTexels> lights(LIGHT_UNIFORM_LIGHTS); // as many as fit a uniform block
     float next = 0.0f;
     for (shared::LightTexels& light : lights)
         for (glm::vec4* member : {&light.position, &light.color, &light.axis, &light.attenuation})
@@ -121,17 +121,23 @@ TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexel) {
     const gpu::Buffer buffer = gpu::Buffer::of("lights", lights);
     const gpu::TexelBuffer texels("lights", graph::Format::Rgba32Float, buffer);
     gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, texels);
-    const shader::Defines noLights{{"HAS_DIRECTIONAL_LIGHTS", "0"},
-                                   {"HAS_POINT_LIGHTS", "0"},
-                                   {"HAS_SPOT_LIGHTS", "0"},
-                                   {"HAS_ATTENUATION_LIGHTS", "0"}};
-    const std::vector<glm::vec4> out =
-        bench.run("light_texels.comp", noLights, {glm::vec4(0.0f)}, lights.size(), LIGHT_TEXELS);
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        EXPECT_EQ(out[4 * i], lights[i].position);
-        EXPECT_EQ(out[4 * i + 1], lights[i].color);
-        EXPECT_EQ(out[4 * i + 2], lights[i].axis);
-        EXPECT_EQ(out[4 * i + 3], lights[i].attenuation);
+    gpu::bindUniformBuffer(UNIFORM_LIGHTS, buffer);
+    gpu::bindStorageBuffer(STORAGE_LIGHTS, buffer);
+    for (const char* store : {"LIGHT_STORE_TEXEL", "LIGHT_STORE_UNIFORM", "LIGHT_STORE_STORAGE"}) {
+        SCOPED_TRACE(store);
+        const shader::Defines noLights{{"HAS_DIRECTIONAL_LIGHTS", "0"},
+                                       {"HAS_POINT_LIGHTS", "0"},
+                                       {"HAS_SPOT_LIGHTS", "0"},
+                                       {"HAS_ATTENUATION_LIGHTS", "0"},
+                                       {"LIGHT_STORE", store}};
+        const std::vector<glm::vec4> out =
+            bench.run("light_texels.comp", noLights, {glm::vec4(0.0f)}, lights.size(), LIGHT_TEXELS);
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            EXPECT_EQ(out[4 * i], lights[i].position);
+            EXPECT_EQ(out[4 * i + 1], lights[i].color);
+            EXPECT_EQ(out[4 * i + 2], lights[i].axis);
+            EXPECT_EQ(out[4 * i + 3], lights[i].attenuation);
+        }
     }
 }
 

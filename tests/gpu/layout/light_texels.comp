@@ -9,6 +9,6 @@ void main()
     int i = int(gl_GlobalInvocationID.x);
     if (i * 4 >= outputs.length()) return;
     for (int texel = 0; texel < 4; ++texel) {
-        outputs[i * 4 + texel] = texelFetch(lightTexels, i * LIGHT_TEXELS + texel);
+        outputs[i * 4 + texel] = lightTexel(i, texel);
     }
 }
