@@ -31,7 +31,7 @@ DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, con
             gpu::setState({});
             gpu::useProgram(resources->programs.get(program));
             gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
-            gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, resources->lights);
+            resources->lights.bind();
             if (out.read.lists) resources->lightLists.bind();
             for (std::size_t i = 0; i < out.read.channels.size(); ++i) {
                 gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), context.texture(out.read.channels[i]));

@@ -55,7 +55,7 @@ ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpe
             if (!prepassed) gpu::clearDepth(0.0f);
             gpu::useProgram(resources->programs.get(program));
             gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
-            gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, resources->lights);
+            resources->lights.bind();
             if (out.lists) resources->lightLists.bind();
             const frame::SceneGpu& scene = resources->scene;
             scene.draw(params.surfaces == Surfaces::Transparent ? scene.transparent() : scene.opaque(),

@@ -30,15 +30,15 @@ FloorBench::FloorBench(recipes::Renderer& renderer, const frame::FrameSettings& 
     const recipes::PreparedFrame frame = recipes::prepareFrame(renderer.scene(), recipes::Technique::Forward, lit);
     if (!frame.spec.features.litModels() || frame.lights.texels.empty()) return;
     lighting_.emplace(renderer.programs(), frame.spec);
-    few_ = floorLights(frame.lights.texels, kFewLights);
-    many_ = floorLights(frame.lights.texels, kManyLights);
+    few_ = floorLights(frame.lights, kFewLights);
+    many_ = floorLights(frame.lights, kManyLights);
 }
 
 std::vector<TimedFrame> FloorBench::frames() {
     std::vector<TimedFrame> frames{[this](const glm::dvec3& eyeOffsetWS) { geometry_.draw(eyeOffsetWS); }};
     if (!lighting_) return frames;
     for (const LightStoreInfo& store : lightStoreTable()) {
-        for (const std::vector<shared::LightTexels>* lights : {&few_, &many_}) {
+        for (const frame::PackedLights* lights : {&few_, &many_}) {
             frames.emplace_back([this, &store, lights](const glm::dvec3&) {
                 lighting_->setLights(*lights);
                 lighting_->draw(store);

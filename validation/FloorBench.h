@@ -53,7 +53,7 @@ private:
     glm::ivec2 sizePixels_;
     FloorGeometry geometry_;
     std::optional<FloorLighting> lighting_; ///< where anything is lit
-    std::vector<shared::LightTexels> few_, many_;
+    frame::PackedLights few_, many_;
 };
 
 } // namespace tessera::validation

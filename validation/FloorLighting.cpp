@@ -33,17 +33,36 @@ FloorLighting::FloorLighting(shader::ProgramLibrary& programs, const frame::Fram
                                                        .constants),
       frameConstants_("floor frame constants", sizeof(shared::FrameConstants), gpu::BufferUse::Dynamic),
       lights_("floor lights", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightTexels), gpu::BufferUse::Dynamic),
+      shapes_("floor light shapes", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightShapeTexels), gpu::BufferUse::Dynamic),
       lightTexels_("floor lights", graph::Format::Rgba32Float, lights_),
+      shapeTexels_("floor light shapes", graph::Format::Rgba32Float, shapes_),
       radiance_("floor radiance", spec.texture(graph::Format::Rgba32Float)), framebuffer_({{&radiance_}, nullptr}) {
     assert(spec.features.litModels());
     setLights({});
 }
 
-void FloorLighting::setLights(std::span<const shared::LightTexels> lights) {
-    assert(lights.size() <= LIGHT_UNIFORM_LIGHTS);
-    constants_.lights = glm::uvec4(unsigned(lights.size()), 0u, 0u, 0u);
+void FloorLighting::setLights(const frame::PackedLights& lights) {
+    assert(lights.texels.size() <= LIGHT_UNIFORM_LIGHTS && lights.shapes.size() == lights.texels.size());
+    constants_.lights = glm::uvec4(unsigned(lights.texels.size()), 0u, 0u, 0u);
     frameConstants_.uploadValue(constants_);
-    lights_.upload(lights);
+    lights_.upload(lights.texels);
+    shapes_.upload(lights.shapes);
+}
+
+void FloorLighting::bindLights(const LightStoreInfo& store) const {
+    switch (store.store) {
+    case LIGHT_STORE_UNIFORM:
+        gpu::bindUniformBuffer(UNIFORM_LIGHTS, lights_);
+        gpu::bindUniformBuffer(UNIFORM_LIGHT_SHAPES, shapes_);
+        break;
+    case LIGHT_STORE_STORAGE:
+        gpu::bindStorageBuffer(STORAGE_LIGHTS, lights_);
+        gpu::bindStorageBuffer(STORAGE_LIGHT_SHAPES, shapes_);
+        break;
+    default:
+        gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, lightTexels_);
+        gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHT_SHAPES, shapeTexels_);
+    }
 }
 
 void FloorLighting::draw(const LightStoreInfo& store) const {
@@ -51,16 +70,7 @@ void FloorLighting::draw(const LightStoreInfo& store) const {
     gpu::setState({});
     gpu::useProgram(programs_.get(program(spec_, store)));
     gpu::bindUniformBuffer(UNIFORM_FRAME, frameConstants_);
-    switch (store.store) {
-    case LIGHT_STORE_UNIFORM:
-        gpu::bindUniformBuffer(UNIFORM_LIGHTS, lights_);
-        break;
-    case LIGHT_STORE_STORAGE:
-        gpu::bindStorageBuffer(STORAGE_LIGHTS, lights_);
-        break;
-    default:
-        gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, lightTexels_);
-    }
+    bindLights(store);
     gpu::drawFullscreenTriangle();
 }
 

@@ -29,22 +29,22 @@ public:
     FloorLighting(shader::ProgramLibrary& programs, const frame::FrameSpec& spec);
 
     /// At most LIGHT_UNIFORM_LIGHTS lights, all of which every pixel evaluates, of kinds that the spec has.
-    void setLights(std::span<const shared::LightTexels> lights);
+    void setLights(const frame::PackedLights& lights);
     void draw(const LightStoreInfo& store) const;
     /// The latest picture: RGBA, rows from the bottom.
     std::vector<float> download() const { return radiance_.downloadAs<float>(); }
 
     static shader::ProgramDesc program(const frame::FrameSpec& spec, const LightStoreInfo& store);
     const gpu::Buffer& frameConstants() const { return frameConstants_; }
-    const gpu::TexelBuffer& lightTexels() const { return lightTexels_; }
+    void bindLights(const LightStoreInfo& store) const;
 
 private:
     shader::ProgramLibrary& programs_;
     frame::FrameSpec spec_;
     shared::FrameConstants constants_;
     gpu::Buffer frameConstants_;
-    gpu::Buffer lights_; ///< one buffer, bound in three ways
-    gpu::TexelBuffer lightTexels_;
+    gpu::Buffer lights_, shapes_; ///< the same buffers for every store
+    gpu::TexelBuffer lightTexels_, shapeTexels_;
     gpu::Texture radiance_;
     gpu::Framebuffer framebuffer_;
 };

@@ -1,5 +1,6 @@
 #include "validation/FloorLights.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tessera::validation {
@@ -23,22 +24,31 @@ shared::LightTexels floorLight(int kind, int index, int count) {
     if (kind == LIGHT_DIRECTIONAL)
         light.position = glm::vec4(glm::vec3(glm::normalize(position + glm::dvec3(0.0, 0.0, 5.0))), 0.0f);
     light.color = glm::vec4(1.0f, 0.8f, 0.6f, float(kind));
-    // A cone of full intensity everywhere ahead: cos inner 0, cos outer -1.
-    light.axis = glm::vec4(0.0f, 0.0f, -1.0f, 1.0f);
-    light.attenuation = glm::vec4(1.0f, 0.1f, 0.01f, 1.0f);
     return light;
+}
+
+/// A cone of full intensity everywhere ahead (cos inner 0, cos outer -1), and a mild falloff.
+shared::LightShapeTexels floorLightShape() {
+    shared::LightShapeTexels shape{};
+    shape.axis = glm::vec4(0.0f, 0.0f, -1.0f, 1.0f);
+    shape.attenuation = glm::vec4(1.0f, 0.1f, 0.01f, 1.0f);
+    return shape;
 }
 
 } // namespace
 
-std::vector<shared::LightTexels> floorLights(std::span<const shared::LightTexels> like, int count) {
-    std::vector<shared::LightTexels> lights;
+frame::PackedLights floorLights(const frame::PackedLights& like, int count) {
+    frame::PackedLights lights;
+    lights.features = like.features;
+    const std::size_t known = like.texels.size();
+    if (known == 0) lights.features.add(frame::Feature::PointLights);
     for (int i = 0; i < count; ++i) {
-        const std::size_t model = std::size_t(i) * like.size() / std::size_t(count);
         // When there are fewer than `count`, the same ones in turn; else evenly spaced ones.
-        const std::size_t chosen =
-            like.size() < std::size_t(count) ? std::size_t(i) % std::max<std::size_t>(like.size(), 1) : model;
-        lights.push_back(floorLight(like.empty() ? LIGHT_POINT : int(like[chosen].color.w), i, count));
+        const std::size_t chosen = known < std::size_t(count) ? std::size_t(i) % std::max<std::size_t>(known, 1)
+                                                              : std::size_t(i) * known / std::size_t(count);
+        const int kind = known == 0 ? LIGHT_POINT : int(like.texels[chosen].color.w);
+        lights.texels.push_back(floorLight(kind, i, count));
+        lights.shapes.push_back(floorLightShape());
     }
     return lights;
 }

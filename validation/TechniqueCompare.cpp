@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "passes/recipes/ChooseCulling.h"
 #include "validation/PictureFile.h"
 #include "validation/Rendering.h"
 
@@ -15,8 +16,15 @@ std::string nameOf(Technique technique) {
     return std::string(recipes::techniqueTable()[std::size_t(technique)].name);
 }
 
+/// A culling method that was asked for goes to the techniques that take it; the others keep their own.
+frame::FrameSettings settingsFor(Technique technique, frame::FrameSettings settings) {
+    if (settings.culling.method && !recipes::takesMethod(technique, *settings.culling.method))
+        settings.culling.method.reset();
+    return settings;
+}
+
 NamedPicture rendered(recipes::Renderer& renderer, Technique technique, const frame::FrameSettings& settings) {
-    const recipes::RenderedFrame frame = renderer.render(technique, settings);
+    const recipes::RenderedFrame frame = renderer.render(technique, settingsFor(technique, settings));
     return {nameOf(technique), toPicture(frame), toDisplayImage(frame)};
 }
 
@@ -45,7 +53,7 @@ std::vector<ChannelShare> channelShares(recipes::Renderer& renderer, const Compa
     for (const frame::Channel channel : frame::neededChannels(features, false)) {
         frame::FrameSettings settings = request.settings;
         settings.layout.encoding[std::size_t(channel)] = frame::Encoding::Exact;
-        const Picture picture = toPicture(renderer.render(technique, settings));
+        const Picture picture = toPicture(renderer.render(technique, settingsFor(technique, settings)));
         const double without = errorFigures(picture, truth).relMse;
         shares.push_back({std::string(frame::channelTable()[std::size_t(channel)].name), without, relMse - without});
     }
@@ -58,7 +66,7 @@ void checkWithoutPacking(recipes::Renderer& renderer, const CompareRequest& requ
                          const Picture& truth, bool isSoftware, Verdict& verdict) {
     frame::FrameSettings settings = request.settings;
     settings.layout = frame::layoutTable()[0].layout;
-    const Picture picture = toPicture(renderer.render(technique, settings));
+    const Picture picture = toPicture(renderer.render(technique, settingsFor(technique, settings)));
     const Tolerance tolerance = pairTolerance(technique, settings.layout, isSoftware);
     for (const std::string& missed : checkTolerance(errorFigures(picture, truth), tolerance).missed)
         verdict.missed.push_back("with every channel in fp32: " + missed);

@@ -20,15 +20,12 @@ const TechniqueInfo& infoOf(Technique technique) {
     return techniqueTable()[std::size_t(technique)];
 }
 
-bool takes(const TechniqueInfo& info, Method method) {
-    return std::find(info.methods.begin(), info.methods.end(), method) != info.methods.end();
-}
-
 void requireMethod(const TechniqueInfo& info, Method method) {
-    if (takes(info, method)) return;
+    if (takesMethod(info.technique, method)) return;
     std::string techniques;
     for (const TechniqueInfo& other : techniqueTable()) {
-        if (takes(other, method)) techniques += (techniques.empty() ? "" : ", ") + std::string(other.name);
+        if (takesMethod(other.technique, method))
+            techniques += (techniques.empty() ? "" : ", ") + std::string(other.name);
     }
     throw InputError(
         fmt::format("technique {} does not take --culling {}; {} do", info.name, nameOf(method), techniques));
@@ -40,6 +37,11 @@ bool canCull(const frame::FeatureSet& features, const frame::PackedLights& light
 }
 
 } // namespace
+
+bool takesMethod(Technique technique, Method method) {
+    const std::span<const Method> methods = infoOf(technique).methods;
+    return std::find(methods.begin(), methods.end(), method) != methods.end();
+}
 
 culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& settings,
                               const frame::FeatureSet& features, const frame::PackedLights& lights) {

@@ -8,6 +8,8 @@
 
 namespace tessera::recipes {
 
+bool takesMethod(Technique technique, culling::Method method);
+
 /// What a frame does to cull lights: what was asked for, else what is measured to be fastest on the backend, and
 /// nothing where nothing can be culled (settings.prune). Throws InputError when the technique cannot do what was asked.
 culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& settings,

@@ -32,7 +32,7 @@ void addCounters(graph::Plan& plan, const scenes::Scene& scene, const PreparedFr
                      {"draws", draws},
                      {"lights", scene.lights.size()},
                      {"lightsEvaluated", prepared.lights.texels.size()},
-                     {"lightListBytes", prepared.lights.texels.size() * sizeof(shared::LightTexels)},
+                     {"lightBytes", frame::lightBytes(prepared.lights.features, prepared.lights.texels.size())},
                      {"gbufferBytesPerPixel", gbufferBytes},
                      {"pixels", std::uint64_t(prepared.spec.settings.sizePixels.x) *
                                     std::uint64_t(prepared.spec.settings.sizePixels.y)}};

@@ -42,7 +42,7 @@ PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, cons
     if (spec.culling.method == culling::Method::None) return prepared;
     spec.lightsEverywhere = !settings.prune || prepared.lights.everywhere > 0;
     culling::setTileGrid(prepared.view.constants, settings.sizePixels, spec.culling.tilePixels);
-    prepared.cullLights = frame::cullLights(prepared.lights.texels, prepared.view);
+    prepared.cullLights = frame::cullLights(prepared.lights, prepared.view);
     return prepared;
 }
 

@@ -62,22 +62,6 @@ frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     return *sceneGpu_;
 }
 
-void Renderer::uploadLights(const frame::PackedLights& lights) {
-    const std::size_t bytes = std::max<std::size_t>(lights.texels.size(), 1) * sizeof(shared::LightTexels);
-    if (!lightBuffer_ || lightBuffer_->bytes() != bytes) {
-        const std::size_t most = context_.capabilities().maxTextureBufferTexels / LIGHT_TEXELS;
-        if (lights.texels.size() > most) {
-            throw InputError(fmt::format(
-                "{} lights are in view, and this driver's buffer textures hold {}: ask for fewer (--lights N)",
-                lights.texels.size(), most));
-        }
-        lightTexels_.reset();
-        lightBuffer_ = std::make_unique<gpu::Buffer>("lights", bytes, gpu::BufferUse::Dynamic);
-        lightTexels_ = std::make_unique<gpu::TexelBuffer>("lights", graph::Format::Rgba32Float, *lightBuffer_);
-    }
-    lightBuffer_->upload(lights.texels);
-}
-
 void Renderer::draw(Technique technique, const frame::FrameSettings& asked) {
     frame::FrameSettings settings = asked;
     settings.softwareBackend = context_.capabilities().isSoftware;
@@ -85,14 +69,14 @@ void Renderer::draw(Technique technique, const frame::FrameSettings& asked) {
     drawn->prepared = prepareFrame(scene_, technique, settings);
     const PreparedFrame& prepared = drawn->prepared;
     sceneGpu(prepared.spec).setView(prepared.view);
-    uploadLights(prepared.lights);
+    lights_.upload(prepared.lights);
     frameConstants_.uploadValue(prepared.view.constants);
     displayConstants_.uploadValue(displayConstants(settings));
 
     drawn_ = std::move(drawn);
     drawn_->settings = settings;
     drawn_->resources = std::make_unique<frame::FrameResources>(frame::FrameResources{
-        *sceneGpu_, frameConstants_, displayConstants_, *lightTexels_, lightLists_, prepared.view.constants,
+        *sceneGpu_, frameConstants_, displayConstants_, lights_, lightLists_, prepared.view.constants,
         prepared.cullLights, prepared.view.constants.background, programs_, backend_.framebuffers()});
     drawn_->frame = declareFrame(technique, prepared.spec, drawn_->resources.get());
     drawn_->compiled = graph::compile(drawn_->frame.graph, {.cull = settings.prune, .alias = settings.prune});

@@ -45,7 +45,6 @@ public:
 
 private:
     struct Drawn;
-    void uploadLights(const frame::PackedLights& lights);
 
     gpu::Context& context_;
     const scenes::Scene& scene_;
@@ -53,9 +52,8 @@ private:
     gpu::GraphBackend backend_;
     gpu::Buffer frameConstants_;
     gpu::Buffer displayConstants_;
+    frame::LightBuffers lights_;
     frame::LightListBuffers lightLists_;
-    std::unique_ptr<gpu::Buffer> lightBuffer_;
-    std::unique_ptr<gpu::TexelBuffer> lightTexels_;
     std::unique_ptr<frame::SceneGpu> sceneGpu_;
     frame::FeatureSet sceneFeatures_; ///< what sceneGpu_ was made with
     std::unique_ptr<Drawn> drawn_;    ///< the latest frame

@@ -6,6 +6,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/culling/Candidates.h"
 #include "renderer/culling/LightReach.h"
 #include "renderer/culling/TileDepths.h"
 #include "renderer/culling/ZBins.h"
@@ -21,7 +22,8 @@ constexpr std::uint32_t kOneSlice = 31;
 
 /// What one row of tiles contributes; cells and entries count from the row's first until rows are joined.
 struct RowLists {
-    std::vector<std::uint32_t> rowLights, blockLights, tileLights;
+    std::vector<std::uint32_t> rowLights, blockLights;
+    Candidates block, tile;
     std::vector<glm::uvec2> cells;
     std::vector<std::uint32_t> entries;
 };
@@ -37,63 +39,54 @@ struct LightListBuilder::Scratch {
 
 namespace {
 
+using Boxes = std::array<shared::CellBox, LIGHT_TILE_SLICES>;
+
 struct Build {
     const BuildInput& input;
     TileGrid grid;
 
-    /// Appends the lights of `from` that touch any of `runs` of the tile as one cell.
-    void appendCell(const glm::vec4& rays, const std::vector<std::uint32_t>& from, std::span<const DepthRun> runs,
-                    RowLists& row) const {
-        std::array<shared::CellBox, LIGHT_TILE_SLICES> boxes;
-        for (std::size_t i = 0; i < runs.size(); ++i) {
-            boxes[i] = shared::cellBox(rays, runs[i].nearMetres, runs[i].farMetres, grid.orthographic);
-        }
-        const auto first = std::uint32_t(row.entries.size());
-        const std::span<const shared::CellBox> used(boxes.data(), runs.size());
-        for (const std::uint32_t light : from) {
-            const shared::CullLight& cull = input.lights[light];
-            const bool touches = std::any_of(used.begin(), used.end(), [&](const shared::CellBox& box) {
-                return shared::lightTouchesBox(cull, box);
-            });
-            if (touches) row.entries.push_back(light);
-        }
-        row.cells.emplace_back(first, std::uint32_t(row.entries.size()) - first);
+    shared::CellBox box(const glm::vec4& rays, const DepthRun& run) const {
+        return shared::cellBox(rays, run.nearMetres, run.farMetres, grid.orthographic);
     }
 
-    /// The runs of slices that get a test of their own: single slices for clusters, else as long as they are occupied.
-    std::size_t occupiedRuns(const TileDepths& depths, std::array<DepthRun, LIGHT_TILE_SLICES>& runs) const {
+    /// Boxes around a tile's occupied slices: one a slice for clusters, else one a run of neighbours.
+    std::size_t occupiedBoxes(const glm::vec4& rays, const TileDepths& depths, Boxes& boxes) const {
         std::size_t count = 0;
         for (std::uint64_t rest = depths.slices; rest != 0;) {
             const int first = std::countr_zero(rest);
             const int length = input.method == Method::Cluster ? 1 : std::countr_one(rest >> first);
-            runs[count++] = depthRun(depths, first, first + length - 1, input.frame);
+            boxes[count++] = box(rays, depthRun(depths, first, first + length - 1, input.frame));
             rest &= length == 64 ? 0 : ~(((std::uint64_t(1) << length) - 1) << first);
         }
         return count;
     }
 
-    shared::LightTile tile(const TileDepths& depths, std::uint32_t column, std::uint32_t tileRow, RowLists& row) const {
-        const glm::vec4 rays = grid.rays(column, tileRow);
-        const DepthRun whole = depthRun(depths, input.frame);
+    static void appendCell(Candidates& candidates, std::span<const shared::CellBox> boxes, RowLists& row) {
+        const auto first = std::uint32_t(row.entries.size());
+        candidates.mark(boxes);
+        candidates.appendMarked(row.entries);
+        row.cells.emplace_back(first, std::uint32_t(row.entries.size()) - first);
+    }
+
+    /// Appends the tile's cells; row.block holds the lights to choose from.
+    shared::LightTile tile(const TileDepths& depths, const glm::vec4& rays, RowLists& row) const {
         const auto cell = std::uint32_t(row.cells.size());
-        const bool oneCell = input.method != Method::Cluster || std::has_single_bit(depths.slices);
+        const shared::LightTile oneCell{{cell, kOneSlice, 1u, 0u}};
+        const shared::CellBox whole = box(rays, depthRun(depths, input.frame));
         if (input.method == Method::TileMinmax || std::has_single_bit(depths.slices)) {
-            appendCell(rays, row.blockLights, {&whole, 1}, row);
-        } else {
-            std::array<DepthRun, LIGHT_TILE_SLICES> runs;
-            const std::size_t count = occupiedRuns(depths, runs);
-            if (oneCell) {
-                appendCell(rays, row.blockLights, {runs.data(), count}, row);
-            } else {
-                // What misses the tile as a whole misses each of its slices.
-                const shared::CellBox box = shared::cellBox(rays, whole.nearMetres, whole.farMetres, grid.orthographic);
-                row.tileLights.clear();
-                std::copy_if(row.blockLights.begin(), row.blockLights.end(), std::back_inserter(row.tileLights),
-                             [&](std::uint32_t light) { return shared::lightTouchesBox(input.lights[light], box); });
-                for (std::size_t i = 0; i < count; ++i) appendCell(rays, row.tileLights, {&runs[i], 1}, row);
-            }
+            appendCell(row.block, {&whole, 1}, row);
+            return oneCell;
         }
-        if (oneCell) return {{cell, kOneSlice, 1u, 0u}};
+        Boxes boxes;
+        const std::size_t count = occupiedBoxes(rays, depths, boxes);
+        if (input.method == Method::Tile25d) {
+            appendCell(row.block, {boxes.data(), count}, row);
+            return oneCell;
+        }
+        // What misses the tile as a whole misses each of its slices.
+        row.block.mark({&whole, 1});
+        row.block.copyMarkedTo(row.tile);
+        for (std::size_t i = 0; i < count; ++i) appendCell(row.tile, {&boxes[i], 1}, row);
         return {{cell, depths.slicing, std::uint32_t(depths.slices), std::uint32_t(depths.slices >> 32)}};
     }
 
@@ -103,11 +96,12 @@ struct Build {
         row.entries.clear();
         reach.ofRow(tileRow, row.rowLights);
         for (std::uint32_t column = 0; column < grid.columns; ++column) {
-            if (column % kBlockColumns == 0)
-                reach.ofColumns(row.rowLights, column, std::min(column + kBlockColumns, grid.columns) - 1,
-                                row.blockLights);
-            if (depths[column].isEmpty()) continue;
-            tiles[column] = tile(depths[column], column, tileRow, row);
+            if (column % kBlockColumns == 0) {
+                const std::uint32_t last = std::min(column + kBlockColumns, grid.columns) - 1;
+                reach.ofColumns(row.rowLights, column, last, row.blockLights);
+                row.block.assign(row.blockLights, input.lights);
+            }
+            if (!depths[column].isEmpty()) tiles[column] = tile(depths[column], grid.rays(column, tileRow), row);
         }
     }
 };

@@ -48,9 +48,14 @@ void LightReach::ofRow(std::uint32_t row, std::vector<std::uint32_t>& lights) co
 
 void LightReach::ofColumns(const std::vector<std::uint32_t>& from, std::uint32_t first, std::uint32_t last,
                            std::vector<std::uint32_t>& lights) const {
-    lights.clear();
-    std::copy_if(from.begin(), from.end(), std::back_inserter(lights),
-                 [&](std::uint32_t light) { return columns_[light].overlaps(first, last); });
+    // Every light is written, and kept by moving on: which ones stay is too irregular for branches.
+    lights.resize(from.size());
+    std::uint32_t* to = lights.data();
+    for (const std::uint32_t light : from) {
+        *to = light;
+        to += columns_[light].overlaps(first, last) ? 1 : 0;
+    }
+    lights.resize(std::size_t(to - lights.data()));
 }
 
 } // namespace tessera::culling

@@ -25,7 +25,7 @@ public:
 private:
     struct Range {
         std::uint16_t first = 1, last = 0; ///< first > last: none
-        bool overlaps(std::uint32_t from, std::uint32_t to) const { return first <= to && last >= from; }
+        bool overlaps(std::uint32_t from, std::uint32_t to) const { return (first <= to) & (last >= from); }
     };
     static Range rangeOf(float across, const shared::CullLight& light, std::span<const glm::vec2> slabs,
                          bool orthographic);

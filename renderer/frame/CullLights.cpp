@@ -21,7 +21,8 @@ Sphere sphereAroundCone(const glm::dvec3& apex, const glm::dvec3& axis, double c
     return {apex + axis * (reach * cosOuter), reach * sinOuter};
 }
 
-shared::CullLight cullLight(const shared::LightTexels& light, const glm::dmat3& cameraFromLS) {
+shared::CullLight cullLight(const shared::LightTexels& light, const shared::LightShapeTexels& shape,
+                            const glm::dmat3& cameraFromLS) {
     shared::CullLight cull{};
     cull.axis.w = -2.0f;
     cull.sphere.w = -1.0f;
@@ -35,8 +36,8 @@ shared::CullLight cullLight(const shared::LightTexels& light, const glm::dmat3& 
     Sphere sphere{position, reach};
     if ((kind & LIGHT_SPOT) != 0) {
         // The shader's cosine is off by some 1e-7; a cone wider by 1e-6 in the cosine encloses whatever it lights.
-        const double cosOuter = std::clamp(double(-light.attenuation.w) / double(light.axis.w) - 1e-6, -1.0, 1.0);
-        const glm::dvec3 axis = glm::normalize(cameraFromLS * glm::dvec3(light.axis));
+        const double cosOuter = std::clamp(double(-shape.attenuation.w) / double(shape.axis.w) - 1e-6, -1.0, 1.0);
+        const glm::dvec3 axis = glm::normalize(cameraFromLS * glm::dvec3(shape.axis));
         sphere = sphereAroundCone(position, axis, cosOuter, reach);
         cull.apex = glm::vec4(glm::vec3(position), float(std::sqrt(1.0 - cosOuter * cosOuter)));
         cull.axis = glm::vec4(glm::vec3(axis), float(cosOuter));
@@ -47,13 +48,13 @@ shared::CullLight cullLight(const shared::LightTexels& light, const glm::dmat3& 
 
 } // namespace
 
-std::vector<shared::CullLight> cullLights(std::span<const shared::LightTexels> lights, const CameraView& view) {
+std::vector<shared::CullLight> cullLights(const PackedLights& lights, const CameraView& view) {
     // Right, up and ahead: view space looks along -z.
     glm::dmat3 cameraFromLS = glm::transpose(view.lsFromView);
     for (int column = 0; column < 3; ++column) cameraFromLS[column][2] = -cameraFromLS[column][2];
-    std::vector<shared::CullLight> culls(lights.size());
-    std::transform(lights.begin(), lights.end(), culls.begin(),
-                   [&](const shared::LightTexels& light) { return cullLight(light, cameraFromLS); });
+    std::vector<shared::CullLight> culls;
+    for (std::size_t i = 0; i < lights.texels.size(); ++i)
+        culls.push_back(cullLight(lights.texels[i], lights.shapes[i], cameraFromLS));
     return culls;
 }
 

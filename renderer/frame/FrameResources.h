@@ -1,11 +1,11 @@
 #pragma once
 #include <span>
 
+#include "renderer/frame/LightBuffers.h"
 #include "renderer/frame/LightListBuffers.h"
 #include "renderer/frame/SceneGpu.h"
 #include "renderer/gpu/Buffer.h"
 #include "renderer/gpu/Framebuffer.h"
-#include "renderer/gpu/TexelBuffer.h"
 #include "renderer/shader/ProgramLibrary.h"
 
 namespace tessera::frame {
@@ -16,7 +16,7 @@ struct FrameResources {
     const SceneGpu& scene;
     const gpu::Buffer& frameConstants;
     const gpu::Buffer& displayConstants;
-    const gpu::TexelBuffer& lights;
+    const LightBuffers& lights;
     LightListBuffers& lightLists;
     const shared::FrameConstants& constants;       ///< what frameConstants holds
     std::span<const shared::CullLight> cullLights; ///< parallel to `lights`

@@ -30,8 +30,10 @@ std::size_t streamBytes(Feature feature) {
 
 void addLights(std::vector<graph::Plan::LeftOut>& out, std::size_t count, const char* why) {
     if (count == 0) return;
-    out.push_back(
-        {fmt::format("{} light{}", count, count == 1 ? "" : "s"), why, count * sizeof(shared::LightTexels), {}});
+    out.push_back({fmt::format("{} light{}", count, count == 1 ? "" : "s"),
+                   why,
+                   count * (sizeof(shared::LightTexels) + sizeof(shared::LightShapeTexels)),
+                   {}});
 }
 
 } // namespace

@@ -1,10 +1,8 @@
 #pragma once
-#include <memory>
-#include <string>
+#include <vector>
 
 #include "renderer/culling/LightLists.h"
-#include "renderer/gpu/Buffer.h"
-#include "renderer/gpu/TexelBuffer.h"
+#include "renderer/frame/GrowingTexelBuffer.h"
 #include "renderer/graph/Graph.h"
 
 namespace tessera::frame {
@@ -18,23 +16,6 @@ struct LightListHandles {
 
 /// Declares that a pass's light cursor reads the lists.
 LightListHandles readLightLists(graph::PassBuilder& pass, const LightListHandles& lists);
-
-/// A buffer of whole texels that grows to what a frame needs, by a quarter more so that it seldom grows, and never
-/// shrinks; its contents do not outlive growing.
-class GrowingTexelBuffer {
-public:
-    GrowingTexelBuffer(std::string label, graph::Format format);
-    /// Throws InputError with the remedy when `texels` are more than the driver can read or hold.
-    void require(std::size_t texels);
-    const gpu::Buffer& buffer() const { return buffer_; }
-    const gpu::TexelBuffer& texels() const { return *texels_; }
-
-private:
-    std::string label_;
-    graph::Format format_;
-    gpu::Buffer buffer_;
-    std::unique_ptr<gpu::TexelBuffer> texels_;
-};
 
 /// Light lists on the GPU (shaders/shared/light_lists.h). Only memory is kept from frame to frame.
 struct LightListBuffers {

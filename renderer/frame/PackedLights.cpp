@@ -45,8 +45,15 @@ float inverseSquaredRange(double rangeMetres) {
     return float((1.0 + 0x1p-20) / (rangeMetres * rangeMetres));
 }
 
-shared::LightTexels packLight(const scenes::Light& light, const CameraView& view) {
-    shared::LightTexels packed{};
+/// A light in the form of both buffers.
+struct PackedLight {
+    shared::LightTexels texels{};
+    shared::LightShapeTexels shape{};
+};
+
+PackedLight packLight(const scenes::Light& light, const CameraView& view) {
+    PackedLight result;
+    shared::LightTexels& packed = result.texels;
     const glm::dvec3 travelLS = view.lsFromWorld * light.directionWS;
     int kind = LIGHT_DIRECTIONAL;
     if (light.type == scenes::LightType::Directional) {
@@ -57,18 +64,18 @@ shared::LightTexels packLight(const scenes::Light& light, const CameraView& view
         kind = light.type == scenes::LightType::Spot ? LIGHT_SPOT : LIGHT_POINT;
         if (light.falloff == scenes::Falloff::Attenuation) {
             kind |= LIGHT_ATTENUATION;
-            packed.attenuation = glm::vec4(light.attenuation, 0.0f);
+            result.shape.attenuation = glm::vec4(light.attenuation, 0.0f);
         }
     }
     if (light.type == scenes::LightType::Spot) {
         // KHR_lights_punctual's cone: clamp((cos angle - cos outer) / max(0.001, cos inner - cos outer), 0, 1) squared.
         const double cosOuter = std::cos(double(light.outerConeRadians));
         const double scale = 1.0 / std::max(0.001, std::cos(double(light.innerConeRadians)) - cosOuter);
-        packed.axis = glm::vec4(glm::vec3(travelLS), float(scale));
-        packed.attenuation.w = float(-cosOuter * scale);
+        result.shape.axis = glm::vec4(glm::vec3(travelLS), float(scale));
+        result.shape.attenuation.w = float(-cosOuter * scale);
     }
     packed.color = glm::vec4(isDark(light) ? glm::vec3(0.0f) : lightColor(light), float(kind));
-    return packed;
+    return result;
 }
 
 void addFeatures(FeatureSet& features, const scenes::Light& light) {
@@ -97,9 +104,11 @@ PackedLights packLights(const scenes::Scene& scene, const CameraView& view, cons
         } else if (settings.prune && isUnseen(light, view)) {
             ++lights.unseen;
         } else {
-            lights.texels.push_back(packLight(light, view));
+            const PackedLight packed = packLight(light, view);
+            lights.texels.push_back(packed.texels);
+            lights.shapes.push_back(packed.shape);
             // Directional lights and infinite ranges.
-            if (lights.texels.back().position.w == 0.0f) ++lights.everywhere;
+            if (packed.texels.position.w == 0.0f) ++lights.everywhere;
             lights.sceneIndex.push_back(int(i));
             addFeatures(lights.features, light);
         }

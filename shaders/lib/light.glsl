@@ -29,7 +29,7 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
     precise float falloff = (window * window) / max(distance2, 1e-4);
 #if HAS_ATTENUATION_LIGHTS || HAS_SPOT_LIGHTS
     vec4 attenuation = vec4(0.0);
-    if (kind != LIGHT_POINT) attenuation = lightTexel(index, 3);
+    if (kind != LIGHT_POINT) attenuation = lightShapeTexel(index, 1);
 #endif
 #if HAS_ATTENUATION_LIGHTS
     if ((kind & LIGHT_ATTENUATION) != 0) {
@@ -42,7 +42,7 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
     precise vec3 direction = distance2 > 0.0 ? toLight / sqrt(distance2) : vec3(0.0);
 #if HAS_SPOT_LIGHTS
     if ((kind & LIGHT_SPOT) != 0) {
-        vec4 axis = lightTexel(index, 2);
+        vec4 axis = lightShapeTexel(index, 0);
         precise float cone = clamp(-dot(direction, axis.xyz) * axis.w + attenuation.w, 0.0, 1.0);
         if (!(cone > 0.0)) return false;
         falloff *= cone * cone;

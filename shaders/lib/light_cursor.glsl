@@ -69,6 +69,7 @@ const int kNoLight = 0x7fffffff;
 struct LightCursor {
     int next;
     int end;
+    int head;
 };
 #endif
 
@@ -86,7 +87,7 @@ LightCursor lightCursor(vec2 pixel, float depth)
     if (frame.lights.z > 0u) cursor.headEverywhere = int(texelFetch(lightEntries, 0).x);
     return cursor;
 #else
-    return LightCursor(int(cell.x), int(cell.x + cell.y));
+    return LightCursor(int(cell.x), int(cell.x + cell.y), int(texelFetch(lightEntries, int(cell.x)).x));
 #endif
 }
 
@@ -111,8 +112,9 @@ bool nextLight(inout LightCursor cursor, out int light)
     return light != kNoLight;
 #else
     if (cursor.next >= cursor.end) return false;
-    light = int(texelFetch(lightEntries, cursor.next).x);
+    light = cursor.head;
     cursor.next += 1;
+    cursor.head = int(texelFetch(lightEntries, cursor.next).x);
     return true;
 #endif
 }

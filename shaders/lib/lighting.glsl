@@ -80,13 +80,15 @@ vec3 shadeSurface(Surface surface, Viewpoint viewpoint, vec2 pixel)
 #endif
     LightCursor cursor = lightCursor(pixel, viewpoint.depth);
     int light;
-    while (nextLight(cursor, light)) {
+    if (!nextLight(cursor, light)) return radiance;
+    // Tested at the end: rasterisers that mask lanes instead of branching would run a loop's body once more than its lights.
+    do {
         Incident incident;
         if (incidentLight(light, viewpoint.positionLS, incident)) {
             precise vec3 reflected = reflectedShare(surface, incident.toLightLS, viewpoint.toViewerLS);
             radiance += reflected * incident.intensity;
         }
-    }
+    } while (nextLight(cursor, light));
 #endif
     return radiance;
 }

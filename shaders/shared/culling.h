@@ -65,11 +65,22 @@ SHARED_FUNCTION bool coneTouchesBox(CullLight light, CellBox box) {
     return light.axis.w * across - light.apex.w * along <= radius;
 }
 
+// Squared distance in metres of a point from the box; 0 inside. By components, so that loops over points vectorise.
+SHARED_FUNCTION float squaredDistance(float x, float y, float z, CellBox box) {
+    float gapX = max(max(box.low.x - x, x - box.high.x), 0.0f);
+    float gapY = max(max(box.low.y - y, y - box.high.y), 0.0f);
+    float gapZ = max(max(box.low.z - z, z - box.high.z), 0.0f);
+    return gapX * gapX + gapY * gapY + gapZ * gapZ;
+}
+
+SHARED_FUNCTION bool hasCone(CullLight light) {
+    return light.axis.w >= -1.5f;
+}
+
 SHARED_FUNCTION bool lightTouchesBox(CullLight light, CellBox box) {
-    vec3 center = vec3(light.sphere);
-    vec3 gap = max(max(vec3(box.low) - center, center - vec3(box.high)), vec3(0.0f));
-    if (dot(gap, gap) > light.sphere.w * light.sphere.w) return false;
-    return light.axis.w < -1.5f || coneTouchesBox(light, box);
+    float radius = light.sphere.w;
+    if (squaredDistance(light.sphere.x, light.sphere.y, light.sphere.z, box) > radius * radius) return false;
+    return !hasCone(light) || coneTouchesBox(light, box);
 }
 
 // View depth in metres at a depth-buffer value, by FrameConstants::depthToViewDepth.

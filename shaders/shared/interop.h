@@ -20,7 +20,11 @@ using uint = std::uint32_t;
 #define SHARED_BEGIN namespace tessera::shared {
 #define SHARED_END }
 #define SHARED_CONST inline constexpr int
+#if defined(__GNUC__)
+#define SHARED_FUNCTION inline __attribute__((always_inline)) // compilers do not see how often they are called
+#else
 #define SHARED_FUNCTION inline
+#endif
 #define SHARED_PRECISE // C++ is compiled without contraction
 #else
 #define SHARED_BEGIN

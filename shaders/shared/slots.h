@@ -19,8 +19,10 @@ SHARED_BEGIN
 #define UNIFORM_MATERIAL 1
 #define UNIFORM_DISPLAY 2
 #define UNIFORM_LIGHTS 3
+#define UNIFORM_LIGHT_SHAPES 4
 
 // Storage blocks. OpenGL 4.5 guarantees 0 to 7.
+#define STORAGE_LIGHT_SHAPES 6
 #define STORAGE_LIGHTS 7
 
 // Texture units: the slots of scenes::TextureSlot in that order, then the G-buffer, then buffers.
@@ -36,6 +38,7 @@ SHARED_BEGIN
 #define TEXTURE_UNIT_DEPTH 13
 #define TEXTURE_UNIT_LIGHTS 14
 #define TEXTURE_UNIT_RADIANCE 15
+#define TEXTURE_UNIT_LIGHT_SHAPES 19
 #define TEXTURE_UNIT_LIGHT_TILES 16
 #define TEXTURE_UNIT_LIGHT_CELLS 17
 #define TEXTURE_UNIT_LIGHT_ENTRIES 18

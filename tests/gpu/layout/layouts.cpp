@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "renderer/gpu/TexelBuffer.h"
+#include "renderer/frame/LightBuffers.h"
 #include "shaders/shared/display.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/light.h"
@@ -113,30 +113,39 @@ TEST_F(LayoutTest, theShaderAlwaysReadsTheValuesThatCppWrote) {
 
 TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexelOfEveryStore) {
     static_assert(sizeof(shared::LightTexels) == LIGHT_TEXELS * sizeof(glm::vec4));
-    std::vector<shared::LightTexels> lights(LIGHT_UNIFORM_LIGHTS); // as many as fit a uniform block
+    static_assert(sizeof(shared::LightShapeTexels) == LIGHT_SHAPE_TEXELS * sizeof(glm::vec4));
+    frame::PackedLights lights;
+    lights.texels.resize(LIGHT_UNIFORM_LIGHTS); // as many as fit a uniform block
+    lights.shapes.resize(LIGHT_UNIFORM_LIGHTS);
     float next = 0.0f;
-    for (shared::LightTexels& light : lights)
-        for (glm::vec4* member : {&light.position, &light.color, &light.axis, &light.attenuation})
-            for (int i = 0; i < 4; ++i) (*member)[i] = next++;
-    const gpu::Buffer buffer = gpu::Buffer::of("lights", lights);
-    const gpu::TexelBuffer texels("lights", graph::Format::Rgba32Float, buffer);
-    gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, texels);
-    gpu::bindUniformBuffer(UNIFORM_LIGHTS, buffer);
-    gpu::bindStorageBuffer(STORAGE_LIGHTS, buffer);
+    for (std::size_t i = 0; i < lights.texels.size(); ++i)
+        for (glm::vec4* member : {&lights.texels[i].position, &lights.texels[i].color, &lights.shapes[i].axis,
+                                  &lights.shapes[i].attenuation})
+            for (int k = 0; k < 4; ++k) (*member)[k] = next++;
+    lights.features.add(frame::Feature::SpotLights);
+    frame::LightBuffers buffers;
+    buffers.upload(lights);
+    buffers.bind();
+    const gpu::Buffer texels = gpu::Buffer::of("lights", lights.texels);
+    const gpu::Buffer shapes = gpu::Buffer::of("light shapes", lights.shapes);
+    gpu::bindUniformBuffer(UNIFORM_LIGHTS, texels);
+    gpu::bindUniformBuffer(UNIFORM_LIGHT_SHAPES, shapes);
+    gpu::bindStorageBuffer(STORAGE_LIGHTS, texels);
+    gpu::bindStorageBuffer(STORAGE_LIGHT_SHAPES, shapes);
     for (const char* store : {"LIGHT_STORE_TEXEL", "LIGHT_STORE_UNIFORM", "LIGHT_STORE_STORAGE"}) {
         SCOPED_TRACE(store);
-        const shader::Defines noLights{{"HAS_DIRECTIONAL_LIGHTS", "0"},
-                                       {"HAS_POINT_LIGHTS", "0"},
-                                       {"HAS_SPOT_LIGHTS", "0"},
-                                       {"HAS_ATTENUATION_LIGHTS", "0"},
-                                       {"LIGHT_STORE", store}};
+        const shader::Defines spots{{"HAS_DIRECTIONAL_LIGHTS", "0"},
+                                    {"HAS_POINT_LIGHTS", "0"},
+                                    {"HAS_SPOT_LIGHTS", "1"},
+                                    {"HAS_ATTENUATION_LIGHTS", "0"},
+                                    {"LIGHT_STORE", store}};
         const std::vector<glm::vec4> out =
-            bench.run("light_texels.comp", noLights, {glm::vec4(0.0f)}, lights.size(), LIGHT_TEXELS);
-        for (std::size_t i = 0; i < lights.size(); ++i) {
-            EXPECT_EQ(out[4 * i], lights[i].position);
-            EXPECT_EQ(out[4 * i + 1], lights[i].color);
-            EXPECT_EQ(out[4 * i + 2], lights[i].axis);
-            EXPECT_EQ(out[4 * i + 3], lights[i].attenuation);
+            bench.run("light_texels.comp", spots, {glm::vec4(0.0f)}, lights.texels.size(), 4);
+        for (std::size_t i = 0; i < lights.texels.size(); ++i) {
+            EXPECT_EQ(out[4 * i], lights.texels[i].position);
+            EXPECT_EQ(out[4 * i + 1], lights.texels[i].color);
+            EXPECT_EQ(out[4 * i + 2], lights.shapes[i].axis);
+            EXPECT_EQ(out[4 * i + 3], lights.shapes[i].attenuation);
         }
     }
 }

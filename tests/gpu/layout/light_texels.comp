@@ -8,7 +8,8 @@ void main()
 {
     int i = int(gl_GlobalInvocationID.x);
     if (i * 4 >= outputs.length()) return;
-    for (int texel = 0; texel < 4; ++texel) {
+    for (int texel = 0; texel < 2; ++texel) {
         outputs[i * 4 + texel] = lightTexel(i, texel);
+        outputs[i * 4 + 2 + texel] = lightShapeTexel(i, texel);
     }
 }

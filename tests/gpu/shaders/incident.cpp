@@ -2,8 +2,7 @@
 // double.
 #include <gtest/gtest.h>
 
-#include "renderer/frame/PackedLights.h"
-#include "renderer/gpu/TexelBuffer.h"
+#include "renderer/frame/LightBuffers.h"
 #include "tests/gpu/shaders/ShaderBench.h"
 #include "tests/support/Random.h"
 
@@ -27,17 +26,16 @@ struct Probe {
 class IncidentTest : public test::GlTest {
 protected:
     /// The eye is the world's origin and looks along -z, so world and lighting space are one.
-    std::vector<Arrival> run(const std::vector<Light>& lights, const std::vector<Probe>& probes) {
+    std::vector<Arrival> run(const std::vector<Light>& sceneLights, const std::vector<Probe>& probes) {
         scenes::Scene scene;
-        scene.lights = lights;
+        scene.lights = sceneLights;
         frame::FrameSettings settings;
         settings.prune = false;
         const frame::CameraView view =
             frame::makeCameraView(scenes::Camera{}, {64, 64}, frame::LightingSpace::World, glm::vec3(0.0f));
         packed = frame::packLights(scene, view, settings);
-        const gpu::Buffer buffer = gpu::Buffer::of("lights", packed.texels);
-        const gpu::TexelBuffer texels("lights", graph::Format::Rgba32Float, buffer);
-        gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, texels);
+        lightBuffers.upload(packed);
+        lightBuffers.bind();
         std::vector<glm::vec4> inputs;
         for (const Probe& probe : probes) inputs.emplace_back(probe.position, float(probe.light));
         const std::vector<glm::vec4> out =
@@ -49,6 +47,7 @@ protected:
     }
     test::ShaderBench bench;
     frame::PackedLights packed;
+    frame::LightBuffers lightBuffers;
 };
 
 bool isFinite(const glm::vec3& v) {

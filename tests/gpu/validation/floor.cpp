@@ -18,11 +18,11 @@ namespace {
 using validation::FloorLighting;
 
 /// One light of every kind.
-std::vector<shared::LightTexels> everyKind() {
-    std::vector<shared::LightTexels> lights;
+frame::PackedLights everyKind() {
+    frame::PackedLights lights;
     for (const int kind :
          {LIGHT_POINT, LIGHT_DIRECTIONAL, LIGHT_SPOT, LIGHT_POINT | LIGHT_ATTENUATION, LIGHT_SPOT | LIGHT_ATTENUATION})
-        lights.emplace_back().color.w = float(kind);
+        lights.texels.emplace_back().color.w = float(kind);
     return lights;
 }
 
@@ -37,6 +37,7 @@ int differences(const std::vector<float>& a, const std::vector<float>& b) {
 class FloorTest : public test::GlTest {
 protected:
     static constexpr glm::ivec2 kSize{160, 90};
+    static constexpr validation::LightStoreInfo kProductsStore{LIGHT_STORE_TEXEL, "texel buffer", "LIGHT_STORE_TEXEL"};
 
     static frame::FrameSettings settings() {
         frame::FrameSettings result;
@@ -58,7 +59,7 @@ protected:
         result.back().channels = frame::neededChannels(result.back().features, false);
         return result;
     }
-    static std::vector<shared::LightTexels> lightsOf(const frame::FrameSpec& spec, int count) {
+    static frame::PackedLights lightsOf(const frame::FrameSpec& spec, int count) {
         if (spec.features[frame::Feature::SpotLights]) return validation::floorLights(everyKind(), count);
         return validation::floorLights({}, count);
     }
@@ -105,7 +106,7 @@ protected:
         gpu::setState({});
         gpu::useProgram(bench.programs().get(passes::DeferredLightingPass::program(spec)));
         gpu::bindUniformBuffer(UNIFORM_FRAME, lighting.frameConstants());
-        gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, lighting.lightTexels());
+        lighting.bindLights(kProductsStore);
         for (std::size_t i = 0; i < stored.channels.size(); ++i)
             gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), *stored.channels[i]);
         gpu::bindTexture(TEXTURE_UNIT_DEPTH, *stored.depth);
@@ -141,8 +142,12 @@ TEST_F(FloorTest, itsPictureIsExactlyWhatTheDeferredTechniquesGiveForTheSameSurf
 TEST_F(FloorTest, everyLightAlwaysReachesEveryPixelFromTheFront) {
     for (const frame::FrameSpec& spec : specs()) {
         FloorLighting lighting(bench.programs(), spec);
-        for (const shared::LightTexels& light : lightsOf(spec, validation::FloorBench::kManyLights)) {
-            lighting.setLights({&light, 1});
+        const frame::PackedLights lights = lightsOf(spec, validation::FloorBench::kManyLights);
+        for (std::size_t i = 0; i < lights.texels.size(); ++i) {
+            frame::PackedLights one;
+            one.texels = {lights.texels[i]};
+            one.shapes = {lights.shapes[i]};
+            lighting.setLights(one);
             const std::vector<float> picture = draw(lighting, validation::lightStoreTable()[0]);
             ASSERT_GT(*std::min_element(picture.begin(), picture.end()), 0.0f);
         }

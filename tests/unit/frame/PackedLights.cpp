@@ -48,9 +48,9 @@ TEST(PackedLights, everyKindIsAlwaysPackedAsItsShaderReadsIt) {
     EXPECT_GE(packed.texels[2].position.w, 1.0f / 16.0f);
     EXPECT_EQ(glm::vec3(packed.texels[2].color), glm::vec3(8.0f, 4.0f, 2.0f));
     EXPECT_EQ(packed.texels[3].color.w, float(LIGHT_SPOT));
-    EXPECT_EQ(glm::vec3(packed.texels[3].axis), glm::vec3(0, 0, -1));
+    EXPECT_EQ(glm::vec3(packed.shapes[3].axis), glm::vec3(0, 0, -1));
     EXPECT_EQ(packed.texels[4].color.w, float(LIGHT_SPOT | LIGHT_ATTENUATION));
-    EXPECT_EQ(glm::vec3(packed.texels[4].attenuation), glm::vec3(1, 2, 3));
+    EXPECT_EQ(glm::vec3(packed.shapes[4].attenuation), glm::vec3(1, 2, 3));
     EXPECT_EQ(packed.texels[4].position.w, 0.0f);
 }
 
@@ -58,12 +58,12 @@ TEST(PackedLights, theConeIsAlwaysScaledFromOneInsideToZeroOutside) {
     Light spot = light(LightType::Spot);
     spot.innerConeRadians = 0.3f;
     spot.outerConeRadians = 0.9f;
-    const shared::LightTexels packed = pack({spot}).texels.at(0);
+    const shared::LightShapeTexels packed = pack({spot}).shapes.at(0);
     const auto cone = [&](double angle) { return std::cos(angle) * packed.axis.w + packed.attenuation.w; };
     EXPECT_NEAR(cone(0.3), 1.0, 1e-6); // fp32 scale and offset of order one
     EXPECT_NEAR(cone(0.9), 0.0, 1e-6);
     spot.innerConeRadians = spot.outerConeRadians; // a hard edge is held at KHR_lights_punctual's least width
-    EXPECT_EQ(pack({spot}).texels.at(0).axis.w, 1000.0f);
+    EXPECT_EQ(pack({spot}).shapes.at(0).axis.w, 1000.0f);
 }
 
 TEST(PackedLights, theSetAlwaysHoldsExactlyTheKindsThatWerePacked) {

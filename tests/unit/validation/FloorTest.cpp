@@ -8,15 +8,15 @@
 namespace tessera::validation {
 namespace {
 
-std::vector<shared::LightTexels> ofKinds(std::initializer_list<int> kinds) {
-    std::vector<shared::LightTexels> lights;
-    for (const int kind : kinds) lights.emplace_back().color.w = float(kind);
+frame::PackedLights ofKinds(std::initializer_list<int> kinds) {
+    frame::PackedLights lights;
+    for (const int kind : kinds) lights.texels.emplace_back().color.w = float(kind);
     return lights;
 }
 
-std::map<int, int> countsOf(const std::vector<shared::LightTexels>& lights) {
+std::map<int, int> countsOf(const frame::PackedLights& lights) {
     std::map<int, int> counts;
-    for (const shared::LightTexels& light : lights) ++counts[int(light.color.w)];
+    for (const shared::LightTexels& light : lights.texels) ++counts[int(light.color.w)];
     return counts;
 }
 
@@ -26,14 +26,15 @@ TEST(FloorLights, kindsAlwaysComeInTheSharesOfTheScene) {
     EXPECT_EQ(countsOf(floorLights(ofKinds({LIGHT_SPOT, LIGHT_POINT, LIGHT_DIRECTIONAL, LIGHT_POINT}), 96)),
               (Counts{{LIGHT_POINT, 48}, {LIGHT_SPOT, 24}, {LIGHT_DIRECTIONAL, 24}}));
     // Three quarters of a long list.
-    std::vector<shared::LightTexels> many(1000);
-    for (std::size_t i = 0; i < 750; ++i) many[i].color.w = float(LIGHT_SPOT);
+    frame::PackedLights many;
+    many.texels.resize(1000);
+    for (std::size_t i = 0; i < 750; ++i) many.texels[i].color.w = float(LIGHT_SPOT);
     EXPECT_EQ(countsOf(floorLights(many, 32)), (Counts{{LIGHT_SPOT, 24}, {LIGHT_POINT, 8}}));
 }
 
 TEST(FloorLights, aListIsNeverLongerOrShorterThanAskedFor) {
     for (const int count : {0, 1, 31, 256})
-        EXPECT_EQ(floorLights(ofKinds({LIGHT_SPOT}), count).size(), std::size_t(count));
+        EXPECT_EQ(floorLights(ofKinds({LIGHT_SPOT}), count).texels.size(), std::size_t(count));
 }
 
 TEST(FloorFigures, theFloorIsExactlyGeometryPlusEvaluationsOfTheFastestStore) {
