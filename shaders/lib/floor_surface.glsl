@@ -55,15 +55,16 @@ Surface floorSurface(vec2 pixel, Viewpoint viewpoint)
     surface.metallic = floorShare(pixel, vec2(0.0153, 0.0191));
     precise float alpha = 0.1 + 0.8 * floorShare(pixel, vec2(0.0097, 0.0273));
     surface.alpha = alpha;
-    precise float iorOrF90 = 1.0 - 0.1 * floorShare(pixel, vec2(0.0181, 0.0221));
-#if HAS_MICROFACET
-    if (surface.model == MODEL_MICROFACET) iorOrF90 += 0.5;
-#endif
-    surface.iorOrF90 = iorOrF90;
+    precise float iorOrF90 = 1.0;
     precise vec3 specular = defaultSpecular(surface.model);
+#if HAS_MICROFACET
+    if (surface.model == MODEL_MICROFACET) iorOrF90 = 1.6 - 0.1 * floorShare(pixel, vec2(0.0181, 0.0221));
+#endif
 #if HAS_SPECULAR
+    if (surface.model != MODEL_MICROFACET) iorOrF90 = 1.0 - 0.1 * floorShare(pixel, vec2(0.0181, 0.0221));
     specular *= 0.5 + 0.5 * floorShare(pixel, vec2(0.0061, 0.0149));
 #endif
+    surface.iorOrF90 = iorOrF90;
     surface.specular = specular;
     surface.emission = vec3(0.0);
     // Tilted by up to 12 degrees from the viewer, so that it faces the lights, which lie around the eye.

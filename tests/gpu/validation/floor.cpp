@@ -56,7 +56,7 @@ protected:
             recipes::prepareFrame(scene, recipes::Technique::Forward, settings()).spec};
         result.emplace_back().settings = settings();
         result.back().features = frame::allFeatures();
-        result.back().channels = frame::neededChannels(result.back().features, false);
+        result.back().channels = frame::neededChannels(result.back().features, settings().layout, false);
         return result;
     }
     static frame::PackedLights lightsOf(const frame::FrameSpec& spec, int count) {
@@ -167,8 +167,10 @@ TEST_F(FloorTest, neighbouringPixelsNeverShareAPropertyOfTheSurface) {
         for (std::size_t channel = 0; channel < spec.channels.size(); ++channel) {
             SCOPED_TRACE(frame::channelTable()[std::size_t(spec.channels[channel])].name);
             switch (spec.channels[channel]) {
-            case frame::Channel::Albedo:
-            case frame::Channel::Normal:
+            case frame::Channel::Albedo: // and metallic
+            case frame::Channel::Normal: // and alpha
+                for (const std::size_t component : {0, 1, 2, 3}) expectVaried(*stored.channels[channel], 4, component);
+                break;
             case frame::Channel::Specular:
                 for (const std::size_t component : {0, 1, 2}) expectVaried(*stored.channels[channel], 4, component);
                 break;
