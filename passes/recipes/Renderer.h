@@ -36,13 +36,15 @@ public:
         return download();
     }
 
+    /// The scene as frames of this spec have it on the GPU. Whoever draws it sets its view first; draw() does.
+    frame::SceneGpu& sceneGpu(const frame::FrameSpec& spec);
+
     gpu::GraphBackend& backend() { return backend_; }
     shader::ProgramLibrary& programs() { return programs_; }
     const scenes::Scene& scene() const { return scene_; }
 
 private:
     struct Drawn;
-    void prepareScene(const frame::FrameSpec& spec);
 
     gpu::Context& context_;
     const scenes::Scene& scene_;

@@ -47,6 +47,7 @@ struct FrameSettings {
     glm::ivec2 sizePixels{1280, 720};
     int camera = 0; ///< index into Scene::cameras
     double timeSeconds = 0.0;
+    glm::dvec3 eyeOffsetWS{0.0}; ///< metres, added to the camera's place: benchmarks move the eye between frames
     GBufferLayout layout;
     View view = View::Final;
     TextureFilter filter = TextureFilter::Hardware;

@@ -18,6 +18,12 @@ SHARED_BEGIN
 #define UNIFORM_FRAME 0
 #define UNIFORM_MATERIAL 1
 #define UNIFORM_DISPLAY 2
+#define UNIFORM_LIGHTS 3
+#define UNIFORM_LIGHT_SHAPES 4
+
+// Storage blocks. OpenGL 4.5 guarantees 0 to 7.
+#define STORAGE_LIGHT_SHAPES 6
+#define STORAGE_LIGHTS 7
 
 // Texture units: the slots of scenes::TextureSlot in that order, then the G-buffer, then buffers.
 #define TEXTURE_SLOT_BASE_COLOR 0
