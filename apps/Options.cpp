@@ -184,6 +184,10 @@ void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string
         "scene", options.scene, "A .gltf, .glb, .obj or .json file, or a built-in scene (tessera scenes)" + preset);
     scene->type_name("SCENE");
     if (defaultScene.empty()) scene->required();
+    addFrameSettings(command, options);
+}
+
+void addFrameSettings(CLI::App& command, FrameOptions& options) {
     const auto text = [&](const char* flag, std::optional<std::string>& target, const std::string& help,
                           const char* type, const char* group = "Frame") {
         command.add_option(flag, target, help)->type_name(type)->group(group);
@@ -217,13 +221,17 @@ void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string
     text("--tonemap", options.toneMap, "One of " + namesOf(frame::toneMapTable()) + " [none]", "NAME", "Display");
 }
 
-Request resolve(const FrameOptions& options) {
-    Request request;
-    resolveOptions(options, request);
+scenes::Scene loadFor(const FrameOptions& options) {
     scenes::LoadOptions load;
     load.lights = options.lights;
     load.defaultLight = !options.noDefaultLight;
-    request.scene = scenes::loadScene(options.scene, load);
+    return scenes::loadScene(options.scene, load);
+}
+
+Request resolve(const FrameOptions& options) {
+    Request request;
+    resolveOptions(options, request);
+    request.scene = loadFor(options);
     resolveWishes(options, request);
     for (const std::string& warning : request.scene.warnings) spdlog::warn("{}: {}", request.scene.name, warning);
     return request;

@@ -91,6 +91,7 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     Request request = resolve(options.frame);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     recipes::Renderer renderer(*context, request.scene);
+    request.settings.display = std::filesystem::path(options.output).extension() != ".exr";
     if (options.frames)
         renderFrames(options, request, renderer, global);
     else

@@ -97,10 +97,29 @@ RenderedFrame Renderer::download() const {
     frame.width = drawn_->settings.sizePixels.x;
     frame.height = drawn_->settings.sizePixels.y;
     const gpu::Texture& radiance = drawn_->execution->texture(drawn_->frame.radiance);
-    const gpu::Texture& display = drawn_->execution->texture(drawn_->frame.display);
     frame.radiance = flipped(radiance.downloadAs<float>(), frame.width, frame.height);
-    frame.display = flipped(display.downloadAs<std::uint8_t>(), frame.width, frame.height);
+    if (drawn_->settings.display) {
+        const gpu::Texture& display = drawn_->execution->texture(drawn_->frame.display);
+        frame.display = flipped(display.downloadAs<std::uint8_t>(), frame.width, frame.height);
+    }
     return frame;
+}
+
+std::vector<float> Renderer::downloadDepth() const {
+    return drawn_->execution->texture(drawn_->frame.depth).downloadAs<float>();
+}
+
+DrawnLists Renderer::downloadLists() const {
+    const PreparedFrame& prepared = drawn_->prepared;
+    DrawnLists drawn;
+    drawn.culling = prepared.spec.culling;
+    drawn.constants = prepared.view.constants;
+    drawn.sceneIndex = prepared.lights.sceneIndex;
+    for (std::size_t i = 0; i < prepared.lights.texels.size(); ++i) {
+        if (prepared.lights.texels[i].position.w == 0.0f) drawn.everywhere.push_back(std::uint32_t(i));
+    }
+    if (drawn.culling.method != culling::Method::None) drawn.lists = lightLists_.download();
+    return drawn;
 }
 
 } // namespace tessera::recipes

@@ -125,13 +125,15 @@ DeclaredFrame declareFrame(Technique technique, const frame::FrameSpec& spec, co
     Recipe recipe{frame, spec, resources};
     const OpaquePicture opaque = opaquePicture(technique, recipe);
     frame.radiance = opaque.radiance;
+    frame.depth = opaque.depth;
     if (spec.features[frame::Feature::Blend]) {
         const ForwardPass::Params params{ForwardPass::Surfaces::Transparent};
         frame.radiance = recipe.forward(params, {opaque.depth, opaque.radiance, frame.lists}).radiance;
     }
     frame.display = recipe.display(frame.radiance);
     frame.graph.output(frame.radiance);
-    frame.graph.output(frame.display);
+    frame.graph.output(frame.depth);
+    if (spec.settings.display) frame.graph.output(frame.display);
     return frame;
 }
 

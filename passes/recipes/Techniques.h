@@ -31,10 +31,12 @@ struct TechniqueInfo {
 };
 std::span<const TechniqueInfo> techniqueTable();
 
-/// A declared frame. The graph's outputs are radiance and display; both carry alpha 1 where something was drawn.
+/// A declared frame. The graph's outputs are radiance and, where the settings ask for it, display; both carry alpha 1
+/// where something was drawn.
 struct DeclaredFrame {
     graph::Graph graph;
     graph::TextureHandle radiance;                ///< RGBA32F, linear
+    graph::TextureHandle depth;                   ///< D32F of opaque surfaces, reverse-Z
     graph::TextureHandle display;                 ///< RGBA8, display code values
     std::vector<shader::ProgramDesc> programs;    ///< every program its passes use
     std::optional<frame::LightListHandles> lists; ///< imported; absent where every pixel visits every light

@@ -57,6 +57,7 @@ struct FrameSettings {
     std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
     culling::Settings culling;
     bool softwareBackend = true; ///< what open choices are made for; the renderer says what it runs on
+    bool display = true;         ///< false: nobody looks at display code values, and the display pass is left out
     float exposureEV = 0.0f;
     ToneMap toneMap = ToneMap::None;
 };

@@ -19,6 +19,18 @@ void LightListBuffers::upload(const culling::LightLists& lists) {
     entries.buffer().upload(lists.entries);
 }
 
+culling::LightLists LightListBuffers::download() const {
+    culling::LightLists lists;
+    const auto all = [](const GrowingTexelBuffer& from, auto& values) {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        values = from.buffer().downloadAs<Value>(from.used() * from.texelBytes() / sizeof(Value));
+    };
+    all(tiles, lists.tiles);
+    all(cells, lists.cells);
+    all(entries, lists.entries);
+    return lists;
+}
+
 void LightListBuffers::bind() const {
     gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHT_TILES, tiles.texels());
     gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHT_CELLS, cells.texels());

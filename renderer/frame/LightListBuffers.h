@@ -28,6 +28,8 @@ struct LightListBuffers {
     std::vector<float> depth, transparentDepth;
 
     void upload(const culling::LightLists& lists);
+    /// The lists of the latest frame.
+    culling::LightLists download() const;
     /// Binds all three where the light cursor reads them.
     void bind() const;
 };
