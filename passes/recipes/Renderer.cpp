@@ -82,11 +82,7 @@ void Renderer::draw(Technique technique, const frame::FrameSettings& asked) {
     drawn_->compiled = graph::compile(drawn_->frame.graph, {.cull = settings.prune, .alias = settings.prune});
     programs_.warm(drawn_->frame.programs);
     std::vector<graph::ImportedBuffer> imported;
-    if (const std::optional<frame::LightListHandles>& lists = drawn_->frame.lists) {
-        imported = {{lists->tiles, &lightLists_.tiles.buffer()},
-                    {lists->cells, &lightLists_.cells.buffer()},
-                    {lists->entries, &lightLists_.entries.buffer()}};
-    }
+    if (drawn_->frame.lists) imported = lightLists_.imported(*drawn_->frame.lists);
     drawn_->execution = std::make_unique<graph::Execution>(drawn_->frame.graph, drawn_->compiled, backend_,
                                                            std::span<const graph::ImportedTexture>{}, imported);
     drawn_->execution->run();
@@ -101,6 +97,11 @@ RenderedFrame Renderer::download() const {
     frame.radiance = flipped(radiance.downloadAs<float>(), frame.width, frame.height);
     frame.display = flipped(display.downloadAs<std::uint8_t>(), frame.width, frame.height);
     return frame;
+}
+
+std::optional<culling::LightLists> Renderer::lightLists() const {
+    if (!drawn_->frame.lists) return std::nullopt;
+    return lightLists_.download();
 }
 
 } // namespace tessera::recipes

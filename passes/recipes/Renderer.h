@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "passes/recipes/Techniques.h"
@@ -35,6 +36,9 @@ public:
         draw(technique, settings);
         return download();
     }
+
+    /// The light lists that the latest draw() used, whoever built them; none where its pixels visited every light.
+    std::optional<culling::LightLists> lightLists() const;
 
     gpu::GraphBackend& backend() { return backend_; }
     shader::ProgramLibrary& programs() { return programs_; }
