@@ -115,13 +115,25 @@ bool touchesBox(ListedTile tile, CullLight cull, uint box)
     return lightTouchesBox(cull, cellBox(tile.rays, boxRuns[box].x, boxRuns[box].y, isOrthographic()));
 }
 
-// Bit k: the light may touch the tile's cell k.
-uvec2 touchedCells(ListedTile tile, uint light)
+bool inReach(ListedTile tile, uint light)
 {
     uvec2 reach = texelFetch(lightReachTexels, int(light)).xy;
     uint block = tile.column / CULL_BLOCK_COLUMNS * CULL_BLOCK_COLUMNS;
-    if (!reaches(reach.x, block, min(block + CULL_BLOCK_COLUMNS, frame.tileGrid.x) - 1u)) return uvec2(0u);
-    if (!reaches(reach.y, tile.row, tile.row)) return uvec2(0u);
+    return reaches(reach.x, block, min(block + CULL_BLOCK_COLUMNS, frame.tileGrid.x) - 1u)
+           && reaches(reach.y, tile.row, tile.row);
+}
+
+// The first light from `light` on whose rows and columns the tile lies in, or `end`. A loop of its own: rasterisers that
+// mask lanes instead of branching leave out nothing else, and the tiles of a block of columns agree on it.
+uint nextInReach(ListedTile tile, uint light, uint end)
+{
+    while (light < end && !inReach(tile, light)) ++light;
+    return light;
+}
+
+// Bit k: the light, which is in reach, may touch the tile's cell k.
+uvec2 touchedCells(ListedTile tile, uint light)
+{
     CullLight cull = cullLight(light);
 #if LIST_METHOD == LIST_METHOD_SLICES
     if (tile.boxes > 0u) {

@@ -16,7 +16,9 @@ void countTile(uvec2 item)
     uint entries = 0u;
     if (tile.cells > 0u) {
         uvec2 share = laneShare(lightCount());
-        for (uint light = share.x; light < share.y; ++light) entries += bitsOf(touchedCells(tile, light));
+        for (uint light = nextInReach(tile, share.x, share.y); light < share.y;
+             light = nextInReach(tile, light + 1u, share.y))
+            entries += bitsOf(touchedCells(tile, light));
     }
     laneEntries[LIST_LANE] = entries;
     listSync();

@@ -16,8 +16,10 @@ layout(std430, binding = STORAGE_LIGHT_ENTRIES) writeonly buffer LightEntries
 };
 
 #if LIST_METHOD == LIST_METHOD_CLUSTER
+#define ONE_CELL_A_TILE 0
 #define MOST_CELLS LIGHT_TILE_SLICES
 #else
+#define ONE_CELL_A_TILE 1
 #define MOST_CELLS 1u
 #endif
 
@@ -39,10 +41,12 @@ uvec2 withoutLowestBit(uvec2 bits)
 void countCells(ListedTile tile, uvec2 share)
 {
     for (uint cell = 0u; cell < tile.cells; ++cell) laneEntries[cell * uint(LIST_THREADS) + LIST_LANE] = 0u;
-    for (uint light = share.x; light < share.y; ++light) {
+    for (uint light = nextInReach(tile, share.x, share.y); light < share.y;
+         light = nextInReach(tile, light + 1u, share.y)) {
         for (uvec2 cells = touchedCells(tile, light); cells != uvec2(0u); cells = withoutLowestBit(cells))
             laneEntries[lowestBit(cells) * uint(LIST_THREADS) + LIST_LANE] += 1u;
     }
+    listSync();
 }
 
 // Turns counts into places: of a cell's lanes behind one another, and of the cells behind one another.
@@ -70,17 +74,10 @@ void placeCells(ListedTile tile, uvec2 firsts)
     listSync();
 }
 
-void fillTile(uvec2 item)
+void writeEntries(ListedTile tile, uvec2 share)
 {
-    if (!isTile(item)) return;
-    ListedTile tile = listedTile(item);
-    if (tile.cells == 0u) return;
-    uvec2 firsts = tileFirsts[tileIndex(item)];
-    uvec2 share = laneShare(lightCount());
-    countCells(tile, share);
-    listSync();
-    placeCells(tile, firsts);
-    for (uint light = share.x; light < share.y; ++light) {
+    for (uint light = nextInReach(tile, share.x, share.y); light < share.y;
+         light = nextInReach(tile, light + 1u, share.y)) {
         for (uvec2 cells = touchedCells(tile, light); cells != uvec2(0u); cells = withoutLowestBit(cells)) {
             uint cell = lowestBit(cells);
             uint lane = cell * uint(LIST_THREADS) + LIST_LANE;
@@ -88,6 +85,26 @@ void fillTile(uvec2 item)
             laneEntries[lane] += 1u;
         }
     }
+}
+
+void fillTile(uvec2 item)
+{
+    if (!isTile(item)) return;
+    ListedTile tile = listedTile(item);
+    if (tile.cells == 0u) return;
+    uvec2 firsts = tileFirsts[tileIndex(item)];
+    uvec2 share = laneShare(lightCount());
+#if ONE_CELL_A_TILE && LIST_THREADS == 1
+    // A lane alone with one cell need not count before it writes.
+    laneEntries[0] = 0u;
+    cellEntries[0] = firsts.y;
+    writeEntries(tile, share);
+    lightCells[firsts.x] = uvec2(firsts.y, laneEntries[0]);
+#else
+    countCells(tile, share);
+    placeCells(tile, firsts);
+    writeEntries(tile, share);
+#endif
     if (LIST_LANE != 0u) return;
     bool oneCell = tile.cells == 1u;
     lightTiles[tileIndex(item)].words =
