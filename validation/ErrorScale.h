@@ -8,8 +8,7 @@ constexpr Rgb8 kColourNotFinite = {255, 0, 255};
 constexpr Rgb8 kColourUncovered = {56, 56, 58};
 constexpr Rgb8 kColourExcluded = {78, 106, 124};
 
-/// Colour of the scale at 0..1 (clamped): black, violet, red, orange, pale yellow, lightness rising throughout.
-/// Source: the inferno map of Smith and van der Walt 2015 (matplotlib, CC0) at ten equal steps, straight lines between.
+/// Colour of the scale at 0..1 (clamped): heatColor() of shaders/shared/heat.h.
 Rgb8 scaleColour(double position);
 
 /// Where a relative error lies on the scale: 0 at 1e-7 and below (0 included), 1 at 1 and above, logarithmic between.

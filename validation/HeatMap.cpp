@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "shaders/shared/heat.h"
 #include "validation/ErrorScale.h"
 #include "validation/PixelErrors.h"
 
@@ -43,40 +45,73 @@ std::string fitted(const std::string& text, int width) {
     return fits < 3 ? std::string() : text.substr(0, fits - 2) + "..";
 }
 
-void drawPicture(DisplayImage& image, const HeatMapLayout& layout, const PixelErrors& errors, int width) {
-    for (std::size_t i = 0; i < errors.state.size(); ++i) {
-        const int x = int(i % std::size_t(width)), y = int(i / std::size_t(width));
-        fillRectangle(image, layout.pictureX + layout.scale * x, layout.pictureY + layout.scale * y, layout.scale,
-                      layout.scale, colourOf(errors.state[i], errors.rel[i]));
-    }
+/// A place on the scale, 0..1, and what stands there.
+struct Tick {
+    double position;
+    std::string label;
+};
+
+std::vector<Tick> errorTicks() {
+    std::vector<Tick> ticks;
+    for (int exponent = kErrorScaleLowExponent; exponent <= 0; ++exponent)
+        ticks.push_back({scalePosition(std::pow(10.0, exponent)), exponent == 0 ? "1" : fmt::format("1e{}", exponent)});
+    return ticks;
 }
 
-void drawBar(DisplayImage& image, const HeatMapLayout& layout) {
+std::vector<Tick> countTicks(float log2Most) {
+    std::vector<Tick> ticks{{0.0, "0"}};
+    for (float count = 1.0f; shared::heatPositionOfCount(count, log2Most) <= 1.0f; count *= 2.0f)
+        ticks.push_back({shared::heatPositionOfCount(count, log2Most), fmt::format("{:.0f}", count)});
+    return ticks;
+}
+
+/// The scale reaches the picture's largest count, and tells at least 0 to 7 apart.
+float scaleEnd(const Picture& counts) {
+    float most = 7.0f;
+    for (std::size_t i = 0; i < counts.pixelCount(); ++i) most = std::max(most, counts.pixel(i)[0]);
+    return std::log2(1.0f + most);
+}
+
+/// An empty heat map with its title.
+DisplayImage framed(const HeatMapLayout& layout, const std::string& title) {
+    DisplayImage image{layout.width, layout.height, {}};
+    image.rgb.resize(3 * image.pixelCount());
+    fillRectangle(image, 0, 0, image.width, image.height, kBackground);
+    drawText(image, kMargin, kMargin, fitted(title, image.width - 2 * kMargin), kInk, kTextScale);
+    return image;
+}
+
+void drawPixel(DisplayImage& image, const HeatMapLayout& layout, std::size_t pixel, int width, Rgb8 colour) {
+    const int x = int(pixel % std::size_t(width)), y = int(pixel / std::size_t(width));
+    fillRectangle(image, layout.pictureX + layout.scale * x, layout.pictureY + layout.scale * y, layout.scale,
+                  layout.scale, colour);
+}
+
+void drawBar(DisplayImage& image, const HeatMapLayout& layout, const std::vector<Tick>& ticks) {
     const int span = layout.legendWidth - 1;
     for (int x = 0; x <= span; ++x)
         fillRectangle(image, layout.legendX + x, layout.legendY, 1, layout.legendHeight,
                       scaleColour(double(x) / double(span)));
     const int tickY = layout.legendY + layout.legendHeight;
-    for (int exponent = kErrorScaleLowExponent; exponent <= 0; ++exponent) {
-        const int x = layout.legendX + int(std::lround(span * scalePosition(std::pow(10.0, exponent))));
+    for (const Tick& tick : ticks) {
+        const int x = layout.legendX + int(std::lround(span * tick.position));
         fillRectangle(image, x, tickY, 1, kTickHeight, kFaintInk);
-        const std::string label = exponent == 0 ? "1" : fmt::format("1e{}", exponent);
-        const int labelWidth = textWidth(label, kTextScale);
+        const int labelWidth = textWidth(tick.label, kTextScale);
         const int left =
             std::clamp(x - labelWidth / 2, layout.legendX, layout.legendX + layout.legendWidth - labelWidth);
-        drawText(image, left, tickY + kTickHeight + 3, label, kInk, kTextScale);
+        drawText(image, left, tickY + kTickHeight + 3, tick.label, kInk, kTextScale);
     }
 }
 
-void drawSwatches(DisplayImage& image, int x, int y) {
-    const struct {
-        Rgb8 colour;
-        const char* meaning;
-    } swatches[] = {{scaleColour(0.0), "below 1e-7"},
-                    {kColourNotFinite, "NaN or Inf"},
-                    {kColourUncovered, "not drawn"},
-                    {kColourExcluded, "excluded"}};
-    for (const auto& swatch : swatches) {
+struct Swatch {
+    Rgb8 colour;
+    const char* meaning;
+};
+
+void drawSwatches(DisplayImage& image, const HeatMapLayout& layout, std::span<const Swatch> swatches) {
+    int x = layout.legendX;
+    const int y = layout.legendY + kBarHeight + kTickHeight + 3 + kTextHeight + kMargin / 2;
+    for (const Swatch& swatch : swatches) {
         fillRectangle(image, x, y, kSwatch, kSwatch, kFaintInk);
         fillRectangle(image, x + 1, y + 1, kSwatch - 2, kSwatch - 2, swatch.colour);
         x += kSwatch + 6;
@@ -107,13 +142,29 @@ DisplayImage errorHeatMap(const Picture& a, const Picture& b, const std::string&
                           std::span<const std::uint8_t> excluded) {
     const PixelErrors errors = pixelErrors(a, b, excluded);
     const HeatMapLayout layout = heatMapLayout(a.width, a.height);
-    DisplayImage image{layout.width, layout.height, {}};
-    image.rgb.resize(3 * image.pixelCount());
-    fillRectangle(image, 0, 0, image.width, image.height, kBackground);
-    drawText(image, kMargin, kMargin, fitted(title, image.width - 2 * kMargin), kInk, kTextScale);
-    drawPicture(image, layout, errors, a.width);
-    drawBar(image, layout);
-    drawSwatches(image, layout.legendX, layout.legendY + kBarHeight + kTickHeight + 3 + kTextHeight + kMargin / 2);
+    DisplayImage image = framed(layout, title);
+    for (std::size_t i = 0; i < errors.state.size(); ++i)
+        drawPixel(image, layout, i, a.width, colourOf(errors.state[i], errors.rel[i]));
+    drawBar(image, layout, errorTicks());
+    const Swatch swatches[] = {{scaleColour(0.0), "below 1e-7"},
+                               {kColourNotFinite, "NaN or Inf"},
+                               {kColourUncovered, "not drawn"},
+                               {kColourExcluded, "excluded"}};
+    drawSwatches(image, layout, swatches);
+    return image;
+}
+
+DisplayImage countHeatMap(const Picture& counts, const std::string& title) {
+    const HeatMapLayout layout = heatMapLayout(counts.width, counts.height);
+    DisplayImage image = framed(layout, title);
+    const float log2Most = scaleEnd(counts);
+    for (std::size_t i = 0; i < counts.pixelCount(); ++i) {
+        const float position = shared::heatPositionOfCount(counts.pixel(i)[0], log2Most);
+        drawPixel(image, layout, i, counts.width, counts.covered[i] ? scaleColour(position) : kColourUncovered);
+    }
+    drawBar(image, layout, countTicks(log2Most));
+    const Swatch swatches[] = {{kColourUncovered, "not drawn"}};
+    drawSwatches(image, layout, swatches);
     return image;
 }
 

@@ -24,4 +24,8 @@ HeatMapLayout heatMapLayout(int pictureWidth, int pictureHeight);
 DisplayImage errorHeatMap(const Picture& a, const Picture& b, const std::string& title,
                           std::span<const std::uint8_t> excluded = {});
 
+/// A picture of counts (the view `lights`) as colours on a logarithmic scale up to the largest, with the title
+/// above and the legend below. Uncovered pixels are dark grey.
+DisplayImage countHeatMap(const Picture& counts, const std::string& title);
+
 } // namespace tessera::validation

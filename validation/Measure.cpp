@@ -1,10 +1,10 @@
 #include "validation/Measure.h"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 
-#include "renderer/gpu/Commands.h"
+#include "validation/Interleave.h"
+#include "validation/TimeSamples.h"
 
 namespace tessera::validation {
 
@@ -31,11 +31,6 @@ void drawProfiled(recipes::Renderer& renderer, recipes::Technique technique, con
     times->totalMs.push_back(total);
 }
 
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
-
 } // namespace
 
 void measurePlan(graph::Plan& plan, recipes::Renderer& renderer, recipes::Technique technique,
@@ -51,30 +46,28 @@ void measurePlan(graph::Plan& plan, recipes::Renderer& renderer, recipes::Techni
     renderer.backend().setProfiling(false);
     for (graph::Plan::Pass& pass : plan.passes) {
         const auto times = asPlanned.passMs.find(pass.name);
-        if (times != asPlanned.passMs.end()) pass.ms = median(times->second);
+        if (times != asPlanned.passMs.end()) pass.ms = spreadOf(times->second).median;
     }
     if (!settings.prune || plan.leftOut.empty()) return;
     const std::size_t wholeBytes = recipes::planFrame(renderer.scene(), technique, whole).bytes;
     plan.leftOut.push_back({"all of these together", "measured against prune = off",
                             wholeBytes - std::min(wholeBytes, plan.bytes),
-                            median(unpruned.totalMs) - median(asPlanned.totalMs)});
+                            spreadOf(unpruned.totalMs).median - spreadOf(asPlanned.totalMs).median});
 }
 
 std::vector<double> frameMs(recipes::Renderer& renderer, const std::vector<recipes::Technique>& techniques,
                             const frame::FrameSettings& settings, int frames) {
-    std::vector<std::vector<double>> times(techniques.size());
-    for (int i = 0; i <= frames; ++i) {
-        for (std::size_t t = 0; t < techniques.size(); ++t) {
-            gpu::finish();
-            const auto start = std::chrono::steady_clock::now();
-            renderer.draw(techniques[t], settings);
-            gpu::finish();
-            const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
-            if (i > 0) times[t].push_back(elapsed.count()); // the first round compiles shaders
-        }
+    std::vector<TimedFrame> kinds;
+    for (const recipes::Technique technique : techniques) {
+        kinds.emplace_back([&renderer, &settings, technique](const glm::dvec3& eyeOffsetWS) {
+            frame::FrameSettings moved = settings;
+            moved.eyeOffsetWS += eyeOffsetWS;
+            renderer.draw(technique, moved);
+        });
     }
     std::vector<double> medians;
-    for (const std::vector<double>& sample : times) medians.push_back(median(sample));
+    for (std::vector<double>& times : timeInterleaved(kinds, {.warmUpRounds = 1, .rounds = frames}))
+        medians.push_back(spreadOf(std::move(times)).median);
     return medians;
 }
 

@@ -50,7 +50,7 @@ std::vector<ChannelShare> channelShares(recipes::Renderer& renderer, const Compa
     std::vector<ChannelShare> shares;
     const frame::FeatureSet features =
         request.settings.prune ? frame::materialFeatures(renderer.scene()) : frame::allFeatures();
-    for (const frame::Channel channel : frame::neededChannels(features, false)) {
+    for (const frame::Channel channel : frame::neededChannels(features, request.settings.layout, false)) {
         frame::FrameSettings settings = request.settings;
         settings.layout.encoding[std::size_t(channel)] = frame::Encoding::Exact;
         const Picture picture = toPicture(renderer.render(technique, settingsFor(technique, settings)));

@@ -8,6 +8,12 @@
 
 namespace tessera::recipes {
 
+scenes::Camera frameCamera(const scenes::Scene& scene, const frame::FrameSettings& settings) {
+    scenes::Camera camera = scene.cameras[std::size_t(settings.camera)];
+    camera.worldFromCamera[3] += glm::dvec4(settings.eyeOffsetWS, 0.0);
+    return camera;
+}
+
 PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings) {
     if (settings.sizePixels.x < 1 || settings.sizePixels.y < 1) {
         throw InputError(
@@ -22,7 +28,7 @@ PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, cons
                                      *settings.soloLight, scene.lights.size(), int(scene.lights.size()) - 1));
     }
     PreparedFrame prepared;
-    const scenes::Camera& camera = scene.cameras[std::size_t(settings.camera)];
+    const scenes::Camera camera = frameCamera(scene, settings);
     // A debug view shows quantities of surfaces; where there is none it shows 0.
     const glm::vec3 background = settings.view == frame::View::Final ? scene.background : glm::vec3(0.0f);
     prepared.view = frame::makeCameraView(camera, settings.sizePixels, settings.space, background);

@@ -19,4 +19,7 @@ struct PreparedFrame {
 /// culling method that the technique does not take.
 PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings);
 
+/// The camera that the settings ask for, where they put it.
+scenes::Camera frameCamera(const scenes::Scene& scene, const frame::FrameSettings& settings);
+
 } // namespace tessera::recipes

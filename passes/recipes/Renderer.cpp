@@ -53,12 +53,13 @@ Renderer::Renderer(gpu::Context& context, const scenes::Scene& scene, shader::So
 
 Renderer::~Renderer() = default;
 
-void Renderer::prepareScene(const frame::FrameSpec& spec) {
+frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     // Light types change from frame to frame and do not concern the scene's buffers.
     frame::FeatureSet features = spec.settings.prune ? frame::materialFeatures(scene_) : frame::allFeatures();
-    if (sceneGpu_ && features == sceneFeatures_) return;
+    if (sceneGpu_ && features == sceneFeatures_) return *sceneGpu_;
     sceneGpu_ = std::make_unique<frame::SceneGpu>(scene_, features);
     sceneFeatures_ = features;
+    return *sceneGpu_;
 }
 
 void Renderer::draw(Technique technique, const frame::FrameSettings& asked) {
@@ -67,8 +68,7 @@ void Renderer::draw(Technique technique, const frame::FrameSettings& asked) {
     auto drawn = std::make_unique<Drawn>();
     drawn->prepared = prepareFrame(scene_, technique, settings);
     const PreparedFrame& prepared = drawn->prepared;
-    prepareScene(prepared.spec);
-    sceneGpu_->setView(prepared.view);
+    sceneGpu(prepared.spec).setView(prepared.view);
     lights_.upload(prepared.lights);
     frameConstants_.uploadValue(prepared.view.constants);
     displayConstants_.uploadValue(displayConstants(settings));

@@ -40,13 +40,15 @@ public:
     /// The light lists that the latest draw() used, whoever built them; none where its pixels visited every light.
     std::optional<culling::LightLists> lightLists() const;
 
+    /// The scene as frames of this spec have it on the GPU. Whoever draws it sets its view first; draw() does.
+    frame::SceneGpu& sceneGpu(const frame::FrameSpec& spec);
+
     gpu::GraphBackend& backend() { return backend_; }
     shader::ProgramLibrary& programs() { return programs_; }
     const scenes::Scene& scene() const { return scene_; }
 
 private:
     struct Drawn;
-    void prepareScene(const frame::FrameSpec& spec);
 
     gpu::Context& context_;
     const scenes::Scene& scene_;

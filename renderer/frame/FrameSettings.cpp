@@ -17,6 +17,8 @@ constexpr ViewInfo kViews[] = {
     {View::Geometry, 5, "geometry", "G of one light", DisplayMapping::Radiance},
     {View::Fresnel, 6, "fresnel", "F of one light", DisplayMapping::Radiance},
     {View::Depth, 0, "depth", "distance along the view axis in metres", DisplayMapping::Distance},
+    {View::Lights, 0, "lights", "how many lights the pixel visits, as heat colours with a legend",
+     DisplayMapping::Count},
 };
 
 constexpr ToneMapInfo kToneMaps[] = {
@@ -31,6 +33,7 @@ static_assert(static_cast<unsigned>(ToneMap::Aces) == TONEMAP_ACES &&
 static_assert(static_cast<unsigned>(DisplayMapping::Raw) == DISPLAY_RAW);
 static_assert(static_cast<unsigned>(DisplayMapping::Signed) == DISPLAY_SIGNED);
 static_assert(static_cast<unsigned>(DisplayMapping::Distance) == DISPLAY_DISTANCE);
+static_assert(static_cast<unsigned>(DisplayMapping::Count) == DISPLAY_COUNT);
 
 } // namespace
 

@@ -13,13 +13,14 @@
 /// lists.
 namespace tessera::frame {
 
-enum class View : std::uint8_t { Final, Diffuse, NormalTexel, Normal, Distribution, Geometry, Fresnel, Depth };
+enum class View : std::uint8_t { Final, Diffuse, NormalTexel, Normal, Distribution, Geometry, Fresnel, Depth, Lights };
 /// How a view's values become a display picture; its value is DISPLAY_* of shaders/shared/display.h.
 enum class DisplayMapping : std::uint8_t {
     Radiance, ///< exposure, tone map, sRGB
     Raw,      ///< code value = value
     Signed,   ///< code value = value / 2 + 1/2
-    Distance  ///< 1 at the eye, 1/2 at 10 m, 0 at infinity
+    Distance, ///< 1 at the eye, 1/2 at 10 m, 0 at infinity
+    Count     ///< the heat colours of shaders/shared/heat.h, logarithmic
 };
 struct ViewInfo {
     View view; ///< its value is VIEW of shaders/lib/views.glsl
@@ -46,6 +47,7 @@ struct FrameSettings {
     glm::ivec2 sizePixels{1280, 720};
     int camera = 0; ///< index into Scene::cameras
     double timeSeconds = 0.0;
+    glm::dvec3 eyeOffsetWS{0.0}; ///< metres, added to the camera's place: benchmarks move the eye between frames
     GBufferLayout layout;
     View view = View::Final;
     TextureFilter filter = TextureFilter::Hardware;

@@ -48,7 +48,7 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     } else {
         spec.features = allFeatures();
     }
-    spec.channels = neededChannels(spec.features, settings.view == View::NormalTexel);
+    spec.channels = neededChannels(spec.features, settings.layout, settings.view == View::NormalTexel);
     return spec;
 }
 

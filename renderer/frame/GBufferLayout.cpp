@@ -1,5 +1,7 @@
 #include "renderer/frame/GBufferLayout.h"
 
+#include <algorithm>
+
 namespace tessera::frame {
 
 namespace {
@@ -13,7 +15,7 @@ constexpr ChannelInfo kChannels[] = {
      "octahedral 2 x 16 bit", "scenes with a lit model"},
     {Channel::Microsurface, "microsurface", "MICROSURFACE", "alpha, model, ior or F90, metallic", Format::Rgba32Float,
      Format::R32Uint, "perceptual roughness 11 bit, (ior-1)/(ior+1) or F90 11 bit, metallic 7 bit, model 3 bit",
-     "scenes with a glossy model or several models"},
+     "scenes with several models, another ior, or no room beside albedo and normal"},
     {Channel::Specular, "specular", "SPECULAR", "k_s or dielectric F0", Format::Rgba32Float, Format::R32Uint,
      "square root, 11 11 10 bit, 0..1", "scenes that change k_s or the dielectric F0"},
     {Channel::Emission, "emission", "EMISSION", "radiance without lights", Format::Rgba32Float, Format::R32Uint,
@@ -22,6 +24,10 @@ constexpr ChannelInfo kChannels[] = {
      Format::Rgba8Unorm, "8 bit a component", "the view that shows it"},
 };
 static_assert(std::size(kChannels) == kChannelCount);
+
+bool haveSpareComponents(const GBufferLayout& layout) {
+    return layout[Channel::Albedo] == Encoding::Exact && layout[Channel::Normal] == Encoding::Exact;
+}
 
 constexpr GBufferLayout uniformLayout(Encoding encoding) {
     GBufferLayout layout;
@@ -48,14 +54,18 @@ graph::Format GBufferLayout::format(Channel channel) const {
     return (*this)[channel] == Encoding::Exact ? info.exact : info.packed;
 }
 
-std::vector<Channel> neededChannels(const FeatureSet& features, bool normalTexel) {
+std::vector<Channel> neededChannels(const FeatureSet& features, const GBufferLayout& layout, bool normalTexel) {
     const bool glossy = features[Feature::Microfacet] || features[Feature::MetallicRoughness];
     std::vector<Channel> channels;
     if (features.litModels()) {
         channels.push_back(Channel::Albedo);
         channels.push_back(Channel::Normal);
     }
-    if (glossy || !features.soleModel) channels.push_back(Channel::Microsurface);
+    const bool alphaAndMetallicOnly =
+        features.soleModel == scenes::MaterialModel::MetallicRoughness && !features[Feature::Specular];
+    const bool spare =
+        alphaAndMetallicOnly && haveSpareComponents(layout) && layout[Channel::Microsurface] == Encoding::Exact;
+    if ((glossy || !features.soleModel) && !spare) channels.push_back(Channel::Microsurface);
     if (glossy && features[Feature::Specular]) channels.push_back(Channel::Specular);
     if (features[Feature::Emission]) channels.push_back(Channel::Emission);
     if (normalTexel) channels.push_back(Channel::NormalTexel);
@@ -70,6 +80,11 @@ Defines channelDefines(const GBufferLayout& layout, std::span<const Channel> cha
         defines.emplace_back(name, std::to_string(attachment));
         defines.emplace_back(name + "_PACKED", layout[channels[attachment]] == Encoding::Packed ? "1" : "0");
     }
+    const auto has = [&](Channel channel) {
+        return std::find(channels.begin(), channels.end(), channel) != channels.end();
+    };
+    if (has(Channel::Albedo) && has(Channel::Normal) && !has(Channel::Microsurface) && haveSpareComponents(layout))
+        defines.emplace_back("GBUFFER_SPARE_COMPONENTS", "1");
     return defines;
 }
 

@@ -10,9 +10,6 @@
 namespace tessera::gpu {
 namespace {
 
-/// Frames after which an allocation that nobody asks for any more is given back: alternating techniques keep theirs.
-constexpr int kMostIdleFrames = 3;
-
 std::string poolLabel(const graph::ResourceDesc& desc) {
     if (const auto* texture = std::get_if<graph::TextureDesc>(&desc))
         return fmt::format("transient {} {} x {}, {} samples", graph::formatInfo(texture->format).name, texture->width,
@@ -51,8 +48,8 @@ void GraphBackend::allocate(std::span<const graph::ResourceDesc> allocations) {
         ++pooled->idleFrames;
     }
     for (const graph::ResourceDesc& desc : allocations) physical_.push_back(&take(desc));
-    const auto dropped =
-        std::erase_if(pool_, [](const auto& pooled) { return !pooled->taken && pooled->idleFrames > kMostIdleFrames; });
+    const auto dropped = std::erase_if(
+        pool_, [this](const auto& pooled) { return !pooled->taken && pooled->idleFrames > mostIdleFrames_; });
     if (dropped > 0) framebuffers_.collect();
 }
 

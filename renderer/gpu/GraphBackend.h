@@ -36,6 +36,11 @@ public:
     void setProfiling(bool on) { profiling_ = on; }
     bool profiling() const { return profiling_; }
 
+    /// Frames after which an allocation that nobody asks for any more is given back. Frames that take turns keep theirs
+    /// when it is at least their number.
+    void setMostIdleFrames(int frames) { mostIdleFrames_ = frames; }
+    int mostIdleFrames() const { return mostIdleFrames_; }
+
     /// Begins a frame: what the previous frame's allocations held may be overwritten from now on.
     void allocate(std::span<const graph::ResourceDesc> allocations) override;
     const Texture& texture(int physical) override;
@@ -73,6 +78,7 @@ private:
     std::map<PassKey, PassRecord> records_;
     std::vector<PassKey> frame_; ///< passes of the frame, in order
     std::map<std::string, int, std::less<>> runsOfName_;
+    int mostIdleFrames_ = 3; ///< two or three techniques that alternate in a viewer keep theirs
     bool profiling_ = false;
     bool isSoftware_ = false;
     std::unique_ptr<DebugGroup> group_; ///< of the open pass

@@ -1,6 +1,7 @@
 // The G-buffer's channels: how a surface is stored in them and read back.
 // Which channels exist, at which attachment and in which encoding comes from the table kGBufferChannels
 // (renderer/frame/GBufferLayout.h) as defines: GBUFFER_<NAME> is the attachment, GBUFFER_<NAME>_PACKED its encoding.
+// GBUFFER_SPARE_COMPONENTS: metallic and alpha are the fourth components of albedo and normal.
 // GBUFFER_WRITE declares the channels as outputs, otherwise they are textures.
 #pragma once
 #include "shared/slots.h"
@@ -52,14 +53,14 @@ void writeGBuffer(Surface surface)
 #if GBUFFER_ALBEDO_PACKED
     albedoChannel = uvec4(encodeSquareRoot(surface.albedo), 0u, 0u, 0u);
 #else
-    albedoChannel = vec4(surface.albedo, 0.0);
+    albedoChannel = vec4(surface.albedo, surface.metallic);
 #endif
 #endif
 #ifdef GBUFFER_NORMAL
 #if GBUFFER_NORMAL_PACKED
     normalChannel = vec4(encodeOctahedral(surface.normalLS), 0.0, 0.0);
 #else
-    normalChannel = vec4(surface.normalLS, 0.0);
+    normalChannel = vec4(surface.normalLS, surface.alpha);
 #endif
 #endif
 #ifdef GBUFFER_MICROSURFACE
@@ -140,14 +141,22 @@ Surface surfaceFromGBuffer(ivec2 pixel)
 #if GBUFFER_ALBEDO_PACKED
     surface.albedo = decodeSquareRoot(texelFetch(albedoChannel, pixel, 0).r);
 #else
-    surface.albedo = texelFetch(albedoChannel, pixel, 0).rgb;
+    vec4 albedo = texelFetch(albedoChannel, pixel, 0);
+    surface.albedo = albedo.rgb;
+#ifdef GBUFFER_SPARE_COMPONENTS
+    surface.metallic = albedo.a;
+#endif
 #endif
 #endif
 #ifdef GBUFFER_NORMAL
 #if GBUFFER_NORMAL_PACKED
     surface.normalLS = decodeOctahedral(texelFetch(normalChannel, pixel, 0).xy);
 #else
-    surface.normalLS = texelFetch(normalChannel, pixel, 0).xyz;
+    vec4 normal = texelFetch(normalChannel, pixel, 0);
+    surface.normalLS = normal.xyz;
+#ifdef GBUFFER_SPARE_COMPONENTS
+    surface.alpha = normal.w;
+#endif
 #endif
 #endif
 #ifdef GBUFFER_MICROSURFACE

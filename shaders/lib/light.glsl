@@ -1,13 +1,7 @@
 // One light: reading it, and what it sends to a point. The windows (range, cone) belong to the light and are the same in
 // every technique, also where nothing is culled.
 #pragma once
-#include "shared/slots.h"
-#include "shared/light.h"
-
-layout(binding = TEXTURE_UNIT_LIGHTS) uniform samplerBuffer lightTexels;
-#if HAS_SPOT_LIGHTS || HAS_ATTENUATION_LIGHTS
-layout(binding = TEXTURE_UNIT_LIGHT_SHAPES) uniform samplerBuffer lightShapeTexels;
-#endif
+#include "lib/light_store.glsl"
 
 // Light as it arrives at a point.
 struct Incident {
@@ -18,8 +12,8 @@ struct Incident {
 // What light `index` sends to positionLS. False where it sends exactly nothing, by range or cone.
 bool incidentLight(int index, vec3 positionLS, out Incident incident)
 {
-    vec4 place = texelFetch(lightTexels, index * LIGHT_TEXELS);
-    vec4 color = texelFetch(lightTexels, index * LIGHT_TEXELS + 1);
+    vec4 place = lightTexel(index, 0);
+    vec4 color = lightTexel(index, 1);
     int kind = int(color.w);
     incident.toLightLS = place.xyz;
     incident.intensity = color.rgb;
@@ -35,7 +29,7 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
     precise float falloff = (window * window) / max(distance2, 1e-4);
 #if HAS_ATTENUATION_LIGHTS || HAS_SPOT_LIGHTS
     vec4 attenuation = vec4(0.0);
-    if (kind != LIGHT_POINT) attenuation = texelFetch(lightShapeTexels, index * LIGHT_SHAPE_TEXELS + 1);
+    if (kind != LIGHT_POINT) attenuation = lightShapeTexel(index, 1);
 #endif
 #if HAS_ATTENUATION_LIGHTS
     if ((kind & LIGHT_ATTENUATION) != 0) {
@@ -48,7 +42,7 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
     precise vec3 direction = distance2 > 0.0 ? toLight / sqrt(distance2) : vec3(0.0);
 #if HAS_SPOT_LIGHTS
     if ((kind & LIGHT_SPOT) != 0) {
-        vec4 axis = texelFetch(lightShapeTexels, index * LIGHT_SHAPE_TEXELS);
+        vec4 axis = lightShapeTexel(index, 0);
         precise float cone = clamp(-dot(direction, axis.xyz) * axis.w + attenuation.w, 0.0, 1.0);
         if (!(cone > 0.0)) return false;
         falloff *= cone * cone;

@@ -11,6 +11,7 @@
 #define VIEW_GEOMETRY 5
 #define VIEW_FRESNEL 6
 #define VIEW_DEPTH 7
+#define VIEW_LIGHTS 8
 
 // D, G or F of the one light that frame.lights.y names, as rgb; 0 where the light is not visible from the point.
 vec3 specularFactorView(Surface surface, Viewpoint viewpoint)
@@ -37,6 +38,21 @@ vec3 specularFactorView(Surface surface, Viewpoint viewpoint)
     return shown;
 }
 
+// How many lights the pixel visits, as rgb.
+vec3 visitedLightsView(Surface surface, Viewpoint viewpoint, vec2 pixel)
+{
+    int count = 0;
+#if HAS_LIT_MODELS
+#if HAS_SINGLE_COLOR
+    if (surface.model == MODEL_SINGLE_COLOR) return vec3(0.0);
+#endif
+    LightCursor cursor = lightCursor(pixel, viewpoint.depth);
+    int light;
+    while (nextLight(cursor, light)) count += 1;
+#endif
+    return vec3(float(count));
+}
+
 vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
 {
 #if VIEW == VIEW_FINAL
@@ -47,6 +63,8 @@ vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
     return surface.normalTexel;
 #elif VIEW == VIEW_NORMAL
     return mat3(frame.worldFromLS) * surface.normalLS;
+#elif VIEW == VIEW_LIGHTS
+    return visitedLightsView(surface, viewpoint, pixel);
 #elif VIEW == VIEW_DEPTH
     return vec3(dot(viewpoint.positionLS, frame.forwardLS.xyz));
 #else

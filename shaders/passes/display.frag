@@ -1,6 +1,7 @@
 // Linear radiance to display code values: exposure, tone map, sRGB transfer function.
 #include "shared/slots.h"
 #include "shared/display.h"
+#include "shared/heat.h"
 #include "lib/tonemap.glsl"
 
 layout(std140, binding = UNIFORM_DISPLAY) uniform DisplayBlock
@@ -16,6 +17,7 @@ vec3 codeValues(vec3 value)
     case DISPLAY_RAW: return value;
     case DISPLAY_SIGNED: return value * 0.5 + 0.5;
     case DISPLAY_DISTANCE: return vec3(10.0 / (10.0 + max(value, 0.0)));
+    case DISPLAY_COUNT: return heatColor(heatPositionOfCount(value.r, HEAT_COUNT_LOG2));
     default: return encodeSrgb(toneMapped(value * display.exposure.x, display.mapping.y));
     }
 }

@@ -12,6 +12,7 @@
 #define DISPLAY_RAW 1u
 #define DISPLAY_SIGNED 2u
 #define DISPLAY_DISTANCE 3u
+#define DISPLAY_COUNT 4u
 
 SHARED_BEGIN
 

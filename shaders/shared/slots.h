@@ -18,6 +18,19 @@ SHARED_BEGIN
 #define UNIFORM_FRAME 0
 #define UNIFORM_MATERIAL 1
 #define UNIFORM_DISPLAY 2
+#define UNIFORM_LIGHTS 3
+#define UNIFORM_LIGHT_SHAPES 4
+
+// Storage blocks. OpenGL 4.5 guarantees 0 to 7; what builds light lists never reads lights from storage blocks.
+#define STORAGE_LIGHT_TILES 0
+#define STORAGE_LIGHT_CELLS 1
+#define STORAGE_LIGHT_ENTRIES 2
+#define STORAGE_LIGHT_REACH 3
+#define STORAGE_TILE_DEPTHS 4
+#define STORAGE_TILE_COUNTS 5
+#define STORAGE_LIST_TOTALS 6
+#define STORAGE_LIGHT_SHAPES 6
+#define STORAGE_LIGHTS 7
 
 // Texture units: the slots of scenes::TextureSlot in that order, then the G-buffer, then buffers.
 #define TEXTURE_SLOT_BASE_COLOR 0
@@ -42,14 +55,5 @@ SHARED_BEGIN
 
 // Image units.
 #define IMAGE_UNIT_RADIANCE 0
-
-// Storage buffers of the passes that build light lists.
-#define STORAGE_LIGHT_TILES 0
-#define STORAGE_LIGHT_CELLS 1
-#define STORAGE_LIGHT_ENTRIES 2
-#define STORAGE_LIGHT_REACH 3
-#define STORAGE_TILE_DEPTHS 4
-#define STORAGE_TILE_COUNTS 5
-#define STORAGE_LIST_TOTALS 6
 
 SHARED_END

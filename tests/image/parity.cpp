@@ -32,6 +32,12 @@ protected:
     }
 };
 
+bool usesGBuffer(const std::string& technique) {
+    for (const recipes::TechniqueInfo& info : recipes::techniqueTable())
+        if (info.name == technique) return info.usesGBuffer;
+    return false;
+}
+
 /// The sizes: one that tiles evenly and one that is odd both ways.
 constexpr glm::ivec2 kSizes[] = {{640, 360}, {641, 359}};
 
@@ -56,10 +62,12 @@ TEST_F(Parity, packedLayoutAlwaysStaysWithinItsErrorBoundAndAttributesIt) {
         settings.layout = frame::layoutTable()[1].layout;
         const validation::CompareRecord record = compare(scene, settings);
         EXPECT_TRUE(record.ok()) << validation::compareTable(record);
-        const validation::ComparePair& deferred = record.pairs.back();
-        EXPECT_LE(deferred.figures.relMse, 1e-4);
-        EXPECT_LT(deferred.figures.bitEqual, 1.0) << "a packed G-buffer that costs nothing was not used";
-        EXPECT_FALSE(deferred.channels.empty());
+        for (const validation::ComparePair& pair : record.pairs) {
+            if (!usesGBuffer(pair.a)) continue;
+            EXPECT_LE(pair.figures.relMse, 1e-4);
+            EXPECT_LT(pair.figures.bitEqual, 1.0) << "a packed G-buffer that costs nothing was not used";
+            EXPECT_FALSE(pair.channels.empty());
+        }
         fmt::print("{}", validation::compareTable(record));
     }
 }
@@ -86,6 +94,7 @@ TEST_F(Parity, everyViewIsExactlyTheSameInForwardAndDeferred) {
     recipes::Renderer renderer(context(), scene);
     for (const frame::ViewInfo& view : frame::viewTable()) {
         SCOPED_TRACE(view.name);
+        if (view.view == frame::View::Lights) continue; // what it shows is what techniques differ in
         frame::FrameSettings settings;
         settings.sizePixels = {161, 90};
         settings.view = view.view;

@@ -112,12 +112,12 @@ TEST_F(LayoutTest, theShaderAlwaysReadsTheValuesThatCppWrote) {
     EXPECT_EQ(out.back(), frame.depthKey);
 }
 
-TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexel) {
+TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexelOfEveryStore) {
     static_assert(sizeof(shared::LightTexels) == LIGHT_TEXELS * sizeof(glm::vec4));
     static_assert(sizeof(shared::LightShapeTexels) == LIGHT_SHAPE_TEXELS * sizeof(glm::vec4));
     frame::PackedLights lights;
-    lights.texels.resize(100);
-    lights.shapes.resize(100);
+    lights.texels.resize(LIGHT_UNIFORM_LIGHTS); // as many as fit a uniform block
+    lights.shapes.resize(LIGHT_UNIFORM_LIGHTS);
     float next = 0.0f;
     for (std::size_t i = 0; i < lights.texels.size(); ++i)
         for (glm::vec4* member : {&lights.texels[i].position, &lights.texels[i].color, &lights.shapes[i].axis,
@@ -127,16 +127,27 @@ TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexel) {
     frame::LightBuffers buffers;
     buffers.upload(lights);
     buffers.bind();
-    const shader::Defines spots{{"HAS_DIRECTIONAL_LIGHTS", "0"},
-                                {"HAS_POINT_LIGHTS", "0"},
-                                {"HAS_SPOT_LIGHTS", "1"},
-                                {"HAS_ATTENUATION_LIGHTS", "0"}};
-    const std::vector<glm::vec4> out = bench.run("light_texels.comp", spots, {glm::vec4(0.0f)}, 100, 4);
-    for (std::size_t i = 0; i < lights.texels.size(); ++i) {
-        EXPECT_EQ(out[4 * i], lights.texels[i].position);
-        EXPECT_EQ(out[4 * i + 1], lights.texels[i].color);
-        EXPECT_EQ(out[4 * i + 2], lights.shapes[i].axis);
-        EXPECT_EQ(out[4 * i + 3], lights.shapes[i].attenuation);
+    const gpu::Buffer texels = gpu::Buffer::of("lights", lights.texels);
+    const gpu::Buffer shapes = gpu::Buffer::of("light shapes", lights.shapes);
+    gpu::bindUniformBuffer(UNIFORM_LIGHTS, texels);
+    gpu::bindUniformBuffer(UNIFORM_LIGHT_SHAPES, shapes);
+    gpu::bindStorageBuffer(STORAGE_LIGHTS, texels);
+    gpu::bindStorageBuffer(STORAGE_LIGHT_SHAPES, shapes);
+    for (const char* store : {"LIGHT_STORE_TEXEL", "LIGHT_STORE_UNIFORM", "LIGHT_STORE_STORAGE"}) {
+        SCOPED_TRACE(store);
+        const shader::Defines spots{{"HAS_DIRECTIONAL_LIGHTS", "0"},
+                                    {"HAS_POINT_LIGHTS", "0"},
+                                    {"HAS_SPOT_LIGHTS", "1"},
+                                    {"HAS_ATTENUATION_LIGHTS", "0"},
+                                    {"LIGHT_STORE", store}};
+        const std::vector<glm::vec4> out =
+            bench.run("light_texels.comp", spots, {glm::vec4(0.0f)}, lights.texels.size(), 4);
+        for (std::size_t i = 0; i < lights.texels.size(); ++i) {
+            EXPECT_EQ(out[4 * i], lights.texels[i].position);
+            EXPECT_EQ(out[4 * i + 1], lights.texels[i].color);
+            EXPECT_EQ(out[4 * i + 2], lights.shapes[i].axis);
+            EXPECT_EQ(out[4 * i + 3], lights.shapes[i].attenuation);
+        }
     }
 }
 

@@ -9,7 +9,7 @@ void main()
     int i = int(gl_GlobalInvocationID.x);
     if (i * 4 >= outputs.length()) return;
     for (int texel = 0; texel < 2; ++texel) {
-        outputs[i * 4 + texel] = texelFetch(lightTexels, i * LIGHT_TEXELS + texel);
-        outputs[i * 4 + 2 + texel] = texelFetch(lightShapeTexels, i * LIGHT_SHAPE_TEXELS + texel);
+        outputs[i * 4 + texel] = lightTexel(i, texel);
+        outputs[i * 4 + 2 + texel] = lightShapeTexel(i, texel);
     }
 }

@@ -46,7 +46,7 @@ private:
         const auto recursive = std::filesystem::copy_options::recursive;
         std::filesystem::copy(root / "shaders", folder_.path(), recursive);
         std::filesystem::create_directories(folder_.path() / "test");
-        for (const char* part : {"shaders", "layout", "gbuffer"}) {
+        for (const char* part : {"shaders", "layout", "gbuffer", "validation"}) {
             for (const auto& entry : std::filesystem::directory_iterator(root / "tests/gpu" / part)) {
                 if (entry.path().extension() == ".cpp" || entry.path().extension() == ".h") continue;
                 std::filesystem::copy_file(entry.path(), folder_.path() / "test" / entry.path().filename());

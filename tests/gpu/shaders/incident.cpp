@@ -34,8 +34,8 @@ protected:
         const frame::CameraView view =
             frame::makeCameraView(scenes::Camera{}, {64, 64}, frame::LightingSpace::World, glm::vec3(0.0f));
         packed = frame::packLights(scene, view, settings);
-        lights.upload(packed);
-        lights.bind();
+        lightBuffers.upload(packed);
+        lightBuffers.bind();
         std::vector<glm::vec4> inputs;
         for (const Probe& probe : probes) inputs.emplace_back(probe.position, float(probe.light));
         const std::vector<glm::vec4> out =
@@ -47,7 +47,7 @@ protected:
     }
     test::ShaderBench bench;
     frame::PackedLights packed;
-    frame::LightBuffers lights;
+    frame::LightBuffers lightBuffers;
 };
 
 bool isFinite(const glm::vec3& v) {

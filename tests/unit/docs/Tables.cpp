@@ -60,6 +60,8 @@ std::string namesIn(const Table& table) {
 TEST(Documentation, theNamesThatOptionsTakeAreExactlyThoseOfTheProgram) {
     const std::string text = test::textOf(test::kRepository / "docs" / "command-line.md");
     for (const std::string& row : {"| `--technique` | " + namesIn(recipes::techniqueTable()) + " (",
+                                   "| `--culling` | " + namesIn(culling::methodTable()) + " (",
+                                   "| `--cull-on` | " + namesIn(culling::builderTable()) + " (",
                                    "| `--layout` | " + namesIn(frame::layoutTable()) + " (",
                                    "| `--tonemap` | " + namesIn(frame::toneMapTable()) + " ("}) {
         EXPECT_NE(text.find(row), std::string::npos) << "docs/command-line.md should have a row that begins " << row;

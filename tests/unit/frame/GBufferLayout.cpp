@@ -45,8 +45,25 @@ TEST(GBufferLayout, theExactLayoutIsAlwaysFp32) {
         EXPECT_EQ(namedLayout("exact").format(info.channel), graph::Format::Rgba32Float) << info.name;
 }
 
+TEST(GBufferLayout, alphaAndMetallicAlwaysFillSpareComponentsWhereNothingElseIsStoredOfTheMicrosurface) {
+    const GBufferLayout& exact = namedLayout("exact");
+    const FeatureSet plain = featuresOf(MaterialModel::MetallicRoughness);
+    const std::vector<Channel> channels = neededChannels(plain, exact, false);
+    EXPECT_THAT(channels, ElementsAre(Channel::Albedo, Channel::Normal));
+    EXPECT_EQ(channelDefines(exact, channels).back(),
+              std::make_pair(std::string("GBUFFER_SPARE_COMPONENTS"), std::string("1")));
+    const FeatureSet tinted = featuresOf(MaterialModel::MetallicRoughness, [](scenes::Material& m) { m.ior = 1.4f; });
+    for (const FeatureSet& features : {tinted, featuresOf(MaterialModel::Microfacet), allFeatures()})
+        EXPECT_THAT(neededChannels(features, exact, false), testing::Contains(Channel::Microsurface));
+    GBufferLayout mixed = exact;
+    mixed.encoding[std::size_t(Channel::Normal)] = Encoding::Packed;
+    EXPECT_THAT(neededChannels(plain, mixed, false), testing::Contains(Channel::Microsurface));
+}
+
 TEST(GBufferLayout, channelsAreAllocatedExactlyWhenASurfaceNeedsThem) {
-    const auto channels = [](const FeatureSet& features) { return neededChannels(features, false); };
+    const auto channels = [](const FeatureSet& features) {
+        return neededChannels(features, namedLayout("packed"), false);
+    };
     EXPECT_THAT(channels(featuresOf(MaterialModel::SingleColor)), ElementsAre(Channel::Emission));
     EXPECT_THAT(channels(featuresOf(MaterialModel::Lambert)), ElementsAre(Channel::Albedo, Channel::Normal));
     EXPECT_THAT(channels(featuresOf(MaterialModel::Microfacet)),
@@ -55,7 +72,7 @@ TEST(GBufferLayout, channelsAreAllocatedExactlyWhenASurfaceNeedsThem) {
                 ElementsAre(Channel::Albedo, Channel::Normal, Channel::Microsurface, Channel::Specular));
     EXPECT_THAT(channels(featuresOf(MaterialModel::Lambert, [](scenes::Material& m) { m.emissive.r = 1.0f; })),
                 ElementsAre(Channel::Albedo, Channel::Normal, Channel::Emission));
-    EXPECT_THAT(neededChannels(featuresOf(MaterialModel::Lambert), true),
+    EXPECT_THAT(neededChannels(featuresOf(MaterialModel::Lambert), namedLayout("packed"), true),
                 ElementsAre(Channel::Albedo, Channel::Normal, Channel::NormalTexel));
     EXPECT_EQ(channels(allFeatures()).size(), kChannelCount - 1);
 
@@ -67,13 +84,13 @@ TEST(GBufferLayout, channelsAreAllocatedExactlyWhenASurfaceNeedsThem) {
 
 TEST(GBufferLayout, packedIsNeverMoreThanSixteenBytesForSurfacesThatDoNotEmit) {
     const GBufferLayout& packed = namedLayout("packed");
-    EXPECT_EQ(bytesPerPixel(packed, neededChannels(featuresOf(MaterialModel::Lambert), false)), 8);
-    EXPECT_EQ(bytesPerPixel(packed, neededChannels(featuresOf(MaterialModel::MetallicRoughness), false)), 12);
+    EXPECT_EQ(bytesPerPixel(packed, neededChannels(featuresOf(MaterialModel::Lambert), packed, false)), 8);
+    EXPECT_EQ(bytesPerPixel(packed, neededChannels(featuresOf(MaterialModel::MetallicRoughness), packed, false)), 12);
     FeatureSet all = allFeatures();
-    EXPECT_EQ(bytesPerPixel(packed, neededChannels(all, false)), 20);
+    EXPECT_EQ(bytesPerPixel(packed, neededChannels(all, packed, false)), 20);
     all.has.reset(std::size_t(Feature::Emission));
-    EXPECT_EQ(bytesPerPixel(packed, neededChannels(all, false)), 16);
-    EXPECT_EQ(bytesPerPixel(namedLayout("exact"), neededChannels(all, false)), 64);
+    EXPECT_EQ(bytesPerPixel(packed, neededChannels(all, packed, false)), 16);
+    EXPECT_EQ(bytesPerPixel(namedLayout("exact"), neededChannels(all, packed, false)), 64);
 }
 
 TEST(GBufferLayout, definesAlwaysNumberTheChannelsInOrder) {

@@ -8,10 +8,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "passes/recipes/PreparedFrame.h"
 #include "passes/recipes/Renderer.h"
 #include "renderer/shader/ProgramDesc.h"
 #include "scenes/Load.h"
 #include "tests/support/TempFolder.h"
+#include "validation/FloorGeometry.h"
+#include "validation/FloorLighting.h"
 
 namespace tessera {
 namespace {
@@ -59,12 +62,26 @@ std::vector<frame::FrameSettings> settingsThatMatter() {
     return all;
 }
 
+/// Those that the measured floor of a frame would use.
+void addFloorPrograms(std::map<std::string, shader::ProgramDesc>& programs, const frame::FrameSpec& spec) {
+    const shader::ProgramDesc geometry = validation::FloorGeometry::program(spec);
+    programs.emplace(geometry.key(), geometry);
+    if (!spec.features.litModels()) return;
+    for (const validation::LightStoreInfo& store : validation::lightStoreTable()) {
+        const shader::ProgramDesc lighting = validation::FloorLighting::program(spec, store);
+        programs.emplace(lighting.key(), lighting);
+    }
+}
+
 /// Adds the variants that frames of the scene would use, by their key.
 void addPrograms(std::map<std::string, shader::ProgramDesc>& programs, const scenes::Scene& scene) {
-    for (const frame::FrameSettings& settings : settingsThatMatter())
+    for (const frame::FrameSettings& settings : settingsThatMatter()) {
+        if (settings.view == frame::View::Final)
+            addFloorPrograms(programs, recipes::prepareFrame(scene, recipes::Technique::Forward, settings).spec);
         for (const recipes::TechniqueInfo& technique : recipes::techniqueTable())
             for (const shader::ProgramDesc& desc : recipes::framePrograms(scene, technique.technique, settings))
                 programs.emplace(desc.key(), desc);
+    }
 }
 
 std::map<std::string, shader::ProgramDesc> requestedPrograms() {

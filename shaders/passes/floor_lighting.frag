@@ -1,0 +1,12 @@
+// Lights a surface that is computed, not stored, at every pixel, by the product's own loop over all lights.
+#include "lib/floor_surface.glsl"
+#include "lib/lighting.glsl"
+
+layout(location = 0) out vec4 radiance;
+
+void main()
+{
+    Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, floorDepth(gl_FragCoord.xy));
+    precise vec3 lit = shadeSurface(floorSurface(gl_FragCoord.xy, viewpoint), viewpoint, gl_FragCoord.xy);
+    radiance = vec4(lit, 1.0);
+}

@@ -1,0 +1,39 @@
+#pragma once
+// Colours of heat maps, for C++ and GLSL alike.
+#include "interop.h"
+
+// Where the scale of counts ends when nobody has looked for the largest, as a power of two.
+#define HEAT_COUNT_LOG2 9.0f
+
+SHARED_BEGIN
+
+// The inferno map at ten equal steps, sRGB code values 0..1. Source: Smith and van der Walt 2015 (matplotlib, CC0).
+SHARED_FUNCTION vec3 heatAnchor(int step) {
+    vec3 code = vec3(252.0f, 255.0f, 164.0f);
+    if (step == 0) code = vec3(0.0f, 0.0f, 4.0f);
+    if (step == 1) code = vec3(27.0f, 12.0f, 66.0f);
+    if (step == 2) code = vec3(75.0f, 12.0f, 107.0f);
+    if (step == 3) code = vec3(120.0f, 28.0f, 109.0f);
+    if (step == 4) code = vec3(165.0f, 44.0f, 96.0f);
+    if (step == 5) code = vec3(207.0f, 68.0f, 70.0f);
+    if (step == 6) code = vec3(237.0f, 105.0f, 37.0f);
+    if (step == 7) code = vec3(251.0f, 154.0f, 6.0f);
+    if (step == 8) code = vec3(247.0f, 208.0f, 60.0f);
+    return code / 255.0f;
+}
+
+// Colour at 0..1 (clamped) as sRGB code values: black, violet, red, orange, pale yellow, lightness rising throughout;
+// straight lines between the steps.
+SHARED_FUNCTION vec3 heatColor(float position) {
+    float steps = min(max(position, 0.0f), 1.0f) * 9.0f;
+    int lower = min(int(steps), 8);
+    float share = steps - float(lower);
+    return heatAnchor(lower) * (1.0f - share) + heatAnchor(lower + 1) * share;
+}
+
+// Where a count lies on the scale: 0 at none, every doubling of 1 + count as far again, 1 at 2^log2Most - 1.
+SHARED_FUNCTION float heatPositionOfCount(float count, float log2Most) {
+    return log2(1.0f + max(count, 0.0f)) / log2Most;
+}
+
+SHARED_END

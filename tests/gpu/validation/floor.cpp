@@ -1,0 +1,237 @@
+// The measured floor: its shaders do what the product does, and its figures are there.
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "passes/DeferredLightingPass.h"
+#include "passes/recipes/PreparedFrame.h"
+#include "scenes/Load.h"
+#include "tests/gpu/shaders/ShaderBench.h"
+#include "validation/FloorBench.h"
+#include "validation/FloorLights.h"
+
+namespace tessera {
+namespace {
+
+using validation::FloorLighting;
+
+/// One light of every kind.
+frame::PackedLights everyKind() {
+    frame::PackedLights lights;
+    for (const int kind :
+         {LIGHT_POINT, LIGHT_DIRECTIONAL, LIGHT_SPOT, LIGHT_POINT | LIGHT_ATTENUATION, LIGHT_SPOT | LIGHT_ATTENUATION})
+        lights.texels.emplace_back().color.w = float(kind);
+    return lights;
+}
+
+/// Numbers that are not the same.
+int differences(const std::vector<float>& a, const std::vector<float>& b) {
+    EXPECT_EQ(a.size(), b.size());
+    int count = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) count += a[i] == b[i] ? 0 : 1;
+    return count;
+}
+
+class FloorTest : public test::GlTest {
+protected:
+    static constexpr glm::ivec2 kSize{160, 90};
+    static constexpr validation::LightStoreInfo kProductsStore{LIGHT_STORE_TEXEL, "texel buffer", "LIGHT_STORE_TEXEL"};
+
+    static frame::FrameSettings settings() {
+        frame::FrameSettings result;
+        result.sizePixels = kSize;
+        return result;
+    }
+    static scenes::Scene lattice(int lights) {
+        scenes::LoadOptions options;
+        options.lights = lights;
+        return scenes::loadScene("lattice", options);
+    }
+    /// A scene of one model and one kind of light; and one of everything, whose models and kinds take turns.
+    static std::vector<frame::FrameSpec> specs() {
+        const scenes::Scene scene = lattice(16);
+        std::vector<frame::FrameSpec> result{
+            recipes::prepareFrame(scene, recipes::Technique::Forward, settings()).spec};
+        result.emplace_back().settings = settings();
+        result.back().features = frame::allFeatures();
+        result.back().channels = frame::neededChannels(result.back().features, settings().layout, false);
+        return result;
+    }
+    static frame::PackedLights lightsOf(const frame::FrameSpec& spec, int count) {
+        if (spec.features[frame::Feature::SpotLights]) return validation::floorLights(everyKind(), count);
+        return validation::floorLights({}, count);
+    }
+    static std::vector<float> draw(FloorLighting& lighting, const validation::LightStoreInfo& store) {
+        lighting.draw(store);
+        return lighting.download();
+    }
+
+    /// The floor's surface in an exact G-buffer.
+    struct StoredSurface {
+        std::vector<std::unique_ptr<gpu::Texture>> channels; ///< as FrameSpec::channels
+        std::unique_ptr<gpu::Texture> depth;
+    };
+    StoredSurface storeSurface(const frame::FrameSpec& spec, const FloorLighting& lighting) {
+        StoredSurface stored;
+        gpu::Attachments attachments;
+        for (const frame::Channel channel : spec.channels) {
+            stored.channels.push_back(
+                std::make_unique<gpu::Texture>("channel", spec.texture(spec.settings.layout.format(channel))));
+            attachments.colors.push_back(stored.channels.back().get());
+        }
+        stored.depth = std::make_unique<gpu::Texture>("depth", spec.texture(graph::Format::Depth32Float));
+        attachments.depth = stored.depth.get();
+        const gpu::Framebuffer gbuffer(attachments);
+        gpu::bindFramebuffer(gbuffer);
+        gpu::PipelineState state;
+        state.depthTest = gpu::DepthTest::Always;
+        state.depthWrite = true;
+        gpu::setState(state);
+        gpu::useProgram(bench.programs().get(
+            frame::frameProgram(spec, "floor_gbuffer", "passes/fullscreen.vert", "test/floor_gbuffer.frag",
+                                frame::channelDefines(spec.settings.layout, spec.channels))));
+        gpu::bindUniformBuffer(UNIFORM_FRAME, lighting.frameConstants());
+        gpu::drawFullscreenTriangle();
+        return stored;
+    }
+
+    /// That surface lit by the shader of the deferred techniques.
+    std::vector<float> deferredPicture(const frame::FrameSpec& spec, const FloorLighting& lighting) {
+        const StoredSurface stored = storeSurface(spec, lighting);
+        const gpu::Texture radiance("radiance", spec.texture(graph::Format::Rgba32Float));
+        const gpu::Framebuffer target({{&radiance}, nullptr});
+        gpu::bindFramebuffer(target);
+        gpu::setState({});
+        gpu::useProgram(bench.programs().get(passes::DeferredLightingPass::program(spec)));
+        gpu::bindUniformBuffer(UNIFORM_FRAME, lighting.frameConstants());
+        lighting.bindLights(kProductsStore);
+        for (std::size_t i = 0; i < stored.channels.size(); ++i)
+            gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), *stored.channels[i]);
+        gpu::bindTexture(TEXTURE_UNIT_DEPTH, *stored.depth);
+        gpu::drawFullscreenTriangle();
+        return radiance.downloadAs<float>();
+    }
+
+    test::ShaderBench bench;
+};
+
+TEST_F(FloorTest, everyLightStoreAlwaysGivesTheVerySamePicture) {
+    for (const frame::FrameSpec& spec : specs()) {
+        FloorLighting lighting(bench.programs(), spec);
+        lighting.setLights(lightsOf(spec, validation::FloorBench::kManyLights));
+        const std::vector<float> first = draw(lighting, validation::lightStoreTable()[0]);
+        EXPECT_GT(*std::min_element(first.begin(), first.end()), 0.0f);
+        for (const validation::LightStoreInfo& store : validation::lightStoreTable())
+            EXPECT_EQ(differences(draw(lighting, store), first), 0) << store.name;
+    }
+}
+
+TEST_F(FloorTest, itsPictureIsExactlyWhatTheDeferredTechniquesGiveForTheSameSurface) {
+    for (const frame::FrameSpec& spec : specs()) {
+        FloorLighting lighting(bench.programs(), spec);
+        for (const int count : {0, 1, validation::FloorBench::kFewLights, validation::FloorBench::kManyLights}) {
+            lighting.setLights(lightsOf(spec, count));
+            EXPECT_EQ(differences(draw(lighting, validation::lightStoreTable()[0]), deferredPicture(spec, lighting)), 0)
+                << count << " lights";
+        }
+    }
+}
+
+TEST_F(FloorTest, everyLightAlwaysReachesEveryPixelFromTheFront) {
+    for (const frame::FrameSpec& spec : specs()) {
+        FloorLighting lighting(bench.programs(), spec);
+        const frame::PackedLights lights = lightsOf(spec, validation::FloorBench::kManyLights);
+        for (std::size_t i = 0; i < lights.texels.size(); ++i) {
+            frame::PackedLights one;
+            one.texels = {lights.texels[i]};
+            one.shapes = {lights.shapes[i]};
+            lighting.setLights(one);
+            const std::vector<float> picture = draw(lighting, validation::lightStoreTable()[0]);
+            ASSERT_GT(*std::min_element(picture.begin(), picture.end()), 0.0f);
+        }
+    }
+}
+
+TEST_F(FloorTest, neighbouringPixelsNeverShareAPropertyOfTheSurface) {
+    for (const frame::FrameSpec& spec : specs()) {
+        const StoredSurface stored = storeSurface(spec, FloorLighting(bench.programs(), spec));
+        const auto expectVaried = [](const gpu::Texture& texture, std::size_t components, std::size_t component) {
+            const std::vector<float> values = texture.downloadAs<float>();
+            for (std::size_t i = components + component; i < values.size(); i += components)
+                ASSERT_NE(values[i], values[i - components])
+                    << "component " << component << " of pixel " << i / components;
+        };
+        expectVaried(*stored.depth, 1, 0);
+        for (std::size_t channel = 0; channel < spec.channels.size(); ++channel) {
+            SCOPED_TRACE(frame::channelTable()[std::size_t(spec.channels[channel])].name);
+            switch (spec.channels[channel]) {
+            case frame::Channel::Albedo: // and metallic
+            case frame::Channel::Normal: // and alpha
+                for (const std::size_t component : {0, 1, 2, 3}) expectVaried(*stored.channels[channel], 4, component);
+                break;
+            case frame::Channel::Specular:
+                for (const std::size_t component : {0, 1, 2}) expectVaried(*stored.channels[channel], 4, component);
+                break;
+            case frame::Channel::Microsurface: // alpha, index of refraction or F90, metallic; not the model
+                for (const std::size_t component : {0, 2, 3}) expectVaried(*stored.channels[channel], 4, component);
+                break;
+            default: // no part of the loop over lights
+                break;
+            }
+        }
+    }
+}
+
+TEST_F(FloorTest, itsGeometryCoversExactlyThePixelsOfTheProduct) {
+    for (const char* name : {"lattice", "hall"}) {
+        const scenes::Scene scene = scenes::loadScene(name);
+        recipes::Renderer renderer(context(), scene);
+        validation::FloorGeometry geometry(renderer, settings());
+        geometry.draw(glm::dvec3(0.0));
+        const std::vector<float> drawn = geometry.download();
+        const recipes::RenderedFrame frame = renderer.render(recipes::Technique::Forward, settings());
+        std::size_t covered = 0;
+        for (int y = 0; y < kSize.y; ++y) {
+            for (int x = 0; x < kSize.x; ++x) {
+                const std::size_t at = std::size_t((kSize.y - 1 - y) * kSize.x + x) * 4; // rows run from the bottom
+                const bool isCovered = frame.radiance[std::size_t(y * kSize.x + x) * 4 + 3] > 0.0f;
+                ASSERT_EQ(drawn[at] == 1.0f, isCovered) << name << " " << x << " " << y;
+                covered += isCovered;
+            }
+        }
+        EXPECT_GT(covered, std::size_t(kSize.x * kSize.y) / 10) << name;
+    }
+}
+
+TEST_F(FloorTest, geometryAndEveryLightStoreAlwaysCostSomething) {
+    const scenes::Scene scene = lattice(256);
+    recipes::Renderer renderer(context(), scene);
+    frame::FrameSettings large = settings();
+    large.sizePixels = {320, 180};
+    validation::FloorBench floor(renderer, large);
+    const validation::FloorFigures figures = floor.measure({.rounds = 7});
+    EXPECT_GT(figures.geometryMs, 0.0);
+    ASSERT_EQ(figures.stores.size(), validation::lightStoreTable().size());
+    fmt::print("R {:.2f} ms\n", figures.geometryMs);
+    for (const validation::FloorFigures::Store& store : figures.stores) {
+        fmt::print("r {:.2f} ns, {}\n", store.nsPerPair, store.name);
+        EXPECT_GT(store.nsPerPair, 0.0) << store.name;
+        EXPECT_GE(store.nsPerPair, figures.fastestStore()->nsPerPair);
+    }
+}
+
+TEST_F(FloorTest, aSceneWithoutLightNeverHasAPriceForIt) {
+    const scenes::Scene scene = lattice(0);
+    recipes::Renderer renderer(context(), scene);
+    validation::FloorBench floor(renderer, settings());
+    const validation::FloorFigures figures = floor.measure({.rounds = 1});
+    EXPECT_TRUE(figures.stores.empty());
+    EXPECT_FALSE(figures.whyNoStores.empty());
+    EXPECT_EQ(figures.floorMs(0.0), figures.geometryMs);
+    EXPECT_FALSE(figures.floorMs(1.0).has_value());
+}
+
+} // namespace
+} // namespace tessera

@@ -1,0 +1,115 @@
+// Frames that are timed in turn.
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "scenes/Load.h"
+#include "tests/support/GlContext.h"
+#include "validation/FrameTimer.h"
+
+namespace tessera {
+namespace {
+
+using recipes::Technique;
+
+class FrameTimerTest : public test::GlTest {
+protected:
+    static scenes::Scene lattice(int lights) {
+        scenes::LoadOptions options;
+        options.lights = lights;
+        return scenes::loadScene("lattice", options);
+    }
+    static frame::FrameSettings settings() {
+        frame::FrameSettings result;
+        result.sizePixels = {320, 180};
+        return result;
+    }
+};
+
+TEST_F(FrameTimerTest, everyPointAndEveryPassAlwaysHasATimeOrAReason) {
+    const scenes::Scene few = lattice(16), many = lattice(256);
+    recipes::Renderer fewRenderer(context(), few), manyRenderer(context(), many);
+    std::vector<validation::TimedPoint> points;
+    for (recipes::Renderer* renderer : {&fewRenderer, &manyRenderer})
+        for (const Technique technique : {Technique::Forward, Technique::TiledDeferred})
+            points.push_back({renderer, technique, settings()});
+    validation::FrameTimerOptions options;
+    options.interleave.rounds = 3;
+    options.profiledFrames = 3;
+    const validation::FrameTimes times = validation::timeFrames(points, {}, options);
+    ASSERT_EQ(times.points.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const validation::PointTimes& point = times.points[i];
+        EXPECT_GT(point.cpuMs.median, 0.0);
+        EXPECT_GE(point.cpuMs.p95, point.cpuMs.median);
+        const std::vector<graph::Plan::Pass> planned =
+            recipes::planFrame(points[i].renderer->scene(), points[i].technique, settings()).passes;
+        ASSERT_EQ(point.passes.size(), planned.size());
+        for (std::size_t p = 0; p < planned.size(); ++p) {
+            EXPECT_EQ(point.passes[p].name, planned[p].name);
+            EXPECT_EQ(point.passes[p].gpuMs.has_value(), !point.why.contains("passes.gpuMs"));
+        }
+        EXPECT_EQ(point.gpuMs.has_value(), !point.why.contains("gpuMs"));
+    }
+}
+
+TEST_F(FrameTimerTest, kindsOfFramesAlwaysTakeTurnsWhileTheEyeMovesAMillimetre) {
+    const scenes::Scene scene = lattice(4);
+    recipes::Renderer renderer(context(), scene);
+    std::string order;
+    std::vector<double> places;
+    const auto noting = [&](char name) {
+        return [&order, &places, name](const glm::dvec3& eyeOffsetWS) {
+            order += name;
+            places.push_back(eyeOffsetWS.x);
+        };
+    };
+    const std::vector<validation::TimedFrame> others{noting('a'), noting('b')};
+    validation::FrameTimerOptions options;
+    options.interleave = {.warmUpRounds = 1, .rounds = 2};
+    options.profiledFrames = 1;
+    int reports = 0;
+    options.interleave.progress = [&](int done, int total) {
+        EXPECT_EQ(done, ++reports);
+        EXPECT_EQ(total, 3);
+    };
+    const std::vector<validation::TimedPoint> points{{&renderer, Technique::Deferred, settings()}};
+    const validation::FrameTimes times = validation::timeFrames(points, others, options);
+    EXPECT_EQ(order, "ababab");
+    EXPECT_EQ(places, (std::vector<double>{0.0, 0.0, 1e-3, 1e-3, 0.0, 0.0}));
+    EXPECT_EQ(reports, 3);
+    ASSERT_EQ(times.othersMs.size(), 2u);
+    EXPECT_EQ(times.othersMs[0].size(), 2u);
+}
+
+TEST_F(FrameTimerTest, theBackendIsAlwaysLeftAsItWas) {
+    const scenes::Scene scene = lattice(4);
+    recipes::Renderer renderer(context(), scene);
+    renderer.backend().setProfiling(true);
+    const int idle = renderer.backend().mostIdleFrames();
+    validation::FrameTimerOptions options;
+    options.interleave = {.warmUpRounds = 1, .rounds = 2};
+    options.interleave.progress = [](int done, int) {
+        if (done == 2) throw std::runtime_error("interrupted");
+    };
+    const std::vector<validation::TimedPoint> points(std::size_t(idle + 2),
+                                                     {&renderer, Technique::Deferred, settings()});
+    EXPECT_THROW(validation::timeFrames(points, {}, options), std::runtime_error);
+    EXPECT_TRUE(renderer.backend().profiling());
+    EXPECT_EQ(renderer.backend().mostIdleFrames(), idle);
+}
+
+TEST_F(FrameTimerTest, anEyeMovedByASettingSeesExactlyWhatAMovedCameraSees) {
+    scenes::Scene scene = lattice(16);
+    frame::FrameSettings moved = settings();
+    moved.eyeOffsetWS = {0.25, -0.5, 0.125};
+    recipes::Renderer renderer(context(), scene);
+    const std::vector<float> still = renderer.render(Technique::Forward, settings()).radiance;
+    const std::vector<float> bySetting = renderer.render(Technique::Forward, moved).radiance;
+    scene.cameras[0].worldFromCamera[3] += glm::dvec4(moved.eyeOffsetWS, 0.0);
+    EXPECT_EQ(renderer.render(Technique::Forward, settings()).radiance, bySetting);
+    EXPECT_NE(bySetting, still);
+}
+
+} // namespace
+} // namespace tessera

@@ -1,0 +1,50 @@
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "validation/FloorBench.h"
+#include "validation/FloorLights.h"
+
+namespace tessera::validation {
+namespace {
+
+frame::PackedLights ofKinds(std::initializer_list<int> kinds) {
+    frame::PackedLights lights;
+    for (const int kind : kinds) lights.texels.emplace_back().color.w = float(kind);
+    return lights;
+}
+
+std::map<int, int> countsOf(const frame::PackedLights& lights) {
+    std::map<int, int> counts;
+    for (const shared::LightTexels& light : lights.texels) ++counts[int(light.color.w)];
+    return counts;
+}
+
+TEST(FloorLights, kindsAlwaysComeInTheSharesOfTheScene) {
+    using Counts = std::map<int, int>;
+    EXPECT_EQ(countsOf(floorLights({}, 96)), (Counts{{LIGHT_POINT, 96}}));
+    EXPECT_EQ(countsOf(floorLights(ofKinds({LIGHT_SPOT, LIGHT_POINT, LIGHT_DIRECTIONAL, LIGHT_POINT}), 96)),
+              (Counts{{LIGHT_POINT, 48}, {LIGHT_SPOT, 24}, {LIGHT_DIRECTIONAL, 24}}));
+    // Three quarters of a long list.
+    frame::PackedLights many;
+    many.texels.resize(1000);
+    for (std::size_t i = 0; i < 750; ++i) many.texels[i].color.w = float(LIGHT_SPOT);
+    EXPECT_EQ(countsOf(floorLights(many, 32)), (Counts{{LIGHT_SPOT, 24}, {LIGHT_POINT, 8}}));
+}
+
+TEST(FloorLights, aListIsNeverLongerOrShorterThanAskedFor) {
+    for (const int count : {0, 1, 31, 256})
+        EXPECT_EQ(floorLights(ofKinds({LIGHT_SPOT}), count).texels.size(), std::size_t(count));
+}
+
+TEST(FloorFigures, theFloorIsExactlyGeometryPlusEvaluationsOfTheFastestStore) {
+    const FloorFigures figures{20.0, {{"uniform buffer", 3.0}, {"texel buffer", 2.0}, {"storage buffer", 5.0}}, {}};
+    ASSERT_TRUE(figures.fastestStore());
+    EXPECT_EQ(figures.fastestStore()->name, "texel buffer");
+    // 1e7 evaluations of 2 ns are 20 ms.
+    EXPECT_DOUBLE_EQ(figures.floorMs(1e7).value(), 40.0);
+    EXPECT_EQ(figures.floorMs(0.0), 20.0);
+}
+
+} // namespace
+} // namespace tessera::validation

@@ -1,0 +1,59 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "validation/FloorGeometry.h"
+#include "validation/FloorLighting.h"
+#include "validation/Interleave.h"
+
+namespace tessera::validation {
+
+/// What a frame of a scene cannot cost less than, measured: floorMs = R + E r.
+struct FloorFigures {
+    struct Store {
+        std::string_view name;
+        double nsPerPair = 0.0; ///< nanoseconds a light costs a pixel that it reaches
+    };
+    double geometryMs = 0.0;   ///< R: all geometry, depth-tested, into one constant target
+    std::vector<Store> stores; ///< r by light store; empty where the scene lights nothing
+    std::string whyNoStores;
+
+    /// r, the store with the smallest; none where the scene lights nothing.
+    std::optional<Store> fastestStore() const;
+    /// `neededEvaluations`: pairs of a covered pixel and a light that reaches it (E). None where these cannot be
+    /// priced.
+    std::optional<double> floorMs(double neededEvaluations) const;
+};
+
+/// Measures the floor of a scene with a renderer's settings: camera, size, filter, specular and pruning as asked for,
+/// whatever is asked of culling and views. Its frames take turns with others that are compared with it (timeFrames).
+///
+/// r is the slope of the time between 32 and 96 lights a pixel, so that what the shader costs besides lights drops out:
+/// rounds of both follow each other.
+class FloorBench {
+public:
+    static constexpr int kFewLights = 32;
+    static constexpr int kManyLights = 96;
+
+    /// The renderer must outlive the object. Throws InputError as Renderer::draw does.
+    FloorBench(recipes::Renderer& renderer, const frame::FrameSettings& settings);
+
+    /// The frames to time; they refer to the object.
+    std::vector<TimedFrame> frames();
+    /// `timesMs`: one time a round of each of frames().
+    FloorFigures figures(std::span<const std::vector<double>> timesMs) const;
+
+    FloorFigures measure(const InterleaveOptions& options = {});
+
+private:
+    glm::ivec2 sizePixels_;
+    FloorGeometry geometry_;
+    std::optional<FloorLighting> lighting_; ///< where anything is lit
+    frame::PackedLights few_, many_;
+};
+
+} // namespace tessera::validation

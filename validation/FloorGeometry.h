@@ -1,0 +1,32 @@
+#pragma once
+#include "passes/recipes/Renderer.h"
+#include "renderer/gpu/Framebuffer.h"
+
+namespace tessera::validation {
+
+/// Draws all of a scene's geometry with a depth test and one constant value: what no technique can do without.
+/// Reads   the scene
+/// Writes  one RGBA32F target, 1 where there is geometry; depth D32F
+/// Space   lighting space, through the vertex function that every pass shares
+class FloorGeometry {
+public:
+    /// The renderer must outlive the object. Throws InputError as Renderer::draw does.
+    FloorGeometry(recipes::Renderer& renderer, const frame::FrameSettings& settings);
+
+    /// The view's constants and draws are uploaded anew for every frame.
+    void draw(const glm::dvec3& eyeOffsetWS);
+    /// The latest picture: RGBA, rows from the bottom.
+    std::vector<float> download() const { return value_.downloadAs<float>(); }
+
+    static shader::ProgramDesc program(const frame::FrameSpec& spec);
+
+private:
+    recipes::Renderer& renderer_;
+    frame::FrameSpec spec_;
+    gpu::Buffer frameConstants_;
+    gpu::Texture value_;
+    gpu::Texture depth_;
+    gpu::Framebuffer framebuffer_;
+};
+
+} // namespace tessera::validation

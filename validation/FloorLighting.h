@@ -1,0 +1,52 @@
+#pragma once
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "passes/recipes/Renderer.h"
+#include "renderer/gpu/Framebuffer.h"
+#include "renderer/gpu/TexelBuffer.h"
+#include "shaders/shared/light.h"
+
+namespace tessera::validation {
+
+/// Where the floor's shader reads lights from.
+struct LightStoreInfo {
+    int store; ///< LIGHT_STORE_* of shaders/shared/light.h
+    std::string_view name;
+    std::string_view define;
+};
+std::span<const LightStoreInfo> lightStoreTable();
+
+/// Lights a synthetic surface at every pixel: nothing but the product's light evaluation, in its loop over all lights.
+/// Reads   its lights, from any of three stores
+/// Writes  radiance RGBA32F, linear, before exposure
+/// Space   lighting space of an eye at the origin that looks along -z
+class FloorLighting {
+public:
+    /// `spec`: the models, kinds of lights and settings to light with, and the picture's size. The library must outlive
+    /// the object.
+    FloorLighting(shader::ProgramLibrary& programs, const frame::FrameSpec& spec);
+
+    /// At most LIGHT_UNIFORM_LIGHTS lights, all of which every pixel evaluates, of kinds that the spec has.
+    void setLights(const frame::PackedLights& lights);
+    void draw(const LightStoreInfo& store) const;
+    /// The latest picture: RGBA, rows from the bottom.
+    std::vector<float> download() const { return radiance_.downloadAs<float>(); }
+
+    static shader::ProgramDesc program(const frame::FrameSpec& spec, const LightStoreInfo& store);
+    const gpu::Buffer& frameConstants() const { return frameConstants_; }
+    void bindLights(const LightStoreInfo& store) const;
+
+private:
+    shader::ProgramLibrary& programs_;
+    frame::FrameSpec spec_;
+    shared::FrameConstants constants_;
+    gpu::Buffer frameConstants_;
+    gpu::Buffer lights_, shapes_; ///< the same buffers for every store
+    gpu::TexelBuffer lightTexels_, shapeTexels_;
+    gpu::Texture radiance_;
+    gpu::Framebuffer framebuffer_;
+};
+
+} // namespace tessera::validation

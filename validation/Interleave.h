@@ -1,0 +1,28 @@
+#pragma once
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace tessera::validation {
+
+/// One kind of frame to time. It draws the frame with the eye moved by the given metres in world space.
+using TimedFrame = std::function<void(const glm::dvec3& eyeOffsetWS)>;
+
+/// Where the eye stands in frame `index`: it moves a millimetre on alternate frames, so that nothing derived from the
+/// camera can be used again.
+glm::dvec3 eyeOffsetOfFrame(int index);
+
+struct InterleaveOptions {
+    int warmUpRounds = 2; ///< compile programs and fill pools; not timed
+    int rounds = 20;
+    /// Called after every round, warm-up included; what it throws ends the measurement.
+    std::function<void(int done, int total)> progress{};
+};
+
+/// Wall time of each kind of frame in milliseconds, one a round, from its first call to the return of glFinish. Kinds
+/// take turns, A B C A B C, so that a machine that changes its pace treats all alike.
+std::vector<std::vector<double>> timeInterleaved(std::span<const TimedFrame> kinds, const InterleaveOptions& options);
+
+} // namespace tessera::validation

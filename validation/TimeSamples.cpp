@@ -1,0 +1,21 @@
+#include "validation/TimeSamples.h"
+
+#include <cassert>
+
+#include "validation/Percentile.h"
+
+namespace tessera::validation {
+
+TimeSpread spreadOf(std::vector<double> samples) {
+    const double median = nearestRank(samples, 500);
+    return {median, nearestRank(samples, 950)};
+}
+
+double medianSlope(std::span<const double> low, std::span<const double> high, double step) {
+    assert(low.size() == high.size() && step > 0.0);
+    std::vector<double> slopes;
+    for (std::size_t round = 0; round < low.size(); ++round) slopes.push_back((high[round] - low[round]) / step);
+    return nearestRank(slopes, 500);
+}
+
+} // namespace tessera::validation
