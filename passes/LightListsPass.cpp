@@ -6,18 +6,6 @@ namespace tessera::passes {
 
 namespace {
 
-/// Buffers outlive the frame, since how much they must hold is only known while it runs.
-frame::LightListHandles importBuffers(graph::Graph& graph, const frame::FrameSpec& spec,
-                                      const frame::FrameResources* resources) {
-    const frame::LightListBuffers* held = resources ? &resources->lightLists : nullptr;
-    const std::size_t tiles = frame::lightTileCount(spec) * sizeof(shared::LightTile);
-    const auto bytes = [](const frame::GrowingTexelBuffer& buffer) { return buffer.buffer().bytes(); };
-    const std::size_t least = 16; // counted while the frame runs
-    return {graph.import("light_tiles", graph::BufferDesc{held ? bytes(held->tiles) : tiles}),
-            graph.import("light_cells", graph::BufferDesc{held ? bytes(held->cells) : least}),
-            graph.import("light_entries", graph::BufferDesc{held ? bytes(held->entries) : least})};
-}
-
 culling::DepthPicture download(const gpu::Texture& texture, bool isRange, std::vector<float>& memory) {
     const graph::TextureDesc& desc = texture.desc();
     memory.resize(std::size_t(desc.width) * std::size_t(desc.height) * (isRange ? 2 : 1));
@@ -40,7 +28,8 @@ void build(const frame::FrameSpec& spec, const frame::FrameResources& resources,
 
 LightListsPass::Outputs LightListsPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
                                             const frame::FrameResources* resources) {
-    const frame::LightListHandles buffers = importBuffers(graph, spec, resources);
+    const frame::LightListHandles buffers =
+        frame::importLightLists(graph, frame::lightTileCount(spec), resources ? &resources->lightLists : nullptr);
     return graph.addPass<Outputs>(
         "light_lists",
         [&](graph::PassBuilder& pass, Outputs& out) {

@@ -31,6 +31,17 @@ void requireMethod(const TechniqueInfo& info, Method method) {
         fmt::format("technique {} does not take --culling {}; {} do", info.name, nameOf(method), techniques));
 }
 
+/// Invocations that build a tile's lists together: all that hardware runs in step; one on software rasterisers, where
+/// those of a group take turns.
+constexpr int kLanes = 64;
+constexpr int kSoftwareLanes = 1;
+
+const char* builderReason(bool softwareBackend) {
+    return softwareBackend ? "measured fastest on software rasterisers: shaders run on the same cores, and test each "
+                             "tile and light without the CPU's early outs"
+                           : "the lists stay on the GPU: only their size is read back, not the depth buffer";
+}
+
 /// Whether lists would leave anything out: some light must end somewhere, and some surface must be lit.
 bool canCull(const frame::FeatureSet& features, const frame::PackedLights& lights) {
     return features.litModels() && lights.everywhere < lights.texels.size();
@@ -51,7 +62,9 @@ culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& s
     choice.method = settings.culling.method.value_or(info.methods.front());
     if (settings.prune && !canCull(features, lights)) choice.method = Method::None;
     choice.tilePixels = settings.culling.tilePixels.value_or(16);
-    choice.builder = settings.culling.builder.value_or(culling::Builder::Cpu);
+    choice.builder =
+        settings.culling.builder.value_or(settings.softwareBackend ? culling::Builder::Cpu : culling::Builder::Compute);
+    choice.lanes = settings.culling.lanes.value_or(settings.softwareBackend ? kSoftwareLanes : kLanes);
     return choice;
 }
 
@@ -68,7 +81,7 @@ std::vector<graph::Plan::Choice> cullingChoices(Technique technique, const frame
     choices.push_back({"tile", fmt::format("{} pixels", choice.tilePixels),
                        why(settings.culling.tilePixels.has_value(), "measured fastest on this kind of backend")});
     choices.push_back({"lists built by", std::string(culling::builderTable()[std::size_t(choice.builder)].name),
-                       why(settings.culling.builder.has_value(), "measured fastest on this kind of backend")});
+                       why(settings.culling.builder.has_value(), builderReason(settings.softwareBackend))});
     return choices;
 }
 

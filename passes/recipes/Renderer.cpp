@@ -82,11 +82,7 @@ void Renderer::draw(Technique technique, const frame::FrameSettings& asked) {
     drawn_->compiled = graph::compile(drawn_->frame.graph, {.cull = settings.prune, .alias = settings.prune});
     programs_.warm(drawn_->frame.programs);
     std::vector<graph::ImportedBuffer> imported;
-    if (const std::optional<frame::LightListHandles>& lists = drawn_->frame.lists) {
-        imported = {{lists->tiles, &lightLists_.tiles.buffer()},
-                    {lists->cells, &lightLists_.cells.buffer()},
-                    {lists->entries, &lightLists_.entries.buffer()}};
-    }
+    if (drawn_->frame.lists) imported = lightLists_.imported(*drawn_->frame.lists);
     drawn_->execution = std::make_unique<graph::Execution>(drawn_->frame.graph, drawn_->compiled, backend_,
                                                            std::span<const graph::ImportedTexture>{}, imported);
     drawn_->execution->run();

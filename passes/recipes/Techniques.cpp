@@ -5,6 +5,7 @@
 #include "passes/DisplayPass.h"
 #include "passes/ForwardPass.h"
 #include "passes/GBufferPass.h"
+#include "passes/GpuLightListsPass.h"
 #include "passes/LightListsPass.h"
 #include "passes/TransparentDepthPass.h"
 
@@ -62,12 +63,18 @@ struct Recipe {
     /// Light lists for what lies at these depths, where the frame culls lights.
     void lightLists(TextureHandle depth) {
         if (spec.culling.method == Method::None) return;
-        LightListsPass::Inputs inputs{depth, {}};
+        std::optional<TextureHandle> transparentDepth;
         if (spec.features[frame::Feature::Blend]) {
             frame.programs.push_back(TransparentDepthPass::program(spec));
-            inputs.transparentDepth = TransparentDepthPass::add(frame.graph, spec, {depth}, resources).transparentDepth;
+            transparentDepth = TransparentDepthPass::add(frame.graph, spec, {depth}, resources).transparentDepth;
         }
-        frame.lists = LightListsPass::add(frame.graph, spec, inputs, resources).lists;
+        if (spec.culling.builder == culling::Builder::Cpu) {
+            frame.lists = LightListsPass::add(frame.graph, spec, {depth, transparentDepth}, resources).lists;
+            return;
+        }
+        for (shader::ProgramDesc& program : GpuLightListsPass::programs(spec))
+            frame.programs.push_back(std::move(program));
+        frame.lists = GpuLightListsPass::add(frame.graph, spec, {depth, transparentDepth}, resources).lists;
     }
     TextureHandle display(TextureHandle radiance) {
         frame.programs.push_back(DisplayPass::program());

@@ -32,6 +32,7 @@ struct Settings {
     std::optional<Method> method;
     std::optional<int> tilePixels; ///< one of kTileSides
     std::optional<Builder> builder;
+    std::optional<int> lanes; ///< invocations that build a tile's lists together, 1 or 64; of the compute builder
     bool operator==(const Settings&) const = default;
 };
 
@@ -40,6 +41,7 @@ struct Choice {
     Method method = Method::None;
     int tilePixels = 16;
     Builder builder = Builder::Cpu;
+    int lanes = 1;
     bool operator==(const Choice&) const = default;
 };
 

@@ -15,11 +15,6 @@ namespace tessera::culling {
 
 namespace {
 
-/// Columns whose lights are gathered together before single tiles are looked at.
-constexpr int kBlockColumns = 8;
-/// The slicing of a tile with one cell: every depth lies in slice 0.
-constexpr std::uint32_t kOneSlice = 31;
-
 /// What one row of tiles contributes; cells and entries count from the row's first until rows are joined.
 struct RowLists {
     std::vector<std::uint32_t> rowLights, blockLights;
@@ -71,7 +66,7 @@ struct Build {
     /// Appends the tile's cells; row.block holds the lights to choose from.
     shared::LightTile tile(const TileDepths& depths, const glm::vec4& rays, RowLists& row) const {
         const auto cell = std::uint32_t(row.cells.size());
-        const shared::LightTile oneCell{{cell, kOneSlice, 1u, 0u}};
+        const shared::LightTile oneCell{{cell, ONE_LIGHT_SLICE, 1u, 0u}};
         const shared::CellBox whole = box(rays, depthRun(depths, input.frame));
         if (input.method == Method::TileMinmax || std::has_single_bit(depths.slices)) {
             appendCell(row.block, {&whole, 1}, row);
@@ -96,8 +91,8 @@ struct Build {
         row.entries.clear();
         reach.ofRow(tileRow, row.rowLights);
         for (std::uint32_t column = 0; column < grid.columns; ++column) {
-            if (column % kBlockColumns == 0) {
-                const std::uint32_t last = std::min(column + kBlockColumns, grid.columns) - 1;
+            if (column % CULL_BLOCK_COLUMNS == 0) {
+                const std::uint32_t last = std::min(column + CULL_BLOCK_COLUMNS, grid.columns) - 1;
                 reach.ofColumns(row.rowLights, column, last, row.blockLights);
                 row.block.assign(row.blockLights, input.lights);
             }
@@ -141,7 +136,7 @@ const LightLists& LightListBuilder::build(const BuildInput& input) {
     const std::uint32_t layers = input.transparent ? 2u : 1u;
     const std::size_t tiles = std::size_t(build.grid.columns) * build.grid.rows;
     LightLists& lists = scratch_->lists;
-    lists.tiles.assign(tiles * layers, shared::LightTile{{0u, kOneSlice, 0u, 0u}});
+    lists.tiles.assign(tiles * layers, shared::LightTile{{0u, ONE_LIGHT_SLICE, 0u, 0u}});
     scratch_->depths.resize(tiles * layers);
     scratch_->rows.resize(std::size_t(build.grid.rows) * layers);
     scratch_->reach.set(input.lights, build.grid);

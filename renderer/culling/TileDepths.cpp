@@ -52,10 +52,8 @@ TileDepths tileDepthsOf(const float* depth, const shared::FrameConstants& frame,
     const float bias = frame.depthKey.x;
     const std::uint32_t low = std::bit_cast<std::uint32_t>(bias + tile.farthest);
     const std::uint32_t high = std::bit_cast<std::uint32_t>(bias + tile.nearest);
-    auto shift = std::uint32_t(frame.depthKey.y);
-    while ((high >> shift) - (low >> shift) >= LIGHT_TILE_SLICES) ++shift;
-    tile.slicing = shared::packSlices((low >> shift) << shift, shift);
-    if (low >> shift == high >> shift) {
+    tile.slicing = shared::slicingOf(low, high, std::uint32_t(frame.depthKey.y), LIGHT_TILE_SLICES);
+    if (shared::sliceOfKey(high, tile.slicing) == 0) {
         tile.slices = 1;
         return tile;
     }

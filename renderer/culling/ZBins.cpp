@@ -24,12 +24,11 @@ Bins binsOf(std::span<const TileDepths> depths, const shared::FrameConstants& fr
         nearest = std::max(nearest, tile.nearest);
         farthest = std::min(farthest, tile.farthest);
     }
-    if (!(nearest > 0.0f)) return {shared::packSlices(0, 31), 1};
+    if (!(nearest > 0.0f)) return {ONE_LIGHT_SLICE, 1};
     const std::uint32_t low = std::bit_cast<std::uint32_t>(frame.depthKey.x + farthest);
     const std::uint32_t high = std::bit_cast<std::uint32_t>(frame.depthKey.x + nearest);
-    auto shift = std::uint32_t(frame.depthKey.y);
-    while ((high >> shift) - (low >> shift) >= ZBIN_COUNT) ++shift;
-    return {shared::packSlices((low >> shift) << shift, shift), (high >> shift) - (low >> shift) + 1};
+    const std::uint32_t slicing = shared::slicingOf(low, high, std::uint32_t(frame.depthKey.y), ZBIN_COUNT);
+    return {slicing, shared::sliceOfKey(high, slicing) + 1};
 }
 
 void setBit(std::uint32_t* mask, std::size_t bit) {
@@ -64,9 +63,7 @@ void buildZBins(const BuildInput& input, const LightReach& reach, std::span<cons
         for (std::size_t i = 0; i < input.lights.size(); ++i) {
             const glm::vec4& sphere = input.lights[i].sphere;
             const bool everywhere = sphere.w < 0.0f;
-            if (everywhere || (sphere.z + sphere.w >= run.nearMetres * (1.0f - 1e-5f) &&
-                               sphere.z - sphere.w <= run.farMetres * (1.0f + 1e-5f)))
-                setBit(mask, i);
+            if (everywhere || shared::sphereTouchesDepths(sphere, run.nearMetres, run.farMetres)) setBit(mask, i);
         }
         const std::uint32_t* const end = mask + words;
         const auto occupied = [](std::uint32_t word) { return word != 0; };

@@ -83,6 +83,7 @@ CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, L
     c.lights = glm::uvec4(0u);
     c.lensVS = glm::vec4(-lens.halfExtent.x, pixelStep.x, -lens.halfExtent.y, pixelStep.y);
     c.tileGrid = glm::uvec4(0u);
+    c.sizePixels = glm::uvec4(sizePixels, 0u, 0u);
     // b/distance - a is the depth of a perspective camera; what is added back makes the key's sum b/distance.
     c.depthKey = glm::vec4(orthographic ? 1.0f : c.depthToViewDepth.z, 0.0f, 0.0f, 0.0f);
     return view;

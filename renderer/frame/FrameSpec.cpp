@@ -41,6 +41,7 @@ void addLights(std::vector<graph::Plan::LeftOut>& out, std::size_t count, const 
 FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings) {
     FrameSpec spec;
     spec.settings = settings;
+    spec.lights = lights.texels.size();
     if (settings.prune) {
         spec.features = materialFeatures(scene);
         spec.features.has |= lights.features.has;

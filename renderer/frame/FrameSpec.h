@@ -18,6 +18,7 @@ struct FrameSpec {
     FeatureSet features;
     std::vector<Channel> channels; ///< of the G-buffer, by attachment
     culling::Choice culling;
+    std::size_t lights = 0;        ///< that the frame's pixels may visit
     bool lightsEverywhere = false; ///< some lights reach everywhere, while others do not
 
     graph::TextureDesc texture(graph::Format format) const {

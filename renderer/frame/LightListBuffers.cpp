@@ -5,15 +5,47 @@
 
 namespace tessera::frame {
 
+LightListHandles importLightLists(graph::Graph& graph, std::size_t tiles, const LightListBuffers* held) {
+    const auto bytes = [](const GrowingTexelBuffer& buffer) { return buffer.buffer().bytes(); };
+    const std::size_t tileBytes = tiles * sizeof(shared::LightTile);
+    const std::size_t least = 16; // counted while the frame runs
+    return {graph.import("light_tiles", graph::BufferDesc{held ? bytes(held->tiles) : tileBytes}),
+            graph.import("light_cells", graph::BufferDesc{held ? bytes(held->cells) : least}),
+            graph.import("light_entries", graph::BufferDesc{held ? bytes(held->entries) : least}),
+            {}};
+}
+
+graph::BufferHandle importLightReach(graph::Graph& graph, std::size_t lights, const LightListBuffers* held) {
+    return graph.import("light_reach",
+                        graph::BufferDesc{held ? held->reach.buffer().bytes() : lights * sizeof(glm::uvec2)});
+}
+
 LightListHandles readLightLists(graph::PassBuilder& pass, const LightListHandles& lists) {
-    return {pass.read(lists.tiles, graph::Access::TexelRead), pass.read(lists.cells, graph::Access::TexelRead),
-            pass.read(lists.entries, graph::Access::TexelRead)};
+    return {pass.read(lists.tiles, graph::Access::TexelRead),
+            pass.read(lists.cells, graph::Access::TexelRead),
+            pass.read(lists.entries, graph::Access::TexelRead),
+            {}};
+}
+
+std::vector<graph::ImportedBuffer> LightListBuffers::imported(const LightListHandles& handles) const {
+    std::vector<graph::ImportedBuffer> buffers{
+        {handles.tiles, &tiles.buffer()}, {handles.cells, &cells.buffer()}, {handles.entries, &entries.buffer()}};
+    if (handles.reach) buffers.push_back({*handles.reach, &reach.buffer()});
+    return buffers;
+}
+
+void LightListBuffers::requireTiles(std::size_t count) {
+    tiles.require(count);
+}
+
+void LightListBuffers::requireLists(std::size_t cellCount, std::size_t entryCount) {
+    cells.require(cellCount);
+    entries.require(entryCount);
 }
 
 void LightListBuffers::upload(const culling::LightLists& lists) {
-    tiles.require(lists.tiles.size());
-    cells.require(lists.cells.size());
-    entries.require(lists.entries.size());
+    requireTiles(lists.tiles.size());
+    requireLists(lists.cells.size(), lists.entries.size());
     tiles.buffer().upload(lists.tiles);
     cells.buffer().upload(lists.cells);
     entries.buffer().upload(lists.entries);

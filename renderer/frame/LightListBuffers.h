@@ -1,8 +1,10 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "renderer/culling/LightLists.h"
 #include "renderer/frame/GrowingTexelBuffer.h"
+#include "renderer/graph/Execute.h"
 #include "renderer/graph/Graph.h"
 
 namespace tessera::frame {
@@ -12,7 +14,15 @@ struct LightListHandles {
     graph::BufferHandle tiles;
     graph::BufferHandle cells;
     graph::BufferHandle entries;
+    std::optional<graph::BufferHandle> reach; ///< LightListBuffers::reach, of lists that the GPU builds
 };
+
+struct LightListBuffers;
+
+/// Makes the buffers known to a graph. They outlive the frame, since how much they must hold is only known while it
+/// runs; without `held`, for a plan, only the bytes of tiles and lights are known.
+LightListHandles importLightLists(graph::Graph& graph, std::size_t tiles, const LightListBuffers* held);
+graph::BufferHandle importLightReach(graph::Graph& graph, std::size_t lights, const LightListBuffers* held);
 
 /// Declares that a pass's light cursor reads the lists.
 LightListHandles readLightLists(graph::PassBuilder& pass, const LightListHandles& lists);
@@ -27,8 +37,17 @@ struct LightListBuffers {
     culling::LightListBuilder builder;
     std::vector<float> depth, transparentDepth;
 
+    // For lists that the GPU builds: shared::CullLight each, and columns and rows that each may touch.
+    GrowingTexelBuffer cullLights{"cull lights", graph::Format::Rgba32Float};
+    GrowingTexelBuffer reach{"light reach", graph::Format::Rg32Uint};
+
+    /// The buffers behind the handles, for executing the graph.
+    std::vector<graph::ImportedBuffer> imported(const LightListHandles& handles) const;
+    /// Makes room. Throws as GrowingTexelBuffer::require().
+    void requireTiles(std::size_t tiles);
+    void requireLists(std::size_t cells, std::size_t entries);
     void upload(const culling::LightLists& lists);
-    /// The lists of the latest frame.
+    /// The lists of the latest frame, whoever built them; waits for the GPU.
     culling::LightLists download() const;
     /// Binds all three where the light cursor reads them.
     void bind() const;

@@ -55,7 +55,7 @@ std::vector<const Texture*> textures(const Attachments& attachments) {
 
 } // namespace
 
-Framebuffer::Framebuffer(const Attachments& attachments) {
+Framebuffer::Framebuffer(const Attachments& attachments) : width_(attachments.width), height_(attachments.height) {
     for (const Texture* texture : textures(attachments)) {
         if (!texture) continue;
         const graph::TextureDesc& desc = texture->desc();
@@ -72,6 +72,10 @@ Framebuffer::Framebuffer(const Attachments& attachments) {
         const GLenum point = GL_COLOR_ATTACHMENT0 + GLenum(i);
         drawBuffers.push_back(attachments.colors[i] ? point : GLenum(GL_NONE));
         if (attachments.colors[i]) glNamedFramebufferTexture(id, point, attachments.colors[i]->id(), 0);
+    }
+    if (attachments.width > 0) {
+        glNamedFramebufferParameteri(id, GL_FRAMEBUFFER_DEFAULT_WIDTH, width_);
+        glNamedFramebufferParameteri(id, GL_FRAMEBUFFER_DEFAULT_HEIGHT, height_);
     }
     if (attachments.depth) glNamedFramebufferTexture(id, GL_DEPTH_ATTACHMENT, attachments.depth->id(), 0);
     glNamedFramebufferDrawBuffers(id, GLsizei(drawBuffers.size()), drawBuffers.data());
@@ -95,7 +99,7 @@ Framebuffer::~Framebuffer() {
 }
 
 const Framebuffer& FramebufferCache::get(const Attachments& attachments) {
-    std::vector<std::uint64_t> key;
+    std::vector<std::uint64_t> key{std::uint64_t(attachments.width), std::uint64_t(attachments.height)};
     for (const Texture* texture : textures(attachments)) key.push_back(texture ? *texture->serial() : 0);
     if (const auto found = entries_.find(key); found != entries_.end()) return found->second.framebuffer;
     collect();

@@ -14,6 +14,8 @@ namespace tessera::gpu {
 struct Attachments {
     std::vector<const Texture*> colors;
     const Texture* depth = nullptr;
+    int width = 0; ///< pixels; where nothing is attached, since shaders only write buffers
+    int height = 0;
 };
 
 class Framebuffer {
@@ -50,7 +52,8 @@ private:
         std::vector<std::weak_ptr<const std::uint64_t>> textures;
         Framebuffer framebuffer;
     };
-    std::map<std::vector<std::uint64_t>, Entry> entries_; ///< by texture serials, depth first; 0: none
+    std::map<std::vector<std::uint64_t>, Entry>
+        entries_; ///< by size where nothing is attached, then texture serials, depth first; 0: none
 };
 
 } // namespace tessera::gpu

@@ -1,8 +1,12 @@
 #pragma once
 // The test of light culling, for C++ and GLSL: may a light reach a cell, the part of the view that a tile sees between
 // two depths? It never says no where the light changes a pixel (sound); where it says yes too often is counted by the
-// oracle. View space (VS) here is metres to the right, up and ahead of the camera.
+// oracle. View space (VS) here is metres to the right, up and ahead of the camera. Everything is precise, so that two
+// shaders that ask the same question, one to count lights and one to list them, get the same answer.
 #include "interop.h"
+
+// Columns of tiles whose lights are told apart by the planes between columns together; their boxes tell the rest.
+#define CULL_BLOCK_COLUMNS 8u
 
 SHARED_BEGIN
 
@@ -25,27 +29,32 @@ SHARED_FUNCTION vec4 tileRays(vec4 lensVS, uint column, uint row, uint side, uve
     float right = float(min((column + 1u) * side, size.x)) - 0.5f;
     float top = float(size.y - row * side) - 0.5f;
     float bottom = float(size.y - min((row + 1u) * side, size.y)) + 0.5f;
-    return vec4(lensVS.x + lensVS.y * left, lensVS.x + lensVS.y * right, lensVS.z + lensVS.w * bottom,
-                lensVS.z + lensVS.w * top);
+    SHARED_PRECISE vec4 rays = vec4(lensVS.x + lensVS.y * left, lensVS.x + lensVS.y * right,
+                                    lensVS.z + lensVS.w * bottom, lensVS.z + lensVS.w * top);
+    return rays;
 }
 
 // Whether a sphere reaches between the two planes through the camera (orthographic: parallel to its axis) that a row or
 // a column of tiles lies between; `across` is the centre's coordinate to the right or up.
 SHARED_FUNCTION bool sphereTouchesSlab(float across, float ahead, float radius, vec2 rays, bool orthographic) {
-    float low = orthographic ? rays.x : rays.x * ahead;
-    float high = orthographic ? rays.y : rays.y * ahead;
-    float lowLength = orthographic ? 1.0f : sqrt(1.0f + rays.x * rays.x);
-    float highLength = orthographic ? 1.0f : sqrt(1.0f + rays.y * rays.y);
-    return across - low >= -radius * lowLength && across - high <= radius * highLength;
+    SHARED_PRECISE float low = orthographic ? rays.x : rays.x * ahead;
+    SHARED_PRECISE float high = orthographic ? rays.y : rays.y * ahead;
+    SHARED_PRECISE float lowLength = orthographic ? 1.0f : sqrt(1.0f + rays.x * rays.x);
+    SHARED_PRECISE float highLength = orthographic ? 1.0f : sqrt(1.0f + rays.y * rays.y);
+    SHARED_PRECISE float lowGap = across - low;
+    SHARED_PRECISE float highGap = across - high;
+    SHARED_PRECISE float lowReach = -radius * lowLength;
+    SHARED_PRECISE float highReach = radius * highLength;
+    return lowGap >= lowReach && highGap <= highReach;
 }
 
 // The box around what a tile sees between two view depths in metres, near < far.
 SHARED_FUNCTION CellBox cellBox(vec4 rays, float nearMetres, float farMetres, bool orthographic) {
-    float n = nearMetres * (1.0f - 1e-5f);
-    float f = farMetres * (1.0f + 1e-5f);
+    SHARED_PRECISE float n = nearMetres * (1.0f - 1e-5f);
+    SHARED_PRECISE float f = farMetres * (1.0f + 1e-5f);
     float n1 = orthographic ? 1.0f : n;
     float f1 = orthographic ? 1.0f : f;
-    CellBox box;
+    SHARED_PRECISE CellBox box;
     box.low = vec4(min(rays.x * n1, rays.x * f1), min(rays.z * n1, rays.z * f1), n, 0.0f);
     box.high = vec4(max(rays.y * n1, rays.y * f1), max(rays.w * n1, rays.w * f1), f, 0.0f);
     return box;
@@ -55,22 +64,24 @@ SHARED_FUNCTION CellBox cellBox(vec4 rays, float nearMetres, float farMetres, bo
 // a cone's surface is |v| sin(angle - outer); beyond a right angle that underestimates, so it stays sound for every
 // cone.
 SHARED_FUNCTION bool coneTouchesBox(CullLight light, CellBox box) {
-    vec3 center = 0.5f * (vec3(box.low) + vec3(box.high));
-    vec3 halfSize = 0.5f * (vec3(box.high) - vec3(box.low));
-    vec3 v = center - vec3(light.apex);
-    float length2 = dot(v, v);
-    float radius = sqrt(dot(halfSize, halfSize)) * (1.0f + 1e-4f) + 1e-4f * sqrt(length2);
-    float along = dot(v, vec3(light.axis));
-    float across = sqrt(max(length2 - along * along, 0.0f));
-    return light.axis.w * across - light.apex.w * along <= radius;
+    SHARED_PRECISE vec3 center = 0.5f * (vec3(box.low) + vec3(box.high));
+    SHARED_PRECISE vec3 halfSize = 0.5f * (vec3(box.high) - vec3(box.low));
+    SHARED_PRECISE vec3 v = center - vec3(light.apex);
+    SHARED_PRECISE float length2 = dot(v, v);
+    SHARED_PRECISE float radius = sqrt(dot(halfSize, halfSize)) * (1.0f + 1e-4f) + 1e-4f * sqrt(length2);
+    SHARED_PRECISE float along = dot(v, vec3(light.axis));
+    SHARED_PRECISE float across = sqrt(max(length2 - along * along, 0.0f));
+    SHARED_PRECISE float beyond = light.axis.w * across - light.apex.w * along;
+    return beyond <= radius;
 }
 
 // Squared distance in metres of a point from the box; 0 inside. By components, so that loops over points vectorise.
 SHARED_FUNCTION float squaredDistance(float x, float y, float z, CellBox box) {
-    float gapX = max(max(box.low.x - x, x - box.high.x), 0.0f);
-    float gapY = max(max(box.low.y - y, y - box.high.y), 0.0f);
-    float gapZ = max(max(box.low.z - z, z - box.high.z), 0.0f);
-    return gapX * gapX + gapY * gapY + gapZ * gapZ;
+    SHARED_PRECISE float gapX = max(max(box.low.x - x, x - box.high.x), 0.0f);
+    SHARED_PRECISE float gapY = max(max(box.low.y - y, y - box.high.y), 0.0f);
+    SHARED_PRECISE float gapZ = max(max(box.low.z - z, z - box.high.z), 0.0f);
+    SHARED_PRECISE float distance2 = gapX * gapX + gapY * gapY + gapZ * gapZ;
+    return distance2;
 }
 
 SHARED_FUNCTION bool hasCone(CullLight light) {
@@ -78,14 +89,25 @@ SHARED_FUNCTION bool hasCone(CullLight light) {
 }
 
 SHARED_FUNCTION bool lightTouchesBox(CullLight light, CellBox box) {
-    float radius = light.sphere.w;
-    if (squaredDistance(light.sphere.x, light.sphere.y, light.sphere.z, box) > radius * radius) return false;
+    SHARED_PRECISE float radius2 = light.sphere.w * light.sphere.w;
+    if (squaredDistance(light.sphere.x, light.sphere.y, light.sphere.z, box) > radius2) return false;
     return !hasCone(light) || coneTouchesBox(light, box);
 }
 
 // View depth in metres at a depth-buffer value, by FrameConstants::depthToViewDepth.
 SHARED_FUNCTION float viewDepthMetres(vec4 depthToViewDepth, float depth) {
-    return (depthToViewDepth.x + depthToViewDepth.y * depth) / (depthToViewDepth.z + depthToViewDepth.w * depth);
+    SHARED_PRECISE float metres =
+        (depthToViewDepth.x + depthToViewDepth.y * depth) / (depthToViewDepth.z + depthToViewDepth.w * depth);
+    return metres;
+}
+
+// Whether a light may touch anything between two view depths.
+SHARED_FUNCTION bool sphereTouchesDepths(vec4 sphere, float nearMetres, float farMetres) {
+    SHARED_PRECISE float nearest = nearMetres * (1.0f - 1e-5f);
+    SHARED_PRECISE float farthest = farMetres * (1.0f + 1e-5f);
+    SHARED_PRECISE float back = sphere.z + sphere.w;
+    SHARED_PRECISE float front = sphere.z - sphere.w;
+    return back >= nearest && front <= farthest;
 }
 
 SHARED_END

@@ -16,11 +16,12 @@ struct FrameConstants {
     vec4 depthToViewDepth; // view depth in metres = (x + y depth) / (z + w depth)
     vec4 background;       // radiance where nothing is drawn; a is 0, the coverage
     uvec4 lights;          // x number of lights, y index of the one that the D, G and F views show, z those that reach
-                  // everywhere, w words of a bitmask over the lights
+                           // everywhere, w words of a bitmask over the lights
     vec4 lensVS; // a pixel p sees x + y p.x to the right and z + w p.y up, in metres: a metre ahead, or (orthographic)
                  // anywhere
     uvec4 tileGrid; // x columns, y rows of tiles; z height of the picture in pixels; w log2 of a tile's side in pixels
     vec4 depthKey;  // x bias of depth keys (light_lists.h), y shift of the finest depth slices
+    uvec4 sizePixels; // x width, y height of the picture
 };
 
 SHARED_END

@@ -21,6 +21,9 @@
 #define LIGHT_TILE_SLICES 64u
 #define ZBIN_COUNT 256u
 
+// The slicing of a tile with one cell: every depth lies in slice 0.
+#define ONE_LIGHT_SLICE 31u
+
 SHARED_BEGIN
 
 // A surface's depth key, floatBitsToUint(bias + depth), grows towards the viewer. Its high bits slice depth evenly in
@@ -37,6 +40,13 @@ SHARED_FUNCTION uint firstKeyOfSlices(uint slices) {
 }
 SHARED_FUNCTION uint sliceOfKey(uint key, uint slices) {
     return (key - firstKeyOfSlices(slices)) >> (slices & 31u);
+}
+
+// The slicing of keys low..high into fewer than `most` + 1 slices, none finer than 2^finestShift keys.
+SHARED_FUNCTION uint slicingOf(uint low, uint high, uint finestShift, uint most) {
+    uint shift = finestShift;
+    while ((high >> shift) - (low >> shift) >= most) ++shift;
+    return packSlices((low >> shift) << shift, shift);
 }
 
 struct LightTile {

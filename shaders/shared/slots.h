@@ -21,7 +21,14 @@ SHARED_BEGIN
 #define UNIFORM_LIGHTS 3
 #define UNIFORM_LIGHT_SHAPES 4
 
-// Storage blocks. OpenGL 4.5 guarantees 0 to 7.
+// Storage blocks. OpenGL 4.5 guarantees 0 to 7; what builds light lists never reads lights from storage blocks.
+#define STORAGE_LIGHT_TILES 0
+#define STORAGE_LIGHT_CELLS 1
+#define STORAGE_LIGHT_ENTRIES 2
+#define STORAGE_LIGHT_REACH 3
+#define STORAGE_TILE_DEPTHS 4
+#define STORAGE_TILE_COUNTS 5
+#define STORAGE_LIST_TOTALS 6
 #define STORAGE_LIGHT_SHAPES 6
 #define STORAGE_LIGHTS 7
 
@@ -42,5 +49,11 @@ SHARED_BEGIN
 #define TEXTURE_UNIT_LIGHT_TILES 16
 #define TEXTURE_UNIT_LIGHT_CELLS 17
 #define TEXTURE_UNIT_LIGHT_ENTRIES 18
+#define TEXTURE_UNIT_TRANSPARENT_DEPTH 20
+#define TEXTURE_UNIT_CULL_LIGHTS 21
+#define TEXTURE_UNIT_LIGHT_REACH 22
+
+// Image units.
+#define IMAGE_UNIT_RADIANCE 0
 
 SHARED_END

@@ -37,4 +37,5 @@ void main()
     outputs[18 + 2 * TEXTURE_SLOT_COUNT] = frame.lensVS;
     outputs[19 + 2 * TEXTURE_SLOT_COUNT] = vec4(frame.tileGrid);
     outputs[20 + 2 * TEXTURE_SLOT_COUNT] = frame.depthKey;
+    outputs[21 + 2 * TEXTURE_SLOT_COUNT] = vec4(frame.sizePixels);
 }

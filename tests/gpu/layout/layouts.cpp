@@ -18,7 +18,7 @@ using testing::ElementsAre;
 /// Name, offset, and the stride of its array or columns (0: neither).
 using Place = std::tuple<std::string, std::size_t, std::size_t>;
 
-constexpr std::size_t kOutputs = 21 + 2 * TEXTURE_SLOT_COUNT;
+constexpr std::size_t kOutputs = 22 + 2 * TEXTURE_SLOT_COUNT;
 
 class LayoutTest : public test::GlTest {
 protected:
@@ -48,7 +48,8 @@ TEST_F(LayoutTest, frameConstantsLieExactlyWhereTheDriverReadsThem) {
                             Place("frame.lights", offsetof(FrameConstants, lights), 0),
                             Place("frame.lensVS", offsetof(FrameConstants, lensVS), 0),
                             Place("frame.tileGrid", offsetof(FrameConstants, tileGrid), 0),
-                            Place("frame.depthKey", offsetof(FrameConstants, depthKey), 0)));
+                            Place("frame.depthKey", offsetof(FrameConstants, depthKey), 0),
+                            Place("frame.sizePixels", offsetof(FrameConstants, sizePixels), 0)));
 }
 
 TEST_F(LayoutTest, materialConstantsLieExactlyWhereTheDriverReadsThem) {

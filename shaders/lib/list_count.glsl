@@ -1,0 +1,28 @@
+// Third step: how many cells each tile has and how many entries they hold together.
+#pragma once
+#include "lib/list_cells.glsl"
+
+layout(std430, binding = STORAGE_TILE_COUNTS) writeonly buffer TileCounts
+{
+    uvec2 tileCounts[]; // cells, entries
+};
+
+LIST_MEMORY uint laneEntries[LIST_THREADS];
+
+void countTile(uvec2 item)
+{
+    if (!isTile(item)) return;
+    ListedTile tile = listedTile(item);
+    uint entries = 0u;
+    if (tile.cells > 0u) {
+        uvec2 share = laneShare(lightCount());
+        for (uint light = nextInReach(tile, share.x, share.y); light < share.y;
+             light = nextInReach(tile, light + 1u, share.y))
+            entries += bitsOf(touchedCells(tile, light));
+    }
+    laneEntries[LIST_LANE] = entries;
+    listSync();
+    if (LIST_LANE != 0u) return;
+    for (uint lane = 1u; lane < uint(LIST_THREADS); ++lane) entries += laneEntries[lane];
+    tileCounts[tileIndex(item)] = uvec2(tile.cells, entries);
+}

@@ -1,0 +1,82 @@
+// Last step of zbin: the bitmask of the lights that touch a bin of depth, and of those that touch a tile.
+// Source: Drobot 2017, "Improved Culling for Tiled and Clustered Rendering"
+#pragma once
+#include "lib/list_lights.glsl"
+#include "lib/list_tiles.glsl"
+
+layout(binding = TEXTURE_UNIT_LIGHT_REACH) uniform usamplerBuffer lightReachTexels;
+layout(std430, binding = STORAGE_LIST_TOTALS) readonly buffer ListTotals
+{
+    uvec4 listTotals; // slicing, number of bins
+};
+layout(std430, binding = STORAGE_LIGHT_TILES) writeonly buffer LightTiles
+{
+    LightTile lightTiles[];
+};
+layout(std430, binding = STORAGE_LIGHT_CELLS) writeonly buffer LightCells
+{
+    uvec2 lightCells[];
+};
+layout(std430, binding = STORAGE_LIGHT_ENTRIES) writeonly buffer LightEntries
+{
+    uint lightEntries[];
+};
+
+LIST_MEMORY uvec2 laneWords[LIST_THREADS];
+
+// View depths in metres between which a bin lies.
+vec2 runOfBin(uint bin)
+{
+    uint shift = listTotals.x & 31u;
+    uint first = firstKeyOfSlices(listTotals.x) + (bin << shift);
+    precise float beyond = uintBitsToFloat(first + (1u << shift)) - frame.depthKey.x;
+    precise float begin = uintBitsToFloat(first) - frame.depthKey.x;
+    return vec2(viewDepthMetres(frame.depthToViewDepth, beyond), viewDepthMetres(frame.depthToViewDepth, max(0.0, begin)));
+}
+
+void maskBin(uvec2 item)
+{
+    uint bin = item.x;
+    if (bin >= listTotals.y || item.y > 0u) return;
+    uint words = frame.lights.w;
+    vec2 run = runOfBin(bin);
+    uvec2 occupied = uvec2(words, 0u); // first word with a bit, one past the last
+    for (uint word = LIST_LANE; word < words; word += uint(LIST_THREADS)) {
+        uint bits = 0u;
+        uint lights = min(32u, lightCount() - 32u * word);
+        for (uint i = 0u; i < lights; ++i) {
+            vec4 sphere = cullSphere(32u * word + i);
+            if (sphere.w < 0.0 || sphereTouchesDepths(sphere, run.x, run.y)) bits |= 1u << i;
+        }
+        lightEntries[bin * words + word] = bits;
+        if (bits != 0u) occupied = uvec2(min(occupied.x, word), max(occupied.y, word + 1u));
+    }
+    laneWords[LIST_LANE] = occupied;
+    listSync();
+    if (LIST_LANE != 0u) return;
+    for (uint lane = 1u; lane < uint(LIST_THREADS); ++lane)
+        occupied = uvec2(min(occupied.x, laneWords[lane].x), max(occupied.y, laneWords[lane].y));
+    lightCells[bin] = uvec2(occupied.x, max(occupied.x, occupied.y));
+}
+
+// The masks of tiles do not depend on depth, so both layers share them.
+void maskTile(uvec2 item)
+{
+    if (item.x >= frame.tileGrid.x || item.y >= frame.tileGrid.y) return;
+    uint words = frame.lights.w;
+    uint first = (listTotals.y + tileIndex(item)) * words;
+    for (uint word = LIST_LANE; word < words; word += uint(LIST_THREADS)) {
+        uint bits = 0u;
+        uint lights = min(32u, lightCount() - 32u * word);
+        for (uint i = 0u; i < lights; ++i) {
+            uint light = 32u * word + i;
+            uvec2 reach = texelFetch(lightReachTexels, int(light)).xy;
+            bool touches = reaches(reach.x, item.x, item.x) && reaches(reach.y, item.y, item.y);
+            if (touches || cullSphere(light).w < 0.0) bits |= 1u << i;
+        }
+        lightEntries[first + word] = bits;
+    }
+    if (LIST_LANE != 0u) return;
+    for (uint tile = tileIndex(item); tile < listedTiles(); tile += tilesALayer())
+        lightTiles[tile].words = uvec4(first, listTotals.x, 1u, 0u);
+}

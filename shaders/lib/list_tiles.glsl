@@ -1,0 +1,45 @@
+// Tiles as items: item (column, row) with rows counted on through the layers, opaque surfaces first.
+#pragma once
+#include "lib/camera.glsl"
+#include "lib/list_items.glsl"
+#include "shared/light_lists.h"
+
+uint tilesALayer()
+{
+    return frame.tileGrid.x * frame.tileGrid.y;
+}
+
+uint listedTiles()
+{
+#if HAS_TRANSPARENT_LAYER
+    return 2u * tilesALayer();
+#else
+    return tilesALayer();
+#endif
+}
+
+bool isTile(uvec2 item)
+{
+    return item.x < frame.tileGrid.x && item.y * frame.tileGrid.x < listedTiles();
+}
+
+uint tileIndex(uvec2 item)
+{
+    return item.y * frame.tileGrid.x + item.x;
+}
+
+uint tileRow(uvec2 item)
+{
+    return item.y < frame.tileGrid.y ? item.y : item.y - frame.tileGrid.y;
+}
+
+bool isTransparentTile(uvec2 item)
+{
+    return item.y >= frame.tileGrid.y;
+}
+
+uint depthKeyOf(float depth)
+{
+    precise float sum = frame.depthKey.x + depth;
+    return floatBitsToUint(sum);
+}

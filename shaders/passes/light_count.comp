@@ -1,0 +1,8 @@
+// Compute entry of lib/list_count.glsl.
+#define LIST_IN_COMPUTE 1
+#include "lib/list_count.glsl"
+
+void main()
+{
+    countTile(listItem());
+}

@@ -1,0 +1,144 @@
+// Light lists are the same whoever builds them, and so are the pictures.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "passes/recipes/Renderer.h"
+#include "scenes/Load.h"
+#include "tests/support/GlContext.h"
+#include "tests/support/TestScenes.h"
+
+namespace tessera {
+namespace {
+
+using culling::Builder;
+using recipes::Technique;
+
+/// Builders on the GPU, with the lanes that build a tile together.
+struct GpuBuilder {
+    const char* name;
+    Builder builder;
+    int lanes;
+};
+constexpr GpuBuilder kGpuBuilders[] = {{"compute, 64 lanes a tile", Builder::Compute, 64},
+                                       {"compute, 1", Builder::Compute, 1},
+                                       {"fragment", Builder::Fragment, 1}};
+
+class LightLists : public test::GlTest {
+protected:
+    static Technique techniqueOf(culling::Method method) {
+        const bool tiled = method == culling::Method::TileMinmax || method == culling::Method::Tile25d;
+        return tiled ? Technique::TiledDeferred : Technique::ClusteredDeferred;
+    }
+
+    static frame::FrameSettings with(frame::FrameSettings settings, const GpuBuilder& gpu) {
+        settings.culling.builder = gpu.builder;
+        settings.culling.lanes = gpu.lanes;
+        return settings;
+    }
+
+    culling::LightLists lists(recipes::Renderer& renderer, const frame::FrameSettings& settings) {
+        renderer.draw(techniqueOf(*settings.culling.method), settings);
+        recipes::DrawnLists drawn = renderer.downloadLists();
+        EXPECT_EQ(drawn.culling.method, *settings.culling.method);
+        return std::move(drawn.lists);
+    }
+
+    /// The arithmetic is the same, step by step, and rounded the same by C++ and by Mesa: no tolerance.
+    static void expectEqual(const culling::LightLists& built, const culling::LightLists& truth) {
+        ASSERT_EQ(built.tiles.size(), truth.tiles.size());
+        for (std::size_t i = 0; i < truth.tiles.size(); ++i)
+            ASSERT_EQ(built.tiles[i].words, truth.tiles[i].words) << "tile " << i;
+        ASSERT_EQ(built.cells, truth.cells);
+        ASSERT_EQ(built.entries, truth.entries);
+    }
+
+    void expectSameLists(const scenes::Scene& scene, frame::FrameSettings settings, std::span<const int> tiles) {
+        recipes::Renderer renderer(context(), scene);
+        for (const culling::MethodInfo& method : culling::methodTable()) {
+            if (method.method == culling::Method::None) continue;
+            settings.culling.method = method.method;
+            for (const int tile : tiles) {
+                settings.culling.tilePixels = tile;
+                settings.culling.builder = Builder::Cpu;
+                const culling::LightLists truth = lists(renderer, settings);
+                EXPECT_FALSE(truth.entries.empty());
+                for (const GpuBuilder& gpu : kGpuBuilders) {
+                    SCOPED_TRACE(fmt::format("{}, tile {}, {}", method.name, tile, gpu.name));
+                    expectEqual(lists(renderer, with(settings, gpu)), truth);
+                }
+            }
+        }
+    }
+
+    void expectForwardsPicture(const scenes::Scene& scene, frame::FrameSettings settings) {
+        recipes::Renderer renderer(context(), scene);
+        const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
+        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+            for (const culling::Method method : technique.methods) {
+                if (method == culling::Method::None) continue;
+                settings.culling.method = method;
+                for (const GpuBuilder& gpu : kGpuBuilders) {
+                    SCOPED_TRACE(fmt::format("{} {}, {}", technique.name, int(method), gpu.name));
+                    EXPECT_TRUE(renderer.render(technique.technique, with(settings, gpu)).radiance == truth);
+                }
+            }
+        }
+    }
+};
+
+/// The lattice with `count` lights.
+scenes::Scene lattice(int count) {
+    scenes::LoadOptions options;
+    options.lights = count;
+    return scenes::loadScene("lattice", options);
+}
+
+TEST_F(LightLists, listsBuiltOnTheGpuAreExactlyThoseBuiltOnTheCpu) {
+    frame::FrameSettings settings;
+    settings.sizePixels = {321, 179};
+    expectSameLists(lattice(256), settings, culling::kTileSides);
+}
+
+TEST_F(LightLists, listsOfEveryLightTypeAndTransparentSurfacesAreExactlyTheSameOnTheGpu) {
+    const scenes::Scene scene = test::everythingScene();
+    frame::FrameSettings settings;
+    settings.sizePixels = {320, 180};
+    expectSameLists(scene, settings, culling::kTileSides);
+    settings.sizePixels = {37, 1};
+    expectSameLists(scene, settings, std::array{16});
+    settings.sizePixels = {161, 90};
+    settings.prune = false;
+    expectSameLists(scene, settings, std::array{8});
+}
+
+TEST_F(LightLists, listsOfAnOrthographicCameraAreExactlyTheSameOnTheGpu) {
+    scenes::Scene scene = test::everythingScene();
+    scene.cameras[0].projection = scenes::Projection::Orthographic;
+    scene.cameras[0].halfHeightMetres = 2.5;
+    frame::FrameSettings settings;
+    settings.sizePixels = {161, 91};
+    expectSameLists(scene, settings, std::array{8, 32});
+}
+
+TEST_F(LightLists, picturesLitFromListsOfTheGpuAreAlwaysThoseOfForward) {
+    frame::FrameSettings settings;
+    settings.sizePixels = {161, 91};
+    expectForwardsPicture(test::everythingScene(), settings);
+    settings.prune = false;
+    expectForwardsPicture(test::everythingScene(), settings);
+}
+
+TEST_F(LightLists, oddCountsOfLightsAlwaysGiveTheSameListsAndPicture) {
+    frame::FrameSettings settings;
+    settings.sizePixels = {65, 49};
+    for (const int count : {1, 31, 32, 33, 4097}) {
+        SCOPED_TRACE(count);
+        settings.prune = count != 1; // the first light of the lattice is out of view
+        const scenes::Scene scene = lattice(count);
+        expectSameLists(scene, settings, std::array{16});
+        expectForwardsPicture(scene, settings);
+    }
+}
+
+} // namespace
+} // namespace tessera
