@@ -5,15 +5,20 @@
 
 namespace tessera::passes {
 
-shader::ProgramDesc DeferredLightingPass::program(const frame::FrameSpec& spec) {
+shader::ProgramDesc DeferredLightingPass::program(const frame::FrameSpec& spec, const Params& params) {
     frame::Defines defines = frame::channelDefines(spec.settings.layout, spec.channels);
-    frame::addCursorDefines(spec, false, defines);
+    if (params.visitsLights) {
+        frame::addCursorDefines(spec, false, defines);
+    } else {
+        defines.emplace_back("LIGHT_CURSOR", "LIGHT_CURSOR_NONE");
+    }
     return frame::frameProgram(spec, "deferred_lighting", "passes/fullscreen.vert", "passes/deferred_lighting.frag",
                                defines);
 }
 
 DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
-                                                        const Inputs& inputs, const frame::FrameResources* resources) {
+                                                        const Params& params, const Inputs& inputs,
+                                                        const frame::FrameResources* resources) {
     return graph.addPass<Outputs>(
         "deferred_lighting",
         [&](graph::PassBuilder& pass, Outputs& out) {
@@ -26,7 +31,7 @@ DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, con
             if (inputs.lists) out.read.lists = frame::readLightLists(pass, *inputs.lists);
             out.radiance = pass.create("radiance", spec.texture(graph::Format::Rgba32Float));
         },
-        [resources, program = program(spec)](const Outputs& out, const graph::PassContext& context) {
+        [resources, program = program(spec, params)](const Outputs& out, const graph::PassContext& context) {
             gpu::bindFramebuffer(resources->framebuffers.get({{&context.texture(out.radiance)}, nullptr}));
             gpu::setState({});
             gpu::useProgram(resources->programs.get(program));

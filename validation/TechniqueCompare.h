@@ -43,7 +43,8 @@ std::size_t pictureCount(const CompareRequest& request);
 CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabilities& gl,
                                 const CompareRequest& request);
 
-/// What a technique is held to against another, with the reason in Tolerance::reason.
-Tolerance pairTolerance(recipes::Technique technique, const frame::GBufferLayout& layout, bool isSoftware);
+/// What a technique is held to against another in a scene of so many lights, with the reason in Tolerance::reason.
+Tolerance pairTolerance(recipes::Technique technique, const frame::GBufferLayout& layout, bool isSoftware,
+                        std::size_t lightCount);
 
 } // namespace tessera::validation

@@ -7,6 +7,7 @@
 #include "passes/GBufferPass.h"
 #include "passes/GpuLightListsPass.h"
 #include "passes/LightListsPass.h"
+#include "passes/LightVolumesPass.h"
 #include "passes/TransparentDepthPass.h"
 
 namespace tessera::recipes {
@@ -27,6 +28,8 @@ constexpr TechniqueInfo kTechniques[] = {
     {Technique::ForwardPrepass, "forward_prepass", "depth first, then equal depth only",
      "each visible pixel once, all lights", false, kAllLights},
     {Technique::Deferred, "deferred", "G-buffer", "full screen, each covered pixel once, all lights", true, kAllLights},
+    {Technique::DeferredVolumes, "deferred_volumes", "G-buffer",
+     "one proxy volume a light, depth tested, added by blending", true, kAllLights},
     {Technique::TiledDeferred, "tiled_deferred", "G-buffer", "full screen, each covered pixel once, its tile's lights",
      true, kTiled},
     {Technique::ForwardPlus, "forward_plus", "depth first, then equal depth only",
@@ -55,9 +58,16 @@ struct Recipe {
         frame.programs.push_back(GBufferPass::program(spec));
         return GBufferPass::add(frame.graph, spec, resources);
     }
-    TextureHandle deferredLighting(const GBufferPass::Outputs& gbuffer) {
-        frame.programs.push_back(DeferredLightingPass::program(spec));
-        return DeferredLightingPass::add(frame.graph, spec, {gbuffer.channels, gbuffer.depth, frame.lists}, resources)
+    TextureHandle deferredLighting(const DeferredLightingPass::Params& params, const GBufferPass::Outputs& gbuffer) {
+        frame.programs.push_back(DeferredLightingPass::program(spec, params));
+        return DeferredLightingPass::add(frame.graph, spec, params, {gbuffer.channels, gbuffer.depth, frame.lists},
+                                         resources)
+            .radiance;
+    }
+    TextureHandle lightVolumes(const GBufferPass::Outputs& gbuffer, TextureHandle radiance) {
+        if (!LightVolumesPass::isNeeded(spec)) return radiance;
+        frame.programs.push_back(LightVolumesPass::program(spec));
+        return LightVolumesPass::add(frame.graph, spec, {gbuffer.channels, gbuffer.depth, radiance}, resources)
             .radiance;
     }
     /// Light lists for what lies at these depths, where the frame culls lights.
@@ -102,7 +112,13 @@ OpaquePicture opaqueForwardPrepass(Recipe& recipe) {
 OpaquePicture opaqueDeferred(Recipe& recipe) {
     const GBufferPass::Outputs gbuffer = recipe.gbuffer();
     recipe.lightLists(gbuffer.depth);
-    return {recipe.deferredLighting(gbuffer), gbuffer.depth};
+    return {recipe.deferredLighting({}, gbuffer), gbuffer.depth};
+}
+
+OpaquePicture opaqueDeferredVolumes(Recipe& recipe) {
+    const GBufferPass::Outputs gbuffer = recipe.gbuffer();
+    const TextureHandle unlit = recipe.deferredLighting({.visitsLights = false}, gbuffer);
+    return {recipe.lightVolumes(gbuffer, unlit), gbuffer.depth};
 }
 
 OpaquePicture opaquePicture(Technique technique, Recipe& recipe) {
@@ -113,6 +129,8 @@ OpaquePicture opaquePicture(Technique technique, Recipe& recipe) {
     case Technique::ForwardPlus:
     case Technique::ClusteredForward:
         return opaqueForwardPrepass(recipe);
+    case Technique::DeferredVolumes:
+        return opaqueDeferredVolumes(recipe);
     case Technique::Deferred:
     case Technique::TiledDeferred:
     case Technique::ClusteredDeferred:

@@ -16,6 +16,7 @@ enum class Technique : std::uint8_t {
     Forward,
     ForwardPrepass,
     Deferred,
+    DeferredVolumes,
     TiledDeferred,
     ForwardPlus,
     ClusteredDeferred,

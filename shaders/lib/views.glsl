@@ -43,9 +43,7 @@ vec3 visitedLightsView(Surface surface, Viewpoint viewpoint, vec2 pixel)
 {
     int count = 0;
 #if HAS_LIT_MODELS
-#if HAS_SINGLE_COLOR
-    if (surface.model == MODEL_SINGLE_COLOR) return vec3(0.0);
-#endif
+    if (!takesLight(surface)) return vec3(0.0);
     LightCursor cursor = lightCursor(pixel, viewpoint.depth);
     int light;
     while (nextLight(cursor, light)) count += 1;
