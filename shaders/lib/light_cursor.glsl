@@ -59,6 +59,12 @@ bool nextLight(inout LightCursor cursor, out int light)
     return light < cursor.end;
 }
 
+bool nextBatch(inout LightCursor cursor, out int light)
+{
+    light = 0;
+    return false;
+}
+
 #elif LIGHT_CURSOR == LIGHT_CURSOR_LIST
 
 #if HAS_LIGHTS_EVERYWHERE
@@ -125,6 +131,12 @@ bool nextLight(inout LightCursor cursor, out int light)
 #endif
 }
 
+bool nextBatch(inout LightCursor cursor, out int light)
+{
+    light = 0;
+    return false;
+}
+
 #else
 
 struct LightCursor {
@@ -145,15 +157,23 @@ LightCursor lightCursor(vec2 pixel, float depth)
 
 bool nextLight(inout LightCursor cursor, out int light)
 {
+    light = cursor.word * 32 + findLSB(cursor.bits);
+    bool found = cursor.bits != 0u;
+    cursor.bits &= cursor.bits - 1u;
+    return found;
+}
+
+// A batch is what a word holds.
+bool nextBatch(inout LightCursor cursor, out int light)
+{
+    light = 0;
     while (cursor.bits == 0u) {
         cursor.word += 1;
         if (cursor.word >= cursor.end) return false;
         cursor.bits = texelFetch(lightEntries, cursor.tileWords + cursor.word).x
                       & texelFetch(lightEntries, cursor.binWords + cursor.word).x;
     }
-    light = cursor.word * 32 + findLSB(cursor.bits);
-    cursor.bits &= cursor.bits - 1u;
-    return true;
+    return nextLight(cursor, light);
 }
 
 #endif

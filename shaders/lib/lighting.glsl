@@ -100,11 +100,16 @@ vec3 shadeSurface(Surface surface, Viewpoint viewpoint, vec2 pixel)
     if (!takesLight(surface)) return radiance;
     LightCursor cursor = lightCursor(pixel, viewpoint.depth);
     int light;
-    if (!nextLight(cursor, light)) return radiance;
+    if (!nextLight(cursor, light) && !nextBatch(cursor, light)) return radiance;
     // Tested at the end: rasterisers that mask lanes instead of branching would run a loop's body once more than its lights.
     do {
-        radiance += lightOnSurface(light, surface, viewpoint);
-    } while (nextLight(cursor, light));
+        do {
+            radiance += lightOnSurface(light, surface, viewpoint);
+#if LIGHTS_PER_ROUND == 2
+            if (nextLight(cursor, light)) radiance += lightOnSurface(light, surface, viewpoint);
+#endif
+        } while (nextLight(cursor, light));
+    } while (nextBatch(cursor, light));
 #endif
     return radiance;
 }

@@ -46,7 +46,15 @@ vec3 visitedLightsView(Surface surface, Viewpoint viewpoint, vec2 pixel)
     if (!takesLight(surface)) return vec3(0.0);
     LightCursor cursor = lightCursor(pixel, viewpoint.depth);
     int light;
-    while (nextLight(cursor, light)) count += 1;
+    if (!nextLight(cursor, light) && !nextBatch(cursor, light)) return vec3(0.0);
+    do {
+        do {
+            count += 1;
+#if LIGHTS_PER_ROUND == 2
+            if (nextLight(cursor, light)) count += 1;
+#endif
+        } while (nextLight(cursor, light));
+    } while (nextBatch(cursor, light));
 #endif
     return vec3(float(count));
 }
