@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/PreparedFrame.h"
 #include "renderer/graph/Execute.h"
 #include "scenes/Error.h"
@@ -78,8 +79,7 @@ void Renderer::uploadLights(const frame::PackedLights& lights) {
 }
 
 void Renderer::draw(Technique technique, const frame::FrameSettings& asked) {
-    frame::FrameSettings settings = asked;
-    settings.softwareBackend = context_.capabilities().isSoftware;
+    const frame::FrameSettings settings = settingsOn(context_.capabilities(), asked);
     auto drawn = std::make_unique<Drawn>();
     drawn->prepared = prepareFrame(scene_, technique, settings);
     const PreparedFrame& prepared = drawn->prepared;

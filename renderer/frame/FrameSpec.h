@@ -19,9 +19,15 @@ struct FrameSpec {
     std::vector<Channel> channels; ///< of the G-buffer, by attachment
     culling::Choice culling;
     bool lightsEverywhere = false; ///< some lights reach everywhere, while others do not
+    int samples = 1;               ///< that the pixels of render targets have
 
+    /// A texture of the picture's size.
     graph::TextureDesc texture(graph::Format format) const {
         return {format, settings.sizePixels.x, settings.sizePixels.y, 1};
+    }
+    /// What geometry is drawn into: the same with the frame's samples.
+    graph::TextureDesc renderTarget(graph::Format format) const {
+        return {format, settings.sizePixels.x, settings.sizePixels.y, samples};
     }
 };
 FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings);
