@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include "apps/Numbers.h"
+#include "passes/recipes/ChooseSamples.h"
 #include "scenes/Error.h"
 #include "scenes/Names.h"
 
@@ -113,6 +114,10 @@ void resolveOptions(const FrameOptions& options, Request& request) {
     if (options.tile) settings.culling.tilePixels = tileOf(*options.tile);
     if (options.cullOn)
         settings.culling.builder = rowNamed(culling::builderTable(), *options.cullOn, "--cull-on").builder;
+    if (options.samples) {
+        recipes::requireSampleCount(*options.samples);
+        settings.samples = *options.samples;
+    }
     settings.timeSeconds = options.timeSeconds.value_or(0.0);
     settings.soloLight = options.solo;
 }
@@ -202,6 +207,9 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     text("--cull-on", options.cullOn,
          "Who builds the light lists, one of " + namesOf(culling::builderTable()) + " [by backend]", "NAME");
     text("--size", options.size, "Picture size in pixels [1280x720]", "WxH");
+    addWholeNumber(command, "--samples", options.samples,
+                   "Samples of a pixel, 1, 2 or 4; more than 1 without a G-buffer only [1]", "N")
+        ->group("Frame");
     text("--camera", options.camera, "A camera of the scene [its first]", "NAME");
     addNumber(command, "--time", options.timeSeconds, "Moves animated lights to this time [0]", "SECONDS")
         ->group("Frame");

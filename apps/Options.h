@@ -30,7 +30,7 @@ struct FrameOptions {
     std::optional<std::string> technique, layout, camera, view, toneMap, size, filter, space, prune, specular, culling,
         cullOn;
     std::optional<double> exposureEV, timeSeconds;
-    std::optional<int> lights, solo, tile;
+    std::optional<int> lights, solo, tile, samples;
     bool noDefaultLight = false;
 };
 /// All but the scene.

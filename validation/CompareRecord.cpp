@@ -126,11 +126,16 @@ ComparePair comparePair(std::string nameA, const Picture& a, std::string nameB, 
 std::string compareJson(const CompareRecord& record) {
     Json pairs = Json::array();
     for (const ComparePair& pair : record.pairs) pairs.push_back(pairJson(pair));
+    Json leftOut = Json::array();
+    for (const LeftOutTechnique& item : record.leftOut)
+        leftOut.push_back({{"technique", item.technique}, {"why", item.why}});
     const Json json = {{"schema", 1},
                        {"scene", record.scene},
                        {"size", {record.width, record.height}},
+                       {"samples", record.samples},
                        {"renderer", record.renderer},
-                       {"pairs", pairs}};
+                       {"pairs", pairs},
+                       {"left_out", leftOut}};
     // A file's name need not be UTF-8, and must not keep the record from being written.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -138,8 +143,10 @@ std::string compareJson(const CompareRecord& record) {
 std::string compareTable(const CompareRecord& record) {
     std::vector<Row> rows = {{"pair", "bit-equal", "max rel", "p99.9 rel", "relMSE", "bias", "lit", "verdict"}};
     for (const ComparePair& pair : record.pairs) rows.push_back(rowOf(pair));
+    const std::string samples = record.samples == 1 ? "" : fmt::format(", {} samples", record.samples);
     std::string text =
-        fmt::format("{}  {}x{}  {}\n", record.scene, record.width, record.height, record.renderer) + textTable(rows);
+        fmt::format("{}  {}x{}{}  {}\n", record.scene, record.width, record.height, samples, record.renderer) +
+        textTable(rows);
     for (const ComparePair& pair : record.pairs)
         for (const std::string& missed : pair.verdict.missed)
             text += fmt::format("missed: {} vs {}: {}\n", pair.a, pair.b, missed);
@@ -149,6 +156,8 @@ std::string compareTable(const CompareRecord& record) {
                                 figureText(channel.share), figureText(channel.relMseWithout));
         }
     }
+    for (const LeftOutTechnique& item : record.leftOut)
+        text += fmt::format("left out: {}: {}\n", item.technique, item.why);
     return text;
 }
 

@@ -24,12 +24,20 @@ struct ComparePair {
     std::vector<ChannelShare> channels = {}; ///< empty where no channel is packed
 };
 
+/// A technique that was not compared.
+struct LeftOutTechnique {
+    std::string technique;
+    std::string why;
+};
+
 /// What `tessera compare` found.
 struct CompareRecord {
     std::string scene;
     int width = 0, height = 0;
     std::string renderer; ///< as GL reports it
     std::vector<ComparePair> pairs;
+    int samples = 1; ///< of a pixel, as the driver gives them
+    std::vector<LeftOutTechnique> leftOut = {};
 
     /// There is a pair, and each holds.
     bool ok() const;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "passes/recipes/ChooseCulling.h"
+#include "passes/recipes/ChooseSamples.h"
 #include "validation/PictureFile.h"
 #include "validation/Rendering.h"
 
@@ -79,6 +80,17 @@ std::size_t pictureCount(const CompareRequest& request) {
     return request.techniques.size() + (std::holds_alternative<Technique>(request.against) ? 1 : 0);
 }
 
+std::vector<Technique> techniquesTaking(int samples, std::vector<LeftOutTechnique>& leftOut) {
+    std::vector<Technique> techniques;
+    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+        if (recipes::takesSamples(info, samples))
+            techniques.push_back(info.technique);
+        else
+            leftOut.push_back({std::string(info.name), fmt::format("it does not take --samples {}", samples)});
+    }
+    return techniques;
+}
+
 Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout, bool isSoftware,
                         std::size_t lightCount) {
     Tolerance tolerance;
@@ -109,6 +121,7 @@ CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabili
     result.record.scene = renderer.scene().name;
     result.record.width = request.settings.sizePixels.x;
     result.record.height = request.settings.sizePixels.y;
+    result.record.samples = recipes::settingsOn(gl, request.settings).samplesGiven.value_or(1);
     result.record.renderer = gl.renderer;
     for (const Technique technique : request.techniques) {
         NamedPicture picture = rendered(renderer, technique, request.settings);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "passes/recipes/ChooseCulling.h"
+#include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/PreparedFrame.h"
 #include "passes/recipes/Renderer.h"
 
@@ -55,6 +56,7 @@ graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const fra
     addChoices(plan, scene, prepared);
     for (graph::Plan::Choice& choice : cullingChoices(technique, settings, prepared.spec.culling))
         plan.choices.push_back(std::move(choice));
+    for (graph::Plan::Choice& choice : sampleChoices(settings)) plan.choices.push_back(std::move(choice));
     addCounters(plan, scene, prepared);
     return plan;
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/PreparedFrame.h"
 #include "renderer/graph/Execute.h"
 #include "scenes/Error.h"
@@ -63,8 +64,7 @@ frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
 }
 
 void Renderer::draw(Technique technique, const frame::FrameSettings& asked) {
-    frame::FrameSettings settings = asked;
-    settings.softwareBackend = context_.capabilities().isSoftware;
+    const frame::FrameSettings settings = settingsOn(context_.capabilities(), asked);
     auto drawn = std::make_unique<Drawn>();
     drawn->prepared = prepareFrame(scene_, technique, settings);
     const PreparedFrame& prepared = drawn->prepared;

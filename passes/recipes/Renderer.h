@@ -13,7 +13,7 @@ namespace tessera::recipes {
 struct RenderedFrame {
     int width = 0;
     int height = 0;
-    std::vector<float> radiance;       ///< RGBA, linear, before exposure; A is the coverage, 0 where nothing was drawn
+    std::vector<float> radiance;       ///< RGBA, linear, before exposure; A is the share of the pixel that is covered
     std::vector<std::uint8_t> display; ///< RGBA, display code values; empty where the settings did not ask for them
 };
 

@@ -8,6 +8,7 @@
 #include "passes/GpuLightListsPass.h"
 #include "passes/LightListsPass.h"
 #include "passes/LightVolumesPass.h"
+#include "passes/ResolvePass.h"
 #include "passes/TransparentDepthPass.h"
 
 namespace tessera::recipes {
@@ -24,9 +25,9 @@ constexpr Method kClustered[] = {Method::Cluster, Method::Zbin, Method::None};
 
 constexpr TechniqueInfo kTechniques[] = {
     {Technique::Forward, "forward", "shaded as it is rasterised", "every fragment loops over all lights; the baseline",
-     false, kAllLights},
+     false, kAllLights, true},
     {Technique::ForwardPrepass, "forward_prepass", "depth first, then equal depth only",
-     "each visible pixel once, all lights", false, kAllLights},
+     "each visible pixel once, all lights", false, kAllLights, true},
     {Technique::Deferred, "deferred", "G-buffer", "full screen, each covered pixel once, all lights", true, kAllLights},
     {Technique::DeferredVolumes, "deferred_volumes", "G-buffer",
      "one proxy volume a light, depth tested, added by blending", true, kAllLights},
@@ -51,8 +52,8 @@ struct Recipe {
         return ForwardPass::add(frame.graph, spec, params, inputs, resources);
     }
     TextureHandle depthPrepass() {
-        frame.programs.push_back(DepthPrepass::program(spec));
-        return DepthPrepass::add(frame.graph, spec, resources).depth;
+        frame.programs.push_back(DepthPrepass::program(spec, {}));
+        return DepthPrepass::add(frame.graph, spec, {}, resources).depth;
     }
     GBufferPass::Outputs gbuffer() {
         frame.programs.push_back(GBufferPass::program(spec));
@@ -85,6 +86,12 @@ struct Recipe {
         for (shader::ProgramDesc& program : GpuLightListsPass::programs(spec))
             frame.programs.push_back(std::move(program));
         frame.lists = GpuLightListsPass::add(frame.graph, spec, {depth, transparentDepth}, resources).lists;
+    }
+    /// One sample a pixel of what was drawn with several.
+    TextureHandle resolve(TextureHandle radiance) {
+        if (spec.samples == 1) return radiance;
+        frame.programs.push_back(ResolvePass::program(spec));
+        return ResolvePass::add(frame.graph, spec, {radiance}, resources).resolved;
     }
     TextureHandle display(TextureHandle radiance) {
         frame.programs.push_back(DisplayPass::program());
@@ -155,6 +162,7 @@ DeclaredFrame declareFrame(Technique technique, const frame::FrameSpec& spec, co
         const ForwardPass::Params params{ForwardPass::Surfaces::Transparent};
         frame.radiance = recipe.forward(params, {opaque.depth, opaque.radiance, frame.lists}).radiance;
     }
+    frame.radiance = recipe.resolve(frame.radiance);
     frame.display = recipe.display(frame.radiance);
     frame.graph.output(frame.radiance);
     frame.graph.output(frame.depth);

@@ -29,11 +29,12 @@ struct TechniqueInfo {
     std::string_view lighting; ///< who lights what, in words
     bool usesGBuffer;
     std::span<const culling::Method> methods; ///< of light culling that it takes, the one it prefers first
+    bool multisamples = false;                ///< takes more than one sample a pixel
 };
 std::span<const TechniqueInfo> techniqueTable();
 
-/// A declared frame. The graph's outputs are radiance and, where the settings ask for it, display; both carry alpha 1
-/// where something was drawn.
+/// A declared frame. The graph's outputs are radiance and, where the settings ask for it, display; both of one sample a
+/// pixel. Alpha of radiance is the covered share of the pixel.
 struct DeclaredFrame {
     graph::Graph graph;
     graph::TextureHandle radiance;                ///< RGBA32F, linear

@@ -43,9 +43,14 @@ std::span<const ToneMapInfo> toneMapTable();
 enum class TextureFilter : std::uint8_t { Hardware, Exact };
 enum class LightingSpace : std::uint8_t { World, View };
 
+/// Samples of a pixel that can be asked for; a driver may give more.
+inline constexpr int kSampleCounts[] = {1, 2, 4};
+
 struct FrameSettings {
     glm::ivec2 sizePixels{1280, 720};
-    int camera = 0; ///< index into Scene::cameras
+    int samples = 1;                 ///< of a pixel, one of kSampleCounts
+    std::optional<int> samplesGiven; ///< the driver's own number for them, where one was asked; never fewer
+    int camera = 0;                  ///< index into Scene::cameras
     double timeSeconds = 0.0;
     glm::dvec3 eyeOffsetWS{0.0}; ///< metres, added to the camera's place: benchmarks move the eye between frames
     GBufferLayout layout;

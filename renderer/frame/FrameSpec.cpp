@@ -61,6 +61,7 @@ Defines frameDefines(const FrameSpec& spec) {
     defines.emplace_back("FILTER_EXACT", spec.settings.filter == TextureFilter::Exact ? "1" : "0");
     defines.emplace_back("LIGHTS_PER_ROUND", spec.manyLights ? "2" : "1");
     defines.emplace_back("SPECULAR_OFF", spec.settings.specular ? "0" : "1");
+    defines.emplace_back("SAMPLES", std::to_string(spec.samples));
     return defines;
 }
 

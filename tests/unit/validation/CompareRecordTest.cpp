@@ -36,7 +36,7 @@ std::vector<std::string> keys(const Json& object) {
 
 TEST(CompareRecord, jsonAlwaysHasExactlyTheAgreedFields) {
     const Json json = Json::parse(compareJson(sampleRecord()));
-    EXPECT_THAT(keys(json), ElementsAre("schema", "scene", "size", "renderer", "pairs"));
+    EXPECT_THAT(keys(json), ElementsAre("schema", "scene", "size", "samples", "renderer", "pairs", "left_out"));
     EXPECT_EQ(json["schema"], 1);
     EXPECT_EQ(json["scene"], "hall");
     EXPECT_EQ(json["size"], Json::parse("[4, 1]"));
