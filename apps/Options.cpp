@@ -113,6 +113,7 @@ void resolveOptions(const FrameOptions& options, Request& request) {
     if (options.tile) settings.culling.tilePixels = tileOf(*options.tile);
     if (options.cullOn)
         settings.culling.builder = rowNamed(culling::builderTable(), *options.cullOn, "--cull-on").builder;
+    if (options.lightOn) settings.lightOn = rowNamed(frame::lightingStageTable(), *options.lightOn, "--light-on").stage;
     settings.timeSeconds = options.timeSeconds.value_or(0.0);
     settings.soloLight = options.solo;
 }
@@ -197,6 +198,8 @@ void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string
         ->group("Frame");
     text("--cull-on", options.cullOn,
          "Who builds the light lists, one of " + namesOf(culling::builderTable()) + " [by backend]", "NAME");
+    text("--light-on", options.lightOn,
+         "What lights the G-buffer, one of " + namesOf(frame::lightingStageTable()) + " [by backend]", "NAME");
     text("--size", options.size, "Picture size in pixels [1280x720]", "WxH");
     text("--camera", options.camera, "A camera of the scene [its first]", "NAME");
     addNumber(command, "--time", options.timeSeconds, "Moves animated lights to this time [0]", "SECONDS")

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "passes/recipes/ChooseCulling.h"
+#include "passes/recipes/ChooseLighting.h"
 #include "passes/recipes/PreparedFrame.h"
 #include "passes/recipes/Renderer.h"
 
@@ -55,6 +56,8 @@ graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const fra
     addChoices(plan, scene, prepared);
     for (graph::Plan::Choice& choice : cullingChoices(technique, settings, prepared.spec.culling))
         plan.choices.push_back(std::move(choice));
+    if (std::optional<graph::Plan::Choice> choice = lightingChoice(technique, settings))
+        plan.choices.push_back(std::move(*choice));
     addCounters(plan, scene, prepared);
     return plan;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "passes/recipes/ChooseCulling.h"
+#include "passes/recipes/ChooseLighting.h"
 #include "renderer/culling/TileGrid.h"
 #include "scenes/Error.h"
 
@@ -38,6 +39,7 @@ PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, cons
         glm::uvec4(lightCount, prepared.lights.shown, prepared.lights.everywhere, (lightCount + 31) / 32);
     prepared.spec = frame::makeFrameSpec(scene, prepared.lights, settings);
     frame::FrameSpec& spec = prepared.spec;
+    spec.lightOn = chooseLighting(technique, settings);
     spec.culling = chooseCulling(technique, settings, spec.features, prepared.lights);
     if (spec.culling.method == culling::Method::None) return prepared;
     spec.lightsEverywhere = !settings.prune || prepared.lights.everywhere > 0;
