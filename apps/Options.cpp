@@ -118,6 +118,7 @@ void resolveOptions(const FrameOptions& options, Request& request) {
         recipes::requireSampleCount(*options.samples);
         settings.samples = *options.samples;
     }
+    if (options.lightOn) settings.lightOn = rowNamed(frame::lightingStageTable(), *options.lightOn, "--light-on").stage;
     settings.timeSeconds = options.timeSeconds.value_or(0.0);
     settings.soloLight = options.solo;
 }
@@ -206,6 +207,8 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
         ->group("Frame");
     text("--cull-on", options.cullOn,
          "Who builds the light lists, one of " + namesOf(culling::builderTable()) + " [by backend]", "NAME");
+    text("--light-on", options.lightOn,
+         "What lights the G-buffer, one of " + namesOf(frame::lightingStageTable()) + " [by backend]", "NAME");
     text("--size", options.size, "Picture size in pixels [1280x720]", "WxH");
     addWholeNumber(command, "--samples", options.samples,
                    "Samples of a pixel, 1, 2 or 4; more than 1 without a G-buffer only [1]", "N")

@@ -28,7 +28,7 @@ std::unique_ptr<gpu::Context> makeContext(const GlobalOptions& options);
 struct FrameOptions {
     std::string scene;
     std::optional<std::string> technique, layout, camera, view, toneMap, size, filter, space, prune, specular, culling,
-        cullOn;
+        cullOn, lightOn;
     std::optional<double> exposureEV, timeSeconds;
     std::optional<int> lights, solo, tile, samples;
     bool noDefaultLight = false;

@@ -5,6 +5,28 @@
 
 namespace tessera::passes {
 
+namespace {
+
+constexpr std::uint32_t kGroupSidePixels = 8;
+
+bool inCompute(const frame::FrameSpec& spec) {
+    return spec.lightOn == frame::LightingStage::Compute;
+}
+
+void drawPicture(const frame::FrameResources& resources, const gpu::Texture& radiance) {
+    gpu::bindFramebuffer(resources.framebuffers.get({{&radiance}, nullptr}));
+    gpu::setState({});
+    gpu::drawFullscreenTriangle();
+}
+
+void dispatchPicture(const gpu::Texture& radiance) {
+    const auto groups = [](int pixels) { return (std::uint32_t(pixels) + kGroupSidePixels - 1) / kGroupSidePixels; };
+    gpu::bindImage(IMAGE_UNIT_RADIANCE, radiance, gpu::ImageAccess::Write);
+    gpu::dispatch(groups(radiance.desc().width), groups(radiance.desc().height));
+}
+
+} // namespace
+
 shader::ProgramDesc DeferredLightingPass::program(const frame::FrameSpec& spec, const Params& params) {
     frame::Defines defines = frame::channelDefines(spec.settings.layout, spec.channels);
     if (params.visitsLights) {
@@ -12,8 +34,14 @@ shader::ProgramDesc DeferredLightingPass::program(const frame::FrameSpec& spec, 
     } else {
         defines.emplace_back("LIGHT_CURSOR", "LIGHT_CURSOR_NONE");
     }
-    return frame::frameProgram(spec, "deferred_lighting", "passes/fullscreen.vert", "passes/deferred_lighting.frag",
-                               defines);
+    if (!inCompute(spec)) {
+        return frame::frameProgram(spec, "deferred_lighting", "passes/fullscreen.vert", "passes/deferred_lighting.frag",
+                                   defines);
+    }
+    defines.emplace_back("LIGHTING_GROUP_SIDE", std::to_string(kGroupSidePixels));
+    shader::ProgramDesc program = frame::frameProgram(spec, "deferred_lighting", "", "", defines);
+    program.compute = "passes/deferred_lighting.comp";
+    return program;
 }
 
 DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
@@ -29,11 +57,11 @@ DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, con
             pass.expect(inputs.depth, spec.texture(graph::Format::Depth32Float));
             out.read.depth = pass.read(inputs.depth);
             if (inputs.lists) out.read.lists = frame::readLightLists(pass, *inputs.lists);
-            out.radiance = pass.create("radiance", spec.texture(graph::Format::Rgba32Float));
+            out.radiance = pass.create("radiance", spec.texture(graph::Format::Rgba32Float),
+                                       inCompute(spec) ? graph::Access::ImageWrite : graph::Access::ColorAttachment);
         },
-        [resources, program = program(spec, params)](const Outputs& out, const graph::PassContext& context) {
-            gpu::bindFramebuffer(resources->framebuffers.get({{&context.texture(out.radiance)}, nullptr}));
-            gpu::setState({});
+        [resources, compute = inCompute(spec), program = program(spec, params)](const Outputs& out,
+                                                                        const graph::PassContext& context) {
             gpu::useProgram(resources->programs.get(program));
             gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
             resources->lights.bind();
@@ -42,7 +70,10 @@ DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, con
                 gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), context.texture(out.read.channels[i]));
             }
             gpu::bindTexture(TEXTURE_UNIT_DEPTH, context.texture(out.read.depth));
-            gpu::drawFullscreenTriangle();
+            if (compute)
+                dispatchPicture(context.texture(out.radiance));
+            else
+                drawPicture(*resources, context.texture(out.radiance));
         });
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "passes/ListStep.h"
+#include "passes/ScanTiles.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Context.h"
 #include "scenes/Error.h"
@@ -19,12 +20,13 @@ using Lanes = ListStep::Lanes;
 
 /// The steps of a frame's method; zbin has masks instead of runs.
 struct Steps {
-    ListStep reach, depths, count, scan, fill, binMasks, tileMasks;
+    ListStep reach, depths, count, scan, sizes, fill, binMasks, tileMasks;
 
     explicit Steps(const frame::FrameSpec& spec)
-        : reach(spec, "reach", Lanes::One), depths(spec, "depths", Lanes::Many), count(spec, "count", Lanes::Many),
-          scan(spec, "scan", Lanes::Many), fill(spec, "fill", Lanes::Many), binMasks(spec, "bin_masks", Lanes::Many),
-          tileMasks(spec, "tile_masks", Lanes::Many) {}
+        : reach(spec, "reach", Lanes::One), depths(spec, "depths", Lanes::AsChosen),
+          count(spec, "count", Lanes::AsChosen), scan(spec, "scan", Lanes::Group),
+          sizes(spec, "sizes", Lanes::AsChosen), fill(spec, "fill", Lanes::AsChosen),
+          binMasks(spec, "bin_masks", Lanes::AsChosen), tileMasks(spec, "tile_masks", Lanes::AsChosen) {}
 };
 
 /// What the passes hand on to one another.
@@ -126,27 +128,37 @@ void Builder::count() {
             gpu::bindStorageBuffer(STORAGE_LIGHT_TILES, context.buffer(out.lists.tiles));
             gpu::bindStorageBuffer(STORAGE_TILE_DEPTHS, context.buffer(out.tileDepths));
             gpu::bindStorageBuffer(STORAGE_TILE_COUNTS, context.buffer(out.tileCounts));
-            step.run(*used, tileItems(frame, *used));
+            step.runRounds(frame, *used, tileItems(frame, *used));
         });
 }
 
 void Builder::scan() {
+    const bool onCpu = spec.culling.builder == culling::Builder::Fragment;
     handles = graph.addPass<Handles>(
         "light_scan",
         [&](graph::PassBuilder& pass, Handles& out) {
             out = handles;
-            if (isZbin())
-                out.tileDepths = pass.read(handles.tileDepths);
-            else
-                out.tileCounts = pass.write(handles.tileCounts, Access::StorageWrite);
-            out.totals = pass.create("light_totals", graph::BufferDesc{sizeof(glm::uvec4)});
+            const Access read = onCpu ? Access::Download : Access::StorageRead;
+            const Access write = onCpu ? Access::Upload : Access::StorageWrite;
+            if (isZbin()) {
+                out.tileDepths = pass.read(handles.tileDepths, read);
+            } else {
+                if (onCpu) pass.read(handles.tileCounts, read);
+                out.tileCounts = pass.write(handles.tileCounts, write);
+            }
+            out.totals = pass.create("light_totals", graph::BufferDesc{sizeof(glm::uvec4)}, write);
         },
-        [step = steps.scan, used = resources, zbin = isZbin()](const Handles& out, const graph::PassContext& context) {
-            if (zbin)
-                gpu::bindStorageBuffer(STORAGE_TILE_DEPTHS, context.buffer(out.tileDepths));
-            else
-                gpu::bindStorageBuffer(STORAGE_TILE_COUNTS, context.buffer(out.tileCounts));
-            gpu::bindStorageBuffer(STORAGE_LIST_TOTALS, context.buffer(out.totals));
+        [step = steps.scan, used = resources, zbin = isZbin(), onCpu,
+         tiles = frame::lightTileCount(spec)](const Handles& out, const graph::PassContext& context) {
+            const gpu::Buffer& of = context.buffer(zbin ? out.tileDepths : out.tileCounts);
+            const gpu::Buffer& totals = context.buffer(out.totals);
+            if (onCpu) {
+                totals.uploadValue(zbin ? scanDepths(of, tiles, used->constants)
+                                        : scanCounts(of, tiles, used->constants));
+                return;
+            }
+            gpu::bindStorageBuffer(zbin ? STORAGE_TILE_DEPTHS : STORAGE_TILE_COUNTS, of);
+            gpu::bindStorageBuffer(STORAGE_LIST_TOTALS, totals);
             step.run(*used, {1, 1});
         });
 }
@@ -221,7 +233,11 @@ void Builder::fill() {
             uploadFirsts(*used);
             gpu::bindStorageBuffer(STORAGE_TILE_DEPTHS, context.buffer(out.tileDepths));
             gpu::bindStorageBuffer(STORAGE_TILE_COUNTS, context.buffer(out.tileCounts));
-            all.fill.run(*used, tileItems(frame, *used));
+            if (ListStep::inRounds(frame)) {
+                all.sizes.runRounds(frame, *used, tileItems(frame, *used));
+                gpu::memoryBarrier(graph::Barrier::ShaderStorage);
+            }
+            all.fill.runRounds(frame, *used, tileItems(frame, *used));
         });
 }
 
@@ -229,12 +245,17 @@ void Builder::fill() {
 
 std::vector<shader::ProgramDesc> GpuLightListsPass::programs(const frame::FrameSpec& spec) {
     const Steps steps(spec);
+    std::vector<shader::ProgramDesc> programs{steps.reach.program(), steps.depths.program()};
+    if (spec.culling.builder == culling::Builder::Compute) programs.push_back(steps.scan.program());
     if (spec.culling.method == culling::Method::Zbin) {
-        return {steps.reach.program(), steps.depths.program(), steps.scan.program(), steps.binMasks.program(),
-                steps.tileMasks.program()};
+        programs.push_back(steps.binMasks.program());
+        programs.push_back(steps.tileMasks.program());
+        return programs;
     }
-    return {steps.reach.program(), steps.depths.program(), steps.count.program(), steps.scan.program(),
-            steps.fill.program()};
+    programs.push_back(steps.count.program());
+    if (ListStep::inRounds(spec)) programs.push_back(steps.sizes.program());
+    programs.push_back(steps.fill.program());
+    return programs;
 }
 
 GpuLightListsPass::Outputs GpuLightListsPass::add(graph::Graph& graph, const frame::FrameSpec& spec,

@@ -1,6 +1,6 @@
 #include "passes/ListStep.h"
 
-#include <fmt/format.h>
+#include <algorithm>
 
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/slots.h"
@@ -13,6 +13,11 @@ namespace {
 constexpr int kGroup = 64;
 /// The same on software rasterisers, which run 4 to 16 together; there a row of tiles is seldom a multiple of 64.
 constexpr int kSoftwareGroup = 8;
+
+/// Lights that a lane may look at in one shader on software rasterisers. Mesa's stop a shader after 65535 iterations of
+/// all its loops (LP_MAX_TGSI_LOOP_ITERATIONS), and a light may take 260: itself and 64 cells, tested and written,
+/// twice.
+constexpr std::size_t kSoftwareLightsALane = 240;
 
 const char* methodDefine(culling::Method method) {
     switch (method) {
@@ -33,7 +38,8 @@ const char* methodDefine(culling::Method method) {
 
 ListStep::ListStep(const frame::FrameSpec& spec, std::string name, Lanes lanes) {
     const bool compute = spec.culling.builder == culling::Builder::Compute;
-    const int itemLanes = compute && lanes == Lanes::Many ? spec.culling.lanes : 1;
+    const int many = lanes == Lanes::Group ? kGroup : spec.culling.lanes;
+    const int itemLanes = compute && lanes != Lanes::One ? many : 1;
     const int group = itemLanes > 1 ? itemLanes : spec.settings.softwareBackend ? kSoftwareGroup : kGroup;
     itemsAGroup_ = compute ? std::uint32_t(group / itemLanes) : 0;
     const std::string path = "passes/light_" + name;
@@ -45,10 +51,31 @@ ListStep::ListStep(const frame::FrameSpec& spec, std::string name, Lanes lanes) 
         program_.fragment = path + ".frag";
     }
     program_.defines = {{"LIST_METHOD", methodDefine(spec.culling.method)},
+                        {"LIST_IN_ROUNDS", inRounds(spec) ? "1" : "0"},
                         {"LIST_THREADS", std::to_string(itemLanes)},
                         {"LIST_LIGHTS_A_ROW", std::to_string(kLightsARow)},
                         {"HAS_TRANSPARENT_LAYER", spec.features[frame::Feature::Blend] ? "1" : "0"}};
     if (compute) program_.defines.emplace_back("LIST_GROUP", std::to_string(group));
+}
+
+std::size_t ListStep::lightsARound(const frame::FrameSpec& spec) {
+    if (!spec.settings.softwareBackend) return spec.lights;
+    const bool compute = spec.culling.builder == culling::Builder::Compute;
+    return kSoftwareLightsALane * std::size_t(compute ? spec.culling.lanes : 1);
+}
+
+void ListStep::runRounds(const frame::FrameSpec& spec, const frame::FrameResources& resources, glm::uvec2 items) const {
+    const gpu::Buffer& round = resources.lightLists.round;
+    const auto lights = std::uint32_t(spec.lights);
+    std::uint32_t first = 0;
+    do {
+        const auto end = std::uint32_t(std::min(first + lightsARound(spec), spec.lights));
+        round.uploadValue(glm::uvec4(first, end, 0u, 0u));
+        gpu::bindUniformBuffer(UNIFORM_LIST_ROUND, round);
+        if (first > 0) gpu::memoryBarrier(graph::Barrier::ShaderStorage); // the round before is the same pass's
+        run(resources, items);
+        first = end;
+    } while (first < lights);
 }
 
 void ListStep::run(const frame::FrameResources& resources, glm::uvec2 items) const {

@@ -4,6 +4,7 @@
 
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseSamples.h"
+#include "passes/recipes/ChooseLighting.h"
 #include "validation/PictureFile.h"
 #include "validation/Rendering.h"
 
@@ -17,10 +18,11 @@ std::string nameOf(Technique technique) {
     return std::string(recipes::techniqueTable()[std::size_t(technique)].name);
 }
 
-/// A culling method that was asked for goes to the techniques that take it; the others keep their own.
+/// What was asked for goes to the techniques that take it; the others keep their own.
 frame::FrameSettings settingsFor(Technique technique, frame::FrameSettings settings) {
     if (settings.culling.method && !recipes::takesMethod(technique, *settings.culling.method))
         settings.culling.method.reset();
+    if (!recipes::takesLightingStage(technique)) settings.lightOn.reset();
     return settings;
 }
 

@@ -2,6 +2,7 @@
 
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseSamples.h"
+#include "passes/recipes/ChooseLighting.h"
 #include "passes/recipes/PreparedFrame.h"
 #include "passes/recipes/Renderer.h"
 
@@ -57,6 +58,8 @@ graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const fra
     for (graph::Plan::Choice& choice : cullingChoices(technique, settings, prepared.spec.culling))
         plan.choices.push_back(std::move(choice));
     for (graph::Plan::Choice& choice : sampleChoices(settings)) plan.choices.push_back(std::move(choice));
+    if (std::optional<graph::Plan::Choice> choice = lightingChoice(technique, settings))
+        plan.choices.push_back(std::move(*choice));
     addCounters(plan, scene, prepared);
     return plan;
 }

@@ -4,6 +4,7 @@
 
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseSamples.h"
+#include "passes/recipes/ChooseLighting.h"
 #include "renderer/culling/TileGrid.h"
 #include "scenes/Error.h"
 
@@ -41,6 +42,7 @@ PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, cons
     prepared.spec = frame::makeFrameSpec(scene, prepared.lights, settings);
     frame::FrameSpec& spec = prepared.spec;
     spec.samples = samples;
+    spec.lightOn = chooseLighting(technique, settings);
     spec.culling = chooseCulling(technique, settings, spec.features, prepared.lights);
     if (spec.culling.method == culling::Method::None) return prepared;
     spec.lightsEverywhere = !settings.prune || prepared.lights.everywhere > 0;

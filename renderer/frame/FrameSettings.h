@@ -8,6 +8,7 @@
 
 #include "renderer/culling/CullingMethod.h"
 #include "renderer/frame/GBufferLayout.h"
+#include "renderer/frame/LightingStage.h"
 
 /// What a user may ask of a frame besides its technique. Names are those of the command line; the tables are the only
 /// lists.
@@ -61,6 +62,7 @@ struct FrameSettings {
     bool specular = true;
     std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
     culling::Settings culling;
+    std::optional<LightingStage> lightOn; ///< of the techniques that light in a pass of its own; open: by backend
     bool softwareBackend = true; ///< what open choices are made for; the renderer says what it runs on
     bool display = true;         ///< false: nobody looks at display code values, and the display pass is left out
     float exposureEV = 0.0f;

@@ -18,6 +18,7 @@ struct FrameSpec {
     FeatureSet features;
     std::vector<Channel> channels; ///< of the G-buffer, by attachment
     culling::Choice culling;
+    LightingStage lightOn = LightingStage::Fragment; ///< where the technique has a lighting pass
     std::size_t lights = 0;        ///< that the frame's pixels may visit
     bool manyLights = false;       ///< one light a round of a shader's loop would be too few (lib/light_cursor.glsl)
     bool lightsEverywhere = false; ///< some lights reach everywhere, while others do not

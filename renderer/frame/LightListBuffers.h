@@ -39,6 +39,7 @@ struct LightListBuffers {
 
     // For lists that the GPU builds: shared::CullLight each, and columns and rows that each may touch.
     GrowingTexelBuffer cullLights{"cull lights", graph::Format::Rgba32Float};
+    gpu::Buffer round{"light list round", sizeof(glm::uvec4), gpu::BufferUse::Dynamic}; ///< lights first..end
     GrowingTexelBuffer reach{"light reach", graph::Format::Rg32Uint};
 
     /// The buffers behind the handles, for executing the graph.

@@ -115,6 +115,12 @@ bool touchesBox(ListedTile tile, CullLight cull, uint box)
     return lightTouchesBox(cull, cellBox(tile.rays, boxRuns[box].x, boxRuns[box].y, isOrthographic()));
 }
 
+// This lane's share of the round's lights.
+uvec2 lightShare()
+{
+    return listRound.x + laneShare(listRound.y - listRound.x);
+}
+
 bool inReach(ListedTile tile, uint light)
 {
     uvec2 reach = texelFetch(lightReachTexels, int(light)).xy;

@@ -2,7 +2,7 @@
 #pragma once
 #include "lib/list_cells.glsl"
 
-layout(std430, binding = STORAGE_TILE_COUNTS) writeonly buffer TileCounts
+layout(std430, binding = STORAGE_TILE_COUNTS) buffer TileCounts
 {
     uvec2 tileCounts[]; // cells, entries
 };
@@ -15,7 +15,7 @@ void countTile(uvec2 item)
     ListedTile tile = listedTile(item);
     uint entries = 0u;
     if (tile.cells > 0u) {
-        uvec2 share = laneShare(lightCount());
+        uvec2 share = lightShare();
         for (uint light = nextInReach(tile, share.x, share.y); light < share.y;
              light = nextInReach(tile, light + 1u, share.y))
             entries += bitsOf(touchedCells(tile, light));
@@ -24,5 +24,6 @@ void countTile(uvec2 item)
     listSync();
     if (LIST_LANE != 0u) return;
     for (uint lane = 1u; lane < uint(LIST_THREADS); ++lane) entries += laneEntries[lane];
+    if (!isFirstRound()) entries += tileCounts[tileIndex(item)].y;
     tileCounts[tileIndex(item)] = uvec2(tile.cells, entries);
 }

@@ -33,6 +33,22 @@ uint lightCount()
     return frame.lights.x;
 }
 
+// The lights that this round is about, x the first, y one beyond the last. Where one round takes them all it is the only.
+layout(std140, binding = UNIFORM_LIST_ROUND) uniform ListRound
+{
+    uvec4 listRound;
+};
+
+bool isFirstRound()
+{
+    return listRound.x == 0u;
+}
+
+bool isLastRound()
+{
+    return listRound.y == lightCount();
+}
+
 // Rays of the tile in this column and row.
 vec4 raysOfTile(uint column, uint row)
 {

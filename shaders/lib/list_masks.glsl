@@ -24,6 +24,9 @@ layout(std430, binding = STORAGE_LIGHT_ENTRIES) writeonly buffer LightEntries
 
 LIST_MEMORY uvec2 laneWords[LIST_THREADS];
 
+// Four lights an iteration: software rasterisers stop a shader after 65535 iterations of its loops.
+#define LIGHTS_AN_ITERATION 4u
+
 // View depths in metres between which a bin lies.
 vec2 runOfBin(uint bin)
 {
@@ -32,6 +35,28 @@ vec2 runOfBin(uint bin)
     precise float beyond = uintBitsToFloat(first + (1u << shift)) - frame.depthKey.x;
     precise float begin = uintBitsToFloat(first) - frame.depthKey.x;
     return vec2(viewDepthMetres(frame.depthToViewDepth, beyond), viewDepthMetres(frame.depthToViewDepth, max(0.0, begin)));
+}
+
+uint fourBits(uvec4 bits)
+{
+    return bits.x | bits.y << 1 | bits.z << 2 | bits.w << 3;
+}
+
+// 1 where the light may touch the bin.
+uint binBit(uint light, vec2 run)
+{
+    if (light >= lightCount()) return 0u;
+    vec4 sphere = cullSphere(light);
+    return sphere.w < 0.0 || sphereTouchesDepths(sphere, run.x, run.y) ? 1u : 0u;
+}
+
+// 1 where the light may touch the tile.
+uint tileBit(uint light, uvec2 item)
+{
+    if (light >= lightCount()) return 0u;
+    uvec2 reach = texelFetch(lightReachTexels, int(light)).xy;
+    bool touches = reaches(reach.x, item.x, item.x) && reaches(reach.y, item.y, item.y);
+    return touches || cullSphere(light).w < 0.0 ? 1u : 0u;
 }
 
 void maskBin(uvec2 item)
@@ -43,11 +68,10 @@ void maskBin(uvec2 item)
     uvec2 occupied = uvec2(words, 0u); // first word with a bit, one past the last
     for (uint word = LIST_LANE; word < words; word += uint(LIST_THREADS)) {
         uint bits = 0u;
-        uint lights = min(32u, lightCount() - 32u * word);
-        for (uint i = 0u; i < lights; ++i) {
-            vec4 sphere = cullSphere(32u * word + i);
-            if (sphere.w < 0.0 || sphereTouchesDepths(sphere, run.x, run.y)) bits |= 1u << i;
-        }
+        for (uint i = 0u; i < 32u; i += LIGHTS_AN_ITERATION)
+            bits |= fourBits(uvec4(binBit(32u * word + i, run), binBit(32u * word + i + 1u, run),
+                                   binBit(32u * word + i + 2u, run), binBit(32u * word + i + 3u, run)))
+                    << i;
         lightEntries[bin * words + word] = bits;
         if (bits != 0u) occupied = uvec2(min(occupied.x, word), max(occupied.y, word + 1u));
     }
@@ -67,13 +91,10 @@ void maskTile(uvec2 item)
     uint first = (listTotals.y + tileIndex(item)) * words;
     for (uint word = LIST_LANE; word < words; word += uint(LIST_THREADS)) {
         uint bits = 0u;
-        uint lights = min(32u, lightCount() - 32u * word);
-        for (uint i = 0u; i < lights; ++i) {
-            uint light = 32u * word + i;
-            uvec2 reach = texelFetch(lightReachTexels, int(light)).xy;
-            bool touches = reaches(reach.x, item.x, item.x) && reaches(reach.y, item.y, item.y);
-            if (touches || cullSphere(light).w < 0.0) bits |= 1u << i;
-        }
+        for (uint i = 0u; i < 32u; i += LIGHTS_AN_ITERATION)
+            bits |= fourBits(uvec4(tileBit(32u * word + i, item), tileBit(32u * word + i + 1u, item),
+                                   tileBit(32u * word + i + 2u, item), tileBit(32u * word + i + 3u, item)))
+                    << i;
         lightEntries[first + word] = bits;
     }
     if (LIST_LANE != 0u) return;

@@ -20,6 +20,7 @@ SHARED_BEGIN
 #define UNIFORM_DISPLAY 2
 #define UNIFORM_LIGHTS 3
 #define UNIFORM_LIGHT_SHAPES 4
+#define UNIFORM_LIST_ROUND 5
 
 // Storage blocks. OpenGL 4.5 guarantees 0 to 7; what builds light lists never reads lights from storage blocks.
 #define STORAGE_LIGHT_TILES 0

@@ -129,15 +129,33 @@ TEST_F(LightLists, picturesLitFromListsOfTheGpuAreAlwaysThoseOfForward) {
     expectForwardsPicture(test::everythingScene(), settings);
 }
 
-TEST_F(LightLists, oddCountsOfLightsAlwaysGiveTheSameListsAndPicture) {
+TEST_F(LightLists, anyCountOfLightsAlwaysGivesTheSameLists) {
     frame::FrameSettings settings;
     settings.sizePixels = {65, 49};
+    settings.prune = false; // the lattice's first light is out of view
     for (const int count : {1, 31, 32, 33, 4097}) {
         SCOPED_TRACE(count);
-        settings.prune = count != 1; // the first light of the lattice is out of view
-        const scenes::Scene scene = lattice(count);
-        expectSameLists(scene, settings, std::array{16});
-        expectForwardsPicture(scene, settings);
+        expectSameLists(lattice(count), settings, std::array{16});
+    }
+}
+
+TEST_F(LightLists, manyLightsAlwaysGiveThePictureOfForward) {
+    frame::FrameSettings settings;
+    settings.sizePixels = {65, 49};
+    expectForwardsPicture(lattice(4097), settings);
+}
+
+TEST_F(LightLists, theMostLightsOfASceneAreNeverTooManyForTheGpu) {
+    frame::FrameSettings settings;
+    settings.sizePixels = {33, 17};
+    const scenes::Scene scene = lattice(65536);
+    expectSameLists(scene, settings, std::array{32});
+    recipes::Renderer renderer(context(), scene);
+    const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
+    for (const GpuBuilder& gpu : kGpuBuilders) {
+        SCOPED_TRACE(gpu.name);
+        EXPECT_TRUE(renderer.render(Technique::ForwardPlus, with(settings, gpu)).radiance == truth);
+        EXPECT_TRUE(renderer.render(Technique::ClusteredDeferred, with(settings, gpu)).radiance == truth);
     }
 }
 

@@ -30,6 +30,8 @@ TEST_F(BadOptions, unknownNamesAreAlwaysAnsweredWithTheNearest) {
     expectRefused({"--camera", "cornr"}, {"room: unknown camera 'cornr'", "did you mean 'corner'?"});
     expectRefused({"--filter", "exacct"}, {"'exacct'", "did you mean 'exact'?"});
     expectRefused({"--space", "wrld"}, {"'wrld'", "did you mean 'world'?"});
+    expectRefused({"--cull-on", "comput"}, {"'comput'", "did you mean 'compute'?"});
+    expectRefused({"--light-on", "framgent"}, {"--light-on 'framgent'", "did you mean 'fragment'?"});
     expectRefused({"--prune", "maybe"}, {"--prune 'maybe'", "on, off"});
     expectRefused({"--specular", "0"}, {"--specular '0'", "on, off"});
     expectRefused({"--context", "elg"}, {"unknown context 'elg'", "did you mean 'egl'?"});
@@ -49,6 +51,13 @@ TEST_F(BadOptions, unknownOptionsAndStrayWordsAreAlwaysNamed) {
     expectError(kBadInput, {"--nonsense"}, {"unknown option '--nonsense'", "tessera --help"});
     expectError(kBadInput, {"render"}, {"render: ", "required", "tessera render --help"});
     expectError(kBadInput, {"render", "room"}, {"--output is required"});
+}
+
+TEST_F(BadOptions, lightingShadersOfATechniqueWithoutALightingPassAreAlwaysRefused) {
+    for (const char* technique : {"forward", "forward_prepass", "forward_plus", "clustered_forward"})
+        for (const char* stage : {"fragment", "compute"})
+            expectRefused({"--technique", technique, "--light-on", stage},
+                          {std::string("technique ") + technique, std::string("--light-on ") + stage, "deferred"});
 }
 
 TEST_F(BadOptions, sizesThatNoPictureHasAreAlwaysRefused) {

@@ -62,6 +62,7 @@ TEST(Documentation, theNamesThatOptionsTakeAreExactlyThoseOfTheProgram) {
     for (const std::string& row : {"| `--technique` | " + namesIn(recipes::techniqueTable()) + " (",
                                    "| `--culling` | " + namesIn(culling::methodTable()) + " (",
                                    "| `--cull-on` | " + namesIn(culling::builderTable()) + " (",
+                                   "| `--light-on` | " + namesIn(frame::lightingStageTable()) + " (",
                                    "| `--layout` | " + namesIn(frame::layoutTable()) + " (",
                                    "| `--tonemap` | " + namesIn(frame::toneMapTable()) + " ("}) {
         EXPECT_NE(text.find(row), std::string::npos) << "docs/command-line.md should have a row that begins " << row;

@@ -80,6 +80,31 @@ void addFloorPrograms(std::map<std::string, shader::ProgramDesc>& programs, cons
     }
 }
 
+/// Those of light culling by every method and builder, and of lighting in compute shaders.
+std::vector<std::pair<recipes::Technique, frame::FrameSettings>> listBuildersAndStages() {
+    struct Lanes {
+        culling::Builder builder;
+        int lanes;
+    };
+    std::vector<std::pair<recipes::Technique, frame::FrameSettings>> all;
+    frame::FrameSettings settings;
+    settings.sizePixels = {64, 36};
+    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+        if (technique.usesGBuffer) settings.lightOn = frame::LightingStage::Compute;
+        for (const culling::Method method : technique.methods) {
+            settings.culling.method = method;
+            for (const Lanes lanes : {Lanes{culling::Builder::Compute, 64}, Lanes{culling::Builder::Compute, 1},
+                                      Lanes{culling::Builder::Fragment, 1}}) {
+                settings.culling.builder = lanes.builder;
+                settings.culling.lanes = lanes.lanes;
+                all.emplace_back(technique.technique, settings);
+            }
+        }
+        settings.lightOn.reset();
+    }
+    return all;
+}
+
 /// Adds the variants that frames of the scene would use, by their key.
 void addPrograms(std::map<std::string, shader::ProgramDesc>& programs, const scenes::Scene& scene) {
     for (const frame::FrameSettings& settings : settingsThatMatter()) {
@@ -91,6 +116,9 @@ void addPrograms(std::map<std::string, shader::ProgramDesc>& programs, const sce
                 programs.emplace(desc.key(), desc);
         }
     }
+    for (const auto& [technique, settings] : listBuildersAndStages())
+        for (const shader::ProgramDesc& desc : recipes::framePrograms(scene, technique, settings))
+            programs.emplace(desc.key(), desc);
 }
 
 std::map<std::string, shader::ProgramDesc> requestedPrograms() {

@@ -1,0 +1,20 @@
+#pragma once
+#include <optional>
+
+#include "passes/recipes/Techniques.h"
+#include "renderer/frame/FrameSettings.h"
+#include "renderer/graph/Plan.h"
+
+namespace tessera::recipes {
+
+/// Whether the technique lights in a pass of its own, which may be of fragment or of compute shaders.
+bool takesLightingStage(Technique technique);
+
+/// The shaders that light: what was asked for, else fragment shaders. Throws InputError when it was asked and the
+/// technique shades as it rasterises.
+frame::LightingStage chooseLighting(Technique technique, const frame::FrameSettings& settings);
+
+/// The same in words, for a plan; none for techniques without the choice.
+std::optional<graph::Plan::Choice> lightingChoice(Technique technique, const frame::FrameSettings& settings);
+
+} // namespace tessera::recipes

@@ -1,0 +1,12 @@
+// Compute entry of lib/deferred_lighting.glsl: a pixel an invocation.
+#include "lib/deferred_lighting.glsl"
+
+layout(local_size_x = LIGHTING_GROUP_SIDE, local_size_y = LIGHTING_GROUP_SIDE) in;
+layout(binding = IMAGE_UNIT_RADIANCE, rgba32f) writeonly uniform image2D radianceImage;
+
+void main()
+{
+    uvec2 pixel = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(pixel, frame.sizePixels.xy))) return;
+    imageStore(radianceImage, ivec2(pixel), deferredRadiance(ivec2(pixel)));
+}

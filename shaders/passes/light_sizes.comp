@@ -1,0 +1,8 @@
+// Compute entry of lib/list_fill.glsl, before its rounds.
+#define LIST_IN_COMPUTE 1
+#include "lib/list_fill.glsl"
+
+void main()
+{
+    sizeTile(listItem());
+}

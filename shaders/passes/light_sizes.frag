@@ -1,0 +1,8 @@
+// Fragment entry of lib/list_fill.glsl, before its rounds.
+#define LIST_IN_COMPUTE 0
+#include "lib/list_fill.glsl"
+
+void main()
+{
+    sizeTile(listItem());
+}

@@ -1,0 +1,81 @@
+// The G-buffer lit by compute shaders gives the picture that fragment shaders give.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "passes/recipes/ChooseLighting.h"
+#include "passes/recipes/Renderer.h"
+#include "scenes/Error.h"
+#include "scenes/Load.h"
+#include "tests/support/GlContext.h"
+#include "tests/support/TestScenes.h"
+
+namespace tessera {
+namespace {
+
+using recipes::Technique;
+
+class LightingInCompute : public test::GlTest {
+protected:
+    void expectForwardsPicture(const scenes::Scene& scene, frame::FrameSettings settings) {
+        recipes::Renderer renderer(context(), scene);
+        const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
+        settings.lightOn = frame::LightingStage::Compute;
+        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+            if (!recipes::takesLightingStage(technique.technique)) continue;
+            SCOPED_TRACE(technique.name);
+            EXPECT_TRUE(renderer.render(technique.technique, settings).radiance == truth);
+        }
+    }
+};
+
+TEST_F(LightingInCompute, picturesAreAlwaysThoseOfForward) {
+    for (const char* name : {"hall", "lattice"}) {
+        SCOPED_TRACE(name);
+        frame::FrameSettings settings;
+        settings.sizePixels = {321, 179};
+        expectForwardsPicture(scenes::loadScene(name), settings);
+    }
+}
+
+TEST_F(LightingInCompute, aSceneOfEveryFeatureIsAlwaysThePictureOfForward) {
+    const scenes::Scene scene = test::everythingScene();
+    frame::FrameSettings settings;
+    for (const glm::ivec2 size : {glm::ivec2(160, 88), glm::ivec2(161, 91), glm::ivec2(7, 1)}) {
+        SCOPED_TRACE(fmt::format("{}x{}", size.x, size.y));
+        settings.sizePixels = size;
+        settings.prune = true;
+        expectForwardsPicture(scene, settings);
+        settings.prune = false;
+        expectForwardsPicture(scene, settings);
+    }
+}
+
+TEST_F(LightingInCompute, everyViewAndLayoutIsExactlyThatOfFragmentShaders) {
+    const scenes::Scene scene = test::everythingScene();
+    recipes::Renderer renderer(context(), scene);
+    for (const frame::LayoutInfo& layout : frame::layoutTable()) {
+        for (const frame::ViewInfo& view : frame::viewTable()) {
+            SCOPED_TRACE(fmt::format("{} {}", layout.name, view.name));
+            frame::FrameSettings settings;
+            settings.sizePixels = {97, 55};
+            settings.layout = layout.layout;
+            settings.view = view.view;
+            const std::vector<float> truth = renderer.render(Technique::ClusteredDeferred, settings).radiance;
+            settings.lightOn = frame::LightingStage::Compute;
+            EXPECT_TRUE(renderer.render(Technique::ClusteredDeferred, settings).radiance == truth);
+        }
+    }
+}
+
+TEST_F(LightingInCompute, techniquesWithoutALightingPassAlwaysRefuseIt) {
+    const scenes::Scene scene = scenes::loadScene("room");
+    frame::FrameSettings settings;
+    settings.lightOn = frame::LightingStage::Compute;
+    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+        if (recipes::takesLightingStage(technique.technique)) continue;
+        EXPECT_THROW(recipes::planFrame(scene, technique.technique, settings), InputError) << technique.name;
+    }
+}
+
+} // namespace
+} // namespace tessera
