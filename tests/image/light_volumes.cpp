@@ -226,6 +226,21 @@ TEST_F(LightVolumes, thousandsOfSmallLightsAreAlwaysExactlyAsInDeferred) {
     EXPECT_TRUE(expectEqual(renderer, sized(97, 61)));
 }
 
+// Seen from the side, so that what is lit ends where the hull's outline does.
+TEST_F(LightVolumes, spotsAlongAWallAreAlwaysExactlyAsInDeferred) {
+    scenes::Scene scene = wall();
+    recipes::Renderer renderer(context(), scene);
+    for (const double degrees : {3.0, 10.0, 20.0, 30.0, 45.0, 60.0, 75.0, 84.0}) {
+        for (const double turnRadians : {0.0, 0.1, 0.2, 0.3, 0.4, 0.9, 2.1}) {
+            SCOPED_TRACE(fmt::format("{} degrees, turned {}", degrees, turnRadians));
+            const glm::dvec3 axis(std::sin(turnRadians), std::cos(turnRadians), 0.0);
+            scene.lights = {spotLight(glm::dvec3(0.0, 0.0, 0.01) - 0.6 * axis, axis, degrees * pi / 180.0)};
+            scene.lights[0].rangeMetres = 1.2f;
+            EXPECT_TRUE(expectEqual(renderer, sized(320, 200)));
+        }
+    }
+}
+
 TEST_F(LightVolumes, mirroredNodesAreAlwaysExactlyAsInDeferred) {
     scenes::Scene scene = test::everythingScene();
     for (scenes::Node& node : scene.nodes) node.parentFromNode = glm::scale(node.parentFromNode, glm::dvec3(-1, 1, 1));
