@@ -1,5 +1,7 @@
 #include "passes/recipes/PreparedFrame.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "passes/recipes/ChooseCulling.h"
@@ -26,6 +28,10 @@ PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, cons
     if (settings.soloLight && (*settings.soloLight < 0 || *settings.soloLight >= int(scene.lights.size()))) {
         throw InputError(fmt::format("{}: there is no light {} to show alone; the scene has {} (0 to {})", scene.name,
                                      *settings.soloLight, scene.lights.size(), int(scene.lights.size()) - 1));
+    }
+    if (!(settings.rangeTolerance >= 0.0) || std::isinf(settings.rangeTolerance)) {
+        throw InputError(fmt::format("a range tolerance of {} ends no light; give 0, which keeps all of it, or more",
+                                     settings.rangeTolerance));
     }
     PreparedFrame prepared;
     const scenes::Camera camera = frameCamera(scene, settings);

@@ -54,6 +54,7 @@ struct FrameSettings {
     LightingSpace space = LightingSpace::World;
     bool prune = true;
     bool specular = true;
+    double rangeTolerance = 0.0;  ///< unit of colour x intensity: A B C lights end where they fall to it; 0: nowhere
     std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
     culling::Settings culling;
     bool softwareBackend = true; ///< what open choices are made for; the renderer says what it runs on
