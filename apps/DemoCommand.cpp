@@ -106,6 +106,7 @@ int demo(const DemoOptions& options, const GlobalOptions& global) {
     exact.settings = request.settings;
     validation::CompareRequest packed = exact;
     packed.techniques = {Technique::Deferred};
+    packed.rangeTruncation = false; // measured with the exact layout
     packed.settings.layout = frame::layoutTable()[1].layout;
     Progress progress("rendering", validation::pictureCount(exact) + validation::pictureCount(packed) + 1,
                       global.quiet);
