@@ -119,6 +119,7 @@ int demo(const DemoOptions& options, const GlobalOptions& global) {
     exact.settings = request.settings;
     validation::CompareRequest packed = exact;
     packed.techniques = {Technique::Deferred};
+    packed.rangeTruncation = false; // measured with the exact layout
     packed.settings.layout = frame::layoutTable()[1].layout;
     // A G-buffer, and with it a layout to compare, there is only with one sample a pixel.
     const bool comparesPacked = request.settings.samples == 1;

@@ -96,6 +96,13 @@ int tileOf(int pixels) {
     return pixels;
 }
 
+double rangeToleranceOf(double tolerance) {
+    if (tolerance < 0.0)
+        throw InputError(
+            fmt::format("--range-tolerance {} is below 0; give 0, which ends no light, or more", tolerance));
+    return tolerance;
+}
+
 /// What can be read without the scene: a mistake in it is found before a large scene is read for nothing.
 void resolveOptions(const FrameOptions& options, Request& request) {
     frame::FrameSettings& settings = request.settings;
@@ -119,6 +126,7 @@ void resolveOptions(const FrameOptions& options, Request& request) {
         settings.samples = *options.samples;
     }
     if (options.lightOn) settings.lightOn = rowNamed(frame::lightingStageTable(), *options.lightOn, "--light-on").stage;
+    settings.rangeTolerance = rangeToleranceOf(options.rangeTolerance.value_or(0.0));
     settings.timeSeconds = options.timeSeconds.value_or(0.0);
     settings.soloLight = options.solo;
 }
@@ -218,6 +226,9 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
         ->group("Frame");
     addWholeNumber(command, "--lights", options.lights,
                    "Built-in scenes make this many lights, files keep their first N", "N")
+        ->group("Frame");
+    addNumber(command, "--range-tolerance", options.rangeTolerance,
+              "Ends lights of A B C falloff where they fall to this; compare tells what it drops [0]", "EPS")
         ->group("Frame");
     text("--view", options.view, "What to show: 1 to 7, or one of " + namesOf(frame::viewTable()) + " [final]", "NAME");
     addWholeNumber(command, "--solo", options.solo, "Only this light shines, counted from 0", "N")->group("Frame");

@@ -29,7 +29,7 @@ struct FrameOptions {
     std::string scene;
     std::optional<std::string> technique, layout, camera, view, toneMap, size, filter, space, prune, specular, culling,
         cullOn, lightOn;
-    std::optional<double> exposureEV, timeSeconds;
+    std::optional<double> exposureEV, timeSeconds, rangeTolerance;
     std::optional<int> lights, solo, tile, samples;
     bool noDefaultLight = false;
 };

@@ -7,6 +7,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "renderer/frame/LightReach.h"
 #include "validation/VisitedLights.h"
 
 namespace tessera::validation {
@@ -36,16 +37,15 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
         if (glm::dvec3(light.color) * double(light.intensity) == glm::dvec3(0.0)) continue;
         const bool isSpot = light.type == scenes::LightType::Spot;
         if (isSpot && !(light.outerConeRadians > 0.0f)) continue;
-        const bool endless = light.type == scenes::LightType::Directional ||
-                             light.falloff == scenes::Falloff::Attenuation || std::isinf(light.rangeMetres);
-        if (endless) {
+        const double reach = frame::reachMetres(light, settings.rangeTolerance);
+        if (std::isinf(reach)) {
             lights.everywhere.push_back(int(i));
             continue;
         }
         TrueLight plain;
         plain.sceneLight = int(i);
         plain.positionWS = light.positionWS;
-        plain.squaredReach = double(light.rangeMetres) * double(light.rangeMetres);
+        plain.squaredReach = reach * reach;
         plain.isSpot = isSpot;
         plain.directionWS = light.directionWS;
         plain.cosOuter = std::cos(double(light.outerConeRadians));

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include "passes/recipes/ChooseCulling.h"
-#include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/ChooseLighting.h"
+#include "passes/recipes/ChooseSamples.h"
 #include "validation/PictureFile.h"
+#include "validation/RangeTruncation.h"
 #include "validation/Rendering.h"
 
 namespace tessera::validation {
@@ -41,6 +42,17 @@ NamedPicture truthPicture(recipes::Renderer& renderer, const CompareRequest& req
     NamedPicture truth{path, readPicture(path), {}};
     truth.display = toDisplayImage(truth.picture);
     return truth;
+}
+
+bool measuresTruncation(const CompareRequest& request) {
+    return request.rangeTruncation && request.settings.rangeTolerance > 0.0 &&
+           (std::holds_alternative<Technique>(request.against) || !request.techniques.empty());
+}
+
+RangeTruncation truncationOf(recipes::Renderer& renderer, const CompareRequest& request) {
+    const auto* truth = std::get_if<Technique>(&request.against);
+    const Technique technique = truth ? *truth : request.techniques.front();
+    return rangeTruncation(renderer, technique, settingsFor(technique, request.settings));
 }
 
 bool isPacked(const frame::GBufferLayout& layout) {
@@ -79,7 +91,8 @@ void checkWithoutPacking(recipes::Renderer& renderer, const CompareRequest& requ
 } // namespace
 
 std::size_t pictureCount(const CompareRequest& request) {
-    return request.techniques.size() + (std::holds_alternative<Technique>(request.against) ? 1 : 0);
+    return request.techniques.size() + (std::holds_alternative<Technique>(request.against) ? 1 : 0) +
+           (measuresTruncation(request) ? 1 : 0);
 }
 
 std::vector<Technique> techniquesTaking(int samples, std::vector<LeftOutTechnique>& leftOut) {
@@ -141,6 +154,10 @@ CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabili
         }
         result.record.pairs.push_back(std::move(pair));
         result.pictures.push_back(std::move(picture));
+        request.renderedOne();
+    }
+    if (measuresTruncation(request)) {
+        result.record.rangeTruncation = truncationOf(renderer, request);
         request.renderedOne();
     }
     return result;

@@ -1,10 +1,12 @@
 #include "passes/recipes/PreparedFrame.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "passes/recipes/ChooseCulling.h"
-#include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/ChooseLighting.h"
+#include "passes/recipes/ChooseSamples.h"
 #include "renderer/culling/TileGrid.h"
 #include "scenes/Error.h"
 
@@ -30,6 +32,10 @@ PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, cons
                                      *settings.soloLight, scene.lights.size(), int(scene.lights.size()) - 1));
     }
     const int samples = chooseSamples(technique, settings);
+    if (!(settings.rangeTolerance >= 0.0) || std::isinf(settings.rangeTolerance)) {
+        throw InputError(fmt::format("a range tolerance of {} ends no light; give 0, which keeps all of it, or more",
+                                     settings.rangeTolerance));
+    }
     PreparedFrame prepared;
     const scenes::Camera camera = frameCamera(scene, settings);
     // A debug view shows quantities of surfaces; where there is none it shows 0.

@@ -16,7 +16,8 @@ struct PreparedFrame {
 };
 
 /// Throws InputError when the settings name a camera or light that the scene lacks, a size or number of samples that no
-/// picture has, or a culling method or number of samples that the technique does not take.
+/// picture has, a range tolerance that is negative or not finite, or a culling method or number of samples that the
+/// technique does not take.
 PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings);
 
 /// The camera that the settings ask for, where they put it.

@@ -60,11 +60,12 @@ struct FrameSettings {
     LightingSpace space = LightingSpace::World;
     bool prune = true;
     bool specular = true;
+    double rangeTolerance = 0.0;  ///< unit of colour x intensity: A B C lights end where they fall to it; 0: nowhere
     std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
     culling::Settings culling;
     std::optional<LightingStage> lightOn; ///< of the techniques that light in a pass of its own; open: by backend
-    bool softwareBackend = true; ///< what open choices are made for; the renderer says what it runs on
-    bool display = true;         ///< false: nobody looks at display code values, and the display pass is left out
+    bool softwareBackend = true;          ///< what open choices are made for; the renderer says what it runs on
+    bool display = true; ///< false: nobody looks at display code values, and the display pass is left out
     float exposureEV = 0.0f;
     ToneMap toneMap = ToneMap::None;
 };

@@ -78,10 +78,11 @@ TEST_F(BadOptions, samplesThatCannotBeDrawnAreAlwaysRefused) {
 }
 
 TEST_F(BadOptions, numbersThatAreNoneAreAlwaysRefused) {
-    for (const char* option : {"--exposure", "--time"})
+    for (const char* option : {"--exposure", "--time", "--range-tolerance"})
         for (const char* value : {"nan", "-inf", "1e999", "1,5", ""})
             expectRefused({option, value}, {std::string(option) + " '" + value + "' is not a finite number"});
     expectRefused({"--exposure", "1000"}, {"--exposure 1000", "-120 to 120"});
+    expectRefused({"--range-tolerance", "-0.1"}, {"--range-tolerance -0.1 is below 0"});
     for (const char* option : {"--lights", "--solo", "--frames"})
         for (const char* value : {"1.5", "99999999999", ""})
             expectRefused({option, value}, {std::string(option) + " '" + value + "' is not a whole number"});
