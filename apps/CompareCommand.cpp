@@ -6,6 +6,7 @@
 #include "apps/Commands.h"
 #include "apps/OutputFolder.h"
 #include "apps/Progress.h"
+#include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/Renderer.h"
 #include "scenes/Error.h"
 #include "scenes/Names.h"
@@ -52,22 +53,26 @@ std::variant<recipes::Technique, std::string> truthNamed(const std::string& name
         fmt::format("--against '{}' is neither a technique nor a picture file: {}", name, suggestNames(name, names)));
 }
 
+/// Those asked for; else all but the truth that take the number of samples, the others to `leftOut`.
 std::vector<recipes::Technique> techniquesOf(const CompareOptions& options,
-                                             const std::variant<recipes::Technique, std::string>& against) {
+                                             const std::variant<recipes::Technique, std::string>& against,
+                                             std::vector<validation::LeftOutTechnique>& leftOut) {
+    const int samples = options.frame.samples.value_or(1);
+    const auto* truth = std::get_if<recipes::Technique>(&against);
+    if (truth) recipes::requireSamples(*truth, samples);
     std::vector<recipes::Technique> techniques;
     if (!options.techniques.empty()) {
         for (const std::string& name : splitAtCommas(options.techniques)) {
             const recipes::Technique technique = techniqueNamed(name);
             if (std::find(techniques.begin(), techniques.end(), technique) != techniques.end())
                 throw InputError(fmt::format("--techniques {} names {} twice", options.techniques, name));
+            recipes::requireSamples(technique, samples);
             techniques.push_back(technique);
         }
         return techniques;
     }
-    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
-        const auto* truth = std::get_if<recipes::Technique>(&against);
-        if (!truth || *truth != info.technique) techniques.push_back(info.technique);
-    }
+    techniques = validation::techniquesTaking(samples, leftOut);
+    if (truth) std::erase(techniques, *truth);
     return techniques;
 }
 
@@ -83,7 +88,8 @@ void writeHeatMaps(const std::string& folder, const validation::CompareResult& r
 int compare(const CompareOptions& options, const GlobalOptions& global) {
     validation::CompareRequest comparison;
     comparison.against = truthNamed(options.against);
-    comparison.techniques = techniquesOf(options, comparison.against);
+    std::vector<validation::LeftOutTechnique> leftOut;
+    comparison.techniques = techniquesOf(options, comparison.against, leftOut);
     if (!options.json.empty()) validation::requireWritable(options.json);
     if (!options.heatMaps.empty()) requireFolderPlace(options.heatMaps);
     const Request request = resolve(options.frame);
@@ -92,8 +98,8 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
     recipes::Renderer renderer(*context, request.scene);
     Progress progress("comparing", validation::pictureCount(comparison), global.quiet);
     comparison.renderedOne = [&progress] { progress.advance(); };
-    const validation::CompareResult result =
-        validation::compareTechniques(renderer, context->capabilities(), comparison);
+    validation::CompareResult result = validation::compareTechniques(renderer, context->capabilities(), comparison);
+    result.record.leftOut = std::move(leftOut);
     progress.finish();
     if (!options.json.empty()) validation::writeFileAtomically(options.json, validation::compareJson(result.record));
     if (!options.heatMaps.empty()) writeHeatMaps(options.heatMaps, result);

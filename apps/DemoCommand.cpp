@@ -5,6 +5,7 @@
 #include "apps/Commands.h"
 #include "apps/OutputFolder.h"
 #include "apps/Progress.h"
+#include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/Renderer.h"
 #include "renderer/graph/Plan.h"
 #include "validation/AtomicFile.h"
@@ -53,6 +54,18 @@ std::string choiceOf(const std::vector<Technique>& techniques, const std::vector
                        agree ? "the same picture" : "beware: the pictures do not agree");
 }
 
+/// What gives the figures of the page again.
+std::vector<std::string> commandsOf(const Request& request) {
+    const frame::FrameSettings& settings = request.settings;
+    const std::string frame =
+        fmt::format("{} --size {}x{}", request.scene.name, settings.sizePixels.x, settings.sizePixels.y);
+    if (settings.samples > 1) {
+        return {fmt::format("tessera compare {} --samples {}", frame, settings.samples),
+                fmt::format("tessera plan {} --technique forward --samples {}", frame, settings.samples)};
+    }
+    return {"tessera compare " + frame, "tessera compare " + frame + " --layout packed", "tessera plan " + frame};
+}
+
 validation::Report makeReport(const Request& request, const CompareResult& result,
                               const std::vector<Technique>& techniques, const std::vector<double>& ms) {
     validation::Report report;
@@ -62,6 +75,8 @@ validation::Report makeReport(const Request& request, const CompareResult& resul
     report.facts = {{"Triangles", fmt::format("{}", scenes::triangleCount(request.scene))},
                     {"Lights", fmt::format("{}", request.scene.lights.size())},
                     {"Materials", fmt::format("{}", request.scene.materials.size())}};
+    if (result.record.samples > 1)
+        report.facts.push_back({"Samples", fmt::format("{} a pixel", result.record.samples)});
     for (std::size_t i = 0; i < techniques.size(); ++i) {
         report.facts.push_back({nameOf(techniques[i]), fmt::format("{:.0f} ms a frame", ms[i])});
         report.plans.push_back({nameOf(techniques[i]),
@@ -74,10 +89,7 @@ validation::Report makeReport(const Request& request, const CompareResult& resul
                                    validation::errorHeatMap(picture.picture, result.truth.picture,
                                                             picture.name + " vs " + result.truth.name)});
     }
-    const std::string size = fmt::format("{}x{}", request.settings.sizePixels.x, request.settings.sizePixels.y);
-    report.commands = {fmt::format("tessera compare {} --size {}", request.scene.name, size),
-                       fmt::format("tessera compare {} --size {} --layout packed", request.scene.name, size),
-                       fmt::format("tessera plan {} --size {}", request.scene.name, size)};
+    report.commands = commandsOf(request);
     return report;
 }
 
@@ -95,23 +107,29 @@ void writePictures(const fs::path& folder, const Request& request, const Compare
 
 int demo(const DemoOptions& options, const GlobalOptions& global) {
     requireFolderPlace(options.folder);
-    const Request request = resolve(options.frame);
+    Request request = resolve(options.frame);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
+    request.settings = recipes::settingsOn(context->capabilities(), request.settings);
     recipes::Renderer renderer(*context, request.scene);
-    std::vector<Technique> techniques;
-    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) techniques.push_back(info.technique);
+    std::vector<validation::LeftOutTechnique> leftOut;
+    const std::vector<Technique> techniques = validation::techniquesTaking(request.settings.samples, leftOut);
 
     validation::CompareRequest exact;
     exact.techniques.assign(techniques.begin() + 1, techniques.end());
     exact.settings = request.settings;
     validation::CompareRequest packed = exact;
     packed.techniques = {Technique::Deferred};
+    packed.rangeTruncation = false; // measured with the exact layout
     packed.settings.layout = frame::layoutTable()[1].layout;
-    Progress progress("rendering", validation::pictureCount(exact) + validation::pictureCount(packed) + 1,
+    // A G-buffer, and with it a layout to compare, there is only with one sample a pixel.
+    const bool comparesPacked = request.settings.samples == 1;
+    Progress progress("rendering",
+                      validation::pictureCount(exact) + (comparesPacked ? validation::pictureCount(packed) : 0) + 1,
                       global.quiet);
     exact.renderedOne = packed.renderedOne = [&progress] { progress.advance(); };
     CompareResult result = validation::compareTechniques(renderer, context->capabilities(), exact);
-    joinPacked(result, validation::compareTechniques(renderer, context->capabilities(), packed));
+    if (comparesPacked) joinPacked(result, validation::compareTechniques(renderer, context->capabilities(), packed));
+    result.record.leftOut = std::move(leftOut);
     const std::vector<double> ms = validation::frameMs(renderer, techniques, request.settings, kTimedFrames);
     progress.finish();
 

@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include "apps/Numbers.h"
+#include "passes/recipes/ChooseSamples.h"
 #include "scenes/Error.h"
 #include "scenes/Names.h"
 
@@ -95,6 +96,13 @@ int tileOf(int pixels) {
     return pixels;
 }
 
+double rangeToleranceOf(double tolerance) {
+    if (tolerance < 0.0)
+        throw InputError(
+            fmt::format("--range-tolerance {} is below 0; give 0, which ends no light, or more", tolerance));
+    return tolerance;
+}
+
 /// What can be read without the scene: a mistake in it is found before a large scene is read for nothing.
 void resolveOptions(const FrameOptions& options, Request& request) {
     frame::FrameSettings& settings = request.settings;
@@ -113,7 +121,12 @@ void resolveOptions(const FrameOptions& options, Request& request) {
     if (options.tile) settings.culling.tilePixels = tileOf(*options.tile);
     if (options.cullOn)
         settings.culling.builder = rowNamed(culling::builderTable(), *options.cullOn, "--cull-on").builder;
+    if (options.samples) {
+        recipes::requireSampleCount(*options.samples);
+        settings.samples = *options.samples;
+    }
     if (options.lightOn) settings.lightOn = rowNamed(frame::lightingStageTable(), *options.lightOn, "--light-on").stage;
+    settings.rangeTolerance = rangeToleranceOf(options.rangeTolerance.value_or(0.0));
     settings.timeSeconds = options.timeSeconds.value_or(0.0);
     settings.soloLight = options.solo;
 }
@@ -185,6 +198,10 @@ void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string
         "scene", options.scene, "A .gltf, .glb, .obj or .json file, or a built-in scene (tessera scenes)" + preset);
     scene->type_name("SCENE");
     if (defaultScene.empty()) scene->required();
+    addFrameSettings(command, options);
+}
+
+void addFrameSettings(CLI::App& command, FrameOptions& options) {
     const auto text = [&](const char* flag, std::optional<std::string>& target, const std::string& help,
                           const char* type, const char* group = "Frame") {
         command.add_option(flag, target, help)->type_name(type)->group(group);
@@ -201,11 +218,17 @@ void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string
     text("--light-on", options.lightOn,
          "What lights the G-buffer, one of " + namesOf(frame::lightingStageTable()) + " [by backend]", "NAME");
     text("--size", options.size, "Picture size in pixels [1280x720]", "WxH");
+    addWholeNumber(command, "--samples", options.samples,
+                   "Samples of a pixel, 1, 2 or 4; more than 1 without a G-buffer only [1]", "N")
+        ->group("Frame");
     text("--camera", options.camera, "A camera of the scene [its first]", "NAME");
     addNumber(command, "--time", options.timeSeconds, "Moves animated lights to this time [0]", "SECONDS")
         ->group("Frame");
     addWholeNumber(command, "--lights", options.lights,
                    "Built-in scenes make this many lights, files keep their first N", "N")
+        ->group("Frame");
+    addNumber(command, "--range-tolerance", options.rangeTolerance,
+              "Ends lights of A B C falloff where they fall to this; compare tells what it drops [0]", "EPS")
         ->group("Frame");
     text("--view", options.view, "What to show: 1 to 7, or one of " + namesOf(frame::viewTable()) + " [final]", "NAME");
     addWholeNumber(command, "--solo", options.solo, "Only this light shines, counted from 0", "N")->group("Frame");
@@ -220,13 +243,17 @@ void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string
     text("--tonemap", options.toneMap, "One of " + namesOf(frame::toneMapTable()) + " [none]", "NAME", "Display");
 }
 
-Request resolve(const FrameOptions& options) {
-    Request request;
-    resolveOptions(options, request);
+scenes::Scene loadFor(const FrameOptions& options) {
     scenes::LoadOptions load;
     load.lights = options.lights;
     load.defaultLight = !options.noDefaultLight;
-    request.scene = scenes::loadScene(options.scene, load);
+    return scenes::loadScene(options.scene, load);
+}
+
+Request resolve(const FrameOptions& options) {
+    Request request;
+    resolveOptions(options, request);
+    request.scene = loadFor(options);
     resolveWishes(options, request);
     for (const std::string& warning : request.scene.warnings) spdlog::warn("{}: {}", request.scene.name, warning);
     return request;

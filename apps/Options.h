@@ -29,10 +29,13 @@ struct FrameOptions {
     std::string scene;
     std::optional<std::string> technique, layout, camera, view, toneMap, size, filter, space, prune, specular, culling,
         cullOn, lightOn;
-    std::optional<double> exposureEV, timeSeconds;
-    std::optional<int> lights, solo, tile;
+    std::optional<double> exposureEV, timeSeconds, rangeTolerance;
+    std::optional<int> lights, solo, tile, samples;
     bool noDefaultLight = false;
 };
+/// All but the scene.
+void addFrameSettings(CLI::App& command, FrameOptions& options);
+/// The scene, which is required where `defaultScene` is empty, and the rest.
 void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string& defaultScene);
 
 /// A scene and how to look at it.
@@ -41,6 +44,8 @@ struct Request {
     recipes::Technique technique = recipes::Technique::Deferred;
     frame::FrameSettings settings;
 };
+/// The scene alone, as the options have it.
+scenes::Scene loadFor(const FrameOptions& options);
 /// Loads the scene, resolves every name, and when all is well warns of what the scene lacks. Throws InputError.
 Request resolve(const FrameOptions& options);
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "apps/Commands.h"
+#include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/Renderer.h"
 #include "validation/AtomicFile.h"
 #include "validation/Measure.h"
@@ -18,10 +19,15 @@ struct PlanOptions {
 int plan(const PlanOptions& options, const GlobalOptions& global) {
     for (const std::string& path : {options.json, options.dot})
         if (!path.empty()) validation::requireWritable(path);
-    const Request request = resolve(options.frame);
-    graph::Plan plan = recipes::planFrame(request.scene, request.technique, request.settings);
+    Request request = resolve(options.frame);
+    recipes::requireSamples(request.technique, request.settings.samples);
+    std::unique_ptr<gpu::Context> context;
     if (options.measure) {
-        const std::unique_ptr<gpu::Context> context = makeContext(global);
+        context = makeContext(global);
+        request.settings = recipes::settingsOn(context->capabilities(), request.settings);
+    }
+    graph::Plan plan = recipes::planFrame(request.scene, request.technique, request.settings);
+    if (context) {
         recipes::Renderer renderer(*context, request.scene);
         validation::measurePlan(plan, renderer, request.technique, request.settings);
     }

@@ -7,6 +7,7 @@
 #include "apps/FramePattern.h"
 #include "apps/Numbers.h"
 #include "apps/Progress.h"
+#include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/Renderer.h"
 #include "scenes/Error.h"
 #include "validation/AtomicFile.h"
@@ -89,8 +90,10 @@ void check(const RenderOptions& options) {
 int render(const RenderOptions& options, const GlobalOptions& global) {
     check(options);
     Request request = resolve(options.frame);
+    recipes::requireSamples(request.technique, request.settings.samples);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     recipes::Renderer renderer(*context, request.scene);
+    request.settings.display = std::filesystem::path(options.output).extension() != ".exr";
     if (options.frames)
         renderFrames(options, request, renderer, global);
     else

@@ -80,6 +80,7 @@ int runProgram(int argc, char** argv) {
     addRenderCommand(app, global, run);
     addCompareCommand(app, global, run);
     addPlanCommand(app, global, run);
+    addBenchCommand(app, global, run);
     addScenesCommand(app, run);
     addDemoCommand(app, global, run);
     app.footer(kFooter);

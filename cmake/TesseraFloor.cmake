@@ -33,14 +33,7 @@ function(tessera_compile_options target)
     if(TESSERA_SANITIZE)
         target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
         target_link_options(${target} PRIVATE -fsanitize=address,undefined)
-    endif()
-endfunction()
-
-# tessera_uses_regex(files...): names the calling folder's sources that include <regex>.
-#
-# With sanitizers GCC 12 takes members of std::regex's own states for uninitialised (GCC bug 105562).
-function(tessera_uses_regex)
-    if(TESSERA_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-        set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -Wno-maybe-uninitialized)
+        # With sanitizers GCC 12 takes members of std::regex's own states for uninitialised (GCC bug 105562).
+        target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
     endif()
 endfunction()

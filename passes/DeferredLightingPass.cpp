@@ -27,9 +27,13 @@ void dispatchPicture(const gpu::Texture& radiance) {
 
 } // namespace
 
-shader::ProgramDesc DeferredLightingPass::program(const frame::FrameSpec& spec) {
+shader::ProgramDesc DeferredLightingPass::program(const frame::FrameSpec& spec, const Params& params) {
     frame::Defines defines = frame::channelDefines(spec.settings.layout, spec.channels);
-    frame::addCursorDefines(spec, false, defines);
+    if (params.visitsLights) {
+        frame::addCursorDefines(spec, false, defines);
+    } else {
+        defines.emplace_back("LIGHT_CURSOR", "LIGHT_CURSOR_NONE");
+    }
     if (!inCompute(spec)) {
         return frame::frameProgram(spec, "deferred_lighting", "passes/fullscreen.vert", "passes/deferred_lighting.frag",
                                    defines);
@@ -41,7 +45,8 @@ shader::ProgramDesc DeferredLightingPass::program(const frame::FrameSpec& spec) 
 }
 
 DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
-                                                        const Inputs& inputs, const frame::FrameResources* resources) {
+                                                        const Params& params, const Inputs& inputs,
+                                                        const frame::FrameResources* resources) {
     return graph.addPass<Outputs>(
         "deferred_lighting",
         [&](graph::PassBuilder& pass, Outputs& out) {
@@ -55,7 +60,7 @@ DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, con
             out.radiance = pass.create("radiance", spec.texture(graph::Format::Rgba32Float),
                                        inCompute(spec) ? graph::Access::ImageWrite : graph::Access::ColorAttachment);
         },
-        [resources, compute = inCompute(spec), program = program(spec)](const Outputs& out,
+        [resources, compute = inCompute(spec), program = program(spec, params)](const Outputs& out,
                                                                         const graph::PassContext& context) {
             gpu::useProgram(resources->programs.get(program));
             gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);

@@ -15,6 +15,9 @@ namespace tessera::passes {
 /// Space   lighting space
 /// Source  Walter 2007; Heitz 2014 (shaders/lib/brdf.glsl)
 struct DeferredLightingPass {
+    struct Params {
+        bool visitsLights = true; ///< false: emission alone, for passes that add lights to it
+    };
     struct Inputs {
         std::vector<graph::TextureHandle> channels; ///< by attachment, as FrameSpec::channels
         graph::TextureHandle depth;
@@ -24,8 +27,8 @@ struct DeferredLightingPass {
         Inputs read;
         graph::TextureHandle radiance;
     };
-    static shader::ProgramDesc program(const frame::FrameSpec& spec);
-    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
+    static shader::ProgramDesc program(const frame::FrameSpec& spec, const Params& params);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params, const Inputs& inputs,
                        const frame::FrameResources* resources);
 };
 

@@ -5,21 +5,27 @@
 
 namespace tessera::passes {
 
-shader::ProgramDesc DepthPrepass::program(const frame::FrameSpec& spec) {
+shader::ProgramDesc DepthPrepass::program(const frame::FrameSpec& spec, const Params& params) {
     return frame::frameProgram(spec, "depth_prepass", "passes/geometry.vert", "passes/depth_prepass.frag",
-                               {{"DEPTH_ONLY", "1"}});
+                               {{"DEPTH_ONLY", "1"}, {"SHADING_DEPTH", params.shadingDepth ? "1" : "0"}});
 }
 
-DepthPrepass::Outputs DepthPrepass::add(graph::Graph& graph, const frame::FrameSpec& spec,
+DepthPrepass::Outputs DepthPrepass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params,
                                         const frame::FrameResources* resources) {
     return graph.addPass<Outputs>(
         "depth_prepass",
         [&](graph::PassBuilder& pass, Outputs& out) {
-            out.depth = pass.create("depth", spec.texture(graph::Format::Depth32Float), graph::Access::DepthAttachment);
+            out.depth =
+                pass.create("depth", spec.renderTarget(graph::Format::Depth32Float), graph::Access::DepthAttachment);
+            if (params.shadingDepth)
+                out.shadingDepth = pass.create("shading_depth", spec.renderTarget(graph::Format::R32Float));
         },
-        [resources, program = program(spec)](const Outputs& out, const graph::PassContext& context) {
-            gpu::bindFramebuffer(resources->framebuffers.get({{}, &context.texture(out.depth)}));
+        [resources, program = program(spec, params)](const Outputs& out, const graph::PassContext& context) {
+            gpu::Attachments targets{{}, &context.texture(out.depth)};
+            if (out.shadingDepth) targets.colors.push_back(&context.texture(*out.shadingDepth));
+            gpu::bindFramebuffer(resources->framebuffers.get(targets));
             gpu::clearDepth(0.0f);
+            if (out.shadingDepth) gpu::clearColor(0, glm::vec4(0.0f));
             gpu::useProgram(resources->programs.get(program));
             gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
             gpu::PipelineState state;

@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "renderer/frame/FrameResources.h"
 #include "renderer/frame/FrameSpec.h"
 #include "renderer/graph/Graph.h"
@@ -7,14 +9,21 @@ namespace tessera::passes {
 
 /// Draws the depth of opaque and alpha-masked geometry, so that later passes shade each pixel once.
 /// Reads   the scene
-/// Writes  depth D32F, reverse-Z, cleared to 0
+/// Writes  depth D32F, reverse-Z, cleared to 0; on request shading_depth R32F, the depth at which the fragment of each
+///         sample is lit (shaders/lib/shading_depth.glsl), cleared to 0. Both are of FrameSpec::samples. With several
+///         samples a fragment is lit once, at the pixel's centre, which may lie outside the depths of its samples
 /// Space   lighting space, through the vertex function that every pass shares
 struct DepthPrepass {
+    struct Params {
+        bool shadingDepth = false;
+    };
     struct Outputs {
         graph::TextureHandle depth;
+        std::optional<graph::TextureHandle> shadingDepth; ///< where Params ask for it
     };
-    static shader::ProgramDesc program(const frame::FrameSpec& spec);
-    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const frame::FrameResources* resources);
+    static shader::ProgramDesc program(const frame::FrameSpec& spec, const Params& params);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params,
+                       const frame::FrameResources* resources);
 };
 
 } // namespace tessera::passes

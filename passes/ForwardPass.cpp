@@ -37,15 +37,16 @@ ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpe
         transparent ? "transparent" : "forward",
         [&](graph::PassBuilder& pass, Outputs& out) {
             if (prepassed) {
-                pass.expect(*inputs.depth, spec.texture(graph::Format::Depth32Float));
+                pass.expect(*inputs.depth, spec.renderTarget(graph::Format::Depth32Float));
                 out.depth = pass.read(*inputs.depth, graph::Access::DepthTest);
             } else {
-                out.depth =
-                    pass.create("depth", spec.texture(graph::Format::Depth32Float), graph::Access::DepthAttachment);
+                out.depth = pass.create("depth", spec.renderTarget(graph::Format::Depth32Float),
+                                        graph::Access::DepthAttachment);
             }
             if (inputs.lists) out.lists = frame::readLightLists(pass, *inputs.lists);
+            if (inputs.radiance) pass.expect(*inputs.radiance, spec.renderTarget(graph::Format::Rgba32Float));
             out.radiance = inputs.radiance ? pass.write(*inputs.radiance)
-                                           : pass.create("radiance", spec.texture(graph::Format::Rgba32Float));
+                                           : pass.create("radiance", spec.renderTarget(graph::Format::Rgba32Float));
         },
         [resources, params, prepassed, keepsPicture = inputs.radiance.has_value(),
          program = program(spec, params)](const Outputs& out, const graph::PassContext& context) {

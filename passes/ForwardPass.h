@@ -10,7 +10,8 @@ namespace tessera::passes {
 /// Shades surfaces as they are rasterised: all opaque ones, those that a prepass left in the depth buffer, or the
 /// transparent ones on top of a lit picture.
 /// Reads   the scene, the frame's lights and light lists; depth D32F after a prepass or under transparent surfaces
-/// Writes  radiance RGBA32F, linear, before exposure; depth D32F when it comes first
+/// Writes  radiance RGBA32F, linear, before exposure; depth D32F when it comes first. All are of FrameSpec::samples; a
+///         pixel's covered samples share one shading
 /// Space   lighting space
 /// Source  Walter 2007; Heitz 2014 (shaders/lib/brdf.glsl)
 struct ForwardPass {

@@ -30,9 +30,9 @@ Json toleranceJson(const Tolerance& tolerance) {
 }
 
 /// A reason for every figure that is null.
-Json reasons(const Json& pair, const ErrorFigures& figures) {
+Json reasons(const Json& record, const ErrorFigures& figures) {
     Json why = Json::object();
-    for (const auto& [name, value] : pair.items()) {
+    for (const auto& [name, value] : record.items()) {
         if (!value.is_null()) continue;
         if (name == "flip")
             why[name] = figures.flipReason;
@@ -83,6 +83,18 @@ Json pairJson(const ComparePair& pair) {
     return json;
 }
 
+Json rangeTruncationJson(const RangeTruncation& truncation) {
+    const ErrorFigures& figures = truncation.figures;
+    Json json = {{"tolerance", truncation.tolerance},
+                 {"technique", truncation.technique},
+                 {"bias", number(figures.bias)},
+                 {"relMse", number(figures.relMse)},
+                 {"p99Rel", number(figures.p99Rel)}};
+    const Json why = reasons(json, figures);
+    json["why"] = why;
+    return json;
+}
+
 constexpr std::size_t kColumns = 8;
 using Row = std::array<std::string, kColumns>;
 
@@ -126,11 +138,17 @@ ComparePair comparePair(std::string nameA, const Picture& a, std::string nameB, 
 std::string compareJson(const CompareRecord& record) {
     Json pairs = Json::array();
     for (const ComparePair& pair : record.pairs) pairs.push_back(pairJson(pair));
-    const Json json = {{"schema", 1},
-                       {"scene", record.scene},
-                       {"size", {record.width, record.height}},
-                       {"renderer", record.renderer},
-                       {"pairs", pairs}};
+    Json leftOut = Json::array();
+    for (const LeftOutTechnique& item : record.leftOut)
+        leftOut.push_back({{"technique", item.technique}, {"why", item.why}});
+    Json json = {{"schema", 1},
+                 {"scene", record.scene},
+                 {"size", {record.width, record.height}},
+                 {"samples", record.samples},
+                 {"renderer", record.renderer},
+                 {"pairs", pairs},
+                 {"left_out", leftOut}};
+    if (record.rangeTruncation) json["rangeTruncation"] = rangeTruncationJson(*record.rangeTruncation);
     // A file's name need not be UTF-8, and must not keep the record from being written.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -138,8 +156,10 @@ std::string compareJson(const CompareRecord& record) {
 std::string compareTable(const CompareRecord& record) {
     std::vector<Row> rows = {{"pair", "bit-equal", "max rel", "p99.9 rel", "relMSE", "bias", "lit", "verdict"}};
     for (const ComparePair& pair : record.pairs) rows.push_back(rowOf(pair));
+    const std::string samples = record.samples == 1 ? "" : fmt::format(", {} samples", record.samples);
     std::string text =
-        fmt::format("{}  {}x{}  {}\n", record.scene, record.width, record.height, record.renderer) + textTable(rows);
+        fmt::format("{}  {}x{}{}  {}\n", record.scene, record.width, record.height, samples, record.renderer) +
+        textTable(rows);
     for (const ComparePair& pair : record.pairs)
         for (const std::string& missed : pair.verdict.missed)
             text += fmt::format("missed: {} vs {}: {}\n", pair.a, pair.b, missed);
@@ -149,7 +169,19 @@ std::string compareTable(const CompareRecord& record) {
                                 figureText(channel.share), figureText(channel.relMseWithout));
         }
     }
+    for (const LeftOutTechnique& item : record.leftOut)
+        text += fmt::format("left out: {}: {}\n", item.technique, item.why);
+    if (record.rangeTruncation) {
+        const RangeTruncation& truncation = *record.rangeTruncation;
+        text += fmt::format("dropped by the range tolerance {:g}: {} ({} against itself without it)\n",
+                            truncation.tolerance, droppedText(truncation.figures), truncation.technique);
+    }
     return text;
+}
+
+std::string droppedText(const ErrorFigures& figures) {
+    return fmt::format("bias {}, relMSE {}, p99 rel {}", figureText(figures.bias), figureText(figures.relMse),
+                       figureText(figures.p99Rel));
 }
 
 } // namespace tessera::validation

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,12 +25,28 @@ struct ComparePair {
     std::vector<ChannelShare> channels = {}; ///< empty where no channel is packed
 };
 
+/// A technique that was not compared.
+struct LeftOutTechnique {
+    std::string technique;
+    std::string why;
+};
+
+/// The light that a range tolerance drops: a technique's picture with it against the same without.
+struct RangeTruncation {
+    double tolerance; ///< FrameSettings::rangeTolerance
+    std::string technique;
+    ErrorFigures figures; ///< of the final view, whatever view is compared
+};
+
 /// What `tessera compare` found.
 struct CompareRecord {
     std::string scene;
     int width = 0, height = 0;
     std::string renderer; ///< as GL reports it
     std::vector<ComparePair> pairs;
+    int samples = 1; ///< of a pixel, as the driver gives them
+    std::vector<LeftOutTechnique> leftOut = {};
+    std::optional<RangeTruncation> rangeTruncation = {}; ///< where a tolerance is set
 
     /// There is a pair, and each holds.
     bool ok() const;
@@ -43,7 +60,11 @@ ComparePair comparePair(std::string nameA, const Picture& a, std::string nameB, 
 /// are null, with the reason under `why`; `missed` says in words what a pair did not hold.
 std::string compareJson(const CompareRecord& record);
 
-/// The record for a terminal: a table of ASCII characters, then what was missed, each line ending in a newline.
+/// The record for a terminal: a table of ASCII characters, then what was missed and what was dropped, each line ending
+/// in a newline.
 std::string compareTable(const CompareRecord& record);
+
+/// What was dropped, in one line: "bias -1.2e-03, relMSE 3.4e-05, p99 rel 2.0e-02".
+std::string droppedText(const ErrorFigures& figures);
 
 } // namespace tessera::validation

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "validation/Interleave.h"
+#include "validation/RangeTruncation.h"
 #include "validation/TimeSamples.h"
 
 namespace tessera::validation {
@@ -47,6 +48,11 @@ void measurePlan(graph::Plan& plan, recipes::Renderer& renderer, recipes::Techni
     for (graph::Plan::Pass& pass : plan.passes) {
         const auto times = asPlanned.passMs.find(pass.name);
         if (times != asPlanned.passMs.end()) pass.ms = spreadOf(times->second).median;
+    }
+    if (settings.rangeTolerance > 0.0) {
+        const RangeTruncation truncation = rangeTruncation(renderer, technique, settings);
+        plan.choices.push_back({"light that the range tolerance drops", droppedText(truncation.figures),
+                                truncation.technique + " measured against itself without a tolerance"});
     }
     if (!settings.prune || plan.leftOut.empty()) return;
     const std::size_t wholeBytes = recipes::planFrame(renderer.scene(), technique, whole).bytes;

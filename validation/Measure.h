@@ -5,7 +5,8 @@
 namespace tessera::validation {
 
 /// Fills in a plan's milliseconds: each pass as the median of profiled frames, and what all that was left out would
-/// have cost, the difference to frames with prune = off, drawn in turn with them.
+/// have cost, the difference to frames with prune = off, drawn in turn with them. With a range tolerance also adds what
+/// light it drops, as a choice.
 void measurePlan(graph::Plan& plan, recipes::Renderer& renderer, recipes::Technique technique,
                  const frame::FrameSettings& settings);
 

@@ -67,7 +67,7 @@ std::string mastheadHtml(const Report& report) {
 std::string pairsHtml(const Report& report) {
     if (report.record.pairs.empty()) return "";
     std::string html = "<section id=\"figures\">\n<h2>The comparisons</h2>\n" + pairTableHtml(report.record) +
-                       "</section>\n<section id=\"pairs\">\n<h2>Side by side</h2>\n";
+                       droppedHtml(report.record) + "</section>\n<section id=\"pairs\">\n<h2>Side by side</h2>\n";
     for (std::size_t i = 0; i < report.record.pairs.size(); ++i) html += pairHtml(report, i);
     return html + "</section>\n";
 }

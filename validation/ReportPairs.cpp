@@ -150,6 +150,16 @@ std::string pairTableHtml(const CompareRecord& record) {
     return html + "</tbody>\n</table>\n";
 }
 
+std::string droppedHtml(const CompareRecord& record) {
+    if (!record.rangeTruncation) return "";
+    const RangeTruncation& truncation = *record.rangeTruncation;
+    const ErrorFigures& figures = truncation.figures;
+    return fmt::format("<p>What the range tolerance {:g} drops, {} against itself without it: bias {}, relMSE {}, "
+                       "p99&nbsp;rel {}.</p>\n",
+                       truncation.tolerance, escapedHtml(truncation.technique), figureHtml(figures.bias),
+                       figureHtml(figures.relMse), figureHtml(figures.p99Rel));
+}
+
 std::string pairHtml(const Report& report, std::size_t index) {
     const ComparePair& pair = report.record.pairs.at(index);
     std::string html = fmt::format("<article class=\"pair\" id=\"pair-{}\">\n<header><h3>{}</h3>{}</header>\n", index,

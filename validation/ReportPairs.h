@@ -8,6 +8,9 @@ namespace tessera::validation {
 /// The table of all pairs, one row each. HTML.
 std::string pairTableHtml(const CompareRecord& record);
 
+/// What a range tolerance dropped, in a paragraph; empty where none is set. HTML.
+std::string droppedHtml(const CompareRecord& record);
+
 /// One pair: what it missed, its slider, its heat map and all its figures. HTML; `index` numbers the pair on the page.
 std::string pairHtml(const Report& report, std::size_t index);
 

@@ -4,7 +4,9 @@
 
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseLighting.h"
+#include "passes/recipes/ChooseSamples.h"
 #include "validation/PictureFile.h"
+#include "validation/RangeTruncation.h"
 #include "validation/Rendering.h"
 
 namespace tessera::validation {
@@ -42,6 +44,17 @@ NamedPicture truthPicture(recipes::Renderer& renderer, const CompareRequest& req
     return truth;
 }
 
+bool measuresTruncation(const CompareRequest& request) {
+    return request.rangeTruncation && request.settings.rangeTolerance > 0.0 &&
+           (std::holds_alternative<Technique>(request.against) || !request.techniques.empty());
+}
+
+RangeTruncation truncationOf(recipes::Renderer& renderer, const CompareRequest& request) {
+    const auto* truth = std::get_if<Technique>(&request.against);
+    const Technique technique = truth ? *truth : request.techniques.front();
+    return rangeTruncation(renderer, technique, settingsFor(technique, request.settings));
+}
+
 bool isPacked(const frame::GBufferLayout& layout) {
     return !(layout == frame::layoutTable()[0].layout);
 }
@@ -69,7 +82,7 @@ void checkWithoutPacking(recipes::Renderer& renderer, const CompareRequest& requ
     frame::FrameSettings settings = request.settings;
     settings.layout = frame::layoutTable()[0].layout;
     const Picture picture = toPicture(renderer.render(technique, settingsFor(technique, settings)));
-    const Tolerance tolerance = pairTolerance(technique, settings.layout, isSoftware);
+    const Tolerance tolerance = pairTolerance(technique, settings.layout, isSoftware, renderer.scene().lights.size());
     for (const std::string& missed : checkTolerance(errorFigures(picture, truth), tolerance).missed)
         verdict.missed.push_back("with every channel in fp32: " + missed);
     verdict.ok = verdict.missed.empty();
@@ -78,10 +91,23 @@ void checkWithoutPacking(recipes::Renderer& renderer, const CompareRequest& requ
 } // namespace
 
 std::size_t pictureCount(const CompareRequest& request) {
-    return request.techniques.size() + (std::holds_alternative<Technique>(request.against) ? 1 : 0);
+    return request.techniques.size() + (std::holds_alternative<Technique>(request.against) ? 1 : 0) +
+           (measuresTruncation(request) ? 1 : 0);
 }
 
-Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout, bool isSoftware) {
+std::vector<Technique> techniquesTaking(int samples, std::vector<LeftOutTechnique>& leftOut) {
+    std::vector<Technique> techniques;
+    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+        if (recipes::takesSamples(info, samples))
+            techniques.push_back(info.technique);
+        else
+            leftOut.push_back({std::string(info.name), fmt::format("it does not take --samples {}", samples)});
+    }
+    return techniques;
+}
+
+Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout, bool isSoftware,
+                        std::size_t lightCount) {
     Tolerance tolerance;
     if (recipes::techniqueTable()[std::size_t(technique)].usesGBuffer && isPacked(layout)) {
         tolerance.relMse = 1e-4;
@@ -94,6 +120,11 @@ Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout,
     } else {
         tolerance.maxRel = 1e-5;
         tolerance.reason = "a hardware compiler may contract two programs differently: some 100 roundings of 2^-24";
+        const double sumBound = double(lightCount) * 0x1p-24;
+        if (technique == Technique::DeferredVolumes && sumBound > tolerance.maxRel) {
+            tolerance.maxRel = sumBound;
+            tolerance.reason = "lights are summed by blending: N positive terms in fp32 differ by up to N 2^-24";
+        }
     }
     return tolerance;
 }
@@ -105,12 +136,14 @@ CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabili
     result.record.scene = renderer.scene().name;
     result.record.width = request.settings.sizePixels.x;
     result.record.height = request.settings.sizePixels.y;
+    result.record.samples = recipes::settingsOn(gl, request.settings).samplesGiven.value_or(1);
     result.record.renderer = gl.renderer;
     for (const Technique technique : request.techniques) {
         NamedPicture picture = rendered(renderer, technique, request.settings);
         requireSameSize(picture.picture, picture.name, result.truth.picture, result.truth.name);
-        const Tolerance tolerance =
-            request.tolerance ? *request.tolerance : pairTolerance(technique, request.settings.layout, gl.isSoftware);
+        const Tolerance tolerance = request.tolerance ? *request.tolerance
+                                                      : pairTolerance(technique, request.settings.layout, gl.isSoftware,
+                                                                      renderer.scene().lights.size());
         ComparePair pair =
             comparePair(picture.name, picture.picture, result.truth.name, result.truth.picture, tolerance);
         if (recipes::techniqueTable()[std::size_t(technique)].usesGBuffer && isPacked(request.settings.layout)) {
@@ -121,6 +154,10 @@ CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabili
         }
         result.record.pairs.push_back(std::move(pair));
         result.pictures.push_back(std::move(picture));
+        request.renderedOne();
+    }
+    if (measuresTruncation(request)) {
+        result.record.rangeTruncation = truncationOf(renderer, request);
         request.renderedOne();
     }
     return result;

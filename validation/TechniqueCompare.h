@@ -16,6 +16,7 @@ struct CompareRequest {
     std::variant<recipes::Technique, std::string> against =
         recipes::Technique::Forward; ///< a technique or a picture file
     frame::FrameSettings settings;
+    bool rangeTruncation = true;               ///< whether to measure what settings.rangeTolerance drops
     std::optional<Tolerance> tolerance;        ///< instead of the one each pair is held to by itself
     std::function<void()> renderedOne = [] {}; ///< called after each picture, for progress
 };
@@ -33,17 +34,22 @@ struct CompareResult {
     std::vector<NamedPicture> pictures; ///< parallel to record.pairs
 };
 
-/// Pictures that compareTechniques() renders, for progress.
+/// Pictures that compareTechniques() renders, for progress; what a range tolerance drops counts as one.
 std::size_t pictureCount(const CompareRequest& request);
 
 /// Renders every technique and measures it against the truth. Pairs that must agree to the last bit (no G-buffer, or
 /// the exact layout, on a software rasteriser) are held to that; see pairTolerance(). Where the G-buffer is packed,
 /// each channel's share of the error is found by storing that channel alone in fp32, and against a technique the
-/// picture with all of them in fp32 must hold the exact layout's tolerance.
+/// picture with all of them in fp32 must hold the exact layout's tolerance. What a range tolerance drops is measured on
+/// the technique that is the truth, or the first one where that is a picture file.
 CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabilities& gl,
                                 const CompareRequest& request);
 
-/// What a technique is held to against another, with the reason in Tolerance::reason.
-Tolerance pairTolerance(recipes::Technique technique, const frame::GBufferLayout& layout, bool isSoftware);
+/// The techniques that take so many samples a pixel; the others go to `leftOut` with the reason.
+std::vector<recipes::Technique> techniquesTaking(int samples, std::vector<LeftOutTechnique>& leftOut);
+
+/// What a technique is held to against another in a scene of so many lights, with the reason in Tolerance::reason.
+Tolerance pairTolerance(recipes::Technique technique, const frame::GBufferLayout& layout, bool isSoftware,
+                        std::size_t lightCount);
 
 } // namespace tessera::validation

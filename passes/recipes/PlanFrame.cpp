@@ -2,12 +2,32 @@
 
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseLighting.h"
+#include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/PreparedFrame.h"
 #include "passes/recipes/Renderer.h"
 
 namespace tessera::recipes {
 
 namespace {
+
+std::string lightCount(std::size_t count) {
+    return fmt::format("{} light{}", count, count == 1 ? "" : "s");
+}
+
+std::string truncationWords(const frame::TruncatedLights& lights, double tolerance) {
+    if (lights.sum() == 0) return "no light that is on falls off by A B C, so it ends none";
+    if (tolerance == 0.0)
+        return fmt::format("falloff by A B C of {} never ends; a tolerance above 0 gives it a radius",
+                           lightCount(lights.sum()));
+    std::string words;
+    const auto add = [&](const std::string& part) { words += (words.empty() ? "" : "; ") + part; };
+    if (lights.ended > 0)
+        add(fmt::format("{} with falloff by A B C made finite, radii {:.4g} m to {:.4g} m", lightCount(lights.ended),
+                        lights.shortestMetres, lights.longestMetres));
+    if (lights.belowAlready > 0) add(fmt::format("{} nowhere above it, so dark", lightCount(lights.belowAlready)));
+    if (lights.endless > 0) add(fmt::format("{} without end, B = C = 0", lightCount(lights.endless)));
+    return words;
+}
 
 void addChoices(graph::Plan& plan, const scenes::Scene& scene, const PreparedFrame& prepared) {
     const frame::FrameSettings& settings = prepared.spec.settings;
@@ -19,6 +39,11 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const PreparedFra
     plan.choices.push_back({"lighting space",
                             settings.space == frame::LightingSpace::World ? "world, relative to the eye" : "view",
                             "the subtraction happens in double precision, so far scenes keep their digits"});
+    const frame::TruncatedLights& truncated = prepared.lights.truncated;
+    if (settings.rangeTolerance > 0.0 || truncated.sum() > 0) {
+        plan.choices.push_back({"range tolerance", fmt::format("{:g}", settings.rangeTolerance),
+                                truncationWords(truncated, settings.rangeTolerance)});
+    }
     for (const std::string& warning : scene.warnings) plan.choices.push_back({"scene", scene.name, warning});
 }
 
@@ -56,6 +81,7 @@ graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const fra
     addChoices(plan, scene, prepared);
     for (graph::Plan::Choice& choice : cullingChoices(technique, settings, prepared.spec.culling))
         plan.choices.push_back(std::move(choice));
+    for (graph::Plan::Choice& choice : sampleChoices(settings)) plan.choices.push_back(std::move(choice));
     if (std::optional<graph::Plan::Choice> choice = lightingChoice(technique, settings))
         plan.choices.push_back(std::move(*choice));
     addCounters(plan, scene, prepared);

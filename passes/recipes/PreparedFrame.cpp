@@ -1,9 +1,12 @@
 #include "passes/recipes/PreparedFrame.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseLighting.h"
+#include "passes/recipes/ChooseSamples.h"
 #include "renderer/culling/TileGrid.h"
 #include "scenes/Error.h"
 
@@ -28,6 +31,11 @@ PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, cons
         throw InputError(fmt::format("{}: there is no light {} to show alone; the scene has {} (0 to {})", scene.name,
                                      *settings.soloLight, scene.lights.size(), int(scene.lights.size()) - 1));
     }
+    const int samples = chooseSamples(technique, settings);
+    if (!(settings.rangeTolerance >= 0.0) || std::isinf(settings.rangeTolerance)) {
+        throw InputError(fmt::format("a range tolerance of {} ends no light; give 0, which keeps all of it, or more",
+                                     settings.rangeTolerance));
+    }
     PreparedFrame prepared;
     const scenes::Camera camera = frameCamera(scene, settings);
     // A debug view shows quantities of surfaces; where there is none it shows 0.
@@ -39,6 +47,7 @@ PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, cons
         glm::uvec4(lightCount, prepared.lights.shown, prepared.lights.everywhere, (lightCount + 31) / 32);
     prepared.spec = frame::makeFrameSpec(scene, prepared.lights, settings);
     frame::FrameSpec& spec = prepared.spec;
+    spec.samples = samples;
     spec.lightOn = chooseLighting(technique, settings);
     spec.culling = chooseCulling(technique, settings, spec.features, prepared.lights);
     if (spec.culling.method == culling::Method::None) return prepared;

@@ -15,8 +15,9 @@ struct PreparedFrame {
     std::vector<shared::CullLight> cullLights; ///< parallel to lights.texels; empty where no lists are built
 };
 
-/// Throws InputError when the settings name a camera or light that the scene lacks, a size that no picture has, or a
-/// culling method that the technique does not take.
+/// Throws InputError when the settings name a camera or light that the scene lacks, a size or number of samples that no
+/// picture has, a range tolerance that is negative or not finite, or a culling method or number of samples that the
+/// technique does not take.
 PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings);
 
 /// The camera that the settings ask for, where they put it.

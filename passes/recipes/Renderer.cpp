@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/PreparedFrame.h"
 #include "renderer/graph/Execute.h"
 #include "scenes/Error.h"
@@ -63,8 +64,7 @@ frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
 }
 
 void Renderer::draw(Technique technique, const frame::FrameSettings& asked) {
-    frame::FrameSettings settings = asked;
-    settings.softwareBackend = context_.capabilities().isSoftware;
+    const frame::FrameSettings settings = settingsOn(context_.capabilities(), asked);
     auto drawn = std::make_unique<Drawn>();
     drawn->prepared = prepareFrame(scene_, technique, settings);
     const PreparedFrame& prepared = drawn->prepared;
@@ -93,15 +93,29 @@ RenderedFrame Renderer::download() const {
     frame.width = drawn_->settings.sizePixels.x;
     frame.height = drawn_->settings.sizePixels.y;
     const gpu::Texture& radiance = drawn_->execution->texture(drawn_->frame.radiance);
-    const gpu::Texture& display = drawn_->execution->texture(drawn_->frame.display);
     frame.radiance = flipped(radiance.downloadAs<float>(), frame.width, frame.height);
-    frame.display = flipped(display.downloadAs<std::uint8_t>(), frame.width, frame.height);
+    if (drawn_->settings.display) {
+        const gpu::Texture& display = drawn_->execution->texture(drawn_->frame.display);
+        frame.display = flipped(display.downloadAs<std::uint8_t>(), frame.width, frame.height);
+    }
     return frame;
 }
 
-std::optional<culling::LightLists> Renderer::lightLists() const {
-    if (!drawn_->frame.lists) return std::nullopt;
-    return lightLists_.download();
+std::vector<float> Renderer::downloadDepth() const {
+    return drawn_->execution->texture(drawn_->frame.depth).downloadAs<float>();
+}
+
+DrawnLists Renderer::downloadLists() const {
+    const PreparedFrame& prepared = drawn_->prepared;
+    DrawnLists drawn;
+    drawn.culling = prepared.spec.culling;
+    drawn.constants = prepared.view.constants;
+    drawn.sceneIndex = prepared.lights.sceneIndex;
+    for (std::size_t i = 0; i < prepared.lights.texels.size(); ++i) {
+        if (prepared.lights.texels[i].position.w == 0.0f) drawn.everywhere.push_back(std::uint32_t(i));
+    }
+    if (drawn.culling.method != culling::Method::None) drawn.lists = lightLists_.download();
+    return drawn;
 }
 
 } // namespace tessera::recipes

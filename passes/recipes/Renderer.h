@@ -13,8 +13,17 @@ namespace tessera::recipes {
 struct RenderedFrame {
     int width = 0;
     int height = 0;
-    std::vector<float> radiance;       ///< RGBA, linear, before exposure; A is the coverage, 0 where nothing was drawn
-    std::vector<std::uint8_t> display; ///< RGBA, display code values
+    std::vector<float> radiance;       ///< RGBA, linear, before exposure; A is the share of the pixel that is covered
+    std::vector<std::uint8_t> display; ///< RGBA, display code values; empty where the settings did not ask for them
+};
+
+/// Which lights a drawn frame's pixels visited, and how.
+struct DrawnLists {
+    culling::Choice culling;
+    culling::LightLists lists;             ///< empty where every pixel visits every light
+    shared::FrameConstants constants{};    ///< how a pixel finds its tile, slice and cell
+    std::vector<int> sceneIndex;           ///< by light of the lists: index into Scene::lights
+    std::vector<std::uint32_t> everywhere; ///< lights of the lists that reach everywhere, ascending
 };
 
 /// Renders pictures of one scene, with any technique and settings, on the context that is current. Everything derived
@@ -32,13 +41,15 @@ public:
     /// The picture of the latest draw().
     RenderedFrame download() const;
 
+    /// Depth of the latest draw(): reverse-Z, rows from the bottom, 0 where nothing opaque was drawn.
+    std::vector<float> downloadDepth() const;
+    /// The light lists that the latest draw() really used.
+    DrawnLists downloadLists() const;
+
     RenderedFrame render(Technique technique, const frame::FrameSettings& settings) {
         draw(technique, settings);
         return download();
     }
-
-    /// The light lists that the latest draw() used, whoever built them; none where its pixels visited every light.
-    std::optional<culling::LightLists> lightLists() const;
 
     /// The scene as frames of this spec have it on the GPU. Whoever draws it sets its view first; draw() does.
     frame::SceneGpu& sceneGpu(const frame::FrameSpec& spec);

@@ -7,6 +7,8 @@
 #include "passes/GBufferPass.h"
 #include "passes/GpuLightListsPass.h"
 #include "passes/LightListsPass.h"
+#include "passes/LightVolumesPass.h"
+#include "passes/ResolvePass.h"
 #include "passes/TransparentDepthPass.h"
 
 namespace tessera::recipes {
@@ -23,10 +25,12 @@ constexpr Method kClustered[] = {Method::Cluster, Method::Zbin, Method::None};
 
 constexpr TechniqueInfo kTechniques[] = {
     {Technique::Forward, "forward", "shaded as it is rasterised", "every fragment loops over all lights; the baseline",
-     false, kAllLights},
+     false, kAllLights, true},
     {Technique::ForwardPrepass, "forward_prepass", "depth first, then equal depth only",
-     "each visible pixel once, all lights", false, kAllLights},
+     "each visible pixel once, all lights", false, kAllLights, true},
     {Technique::Deferred, "deferred", "G-buffer", "full screen, each covered pixel once, all lights", true, kAllLights},
+    {Technique::DeferredVolumes, "deferred_volumes", "G-buffer",
+     "one proxy volume a light, depth tested, added by blending", true, kAllLights},
     {Technique::TiledDeferred, "tiled_deferred", "G-buffer", "full screen, each covered pixel once, its tile's lights",
      true, kTiled},
     {Technique::ForwardPlus, "forward_plus", "depth first, then equal depth only",
@@ -48,16 +52,23 @@ struct Recipe {
         return ForwardPass::add(frame.graph, spec, params, inputs, resources);
     }
     TextureHandle depthPrepass() {
-        frame.programs.push_back(DepthPrepass::program(spec));
-        return DepthPrepass::add(frame.graph, spec, resources).depth;
+        frame.programs.push_back(DepthPrepass::program(spec, {}));
+        return DepthPrepass::add(frame.graph, spec, {}, resources).depth;
     }
     GBufferPass::Outputs gbuffer() {
         frame.programs.push_back(GBufferPass::program(spec));
         return GBufferPass::add(frame.graph, spec, resources);
     }
-    TextureHandle deferredLighting(const GBufferPass::Outputs& gbuffer) {
-        frame.programs.push_back(DeferredLightingPass::program(spec));
-        return DeferredLightingPass::add(frame.graph, spec, {gbuffer.channels, gbuffer.depth, frame.lists}, resources)
+    TextureHandle deferredLighting(const DeferredLightingPass::Params& params, const GBufferPass::Outputs& gbuffer) {
+        frame.programs.push_back(DeferredLightingPass::program(spec, params));
+        return DeferredLightingPass::add(frame.graph, spec, params, {gbuffer.channels, gbuffer.depth, frame.lists},
+                                         resources)
+            .radiance;
+    }
+    TextureHandle lightVolumes(const GBufferPass::Outputs& gbuffer, TextureHandle radiance) {
+        if (!LightVolumesPass::isNeeded(spec)) return radiance;
+        frame.programs.push_back(LightVolumesPass::program(spec));
+        return LightVolumesPass::add(frame.graph, spec, {gbuffer.channels, gbuffer.depth, radiance}, resources)
             .radiance;
     }
     /// Light lists for what lies at these depths, where the frame culls lights.
@@ -75,6 +86,12 @@ struct Recipe {
         for (shader::ProgramDesc& program : GpuLightListsPass::programs(spec))
             frame.programs.push_back(std::move(program));
         frame.lists = GpuLightListsPass::add(frame.graph, spec, {depth, transparentDepth}, resources).lists;
+    }
+    /// One sample a pixel of what was drawn with several.
+    TextureHandle resolve(TextureHandle radiance) {
+        if (spec.samples == 1) return radiance;
+        frame.programs.push_back(ResolvePass::program(spec));
+        return ResolvePass::add(frame.graph, spec, {radiance}, resources).resolved;
     }
     TextureHandle display(TextureHandle radiance) {
         frame.programs.push_back(DisplayPass::program());
@@ -102,7 +119,13 @@ OpaquePicture opaqueForwardPrepass(Recipe& recipe) {
 OpaquePicture opaqueDeferred(Recipe& recipe) {
     const GBufferPass::Outputs gbuffer = recipe.gbuffer();
     recipe.lightLists(gbuffer.depth);
-    return {recipe.deferredLighting(gbuffer), gbuffer.depth};
+    return {recipe.deferredLighting({}, gbuffer), gbuffer.depth};
+}
+
+OpaquePicture opaqueDeferredVolumes(Recipe& recipe) {
+    const GBufferPass::Outputs gbuffer = recipe.gbuffer();
+    const TextureHandle unlit = recipe.deferredLighting({.visitsLights = false}, gbuffer);
+    return {recipe.lightVolumes(gbuffer, unlit), gbuffer.depth};
 }
 
 OpaquePicture opaquePicture(Technique technique, Recipe& recipe) {
@@ -113,6 +136,8 @@ OpaquePicture opaquePicture(Technique technique, Recipe& recipe) {
     case Technique::ForwardPlus:
     case Technique::ClusteredForward:
         return opaqueForwardPrepass(recipe);
+    case Technique::DeferredVolumes:
+        return opaqueDeferredVolumes(recipe);
     case Technique::Deferred:
     case Technique::TiledDeferred:
     case Technique::ClusteredDeferred:
@@ -132,13 +157,16 @@ DeclaredFrame declareFrame(Technique technique, const frame::FrameSpec& spec, co
     Recipe recipe{frame, spec, resources};
     const OpaquePicture opaque = opaquePicture(technique, recipe);
     frame.radiance = opaque.radiance;
+    frame.depth = opaque.depth;
     if (spec.features[frame::Feature::Blend]) {
         const ForwardPass::Params params{ForwardPass::Surfaces::Transparent};
         frame.radiance = recipe.forward(params, {opaque.depth, opaque.radiance, frame.lists}).radiance;
     }
+    frame.radiance = recipe.resolve(frame.radiance);
     frame.display = recipe.display(frame.radiance);
     frame.graph.output(frame.radiance);
-    frame.graph.output(frame.display);
+    frame.graph.output(frame.depth);
+    if (spec.settings.display) frame.graph.output(frame.display);
     return frame;
 }
 

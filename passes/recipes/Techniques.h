@@ -16,6 +16,7 @@ enum class Technique : std::uint8_t {
     Forward,
     ForwardPrepass,
     Deferred,
+    DeferredVolumes,
     TiledDeferred,
     ForwardPlus,
     ClusteredDeferred,
@@ -28,13 +29,16 @@ struct TechniqueInfo {
     std::string_view lighting; ///< who lights what, in words
     bool usesGBuffer;
     std::span<const culling::Method> methods; ///< of light culling that it takes, the one it prefers first
+    bool multisamples = false;                ///< takes more than one sample a pixel
 };
 std::span<const TechniqueInfo> techniqueTable();
 
-/// A declared frame. The graph's outputs are radiance and display; both carry alpha 1 where something was drawn.
+/// A declared frame. The graph's outputs are radiance and, where the settings ask for it, display; both of one sample a
+/// pixel. Alpha of radiance is the covered share of the pixel.
 struct DeclaredFrame {
     graph::Graph graph;
     graph::TextureHandle radiance;                ///< RGBA32F, linear
+    graph::TextureHandle depth;                   ///< D32F of opaque surfaces, reverse-Z
     graph::TextureHandle display;                 ///< RGBA8, display code values
     std::vector<shader::ProgramDesc> programs;    ///< every program its passes use
     std::optional<frame::LightListHandles> lists; ///< imported; absent where every pixel visits every light

@@ -16,6 +16,13 @@ glm::dvec3 boxCenter(const scenes::Mesh& mesh) {
     return box.empty() ? glm::dvec3(0.0) : 0.5 * (box.min + box.max);
 }
 
+/// Draw::largestColor of a mesh.
+float largestColor(const scenes::Mesh& mesh) {
+    float largest = mesh.colors.empty() ? 0.0f : 1.0f;
+    for (const glm::vec4& color : mesh.colors) largest = std::max({largest, color.r, color.g, color.b, color.a});
+    return largest;
+}
+
 /// cof M: the matrix of 2x2 minors with their signs; its columns are cross products of M's columns.
 glm::dmat3 cofactor(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
@@ -28,14 +35,16 @@ DrawList makeDrawList(const scenes::Scene& scene) {
     list.worldFromObject = worldFromNodes(scene);
     std::vector<glm::dvec3> centersOS(scene.meshes.size());
     std::transform(scene.meshes.begin(), scene.meshes.end(), centersOS.begin(), boxCenter);
+    std::vector<float> largestColors(scene.meshes.size());
+    std::transform(scene.meshes.begin(), scene.meshes.end(), largestColors.begin(), largestColor);
     for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
         const glm::dmat4& worldFromObject = list.worldFromObject[node];
         const bool mirrored = glm::determinant(glm::dmat3(worldFromObject)) < 0.0;
         for (const scenes::MeshInstance& instance : scene.nodes[node].instances) {
             if (scene.meshes[std::size_t(instance.mesh)].indices.empty()) continue;
             const glm::dvec3 centerWS(worldFromObject * glm::dvec4(centersOS[std::size_t(instance.mesh)], 1.0));
-            const bool colored = !scene.meshes[std::size_t(instance.mesh)].colors.empty();
-            list.draws.push_back({instance.mesh, instance.material, int(node), mirrored, colored, centerWS});
+            list.draws.push_back({instance.mesh, instance.material, int(node), mirrored,
+                                  largestColors[std::size_t(instance.mesh)], centerWS});
         }
     }
     const auto transparent = std::stable_partition(list.draws.begin(), list.draws.end(),
@@ -82,7 +91,7 @@ std::vector<DrawRows> makeDrawRows(const DrawList& list, const CameraView& view)
         for (int c = 0; c < 3; ++c)
             largest = std::max({largest, std::abs(normal[c].x), std::abs(normal[c].y), std::abs(normal[c].z)});
         if (largest > 0.0) normal /= largest;
-        const double extra[3] = {sign, list.draws[i].colored ? 1.0 : 0.0, 0.0};
+        const double extra[3] = {sign, double(list.draws[i].largestColor), 0.0};
         for (int r = 0; r < 3; ++r) {
             rows[i].position[r] = glm::vec4(linear[0][r], linear[1][r], linear[2][r], originLS[r]);
             rows[i].normal[r] = glm::vec4(normal[0][r], normal[1][r], normal[2][r], extra[r]);

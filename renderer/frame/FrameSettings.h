@@ -44,9 +44,14 @@ std::span<const ToneMapInfo> toneMapTable();
 enum class TextureFilter : std::uint8_t { Hardware, Exact };
 enum class LightingSpace : std::uint8_t { World, View };
 
+/// Samples of a pixel that can be asked for; a driver may give more.
+inline constexpr int kSampleCounts[] = {1, 2, 4};
+
 struct FrameSettings {
     glm::ivec2 sizePixels{1280, 720};
-    int camera = 0; ///< index into Scene::cameras
+    int samples = 1;                 ///< of a pixel, one of kSampleCounts
+    std::optional<int> samplesGiven; ///< the driver's own number for them, where one was asked; never fewer
+    int camera = 0;                  ///< index into Scene::cameras
     double timeSeconds = 0.0;
     glm::dvec3 eyeOffsetWS{0.0}; ///< metres, added to the camera's place: benchmarks move the eye between frames
     GBufferLayout layout;
@@ -55,10 +60,12 @@ struct FrameSettings {
     LightingSpace space = LightingSpace::World;
     bool prune = true;
     bool specular = true;
+    double rangeTolerance = 0.0;  ///< unit of colour x intensity: A B C lights end where they fall to it; 0: nowhere
     std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
     culling::Settings culling;
     std::optional<LightingStage> lightOn; ///< of the techniques that light in a pass of its own; open: by backend
     bool softwareBackend = true;          ///< what open choices are made for; the renderer says what it runs on
+    bool display = true; ///< false: nobody looks at display code values, and the display pass is left out
     float exposureEV = 0.0f;
     ToneMap toneMap = ToneMap::None;
 };

@@ -48,6 +48,9 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     } else {
         spec.features = allFeatures();
     }
+    // Half the rounds that a loop may make, so that scanning bitmasks has room beside the lights.
+    constexpr std::size_t kLightsOneByOne = 32768;
+    spec.manyLights = lights.texels.size() > kLightsOneByOne;
     spec.channels = neededChannels(spec.features, settings.layout, settings.view == View::NormalTexel);
     return spec;
 }
@@ -56,7 +59,9 @@ Defines frameDefines(const FrameSpec& spec) {
     Defines defines = featureDefines(spec.features);
     defines.emplace_back("VIEW", std::to_string(int(spec.settings.view)));
     defines.emplace_back("FILTER_EXACT", spec.settings.filter == TextureFilter::Exact ? "1" : "0");
+    defines.emplace_back("LIGHTS_PER_ROUND", spec.manyLights ? "2" : "1");
     defines.emplace_back("SPECULAR_OFF", spec.settings.specular ? "0" : "1");
+    defines.emplace_back("SAMPLES", std::to_string(spec.samples));
     return defines;
 }
 

@@ -19,11 +19,18 @@ struct FrameSpec {
     std::vector<Channel> channels; ///< of the G-buffer, by attachment
     culling::Choice culling;
     LightingStage lightOn = LightingStage::Fragment; ///< where the technique has a lighting pass
-    std::size_t lights = 0;                          ///< that the frame's pixels may visit
-    bool lightsEverywhere = false;                   ///< some lights reach everywhere, while others do not
+    std::size_t lights = 0;        ///< that the frame's pixels may visit
+    bool manyLights = false;       ///< one light a round of a shader's loop would be too few (lib/light_cursor.glsl)
+    bool lightsEverywhere = false; ///< some lights reach everywhere, while others do not
+    int samples = 1;               ///< that the pixels of render targets have
 
+    /// A texture of the picture's size.
     graph::TextureDesc texture(graph::Format format) const {
         return {format, settings.sizePixels.x, settings.sizePixels.y, 1};
+    }
+    /// What geometry is drawn into: the same with the frame's samples.
+    graph::TextureDesc renderTarget(graph::Format format) const {
+        return {format, settings.sizePixels.x, settings.sizePixels.y, samples};
     }
 };
 FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings);

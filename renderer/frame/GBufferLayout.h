@@ -49,8 +49,8 @@ struct LayoutInfo {
 std::span<const LayoutInfo> layoutTable();
 
 /// The channels that surfaces of these features need, in table order: attachment i is element i. `normalTexel` is for
-/// the view that shows it. In fp32 the fourth components of albedo and normal are free: alpha and metallic go there, and
-/// the microsurface channel is left out, where all surfaces are metallic_roughness with the usual specular lobe.
+/// the view that shows it. In fp32 the fourth components of albedo and normal are free: alpha and metallic go there,
+/// and the microsurface channel is left out, where all surfaces are metallic_roughness with the usual specular lobe.
 std::vector<Channel> neededChannels(const FeatureSet& features, const GBufferLayout& layout, bool normalTexel);
 
 /// GBUFFER_<NAME> = attachment and GBUFFER_<NAME>_PACKED = 0 or 1 of each channel; GBUFFER_SPARE_COMPONENTS where alpha

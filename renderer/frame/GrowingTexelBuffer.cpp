@@ -15,9 +15,13 @@ GrowingTexelBuffer::GrowingTexelBuffer(std::string label, graph::Format format)
     texels_ = std::make_unique<gpu::TexelBuffer>(label_, format_, buffer_);
 }
 
+std::size_t GrowingTexelBuffer::texelBytes() const {
+    return std::size_t(graph::formatInfo(format_).bytes);
+}
+
 void GrowingTexelBuffer::require(std::size_t texels) {
-    const auto texelBytes = std::size_t(graph::formatInfo(format_).bytes);
-    if (texels * texelBytes <= buffer_.bytes()) return;
+    used_ = texels;
+    if (texels * texelBytes() <= buffer_.bytes()) return;
     const std::size_t most = gpu::Context::current()->capabilities().maxTextureBufferTexels;
     const char* const remedy =
         "larger tiles (--tile 64), another --culling method or fewer lights (--lights N) need less";
@@ -25,7 +29,7 @@ void GrowingTexelBuffer::require(std::size_t texels) {
         throw InputError(
             fmt::format("{} would take {} entries, and this driver reads {}: {}", label_, texels, most, remedy));
     }
-    const std::size_t bytes = std::min(texels + texels / 4, most) * texelBytes;
+    const std::size_t bytes = std::min(texels + texels / 4, most) * texelBytes();
     try {
         texels_.reset();
         buffer_ = gpu::Buffer(label_, bytes, gpu::BufferUse::Dynamic);

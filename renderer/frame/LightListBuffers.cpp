@@ -36,19 +36,11 @@ std::vector<graph::ImportedBuffer> LightListBuffers::imported(const LightListHan
 
 void LightListBuffers::requireTiles(std::size_t count) {
     tiles.require(count);
-    held.tiles = count;
 }
 
 void LightListBuffers::requireLists(std::size_t cellCount, std::size_t entryCount) {
     cells.require(cellCount);
     entries.require(entryCount);
-    held.cells = cellCount;
-    held.entries = entryCount;
-}
-
-culling::LightLists LightListBuffers::download() const {
-    return {tiles.buffer().downloadAs<shared::LightTile>(held.tiles), cells.buffer().downloadAs<glm::uvec2>(held.cells),
-            entries.buffer().downloadAs<std::uint32_t>(held.entries)};
 }
 
 void LightListBuffers::upload(const culling::LightLists& lists) {
@@ -57,6 +49,18 @@ void LightListBuffers::upload(const culling::LightLists& lists) {
     tiles.buffer().upload(lists.tiles);
     cells.buffer().upload(lists.cells);
     entries.buffer().upload(lists.entries);
+}
+
+culling::LightLists LightListBuffers::download() const {
+    culling::LightLists lists;
+    const auto all = [](const GrowingTexelBuffer& from, auto& values) {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        values = from.buffer().downloadAs<Value>(from.used() * from.texelBytes() / sizeof(Value));
+    };
+    all(tiles, lists.tiles);
+    all(cells, lists.cells);
+    all(entries, lists.entries);
+    return lists;
 }
 
 void LightListBuffers::bind() const {

@@ -33,11 +33,6 @@ struct LightListBuffers {
     GrowingTexelBuffer cells{"light cells", graph::Format::Rg32Uint};
     GrowingTexelBuffer entries{"light entries", graph::Format::R32Uint};
 
-    /// How much of the buffers the latest lists take up.
-    struct Held {
-        std::size_t tiles = 0, cells = 0, entries = 0;
-    } held;
-
     // For lists that the CPU builds: memory that the depth buffer is read into.
     culling::LightListBuilder builder;
     std::vector<float> depth, transparentDepth;
@@ -53,7 +48,7 @@ struct LightListBuffers {
     void requireTiles(std::size_t tiles);
     void requireLists(std::size_t cells, std::size_t entries);
     void upload(const culling::LightLists& lists);
-    /// What the buffers hold, whoever built it; waits for the GPU.
+    /// The lists of the latest frame, whoever built them; waits for the GPU.
     culling::LightLists download() const;
     /// Binds all three where the light cursor reads them.
     void bind() const;

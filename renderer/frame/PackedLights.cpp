@@ -2,35 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tessera::frame {
 
 namespace {
 
-/// colour x intensity, held inside fp32 so that an extreme light is very bright rather than infinite.
-glm::vec3 lightColor(const scenes::Light& light) {
-    const glm::dvec3 product = glm::dvec3(light.color) * double(light.intensity);
-    return glm::vec3(glm::min(product, glm::dvec3(1e30)));
-}
-
-bool isDark(const scenes::Light& light) {
-    if (lightColor(light) == glm::vec3(0.0f)) return true;
-    if (light.type == scenes::LightType::Directional) return false;
-    if (light.falloff == scenes::Falloff::InverseSquare && !(light.rangeMetres > 0.0f)) return true;
+bool isDark(const scenes::Light& light, double reach) {
+    if (glm::vec3(lightColor(light)) == glm::vec3(0.0f) || reach == 0.0) return true;
     return light.type == scenes::LightType::Spot && !(light.outerConeRadians > 0.0f);
 }
 
-/// The distance beyond which the light is exactly 0, in metres.
-double reachMetres(const scenes::Light& light) {
-    if (light.type == scenes::LightType::Directional || light.falloff == scenes::Falloff::Attenuation) {
-        return std::numeric_limits<double>::infinity();
-    }
-    return light.rangeMetres;
-}
-
-bool isUnseen(const scenes::Light& light, const CameraView& view) {
-    const double reach = reachMetres(light);
+bool isUnseen(const scenes::Light& light, double reach, const CameraView& view) {
     if (std::isinf(reach)) return false;
     const glm::dvec4 position(view.positionLS(light.positionWS), 1.0);
     // The margin covers what rounding the packed position and the rebuilt surface positions to fp32 can move.
@@ -40,8 +22,10 @@ bool isUnseen(const scenes::Light& light, const CameraView& view) {
 }
 
 /// 1/range^2, rounded up by eight times fp32's step: the shader multiplies it with a squared distance that three
-/// roundings may have made too small, and at the range the light must be exactly 0.
+/// roundings may have made too small, and at the range the light must be exactly 0. A range whose square comes near the
+/// end of fp32 is packed as none: no position is that far.
 float inverseSquaredRange(double rangeMetres) {
+    if (rangeMetres > 1e18) return 0.0f;
     return float((1.0 + 0x1p-20) / (rangeMetres * rangeMetres));
 }
 
@@ -51,7 +35,7 @@ struct PackedLight {
     shared::LightShapeTexels shape{};
 };
 
-PackedLight packLight(const scenes::Light& light, const CameraView& view) {
+PackedLight packLight(const scenes::Light& light, double reach, const CameraView& view) {
     PackedLight result;
     shared::LightTexels& packed = result.texels;
     const glm::dvec3 travelLS = view.lsFromWorld * light.directionWS;
@@ -59,8 +43,7 @@ PackedLight packLight(const scenes::Light& light, const CameraView& view) {
     if (light.type == scenes::LightType::Directional) {
         packed.position = glm::vec4(glm::vec3(-travelLS), 0.0f);
     } else {
-        packed.position =
-            glm::vec4(glm::vec3(view.positionLS(light.positionWS)), inverseSquaredRange(reachMetres(light)));
+        packed.position = glm::vec4(glm::vec3(view.positionLS(light.positionWS)), inverseSquaredRange(reach));
         kind = light.type == scenes::LightType::Spot ? LIGHT_SPOT : LIGHT_POINT;
         if (light.falloff == scenes::Falloff::Attenuation) {
             kind |= LIGHT_ATTENUATION;
@@ -74,7 +57,7 @@ PackedLight packLight(const scenes::Light& light, const CameraView& view) {
         result.shape.axis = glm::vec4(glm::vec3(travelLS), float(scale));
         result.shape.attenuation.w = float(-cosOuter * scale);
     }
-    packed.color = glm::vec4(isDark(light) ? glm::vec3(0.0f) : lightColor(light), float(kind));
+    packed.color = glm::vec4(isDark(light, reach) ? glm::vec3(0.0f) : glm::vec3(lightColor(light)), float(kind));
     return result;
 }
 
@@ -99,12 +82,14 @@ PackedLights packLights(const scenes::Scene& scene, const CameraView& view, cons
             continue;
         }
         if (firstOn < 0) firstOn = int(i);
-        if (settings.prune && isDark(light)) {
+        lights.truncated.add(light, settings.rangeTolerance);
+        const double reach = reachMetres(light, settings.rangeTolerance);
+        if (settings.prune && isDark(light, reach)) {
             ++lights.dark;
-        } else if (settings.prune && isUnseen(light, view)) {
+        } else if (settings.prune && isUnseen(light, reach, view)) {
             ++lights.unseen;
         } else {
-            const PackedLight packed = packLight(light, view);
+            const PackedLight packed = packLight(light, reach, view);
             lights.texels.push_back(packed.texels);
             lights.shapes.push_back(packed.shape);
             // Directional lights and infinite ranges.

@@ -4,6 +4,7 @@
 #include "renderer/frame/CameraView.h"
 #include "renderer/frame/Features.h"
 #include "renderer/frame/FrameSettings.h"
+#include "renderer/frame/LightReach.h"
 #include "scenes/Scene.h"
 #include "shaders/shared/light.h"
 
@@ -22,6 +23,7 @@ struct PackedLights {
     std::size_t off = 0;        ///< left out: disabled, or not the solo light
     std::size_t dark = 0;       ///< left out: no intensity, no range or no cone
     std::size_t unseen = 0;     ///< left out: the range ends outside the view
+    TruncatedLights truncated;  ///< what settings.rangeTolerance did to those that are on, left out or not
 };
 
 /// Packs the scene's lights as they are at settings.timeSeconds. Without settings.prune only lights that are off are

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace tessera::gpu {
 
@@ -17,6 +18,9 @@ struct Capabilities {
     std::size_t maxStorageBlockBytes = 0;
     int maxTextureSize = 0; ///< texels, of a 2D texture's side
     int maxSamples = 0;     ///< of colour textures
+    /// Samples that textures of RGBA32F, R32F and D32F can all have, ascending from 1. A driver gives the next larger
+    /// of its own numbers for one that it lacks.
+    std::vector<int> renderTargetSamples{1};
     float maxAnisotropy = 1.0f;
     bool parallelShaderCompile = false; ///< KHR_parallel_shader_compile
 };

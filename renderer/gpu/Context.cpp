@@ -41,6 +41,29 @@ bool hasExtension(std::string_view wanted) {
     return false;
 }
 
+/// Samples of multisampled textures of this format, descending as GL lists them.
+std::vector<int> samplesOf(GLenum internalFormat) {
+    GLint count = 0;
+    glGetInternalformativ(GL_TEXTURE_2D_MULTISAMPLE, internalFormat, GL_NUM_SAMPLE_COUNTS, 1, &count);
+    std::vector<int> samples(std::size_t(std::max(count, 0)));
+    if (!samples.empty())
+        glGetInternalformativ(GL_TEXTURE_2D_MULTISAMPLE, internalFormat, GL_SAMPLES, count, samples.data());
+    return samples;
+}
+
+std::vector<int> commonSamples() {
+    std::vector<int> common{1};
+    for (const int samples : samplesOf(GL_RGBA32F)) {
+        const auto has = [&](GLenum internalFormat) {
+            const std::vector<int> others = samplesOf(internalFormat);
+            return std::find(others.begin(), others.end(), samples) != others.end();
+        };
+        if (samples > 1 && has(GL_R32F) && has(GL_DEPTH_COMPONENT32F)) common.push_back(samples);
+    }
+    std::sort(common.begin(), common.end());
+    return common;
+}
+
 bool isSoftwareRenderer(std::string renderer) {
     std::transform(renderer.begin(), renderer.end(), renderer.begin(),
                    [](unsigned char c) { return char(std::tolower(c)); });
@@ -71,6 +94,7 @@ Capabilities readCapabilities(std::string contextWay) {
     capabilities.maxStorageBlockBytes = std::size_t(integer(GL_MAX_SHADER_STORAGE_BLOCK_SIZE));
     capabilities.maxTextureSize = int(integer(GL_MAX_TEXTURE_SIZE));
     capabilities.maxSamples = int(integer(GL_MAX_COLOR_TEXTURE_SAMPLES));
+    capabilities.renderTargetSamples = commonSamples();
     if (hasExtension("GL_ARB_texture_filter_anisotropic") || hasExtension("GL_EXT_texture_filter_anisotropic"))
         glGetFloatv(kMaxTextureMaxAnisotropy, &capabilities.maxAnisotropy);
     capabilities.parallelShaderCompile = GLAD_GL_KHR_parallel_shader_compile != 0;

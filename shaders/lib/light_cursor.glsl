@@ -1,6 +1,7 @@
 // Which lights a pixel visits, always in ascending index order, so that every technique adds the same terms in the same
 // order. LIGHT_CURSOR says how: ALL lights of the frame; the LIST of the pixel's cell, merged with the lights that reach
-// everywhere; or the BITS that the pixel's tile and depth bin have in common (shared/light_lists.h).
+// everywhere; the BITS that the pixel's tile and depth bin have in common (shared/light_lists.h); or NONE, where lights are
+// added by other passes.
 #pragma once
 #include "lib/camera.glsl"
 #include "shared/light_lists.h"
@@ -8,11 +9,12 @@
 #define LIGHT_CURSOR_ALL 0
 #define LIGHT_CURSOR_LIST 1
 #define LIGHT_CURSOR_BITS 2
+#define LIGHT_CURSOR_NONE 3
 #ifndef LIGHT_CURSOR
 #define LIGHT_CURSOR LIGHT_CURSOR_ALL
 #endif
 
-#if LIGHT_CURSOR != LIGHT_CURSOR_ALL
+#if LIGHT_CURSOR == LIGHT_CURSOR_LIST || LIGHT_CURSOR == LIGHT_CURSOR_BITS
 layout(binding = TEXTURE_UNIT_LIGHT_TILES) uniform usamplerBuffer lightTiles;
 layout(binding = TEXTURE_UNIT_LIGHT_CELLS) uniform usamplerBuffer lightCells;
 layout(binding = TEXTURE_UNIT_LIGHT_ENTRIES) uniform usamplerBuffer lightEntries;
@@ -34,7 +36,7 @@ uint depthSlice(float depth, uint slices)
 }
 #endif
 
-#if LIGHT_CURSOR == LIGHT_CURSOR_ALL
+#if LIGHT_CURSOR == LIGHT_CURSOR_ALL || LIGHT_CURSOR == LIGHT_CURSOR_NONE
 
 struct LightCursor {
     int next;
@@ -43,7 +45,11 @@ struct LightCursor {
 
 LightCursor lightCursor(vec2 pixel, float depth)
 {
+#if LIGHT_CURSOR == LIGHT_CURSOR_NONE
+    return LightCursor(0, 0);
+#else
     return LightCursor(0, int(frame.lights.x));
+#endif
 }
 
 bool nextLight(inout LightCursor cursor, out int light)
@@ -51,6 +57,12 @@ bool nextLight(inout LightCursor cursor, out int light)
     light = cursor.next;
     cursor.next += 1;
     return light < cursor.end;
+}
+
+bool nextBatch(inout LightCursor cursor, out int light)
+{
+    light = 0;
+    return false;
 }
 
 #elif LIGHT_CURSOR == LIGHT_CURSOR_LIST
@@ -119,6 +131,12 @@ bool nextLight(inout LightCursor cursor, out int light)
 #endif
 }
 
+bool nextBatch(inout LightCursor cursor, out int light)
+{
+    light = 0;
+    return false;
+}
+
 #else
 
 struct LightCursor {
@@ -139,15 +157,23 @@ LightCursor lightCursor(vec2 pixel, float depth)
 
 bool nextLight(inout LightCursor cursor, out int light)
 {
+    light = cursor.word * 32 + findLSB(cursor.bits);
+    bool found = cursor.bits != 0u;
+    cursor.bits &= cursor.bits - 1u;
+    return found;
+}
+
+// A batch is what a word holds.
+bool nextBatch(inout LightCursor cursor, out int light)
+{
+    light = 0;
     while (cursor.bits == 0u) {
         cursor.word += 1;
         if (cursor.word >= cursor.end) return false;
         cursor.bits = texelFetch(lightEntries, cursor.tileWords + cursor.word).x
                       & texelFetch(lightEntries, cursor.binWords + cursor.word).x;
     }
-    light = cursor.word * 32 + findLSB(cursor.bits);
-    cursor.bits &= cursor.bits - 1u;
-    return true;
+    return nextLight(cursor, light);
 }
 
 #endif

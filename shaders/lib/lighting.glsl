@@ -70,25 +70,46 @@ vec3 reflectedShare(Surface surface, vec3 toLight, vec3 toViewer)
     return reflected;
 }
 
+// Whether any light changes the surface.
+bool takesLight(Surface surface)
+{
+#if HAS_SINGLE_COLOR
+    return surface.model != MODEL_SINGLE_COLOR;
+#else
+    return true;
+#endif
+}
+
+// Radiance towards the viewer that one light adds to a surface that takes light.
+vec3 lightOnSurface(int light, Surface surface, Viewpoint viewpoint)
+{
+    precise vec3 added = vec3(0.0);
+    Incident incident;
+    if (incidentLight(light, viewpoint.positionLS, incident)) {
+        precise vec3 reflected = reflectedShare(surface, incident.toLightLS, viewpoint.toViewerLS);
+        added = reflected * incident.intensity;
+    }
+    return added;
+}
+
 // Radiance of the surface towards the viewer: its emission and every light its cursor visits, in ascending order.
 vec3 shadeSurface(Surface surface, Viewpoint viewpoint, vec2 pixel)
 {
     precise vec3 radiance = surface.emission;
 #if HAS_LIT_MODELS
-#if HAS_SINGLE_COLOR
-    if (surface.model == MODEL_SINGLE_COLOR) return radiance;
-#endif
+    if (!takesLight(surface)) return radiance;
     LightCursor cursor = lightCursor(pixel, viewpoint.depth);
     int light;
-    if (!nextLight(cursor, light)) return radiance;
+    if (!nextLight(cursor, light) && !nextBatch(cursor, light)) return radiance;
     // Tested at the end: rasterisers that mask lanes instead of branching would run a loop's body once more than its lights.
     do {
-        Incident incident;
-        if (incidentLight(light, viewpoint.positionLS, incident)) {
-            precise vec3 reflected = reflectedShare(surface, incident.toLightLS, viewpoint.toViewerLS);
-            radiance += reflected * incident.intensity;
-        }
-    } while (nextLight(cursor, light));
+        do {
+            radiance += lightOnSurface(light, surface, viewpoint);
+#if LIGHTS_PER_ROUND == 2
+            if (nextLight(cursor, light)) radiance += lightOnSurface(light, surface, viewpoint);
+#endif
+        } while (nextLight(cursor, light));
+    } while (nextBatch(cursor, light));
 #endif
     return radiance;
 }

@@ -21,7 +21,7 @@ layout(location = 3) in vec2 texCoord1;
 #endif
 #if HAS_VERTEX_COLOR
 layout(location = 4) in vec4 vertexColor;
-layout(location = 8) flat in float vertexColored;
+layout(location = 8) flat in float largestColor; // 0 without vertex colours
 #endif
 
 Fragment rasterisedFragment()
@@ -50,7 +50,12 @@ Fragment rasterisedFragment()
 #endif
 #endif
 #if HAS_VERTEX_COLOR
-    if (vertexColored != 0.0) fragment.color = vertexColor;
+    if (largestColor != 0.0) fragment.color = vertexColor;
+#if SAMPLES > 1
+    // A pixel's centre may lie outside the triangle, where colours go on beyond those of the vertices. Not
+    // `centroid`, whose point may depend on what the depth test leaves, and so on whether there was a prepass.
+    fragment.color = clamp(fragment.color, 0.0, max(largestColor, 1.0));
+#endif
 #endif
     fragment.frontFacing = gl_FrontFacing;
     return fragment;

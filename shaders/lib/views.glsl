@@ -43,12 +43,18 @@ vec3 visitedLightsView(Surface surface, Viewpoint viewpoint, vec2 pixel)
 {
     int count = 0;
 #if HAS_LIT_MODELS
-#if HAS_SINGLE_COLOR
-    if (surface.model == MODEL_SINGLE_COLOR) return vec3(0.0);
-#endif
+    if (!takesLight(surface)) return vec3(0.0);
     LightCursor cursor = lightCursor(pixel, viewpoint.depth);
     int light;
-    while (nextLight(cursor, light)) count += 1;
+    if (!nextLight(cursor, light) && !nextBatch(cursor, light)) return vec3(0.0);
+    do {
+        do {
+            count += 1;
+#if LIGHTS_PER_ROUND == 2
+            if (nextLight(cursor, light)) count += 1;
+#endif
+        } while (nextLight(cursor, light));
+    } while (nextBatch(cursor, light));
 #endif
     return vec3(float(count));
 }

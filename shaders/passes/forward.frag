@@ -1,5 +1,7 @@
 // Shades surfaces as they are rasterised.
 #include "lib/rasterised.glsl"
+#include "lib/coverage.glsl"
+#include "lib/shading_depth.glsl"
 #include "lib/views.glsl"
 
 layout(location = 0) out vec4 radiance;
@@ -9,8 +11,9 @@ void main()
     Fragment fragment = rasterisedFragment();
     vec4 baseColor = materialBaseColor(fragment);
     Surface surface = surfaceFromMaterial(fragment, baseColor);
-    if (materialCutOut(baseColor)) discard;
-    Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, gl_FragCoord.z);
+    float depth = shadingDepth();
+    if (coversNothing(baseColor)) discard;
+    Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, depth);
     precise vec3 viewed = viewedRadiance(surface, viewpoint, gl_FragCoord.xy);
 #if BLENDED
     radiance = vec4(viewed, clamp(baseColor.a, 0.0, 1.0));

@@ -10,7 +10,7 @@ layout(location = ATTRIBUTE_TEXCOORD1) in vec2 inTexCoord1;
 layout(location = ATTRIBUTE_COLOR) in vec4 inColor;
 
 // Per draw: rows of LS-from-object, and of its cofactor matrix times the sign of its determinant (xyz; w of the first row is
-// that sign, w of the second is 1 when the mesh has vertex colours).
+// that sign, w of the second the largest of the mesh's vertex colours, 0 when it has none).
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0) in vec4 drawRow0;
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0 + 1) in vec4 drawRow1;
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0 + 2) in vec4 drawRow2;
@@ -33,7 +33,7 @@ layout(location = 3) out vec2 texCoord1;
 #endif
 #if HAS_VERTEX_COLOR
 layout(location = 4) out vec4 vertexColor;
-layout(location = 8) flat out float vertexColored;
+layout(location = 8) flat out float largestColor;
 #endif
 #if HAS_OBJECT_SPACE_NORMALS && !DEPTH_ONLY
 layout(location = 5) flat out vec3 normalFromObject0;
@@ -67,6 +67,6 @@ void main()
 #endif
 #if HAS_VERTEX_COLOR
     vertexColor = inColor;
-    vertexColored = drawNormal1.w;
+    largestColor = drawNormal1.w;
 #endif
 }

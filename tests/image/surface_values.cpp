@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -106,6 +107,51 @@ TEST_F(SurfaceValues, anObjectSpaceMapAlwaysTurnsWithItsObjectAndATangentSpaceMa
     EXPECT_EQ(center(scene).r, objectSpace);
     scene.materials[0].normalMapSpace = scenes::NormalMapSpace::Tangent;
     EXPECT_LT(center(scene).r, 0.5f * objectSpace);
+}
+
+/// A normal that leans to the right and, more, upwards.
+constexpr std::array<int, 4> kTilted = {176, 208, 216, 255};
+
+TEST_F(SurfaceValues, aTangentSpaceMapAlwaysTiltsAlongItsTextureWhereverTheMirroringIs) {
+    Material material;
+    material.model = MaterialModel::Lambert;
+    const glm::dvec3 lightWS(0.8, 1.1, 1.0);
+    for (const bool mirroredTexture : {false, true}) {
+        // Tangent space has x along u and y along -v, which is up in all four of these.
+        glm::dvec3 normalWS = glm::normalize(glm::dvec3(kTilted[0], kTilted[1], kTilted[2]) * 2.0 / 255.0 - 1.0);
+        if (mirroredTexture) normalWS.x = -normalWS.x;
+        for (const bool mirroredNode : {false, true}) {
+            for (const bool authored : {false, true}) {
+                SCOPED_TRACE(testing::Message() << "texture " << mirroredTexture << ", node " << mirroredNode
+                                                << ", authored tangents " << authored);
+                Scene scene = texturedScene(flatScene(material), TextureSlot::Normal, uniformImage(kTilted));
+                scene.lights = {test::pointLight(lightWS, 2.0f)};
+                scene.cameras[0].farMetres = 4.0; // an orthographic depth has steps of its range / 2^24
+                scenes::Mesh& mesh = scene.meshes[0];
+                if (mirroredTexture) {
+                    for (glm::vec2& uv : mesh.texCoords[0]) uv.x = 1.0f - uv.x;
+                }
+                if (mirroredNode) { // what the world sees stays the same
+                    scene.nodes[0].parentFromNode = glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1));
+                    for (glm::vec3& positionOS : mesh.positionsOS) positionOS.x = -positionOS.x;
+                    std::ranges::reverse(mesh.indices);
+                }
+                const float along = mirroredTexture != mirroredNode ? -1.0f : 1.0f; // u, on the object's x axis
+                if (authored) mesh.tangentsOS.assign(4, {along, 0.0f, 0.0f, along});
+                const recipes::RenderedFrame shown = frame(scene);
+                for (int y = 0; y < kSide; ++y) {
+                    for (int x = 0; x < kSide; ++x) {
+                        const glm::dvec3 positionWS(2.0 * (x + 0.5) / kSide - 1.0, 1.0 - 2.0 * (y + 0.5) / kSide, 0.0);
+                        const glm::dvec3 toLight = lightWS - positionWS;
+                        const double distance = glm::length(toLight);
+                        const double cosine = std::max(0.0, glm::dot(normalWS, toLight) / distance);
+                        // Roundings of position, normal and falloff, ten of 2^-24 on values below 2.
+                        EXPECT_NEAR(pixel(shown, x, y).r, 2.0 * cosine / (distance * distance), 2e-6) << x << "," << y;
+                    }
+                }
+            }
+        }
+    }
 }
 
 TEST_F(SurfaceValues, aNormalScaleOfZeroIsAlwaysTheFlatSurface) {

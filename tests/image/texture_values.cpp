@@ -157,5 +157,75 @@ TEST_F(TextureValues, secondUvSetAndVertexColoursAlwaysCountExactly) {
                 1e-6f); // interpolation rounds
 }
 
+class ExactFilter : public FlatTest {
+protected:
+    static constexpr int kWidth = 8, kHeight = 4; ///< texels
+
+    /// Every texel has its own place as its colour.
+    static scenes::Image placeImage() {
+        std::vector<glm::vec4> texels;
+        for (int y = 0; y < kHeight; ++y) {
+            for (int x = 0; x < kWidth; ++x) texels.emplace_back(float(x), float(y), 0.0f, 1.0f);
+        }
+        scenes::Image image;
+        image.name = "places";
+        image.width = kWidth;
+        image.height = kHeight;
+        image.format = scenes::TexelFormat::Rgba32Float;
+        const auto* bytes = reinterpret_cast<const std::byte*>(texels.data());
+        image.texels.assign(bytes, bytes + texels.size() * sizeof(glm::vec4));
+        return image;
+    }
+
+    /// OpenGL 4.5 core, section 8.14.2, "Coordinate Wrapping and Texel Selection".
+    static int wrapped(int index, int size, scenes::Wrap wrap) {
+        const auto modulo = [](int i, int n) { return i - n * int(std::floor(double(i) / n)); };
+        if (wrap == scenes::Wrap::ClampToEdge) return std::clamp(index, 0, size - 1);
+        if (wrap == scenes::Wrap::Repeat) return modulo(index, size);
+        const int beyond = modulo(index, 2 * size) - size;
+        return size - 1 - (beyond >= 0 ? beyond : -(1 + beyond));
+    }
+
+    /// The wrapped index at a place between texel centres, which lie at whole numbers.
+    static double blended(double place, int size, scenes::Wrap wrap) {
+        const int first = int(std::floor(place));
+        const double weight = place - first;
+        return (1.0 - weight) * wrapped(first, size, wrap) + weight * wrapped(first + 1, size, wrap);
+    }
+};
+
+TEST_F(ExactFilter, everyPairOfWrapModesAlwaysFindsAndBlendsItsOwnTexels) {
+    frame::FrameSettings settings;
+    settings.filter = frame::TextureFilter::Exact;
+    Scene scene = texturedScene(flatScene(unlit()), TextureSlot::BaseColor, placeImage());
+    scenes::TextureUse& use = scene.materials[0].texture(TextureSlot::BaseColor);
+    // Pixel (x, y) reads the place (5x, 3y) + start: more than a period before the picture and after it, each way.
+    const glm::dvec2 step(5.0, 3.0), size(kWidth, kHeight);
+    constexpr scenes::Wrap kModes[] = {scenes::Wrap::Repeat, scenes::Wrap::ClampToEdge, scenes::Wrap::MirroredRepeat};
+    for (const glm::dvec2 start : {glm::dvec2(-17.0, -11.0), glm::dvec2(-17.25, -11.625)}) {
+        use.transform.scale = double(kSide) * step / size;
+        use.transform.offset = (start + 0.5 - 0.5 * step) / size;
+        for (const scenes::Wrap wrapU : kModes) {
+            for (const scenes::Wrap wrapV : kModes) {
+                SCOPED_TRACE(testing::Message() << "u " << int(wrapU) << ", v " << int(wrapV) << ", start " << start.x);
+                use.sampler.wrapU = wrapU;
+                use.sampler.wrapV = wrapV;
+                const recipes::RenderedFrame shown = frame(scene, settings);
+                for (int y = 0; y < kSide; ++y) {
+                    for (int x = 0; x < kSide; ++x) {
+                        const glm::dvec2 place = step * glm::dvec2(x, y) + start;
+                        const glm::vec4 found = pixel(shown, x, y);
+                        // Coordinates of up to 4 are rounded to 2^-22; times 8 texels, whose neighbours differ by up
+                        // to 7.
+                        constexpr double kRounding = 2e-5;
+                        EXPECT_NEAR(found.r, blended(place.x, kWidth, wrapU), kRounding) << "column " << x;
+                        EXPECT_NEAR(found.g, blended(place.y, kHeight, wrapV), kRounding) << "row " << y;
+                    }
+                }
+            }
+        }
+    }
+}
+
 } // namespace
 } // namespace tessera

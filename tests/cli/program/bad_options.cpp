@@ -65,11 +65,24 @@ TEST_F(BadOptions, sizesThatNoPictureHasAreAlwaysRefused) {
         expectRefused({"--size", size}, {std::string("--size '") + size + "'", "1 to 16384"});
 }
 
+TEST_F(BadOptions, samplesThatCannotBeDrawnAreAlwaysRefused) {
+    for (const char* samples : {"0", "-1", "3", "8"})
+        expectRefused({"--samples", samples, "--technique", "forward"},
+                      {std::string("--samples ") + samples, "a pixel can have 1, 2, 4 samples"});
+    expectRefused({"--samples", "four"}, {"--samples 'four' is not a whole number"});
+    const Words parts{"technique deferred does not take --samples 4", "forward, forward_prepass", "do"};
+    expectRefused({"--samples", "4"}, parts);
+    expectError(kBadInput, {"plan", "room", "--samples", "4"}, parts);
+    expectError(kBadInput, {"compare", "room", "--samples", "4", "--techniques", "forward,deferred"}, parts);
+    expectError(kBadInput, {"compare", "room", "--samples", "4", "--against", "deferred"}, parts);
+}
+
 TEST_F(BadOptions, numbersThatAreNoneAreAlwaysRefused) {
-    for (const char* option : {"--exposure", "--time"})
+    for (const char* option : {"--exposure", "--time", "--range-tolerance"})
         for (const char* value : {"nan", "-inf", "1e999", "1,5", ""})
             expectRefused({option, value}, {std::string(option) + " '" + value + "' is not a finite number"});
     expectRefused({"--exposure", "1000"}, {"--exposure 1000", "-120 to 120"});
+    expectRefused({"--range-tolerance", "-0.1"}, {"--range-tolerance -0.1 is below 0"});
     for (const char* option : {"--lights", "--solo", "--frames"})
         for (const char* value : {"1.5", "99999999999", ""})
             expectRefused({option, value}, {std::string(option) + " '" + value + "' is not a whole number"});

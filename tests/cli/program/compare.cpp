@@ -30,7 +30,8 @@ TEST_F(Compare, theJsonHasExactlyTheDocumentedFields) {
     const std::string table = runGood(lattice({"--json", "c.json", "--layout", "packed"}));
     EXPECT_THAT(table, testing::HasSubstr("deferred vs forward"));
     const Json record = json("c.json");
-    EXPECT_EQ(keysOf(record), (std::set<std::string>{"schema", "scene", "size", "renderer", "pairs"}));
+    EXPECT_EQ(keysOf(record),
+              (std::set<std::string>{"schema", "scene", "size", "samples", "renderer", "pairs", "left_out"}));
     EXPECT_EQ(record["schema"], 1);
     EXPECT_EQ(record["scene"], "lattice");
     EXPECT_EQ(record["size"], Json::parse("[160, 90]"));
@@ -59,6 +60,19 @@ TEST_F(Compare, theJsonHasExactlyTheDocumentedFields) {
     }
     EXPECT_EQ(record["pairs"][0]["a"], "forward_prepass");
     EXPECT_EQ(record["pairs"][0]["bitEqual"], 1.0);
+}
+
+TEST_F(Compare, severalSamplesAlwaysLeaveOutTheTechniquesThatTakeOneAndSaySo) {
+    const std::string table = runGood(lattice({"--samples", "4", "--json", "c.json"}));
+    EXPECT_THAT(table, testing::HasSubstr("forward_prepass vs forward"));
+    EXPECT_THAT(table, testing::HasSubstr("left out: deferred: it does not take --samples 4\n"));
+    const Json record = json("c.json");
+    EXPECT_GE(record["samples"], 4);
+    for (const Json& pair : record["pairs"]) EXPECT_EQ(pair["bitEqual"], 1.0);
+    std::set<std::string> leftOut;
+    for (const Json& item : record["left_out"]) leftOut.insert(item["technique"]);
+    EXPECT_TRUE(leftOut.contains("deferred"));
+    EXPECT_FALSE(leftOut.contains("forward"));
 }
 
 TEST_F(Compare, techniquesAreExactlyThoseAskedForAndHeatMapsAlwaysShowEach) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>
@@ -56,6 +57,55 @@ TEST_F(FrameOptions, exposureAlwaysMultipliesTheDisplayPictureByTwoToItsPower) {
     EXPECT_NEAR(red("-1"), 0.125f, step);
     EXPECT_EQ(red("9"), 1.0f);
     EXPECT_EQ(pictureOf({"--exposure", "1"}).pixel(0)[0], 0.25f) << "radiance is before exposure";
+}
+
+/// Falls to 0.5 at 4 m and 2 m from itself, of which the square is 1 m away.
+constexpr const char* kTwoAttenuated = R"([
+    {"type": "point", "position": [1, 0, 1], "intensity": 8, "falloff": {"type": "attenuation", "C": 0.5, "A": 8}},
+    {"type": "point", "position": [-1, 0.5, 1], "intensity": 2, "falloff": {"type": "attenuation", "C": 1}}])";
+
+TEST_F(FrameOptions, aRangeToleranceAlwaysDropsLightAndPlanAndCompareTellHowMuch) {
+    writeQuad(kGlossy, kTwoAttenuated);
+    const Picture whole = pictureOf({}), cut = pictureOf({"--range-tolerance", "0.5"});
+    EXPECT_LT(mean(cut), mean(whole));
+    EXPECT_EQ(pictureOf({"--range-tolerance", "0"}).rgba, whole.rgba) << "0 is the default";
+
+    EXPECT_THAT(runGood({"plan", "quad.json", "--range-tolerance", "0.5", "--json", "p.json"}),
+                testing::AllOf(testing::HasSubstr("range tolerance"), testing::HasSubstr("2 lights")));
+    const auto choice = [&](const char* what) {
+        const nlohmann::json plan = json("p.json");
+        for (const nlohmann::json& one : plan["choices"])
+            if (one["what"] == what) return one;
+        return nlohmann::json();
+    };
+    EXPECT_EQ(choice("range tolerance")["chosen"], "0.5");
+    EXPECT_EQ(choice("range tolerance")["why"], "2 lights with falloff by A B C made finite, radii 2 m to 4 m");
+    EXPECT_TRUE(choice("light that the range tolerance drops").is_null()) << "not measured";
+    runGood({"plan", "quad.json", "--range-tolerance", "0.5", "--measure", "--size", "48x27", "--json", "p.json"});
+    EXPECT_THAT(choice("light that the range tolerance drops")["chosen"].get<std::string>(),
+                testing::StartsWith("bias -"));
+
+    const std::string table = runGood({"compare", "quad.json", "--size", "48x27", "--range-tolerance", "0.5",
+                                       "--techniques", "tiled_deferred", "--json", "c.json"});
+    EXPECT_THAT(table, testing::HasSubstr("dropped by the range tolerance 0.5: bias -"));
+    const nlohmann::json record = json("c.json");
+    EXPECT_EQ(record["pairs"][0]["ok"], true) << "each technique drops the same";
+    const nlohmann::json& dropped = record["rangeTruncation"];
+    EXPECT_EQ(dropped["tolerance"], 0.5);
+    EXPECT_EQ(dropped["technique"], "forward");
+    EXPECT_GT(dropped["relMse"], 0.0);
+    EXPECT_GT(dropped["p99Rel"], 0.0);
+    const validation::ErrorFigures figures = validation::errorFigures(cut, whole);
+    // Those pictures are files, whose coverage is their alpha; forward and deferred are the same to the last bit.
+    EXPECT_DOUBLE_EQ(dropped["bias"].get<double>(), figures.bias);
+    EXPECT_DOUBLE_EQ(dropped["relMse"].get<double>(), figures.relMse);
+
+    runGood({"compare", "quad.json", "--size", "48x27", "--json", "c.json"});
+    EXPECT_FALSE(json("c.json").contains("rangeTruncation"));
+    rendered({"--range-tolerance", "0.5"}, ".exr");
+    runGood({"compare", "quad.json", "--size", "48x27", "--range-tolerance", "0.5", "--techniques", "deferred",
+             "--against", "4.exr", "--json", "c.json"});
+    EXPECT_EQ(json("c.json")["rangeTruncation"]["technique"], "deferred") << "a picture has no other tolerance";
 }
 
 TEST_F(FrameOptions, everyToneMapAlwaysShowsTheSceneItsOwnWay) {
@@ -147,6 +197,24 @@ TEST_F(FrameOptions, filterExactAlwaysInterpolatesInSinglePrecision) {
         largest = std::max(largest, std::abs(double(exact.pixel(i)[0]) - double(hardware.pixel(i)[0])));
     EXPECT_GT(largest, 0.0);
     EXPECT_LT(largest, 4.0 / 256.0);
+}
+
+TEST_F(FrameOptions, samplesAlwaysSoftenEdgesAndOneChangesNothing) {
+    const Words lattice{"--technique", "forward", "--lights", "4", "--view", "diffuse"};
+    const auto latticeWith = [&](const char* samples) {
+        Words words = lattice;
+        words.insert(words.end(), {"--samples", samples});
+        return pictureOf(words, "lattice");
+    };
+    const Picture one = pictureOf(lattice, "lattice"), four = latticeWith("4");
+    EXPECT_TRUE(latticeWith("1").rgba == one.rgba);
+    EXPECT_GT(validation::errorFigures(four, one).rmse, 0.0);
+    // Edges hold a mean of what lies beside them. Of the 1296 pixels nearly all lie on one, each wrong by half its
+    // contrast of about 1 with one sample: 0.5 / sqrt(1296) is 1.4 %, and three times that is rare.
+    EXPECT_NEAR(mean(four), mean(one), 0.042 * mean(one));
+    // What is only touched by a surface is covered too.
+    EXPECT_GT(std::count(four.covered.begin(), four.covered.end(), 1),
+              std::count(one.covered.begin(), one.covered.end(), 1));
 }
 
 TEST_F(FrameOptions, cameraAlwaysChoosesTheView) {

@@ -26,14 +26,17 @@ struct Probe {
 class IncidentTest : public test::GlTest {
 protected:
     /// The eye is the world's origin and looks along -z, so world and lighting space are one.
-    std::vector<Arrival> run(const std::vector<Light>& sceneLights, const std::vector<Probe>& probes) {
+    std::vector<Arrival> run(const std::vector<Light>& sceneLights, const std::vector<Probe>& probes,
+                             double rangeTolerance = 0.0) {
         scenes::Scene scene;
         scene.lights = sceneLights;
         frame::FrameSettings settings;
         settings.prune = false;
+        settings.rangeTolerance = rangeTolerance;
         const frame::CameraView view =
             frame::makeCameraView(scenes::Camera{}, {64, 64}, frame::LightingSpace::World, glm::vec3(0.0f));
-        packed = frame::packLights(scene, view, settings);
+        const frame::PackedLights packed = frame::packLights(scene, view, settings);
+        frame::LightBuffers lightBuffers;
         lightBuffers.upload(packed);
         lightBuffers.bind();
         std::vector<glm::vec4> inputs;
@@ -46,8 +49,6 @@ protected:
         return arrivals;
     }
     test::ShaderBench bench;
-    frame::PackedLights packed;
-    frame::LightBuffers lightBuffers;
 };
 
 bool isFinite(const glm::vec3& v) {
@@ -148,6 +149,36 @@ TEST_F(IncidentTest, atItsRangeAndBeyondALightIsExactlyZero) {
     const std::vector<Arrival> arrivals = run(lights, probes);
     for (std::size_t i = 0; i < probes.size(); ++i)
         ASSERT_EQ(arrivals[i].intensity, glm::vec3(0.0f)) << "range " << lights[i].rangeMetres << " probe " << i;
+}
+
+TEST_F(IncidentTest, aLightThatAToleranceEndsIsExactlyZeroAtItsReachAndBeyond) {
+    constexpr double kTolerance = 0.01;
+    test::Random random(11);
+    std::vector<Light> lights;
+    std::vector<Probe> probes;
+    for (int i = 0; i < 20000; ++i) {
+        Light light;
+        light.type = i % 2 == 0 ? LightType::Point : LightType::Spot;
+        light.outerConeRadians = 3.0f;
+        light.falloff = Falloff::Attenuation;
+        light.intensity = float(random.logarithmic(0.1, 1e6));
+        light.attenuation = {random.index(2) * random.unit(), random.unit(), random.index(2) * random.unit()};
+        lights.push_back(light);
+        const double reach = frame::reachMetres(light, kTolerance);
+        float place = float(reach);
+        if (place < reach) place = std::nextafter(place, scenes::kInfinity);
+        if (i % 2 == 1) place = std::nextafter(place, scenes::kInfinity);
+        glm::vec3 position(0.0f);
+        position[random.index(3)] = i % 4 < 2 ? place : -place;
+        // Any direction, a distance that fp32 rounds to at least the reach; or well inside, where light arrives.
+        if (i % 3 == 1) position = glm::vec3(random.direction() * (reach * (1.0 + 2e-7)));
+        if (i % 3 == 2) position = glm::vec3(random.around({0, 0, -1}, 0.0, 1.0) * (reach * random.between(0.1, 0.9)));
+        probes.push_back({position, i});
+    }
+    const std::vector<Arrival> arrivals = run(lights, probes, kTolerance);
+    for (std::size_t i = 0; i < probes.size(); ++i)
+        ASSERT_EQ(arrivals[i].intensity.x > 0.0f, i % 3 == 2)
+            << "reach " << frame::reachMetres(lights[i], kTolerance) << " probe " << i;
 }
 
 TEST_F(IncidentTest, extremeLightsNeverSendNaNInfiniteOrNegativeLight) {

@@ -104,7 +104,7 @@ protected:
         const gpu::Framebuffer target({{&radiance}, nullptr});
         gpu::bindFramebuffer(target);
         gpu::setState({});
-        gpu::useProgram(bench.programs().get(passes::DeferredLightingPass::program(spec)));
+        gpu::useProgram(bench.programs().get(passes::DeferredLightingPass::program(spec, {})));
         gpu::bindUniformBuffer(UNIFORM_FRAME, lighting.frameConstants());
         lighting.bindLights(kProductsStore);
         for (std::size_t i = 0; i < stored.channels.size(); ++i)

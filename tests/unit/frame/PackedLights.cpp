@@ -112,6 +112,8 @@ TEST(PackedLights, offDarkAndUnseenLightsAreLeftOutExactlyWhenPruning) {
 
 TEST(PackedLights, aLightThatIsLeftOutNeverReachesAPointInTheFrustum) {
     test::Random random(4);
+    FrameSettings settings;
+    settings.rangeTolerance = 0.01;
     for (const scenes::Projection projection : {scenes::Projection::Perspective, scenes::Projection::Orthographic}) {
         scenes::Camera camera;
         camera.projection = projection;
@@ -122,8 +124,12 @@ TEST(PackedLights, aLightThatIsLeftOutNeverReachesAPointInTheFrustum) {
             lights.push_back(light(random.index(2) == 0 ? LightType::Point : LightType::Spot,
                                    random.direction() * random.between(0.0, 30.0)));
             lights.back().rangeMetres = float(random.between(0.5, 10.0));
+            if (random.index(2) == 0) continue;
+            lights.back().falloff = Falloff::Attenuation;
+            lights.back().attenuation = {random.unit(), random.unit(), random.between(1.0, 100.0)};
         }
-        const PackedLights packed = pack(lights, {}, camera);
+        const PackedLights packed = pack(lights, settings, camera);
+        EXPECT_GT(packed.truncated.ended, 500u);
         EXPECT_GT(packed.unseen, 500u);
         EXPECT_GT(packed.texels.size(), 500u);
         std::vector<bool> kept(lights.size(), false);
@@ -137,7 +143,8 @@ TEST(PackedLights, aLightThatIsLeftOutNeverReachesAPointInTheFrustum) {
             const auto place = [&] { return i % 2 == 0 ? random.between(-1.0, 1.0) : double(random.index(2) * 2 - 1); };
             const glm::dvec3 point(place() * halfHeight * aspect, place() * halfHeight, -depth);
             for (std::size_t j = 0; j < lights.size(); ++j)
-                ASSERT_TRUE(kept[j] || glm::distance(point, lights[j].positionWS) >= double(lights[j].rangeMetres))
+                ASSERT_TRUE(kept[j] || glm::distance(point, lights[j].positionWS) >=
+                                           reachMetres(lights[j], settings.rangeTolerance))
                     << "light " << j;
         }
     }
@@ -150,6 +157,53 @@ TEST(PackedLights, lightsWithoutEndAreNeverLeftOut) {
     EXPECT_EQ(pack({attenuated, light(LightType::Point, {0, 0, 1e6}), light(LightType::Directional, {0, 0, 1e6})})
                   .texels.size(),
               3u);
+}
+
+TEST(PackedLights, aToleranceAlwaysEndsFalloffByABCAndNothingElse) {
+    Light ended = light(LightType::Point);
+    ended.falloff = Falloff::Attenuation;
+    ended.intensity = 8.0f;
+    ended.attenuation = {0.0f, 0.0f, 1.0f}; // 8 / r^2 = 1/2 at 4 m
+    Light below = ended, level = ended, behind = ended, off = ended, black = ended;
+    below.attenuation = {16.0f, 0.0f, 1.0f}; // 1/2 at the light itself
+    level.attenuation = {1.0f, 0.0f, 0.0f};
+    behind.positionWS = {0, 0, 10};
+    behind.attenuation = {0.0f, 0.0f, 4.0f}; // 2 m
+    off.enabled = false;
+    black.color = glm::vec3(0.0f);
+    const std::vector<Light> lights{ended, below, level, behind, off, black, light(LightType::Point)};
+    const PackedLights without = pack(lights);
+    EXPECT_THAT(without.sceneIndex, ElementsAre(0, 1, 2, 3, 6));
+    EXPECT_EQ(without.everywhere, 5u);
+    EXPECT_EQ(without.truncated.endless, 4u);
+    EXPECT_EQ(without.truncated.sum(), 4u);
+    FrameSettings settings;
+    settings.rangeTolerance = 0.5;
+    const PackedLights with = pack(lights, settings);
+    EXPECT_THAT(with.sceneIndex, ElementsAre(0, 2, 6));
+    EXPECT_EQ(with.everywhere, 2u);
+    EXPECT_EQ(with.dark, 2u); // below, black
+    EXPECT_EQ(with.unseen, 1u);
+    EXPECT_GE(with.texels[0].position.w, 1.0f / 16.0f); // rounded up by up to 1e-6 of itself
+    EXPECT_NEAR(with.texels[0].position.w, 1.0f / 16.0f, 1e-6f);
+    EXPECT_EQ(with.truncated.ended, 2u);
+    EXPECT_EQ(with.truncated.belowAlready, 1u);
+    EXPECT_EQ(with.truncated.endless, 1u);
+    EXPECT_NEAR(with.truncated.shortestMetres, 2.0, 1e-14); // a few roundings of double
+    EXPECT_NEAR(with.truncated.longestMetres, 4.0, 1e-14);
+    settings.prune = false;
+    const PackedLights kept = pack(lights, settings);
+    EXPECT_THAT(kept.sceneIndex, ElementsAre(0, 1, 2, 3, 5, 6));
+    EXPECT_EQ(glm::vec3(kept.texels[1].color), glm::vec3(0.0f)) << "dark lights add exactly 0";
+}
+
+TEST(PackedLights, aRangeWhoseSquareLeavesFp32IsAlwaysPackedAsNone) {
+    Light far = light(LightType::Point);
+    far.rangeMetres = 1e17f;
+    EXPECT_GT(pack({far}).texels.at(0).position.w, 0.0f);
+    far.rangeMetres = 1e20f;
+    EXPECT_EQ(pack({far}).texels.at(0).position.w, 0.0f);
+    EXPECT_EQ(pack({far}).everywhere, 1u);
 }
 
 TEST(PackedLights, soloAlwaysLeavesExactlyThatLight) {

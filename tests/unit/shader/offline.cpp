@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/PreparedFrame.h"
 #include "passes/recipes/Renderer.h"
 #include "renderer/shader/ProgramDesc.h"
@@ -59,6 +60,12 @@ std::vector<frame::FrameSettings> settingsThatMatter() {
         settings.specular = false;
         all.push_back(settings);
     }
+    frame::FrameSettings several;
+    several.sizePixels = {64, 36};
+    several.samples = 4;
+    all.push_back(several);
+    several.prune = false;
+    all.push_back(several);
     return all;
 }
 
@@ -101,11 +108,13 @@ std::vector<std::pair<recipes::Technique, frame::FrameSettings>> listBuildersAnd
 /// Adds the variants that frames of the scene would use, by their key.
 void addPrograms(std::map<std::string, shader::ProgramDesc>& programs, const scenes::Scene& scene) {
     for (const frame::FrameSettings& settings : settingsThatMatter()) {
-        if (settings.view == frame::View::Final)
+        if (settings.view == frame::View::Final && settings.samples == 1)
             addFloorPrograms(programs, recipes::prepareFrame(scene, recipes::Technique::Forward, settings).spec);
-        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable())
+        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+            if (!recipes::takesSamples(technique, settings.samples)) continue;
             for (const shader::ProgramDesc& desc : recipes::framePrograms(scene, technique.technique, settings))
                 programs.emplace(desc.key(), desc);
+        }
     }
     for (const auto& [technique, settings] : listBuildersAndStages())
         for (const shader::ProgramDesc& desc : recipes::framePrograms(scene, technique, settings))

@@ -36,7 +36,7 @@ std::vector<std::string> keys(const Json& object) {
 
 TEST(CompareRecord, jsonAlwaysHasExactlyTheAgreedFields) {
     const Json json = Json::parse(compareJson(sampleRecord()));
-    EXPECT_THAT(keys(json), ElementsAre("schema", "scene", "size", "renderer", "pairs"));
+    EXPECT_THAT(keys(json), ElementsAre("schema", "scene", "size", "samples", "renderer", "pairs", "left_out"));
     EXPECT_EQ(json["schema"], 1);
     EXPECT_EQ(json["scene"], "hall");
     EXPECT_EQ(json["size"], Json::parse("[4, 1]"));
@@ -113,6 +113,31 @@ TEST(CompareRecord, theTableAlwaysShowsEveryPairAndWhatItMissed) {
               "packed vs forward     75.000 %  5.0e-01    5.0e-01  2.1e-02  2.7e-02  100 %  MISSED\n"
               "missed: packed vs forward: maxRel is 0.5, at most 0.25 was asked\n"
               "missed: packed vs forward: relMse is 0.0206270627, at most 0.0001 was asked\n");
+}
+
+TEST(CompareRecord, whatARangeToleranceDropsIsAlwaysToldWhereOneIsSet) {
+    const Picture whole = greyPicture(4, 1, 2.f);
+    Picture cut = whole;
+    setPixel(cut, 2, {1.f, 1.f, 1.f});
+    CompareRecord record = sampleRecord();
+    EXPECT_FALSE(Json::parse(compareJson(record)).contains("rangeTruncation"));
+    record.rangeTruncation = {0.25, "forward", errorFigures(cut, whole)};
+    const Json dropped = Json::parse(compareJson(record))["rangeTruncation"];
+    EXPECT_THAT(keys(dropped), ElementsAre("tolerance", "technique", "bias", "relMse", "p99Rel", "why"));
+    EXPECT_EQ(dropped["tolerance"], 0.25);
+    EXPECT_EQ(dropped["technique"], "forward");
+    EXPECT_EQ(dropped["bias"], -0.125); // one pixel of four loses half
+    EXPECT_EQ(dropped["relMse"].get<double>(), record.rangeTruncation->figures.relMse);
+    EXPECT_EQ(dropped["p99Rel"], 0.5);
+    EXPECT_TRUE(dropped["why"].empty());
+    EXPECT_THAT(compareTable(record), testing::EndsWith("dropped by the range tolerance 0.25: bias -1.2e-01, relMSE "
+                                                        "6.2e-02, p99 rel 5.0e-01 (forward against itself without "
+                                                        "it)\n"));
+    const Picture black = greyPicture(4, 1, 0.f);
+    record.rangeTruncation->figures = errorFigures(black, black);
+    const Json nothing = Json::parse(compareJson(record))["rangeTruncation"];
+    EXPECT_TRUE(nothing["bias"].is_null());
+    EXPECT_FALSE(nothing["why"]["bias"].get<std::string>().empty());
 }
 
 TEST(CompareRecord, picturesOfTwoSizesAreAlwaysRefused) {

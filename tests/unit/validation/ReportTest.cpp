@@ -106,6 +106,17 @@ TEST(Report, thePageNeverReachesOutsideItself) {
         EXPECT_TRUE((*found)[2].str().starts_with("data:") || (*found)[2].str().starts_with("#")) << found->str();
 }
 
+TEST(Report, whatARangeToleranceDropsIsAlwaysOnThePage) {
+    Report report = sampleReport();
+    EXPECT_THAT(reportHtml(report), Not(HasSubstr("range tolerance")));
+    const Picture whole = greyPicture(4, 2, 2.f);
+    report.record.rangeTruncation = {0.25, "<forward>", errorFigures(greyPicture(4, 2, 1.f), whole)};
+    const std::string html = reportHtml(report);
+    EXPECT_THAT(html, HasSubstr("range tolerance 0.25 drops, &lt;forward&gt; against itself"));
+    EXPECT_THAT(html, HasSubstr("bias &minus;5.0&#8239;&times;&#8239;10<sup>&minus;1</sup>"));
+    EXPECT_EQ(faultOf(html), "");
+}
+
 TEST(Report, everyPictureIsAlwaysEmbeddedExactlyOnce) {
     const Report report = sampleReport();
     const std::string html = reportHtml(report);

@@ -1,0 +1,34 @@
+#pragma once
+#include <vector>
+
+#include "renderer/frame/FrameResources.h"
+#include "renderer/frame/FrameSpec.h"
+#include "renderer/graph/Graph.h"
+
+namespace tessera::passes {
+
+/// Adds the lights one by one to the picture: of each a proxy volume (shaders/lib/light_volume.glsl) is drawn wherever
+/// a surface lies in front of its back, all in one draw and in document order, which blending keeps.
+/// Reads   G-buffer channels, depth D32F (tested and sampled), the frame's lights
+/// Writes  radiance RGBA32F, linear: added to; alpha stays
+/// Space   lighting space
+/// Source  Hargreaves and Harris 2004, "Deferred Shading"
+struct LightVolumesPass {
+    struct Inputs {
+        std::vector<graph::TextureHandle> channels; ///< by attachment, as FrameSpec::channels
+        graph::TextureHandle depth;
+        graph::TextureHandle radiance; ///< emission and background
+    };
+    struct Outputs {
+        std::vector<graph::TextureHandle> channels; ///< as read
+        graph::TextureHandle depth;                 ///< as read
+        graph::TextureHandle radiance;
+    };
+    /// Whether the frame's view sums over lights, and there are lights and surfaces that take light.
+    static bool isNeeded(const frame::FrameSpec& spec);
+    static shader::ProgramDesc program(const frame::FrameSpec& spec);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
+                       const frame::FrameResources* resources);
+};
+
+} // namespace tessera::passes

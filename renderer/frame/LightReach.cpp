@@ -1,0 +1,56 @@
+#include "renderer/frame/LightReach.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera::frame {
+
+namespace {
+
+bool fallsOffByABC(const scenes::Light& light) {
+    return light.type != scenes::LightType::Directional && light.falloff == scenes::Falloff::Attenuation;
+}
+
+/// The positive root of c + b r + a r^2, where brightest / (A + B r + C r^2) is the tolerance: a = C, b = B,
+/// c = A - brightest / tolerance. As 2c / (-b - sqrt(b^2 - 4ac)), in which nothing cancels, also right for a = 0.
+double truncatedReachMetres(double brightest, const glm::dvec3& abc, double tolerance) {
+    if (abc.y == 0.0 && abc.z == 0.0) return scenes::kInfinity;
+    // Fused, -c keeps all its digits where A is nearly brightest / tolerance: brightest is exact in double, as the
+    // product of two floats.
+    const double minusC = std::fma(-abc.x, tolerance, brightest) / tolerance;
+    if (!(minusC > 0.0)) return 0.0;
+    if (std::isinf(minusC)) return scenes::kInfinity;
+    const double halfB = 0.5 * abc.y;
+    // hypot and two roots: neither b^2 nor ac leaves double, whatever the fp32 coefficients.
+    return minusC / (halfB + std::hypot(halfB, std::sqrt(abc.z) * std::sqrt(minusC)));
+}
+
+} // namespace
+
+glm::dvec3 lightColor(const scenes::Light& light) {
+    return glm::min(glm::dvec3(light.color) * double(light.intensity), glm::dvec3(1e30));
+}
+
+double reachMetres(const scenes::Light& light, double rangeTolerance) {
+    if (light.type == scenes::LightType::Directional) return scenes::kInfinity;
+    if (light.falloff == scenes::Falloff::InverseSquare) return light.rangeMetres;
+    if (rangeTolerance == 0.0) return scenes::kInfinity;
+    const glm::dvec3 color = lightColor(light);
+    return truncatedReachMetres(std::max({color.r, color.g, color.b}), glm::dvec3(light.attenuation), rangeTolerance);
+}
+
+void TruncatedLights::add(const scenes::Light& light, double rangeTolerance) {
+    if (!fallsOffByABC(light) || glm::vec3(lightColor(light)) == glm::vec3(0.0f)) return;
+    const double reach = reachMetres(light, rangeTolerance);
+    if (std::isinf(reach)) {
+        ++endless;
+    } else if (reach > 0.0) {
+        shortestMetres = ended == 0 ? reach : std::min(shortestMetres, reach);
+        longestMetres = std::max(longestMetres, reach);
+        ++ended;
+    } else {
+        ++belowAlready;
+    }
+}
+
+} // namespace tessera::frame

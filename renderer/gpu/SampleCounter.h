@@ -1,0 +1,25 @@
+#pragma once
+#include <cstdint>
+
+#include "renderer/gpu/Id.h"
+
+namespace tessera::gpu {
+
+/// Counts the samples that pass the depth test between begin() and end().
+class SampleCounter {
+public:
+    SampleCounter();
+    ~SampleCounter();
+    SampleCounter(SampleCounter&&) noexcept = default;
+    SampleCounter& operator=(SampleCounter&&) noexcept = default;
+
+    void begin();
+    void end();
+    /// Of the latest begin() and end(); waits for the GPU.
+    std::uint64_t samples() const;
+
+private:
+    Id id_;
+};
+
+} // namespace tessera::gpu

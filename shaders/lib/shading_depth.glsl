@@ -1,0 +1,24 @@
+// The depth at which a fragment is lit. One function for every pass that shades, or that says where shading will happen.
+#pragma once
+
+#if SAMPLES > 1
+// With several samples a pixel is still lit once, where the triangle's plane meets the ray through the pixel's centre.
+// A triangle that covers other samples only may have left the view there: its plane passes behind the eye (0 or less)
+// or before the near plane (more than 1). The samples it does cover lie within half a pixel, so within `reach` of the
+// centre's depth: where the plane could end within the pixel, the nearest depth a sample can have stands in. The result
+// is finite, never before the near plane, and at most twice as far away as a covered sample. The floor matters only
+// where a triangle seen edge-on is so steep that the sum loses its digits.
+float shadingDepth()
+{
+    const float kFloor = 1e-6;
+    precise float reach = 0.5 * (abs(dFdx(gl_FragCoord.z)) + abs(dFdy(gl_FragCoord.z)));
+    precise float nearest = max(gl_FragCoord.z + reach, kFloor);
+    precise float depth = min(gl_FragCoord.z > reach ? gl_FragCoord.z : nearest, 1.0);
+    return depth;
+}
+#else
+float shadingDepth()
+{
+    return gl_FragCoord.z;
+}
+#endif

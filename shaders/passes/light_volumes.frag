@@ -1,0 +1,22 @@
+// What one light adds to the pixel, to be blended onto the others. Alpha stays: the pixel is covered already.
+#include "shared/slots.h"
+#include "lib/gbuffer.glsl"
+#include "lib/views.glsl"
+
+layout(binding = TEXTURE_UNIT_DEPTH) uniform sampler2D depthChannel;
+layout(location = 0) flat in int light;
+layout(location = 0) out vec4 radiance;
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    Surface surface = surfaceFromGBuffer(pixel);
+    if (!takesLight(surface)) discard;
+#if VIEW == VIEW_LIGHTS
+    radiance = vec4(vec3(1.0), 0.0);
+#else
+    Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, texelFetch(depthChannel, pixel, 0).r);
+    precise vec3 added = lightOnSurface(light, surface, viewpoint);
+    radiance = vec4(added, 0.0);
+#endif
+}

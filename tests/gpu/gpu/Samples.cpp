@@ -1,0 +1,37 @@
+#include <gtest/gtest.h>
+
+#include "renderer/gpu/Framebuffer.h"
+#include "renderer/gpu/Texture.h"
+#include "tests/support/GlContext.h"
+
+namespace tessera::gpu {
+namespace {
+
+using graph::Format;
+
+class Samples : public test::GlTest {};
+
+TEST_F(Samples, everyNumberThatIsOfferedAlwaysMakesRenderTargets) {
+    const std::vector<int>& counts = context().capabilities().renderTargetSamples;
+    ASSERT_FALSE(counts.empty());
+    EXPECT_EQ(counts.front(), 1);
+    EXPECT_TRUE(std::is_sorted(counts.begin(), counts.end()));
+    EXPECT_GE(counts.back(), 4) << "OpenGL 4.5 asks for 4 samples of colour textures (table 23.66)";
+    for (const int samples : counts) {
+        SCOPED_TRACE(samples);
+        const Texture color("color", {Format::Rgba32Float, 5, 3, samples});
+        const Texture shadingDepth("shading depth", {Format::R32Float, 5, 3, samples});
+        const Texture depth("depth", {Format::Depth32Float, 5, 3, samples});
+        EXPECT_NO_THROW(Framebuffer({{&shadingDepth}, &depth}));
+        const std::vector<glm::vec2> positions = Framebuffer({{&color}, &depth}).samplePositions();
+        ASSERT_EQ(positions.size(), std::size_t(samples));
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            EXPECT_TRUE(positions[i].x > 0.0f && positions[i].x < 1.0f) << i;
+            EXPECT_TRUE(positions[i].y > 0.0f && positions[i].y < 1.0f) << i;
+            for (std::size_t j = 0; j < i; ++j) EXPECT_NE(positions[i], positions[j]);
+        }
+    }
+}
+
+} // namespace
+} // namespace tessera::gpu

@@ -1,0 +1,170 @@
+// Lights that a range tolerance ends.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "passes/recipes/ChooseCulling.h"
+#include "passes/recipes/PreparedFrame.h"
+#include "tests/support/GlContext.h"
+#include "tests/support/Random.h"
+#include "tests/support/TestScenes.h"
+#include "validation/LightOracle.h"
+#include "validation/RangeTruncation.h"
+#include "validation/Rendering.h"
+#include "validation/TechniqueCompare.h"
+
+namespace tessera {
+namespace {
+
+using recipes::Technique;
+
+constexpr int kSide = 64;
+
+scenes::Light attenuatedLight(const glm::dvec3& positionWS, float intensity, const glm::vec3& abc) {
+    scenes::Light light = test::pointLight(positionWS, intensity);
+    light.falloff = scenes::Falloff::Attenuation;
+    light.attenuation = abc;
+    return light;
+}
+
+/// A room's worth of lights that fall off by A B C, every third a spot.
+scenes::Scene manyAttenuatedLights() {
+    scenes::Scene scene = test::everythingScene();
+    scene.lights.clear();
+    test::Random random(21);
+    for (int i = 0; i < 48; ++i) {
+        const glm::dvec3 place(random.between(-4.0, 4.0), random.between(-0.5, 2.0), random.between(-2.0, 3.0));
+        scene.lights.push_back(
+            attenuatedLight(place, float(random.logarithmic(0.05, 2.0)), {random.unit(), random.unit(), 1.0}));
+        scene.lights.back().color = {random.unit(), random.unit(), random.unit()};
+        if (i % 3 > 0) continue;
+        scene.lights.back().type = scenes::LightType::Spot;
+        scene.lights.back().directionWS = glm::dvec3(0, -1, 0);
+    }
+    return scene;
+}
+
+class LightRange : public test::GlTest {};
+
+TEST_F(LightRange, anEndedLightIsExactlyZeroFromItsRadiusOnAndWindowedBefore) {
+    scenes::Material lambert;
+    lambert.model = scenes::MaterialModel::Lambert;
+    lambert.baseColor = {0.75f, 0.5f, 0.25f, 1.0f};
+    scenes::Scene scene = test::quadScene(lambert);
+    scene.cameras[0].projection = scenes::Projection::Orthographic;
+    scene.cameras[0].halfHeightMetres = 1.0;
+    scene.cameras[0].farMetres = 5.0; // without a far plane depth is coarser: a step of 1e-4 m
+    const double a = 0.5, b = 0.25, c = 1.5, intensity = 2.5;
+    const glm::dvec3 placeWS(0.25, -0.125, 0.5);
+    scene.lights = {attenuatedLight(placeWS, intensity, {a, b, c})};
+    frame::FrameSettings settings;
+    settings.sizePixels = {kSide, kSide};
+    settings.rangeTolerance = 1.0;
+    const double left = intensity / settings.rangeTolerance - a;
+    const double radius = (-b + std::sqrt(b * b + 4.0 * c * left)) / (2.0 * c);
+    recipes::Renderer renderer(context(), scene);
+    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+        SCOPED_TRACE(technique.name);
+        const validation::Picture picture = validation::toPicture(renderer.render(technique.technique, settings));
+        std::size_t beyond = 0, inside = 0;
+        for (std::size_t i = 0; i < picture.pixelCount(); ++i) {
+            const int x = int(i) % kSide, y = int(i) / kSide;
+            const glm::dvec3 pointWS(2.0 * (x + 0.5) / kSide - 1.0, 1.0 - 2.0 * (y + 0.5) / kSide, 0.0);
+            const double d = glm::distance(pointWS, placeWS);
+            const double whole = intensity / (a + b * d + c * d * d) * placeWS.z / d;
+            const double window = std::max(0.0, 1.0 - std::pow(d / radius, 4.0));
+            for (int channel = 0; channel < 3; ++channel) {
+                const double value = picture.pixel(i)[channel], albedo = lambert.baseColor[channel];
+                // As for every light: roundings of fp32, against the light without its window, which is a difference.
+                ASSERT_NEAR(value, albedo * whole * window * window, 3e-6 * albedo * whole) << x << " " << y;
+                ASSERT_TRUE(d < radius || value == 0.0) << x << " " << y << " holds " << value;
+            }
+            ++(d >= radius ? beyond : inside);
+        }
+        EXPECT_GT(beyond, 500u);
+        EXPECT_GT(inside, 500u);
+    }
+}
+
+TEST_F(LightRange, theBiasIsAlwaysBelowZeroAndVanishesWithTheTolerance) {
+    const scenes::Scene scene = manyAttenuatedLights();
+    recipes::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {160, 90};
+    double lastBias = -1.0, lastRelMse = 1.0;
+    for (const double tolerance : {0.3, 0.1, 0.03, 0.01, 0.003, 0.001}) {
+        SCOPED_TRACE(tolerance);
+        settings.rangeTolerance = tolerance;
+        const validation::RangeTruncation dropped = validation::rangeTruncation(renderer, Technique::Forward, settings);
+        fmt::print("tolerance {:<6} {}\n", tolerance, validation::droppedText(dropped.figures));
+        EXPECT_EQ(dropped.tolerance, tolerance);
+        EXPECT_EQ(dropped.technique, "forward");
+        EXPECT_LT(dropped.figures.bias, 0.0);
+        EXPECT_GT(dropped.figures.bias, lastBias);
+        EXPECT_GT(dropped.figures.relMse, 0.0);
+        EXPECT_LT(dropped.figures.relMse, lastRelMse);
+        lastBias = dropped.figures.bias;
+        lastRelMse = dropped.figures.relMse;
+    }
+    // (d / r)^4 of 10 m and 1e5 m is below fp32's step at one: every window is exactly 1.
+    settings.rangeTolerance = 1e-12;
+    const validation::RangeTruncation nothing = validation::rangeTruncation(renderer, Technique::Forward, settings);
+    EXPECT_EQ(nothing.figures.bitEqual, 1.0);
+    EXPECT_EQ(nothing.figures.bias, 0.0);
+}
+
+TEST_F(LightRange, anEndedLightIsExactlyTheSameWithEveryTechniqueAndCullingMethod) {
+    const scenes::Scene scene = manyAttenuatedLights();
+    recipes::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {321, 179};
+    settings.rangeTolerance = 0.1;
+    const std::vector<float> forward = renderer.render(Technique::Forward, settings).radiance;
+    std::size_t listed = 0;
+    for (const culling::MethodInfo& method : culling::methodTable()) {
+        SCOPED_TRACE(method.name);
+        validation::CompareRequest request;
+        request.settings = settings;
+        request.settings.culling.method = method.method;
+        request.rangeTruncation = false;
+        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+            if (!recipes::takesMethod(technique.technique, method.method)) continue;
+            request.techniques.push_back(technique.technique);
+            if (recipes::prepareFrame(scene, technique.technique, request.settings).spec.culling.method !=
+                culling::Method::None)
+                ++listed;
+        }
+        for (const bool prune : {true, false}) {
+            request.settings.prune = prune;
+            const validation::CompareRecord record =
+                compareTechniques(renderer, context().capabilities(), request).record;
+            EXPECT_TRUE(record.ok()) << validation::compareTable(record);
+        }
+    }
+    EXPECT_GT(listed, 4u) << "ended lights are there to be culled";
+    settings.prune = false;
+    EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, forward);
+}
+
+TEST_F(LightRange, anEndedLightIsNeverMissingFromAListThatNeedsIt) {
+    const scenes::Scene scene = manyAttenuatedLights();
+    recipes::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {321, 179};
+    settings.rangeTolerance = 0.1;
+    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+        for (const culling::Method method : technique.methods) {
+            if (method == culling::Method::None) continue;
+            settings.culling.method = method;
+            const validation::LightOracleFigures figures =
+                validation::judgeLights(renderer, technique.technique, settings);
+            SCOPED_TRACE(fmt::format("{} {}", technique.name, culling::methodTable()[std::size_t(method)].name));
+            EXPECT_EQ(figures.falseNegatives, 0u);
+            EXPECT_EQ(figures.everywhere, 0u);
+            EXPECT_GT(figures.needed, figures.covered);
+        }
+    }
+}
+
+} // namespace
+} // namespace tessera

@@ -1,0 +1,301 @@
+// deferred_volumes against deferred: a proxy volume that loses a pixel of its light, or meets one twice, changes a bit.
+#include <algorithm>
+#include <functional>
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "passes/recipes/Renderer.h"
+#include "tests/support/GlContext.h"
+#include "tests/support/Random.h"
+#include "tests/support/TestScenes.h"
+
+namespace tessera {
+namespace {
+
+using recipes::Technique;
+using test::pi;
+using test::Random;
+
+scenes::Light spotLight(const glm::dvec3& positionWS, const glm::dvec3& directionWS, double outerConeRadians) {
+    scenes::Light light = test::pointLight(positionWS, 40.0f);
+    light.type = scenes::LightType::Spot;
+    light.directionWS = glm::normalize(directionWS);
+    light.outerConeRadians = float(outerConeRadians);
+    light.innerConeRadians = 0.0f;
+    light.rangeMetres = 12.0f;
+    return light;
+}
+
+scenes::Light rangedLight(const glm::dvec3& positionWS, float rangeMetres) {
+    scenes::Light light = test::pointLight(positionWS, 4.0f);
+    light.rangeMetres = rangeMetres;
+    return light;
+}
+
+scenes::Light randomLight(Random& random, const glm::dvec3& eyeWS) {
+    scenes::Light light = test::pointLight({}, float(random.logarithmic(0.1, 30.0)));
+    light.color = glm::vec3(random.unit(), random.unit(), 0.2 + 0.8 * random.unit());
+    const bool nearEye = random.index(4) == 0;
+    light.positionWS =
+        (nearEye ? eyeWS : glm::dvec3(0.0)) + random.direction() * random.between(0.0, nearEye ? 1.5 : 7.0);
+    light.directionWS = random.direction();
+    const int kind = random.index(10);
+    light.type = kind == 0  ? scenes::LightType::Directional
+                 : kind < 5 ? scenes::LightType::Spot
+                            : scenes::LightType::Point;
+    if (kind == 9) light.falloff = scenes::Falloff::Attenuation;
+    light.attenuation = {0.5f, 0.3f, 0.6f};
+    if (random.index(12) != 0) light.rangeMetres = float(random.logarithmic(0.03, 60.0));
+    light.outerConeRadians = float(random.index(4) == 0 ? random.between(1.3, pi) : random.logarithmic(0.003, 1.6));
+    light.innerConeRadians = light.outerConeRadians * float(random.unit());
+    return light;
+}
+
+scenes::Camera randomCamera(Random& random) {
+    scenes::Camera camera;
+    const glm::dvec3 eyeWS = random.direction() * random.between(0.5, 8.0) + glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 targetWS = random.direction() * random.between(0.0, 2.0);
+    camera.worldFromCamera = glm::inverse(glm::lookAt(eyeWS, targetWS, random.direction()));
+    camera.fovYRadians = random.between(0.2, 2.2);
+    camera.nearMetres = random.logarithmic(0.005, 0.5);
+    if (random.index(3) == 0) camera.farMetres = random.between(3.0, 30.0);
+    if (random.index(4) == 0) {
+        camera.projection = scenes::Projection::Orthographic;
+        camera.halfHeightMetres = random.between(0.5, 6.0);
+    }
+    return camera;
+}
+
+/// A quad that fills the picture, 3 m ahead.
+scenes::Scene wall() {
+    scenes::Material material;
+    material.model = scenes::MaterialModel::Lambert;
+    return test::quadScene(material);
+}
+
+class LightVolumes : public test::GlTest {
+protected:
+    /// Whether the lights change the picture; fails where the two techniques differ. The renderer reads the lights and
+    /// cameras of the scene anew at each frame, so one renderer, and its programs, serve all of them.
+    bool expectEqual(recipes::Renderer& renderer, const frame::FrameSettings& settings) {
+        const std::vector<float> deferred = renderer.render(Technique::Deferred, settings).radiance;
+        const std::vector<float> volumes = renderer.render(Technique::DeferredVolumes, settings).radiance;
+        std::size_t different = 0;
+        float worst = 0.0f;
+        for (std::size_t i = 0; i < deferred.size(); ++i) {
+            if (deferred[i] == volumes[i]) continue;
+            ++different;
+            worst = std::max(worst, std::abs(deferred[i] - volumes[i]) / std::max(deferred[i], 1e-20f));
+        }
+        if (context().capabilities().isSoftware) {
+            EXPECT_EQ(different, 0u) << "by up to " << worst;
+        } else {
+            // Hardware may contract the two programs differently: some 100 roundings of 2^-24.
+            EXPECT_LE(worst, 1e-5f) << different << " values";
+        }
+        return sumOf(deferred) > sumOf(unlit(renderer, settings));
+    }
+
+    /// The scene's picture when all its lights are off.
+    std::vector<float> unlit(recipes::Renderer& renderer, frame::FrameSettings settings) {
+        scenes::Scene dark = renderer.scene();
+        for (scenes::Light& light : dark.lights) light.enabled = false;
+        return recipes::Renderer(context(), dark).render(Technique::Deferred, settings).radiance;
+    }
+    static double sumOf(const std::vector<float>& values) {
+        double sum = 0.0;
+        for (const float value : values) sum += value;
+        return sum;
+    }
+
+    static frame::FrameSettings sized(int width, int height) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {width, height};
+        return settings;
+    }
+
+    /// Pixels that the only light of the scene changes, and those that its volume covers.
+    struct Share {
+        int lit = 0;
+        int visited = 0;
+    };
+    Share shareOf(const scenes::Scene& scene) {
+        recipes::Renderer renderer(context(), scene);
+        frame::FrameSettings settings = sized(240, 160);
+        const std::vector<float> picture = renderer.render(Technique::Deferred, settings).radiance;
+        settings.view = frame::View::Lights;
+        const std::vector<float> counts = renderer.render(Technique::DeferredVolumes, settings).radiance;
+        Share share;
+        for (std::size_t i = 0; i < picture.size(); i += 4) {
+            share.lit += picture[i] > 0.0f;
+            share.visited += int(counts[i]);
+            EXPECT_TRUE(!(picture[i] > 0.0f) || counts[i] == 1.0f) << "pixel " << i / 4;
+        }
+        return share;
+    }
+};
+
+struct Case {
+    const char* name;
+    std::vector<scenes::Light> lights;
+    std::function<void(scenes::Camera&)> arrange = [](scenes::Camera&) {};
+};
+
+// The camera stands at (0, 1.5, 6) and looks at the origin, over a floor at y = -1; mirrored objects stand on it.
+std::vector<Case> cases() {
+    const glm::dvec3 eyeWS(0.0, 1.5, 6.0);
+    const auto farPlane = [](scenes::Camera& camera) { camera.farMetres = 7.0; };
+    const auto nearPlane = [](scenes::Camera& camera) { camera.nearMetres = 4.5; };
+    const auto orthographic = [](scenes::Camera& camera) {
+        camera.projection = scenes::Projection::Orthographic;
+        camera.halfHeightMetres = 2.5;
+    };
+    std::vector<Case> all{
+        {"the eye inside", {rangedLight(eyeWS + glm::dvec3(0.3, 0.2, 0.1), 6.0f), rangedLight(eyeWS, 5.0f)}},
+        {"the eye on the sphere", {rangedLight({0.0, 1.5, 2.0}, 4.0f)}},
+        {"behind the eye", {rangedLight({0.5, 2.0, 8.0}, 9.0f), rangedLight({9.0, 0.0, 7.0}, 12.0f)}},
+        {"beyond the far plane", {rangedLight({0.0, 0.0, -4.0}, 4.0f)}, farPlane},
+        {"across the near plane", {rangedLight({0.5, 0.0, 1.5}, 2.5f), rangedLight({0.0, 1.0, 3.0}, 4.0f)}, nearPlane},
+        {"a tiny range", {rangedLight({0.0, -0.99, 0.0}, 0.04f), rangedLight({0.31, -0.97, 0.4}, 0.06f)}},
+        {"a huge range", {rangedLight({0.0, 3.0, 0.0}, 1e6f), rangedLight({1.0, 3.0, 0.0}, 1e18f)}},
+        {"no range", {test::pointLight({0.0, 2.0, 2.0}, 3.0f)}},
+        {"an orthographic camera",
+         {rangedLight({0.0, 0.5, 0.0}, 2.0f), spotLight({1.0, 3.0, 1.0}, {0, -1, 0}, 0.4)},
+         orthographic},
+        {"an orthographic camera amid lights",
+         {rangedLight(eyeWS, 7.0f), rangedLight(eyeWS + glm::dvec3(0.0, 0.0, 3.0), 8.0f)},
+         orthographic},
+    };
+    for (const double degrees : {1.0, 10.0, 30.0, 45.0, 60.0, 84.0, 84.5, 89.0, 90.0, 91.0, 135.0, 179.0, 180.0}) {
+        const double outer = degrees * pi / 180.0;
+        all.push_back({"a spot from above", {spotLight({0.0, 3.0, 0.0}, {0.0, -1.0, 0.0}, outer)}});
+        all.push_back({"a spot at the eye", {spotLight(eyeWS, {0.0, -0.45, -1.0}, outer)}});
+        all.push_back({"a spot behind the eye", {spotLight({0.2, 2.0, 8.0}, {0.0, -0.4, -1.0}, outer)}});
+        all.push_back({"a spot towards the eye", {spotLight({0.6, 0.6, -5.0}, {0.0, -0.3, 1.0}, outer)}});
+    }
+    return all;
+}
+
+TEST_F(LightVolumes, everyPlaceOfALightIsExactlyAsInDeferred) {
+    const scenes::Scene before = test::everythingScene();
+    scenes::Scene scene = before;
+    recipes::Renderer renderer(context(), scene);
+    for (const Case& example : cases()) {
+        scene.cameras = before.cameras;
+        example.arrange(scene.cameras[0]);
+        for (const scenes::Light& light : example.lights) {
+            SCOPED_TRACE(fmt::format("{}, outer cone {} rad, range {} m", example.name, light.outerConeRadians,
+                                     light.rangeMetres));
+            scene.lights = {light};
+            EXPECT_TRUE(expectEqual(renderer, sized(321, 201))) << "no light reaches the picture";
+        }
+    }
+}
+
+TEST_F(LightVolumes, randomScenesAreAlwaysExactlyAsInDeferred) {
+    scenes::Scene scene = test::everythingScene();
+    recipes::Renderer renderer(context(), scene);
+    int lit = 0;
+    constexpr int kScenes = 48;
+    for (int seed = 1; seed <= kScenes; ++seed) {
+        SCOPED_TRACE(fmt::format("seed {}", seed));
+        Random random{std::uint64_t(seed)};
+        scene.cameras = {randomCamera(random)};
+        const glm::dvec3 eyeWS(scene.cameras[0].worldFromCamera[3]);
+        scene.lights.clear();
+        const int count = 1 + random.index(40);
+        for (int i = 0; i < count; ++i) scene.lights.push_back(randomLight(random, eyeWS));
+        frame::FrameSettings settings = sized(97, 61);
+        settings.space = seed % 5 == 0 ? frame::LightingSpace::View : frame::LightingSpace::World;
+        settings.prune = seed % 6 != 0;
+        lit += expectEqual(renderer, settings);
+    }
+    EXPECT_GE(lit, kScenes * 3 / 4) << "too many pictures without light to say anything";
+}
+
+// Outlines of a few pixels, so many that some pixel centres fall within a vertex's snapping of them.
+TEST_F(LightVolumes, thousandsOfSmallLightsAreAlwaysExactlyAsInDeferred) {
+    scenes::Scene scene = wall();
+    Random random(7);
+    for (int i = 0; i < 6000; ++i) {
+        const glm::dvec3 positionWS(random.between(-1.0, 1.0), random.between(-0.6, 0.6), random.between(0.0, 0.01));
+        scene.lights.push_back(rangedLight(positionWS, float(random.between(0.02, 0.08))));
+    }
+    recipes::Renderer renderer(context(), scene);
+    EXPECT_TRUE(expectEqual(renderer, sized(97, 61)));
+}
+
+// Seen from the side, so that what is lit ends where the hull's outline does.
+TEST_F(LightVolumes, spotsAlongAWallAreAlwaysExactlyAsInDeferred) {
+    scenes::Scene scene = wall();
+    recipes::Renderer renderer(context(), scene);
+    for (const double degrees : {3.0, 10.0, 20.0, 30.0, 45.0, 60.0, 75.0, 84.0}) {
+        for (const double turnRadians : {0.0, 0.1, 0.2, 0.3, 0.4, 0.9, 2.1}) {
+            SCOPED_TRACE(fmt::format("{} degrees, turned {}", degrees, turnRadians));
+            const glm::dvec3 axis(std::sin(turnRadians), std::cos(turnRadians), 0.0);
+            scene.lights = {spotLight(glm::dvec3(0.0, 0.0, 0.01) - 0.6 * axis, axis, degrees * pi / 180.0)};
+            scene.lights[0].rangeMetres = 1.2f;
+            EXPECT_TRUE(expectEqual(renderer, sized(320, 200)));
+        }
+    }
+}
+
+TEST_F(LightVolumes, mirroredNodesAreAlwaysExactlyAsInDeferred) {
+    scenes::Scene scene = test::everythingScene();
+    for (scenes::Node& node : scene.nodes) node.parentFromNode = glm::scale(node.parentFromNode, glm::dvec3(-1, 1, 1));
+    recipes::Renderer renderer(context(), scene);
+    EXPECT_TRUE(expectEqual(renderer, sized(193, 121)));
+}
+
+TEST_F(LightVolumes, aSphereNeverVisitsMuchMoreThanItsCircle) {
+    scenes::Scene scene = wall();
+    scene.lights = {rangedLight({0.1, 0.05, 0.0001}, 0.4f)};
+    const Share share = shareOf(scene);
+    ASSERT_GT(share.lit, 5000);
+    // 1.055 for the octagon; the sphere's outline is 1.02 times its section's at this distance; the rest is pixels at
+    // the edge, where the light has faded to less than the smallest float of the picture's steps.
+    EXPECT_LE(share.visited, 1.12 * share.lit);
+}
+
+TEST_F(LightVolumes, aConeNeverVisitsMuchMoreThanItsSpot) {
+    scenes::Scene scene = wall();
+    scene.lights = {spotLight({0.0, 0.0, 1.5}, {0.0, 0.0, -1.0}, 0.2)};
+    scene.lights[0].rangeMetres = 1.6f;
+    const Share share = shareOf(scene);
+    ASSERT_GT(share.lit, 2000);
+    // The hull is seen from 1.5 m behind its apex, so the cone's nearer part stands before the spot and grows it
+    // little; 1.055 is the octagon's, and the cap's profile adds up to a tenth to the radius.
+    EXPECT_LE(share.visited, 1.3 * share.lit);
+}
+
+TEST_F(LightVolumes, aLightThatFloatsBeforeAllSurfacesIsNeverVisited) {
+    scenes::Scene scene = wall();
+    scene.lights = {rangedLight({0.0, 0.0, 1.0}, 0.9f), spotLight({0.3, 0.0, 2.0}, {0.0, 1.0, 0.0}, 0.5)};
+    scene.lights[1].rangeMetres = 1.5f;
+    EXPECT_EQ(shareOf(scene).visited, 0);
+}
+
+TEST_F(LightVolumes, uncoveredPixelsAlwaysKeepTheBackground) {
+    scenes::Scene scene = wall();
+    scene.cameras[0].fovYRadians = 2.0;
+    scene.background = {0.25f, 0.5f, 0.75f};
+    scenes::Light sun = test::pointLight({}, 3.0f);
+    sun.type = scenes::LightType::Directional;
+    scene.lights = {sun, test::pointLight({0.0, 0.0, 1.0}, 2.0f), rangedLight({0.0, 0.0, 3.0}, 50.0f)};
+    recipes::Renderer renderer(context(), scene);
+    const std::vector<float> picture = renderer.render(Technique::DeferredVolumes, sized(97, 61)).radiance;
+    int uncovered = 0;
+    for (std::size_t i = 0; i < picture.size(); i += 4) {
+        if (picture[i + 3] != 0.0f) {
+            EXPECT_EQ(picture[i + 3], 1.0f);
+            continue;
+        }
+        ++uncovered;
+        EXPECT_EQ(glm::vec3(picture[i], picture[i + 1], picture[i + 2]), scene.background);
+    }
+    EXPECT_GT(uncovered, 1000);
+}
+
+} // namespace
+} // namespace tessera

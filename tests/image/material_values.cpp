@@ -1,0 +1,154 @@
+#include <numbers>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "tests/image/FlatTest.h"
+
+namespace tessera {
+namespace {
+
+using namespace test;
+using scenes::Material;
+using scenes::MaterialModel;
+using scenes::Scene;
+using scenes::TextureSlot;
+using std::numbers::pi;
+
+/// A dozen fp32 roundings of 2^-24 each, relative.
+constexpr double kRounding = 1e-6;
+
+scenes::Image floatImage(const glm::vec4& texel) {
+    scenes::Image image;
+    image.name = "texel";
+    image.width = image.height = 1;
+    image.format = scenes::TexelFormat::Rgba32Float;
+    const auto* bytes = reinterpret_cast<const std::byte*>(&texel);
+    image.texels.assign(bytes, bytes + sizeof(texel));
+    return image;
+}
+
+/// Eye and sun both straight above the surface: n = l = v = h, so D = 1/(pi alpha^2), G = 1 and F = F0.
+class MaterialValues : public FlatTest {
+protected:
+    static Scene underTheSun(const Material& material, const glm::dvec3& directionWS = {0, 0, -1}) {
+        Scene scene = flatScene(material);
+        scenes::Light sun = test::pointLight({}, 1.0f);
+        sun.type = scenes::LightType::Directional;
+        sun.directionWS = directionWS;
+        scene.lights = {sun};
+        return scene;
+    }
+    void expectColor(const Scene& scene, const glm::dvec3& wanted) {
+        const glm::vec4 found = center(scene);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], kRounding * (1.0 + wanted[c])) << c;
+    }
+};
+
+/// No diffuse share, and the widest lobe: what is seen is F0 / (4 pi).
+Material blackDielectric() {
+    Material material;
+    material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
+    material.metallic = 0.0f;
+    return material;
+}
+
+Material blackMicrofacet() {
+    Material material = blackDielectric();
+    material.model = MaterialModel::Microfacet;
+    material.alpha = 1.0f;
+    return material;
+}
+
+TEST_F(MaterialValues, aMirrorAlwaysHasTheLeastAlpha) {
+    constexpr double kLeastAlpha = 1e-3; // the shading formulas' own bound
+    const double peak = 1.0 / (4.0 * pi * kLeastAlpha * kLeastAlpha);
+    Material glossy = blackMicrofacet();
+    glossy.alpha = 0.0f;
+    expectColor(underTheSun(glossy), glm::dvec3(0.04 * peak));
+    Material metal;
+    metal.perceptualRoughness = 0.0f;
+    metal.baseColor = {1.0f, 0.5f, 0.25f, 1.0f};
+    expectColor(underTheSun(metal), glm::dvec3(1.0, 0.5, 0.25) * peak);
+}
+
+TEST_F(MaterialValues, theTintedDielectricReflectanceIsAlwaysHeldToOneAndThenScaled) {
+    Material material = blackDielectric();
+    material.specularColor = {40.0f, 2.0f, 1.0f};
+    material.specularFactor = 0.5f;
+    expectColor(underTheSun(material), 0.5 * glm::dvec3(1.0, 0.08, 0.04) / (4.0 * pi));
+}
+
+TEST_F(MaterialValues, anIorTextureAlwaysMultipliesTheIorByItsRed) {
+    for (Material material : {blackDielectric(), blackMicrofacet()}) {
+        SCOPED_TRACE(material.model == MaterialModel::Microfacet ? "microfacet" : "metallic_roughness");
+        material.ior = 1.25f;
+        const Scene scene =
+            texturedScene(underTheSun(material), TextureSlot::Ior, floatImage({1.6f, 1.2f, 1.1f, 0.5f}));
+        expectColor(scene, glm::dvec3(1.0 / 9.0 / (4.0 * pi))); // ior 2
+    }
+}
+
+TEST_F(MaterialValues, aSpecularFactorTextureAlwaysCountsByItsAlpha) {
+    Material material = blackDielectric();
+    material.specularFactor = 0.5f;
+    const Scene scene =
+        texturedScene(underTheSun(material), TextureSlot::SpecularFactor, floatImage({0.9f, 0.8f, 0.7f, 0.25f}));
+    expectColor(scene, glm::dvec3(0.04 * 0.125 / (4.0 * pi)));
+}
+
+TEST_F(MaterialValues, opacityBeyondZeroAndOneIsAlwaysHeldToThem) {
+    Material material = unlit();
+    material.alphaMode = scenes::AlphaMode::Blend;
+    Scene scene = flatScene(material);
+    scene.background = {0.25f, 0.5f, 0.75f};
+    const auto blended = [&](float opacity) {
+        return glm::vec3(
+            center(texturedScene(scene, TextureSlot::BaseColor, floatImage({1.0f, 0.5f, 0.125f, opacity}))));
+    };
+    EXPECT_EQ(blended(2.0f), glm::vec3(1.0f, 0.5f, 0.125f));
+    EXPECT_EQ(blended(-1.0f), scene.background);
+}
+
+/// A unit vector, and the texel that stands for it.
+const glm::dvec3 kTilted = glm::normalize(glm::dvec3(0.4, 0.2, 1.0));
+scenes::Image tiltedImage() {
+    return floatImage(glm::vec4(glm::vec3(kTilted * 0.5 + 0.5), 1.0f));
+}
+const glm::dvec3 kSlantedWS = glm::normalize(glm::dvec3(-0.3, -0.8, -1.0));
+
+TEST_F(MaterialValues, anObjectSpaceNormalAlwaysTurnsAndStretchesWithItsNode) {
+    Material material;
+    material.model = MaterialModel::Lambert;
+    material.normalMapSpace = scenes::NormalMapSpace::Object;
+    Scene scene = texturedScene(underTheSun(material, kSlantedWS), TextureSlot::Normal, tiltedImage());
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), 0.5, glm::dvec3(0, 0, 1));
+    const glm::dvec3 stretch(2.0, 1.5, 1.0);
+    scene.nodes[0].parentFromNode = glm::scale(turn, stretch);
+    const glm::dvec3 normalWS = glm::normalize(glm::dmat3(turn) * (kTilted / stretch));
+    expectColor(scene, glm::dvec3(-glm::dot(normalWS, kSlantedWS)));
+}
+
+TEST_F(MaterialValues, theNormalScaleAlwaysScalesBothTiltsAndNeverTheHeight) {
+    Material material;
+    material.model = MaterialModel::Lambert;
+    material.normalScale = 0.5f;
+    const Scene scene = texturedScene(underTheSun(material, kSlantedWS), TextureSlot::Normal, tiltedImage());
+    const glm::dvec3 normalWS = glm::normalize(kTilted * glm::dvec3(0.5, 0.5, 1.0));
+    expectColor(scene, glm::dvec3(-glm::dot(normalWS, kSlantedWS)));
+}
+
+TEST_F(MaterialValues, aLightNearerThanACentimetreAlwaysShinesAsFromACentimetre) {
+    Material material;
+    material.model = MaterialModel::Lambert;
+    Scene scene = flatScene(material);
+    scene.cameras[0].farMetres = 4.0; // an orthographic depth has steps of its range / 2^24
+    const double centerOfPixel = 1.0 / kSide;
+    scene.lights = {test::pointLight({centerOfPixel, -centerOfPixel, 0.005}, 1e-4f)};
+    expectColor(scene, glm::dvec3(1.0)); // 1e-4 cd over 1e-4 m^2
+    scene.lights[0].falloff = scenes::Falloff::Attenuation;
+    scene.lights[0].attenuation = {0.0f, 0.0f, 1.0f};
+    expectColor(scene, glm::dvec3(1.0));
+}
+
+} // namespace
+} // namespace tessera

@@ -1,0 +1,258 @@
+#include <set>
+
+#include <fmt/format.h>
+
+#include "passes/recipes/ChooseSamples.h"
+#include "renderer/gpu/Framebuffer.h"
+#include "renderer/graph/Plan.h"
+#include "scenes/Load.h"
+#include "tests/image/FlatTest.h"
+#include "tests/support/GlContext.h"
+#include "tests/support/TestScenes.h"
+#include "validation/Rendering.h"
+#include "validation/TechniqueCompare.h"
+
+namespace tessera {
+namespace {
+
+using recipes::Technique;
+using scenes::Scene;
+
+class Multisampling : public test::GlTest {
+protected:
+    static frame::FrameSettings sampled(glm::ivec2 sizePixels, int samples = 4) {
+        frame::FrameSettings settings;
+        settings.sizePixels = sizePixels;
+        settings.samples = samples;
+        return settings;
+    }
+    validation::Picture picture(const Scene& scene, const frame::FrameSettings& settings,
+                                Technique technique = Technique::Forward) {
+        recipes::Renderer renderer(context(), scene);
+        return validation::toPicture(renderer.render(technique, settings));
+    }
+    void expectAgreement(const Scene& scene, const frame::FrameSettings& settings) {
+        validation::CompareRequest request;
+        std::vector<validation::LeftOutTechnique> leftOut;
+        request.techniques = validation::techniquesTaking(settings.samples, leftOut);
+        std::erase(request.techniques, Technique::Forward);
+        request.settings = settings;
+        recipes::Renderer renderer(context(), scene);
+        const validation::CompareRecord record =
+            validation::compareTechniques(renderer, context().capabilities(), request).record;
+        EXPECT_TRUE(record.ok()) << validation::compareTable(record);
+        EXPECT_GE(record.samples, settings.samples);
+        for (const validation::ComparePair& pair : record.pairs)
+            EXPECT_EQ(pair.figures.bad.sum() + pair.figures.badOutside.sum(), 0u);
+    }
+    static std::set<float> alphasOf(const validation::Picture& picture) {
+        std::set<float> alphas;
+        for (std::size_t i = 0; i < picture.pixelCount(); ++i) alphas.insert(picture.pixel(i)[3]);
+        return alphas;
+    }
+};
+
+TEST_F(Multisampling, hallIsExactlyTheSameWithAndWithoutAPrepass) {
+    const Scene scene = scenes::loadScene("hall");
+    for (const glm::ivec2 size : {glm::ivec2(208, 116), glm::ivec2(209, 117)}) expectAgreement(scene, sampled(size));
+}
+
+TEST_F(Multisampling, aSceneOfEveryFeatureIsExactlyTheSameWithAndWithoutAPrepass) {
+    Scene scene = test::everythingScene();
+    for (const glm::ivec2 size : {glm::ivec2(320, 180), glm::ivec2(321, 179)}) {
+        frame::FrameSettings settings = sampled(size);
+        expectAgreement(scene, settings);
+        settings.filter = frame::TextureFilter::Exact;
+        expectAgreement(scene, settings);
+        settings.space = frame::LightingSpace::View;
+        expectAgreement(scene, settings);
+        settings.prune = false;
+        expectAgreement(scene, settings);
+    }
+    scene.cameras[0].projection = scenes::Projection::Orthographic;
+    scene.cameras[0].halfHeightMetres = 2.5;
+    scene.cameras[0].farMetres = 20.0;
+    expectAgreement(scene, sampled({321, 179}));
+}
+
+TEST_F(Multisampling, everyViewIsExactlyTheSameWithAndWithoutAPrepass) {
+    const Scene scene = test::everythingScene();
+    recipes::Renderer renderer(context(), scene);
+    for (const frame::ViewInfo& view : frame::viewTable()) {
+        SCOPED_TRACE(view.name);
+        frame::FrameSettings settings = sampled({161, 90});
+        settings.view = view.view;
+        EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance,
+                  renderer.render(Technique::ForwardPrepass, settings).radiance);
+    }
+}
+
+TEST_F(Multisampling, pruningAndRunningAgainNeverChangeABit) {
+    for (const Scene& scene : {scenes::loadScene("hall"), scenes::loadScene("room"), test::everythingScene()}) {
+        for (const Technique technique : {Technique::Forward, Technique::ForwardPrepass}) {
+            SCOPED_TRACE(fmt::format("{} {}", scene.name, recipes::techniqueTable()[std::size_t(technique)].name));
+            frame::FrameSettings settings = sampled({161, 90});
+            const validation::Picture first = picture(scene, settings, technique);
+            EXPECT_EQ(picture(scene, settings, technique).rgba, first.rgba);
+            settings.prune = false;
+            EXPECT_EQ(picture(scene, settings, technique).rgba, first.rgba);
+        }
+    }
+}
+
+TEST_F(Multisampling, aPixelIsNeverNaNInfiniteOrNegative) {
+    // A floor to the horizon and beyond what fp32 squares, under a light without range: pixels' centres lie above the
+    // horizon where samples do not. Slivers with steep colours: pixels' centres lie outside most triangles.
+    Scene scene = test::everythingScene();
+    scene.nodes[0].parentFromNode = glm::dmat4(1e7) * scene.nodes[0].parentFromNode;
+    scene.nodes[0].parentFromNode[3] = {0, -1, 0, 1};
+    scenes::Mesh slivers;
+    slivers.name = "slivers";
+    for (int i = 0; i < 400; ++i) {
+        const float x = -2.0f + 0.01f * float(i), colour = i % 2 == 0 ? 0.0f : 1.0f;
+        for (const glm::vec3& corner : {glm::vec3(x, -1, 0), glm::vec3(x + 0.004f, -1, 0), glm::vec3(x, 1, 2)}) {
+            slivers.indices.push_back(std::uint32_t(slivers.positionsOS.size()));
+            slivers.positionsOS.push_back(corner);
+            slivers.normalsOS.push_back({0, 0, 1});
+            slivers.colors.push_back(corner.x > x ? glm::vec4(1.0f - colour) : glm::vec4(colour));
+            slivers.texCoords[0].push_back({corner.x, corner.y});
+            slivers.texCoords[1].push_back({corner.x, corner.y});
+        }
+    }
+    scene.nodes[1].instances = {{int(scene.meshes.size()), 1}};
+    scene.nodes[1].parentFromNode = glm::dmat4(1.0);
+    scene.meshes.push_back(slivers);
+    for (double pitch : {0.0, 0.01, 0.05}) {
+        scene.cameras[0].worldFromCamera = glm::dmat4(1.0);
+        scene.cameras[0].worldFromCamera[1] = {0, std::cos(pitch), -std::sin(pitch), 0};
+        scene.cameras[0].worldFromCamera[2] = {0, std::sin(pitch), std::cos(pitch), 0};
+        scene.cameras[0].worldFromCamera[3] = {0, 0.5, 6, 1};
+        for (const Technique technique : {Technique::Forward, Technique::ForwardPrepass}) {
+            const validation::Picture shown = picture(scene, sampled({321, 179}), technique);
+            const validation::ErrorFigures figures = validation::errorFigures(shown, shown);
+            EXPECT_EQ(figures.bad.nan + figures.badOutside.nan, 0u) << pitch;
+            EXPECT_EQ(figures.bad.infinite + figures.badOutside.infinite, 0u) << pitch;
+            EXPECT_EQ(figures.bad.negative + figures.badOutside.negative, 0u) << pitch;
+            EXPECT_GT(figures.litShare, 0.1);
+        }
+    }
+}
+
+TEST_F(Multisampling, oneSampleIsAlwaysDrawnAsWithoutThem) {
+    const Scene scene = scenes::loadScene("room");
+    const graph::Plan plan = recipes::planFrame(scene, Technique::ForwardPrepass, sampled({64, 36}, 1));
+    for (const graph::Plan::Pass& pass : plan.passes) EXPECT_NE(pass.name, "resolve");
+    for (const graph::Plan::Resource& resource : plan.resources) EXPECT_EQ(resource.samples, 1) << resource.name;
+    for (const graph::Plan::Choice& choice : plan.choices) EXPECT_NE(choice.what, "samples");
+    Scene opaque = test::everythingScene();
+    opaque.nodes.resize(6); // without the two panes of glass
+    EXPECT_EQ(alphasOf(picture(opaque, sampled({161, 90}, 1))), (std::set<float>{0.0f, 1.0f}));
+}
+
+/// A unit square of one colour whose alpha is a ramp: 0 at its left edge, 1 at its right one.
+Scene rampScene(float cutoff) {
+    scenes::Material paint;
+    paint.model = scenes::MaterialModel::SingleColor;
+    paint.baseColor = {0.5f, 0.25f, 1.0f, 1.0f};
+    paint.alphaMode = scenes::AlphaMode::Mask;
+    paint.alphaCutoff = cutoff;
+    Scene scene = test::quadScene(paint);
+    scene.cameras[0].projection = scenes::Projection::Orthographic;
+    scene.cameras[0].halfHeightMetres = 1.0;
+    scene.meshes[0].colors = {{1, 1, 1, 0}, {1, 1, 1, 1}, {1, 1, 1, 1}, {1, 1, 1, 0}};
+    return scene;
+}
+
+TEST_F(Multisampling, aMaskedEdgeAlwaysCoversAsManySamplesAsItsAlphaSays) {
+    constexpr int kSide = 8, kEdge = 3; // the cutoff is crossed in this column
+    const int samples = context().capabilities().renderTargetSamples.back();
+    if (samples == 1) GTEST_SKIP() << "this driver has no multisampled render targets";
+    for (const Technique technique : {Technique::Forward, Technique::ForwardPrepass}) {
+        // Away from the steps between two numbers of samples, by more than rounding.
+        for (const double share : {0.05, 0.3, 0.55, 0.8, 0.95}) {
+            SCOPED_TRACE(share);
+            // Alpha is (x + 1/2) / 8 at the centre of column x, so the sharpened alpha is x + 1 - 8 cutoff.
+            const Scene scene = rampScene(float((kEdge + 1 - share) / kSide));
+            recipes::Renderer renderer(context(), scene);
+            const recipes::RenderedFrame frame = renderer.render(technique, sampled({kSide, kSide}));
+            const int given =
+                recipes::settingsOn(context().capabilities(), sampled({kSide, kSide})).samplesGiven.value();
+            for (int i = 0; i < kSide * kSide; ++i) {
+                const int x = i % kSide;
+                const float part = x < kEdge ? 0.0f : x > kEdge ? 1.0f : float(std::floor(share * given + 0.5) / given);
+                EXPECT_EQ(frame.radiance[std::size_t(4 * i)], 0.5f * part) << i;
+                EXPECT_EQ(frame.radiance[std::size_t(4 * i + 1)], 0.25f * part) << i;
+                EXPECT_EQ(frame.radiance[std::size_t(4 * i + 3)], part) << i;
+            }
+        }
+    }
+}
+
+TEST_F(Multisampling, alphaThatEqualsItsCutoffEverywhereIsAlwaysWhole) {
+    for (const float cutoff : {0.0f, 0.5f, 1.0f}) {
+        Scene scene = rampScene(cutoff);
+        scene.meshes[0].colors.assign(4, {1, 1, 1, cutoff});
+        EXPECT_EQ(alphasOf(picture(scene, sampled({8, 8}))), std::set<float>{1.0f}) << cutoff;
+    }
+    // Without a least alpha nothing is ever cut out, however steep alpha is.
+    Scene stripes = test::texturedScene(rampScene(0.0f), scenes::TextureSlot::BaseColor, test::image8([](int x, int) {
+                                            return std::array<int, 4>{255, 255, 255, x % 2 == 0 ? 0 : 255};
+                                        }));
+    stripes.meshes[0].colors.clear();
+    EXPECT_EQ(alphasOf(picture(stripes, sampled({8, 8}))), std::set<float>{1.0f});
+}
+
+TEST_F(Multisampling, aStraightEdgeAlwaysCoversTheSamplesOnItsSide) {
+    constexpr int kSide = 8, kEdge = 4;
+    const std::vector<int>& counts = context().capabilities().renderTargetSamples;
+    if (counts.back() == 1) GTEST_SKIP() << "this driver has no multisampled render targets";
+    const frame::FrameSettings settings = recipes::settingsOn(context().capabilities(), sampled({kSide, kSide}));
+    const gpu::Texture target("target", {graph::Format::Rgba32Float, kSide, kSide, *settings.samplesGiven});
+    const std::vector<glm::vec2> samples = gpu::Framebuffer({{&target}, nullptr}).samplePositions();
+    ASSERT_EQ(samples.size(), std::size_t(*settings.samplesGiven));
+    scenes::Material paint;
+    paint.model = scenes::MaterialModel::SingleColor;
+    paint.baseColor = {0.5f, 0.25f, 1.0f, 1.0f};
+    for (int axis = 0; axis < 2; ++axis) {
+        std::set<float> ladder;
+        // Sixteenths: the rasteriser's grid holds them exactly, and no sample of a common pattern lies on one of odd
+        // numerator.
+        for (int sixteenth = 1; sixteenth < 16; sixteenth += 2) {
+            Scene scene = test::quadScene(paint);
+            scene.cameras[0].projection = scenes::Projection::Orthographic;
+            scene.cameras[0].halfHeightMetres = 1.0;
+            const double within = sixteenth / 16.0; // of pixel kEdge, from the left or from below
+            const double edge = (kEdge + within) / (kSide / 2) - 1.0;
+            scene.nodes[0].parentFromNode = glm::dmat4(2.0);
+            scene.nodes[0].parentFromNode[3] = glm::dvec4(0, 0, 0, 1);
+            scene.nodes[0].parentFromNode[3][axis] = edge - 2.0;
+            const validation::Picture shown = picture(scene, settings);
+            const auto inside = std::count_if(samples.begin(), samples.end(),
+                                              [&](const glm::vec2& sample) { return sample[axis] < float(within); });
+            const float share = float(inside) / float(samples.size());
+            ladder.insert(share);
+            for (int i = 0; i < kSide * kSide; ++i) {
+                const int along = axis == 0 ? i % kSide : kSide - 1 - i / kSide; // rows run from the top
+                const float part = along < kEdge ? 1.0f : along > kEdge ? 0.0f : share;
+                const float* pixel = shown.pixel(std::size_t(i));
+                EXPECT_EQ(pixel[0], 0.5f * part) << sixteenth << " " << i;
+                EXPECT_EQ(pixel[2], part) << sixteenth << " " << i;
+                EXPECT_EQ(pixel[3], part) << sixteenth << " " << i;
+            }
+        }
+        EXPECT_GE(ladder.size(), 3u) << "the edge never passed a sample";
+    }
+}
+
+TEST_F(Multisampling, theEdgeOfAMaskedCardAlwaysHasSharesInBetween) {
+    Scene scene = test::everythingScene();
+    scene.nodes = {scene.nodes[5]}; // the masked card
+    const std::set<float> hard = alphasOf(picture(scene, sampled({321, 179}, 1)));
+    EXPECT_EQ(hard, (std::set<float>{0.0f, 1.0f}));
+    const std::set<float> soft = alphasOf(picture(scene, sampled({321, 179})));
+    EXPECT_TRUE(soft.contains(0.0f) && soft.contains(1.0f));
+    EXPECT_GE(soft.size(), 4u);
+}
+
+} // namespace
+} // namespace tessera

@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <cmath>
+
+#include "passes/DepthPrepass.h"
+#include "passes/recipes/ChooseSamples.h"
+#include "passes/recipes/PreparedFrame.h"
+#include "passes/recipes/Renderer.h"
+#include "renderer/gpu/Commands.h"
+#include "renderer/gpu/GraphBackend.h"
+#include "renderer/graph/Execute.h"
+#include "tests/support/GlContext.h"
+#include "tests/support/TestScenes.h"
+
+namespace tessera {
+namespace {
+
+using recipes::Technique;
+
+constexpr int kWidth = 65, kHeight = 37;
+
+/// What the prepass leaves of one pixel, by sample.
+struct Pixel {
+    std::vector<float> depth, shadingDepth;
+    bool covered() const {
+        return std::none_of(depth.begin(), depth.end(), [](float d) { return d == 0.0f; });
+    }
+};
+
+class ShadingDepth : public test::GlTest {
+protected:
+    frame::FrameSettings settings(int samples) {
+        frame::FrameSettings asked;
+        asked.sizePixels = {kWidth, kHeight};
+        asked.samples = samples;
+        return recipes::settingsOn(context().capabilities(), asked);
+    }
+
+    /// Pixels in GL's order, rows from below.
+    std::vector<Pixel> prepassed(const scenes::Scene& scene, const frame::FrameSettings& settings) {
+        const recipes::PreparedFrame prepared = recipes::prepareFrame(scene, Technique::ForwardPrepass, settings);
+        const frame::FrameSpec& spec = prepared.spec;
+        frame::SceneGpu sceneGpu(scene, spec.features);
+        sceneGpu.setView(prepared.view);
+        gpu::Buffer constants("frame constants", sizeof(shared::FrameConstants), gpu::BufferUse::Dynamic);
+        constants.uploadValue(prepared.view.constants);
+        const gpu::Buffer none("nothing", 64);
+        const frame::LightBuffers lights;
+        frame::LightListBuffers lightLists;
+        shader::ProgramLibrary programs;
+        gpu::GraphBackend backend;
+        const frame::FrameResources resources{sceneGpu,   constants,
+                                              none,       lights,
+                                              lightLists, prepared.view.constants,
+                                              {},         glm::vec4(0.0f),
+                                              programs,   backend.framebuffers()};
+        graph::Graph graph;
+        const passes::DepthPrepass::Outputs drawn = passes::DepthPrepass::add(graph, spec, {true}, &resources);
+        const graph::BufferHandle read = readBack(graph, drawn, spec.samples);
+        graph.output(read);
+        const graph::CompiledGraph compiled = graph::compile(graph);
+        graph::Execution execution(graph, compiled, backend);
+        execution.run();
+        const std::vector<float> values =
+            execution.buffer(read).downloadAs<float>(std::size_t(kWidth) * kHeight * std::size_t(spec.samples) * 2);
+        std::vector<Pixel> pixels(std::size_t(kWidth) * kHeight);
+        for (std::size_t i = 0; i < values.size(); i += 2) {
+            Pixel& pixel = pixels[i / 2 / std::size_t(spec.samples)];
+            pixel.depth.push_back(values[i]);
+            pixel.shadingDepth.push_back(values[i + 1]);
+        }
+        return pixels;
+    }
+
+private:
+    struct Read {
+        graph::TextureHandle depth, shadingDepth;
+        graph::BufferHandle values;
+    };
+    /// Copies both textures, sample by sample, into a buffer of pairs.
+    graph::BufferHandle readBack(graph::Graph& graph, const passes::DepthPrepass::Outputs& drawn, int samples) {
+        const std::string kind = samples > 1 ? "sampler2DMS" : "sampler2D";
+        copy_ = std::make_unique<gpu::Program>(
+            "copy", std::vector<gpu::StageSource>{
+                        {gpu::Stage::Compute,
+                         "#version 450 core\nlayout(local_size_x = 1) in;\nlayout(binding = 0) uniform " + kind +
+                             " depth;\nlayout(binding = 1) uniform " + kind +
+                             " shadingDepth;\nlayout(binding = 0, std430) buffer V { float values[]; };\n"
+                             "void main() {\n"
+                             "    ivec2 p = ivec2(gl_WorkGroupID.xy);\n"
+                             "    int sampleIndex = int(gl_WorkGroupID.z);\n"
+                             "    uint i = 2u * ((gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)\n"
+                             "                   * gl_NumWorkGroups.z + gl_WorkGroupID.z);\n"
+                             "    values[i] = texelFetch(depth, p, sampleIndex).r;\n"
+                             "    values[i + 1u] = texelFetch(shadingDepth, p, sampleIndex).r;\n"
+                             "}\n"}});
+        return graph
+            .addPass<Read>(
+                "read",
+                [&](graph::PassBuilder& pass, Read& data) {
+                    data.depth = pass.read(drawn.depth);
+                    data.shadingDepth = pass.read(drawn.shadingDepth.value());
+                    const std::size_t floats = std::size_t(kWidth) * kHeight * std::size_t(samples) * 2;
+                    data.values = pass.create("values", graph::BufferDesc{floats * sizeof(float)});
+                },
+                [this, samples](const Read& data, const graph::PassContext& context) {
+                    gpu::useProgram(*copy_);
+                    gpu::bindTexture(0, context.texture(data.depth));
+                    gpu::bindTexture(1, context.texture(data.shadingDepth));
+                    gpu::bindStorageBuffer(0, context.buffer(data.values));
+                    gpu::dispatch(kWidth, kHeight, std::uint32_t(samples));
+                })
+            .values;
+    }
+    std::unique_ptr<gpu::Program> copy_;
+};
+
+/// A floor that a level camera sees up to the horizon, which crosses the pixels of the middle row.
+scenes::Scene endlessFloor() {
+    scenes::Scene scene = test::everythingScene();
+    scene.nodes.resize(1);
+    scene.nodes[0].parentFromNode = glm::dmat4(1e7) * scene.nodes[0].parentFromNode;
+    scene.nodes[0].parentFromNode[3] = {0, -1, 0, 1};
+    scene.cameras[0].worldFromCamera = glm::dmat4(1.0);
+    return scene;
+}
+
+TEST_F(ShadingDepth, everyCoveredSampleAlwaysHasTheDepthOfItsFragmentAndTheOthersHaveNone) {
+    const frame::FrameSettings four = settings(4);
+    const std::vector<Pixel> pixels = prepassed(endlessFloor(), four);
+    int partial = 0, whole = 0;
+    for (const Pixel& pixel : pixels) {
+        for (std::size_t i = 0; i < pixel.depth.size(); ++i) {
+            EXPECT_EQ(pixel.depth[i] == 0.0f, pixel.shadingDepth[i] == 0.0f);
+            if (pixel.depth[i] == 0.0f) continue;
+            EXPECT_LE(pixel.shadingDepth[i], 1.0f);
+            // The guard's promise: a light list that holds the depths of the samples, halved, holds this one. One
+            // per mille for the rounding of derivatives.
+            EXPECT_GE(pixel.shadingDepth[i], 0.4995f * pixel.depth[i]);
+        }
+        whole += pixel.covered();
+        partial += !pixel.covered() && *std::max_element(pixel.depth.begin(), pixel.depth.end()) > 0.0f;
+    }
+    EXPECT_GT(whole, kWidth * kHeight / 3);
+    EXPECT_GT(partial, kWidth / 2) << "the horizon does not cross pixels";
+}
+
+TEST_F(ShadingDepth, aPixelIsAlwaysLitAtTheDepthThatThePrepassSays) {
+    frame::FrameSettings four = settings(4);
+    const scenes::Scene scene = endlessFloor();
+    const std::vector<Pixel> pixels = prepassed(scene, four);
+    four.view = frame::View::Depth;
+    recipes::Renderer renderer(context(), scene);
+    const recipes::RenderedFrame shown = renderer.render(Technique::ForwardPrepass, four);
+    const double nearMetres = scene.cameras[0].nearMetres;
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            const Pixel& pixel = pixels[std::size_t(y * kWidth + x)];
+            // Of a reverse-Z depth without far plane; samples that nothing covers show 0.
+            double mean = 0.0;
+            for (const float depth : pixel.shadingDepth)
+                mean += depth == 0.0f ? 0.0 : nearMetres / double(depth) / double(pixel.depth.size());
+            const double metres = shown.radiance[std::size_t(4 * ((kHeight - 1 - y) * kWidth + x))];
+            // fp32: some ten roundings of 2^-24 from depth to position and its projection on the view axis.
+            EXPECT_NEAR(metres, mean, 1e-6 * mean) << x << " " << y;
+        }
+    }
+}
+
+TEST_F(ShadingDepth, withOneSampleItIsExactlyTheDepth) {
+    for (const Pixel& pixel : prepassed(test::everythingScene(), settings(1))) {
+        ASSERT_EQ(pixel.depth.size(), 1u);
+        EXPECT_EQ(pixel.depth, pixel.shadingDepth);
+    }
+}
+
+} // namespace
+} // namespace tessera

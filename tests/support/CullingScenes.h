@@ -1,0 +1,17 @@
+#pragma once
+#include <cstdint>
+
+#include "scenes/Scene.h"
+
+namespace tessera::test {
+
+/// A random scene to try light culling on: a floor, boxes and cards, some of them transparent, seen by a perspective or
+/// orthographic camera of random place, lens and depth range, and lit by lights of every kind, falloff, range and cone,
+/// some of which hold the camera or lie behind it. The same for the same seed.
+scenes::Scene randomLitScene(std::uint64_t seed);
+
+/// Deep discontinuities of depth: two rows of columns and a curtain of leaf-like cards before a far wall, with `lights`
+/// small lights in the room between.
+scenes::Scene columnsBeforeWall(int lights);
+
+} // namespace tessera::test

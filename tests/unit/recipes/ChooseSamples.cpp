@@ -1,0 +1,81 @@
+#include "passes/recipes/ChooseSamples.h"
+
+#include <gmock/gmock.h>
+
+#include "passes/recipes/Renderer.h"
+#include "scenes/Error.h"
+#include "scenes/Load.h"
+
+namespace tessera::recipes {
+namespace {
+
+using testing::HasSubstr;
+
+std::string faultOf(const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+frame::FrameSettings asking(int samples) {
+    frame::FrameSettings settings;
+    settings.sizePixels = {64, 36};
+    settings.samples = samples;
+    return settings;
+}
+
+gpu::Capabilities giving(std::vector<int> samples) {
+    gpu::Capabilities capabilities;
+    capabilities.renderTargetSamples = std::move(samples);
+    return capabilities;
+}
+
+TEST(ChooseSamples, aTechniqueWithAGBufferIsAlwaysRefusedWithTheNamesOfThoseThatCan) {
+    for (const TechniqueInfo& info : techniqueTable()) {
+        EXPECT_NO_THROW(requireSamples(info.technique, 1));
+        EXPECT_EQ(faultOf([&] { requireSamples(info.technique, 4); }).empty(), info.multisamples) << info.name;
+        EXPECT_FALSE(info.multisamples && info.usesGBuffer) << info.name;
+    }
+    EXPECT_THAT(faultOf([] { requireSamples(Technique::Deferred, 2); }),
+                HasSubstr("technique deferred does not take --samples 2; forward, forward_prepass"));
+}
+
+TEST(ChooseSamples, numbersThatNobodyMayAskForAreAlwaysRefused) {
+    const scenes::Scene room = scenes::loadScene("room");
+    for (const int samples : {-1, 0, 3, 8}) {
+        EXPECT_EQ(faultOf([&] { planFrame(room, Technique::Forward, asking(samples)); }),
+                  "--samples " + std::to_string(samples) + ": a pixel can have 1, 2, 4 samples");
+    }
+}
+
+TEST(ChooseSamples, aDriverAlwaysGivesItsNextLargerNumberAndThePlanSaysBoth) {
+    const gpu::Capabilities fours = giving({1, 4});
+    EXPECT_EQ(settingsOn(fours, asking(1)).samplesGiven, 1);
+    EXPECT_EQ(settingsOn(fours, asking(2)).samplesGiven, 4);
+    EXPECT_EQ(settingsOn(fours, asking(4)).samplesGiven, 4);
+    EXPECT_EQ(settingsOn(giving({1, 2, 8}), asking(4)).samplesGiven, 8);
+    EXPECT_EQ(faultOf([] {
+                  settingsOn(giving({1, 2}), asking(4));
+              }),
+              "--samples 4: this driver's 32-bit float render targets have 1 or 2 samples; ask for fewer");
+
+    const scenes::Scene room = scenes::loadScene("room");
+    const graph::Plan plan = planFrame(room, Technique::ForwardPrepass, settingsOn(fours, asking(2)));
+    std::string chosen, why;
+    for (const graph::Plan::Choice& choice : plan.choices)
+        if (choice.what == "samples") chosen = choice.chosen, why = choice.why;
+    EXPECT_EQ(chosen, "4");
+    EXPECT_EQ(why, "2 asked for; the driver's next larger number");
+    for (const graph::Plan::Resource& resource : plan.resources) {
+        const bool drawn = resource.name == "depth" || resource.name == "radiance";
+        EXPECT_EQ(resource.samples, drawn ? 4 : 1) << resource.name;
+    }
+    EXPECT_TRUE(sampleChoices(asking(1)).empty());
+    EXPECT_THAT(sampleChoices(asking(2)).at(0).why, HasSubstr("a driver may give more"));
+}
+
+} // namespace
+} // namespace tessera::recipes

@@ -1,0 +1,37 @@
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "passes/recipes/Renderer.h"
+#include "scenes/Load.h"
+
+namespace tessera {
+namespace {
+
+bool drawsVolumes(const scenes::Scene& scene, frame::View view) {
+    frame::FrameSettings settings;
+    settings.view = view;
+    const auto programs = recipes::framePrograms(scene, recipes::Technique::DeferredVolumes, settings);
+    return std::any_of(programs.begin(), programs.end(),
+                       [](const auto& program) { return program.name == "light_volumes"; });
+}
+
+TEST(LightVolumesPass, isNeverDeclaredForViewsThatDoNotSumOverLights) {
+    const scenes::Scene scene = scenes::loadScene("room");
+    for (const frame::ViewInfo& info : frame::viewTable()) {
+        const bool sums = info.view == frame::View::Final || info.view == frame::View::Lights;
+        EXPECT_EQ(drawsVolumes(scene, info.view), sums) << info.name;
+    }
+}
+
+TEST(LightVolumesPass, isNeverDeclaredWithoutLightsOrWithoutWhatTheyLight) {
+    scenes::Scene unlit = scenes::loadScene("room");
+    scenes::Scene dark = unlit;
+    for (scenes::Material& material : unlit.materials) material.model = scenes::MaterialModel::SingleColor;
+    dark.lights.clear();
+    EXPECT_FALSE(drawsVolumes(unlit, frame::View::Final));
+    EXPECT_FALSE(drawsVolumes(dark, frame::View::Final));
+}
+
+} // namespace
+} // namespace tessera

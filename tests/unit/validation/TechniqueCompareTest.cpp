@@ -1,0 +1,29 @@
+#include "validation/TechniqueCompare.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera::validation {
+namespace {
+
+using recipes::Technique;
+
+const frame::GBufferLayout kExact = frame::layoutTable()[0].layout;
+
+TEST(TechniqueCompare, pairsOnSoftwareAreAlwaysHeldToEveryBit) {
+    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+        const Tolerance tolerance = pairTolerance(info.technique, kExact, true, 65536);
+        EXPECT_EQ(tolerance.bitEqual, 1.0) << info.name;
+        EXPECT_EQ(tolerance.maxRel, 0.0) << info.name;
+    }
+}
+
+TEST(TechniqueCompare, onHardwareSumsByBlendingAreHeldToExactlyTheBoundOfTheirNumberOfTerms) {
+    EXPECT_EQ(pairTolerance(Technique::DeferredVolumes, kExact, false, 31).maxRel, 1e-5);
+    EXPECT_EQ(pairTolerance(Technique::DeferredVolumes, kExact, false, 4096).maxRel, 0x1p-12);
+    EXPECT_EQ(pairTolerance(Technique::Deferred, kExact, false, 4096).maxRel, 1e-5);
+    EXPECT_NE(pairTolerance(Technique::DeferredVolumes, kExact, false, 4096).reason,
+              pairTolerance(Technique::Deferred, kExact, false, 4096).reason);
+}
+
+} // namespace
+} // namespace tessera::validation

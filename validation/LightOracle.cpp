@@ -1,0 +1,241 @@
+#include "validation/LightOracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "renderer/frame/LightReach.h"
+#include "validation/VisitedLights.h"
+
+namespace tessera::validation {
+
+namespace {
+
+/// A light as plain numbers; only those that are on and not dark.
+struct TrueLight {
+    int sceneLight = 0;
+    glm::dvec3 positionWS{0.0};
+    double squaredReach = 0.0;
+    bool isSpot = false;
+    glm::dvec3 directionWS{0.0};
+    double cosOuter = -1.0;
+};
+
+struct TrueLights {
+    std::vector<TrueLight> finite;
+    std::vector<int> everywhere; ///< scene lights
+};
+
+TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& settings) {
+    TrueLights lights;
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const scenes::Light light = scenes::lightAtTime(scene.lights[i], settings.timeSeconds);
+        if (!light.enabled || (settings.soloLight && *settings.soloLight != int(i))) continue;
+        if (glm::dvec3(light.color) * double(light.intensity) == glm::dvec3(0.0)) continue;
+        const bool isSpot = light.type == scenes::LightType::Spot;
+        if (isSpot && !(light.outerConeRadians > 0.0f)) continue;
+        const double reach = frame::reachMetres(light, settings.rangeTolerance);
+        if (std::isinf(reach)) {
+            lights.everywhere.push_back(int(i));
+            continue;
+        }
+        TrueLight plain;
+        plain.sceneLight = int(i);
+        plain.positionWS = light.positionWS;
+        plain.squaredReach = reach * reach;
+        plain.isSpot = isSpot;
+        plain.directionWS = light.directionWS;
+        plain.cosOuter = std::cos(double(light.outerConeRadians));
+        lights.finite.push_back(plain);
+    }
+    return lights;
+}
+
+/// World positions of pixel centres from the depth buffer, by the camera's definition.
+class PixelPositions {
+public:
+    PixelPositions(const scenes::Camera& camera, const frame::FrameSettings& settings)
+        : camera_(camera), sizePixels_(settings.sizePixels) {
+        camera_.worldFromCamera[3] += glm::dvec4(settings.eyeOffsetWS, 0.0);
+        perspective_ = camera.projection == scenes::Projection::Perspective;
+        halfHeight_ = perspective_ ? std::tan(camera.fovYRadians / 2.0) : camera.halfHeightMetres;
+        // An orthographic depth buffer ends a thousand picture heights behind the near plane where the camera does not.
+        far_ = camera.farMetres;
+        if (!perspective_ && std::isinf(far_)) far_ = camera.nearMetres + 2000.0 * camera.halfHeightMetres;
+    }
+
+    glm::dvec3 positionWS(int column, int row, float depth) const {
+        const double n = camera_.nearMetres, d = depth;
+        double ahead = far_ - d * (far_ - n);
+        if (perspective_) ahead = std::isinf(far_) ? n / d : far_ * n / (n + d * (far_ - n));
+        const double aspect = double(sizePixels_.x) / double(sizePixels_.y);
+        const double u = 2.0 * (column + 0.5) / sizePixels_.x - 1.0, v = 2.0 * (row + 0.5) / sizePixels_.y - 1.0;
+        const double scale = halfHeight_ * (perspective_ ? ahead : 1.0);
+        return glm::dvec3(camera_.worldFromCamera * glm::dvec4(u * aspect * scale, v * scale, -ahead, 1.0));
+    }
+
+private:
+    scenes::Camera camera_;
+    glm::ivec2 sizePixels_;
+    bool perspective_ = true;
+    double halfHeight_ = 1.0;
+    double far_ = 0.0;
+};
+
+bool reaches(const TrueLight& light, const glm::dvec3& positionWS, double squaredDistance) {
+    if (!(squaredDistance < light.squaredReach)) return false;
+    if (!light.isSpot) return true;
+    const glm::dvec3 away = positionWS - light.positionWS;
+    return glm::dot(away, light.directionWS) > light.cosOuter * std::sqrt(squaredDistance);
+}
+
+/// The counts of some rows of pixels.
+struct RowCounts {
+    LightOracleFigures figures;
+    std::vector<std::uint64_t> pixelsByVisited; ///< how many pixels visit i lights
+};
+
+class Judge {
+public:
+    explicit Judge(const OracleInput& input)
+        : input_(input), lights_(trueLights(input.scene, input.settings)), visited_(input.drawn),
+          positions_(input.scene.cameras[std::size_t(input.settings.camera)], input.settings) {}
+
+    void row(int row, RowCounts& counts) const {
+        std::vector<int> visited;
+        for (int column = 0; column < input_.settings.sizePixels.x; ++column) {
+            const std::size_t pixel =
+                std::size_t(row) * std::size_t(input_.settings.sizePixels.x) + std::size_t(column);
+            if (!(input_.depth[pixel] > 0.0f)) continue;
+            ++counts.figures.covered;
+            visited_.at(column, row, input_.depth[pixel], visited);
+            if (counts.pixelsByVisited.size() <= visited.size()) counts.pixelsByVisited.resize(visited.size() + 1);
+            ++counts.pixelsByVisited[visited.size()];
+            const bool hasNormal = !input_.normalWS.empty();
+            const glm::dvec3 normal = hasNormal ? glm::dvec3(input_.normalWS[4 * pixel], input_.normalWS[4 * pixel + 1],
+                                                             input_.normalWS[4 * pixel + 2])
+                                                : glm::dvec3(0.0);
+            judgePixel(positions_.positionWS(column, row, input_.depth[pixel]), normal, visited, {column, row},
+                       counts.figures);
+        }
+    }
+
+private:
+    void judgePixel(const glm::dvec3& positionWS, const glm::dvec3& normal, const std::vector<int>& visited,
+                    glm::ivec2 pixel, LightOracleFigures& figures) const {
+        auto next = visited.begin();
+        for (const TrueLight& light : lights_.finite) {
+            const glm::dvec3 toLight = light.positionWS - positionWS;
+            const double squaredDistance = glm::dot(toLight, toLight);
+            if (!reaches(light, positionWS, squaredDistance)) continue;
+            ++figures.needed;
+            if (glm::dot(normal, toLight) > 0.0) ++figures.neededLit;
+            next = std::lower_bound(next, visited.end(), light.sceneLight);
+            if (next == visited.end() || *next != light.sceneLight) miss(light.sceneLight, pixel, figures);
+        }
+        std::uint64_t everywhere = 0;
+        for (const int light : lights_.everywhere) {
+            if (std::binary_search(visited.begin(), visited.end(), light))
+                ++everywhere;
+            else
+                miss(light, pixel, figures);
+        }
+        figures.everywhere += everywhere;
+        figures.evaluated += visited.size() - everywhere;
+    }
+
+    void miss(int light, glm::ivec2 pixel, LightOracleFigures& figures) const {
+        ++figures.falseNegatives;
+        if (!figures.firstMissing) figures.firstMissing = {pixel.x, input_.settings.sizePixels.y - 1 - pixel.y, light};
+    }
+
+    const OracleInput& input_;
+    TrueLights lights_;
+    VisitedLights visited_;
+    PixelPositions positions_;
+};
+
+void add(RowCounts& sum, const RowCounts& rows) {
+    sum.figures.covered += rows.figures.covered;
+    sum.figures.needed += rows.figures.needed;
+    sum.figures.neededLit += rows.figures.neededLit;
+    sum.figures.evaluated += rows.figures.evaluated;
+    sum.figures.everywhere += rows.figures.everywhere;
+    sum.figures.falseNegatives += rows.figures.falseNegatives;
+    if (!sum.figures.firstMissing) sum.figures.firstMissing = rows.figures.firstMissing;
+    if (sum.pixelsByVisited.size() < rows.pixelsByVisited.size())
+        sum.pixelsByVisited.resize(rows.pixelsByVisited.size());
+    for (std::size_t i = 0; i < rows.pixelsByVisited.size(); ++i) sum.pixelsByVisited[i] += rows.pixelsByVisited[i];
+}
+
+/// The number of lights that 99 % of the covered pixels do not exceed (nearest rank).
+std::uint64_t p99Of(const std::vector<std::uint64_t>& pixelsByVisited, std::uint64_t covered) {
+    const std::uint64_t rank = (covered * 99 + 99) / 100;
+    std::uint64_t seen = 0;
+    for (std::size_t i = 0; i < pixelsByVisited.size(); ++i) {
+        seen += pixelsByVisited[i];
+        if (seen >= rank) return i;
+    }
+    return 0;
+}
+
+std::optional<double> ratio(std::uint64_t a, std::uint64_t b) {
+    if (b == 0) return {};
+    return double(a) / double(b);
+}
+
+/// Rows from the top to rows from the bottom.
+std::vector<float> flippedRows(const std::vector<float>& rgba, int width, int height) {
+    std::vector<float> flipped(rgba.size());
+    const auto pitch = std::ptrdiff_t(width) * 4;
+    for (int row = 0; row < height; ++row)
+        std::copy_n(rgba.begin() + row * pitch, pitch, flipped.begin() + (height - 1 - row) * pitch);
+    return flipped;
+}
+
+} // namespace
+
+std::optional<double> LightOracleFigures::tightness() const {
+    return ratio(evaluated, needed);
+}
+
+std::optional<double> LightOracleFigures::litTightness() const {
+    return ratio(evaluated, neededLit);
+}
+
+LightOracleFigures judgeLights(const OracleInput& input) {
+    const Judge judge(input);
+    RowCounts sum;
+    std::mutex mutex;
+    tbb::parallel_for(tbb::blocked_range<int>(0, input.settings.sizePixels.y),
+                      [&](const tbb::blocked_range<int>& rows) {
+                          RowCounts counts;
+                          for (int row = rows.begin(); row < rows.end(); ++row) judge.row(row, counts);
+                          const std::scoped_lock lock(mutex);
+                          add(sum, counts);
+                      });
+    sum.figures.evaluatedP99 = p99Of(sum.pixelsByVisited, sum.figures.covered);
+    sum.figures.evaluatedMax = sum.pixelsByVisited.empty() ? 0 : sum.pixelsByVisited.size() - 1;
+    sum.figures.entries = input.drawn.lists.entries.size();
+    sum.figures.cells = input.drawn.lists.cells.size();
+    sum.figures.listBytes = input.drawn.lists.bytes();
+    return sum.figures;
+}
+
+LightOracleFigures judgeLights(recipes::Renderer& renderer, recipes::Technique technique,
+                               const frame::FrameSettings& settings) {
+    renderer.draw(technique, settings);
+    const recipes::DrawnLists drawn = renderer.downloadLists();
+    const std::vector<float> depth = renderer.downloadDepth();
+    frame::FrameSettings normals = settings;
+    normals.view = frame::View::Normal;
+    normals.culling = {};
+    const recipes::RenderedFrame frame = renderer.render(recipes::Technique::Deferred, normals);
+    const std::vector<float> normalWS = flippedRows(frame.radiance, frame.width, frame.height);
+    return judgeLights({renderer.scene(), settings, drawn, depth, normalWS});
+}
+
+} // namespace tessera::validation

@@ -1,0 +1,18 @@
+#include "validation/RangeTruncation.h"
+
+#include "validation/Rendering.h"
+
+namespace tessera::validation {
+
+RangeTruncation rangeTruncation(recipes::Renderer& renderer, recipes::Technique technique,
+                                frame::FrameSettings settings) {
+    settings.view = frame::View::Final;
+    const double tolerance = settings.rangeTolerance;
+    const Picture truncated = toPicture(renderer.render(technique, settings));
+    settings.rangeTolerance = 0.0;
+    const Picture whole = toPicture(renderer.render(technique, settings));
+    return {tolerance, std::string(recipes::techniqueTable()[std::size_t(technique)].name),
+            errorFigures(truncated, whole)};
+}
+
+} // namespace tessera::validation
