@@ -86,6 +86,7 @@ TEST_F(LayoutTest, theShaderAlwaysReadsTheValuesThatCppWrote) {
     frame.lights = {9, 10, 11, 12};
     frame.tileGrid = {13, 14, 15, 16};
     frame.depthKey = {17, 18, 19, 20};
+    frame.sizePixels = {21, 22, 23, 24};
     shared::MaterialConstants material{};
     material.kind = {1, 2, 3, 4};
     material.uvRow0[6] = {5, 6, 7, 8};
@@ -109,7 +110,8 @@ TEST_F(LayoutTest, theShaderAlwaysReadsTheValuesThatCppWrote) {
     EXPECT_EQ(out[16 + TEXTURE_SLOT_COUNT + 6], material.uvRow1[6]);
     EXPECT_EQ(out[17 + 2 * TEXTURE_SLOT_COUNT], glm::vec4(display.mapping));
     EXPECT_EQ(out[19 + 2 * TEXTURE_SLOT_COUNT], glm::vec4(frame.tileGrid));
-    EXPECT_EQ(out.back(), frame.depthKey);
+    EXPECT_EQ(out[20 + 2 * TEXTURE_SLOT_COUNT], frame.depthKey);
+    EXPECT_EQ(out.back(), glm::vec4(frame.sizePixels));
 }
 
 TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexelOfEveryStore) {
