@@ -80,16 +80,15 @@ bool takesLight(Surface surface)
 #endif
 }
 
-// Radiance towards the viewer that one light adds to a surface that takes light.
-vec3 lightOnSurface(int light, Surface surface, Viewpoint viewpoint)
+// Adds the radiance towards the viewer that one light gives to a surface that takes light.
+void addLightOnSurface(int light, Surface surface, Viewpoint viewpoint, inout vec3 radiance)
 {
-    precise vec3 added = vec3(0.0);
     Incident incident;
     if (incidentLight(light, viewpoint.positionLS, incident)) {
         precise vec3 reflected = reflectedShare(surface, incident.toLightLS, viewpoint.toViewerLS);
-        added = reflected * incident.intensity;
+        precise vec3 sum = radiance + reflected * incident.intensity;
+        radiance = sum;
     }
-    return added;
 }
 
 // Radiance of the surface towards the viewer: its emission and every light its cursor visits, in ascending order.
@@ -104,9 +103,9 @@ vec3 shadeSurface(Surface surface, Viewpoint viewpoint, vec2 pixel)
     // Tested at the end: rasterisers that mask lanes instead of branching would run a loop's body once more than its lights.
     do {
         do {
-            radiance += lightOnSurface(light, surface, viewpoint);
+            addLightOnSurface(light, surface, viewpoint, radiance);
 #if LIGHTS_PER_ROUND == 2
-            if (nextLight(cursor, light)) radiance += lightOnSurface(light, surface, viewpoint);
+            if (nextLight(cursor, light)) addLightOnSurface(light, surface, viewpoint, radiance);
 #endif
         } while (nextLight(cursor, light));
     } while (nextBatch(cursor, light));

@@ -16,7 +16,8 @@ void main()
     radiance = vec4(vec3(1.0), 0.0);
 #else
     Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, texelFetch(depthChannel, pixel, 0).r);
-    precise vec3 added = lightOnSurface(light, surface, viewpoint);
+    precise vec3 added = vec3(0.0);
+    addLightOnSurface(light, surface, viewpoint, added);
     radiance = vec4(added, 0.0);
 #endif
 }

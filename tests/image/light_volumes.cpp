@@ -226,15 +226,21 @@ TEST_F(LightVolumes, thousandsOfSmallLightsAreAlwaysExactlyAsInDeferred) {
     EXPECT_TRUE(expectEqual(renderer, sized(97, 61)));
 }
 
-// Seen from the side, so that what is lit ends where the hull's outline does.
+// Seen from the side, so that what is lit ends where the hull's outline does; and the whole scene turned at random,
+// since the corners of an octagon stand out by 8 % and hide a hull that is too narrow.
 TEST_F(LightVolumes, spotsAlongAWallAreAlwaysExactlyAsInDeferred) {
-    scenes::Scene scene = wall();
-    recipes::Renderer renderer(context(), scene);
-    for (const double degrees : {3.0, 10.0, 20.0, 30.0, 45.0, 60.0, 75.0, 84.0}) {
-        for (const double turnRadians : {0.0, 0.1, 0.2, 0.3, 0.4, 0.9, 2.1}) {
-            SCOPED_TRACE(fmt::format("{} degrees, turned {}", degrees, turnRadians));
-            const glm::dvec3 axis(std::sin(turnRadians), std::cos(turnRadians), 0.0);
-            scene.lights = {spotLight(glm::dvec3(0.0, 0.0, 0.01) - 0.6 * axis, axis, degrees * pi / 180.0)};
+    const scenes::Scene upright = wall();
+    Random random(11);
+    for (int turn = 0; turn < 24; ++turn) {
+        const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), random.between(0.0, 2.0 * pi), random.direction());
+        scenes::Scene scene = upright;
+        scene.nodes[0].parentFromNode = turned * scene.nodes[0].parentFromNode;
+        scene.cameras[0].worldFromCamera = turned * scene.cameras[0].worldFromCamera;
+        recipes::Renderer renderer(context(), scene);
+        for (const double degrees : {3.0, 10.0, 20.0, 30.0, 45.0, 60.0, 75.0, 84.0}) {
+            SCOPED_TRACE(fmt::format("{} degrees, turn {}", degrees, turn));
+            scene.lights = {spotLight(glm::dvec3(turned * glm::dvec4(0.0, -0.6, 0.01, 1.0)),
+                                      glm::dvec3(turned * glm::dvec4(0.0, 1.0, 0.0, 0.0)), degrees * pi / 180.0)};
             scene.lights[0].rangeMetres = 1.2f;
             EXPECT_TRUE(expectEqual(renderer, sized(320, 200)));
         }
