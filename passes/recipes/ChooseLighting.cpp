@@ -15,7 +15,8 @@ std::string_view nameOf(frame::LightingStage stage) {
 } // namespace
 
 bool takesLightingStage(Technique technique) {
-    return techniqueTable()[std::size_t(technique)].usesGBuffer;
+    // Volumes are rasterised: what is lit stands in fragment shaders.
+    return techniqueTable()[std::size_t(technique)].usesGBuffer && technique != Technique::DeferredVolumes;
 }
 
 frame::LightingStage chooseLighting(Technique technique, const frame::FrameSettings& settings) {
@@ -26,7 +27,7 @@ frame::LightingStage chooseLighting(Technique technique, const frame::FrameSetti
         if (takesLightingStage(other.technique))
             techniques += (techniques.empty() ? "" : ", ") + std::string(other.name);
     }
-    throw InputError(fmt::format("technique {} does not take --light-on {}, since it has no lighting pass; {} do",
+    throw InputError(fmt::format("technique {} does not take --light-on {}, since it lights as it rasterises; {} do",
                                  techniqueTable()[std::size_t(technique)].name, nameOf(*settings.lightOn), techniques));
 }
 

@@ -11,7 +11,7 @@ namespace tessera::recipes {
 bool takesLightingStage(Technique technique);
 
 /// The shaders that light: what was asked for, else fragment shaders. Throws InputError when it was asked and the
-/// technique shades as it rasterises.
+/// technique lights as it rasterises.
 frame::LightingStage chooseLighting(Technique technique, const frame::FrameSettings& settings);
 
 /// The same in words, for a plan; none for techniques without the choice.

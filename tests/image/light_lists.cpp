@@ -61,8 +61,8 @@ protected:
                 settings.culling.tilePixels = tile;
                 settings.culling.builder = Builder::Cpu;
                 const culling::LightLists truth = lists(renderer, settings);
-                // The first light of the lattice is out of view, and in nobody's list.
-                EXPECT_EQ(truth.entries.empty(), scene.lights.size() == 1 && method.method != culling::Method::Zbin);
+                // The first light of the lattice is out of view; a tile's box, wider than its view, may still touch it.
+                EXPECT_TRUE(scene.lights.size() == 1 || !truth.entries.empty());
                 for (const GpuBuilder& gpu : kGpuBuilders) {
                     SCOPED_TRACE(fmt::format("{}, tile {}, {}", method.name, tile, gpu.name));
                     expectEqual(lists(renderer, with(settings, gpu)), truth);

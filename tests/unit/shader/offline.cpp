@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "passes/recipes/ChooseLighting.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/PreparedFrame.h"
 #include "passes/recipes/Renderer.h"
@@ -90,7 +91,7 @@ std::vector<std::pair<recipes::Technique, frame::FrameSettings>> listBuildersAnd
     frame::FrameSettings settings;
     settings.sizePixels = {64, 36};
     for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
-        if (technique.usesGBuffer) settings.lightOn = frame::LightingStage::Compute;
+        if (recipes::takesLightingStage(technique.technique)) settings.lightOn = frame::LightingStage::Compute;
         for (const culling::Method method : technique.methods) {
             settings.culling.method = method;
             for (const Lanes lanes : {Lanes{culling::Builder::Compute, 64}, Lanes{culling::Builder::Compute, 1},
