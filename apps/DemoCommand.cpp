@@ -82,8 +82,10 @@ validation::Report makeReport(const Request& request, const CompareResult& resul
         report.facts.push_back({"Samples", fmt::format("{} a pixel", result.record.samples)});
     for (std::size_t i = 0; i < techniques.size(); ++i) {
         report.facts.push_back({nameOf(techniques[i]), fmt::format("{:.0f} ms a frame", ms[i])});
-        report.plans.push_back({nameOf(techniques[i]),
-                                graph::planText(recipes::planFrame(request.scene, techniques[i], request.settings))});
+        report.plans.push_back(
+            {nameOf(techniques[i]),
+             graph::planText(recipes::planFrame(request.scene, techniques[i],
+                                                validation::settingsTakenBy(techniques[i], request.settings)))});
     }
     report.pictures.push_back({result.truth.name, "the truth of every pair below", result.truth.display});
     for (const validation::NamedPicture& picture : result.pictures) {

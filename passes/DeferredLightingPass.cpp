@@ -61,7 +61,7 @@ DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, con
                                        inCompute(spec) ? graph::Access::ImageWrite : graph::Access::ColorAttachment);
         },
         [resources, compute = inCompute(spec), program = program(spec, params)](const Outputs& out,
-                                                                        const graph::PassContext& context) {
+                                                                                const graph::PassContext& context) {
             gpu::useProgram(resources->programs.get(program));
             gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
             resources->lights.bind();

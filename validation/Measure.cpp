@@ -5,6 +5,7 @@
 
 #include "validation/Interleave.h"
 #include "validation/RangeTruncation.h"
+#include "validation/TechniqueCompare.h"
 #include "validation/TimeSamples.h"
 
 namespace tessera::validation {
@@ -68,7 +69,7 @@ std::vector<double> frameMs(recipes::Renderer& renderer, const std::vector<recip
         kinds.emplace_back([&renderer, &settings, technique](const glm::dvec3& eyeOffsetWS) {
             frame::FrameSettings moved = settings;
             moved.eyeOffsetWS += eyeOffsetWS;
-            renderer.draw(technique, moved);
+            renderer.draw(technique, settingsTakenBy(technique, moved));
         });
     }
     std::vector<double> medians;

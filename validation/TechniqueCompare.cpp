@@ -19,16 +19,8 @@ std::string nameOf(Technique technique) {
     return std::string(recipes::techniqueTable()[std::size_t(technique)].name);
 }
 
-/// What was asked for goes to the techniques that take it; the others keep their own.
-frame::FrameSettings settingsFor(Technique technique, frame::FrameSettings settings) {
-    if (settings.culling.method && !recipes::takesMethod(technique, *settings.culling.method))
-        settings.culling.method.reset();
-    if (!recipes::takesLightingStage(technique)) settings.lightOn.reset();
-    return settings;
-}
-
 NamedPicture rendered(recipes::Renderer& renderer, Technique technique, const frame::FrameSettings& settings) {
-    const recipes::RenderedFrame frame = renderer.render(technique, settingsFor(technique, settings));
+    const recipes::RenderedFrame frame = renderer.render(technique, settingsTakenBy(technique, settings));
     return {nameOf(technique), toPicture(frame), toDisplayImage(frame)};
 }
 
@@ -52,7 +44,7 @@ bool measuresTruncation(const CompareRequest& request) {
 RangeTruncation truncationOf(recipes::Renderer& renderer, const CompareRequest& request) {
     const auto* truth = std::get_if<Technique>(&request.against);
     const Technique technique = truth ? *truth : request.techniques.front();
-    return rangeTruncation(renderer, technique, settingsFor(technique, request.settings));
+    return rangeTruncation(renderer, technique, settingsTakenBy(technique, request.settings));
 }
 
 bool isPacked(const frame::GBufferLayout& layout) {
@@ -68,7 +60,7 @@ std::vector<ChannelShare> channelShares(recipes::Renderer& renderer, const Compa
     for (const frame::Channel channel : frame::neededChannels(features, request.settings.layout, false)) {
         frame::FrameSettings settings = request.settings;
         settings.layout.encoding[std::size_t(channel)] = frame::Encoding::Exact;
-        const Picture picture = toPicture(renderer.render(technique, settingsFor(technique, settings)));
+        const Picture picture = toPicture(renderer.render(technique, settingsTakenBy(technique, settings)));
         const double without = errorFigures(picture, truth).relMse;
         shares.push_back({std::string(frame::channelTable()[std::size_t(channel)].name), without, relMse - without});
     }
@@ -81,7 +73,7 @@ void checkWithoutPacking(recipes::Renderer& renderer, const CompareRequest& requ
                          const Picture& truth, bool isSoftware, Verdict& verdict) {
     frame::FrameSettings settings = request.settings;
     settings.layout = frame::layoutTable()[0].layout;
-    const Picture picture = toPicture(renderer.render(technique, settingsFor(technique, settings)));
+    const Picture picture = toPicture(renderer.render(technique, settingsTakenBy(technique, settings)));
     const Tolerance tolerance = pairTolerance(technique, settings.layout, isSoftware, renderer.scene().lights.size());
     for (const std::string& missed : checkTolerance(errorFigures(picture, truth), tolerance).missed)
         verdict.missed.push_back("with every channel in fp32: " + missed);
@@ -89,6 +81,13 @@ void checkWithoutPacking(recipes::Renderer& renderer, const CompareRequest& requ
 }
 
 } // namespace
+
+frame::FrameSettings settingsTakenBy(recipes::Technique technique, frame::FrameSettings settings) {
+    if (settings.culling.method && !recipes::takesMethod(technique, *settings.culling.method))
+        settings.culling.method.reset();
+    if (!recipes::takesLightingStage(technique)) settings.lightOn.reset();
+    return settings;
+}
 
 std::size_t pictureCount(const CompareRequest& request) {
     return request.techniques.size() + (std::holds_alternative<Technique>(request.against) ? 1 : 0) +

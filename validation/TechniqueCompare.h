@@ -34,6 +34,9 @@ struct CompareResult {
     std::vector<NamedPicture> pictures; ///< parallel to record.pairs
 };
 
+/// What was asked for of culling and lighting goes to the techniques that take it; the others keep their own.
+frame::FrameSettings settingsTakenBy(recipes::Technique technique, frame::FrameSettings settings);
+
 /// Pictures that compareTechniques() renders, for progress; what a range tolerance drops counts as one.
 std::size_t pictureCount(const CompareRequest& request);
 

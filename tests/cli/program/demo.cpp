@@ -19,7 +19,7 @@ TEST_F(Demo, theReportAndItsPicturesAreAlwaysWrittenWhereItSays) {
     const std::string page = text("out/report/index.html");
     EXPECT_THAT(page.substr(0, 200), HasSubstr("<!DOCTYPE html>"));
     EXPECT_THAT(page, HasSubstr("tessera compare lattice"));
-    for (const char* name : {"forward", "forward_prepass", "deferred", "deferred_packed"})
+    for (const char* name : {"forward", "deferred", "tiled_deferred", "forward_plus", "deferred_packed"})
         EXPECT_EQ(picture(std::string("out/report/") + name + ".png").width, 160) << name;
     EXPECT_EQ(picture("out/report/lattice.exr").height, 90);
 }

@@ -1,0 +1,61 @@
+#include "tests/cli/program/Cli.h"
+
+namespace tessera::test {
+namespace {
+
+using Json = nlohmann::json;
+using testing::HasSubstr;
+
+class Bench : public Cli {};
+
+TEST_F(Bench, everyPointIsAlwaysMeasuredCountedAndHeldAgainstTheFloor) {
+    folder_.write("matrix.json", R"({"technique": ["forward", "tiled_deferred", "clustered_deferred"],
+                                     "culling": ["none", "tile_minmax", "cluster"], "tile": [16, 32], "lights": [0, 40]})");
+    const std::string said = runGood(
+        {"bench", "lattice", "--size", "96x54", "--frames", "2", "--matrix", "matrix.json", "-o", "out/of/bench"});
+    EXPECT_THAT(said, HasSubstr("tile_minmax, 16"));
+    EXPECT_THAT(said, HasSubstr("skipped forward, cluster"));
+    const Json record = json("out/of/bench/bench.json");
+    EXPECT_EQ(record["schema"], 1);
+    EXPECT_FALSE(record["machine"].get<std::string>().empty());
+    EXPECT_FALSE(record["commit"].get<std::string>().empty());
+    // forward, and for both others none and one method with two tiles; each for both counts of lights.
+    ASSERT_EQ(record["points"].size(), 2u * (1u + 3u + 3u));
+    for (const Json& point : record["points"]) {
+        SCOPED_TRACE(point.dump());
+        EXPECT_GT(point["cpuMs"]["median"], 0.0);
+        EXPECT_GE(point["cpuMs"]["p95"], point["cpuMs"]["median"]);
+        EXPECT_EQ(point["counters"]["falseNegatives"], 0);
+        for (const auto& [name, value] : point.items()) EXPECT_TRUE(!value.is_null() || point["why"].contains(name));
+        if (point["lights"] == 0) {
+            EXPECT_EQ(point["counters"]["lightEvaluations"], 0);
+            EXPECT_EQ(point["counters"]["listBytes"], 0);
+            continue;
+        }
+        EXPECT_GT(point["counters"]["lightEvaluations"], point["counters"]["neededEvaluations"]);
+        EXPECT_GT(point["floorMs"], 0.0);
+        EXPECT_GE(point["counters"]["tightness"], 1.0);
+    }
+}
+
+TEST_F(Bench, aBadMatrixIsAlwaysRefusedInOneLineThatNamesIt) {
+    const auto refused = [&](const std::string& matrix) {
+        folder_.write("m.json", matrix);
+        const ProcessResult result = run({"bench", "lattice", "--size", "32x18", "--matrix", "m.json", "-o", "out"});
+        EXPECT_EQ(result.exitCode, 2) << matrix;
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+        EXPECT_THAT(result.err, HasSubstr("m.json"));
+        return result.err;
+    };
+    EXPECT_THAT(refused("{"), HasSubstr("is no JSON"));
+    EXPECT_THAT(refused("[]"), HasSubstr("object of arrays"));
+    EXPECT_THAT(refused(R"({"tiles": [16]})"), HasSubstr("did you mean 'tile'"));
+    EXPECT_THAT(refused(R"({"tile": [17]})"), HasSubstr("8, 16, 32, 64"));
+    EXPECT_THAT(refused(R"({"technique": ["forward+"]})"), HasSubstr("forward"));
+    EXPECT_THAT(refused(R"({"lights": [65537]})"), HasSubstr("65536"));
+    EXPECT_THAT(refused(R"({"size": ["0x10"]})"), HasSubstr("1280x720"));
+    EXPECT_THAT(refused(R"({"technique": []})"), HasSubstr("at least one"));
+}
+
+} // namespace
+} // namespace tessera::test
