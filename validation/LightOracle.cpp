@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/frame/LightReach.h"
+#include "validation/PixelPositions.h"
 #include "validation/VisitedLights.h"
 
 namespace tessera::validation {
@@ -54,37 +55,6 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
     return lights;
 }
 
-/// World positions of pixel centres from the depth buffer, by the camera's definition.
-class PixelPositions {
-public:
-    PixelPositions(const scenes::Camera& camera, const frame::FrameSettings& settings)
-        : camera_(camera), sizePixels_(settings.sizePixels) {
-        camera_.worldFromCamera[3] += glm::dvec4(settings.eyeOffsetWS, 0.0);
-        perspective_ = camera.projection == scenes::Projection::Perspective;
-        halfHeight_ = perspective_ ? std::tan(camera.fovYRadians / 2.0) : camera.halfHeightMetres;
-        // An orthographic depth buffer ends a thousand picture heights behind the near plane where the camera does not.
-        far_ = camera.farMetres;
-        if (!perspective_ && std::isinf(far_)) far_ = camera.nearMetres + 2000.0 * camera.halfHeightMetres;
-    }
-
-    glm::dvec3 positionWS(int column, int row, float depth) const {
-        const double n = camera_.nearMetres, d = depth;
-        double ahead = far_ - d * (far_ - n);
-        if (perspective_) ahead = std::isinf(far_) ? n / d : far_ * n / (n + d * (far_ - n));
-        const double aspect = double(sizePixels_.x) / double(sizePixels_.y);
-        const double u = 2.0 * (column + 0.5) / sizePixels_.x - 1.0, v = 2.0 * (row + 0.5) / sizePixels_.y - 1.0;
-        const double scale = halfHeight_ * (perspective_ ? ahead : 1.0);
-        return glm::dvec3(camera_.worldFromCamera * glm::dvec4(u * aspect * scale, v * scale, -ahead, 1.0));
-    }
-
-private:
-    scenes::Camera camera_;
-    glm::ivec2 sizePixels_;
-    bool perspective_ = true;
-    double halfHeight_ = 1.0;
-    double far_ = 0.0;
-};
-
 bool reaches(const TrueLight& light, const glm::dvec3& positionWS, double squaredDistance) {
     if (!(squaredDistance < light.squaredReach)) return false;
     if (!light.isSpot) return true;
@@ -96,6 +66,7 @@ bool reaches(const TrueLight& light, const glm::dvec3& positionWS, double square
 struct RowCounts {
     LightOracleFigures figures;
     std::vector<std::uint64_t> pixelsByVisited; ///< how many pixels visit i lights
+    CellLights cells;
 };
 
 class Judge {
@@ -106,12 +77,18 @@ public:
 
     void row(int row, RowCounts& counts) const {
         std::vector<int> visited;
+        std::optional<VisitedCell> cell; // that `visited` is of
         for (int column = 0; column < input_.settings.sizePixels.x; ++column) {
             const std::size_t pixel =
                 std::size_t(row) * std::size_t(input_.settings.sizePixels.x) + std::size_t(column);
             if (!(input_.depth[pixel] > 0.0f)) continue;
             ++counts.figures.covered;
-            visited_.at(column, row, input_.depth[pixel], visited);
+            const VisitedCell own = visited_.cellAt(column, row, input_.depth[pixel]);
+            if (cell != own) {
+                cell = own;
+                visited_.at(own, visited);
+                counts.cells.add(own, visited.size());
+            }
             if (counts.pixelsByVisited.size() <= visited.size()) counts.pixelsByVisited.resize(visited.size() + 1);
             ++counts.pixelsByVisited[visited.size()];
             const bool hasNormal = !input_.normalWS.empty();
@@ -168,6 +145,7 @@ void add(RowCounts& sum, const RowCounts& rows) {
     if (!sum.figures.firstMissing) sum.figures.firstMissing = rows.figures.firstMissing;
     if (sum.pixelsByVisited.size() < rows.pixelsByVisited.size())
         sum.pixelsByVisited.resize(rows.pixelsByVisited.size());
+    sum.cells.add(rows.cells);
     for (std::size_t i = 0; i < rows.pixelsByVisited.size(); ++i) sum.pixelsByVisited[i] += rows.pixelsByVisited[i];
 }
 
@@ -219,6 +197,7 @@ LightOracleFigures judgeLights(const OracleInput& input) {
                       });
     sum.figures.evaluatedP99 = p99Of(sum.pixelsByVisited, sum.figures.covered);
     sum.figures.evaluatedMax = sum.pixelsByVisited.empty() ? 0 : sum.pixelsByVisited.size() - 1;
+    sum.figures.occupied = sum.cells.figures();
     sum.figures.entries = input.drawn.lists.entries.size();
     sum.figures.cells = input.drawn.lists.cells.size();
     sum.figures.listBytes = input.drawn.lists.bytes();

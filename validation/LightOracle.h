@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "passes/recipes/Renderer.h"
+#include "validation/CellLights.h"
 
 /// The judge of light culling: which lights each pixel needs, found by trying all of them, and which it visited. In
 /// double precision, from the plain scene and the depth buffer, by tests of its own; with the culling code it shares
@@ -22,6 +23,7 @@ struct LightOracleFigures {
     std::uint64_t falseNegatives = 0; ///< needed pairs that were not visited; must be 0
     std::uint64_t evaluatedP99 = 0, evaluatedMax = 0; ///< lights visited by a covered pixel, those everywhere included
     std::size_t entries = 0, cells = 0, listBytes = 0;
+    CellFigures occupied; ///< the cells that a surface lies in, and the lights that each holds
     struct Pair {
         int x = 0, y = 0; ///< pixel, from the top left
         int light = 0;    ///< index into Scene::lights

@@ -20,27 +20,30 @@ std::uint32_t sliceAt(const recipes::DrawnLists& drawn, float depth, std::uint32
 
 VisitedLights::VisitedLights(const recipes::DrawnLists& drawn) : drawn_(drawn) {}
 
-void VisitedLights::at(int column, int row, float depth, std::vector<int>& sceneLights) const {
-    sceneLights.clear();
-    if (drawn_.culling.method == Method::None) {
-        sceneLights = drawn_.sceneIndex;
-        return;
-    }
+VisitedCell VisitedLights::cellAt(int column, int row, float depth) const {
+    if (drawn_.culling.method == Method::None) return {};
     const glm::uvec4& grid = drawn_.constants.tileGrid;
     const std::uint32_t side = 1u << grid.w;
     const std::uint32_t tileColumn = std::uint32_t(column) / side;
     const std::uint32_t tileRow = (grid.z - 1u - std::uint32_t(row)) / side;
-    const glm::uvec4& tile = drawn_.lists.tiles.at(tileRow * grid.x + tileColumn).words;
-    if (drawn_.culling.method == Method::Zbin)
-        ofMasks(tile, depth, sceneLights);
-    else
-        ofList(tile, depth, sceneLights);
+    const std::uint32_t tile = tileRow * grid.x + tileColumn;
+    return {tile, sliceAt(drawn_, depth, drawn_.lists.tiles.at(tile).words.y)};
 }
 
-void VisitedLights::ofList(const glm::uvec4& tile, float depth, std::vector<int>& sceneLights) const {
-    const std::uint32_t slice = sliceAt(drawn_, depth, tile.y);
+void VisitedLights::at(const VisitedCell& cell, std::vector<int>& sceneLights) const {
+    sceneLights.clear();
+    if (drawn_.culling.method == Method::None)
+        sceneLights = drawn_.sceneIndex;
+    else if (drawn_.culling.method == Method::Zbin)
+        ofMasks(cell, sceneLights);
+    else
+        ofList(cell, sceneLights);
+}
+
+void VisitedLights::ofList(const VisitedCell& visited, std::vector<int>& sceneLights) const {
+    const glm::uvec4& tile = drawn_.lists.tiles.at(visited.tile).words;
     const std::uint64_t occupied = std::uint64_t(tile.w) << 32 | tile.z;
-    const std::uint64_t nearer = slice >= 64 ? ~std::uint64_t(0) : (std::uint64_t(1) << slice) - 1;
+    const std::uint64_t nearer = visited.slice >= 64 ? ~std::uint64_t(0) : (std::uint64_t(1) << visited.slice) - 1;
     const glm::uvec2 cell = drawn_.lists.cells.at(tile.x + std::uint32_t(std::popcount(occupied & nearer)));
     const auto sceneLight = [&](std::uint32_t light) { return drawn_.sceneIndex.at(light); };
     std::vector<std::uint32_t> lights;
@@ -51,12 +54,13 @@ void VisitedLights::ofList(const glm::uvec4& tile, float depth, std::vector<int>
     std::transform(lights.begin(), lights.end(), std::back_inserter(sceneLights), sceneLight);
 }
 
-void VisitedLights::ofMasks(const glm::uvec4& tile, float depth, std::vector<int>& sceneLights) const {
-    const std::uint32_t bin = sliceAt(drawn_, depth, tile.y);
-    const glm::uvec2 words = drawn_.lists.cells.at(bin);
+void VisitedLights::ofMasks(const VisitedCell& visited, std::vector<int>& sceneLights) const {
+    const glm::uvec4& tile = drawn_.lists.tiles.at(visited.tile).words;
+    const glm::uvec2 words = drawn_.lists.cells.at(visited.slice);
     const std::uint32_t maskWords = drawn_.constants.lights.w;
     for (std::uint32_t word = words.x; word < words.y; ++word) {
-        std::uint32_t bits = drawn_.lists.entries.at(tile.x + word) & drawn_.lists.entries.at(bin * maskWords + word);
+        std::uint32_t bits =
+            drawn_.lists.entries.at(tile.x + word) & drawn_.lists.entries.at(visited.slice * maskWords + word);
         for (; bits != 0; bits &= bits - 1)
             sceneLights.push_back(drawn_.sceneIndex.at(word * 32 + std::uint32_t(std::countr_zero(bits))));
     }

@@ -1,4 +1,5 @@
 #pragma once
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -6,19 +7,28 @@
 
 namespace tessera::validation {
 
+/// A cell of the lists: a tile and a slice of its depth, or of the frame's depth bins. All pixels of a cell visit the
+/// same lights. Where every pixel visits every light, the picture is one cell.
+struct VisitedCell {
+    std::uint32_t tile = 0, slice = 0;
+    auto operator<=>(const VisitedCell&) const = default;
+};
+
 /// Reads a frame's light lists as the shaders' light cursor does, in words of its own.
 class VisitedLights {
 public:
     /// `drawn` must outlive the object.
     explicit VisitedLights(const recipes::DrawnLists& drawn);
 
-    /// Scene lights that a pixel visits, ascending, those that reach everywhere included. `row` counts from the bottom;
-    /// `depth` is the depth buffer's value there.
-    void at(int column, int row, float depth, std::vector<int>& sceneLights) const;
+    /// The cell that a pixel lies in. `row` counts from the bottom; `depth` is the depth buffer's value there.
+    VisitedCell cellAt(int column, int row, float depth) const;
+
+    /// Scene lights that the pixels of a cell visit, ascending, those that reach everywhere included.
+    void at(const VisitedCell& cell, std::vector<int>& sceneLights) const;
 
 private:
-    void ofList(const glm::uvec4& tile, float depth, std::vector<int>& sceneLights) const;
-    void ofMasks(const glm::uvec4& tile, float depth, std::vector<int>& sceneLights) const;
+    void ofList(const VisitedCell& visited, std::vector<int>& sceneLights) const;
+    void ofMasks(const VisitedCell& visited, std::vector<int>& sceneLights) const;
 
     const recipes::DrawnLists& drawn_;
 };

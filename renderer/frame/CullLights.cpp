@@ -21,8 +21,16 @@ Sphere sphereAroundCone(const glm::dvec3& apex, const glm::dvec3& axis, double c
     return {apex + axis * (reach * cosOuter), reach * sinOuter};
 }
 
+/// How far rounding can move a surface along the view where that is no share of its distance, in metres. Orthographic
+/// view depth is far - depth (far - near): two rounded coefficients, a product, a sum, and the sum in the depth key are
+/// off by 2^-24 of the far distance each, however near the surface is.
+double depthErrorMetres(const CameraView& view) {
+    const bool orthographic = view.constants.forwardLS.w == 1.0f;
+    return orthographic ? 0x1p-21 * double(view.constants.depthToViewDepth.x) : 0.0;
+}
+
 shared::CullLight cullLight(const shared::LightTexels& light, const shared::LightShapeTexels& shape,
-                            const glm::dmat3& cameraFromLS) {
+                            const glm::dmat3& cameraFromLS, double errorMetres) {
     shared::CullLight cull{};
     cull.axis.w = -2.0f;
     cull.sphere.w = -1.0f;
@@ -32,14 +40,17 @@ shared::CullLight cullLight(const shared::LightTexels& light, const shared::Ligh
     const glm::dvec3 position = cameraFromLS * glm::dvec3(light.position);
     const double reach = 1.0 / std::sqrt(double(light.position.w));
     // What rounding the packed position and the rebuilt surface positions to fp32 can move.
-    const double margin = 1e-5 * (reach + glm::length(position));
+    const double margin = 1e-5 * (reach + glm::length(position)) + errorMetres;
     Sphere sphere{position, reach};
     if ((kind & LIGHT_SPOT) != 0) {
         // The shader's cosine is off by some 1e-7; a cone wider by 1e-6 in the cosine encloses whatever it lights.
         const double cosOuter = std::clamp(double(-shape.attenuation.w) / double(shape.axis.w) - 1e-6, -1.0, 1.0);
         const glm::dvec3 axis = glm::normalize(cameraFromLS * glm::dvec3(shape.axis));
         sphere = sphereAroundCone(position, axis, cosOuter, reach);
-        cull.apex = glm::vec4(glm::vec3(position), float(std::sqrt(1.0 - cosOuter * cosOuter)));
+        // A cone whose apex stands back by m / sin(outer) encloses all that lies within m of it.
+        const double sinOuter = std::sqrt(1.0 - cosOuter * cosOuter);
+        const glm::dvec3 apex = sinOuter > 0.0 ? position - axis * (errorMetres / sinOuter) : position;
+        cull.apex = glm::vec4(glm::vec3(apex), float(sinOuter));
         cull.axis = glm::vec4(glm::vec3(axis), float(cosOuter));
     }
     cull.sphere = glm::vec4(glm::vec3(sphere.center), float(sphere.radius + margin));
@@ -52,9 +63,10 @@ std::vector<shared::CullLight> cullLights(const PackedLights& lights, const Came
     // Right, up and ahead: view space looks along -z.
     glm::dmat3 cameraFromLS = glm::transpose(view.lsFromView);
     for (int column = 0; column < 3; ++column) cameraFromLS[column][2] = -cameraFromLS[column][2];
+    const double errorMetres = depthErrorMetres(view);
     std::vector<shared::CullLight> culls;
     for (std::size_t i = 0; i < lights.texels.size(); ++i)
-        culls.push_back(cullLight(lights.texels[i], lights.shapes[i], cameraFromLS));
+        culls.push_back(cullLight(lights.texels[i], lights.shapes[i], cameraFromLS, errorMetres));
     return culls;
 }
 

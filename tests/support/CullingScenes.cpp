@@ -138,4 +138,24 @@ Scene columnsBeforeWall(int lights) {
     return scene;
 }
 
+Scene litFromWithin(Scene scene, int lights, float rangeMetres) {
+    const Box3 bounds = worldBounds(scene);
+    const glm::dvec3 size = bounds.max - bounds.min;
+    const glm::dvec3 share = size.x > size.z ? glm::dvec3(0.2, 0.3, 0.5) : glm::dvec3(0.5, 0.3, 0.2);
+    const glm::dvec3 eyeWS = bounds.min + share * size;
+    const glm::dvec3 centerWS = 0.5 * (bounds.min + bounds.max);
+    Camera camera;
+    camera.name = "within";
+    camera.worldFromCamera = lookingAt(eyeWS, {centerWS.x, eyeWS.y, centerWS.z});
+    scene.cameras = {camera};
+    scene.lights.clear();
+    Random random(11);
+    for (int i = 0; i < lights; ++i) {
+        const glm::dvec3 place(random.unit(), random.unit(), random.unit());
+        scene.lights.push_back(pointLight(bounds.min + place * size, 5.0f));
+        scene.lights.back().rangeMetres = rangeMetres;
+    }
+    return scene;
+}
+
 } // namespace tessera::test

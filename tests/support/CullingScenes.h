@@ -14,4 +14,8 @@ scenes::Scene randomLitScene(std::uint64_t seed);
 /// small lights in the room between.
 scenes::Scene columnsBeforeWall(int lights);
 
+/// A scene with `lights` white lights of that range, anywhere within its bounds, in place of its own, seen along its
+/// longest horizontal side from within: a fifth of it from the one end, 30 % of its height up.
+scenes::Scene litFromWithin(scenes::Scene scene, int lights, float rangeMetres);
+
 } // namespace tessera::test

@@ -1,0 +1,202 @@
+#include "validation/LightOracle.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace tessera::validation {
+namespace {
+
+using std::numbers::pi;
+
+scenes::Light lightAt(const glm::dvec3& positionWS, float rangeMetres) {
+    scenes::Light light;
+    light.positionWS = positionWS;
+    light.rangeMetres = rangeMetres;
+    return light;
+}
+
+/// One pixel that shows the point (0, 0, -5) of a surface facing the orthographic camera at the origin; all of the
+/// scene's lights are visited.
+class LightOracle : public ::testing::Test {
+protected:
+    LightOracle() {
+        scenes::Camera camera;
+        camera.projection = scenes::Projection::Orthographic;
+        camera.nearMetres = 0.0;
+        camera.farMetres = 10.0;
+        scene_.cameras.push_back(camera);
+        settings_.sizePixels = {1, 1};
+    }
+
+    LightOracleFigures judge() {
+        drawn_.sceneIndex.clear();
+        for (std::size_t i = 0; i < scene_.lights.size(); ++i) drawn_.sceneIndex.push_back(int(i));
+        return judgeLights({scene_, settings_, drawn_, depth_, normalWS_});
+    }
+    std::uint64_t needed(const scenes::Light& light) {
+        scene_.lights = {light};
+        return judge().needed;
+    }
+
+    scenes::Scene scene_;
+    frame::FrameSettings settings_;
+    recipes::DrawnLists drawn_;
+    std::vector<float> depth_{0.5f}; // halfway from near to far
+    std::vector<float> normalWS_{0.0f, 0.0f, 1.0f, 1.0f};
+};
+
+TEST_F(LightOracle, aLightIsNeededExactlyWhereItsDistanceIsBelowItsRange) {
+    // A triangle of sides 3, 4 and 5: every number is exact.
+    EXPECT_EQ(needed(lightAt({3.0, 0.0, -1.0}, 5.0f)), 0u);
+    EXPECT_EQ(needed(lightAt({3.0, 0.0, -1.0}, std::nextafter(5.0f, 6.0f))), 1u);
+    EXPECT_EQ(needed(lightAt({0.0, 0.0, -5.0}, 0.0f)), 0u) << "on the surface, but without a range";
+    EXPECT_EQ(needed(lightAt({0.0, 0.0, -5.0}, 1e-3f)), 1u);
+    EXPECT_EQ(needed(lightAt({0.0, 4.0, 0.0}, 1e3f)), 1u) << "the camera lies inside the light";
+    EXPECT_EQ(needed(lightAt({0.0, 0.0, 20.0}, 26.0f)), 1u) << "the light lies behind the camera";
+}
+
+TEST_F(LightOracle, aSpotIsNeededExactlyInsideItsOuterCone) {
+    // A cone's angle is a float, off by up to 1.2e-7 rad; a hundred times that is clear of the edge.
+    constexpr double kClearRadians = 1e-5;
+    for (const double outerDegrees : {0.1, 30.0, 89.9, 90.0, 120.0, 179.0}) {
+        SCOPED_TRACE(outerDegrees);
+        scenes::Light spot = lightAt({1.0, 0.0, -5.0}, 2.0f);
+        spot.type = scenes::LightType::Spot;
+        spot.outerConeRadians = float(outerDegrees * pi / 180.0);
+        const auto turned = [&](double radians) { // from the direction to the point, which is -x
+            spot.directionWS = {-std::cos(radians), std::sin(radians), 0.0};
+            return spot;
+        };
+        EXPECT_EQ(needed(turned(0.0)), 1u);
+        EXPECT_EQ(needed(turned(double(spot.outerConeRadians) - kClearRadians)), 1u);
+        EXPECT_EQ(needed(turned(double(spot.outerConeRadians) + kClearRadians)), 0u);
+        EXPECT_EQ(needed(turned(pi)), 0u);
+        spot.rangeMetres = 1.0f;
+        EXPECT_EQ(needed(turned(0.0)), 0u) << "in the cone, but out of range";
+    }
+    scenes::Light closed = lightAt({1.0, 0.0, -5.0}, 2.0f);
+    closed.type = scenes::LightType::Spot;
+    closed.directionWS = {-1.0, 0.0, 0.0};
+    closed.outerConeRadians = 0.0f;
+    EXPECT_EQ(needed(closed), 0u) << "a cone of no width";
+}
+
+TEST_F(LightOracle, aLightIsNeededLitExactlyInFrontOfTheSurface) {
+    scene_.lights = {lightAt({0.0, 0.0, -4.0}, 2.0f), lightAt({1.0, 0.0, -5.0}, 2.0f), lightAt({0.0, 0.0, -6.0}, 2.0f)};
+    EXPECT_EQ(judge().needed, 3u);
+    EXPECT_EQ(judge().neededLit, 1u) << "in front, in its plane, behind it";
+    normalWS_[2] = -1.0f;
+    EXPECT_EQ(judge().neededLit, 1u);
+    normalWS_.clear();
+    EXPECT_EQ(judge().neededLit, 0u) << "nothing is known of normals";
+    EXPECT_FALSE(judge().litTightness());
+}
+
+TEST_F(LightOracle, lightsThatShineOnNothingAreNeverNeeded) {
+    const scenes::Light shining = lightAt({0.0, 0.0, -4.0}, 2.0f);
+    scenes::Light off = shining, black = shining, weak = shining;
+    off.enabled = false;
+    black.color = glm::vec3(0.0f);
+    weak.intensity = 0.0f;
+    scene_.lights = {off, black, shining, weak};
+    EXPECT_EQ(judge().needed, 1u);
+    EXPECT_EQ(judge().evaluated, 4u) << "visited all the same";
+    EXPECT_DOUBLE_EQ(*judge().tightness(), 4.0);
+    settings_.soloLight = 0;
+    EXPECT_EQ(judge().needed, 0u) << "the solo light is off";
+    EXPECT_FALSE(judge().tightness());
+    settings_.soloLight = 2;
+    EXPECT_EQ(judge().needed, 1u);
+}
+
+TEST_F(LightOracle, aMovingLightIsAlwaysWhereItIsAtTheFramesTime) {
+    scenes::Light moving = lightAt({0.0, 0.0, 0.0}, 1.0f);
+    moving.animation = scenes::LightAnimation{};
+    moving.animation->kind = scenes::LightAnimationKind::Keyframes;
+    moving.animation->timesSeconds = {0.0, 1.0};
+    moving.animation->pointsWS = {{0.0, 0.0, 5.0}, {0.0, 0.0, -5.0}};
+    EXPECT_EQ(needed(moving), 0u);
+    settings_.timeSeconds = 1.0;
+    EXPECT_EQ(needed(moving), 1u);
+}
+
+TEST_F(LightOracle, lightsThatReachEverywhereAreAlwaysNeededAndCountedApart) {
+    scenes::Light sun;
+    sun.type = scenes::LightType::Directional;
+    const scenes::Light endless = lightAt({1e6, 0.0, 0.0}, scenes::kInfinity);
+    scene_.lights = {sun, lightAt({0.0, 0.0, -4.0}, 2.0f), endless};
+    const LightOracleFigures figures = judge();
+    EXPECT_EQ(figures.everywhere, 2u);
+    EXPECT_EQ(figures.needed, 1u);
+    EXPECT_EQ(figures.evaluated, 1u);
+    EXPECT_EQ(figures.evaluatedMax, 3u);
+    EXPECT_EQ(figures.falseNegatives, 0u);
+
+    drawn_.sceneIndex = {0, 1};
+    const LightOracleFigures lacking = judgeLights({scene_, settings_, drawn_, depth_, normalWS_});
+    EXPECT_EQ(lacking.falseNegatives, 1u);
+    EXPECT_EQ(lacking.everywhere, 1u);
+    ASSERT_TRUE(lacking.firstMissing);
+    EXPECT_EQ(lacking.firstMissing->light, 2);
+}
+
+TEST_F(LightOracle, pixelsWithoutASurfaceAreNeverCounted) {
+    scene_.lights = {lightAt({0.0, 0.0, -4.0}, 2.0f)};
+    settings_.sizePixels = {2, 1};
+    depth_ = {0.0f, 0.5f};
+    normalWS_ = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 1.0f};
+    // The second pixel's centre, half a picture height of 1 m right of the middle times the aspect of 2.
+    scene_.lights[0].positionWS.x = 1.0;
+    EXPECT_EQ(judge().covered, 1u);
+    EXPECT_EQ(judge().needed, 1u);
+    depth_ = {0.0f, 0.0f};
+    EXPECT_EQ(judge().covered, 0u);
+    EXPECT_EQ(judge().evaluated, 0u);
+    EXPECT_EQ(judge().perPixel(judge().needed), 0.0);
+}
+
+TEST_F(LightOracle, aPixelsSurfaceIsAlwaysWhereItsPerspectiveDepthSays) {
+    scenes::Camera& camera = scene_.cameras[0];
+    camera.projection = scenes::Projection::Perspective;
+    camera.fovYRadians = pi / 2.0;
+    camera.nearMetres = 0.5;
+    // Turned to look along +x and moved: camera (x, y, -z) is world (10 + z, y, x).
+    camera.worldFromCamera = glm::dmat4(0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 10, 0, 0, 1);
+    settings_.sizePixels = {3, 2};
+    normalWS_.clear();
+    // Four metres ahead, the picture is 8 m high and 12 m wide, so pixels lie 4 m apart.
+    for (const bool endless : {true, false}) {
+        camera.farMetres = endless ? std::numeric_limits<double>::infinity() : 8.0;
+        // Reverse-Z, a + b/z with 1 at near and 0 at far: n/z, or n (f - z) / (z (f - n)).
+        const float depth = endless ? 0.5f / 4.0f : 0.5f * (8.0f - 4.0f) / (4.0f * (8.0f - 0.5f));
+        for (int pixel = 0; pixel < 6; ++pixel) {
+            SCOPED_TRACE(pixel);
+            depth_.assign(6, 0.0f);
+            depth_[std::size_t(pixel)] = depth;
+            const glm::dvec3 surfaceWS(14.0, pixel < 3 ? -2.0 : 2.0, 4.0 * (pixel % 3 - 1));
+            // A float depth is off by at most 2^-25 of itself, which is less than 1e-7 m here.
+            EXPECT_EQ(needed(lightAt(surfaceWS, 1e-5f)), 1u);
+            EXPECT_EQ(needed(lightAt(surfaceWS + glm::dvec3(1e-4, 0.0, 0.0), 1e-5f)), 0u);
+        }
+    }
+    settings_.eyeOffsetWS = {0.0, 1.0, 0.0};
+    EXPECT_EQ(needed(lightAt({14.0, 3.0, 4.0}, 1e-5f)), 1u) << "the eye is moved by a metre, and the surface with it";
+}
+
+TEST_F(LightOracle, theMissingPairIsAlwaysNamedByItsPixelFromTheTopLeft) {
+    settings_.sizePixels = {2, 3};
+    depth_ = {0.0f, 0.5f, 0.0f, 0.0f, 0.0f, 0.0f}; // the lower right pixel
+    normalWS_.clear();
+    scene_.lights = {lightAt({0.0, 0.0, -5.0}, 0.01f), lightAt({0.0, 0.0, -5.0}, 5.0f)};
+    const LightOracleFigures figures = judgeLights({scene_, settings_, drawn_, depth_, normalWS_});
+    EXPECT_EQ(figures.falseNegatives, 1u);
+    ASSERT_TRUE(figures.firstMissing);
+    EXPECT_EQ(figures.firstMissing->x, 1);
+    EXPECT_EQ(figures.firstMissing->y, 2);
+    EXPECT_EQ(figures.firstMissing->light, 1);
+}
+
+} // namespace
+} // namespace tessera::validation

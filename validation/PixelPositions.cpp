@@ -1,0 +1,27 @@
+#include "validation/PixelPositions.h"
+
+#include <cmath>
+
+namespace tessera::validation {
+
+PixelPositions::PixelPositions(const scenes::Camera& camera, const frame::FrameSettings& settings)
+    : camera_(camera), sizePixels_(settings.sizePixels),
+      isPerspective_(camera.projection == scenes::Projection::Perspective),
+      halfHeight_(isPerspective_ ? std::tan(camera.fovYRadians / 2.0) : camera.halfHeightMetres),
+      farMetres_(camera.farMetres) {
+    camera_.worldFromCamera[3] += glm::dvec4(settings.eyeOffsetWS, 0.0);
+    // An orthographic depth buffer ends a thousand picture heights behind the near plane where the camera does not.
+    if (!isPerspective_ && std::isinf(farMetres_)) farMetres_ = camera.nearMetres + 2000.0 * camera.halfHeightMetres;
+}
+
+glm::dvec3 PixelPositions::positionWS(int column, int row, float depth) const {
+    const double n = camera_.nearMetres, f = farMetres_, d = depth;
+    double ahead = f - d * (f - n);
+    if (isPerspective_) ahead = std::isinf(f) ? n / d : f * n / (n + d * (f - n));
+    const double aspect = double(sizePixels_.x) / double(sizePixels_.y);
+    const double u = 2.0 * (column + 0.5) / sizePixels_.x - 1.0, v = 2.0 * (row + 0.5) / sizePixels_.y - 1.0;
+    const double scale = halfHeight_ * (isPerspective_ ? ahead : 1.0);
+    return glm::dvec3(camera_.worldFromCamera * glm::dvec4(u * aspect * scale, v * scale, -ahead, 1.0));
+}
+
+} // namespace tessera::validation
