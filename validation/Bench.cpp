@@ -1,5 +1,8 @@
 #include "validation/Bench.h"
 
+#include <algorithm>
+#include <numeric>
+
 #include <fmt/format.h>
 
 #include "passes/recipes/PreparedFrame.h"
@@ -32,9 +35,22 @@ std::uint64_t forwardFragments(recipes::Renderer& renderer, const frame::FrameSe
     return counter.samples();
 }
 
+/// How many lights each covered pixel visits by the view that counts them, ascending.
+std::vector<std::uint64_t> visitedByPixel(recipes::Renderer& renderer, const BenchPoint& point) {
+    frame::FrameSettings settings = point.settings;
+    settings.view = frame::View::Lights;
+    const recipes::RenderedFrame counts = renderer.render(point.technique, settings);
+    std::vector<std::uint64_t> visited;
+    for (std::size_t i = 0; i < counts.radiance.size(); i += 4) {
+        if (counts.radiance[i + 3] > 0.0f) visited.push_back(std::uint64_t(counts.radiance[i]));
+    }
+    std::sort(visited.begin(), visited.end());
+    return visited;
+}
+
 void count(recipes::Renderer& renderer, BenchResult& result) {
     const BenchPoint& point = result.point;
-    const LightOracleFigures oracle = judgeLights(renderer, point.technique, point.settings);
+    LightOracleFigures oracle = judgeLights(renderer, point.technique, point.settings);
     const recipes::PreparedFrame prepared = recipes::prepareFrame(renderer.scene(), point.technique, point.settings);
     const graph::Plan plan = recipes::planFrame(renderer.scene(), point.technique, point.settings);
     result.culling = prepared.spec.culling;
@@ -46,6 +62,14 @@ void count(recipes::Renderer& renderer, BenchResult& result) {
         // Hidden fragments are lit before something nearer covers them.
         counters.fragments = forwardFragments(renderer, point.settings);
         counters.lightEvaluations = counters.fragments * prepared.lights.texels.size();
+    }
+    if (point.technique == Technique::DeferredVolumes) {
+        // Its pixels visit the lights whose volumes cover them, which only the rasteriser knows.
+        const std::vector<std::uint64_t> visited = visitedByPixel(renderer, point);
+        counters.lightEvaluations = std::accumulate(visited.begin(), visited.end(), std::uint64_t(0));
+        oracle.evaluated = counters.lightEvaluations - oracle.everywhere;
+        oracle.evaluatedP99 = visited.empty() ? 0 : visited[(visited.size() * 99 + 99) / 100 - 1];
+        oracle.evaluatedMax = visited.empty() ? 0 : visited.back();
     }
     counters.neededEvaluations = oracle.needed + oracle.everywhere;
     counters.neededLitEvaluations = oracle.neededLit;
