@@ -7,7 +7,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "renderer/frame/LightReach.h"
+#include "renderer/frame/LightRange.h"
 #include "validation/PixelPositions.h"
 #include "validation/VisitedLights.h"
 

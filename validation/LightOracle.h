@@ -8,7 +8,7 @@
 /// The judge of light culling: which lights each pixel needs, found by trying all of them, and which it visited. In
 /// double precision, from the plain scene and the depth buffer, by tests of its own; with the culling code it shares
 /// only the layout of the lists (shaders/shared/light_lists.h), which it reads as the GPU had them, and how far a light
-/// reaches (renderer/frame/LightReach.h).
+/// reaches (renderer/frame/LightRange.h).
 namespace tessera::validation {
 
 /// Counts over a frame's opaque surfaces. A light is needed at a pixel that it reaches: closer than its range and

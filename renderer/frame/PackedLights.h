@@ -4,7 +4,7 @@
 #include "renderer/frame/CameraView.h"
 #include "renderer/frame/Features.h"
 #include "renderer/frame/FrameSettings.h"
-#include "renderer/frame/LightReach.h"
+#include "renderer/frame/LightRange.h"
 #include "scenes/Scene.h"
 #include "shaders/shared/light.h"
 

@@ -1,4 +1,4 @@
-#include "renderer/frame/LightReach.h"
+#include "renderer/frame/LightRange.h"
 
 #include <algorithm>
 #include <cmath>
