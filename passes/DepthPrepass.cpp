@@ -5,6 +5,13 @@
 
 namespace tessera::passes {
 
+namespace {
+
+/// What the largest of nearest and negated farthest depth starts from.
+constexpr glm::vec4 kNoSurface{0.0f, -2.0f, 0.0f, 0.0f};
+
+} // namespace
+
 shader::ProgramDesc DepthPrepass::program(const frame::FrameSpec& spec, const Params& params) {
     return frame::frameProgram(spec, "depth_prepass", "passes/geometry.vert", "passes/depth_prepass.frag",
                                {{"DEPTH_ONLY", "1"}, {"SHADING_DEPTH", params.shadingDepth ? "1" : "0"}});
@@ -18,14 +25,14 @@ DepthPrepass::Outputs DepthPrepass::add(graph::Graph& graph, const frame::FrameS
             out.depth =
                 pass.create("depth", spec.renderTarget(graph::Format::Depth32Float), graph::Access::DepthAttachment);
             if (params.shadingDepth)
-                out.shadingDepth = pass.create("shading_depth", spec.renderTarget(graph::Format::R32Float));
+                out.shadingDepth = pass.create("shading_depth", spec.renderTarget(graph::Format::Rg32Float));
         },
         [resources, program = program(spec, params)](const Outputs& out, const graph::PassContext& context) {
             gpu::Attachments targets{{}, &context.texture(out.depth)};
             if (out.shadingDepth) targets.colors.push_back(&context.texture(*out.shadingDepth));
             gpu::bindFramebuffer(resources->framebuffers.get(targets));
             gpu::clearDepth(0.0f);
-            if (out.shadingDepth) gpu::clearColor(0, glm::vec4(0.0f));
+            if (out.shadingDepth) gpu::clearColor(0, kNoSurface);
             gpu::useProgram(resources->programs.get(program));
             gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
             gpu::PipelineState state;

@@ -93,20 +93,15 @@ void Builder::findDepths() {
         "light_depths",
         [&](graph::PassBuilder& pass, Handles& out) {
             out = handles;
-            pass.expect(handles.read.depth, spec.texture(graph::Format::Depth32Float));
-            out.read.depth = pass.read(handles.read.depth);
-            if (handles.read.transparentDepth) {
-                pass.expect(*handles.read.transparentDepth, spec.texture(graph::Format::Rg32Float));
-                out.read.transparentDepth = pass.read(*handles.read.transparentDepth);
-            }
+            out.read.depths = frame::readLitDepths(pass, spec, handles.read.depths);
             out.lists.tiles = pass.write(handles.lists.tiles, Access::StorageWrite);
             out.tileDepths = pass.create("tile_depths", twoWordsATile());
         },
         [step = steps.depths, used = resources, frame = spec](const Handles& out, const graph::PassContext& context) {
             used->lightLists.requireTiles(frame::lightTileCount(frame));
-            gpu::bindTexture(TEXTURE_UNIT_DEPTH, context.texture(out.read.depth));
-            if (out.read.transparentDepth)
-                gpu::bindTexture(TEXTURE_UNIT_TRANSPARENT_DEPTH, context.texture(*out.read.transparentDepth));
+            gpu::bindTexture(TEXTURE_UNIT_DEPTH, context.texture(out.read.depths.opaque));
+            if (out.read.depths.transparent)
+                gpu::bindTexture(TEXTURE_UNIT_TRANSPARENT_DEPTH, context.texture(*out.read.depths.transparent));
             gpu::bindStorageBuffer(STORAGE_LIGHT_TILES, context.buffer(out.lists.tiles));
             gpu::bindStorageBuffer(STORAGE_TILE_DEPTHS, context.buffer(out.tileDepths));
             step.run(*used, tileItems(frame, *used));

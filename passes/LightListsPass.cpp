@@ -6,8 +6,9 @@ namespace tessera::passes {
 
 namespace {
 
-culling::DepthPicture download(const gpu::Texture& texture, bool isRange, std::vector<float>& memory) {
+culling::DepthPicture download(const gpu::Texture& texture, std::vector<float>& memory) {
     const graph::TextureDesc& desc = texture.desc();
+    const bool isRange = desc.format == graph::Format::Rg32Float;
     memory.resize(std::size_t(desc.width) * std::size_t(desc.height) * (isRange ? 2 : 1));
     texture.downloadInto(0, std::as_writable_bytes(std::span(memory)));
     return {memory, isRange};
@@ -16,12 +17,12 @@ culling::DepthPicture download(const gpu::Texture& texture, bool isRange, std::v
 void build(const frame::FrameSpec& spec, const frame::FrameResources& resources, const LightListsPass::Inputs& read,
            const graph::PassContext& context) {
     frame::LightListBuffers& lists = resources.lightLists;
-    const culling::DepthPicture opaque = download(context.texture(read.depth), false, lists.depth);
+    const culling::DepthPicture opaque = download(context.texture(read.depths.opaque), lists.depth);
     culling::DepthPicture transparent;
-    if (read.transparentDepth)
-        transparent = download(context.texture(*read.transparentDepth), true, lists.transparentDepth);
+    if (read.depths.transparent)
+        transparent = download(context.texture(*read.depths.transparent), lists.transparentDepth);
     lists.upload(lists.builder.build({resources.constants, spec.settings.sizePixels, resources.cullLights,
-                                      spec.culling.method, opaque, read.transparentDepth ? &transparent : nullptr}));
+                                      spec.culling.method, opaque, read.depths.transparent ? &transparent : nullptr}));
 }
 
 } // namespace
@@ -33,12 +34,7 @@ LightListsPass::Outputs LightListsPass::add(graph::Graph& graph, const frame::Fr
     return graph.addPass<Outputs>(
         "light_lists",
         [&](graph::PassBuilder& pass, Outputs& out) {
-            pass.expect(inputs.depth, spec.texture(graph::Format::Depth32Float));
-            out.read.depth = pass.read(inputs.depth, graph::Access::Download);
-            if (inputs.transparentDepth) {
-                pass.expect(*inputs.transparentDepth, spec.texture(graph::Format::Rg32Float));
-                out.read.transparentDepth = pass.read(*inputs.transparentDepth, graph::Access::Download);
-            }
+            out.read.depths = frame::readLitDepths(pass, spec, inputs.depths, graph::Access::Download);
             out.lists.tiles = pass.write(buffers.tiles, graph::Access::Upload);
             out.lists.cells = pass.write(buffers.cells, graph::Access::Upload);
             out.lists.entries = pass.write(buffers.entries, graph::Access::Upload);

@@ -54,6 +54,7 @@ ListStep::ListStep(const frame::FrameSpec& spec, std::string name, Lanes lanes) 
                         {"LIST_IN_ROUNDS", inRounds(spec) ? "1" : "0"},
                         {"LIST_THREADS", std::to_string(itemLanes)},
                         {"LIST_LIGHTS_A_ROW", std::to_string(kLightsARow)},
+                        {"SAMPLES", std::to_string(spec.samples)},
                         {"HAS_TRANSPARENT_LAYER", spec.features[frame::Feature::Blend] ? "1" : "0"}};
     if (compute) program_.defines.emplace_back("LIST_GROUP", std::to_string(group));
 }

@@ -5,29 +5,53 @@
 
 namespace tessera::passes {
 
-shader::ProgramDesc ResolvePass::program(const frame::FrameSpec& spec) {
+namespace {
+
+struct KindInfo {
+    ResolvePass::Kind kind;
+    const char* pass;     ///< its name in the graph
+    const char* resolved; ///< the name of what it writes
+    graph::Format format;
+};
+
+constexpr KindInfo kKinds[] = {
+    {ResolvePass::Kind::Radiance, "resolve", "resolved", graph::Format::Rgba32Float},
+    {ResolvePass::Kind::Depths, "depth_range", "depth_range", graph::Format::Rg32Float},
+    {ResolvePass::Kind::TransparentDepths, "transparent_depth_range", "transparent_depth_range",
+     graph::Format::Rg32Float},
+};
+
+const KindInfo& infoOf(const ResolvePass::Params& params) {
+    return kKinds[std::size_t(params.kind)];
+}
+
+} // namespace
+
+shader::ProgramDesc ResolvePass::program(const frame::FrameSpec& spec, const Params& params) {
+    const bool depths = params.kind != Kind::Radiance;
     shader::ProgramDesc program;
-    program.name = "resolve";
+    program.name = depths ? "resolve_depths" : "resolve";
     program.vertex = "passes/fullscreen.vert";
     program.fragment = "passes/resolve.frag";
-    program.defines = {{"SAMPLES", std::to_string(spec.samples)}};
+    program.defines = {{"SAMPLES", std::to_string(spec.samples)}, {"RESOLVES_DEPTHS", depths ? "1" : "0"}};
     return program;
 }
 
-ResolvePass::Outputs ResolvePass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
-                                      const frame::FrameResources* resources) {
+ResolvePass::Outputs ResolvePass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params,
+                                      const Inputs& inputs, const frame::FrameResources* resources) {
+    const KindInfo& info = infoOf(params);
     return graph.addPass<Outputs>(
-        "resolve",
+        info.pass,
         [&](graph::PassBuilder& pass, Outputs& out) {
-            pass.expect(inputs.radiance, spec.renderTarget(graph::Format::Rgba32Float));
-            out.read.radiance = pass.read(inputs.radiance);
-            out.resolved = pass.create("resolved", spec.texture(graph::Format::Rgba32Float));
+            pass.expect(inputs.samples, spec.renderTarget(info.format));
+            out.read.samples = pass.read(inputs.samples);
+            out.resolved = pass.create(info.resolved, spec.texture(info.format));
         },
-        [resources, program = program(spec)](const Outputs& out, const graph::PassContext& context) {
+        [resources, program = program(spec, params)](const Outputs& out, const graph::PassContext& context) {
             gpu::bindFramebuffer(resources->framebuffers.get({{&context.texture(out.resolved)}, nullptr}));
             gpu::setState({});
             gpu::useProgram(resources->programs.get(program));
-            gpu::bindTexture(TEXTURE_UNIT_RADIANCE, context.texture(out.read.radiance));
+            gpu::bindTexture(TEXTURE_UNIT_SAMPLES, context.texture(out.read.samples));
             gpu::drawFullscreenTriangle();
         });
 }

@@ -15,9 +15,9 @@ TransparentDepthPass::Outputs TransparentDepthPass::add(graph::Graph& graph, con
     return graph.addPass<Outputs>(
         "transparent_depth",
         [&](graph::PassBuilder& pass, Outputs& out) {
-            pass.expect(inputs.depth, spec.texture(graph::Format::Depth32Float));
+            pass.expect(inputs.depth, spec.renderTarget(graph::Format::Depth32Float));
             out.read.depth = pass.read(inputs.depth, graph::Access::DepthTest);
-            out.transparentDepth = pass.create("transparent_depth", spec.texture(graph::Format::Rg32Float));
+            out.transparentDepth = pass.create("transparent_depth", spec.renderTarget(graph::Format::Rg32Float));
         },
         [resources, program = program(spec)](const Outputs& out, const graph::PassContext& context) {
             gpu::bindFramebuffer(resources->framebuffers.get(

@@ -34,11 +34,11 @@ constexpr TechniqueInfo kTechniques[] = {
     {Technique::TiledDeferred, "tiled_deferred", "G-buffer", "full screen, each covered pixel once, its tile's lights",
      true, kTiled},
     {Technique::ForwardPlus, "forward_plus", "depth first, then equal depth only",
-     "each visible pixel once, its tile's lights", false, kTiled},
+     "each visible pixel once, its tile's lights", false, kTiled, true},
     {Technique::ClusteredDeferred, "clustered_deferred", "G-buffer",
      "full screen, each covered pixel once, its cluster's lights", true, kClustered},
     {Technique::ClusteredForward, "clustered_forward", "depth first, then equal depth only",
-     "each visible pixel once, its cluster's lights", false, kClustered},
+     "each visible pixel once, its cluster's lights", false, kClustered, true},
 };
 
 /// Declares passes and notes their programs as it goes.
@@ -51,9 +51,11 @@ struct Recipe {
         frame.programs.push_back(ForwardPass::program(spec, params));
         return ForwardPass::add(frame.graph, spec, params, inputs, resources);
     }
-    TextureHandle depthPrepass() {
-        frame.programs.push_back(DepthPrepass::program(spec, {}));
-        return DepthPrepass::add(frame.graph, spec, {}, resources).depth;
+    bool hasLightLists() const { return spec.culling.method != Method::None; }
+    DepthPrepass::Outputs depthPrepass() {
+        const DepthPrepass::Params params{hasLightLists() && spec.samples > 1};
+        frame.programs.push_back(DepthPrepass::program(spec, params));
+        return DepthPrepass::add(frame.graph, spec, params, resources);
     }
     GBufferPass::Outputs gbuffer() {
         frame.programs.push_back(GBufferPass::program(spec));
@@ -71,27 +73,33 @@ struct Recipe {
         return LightVolumesPass::add(frame.graph, spec, {gbuffer.channels, gbuffer.depth, radiance}, resources)
             .radiance;
     }
-    /// Light lists for what lies at these depths, where the frame culls lights.
-    void lightLists(TextureHandle depth) {
-        if (spec.culling.method == Method::None) return;
-        std::optional<TextureHandle> transparentDepth;
-        if (spec.features[frame::Feature::Blend]) {
-            frame.programs.push_back(TransparentDepthPass::program(spec));
-            transparentDepth = TransparentDepthPass::add(frame.graph, spec, {depth}, resources).transparentDepth;
-        }
+    /// One sample a pixel of what was drawn with several.
+    TextureHandle resolve(TextureHandle samples, ResolvePass::Kind kind) {
+        if (spec.samples == 1) return samples;
+        frame.programs.push_back(ResolvePass::program(spec, {kind}));
+        return ResolvePass::add(frame.graph, spec, {kind}, {samples}, resources).resolved;
+    }
+    /// The depths at which what shows is lit: opaque surfaces at `opaque`, transparent ones in front of `depth`.
+    frame::LitDepths litDepths(TextureHandle depth, TextureHandle opaque) {
+        frame::LitDepths depths{resolve(opaque, ResolvePass::Kind::Depths), {}};
+        if (!spec.features[frame::Feature::Blend]) return depths;
+        frame.programs.push_back(TransparentDepthPass::program(spec));
+        const TextureHandle transparent =
+            TransparentDepthPass::add(frame.graph, spec, {depth}, resources).transparentDepth;
+        depths.transparent = resolve(transparent, ResolvePass::Kind::TransparentDepths);
+        return depths;
+    }
+    /// Light lists for what shows, where the frame culls lights.
+    void lightLists(TextureHandle depth, TextureHandle opaque) {
+        if (!hasLightLists()) return;
+        const frame::LitDepths depths = litDepths(depth, opaque);
         if (spec.culling.builder == culling::Builder::Cpu) {
-            frame.lists = LightListsPass::add(frame.graph, spec, {depth, transparentDepth}, resources).lists;
+            frame.lists = LightListsPass::add(frame.graph, spec, {depths}, resources).lists;
             return;
         }
         for (shader::ProgramDesc& program : GpuLightListsPass::programs(spec))
             frame.programs.push_back(std::move(program));
-        frame.lists = GpuLightListsPass::add(frame.graph, spec, {depth, transparentDepth}, resources).lists;
-    }
-    /// One sample a pixel of what was drawn with several.
-    TextureHandle resolve(TextureHandle radiance) {
-        if (spec.samples == 1) return radiance;
-        frame.programs.push_back(ResolvePass::program(spec));
-        return ResolvePass::add(frame.graph, spec, {radiance}, resources).resolved;
+        frame.lists = GpuLightListsPass::add(frame.graph, spec, {depths}, resources).lists;
     }
     TextureHandle display(TextureHandle radiance) {
         frame.programs.push_back(DisplayPass::program());
@@ -111,14 +119,14 @@ OpaquePicture opaqueForward(Recipe& recipe) {
 }
 
 OpaquePicture opaqueForwardPrepass(Recipe& recipe) {
-    const TextureHandle depth = recipe.depthPrepass();
-    recipe.lightLists(depth);
-    return {recipe.forward({}, {depth, {}, recipe.frame.lists}).radiance, depth};
+    const DepthPrepass::Outputs drawn = recipe.depthPrepass();
+    recipe.lightLists(drawn.depth, drawn.shadingDepth.value_or(drawn.depth));
+    return {recipe.forward({}, {drawn.depth, {}, recipe.frame.lists}).radiance, drawn.depth};
 }
 
 OpaquePicture opaqueDeferred(Recipe& recipe) {
     const GBufferPass::Outputs gbuffer = recipe.gbuffer();
-    recipe.lightLists(gbuffer.depth);
+    recipe.lightLists(gbuffer.depth, gbuffer.depth);
     return {recipe.deferredLighting({}, gbuffer), gbuffer.depth};
 }
 
@@ -162,7 +170,7 @@ DeclaredFrame declareFrame(Technique technique, const frame::FrameSpec& spec, co
         const ForwardPass::Params params{ForwardPass::Surfaces::Transparent};
         frame.radiance = recipe.forward(params, {opaque.depth, opaque.radiance, frame.lists}).radiance;
     }
-    frame.radiance = recipe.resolve(frame.radiance);
+    frame.radiance = recipe.resolve(frame.radiance, ResolvePass::Kind::Radiance);
     frame.display = recipe.display(frame.radiance);
     frame.graph.output(frame.radiance);
     frame.graph.output(frame.depth);

@@ -20,6 +20,20 @@ graph::BufferHandle importLightReach(graph::Graph& graph, std::size_t lights, co
                         graph::BufferDesc{held ? held->reach.buffer().bytes() : lights * sizeof(glm::uvec2)});
 }
 
+graph::TextureDesc opaqueDepths(const FrameSpec& spec) {
+    return spec.texture(spec.samples > 1 ? graph::Format::Rg32Float : graph::Format::Depth32Float);
+}
+
+LitDepths readLitDepths(graph::PassBuilder& pass, const FrameSpec& spec, const LitDepths& depths,
+                        graph::Access access) {
+    pass.expect(depths.opaque, opaqueDepths(spec));
+    LitDepths read{pass.read(depths.opaque, access), {}};
+    if (!depths.transparent) return read;
+    pass.expect(*depths.transparent, spec.texture(graph::Format::Rg32Float));
+    read.transparent = pass.read(*depths.transparent, access);
+    return read;
+}
+
 LightListHandles readLightLists(graph::PassBuilder& pass, const LightListHandles& lists) {
     return {pass.read(lists.tiles, graph::Access::TexelRead),
             pass.read(lists.cells, graph::Access::TexelRead),

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "renderer/culling/LightLists.h"
+#include "renderer/frame/FrameSpec.h"
 #include "renderer/frame/GrowingTexelBuffer.h"
 #include "renderer/graph/Execute.h"
 #include "renderer/graph/Graph.h"
@@ -23,6 +24,20 @@ struct LightListBuffers;
 /// runs; without `held`, for a plan, only the bytes of tiles and lights are known.
 LightListHandles importLightLists(graph::Graph& graph, std::size_t tiles, const LightListBuffers* held);
 graph::BufferHandle importLightReach(graph::Graph& graph, std::size_t lights, const LightListBuffers* held);
+
+/// What light lists are built from.
+struct LitDepths {
+    graph::TextureHandle opaque;                     ///< as opaqueDepths() says
+    std::optional<graph::TextureHandle> transparent; ///< RG32F: x nearest depth, y farthest depth negated
+};
+
+/// The depths of opaque surfaces that light lists are built from: the depth buffer, D32F; with several samples a pixel
+/// the range in which each is lit, RG32F: x nearest depth, y farthest depth negated, x 0 where there is no surface.
+graph::TextureDesc opaqueDepths(const FrameSpec& spec);
+
+/// Declares that a pass reads them, as `access` says.
+LitDepths readLitDepths(graph::PassBuilder& pass, const FrameSpec& spec, const LitDepths& depths,
+                        graph::Access access = graph::Access::Sampled);
 
 /// Declares that a pass's light cursor reads the lists.
 LightListHandles readLightLists(graph::PassBuilder& pass, const LightListHandles& lists);

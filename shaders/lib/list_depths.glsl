@@ -2,9 +2,9 @@
 #pragma once
 #include "lib/list_tiles.glsl"
 
-layout(binding = TEXTURE_UNIT_DEPTH) uniform sampler2D opaqueDepth;
+layout(binding = TEXTURE_UNIT_DEPTH) uniform sampler2D opaqueDepth; // with several samples a range, as below
 #if HAS_TRANSPARENT_LAYER
-layout(binding = TEXTURE_UNIT_TRANSPARENT_DEPTH) uniform sampler2D transparentDepth;
+layout(binding = TEXTURE_UNIT_TRANSPARENT_DEPTH) uniform sampler2D transparentDepth; // x nearest, y farthest negated
 #endif
 layout(std430, binding = STORAGE_LIGHT_TILES) writeonly buffer LightTiles
 {
@@ -18,16 +18,22 @@ layout(std430, binding = STORAGE_TILE_DEPTHS) writeonly buffer TileDepths
 LIST_MEMORY vec2 laneDepths[LIST_THREADS];
 LIST_MEMORY uvec2 laneSlices[LIST_THREADS];
 
+vec2 depthsOfRange(vec2 range)
+{
+    return vec2(range.x, -range.y);
+}
+
 // Nearest and farthest depth of a pixel's surfaces; nearest 0: it has none.
 vec2 pixelDepths(ivec2 pixel, bool transparent)
 {
 #if HAS_TRANSPARENT_LAYER
-    if (transparent) {
-        vec2 depths = texelFetch(transparentDepth, pixel, 0).xy;
-        return vec2(depths.x, -depths.y);
-    }
+    if (transparent) return depthsOfRange(texelFetch(transparentDepth, pixel, 0).xy);
 #endif
+#if SAMPLES > 1
+    return depthsOfRange(texelFetch(opaqueDepth, pixel, 0).xy);
+#else
     return texelFetch(opaqueDepth, pixel, 0).rr;
+#endif
 }
 
 struct TilePixels {

@@ -1,5 +1,6 @@
 // Depth alone; only alpha-masked materials have anything to decide. With SHADING_DEPTH also the depth at which each
-// sample will be lit, which with several samples a pixel is not the sample's own.
+// sample will be lit, which with several samples a pixel is not the sample's own, and the same negated, so that the
+// largest of each over a pixel is its range.
 #include "lib/shading_depth.glsl"
 #if HAS_ALPHA_MASK
 #include "lib/rasterised.glsl"
@@ -7,13 +8,14 @@
 #endif
 
 #if SHADING_DEPTH
-layout(location = 0) out float depthOfShading;
+layout(location = 0) out vec2 depthOfShading;
 #endif
 
 void main()
 {
 #if SHADING_DEPTH
-    depthOfShading = shadingDepth();
+    float depth = shadingDepth();
+    depthOfShading = vec2(depth, -depth);
 #endif
 #if HAS_ALPHA_MASK
     if (coversNothing(materialBaseColor(rasterisedFragment()))) discard;

@@ -1,7 +1,10 @@
-// Nearest depth, and farthest depth negated, of what is drawn; the target keeps the larger of each.
+// Nearest depth at which a transparent surface is lit, and farthest negated; the target keeps the larger of each.
+#include "lib/shading_depth.glsl"
+
 layout(location = 0) out vec2 depths;
 
 void main()
 {
-    depths = vec2(gl_FragCoord.z, -gl_FragCoord.z);
+    float depth = shadingDepth();
+    depths = vec2(depth, -depth);
 }

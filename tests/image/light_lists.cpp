@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/Renderer.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
@@ -25,8 +26,10 @@ constexpr GpuBuilder kGpuBuilders[] = {{"compute, 64 lanes a tile", Builder::Com
 
 class LightLists : public test::GlTest {
 protected:
-    static Technique techniqueOf(culling::Method method) {
-        const bool tiled = method == culling::Method::TileMinmax || method == culling::Method::Tile25d;
+    static Technique techniqueOf(const frame::FrameSettings& settings) {
+        const bool tiled = *settings.culling.method == culling::Method::TileMinmax ||
+                           *settings.culling.method == culling::Method::Tile25d;
+        if (settings.samples > 1) return tiled ? Technique::ForwardPlus : Technique::ClusteredForward;
         return tiled ? Technique::TiledDeferred : Technique::ClusteredDeferred;
     }
 
@@ -37,7 +40,7 @@ protected:
     }
 
     culling::LightLists lists(recipes::Renderer& renderer, const frame::FrameSettings& settings) {
-        renderer.draw(techniqueOf(*settings.culling.method), settings);
+        renderer.draw(techniqueOf(settings), settings);
         recipes::DrawnLists drawn = renderer.downloadLists();
         EXPECT_EQ(drawn.culling.method, *settings.culling.method);
         return std::move(drawn.lists);
@@ -75,6 +78,7 @@ protected:
         recipes::Renderer renderer(context(), scene);
         const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
         for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+            if (!recipes::takesSamples(technique, settings.samples)) continue;
             for (const culling::Method method : technique.methods) {
                 if (method == culling::Method::None) continue;
                 settings.culling.method = method;
@@ -127,6 +131,18 @@ TEST_F(LightLists, picturesLitFromListsOfTheGpuAreAlwaysThoseOfForward) {
     expectForwardsPicture(test::everythingScene(), settings);
     settings.prune = false;
     expectForwardsPicture(test::everythingScene(), settings);
+}
+
+TEST_F(LightLists, listsOfMultisampledPicturesAreExactlyTheSameOnTheGpuAndLightThemAsForwardDoes) {
+    for (const int samples : {2, 4}) {
+        SCOPED_TRACE(samples);
+        frame::FrameSettings settings;
+        settings.sizePixels = {161, 91};
+        settings.samples = samples;
+        settings = recipes::settingsOn(context().capabilities(), settings);
+        expectSameLists(test::everythingScene(), settings, std::array{8, 64});
+        expectForwardsPicture(test::everythingScene(), settings);
+    }
 }
 
 TEST_F(LightLists, anyCountOfLightsAlwaysGivesTheSameLists) {

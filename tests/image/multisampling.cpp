@@ -7,6 +7,7 @@
 #include "renderer/graph/Plan.h"
 #include "scenes/Load.h"
 #include "tests/image/FlatTest.h"
+#include "tests/support/CullingScenes.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
 #include "validation/Rendering.h"
@@ -52,12 +53,12 @@ protected:
     }
 };
 
-TEST_F(Multisampling, hallIsExactlyTheSameWithAndWithoutAPrepass) {
+TEST_F(Multisampling, hallIsExactlyTheSameInTheForwardFamily) {
     const Scene scene = scenes::loadScene("hall");
     for (const glm::ivec2 size : {glm::ivec2(208, 116), glm::ivec2(209, 117)}) expectAgreement(scene, sampled(size));
 }
 
-TEST_F(Multisampling, aSceneOfEveryFeatureIsExactlyTheSameWithAndWithoutAPrepass) {
+TEST_F(Multisampling, aSceneOfEveryFeatureIsExactlyTheSameInTheForwardFamily) {
     Scene scene = test::everythingScene();
     for (const glm::ivec2 size : {glm::ivec2(320, 180), glm::ivec2(321, 179)}) {
         frame::FrameSettings settings = sampled(size);
@@ -75,21 +76,93 @@ TEST_F(Multisampling, aSceneOfEveryFeatureIsExactlyTheSameWithAndWithoutAPrepass
     expectAgreement(scene, sampled({321, 179}));
 }
 
-TEST_F(Multisampling, everyViewIsExactlyTheSameWithAndWithoutAPrepass) {
+TEST_F(Multisampling, everyCullingMethodAndTileGivesExactlyForwardsPicture) {
+    std::vector<Scene> lit{test::everythingScene(), test::columnsBeforeWall(200)};
+    for (std::uint64_t seed = 1; seed <= 24; ++seed) lit.push_back(test::randomLitScene(seed));
+    for (std::size_t i = 0; i < lit.size(); ++i) {
+        recipes::Renderer renderer(context(), lit[i]);
+        frame::FrameSettings settings = sampled(i < 2 ? glm::ivec2(201, 115) : glm::ivec2(97, 61), i % 2 == 0 ? 4 : 2);
+        settings = recipes::settingsOn(context().capabilities(), settings);
+        settings.prune = i % 4 == 0; // without pruning all scenes share their programs
+        const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
+        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+            if (!recipes::takesSamples(technique, settings.samples)) continue;
+            for (const culling::Method method : technique.methods) {
+                settings.culling.method = method;
+                for (const int tile : culling::kTileSides) {
+                    SCOPED_TRACE(fmt::format("scene {}, {} {} {}", i, technique.name, int(method), tile));
+                    settings.culling.tilePixels = tile;
+                    EXPECT_TRUE(renderer.render(technique.technique, settings).radiance == truth);
+                    if (method == culling::Method::None) break;
+                }
+            }
+        }
+    }
+}
+
+/// A floor to the horizon, which crosses the middle of the picture, and lights that end far beyond it.
+Scene endlessFloor(scenes::AlphaMode alphaMode) {
+    scenes::Material paint;
+    paint.model = scenes::MaterialModel::Lambert;
+    paint.alphaMode = alphaMode;
+    paint.baseColor = {0.5f, 0.25f, 1.0f, 0.5f};
+    Scene scene = test::quadScene(paint);
+    scene.meshes[0].colors.clear();
+    // The quad's x and y become the floor's x and -z.
+    scene.nodes[0].parentFromNode = glm::dmat4(glm::dvec4(1e7, 0, 0, 0), glm::dvec4(0, 0, -1e7, 0),
+                                               glm::dvec4(0, 1, 0, 0), glm::dvec4(0, -1, 0, 1));
+    scene.cameras[0].worldFromCamera = glm::dmat4(1.0);
+    for (int i = 0; i < 8; ++i) {
+        scenes::Light light = test::pointLight({-3.5 + i, 2e4, -1e4}, 1e9f);
+        light.rangeMetres = 1e8f;
+        scene.lights.push_back(light);
+    }
+    return scene;
+}
+
+TEST_F(Multisampling, aSurfaceWhosePixelCentreLiesBeyondTheHorizonAlwaysHasItsLights) {
+    for (const scenes::AlphaMode mode : {scenes::AlphaMode::Opaque, scenes::AlphaMode::Blend}) {
+        Scene scene = endlessFloor(mode);
+        for (const double pitch : {0.0, 0.01, -0.02}) {
+            scene.cameras[0].worldFromCamera[1] = {0, std::cos(pitch), -std::sin(pitch), 0};
+            scene.cameras[0].worldFromCamera[2] = {0, std::sin(pitch), std::cos(pitch), 0};
+            // A tile of one row of pixels, those that the horizon crosses, has nothing but them to list lights for.
+            for (const glm::ivec2 size : {glm::ivec2(65, 17), glm::ivec2(65, 1)}) {
+                recipes::Renderer renderer(context(), scene);
+                frame::FrameSettings settings = recipes::settingsOn(context().capabilities(), sampled(size));
+                const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
+                EXPECT_GT(*std::max_element(truth.begin(), truth.end()), 0.0f);
+                for (const culling::Method method : {culling::Method::TileMinmax, culling::Method::Tile25d,
+                                                     culling::Method::Cluster, culling::Method::Zbin}) {
+                    SCOPED_TRACE(fmt::format("{} pitch {} rows {} method {}", int(mode), pitch, size.y, int(method)));
+                    settings.culling.method = method;
+                    settings.culling.tilePixels = 8;
+                    const bool tiled = method == culling::Method::TileMinmax || method == culling::Method::Tile25d;
+                    const Technique technique = tiled ? Technique::ForwardPlus : Technique::ClusteredForward;
+                    EXPECT_TRUE(renderer.render(technique, settings).radiance == truth);
+                }
+            }
+        }
+    }
+}
+
+TEST_F(Multisampling, everyViewIsExactlyTheSameInTheForwardFamily) {
     const Scene scene = test::everythingScene();
     recipes::Renderer renderer(context(), scene);
     for (const frame::ViewInfo& view : frame::viewTable()) {
         SCOPED_TRACE(view.name);
         frame::FrameSettings settings = sampled({161, 90});
         settings.view = view.view;
-        EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance,
-                  renderer.render(Technique::ForwardPrepass, settings).radiance);
+        if (view.view == frame::View::Lights) continue; // shows what each technique visits
+        const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
+        for (const Technique technique : {Technique::ForwardPrepass, Technique::ForwardPlus})
+            EXPECT_TRUE(renderer.render(technique, settings).radiance == truth);
     }
 }
 
 TEST_F(Multisampling, pruningAndRunningAgainNeverChangeABit) {
     for (const Scene& scene : {scenes::loadScene("hall"), scenes::loadScene("room"), test::everythingScene()}) {
-        for (const Technique technique : {Technique::Forward, Technique::ForwardPrepass}) {
+        for (const Technique technique : {Technique::Forward, Technique::ForwardPrepass, Technique::ClusteredForward}) {
             SCOPED_TRACE(fmt::format("{} {}", scene.name, recipes::techniqueTable()[std::size_t(technique)].name));
             frame::FrameSettings settings = sampled({161, 90});
             const validation::Picture first = picture(scene, settings, technique);
@@ -127,7 +200,7 @@ TEST_F(Multisampling, aPixelIsNeverNaNInfiniteOrNegative) {
         scene.cameras[0].worldFromCamera[1] = {0, std::cos(pitch), -std::sin(pitch), 0};
         scene.cameras[0].worldFromCamera[2] = {0, std::sin(pitch), std::cos(pitch), 0};
         scene.cameras[0].worldFromCamera[3] = {0, 0.5, 6, 1};
-        for (const Technique technique : {Technique::Forward, Technique::ForwardPrepass}) {
+        for (const Technique technique : {Technique::Forward, Technique::ForwardPrepass, Technique::ClusteredForward}) {
             const validation::Picture shown = picture(scene, sampled({321, 179}), technique);
             const validation::ErrorFigures figures = validation::errorFigures(shown, shown);
             EXPECT_EQ(figures.bad.nan + figures.badOutside.nan, 0u) << pitch;
@@ -167,7 +240,7 @@ TEST_F(Multisampling, aMaskedEdgeAlwaysCoversAsManySamplesAsItsAlphaSays) {
     constexpr int kSide = 8, kEdge = 3; // the cutoff is crossed in this column
     const int samples = context().capabilities().renderTargetSamples.back();
     if (samples == 1) GTEST_SKIP() << "this driver has no multisampled render targets";
-    for (const Technique technique : {Technique::Forward, Technique::ForwardPrepass}) {
+    for (const Technique technique : {Technique::Forward, Technique::ForwardPrepass, Technique::ClusteredForward}) {
         // Away from the steps between two numbers of samples, by more than rounding.
         for (const double share : {0.05, 0.3, 0.55, 0.8, 0.95}) {
             SCOPED_TRACE(share);
