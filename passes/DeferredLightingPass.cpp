@@ -15,6 +15,7 @@ bool inCompute(const frame::FrameSpec& spec) {
 
 void drawPicture(const frame::FrameResources& resources, const gpu::Texture& radiance) {
     gpu::bindFramebuffer(resources.framebuffers.get({{&radiance}, nullptr}));
+    gpu::clearColor(0, resources.background);
     gpu::setState({});
     gpu::drawFullscreenTriangle();
 }

@@ -31,6 +31,7 @@ constexpr FeatureInfo kTable[] = {
     {Feature::AlphaMask, "ALPHA_MASK", "alpha masks", "no material is alpha-masked"},
     {Feature::Blend, "BLEND", "transparent pass", "no material is alpha-blended"},
     {Feature::DoubleSided, "DOUBLE_SIDED", "two-sided normals", "no material is double-sided"},
+    {Feature::OrthographicCamera, "ORTHOGRAPHIC_CAMERA", "parallel rays", "the camera is perspective"},
 };
 static_assert(std::size(kTable) == kFeatureCount);
 

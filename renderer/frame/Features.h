@@ -38,6 +38,7 @@ enum class Feature : std::uint8_t {
     AlphaMask,
     Blend,
     DoubleSided,
+    OrthographicCamera,
     Count
 };
 inline constexpr std::size_t kFeatureCount = static_cast<std::size_t>(Feature::Count);
@@ -65,7 +66,8 @@ struct FeatureSet {
     bool operator==(const FeatureSet&) const = default;
 };
 
-/// The set of what materials in use need; lights are added by packLights, which knows which of them can be seen.
+/// The set of what materials in use need; lights are added by packLights, which knows which of them can be seen, and
+/// the camera by makeFrameSpec.
 FeatureSet materialFeatures(const scenes::Scene& scene);
 
 /// Everything there is (prune = off).

@@ -45,6 +45,8 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     if (settings.prune) {
         spec.features = materialFeatures(scene);
         spec.features.has |= lights.features.has;
+        const scenes::Camera& camera = scene.cameras[std::size_t(settings.camera)];
+        spec.features.add(Feature::OrthographicCamera, camera.projection == scenes::Projection::Orthographic);
     } else {
         spec.features = allFeatures();
     }

@@ -17,15 +17,17 @@ Viewpoint viewpointFromDepth(vec2 pixel, float depth)
     precise vec3 ray = frame.rayOriginLS.xyz + pixel.x * frame.rayDxLS.xyz + pixel.y * frame.rayDyLS.xyz;
     Viewpoint viewpoint;
     viewpoint.depth = depth;
+#if HAS_ORTHOGRAPHIC_CAMERA
     if (frame.forwardLS.w != 0.0) {
         precise vec3 position = ray + viewDepth * frame.forwardLS.xyz;
         viewpoint.positionLS = position;
         viewpoint.toViewerLS = -frame.forwardLS.xyz;
-    } else {
-        precise vec3 position = viewDepth * ray;
-        precise vec3 toViewer = -ray / sqrt(dot(ray, ray));
-        viewpoint.positionLS = position;
-        viewpoint.toViewerLS = toViewer;
+        return viewpoint;
     }
+#endif
+    precise vec3 position = viewDepth * ray;
+    precise vec3 toViewer = -ray / sqrt(dot(ray, ray));
+    viewpoint.positionLS = position;
+    viewpoint.toViewerLS = toViewer;
     return viewpoint;
 }

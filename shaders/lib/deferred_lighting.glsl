@@ -1,4 +1,4 @@
-// Lights a covered pixel once from the G-buffer; the others show the background.
+// Lights a covered pixel once from the G-buffer.
 #pragma once
 #include "shared/slots.h"
 #include "lib/gbuffer.glsl"
@@ -6,10 +6,14 @@
 
 layout(binding = TEXTURE_UNIT_DEPTH) uniform sampler2D depthChannel;
 
-vec4 deferredRadiance(ivec2 pixel)
+// Reverse-Z; 0 where nothing was drawn.
+float depthOfPixel(ivec2 pixel)
 {
-    float depth = texelFetch(depthChannel, pixel, 0).r;
-    if (depth == 0.0) return frame.background; // reverse-Z: nothing was drawn here
+    return texelFetch(depthChannel, pixel, 0).r;
+}
+
+vec4 deferredRadiance(ivec2 pixel, float depth)
+{
     vec2 center = vec2(pixel) + 0.5;
     Surface surface = surfaceFromGBuffer(pixel);
     Viewpoint viewpoint = viewpointFromDepth(center, depth);

@@ -8,5 +8,8 @@ void main()
 {
     uvec2 pixel = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(pixel, frame.sizePixels.xy))) return;
-    imageStore(radianceImage, ivec2(pixel), deferredRadiance(ivec2(pixel)));
+    float depth = depthOfPixel(ivec2(pixel));
+    vec4 radiance = frame.background;
+    if (depth != 0.0) radiance = deferredRadiance(ivec2(pixel), depth);
+    imageStore(radianceImage, ivec2(pixel), radiance);
 }

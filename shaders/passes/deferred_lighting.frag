@@ -5,5 +5,9 @@ layout(location = 0) out vec4 radiance;
 
 void main()
 {
-    radiance = deferredRadiance(ivec2(gl_FragCoord.xy));
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float depth = depthOfPixel(pixel);
+    // The background stays as it was cleared: software rasterisers leave a block early when all its pixels are discarded.
+    if (depth == 0.0) discard;
+    radiance = deferredRadiance(pixel, depth);
 }

@@ -88,8 +88,10 @@ TEST(Features, aFeatureIsInTheSetExactlyWhenAMaterialInUseNeedsIt) {
 }
 
 TEST(Features, everyFeatureOfMaterialsAlwaysHasASceneWithItAndOneWithout) {
-    std::set<Feature> tested{Feature::Lambert, Feature::DirectionalLights, Feature::PointLights, Feature::SpotLights,
-                             Feature::AttenuationLights}; // the lights' are packLights' business
+    std::set<Feature> tested{Feature::Lambert,           Feature::DirectionalLights,
+                             Feature::PointLights,       Feature::SpotLights,
+                             Feature::AttenuationLights, // the lights' are packLights' business
+                             Feature::OrthographicCamera};
     for (const Change& change : changes()) tested.insert(change.feature);
     EXPECT_EQ(tested.size(), kFeatureCount);
 }
