@@ -7,7 +7,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "renderer/frame/LightRange.h"
 #include "validation/PixelPositions.h"
 #include "validation/VisitedLights.h"
 
@@ -19,7 +18,10 @@ namespace {
 struct TrueLight {
     int sceneLight = 0;
     glm::dvec3 positionWS{0.0};
-    double squaredReach = 0.0;
+    double squaredRange = scenes::kInfinity; ///< of falloff inverse_square
+    bool fallsOffByABC = false;
+    glm::dvec3 attenuation{0.0}; ///< A B C, times the tolerance
+    double brightest = 0.0;      ///< channel of colour x intensity
     bool isSpot = false;
     glm::dvec3 directionWS{0.0};
     double cosOuter = -1.0;
@@ -30,6 +32,14 @@ struct TrueLights {
     std::vector<int> everywhere; ///< scene lights
 };
 
+/// Directional lights, and those whose falloff never ends: without a range, or of A B C where no tolerance ends it or
+/// only A is not 0.
+bool reachesEverywhere(const scenes::Light& light, double rangeTolerance) {
+    if (light.type == scenes::LightType::Directional) return true;
+    if (light.falloff == scenes::Falloff::InverseSquare) return std::isinf(light.rangeMetres);
+    return rangeTolerance == 0.0 || (light.attenuation.y == 0.0f && light.attenuation.z == 0.0f);
+}
+
 TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& settings) {
     TrueLights lights;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
@@ -38,15 +48,21 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
         if (glm::dvec3(light.color) * double(light.intensity) == glm::dvec3(0.0)) continue;
         const bool isSpot = light.type == scenes::LightType::Spot;
         if (isSpot && !(light.outerConeRadians > 0.0f)) continue;
-        const double reach = frame::reachMetres(light, settings.rangeTolerance);
-        if (std::isinf(reach)) {
+        if (reachesEverywhere(light, settings.rangeTolerance)) {
             lights.everywhere.push_back(int(i));
             continue;
         }
         TrueLight plain;
         plain.sceneLight = int(i);
         plain.positionWS = light.positionWS;
-        plain.squaredReach = reach * reach;
+        plain.fallsOffByABC = light.falloff == scenes::Falloff::Attenuation;
+        if (plain.fallsOffByABC)
+            plain.attenuation = glm::dvec3(light.attenuation) * settings.rangeTolerance;
+        else
+            plain.squaredRange = double(light.rangeMetres) * double(light.rangeMetres);
+        const glm::dvec3 color = glm::dvec3(light.color) * double(light.intensity);
+        // Colours are held to 1e30 (docs/numerics.md).
+        plain.brightest = std::min(std::max({color.r, color.g, color.b}), 1e30);
         plain.isSpot = isSpot;
         plain.directionWS = light.directionWS;
         plain.cosOuter = std::cos(double(light.outerConeRadians));
@@ -56,10 +72,15 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
 }
 
 bool reaches(const TrueLight& light, const glm::dvec3& positionWS, double squaredDistance) {
-    if (!(squaredDistance < light.squaredReach)) return false;
+    // The falloff itself, not the radius that solves it, is held against the tolerance.
+    const double distance = std::sqrt(squaredDistance);
+    if (light.fallsOffByABC ? !(light.brightest > light.attenuation.x + light.attenuation.y * distance +
+                                                      light.attenuation.z * squaredDistance)
+                            : !(squaredDistance < light.squaredRange))
+        return false;
     if (!light.isSpot) return true;
     const glm::dvec3 away = positionWS - light.positionWS;
-    return glm::dot(away, light.directionWS) > light.cosOuter * std::sqrt(squaredDistance);
+    return glm::dot(away, light.directionWS) > light.cosOuter * distance;
 }
 
 /// The counts of some rows of pixels.
@@ -83,7 +104,7 @@ public:
                 std::size_t(row) * std::size_t(input_.settings.sizePixels.x) + std::size_t(column);
             if (!(input_.depth[pixel] > 0.0f)) continue;
             ++counts.figures.covered;
-            const VisitedCell own = visited_.cellAt(column, row, input_.depth[pixel]);
+            const VisitedCell own = visited_.cellAt(column, row, input_.depth[pixel], input_.layer);
             if (cell != own) {
                 cell = own;
                 visited_.at(own, visited);

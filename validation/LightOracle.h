@@ -7,11 +7,10 @@
 
 /// The judge of light culling: which lights each pixel needs, found by trying all of them, and which it visited. In
 /// double precision, from the plain scene and the depth buffer, by tests of its own; with the culling code it shares
-/// only the layout of the lists (shaders/shared/light_lists.h), which it reads as the GPU had them, and how far a light
-/// reaches (renderer/frame/LightRange.h).
+/// only the layout of the lists (shaders/shared/light_lists.h), which it reads as the GPU had them.
 namespace tessera::validation {
 
-/// Counts over a frame's opaque surfaces. A light is needed at a pixel that it reaches: closer than its range and
+/// Counts over a frame's surfaces of one layer. A light is needed at a pixel that it reaches: closer than its range and
 /// inside its outer cone, with colour and intensity. Lights that reach everywhere are needed at every covered pixel;
 /// they are counted apart, since there is nothing to cull.
 struct LightOracleFigures {
@@ -42,12 +41,14 @@ struct OracleInput {
     const scenes::Scene& scene;
     frame::FrameSettings settings;
     const recipes::DrawnLists& drawn;
-    std::span<const float> depth;    ///< reverse-Z, one a pixel; 0: no surface
-    std::span<const float> normalWS; ///< RGBA a pixel; empty: neededLit is not counted
+    std::span<const float> depth;              ///< of the surfaces to judge, reverse-Z, one a pixel; 0: no surface
+    std::span<const float> normalWS;           ///< RGBA a pixel; empty: neededLit is not counted
+    SurfaceLayer layer = SurfaceLayer::Opaque; ///< that the surfaces belong to
 };
 LightOracleFigures judgeLights(const OracleInput& input);
 
-/// Draws the frame and judges it. Works on all cores; a million pixels and a thousand lights take some seconds.
+/// Draws the frame and judges its opaque surfaces. Works on all cores; a million pixels and a thousand lights take some
+/// seconds.
 LightOracleFigures judgeLights(recipes::Renderer& renderer, recipes::Technique technique,
                                const frame::FrameSettings& settings);
 

@@ -20,13 +20,14 @@ std::uint32_t sliceAt(const recipes::DrawnLists& drawn, float depth, std::uint32
 
 VisitedLights::VisitedLights(const recipes::DrawnLists& drawn) : drawn_(drawn) {}
 
-VisitedCell VisitedLights::cellAt(int column, int row, float depth) const {
+VisitedCell VisitedLights::cellAt(int column, int row, float depth, SurfaceLayer layer) const {
     if (drawn_.culling.method == Method::None) return {};
     const glm::uvec4& grid = drawn_.constants.tileGrid;
     const std::uint32_t side = 1u << grid.w;
     const std::uint32_t tileColumn = std::uint32_t(column) / side;
     const std::uint32_t tileRow = (grid.z - 1u - std::uint32_t(row)) / side;
-    const std::uint32_t tile = tileRow * grid.x + tileColumn;
+    std::uint32_t tile = tileRow * grid.x + tileColumn;
+    if (layer == SurfaceLayer::Transparent) tile += grid.x * grid.y;
     return {tile, sliceAt(drawn_, depth, drawn_.lists.tiles.at(tile).words.y)};
 }
 

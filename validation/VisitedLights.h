@@ -14,14 +14,17 @@ struct VisitedCell {
     auto operator<=>(const VisitedCell&) const = default;
 };
 
+/// Opaque and transparent surfaces have lists of their own.
+enum class SurfaceLayer { Opaque, Transparent };
+
 /// Reads a frame's light lists as the shaders' light cursor does, in words of its own.
 class VisitedLights {
 public:
     /// `drawn` must outlive the object.
     explicit VisitedLights(const recipes::DrawnLists& drawn);
 
-    /// The cell that a pixel lies in. `row` counts from the bottom; `depth` is the depth buffer's value there.
-    VisitedCell cellAt(int column, int row, float depth) const;
+    /// The cell that a surface lies in. `row` counts from the bottom; `depth` is the surface's in the depth buffer.
+    VisitedCell cellAt(int column, int row, float depth, SurfaceLayer layer = SurfaceLayer::Opaque) const;
 
     /// Scene lights that the pixels of a cell visit, ascending, those that reach everywhere included.
     void at(const VisitedCell& cell, std::vector<int>& sceneLights) const;
