@@ -96,6 +96,28 @@ TEST_F(MaterialValues, aSpecularFactorTextureAlwaysCountsByItsAlpha) {
     expectColor(scene, glm::dvec3(0.04 * 0.125 / (4.0 * pi)));
 }
 
+TEST_F(MaterialValues, anUnlitSurfaceThatEmitsAlwaysShowsBoth) {
+    Material material = unlit();
+    material.baseColor = {0.5f, 0.25f, 0.125f, 1.0f};
+    material.emissive = {0.25f, 0.5f, 1.0f};
+    EXPECT_EQ(glm::vec3(center(flatScene(material))), glm::vec3(0.75f, 0.75f, 1.125f));
+}
+
+TEST_F(MaterialValues, theNormalViewIsAlwaysInWorldSpace) {
+    const glm::dmat4 turn = glm::rotate(glm::rotate(glm::dmat4(1.0), 0.7, {0, 1, 0}), 0.4, {1, 0, 0});
+    Scene scene = flatScene({});
+    scene.nodes[0].parentFromNode = turn * scene.nodes[0].parentFromNode;
+    scene.cameras[0].worldFromCamera = turn * scene.cameras[0].worldFromCamera;
+    const glm::dvec3 facingWS(turn[2]);
+    for (const frame::LightingSpace space : {frame::LightingSpace::World, frame::LightingSpace::View}) {
+        frame::FrameSettings settings;
+        settings.space = space;
+        settings.view = frame::View::Normal;
+        const glm::vec4 shown = pixel(frame(scene, settings), kSide / 2, kSide / 2);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], facingWS[c], kRounding) << c;
+    }
+}
+
 TEST_F(MaterialValues, opacityBeyondZeroAndOneIsAlwaysHeldToThem) {
     Material material = unlit();
     material.alphaMode = scenes::AlphaMode::Blend;
