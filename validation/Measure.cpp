@@ -33,6 +33,21 @@ void drawProfiled(recipes::Renderer& renderer, recipes::Technique technique, con
     times->totalMs.push_back(total);
 }
 
+/// What the light lists of the frame as planned took.
+void fillInLists(graph::Plan& plan, recipes::Renderer& renderer, recipes::Technique technique,
+                 const frame::FrameSettings& settings) {
+    renderer.draw(technique, settings);
+    const recipes::DrawnLists drawn = renderer.downloadLists();
+    if (drawn.culling.method == culling::Method::None) return;
+    const auto bytesOf = [](const auto& values) { return values.size() * sizeof(values[0]); };
+    for (graph::Plan::Resource& resource : plan.resources) {
+        if (resource.name == frame::kLightCellsName) resource.bytes = bytesOf(drawn.lists.cells);
+        if (resource.name == frame::kLightEntriesName) resource.bytes = bytesOf(drawn.lists.entries);
+    }
+    plan.counters.emplace_back("lightListCells", drawn.lists.cells.size());
+    plan.counters.emplace_back("lightListEntries", drawn.lists.entries.size());
+}
+
 } // namespace
 
 void measurePlan(graph::Plan& plan, recipes::Renderer& renderer, recipes::Technique technique,
@@ -50,6 +65,7 @@ void measurePlan(graph::Plan& plan, recipes::Renderer& renderer, recipes::Techni
         const auto times = asPlanned.passMs.find(pass.name);
         if (times != asPlanned.passMs.end()) pass.ms = spreadOf(times->second).median;
     }
+    fillInLists(plan, renderer, technique, settings);
     if (settings.rangeTolerance > 0.0) {
         const RangeTruncation truncation = rangeTruncation(renderer, technique, settings);
         plan.choices.push_back({"light that the range tolerance drops", droppedText(truncation.figures),

@@ -8,10 +8,9 @@ namespace tessera::frame {
 LightListHandles importLightLists(graph::Graph& graph, std::size_t tiles, const LightListBuffers* held) {
     const auto bytes = [](const GrowingTexelBuffer& buffer) { return buffer.buffer().bytes(); };
     const std::size_t tileBytes = tiles * sizeof(shared::LightTile);
-    const std::size_t least = 16; // counted while the frame runs
     return {graph.import("light_tiles", graph::BufferDesc{held ? bytes(held->tiles) : tileBytes}),
-            graph.import("light_cells", graph::BufferDesc{held ? bytes(held->cells) : least}),
-            graph.import("light_entries", graph::BufferDesc{held ? bytes(held->entries) : least}),
+            graph.import(kLightCellsName, graph::BufferDesc{held ? bytes(held->cells) : 0}),
+            graph.import(kLightEntriesName, graph::BufferDesc{held ? bytes(held->entries) : 0}),
             {}};
 }
 

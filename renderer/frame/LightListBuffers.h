@@ -20,8 +20,12 @@ struct LightListHandles {
 
 struct LightListBuffers;
 
+/// What a plan calls the buffers whose bytes are counted while the frame runs.
+inline constexpr const char* kLightCellsName = "light_cells";
+inline constexpr const char* kLightEntriesName = "light_entries";
+
 /// Makes the buffers known to a graph. They outlive the frame, since how much they must hold is only known while it
-/// runs; without `held`, for a plan, only the bytes of tiles and lights are known.
+/// runs; without `held`, for a plan, only the bytes of tiles and lights are known, and the others are 0.
 LightListHandles importLightLists(graph::Graph& graph, std::size_t tiles, const LightListBuffers* held);
 graph::BufferHandle importLightReach(graph::Graph& graph, std::size_t lights, const LightListBuffers* held);
 

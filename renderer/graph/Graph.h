@@ -104,7 +104,8 @@ public:
         return *data;
     }
 
-    /// A resource that exists outside the frame (a history, a window). Reading it needs no producer.
+    /// A resource that exists outside the frame (a history, a window). Reading it needs no producer. A
+    /// buffer of 0 bytes is one whose owner sizes it while the frame runs.
     TextureHandle import(std::string name, const TextureDesc& desc);
     BufferHandle import(std::string name, const BufferDesc& desc);
 

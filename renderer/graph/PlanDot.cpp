@@ -144,7 +144,8 @@ private:
         std::string shape = resource.format;
         if (resource.width > 0) shape += fmt::format(" {} x {}", resource.width, resource.height);
         if (resource.samples != 1) shape += fmt::format(" x{}", resource.samples);
-        return {shape, readableBytes(resource.bytes) + (resource.imported ? ", imported" : "")};
+        return {shape, (resource.bytes ? readableBytes(*resource.bytes) : "as counted") +
+                           (resource.imported ? ", imported" : "")};
     }
 
     const Plan::Resource* find(const std::string& name) const {

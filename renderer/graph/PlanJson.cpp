@@ -49,7 +49,7 @@ std::string planJson(const Plan& plan) {
     json["resources"] = listOf(plan.resources, [](const Plan::Resource& resource) {
         return Json{
             {"name", resource.name},        {"format", resource.format},   {"width", resource.width},
-            {"height", resource.height},    {"samples", resource.samples}, {"bytes", resource.bytes},
+            {"height", resource.height},    {"samples", resource.samples}, {"bytes", valueOrNull(resource.bytes)},
             {"first", resource.first},      {"last", resource.last},       {"aliasOf", textOrNull(resource.aliasOf)},
             {"imported", resource.imported}};
     });

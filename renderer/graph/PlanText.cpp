@@ -109,7 +109,8 @@ std::string resources(const Plan& plan) {
     table.addColumn("lives", Align::Left, Cells::Whole);
     table.addColumn("in the memory of");
     for (const Plan::Resource& resource : plan.resources)
-        table.addRow({resource.name, resource.format, sizeOf(resource), readableBytes(resource.bytes),
+        table.addRow({resource.name, resource.format, sizeOf(resource),
+                      resource.bytes ? readableBytes(*resource.bytes) : "as counted",
                       lifetime(resource, plan.passes.size()),
                       resource.imported ? "(imported)" : orDash(resource.aliasOf)});
     return table.text();

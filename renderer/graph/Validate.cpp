@@ -49,7 +49,7 @@ private:
         if (texture && (texture->width < 1 || texture->height < 1 || texture->samples < 1))
             report(fmt::format("texture '{}', {}, is empty ({}): width, height and samples must be at least 1",
                                made.name, origin, describeSize(made.desc)));
-        if (!texture && descBytes(made.desc) == 0)
+        if (!texture && !made.imported && descBytes(made.desc) == 0)
             report(fmt::format("buffer '{}', {}, is empty: it must have at least 1 byte", made.name, origin));
     }
 

@@ -49,6 +49,25 @@ TEST_F(Plan, measureAlwaysFillsInMilliseconds) {
     EXPECT_TRUE(isMeasured);
 }
 
+TEST_F(Plan, theMemoryOfLightListsIsNeverGuessedAndAlwaysMeasured) {
+    const auto entriesOf = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"plan",   "lattice",     "--lights",       "64",     "--size",
+                                           "160x90", "--technique", "tiled_deferred", "--json", "p.json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        runGood(arguments);
+        const Json plan = json("p.json");
+        for (const Json& resource : plan["resources"])
+            if (resource["name"] == "light_entries") return resource["bytes"];
+        ADD_FAILURE() << "no light_entries";
+        return Json();
+    };
+    EXPECT_TRUE(entriesOf({}).is_null());
+    const Json measured = entriesOf({"--measure"});
+    ASSERT_TRUE(measured.is_number());
+    EXPECT_EQ(measured, 4 * json("p.json")["counters"]["lightListEntries"].get<int>());
+    EXPECT_GT(measured, 100);
+}
+
 TEST_F(Plan, pruneOffNeverLeavesAnythingOutOfThePlan) {
     runGood({"plan", "lattice", "--json", "on.json"});
     runGood({"plan", "lattice", "--prune", "off", "--json", "off.json"});
