@@ -57,6 +57,8 @@ std::size_t groupCount(const std::vector<validation::BenchPoint>& points) {
 }
 
 int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
+    if (options.frame.samples.value_or(1) != 1)
+        throw InputError("bench measures frames of one sample a pixel; leave --samples out");
     requireFolderPlace(options.folder);
     validation::BenchOptions run;
     if (options.frames) run.frames = *options.frames;

@@ -6,6 +6,7 @@
 #include "apps/Commands.h"
 #include "apps/OutputFolder.h"
 #include "apps/Progress.h"
+#include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/Renderer.h"
 #include "scenes/Error.h"
@@ -53,11 +54,12 @@ std::variant<recipes::Technique, std::string> truthNamed(const std::string& name
         fmt::format("--against '{}' is neither a technique nor a picture file: {}", name, suggestNames(name, names)));
 }
 
-/// Those asked for; else all but the truth that take the number of samples, the others to `leftOut`.
+/// Those asked for; else all but the truth that take the samples and the culling method, the others to `leftOut`.
 std::vector<recipes::Technique> techniquesOf(const CompareOptions& options,
                                              const std::variant<recipes::Technique, std::string>& against,
+                                             const frame::FrameSettings& settings,
                                              std::vector<validation::LeftOutTechnique>& leftOut) {
-    const int samples = options.frame.samples.value_or(1);
+    const int samples = settings.samples;
     const auto* truth = std::get_if<recipes::Technique>(&against);
     if (truth) recipes::requireSamples(*truth, samples);
     std::vector<recipes::Technique> techniques;
@@ -67,11 +69,12 @@ std::vector<recipes::Technique> techniquesOf(const CompareOptions& options,
             if (std::find(techniques.begin(), techniques.end(), technique) != techniques.end())
                 throw InputError(fmt::format("--techniques {} names {} twice", options.techniques, name));
             recipes::requireSamples(technique, samples);
+            if (recipes::hasLightLists(technique)) recipes::requireCulling(technique, settings);
             techniques.push_back(technique);
         }
         return techniques;
     }
-    techniques = validation::techniquesTaking(samples, leftOut);
+    techniques = validation::techniquesTaking(samples, settings.culling.method, leftOut);
     if (truth) std::erase(techniques, *truth);
     return techniques;
 }
@@ -88,12 +91,15 @@ void writeHeatMaps(const std::string& folder, const validation::CompareResult& r
 int compare(const CompareOptions& options, const GlobalOptions& global) {
     validation::CompareRequest comparison;
     comparison.against = truthNamed(options.against);
-    std::vector<validation::LeftOutTechnique> leftOut;
-    comparison.techniques = techniquesOf(options, comparison.against, leftOut);
     if (!options.json.empty()) validation::requireWritable(options.json);
     if (!options.heatMaps.empty()) requireFolderPlace(options.heatMaps);
     const Request request = resolve(options.frame);
     comparison.settings = request.settings;
+    if (request.settings.view == frame::View::Lights)
+        throw InputError(
+            "--view lights shows what each technique visits, which is not meant to be the same; render it");
+    std::vector<validation::LeftOutTechnique> leftOut;
+    comparison.techniques = techniquesOf(options, comparison.against, request.settings, leftOut);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     recipes::Renderer renderer(*context, request.scene);
     Progress progress("comparing", validation::pictureCount(comparison), global.quiet);

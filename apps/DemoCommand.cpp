@@ -117,7 +117,7 @@ int demo(const DemoOptions& options, const GlobalOptions& global) {
     request.settings = recipes::settingsOn(context->capabilities(), request.settings);
     recipes::Renderer renderer(*context, request.scene);
     std::vector<validation::LeftOutTechnique> leftOut;
-    std::vector<Technique> techniques = validation::techniquesTaking(request.settings.samples, leftOut);
+    std::vector<Technique> techniques = validation::techniquesTaking(request.settings.samples, {}, leftOut);
     if (leftOut.empty()) techniques.assign(std::begin(kShown), std::end(kShown));
 
     validation::CompareRequest exact;
@@ -152,7 +152,7 @@ int demo(const DemoOptions& options, const GlobalOptions& global) {
 
 void addDemoCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     CLI::App* command =
-        app.add_subcommand("demo", "Renders a scene with every technique, checks that they match, writes a report");
+        app.add_subcommand("demo", "Renders a scene four ways, checks that they match, writes a report");
     auto options = std::make_shared<DemoOptions>();
     addFrameOptions(*command, options->frame, "hall");
     command->add_option("-o,--output", options->folder, "Where pictures and index.html go [out]")->type_name("DIR");

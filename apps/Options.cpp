@@ -210,8 +210,7 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     text("--layout", options.layout, "G-buffer layout, one of " + namesOf(frame::layoutTable()) + " [exact]", "NAME");
     text("--culling", options.culling,
          "How lights are culled, one of " + namesOf(culling::methodTable()) + " [the technique's own]", "NAME");
-    addWholeNumber(command, "--tile", options.tile, "Side of a light-culling tile, 8, 16, 32 or 64 [by backend]",
-                   "PIXELS")
+    addWholeNumber(command, "--tile", options.tile, "Side of a light-culling tile, 8, 16, 32 or 64 [16]", "PIXELS")
         ->group("Frame");
     text("--cull-on", options.cullOn,
          "Who builds the light lists, one of " + namesOf(culling::builderTable()) + " [by backend]", "NAME");

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "apps/Commands.h"
+#include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/Renderer.h"
 #include "validation/AtomicFile.h"
@@ -21,6 +22,7 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
         if (!path.empty()) validation::requireWritable(path);
     Request request = resolve(options.frame);
     recipes::requireSamples(request.technique, request.settings.samples);
+    recipes::requireCulling(request.technique, request.settings);
     std::unique_ptr<gpu::Context> context;
     if (options.measure) {
         context = makeContext(global);

@@ -7,6 +7,7 @@
 #include "apps/FramePattern.h"
 #include "apps/Numbers.h"
 #include "apps/Progress.h"
+#include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/Renderer.h"
 #include "scenes/Error.h"
@@ -37,9 +38,9 @@ std::string countTitle(const Request& request, const validation::Picture& counts
         sum += counts.pixel(i)[0];
         most = std::max(most, double(counts.pixel(i)[0]));
     }
-    return fmt::format("{}: lights a pixel visits, {}: {:.1f} on average, at most {:.0f}", request.scene.name,
-                       recipes::techniqueTable()[std::size_t(request.technique)].name, sum / std::max(covered, 1.0),
-                       most);
+    // The figures first: a small picture's title is cut.
+    return fmt::format("{:.1f} lights a pixel, at most {:.0f}: {}, {}", sum / std::max(covered, 1.0), most,
+                       request.scene.name, recipes::techniqueTable()[std::size_t(request.technique)].name);
 }
 
 void writePicture(const std::string& path, const Request& request, const recipes::RenderedFrame& frame) {
@@ -91,6 +92,7 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     check(options);
     Request request = resolve(options.frame);
     recipes::requireSamples(request.technique, request.settings.samples);
+    recipes::requireCulling(request.technique, request.settings);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     recipes::Renderer renderer(*context, request.scene);
     request.settings.display = std::filesystem::path(options.output).extension() != ".exr";

@@ -7,11 +7,12 @@ namespace tessera::passes {
 
 namespace {
 
-gpu::PipelineState pipelineState(const ForwardPass::Params& params, bool prepassed) {
+gpu::PipelineState pipelineState(const ForwardPass::Params& params, bool prepassed, frame::View view) {
     gpu::PipelineState state;
     if (params.surfaces == ForwardPass::Surfaces::Transparent) {
         state.depthTest = gpu::DepthTest::GreaterEqual;
-        state.blend = gpu::Blend::AlphaStraight;
+        // Lights that layers visit add up, however much of each is seen.
+        state.blend = view == frame::View::Lights ? gpu::Blend::AdditiveCovering : gpu::Blend::AlphaStraight;
     } else {
         state.depthTest = prepassed ? gpu::DepthTest::Equal : gpu::DepthTest::GreaterEqual;
         state.depthWrite = !prepassed;
@@ -48,7 +49,7 @@ ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpe
             out.radiance = inputs.radiance ? pass.write(*inputs.radiance)
                                            : pass.create("radiance", spec.renderTarget(graph::Format::Rgba32Float));
         },
-        [resources, params, prepassed, keepsPicture = inputs.radiance.has_value(),
+        [resources, params, prepassed, view = spec.settings.view, keepsPicture = inputs.radiance.has_value(),
          program = program(spec, params)](const Outputs& out, const graph::PassContext& context) {
             gpu::bindFramebuffer(
                 resources->framebuffers.get({{&context.texture(out.radiance)}, &context.texture(out.depth)}));
@@ -60,7 +61,7 @@ ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpe
             if (out.lists) resources->lightLists.bind();
             const frame::SceneGpu& scene = resources->scene;
             scene.draw(params.surfaces == Surfaces::Transparent ? scene.transparent() : scene.opaque(),
-                       pipelineState(params, prepassed));
+                       pipelineState(params, prepassed, view));
         });
 }
 

@@ -1,6 +1,9 @@
 #include "passes/LightListsPass.h"
 
+#include <new>
+
 #include "renderer/gpu/Texture.h"
+#include "scenes/Error.h"
 
 namespace tessera::passes {
 
@@ -21,8 +24,15 @@ void build(const frame::FrameSpec& spec, const frame::FrameResources& resources,
     culling::DepthPicture transparent;
     if (read.depths.transparent)
         transparent = download(context.texture(*read.depths.transparent), lists.transparentDepth);
-    lists.upload(lists.builder.build({resources.constants, spec.settings.sizePixels, resources.cullLights,
-                                      spec.culling.method, opaque, read.depths.transparent ? &transparent : nullptr}));
+    try {
+        lists.upload(
+            lists.builder.build({resources.constants, spec.settings.sizePixels, resources.cullLights,
+                                 spec.culling.method, opaque, read.depths.transparent ? &transparent : nullptr}));
+    } catch (const std::bad_alloc&) {
+        throw InputError(
+            "light lists do not fit into this machine's memory: larger tiles (--tile 64), another --culling "
+            "method or fewer lights (--lights N) need less");
+    }
 }
 
 } // namespace

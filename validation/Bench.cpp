@@ -48,6 +48,18 @@ std::vector<std::uint64_t> visitedByPixel(recipes::Renderer& renderer, const Ben
     return visited;
 }
 
+/// The oracle counts what lies in the depth buffer. Transparent surfaces are lit too, so where there are any its sums
+/// would price too little.
+void forgetCounts(BenchResult& result) {
+    BenchCounters& counters = result.counters;
+    counters.lightEvaluations = counters.neededEvaluations = counters.neededLitEvaluations = {};
+    counters.evaluatedP99 = counters.evaluatedMax = counters.fragments = {};
+    counters.evaluatedMean = counters.tightness = {};
+    for (const char* figure : {"lightEvaluations", "neededEvaluations", "neededLitEvaluations", "evaluatedMean",
+                               "evaluatedP99", "evaluatedMax", "fragments", "tightness"})
+        result.why[figure] = "transparent surfaces are lit too, and not counted";
+}
+
 void count(recipes::Renderer& renderer, BenchResult& result) {
     const BenchPoint& point = result.point;
     LightOracleFigures oracle = judgeLights(renderer, point.technique, point.settings);
@@ -61,13 +73,13 @@ void count(recipes::Renderer& renderer, BenchResult& result) {
     if (point.technique == Technique::Forward) {
         // Hidden fragments are lit before something nearer covers them.
         counters.fragments = forwardFragments(renderer, point.settings);
-        counters.lightEvaluations = counters.fragments * prepared.lights.texels.size();
+        counters.lightEvaluations = *counters.fragments * prepared.lights.texels.size();
     }
     if (point.technique == Technique::DeferredVolumes) {
         // Its pixels visit the lights whose volumes cover them, which only the rasteriser knows.
         const std::vector<std::uint64_t> visited = visitedByPixel(renderer, point);
         counters.lightEvaluations = std::accumulate(visited.begin(), visited.end(), std::uint64_t(0));
-        oracle.evaluated = counters.lightEvaluations - oracle.everywhere;
+        oracle.evaluated = *counters.lightEvaluations - std::min(*counters.lightEvaluations, oracle.everywhere);
         oracle.evaluatedP99 = visited.empty() ? 0 : visited[(visited.size() * 99 + 99) / 100 - 1];
         oracle.evaluatedMax = visited.empty() ? 0 : visited.back();
     }
@@ -81,6 +93,7 @@ void count(recipes::Renderer& renderer, BenchResult& result) {
     counters.listEntries = oracle.entries;
     counters.listBytes = oracle.listBytes;
     counters.falseNegatives = oracle.falseNegatives;
+    if (prepared.spec.features[frame::Feature::Blend]) forgetCounts(result);
     for (const auto& [name, value] : plan.counters) {
         if (name == "triangles") counters.triangles = value;
         if (name == "draws") counters.draws = value;
@@ -89,6 +102,10 @@ void count(recipes::Renderer& renderer, BenchResult& result) {
 }
 
 void compareWithFloor(BenchResult& result, const FloorFigures& floor) {
+    if (!result.counters.neededEvaluations) {
+        result.why["floorMs"] = result.why["ratioToFloor"] = result.why["neededEvaluations"];
+        return;
+    }
     result.floorMs = floor.floorMs(double(*result.counters.neededEvaluations));
     if (result.floorMs)
         result.ratioToFloor = result.times.cpuMs.median / *result.floorMs;

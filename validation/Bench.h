@@ -13,15 +13,16 @@ namespace tessera::validation {
 
 /// What a frame does, counted, beside what it costs. A figure that could not be had is none, and `why` says why.
 struct BenchCounters {
-    std::uint64_t lightEvaluations = 0;                ///< lights visited, summed over the shaded pixels
+    std::optional<std::uint64_t> lightEvaluations;     ///< lights visited, summed over the shaded pixels
     std::optional<std::uint64_t> neededEvaluations;    ///< pairs of a covered pixel and a light that reaches it
     std::optional<std::uint64_t> neededLitEvaluations; ///< those that also lie in front of the surface
     std::optional<double> tightness;                   ///< evaluated / needed, of the lights that end somewhere
-    double evaluatedMean = 0.0;                        ///< a covered pixel
-    std::uint64_t evaluatedP99 = 0, evaluatedMax = 0;
+    std::optional<double> evaluatedMean;               ///< a covered pixel
+    std::optional<std::uint64_t> evaluatedP99, evaluatedMax;
     std::uint64_t listEntries = 0, listBytes = 0;
     std::uint64_t gbufferBytes = 0; ///< written, and read again
-    std::uint64_t fragments = 0;    ///< that are lit: each covered pixel, or in forward each that passes the depth test
+    /// That are lit: each covered pixel, or in forward each that passes the depth test.
+    std::optional<std::uint64_t> fragments;
     std::uint64_t triangles = 0, draws = 0;
     std::uint64_t falseNegatives = 0; ///< needed pairs that were not visited; a fault where it is not 0
 };

@@ -30,18 +30,18 @@ Json spreadJson(const std::optional<TimeSpread>& spread) {
 }
 
 Json countersJson(const BenchCounters& c) {
-    return {{"lightEvaluations", c.lightEvaluations},
+    return {{"lightEvaluations", orNull(c.lightEvaluations)},
             {"neededEvaluations", orNull(c.neededEvaluations)},
             {"neededLitEvaluations", orNull(c.neededLitEvaluations)},
             {"tightness", orNull(c.tightness)},
-            {"evaluatedMean", c.evaluatedMean},
-            {"evaluatedP99", c.evaluatedP99},
-            {"evaluatedMax", c.evaluatedMax},
+            {"evaluatedMean", orNull(c.evaluatedMean)},
+            {"evaluatedP99", orNull(c.evaluatedP99)},
+            {"evaluatedMax", orNull(c.evaluatedMax)},
             {"falseNegatives", c.falseNegatives},
             {"listEntries", c.listEntries},
             {"listBytes", c.listBytes},
             {"gbufferBytes", c.gbufferBytes},
-            {"fragments", c.fragments},
+            {"fragments", orNull(c.fragments)},
             {"triangles", c.triangles},
             {"draws", c.draws}};
 }
@@ -59,12 +59,14 @@ Json pointJson(const BenchGroup& group, const BenchResult& result) {
     for (const PassTime& pass : result.times.passes)
         passes.push_back({{"name", pass.name}, {"gpuMs", orNull(pass.gpuMs)}});
     std::map<std::string, std::string> why = result.why;
-    if (!hasTiles(result)) why["tile"] = "no light lists";
+    if (!hasTiles(result)) why["tile"] = why["cullOn"] = "no light lists";
     why["error"] = why["pareto"] = "times and counters only; `tessera compare` measures the error";
     return {{"scene", group.scene},
             {"technique", result.technique},
             {"culling", methodName(result)},
             {"tile", hasTiles(result) ? Json(result.culling.tilePixels) : Json(nullptr)},
+            {"cullOn", hasTiles(result) ? Json(culling::builderTable()[std::size_t(result.culling.builder)].name)
+                                        : Json(nullptr)},
             {"layout", result.layout},
             {"lights", group.lights},
             {"size", {group.sizePixels.x, group.sizePixels.y}},
@@ -153,7 +155,7 @@ std::string benchTable(const BenchRecord& record) {
                  hasTiles(result) ? fmt::format("{}, {}", methodName(result), result.culling.tilePixels) : "none",
                  result.layout, fmt::format("{:.1f}", result.times.cpuMs.median),
                  fmt::format("{:.1f}", result.times.cpuMs.p95), figure(result.ratioToFloor, "{:.2f}"),
-                 fmt::format("{:.1f}", result.counters.evaluatedMean), figure(result.counters.tightness, "{:.3f}"),
+                 figure(result.counters.evaluatedMean, "{:.1f}"), figure(result.counters.tightness, "{:.3f}"),
                  fmt::format("{:.2f}", double(result.counters.listBytes) * 1e-6)});
         }
         text += table.text() + "\n";

@@ -69,10 +69,12 @@ Json pairJson(const ComparePair& pair) {
                  {"excluded", number(figures.excluded)},
                  {"litShare", number(figures.litShare)},
                  {"meanLuminance", number(figures.meanLuminance)}};
-    const Json why = reasons(json, figures);
+    Json why = reasons(json, figures);
+    if (pair.culling.empty()) why["culling"] = "every light is visited, or the picture came from elsewhere";
     json["tolerance"] = toleranceJson(pair.tolerance);
     json["ok"] = pair.verdict.ok;
     json["missed"] = pair.verdict.missed;
+    json["culling"] = pair.culling.empty() ? Json(nullptr) : Json(pair.culling);
     json["why"] = why;
     if (pair.channels.empty()) return json;
     for (const ChannelShare& channel : pair.channels) {

@@ -23,6 +23,7 @@ struct ComparePair {
     Tolerance tolerance;
     Verdict verdict;
     std::vector<ChannelShare> channels = {}; ///< empty where no channel is packed
+    std::string culling = {};                ///< how a found its lights; empty where it visits all
 };
 
 /// A technique that was not compared.

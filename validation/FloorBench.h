@@ -19,10 +19,10 @@ struct FloorFigures {
         double nsPerPair = 0.0; ///< nanoseconds a light costs a pixel that it reaches
     };
     double geometryMs = 0.0;   ///< R: all geometry, depth-tested, into one constant target
-    std::vector<Store> stores; ///< r by light store; empty where the scene lights nothing
+    std::vector<Store> stores; ///< r by light store; empty where the scene lights nothing, or it could not be told
     std::string whyNoStores;
 
-    /// r, the store with the smallest; none where the scene lights nothing.
+    /// r, the store with the smallest; none where there is none.
     std::optional<Store> fastestStore() const;
     /// `neededEvaluations`: pairs of a covered pixel and a light that reaches it (E). None where these cannot be
     /// priced.

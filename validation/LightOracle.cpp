@@ -7,6 +7,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "renderer/gpu/Context.h"
 #include "validation/PixelPositions.h"
 #include "validation/VisitedLights.h"
 
@@ -104,6 +105,11 @@ public:
                 std::size_t(row) * std::size_t(input_.settings.sizePixels.x) + std::size_t(column);
             if (!(input_.depth[pixel] > 0.0f)) continue;
             ++counts.figures.covered;
+            if (!input_.takesLight.empty() && input_.takesLight[pixel] == 0) {
+                if (counts.pixelsByVisited.empty()) counts.pixelsByVisited.resize(1);
+                ++counts.pixelsByVisited[0];
+                continue;
+            }
             const VisitedCell own = visited_.cellAt(column, row, input_.depth[pixel], input_.layer);
             if (cell != own) {
                 cell = own;
@@ -195,6 +201,31 @@ std::vector<float> flippedRows(const std::vector<float>& rgba, int width, int he
     return flipped;
 }
 
+/// 1 where the opaque surface that shows takes light; empty where no material is unlit, so that all do.
+std::vector<std::uint8_t> litPixels(const scenes::Scene& scene, const frame::FrameSettings& settings) {
+    if (!frame::materialFeatures(scene)[frame::Feature::SingleColor]) return {};
+    scenes::Scene opaque = scene;
+    for (scenes::Node& node : opaque.nodes) {
+        std::erase_if(node.instances, [&](const scenes::MeshInstance& instance) {
+            return scene.materials[std::size_t(instance.material)].alphaMode == scenes::AlphaMode::Blend;
+        });
+    }
+    scenes::Light everywhere;
+    everywhere.type = scenes::LightType::Directional;
+    opaque.lights = {everywhere};
+    frame::FrameSettings counted = settings;
+    counted.view = frame::View::Lights;
+    counted.culling = {};
+    counted.lightOn.reset();
+    counted.soloLight.reset();
+    recipes::Renderer renderer(*gpu::Context::current(), opaque);
+    const recipes::RenderedFrame frame = renderer.render(recipes::Technique::Forward, counted);
+    const std::vector<float> counts = flippedRows(frame.radiance, frame.width, frame.height);
+    std::vector<std::uint8_t> lit(counts.size() / 4);
+    for (std::size_t i = 0; i < lit.size(); ++i) lit[i] = counts[4 * i] > 0.0f ? 1 : 0;
+    return lit;
+}
+
 } // namespace
 
 std::optional<double> LightOracleFigures::tightness() const {
@@ -235,7 +266,8 @@ LightOracleFigures judgeLights(recipes::Renderer& renderer, recipes::Technique t
     normals.culling = {};
     const recipes::RenderedFrame frame = renderer.render(recipes::Technique::Deferred, normals);
     const std::vector<float> normalWS = flippedRows(frame.radiance, frame.width, frame.height);
-    return judgeLights({renderer.scene(), settings, drawn, depth, normalWS});
+    const std::vector<std::uint8_t> lit = litPixels(renderer.scene(), settings);
+    return judgeLights({renderer.scene(), settings, drawn, depth, normalWS, SurfaceLayer::Opaque, lit});
 }
 
 } // namespace tessera::validation

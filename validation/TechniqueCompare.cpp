@@ -47,6 +47,14 @@ RangeTruncation truncationOf(recipes::Renderer& renderer, const CompareRequest& 
     return rangeTruncation(renderer, technique, settingsTakenBy(technique, request.settings));
 }
 
+/// How the frame just drawn found its lights.
+std::string cullingText(const recipes::Renderer& renderer) {
+    const culling::Choice choice = renderer.downloadLists().culling;
+    if (choice.method == culling::Method::None) return {};
+    return fmt::format("{}, tile {}, lists built by {}", culling::methodTable()[std::size_t(choice.method)].name,
+                       choice.tilePixels, culling::builderTable()[std::size_t(choice.builder)].name);
+}
+
 bool isPacked(const frame::GBufferLayout& layout) {
     return !(layout == frame::layoutTable()[0].layout);
 }
@@ -85,6 +93,7 @@ void checkWithoutPacking(recipes::Renderer& renderer, const CompareRequest& requ
 frame::FrameSettings settingsTakenBy(recipes::Technique technique, frame::FrameSettings settings) {
     if (settings.culling.method && !recipes::takesMethod(technique, *settings.culling.method))
         settings.culling.method.reset();
+    if (!recipes::hasLightLists(technique)) settings.culling = {};
     if (!recipes::takesLightingStage(technique)) settings.lightOn.reset();
     return settings;
 }
@@ -94,13 +103,18 @@ std::size_t pictureCount(const CompareRequest& request) {
            (measuresTruncation(request) ? 1 : 0);
 }
 
-std::vector<Technique> techniquesTaking(int samples, std::vector<LeftOutTechnique>& leftOut) {
+std::vector<Technique> techniquesTaking(int samples, std::optional<culling::Method> method,
+                                        std::vector<LeftOutTechnique>& leftOut) {
     std::vector<Technique> techniques;
     for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
-        if (recipes::takesSamples(info, samples))
-            techniques.push_back(info.technique);
-        else
+        const bool culls = method && recipes::hasLightLists(info.technique);
+        if (!recipes::takesSamples(info, samples))
             leftOut.push_back({std::string(info.name), fmt::format("it does not take --samples {}", samples)});
+        else if (culls && !recipes::takesMethod(info.technique, *method))
+            leftOut.push_back({std::string(info.name), fmt::format("it does not take --culling {}",
+                                                                   culling::methodTable()[std::size_t(*method)].name)});
+        else
+            techniques.push_back(info.technique);
     }
     return techniques;
 }
@@ -139,12 +153,14 @@ CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabili
     result.record.renderer = gl.renderer;
     for (const Technique technique : request.techniques) {
         NamedPicture picture = rendered(renderer, technique, request.settings);
+        const std::string culling = cullingText(renderer);
         requireSameSize(picture.picture, picture.name, result.truth.picture, result.truth.name);
         const Tolerance tolerance = request.tolerance ? *request.tolerance
                                                       : pairTolerance(technique, request.settings.layout, gl.isSoftware,
                                                                       renderer.scene().lights.size());
         ComparePair pair =
             comparePair(picture.name, picture.picture, result.truth.name, result.truth.picture, tolerance);
+        pair.culling = culling;
         if (recipes::techniqueTable()[std::size_t(technique)].usesGBuffer && isPacked(request.settings.layout)) {
             pair.channels = channelShares(renderer, request, technique, result.truth.picture, pair.figures.relMse);
             // Against a picture file the tolerance is about that picture, which need not come from this renderer.

@@ -48,8 +48,10 @@ std::size_t pictureCount(const CompareRequest& request);
 CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabilities& gl,
                                 const CompareRequest& request);
 
-/// The techniques that take so many samples a pixel; the others go to `leftOut` with the reason.
-std::vector<recipes::Technique> techniquesTaking(int samples, std::vector<LeftOutTechnique>& leftOut);
+/// The techniques that take so many samples a pixel; those with light lists only if they take the culling method, where
+/// one is asked for. The others go to `leftOut` with the reason.
+std::vector<recipes::Technique> techniquesTaking(int samples, std::optional<culling::Method> method,
+                                                 std::vector<LeftOutTechnique>& leftOut);
 
 /// What a technique is held to against another in a scene of so many lights, with the reason in Tolerance::reason.
 Tolerance pairTolerance(recipes::Technique technique, const frame::GBufferLayout& layout, bool isSoftware,

@@ -54,6 +54,22 @@ bool takesMethod(Technique technique, Method method) {
     return std::find(methods.begin(), methods.end(), method) != methods.end();
 }
 
+bool hasLightLists(Technique technique) {
+    return infoOf(technique).methods.front() != Method::None;
+}
+
+void requireCulling(Technique technique, const frame::FrameSettings& settings) {
+    const TechniqueInfo& info = infoOf(technique);
+    if (settings.culling.method) requireMethod(info, *settings.culling.method);
+    if (hasLightLists(technique) || !(settings.culling.tilePixels || settings.culling.builder)) return;
+    std::string techniques;
+    for (const TechniqueInfo& other : techniqueTable()) {
+        if (hasLightLists(other.technique)) techniques += (techniques.empty() ? "" : ", ") + std::string(other.name);
+    }
+    throw InputError(fmt::format("technique {} has no light lists, so no {}; {} have", info.name,
+                                 settings.culling.tilePixels ? "--tile" : "--cull-on", techniques));
+}
+
 culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& settings,
                               const frame::FeatureSet& features, const frame::PackedLights& lights) {
     const TechniqueInfo& info = infoOf(technique);
@@ -70,7 +86,7 @@ culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& s
 
 std::vector<graph::Plan::Choice> cullingChoices(Technique technique, const frame::FrameSettings& settings,
                                                 const culling::Choice& choice) {
-    if (infoOf(technique).methods.front() == Method::None) return {};
+    if (!hasLightLists(technique)) return {};
     const auto why = [](bool asked, const char* otherwise) { return std::string(asked ? "asked for" : otherwise); };
     const bool nothingToCull = choice.method == Method::None && settings.culling.method != Method::None;
     std::vector<graph::Plan::Choice> choices{
@@ -78,8 +94,9 @@ std::vector<graph::Plan::Choice> cullingChoices(Technique technique, const frame
          nothingToCull ? "no light ends inside the view, or nothing is lit"
                        : why(settings.culling.method.has_value(), "the technique's tightest")}};
     if (choice.method == Method::None) return choices;
-    choices.push_back({"tile", fmt::format("{} pixels", choice.tilePixels),
-                       why(settings.culling.tilePixels.has_value(), "measured fastest on this kind of backend")});
+    choices.push_back(
+        {"tile", fmt::format("{} pixels", choice.tilePixels),
+         why(settings.culling.tilePixels.has_value(), "measured fastest or nearly so at 64 to 4096 lights")});
     choices.push_back({"lists built by", std::string(culling::builderTable()[std::size_t(choice.builder)].name),
                        why(settings.culling.builder.has_value(), builderReason(settings.softwareBackend))});
     return choices;

@@ -51,6 +51,9 @@ void setBlend(Blend blend) {
     case Blend::Additive:
         glBlendFunc(GL_ONE, GL_ONE);
         break;
+    case Blend::AdditiveCovering:
+        glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+        break;
     case Blend::AlphaPremultiplied:
         glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
         break;

@@ -9,6 +9,7 @@ enum class CullFace : std::uint8_t { None, Back, Front };
 enum class Blend : std::uint8_t {
     None,
     Additive,           ///< target + source, alpha too
+    AdditiveCovering,   ///< target + source; the target's alpha becomes the coverage
     AlphaPremultiplied, ///< source + (1 - alpha) target
     Max,                ///< the larger of target and source, by channel
     AlphaStraight       ///< alpha source + (1 - alpha) target; the target's alpha becomes the coverage

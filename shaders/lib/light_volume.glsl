@@ -5,7 +5,8 @@
 //   sphere   the pyramid of sight around it: an octagon around the circle that the eye sees, 1.055 times its area
 //   cone     for spot lights up to 84 degrees: a hull around cone and spherical cap, 1.055 (narrow) to 1.39 (84 degrees)
 //            times their volume; of it the back faces are seen, also from inside
-//   screen   directional lights, lights without range, and spheres that the eye is in
+//   screen   directional lights, lights without range, spheres that the eye is in, and what is vast beside the picture of
+//            an orthographic camera
 #pragma once
 #include "lib/camera.glsl"
 #include "lib/light_store.glsl"
@@ -127,6 +128,15 @@ vec4 coneVertex(int vertex, vec3 apexLS, vec3 axisLS, float cosOuter, float reac
 }
 #endif
 
+// Whether an outline of this size would have clip coordinates so large that its edge loses its place. Only under an
+// orthographic camera: a perspective one sees a vast sphere from within, or as a circle of ordinary size.
+bool isVastInPicture(float reach)
+{
+    float clipPerMetre = max(length(vec3(frame.clipFromLS[0].x, frame.clipFromLS[1].x, frame.clipFromLS[2].x)),
+                             length(vec3(frame.clipFromLS[0].y, frame.clipFromLS[1].y, frame.clipFromLS[2].y)));
+    return frame.forwardLS.w != 0.0 && reach * clipPerMetre > 256.0;
+}
+
 // Corner `vertex` of what is drawn of light `index`.
 vec4 lightVolumeVertex(int index, int vertex)
 {
@@ -134,6 +144,7 @@ vec4 lightVolumeVertex(int index, int vertex)
     if (place.w == 0.0) return screenVertex(vertex, 0.0);
     float reach = inversesqrt(place.w);
     float margin = volumeMargin(place.xyz, reach);
+    if (isVastInPicture(reach + margin)) return screenVertex(vertex, 0.0);
 #if HAS_SPOT_LIGHTS
     if ((int(lightTexel(index, 1).w) & LIGHT_SPOT) != 0) {
         vec4 axis = lightShapeTexel(index, 0);

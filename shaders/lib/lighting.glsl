@@ -6,6 +6,11 @@
 #include "lib/light.glsl"
 #include "lib/light_cursor.glsl"
 
+// 1 where lights are counted instead of added (lib/views.glsl).
+#ifndef VISIT_COUNTS
+#define VISIT_COUNTS 0
+#endif
+
 // The factors of the specular lobe, kept apart for the views that show them.
 struct SpecularTerms {
     float d;  // distribution of normals, 1/sr
@@ -80,21 +85,25 @@ bool takesLight(Surface surface)
 #endif
 }
 
-// Adds the radiance towards the viewer that one light gives to a surface that takes light.
+// Adds the radiance towards the viewer that one light gives to a surface that takes light; where visits are counted, 1.
 void addLightOnSurface(int light, Surface surface, Viewpoint viewpoint, inout vec3 radiance)
 {
+#if VISIT_COUNTS
+    radiance += vec3(1.0);
+#else
     Incident incident;
     if (incidentLight(light, viewpoint.positionLS, incident)) {
         precise vec3 reflected = reflectedShare(surface, incident.toLightLS, viewpoint.toViewerLS);
         precise vec3 sum = radiance + reflected * incident.intensity;
         radiance = sum;
     }
+#endif
 }
 
-// Radiance of the surface towards the viewer: its emission and every light its cursor visits, in ascending order.
-vec3 shadeSurface(Surface surface, Viewpoint viewpoint, vec2 pixel)
+// Adds every light that the surface's cursor visits, in ascending order.
+vec3 lightsOnSurface(vec3 before, Surface surface, Viewpoint viewpoint, vec2 pixel)
 {
-    precise vec3 radiance = surface.emission;
+    precise vec3 radiance = before;
 #if HAS_LIT_MODELS
     if (!takesLight(surface)) return radiance;
     LightCursor cursor = lightCursor(pixel, viewpoint.depth);
@@ -111,4 +120,10 @@ vec3 shadeSurface(Surface surface, Viewpoint viewpoint, vec2 pixel)
     } while (nextBatch(cursor, light));
 #endif
     return radiance;
+}
+
+// Radiance of the surface towards the viewer: its emission and its lights.
+vec3 shadeSurface(Surface surface, Viewpoint viewpoint, vec2 pixel)
+{
+    return lightsOnSurface(surface.emission, surface, viewpoint, pixel);
 }

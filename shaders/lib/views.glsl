@@ -1,8 +1,6 @@
 // What a pixel shows: the lit surface, or one of the debug views of the table kViews (renderer/frame/Views.h), which gives
 // VIEW its number. Both families of techniques end here, so a view exists in each of them.
 #pragma once
-#include "lib/lighting.glsl"
-
 #define VIEW_FINAL 0
 #define VIEW_DIFFUSE 1
 #define VIEW_NORMAL_TEXEL 2
@@ -12,6 +10,11 @@
 #define VIEW_FRESNEL 6
 #define VIEW_DEPTH 7
 #define VIEW_LIGHTS 8
+
+#if VIEW == VIEW_LIGHTS
+#define VISIT_COUNTS 1
+#endif
+#include "lib/lighting.glsl"
 
 // D, G or F of the one light that frame.lights.y names, as rgb; 0 where the light is not visible from the point.
 vec3 specularFactorView(Surface surface, Viewpoint viewpoint)
@@ -38,27 +41,6 @@ vec3 specularFactorView(Surface surface, Viewpoint viewpoint)
     return shown;
 }
 
-// How many lights the pixel visits, as rgb.
-vec3 visitedLightsView(Surface surface, Viewpoint viewpoint, vec2 pixel)
-{
-    int count = 0;
-#if HAS_LIT_MODELS
-    if (!takesLight(surface)) return vec3(0.0);
-    LightCursor cursor = lightCursor(pixel, viewpoint.depth);
-    int light;
-    if (!nextLight(cursor, light) && !nextBatch(cursor, light)) return vec3(0.0);
-    do {
-        do {
-            count += 1;
-#if LIGHTS_PER_ROUND == 2
-            if (nextLight(cursor, light)) count += 1;
-#endif
-        } while (nextLight(cursor, light));
-    } while (nextBatch(cursor, light));
-#endif
-    return vec3(float(count));
-}
-
 vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
 {
 #if VIEW == VIEW_FINAL
@@ -70,7 +52,7 @@ vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
 #elif VIEW == VIEW_NORMAL
     return mat3(frame.worldFromLS) * surface.normalLS;
 #elif VIEW == VIEW_LIGHTS
-    return visitedLightsView(surface, viewpoint, pixel);
+    return lightsOnSurface(vec3(0.0), surface, viewpoint, pixel); // counted
 #elif VIEW == VIEW_DEPTH
     return vec3(dot(viewpoint.positionLS, frame.forwardLS.xyz));
 #else

@@ -12,12 +12,8 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     Surface surface = surfaceFromGBuffer(pixel);
     if (!takesLight(surface)) discard;
-#if VIEW == VIEW_LIGHTS
-    radiance = vec4(vec3(1.0), 0.0);
-#else
     Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, texelFetch(depthChannel, pixel, 0).r);
     precise vec3 added = vec3(0.0);
     addLightOnSurface(light, surface, viewpoint, added);
     radiance = vec4(added, 0.0);
-#endif
 }

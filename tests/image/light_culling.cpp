@@ -147,6 +147,7 @@ TEST_F(LightCulling, noLightIsEverMissingFromTwoHundredRandomScenesAndNoPixelDif
             SCOPED_TRACE(fmt::format("seed {} {} tile {} {}x{}", seed, nameOf(method), tile, size.x, size.y));
             frame::FrameSettings asked = settings(size, method, tile);
             asked.prune = truthSettings.prune;
+            asked.culling.builder = culling::builderTable()[std::size_t(random.index(3))].builder;
             const Technique technique = random.unit() < 0.5 ? deferredWith(method) : forwardWith(method);
             EXPECT_EQ(renderer.render(technique, asked).radiance, truth);
             const recipes::DrawnLists drawn = renderer.downloadLists();
@@ -275,6 +276,23 @@ TEST_F(LightCulling, noLightIsEverMissingFromTheListsOfTransparentSurfaces) {
     }
     fmt::print("transparent surfaces: {} pixels judged, {} pairs needed\n", transparent, needed);
     EXPECT_GT(needed, 100000u) << "scenes that need nothing prove nothing";
+}
+
+TEST_F(LightCulling, theCountOfLightsAlwaysAddsUpOverLayersWhateverTheirOpacity) {
+    scenes::Material glass;
+    glass.alphaMode = scenes::AlphaMode::Blend;
+    glass.baseColor.a = 0.25f;
+    scenes::Scene scene = test::quadScene(glass);
+    scene.nodes.push_back(scene.nodes[0]);
+    scene.nodes[1].parentFromNode[3].z = 0.5;
+    for (int i = 0; i < 5; ++i) scene.lights.push_back(test::pointLight({0.0, 0.0, 1.0}, 1.0f));
+    recipes::Renderer renderer(context(), scene);
+    frame::FrameSettings counted = settings({16, 16});
+    counted.view = frame::View::Lights;
+    for (const Technique technique : {Technique::Forward, Technique::Deferred, Technique::ForwardPlus}) {
+        const std::vector<float> shown = renderer.render(technique, counted).radiance;
+        EXPECT_EQ(shown[4 * (8 * 16 + 8)], 10.0f);
+    }
 }
 
 TEST_F(LightCulling, sixtyFiveThousandLightsInOneTileAreAlwaysAllVisited) {

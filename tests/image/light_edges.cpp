@@ -92,6 +92,7 @@ TEST_F(LightEdges, aLightThatReachesAPixelByAHairIsNeverMissing) {
             frame::FrameSettings asked = settings;
             asked.culling.method = method.method;
             asked.culling.tilePixels = culling::kTileSides[random.index(4)];
+            asked.culling.builder = culling::builderTable()[std::size_t(random.index(3))].builder;
             SCOPED_TRACE(fmt::format("seed {}, {}, tile {}, {}x{}", seed,
                                      culling::methodTable()[std::size_t(method.method)].name, *asked.culling.tilePixels,
                                      asked.sizePixels.x, asked.sizePixels.y));

@@ -35,7 +35,7 @@ protected:
     void expectAgreement(const Scene& scene, const frame::FrameSettings& settings) {
         validation::CompareRequest request;
         std::vector<validation::LeftOutTechnique> leftOut;
-        request.techniques = validation::techniquesTaking(settings.samples, leftOut);
+        request.techniques = validation::techniquesTaking(settings.samples, {}, leftOut);
         std::erase(request.techniques, Technique::Forward);
         request.settings = settings;
         recipes::Renderer renderer(context(), scene);

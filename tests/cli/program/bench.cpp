@@ -38,6 +38,31 @@ TEST_F(Bench, everyPointIsAlwaysMeasuredCountedAndHeldAgainstTheFloor) {
     }
 }
 
+TEST_F(Bench, unlitAndTransparentSurfacesNeverCountAsWhatTheyAreNot) {
+    folder_.write("m.json", R"({"technique": ["deferred_volumes", "tiled_deferred"]})");
+    const auto counters = [&](const std::string& material) {
+        writeQuad(material,
+                  R"([{"type": "point", "position": [0, 0, 1], "falloff": {"type": "inverse_square", "range": 4}},
+                                {"type": "directional", "direction": [0, 0, -1]}])");
+        runGood({"bench", "quad.json", "--size", "64x64", "--frames", "1", "--matrix", "m.json", "-o", "out"});
+        Json points = json("out/bench.json")["points"];
+        for (const Json& point : points)
+            for (const auto& [name, value] : point["counters"].items())
+                EXPECT_TRUE(!value.is_null() || point["why"].contains(name)) << name;
+        return points;
+    };
+    for (const Json& point : counters(R"({"name": "paint", "model": "single_color"})")) {
+        EXPECT_EQ(point["counters"]["lightEvaluations"], 0) << point["technique"];
+        EXPECT_EQ(point["counters"]["neededEvaluations"], 0) << point["technique"];
+    }
+    for (const Json& point :
+         counters(R"({"name": "paint", "model": "lambert", "k_d": [1, 1, 1, 0.5], "alphaMode": "blend"})")) {
+        EXPECT_TRUE(point["counters"]["neededEvaluations"].is_null());
+        EXPECT_TRUE(point["floorMs"].is_null());
+    }
+    expectError(2, {"bench", "room", "-o", "none", "--technique", "forward", "--samples", "4"}, {"--samples"});
+}
+
 TEST_F(Bench, aBadMatrixIsAlwaysRefusedInOneLineThatNamesIt) {
     const auto refused = [&](const std::string& matrix) {
         folder_.write("m.json", matrix);

@@ -47,7 +47,7 @@ TEST_F(Compare, theJsonHasExactlyTheDocumentedFields) {
     const std::set<std::string> fields{
         "a",        "b",        "maxAbs",        "maxRel",    "rmse", "relMse", "p50Rel", "p99Rel",
         "p999Rel",  "bias",     "bitEqual",      "flip",      "psnr", "nan",    "inf",    "negative",
-        "excluded", "litShare", "meanLuminance", "tolerance", "ok",   "missed", "why"};
+        "excluded", "litShare", "meanLuminance", "tolerance", "ok",   "missed", "why",    "culling"};
     ASSERT_EQ(record["pairs"].size(), recipes::techniqueTable().size() - 1);
     for (const Json& pair : record["pairs"]) {
         std::set<std::string> keys = keysOf(pair);
@@ -67,6 +67,27 @@ TEST_F(Compare, theJsonHasExactlyTheDocumentedFields) {
     }
     EXPECT_EQ(record["pairs"][0]["a"], "forward_prepass");
     EXPECT_EQ(record["pairs"][0]["bitEqual"], 1.0);
+}
+
+TEST_F(Compare, everyPairAlwaysSaysHowItFoundItsLightsAndNoneIsSilentlyChanged) {
+    runGood(lattice({"--json", "c.json", "--culling", "zbin", "--tile", "32", "--cull-on", "compute"}));
+    const Json record = json("c.json");
+    for (const Json& pair : record["pairs"]) {
+        const bool clustered = pair["a"].get<std::string>().starts_with("clustered");
+        EXPECT_EQ(pair["culling"], clustered ? Json("zbin, tile 32, lists built by compute") : Json()) << pair["a"];
+    }
+    ASSERT_EQ(record["left_out"].size(), 2u);
+    EXPECT_EQ(record["left_out"][0]["technique"], "tiled_deferred");
+    EXPECT_EQ(record["left_out"][0]["why"], "it does not take --culling zbin");
+    expectError(2, lattice({"--techniques", "tiled_deferred", "--culling", "zbin"}),
+                {"tiled_deferred", "--culling zbin"});
+    expectError(2, lattice({"--view", "lights"}), {"--view lights", "render it"});
+}
+
+TEST_F(Compare, optionsOfLightListsAreAlwaysRefusedWhereThereAreNone) {
+    expectError(2, {"render", "room", "-o", "a.png", "--technique", "forward", "--tile", "16"},
+                {"technique forward has no light lists", "--tile", "tiled_deferred"});
+    expectError(2, {"plan", "room", "--cull-on", "compute"}, {"technique deferred has no light lists", "--cull-on"});
 }
 
 TEST_F(Compare, severalSamplesAlwaysLeaveOutTheTechniquesThatTakeOneAndSaySo) {

@@ -46,7 +46,7 @@ TEST(CompareRecord, jsonAlwaysHasExactlyTheAgreedFields) {
         EXPECT_THAT(keys(pair),
                     ElementsAre("a", "b", "maxAbs", "maxRel", "rmse", "relMse", "p50Rel", "p99Rel", "p999Rel", "bias",
                                 "bitEqual", "flip", "psnr", "nan", "inf", "negative", "excluded", "litShare",
-                                "meanLuminance", "tolerance", "ok", "missed", "why"));
+                                "meanLuminance", "tolerance", "ok", "missed", "culling", "why"));
         EXPECT_THAT(keys(pair["tolerance"]), ElementsAre("maxRel", "bitEqual", "relMse", "p999Rel", "bias"));
     }
 }
@@ -86,7 +86,7 @@ TEST(CompareRecord, everyNullFigureAlwaysHasAReason) {
     EXPECT_EQ(json["pairs"][0]["nan"], 2);
     EXPECT_EQ(json["pairs"][0]["why"]["maxRel"], "no covered pixel is finite");
     EXPECT_EQ(json["pairs"][1]["why"]["bitEqual"], "no pixel is covered");
-    EXPECT_THAT(keys(json["pairs"][3]["why"]), ElementsAre("flip", "psnr"));
+    EXPECT_THAT(keys(json["pairs"][3]["why"]), ElementsAre("flip", "psnr", "culling"));
 }
 
 TEST(CompareRecord, aNameThatIsNotUtf8NeverKeepsTheRecordFromBeingWritten) {
