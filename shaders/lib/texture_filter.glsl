@@ -5,6 +5,13 @@
 #pragma once
 #include "shared/material.h"
 
+// Texture coordinates; in double, a coordinate of 30 still tells a millionth of a texel.
+#if FILTER_EXACT
+#define TexCoord dvec2
+#else
+#define TexCoord vec2
+#endif
+
 // A texel index brought into 0 .. size-1; mode is the Wrap of scenes::Sampler.
 int wrapTexel(int index, int size, int mode)
 {
@@ -43,13 +50,13 @@ vec4 linearTexel(sampler2D image, int x, int y, int modes)
 #endif
 
 // modes: MaterialConstants::uvRow1[slot].w.
-vec4 sampleFiltered(sampler2D image, vec2 uv, int modes)
+vec4 sampleFiltered(sampler2D image, TexCoord uv, int modes)
 {
 #if FILTER_EXACT
     ivec2 size = textureSize(image, 0);
-    precise vec2 place = uv * vec2(size) - 0.5;
-    precise vec2 corner = floor(place);
-    precise vec2 weight = place - corner;
+    precise dvec2 place = uv * dvec2(size) - 0.5;
+    precise dvec2 corner = floor(place);
+    precise vec2 weight = vec2(place - corner);
     int modeU = modes & 3;
     int modeV = (modes >> 2) & 3;
     int x0 = wrapTexel(int(corner.x), size.x, modeU);

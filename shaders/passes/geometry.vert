@@ -41,6 +41,9 @@ layout(location = 5) flat out vec3 normalFromObject0;
 layout(location = 6) flat out vec3 normalFromObject1;
 layout(location = 7) flat out vec3 normalFromObject2;
 #endif
+#if FILTER_EXACT && HAS_TEXTURES
+layout(location = 10) out vec3 vertexLS; // for passes/triangle.geom
+#endif
 #ifdef DRAW_IDS
 layout(location = 9) flat out float drawnObject;
 #endif
@@ -51,6 +54,9 @@ void main()
     precise vec3 positionLS = vec3(dot(drawRow0, object), dot(drawRow1, object), dot(drawRow2, object));
     precise vec4 clip = frame.clipFromLS * vec4(positionLS, 1.0);
     gl_Position = clip;
+#if FILTER_EXACT && HAS_TEXTURES
+    vertexLS = positionLS;
+#endif
 #if !DEPTH_ONLY
     normalLS = vec3(dot(drawNormal0.xyz, normalOS), dot(drawNormal1.xyz, normalOS), dot(drawNormal2.xyz, normalOS));
 #if HAS_TANGENT_SPACE_NORMALS
