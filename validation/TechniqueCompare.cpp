@@ -178,6 +178,7 @@ CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabili
                                 const CompareRequest& request) {
     CompareResult result;
     result.truth = truthPicture(renderer, request, result.excluded);
+    result.record.excludesPixels = !result.excluded.empty();
     result.record.scene = renderer.scene().name;
     result.record.width = request.settings.sizePixels.x;
     result.record.height = request.settings.sizePixels.y;
