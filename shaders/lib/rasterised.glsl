@@ -1,12 +1,14 @@
 // The fragment side of rasterised geometry: what geometry.vert interpolates, gathered for lib/material.glsl.
 #pragma once
 #include "lib/material.glsl"
-#if FILTER_EXACT && HAS_TEXTURES
+#if FILTER_EXACT
 #include "lib/triangle.glsl"
 #endif
 
 #if !DEPTH_ONLY
+#if !FILTER_EXACT
 layout(location = 0) in vec3 normalLS;
+#endif
 #if HAS_TANGENT_SPACE_NORMALS
 layout(location = 1) in vec4 tangentLS;
 #endif
@@ -36,8 +38,15 @@ Fragment rasterisedFragment()
     fragment.texCoord[1] = TexCoord(0.0);
     fragment.color = vec4(1.0);
     fragment.normalFromObject = mat3(1.0);
+#if FILTER_EXACT
+    dvec3 weights = triangleWeights(gl_FragCoord.xy);
+#endif
 #if !DEPTH_ONLY
+#if FILTER_EXACT
+    fragment.normalLS = triangleNormal(weights);
+#else
     fragment.normalLS = normalLS;
+#endif
 #if HAS_TANGENT_SPACE_NORMALS
     fragment.tangentLS = tangentLS;
 #endif
@@ -47,7 +56,7 @@ Fragment rasterisedFragment()
 #endif
 #endif
 #if HAS_TEXTURES && FILTER_EXACT
-    dvec4 texCoord = triangleTexCoord(gl_FragCoord.xy);
+    dvec4 texCoord = triangleTexCoord(weights);
     fragment.texCoord[0] = texCoord.xy;
     fragment.texCoord[1] = texCoord.zw;
 #elif HAS_TEXTURES

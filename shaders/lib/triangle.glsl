@@ -1,11 +1,17 @@
-// Texture coordinates of a fragment in double precision, from its whole triangle (passes/triangle.geom). Rasterisers
-// interpolate in fp32 from a corner of the window, which loses as many digits as coordinates change over the picture:
-// where a pixel spans hundreds of texels, a hundredth of a texel, and more on slivers. Only --filter exact pays for this.
+// What a fragment's triangle holds at the pixel's centre, in double precision (passes/triangle.geom hands it over).
+// Rasterisers interpolate in fp32 from a corner of the window, which loses as many digits as a value changes over the
+// picture: where a pixel spans hundreds of texels, a hundredth of a texel, and more on slivers. Only --filter exact pays
+// for this.
 #pragma once
 #include "lib/camera.glsl"
 
 layout(location = 10) flat in vec3 triangleLS[3];
+#if HAS_TEXTURES
 layout(location = 13) flat in vec4 triangleTexCoords[3]; // xy the first set, zw the second
+#endif
+#if !DEPTH_ONLY
+layout(location = 16) flat in vec3 triangleNormalLS[3];
+#endif
 
 // Weights of the triangle's corners where the ray through the pixel's centre meets its plane, by Cramer's rule.
 dvec3 triangleWeights(vec2 pixel)
@@ -26,10 +32,20 @@ dvec3 triangleWeights(vec2 pixel)
     return dvec3(1.0 - weight1 - weight2, weight1, weight2);
 }
 
+#if HAS_TEXTURES
 // Both sets.
-dvec4 triangleTexCoord(vec2 pixel)
+dvec4 triangleTexCoord(dvec3 weights)
 {
-    dvec3 weights = triangleWeights(pixel);
     return weights.x * dvec4(triangleTexCoords[0]) + weights.y * dvec4(triangleTexCoords[1])
            + weights.z * dvec4(triangleTexCoords[2]);
 }
+#endif
+
+#if !DEPTH_ONLY
+// Not unit.
+vec3 triangleNormal(dvec3 weights)
+{
+    return vec3(weights.x * dvec3(triangleNormalLS[0]) + weights.y * dvec3(triangleNormalLS[1])
+                + weights.z * dvec3(triangleNormalLS[2]));
+}
+#endif

@@ -41,7 +41,7 @@ layout(location = 5) flat out vec3 normalFromObject0;
 layout(location = 6) flat out vec3 normalFromObject1;
 layout(location = 7) flat out vec3 normalFromObject2;
 #endif
-#if FILTER_EXACT && HAS_TEXTURES
+#if FILTER_EXACT
 layout(location = 10) out vec3 vertexLS; // for passes/triangle.geom
 #endif
 #ifdef DRAW_IDS
@@ -54,7 +54,7 @@ void main()
     precise vec3 positionLS = vec3(dot(drawRow0, object), dot(drawRow1, object), dot(drawRow2, object));
     precise vec4 clip = frame.clipFromLS * vec4(positionLS, 1.0);
     gl_Position = clip;
-#if FILTER_EXACT && HAS_TEXTURES
+#if FILTER_EXACT
     vertexLS = positionLS;
 #endif
 #if !DEPTH_ONLY

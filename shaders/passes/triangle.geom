@@ -6,17 +6,19 @@ layout(triangle_strip, max_vertices = 3) out;
 
 invariant gl_Position;
 
+layout(location = 10) in vec3 vertexLS[];
+layout(location = 10) flat out vec3 triangleLS[3];
+#if HAS_TEXTURES
 layout(location = 2) in vec2 vertexTexCoord0[];
 #if HAS_TEXCOORD1
 layout(location = 3) in vec2 vertexTexCoord1[];
 #endif
-layout(location = 10) in vec3 vertexLS[];
-layout(location = 10) flat out vec3 triangleLS[3];
 layout(location = 13) flat out vec4 triangleTexCoords[3];
+#endif
 
 #if !DEPTH_ONLY
 layout(location = 0) in vec3 vertexNormalLS[];
-layout(location = 0) out vec3 normalLS;
+layout(location = 16) flat out vec3 triangleNormalLS[3];
 #if HAS_TANGENT_SPACE_NORMALS
 layout(location = 1) in vec4 vertexTangentLS[];
 layout(location = 1) out vec4 tangentLS;
@@ -48,14 +50,16 @@ void main()
         gl_PrimitiveID = gl_PrimitiveIDIn;
         for (int i = 0; i < 3; ++i) {
             triangleLS[i] = vertexLS[i];
-#if HAS_TEXCOORD1
+#if HAS_TEXCOORD1 && HAS_TEXTURES
             triangleTexCoords[i] = vec4(vertexTexCoord0[i], vertexTexCoord1[i]);
-#else
+#elif HAS_TEXTURES
             triangleTexCoords[i] = vec4(vertexTexCoord0[i], 0.0, 0.0);
+#endif
+#if !DEPTH_ONLY
+            triangleNormalLS[i] = vertexNormalLS[i];
 #endif
         }
 #if !DEPTH_ONLY
-        normalLS = vertexNormalLS[corner];
 #if HAS_TANGENT_SPACE_NORMALS
         tangentLS = vertexTangentLS[corner];
 #endif

@@ -71,6 +71,8 @@ TEST_F(Reference, aSceneOfEveryFeatureAlwaysAgreesWithIt) {
     scene.cameras[0].projection = scenes::Projection::Orthographic;
     scene.cameras[0].halfHeightMetres = 2.5;
     expectAgreement("everything, orthographic", scene, ofSize(161, 90));
+    scene.cameras[0].farMetres = 20.0;
+    expectAgreement("the same, far plane", scene, ofSize(161, 90));
 }
 
 TEST_F(Reference, aSceneFarFromTheOriginAlwaysAgreesWithIt) {
@@ -105,6 +107,27 @@ TEST_F(Reference, aLightThatDiffersByOnePercentNeverPasses) {
     const validation::ErrorFigures figures =
         validation::errorFigures(picture, truth.picture, validation::differingTriangles(renderer, settings, truth.ids));
     EXPECT_FALSE(validation::checkTolerance(figures, validation::referenceTolerance(scene, settings.filter)).ok);
+}
+
+validation::ErrorFigures hardwareFigures(recipes::Renderer& renderer, const frame::FrameSettings& settings) {
+    const validation::ReferencePicture truth = validation::referencePicture(renderer.scene(), settings);
+    const validation::Picture picture = validation::toPicture(renderer.render(Technique::Forward, settings));
+    return validation::errorFigures(picture, truth.picture,
+                                    validation::differingTriangles(renderer, settings, truth.ids));
+}
+
+/// So what is left of hardware filtering's difference without levels is its rounding.
+TEST_F(Reference, mostOfWhatHardwareFilteringChangesAlwaysComesFromSmallerLevels) {
+    scenes::Scene scene = test::everythingScene();
+    recipes::Renderer renderer(context(), scene);
+    const double withLevels = hardwareFigures(renderer, ofSize(96, 54)).relMse;
+    scenes::Scene plain = scene;
+    for (scenes::Material& material : plain.materials)
+        for (scenes::TextureUse& use : material.textures) use.sampler.minification = scenes::Filter::Linear;
+    recipes::Renderer plainRenderer(context(), plain);
+    const double withoutLevels = hardwareFigures(plainRenderer, ofSize(96, 54)).relMse;
+    fmt::print("hardware filtering: relMse {:.1e}, without levels {:.1e}\n", withLevels, withoutLevels);
+    EXPECT_LT(withoutLevels, 0.1 * withLevels);
 }
 
 TEST_F(Reference, hardwareFilteringIsAlwaysAPairOfItsOwn) {
