@@ -87,11 +87,13 @@ TEST_F(Reference, aSceneFarFromTheOriginAlwaysAgreesWithIt) {
 /// Glass before glass before an opaque ball: each layer counts with its own weight.
 TEST_F(Reference, transparentSurfacesOnTopOfEachOtherAlwaysAgreeWithIt) {
     scenes::Scene scene = test::everythingScene();
-    const int glass = scene.nodes.back().instances.front().material;
+    const scenes::Material glass = scene.materials[std::size_t(scene.nodes.back().instances.front().material)];
     for (const double z : {0.5, 3.0, 1.25}) {
         scene.nodes.push_back(scene.nodes.back());
         scene.nodes.back().parentFromNode[3] = glm::dvec4(-0.2 * z, 0.3, z, 1.0);
-        scene.nodes.back().instances.front().material = glass;
+        scene.nodes.back().instances.front().material = int(scene.materials.size());
+        scene.materials.push_back(glass);
+        scene.materials.back().baseColor.a = float(0.1 + 0.2 * z);
     }
     expectAgreement("panes of glass", scene, ofSize(160, 90));
 }
