@@ -14,11 +14,14 @@
 #include "validation/AtomicFile.h"
 #include "validation/HeatMap.h"
 #include "validation/PictureFile.h"
+#include "validation/ReferencePicture.h"
 #include "validation/TechniqueCompare.h"
 
 namespace tessera::app {
 
 namespace {
+
+constexpr const char* kReference = "reference";
 
 struct CompareOptions {
     FrameOptions frame;
@@ -38,16 +41,13 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
     return parts;
 }
 
-/// A technique's name, or the path of a picture that exists.
-std::variant<recipes::Technique, std::string> truthNamed(const std::string& name) {
-    std::vector<std::string_view> names;
+/// A technique's name, the reference, or the path of a picture that exists.
+validation::Truth truthNamed(const std::string& name) {
+    if (name == kReference) return validation::Reference{};
+    std::vector<std::string_view> names{kReference};
     for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
         if (info.name == name) return info.technique;
         names.push_back(info.name);
-    }
-    if (name == "reference") {
-        throw InputError("--against reference: the reference renderer is not part of this version; name a technique or "
-                         "a picture file");
     }
     if (std::filesystem::exists(name)) return name;
     throw InputError(
@@ -55,8 +55,7 @@ std::variant<recipes::Technique, std::string> truthNamed(const std::string& name
 }
 
 /// Those asked for; else all but the truth that take the samples and the culling method, the others to `leftOut`.
-std::vector<recipes::Technique> techniquesOf(const CompareOptions& options,
-                                             const std::variant<recipes::Technique, std::string>& against,
+std::vector<recipes::Technique> techniquesOf(const CompareOptions& options, const validation::Truth& against,
                                              const frame::FrameSettings& settings,
                                              std::vector<validation::LeftOutTechnique>& leftOut) {
     const int samples = settings.samples;
@@ -83,8 +82,12 @@ void writeHeatMaps(const std::string& folder, const validation::CompareResult& r
     makeFolder(folder);
     for (const validation::NamedPicture& picture : result.pictures) {
         const std::string title = picture.name + " vs " + std::filesystem::path(result.truth.name).filename().string();
-        const validation::DisplayImage map = validation::errorHeatMap(picture.picture, result.truth.picture, title);
-        validation::writePng((std::filesystem::path(folder) / (picture.name + ".png")).string(), map);
+        const validation::DisplayImage map =
+            validation::errorHeatMap(picture.picture, result.truth.picture, title, result.excluded);
+        std::string file = picture.name + ".png";
+        std::replace(file.begin(), file.end(), ' ', '_');
+        std::erase_if(file, [](char c) { return c == '(' || c == ')'; });
+        validation::writePng((std::filesystem::path(folder) / file).string(), map);
     }
 }
 
@@ -100,9 +103,14 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
             "--view lights shows what each technique visits, which is not meant to be the same; render it");
     std::vector<validation::LeftOutTechnique> leftOut;
     comparison.techniques = techniquesOf(options, comparison.against, request.settings, leftOut);
+    if (std::holds_alternative<validation::Reference>(comparison.against)) {
+        validation::requireReferenceTakes(comparison.settings);
+        // Hardware filtering would hide what is compared; it gets a pair of its own.
+        if (!options.frame.filter) comparison.settings.filter = frame::TextureFilter::Exact;
+    }
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     recipes::Renderer renderer(*context, request.scene);
-    Progress progress("comparing", validation::pictureCount(comparison), global.quiet);
+    Progress progress("comparing", validation::stepCount(comparison), global.quiet);
     comparison.renderedOne = [&progress] { progress.advance(); };
     validation::CompareResult result = validation::compareTechniques(renderer, context->capabilities(), comparison);
     result.record.leftOut = std::move(leftOut);
@@ -121,7 +129,7 @@ void addCompareCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     auto options = std::make_shared<CompareOptions>();
     addFrameOptions(*command, options->frame, "");
     command->add_option("--techniques", options->techniques, "Techniques to compare [all]")->type_name("A,B");
-    command->add_option("--against", options->against, "The truth: a technique or a picture file [forward]")
+    command->add_option("--against", options->against, "The truth: a technique, a picture file, or reference [forward]")
         ->type_name("NAME|FILE");
     command->add_option("--json", options->json, "Writes the figures as JSON")->type_name("FILE");
     command->add_option("--heatmap", options->heatMaps, "Writes a map of the relative error of each pair")
@@ -130,6 +138,7 @@ void addCompareCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
   tessera compare hall                                       every technique against forward
   tessera compare hall --layout packed --json packed.json    what a packed G-buffer costs
   tessera compare room --against room.exr --heatmap maps     against a picture; maps of the error
+  tessera compare room --against reference                   against formulas in double precision
 
 Exit code 3 says that a tolerance was missed.)");
     command->callback([options, &global, &run] { run = [options, &global] { return compare(*options, global); }; });

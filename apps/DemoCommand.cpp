@@ -130,7 +130,7 @@ int demo(const DemoOptions& options, const GlobalOptions& global) {
     // A G-buffer, and with it a layout to compare, there is only with one sample a pixel.
     const bool comparesPacked = request.settings.samples == 1;
     Progress progress("rendering",
-                      validation::pictureCount(exact) + (comparesPacked ? validation::pictureCount(packed) : 0) + 1,
+                      validation::stepCount(exact) + (comparesPacked ? validation::stepCount(packed) : 0) + 1,
                       global.quiet);
     exact.renderedOne = packed.renderedOne = [&progress] { progress.advance(); };
     CompareResult result = validation::compareTechniques(renderer, context->capabilities(), exact);

@@ -232,7 +232,8 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     text("--view", options.view, "What to show: 1 to 7, or one of " + namesOf(frame::viewTable()) + " [final]", "NAME");
     addWholeNumber(command, "--solo", options.solo, "Only this light shines, counted from 0", "N")->group("Frame");
     text("--specular", options.specular, "off leaves the specular lobe out [on]", "on|off");
-    text("--filter", options.filter, "Textures by hardware, or exact: bilinear in fp32 at level 0 [hardware]", "NAME");
+    text("--filter", options.filter,
+         "Textures by hardware, or exact: bilinear at level 0, computed by the shader [hardware]", "NAME");
     text("--space", options.space, "Lighting in world or view space; the pictures agree [world]", "NAME");
     text("--prune", options.prune, "off keeps what the scene does not need; the picture is the same [on]", "on|off");
     command.add_flag("--no-default-light", options.noDefaultLight, "Leaves a scene without lights dark")

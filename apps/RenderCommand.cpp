@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -14,6 +16,7 @@
 #include "validation/AtomicFile.h"
 #include "validation/HeatMap.h"
 #include "validation/PictureFile.h"
+#include "validation/ReferencePicture.h"
 #include "validation/Rendering.h"
 
 namespace tessera::app {
@@ -21,6 +24,7 @@ namespace tessera::app {
 namespace {
 
 constexpr double kFramesPerSecond = 30.0;
+constexpr const char* kReference = "reference";
 
 struct RenderOptions {
     FrameOptions frame;
@@ -64,17 +68,36 @@ void requirePictureExtension(const std::string& path) {
     }
 }
 
-/// Frame i shows the time start + i / fps.
-void renderFrames(const RenderOptions& options, Request& request, recipes::Renderer& renderer,
-                  const GlobalOptions& global) {
+/// Makes one picture at a path.
+using MakePicture = std::function<void(const std::string& path, const frame::FrameSettings& settings)>;
+
+/// One picture, or a sequence in which frame i shows the time start + i / fps.
+void makePictures(const RenderOptions& options, frame::FrameSettings settings, const MakePicture& make) {
+    if (!options.frames) return make(options.output, settings);
     const FramePattern pattern(options.output);
-    Progress progress("rendering", std::size_t(*options.frames), global.quiet);
-    const double start = request.settings.timeSeconds;
+    const double start = settings.timeSeconds;
     for (int i = 0; i < *options.frames; ++i) {
-        request.settings.timeSeconds = start + i / options.framesPerSecond.value_or(kFramesPerSecond);
-        writePicture(pattern.path(i), request, renderer.render(request.technique, request.settings));
-        progress.advance();
+        settings.timeSeconds = start + i / options.framesPerSecond.value_or(kFramesPerSecond);
+        make(pattern.path(i), settings);
     }
+}
+
+/// Without a context: what a display shows is exposure and sRGB alone.
+void renderReference(const RenderOptions& options, const Request& request, const GlobalOptions& global) {
+    const frame::FrameSettings& settings = request.settings;
+    validation::requireReferenceTakes(settings);
+    const bool isLinear = std::filesystem::path(options.output).extension() == ".exr";
+    if (!isLinear && settings.toneMap != frame::ToneMap::None)
+        throw InputError("--technique reference has no tone maps; give --tonemap none, or write .exr");
+    Progress progress("rendering", std::size_t(options.frames.value_or(1)) * std::size_t(settings.sizePixels.y),
+                      global.quiet);
+    makePictures(options, settings, [&](const std::string& path, const frame::FrameSettings& one) {
+        validation::Picture picture =
+            validation::referencePicture(request.scene, one, [&progress] { progress.advance(); }).picture;
+        if (isLinear) return validation::writeExr(path, picture);
+        for (float& value : picture.rgba) value *= std::exp2(settings.exposureEV);
+        validation::writePng(path, validation::toDisplayImage(picture));
+    });
 }
 
 void check(const RenderOptions& options) {
@@ -90,16 +113,25 @@ void check(const RenderOptions& options) {
 
 int render(const RenderOptions& options, const GlobalOptions& global) {
     check(options);
-    Request request = resolve(options.frame);
+    FrameOptions frame = options.frame;
+    const bool isReference = frame.technique == kReference;
+    if (isReference) frame.technique.reset();
+    Request request = resolve(frame);
+    if (isReference) {
+        renderReference(options, request, global);
+        return kGood;
+    }
     recipes::requireSamples(request.technique, request.settings.samples);
     recipes::requireCulling(request.technique, request.settings);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     recipes::Renderer renderer(*context, request.scene);
     request.settings.display = std::filesystem::path(options.output).extension() != ".exr";
-    if (options.frames)
-        renderFrames(options, request, renderer, global);
-    else
-        writePicture(options.output, request, renderer.render(request.technique, request.settings));
+    // One picture is soon made.
+    Progress progress("rendering", std::size_t(options.frames.value_or(1)), global.quiet || !options.frames);
+    makePictures(options, request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
+        writePicture(path, request, renderer.render(request.technique, one));
+        progress.advance();
+    });
     return kGood;
 }
 
@@ -120,6 +152,7 @@ void addRenderCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
   tessera render hall -o hall.png                       as a display shows it
   tessera render model.glb -o model.exr                 linear radiance, 32 bits a channel
   tessera render hall -o normals.png --view normal      what the lighting works with
+  tessera render hall -o true.exr --technique reference by formulas in double precision
   tessera render scene.json -o f_%04d.png --frames 90   a sequence of 3 seconds)");
     command->callback([options, &global, &run] { run = [options, &global] { return render(*options, global); }; });
 }

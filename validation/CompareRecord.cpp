@@ -162,6 +162,9 @@ std::string compareTable(const CompareRecord& record) {
     std::string text =
         fmt::format("{}  {}x{}{}  {}\n", record.scene, record.width, record.height, samples, record.renderer) +
         textTable(rows);
+    if (record.excludesPixels && !record.pairs.empty())
+        text += fmt::format("excluded: {} of the covered pixels, where the two show different triangles\n",
+                            shareText(record.pairs.front().figures.excluded));
     for (const ComparePair& pair : record.pairs)
         for (const std::string& missed : pair.verdict.missed)
             text += fmt::format("missed: {} vs {}: {}\n", pair.a, pair.b, missed);

@@ -152,7 +152,7 @@ ErrorFigures errorFigures(const Picture& a, const Picture& b, std::span<const st
     figures.litShare = signalB.litShare;
     figures.meanLuminanceA = signalA.meanLuminance;
     figures.litShareA = signalA.litShare;
-    figures.flipReason = "FLIP comes with the reference renderer";
+    figures.flipReason = "this version does not compute FLIP";
     return figures;
 }
 

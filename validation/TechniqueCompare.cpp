@@ -7,6 +7,7 @@
 #include "passes/recipes/ChooseSamples.h"
 #include "validation/PictureFile.h"
 #include "validation/RangeTruncation.h"
+#include "validation/ReferencePicture.h"
 #include "validation/Rendering.h"
 
 namespace tessera::validation {
@@ -24,7 +25,19 @@ NamedPicture rendered(recipes::Renderer& renderer, Technique technique, const fr
     return {nameOf(technique), toPicture(frame), toDisplayImage(frame)};
 }
 
-NamedPicture truthPicture(recipes::Renderer& renderer, const CompareRequest& request) {
+bool isReference(const CompareRequest& request) {
+    return std::holds_alternative<Reference>(request.against);
+}
+
+/// The truth, and where it shows other surfaces than the GPU.
+NamedPicture truthPicture(recipes::Renderer& renderer, const CompareRequest& request,
+                          std::vector<std::uint8_t>& excluded) {
+    if (isReference(request)) {
+        ReferencePicture reference = referencePicture(renderer.scene(), request.settings, request.renderedOne);
+        excluded = differingTriangles(renderer, request.settings, reference.ids);
+        const DisplayImage display = toDisplayImage(reference.picture);
+        return {"reference", std::move(reference.picture), display};
+    }
     if (const auto* technique = std::get_if<Technique>(&request.against)) {
         NamedPicture truth = rendered(renderer, *technique, request.settings);
         request.renderedOne();
@@ -61,7 +74,7 @@ bool isPacked(const frame::GBufferLayout& layout) {
 
 /// The error that each stored channel causes: what is left of the pair's relMse when that channel alone is fp32.
 std::vector<ChannelShare> channelShares(recipes::Renderer& renderer, const CompareRequest& request, Technique technique,
-                                        const Picture& truth, double relMse) {
+                                        const CompareResult& result, double relMse) {
     std::vector<ChannelShare> shares;
     const frame::FeatureSet features =
         request.settings.prune ? frame::materialFeatures(renderer.scene()) : frame::allFeatures();
@@ -69,23 +82,50 @@ std::vector<ChannelShare> channelShares(recipes::Renderer& renderer, const Compa
         frame::FrameSettings settings = request.settings;
         settings.layout.encoding[std::size_t(channel)] = frame::Encoding::Exact;
         const Picture picture = toPicture(renderer.render(technique, settingsTakenBy(technique, settings)));
-        const double without = errorFigures(picture, truth).relMse;
+        const double without = errorFigures(picture, result.truth.picture, result.excluded).relMse;
         shares.push_back({std::string(frame::channelTable()[std::size_t(channel)].name), without, relMse - without});
     }
     return shares;
 }
 
+/// What a technique is held to, with a layout, against what the request asks for.
+Tolerance toleranceOf(const recipes::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
+                      Technique technique, const frame::GBufferLayout& layout) {
+    const bool quantises = recipes::techniqueTable()[std::size_t(technique)].usesGBuffer && isPacked(layout);
+    if (isReference(request) && !quantises) return referenceTolerance(renderer.scene(), request.settings.filter);
+    return pairTolerance(technique, layout, gl.isSoftware, renderer.scene().lights.size());
+}
+
 /// A packed layout's tolerance is wide enough to hide a faint light that was skipped. So the same picture with every
 /// channel in fp32 must hold what the exact layout is held to: then quantisation is all that differs.
-void checkWithoutPacking(recipes::Renderer& renderer, const CompareRequest& request, Technique technique,
-                         const Picture& truth, bool isSoftware, Verdict& verdict) {
+void checkWithoutPacking(recipes::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
+                         Technique technique, const CompareResult& result, Verdict& verdict) {
     frame::FrameSettings settings = request.settings;
     settings.layout = frame::layoutTable()[0].layout;
     const Picture picture = toPicture(renderer.render(technique, settingsTakenBy(technique, settings)));
-    const Tolerance tolerance = pairTolerance(technique, settings.layout, isSoftware, renderer.scene().lights.size());
-    for (const std::string& missed : checkTolerance(errorFigures(picture, truth), tolerance).missed)
+    const Tolerance tolerance = toleranceOf(renderer, gl, request, technique, settings.layout);
+    const ErrorFigures figures = errorFigures(picture, result.truth.picture, result.excluded);
+    for (const std::string& missed : checkTolerance(figures, tolerance).missed)
         verdict.missed.push_back("with every channel in fp32: " + missed);
     verdict.ok = verdict.missed.empty();
+}
+
+/// Hardware filtering beside the exact one, which all other pairs use.
+bool showsHardwareFilter(const recipes::Renderer& renderer, const CompareRequest& request) {
+    return isReference(request) && !request.techniques.empty() &&
+           request.settings.filter == frame::TextureFilter::Exact &&
+           frame::materialFeatures(renderer.scene()).textures();
+}
+
+void addHardwareFilter(recipes::Renderer& renderer, const CompareRequest& request, CompareResult& result) {
+    frame::FrameSettings settings = request.settings;
+    settings.filter = frame::TextureFilter::Hardware;
+    settings.layout = frame::layoutTable()[0].layout;
+    NamedPicture picture = rendered(renderer, request.techniques.front(), settings);
+    picture.name = hardwareFilterName(picture.name);
+    result.record.pairs.push_back(comparePair(picture.name, picture.picture, result.truth.name, result.truth.picture,
+                                              referenceTolerance(renderer.scene(), settings.filter), result.excluded));
+    result.pictures.push_back(std::move(picture));
 }
 
 } // namespace
@@ -98,9 +138,15 @@ frame::FrameSettings settingsTakenBy(recipes::Technique technique, frame::FrameS
     return settings;
 }
 
-std::size_t pictureCount(const CompareRequest& request) {
-    return request.techniques.size() + (std::holds_alternative<Technique>(request.against) ? 1 : 0) +
-           (measuresTruncation(request) ? 1 : 0);
+std::string hardwareFilterName(const std::string& technique) {
+    return technique + " (hardware filter)";
+}
+
+std::size_t stepCount(const CompareRequest& request) {
+    const std::size_t truth = isReference(request) ? std::size_t(request.settings.sizePixels.y)
+                              : std::holds_alternative<Technique>(request.against) ? 1
+                                                                                   : 0;
+    return request.techniques.size() + truth + (measuresTruncation(request) ? 1 : 0);
 }
 
 std::vector<Technique> techniquesTaking(int samples, std::optional<culling::Method> method,
@@ -145,7 +191,8 @@ Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout,
 CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabilities& gl,
                                 const CompareRequest& request) {
     CompareResult result;
-    result.truth = truthPicture(renderer, request);
+    result.truth = truthPicture(renderer, request, result.excluded);
+    result.record.excludesPixels = !result.excluded.empty();
     result.record.scene = renderer.scene().name;
     result.record.width = request.settings.sizePixels.x;
     result.record.height = request.settings.sizePixels.y;
@@ -155,22 +202,23 @@ CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabili
         NamedPicture picture = rendered(renderer, technique, request.settings);
         const std::string culling = cullingText(renderer);
         requireSameSize(picture.picture, picture.name, result.truth.picture, result.truth.name);
-        const Tolerance tolerance = request.tolerance ? *request.tolerance
-                                                      : pairTolerance(technique, request.settings.layout, gl.isSoftware,
-                                                                      renderer.scene().lights.size());
-        ComparePair pair =
-            comparePair(picture.name, picture.picture, result.truth.name, result.truth.picture, tolerance);
+        const Tolerance tolerance = request.tolerance
+                                        ? *request.tolerance
+                                        : toleranceOf(renderer, gl, request, technique, request.settings.layout);
+        ComparePair pair = comparePair(picture.name, picture.picture, result.truth.name, result.truth.picture,
+                                       tolerance, result.excluded);
         pair.culling = culling;
         if (recipes::techniqueTable()[std::size_t(technique)].usesGBuffer && isPacked(request.settings.layout)) {
-            pair.channels = channelShares(renderer, request, technique, result.truth.picture, pair.figures.relMse);
+            pair.channels = channelShares(renderer, request, technique, result, pair.figures.relMse);
             // Against a picture file the tolerance is about that picture, which need not come from this renderer.
-            if (!request.tolerance && std::holds_alternative<Technique>(request.against))
-                checkWithoutPacking(renderer, request, technique, result.truth.picture, gl.isSoftware, pair.verdict);
+            if (!request.tolerance && !std::holds_alternative<std::string>(request.against))
+                checkWithoutPacking(renderer, gl, request, technique, result, pair.verdict);
         }
         result.record.pairs.push_back(std::move(pair));
         result.pictures.push_back(std::move(picture));
         request.renderedOne();
     }
+    if (showsHardwareFilter(renderer, request)) addHardwareFilter(renderer, request, result);
     if (measuresTruncation(request)) {
         result.record.rangeTruncation = truncationOf(renderer, request);
         request.renderedOne();

@@ -10,15 +10,19 @@
 
 namespace tessera::validation {
 
+/// The double-precision renderer as the truth.
+struct Reference {};
+/// A technique, a picture file, or the reference.
+using Truth = std::variant<recipes::Technique, std::string, Reference>;
+
 /// What to compare with what.
 struct CompareRequest {
     std::vector<recipes::Technique> techniques;
-    std::variant<recipes::Technique, std::string> against =
-        recipes::Technique::Forward; ///< a technique or a picture file
+    Truth against = recipes::Technique::Forward;
     frame::FrameSettings settings;
     bool rangeTruncation = true;               ///< whether to measure what settings.rangeTolerance drops
     std::optional<Tolerance> tolerance;        ///< instead of the one each pair is held to by itself
-    std::function<void()> renderedOne = [] {}; ///< called after each picture, for progress
+    std::function<void()> renderedOne = [] {}; ///< called stepCount() times from any thread, for progress
 };
 
 /// A picture of the comparison, linear and as shown.
@@ -32,21 +36,27 @@ struct CompareResult {
     CompareRecord record;
     NamedPicture truth;
     std::vector<NamedPicture> pictures; ///< parallel to record.pairs
+    /// By pixel: 1 where the truth shows another surface, so that nothing is compared; empty where that cannot be.
+    std::vector<std::uint8_t> excluded;
 };
 
 /// What was asked for of culling and lighting goes to the techniques that take it; the others keep their own.
 frame::FrameSettings settingsTakenBy(recipes::Technique technique, frame::FrameSettings settings);
 
-/// Pictures that compareTechniques() renders, for progress; what a range tolerance drops counts as one.
-std::size_t pictureCount(const CompareRequest& request);
+/// Steps of compareTechniques(), for progress: pictures, each row of the reference's, and what a range tolerance drops.
+std::size_t stepCount(const CompareRequest& request);
 
 /// Renders every technique and measures it against the truth. Pairs that must agree to the last bit (no G-buffer, or
 /// the exact layout, on a software rasteriser) are held to that; see pairTolerance(). Where the G-buffer is packed,
 /// each channel's share of the error is found by storing that channel alone in fp32, and against a technique the
 /// picture with all of them in fp32 must hold the exact layout's tolerance. What a range tolerance drops is measured on
-/// the technique that is the truth, or the first one where that is a picture file.
+/// the technique that is the truth, or the first one where that is none. Against the reference pixels that show
+/// other triangles are excluded; textures filtered by hardware are one pair of their own there (hardwareFilterName()).
 CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabilities& gl,
                                 const CompareRequest& request);
+
+/// What the pair that shows hardware filtering beside the exact one calls a technique.
+std::string hardwareFilterName(const std::string& technique);
 
 /// The techniques that take so many samples a pixel; those with light lists only if they take the culling method, where
 /// one is asked for. The others go to `leftOut` with the reason.

@@ -57,9 +57,11 @@ Renderer::~Renderer() = default;
 frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     // Light types change from frame to frame and do not concern the scene's buffers.
     frame::FeatureSet features = spec.settings.prune ? frame::materialFeatures(scene_) : frame::allFeatures();
-    if (sceneGpu_ && features == sceneFeatures_) return *sceneGpu_;
-    sceneGpu_ = std::make_unique<frame::SceneGpu>(scene_, features);
+    const frame::TextureFilter filter = spec.settings.filter;
+    if (sceneGpu_ && features == sceneFeatures_ && filter == sceneFilter_) return *sceneGpu_;
+    sceneGpu_ = std::make_unique<frame::SceneGpu>(scene_, features, filter);
     sceneFeatures_ = features;
+    sceneFilter_ = filter;
     return *sceneGpu_;
 }
 

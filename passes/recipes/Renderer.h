@@ -70,8 +70,9 @@ private:
     frame::LightBuffers lights_;
     frame::LightListBuffers lightLists_;
     std::unique_ptr<frame::SceneGpu> sceneGpu_;
-    frame::FeatureSet sceneFeatures_; ///< what sceneGpu_ was made with
-    std::unique_ptr<Drawn> drawn_;    ///< the latest frame
+    frame::FeatureSet sceneFeatures_;                                   ///< what sceneGpu_ was made with
+    frame::TextureFilter sceneFilter_ = frame::TextureFilter::Hardware; ///< the same
+    std::unique_ptr<Drawn> drawn_;                                      ///< the latest frame
 };
 
 /// What a frame would run, leave out and need, without a context.

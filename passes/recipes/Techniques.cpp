@@ -6,6 +6,7 @@
 #include "passes/ForwardPass.h"
 #include "passes/GBufferPass.h"
 #include "passes/GpuLightListsPass.h"
+#include "passes/IdsPass.h"
 #include "passes/LightListsPass.h"
 #include "passes/LightVolumesPass.h"
 #include "passes/ResolvePass.h"
@@ -56,6 +57,12 @@ struct Recipe {
         const DepthPrepass::Params params{hasLightLists() && spec.samples > 1};
         frame.programs.push_back(DepthPrepass::program(spec, params));
         return DepthPrepass::add(frame.graph, spec, params, resources);
+    }
+    IdsPass::Outputs ids() {
+        frame.programs.push_back(IdsPass::program(spec, IdsPass::Surfaces::Opaque));
+        if (spec.features[frame::Feature::Blend])
+            frame.programs.push_back(IdsPass::program(spec, IdsPass::Surfaces::Transparent));
+        return IdsPass::add(frame.graph, spec, resources);
     }
     GBufferPass::Outputs gbuffer() {
         frame.programs.push_back(GBufferPass::program(spec));
@@ -154,6 +161,17 @@ OpaquePicture opaquePicture(Technique technique, Recipe& recipe) {
     return opaqueDeferred(recipe);
 }
 
+/// The lit picture, transparent surfaces included, and the depth of opaque ones.
+void addLitPicture(Technique technique, Recipe& recipe) {
+    DeclaredFrame& frame = recipe.frame;
+    const OpaquePicture opaque = opaquePicture(technique, recipe);
+    frame.radiance = opaque.radiance;
+    frame.depth = opaque.depth;
+    if (!recipe.spec.features[tessera::frame::Feature::Blend]) return;
+    const ForwardPass::Params params{ForwardPass::Surfaces::Transparent};
+    frame.radiance = recipe.forward(params, {opaque.depth, opaque.radiance, frame.lists}).radiance;
+}
+
 } // namespace
 
 std::span<const TechniqueInfo> techniqueTable() {
@@ -163,12 +181,12 @@ std::span<const TechniqueInfo> techniqueTable() {
 DeclaredFrame declareFrame(Technique technique, const frame::FrameSpec& spec, const frame::FrameResources* resources) {
     DeclaredFrame frame;
     Recipe recipe{frame, spec, resources};
-    const OpaquePicture opaque = opaquePicture(technique, recipe);
-    frame.radiance = opaque.radiance;
-    frame.depth = opaque.depth;
-    if (spec.features[frame::Feature::Blend]) {
-        const ForwardPass::Params params{ForwardPass::Surfaces::Transparent};
-        frame.radiance = recipe.forward(params, {opaque.depth, opaque.radiance, frame.lists}).radiance;
+    if (spec.settings.view == frame::View::Ids) {
+        const IdsPass::Outputs drawn = recipe.ids();
+        frame.radiance = drawn.ids;
+        frame.depth = drawn.depth;
+    } else {
+        addLitPicture(technique, recipe);
     }
     frame.radiance = recipe.resolve(frame.radiance, ResolvePass::Kind::Radiance);
     frame.display = recipe.display(frame.radiance);

@@ -37,13 +37,15 @@ DrawList makeDrawList(const scenes::Scene& scene) {
     std::transform(scene.meshes.begin(), scene.meshes.end(), centersOS.begin(), boxCenter);
     std::vector<float> largestColors(scene.meshes.size());
     std::transform(scene.meshes.begin(), scene.meshes.end(), largestColors.begin(), largestColor);
+    int number = 0;
     for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
         const glm::dmat4& worldFromObject = list.worldFromObject[node];
         const bool mirrored = glm::determinant(glm::dmat3(worldFromObject)) < 0.0;
         for (const scenes::MeshInstance& instance : scene.nodes[node].instances) {
+            const int own = number++;
             if (scene.meshes[std::size_t(instance.mesh)].indices.empty()) continue;
             const glm::dvec3 centerWS(worldFromObject * glm::dvec4(centersOS[std::size_t(instance.mesh)], 1.0));
-            list.draws.push_back({instance.mesh, instance.material, int(node), mirrored,
+            list.draws.push_back({instance.mesh, instance.material, int(node), own, mirrored,
                                   largestColors[std::size_t(instance.mesh)], centerWS});
         }
     }
@@ -91,7 +93,7 @@ std::vector<DrawRows> makeDrawRows(const DrawList& list, const CameraView& view)
         for (int c = 0; c < 3; ++c)
             largest = std::max({largest, std::abs(normal[c].x), std::abs(normal[c].y), std::abs(normal[c].z)});
         if (largest > 0.0) normal /= largest;
-        const double extra[3] = {sign, double(list.draws[i].largestColor), 0.0};
+        const double extra[3] = {sign, double(list.draws[i].largestColor), 1.0 + list.draws[i].instance};
         for (int r = 0; r < 3; ++r) {
             rows[i].position[r] = glm::vec4(linear[0][r], linear[1][r], linear[2][r], originLS[r]);
             rows[i].normal[r] = glm::vec4(normal[0][r], normal[1][r], normal[2][r], extra[r]);

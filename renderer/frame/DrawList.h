@@ -11,6 +11,7 @@ struct Draw {
     int mesh = 0;
     int material = 0;
     int node = 0;
+    int instance = 0;       ///< place among the mesh instances of all nodes, in document order
     bool mirrored = false;  ///< the node's transform turns the winding round
     float largestColor = 0; ///< of the mesh's vertex colours, any channel, 1 or more; 0 without vertex colours
     glm::dvec3 centerWS{0}; ///< of the mesh's box, for the order of transparent draws
@@ -40,7 +41,7 @@ std::vector<Batch> sortedTransparent(const DrawList& list, const CameraView& vie
 /// Per-draw vertex attributes (shaders/passes/geometry.vert): rows of LS-from-object and of its cofactor matrix, which
 /// carries normals through any transform, singular ones too; times the determinant's sign, which row 0's w holds. Row
 /// 1's w is Draw::largestColor. It also tells meshes without vertex colours: white would not do, since interpolating 1
-/// in perspective does not always give 1.
+/// in perspective does not always give 1. Row 2's w is 1 + Draw::instance.
 struct DrawRows {
     glm::vec4 position[3];
     glm::vec4 normal[3];

@@ -19,6 +19,8 @@ constexpr ViewInfo kViews[] = {
     {View::Depth, 0, "depth", "distance along the view axis in metres", DisplayMapping::Distance},
     {View::Lights, 0, "lights", "how many lights the pixel visits, as heat colours with a legend",
      DisplayMapping::Count},
+    {View::Ids, 0, "ids", "which triangle each pixel shows: mesh instance, triangle, and a sum over transparent ones",
+     DisplayMapping::Ids},
 };
 
 constexpr ToneMapInfo kToneMaps[] = {
@@ -34,6 +36,7 @@ static_assert(static_cast<unsigned>(DisplayMapping::Raw) == DISPLAY_RAW);
 static_assert(static_cast<unsigned>(DisplayMapping::Signed) == DISPLAY_SIGNED);
 static_assert(static_cast<unsigned>(DisplayMapping::Distance) == DISPLAY_DISTANCE);
 static_assert(static_cast<unsigned>(DisplayMapping::Count) == DISPLAY_COUNT);
+static_assert(static_cast<unsigned>(DisplayMapping::Ids) == DISPLAY_IDS);
 
 } // namespace
 

@@ -14,14 +14,26 @@
 /// lists.
 namespace tessera::frame {
 
-enum class View : std::uint8_t { Final, Diffuse, NormalTexel, Normal, Distribution, Geometry, Fresnel, Depth, Lights };
+enum class View : std::uint8_t {
+    Final,
+    Diffuse,
+    NormalTexel,
+    Normal,
+    Distribution,
+    Geometry,
+    Fresnel,
+    Depth,
+    Lights,
+    Ids
+};
 /// How a view's values become a display picture; its value is DISPLAY_* of shaders/shared/display.h.
 enum class DisplayMapping : std::uint8_t {
     Radiance, ///< exposure, tone map, sRGB
     Raw,      ///< code value = value
     Signed,   ///< code value = value / 2 + 1/2
     Distance, ///< 1 at the eye, 1/2 at 10 m, 0 at infinity
-    Count     ///< the heat colours of shaders/shared/heat.h, logarithmic
+    Count,    ///< the heat colours of shaders/shared/heat.h, logarithmic
+    Ids       ///< a colour of its own for every triangle
 };
 struct ViewInfo {
     View view; ///< its value is VIEW of shaders/lib/views.glsl

@@ -64,8 +64,8 @@ gpu::VertexAttribute attribute(std::uint32_t location, int components, const gpu
 
 } // namespace
 
-SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features)
-    : scene_(scene), drawList_(makeDrawList(scene)) {
+SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter)
+    : scene_(scene), filter_(filter), drawList_(makeDrawList(scene)) {
     uploadGeometry(features);
     uploadMaterials();
     uploadTextures();
@@ -111,10 +111,19 @@ void SceneGpu::uploadMaterials() {
         (sizeof(shared::MaterialConstants) + kUniformAlignment - 1) / kUniformAlignment * kUniformAlignment;
     std::vector<std::byte> bytes(materialStride_ * scene_.materials.size());
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
-        const shared::MaterialConstants constants = packMaterial(scene_.materials[i]);
+        shared::MaterialConstants constants = packMaterial(scene_.materials[i]);
+        for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
+            if (shadersDecode(scene_.materials[i], slot)) constants.uvRow1[slot].w += float(TEXTURE_MODE_SRGB);
+        }
         std::memcpy(bytes.data() + i * materialStride_, &constants, sizeof constants);
     }
     materials_ = std::make_unique<gpu::Buffer>(gpu::Buffer::of("materials", bytes));
+}
+
+bool SceneGpu::shadersDecode(const scenes::Material& material, std::size_t slot) const {
+    const int image = material.textures[slot].image;
+    return filter_ == TextureFilter::Exact && image != scenes::kNone && slotIsSrgb(scenes::TextureSlot(slot)) &&
+           scene_.images[std::size_t(image)].format == scenes::TexelFormat::Rgba8Unorm;
 }
 
 void SceneGpu::uploadTextures() {
@@ -126,7 +135,8 @@ void SceneGpu::uploadTextures() {
             if (use.image == scenes::kNone) {
                 bound_.push_back({white_.get(), nullptr});
             } else {
-                bound_.push_back({uploadImage(use.image, slotIsSrgb(scenes::TextureSlot(slot))), sampler(use.sampler)});
+                const bool srgb = slotIsSrgb(scenes::TextureSlot(slot)) && !shadersDecode(material, slot);
+                bound_.push_back({uploadImage(use.image, srgb), sampler(use.sampler)});
             }
         }
     }
@@ -137,13 +147,14 @@ const gpu::Texture* SceneGpu::uploadImage(int index, bool srgb) {
     if (texture) return texture.get();
     const scenes::Image& image = scene_.images[std::size_t(index)];
     const graph::TextureDesc desc{storedFormat(image.format, srgb), image.width, image.height, 1};
-    texture = std::make_unique<gpu::Texture>(image.name, desc, gpu::mipLevelsFor(image.width, image.height));
+    const int levels = filter_ == TextureFilter::Exact ? 1 : gpu::mipLevelsFor(image.width, image.height);
+    texture = std::make_unique<gpu::Texture>(image.name, desc, levels);
     if (image.format == scenes::TexelFormat::Rgba16Unorm && srgb) {
         texture->upload(0, linearTexels(image));
     } else {
         texture->upload(0, std::span<const std::byte>(image.texels));
     }
-    texture->generateMips();
+    if (levels > 1) texture->generateMips();
     return texture.get();
 }
 

@@ -13,11 +13,12 @@
 
 namespace tessera::frame {
 
-/// A scene's geometry, materials and textures on the GPU. What `features` does not hold is not uploaded. The scene must
-/// outlive the object.
+/// A scene's geometry, materials and textures on the GPU. What `features` does not hold is not uploaded. With
+/// TextureFilter::Exact 8-bit colours are uploaded as the code values they are, since drivers decode sRGB formats only
+/// approximately, and no levels beyond the first, which the filter does not read. The scene must outlive the object.
 class SceneGpu {
 public:
-    SceneGpu(const scenes::Scene& scene, const FeatureSet& features);
+    SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter = TextureFilter::Hardware);
 
     /// Puts draws into the view's lighting space and sorts the transparent ones.
     void setView(const CameraView& view);
@@ -43,7 +44,11 @@ private:
     const gpu::Texture* uploadImage(int image, bool srgb);
     const gpu::Sampler* sampler(const scenes::Sampler& sampler);
 
+    /// Whether a slot's texture holds sRGB code values that shaders decode.
+    bool shadersDecode(const scenes::Material& material, std::size_t slot) const;
+
     const scenes::Scene& scene_;
+    TextureFilter filter_;
     DrawList drawList_;
     std::vector<Batch> transparent_;
     std::vector<std::unique_ptr<gpu::Buffer>> vertexBuffers_;

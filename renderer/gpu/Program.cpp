@@ -15,6 +15,8 @@ GLenum glStage(Stage stage) {
     switch (stage) {
     case Stage::Vertex:
         return GL_VERTEX_SHADER;
+    case Stage::Geometry:
+        return GL_GEOMETRY_SHADER;
     case Stage::Fragment:
         return GL_FRAGMENT_SHADER;
     case Stage::Compute:
@@ -58,6 +60,8 @@ std::string_view stageName(Stage stage) {
     switch (stage) {
     case Stage::Vertex:
         return "vertex";
+    case Stage::Geometry:
+        return "geometry";
     case Stage::Fragment:
         return "fragment";
     case Stage::Compute:

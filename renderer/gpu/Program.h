@@ -11,8 +11,8 @@
 
 namespace tessera::gpu {
 
-enum class Stage : std::uint8_t { Vertex, Fragment, Compute };
-std::string_view stageName(Stage stage); ///< "vertex", "fragment", "compute"
+enum class Stage : std::uint8_t { Vertex, Geometry, Fragment, Compute };
+std::string_view stageName(Stage stage); ///< "vertex", "geometry", "fragment", "compute"
 
 struct StageSource {
     Stage stage;

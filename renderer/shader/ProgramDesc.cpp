@@ -9,7 +9,7 @@
 namespace tessera::shader {
 
 std::string ProgramDesc::key() const {
-    std::string text = fmt::format("{}|{}|{}|{}|", name, vertex, fragment, compute);
+    std::string text = fmt::format("{}|{}|{}|{}|{}|", name, vertex, fragment, compute, geometry);
     Defines sorted = defines;
     std::sort(sorted.begin(), sorted.end());
     for (std::size_t i = 0; i < sorted.size(); ++i)
@@ -20,15 +20,16 @@ std::string ProgramDesc::key() const {
 std::vector<ExpandedStage> expandStages(const SourceTree& tree, const ProgramDesc& desc) {
     const bool rasterises = !desc.vertex.empty();
     const bool computes = !desc.compute.empty();
-    if (rasterises == computes || (computes && !desc.fragment.empty()))
-        throw InputError(fmt::format("shader program '{}' needs either a vertex shader, with or without a fragment "
-                                     "shader, or a compute shader alone",
+    if (rasterises == computes || (computes && !(desc.fragment.empty() && desc.geometry.empty())))
+        throw InputError(fmt::format("shader program '{}' needs either a vertex shader, with or without others "
+                                     "after it, or a compute shader alone",
                                      desc.name));
     std::vector<ExpandedStage> stages;
     const auto add = [&](gpu::Stage stage, const std::string& path) {
         if (!path.empty()) stages.push_back({stage, expand(tree, path, desc.defines)});
     };
     add(gpu::Stage::Vertex, desc.vertex);
+    add(gpu::Stage::Geometry, desc.geometry);
     add(gpu::Stage::Fragment, desc.fragment);
     add(gpu::Stage::Compute, desc.compute);
     return stages;

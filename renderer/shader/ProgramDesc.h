@@ -15,9 +15,10 @@ struct ProgramDesc {
     std::string fragment;
     std::string compute;
     Defines defines;
+    std::string geometry = {}; ///< between vertex and fragment
     auto operator<=>(const ProgramDesc&) const = default;
 
-    /// Equal for equal variants, whatever the order of the defines: "lighting|v|f||A=1;B=2".
+    /// Equal for equal variants, whatever the order of the defines: "lighting|v|f|||A=1;B=2".
     std::string key() const;
 };
 

@@ -25,22 +25,22 @@ layout(binding = TEXTURE_SLOT_IOR) uniform sampler2D iorTexture;
 struct Fragment {
     vec3 normalLS;      // not unit
     vec4 tangentLS;     // xyz not unit, w handedness with the node's mirroring
-    vec2 texCoord[2];
+    TexCoord texCoord[2];
     vec4 color;
     mat3 normalFromObject; // cofactor matrix of the node, with its mirroring
     bool frontFacing;
 };
 
-vec2 slotCoordinate(Fragment fragment, int slot)
+TexCoord slotCoordinate(Fragment fragment, int slot)
 {
     vec4 row0 = material.uvRow0[slot];
     vec4 row1 = material.uvRow1[slot];
-    vec2 uv = fragment.texCoord[0];
+    TexCoord uv = fragment.texCoord[0];
 #if HAS_TEXCOORD1
     if (row0.w > 0.5) uv = fragment.texCoord[1];
 #endif
 #if HAS_TEXTURE_TRANSFORM
-    precise vec2 moved = vec2(row0.x * uv.x + row0.y * uv.y + row0.z, row1.x * uv.x + row1.y * uv.y + row1.z);
+    precise TexCoord moved = TexCoord(row0.x * uv.x + row0.y * uv.y + row0.z, row1.x * uv.x + row1.y * uv.y + row1.z);
     uv = moved;
 #endif
     return uv;

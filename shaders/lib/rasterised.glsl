@@ -1,9 +1,14 @@
 // The fragment side of rasterised geometry: what geometry.vert interpolates, gathered for lib/material.glsl.
 #pragma once
 #include "lib/material.glsl"
+#if FILTER_EXACT
+#include "lib/triangle.glsl"
+#endif
 
 #if !DEPTH_ONLY
+#if !FILTER_EXACT
 layout(location = 0) in vec3 normalLS;
+#endif
 #if HAS_TANGENT_SPACE_NORMALS
 layout(location = 1) in vec4 tangentLS;
 #endif
@@ -13,7 +18,7 @@ layout(location = 6) flat in vec3 normalFromObject1;
 layout(location = 7) flat in vec3 normalFromObject2;
 #endif
 #endif
-#if HAS_TEXTURES
+#if HAS_TEXTURES && !FILTER_EXACT
 layout(location = 2) in vec2 texCoord0;
 #if HAS_TEXCOORD1
 layout(location = 3) in vec2 texCoord1;
@@ -29,12 +34,19 @@ Fragment rasterisedFragment()
     Fragment fragment;
     fragment.normalLS = vec3(0.0, 0.0, 1.0);
     fragment.tangentLS = vec4(0.0);
-    fragment.texCoord[0] = vec2(0.0);
-    fragment.texCoord[1] = vec2(0.0);
+    fragment.texCoord[0] = TexCoord(0.0);
+    fragment.texCoord[1] = TexCoord(0.0);
     fragment.color = vec4(1.0);
     fragment.normalFromObject = mat3(1.0);
+#if FILTER_EXACT
+    dvec3 weights = triangleWeights(gl_FragCoord.xy);
+#endif
 #if !DEPTH_ONLY
+#if FILTER_EXACT
+    fragment.normalLS = triangleNormal(weights);
+#else
     fragment.normalLS = normalLS;
+#endif
 #if HAS_TANGENT_SPACE_NORMALS
     fragment.tangentLS = tangentLS;
 #endif
@@ -43,7 +55,11 @@ Fragment rasterisedFragment()
     fragment.normalFromObject = transpose(mat3(normalFromObject0, normalFromObject1, normalFromObject2));
 #endif
 #endif
-#if HAS_TEXTURES
+#if HAS_TEXTURES && FILTER_EXACT
+    dvec4 texCoord = triangleTexCoord(weights);
+    fragment.texCoord[0] = texCoord.xy;
+    fragment.texCoord[1] = texCoord.zw;
+#elif HAS_TEXTURES
     fragment.texCoord[0] = texCoord0;
 #if HAS_TEXCOORD1
     fragment.texCoord[1] = texCoord1;

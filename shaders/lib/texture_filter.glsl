@@ -1,7 +1,16 @@
 // How a material texture is read. `hardware` is what the sampler says (mipmaps, anisotropy). `exact` is bilinear at level 0
 // computed in fp32 from fetched texels, the definition that the double-precision reference shares: hardware bilinear of
-// 8-bit textures may be off by 3.5e-3, and the choice of level is the implementation's.
+// 8-bit textures may be off by 3.5e-3, and the choice of level is the implementation's. For the same reason `exact` decodes
+// sRGB colours itself, from textures that hold their code values.
 #pragma once
+#include "shared/material.h"
+
+// Texture coordinates; in double, a coordinate of 30 still tells a millionth of a texel.
+#if FILTER_EXACT
+#define TexCoord dvec2
+#else
+#define TexCoord vec2
+#endif
 
 // A texel index brought into 0 .. size-1; mode is the Wrap of scenes::Sampler.
 int wrapTexel(int index, int size, int mode)
@@ -13,21 +22,49 @@ int wrapTexel(int index, int size, int mode)
     return inside < size ? inside : period - 1 - inside;
 }
 
-vec4 sampleFiltered(sampler2D image, vec2 uv, int wrapModes)
+#if FILTER_EXACT
+// IEC 61966-2-1 for code values 0..1. x^2.4 is x^2 times the fifth root of x^2, and two of Newton's steps make up for
+// what pow() lacks: drivers may be off by 1e-3 in decoding formats, and by less in pow().
+vec3 decodeSrgb(vec3 code)
+{
+    precise vec3 x = (code + 0.055) / 1.055;
+    precise vec3 x2 = x * x;
+    precise vec3 root = pow(x, vec3(0.4));
+    for (int i = 0; i < 2; ++i) {
+        precise vec3 power4 = (root * root) * (root * root);
+        precise vec3 better = root - (power4 * root - x2) / (5.0 * power4);
+        root = better;
+    }
+    precise vec3 curve = x2 * root;
+    precise vec3 line = code / 12.92;
+    return mix(curve, line, lessThanEqual(code, vec3(0.04045)));
+}
+
+// A texel as linear values; modes as in sampleFiltered().
+vec4 linearTexel(sampler2D image, int x, int y, int modes)
+{
+    vec4 texel = texelFetch(image, ivec2(x, y), 0);
+    if ((modes & TEXTURE_MODE_SRGB) != 0) texel.rgb = decodeSrgb(texel.rgb);
+    return texel;
+}
+#endif
+
+// modes: MaterialConstants::uvRow1[slot].w.
+vec4 sampleFiltered(sampler2D image, TexCoord uv, int modes)
 {
 #if FILTER_EXACT
     ivec2 size = textureSize(image, 0);
-    precise vec2 place = uv * vec2(size) - 0.5;
-    precise vec2 corner = floor(place);
-    precise vec2 weight = place - corner;
-    int modeU = wrapModes & 3;
-    int modeV = wrapModes >> 2;
+    precise dvec2 place = uv * dvec2(size) - 0.5;
+    precise dvec2 corner = floor(place);
+    precise vec2 weight = vec2(place - corner);
+    int modeU = modes & 3;
+    int modeV = (modes >> 2) & 3;
     int x0 = wrapTexel(int(corner.x), size.x, modeU);
     int x1 = wrapTexel(int(corner.x) + 1, size.x, modeU);
     int y0 = wrapTexel(int(corner.y), size.y, modeV);
     int y1 = wrapTexel(int(corner.y) + 1, size.y, modeV);
-    precise vec4 upper = texelFetch(image, ivec2(x0, y0), 0) * (1.0 - weight.x) + texelFetch(image, ivec2(x1, y0), 0) * weight.x;
-    precise vec4 lower = texelFetch(image, ivec2(x0, y1), 0) * (1.0 - weight.x) + texelFetch(image, ivec2(x1, y1), 0) * weight.x;
+    precise vec4 upper = linearTexel(image, x0, y0, modes) * (1.0 - weight.x) + linearTexel(image, x1, y0, modes) * weight.x;
+    precise vec4 lower = linearTexel(image, x0, y1, modes) * (1.0 - weight.x) + linearTexel(image, x1, y1, modes) * weight.x;
     precise vec4 texel = upper * (1.0 - weight.y) + lower * weight.y;
     return texel;
 #else

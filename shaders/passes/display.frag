@@ -11,6 +11,15 @@ layout(std140, binding = UNIFORM_DISPLAY) uniform DisplayBlock
 layout(binding = TEXTURE_UNIT_RADIANCE) uniform sampler2D radianceImage;
 layout(location = 0) out vec4 code;
 
+// Neighbouring numbers get colours far apart; 0 is black.
+vec3 colorOfIds(vec3 value)
+{
+    uvec3 ids = uvec3(value);
+    uint mixed = (ids.x * 0x9E3779B1u ^ ids.y * 0x85EBCA6Bu ^ ids.z * 0xC2B2AE35u);
+    mixed = (mixed ^ (mixed >> 15)) * 0x2C1B3C6Du;
+    return vec3(uvec3(mixed >> 24, mixed >> 16, mixed >> 8) & 255u) / 255.0;
+}
+
 vec3 codeValues(vec3 value)
 {
     switch (display.mapping.x) {
@@ -18,6 +27,7 @@ vec3 codeValues(vec3 value)
     case DISPLAY_SIGNED: return value * 0.5 + 0.5;
     case DISPLAY_DISTANCE: return vec3(10.0 / (10.0 + max(value, 0.0)));
     case DISPLAY_COUNT: return heatColor(heatPositionOfCount(value.r, HEAT_COUNT_LOG2));
+    case DISPLAY_IDS: return colorOfIds(value);
     default: return encodeSrgb(toneMapped(value * display.exposure.x, display.mapping.y));
     }
 }

@@ -10,7 +10,8 @@ layout(location = ATTRIBUTE_TEXCOORD1) in vec2 inTexCoord1;
 layout(location = ATTRIBUTE_COLOR) in vec4 inColor;
 
 // Per draw: rows of LS-from-object, and of its cofactor matrix times the sign of its determinant (xyz; w of the first row is
-// that sign, w of the second the largest of the mesh's vertex colours, 0 when it has none).
+// that sign, w of the second the largest of the mesh's vertex colours, 0 when it has none; w of the third 1 + the place of
+// the mesh instance in the scene).
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0) in vec4 drawRow0;
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0 + 1) in vec4 drawRow1;
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0 + 2) in vec4 drawRow2;
@@ -40,6 +41,12 @@ layout(location = 5) flat out vec3 normalFromObject0;
 layout(location = 6) flat out vec3 normalFromObject1;
 layout(location = 7) flat out vec3 normalFromObject2;
 #endif
+#if FILTER_EXACT
+layout(location = 10) out vec3 vertexLS; // for passes/triangle.geom
+#endif
+#ifdef DRAW_IDS
+layout(location = 9) flat out float drawnObject;
+#endif
 
 void main()
 {
@@ -47,6 +54,9 @@ void main()
     precise vec3 positionLS = vec3(dot(drawRow0, object), dot(drawRow1, object), dot(drawRow2, object));
     precise vec4 clip = frame.clipFromLS * vec4(positionLS, 1.0);
     gl_Position = clip;
+#if FILTER_EXACT
+    vertexLS = positionLS;
+#endif
 #if !DEPTH_ONLY
     normalLS = vec3(dot(drawNormal0.xyz, normalOS), dot(drawNormal1.xyz, normalOS), dot(drawNormal2.xyz, normalOS));
 #if HAS_TANGENT_SPACE_NORMALS
@@ -68,5 +78,8 @@ void main()
 #if HAS_VERTEX_COLOR
     vertexColor = inColor;
     largestColor = drawNormal1.w;
+#endif
+#ifdef DRAW_IDS
+    drawnObject = drawNormal2.w;
 #endif
 }

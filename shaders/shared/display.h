@@ -13,6 +13,7 @@
 #define DISPLAY_SIGNED 2u
 #define DISPLAY_DISTANCE 3u
 #define DISPLAY_COUNT 4u
+#define DISPLAY_IDS 5u
 
 SHARED_BEGIN
 

@@ -9,6 +9,9 @@
 #define MATERIAL_FLAG_DOUBLE_SIDED 8u
 #define MATERIAL_FLAG_IOR_TEXTURE 16u
 
+// Added to a slot's wrap modes: its texture holds sRGB code values, which the shader decodes.
+#define TEXTURE_MODE_SRGB 16
+
 SHARED_BEGIN
 
 struct MaterialConstants {
@@ -19,7 +22,8 @@ struct MaterialConstants {
     vec4 dielectric;   // x F0 of the ior, computed in double so that ior 1.5 gives 0.04 to the last bit
     uvec4 kind;        // x model, y flags
     vec4 uvRow0[TEXTURE_SLOT_COUNT]; // x y z: u' = x u + y v + z; w texture-coordinate set
-    vec4 uvRow1[TEXTURE_SLOT_COUNT]; // x y z: v' = x u + y v + z; w wrap modes, u + 4 v, for --filter exact
+    vec4 uvRow1[TEXTURE_SLOT_COUNT]; // x y z: v' = x u + y v + z; w for --filter exact: wrap modes, u + 4 v,
+                                     // and TEXTURE_MODE_SRGB
 };
 
 SHARED_END

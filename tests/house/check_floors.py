@@ -22,7 +22,9 @@ ROOMS = {
     "renderer/frame": ("renderer/culling", "renderer/gpu", "renderer/graph", "renderer/shader", "scenes", "shaders"),
     "passes": ("renderer", "scenes", "shaders"),
     "passes/recipes": ("passes", "renderer", "scenes", "shaders"),
-    "validation": ("passes", "renderer", "scenes", "shaders"),
+    # The reference computes everything a second time: it shares the plain scene, and nothing else.
+    "validation/reference": ("scenes",),
+    "validation": ("validation/reference", "passes", "renderer", "scenes", "shaders"),
     "apps": ("validation", "passes", "renderer", "scenes", "shaders"),
 }
 # The headers every floor may include: errors caused by input, and lists of names for them.

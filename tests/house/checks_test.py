@@ -32,6 +32,12 @@ class Floors(unittest.TestCase):
         self.assertEqual(self.messages({"shaders/shared/a.h": '#include "b.h"\n', "shaders/shared/b.h": ""}), [])
         self.assertEqual(len(self.messages({"renderer/graph/A.h": '#include "../gpu/B.h"\n', "renderer/gpu/B.h": ""})), 1)
 
+    def testTheReferenceNeverIncludesAnythingOfTheProductButTheScene(self):
+        self.assertEqual(self.messages({"validation/reference/A.cpp": '#include "scenes/Scene.h"\n'}), [])
+        self.assertEqual(self.messages({"validation/A.cpp": '#include "validation/reference/Render.h"\n'}), [])
+        for path in ("shaders/shared/models.h", "renderer/frame/LightRange.h", "validation/Srgb.h"):
+            self.assertEqual(len(self.messages({"validation/reference/A.cpp": f'#include "{path}"\n'})), 1)
+
     def testAPassNeverIncludesAnotherPass(self):
         self.assertEqual(
             self.messages({"passes/ForwardPass.cpp": '#include "passes/ForwardPass.h"\n#include "passes/DepthPrepass.h"\n'}),

@@ -127,6 +127,41 @@ TEST_F(Compare, aPictureThatRenderWroteAlwaysEqualsEveryTechniqueBitForBit) {
     }
 }
 
+TEST_F(Compare, againstTheReferencePicturesAlwaysHoldItsBarAndTheExcludedShareIsTold) {
+    const std::string table = runGood({"compare", "head", "--size", "96x54", "--against", "reference", "--techniques",
+                                       "deferred,forward", "--json", "c.json", "--heatmap", "maps"});
+    EXPECT_THAT(table, testing::HasSubstr("deferred vs reference"));
+    EXPECT_THAT(table, testing::ContainsRegex("\nexcluded: [0-9.]+ % of the covered pixels"));
+    const Json pairs = json("c.json")["pairs"];
+    ASSERT_EQ(pairs.size(), 3u);
+    EXPECT_EQ(pairs[2]["a"], "deferred (hardware filter)");
+    for (const Json& pair : pairs) {
+        EXPECT_EQ(pair["b"], "reference");
+        EXPECT_EQ(pair["ok"], true);
+        EXPECT_LT(pair["excluded"], 0.02);
+    }
+    EXPECT_LE(pairs[0]["p999Rel"], 1e-3);
+    for (const char* name : {"maps/deferred.png", "maps/forward.png", "maps/deferred_hardware_filter.png"})
+        EXPECT_GE(picture(name).width, 96) << name;
+}
+
+TEST_F(Compare, thePackedLayoutIsAlwaysHeldToItsOwnBarAgainstTheReferenceToo) {
+    runGood(lattice({"--against", "reference", "--techniques", "deferred", "--layout", "packed", "--json", "c.json"}));
+    const Json pair = json("c.json")["pairs"][0];
+    EXPECT_EQ(pair["tolerance"]["relMse"], 1e-4);
+    EXPECT_FALSE(pair["channels"].empty());
+    double shares = 0.0;
+    for (const Json& channel : pair["channels"]) shares += channel["share"].get<double>();
+    EXPECT_GT(shares, 0.0);
+}
+
+TEST_F(Compare, whatTheReferenceDoesNotRenderIsAlwaysRefused) {
+    expectError(kBadInput, {"compare", "room", "--against", "reference", "--view", "normal"}, {"reference", "normal"});
+    expectError(kBadInput, {"compare", "room", "--against", "reference", "--samples", "4"},
+                {"reference", "--samples 4"});
+    expectError(kBadInput, {"compare", "room", "--against", "referense"}, {"referense", "reference"});
+}
+
 TEST_F(Compare, aPictureOfAnotherSizeIsAlwaysRefused) {
     runGood({"render", "room", "--size", "32x18", "-o", "small.exr"});
     expectError(kBadInput, {"compare", "room", "--size", "160x90", "--against", "small.exr", "--json", "c.json"},
@@ -198,6 +233,15 @@ TEST_F(Sabotage, oneSkippedLightAlwaysMissesTheTolerance) {
             "#if !defined(GBUFFER_WRITE) && defined(GBUFFER_ALBEDO)\n    return LightCursor(1, int(frame.lights.x));\n"
             "#else\n    return LightCursor(0, int(frame.lights.x));\n#endif");
     expectExitCode(kToleranceMissed);
+}
+
+TEST_F(Sabotage, aFaultThatAllTechniquesShareAlwaysMissesTheReference) {
+    replace("lib/math.glsl", "kPi = 3.14159265358979323846", "kPi = 3.17300858");
+    expectExitCode(kGood);
+    const ProcessResult result =
+        run({"compare", "lattice", "--size", "160x90", "--techniques", "deferred", "--against", "reference"},
+            {{"TESSERA_SHADERS", path("shaders")}});
+    EXPECT_EQ(result.exitCode, kToleranceMissed) << result.out;
 }
 
 TEST_F(Sabotage, aShaderThatDoesNotCompileIsAlwaysNamedInOneLine) {

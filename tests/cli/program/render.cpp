@@ -50,6 +50,27 @@ TEST_F(Render, exrIsAlwaysTheLinearPictureThatPngShows) {
     }
 }
 
+TEST_F(Render, theReferenceAlwaysShowsThePictureOfEveryTechniqueAndWritesSequencesToo) {
+    const Words frame{"render", "room", "--size", "64x36", "--exposure", "1"};
+    const auto with = [&](Words more) {
+        more.insert(more.begin(), frame.begin(), frame.end());
+        return more;
+    };
+    EXPECT_EQ(runGood(with({"-o", "own.exr"})), "");
+    EXPECT_EQ(runGood(with({"-o", "own.png"})), "");
+    EXPECT_EQ(runGood(with({"--technique", "reference", "-o", "true_%d.exr", "--frames", "2"})), "");
+    EXPECT_EQ(runGood(with({"--technique", "reference", "-o", "true.png"})), "");
+    const Picture own = picture("own.exr"), reference = picture("true_0.exr");
+    // fp32 lighting of a room of matt walls: ten roundings.
+    EXPECT_LE(validation::errorFigures(own, reference).p999Rel, 1e-5);
+    EXPECT_EQ(text("true_0.exr"), text("true_1.exr"));
+    const Picture ownShown = picture("own.png"), shown = picture("true.png");
+    for (std::size_t i = 0; i < shown.pixelCount(); ++i)
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR(shown.pixel(i)[c], ownShown.pixel(i)[c], 0.01f); // one 8-bit step
+    expectError(2, with({"--technique", "reference", "--tonemap", "aces", "-o", "b.png"}), {"reference", "--tonemap"});
+    expectError(2, with({"--technique", "reference", "--view", "depth", "-o", "b.png"}), {"reference", "depth"});
+}
+
 TEST_F(Render, runToRunPicturesAreAlwaysTheSameAndReplaceOlderOnes) {
     folder_.write("a.exr", "an older picture");
     const Words words{"render", "lattice", "--lights", "8", "--size", "160x90", "-o", "a.exr"};

@@ -138,6 +138,7 @@ std::string faultsOf(const shader::ProgramDesc& desc, const test::TempFolder& fo
     std::string command = "glslangValidator -l";
     for (const shader::ExpandedStage& stage : shader::expandStages(tree, desc)) {
         const char* suffix = stage.stage == gpu::Stage::Vertex     ? "vert"
+                             : stage.stage == gpu::Stage::Geometry ? "geom"
                              : stage.stage == gpu::Stage::Fragment ? "frag"
                                                                    : "comp";
         const std::string file = fmt::format("{}.{}", number, suffix);

@@ -115,6 +115,19 @@ TEST(CompareRecord, theTableAlwaysShowsEveryPairAndWhatItMissed) {
               "missed: packed vs forward: relMse is 0.0206270627, at most 0.0001 was asked\n");
 }
 
+TEST(CompareRecord, theShareOfExcludedPixelsIsAlwaysToldWherePixelsCanBe) {
+    const Picture a = greyPicture(4, 1, 2.f);
+    const std::vector<std::uint8_t> excluded{0, 1, 0, 0};
+    CompareRecord record{"hall", 4, 1, "llvmpipe", {comparePair("forward", a, "reference", a, {}, excluded)}};
+    EXPECT_THAT(compareTable(record), testing::Not(testing::HasSubstr("excluded:")));
+    record.excludesPixels = true;
+    EXPECT_THAT(
+        compareTable(record),
+        testing::HasSubstr("excluded: 25.000 % of the covered pixels, where the two show different triangles\n"));
+    record.pairs = {comparePair("forward", a, "reference", a, {})};
+    EXPECT_THAT(compareTable(record), testing::HasSubstr("excluded: 0 % of"));
+}
+
 TEST(CompareRecord, whatARangeToleranceDropsIsAlwaysToldWhereOneIsSet) {
     const Picture whole = greyPicture(4, 1, 2.f);
     Picture cut = whole;

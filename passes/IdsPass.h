@@ -1,0 +1,25 @@
+#pragma once
+#include "renderer/frame/FrameResources.h"
+#include "renderer/frame/FrameSpec.h"
+#include "renderer/graph/Graph.h"
+
+namespace tessera::passes {
+
+/// Draws which triangles each pixel shows, for the view `ids`, which replaces the lit picture.
+/// Reads   the scene
+/// Writes  ids RGBA32F: R 1 + the opaque surface's mesh instance in document order, 0 without one; G its triangle in
+/// the
+///         mesh; B the sum over transparent surfaces before it of a number below 2^16 each; A how many surfaces there
+///         are. Depth D32F of opaque surfaces. Both are of FrameSpec::samples
+/// Space   lighting space, through the vertex function that every pass shares
+struct IdsPass {
+    enum class Surfaces { Opaque, Transparent };
+    struct Outputs {
+        graph::TextureHandle ids;
+        graph::TextureHandle depth;
+    };
+    static shader::ProgramDesc program(const frame::FrameSpec& spec, Surfaces surfaces);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const frame::FrameResources* resources);
+};
+
+} // namespace tessera::passes

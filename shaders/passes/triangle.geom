@@ -1,0 +1,82 @@
+// Hands every fragment its whole triangle, for --filter exact (lib/triangle.glsl); the rest goes through as it is.
+#include "shared/slots.h"
+
+layout(triangles) in;
+layout(triangle_strip, max_vertices = 3) out;
+
+invariant gl_Position;
+
+layout(location = 10) in vec3 vertexLS[];
+layout(location = 10) flat out vec3 triangleLS[3];
+#if HAS_TEXTURES
+layout(location = 2) in vec2 vertexTexCoord0[];
+#if HAS_TEXCOORD1
+layout(location = 3) in vec2 vertexTexCoord1[];
+#endif
+layout(location = 13) flat out vec4 triangleTexCoords[3];
+#endif
+
+#if !DEPTH_ONLY
+layout(location = 0) in vec3 vertexNormalLS[];
+layout(location = 16) flat out vec3 triangleNormalLS[3];
+#if HAS_TANGENT_SPACE_NORMALS
+layout(location = 1) in vec4 vertexTangentLS[];
+layout(location = 1) out vec4 tangentLS;
+#endif
+#if HAS_OBJECT_SPACE_NORMALS
+layout(location = 5) flat in vec3 vertexNormalFromObject0[];
+layout(location = 6) flat in vec3 vertexNormalFromObject1[];
+layout(location = 7) flat in vec3 vertexNormalFromObject2[];
+layout(location = 5) flat out vec3 normalFromObject0;
+layout(location = 6) flat out vec3 normalFromObject1;
+layout(location = 7) flat out vec3 normalFromObject2;
+#endif
+#endif
+#if HAS_VERTEX_COLOR
+layout(location = 4) in vec4 cornerColor[];
+layout(location = 8) flat in float vertexLargestColor[];
+layout(location = 4) out vec4 vertexColor;
+layout(location = 8) flat out float largestColor;
+#endif
+#ifdef DRAW_IDS
+layout(location = 9) flat in float vertexDrawnObject[];
+layout(location = 9) flat out float drawnObject;
+#endif
+
+void main()
+{
+    for (int corner = 0; corner < 3; ++corner) {
+        gl_Position = gl_in[corner].gl_Position;
+        gl_PrimitiveID = gl_PrimitiveIDIn;
+        for (int i = 0; i < 3; ++i) {
+            triangleLS[i] = vertexLS[i];
+#if HAS_TEXCOORD1 && HAS_TEXTURES
+            triangleTexCoords[i] = vec4(vertexTexCoord0[i], vertexTexCoord1[i]);
+#elif HAS_TEXTURES
+            triangleTexCoords[i] = vec4(vertexTexCoord0[i], 0.0, 0.0);
+#endif
+#if !DEPTH_ONLY
+            triangleNormalLS[i] = vertexNormalLS[i];
+#endif
+        }
+#if !DEPTH_ONLY
+#if HAS_TANGENT_SPACE_NORMALS
+        tangentLS = vertexTangentLS[corner];
+#endif
+#if HAS_OBJECT_SPACE_NORMALS
+        normalFromObject0 = vertexNormalFromObject0[corner];
+        normalFromObject1 = vertexNormalFromObject1[corner];
+        normalFromObject2 = vertexNormalFromObject2[corner];
+#endif
+#endif
+#if HAS_VERTEX_COLOR
+        vertexColor = cornerColor[corner];
+        largestColor = vertexLargestColor[corner];
+#endif
+#ifdef DRAW_IDS
+        drawnObject = vertexDrawnObject[corner];
+#endif
+        EmitVertex();
+    }
+    EndPrimitive();
+}

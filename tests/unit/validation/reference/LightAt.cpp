@@ -1,0 +1,133 @@
+#include "validation/reference/LightAt.h"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "renderer/frame/LightRange.h"
+#include "tests/image/Textbook.h"
+
+namespace tessera::reference {
+namespace {
+
+using scenes::Falloff;
+using scenes::Light;
+using scenes::LightType;
+
+ShiningLight shining(const Light& light, const Settings& settings = {}) {
+    scenes::Scene scene;
+    scene.lights = {light};
+    const std::vector<ShiningLight> lights = shiningLights(scene, settings, glm::dvec3(0.0));
+    return lights.empty() ? ShiningLight{} : lights.front();
+}
+
+Light candela(float intensity, const glm::dvec3& positionWS) {
+    Light light;
+    light.intensity = intensity;
+    light.positionWS = positionWS;
+    return light;
+}
+
+TEST(ReferenceLight, aPointLightAlwaysFallsWithTheSquareOfTheDistance) {
+    const Incident incident = incidentAt(shining(candela(3.0f, {0, 2, 0})), {0, 0.5, 2});
+    EXPECT_DOUBLE_EQ(incident.intensity.g, 3.0 / 6.25);
+    EXPECT_DOUBLE_EQ(incident.toLight.y, 0.6);
+    EXPECT_DOUBLE_EQ(incident.toLight.z, -0.8);
+}
+
+TEST(ReferenceLight, everyLightIsAlwaysTheTextbooks) {
+    std::mt19937 engine(5);
+    std::uniform_real_distribution<double> value(-2.0, 2.0);
+    for (int i = 0; i < 3000; ++i) {
+        Light light = candela(2.5f, {value(engine), value(engine), value(engine)});
+        light.color = {1.0f, 0.5f, 0.25f};
+        light.type = LightType(i % 3);
+        light.directionWS = glm::normalize(glm::dvec3(value(engine), value(engine), 2.5));
+        light.innerConeRadians = 0.3f;
+        light.outerConeRadians = 1.2f;
+        if (i % 2 == 0) light.rangeMetres = 2.2f;
+        if (i % 5 == 0) {
+            light.falloff = Falloff::Attenuation;
+            light.attenuation = {0.5f, 0.25f, 1.5f};
+        }
+        const glm::dvec3 positionWS(value(engine), value(engine), value(engine));
+        glm::dvec3 toLightWS;
+        const glm::dvec3 wanted = test::textbook::incident(light, positionWS, toLightWS);
+        const Incident found = incidentAt(shining(light), positionWS);
+        // The textbook takes the cosines of a cone in single precision, which a closing cone magnifies.
+        if (light.type == LightType::Spot) light.type = LightType::Point;
+        const double open = incidentAt(shining(light), positionWS).intensity.r;
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR(found.intensity[c], wanted[c], 1e-6 * open) << i;
+        if (wanted != glm::dvec3(0.0)) {
+            ASSERT_LT(glm::distance(found.toLight, toLightWS), 1e-14);
+        }
+    }
+}
+
+TEST(ReferenceLight, atItsRangeAndBeyondALightIsExactlyZero) {
+    Light light = candela(3.0f, {0, 0, 0});
+    light.rangeMetres = 2.0f;
+    EXPECT_EQ(incidentAt(shining(light), {0, 2, 0}).intensity, glm::dvec3(0.0));
+    EXPECT_EQ(incidentAt(shining(light), {0, 9, 0}).intensity, glm::dvec3(0.0));
+    const double open = 1.0 - 1.0 / 16.0;
+    EXPECT_DOUBLE_EQ(incidentAt(shining(light), {0, 1, 0}).intensity.r, 3.0 * open * open);
+}
+
+TEST(ReferenceLight, aConeAlwaysClosesFromInnerToOuterAndAClosedOneLightsNothing) {
+    Light light = candela(1.0f, {0, 0, 0});
+    light.type = LightType::Spot;
+    light.innerConeRadians = 0.2f;
+    light.outerConeRadians = 0.6f;
+    const auto at = [&](double angle) {
+        return incidentAt(shining(light), {std::sin(angle), 0.0, -std::cos(angle)}).intensity.r;
+    };
+    EXPECT_DOUBLE_EQ(at(0.1), 1.0);
+    const double open = (std::cos(0.4) - std::cos(double(0.6f))) / (std::cos(double(0.2f)) - std::cos(double(0.6f)));
+    EXPECT_NEAR(at(0.4), open * open, 1e-14);
+    EXPECT_EQ(at(0.61), 0.0);
+    light.innerConeRadians = light.outerConeRadians = 0.0f;
+    EXPECT_EQ(at(0.0), 0.0);
+}
+
+TEST(ReferenceLight, extremeLightsNeverSendNaNOrInfinity) {
+    for (const float intensity : {1e-20f, 1e20f, 3e38f}) {
+        for (const float range : {1e-20f, 1.0f, scenes::kInfinity}) {
+            Light light = candela(intensity, {0, 0, 0});
+            light.rangeMetres = range;
+            for (const double metres : {0.0, 1e-30, 1e-6, 1.0, 1e30}) {
+                const Incident incident = incidentAt(shining(light), {0, metres, 0});
+                EXPECT_TRUE(std::isfinite(incident.intensity.r) && std::isfinite(incident.toLight.y)) << metres;
+            }
+        }
+    }
+}
+
+TEST(ReferenceLight, aToleranceAlwaysEndsALightWhereTheProductEndsIt) {
+    for (const glm::vec3 abc : {glm::vec3(0, 0, 1), glm::vec3(1, 0.5, 0), glm::vec3(0.5, 0.3, 0.6),
+                                glm::vec3(1, 1e-4, 1e-8), glm::vec3(99.99, 0.1, 0.1)}) {
+        Light light = candela(1.0f, {0, 0, 0});
+        light.falloff = Falloff::Attenuation;
+        light.attenuation = abc;
+        for (const double tolerance : {1e-1, 1e-2, 1e-3}) {
+            const double wanted = frame::reachMetres(light, tolerance);
+            EXPECT_NEAR(rangeOf(light, 1.0, tolerance), wanted, 1e-12 * wanted) << tolerance;
+        }
+        EXPECT_EQ(rangeOf(light, 1.0, 0.0), double(scenes::kInfinity));
+    }
+}
+
+TEST(ReferenceLight, onlyLightsThatAreOnEverShine) {
+    scenes::Scene scene;
+    scene.lights = {candela(1.0f, {}), candela(2.0f, {}), candela(0.0f, {}), candela(4.0f, {})};
+    scene.lights[1].enabled = false;
+    Settings settings;
+    EXPECT_EQ(shiningLights(scene, settings, {}).size(), 2u);
+    settings.soloLight = 3;
+    ASSERT_EQ(shiningLights(scene, settings, {}).size(), 1u);
+    EXPECT_EQ(shiningLights(scene, settings, {}).front().color.r, 4.0);
+}
+
+} // namespace
+} // namespace tessera::reference

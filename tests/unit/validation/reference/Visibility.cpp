@@ -1,0 +1,142 @@
+#include "validation/reference/Visibility.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes/LookAt.h"
+#include "tests/unit/scenes/TinyScene.h"
+#include "validation/PixelPositions.h"
+
+namespace tessera::reference {
+namespace {
+
+using scenes::AlphaMode;
+
+/// The tiny scene's triangle (0,0), (2,0), (0,4) of z = 0 seen from the front at 5 m.
+class ReferenceVisibility : public testing::Test {
+protected:
+    ReferenceVisibility() : scene_(scenes::tinyScene()) {
+        camera_.worldFromCamera = scenes::worldFromLookAt({0.5, 1.0, 5.0}, {0.5, 1.0, 0.0});
+    }
+
+    /// A second node with the triangle, moved along z; transparent ones get a material of their own.
+    void addTriangle(double z, AlphaMode mode = AlphaMode::Opaque) {
+        scene_.nodes.push_back(scene_.nodes.front());
+        scene_.nodes.back().parentFromNode[3].z = z;
+        if (mode == AlphaMode::Opaque) return;
+        scene_.materials.push_back(scene_.materials.front());
+        scene_.materials.back().alphaMode = mode;
+        scene_.nodes.back().instances.front().material = int(scene_.materials.size()) - 1;
+    }
+
+    /// Through the middle of the picture, which shows the point (0.5, 1, 0).
+    std::optional<Hit> middle() const { return at(0, 0); }
+    std::optional<Hit> at(int column, int row, glm::ivec2 size = {1, 1}) const {
+        const CameraRays rays(camera_, size);
+        const Objects objects(scene_, rays);
+        return copied(Visibility(objects, rays, scene_.images).nearestOpaque(rays.through(column, row)));
+    }
+    /// The object's number instead of the object, which does not outlive the call.
+    std::optional<Hit> copied(std::optional<Hit> hit) const {
+        number_ = hit ? int(hit->object->number) : -1;
+        if (hit) hit->object = nullptr;
+        return hit;
+    }
+
+    scenes::Scene scene_;
+    scenes::Camera camera_;
+    mutable int number_ = -1;
+};
+
+TEST_F(ReferenceVisibility, aHitIsAlwaysWhereTheRayMeetsTheTriangle) {
+    const std::optional<Hit> hit = middle();
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->depthMetres, 5.0, 1e-14);
+    EXPECT_NEAR(hit->weights.y, 0.25, 1e-14);
+    EXPECT_NEAR(hit->weights.z, 0.25, 1e-14);
+    EXPECT_TRUE(hit->frontFacing);
+    camera_.projection = scenes::Projection::Orthographic;
+    const std::optional<Hit> parallel = middle();
+    ASSERT_TRUE(parallel);
+    EXPECT_NEAR(parallel->depthMetres, 5.0, 1e-14);
+}
+
+TEST_F(ReferenceVisibility, raysOfOddPicturesAlwaysGoThroughThePositionsOfTheirPixels) {
+    for (const scenes::Projection projection : {scenes::Projection::Perspective, scenes::Projection::Orthographic}) {
+        camera_.projection = projection;
+        camera_.farMetres = 50.0;
+        frame::FrameSettings settings;
+        settings.sizePixels = {7, 5};
+        const validation::PixelPositions positions(camera_, settings);
+        const CameraRays rays(camera_, settings.sizePixels);
+        for (int row = 0; row < 5; ++row) {
+            for (int column = 0; column < 7; ++column) {
+                const glm::dvec3 near = positions.positionWS(column, 4 - row, 1.0f);
+                const glm::dvec3 own = rays.eyeWS() + rays.through(column, row).at(camera_.nearMetres);
+                EXPECT_LT(glm::distance(near, own), 1e-14);
+            }
+        }
+    }
+}
+
+TEST_F(ReferenceVisibility, theBackOfASingleSidedSurfaceIsNeverSeen) {
+    camera_.worldFromCamera = scenes::worldFromLookAt({0.5, 1.0, -5.0}, {0.5, 1.0, 0.0});
+    EXPECT_FALSE(middle());
+    scene_.materials[0].doubleSided = true;
+    ASSERT_TRUE(middle());
+    EXPECT_FALSE(middle()->frontFacing);
+}
+
+TEST_F(ReferenceVisibility, aMirroringTransformNeverTurnsAFrontIntoABack) {
+    scene_.nodes[0].parentFromNode[2].z = -1.0; // z turned over: the triangle stays in z = 0 and faces -z
+    EXPECT_FALSE(middle());
+    camera_.worldFromCamera = scenes::worldFromLookAt({0.5, 1.0, -5.0}, {0.5, 1.0, 0.0});
+    ASSERT_TRUE(middle());
+    EXPECT_TRUE(middle()->frontFacing);
+}
+
+TEST_F(ReferenceVisibility, onlyWhatLiesBetweenTheNearAndTheFarPlaneIsEverSeen) {
+    addTriangle(2.0);
+    middle();
+    EXPECT_EQ(number_, 1);
+    camera_.nearMetres = 3.001;
+    middle();
+    EXPECT_EQ(number_, 0);
+    camera_.farMetres = 4.999;
+    EXPECT_FALSE(middle());
+}
+
+TEST_F(ReferenceVisibility, aHoleOfAMaskAlwaysShowsWhatLiesBehind) {
+    addTriangle(2.0, AlphaMode::Mask);
+    scene_.materials[1].alphaCutoff = 0.5f;
+    scene_.materials[1].baseColor.a = 0.5f; // opacity >= cutoff stays
+    middle();
+    EXPECT_EQ(number_, 1);
+    scene_.materials[1].baseColor.a = 0.49f;
+    middle();
+    EXPECT_EQ(number_, 0);
+}
+
+TEST_F(ReferenceVisibility, transparentSurfacesAreAlwaysBlendedFarToNearAndNeverFromBehindAnOpaqueOne) {
+    for (const double z : {1.0, -1.0, 3.0, 2.0}) addTriangle(z, AlphaMode::Blend);
+    const CameraRays rays(camera_, {1, 1});
+    const Objects objects(scene_, rays);
+    const Visibility visibility(objects, rays, scene_.images);
+    const Ray ray = rays.through(0, 0);
+    const std::optional<Hit> opaque = visibility.nearestOpaque(ray);
+    ASSERT_TRUE(opaque);
+    EXPECT_EQ(opaque->object->number, 0u);
+    std::vector<std::uint32_t> order;
+    for (const Hit& hit : visibility.transparentBefore(ray, opaque->depthMetres)) order.push_back(hit.object->number);
+    EXPECT_EQ(order, (std::vector<std::uint32_t>{1, 4, 3}));
+}
+
+TEST_F(ReferenceVisibility, aSceneFarFromTheOriginIsAlwaysSeenAsAtTheOrigin) {
+    scene_.nodes[0].parentFromNode[3] = glm::dvec4(0x1p20, 0x1p21, -0x1p20, 1.0);
+    camera_.worldFromCamera[3] += glm::dvec4(0x1p20, 0x1p21, -0x1p20, 0.0);
+    const std::optional<Hit> hit = middle();
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->weights.y, 0.25, 1e-9); // double's step there is 2^-32 m
+}
+
+} // namespace
+} // namespace tessera::reference

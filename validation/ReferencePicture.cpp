@@ -1,0 +1,89 @@
+#include "validation/ReferencePicture.h"
+
+#include <fmt/format.h>
+
+#include "passes/recipes/PreparedFrame.h"
+#include "scenes/Error.h"
+
+namespace tessera::validation {
+
+namespace {
+
+reference::Settings referenceSettings(const scenes::Scene& scene, const frame::FrameSettings& settings) {
+    reference::Settings result;
+    result.sizePixels = settings.sizePixels;
+    result.camera = recipes::frameCamera(scene, settings);
+    result.timeSeconds = settings.timeSeconds;
+    result.soloLight = settings.soloLight;
+    result.specular = settings.specular;
+    result.rangeTolerance = settings.rangeTolerance;
+    return result;
+}
+
+} // namespace
+
+void requireReferenceTakes(const frame::FrameSettings& settings) {
+    if (settings.view != frame::View::Final) {
+        throw InputError(fmt::format("the reference renders the view final, not {}; leave --view out",
+                                     frame::viewInfo(settings.view).name));
+    }
+    if (settings.samples != 1) {
+        throw InputError(fmt::format("the reference takes one sample a pixel, not --samples {}", settings.samples));
+    }
+}
+
+ReferencePicture referencePicture(const scenes::Scene& scene, const frame::FrameSettings& settings,
+                                  const std::function<void()>& rowDone) {
+    requireReferenceTakes(settings);
+    recipes::prepareFrame(scene, recipes::Technique::Forward, settings); // names what the scene lacks
+    reference::Rendered rendered = reference::render(scene, referenceSettings(scene, settings), rowDone);
+    ReferencePicture result;
+    result.picture.width = rendered.width;
+    result.picture.height = rendered.height;
+    result.picture.rgba.reserve(4 * rendered.radiance.size());
+    for (std::size_t i = 0; i < rendered.radiance.size(); ++i) {
+        for (int c = 0; c < 3; ++c) result.picture.rgba.push_back(float(rendered.radiance[i][c]));
+        result.picture.rgba.push_back(float(rendered.covered[i]));
+    }
+    result.picture.covered = std::move(rendered.covered);
+    result.ids = std::move(rendered.ids);
+    return result;
+}
+
+std::vector<std::uint8_t> differingTriangles(recipes::Renderer& renderer, const frame::FrameSettings& settings,
+                                             const std::vector<reference::Ids>& ids) {
+    frame::FrameSettings view = settings;
+    view.view = frame::View::Ids;
+    view.display = false;
+    view.culling = {};
+    view.lightOn.reset();
+    const std::vector<float> drawn = renderer.render(recipes::Technique::Forward, view).radiance;
+    std::vector<std::uint8_t> differs(ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        const reference::Ids& own = ids[i];
+        differs[i] = drawn[4 * i] != float(own.object) || drawn[4 * i + 1] != float(own.triangle) ||
+                     drawn[4 * i + 2] != float(own.transparent);
+    }
+    return differs;
+}
+
+Tolerance referenceTolerance(const scenes::Scene& scene, frame::TextureFilter filter) {
+    Tolerance tolerance;
+    if (!frame::materialFeatures(scene).textures()) {
+        tolerance.p999Rel = 3e-4;
+        tolerance.relMse = 1e-8;
+        tolerance.bias = 1e-4;
+        tolerance.reason =
+            "fp32 lighting of the same surface: rounding of n, l and v, multiplied by a highlight's slope";
+    } else if (filter == frame::TextureFilter::Exact) {
+        tolerance.p999Rel = 1e-3;
+        tolerance.relMse = 1e-6;
+        tolerance.bias = 1e-4;
+        tolerance.reason = "fp32 lighting and texture coordinates, whose rounding moves bilinear weights and normals";
+    } else {
+        tolerance.reason = "no bar: how exact a driver filters, and which level it takes, is its own choice";
+    }
+    return tolerance;
+}
+
+} // namespace tessera::validation

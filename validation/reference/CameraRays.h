@@ -1,0 +1,42 @@
+#pragma once
+#include <glm/glm.hpp>
+
+#include "scenes/Scene.h"
+
+namespace tessera::reference {
+
+/// A ray with the eye as the origin of its space. Its point at `depthMetres` ahead of the eye, measured along the
+/// camera's forward axis, is origin + depthMetres * direction.
+struct Ray {
+    glm::dvec3 originRel{0.0};
+    glm::dvec3 direction{0.0}; ///< 1 long along the forward axis
+    glm::dvec3 at(double depthMetres) const { return originRel + depthMetres * direction; }
+};
+
+/// The rays of a camera's pixels. Rel: world axes, the eye as the origin.
+class CameraRays {
+public:
+    CameraRays(const scenes::Camera& camera, glm::ivec2 sizePixels);
+
+    /// Through the centre of a pixel; rows count from the top.
+    Ray through(int column, int row) const;
+
+    /// Depths that are drawn, in metres.
+    double nearMetres() const { return nearMetres_; }
+    double farMetres() const { return farMetres_; }
+
+    const glm::dvec3& eyeWS() const { return eyeWS_; }
+    const glm::dvec3& forward() const { return forward_; }
+
+    /// Unit direction from a point to whoever looks at it.
+    glm::dvec3 toViewer(const glm::dvec3& positionRel) const;
+
+private:
+    glm::dvec3 eyeWS_, right_, up_, forward_;
+    glm::dvec2 sizePixels_;
+    bool isPerspective_;
+    double halfHeight_; ///< of the picture: metres a metre ahead of the eye, or for parallel rays anywhere
+    double nearMetres_, farMetres_;
+};
+
+} // namespace tessera::reference

@@ -1,0 +1,34 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include <glm/glm.hpp>
+
+#include "validation/reference/Objects.h"
+
+namespace tessera::reference {
+
+/// Where a ray meets a triangle, in double precision.
+struct Hit {
+    const Object* object = nullptr;
+    std::uint32_t triangle = 0; ///< of the object's mesh
+    glm::dvec3 weights{0.0};    ///< barycentric, of the triangle's corners
+    double depthMetres = 0.0;   ///< ahead of the eye
+    bool frontFacing = true;    ///< seen from its counter-clockwise side; a mirroring transform turns no side round
+
+    /// Whatever the mesh holds a vertex, at the point that is met.
+    template <class Vector, class Stored>
+    Vector at(const std::vector<Stored>& vertices) const {
+        Vector sum(0.0);
+        for (int corner = 0; corner < 3; ++corner) {
+            const std::size_t index = 3 * std::size_t(triangle) + std::size_t(corner);
+            sum += weights[corner] * Vector(vertices[object->mesh->indices[index]]);
+        }
+        return sum;
+    }
+};
+
+/// Where a ray meets the plane of a triangle, which may be outside it; nothing where it runs along it.
+std::optional<Hit> hitOf(const Object& object, std::uint32_t triangle, const Ray& ray);
+
+} // namespace tessera::reference

@@ -1,0 +1,91 @@
+#include "validation/reference/LightAt.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tessera::reference {
+
+namespace {
+
+using scenes::Falloff;
+using scenes::LightType;
+
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+// The product's definition of its lights (docs/numerics.md): what keeps them finite at d = 0 and for any intensity.
+constexpr double kSmallestSquaredDistance = 1e-4; // m^2, and the smallest A + B d + C d^2
+constexpr double kBrightest = 1e30;
+
+double attenuationAt(const scenes::Light& light, double distanceMetres) {
+    return double(light.attenuation.x) + double(light.attenuation.y) * distanceMetres +
+           double(light.attenuation.z) * distanceMetres * distanceMetres;
+}
+
+/// 1 at the light, 0 at its range with a slope of 0: (1 - (d/r)^4)^2.
+double rangeWindow(double distanceMetres, double rangeMetres) {
+    if (std::isinf(rangeMetres)) return 1.0;
+    if (!(distanceMetres < rangeMetres)) return 0.0;
+    const double open = 1.0 - std::pow(distanceMetres / rangeMetres, 4);
+    return open * open;
+}
+
+/// KHR_lights_punctual's cone, squared as it recommends.
+double coneWindow(const scenes::Light& light, double cosAngle) {
+    if (!(light.outerConeRadians > 0.0f)) return 0.0;
+    const double cosInner = std::cos(double(light.innerConeRadians)),
+                 cosOuter = std::cos(double(light.outerConeRadians));
+    const double open = std::clamp((cosAngle - cosOuter) / std::max(0.001, cosInner - cosOuter), 0.0, 1.0);
+    return open * open;
+}
+
+} // namespace
+
+double rangeOf(const scenes::Light& light, double brightest, double rangeTolerance) {
+    if (light.type == LightType::Directional) return kEndless;
+    if (light.falloff == Falloff::InverseSquare) return double(light.rangeMetres);
+    if (rangeTolerance == 0.0 || (light.attenuation.y == 0.0f && light.attenuation.z == 0.0f)) return kEndless;
+    const auto isAbove = [&](double metres) { return brightest > rangeTolerance * attenuationAt(light, metres); };
+    if (!isAbove(0.0)) return 0.0;
+    double inside = 0.0, outside = 1.0;
+    while (isAbove(outside)) {
+        inside = outside;
+        outside *= 2.0;
+        if (std::isinf(outside)) return kEndless;
+    }
+    for (double middle = 0.5 * (inside + outside); middle > inside && middle < outside;
+         middle = 0.5 * (inside + outside))
+        (isAbove(middle) ? inside : outside) = middle;
+    return outside;
+}
+
+std::vector<ShiningLight> shiningLights(const scenes::Scene& scene, const Settings& settings, const glm::dvec3& eyeWS) {
+    std::vector<ShiningLight> lights;
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        if (!scene.lights[i].enabled || (settings.soloLight && *settings.soloLight != int(i))) continue;
+        ShiningLight shining;
+        shining.light = scenes::lightAtTime(scene.lights[i], settings.timeSeconds);
+        shining.color =
+            glm::min(glm::dvec3(shining.light.color) * double(shining.light.intensity), glm::dvec3(kBrightest));
+        shining.positionRel = shining.light.positionWS - eyeWS;
+        const double brightest = std::max({shining.color.r, shining.color.g, shining.color.b});
+        shining.rangeMetres = rangeOf(shining.light, brightest, settings.rangeTolerance);
+        if (brightest > 0.0 && shining.rangeMetres > 0.0) lights.push_back(shining);
+    }
+    return lights;
+}
+
+Incident incidentAt(const ShiningLight& shining, const glm::dvec3& positionRel) {
+    const scenes::Light& light = shining.light;
+    if (light.type == LightType::Directional) return {-light.directionWS, shining.color};
+    const glm::dvec3 toLight = shining.positionRel - positionRel;
+    const double distance = glm::length(toLight);
+    const double window = rangeWindow(distance, shining.rangeMetres);
+    if (window == 0.0 || distance == 0.0) return {};
+    const double fading = light.falloff == Falloff::Attenuation ? attenuationAt(light, distance) : distance * distance;
+    Incident incident{toLight / distance, shining.color * (window / std::max(fading, kSmallestSquaredDistance))};
+    if (light.type == LightType::Spot)
+        incident.intensity *= coneWindow(light, -glm::dot(incident.toLight, light.directionWS));
+    return incident;
+}
+
+} // namespace tessera::reference

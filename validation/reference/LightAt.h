@@ -1,0 +1,32 @@
+#pragma once
+#include <vector>
+
+#include "scenes/Scene.h"
+#include "validation/reference/Settings.h"
+
+namespace tessera::reference {
+
+/// A light that is on, as it is at the settings' time. Rel: world axes, the eye as the origin.
+struct ShiningLight {
+    scenes::Light light;
+    glm::dvec3 color{0.0}; ///< colour x intensity
+    glm::dvec3 positionRel{0.0};
+    double rangeMetres = 0.0; ///< exactly 0 from here on; infinite where it has no end
+};
+
+/// Light as it arrives at a point.
+struct Incident {
+    glm::dvec3 toLight{0.0};   ///< unit; zero at the light itself, where no direction is better than another
+    glm::dvec3 intensity{0.0}; ///< 0 where the light does not reach
+};
+
+std::vector<ShiningLight> shiningLights(const scenes::Scene& scene, const Settings& settings, const glm::dvec3& eyeWS);
+
+/// What a light sends to a point: by its falloff, range window and cone.
+Incident incidentAt(const ShiningLight& shining, const glm::dvec3& positionRel);
+
+/// Where a light ends. With Falloff::Attenuation a tolerance above 0 ends it where its brightest channel has fallen to
+/// the tolerance; found by bisection, to the last digit.
+double rangeOf(const scenes::Light& light, double brightest, double rangeTolerance);
+
+} // namespace tessera::reference

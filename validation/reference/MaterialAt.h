@@ -1,0 +1,30 @@
+#pragma once
+#include <vector>
+
+#include "validation/reference/Hit.h"
+
+namespace tessera::reference {
+
+/// GGX alpha is never smaller, by the product's definition of its models.
+inline constexpr double kSmallestAlpha = 1e-3;
+
+/// What a material is at a point: factors times texels. Parameters that a model does not have keep their neutral value.
+struct SurfacePoint {
+    scenes::MaterialModel model = scenes::MaterialModel::Lambert;
+    glm::dvec3 color{0.0};         ///< base colour, k_d, or the unlit colour
+    double opacity = 1.0;          ///< 0..1
+    double metallic = 0.0;         ///< 0..1
+    double alpha = 1.0;            ///< of GGX
+    double ior = 1.5;              ///< n2/n1
+    double specularFactor = 1.0;   ///< KHR_materials_specular
+    glm::dvec3 specularColor{1.0}; ///< k_s, or the tint of the dielectric reflectance
+    glm::dvec3 emission{0.0};      ///< radiance that needs no light, without the unlit colour
+    glm::dvec3 normal{0.0};        ///< unit, world axes: the one that is lit
+};
+
+SurfacePoint surfaceAt(const Hit& hit, const std::vector<scenes::Image>& images);
+
+/// Base colour's alpha x texel x vertex colour, as it is.
+double opacityAt(const Hit& hit, const std::vector<scenes::Image>& images);
+
+} // namespace tessera::reference

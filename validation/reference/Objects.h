@@ -1,0 +1,46 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "scenes/Scene.h"
+#include "validation/reference/CameraRays.h"
+
+namespace tessera::reference {
+
+/// A mesh as it is drawn with a material at a node. Rel: world axes, the eye as the origin.
+struct Object {
+    const scenes::Mesh* mesh = nullptr;
+    const scenes::Material* material = nullptr;
+    std::uint32_t number = 0; ///< among all mesh instances of the scene, in document order
+    glm::dmat4 relFromObject{1.0};
+    glm::dmat3 normalFromObject{1.0};                    ///< cofactor matrix times the determinant's sign
+    double handedness = 1.0;                             ///< -1 where the transform mirrors
+    const std::vector<glm::dvec4>* tangentsOS = nullptr; ///< where the material's normal map needs them
+
+    glm::dvec3 cornerRel(std::uint32_t triangle, int corner) const {
+        const std::uint32_t vertex = mesh->indices[3 * std::size_t(triangle) + std::size_t(corner)];
+        return glm::dvec3(relFromObject * glm::dvec4(glm::dvec3(mesh->positionsOS[vertex]), 1.0));
+    }
+};
+
+/// All that a scene draws, seen from an eye. The scene must outlive the object.
+class Objects {
+public:
+    Objects(const scenes::Scene& scene, const CameraRays& rays);
+
+    const std::vector<Object>& opaque() const { return opaque_; } ///< alpha-masked ones too
+    /// In the order in which they are blended: far to near by the depth of their mesh's box centre, ties by number.
+    const std::vector<Object>& transparent() const { return transparent_; }
+
+private:
+    void add(const scenes::Scene& scene, const scenes::MeshInstance& instance, const glm::dmat4& worldFromNode,
+             const CameraRays& rays, std::uint32_t number);
+    const std::vector<glm::dvec4>& tangentsOf(const scenes::Mesh& mesh, std::size_t texCoordSet);
+
+    std::vector<Object> opaque_, transparent_;
+    std::map<std::pair<const scenes::Mesh*, std::size_t>, std::unique_ptr<std::vector<glm::dvec4>>> tangents_;
+};
+
+} // namespace tessera::reference

@@ -1,0 +1,34 @@
+#pragma once
+#include <span>
+
+#include "validation/reference/MaterialAt.h"
+
+namespace tessera::reference {
+
+/// A light and a viewer seen from a surface point; all unit.
+struct Directions {
+    Directions(const glm::dvec3& normal, const glm::dvec3& toLight, const glm::dvec3& toViewer);
+    glm::dvec3 normal, toLight, toViewer;
+    glm::dvec3 half{0.0}; ///< halfway between light and viewer; zero where they are opposite
+    double cosLight = 0.0, cosView = 0.0, cosHalf = 0.0; ///< with the normal
+    double cosIncidence = 0.0;                           ///< between light and half vector
+    /// Whether a specular lobe exists: light and viewer above the horizon, and not opposite to each other.
+    bool hasLobe() const { return cosLight > 0.0 && cosView > 0.0 && half != glm::dvec3(0.0); }
+};
+
+/// How a material model scatters light. The table is the only list of models.
+struct Model {
+    scenes::MaterialModel model;
+    bool isUnlit;
+    /// BRDF times max(0, n.l) for a light above the horizon; `specular` false leaves the specular lobe out.
+    glm::dvec3 (*reflected)(const SurfacePoint& point, const Directions& directions, bool specular);
+};
+std::span<const Model> modelTable();
+
+/// The table's row. Throws std::logic_error when there is none.
+const Model& modelOf(scenes::MaterialModel model);
+
+/// Radiance towards the viewer for one unit of incident intensity; 0 for light from below the horizon.
+glm::dvec3 reflected(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer, bool specular);
+
+} // namespace tessera::reference

@@ -1,0 +1,93 @@
+#include "validation/reference/Render.h"
+
+#include <limits>
+
+#include <tbb/parallel_for.h>
+
+#include "validation/reference/LightAt.h"
+#include "validation/reference/Reflectance.h"
+#include "validation/reference/Visibility.h"
+
+namespace tessera::reference {
+
+namespace {
+
+class Pixels {
+public:
+    Pixels(const scenes::Scene& scene, const Settings& settings)
+        : scene_(scene), settings_(settings), rays_(settings.camera, settings.sizePixels), objects_(scene, rays_),
+          visibility_(objects_, rays_, scene.images), lights_(shiningLights(scene, settings, rays_.eyeWS())) {}
+
+    void row(int row, Rendered& rendered) const {
+        for (int column = 0; column < rendered.width; ++column) {
+            const std::size_t at = std::size_t(row) * std::size_t(rendered.width) + std::size_t(column);
+            pixel(rays_.through(column, row), at, rendered);
+        }
+    }
+
+private:
+    void pixel(const Ray& ray, std::size_t at, Rendered& rendered) const {
+        glm::dvec3 radiance(scene_.background);
+        double depthMetres = std::numeric_limits<double>::infinity();
+        if (const std::optional<Hit> hit = visibility_.nearestOpaque(ray)) {
+            radiance = radianceOf(surfaceAt(*hit, scene_.images), ray.at(hit->depthMetres));
+            depthMetres = hit->depthMetres;
+            rendered.ids[at].object = 1 + hit->object->number;
+            rendered.ids[at].triangle = hit->triangle;
+            rendered.covered[at] = 1;
+        }
+        for (const Hit& hit : visibility_.transparentBefore(ray, depthMetres)) {
+            const SurfacePoint point = surfaceAt(hit, scene_.images);
+            const glm::dvec3 own = radianceOf(point, ray.at(hit.depthMetres));
+            radiance = point.opacity * own + (1.0 - point.opacity) * radiance;
+            rendered.ids[at].transparent += transparentId(hit.object->number, hit.triangle);
+            if (point.opacity > 0.0) rendered.covered[at] = 1;
+        }
+        rendered.radiance[at] = radiance;
+    }
+
+    glm::dvec3 radianceOf(const SurfacePoint& point, const glm::dvec3& positionRel) const {
+        if (modelOf(point.model).isUnlit) return point.emission + point.color;
+        const glm::dvec3 toViewer = rays_.toViewer(positionRel);
+        glm::dvec3 radiance = point.emission;
+        for (const ShiningLight& light : lights_) {
+            const Incident incident = incidentAt(light, positionRel);
+            if (incident.intensity == glm::dvec3(0.0)) continue;
+            radiance += reflected(point, incident.toLight, toViewer, settings_.specular) * incident.intensity;
+        }
+        return radiance;
+    }
+
+    const scenes::Scene& scene_;
+    const Settings& settings_;
+    CameraRays rays_;
+    Objects objects_;
+    Visibility visibility_;
+    std::vector<ShiningLight> lights_;
+};
+
+} // namespace
+
+std::uint32_t transparentId(std::uint32_t objectNumber, std::uint32_t triangle) {
+    // Two rounds of a multiplicative hash; both factors are odd, so that no bit of either number is lost.
+    const std::uint32_t mixed = (objectNumber + 1u) * 0x9E3779B1u + triangle * 0x85EBCA6Bu;
+    return (mixed ^ (mixed >> 15)) * 0xC2B2AE35u >> 16;
+}
+
+Rendered render(const scenes::Scene& scene, const Settings& settings, const std::function<void()>& rowDone) {
+    Rendered rendered;
+    rendered.width = settings.sizePixels.x;
+    rendered.height = settings.sizePixels.y;
+    const std::size_t pixels = std::size_t(rendered.width) * std::size_t(rendered.height);
+    rendered.radiance.resize(pixels);
+    rendered.covered.resize(pixels);
+    rendered.ids.resize(pixels);
+    const Pixels picture(scene, settings);
+    tbb::parallel_for(0, rendered.height, [&](int row) {
+        picture.row(row, rendered);
+        rowDone();
+    });
+    return rendered;
+}
+
+} // namespace tessera::reference

@@ -1,0 +1,38 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "scenes/Scene.h"
+#include "validation/reference/Settings.h"
+
+/// The reference renderer: what a picture is by definition, in double precision on the CPU, by the formulas of the
+/// textbooks. It shares the plain scene with the product and nothing else.
+namespace tessera::reference {
+
+/// Which triangles a pixel shows.
+struct Ids {
+    std::uint32_t object = 0;      ///< 1 + the opaque surface's mesh instance in document order; 0 without one
+    std::uint32_t triangle = 0;    ///< of its mesh
+    std::uint32_t transparent = 0; ///< sum of transparentId() over the surfaces before it
+    bool operator==(const Ids&) const = default;
+};
+
+/// Below 2^16, so that sums of 256 of them are exact in single precision; of any two sets of triangles one pair in
+/// 65,536 has one sum.
+std::uint32_t transparentId(std::uint32_t objectNumber, std::uint32_t triangle);
+
+/// Rows from the top.
+struct Rendered {
+    int width = 0, height = 0;
+    std::vector<glm::dvec3> radiance;  ///< linear, before exposure
+    std::vector<std::uint8_t> covered; ///< 1 where anything was drawn
+    std::vector<Ids> ids;
+};
+
+/// Renders on all cores. `rowDone` is called once a row of the picture, from any thread. The scene must have passed
+/// checkScene(). Throws std::runtime_error when the rays cannot be traced for lack of memory.
+Rendered render(
+    const scenes::Scene& scene, const Settings& settings, const std::function<void()>& rowDone = [] {});
+
+} // namespace tessera::reference

@@ -1,0 +1,20 @@
+#pragma once
+#include <optional>
+
+#include <glm/glm.hpp>
+
+#include "scenes/Scene.h"
+
+namespace tessera::reference {
+
+/// What is rendered of a scene.
+struct Settings {
+    glm::ivec2 sizePixels{1280, 720};
+    scenes::Camera camera;
+    double timeSeconds = 0.0;     ///< of animated lights
+    std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
+    bool specular = true;         ///< false leaves the specular lobe out
+    double rangeTolerance = 0.0;  ///< unit of colour x intensity: A B C lights end where they fall to it; 0: nowhere
+};
+
+} // namespace tessera::reference

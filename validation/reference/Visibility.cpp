@@ -1,0 +1,166 @@
+#include "validation/reference/Visibility.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+
+#include "validation/reference/MaterialAt.h"
+
+namespace tessera::reference {
+
+namespace {
+
+struct ReleaseDevice {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseScene {
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using Device = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
+using Tree = std::unique_ptr<RTCSceneTy, ReleaseScene>;
+
+void throwIfFailed(RTCDevice device, const char* what) {
+    const RTCError error = rtcGetDeviceError(device);
+    if (error == RTC_ERROR_NONE) return;
+    throw std::runtime_error(error == RTC_ERROR_OUT_OF_MEMORY
+                                 ? fmt::format("the reference renderer is out of memory while {}", what)
+                                 : fmt::format("Embree failed while {} (error {})", what, int(error)));
+}
+
+/// What a candidate must be to count, and what has been found of a ray.
+struct Query : RTCIntersectContext {
+    const Ray* ray = nullptr;
+    const std::vector<scenes::Image>* images = nullptr;
+    double nearMetres = 0.0, farMetres = 0.0;
+    std::optional<Hit> nearest;
+    std::vector<Hit>* all = nullptr; ///< where every hit is wanted, not the nearest
+};
+
+std::optional<Hit> keptHit(const Object& object, std::uint32_t triangle, const Query& query) {
+    std::optional<Hit> hit = hitOf(object, triangle, *query.ray);
+    if (!hit || hit->depthMetres < query.nearMetres || hit->depthMetres > query.farMetres) return {};
+    if (!hit->frontFacing && !object.material->doubleSided) return {};
+    if (object.material->alphaMode == scenes::AlphaMode::Mask &&
+        opacityAt(*hit, *query.images) < double(object.material->alphaCutoff))
+        return {};
+    return hit;
+}
+
+/// Called by Embree with every candidate; a rejected one does not end the ray.
+void judgeCandidate(const RTCFilterFunctionNArguments* arguments) {
+    auto& query = *static_cast<Query*>(arguments->context);
+    const auto& object = *static_cast<const Object*>(arguments->geometryUserPtr);
+    const std::optional<Hit> hit = keptHit(object, RTCHitN_primID(arguments->hit, arguments->N, 0), query);
+    if (!hit || query.all) arguments->valid[0] = 0;
+    if (!hit) return;
+    if (query.all)
+        query.all->push_back(*hit);
+    else if (!query.nearest || hit->depthMetres < query.nearest->depthMetres)
+        query.nearest = hit;
+}
+
+Tree makeTree(RTCDevice device, const std::vector<Object>& objects) {
+    Tree tree(rtcNewScene(device));
+    throwIfFailed(device, "it makes a scene");
+    rtcSetSceneFlags(tree.get(), RTC_SCENE_FLAG_ROBUST); // rays along shared edges slip through neither triangle
+    for (const Object& object : objects) {
+        const std::size_t vertices = object.mesh->positionsOS.size(), triangles = object.mesh->indices.size() / 3;
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* position = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                                     RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertices));
+        auto* index = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles));
+        if (!position || !index) {
+            rtcReleaseGeometry(geometry);
+            throwIfFailed(device, "it takes in a mesh");
+        }
+        for (const glm::vec3& vertexOS : object.mesh->positionsOS) {
+            const glm::dvec4 positionRel = object.relFromObject * glm::dvec4(glm::dvec3(vertexOS), 1.0);
+            for (int axis = 0; axis < 3; ++axis) *position++ = float(positionRel[axis]);
+        }
+        std::copy(object.mesh->indices.begin(), object.mesh->indices.end(), index);
+        rtcSetGeometryUserData(geometry, const_cast<Object*>(&object));
+        rtcSetGeometryIntersectFilterFunction(geometry, judgeCandidate);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(tree.get(), geometry);
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(tree.get());
+    throwIfFailed(device, "it sorts the scene's triangles");
+    return tree;
+}
+
+/// Embree's single precision may place a hit this share of its depth off; the double one decides.
+constexpr double kDepthSlack = 1e-4;
+
+void trace(RTCScene tree, Query& query) {
+    RTCRayHit rayHit{};
+    const glm::vec3 origin(query.ray->originRel), direction(query.ray->direction);
+    rayHit.ray.org_x = origin.x;
+    rayHit.ray.org_y = origin.y;
+    rayHit.ray.org_z = origin.z;
+    rayHit.ray.dir_x = direction.x;
+    rayHit.ray.dir_y = direction.y;
+    rayHit.ray.dir_z = direction.z;
+    rayHit.ray.tnear = float(query.nearMetres * (1.0 - kDepthSlack));
+    rayHit.ray.tfar = float(query.farMetres * (1.0 + kDepthSlack));
+    rayHit.ray.mask = ~0u;
+    rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(tree, &query, &rayHit);
+}
+
+} // namespace
+
+struct Visibility::Trees {
+    const Objects& objects;
+    const CameraRays& rays;
+    const std::vector<scenes::Image>& images;
+    Device device;
+    Tree opaque, transparent;
+};
+
+Visibility::Visibility(const Objects& objects, const CameraRays& rays, const std::vector<scenes::Image>& images)
+    : trees_(new Trees{objects, rays, images, Device(rtcNewDevice(nullptr)), {}, {}}) {
+    if (!trees_->device) throw std::runtime_error("Embree, which traces the reference renderer's rays, does not start");
+    trees_->opaque = makeTree(trees_->device.get(), objects.opaque());
+    if (!objects.transparent().empty()) trees_->transparent = makeTree(trees_->device.get(), objects.transparent());
+}
+
+Visibility::~Visibility() = default;
+
+std::optional<Hit> Visibility::nearestOpaque(const Ray& ray) const {
+    Query query{};
+    rtcInitIntersectContext(&query);
+    query.ray = &ray;
+    query.images = &trees_->images;
+    query.nearMetres = trees_->rays.nearMetres();
+    query.farMetres = trees_->rays.farMetres();
+    trace(trees_->opaque.get(), query);
+    return query.nearest;
+}
+
+std::vector<Hit> Visibility::transparentBefore(const Ray& ray, double depthMetres) const {
+    std::vector<Hit> hits;
+    if (!trees_->transparent) return hits;
+    Query query{};
+    rtcInitIntersectContext(&query);
+    query.ray = &ray;
+    query.images = &trees_->images;
+    query.nearMetres = trees_->rays.nearMetres();
+    query.farMetres = std::min(depthMetres, trees_->rays.farMetres());
+    query.all = &hits;
+    trace(trees_->transparent.get(), query);
+    // Objects lie in their order of drawing, so their addresses tell it; Embree may offer a candidate twice.
+    const auto drawnBefore = [](const Hit& a, const Hit& b) {
+        return std::pair(a.object, a.triangle) < std::pair(b.object, b.triangle);
+    };
+    std::sort(hits.begin(), hits.end(), drawnBefore);
+    const auto isSame = [](const Hit& a, const Hit& b) { return a.object == b.object && a.triangle == b.triangle; };
+    hits.erase(std::unique(hits.begin(), hits.end(), isSame), hits.end());
+    return hits;
+}
+
+} // namespace tessera::reference

@@ -1,0 +1,30 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "validation/reference/Hit.h"
+
+namespace tessera::reference {
+
+/// Which triangles a pixel's ray sees. Embree finds the candidates in single precision; every one is met again in
+/// double and kept when the camera's depths hold it, its material shows that side, and its alpha mask has no hole
+/// there. All functions may be called from several threads.
+class Visibility {
+public:
+    /// The objects must outlive it. Throws std::runtime_error when Embree fails, as for lack of memory.
+    Visibility(const Objects& objects, const CameraRays& rays, const std::vector<scenes::Image>& images);
+    ~Visibility();
+
+    /// The nearest opaque or alpha-masked surface.
+    std::optional<Hit> nearestOpaque(const Ray& ray) const;
+
+    /// Transparent surfaces not behind `depthMetres`, in the order in which they are blended.
+    std::vector<Hit> transparentBefore(const Ray& ray, double depthMetres) const;
+
+private:
+    struct Trees;
+    std::unique_ptr<Trees> trees_;
+};
+
+} // namespace tessera::reference
