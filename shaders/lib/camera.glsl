@@ -12,8 +12,13 @@ layout(std140, binding = UNIFORM_FRAME) uniform FrameBlock
 
 Viewpoint viewpointFromDepth(vec2 pixel, float depth)
 {
+#if HAS_ORTHOGRAPHIC_CAMERA
     precise float viewDepth = (frame.depthToViewDepth.x + frame.depthToViewDepth.y * depth)
                               / (frame.depthToViewDepth.z + frame.depthToViewDepth.w * depth);
+#else
+    // y is 0 and w is 1 for a perspective camera: the same number, and two constants less to read.
+    precise float viewDepth = frame.depthToViewDepth.x / (frame.depthToViewDepth.z + depth);
+#endif
     precise vec3 ray = frame.rayOriginLS.xyz + pixel.x * frame.rayDxLS.xyz + pixel.y * frame.rayDyLS.xyz;
     Viewpoint viewpoint;
     viewpoint.depth = depth;

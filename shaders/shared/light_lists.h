@@ -5,9 +5,10 @@
 // entries.
 //
 //   tiles    RGBA32UI, a LightTile each: first all tiles for opaque surfaces, then all tiles for transparent ones
-//   cells    RG32UI, x index of the first entry, y number of entries (zbin: x first word with a bit, y one past the
-//   last) entries  R32UI, indices of lights in ascending order; in front of all runs those of the lights that reach
-//   everywhere
+//   cells    RG32UI, x index of the first entry, y number of entries
+//            (zbin: x first word with a bit, y one past the last)
+//   entries  R32UI, indices of lights in ascending order; in front of all runs those of the lights that reach
+//            everywhere
 //
 // zbin keeps bitmasks over the lights instead of runs: a tile names its own mask among the entries, all tiles share one
 // division of depth into bins, cell b is bin b's, whose mask follows the one before it from entry 0 on, and a light is
