@@ -17,6 +17,15 @@ scenes::Light lightAt(const glm::dvec3& positionWS, float rangeMetres) {
     return light;
 }
 
+/// Shines colour x intensity / (A + B d + C d^2).
+scenes::Light fallingOffByABC(const glm::dvec3& positionWS, float intensity, const glm::vec3& abc) {
+    scenes::Light light = lightAt(positionWS, 0.0f); // its range does not count
+    light.falloff = scenes::Falloff::Attenuation;
+    light.intensity = intensity;
+    light.attenuation = abc;
+    return light;
+}
+
 /// One pixel that shows the point (0, 0, -5) of a surface facing the orthographic camera at the origin; all of the
 /// scene's lights are visited.
 class LightOracle : public ::testing::Test {
@@ -81,6 +90,74 @@ TEST_F(LightOracle, aSpotIsNeededExactlyInsideItsOuterCone) {
     closed.directionWS = {-1.0, 0.0, 0.0};
     closed.outerConeRadians = 0.0f;
     EXPECT_EQ(needed(closed), 0u) << "a cone of no width";
+}
+
+TEST_F(LightOracle, aLightOfABCIsNeededExactlyWhereItsBrightestChannelIsAboveTheTolerance) {
+    const glm::dvec3 fiveMetresAway(3.0, 0.0, -1.0); // by a triangle of sides 3, 4 and 5
+    struct Case {
+        const char* name;
+        glm::vec3 abc;
+        float atFiveMetres; ///< A + 5 B + 25 C: the intensity that falls to a tolerance of 1 there
+    };
+    constexpr Case kCases[] = {{"B alone", {0.0f, 2.0f, 0.0f}, 10.0f},
+                               {"C alone", {0.0f, 0.0f, 1.0f}, 25.0f},
+                               {"A and B", {3.0f, 2.0f, 0.0f}, 13.0f},
+                               {"A, B and C", {1.0f, 2.0f, 3.0f}, 86.0f},
+                               {"mostly A", {4096.0f, 0.0f, 1.0f}, 4121.0f}};
+    for (const Case& by : kCases) {
+        for (const float tolerance : {1.0f, 0.25f, 8.0f}) { // powers of two: their products are exact
+            SCOPED_TRACE(testing::Message() << by.name << ", tolerance " << tolerance);
+            settings_.rangeTolerance = double(tolerance);
+            const float edge = tolerance * by.atFiveMetres, above = std::nextafter(edge, 2.0f * edge);
+            EXPECT_EQ(needed(fallingOffByABC(fiveMetresAway, edge, by.abc)), 0u);
+            EXPECT_EQ(needed(fallingOffByABC(fiveMetresAway, above, by.abc)), 1u);
+            scenes::Light coloured = fallingOffByABC(fiveMetresAway, 2.0f * edge, by.abc);
+            coloured.color = {0.25f, 0.5f, 0.125f};
+            EXPECT_EQ(needed(coloured), 0u);
+            coloured.color.z = 0.75f;
+            EXPECT_EQ(needed(coloured), 1u);
+        }
+    }
+    // Solved by hand: 1 + 2 d + 3 d^2 = 41 at d = (-1 + 11) / 3 = 10/3 m, straight before the surface.
+    settings_.rangeTolerance = 1.0;
+    EXPECT_EQ(needed(fallingOffByABC({0.0, 0.0, -5.0 + 10.0 / 3.0 - 1e-9}, 41.0f, {1.0f, 2.0f, 3.0f})), 1u);
+    EXPECT_EQ(needed(fallingOffByABC({0.0, 0.0, -5.0 + 10.0 / 3.0 + 1e-9}, 41.0f, {1.0f, 2.0f, 3.0f})), 0u);
+}
+
+TEST_F(LightOracle, aLightOfABCThatIsNowhereAboveTheToleranceIsNeverNeeded) {
+    settings_.rangeTolerance = 0.5;
+    const glm::dvec3 onTheSurfaceWS(0.0, 0.0, -5.0);
+    EXPECT_EQ(needed(fallingOffByABC(onTheSurfaceWS, 3.0f, {6.0f, 1.0f, 1.0f})), 0u) << "0.5 at the light itself";
+    EXPECT_EQ(needed(fallingOffByABC(onTheSurfaceWS, 3.001f, {6.0f, 1.0f, 1.0f})), 1u);
+    EXPECT_EQ(judge().everywhere, 0u);
+}
+
+TEST_F(LightOracle, aLightOfABCReachesEverywhereExactlyWithoutAToleranceOrWithoutFalloff) {
+    const glm::dvec3 farAwayWS(1e6, 0.0, 0.0);
+    const auto everywhere = [&](const glm::vec3& abc, double tolerance) {
+        settings_.rangeTolerance = tolerance;
+        scene_.lights = {fallingOffByABC(farAwayWS, 1.0f, abc)};
+        return judge().everywhere;
+    };
+    EXPECT_EQ(everywhere({1.0f, 2.0f, 3.0f}, 0.0), 1u);
+    EXPECT_EQ(everywhere({2.0f, 0.0f, 0.0f}, 0.25), 1u) << "1/2 at every distance";
+    EXPECT_EQ(everywhere({2.0f, 0.0f, 0.0f}, 0.75), 1u) << "it has no radius to end at, however dark";
+    EXPECT_EQ(everywhere({2.0f, 1e-30f, 0.0f}, 0.25), 0u);
+    EXPECT_EQ(everywhere({0.0f, 0.0f, 1e-30f}, 0.25), 0u);
+}
+
+TEST_F(LightOracle, aSpotOfABCIsNeededExactlyInsideItsConeAndAboveTheTolerance) {
+    settings_.rangeTolerance = 1.0;
+    scenes::Light spot = fallingOffByABC({1.0, 0.0, -5.0}, 2.0f, {0.0f, 0.0f, 1.0f}); // 2 > 1 at the surface
+    spot.type = scenes::LightType::Spot;
+    spot.outerConeRadians = float(pi / 6.0);
+    spot.directionWS = {-1.0, 0.0, 0.0};
+    EXPECT_EQ(needed(spot), 1u);
+    spot.intensity = 1.0f;
+    EXPECT_EQ(needed(spot), 0u) << "in the cone, but too dark";
+    spot.intensity = 2.0f;
+    spot.directionWS = {0.0, 0.0, 1.0};
+    EXPECT_EQ(needed(spot), 0u) << "bright enough, but beside the cone";
 }
 
 TEST_F(LightOracle, aLightIsNeededLitExactlyInFrontOfTheSurface) {
