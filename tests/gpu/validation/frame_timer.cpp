@@ -1,5 +1,9 @@
 // Frames that are timed in turn.
+#include <chrono>
 #include <numeric>
+#include <optional>
+#include <set>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -80,6 +84,52 @@ TEST_F(FrameTimerTest, kindsOfFramesAlwaysTakeTurnsWhileTheEyeMovesAMillimetre) 
     EXPECT_EQ(reports, 3);
     ASSERT_EQ(times.othersMs.size(), 2u);
     EXPECT_EQ(times.othersMs[0].size(), 2u);
+}
+
+TEST_F(FrameTimerTest, roundsOfTheWarmUpAreNeverTimed) {
+    constexpr double kFrameMs = 20.0; // a frame sleeps at least that long, except while warming up
+    const validation::InterleaveOptions options{.warmUpRounds = 3, .rounds = 4};
+    int drawn = 0;
+    const std::vector<validation::TimedFrame> kinds{[&](const glm::dvec3&) {
+        if (drawn++ >= options.warmUpRounds)
+            std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(kFrameMs));
+    }};
+    const std::vector<std::vector<double>> timesMs = validation::timeInterleaved(kinds, options);
+    ASSERT_EQ(timesMs.at(0).size(), 4u);
+    for (const double ms : timesMs[0]) EXPECT_GE(ms, kFrameMs);
+}
+
+TEST_F(FrameTimerTest, theWarmUpAlwaysSeesEveryPlaceOfTheEye) {
+    // What a frame needs, such as the lights in view, may differ from place to place.
+    const auto placesOf = [](int rounds) {
+        std::set<double> places;
+        for (int i = 0; i < rounds; ++i) places.insert(validation::eyeOffsetOfFrame(i).x);
+        return places;
+    };
+    EXPECT_EQ(placesOf(validation::InterleaveOptions{}.warmUpRounds), placesOf(100));
+}
+
+TEST_F(FrameTimerTest, programsAreNeverCompiledInFramesThatAreTimed) {
+    const scenes::Scene scene = lattice(16);
+    recipes::Renderer renderer(context(), scene);
+    std::vector<validation::TimedPoint> points;
+    const auto add = [&](Technique technique, std::optional<culling::Builder> builder) {
+        points.push_back({&renderer, technique, settings()});
+        points.back().settings.sizePixels = {64, 36};
+        points.back().settings.culling.builder = builder;
+    };
+    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) add(technique.technique, {});
+    for (const culling::BuilderInfo& builder : culling::builderTable())
+        add(Technique::ClusteredDeferred, builder.builder);
+    std::vector<std::size_t> programsByRound{renderer.programs().size()};
+    validation::FrameTimerOptions options;
+    options.interleave.rounds = 2;
+    options.interleave.progress = [&](int, int) { programsByRound.push_back(renderer.programs().size()); };
+    validation::timeFrames(points, {}, options);
+    const std::size_t warm = programsByRound.at(std::size_t(options.interleave.warmUpRounds));
+    EXPECT_GT(warm, programsByRound.front());
+    EXPECT_EQ(programsByRound.back(), warm);
+    EXPECT_EQ(renderer.programs().size(), warm) << "frames profiled afterwards are measured too";
 }
 
 TEST_F(FrameTimerTest, theBackendIsAlwaysLeftAsItWas) {
