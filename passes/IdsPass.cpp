@@ -35,7 +35,7 @@ IdsPass::Outputs IdsPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
             if (!blends) return;
             gpu::useProgram(resources->programs.get(transparent));
             state.depthWrite = false;
-            state.blend = gpu::Blend::Additive;
+            state.blend = gpu::Blend::AdditiveCovering;
             resources->scene.draw(resources->scene.transparent(), state);
         });
 }

@@ -8,9 +8,8 @@ namespace tessera::passes {
 /// Draws which triangles each pixel shows, for the view `ids`, which replaces the lit picture.
 /// Reads   the scene
 /// Writes  ids RGBA32F: R 1 + the opaque surface's mesh instance in document order, 0 without one; G its triangle in
-/// the
-///         mesh; B the sum over transparent surfaces before it of a number below 2^16 each; A how many surfaces there
-///         are. Depth D32F of opaque surfaces. Both are of FrameSpec::samples
+///         the mesh; B the sum over transparent surfaces before it of a number below 2^16 each; A the coverage. Depth
+///         D32F of opaque surfaces. Both are of FrameSpec::samples
 /// Space   lighting space, through the vertex function that every pass shares
 struct IdsPass {
     enum class Surfaces { Opaque, Transparent };

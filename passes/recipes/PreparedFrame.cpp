@@ -50,6 +50,8 @@ PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, cons
     spec.samples = samples;
     spec.lightOn = chooseLighting(technique, settings);
     spec.culling = chooseCulling(technique, settings, spec.features, prepared.lights);
+    // That view lights nothing, and no lists are built for it.
+    if (settings.view == frame::View::Ids) spec.culling = {};
     if (spec.culling.method == culling::Method::None) return prepared;
     spec.lightsEverywhere = !settings.prune || prepared.lights.everywhere > 0;
     culling::setTileGrid(prepared.view.constants, settings.sizePixels, spec.culling.tilePixels);

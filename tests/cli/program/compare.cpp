@@ -155,6 +155,11 @@ TEST_F(Compare, thePackedLayoutIsAlwaysHeldToItsOwnBarAgainstTheReferenceToo) {
     EXPECT_GT(shares, 0.0);
 }
 
+TEST_F(Compare, everyTechniqueShowsExactlyTheSameTriangles) {
+    runGood(lattice({"--view", "ids", "--json", "c.json"}));
+    for (const Json& pair : json("c.json")["pairs"]) EXPECT_EQ(pair["bitEqual"], 1.0) << pair["a"];
+}
+
 TEST_F(Compare, whatTheReferenceDoesNotRenderIsAlwaysRefused) {
     expectError(kBadInput, {"compare", "room", "--against", "reference", "--view", "normal"}, {"reference", "normal"});
     expectError(kBadInput, {"compare", "room", "--against", "reference", "--samples", "4"},
