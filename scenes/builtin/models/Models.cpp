@@ -32,7 +32,7 @@ Mesh discMesh() {
     Mesh mesh;
     appendPatch(mesh, 64, 12, [](double u, double v) {
         const double angle = 2.0 * std::numbers::pi * u;
-        const double radius = 1.15 * kRadiusMetres * (0.04 + 0.96 * v);
+        const double radius = kRadiusMetres * (0.03 + 0.97 * v);
         return SurfacePoint{{radius * std::cos(angle), radius * std::sin(angle), 0.0}, {0.0, 0.0, 1.0}, {u, 1.0 - v}};
     });
     return mesh;
@@ -143,7 +143,7 @@ Scene makeModels(const LoadOptions& options) {
     keepFirstLights(scene, options);
     addCamera(scene, "front", {0.0, 2.75, 7.6}, {0.0, 0.98, -1.0}, 29.0);
     addCamera(scene, "gloss with a direction", {-1.6, 1.9, 2.2}, {0.1, 0.95, -1.4}, 42.0);
-    addCamera(scene, "layers", {1.5, 2.7, 1.6}, {0.2, 1.5, -2.7}, 42.0);
+    addCamera(scene, "layers", {0.9, 2.25, 0.9}, {0.15, 1.42, -2.7}, 44.0);
     scene.options.toneMap = "khronos_neutral";
     return scene;
 }
