@@ -83,11 +83,21 @@ void checkImage(const Element& element, const Image& image) {
     }
 }
 
+void checkLayers(const Element& element, const Material& material) {
+    element.require(between(material.anisotropyStrength, 0.0, 1.0), "the anisotropy must be between 0 and 1");
+    element.require(std::isfinite(material.anisotropyRotationRadians), "the anisotropy's rotation is not finite");
+    element.require(between(material.clearcoat, 0.0, 1.0), "the clearcoat must be between 0 and 1");
+    element.require(between(material.clearcoatPerceptualRoughness, 0.0, 1.0),
+                    "the clearcoat's roughness must be between 0 and 1");
+    element.require(std::isfinite(material.clearcoatNormalScale), "the clearcoat normal map's scale must be finite");
+    const glm::vec3& sheen = material.sheenColor;
+    element.require(between(sheen.x, 0.0, 1.0) && between(sheen.y, 0.0, 1.0) && between(sheen.z, 0.0, 1.0),
+                    "the sheen's colour must be between 0 and 1");
+    element.require(between(material.sheenPerceptualRoughness, 0.0, 1.0),
+                    "the sheen's roughness must be between 0 and 1");
+}
+
 void checkMaterial(const Element& element, const Material& material, std::size_t imageCount) {
-    element.require(material.model != MaterialModel::BlinnPhong,
-                    "the model blinn_phong is not shaded yet; use microfacet");
-    element.require(material.model != MaterialModel::MicrofacetAnisotropic,
-                    "the model microfacet_anisotropic is not shaded yet; use microfacet");
     element.require(allFiniteAndNotNegative(material.baseColor), "the base colour must be finite and not negative");
     element.require(allFiniteAndNotNegative(material.emissive), "the emission must be finite and not negative");
     element.require(allFiniteAndNotNegative(material.specularColor),
@@ -95,6 +105,13 @@ void checkMaterial(const Element& element, const Material& material, std::size_t
     element.require(between(material.metallic, 0.0, 1.0), "metalness must be between 0 and 1");
     element.require(between(material.perceptualRoughness, 0.0, 1.0), "roughness must be between 0 and 1");
     element.require(std::isfinite(material.alpha) && material.alpha >= 0.0f, "alpha must be finite and not negative");
+    element.require(std::isfinite(material.alphaY) && material.alphaY >= 0.0f,
+                    "alphaY must be finite and not negative");
+    element.require(std::isfinite(material.exponent) && material.exponent >= 0.0f,
+                    "the exponent must be finite and not negative");
+    element.require(material.masking != Masking::Directional || material.model != MaterialModel::Microfacet,
+                    "masking by direction needs the model microfacet_anisotropic");
+    checkLayers(element, material);
     element.require(std::isfinite(material.ior) && material.ior >= 0.0f,
                     "the index of refraction must be finite and not negative");
     element.require(between(material.specularFactor, 0.0, 1.0), "the specular factor must be between 0 and 1");

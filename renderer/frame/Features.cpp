@@ -7,7 +7,10 @@ namespace {
 constexpr FeatureInfo kTable[] = {
     {Feature::SingleColor, "SINGLE_COLOR", "unlit surfaces", "no material is single_color"},
     {Feature::Lambert, "LAMBERT", "model lambert", "no material is lambert"},
+    {Feature::BlinnPhong, "BLINN_PHONG", "model blinn_phong", "no material is blinn_phong"},
     {Feature::Microfacet, "MICROFACET", "model microfacet", "no material is microfacet"},
+    {Feature::MicrofacetAnisotropic, "MICROFACET_ANISOTROPIC", "model microfacet_anisotropic",
+     "no material is microfacet_anisotropic"},
     {Feature::MetallicRoughness, "METALLIC_ROUGHNESS", "model metallic_roughness", "no material is metallic_roughness"},
     {Feature::DirectionalLights, "DIRECTIONAL_LIGHTS", "directional lights", "no directional light is on"},
     {Feature::PointLights, "POINT_LIGHTS", "point lights", "no point light is on and in view"},
@@ -20,6 +23,13 @@ constexpr FeatureInfo kTable[] = {
     {Feature::SpecularFactorTexture, "SPECULAR_FACTOR_TEXTURE", "specular-strength texture", "no material has one"},
     {Feature::SpecularColorTexture, "SPECULAR_COLOR_TEXTURE", "specular-colour texture", "no material has one"},
     {Feature::IorTexture, "IOR_TEXTURE", "index-of-refraction texture", "no material has one"},
+    {Feature::AnisotropyTexture, "ANISOTROPY_TEXTURE", "anisotropy texture", "no material has one"},
+    {Feature::ClearcoatTexture, "CLEARCOAT_TEXTURE", "clearcoat texture", "no material has one"},
+    {Feature::ClearcoatRoughnessTexture, "CLEARCOAT_ROUGHNESS_TEXTURE", "clearcoat-roughness texture",
+     "no material has one"},
+    {Feature::ClearcoatNormalTexture, "CLEARCOAT_NORMAL_TEXTURE", "clearcoat normal maps", "no material has one"},
+    {Feature::SheenColorTexture, "SHEEN_COLOR_TEXTURE", "sheen-colour texture", "no material has one"},
+    {Feature::SheenRoughnessTexture, "SHEEN_ROUGHNESS_TEXTURE", "sheen-roughness texture", "no material has one"},
     {Feature::TextureTransform, "TEXTURE_TRANSFORM", "texture transforms", "every texture lies as its coordinates say"},
     {Feature::TexCoord1, "TEXCOORD1", "second texture coordinates", "no texture uses them"},
     {Feature::VertexColor, "VERTEX_COLOR", "vertex colours", "no mesh has them"},
@@ -28,6 +38,10 @@ constexpr FeatureInfo kTable[] = {
      "no normal map is in object space"},
     {Feature::Emission, "EMISSION", "emission", "no material emits or is unlit"},
     {Feature::Specular, "SPECULAR", "specular colour and strength", "every material keeps k_s = 1 or F0 = 0.04"},
+    {Feature::MaskingOptions, "MASKING_OPTIONS", "options of masking", "every material keeps masking = walter"},
+    {Feature::Anisotropy, "ANISOTROPY", "anisotropy of metallic_roughness", "no material has any"},
+    {Feature::Clearcoat, "CLEARCOAT", "clearcoat", "no material has any"},
+    {Feature::Sheen, "SHEEN", "sheen", "no material has any"},
     {Feature::AlphaMask, "ALPHA_MASK", "alpha masks", "no material is alpha-masked"},
     {Feature::Blend, "BLEND", "transparent pass", "no material is alpha-blended"},
     {Feature::DoubleSided, "DOUBLE_SIDED", "two-sided normals", "no material is double-sided"},
@@ -39,10 +53,15 @@ Feature textureFeature(std::size_t slot) {
     return static_cast<Feature>(static_cast<std::size_t>(Feature::BaseColorTexture) + slot);
 }
 
+bool isMicrofacet(const scenes::Material& material) {
+    return material.model == scenes::MaterialModel::Microfacet ||
+           material.model == scenes::MaterialModel::MicrofacetAnisotropic;
+}
+
 bool changesSpecular(const scenes::Material& material) {
     const bool tinted = material.specularColor != glm::vec3(1.0f) ||
                         material.texture(scenes::TextureSlot::SpecularColor).image != scenes::kNone;
-    if (material.model == scenes::MaterialModel::Microfacet) return tinted;
+    if (isMicrofacet(material) || material.model == scenes::MaterialModel::BlinnPhong) return tinted;
     return material.model == scenes::MaterialModel::MetallicRoughness &&
            (tinted || material.ior != 1.5f || material.texture(scenes::TextureSlot::Ior).image != scenes::kNone ||
             material.specularFactor != 1.0f ||
@@ -53,8 +72,16 @@ void addMaterial(FeatureSet& set, const scenes::Material& material) {
     using scenes::MaterialModel;
     set.add(Feature::SingleColor, material.model == MaterialModel::SingleColor);
     set.add(Feature::Lambert, material.model == MaterialModel::Lambert);
+    set.add(Feature::BlinnPhong, material.model == MaterialModel::BlinnPhong);
     set.add(Feature::Microfacet, material.model == MaterialModel::Microfacet);
+    set.add(Feature::MicrofacetAnisotropic, material.model == MaterialModel::MicrofacetAnisotropic);
     set.add(Feature::MetallicRoughness, material.model == MaterialModel::MetallicRoughness);
+    set.add(Feature::MaskingOptions, isMicrofacet(material) && material.masking != scenes::Masking::Walter);
+    if (material.model == MaterialModel::MetallicRoughness) {
+        set.add(Feature::Anisotropy, material.anisotropyStrength > 0.0f);
+        set.add(Feature::Clearcoat, material.clearcoat > 0.0f);
+        set.add(Feature::Sheen, material.sheenColor != glm::vec3(0.0f));
+    }
     for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
         const scenes::TextureUse& use = material.textures[slot];
         if (use.image == scenes::kNone) continue;
@@ -80,7 +107,20 @@ std::span<const FeatureInfo> featureTable() {
 }
 
 bool FeatureSet::litModels() const {
-    return (*this)[Feature::Lambert] || (*this)[Feature::Microfacet] || (*this)[Feature::MetallicRoughness];
+    return (*this)[Feature::Lambert] || glossyModels();
+}
+
+bool FeatureSet::glossyModels() const {
+    return (*this)[Feature::BlinnPhong] || (*this)[Feature::Microfacet] || (*this)[Feature::MicrofacetAnisotropic] ||
+           (*this)[Feature::MetallicRoughness];
+}
+
+bool FeatureSet::tangentFrame() const {
+    return (*this)[Feature::MicrofacetAnisotropic] || (*this)[Feature::Anisotropy];
+}
+
+bool FeatureSet::tangents() const {
+    return (*this)[Feature::TangentSpaceNormals] || tangentFrame() || (*this)[Feature::ClearcoatNormalTexture];
 }
 
 bool FeatureSet::textures() const {

@@ -15,7 +15,9 @@ namespace tessera::frame {
 enum class Feature : std::uint8_t {
     SingleColor,
     Lambert,
+    BlinnPhong,
     Microfacet,
+    MicrofacetAnisotropic,
     MetallicRoughness,
     DirectionalLights,
     PointLights,
@@ -28,6 +30,12 @@ enum class Feature : std::uint8_t {
     SpecularFactorTexture,
     SpecularColorTexture,
     IorTexture,
+    AnisotropyTexture,
+    ClearcoatTexture,
+    ClearcoatRoughnessTexture,
+    ClearcoatNormalTexture,
+    SheenColorTexture,
+    SheenRoughnessTexture,
     TextureTransform,
     TexCoord1,
     VertexColor,
@@ -35,6 +43,10 @@ enum class Feature : std::uint8_t {
     ObjectSpaceNormals,
     Emission,
     Specular,
+    MaskingOptions,
+    Anisotropy,
+    Clearcoat,
+    Sheen,
     AlphaMask,
     Blend,
     DoubleSided,
@@ -62,6 +74,9 @@ struct FeatureSet {
         if (present) has.set(static_cast<std::size_t>(feature));
     }
     bool litModels() const;
+    bool glossyModels() const; ///< models with a highlight
+    bool tangentFrame() const; ///< surfaces keep a tangent
+    bool tangents() const;     ///< meshes bring tangents
     bool textures() const;
     bool operator==(const FeatureSet&) const = default;
 };

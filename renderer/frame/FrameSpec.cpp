@@ -14,11 +14,11 @@ std::size_t vertexCount(const scenes::Scene& scene) {
     return count;
 }
 
-/// Bytes a vertex of the streams that only a feature asks for.
-std::size_t streamBytes(Feature feature) {
+/// Bytes a vertex that are not there for want of a feature.
+std::size_t bytesWithout(Feature feature, const FeatureSet& features) {
     switch (feature) {
     case Feature::TangentSpaceNormals:
-        return sizeof(glm::vec4);
+        return features.tangents() ? 0 : sizeof(glm::vec4); // others may need them
     case Feature::TexCoord1:
         return sizeof(glm::vec2);
     case Feature::VertexColor:
@@ -115,8 +115,10 @@ std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const Fram
     }
     for (const FeatureInfo& info : featureTable()) {
         if (spec.features[info.feature]) continue;
-        out.push_back(
-            {std::string(info.what), std::string(info.absent), vertexCount(scene) * streamBytes(info.feature), {}});
+        out.push_back({std::string(info.what),
+                       std::string(info.absent),
+                       vertexCount(scene) * bytesWithout(info.feature, spec.features),
+                       {}});
     }
     addLights(out, lights.off, "off, or not the solo light");
     addLights(out, lights.dark, "no intensity, range or cone");

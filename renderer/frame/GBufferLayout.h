@@ -13,7 +13,19 @@
 /// shaders/lib/gbuffer.glsl), plans and the error attribution.
 namespace tessera::frame {
 
-enum class Channel : std::uint8_t { Albedo, Normal, Microsurface, Specular, Emission, NormalTexel, Count };
+/// A frame needs at most eight of them, which is what OpenGL guarantees to draw into at once.
+enum class Channel : std::uint8_t {
+    Albedo,
+    Normal,
+    Microsurface,
+    Specular,
+    Emission,
+    Tangent,
+    Clearcoat,
+    Sheen,
+    NormalTexel,
+    Count
+};
 inline constexpr std::size_t kChannelCount = static_cast<std::size_t>(Channel::Count);
 
 enum class Encoding : std::uint8_t { Exact, Packed };
@@ -31,7 +43,8 @@ struct ChannelInfo {
 std::span<const ChannelInfo> channelTable();
 
 /// One encoding for every channel. `exact` keeps fp32; `packed` takes 12 bytes a pixel, 16 where materials change the
-/// specular colour, and 4 more where some emit; depth comes on top.
+/// specular colour, and 4 more where some emit, 4 where some are anisotropic, 8 where some are coated and 4 where some
+/// have a sheen; depth comes on top.
 struct GBufferLayout {
     std::array<Encoding, kChannelCount> encoding{};
 
@@ -49,8 +62,9 @@ struct LayoutInfo {
 std::span<const LayoutInfo> layoutTable();
 
 /// The channels that surfaces of these features need, in table order: attachment i is element i. `normalTexel` is for
-/// the view that shows it. In fp32 the fourth components of albedo and normal are free: alpha and metallic go there,
-/// and the microsurface channel is left out, where all surfaces are metallic_roughness with the usual specular lobe.
+/// the view that shows it, and shows nothing of tangents, coats and sheens. In fp32 the fourth components of albedo and
+/// normal are free: alpha and metallic go there, and the microsurface channel is left out, where all surfaces are
+/// metallic_roughness with the usual specular lobe.
 std::vector<Channel> neededChannels(const FeatureSet& features, const GBufferLayout& layout, bool normalTexel);
 
 /// GBUFFER_<NAME> = attachment and GBUFFER_<NAME>_PACKED = 0 or 1 of each channel; GBUFFER_SPARE_COMPONENTS where alpha

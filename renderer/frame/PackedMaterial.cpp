@@ -13,7 +13,9 @@ using scenes::TextureSlot;
 
 static_assert(unsigned(MaterialModel::SingleColor) == MODEL_SINGLE_COLOR &&
               unsigned(MaterialModel::Lambert) == MODEL_LAMBERT);
-static_assert(unsigned(MaterialModel::Microfacet) == MODEL_MICROFACET);
+static_assert(unsigned(MaterialModel::BlinnPhong) == MODEL_BLINN_PHONG);
+static_assert(unsigned(MaterialModel::Microfacet) == MODEL_MICROFACET &&
+              unsigned(MaterialModel::MicrofacetAnisotropic) == MODEL_MICROFACET_ANISOTROPIC);
 static_assert(unsigned(MaterialModel::MetallicRoughness) == MODEL_METALLIC_ROUGHNESS);
 static_assert(int(TextureSlot::BaseColor) == TEXTURE_SLOT_BASE_COLOR &&
               int(TextureSlot::Normal) == TEXTURE_SLOT_NORMAL);
@@ -23,6 +25,16 @@ static_assert(int(TextureSlot::SpecularFactor) == TEXTURE_SLOT_SPECULAR_FACTOR);
 static_assert(int(TextureSlot::SpecularColor) == TEXTURE_SLOT_SPECULAR_COLOR &&
               int(TextureSlot::Count) == TEXTURE_SLOT_COUNT);
 
+static_assert(int(TextureSlot::Anisotropy) == TEXTURE_SLOT_ANISOTROPY &&
+              int(TextureSlot::Clearcoat) == TEXTURE_SLOT_CLEARCOAT);
+static_assert(int(TextureSlot::ClearcoatRoughness) == TEXTURE_SLOT_CLEARCOAT_ROUGHNESS &&
+              int(TextureSlot::ClearcoatNormal) == TEXTURE_SLOT_CLEARCOAT_NORMAL);
+static_assert(int(TextureSlot::SheenColor) == TEXTURE_SLOT_SHEEN_COLOR &&
+              int(TextureSlot::SheenRoughness) == TEXTURE_SLOT_SHEEN_ROUGHNESS);
+static_assert(unsigned(scenes::Masking::Walter) == MASKING_WALTER &&
+              unsigned(scenes::Masking::Directional) == MASKING_DIRECTIONAL &&
+              unsigned(scenes::Masking::HalfVector) == MASKING_HALF_VECTOR);
+
 glm::uint materialFlags(const scenes::Material& material) {
     glm::uint flags = 0;
     if (material.texture(TextureSlot::Normal).image != scenes::kNone) flags |= MATERIAL_FLAG_NORMAL_MAP;
@@ -30,6 +42,9 @@ glm::uint materialFlags(const scenes::Material& material) {
     if (material.alphaMode == scenes::AlphaMode::Mask) flags |= MATERIAL_FLAG_ALPHA_MASK;
     if (material.doubleSided) flags |= MATERIAL_FLAG_DOUBLE_SIDED;
     if (material.texture(TextureSlot::Ior).image != scenes::kNone) flags |= MATERIAL_FLAG_IOR_TEXTURE;
+    if (material.texture(TextureSlot::Anisotropy).image != scenes::kNone) flags |= MATERIAL_FLAG_ANISOTROPY_TEXTURE;
+    if (material.texture(TextureSlot::ClearcoatNormal).image != scenes::kNone)
+        flags |= MATERIAL_FLAG_CLEARCOAT_NORMAL_MAP;
     return flags;
 }
 
@@ -43,20 +58,40 @@ void packTexture(const scenes::TextureUse& use, glm::vec4& row0, glm::vec4& row1
                      float(int(use.sampler.wrapU) + 4 * int(use.sampler.wrapV)));
 }
 
+/// What `microsurface.y` of the constants holds.
+float roughnessParameter(const scenes::Material& material) {
+    switch (material.model) {
+    case MaterialModel::MetallicRoughness:
+        return material.perceptualRoughness;
+    case MaterialModel::BlinnPhong:
+        return material.exponent;
+    default:
+        return material.alpha;
+    }
+}
+
+glm::vec4 packAnisotropy(const scenes::Material& material) {
+    if (material.model == MaterialModel::MicrofacetAnisotropic) return {material.alphaY, 1.0f, 0.0f, 0.0f};
+    const double rotation = double(material.anisotropyRotationRadians);
+    return {material.anisotropyStrength, float(std::cos(rotation)), float(std::sin(rotation)), 0.0f};
+}
+
 } // namespace
 
 shared::MaterialConstants packMaterial(const scenes::Material& material) {
-    const bool metallicRoughness = material.model == MaterialModel::MetallicRoughness;
     shared::MaterialConstants packed{};
     packed.baseColor = material.baseColor;
     packed.emissive = glm::vec4(material.emissive, material.alphaCutoff);
     packed.microsurface =
-        glm::vec4(material.metallic, metallicRoughness ? material.perceptualRoughness : material.alpha, material.ior,
-                  material.normalScale);
+        glm::vec4(material.metallic, roughnessParameter(material), material.ior, material.normalScale);
     packed.specular = glm::vec4(material.specularColor, material.specularFactor);
     const double contrast = (double(material.ior) - 1.0) / (double(material.ior) + 1.0);
     packed.dielectric = glm::vec4(float(contrast * contrast), 0.0f, 0.0f, 0.0f);
-    packed.kind = glm::uvec4(glm::uint(material.model), materialFlags(material), 0u, 0u);
+    packed.anisotropy = packAnisotropy(material);
+    packed.clearcoat =
+        glm::vec4(material.clearcoat, material.clearcoatPerceptualRoughness, material.clearcoatNormalScale, 0.0f);
+    packed.sheen = glm::vec4(material.sheenColor, material.sheenPerceptualRoughness);
+    packed.kind = glm::uvec4(glm::uint(material.model), materialFlags(material), glm::uint(material.masking), 0u);
     for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
         packTexture(material.textures[slot], packed.uvRow0[slot], packed.uvRow1[slot]);
     }
@@ -64,7 +99,8 @@ shared::MaterialConstants packMaterial(const scenes::Material& material) {
 }
 
 bool slotIsSrgb(TextureSlot slot) {
-    return slot == TextureSlot::BaseColor || slot == TextureSlot::Emissive || slot == TextureSlot::SpecularColor;
+    return slot == TextureSlot::BaseColor || slot == TextureSlot::Emissive || slot == TextureSlot::SpecularColor ||
+           slot == TextureSlot::SheenColor;
 }
 
 } // namespace tessera::frame

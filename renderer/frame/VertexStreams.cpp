@@ -16,17 +16,29 @@ void append(std::vector<T>& stream, const std::vector<T>& values, std::size_t co
     }
 }
 
-/// The texture-coordinate set of the tangent-space normal map that a mesh is drawn with, or -1 without one. A mesh
-/// drawn with two such maps on different sets follows the first.
-std::vector<int> normalMapSets(const scenes::Scene& scene) {
+/// The texture-coordinate set that the material's tangents follow, or -1 where it needs none: that of its tangent-space
+/// normal map, else of what else is given in tangent space.
+int tangentSet(const scenes::Material& material) {
+    using scenes::TextureSlot;
+    const scenes::TextureUse& normal = material.texture(TextureSlot::Normal);
+    if (normal.image != scenes::kNone && material.normalMapSpace == scenes::NormalMapSpace::Tangent)
+        return normal.texCoordSet;
+    const bool metallicRoughness = material.model == scenes::MaterialModel::MetallicRoughness;
+    const bool anisotropic = material.model == scenes::MaterialModel::MicrofacetAnisotropic ||
+                             (metallicRoughness && material.anisotropyStrength > 0.0f);
+    if (anisotropic) return material.texture(TextureSlot::Anisotropy).texCoordSet;
+    const scenes::TextureUse& coat = material.texture(TextureSlot::ClearcoatNormal);
+    return metallicRoughness && material.clearcoat > 0.0f && coat.image != scenes::kNone ? coat.texCoordSet : -1;
+}
+
+/// The same of each mesh. A mesh drawn with materials that differ follows the first.
+std::vector<int> tangentSets(const scenes::Scene& scene) {
     std::vector<int> sets(scene.meshes.size(), -1);
     for (const scenes::Node& node : scene.nodes) {
         for (const scenes::MeshInstance& instance : node.instances) {
             const scenes::Material& material = scene.materials[std::size_t(instance.material)];
-            const scenes::TextureUse& use = material.texture(scenes::TextureSlot::Normal);
-            if (use.image == scenes::kNone || material.normalMapSpace == scenes::NormalMapSpace::Object) continue;
             int& set = sets[std::size_t(instance.mesh)];
-            if (set < 0) set = use.texCoordSet;
+            if (set < 0) set = tangentSet(material);
         }
     }
     return sets;
@@ -36,7 +48,7 @@ std::vector<int> normalMapSets(const scenes::Scene& scene) {
 
 VertexStreams makeVertexStreams(const scenes::Scene& scene, const FeatureSet& features) {
     VertexStreams streams;
-    const std::vector<int> tangentSets = normalMapSets(scene);
+    const std::vector<int> sets = tangentSets(scene);
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const scenes::Mesh& mesh = scene.meshes[i];
         const std::size_t count = mesh.positionsOS.size();
@@ -45,10 +57,10 @@ VertexStreams makeVertexStreams(const scenes::Scene& scene, const FeatureSet& fe
         streams.indices.insert(streams.indices.end(), mesh.indices.begin(), mesh.indices.end());
         append(streams.positionsOS, mesh.positionsOS, count, glm::vec3(0.0f));
         append(streams.normalsOS, mesh.normalsOS, count, glm::vec3(0.0f));
-        if (features[Feature::TangentSpaceNormals]) {
-            const bool computed = mesh.tangentsOS.empty() && tangentSets[i] >= 0;
-            append(streams.tangentsOS, computed ? computeTangents(mesh, std::size_t(tangentSets[i])) : mesh.tangentsOS,
-                   count, glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
+        if (features.tangents()) {
+            const bool computed = mesh.tangentsOS.empty() && sets[i] >= 0;
+            append(streams.tangentsOS, computed ? computeTangents(mesh, std::size_t(sets[i])) : mesh.tangentsOS, count,
+                   glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
         }
         if (features.textures()) append(streams.texCoords[0], mesh.texCoords[0], count, glm::vec2(0.0f));
         if (features[Feature::TexCoord1]) append(streams.texCoords[1], mesh.texCoords[1], count, glm::vec2(0.0f));

@@ -8,6 +8,8 @@ namespace tessera::scenes::builtin {
 Scene makeHall(const LoadOptions& options);
 /// Spheres in rows of growing metalness and columns of growing roughness.
 Scene makeSpheres(const LoadOptions& options);
+/// Every material model and layer, with pictures and without, on three steps.
+Scene makeModels(const LoadOptions& options);
 /// The benchmark scene: 256 spheres and boxes, `lights` point lights (256 by default), every number of it specified.
 Scene makeLattice(const LoadOptions& options);
 /// A closed room whose radiance is known in closed form (Room.h); `lights` share the one lamp's place and intensity.

@@ -16,8 +16,17 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::string_view kSupportedExtensions[] = {
-    "EXT_meshopt_compression", "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",
-    "KHR_materials_specular",  "KHR_materials_unlit", "KHR_mesh_quantization",           "KHR_texture_transform",
+    "EXT_meshopt_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
 };
 
 /// Far deeper than glTF nests; printing and converting JSON recurse, so depth must not be the file's to choose.

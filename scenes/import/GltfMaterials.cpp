@@ -73,6 +73,9 @@ Material Materials::convert(int index) {
         material.ior = static_cast<float>(index2Over1);
     }
     convertSpecular(stored, place, material);
+    convertAnisotropy(stored, place, material);
+    convertClearcoat(stored, place, material);
+    convertSheen(stored, place, material);
     return material;
 }
 
@@ -86,6 +89,44 @@ void Materials::convertSpecular(const tinygltf::Material& stored, const std::str
         textures_.use(referenceIn(*specular, "specularTexture"), specularPlace + "/specularTexture");
     material.texture(TextureSlot::SpecularColor) =
         textures_.use(referenceIn(*specular, "specularColorTexture"), specularPlace + "/specularColorTexture");
+}
+
+void Materials::convertAnisotropy(const tinygltf::Material& stored, const std::string& place, Material& material) {
+    const tinygltf::Value* anisotropy = findExtension(stored.extensions, "KHR_materials_anisotropy");
+    if (anisotropy == nullptr) return;
+    material.anisotropyStrength = static_cast<float>(numberIn(*anisotropy, "anisotropyStrength", 0.0));
+    material.anisotropyRotationRadians = static_cast<float>(numberIn(*anisotropy, "anisotropyRotation", 0.0));
+    material.texture(TextureSlot::Anisotropy) =
+        textures_.use(referenceIn(*anisotropy, "anisotropyTexture"),
+                      place + "/extensions/KHR_materials_anisotropy/anisotropyTexture");
+}
+
+void Materials::convertClearcoat(const tinygltf::Material& stored, const std::string& place, Material& material) {
+    const tinygltf::Value* coat = findExtension(stored.extensions, "KHR_materials_clearcoat");
+    if (coat == nullptr) return;
+    material.clearcoat = static_cast<float>(numberIn(*coat, "clearcoatFactor", 0.0));
+    material.clearcoatPerceptualRoughness = static_cast<float>(numberIn(*coat, "clearcoatRoughnessFactor", 0.0));
+    const std::string coatPlace = place + "/extensions/KHR_materials_clearcoat";
+    material.texture(TextureSlot::Clearcoat) =
+        textures_.use(referenceIn(*coat, "clearcoatTexture"), coatPlace + "/clearcoatTexture");
+    material.texture(TextureSlot::ClearcoatRoughness) =
+        textures_.use(referenceIn(*coat, "clearcoatRoughnessTexture"), coatPlace + "/clearcoatRoughnessTexture");
+    material.texture(TextureSlot::ClearcoatNormal) =
+        textures_.use(referenceIn(*coat, "clearcoatNormalTexture"), coatPlace + "/clearcoatNormalTexture");
+    if (coat->Has("clearcoatNormalTexture"))
+        material.clearcoatNormalScale = static_cast<float>(numberIn(coat->Get("clearcoatNormalTexture"), "scale", 1.0));
+}
+
+void Materials::convertSheen(const tinygltf::Material& stored, const std::string& place, Material& material) {
+    const tinygltf::Value* sheen = findExtension(stored.extensions, "KHR_materials_sheen");
+    if (sheen == nullptr) return;
+    material.sheenColor = colorIn(*sheen, "sheenColorFactor", material.sheenColor);
+    material.sheenPerceptualRoughness = static_cast<float>(numberIn(*sheen, "sheenRoughnessFactor", 0.0));
+    const std::string sheenPlace = place + "/extensions/KHR_materials_sheen";
+    material.texture(TextureSlot::SheenColor) =
+        textures_.use(referenceIn(*sheen, "sheenColorTexture"), sheenPlace + "/sheenColorTexture");
+    material.texture(TextureSlot::SheenRoughness) =
+        textures_.use(referenceIn(*sheen, "sheenRoughnessTexture"), sheenPlace + "/sheenRoughnessTexture");
 }
 
 } // namespace tessera::scenes::gltf

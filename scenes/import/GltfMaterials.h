@@ -6,7 +6,8 @@
 namespace tessera::scenes::gltf {
 
 /// Turns glTF materials into the scene's, the first time each is used.
-/// Source: glTF 2.0 section 3.9; KHR_materials_unlit, _emissive_strength, _ior, _specular.
+/// Source: glTF 2.0 section 3.9; KHR_materials_unlit, _emissive_strength, _ior, _specular, _anisotropy, _clearcoat,
+/// _sheen.
 class Materials {
 public:
     explicit Materials(Context& context) : context_(context), textures_(context) {}
@@ -18,6 +19,9 @@ public:
 private:
     Material convert(int index);
     void convertSpecular(const tinygltf::Material& stored, const std::string& place, Material& material);
+    void convertAnisotropy(const tinygltf::Material& stored, const std::string& place, Material& material);
+    void convertClearcoat(const tinygltf::Material& stored, const std::string& place, Material& material);
+    void convertSheen(const tinygltf::Material& stored, const std::string& place, Material& material);
 
     Context& context_;
     Textures textures_;

@@ -9,9 +9,17 @@ namespace {
 using ModelName = std::pair<std::string_view, MaterialModel>;
 constexpr std::array kModels = {ModelName{"single_color", MaterialModel::SingleColor},
                                 ModelName{"lambert", MaterialModel::Lambert},
+                                ModelName{"blinn_phong", MaterialModel::BlinnPhong},
                                 ModelName{"microfacet", MaterialModel::Microfacet},
+                                ModelName{"microfacet_anisotropic", MaterialModel::MicrofacetAnisotropic},
                                 ModelName{"metallic_roughness", MaterialModel::MetallicRoughness}};
-constexpr std::array<std::string_view, 2> kNotShadedYet = {"blinn_phong", "microfacet_anisotropic"};
+
+using MaskingName = std::pair<std::string_view, Masking>;
+constexpr std::array kMaskings = {MaskingName{"walter", Masking::Walter},
+                                  MaskingName{"half_vector", Masking::HalfVector}};
+constexpr std::array kAnisotropicMaskings = {MaskingName{"walter", Masking::Walter},
+                                             MaskingName{"directional", Masking::Directional},
+                                             MaskingName{"half_vector", Masking::HalfVector}};
 
 using AlphaModeName = std::pair<std::string_view, AlphaMode>;
 constexpr std::array kAlphaModes = {AlphaModeName{"opaque", AlphaMode::Opaque}, AlphaModeName{"mask", AlphaMode::Mask},
@@ -20,15 +28,6 @@ constexpr std::array kAlphaModes = {AlphaModeName{"opaque", AlphaMode::Opaque}, 
 using SpaceName = std::pair<std::string_view, NormalMapSpace>;
 constexpr std::array kSpaces = {SpaceName{"tangent", NormalMapSpace::Tangent},
                                 SpaceName{"object", NormalMapSpace::Object}};
-
-MaterialModel readModel(const JsonValue& value) {
-    if (const std::string name = value.text(); std::ranges::find(kNotShadedYet, name) != kNotShadedYet.end()) {
-        std::vector<std::string_view> shaded;
-        for (const auto& [known, model] : kModels) shaded.push_back(known);
-        value.fail(fmt::format("the model '{}' is not shaded yet; shaded are {}", name, fmt::join(shaded, ", ")));
-    }
-    return value.oneOf<MaterialModel>("material model", kModels);
-}
 
 /// Reads one material's parameters, each either a factor or {factor, texture}.
 class Parameters {
@@ -64,6 +63,53 @@ public:
                 material_.baseColor[i] = channels[static_cast<std::size_t>(i)].single(0.0);
             if (channels.size() == 4) material_.baseColor.w = channels[3].single(0.0, 1.0);
         });
+    }
+
+    /// RGB, each 0..1.
+    void shareColor(std::string_view key, TextureSlot slot, glm::vec3& factor) {
+        read(key, slot, [&](const JsonValue& value) {
+            const std::vector<JsonValue> channels = value.elements(3, 3);
+            for (glm::length_t i = 0; i < 3; ++i) factor[i] = channels[static_cast<std::size_t>(i)].single(0.0, 1.0);
+        });
+    }
+
+    void ior() {
+        read("ior", TextureSlot::Ior, [&](const JsonValue& value) {
+            value.positive();
+            material_.ior = value.single();
+        });
+    }
+
+    void masking(std::span<const MaskingName> names) {
+        if (const auto value = object_.find("masking")) material_.masking = value->oneOf<Masking>("masking", names);
+    }
+
+    void anisotropy() {
+        if (const auto strength = object_.find("anisotropyStrength"))
+            material_.anisotropyStrength = strength->single(0.0, 1.0);
+        if (const auto rotation = object_.find("anisotropyRotationDegrees"))
+            material_.anisotropyRotationRadians = static_cast<float>(glm::radians(rotation->number()));
+        if (const auto texture = object_.find("anisotropyTexture")) setTexture(*texture, TextureSlot::Anisotropy);
+    }
+
+    void clearcoat() {
+        number("clearcoat", TextureSlot::Clearcoat, material_.clearcoat, 0.0, 1.0);
+        number("clearcoatPerceptualRoughness", TextureSlot::ClearcoatRoughness, material_.clearcoatPerceptualRoughness,
+               0.0, 1.0);
+        const std::optional<JsonValue> value = object_.find("clearcoatNormalMap");
+        if (!value) return;
+        TextureUse& use = material_.texture(TextureSlot::ClearcoatNormal);
+        material_.clearcoatNormalScale = 1.0f;
+        if (!value->isObject()) return setTexture(*value, TextureSlot::ClearcoatNormal);
+        JsonObject map = value->object();
+        if (const auto scale = map.find("scale")) material_.clearcoatNormalScale = scale->single();
+        use = readTexture(map, images_);
+        map.done("a clearcoat normal map");
+    }
+
+    void sheen() {
+        shareColor("sheenColor", TextureSlot::SheenColor, material_.sheenColor);
+        number("sheenPerceptualRoughness", TextureSlot::SheenRoughness, material_.sheenPerceptualRoughness, 0.0, 1.0);
     }
 
     void normalMap() {
@@ -128,10 +174,21 @@ void readModelParameters(JsonObject& object, Material& material, Images& images)
         parameters.baseColor("k_d");
         parameters.color("k_s", TextureSlot::SpecularColor, material.specularColor);
         parameters.number("alpha", TextureSlot::MetallicRoughness, material.alpha, 0.0, kMost);
-        parameters.read("ior", TextureSlot::Ior, [&](const JsonValue& value) {
-            value.positive();
-            material.ior = value.single();
-        });
+        parameters.ior();
+        parameters.masking(kMaskings);
+        break;
+    case MaterialModel::MicrofacetAnisotropic:
+        parameters.baseColor("k_d");
+        parameters.color("k_s", TextureSlot::SpecularColor, material.specularColor);
+        parameters.number("alphaX", TextureSlot::MetallicRoughness, material.alpha, 0.0, kMost);
+        parameters.number("alphaY", TextureSlot::Anisotropy, material.alphaY, 0.0, kMost);
+        parameters.ior();
+        parameters.masking(kAnisotropicMaskings);
+        break;
+    case MaterialModel::BlinnPhong:
+        parameters.baseColor("k_d");
+        parameters.color("k_s", TextureSlot::SpecularColor, material.specularColor);
+        parameters.number("exponent", TextureSlot::MetallicRoughness, material.exponent, 0.0, kMost);
         break;
     case MaterialModel::MetallicRoughness:
         parameters.baseColor("baseColor");
@@ -149,10 +206,10 @@ void readModelParameters(JsonObject& object, Material& material, Images& images)
         parameters.number("specularFactor", TextureSlot::SpecularFactor, material.specularFactor, 0.0, 1.0);
         parameters.color("specularColor", TextureSlot::SpecularColor, material.specularColor);
         parameters.emission();
+        parameters.anisotropy();
+        parameters.clearcoat();
+        parameters.sheen();
         break;
-    case MaterialModel::BlinnPhong:
-    case MaterialModel::MicrofacetAnisotropic:
-        return; // refused where the model is read; no importer makes them
     }
     parameters.normalMap();
 }
@@ -174,7 +231,12 @@ Material readMaterial(const JsonValue& value, Images& images) {
 }
 
 void changeMaterial(JsonObject& object, Material& material, Images& images) {
-    if (const auto model = object.find("model")) material.model = readModel(*model);
+    if (const auto model = object.find("model")) {
+        material.model = model->oneOf<MaterialModel>("material model", kModels);
+        // Overrides may change the model, and only one of them has every masking.
+        if (material.model != MaterialModel::MicrofacetAnisotropic && material.masking == Masking::Directional)
+            material.masking = Masking::Walter;
+    }
     readModelParameters(object, material, images);
     if (const auto mode = object.find("alphaMode"))
         material.alphaMode = mode->oneOf<AlphaMode>("alpha mode", kAlphaModes);

@@ -16,12 +16,50 @@ float distributionGgx(float alpha, vec3 n, vec3 h)
     return d;
 }
 
+// The same with alpha x along the unit tangent and alpha y along the bitangent. Source: Burley 2012, "Physically-Based
+// Shading at Disney", appendix B.1; Heitz 2014, eq. 84. The components of h across n are taken from n x h, which has the
+// digits that t.h and b.h would lose near the peak, so that equal alphas give distributionGgx to rounding.
+float distributionGgxAnisotropic(vec2 alpha, vec3 n, vec3 tangent, vec3 h)
+{
+    precise float cosine = dot(n, h);
+    if (!(cosine > 0.0)) return 0.0;
+    precise vec3 across = cross(n, h);
+    precise vec2 slope = vec2(dot(across, cross(n, tangent)), dot(across, tangent)) / alpha;
+    precise float t = cosine * cosine + dot(slope, slope);
+    precise float d = 1.0 / (kPi * (alpha.x * alpha.y) * (t * t));
+    return d;
+}
+
 // sqrt(alpha^2 + (1 - alpha^2) c^2), the length that Smith's masking compares with the cosine c.
 float smithLength(float alpha, float cosine)
 {
     precise float alpha2 = alpha * alpha;
     precise float q = sqrt(alpha2 + (1.0 - alpha2) * (cosine * cosine));
     return q;
+}
+
+// The same for a direction whose alpha is that along its own projection on the surface: its components t and b along tangent
+// and bitangent give alpha^2 (1 - c^2) = (alpha x t)^2 + (alpha y b)^2, without a division. Source: Heitz 2014, eq. 80.
+float smithLengthAnisotropic(vec2 alpha, vec3 n, vec3 tangent, vec3 direction)
+{
+    precise float cosine = dot(n, direction);
+    precise vec2 stretched = alpha * vec2(dot(tangent, direction), dot(cross(n, tangent), direction));
+    precise float q = sqrt(cosine * cosine + dot(stretched, stretched));
+    return q;
+}
+
+// alpha along the projection of the microfacet normal h, which Walter's masking takes for the anisotropic lobe. Where h = n
+// no direction is distinguished, and the mean of the squares stands for all.
+float alphaAlong(vec2 alpha, vec3 n, vec3 tangent, vec3 h)
+{
+    // An angle of 1e-15 is far below the rounding of h, and its square still far above the least number of fp32.
+    const float kNoDirection = 1e-30;
+    precise vec3 across = cross(n, h);
+    precise vec2 parts = vec2(dot(across, cross(n, tangent)), dot(across, tangent));
+    precise float length2 = dot(parts, parts);
+    precise vec2 share = length2 > kNoDirection ? (parts * parts) / length2 : vec2(0.5);
+    precise float along = sqrt(dot(alpha * alpha, share));
+    return along;
 }
 
 // G / (4 n.l n.v) for separable Smith masking, G = G1(l) G1(v). Source: Walter 2007, eq. 23 and 34; the cosines of G1's
@@ -32,11 +70,36 @@ float visibilitySeparable(float alpha, float cosineLight, float cosineView)
     return v;
 }
 
-// The same for height-correlated Smith masking. Source: Heitz 2014, "Understanding the Masking-Shadowing Function in
+// The same for lengths that were computed before.
+float visibilityOfLengths(float cosineLight, float lengthLight, float cosineView, float lengthView)
+{
+    precise float v = 1.0 / ((cosineLight + lengthLight) * (cosineView + lengthView));
+    return v;
+}
+
+// G / (4 n.l n.v) where G1 depends on the angle to the half vector instead of the normal, as one well-known course handout has
+// it. Gains energy at grazing angles. Nothing cancels the cosines here; n.v is held to 1e-6 as in the handout, n.l to a value
+// that only keeps D G / (4 n.l n.v) finite. cosineHalf is l.h = v.h.
+float visibilityHalfVector(float alpha, float cosineLight, float cosineView, float cosineHalf)
+{
+    if (!(cosineHalf > 0.0)) return 0.0;
+    precise float g1 = 2.0 * cosineHalf / (cosineHalf + smithLength(alpha, cosineHalf));
+    precise float v = g1 * g1 / (4.0 * max(cosineLight, 1e-20) * max(cosineView, 1e-6));
+    return v;
+}
+
+// The same as visibilitySeparable for height-correlated Smith masking. Source: Heitz 2014, "Understanding the Masking-Shadowing Function in
 // Microfacet-Based BRDFs", eq. 99. Needs both cosines > 0.
 float visibilityCorrelated(float alpha, float cosineLight, float cosineView)
 {
     precise float v = 0.5 / (cosineLight * smithLength(alpha, cosineView) + cosineView * smithLength(alpha, cosineLight));
+    return v;
+}
+
+// The same for lengths that were computed before.
+float visibilityCorrelatedOfLengths(float cosineLight, float lengthLight, float cosineView, float lengthView)
+{
+    precise float v = 0.5 / (cosineLight * lengthView + cosineView * lengthLight);
     return v;
 }
 
@@ -65,4 +128,27 @@ vec3 fresnelSchlick(vec3 f0, float f90, float cosine)
     precise float m5 = m2 * m2 * m;
     precise vec3 f = f0 + (vec3(f90) - f0) * m5;
     return f;
+}
+
+// x^exponent for x in 0..1, of which 1 - x^2 is known with more digits than x: ln x = -atanh(r) with r = (1 - x^2)/(1 + x^2),
+// whose series needs five terms where x is near 1 (the next one is below 1e-9 of the sum). 0^0 = 1.
+float powerNearOne(float x, float oneMinusX2, float exponent)
+{
+    if (!(exponent > 0.0)) return 1.0;
+    if (!(x > 0.0)) return 0.0;
+    precise float r = oneMinusX2 / (2.0 - oneMinusX2);
+    precise float r2 = r * r;
+    precise float series = r * (1.0 + r2 * (1.0 / 3.0 + r2 * (1.0 / 5.0 + r2 * (1.0 / 7.0 + r2 * (1.0 / 9.0)))));
+    precise float logarithm = oneMinusX2 < 0.25 ? -series : log(x);
+    precise float power = exp(exponent * logarithm);
+    return power;
+}
+
+// The highlight of Blinn-Phong, (n.h)^p. Source: Blinn 1977, "Models of Light Reflection for Computer Synthesized Pictures".
+// 1 - (n.h)^2 = |n x h|^2 keeps the digits that a large exponent multiplies.
+float blinnPhongLobe(float exponent, vec3 n, vec3 h)
+{
+    precise vec3 across = cross(n, h);
+    precise float lobe = powerNearOne(clamp(dot(n, h), 0.0, 1.0), min(dot(across, across), 1.0), exponent);
+    return lobe;
 }

@@ -2,6 +2,8 @@
 // models that the scene uses, and different at every pixel, so that no compiler lifts anything out of the light loop.
 #pragma once
 #include "lib/camera.glsl"
+#include "lib/octahedral.glsl"
+#include "lib/surface.glsl"
 #include "shared/floor.h"
 
 // 0 to 1; neighbouring pixels differ.
@@ -33,8 +35,14 @@ uint floorModel(vec2 pixel)
 #if HAS_LAMBERT
         MODEL_LAMBERT,
 #endif
+#if HAS_BLINN_PHONG
+        MODEL_BLINN_PHONG,
+#endif
 #if HAS_MICROFACET
         MODEL_MICROFACET,
+#endif
+#if HAS_MICROFACET_ANISOTROPIC
+        MODEL_MICROFACET_ANISOTROPIC,
 #endif
 #if HAS_METALLIC_ROUGHNESS
         MODEL_METALLIC_ROUGHNESS,
@@ -42,6 +50,39 @@ uint floorModel(vec2 pixel)
         MODEL_SINGLE_COLOR);
     uvec2 block = uvec2(pixel) / 64u;
     return models[(block.x + block.y) % uint(models.length() - 1)]; // the last one is unlit and only ends the list
+#endif
+}
+
+// What some models and layers have beside; every surface has it where the scene's features include it.
+void setFloorLobes(vec2 pixel, inout Surface surface)
+{
+    setNeutralLobes(surface);
+#if HAS_BLINN_PHONG
+    precise float exponent = 8.0 + 64.0 * floorShare(pixel, vec2(0.0143, 0.0203));
+    surface.exponent = exponent;
+#endif
+#if HAS_MASKING_OPTIONS
+    surface.masking = surface.model == MODEL_MICROFACET ? MASKING_HALF_VECTOR : MASKING_DIRECTIONAL;
+#endif
+#if HAS_TANGENT_FRAME
+    precise vec3 across = vec3(1.0, 0.0, 0.0) - surface.normalLS * surface.normalLS.x;
+    precise vec3 tangent = across / sqrt(dot(across, across)); // the floor's normals lie around the z axis
+    surface.tangentLS = tangent;
+    precise float alphaBitangent = 0.1 + 0.8 * floorShare(pixel, vec2(0.0247, 0.0073));
+    surface.alphaBitangent = alphaBitangent;
+#endif
+#if HAS_CLEARCOAT
+    precise float factor = 0.5 + 0.5 * floorShare(pixel, vec2(0.0183, 0.0059));
+    surface.coatNormalCode = encodeOctahedral(surface.normalLS);
+    surface.coatFactor = surface.model == MODEL_METALLIC_ROUGHNESS ? factor : 0.0;
+    precise float coatAlpha = 0.05 + 0.4 * floorShare(pixel, vec2(0.0067, 0.0287));
+    surface.coatAlpha = coatAlpha;
+#endif
+#if HAS_SHEEN
+    precise float color = 0.1 + 0.4 * floorShare(pixel, vec2(0.0037, 0.0231));
+    surface.sheenColor = surface.model == MODEL_METALLIC_ROUGHNESS ? vec3(color) : vec3(0.0);
+    precise float sheenAlpha = 0.1 + 0.6 * floorShare(pixel, vec2(0.0197, 0.0083));
+    surface.sheenAlpha = sheenAlpha;
 #endif
 }
 
@@ -57,11 +98,11 @@ Surface floorSurface(vec2 pixel, Viewpoint viewpoint)
     surface.alpha = alpha;
     precise float iorOrF90 = 1.0;
     precise vec3 specular = defaultSpecular(surface.model);
-#if HAS_MICROFACET
-    if (surface.model == MODEL_MICROFACET) iorOrF90 = 1.6 - 0.1 * floorShare(pixel, vec2(0.0181, 0.0221));
+#if HAS_MICROFACET || HAS_MICROFACET_ANISOTROPIC
+    if (isMicrofacet(surface.model)) iorOrF90 = 1.6 - 0.1 * floorShare(pixel, vec2(0.0181, 0.0221));
 #endif
 #if HAS_SPECULAR
-    if (surface.model != MODEL_MICROFACET) iorOrF90 = 1.0 - 0.1 * floorShare(pixel, vec2(0.0181, 0.0221));
+    if (!isMicrofacet(surface.model)) iorOrF90 = 1.0 - 0.1 * floorShare(pixel, vec2(0.0181, 0.0221));
     specular *= 0.5 + 0.5 * floorShare(pixel, vec2(0.0061, 0.0149));
 #endif
     surface.iorOrF90 = iorOrF90;
@@ -73,6 +114,7 @@ Surface floorSurface(vec2 pixel, Viewpoint viewpoint)
     precise vec3 normal = tilted / sqrt(dot(tilted, tilted));
     surface.normalLS = normal;
     surface.normalTexel = vec3(0.5, 0.5, 1.0);
+    setFloorLobes(pixel, surface);
     return surface;
 }
 #endif

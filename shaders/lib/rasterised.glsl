@@ -9,7 +9,7 @@
 #if !FILTER_EXACT
 layout(location = 0) in vec3 normalLS;
 #endif
-#if HAS_TANGENT_SPACE_NORMALS
+#if HAS_TANGENTS
 layout(location = 1) in vec4 tangentLS;
 #endif
 #if HAS_OBJECT_SPACE_NORMALS
@@ -47,7 +47,7 @@ Fragment rasterisedFragment()
 #else
     fragment.normalLS = normalLS;
 #endif
-#if HAS_TANGENT_SPACE_NORMALS
+#if HAS_TANGENTS
     fragment.tangentLS = tangentLS;
 #endif
 #if HAS_OBJECT_SPACE_NORMALS

@@ -2,17 +2,37 @@
 // G-buffer (lib/gbuffer.glsl).
 #pragma once
 #include "shared/models.h"
+#include "lib/features.glsl"
 
 struct Surface {
     uint model;        // MODEL_*
     vec3 albedo;       // k_d, or base colour of metallic_roughness
     float metallic;    // metallic_roughness
-    float alpha;       // GGX alpha, >= ALPHA_MIN
+    float alpha;       // GGX alpha, >= ALPHA_MIN; along the tangent where the lobe is anisotropic
     vec3 specular;     // k_s, or the dielectric F0 of metallic_roughness
     float iorOrF90;    // index of refraction of microfacet, or the dielectric F90 of metallic_roughness
     vec3 emission;     // radiance that needs no light; all of single_color
     vec3 normalLS;     // unit
     vec3 normalTexel;  // the normal map's texel as stored, for the view that shows it
+#if HAS_BLINN_PHONG
+    float exponent;    // p of blinn_phong, >= 0
+#endif
+#if HAS_MASKING_OPTIONS
+    uint masking;      // MASKING_*, of the microfacet models
+#endif
+#if HAS_TANGENT_FRAME
+    vec3 tangentLS;         // unit, at right angles to the normal; its sign does not matter
+    float alphaBitangent;   // GGX alpha along cross(normal, tangent), >= ALPHA_MIN
+#endif
+#if HAS_CLEARCOAT
+    vec2 coatNormalCode; // the coat's own normal in lighting space, octahedral: what is stored is what all techniques decode
+    float coatFactor;    // 0 where there is no coat
+    float coatAlpha;     // GGX alpha, >= ALPHA_MIN
+#endif
+#if HAS_SHEEN
+    vec3 sheenColor;   // black where there is no sheen
+    float sheenAlpha;  // alpha of the Charlie distribution, >= ALPHA_MIN
+#endif
 };
 
 // Where the surface is; never stored, always rebuilt from depth (lib/camera.glsl).
@@ -32,8 +52,40 @@ uint surfaceModel(uint stored)
 #endif
 }
 
+bool isMicrofacet(uint model)
+{
+#if HAS_MICROFACET_ANISOTROPIC
+    if (model == MODEL_MICROFACET_ANISOTROPIC) return true;
+#endif
+    return model == MODEL_MICROFACET;
+}
+
 // The dielectric lobe where no material changes it: k_s = 1, or F0 of ior 1.5.
 vec3 defaultSpecular(uint model)
 {
-    return model == MODEL_MICROFACET ? vec3(1.0) : vec3(0.04);
+    return model == MODEL_METALLIC_ROUGHNESS ? vec3(0.04) : vec3(1.0);
+}
+
+// Members that only some scenes have, where nothing sets them.
+void setNeutralLobes(inout Surface surface)
+{
+#if HAS_BLINN_PHONG
+    surface.exponent = 0.0;
+#endif
+#if HAS_MASKING_OPTIONS
+    surface.masking = MASKING_WALTER;
+#endif
+#if HAS_TANGENT_FRAME
+    surface.tangentLS = vec3(1.0, 0.0, 0.0);
+    surface.alphaBitangent = 1.0;
+#endif
+#if HAS_CLEARCOAT
+    surface.coatNormalCode = vec2(0.0);
+    surface.coatFactor = 0.0;
+    surface.coatAlpha = 1.0;
+#endif
+#if HAS_SHEEN
+    surface.sheenColor = vec3(0.0);
+    surface.sheenAlpha = 1.0;
+#endif
 }

@@ -16,11 +16,12 @@
 #endif
 #include "lib/lighting.glsl"
 
-// D, G or F of the one light that frame.lights.y names, as rgb; 0 where the light is not visible from the point.
+// D, G or F of the one light that frame.lights.y names, as rgb; 0 where the light is not visible from the point. Of
+// blinn_phong D is the highlight, and the others are 0; of layered materials they are those of the lowest lobe.
 vec3 specularFactorView(Surface surface, Viewpoint viewpoint)
 {
     vec3 shown = vec3(0.0);
-#if HAS_METALLIC_ROUGHNESS || HAS_MICROFACET
+#if HAS_GLOSSY_MODELS
     Incident incident;
     if (surface.model == MODEL_SINGLE_COLOR || surface.model == MODEL_LAMBERT) return shown;
     if (int(frame.lights.y) >= int(frame.lights.x)) return shown;

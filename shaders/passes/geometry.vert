@@ -1,6 +1,7 @@
 // The one vertex function: every rasterising pass uses it, so a surface has the same depth to the last bit in all of them.
 #include "shared/slots.h"
 #include "lib/camera.glsl"
+#include "lib/features.glsl"
 
 layout(location = ATTRIBUTE_POSITION) in vec3 positionOS;
 layout(location = ATTRIBUTE_NORMAL) in vec3 normalOS;
@@ -23,7 +24,7 @@ invariant gl_Position;
 #if !DEPTH_ONLY
 layout(location = 0) out vec3 normalLS;
 #endif
-#if HAS_TANGENT_SPACE_NORMALS && !DEPTH_ONLY
+#if HAS_TANGENTS && !DEPTH_ONLY
 layout(location = 1) out vec4 tangentLS;
 #endif
 #if HAS_TEXTURES
@@ -59,7 +60,7 @@ void main()
 #endif
 #if !DEPTH_ONLY
     normalLS = vec3(dot(drawNormal0.xyz, normalOS), dot(drawNormal1.xyz, normalOS), dot(drawNormal2.xyz, normalOS));
-#if HAS_TANGENT_SPACE_NORMALS
+#if HAS_TANGENTS
     tangentLS = vec4(dot(drawRow0.xyz, tangentOS.xyz), dot(drawRow1.xyz, tangentOS.xyz), dot(drawRow2.xyz, tangentOS.xyz),
                      tangentOS.w * drawNormal0.w);
 #endif

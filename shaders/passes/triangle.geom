@@ -1,5 +1,6 @@
 // Hands every fragment its whole triangle, for --filter exact (lib/triangle.glsl); the rest goes through as it is.
 #include "shared/slots.h"
+#include "lib/features.glsl"
 
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
@@ -19,7 +20,7 @@ layout(location = 13) flat out vec4 triangleTexCoords[3];
 #if !DEPTH_ONLY
 layout(location = 0) in vec3 vertexNormalLS[];
 layout(location = 16) flat out vec3 triangleNormalLS[3];
-#if HAS_TANGENT_SPACE_NORMALS
+#if HAS_TANGENTS
 layout(location = 1) in vec4 vertexTangentLS[];
 layout(location = 1) out vec4 tangentLS;
 #endif
@@ -60,7 +61,7 @@ void main()
 #endif
         }
 #if !DEPTH_ONLY
-#if HAS_TANGENT_SPACE_NORMALS
+#if HAS_TANGENTS
         tangentLS = vertexTangentLS[corner];
 #endif
 #if HAS_OBJECT_SPACE_NORMALS

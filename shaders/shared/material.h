@@ -8,6 +8,8 @@
 #define MATERIAL_FLAG_ALPHA_MASK 4u
 #define MATERIAL_FLAG_DOUBLE_SIDED 8u
 #define MATERIAL_FLAG_IOR_TEXTURE 16u
+#define MATERIAL_FLAG_ANISOTROPY_TEXTURE 32u
+#define MATERIAL_FLAG_CLEARCOAT_NORMAL_MAP 64u
 
 // Added to a slot's wrap modes: its texture holds sRGB code values, which the shader decodes.
 #define TEXTURE_MODE_SRGB 16
@@ -17,10 +19,15 @@ SHARED_BEGIN
 struct MaterialConstants {
     vec4 baseColor;    // rgb base colour, k_d or the colour; a opacity
     vec4 emissive;     // rgb radiance; a alpha cutoff
-    vec4 microsurface; // x metallic, y perceptual roughness or alpha (microfacet), z ior, w normal-map scale
+    vec4 microsurface; // x metallic, y perceptual roughness, alpha (microfacet models) or exponent (blinn_phong), z
+                       // ior, w normal-map scale
     vec4 specular;     // rgb k_s, or the tint of the dielectric F0; a specular factor
     vec4 dielectric;   // x F0 of the ior, computed in double so that ior 1.5 gives 0.04 to the last bit
-    uvec4 kind;        // x model, y flags
+    vec4 anisotropy;   // x strength, or alpha along the bitangent (microfacet_anisotropic); y z cosine and sine of its
+                       // turn
+    vec4 clearcoat;    // x factor, y perceptual roughness, z normal-map scale
+    vec4 sheen;        // rgb colour, a perceptual roughness
+    uvec4 kind;        // x model, y flags, z masking
     vec4 uvRow0[TEXTURE_SLOT_COUNT]; // x y z: u' = x u + y v + z; w texture-coordinate set
     vec4 uvRow1[TEXTURE_SLOT_COUNT]; // x y z: v' = x u + y v + z; w for --filter exact: wrap modes, u + 4 v,
                                      // and TEXTURE_MODE_SRGB

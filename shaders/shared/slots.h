@@ -33,7 +33,9 @@ SHARED_BEGIN
 #define STORAGE_LIGHT_SHAPES 6
 #define STORAGE_LIGHTS 7
 
-// Texture units: the slots of scenes::TextureSlot in that order, then the G-buffer, then buffers.
+// Texture units: the slots of scenes::TextureSlot in that order, then what passes read. OpenGL 4.5 guarantees 96 units,
+// of which one stage may use 16; a material that fills every slot, lit from light lists, needs 18, and drivers
+// offer 32.
 #define TEXTURE_SLOT_BASE_COLOR 0
 #define TEXTURE_SLOT_NORMAL 1
 #define TEXTURE_SLOT_METALLIC_ROUGHNESS 2
@@ -41,8 +43,14 @@ SHARED_BEGIN
 #define TEXTURE_SLOT_SPECULAR_FACTOR 4
 #define TEXTURE_SLOT_SPECULAR_COLOR 5
 #define TEXTURE_SLOT_IOR 6
-#define TEXTURE_SLOT_COUNT 7
-#define TEXTURE_UNIT_GBUFFER 7
+#define TEXTURE_SLOT_ANISOTROPY 7
+#define TEXTURE_SLOT_CLEARCOAT 8
+#define TEXTURE_SLOT_CLEARCOAT_ROUGHNESS 9
+#define TEXTURE_SLOT_CLEARCOAT_NORMAL 10
+#define TEXTURE_SLOT_SHEEN_COLOR 11
+#define TEXTURE_SLOT_SHEEN_ROUGHNESS 12
+#define TEXTURE_SLOT_COUNT 13
+#define TEXTURE_UNIT_GBUFFER 24 // to 31
 #define TEXTURE_UNIT_DEPTH 13
 #define TEXTURE_UNIT_LIGHTS 14
 #define TEXTURE_UNIT_RADIANCE 15

@@ -20,6 +20,7 @@ using scenes::TextureSlot;
 
 /// Indices into test::everythingScene().
 enum : std::size_t { kUnlit, kFloor, kGloss, kMetal, kDielectric, kMasked, kGlass };
+enum : std::size_t { kPhong = kGlass + 1, kBrushed, kSilk, kHandout, kCoated, kCloth };
 enum : std::size_t { kSun, kSpot, kRanged, kOff, kAttenuated, kPoint };
 constexpr std::size_t kQuadMesh = 0, kSphereMesh = 1, kMirroredNode = 3;
 
@@ -89,6 +90,17 @@ TEST_F(Features, everyTextureSlotAlwaysChangesThePicture) {
         withoutTexture("ior", kGloss, TextureSlot::Ior),
         material("specular tint", kDielectric,
                  [](Material& m) { m.texture(TextureSlot::SpecularColor) = m.texture(TextureSlot::SpecularFactor); }),
+        withoutTexture("exponent of blinn_phong", kPhong, TextureSlot::MetallicRoughness),
+        withoutTexture("k_s of blinn_phong", kPhong, TextureSlot::SpecularColor),
+        withoutTexture("alpha_y", kBrushed, TextureSlot::Anisotropy),
+        withoutTexture("normal below an anisotropic lobe", kBrushed, TextureSlot::Normal),
+        material("alpha_x", kSilk, [](Material& m) { m.texture(TextureSlot::MetallicRoughness).image = 0; }),
+        withoutTexture("anisotropy", kCoated, TextureSlot::Anisotropy),
+        withoutTexture("clearcoat", kCoated, TextureSlot::Clearcoat),
+        withoutTexture("clearcoat roughness", kCoated, TextureSlot::ClearcoatRoughness),
+        withoutTexture("clearcoat normal", kCoated, TextureSlot::ClearcoatNormal),
+        withoutTexture("sheen colour", kCloth, TextureSlot::SheenColor),
+        withoutTexture("sheen roughness", kCloth, TextureSlot::SheenRoughness),
         material("base colour of single_color", kUnlit,
                  [](Material& m) { m.texture(TextureSlot::BaseColor).image = 0; }),
     });
@@ -149,6 +161,29 @@ TEST_F(Features, everyMaterialParameterAlwaysChangesThePicture) {
                  [](Material& m) {
                      m.specularColor = {0.1f, 0.2f, 0.9f};
                  }),
+        material("k_d of blinn_phong", kPhong, [](Material& m) { m.baseColor.r = 0.9f; }),
+        material("k_s of blinn_phong", kPhong, [](Material& m) { m.specularColor.b = 0.9f; }),
+        material("exponent", kPhong, [](Material& m) { m.exponent = 4.0f; }),
+        material("exponent 0", kPhong, [](Material& m) { m.exponent = 0.0f; }),
+        material("alpha_x", kSilk, [](Material& m) { m.alpha = 0.6f; }),
+        material("alpha_y", kSilk, [](Material& m) { m.alphaY = 0.1f; }),
+        material("ior of microfacet_anisotropic", kSilk, [](Material& m) { m.ior = 1.2f; }),
+        material("k_s of microfacet_anisotropic", kSilk, [](Material& m) { m.specularColor.r = 0.2f; }),
+        material("masking, Walter to directional", kSilk,
+                 [](Material& m) { m.masking = scenes::Masking::Directional; }),
+        material("masking, directional to half vector", kBrushed,
+                 [](Material& m) { m.masking = scenes::Masking::HalfVector; }),
+        material("masking, half vector to Walter", kHandout, [](Material& m) { m.masking = scenes::Masking::Walter; }),
+        material("anisotropy", kCoated, [](Material& m) { m.anisotropyStrength = 0.3f; }),
+        material("rotation of the anisotropy", kCoated, [](Material& m) { m.anisotropyRotationRadians = -0.6f; }),
+        material("no anisotropy", kCoated, [](Material& m) { m.anisotropyStrength = 0.0f; }),
+        material("clearcoat", kCoated, [](Material& m) { m.clearcoat = 0.4f; }),
+        material("no clearcoat", kCoated, [](Material& m) { m.clearcoat = 0.0f; }),
+        material("clearcoat roughness", kCoated, [](Material& m) { m.clearcoatPerceptualRoughness = 0.9f; }),
+        material("clearcoat normal scale", kCoated, [](Material& m) { m.clearcoatNormalScale = 0.1f; }),
+        material("sheen colour", kCloth, [](Material& m) { m.sheenColor.g = 0.1f; }),
+        material("no sheen", kCloth, [](Material& m) { m.sheenColor = glm::vec3(0.0f); }),
+        material("sheen roughness", kCloth, [](Material& m) { m.sheenPerceptualRoughness = 0.3f; }),
         material("normal scale", kMetal, [](Material& m) { m.normalScale = 0.2f; }),
         material("normal-map space", kMetal, [](Material& m) { m.normalMapSpace = scenes::NormalMapSpace::Object; }),
         material("alpha cutoff", kMasked, [](Material& m) { m.alphaCutoff = 0.1f; }),
@@ -159,6 +194,9 @@ TEST_F(Features, everyMaterialParameterAlwaysChangesThePicture) {
         material("unlit", kDielectric, [](Material& m) { m.model = MaterialModel::SingleColor; }),
         material("lambert", kDielectric, [](Material& m) { m.model = MaterialModel::Lambert; }),
         material("microfacet", kDielectric, [](Material& m) { m.model = MaterialModel::Microfacet; }),
+        material("blinn_phong", kDielectric, [](Material& m) { m.model = MaterialModel::BlinnPhong; }),
+        material("microfacet_anisotropic", kDielectric,
+                 [](Material& m) { m.model = MaterialModel::MicrofacetAnisotropic; }),
     });
 }
 

@@ -44,6 +44,26 @@ TEST_F(Invariance, pruningNeverChangesABitOfAnyBuiltinScene) {
     }
 }
 
+TEST_F(Invariance, pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe) {
+    const scenes::Scene everything = test::everythingScene();
+    for (std::size_t material = 0; material < everything.materials.size(); ++material) {
+        scenes::Scene scene = everything;
+        for (scenes::Node& node : scene.nodes)
+            for (scenes::MeshInstance& instance : node.instances) instance.material = int(material);
+        for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
+            for (const frame::LayoutInfo& layout : frame::layoutTable()) {
+                SCOPED_TRACE(fmt::format("{} {} {}", scene.materials[material].name, int(technique), layout.name));
+                frame::FrameSettings settings = small();
+                settings.sizePixels = {160, 91};
+                settings.layout = layout.layout;
+                const validation::Picture pruned = picture(scene, settings, technique);
+                settings.prune = false;
+                EXPECT_EQ(pruned.rgba, picture(scene, settings, technique).rgba);
+            }
+        }
+    }
+}
+
 TEST_F(Invariance, plansAlwaysNameWhatThreeDifferentScenesLeaveOut) {
     const auto left = [](const char* name) {
         const scenes::Scene scene = scenes::loadScene(name);

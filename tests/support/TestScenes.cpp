@@ -73,8 +73,60 @@ TextureUse textured(int image) {
     return use;
 }
 
+constexpr int kColors = 0, kNormals = 1; ///< images
+
+/// The models and layers whose lobes have a direction, an exponent or a normal of their own.
+void addLobes(std::vector<Material>& materials) {
+    const auto add = [&](MaterialModel model, const char* name, const glm::vec3& color) -> Material& {
+        Material material;
+        material.name = name;
+        material.model = model;
+        material.baseColor = glm::vec4(color, 1.0f);
+        return materials.emplace_back(material);
+    };
+    Material& phong = add(MaterialModel::BlinnPhong, "blinn_phong", {0.2f, 0.3f, 0.5f});
+    phong.exponent = 60.0f;
+    phong.specularColor = {0.8f, 0.7f, 0.4f};
+    phong.texture(TextureSlot::MetallicRoughness) = textured(kColors);
+    phong.texture(TextureSlot::SpecularColor) = textured(kColors);
+    Material& brushed = add(MaterialModel::MicrofacetAnisotropic, "brushed, masking by direction", {0.2f, 0.1f, 0.1f});
+    brushed.alpha = 0.7f;
+    brushed.alphaY = 0.4f;
+    brushed.ior = 2.5f;
+    brushed.masking = Masking::Directional;
+    brushed.texture(TextureSlot::Anisotropy) = textured(kColors);
+    brushed.texture(TextureSlot::Normal) = textured(kNormals);
+    Material& silk = add(MaterialModel::MicrofacetAnisotropic, "silk, masking of Walter", {0.1f, 0.2f, 0.3f});
+    silk.alpha = 0.2f;
+    silk.alphaY = 0.7f;
+    silk.ior = 2.0f;
+    silk.doubleSided = true;
+    Material& handout = add(MaterialModel::Microfacet, "masking by half vector", {0.3f, 0.2f, 0.1f});
+    handout.alpha = 0.5f;
+    handout.masking = Masking::HalfVector;
+    Material& coated = add(MaterialModel::MetallicRoughness, "coated, anisotropic below", {0.7f, 0.2f, 0.1f});
+    coated.metallic = 0.8f;
+    coated.perceptualRoughness = 0.5f;
+    coated.emissive = {0.05f, 0.1f, 0.02f};
+    coated.anisotropyStrength = 0.9f;
+    coated.anisotropyRotationRadians = 0.6f;
+    coated.clearcoat = 0.9f;
+    coated.clearcoatPerceptualRoughness = 0.5f;
+    coated.clearcoatNormalScale = 0.8f;
+    coated.texture(TextureSlot::Anisotropy) = textured(kColors);
+    coated.texture(TextureSlot::Clearcoat) = textured(kColors);
+    coated.texture(TextureSlot::ClearcoatRoughness) = textured(kColors);
+    coated.texture(TextureSlot::ClearcoatNormal) = textured(kNormals);
+    Material& cloth = add(MaterialModel::MetallicRoughness, "cloth", {0.2f, 0.3f, 0.6f});
+    cloth.metallic = 0.0f;
+    cloth.perceptualRoughness = 0.9f;
+    cloth.sheenColor = {0.9f, 0.8f, 0.5f};
+    cloth.sheenPerceptualRoughness = 0.8f;
+    cloth.texture(TextureSlot::SheenColor) = textured(kColors);
+    cloth.texture(TextureSlot::SheenRoughness) = textured(kColors);
+}
+
 std::vector<Material> everyMaterial() {
-    constexpr int kColors = 0, kNormals = 1;
     std::vector<Material> materials;
     const auto add = [&](MaterialModel model, const char* name) -> Material& {
         Material material;
@@ -129,6 +181,7 @@ std::vector<Material> everyMaterial() {
     glass.perceptualRoughness = 0.2f;
     glass.alphaMode = AlphaMode::Blend;
     glass.doubleSided = true;
+    addLobes(materials);
     return materials;
 }
 
@@ -169,6 +222,12 @@ Scene everythingScene() {
                    nodeAt({-1, 0, -1}, {0.9, 0.7, 0.9}, 1, 2),       nodeAt({1, 0, -1}, {-0.9, 0.9, 0.9}, 1, 3),
                    nodeAt({3, 0, -1}, {0.8, 0.8, 0.8}, 0, 4, 160.0), nodeAt({-0.5, 0.6, 1}, {0.7, 0.7, 0.7}, 0, 5),
                    nodeAt({1.2, 0.4, 1.5}, {0.6, 0.6, 0.6}, 0, 6),   nodeAt({1.6, 0.6, 2}, {0.5, 0.5, 0.5}, 0, 6)};
+    constexpr int kFirstLobe = 7, kLobes = 6;
+    for (int i = 0; i < kLobes; ++i) {
+        const glm::dvec3 positionWS(1.5 * (i - 0.5 * (kLobes - 1)), 1.9, -2.5);
+        const bool mirrored = i == 1;
+        scene.nodes.push_back(nodeAt(positionWS, {mirrored ? -0.7 : 0.7, 0.6, 0.7}, 1, kFirstLobe + i, 20.0));
+    }
     Light sun = pointLight({}, 1.0f);
     sun.type = LightType::Directional;
     sun.directionWS = glm::normalize(glm::dvec3(-0.4, -1.0, -0.5));

@@ -1,6 +1,7 @@
 #include "validation/reference/MaterialAt.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "validation/reference/NormalAt.h"
 #include "validation/reference/Slots.h"
@@ -26,6 +27,47 @@ double alphaAt(const scenes::Material& material, double roughnessTexel) {
     return std::max(alpha, kSmallestAlpha);
 }
 
+double squaredRoughness(double perceptual) {
+    return std::max(perceptual * perceptual, kSmallestAlpha);
+}
+
+/// KHR_materials_anisotropy, and the second alpha of microfacet_anisotropic.
+void setDirection(const Hit& hit, const std::vector<scenes::Image>& images, SurfacePoint& point) {
+    const scenes::Material& material = *hit.object->material;
+    const glm::dvec4 texel = texelOf(TextureSlot::Anisotropy, hit, images);
+    point.alphaAcross = point.alpha;
+    glm::dvec2 direction(1.0, 0.0);
+    if (material.model == MaterialModel::MicrofacetAnisotropic) {
+        point.alphaAcross = std::max(double(material.alphaY) * texel.r, kSmallestAlpha);
+    } else if (material.model == MaterialModel::MetallicRoughness && material.anisotropyStrength > 0.0f) {
+        const double strength = double(material.anisotropyStrength) * texel.b;
+        point.alpha = std::lerp(point.alpha, 1.0, strength * strength);
+        // Shorter than a hundredth a texel has no direction, by the product's definition.
+        const glm::dvec2 stored = 2.0 * glm::dvec2(texel) - 1.0;
+        const bool textured = material.texture(TextureSlot::Anisotropy).image != scenes::kNone;
+        if (textured && glm::dot(stored, stored) > 1e-4) direction = stored;
+        const double turn = double(material.anisotropyRotationRadians);
+        direction = {std::cos(turn) * direction.x - std::sin(turn) * direction.y,
+                     std::sin(turn) * direction.x + std::cos(turn) * direction.y};
+    } else {
+        return;
+    }
+    point.tangent = tangentAt(hit, point.normal, direction);
+}
+
+void setLayers(const Hit& hit, const std::vector<scenes::Image>& images, SurfacePoint& point) {
+    const scenes::Material& material = *hit.object->material;
+    const auto texel = [&](TextureSlot slot) { return texelOf(slot, hit, images); };
+    if (material.model != MaterialModel::MetallicRoughness) return;
+    point.coat = double(material.clearcoat) * texel(TextureSlot::Clearcoat).r;
+    point.coatAlpha =
+        squaredRoughness(double(material.clearcoatPerceptualRoughness) * texel(TextureSlot::ClearcoatRoughness).g);
+    if (point.coat > 0.0) point.coatNormal = coatNormalAt(hit, images);
+    point.sheenColor = glm::dvec3(material.sheenColor) * glm::dvec3(texel(TextureSlot::SheenColor));
+    point.sheenAlpha =
+        squaredRoughness(double(material.sheenPerceptualRoughness) * texel(TextureSlot::SheenRoughness).a);
+}
+
 } // namespace
 
 SurfacePoint surfaceAt(const Hit& hit, const std::vector<scenes::Image>& images) {
@@ -43,7 +85,11 @@ SurfacePoint surfaceAt(const Hit& hit, const std::vector<scenes::Image>& images)
     point.specularFactor = double(material.specularFactor) * texel(TextureSlot::SpecularFactor).a;
     point.specularColor = glm::dvec3(material.specularColor) * glm::dvec3(texel(TextureSlot::SpecularColor));
     point.emission = glm::dvec3(material.emissive) * glm::dvec3(texel(TextureSlot::Emissive));
+    point.exponent = double(material.exponent) * roughnessMetallic.g;
+    point.masking = material.masking;
     point.normal = normalAt(hit, images);
+    setDirection(hit, images, point);
+    setLayers(hit, images, point);
     return point;
 }
 

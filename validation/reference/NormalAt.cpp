@@ -17,24 +17,56 @@ glm::dvec3 fromTangentSpace(const Hit& hit, const glm::dvec3& texel, const glm::
     const glm::dvec4 tangentOS = hit.at<glm::dvec4>(*hit.object->tangentsOS);
     const glm::dvec3 tangent = unitOr(glm::dmat3(hit.object->relFromObject) * glm::dvec3(tangentOS), glm::dvec3(0.0));
     const glm::dvec3 bitangent = glm::cross(vertexNormal, tangent) * (tangentOS.w * hit.object->handedness);
-    const double scale = hit.object->material->normalScale;
-    return scale * texel.x * tangent + scale * texel.y * bitangent + texel.z * vertexNormal;
+    return texel.x * tangent + texel.y * bitangent + texel.z * vertexNormal;
+}
+
+glm::dvec3 vertexNormalAt(const Hit& hit) {
+    const Object& object = *hit.object;
+    return unitOr(object.normalFromObject * hit.at<glm::dvec3>(object.mesh->normalsOS), glm::dvec3(0.0, 0.0, 1.0));
+}
+
+glm::dvec3 facing(const Hit& hit, const glm::dvec3& normal) {
+    return hit.object->material->doubleSided && !hit.frontFacing ? -normal : normal;
+}
+
+/// A texel of a normal map, as its direction.
+glm::dvec3 directionOf(scenes::TextureSlot slot, const Hit& hit, const std::vector<scenes::Image>& images) {
+    return 2.0 * glm::dvec3(texelOf(slot, hit, images)) - 1.0;
 }
 
 } // namespace
 
 glm::dvec3 normalAt(const Hit& hit, const std::vector<scenes::Image>& images) {
     const Object& object = *hit.object;
-    const glm::dvec3 vertexNormal =
-        unitOr(object.normalFromObject * hit.at<glm::dvec3>(object.mesh->normalsOS), glm::dvec3(0.0, 0.0, 1.0));
+    const scenes::Material& material = *object.material;
+    const glm::dvec3 vertexNormal = vertexNormalAt(hit);
     glm::dvec3 normal = vertexNormal;
-    if (object.material->texture(scenes::TextureSlot::Normal).image != scenes::kNone) {
-        const glm::dvec3 texel = 2.0 * glm::dvec3(texelOf(scenes::TextureSlot::Normal, hit, images)) - 1.0;
-        normal =
-            unitOr(object.tangentsOS ? fromTangentSpace(hit, texel, vertexNormal) : object.normalFromObject * texel,
-                   vertexNormal);
+    if (material.texture(scenes::TextureSlot::Normal).image != scenes::kNone) {
+        const glm::dvec3 texel = directionOf(scenes::TextureSlot::Normal, hit, images);
+        const double scale = material.normalScale;
+        const bool inObjectSpace = material.normalMapSpace == scenes::NormalMapSpace::Object;
+        normal = unitOr(inObjectSpace ? object.normalFromObject * texel
+                                      : fromTangentSpace(hit, texel * glm::dvec3(scale, scale, 1.0), vertexNormal),
+                        vertexNormal);
     }
-    return object.material->doubleSided && !hit.frontFacing ? -normal : normal;
+    return facing(hit, normal);
+}
+
+glm::dvec3 coatNormalAt(const Hit& hit, const std::vector<scenes::Image>& images) {
+    const scenes::Material& material = *hit.object->material;
+    const glm::dvec3 vertexNormal = vertexNormalAt(hit);
+    if (material.texture(scenes::TextureSlot::ClearcoatNormal).image == scenes::kNone) return facing(hit, vertexNormal);
+    const glm::dvec3 texel = directionOf(scenes::TextureSlot::ClearcoatNormal, hit, images);
+    const double scale = material.clearcoatNormalScale;
+    const glm::dvec3 mapped = fromTangentSpace(hit, texel * glm::dvec3(scale, scale, 1.0), vertexNormal);
+    return facing(hit, unitOr(mapped, vertexNormal));
+}
+
+glm::dvec3 tangentAt(const Hit& hit, const glm::dvec3& normal, const glm::dvec2& direction) {
+    const glm::dvec3 turned = fromTangentSpace(hit, {direction, 0.0}, vertexNormalAt(hit));
+    const glm::dvec3 flat = turned - glm::dot(normal, turned) * normal;
+    const glm::dvec3 other = std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    return unitOr(flat, glm::normalize(glm::cross(normal, other)));
 }
 
 } // namespace tessera::reference

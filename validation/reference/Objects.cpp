@@ -1,6 +1,7 @@
 #include "validation/reference/Objects.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "validation/reference/Tangents.h"
 
@@ -19,6 +20,22 @@ glm::dmat3 cofactorMatrix(const glm::dmat3& m) {
         }
     }
     return cofactor;
+}
+
+/// The texture coordinates that a material's tangents follow, where it needs some: those of its normal map in tangent
+/// space, else of its anisotropy, else of its coat's normal map.
+std::optional<int> tangentSet(const scenes::Material& material) {
+    using scenes::TextureSlot;
+    const scenes::TextureUse& normalMap = material.texture(TextureSlot::Normal);
+    if (normalMap.image != scenes::kNone && material.normalMapSpace == scenes::NormalMapSpace::Tangent)
+        return normalMap.texCoordSet;
+    const bool isMetallicRoughness = material.model == scenes::MaterialModel::MetallicRoughness;
+    if (material.model == scenes::MaterialModel::MicrofacetAnisotropic ||
+        (isMetallicRoughness && material.anisotropyStrength > 0.0f))
+        return material.texture(TextureSlot::Anisotropy).texCoordSet;
+    const scenes::TextureUse& coat = material.texture(TextureSlot::ClearcoatNormal);
+    if (isMetallicRoughness && material.clearcoat > 0.0f && coat.image != scenes::kNone) return coat.texCoordSet;
+    return std::nullopt;
 }
 
 double depthOfBoxCentre(const Object& object, const glm::dvec3& forward) {
@@ -55,9 +72,8 @@ void Objects::add(const scenes::Scene& scene, const scenes::MeshInstance& instan
     object.relFromObject[3] -= glm::dvec4(rays.eyeWS(), 0.0);
     object.handedness = glm::determinant(glm::dmat3(worldFromNode)) < 0.0 ? -1.0 : 1.0;
     object.normalFromObject = cofactorMatrix(glm::dmat3(worldFromNode)) * object.handedness;
-    const scenes::TextureUse& normalMap = object.material->texture(scenes::TextureSlot::Normal);
-    if (normalMap.image != scenes::kNone && object.material->normalMapSpace == scenes::NormalMapSpace::Tangent)
-        object.tangentsOS = &tangentsOf(*object.mesh, std::size_t(normalMap.texCoordSet));
+    if (const std::optional<int> set = tangentSet(*object.material))
+        object.tangentsOS = &tangentsOf(*object.mesh, std::size_t(*set));
     const bool isTransparent = object.material->alphaMode == scenes::AlphaMode::Blend;
     (isTransparent ? transparent_ : opaque_).push_back(object);
 }

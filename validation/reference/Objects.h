@@ -17,7 +17,7 @@ struct Object {
     glm::dmat4 relFromObject{1.0};
     glm::dmat3 normalFromObject{1.0};                    ///< cofactor matrix times the determinant's sign
     double handedness = 1.0;                             ///< -1 where the transform mirrors
-    const std::vector<glm::dvec4>* tangentsOS = nullptr; ///< where the material's normal map needs them
+    const std::vector<glm::dvec4>* tangentsOS = nullptr; ///< where the material needs them
 
     glm::dvec3 cornerRel(std::uint32_t triangle, int corner) const {
         const std::uint32_t vertex = mesh->indices[3 * std::size_t(triangle) + std::size_t(corner)];

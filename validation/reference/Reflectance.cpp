@@ -1,9 +1,11 @@
 #include "validation/reference/Reflectance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
+#include "validation/reference/Lobes.h"
 #include "validation/reference/Microfacet.h"
 
 namespace tessera::reference {
@@ -21,16 +23,99 @@ glm::dvec3 lambert(const SurfacePoint& point, const Directions& directions, bool
     return point.color * directions.cosLight;
 }
 
+/// k_d n.l + k_s (n.h)^p. Source: Blinn 1977, "Models of Light Reflection for Computer Synthesized Pictures".
+glm::dvec3 blinnPhong(const SurfacePoint& point, const Directions& directions, bool specular) {
+    glm::dvec3 share = point.color * directions.cosLight;
+    if (specular && directions.hasLobe()) share += point.specularColor * std::pow(directions.cosHalf, point.exponent);
+    return share;
+}
+
+/// In the frame of tangent, bitangent and normal. Where the lobe has no direction any frame will do.
+glm::dvec3 local(const SurfacePoint& point, const glm::dvec3& direction) {
+    const double cosine = glm::dot(point.normal, direction);
+    if (point.tangent == glm::dvec3(0.0)) return {std::sqrt(std::max(1.0 - cosine * cosine, 0.0)), 0.0, cosine};
+    return {glm::dot(point.tangent, direction), glm::dot(glm::cross(point.normal, point.tangent), direction), cosine};
+}
+
+/// D G / (4 n.l n.v) by the point's masking; `alpha` along tangent and bitangent.
+double microfacetLobe(const SurfacePoint& point, const Directions& directions, const glm::dvec2& alpha) {
+    const glm::dvec3 half = local(point, directions.half);
+    const double d = alpha.x == alpha.y ? distributionGgx(alpha.x, directions.cosHalf) : distributionGgx(alpha, half);
+    const double along = alphaAlong(alpha, half);
+    // The handout's n.v is at least 1e-6.
+    if (point.masking == scenes::Masking::HalfVector) {
+        const double g1 = maskingSmith(along, directions.cosIncidence);
+        return d * g1 * g1 / (4.0 * directions.cosLight * std::max(directions.cosView, 1e-6));
+    }
+    const bool directional = point.masking == scenes::Masking::Directional;
+    const double alphaLight = directional ? alphaAlong(alpha, local(point, directions.toLight)) : along;
+    const double alphaView = directional ? alphaAlong(alpha, local(point, directions.toViewer)) : along;
+    const double g = maskingSmith(alphaLight, directions.cosLight) * maskingSmith(alphaView, directions.cosView);
+    return d * g / (4.0 * directions.cosLight * directions.cosView);
+}
+
 /// (k_d + k_s F D G / (4 n.l n.v)) n.l. Source: Cook and Torrance 1982 with the D, G and F of Walter et al. 2007.
 glm::dvec3 microfacet(const SurfacePoint& point, const Directions& directions, bool specular) {
     glm::dvec3 share = point.color;
     if (specular && directions.hasLobe()) {
         const double f = fresnelDielectric(point.ior, directions.cosIncidence);
-        const double d = distributionGgx(point.alpha, directions.cosHalf);
-        const double g = maskingSmith(point.alpha, directions.cosLight) * maskingSmith(point.alpha, directions.cosView);
-        share += point.specularColor * (f * d * g / (4.0 * directions.cosLight * directions.cosView));
+        share += point.specularColor * (f * microfacetLobe(point, directions, glm::dvec2(point.alpha)));
     }
     return share * directions.cosLight;
+}
+
+/// The same with a lobe of two alphas.
+glm::dvec3 microfacetAnisotropic(const SurfacePoint& point, const Directions& directions, bool specular) {
+    glm::dvec3 share = point.color;
+    if (specular && directions.hasLobe()) {
+        const double f = fresnelDielectric(point.ior, directions.cosIncidence);
+        share += point.specularColor * (f * microfacetLobe(point, directions, {point.alpha, point.alphaAcross}));
+    }
+    return share * directions.cosLight;
+}
+
+/// D G / (4 n.l n.v) of metallic_roughness, by KHR_materials_anisotropy where the lobe has a direction.
+double glossyLobe(const SurfacePoint& point, const Directions& directions) {
+    const glm::dvec2 alpha(point.alpha, point.alphaAcross);
+    const double cosines = 4.0 * directions.cosLight * directions.cosView;
+    if (point.tangent == glm::dvec3(0.0) || alpha.x == alpha.y) {
+        return distributionGgx(point.alpha, directions.cosHalf) *
+               maskingCorrelated(point.alpha, directions.cosLight, directions.cosView) / cosines;
+    }
+    // 1 + lambda(l) + lambda(v), each with the alpha along itself, from 1/G1 = 1 + lambda.
+    const double light = 1.0 / maskingSmith(alphaAlong(alpha, local(point, directions.toLight)), directions.cosLight);
+    const double view = 1.0 / maskingSmith(alphaAlong(alpha, local(point, directions.toViewer)), directions.cosView);
+    return distributionGgx(alpha, local(point, directions.half)) / (light + view - 1.0) / cosines;
+}
+
+/// KHR_materials_sheen, by the technique of scaling the albedo below.
+glm::dvec3 underSheen(const SurfacePoint& point, const Directions& directions, const glm::dvec3& below, bool specular) {
+    const double strongest = std::max({point.sheenColor.x, point.sheenColor.y, point.sheenColor.z});
+    if (!(strongest > 0.0)) return below;
+    const double albedo = std::max(sheenAlbedo(point.sheenAlpha, directions.cosLight),
+                                   sheenAlbedo(point.sheenAlpha, std::max(directions.cosView, 0.0)));
+    const glm::dvec3 share = below * std::max(1.0 - strongest * albedo, 0.0);
+    if (!specular || !directions.hasLobe()) return share;
+    return share + point.sheenColor * (distributionCharlie(point.sheenAlpha, directions.cosHalf) *
+                                       visibilityCharlie(point.sheenAlpha, directions.cosLight, directions.cosView));
+}
+
+/// KHR_materials_clearcoat: the share of what is below that the coat reflects instead.
+double coatShare(const SurfacePoint& point, const glm::dvec3& toViewer) {
+    return point.coat * fresnelSchlick(0.04, 1.0, std::abs(glm::dot(point.coatNormal, toViewer)));
+}
+
+glm::dvec3 underCoat(const SurfacePoint& point, const glm::dvec3& below, const glm::dvec3& toLight,
+                     const glm::dvec3& toViewer, bool specular) {
+    const Directions directions(point.coatNormal, toLight, toViewer);
+    const double share = coatShare(point, toViewer);
+    double lobe = 0.0;
+    if (specular && directions.hasLobe()) {
+        lobe = distributionGgx(point.coatAlpha, directions.cosHalf) *
+               maskingCorrelated(point.coatAlpha, directions.cosLight, directions.cosView) /
+               (4.0 * directions.cosView); // n.l cancels
+    }
+    return below * (1.0 - share) + glm::dvec3(share * lobe);
 }
 
 /// glTF 2.0 appendix B, with the reflectances of KHR_materials_ior and KHR_materials_specular. The Fresnel factor needs
@@ -38,12 +123,7 @@ glm::dvec3 microfacet(const SurfacePoint& point, const Directions& directions, b
 glm::dvec3 metallicRoughness(const SurfacePoint& point, const Directions& directions, bool specular) {
     const double contrast = (point.ior - 1.0) / (point.ior + 1.0);
     const double grazing = point.specularFactor + (1.0 - point.specularFactor) * point.metallic;
-    double lobe = 0.0;
-    if (specular && directions.hasLobe()) {
-        lobe = distributionGgx(point.alpha, directions.cosHalf) *
-               maskingCorrelated(point.alpha, directions.cosLight, directions.cosView) /
-               (4.0 * directions.cosLight * directions.cosView);
-    }
+    const double lobe = specular && directions.hasLobe() ? glossyLobe(point, directions) : 0.0;
     glm::dvec3 share;
     for (int c = 0; c < 3; ++c) {
         const double dielectric = std::min(contrast * contrast * point.specularColor[c], 1.0) * point.specularFactor;
@@ -51,13 +131,15 @@ glm::dvec3 metallicRoughness(const SurfacePoint& point, const Directions& direct
         const double f = fresnelSchlick(normalIncidence, grazing, directions.cosIncidence);
         share[c] = (1.0 - f) * (1.0 - point.metallic) * point.color[c] / std::numbers::pi + f * lobe;
     }
-    return share * directions.cosLight;
+    return underSheen(point, directions, share, specular) * directions.cosLight;
 }
 
 constexpr Model kModels[] = {
     {MaterialModel::SingleColor, true, unlit},
     {MaterialModel::Lambert, false, lambert},
+    {MaterialModel::BlinnPhong, false, blinnPhong},
     {MaterialModel::Microfacet, false, microfacet},
+    {MaterialModel::MicrofacetAnisotropic, false, microfacetAnisotropic},
     {MaterialModel::MetallicRoughness, false, metallicRoughness},
 };
 
@@ -84,8 +166,13 @@ const Model& modelOf(MaterialModel model) {
 
 glm::dvec3 reflected(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer, bool specular) {
     const Directions directions(point.normal, toLight, toViewer);
-    if (!(directions.cosLight > 0.0)) return glm::dvec3(0.0);
-    return modelOf(point.model).reflected(point, directions, specular);
+    glm::dvec3 share(0.0);
+    if (directions.cosLight > 0.0) share = modelOf(point.model).reflected(point, directions, specular);
+    return point.coat > 0.0 ? underCoat(point, share, toLight, toViewer, specular) : share;
+}
+
+glm::dvec3 emitted(const SurfacePoint& point, const glm::dvec3& toViewer) {
+    return point.coat > 0.0 ? point.emission * (1.0 - coatShare(point, toViewer)) : point.emission;
 }
 
 } // namespace tessera::reference

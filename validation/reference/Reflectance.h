@@ -28,7 +28,10 @@ std::span<const Model> modelTable();
 /// The table's row. Throws std::logic_error when there is none.
 const Model& modelOf(scenes::MaterialModel model);
 
-/// Radiance towards the viewer for one unit of incident intensity; 0 for light from below the horizon.
+/// Radiance towards the viewer for one unit of incident intensity; 0 for light from below the horizon of what it meets.
 glm::dvec3 reflected(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer, bool specular);
+
+/// Radiance towards the viewer without any light; a coat takes its share.
+glm::dvec3 emitted(const SurfacePoint& point, const glm::dvec3& toViewer);
 
 } // namespace tessera::reference

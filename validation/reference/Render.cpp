@@ -49,7 +49,7 @@ private:
     glm::dvec3 radianceOf(const SurfacePoint& point, const glm::dvec3& positionRel) const {
         if (modelOf(point.model).isUnlit) return point.emission + point.color;
         const glm::dvec3 toViewer = rays_.toViewer(positionRel);
-        glm::dvec3 radiance = point.emission;
+        glm::dvec3 radiance = emitted(point, toViewer);
         for (const ShiningLight& light : lights_) {
             const Incident incident = incidentAt(light, positionRel);
             if (incident.intensity == glm::dvec3(0.0)) continue;

@@ -34,6 +34,7 @@ Transfer transferOf(scenes::TextureSlot slot) {
     case scenes::TextureSlot::BaseColor:
     case scenes::TextureSlot::Emissive:
     case scenes::TextureSlot::SpecularColor:
+    case scenes::TextureSlot::SheenColor:
         return Transfer::Srgb;
     default:
         return Transfer::Linear;

@@ -61,6 +61,9 @@ TEST_F(LayoutTest, materialConstantsLieExactlyWhereTheDriverReadsThem) {
                             Place("material.microsurface", offsetof(MaterialConstants, microsurface), 0),
                             Place("material.specular", offsetof(MaterialConstants, specular), 0),
                             Place("material.dielectric", offsetof(MaterialConstants, dielectric), 0),
+                            Place("material.anisotropy", offsetof(MaterialConstants, anisotropy), 0),
+                            Place("material.clearcoat", offsetof(MaterialConstants, clearcoat), 0),
+                            Place("material.sheen", offsetof(MaterialConstants, sheen), 0),
                             Place("material.kind", offsetof(MaterialConstants, kind), 0),
                             Place("material.uvRow0[0]", offsetof(MaterialConstants, uvRow0), sizeof(glm::vec4)),
                             Place("material.uvRow1[0]", offsetof(MaterialConstants, uvRow1), sizeof(glm::vec4))));

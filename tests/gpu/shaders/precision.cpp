@@ -89,6 +89,31 @@ TEST_F(PrecisionTest, fresnelAlwaysEqualsTheMeanOfItsPolarisations) {
     }
 }
 
+/// The form of Cook and Torrance 1982, as the books print it.
+double fresnelOfCookTorrance(double ior, double c) {
+    const double g2 = ior * ior - 1.0 + c * c;
+    if (g2 < 0.0) return 1.0;
+    const double g = std::sqrt(g2), a = (g - c) / (g + c), b = (c * (g + c) - 1.0) / (c * (g - c) + 1.0);
+    return 0.5 * a * a * (1.0 + b * b);
+}
+
+TEST_F(PrecisionTest, bothFormsOfFresnelAlwaysAgree) {
+    test::Random random(9);
+    std::vector<FresnelCase> cases;
+    for (int i = 0; i < 100000; ++i)
+        cases.push_back({float(random.logarithmic(0.2, 1000.0)), float(random.between(1e-3, 1.0))});
+    const std::vector<double> f = fresnel(cases);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const double ior = double(cases[i].ior), c = double(cases[i].cosine);
+        const double polarised = fresnelOfPolarisations(ior, c);
+        ASSERT_NEAR(fresnelOfCookTorrance(ior, c), polarised, 1e-11) << "ior " << ior << " cosine " << c;
+        // F near the critical angle changes without bound; the shader's digits there have a test of their own.
+        if (std::abs(ior * ior - 1.0 + c * c) > 0.05) {
+            ASSERT_NEAR(f[i], polarised, 1e-6) << "ior " << ior << " cosine " << c;
+        }
+    }
+}
+
 TEST_F(PrecisionTest, fresnelBelowOneIsAlwaysRightUpToItsCriticalAngle) {
     test::Random random(3);
     std::vector<FresnelCase> cases;

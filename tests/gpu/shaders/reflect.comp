@@ -26,6 +26,7 @@ void main()
     surface.emission = vec3(0.0);
     surface.normalLS = normal.xyz;
     surface.normalTexel = vec3(0.5, 0.5, 1.0);
+    setNeutralLobes(surface);
     precise float nl = dot(surface.normalLS, light.xyz);
     SpecularTerms terms = specularTerms(surface, light.xyz, viewer.xyz, nl);
     precise vec3 share = reflectedShare(surface, light.xyz, viewer.xyz);

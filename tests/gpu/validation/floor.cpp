@@ -8,6 +8,7 @@
 #include "passes/DeferredLightingPass.h"
 #include "passes/recipes/PreparedFrame.h"
 #include "scenes/Load.h"
+#include "shaders/shared/models.h"
 #include "tests/gpu/shaders/ShaderBench.h"
 #include "validation/FloorBench.h"
 #include "validation/FloorLights.h"
@@ -163,6 +164,15 @@ TEST_F(FloorTest, neighbouringPixelsNeverShareAPropertyOfTheSurface) {
                 ASSERT_NE(values[i], values[i - components])
                     << "component " << component << " of pixel " << i / components;
         };
+        // A microfacet model is never metallic and keeps its masking there, an option as the model is one.
+        const auto expectMetallicVaried = [](const gpu::Texture& microsurface) {
+            const std::vector<glm::vec4> values = microsurface.downloadAs<glm::vec4>();
+            for (std::size_t i = 1; i < values.size(); ++i) {
+                const auto model = unsigned(values[i].y);
+                if (model == MODEL_MICROFACET || model == MODEL_MICROFACET_ANISOTROPIC) continue;
+                ASSERT_NE(values[i].w, values[i - 1].w) << "metallic of pixel " << i;
+            }
+        };
         expectVaried(*stored.depth, 1, 0);
         for (std::size_t channel = 0; channel < spec.channels.size(); ++channel) {
             SCOPED_TRACE(frame::channelTable()[std::size_t(spec.channels[channel])].name);
@@ -174,8 +184,18 @@ TEST_F(FloorTest, neighbouringPixelsNeverShareAPropertyOfTheSurface) {
             case frame::Channel::Specular:
                 for (const std::size_t component : {0, 1, 2}) expectVaried(*stored.channels[channel], 4, component);
                 break;
-            case frame::Channel::Microsurface: // alpha, index of refraction or F90, metallic; not the model
-                for (const std::size_t component : {0, 2, 3}) expectVaried(*stored.channels[channel], 4, component);
+            case frame::Channel::Microsurface: // alpha, index of refraction, F90 or exponent; not the model
+                for (const std::size_t component : {0, 2}) expectVaried(*stored.channels[channel], 4, component);
+                expectMetallicVaried(*stored.channels[channel]);
+                break;
+            case frame::Channel::Tangent: // and alpha
+                for (const std::size_t component : {0, 1, 2, 3}) expectVaried(*stored.channels[channel], 4, component);
+                break;
+            case frame::Channel::Clearcoat: // normal, alpha; a share only where the model has one
+                for (const std::size_t component : {0, 1, 3}) expectVaried(*stored.channels[channel], 4, component);
+                break;
+            case frame::Channel::Sheen: // alpha; a colour only where the model has one
+                expectVaried(*stored.channels[channel], 4, 3);
                 break;
             default: // no part of the loop over lights
                 break;

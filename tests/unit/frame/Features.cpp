@@ -40,7 +40,9 @@ std::vector<Change> changes() {
     const auto texture = [&](TextureSlot slot) { return material([slot](Material& m) { addTexture(m, slot); }); };
     return {
         {Feature::SingleColor, model(MaterialModel::SingleColor)},
+        {Feature::BlinnPhong, model(MaterialModel::BlinnPhong)},
         {Feature::Microfacet, model(MaterialModel::Microfacet)},
+        {Feature::MicrofacetAnisotropic, model(MaterialModel::MicrofacetAnisotropic)},
         {Feature::MetallicRoughness, model(MaterialModel::MetallicRoughness)},
         {Feature::BaseColorTexture, texture(TextureSlot::BaseColor)},
         {Feature::NormalTexture, texture(TextureSlot::Normal)},
@@ -49,6 +51,12 @@ std::vector<Change> changes() {
         {Feature::SpecularFactorTexture, texture(TextureSlot::SpecularFactor)},
         {Feature::SpecularColorTexture, texture(TextureSlot::SpecularColor)},
         {Feature::IorTexture, texture(TextureSlot::Ior)},
+        {Feature::AnisotropyTexture, texture(TextureSlot::Anisotropy)},
+        {Feature::ClearcoatTexture, texture(TextureSlot::Clearcoat)},
+        {Feature::ClearcoatRoughnessTexture, texture(TextureSlot::ClearcoatRoughness)},
+        {Feature::ClearcoatNormalTexture, texture(TextureSlot::ClearcoatNormal)},
+        {Feature::SheenColorTexture, texture(TextureSlot::SheenColor)},
+        {Feature::SheenRoughnessTexture, texture(TextureSlot::SheenRoughness)},
         {Feature::TextureTransform, material([](Material& m) {
              addTexture(m, TextureSlot::BaseColor);
              m.texture(TextureSlot::BaseColor).transform.rotationRadians = 1.0f;
@@ -69,6 +77,22 @@ std::vector<Change> changes() {
         {Feature::Specular, material([](Material& m) {
              m.model = MaterialModel::MetallicRoughness;
              m.ior = 1.4f;
+         })},
+        {Feature::MaskingOptions, material([](Material& m) {
+             m.model = MaterialModel::Microfacet;
+             m.masking = scenes::Masking::HalfVector;
+         })},
+        {Feature::Anisotropy, material([](Material& m) {
+             m.model = MaterialModel::MetallicRoughness;
+             m.anisotropyStrength = 0.1f;
+         })},
+        {Feature::Clearcoat, material([](Material& m) {
+             m.model = MaterialModel::MetallicRoughness;
+             m.clearcoat = 0.1f;
+         })},
+        {Feature::Sheen, material([](Material& m) {
+             m.model = MaterialModel::MetallicRoughness;
+             m.sheenColor.z = 0.1f;
          })},
         {Feature::AlphaMask, material([](Material& m) { m.alphaMode = scenes::AlphaMode::Mask; })},
         {Feature::Blend, material([](Material& m) { m.alphaMode = scenes::AlphaMode::Blend; })},
@@ -128,6 +152,33 @@ TEST(Features, everyWayToChangeTheSpecularLobeIsAlwaysSeen) {
     EXPECT_TRUE(changed(MaterialModel::Microfacet, colorMap));
     EXPECT_FALSE(changed(MaterialModel::Microfacet, ior)) << "the microfacet model's ior is no colour of its own";
     EXPECT_FALSE(changed(MaterialModel::Microfacet, nothing));
+    for (const MaterialModel model : {MaterialModel::BlinnPhong, MaterialModel::MicrofacetAnisotropic}) {
+        EXPECT_TRUE(changed(model, tint));
+        EXPECT_TRUE(changed(model, colorMap));
+        EXPECT_FALSE(changed(model, ior));
+        EXPECT_FALSE(changed(model, nothing));
+    }
+}
+
+TEST(Features, layersAndMaskingNeverCountForAModelThatLacksThem) {
+    scenes::Scene scene = plainScene();
+    Material& material = scene.materials[0];
+    material.anisotropyStrength = material.clearcoat = 1.0f;
+    material.sheenColor = glm::vec3(1.0f);
+    material.masking = scenes::Masking::HalfVector;
+    EXPECT_EQ(materialFeatures(scene), materialFeatures(plainScene()));
+}
+
+TEST(Features, tangentsAreNeededExactlyByMapsInTangentSpaceAndByAnisotropy) {
+    for (const FeatureInfo& info : featureTable()) {
+        FeatureSet set;
+        set.add(info.feature);
+        const bool frame = info.feature == Feature::MicrofacetAnisotropic || info.feature == Feature::Anisotropy;
+        const bool map =
+            info.feature == Feature::TangentSpaceNormals || info.feature == Feature::ClearcoatNormalTexture;
+        EXPECT_EQ(set.tangentFrame(), frame) << info.define;
+        EXPECT_EQ(set.tangents(), frame || map) << info.define;
+    }
 }
 
 TEST(Features, theSoleModelIsSetExactlyWhenEverySurfaceHasIt) {

@@ -74,6 +74,18 @@ TEST(GBufferLayout, channelsAreAllocatedExactlyWhenASurfaceNeedsThem) {
                 ElementsAre(Channel::Albedo, Channel::Normal, Channel::Emission));
     EXPECT_THAT(neededChannels(featuresOf(MaterialModel::Lambert), namedLayout("packed"), true),
                 ElementsAre(Channel::Albedo, Channel::Normal, Channel::NormalTexel));
+    EXPECT_THAT(channels(featuresOf(MaterialModel::BlinnPhong)),
+                ElementsAre(Channel::Albedo, Channel::Normal, Channel::Microsurface));
+    EXPECT_THAT(channels(featuresOf(MaterialModel::MicrofacetAnisotropic)),
+                ElementsAre(Channel::Albedo, Channel::Normal, Channel::Microsurface, Channel::Tangent));
+    EXPECT_THAT(channels(featuresOf(MaterialModel::MetallicRoughness,
+                                    [](scenes::Material& m) { m.anisotropyStrength = 0.5f; })),
+                ElementsAre(Channel::Albedo, Channel::Normal, Channel::Microsurface, Channel::Tangent));
+    EXPECT_THAT(channels(featuresOf(MaterialModel::MetallicRoughness, [](scenes::Material& m) { m.clearcoat = 0.5f; })),
+                ElementsAre(Channel::Albedo, Channel::Normal, Channel::Microsurface, Channel::Clearcoat));
+    EXPECT_THAT(
+        channels(featuresOf(MaterialModel::MetallicRoughness, [](scenes::Material& m) { m.sheenColor.g = 0.5f; })),
+        ElementsAre(Channel::Albedo, Channel::Normal, Channel::Microsurface, Channel::Sheen));
     EXPECT_EQ(channels(allFeatures()).size(), kChannelCount - 1);
 
     FeatureSet mixed = featuresOf(MaterialModel::Lambert); // with unlit surfaces, so that a pixel must say which it is
@@ -82,11 +94,23 @@ TEST(GBufferLayout, channelsAreAllocatedExactlyWhenASurfaceNeedsThem) {
     EXPECT_THAT(channels(mixed), ElementsAre(Channel::Albedo, Channel::Normal, Channel::Microsurface));
 }
 
-TEST(GBufferLayout, packedIsNeverMoreThanSixteenBytesForSurfacesThatDoNotEmit) {
+TEST(GBufferLayout, aFrameNeverNeedsMoreChannelsThanOpenGlDrawsIntoAtOnce) {
+    constexpr std::size_t kDrawBuffers = 8; // the least GL_MAX_DRAW_BUFFERS of OpenGL 4.5
+    for (const LayoutInfo& info : layoutTable()) {
+        for (const bool normalTexel : {false, true})
+            EXPECT_LE(neededChannels(allFeatures(), info.layout, normalTexel).size(), kDrawBuffers) << info.name;
+    }
+}
+
+TEST(GBufferLayout, packedIsNeverMoreThanSixteenBytesForIsotropicSurfacesOfOneLayerThatDoNotEmit) {
     const GBufferLayout& packed = namedLayout("packed");
     EXPECT_EQ(bytesPerPixel(packed, neededChannels(featuresOf(MaterialModel::Lambert), packed, false)), 8);
     EXPECT_EQ(bytesPerPixel(packed, neededChannels(featuresOf(MaterialModel::MetallicRoughness), packed, false)), 12);
     FeatureSet all = allFeatures();
+    EXPECT_EQ(bytesPerPixel(packed, neededChannels(all, packed, false)), 36);
+    for (const Feature layer :
+         {Feature::MicrofacetAnisotropic, Feature::Anisotropy, Feature::Clearcoat, Feature::Sheen})
+        all.has.reset(std::size_t(layer));
     EXPECT_EQ(bytesPerPixel(packed, neededChannels(all, packed, false)), 20);
     all.has.reset(std::size_t(Feature::Emission));
     EXPECT_EQ(bytesPerPixel(packed, neededChannels(all, packed, false)), 16);

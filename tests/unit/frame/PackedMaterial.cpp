@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "shaders/shared/models.h"
+
 namespace tessera::frame {
 namespace {
 
@@ -47,6 +49,31 @@ TEST(PackedMaterial, everyMemberIsAlwaysTheMaterialsOwnValue) {
     material.model = MaterialModel::MetallicRoughness;
     EXPECT_EQ(packMaterial(material).microsurface.y, 0.6f)
         << "perceptual roughness, squared in the shader after its texture";
+    material.exponent = 7.0f;
+    material.model = MaterialModel::BlinnPhong;
+    EXPECT_EQ(packMaterial(material).microsurface.y, 7.0f);
+}
+
+TEST(PackedMaterial, anisotropyCoatAndSheenAreAlwaysTheMaterialsOwnValues) {
+    Material material;
+    material.alpha = 0.3f;
+    material.alphaY = 0.7f;
+    material.masking = scenes::Masking::Directional;
+    material.anisotropyStrength = 0.4f;
+    material.anisotropyRotationRadians = 0.5f;
+    material.clearcoat = 0.6f;
+    material.clearcoatPerceptualRoughness = 0.2f;
+    material.clearcoatNormalScale = 3.0f;
+    material.sheenColor = {0.1f, 0.8f, 0.9f};
+    material.sheenPerceptualRoughness = 0.25f;
+    const shared::MaterialConstants packed = packMaterial(material);
+    EXPECT_EQ(packed.anisotropy, glm::vec4(0.4f, float(std::cos(double(0.5f))), float(std::sin(double(0.5f))), 0.0f));
+    EXPECT_EQ(packed.clearcoat, glm::vec4(0.6f, 0.2f, 3.0f, 0.0f));
+    EXPECT_EQ(packed.sheen, glm::vec4(0.1f, 0.8f, 0.9f, 0.25f));
+    material.model = MaterialModel::MicrofacetAnisotropic;
+    EXPECT_EQ(packMaterial(material).microsurface.y, 0.3f) << "alpha_x";
+    EXPECT_EQ(packMaterial(material).anisotropy.x, 0.7f) << "alpha_y";
+    EXPECT_EQ(packMaterial(material).kind.z, MASKING_DIRECTIONAL);
 }
 
 TEST(PackedMaterial, flagsAreAlwaysExactlyWhatTheMaterialHas) {
@@ -62,6 +89,10 @@ TEST(PackedMaterial, flagsAreAlwaysExactlyWhatTheMaterialHas) {
     EXPECT_EQ(flags([](Material& m) { m.alphaMode = scenes::AlphaMode::Mask; }), MATERIAL_FLAG_ALPHA_MASK);
     EXPECT_EQ(flags([](Material& m) { m.alphaMode = scenes::AlphaMode::Blend; }), 0u);
     EXPECT_EQ(flags([](Material& m) { m.doubleSided = true; }), MATERIAL_FLAG_DOUBLE_SIDED);
+    EXPECT_EQ(flags([](Material& m) { m.texture(TextureSlot::Anisotropy).image = 0; }),
+              MATERIAL_FLAG_ANISOTROPY_TEXTURE);
+    EXPECT_EQ(flags([](Material& m) { m.texture(TextureSlot::ClearcoatNormal).image = 0; }),
+              MATERIAL_FLAG_CLEARCOAT_NORMAL_MAP);
 }
 
 TEST(PackedMaterial, textureCoordinatesAreAlwaysScaledThenTurnedThenMoved) {
@@ -96,10 +127,13 @@ TEST(PackedMaterial, setsAndWrapModesAlwaysGoToTheirSlot) {
 }
 
 TEST(PackedMaterial, exactlyTheColourSlotsAreSrgb) {
-    for (const TextureSlot slot : {TextureSlot::BaseColor, TextureSlot::Emissive, TextureSlot::SpecularColor})
+    for (const TextureSlot slot :
+         {TextureSlot::BaseColor, TextureSlot::Emissive, TextureSlot::SpecularColor, TextureSlot::SheenColor})
         EXPECT_TRUE(slotIsSrgb(slot));
     for (const TextureSlot slot :
-         {TextureSlot::Normal, TextureSlot::MetallicRoughness, TextureSlot::SpecularFactor, TextureSlot::Ior})
+         {TextureSlot::Normal, TextureSlot::MetallicRoughness, TextureSlot::SpecularFactor, TextureSlot::Ior,
+          TextureSlot::Anisotropy, TextureSlot::Clearcoat, TextureSlot::ClearcoatRoughness,
+          TextureSlot::ClearcoatNormal, TextureSlot::SheenRoughness})
         EXPECT_FALSE(slotIsSrgb(slot));
 }
 

@@ -79,5 +79,42 @@ TEST(VertexStreams, tangentsAreComputedExactlyForMeshesWithATangentSpaceMapAndNo
     EXPECT_EQ(makeVertexStreams(scene, features).tangentsOS[4], glm::vec4(0, 0, 1, 1)) << "its own come first";
 }
 
+TEST(VertexStreams, tangentsOfAnisotropicAndCoatedMaterialsAlwaysFollowTheirOwnTextureAndFirstTheNormalMaps) {
+    scenes::Scene scene = twoMeshes();
+    scene.meshes[1].tangentsOS.clear();
+    scene.meshes[1].texCoords[1] = {{0, 0}, {0, 1}, {1, 0}};
+    scene.images.emplace_back();
+    scene.nodes[0].instances.back().material = 1;
+    FeatureSet features;
+    features.add(Feature::Anisotropy);
+    const auto second = [&](const scenes::Material& material) {
+        scene.materials.resize(1);
+        scene.materials.push_back(material);
+        const VertexStreams streams = makeVertexStreams(scene, features);
+        return std::vector(streams.tangentsOS.begin() + 3, streams.tangentsOS.end());
+    };
+    const scenes::TextureUse onSecondSet{.image = 0, .sampler = {}, .texCoordSet = 1, .transform = {}};
+    const std::vector<glm::vec4> none(3, glm::vec4(1, 0, 0, 1));
+    const std::vector<glm::vec4> ofSet0 = computeTangents(scene.meshes[1], 0);
+    const std::vector<glm::vec4> ofSet1 = computeTangents(scene.meshes[1], 1);
+    ASSERT_NE(ofSet0, ofSet1);
+    scenes::Material material;
+    EXPECT_EQ(second(material), none);
+    material.anisotropyStrength = 0.5f;
+    EXPECT_EQ(second(material), ofSet0) << "without a texture";
+    material.texture(scenes::TextureSlot::Anisotropy) = onSecondSet;
+    EXPECT_EQ(second(material), ofSet1);
+    material.texture(scenes::TextureSlot::Normal).image = 0;
+    EXPECT_EQ(second(material), ofSet0) << "the normal map comes first";
+    scenes::Material coated;
+    coated.clearcoat = 1.0f;
+    EXPECT_EQ(second(coated), none) << "a smooth coat needs no tangents";
+    coated.texture(scenes::TextureSlot::ClearcoatNormal) = onSecondSet;
+    EXPECT_EQ(second(coated), ofSet1);
+    scenes::Material brushed;
+    brushed.model = scenes::MaterialModel::MicrofacetAnisotropic;
+    EXPECT_EQ(second(brushed), ofSet0);
+}
+
 } // namespace
 } // namespace tessera::frame

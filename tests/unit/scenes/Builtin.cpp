@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstring>
 #include <ostream>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -62,6 +63,8 @@ std::uint64_t digest(const Scene& scene) {
         digest.add(material.baseColor);
         digest.add(material.emissive);
         digest.add(glm::vec4(material.metallic, material.perceptualRoughness, material.alpha, material.ior));
+        digest.add(glm::vec4(material.alphaY, material.exponent, material.anisotropyStrength, material.clearcoat));
+        digest.add(material.sheenColor);
     }
     for (const Light& light : scene.lights) {
         digest.add(light.positionWS);
@@ -191,6 +194,32 @@ TEST(Spheres, alwaysSpanRoughnessAndMetalness) {
     EXPECT_EQ(spheres, 55);
     EXPECT_EQ(scene.lights.size(), 4u);
     EXPECT_EQ(builtin::makeSpheres(withLights(2)).lights.size(), 2u);
+}
+
+TEST(Models, alwaysShowEveryModelMaskingAndLayerSomeOfThemTextured) {
+    const Scene scene = builtin::makeModels(withoutAssets());
+    std::set<MaterialModel> models;
+    std::set<Masking> maskings;
+    std::set<std::size_t> slots;
+    bool anisotropic = false, coated = false, cloth = false;
+    for (const Material& material : scene.materials) {
+        models.insert(material.model);
+        maskings.insert(material.masking);
+        anisotropic = anisotropic || material.anisotropyStrength > 0.0f;
+        coated = coated || material.clearcoat > 0.0f;
+        cloth = cloth || material.sheenColor != glm::vec3(0.0f);
+        for (std::size_t slot = 0; slot < kTextureSlotCount; ++slot)
+            if (material.textures[slot].image != kNone) slots.insert(slot);
+    }
+    EXPECT_EQ(models.size(), 6u);
+    EXPECT_EQ(maskings.size(), 3u);
+    EXPECT_TRUE(anisotropic && coated && cloth);
+    EXPECT_GE(scene.materials.size(), 12u);
+    EXPECT_GE(slots.size(), 7u);
+    std::set<LightType> lights;
+    for (const Light& light : scene.lights) lights.insert(light.type);
+    EXPECT_EQ(lights.size(), 3u);
+    EXPECT_EQ(builtin::makeModels(withLights(2)).lights.size(), 2u);
 }
 
 TEST(Head, generatedBustAlwaysHasObjectSpaceNormals) {

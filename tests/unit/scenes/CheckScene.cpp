@@ -48,8 +48,11 @@ TEST(CheckScene, messageAlwaysNamesSceneAndElement) {
                   s.lights[0].attenuation = glm::vec3(0.0f);
               }),
               "scene 'tiny': light 0 'lamp': the attenuation coefficients A, B, C are all 0; give at least one");
-    EXPECT_EQ(verdict([](Scene& s) { s.materials[0].model = MaterialModel::BlinnPhong; }),
-              "scene 'tiny': material 0 'white': the model blinn_phong is not shaded yet; use microfacet");
+    EXPECT_EQ(verdict([](Scene& s) {
+                  s.materials[0].model = MaterialModel::Microfacet;
+                  s.materials[0].masking = Masking::Directional;
+              }),
+              "scene 'tiny': material 0 'white': masking by direction needs the model microfacet_anisotropic");
     EXPECT_EQ(verdict([](Scene& s) { s.options.camera = "door"; }),
               "scene 'tiny': the option camera names 'door', but no camera is called that");
 }
@@ -72,6 +75,15 @@ TEST(CheckScene, eachBrokenRuleIsAlwaysReported) {
          }},
         {"base colour", [](Scene& s) { s.materials[0].baseColor.y = kNaN; }},
         {"emission", [](Scene& s) { s.materials[0].emissive.x = -1.0f; }},
+        {"alphaY", [](Scene& s) { s.materials[0].alphaY = -0.1f; }},
+        {"exponent", [](Scene& s) { s.materials[0].exponent = kNaN; }},
+        {"anisotropy must", [](Scene& s) { s.materials[0].anisotropyStrength = 1.1f; }},
+        {"anisotropy's rotation", [](Scene& s) { s.materials[0].anisotropyRotationRadians = kInfinity; }},
+        {"clearcoat must", [](Scene& s) { s.materials[0].clearcoat = kNaN; }},
+        {"clearcoat's roughness", [](Scene& s) { s.materials[0].clearcoatPerceptualRoughness = -1.0f; }},
+        {"clearcoat normal map's scale", [](Scene& s) { s.materials[0].clearcoatNormalScale = kNaN; }},
+        {"sheen's colour", [](Scene& s) { s.materials[0].sheenColor.y = 1.5f; }},
+        {"sheen's roughness", [](Scene& s) { s.materials[0].sheenPerceptualRoughness = 2.0f; }},
         {"specular colour", [](Scene& s) { s.materials[0].specularColor.x = kInfinity; }},
         {"metalness", [](Scene& s) { s.materials[0].metallic = 1.5f; }},
         {"roughness", [](Scene& s) { s.materials[0].perceptualRoughness = kNaN; }},
@@ -80,7 +92,6 @@ TEST(CheckScene, eachBrokenRuleIsAlwaysReported) {
         {"specular factor", [](Scene& s) { s.materials[0].specularFactor = 2.0f; }},
         {"normal map's scale", [](Scene& s) { s.materials[0].normalScale = kNaN; }},
         {"cutoff", [](Scene& s) { s.materials[0].alphaCutoff = kNaN; }},
-        {"microfacet_anisotropic", [](Scene& s) { s.materials[0].model = MaterialModel::MicrofacetAnisotropic; }},
         {"image 0, but the scene has 0", [](Scene& s) { s.materials[0].texture(TextureSlot::Normal).image = 0; }},
         {"tangents", [](Scene& s) { s.meshes[0].tangentsOS.resize(2); }},
         {"colours", [](Scene& s) { s.meshes[0].colors.resize(4, glm::vec4(1.0f)); }},

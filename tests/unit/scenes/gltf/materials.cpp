@@ -55,6 +55,16 @@ TEST(GltfMaterials, everyTextureAlwaysLandsInItsSlot) {
          TextureSlot::SpecularFactor},
         {R"({"extensions": {"KHR_materials_specular": {"specularColorTexture": {"index": 0}}}})",
          TextureSlot::SpecularColor},
+        {R"({"extensions": {"KHR_materials_anisotropy": {"anisotropyTexture": {"index": 0}}}})",
+         TextureSlot::Anisotropy},
+        {R"({"extensions": {"KHR_materials_clearcoat": {"clearcoatTexture": {"index": 0}}}})", TextureSlot::Clearcoat},
+        {R"({"extensions": {"KHR_materials_clearcoat": {"clearcoatRoughnessTexture": {"index": 0}}}})",
+         TextureSlot::ClearcoatRoughness},
+        {R"({"extensions": {"KHR_materials_clearcoat": {"clearcoatNormalTexture": {"index": 0}}}})",
+         TextureSlot::ClearcoatNormal},
+        {R"({"extensions": {"KHR_materials_sheen": {"sheenColorTexture": {"index": 0}}}})", TextureSlot::SheenColor},
+        {R"({"extensions": {"KHR_materials_sheen": {"sheenRoughnessTexture": {"index": 0}}}})",
+         TextureSlot::SheenRoughness},
     };
     for (const auto& [patch, slot] : places) {
         const Material material = importedMaterial(patch);
@@ -105,6 +115,45 @@ TEST(GltfMaterials, specularFactorsAreImportedExactly) {
         R"({"extensions": {"KHR_materials_specular": {"specularFactor": 0.25, "specularColorFactor": [1, 2, 0.5]}}})");
     EXPECT_EQ(material.specularFactor, 0.25f);
     EXPECT_EQ(material.specularColor, glm::vec3(1, 2, 0.5f));
+}
+
+TEST(GltfMaterials, layersAreImportedExactly) {
+    const Material material = importedMaterial(R"({"extensions": {
+        "KHR_materials_anisotropy": {"anisotropyStrength": 0.6, "anisotropyRotation": 1.5},
+        "KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.25,
+                                    "clearcoatNormalTexture": {"index": 0, "scale": 2}},
+        "KHR_materials_sheen": {"sheenColorFactor": [0.1, 0.2, 0.3], "sheenRoughnessFactor": 0.75}}})");
+    EXPECT_EQ(material.anisotropyStrength, 0.6f);
+    EXPECT_EQ(material.anisotropyRotationRadians, 1.5f);
+    EXPECT_EQ(material.clearcoat, 0.5f);
+    EXPECT_EQ(material.clearcoatPerceptualRoughness, 0.25f);
+    EXPECT_EQ(material.clearcoatNormalScale, 2.0f);
+    EXPECT_EQ(material.sheenColor, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(material.sheenPerceptualRoughness, 0.75f);
+}
+
+TEST(GltfMaterials, layersAreAlwaysOffByDefaultAndNeverWarnedOf) {
+    Builder builder;
+    builder.merge(R"({"extensionsUsed": ["KHR_materials_anisotropy", "KHR_materials_clearcoat",
+                                         "KHR_materials_sheen"]})");
+    builder.material().merge_patch(Json::parse(R"({"extensions": {"KHR_materials_anisotropy": {},
+        "KHR_materials_clearcoat": {}, "KHR_materials_sheen": {}}})"));
+    const Scene scene = builder.import();
+    EXPECT_TRUE(scene.warnings.empty());
+    const Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.anisotropyStrength, 0.0f);
+    EXPECT_EQ(material.clearcoat, 0.0f);
+    EXPECT_EQ(material.sheenColor, glm::vec3(0));
+}
+
+TEST(GltfMaterials, layersOutOfRangeAreAlwaysRefused) {
+    for (const char* patch : {R"({"extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": 1.5}}})",
+                              R"({"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": -1}}})",
+                              R"({"extensions": {"KHR_materials_clearcoat": {"clearcoatRoughnessFactor": 2}}})",
+                              R"({"extensions": {"KHR_materials_sheen": {"sheenColorFactor": [0, 0, 2]}}})",
+                              R"({"extensions": {"KHR_materials_sheen": {"sheenColorFactor": [0, 0]}}})",
+                              R"({"extensions": {"KHR_materials_sheen": {"sheenColorTexture": {"index": 9}}}})"})
+        EXPECT_THROW(importedMaterial(patch), InputError) << patch;
 }
 
 // ---- Textures ------------------------------------------------------------------------------------------------------

@@ -156,13 +156,87 @@ TEST(SceneJsonMaterials, alphaModeAndSidesAreAlwaysKept) {
     EXPECT_EQ(materialOf(folder, R"("model": "lambert")").alphaMode, AlphaMode::Opaque);
 }
 
-TEST(SceneJsonMaterials, modelsThatAreNotShadedYetAreAlwaysRefusedByName) {
+TEST(SceneJsonMaterials, blinnPhongAlwaysHasItsThreeParametersAndTheirTextures) {
     const SceneFolder folder;
-    for (const char* model : {"blinn_phong", "microfacet_anisotropic"})
-        EXPECT_EQ(errorOf(folder, fmt::format(R"("model": "{}")", model)),
-                  fmt::format("/materials/0/model: the model '{}' is not shaded yet; shaded are single_color, lambert, "
-                              "microfacet, metallic_roughness",
-                              model));
+    const Material plain = materialOf(folder, R"("model": "blinn_phong")");
+    EXPECT_EQ(plain.model, MaterialModel::BlinnPhong);
+    EXPECT_EQ(plain.specularColor, glm::vec3(1));
+    EXPECT_EQ(plain.exponent, 32.0f);
+    const Scene scene = sceneOf(folder, R"("model": "blinn_phong", "k_d": [0.1, 0, 0],
+        "k_s": {"factor": [0.2, 0, 0], "texture": "pictures/specular.tga"},
+        "exponent": {"factor": 0.5, "texture": "pictures/normal.tga"})");
+    EXPECT_EQ(scene.materials[0].baseColor, glm::vec4(0.1f, 0, 0, 1));
+    EXPECT_EQ(scene.materials[0].specularColor, glm::vec3(0.2f, 0, 0));
+    EXPECT_EQ(scene.materials[0].exponent, 0.5f);
+    EXPECT_EQ(redOf(scene, TextureSlot::SpecularColor), 40);
+    EXPECT_EQ(redOf(scene, TextureSlot::MetallicRoughness), 128);
+    EXPECT_EQ(errorOf(folder, R"("model": "blinn_phong", "exponent": -1)"),
+              "/materials/0/exponent: is -1; at least 0 is needed");
+}
+
+TEST(SceneJsonMaterials, microfacetAnisotropicAlwaysHasTwoAlphasAndTheirTextures) {
+    const SceneFolder folder;
+    const Scene scene = sceneOf(folder, R"("model": "microfacet_anisotropic", "k_d": [0.1, 0, 0], "k_s": [0.2, 0, 0],
+        "ior": 2, "alphaX": {"factor": 0.25, "texture": "pictures/normal.tga"},
+        "alphaY": {"factor": 0.75, "texture": "pictures/specular.tga"}, "masking": "directional")");
+    const Material& material = scene.materials[0];
+    EXPECT_EQ(material.model, MaterialModel::MicrofacetAnisotropic);
+    EXPECT_EQ(material.baseColor, glm::vec4(0.1f, 0, 0, 1));
+    EXPECT_EQ(material.specularColor, glm::vec3(0.2f, 0, 0));
+    EXPECT_EQ(material.ior, 2.0f);
+    EXPECT_EQ(material.alpha, 0.25f);
+    EXPECT_EQ(material.alphaY, 0.75f);
+    EXPECT_EQ(redOf(scene, TextureSlot::MetallicRoughness), 128);
+    EXPECT_EQ(redOf(scene, TextureSlot::Anisotropy), 40);
+}
+
+TEST(SceneJsonMaterials, maskingIsAlwaysOneThatTheModelHas) {
+    const SceneFolder folder;
+    const auto masking = [&](const char* model, const char* name) {
+        return materialOf(folder, fmt::format(R"("model": "{}", "masking": "{}")", model, name)).masking;
+    };
+    EXPECT_EQ(materialOf(folder, R"("model": "microfacet")").masking, Masking::Walter);
+    EXPECT_EQ(masking("microfacet", "walter"), Masking::Walter);
+    EXPECT_EQ(masking("microfacet", "half_vector"), Masking::HalfVector);
+    EXPECT_EQ(masking("microfacet_anisotropic", "walter"), Masking::Walter);
+    EXPECT_EQ(masking("microfacet_anisotropic", "directional"), Masking::Directional);
+    EXPECT_EQ(masking("microfacet_anisotropic", "half_vector"), Masking::HalfVector);
+    EXPECT_EQ(errorOf(folder, R"("model": "microfacet", "masking": "directional")"),
+              "/materials/0/masking: there is no masking 'directional'; valid are walter, half_vector");
+}
+
+TEST(SceneJsonMaterials, layersOfMetallicRoughnessAlwaysHaveTheirParametersAndTextures) {
+    const SceneFolder folder;
+    const Scene scene = sceneOf(folder, R"("model": "metallic_roughness", "anisotropyStrength": 0.5,
+        "anisotropyRotationDegrees": 90, "anisotropyTexture": "pictures/albedo.tga",
+        "clearcoat": {"factor": 0.25, "texture": "pictures/specular.tga"},
+        "clearcoatPerceptualRoughness": {"factor": 0.75, "texture": "pictures/normal.tga"},
+        "clearcoatNormalMap": {"file": "pictures/normal.tga", "scale": 2, "texCoord": 1},
+        "sheenColor": {"factor": [0.1, 0.2, 0.3], "texture": "pictures/albedo.tga"},
+        "sheenPerceptualRoughness": {"factor": 0.125, "texture": "pictures/specular.tga"})");
+    const Material& material = scene.materials[0];
+    EXPECT_EQ(material.anisotropyStrength, 0.5f);
+    EXPECT_FLOAT_EQ(material.anisotropyRotationRadians, std::numbers::pi_v<float> / 2);
+    EXPECT_EQ(material.clearcoat, 0.25f);
+    EXPECT_EQ(material.clearcoatPerceptualRoughness, 0.75f);
+    EXPECT_EQ(material.clearcoatNormalScale, 2.0f);
+    EXPECT_EQ(material.sheenColor, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(material.sheenPerceptualRoughness, 0.125f);
+    EXPECT_EQ(redOf(scene, TextureSlot::Anisotropy), 10);
+    EXPECT_EQ(redOf(scene, TextureSlot::Clearcoat), 40);
+    EXPECT_EQ(redOf(scene, TextureSlot::ClearcoatRoughness), 128);
+    EXPECT_EQ(redOf(scene, TextureSlot::ClearcoatNormal), 128);
+    EXPECT_EQ(material.texture(TextureSlot::ClearcoatNormal).texCoordSet, 1);
+    EXPECT_EQ(redOf(scene, TextureSlot::SheenColor), 10);
+    EXPECT_EQ(redOf(scene, TextureSlot::SheenRoughness), 40);
+    EXPECT_EQ(errorOf(folder, R"("model": "metallic_roughness", "sheenColor": [0, 2, 0])"),
+              "/materials/0/sheenColor/1: is 2; at most 1 is allowed");
+    EXPECT_EQ(errorOf(folder, R"("model": "metallic_roughness", "clearcoat": -1)"),
+              "/materials/0/clearcoat: is -1; at least 0 is needed");
+}
+
+TEST(SceneJsonMaterials, modelsThatDoNotExistAreAlwaysRefusedByName) {
+    const SceneFolder folder;
     EXPECT_EQ(errorOf(folder, R"("model": "lambertian")"),
               "/materials/0/model: there is no material model 'lambertian'; did you mean 'lambert'?");
     EXPECT_EQ(errorOf(folder, R"("k_d": [1, 1, 1])"), "/materials/0: lacks the key 'model'; add it");

@@ -121,7 +121,9 @@ TEST(SceneJsonOverrides, anOverrideThatMatchesNothingIsAlwaysRefusedWithTheNeare
     EXPECT_EQ(errorOf(R"("overrides": [{"material": "brass", "k_d": [1, 1, 1]}])"),
               "/overrides/0: a metallic_roughness material has no key 'k_d'; valid are material, model, baseColor, "
               "metallic, perceptualRoughness, metallicRoughnessTexture, ior, specularFactor, specularColor, emissive, "
-              "emissiveStrength, normalMap, alphaMode, alphaCutoff, doubleSided");
+              "emissiveStrength, anisotropyStrength, anisotropyRotationDegrees, anisotropyTexture, clearcoat, "
+              "clearcoatPerceptualRoughness, clearcoatNormalMap, sheenColor, sheenPerceptualRoughness, normalMap, "
+              "alphaMode, alphaCutoff, doubleSided");
     EXPECT_EQ(folder.errorOf(threeParts(R"("overrides": [{"k_d": [1, 1, 1]}])")),
               "/overrides/0: names neither a 'node' nor a 'material' to override");
     EXPECT_EQ(folder.errorOf(threeParts(R"("overrides": [{"node": "left", "material": "brass", "metallic": 1}])")),

@@ -1,0 +1,58 @@
+// Normals and tangents of a material at a fragment.
+#pragma once
+#include "lib/material_values.glsl"
+#include "lib/math.glsl"
+
+bool materialFlag(uint flag)
+{
+    return (material.kind.y & flag) != 0u;
+}
+
+// Turned to the side that is seen where the material has two.
+vec3 facing(Fragment fragment, vec3 normal)
+{
+#if HAS_DOUBLE_SIDED
+    if (materialFlag(MATERIAL_FLAG_DOUBLE_SIDED) && !fragment.frontFacing) normal = -normal;
+#endif
+    return normal;
+}
+
+#if HAS_TANGENTS
+// A direction given by its components along tangent, bitangent and normal.
+vec3 fromTangentSpace(Fragment fragment, vec3 vertexNormal, vec3 direction)
+{
+    vec3 tangent = safeNormalize(fragment.tangentLS.xyz, vec3(0.0));
+    precise vec3 bitangent = cross(vertexNormal, tangent) * fragment.tangentLS.w;
+    precise vec3 turned = direction.x * tangent + direction.y * bitangent + direction.z * vertexNormal;
+    return turned;
+}
+
+vec3 tangentSpaceNormal(Fragment fragment, vec3 vertexNormal, vec3 texel, float scale)
+{
+    precise vec3 mapped = texel * 2.0 - 1.0;
+    precise vec3 scaled = vec3(mapped.x * scale, mapped.y * scale, mapped.z);
+    return safeNormalize(fromTangentSpace(fragment, vertexNormal, scaled), vertexNormal);
+}
+#endif
+
+vec3 materialNormal(Fragment fragment, vec3 texel)
+{
+    vec3 vertexNormal = safeNormalize(fragment.normalLS, vec3(0.0, 0.0, 1.0));
+    vec3 normal = vertexNormal;
+#if HAS_NORMAL_TEXTURE
+    if (materialFlag(MATERIAL_FLAG_NORMAL_MAP)) {
+        if (materialFlag(MATERIAL_FLAG_OBJECT_SPACE_NORMAL)) {
+#if HAS_OBJECT_SPACE_NORMALS
+            precise vec3 mapped = texel * 2.0 - 1.0;
+            precise vec3 turned = fragment.normalFromObject * mapped;
+            normal = safeNormalize(turned, vertexNormal);
+#endif
+        } else {
+#if HAS_TANGENT_SPACE_NORMALS
+            normal = tangentSpaceNormal(fragment, vertexNormal, texel, material.microsurface.w);
+#endif
+        }
+    }
+#endif
+    return facing(fragment, normal);
+}

@@ -1,0 +1,163 @@
+// Which texel means what for exponents, anisotropy, coats and sheens: pictures with a texture against the textbook's
+// value of the material that the texel stands for.
+#include <functional>
+
+#include "tests/image/FlatTest.h"
+#include "tests/image/Textbook.h"
+
+namespace tessera {
+namespace {
+
+using namespace test;
+using scenes::Material;
+using scenes::MaterialModel;
+using scenes::Scene;
+using scenes::TextureSlot;
+
+/// Two dozen fp32 roundings of 2^-24 each, relative, and the exponents' share (docs/numerics.md).
+constexpr double kRounding = 3e-6;
+
+scenes::Image floatImage(const glm::vec4& texel) {
+    scenes::Image image;
+    image.name = "texel";
+    image.width = image.height = 1;
+    image.format = scenes::TexelFormat::Rgba32Float;
+    const auto* bytes = reinterpret_cast<const std::byte*>(&texel);
+    image.texels.assign(bytes, bytes + sizeof(texel));
+    return image;
+}
+
+/// The eye straight above, the sun aslant and not along an axis, so that a lobe's turn shows.
+const glm::dvec3 kToSun = glm::normalize(glm::dvec3(0.35, 0.2, 1.0));
+
+class LobeValues : public FlatTest {
+protected:
+    static Scene underTheSun(const Material& material) {
+        Scene scene = flatScene(material);
+        scenes::Light sun = pointLight({}, 1.0f);
+        sun.type = scenes::LightType::Directional;
+        sun.directionWS = -kToSun;
+        scene.lights = {sun};
+        return scene;
+    }
+    void expectColor(const Scene& scene, const glm::dvec3& wanted) {
+        const glm::vec4 found = center(scene);
+        EXPECT_GT(glm::length(wanted), 1e-4) << "there is nothing to see";
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], kRounding * (1e-2 + wanted[c])) << c;
+    }
+    /// A material with a texture of one texel looks like the material `equal` without it.
+    void expectTexel(const Material& material, TextureSlot slot, const glm::vec4& texel, const Material& equal) {
+        expectColor(texturedScene(underTheSun(material), slot, floatImage(texel)),
+                    textbook::reflected(equal, {0, 0, 1}, kToSun, {0, 0, 1}));
+    }
+};
+
+constexpr glm::vec4 kTexel{0.8f, 0.6f, 0.4f, 0.7f};
+
+Material changed(Material material, const std::function<void(Material&)>& change) {
+    change(material);
+    return material;
+}
+
+TEST_F(LobeValues, theExponentIsAlwaysMultipliedByGreen) {
+    Material material;
+    material.model = MaterialModel::BlinnPhong;
+    material.exponent = 40.0f;
+    expectTexel(material, TextureSlot::MetallicRoughness, kTexel,
+                changed(material, [](Material& m) { m.exponent *= 0.6f; }));
+}
+
+TEST_F(LobeValues, theTwoAlphasAreAlwaysMultipliedByGreenAndRed) {
+    Material material;
+    material.model = MaterialModel::MicrofacetAnisotropic;
+    material.alpha = 0.5f;
+    material.alphaY = 0.2f;
+    expectTexel(material, TextureSlot::MetallicRoughness, kTexel,
+                changed(material, [](Material& m) { m.alpha *= 0.6f; }));
+    expectTexel(material, TextureSlot::Anisotropy, kTexel, changed(material, [](Material& m) { m.alphaY *= 0.8f; }));
+}
+
+Material brushedSteel() {
+    Material material;
+    material.baseColor = {0.7f, 0.6f, 0.5f, 1.0f};
+    material.perceptualRoughness = 0.4f;
+    material.anisotropyStrength = 0.9f;
+    material.anisotropyRotationRadians = 0.3f;
+    return material;
+}
+
+TEST_F(LobeValues, theAnisotropyTextureAlwaysTurnsByRedAndGreenAndWeakensByBlue) {
+    const Material material = brushedSteel();
+    const float angle = 0.5f;
+    // Not of unit length: only its direction counts.
+    const glm::vec4 texel(0.5f + 0.3f * std::cos(angle), 0.5f + 0.3f * std::sin(angle), 0.75f, 1.0f);
+    expectTexel(material, TextureSlot::Anisotropy, texel, changed(material, [&](Material& m) {
+                    m.anisotropyRotationRadians += angle;
+                    m.anisotropyStrength *= 0.75f;
+                }));
+    const glm::vec4 none(0.5f, 0.5f, 1.0f, 1.0f);
+    expectTexel(material, TextureSlot::Anisotropy, none, material);
+}
+
+TEST_F(LobeValues, theDirectionAlwaysTurnsWithItsNodeAndIsMirroredWithIt) {
+    const Material material = brushedSteel();
+    Scene scene = underTheSun(material);
+    const double turn = 0.7;
+    scene.nodes[0].parentFromNode = glm::dmat4({std::cos(turn), std::sin(turn), 0, 0},
+                                               {-std::sin(turn), std::cos(turn), 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1});
+    const glm::dvec3 tangent(std::cos(turn), std::sin(turn), 0.0);
+    expectColor(scene, textbook::reflected(material, {0, 0, 1}, kToSun, {0, 0, 1}, tangent));
+    // The bitangent points the other way, and the lobe turns clockwise.
+    scene.nodes[0].parentFromNode = glm::dmat4(glm::dmat3({-1, 0, 0}, {0, 1, 0}, {0, 0, 1}));
+    const Material clockwise = changed(material, [](Material& m) { m.anisotropyRotationRadians *= -1.0f; });
+    expectColor(scene, textbook::reflected(clockwise, {0, 0, 1}, kToSun, {0, 0, 1}));
+}
+
+/// A coat over nothing.
+Material lacquer() {
+    Material material;
+    material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
+    material.metallic = 0.0f;
+    material.specularFactor = 0.0f;
+    material.clearcoat = 0.8f;
+    material.clearcoatPerceptualRoughness = 0.6f;
+    return material;
+}
+
+TEST_F(LobeValues, theCoatIsAlwaysMultipliedByRedAndItsRoughnessByGreen) {
+    const Material material = lacquer();
+    expectTexel(material, TextureSlot::Clearcoat, kTexel, changed(material, [](Material& m) { m.clearcoat *= 0.8f; }));
+    expectTexel(material, TextureSlot::ClearcoatRoughness, kTexel,
+                changed(material, [](Material& m) { m.clearcoatPerceptualRoughness *= 0.6f; }));
+}
+
+TEST_F(LobeValues, theCoatAlwaysFollowsItsOwnNormalMapAndNeverThatBelow) {
+    Material material = lacquer();
+    const glm::dvec3 plain = textbook::reflected(material, {0, 0, 1}, kToSun, {0, 0, 1});
+    const glm::dvec3 tilted = glm::normalize(glm::dvec3(0.3, -0.2, 1.0));
+    const glm::vec4 texel(glm::vec3(tilted * 0.5 + 0.5), 1.0f);
+    expectColor(texturedScene(underTheSun(material), TextureSlot::Normal, floatImage(texel)), plain);
+    // The textbook's coat lies in the frame of its own normal.
+    const glm::dvec3 ownTilt = textbook::reflected(material, tilted, kToSun, {0, 0, 1});
+    expectColor(texturedScene(underTheSun(material), TextureSlot::ClearcoatNormal, floatImage(texel)), ownTilt);
+    material.clearcoatNormalScale = 0.5f;
+    const glm::dvec3 half = glm::normalize(tilted * glm::dvec3(0.5, 0.5, 1.0));
+    expectColor(texturedScene(underTheSun(material), TextureSlot::ClearcoatNormal, floatImage(texel)),
+                textbook::reflected(material, half, kToSun, {0, 0, 1}));
+}
+
+TEST_F(LobeValues, theSheenIsAlwaysMultipliedByRedGreenAndBlueAndItsRoughnessByAlpha) {
+    Material material;
+    material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
+    material.metallic = 0.0f;
+    material.specularFactor = 0.0f;
+    material.sheenColor = {0.9f, 0.8f, 0.7f};
+    material.sheenPerceptualRoughness = 0.9f;
+    expectTexel(material, TextureSlot::SheenColor, kTexel,
+                changed(material, [](Material& m) { m.sheenColor *= glm::vec3(kTexel); }));
+    expectTexel(material, TextureSlot::SheenRoughness, kTexel,
+                changed(material, [](Material& m) { m.sheenPerceptualRoughness *= 0.7f; }));
+}
+
+} // namespace
+} // namespace tessera
