@@ -226,8 +226,8 @@ TEST_F(Sabotage, anUntouchedCopyOfTheShadersAlwaysPasses) {
 }
 
 TEST_F(Sabotage, swappedChannelsAlwaysMissTheTolerance) {
-    replace("lib/gbuffer.glsl", "surface.albedo = albedo.rgb;", "surface.albedo = albedo.bgr;");
-    replace("lib/gbuffer.glsl", "surface.albedo = decodeSquareRoot(texelFetch(albedoChannel, pixel, 0).r);",
+    replace("lib/gbuffer_read.glsl", "surface.albedo = albedo.rgb;", "surface.albedo = albedo.bgr;");
+    replace("lib/gbuffer_read.glsl", "surface.albedo = decodeSquareRoot(texelFetch(albedoChannel, pixel, 0).r);",
             "surface.albedo = decodeSquareRoot(texelFetch(albedoChannel, pixel, 0).r).bgr;");
     expectExitCode(kToleranceMissed);
 }
@@ -247,6 +247,37 @@ TEST_F(Sabotage, aFaultThatAllTechniquesShareAlwaysMissesTheReference) {
         run({"compare", "lattice", "--size", "160x90", "--techniques", "deferred", "--against", "reference"},
             {{"TESSERA_SHADERS", path("shaders")}});
     EXPECT_EQ(result.exitCode, kToleranceMissed) << result.out;
+}
+
+/// `models` shows every model and layer, none of them large, so a fault of one changes few pixels.
+TEST_F(Sabotage, aFaultOfOneLobeAlwaysMissesTheReference) {
+    struct Fault {
+        const char* file;
+        const char* from;
+        const char* to;
+    };
+    constexpr Fault kFaults[] = {
+        {"lib/reflectance.glsl", "surface.albedo * nl + surface.specular * terms.d;",
+         "surface.albedo * nl + surface.specular * terms.d * nl;"},
+        {"lib/reflectance.glsl", "visibilityHalfVector(alpha, nl, nv, dot(toLight, h))",
+         "visibilitySeparable(alpha, nl, nv)"},
+        {"lib/reflectance.glsl", "if (surface.masking == MASKING_DIRECTIONAL)", "if (false)"},
+        {"lib/reflectance.glsl", "fresnelSchlick(vec3(0.04), 1.0", "fresnelSchlick(vec3(0.05), 1.0"},
+        {"lib/material_lobes.glsl", "(strength * strength)", "strength"},
+        {"lib/material_frame.glsl", "* fragment.tangentLS.w;", "* -fragment.tangentLS.w;"},
+        {"lib/sheen.glsl", "(2.0 + inverse)", "(1.0 + inverse)"},
+    };
+    for (const Fault& fault : kFaults) {
+        SCOPED_TRACE(fault.from);
+        const std::string right = text("shaders/" + std::string(fault.file));
+        replace(fault.file, fault.from, fault.to);
+        const ProcessResult result =
+            run({"compare", "models", "--size", "160x90", "--techniques", "deferred", "--against", "reference"},
+                {{"TESSERA_SHADERS", path("shaders")}});
+        EXPECT_EQ(result.exitCode, kToleranceMissed) << result.out;
+        EXPECT_EQ(result.err, "");
+        folder_.write("shaders/" + std::string(fault.file), right);
+    }
 }
 
 TEST_F(Sabotage, aShaderThatDoesNotCompileIsAlwaysNamedInOneLine) {
