@@ -52,7 +52,7 @@ private:
             const Technique technique = request_.techniques[t];
             Picture shown = toPicture(renderer.render(technique, picture.settings));
             const Picture& wanted = truth ? truth->picture : drawn_[*picture.sameAs][t];
-            results_[t].figures.addPicture(errorFigures(shown, wanted, excluded), picture.what);
+            results_[t].figures.addPicture(errorFigures(shown, wanted, excluded), picture.what, picture.allowed);
             if (isTruth(index)) drawn_[index].push_back(std::move(shown));
         }
     }

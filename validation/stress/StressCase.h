@@ -23,6 +23,7 @@ struct StressPicture {
     /// Index of an earlier picture of the case: the truth is that picture, drawn by the same technique. Without one it
     /// is the reference renderer's.
     std::optional<std::size_t> sameAs = {};
+    double allowed = 1.0; ///< times the case's tolerance; errors are divided by it
 };
 
 /// One row of the suite. Either shader functions are measured alone, which all techniques share, or pictures are drawn

@@ -35,14 +35,16 @@ void StressFigures::add(const StressFigures& other) {
     if (fault.empty()) fault = other.fault;
 }
 
-void StressFigures::addPicture(const ErrorFigures& picture, const std::string& what) {
+void StressFigures::addPicture(const ErrorFigures& picture, const std::string& what, double allowed) {
     samples += picture.covered;
     nan += picture.badA.nan + picture.badOutside.nan;
     infinite += picture.badA.infinite + picture.badOutside.infinite;
     negative += picture.badA.negative + picture.badOutside.negative;
-    error(picture.maxRel, [&] { return fmt::format("{}, pixel {},{}", what, picture.worstX, picture.worstY); });
-    if (!(picture.relMse <= worstRelMse)) {
-        worstRelMse = std::isnan(picture.relMse) ? std::numeric_limits<double>::infinity() : picture.relMse;
+    error(picture.maxRel / allowed,
+          [&] { return fmt::format("{}, pixel {},{}", what, picture.worstX, picture.worstY); });
+    const double relMse = picture.relMse / allowed;
+    if (!(relMse <= worstRelMse)) {
+        worstRelMse = std::isnan(relMse) ? std::numeric_limits<double>::infinity() : relMse;
         whereRelMse = what;
     }
     // No tolerance: what is left is that there is light, and that enough of the picture was compared.

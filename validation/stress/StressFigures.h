@@ -32,8 +32,8 @@ struct StressFigures {
     }
     /// Adds what another run of the same case found.
     void add(const StressFigures& other);
-    /// Adds a picture's figures. `what` names the picture.
-    void addPicture(const ErrorFigures& picture, const std::string& what);
+    /// Adds a picture's figures, its errors divided by `allowed`. `what` names the picture.
+    void addPicture(const ErrorFigures& picture, const std::string& what, double allowed = 1.0);
 };
 
 } // namespace tessera::validation
