@@ -84,10 +84,15 @@ void writeHeatMaps(const std::string& folder, const validation::CompareResult& r
         const std::string title = picture.name + " vs " + std::filesystem::path(result.truth.name).filename().string();
         const validation::DisplayImage map =
             validation::errorHeatMap(picture.picture, result.truth.picture, title, result.excluded);
-        std::string file = picture.name + ".png";
+        std::string file = picture.name;
         std::replace(file.begin(), file.end(), ' ', '_');
         std::erase_if(file, [](char c) { return c == '(' || c == ')'; });
-        validation::writePng((std::filesystem::path(folder) / file).string(), map);
+        const std::filesystem::path place(folder);
+        validation::writePng((place / (file + ".png")).string(), map);
+        if (picture.display.isConsistent() && result.truth.display.isConsistent()) {
+            validation::writePng((place / (file + "_flip.png")).string(),
+                                 validation::flipHeatMap(picture.display, result.truth.display, "FLIP  " + title));
+        }
     }
 }
 
@@ -132,7 +137,7 @@ void addCompareCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     command->add_option("--against", options->against, "The truth: a technique, a picture file, or reference [forward]")
         ->type_name("NAME|FILE");
     command->add_option("--json", options->json, "Writes the figures as JSON")->type_name("FILE");
-    command->add_option("--heatmap", options->heatMaps, "Writes a map of the relative error of each pair")
+    command->add_option("--heatmap", options->heatMaps, "Writes maps of the relative error and of FLIP of each pair")
         ->type_name("DIR");
     command->footer(R"(Examples
   tessera compare hall                                       every technique against forward

@@ -81,6 +81,7 @@ int runProgram(int argc, char** argv) {
     addCompareCommand(app, global, run);
     addPlanCommand(app, global, run);
     addBenchCommand(app, global, run);
+    addStressCommand(app, global, run);
     addScenesCommand(app, run);
     addDemoCommand(app, global, run);
     app.footer(kFooter);

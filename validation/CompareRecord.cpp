@@ -97,14 +97,26 @@ Json rangeTruncationJson(const RangeTruncation& truncation) {
     return json;
 }
 
-constexpr std::size_t kColumns = 8;
+constexpr std::size_t kColumns = 10;
 using Row = std::array<std::string, kColumns>;
+
+/// Equal bytes have no noise; what could not be compared has no figure.
+std::string psnrText(const ErrorFigures& figures) {
+    return figures.flip == 0.0 && !figures.psnr ? "equal" : decibelText(figures.psnr);
+}
 
 Row rowOf(const ComparePair& pair) {
     const ErrorFigures& figures = pair.figures;
-    return {pair.a + " vs " + pair.b,    shareText(figures.bitEqual),      figureText(figures.maxRel),
-            figureText(figures.p999Rel), figureText(figures.relMse),       figureText(figures.bias),
-            shareText(figures.litShare), pair.verdict.ok ? "ok" : "MISSED"};
+    return {pair.a + " vs " + pair.b,
+            shareText(figures.bitEqual),
+            figureText(figures.maxRel),
+            figureText(figures.p999Rel),
+            figureText(figures.relMse),
+            figureText(figures.bias),
+            figureText(figures.flip.value_or(std::nan(""))),
+            psnrText(figures),
+            shareText(figures.litShare),
+            pair.verdict.ok ? "ok" : "MISSED"};
 }
 
 std::string textTable(const std::vector<Row>& rows) {
@@ -130,9 +142,9 @@ bool CompareRecord::ok() const {
 }
 
 ComparePair comparePair(std::string nameA, const Picture& a, std::string nameB, const Picture& b, Tolerance tolerance,
-                        std::span<const std::uint8_t> excluded) {
+                        std::span<const std::uint8_t> excluded, const ShownPair& shown) {
     requireSameSize(a, nameA, b, nameB);
-    ComparePair pair{std::move(nameA), std::move(nameB), errorFigures(a, b, excluded), std::move(tolerance), {}};
+    ComparePair pair{std::move(nameA), std::move(nameB), errorFigures(a, b, excluded, shown), std::move(tolerance), {}};
     pair.verdict = checkTolerance(pair.figures, pair.tolerance);
     return pair;
 }
@@ -156,7 +168,8 @@ std::string compareJson(const CompareRecord& record) {
 }
 
 std::string compareTable(const CompareRecord& record) {
-    std::vector<Row> rows = {{"pair", "bit-equal", "max rel", "p99.9 rel", "relMSE", "bias", "lit", "verdict"}};
+    std::vector<Row> rows = {
+        {"pair", "bit-equal", "max rel", "p99.9 rel", "relMSE", "bias", "FLIP", "PSNR", "lit", "verdict"}};
     for (const ComparePair& pair : record.pairs) rows.push_back(rowOf(pair));
     const std::string samples = record.samples == 1 ? "" : fmt::format(", {} samples", record.samples);
     std::string text =

@@ -54,9 +54,9 @@ struct CompareRecord {
     bool ok() const;
 };
 
-/// Measures and judges one pair. `excluded` is as errorFigures() takes it.
+/// Measures and judges one pair. `excluded` and `shown` are as errorFigures() takes them.
 ComparePair comparePair(std::string nameA, const Picture& a, std::string nameB, const Picture& b, Tolerance tolerance,
-                        std::span<const std::uint8_t> excluded = {});
+                        std::span<const std::uint8_t> excluded = {}, const ShownPair& shown = {});
 
 /// The record as JSON, schema 1, indented and ending in a newline. Figures that could not be measured or are infinite
 /// are null, with the reason under `why`; `missed` says in words what a pair did not hold.

@@ -11,7 +11,7 @@
 #include "scenes/Error.h"
 #include "validation/Percentile.h"
 #include "validation/PixelErrors.h"
-#include "validation/Srgb.h"
+#include "validation/Rendering.h"
 
 namespace tessera::validation {
 namespace {
@@ -49,10 +49,6 @@ bool hasEqualBits(const float* a, const float* b) {
     return true;
 }
 
-int displayByte(float linear) {
-    return int(std::lround(255.0 * srgbFromLinear(std::clamp(double(linear), 0.0, 1.0))));
-}
-
 /// Mean luminance over the finite pixels, and the share of all pixels above the threshold.
 struct Signal {
     double meanLuminance = kNotMeasured;
@@ -75,7 +71,7 @@ Signal signalOf(const Picture& picture, double litThreshold) {
 /// The figures that are sums or maxima over the compared pixels.
 void addDifferences(ErrorFigures& figures, const Picture& a, const Picture& b, const PixelErrors& errors) {
     const double floorOfSquare = 1e-2 * errors.typicalLuminance * errors.typicalLuminance;
-    double squares = 0.0, relSquares = 0.0, luminanceA = 0.0, luminanceB = 0.0, displaySquares = 0.0;
+    double squares = 0.0, relSquares = 0.0, luminanceA = 0.0, luminanceB = 0.0;
     double maxAbs = 0.0, maxRel = 0.0;
     std::vector<double> rels;
     rels.reserve(errors.rel.size());
@@ -89,8 +85,6 @@ void addDifferences(ErrorFigures& figures, const Picture& a, const Picture& b, c
             maxAbs = std::max(maxAbs, std::abs(difference));
             squares += difference * difference;
             relSquares += difference * difference / (truth * truth + floorOfSquare);
-            const double shown = displayByte(valueA[c]) - displayByte(valueB[c]);
-            displaySquares += shown * shown;
         }
         if (errors.rel[i] > maxRel) {
             maxRel = errors.rel[i];
@@ -113,17 +107,12 @@ void addDifferences(ErrorFigures& figures, const Picture& a, const Picture& b, c
     figures.p99Rel = nearestRank(rels, 990);
     figures.p999Rel = nearestRank(rels, 999);
     figures.bias = luminanceB != 0.0 ? (luminanceA - luminanceB) / luminanceB : kNotMeasured;
-    if (!any)
-        figures.psnrReason = "no pixel could be compared";
-    else if (displaySquares == 0.0)
-        figures.psnrReason = "infinite: the pictures are identical on an 8 bit display";
-    else
-        figures.psnr = 10.0 * std::log10(255.0 * 255.0 / (displaySquares / values));
 }
 
 } // namespace
 
-ErrorFigures errorFigures(const Picture& a, const Picture& b, std::span<const std::uint8_t> excluded) {
+ErrorFigures errorFigures(const Picture& a, const Picture& b, std::span<const std::uint8_t> excluded,
+                          const ShownPair& shown) {
     const PixelErrors errors = pixelErrors(a, b, excluded);
     ErrorFigures figures;
     std::size_t excludedPixels = 0, equalPixels = 0;
@@ -152,7 +141,9 @@ ErrorFigures errorFigures(const Picture& a, const Picture& b, std::span<const st
     figures.litShare = signalB.litShare;
     figures.meanLuminanceA = signalA.meanLuminance;
     figures.litShareA = signalA.litShare;
-    figures.flipReason = "this version does not compute FLIP";
+    static_cast<DisplayFigures&>(figures) = shown.a && shown.b
+                                                ? displayFigures(*shown.a, *shown.b, errors.state)
+                                                : displayFigures(toDisplayImage(a), toDisplayImage(b), errors.state);
     return figures;
 }
 

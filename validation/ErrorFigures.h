@@ -1,10 +1,10 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 
+#include "validation/DisplayFigures.h"
 #include "validation/Picture.h"
 
 namespace tessera::validation {
@@ -21,9 +21,9 @@ struct BadPixels {
 /// The error of picture a against the truth b. Pixels are "covered" where geometry was drawn in either picture, minus
 /// the excluded ones; "lit" where luminance exceeds 1e-4 of the 99th percentile of b's. Percentiles are nearest-rank.
 /// A covered pixel with a NaN or an infinity is counted in `bad` and takes part in bitEqual; it is left out of maxAbs,
-/// maxRel, rmse, relMse, the percentiles, bias and psnr, which would otherwise say nothing about the rest; a pair with
-/// such a pixel never passes (checkTolerance). A figure that could not be measured is NaN.
-struct ErrorFigures {
+/// maxRel, rmse, relMse, the percentiles, bias, psnr and flip, which would otherwise say nothing about the rest; a pair
+/// with such a pixel never passes (checkTolerance). A figure that could not be measured is NaN.
+struct ErrorFigures : DisplayFigures {
     std::size_t covered = 0;  ///< pixels, the not finite ones included
     std::size_t compared = 0; ///< of them, with six finite values
     double maxAbs;            ///< largest |a - b| of a channel
@@ -48,18 +48,18 @@ struct ErrorFigures {
     double meanLuminance; ///< of b, over all its finite pixels; of a: meanLuminanceA
     double meanLuminanceA;
     double typicalLuminance; ///< m: median luminance of b's lit covered pixels, at least 1e-30
+};
 
-    /// Peak signal to noise in dB of the pair as a display shows it: clamped to 0..1, sRGB, 8 bits, covered pixels.
-    /// None when the bytes are identical (it is infinite then) or there is nothing to compare.
-    std::optional<double> psnr;
-    std::optional<double> flip;
-    std::string psnrReason; ///< why there is none; empty when there is one
-    std::string flipReason;
+/// A pair as it is shown; without it as a display shows radiance without exposure and tone map: clamped to 0..1, sRGB.
+struct ShownPair {
+    const DisplayImage* a = nullptr;
+    const DisplayImage* b = nullptr;
 };
 
 /// `excluded` is empty or one entry a pixel, 1 where the pixel is left out. The pictures must be of one size (see
 /// requireSameSize).
-ErrorFigures errorFigures(const Picture& a, const Picture& b, std::span<const std::uint8_t> excluded = {});
+ErrorFigures errorFigures(const Picture& a, const Picture& b, std::span<const std::uint8_t> excluded = {},
+                          const ShownPair& shown = {});
 
 /// Throws InputError naming both pictures and their sizes when they differ.
 void requireSameSize(const Picture& a, const std::string& nameA, const Picture& b, const std::string& nameB);

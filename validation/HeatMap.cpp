@@ -8,6 +8,7 @@
 
 #include "shaders/shared/heat.h"
 #include "validation/ErrorScale.h"
+#include "validation/Flip.h"
 #include "validation/PixelErrors.h"
 
 namespace tessera::validation {
@@ -55,6 +56,12 @@ std::vector<Tick> errorTicks() {
     std::vector<Tick> ticks;
     for (int exponent = kErrorScaleLowExponent; exponent <= 0; ++exponent)
         ticks.push_back({scalePosition(std::pow(10.0, exponent)), exponent == 0 ? "1" : fmt::format("1e{}", exponent)});
+    return ticks;
+}
+
+std::vector<Tick> shareTicks() {
+    std::vector<Tick> ticks;
+    for (int fifth = 0; fifth <= 5; ++fifth) ticks.push_back({fifth / 5.0, fmt::format("{:g}", fifth / 5.0)});
     return ticks;
 }
 
@@ -150,6 +157,19 @@ DisplayImage errorHeatMap(const Picture& a, const Picture& b, const std::string&
                                {kColourNotFinite, "NaN or Inf"},
                                {kColourUncovered, "not drawn"},
                                {kColourExcluded, "excluded"}};
+    drawSwatches(image, layout, swatches);
+    return image;
+}
+
+DisplayImage flipHeatMap(const DisplayImage& a, const DisplayImage& b, const std::string& title) {
+    const std::vector<float> errors = flipErrors(a, b);
+    const HeatMapLayout layout = heatMapLayout(a.width, a.height);
+    DisplayImage image = framed(layout, title);
+    for (std::size_t i = 0; i < errors.size(); ++i)
+        drawPixel(image, layout, i, a.width, scaleColour(double(errors[i])));
+    drawBar(image, layout, shareTicks());
+    const Swatch swatches[] = {{scaleColour(0.0), "looks the same"},
+                               {scaleColour(1.0), "could not look more different"}};
     drawSwatches(image, layout, swatches);
     return image;
 }

@@ -24,6 +24,10 @@ HeatMapLayout heatMapLayout(int pictureWidth, int pictureHeight);
 DisplayImage errorHeatMap(const Picture& a, const Picture& b, const std::string& title,
                           std::span<const std::uint8_t> excluded = {});
 
+/// What flipErrors() finds between two pictures as shown, as colours on a linear scale from 0 (the same) to 1, with the
+/// title above and the legend below.
+DisplayImage flipHeatMap(const DisplayImage& a, const DisplayImage& b, const std::string& title);
+
 /// A picture of counts (the view `lights`) as colours on a logarithmic scale up to the largest, with the title
 /// above and the legend below. Uncovered pixels are dark grey.
 DisplayImage countHeatMap(const Picture& counts, const std::string& title);

@@ -110,6 +110,12 @@ void checkWithoutPacking(recipes::Renderer& renderer, const gpu::Capabilities& g
     verdict.ok = verdict.missed.empty();
 }
 
+/// As the user sees the pair. Exposure and tone map are the renderer's: files and the reference have none.
+ShownPair shownPair(const CompareRequest& request, const NamedPicture& a, const NamedPicture& truth) {
+    const bool haveDisplay = std::holds_alternative<Technique>(request.against) && request.settings.display;
+    return haveDisplay ? ShownPair{&a.display, &truth.display} : ShownPair{};
+}
+
 /// Hardware filtering beside the exact one, which all other pairs use.
 bool showsHardwareFilter(const recipes::Renderer& renderer, const CompareRequest& request) {
     return isReference(request) && !request.techniques.empty() &&
@@ -206,7 +212,7 @@ CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabili
                                         ? *request.tolerance
                                         : toleranceOf(renderer, gl, request, technique, request.settings.layout);
         ComparePair pair = comparePair(picture.name, picture.picture, result.truth.name, result.truth.picture,
-                                       tolerance, result.excluded);
+                                       tolerance, result.excluded, shownPair(request, picture, result.truth));
         pair.culling = culling;
         if (recipes::techniqueTable()[std::size_t(technique)].usesGBuffer && isPacked(request.settings.layout)) {
             pair.channels = channelShares(renderer, request, technique, result, pair.figures.relMse);

@@ -63,9 +63,12 @@ vec4 sampleFiltered(sampler2D image, TexCoord uv, int modes)
     int x1 = wrapTexel(int(corner.x) + 1, size.x, modeU);
     int y0 = wrapTexel(int(corner.y), size.y, modeV);
     int y1 = wrapTexel(int(corner.y) + 1, size.y, modeV);
-    precise vec4 upper = linearTexel(image, x0, y0, modes) * (1.0 - weight.x) + linearTexel(image, x1, y0, modes) * weight.x;
-    precise vec4 lower = linearTexel(image, x0, y1, modes) * (1.0 - weight.x) + linearTexel(image, x1, y1, modes) * weight.x;
-    precise vec4 texel = upper * (1.0 - weight.y) + lower * weight.y;
+    // a + (b - a) w, so that equal texels stay what they are to the last bit: a normal of no length must not gain one.
+    precise vec4 upperLeft = linearTexel(image, x0, y0, modes);
+    precise vec4 lowerLeft = linearTexel(image, x0, y1, modes);
+    precise vec4 upper = upperLeft + (linearTexel(image, x1, y0, modes) - upperLeft) * weight.x;
+    precise vec4 lower = lowerLeft + (linearTexel(image, x1, y1, modes) - lowerLeft) * weight.x;
+    precise vec4 texel = upper + (lower - upper) * weight.y;
     return texel;
 #else
     return texture(image, uv);

@@ -71,16 +71,13 @@ glm::dvec4 sampleBilinear(const scenes::Image& image, Transfer transfer, const s
     const double x = std::clamp(texCoord.x * image.width - 0.5, -kFarthest, kFarthest);
     const double y = std::clamp(texCoord.y * image.height - 0.5, -kFarthest, kFarthest);
     const double left = std::floor(x), upper = std::floor(y);
-    glm::dvec4 sum(0.0);
-    for (int row = 0; row < 2; ++row) {
-        for (int column = 0; column < 2; ++column) {
-            const double weight = (column ? x - left : 1.0 - (x - left)) * (row ? y - upper : 1.0 - (y - upper));
-            sum += weight * texelAt(image, transfer,
-                                    wrapped(static_cast<long long>(left) + column, image.width, sampler.wrapU),
-                                    wrapped(static_cast<long long>(upper) + row, image.height, sampler.wrapV));
-        }
-    }
-    return sum;
+    const auto texel = [&](int column, int row) {
+        return texelAt(image, transfer, wrapped(static_cast<long long>(left) + column, image.width, sampler.wrapU),
+                       wrapped(static_cast<long long>(upper) + row, image.height, sampler.wrapV));
+    };
+    // a + (b - a) w: equal texels stay what they are to the last bit, so that a normal of no length gains none.
+    const auto between = [](const glm::dvec4& a, const glm::dvec4& b, double weight) { return a + (b - a) * weight; };
+    return between(between(texel(0, 0), texel(1, 0), x - left), between(texel(0, 1), texel(1, 1), x - left), y - upper);
 }
 
 glm::dvec2 transformed(const scenes::TextureTransform& transform, const glm::dvec2& uv) {

@@ -111,9 +111,10 @@ TEST_F(Compare, techniquesAreExactlyThoseAskedForAndHeatMapsAlwaysShowEach) {
     EXPECT_EQ(pairs[0]["a"], "deferred");
     EXPECT_EQ(pairs[1]["a"], "forward");
     EXPECT_EQ(pairs[1]["b"], "forward_prepass");
-    for (const char* name : {"maps/of/deferred.png", "maps/of/forward.png"})
+    for (const char* name :
+         {"maps/of/deferred.png", "maps/of/deferred_flip.png", "maps/of/forward.png", "maps/of/forward_flip.png"})
         EXPECT_GE(picture(name).width, 160) << name;
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path() / "maps/of"), fs::directory_iterator()), 2);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path() / "maps/of"), fs::directory_iterator()), 4);
 }
 
 TEST_F(Compare, aPictureThatRenderWroteAlwaysEqualsEveryTechniqueBitForBit) {

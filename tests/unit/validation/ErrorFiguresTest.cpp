@@ -161,6 +161,8 @@ TEST(ErrorFigures, figuresOfNothingAreNeverNumbers) {
             EXPECT_TRUE(std::isnan(figure));
         EXPECT_FALSE(figures.psnr.has_value());
         EXPECT_EQ(figures.psnrReason, "no pixel could be compared");
+        EXPECT_FALSE(figures.flip.has_value());
+        EXPECT_EQ(figures.flipReason, "no pixel could be compared");
     }
     EXPECT_TRUE(std::isnan(errorFigures(none, none).bitEqual));
     EXPECT_EQ(errorFigures(broken, broken).bitEqual, 1.0);
@@ -186,8 +188,26 @@ TEST(ErrorFigures, psnrIsAlwaysOfTheClampedSrgbBytes) {
     const ErrorFigures clamped = errorFigures(pictureOf(2, 1, {{2, 2, 2}, {3, 3, 3}}), b);
     EXPECT_FALSE(clamped.psnr.has_value());
     EXPECT_EQ(clamped.psnrReason, "infinite: the pictures are identical on an 8 bit display");
-    EXPECT_FALSE(clamped.flip.has_value());
-    EXPECT_FALSE(clamped.flipReason.empty());
+    EXPECT_EQ(clamped.flip, 0.0);
+}
+
+TEST(ErrorFigures, flipIsAlwaysTheMeanOverTheComparedPixelsAlone) {
+    // Black against white: 0.967379 (FlipTest), wherever nothing is filtered across.
+    const Picture b = greyPicture(8, 8, 0.f), a = greyPicture(8, 8, 1.f);
+    EXPECT_NEAR(errorFigures(a, b).flip.value(), 0.967379, 1e-4);
+    std::vector<std::uint8_t> excluded(64, 1);
+    excluded[9] = 0;
+    EXPECT_NEAR(errorFigures(a, b, excluded).flip.value(), 0.967379, 1e-4);
+}
+
+TEST(ErrorFigures, picturesAsTheyAreShownAlwaysDecideWhatADisplayTells) {
+    const Picture b = greyPicture(4, 4, 1.f), a = greyPicture(4, 4, 2.f);
+    EXPECT_EQ(errorFigures(a, b).flip, 0.0); // both are white without exposure
+    const DisplayImage black{4, 4, std::vector<std::uint8_t>(48, 0)}, white{4, 4, std::vector<std::uint8_t>(48, 255)};
+    const ErrorFigures shown = errorFigures(a, b, {}, {&black, &white});
+    EXPECT_NEAR(shown.flip.value(), 0.967379, 1e-4);
+    EXPECT_EQ(shown.psnr, 0.0);
+    EXPECT_EQ(shown.maxRel, 1.0);
 }
 
 TEST(ErrorFigures, picturesOfTwoSizesAreAlwaysRefusedByName) {

@@ -7,6 +7,7 @@
 
 #include "tests/unit/validation/Samples.h"
 #include "validation/ErrorScale.h"
+#include "validation/Flip.h"
 #include "validation/PixelErrors.h"
 
 namespace tessera::validation {
@@ -108,6 +109,17 @@ TEST(BitmapFont, textIsAlwaysDrawnInItsCellsAndCutOffAtTheEdge) {
     drawText(unknown, 0, 0, "\x7f", {9, 9, 9});
     drawText(question, 0, 0, "?", {9, 9, 9});
     EXPECT_EQ(unknown.rgb, question.rgb);
+}
+
+TEST(HeatMap, aFlipMapAlwaysShowsThePixelsErrorOnAScaleFromNothingToOne) {
+    const DisplayImage black{5, 4, std::vector<std::uint8_t>(60, 0)}, white{5, 4, std::vector<std::uint8_t>(60, 255)};
+    const HeatMapLayout layout = heatMapLayout(5, 4);
+    const DisplayImage same = flipHeatMap(black, black, "same"), different = flipHeatMap(black, white, "different");
+    EXPECT_EQ(pictureColour(same, layout, 2, 2), scaleColour(0.0));
+    EXPECT_EQ(pictureColour(different, layout, 2, 2), scaleColour(double(flipErrors(black, white)[12])));
+    EXPECT_NE(pictureColour(different, layout, 2, 2), scaleColour(0.0));
+    EXPECT_EQ(at(different, layout.legendX, layout.legendY), scaleColour(0.0));
+    EXPECT_EQ(at(different, layout.legendX + layout.legendWidth - 1, layout.legendY), scaleColour(1.0));
 }
 
 } // namespace

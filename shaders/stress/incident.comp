@@ -1,0 +1,14 @@
+// What lights send to points. In: (position, index of the light). Out: (intensity, 1 when the light reaches),
+// (direction, 0).
+#include "records.glsl"
+#include "lib/light.glsl"
+
+void main()
+{
+    int record = recordIndex(1);
+    if (record < 0) return;
+    Incident incident;
+    bool reaches = incidentLight(int(inputs[record].w), inputs[record].xyz, incident);
+    outputs[record * 2] = reaches ? vec4(incident.intensity, 1.0) : vec4(0.0);
+    outputs[record * 2 + 1] = vec4(reaches ? incident.toLightLS : vec3(0.0), 0.0);
+}

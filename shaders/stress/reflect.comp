@@ -1,0 +1,23 @@
+// What a material sends to a viewer for one unit of light, by the product's own way from material to radiance.
+// In: (normal, 0), (tangent, handedness), (to light, 0), (to viewer, 0). Out: (reflected share, n.l).
+#include "records.glsl"
+#include "lib/lighting.glsl"
+#include "lib/material.glsl"
+
+void main()
+{
+    int record = recordIndex(4);
+    if (record < 0) return;
+    Fragment fragment;
+    fragment.normalLS = inputs[record * 4].xyz;
+    fragment.tangentLS = inputs[record * 4 + 1];
+    fragment.texCoord[0] = TexCoord(0.0);
+    fragment.texCoord[1] = TexCoord(0.0);
+    fragment.color = vec4(1.0);
+    fragment.normalFromObject = mat3(1.0);
+    fragment.frontFacing = true;
+    Surface surface = surfaceFromMaterial(fragment, materialBaseColor(fragment));
+    vec3 toLight = inputs[record * 4 + 2].xyz;
+    vec3 share = reflectedShare(surface, toLight, inputs[record * 4 + 3].xyz);
+    outputs[record] = vec4(share, dot(surface.normalLS, toLight));
+}

@@ -1,0 +1,61 @@
+#include <set>
+
+#include "apps/Commands.h"
+#include "tests/cli/program/Cli.h"
+
+namespace tessera::test {
+namespace {
+
+using app::kBadInput;
+using app::kToleranceMissed;
+
+class StressCommand : public Cli {};
+
+TEST_F(StressCommand, aCaseAlwaysTellsItsFiguresOnTheTerminalAndAsJson) {
+    const std::string table = runGood({"stress", "--quick", "--case", "terms", "--case", "scene/light_place",
+                                       "--technique", "forward,deferred", "--json", "s.json"});
+    EXPECT_THAT(table, testing::HasSubstr("terms/fresnel"));
+    EXPECT_THAT(table, testing::ContainsRegex("\nall [0-9]+ hold over [0-9]+ samples\n"));
+    const nlohmann::json record = json("s.json");
+    EXPECT_EQ(record["schema"], 1);
+    EXPECT_FALSE(record["renderer"].get<std::string>().empty());
+    std::set<std::string> techniques;
+    for (const nlohmann::json& row : record["cases"]) {
+        EXPECT_EQ(row["ok"], true) << row["name"];
+        EXPECT_GT(row["samples"], 0) << row["name"];
+        EXPECT_LE(row["worstRel"], row["tolerance"]) << row["name"];
+        if (row["technique"].is_string()) techniques.insert(row["technique"].get<std::string>());
+    }
+    EXPECT_EQ(techniques, (std::set<std::string>{"deferred", "forward"}));
+}
+
+TEST_F(StressCommand, theListAlwaysShowsEveryGroupAndRunsNothing) {
+    const std::string list = runGood({"stress", "--list"});
+    for (const char* group :
+         {"brdf/", "directions/", "roughness/", "terms/", "light/", "lights/", "scene/", "geometry/", "target/"})
+        EXPECT_THAT(list, testing::HasSubstr(group));
+}
+
+TEST_F(StressCommand, aShaderWithAFaultAlwaysEndsWithExitCodeThree) {
+    std::filesystem::copy(std::filesystem::path(TESSERA_SOURCE_DIR) / "shaders", folder_.path() / "shaders",
+                          std::filesystem::copy_options::recursive);
+    std::string source = text("shaders/lib/math.glsl");
+    const std::string right = "kPi = 3.14159265358979323846";
+    ASSERT_NE(source.find(right), std::string::npos);
+    folder_.write("shaders/lib/math.glsl", source.replace(source.find(right), right.size(), "kPi = 3.17300858"));
+    const ProcessResult result =
+        run({"stress", "--quick", "--case", "terms", "--json", "s.json"}, {{"TESSERA_SHADERS", path("shaders")}});
+    EXPECT_EQ(result.exitCode, kToleranceMissed);
+    EXPECT_EQ(result.err, "");
+    EXPECT_THAT(result.out, testing::HasSubstr("missed: terms/distribution_0.3: the worst relative error is 0.0"));
+    EXPECT_EQ(json("s.json")["ok"], false);
+}
+
+TEST_F(StressCommand, anUnknownNameIsAlwaysRefusedWithTheNearest) {
+    expectError(kBadInput, {"stress", "--case", "terms/fresnal"}, {"terms/fresnal", "terms/fresnel"});
+    expectError(kBadInput, {"stress", "--technique", "forwart"}, {"forwart", "forward"});
+    expectError(app::kFailed, {"stress", "--quick", "--case", "terms", "--json", "/proc/nix/s.json"}, {"/proc/nix"});
+}
+
+} // namespace
+} // namespace tessera::test

@@ -1,0 +1,120 @@
+// Shaders with one fault each. All techniques share their lighting, so that comparing them with each other sees none of
+// these; the stability suite, which compares with formulas in double precision, must see every one.
+#include <fmt/format.h>
+
+#include "tests/support/GlContext.h"
+#include "tests/support/ShaderMutant.h"
+#include "validation/TechniqueCompare.h"
+#include "validation/stress/Stress.h"
+#include "validation/stress/StressScene.h"
+
+namespace tessera {
+namespace {
+
+using recipes::Technique;
+
+struct Mutant {
+    const char* fault;
+    const char* file; ///< below shaders/
+    const char* from;
+    const char* to;
+    const char* seenBy; ///< the case that must miss
+};
+
+constexpr Mutant kMutants[] = {
+    {"pi off by 1 %", "lib/math.glsl", "kPi = 3.14159265358979323846", "kPi = 3.17300858", "brdf/metallic_roughness"},
+    {"D below the horizon", "lib/brdf.glsl", "if (!(cosine > 0.0)) return 0.0;", "", "terms/distribution_0.3"},
+    {"D by 1 - (n.h)^2", "lib/brdf.glsl", "dot(across, across)", "(1.0 - cosine * cosine)", "terms/distribution_0.002"},
+    {"light from below the horizon", "lib/lighting.glsl", "if (!(nl > 0.0)) return vec3(0.0);", "", "brdf/lambert"},
+    {"a lobe towards viewers below the horizon", "lib/lighting.glsl", "nl > 0.0 && nv > 0.0 &&", "nl > 0.0 &&",
+     "brdf/microfacet"},
+    {"no half vector where l = -v", "lib/lighting.glsl", "length2 > 0.0 ? sum / sqrt(length2) : vec3(0.0)",
+     "sum / sqrt(length2)", "directions/opposite"},
+    {"G1 without the view term", "lib/brdf.glsl", "(cosineView + smithLength(alpha, cosineView))", "(2.0 * cosineView)",
+     "terms/masking"},
+    {"correlated masking with its cosines swapped", "lib/brdf.glsl",
+     "cosineLight * smithLength(alpha, cosineView) + cosineView * smithLength(alpha, cosineLight)",
+     "cosineLight * smithLength(alpha, cosineLight) + cosineView * smithLength(alpha, cosineView)", "terms/masking"},
+    {"a square root left out", "lib/brdf.glsl", "sqrt(alpha2 + (1.0 - alpha2) * (cosine * cosine))",
+     "(alpha2 + (1.0 - alpha2) * (cosine * cosine))", "terms/masking"},
+    {"F of one polarisation", "lib/brdf.glsl", "0.5 * (a * a) * (1.0 + b * b)", "a * a", "terms/fresnel"},
+    {"F that cancels near an index of 1", "lib/brdf.glsl", "difference = contrast / sum", "difference = sqrt(g2) - c",
+     "terms/fresnel"},
+    {"no total internal reflection", "lib/brdf.glsl", "if (g2 < 0.0) return 1.0;", "", "terms/total_reflection"},
+    {"Schlick to the fourth", "lib/brdf.glsl", "m2 * m2 * m;", "m2 * m2;", "brdf/metallic_roughness"},
+    {"what F reflects is also transmitted", "lib/lighting.glsl", "vec3(1.0) - terms.f", "vec3(1.0)",
+     "brdf/metallic_roughness"},
+    {"k_s left out", "lib/lighting.glsl", "surface.specular * (terms.f * dv)", "terms.f * dv", "brdf/microfacet"},
+    {"alpha squared once more", "lib/material.glsl", "surface.alpha = max(roughnessMetallic.x, ALPHA_MIN);",
+     "surface.alpha = max(roughnessMetallic.x * roughnessMetallic.x, ALPHA_MIN);", "roughness/microfacet"},
+    {"a range window not squared", "lib/light.glsl", "(window * window) / max(distance2, 1e-4)",
+     "window / max(distance2, 1e-4)", "light/range"},
+    {"no floor of the distance", "lib/light.glsl", "max(distance2, 1e-4)", "distance2", "light/distance"},
+    {"B without the distance", "lib/light.glsl", "attenuation.y * distance +", "attenuation.y +", "light/distance"},
+    {"a cone that points backwards", "lib/light.glsl", "clamp(-dot(direction, axis.xyz)",
+     "clamp(dot(direction, axis.xyz)", "light/cone"},
+    {"a cone not squared", "lib/light.glsl", "falloff *= cone * cone;", "falloff *= cone;", "light/random"},
+    {"a dropped light", "lib/light_cursor.glsl", "return LightCursor(0, int(frame.lights.x));",
+     "return LightCursor(1, int(frame.lights.x));", "lights/scattered"},
+    {"normals turned as positions are", "passes/geometry.vert",
+     "vec3(dot(drawNormal0.xyz, normalOS), dot(drawNormal1.xyz, normalOS), dot(drawNormal2.xyz, normalOS))",
+     "vec3(dot(drawRow0.xyz, normalOS), dot(drawRow1.xyz, normalOS), dot(drawRow2.xyz, normalOS))", "scene/transform"},
+    {"back faces keep their normal", "lib/material.glsl", "normal = -normal;", "normal = normal;", "scene/transform"},
+    {"mirrored coordinates without handedness", "lib/material.glsl",
+     "cross(vertexNormal, tangent) * fragment.tangentLS.w", "cross(vertexNormal, tangent)", "geometry/degenerate"},
+    {"zero normals kept", "lib/math.glsl", "if (!(largest > 0.0)) return fallback;", "", "geometry/zero_normal"},
+};
+
+class Mutants : public test::GlTest {
+protected:
+    std::vector<validation::StressResult> run(const std::vector<std::string>& cases,
+                                              const shader::SourceTree& shaders) {
+        validation::StressRequest request;
+        for (const std::string& name : cases)
+            for (const validation::StressCase* row : validation::stressCasesNamed(name)) request.cases.push_back(row);
+        request.techniques = {Technique::Forward};
+        request.effort = validation::StressEffort::Quick;
+        request.shaders = shaders;
+        return validation::runStress(context(), request);
+    }
+};
+
+TEST_F(Mutants, everyFaultIsAlwaysSeenByTheCaseThatIsThereForIt) {
+    ASSERT_GE(std::size(kMutants), 12u);
+    for (const Mutant& mutant : kMutants) {
+        SCOPED_TRACE(mutant.fault);
+        const test::ShaderMutant shaders;
+        shaders.replace(mutant.file, mutant.from, mutant.to);
+        const std::vector<validation::StressResult> results = run({mutant.seenBy}, shaders.tree());
+        ASSERT_EQ(results.size(), 1u);
+        EXPECT_FALSE(results[0].ok()) << mutant.seenBy << " did not see it: worst relative error "
+                                      << results[0].figures.worstRel;
+        const std::vector<std::string> missed = results[0].missed();
+        fmt::print("{:<45} {}: {}\n", mutant.fault, mutant.seenBy, missed.empty() ? "NOT SEEN" : missed.front());
+    }
+}
+
+/// Else a case that never holds would see every fault.
+TEST_F(Mutants, shadersWithoutAFaultAlwaysHoldEachOfTheirCases) {
+    std::vector<std::string> cases;
+    for (const Mutant& mutant : kMutants) cases.emplace_back(mutant.seenBy);
+    std::sort(cases.begin(), cases.end());
+    cases.erase(std::unique(cases.begin(), cases.end()), cases.end());
+    for (const validation::StressResult& result : run(cases, test::ShaderMutant().tree()))
+        EXPECT_TRUE(result.ok()) << result.name << ": " << testing::PrintToString(result.missed());
+}
+
+/// Why the suite is needed: techniques that share a fault agree.
+TEST_F(Mutants, techniquesAlwaysAgreeOnAFaultTheyShare) {
+    const test::ShaderMutant shaders;
+    shaders.replace("lib/math.glsl", "kPi = 3.14159265358979323846", "kPi = 3.17300858");
+    const scenes::Scene scene = validation::stressScene();
+    recipes::Renderer renderer(context(), scene, shaders.tree());
+    validation::CompareRequest request;
+    request.settings.sizePixels = {64, 45};
+    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) request.techniques.push_back(info.technique);
+    EXPECT_TRUE(validation::compareTechniques(renderer, context().capabilities(), request).record.ok());
+}
+
+} // namespace
+} // namespace tessera

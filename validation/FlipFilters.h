@@ -1,0 +1,40 @@
+#pragma once
+#include <vector>
+
+/// The filters that FLIP looks at a picture through (Flip.h), in one dimension: all of its kernels are products of
+/// one for the columns and one for the rows, or sums of two such products.
+namespace tessera::validation {
+
+/// One number a pixel, rows from the top.
+struct Plane {
+    int width = 0, height = 0;
+    std::vector<float> values;
+    Plane(int w, int h) : width(w), height(h), values(std::size_t(w) * std::size_t(h)) {}
+};
+
+/// Weights at -radius .. +radius.
+using Kernel = std::vector<float>;
+
+/// The plane seen through the product of two kernels. Beyond its edges the plane goes on with its outermost pixels.
+Plane filtered(const Plane& plane, const Kernel& alongRow, const Kernel& alongColumn);
+
+/// Contrast sensitivity of the eye to one opponent channel: its spatial kernel is the sum of
+/// a sqrt(pi / b) exp(-pi^2 x^2 / b) over two terms, x in degrees. Source: Andersson et al. 2020, table 1.
+struct ContrastSensitivity {
+    double a1, b1, a2, b2;
+};
+inline constexpr ContrastSensitivity kAchromatic{1.0, 0.0047, 0.0, 1e-5};
+inline constexpr ContrastSensitivity kRedGreen{1.0, 0.0053, 0.0, 1e-5};
+inline constexpr ContrastSensitivity kBlueYellow{34.1, 0.04, 13.5, 0.025};
+
+/// A channel as the eye sees it at a distance; the kernel's weights add up to 1.
+Plane seenBy(const ContrastSensitivity& eye, const Plane& channel, double pixelsPerDegree);
+
+/// How strong the edges and the points (thin lines too) of a lightness plane are: lengths of the gradient by first and
+/// by second derivatives of a Gaussian of 0.082 degrees, half that as its standard deviation.
+struct Features {
+    Plane edges, points;
+};
+Features featuresOf(const Plane& lightness, double pixelsPerDegree);
+
+} // namespace tessera::validation

@@ -1,0 +1,199 @@
+// What one light sends to a point: the product's packed lights read by its own shader, against the reference in double.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "renderer/frame/LightBuffers.h"
+#include "validation/reference/LightAt.h"
+#include "validation/stress/StressCase.h"
+#include "validation/stress/StressRandom.h"
+
+namespace tessera::validation {
+
+namespace {
+
+using scenes::Falloff;
+using scenes::Light;
+using scenes::LightType;
+
+/// A point and a light, by index.
+struct Probe {
+    glm::vec3 positionWS;
+    std::size_t light;
+};
+
+constexpr double kTolerance = 3e-6;
+constexpr const char* kReason =
+    "some twenty roundings of 6e-8, of the light without its windows: those subtract from one. A cone counts with the "
+    "reciprocal of its width besides";
+
+reference::Incident truthAt(const Light& light, const glm::dvec3& positionWS) {
+    scenes::Scene scene;
+    scene.lights = {light};
+    const auto shining = reference::shiningLights(scene, {}, glm::dvec3(0.0));
+    return shining.empty() ? reference::Incident{} : reference::incidentAt(shining.front(), positionWS);
+}
+
+/// What an error is taken relative to: the light without range and cone, by the cone's width.
+double scaleOf(const Light& light, const glm::dvec3& positionWS) {
+    Light open = light;
+    open.rangeMetres = scenes::kInfinity;
+    if (open.type == LightType::Spot) open.type = LightType::Point;
+    const double width = std::cos(double(light.innerConeRadians)) - std::cos(double(light.outerConeRadians));
+    const double cone = light.type == LightType::Spot ? 1.0 + 1.0 / (3.0 * std::max(0.001, width)) : 1.0;
+    return cone * truthAt(open, positionWS).intensity.x;
+}
+
+std::string describe(const Light& light, const glm::vec3& positionWS) {
+    constexpr const char* kTypes[] = {"directional", "point", "spot"};
+    return fmt::format("{}, intensity {:g}, range {:g}, cone {:g} to {:g}, A B C {:g} {:g} {:g}, {:g} m away",
+                       kTypes[std::size_t(light.type)], light.intensity, light.rangeMetres, light.innerConeRadians,
+                       light.outerConeRadians, light.attenuation.x, light.attenuation.y, light.attenuation.z,
+                       glm::length(light.positionWS - glm::dvec3(positionWS)));
+}
+
+void measure(StressBench& bench, const std::vector<Light>& lights, const std::vector<Probe>& probes,
+             StressFigures& figures) {
+    scenes::Scene scene;
+    scene.lights = lights;
+    frame::FrameSettings settings;
+    settings.prune = false; // every light keeps its index
+    // The eye is the world's origin, so that world and lighting space are one.
+    const frame::CameraView view =
+        frame::makeCameraView(scenes::Camera{}, {64, 64}, frame::LightingSpace::World, glm::vec3(0.0f));
+    frame::LightBuffers buffers;
+    buffers.upload(frame::packLights(scene, view, settings));
+    buffers.bind();
+    std::vector<glm::vec4> inputs;
+    for (const Probe& probe : probes) inputs.emplace_back(probe.positionWS, float(probe.light));
+    const std::vector<glm::vec4> out =
+        bench.run("stress/incident.comp", frame::featureDefines(frame::allFeatures()), inputs, probes.size(), 2);
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+        const Light& light = lights[probes[i].light];
+        const glm::dvec3 positionWS(probes[i].positionWS);
+        figures.count({&out[2 * i].x, 3});
+        // Directions have negative components, which count as nothing wrong.
+        const glm::vec3 direction = glm::abs(glm::vec3(out[2 * i + 1]));
+        StressFigures bad;
+        bad.count({&direction.x, 3});
+        figures.nan += bad.nan;
+        figures.infinite += bad.infinite;
+        // At the light itself there is no direction, and so no reflected light whatever the intensity.
+        if (light.type != LightType::Directional && light.positionWS == positionWS) {
+            ++figures.undecided;
+            continue;
+        }
+        const reference::Incident truth = truthAt(light, positionWS);
+        const double scale = std::max(scaleOf(light, positionWS), 1e-37); // below is no normal number in fp32
+        figures.error(std::abs(double(out[2 * i].x) - truth.intensity.x) / scale,
+                      [&] { return describe(light, probes[i].positionWS); });
+    }
+}
+
+Light pointLight(float intensity, float rangeMetres = scenes::kInfinity) {
+    Light light;
+    light.intensity = intensity;
+    light.rangeMetres = rangeMetres;
+    return light;
+}
+
+/// Points at every power of ten of a distance from the origin, 0 too, in a few directions.
+std::vector<glm::vec3> pointsAround(StressRandom& random, int perDecade) {
+    std::vector<glm::vec3> points{glm::vec3(0.0f)};
+    for (int decade = -6; decade <= 6; ++decade)
+        for (int i = 0; i < perDecade; ++i)
+            points.emplace_back(random.direction() * std::pow(10.0, double(decade)) * random.between(0.5, 1.0));
+    return points;
+}
+
+void everyLightAtEveryPoint(StressBench& bench, const std::vector<Light>& lights, std::uint64_t seed,
+                            StressFigures& figures) {
+    StressRandom random(seed);
+    const auto points = pointsAround(random, bench.effort() == StressEffort::Full ? 40 : 4);
+    std::vector<Probe> probes;
+    for (std::size_t light = 0; light < lights.size(); ++light)
+        for (const glm::vec3& point : points) probes.push_back({point, light});
+    measure(bench, lights, probes, figures);
+}
+
+void measureDistances(StressBench& bench, StressFigures& figures) {
+    std::vector<Light> lights{pointLight(1.0f)};
+    for (const glm::vec3& abc :
+         {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1), glm::vec3(0.1f, 0.2f, 0.3f)}) {
+        lights.push_back(pointLight(1.0f));
+        lights.back().falloff = Falloff::Attenuation;
+        lights.back().attenuation = abc;
+    }
+    everyLightAtEveryPoint(bench, lights, 11, figures);
+}
+
+void measureIntensities(StressBench& bench, StressFigures& figures) {
+    std::vector<Light> lights;
+    for (int exponent = -20; exponent <= 20; ++exponent) {
+        for (const LightType type : {LightType::Directional, LightType::Point, LightType::Spot}) {
+            lights.push_back(pointLight(float(std::pow(10.0, exponent))));
+            lights.back().type = type;
+        }
+    }
+    everyLightAtEveryPoint(bench, lights, 12, figures);
+}
+
+void measureRanges(StressBench& bench, StressFigures& figures) {
+    std::vector<Light> lights;
+    for (const float range : {0.0f, 1e-6f, 1e-3f, 1.0f, 10.0f, 1e3f, 1e6f, scenes::kInfinity})
+        lights.push_back(pointLight(1.0f, range));
+    everyLightAtEveryPoint(bench, lights, 13, figures);
+}
+
+void measureCones(StressBench& bench, StressFigures& figures) {
+    std::vector<Light> lights;
+    for (const double outer : {0.0, 1e-4, 0.01, 0.5, 1.5, 3.0, std::numbers::pi}) {
+        for (const double share : {0.0, 0.5, 0.999, 1.0}) {
+            Light light = pointLight(1.0f);
+            light.type = LightType::Spot;
+            light.outerConeRadians = std::min(float(outer), std::numbers::pi_v<float>);
+            light.innerConeRadians = float(share) * light.outerConeRadians;
+            lights.push_back(light);
+        }
+    }
+    everyLightAtEveryPoint(bench, lights, 14, figures);
+}
+
+void measureRandomLights(StressBench& bench, StressFigures& figures) {
+    StressRandom random(15);
+    std::vector<Light> lights;
+    std::vector<Probe> probes;
+    const std::size_t count = bench.effort() == StressEffort::Full ? 200000 : 20000;
+    for (std::size_t i = 0; i < count; ++i) {
+        Light light = pointLight(float(random.logarithmic(1e-20, 1e20)));
+        light.type = LightType(random.index(3));
+        light.falloff = Falloff(random.index(2));
+        // Exact in fp32, so that both sides see one position.
+        light.positionWS = glm::dvec3(glm::vec3(random.direction() * random.logarithmic(1e-3, 1e3)));
+        light.directionWS = random.direction();
+        if (random.index(2) == 0) light.rangeMetres = float(random.logarithmic(1e-2, 1e4));
+        light.attenuation = random.color() + glm::vec3(1e-3f);
+        light.outerConeRadians = float(random.between(0.0, std::numbers::pi_v<float>));
+        light.innerConeRadians = float(random.unit()) * light.outerConeRadians;
+        lights.push_back(light);
+        probes.push_back({glm::vec3(random.direction() * random.logarithmic(1e-3, 1e3)), i});
+    }
+    measure(bench, lights, probes, figures);
+}
+
+} // namespace
+
+void addLightCases(std::vector<StressCase>& cases) {
+    const auto add = [&cases](const char* name, const char* holds, void (*run)(StressBench&, StressFigures&)) {
+        cases.push_back({name, holds, StressBound::WorstRel, kTolerance, kReason, run});
+    };
+    add("light/distance", "a light at d = 0, and from 1e-6 m to 1e6 m away, with each falloff", measureDistances);
+    add("light/intensity", "intensities from 1e-20 to 1e20 of every kind of light", measureIntensities);
+    add("light/range", "ranges of 0, 1e-6 m to 1e6 m and without end", measureRanges);
+    add("light/cone", "cones of 0 to 180 degrees, from soft to sharp", measureCones);
+    add("light/random", "random lights of every kind", measureRandomLights);
+}
+
+} // namespace tessera::validation

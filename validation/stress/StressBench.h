@@ -1,0 +1,44 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "renderer/gpu/Context.h"
+#include "renderer/shader/ProgramLibrary.h"
+#include "renderer/shader/SourceTree.h"
+
+namespace tessera::validation {
+
+/// How much a run does. Quick: a hundredth of the random samples and the light counts up to 1024.
+enum class StressEffort { Quick, Full };
+
+/// What a case may use: the context, the shaders under test, and shader functions run on numbers of its choice.
+class StressBench {
+public:
+    /// The context must be current and outlive the object. `progress` is called with the share 0..1 of the case done.
+    StressBench(
+        gpu::Context& context, const shader::SourceTree& shaders, StressEffort effort,
+        std::function<void(double)> progress = [](double) {})
+        : context_(context), shaders_(shaders), effort_(effort), progress_(std::move(progress)), programs_(shaders) {}
+
+    /// Runs a compute shader of shaders/stress, one invocation a record. It reads vec4 inputs[] and writes vec4
+    /// outputs[] (shaders/shared/slots.h), as many of each a record as it says. Other bindings are the caller's.
+    std::vector<glm::vec4> run(const std::string& shader, const shader::Defines& defines,
+                               const std::vector<glm::vec4>& inputs, std::size_t records, std::size_t outputsPerRecord);
+
+    gpu::Context& context() { return context_; }
+    const shader::SourceTree& shaders() const { return shaders_; }
+    StressEffort effort() const { return effort_; }
+    void progress(double share) const { progress_(share); }
+
+private:
+    gpu::Context& context_;
+    shader::SourceTree shaders_;
+    StressEffort effort_;
+    std::function<void(double)> progress_;
+    shader::ProgramLibrary programs_;
+};
+
+} // namespace tessera::validation

@@ -1,0 +1,53 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "passes/recipes/Techniques.h"
+#include "renderer/frame/FrameSettings.h"
+#include "scenes/Scene.h"
+#include "validation/stress/StressBench.h"
+#include "validation/stress/StressFigures.h"
+
+namespace tessera::validation {
+
+/// Which figure a case is held to.
+enum class StressBound { WorstRel, RelMse };
+
+/// A picture that every technique draws.
+struct StressPicture {
+    std::string what; ///< such as "257 lights in one tile"
+    scenes::Scene scene;
+    frame::FrameSettings settings;
+    /// Index of an earlier picture of the case: the truth is that picture, drawn by the same technique. Without one it
+    /// is the reference renderer's.
+    std::optional<std::size_t> sameAs = {};
+    double allowed = 1.0; ///< times the case's tolerance; errors are divided by it
+};
+
+/// One row of the suite. Either shader functions are measured alone, which all techniques share, or pictures are drawn
+/// with every technique.
+struct StressCase {
+    std::string name;  ///< "group/what"
+    std::string holds; ///< what must hold, one line
+    StressBound bound = StressBound::WorstRel;
+    double tolerance = 0.0;
+    std::string reason; ///< for the tolerance
+    std::function<void(StressBench&, StressFigures&)> measure = {};
+    std::function<std::vector<StressPicture>(StressEffort)> pictures = {};
+};
+
+/// Every case, in the order in which they run.
+const std::vector<StressCase>& stressCases();
+
+/// The rows by group; stressCases() is all of them.
+void addBrdfCases(std::vector<StressCase>& cases);
+void addTermCases(std::vector<StressCase>& cases);
+void addLightCases(std::vector<StressCase>& cases);
+void addManyLightCases(std::vector<StressCase>& cases);
+void addPlaceCases(std::vector<StressCase>& cases);
+void addGeometryCases(std::vector<StressCase>& cases);
+void addTargetCases(std::vector<StressCase>& cases);
+
+} // namespace tessera::validation

@@ -1,0 +1,26 @@
+#pragma once
+#include <span>
+
+#include "validation/stress/StressRandom.h"
+
+namespace tessera::validation {
+
+/// A surface's frame with a light and a viewer, in the single precision in which shaders get them.
+struct StressView {
+    glm::vec3 normal, tangent, toLight, toViewer;
+};
+
+/// A way of placing light and viewer.
+struct StressDirection {
+    const char* name; ///< as part of a case's name
+    const char* holds;
+    /// `alpha` tells how narrow the lobe is that there is to meet.
+    void (*place)(StressView& view, double alpha, StressRandom& random);
+};
+/// The first is random; the others are what breaks naive code.
+std::span<const StressDirection> stressDirections();
+
+/// A random frame with light and viewer placed.
+StressView stressView(const StressDirection& direction, double alpha, StressRandom& random);
+
+} // namespace tessera::validation

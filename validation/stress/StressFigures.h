@@ -1,0 +1,39 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+
+#include "validation/ErrorFigures.h"
+
+namespace tessera::validation {
+
+/// What a case found over all its samples.
+struct StressFigures {
+    std::uint64_t samples = 0;
+    std::uint64_t nan = 0, infinite = 0, negative = 0; ///< samples with such a value
+    /// Samples whose value hangs on the sign of a rounding error, so that both answers are right; they must be finite
+    /// and not negative as all others.
+    std::uint64_t undecided = 0;
+    double worstRel = 0.0;    ///< largest relative error against the truth
+    std::string where;        ///< where it is
+    double worstRelMse = 0.0; ///< largest relMse of a picture (ErrorFigures.h); 0 for cases without pictures
+    std::string whereRelMse;
+    std::string fault; ///< what else was wrong, such as a picture without any light; empty: nothing
+
+    /// Counts a sample of several values once a kind.
+    void count(std::span<const float> values);
+    /// `describe` is called only when the error is the largest so far. NaN counts as infinitely wrong.
+    template <class Describe>
+    void error(double rel, const Describe& describe) {
+        if (rel <= worstRel) return;
+        worstRel = rel == rel ? rel : std::numeric_limits<double>::infinity();
+        where = describe();
+    }
+    /// Adds what another run of the same case found.
+    void add(const StressFigures& other);
+    /// Adds a picture's figures, its errors divided by `allowed`. `what` names the picture.
+    void addPicture(const ErrorFigures& picture, const std::string& what, double allowed = 1.0);
+};
+
+} // namespace tessera::validation

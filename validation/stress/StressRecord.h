@@ -1,0 +1,29 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "validation/stress/Stress.h"
+
+namespace tessera::validation {
+
+/// What `tessera stress` found.
+struct StressRecord {
+    std::string renderer; ///< as GL reports it
+    StressEffort effort = StressEffort::Full;
+    std::vector<StressResult> results;
+
+    /// There is a result, and each holds.
+    bool ok() const;
+};
+
+/// The record as JSON, schema 1, indented and ending in a newline. What was not measured is null, with the reason under
+/// `why`.
+std::string stressJson(const StressRecord& record);
+
+/// The record for a terminal: a table of ASCII characters, one row a case and technique, then what was missed.
+std::string stressTable(const StressRecord& record);
+
+/// All cases with what each holds, for a terminal.
+std::string stressList();
+
+} // namespace tessera::validation

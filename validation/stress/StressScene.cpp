@@ -1,0 +1,80 @@
+#include "validation/stress/StressScene.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "scenes/builtin/Author.h"
+#include "scenes/builtin/Shapes.h"
+#include "validation/stress/StressModels.h"
+
+namespace tessera::validation {
+
+using namespace scenes::builtin;
+
+scenes::Light stressLight(const glm::dvec3& positionWS, float candela) {
+    scenes::Light light;
+    light.positionWS = positionWS;
+    light.intensity = candela;
+    return light;
+}
+
+int addUniformImage(scenes::Scene& scene, const glm::ivec4& texel) {
+    constexpr int kSide = 8;
+    scenes::Image image;
+    image.name = "uniform";
+    image.width = image.height = kSide;
+    for (int i = 0; i < kSide * kSide; ++i)
+        for (int c = 0; c < 4; ++c) image.texels.push_back(std::byte(texel[c]));
+    return addImage(scene, std::move(image));
+}
+
+scenes::Scene stressScene() {
+    scenes::Scene scene;
+    scene.name = "stress";
+    const int stone = addMaterial(scene, lambert("floor", {0.6f, 0.5f, 0.4f}));
+    scenes::Mesh floor, ball, board;
+    appendFloor(floor, glm::dvec3(0.0), {4.0, 4.0}, {4, 4});
+    appendSphere(ball, glm::dvec3(0.0), 0.4, 24, 16);
+    appendQuad(board, {-0.5, 0.0, 0.0}, {0.5, 0.0, 0.0}, {0.5, 1.0, 0.0}, {-0.5, 1.0, 0.0});
+    addNode(scene, "floor", glm::dmat4(1.0), {{addMesh(scene, "floor", floor), stone}});
+    const int ballMesh = addMesh(scene, "ball", ball), boardMesh = addMesh(scene, "board", board);
+    const auto count = double(stressModels().size());
+    double place = 0.0;
+    for (const StressModel& model : stressModels()) {
+        scenes::Material material;
+        material.name = model.name;
+        material.model = model.model;
+        material.baseColor = {0.7f, 0.3f, 0.2f, 1.0f};
+        material.metallic = 0.5f;
+        if (model.setRoughness) model.setRoughness(material, 0.6);
+        const int index = addMaterial(scene, material);
+        const double x = 3.0 * (place + 0.5) / count - 1.5;
+        addNode(scene, material.name, glm::translate(glm::dmat4(1.0), {x, 0.5, 0.6}), {{ballMesh, index}});
+        const glm::dmat4 lean = glm::rotate(glm::dmat4(1.0), glm::radians(-20.0), glm::dvec3(1, 0, 0));
+        addNode(scene, "board", glm::translate(glm::dmat4(1.0), {x, 0.1, -1.2}) * lean, {{boardMesh, index}});
+        place += 1.0;
+    }
+    scene.lights = {stressLight({1.0, 2.5, 1.5}, 20.0f), stressLight({-2.0, 3.0, 2.0}, 30.0f)};
+    scene.lights[1].type = scenes::LightType::Spot;
+    scene.lights[1].directionWS = glm::normalize(glm::dvec3(2.0, -2.5, -2.0));
+    addCamera(scene, "front", {0.0, 2.5, 4.5}, {0.0, 0.4, 0.0}, 40.0);
+    return scene;
+}
+
+scenes::Scene stressFloor() {
+    scenes::Scene scene;
+    scene.name = "stress floor";
+    const int white = addMaterial(scene, lambert("floor", glm::vec3(1.0f)));
+    scenes::Mesh floor;
+    // Off the middle: no pixel's centre lies on the diagonal, where either of two triangles would be right.
+    appendFloor(floor, {0.013, 0.0, 0.0}, {2.2, 2.2}, {1, 1});
+    addNode(scene, "floor", glm::dmat4(1.0), {{addMesh(scene, "floor", floor), white}});
+    scenes::Camera camera;
+    camera.name = "above";
+    camera.worldFromCamera = scenes::worldFromLookAt({0.0, 2.0, 0.0}, glm::dvec3(0.0), {0.0, 0.0, -1.0});
+    camera.projection = scenes::Projection::Orthographic;
+    camera.halfHeightMetres = 1.0;
+    scene.cameras = {camera};
+    return scene;
+}
+
+} // namespace tessera::validation

@@ -1,0 +1,20 @@
+#pragma once
+#include "scenes/Scene.h"
+
+/// The scene that picture cases vary, and short forms for what they add to it.
+namespace tessera::validation {
+
+/// A floor 4 m wide with a ball and a slanted board of every lit material model on it, one point and one spot light,
+/// and a camera that sees all of it from 5 m away. World origin in the middle of the floor.
+scenes::Scene stressScene();
+
+/// Only the floor, filling the picture of a camera that looks straight down at it from 2 m; one metre to each side. Its
+/// material is lambert, white.
+scenes::Scene stressFloor();
+
+scenes::Light stressLight(const glm::dvec3& positionWS, float candela);
+
+/// An image of 8 x 8 texels, all alike.
+int addUniformImage(scenes::Scene& scene, const glm::ivec4& texel);
+
+} // namespace tessera::validation
