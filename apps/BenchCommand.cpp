@@ -1,16 +1,22 @@
+#include <charconv>
 #include <fstream>
 #include <iterator>
 
 #include <fmt/format.h>
 
+#include "apps/BenchRun.h"
 #include "apps/Commands.h"
+#include "apps/FrameOptionText.h"
 #include "apps/Numbers.h"
 #include "apps/OutputFolder.h"
-#include "apps/Progress.h"
 #include "apps/Version.h"
+#include "passes/recipes/ChooseSamples.h"
 #include "scenes/Error.h"
+#include "scenes/Names.h"
 #include "validation/AtomicFile.h"
-#include "validation/BenchRecord.h"
+#include "validation/ReferencePicture.h"
+#include "validation/bench/BenchReport.h"
+#include "validation/bench/MachineName.h"
 
 namespace tessera::app {
 
@@ -18,10 +24,44 @@ namespace {
 
 struct BenchCommandOptions {
     FrameOptions frame;
-    std::vector<std::string> scenes;
-    std::string folder, matrix;
+    std::vector<std::string> scenes, merge;
+    std::string folder, matrix, shard, against;
     std::optional<int> frames;
+    bool resume = false;
 };
+
+struct NamedTruth {
+    std::string_view name;
+    validation::BenchTruth truth;
+};
+constexpr NamedTruth kTruths[] = {{"reference", validation::BenchTruth::Reference},
+                                  {"forward", validation::BenchTruth::Forward}};
+
+std::optional<validation::BenchTruth> truthNamed(const std::string& name) {
+    if (name.empty()) return {};
+    std::vector<std::string_view> names;
+    for (const NamedTruth& row : kTruths) {
+        if (row.name == name) return row.truth;
+        names.push_back(row.name);
+    }
+    throw InputError(
+        fmt::format("--against '{}' is nothing that bench measures against: {}", name, suggestNames(name, names)));
+}
+
+/// "2/5" as 2 and 5; 1 and 1 where nothing was said.
+std::pair<int, int> shardNamed(const std::string& text) {
+    if (text.empty()) return {1, 1};
+    constexpr int kMostShards = 10000;
+    int index = 0, count = 0;
+    const char* const end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, index);
+    if (first.ec == std::errc() && first.ptr != end && *first.ptr == '/') {
+        const auto second = std::from_chars(first.ptr + 1, end, count);
+        if (second.ec == std::errc() && second.ptr == end && index >= 1 && index <= count && count <= kMostShards)
+            return {index, count};
+    }
+    throw InputError(fmt::format("--shard {}: give a shard and how many there are, such as 1/4, counted from 1", text));
+}
 
 validation::BenchMatrix matrixOf(const BenchCommandOptions& options) {
     if (options.matrix.empty()) return {};
@@ -32,7 +72,7 @@ validation::BenchMatrix matrixOf(const BenchCommandOptions& options) {
 }
 
 /// Everything that will be measured; names are checked against every scene before the first frame is drawn.
-validation::BenchPlan planOf(const BenchCommandOptions& options, const GlobalOptions&) {
+validation::BenchPlan planOf(const BenchCommandOptions& options) {
     validation::BenchMatrix matrix = matrixOf(options);
     if (matrix.techniques.empty() && options.frame.technique)
         matrix.techniques.push_back(techniqueNamed(*options.frame.technique));
@@ -40,59 +80,43 @@ validation::BenchPlan planOf(const BenchCommandOptions& options, const GlobalOpt
     for (const std::string& scene : options.scenes) {
         FrameOptions frame = options.frame;
         frame.scene = scene;
-        const Request request = resolve(frame);
-        validation::BenchPlan points = validation::planBench(matrix, scene, options.frame.lights, request.settings);
-        plan.points.insert(plan.points.end(), points.points.begin(), points.points.end());
-        if (plan.skipped.empty()) plan.skipped = std::move(points.skipped);
+        const frame::FrameSettings settings = resolve(frame).settings;
+        if (truthNamed(options.against) == validation::BenchTruth::Reference)
+            validation::requireReferenceTakes(settings);
+        validation::addToPlan(plan, matrix, scene, options.frame.lights, settings, [&](std::optional<int> lights) {
+            frame.lights = lights;
+            return loadFor(frame);
+        });
     }
-    if (plan.points.empty())
+    if (plan.groups.empty())
         throw InputError("the matrix leaves nothing to measure: no technique takes any of its culling methods");
     return plan;
 }
 
-std::size_t groupCount(const std::vector<validation::BenchPoint>& points) {
-    std::size_t count = 0;
-    for (std::size_t first = 0; first < points.size(); first = validation::groupEnd(points, first)) ++count;
-    return count;
+std::string commandOf(const BenchCommandOptions& options) {
+    std::string command = "tessera bench";
+    for (const std::string& scene : options.scenes) command += " " + shellWord(scene);
+    command += " -o " + shellWord(options.folder) + frameOptionText(options.frame);
+    if (!options.matrix.empty()) command += " --matrix " + shellWord(options.matrix);
+    if (!options.against.empty()) command += " --against " + options.against;
+    if (options.frames) command += fmt::format(" --frames {}", *options.frames);
+    if (!options.shard.empty()) command += " --shard " + options.shard;
+    return command;
 }
 
-int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
-    if (options.frame.samples.value_or(1) != 1)
-        throw InputError("bench measures frames of one sample a pixel; leave --samples out");
-    requireFolderPlace(options.folder);
-    validation::BenchOptions run;
-    if (options.frames) run.frames = *options.frames;
-    if (run.frames < 1) throw InputError(fmt::format("--frames {} is less than one frame", run.frames));
-    const validation::BenchPlan plan = planOf(options, global);
-    const std::unique_ptr<gpu::Context> context = makeContext(global);
+void write(const std::string& folder, const validation::BenchRecord& record) {
+    writeBenchFiles(folder, record);
+    validation::writeFileAtomically(folder + "/report.html",
+                                    validation::reportHtml(validation::benchReport(record, folder)));
+}
 
-    validation::BenchRecord record;
-    record.machine = validation::machineName();
-    record.renderer = context->capabilities().renderer;
-    record.commit = kCommit;
-    record.skipped = plan.skipped;
-    makeFolder(options.folder);
-    Progress progress("measuring", validation::benchRounds(run, groupCount(plan.points)), global.quiet);
-    run.progress = [&progress] { progress.advance(); };
-    for (std::size_t first = 0; first < plan.points.size();) {
-        const std::size_t end = validation::groupEnd(plan.points, first);
-        FrameOptions frame = options.frame;
-        frame.scene = plan.points[first].scene;
-        frame.lights = plan.points[first].lights;
-        const scenes::Scene scene = loadFor(frame);
-        record.groups.push_back(
-            validation::benchGroup(*context, scene, std::span(plan.points).subspan(first, end - first), run));
-        record.recommendation = validation::recommend(record.groups);
-        // Written after every group, so that an interrupted run keeps what it has.
-        validation::writeFileAtomically(options.folder + "/bench.json", validation::benchJson(record));
-        first = end;
-    }
-    progress.finish();
-    fmt::print("{}", validation::benchTable(record));
+int finish(const std::string& folder, const validation::BenchRecord& record) {
+    write(folder, record);
+    fmt::print("{}report    {}/report.html\n", validation::benchTable(record), folder);
     for (const validation::BenchGroup& group : record.groups) {
         for (const validation::BenchResult& result : group.results) {
             if (result.counters.falseNegatives == 0) continue;
-            fmt::print(stderr, "tessera: {} misses {} lights that pixels need\n", validation::pointName(result.point),
+            fmt::print(stderr, "tessera: {} misses {} lights that pixels need\n", validation::pointName(result.key),
                        result.counters.falseNegatives);
             return kToleranceMissed;
         }
@@ -100,29 +124,91 @@ int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
     return kGood;
 }
 
+int merge(const BenchCommandOptions& options) {
+    if (!options.scenes.empty() || !options.matrix.empty() || !options.shard.empty() || options.resume)
+        throw InputError("--merge puts finished shards together and measures nothing: leave scenes, --matrix, --shard "
+                         "and --resume out");
+    requireFolderPlace(options.folder);
+    validation::mergeRuns(options.merge, options.folder);
+    return finish(options.folder, validation::recordIn(options.folder));
+}
+
+int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
+    if (!options.merge.empty()) return merge(options);
+    if (options.scenes.empty())
+        throw InputError("bench needs a SCENE to measure, or --merge with the folders of finished shards");
+    if (options.frame.samples.value_or(1) != 1)
+        throw InputError("bench measures frames of one sample a pixel; leave --samples out");
+    requireFolderPlace(options.folder);
+    BenchRun run;
+    run.folder = options.folder;
+    run.resume = options.resume;
+    run.options.against = truthNamed(options.against);
+    if (options.frames) run.options.frames = *options.frames;
+    if (run.options.frames < 1) throw InputError(fmt::format("--frames {} is less than one frame", run.options.frames));
+    const auto [shard, shards] = shardNamed(options.shard);
+    run.plan = planOf(options);
+    if (options.frame.filter) run.options.errorFilter = run.plan.groups.front().points.front().settings.filter;
+    const std::unique_ptr<gpu::Context> context = makeContext(global);
+    for (validation::PlannedGroup& group : run.plan.groups)
+        for (validation::BenchPoint& point : group.points)
+            point.settings = recipes::settingsOn(context->capabilities(), point.settings);
+    run.identity = {validation::machineName(),
+                    context->capabilities().renderer,
+                    kCommit,
+                    frameOptionText(options.frame),
+                    options.against,
+                    run.options.frames,
+                    shard,
+                    shards,
+                    commandOf(options)};
+    run.load = [&](const validation::PlannedGroup& group) {
+        FrameOptions frame = options.frame;
+        frame.scene = group.scene;
+        frame.lights = group.lightsToLoad;
+        return loadFor(frame);
+    };
+    run.write = [&](const validation::BenchRecord& record) { write(options.folder, record); };
+    return finish(options.folder, runBench(*context, std::move(run), global.quiet));
+}
+
 } // namespace
 
 void addBenchCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
-    CLI::App* command = app.add_subcommand(
-        "bench", "Measures techniques and culling methods in turn, against the floor that none can go below");
+    CLI::App* command =
+        app.add_subcommand("bench", "Error against run time: measures techniques in turn and says which one to take");
     auto options = std::make_shared<BenchCommandOptions>();
     command->add_option("scenes", options->scenes, "Scenes to measure, files or built-in ones (tessera scenes)")
-        ->type_name("SCENE")
-        ->required();
+        ->type_name("SCENE");
     addFrameSettings(*command, options->frame);
-    command->add_option("-o,--output", options->folder, "Folder for bench.json; made where it is missing")
+    command
+        ->add_option("-o,--output", options->folder,
+                     "Folder for bench.json, bench.csv and report.html; made where it is missing")
         ->type_name("DIR")
         ->required();
     command
-        ->add_option(
-            "--matrix", options->matrix,
-            "JSON object of arrays: technique, culling, tile, layout, lights, size; every combination is measured")
+        ->add_option("--matrix", options->matrix,
+                     "JSON object of arrays: technique, culling, tile, layout, lights, size, range; every combination "
+                     "is measured")
         ->type_name("FILE");
+    command
+        ->add_option("--against", options->against,
+                     "What errors are measured against: reference or forward [reference where it takes seconds]")
+        ->type_name("NAME");
     addWholeNumber(*command, "--frames", options->frames, "Frames of each point that are timed [20]", "N");
+    command->add_flag("--resume", options->resume, "Goes on where a run in DIR was interrupted");
+    command->add_option("--shard", options->shard, "Measures part I of N, whole groups of points")->type_name("I/N");
+    command->add_option("--merge", options->merge, "Puts finished shards together in the output folder")
+        ->type_name("DIR")
+        ->expected(1, -1);
     command->footer(R"(Examples
   tessera bench hall -o out                             every technique and culling method
   tessera bench lattice -o out --lights 1024 --frames 5 a quick look at many lights
-  tessera bench lattice -o out --matrix matrix.json     with {"tile": [8, 16, 32], "lights": [256, 1024]})");
+  tessera bench lattice -o out --matrix matrix.json     with {"tile": [8, 16, 32], "lights": [256, 1024]}
+  tessera bench hall -o out --resume                    after an interruption: nothing is measured twice
+  tessera bench -o all --merge part1 part2              shards 1/2 and 2/2 put together
+
+Points of one scene, light count and size take turns, so that all of them meet the same machine.)");
     command->callback([options, &global, &run] { run = [options, &global] { return bench(*options, global); }; });
 }
 

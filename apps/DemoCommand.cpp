@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/Commands.h"
+#include "apps/DemoBench.h"
 #include "apps/OutputFolder.h"
 #include "apps/Progress.h"
 #include "passes/recipes/ChooseSamples.h"
@@ -14,6 +15,9 @@
 #include "validation/PictureFile.h"
 #include "validation/Report.h"
 #include "validation/TechniqueCompare.h"
+#include "validation/bench/BenchHtml.h"
+#include "validation/bench/BenchReport.h"
+#include "validation/bench/Recommend.h"
 
 namespace tessera::app {
 
@@ -47,6 +51,15 @@ void joinPacked(CompareResult& result, CompareResult&& packed) {
     }
 }
 
+/// What a demonstration found.
+struct DemoResult {
+    CompareResult comparison;
+    std::vector<Technique> techniques;
+    std::optional<validation::BenchRecord> bench; ///< of frames with one sample a pixel
+    std::vector<double> ms;                       ///< by technique, where there is no bench
+    std::string choice;
+};
+
 std::string choiceOf(const std::vector<Technique>& techniques, const std::vector<double>& ms, bool agree) {
     const std::size_t best = std::size_t(std::min_element(ms.begin(), ms.end()) - ms.begin());
     const std::string pace =
@@ -69,32 +82,42 @@ std::vector<std::string> commandsOf(const Request& request) {
     return {"tessera compare " + frame, "tessera compare " + frame + " --layout packed", "tessera plan " + frame};
 }
 
-validation::Report makeReport(const Request& request, const CompareResult& result,
-                              const std::vector<Technique>& techniques, const std::vector<double>& ms) {
+/// The benchmark's part of the page. Its pictures are the comparison's, seen smaller, and left out.
+void addBench(validation::Report& report, const DemoResult& result) {
+    const validation::BenchGroup* headline = validation::headlineGroup(*result.bench);
+    report.bench = validation::benchHtml(*result.bench, *headline, {});
+    report.facts.push_back({"Machine", result.bench->machine});
+    report.commands.insert(report.commands.begin(), result.bench->command);
+}
+
+validation::Report makeReport(const Request& request, const DemoResult& result) {
+    const CompareResult& comparison = result.comparison;
     validation::Report report;
-    report.title = fmt::format("{}, rendered {} ways", request.scene.name, techniques.size());
-    report.record = result.record;
-    report.choice = choiceOf(techniques, ms, result.record.ok());
+    report.title = fmt::format("{}, rendered {} ways", request.scene.name, result.techniques.size());
+    report.record = comparison.record;
+    report.choice = result.choice;
     report.facts = {{"Triangles", fmt::format("{}", scenes::triangleCount(request.scene))},
                     {"Lights", fmt::format("{}", request.scene.lights.size())},
                     {"Materials", fmt::format("{}", request.scene.materials.size())}};
-    if (result.record.samples > 1)
-        report.facts.push_back({"Samples", fmt::format("{} a pixel", result.record.samples)});
-    for (std::size_t i = 0; i < techniques.size(); ++i) {
-        report.facts.push_back({nameOf(techniques[i]), fmt::format("{:.0f} ms a frame", ms[i])});
-        report.plans.push_back(
-            {nameOf(techniques[i]),
-             graph::planText(recipes::planFrame(request.scene, techniques[i],
-                                                validation::settingsTakenBy(techniques[i], request.settings)))});
+    if (comparison.record.samples > 1)
+        report.facts.push_back({"Samples", fmt::format("{} a pixel", comparison.record.samples)});
+    for (std::size_t i = 0; i < result.ms.size(); ++i)
+        report.facts.push_back({nameOf(result.techniques[i]), fmt::format("{:.0f} ms a frame", result.ms[i])});
+    for (const Technique technique : result.techniques) {
+        report.plans.push_back({nameOf(technique), graph::planText(recipes::planFrame(
+                                                       request.scene, technique,
+                                                       validation::settingsTakenBy(technique, request.settings)))});
     }
-    report.pictures.push_back({result.truth.name, "the truth of every pair below", result.truth.display});
-    for (const validation::NamedPicture& picture : result.pictures) {
+    const validation::NamedPicture& truth = comparison.truth;
+    report.pictures.push_back({truth.name, "the truth of every pair", truth.display});
+    for (const validation::NamedPicture& picture : comparison.pictures) {
         report.pictures.push_back({picture.name, "", picture.display});
-        report.heatMaps.push_back({picture.name, result.truth.name,
-                                   validation::errorHeatMap(picture.picture, result.truth.picture,
-                                                            picture.name + " vs " + result.truth.name)});
+        report.heatMaps.push_back(
+            {picture.name, truth.name,
+             validation::errorHeatMap(picture.picture, truth.picture, picture.name + " vs " + truth.name)});
     }
     report.commands = commandsOf(request);
+    if (result.bench) addBench(report, result);
     return report;
 }
 
@@ -110,16 +133,8 @@ void writePictures(const fs::path& folder, const Request& request, const Compare
     }
 }
 
-int demo(const DemoOptions& options, const GlobalOptions& global) {
-    requireFolderPlace(options.folder);
-    Request request = resolve(options.frame);
-    const std::unique_ptr<gpu::Context> context = makeContext(global);
-    request.settings = recipes::settingsOn(context->capabilities(), request.settings);
-    recipes::Renderer renderer(*context, request.scene);
-    std::vector<validation::LeftOutTechnique> leftOut;
-    std::vector<Technique> techniques = validation::techniquesTaking(request.settings.samples, {}, leftOut);
-    if (leftOut.empty()) techniques.assign(std::begin(kShown), std::end(kShown));
-
+CompareResult compared(recipes::Renderer& renderer, const gpu::Capabilities& gl, const Request& request,
+                       const std::vector<Technique>& techniques, bool quiet) {
     validation::CompareRequest exact;
     exact.techniques.assign(techniques.begin() + 1, techniques.end());
     exact.settings = request.settings;
@@ -129,30 +144,50 @@ int demo(const DemoOptions& options, const GlobalOptions& global) {
     packed.settings.layout = frame::layoutTable()[1].layout;
     // A G-buffer, and with it a layout to compare, there is only with one sample a pixel.
     const bool comparesPacked = request.settings.samples == 1;
-    Progress progress("rendering",
-                      validation::stepCount(exact) + (comparesPacked ? validation::stepCount(packed) : 0) + 1,
-                      global.quiet);
+    Progress progress("rendering", validation::stepCount(exact) + (comparesPacked ? validation::stepCount(packed) : 0),
+                      quiet);
     exact.renderedOne = packed.renderedOne = [&progress] { progress.advance(); };
-    CompareResult result = validation::compareTechniques(renderer, context->capabilities(), exact);
-    if (comparesPacked) joinPacked(result, validation::compareTechniques(renderer, context->capabilities(), packed));
-    result.record.leftOut = std::move(leftOut);
-    const std::vector<double> ms = validation::frameMs(renderer, techniques, request.settings, kTimedFrames);
-    progress.finish();
+    CompareResult result = validation::compareTechniques(renderer, gl, exact);
+    if (comparesPacked) joinPacked(result, validation::compareTechniques(renderer, gl, packed));
+    return result;
+}
 
-    writePictures(options.folder, request, result);
+int demo(const DemoOptions& options, const GlobalOptions& global) {
+    requireFolderPlace(options.folder);
+    Request request = resolve(options.frame);
+    const std::unique_ptr<gpu::Context> context = makeContext(global);
+    request.settings = recipes::settingsOn(context->capabilities(), request.settings);
+    std::vector<validation::LeftOutTechnique> leftOut;
+    DemoResult result;
+    result.techniques = validation::techniquesTaking(request.settings.samples, {}, leftOut);
+    if (leftOut.empty()) result.techniques.assign(std::begin(kShown), std::end(kShown));
+    {
+        recipes::Renderer renderer(*context, request.scene);
+        result.comparison = compared(renderer, context->capabilities(), request, result.techniques, global.quiet);
+        if (request.settings.samples > 1)
+            result.ms = validation::frameMs(renderer, result.techniques, request.settings, kTimedFrames);
+    }
+    validation::CompareRecord& record = result.comparison.record;
+    record.leftOut = std::move(leftOut);
+    writePictures(options.folder, request, result.comparison);
+    if (request.settings.samples > 1) {
+        result.choice = choiceOf(result.techniques, result.ms, record.ok());
+    } else {
+        result.bench = demoBench(*context, {options.frame, request, result.techniques, options.folder, global.quiet});
+        result.choice = validation::recommendationText(*validation::headlineGroup(*result.bench));
+    }
     const fs::path page = fs::path(options.folder) / "index.html";
-    validation::writeFileAtomically(page.string(), validation::reportHtml(makeReport(request, result, techniques, ms)));
-    fmt::print("{}\n{}\nreport    {}\npictures  {}\n", validation::compareTable(result.record),
-               choiceOf(techniques, ms, result.record.ok()), page.string(),
+    validation::writeFileAtomically(page.string(), validation::reportHtml(makeReport(request, result)));
+    fmt::print("{}\n{}\nreport    {}\npictures  {}\n", validation::compareTable(record), result.choice, page.string(),
                (fs::path(options.folder) / "*.png").string());
-    return result.record.ok() ? kGood : kToleranceMissed;
+    return record.ok() ? kGood : kToleranceMissed;
 }
 
 } // namespace
 
 void addDemoCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     CLI::App* command =
-        app.add_subcommand("demo", "Renders a scene four ways, checks that they match, writes a report");
+        app.add_subcommand("demo", "Renders a scene four ways, checks that they match, measures, writes a report");
     auto options = std::make_shared<DemoOptions>();
     addFrameOptions(*command, options->frame, "hall");
     command->add_option("-o,--output", options->folder, "Where pictures and index.html go [out]")->type_name("DIR");

@@ -45,30 +45,6 @@ void drawPoint(const TimedPoint& point, const glm::dvec3& eyeOffsetWS) {
     point.renderer->draw(point.technique, settings);
 }
 
-void profile(PointTimes& times, const TimedPoint& point, int frames) {
-    gpu::GraphBackend& backend = point.renderer->backend();
-    const bool byClock = gpu::Context::current()->capabilities().isSoftware;
-    std::vector<std::string> names;
-    std::vector<std::vector<std::optional<double>>> passesMs;
-    std::vector<double> frameMs;
-    backend.setProfiling(byClock);
-    for (int i = 0; i < frames; ++i) {
-        gpu::finish();
-        const gpu::CpuTimer clock;
-        drawPoint(point, eyeOffsetOfFrame(i));
-        gpu::finish(); // after which the timers' results are there
-        if (byClock) frameMs.push_back(clock.elapsedMs());
-        names.clear();
-        std::vector<std::optional<double>>& frame = passesMs.emplace_back();
-        for (const gpu::PassTiming& timing : backend.passTimings()) {
-            names.push_back(timing.name);
-            frame.push_back(timing.gpuMs);
-        }
-    }
-    backend.setProfiling(false);
-    summarisePasses(times, names, passesMs, frameMs);
-}
-
 void leaveOut(PointTimes& times, const std::string& reason) {
     for (PassTime& pass : times.passes) pass.gpuMs.reset();
     times.gpuMs.reset();
@@ -111,8 +87,8 @@ void summarisePasses(PointTimes& times, const std::vector<std::string>& names,
     times.gpuMs = spreadOf(std::move(sums));
 }
 
-FrameTimes timeFrames(std::span<const TimedPoint> points, std::span<const TimedFrame> others,
-                      const FrameTimerOptions& options) {
+std::vector<std::vector<double>> timeInTurn(std::span<const TimedPoint> points, std::span<const TimedFrame> others,
+                                            const InterleaveOptions& options) {
     // Whose turn comes seldom must find its targets where it left them.
     std::map<gpu::GraphBackend*, BackendSettings> settings;
     std::vector<TimedFrame> kinds;
@@ -122,13 +98,41 @@ FrameTimes timeFrames(std::span<const TimedPoint> points, std::span<const TimedF
         kinds.emplace_back([&point](const glm::dvec3& eyeOffsetWS) { drawPoint(point, eyeOffsetWS); });
     }
     kinds.insert(kinds.end(), others.begin(), others.end());
-    std::vector<std::vector<double>> timesMs = timeInterleaved(kinds, options.interleave);
+    return timeInterleaved(kinds, options);
+}
 
+void profilePoint(PointTimes& times, const TimedPoint& point, int frames) {
+    gpu::GraphBackend& backend = point.renderer->backend();
+    const BackendSettings settings(backend, 1);
+    const bool byClock = gpu::Context::current()->capabilities().isSoftware;
+    std::vector<std::string> names;
+    std::vector<std::vector<std::optional<double>>> passesMs;
+    std::vector<double> frameMs;
+    backend.setProfiling(byClock);
+    for (int i = 0; i < frames; ++i) {
+        gpu::finish();
+        const gpu::CpuTimer clock;
+        drawPoint(point, eyeOffsetOfFrame(i));
+        gpu::finish(); // after which the timers' results are there
+        if (byClock) frameMs.push_back(clock.elapsedMs());
+        names.clear();
+        std::vector<std::optional<double>>& frame = passesMs.emplace_back();
+        for (const gpu::PassTiming& timing : backend.passTimings()) {
+            names.push_back(timing.name);
+            frame.push_back(timing.gpuMs);
+        }
+    }
+    summarisePasses(times, names, passesMs, frameMs);
+}
+
+FrameTimes timeFrames(std::span<const TimedPoint> points, std::span<const TimedFrame> others,
+                      const FrameTimerOptions& options) {
+    std::vector<std::vector<double>> timesMs = timeInTurn(points, others, options.interleave);
     FrameTimes times;
     times.points.resize(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
         times.points[i].cpuMs = spreadOf(std::move(timesMs[i]));
-        profile(times.points[i], points[i], options.profiledFrames);
+        profilePoint(times.points[i], points[i], options.profiledFrames);
     }
     times.othersMs.assign(std::make_move_iterator(timesMs.begin() + std::ptrdiff_t(points.size())),
                           std::make_move_iterator(timesMs.end()));

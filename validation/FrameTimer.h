@@ -40,6 +40,13 @@ struct FrameTimes {
     std::vector<std::vector<double>> othersMs; ///< parallel to the other frames asked for, one time a round
 };
 
+/// Wall times of whole frames in turn (timeInterleaved): of the points, then of `others`.
+std::vector<std::vector<double>> timeInTurn(std::span<const TimedPoint> points, std::span<const TimedFrame> others,
+                                            const InterleaveOptions& options);
+
+/// Fills the times of passes from frames drawn for nothing else.
+void profilePoint(PointTimes& times, const TimedPoint& point, int frames = FrameTimerOptions{}.profiledFrames);
+
 /// Times frames in turn (timeInterleaved); `others` take part, for what must be measured in the same run, such as the
 /// floor. Each pass's time comes from separate frames: from GPU timers; or, on software rasterisers, where these mean
 /// nothing, from glFinish and the CPU clock on both sides of the pass, and then only where the passes sum to within 15

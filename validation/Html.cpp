@@ -56,7 +56,11 @@ std::string escapedHtml(std::string_view text) {
 }
 
 std::string dataUri(const DisplayImage& image) {
-    return "data:image/png;base64," + base64(encodePng(image));
+    return pngDataUri(encodePng(image));
+}
+
+std::string pngDataUri(std::span<const std::uint8_t> bytes) {
+    return "data:image/png;base64," + base64(bytes);
 }
 
 } // namespace tessera::validation

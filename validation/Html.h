@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -12,5 +14,7 @@ std::string escapedHtml(std::string_view text);
 
 /// The image as a PNG data URI. Throws std::runtime_error when it cannot be encoded.
 std::string dataUri(const DisplayImage& image);
+/// The bytes of a PNG as a data URI.
+std::string pngDataUri(std::span<const std::uint8_t> bytes);
 
 } // namespace tessera::validation

@@ -1,5 +1,7 @@
 #include "validation/Interleave.h"
 
+#include <cassert>
+
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Timer.h"
 
@@ -23,11 +25,18 @@ glm::dvec3 eyeOffsetOfFrame(int index) {
 
 std::vector<std::vector<double>> timeInterleaved(std::span<const TimedFrame> kinds, const InterleaveOptions& options) {
     std::vector<std::vector<double>> timesMs(kinds.size());
-    const int total = options.warmUpRounds + options.rounds;
+    for (const std::vector<double>& round : options.earlierMs) {
+        assert(round.size() == kinds.size());
+        for (std::size_t kind = 0; kind < kinds.size(); ++kind) timesMs[kind].push_back(round[kind]);
+    }
+    const int left = options.rounds - int(options.earlierMs.size());
+    const int total = left > 0 ? options.warmUpRounds + left : 0;
     for (int round = 0; round < total; ++round) {
-        for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
-            const double ms = timedMs(kinds[kind], eyeOffsetOfFrame(round));
-            if (round >= options.warmUpRounds) timesMs[kind].push_back(ms);
+        std::vector<double> roundMs;
+        for (const TimedFrame& kind : kinds) roundMs.push_back(timedMs(kind, eyeOffsetOfFrame(round)));
+        if (round >= options.warmUpRounds) {
+            for (std::size_t kind = 0; kind < kinds.size(); ++kind) timesMs[kind].push_back(roundMs[kind]);
+            if (options.measured) options.measured(roundMs);
         }
         if (options.progress) options.progress(round + 1, total);
     }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "chartAssets.gen.h"
 #include "reportAssets.gen.h"
 #include "validation/Html.h"
 #include "validation/ReportPairs.h"
@@ -12,21 +13,27 @@
 namespace tessera::validation {
 namespace {
 
-constexpr const char* kHowToRead =
-    "<section id=\"reading\">\n<h2>How to read the figures</h2>\n<dl class=\"reading\">\n"
+constexpr const char* kFiguresToRead =
     "<dt>Where they are taken</dt>\n<dd>On linear radiance in 32 bit floats, before any display transform, over the "
-    "pixels "
-    "where either picture shows geometry; in each pair the second picture is the truth.</dd>\n"
-    "<dt>Equal bits</dt>\n<dd>Share of those pixels whose red, green and blue are the same to the last bit.</dd>\n"
+    "pixels where either picture shows geometry; in each pair the second picture is the truth.</dd>\n"
     "<dt>rel</dt>\n<dd>Error of a channel over its true value, but over no less than a thousandth of the picture's "
-    "typical "
-    "luminance; a pixel counts with its worst channel. p99.9 is what 99.9&nbsp;% of the pixels stay within.</dd>\n"
+    "typical luminance; a pixel counts with its worst channel. p99.9 is what 99.9&nbsp;% of the pixels stay "
+    "within.</dd>\n"
     "<dt>relMSE</dt>\n<dd>Mean of squared error over squared true value plus a hundredth of the squared typical "
     "luminance.</dd>\n"
-    "<dt>Bias</dt>\n<dd>How much brighter the picture is on average, as a share of the truth.</dd>\n"
+    "<dt>Bias</dt>\n<dd>How much brighter the picture is on average, as a share of the truth.</dd>\n";
+constexpr const char* kPairsToRead =
+    "<dt>Equal bits</dt>\n<dd>Share of those pixels whose red, green and blue are the same to the last bit.</dd>\n"
     "<dt>What never holds</dt>\n<dd>A pair with a black picture, with under a tenth of the pixels lit, or with any "
-    "NaN, "
-    "infinite or negative pixel.</dd>\n</dl>\n</section>\n";
+    "NaN, infinite or negative pixel.</dd>\n";
+constexpr const char* kBenchToRead =
+    "<dt>ms a frame</dt>\n<dd>Wall time from a frame's first call until everything is drawn, culling and uploads "
+    "included: the median of the timed frames, and what 95&nbsp;% of them stay within. All points of a group take "
+    "turns, so that a machine that changes its pace treats them alike.</dd>\n"
+    "<dt>To floor</dt>\n<dd>Time over what the frame cannot cost less than, measured in the same run: the geometry in "
+    "a constant colour, and each light only at the pixels that it reaches.</dd>\n"
+    "<dt>Visited</dt>\n<dd>Lights that a pixel evaluates, on average.</dd>\n"
+    "<dt>The front</dt>\n<dd>Points that no other beats in both time and relMSE.</dd>\n";
 
 std::string_view asset(std::string_view path) {
     for (const EmbeddedFile& file : reportAssets())
@@ -54,12 +61,17 @@ std::string factHtml(const std::string& label, const std::string& value) {
 
 std::string mastheadHtml(const Report& report) {
     const CompareRecord& record = report.record;
-    std::string html = fmt::format("<header class=\"masthead\">\n<p class=\"kicker\">Tessera &middot; comparison</p>\n"
-                                   "<h1>{}</h1>\n{}",
-                                   escapedHtml(report.title), verdictHtml(record));
+    std::string html =
+        fmt::format("<header class=\"masthead\">\n<p class=\"kicker\">Tessera &middot; {}</p>\n<h1>{}</h1>\n",
+                    report.bench ? "error against run time" : "comparison", escapedHtml(report.title));
+    const bool compares = !record.pairs.empty() || !report.bench;
+    if (compares) html += verdictHtml(record);
+    if (report.bench) html += report.bench->answer;
     if (!report.choice.empty()) html += fmt::format("<p class=\"choice\">{}</p>\n", escapedHtml(report.choice));
-    html += "<dl class=\"facts\">\n" + factHtml("Scene", record.scene) +
-            factHtml("Size", fmt::format("{} \u00d7 {}", record.width, record.height));
+    html += "<dl class=\"facts\">\n";
+    if (compares)
+        html += factHtml("Scene", record.scene) +
+                factHtml("Size", fmt::format("{} \u00d7 {}", record.width, record.height));
     for (const ReportFact& fact : report.facts) html += factHtml(fact.label, fact.value);
     return html + factHtml("Renderer", record.renderer) + "</dl>\n</header>\n";
 }
@@ -101,6 +113,18 @@ std::string commandsHtml(const Report& report) {
     return html + "</section>\n";
 }
 
+std::string readingHtml(const Report& report) {
+    return fmt::format(
+        "<section id=\"reading\">\n<h2>How to read the figures</h2>\n<dl class=\"reading\">\n{}{}{}</dl>\n"
+        "</section>\n",
+        kFiguresToRead, report.bench && report.record.pairs.empty() ? "" : kPairsToRead,
+        report.bench ? kBenchToRead : "");
+}
+
+std::string scriptHtml(std::string_view script) {
+    return fmt::format("<script>\n{}</script>\n", script);
+}
+
 } // namespace
 
 std::string reportHtml(const Report& report) {
@@ -110,9 +134,11 @@ std::string reportHtml(const Report& report) {
                        "<meta name=\"generator\" content=\"tessera\" />\n<link rel=\"icon\" href=\"data:,\" />\n"
                        "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n",
                        escapedHtml(report.title), asset("report.css")) +
-           mastheadHtml(report) + "<main>\n" + pairsHtml(report) + galleryHtml(report) + plansHtml(report) +
-           commandsHtml(report) + kHowToRead + "</main>\n" +
-           fmt::format("<script>\n{}</script>\n</body>\n</html>\n", asset("report.js"));
+           mastheadHtml(report) + "<main>\n" + (report.bench ? report.bench->sections : "") + pairsHtml(report) +
+           galleryHtml(report) + plansHtml(report) + commandsHtml(report) + readingHtml(report) + "</main>\n" +
+           scriptHtml(asset("report.js")) +
+           (report.bench ? scriptHtml(chart::chartAssets()[0].text) + scriptHtml(asset("bench.js")) : "") +
+           "</body>\n</html>\n";
 }
 
 } // namespace tessera::validation

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,17 @@ struct ReportPlan {
     std::string text; ///< as `tessera plan` prints it
 };
 
+/// The parts of a page that tell a benchmark, as HTML (validation/bench/BenchHtml.h).
+struct ReportBench {
+    std::string answer;   ///< below the title: which technique, how much faster, at what error
+    std::string sections; ///< plots and tables
+};
+
 /// All that a report says. Texts are plain: what means something to HTML is escaped.
 struct Report {
-    std::string title;             ///< such as "hall, rendered four ways"
-    CompareRecord record;          ///< scene, size, renderer and the pairs
+    std::string title;    ///< such as "hall, rendered four ways"
+    CompareRecord record; ///< scene, size, renderer and the pairs, of which there may be none beside a bench
+    std::optional<ReportBench> bench;
     std::string choice;            ///< which technique to take here and why, one plain sentence; may be empty
     std::vector<ReportFact> facts; ///< shown below the title
     std::vector<ReportPicture> pictures;

@@ -6,28 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "validation/FigureHtml.h"
 #include "validation/FigureText.h"
 #include "validation/Html.h"
 
 namespace tessera::validation {
 namespace {
-
-/// A figure as print sets it: 3.1 x 10 to the -7, with a real minus.
-std::string figureHtml(double value) {
-    const std::string text = figureText(value);
-    const std::size_t e = text.find('e');
-    if (e == std::string::npos) return text == "-" ? "&ndash;" : escapedHtml(text);
-    const bool isNegative = text[0] == '-';
-    const int exponent = std::stoi(text.substr(e + 1));
-    const std::string mantissa = (isNegative ? "&minus;" : "") + text.substr(isNegative, e - isNegative);
-    if (exponent == 0) return mantissa;
-    return fmt::format("{}&#8239;&times;&#8239;10<sup>{}{}</sup>", mantissa, exponent < 0 ? "&minus;" : "",
-                       std::abs(exponent));
-}
-
-std::string shareHtml(double share) {
-    return std::isnan(share) ? "&ndash;" : escapedHtml(shareText(share));
-}
 
 std::string askedHtml(const Tolerance& tolerance) {
     std::string html;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "shaders/shared/models.h"
 
@@ -41,6 +42,18 @@ void randomMicrofacet(Material& material, StressRandom& random) {
     material.ior = random.index(16) == 0 ? 1.0f : float(random.logarithmic(0.2, 1000.0));
 }
 
+void randomBlinnPhong(Material& material, StressRandom& random) {
+    material.baseColor = glm::vec4(random.color() * randomShare(random), 1.0f);
+    material.specularColor = random.color();
+    material.exponent = random.index(8) == 0 ? 0.0f : float(random.logarithmic(0.1, 1e5));
+}
+
+void randomAnisotropic(Material& material, StressRandom& random) {
+    randomMicrofacet(material, random);
+    material.alphaY = randomAlpha(random);
+    material.masking = random.index(2) == 0 ? scenes::Masking::Walter : scenes::Masking::Directional;
+}
+
 void randomMetallicRoughness(Material& material, StressRandom& random) {
     material.baseColor = glm::vec4(random.color(), 1.0f);
     material.metallic = randomShare(random);
@@ -48,22 +61,55 @@ void randomMetallicRoughness(Material& material, StressRandom& random) {
     material.ior = float(random.logarithmic(1.0, 1000.0));
     material.specularFactor = randomShare(random);
     material.specularColor = random.color();
+    // Each layer is there in half of the materials.
+    if (random.index(2) == 0) {
+        material.anisotropyStrength = randomShare(random);
+        material.anisotropyRotationRadians = float(random.unit() * 2.0 * std::numbers::pi);
+    }
+    if (random.index(2) == 0) {
+        material.clearcoat = randomShare(random);
+        material.clearcoatPerceptualRoughness = std::sqrt(randomAlpha(random));
+    }
+    if (random.index(2) == 0) {
+        material.sheenColor = random.color();
+        material.sheenPerceptualRoughness = std::sqrt(randomAlpha(random));
+    }
 }
 
 double floored(double alpha) {
     return std::max(alpha, double(ALPHA_MIN));
 }
 
+double flooredSquare(double perceptualRoughness) {
+    return floored(perceptualRoughness * perceptualRoughness);
+}
+
+/// x^p multiplies a relative error of x by p, as a lobe of alpha does one of a direction by 2/alpha.
+double sharpnessOfExponent(const Material& material) {
+    return std::min(1.0, 2.0 / std::max(double(material.exponent), 2.0));
+}
+
+/// The sharpest of the layers; the anisotropic alpha is the larger of its two. A sheen is a power of 1/alpha of a sine.
+double sharpnessOfLayers(const Material& material) {
+    double sharpness = flooredSquare(material.perceptualRoughness);
+    if (material.clearcoat > 0.0f)
+        sharpness = std::min(sharpness, flooredSquare(material.clearcoatPerceptualRoughness));
+    if (material.sheenColor != glm::vec3(0.0f))
+        sharpness = std::min(sharpness, flooredSquare(material.sheenPerceptualRoughness));
+    return sharpness;
+}
+
 constexpr StressModel kModels[] = {
     {MaterialModel::Lambert, "lambert", randomLambert, nullptr, [](const Material&) { return 1.0; }},
+    {MaterialModel::BlinnPhong, "blinn_phong", randomBlinnPhong, nullptr, sharpnessOfExponent},
     {MaterialModel::Microfacet, "microfacet", randomMicrofacet,
      [](Material& material, double roughness) { material.alpha = float(roughness); },
      [](const Material& material) { return floored(material.alpha); }},
+    {MaterialModel::MicrofacetAnisotropic, "microfacet_anisotropic", randomAnisotropic,
+     [](Material& material, double roughness) { material.alpha = float(roughness); },
+     [](const Material& material) { return floored(std::min(material.alpha, material.alphaY)); }},
     {MaterialModel::MetallicRoughness, "metallic_roughness", randomMetallicRoughness,
-     [](Material& material, double roughness) { material.perceptualRoughness = float(roughness); },
-     [](const Material& material) {
-         return floored(double(material.perceptualRoughness) * material.perceptualRoughness);
-     }},
+     [](Material& material, double roughness) { material.perceptualRoughness = float(roughness); }, sharpnessOfLayers},
 };
 
 } // namespace

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "tests/cli/program/Cli.h"
 
 namespace tessera::test {
@@ -16,11 +18,16 @@ TEST_F(Bench, everyPointIsAlwaysMeasuredCountedAndHeldAgainstTheFloor) {
     EXPECT_THAT(said, HasSubstr("tile_minmax, 16"));
     EXPECT_THAT(said, HasSubstr("skipped forward, cluster"));
     const Json record = json("out/of/bench/bench.json");
-    EXPECT_EQ(record["schema"], 1);
+    EXPECT_EQ(record["schema"], 2);
+    EXPECT_EQ(record["complete"], true);
     EXPECT_FALSE(record["machine"].get<std::string>().empty());
     EXPECT_FALSE(record["commit"].get<std::string>().empty());
-    // forward, and for both others none and one method with two tiles; each for both counts of lights.
-    ASSERT_EQ(record["points"].size(), 2u * (1u + 3u + 3u));
+    // forward, and for both others none and one method with two tiles; without lights nothing is culled, and each
+    // technique is one frame.
+    ASSERT_EQ(record["points"].size(), 3u + (1u + 3u + 3u));
+    EXPECT_THAT(said, HasSubstr("it is the same frame as tiled_deferred, exact"));
+    EXPECT_THAT(record["recommendation"].get<std::string>(), HasSubstr("with 40 lights at 96x54 take "));
+    EXPECT_THAT(text("out/of/bench/bench.csv"), HasSubstr("\r\nlattice,clustered_deferred,cluster,32,"));
     for (const Json& point : record["points"]) {
         SCOPED_TRACE(point.dump());
         EXPECT_GT(point["cpuMs"]["median"], 0.0);
@@ -35,7 +42,33 @@ TEST_F(Bench, everyPointIsAlwaysMeasuredCountedAndHeldAgainstTheFloor) {
         EXPECT_GT(point["counters"]["lightEvaluations"], point["counters"]["neededEvaluations"]);
         EXPECT_GT(point["floorMs"], 0.0);
         EXPECT_GE(point["counters"]["tightness"], 1.0);
+        // What fp32 and an exact layout are held to against the reference where there are no textures.
+        EXPECT_EQ(point["against"], "reference");
+        EXPECT_LE(point["error"]["relMse"], 1e-8);
+        EXPECT_LE(std::abs(point["error"]["bias"].get<double>()), 1e-4);
+        EXPECT_TRUE(point["pareto"].is_boolean());
     }
+}
+
+TEST_F(Bench, everyCauseOfErrorIsAlwaysTold) {
+    folder_.write("m.json", R"({"technique": ["deferred"], "layout": ["exact", "packed"], "range": [0, 0.05]})");
+    runGood({"bench", "room", "--size", "64x36", "--frames", "1", "--matrix", "m.json", "--against", "forward", "-o",
+             "out"});
+    const Json record = json("out/bench.json");
+    ASSERT_EQ(record["points"].size(), 2u); // room has no light that a range tolerance ends
+    EXPECT_EQ(record["points"][0]["error"]["relMse"], 0.0);
+    EXPECT_GT(record["points"][1]["error"]["relMse"], 1e-9);
+    EXPECT_EQ(record["points"][0]["against"], "forward");
+    EXPECT_THAT(record["attribution"].dump(), HasSubstr("packed: albedo"));
+    writeQuad(
+        R"({"name": "paint", "model": "lambert", "k_d": [1, 1, 1]})",
+        R"([{"type": "point", "position": [0, 0, 1], "falloff": {"type": "attenuation", "A": 0, "B": 0, "C": 1}}])");
+    runGood({"bench", "quad.json", "--size", "64x36", "--frames", "1", "--matrix", "m.json", "-o", "out"});
+    const Json ended = json("out/bench.json");
+    ASSERT_EQ(ended["points"].size(), 4u);
+    EXPECT_LT(ended["points"][0]["error"]["relMse"], ended["points"][1]["error"]["relMse"]);
+    EXPECT_LT(ended["points"][1]["error"]["bias"], 0.0);
+    EXPECT_THAT(ended["attribution"].dump(), HasSubstr("range tolerance 0.05"));
 }
 
 TEST_F(Bench, unlitAndTransparentSurfacesNeverCountAsWhatTheyAreNot) {
@@ -80,6 +113,9 @@ TEST_F(Bench, aBadMatrixIsAlwaysRefusedInOneLineThatNamesIt) {
     EXPECT_THAT(refused(R"({"lights": [65537]})"), HasSubstr("65536"));
     EXPECT_THAT(refused(R"({"size": ["0x10"]})"), HasSubstr("1280x720"));
     EXPECT_THAT(refused(R"({"technique": []})"), HasSubstr("at least one"));
+    EXPECT_THAT(refused(R"({"range": [-1]})"), HasSubstr("range tolerance"));
+    EXPECT_THAT(refused(R"({"shadow": [1024]})"), HasSubstr("draws no shadows"));
+    EXPECT_THAT(refused(R"({"subsurface": ["blur"]})"), HasSubstr("no subsurface scattering"));
 }
 
 } // namespace

@@ -15,10 +15,13 @@ TEST_F(Demo, theReportAndItsPicturesAreAlwaysWrittenWhereItSays) {
     const std::string said = runGood({"demo", "lattice", "--lights", "8", "--size", "160x90", "-o", "out/report"});
     EXPECT_THAT(said, HasSubstr("report    out/report/index.html\n"));
     EXPECT_THAT(said, HasSubstr("pictures  out/report/*.png\n"));
-    EXPECT_THAT(said, HasSubstr("Take "));
+    EXPECT_THAT(said, HasSubstr(" take "));
     const std::string page = text("out/report/index.html");
     EXPECT_THAT(page.substr(0, 200), HasSubstr("<!DOCTYPE html>"));
     EXPECT_THAT(page, HasSubstr("tessera compare lattice"));
+    EXPECT_THAT(page, HasSubstr("Error against run time"));
+    // forward and forward_plus, and the two deferred ones in both layouts, with 2 and 8 lights.
+    EXPECT_EQ(json("out/report/bench/bench.json")["points"].size(), 2u * 6u);
     for (const char* name : {"forward", "deferred", "tiled_deferred", "forward_plus", "deferred_packed"})
         EXPECT_EQ(picture(std::string("out/report/") + name + ".png").width, 160) << name;
     EXPECT_EQ(picture("out/report/lattice.exr").height, 90);

@@ -5,10 +5,12 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/unit/validation/Benches.h"
 #include "tests/unit/validation/Samples.h"
 #include "validation/Base64.h"
 #include "validation/HeatMap.h"
 #include "validation/Html.h"
+#include "validation/bench/BenchHtml.h"
 
 namespace tessera::validation {
 namespace {
@@ -92,6 +94,32 @@ TEST(Report, theHtmlIsAlwaysWellFormedAndFullyEscaped) {
     EXPECT_THAT(html, HasSubstr("same &lt; maths"));
     EXPECT_THAT(html, HasSubstr("left out: &lt;shadows&gt;"));
     EXPECT_THAT(html, HasSubstr("./run compare hall --json &#39;x&amp;y.json&#39;"));
+}
+
+TEST(Report, aBenchmarksPageIsAlwaysWellFormedAndFullyEscaped) {
+    BenchRecord record;
+    record.groups = {madeUpGroup(100, {madeUpResult("forward", 40.0, 1e-9), madeUpResult("deferred", 10.0, 1e-9),
+                                       madeUpResult("deferred", 8.0, 1e-6, "packed")}),
+                     madeUpGroup(400, {madeUpResult("forward", 160.0, {})})};
+    record.groups[0].scene = record.groups[1].scene = "</script><b>.json";
+    record.groups[0].pictures = {{"reference", {}, "a.png", "", 0}, {"<x>", {"<x>", "y"}, "b.png", "c.png", 1}};
+    record.skipped = {{"forward, packed", "no <G-buffer>"}};
+    Report report = sampleReport();
+    std::vector<std::string> asked;
+    report.bench = benchHtml(record, record.groups[0], [&asked](const std::string& file) {
+        asked.push_back(file);
+        return std::vector<std::uint8_t>{1, 2, 3};
+    });
+    EXPECT_THAT(asked, testing::ElementsAre("a.png", "b.png", "c.png"));
+    const std::string html = reportHtml(report);
+    EXPECT_EQ(faultOf(html), "");
+    EXPECT_THAT(html, HasSubstr("Error against run time"));
+    EXPECT_THAT(html, HasSubstr("5.0&times;<small>faster than forward"));
+    EXPECT_THAT(html, HasSubstr("no &lt;G-buffer&gt;"));
+    EXPECT_THAT(html, Not(HasSubstr("</script><b>")));
+    report.record.pairs.clear();
+    report.bench = benchHtml(record, record.groups[1], {});
+    EXPECT_EQ(faultOf(reportHtml(report)), "");
 }
 
 TEST(Report, thePageNeverReachesOutsideItself) {

@@ -195,7 +195,7 @@ TEST(SceneJsonInclude, includesWithoutEndAreAlwaysRefused) {
     folder.write("d12.json", R"({"tessera": 1})");
     for (int level = 11; level >= 0; --level) {
         const std::string next = R"({"file": "d)" + std::to_string(level + 1) + R"(.json"})";
-        folder.write("d" + std::to_string(level) + ".json", including(next + ", " + next));
+        folder.write(std::string("d") + std::to_string(level) + ".json", including(next + ", " + next));
     }
     const std::string error = test::inputErrorOf([&] { importSceneJson(folder.path() / "d0.json"); });
     EXPECT_THAT(error, HasSubstr("is include number 4097 of the scene; at most 4096 are read"));

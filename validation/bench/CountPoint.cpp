@@ -1,12 +1,11 @@
-#include "validation/Bench.h"
+#include "validation/bench/CountPoint.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include <fmt/format.h>
-
 #include "passes/recipes/PreparedFrame.h"
 #include "renderer/gpu/SampleCounter.h"
+#include "validation/FloorGeometry.h"
 #include "validation/LightOracle.h"
 
 namespace tessera::validation {
@@ -14,16 +13,6 @@ namespace tessera::validation {
 namespace {
 
 using recipes::Technique;
-
-const recipes::TechniqueInfo& infoOf(const BenchPoint& point) {
-    return recipes::techniqueTable()[std::size_t(point.technique)];
-}
-
-std::string layoutName(const frame::GBufferLayout& layout) {
-    for (const frame::LayoutInfo& info : frame::layoutTable())
-        if (info.layout == layout) return std::string(info.name);
-    return "mixed";
-}
 
 /// Fragments that pass the depth test in the order in which forward shades them.
 std::uint64_t forwardFragments(recipes::Renderer& renderer, const frame::FrameSettings& settings) {
@@ -60,12 +49,14 @@ void forgetCounts(BenchResult& result) {
         result.why[figure] = "transparent surfaces are lit too, and not counted";
 }
 
-void count(recipes::Renderer& renderer, BenchResult& result) {
-    const BenchPoint& point = result.point;
+} // namespace
+
+void countPoint(recipes::Renderer& renderer, const BenchPoint& point, BenchResult& result) {
     LightOracleFigures oracle = judgeLights(renderer, point.technique, point.settings);
     const recipes::PreparedFrame prepared = recipes::prepareFrame(renderer.scene(), point.technique, point.settings);
     const graph::Plan plan = recipes::planFrame(renderer.scene(), point.technique, point.settings);
-    result.culling = prepared.spec.culling;
+    if (prepared.spec.culling.method != culling::Method::None)
+        result.builder = culling::builderTable()[std::size_t(prepared.spec.culling.builder)].name;
 
     BenchCounters& counters = result.counters;
     counters.fragments = oracle.covered;
@@ -97,65 +88,9 @@ void count(recipes::Renderer& renderer, BenchResult& result) {
     for (const auto& [name, value] : plan.counters) {
         if (name == "triangles") counters.triangles = value;
         if (name == "draws") counters.draws = value;
-        if (name == "gbufferBytesPerPixel" && infoOf(point).usesGBuffer) counters.gbufferBytes = value * oracle.covered;
+        if (name == "gbufferBytesPerPixel" && recipes::techniqueTable()[std::size_t(point.technique)].usesGBuffer)
+            counters.gbufferBytes = value * oracle.covered;
     }
-}
-
-void compareWithFloor(BenchResult& result, const FloorFigures& floor) {
-    if (!result.counters.neededEvaluations) {
-        result.why["floorMs"] = result.why["ratioToFloor"] = result.why["neededEvaluations"];
-        return;
-    }
-    result.floorMs = floor.floorMs(double(*result.counters.neededEvaluations));
-    if (result.floorMs)
-        result.ratioToFloor = result.times.cpuMs.median / *result.floorMs;
-    else
-        result.why["floorMs"] = result.why["ratioToFloor"] = floor.whyNoStores;
-}
-
-} // namespace
-
-std::size_t benchRounds(const BenchOptions& options, std::size_t groups) {
-    return groups * std::size_t(options.frames + InterleaveOptions{}.warmUpRounds);
-}
-
-std::size_t groupEnd(const std::vector<BenchPoint>& points, std::size_t first) {
-    std::size_t end = first;
-    while (end < points.size() && points[end].scene == points[first].scene &&
-           points[end].lights == points[first].lights &&
-           points[end].settings.sizePixels == points[first].settings.sizePixels)
-        ++end;
-    return end;
-}
-
-BenchGroup benchGroup(gpu::Context& context, const scenes::Scene& scene, std::span<const BenchPoint> points,
-                      const BenchOptions& options) {
-    BenchGroup group;
-    group.scene = points.front().scene;
-    group.lights = int(scene.lights.size());
-    group.sizePixels = points.front().settings.sizePixels;
-    recipes::Renderer renderer(context, scene);
-    FloorBench floor(renderer, points.front().settings);
-    std::vector<TimedPoint> timed;
-    for (const BenchPoint& point : points) timed.push_back({&renderer, point.technique, point.settings});
-    FrameTimerOptions timing;
-    timing.interleave.rounds = options.frames;
-    timing.interleave.progress = [&](int, int) { options.progress(); };
-    const std::vector<TimedFrame> floorFrames = floor.frames();
-    FrameTimes times = timeFrames(timed, floorFrames, timing);
-    group.floor = floor.figures(times.othersMs);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        BenchResult result;
-        result.point = points[i];
-        result.technique = std::string(infoOf(points[i]).name);
-        result.layout = layoutName(points[i].settings.layout);
-        result.times = std::move(times.points[i]);
-        count(renderer, result);
-        compareWithFloor(result, group.floor);
-        result.why.insert(result.times.why.begin(), result.times.why.end());
-        group.results.push_back(std::move(result));
-    }
-    return group;
 }
 
 } // namespace tessera::validation

@@ -1,7 +1,8 @@
-#include "validation/BenchMatrix.h"
+#include "validation/bench/BenchMatrix.h"
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <functional>
 #include <span>
 
@@ -9,7 +10,6 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "passes/recipes/ChooseCulling.h"
 #include "scenes/Error.h"
 #include "scenes/Names.h"
 
@@ -23,6 +23,9 @@ using recipes::Technique;
 
 constexpr int kMostLights = 65536;
 constexpr int kLargestSide = 16384;
+constexpr const char* kNoShadows = "this version draws no shadows, so there is nothing to vary; leave the key out";
+constexpr const char* kNoSubsurface =
+    "this version has no subsurface scattering, so there is nothing to vary; leave the key out";
 
 [[noreturn]] void refuse(const std::string& source, const std::string& key, const std::string& why) {
     throw InputError(fmt::format("{}: \"{}\": {}", source, key, why));
@@ -89,68 +92,19 @@ const std::vector<Key>& keys() {
                       const std::string& s) { m.layouts.push_back(rowNamed(frame::layoutTable(), v, s, "layout")); }},
         {"lights", [](BenchMatrix& m, const Json& v,
                       const std::string& s) { m.lights.push_back(numberIn(v, 0, kMostLights, s, "lights")); }},
+        {"range",
+         [](BenchMatrix& m, const Json& v, const std::string& s) {
+             if (!v.is_number() || !std::isfinite(v.get<double>()) || v.get<double>() < 0.0)
+                 refuse(s, "range",
+                        fmt::format("{} is no range tolerance; give 0, which ends no light, or more", v.dump()));
+             m.rangeTolerances.push_back(v.get<double>());
+         }},
+        {"shadow", [](BenchMatrix&, const Json&, const std::string& s) { refuse(s, "shadow", kNoShadows); }},
+        {"subsurface", [](BenchMatrix&, const Json&, const std::string& s) { refuse(s, "subsurface", kNoSubsurface); }},
         {"size",
          [](BenchMatrix& m, const Json& v, const std::string& s) { m.sizesPixels.push_back(sizeIn(v, s, "size")); }},
     };
     return table;
-}
-
-/// The list, or one entry that says nothing.
-template <typename T>
-std::vector<std::optional<T>> orDefault(const std::vector<T>& list) {
-    if (list.empty()) return {std::nullopt};
-    return {list.begin(), list.end()};
-}
-
-const recipes::TechniqueInfo& infoOf(Technique technique) {
-    return recipes::techniqueTable()[std::size_t(technique)];
-}
-
-/// Methods to run a technique with, and why others of the matrix are not.
-std::vector<Method> methodsOf(const BenchMatrix& matrix, Technique technique, const frame::FrameSettings& settings,
-                              std::vector<SkippedPoint>& skipped) {
-    const recipes::TechniqueInfo& info = infoOf(technique);
-    if (matrix.methods.empty()) {
-        if (settings.culling.method && recipes::takesMethod(technique, *settings.culling.method))
-            return {*settings.culling.method};
-        return {info.methods.begin(), info.methods.end()};
-    }
-    std::vector<Method> methods;
-    for (const Method method : matrix.methods) {
-        if (recipes::takesMethod(technique, method)) {
-            methods.push_back(method);
-            continue;
-        }
-        skipped.push_back({fmt::format("{}, {}", info.name, culling::methodTable()[std::size_t(method)].name),
-                           "the technique does not take this culling method"});
-    }
-    return methods;
-}
-
-/// The points of one light count and size.
-void addGroup(const BenchMatrix& matrix, const BenchPoint& common, BenchPlan& plan, bool notesSkipped) {
-    std::vector<SkippedPoint> skipped;
-    for (const Technique technique : matrix.techniques) {
-        for (const Method method : methodsOf(matrix, technique, common.settings, skipped)) {
-            const bool hasTiles = method != Method::None;
-            for (const std::optional<int>& tile : hasTiles ? orDefault(matrix.tilesPixels) : orDefault<int>({})) {
-                for (const std::optional<frame::LayoutInfo>& layout : orDefault(matrix.layouts)) {
-                    BenchPoint point = common;
-                    point.technique = technique;
-                    point.settings.culling.method = method;
-                    if (tile) point.settings.culling.tilePixels = *tile;
-                    if (layout) point.settings.layout = layout->layout;
-                    if (!infoOf(technique).usesGBuffer && layout && layout->name != frame::layoutTable()[0].name) {
-                        skipped.push_back({fmt::format("{}, {}", pointName(point), layout->name),
-                                           "the technique has no G-buffer to lay out"});
-                        continue;
-                    }
-                    plan.points.push_back(point);
-                }
-            }
-        }
-    }
-    if (notesSkipped) plan.skipped = std::move(skipped);
 }
 
 } // namespace
@@ -172,35 +126,6 @@ BenchMatrix parseMatrix(std::string_view json, const std::string& source) {
         for (const Json& value : values) found->add(matrix, value, source);
     }
     return matrix;
-}
-
-BenchPlan planBench(const BenchMatrix& matrix, const std::string& scene, std::optional<int> lights,
-                    const frame::FrameSettings& settings) {
-    BenchMatrix whole = matrix;
-    if (whole.techniques.empty())
-        for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) whole.techniques.push_back(info.technique);
-    BenchPlan plan;
-    for (const std::optional<int>& count : orDefault(whole.lights)) {
-        for (const std::optional<glm::ivec2>& size : orDefault(whole.sizesPixels)) {
-            BenchPoint common;
-            common.scene = scene;
-            common.lights = count ? count : lights;
-            common.settings = settings;
-            common.settings.display = false;
-            if (size) common.settings.sizePixels = *size;
-            addGroup(whole, common, plan, plan.points.empty());
-        }
-    }
-    return plan;
-}
-
-std::string pointName(const BenchPoint& point) {
-    std::string name(infoOf(point.technique).name);
-    const Method method = point.settings.culling.method.value_or(Method::None);
-    if (method == Method::None) return name;
-    name += fmt::format(", {}", culling::methodTable()[std::size_t(method)].name);
-    if (point.settings.culling.tilePixels) name += fmt::format(", {}", *point.settings.culling.tilePixels);
-    return name;
 }
 
 } // namespace tessera::validation

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "validation/Bench.h"
+#include "validation/bench/BenchResult.h"
 
 namespace tessera::validation {
 
@@ -10,20 +10,17 @@ struct BenchRecord {
     std::string machine;
     std::string renderer;
     std::string commit;
+    std::string command; ///< that measures it again
+    int frames = 0;      ///< timed, of each point
     std::vector<BenchGroup> groups;
     std::vector<SkippedPoint> skipped;
-    std::string recommendation;
+    bool isComplete = false; ///< every group of the matrix is in it
 };
-inline constexpr int kBenchSchema = 1;
+/// 2: `error`, `pareto`, `range`, `attribution`, `scaling` and `recommendations` are measured.
+inline constexpr int kBenchSchema = 2;
 
 std::string benchJson(const BenchRecord& record);  ///< the `bench` record of the command line's documentation
+std::string benchCsv(const BenchRecord& record);   ///< its points, one a line; RFC 4180
 std::string benchTable(const BenchRecord& record); ///< for people
-
-/// Plain words: which of the points to take on this machine, how much faster it is than forward, how close to the
-/// floor.
-std::string recommend(const std::vector<BenchGroup>& groups);
-
-/// "2 x AMD EPYC, 23 GiB, Linux".
-std::string machineName();
 
 } // namespace tessera::validation

@@ -1,0 +1,86 @@
+#include "apps/DemoBench.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "apps/BenchRun.h"
+#include "apps/FrameOptionText.h"
+#include "apps/Version.h"
+#include "validation/bench/MachineName.h"
+
+namespace tessera::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFrames = 5;
+/// Of the measured picture. A software rasteriser lights them by 257 lamps in a second with the slowest technique.
+constexpr double kMostPixels = 320.0 * 180.0;
+constexpr int kLightSteps[] = {16, 4}; ///< the lights of the scene, divided by these
+
+glm::ivec2 measuredSize(glm::ivec2 sizePixels) {
+    const double pixels = double(sizePixels.x) * double(sizePixels.y);
+    if (pixels <= kMostPixels) return sizePixels;
+    const double scale = std::sqrt(kMostPixels / pixels);
+    return glm::max(glm::ivec2(glm::dvec2(sizePixels) * scale + 0.5), glm::ivec2(1));
+}
+
+validation::BenchPlan planOf(const DemoBenchRequest& demo, FrameOptions& frame) {
+    validation::BenchMatrix matrix;
+    matrix.techniques = demo.techniques;
+    matrix.preferredMethodsOnly = true;
+    matrix.layouts.assign(frame::layoutTable().begin(), frame::layoutTable().end());
+    matrix.sizesPixels = {measuredSize(demo.request.settings.sizePixels)};
+    const auto load = [&frame](std::optional<int> lights) {
+        frame.lights = lights;
+        return loadFor(frame);
+    };
+    const frame::FrameSettings& settings = demo.request.settings;
+    const int lights = int(demo.request.scene.lights.size());
+    for (const int step : kLightSteps) {
+        if (lights / step > 0) matrix.lights.push_back(lights / step);
+    }
+    validation::BenchPlan plan;
+    const std::optional<int> wholeLights = frame.lights;
+    if (!matrix.lights.empty()) validation::addToPlan(plan, matrix, frame.scene, wholeLights, settings, load);
+    matrix.lights.clear();
+    validation::addToPlan(plan, matrix, frame.scene, wholeLights, settings, load);
+    return plan;
+}
+
+} // namespace
+
+validation::BenchRecord demoBench(gpu::Context& context, const DemoBenchRequest& demo) {
+    FrameOptions frame = demo.options;
+    BenchRun run;
+    run.folder = (fs::path(demo.folder) / "bench").string();
+    // An older demonstration that was interrupted is of no use.
+    std::error_code ignored;
+    fs::remove_all(fs::path(run.folder) / "parts", ignored);
+    run.plan = planOf(demo, frame);
+    run.options.frames = kFrames;
+    const glm::ivec2 sizePixels = run.plan.groups.front().sizePixels;
+    FrameOptions shown = demo.options;
+    shown.size = fmt::format("{}x{}", sizePixels.x, sizePixels.y);
+    run.identity = {validation::machineName(),
+                    context.capabilities().renderer,
+                    kCommit,
+                    frameOptionText(shown),
+                    "",
+                    kFrames,
+                    1,
+                    1,
+                    fmt::format("tessera bench {} -o bench{} --frames {}", shellWord(frame.scene),
+                                frameOptionText(shown), kFrames)};
+    run.load = [&frame](const validation::PlannedGroup& group) {
+        frame.lights = group.lightsToLoad;
+        return loadFor(frame);
+    };
+    run.write = [folder = run.folder](const validation::BenchRecord& record) { writeBenchFiles(folder, record); };
+    return runBench(context, std::move(run), demo.quiet);
+}
+
+} // namespace tessera::app

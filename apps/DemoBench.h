@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "apps/Options.h"
+#include "validation/bench/BenchRecord.h"
+
+namespace tessera::app {
+
+struct DemoBenchRequest {
+    const FrameOptions& options;
+    const Request& request;
+    std::vector<recipes::Technique> techniques;
+    std::string folder; ///< of the demonstration
+    bool quiet = false;
+};
+
+/// Error against run time of the demonstration's scene: the techniques in every layout, at three numbers of lights, in
+/// a small picture, so that it stays short. What is measured lies in the folder's own folder `bench`.
+validation::BenchRecord demoBench(gpu::Context& context, const DemoBenchRequest& demo);
+
+} // namespace tessera::app

@@ -1,0 +1,99 @@
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include "tests/cli/program/Cli.h"
+
+namespace tessera::test {
+namespace {
+
+using Json = nlohmann::json;
+using testing::HasSubstr;
+
+class BenchRuns : public Cli {
+protected:
+    BenchRuns() {
+        folder_.write("m.json", R"({"technique": ["forward", "deferred", "tiled_deferred"],
+                                    "layout": ["exact", "packed"], "lights": [4, 16, 64]})");
+    }
+
+    static Words command(const std::string& out, const Words& more = {}) {
+        Words words{"bench", "lattice", "--size", "64x36", "--frames", "3", "--matrix", "m.json", "-o", out};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+
+    /// The record without what a clock decides.
+    Json withoutTimes(const std::string& name) const {
+        Json record = json(name);
+        for (const char* field : {"floors", "scaling", "recommendation", "recommendations", "command"})
+            record.erase(field);
+        for (Json& point : record["points"]) {
+            for (const char* field : {"cpuMs", "gpuMs", "floorMs", "ratioToFloor", "pareto", "why"}) point.erase(field);
+            for (Json& pass : point["passes"]) pass.erase("gpuMs");
+        }
+        return record;
+    }
+};
+
+TEST_F(BenchRuns, aRunThatIsKilledAnywhereAndResumedAlwaysGivesTheSamePoints) {
+    runGood(command("whole"));
+    int kills = 0;
+    bool isDone = false;
+    for (int attempt = 0; attempt < 40 && !isDone; ++attempt) {
+        Words words{kProgram};
+        for (const std::string& word : command("killed", {"--resume"})) words.push_back(word);
+        Process process(words, {folder_.path(), {}, 60.0});
+        std::thread killer([&process, attempt] {
+            // From a quarter of a second, before anything is measured, to whole runs.
+            std::this_thread::sleep_for(std::chrono::milliseconds(250 + 173 * attempt));
+            try {
+                process.send(SIGKILL);
+            } catch (const std::runtime_error&) { // it had ended
+            }
+        });
+        const ProcessResult result = process.wait();
+        killer.join();
+        isDone = result.exitCode.has_value();
+        kills += isDone ? 0 : 1;
+        EXPECT_EQ(result.exitCode.value_or(0), 0) << result.err;
+    }
+    ASSERT_TRUE(isDone);
+    EXPECT_GT(kills, 0);
+    EXPECT_EQ(withoutTimes("killed/bench.json"), withoutTimes("whole/bench.json"));
+    // What is finished is not measured again: the times stay.
+    const std::string before = text("killed/bench.json");
+    runGood(command("killed", {"--resume"}));
+    EXPECT_EQ(text("killed/bench.json"), before);
+}
+
+TEST_F(BenchRuns, twoShardsMergedAlwaysEqualOneRun) {
+    runGood(command("whole"));
+    runGood(command("one", {"--shard", "1/2"}));
+    EXPECT_EQ(json("one/bench.json")["complete"], false);
+    runGood(command("two", {"--shard", "2/2"}));
+    runGood({"bench", "--merge", "two", "one", "-o", "all"});
+    EXPECT_EQ(withoutTimes("all/bench.json"), withoutTimes("whole/bench.json"));
+    EXPECT_THAT(text("all/report.html"), HasSubstr("Error against run time"));
+}
+
+TEST_F(BenchRuns, whatCannotBePutTogetherIsAlwaysRefusedInOneLine) {
+    runGood(command("one", {"--shard", "1/2"}));
+    expectError(2, command("one", {"--shard", "2/2", "--resume"}), {"holds shard 1/2, not 2/2"});
+    expectError(2, command("one", {"--shard", "1/2", "--resume", "--against", "forward"}), {"against differs"});
+    expectError(2, {"bench", "--merge", "one", "-o", "all"}, {"shard 2/2 is missing"});
+    expectError(2, {"bench", "--merge", "nowhere", "-o", "one"}, {"nowhere", "holds no bench"});
+    expectError(2, {"bench", "lattice", "--merge", "one", "-o", "one"}, {"leave scenes"});
+    expectError(2, {"bench", "-o", "one"}, {"needs a SCENE"});
+    expectError(2, command("one", {"--shard", "3/2"}), {"--shard 3/2", "1/4"});
+    expectError(2, command("one", {"--shard", "x"}), {"--shard x"});
+    expectError(2, command("one", {"--against", "referense"}), {"did you mean 'reference'"});
+    std::filesystem::remove(folder_.path() / "one/parts/group-000.json");
+    expectError(2, command("one"), {"unfinished", "--resume"});
+    folder_.write("one/parts/group-000.json", "{}");
+    expectError(2, command("one", {"--shard", "1/2", "--resume"}), {"group-000.json", "is damaged"});
+}
+
+} // namespace
+} // namespace tessera::test

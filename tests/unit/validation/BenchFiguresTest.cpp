@@ -1,0 +1,137 @@
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/unit/validation/Benches.h"
+#include "validation/bench/BenchJson.h"
+#include "validation/bench/Pareto.h"
+#include "validation/bench/Recommend.h"
+#include "validation/bench/ScalingFit.h"
+
+namespace tessera::validation {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(ScalingFit, aPowerLawIsAlwaysFoundWithItsExponentAndFactor) {
+    const std::vector<double> x{16, 64, 256, 1024};
+    std::vector<double> y;
+    for (const double value : x) y.push_back(3.0 * std::pow(value, 0.75));
+    const std::optional<PowerFit> fit = fitPower(x, y);
+    ASSERT_TRUE(fit);
+    // Rounding of a few logarithms.
+    EXPECT_NEAR(fit->exponent, 0.75, 1e-12);
+    EXPECT_NEAR(fit->factor, 3.0, 1e-12);
+    EXPECT_NEAR(fit->r2, 1.0, 1e-12);
+    EXPECT_NEAR(fit->mostOff, 0.0, 1e-12);
+    EXPECT_EQ(fit->points, 4u);
+}
+
+TEST(ScalingFit, aPointOffTheLineIsAlwaysToldByItsGoodness) {
+    // log y is 0, 1, 0 over x of one step each: the best line is flat at 1/3 and explains nothing.
+    const std::vector<double> x{1.0, std::exp(1.0), std::exp(2.0)}, y{1.0, std::exp(1.0), 1.0};
+    const std::optional<PowerFit> fit = fitPower(x, y);
+    ASSERT_TRUE(fit);
+    EXPECT_NEAR(fit->exponent, 0.0, 1e-12);
+    EXPECT_NEAR(fit->r2, 0.0, 1e-12);
+    EXPECT_NEAR(fit->mostOff, std::expm1(2.0 / 3.0), 1e-12);
+}
+
+TEST(ScalingFit, twoDifferentPlacesNeverMakeAFit) {
+    EXPECT_FALSE(fitPower(std::vector<double>{1, 2, 2}, std::vector<double>{1, 2, 3}));
+    EXPECT_FALSE(fitPower(std::vector<double>{0, 1, 2}, std::vector<double>{1, 2, 3})); // 0 has no logarithm
+}
+
+TEST(ScalingFit, curvesAlwaysJoinEqualPointsOfDifferentGroupsOnly) {
+    std::vector<BenchGroup> groups;
+    for (const int lights : {400, 100, 1600}) {
+        groups.push_back(madeUpGroup(
+            lights, {madeUpResult("forward", lights * 0.1, 1e-9), madeUpResult("deferred", std::sqrt(lights), 1e-9)}));
+    }
+    const std::vector<ScalingCurve> curves = scalingCurves(groups);
+    ASSERT_EQ(curves.size(), 2u); // pixels and evaluations are the same everywhere
+    EXPECT_THAT(curves[0].x, ElementsAre(100, 400, 1600));
+    EXPECT_EQ(curves[0].quantity, "lights");
+    EXPECT_NEAR(curves[0].fit->exponent, 1.0, 1e-12);
+    EXPECT_NEAR(curves[1].fit->exponent, 0.5, 1e-12);
+}
+
+TEST(Pareto, theFrontIsExactlyWhatNothingBeats) {
+    const BenchGroup group =
+        madeUpGroup(10, {madeUpResult("a", 10, 1e-9), madeUpResult("b", 5, 1e-6), madeUpResult("c", 6, 1e-6),
+                         madeUpResult("d", 10, 1e-9), madeUpResult("e", 1, {}), madeUpResult("f", 20, 1e-9)});
+    using Mark = std::optional<bool>;
+    EXPECT_THAT(paretoFront(group), ElementsAre(Mark(true), Mark(true), Mark(false), Mark(true), Mark(), Mark(false)));
+}
+
+TEST(Recommend, theFastestPointOfAcceptableErrorIsAlwaysTaken) {
+    const BenchGroup group =
+        madeUpGroup(257, {madeUpResult("forward", 100, 1e-9), madeUpResult("deferred", 40, 1e-9),
+                          madeUpResult("deferred", 30, 2e-5, "packed"), madeUpResult("forward_plus", 10, 0.5)});
+    const std::optional<Recommendation> choice = recommendFor(group);
+    ASSERT_TRUE(choice);
+    EXPECT_EQ(choice->best, &group.results[2]);
+    EXPECT_EQ(choice->exact, &group.results[1]);
+    EXPECT_TRUE(choice->isAcceptable);
+    const std::string text = recommendationText(group);
+    EXPECT_THAT(text, HasSubstr("deferred, packed: 3.3x faster than forward at relMSE 2.0e-05"));
+    EXPECT_THAT(text, HasSubstr("As exact as any is deferred, exact: 2.5x faster"));
+}
+
+TEST(Recommend, aGroupWithoutAnAcceptablePointIsAlwaysToldSo) {
+    const BenchGroup group = madeUpGroup(10, {madeUpResult("forward", 10, 0.2), madeUpResult("deferred", 5, 0.9)});
+    EXPECT_EQ(recommendFor(group)->best, &group.results[0]);
+    EXPECT_THAT(recommendationText(group), HasSubstr("Nothing here stays below relMSE 0.0001"));
+    EXPECT_FALSE(recommendFor(madeUpGroup(10, {})));
+    EXPECT_EQ(recommendationText(madeUpGroup(10, {})), "");
+}
+
+TEST(Recommend, anUnmeasuredErrorIsNeverPraised) {
+    const BenchGroup group = madeUpGroup(10, {madeUpResult("forward", 10, {}), madeUpResult("deferred", 5, {})});
+    EXPECT_EQ(recommendFor(group)->best, &group.results[1]);
+    EXPECT_THAT(recommendationText(group), Not(HasSubstr("relMSE")));
+}
+
+TEST(BenchJson, aGroupAlwaysComesBackFromItsJsonDigitForDigit) {
+    BenchGroup group = madeUpGroup(
+        257, {madeUpResult("forward", 100.0 / 3.0, 1e-9), madeUpResult("tiled_deferred", 1e-3 / 3.0, {}, "packed")});
+    group.results[1].key.culling = "tile_2.5d";
+    group.results[1].key.tilePixels = 16;
+    group.results[1].key.rangeTolerance = 0.1;
+    group.results[1].builder = "cpu";
+    group.pictures = {{"forward, exact", {"forward, exact"}, "a.png", "b.png", 0xfedcba9876543210ull}};
+    const nlohmann::ordered_json json = groupJson(group);
+    const BenchGroup back = groupFromJson(nlohmann::ordered_json::parse(json.dump()));
+    EXPECT_EQ(groupJson(back), json);
+    EXPECT_EQ(back.results[1].key, group.results[1].key);
+    EXPECT_EQ(back.results[1].builder, "cpu");
+    EXPECT_EQ(back.results[0].times.cpuMs.median, 100.0 / 3.0);
+    EXPECT_EQ(back.pictures[0].hash, 0xfedcba9876543210ull);
+    EXPECT_EQ(back.floor.stores[0].nsPerPair, 1.0 / 7.0);
+}
+
+TEST(BenchJson, everyNullOfAPointAlwaysHasItsReason) {
+    const BenchGroup group = madeUpGroup(10, {madeUpResult("forward", 10, {}), madeUpResult("deferred", 5, 1e-9)});
+    for (const nlohmann::ordered_json& point : groupJson(group)["points"]) {
+        for (const auto& [name, value] : point.items())
+            EXPECT_TRUE(!value.is_null() || point["why"].contains(name)) << name;
+    }
+}
+
+TEST(BenchCsv, everyPointIsAlwaysOneLineOfAsManyFields) {
+    BenchRecord record;
+    record.groups = {madeUpGroup(10, {madeUpResult("forward", 10, {}), madeUpResult("deferred", 5, 1e-9)})};
+    record.groups[0].scene = "my \"own\", scene.json";
+    const std::string csv = benchCsv(record);
+    EXPECT_THAT(csv, HasSubstr("\r\n\"my \"\"own\"\", scene.json\",forward,none,,,exact,0,10,64,32,10,"));
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
+    const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
+    EXPECT_EQ(commas(csv.substr(0, csv.find('\r'))) + 1, // one within the quoted name
+              commas(csv.substr(csv.rfind("\"my"), csv.rfind('\r') - csv.rfind("\"my"))));
+}
+
+} // namespace
+} // namespace tessera::validation

@@ -1,0 +1,137 @@
+#include "validation/bench/BenchStore.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "scenes/Error.h"
+#include "tests/support/TempFolder.h"
+#include "tests/unit/validation/Benches.h"
+
+namespace tessera::validation {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class BenchStoring : public testing::Test {
+protected:
+    std::string folder(const std::string& name) const {
+        const fs::path path = folder_.path() / name;
+        fs::create_directory(path);
+        return path.string();
+    }
+
+    static GroupState finished(int group) {
+        GroupState state;
+        state.roundsMs = {{1.0, 2.0 / 3.0}};
+        state.group = madeUpGroup(10 << group, {madeUpResult("forward", 10.0 + group, 1e-9)});
+        state.isDone = true;
+        return state;
+    }
+
+    /// A shard with all its groups measured; its folder.
+    std::string finishedShard(const std::string& name, int shard, int shards, int groups) const {
+        const BenchStore store(folder(name), madeUpIdentity(shard, shards), madeUpPlan(groups), false);
+        for (int i = 0; i < groups; ++i)
+            if (store.isOfShard(std::size_t(i))) store.keep(std::size_t(i), finished(i));
+        return folder(name);
+    }
+
+    template <typename Action>
+    static std::string refusal(Action&& action) {
+        try {
+            action();
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "nothing was refused";
+    }
+
+    test::TempFolder folder_;
+};
+
+TEST_F(BenchStoring, whatIsKeptAlwaysComesBackAfterTheProgramsEnd) {
+    const std::string out = folder("out");
+    GroupState half = finished(1);
+    half.isDone = false;
+    {
+        const BenchStore store(out, madeUpIdentity(), madeUpPlan(3), false);
+        store.keep(0, finished(0));
+        store.keep(1, half);
+    }
+    const BenchStore store(out, madeUpIdentity(), madeUpPlan(3), true);
+    EXPECT_TRUE(store.load(0).isDone);
+    EXPECT_FALSE(store.load(1).isDone);
+    EXPECT_EQ(store.load(1).roundsMs, half.roundsMs);
+    EXPECT_EQ(store.load(1).group.results.size(), 1u);
+    EXPECT_TRUE(store.load(2).roundsMs.empty());
+    EXPECT_FALSE(recordIn(out).isComplete);
+    EXPECT_EQ(recordIn(out).groups.size(), 2u);
+}
+
+TEST_F(BenchStoring, anUnfinishedRunIsNeverWrittenOverUnasked) {
+    const std::string out = folder("out");
+    { const BenchStore store(out, madeUpIdentity(), madeUpPlan(2), false); }
+    EXPECT_THAT(refusal([&] { BenchStore(out, madeUpIdentity(), madeUpPlan(2), false); }),
+                testing::AllOf(HasSubstr("--resume"), HasSubstr("parts")));
+    finishedShard("done", 1, 1, 2);
+    EXPECT_NO_THROW(BenchStore(folder("done"), madeUpIdentity(), madeUpPlan(2), false));
+}
+
+TEST_F(BenchStoring, anotherRunIsNeverResumedAndWhatDiffersIsAlwaysNamed) {
+    const std::string out = finishedShard("out", 1, 2, 2);
+    const auto resumed = [&](const RunIdentity& identity, const BenchPlan& plan) {
+        return refusal([&] { BenchStore(out, identity, plan, true); });
+    };
+    RunIdentity other = madeUpIdentity(1, 2);
+    other.machine = "64 x Chip";
+    EXPECT_THAT(resumed(other, madeUpPlan(2)), testing::AllOf(HasSubstr("machine differs"), HasSubstr("64 x Chip")));
+    other = madeUpIdentity(1, 2);
+    other.commit = "def";
+    EXPECT_THAT(resumed(other, madeUpPlan(2)), HasSubstr("commit differs"));
+    other = madeUpIdentity(1, 2);
+    other.settings = "";
+    EXPECT_THAT(resumed(other, madeUpPlan(2)), HasSubstr("settings differs"));
+    EXPECT_THAT(resumed(madeUpIdentity(1, 2), madeUpPlan(3)), HasSubstr("scenes or matrix differ"));
+    EXPECT_THAT(resumed(madeUpIdentity(2, 2), madeUpPlan(2)), HasSubstr("holds shard 1/2, not 2/2"));
+    other = madeUpIdentity(1, 2);
+    other.command = "another spelling of it";
+    EXPECT_EQ(resumed(other, madeUpPlan(2)), "nothing was refused");
+}
+
+TEST_F(BenchStoring, mergedShardsAlwaysEqualOneRun) {
+    finishedShard("whole", 1, 1, 3);
+    const std::vector<std::string> shards{finishedShard("b", 2, 2, 3), finishedShard("a", 1, 2, 3)};
+    mergeRuns(shards, folder("all"));
+    const BenchRecord whole = recordIn(folder("whole")), merged = recordIn(folder("all"));
+    EXPECT_EQ(benchJson(merged), benchJson(whole));
+    EXPECT_TRUE(merged.isComplete);
+}
+
+TEST_F(BenchStoring, shardsThatAreNoWholeRunAreNeverMerged) {
+    const std::string a = finishedShard("a", 1, 2, 3), b = finishedShard("b", 2, 2, 3);
+    const auto merged = [&](const std::vector<std::string>& shards) {
+        return refusal([&] { mergeRuns(shards, folder("all")); });
+    };
+    EXPECT_THAT(merged({a}), HasSubstr("shard 2/2 is missing"));
+    EXPECT_THAT(merged({a, b, a}), HasSubstr("both shard 1/2"));
+    EXPECT_THAT(merged({a, finishedShard("c", 2, 3, 3)}), HasSubstr("different numbers of shards"));
+    EXPECT_THAT(merged({a, finishedShard("d", 2, 2, 4)}), HasSubstr("scenes or matrix differ"));
+    EXPECT_THAT(merged({a, folder("nothing")}), HasSubstr("holds no bench"));
+    { const BenchStore begun(folder("e"), madeUpIdentity(2, 2), madeUpPlan(3), false); }
+    EXPECT_THAT(merged({a, folder("e")}), HasSubstr("is not finished"));
+    EXPECT_THAT(refusal([&] { mergeRuns({a, b}, a); }), HasSubstr("cannot be written over"));
+    EXPECT_EQ(merged({a, b}), "nothing was refused");
+}
+
+TEST_F(BenchStoring, damagedFilesAreAlwaysNamed) {
+    const std::string out = finishedShard("out", 1, 1, 1);
+    std::ofstream(out + "/parts/group-000.json") << "{\"done\": true, \"roundsMs\": []}";
+    EXPECT_THAT(refusal([&] { recordIn(out); }), testing::AllOf(HasSubstr("group-000.json"), HasSubstr("is damaged")));
+    std::ofstream(out + "/parts/run.json") << "{";
+    EXPECT_THAT(refusal([&] { recordIn(out); }), testing::AllOf(HasSubstr("run.json"), HasSubstr("is damaged")));
+}
+
+} // namespace
+} // namespace tessera::validation

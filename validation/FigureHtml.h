@@ -1,0 +1,13 @@
+#pragma once
+#include <optional>
+#include <string>
+
+namespace tessera::validation {
+
+/// A figure as print sets it: 3.1 x 10 to the -7, with a real minus; a dash for NaN.
+std::string figureHtml(double value);
+std::string figureHtml(const std::optional<double>& value);
+/// A share 0..1 as a percentage; a dash for NaN.
+std::string shareHtml(double share);
+
+} // namespace tessera::validation

@@ -1,0 +1,103 @@
+#include "validation/bench/Attribution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "validation/ErrorFigures.h"
+#include "validation/RangeTruncation.h"
+#include "validation/TechniqueCompare.h"
+
+namespace tessera::validation {
+
+namespace {
+
+using recipes::Technique;
+
+std::optional<double> finite(double value) {
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+AttributionLine lineOf(const char* cause, const std::string& what, const std::string& against,
+                       const ErrorFigures& figures) {
+    return {cause, what, against, finite(figures.relMse), finite(figures.p99Rel), finite(figures.bias)};
+}
+
+/// A point's settings with everything exact, for one cause at a time to be put in.
+frame::FrameSettings exactSettings(const BenchPoint& point, frame::TextureFilter filter) {
+    frame::FrameSettings settings = point.settings;
+    settings.layout = frame::layoutTable()[0].layout;
+    settings.rangeTolerance = 0.0;
+    settings.filter = filter;
+    settings.culling = {};
+    settings.lightOn.reset();
+    settings.display = false;
+    return settings;
+}
+
+void addFilter(const GroupTruth& truth, const std::string& truthName, const BenchPoint& any,
+               std::vector<AttributionLine>& lines) {
+    const Picture exact = truth.pictureOf(Technique::Forward, exactSettings(any, truth.filter()));
+    lines.push_back(lineOf("arithmetic", "fp32 arithmetic of forward", truthName,
+                           errorFigures(exact, truth.picture(), truth.excluded())));
+    if (truth.filter() != frame::TextureFilter::Exact || !frame::materialFeatures(truth.renderer().scene()).textures())
+        return;
+    frame::FrameSettings hardware = exactSettings(any, frame::TextureFilter::Hardware);
+    const recipes::RenderedFrame frame = truth.renderer().render(Technique::Forward, hardware);
+    Picture filtered = exact; // the same pixels are covered
+    filtered.rgba = frame.radiance;
+    lines.push_back(
+        lineOf("filter", "textures filtered by hardware", "exact filtering", errorFigures(filtered, exact)));
+}
+
+void addRanges(const GroupTruth& truth, std::span<const BenchPoint> points, std::vector<AttributionLine>& lines) {
+    std::set<double> tolerances;
+    for (const BenchPoint& point : points) tolerances.insert(point.settings.rangeTolerance);
+    for (const double tolerance : tolerances) {
+        if (tolerance == 0.0) continue;
+        frame::FrameSettings settings = exactSettings(points.front(), truth.filter());
+        settings.rangeTolerance = tolerance;
+        const RangeTruncation dropped = rangeTruncation(truth.renderer(), Technique::Forward, settings);
+        lines.push_back(
+            lineOf("range", fmt::format("range tolerance {:g}", tolerance), "no tolerance", dropped.figures));
+    }
+}
+
+/// What each channel of a layout adds is what `tessera compare` says of it.
+void addLayouts(const gpu::Capabilities& gl, const GroupTruth& truth, std::span<const BenchPoint> points,
+                std::vector<AttributionLine>& lines) {
+    std::set<std::string> done;
+    for (const BenchPoint& point : points) {
+        const bool isPacked = !(point.settings.layout == frame::layoutTable()[0].layout);
+        if (!isPacked || !done.insert(point.key.layout).second) continue;
+        CompareRequest request;
+        request.techniques = {Technique::Deferred};
+        request.settings = exactSettings(point, truth.filter());
+        request.settings.layout = point.settings.layout;
+        request.settings.display = true; // the comparison shows its pictures too
+        const ComparePair pair = compareTechniques(truth.renderer(), gl, request).record.pairs.front();
+        lines.push_back(lineOf("layout", fmt::format("layout {}", point.key.layout), "forward", pair.figures));
+        for (const ChannelShare& channel : pair.channels)
+            lines.push_back({"layout",
+                             fmt::format("{}: {}", point.key.layout, channel.channel),
+                             "that channel in fp32",
+                             channel.share,
+                             {},
+                             {}});
+    }
+}
+
+} // namespace
+
+std::vector<AttributionLine> attributeErrors(const gpu::Capabilities& gl, const GroupTruth& truth,
+                                             const std::string& truthName, std::span<const BenchPoint> points) {
+    std::vector<AttributionLine> lines;
+    addFilter(truth, truthName, points.front(), lines);
+    addRanges(truth, points, lines);
+    addLayouts(gl, truth, points, lines);
+    return lines;
+}
+
+} // namespace tessera::validation

@@ -1,0 +1,17 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "renderer/gpu/Context.h"
+#include "validation/bench/BenchPlan.h"
+#include "validation/bench/GroupTruth.h"
+
+namespace tessera::validation {
+
+/// Where a group's points lose energy, cause by cause: fp32 arithmetic of an exact layout, filtering by hardware, what
+/// each range tolerance drops, and each channel of each packed layout. Draws some frames a cause. Throws what drawing
+/// throws.
+std::vector<AttributionLine> attributeErrors(const gpu::Capabilities& gl, const GroupTruth& truth,
+                                             const std::string& truthName, std::span<const BenchPoint> points);
+
+} // namespace tessera::validation

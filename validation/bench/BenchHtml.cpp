@@ -1,0 +1,221 @@
+#include "validation/bench/BenchHtml.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "passes/recipes/Techniques.h"
+#include "validation/FigureHtml.h"
+#include "validation/Html.h"
+#include "validation/bench/BenchTables.h"
+#include "validation/bench/Pareto.h"
+#include "validation/bench/Recommend.h"
+#include "validation/bench/ScalingFit.h"
+
+namespace tessera::validation {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename T>
+Json orNull(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json plotPoint(const BenchResult& result, std::optional<bool> pareto, bool isBest) {
+    const BenchError error = result.error.value_or(BenchError{});
+    return {{"name", pointName(result.key)},   {"technique", result.key.technique},
+            {"layout", result.key.layout},     {"ms", result.times.cpuMs.median},
+            {"p95", result.times.cpuMs.p95},   {"relMse", orNull(error.relMse)},
+            {"p99Rel", orNull(error.p99Rel)},  {"toFloor", orNull(result.ratioToFloor)},
+            {"front", pareto.value_or(false)}, {"best", isBest}};
+}
+
+/// What bench.js draws.
+Json plotData(const BenchRecord& record) {
+    Json data = {{"techniques", Json::array()}, {"groups", Json::array()}, {"curves", Json::array()}};
+    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) data["techniques"].push_back(info.name);
+    for (const BenchGroup& group : record.groups) {
+        const std::vector<std::optional<bool>> pareto = paretoFront(group);
+        const std::optional<Recommendation> choice = recommendFor(group);
+        Json points = Json::array();
+        for (std::size_t i = 0; i < group.results.size(); ++i)
+            points.push_back(plotPoint(group.results[i], pareto[i], choice && choice->best == &group.results[i]));
+        data["groups"].push_back({{"name", groupName(group)}, {"truth", group.truth}, {"points", points}});
+    }
+    for (const ScalingCurve& curve : scalingCurves(record.groups)) {
+        data["curves"].push_back({{"scene", curve.scene},
+                                  {"name", pointName(curve.key)},
+                                  {"technique", curve.key.technique},
+                                  {"layout", curve.key.layout},
+                                  {"quantity", curve.quantity},
+                                  {"held", curve.held},
+                                  {"x", curve.x},
+                                  {"ms", curve.timeMs},
+                                  {"exponent", curve.fit ? Json(curve.fit->exponent) : Json(nullptr)}});
+    }
+    return data;
+}
+
+/// JSON within a script element: nothing in it may end the element.
+std::string scriptData(const Json& json) {
+    std::string text;
+    for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+        if (c == '<')
+            text += "\\u003c";
+        else
+            text += c;
+    }
+    return fmt::format("<script type=\"application/json\" id=\"bench-data\">{}</script>\n", text);
+}
+
+std::string tileHtml(const std::string& label, const std::string& figure, const std::string& note) {
+    return fmt::format("<div><dt>{}</dt><dd>{}<small>{}</small></dd></div>\n", label, figure, note);
+}
+
+std::string answerHtml(const BenchGroup& group) {
+    const std::optional<Recommendation> choice = recommendFor(group);
+    if (!choice) return "<p class=\"choice\">Nothing is measured yet.</p>\n";
+    const BenchResult& best = *choice->best;
+    std::string how = best.key.tilePixels ? fmt::format("{} {}, ", best.key.culling, *best.key.tilePixels) : "";
+    how += best.key.layout;
+    if (best.key.rangeTolerance > 0.0) how += fmt::format(", range {:g}", best.key.rangeTolerance);
+    std::string html = "<dl class=\"answer\">\n" + tileHtml("Take", escapedHtml(best.key.technique), escapedHtml(how));
+    if (choice->speedup) {
+        const double speedup = *choice->speedup;
+        html += tileHtml("Speed", fmt::format("{:.1f}&times;", speedup >= 1.0 ? speedup : 1.0 / speedup),
+                         &best == choice->baseline ? "forward is the fastest"
+                         : speedup >= 1.0          ? "faster than forward"
+                                                   : "slower than forward");
+    }
+    if (best.error)
+        html += tileHtml("Error", figureHtml(best.error->relMse),
+                         fmt::format("relMSE against {}", group.truth == "reference" ? "double precision" : "forward"));
+    html +=
+        tileHtml("Time", fmt::format("{:.3g}&#8239;ms", best.times.cpuMs.median),
+                 best.ratioToFloor ? fmt::format("a frame, {:.1f}&times; the floor", *best.ratioToFloor) : "a frame");
+    return html + "</dl>\n";
+}
+
+std::string paretoHtml(const BenchRecord& record, const BenchGroup& headline) {
+    std::string choices;
+    for (std::size_t i = 0; i < record.groups.size(); ++i)
+        choices += fmt::format("<option value=\"{}\"{}>{}</option>", i,
+                               &record.groups[i] == &headline ? " selected=\"selected\"" : "",
+                               escapedHtml(groupName(record.groups[i])));
+    std::set<std::string> layouts;
+    for (const BenchGroup& group : record.groups)
+        for (const BenchResult& result : group.results) layouts.insert(result.key.layout);
+    const char* shapes =
+        layouts.size() > 1 ? " Circles store every G-buffer channel in fp32, the other shapes pack it." : "";
+    return fmt::format(
+        "<section id=\"front\">\n<h2>Error against run time</h2>\n"
+        "<p class=\"lede\">Every mark is one way to draw the same picture: faster to the left, closer to the truth "
+        "below. The line joins those that no other beats in both; the ringed one is the one to take.{}</p>\n"
+        "<p class=\"controls\"{}><label>Show <select id=\"front-group\">{}</select></label></p>\n"
+        "<div class=\"plot\"><canvas id=\"front-plot\" role=\"img\" aria-label=\"relMSE against milliseconds a frame; "
+        "the table of all points has the same figures\"></canvas></div>\n</section>\n",
+        shapes, record.groups.size() < 2 ? " hidden=\"hidden\"" : "", choices);
+}
+
+std::string scalingHtml(const BenchRecord& record) {
+    if (scalingCurves(record.groups).empty()) return "";
+    return "<section id=\"scaling\">\n<h2>How time grows</h2>\n"
+           "<p class=\"lede\">Both axes are logarithmic, so that a slope of 1 is time in proportion. Tap a name to "
+           "hide "
+           "its curve.</p>\n"
+           "<p class=\"controls\"><label>Show <select id=\"scaling-curves\"></select></label></p>\n"
+           "<div class=\"plot tall\"><canvas id=\"scaling-plot\" role=\"img\" aria-label=\"Milliseconds a frame "
+           "against "
+           "the chosen quantity\"></canvas></div>\n" +
+           fitsHtml(record.groups) + "</section>\n";
+}
+
+std::string sharedHtml(const BenchPicture& picture) {
+    if (picture.points.empty()) return "the truth";
+    if (picture.points.size() < 2) return "";
+    return fmt::format("and, bit for bit, {} other{}", picture.points.size() - 1, picture.points.size() > 2 ? "s" : "");
+}
+
+std::string picturesHtml(const BenchGroup& group, std::size_t number, const PictureBytes& bytes) {
+    if (group.pictures.size() < 2) return "";
+    std::string html = fmt::format("<article class=\"pair viewer\">\n<header><h3>{}</h3></header>\n"
+                                   "<div class=\"stage-place\"></div>\n<div class=\"gallery\">\n",
+                                   escapedHtml(groupName(group)));
+    for (std::size_t i = 0; i < group.pictures.size(); ++i) {
+        const BenchPicture& picture = group.pictures[i];
+        html += fmt::format("<div>\n<figure>\n<img id=\"bench-{}-{}\" class=\"picture\" data-name=\"{}\" width=\"{}\" "
+                            "height=\"{}\" alt=\"The scene as {} shows it\" src=\"{}\" />\n"
+                            "<figcaption><strong>{}</strong> {}</figcaption>\n</figure>\n",
+                            number, i, escapedHtml(picture.name), group.sizePixels.x, group.sizePixels.y,
+                            escapedHtml(picture.name), pngDataUri(bytes(picture.file)), escapedHtml(picture.name),
+                            sharedHtml(picture));
+        if (picture.points.size() > 1) {
+            std::string names;
+            for (const std::string& name : picture.points) names += "<li>" + escapedHtml(name) + "</li>\n";
+            html +=
+                "<details><summary>All that show it</summary>\n<ul class=\"names\">\n" + names + "</ul>\n</details>\n";
+        }
+        if (!picture.heatMapFile.empty())
+            html +=
+                fmt::format("<figure>\n<img alt=\"Heat map of the relative error of {}\" src=\"{}\" />\n"
+                            "<figcaption>Its relative error against {}, logarithmic: black agrees to fp32 rounding, "
+                            "pale yellow is off by as much as it shows.</figcaption>\n</figure>\n",
+                            escapedHtml(picture.name), pngDataUri(bytes(picture.heatMapFile)), group.truth);
+        html += "</div>\n";
+    }
+    return html + "</div>\n</article>\n";
+}
+
+std::string allPicturesHtml(const BenchRecord& record, const PictureBytes& bytes) {
+    if (!bytes) return "";
+    std::string html;
+    for (std::size_t i = 0; i < record.groups.size(); ++i) html += picturesHtml(record.groups[i], i, bytes);
+    if (html.empty()) return "";
+    return "<section id=\"bench-pictures\">\n<h2>What they show</h2>\n" + html + "</section>\n";
+}
+
+std::string causesHtml(const BenchRecord& record) {
+    std::string html;
+    for (const BenchGroup& group : record.groups) {
+        // One of each scene: its pictures are the ones kept.
+        if (!group.pictures.empty()) html += attributionHtml(group);
+    }
+    if (html.empty()) return "";
+    return "<section id=\"causes\">\n<h2>Where the error comes from</h2>\n<p class=\"lede\">Each cause alone, all "
+           "others "
+           "absent. Errors of points are measured with exact filtering, so that filtering by hardware, which the timed "
+           "frames use, stands here only. Bars are logarithmic, from 10<sup>&minus;12</sup> to 1.</p>\n" +
+           html + "</section>\n";
+}
+
+std::string allPointsHtml(const BenchRecord& record, const BenchGroup& headline) {
+    std::string html = "<section id=\"points\">\n<h2>All points</h2>\n";
+    for (const BenchGroup& group : record.groups) {
+        std::string note = fmt::format("errors against {}", group.truth);
+        if (!group.whyTruth.empty()) note += ": " + group.whyTruth;
+        html += fmt::format("<details{}><summary>{}; {}</summary>\n{}</details>\n",
+                            &group == &headline ? " open=\"open\"" : "", escapedHtml(groupName(group)),
+                            escapedHtml(note), pointsHtml(group));
+    }
+    if (!record.skipped.empty()) {
+        html += "<details><summary>Skipped combinations</summary>\n<ul class=\"skipped\">\n";
+        for (const SkippedPoint& skipped : record.skipped)
+            html += fmt::format("<li>{}: {}</li>\n", escapedHtml(skipped.what), escapedHtml(skipped.why));
+        html += "</ul>\n</details>\n";
+    }
+    return html + "</section>\n";
+}
+
+} // namespace
+
+ReportBench benchHtml(const BenchRecord& record, const BenchGroup& headline, const PictureBytes& pictureBytes) {
+    return {answerHtml(headline), answersHtml(record) + paretoHtml(record, headline) + scalingHtml(record) +
+                                      allPicturesHtml(record, pictureBytes) + causesHtml(record) +
+                                      allPointsHtml(record, headline) + scriptData(plotData(record))};
+}
+
+} // namespace tessera::validation

@@ -1,0 +1,255 @@
+#include "validation/bench/BenchJson.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "scenes/Error.h"
+#include "validation/bench/Pareto.h"
+
+namespace tessera::validation {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename T>
+Json orNull(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+template <typename T>
+void read(const Json& json, const char* name, T& value) {
+    value = json.at(name).get<T>();
+}
+
+template <typename T>
+void read(const Json& json, const char* name, std::optional<T>& value) {
+    const Json& found = json.at(name);
+    if (found.is_null())
+        value.reset();
+    else
+        value = found.get<T>();
+}
+
+Json spreadJson(const std::optional<TimeSpread>& spread) {
+    if (!spread) return nullptr;
+    return {{"median", spread->median}, {"p95", spread->p95}};
+}
+
+std::optional<TimeSpread> spreadFrom(const Json& json) {
+    if (json.is_null()) return {};
+    return TimeSpread{json.at("median").get<double>(), json.at("p95").get<double>()};
+}
+
+Json countersJson(const BenchCounters& c) {
+    return {{"lightEvaluations", orNull(c.lightEvaluations)},
+            {"neededEvaluations", orNull(c.neededEvaluations)},
+            {"neededLitEvaluations", orNull(c.neededLitEvaluations)},
+            {"tightness", orNull(c.tightness)},
+            {"evaluatedMean", orNull(c.evaluatedMean)},
+            {"evaluatedP99", orNull(c.evaluatedP99)},
+            {"evaluatedMax", orNull(c.evaluatedMax)},
+            {"falseNegatives", c.falseNegatives},
+            {"listEntries", c.listEntries},
+            {"listBytes", c.listBytes},
+            {"gbufferBytes", c.gbufferBytes},
+            {"fragments", orNull(c.fragments)},
+            {"triangles", c.triangles},
+            {"draws", c.draws}};
+}
+
+BenchCounters countersFrom(const Json& json) {
+    BenchCounters c;
+    read(json, "lightEvaluations", c.lightEvaluations);
+    read(json, "neededEvaluations", c.neededEvaluations);
+    read(json, "neededLitEvaluations", c.neededLitEvaluations);
+    read(json, "tightness", c.tightness);
+    read(json, "evaluatedMean", c.evaluatedMean);
+    read(json, "evaluatedP99", c.evaluatedP99);
+    read(json, "evaluatedMax", c.evaluatedMax);
+    read(json, "falseNegatives", c.falseNegatives);
+    read(json, "listEntries", c.listEntries);
+    read(json, "listBytes", c.listBytes);
+    read(json, "gbufferBytes", c.gbufferBytes);
+    read(json, "fragments", c.fragments);
+    read(json, "triangles", c.triangles);
+    read(json, "draws", c.draws);
+    return c;
+}
+
+Json errorJson(const std::optional<BenchError>& error) {
+    if (!error) return nullptr;
+    return {{"relMse", orNull(error->relMse)}, {"maxRel", orNull(error->maxRel)}, {"p99Rel", orNull(error->p99Rel)},
+            {"flip", orNull(error->flip)},     {"bias", orNull(error->bias)},     {"p999Rel", orNull(error->p999Rel)},
+            {"excluded", error->excluded}};
+}
+
+std::optional<BenchError> errorFrom(const Json& json) {
+    if (json.is_null()) return {};
+    BenchError error;
+    read(json, "relMse", error.relMse);
+    read(json, "maxRel", error.maxRel);
+    read(json, "p99Rel", error.p99Rel);
+    read(json, "p999Rel", error.p999Rel);
+    read(json, "flip", error.flip);
+    read(json, "bias", error.bias);
+    read(json, "excluded", error.excluded);
+    return error;
+}
+
+BenchResult resultFrom(const Json& json) {
+    BenchResult result;
+    read(json, "technique", result.key.technique);
+    read(json, "culling", result.key.culling);
+    read(json, "tile", result.key.tilePixels);
+    read(json, "layout", result.key.layout);
+    read(json, "range", result.key.rangeTolerance);
+    if (!json.at("cullOn").is_null()) read(json, "cullOn", result.builder);
+    result.times.cpuMs = spreadFrom(json.at("cpuMs")).value();
+    result.times.gpuMs = spreadFrom(json.at("gpuMs"));
+    for (const Json& pass : json.at("passes")) {
+        PassTime& time = result.times.passes.emplace_back();
+        read(pass, "name", time.name);
+        read(pass, "gpuMs", time.gpuMs);
+    }
+    result.counters = countersFrom(json.at("counters"));
+    read(json, "floorMs", result.floorMs);
+    read(json, "ratioToFloor", result.ratioToFloor);
+    result.error = errorFrom(json.at("error"));
+    read(json, "why", result.why);
+    return result;
+}
+
+FloorFigures floorFrom(const Json& json) {
+    FloorFigures floor;
+    read(json, "geometryMs", floor.geometryMs);
+    read(json, "why", floor.whyNoStores);
+    for (const Json& store : json.at("stores")) {
+        const std::string name = store.at("store").get<std::string>();
+        bool isKnown = false;
+        for (const LightStoreInfo& info : lightStoreTable()) {
+            if (info.name != name) continue;
+            floor.stores.push_back({info.name, store.at("nsPerPair").get<double>()});
+            isKnown = true;
+        }
+        if (!isKnown) throw InputError(fmt::format("unknown light store '{}'", name));
+    }
+    return floor;
+}
+
+Json picturesJson(const BenchGroup& group) {
+    Json pictures = Json::array();
+    for (const BenchPicture& picture : group.pictures)
+        pictures.push_back({{"name", picture.name},
+                            {"points", picture.points},
+                            {"file", picture.file},
+                            {"heatMap", picture.heatMapFile},
+                            {"hash", picture.hash}});
+    return pictures;
+}
+
+} // namespace
+
+Json pointJson(const BenchGroup& group, const BenchResult& result, std::optional<bool> pareto) {
+    Json passes = Json::array();
+    for (const PassTime& pass : result.times.passes)
+        passes.push_back({{"name", pass.name}, {"gpuMs", orNull(pass.gpuMs)}});
+    std::map<std::string, std::string> why = result.why;
+    if (!result.key.tilePixels) why["tile"] = why["cullOn"] = "no light lists";
+    if (!result.error && !why.contains("error")) why["error"] = "not measured yet";
+    if (!pareto) why["pareto"] = result.error ? "the error could not be measured" : why["error"];
+    return {{"scene", group.scene},
+            {"technique", result.key.technique},
+            {"culling", result.key.culling},
+            {"tile", orNull(result.key.tilePixels)},
+            {"cullOn", result.builder.empty() ? Json(nullptr) : Json(result.builder)},
+            {"layout", result.key.layout},
+            {"range", result.key.rangeTolerance},
+            {"lights", group.lights},
+            {"size", {group.sizePixels.x, group.sizePixels.y}},
+            {"gpuMs", spreadJson(result.times.gpuMs)},
+            {"cpuMs", spreadJson(result.times.cpuMs)},
+            {"passes", passes},
+            {"counters", countersJson(result.counters)},
+            {"floorMs", orNull(result.floorMs)},
+            {"ratioToFloor", orNull(result.ratioToFloor)},
+            {"error", errorJson(result.error)},
+            {"against", group.truth},
+            {"pareto", orNull(pareto)},
+            {"why", why}};
+}
+
+Json floorJson(const BenchGroup& group) {
+    Json stores = Json::array();
+    for (const FloorFigures::Store& store : group.floor.stores)
+        stores.push_back({{"store", store.name}, {"nsPerPair", store.nsPerPair}});
+    const std::optional<FloorFigures::Store> fastest = group.floor.fastestStore();
+    return {{"scene", group.scene},
+            {"lights", group.lights},
+            {"size", {group.sizePixels.x, group.sizePixels.y}},
+            {"geometryMs", group.floor.geometryMs},
+            {"nsPerPair", fastest ? Json(fastest->nsPerPair) : Json(nullptr)},
+            {"stores", stores},
+            {"why", group.floor.whyNoStores}};
+}
+
+Json attributionJson(const BenchGroup& group) {
+    Json lines = Json::array();
+    for (const AttributionLine& line : group.attribution)
+        lines.push_back({{"scene", group.scene},
+                         {"lights", group.lights},
+                         {"size", {group.sizePixels.x, group.sizePixels.y}},
+                         {"cause", line.cause},
+                         {"what", line.what},
+                         {"against", line.against},
+                         {"relMse", orNull(line.relMse)},
+                         {"p99Rel", orNull(line.p99Rel)},
+                         {"bias", orNull(line.bias)}});
+    return lines;
+}
+
+Json groupJson(const BenchGroup& group) {
+    const std::vector<std::optional<bool>> pareto = paretoFront(group);
+    Json points = Json::array();
+    for (std::size_t i = 0; i < group.results.size(); ++i)
+        points.push_back(pointJson(group, group.results[i], pareto[i]));
+    return {
+        {"scene", group.scene},           {"lights", group.lights}, {"size", {group.sizePixels.x, group.sizePixels.y}},
+        {"triangles", group.triangles},   {"truth", group.truth},   {"whyTruth", group.whyTruth},
+        {"floor", floorJson(group)},      {"points", points},       {"attribution", attributionJson(group)},
+        {"pictures", picturesJson(group)}};
+}
+
+BenchGroup groupFromJson(const Json& json) {
+    BenchGroup group;
+    read(json, "scene", group.scene);
+    read(json, "lights", group.lights);
+    group.sizePixels = {json.at("size").at(0).get<int>(), json.at("size").at(1).get<int>()};
+    read(json, "triangles", group.triangles);
+    read(json, "truth", group.truth);
+    read(json, "whyTruth", group.whyTruth);
+    group.floor = floorFrom(json.at("floor"));
+    for (const Json& point : json.at("points")) group.results.push_back(resultFrom(point));
+    for (const Json& line : json.at("attribution")) {
+        AttributionLine& cause = group.attribution.emplace_back();
+        read(line, "cause", cause.cause);
+        read(line, "what", cause.what);
+        read(line, "against", cause.against);
+        read(line, "relMse", cause.relMse);
+        read(line, "p99Rel", cause.p99Rel);
+        read(line, "bias", cause.bias);
+    }
+    for (const Json& entry : json.at("pictures")) {
+        BenchPicture& picture = group.pictures.emplace_back();
+        read(entry, "name", picture.name);
+        read(entry, "points", picture.points);
+        read(entry, "file", picture.file);
+        read(entry, "heatMap", picture.heatMapFile);
+        read(entry, "hash", picture.hash);
+    }
+    return group;
+}
+
+} // namespace tessera::validation

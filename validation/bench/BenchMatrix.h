@@ -1,0 +1,29 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "passes/recipes/Techniques.h"
+#include "renderer/frame/FrameSettings.h"
+
+namespace tessera::validation {
+
+/// What `tessera bench` runs through: the Cartesian product of these lists. An empty list stands for one entry, what
+/// the settings of the command line say.
+struct BenchMatrix {
+    std::vector<recipes::Technique> techniques; ///< empty: all
+    std::vector<culling::Method> methods;       ///< empty: every method that the technique takes
+    bool preferredMethodsOnly = false;          ///< without methods: the one alone that the technique prefers
+    std::vector<int> tilesPixels;
+    std::vector<frame::LayoutInfo> layouts;
+    std::vector<int> lights;
+    std::vector<glm::ivec2> sizesPixels;
+    std::vector<double> rangeTolerances;
+};
+
+/// Reads the matrix of a JSON object of arrays with the keys technique, culling, tile, layout, lights, size and range.
+/// `source` names it in messages. Throws InputError that names the key or value and the nearest valid ones; keys of
+/// what this version cannot vary (shadow, subsurface) are refused as such.
+BenchMatrix parseMatrix(std::string_view json, const std::string& source);
+
+} // namespace tessera::validation

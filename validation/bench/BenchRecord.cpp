@@ -1,0 +1,161 @@
+#include "validation/bench/BenchRecord.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "renderer/graph/Table.h"
+#include "validation/FigureText.h"
+#include "validation/bench/BenchJson.h"
+#include "validation/bench/Pareto.h"
+#include "validation/bench/Recommend.h"
+#include "validation/bench/ScalingFit.h"
+
+namespace tessera::validation {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kTableWidth = 120;
+
+std::string figure(const std::optional<double>& value, const char* format) {
+    return value ? fmt::format(fmt::runtime(format), *value) : "-";
+}
+
+Json keyJson(const PointKey& key) {
+    return {{"technique", key.technique},
+            {"culling", key.culling},
+            {"tile", key.tilePixels ? Json(*key.tilePixels) : Json(nullptr)},
+            {"layout", key.layout},
+            {"range", key.rangeTolerance}};
+}
+
+Json scalingJson(std::span<const BenchGroup> groups) {
+    Json curves = Json::array();
+    for (const ScalingCurve& curve : scalingCurves(groups)) {
+        Json json = {
+            {"scene", curve.scene}, {"point", keyJson(curve.key)}, {"against", curve.quantity}, {"held", curve.held},
+            {"x", curve.x},         {"cpuMs", curve.timeMs},       {"exponent", nullptr},       {"r2", nullptr},
+            {"mostOff", nullptr},   {"why", Json::object()}};
+        if (curve.fit) {
+            json["exponent"] = curve.fit->exponent;
+            json["r2"] = curve.fit->r2;
+            json["mostOff"] = curve.fit->mostOff;
+        } else {
+            json["why"]["exponent"] = "fewer than three different values";
+        }
+        curves.push_back(std::move(json));
+    }
+    return curves;
+}
+
+Json recommendationsJson(std::span<const BenchGroup> groups) {
+    Json list = Json::array();
+    for (const BenchGroup& group : groups) {
+        const std::optional<Recommendation> choice = recommendFor(group);
+        if (!choice) continue;
+        const std::optional<BenchError>& error = choice->best->error;
+        list.push_back({{"scene", group.scene},
+                        {"lights", group.lights},
+                        {"size", {group.sizePixels.x, group.sizePixels.y}},
+                        {"take", keyJson(choice->best->key)},
+                        {"cpuMs", choice->best->times.cpuMs.median},
+                        {"speedup", choice->speedup ? Json(*choice->speedup) : Json(nullptr)},
+                        {"relMse", error && error->relMse ? Json(*error->relMse) : Json(nullptr)},
+                        {"text", recommendationText(group)}});
+    }
+    return list;
+}
+
+std::string groupTable(const BenchGroup& group) {
+    using graph::Table;
+    const std::optional<FloorFigures::Store> store = group.floor.fastestStore();
+    std::string text =
+        fmt::format("{}; errors against {}; floor: {:.1f} ms for the geometry{}\n", groupName(group), group.truth,
+                    group.floor.geometryMs,
+                    store ? fmt::format(", {:.2f} ns a light and pixel ({})", store->nsPerPair, store->name) : "");
+    Table table(kTableWidth);
+    table.addColumn("technique");
+    table.addColumn("culling", Table::Align::Left, Table::Cells::Whole);
+    table.addColumn("layout");
+    const bool hasRange = std::any_of(group.results.begin(), group.results.end(),
+                                      [](const BenchResult& result) { return result.key.rangeTolerance > 0.0; });
+    if (hasRange) table.addColumn("range", Table::Align::Right, Table::Cells::Whole);
+    for (const char* title : {"ms", "p95", "to floor", "visited", "relMSE", "bias"})
+        table.addColumn(title, Table::Align::Right, Table::Cells::Whole);
+    table.addColumn("front", Table::Align::Left, Table::Cells::Whole);
+    const std::vector<std::optional<bool>> pareto = paretoFront(group);
+    for (std::size_t i = 0; i < group.results.size(); ++i) {
+        const BenchResult& result = group.results[i];
+        const PointKey& key = result.key;
+        const BenchError error = result.error.value_or(BenchError{});
+        std::vector<std::string> row{
+            key.technique, key.tilePixels ? fmt::format("{}, {}", key.culling, *key.tilePixels) : "none", key.layout};
+        if (hasRange) row.push_back(key.rangeTolerance > 0.0 ? fmt::format("{:g}", key.rangeTolerance) : "-");
+        for (const std::string& cell :
+             {fmt::format("{:.1f}", result.times.cpuMs.median), fmt::format("{:.1f}", result.times.cpuMs.p95),
+              figure(result.ratioToFloor, "{:.2f}"), figure(result.counters.evaluatedMean, "{:.1f}"),
+              error.relMse ? figureText(*error.relMse) : "-", error.bias ? figureText(*error.bias) : "-",
+              std::string(pareto[i].value_or(false) ? "*" : "")})
+            row.push_back(cell);
+        table.addRow(std::move(row));
+    }
+    text += table.text();
+    for (const AttributionLine& line : group.attribution) {
+        text += fmt::format("  {}, against {}: relMSE {}", line.what, line.against,
+                            line.relMse ? figureText(*line.relMse) : "-");
+        if (line.bias) text += fmt::format(", bias {}", figureText(*line.bias));
+        text += "\n";
+    }
+    return text + "\n";
+}
+
+} // namespace
+
+std::string benchJson(const BenchRecord& record) {
+    Json points = Json::array(), floors = Json::array(), skipped = Json::array(), attribution = Json::array();
+    for (const BenchGroup& group : record.groups) {
+        floors.push_back(floorJson(group));
+        const std::vector<std::optional<bool>> pareto = paretoFront(group);
+        for (std::size_t i = 0; i < group.results.size(); ++i)
+            points.push_back(pointJson(group, group.results[i], pareto[i]));
+        for (Json& line : attributionJson(group)) attribution.push_back(std::move(line));
+    }
+    for (const SkippedPoint& point : record.skipped) skipped.push_back({{"what", point.what}, {"why", point.why}});
+    const Json json = {{"schema", kBenchSchema},
+                       {"machine", record.machine},
+                       {"renderer", record.renderer},
+                       {"commit", record.commit},
+                       {"command", record.command},
+                       {"frames", record.frames},
+                       {"complete", record.isComplete},
+                       {"floors", floors},
+                       {"points", points},
+                       {"attribution", attribution},
+                       {"scaling", scalingJson(record.groups)},
+                       {"skipped", skipped},
+                       {"recommendations", recommendationsJson(record.groups)},
+                       {"recommendation", recommendationText(record.groups)}};
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string benchTable(const BenchRecord& record) {
+    std::string text;
+    for (const BenchGroup& group : record.groups) text += groupTable(group);
+    for (const ScalingCurve& curve : scalingCurves(record.groups)) {
+        if (!curve.fit || curve.quantity == "evaluations") continue; // these are in the files
+        text += fmt::format("{}, {}: time grows as {}^{:.2f}{} (R2 {:.3f}, {} points)\n", curve.scene,
+                            pointName(curve.key), curve.quantity, curve.fit->exponent,
+                            curve.held.empty() ? "" : " at " + curve.held, curve.fit->r2, curve.fit->points);
+    }
+    for (const SkippedPoint& point : record.skipped) text += fmt::format("skipped {}: {}\n", point.what, point.why);
+    for (const BenchGroup& group : record.groups) {
+        const std::string words = recommendationText(group);
+        if (!words.empty()) text += words + "\n";
+    }
+    return text;
+}
+
+} // namespace tessera::validation

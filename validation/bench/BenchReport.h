@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+
+#include "validation/Report.h"
+#include "validation/bench/BenchRecord.h"
+
+namespace tessera::validation {
+
+/// The page of a benchmark. `folder` is where its pictures are kept (BenchStore.h). Throws InputError when a picture is
+/// missing there.
+Report benchReport(const BenchRecord& record, const std::string& folder);
+
+/// The group that the head of the page tells of: of the first scene, the one with most work.
+const BenchGroup* headlineGroup(const BenchRecord& record);
+
+} // namespace tessera::validation

@@ -1,0 +1,20 @@
+#include "validation/bench/BenchResult.h"
+
+#include <fmt/format.h>
+
+namespace tessera::validation {
+
+std::string pointName(const PointKey& key) {
+    std::string name = key.technique;
+    if (key.tilePixels) name += fmt::format(", {} {}", key.culling, *key.tilePixels);
+    name += ", " + key.layout;
+    if (key.rangeTolerance > 0.0) name += fmt::format(", range {:g}", key.rangeTolerance);
+    return name;
+}
+
+std::string groupName(const BenchGroup& group) {
+    return fmt::format("{} with {} light{} at {}x{}", group.scene, group.lights, group.lights == 1 ? "" : "s",
+                       group.sizePixels.x, group.sizePixels.y);
+}
+
+} // namespace tessera::validation

@@ -1,0 +1,55 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/bench/BenchPlan.h"
+#include "validation/bench/BenchRecord.h"
+#include "validation/bench/MeasureGroup.h"
+
+namespace tessera::validation {
+
+/// What a run is. Points may be put beside each other only where all of this but the shard and the command is the same.
+struct RunIdentity {
+    std::string machine, renderer, commit;
+    std::string settings; ///< the options that the frames were asked for with
+    std::string against;  ///< of the errors, as asked for
+    int frames = 0;
+    int shard = 1,
+        shards = 1; ///< which part of the groups is measured here: those whose number is shard - 1 modulo shards
+    std::string command;
+};
+
+/// What is kept of a run in the folder `parts` of its output, so that it can be killed at any time, resumed, and merged
+/// with its other shards: run.json says what the run is, group-NNN.json how far each group is, beside its pictures.
+/// Files are written whole or not at all.
+class BenchStore {
+public:
+    /// Begins a run in `folder`, which must exist: anew, or with `resume` where it was left. Throws InputError when the
+    /// folder holds an unfinished run and `resume` is not set; when `resume` is set and the run there is another one,
+    /// saying in what; and when files are damaged. Throws std::runtime_error when nothing can be written.
+    BenchStore(const std::string& folder, const RunIdentity& identity, const BenchPlan& plan, bool resume);
+
+    /// Whether a group is measured here at all.
+    bool isOfShard(std::size_t group) const;
+    GroupState load(std::size_t group) const; ///< an empty state where nothing is kept
+    void keep(std::size_t group, const GroupState& state) const;
+    std::string keepPicture(std::size_t group, const std::string& name, const DisplayImage& image) const;
+
+private:
+    std::string folder_;
+    int shard_ = 1, shards_ = 1;
+};
+
+/// All that is kept in `folder`, in the order of the plan. Throws InputError where that is no run or damaged.
+BenchRecord recordIn(const std::string& folder);
+
+/// The bytes of a picture that is kept.
+std::vector<std::uint8_t> keptPicture(const std::string& folder, const std::string& file);
+
+/// Puts finished shards of one run together in `folder`, which is made where it is missing. Throws InputError when they
+/// are of different runs, saying in what, when a shard is unfinished, missing or given twice, and when the folder holds
+/// an unfinished run.
+void mergeRuns(const std::vector<std::string>& shards, const std::string& folder);
+
+} // namespace tessera::validation

@@ -1,0 +1,141 @@
+#include "validation/bench/BenchTables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include <fmt/format.h>
+
+#include "validation/FigureHtml.h"
+#include "validation/Html.h"
+#include "validation/bench/Pareto.h"
+#include "validation/bench/Recommend.h"
+#include "validation/bench/ScalingFit.h"
+
+namespace tessera::validation {
+
+namespace {
+
+std::string headHtml(std::initializer_list<const char*> titles) {
+    std::string html = "<table>\n<thead><tr>";
+    for (const char* title : titles) html += fmt::format("<th scope=\"col\">{}</th>", title);
+    return html + "</tr></thead>\n<tbody>\n";
+}
+
+std::string cellHtml(const char* label, const std::string& html) {
+    return fmt::format("<td class=\"number\" data-label=\"{}\"><span>{}</span></td>\n", label, html);
+}
+
+std::string orDash(const std::optional<double>& value, const char* format) {
+    return value ? fmt::format(fmt::runtime(format), *value) : "&ndash;";
+}
+
+const char* speedClass(double speedup) {
+    return speedup >= 1.0 ? "faster" : "slower";
+}
+
+/// How long a bar stands for a relMse: none at 1e-12, whole at 1, logarithmic between, in percent.
+double barPercent(double relMse) {
+    constexpr double kDecades = 12.0;
+    return relMse > 0.0 ? 100.0 * std::clamp(1.0 + std::log10(relMse) / kDecades, 0.0, 1.0) : 0.0;
+}
+
+} // namespace
+
+std::string answersHtml(const BenchRecord& record) {
+    if (record.groups.size() < 2) return "";
+    std::string html = "<section id=\"answers\">\n<h2>What to take</h2>\n" +
+                       headHtml({"Scene", "Take", "ms a frame", "Against forward", "relMSE", "To floor"});
+    for (const BenchGroup& group : record.groups) {
+        const std::optional<Recommendation> choice = recommendFor(group);
+        if (!choice) continue;
+        const BenchResult& best = *choice->best;
+        html += fmt::format("<tr><th scope=\"row\">{}</th>\n<td data-label=\"Take\"><strong>{}</strong></td>\n",
+                            escapedHtml(groupName(group)), escapedHtml(pointName(best.key)));
+        html += cellHtml("ms a frame", fmt::format("{:.3g}", best.times.cpuMs.median));
+        html +=
+            cellHtml("Against forward", choice->speedup ? fmt::format("<span class=\"{}\">{:.2f}&times;</span>",
+                                                                      speedClass(*choice->speedup), *choice->speedup)
+                                                        : "&ndash;");
+        html += cellHtml("relMSE", figureHtml(best.error ? best.error->relMse : std::nullopt));
+        html += cellHtml("To floor", orDash(best.ratioToFloor, "{:.2f}")) + "</tr>\n";
+    }
+    return html + "</tbody>\n</table>\n</section>\n";
+}
+
+std::string attributionHtml(const BenchGroup& group) {
+    if (group.attribution.empty()) return "";
+    std::string html = fmt::format("<h3>{}</h3>\n", escapedHtml(groupName(group))) +
+                       headHtml({"Cause", "Against", "relMSE", "", "p99 rel", "Bias"});
+    for (const AttributionLine& line : group.attribution) {
+        html += fmt::format("<tr><th scope=\"row\">{}</th>\n<td data-label=\"Against\">{}</td>\n",
+                            escapedHtml(line.what), escapedHtml(line.against));
+        html += cellHtml("relMSE", figureHtml(line.relMse));
+        html += fmt::format("<td class=\"bar\"><span class=\"{}\" style=\"width:{:.1f}%\"></span></td>\n", line.cause,
+                            barPercent(line.relMse.value_or(0.0)));
+        html += cellHtml("p99 rel", figureHtml(line.p99Rel)) + cellHtml("Bias", figureHtml(line.bias)) + "</tr>\n";
+    }
+    return html + "</tbody>\n</table>\n";
+}
+
+std::string pointsHtml(const BenchGroup& group) {
+    const bool hasRange = std::any_of(group.results.begin(), group.results.end(),
+                                      [](const BenchResult& result) { return result.key.rangeTolerance > 0.0; });
+    const bool hasFlip = std::any_of(group.results.begin(), group.results.end(),
+                                     [](const BenchResult& result) { return result.error && result.error->flip; });
+    std::string html = headHtml({"Technique", "Culling", "Layout"});
+    html.erase(html.rfind("</tr>"));
+    if (hasRange) html += "<th scope=\"col\">Range</th>";
+    for (const char* title : {"ms a frame", "p95", "To floor", "Visited", "relMSE", "p99 rel", "Bias"})
+        html += fmt::format("<th scope=\"col\">{}</th>", title);
+    if (hasFlip) html += "<th scope=\"col\">FLIP</th>";
+    html += "<th scope=\"col\">Front</th></tr></thead>\n<tbody>\n";
+    const std::vector<std::optional<bool>> pareto = paretoFront(group);
+    std::vector<std::size_t> order(group.results.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return group.results[a].times.cpuMs.median < group.results[b].times.cpuMs.median;
+    });
+    for (const std::size_t i : order) {
+        const BenchResult& result = group.results[i];
+        const PointKey& key = result.key;
+        const BenchError error = result.error.value_or(BenchError{});
+        const bool isOnFront = pareto[i].value_or(false);
+        html += fmt::format("<tr{}><th scope=\"row\">{}</th>\n<td data-label=\"Culling\">{}</td>\n"
+                            "<td data-label=\"Layout\">{}</td>\n",
+                            isOnFront ? " class=\"front\"" : "", escapedHtml(key.technique),
+                            key.tilePixels ? fmt::format("{} {}", key.culling, *key.tilePixels) : "&ndash;",
+                            escapedHtml(key.layout));
+        if (hasRange)
+            html += cellHtml("Range", key.rangeTolerance > 0.0 ? fmt::format("{:g}", key.rangeTolerance) : "&ndash;");
+        html += cellHtml("ms a frame", fmt::format("{:.1f}", result.times.cpuMs.median)) +
+                cellHtml("p95", fmt::format("{:.1f}", result.times.cpuMs.p95)) +
+                cellHtml("To floor", orDash(result.ratioToFloor, "{:.2f}")) +
+                cellHtml("Visited", orDash(result.counters.evaluatedMean, "{:.1f}")) +
+                cellHtml("relMSE", figureHtml(error.relMse)) + cellHtml("p99 rel", figureHtml(error.p99Rel)) +
+                cellHtml("Bias", figureHtml(error.bias));
+        if (hasFlip) html += cellHtml("FLIP", figureHtml(error.flip));
+        html += cellHtml("Front", isOnFront ? "&#9679;" : "") + "</tr>\n";
+    }
+    return html + "</tbody>\n</table>\n";
+}
+
+std::string fitsHtml(std::span<const BenchGroup> groups) {
+    std::string rows;
+    for (const ScalingCurve& curve : scalingCurves(groups)) {
+        if (!curve.fit) continue;
+        rows += fmt::format("<tr><th scope=\"row\">{}</th>\n<td data-label=\"Against\">{}{}</td>\n",
+                            escapedHtml(curve.scene + ": " + pointName(curve.key)), curve.quantity,
+                            curve.held.empty() ? "" : " at " + escapedHtml(curve.held));
+        rows += cellHtml("Exponent", fmt::format("{:.2f}", curve.fit->exponent)) +
+                cellHtml("R&sup2;", fmt::format("{:.3f}", curve.fit->r2)) +
+                cellHtml("Most off", fmt::format("{:.0f}&nbsp;%", 100.0 * curve.fit->mostOff)) +
+                cellHtml("Points", fmt::format("{}", curve.fit->points)) + "</tr>\n";
+    }
+    if (rows.empty()) return "";
+    return "<details><summary>Fitted exponents: time grows as the quantity to this power</summary>\n" +
+           headHtml({"Point", "Against", "Exponent", "R&sup2;", "Most off", "Points"}) + rows +
+           "</tbody>\n</table>\n</details>\n";
+}
+
+} // namespace tessera::validation

@@ -1,0 +1,84 @@
+#include "validation/bench/GroupTruth.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "validation/ErrorFigures.h"
+#include "validation/ReferencePicture.h"
+#include "validation/Rendering.h"
+
+namespace tessera::validation {
+
+namespace {
+
+frame::FrameSettings truthSettings(frame::FrameSettings settings, frame::TextureFilter filter) {
+    settings.layout = frame::layoutTable()[0].layout;
+    settings.rangeTolerance = 0.0;
+    settings.filter = filter;
+    settings.culling = {};
+    settings.lightOn.reset();
+    settings.display = false;
+    return settings;
+}
+
+} // namespace
+
+BenchTruth chooseTruth(std::optional<BenchTruth> asked, const frame::FrameSettings& settings, int lights,
+                       std::string& why) {
+    why.clear();
+    if (asked) {
+        if (*asked == BenchTruth::Reference) requireReferenceTakes(settings);
+        if (*asked == BenchTruth::Forward) why = "--against forward asks for it";
+        return *asked;
+    }
+    const double pairs = double(settings.sizePixels.x) * double(settings.sizePixels.y) * double(lights);
+    if (settings.view != frame::View::Final)
+        why = "the reference renders the view final only";
+    else if (pairs > kAffordablePairs)
+        why = fmt::format("the reference would try {:.1e} pairs of a pixel and a light, which takes minutes; --against "
+                          "reference asks for it all the same",
+                          pairs);
+    return why.empty() ? BenchTruth::Reference : BenchTruth::Forward;
+}
+
+GroupTruth::GroupTruth(recipes::Renderer& renderer, BenchTruth truth, const frame::FrameSettings& settings,
+                       frame::TextureFilter filter, const std::function<void()>& rowDone)
+    : renderer_(renderer), filter_(filter) {
+    const frame::FrameSettings exact = truthSettings(settings, filter);
+    if (truth == BenchTruth::Forward) {
+        picture_ = toPicture(renderer.render(recipes::Technique::Forward, exact));
+        return;
+    }
+    ReferencePicture reference = referencePicture(renderer.scene(), exact, rowDone);
+    excluded_ = differingTriangles(renderer, exact, reference.ids);
+    picture_ = std::move(reference.picture);
+}
+
+Picture GroupTruth::pictureOf(recipes::Technique technique, const frame::FrameSettings& settings) const {
+    frame::FrameSettings compared = settings;
+    compared.filter = filter_;
+    compared.display = false;
+    return toPicture(renderer_.render(technique, compared));
+}
+
+BenchError GroupTruth::errorOf(const Picture& picture, std::map<std::string, std::string>& why) const {
+    const ErrorFigures figures = errorFigures(picture, picture_, excluded_);
+    BenchError error;
+    const auto take = [&](const char* name, double value) -> std::optional<double> {
+        if (std::isfinite(value)) return value;
+        why[std::string("error.") + name] = "no pixel could be compared";
+        return {};
+    };
+    error.relMse = take("relMse", figures.relMse);
+    error.maxRel = take("maxRel", figures.maxRel);
+    error.p99Rel = take("p99Rel", figures.p99Rel);
+    error.p999Rel = take("p999Rel", figures.p999Rel);
+    error.bias = take("bias", figures.bias);
+    error.flip = figures.flip;
+    if (!error.flip) why["error.flip"] = figures.flipReason;
+    error.excluded = figures.excluded;
+    return error;
+}
+
+} // namespace tessera::validation

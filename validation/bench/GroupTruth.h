@@ -1,0 +1,50 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "passes/recipes/Renderer.h"
+#include "validation/Picture.h"
+#include "validation/bench/BenchResult.h"
+
+namespace tessera::validation {
+
+/// What errors are measured against: the double-precision renderer, or the technique forward with every fp32 channel
+/// and no range tolerance.
+enum class BenchTruth : std::uint8_t { Reference, Forward };
+
+/// Pairs of a pixel and a light beyond which the reference takes minutes, not seconds: on 2 cores it does some 10^7 a
+/// second.
+inline constexpr double kAffordablePairs = 1.5e9;
+
+/// What was asked for; else the reference where it takes one sample of the final view and is affordable. `why` says why
+/// it is not, and is empty where it is.
+BenchTruth chooseTruth(std::optional<BenchTruth> asked, const frame::FrameSettings& settings, int lights,
+                       std::string& why);
+
+/// The truth of one group, made once, and points held against it.
+class GroupTruth {
+public:
+    /// Errors are of frames with `filter`: the reference filters by the exact one. `rowDone` as referencePicture().
+    GroupTruth(recipes::Renderer& renderer, BenchTruth truth, const frame::FrameSettings& settings,
+               frame::TextureFilter filter, const std::function<void()>& rowDone);
+
+    /// The point's picture, as it is compared.
+    Picture pictureOf(recipes::Technique technique, const frame::FrameSettings& settings) const;
+    /// Its error; what could not be measured is none with the reason in `why` under "error.<figure>".
+    BenchError errorOf(const Picture& picture, std::map<std::string, std::string>& why) const;
+
+    const Picture& picture() const { return picture_; }
+    const std::vector<std::uint8_t>& excluded() const { return excluded_; }
+    frame::TextureFilter filter() const { return filter_; }
+    recipes::Renderer& renderer() const { return renderer_; }
+
+private:
+    recipes::Renderer& renderer_;
+    frame::TextureFilter filter_;
+    Picture picture_;
+    std::vector<std::uint8_t> excluded_;
+};
+
+} // namespace tessera::validation

@@ -1,0 +1,172 @@
+#include "validation/bench/MeasureGroup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "validation/HeatMap.h"
+#include "validation/Rendering.h"
+#include "validation/bench/Attribution.h"
+#include "validation/bench/CountPoint.h"
+
+namespace tessera::validation {
+
+namespace {
+
+// What things take beside one frame of a point, for the time left that progress shows: estimates.
+constexpr std::size_t kStepsOfAPoint = 12; // its profiled frames, the oracle and its picture
+constexpr std::size_t kStepsOfTheTruth = 20;
+constexpr std::size_t kStepsOfTheCauses = 12;
+
+/// FNV-1a of 64 bits (Fowler, Noll, Vo), over the words of the radiance.
+std::uint64_t hashOf(const Picture& picture) {
+    std::uint64_t hash = 14695981039346656037ull;
+    for (const float value : picture.rgba) {
+        std::uint32_t bits = 0;
+        static_assert(sizeof(bits) == sizeof(value));
+        std::memcpy(&bits, &value, sizeof(bits));
+        for (int byte = 0; byte < 4; ++byte) {
+            hash ^= (bits >> (8 * byte)) & 0xffu;
+            hash *= 1099511628211ull;
+        }
+    }
+    return hash;
+}
+
+DisplayImage shown(Picture picture, float exposureEV) {
+    const float scale = std::exp2(exposureEV);
+    for (float& value : picture.rgba) value *= scale;
+    return toDisplayImage(picture);
+}
+
+/// One group being measured.
+class Measurement {
+public:
+    Measurement(gpu::Context& context, const scenes::Scene& scene, const PlannedGroup& planned,
+                const BenchOptions& options, GroupState& state)
+        : context_(context), planned_(planned), options_(options), state_(state), group_(state.group),
+          renderer_(context, scene), floor_(renderer_, planned.points.front().settings) {
+        group_.scene = planned.scene;
+        group_.lights = planned.lights;
+        group_.sizePixels = planned.sizePixels;
+        group_.triangles = planned.triangles;
+        for (const BenchPoint& point : planned.points) timed_.push_back({&renderer_, point.technique, point.settings});
+    }
+
+    void run() {
+        timeRounds();
+        const frame::FrameSettings& settings = planned_.points.front().settings;
+        const BenchTruth kind = chooseTruth(options_.against, settings, planned_.lights, group_.whyTruth);
+        group_.truth = kind == BenchTruth::Reference ? "reference" : "forward";
+        const GroupTruth truth(renderer_, kind, settings, options_.errorFilter.value_or(frame::TextureFilter::Exact),
+                               [] {});
+        options_.progress(kStepsOfTheTruth);
+        if (planned_.keepsPictures && options_.keepPicture && group_.pictures.empty())
+            group_.pictures.push_back(
+                {group_.truth, {}, options_.keepPicture("truth", shown(truth.picture(), settings.exposureEV)), "", 0});
+        for (std::size_t i = group_.results.size(); i < planned_.points.size(); ++i) {
+            group_.results.push_back(resultOf(i, truth));
+            options_.progress(kStepsOfAPoint);
+            options_.keep(state_);
+        }
+        group_.attribution = attributeErrors(context_.capabilities(), truth, group_.truth, planned_.points);
+        options_.progress(kStepsOfTheCauses);
+        state_.isDone = true;
+        options_.keep(state_);
+    }
+
+private:
+    void timeRounds() {
+        const std::vector<TimedFrame> floorFrames = floor_.frames();
+        const std::size_t kinds = timed_.size() + floorFrames.size();
+        InterleaveOptions interleave;
+        interleave.rounds = options_.frames;
+        interleave.earlierMs = state_.roundsMs;
+        interleave.measured = [&](std::span<const double> roundMs) {
+            state_.roundsMs.emplace_back(roundMs.begin(), roundMs.end());
+            options_.keep(state_);
+        };
+        interleave.progress = [&](int, int) { options_.progress(kinds); };
+        timesMs_ = timeInTurn(timed_, floorFrames, interleave);
+        group_.floor = floor_.figures(std::span(timesMs_).subspan(timed_.size()));
+    }
+
+    BenchResult resultOf(std::size_t index, const GroupTruth& truth) {
+        const BenchPoint& point = planned_.points[index];
+        BenchResult result;
+        result.key = point.key;
+        result.times.cpuMs = spreadOf(timesMs_[index]);
+        profilePoint(result.times, timed_[index]);
+        countPoint(renderer_, point, result);
+        compareWithFloor(result);
+        result.why.insert(result.times.why.begin(), result.times.why.end());
+        const Picture picture = truth.pictureOf(point.technique, point.settings);
+        result.error = truth.errorOf(picture, result.why);
+        if (planned_.keepsPictures && options_.keepPicture) keepPicture(index, picture, truth);
+        return result;
+    }
+
+    void compareWithFloor(BenchResult& result) const {
+        if (!result.counters.neededEvaluations) {
+            result.why["floorMs"] = result.why["ratioToFloor"] = result.why["neededEvaluations"];
+            return;
+        }
+        result.floorMs = group_.floor.floorMs(double(*result.counters.neededEvaluations));
+        if (result.floorMs)
+            result.ratioToFloor = result.times.cpuMs.median / *result.floorMs;
+        else
+            result.why["floorMs"] = result.why["ratioToFloor"] = group_.floor.whyNoStores;
+    }
+
+    /// Most points of a group show one picture, bit for bit: it is kept once.
+    void keepPicture(std::size_t index, const Picture& picture, const GroupTruth& truth) {
+        const BenchPoint& point = planned_.points[index];
+        const std::string name = pointName(point.key);
+        const std::uint64_t hash = hashOf(picture);
+        for (std::size_t i = 1; i < group_.pictures.size(); ++i) {
+            if (group_.pictures[i].hash != hash) continue;
+            group_.pictures[i].points.push_back(name);
+            return;
+        }
+        const std::string number = fmt::format("{:03}", index);
+        group_.pictures.push_back(
+            {name,
+             {name},
+             options_.keepPicture(number, shown(picture, point.settings.exposureEV)),
+             options_.keepPicture(
+                 number + "-error",
+                 errorHeatMap(picture, truth.picture(), fmt::format("{} vs {}", name, group_.truth), truth.excluded())),
+             hash});
+    }
+
+    gpu::Context& context_;
+    const PlannedGroup& planned_;
+    const BenchOptions& options_;
+    GroupState& state_;
+    BenchGroup& group_;
+    recipes::Renderer renderer_;
+    FloorBench floor_;
+    std::vector<TimedPoint> timed_;
+    std::vector<std::vector<double>> timesMs_; ///< by kind of frame
+};
+
+} // namespace
+
+std::size_t stepsOf(const PlannedGroup& group, const GroupState& state, const BenchOptions& options) {
+    if (state.isDone) return 0;
+    // The floor's frames: the geometry, and two numbers of lights in each store.
+    const std::size_t kinds = group.points.size() + 1 + 2 * lightStoreTable().size();
+    const int left = options.frames - int(state.roundsMs.size());
+    const std::size_t rounds = left > 0 ? std::size_t(left + InterleaveOptions{}.warmUpRounds) : 0;
+    return rounds * kinds + kStepsOfTheTruth + kStepsOfTheCauses +
+           (group.points.size() - std::min(group.points.size(), state.group.results.size())) * kStepsOfAPoint;
+}
+
+void measureGroup(gpu::Context& context, const scenes::Scene& scene, const PlannedGroup& group,
+                  const BenchOptions& options, GroupState& state) {
+    if (!state.isDone) Measurement(context, scene, group, options, state).run();
+}
+
+} // namespace tessera::validation

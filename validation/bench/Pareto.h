@@ -1,0 +1,12 @@
+#pragma once
+#include <vector>
+
+#include "validation/bench/BenchResult.h"
+
+namespace tessera::validation {
+
+/// By result: whether no other of the group is at least as fast and as exact, and better in one of the two. Of results
+/// that are equal in both, all are on the front. None where the error is not known; such results dominate nothing.
+std::vector<std::optional<bool>> paretoFront(const BenchGroup& group);
+
+} // namespace tessera::validation

@@ -1,0 +1,114 @@
+#include "validation/bench/Recommend.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "validation/FigureText.h"
+
+namespace tessera::validation {
+
+namespace {
+
+/// Two pictures whose errors differ by less are equally exact: rounding alone differs by that much between GPUs.
+constexpr double kAsExact = 2.0;
+/// What two times may differ by and still be called the same: medians of 20 frames repeat to within some percent.
+constexpr double kSameSpeed = 1.05;
+
+double timeOf(const BenchResult& result) {
+    return result.times.cpuMs.median;
+}
+
+std::optional<double> relMseOf(const BenchResult& result) {
+    return result.error ? result.error->relMse : std::nullopt;
+}
+
+template <typename Condition>
+const BenchResult* fastest(const BenchGroup& group, Condition&& holds) {
+    const BenchResult* best = nullptr;
+    for (const BenchResult& result : group.results) {
+        if (holds(result) && (!best || timeOf(result) < timeOf(*best))) best = &result;
+    }
+    return best;
+}
+
+/// Forward as it is, else with whatever range tolerance it was measured with.
+const BenchResult* forwardOf(const BenchGroup& group) {
+    const BenchResult* found = nullptr;
+    for (const BenchResult& result : group.results) {
+        if (result.key.technique != "forward") continue;
+        if (!found || result.key.rangeTolerance < found->key.rangeTolerance) found = &result;
+    }
+    return found;
+}
+
+} // namespace
+
+std::optional<Recommendation> recommendFor(const BenchGroup& group) {
+    if (group.results.empty()) return {};
+    std::optional<double> least;
+    for (const BenchResult& result : group.results) {
+        const std::optional<double> relMse = relMseOf(result);
+        if (relMse && (!least || *relMse < *least)) least = relMse;
+    }
+    Recommendation choice;
+    choice.baseline = forwardOf(group);
+    const auto isExact = [&](const BenchResult& result) {
+        return least && relMseOf(result) && *relMseOf(result) <= kAsExact * *least;
+    };
+    choice.best = fastest(
+        group, [](const BenchResult& result) { return relMseOf(result) && *relMseOf(result) <= kAcceptableRelMse; });
+    choice.isAcceptable = choice.best != nullptr;
+    if (!choice.best) choice.best = fastest(group, isExact);
+    if (!choice.best) choice.best = fastest(group, [](const BenchResult&) { return true; }); // no errors are known
+    const BenchResult* exact = fastest(group, isExact);
+    if (exact != choice.best) choice.exact = exact;
+    if (choice.baseline) {
+        choice.speedup = timeOf(*choice.baseline) / timeOf(*choice.best);
+        if (choice.exact) choice.exactSpeedup = timeOf(*choice.baseline) / timeOf(*choice.exact);
+    }
+    return choice;
+}
+
+std::string speedText(double speedup) {
+    if (speedup >= kSameSpeed) return fmt::format("{:.1f}x faster than forward", speedup);
+    if (speedup <= 1.0 / kSameSpeed) return fmt::format("{:.1f}x slower than forward", 1.0 / speedup);
+    return "as fast as forward";
+}
+
+std::string recommendationText(const BenchGroup& group) {
+    const std::optional<Recommendation> choice = recommendFor(group);
+    if (!choice) return "";
+    const BenchResult& best = *choice->best;
+    std::string text = fmt::format("For {} take {}: ", groupName(group), pointName(best.key));
+    if (choice->baseline == &best)
+        text += "the fastest here";
+    else if (choice->speedup)
+        text += speedText(*choice->speedup);
+    else
+        text += "the fastest of those measured";
+    if (relMseOf(best)) text += fmt::format(" at relMSE {}", figureText(*relMseOf(best)));
+    text += fmt::format(", {:.3g} ms a frame", timeOf(best));
+    if (best.ratioToFloor) text += fmt::format(", {:.1f} times the floor", *best.ratioToFloor);
+    text += ".";
+    if (!choice->isAcceptable && relMseOf(best))
+        text += fmt::format(" Nothing here stays below relMSE {:g}; this is the most exact.", kAcceptableRelMse);
+    if (choice->exact) {
+        text += fmt::format(" As exact as any is {}", pointName(choice->exact->key));
+        if (choice->exact != choice->baseline && choice->exactSpeedup)
+            text += fmt::format(": {}", speedText(*choice->exactSpeedup));
+        text += fmt::format(" at relMSE {}.", figureText(*relMseOf(*choice->exact)));
+    }
+    return text;
+}
+
+std::string recommendationText(std::span<const BenchGroup> groups) {
+    std::string text;
+    for (const BenchGroup& group : groups) {
+        const std::string one = recommendationText(group);
+        if (!one.empty()) text += (text.empty() ? "" : " ") + one;
+    }
+    return text;
+}
+
+} // namespace tessera::validation

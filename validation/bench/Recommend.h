@@ -1,0 +1,36 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+
+#include "validation/bench/BenchResult.h"
+
+namespace tessera::validation {
+
+/// An error below which a picture is taken for the truth: relMse 1e-4, 1 % of a pixel in the mean square. It is what
+/// the packed layout promises.
+inline constexpr double kAcceptableRelMse = 1e-4;
+
+/// Which point of a group to take.
+struct Recommendation {
+    const BenchResult* best = nullptr; ///< the fastest whose error is acceptable; else the most exact
+    /// The fastest that is as exact as any, where that is another point.
+    const BenchResult* exact = nullptr;
+    const BenchResult* baseline = nullptr; ///< forward, where it was measured
+    bool isAcceptable = false;
+    std::optional<double> speedup;      ///< of best over forward
+    std::optional<double> exactSpeedup; ///< of exact over forward
+};
+
+/// None for a group without results. Pointers into the group.
+std::optional<Recommendation> recommendFor(const BenchGroup& group);
+
+/// "3.1x faster than forward", "as fast as forward", "1.4x slower than forward".
+std::string speedText(double speedup);
+
+/// The recommendation in plain words, one sentence or two a group: which of the points to take on this machine, how
+/// much faster it is than forward, at what error.
+std::string recommendationText(const BenchGroup& group);
+std::string recommendationText(std::span<const BenchGroup> groups);
+
+} // namespace tessera::validation

@@ -1,0 +1,259 @@
+"use strict";
+
+/** The plots of a benchmark's page, from the JSON that the page carries. */
+(() => {
+    const source = document.getElementById("bench-data");
+    if (!source || typeof Chart === "undefined") return;
+    const data = JSON.parse(source.textContent);
+    const shapes = ["circle", "triangle", "rect", "rectRot", "star"];
+    const layouts = [...new Set(data.groups.flatMap((group) => group.points.map((point) => point.layout)))];
+    layouts.sort((a, b) => (b === "exact") - (a === "exact"));
+    const redraws = [];
+
+    const variable = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+    const colourOf = (technique) => variable("--technique-" + data.techniques.indexOf(technique));
+    const shapeOf = (layout) => shapes[Math.max(0, layouts.indexOf(layout)) % shapes.length];
+    const isNarrow = () => window.innerWidth < 600;
+
+    const superscript = (number) =>
+        String(number).replace(/./g, (c) => (c === "-" ? "\u207b" : "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"[c]));
+
+    /** 0.012, 1.2, 120 or 1.2 x 10^6. */
+    function plain(value) {
+        if (value === 0) return "0";
+        const exponent = Math.floor(Math.log10(Math.abs(value)) + 1e-9);
+        if (exponent >= -2 && exponent <= 4) return String(+value.toPrecision(3));
+        const mantissa = +(value / 10 ** exponent).toPrecision(2);
+        return (mantissa === 1 ? "" : mantissa + "\u202f\u00d7\u202f") + "10" + superscript(exponent);
+    }
+
+    /** Ticks at powers of ten, and where few of them lie on the axis also at 2 and 5 times them. */
+    function logTicks(axis) {
+        const decades = Math.log10(axis.max / axis.min);
+        const steps = decades > 2.5 ? [1] : decades > 0.7 ? [1, 2, 5] : [1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9];
+        const every = Math.max(1, Math.ceil(decades / 8));
+        const ticks = [];
+        for (let e = Math.floor(Math.log10(axis.min)) - 1; e <= Math.ceil(Math.log10(axis.max)); ++e) {
+            if (e % every !== 0) continue;
+            for (const step of steps) {
+                const value = step * 10 ** e;
+                if (value >= axis.min * 0.999 && value <= axis.max * 1.001) ticks.push({ value });
+            }
+        }
+        axis.ticks = ticks;
+    }
+
+    function logAxis(title, more) {
+        return {
+            type: "logarithmic",
+            title: { display: true, text: title, color: variable("--soft") },
+            grid: { color: variable("--rule"), borderColor: variable("--rule") },
+            afterBuildTicks: logTicks,
+            ticks: { color: variable("--soft"), autoSkip: false, maxRotation: 0, callback: plain },
+            ...more,
+        };
+    }
+
+    /** A range that leaves a share of the axis free on both sides. */
+    function padded(values, share) {
+        const low = Math.log10(Math.min(...values)), high = Math.log10(Math.max(...values));
+        const room = Math.max((high - low) * share, 0.05);
+        return { min: 10 ** (low - room), max: 10 ** (high + room) };
+    }
+
+    function commonOptions(tooltip) {
+        return {
+            animation: false,
+            responsive: true,
+            maintainAspectRatio: false,
+            interaction: { mode: "nearest", intersect: false, axis: "xy" },
+            plugins: {
+                legend: {
+                    position: "bottom",
+                    labels: { color: variable("--ink"), usePointStyle: true, boxWidth: 7, boxHeight: 7, padding: isNarrow() ? 9 : 16 },
+                },
+                tooltip: { callbacks: tooltip, displayColors: false },
+            },
+        };
+    }
+
+    /** Draws a plot now and whenever `draw` is asked to; tells on the canvas what it shows. */
+    function plot(canvasId, configure) {
+        const canvas = document.getElementById(canvasId);
+        let chart = null;
+        const draw = () => {
+            if (chart) chart.destroy();
+            Chart.defaults.font.family = variable("--sans");
+            Chart.defaults.font.size = isNarrow() ? 11 : 13;
+            chart = new Chart(canvas, configure());
+            const shown = chart.data.datasets.map((set, i) => (set.marks ? chart.getDatasetMeta(i).data.length : 0));
+            canvas.dataset.points = shown.reduce((sum, count) => sum + count, 0);
+        };
+        draw();
+        redraws.push(draw);
+        return draw;
+    }
+
+    /** Names beside the marks that the text speaks of. */
+    const names = {
+        id: "names",
+        afterDatasetsDraw(chart) {
+            const context = chart.ctx, area = chart.chartArea;
+            context.save();
+            context.font = "600 " + Chart.defaults.font.size + "px " + Chart.defaults.font.family;
+            context.fillStyle = variable("--ink");
+            chart.data.datasets.forEach((set, i) => {
+                if (!chart.isDatasetVisible(i)) return;
+                chart.getDatasetMeta(i).data.forEach((mark, j) => {
+                    const label = set.data[j].label;
+                    if (!label) return;
+                    const isRight = mark.x + 14 + context.measureText(label).width < area.right;
+                    context.textAlign = isRight ? "left" : "right";
+                    context.fillText(label, mark.x + (isRight ? 12 : -12), mark.y - 9);
+                });
+            });
+            context.restore();
+        },
+    };
+
+    function frontConfiguration(group) {
+        const measured = group.points.filter((point) => point.relMse !== null);
+        const positive = measured.map((point) => point.relMse).filter((value) => value > 0);
+        // A logarithmic axis has no place for 0: the pictures that are the truth lie on its lower end.
+        const zero = positive.length ? 10 ** (Math.floor(Math.log10(Math.min(...positive))) - 1) : 1e-12;
+        const place = (point) => ({ x: point.ms, y: point.relMse > 0 ? point.relMse : zero, point });
+        const datasets = data.techniques
+            .filter((technique) => measured.some((point) => point.technique === technique))
+            .map((technique) => {
+                const own = measured.filter((point) => point.technique === technique);
+                return {
+                    label: technique,
+                    marks: true,
+                    data: own.map(place),
+                    backgroundColor: colourOf(technique),
+                    borderColor: variable("--card"),
+                    borderWidth: 1,
+                    pointRadius: own.map((point) => (point.front ? 8 : 6)),
+                    pointHoverRadius: 9,
+                    pointStyle: own.map((point) => shapeOf(point.layout)),
+                };
+            });
+        const front = measured.filter((point) => point.front).sort((a, b) => a.ms - b.ms || b.relMse - a.relMse);
+        datasets.push({
+            label: "front",
+            type: "line",
+            data: front.map(place),
+            borderColor: variable("--soft"),
+            borderWidth: 1.5,
+            borderDash: [5, 4],
+            pointRadius: 0,
+            pointHitRadius: 0,
+            pointStyle: "line",
+            order: 1,
+        });
+        datasets.push({
+            label: "take",
+            data: measured.filter((point) => point.best).map((point) => ({ ...place(point), label: point.technique })),
+            backgroundColor: "transparent",
+            borderColor: variable("--ink"),
+            borderWidth: 2,
+            pointRadius: 12,
+            pointHitRadius: 0,
+            pointStyle: "circle",
+        });
+        const options = commonOptions({
+            title: (items) => items[0].raw.point.name,
+            label: (item) => {
+                const point = item.raw.point;
+                const lines = [
+                    plain(point.ms) + " ms a frame, p95 " + plain(point.p95),
+                    "relMSE " + plain(point.relMse) + ", p99 rel " + (point.p99Rel === null ? "\u2013" : plain(point.p99Rel)),
+                ];
+                if (point.toFloor !== null) lines.push(plain(point.toFloor) + " times the floor");
+                return lines;
+            },
+        });
+        options.plugins.tooltip.filter = (item, i) => i === 0;
+        const heights = measured.map((point) => place(point).y);
+        const vertical = heights.length ? padded(heights, 0.12) : {};
+        options.scales = {
+            x: logAxis("ms a frame", measured.length ? padded(measured.map((point) => point.ms), 0.06) : {}),
+            y: logAxis("relMSE against " + group.truth, vertical),
+        };
+        options.scales.y.ticks.callback = (value) => (value <= zero * 1.01 ? "0" : plain(value));
+        return { type: "scatter", data: { datasets }, options, plugins: [names] };
+    }
+
+    const groupChoice = document.getElementById("front-group");
+    const drawFront = plot("front-plot", () => frontConfiguration(data.groups[groupChoice.value]));
+    groupChoice.addEventListener("change", drawFront);
+
+    const scalingChoice = document.getElementById("scaling-curves");
+    if (scalingChoice) {
+        const titleOf = (curve) =>
+            curve.scene + ": time against " + curve.quantity + (curve.held ? " at " + curve.held : "");
+        const titles = [...new Set(data.curves.map(titleOf))];
+        for (const title of titles) scalingChoice.add(new Option(title, title));
+        scalingChoice.closest(".controls").hidden = titles.length < 2;
+        const dashes = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
+        const configure = () => {
+            const curves = data.curves.filter((curve) => titleOf(curve) === scalingChoice.value);
+            const datasets = curves.map((curve) => ({
+                label: curve.name + (curve.exponent === null ? "" : " (" + curve.exponent.toFixed(2) + ")"),
+                marks: true,
+                data: curve.x.map((x, i) => ({ x, y: curve.ms[i] })),
+                borderColor: colourOf(curve.technique),
+                backgroundColor: colourOf(curve.technique),
+                borderWidth: 2,
+                borderDash: dashes[Math.max(0, layouts.indexOf(curve.layout)) % dashes.length],
+                pointStyle: shapeOf(curve.layout),
+                pointRadius: 4,
+                pointHoverRadius: 7,
+            }));
+            const options = commonOptions({
+                title: (items) => items[0].dataset.label,
+                label: (item) => plain(item.raw.x) + " " + curves[0].quantity + ": " + plain(item.raw.y) + " ms",
+            });
+            options.plugins.tooltip.filter = (item, i) => i === 0;
+            options.scales = {
+                x: logAxis(curves[0].quantity, padded(curves.flatMap((curve) => curve.x), 0.04)),
+                y: logAxis("ms a frame", padded(curves.flatMap((curve) => curve.ms), 0.08)),
+            };
+            return { type: "line", data: { datasets }, options };
+        };
+        const drawScaling = plot("scaling-plot", configure);
+        scalingChoice.addEventListener("change", drawScaling);
+    }
+
+    /** A slider between any two pictures of a group. */
+    document.querySelectorAll(".viewer").forEach((viewer) => {
+        const pictures = [...viewer.querySelectorAll("img.picture")];
+        const place = viewer.querySelector(".stage-place");
+        const choice = (label, selected) => {
+            const select = document.createElement("select");
+            pictures.forEach((picture, i) => select.add(new Option(picture.dataset.name, i, false, i === selected)));
+            const element = document.createElement("label");
+            element.append(label + " ", select);
+            return { element, select };
+        };
+        const left = choice("Left", 0), right = choice("Right", pictures.length - 1);
+        const controls = document.createElement("p");
+        controls.className = "controls";
+        controls.append(left.element, right.element);
+        const show = () => {
+            const figure = document.createElement("figure");
+            for (const [side, chosen] of [["left", left], ["right", right]]) {
+                const picture = pictures[chosen.select.value];
+                figure.dataset[side] = picture.id;
+                figure.dataset[side + "Name"] = picture.dataset.name;
+            }
+            buildSlider(figure);
+            place.replaceChildren(controls, figure);
+        };
+        left.select.addEventListener("change", show);
+        right.select.addEventListener("change", show);
+        show();
+    });
+
+    window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => redraws.forEach((draw) => draw()));
+})();
