@@ -51,9 +51,10 @@ DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, con
     return graph.addPass<Outputs>(
         "deferred_lighting",
         [&](graph::PassBuilder& pass, Outputs& out) {
-            for (std::size_t i = 0; i < inputs.channels.size(); ++i) {
-                pass.expect(inputs.channels[i], spec.texture(spec.settings.layout.format(spec.channels[i])));
-                out.read.channels.push_back(pass.read(inputs.channels[i]));
+            const std::vector<frame::GBufferTexture> textures = spec.gbufferTextures();
+            for (std::size_t i = 0; i < inputs.textures.size(); ++i) {
+                pass.expect(inputs.textures[i], spec.texture(textures[i].format));
+                out.read.textures.push_back(pass.read(inputs.textures[i]));
             }
             pass.expect(inputs.depth, spec.texture(graph::Format::Depth32Float));
             out.read.depth = pass.read(inputs.depth);
@@ -67,8 +68,8 @@ DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, con
             gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
             resources->lights.bind();
             if (out.read.lists) resources->lightLists.bind();
-            for (std::size_t i = 0; i < out.read.channels.size(); ++i) {
-                gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), context.texture(out.read.channels[i]));
+            for (std::size_t i = 0; i < out.read.textures.size(); ++i) {
+                gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), context.texture(out.read.textures[i]));
             }
             gpu::bindTexture(TEXTURE_UNIT_DEPTH, context.texture(out.read.depth));
             if (compute)

@@ -19,7 +19,7 @@ struct DeferredLightingPass {
         bool visitsLights = true; ///< false: emission alone, for passes that add lights to it
     };
     struct Inputs {
-        std::vector<graph::TextureHandle> channels; ///< by attachment, as FrameSpec::channels
+        std::vector<graph::TextureHandle> textures; ///< by attachment, as FrameSpec::gbufferTextures()
         graph::TextureHandle depth;
         std::optional<frame::LightListHandles> lists; ///< where FrameSpec::culling asks for them
     };

@@ -16,17 +16,14 @@ GBufferPass::Outputs GBufferPass::add(graph::Graph& graph, const frame::FrameSpe
     return graph.addPass<Outputs>(
         "gbuffer",
         [&](graph::PassBuilder& pass, Outputs& out) {
-            for (const frame::Channel channel : spec.channels) {
-                const std::string name(frame::channelTable()[std::size_t(channel)].name);
-                out.channels.push_back(
-                    pass.create("gbuffer." + name, spec.texture(spec.settings.layout.format(channel))));
-            }
+            for (const frame::GBufferTexture& texture : spec.gbufferTextures())
+                out.textures.push_back(pass.create("gbuffer." + texture.name, spec.texture(texture.format)));
             out.depth = pass.create("depth", spec.texture(graph::Format::Depth32Float), graph::Access::DepthAttachment);
         },
         [resources, program = program(spec)](const Outputs& out, const graph::PassContext& context) {
             gpu::Attachments attachments;
-            for (const graph::TextureHandle channel : out.channels)
-                attachments.colors.push_back(&context.texture(channel));
+            for (const graph::TextureHandle texture : out.textures)
+                attachments.colors.push_back(&context.texture(texture));
             attachments.depth = &context.texture(out.depth);
             gpu::bindFramebuffer(resources->framebuffers.get(attachments));
             // Channels of uncovered pixels are never read: depth 0 says that nothing is there.

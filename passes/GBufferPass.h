@@ -9,11 +9,12 @@ namespace tessera::passes {
 
 /// Stores the nearest opaque or alpha-masked surface of each pixel.
 /// Reads   the scene
-/// Writes  the channels of FrameSpec::channels in the layout's formats (kGBufferChannels), depth D32F reverse-Z
+/// Writes  the channels of FrameSpec::channels in the layout's textures (renderer/frame/GBufferLayout.h), depth D32F
+///         reverse-Z
 /// Space   lighting space
 struct GBufferPass {
     struct Outputs {
-        std::vector<graph::TextureHandle> channels; ///< by attachment, as FrameSpec::channels
+        std::vector<graph::TextureHandle> textures; ///< by attachment, as FrameSpec::gbufferTextures()
         graph::TextureHandle depth;
     };
     static shader::ProgramDesc program(const frame::FrameSpec& spec);

@@ -28,9 +28,10 @@ LightVolumesPass::Outputs LightVolumesPass::add(graph::Graph& graph, const frame
     return graph.addPass<Outputs>(
         "light_volumes",
         [&](graph::PassBuilder& pass, Outputs& out) {
-            for (std::size_t i = 0; i < inputs.channels.size(); ++i) {
-                pass.expect(inputs.channels[i], spec.texture(spec.settings.layout.format(spec.channels[i])));
-                out.channels.push_back(pass.read(inputs.channels[i]));
+            const std::vector<frame::GBufferTexture> textures = spec.gbufferTextures();
+            for (std::size_t i = 0; i < inputs.textures.size(); ++i) {
+                pass.expect(inputs.textures[i], spec.texture(textures[i].format));
+                out.textures.push_back(pass.read(inputs.textures[i]));
             }
             pass.expect(inputs.depth, spec.texture(graph::Format::Depth32Float));
             out.depth = pass.read(inputs.depth, graph::Access::DepthTest);
@@ -50,8 +51,8 @@ LightVolumesPass::Outputs LightVolumesPass::add(graph::Graph& graph, const frame
             gpu::useProgram(resources->programs.get(program));
             gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
             resources->lights.bind();
-            for (std::size_t i = 0; i < out.channels.size(); ++i) {
-                gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), context.texture(out.channels[i]));
+            for (std::size_t i = 0; i < out.textures.size(); ++i) {
+                gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), context.texture(out.textures[i]));
             }
             gpu::bindTexture(TEXTURE_UNIT_DEPTH, context.texture(out.depth));
             gpu::drawVertices(vertices, int(resources->constants.lights.x));

@@ -15,12 +15,12 @@ namespace tessera::passes {
 /// Source  Hargreaves and Harris 2004, "Deferred Shading"
 struct LightVolumesPass {
     struct Inputs {
-        std::vector<graph::TextureHandle> channels; ///< by attachment, as FrameSpec::channels
+        std::vector<graph::TextureHandle> textures; ///< by attachment, as FrameSpec::gbufferTextures()
         graph::TextureHandle depth;
         graph::TextureHandle radiance; ///< emission and background
     };
     struct Outputs {
-        std::vector<graph::TextureHandle> channels; ///< as read
+        std::vector<graph::TextureHandle> textures; ///< as read
         graph::TextureHandle depth;                 ///< as read
         graph::TextureHandle radiance;
     };

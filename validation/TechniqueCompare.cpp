@@ -1,5 +1,7 @@
 #include "validation/TechniqueCompare.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "passes/recipes/ChooseCulling.h"
@@ -175,8 +177,11 @@ Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout,
                         std::size_t lightCount) {
     Tolerance tolerance;
     if (recipes::techniqueTable()[std::size_t(technique)].usesGBuffer && isPacked(layout)) {
-        tolerance.relMse = 1e-4;
-        tolerance.reason = "the packed layout's promise: no channel's step shows, 1 % of a pixel in the mean square";
+        tolerance.relMse = frame::promisedRelMse(layout);
+        tolerance.reason =
+            fmt::format("the layout's promise: its channels' steps change a pixel by {:.1f} % in the mean "
+                        "square",
+                        100.0 * std::sqrt(*tolerance.relMse));
     } else if (isSoftware) {
         tolerance.bitEqual = 1.0;
         tolerance.maxRel = 0.0;

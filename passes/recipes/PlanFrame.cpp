@@ -50,10 +50,8 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const PreparedFra
 void addCounters(graph::Plan& plan, const scenes::Scene& scene, const PreparedFrame& prepared) {
     std::size_t draws = 0;
     for (const scenes::Node& node : scene.nodes) draws += node.instances.size();
-    std::size_t gbufferBytes = 0;
-    for (const frame::Channel channel : prepared.spec.channels) {
-        gbufferBytes += std::size_t(graph::formatInfo(prepared.spec.settings.layout.format(channel)).bytes);
-    }
+    const auto gbufferBytes =
+        std::uint64_t(frame::bytesPerPixel(prepared.spec.settings.layout, prepared.spec.channels));
     plan.counters = {{"triangles", scenes::triangleCount(scene)},
                      {"draws", draws},
                      {"lights", scene.lights.size()},

@@ -70,14 +70,14 @@ struct Recipe {
     }
     TextureHandle deferredLighting(const DeferredLightingPass::Params& params, const GBufferPass::Outputs& gbuffer) {
         frame.programs.push_back(DeferredLightingPass::program(spec, params));
-        return DeferredLightingPass::add(frame.graph, spec, params, {gbuffer.channels, gbuffer.depth, frame.lists},
+        return DeferredLightingPass::add(frame.graph, spec, params, {gbuffer.textures, gbuffer.depth, frame.lists},
                                          resources)
             .radiance;
     }
     TextureHandle lightVolumes(const GBufferPass::Outputs& gbuffer, TextureHandle radiance) {
         if (!LightVolumesPass::isNeeded(spec)) return radiance;
         frame.programs.push_back(LightVolumesPass::program(spec));
-        return LightVolumesPass::add(frame.graph, spec, {gbuffer.channels, gbuffer.depth, radiance}, resources)
+        return LightVolumesPass::add(frame.graph, spec, {gbuffer.textures, gbuffer.depth, radiance}, resources)
             .radiance;
     }
     /// One sample a pixel of what was drawn with several.

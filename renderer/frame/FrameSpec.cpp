@@ -107,7 +107,10 @@ std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const Fram
     for (const ChannelInfo& info : channelTable()) {
         if (!gbuffer) break;
         if (std::find(spec.channels.begin(), spec.channels.end(), info.channel) != spec.channels.end()) continue;
-        const auto bytes = std::size_t(graph::formatInfo(spec.settings.layout.format(info.channel)).bytes);
+        std::vector<Channel> more = spec.channels;
+        more.push_back(info.channel);
+        const auto bytes =
+            std::size_t(bytesPerPixel(spec.settings.layout, more) - bytesPerPixel(spec.settings.layout, spec.channels));
         out.push_back({fmt::format("G-buffer channel {}", info.name),
                        fmt::format("needed only by {}", info.needed),
                        pixels * bytes,

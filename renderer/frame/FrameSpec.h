@@ -16,7 +16,7 @@ namespace tessera::frame {
 struct FrameSpec {
     FrameSettings settings;
     FeatureSet features;
-    std::vector<Channel> channels; ///< of the G-buffer, by attachment
+    std::vector<Channel> channels; ///< of the G-buffer
     culling::Choice culling;
     LightingStage lightOn = LightingStage::Fragment; ///< where the technique has a lighting pass
     std::size_t lights = 0;                          ///< that the frame's pixels may visit
@@ -24,6 +24,8 @@ struct FrameSpec {
     bool lightsEverywhere = false; ///< some lights reach everywhere, while others do not
     int samples = 1;               ///< that the pixels of render targets have
 
+    /// Of the G-buffer, by attachment.
+    std::vector<GBufferTexture> gbufferTextures() const { return frame::gbufferTextures(settings.layout, channels); }
     /// A texture of the picture's size.
     graph::TextureDesc texture(graph::Format format) const {
         return {format, settings.sizePixels.x, settings.sizePixels.y, 1};

@@ -1,6 +1,10 @@
 #include "renderer/frame/GBufferLayout.h"
 
 #include <algorithm>
+#include <cassert>
+#include <numeric>
+
+#include <fmt/format.h>
 
 namespace tessera::frame {
 
@@ -8,35 +12,86 @@ namespace {
 
 using graph::Format;
 
+// The first five channels hold every isotropic surface; their widths add up to 128 and 96 bits.
 constexpr ChannelInfo kChannels[] = {
-    {Channel::Albedo, "albedo", "ALBEDO", "k_d or base colour", Format::Rgba32Float, Format::R32Uint,
-     "square root, 11 11 10 bit, 0..1", "scenes with a lit model"},
-    {Channel::Normal, "normal", "NORMAL", "unit normal, lighting space", Format::Rgba32Float, Format::Rg16Snorm,
-     "octahedral 2 x 16 bit", "scenes with a lit model"},
-    {Channel::Microsurface, "microsurface", "MICROSURFACE", "alpha, model, ior or F90, metallic; exponent; masking",
-     Format::Rgba32Float, Format::R32Uint,
-     "perceptual roughness 11 bit, (ior-1)/(ior+1) or F90 11 bit, metallic or masking 7 bit, model 3 bit; exponent as "
-     "a float of 22 bit",
+    {Channel::Albedo,
+     "albedo",
+     "ALBEDO",
+     "k_d or base colour",
+     "square roots of red, green, blue",
+     {9, 9, 9},
+     {8, 8, 8},
+     "scenes with a lit model"},
+    {Channel::Normal,
+     "normal",
+     "NORMAL",
+     "unit normal, lighting space",
+     "octahedral, two coordinates",
+     {16, 16},
+     {10, 10},
+     "scenes with a lit model"},
+    {Channel::Microsurface,
+     "microsurface",
+     "MICROSURFACE",
+     "alpha, model, ior or F90, metallic; exponent; masking",
+     "model and masking, fourth root of alpha, F90, metallic; (ior-1)/(ior+1) in the last two; exponent as a float in "
+     "the last three",
+     {4, 9, 6, 6},
+     {4, 7, 4, 4},
      "scenes with several models, another ior, or no room beside albedo and normal"},
-    {Channel::Specular, "specular", "SPECULAR", "k_s or dielectric F0", Format::Rgba32Float, Format::R32Uint,
-     "square root, 11 11 10 bit, 0..1", "scenes that change k_s or the dielectric F0"},
-    {Channel::Emission, "emission", "EMISSION", "radiance without lights", Format::Rgba32Float, Format::R32Uint,
-     "shared exponent 9 9 9 5", "scenes with emissive or unlit materials"},
-    {Channel::Tangent, "tangent", "TANGENT", "unit tangent, lighting space; alpha along the bitangent",
-     Format::Rgba32Float, Format::R32Uint, "angle 16 bit and its axis 2 bit, perceptual roughness 11 bit",
+    {Channel::Specular,
+     "specular",
+     "SPECULAR",
+     "k_s or dielectric F0",
+     "square roots of red, green, blue",
+     {6, 6, 6},
+     {4, 4, 4},
+     "scenes that change k_s or the dielectric F0"},
+    {Channel::Emission,
+     "emission",
+     "EMISSION",
+     "radiance without lights",
+     "shared exponent; red, green, blue",
+     {8, 6, 6, 6},
+     {6, 5, 5, 5},
+     "scenes with emissive or unlit materials"},
+    {Channel::Tangent,
+     "tangent",
+     "TANGENT",
+     "unit tangent, lighting space; alpha along the bitangent",
+     "axis, point on half a diamond, fourth root of alpha",
+     {2, 13, 9},
+     {2, 9, 7},
      "scenes with anisotropic materials"},
-    {Channel::Clearcoat, "clearcoat", "CLEARCOAT", "the coat's normal, octahedral; share; alpha", Format::Rgba32Float,
-     Format::Rg32Uint, "octahedral 2 x 16 bit, share 16 bit, perceptual roughness 16 bit",
+    {Channel::Clearcoat,
+     "clearcoat",
+     "CLEARCOAT",
+     "the coat's normal, octahedral; share; alpha",
+     "octahedral, two coordinates; share, fourth root of alpha",
+     {12, 12, 8, 9},
+     {10, 10, 6, 7},
      "scenes with coated materials"},
-    {Channel::Sheen, "sheen", "SHEEN", "the sheen's colour and alpha", Format::Rgba32Float, Format::R32Uint,
-     "square root, 8 8 8 bit, 0..1; perceptual roughness 8 bit", "scenes with cloth"},
-    {Channel::NormalTexel, "normal_texel", "NORMAL_TEXEL", "normal map as stored", Format::Rgba32Float,
-     Format::Rgba8Unorm, "8 bit a component", "the view that shows it"},
+    {Channel::Sheen,
+     "sheen",
+     "SHEEN",
+     "the sheen's colour and alpha",
+     "square roots of red, green, blue; fourth root of alpha",
+     {8, 8, 8, 8},
+     {6, 6, 6, 6},
+     "scenes with cloth"},
+    {Channel::NormalTexel,
+     "normal_texel",
+     "NORMAL_TEXEL",
+     "normal map as stored",
+     "red, green, blue",
+     {8, 8, 8},
+     {8, 8, 8},
+     "the view that shows it"},
 };
 static_assert(std::size(kChannels) == kChannelCount);
 
-bool haveSpareComponents(const GBufferLayout& layout) {
-    return layout[Channel::Albedo] == Encoding::Exact && layout[Channel::Normal] == Encoding::Exact;
+const ChannelInfo& infoOf(Channel channel) {
+    return kChannels[static_cast<std::size_t>(channel)];
 }
 
 constexpr GBufferLayout uniformLayout(Encoding encoding) {
@@ -45,10 +100,25 @@ constexpr GBufferLayout uniformLayout(Encoding encoding) {
     return layout;
 }
 
+// By Encoding.
 constexpr LayoutInfo kLayouts[] = {
-    {"exact", "fp32 everywhere; deferred equals forward to the last bit", uniformLayout(Encoding::Exact)},
-    {"packed", "12 to 16 bytes a pixel and depth; relMse below 1e-4", uniformLayout(Encoding::Packed)},
+    {"exact", "fp32 everywhere; deferred equals forward to the last bit", uniformLayout(Encoding::Exact), 0.0},
+    {"packed", "8 to 16 bytes a pixel and depth for isotropic scenes; relMse below 1e-4",
+     uniformLayout(Encoding::Packed), 1e-4},
+    {"slim", "8 to 12 bytes a pixel and depth for isotropic scenes; relMse below 5e-4", uniformLayout(Encoding::Slim),
+     5e-4},
 };
+
+bool haveSpareComponents(const GBufferLayout& layout) {
+    return layout[Channel::Albedo] == Encoding::Exact && layout[Channel::Normal] == Encoding::Exact;
+}
+
+int wordsOf(const GBufferLayout& layout, std::span<const Channel> channels) {
+    int bits = 0;
+    for (const Channel channel : channels)
+        if (layout[channel] != Encoding::Exact) bits += layout.bits(channel);
+    return (bits + 31) / 32;
+}
 
 } // namespace
 
@@ -59,9 +129,20 @@ std::span<const LayoutInfo> layoutTable() {
     return kLayouts;
 }
 
-graph::Format GBufferLayout::format(Channel channel) const {
-    const ChannelInfo& info = kChannels[static_cast<std::size_t>(channel)];
-    return (*this)[channel] == Encoding::Exact ? info.exact : info.packed;
+double promisedRelMse(const GBufferLayout& layout) {
+    const Encoding coarsest = *std::max_element(layout.encoding.begin(), layout.encoding.end());
+    return kLayouts[static_cast<std::size_t>(coarsest)].relMse;
+}
+
+const FieldWidths& GBufferLayout::widths(Channel channel) const {
+    assert((*this)[channel] != Encoding::Exact);
+    return (*this)[channel] == Encoding::Packed ? infoOf(channel).packed : infoOf(channel).slim;
+}
+
+int GBufferLayout::bits(Channel channel) const {
+    if ((*this)[channel] == Encoding::Exact) return 8 * graph::formatInfo(Format::Rgba32Float).bytes;
+    const FieldWidths& fields = widths(channel);
+    return std::accumulate(fields.begin(), fields.end(), 0);
 }
 
 std::vector<Channel> neededChannels(const FeatureSet& features, const GBufferLayout& layout, bool normalTexel) {
@@ -88,13 +169,52 @@ std::vector<Channel> neededChannels(const FeatureSet& features, const GBufferLay
     return channels;
 }
 
+std::vector<GBufferTexture> gbufferTextures(const GBufferLayout& layout, std::span<const Channel> channels) {
+    std::vector<GBufferTexture> textures;
+    for (const Channel channel : channels)
+        if (layout[channel] == Encoding::Exact)
+            textures.push_back({std::string(infoOf(channel).name), Format::Rgba32Float});
+    const int words = wordsOf(layout, channels);
+    for (int word = 0; word < words;) {
+        const int left = words - word;
+        const int held = left >= 4 ? 4 : left >= 2 ? 2 : 1;
+        textures.push_back({word == 0   ? std::string("words")
+                            : held == 1 ? fmt::format("words {}", word)
+                                        : fmt::format("words {} to {}", word, word + held - 1),
+                            held == 4   ? Format::Rgba32Uint
+                            : held == 2 ? Format::Rg32Uint
+                                        : Format::R32Uint});
+        word += held;
+    }
+    return textures;
+}
+
+int bytesPerPixel(const GBufferLayout& layout, std::span<const Channel> channels) {
+    int bytes = 0;
+    for (const GBufferTexture& texture : gbufferTextures(layout, channels))
+        bytes += graph::formatInfo(texture.format).bytes;
+    return bytes;
+}
+
 Defines channelDefines(const GBufferLayout& layout, std::span<const Channel> channels) {
     Defines defines;
-    for (std::size_t attachment = 0; attachment < channels.size(); ++attachment) {
-        const std::string name =
-            "GBUFFER_" + std::string(kChannels[static_cast<std::size_t>(channels[attachment])].define);
-        defines.emplace_back(name, std::to_string(attachment));
-        defines.emplace_back(name + "_PACKED", layout[channels[attachment]] == Encoding::Packed ? "1" : "0");
+    int attachment = 0, bit = 0;
+    for (const Channel channel : channels) {
+        const std::string name = "GBUFFER_" + std::string(infoOf(channel).define);
+        if (layout[channel] == Encoding::Exact) {
+            defines.emplace_back(name, std::to_string(attachment++));
+            defines.emplace_back(name + "_PACKED", "0");
+        } else {
+            const FieldWidths& w = layout.widths(channel);
+            defines.emplace_back(name, std::to_string(bit));
+            defines.emplace_back(name + "_PACKED", "1");
+            defines.emplace_back(name + "_WIDTHS", fmt::format("{}, {}, {}, {}", w[0], w[1], w[2], w[3]));
+            bit += layout.bits(channel);
+        }
+    }
+    if (bit > 0) {
+        defines.emplace_back("GBUFFER_WORDS", std::to_string((bit + 31) / 32));
+        defines.emplace_back("GBUFFER_WORD_TEXTURE", std::to_string(attachment));
     }
     const auto has = [&](Channel channel) {
         return std::find(channels.begin(), channels.end(), channel) != channels.end();

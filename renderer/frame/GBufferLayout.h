@@ -1,8 +1,8 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -10,7 +10,7 @@
 #include "renderer/graph/Format.h"
 
 /// The G-buffer as a table of channels. The table drives textures, shader defines (encoder and decoder in
-/// shaders/lib/gbuffer.glsl), plans and the error attribution.
+/// shaders/lib/gbuffer.glsl), plans, the derived error bounds and the error attribution.
 namespace tessera::frame {
 
 /// A frame needs at most eight of them, which is what OpenGL guarantees to draw into at once.
@@ -28,28 +28,32 @@ enum class Channel : std::uint8_t {
 };
 inline constexpr std::size_t kChannelCount = static_cast<std::size_t>(Channel::Count);
 
-enum class Encoding : std::uint8_t { Exact, Packed };
+enum class Encoding : std::uint8_t { Exact, Packed, Slim };
+
+/// Bits of a channel's fields, in the order of ChannelInfo::fields; 0 behind the last.
+using FieldWidths = std::array<std::uint8_t, 4>;
 
 struct ChannelInfo {
     Channel channel;
     std::string_view name;   ///< as in plans: "albedo"
     std::string_view define; ///< GBUFFER_<define>
     std::string_view meaning;
-    graph::Format exact;
-    graph::Format packed;
-    std::string_view packedEncoding; ///< in words
-    std::string_view needed;         ///< which scenes need it
+    std::string_view fields; ///< what the widths are of
+    FieldWidths packed;
+    FieldWidths slim;
+    std::string_view needed; ///< which scenes need it
 };
 std::span<const ChannelInfo> channelTable();
 
-/// One encoding for every channel. `exact` keeps fp32; `packed` takes 12 bytes a pixel, 16 where materials change the
-/// specular colour, and 4 more where some emit, 4 where some are anisotropic, 8 where some are coated and 4 where some
-/// have a sheen; depth comes on top.
+/// The encoding of each channel. Channels that are `Exact` have an RGBA32F texture of their own; the fields of the
+/// others lie end to end in 32-bit words, in table order. How a channel is encoded never depends on which others there
+/// are, so that leaving one out changes no bit of the picture.
 struct GBufferLayout {
     std::array<Encoding, kChannelCount> encoding{};
 
     Encoding operator[](Channel channel) const { return encoding[static_cast<std::size_t>(channel)]; }
-    graph::Format format(Channel channel) const;
+    const FieldWidths& widths(Channel channel) const; ///< of a channel that is not exact
+    int bits(Channel channel) const;                  ///< 128 of an exact one
     bool operator==(const GBufferLayout&) const = default;
 };
 
@@ -57,18 +61,34 @@ struct LayoutInfo {
     std::string_view name;
     std::string_view summary;
     GBufferLayout layout;
+    double relMse; ///< of its pictures against `exact`, at most
 };
 /// The named layouts, `exact` first.
 std::span<const LayoutInfo> layoutTable();
 
-/// The channels that surfaces of these features need, in table order: attachment i is element i. `normalTexel` is for
-/// the view that shows it, and shows nothing of tangents, coats and sheens. In fp32 the fourth components of albedo and
-/// normal are free: alpha and metallic go there, and the microsurface channel is left out, where all surfaces are
-/// metallic_roughness with the usual specular lobe.
+/// What the pictures of a layout, named or mixed, are held to: the promise of its coarsest channel.
+double promisedRelMse(const GBufferLayout& layout);
+
+/// The channels that surfaces of these features need, in table order. `normalTexel` is for the view that shows it, and
+/// shows nothing of tangents, coats and sheens. In fp32 the fourth components of albedo and normal are free: alpha and
+/// metallic go there, and the microsurface channel is left out, where all surfaces are metallic_roughness with the
+/// usual specular lobe.
 std::vector<Channel> neededChannels(const FeatureSet& features, const GBufferLayout& layout, bool normalTexel);
 
-/// GBUFFER_<NAME> = attachment and GBUFFER_<NAME>_PACKED = 0 or 1 of each channel; GBUFFER_SPARE_COMPONENTS where alpha
-/// and metallic lie in the fourth components of others.
+struct GBufferTexture {
+    std::string name; ///< that of its channel, or "words", "words 4 to 5"
+    graph::Format format;
+    bool operator==(const GBufferTexture&) const = default;
+};
+/// What the channels are stored in; attachment i is element i: the exact ones, then the words, four, two or one a
+/// texture.
+std::vector<GBufferTexture> gbufferTextures(const GBufferLayout& layout, std::span<const Channel> channels);
+int bytesPerPixel(const GBufferLayout& layout, std::span<const Channel> channels); ///< without depth
+
+/// GBUFFER_<NAME>_PACKED = 0 or 1 of each channel. Of an exact one GBUFFER_<NAME> is its attachment; of others
+/// GBUFFER_<NAME> is the bit where its fields begin and GBUFFER_<NAME>_WIDTHS their widths. GBUFFER_WORDS is the number
+/// of words and GBUFFER_WORD_TEXTURE the attachment of the first, where there are any. GBUFFER_SPARE_COMPONENTS where
+/// alpha and metallic lie in the fourth components of others.
 Defines channelDefines(const GBufferLayout& layout, std::span<const Channel> channels);
 
 } // namespace tessera::frame

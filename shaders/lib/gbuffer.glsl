@@ -1,12 +1,17 @@
 // The G-buffer's channels: how a surface is stored in them and read back.
-// Which channels exist, at which attachment and in which encoding comes from the table kGBufferChannels
-// (renderer/frame/GBufferLayout.h) as defines: GBUFFER_<NAME> is the attachment, GBUFFER_<NAME>_PACKED its encoding.
+// Which channels exist, where and in which encoding comes from the table channelTable() (renderer/frame/GBufferLayout.h) as
+// defines. A channel in fp32 (GBUFFER_<NAME>_PACKED 0) has the attachment GBUFFER_<NAME>. The fields of the others lie end to end
+// in GBUFFER_WORDS words, from the bit GBUFFER_<NAME> on, GBUFFER_<NAME>_WIDTHS bits wide; the words are in attachments from
+// GBUFFER_WORD_TEXTURE on, four, then two, then one of them in each.
 // GBUFFER_SPARE_COMPONENTS: metallic and alpha are the fourth components of albedo and normal.
 // GBUFFER_WRITE declares the channels as outputs, otherwise they are textures.
 #pragma once
 #include "shared/slots.h"
 #include "lib/surface.glsl"
-#include "lib/gbuffer_encodings.glsl"
+#include "lib/gbuffer_exact.glsl"
+#ifdef GBUFFER_WORDS
+#include "lib/gbuffer_layers.glsl"
+#endif
 
 #ifdef GBUFFER_WRITE
 #include "lib/gbuffer_write.glsl"

@@ -1,60 +1,65 @@
 // Reads a surface from the channels of the G-buffer; included by lib/gbuffer.glsl.
 #pragma once
 
-#ifdef GBUFFER_ALBEDO
-#if GBUFFER_ALBEDO_PACKED
-layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_ALBEDO) uniform usampler2D albedoChannel;
-#else
+#if defined(GBUFFER_ALBEDO) && !GBUFFER_ALBEDO_PACKED
 layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_ALBEDO) uniform sampler2D albedoChannel;
 #endif
-#endif
-#ifdef GBUFFER_NORMAL
+#if defined(GBUFFER_NORMAL) && !GBUFFER_NORMAL_PACKED
 layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_NORMAL) uniform sampler2D normalChannel;
 #endif
-#ifdef GBUFFER_MICROSURFACE
-#if GBUFFER_MICROSURFACE_PACKED
-layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_MICROSURFACE) uniform usampler2D microsurfaceChannel;
-#else
+#if defined(GBUFFER_MICROSURFACE) && !GBUFFER_MICROSURFACE_PACKED
 layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_MICROSURFACE) uniform sampler2D microsurfaceChannel;
 #endif
-#endif
-#ifdef GBUFFER_SPECULAR
-#if GBUFFER_SPECULAR_PACKED
-layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_SPECULAR) uniform usampler2D specularChannel;
-#else
+#if defined(GBUFFER_SPECULAR) && !GBUFFER_SPECULAR_PACKED
 layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_SPECULAR) uniform sampler2D specularChannel;
 #endif
-#endif
-#ifdef GBUFFER_EMISSION
-#if GBUFFER_EMISSION_PACKED
-layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_EMISSION) uniform usampler2D emissionChannel;
-#else
+#if defined(GBUFFER_EMISSION) && !GBUFFER_EMISSION_PACKED
 layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_EMISSION) uniform sampler2D emissionChannel;
 #endif
-#endif
-#ifdef GBUFFER_TANGENT
-#if GBUFFER_TANGENT_PACKED
-layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_TANGENT) uniform usampler2D tangentChannel;
-#else
+#if defined(GBUFFER_TANGENT) && !GBUFFER_TANGENT_PACKED
 layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_TANGENT) uniform sampler2D tangentChannel;
 #endif
-#endif
-#ifdef GBUFFER_CLEARCOAT
-#if GBUFFER_CLEARCOAT_PACKED
-layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_CLEARCOAT) uniform usampler2D clearcoatChannel;
-#else
+#if defined(GBUFFER_CLEARCOAT) && !GBUFFER_CLEARCOAT_PACKED
 layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_CLEARCOAT) uniform sampler2D clearcoatChannel;
 #endif
-#endif
-#ifdef GBUFFER_SHEEN
-#if GBUFFER_SHEEN_PACKED
-layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_SHEEN) uniform usampler2D sheenChannel;
-#else
+#if defined(GBUFFER_SHEEN) && !GBUFFER_SHEEN_PACKED
 layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_SHEEN) uniform sampler2D sheenChannel;
 #endif
-#endif
-#ifdef GBUFFER_NORMAL_TEXEL
+#if defined(GBUFFER_NORMAL_TEXEL) && !GBUFFER_NORMAL_TEXEL_PACKED
 layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_NORMAL_TEXEL) uniform sampler2D normalTexelChannel;
+#endif
+#ifdef GBUFFER_WORDS
+#if GBUFFER_WORDS >= 4
+layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_WORD_TEXTURE) uniform usampler2D firstWords;
+#endif
+#if GBUFFER_WORDS >= 8
+layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_WORD_TEXTURE + 1) uniform usampler2D secondWords;
+#endif
+#if (GBUFFER_WORDS & 2) != 0
+layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_WORD_TEXTURE + GBUFFER_WORDS / 4) uniform usampler2D pairOfWords;
+#endif
+#if (GBUFFER_WORDS & 1) != 0
+layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_WORD_TEXTURE + GBUFFER_WORDS / 4 + (GBUFFER_WORDS & 2) / 2) uniform usampler2D lastWord;
+#endif
+
+void fetchWords(ivec2 pixel)
+{
+#if GBUFFER_WORDS >= 4
+    uvec4 firstWordsTexel = texelFetch(firstWords, pixel, 0);
+    for (int i = 0; i < 4; ++i) gbufferWords[i] = firstWordsTexel[i];
+#endif
+#if GBUFFER_WORDS >= 8
+    uvec4 secondWordsTexel = texelFetch(secondWords, pixel, 0);
+    for (int i = 0; i < 4; ++i) gbufferWords[4 + i] = secondWordsTexel[i];
+#endif
+#if (GBUFFER_WORDS & 2) != 0
+    uvec4 pairOfWordsTexel = texelFetch(pairOfWords, pixel, 0);
+    for (int i = 0; i < 2; ++i) gbufferWords[GBUFFER_WORDS / 4 * 4 + i] = pairOfWordsTexel[i];
+#endif
+#if (GBUFFER_WORDS & 1) != 0
+    gbufferWords[GBUFFER_WORDS - 1] = texelFetch(lastWord, pixel, 0).r;
+#endif
+}
 #endif
 
 Surface surfaceFromGBuffer(ivec2 pixel)
@@ -69,9 +74,13 @@ Surface surfaceFromGBuffer(ivec2 pixel)
     surface.normalLS = vec3(0.0, 0.0, 1.0);
     surface.normalTexel = vec3(0.5, 0.5, 1.0);
     setNeutralLobes(surface);
+#ifdef GBUFFER_WORDS
+    fetchWords(pixel);
+#endif
 #ifdef GBUFFER_ALBEDO
 #if GBUFFER_ALBEDO_PACKED
-    surface.albedo = decodeSquareRoot(texelFetch(albedoChannel, pixel, 0).r);
+    gbufferBit = GBUFFER_ALBEDO;
+    surface.albedo = takeRoots(ivec4(GBUFFER_ALBEDO_WIDTHS));
 #else
     vec4 albedo = texelFetch(albedoChannel, pixel, 0);
     surface.albedo = albedo.rgb;
@@ -82,7 +91,8 @@ Surface surfaceFromGBuffer(ivec2 pixel)
 #endif
 #ifdef GBUFFER_NORMAL
 #if GBUFFER_NORMAL_PACKED
-    surface.normalLS = decodeOctahedral(texelFetch(normalChannel, pixel, 0).xy);
+    gbufferBit = GBUFFER_NORMAL;
+    surface.normalLS = decodeOctahedral(takeOctahedral(ivec4(GBUFFER_NORMAL_WIDTHS)));
 #else
     vec4 normal = texelFetch(normalChannel, pixel, 0);
     surface.normalLS = normal.xyz;
@@ -93,7 +103,8 @@ Surface surfaceFromGBuffer(ivec2 pixel)
 #endif
 #ifdef GBUFFER_MICROSURFACE
 #if GBUFFER_MICROSURFACE_PACKED
-    decodeMicrosurface(texelFetch(microsurfaceChannel, pixel, 0).r, surface);
+    gbufferBit = GBUFFER_MICROSURFACE;
+    takeMicrosurface(ivec4(GBUFFER_MICROSURFACE_WIDTHS), surface);
 #else
     readExactMicrosurface(texelFetch(microsurfaceChannel, pixel, 0), surface);
 #endif
@@ -101,21 +112,24 @@ Surface surfaceFromGBuffer(ivec2 pixel)
     surface.specular = defaultSpecular(surface.model);
 #ifdef GBUFFER_SPECULAR
 #if GBUFFER_SPECULAR_PACKED
-    surface.specular = decodeSquareRoot(texelFetch(specularChannel, pixel, 0).r);
+    gbufferBit = GBUFFER_SPECULAR;
+    surface.specular = takeRoots(ivec4(GBUFFER_SPECULAR_WIDTHS));
 #else
     surface.specular = texelFetch(specularChannel, pixel, 0).rgb;
 #endif
 #endif
 #ifdef GBUFFER_EMISSION
 #if GBUFFER_EMISSION_PACKED
-    surface.emission = decodeSharedExponent(texelFetch(emissionChannel, pixel, 0).r);
+    gbufferBit = GBUFFER_EMISSION;
+    surface.emission = takeRadiance(ivec4(GBUFFER_EMISSION_WIDTHS));
 #else
     surface.emission = texelFetch(emissionChannel, pixel, 0).rgb;
 #endif
 #endif
 #ifdef GBUFFER_TANGENT
 #if GBUFFER_TANGENT_PACKED
-    decodeTangent(texelFetch(tangentChannel, pixel, 0).r, surface);
+    gbufferBit = GBUFFER_TANGENT;
+    takeTangent(ivec4(GBUFFER_TANGENT_WIDTHS), surface);
 #else
     vec4 tangent = texelFetch(tangentChannel, pixel, 0);
     surface.tangentLS = tangent.xyz;
@@ -124,7 +138,8 @@ Surface surfaceFromGBuffer(ivec2 pixel)
 #endif
 #ifdef GBUFFER_CLEARCOAT
 #if GBUFFER_CLEARCOAT_PACKED
-    decodeClearcoat(texelFetch(clearcoatChannel, pixel, 0).rg, surface);
+    gbufferBit = GBUFFER_CLEARCOAT;
+    takeClearcoat(ivec4(GBUFFER_CLEARCOAT_WIDTHS), surface);
 #else
     vec4 clearcoat = texelFetch(clearcoatChannel, pixel, 0);
     surface.coatNormalCode = clearcoat.xy;
@@ -134,7 +149,8 @@ Surface surfaceFromGBuffer(ivec2 pixel)
 #endif
 #ifdef GBUFFER_SHEEN
 #if GBUFFER_SHEEN_PACKED
-    decodeSheen(texelFetch(sheenChannel, pixel, 0).r, surface);
+    gbufferBit = GBUFFER_SHEEN;
+    takeSheen(ivec4(GBUFFER_SHEEN_WIDTHS), surface);
 #else
     vec4 sheen = texelFetch(sheenChannel, pixel, 0);
     surface.sheenColor = sheen.rgb;
@@ -142,7 +158,12 @@ Surface surfaceFromGBuffer(ivec2 pixel)
 #endif
 #endif
 #ifdef GBUFFER_NORMAL_TEXEL
+#if GBUFFER_NORMAL_TEXEL_PACKED
+    gbufferBit = GBUFFER_NORMAL_TEXEL;
+    surface.normalTexel = takeTexel(ivec4(GBUFFER_NORMAL_TEXEL_WIDTHS));
+#else
     surface.normalTexel = texelFetch(normalTexelChannel, pixel, 0).rgb;
+#endif
 #endif
     return surface;
 }

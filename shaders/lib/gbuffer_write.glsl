@@ -1,121 +1,142 @@
 // Stores a surface in the channels of the G-buffer; included by lib/gbuffer.glsl.
 #pragma once
 
-#ifdef GBUFFER_ALBEDO
-#if GBUFFER_ALBEDO_PACKED
-layout(location = GBUFFER_ALBEDO) out uvec4 albedoChannel;
-#else
+#if defined(GBUFFER_ALBEDO) && !GBUFFER_ALBEDO_PACKED
 layout(location = GBUFFER_ALBEDO) out vec4 albedoChannel;
 #endif
-#endif
-#ifdef GBUFFER_NORMAL
+#if defined(GBUFFER_NORMAL) && !GBUFFER_NORMAL_PACKED
 layout(location = GBUFFER_NORMAL) out vec4 normalChannel;
 #endif
-#ifdef GBUFFER_MICROSURFACE
-#if GBUFFER_MICROSURFACE_PACKED
-layout(location = GBUFFER_MICROSURFACE) out uvec4 microsurfaceChannel;
-#else
+#if defined(GBUFFER_MICROSURFACE) && !GBUFFER_MICROSURFACE_PACKED
 layout(location = GBUFFER_MICROSURFACE) out vec4 microsurfaceChannel;
 #endif
-#endif
-#ifdef GBUFFER_SPECULAR
-#if GBUFFER_SPECULAR_PACKED
-layout(location = GBUFFER_SPECULAR) out uvec4 specularChannel;
-#else
+#if defined(GBUFFER_SPECULAR) && !GBUFFER_SPECULAR_PACKED
 layout(location = GBUFFER_SPECULAR) out vec4 specularChannel;
 #endif
-#endif
-#ifdef GBUFFER_EMISSION
-#if GBUFFER_EMISSION_PACKED
-layout(location = GBUFFER_EMISSION) out uvec4 emissionChannel;
-#else
+#if defined(GBUFFER_EMISSION) && !GBUFFER_EMISSION_PACKED
 layout(location = GBUFFER_EMISSION) out vec4 emissionChannel;
 #endif
-#endif
-#ifdef GBUFFER_TANGENT
-#if GBUFFER_TANGENT_PACKED
-layout(location = GBUFFER_TANGENT) out uvec4 tangentChannel;
-#else
+#if defined(GBUFFER_TANGENT) && !GBUFFER_TANGENT_PACKED
 layout(location = GBUFFER_TANGENT) out vec4 tangentChannel;
 #endif
-#endif
-#ifdef GBUFFER_CLEARCOAT
-#if GBUFFER_CLEARCOAT_PACKED
-layout(location = GBUFFER_CLEARCOAT) out uvec4 clearcoatChannel;
-#else
+#if defined(GBUFFER_CLEARCOAT) && !GBUFFER_CLEARCOAT_PACKED
 layout(location = GBUFFER_CLEARCOAT) out vec4 clearcoatChannel;
 #endif
-#endif
-#ifdef GBUFFER_SHEEN
-#if GBUFFER_SHEEN_PACKED
-layout(location = GBUFFER_SHEEN) out uvec4 sheenChannel;
-#else
+#if defined(GBUFFER_SHEEN) && !GBUFFER_SHEEN_PACKED
 layout(location = GBUFFER_SHEEN) out vec4 sheenChannel;
 #endif
-#endif
-#ifdef GBUFFER_NORMAL_TEXEL
+#if defined(GBUFFER_NORMAL_TEXEL) && !GBUFFER_NORMAL_TEXEL_PACKED
 layout(location = GBUFFER_NORMAL_TEXEL) out vec4 normalTexelChannel;
+#endif
+#ifdef GBUFFER_WORDS
+#if GBUFFER_WORDS >= 4
+layout(location = GBUFFER_WORD_TEXTURE) out uvec4 firstWords;
+#endif
+#if GBUFFER_WORDS >= 8
+layout(location = GBUFFER_WORD_TEXTURE + 1) out uvec4 secondWords;
+#endif
+#if (GBUFFER_WORDS & 2) != 0
+layout(location = GBUFFER_WORD_TEXTURE + GBUFFER_WORDS / 4) out uvec2 pairOfWords;
+#endif
+#if (GBUFFER_WORDS & 1) != 0
+layout(location = GBUFFER_WORD_TEXTURE + GBUFFER_WORDS / 4 + (GBUFFER_WORDS & 2) / 2) out uint lastWord;
+#endif
+
+void storeWords()
+{
+#if GBUFFER_WORDS >= 4
+    for (int i = 0; i < 4; ++i) firstWords[i] = gbufferWords[i];
+#endif
+#if GBUFFER_WORDS >= 8
+    for (int i = 0; i < 4; ++i) secondWords[i] = gbufferWords[4 + i];
+#endif
+#if (GBUFFER_WORDS & 2) != 0
+    for (int i = 0; i < 2; ++i) pairOfWords[i] = gbufferWords[GBUFFER_WORDS / 4 * 4 + i];
+#endif
+#if (GBUFFER_WORDS & 1) != 0
+    lastWord = gbufferWords[GBUFFER_WORDS - 1];
+#endif
+}
 #endif
 
 void writeGBuffer(Surface surface)
 {
+#ifdef GBUFFER_WORDS
+    for (int word = 0; word < GBUFFER_WORDS; ++word) gbufferWords[word] = 0u;
+#endif
 #ifdef GBUFFER_ALBEDO
 #if GBUFFER_ALBEDO_PACKED
-    albedoChannel = uvec4(encodeSquareRoot(surface.albedo), 0u, 0u, 0u);
+    gbufferBit = GBUFFER_ALBEDO;
+    putRoots(surface.albedo, ivec4(GBUFFER_ALBEDO_WIDTHS));
 #else
     albedoChannel = vec4(surface.albedo, surface.metallic);
 #endif
 #endif
 #ifdef GBUFFER_NORMAL
 #if GBUFFER_NORMAL_PACKED
-    normalChannel = vec4(encodeOctahedral(surface.normalLS), 0.0, 0.0);
+    gbufferBit = GBUFFER_NORMAL;
+    putOctahedral(encodeOctahedral(surface.normalLS), ivec4(GBUFFER_NORMAL_WIDTHS));
 #else
     normalChannel = vec4(surface.normalLS, surface.alpha);
 #endif
 #endif
 #ifdef GBUFFER_MICROSURFACE
 #if GBUFFER_MICROSURFACE_PACKED
-    microsurfaceChannel = uvec4(encodeMicrosurface(surface), 0u, 0u, 0u);
+    gbufferBit = GBUFFER_MICROSURFACE;
+    putMicrosurface(surface, ivec4(GBUFFER_MICROSURFACE_WIDTHS));
 #else
     microsurfaceChannel = exactMicrosurface(surface);
 #endif
 #endif
 #ifdef GBUFFER_SPECULAR
 #if GBUFFER_SPECULAR_PACKED
-    specularChannel = uvec4(encodeSquareRoot(surface.specular), 0u, 0u, 0u);
+    gbufferBit = GBUFFER_SPECULAR;
+    putRoots(surface.specular, ivec4(GBUFFER_SPECULAR_WIDTHS));
 #else
     specularChannel = vec4(surface.specular, 0.0);
 #endif
 #endif
 #ifdef GBUFFER_EMISSION
 #if GBUFFER_EMISSION_PACKED
-    emissionChannel = uvec4(encodeSharedExponent(surface.emission), 0u, 0u, 0u);
+    gbufferBit = GBUFFER_EMISSION;
+    putRadiance(surface.emission, ivec4(GBUFFER_EMISSION_WIDTHS));
 #else
     emissionChannel = vec4(surface.emission, 0.0);
 #endif
 #endif
 #ifdef GBUFFER_TANGENT
 #if GBUFFER_TANGENT_PACKED
-    tangentChannel = uvec4(encodeTangent(surface), 0u, 0u, 0u);
+    gbufferBit = GBUFFER_TANGENT;
+    putTangent(surface, ivec4(GBUFFER_TANGENT_WIDTHS));
 #else
     tangentChannel = vec4(surface.tangentLS, surface.alphaBitangent);
 #endif
 #endif
 #ifdef GBUFFER_CLEARCOAT
 #if GBUFFER_CLEARCOAT_PACKED
-    clearcoatChannel = uvec4(encodeClearcoat(surface), 0u, 0u);
+    gbufferBit = GBUFFER_CLEARCOAT;
+    putClearcoat(surface, ivec4(GBUFFER_CLEARCOAT_WIDTHS));
 #else
     clearcoatChannel = vec4(surface.coatNormalCode, surface.coatFactor, surface.coatAlpha);
 #endif
 #endif
 #ifdef GBUFFER_SHEEN
 #if GBUFFER_SHEEN_PACKED
-    sheenChannel = uvec4(encodeSheen(surface), 0u, 0u, 0u);
+    gbufferBit = GBUFFER_SHEEN;
+    putSheen(surface, ivec4(GBUFFER_SHEEN_WIDTHS));
 #else
     sheenChannel = vec4(surface.sheenColor, surface.sheenAlpha);
 #endif
 #endif
 #ifdef GBUFFER_NORMAL_TEXEL
+#if GBUFFER_NORMAL_TEXEL_PACKED
+    gbufferBit = GBUFFER_NORMAL_TEXEL;
+    putTexel(surface.normalTexel, ivec4(GBUFFER_NORMAL_TEXEL_WIDTHS));
+#else
     normalTexelChannel = vec4(surface.normalTexel, 0.0);
+#endif
+#endif
+#ifdef GBUFFER_WORDS
+    storeWords();
 #endif
 }

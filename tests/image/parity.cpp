@@ -53,22 +53,34 @@ TEST_F(Parity, everyBuiltinSceneIsExactlyTheSameWithEveryTechnique) {
     }
 }
 
-TEST_F(Parity, packedLayoutAlwaysStaysWithinItsErrorBoundAndAttributesIt) {
+TEST_F(Parity, everyCoarseLayoutAlwaysKeepsItsPromiseAndAttributesItsError) {
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
-        SCOPED_TRACE(builtin.name);
-        const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
-        frame::FrameSettings settings;
-        settings.sizePixels = kSizes[1];
-        settings.layout = frame::layoutTable()[1].layout;
-        const validation::CompareRecord record = compare(scene, settings);
-        EXPECT_TRUE(record.ok()) << validation::compareTable(record);
-        for (const validation::ComparePair& pair : record.pairs) {
-            if (!usesGBuffer(pair.a)) continue;
-            EXPECT_LE(pair.figures.relMse, 1e-4);
-            EXPECT_LT(pair.figures.bitEqual, 1.0) << "a packed G-buffer that costs nothing was not used";
-            EXPECT_FALSE(pair.channels.empty());
+        for (const frame::LayoutInfo& layout : frame::layoutTable().subspan(1)) {
+            SCOPED_TRACE(fmt::format("{} {}", builtin.name, layout.name));
+            scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
+            if (layout.name == "slim") {
+                // Its promise leaves out this masking, which divides by n.v down to 1e-6: no bound of the normal's
+                // error bounds that of a grazing pixel (docs/numerics.md).
+                for (scenes::Material& material : scene.materials)
+                    if (material.masking == scenes::Masking::HalfVector) material.masking = scenes::Masking::Walter;
+            }
+            frame::FrameSettings settings;
+            settings.sizePixels = kSizes[1];
+            settings.layout = layout.layout;
+            const validation::CompareRecord record = compare(scene, settings);
+            EXPECT_TRUE(record.ok()) << validation::compareTable(record);
+            for (const validation::ComparePair& pair : record.pairs) {
+                if (!usesGBuffer(pair.a)) continue;
+                EXPECT_LE(pair.figures.relMse, layout.relMse);
+                EXPECT_LT(pair.figures.bitEqual, 1.0) << "a packed G-buffer that costs nothing was not used";
+                ASSERT_FALSE(pair.channels.empty());
+                // Errors of channels are independent of each other, near enough for their shares to make up the whole.
+                double sum = 0.0;
+                for (const validation::ChannelShare& share : pair.channels) sum += share.share;
+                EXPECT_NEAR(sum, pair.figures.relMse, 0.3 * pair.figures.relMse);
+            }
+            fmt::print("{}", validation::compareTable(record));
         }
-        fmt::print("{}", validation::compareTable(record));
     }
 }
 

@@ -77,9 +77,8 @@ protected:
     StoredSurface storeSurface(const frame::FrameSpec& spec, const FloorLighting& lighting) {
         StoredSurface stored;
         gpu::Attachments attachments;
-        for (const frame::Channel channel : spec.channels) {
-            stored.channels.push_back(
-                std::make_unique<gpu::Texture>("channel", spec.texture(spec.settings.layout.format(channel))));
+        for (const frame::GBufferTexture& texture : spec.gbufferTextures()) {
+            stored.channels.push_back(std::make_unique<gpu::Texture>(texture.name, spec.texture(texture.format)));
             attachments.colors.push_back(stored.channels.back().get());
         }
         stored.depth = std::make_unique<gpu::Texture>("depth", spec.texture(graph::Format::Depth32Float));

@@ -6,7 +6,7 @@
 
 #include "passes/recipes/Techniques.h"
 #include "renderer/frame/FrameSettings.h"
-#include "renderer/frame/GBufferLayout.h"
+#include "renderer/frame/GBufferBounds.h"
 
 namespace tessera {
 namespace {
@@ -15,6 +15,18 @@ using test::Rows;
 
 std::string code(std::string_view text) {
     return fmt::format("`{}`", text);
+}
+
+/// "4 + 9 + 6 + 6 = 25"
+std::string bits(const frame::FieldWidths& widths) {
+    std::string terms;
+    int sum = 0;
+    for (const int width : widths) {
+        if (width == 0) break;
+        terms += fmt::format("{}{}", terms.empty() ? "" : " + ", width);
+        sum += width;
+    }
+    return fmt::format("{} = {}", terms, sum);
 }
 
 void expectTable(const char* document, const std::vector<std::string>& head, const Rows& rows) {
@@ -27,13 +39,31 @@ void expectTable(const char* document, const std::vector<std::string>& head, con
 TEST(Documentation, theChannelsOfTheGBufferAreExactlyThoseOfTheProgram) {
     Rows rows;
     for (const frame::ChannelInfo& info : frame::channelTable()) {
-        const graph::FormatInfo& packed = graph::formatInfo(info.packed);
-        rows.push_back({code(info.name), std::string(info.meaning), std::string(graph::formatInfo(info.exact).name),
-                        fmt::format("{}, {} bytes", packed.name, packed.bytes), std::string(info.packedEncoding),
-                        std::string(info.needed)});
+        rows.push_back({code(info.name), std::string(info.meaning), std::string(info.fields), bits(info.packed),
+                        bits(info.slim), std::string(info.needed)});
     }
-    expectTable("docs/how-it-works.md", {"channel", "holds", "`exact`", "`packed`", "packed as", "allocated for"},
+    expectTable("docs/how-it-works.md",
+                {"channel", "holds", "fields of `packed` and `slim`", "`packed` bits", "`slim` bits", "allocated for"},
                 rows);
+}
+
+TEST(Documentation, theBoundsOfTheGBuffersErrorsAreExactlyThoseOfTheProgram) {
+    const std::vector<frame::FieldBound> packed = frame::fieldBounds(frame::Encoding::Packed),
+                                         slim = frame::fieldBounds(frame::Encoding::Slim);
+    const auto name = [](const frame::FieldBound& bound) {
+        return frame::channelTable()[std::size_t(bound.channel)].name;
+    };
+    const auto text = [](const frame::FieldBound& bound) {
+        return fmt::format("{:.2g}{}", bound.bound, bound.unit == "degrees" ? "°" : "");
+    };
+    Rows rows;
+    for (std::size_t i = 0; i < packed.size(); ++i) {
+        const std::string_view unit = packed[i].unit == "degrees" ? "" : packed[i].unit;
+        rows.push_back({code(name(packed[i])),
+                        fmt::format("{}{}{}", packed[i].quantity, unit.empty() ? "" : ", ", unit), text(packed[i]),
+                        text(slim[i])});
+    }
+    expectTable("docs/numerics.md", {"channel", "error of", "`packed` at most", "`slim` at most"}, rows);
 }
 
 TEST(Documentation, theTechniquesAreExactlyThoseOfTheProgram) {

@@ -1,5 +1,6 @@
 #include "renderer/frame/GBufferLayout.h"
 
+#include <array>
 #include <functional>
 #include <stdexcept>
 
@@ -22,12 +23,6 @@ FeatureSet featuresOf(
     return materialFeatures(scene);
 }
 
-int bytesPerPixel(const GBufferLayout& layout, const std::vector<Channel>& channels) {
-    int bytes = 0;
-    for (const Channel channel : channels) bytes += graph::formatInfo(layout.format(channel)).bytes;
-    return bytes;
-}
-
 const GBufferLayout& namedLayout(std::string_view name) {
     for (const LayoutInfo& info : layoutTable())
         if (info.name == name) return info.layout;
@@ -42,7 +37,8 @@ TEST(GBufferLayout, theTableAlwaysFollowsTheEnumeration) {
 
 TEST(GBufferLayout, theExactLayoutIsAlwaysFp32) {
     for (const ChannelInfo& info : channelTable())
-        EXPECT_EQ(namedLayout("exact").format(info.channel), graph::Format::Rgba32Float) << info.name;
+        EXPECT_EQ(gbufferTextures(namedLayout("exact"), std::array{info.channel}),
+                  (std::vector<GBufferTexture>{{std::string(info.name), graph::Format::Rgba32Float}}));
 }
 
 TEST(GBufferLayout, alphaAndMetallicAlwaysFillSpareComponentsWhereNothingElseIsStoredOfTheMicrosurface) {
@@ -94,37 +90,94 @@ TEST(GBufferLayout, channelsAreAllocatedExactlyWhenASurfaceNeedsThem) {
     EXPECT_THAT(channels(mixed), ElementsAre(Channel::Albedo, Channel::Normal, Channel::Microsurface));
 }
 
-TEST(GBufferLayout, aFrameNeverNeedsMoreChannelsThanOpenGlDrawsIntoAtOnce) {
+TEST(GBufferLayout, aFrameNeverNeedsMoreTexturesThanOpenGlDrawsIntoAtOnce) {
     constexpr std::size_t kDrawBuffers = 8; // the least GL_MAX_DRAW_BUFFERS of OpenGL 4.5
     for (const LayoutInfo& info : layoutTable()) {
         for (const bool normalTexel : {false, true})
-            EXPECT_LE(neededChannels(allFeatures(), info.layout, normalTexel).size(), kDrawBuffers) << info.name;
+            EXPECT_LE(gbufferTextures(info.layout, neededChannels(allFeatures(), info.layout, normalTexel)).size(),
+                      kDrawBuffers)
+                << info.name;
     }
 }
 
-TEST(GBufferLayout, packedIsNeverMoreThanSixteenBytesForIsotropicSurfacesOfOneLayerThatDoNotEmit) {
-    const GBufferLayout& packed = namedLayout("packed");
-    EXPECT_EQ(bytesPerPixel(packed, neededChannels(featuresOf(MaterialModel::Lambert), packed, false)), 8);
-    EXPECT_EQ(bytesPerPixel(packed, neededChannels(featuresOf(MaterialModel::MetallicRoughness), packed, false)), 12);
+struct Bytes {
+    int exact;
+    int packed;
+    int slim;
+    bool operator==(const Bytes&) const = default;
+};
+Bytes bytesOf(const FeatureSet& features) {
+    const auto bytes = [&](const char* name) {
+        const GBufferLayout& layout = namedLayout(name);
+        return bytesPerPixel(layout, neededChannels(features, layout, false));
+    };
+    return {bytes("exact"), bytes("packed"), bytes("slim")};
+}
+FeatureSet allIsotropicFeatures() {
     FeatureSet all = allFeatures();
-    EXPECT_EQ(bytesPerPixel(packed, neededChannels(all, packed, false)), 36);
     for (const Feature layer :
          {Feature::MicrofacetAnisotropic, Feature::Anisotropy, Feature::Clearcoat, Feature::Sheen})
         all.has.reset(std::size_t(layer));
-    EXPECT_EQ(bytesPerPixel(packed, neededChannels(all, packed, false)), 20);
-    all.has.reset(std::size_t(Feature::Emission));
-    EXPECT_EQ(bytesPerPixel(packed, neededChannels(all, packed, false)), 16);
-    EXPECT_EQ(bytesPerPixel(namedLayout("exact"), neededChannels(all, packed, false)), 64);
+    return all;
 }
 
-TEST(GBufferLayout, definesAlwaysNumberTheChannelsInOrder) {
-    GBufferLayout layout;
-    layout.encoding[std::size_t(Channel::Normal)] = Encoding::Packed;
-    const std::vector<Channel> channels{Channel::Normal, Channel::Emission};
+TEST(GBufferLayout, isotropicSurfacesNeverTakeMoreThanSixteenBytesPackedAndTwelveSlim) {
+    // Whatever else they are: every subset of what asks for a channel is at most all of it.
+    EXPECT_EQ(bytesOf(allIsotropicFeatures()), (Bytes{80, 16, 12}));
+}
+
+TEST(GBufferLayout, everyFeatureSetTakesExactlyItsBytes) {
+    using enum MaterialModel;
+    EXPECT_EQ(bytesOf(featuresOf(SingleColor)), (Bytes{16, 4, 4}));
+    EXPECT_EQ(bytesOf(featuresOf(Lambert)), (Bytes{32, 8, 8}));
+    EXPECT_EQ(bytesOf(featuresOf(BlinnPhong)), (Bytes{48, 12, 8}));
+    EXPECT_EQ(bytesOf(featuresOf(Microfacet)), (Bytes{48, 12, 8}));
+    EXPECT_EQ(bytesOf(featuresOf(MetallicRoughness)), (Bytes{32, 12, 8}));
+    const auto with = [](const std::function<void(scenes::Material&)>& change) {
+        return bytesOf(featuresOf(MetallicRoughness, change));
+    };
+    EXPECT_EQ(with([](scenes::Material& m) { m.ior = 1.4f; }), (Bytes{64, 16, 12}));
+    EXPECT_EQ(with([](scenes::Material& m) { m.emissive.r = 1.0f; }), (Bytes{48, 16, 12}));
+    EXPECT_EQ(with([](scenes::Material& m) { m.anisotropyStrength = 0.5f; }), (Bytes{48, 16, 12}));
+    EXPECT_EQ(with([](scenes::Material& m) { m.clearcoat = 0.5f; }), (Bytes{48, 16, 12}));
+    EXPECT_EQ(with([](scenes::Material& m) { m.sheenColor.g = 0.5f; }), (Bytes{48, 16, 12}));
+    EXPECT_EQ(bytesOf(allFeatures()), (Bytes{128, 32, 24}));
+}
+
+TEST(GBufferLayout, wordsAlwaysLieFourTwoAndOneInATextureBehindTheExactChannels) {
+    GBufferLayout layout = namedLayout("packed");
+    layout.encoding[std::size_t(Channel::Normal)] = Encoding::Exact;
+    using graph::Format;
+    EXPECT_EQ(gbufferTextures(layout, neededChannels(allFeatures(), layout, false)),
+              (std::vector<GBufferTexture>{{"normal", Format::Rgba32Float},
+                                           {"words", Format::Rgba32Uint},
+                                           {"words 4 to 5", Format::Rg32Uint},
+                                           {"words 6", Format::R32Uint}}));
+}
+
+TEST(GBufferLayout, aMixedLayoutIsAlwaysHeldToThePromiseOfItsCoarsestChannel) {
+    GBufferLayout layout = namedLayout("exact");
+    EXPECT_EQ(promisedRelMse(layout), 0.0);
+    layout.encoding[0] = Encoding::Packed;
+    EXPECT_EQ(promisedRelMse(layout), 1e-4);
+    layout.encoding[1] = Encoding::Slim;
+    EXPECT_EQ(promisedRelMse(layout), 5e-4);
+}
+
+TEST(GBufferLayout, definesAlwaysGiveAttachmentsOfExactChannelsAndBitsOfTheOthers) {
+    GBufferLayout layout = namedLayout("packed");
+    layout.encoding[std::size_t(Channel::Emission)] = Encoding::Exact;
+    const std::vector<Channel> channels{Channel::Normal, Channel::Specular, Channel::Emission};
     EXPECT_EQ(channelDefines(layout, channels), (Defines{{"GBUFFER_NORMAL", "0"},
                                                          {"GBUFFER_NORMAL_PACKED", "1"},
-                                                         {"GBUFFER_EMISSION", "1"},
-                                                         {"GBUFFER_EMISSION_PACKED", "0"}}));
+                                                         {"GBUFFER_NORMAL_WIDTHS", "16, 16, 0, 0"},
+                                                         {"GBUFFER_SPECULAR", "32"},
+                                                         {"GBUFFER_SPECULAR_PACKED", "1"},
+                                                         {"GBUFFER_SPECULAR_WIDTHS", "6, 6, 6, 0"},
+                                                         {"GBUFFER_EMISSION", "0"},
+                                                         {"GBUFFER_EMISSION_PACKED", "0"},
+                                                         {"GBUFFER_WORDS", "2"},
+                                                         {"GBUFFER_WORD_TEXTURE", "1"}}));
     EXPECT_THAT(channelDefines(layout, {}), IsEmpty());
 }
 

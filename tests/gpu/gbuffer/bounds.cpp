@@ -1,0 +1,137 @@
+// The error of every stored value against the bound that is derived from its field (renderer/frame/GBufferBounds.h).
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "renderer/frame/GBufferBounds.h"
+#include "tests/gpu/gbuffer/Surfaces.h"
+#include "tests/support/Random.h"
+
+namespace tessera {
+namespace {
+
+using frame::Channel;
+using test::GBufferTest;
+using test::StoredSurface;
+
+/// NaN where the surface has no such value.
+using Error = std::function<double(const StoredSurface& was, const StoredSurface& is)>;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double angleDegrees(const glm::dvec3& x, const glm::dvec3& y) {
+    return std::atan2(glm::length(glm::cross(x, y)), glm::dot(x, y)) * 180.0 / test::pi;
+}
+double rootError(float was, float is, double power) {
+    return std::abs(std::pow(double(was), power) - std::pow(double(is), power));
+}
+bool isBlinnPhong(const StoredSurface& s) {
+    return s.model == float(MODEL_BLINN_PHONG);
+}
+bool isMicrofacet(const StoredSurface& s) {
+    return s.model == float(MODEL_MICROFACET) || s.model == float(MODEL_MICROFACET_ANISOTROPIC);
+}
+double contrast(double ior) {
+    return (ior - 1.0) / (ior + 1.0);
+}
+
+using Key = std::pair<Channel, std::string_view>;
+
+std::map<Key, Error> errors(frame::Encoding encoding) {
+    std::map<Key, Error> all;
+    constexpr std::string_view kRoots[] = {"square root of red", "square root of green", "square root of blue"};
+    constexpr std::string_view kColours[] = {"red", "green", "blue"};
+    const frame::RadianceRange range = frame::radianceRange(encoding);
+    for (int c = 0; c < 3; ++c) {
+        const std::string_view root = kRoots[c], colour = kColours[c];
+        all[{Channel::Albedo, root}] = [c](auto& a, auto& b) { return rootError(a.albedo[c], b.albedo[c], 0.5); };
+        all[{Channel::Specular, root}] = [c](auto& a, auto& b) { return rootError(a.specular[c], b.specular[c], 0.5); };
+        all[{Channel::Sheen, root}] = [c](auto& a, auto& b) {
+            return rootError(a.sheenColor[c], b.sheenColor[c], 0.5);
+        };
+        all[{Channel::Emission, colour}] = [c, range](auto& a, auto& b) {
+            const glm::dvec3 held = glm::min(glm::dvec3(a.emission), glm::dvec3(range.most));
+            const double largest = std::max({held.x, held.y, held.z, range.least});
+            return std::abs(held[c] - double(b.emission[c])) / largest;
+        };
+        all[{Channel::NormalTexel, colour}] = [c](auto& a, auto& b) {
+            return std::abs(double(a.normalTexel[c]) - double(b.normalTexel[c]));
+        };
+    }
+    all[{Channel::Normal, "direction"}] = [](auto& a, auto& b) { return angleDegrees(a.normal, b.normal); };
+    all[{Channel::Microsurface, "fourth root of alpha"}] = [](auto& a, auto& b) {
+        return isBlinnPhong(a) ? kNone : rootError(a.alpha, b.alpha, 0.25);
+    };
+    all[{Channel::Microsurface, "(ior-1)/(ior+1)"}] = [](auto& a, auto& b) {
+        return isMicrofacet(a) ? std::abs(contrast(a.iorOrF90) - contrast(b.iorOrF90)) : kNone;
+    };
+    all[{Channel::Microsurface, "F90"}] = [](auto& a, auto& b) {
+        return isMicrofacet(a) || isBlinnPhong(a) ? kNone : std::abs(double(a.iorOrF90) - double(b.iorOrF90));
+    };
+    all[{Channel::Microsurface, "metallic"}] = [](auto& a, auto& b) {
+        return isMicrofacet(a) || isBlinnPhong(a) ? kNone : std::abs(double(a.metallic) - double(b.metallic));
+    };
+    all[{Channel::Microsurface, "exponent"}] = [](auto& a, auto& b) {
+        return isBlinnPhong(a) && a.exponent > 0.0f ? std::abs(b.exponent / double(a.exponent) - 1.0) : kNone;
+    };
+    all[{Channel::Tangent, "direction"}] = [](auto& a, auto& b) {
+        const double angle = angleDegrees(a.tangent, b.tangent);
+        return std::min(angle, 180.0 - angle); // a tangent has no sign
+    };
+    all[{Channel::Tangent, "fourth root of alpha"}] = [](auto& a, auto& b) {
+        return rootError(a.alphaBitangent, b.alphaBitangent, 0.25);
+    };
+    all[{Channel::Clearcoat, "direction"}] = [](auto& a, auto& b) {
+        return angleDegrees(test::fromOctahedral(a.coatNormal.x, a.coatNormal.y),
+                            test::fromOctahedral(b.coatNormal.x, b.coatNormal.y));
+    };
+    all[{Channel::Clearcoat, "share"}] = [](auto& a, auto& b) {
+        return std::abs(double(a.coatFactor) - double(b.coatFactor));
+    };
+    all[{Channel::Clearcoat, "fourth root of alpha"}] = [](auto& a, auto& b) {
+        return rootError(a.coatAlpha, b.coatAlpha, 0.25);
+    };
+    all[{Channel::Sheen, "fourth root of alpha"}] = [](auto& a, auto& b) {
+        return rootError(a.sheenAlpha, b.sheenAlpha, 0.25);
+    };
+    return all;
+}
+
+TEST_F(GBufferTest, errorsNeverExceedTheBoundDerivedFromTheirFieldAndAlwaysComeNearIt) {
+    for (const frame::Encoding encoding : {frame::Encoding::Packed, frame::Encoding::Slim}) {
+        std::vector<StoredSurface> surfaces = test::randomSurfaces(200000);
+        for (const std::vector<StoredSurface>& more :
+             {test::surfacesBetweenSteps(encoding, 200000), test::surfacesAtTheEnds()})
+            surfaces.insert(surfaces.end(), more.begin(), more.end());
+        const std::vector<StoredSurface> back = roundTrip(surfaces, encoding);
+        const std::map<Key, Error> errorOf = errors(encoding);
+        for (const frame::FieldBound& bound : frame::fieldBounds(encoding)) {
+            const std::string name =
+                fmt::format("{} {}: {}", frame::layoutTable()[std::size_t(encoding)].name,
+                            frame::channelTable()[std::size_t(bound.channel)].name, bound.quantity);
+            const Error& error = errorOf.at({bound.channel, bound.quantity});
+            double worst = 0.0;
+            std::size_t where = 0;
+            for (std::size_t i = 0; i < surfaces.size(); ++i) {
+                const double e = error(surfaces[i], back[i]);
+                if (e > worst) {
+                    worst = e;
+                    where = i;
+                }
+            }
+            fmt::print("{}: {:.3g} of {:.3g} {}\n", name, worst, bound.bound, bound.unit);
+            // 2e-6 for some ten fp32 roundings of values around 1 on the way to a code and back; an angle's is in
+            // degrees, and the octahedron's second order adds a step's share of the bound.
+            const bool angle = bound.unit == "degrees";
+            const double rounding = angle ? 2e-5 + bound.bound * 2e-3 : 2e-6;
+            EXPECT_LE(worst, bound.bound + rounding) << name << ", surface " << where;
+            EXPECT_GE(worst, bound.bound / 4.0) << name << ": the bound says nothing";
+        }
+    }
+}
+
+} // namespace
+} // namespace tessera
