@@ -103,9 +103,9 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
     if (!options.heatMaps.empty()) requireFolderPlace(options.heatMaps);
     const Request request = resolve(options.frame);
     comparison.settings = request.settings;
-    if (request.settings.view == frame::View::Lights)
-        throw InputError(
-            "--view lights shows what each technique visits, which is not meant to be the same; render it");
+    if (const frame::ViewInfo& view = frame::viewInfo(request.settings.view); view.ofTechnique)
+        throw InputError(fmt::format(
+            "--view {} shows what each technique does, which is not meant to be the same; render it", view.name));
     std::vector<validation::LeftOutTechnique> leftOut;
     comparison.techniques = techniquesOf(options, comparison.against, request.settings, leftOut);
     if (std::holds_alternative<validation::Reference>(comparison.against)) {

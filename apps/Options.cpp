@@ -70,6 +70,15 @@ int cameraNamed(const scenes::Scene& scene, const std::string& name) {
     throw InputError(fmt::format("{}: unknown camera '{}': {}", scene.name, name, suggestNames(name, names)));
 }
 
+/// Those of the G-buffer's channels as one pattern.
+std::string viewNames() {
+    std::string names;
+    for (const frame::ViewInfo& info : frame::viewTable())
+        if (!info.needsGBuffer) names += std::string(info.name) + ", ";
+    return names + "or gbuffer.CHANNEL and gbuffer.CHANNEL.w as stored, CHANNEL one of " +
+           namesOf(frame::channelTable());
+}
+
 frame::View viewNamed(const std::string& name) {
     for (const frame::ViewInfo& info : frame::viewTable()) {
         if (info.key != 0 && std::to_string(info.key) == name) return info.view;
@@ -229,7 +238,7 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     addNumber(command, "--range-tolerance", options.rangeTolerance,
               "Ends lights of A B C falloff where they fall to this; compare tells what it drops [0]", "EPS")
         ->group("Frame");
-    text("--view", options.view, "What to show: 1 to 7, or one of " + namesOf(frame::viewTable()) + " [final]", "NAME");
+    text("--view", options.view, "What to show: 1 to 7, or one of " + viewNames() + " [final]", "NAME");
     addWholeNumber(command, "--solo", options.solo, "Only this light shines, counted from 0", "N")->group("Frame");
     text("--specular", options.specular, "off leaves the specular lobe out [on]", "on|off");
     text("--filter", options.filter,

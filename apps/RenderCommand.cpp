@@ -11,6 +11,7 @@
 #include "apps/Progress.h"
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseSamples.h"
+#include "passes/recipes/ChooseView.h"
 #include "passes/recipes/Renderer.h"
 #include "scenes/Error.h"
 #include "validation/AtomicFile.h"
@@ -33,8 +34,8 @@ struct RenderOptions {
     std::optional<double> framesPerSecond;
 };
 
-/// "hall: lights a pixel visits, clustered_deferred: 12.3 on average, at most 40".
-std::string countTitle(const Request& request, const validation::Picture& counts) {
+/// "12.3 lights a pixel, at most 40: hall, clustered_deferred".
+std::string countTitle(const std::string& counted, const std::string& of, const validation::Picture& counts) {
     double sum = 0.0, covered = 0.0, most = 0.0;
     for (std::size_t i = 0; i < counts.pixelCount(); ++i) {
         if (!counts.covered[i]) continue;
@@ -43,20 +44,31 @@ std::string countTitle(const Request& request, const validation::Picture& counts
         most = std::max(most, double(counts.pixel(i)[0]));
     }
     // The figures first: a small picture's title is cut.
-    return fmt::format("{:.1f} lights a pixel, at most {:.0f}: {}, {}", sum / std::max(covered, 1.0), most,
-                       request.scene.name, recipes::techniqueTable()[std::size_t(request.technique)].name);
+    return fmt::format("{:.1f} {} a pixel, at most {:.0f}: {}", sum / std::max(covered, 1.0), counted, most, of);
+}
+
+/// As a display shows it; views that need one get a legend.
+validation::DisplayImage displayPicture(const Request& request, const recipes::RenderedFrame& frame) {
+    const std::string of =
+        fmt::format("{}, {}", request.scene.name, recipes::techniqueTable()[std::size_t(request.technique)].name);
+    const validation::Picture picture = validation::toPicture(frame);
+    switch (request.settings.view) {
+    case frame::View::Lights:
+        return validation::countHeatMap(picture, countTitle("lights", of, picture));
+    case frame::View::Overdraw:
+        return validation::countHeatMap(picture, countTitle("surfaces", of, picture));
+    case frame::View::Faults:
+        return validation::faultMap(picture, validation::toDisplayImage(frame), of);
+    default:
+        return validation::toDisplayImage(frame);
+    }
 }
 
 void writePicture(const std::string& path, const Request& request, const recipes::RenderedFrame& frame) {
-    if (request.settings.view == frame::View::Lights && std::filesystem::path(path).extension() != ".exr") {
-        const validation::Picture counts = validation::toPicture(frame);
-        validation::writePng(path, validation::countHeatMap(counts, countTitle(request, counts)));
-        return;
-    }
     if (std::filesystem::path(path).extension() == ".exr") {
         validation::writeExr(path, validation::toPicture(frame));
     } else {
-        validation::writePng(path, validation::toDisplayImage(frame));
+        validation::writePng(path, displayPicture(request, frame));
     }
 }
 
@@ -123,6 +135,7 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     }
     recipes::requireSamples(request.technique, request.settings.samples);
     recipes::requireCulling(request.technique, request.settings);
+    recipes::requireView(request.technique, request.settings.view);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     recipes::Renderer renderer(*context, request.scene);
     request.settings.display = std::filesystem::path(options.output).extension() != ".exr";

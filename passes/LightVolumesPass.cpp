@@ -11,8 +11,7 @@ using frame::Feature;
 bool LightVolumesPass::isNeeded(const frame::FrameSpec& spec) {
     const bool anyLight = spec.features[Feature::DirectionalLights] || spec.features[Feature::PointLights] ||
                           spec.features[Feature::SpotLights];
-    const bool sums = spec.settings.view == frame::View::Final || spec.settings.view == frame::View::Lights;
-    return sums && anyLight && spec.features.litModels();
+    return frame::sumsOverLights(spec.settings.view) && anyLight && spec.features.litModels();
 }
 
 shader::ProgramDesc LightVolumesPass::program(const frame::FrameSpec& spec) {

@@ -1,11 +1,14 @@
 #include "validation/HeatMap.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "shaders/shared/faults.h"
 #include "shaders/shared/heat.h"
 #include "validation/ErrorScale.h"
 #include "validation/Flip.h"
@@ -184,6 +187,32 @@ DisplayImage countHeatMap(const Picture& counts, const std::string& title) {
     }
     drawBar(image, layout, countTicks(log2Most));
     const Swatch swatches[] = {{kColourUncovered, "not drawn"}};
+    drawSwatches(image, layout, swatches);
+    return image;
+}
+
+DisplayImage faultMap(const Picture& radiance, const DisplayImage& painted, const std::string& title) {
+    std::array<std::size_t, FAULT_NAN + 1> pixels{};
+    for (std::size_t i = 0; i < radiance.pixelCount(); ++i) {
+        int worst = FAULT_NONE;
+        for (int c = 0; c < 3; ++c)
+            worst = std::max(worst, shared::faultOfBits(std::bit_cast<std::uint32_t>(radiance.pixel(i)[c])));
+        ++pixels[std::size_t(worst)];
+    }
+    const HeatMapLayout layout = heatMapLayout(painted.width, painted.height);
+    DisplayImage image = framed(layout, fmt::format("{} NaN, {} infinite, {} negative: {}", pixels[FAULT_NAN],
+                                                    pixels[FAULT_INFINITE], pixels[FAULT_NEGATIVE], title));
+    for (std::size_t i = 0; i < painted.pixelCount(); ++i) {
+        const std::uint8_t* rgb = &painted.rgb[3 * i];
+        drawPixel(image, layout, i, painted.width, {rgb[0], rgb[1], rgb[2]});
+    }
+    const auto colourOfFault = [](int fault) {
+        const glm::vec3 code = shared::faultColor(fault) * 255.0f;
+        return Rgb8{std::uint8_t(code.r), std::uint8_t(code.g), std::uint8_t(code.b)};
+    };
+    const Swatch swatches[] = {{colourOfFault(FAULT_NAN), "NaN"},
+                               {colourOfFault(FAULT_INFINITE), "infinite"},
+                               {colourOfFault(FAULT_NEGATIVE), "negative"}};
     drawSwatches(image, layout, swatches);
     return image;
 }

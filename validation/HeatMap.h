@@ -28,8 +28,12 @@ DisplayImage errorHeatMap(const Picture& a, const Picture& b, const std::string&
 /// title above and the legend below.
 DisplayImage flipHeatMap(const DisplayImage& a, const DisplayImage& b, const std::string& title);
 
-/// A picture of counts (the view `lights`) as colours on a logarithmic scale up to the largest, with the title
-/// above and the legend below. Uncovered pixels are dark grey.
+/// A picture of counts (the views `lights` and `overdraw`) as colours on a logarithmic scale up to the largest, with
+/// the title above and the legend below. Uncovered pixels are dark grey.
 DisplayImage countHeatMap(const Picture& counts, const std::string& title);
+
+/// A picture of the view `faults`, as the display pass painted it, with a legend; the title gets in front how many
+/// pixels of `radiance` are NaN, infinite and negative, each counted once, by the worst of its components.
+DisplayImage faultMap(const Picture& radiance, const DisplayImage& painted, const std::string& title);
 
 } // namespace tessera::validation

@@ -7,6 +7,7 @@
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseLighting.h"
 #include "passes/recipes/ChooseSamples.h"
+#include "passes/recipes/ChooseView.h"
 #include "renderer/culling/TileGrid.h"
 #include "scenes/Error.h"
 
@@ -36,10 +37,11 @@ PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, cons
         throw InputError(fmt::format("a range tolerance of {} ends no light; give 0, which keeps all of it, or more",
                                      settings.rangeTolerance));
     }
+    requireView(technique, settings.view);
     PreparedFrame prepared;
     const scenes::Camera camera = frameCamera(scene, settings);
     // A debug view shows quantities of surfaces; where there is none it shows 0.
-    const glm::vec3 background = settings.view == frame::View::Final ? scene.background : glm::vec3(0.0f);
+    const glm::vec3 background = frame::showsLitPicture(settings.view) ? scene.background : glm::vec3(0.0f);
     prepared.view = frame::makeCameraView(camera, settings.sizePixels, settings.space, background);
     prepared.lights = frame::packLights(scene, prepared.view, settings);
     const std::size_t lightCount = prepared.lights.texels.size();
@@ -48,6 +50,7 @@ PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, cons
     prepared.spec = frame::makeFrameSpec(scene, prepared.lights, settings);
     frame::FrameSpec& spec = prepared.spec;
     spec.samples = samples;
+    requireStoredChannel(spec);
     spec.lightOn = chooseLighting(technique, settings);
     spec.culling = chooseCulling(technique, settings, spec.features, prepared.lights);
     // That view lights nothing, and no lists are built for it.

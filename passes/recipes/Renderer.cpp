@@ -19,7 +19,7 @@ namespace {
 shared::DisplayConstants displayConstants(const frame::FrameSettings& settings) {
     shared::DisplayConstants constants{};
     constants.exposure = glm::vec4(std::exp2(settings.exposureEV));
-    const frame::DisplayMapping mapping = frame::viewInfo(settings.view).mapping;
+    const frame::DisplayMapping mapping = frame::displayMapping(settings.view, settings.layout);
     constants.mapping = glm::uvec4(unsigned(mapping), unsigned(settings.toneMap), 0u, 0u);
     return constants;
 }

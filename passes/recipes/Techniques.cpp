@@ -1,5 +1,7 @@
 #include "passes/recipes/Techniques.h"
 
+#include <algorithm>
+
 #include "passes/DeferredLightingPass.h"
 #include "passes/DepthPrepass.h"
 #include "passes/DisplayPass.h"
@@ -9,7 +11,9 @@
 #include "passes/IdsPass.h"
 #include "passes/LightListsPass.h"
 #include "passes/LightVolumesPass.h"
+#include "passes/OverdrawPass.h"
 #include "passes/ResolvePass.h"
+#include "passes/StoredChannelPass.h"
 #include "passes/TransparentDepthPass.h"
 
 namespace tessera::recipes {
@@ -53,8 +57,7 @@ struct Recipe {
         return ForwardPass::add(frame.graph, spec, params, inputs, resources);
     }
     bool hasLightLists() const { return spec.culling.method != Method::None; }
-    DepthPrepass::Outputs depthPrepass() {
-        const DepthPrepass::Params params{hasLightLists() && spec.samples > 1};
+    DepthPrepass::Outputs depthPrepass(const DepthPrepass::Params& params) {
         frame.programs.push_back(DepthPrepass::program(spec, params));
         return DepthPrepass::add(frame.graph, spec, params, resources);
     }
@@ -63,6 +66,12 @@ struct Recipe {
         if (spec.features[frame::Feature::Blend])
             frame.programs.push_back(IdsPass::program(spec, IdsPass::Surfaces::Transparent));
         return IdsPass::add(frame.graph, spec, resources);
+    }
+    OverdrawPass::Outputs overdraw(const OverdrawPass::Inputs& inputs) {
+        frame.programs.push_back(OverdrawPass::program(spec, OverdrawPass::Surfaces::Opaque));
+        if (spec.features[frame::Feature::Blend])
+            frame.programs.push_back(OverdrawPass::program(spec, OverdrawPass::Surfaces::Transparent));
+        return OverdrawPass::add(frame.graph, spec, inputs, resources);
     }
     GBufferPass::Outputs gbuffer() {
         frame.programs.push_back(GBufferPass::program(spec));
@@ -78,6 +87,11 @@ struct Recipe {
         if (!LightVolumesPass::isNeeded(spec)) return radiance;
         frame.programs.push_back(LightVolumesPass::program(spec));
         return LightVolumesPass::add(frame.graph, spec, {gbuffer.textures, gbuffer.depth, radiance}, resources)
+            .radiance;
+    }
+    TextureHandle storedChannel(frame::StoredComponents shown, const GBufferPass::Outputs& gbuffer) {
+        frame.programs.push_back(StoredChannelPass::program(spec, {shown}));
+        return StoredChannelPass::add(frame.graph, spec, {shown}, {gbuffer.textures, gbuffer.depth}, resources)
             .radiance;
     }
     /// One sample a pixel of what was drawn with several.
@@ -126,7 +140,7 @@ OpaquePicture opaqueForward(Recipe& recipe) {
 }
 
 OpaquePicture opaqueForwardPrepass(Recipe& recipe) {
-    const DepthPrepass::Outputs drawn = recipe.depthPrepass();
+    const DepthPrepass::Outputs drawn = recipe.depthPrepass({recipe.hasLightLists() && recipe.spec.samples > 1});
     recipe.lightLists(drawn.depth, drawn.shadingDepth.value_or(drawn.depth));
     return {recipe.forward({}, {drawn.depth, {}, recipe.frame.lists}).radiance, drawn.depth};
 }
@@ -172,6 +186,35 @@ void addLitPicture(Technique technique, Recipe& recipe) {
     frame.radiance = recipe.forward(params, {opaque.depth, opaque.radiance, frame.lists}).radiance;
 }
 
+bool hasPrepass(Technique technique) {
+    return technique == Technique::ForwardPrepass || technique == Technique::ForwardPlus ||
+           technique == Technique::ClusteredForward;
+}
+
+/// What stands in for the lit picture in views that are drawn by passes of their own; false for all others.
+bool addView(Technique technique, Recipe& recipe) {
+    DeclaredFrame& frame = recipe.frame;
+    const frame::View view = recipe.spec.settings.view;
+    if (view == frame::View::Ids) {
+        const IdsPass::Outputs drawn = recipe.ids();
+        frame.radiance = drawn.ids;
+        frame.depth = drawn.depth;
+    } else if (view == frame::View::Overdraw) {
+        OverdrawPass::Inputs inputs;
+        if (hasPrepass(technique)) inputs.depth = recipe.depthPrepass({}).depth;
+        const OverdrawPass::Outputs drawn = recipe.overdraw(inputs);
+        frame.radiance = drawn.overdraw;
+        frame.depth = drawn.depth;
+    } else if (const std::optional<frame::StoredComponents> shown = frame::storedComponents(view)) {
+        const GBufferPass::Outputs gbuffer = recipe.gbuffer();
+        frame.radiance = recipe.storedChannel(*shown, gbuffer);
+        frame.depth = gbuffer.depth;
+    } else {
+        return false;
+    }
+    return true;
+}
+
 } // namespace
 
 std::span<const TechniqueInfo> techniqueTable() {
@@ -181,13 +224,7 @@ std::span<const TechniqueInfo> techniqueTable() {
 DeclaredFrame declareFrame(Technique technique, const frame::FrameSpec& spec, const frame::FrameResources* resources) {
     DeclaredFrame frame;
     Recipe recipe{frame, spec, resources};
-    if (spec.settings.view == frame::View::Ids) {
-        const IdsPass::Outputs drawn = recipe.ids();
-        frame.radiance = drawn.ids;
-        frame.depth = drawn.depth;
-    } else {
-        addLitPicture(technique, recipe);
-    }
+    if (!addView(technique, recipe)) addLitPicture(technique, recipe);
     frame.radiance = recipe.resolve(frame.radiance, ResolvePass::Kind::Radiance);
     frame.display = recipe.display(frame.radiance);
     frame.graph.output(frame.radiance);

@@ -9,41 +9,11 @@
 #include "renderer/culling/CullingMethod.h"
 #include "renderer/frame/GBufferLayout.h"
 #include "renderer/frame/LightingStage.h"
+#include "renderer/frame/Views.h"
 
 /// What a user may ask of a frame besides its technique. Names are those of the command line; the tables are the only
 /// lists.
 namespace tessera::frame {
-
-enum class View : std::uint8_t {
-    Final,
-    Diffuse,
-    NormalTexel,
-    Normal,
-    Distribution,
-    Geometry,
-    Fresnel,
-    Depth,
-    Lights,
-    Ids
-};
-/// How a view's values become a display picture; its value is DISPLAY_* of shaders/shared/display.h.
-enum class DisplayMapping : std::uint8_t {
-    Radiance, ///< exposure, tone map, sRGB
-    Raw,      ///< code value = value
-    Signed,   ///< code value = value / 2 + 1/2
-    Distance, ///< 1 at the eye, 1/2 at 10 m, 0 at infinity
-    Count,    ///< the heat colours of shaders/shared/heat.h, logarithmic
-    Ids       ///< a colour of its own for every triangle
-};
-struct ViewInfo {
-    View view; ///< its value is VIEW of shaders/lib/views.glsl
-    int key;   ///< 1..7, or 0 for a view without a number
-    std::string_view name;
-    std::string_view meaning;
-    DisplayMapping mapping;
-};
-std::span<const ViewInfo> viewTable();
-const ViewInfo& viewInfo(View view);
 
 enum class ToneMap : std::uint8_t { None, KhronosNeutral, Aces, Agx };
 struct ToneMapInfo {

@@ -53,13 +53,13 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     // Half the rounds that a loop may make, so that scanning bitmasks has room beside the lights.
     constexpr std::size_t kLightsOneByOne = 32768;
     spec.manyLights = lights.texels.size() > kLightsOneByOne;
-    spec.channels = neededChannels(spec.features, settings.layout, settings.view == View::NormalTexel);
+    spec.channels = neededChannels(spec.features, settings.layout, needsNormalTexel(settings.view));
     return spec;
 }
 
 Defines frameDefines(const FrameSpec& spec) {
     Defines defines = featureDefines(spec.features);
-    defines.emplace_back("VIEW", std::to_string(int(spec.settings.view)));
+    defines.emplace_back("VIEW", std::to_string(shaderView(spec.settings.view)));
     defines.emplace_back("FILTER_EXACT", spec.settings.filter == TextureFilter::Exact ? "1" : "0");
     defines.emplace_back("LIGHTS_PER_ROUND", spec.manyLights ? "2" : "1");
     defines.emplace_back("SPECULAR_OFF", spec.settings.specular ? "0" : "1");

@@ -21,6 +21,9 @@ Surface surfaceFromMaterial(Fragment fragment, vec4 baseColor)
     if ((material.kind.y & MATERIAL_FLAG_NORMAL_MAP) != 0u) surface.normalTexel = normalTexel;
 #endif
     surface.normalLS = materialNormal(fragment, surface.normalTexel);
+#if VIEW == VIEW_NORMAL_OBJECT
+    surface.normalTexel = objectNormal(fragment, surface.normalLS) * 0.5 + 0.5;
+#endif
 
 #if HAS_GLOSSY_MODELS
     precise vec2 roughnessMetallic = material.microsurface.yx;

@@ -56,3 +56,16 @@ vec3 materialNormal(Fragment fragment, vec3 texel)
 #endif
     return facing(fragment, normal);
 }
+
+#if VIEW == VIEW_NORMAL_OBJECT
+// The lit normal in the object's own space, 0 where the node flattens what it points along: normals go to lighting space by
+// the cofactor matrix times the sign of the determinant, which the transposed matrix takes back up to a factor > 0.
+vec3 objectNormal(Fragment fragment, vec3 normal)
+{
+    mat3 m = fragment.objectFromNormal;
+    vec3 back = m * normal;
+    vec3 largest = max(max(abs(m[0]), abs(m[1])), abs(m[2]));
+    float rounding = 1e-6 * max(max(largest.x, largest.y), largest.z);
+    return dot(back, back) > rounding * rounding ? safeNormalize(back, vec3(0.0)) : vec3(0.0);
+}
+#endif

@@ -4,6 +4,7 @@
 #pragma once
 #include "shared/slots.h"
 #include "shared/material.h"
+#include "shared/views.h"
 #include "lib/features.glsl"
 #include "lib/texture_filter.glsl"
 
@@ -34,6 +35,9 @@ struct Fragment {
     vec4 color;
     mat3 normalFromObject; // cofactor matrix of the node, with its mirroring
     bool frontFacing;
+#if VIEW == VIEW_NORMAL_OBJECT
+    mat3 objectFromNormal; // transposed LS-from-object: takes normals back, up to their length
+#endif
 };
 
 TexCoord slotCoordinate(Fragment fragment, int slot)

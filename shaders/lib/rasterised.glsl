@@ -17,6 +17,16 @@ layout(location = 5) flat in vec3 normalFromObject0;
 layout(location = 6) flat in vec3 normalFromObject1;
 layout(location = 7) flat in vec3 normalFromObject2;
 #endif
+#if VIEW == VIEW_NORMAL_OBJECT
+#if FILTER_EXACT
+#define OBJECT_ROWS 20 // passes/triangle.geom hands on more than a vertex may
+#else
+#define OBJECT_ROWS 11
+#endif
+layout(location = OBJECT_ROWS) flat in vec3 objectRow0;
+layout(location = OBJECT_ROWS + 1) flat in vec3 objectRow1;
+layout(location = OBJECT_ROWS + 2) flat in vec3 objectRow2;
+#endif
 #endif
 #if HAS_TEXTURES && !FILTER_EXACT
 layout(location = 2) in vec2 texCoord0;
@@ -38,6 +48,9 @@ Fragment rasterisedFragment()
     fragment.texCoord[1] = TexCoord(0.0);
     fragment.color = vec4(1.0);
     fragment.normalFromObject = mat3(1.0);
+#if VIEW == VIEW_NORMAL_OBJECT
+    fragment.objectFromNormal = mat3(1.0);
+#endif
 #if FILTER_EXACT
     dvec3 weights = triangleWeights(gl_FragCoord.xy);
 #endif
@@ -53,6 +66,9 @@ Fragment rasterisedFragment()
 #if HAS_OBJECT_SPACE_NORMALS
     // The vertex stage has the rows of the matrix.
     fragment.normalFromObject = transpose(mat3(normalFromObject0, normalFromObject1, normalFromObject2));
+#endif
+#if VIEW == VIEW_NORMAL_OBJECT
+    fragment.objectFromNormal = mat3(objectRow0, objectRow1, objectRow2);
 #endif
 #endif
 #if HAS_TEXTURES && FILTER_EXACT

@@ -13,7 +13,8 @@ struct Surface {
     float iorOrF90;    // index of refraction of microfacet, or the dielectric F90 of metallic_roughness
     vec3 emission;     // radiance that needs no light; all of single_color
     vec3 normalLS;     // unit
-    vec3 normalTexel;  // the normal map's texel as stored, for the view that shows it
+    vec3 normalTexel;  // the normal map's texel as stored, for the view that shows it; for the view
+                       // normal_object that normal, coded the same way
 #if HAS_BLINN_PHONG
     float exponent;    // p of blinn_phong, >= 0
 #endif

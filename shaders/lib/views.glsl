@@ -1,15 +1,7 @@
 // What a pixel shows: the lit surface, or one of the debug views of the table kViews (renderer/frame/Views.h), which gives
 // VIEW its number. Both families of techniques end here, so a view exists in each of them.
 #pragma once
-#define VIEW_FINAL 0
-#define VIEW_DIFFUSE 1
-#define VIEW_NORMAL_TEXEL 2
-#define VIEW_NORMAL 3
-#define VIEW_DISTRIBUTION 4
-#define VIEW_GEOMETRY 5
-#define VIEW_FRESNEL 6
-#define VIEW_DEPTH 7
-#define VIEW_LIGHTS 8
+#include "shared/views.h"
 
 #if VIEW == VIEW_LIGHTS
 #define VISIT_COUNTS 1
@@ -52,6 +44,12 @@ vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
     return surface.normalTexel;
 #elif VIEW == VIEW_NORMAL
     return mat3(frame.worldFromLS) * surface.normalLS;
+#elif VIEW == VIEW_NORMAL_VIEW
+    // Rays step along the view's x and y axes from pixel to pixel.
+    return vec3(dot(surface.normalLS, normalize(frame.rayDxLS.xyz)), dot(surface.normalLS, normalize(frame.rayDyLS.xyz)),
+                -dot(surface.normalLS, frame.forwardLS.xyz));
+#elif VIEW == VIEW_NORMAL_OBJECT
+    return surface.normalTexel * 2.0 - 1.0; // put there as it was rasterised (lib/material.glsl)
 #elif VIEW == VIEW_LIGHTS
     return lightsOnSurface(vec3(0.0), surface, viewpoint, pixel); // counted
 #elif VIEW == VIEW_DEPTH

@@ -1,6 +1,7 @@
 // Linear radiance to display code values: exposure, tone map, sRGB transfer function.
 #include "shared/slots.h"
 #include "shared/display.h"
+#include "shared/faults.h"
 #include "shared/heat.h"
 #include "lib/tonemap.glsl"
 
@@ -20,6 +21,21 @@ vec3 colorOfIds(vec3 value)
     return vec3(uvec3(mixed >> 24, mixed >> 16, mixed >> 8) & 255u) / 255.0;
 }
 
+// All of 0 to infinity. Source: Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", equation 3.
+vec3 compressed(vec3 value)
+{
+    vec3 positive = max(value, 0.0);
+    return encodeSrgb(positive / (1.0 + positive));
+}
+
+vec3 faultsOf(vec3 value)
+{
+    uvec3 bits = floatBitsToUint(value);
+    int fault = max(faultOfBits(bits.x), max(faultOfBits(bits.y), faultOfBits(bits.z)));
+    return fault == FAULT_NONE ? compressed(vec3(dot(value * display.exposure.x, vec3(0.2126, 0.7152, 0.0722))))
+                               : faultColor(fault);
+}
+
 vec3 codeValues(vec3 value)
 {
     switch (display.mapping.x) {
@@ -28,6 +44,8 @@ vec3 codeValues(vec3 value)
     case DISPLAY_DISTANCE: return vec3(10.0 / (10.0 + max(value, 0.0)));
     case DISPLAY_COUNT: return heatColor(heatPositionOfCount(value.r, HEAT_COUNT_LOG2));
     case DISPLAY_IDS: return colorOfIds(value);
+    case DISPLAY_COMPRESSED: return compressed(value * display.exposure.x);
+    case DISPLAY_FAULTS: return faultsOf(value);
     default: return encodeSrgb(toneMapped(value * display.exposure.x, display.mapping.y));
     }
 }

@@ -1,5 +1,6 @@
 // The one vertex function: every rasterising pass uses it, so a surface has the same depth to the last bit in all of them.
 #include "shared/slots.h"
+#include "shared/views.h"
 #include "lib/camera.glsl"
 #include "lib/features.glsl"
 
@@ -42,6 +43,11 @@ layout(location = 5) flat out vec3 normalFromObject0;
 layout(location = 6) flat out vec3 normalFromObject1;
 layout(location = 7) flat out vec3 normalFromObject2;
 #endif
+#if VIEW == VIEW_NORMAL_OBJECT && !DEPTH_ONLY
+layout(location = 11) flat out vec3 objectRow0;
+layout(location = 12) flat out vec3 objectRow1;
+layout(location = 13) flat out vec3 objectRow2;
+#endif
 #if FILTER_EXACT
 layout(location = 10) out vec3 vertexLS; // for passes/triangle.geom
 #endif
@@ -68,6 +74,11 @@ void main()
     normalFromObject0 = drawNormal0.xyz;
     normalFromObject1 = drawNormal1.xyz;
     normalFromObject2 = drawNormal2.xyz;
+#endif
+#if VIEW == VIEW_NORMAL_OBJECT
+    objectRow0 = drawRow0.xyz;
+    objectRow1 = drawRow1.xyz;
+    objectRow2 = drawRow2.xyz;
 #endif
 #endif
 #if HAS_TEXTURES

@@ -1,5 +1,6 @@
 // Hands every fragment its whole triangle, for --filter exact (lib/triangle.glsl); the rest goes through as it is.
 #include "shared/slots.h"
+#include "shared/views.h"
 #include "lib/features.glsl"
 
 layout(triangles) in;
@@ -31,6 +32,14 @@ layout(location = 7) flat in vec3 vertexNormalFromObject2[];
 layout(location = 5) flat out vec3 normalFromObject0;
 layout(location = 6) flat out vec3 normalFromObject1;
 layout(location = 7) flat out vec3 normalFromObject2;
+#endif
+#if VIEW == VIEW_NORMAL_OBJECT
+layout(location = 11) flat in vec3 vertexObjectRow0[];
+layout(location = 12) flat in vec3 vertexObjectRow1[];
+layout(location = 13) flat in vec3 vertexObjectRow2[];
+layout(location = 20) flat out vec3 objectRow0;
+layout(location = 21) flat out vec3 objectRow1;
+layout(location = 22) flat out vec3 objectRow2;
 #endif
 #endif
 #if HAS_VERTEX_COLOR
@@ -68,6 +77,11 @@ void main()
         normalFromObject0 = vertexNormalFromObject0[corner];
         normalFromObject1 = vertexNormalFromObject1[corner];
         normalFromObject2 = vertexNormalFromObject2[corner];
+#endif
+#if VIEW == VIEW_NORMAL_OBJECT
+        objectRow0 = vertexObjectRow0[corner];
+        objectRow1 = vertexObjectRow1[corner];
+        objectRow2 = vertexObjectRow2[corner];
 #endif
 #endif
 #if HAS_VERTEX_COLOR

@@ -153,7 +153,7 @@ TEST_F(Multisampling, everyViewIsExactlyTheSameInTheForwardFamily) {
         SCOPED_TRACE(view.name);
         frame::FrameSettings settings = sampled({161, 90});
         settings.view = view.view;
-        if (view.view == frame::View::Lights) continue; // shows what each technique visits
+        if (view.ofTechnique) continue; // shows what each technique visits
         const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
         for (const Technique technique : {Technique::ForwardPrepass, Technique::ForwardPlus})
             EXPECT_TRUE(renderer.render(technique, settings).radiance == truth);

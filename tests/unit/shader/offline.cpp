@@ -10,6 +10,7 @@
 
 #include "passes/recipes/ChooseLighting.h"
 #include "passes/recipes/ChooseSamples.h"
+#include "passes/recipes/ChooseView.h"
 #include "passes/recipes/PreparedFrame.h"
 #include "passes/recipes/Renderer.h"
 #include "renderer/shader/ProgramDesc.h"
@@ -46,6 +47,7 @@ std::vector<frame::FrameSettings> settingsThatMatter() {
             settings.sizePixels = {64, 36};
             settings.layout = layout.layout;
             settings.view = view.view;
+            settings.prune = !view.needsGBuffer; // a scene may not need the channel that is shown
             all.push_back(settings);
         }
         frame::FrameSettings settings;
@@ -113,6 +115,7 @@ void addPrograms(std::map<std::string, shader::ProgramDesc>& programs, const sce
             addFloorPrograms(programs, recipes::prepareFrame(scene, recipes::Technique::Forward, settings).spec);
         for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
             if (!recipes::takesSamples(technique, settings.samples)) continue;
+            if (!recipes::takesView(technique, settings.view)) continue;
             for (const shader::ProgramDesc& desc : recipes::framePrograms(scene, technique.technique, settings))
                 programs.emplace(desc.key(), desc);
         }

@@ -1,0 +1,30 @@
+#pragma once
+#include <optional>
+
+#include "renderer/frame/FrameResources.h"
+#include "renderer/frame/FrameSpec.h"
+#include "renderer/graph/Graph.h"
+
+namespace tessera::passes {
+
+/// Counts the surfaces that a technique shades (or stores in its G-buffer) at each pixel, for the view `overdraw`,
+/// which replaces the lit picture: it draws what the technique's geometry pass draws, in its order and with its depth
+/// test. Reads   the scene; depth D32F of a prepass, where the technique has one Writes  overdraw RGBA32F: rgb the
+/// fragments that pass the depth test, those of the transparent layer included; A 1
+///         where there is any. Depth D32F of opaque surfaces, where no prepass made it. Both are of FrameSpec::samples
+/// Space   lighting space, through the vertex function that every pass shares
+struct OverdrawPass {
+    enum class Surfaces { Opaque, Transparent };
+    struct Inputs {
+        std::optional<graph::TextureHandle> depth; ///< of a prepass
+    };
+    struct Outputs {
+        graph::TextureHandle overdraw;
+        graph::TextureHandle depth;
+    };
+    static shader::ProgramDesc program(const frame::FrameSpec& spec, Surfaces surfaces);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
+                       const frame::FrameResources* resources);
+};
+
+} // namespace tessera::passes

@@ -1,0 +1,31 @@
+#pragma once
+#include <vector>
+
+#include "renderer/frame/FrameResources.h"
+#include "renderer/frame/FrameSpec.h"
+#include "renderer/graph/Graph.h"
+
+namespace tessera::passes {
+
+/// Shows one channel of the G-buffer as it is stored, for the views `gbuffer.*`, which replace the lit picture.
+/// Reads   the G-buffer in the layout's formats, depth D32F
+/// Writes  radiance RGBA32F: rgb the first three stored components, or the fourth three times; alpha 1; 0 where nothing
+///         was drawn. Components of a packed channel are its fields, each as a share of its largest code
+struct StoredChannelPass {
+    struct Params {
+        frame::StoredComponents shown;
+    };
+    struct Inputs {
+        std::vector<graph::TextureHandle> textures;
+        graph::TextureHandle depth;
+    };
+    struct Outputs {
+        Inputs read;
+        graph::TextureHandle radiance;
+    };
+    static shader::ProgramDesc program(const frame::FrameSpec& spec, const Params& params);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params, const Inputs& inputs,
+                       const frame::FrameResources* resources);
+};
+
+} // namespace tessera::passes

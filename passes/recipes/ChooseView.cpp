@@ -1,0 +1,40 @@
+#include "passes/recipes/ChooseView.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scenes/Error.h"
+
+namespace tessera::recipes {
+
+bool takesView(const TechniqueInfo& info, frame::View view) {
+    return info.usesGBuffer || !frame::viewInfo(view).needsGBuffer;
+}
+
+void requireView(Technique technique, frame::View view) {
+    const TechniqueInfo& info = techniqueTable()[std::size_t(technique)];
+    if (takesView(info, view)) return;
+    std::vector<std::string_view> able;
+    for (const TechniqueInfo& other : techniqueTable()) {
+        if (takesView(other, view)) able.push_back(other.name);
+    }
+    throw InputError(fmt::format("technique {} has no G-buffer for --view {} to show; {} have one", info.name,
+                                 frame::viewInfo(view).name, fmt::join(able, ", ")));
+}
+
+void requireStoredChannel(const frame::FrameSpec& spec) {
+    const frame::View view = spec.settings.view;
+    const std::optional<frame::StoredComponents> shown = frame::storedComponents(view);
+    if (!shown) return;
+    if (std::find(spec.channels.begin(), spec.channels.end(), shown->channel) != spec.channels.end()) return;
+    std::vector<std::string_view> stored;
+    for (const frame::Channel channel : spec.channels)
+        stored.push_back(frame::channelTable()[std::size_t(channel)].name);
+    throw InputError(fmt::format("--view {}: this frame's G-buffer has no such channel, which is for {}; it has {}",
+                                 frame::viewInfo(view).name, frame::channelTable()[std::size_t(shown->channel)].needed,
+                                 stored.empty() ? "none" : fmt::format("{}", fmt::join(stored, ", "))));
+}
+
+} // namespace tessera::recipes

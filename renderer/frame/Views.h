@@ -1,0 +1,81 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "renderer/frame/GBufferLayout.h"
+
+/// What a frame can show besides the lit picture: one table for the command line, the viewer and the documentation.
+namespace tessera::frame {
+
+/// Up to Faults the value is VIEW_* of shaders/shared/views.h. From Stored on a view shows a channel of the G-buffer as
+/// it is stored (storedView).
+enum class View : std::uint8_t {
+    Final,
+    Diffuse,
+    NormalTexel,
+    Normal,
+    Distribution,
+    Geometry,
+    Fresnel,
+    Depth,
+    Lights,
+    Ids,
+    NormalView,
+    NormalObject,
+    Overdraw,
+    Faults,
+    Stored
+};
+
+/// How a view's values become a display picture; its value is DISPLAY_* of shaders/shared/display.h.
+enum class DisplayMapping : std::uint8_t {
+    Radiance,   ///< exposure, tone map, sRGB
+    Raw,        ///< code value = value
+    Signed,     ///< code value = value / 2 + 1/2
+    Distance,   ///< 1 at the eye, 1/2 at 10 m, 0 at infinity
+    Count,      ///< the heat colours of shaders/shared/heat.h, logarithmic
+    Ids,        ///< a colour of its own for every triangle
+    Compressed, ///< x / (1 + x), then sRGB: for what has no upper bound
+    Faults      ///< the luminance so compressed, in grey; NaN, infinite and negative painted (shaders/shared/faults.h)
+};
+
+struct ViewInfo {
+    View view;
+    int key; ///< 1..7, or 0 for a view without a number
+    std::string_view name;
+    std::string_view meaning;
+    DisplayMapping mapping;    ///< of views that show a stored channel: displayMapping()
+    bool ofTechnique = false;  ///< shows what the technique does, not the scene: techniques differ in it
+    bool needsGBuffer = false; ///< only techniques with a G-buffer have it
+};
+std::span<const ViewInfo> viewTable();
+const ViewInfo& viewInfo(View view);
+
+/// A channel as it is stored: its first three components, or the fourth.
+struct StoredComponents {
+    Channel channel;
+    bool fourth;
+};
+View storedView(StoredComponents components);
+std::optional<StoredComponents> storedComponents(View view);
+
+/// By the layout where the view shows a stored channel.
+DisplayMapping displayMapping(View view, const GBufferLayout& layout);
+
+/// The lit picture, whatever is painted over it.
+constexpr bool showsLitPicture(View view) {
+    return view == View::Final || view == View::Faults;
+}
+/// Adds something up over the lights.
+constexpr bool sumsOverLights(View view) {
+    return showsLitPicture(view) || view == View::Lights;
+}
+/// Needs the channel normal_texel, which holds what no lighting needs.
+bool needsNormalTexel(View view);
+/// VIEW of the shaders that shade or store surfaces: views that another pass makes of their output take the lit
+/// picture's programs.
+int shaderView(View view);
+
+} // namespace tessera::frame

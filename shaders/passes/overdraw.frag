@@ -1,0 +1,13 @@
+// Counts what a pass would shade or store at a pixel: blending adds the fragments up.
+#include "lib/rasterised.glsl"
+#include "lib/coverage.glsl"
+
+layout(location = 0) out vec4 surfaces;
+
+void main()
+{
+#if !BLENDED
+    if (coversNothing(materialBaseColor(rasterisedFragment()))) discard;
+#endif
+    surfaces = vec4(1.0);
+}

@@ -1,0 +1,19 @@
+#pragma once
+// What a pixel can show: VIEW of every shader that shades is one of these, and frame::View has the same numbers.
+#include "interop.h"
+
+#define VIEW_FINAL 0
+#define VIEW_DIFFUSE 1
+#define VIEW_NORMAL_TEXEL 2
+#define VIEW_NORMAL 3
+#define VIEW_DISTRIBUTION 4
+#define VIEW_GEOMETRY 5
+#define VIEW_FRESNEL 6
+#define VIEW_DEPTH 7
+#define VIEW_LIGHTS 8
+#define VIEW_IDS 9
+#define VIEW_NORMAL_VIEW 10
+#define VIEW_NORMAL_OBJECT 11
+#define VIEW_OVERDRAW 12
+#define VIEW_FAULTS 13
+#define VIEW_STORED 14 // the first of those that show what the G-buffer holds

@@ -1,0 +1,226 @@
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "passes/recipes/PreparedFrame.h"
+#include "scenes/Error.h"
+#include "scenes/Load.h"
+#include "shaders/shared/faults.h"
+#include "tests/image/FlatTest.h"
+
+namespace tessera {
+namespace {
+
+using namespace test;
+using recipes::Technique;
+using scenes::Material;
+using scenes::MaterialModel;
+using scenes::Scene;
+using scenes::TextureSlot;
+
+class ViewValues : public FlatTest {
+protected:
+    recipes::RenderedFrame shown(const Scene& scene, frame::View view, Technique technique,
+                                 frame::FrameSettings settings = {}) {
+        settings.sizePixels = {kSide, kSide};
+        settings.view = view;
+        recipes::Renderer renderer(context(), scene);
+        return renderer.render(technique, settings);
+    }
+};
+
+frame::FrameSettings viewSettings(frame::View view) {
+    frame::FrameSettings settings;
+    settings.view = view;
+    return settings;
+}
+
+TEST_F(ViewValues, theTexelViewIsExactlyTheMapInBothSpaces) {
+    const scenes::Image map = image8([](int x, int y) {
+        return std::array<int, 4>{20 + 30 * x, 250 - 30 * y, 130 + 4 * x + 8 * y, 255};
+    });
+    for (const scenes::NormalMapSpace space : {scenes::NormalMapSpace::Tangent, scenes::NormalMapSpace::Object}) {
+        Material material;
+        material.normalMapSpace = space;
+        const Scene scene = texturedScene(flatScene(material), TextureSlot::Normal, map);
+        const recipes::RenderedFrame view = frame(scene, viewSettings(frame::View::NormalTexel));
+        for (std::size_t i = 0; i < std::size_t(kSide * kSide); ++i) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                EXPECT_NEAR(view.radiance[4 * i + c], int(map.texels[4 * i + c]) / 255.0, 1.2e-7)
+                    << i; // an fp32 step below 1
+                EXPECT_EQ(view.display[4 * i + c], std::uint8_t(map.texels[4 * i + c])) << i;
+            }
+        }
+    }
+}
+
+/// Where the quad of these tests faces, tilted by a map, in the three spaces.
+TEST_F(ViewValues, oneNormalIsAlwaysShownInWorldViewAndObjectSpace) {
+    Material material;
+    material.normalMapSpace = scenes::NormalMapSpace::Object;
+    Scene scene = texturedScene(flatScene(material), TextureSlot::Normal, uniformImage({176, 208, 216, 255}));
+    const glm::dvec3 normalOS = glm::normalize(glm::dvec3(176, 208, 216) * 2.0 / 255.0 - 1.0);
+    const glm::dmat4 turn = glm::rotate(glm::rotate(glm::dmat4(1.0), 0.7, {0, 1, 0}), 0.4, {1, 0, 0});
+    // Mirrored and stretched differently along each axis; the camera keeps looking at its front.
+    const glm::dmat4 node = turn * glm::scale(glm::dmat4(1.0), glm::dvec3(-3.0, 2.0, 0.5));
+    scene.nodes[0].parentFromNode = node;
+    scene.cameras[0].worldFromCamera = turn * scene.cameras[0].worldFromCamera;
+    scene.materials[0].doubleSided = false;
+    const glm::dvec3 normalVS = glm::normalize(normalOS / glm::dvec3(-3.0, 2.0, 0.5));
+    const struct {
+        frame::View view;
+        glm::dvec3 wanted;
+    } cases[] = {{frame::View::Normal, glm::dmat3(turn) * normalVS},
+                 {frame::View::NormalView, normalVS},
+                 {frame::View::NormalObject, normalOS}};
+    for (const auto& [view, wanted] : cases) {
+        SCOPED_TRACE(frame::viewInfo(view).name);
+        for (const frame::LightingSpace space : {frame::LightingSpace::World, frame::LightingSpace::View}) {
+            for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
+                frame::FrameSettings settings = viewSettings(view);
+                settings.space = space;
+                settings.filter = filter;
+                const glm::vec4 found = pixel(frame(scene, settings), kSide / 2, kSide / 2);
+                // A dozen fp32 roundings of 2^-24 each, some on values that the node made six times as large.
+                for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], 2e-6) << c;
+            }
+        }
+    }
+}
+
+TEST_F(ViewValues, anObjectSpaceNormalIsAlwaysFiniteAndThatOfThePlaneWhereTheNodeFlattensIt) {
+    Material material;
+    material.normalMapSpace = scenes::NormalMapSpace::Object;
+    Scene scene = texturedScene(flatScene(material), TextureSlot::Normal, uniformImage({176, 208, 216, 255}));
+    scene.nodes[0].parentFromNode = glm::scale(glm::dmat4(1.0), glm::dvec3(1.5, 2.0, 0.0));
+    EXPECT_EQ(glm::vec3(pixel(frame(scene, viewSettings(frame::View::Normal)), 4, 4)), glm::vec3(0, 0, 1));
+    EXPECT_EQ(glm::vec3(pixel(frame(scene, viewSettings(frame::View::NormalObject)), 4, 4)), glm::vec3(0));
+}
+
+/// Three quads behind each other, drawn from back to front.
+Scene layers(const Material& material) {
+    Scene scene = quadScene(material);
+    for (const double z : {0.25, 0.5}) {
+        scene.nodes.push_back(scene.nodes[0]);
+        scene.nodes.back().parentFromNode[3].z = z;
+    }
+    return scene;
+}
+
+TEST_F(ViewValues, overdrawIsExactlyTheSurfacesThatEachTechniqueShades) {
+    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+        SCOPED_TRACE(info.name);
+        const bool prepass = info.geometry.find("depth first") != std::string_view::npos;
+        const Scene opaque = layers(Material{});
+        const recipes::RenderedFrame drawn = shown(opaque, frame::View::Overdraw, info.technique);
+        EXPECT_EQ(pixel(drawn, 4, 4), prepass ? glm::vec4(1.0f) : glm::vec4(3, 3, 3, 1));
+        Scene mixed = opaque; // a pane of glass before them, another behind
+        Material glass;
+        glass.alphaMode = scenes::AlphaMode::Blend;
+        mixed.materials.push_back(glass);
+        for (const double z : {0.75, -1.0}) {
+            mixed.nodes.push_back(mixed.nodes[0]);
+            mixed.nodes.back().instances[0].material = 1;
+            mixed.nodes.back().parentFromNode[3].z = z;
+        }
+        const recipes::RenderedFrame behindGlass = shown(mixed, frame::View::Overdraw, info.technique);
+        EXPECT_EQ(pixel(behindGlass, 4, 4), prepass ? glm::vec4(2, 2, 2, 1) : glm::vec4(4, 4, 4, 1));
+    }
+}
+
+TEST_F(ViewValues, faultsAreAlwaysPaintedAndNothingElseIs) {
+    constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+    constexpr float kInfinite = std::numeric_limits<float>::infinity();
+    const struct {
+        glm::vec3 emission;
+        std::array<int, 3> painted;
+    } cases[] = {{{kNaN, 1.0f, kInfinite}, {255, 0, 255}},
+                 {{0.5f, -kInfinite, -1.0f}, {0, 255, 255}},
+                 {{0.5f, -1e-30f, 2.0f}, {255, 255, 0}},
+                 {{1.0f, 1.0f, 1.0f}, {188, 188, 188}},
+                 {{-0.0f, 0.0f, 0.0f}, {0, 0, 0}}};
+    for (const auto& [emission, painted] : cases) {
+        Material material = unlit();
+        material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
+        material.emissive = emission;
+        for (const Technique technique : {Technique::Forward, Technique::Deferred, Technique::DeferredVolumes}) {
+            const recipes::RenderedFrame view = shown(flatScene(material), frame::View::Faults, technique);
+            const std::size_t middle = 4 * std::size_t(kSide / 2 * kSide + kSide / 2);
+            for (std::size_t c = 0; c < 3; ++c)
+                EXPECT_NEAR(view.display[middle + c], painted[c], painted[0] == 188 ? 1 : 0) << emission.x; // rounding
+        }
+    }
+}
+
+TEST_F(ViewValues, storedChannelsAreExactlyWhatIsInTheGBuffer) {
+    Material material;
+    material.baseColor = {0.25f, 0.5f, 1.0f, 1.0f};
+    material.metallic = 0.375f;
+    material.perceptualRoughness = 0.5f;
+    const Scene scene = flatScene(material);
+    const auto stored = [&](frame::Channel channel, bool fourth, const frame::GBufferLayout& layout) {
+        frame::FrameSettings settings;
+        settings.layout = layout;
+        return shown(scene, frame::storedView({channel, fourth}), Technique::Deferred, settings);
+    };
+    const frame::GBufferLayout exact = frame::layoutTable()[0].layout, packed = frame::layoutTable()[1].layout;
+    EXPECT_EQ(pixel(stored(frame::Channel::Albedo, false, exact), 4, 4), glm::vec4(0.25f, 0.5f, 1.0f, 1.0f));
+    EXPECT_EQ(pixel(stored(frame::Channel::Albedo, true, exact), 4, 4), glm::vec4(0.375f, 0.375f, 0.375f, 1.0f));
+    EXPECT_EQ(pixel(stored(frame::Channel::Normal, false, exact), 4, 4), glm::vec4(0, 0, 1, 1));
+    EXPECT_EQ(stored(frame::Channel::Normal, false, exact).display[0], 128) << "directions are n/2 + 1/2";
+    EXPECT_EQ(pixel(stored(frame::Channel::Normal, true, exact), 4, 4).r, 0.25f) << "alpha, in the spare component";
+    // Fields as shares of their largest codes. The normal's are octahedral: 0 is the middle of an odd number of steps.
+    const float middle = 32767.0f / 65535.0f;
+    EXPECT_EQ(pixel(stored(frame::Channel::Normal, false, packed), 4, 4), glm::vec4(middle, middle, 0, 1));
+    // The square root of the colour in 9 bits, the last code left out so that both ends are exact.
+    const glm::vec4 codes = pixel(stored(frame::Channel::Albedo, false, packed), 4, 4) * 511.0f;
+    EXPECT_NEAR(codes.r, 0.5 * 511.0, 1.0);
+    EXPECT_NEAR(codes.g, std::sqrt(0.5) * 511.0, 1.0);
+    EXPECT_NEAR(codes.b, 511.0, 1.0);
+    for (const float code : {codes.r, codes.g, codes.b}) EXPECT_NEAR(code, std::round(code), 1e-4) << "a whole code";
+}
+
+TEST_F(ViewValues, storedChannelsAreNeverShownWhereThereAreNone) {
+    const Scene scene = flatScene(Material{});
+    const auto message = [&](Technique technique, frame::Channel channel) -> std::string {
+        frame::FrameSettings settings = viewSettings(frame::storedView({channel, false}));
+        try {
+            recipes::prepareFrame(scene, technique, settings);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    EXPECT_EQ(message(Technique::ForwardPlus, frame::Channel::Albedo),
+              "technique forward_plus has no G-buffer for --view gbuffer.albedo to show; deferred, deferred_volumes, "
+              "tiled_deferred, clustered_deferred have one");
+    EXPECT_EQ(message(Technique::Deferred, frame::Channel::Sheen),
+              "--view gbuffer.sheen: this frame's G-buffer has no such channel, which is for scenes with cloth; it has "
+              "albedo, normal");
+    EXPECT_EQ(message(Technique::Deferred, frame::Channel::NormalTexel), "no error") << "stored when it is shown";
+}
+
+TEST_F(ViewValues, distributionsOfAnySizeAlwaysFitTheDisplay) {
+    Material material;
+    material.model = MaterialModel::Microfacet;
+    Scene scene = flatScene(material);
+    scenes::Light sun = test::pointLight({}, 1.0f);
+    sun.type = scenes::LightType::Directional;
+    sun.directionWS = {0, 0, -1};
+    scene.lights = {sun};
+    int last = 0;
+    for (const float alpha : {1.0f, 0.5f, 0.25f, 0.1f}) { // D = 1 / (pi alpha^2): 0.3 to 32
+        scene.materials[0].alpha = alpha;
+        const recipes::RenderedFrame view = frame(scene, viewSettings(frame::View::Distribution));
+        const double d = 1.0 / (std::numbers::pi * alpha * alpha);
+        EXPECT_NEAR(view.radiance[0], d, 1e-5 * d);
+        EXPECT_GT(view.display[0], last);
+        last = view.display[0];
+    }
+    EXPECT_LT(last, 255);
+}
+
+} // namespace
+} // namespace tessera
