@@ -8,6 +8,7 @@
 #include "renderer/frame/Features.h"
 #include "renderer/frame/PackedMaterial.h"
 #include "renderer/gpu/Commands.h"
+#include "shaders/shared/models.h"
 #include "shaders/shared/slots.h"
 #include "validation/reference/Reflectance.h"
 #include "validation/stress/StressCase.h"
@@ -25,7 +26,8 @@ constexpr int kMaterials = 128;
 constexpr double kTolerance = 3e-4;
 constexpr const char* kReason =
     "fp32 rounds n, l, v and h by 6e-8 each, which a lobe multiplies by 2/alpha: 3e-4 at alpha 0.002. Weighted by what "
-    "else loses digits: alpha/0.002, cos/0.001 near the horizon, |l+v|^2, and 3e-4/5e-3 at a critical angle";
+    "else loses digits: alpha/0.002, cos/0.001 near the horizon, |l+v|^2, 3e-4/5e-3 at a critical angle, and the "
+    "azimuth of h where masking goes by it";
 
 /// A batch as both sides take it: each surface is a triangle whose corners are one vertex.
 struct Surfaces {
@@ -53,6 +55,21 @@ struct Surfaces {
     }
 };
 
+/// The same for masking by the alpha along the projection of h (Walter), which turns with the azimuth of h: rounding
+/// turns that the more, the closer h is to n, and the visibility changes with it by twice the ratio of the alphas.
+double azimuthWeight(const scenes::Material& material, const reference::Directions& directions) {
+    if (material.model != scenes::MaterialModel::MicrofacetAnisotropic || material.masking != scenes::Masking::Walter)
+        return 1.0;
+    constexpr double kRounding = 1.2e-7; // of a sum of two unit vectors
+    const double x = std::max(double(material.alpha), double(ALPHA_MIN));
+    const double y = std::max(double(material.alphaY), double(ALPHA_MIN));
+    const double apart = glm::length(directions.toLight + directions.toViewer);
+    const double across = glm::length(glm::cross(directions.normal, directions.half));
+    const double change = 2.0 * std::max(x / y, y / x) * kRounding / std::max(apart * across, 1e-300);
+    if (x == y) return 1.0;
+    return change > 0.1 ? -1.0 : std::min(1.0, kTolerance / change);
+}
+
 /// What a relative error is multiplied by: the share of single precision's digits that the directions leave. Negative
 /// where the answer hangs on the sign of a rounding error.
 double weightOf(const scenes::Material& material, double sharpness, const reference::Directions& directions) {
@@ -62,6 +79,9 @@ double weightOf(const scenes::Material& material, double sharpness, const refere
     if (cosLight < kUndecided || cosView < kUndecided || apart < 1e-5) return -1.0;
     double weight = std::min(1.0, sharpness / 0.002) * std::min(1.0, cosLight / 1e-3) * std::min(1.0, cosView / 1e-3) *
                     std::min(1.0, apart * apart);
+    const double azimuth = azimuthWeight(material, directions);
+    if (azimuth < 0.0) return -1.0;
+    weight *= azimuth;
     const double ior = double(material.ior), cosine = directions.cosIncidence;
     if (ior < 1.0 && std::abs(ior * ior - 1.0 + cosine * cosine) < 1e-4) weight *= kTolerance / 5e-3;
     return weight;
@@ -80,9 +100,9 @@ Compared compared(const glm::vec4& shown, const reference::SurfacePoint& point, 
     const double weight = weightOf(material, sharpness, reference::Directions(point.normal, toLight, toViewer));
     if (weight < 0.0) return {0.0, true};
     const glm::dvec3 truth = reference::reflected(point, toLight, toViewer, true);
-    // A channel counts against the surface's brightest: k_d near 0 does not make a share of 1e-9 matter. Nothing below
-    // single precision's normal numbers does.
-    const double brightest = std::max({truth.r, truth.g, truth.b, 1e-37});
+    // A channel counts against the surface's brightest: k_d near 0 does not make a share of 1e-9 matter. Nor does
+    // what is lost below the least normal number, 1.2e-38: it counts 1e-4 at most.
+    const double brightest = std::max({truth.r, truth.g, truth.b, 1.2e-34});
     const glm::dvec3 difference = glm::abs(glm::dvec3(shown) - truth);
     return {weight * std::max({difference.r, difference.g, difference.b}) / brightest, false};
 }

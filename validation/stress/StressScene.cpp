@@ -34,7 +34,7 @@ scenes::Scene stressScene() {
     scenes::Mesh floor, ball, board;
     appendFloor(floor, glm::dvec3(0.0), {4.0, 4.0}, {4, 4});
     appendSphere(ball, glm::dvec3(0.0), 0.4, 24, 16);
-    appendQuad(board, {-0.5, 0.0, 0.0}, {0.5, 0.0, 0.0}, {0.5, 1.0, 0.0}, {-0.5, 1.0, 0.0});
+    appendQuad(board, {-0.44, 0.0, 0.0}, {0.44, 0.0, 0.0}, {0.44, 1.0, 0.0}, {-0.44, 1.0, 0.0});
     addNode(scene, "floor", glm::dmat4(1.0), {{addMesh(scene, "floor", floor), stone}});
     const int ballMesh = addMesh(scene, "ball", ball), boardMesh = addMesh(scene, "board", board);
     const auto count = double(stressModels().size());
@@ -47,7 +47,7 @@ scenes::Scene stressScene() {
         material.metallic = 0.5f;
         if (model.setRoughness) model.setRoughness(material, 0.6);
         const int index = addMaterial(scene, material);
-        const double x = 3.0 * (place + 0.5) / count - 1.5;
+        const double x = 0.9 * (place - 0.5 * (count - 1.0));
         addNode(scene, material.name, glm::translate(glm::dmat4(1.0), {x, 0.5, 0.6}), {{ballMesh, index}});
         const glm::dmat4 lean = glm::rotate(glm::dmat4(1.0), glm::radians(-20.0), glm::dvec3(1, 0, 0));
         addNode(scene, "board", glm::translate(glm::dmat4(1.0), {x, 0.1, -1.2}) * lean, {{boardMesh, index}});
