@@ -47,7 +47,7 @@ void addFixtures(std::vector<Light>& places) {
             const double z = columnZ(c);
             addPlace(places, "column foot", {side * 3.15, 0.55, z + 0.62}, kAmber, 2.0f, 3.0f);
             addPlace(places, "capital", {side * 3.3, 4.55, z + 0.5}, kAmber, 2.8f, 3.4f);
-            addPlace(places, "aisle", {side * 6.2, 5.3, z}, c % 2 == 0 ? kTeal : kViolet, 9.5f, 5.5f);
+            addPlace(places, "aisle", {side * 6.2, 5.2, z}, c % 2 == 0 ? kTeal : kViolet, 9.5f, 5.0f);
         }
         for (int b = 0; b < kBays; ++b) {
             const double z = bayZ(b);

@@ -228,8 +228,8 @@ TEST_F(Sabotage, anUntouchedCopyOfTheShadersAlwaysPasses) {
 
 TEST_F(Sabotage, swappedChannelsAlwaysMissTheTolerance) {
     replace("lib/gbuffer_read.glsl", "surface.albedo = albedo.rgb;", "surface.albedo = albedo.bgr;");
-    replace("lib/gbuffer_read.glsl", "surface.albedo = decodeSquareRoot(texelFetch(albedoChannel, pixel, 0).r);",
-            "surface.albedo = decodeSquareRoot(texelFetch(albedoChannel, pixel, 0).r).bgr;");
+    replace("lib/gbuffer_read.glsl", "surface.albedo = takeRoots(ivec4(GBUFFER_ALBEDO_WIDTHS));",
+            "surface.albedo = takeRoots(ivec4(GBUFFER_ALBEDO_WIDTHS)).bgr;");
     expectExitCode(kToleranceMissed);
 }
 
