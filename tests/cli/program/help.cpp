@@ -57,12 +57,12 @@ TEST_F(Help, versionIsAlwaysOneLineAndVerboseAlwaysAddsWhatOpenGLSays) {
                                    ContainsRegex("\nGLSL +4"), ContainsRegex("\ncontext +[^ ]")));
 }
 
-TEST_F(Help, scenesAlwaysListsTheFiveBuiltinOnes) {
+TEST_F(Help, scenesAlwaysListsTheSixBuiltinOnes) {
     const std::string list = runGood({"scenes"});
     for (const char* row : {"\nhall +[0-9]+ +257 +[0-9]+  [a-z]", "\nspheres +[0-9]+", "\nlattice +192000 +256 +9  ",
                             "\nroom +30 +1 +10  ", "\nhead +[0-9]+"})
         EXPECT_THAT(list, ContainsRegex(row));
-    EXPECT_EQ(std::count(list.begin(), list.end(), '\n'), 6);
+    EXPECT_EQ(std::count(list.begin(), list.end(), '\n'), 7);
 }
 
 } // namespace
