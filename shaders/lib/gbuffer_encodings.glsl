@@ -148,7 +148,7 @@ float powerOfTwo(int n)
     return uintBitsToFloat(uint(n + 127) << 23);
 }
 
-// The largest exponent of a field: all of fp32's in 8 bits; 2^36 in 6, brighter than any surface in cd/m^2.
+// The largest exponent of a field: 2^68 in 7 bits; 2^36 in 6, brighter than any surface in cd/m^2.
 int topExponent(int width)
 {
     return min((1 << (width - 1)) + 4, 128);
