@@ -37,10 +37,6 @@ struct DemoOptions {
     std::string folder = "out";
 };
 
-std::string nameOf(Technique technique) {
-    return std::string(recipes::techniqueTable()[std::size_t(technique)].name);
-}
-
 /// The pairs of the packed layout under names of their own, joined to those of the exact one.
 void joinPacked(CompareResult& result, CompareResult&& packed) {
     for (std::size_t i = 0; i < packed.record.pairs.size(); ++i) {
@@ -62,11 +58,11 @@ struct DemoResult {
 
 std::string choiceOf(const std::vector<Technique>& techniques, const std::vector<double>& ms, bool agree) {
     const std::size_t best = std::size_t(std::min_element(ms.begin(), ms.end()) - ms.begin());
-    const std::string pace =
-        best == 0 ? "the fastest here"
-                  : fmt::format("{:.1f}x the speed of {} ({:.0f} ms)", ms[0] / ms[best], nameOf(techniques[0]), ms[0]);
+    const std::string pace = best == 0 ? "the fastest here"
+                                       : fmt::format("{:.1f}x the speed of {} ({:.0f} ms)", ms[0] / ms[best],
+                                                     infoOf(techniques[0]).name, ms[0]);
     return fmt::format("Take {} for this scene on this machine: {:.0f} ms a frame, {}, and {}.",
-                       nameOf(techniques[best]), ms[best], pace,
+                       infoOf(techniques[best]).name, ms[best], pace,
                        agree ? "the same picture" : "beware: the pictures do not agree");
 }
 
@@ -102,11 +98,13 @@ validation::Report makeReport(const Request& request, const DemoResult& result) 
     if (comparison.record.samples > 1)
         report.facts.push_back({"Samples", fmt::format("{} a pixel", comparison.record.samples)});
     for (std::size_t i = 0; i < result.ms.size(); ++i)
-        report.facts.push_back({nameOf(result.techniques[i]), fmt::format("{:.0f} ms a frame", result.ms[i])});
+        report.facts.push_back(
+            {std::string(infoOf(result.techniques[i]).name), fmt::format("{:.0f} ms a frame", result.ms[i])});
     for (const Technique technique : result.techniques) {
-        report.plans.push_back({nameOf(technique), graph::planText(recipes::planFrame(
-                                                       request.scene, technique,
-                                                       validation::settingsTakenBy(technique, request.settings)))});
+        report.plans.push_back(
+            {std::string(infoOf(technique).name),
+             graph::planText(recipes::planFrame(request.scene, technique,
+                                                validation::settingsTakenBy(technique, request.settings)))});
     }
     const validation::NamedPicture& truth = comparison.truth;
     report.pictures.push_back({truth.name, "the truth of every pair", truth.display});

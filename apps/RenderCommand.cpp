@@ -49,8 +49,7 @@ std::string countTitle(const std::string& counted, const std::string& of, const 
 
 /// As a display shows it; views that need one get a legend.
 validation::DisplayImage displayPicture(const Request& request, const recipes::RenderedFrame& frame) {
-    const std::string of =
-        fmt::format("{}, {}", request.scene.name, recipes::techniqueTable()[std::size_t(request.technique)].name);
+    const std::string of = fmt::format("{}, {}", request.scene.name, infoOf(request.technique).name);
     const validation::Picture picture = validation::toPicture(frame);
     switch (request.settings.view) {
     case frame::View::Lights:

@@ -16,6 +16,12 @@ namespace {
 /// decimals lose, far below what would be seen.
 constexpr double kUnitTolerance = 1e-3;
 
+// Beyond any surface, and low enough that no product in a shader leaves fp32.
+constexpr double kMostColor = 1e6;
+constexpr double kMostRadiance = 1e30;
+constexpr double kMostRoughness = 1e6;
+constexpr double kMostIor = 1e6;
+
 template <typename Vector>
 bool allFinite(const Vector& vector) {
     for (glm::length_t i = 0; i < vector.length(); ++i) {
@@ -38,6 +44,14 @@ bool allFiniteAndNotNegative(const Vector& vector) {
 
 bool between(double value, double low, double high) {
     return value >= low && value <= high; // false for NaN
+}
+
+template <typename Vector>
+bool allBetween(const Vector& vector, double low, double high) {
+    for (glm::length_t i = 0; i < vector.length(); ++i) {
+        if (!between(double(vector[i]), low, high)) return false;
+    }
+    return true;
 }
 
 bool isUnit(const glm::dvec3& vector) {
@@ -98,22 +112,20 @@ void checkLayers(const Element& element, const Material& material) {
 }
 
 void checkMaterial(const Element& element, const Material& material, std::size_t imageCount) {
-    element.require(allFiniteAndNotNegative(material.baseColor), "the base colour must be finite and not negative");
-    element.require(allFiniteAndNotNegative(material.emissive), "the emission must be finite and not negative");
-    element.require(allFiniteAndNotNegative(material.specularColor),
-                    "the specular colour must be finite and not negative");
+    element.require(allBetween(material.baseColor, 0.0, kMostColor), "the base colour must be between 0 and 1e6");
+    element.require(allBetween(material.emissive, 0.0, kMostRadiance), "the emission must be between 0 and 1e30");
+    element.require(allBetween(material.specularColor, 0.0, kMostColor),
+                    "the specular colour must be between 0 and 1e6");
     element.require(between(material.metallic, 0.0, 1.0), "metalness must be between 0 and 1");
     element.require(between(material.perceptualRoughness, 0.0, 1.0), "roughness must be between 0 and 1");
-    element.require(std::isfinite(material.alpha) && material.alpha >= 0.0f, "alpha must be finite and not negative");
-    element.require(std::isfinite(material.alphaY) && material.alphaY >= 0.0f,
-                    "alphaY must be finite and not negative");
+    element.require(between(material.alpha, 0.0, kMostRoughness), "alpha must be between 0 and 1e6");
+    element.require(between(material.alphaY, 0.0, kMostRoughness), "alphaY must be between 0 and 1e6");
     element.require(std::isfinite(material.exponent) && material.exponent >= 0.0f,
                     "the exponent must be finite and not negative");
     element.require(material.masking != Masking::Directional || material.model != MaterialModel::Microfacet,
                     "masking by direction needs the model microfacet_anisotropic");
     checkLayers(element, material);
-    element.require(std::isfinite(material.ior) && material.ior >= 0.0f,
-                    "the index of refraction must be finite and not negative");
+    element.require(between(material.ior, 0.0, kMostIor), "the index of refraction must be between 0 and 1e6");
     element.require(between(material.specularFactor, 0.0, 1.0), "the specular factor must be between 0 and 1");
     element.require(std::isfinite(material.normalScale), "the normal map's scale must be finite");
     element.require(std::isfinite(material.alphaCutoff), "the alpha cutoff must be finite");

@@ -49,7 +49,7 @@ bool hasEqualBits(const float* a, const float* b) {
     return true;
 }
 
-/// Mean luminance over the finite pixels, and the share of all pixels above the threshold.
+/// Mean magnitude of luminance over the finite pixels, and the share of all pixels where it is above the threshold.
 struct Signal {
     double meanLuminance = kNotMeasured;
     double litShare = 0.0;
@@ -60,7 +60,7 @@ Signal signalOf(const Picture& picture, double litThreshold) {
     std::size_t finite = 0, lit = 0;
     for (std::size_t i = 0; i < picture.pixelCount(); ++i) {
         if (!isFinite(picture.pixel(i))) continue;
-        const double value = luminance(picture.pixel(i));
+        const double value = std::abs(luminance(picture.pixel(i)));
         sum += value;
         ++finite;
         lit += value > litThreshold; // false for every pixel when there was nothing to take the threshold from

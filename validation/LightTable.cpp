@@ -28,7 +28,7 @@ std::string ratioText(const std::optional<double>& ratio) {
 
 std::string rowText(const LightTableRow& row) {
     const LightOracleFigures& figures = row.figures;
-    const std::string_view name = culling::methodTable()[std::size_t(row.method)].name;
+    const std::string_view name = infoOf(row.method).name;
     const std::string tile = row.tilePixels == 0 ? "-" : fmt::format("{}", row.tilePixels);
     return fmt::format("{:<12} {:>4} {:>8.2f} {:>6} {:>6} {:>9} {:>9} {:>8.2f} {:>6} {:>6} {:>9} {:>8} {:>11} {:>6}\n",
                        name, tile, figures.perPixel(figures.evaluated + figures.everywhere), figures.evaluatedP99,

@@ -42,7 +42,7 @@ PixelErrors pixelErrors(const Picture& a, const Picture& b, std::span<const std:
     luminances.reserve(pixelCount);
     for (std::size_t i = 0; i < pixelCount; ++i) {
         errors.state[i] = stateOf(a, b, excluded, i);
-        if (errors.state[i] == PixelState::Compared) luminances.push_back(luminance(b.pixel(i)));
+        if (errors.state[i] == PixelState::Compared) luminances.push_back(std::abs(luminance(b.pixel(i))));
     }
 
     errors.litThreshold = 1e-4 * nearestRank(luminances, 990);

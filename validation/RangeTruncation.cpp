@@ -11,8 +11,7 @@ RangeTruncation rangeTruncation(recipes::Renderer& renderer, recipes::Technique 
     const Picture truncated = toPicture(renderer.render(technique, settings));
     settings.rangeTolerance = 0.0;
     const Picture whole = toPicture(renderer.render(technique, settings));
-    return {tolerance, std::string(recipes::techniqueTable()[std::size_t(technique)].name),
-            errorFigures(truncated, whole)};
+    return {tolerance, std::string(infoOf(technique).name), errorFigures(truncated, whole)};
 }
 
 } // namespace tessera::validation

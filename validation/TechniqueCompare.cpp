@@ -18,13 +18,9 @@ namespace {
 
 using recipes::Technique;
 
-std::string nameOf(Technique technique) {
-    return std::string(recipes::techniqueTable()[std::size_t(technique)].name);
-}
-
 NamedPicture rendered(recipes::Renderer& renderer, Technique technique, const frame::FrameSettings& settings) {
     const recipes::RenderedFrame frame = renderer.render(technique, settingsTakenBy(technique, settings));
-    return {nameOf(technique), toPicture(frame), toDisplayImage(frame)};
+    return {std::string(infoOf(technique).name), toPicture(frame), toDisplayImage(frame)};
 }
 
 bool isReference(const CompareRequest& request) {
@@ -66,8 +62,8 @@ RangeTruncation truncationOf(recipes::Renderer& renderer, const CompareRequest& 
 std::string cullingText(const recipes::Renderer& renderer) {
     const culling::Choice choice = renderer.downloadLists().culling;
     if (choice.method == culling::Method::None) return {};
-    return fmt::format("{}, tile {}, lists built by {}", culling::methodTable()[std::size_t(choice.method)].name,
-                       choice.tilePixels, culling::builderTable()[std::size_t(choice.builder)].name);
+    return fmt::format("{}, tile {}, lists built by {}", infoOf(choice.method).name, choice.tilePixels,
+                       infoOf(choice.builder).name);
 }
 
 bool isPacked(const frame::GBufferLayout& layout) {
@@ -93,9 +89,13 @@ std::vector<ChannelShare> channelShares(recipes::Renderer& renderer, const Compa
 /// What a technique is held to, with a layout, against what the request asks for.
 Tolerance toleranceOf(const recipes::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
                       Technique technique, const frame::GBufferLayout& layout) {
-    const bool quantises = recipes::techniqueTable()[std::size_t(technique)].usesGBuffer && isPacked(layout);
+    const bool quantises = infoOf(technique).usesGBuffer && isPacked(layout);
     if (isReference(request) && !quantises) return referenceTolerance(renderer.scene(), request.settings.filter);
     return pairTolerance(technique, layout, gl.isSoftware, renderer.scene().lights.size());
+}
+
+bool showsSigned(const CompareRequest& request) {
+    return frame::displayMapping(request.settings.view, request.settings.layout) == frame::DisplayMapping::Signed;
 }
 
 /// A packed layout's tolerance is wide enough to hide a faint light that was skipped. So the same picture with every
@@ -105,7 +105,8 @@ void checkWithoutPacking(recipes::Renderer& renderer, const gpu::Capabilities& g
     frame::FrameSettings settings = request.settings;
     settings.layout = frame::layoutTable()[0].layout;
     const Picture picture = toPicture(renderer.render(technique, settingsTakenBy(technique, settings)));
-    const Tolerance tolerance = toleranceOf(renderer, gl, request, technique, settings.layout);
+    Tolerance tolerance = toleranceOf(renderer, gl, request, technique, settings.layout);
+    tolerance.isSigned = showsSigned(request);
     const ErrorFigures figures = errorFigures(picture, result.truth.picture, result.excluded);
     for (const std::string& missed : checkTolerance(figures, tolerance).missed)
         verdict.missed.push_back("with every channel in fp32: " + missed);
@@ -165,8 +166,8 @@ std::vector<Technique> techniquesTaking(int samples, std::optional<culling::Meth
         if (!recipes::takesSamples(info, samples))
             leftOut.push_back({std::string(info.name), fmt::format("it does not take --samples {}", samples)});
         else if (culls && !recipes::takesMethod(info.technique, *method))
-            leftOut.push_back({std::string(info.name), fmt::format("it does not take --culling {}",
-                                                                   culling::methodTable()[std::size_t(*method)].name)});
+            leftOut.push_back(
+                {std::string(info.name), fmt::format("it does not take --culling {}", infoOf(*method).name)});
         else
             techniques.push_back(info.technique);
     }
@@ -176,7 +177,7 @@ std::vector<Technique> techniquesTaking(int samples, std::optional<culling::Meth
 Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout, bool isSoftware,
                         std::size_t lightCount) {
     Tolerance tolerance;
-    if (recipes::techniqueTable()[std::size_t(technique)].usesGBuffer && isPacked(layout)) {
+    if (infoOf(technique).usesGBuffer && isPacked(layout)) {
         tolerance.relMse = frame::promisedRelMse(layout);
         tolerance.reason =
             fmt::format("the layout's promise: its channels' steps change a pixel by {:.1f} % in the mean "
@@ -213,13 +214,14 @@ CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabili
         NamedPicture picture = rendered(renderer, technique, request.settings);
         const std::string culling = cullingText(renderer);
         requireSameSize(picture.picture, picture.name, result.truth.picture, result.truth.name);
-        const Tolerance tolerance = request.tolerance
-                                        ? *request.tolerance
-                                        : toleranceOf(renderer, gl, request, technique, request.settings.layout);
+        Tolerance tolerance = request.tolerance
+                                  ? *request.tolerance
+                                  : toleranceOf(renderer, gl, request, technique, request.settings.layout);
+        tolerance.isSigned = showsSigned(request);
         ComparePair pair = comparePair(picture.name, picture.picture, result.truth.name, result.truth.picture,
                                        tolerance, result.excluded, shownPair(request, picture, result.truth));
         pair.culling = culling;
-        if (recipes::techniqueTable()[std::size_t(technique)].usesGBuffer && isPacked(request.settings.layout)) {
+        if (infoOf(technique).usesGBuffer && isPacked(request.settings.layout)) {
             pair.channels = channelShares(renderer, request, technique, result, pair.figures.relMse);
             // Against a picture file the tolerance is about that picture, which need not come from this renderer.
             if (!request.tolerance && !std::holds_alternative<std::string>(request.against))

@@ -18,7 +18,8 @@ void checkSignal(std::vector<std::string>& missed, const char* name, double mean
                                      100.0 * litShare, name));
 }
 
-void checkBad(std::vector<std::string>& missed, const char* where, const BadPixels& bad) {
+void checkBad(std::vector<std::string>& missed, const char* where, BadPixels bad, bool mayBeNegative) {
+    if (mayBeNegative) bad.negative = 0;
     if (bad.sum() > 0)
         missed.push_back(fmt::format("{} pixels: {} NaN, {} infinite, {} negative; there must be none", where, bad.nan,
                                      bad.infinite, bad.negative));
@@ -41,8 +42,8 @@ Verdict checkTolerance(const ErrorFigures& figures, const Tolerance& tolerance) 
     std::vector<std::string>& missed = verdict.missed;
     checkSignal(missed, "a", figures.meanLuminanceA, figures.litShareA);
     checkSignal(missed, "b", figures.meanLuminance, figures.litShare);
-    checkBad(missed, "covered", figures.bad);
-    checkBad(missed, "uncovered or excluded", figures.badOutside);
+    checkBad(missed, "covered", figures.bad, tolerance.isSigned);
+    checkBad(missed, "uncovered or excluded", figures.badOutside, tolerance.isSigned);
     if (figures.excluded > kMostExcludedShare)
         missed.push_back(
             fmt::format("{:.3g} % of the covered pixels were excluded, at most 5 % may be", 100.0 * figures.excluded));

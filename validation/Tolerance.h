@@ -14,6 +14,7 @@ struct Tolerance {
     std::optional<double> relMse = {};   ///< at most
     std::optional<double> p999Rel = {};  ///< at most
     std::optional<double> bias = {};     ///< at most, of its magnitude
+    bool isSigned = false;               ///< directions, which may be negative; radiance may not
     std::string reason = {};             ///< why these values: one sentence
 };
 
@@ -23,8 +24,9 @@ struct Verdict {
 };
 
 /// Whether a pair holds. Whatever the tolerance, it does not when there is no signal (mean luminance 0, or under 10 %
-/// of the pixels lit, in either picture: two black pictures never pass), when any pixel is NaN, infinite or negative,
-/// or when over 5 % of the covered pixels were excluded. A figure that could not be measured misses its tolerance.
+/// of the pixels lit, in either picture: two black pictures never pass), when any pixel is NaN, infinite or (unless
+/// isSigned) negative, or when over 5 % of the covered pixels were excluded. A figure that could not be measured misses
+/// its tolerance.
 Verdict checkTolerance(const ErrorFigures& figures, const Tolerance& tolerance);
 
 } // namespace tessera::validation

@@ -12,14 +12,6 @@ namespace {
 
 using culling::Method;
 
-std::string_view nameOf(Method method) {
-    return culling::methodTable()[std::size_t(method)].name;
-}
-
-const TechniqueInfo& infoOf(Technique technique) {
-    return techniqueTable()[std::size_t(technique)];
-}
-
 void requireMethod(const TechniqueInfo& info, Method method) {
     if (takesMethod(info.technique, method)) return;
     std::string techniques;
@@ -28,7 +20,7 @@ void requireMethod(const TechniqueInfo& info, Method method) {
             techniques += (techniques.empty() ? "" : ", ") + std::string(other.name);
     }
     throw InputError(
-        fmt::format("technique {} does not take --culling {}; {} do", info.name, nameOf(method), techniques));
+        fmt::format("technique {} does not take --culling {}; {} do", info.name, infoOf(method).name, techniques));
 }
 
 /// Invocations that build a tile's lists together: all that hardware runs in step; one on software rasterisers, where
@@ -90,14 +82,14 @@ std::vector<graph::Plan::Choice> cullingChoices(Technique technique, const frame
     const auto why = [](bool asked, const char* otherwise) { return std::string(asked ? "asked for" : otherwise); };
     const bool nothingToCull = choice.method == Method::None && settings.culling.method != Method::None;
     std::vector<graph::Plan::Choice> choices{
-        {"culling", std::string(nameOf(choice.method)),
+        {"culling", std::string(infoOf(choice.method).name),
          nothingToCull ? "no light ends inside the view, or nothing is lit"
                        : why(settings.culling.method.has_value(), "the technique's tightest")}};
     if (choice.method == Method::None) return choices;
     choices.push_back(
         {"tile", fmt::format("{} pixels", choice.tilePixels),
          why(settings.culling.tilePixels.has_value(), "measured fastest or nearly so at 64 to 4096 lights")});
-    choices.push_back({"lists built by", std::string(culling::builderTable()[std::size_t(choice.builder)].name),
+    choices.push_back({"lists built by", std::string(infoOf(choice.builder).name),
                        why(settings.culling.builder.has_value(), builderReason(settings.softwareBackend))});
     return choices;
 }

@@ -6,17 +6,9 @@
 
 namespace tessera::recipes {
 
-namespace {
-
-std::string_view nameOf(frame::LightingStage stage) {
-    return frame::lightingStageTable()[std::size_t(stage)].name;
-}
-
-} // namespace
-
 bool takesLightingStage(Technique technique) {
     // Volumes are rasterised: what is lit stands in fragment shaders.
-    return techniqueTable()[std::size_t(technique)].usesGBuffer && technique != Technique::DeferredVolumes;
+    return infoOf(technique).usesGBuffer && technique != Technique::DeferredVolumes;
 }
 
 frame::LightingStage chooseLighting(Technique technique, const frame::FrameSettings& settings) {
@@ -28,7 +20,7 @@ frame::LightingStage chooseLighting(Technique technique, const frame::FrameSetti
             techniques += (techniques.empty() ? "" : ", ") + std::string(other.name);
     }
     throw InputError(fmt::format("technique {} does not take --light-on {}, since it lights as it rasterises; {} do",
-                                 techniqueTable()[std::size_t(technique)].name, nameOf(*settings.lightOn), techniques));
+                                 infoOf(technique).name, infoOf(*settings.lightOn).name, techniques));
 }
 
 std::optional<graph::Plan::Choice> lightingChoice(Technique technique, const frame::FrameSettings& settings) {
@@ -37,8 +29,8 @@ std::optional<graph::Plan::Choice> lightingChoice(Technique technique, const fra
                             : settings.softwareBackend
                                 ? "measured 15 to 40 % faster than compute shaders on software rasterisers"
                                 : "not measured on this kind of backend yet; compute is there by --light-on compute";
-    return graph::Plan::Choice{"lighting in", std::string(nameOf(chooseLighting(technique, settings))) + " shaders",
-                               why};
+    return graph::Plan::Choice{"lighting in",
+                               std::string(infoOf(chooseLighting(technique, settings)).name) + " shaders", why};
 }
 
 } // namespace tessera::recipes

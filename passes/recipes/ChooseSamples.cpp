@@ -21,7 +21,7 @@ bool takesSamples(const TechniqueInfo& info, int samples) {
 
 void requireSamples(Technique technique, int samples) {
     requireSampleCount(samples);
-    const TechniqueInfo& info = techniqueTable()[std::size_t(technique)];
+    const TechniqueInfo& info = infoOf(technique);
     if (takesSamples(info, samples)) return;
     std::vector<std::string_view> able;
     for (const TechniqueInfo& other : techniqueTable()) {

@@ -14,7 +14,7 @@ bool takesView(const TechniqueInfo& info, frame::View view) {
 }
 
 void requireView(Technique technique, frame::View view) {
-    const TechniqueInfo& info = techniqueTable()[std::size_t(technique)];
+    const TechniqueInfo& info = infoOf(technique);
     if (takesView(info, view)) return;
     std::vector<std::string_view> able;
     for (const TechniqueInfo& other : techniqueTable()) {

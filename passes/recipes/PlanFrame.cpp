@@ -29,6 +29,16 @@ std::string truncationWords(const frame::TruncatedLights& lights, double toleran
     return words;
 }
 
+/// Channels that are stored otherwise than the layout that was asked for says.
+void addHeldChannels(graph::Plan& plan, const frame::GBufferLayout& asked, const frame::FrameSpec& spec) {
+    for (const frame::Channel channel : spec.channels) {
+        if (spec.settings.layout[channel] == asked[channel]) continue;
+        const std::string_view name = frame::channelTable()[std::size_t(channel)].name;
+        plan.choices.push_back({fmt::format("G-buffer channel {}", name), "exact",
+                                "a colour of the scene may exceed 1, which its packed field cannot hold"});
+    }
+}
+
 void addChoices(graph::Plan& plan, const scenes::Scene& scene, const PreparedFrame& prepared) {
     const frame::FrameSettings& settings = prepared.spec.settings;
     plan.choices.push_back(
@@ -47,17 +57,18 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const PreparedFra
     for (const std::string& warning : scene.warnings) plan.choices.push_back({"scene", scene.name, warning});
 }
 
-void addCounters(graph::Plan& plan, const scenes::Scene& scene, const PreparedFrame& prepared) {
+void addCounters(graph::Plan& plan, const scenes::Scene& scene, Technique technique, const PreparedFrame& prepared) {
     std::size_t draws = 0;
     for (const scenes::Node& node : scene.nodes) draws += node.instances.size();
-    const auto gbufferBytes =
-        std::uint64_t(frame::bytesPerPixel(prepared.spec.settings.layout, prepared.spec.channels));
+    const frame::FrameSpec& spec = prepared.spec;
+    const int gbufferBytes =
+        infoOf(technique).usesGBuffer ? frame::bytesPerPixel(spec.settings.layout, spec.channels) : 0;
     plan.counters = {{"triangles", scenes::triangleCount(scene)},
                      {"draws", draws},
                      {"lights", scene.lights.size()},
                      {"lightsEvaluated", prepared.lights.texels.size()},
                      {"lightBytes", frame::lightBytes(prepared.lights.features, prepared.lights.texels.size())},
-                     {"gbufferBytesPerPixel", gbufferBytes},
+                     {"gbufferBytesPerPixel", std::uint64_t(gbufferBytes)},
                      {"pixels", std::uint64_t(prepared.spec.settings.sizePixels.x) *
                                     std::uint64_t(prepared.spec.settings.sizePixels.y)}};
 }
@@ -71,9 +82,9 @@ graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const fra
         graph::compile(frame.graph, {.cull = settings.prune, .alias = settings.prune});
     graph::Plan plan = graph::makePlan(frame.graph, compiled);
     plan.scene = scene.name;
-    plan.technique = std::string(techniqueTable()[std::size_t(technique)].name);
+    plan.technique = std::string(infoOf(technique).name);
     for (graph::Plan::LeftOut& item :
-         frame::leftOut(scene, prepared.spec, prepared.lights, techniqueTable()[std::size_t(technique)].usesGBuffer)) {
+         frame::leftOut(scene, prepared.spec, prepared.lights, infoOf(technique).usesGBuffer)) {
         plan.leftOut.push_back(std::move(item));
     }
     addChoices(plan, scene, prepared);
@@ -82,7 +93,8 @@ graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const fra
     for (graph::Plan::Choice& choice : sampleChoices(settings)) plan.choices.push_back(std::move(choice));
     if (std::optional<graph::Plan::Choice> choice = lightingChoice(technique, settings))
         plan.choices.push_back(std::move(*choice));
-    addCounters(plan, scene, prepared);
+    if (infoOf(technique).usesGBuffer) addHeldChannels(plan, settings.layout, prepared.spec);
+    addCounters(plan, scene, technique, prepared);
     return plan;
 }
 

@@ -221,6 +221,10 @@ std::span<const TechniqueInfo> techniqueTable() {
     return kTechniques;
 }
 
+const TechniqueInfo& infoOf(Technique technique) {
+    return kTechniques[std::size_t(technique)];
+}
+
 DeclaredFrame declareFrame(Technique technique, const frame::FrameSpec& spec, const frame::FrameResources* resources) {
     DeclaredFrame frame;
     Recipe recipe{frame, spec, resources};

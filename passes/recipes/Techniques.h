@@ -32,6 +32,7 @@ struct TechniqueInfo {
     bool multisamples = false;                ///< takes more than one sample a pixel
 };
 std::span<const TechniqueInfo> techniqueTable();
+const TechniqueInfo& infoOf(Technique technique);
 
 /// A declared frame. The graph's outputs are radiance and, where the settings ask for it, display; both of one sample a
 /// pixel. Alpha of radiance is the covered share of the pixel.

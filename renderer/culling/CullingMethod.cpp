@@ -24,8 +24,16 @@ std::span<const MethodInfo> methodTable() {
     return kMethods;
 }
 
+const MethodInfo& infoOf(Method method) {
+    return kMethods[std::size_t(method)];
+}
+
 std::span<const BuilderInfo> builderTable() {
     return kBuilders;
+}
+
+const BuilderInfo& infoOf(Builder builder) {
+    return kBuilders[std::size_t(builder)];
 }
 
 } // namespace tessera::culling

@@ -14,6 +14,7 @@ struct MethodInfo {
     std::string_view summary;
 };
 std::span<const MethodInfo> methodTable();
+const MethodInfo& infoOf(Method method);
 
 /// Who builds the lists.
 enum class Builder : std::uint8_t { Cpu, Compute, Fragment };
@@ -23,6 +24,7 @@ struct BuilderInfo {
     std::string_view summary;
 };
 std::span<const BuilderInfo> builderTable();
+const BuilderInfo& infoOf(Builder builder);
 
 /// Tile sides, in pixels.
 inline constexpr int kTileSides[] = {8, 16, 32, 64};

@@ -94,13 +94,9 @@ DepthRun depthRun(const TileDepths& tile, const shared::FrameConstants& frame) {
 }
 
 DepthRun depthRun(const TileDepths& tile, int firstSlice, int lastSlice, const shared::FrameConstants& frame) {
-    const std::uint32_t shift = tile.slicing & 31u;
-    const std::uint32_t first = shared::firstKeyOfSlices(tile.slicing) + (std::uint32_t(firstSlice) << shift);
-    const std::uint32_t beyond = shared::firstKeyOfSlices(tile.slicing) + (std::uint32_t(lastSlice + 1) << shift);
-    const float bias = frame.depthKey.x;
-    const float farthest = std::max(tile.farthest, std::bit_cast<float>(first) - bias);
-    const float nearest = std::min(tile.nearest, std::bit_cast<float>(beyond) - bias);
-    return runBetween(nearest, farthest, frame);
+    const glm::vec2 depths =
+        shared::depthsOfSlices(tile.slicing, std::uint32_t(firstSlice), std::uint32_t(lastSlice), frame.depthKey.x);
+    return runBetween(std::min(tile.nearest, depths.y), std::max(tile.farthest, depths.x), frame);
 }
 
 } // namespace tessera::culling

@@ -37,12 +37,9 @@ void setBit(std::uint32_t* mask, std::size_t bit) {
 
 /// View depths in metres between which bin `index` lies.
 DepthRun binDepths(const Bins& bins, std::uint32_t index, const shared::FrameConstants& frame) {
-    const std::uint32_t shift = bins.slicing & 31u;
-    const std::uint32_t first = shared::firstKeyOfSlices(bins.slicing) + (index << shift);
-    const std::uint32_t beyond = first + (1u << shift);
-    const float bias = frame.depthKey.x;
-    return {shared::viewDepthMetres(frame.depthToViewDepth, std::bit_cast<float>(beyond) - bias),
-            shared::viewDepthMetres(frame.depthToViewDepth, std::max(0.0f, std::bit_cast<float>(first) - bias))};
+    const glm::vec2 depths = shared::depthsOfSlices(bins.slicing, index, index, frame.depthKey.x);
+    return {shared::viewDepthMetres(frame.depthToViewDepth, depths.y),
+            shared::viewDepthMetres(frame.depthToViewDepth, std::max(0.0f, depths.x))};
 }
 
 } // namespace

@@ -73,6 +73,7 @@ CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, L
     const glm::dvec2 pixelStep = 2.0 * lens.halfExtent / glm::dvec2(sizePixels);
     shared::FrameConstants& c = view.constants;
     c.clipFromLS = glm::mat4(view.clipFromLS);
+    c.clipFromES = glm::mat4(lens.clipFromView * glm::dmat4(glm::transpose(worldFromView)));
     c.worldFromLS = glm::mat4(glm::dmat4(glm::transpose(view.lsFromWorld)));
     c.rayOriginLS = glm::vec4(lsFromView * glm::dvec3(-lens.halfExtent, orthographic ? 0.0 : -1.0), 0.0f);
     c.rayDxLS = glm::vec4(lsFromView * glm::dvec3(pixelStep.x, 0.0, 0.0), 0.0f);

@@ -21,16 +21,8 @@ Sphere sphereAroundCone(const glm::dvec3& apex, const glm::dvec3& axis, double c
     return {apex + axis * (reach * cosOuter), reach * sinOuter};
 }
 
-/// How far rounding can move a surface along the view where that is no share of its distance, in metres. Orthographic
-/// view depth is far - depth (far - near): two rounded coefficients, a product, a sum, and the sum in the depth key are
-/// off by 2^-24 of the far distance each, however near the surface is.
-double depthErrorMetres(const CameraView& view) {
-    const bool orthographic = view.constants.forwardLS.w == 1.0f;
-    return orthographic ? 0x1p-21 * double(view.constants.depthToViewDepth.x) : 0.0;
-}
-
 shared::CullLight cullLight(const shared::LightTexels& light, const shared::LightShapeTexels& shape,
-                            const glm::dmat3& cameraFromLS, double errorMetres) {
+                            const glm::dmat3& cameraFromLS, const CameraView& view) {
     shared::CullLight cull{};
     cull.axis.w = -2.0f;
     cull.sphere.w = -1.0f;
@@ -39,15 +31,18 @@ shared::CullLight cullLight(const shared::LightTexels& light, const shared::Ligh
 
     const glm::dvec3 position = cameraFromLS * glm::dvec3(light.position);
     const double reach = 1.0 / std::sqrt(double(light.position.w));
-    // What rounding the packed position and the rebuilt surface positions to fp32 can move.
-    const double margin = 1e-5 * (reach + glm::length(position)) + errorMetres;
+    const bool orthographic = view.constants.forwardLS.w == 1.0f;
+    const glm::vec4& lens = view.constants.depthToViewDepth;
+    const double margin = double(shared::roundingMargin(float(reach + glm::length(position)), orthographic, lens));
     Sphere sphere{position, reach};
     if ((kind & LIGHT_SPOT) != 0) {
-        // The shader's cosine is off by some 1e-7; a cone wider by 1e-6 in the cosine encloses whatever it lights.
-        const double cosOuter = std::clamp(double(-shape.attenuation.w) / double(shape.axis.w) - 1e-6, -1.0, 1.0);
+        const double cosOuter =
+            std::clamp(double(-shape.attenuation.w) / double(shape.axis.w) - CONE_COSINE_MARGIN, -1.0, 1.0);
         const glm::dvec3 axis = glm::normalize(cameraFromLS * glm::dvec3(shape.axis));
         sphere = sphereAroundCone(position, axis, cosOuter, reach);
-        // A cone whose apex stands back by m / sin(outer) encloses all that lies within m of it.
+        // A cone whose apex stands back by m / sin(outer) encloses all that lies within m of it. What is a share of the
+        // distance coneTouchesBox() adds.
+        const double errorMetres = double(shared::roundingMargin(0.0f, orthographic, lens));
         const double sinOuter = std::sqrt(1.0 - cosOuter * cosOuter);
         const glm::dvec3 apex = sinOuter > 0.0 ? position - axis * (errorMetres / sinOuter) : position;
         cull.apex = glm::vec4(glm::vec3(apex), float(sinOuter));
@@ -63,10 +58,9 @@ std::vector<shared::CullLight> cullLights(const PackedLights& lights, const Came
     // Right, up and ahead: view space looks along -z.
     glm::dmat3 cameraFromLS = glm::transpose(view.lsFromView);
     for (int column = 0; column < 3; ++column) cameraFromLS[column][2] = -cameraFromLS[column][2];
-    const double errorMetres = depthErrorMetres(view);
     std::vector<shared::CullLight> culls;
     for (std::size_t i = 0; i < lights.texels.size(); ++i)
-        culls.push_back(cullLight(lights.texels[i], lights.shapes[i], cameraFromLS, errorMetres));
+        culls.push_back(cullLight(lights.texels[i], lights.shapes[i], cameraFromLS, view));
     return culls;
 }
 

@@ -84,10 +84,10 @@ std::vector<DrawRows> makeDrawRows(const DrawList& list, const CameraView& view)
     std::vector<DrawRows> rows(list.draws.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const glm::dmat4& worldFromObject = list.worldFromObject[std::size_t(list.draws[i].node)];
-        const glm::dmat3 linear = view.lsFromWorld * glm::dmat3(worldFromObject);
-        const glm::dvec3 originLS = view.positionLS(glm::dvec3(worldFromObject[3]));
+        const glm::dmat3 linear(worldFromObject);
+        const glm::dvec3 originES = glm::dvec3(worldFromObject[3]) - view.eyeWS;
         const double sign = list.draws[i].mirrored ? -1.0 : 1.0;
-        glm::dmat3 normal = cofactor(linear) * sign;
+        glm::dmat3 normal = cofactor(view.lsFromWorld * linear) * sign;
         // Scaled to order one: the cofactors of a node scaled by 1e-20 would leave fp32's range.
         double largest = 0.0;
         for (int c = 0; c < 3; ++c)
@@ -95,7 +95,7 @@ std::vector<DrawRows> makeDrawRows(const DrawList& list, const CameraView& view)
         if (largest > 0.0) normal /= largest;
         const double extra[3] = {sign, double(list.draws[i].largestColor), 1.0 + list.draws[i].instance};
         for (int r = 0; r < 3; ++r) {
-            rows[i].position[r] = glm::vec4(linear[0][r], linear[1][r], linear[2][r], originLS[r]);
+            rows[i].position[r] = glm::vec4(linear[0][r], linear[1][r], linear[2][r], originES[r]);
             rows[i].normal[r] = glm::vec4(normal[0][r], normal[1][r], normal[2][r], extra[r]);
         }
     }

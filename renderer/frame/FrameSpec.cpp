@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "renderer/frame/HoldColors.h"
+
 namespace tessera::frame {
 
 namespace {
@@ -53,7 +55,8 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     // Half the rounds that a loop may make, so that scanning bitmasks has room beside the lights.
     constexpr std::size_t kLightsOneByOne = 32768;
     spec.manyLights = lights.texels.size() > kLightsOneByOne;
-    spec.channels = neededChannels(spec.features, settings.layout, needsNormalTexel(settings.view));
+    spec.settings.layout = holdingColors(settings.layout, scene);
+    spec.channels = neededChannels(spec.features, spec.settings.layout, needsNormalTexel(settings.view));
     return spec;
 }
 

@@ -212,6 +212,7 @@ Defines channelDefines(const GBufferLayout& layout, std::span<const Channel> cha
             bit += layout.bits(channel);
         }
     }
+    if (attachment > 0) defines.emplace_back("GBUFFER_EXACT_CHANNELS", std::to_string(attachment));
     if (bit > 0) {
         defines.emplace_back("GBUFFER_WORDS", std::to_string((bit + 31) / 32));
         defines.emplace_back("GBUFFER_WORD_TEXTURE", std::to_string(attachment));

@@ -86,9 +86,9 @@ std::vector<GBufferTexture> gbufferTextures(const GBufferLayout& layout, std::sp
 int bytesPerPixel(const GBufferLayout& layout, std::span<const Channel> channels); ///< without depth
 
 /// GBUFFER_<NAME>_PACKED = 0 or 1 of each channel. Of an exact one GBUFFER_<NAME> is its attachment; of others
-/// GBUFFER_<NAME> is the bit where its fields begin and GBUFFER_<NAME>_WIDTHS their widths. GBUFFER_WORDS is the number
-/// of words and GBUFFER_WORD_TEXTURE the attachment of the first, where there are any. GBUFFER_SPARE_COMPONENTS where
-/// alpha and metallic lie in the fourth components of others.
+/// GBUFFER_<NAME> is the bit where its fields begin and GBUFFER_<NAME>_WIDTHS their widths. GBUFFER_EXACT_CHANNELS is
+/// the number of exact ones, GBUFFER_WORDS of words and GBUFFER_WORD_TEXTURE the attachment of the first, where there
+/// are any. GBUFFER_SPARE_COMPONENTS where alpha and metallic lie in the fourth components of others.
 Defines channelDefines(const GBufferLayout& layout, std::span<const Channel> channels);
 
 } // namespace tessera::frame

@@ -15,4 +15,8 @@ std::span<const LightingStageInfo> lightingStageTable() {
     return kStages;
 }
 
+const LightingStageInfo& infoOf(LightingStage stage) {
+    return kStages[std::size_t(stage)];
+}
+
 } // namespace tessera::frame

@@ -13,5 +13,6 @@ struct LightingStageInfo {
     std::string_view summary;
 };
 std::span<const LightingStageInfo> lightingStageTable();
+const LightingStageInfo& infoOf(LightingStage stage);
 
 } // namespace tessera::frame

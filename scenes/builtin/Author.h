@@ -71,6 +71,27 @@ inline Material microfacet(const std::string& name, const glm::vec3& diffuse, fl
     return material;
 }
 
+inline void addPointLight(Scene& scene, const std::string& name, const glm::dvec3& positionWS, const glm::vec3& color,
+                          float candela) {
+    Light light;
+    light.name = name;
+    light.positionWS = positionWS;
+    light.color = color;
+    light.intensity = candela;
+    scene.lights.push_back(std::move(light));
+}
+
+inline void addDirectionalLight(Scene& scene, const std::string& name, const glm::dvec3& directionWS,
+                                const glm::vec3& color, float lux) {
+    Light light;
+    light.name = name;
+    light.type = LightType::Directional;
+    light.directionWS = glm::normalize(directionWS);
+    light.color = color;
+    light.intensity = lux;
+    scene.lights.push_back(std::move(light));
+}
+
 /// Scenes with a few placed lights keep the first `options.lights` of them.
 inline void keepFirstLights(Scene& scene, const LoadOptions& options) {
     if (options.lights && static_cast<std::size_t>(*options.lights) < scene.lights.size()) {

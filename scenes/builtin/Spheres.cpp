@@ -42,16 +42,6 @@ void addSpheres(Scene& scene) {
     }
 }
 
-void addPointLight(Scene& scene, const std::string& name, const glm::dvec3& positionWS, const glm::vec3& color,
-                   float candela) {
-    Light light;
-    light.name = name;
-    light.positionWS = positionWS;
-    light.color = color;
-    light.intensity = candela;
-    scene.lights.push_back(light);
-}
-
 } // namespace
 
 Scene makeSpheres(const LoadOptions& options) {
@@ -68,13 +58,7 @@ Scene makeSpheres(const LoadOptions& options) {
     addPointLight(scene, "key", {-4.5, 6.0, 3.5}, {1.0f, 0.93f, 0.84f}, 110.0f);
     addPointLight(scene, "fill", {5.5, 4.0, 4.0}, {0.55f, 0.72f, 1.0f}, 45.0f);
     addPointLight(scene, "rim", {3.0, 5.0, -8.5}, {1.0f, 0.62f, 0.4f}, 90.0f);
-    Light sun;
-    sun.name = "sky";
-    sun.type = LightType::Directional;
-    sun.directionWS = glm::normalize(glm::dvec3(0.2, -1.0, -0.35));
-    sun.color = {0.85f, 0.92f, 1.0f};
-    sun.intensity = 0.6f;
-    scene.lights.push_back(sun);
+    addDirectionalLight(scene, "sky", {0.2, -1.0, -0.35}, {0.85f, 0.92f, 1.0f}, 0.6f);
     keepFirstLights(scene, options);
 
     addCamera(scene, "front", {0.0, 4.7, 9.2}, {0.0, 0.6, -1.9}, 40.0);

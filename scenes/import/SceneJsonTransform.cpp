@@ -34,8 +34,6 @@ glm::dmat4 readParts(const JsonValue& value) {
     if (euler) rotation = readEuler(*euler);
     if (const auto factor = object.find("scale")) {
         scale = factor->isNumber() ? glm::dvec3(factor->number()) : factor->vector3();
-        if (scale.x == 0.0 || scale.y == 0.0 || scale.z == 0.0)
-            factor->fail("is 0 along an axis; nothing would be left");
     }
     object.done("a transform");
 
@@ -65,11 +63,7 @@ glm::dmat4 readTransform(JsonObject& object) {
     if (transform && matrix) matrix->fail("is given beside 'transform'; keep one");
     if (transform) return readParts(*transform);
     if (!matrix) return glm::dmat4(1.0);
-    const glm::dmat4 worldFromPart = readMatrix(*matrix);
-    const double determinant = glm::determinant(glm::dmat3(worldFromPart));
-    if (!(std::abs(determinant) > 0.0) || !std::isfinite(determinant))
-        matrix->fail("flattens what it places; its first three columns must be independent");
-    return worldFromPart;
+    return readMatrix(*matrix);
 }
 
 bool isRigid(const glm::dmat4& matrix) {

@@ -8,7 +8,7 @@ glm::dmat4 readMatrix(const JsonValue& value);
 
 /// The keys "transform" ({translation, rotation or eulerDegrees, scale}) or "matrix" of an object; the identity without
 /// both. Scale comes first, then rotation, then translation; euler angles turn about the fixed axes X, then Y, then Z.
-/// Throws InputError for both keys at once and for a transform that flattens.
+/// Throws InputError for both keys at once. A transform may flatten what it places.
 glm::dmat4 readTransform(JsonObject& object);
 
 /// True when the matrix only rotates and moves, to the tolerance of checkScene().

@@ -103,14 +103,33 @@ float visibilityCorrelatedOfLengths(float cosineLight, float lengthLight, float 
     return v;
 }
 
+// What x * x loses to rounding, exactly. Source: Dekker 1971, "A Floating-Point Technique for Extending the Available Precision"
+// (with Veltkamp's splitting: 4097 = 2^12 + 1). No fma(), which drivers may round twice.
+float squareRemainder(float x, float square)
+{
+    precise float t = 4097.0 * x;
+    precise float high = t - (t - x);
+    precise float low = x - high;
+    precise float remainder = ((high * high - square) + 2.0 * high * low) + low * low;
+    return remainder;
+}
+
 // Fresnel reflectance of a smooth dielectric for unpolarised light; ior is n2/n1, cosine the one between light and half
 // vector. Source: Cook and Torrance 1982; g - c is taken as (ior - 1)(ior + 1) / (g + c), which keeps its digits near ior = 1.
+// Into a thinner medium g^2 = c^2 + ior^2 - 1 cancels at the critical angle, and F falls there like the root of it.
 float fresnelDielectric(float ior, float cosine)
 {
     precise float c = abs(cosine);
     precise float contrast = (ior - 1.0) * (ior + 1.0);
     if (contrast == 0.0) return 0.0;
-    precise float g2 = contrast + c * c;
+    precise float c2 = c * c;
+    precise float g2 = contrast + c2;
+    if (ior < 1.0) {
+        precise float ior2 = ior * ior;
+        // Near the critical angle the larger is at least a half, so both differences are exact.
+        precise float rounded = (max(c2, ior2) - 1.0) + min(c2, ior2);
+        g2 = rounded + (squareRemainder(c, c2) + squareRemainder(ior, ior2));
+    }
     if (g2 < 0.0) return 1.0; // total internal reflection
     precise float sum = sqrt(g2) + c;
     precise float difference = contrast / sum;

@@ -1,8 +1,9 @@
 // The G-buffer's channels: how a surface is stored in them and read back.
 // Which channels exist, where and in which encoding comes from the table channelTable() (renderer/frame/GBufferLayout.h) as
-// defines. A channel in fp32 (GBUFFER_<NAME>_PACKED 0) has the attachment GBUFFER_<NAME>. The fields of the others lie end to end
-// in GBUFFER_WORDS words, from the bit GBUFFER_<NAME> on, GBUFFER_<NAME>_WIDTHS bits wide; the words are in attachments from
-// GBUFFER_WORD_TEXTURE on, four, then two, then one of them in each.
+// defines. A channel in fp32 (GBUFFER_<NAME>_PACKED 0) has the attachment GBUFFER_<NAME>, one of
+// GBUFFER_EXACT_CHANNELS. The fields of the others lie end to end in GBUFFER_WORDS words, from the bit GBUFFER_<NAME> on,
+// GBUFFER_<NAME>_WIDTHS bits wide; the words are in attachments from GBUFFER_WORD_TEXTURE on, four, then two, then one of
+// them in each.
 // GBUFFER_SPARE_COMPONENTS: metallic and alpha are the fourth components of albedo and normal.
 // GBUFFER_WRITE declares the channels as outputs, otherwise they are textures.
 #pragma once

@@ -1,32 +1,8 @@
 // Reads a surface from the channels of the G-buffer; included by lib/gbuffer.glsl.
 #pragma once
 
-#if defined(GBUFFER_ALBEDO) && !GBUFFER_ALBEDO_PACKED
-layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_ALBEDO) uniform sampler2D albedoChannel;
-#endif
-#if defined(GBUFFER_NORMAL) && !GBUFFER_NORMAL_PACKED
-layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_NORMAL) uniform sampler2D normalChannel;
-#endif
-#if defined(GBUFFER_MICROSURFACE) && !GBUFFER_MICROSURFACE_PACKED
-layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_MICROSURFACE) uniform sampler2D microsurfaceChannel;
-#endif
-#if defined(GBUFFER_SPECULAR) && !GBUFFER_SPECULAR_PACKED
-layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_SPECULAR) uniform sampler2D specularChannel;
-#endif
-#if defined(GBUFFER_EMISSION) && !GBUFFER_EMISSION_PACKED
-layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_EMISSION) uniform sampler2D emissionChannel;
-#endif
-#if defined(GBUFFER_TANGENT) && !GBUFFER_TANGENT_PACKED
-layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_TANGENT) uniform sampler2D tangentChannel;
-#endif
-#if defined(GBUFFER_CLEARCOAT) && !GBUFFER_CLEARCOAT_PACKED
-layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_CLEARCOAT) uniform sampler2D clearcoatChannel;
-#endif
-#if defined(GBUFFER_SHEEN) && !GBUFFER_SHEEN_PACKED
-layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_SHEEN) uniform sampler2D sheenChannel;
-#endif
-#if defined(GBUFFER_NORMAL_TEXEL) && !GBUFFER_NORMAL_TEXEL_PACKED
-layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_NORMAL_TEXEL) uniform sampler2D normalTexelChannel;
+#ifdef GBUFFER_EXACT_CHANNELS
+layout(binding = TEXTURE_UNIT_GBUFFER) uniform sampler2D exactChannels[GBUFFER_EXACT_CHANNELS];
 #endif
 #ifdef GBUFFER_WORDS
 #if GBUFFER_WORDS >= 4
@@ -82,7 +58,7 @@ Surface surfaceFromGBuffer(ivec2 pixel)
     gbufferBit = GBUFFER_ALBEDO;
     surface.albedo = takeRoots(ivec4(GBUFFER_ALBEDO_WIDTHS));
 #else
-    vec4 albedo = texelFetch(albedoChannel, pixel, 0);
+    vec4 albedo = texelFetch(exactChannels[GBUFFER_ALBEDO], pixel, 0);
     surface.albedo = albedo.rgb;
 #ifdef GBUFFER_SPARE_COMPONENTS
     surface.metallic = albedo.a;
@@ -94,7 +70,7 @@ Surface surfaceFromGBuffer(ivec2 pixel)
     gbufferBit = GBUFFER_NORMAL;
     surface.normalLS = decodeOctahedral(takeOctahedral(ivec4(GBUFFER_NORMAL_WIDTHS)));
 #else
-    vec4 normal = texelFetch(normalChannel, pixel, 0);
+    vec4 normal = texelFetch(exactChannels[GBUFFER_NORMAL], pixel, 0);
     surface.normalLS = normal.xyz;
 #ifdef GBUFFER_SPARE_COMPONENTS
     surface.alpha = normal.w;
@@ -106,7 +82,7 @@ Surface surfaceFromGBuffer(ivec2 pixel)
     gbufferBit = GBUFFER_MICROSURFACE;
     takeMicrosurface(ivec4(GBUFFER_MICROSURFACE_WIDTHS), surface);
 #else
-    readExactMicrosurface(texelFetch(microsurfaceChannel, pixel, 0), surface);
+    readExactMicrosurface(texelFetch(exactChannels[GBUFFER_MICROSURFACE], pixel, 0), surface);
 #endif
 #endif
     surface.specular = defaultSpecular(surface.model);
@@ -115,7 +91,7 @@ Surface surfaceFromGBuffer(ivec2 pixel)
     gbufferBit = GBUFFER_SPECULAR;
     surface.specular = takeRoots(ivec4(GBUFFER_SPECULAR_WIDTHS));
 #else
-    surface.specular = texelFetch(specularChannel, pixel, 0).rgb;
+    surface.specular = texelFetch(exactChannels[GBUFFER_SPECULAR], pixel, 0).rgb;
 #endif
 #endif
 #ifdef GBUFFER_EMISSION
@@ -123,7 +99,7 @@ Surface surfaceFromGBuffer(ivec2 pixel)
     gbufferBit = GBUFFER_EMISSION;
     surface.emission = takeRadiance(ivec4(GBUFFER_EMISSION_WIDTHS));
 #else
-    surface.emission = texelFetch(emissionChannel, pixel, 0).rgb;
+    surface.emission = texelFetch(exactChannels[GBUFFER_EMISSION], pixel, 0).rgb;
 #endif
 #endif
 #ifdef GBUFFER_TANGENT
@@ -131,7 +107,7 @@ Surface surfaceFromGBuffer(ivec2 pixel)
     gbufferBit = GBUFFER_TANGENT;
     takeTangent(ivec4(GBUFFER_TANGENT_WIDTHS), surface);
 #else
-    vec4 tangent = texelFetch(tangentChannel, pixel, 0);
+    vec4 tangent = texelFetch(exactChannels[GBUFFER_TANGENT], pixel, 0);
     surface.tangentLS = tangent.xyz;
     surface.alphaBitangent = tangent.w;
 #endif
@@ -141,7 +117,7 @@ Surface surfaceFromGBuffer(ivec2 pixel)
     gbufferBit = GBUFFER_CLEARCOAT;
     takeClearcoat(ivec4(GBUFFER_CLEARCOAT_WIDTHS), surface);
 #else
-    vec4 clearcoat = texelFetch(clearcoatChannel, pixel, 0);
+    vec4 clearcoat = texelFetch(exactChannels[GBUFFER_CLEARCOAT], pixel, 0);
     surface.coatNormalCode = clearcoat.xy;
     surface.coatFactor = clearcoat.z;
     surface.coatAlpha = clearcoat.w;
@@ -152,7 +128,7 @@ Surface surfaceFromGBuffer(ivec2 pixel)
     gbufferBit = GBUFFER_SHEEN;
     takeSheen(ivec4(GBUFFER_SHEEN_WIDTHS), surface);
 #else
-    vec4 sheen = texelFetch(sheenChannel, pixel, 0);
+    vec4 sheen = texelFetch(exactChannels[GBUFFER_SHEEN], pixel, 0);
     surface.sheenColor = sheen.rgb;
     surface.sheenAlpha = sheen.a;
 #endif
@@ -162,7 +138,7 @@ Surface surfaceFromGBuffer(ivec2 pixel)
     gbufferBit = GBUFFER_NORMAL_TEXEL;
     surface.normalTexel = takeTexel(ivec4(GBUFFER_NORMAL_TEXEL_WIDTHS));
 #else
-    surface.normalTexel = texelFetch(normalTexelChannel, pixel, 0).rgb;
+    surface.normalTexel = texelFetch(exactChannels[GBUFFER_NORMAL_TEXEL], pixel, 0).rgb;
 #endif
 #endif
     return surface;

@@ -1,32 +1,8 @@
 // Stores a surface in the channels of the G-buffer; included by lib/gbuffer.glsl.
 #pragma once
 
-#if defined(GBUFFER_ALBEDO) && !GBUFFER_ALBEDO_PACKED
-layout(location = GBUFFER_ALBEDO) out vec4 albedoChannel;
-#endif
-#if defined(GBUFFER_NORMAL) && !GBUFFER_NORMAL_PACKED
-layout(location = GBUFFER_NORMAL) out vec4 normalChannel;
-#endif
-#if defined(GBUFFER_MICROSURFACE) && !GBUFFER_MICROSURFACE_PACKED
-layout(location = GBUFFER_MICROSURFACE) out vec4 microsurfaceChannel;
-#endif
-#if defined(GBUFFER_SPECULAR) && !GBUFFER_SPECULAR_PACKED
-layout(location = GBUFFER_SPECULAR) out vec4 specularChannel;
-#endif
-#if defined(GBUFFER_EMISSION) && !GBUFFER_EMISSION_PACKED
-layout(location = GBUFFER_EMISSION) out vec4 emissionChannel;
-#endif
-#if defined(GBUFFER_TANGENT) && !GBUFFER_TANGENT_PACKED
-layout(location = GBUFFER_TANGENT) out vec4 tangentChannel;
-#endif
-#if defined(GBUFFER_CLEARCOAT) && !GBUFFER_CLEARCOAT_PACKED
-layout(location = GBUFFER_CLEARCOAT) out vec4 clearcoatChannel;
-#endif
-#if defined(GBUFFER_SHEEN) && !GBUFFER_SHEEN_PACKED
-layout(location = GBUFFER_SHEEN) out vec4 sheenChannel;
-#endif
-#if defined(GBUFFER_NORMAL_TEXEL) && !GBUFFER_NORMAL_TEXEL_PACKED
-layout(location = GBUFFER_NORMAL_TEXEL) out vec4 normalTexelChannel;
+#ifdef GBUFFER_EXACT_CHANNELS
+layout(location = 0) out vec4 exactChannels[GBUFFER_EXACT_CHANNELS];
 #endif
 #ifdef GBUFFER_WORDS
 #if GBUFFER_WORDS >= 4
@@ -69,7 +45,7 @@ void writeGBuffer(Surface surface)
     gbufferBit = GBUFFER_ALBEDO;
     putRoots(surface.albedo, ivec4(GBUFFER_ALBEDO_WIDTHS));
 #else
-    albedoChannel = vec4(surface.albedo, surface.metallic);
+    exactChannels[GBUFFER_ALBEDO] = vec4(surface.albedo, surface.metallic);
 #endif
 #endif
 #ifdef GBUFFER_NORMAL
@@ -77,7 +53,7 @@ void writeGBuffer(Surface surface)
     gbufferBit = GBUFFER_NORMAL;
     putOctahedral(encodeOctahedral(surface.normalLS), ivec4(GBUFFER_NORMAL_WIDTHS));
 #else
-    normalChannel = vec4(surface.normalLS, surface.alpha);
+    exactChannels[GBUFFER_NORMAL] = vec4(surface.normalLS, surface.alpha);
 #endif
 #endif
 #ifdef GBUFFER_MICROSURFACE
@@ -85,7 +61,7 @@ void writeGBuffer(Surface surface)
     gbufferBit = GBUFFER_MICROSURFACE;
     putMicrosurface(surface, ivec4(GBUFFER_MICROSURFACE_WIDTHS));
 #else
-    microsurfaceChannel = exactMicrosurface(surface);
+    exactChannels[GBUFFER_MICROSURFACE] = exactMicrosurface(surface);
 #endif
 #endif
 #ifdef GBUFFER_SPECULAR
@@ -93,7 +69,7 @@ void writeGBuffer(Surface surface)
     gbufferBit = GBUFFER_SPECULAR;
     putRoots(surface.specular, ivec4(GBUFFER_SPECULAR_WIDTHS));
 #else
-    specularChannel = vec4(surface.specular, 0.0);
+    exactChannels[GBUFFER_SPECULAR] = vec4(surface.specular, 0.0);
 #endif
 #endif
 #ifdef GBUFFER_EMISSION
@@ -101,7 +77,7 @@ void writeGBuffer(Surface surface)
     gbufferBit = GBUFFER_EMISSION;
     putRadiance(surface.emission, ivec4(GBUFFER_EMISSION_WIDTHS));
 #else
-    emissionChannel = vec4(surface.emission, 0.0);
+    exactChannels[GBUFFER_EMISSION] = vec4(surface.emission, 0.0);
 #endif
 #endif
 #ifdef GBUFFER_TANGENT
@@ -109,7 +85,7 @@ void writeGBuffer(Surface surface)
     gbufferBit = GBUFFER_TANGENT;
     putTangent(surface, ivec4(GBUFFER_TANGENT_WIDTHS));
 #else
-    tangentChannel = vec4(surface.tangentLS, surface.alphaBitangent);
+    exactChannels[GBUFFER_TANGENT] = vec4(surface.tangentLS, surface.alphaBitangent);
 #endif
 #endif
 #ifdef GBUFFER_CLEARCOAT
@@ -117,7 +93,7 @@ void writeGBuffer(Surface surface)
     gbufferBit = GBUFFER_CLEARCOAT;
     putClearcoat(surface, ivec4(GBUFFER_CLEARCOAT_WIDTHS));
 #else
-    clearcoatChannel = vec4(surface.coatNormalCode, surface.coatFactor, surface.coatAlpha);
+    exactChannels[GBUFFER_CLEARCOAT] = vec4(surface.coatNormalCode, surface.coatFactor, surface.coatAlpha);
 #endif
 #endif
 #ifdef GBUFFER_SHEEN
@@ -125,7 +101,7 @@ void writeGBuffer(Surface surface)
     gbufferBit = GBUFFER_SHEEN;
     putSheen(surface, ivec4(GBUFFER_SHEEN_WIDTHS));
 #else
-    sheenChannel = vec4(surface.sheenColor, surface.sheenAlpha);
+    exactChannels[GBUFFER_SHEEN] = vec4(surface.sheenColor, surface.sheenAlpha);
 #endif
 #endif
 #ifdef GBUFFER_NORMAL_TEXEL
@@ -133,7 +109,7 @@ void writeGBuffer(Surface surface)
     gbufferBit = GBUFFER_NORMAL_TEXEL;
     putTexel(surface.normalTexel, ivec4(GBUFFER_NORMAL_TEXEL_WIDTHS));
 #else
-    normalTexelChannel = vec4(surface.normalTexel, 0.0);
+    exactChannels[GBUFFER_NORMAL_TEXEL] = vec4(surface.normalTexel, 0.0);
 #endif
 #endif
 #ifdef GBUFFER_WORDS

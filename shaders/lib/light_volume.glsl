@@ -10,22 +10,21 @@
 #pragma once
 #include "lib/camera.glsl"
 #include "lib/light_store.glsl"
+#include "shared/culling.h"
 #include "shared/light_volumes.h"
 
 // Cones wider than this are drawn as their spheres.
 const float kWidestConeCosine = 0.1;
 
-// How much larger, in metres, than the light a volume is drawn, so that no rounding loses a pixel: 1e-5 of all distances
-// in play (24 bits keep 6e-8 of each, and a handful of roundings follow one another), an eighth of a pixel (vertices snap
-// to at least 1/16, OpenGL 4.5, table 23.65), and the steps of an orthographic camera's even depths.
+// How much larger, in metres, than the light a volume is drawn, so that no rounding loses a pixel: what positions and depths
+// lose, and an eighth of a pixel (vertices snap to at least 1/16, OpenGL 4.5, table 23.65).
 // At an outline seen edge-on, snapping may turn a face over; there the light is 0 already, so that changes nothing.
 float volumeMargin(vec3 positionLS, float reachMetres)
 {
     bool orthographic = frame.forwardLS.w != 0.0;
     float farthest = length(positionLS) + reachMetres;
     float pixel = max(frame.lensVS.y, frame.lensVS.w) * (orthographic ? 1.0 : farthest);
-    float depthStep = orthographic ? 5e-7 * abs(frame.depthToViewDepth.x) : 0.0;
-    return 1e-5 * farthest + 0.125 * pixel + depthStep;
+    return roundingMargin(farthest, orthographic, frame.depthToViewDepth) + 0.125 * pixel;
 }
 
 // The depth that would be stored at a distance along the camera's axis. What lies behind the eye is in front of it all.
@@ -148,8 +147,7 @@ vec4 lightVolumeVertex(int index, int vertex)
 #if HAS_SPOT_LIGHTS
     if ((int(lightTexel(index, 1).w) & LIGHT_SPOT) != 0) {
         vec4 axis = lightShapeTexel(index, 0);
-        // The fragment's cosine is off by some 1e-7; a cone wider by 1e-6 in the cosine encloses whatever it lights.
-        float cosOuter = -lightShapeTexel(index, 1).w / axis.w - 1e-6;
+        float cosOuter = -lightShapeTexel(index, 1).w / axis.w - CONE_COSINE_MARGIN;
         if (cosOuter > kWidestConeCosine) return coneVertex(vertex, place.xyz, axis.xyz, cosOuter, reach, margin);
     }
 #endif

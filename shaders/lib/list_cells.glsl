@@ -59,10 +59,8 @@ vec2 runBetween(float nearest, float farthest)
 // Slices first..last of a tile, not more than its surfaces take up.
 vec2 runOfSlices(ListedTile tile, uint first, uint last)
 {
-    uint shift = tile.slicing & 31u;
-    precise float begin = uintBitsToFloat(firstKeyOfSlices(tile.slicing) + (first << shift)) - frame.depthKey.x;
-    precise float beyond = uintBitsToFloat(firstKeyOfSlices(tile.slicing) + ((last + 1u) << shift)) - frame.depthKey.x;
-    return runBetween(min(tile.depths.x, beyond), max(tile.depths.y, begin));
+    vec2 depths = depthsOfSlices(tile.slicing, first, last, frame.depthKey.x);
+    return runBetween(min(tile.depths.x, depths.y), max(tile.depths.y, depths.x));
 }
 
 // Fills in boxRuns: one run a slice for clusters, else one a run of neighbours.

@@ -30,11 +30,8 @@ LIST_MEMORY uvec2 laneWords[LIST_THREADS];
 // View depths in metres between which a bin lies.
 vec2 runOfBin(uint bin)
 {
-    uint shift = listTotals.x & 31u;
-    uint first = firstKeyOfSlices(listTotals.x) + (bin << shift);
-    precise float beyond = uintBitsToFloat(first + (1u << shift)) - frame.depthKey.x;
-    precise float begin = uintBitsToFloat(first) - frame.depthKey.x;
-    return vec2(viewDepthMetres(frame.depthToViewDepth, beyond), viewDepthMetres(frame.depthToViewDepth, max(0.0, begin)));
+    vec2 depths = depthsOfSlices(listTotals.x, bin, bin, frame.depthKey.x);
+    return vec2(viewDepthMetres(frame.depthToViewDepth, depths.y), viewDepthMetres(frame.depthToViewDepth, max(0.0, depths.x)));
 }
 
 uint fourBits(uvec4 bits)

@@ -1,5 +1,6 @@
 // The fragment side of rasterised geometry: what geometry.vert interpolates, gathered for lib/material.glsl.
 #pragma once
+#include "lib/camera.glsl"
 #include "lib/material.glsl"
 #if FILTER_EXACT
 #include "lib/triangle.glsl"
@@ -68,7 +69,7 @@ Fragment rasterisedFragment()
     fragment.normalFromObject = transpose(mat3(normalFromObject0, normalFromObject1, normalFromObject2));
 #endif
 #if VIEW == VIEW_NORMAL_OBJECT
-    fragment.objectFromNormal = mat3(objectRow0, objectRow1, objectRow2);
+    fragment.objectFromNormal = mat3(objectRow0, objectRow1, objectRow2) * mat3(frame.worldFromLS);
 #endif
 #endif
 #if HAS_TEXTURES && FILTER_EXACT

@@ -8,7 +8,19 @@
 // Columns of tiles whose lights are told apart by the planes between columns together; their boxes tell the rest.
 #define CULL_BLOCK_COLUMNS 8u
 
+// The shader's cosine of a spot's angle is off by some 1e-7; a cone wider by this in its cosine encloses whatever it
+// lights.
+#define CONE_COSINE_MARGIN 1e-6
+
 SHARED_BEGIN
+
+// What rounding to fp32 can move of a light and the surfaces it reaches, in metres: 1e-5 of the farthest of it from the
+// eye (24 bits keep 6e-8 of each distance, and a handful of roundings follow one another), and the steps of an
+// orthographic camera's even depths, however near a surface is: view depth is far - depth (far - near), so two rounded
+// coefficients, a product, a sum, and the sum in the depth key are off by 2^-24 of the far distance each.
+SHARED_FUNCTION float roundingMargin(float farthestMetres, bool orthographic, vec4 depthToViewDepth) {
+    return 1e-5f * farthestMetres + (orthographic ? 4.76837158e-7f * depthToViewDepth.x : 0.0f);
+}
 
 // Where a light is not exactly 0. Every length is enlarged by what rounding of positions to fp32 can move.
 struct CullLight {

@@ -1,14 +1,16 @@
 #pragma once
 // What every pass of a frame knows: the camera, in lighting space (LS). Lighting space is world space moved to the eye,
-// or view space, as RenderSettings::space says; the CPU puts draws, lights and rays into it in double precision, and
-// shaders do not know which it is.
+// or view space, as FrameSettings::space says; the CPU puts normals, lights and rays into it in double precision, and
+// shaders do not know which it is. Vertices pass through world axes at the eye (ES) whatever lighting space is: rounded
+// in another space they would lie elsewhere by a bit, and pixels at edges would show another triangle.
 #include "interop.h"
 
 SHARED_BEGIN
 
 struct FrameConstants {
     mat4 clipFromLS;
-    mat4 worldFromLS; // rotation only, for views that show world-space directions
+    mat4 clipFromES;
+    mat4 worldFromLS; // rotation only, of world axes, so also ES from LS; the unit matrix where LS is ES
     vec4 rayOriginLS; // ray through pixel p: rayOrigin + p.x rayDx + p.y rayDy, window coordinates, lower-left origin
     vec4 rayDxLS;     // perspective: a direction of length 1 along forward; orthographic: a point of the image plane
     vec4 rayDyLS;

@@ -11,6 +11,7 @@ using glm::mat4;
 using glm::max;
 using glm::min;
 using glm::sqrt;
+using glm::uintBitsToFloat;
 using glm::uvec2;
 using glm::uvec4;
 using glm::vec2;

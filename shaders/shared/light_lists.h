@@ -43,6 +43,15 @@ SHARED_FUNCTION uint sliceOfKey(uint key, uint slices) {
     return (key - firstKeyOfSlices(slices)) >> (slices & 31u);
 }
 
+// The depths that slices first..last lie between: x the farthest, y the nearest. `bias` is FrameConstants::depthKey's.
+SHARED_FUNCTION vec2 depthsOfSlices(uint slices, uint first, uint last, float bias) {
+    uint shift = slices & 31u;
+    uint begin = firstKeyOfSlices(slices) + (first << shift);
+    uint beyond = firstKeyOfSlices(slices) + ((last + 1u) << shift);
+    SHARED_PRECISE vec2 depths = vec2(uintBitsToFloat(begin) - bias, uintBitsToFloat(beyond) - bias);
+    return depths;
+}
+
 // The slicing of keys low..high into fewer than `most` + 1 slices, none finer than 2^finestShift keys.
 SHARED_FUNCTION uint slicingOf(uint low, uint high, uint finestShift, uint most) {
     uint shift = finestShift;

@@ -18,6 +18,15 @@ protected:
         scene.cameras[0].halfHeightMetres = 1.0;
         return scene;
     }
+    /// The quad under one directional light of one lux.
+    static scenes::Scene underTheSun(const scenes::Material& material, const glm::dvec3& directionWS) {
+        scenes::Scene scene = flatScene(material);
+        scenes::Light sun = pointLight({}, 1.0f);
+        sun.type = scenes::LightType::Directional;
+        sun.directionWS = directionWS;
+        scene.lights = {sun};
+        return scene;
+    }
     recipes::RenderedFrame frame(const scenes::Scene& scene, frame::FrameSettings settings = {}) {
         settings.sizePixels = {kSide, kSide};
         recipes::Renderer renderer(context(), scene);
@@ -49,6 +58,16 @@ scenes::Image image8(Value value) {
 }
 inline scenes::Image uniformImage(std::array<int, 4> texel) {
     return image8([=](int, int) { return texel; });
+}
+/// One texel of four floats.
+inline scenes::Image floatImage(const glm::vec4& texel) {
+    scenes::Image image;
+    image.name = "texel";
+    image.width = image.height = 1;
+    image.format = scenes::TexelFormat::Rgba32Float;
+    const auto* bytes = reinterpret_cast<const std::byte*>(&texel);
+    image.texels.assign(bytes, bytes + sizeof(texel));
+    return image;
 }
 /// Every texel has its own colour: red tells its column, green its row.
 inline scenes::Image mapImage() {

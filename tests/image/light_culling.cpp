@@ -23,10 +23,6 @@ using validation::LightOracleFigures;
 
 constexpr Method kMethods[] = {Method::TileMinmax, Method::Tile25d, Method::Cluster, Method::Zbin};
 
-std::string_view nameOf(Method method) {
-    return culling::methodTable()[std::size_t(method)].name;
-}
-
 Technique deferredWith(Method method) {
     return method == Method::TileMinmax || method == Method::Tile25d ? Technique::TiledDeferred
                                                                      : Technique::ClusteredDeferred;
@@ -66,7 +62,7 @@ protected:
         expectSound(figures);
         fmt::print("{:<22} {:<12} tile {:>2}: visited {:6.2f} p99 {:4} max {:4}, tightness {:.3f} (lit {:.3f}), {} "
                    "entries, {} cells, {:.2f} MB\n",
-                   renderer.scene().name, nameOf(method), tilePixels,
+                   renderer.scene().name, infoOf(method).name, tilePixels,
                    figures.perPixel(figures.evaluated + figures.everywhere), figures.evaluatedP99, figures.evaluatedMax,
                    figures.tightness().value_or(0.0), figures.litTightness().value_or(0.0), figures.entries,
                    figures.cells, double(figures.listBytes) * 1e-6);
@@ -144,7 +140,7 @@ TEST_F(LightCulling, noLightIsEverMissingFromTwoHundredRandomScenesAndNoPixelDif
         const std::vector<float> truth = renderer.render(Technique::Forward, truthSettings).radiance;
         for (const Method method : kMethods) {
             const int tile = culling::kTileSides[random.index(4)];
-            SCOPED_TRACE(fmt::format("seed {} {} tile {} {}x{}", seed, nameOf(method), tile, size.x, size.y));
+            SCOPED_TRACE(fmt::format("seed {} {} tile {} {}x{}", seed, infoOf(method).name, tile, size.x, size.y));
             frame::FrameSettings asked = settings(size, method, tile);
             asked.prune = truthSettings.prune;
             asked.culling.builder = culling::builderTable()[std::size_t(random.index(3))].builder;
@@ -174,7 +170,7 @@ void LightCulling::expectForwardsPicture(const scenes::Scene& scene, glm::ivec2 
             if (method == Method::None) continue;
             for (const int tile : tiles) {
                 SCOPED_TRACE(fmt::format("{}, {} lights, {}, {} {}, {}x{}", scene.name, scene.lights.size(),
-                                         technique.name, nameOf(method), tile, sizePixels.x, sizePixels.y));
+                                         technique.name, infoOf(method).name, tile, sizePixels.x, sizePixels.y));
                 const validation::Picture picture =
                     validation::toPicture(renderer.render(technique.technique, settings(sizePixels, method, tile)));
                 const validation::ErrorFigures figures = validation::errorFigures(picture, truth);
@@ -263,7 +259,7 @@ TEST_F(LightCulling, noLightIsEverMissingFromTheListsOfTransparentSurfaces) {
                 renderer.draw(deferredWith(method), asked);
                 const recipes::DrawnLists drawn = renderer.downloadLists();
                 for (const std::vector<float>& depth : depths) {
-                    SCOPED_TRACE(fmt::format("seed {} {} tile {}", seed, nameOf(method), tile));
+                    SCOPED_TRACE(fmt::format("seed {} {} tile {}", seed, infoOf(method).name, tile));
                     const LightOracleFigures figures = validation::judgeLights(
                         {scene, asked, drawn, depth, {}, validation::SurfaceLayer::Transparent});
                     expectSound(figures);
@@ -305,7 +301,7 @@ TEST_F(LightCulling, sixtyFiveThousandLightsInOneTileAreAlwaysAllVisited) {
     recipes::Renderer renderer(context(), scene);
     const std::vector<float> truth = renderer.render(Technique::Forward, settings({16, 16})).radiance;
     for (const Method method : kMethods) {
-        SCOPED_TRACE(nameOf(method));
+        SCOPED_TRACE(infoOf(method).name);
         EXPECT_EQ(renderer.render(deferredWith(method), settings({16, 16}, method, 64)).radiance, truth);
         EXPECT_EQ(renderer.render(forwardWith(method), settings({16, 16}, method, 8)).radiance, truth);
         frame::FrameSettings counted = settings({16, 16}, method, 64);

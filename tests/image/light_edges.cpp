@@ -93,9 +93,8 @@ TEST_F(LightEdges, aLightThatReachesAPixelByAHairIsNeverMissing) {
             asked.culling.method = method.method;
             asked.culling.tilePixels = culling::kTileSides[random.index(4)];
             asked.culling.builder = culling::builderTable()[std::size_t(random.index(3))].builder;
-            SCOPED_TRACE(fmt::format("seed {}, {}, tile {}, {}x{}", seed,
-                                     culling::methodTable()[std::size_t(method.method)].name, *asked.culling.tilePixels,
-                                     asked.sizePixels.x, asked.sizePixels.y));
+            SCOPED_TRACE(fmt::format("seed {}, {}, tile {}, {}x{}", seed, infoOf(method.method).name,
+                                     *asked.culling.tilePixels, asked.sizePixels.x, asked.sizePixels.y));
             EXPECT_TRUE(renderer.render(method.techniques[random.index(2)], asked).radiance == truth);
             const recipes::DrawnLists drawn = renderer.downloadLists();
             const std::vector<float> depth = renderer.downloadDepth();

@@ -158,7 +158,7 @@ TEST_F(LightRange, anEndedLightIsNeverMissingFromAListThatNeedsIt) {
             settings.culling.method = method;
             const validation::LightOracleFigures figures =
                 validation::judgeLights(renderer, technique.technique, settings);
-            SCOPED_TRACE(fmt::format("{} {}", technique.name, culling::methodTable()[std::size_t(method)].name));
+            SCOPED_TRACE(fmt::format("{} {}", technique.name, infoOf(method).name));
             EXPECT_EQ(figures.falseNegatives, 0u);
             EXPECT_EQ(figures.everywhere, 0u);
             EXPECT_GT(figures.needed, figures.covered);

@@ -17,29 +17,12 @@ using scenes::TextureSlot;
 /// Two dozen fp32 roundings of 2^-24 each, relative, and the exponents' share (docs/numerics.md).
 constexpr double kRounding = 3e-6;
 
-scenes::Image floatImage(const glm::vec4& texel) {
-    scenes::Image image;
-    image.name = "texel";
-    image.width = image.height = 1;
-    image.format = scenes::TexelFormat::Rgba32Float;
-    const auto* bytes = reinterpret_cast<const std::byte*>(&texel);
-    image.texels.assign(bytes, bytes + sizeof(texel));
-    return image;
-}
-
 /// The eye straight above, the sun aslant and not along an axis, so that a lobe's turn shows.
 const glm::dvec3 kToSun = glm::normalize(glm::dvec3(0.35, 0.2, 1.0));
 
 class LobeValues : public FlatTest {
 protected:
-    static Scene underTheSun(const Material& material) {
-        Scene scene = flatScene(material);
-        scenes::Light sun = pointLight({}, 1.0f);
-        sun.type = scenes::LightType::Directional;
-        sun.directionWS = -kToSun;
-        scene.lights = {sun};
-        return scene;
-    }
+    static Scene underTheSun(const Material& material) { return FlatTest::underTheSun(material, -kToSun); }
     void expectColor(const Scene& scene, const glm::dvec3& wanted) {
         const glm::vec4 found = center(scene);
         EXPECT_GT(glm::length(wanted), 1e-4) << "there is nothing to see";

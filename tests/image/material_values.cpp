@@ -17,26 +17,11 @@ using std::numbers::pi;
 /// A dozen fp32 roundings of 2^-24 each, relative.
 constexpr double kRounding = 1e-6;
 
-scenes::Image floatImage(const glm::vec4& texel) {
-    scenes::Image image;
-    image.name = "texel";
-    image.width = image.height = 1;
-    image.format = scenes::TexelFormat::Rgba32Float;
-    const auto* bytes = reinterpret_cast<const std::byte*>(&texel);
-    image.texels.assign(bytes, bytes + sizeof(texel));
-    return image;
-}
-
 /// Eye and sun both straight above the surface: n = l = v = h, so D = 1/(pi alpha^2), G = 1 and F = F0.
 class MaterialValues : public FlatTest {
 protected:
     static Scene underTheSun(const Material& material, const glm::dvec3& directionWS = {0, 0, -1}) {
-        Scene scene = flatScene(material);
-        scenes::Light sun = test::pointLight({}, 1.0f);
-        sun.type = scenes::LightType::Directional;
-        sun.directionWS = directionWS;
-        scene.lights = {sun};
-        return scene;
+        return FlatTest::underTheSun(material, directionWS);
     }
     void expectColor(const Scene& scene, const glm::dvec3& wanted) {
         const glm::vec4 found = center(scene);

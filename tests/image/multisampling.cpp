@@ -163,7 +163,7 @@ TEST_F(Multisampling, everyViewIsExactlyTheSameInTheForwardFamily) {
 TEST_F(Multisampling, pruningAndRunningAgainNeverChangeABit) {
     for (const Scene& scene : {scenes::loadScene("hall"), scenes::loadScene("room"), test::everythingScene()}) {
         for (const Technique technique : {Technique::Forward, Technique::ForwardPrepass, Technique::ClusteredForward}) {
-            SCOPED_TRACE(fmt::format("{} {}", scene.name, recipes::techniqueTable()[std::size_t(technique)].name));
+            SCOPED_TRACE(fmt::format("{} {}", scene.name, infoOf(technique).name));
             frame::FrameSettings settings = sampled({161, 90});
             const validation::Picture first = picture(scene, settings, technique);
             EXPECT_EQ(picture(scene, settings, technique).rgba, first.rgba);

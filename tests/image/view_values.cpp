@@ -56,6 +56,19 @@ TEST_F(ViewValues, theTexelViewIsExactlyTheMapInBothSpaces) {
     }
 }
 
+TEST_F(ViewValues, theDiffuseViewIsExactlyTheBaseColourOfEveryModel) {
+    for (const MaterialModel model :
+         {MaterialModel::SingleColor, MaterialModel::Lambert, MaterialModel::BlinnPhong, MaterialModel::Microfacet,
+          MaterialModel::MicrofacetAnisotropic, MaterialModel::MetallicRoughness}) {
+        SCOPED_TRACE(int(model));
+        Material material;
+        material.model = model;
+        material.baseColor = {0.75f, 0.5f, 0.125f, 1.0f};
+        const recipes::RenderedFrame view = frame(flatScene(material), viewSettings(frame::View::Diffuse));
+        EXPECT_EQ(pixel(view, 3, 4), material.baseColor);
+    }
+}
+
 /// Where the quad of these tests faces, tilted by a map, in the three spaces.
 TEST_F(ViewValues, oneNormalIsAlwaysShownInWorldViewAndObjectSpace) {
     Material material;

@@ -31,18 +31,6 @@ Image pattern(const std::string& name, int size, bool normalMap) {
     return image;
 }
 
-Mesh quad() {
-    Mesh mesh;
-    mesh.name = "quad";
-    mesh.positionsOS = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-    mesh.normalsOS.assign(4, {0, 0, 1});
-    mesh.texCoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
-    mesh.texCoords[1] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
-    mesh.colors = {{1, 1, 1, 1}, {0.5, 1, 1, 1}, {1, 0.5, 1, 1}, {1, 1, 0.5, 1}};
-    mesh.indices = {0, 1, 2, 0, 2, 3};
-    return mesh;
-}
-
 Mesh sphere(int slices, int stacks) {
     Mesh mesh;
     mesh.name = "sphere";
@@ -203,6 +191,18 @@ Camera cameraAt(const glm::dvec3& eyeWS, const glm::dvec3& targetWS) {
 }
 
 } // namespace
+
+Mesh quad() {
+    Mesh mesh;
+    mesh.name = "quad";
+    mesh.positionsOS = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    mesh.normalsOS.assign(4, {0, 0, 1});
+    mesh.texCoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    mesh.texCoords[1] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
+    mesh.colors = {{1, 1, 1, 1}, {0.5, 1, 1, 1}, {1, 0.5, 1, 1}, {1, 1, 0.5, 1}};
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    return mesh;
+}
 
 Light pointLight(const glm::dvec3& positionWS, float candela) {
     Light light;

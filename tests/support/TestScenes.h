@@ -9,6 +9,9 @@ namespace tessera::test {
 /// floor.
 scenes::Scene everythingScene();
 
+/// 2 x 2 m in the plane z = 0 facing +z, its picture upright: u grows along x, v (down) along -y.
+scenes::Mesh quad();
+
 /// One quad of 2 x 2 m in the plane z = 0 facing +z, lit by nothing, seen by a camera at (0, 0, 3) that it fills.
 scenes::Scene quadScene(const scenes::Material& material);
 

@@ -25,26 +25,14 @@ AttributionLine lineOf(const char* cause, const std::string& what, const std::st
     return {cause, what, against, finite(figures.relMse), finite(figures.p99Rel), finite(figures.bias)};
 }
 
-/// A point's settings with everything exact, for one cause at a time to be put in.
-frame::FrameSettings exactSettings(const BenchPoint& point, frame::TextureFilter filter) {
-    frame::FrameSettings settings = point.settings;
-    settings.layout = frame::layoutTable()[0].layout;
-    settings.rangeTolerance = 0.0;
-    settings.filter = filter;
-    settings.culling = {};
-    settings.lightOn.reset();
-    settings.display = false;
-    return settings;
-}
-
 void addFilter(const GroupTruth& truth, const std::string& truthName, const BenchPoint& any,
                std::vector<AttributionLine>& lines) {
-    const Picture exact = truth.pictureOf(Technique::Forward, exactSettings(any, truth.filter()));
+    const Picture exact = truth.pictureOf(Technique::Forward, exactSettings(any.settings, truth.filter()));
     lines.push_back(lineOf("arithmetic", "fp32 arithmetic of forward", truthName,
                            errorFigures(exact, truth.picture(), truth.excluded())));
     if (truth.filter() != frame::TextureFilter::Exact || !frame::materialFeatures(truth.renderer().scene()).textures())
         return;
-    frame::FrameSettings hardware = exactSettings(any, frame::TextureFilter::Hardware);
+    frame::FrameSettings hardware = exactSettings(any.settings, frame::TextureFilter::Hardware);
     const recipes::RenderedFrame frame = truth.renderer().render(Technique::Forward, hardware);
     Picture filtered = exact; // the same pixels are covered
     filtered.rgba = frame.radiance;
@@ -57,7 +45,7 @@ void addRanges(const GroupTruth& truth, std::span<const BenchPoint> points, std:
     for (const BenchPoint& point : points) tolerances.insert(point.settings.rangeTolerance);
     for (const double tolerance : tolerances) {
         if (tolerance == 0.0) continue;
-        frame::FrameSettings settings = exactSettings(points.front(), truth.filter());
+        frame::FrameSettings settings = exactSettings(points.front().settings, truth.filter());
         settings.rangeTolerance = tolerance;
         const RangeTruncation dropped = rangeTruncation(truth.renderer(), Technique::Forward, settings);
         lines.push_back(
@@ -74,7 +62,7 @@ void addLayouts(const gpu::Capabilities& gl, const GroupTruth& truth, std::span<
         if (!isPacked || !done.insert(point.key.layout).second) continue;
         CompareRequest request;
         request.techniques = {Technique::Deferred};
-        request.settings = exactSettings(point, truth.filter());
+        request.settings = exactSettings(point.settings, truth.filter());
         request.settings.layout = point.settings.layout;
         request.settings.display = true; // the comparison shows its pictures too
         const ComparePair pair = compareTechniques(truth.renderer(), gl, request).record.pairs.front();

@@ -21,14 +21,6 @@ std::vector<std::optional<T>> orDefault(const std::vector<T>& list) {
     return {list.begin(), list.end()};
 }
 
-const recipes::TechniqueInfo& infoOf(Technique technique) {
-    return recipes::techniqueTable()[std::size_t(technique)];
-}
-
-std::string nameOf(Method method) {
-    return std::string(culling::methodTable()[std::size_t(method)].name);
-}
-
 std::string layoutName(const frame::GBufferLayout& layout) {
     for (const frame::LayoutInfo& info : frame::layoutTable()) {
         if (info.layout == layout) return std::string(info.name);
@@ -84,7 +76,7 @@ private:
             if (recipes::takesMethod(technique_, method))
                 methods.push_back(method);
             else
-                skip(plan_, fmt::format("{}, {}", info_.name, nameOf(method)),
+                skip(plan_, fmt::format("{}, {}", info_.name, infoOf(method).name),
                      "the technique does not take this culling method");
         }
         return methods;
@@ -115,7 +107,7 @@ private:
         const culling::Choice choice =
             recipes::prepareFrame(scene_, technique_, point.settings).spec.culling; // what is left of it in this scene
         point.key = {std::string(info_.name),
-                     nameOf(choice.method),
+                     std::string(infoOf(choice.method).name),
                      {},
                      layoutName(point.settings.layout),
                      point.settings.rangeTolerance};
@@ -123,7 +115,7 @@ private:
         const bool isKnown = std::any_of(group_.points.begin(), group_.points.end(),
                                          [&](const BenchPoint& other) { return other.key == point.key; });
         if (!isKnown) return group_.points.push_back(std::move(point));
-        std::string what = fmt::format("{}, {}", info_.name, nameOf(method));
+        std::string what = fmt::format("{}, {}", info_.name, infoOf(method).name);
         if (tile) what += fmt::format(" {}", *tile);
         if (range && *range > 0.0) what += fmt::format(", range {:g}", *range);
         skip(plan_, fmt::format("{} in {} with {} lights", what, group_.scene, group_.lights),

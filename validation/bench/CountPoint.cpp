@@ -56,7 +56,7 @@ void countPoint(recipes::Renderer& renderer, const BenchPoint& point, BenchResul
     const recipes::PreparedFrame prepared = recipes::prepareFrame(renderer.scene(), point.technique, point.settings);
     const graph::Plan plan = recipes::planFrame(renderer.scene(), point.technique, point.settings);
     if (prepared.spec.culling.method != culling::Method::None)
-        result.builder = culling::builderTable()[std::size_t(prepared.spec.culling.builder)].name;
+        result.builder = infoOf(prepared.spec.culling.builder).name;
 
     BenchCounters& counters = result.counters;
     counters.fragments = oracle.covered;
@@ -88,7 +88,7 @@ void countPoint(recipes::Renderer& renderer, const BenchPoint& point, BenchResul
     for (const auto& [name, value] : plan.counters) {
         if (name == "triangles") counters.triangles = value;
         if (name == "draws") counters.draws = value;
-        if (name == "gbufferBytesPerPixel" && recipes::techniqueTable()[std::size_t(point.technique)].usesGBuffer)
+        if (name == "gbufferBytesPerPixel" && infoOf(point.technique).usesGBuffer)
             counters.gbufferBytes = value * oracle.covered;
     }
 }

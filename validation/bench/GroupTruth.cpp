@@ -10,9 +10,7 @@
 
 namespace tessera::validation {
 
-namespace {
-
-frame::FrameSettings truthSettings(frame::FrameSettings settings, frame::TextureFilter filter) {
+frame::FrameSettings exactSettings(frame::FrameSettings settings, frame::TextureFilter filter) {
     settings.layout = frame::layoutTable()[0].layout;
     settings.rangeTolerance = 0.0;
     settings.filter = filter;
@@ -21,8 +19,6 @@ frame::FrameSettings truthSettings(frame::FrameSettings settings, frame::Texture
     settings.display = false;
     return settings;
 }
-
-} // namespace
 
 BenchTruth chooseTruth(std::optional<BenchTruth> asked, const frame::FrameSettings& settings, int lights,
                        std::string& why) {
@@ -45,7 +41,7 @@ BenchTruth chooseTruth(std::optional<BenchTruth> asked, const frame::FrameSettin
 GroupTruth::GroupTruth(recipes::Renderer& renderer, BenchTruth truth, const frame::FrameSettings& settings,
                        frame::TextureFilter filter, const std::function<void()>& rowDone)
     : renderer_(renderer), filter_(filter) {
-    const frame::FrameSettings exact = truthSettings(settings, filter);
+    const frame::FrameSettings exact = exactSettings(settings, filter);
     if (truth == BenchTruth::Forward) {
         picture_ = toPicture(renderer.render(recipes::Technique::Forward, exact));
         return;

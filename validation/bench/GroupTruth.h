@@ -23,6 +23,10 @@ inline constexpr double kAffordablePairs = 1.5e9;
 BenchTruth chooseTruth(std::optional<BenchTruth> asked, const frame::FrameSettings& settings, int lights,
                        std::string& why);
 
+/// A point's settings with every fp32 channel, every light, no range tolerance and this filter: what the truth is made
+/// with, and what one cause of error at a time is put into.
+frame::FrameSettings exactSettings(frame::FrameSettings settings, frame::TextureFilter filter);
+
 /// The truth of one group, made once, and points held against it.
 class GroupTruth {
 public:

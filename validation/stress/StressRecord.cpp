@@ -20,7 +20,7 @@ Json number(double value) {
 }
 
 std::string techniqueName(const StressResult& result) {
-    return result.technique ? std::string(recipes::techniqueTable()[std::size_t(*result.technique)].name) : "";
+    return result.technique ? std::string(infoOf(*result.technique).name) : "";
 }
 
 Json resultJson(const StressResult& result) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scenes/builtin/Author.h"
 #include "scenes/builtin/Random.h"
 #include "scenes/builtin/hall/Plan.h"
 
@@ -137,13 +138,7 @@ void addPointLights(Scene& scene, int count) {
 }
 
 void addSkyLight(Scene& scene) {
-    Light sky;
-    sky.name = "evening sky";
-    sky.type = LightType::Directional;
-    sky.directionWS = glm::normalize(glm::dvec3(0.62, -0.72, -0.3));
-    sky.color = {0.62f, 0.76f, 1.0f};
-    sky.intensity = 0.7f;
-    scene.lights.push_back(sky);
+    addDirectionalLight(scene, "evening sky", {0.62, -0.72, -0.3}, {0.62f, 0.76f, 1.0f}, 0.7f);
 }
 
 } // namespace tessera::scenes::builtin::hall

@@ -84,19 +84,9 @@ void addPieces(Scene& scene, const models::Exhibits& exhibits) {
     }
 }
 
-void addPoint(Scene& scene, const std::string& name, const glm::dvec3& positionWS, const glm::vec3& color,
-              float candela) {
-    Light light;
-    light.name = name;
-    light.positionWS = positionWS;
-    light.color = color;
-    light.intensity = candela;
-    scene.lights.push_back(light);
-}
-
 void addSpot(Scene& scene, const std::string& name, const glm::dvec3& positionWS, const glm::dvec3& targetWS,
              const glm::vec3& color, float candela) {
-    addPoint(scene, name, positionWS, color, candela);
+    addPointLight(scene, name, positionWS, color, candela);
     Light& light = scene.lights.back();
     light.type = LightType::Spot;
     light.directionWS = glm::normalize(targetWS - positionWS);
@@ -110,8 +100,8 @@ void addLights(Scene& scene) {
     // Two rows of lamps stand for long windows: polished things show what surrounds them.
     for (int i = 0; i < 4; ++i) {
         const double x = 2.4 * (i - 1.5);
-        addPoint(scene, "lamp above " + std::to_string(i), {x, 5.2, 0.4}, {1.0f, 0.97f, 0.92f}, 5.0f);
-        addPoint(scene, "lamp behind " + std::to_string(i), {x, 4.2, -4.0}, {0.85f, 0.92f, 1.0f}, 9.0f);
+        addPointLight(scene, "lamp above " + std::to_string(i), {x, 5.2, 0.4}, {1.0f, 0.97f, 0.92f}, 5.0f);
+        addPointLight(scene, "lamp behind " + std::to_string(i), {x, 4.2, -4.0}, {0.85f, 0.92f, 1.0f}, 9.0f);
     }
     Light wash;
     wash.name = "wash";
@@ -121,13 +111,7 @@ void addLights(Scene& scene) {
     wash.falloff = Falloff::Attenuation;
     wash.attenuation = {0.5f, 0.2f, 0.6f};
     scene.lights.push_back(wash);
-    Light sky;
-    sky.name = "sky";
-    sky.type = LightType::Directional;
-    sky.directionWS = glm::normalize(glm::dvec3(0.15, -1.0, -0.55));
-    sky.color = {0.80f, 0.88f, 1.0f};
-    sky.intensity = 0.5f;
-    scene.lights.push_back(sky);
+    addDirectionalLight(scene, "sky", {0.15, -1.0, -0.55}, {0.80f, 0.88f, 1.0f}, 0.5f);
 }
 
 } // namespace

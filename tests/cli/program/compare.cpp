@@ -192,6 +192,14 @@ TEST_F(Compare, aBlackPictureNeverPasses) {
     EXPECT_THAT(result.out, testing::HasSubstr("no signal"));
 }
 
+/// Directions have negative components, radiance may not.
+TEST_F(Compare, aViewOfDirectionsNeverMissesForItsSigns) {
+    for (const char* view : {"normal", "normal_view", "normal_object", "depth"}) {
+        SCOPED_TRACE(view);
+        runGood({"compare", "room", "--size", "48x27", "--view", view, "--techniques", "deferred"});
+    }
+}
+
 /// Shaders that are wrong in one place, in deferred only: what compare is there to find.
 class Sabotage : public Cli {
 protected:

@@ -89,7 +89,8 @@ protected:
 
         for (std::size_t i = 0; i < textures.size(); ++i)
             gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), *textures[i]);
-        const std::vector<glm::vec4> out = bench.run("load.comp", defines, {glm::vec4(0.0f)}, padded.size(), kVectors);
+        const std::vector<glm::vec4> out =
+            bench.run("test/load.comp", defines, {glm::vec4(0.0f)}, padded.size(), kVectors);
         std::vector<StoredSurface> result(padded.size());
         std::memcpy(static_cast<void*>(result.data()), out.data(), result.size() * sizeof(StoredSurface));
         result.resize(surfaces.size());

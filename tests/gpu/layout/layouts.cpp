@@ -38,6 +38,7 @@ TEST_F(LayoutTest, frameConstantsLieExactlyWhereTheDriverReadsThem) {
     EXPECT_EQ(bytes("FrameBlock"), sizeof(FrameConstants));
     EXPECT_THAT(places("FrameBlock"),
                 ElementsAre(Place("frame.clipFromLS", offsetof(FrameConstants, clipFromLS), sizeof(glm::vec4)),
+                            Place("frame.clipFromES", offsetof(FrameConstants, clipFromES), sizeof(glm::vec4)),
                             Place("frame.worldFromLS", offsetof(FrameConstants, worldFromLS), sizeof(glm::vec4)),
                             Place("frame.rayOriginLS", offsetof(FrameConstants, rayOriginLS), 0),
                             Place("frame.rayDxLS", offsetof(FrameConstants, rayDxLS), 0),
@@ -104,7 +105,7 @@ TEST_F(LayoutTest, theShaderAlwaysReadsTheValuesThatCppWrote) {
     gpu::bindUniformBuffer(UNIFORM_FRAME, frameBuffer);
     gpu::bindUniformBuffer(UNIFORM_MATERIAL, materialBuffer);
     gpu::bindUniformBuffer(UNIFORM_DISPLAY, displayBuffer);
-    const std::vector<glm::vec4> out = bench.run("blocks.comp", {}, {glm::vec4(0.0f)}, 1, kOutputs);
+    const std::vector<glm::vec4> out = bench.run("test/blocks.comp", {}, {glm::vec4(0.0f)}, 1, kOutputs);
     EXPECT_EQ(out[1], frame.clipFromLS[3]);
     EXPECT_EQ(out[8], frame.depthToViewDepth);
     EXPECT_EQ(out[10], glm::vec4(frame.lights));
@@ -146,7 +147,7 @@ TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexelOfEveryStore) {
                                     {"HAS_ATTENUATION_LIGHTS", "0"},
                                     {"LIGHT_STORE", store}};
         const std::vector<glm::vec4> out =
-            bench.run("light_texels.comp", spots, {glm::vec4(0.0f)}, lights.texels.size(), 4);
+            bench.run("test/light_texels.comp", spots, {glm::vec4(0.0f)}, lights.texels.size(), 4);
         for (std::size_t i = 0; i < lights.texels.size(); ++i) {
             EXPECT_EQ(out[4 * i], lights.texels[i].position);
             EXPECT_EQ(out[4 * i + 1], lights.texels[i].color);

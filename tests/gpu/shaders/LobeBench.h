@@ -64,7 +64,7 @@ protected:
                                  {c.sheenColor, c.sheenAlpha},
                                  {c.coatAlpha, float(c.masking), 0, 0}});
         }
-        const std::vector<glm::vec4> out = bench_.run("lobes.comp", kEverything, in, cases.size(), 2);
+        const std::vector<glm::vec4> out = bench_.run("test/lobes.comp", kEverything, in, cases.size(), 2);
         std::vector<LobeResult> results;
         results.reserve(cases.size());
         for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -80,7 +80,7 @@ protected:
         in.reserve(cases.size() * 4);
         for (const TermsCase& c : cases)
             in.insert(in.end(), {{c.n, c.alpha.x}, {c.h, c.alpha.y}, {c.tangent, c.exponent}, {c.direction, c.cosine}});
-        const std::vector<glm::vec4> out = bench_.run("lobe_terms.comp", {}, in, cases.size(), 2);
+        const std::vector<glm::vec4> out = bench_.run("test/lobe_terms.comp", {}, in, cases.size(), 2);
         std::vector<LobeTerms> results;
         results.reserve(cases.size());
         for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -93,6 +93,14 @@ protected:
     static bool isFiniteAndPositive(const glm::vec3& c) {
         return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && c.x >= 0.0f && c.y >= 0.0f &&
                c.z >= 0.0f;
+    }
+
+    /// The surface without coat and sheen, and with the masking that every model has.
+    static LobeCase bare(LobeCase c) {
+        c.masking = MASKING_WALTER;
+        c.coatFactor = 0.0f;
+        c.sheenColor = glm::vec3(0.0f);
+        return c;
     }
 
     /// Any surface of the model, with directions at the edges of what they can be now and then.

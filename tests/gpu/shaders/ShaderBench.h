@@ -14,8 +14,8 @@
 
 namespace tessera::test {
 
-/// Runs the product's shader functions on numbers of a test's choice: compute shaders of tests/gpu/shaders/ that
-/// include them. They see the product's shader tree as it lies in the source folder.
+/// Runs the product's shader functions on numbers of a test's choice: compute shaders of shaders/stress/, and of
+/// tests/gpu/ as test/. They see the product's shader tree as it lies in the source folder.
 class ShaderBench {
 public:
     ShaderBench() : library_(shader::SourceTree(sources())) {}
@@ -25,7 +25,7 @@ public:
     std::vector<glm::vec4> run(const std::string& file, const shader::Defines& defines,
                                const std::vector<glm::vec4>& inputs, std::size_t records,
                                std::size_t outputsPerRecord) {
-        const gpu::Program& program = library_.get({file, "", "", "test/" + file, defines});
+        const gpu::Program& program = library_.get({file, "", "", file, defines});
         const gpu::Buffer in = gpu::Buffer::of("inputs", inputs);
         const gpu::Buffer out("outputs", records * outputsPerRecord * sizeof(glm::vec4), gpu::BufferUse::Readback);
         gpu::useProgram(program);

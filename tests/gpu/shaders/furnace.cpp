@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "shaders/shared/models.h"
+#include "tests/gpu/shaders/LobeBench.h"
 #include "tests/gpu/shaders/Quadrature.h"
-#include "tests/gpu/shaders/ShaderBench.h"
 
 namespace tessera {
 namespace {
@@ -40,11 +40,11 @@ protected:
             sinkLight.push_back(half.weight * 4.0 * std::max(vh, 0.0) * std::max(nl, 0.0));
         });
         const std::size_t count = solidAngle.size();
-        const std::vector<glm::vec4> terms = bench.run("terms.comp", {}, inputs, count, 2);
+        const std::vector<glm::vec4> terms = bench.run("stress/terms.comp", {}, inputs, count, 2);
         // G1(v) / (4 n.v) is the separable term of a light along n, whose own masking is 1.
         const float smith = float(mu);
         const std::vector<glm::vec4> facing =
-            bench.run("terms.comp", {}, {{0, 0, 1, float(alpha)}, {0, 0, 1, 1}, {smith, 1, 1, 0}}, 1, 2);
+            bench.run("stress/terms.comp", {}, {{0, 0, 1, float(alpha)}, {0, 0, 1, 1}, {smith, 1, 1, 0}}, 1, 2);
         Furnace sum;
         for (std::size_t i = 0; i < count; ++i) {
             const glm::dvec4 t(terms[2 * i]);
@@ -123,7 +123,7 @@ TEST_F(FurnaceTest, splitSumsAreExactlyThoseOfTheTable) {
                 inputs.insert(inputs.end(),
                               {{0, 0, 1, alpha}, {glm::vec3(half.h), float(nl)}, {float(mu), 1, float(vh), 0}});
             });
-            const std::vector<glm::vec4> terms = bench.run("terms.comp", {}, inputs, weight.size(), 2);
+            const std::vector<glm::vec4> terms = bench.run("stress/terms.comp", {}, inputs, weight.size(), 2);
             double a = 0.0, b = 0.0;
             for (std::size_t i = 0; i < weight.size(); ++i) {
                 const glm::dvec4 t(terms[2 * i]);
@@ -146,28 +146,30 @@ TEST_F(FurnaceTest, atAlphaOneBothFormsAreExactlyTheirClosedForms) {
     }
 }
 
-TEST_F(FurnaceTest, aWhiteMetalNeverReflectsMoreThanArrivesAndExactlyItsClosedFormAtAlphaOne) {
+using WhiteFurnace = test::LobeTest;
+
+TEST_F(WhiteFurnace, aWhiteMetalNeverReflectsMoreThanArrivesAndExactlyItsClosedFormAtAlphaOne) {
     // The whole path, directions in and radiance out: base colour 1, metallic 1, so F = 1 and no diffuse part.
-    const shader::Defines models{{"HAS_METALLIC_ROUGHNESS", "1"}, {"HAS_MICROFACET", "0"}, {"HAS_LIT_MODELS", "1"}};
     for (const double mu : {0.1, 0.5, 0.9}) {
         for (const double alpha : {0.05, 0.3, 1.0}) {
             const glm::dvec3 v(std::sqrt(1.0 - mu * mu), 0.0, mu);
-            std::vector<glm::vec4> inputs;
+            std::vector<test::LobeCase> cases;
             std::vector<double> weight;
             test::forHalfVectors(float(alpha), kPsiSteps, kPhiSteps, [&](const test::HalfVector& half) {
                 const double vh = glm::dot(v, half.h);
                 if (vh <= 0.0) return;
                 const glm::vec3 l(2.0 * vh * half.h - v);
                 weight.push_back(half.weight * 4.0 * vh);
-                inputs.insert(inputs.end(), {{1, 1, 1, 1},
-                                             {0, 0, 1, float(alpha)},
-                                             {0.04f, 0.04f, 0.04f, 1},
-                                             {l, float(MODEL_METALLIC_ROUGHNESS)},
-                                             {glm::vec3(v), 1}});
+                cases.push_back({.albedo = glm::vec3(1.0f),
+                                 .metallic = 1.0f,
+                                 .alpha = float(alpha),
+                                 .l = l,
+                                 .v = glm::vec3(v),
+                                 .alphaBitangent = float(alpha)});
             });
-            const std::vector<glm::vec4> out = bench.run("reflect.comp", models, inputs, weight.size(), 3);
+            const std::vector<test::LobeResult> out = run(cases);
             double energy = 0.0;
-            for (std::size_t i = 0; i < weight.size(); ++i) energy += double(out[3 * i].y) * weight[i];
+            for (std::size_t i = 0; i < weight.size(); ++i) energy += double(out[i].share.y) * weight[i];
             EXPECT_LE(energy, 1.0) << "mu " << mu << " alpha " << alpha;
             EXPECT_GT(energy, 0.2) << "mu " << mu << " alpha " << alpha;
             if (alpha == 1.0) {

@@ -42,7 +42,7 @@ protected:
         std::vector<glm::vec4> inputs;
         for (const Probe& probe : probes) inputs.emplace_back(probe.position, float(probe.light));
         const std::vector<glm::vec4> out =
-            bench.run("incident.comp", frame::featureDefines(frame::allFeatures()), inputs, probes.size(), 2);
+            bench.run("stress/incident.comp", frame::featureDefines(frame::allFeatures()), inputs, probes.size(), 2);
         std::vector<Arrival> arrivals;
         for (std::size_t i = 0; i < probes.size(); ++i)
             arrivals.push_back({glm::vec3(out[2 * i]), glm::vec3(out[2 * i + 1]), out[2 * i].w != 0.0f});

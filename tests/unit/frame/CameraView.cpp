@@ -116,6 +116,8 @@ TEST(CameraView, bothLightingSpacesAlwaysPutAWorldPointAtTheSamePixelAndDepth) {
             ASSERT_LE(glm::distance(a, b), 1e-11); // double rounding of rotations of 20 m
         }
         EXPECT_EQ(world.constants.worldFromLS, glm::mat4(1.0f));
+        EXPECT_EQ(world.constants.clipFromES, world.constants.clipFromLS);
+        EXPECT_EQ(eye.constants.clipFromES, world.constants.clipFromES) << "vertices lie where they lie";
         const glm::vec3 forwardWS = glm::mat3(eye.constants.worldFromLS) * glm::vec3(eye.constants.forwardLS);
         EXPECT_LE(glm::distance(forwardWS, glm::vec3(world.constants.forwardLS)), 1e-6f);
         EXPECT_LE(glm::distance(eye.forwardLS, glm::dvec3(0.0, 0.0, -1.0)), 1e-15); // double rounding of a rotation

@@ -176,6 +176,7 @@ TEST(GBufferLayout, definesAlwaysGiveAttachmentsOfExactChannelsAndBitsOfTheOther
                                                          {"GBUFFER_SPECULAR_WIDTHS", "6, 6, 6, 0"},
                                                          {"GBUFFER_EMISSION", "0"},
                                                          {"GBUFFER_EMISSION_PACKED", "0"},
+                                                         {"GBUFFER_EXACT_CHANNELS", "1"},
                                                          {"GBUFFER_WORDS", "2"},
                                                          {"GBUFFER_WORD_TEXTURE", "1"}}));
     EXPECT_THAT(channelDefines(layout, {}), IsEmpty());

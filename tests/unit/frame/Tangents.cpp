@@ -3,19 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/Random.h"
+#include "tests/support/TestScenes.h"
 
 namespace tessera::frame {
 namespace {
 
-/// A quad in the plane z = 0 that faces +z, its picture upright: u grows along x, v (down) along -y.
-scenes::Mesh quad() {
-    scenes::Mesh mesh;
-    mesh.positionsOS = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
-    mesh.normalsOS.assign(4, {0, 0, 1});
-    mesh.texCoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
-    mesh.indices = {0, 1, 2, 0, 2, 3};
-    return mesh;
-}
+using test::quad;
 
 TEST(Tangents, aQuadAlwaysHasTheTangentThatIsFoundByHand) {
     for (const glm::vec4& tangent : computeTangents(quad(), 0)) EXPECT_EQ(tangent, glm::vec4(1, 0, 0, 1));

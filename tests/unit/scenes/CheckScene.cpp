@@ -135,6 +135,12 @@ TEST(CheckScene, eachBrokenRuleIsAlwaysReported) {
              s.cameras[0].projection = Projection::Orthographic;
              s.cameras[0].halfHeightMetres = 0.0;
          }},
+        {"the base colour", [](Scene& s) { s.materials[0].baseColor.x = 1.1e6f; }},
+        {"the specular colour", [](Scene& s) { s.materials[0].specularColor.x = 1.1e6f; }},
+        {"the emission", [](Scene& s) { s.materials[0].emissive.x = 1.1e30f; }},
+        {"alpha", [](Scene& s) { s.materials[0].alpha = 1.1e6f; }},
+        {"alphaY", [](Scene& s) { s.materials[0].alphaY = 1.1e6f; }},
+        {"the index of refraction", [](Scene& s) { s.materials[0].ior = 1.1e6f; }},
         {"background", [](Scene& s) { s.background.x = kNaN; }},
         {"exposure", [](Scene& s) { s.options.exposureEV = kNaN; }},
         {"size",
@@ -153,7 +159,7 @@ TEST(CheckScene, extremesThatAreAllowedAlwaysPass) {
                   light.rangeMetres = 0.0f;
                   light.innerConeRadians = light.outerConeRadians = 3.14159265f;
                   s.cameras[0].farMetres = std::numeric_limits<double>::infinity();
-                  s.materials[0].ior = 1000.0f;
+                  s.materials[0].ior = 1e6f;
                   s.materials[0].alpha = 0.0f;
               }),
               "");

@@ -4,18 +4,12 @@
 
 #include "renderer/frame/Tangents.h"
 #include "scenes/Load.h"
+#include "tests/support/TestScenes.h"
 
 namespace tessera::reference {
 namespace {
 
-scenes::Mesh quad() {
-    scenes::Mesh mesh;
-    mesh.positionsOS = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
-    mesh.normalsOS.assign(4, {0, 0, 1});
-    mesh.texCoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
-    mesh.indices = {0, 1, 2, 0, 2, 3};
-    return mesh;
-}
+using test::quad;
 
 TEST(ReferenceTangents, aQuadAlwaysHasTheTangentThatIsFoundByHand) {
     for (const glm::dvec4& tangent : tangentsOS(quad(), 0)) EXPECT_EQ(tangent, glm::dvec4(1, 0, 0, 1));
