@@ -4,11 +4,11 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "passes/recipes/Techniques.h"
 #include "validation/FigureHtml.h"
 #include "validation/Html.h"
+#include "validation/bench/BenchJsonTerms.h"
 #include "validation/bench/BenchTables.h"
 #include "validation/bench/Pareto.h"
 #include "validation/bench/Recommend.h"
@@ -18,13 +18,6 @@ namespace tessera::validation {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-template <typename T>
-Json orNull(const std::optional<T>& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
-
 Json plotPoint(const BenchResult& result, std::optional<bool> pareto, bool isBest) {
     const BenchError error = result.error.value_or(BenchError{});
     return {{"name", pointName(result.key)},   {"technique", result.key.technique},
@@ -32,6 +25,12 @@ Json plotPoint(const BenchResult& result, std::optional<bool> pareto, bool isBes
             {"p95", result.times.cpuMs.p95},   {"relMse", orNull(error.relMse)},
             {"p99Rel", orNull(error.p99Rel)},  {"toFloor", orNull(result.ratioToFloor)},
             {"front", pareto.value_or(false)}, {"best", isBest}};
+}
+
+/// What the legend says of a curve; empty where there are too few points to say anything.
+std::string growthText(const ScalingCurve& curve) {
+    if (!curve.fit) return "";
+    return curve.fit->isTrend() ? fmt::format("{:.2f}", curve.fit->exponent) : "no trend";
 }
 
 /// What bench.js draws.
@@ -55,7 +54,7 @@ Json plotData(const BenchRecord& record) {
                                   {"held", curve.held},
                                   {"x", curve.x},
                                   {"ms", curve.timeMs},
-                                  {"exponent", curve.fit ? Json(curve.fit->exponent) : Json(nullptr)}});
+                                  {"growth", growthText(curve)}});
     }
     return data;
 }
@@ -76,20 +75,23 @@ std::string tileHtml(const std::string& label, const std::string& figure, const 
     return fmt::format("<div><dt>{}</dt><dd>{}<small>{}</small></dd></div>\n", label, figure, note);
 }
 
-std::string answerHtml(const BenchGroup& group) {
+std::string answerHtml(const BenchRecord& record, const BenchGroup& group) {
     const std::optional<Recommendation> choice = recommendFor(group);
-    if (!choice) return "<p class=\"choice\">Nothing is measured yet.</p>\n";
+    const std::string unfinished = unfinishedHtml(record);
+    if (!choice) return unfinished + "<p class=\"choice\">Nothing is measured yet.</p>\n";
     const BenchResult& best = *choice->best;
     std::string how = best.key.tilePixels ? fmt::format("{} {}, ", best.key.culling, *best.key.tilePixels) : "";
     how += best.key.layout;
     if (best.key.rangeTolerance > 0.0) how += fmt::format(", range {:g}", best.key.rangeTolerance);
-    std::string html = "<dl class=\"answer\">\n" + tileHtml("Take", escapedHtml(best.key.technique), escapedHtml(how));
+    std::string html =
+        unfinished + "<dl class=\"answer\">\n" + tileHtml("Take", escapedHtml(best.key.technique), escapedHtml(how));
     if (choice->speedup) {
         const double speedup = *choice->speedup;
-        html += tileHtml("Speed", fmt::format("{:.1f}&times;", speedup >= 1.0 ? speedup : 1.0 / speedup),
-                         &best == choice->baseline ? "forward is the fastest"
-                         : speedup >= 1.0          ? "faster than forward"
-                                                   : "slower than forward");
+        html +=
+            tileHtml("Speed", fmt::format("{:.1f}&times;", speedup >= 1.0 ? speedup : 1.0 / speedup),
+                     &best == choice->baseline ? (choice->asFast ? "forward, as fast as any" : "forward is the fastest")
+                     : speedup >= 1.0          ? "faster than forward"
+                                               : "slower than forward");
     }
     if (best.error)
         html += tileHtml("Error", figureHtml(best.error->relMse),
@@ -124,9 +126,10 @@ std::string paretoHtml(const BenchRecord& record, const BenchGroup& headline) {
 std::string scalingHtml(const BenchRecord& record) {
     if (scalingCurves(record.groups).empty()) return "";
     return "<section id=\"scaling\">\n<h2>How time grows</h2>\n"
-           "<p class=\"lede\">Both axes are logarithmic, so that a slope of 1 is time in proportion. Tap a name to "
-           "hide "
-           "its curve.</p>\n"
+           "<p class=\"lede\">Both axes are logarithmic, so that a slope of 1 is time in proportion. The number behind "
+           "a "
+           "name is its slope, where a line explains at least nine tenths of what the times vary by (R&sup2; from 0.9 "
+           "on). Tap a name to hide its curve.</p>\n"
            "<p class=\"controls\"><label>Show <select id=\"scaling-curves\"></select></label></p>\n"
            "<div class=\"plot tall\"><canvas id=\"scaling-plot\" role=\"img\" aria-label=\"Milliseconds a frame "
            "against "
@@ -212,10 +215,15 @@ std::string allPointsHtml(const BenchRecord& record, const BenchGroup& headline)
 
 } // namespace
 
+std::string unfinishedHtml(const BenchRecord& record) {
+    if (record.isComplete) return "";
+    return fmt::format("<p class=\"unfinished missed\" role=\"status\">{}</p>\n", escapedHtml(unfinishedText(record)));
+}
+
 ReportBench benchHtml(const BenchRecord& record, const BenchGroup& headline, const PictureBytes& pictureBytes) {
-    return {answerHtml(headline), answersHtml(record) + paretoHtml(record, headline) + scalingHtml(record) +
-                                      allPicturesHtml(record, pictureBytes) + causesHtml(record) +
-                                      allPointsHtml(record, headline) + scriptData(plotData(record))};
+    return {answerHtml(record, headline), answersHtml(record) + paretoHtml(record, headline) + scalingHtml(record) +
+                                              allPicturesHtml(record, pictureBytes) + causesHtml(record) +
+                                              allPointsHtml(record, headline) + scriptData(plotData(record))};
 }
 
 } // namespace tessera::validation

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "renderer/graph/Table.h"
 #include "validation/FigureText.h"
 #include "validation/bench/BenchJson.h"
+#include "validation/bench/BenchJsonTerms.h"
 #include "validation/bench/Pareto.h"
 #include "validation/bench/Recommend.h"
 #include "validation/bench/ScalingFit.h"
@@ -15,8 +15,6 @@
 namespace tessera::validation {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kTableWidth = 120;
 
@@ -27,7 +25,7 @@ std::string figure(const std::optional<double>& value, const char* format) {
 Json keyJson(const PointKey& key) {
     return {{"technique", key.technique},
             {"culling", key.culling},
-            {"tile", key.tilePixels ? Json(*key.tilePixels) : Json(nullptr)},
+            {"tile", orNull(key.tilePixels)},
             {"layout", key.layout},
             {"range", key.rangeTolerance}};
 }
@@ -62,8 +60,8 @@ Json recommendationsJson(std::span<const BenchGroup> groups) {
                         {"size", {group.sizePixels.x, group.sizePixels.y}},
                         {"take", keyJson(choice->best->key)},
                         {"cpuMs", choice->best->times.cpuMs.median},
-                        {"speedup", choice->speedup ? Json(*choice->speedup) : Json(nullptr)},
-                        {"relMse", error && error->relMse ? Json(*error->relMse) : Json(nullptr)},
+                        {"speedup", orNull(choice->speedup)},
+                        {"relMse", orNull(error ? error->relMse : std::nullopt)},
                         {"text", recommendationText(group)}});
     }
     return list;
@@ -141,13 +139,25 @@ std::string benchJson(const BenchRecord& record) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string unfinishedText(const BenchRecord& record) {
+    if (record.isComplete) return "";
+    std::size_t measured = 0;
+    for (const BenchGroup& group : record.groups) measured += group.results.size();
+    return fmt::format(
+        "Unfinished: {} of {} points are measured, and what is said here may change with the others. {}.", measured,
+        record.plannedPoints,
+        record.shards > 1 ? "Finish every shard and put them together with --merge" : "Go on with --resume");
+}
+
 std::string benchTable(const BenchRecord& record) {
     std::string text;
     for (const BenchGroup& group : record.groups) text += groupTable(group);
     for (const ScalingCurve& curve : scalingCurves(record.groups)) {
         if (!curve.fit || curve.quantity == "evaluations") continue; // these are in the files
-        text += fmt::format("{}, {}: time grows as {}^{:.2f}{} (R2 {:.3f}, {} points)\n", curve.scene,
-                            pointName(curve.key), curve.quantity, curve.fit->exponent,
+        const std::string growth = curve.fit->isTrend()
+                                       ? fmt::format("time grows as {}^{:.2f}", curve.quantity, curve.fit->exponent)
+                                       : fmt::format("no trend of time with {}", curve.quantity);
+        text += fmt::format("{}, {}: {}{} (R2 {:.3f}, {} points)\n", curve.scene, pointName(curve.key), growth,
                             curve.held.empty() ? "" : " at " + curve.held, curve.fit->r2, curve.fit->points);
     }
     for (const SkippedPoint& point : record.skipped) text += fmt::format("skipped {}: {}\n", point.what, point.why);
@@ -155,6 +165,7 @@ std::string benchTable(const BenchRecord& record) {
         const std::string words = recommendationText(group);
         if (!words.empty()) text += words + "\n";
     }
+    if (!record.isComplete) text += unfinishedText(record) + "\n";
     return text;
 }
 

@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/unit/validation/Benches.h"
+#include "validation/bench/BenchHtml.h"
 #include "validation/bench/BenchJson.h"
+#include "validation/bench/BenchReport.h"
 #include "validation/bench/Pareto.h"
 #include "validation/bench/Recommend.h"
 #include "validation/bench/ScalingFit.h"
@@ -59,6 +61,42 @@ TEST(ScalingFit, curvesAlwaysJoinEqualPointsOfDifferentGroupsOnly) {
     EXPECT_NEAR(curves[1].fit->exponent, 0.5, 1e-12);
 }
 
+TEST(ScalingFit, anExponentIsNeverToldOfTimesThatFollowNoLine) {
+    BenchRecord record;
+    // log10 y is 0, 0.3, 0.1 over x of one step each: R^2 is 0.107. A line fits 10, 100, 1000.
+    const double noisyMs[] = {1.0, 2.0, 1.26};
+    for (int i = 0; i < 3; ++i) {
+        const double ms = std::pow(10.0, i);
+        record.groups.push_back(madeUpGroup(
+            int(ms), {madeUpResult("forward", 10.0 * ms, 1e-9), madeUpResult("deferred", noisyMs[i], 1e-9)}));
+    }
+    record.isComplete = true;
+    const std::string page = benchHtml(record, record.groups[0], {}).sections;
+    EXPECT_THAT(page, HasSubstr(R"("growth":"1.00")"));
+    EXPECT_THAT(page, HasSubstr(R"("growth":"no trend")"));
+    EXPECT_THAT(page, HasSubstr("<span>no trend</span>"));
+    const std::string table = benchTable(record);
+    EXPECT_THAT(table, HasSubstr("forward, exact: time grows as lights^1.00"));
+    EXPECT_THAT(table, HasSubstr("deferred, exact: no trend of time with lights at 64x32 (R2 0.1"));
+}
+
+TEST(BenchPageHead, anUnfinishedBenchNeverRecommendsWithoutReserve) {
+    BenchRecord record;
+    record.groups = {madeUpGroup(10, {madeUpResult("forward", 10, 1e-9)})};
+    record.plannedPoints = 9;
+    const std::string reserve = "Unfinished: 1 of 9 points are measured";
+    EXPECT_THAT(benchReport(record, "").bench->answer, testing::StartsWith("<p class=\"unfinished"));
+    EXPECT_THAT(benchReport(record, "").bench->answer, HasSubstr(reserve));
+    EXPECT_THAT(benchTable(record), HasSubstr(reserve));
+    EXPECT_THAT(unfinishedText(record), HasSubstr("--resume"));
+    record.shards = 2;
+    EXPECT_THAT(unfinishedText(record), HasSubstr("--merge"));
+    EXPECT_THAT(benchReport(BenchRecord{}, "").bench->answer, HasSubstr("Unfinished"));
+    record.isComplete = true;
+    EXPECT_THAT(benchReport(record, "").bench->answer, Not(HasSubstr("nfinished")));
+    EXPECT_THAT(benchTable(record), Not(HasSubstr("nfinished")));
+}
+
 TEST(Pareto, theFrontIsExactlyWhatNothingBeats) {
     const BenchGroup group =
         madeUpGroup(10, {madeUpResult("a", 10, 1e-9), madeUpResult("b", 5, 1e-6), madeUpResult("c", 6, 1e-6),
@@ -79,6 +117,33 @@ TEST(Recommend, theFastestPointOfAcceptableErrorIsAlwaysTaken) {
     const std::string text = recommendationText(group);
     EXPECT_THAT(text, HasSubstr("deferred, packed: 3.3x faster than forward at relMSE 2.0e-05"));
     EXPECT_THAT(text, HasSubstr("As exact as any is deferred, exact: 2.5x faster"));
+}
+
+TEST(Recommend, ofTimesThatTheSpreadDoesNotTellApartTheSmallerErrorIsAlwaysTaken) {
+    // Made-up spreads are a tenth: 32 and 30 ms lie within each other's, 34 and 30 ms do not.
+    const BenchGroup near =
+        madeUpGroup(257, {madeUpResult("forward", 100, 1e-9), madeUpResult("deferred", 30, 2e-5, "packed"),
+                          madeUpResult("deferred", 32, 1e-9), madeUpResult("tiled_deferred", 31, 1e-6, "packed")});
+    const std::optional<Recommendation> choice = recommendFor(near);
+    EXPECT_EQ(choice->best, &near.results[2]);
+    EXPECT_EQ(choice->asFast, &near.results[1]);
+    EXPECT_EQ(choice->exact, nullptr);
+    EXPECT_THAT(recommendationText(near),
+                HasSubstr("take deferred, exact: 3.1x faster than forward at relMSE 1.0e-09"));
+    EXPECT_THAT(recommendationText(near),
+                HasSubstr("deferred, packed takes as long within the spread of the times, 30 ms,"
+                          " at the larger relMSE 2.0e-05."));
+    const BenchGroup apart =
+        madeUpGroup(257, {madeUpResult("deferred", 30, 2e-5, "packed"), madeUpResult("deferred", 34, 1e-9)});
+    EXPECT_EQ(recommendFor(apart)->best, &apart.results[0]);
+    EXPECT_EQ(recommendFor(apart)->asFast, nullptr);
+    // Errors within a factor of two are one error, and then the faster stays.
+    const BenchGroup equal =
+        madeUpGroup(257, {madeUpResult("forward", 31, 1e-9), madeUpResult("deferred", 30, 1.5e-9)});
+    EXPECT_EQ(recommendFor(equal)->best, &equal.results[1]);
+    // One noisy point alone never makes itself as fast as a steady one.
+    EXPECT_FALSE(isAsFast({30.0, 30.1}, {40.0, 90.0}));
+    EXPECT_TRUE(isAsFast({30.0, 45.0}, {40.0, 90.0}));
 }
 
 TEST(Recommend, aGroupWithoutAnAcceptablePointIsAlwaysToldSo) {
