@@ -14,8 +14,6 @@
 namespace tessera::scenes {
 namespace {
 
-constexpr int kMostLights = 65536;
-
 struct Format {
     std::string_view extension;
     Scene (*import)(const std::filesystem::path&);
@@ -74,7 +72,8 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     checkScene(scene);
     addDefaultCamera(scene);
     // Who asks for no lights gets none.
-    if (options.defaultLight && options.lights != 0) addDefaultLight(scene);
+    if (options.defaultLight && scene.options.defaultLight.value_or(true) && options.lights != 0)
+        addDefaultLight(scene);
     return scene;
 }
 

@@ -9,6 +9,8 @@
 
 namespace tessera::scenes {
 
+inline constexpr int kMostLights = 65536; ///< that a scene can be asked to have
+
 struct LoadOptions {
     std::optional<int> lights; ///< built-in scenes generate this many (0..65,536); files keep their first N
     bool defaultLight = true;  ///< give a scene without lights, emission or unlit material one directional light
