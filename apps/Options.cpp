@@ -259,11 +259,20 @@ scenes::Scene loadFor(const FrameOptions& options) {
     return scenes::loadScene(options.scene, load);
 }
 
-Request resolve(const FrameOptions& options) {
+Request resolveWithoutScene(const FrameOptions& options) {
     Request request;
     resolveOptions(options, request);
-    request.scene = loadFor(options);
+    return request;
+}
+
+void resolveForScene(const FrameOptions& options, Request& request) {
     resolveWishes(options, request);
+}
+
+Request resolve(const FrameOptions& options) {
+    Request request = resolveWithoutScene(options);
+    request.scene = loadFor(options);
+    resolveForScene(options, request);
     for (const std::string& warning : request.scene.warnings) spdlog::warn("{}: {}", request.scene.name, warning);
     return request;
 }

@@ -46,6 +46,10 @@ struct Request {
 };
 /// The scene alone, as the options have it.
 scenes::Scene loadFor(const FrameOptions& options);
+/// What can be read without the scene: a mistake in it is found before a large scene is read for nothing.
+Request resolveWithoutScene(const FrameOptions& options);
+/// What names things of the request's scene, and what the scene wishes where the options say nothing.
+void resolveForScene(const FrameOptions& options, Request& request);
 /// Loads the scene, resolves every name, and when all is well warns of what the scene lacks. Throws InputError.
 Request resolve(const FrameOptions& options);
 

@@ -50,6 +50,8 @@ struct FrameSettings {
     bool display = true; ///< false: nobody looks at display code values, and the display pass is left out
     float exposureEV = 0.0f;
     ToneMap toneMap = ToneMap::None;
+
+    bool operator==(const FrameSettings&) const = default;
 };
 
 } // namespace tessera::frame

@@ -55,7 +55,7 @@ def faultOf(path, quoted, included):
     if room is None:
         return None
     if OPENGL.match(included):
-        if room == "renderer/gpu" and path.endswith(".cpp") or room == "apps" and included.startswith("GLFW/"):
+        if room == "renderer/gpu" and path.endswith(".cpp") or room == "viewer" and included.startswith("GLFW/"):
             return None
         return "OpenGL stays inside the sources of renderer/gpu; use its wrapper"
     if not quoted:
