@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "scenes/Scene.h"
 #include "scenes/import/JsonReader.h"
 
