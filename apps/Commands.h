@@ -15,6 +15,7 @@ void addCompareCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 void addPlanCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 void addBenchCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 void addStressCommand(CLI::App& app, const GlobalOptions& global, Run& run);
+void addViewCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 void addDemoCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 
 /// Exit codes of the documented command line.

@@ -4,18 +4,6 @@
 
 namespace tessera::app {
 
-std::string shellWord(const std::string& word) {
-    constexpr const char* kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-+/=,:@%";
-    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-    std::string quoted = "'";
-    for (const char c : word) {
-        if (c == '\'') quoted += "'\\'"; // ends the quotes, quotes this one, and begins them anew
-        quoted += c;
-    }
-    quoted += '\'';
-    return quoted;
-}
-
 std::string frameOptionText(const FrameOptions& options) {
     std::string text;
     const auto add = [&text](const char* flag, const auto& value) {
@@ -28,6 +16,7 @@ std::string frameOptionText(const FrameOptions& options) {
     add("--cull-on", options.cullOn);
     add("--light-on", options.lightOn);
     add("--size", options.size);
+    add("--samples", options.samples);
     add("--camera", options.camera);
     add("--time", options.timeSeconds);
     add("--lights", options.lights);
@@ -38,6 +27,7 @@ std::string frameOptionText(const FrameOptions& options) {
     add("--filter", options.filter);
     add("--space", options.space);
     add("--prune", options.prune);
+    text += viewer::poseText(options.pose);
     add("--exposure", options.exposureEV);
     add("--tonemap", options.toneMap);
     if (options.noDefaultLight) text += " --no-default-light";

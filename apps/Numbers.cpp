@@ -20,6 +20,20 @@ std::optional<Number> parsed(const std::string& text) {
     return value;
 }
 
+std::optional<glm::dvec3> parsedPoint(const std::string& text) {
+    glm::dvec3 point(0.0);
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (glm::length_t i = 0; i < 3; ++i) {
+        if (i > 0 && (at == end || *at++ != ',')) return std::nullopt;
+        const auto [rest, error] = std::from_chars(at, end, point[i]);
+        if (error != std::errc() || !std::isfinite(point[i])) return std::nullopt;
+        at = rest;
+    }
+    if (at != end) return std::nullopt;
+    return point;
+}
+
 } // namespace
 
 CLI::Option* addNumber(CLI::App& command, const std::string& flag, std::optional<double>& target,
@@ -37,6 +51,15 @@ CLI::Option* addWholeNumber(CLI::App& command, const std::string& flag, std::opt
     const auto read = [flag, &target](const std::string& text) {
         target = parsed<int>(text);
         if (!target) throw InputError(fmt::format("{} '{}' is not a whole number, such as 8", flag, text));
+    };
+    return command.add_option_function<std::string>(flag, read, help)->type_name(type);
+}
+
+CLI::Option* addPoint(CLI::App& command, const std::string& flag, std::optional<glm::dvec3>& target,
+                      const std::string& help, const std::string& type) {
+    const auto read = [flag, &target](const std::string& text) {
+        target = parsedPoint(text);
+        if (!target) throw InputError(fmt::format("{} '{}' is not three finite numbers, such as 0,1.5,-2", flag, text));
     };
     return command.add_option_function<std::string>(flag, read, help)->type_name(type);
 }

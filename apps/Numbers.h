@@ -3,6 +3,7 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <glm/glm.hpp>
 
 namespace tessera::app {
 
@@ -12,5 +13,8 @@ CLI::Option* addNumber(CLI::App& command, const std::string& flag, std::optional
                        const std::string& help, const std::string& type);
 CLI::Option* addWholeNumber(CLI::App& command, const std::string& flag, std::optional<int>& target,
                             const std::string& help, const std::string& type);
+/// Three numbers and commas between them.
+CLI::Option* addPoint(CLI::App& command, const std::string& flag, std::optional<glm::dvec3>& target,
+                      const std::string& help, const std::string& type);
 
 } // namespace tessera::app

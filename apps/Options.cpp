@@ -41,19 +41,6 @@ struct NamedSwitch {
 };
 constexpr NamedSwitch kSwitch[] = {{"on", true}, {"off", false}};
 
-struct NamedFilter {
-    std::string_view name;
-    frame::TextureFilter filter;
-};
-constexpr NamedFilter kFilters[] = {{"hardware", frame::TextureFilter::Hardware},
-                                    {"exact", frame::TextureFilter::Exact}};
-
-struct NamedSpace {
-    std::string_view name;
-    frame::LightingSpace space;
-};
-constexpr NamedSpace kSpaces[] = {{"world", frame::LightingSpace::World}, {"view", frame::LightingSpace::View}};
-
 struct NamedContext {
     std::string_view name;
     gpu::ContextKind kind;
@@ -61,12 +48,16 @@ struct NamedContext {
 constexpr NamedContext kContexts[] = {
     {"auto", gpu::ContextKind::Auto}, {"window", gpu::ContextKind::Window}, {"egl", gpu::ContextKind::Egl}};
 
+/// By name, else by number: an included file may bring a camera of a name that is there already.
 int cameraNamed(const scenes::Scene& scene, const std::string& name) {
     std::vector<std::string_view> names;
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         if (scene.cameras[i].name == name) return int(i);
         names.push_back(scene.cameras[i].name);
     }
+    std::size_t number = 0;
+    const auto [rest, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+    if (error == std::errc() && rest == name.data() + name.size() && number < scene.cameras.size()) return int(number);
     throw InputError(fmt::format("{}: unknown camera '{}': {}", scene.name, name, suggestNames(name, names)));
 }
 
@@ -121,8 +112,8 @@ void resolveOptions(const FrameOptions& options, Request& request) {
     if (options.size) settings.sizePixels = sizeNamed(*options.size);
     if (options.exposureEV) settings.exposureEV = exposureOf(*options.exposureEV);
     if (options.view) settings.view = viewNamed(*options.view);
-    if (options.filter) settings.filter = rowNamed(kFilters, *options.filter, "--filter").filter;
-    if (options.space) settings.space = rowNamed(kSpaces, *options.space, "--space").space;
+    if (options.filter) settings.filter = rowNamed(frame::textureFilterTable(), *options.filter, "--filter").filter;
+    if (options.space) settings.space = rowNamed(frame::lightingSpaceTable(), *options.space, "--space").space;
     if (options.prune) settings.prune = rowNamed(kSwitch, *options.prune, "--prune").on;
     if (options.specular) settings.specular = rowNamed(kSwitch, *options.specular, "--specular").on;
     if (options.culling)
@@ -229,7 +220,7 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     addWholeNumber(command, "--samples", options.samples,
                    "Samples of a pixel, 1, 2 or 4; more than 1 without a G-buffer only [1]", "N")
         ->group("Frame");
-    text("--camera", options.camera, "A camera of the scene [its first]", "NAME");
+    text("--camera", options.camera, "A camera of the scene, by name or counted from 0 [its first]", "NAME");
     addNumber(command, "--time", options.timeSeconds, "Moves animated lights to this time [0]", "SECONDS")
         ->group("Frame");
     addWholeNumber(command, "--lights", options.lights,
@@ -247,6 +238,18 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     text("--prune", options.prune, "off keeps what the scene does not need; the picture is the same [on]", "on|off");
     command.add_flag("--no-default-light", options.noDefaultLight, "Leaves a scene without lights dark")
         ->group("Frame");
+    addPoint(command, "--eye", options.pose.eyeWS, "Moves the camera there; alone it looks the same way", "X,Y,Z")
+        ->group("Camera");
+    addPoint(command, "--target", options.pose.targetWS, "Turns the camera to look there", "X,Y,Z")->group("Camera");
+    addPoint(command, "--up", options.pose.upWS, "What is up in the picture [0,1,0 where the camera turns]", "X,Y,Z")
+        ->group("Camera");
+    addNumber(command, "--fov", options.pose.fovYDegrees, "Vertical field of view of a perspective camera", "DEGREES")
+        ->group("Camera");
+    addNumber(command, "--half-height", options.pose.halfHeightMetres,
+              "Half the height of what an orthographic camera sees", "METRES")
+        ->group("Camera");
+    addNumber(command, "--near", options.pose.nearMetres, "Nothing nearer is drawn", "METRES")->group("Camera");
+    addNumber(command, "--far", options.pose.farMetres, "Nothing farther is drawn", "METRES")->group("Camera");
     addNumber(command, "--exposure", options.exposureEV, "Multiplies the display picture by 2^EV [0]", "EV")
         ->group("Display");
     text("--tonemap", options.toneMap, "One of " + namesOf(frame::toneMapTable()) + " [none]", "NAME", "Display");
@@ -256,14 +259,32 @@ scenes::Scene loadFor(const FrameOptions& options) {
     scenes::LoadOptions load;
     load.lights = options.lights;
     load.defaultLight = !options.noDefaultLight;
-    return scenes::loadScene(options.scene, load);
+    scenes::Scene scene = scenes::loadScene(options.scene, load);
+    placeCamera(options, scene);
+    return scene;
+}
+
+void placeCamera(const FrameOptions& options, scenes::Scene& scene) {
+    if (options.pose == scenes::CameraChange()) return;
+    const std::optional<std::string>& name = options.camera ? options.camera : scene.options.camera;
+    scenes::Camera& camera = scene.cameras[name ? std::size_t(cameraNamed(scene, *name)) : 0];
+    camera = scenes::changedCamera(camera, options.pose);
+}
+
+Request resolveWithoutScene(const FrameOptions& options) {
+    Request request;
+    resolveOptions(options, request);
+    return request;
+}
+
+void resolveForScene(const FrameOptions& options, Request& request) {
+    resolveWishes(options, request);
 }
 
 Request resolve(const FrameOptions& options) {
-    Request request;
-    resolveOptions(options, request);
+    Request request = resolveWithoutScene(options);
     request.scene = loadFor(options);
-    resolveWishes(options, request);
+    resolveForScene(options, request);
     for (const std::string& warning : request.scene.warnings) spdlog::warn("{}: {}", request.scene.name, warning);
     return request;
 }

@@ -8,6 +8,7 @@
 #include "passes/recipes/Techniques.h"
 #include "renderer/frame/FrameSettings.h"
 #include "renderer/gpu/Context.h"
+#include "scenes/CameraChange.h"
 #include "scenes/Load.h"
 
 /// What the command line says, and its translation into the library's terms. Every name is looked up in the library's
@@ -32,6 +33,7 @@ struct FrameOptions {
     std::optional<double> exposureEV, timeSeconds, rangeTolerance;
     std::optional<int> lights, solo, tile, samples;
     bool noDefaultLight = false;
+    scenes::CameraChange pose; ///< of the camera that is chosen
 };
 /// All but the scene.
 void addFrameSettings(CLI::App& command, FrameOptions& options);
@@ -44,8 +46,14 @@ struct Request {
     recipes::Technique technique = recipes::Technique::Deferred;
     frame::FrameSettings settings;
 };
-/// The scene alone, as the options have it.
+/// The scene alone, as the options have it, the camera they choose where they place it.
 scenes::Scene loadFor(const FrameOptions& options);
+/// What can be read without the scene: a mistake in it is found before a large scene is read for nothing.
+Request resolveWithoutScene(const FrameOptions& options);
+/// What names things of the request's scene, and what the scene wishes where the options say nothing.
+void resolveForScene(const FrameOptions& options, Request& request);
+/// Places the camera that the options, else the scene choose. Throws InputError for what no camera can have.
+void placeCamera(const FrameOptions& options, scenes::Scene& scene);
 /// Loads the scene, resolves every name, and when all is well warns of what the scene lacks. Throws InputError.
 Request resolve(const FrameOptions& options);
 

@@ -15,10 +15,10 @@
 #include "passes/recipes/Renderer.h"
 #include "scenes/Error.h"
 #include "validation/AtomicFile.h"
-#include "validation/HeatMap.h"
 #include "validation/PictureFile.h"
 #include "validation/ReferencePicture.h"
 #include "validation/Rendering.h"
+#include "validation/ShownPicture.h"
 
 namespace tessera::app {
 
@@ -34,40 +34,12 @@ struct RenderOptions {
     std::optional<double> framesPerSecond;
 };
 
-/// "12.3 lights a pixel, at most 40: hall, clustered_deferred".
-std::string countTitle(const std::string& counted, const std::string& of, const validation::Picture& counts) {
-    double sum = 0.0, covered = 0.0, most = 0.0;
-    for (std::size_t i = 0; i < counts.pixelCount(); ++i) {
-        if (!counts.covered[i]) continue;
-        covered += 1.0;
-        sum += counts.pixel(i)[0];
-        most = std::max(most, double(counts.pixel(i)[0]));
-    }
-    // The figures first: a small picture's title is cut.
-    return fmt::format("{:.1f} {} a pixel, at most {:.0f}: {}", sum / std::max(covered, 1.0), counted, most, of);
-}
-
-/// As a display shows it; views that need one get a legend.
-validation::DisplayImage displayPicture(const Request& request, const recipes::RenderedFrame& frame) {
-    const std::string of = fmt::format("{}, {}", request.scene.name, infoOf(request.technique).name);
-    const validation::Picture picture = validation::toPicture(frame);
-    switch (request.settings.view) {
-    case frame::View::Lights:
-        return validation::countHeatMap(picture, countTitle("lights", of, picture));
-    case frame::View::Overdraw:
-        return validation::countHeatMap(picture, countTitle("surfaces", of, picture));
-    case frame::View::Faults:
-        return validation::faultMap(picture, validation::toDisplayImage(frame), of);
-    default:
-        return validation::toDisplayImage(frame);
-    }
-}
-
 void writePicture(const std::string& path, const Request& request, const recipes::RenderedFrame& frame) {
     if (std::filesystem::path(path).extension() == ".exr") {
         validation::writeExr(path, validation::toPicture(frame));
     } else {
-        validation::writePng(path, displayPicture(request, frame));
+        validation::writePng(
+            path, validation::shownPicture(frame, request.scene.name, request.technique, request.settings.view));
     }
 }
 

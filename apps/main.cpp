@@ -83,6 +83,7 @@ int runProgram(int argc, char** argv) {
     addBenchCommand(app, global, run);
     addStressCommand(app, global, run);
     addScenesCommand(app, run);
+    addViewCommand(app, global, run);
     addDemoCommand(app, global, run);
     app.footer(kFooter);
     try {

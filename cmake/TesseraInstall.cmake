@@ -21,6 +21,7 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tesseraConfig.cmake.in $
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/tesseraConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/tesseraConfig.cmake ${PROJECT_BINARY_DIR}/tesseraConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/TesseraOpenImageIO.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/TesseraImgui.cmake
         DESTINATION ${tessera_package_dir})
 
 if(TARGET tessera_program)

@@ -1,5 +1,6 @@
 #include "passes/ForwardPass.h"
 
+#include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/slots.h"
 
@@ -60,8 +61,10 @@ ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpe
             resources->lights.bind();
             if (out.lists) resources->lightLists.bind();
             const frame::SceneGpu& scene = resources->scene;
-            scene.draw(params.surfaces == Surfaces::Transparent ? scene.transparent() : scene.opaque(),
-                       pipelineState(params, prepassed, view));
+            gpu::drawInBands([&] {
+                scene.draw(params.surfaces == Surfaces::Transparent ? scene.transparent() : scene.opaque(),
+                           pipelineState(params, prepassed, view));
+            });
         });
 }
 

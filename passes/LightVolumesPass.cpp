@@ -1,5 +1,6 @@
 #include "passes/LightVolumesPass.h"
 
+#include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/light_volumes.h"
 #include "shaders/shared/slots.h"
@@ -54,7 +55,7 @@ LightVolumesPass::Outputs LightVolumesPass::add(graph::Graph& graph, const frame
                 gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), context.texture(out.textures[i]));
             }
             gpu::bindTexture(TEXTURE_UNIT_DEPTH, context.texture(out.depth));
-            gpu::drawVertices(vertices, int(resources->constants.lights.x));
+            gpu::drawInBands([&] { gpu::drawVertices(vertices, int(resources->constants.lights.x)); });
         });
 }
 

@@ -14,8 +14,6 @@
 namespace tessera::scenes {
 namespace {
 
-constexpr int kMostLights = 65536;
-
 struct Format {
     std::string_view extension;
     Scene (*import)(const std::filesystem::path&);
@@ -56,6 +54,10 @@ Scene importFile(const std::string& path) {
     return format->import(file);
 }
 
+void goOn(const LoadOptions& options) {
+    if (options.stop.stop_requested()) throw LoadStopped();
+}
+
 } // namespace
 
 Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
@@ -71,10 +73,13 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
             scene.lights.resize(static_cast<std::size_t>(*options.lights));
         }
     }
+    goOn(options);
     checkScene(scene);
+    goOn(options);
     addDefaultCamera(scene);
     // Who asks for no lights gets none.
-    if (options.defaultLight && options.lights != 0) addDefaultLight(scene);
+    if (options.defaultLight && scene.options.defaultLight.value_or(true) && options.lights != 0)
+        addDefaultLight(scene);
     return scene;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
+#include <exception>
 #include <functional>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 
@@ -9,10 +11,19 @@
 
 namespace tessera::scenes {
 
+inline constexpr int kMostLights = 65536; ///< that a scene can be asked to have
+
 struct LoadOptions {
     std::optional<int> lights; ///< built-in scenes generate this many (0..65,536); files keep their first N
     bool defaultLight = true;  ///< give a scene without lights, emission or unlit material one directional light
     bool useAssets = true;     ///< let a built-in scene use the models under the folder TESSERA_ASSETS names
+    std::stop_token stop;      ///< asked between the steps of a load; where a stop is requested, LoadStopped is thrown
+};
+
+/// A load was given up, as its LoadOptions asked.
+class LoadStopped : public std::exception {
+public:
+    const char* what() const noexcept override { return "the load was given up"; }
 };
 
 /// Loads `nameOrPath`: a built-in scene's name or a .gltf, .glb, .obj or .json file. The result has passed checkScene()

@@ -67,6 +67,7 @@ struct TextureUse {
     Sampler sampler;
     int texCoordSet = 0; ///< 0 or 1
     TextureTransform transform;
+    bool operator==(const TextureUse&) const = default;
 };
 
 /// Where a material may carry a texture. Every value is factor x texel; the channels used and the transfer function:
@@ -143,6 +144,7 @@ struct Material {
 
     TextureUse& texture(TextureSlot slot) { return textures[static_cast<std::size_t>(slot)]; }
     const TextureUse& texture(TextureSlot slot) const { return textures[static_cast<std::size_t>(slot)]; }
+    bool operator==(const Material&) const = default;
 };
 
 // ---- Geometry ------------------------------------------------------------------------------------------------------
@@ -208,6 +210,7 @@ struct LightAnimation {
     glm::dvec3 amplitudeMetres{0.0};
     std::vector<double> timesSeconds;
     std::vector<glm::dvec3> pointsWS;
+    bool operator==(const LightAnimation&) const = default;
 };
 
 struct Light {
@@ -224,6 +227,7 @@ struct Light {
     float innerConeRadians = 0.0f;           ///< Spot: half angle of full intensity
     float outerConeRadians = 0.7853981634f;  ///< Spot: half angle beyond which there is no light
     std::optional<LightAnimation> animation;
+    bool operator==(const Light&) const = default;
 };
 
 /// The light as it is at `timeSeconds`: its animation applied to its position.
@@ -241,6 +245,7 @@ struct Camera {
     double halfHeightMetres = 1.0;                              ///< Orthographic
     double nearMetres = 0.1;                                    ///< > 0 (Perspective), may be 0 (Orthographic)
     double farMetres = std::numeric_limits<double>::infinity(); ///< nothing beyond is drawn
+    bool operator==(const Camera&) const = default;
 };
 
 /// What a scene asks for where the user does not say otherwise; names are those of the command line.
@@ -251,6 +256,8 @@ struct SceneOptions {
     std::optional<std::string> toneMap;
     std::optional<float> exposureEV;
     std::optional<glm::ivec2> sizePixels;
+    std::optional<bool> defaultLight; ///< false: where there is no light, none is supplied
+    bool operator==(const SceneOptions&) const = default;
 };
 
 struct Scene {

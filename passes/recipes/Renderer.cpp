@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -58,7 +59,11 @@ frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     // Light types change from frame to frame and do not concern the scene's buffers.
     frame::FeatureSet features = spec.settings.prune ? frame::materialFeatures(scene_) : frame::allFeatures();
     const frame::TextureFilter filter = spec.settings.filter;
-    if (sceneGpu_ && features == sceneFeatures_ && filter == sceneFilter_) return *sceneGpu_;
+    if (sceneGpu_ && features == sceneFeatures_ && filter == sceneFilter_) {
+        if (std::exchange(materialsChanged_, false)) sceneGpu_->updateMaterials();
+        return *sceneGpu_;
+    }
+    materialsChanged_ = false;
     sceneGpu_ = std::make_unique<frame::SceneGpu>(scene_, features, filter);
     sceneFeatures_ = features;
     sceneFilter_ = filter;
@@ -90,16 +95,24 @@ void Renderer::draw(Technique technique, const frame::FrameSettings& asked) {
     drawn_->execution->run();
 }
 
+const gpu::Texture& Renderer::radianceTexture() const {
+    return drawn_->execution->texture(drawn_->frame.radiance);
+}
+
+const gpu::Texture& Renderer::displayTexture() const {
+    return drawn_->execution->texture(drawn_->frame.display);
+}
+
 RenderedFrame Renderer::download() const {
+    return readBack(radianceTexture(), drawn_->settings.display ? &displayTexture() : nullptr);
+}
+
+RenderedFrame readBack(const gpu::Texture& radiance, const gpu::Texture* display) {
     RenderedFrame frame;
-    frame.width = drawn_->settings.sizePixels.x;
-    frame.height = drawn_->settings.sizePixels.y;
-    const gpu::Texture& radiance = drawn_->execution->texture(drawn_->frame.radiance);
+    frame.width = radiance.desc().width;
+    frame.height = radiance.desc().height;
     frame.radiance = flipped(radiance.downloadAs<float>(), frame.width, frame.height);
-    if (drawn_->settings.display) {
-        const gpu::Texture& display = drawn_->execution->texture(drawn_->frame.display);
-        frame.display = flipped(display.downloadAs<std::uint8_t>(), frame.width, frame.height);
-    }
+    if (display != nullptr) frame.display = flipped(display->downloadAs<std::uint8_t>(), frame.width, frame.height);
     return frame;
 }
 

@@ -17,6 +17,9 @@ struct RenderedFrame {
     std::vector<std::uint8_t> display; ///< RGBA, display code values; empty where the settings did not ask for them
 };
 
+/// Reads pictures back: radiance RGBA32F and, where not null, display RGBA8 of the same size.
+RenderedFrame readBack(const gpu::Texture& radiance, const gpu::Texture* display);
+
 /// Which lights a drawn frame's pixels visited, and how.
 struct DrawnLists {
     culling::Choice culling;
@@ -40,6 +43,10 @@ public:
 
     /// The picture of the latest draw().
     RenderedFrame download() const;
+    /// The same where it is, until the next draw(): radiance RGBA32F, and display RGBA8 where the settings asked for
+    /// it.
+    const gpu::Texture& radianceTexture() const;
+    const gpu::Texture& displayTexture() const;
 
     /// Depth of the latest draw(): reverse-Z, rows from the bottom, 0 where nothing opaque was drawn.
     std::vector<float> downloadDepth() const;
@@ -50,6 +57,10 @@ public:
         draw(technique, settings);
         return download();
     }
+
+    /// To be called after factors of the scene's materials were changed, not their textures: the next draw() takes them
+    /// as they are then. Lights and cameras of the scene may change between draws without notice.
+    void materialsChanged() { materialsChanged_ = true; }
 
     /// The scene as frames of this spec have it on the GPU. Whoever draws it sets its view first; draw() does.
     frame::SceneGpu& sceneGpu(const frame::FrameSpec& spec);
@@ -72,7 +83,8 @@ private:
     std::unique_ptr<frame::SceneGpu> sceneGpu_;
     frame::FeatureSet sceneFeatures_;                                   ///< what sceneGpu_ was made with
     frame::TextureFilter sceneFilter_ = frame::TextureFilter::Hardware; ///< the same
-    std::unique_ptr<Drawn> drawn_;                                      ///< the latest frame
+    bool materialsChanged_ = false;
+    std::unique_ptr<Drawn> drawn_; ///< the latest frame
 };
 
 /// What a frame would run, leave out and need, without a context.

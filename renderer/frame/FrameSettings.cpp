@@ -16,10 +16,22 @@ static_assert(static_cast<unsigned>(ToneMap::KhronosNeutral) == TONEMAP_KHRONOS_
 static_assert(static_cast<unsigned>(ToneMap::Aces) == TONEMAP_ACES &&
               static_cast<unsigned>(ToneMap::Agx) == TONEMAP_AGX);
 
+constexpr TextureFilterInfo kTextureFilters[] = {{TextureFilter::Hardware, "hardware"},
+                                                 {TextureFilter::Exact, "exact"}};
+constexpr LightingSpaceInfo kLightingSpaces[] = {{LightingSpace::World, "world"}, {LightingSpace::View, "view"}};
+
 } // namespace
 
 std::span<const ToneMapInfo> toneMapTable() {
     return kToneMaps;
+}
+
+std::span<const TextureFilterInfo> textureFilterTable() {
+    return kTextureFilters;
+}
+
+std::span<const LightingSpaceInfo> lightingSpaceTable() {
+    return kLightingSpaces;
 }
 
 } // namespace tessera::frame

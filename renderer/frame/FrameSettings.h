@@ -24,7 +24,18 @@ struct ToneMapInfo {
 std::span<const ToneMapInfo> toneMapTable();
 
 enum class TextureFilter : std::uint8_t { Hardware, Exact };
+struct TextureFilterInfo {
+    TextureFilter filter;
+    std::string_view name;
+};
+std::span<const TextureFilterInfo> textureFilterTable();
+
 enum class LightingSpace : std::uint8_t { World, View };
+struct LightingSpaceInfo {
+    LightingSpace space;
+    std::string_view name;
+};
+std::span<const LightingSpaceInfo> lightingSpaceTable();
 
 /// Samples of a pixel that can be asked for; a driver may give more.
 inline constexpr int kSampleCounts[] = {1, 2, 4};
@@ -50,6 +61,8 @@ struct FrameSettings {
     bool display = true; ///< false: nobody looks at display code values, and the display pass is left out
     float exposureEV = 0.0f;
     ToneMap toneMap = ToneMap::None;
+
+    bool operator==(const FrameSettings&) const = default;
 };
 
 } // namespace tessera::frame

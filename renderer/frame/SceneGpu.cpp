@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "renderer/frame/PackedMaterial.h"
-#include "renderer/frame/VertexStreams.h"
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/slots.h"
 
@@ -50,6 +49,12 @@ graph::Format storedFormat(scenes::TexelFormat format, bool srgb) {
     return graph::Format::Rgba32Float; // a float picture holds linear colours whatever its slot
 }
 
+std::vector<scenes::AlphaMode> alphaModes(const scenes::Scene& scene) {
+    std::vector<scenes::AlphaMode> modes;
+    for (const scenes::Material& material : scene.materials) modes.push_back(material.alphaMode);
+    return modes;
+}
+
 gpu::VertexAttribute attribute(std::uint32_t location, int components, const gpu::Buffer* buffer, std::size_t stride,
                                std::size_t offset = 0, std::uint32_t divisor = 0) {
     gpu::VertexAttribute result;
@@ -65,7 +70,7 @@ gpu::VertexAttribute attribute(std::uint32_t location, int components, const gpu
 } // namespace
 
 SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter)
-    : scene_(scene), filter_(filter), drawList_(makeDrawList(scene)) {
+    : scene_(scene), filter_(filter), drawList_(makeDrawList(scene)), alphaModes_(alphaModes(scene)) {
     uploadGeometry(features);
     uploadMaterials();
     uploadTextures();
@@ -98,9 +103,14 @@ void SceneGpu::uploadGeometry(const FeatureSet& features) {
     indices_ = std::make_unique<gpu::Buffer>(gpu::Buffer::of("indices", streams.indices));
     vertexArray_ = std::make_unique<gpu::VertexArray>("scene", attributes, indices_.get());
 
+    ranges_ = streams.ranges;
+    uploadDraws();
+}
+
+void SceneGpu::uploadDraws() {
     std::vector<gpu::DrawIndexedCommand> commands;
     for (const Draw& draw : drawList_.draws) {
-        const VertexStreams::Range& range = streams.ranges[std::size_t(draw.mesh)];
+        const VertexStreams::Range& range = ranges_[std::size_t(draw.mesh)];
         commands.push_back({range.indexCount, 1, range.firstIndex, range.baseVertex, std::uint32_t(commands.size())});
     }
     commands_ = std::make_unique<gpu::Buffer>(gpu::Buffer::of("draw commands", commands));
@@ -118,6 +128,15 @@ void SceneGpu::uploadMaterials() {
         std::memcpy(bytes.data() + i * materialStride_, &constants, sizeof constants);
     }
     materials_ = std::make_unique<gpu::Buffer>(gpu::Buffer::of("materials", bytes));
+}
+
+void SceneGpu::updateMaterials() {
+    uploadMaterials();
+    if (alphaModes(scene_) == alphaModes_) return;
+    // Blended surfaces are drawn last, in an order of their own.
+    alphaModes_ = alphaModes(scene_);
+    drawList_ = makeDrawList(scene_);
+    uploadDraws();
 }
 
 bool SceneGpu::shadersDecode(const scenes::Material& material, std::size_t slot) const {

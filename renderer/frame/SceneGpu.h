@@ -5,6 +5,7 @@
 
 #include "renderer/frame/DrawList.h"
 #include "renderer/frame/Features.h"
+#include "renderer/frame/VertexStreams.h"
 #include "renderer/gpu/Buffer.h"
 #include "renderer/gpu/PipelineState.h"
 #include "renderer/gpu/Sampler.h"
@@ -19,6 +20,9 @@ namespace tessera::frame {
 class SceneGpu {
 public:
     SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter = TextureFilter::Hardware);
+
+    /// Takes the scene's materials as they are now; their textures, and what they are drawn with, must be the same.
+    void updateMaterials();
 
     /// Puts draws into the view's lighting space and sorts the transparent ones.
     void setView(const CameraView& view);
@@ -38,6 +42,7 @@ private:
         const gpu::Sampler* sampler = nullptr;
     };
     void uploadGeometry(const FeatureSet& features);
+    void uploadDraws();
     void uploadMaterials();
     void uploadTextures();
     void bindMaterial(int material) const;
@@ -50,6 +55,8 @@ private:
     const scenes::Scene& scene_;
     TextureFilter filter_;
     DrawList drawList_;
+    std::vector<scenes::AlphaMode> alphaModes_; ///< by material, that drawList_ was made with
+    std::vector<VertexStreams::Range> ranges_;  ///< by mesh
     std::vector<Batch> transparent_;
     std::vector<std::unique_ptr<gpu::Buffer>> vertexBuffers_;
     std::unique_ptr<gpu::Buffer> indices_;

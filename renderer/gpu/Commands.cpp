@@ -6,6 +6,7 @@
 #include <glad/gl.h>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Buffer.h"
 #include "renderer/gpu/Context.h"
 #include "renderer/gpu/GlFormat.h"
@@ -97,6 +98,7 @@ constexpr std::pair<graph::Barrier, GLbitfield> kBarrierBits[] = {
 } // namespace
 
 void bindFramebuffer(const Framebuffer& framebuffer) {
+    setBandedTarget(framebuffer.width(), framebuffer.height());
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     glViewport(0, 0, framebuffer.width(), framebuffer.height());
     glDisable(GL_SCISSOR_TEST);
@@ -104,6 +106,7 @@ void bindFramebuffer(const Framebuffer& framebuffer) {
 }
 
 void bindWindowFramebuffer(int width, int height) {
+    setBandedTarget(width, height);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, width, height);
     glDisable(GL_SCISSOR_TEST);
@@ -116,6 +119,7 @@ void setViewport(int x, int y, int width, int height) {
 }
 
 void setScissor(int x, int y, int width, int height) {
+    setBandedTarget(0, 0); // bands need the scissor for themselves
     glEnable(GL_SCISSOR_TEST);
     glScissor(x, y, width, height);
 }
@@ -143,10 +147,10 @@ void blit(const Framebuffer& from, const Framebuffer& to, bool color, bool depth
                            GL_NEAREST);
 }
 
-void blitToWindow(const Framebuffer& from, int windowWidth, int windowHeight) {
-    bindWindowFramebuffer(windowWidth, windowHeight);
-    glBlitNamedFramebuffer(from.id(), 0, 0, 0, from.width(), from.height(), 0, 0, windowWidth, windowHeight,
-                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
+void blitToWindow(const Framebuffer& from, const Rectangle& source, const Rectangle& target, bool smooth) {
+    glBlitNamedFramebuffer(from.id(), 0, source.x, source.y, source.x + source.width, source.y + source.height,
+                           target.x, target.y, target.x + target.width, target.y + target.height, GL_COLOR_BUFFER_BIT,
+                           smooth ? GL_LINEAR : GL_NEAREST);
 }
 
 void fillBuffer(const Buffer& buffer, std::uint32_t value) {
@@ -216,7 +220,7 @@ void bindStorageBuffer(std::uint32_t slot, const Buffer& buffer, std::size_t off
 }
 
 void drawFullscreenTriangle() {
-    drawVertices(3);
+    drawInBands([] { drawVertices(3); });
 }
 
 void drawVertices(int count, int instances) {

@@ -17,6 +17,15 @@ class Sampler;
 class TexelBuffer;
 class VertexArray;
 
+/// Pixels from the lower-left corner.
+struct Rectangle {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+    bool operator==(const Rectangle&) const = default;
+};
+
 // ---- Targets -------------------------------------------------------------------------------------------------------
 
 /// Binds and sets the viewport to the whole of it; scissoring is switched off.
@@ -36,8 +45,9 @@ void clearDepth(float depth); ///< reverse-Z: 0 is infinitely far
 /// Copies (or resolves samples) between framebuffers of equal size: colour attachment 0 and/or depth. Scissoring is
 /// switched off.
 void blit(const Framebuffer& from, const Framebuffer& to, bool color, bool depth);
-/// Copies colour attachment 0 to the window's framebuffer.
-void blitToWindow(const Framebuffer& from, int windowWidth, int windowHeight);
+/// Copies a part of colour attachment 0 to the bound window's framebuffer, stretched to `target`; where the sizes are
+/// equal every texel is copied as it is. The scissor holds.
+void blitToWindow(const Framebuffer& from, const Rectangle& source, const Rectangle& target, bool smooth);
 void fillBuffer(const Buffer& buffer, std::uint32_t value);
 void copyBuffer(const Buffer& from, const Buffer& to, std::size_t bytes, std::size_t fromOffset = 0,
                 std::size_t toOffset = 0);
@@ -60,7 +70,8 @@ void bindStorageBuffer(std::uint32_t slot, const Buffer& buffer, std::size_t off
 
 // ---- Work ----------------------------------------------------------------------------------------------------------
 
-/// One triangle that covers the target, from gl_VertexID alone: vertices 0, 1, 2. Unbinds the vertex array.
+/// One triangle that covers the target, from gl_VertexID alone: vertices 0, 1, 2. Unbinds the vertex array. In bands
+/// (Bands.h) where draws are.
 void drawFullscreenTriangle();
 /// `count` vertices (three a triangle) by gl_VertexID alone, `instances` times. Unbinds the vertex
 /// array.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Context.h"
 
@@ -90,6 +91,7 @@ void GraphBackend::endPass(std::string_view name) {
     }
     group_.reset();
     throwIfFailed(fmt::format("in pass '{}'", name));
+    askToGoOn();
 }
 
 void GraphBackend::endFrame(graph::Barrier barrier) {

@@ -18,6 +18,8 @@ constexpr const char* kKind = std::is_same_v<Handle<Tag>, TextureHandle> ? "text
     const auto named = [&](const std::exception& error) { return fmt::format("pass '{}': {}", pass, error.what()); };
     try {
         throw;
+    } catch (const Interrupted&) {
+        throw;
     } catch (const InputError& error) {
         std::throw_with_nested(InputError(named(error)));
     } catch (const std::logic_error& error) {

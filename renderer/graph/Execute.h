@@ -1,4 +1,5 @@
 #pragma once
+#include <exception>
 #include <span>
 #include <string_view>
 
@@ -22,6 +23,12 @@ public:
     virtual void endFrame(Barrier barrier);
 };
 
+/// Thrown through a frame that whoever asked for it gives up; no failure, so no pass's name is put in front.
+class Interrupted : public std::exception {
+public:
+    const char* what() const noexcept override { return "the frame was given up"; }
+};
+
 /// The outside resources behind Graph::import().
 struct ImportedTexture {
     TextureHandle handle;
@@ -40,7 +47,8 @@ public:
     Execution(const Graph& graph, const CompiledGraph& compiled, Backend& backend,
               std::span<const ImportedTexture> textures = {}, std::span<const ImportedBuffer> buffers = {});
     /// Runs every pass of the plan in order. What a pass throws is thrown on with the pass's name in front: as
-    /// InputError or std::logic_error where it was one, else as std::runtime_error, the original nested inside.
+    /// InputError or std::logic_error where it was one, else as std::runtime_error, the original nested inside;
+    /// Interrupted as it is.
     void run();
     /// A resource after run(): an output or an imported one, since only these still hold what was written; any other is
     /// a std::logic_error.

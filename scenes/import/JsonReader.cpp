@@ -62,9 +62,13 @@ bool JsonValue::boolean() const {
     return value_->get<bool>();
 }
 
-std::string JsonValue::text() const {
+std::string JsonValue::textOrEmpty() const {
     if (!value_->is_string()) failType("text");
-    std::string text = value_->get<std::string>();
+    return value_->get<std::string>();
+}
+
+std::string JsonValue::text() const {
+    std::string text = textOrEmpty();
     if (text.empty()) fail("is empty; give a name");
     return text;
 }

@@ -40,6 +40,7 @@ public:
     int integer(int least, int most) const;
     bool boolean() const;
     std::string text() const; ///< not empty
+    std::string textOrEmpty() const;
     std::vector<JsonValue> elements(std::size_t least = 0,
                                     std::size_t most = std::numeric_limits<std::size_t>::max()) const;
     glm::vec2 vector2() const;

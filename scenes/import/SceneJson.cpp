@@ -22,6 +22,12 @@ using namespace scenejson;
 constexpr int kMostIncludes = 4096;
 constexpr int kVersion = 1;
 constexpr int kMostPixelsASide = 16384; ///< the largest target of current hardware
+constexpr std::string_view kBuiltin = "builtin:";
+
+/// How much of a scene its base made.
+struct BaseSize {
+    std::size_t materials, images;
+};
 
 class Importer {
 public:
@@ -53,17 +59,34 @@ private:
         const std::vector<JsonValue> cameras = elementsOf("cameras");
         const std::optional<JsonValue> environment = document.find("environment");
         const std::optional<JsonValue> options = document.find("options");
+        const std::optional<JsonValue> base = document.find("base");
+        const bool replacesLights = document.has("lights"), replacesCameras = document.has("cameras");
         document.done("a scene");
-        if (environment) readEnvironment(*environment, scene);
+        std::optional<glm::vec3> background;
+        if (environment) background = readEnvironment(*environment);
         std::vector<Light> ownLights;
         std::vector<Camera> ownCameras;
         for (std::size_t i = 0; i < lights.size(); ++i) ownLights.push_back(readLight(lights[i], i));
-        for (std::size_t i = 0; i < cameras.size(); ++i) addUnique(readCamera(cameras[i], i), cameras[i], ownCameras);
+        for (std::size_t i = 0; i < cameras.size(); ++i) {
+            // Those that replace a base's may share names, as its own may.
+            if (base)
+                ownCameras.push_back(readCamera(cameras[i], i));
+            else
+                addUnique(readCamera(cameras[i], i), cameras[i], ownCameras);
+        }
 
+        if (base) {
+            readBase(*base, scene);
+            if (replacesLights) scene.lights.clear();
+            if (replacesCameras) scene.cameras.clear();
+            if (options) scene.options = SceneOptions();
+        }
+        const BaseSize baseSize{scene.materials.size(), scene.images.size()};
+        if (background) scene.background = *background;
         for (const JsonValue& include : includes) addInclude(include, scene);
         scene.lights.insert(scene.lights.end(), ownLights.begin(), ownLights.end());
         scene.cameras.insert(scene.cameras.end(), ownCameras.begin(), ownCameras.end());
-        addMaterials(materials, overrides, file, scene);
+        addMaterials(materials, overrides, file, baseSize, scene);
         if (options) readOptions(*options, scene);
         return scene;
     }
@@ -77,12 +100,30 @@ private:
         if (const auto name = document.find("name")) scene.name = name->text();
     }
 
-    static void readEnvironment(const JsonValue& value, Scene& scene) {
+    static std::optional<glm::vec3> readEnvironment(const JsonValue& value) {
         JsonObject environment = value.object();
         for (const char* key : {"map", "file", "texture"})
             if (environment.has(key)) value.fail("environment maps are not shaded yet; give a 'background' colour");
-        if (const auto background = environment.find("background")) scene.background = background->color();
+        std::optional<glm::vec3> radiance;
+        if (const auto background = environment.find("background")) radiance = background->color();
         environment.done("an environment");
+        return radiance;
+    }
+
+    /// All of a scene as it is alone, under the name of this one.
+    void readBase(const JsonValue& value, Scene& scene) {
+        JsonObject object = value.object();
+        const JsonValue file = object.require("file");
+        LoadOptions options;
+        if (const auto lights = object.find("lights")) {
+            options.lights = lights->integer(0, kMostLights);
+            if (!file.text().starts_with(kBuiltin))
+                lights->fail("only a built-in scene makes as many lights as it is asked for; remove it");
+        }
+        object.done("a base");
+        std::string name = std::move(scene.name);
+        scene = load(file, options);
+        scene.name = std::move(name);
     }
 
     template <typename Element>
@@ -103,15 +144,14 @@ private:
         object.done("an include");
         if (++includes_ > kMostIncludes)
             file.fail(fmt::format("is include number {} of the scene; at most {} are read", includes_, kMostIncludes));
-        Scene part = load(file);
+        Scene part = load(file, LoadOptions{});
         const std::string partName = part.name;
         appendScene(scene, std::move(part), name ? rootName : partName, worldFromPart);
     }
 
-    Scene load(const JsonValue& name) {
-        constexpr std::string_view kBuiltin = "builtin:";
+    Scene load(const JsonValue& name, const LoadOptions& options) {
         if (const std::string text = name.text(); text.starts_with(kBuiltin))
-            return builtinCalled(name, text.substr(kBuiltin.size()));
+            return builtinCalled(name, text.substr(kBuiltin.size()), options);
         const std::filesystem::path file = resolveFile(name);
         std::string extension = file.extension().string();
         std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -123,10 +163,10 @@ private:
         return import(file);
     }
 
-    static Scene builtinCalled(const JsonValue& value, const std::string& name) {
+    static Scene builtinCalled(const JsonValue& value, const std::string& name, const LoadOptions& options) {
         std::vector<std::string_view> names;
         for (const BuiltinScene& builtin : builtinScenes()) {
-            if (builtin.name == name) return builtin.make(LoadOptions{});
+            if (builtin.name == name) return builtin.make(options);
             names.push_back(builtin.name);
         }
         value.failUnknown("built-in scene", name, names);
@@ -144,14 +184,26 @@ private:
     }
 
     static void addMaterials(const std::vector<JsonValue>& materials, const std::vector<JsonValue>& overrides,
-                             const std::filesystem::path& file, Scene& scene) {
+                             const std::filesystem::path& file, const BaseSize& base, Scene& scene) {
         const std::size_t ownMaterials = scene.materials.size();
-        Images images(scene);
-        for (const JsonValue& material : materials)
-            addUnique(readMaterial(material, images), material, scene.materials, ownMaterials);
+        Images images(scene, base.images);
+        for (const JsonValue& material : materials) {
+            if (const auto replaces = material.object().find("replaces")) {
+                replaceMaterial(material, *replaces, base, images, scene);
+            } else {
+                addUnique(readMaterial(material, images), material, scene.materials, ownMaterials);
+            }
+        }
         std::vector<bool> wasUsed = usedMaterials(scene);
         for (const JsonValue& override : overrides) applyOverride(override, scene, ownMaterials, images);
         dropReplacedMaterials(scene, ownMaterials, wasUsed, file);
+    }
+
+    static void replaceMaterial(const JsonValue& material, const JsonValue& replaces, const BaseSize& base,
+                                Images& images, Scene& scene) {
+        if (base.materials == 0) replaces.fail("there is no material of a base to replace; remove it");
+        const auto index = static_cast<std::size_t>(replaces.integer(0, static_cast<int>(base.materials) - 1));
+        scene.materials[index] = readMaterial(material, images);
     }
 
     static void readOptions(const JsonValue& value, Scene& scene) {
@@ -160,6 +212,7 @@ private:
         if (const auto technique = object.find("technique")) options.technique = technique->text();
         if (const auto layout = object.find("layout")) options.layout = layout->text();
         if (const auto toneMap = object.find("toneMap")) options.toneMap = toneMap->text();
+        if (const auto light = object.find("defaultLight")) options.defaultLight = light->boolean();
         if (const auto exposure = object.find("exposureEV")) options.exposureEV = exposure->single();
         if (const auto size = object.find("size")) {
             const std::vector<JsonValue> sides = size->elements(2, 2);

@@ -1,18 +1,15 @@
 #include <algorithm>
-#include <array>
 
 #include <glm/trigonometric.hpp>
 
 #include "scenes/LookAt.h"
+#include "scenes/import/SceneJsonFields.h"
 #include "scenes/import/SceneJsonLights.h"
+#include "scenes/import/SceneJsonNames.h"
 #include "scenes/import/SceneJsonTransform.h"
 
 namespace tessera::scenes::scenejson {
 namespace {
-
-using ProjectionName = std::pair<std::string_view, Projection>;
-constexpr std::array kProjections = {ProjectionName{"perspective", Projection::Perspective},
-                                     ProjectionName{"orthographic", Projection::Orthographic}};
 
 glm::dmat4 readPlacement(JsonObject& object) {
     if (const auto matrix = object.find("matrix")) {
@@ -69,6 +66,7 @@ Camera readCamera(const JsonValue& value, std::size_t index) {
             far->fail(fmt::format("is {}, not beyond the near plane at {}; move it away", camera.farMetres,
                                   camera.nearMetres));
     }
+    readFields(object, camera);
     object.done(fmt::format("a {} camera", type));
     return camera;
 }

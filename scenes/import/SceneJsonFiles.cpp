@@ -1,6 +1,5 @@
 #include "scenes/import/SceneJsonFiles.h"
 
-#include <array>
 #include <cstdlib>
 #include <system_error>
 
@@ -8,22 +7,10 @@
 
 #include "scenes/Error.h"
 #include "scenes/import/Importers.h"
+#include "scenes/import/SceneJsonNames.h"
 
 namespace tessera::scenes::scenejson {
 namespace {
-
-using WrapName = std::pair<std::string_view, Wrap>;
-constexpr std::array kWraps = {WrapName{"repeat", Wrap::Repeat}, WrapName{"clamp_to_edge", Wrap::ClampToEdge},
-                               WrapName{"mirrored_repeat", Wrap::MirroredRepeat}};
-
-using FilterName = std::pair<std::string_view, Filter>;
-constexpr std::array kMagnifications = {FilterName{"nearest", Filter::Nearest}, FilterName{"linear", Filter::Linear}};
-constexpr std::array kMinifications = {FilterName{"nearest", Filter::Nearest},
-                                       FilterName{"linear", Filter::Linear},
-                                       FilterName{"nearest_mipmap_nearest", Filter::NearestMipmapNearest},
-                                       FilterName{"linear_mipmap_nearest", Filter::LinearMipmapNearest},
-                                       FilterName{"nearest_mipmap_linear", Filter::NearestMipmapLinear},
-                                       FilterName{"linear_mipmap_linear", Filter::LinearMipmapLinear}};
 
 TextureTransform readTextureTransform(const JsonValue& value) {
     JsonObject object = value.object();
@@ -40,9 +27,9 @@ Sampler readSampler(const JsonValue& value) {
     JsonObject object = value.object();
     Sampler sampler;
     if (const auto filter = object.find("magFilter"))
-        sampler.magnification = filter->oneOf<Filter>("magnification filter", kMagnifications);
+        sampler.magnification = filter->oneOf<Filter>("magnification filter", std::span(kFilters).first<2>());
     if (const auto filter = object.find("minFilter"))
-        sampler.minification = filter->oneOf<Filter>("minification filter", kMinifications);
+        sampler.minification = filter->oneOf<Filter>("minification filter", kFilters);
     if (const auto wrap = object.find("wrapU")) sampler.wrapU = wrap->oneOf<Wrap>("wrap mode", kWraps);
     if (const auto wrap = object.find("wrapV")) sampler.wrapV = wrap->oneOf<Wrap>("wrap mode", kWraps);
     object.done("a sampler");
@@ -82,6 +69,11 @@ int Images::image(const JsonValue& fileName) {
     return entry->second = static_cast<int>(scene_.images.size()) - 1;
 }
 
+int Images::baseImage(const JsonValue& index) const {
+    if (baseImages_ == 0) index.fail("there is no picture of a base; name a 'file'");
+    return index.integer(0, static_cast<int>(baseImages_) - 1);
+}
+
 TextureUse readTexture(const JsonValue& value, Images& images) {
     if (value.isText()) {
         TextureUse use;
@@ -96,11 +88,14 @@ TextureUse readTexture(const JsonValue& value, Images& images) {
 
 TextureUse readTexture(JsonObject& object, Images& images) {
     TextureUse use;
-    const JsonValue file = object.require("file");
+    const std::optional<JsonValue> image = object.find("image");
+    const std::optional<JsonValue> file = image ? object.find("file") : object.require("file");
+    if (image && file) file->fail("is given beside 'image'; keep one");
     if (const auto set = object.find("texCoord")) use.texCoordSet = set->integer(0, 1);
     if (const auto transform = object.find("transform")) use.transform = readTextureTransform(*transform);
     if (const auto sampler = object.find("sampler")) use.sampler = readSampler(*sampler);
-    use.image = images.image(file); // last: a picture takes long to read, and the rest may be wrong
+    // Last: a picture takes long to read, and the rest may be wrong.
+    use.image = image ? images.baseImage(*image) : images.image(*file);
     return use;
 }
 

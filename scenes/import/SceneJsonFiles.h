@@ -16,18 +16,21 @@ std::filesystem::path resolveFile(const JsonValue& name);
 /// The pictures of a scene, each decoded once however often it is named.
 class Images {
 public:
-    explicit Images(Scene& scene) : scene_(scene) {}
+    /// The first `baseImages` pictures are those of the document's base, which it may name by number.
+    explicit Images(Scene& scene, std::size_t baseImages = 0) : scene_(scene), baseImages_(baseImages) {}
 
     /// Throws InputError naming the place in the document and the file.
     int image(const JsonValue& fileName);
+    int baseImage(const JsonValue& index) const;
 
 private:
     Scene& scene_;
+    std::size_t baseImages_;
     std::map<std::string, int> imageOfFile_;
 };
 
-/// A file name alone, or {file, texCoord, transform: {offset, scale, rotationDegrees},
-/// sampler: {magFilter, minFilter, wrapU, wrapV}}.
+/// A file name alone, or {file or image, texCoord, transform: {offset, scale, rotationDegrees},
+/// sampler: {magFilter, minFilter, wrapU, wrapV}}, where `image` is the number of one of the base's.
 /// The second form reads those keys of an object that has more.
 TextureUse readTexture(const JsonValue& value, Images& images);
 TextureUse readTexture(JsonObject& object, Images& images);

@@ -5,27 +5,18 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "scenes/import/SceneJsonFields.h"
+#include "scenes/import/SceneJsonNames.h"
+
 namespace tessera::scenes::scenejson {
 namespace {
 
-using TypeName = std::pair<std::string_view, LightType>;
-constexpr std::array kTypes = {TypeName{"directional", LightType::Directional}, TypeName{"point", LightType::Point},
-                               TypeName{"spot", LightType::Spot}};
 constexpr std::array<std::string_view, 2> kNotShadedYet = {"area", "environment"};
-
-using FalloffName = std::pair<std::string_view, Falloff>;
-constexpr std::array kFalloffs = {FalloffName{"inverse_square", Falloff::InverseSquare},
-                                  FalloffName{"attenuation", Falloff::Attenuation}};
-
-using AnimationName = std::pair<std::string_view, LightAnimationKind>;
-constexpr std::array kAnimations = {
-    AnimationName{"orbit", LightAnimationKind::Orbit}, AnimationName{"wobble", LightAnimationKind::Wobble},
-    AnimationName{"path", LightAnimationKind::Path}, AnimationName{"keyframes", LightAnimationKind::Keyframes}};
 
 LightType readType(const JsonValue& value) {
     if (const std::string name = value.text(); std::ranges::find(kNotShadedYet, name) != kNotShadedYet.end())
         value.fail(fmt::format("lights of type '{}' are not shaded yet; shaded are directional, point, spot", name));
-    return value.oneOf<LightType>("light type", kTypes);
+    return value.oneOf<LightType>("light type", kLightTypes);
 }
 
 float readCoefficient(JsonObject& object, std::string_view key) {
@@ -138,6 +129,7 @@ Light readLight(const JsonValue& value, std::size_t index) {
     }
     if (light.type != LightType::Point) readDirection(object, light);
     if (light.type == LightType::Spot) readCones(object, light);
+    readFields(object, light);
     object.done(fmt::format("a {} light", type.text()));
     return light;
 }

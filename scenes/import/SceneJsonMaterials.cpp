@@ -1,33 +1,12 @@
 #include "scenes/import/SceneJsonMaterials.h"
 
 #include <algorithm>
-#include <array>
+
+#include "scenes/import/SceneJsonFields.h"
+#include "scenes/import/SceneJsonNames.h"
 
 namespace tessera::scenes::scenejson {
 namespace {
-
-using ModelName = std::pair<std::string_view, MaterialModel>;
-constexpr std::array kModels = {ModelName{"single_color", MaterialModel::SingleColor},
-                                ModelName{"lambert", MaterialModel::Lambert},
-                                ModelName{"blinn_phong", MaterialModel::BlinnPhong},
-                                ModelName{"microfacet", MaterialModel::Microfacet},
-                                ModelName{"microfacet_anisotropic", MaterialModel::MicrofacetAnisotropic},
-                                ModelName{"metallic_roughness", MaterialModel::MetallicRoughness}};
-
-using MaskingName = std::pair<std::string_view, Masking>;
-constexpr std::array kMaskings = {MaskingName{"walter", Masking::Walter},
-                                  MaskingName{"half_vector", Masking::HalfVector}};
-constexpr std::array kAnisotropicMaskings = {MaskingName{"walter", Masking::Walter},
-                                             MaskingName{"directional", Masking::Directional},
-                                             MaskingName{"half_vector", Masking::HalfVector}};
-
-using AlphaModeName = std::pair<std::string_view, AlphaMode>;
-constexpr std::array kAlphaModes = {AlphaModeName{"opaque", AlphaMode::Opaque}, AlphaModeName{"mask", AlphaMode::Mask},
-                                    AlphaModeName{"blend", AlphaMode::Blend}};
-
-using SpaceName = std::pair<std::string_view, NormalMapSpace>;
-constexpr std::array kSpaces = {SpaceName{"tangent", NormalMapSpace::Tangent},
-                                SpaceName{"object", NormalMapSpace::Object}};
 
 /// Reads one material's parameters, each either a factor or {factor, texture}.
 class Parameters {
@@ -80,7 +59,7 @@ public:
         });
     }
 
-    void masking(std::span<const MaskingName> names) {
+    void masking(std::span<const Named<Masking>> names) {
         if (const auto value = object_.find("masking")) material_.masking = value->oneOf<Masking>("masking", names);
     }
 
@@ -128,7 +107,7 @@ public:
         }
         JsonObject map = value->object();
         if (const auto space = map.find("space"))
-            material_.normalMapSpace = space->oneOf<NormalMapSpace>("normal map space", kSpaces);
+            material_.normalMapSpace = space->oneOf<NormalMapSpace>("normal map space", kNormalMapSpaces);
         if (const auto scale = map.find("scale")) {
             if (material_.normalMapSpace == NormalMapSpace::Object)
                 scale->fail("only a tangent-space normal map can be scaled; remove it");
@@ -175,7 +154,7 @@ void readModelParameters(JsonObject& object, Material& material, Images& images)
         parameters.color("k_s", TextureSlot::SpecularColor, material.specularColor);
         parameters.number("alpha", TextureSlot::MetallicRoughness, material.alpha, 0.0, kMost);
         parameters.ior();
-        parameters.masking(kMaskings);
+        parameters.masking(std::span(kMaskings).first<2>());
         break;
     case MaterialModel::MicrofacetAnisotropic:
         parameters.baseColor("k_d");
@@ -183,7 +162,7 @@ void readModelParameters(JsonObject& object, Material& material, Images& images)
         parameters.number("alphaX", TextureSlot::MetallicRoughness, material.alpha, 0.0, kMost);
         parameters.number("alphaY", TextureSlot::Anisotropy, material.alphaY, 0.0, kMost);
         parameters.ior();
-        parameters.masking(kAnisotropicMaskings);
+        parameters.masking(kMaskings);
         break;
     case MaterialModel::BlinnPhong:
         parameters.baseColor("k_d");
@@ -214,11 +193,6 @@ void readModelParameters(JsonObject& object, Material& material, Images& images)
     parameters.normalMap();
 }
 
-std::string_view nameOf(MaterialModel model) {
-    const auto found = std::ranges::find(kModels, model, &ModelName::second);
-    return found == kModels.end() ? "material" : found->first;
-}
-
 } // namespace
 
 Material readMaterial(const JsonValue& value, Images& images) {
@@ -226,6 +200,7 @@ Material readMaterial(const JsonValue& value, Images& images) {
     Material material;
     material.name = object.require("name").text();
     object.require("model");
+    object.find("replaces"); // the caller's
     changeMaterial(object, material, images);
     return material;
 }
@@ -242,7 +217,9 @@ void changeMaterial(JsonObject& object, Material& material, Images& images) {
         material.alphaMode = mode->oneOf<AlphaMode>("alpha mode", kAlphaModes);
     if (const auto cutoff = object.find("alphaCutoff")) material.alphaCutoff = cutoff->single(0.0);
     if (const auto sides = object.find("doubleSided")) material.doubleSided = sides->boolean();
-    object.done(fmt::format("a {} material", nameOf(material.model)));
+    const std::string_view model = nameOf(material.model);
+    readFields(object, material);
+    object.done(fmt::format("a {} material", model));
 }
 
 } // namespace tessera::scenes::scenejson

@@ -1,7 +1,7 @@
 """check_floors.py ROOT: no file includes a floor above its own.
 
-The floors, top to bottom: apps, validation, passes/recipes, passes, renderer, shaders; scenes stands beside renderer and
-knows nothing of it. Passes know nothing of each other: recipes wire them. OpenGL stays inside renderer/gpu, and a render
+The floors, top to bottom: apps, viewer, validation, passes/recipes, passes, renderer, shaders; scenes stands beside
+renderer and knows nothing of it. Passes know nothing of each other: recipes wire them. OpenGL stays inside renderer/gpu, and a render
 graph knows nothing of it. Tests and the command line may include everything.
 """
 
@@ -25,7 +25,8 @@ ROOMS = {
     # The reference computes everything a second time: it shares the plain scene, and nothing else.
     "validation/reference": ("scenes",),
     "validation": ("validation/reference", "passes", "renderer", "scenes", "shaders"),
-    "apps": ("validation", "passes", "renderer", "scenes", "shaders"),
+    "viewer": ("validation", "passes", "renderer", "scenes", "shaders"),
+    "apps": ("viewer", "validation", "passes", "renderer", "scenes", "shaders"),
 }
 # The headers every floor may include: errors caused by input, and lists of names for them.
 COMMON = ("scenes/Error.h", "scenes/Names.h")
@@ -54,7 +55,7 @@ def faultOf(path, quoted, included):
     if room is None:
         return None
     if OPENGL.match(included):
-        if room == "renderer/gpu" and path.endswith(".cpp") or room == "apps" and included.startswith("GLFW/"):
+        if room == "renderer/gpu" and path.endswith(".cpp") or room == "viewer" and included.startswith("GLFW/"):
             return None
         return "OpenGL stays inside the sources of renderer/gpu; use its wrapper"
     if not quoted:

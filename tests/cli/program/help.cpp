@@ -30,9 +30,10 @@ TEST_F(Help, everyCommandAlwaysExplainsItselfWithExamples) {
         expectReadable(text);
         EXPECT_THAT(text, HasSubstr(std::string("Usage: tessera ") + command + " "));
         for (const char* option :
-             {"--technique NAME", "--layout NAME", "--size WxH", "--samples N", "--camera NAME", "--time SECONDS",
-              "--lights N", "--view NAME", "--exposure EV", "--range-tolerance EPS", "--tonemap NAME", "--prune on|off",
-              "--filter NAME", "--solo N", "--specular on|off", "--space NAME", "--no-default-light", "--quiet",
+             {"--technique NAME", "--layout NAME",         "--size WxH",     "--samples N",        "--camera NAME",
+              "--eye X,Y,Z",      "--fov DEGREES",         "--time SECONDS", "--lights N",         "--view NAME",
+              "--exposure EV",    "--range-tolerance EPS", "--tonemap NAME", "--prune on|off",     "--filter NAME",
+              "--solo N",         "--specular on|off",     "--space NAME",   "--no-default-light", "--quiet",
               "--context KIND"})
             EXPECT_THAT(text, HasSubstr(option));
     }

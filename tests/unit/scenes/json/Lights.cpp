@@ -187,7 +187,7 @@ TEST(SceneJsonLights, brokenAnimationsAreAlwaysRefused) {
               "/lights/0/animation/points: has 1 elements for 2 times; give one for each");
     EXPECT_EQ(errorOf(folder, R"({"type": "directional", "direction": [1, 0, 0], "animation": {"type": "orbit"}})"),
               "/lights/0: a directional light has no key 'animation'; valid are type, name, enabled, color, intensity, "
-              "direction");
+              "direction, fields");
 }
 
 } // namespace

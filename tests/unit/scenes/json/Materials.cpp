@@ -245,13 +245,13 @@ TEST(SceneJsonMaterials, modelsThatDoNotExistAreAlwaysRefusedByName) {
 TEST(SceneJsonMaterials, parametersOfAnotherModelAreAlwaysRefused) {
     const SceneFolder folder;
     EXPECT_EQ(errorOf(folder, R"("model": "lambert", "alpha": 0.5)"),
-              "/materials/0: a lambert material has no key 'alpha'; valid are name, model, k_d, normalMap, alphaMode, "
-              "alphaCutoff, doubleSided");
+              "/materials/0: a lambert material has no key 'alpha'; valid are name, model, replaces, k_d, normalMap, "
+              "alphaMode, alphaCutoff, doubleSided, fields");
     EXPECT_EQ(errorOf(folder, R"("model": "metallic_roughness", "metalic": 0.5)"),
               "/materials/0: a metallic_roughness material has no key 'metalic'; did you mean 'metallic'?");
     EXPECT_EQ(errorOf(folder, R"("model": "single_color", "normalMap": "pictures/normal.tga")"),
-              "/materials/0: a single_color material has no key 'normalMap'; valid are name, model, color, alphaMode, "
-              "alphaCutoff, doubleSided");
+              "/materials/0: a single_color material has no key 'normalMap'; valid are name, model, replaces, color, "
+              "alphaMode, alphaCutoff, doubleSided, fields");
     EXPECT_EQ(errorOf(folder, R"("model": "lambert", "k_d": {"factr": [1, 1, 1]})"),
               "/materials/0/k_d: a parameter with a texture has no key 'factr'; did you mean 'factor'?");
 }

@@ -65,7 +65,7 @@ TEST(SceneJson, anUnknownKeyIsAlwaysRefusedWithTheNearest) {
     EXPECT_EQ(
         folder.errorOfMembers(R"("lights": [{"type": "point", "position": [0, 0, 0], "target": [1, 0, 0]}])"),
         "/lights/0: a point light has no key 'target'; valid are type, name, enabled, color, intensity, position, "
-        "falloff, animation");
+        "falloff, animation, fields");
 }
 
 TEST(SceneJson, aWrongTypeIsAlwaysRefused) {

@@ -1,0 +1,76 @@
+#include "renderer/gpu/Bands.h"
+
+#include <algorithm>
+#include <cassert>
+#include <optional>
+
+#include <glad/gl.h>
+
+#include "renderer/gpu/Timer.h"
+#include "renderer/graph/Execute.h"
+
+namespace tessera::gpu {
+namespace {
+
+/// What a band should take: an interrupted frame, and the one that answers the input, fit into 100 ms.
+constexpr double kBandMs = 15.0;
+/// Bands begin at multiples of the side of llvmpipe's rasteriser tiles, so that none is binned twice.
+constexpr int kRowStep = 64;
+
+struct State {
+    std::function<bool()> givesUp;
+    int width = 0;
+    int height = 0;
+};
+thread_local State state;
+
+/// Rows of the next band, from what the latest one took.
+int nextRows(int rows, double elapsedMs) {
+    const double wanted = rows * kBandMs / std::max(elapsedMs, 0.1);
+    // A single slow band, such as one whose shader was compiled first, must not shrink the next ones to nothing.
+    const int steps = int(std::clamp(wanted, rows * 0.5, rows * 4.0)) / kRowStep;
+    return std::max(steps, 1) * kRowStep;
+}
+
+} // namespace
+
+BandedDrawing::BandedDrawing(std::function<bool()> givesUp) {
+    assert(!state.givesUp && "banded drawings do not nest");
+    state.givesUp = std::move(givesUp);
+}
+
+BandedDrawing::~BandedDrawing() {
+    state.givesUp = nullptr;
+}
+
+void askToGoOn() {
+    if (!state.givesUp) return;
+    glFinish();
+    if (state.givesUp()) throw graph::Interrupted();
+}
+
+void setBandedTarget(int width, int height) {
+    state.width = width;
+    state.height = height;
+}
+
+void drawInBands(const std::function<void()>& draw) {
+    if (!state.givesUp || state.width == 0 || state.height <= kRowStep) return draw();
+    glEnable(GL_SCISSOR_TEST);
+    int rows = kRowStep;
+    for (int row = 0; row < state.height;) {
+        const CpuTimer clock;
+        glScissor(0, row, state.width, std::min(rows, state.height - row));
+        draw();
+        glFinish();
+        row += rows;
+        if (row < state.height && state.givesUp()) {
+            glDisable(GL_SCISSOR_TEST);
+            throw graph::Interrupted();
+        }
+        rows = nextRows(rows, clock.elapsedMs());
+    }
+    glDisable(GL_SCISSOR_TEST);
+}
+
+} // namespace tessera::gpu

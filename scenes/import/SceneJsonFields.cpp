@@ -1,0 +1,108 @@
+#include "scenes/import/SceneJsonFields.h"
+
+#include <type_traits>
+
+#include "scenes/import/SceneJsonNames.h"
+#include "scenes/import/SceneJsonTransform.h"
+
+namespace tessera::scenes::scenejson {
+namespace {
+
+void read(const JsonValue& value, LightAnimation& animation);
+void read(const JsonValue& value, TextureUse& use);
+
+void read(const JsonValue& value, std::string& text) {
+    text = value.isText() ? value.textOrEmpty() : value.text();
+}
+
+void read(const JsonValue& value, bool& flag) {
+    flag = value.boolean();
+}
+
+void read(const JsonValue& value, int& index) {
+    index = value.integer(kNone, std::numeric_limits<int>::max());
+}
+
+/// Numbers; null is infinity, which JSON lacks.
+void read(const JsonValue& value, double& number) {
+    number = value.isNull() ? std::numeric_limits<double>::infinity() : value.number();
+}
+
+void read(const JsonValue& value, float& number) {
+    number = value.isNull() ? kInfinity : value.single();
+}
+
+template <glm::length_t Length, typename Number>
+void read(const JsonValue& value, glm::vec<Length, Number>& vector) {
+    const std::vector<JsonValue> numbers = value.elements(std::size_t(Length), std::size_t(Length));
+    for (glm::length_t i = 0; i < Length; ++i) read(numbers[static_cast<std::size_t>(i)], vector[i]);
+}
+
+void read(const JsonValue& value, glm::dmat4& matrix) {
+    matrix = readMatrix(value);
+}
+
+template <typename Choice>
+requires std::is_enum_v<Choice>
+void read(const JsonValue& value, Choice& choice) {
+    choice = value.oneOf<Choice>("choice", choicesOf(choice));
+}
+
+template <typename Element>
+void read(const JsonValue& value, std::vector<Element>& list) {
+    list.clear();
+    for (const JsonValue& element : value.elements()) read(element, list.emplace_back());
+}
+
+template <typename Value>
+void read(const JsonValue& value, std::optional<Value>& optional) {
+    optional.reset();
+    if (!value.isNull()) read(value, optional.emplace());
+}
+
+/// A visitor that reads the members an object names.
+auto readerOf(JsonObject& object) {
+    return [&object](const char* key, auto& member) {
+        if (const auto value = object.find(key)) read(*value, member);
+    };
+}
+
+void read(const JsonValue& value, LightAnimation& animation) {
+    JsonObject object = value.object();
+    visitAnimation(readerOf(object), animation);
+    object.done("an animation's fields");
+}
+
+void read(const JsonValue& value, TextureUse& use) {
+    JsonObject object = value.object();
+    visitTextureUse(readerOf(object), use);
+    object.done("a texture's fields");
+}
+
+} // namespace
+
+void readFields(JsonObject& object, Light& light) {
+    const std::optional<JsonValue> value = object.find("fields");
+    if (!value) return;
+    JsonObject fields = value->object();
+    visitLight(readerOf(fields), light);
+    fields.done("a light's fields");
+}
+
+void readFields(JsonObject& object, Camera& camera) {
+    const std::optional<JsonValue> value = object.find("fields");
+    if (!value) return;
+    JsonObject fields = value->object();
+    visitCamera(readerOf(fields), camera);
+    fields.done("a camera's fields");
+}
+
+void readFields(JsonObject& object, Material& material) {
+    const std::optional<JsonValue> value = object.find("fields");
+    if (!value) return;
+    JsonObject fields = value->object();
+    visitMaterial(readerOf(fields), material);
+    fields.done("a material's fields");
+}
+
+} // namespace tessera::scenes::scenejson

@@ -1,0 +1,116 @@
+#pragma once
+#include <array>
+
+#include "scenes/Scene.h"
+#include "scenes/import/JsonReader.h"
+
+/// The members of Scene.h's structs by name: what "fields" of a light, a camera or a material may set one by one,
+/// whatever its type or model. A visitor is called with a member's name and that member of each of the objects.
+namespace tessera::scenes::scenejson {
+
+template <typename Visitor, typename... Animations>
+void visitAnimation(Visitor&& visit, Animations&... animation) {
+    visit("kind", animation.kind...);
+    visit("periodSeconds", animation.periodSeconds...);
+    visit("phase", animation.phase...);
+    visit("centerWS", animation.centerWS...);
+    visit("axisWS", animation.axisWS...);
+    visit("amplitudeMetres", animation.amplitudeMetres...);
+    visit("timesSeconds", animation.timesSeconds...);
+    visit("pointsWS", animation.pointsWS...);
+}
+
+template <typename Visitor, typename... Lights>
+void visitLight(Visitor&& visit, Lights&... light) {
+    visit("name", light.name...);
+    visit("type", light.type...);
+    visit("enabled", light.enabled...);
+    visit("color", light.color...);
+    visit("intensity", light.intensity...);
+    visit("positionWS", light.positionWS...);
+    visit("directionWS", light.directionWS...);
+    visit("falloff", light.falloff...);
+    visit("rangeMetres", light.rangeMetres...);
+    visit("attenuation", light.attenuation...);
+    visit("innerConeRadians", light.innerConeRadians...);
+    visit("outerConeRadians", light.outerConeRadians...);
+    visit("animation", light.animation...);
+}
+
+template <typename Visitor, typename... Cameras>
+void visitCamera(Visitor&& visit, Cameras&... camera) {
+    visit("name", camera.name...);
+    visit("projection", camera.projection...);
+    visit("worldFromCamera", camera.worldFromCamera...);
+    visit("fovYRadians", camera.fovYRadians...);
+    visit("halfHeightMetres", camera.halfHeightMetres...);
+    visit("nearMetres", camera.nearMetres...);
+    visit("farMetres", camera.farMetres...);
+}
+
+template <typename Visitor, typename... Uses>
+void visitTextureUse(Visitor&& visit, Uses&... use) {
+    visit("image", use.image...);
+    visit("magnification", use.sampler.magnification...);
+    visit("minification", use.sampler.minification...);
+    visit("wrapU", use.sampler.wrapU...);
+    visit("wrapV", use.sampler.wrapV...);
+    visit("texCoordSet", use.texCoordSet...);
+    visit("offset", use.transform.offset...);
+    visit("scale", use.transform.scale...);
+    visit("rotationRadians", use.transform.rotationRadians...);
+}
+
+/// "baseColorTexture" and so on, by slot.
+inline constexpr std::array<const char*, kTextureSlotCount> kTextureFields = {"baseColorTexture",
+                                                                              "normalTexture",
+                                                                              "metallicRoughnessTexture",
+                                                                              "emissiveTexture",
+                                                                              "specularFactorTexture",
+                                                                              "specularColorTexture",
+                                                                              "iorTexture",
+                                                                              "anisotropyTexture",
+                                                                              "clearcoatTexture",
+                                                                              "clearcoatRoughnessTexture",
+                                                                              "clearcoatNormalTexture",
+                                                                              "sheenColorTexture",
+                                                                              "sheenRoughnessTexture"};
+
+template <typename Visitor, typename... Materials>
+void visitMaterial(Visitor&& visit, Materials&... material) {
+    visit("name", material.name...);
+    visit("model", material.model...);
+    visit("baseColor", material.baseColor...);
+    visit("emissive", material.emissive...);
+    visit("metallic", material.metallic...);
+    visit("perceptualRoughness", material.perceptualRoughness...);
+    visit("alpha", material.alpha...);
+    visit("alphaY", material.alphaY...);
+    visit("masking", material.masking...);
+    visit("exponent", material.exponent...);
+    visit("ior", material.ior...);
+    visit("specularFactor", material.specularFactor...);
+    visit("specularColor", material.specularColor...);
+    visit("anisotropyStrength", material.anisotropyStrength...);
+    visit("anisotropyRotationRadians", material.anisotropyRotationRadians...);
+    visit("clearcoat", material.clearcoat...);
+    visit("clearcoatPerceptualRoughness", material.clearcoatPerceptualRoughness...);
+    visit("clearcoatNormalScale", material.clearcoatNormalScale...);
+    visit("sheenColor", material.sheenColor...);
+    visit("sheenPerceptualRoughness", material.sheenPerceptualRoughness...);
+    visit("normalScale", material.normalScale...);
+    visit("normalMapSpace", material.normalMapSpace...);
+    visit("alphaMode", material.alphaMode...);
+    visit("alphaCutoff", material.alphaCutoff...);
+    visit("doubleSided", material.doubleSided...);
+    for (std::size_t slot = 0; slot < kTextureSlotCount; ++slot)
+        visit(kTextureFields[slot], material.textures[slot]...);
+}
+
+/// Read the key "fields" of an object, where there is one. Throws InputError for unknown members and wrong types; what
+/// is out of range checkScene() finds.
+void readFields(JsonObject& object, Light& light);
+void readFields(JsonObject& object, Camera& camera);
+void readFields(JsonObject& object, Material& material);
+
+} // namespace tessera::scenes::scenejson

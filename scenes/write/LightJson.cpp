@@ -1,0 +1,83 @@
+#include <cmath>
+
+#include "scenes/import/SceneJsonLights.h"
+#include "scenes/import/SceneJsonNames.h"
+#include "scenes/write/ElementJson.h"
+#include "scenes/write/WithFields.h"
+
+namespace tessera::scenes::write {
+namespace {
+
+Json falloffJson(const Light& light) {
+    Json json;
+    json["type"] = scenejson::nameOf(light.falloff);
+    if (light.falloff == Falloff::InverseSquare) {
+        if (!std::isinf(light.rangeMetres)) json["range"] = number(light.rangeMetres);
+    } else {
+        json["A"] = number(light.attenuation.x);
+        json["B"] = number(light.attenuation.y);
+        json["C"] = number(light.attenuation.z);
+    }
+    return json;
+}
+
+Json pointsJson(const std::vector<glm::dvec3>& points) {
+    Json json = Json::array();
+    for (const glm::dvec3& point : points) json.push_back(numbers(point));
+    return json;
+}
+
+Json animationJson(const LightAnimation& animation) {
+    Json json;
+    json["type"] = scenejson::nameOf(animation.kind);
+    switch (animation.kind) {
+    case LightAnimationKind::Orbit:
+        json["center"] = numbers(animation.centerWS);
+        json["axis"] = numbers(animation.axisWS);
+        break;
+    case LightAnimationKind::Wobble:
+        json["amplitude"] = numbers(animation.amplitudeMetres);
+        break;
+    case LightAnimationKind::Path:
+        json["points"] = pointsJson(animation.pointsWS);
+        break;
+    case LightAnimationKind::Keyframes:
+        json["times"] = animation.timesSeconds;
+        json["points"] = pointsJson(animation.pointsWS);
+        return json;
+    }
+    json["periodSeconds"] = number(animation.periodSeconds);
+    if (animation.phase != 0.0) json["phase"] = number(animation.phase);
+    return json;
+}
+
+Json byKeys(const Light& light) {
+    Json json;
+    if (!light.name.empty()) json["name"] = light.name;
+    json["type"] = scenejson::nameOf(light.type);
+    if (!light.enabled) json["enabled"] = false;
+    json["color"] = numbers(light.color);
+    json["intensity"] = number(light.intensity);
+    if (light.type != LightType::Directional) {
+        json["position"] = numbers(light.positionWS);
+        const bool isDefault = light.falloff == Falloff::InverseSquare && std::isinf(light.rangeMetres);
+        if (!isDefault) json["falloff"] = falloffJson(light);
+        if (light.animation) json["animation"] = animationJson(*light.animation);
+    }
+    if (light.type != LightType::Point) json["direction"] = numbers(light.directionWS);
+    if (light.type == LightType::Spot) {
+        json["innerDegrees"] = degreesOf(light.innerConeRadians);
+        json["outerDegrees"] = degreesOf(light.outerConeRadians);
+    }
+    return json;
+}
+
+} // namespace
+
+Json lightJson(const Light& light) {
+    const Json least = {{"name", "light"}, {"type", "point"}, {"position", {0, 0, 0}}};
+    return withFields(light, byKeys(light), least,
+                      [](const JsonValue& value) { return scenejson::readLight(value, 0); });
+}
+
+} // namespace tessera::scenes::write

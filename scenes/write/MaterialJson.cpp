@@ -1,0 +1,149 @@
+#include "scenes/import/SceneJsonMaterials.h"
+#include "scenes/import/SceneJsonNames.h"
+#include "scenes/write/ElementJson.h"
+#include "scenes/write/WithFields.h"
+
+namespace tessera::scenes::write {
+namespace {
+
+Json textureJson(const TextureUse& use) {
+    Json json;
+    json["image"] = use.image;
+    if (use.texCoordSet != 0) json["texCoord"] = use.texCoordSet;
+    if (const TextureTransform& transform = use.transform; transform != TextureTransform()) {
+        json["transform"]["offset"] = numbers(transform.offset);
+        json["transform"]["scale"] = numbers(transform.scale);
+        json["transform"]["rotationDegrees"] = degreesOf(transform.rotationRadians);
+    }
+    if (const Sampler& sampler = use.sampler; sampler != Sampler()) {
+        json["sampler"]["magFilter"] = scenejson::nameOf(sampler.magnification);
+        json["sampler"]["minFilter"] = scenejson::nameOf(sampler.minification);
+        json["sampler"]["wrapU"] = scenejson::nameOf(sampler.wrapU);
+        json["sampler"]["wrapV"] = scenejson::nameOf(sampler.wrapV);
+    }
+    return json;
+}
+
+/// Writes the keys of one material's model.
+class Keys {
+public:
+    Keys(const Material& material, Json& json) : material_(material), json_(json) {}
+
+    void factor(const char* key, float value) { json_[key] = number(value); }
+
+    void parameter(const char* key, Json factor, TextureSlot slot) {
+        const TextureUse& use = material_.texture(slot);
+        if (use.image == kNone)
+            json_[key] = std::move(factor);
+        else
+            json_[key] = {{"factor", std::move(factor)}, {"texture", textureJson(use)}};
+    }
+
+    void parameter(const char* key, float value, TextureSlot slot) { parameter(key, number(value), slot); }
+
+    void texture(const char* key, TextureSlot slot) {
+        if (material_.texture(slot).image != kNone) json_[key] = textureJson(material_.texture(slot));
+    }
+
+    void baseColor(const char* key) { parameter(key, numbers(material_.baseColor), TextureSlot::BaseColor); }
+
+    void specularColor(const char* key) {
+        parameter(key, numbers(material_.specularColor), TextureSlot::SpecularColor);
+    }
+
+    void normalMap() {
+        if (material_.texture(TextureSlot::Normal).image == kNone) return;
+        Json& map = json_["normalMap"] = textureJson(material_.texture(TextureSlot::Normal));
+        map["space"] = scenejson::nameOf(material_.normalMapSpace);
+        if (material_.normalMapSpace == NormalMapSpace::Tangent) map["scale"] = number(material_.normalScale);
+    }
+
+    void layers() {
+        if (material_.anisotropyStrength != 0.0f) {
+            factor("anisotropyStrength", material_.anisotropyStrength);
+            json_["anisotropyRotationDegrees"] = degreesOf(material_.anisotropyRotationRadians);
+            texture("anisotropyTexture", TextureSlot::Anisotropy);
+        }
+        if (material_.clearcoat != 0.0f) {
+            parameter("clearcoat", material_.clearcoat, TextureSlot::Clearcoat);
+            parameter("clearcoatPerceptualRoughness", material_.clearcoatPerceptualRoughness,
+                      TextureSlot::ClearcoatRoughness);
+            if (material_.texture(TextureSlot::ClearcoatNormal).image != kNone) {
+                json_["clearcoatNormalMap"] = textureJson(material_.texture(TextureSlot::ClearcoatNormal));
+                json_["clearcoatNormalMap"]["scale"] = number(material_.clearcoatNormalScale);
+            }
+        }
+        if (material_.sheenColor != glm::vec3(0.0f)) {
+            parameter("sheenColor", numbers(material_.sheenColor), TextureSlot::SheenColor);
+            parameter("sheenPerceptualRoughness", material_.sheenPerceptualRoughness, TextureSlot::SheenRoughness);
+        }
+    }
+
+    void metallicRoughness() {
+        baseColor("baseColor");
+        factor("metallic", material_.metallic);
+        factor("perceptualRoughness", material_.perceptualRoughness);
+        texture("metallicRoughnessTexture", TextureSlot::MetallicRoughness);
+        parameter("ior", material_.ior, TextureSlot::Ior);
+        parameter("specularFactor", material_.specularFactor, TextureSlot::SpecularFactor);
+        specularColor("specularColor");
+        parameter("emissive", numbers(material_.emissive), TextureSlot::Emissive);
+        layers();
+    }
+
+private:
+    const Material& material_;
+    Json& json_;
+};
+
+Json byKeys(const Material& material) {
+    Json json;
+    json["name"] = material.name;
+    json["model"] = scenejson::nameOf(material.model);
+    Keys keys(material, json);
+    switch (material.model) {
+    case MaterialModel::SingleColor:
+        keys.baseColor("color");
+        break;
+    case MaterialModel::Lambert:
+        keys.baseColor("k_d");
+        break;
+    case MaterialModel::BlinnPhong:
+        keys.baseColor("k_d");
+        keys.specularColor("k_s");
+        keys.parameter("exponent", material.exponent, TextureSlot::MetallicRoughness);
+        break;
+    case MaterialModel::Microfacet:
+    case MaterialModel::MicrofacetAnisotropic: {
+        const bool isAnisotropic = material.model == MaterialModel::MicrofacetAnisotropic;
+        keys.baseColor("k_d");
+        keys.specularColor("k_s");
+        keys.parameter(isAnisotropic ? "alphaX" : "alpha", material.alpha, TextureSlot::MetallicRoughness);
+        if (isAnisotropic) keys.parameter("alphaY", material.alphaY, TextureSlot::Anisotropy);
+        keys.parameter("ior", material.ior, TextureSlot::Ior);
+        json["masking"] = scenejson::nameOf(material.masking);
+        break;
+    }
+    case MaterialModel::MetallicRoughness:
+        keys.metallicRoughness();
+        break;
+    }
+    if (material.model != MaterialModel::SingleColor) keys.normalMap();
+    json["alphaMode"] = scenejson::nameOf(material.alphaMode);
+    json["alphaCutoff"] = number(material.alphaCutoff);
+    json["doubleSided"] = material.doubleSided;
+    return json;
+}
+
+} // namespace
+
+Json materialJson(const Material& material, std::size_t images) {
+    const Json least = {{"name", "material"}, {"model", "metallic_roughness"}};
+    return withFields(material, byKeys(material), least, [images](const JsonValue& value) {
+        Scene none;
+        scenejson::Images known(none, images);
+        return scenejson::readMaterial(value, known);
+    });
+}
+
+} // namespace tessera::scenes::write

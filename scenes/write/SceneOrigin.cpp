@@ -1,0 +1,110 @@
+#include "scenes/write/SceneOrigin.h"
+
+#include <algorithm>
+#include <array>
+
+#include "scenes/import/FileBytes.h"
+#include "scenes/import/JsonText.h"
+#include "scenes/import/SceneJsonFiles.h"
+
+namespace tessera::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kBuiltin = "builtin:";
+
+bool isDocument(const fs::path& file) {
+    std::string extension = file.extension().string();
+    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    return extension == ".json";
+}
+
+nlohmann::json documentOf(const fs::path& file) {
+    const std::vector<std::byte> bytes = readFileBytes(file);
+    return parseJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+}
+
+bool namesAFile(const nlohmann::json& value) {
+    if (value.is_object() && value.contains("file")) return true;
+    return value.is_structured() && std::ranges::any_of(value, namesAFile);
+}
+
+/// True when a document only says what of its base was edited, so that a new one can say it in its place.
+bool onlyEdits(const nlohmann::json& document) {
+    constexpr std::array kEdits = {"$schema", "tessera", "base",    "name",       "materials",
+                                   "lights",  "cameras", "options", "environment"};
+    if (!document.contains("base")) return false;
+    for (const auto& [key, value] : document.items())
+        if (std::ranges::find(kEdits, key) == kEdits.end()) return false;
+    const nlohmann::json materials = document.value("materials", nlohmann::json::array());
+    return std::ranges::all_of(materials, [](const nlohmann::json& material) {
+        // A texture that is named as text is a file too, and adds a picture to those that are counted.
+        const bool namesText = std::ranges::any_of(material, [](const nlohmann::json& parameter) {
+            return parameter.is_object() && parameter.contains("texture") && parameter["texture"].is_string();
+        });
+        constexpr std::array kTextures = {"normalMap", "clearcoatNormalMap", "metallicRoughnessTexture",
+                                          "anisotropyTexture"};
+        const bool isText = std::ranges::any_of(
+            kTextures, [&](const char* key) { return material.contains(key) && material[key].is_string(); });
+        return material.contains("replaces") && !namesText && !isText && !namesAFile(material);
+    });
+}
+
+/// The file that `value`, under `key` of the document, names.
+fs::path fileNamed(const nlohmann::json& value, const fs::path& document, const char* key) {
+    return scenejson::resolveFile(JsonValue(value["file"], document, std::string("/") + key + "/file"));
+}
+
+void addDocuments(const fs::path& file, std::vector<fs::path>& documents) {
+    if (!isDocument(file)) return;
+    documents.push_back(file);
+    const nlohmann::json document = documentOf(file);
+    const auto follow = [&](const nlohmann::json& value, const char* key) {
+        if (value["file"].get<std::string>().starts_with(kBuiltin)) return;
+        addDocuments(fileNamed(value, file, key), documents);
+    };
+    if (document.contains("base")) follow(document["base"], "base");
+    if (document.contains("include"))
+        for (const nlohmann::json& include : document["include"]) follow(include, "include");
+}
+
+/// Follows bases down to the first that is more than edits.
+void followBases(fs::path file, SceneOrigin& origin) {
+    while (isDocument(file)) {
+        const nlohmann::json document = documentOf(file);
+        if (!onlyEdits(document)) break;
+        if (document.contains("materials"))
+            for (const nlohmann::json& material : document["materials"]) // an upper document's stay
+                origin.replacedMaterials.try_emplace(material["replaces"].get<std::size_t>(), material.dump());
+        const nlohmann::json& base = document["base"];
+        if (const std::string name = base["file"]; name.starts_with(kBuiltin)) {
+            origin.base = name;
+            if (base.contains("lights")) origin.lights = base["lights"].get<int>();
+            return;
+        }
+        file = fileNamed(base, file, "base");
+    }
+    origin.base = fs::absolute(file).lexically_normal().string();
+    addDocuments(file, origin.documents);
+}
+
+} // namespace
+
+SceneOrigin originOf(const std::string& nameOrPath, const LoadOptions& options, const Scene& loaded) {
+    SceneOrigin origin;
+    origin.materials = loaded.materials;
+    origin.images = loaded.images.size();
+    origin.meshes = loaded.meshes.size();
+    origin.nodes = loaded.nodes.size();
+    const auto isCalled = [&](const BuiltinScene& scene) { return scene.name == nameOrPath; };
+    if (std::ranges::any_of(builtinScenes(), isCalled)) {
+        origin.base = std::string(kBuiltin) + nameOrPath;
+        origin.lights = options.lights;
+    } else {
+        followBases(nameOrPath, origin);
+    }
+    return origin;
+}
+
+} // namespace tessera::scenes

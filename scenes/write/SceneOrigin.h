@@ -1,0 +1,25 @@
+#pragma once
+#include <filesystem>
+#include <map>
+
+#include "scenes/Load.h"
+
+namespace tessera::scenes {
+
+/// Where a scene came from and what it was then: what a file that says only what was edited since refers to.
+struct SceneOrigin {
+    std::string base;          ///< absolute path of a scene file, or builtin:NAME
+    std::optional<int> lights; ///< that a built-in scene was asked to make
+    /// Materials that .json files between the base and the scene replace, as JSON by index. Such files need not exist
+    /// any more for what is edited further.
+    std::map<std::size_t, std::string> replacedMaterials;
+    std::vector<std::filesystem::path> documents; ///< .json files that the base is made of: not to be written over
+    std::vector<Material> materials;              ///< as they were loaded
+    std::size_t images = 0, meshes = 0, nodes = 0;
+};
+
+/// The origin of a scene that loadScene() has just made of these. Throws InputError where a file has changed since in a
+/// way that cannot be read.
+SceneOrigin originOf(const std::string& nameOrPath, const LoadOptions& options, const Scene& loaded);
+
+} // namespace tessera::scenes

@@ -1,0 +1,123 @@
+#include "scenes/write/SceneText.h"
+
+#include <algorithm>
+#include <cassert>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "scenes/Error.h"
+#include "scenes/write/ElementJson.h"
+
+namespace tessera::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+using write::Json;
+
+[[noreturn]] void fail(const fs::path& file, const std::string& what) {
+    throw InputError(fmt::format("{}: {}", file.string(), what));
+}
+
+/// The base as the new file names it: links in folders are followed, those of the file itself are not, because what the
+/// base names lies beside the name it was opened by.
+std::string baseName(const SceneOrigin& origin, const fs::path& file) {
+    if (origin.base.starts_with("builtin:")) return origin.base;
+    const fs::path base(origin.base);
+    const fs::path folder = fs::weakly_canonical(fs::absolute(file).parent_path());
+    const fs::path relative = fs::weakly_canonical(base.parent_path()).lexically_relative(folder);
+    // On another drive there is no relative name.
+    const fs::path name = relative.empty() ? base : (relative / base.filename()).lexically_normal();
+    if (name.string().find("${") != std::string::npos)
+        fail(file, fmt::format("'{}' cannot be named in a scene file, where ${{…}} stands for a variable; rename it",
+                               origin.base));
+    const std::string text = name.generic_string();
+    return text.starts_with("builtin:") ? "./" + text : text;
+}
+
+void refuseWritingOver(const SceneOrigin& origin, const fs::path& file) {
+    std::error_code failure;
+    for (const fs::path& document : origin.documents)
+        if (fs::equivalent(document, file, failure))
+            fail(file, "the scene is made of this file, which says more than edits; save under another name");
+}
+
+Json baseJson(const SceneOrigin& origin, const fs::path& file) {
+    Json base;
+    base["file"] = baseName(origin, file);
+    if (origin.lights) base["lights"] = *origin.lights;
+    return base;
+}
+
+Json materialsJson(const Scene& scene, const SceneOrigin& origin) {
+    Json materials = Json::array();
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const auto replaced = origin.replacedMaterials.find(i);
+        if (scene.materials[i] != origin.materials[i]) {
+            Json material = {{"replaces", i}};
+            material.update(write::materialJson(scene.materials[i], origin.images));
+            materials.push_back(std::move(material));
+        } else if (replaced != origin.replacedMaterials.end()) {
+            materials.push_back(Json::parse(replaced->second));
+        }
+    }
+    return materials;
+}
+
+Json optionsJson(const Scene& scene) {
+    const SceneOptions& options = scene.options;
+    Json json = Json::object();
+    if (options.technique) json["technique"] = *options.technique;
+    if (options.layout) json["layout"] = *options.layout;
+    if (options.camera) json["camera"] = *options.camera;
+    if (options.toneMap) json["toneMap"] = *options.toneMap;
+    if (options.exposureEV) json["exposureEV"] = write::number(*options.exposureEV);
+    if (options.sizePixels) json["size"] = {options.sizePixels->x, options.sizePixels->y};
+    // Who deletes the last light wants the dark.
+    if (options.defaultLight || scene.lights.empty()) json["defaultLight"] = options.defaultLight.value_or(false);
+    return json;
+}
+
+/// An element a line: a scene of many lights is still read, compared and edited line by line.
+std::string textOf(const Json& document) {
+    std::string text = "{";
+    for (const auto& [key, value] : document.items()) {
+        text += fmt::format("{}\n  {}: ", text.size() > 1 ? "," : "", Json(key).dump());
+        if (!value.is_array()) {
+            text += value.dump();
+            continue;
+        }
+        text += '[';
+        for (std::size_t i = 0; i < value.size(); ++i) text += (i > 0 ? ",\n    " : "\n    ") + value[i].dump();
+        text += value.empty() ? "]" : "\n  ]";
+    }
+    return text + "\n}\n";
+}
+
+} // namespace
+
+std::string sceneText(const Scene& scene, const SceneOrigin& origin, const fs::path& file) {
+    assert(scene.materials.size() == origin.materials.size() && scene.images.size() == origin.images);
+    assert(scene.meshes.size() == origin.meshes && scene.nodes.size() == origin.nodes);
+    assert(!scene.cameras.empty());
+    checkScene(scene);
+    refuseWritingOver(origin, file);
+    Json document;
+    document["tessera"] = 1;
+    if (!scene.name.empty()) document["name"] = scene.name;
+    document["base"] = baseJson(origin, file);
+    if (Json materials = materialsJson(scene, origin); !materials.empty()) document["materials"] = std::move(materials);
+    Json& lights = document["lights"] = Json::array();
+    for (const Light& light : scene.lights) lights.push_back(write::lightJson(light));
+    Json& cameras = document["cameras"] = Json::array();
+    for (const Camera& camera : scene.cameras) cameras.push_back(write::cameraJson(camera));
+    document["environment"]["background"] = write::numbers(scene.background);
+    document["options"] = optionsJson(scene);
+    try {
+        return textOf(document);
+    } catch (const nlohmann::json::type_error&) { // what dump() throws for text that is not UTF-8
+        fail(file, "a name of the scene or of its file is not UTF-8, which JSON needs; rename it");
+    }
+}
+
+} // namespace tessera::scenes

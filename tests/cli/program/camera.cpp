@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include "tests/cli/program/Cli.h"
+
+namespace tessera::test {
+namespace {
+
+/// Cameras that the command line places.
+class CameraOptions : public Cli {
+protected:
+    /// The picture of the scene `spheres` by the words.
+    std::string rendered(const Words& more, const char* scene = "spheres") {
+        const std::string name = fmt::format("{}.exr", ++made_);
+        Words words{"render", scene, "--size", "48x27", "-o", name};
+        words.insert(words.end(), more.begin(), more.end());
+        EXPECT_EQ(runGood(words), "");
+        return text(name);
+    }
+    /// The same with a camera of a scene file.
+    std::string renderedBy(const std::string& camera) {
+        folder_.write("scene.json",
+                      R"({"tessera": 1, "base": {"file": "builtin:spheres"}, "cameras": [)" + camera + "]}");
+        return rendered({}, "scene.json");
+    }
+
+private:
+    int made_ = 0;
+};
+
+TEST_F(CameraOptions, aPlacedCameraIsExactlyTheOneOfASceneFileOfTheSameNumbers) {
+    EXPECT_TRUE(
+        rendered({"--eye", "3.3,2.1,-4", "--target", "0,0.5,0", "--fov", "31.7", "--near", "0.01"}) ==
+        renderedBy(R"({"position": [3.3, 2.1, -4], "target": [0, 0.5, 0], "fovYDegrees": 31.7, "near": 0.01})"));
+    const Words rolled{"--eye", "-3,4,5", "--target", "0,0,0", "--up", "1,0,0.25"};
+    const std::string picture = rendered(rolled);
+    EXPECT_FALSE(picture == rendered({rolled.begin(), rolled.end() - 2})) << "up turns the picture";
+    EXPECT_FALSE(picture == rendered({})) << "the scene's own camera";
+}
+
+TEST_F(CameraOptions, everyCommandThatLooksAtAFrameAlwaysTakesThem) {
+    const char* const kNoneInView = "no point light is on and in view";
+    EXPECT_THAT(runGood({"plan", "lattice", "--eye", "0,900,0", "--target", "0,1000,0"}),
+                testing::HasSubstr(kNoneInView));
+    EXPECT_THAT(runGood({"plan", "lattice"}), testing::Not(testing::HasSubstr(kNoneInView)));
+    runGood({"compare", "spheres", "--techniques", "forward", "--size", "48x27", "--eye", "3,2,-4"});
+}
+
+TEST_F(CameraOptions, whatNoCameraCanHaveIsAlwaysRefusedInOneLine) {
+    const Words render{"render", "spheres", "-o", "a.exr"};
+    const auto expectRefused = [&](const Words& more, const std::string& part) {
+        Words words = render;
+        words.insert(words.end(), more.begin(), more.end());
+        expectError(2, words, {part});
+    };
+    expectRefused({"--eye", "1,2"}, "--eye '1,2' is not three finite numbers, such as 0,1.5,-2");
+    expectRefused({"--eye", "1,2,3", "--target", "1,2,3"}, "it cannot look at its own place; give another target");
+    expectRefused({"--fov", "180"}, "its field of view would be 180 degrees; less than 180 is needed");
+    expectRefused({"--half-height", "2"}, "has no half height; give a field of view");
+    expectRefused({"--camera", "999"}, "unknown camera '999'");
+}
+
+} // namespace
+} // namespace tessera::test

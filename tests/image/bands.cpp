@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+
+#include "renderer/gpu/Bands.h"
+#include "renderer/graph/Execute.h"
+#include "scenes/Load.h"
+#include "tests/support/GlContext.h"
+#include "tests/support/TestScenes.h"
+#include "validation/Rendering.h"
+
+namespace tessera {
+namespace {
+
+class Bands : public test::GlTest {
+protected:
+    static frame::FrameSettings small() {
+        frame::FrameSettings settings;
+        settings.sizePixels = {200, 211}; // four bands, the last of them cut
+        return settings;
+    }
+};
+
+TEST_F(Bands, aPictureDrawnInBandsIsExactlyTheSameWithEveryTechnique) {
+    const scenes::Scene scene = test::everythingScene();
+    recipes::Renderer renderer(context(), scene);
+    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+        SCOPED_TRACE(info.name);
+        const recipes::RenderedFrame whole = renderer.render(info.technique, small());
+        int asked = 0;
+        const gpu::BandedDrawing banded([&asked] {
+            ++asked;
+            return false;
+        });
+        const recipes::RenderedFrame pieces = renderer.render(info.technique, small());
+        EXPECT_EQ(pieces.radiance, whole.radiance);
+        EXPECT_EQ(pieces.display, whole.display);
+        EXPECT_GT(asked, 4); // after every pass, and between bands
+    }
+}
+
+TEST_F(Bands, aFrameIsAlwaysGivenUpWhereverItIsAsked) {
+    const scenes::Scene scene = scenes::loadScene("lattice");
+    recipes::Renderer renderer(context(), scene);
+    const recipes::RenderedFrame before = renderer.render(recipes::Technique::TiledDeferred, small());
+    bool ended = false;
+    for (int last = 0; !ended; ++last) {
+        ASSERT_LT(last, 1000) << "the frame asks for ever";
+        int asked = 0;
+        const gpu::BandedDrawing banded([&] { return asked++ == last; });
+        try {
+            renderer.draw(recipes::Technique::TiledDeferred, small());
+            ended = true;
+        } catch (const graph::Interrupted&) {
+            EXPECT_EQ(asked, last + 1);
+        }
+    }
+    // Nothing of the frames that were given up is left behind.
+    EXPECT_EQ(renderer.render(recipes::Technique::TiledDeferred, small()).radiance, before.radiance);
+}
+
+TEST_F(Bands, withoutBandedDrawingNothingIsEverAsked) {
+    const scenes::Scene scene = scenes::loadScene("lattice");
+    recipes::Renderer renderer(context(), scene);
+    int asked = 0;
+    {
+        const gpu::BandedDrawing banded([&asked] {
+            ++asked;
+            return false;
+        });
+    }
+    renderer.draw(recipes::Technique::Deferred, small());
+    EXPECT_EQ(asked, 0);
+}
+
+} // namespace
+} // namespace tessera

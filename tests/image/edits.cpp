@@ -1,0 +1,84 @@
+#include <functional>
+
+#include "tests/support/GlContext.h"
+#include "tests/support/TestScenes.h"
+#include "validation/Rendering.h"
+
+namespace tessera {
+namespace {
+
+using recipes::Technique;
+
+/// Edits of a scene that a renderer already draws.
+class Edits : public test::GlTest {
+protected:
+    static frame::FrameSettings small() {
+        frame::FrameSettings settings;
+        settings.sizePixels = {160, 91};
+        return settings;
+    }
+    /// Holds what a renderer draws after an edit to what a new one draws.
+    void expectSameAsNew(const std::function<void(scenes::Scene&)>& edit, bool ofMaterials) {
+        scenes::Scene scene = test::everythingScene();
+        recipes::Renderer renderer(context(), scene);
+        for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
+            const std::vector<float> before = renderer.render(technique, small()).radiance;
+            edit(scene);
+            if (ofMaterials) renderer.materialsChanged();
+            const std::vector<float> after = renderer.render(technique, small()).radiance;
+            EXPECT_NE(after, before) << "the edit changes nothing";
+            recipes::Renderer anew(context(), scene);
+            EXPECT_EQ(after, anew.render(technique, small()).radiance);
+        }
+    }
+};
+
+TEST_F(Edits, factorsOfMaterialsAreAlwaysDrawnAsByANewRenderer) {
+    float step = 0.0f;
+    expectSameAsNew(
+        [&step](scenes::Scene& scene) {
+            step += 0.1f;
+            for (scenes::Material& material : scene.materials) {
+                material.baseColor *= glm::vec4(1.0f - step, 0.5f + step, 0.9f, 1.0f);
+                material.perceptualRoughness = 0.5f + step;
+                material.alpha = 0.3f + step;
+            }
+        },
+        true);
+}
+
+TEST_F(Edits, surfacesThatBecomeTransparentAreAlwaysDrawnAsByANewRenderer) {
+    std::size_t next = 0;
+    expectSameAsNew(
+        [&next](scenes::Scene& scene) {
+            while (scene.materials[next].alphaMode == scenes::AlphaMode::Blend) ++next;
+            scene.materials[next].alphaMode = scenes::AlphaMode::Blend;
+            scene.materials[next].baseColor.w = 0.4f;
+            ++next;
+        },
+        true);
+}
+
+TEST_F(Edits, aModelThatNoMaterialHadIsAlwaysDrawnAsByANewRenderer) {
+    std::size_t next = 0;
+    expectSameAsNew(
+        [&next](scenes::Scene& scene) {
+            scenes::Material& material = scene.materials[next++];
+            material.model = material.model == scenes::MaterialModel::SingleColor ? scenes::MaterialModel::Lambert
+                                                                                  : scenes::MaterialModel::SingleColor;
+        },
+        true);
+}
+
+TEST_F(Edits, lightsAndCamerasAreAlwaysDrawnAsTheyAre) {
+    expectSameAsNew(
+        [](scenes::Scene& scene) {
+            scene.lights.front().intensity *= 2.0f;
+            scene.lights.push_back(test::pointLight({0.0, 1.0, 2.0}, 3.0f));
+            scene.cameras.front().worldFromCamera[3] += glm::dvec4(0.1, 0.05, 0.0, 0.0);
+        },
+        false);
+}
+
+} // namespace
+} // namespace tessera

@@ -1,0 +1,83 @@
+#pragma once
+#include <numbers>
+
+#include "scenes/Scene.h"
+#include "tests/support/Random.h"
+
+/// Elements whose every member has a value of its own, the unused ones too.
+namespace tessera::scenes::test {
+
+class Edits {
+public:
+    explicit Edits(std::uint64_t seed) : random_(seed) {}
+
+    float share() { return static_cast<float>(random_.unit()); }
+    double coordinate() { return random_.between(-100.0, 100.0); }
+    glm::dvec3 point() { return {coordinate(), coordinate(), coordinate()}; }
+    glm::dvec3 direction() { return glm::normalize(point()); }
+    glm::vec3 color() { return {share(), share(), share()}; }
+
+    LightAnimation animation(LightAnimationKind kind) {
+        LightAnimation animation;
+        animation.kind = kind;
+        animation.periodSeconds = 1.0 + share();
+        animation.phase = share();
+        animation.centerWS = point();
+        animation.axisWS = direction();
+        animation.amplitudeMetres = point();
+        animation.timesSeconds = {share(), 2.0 + share()};
+        animation.pointsWS = {point(), point()};
+        return animation;
+    }
+
+    Light light(LightType type, Falloff falloff) {
+        Light light;
+        light.name = "edited \"light\"";
+        light.type = type;
+        light.enabled = random_.unit() < 0.5;
+        light.color = color();
+        light.intensity = 100.0f * share();
+        light.positionWS = point();
+        light.directionWS = direction();
+        light.falloff = falloff;
+        light.rangeMetres = 10.0f * share();
+        light.attenuation = color();
+        light.outerConeRadians = share();
+        light.innerConeRadians = share() * light.outerConeRadians;
+        return light;
+    }
+
+    /// Every slot has one of `images` pictures.
+    Material material(MaterialModel model, int images) {
+        Material material;
+        material.name = "edited";
+        material.model = model;
+        material.baseColor = glm::vec4(color(), share());
+        material.emissive = 5.0f * color();
+        for (float* member :
+             {&material.metallic, &material.perceptualRoughness, &material.alpha, &material.alphaY,
+              &material.specularFactor, &material.anisotropyStrength, &material.clearcoat,
+              &material.clearcoatPerceptualRoughness, &material.sheenPerceptualRoughness, &material.normalScale,
+              &material.clearcoatNormalScale, &material.alphaCutoff, &material.anisotropyRotationRadians})
+            *member = share();
+        material.masking = Masking::HalfVector;
+        material.exponent = 50.0f * share();
+        material.ior = 1.0f + share();
+        material.specularColor = color();
+        material.sheenColor = color();
+        material.alphaMode = AlphaMode::Mask;
+        material.doubleSided = true;
+        for (TextureUse& use : material.textures) {
+            use.image = random_.index(images);
+            use.sampler = {Filter::Nearest, Filter::NearestMipmapLinear, Wrap::ClampToEdge, Wrap::MirroredRepeat};
+            use.texCoordSet = share() < 0.5f ? 0 : 1;
+            use.transform = {{share(), share()}, {share(), share()}, share()};
+        }
+        return material;
+    }
+
+private:
+    tessera::test::Random random_;
+};
+
+} // namespace tessera::scenes::test

@@ -1,0 +1,283 @@
+#include "scenes/write/SceneText.h"
+
+#include <fstream>
+#include <set>
+
+#include "scenes/write/ElementJson.h"
+#include "tests/unit/scenes/gltf/GltfBuilder.h"
+#include "tests/unit/scenes/json/SceneFiles.h"
+#include "tests/unit/scenes/write/Edits.h"
+#include "tests/unit/scenes/write/SameScene.h"
+
+namespace tessera::scenes {
+namespace {
+
+using test::Edits;
+using test::inputErrorOf;
+using test::SceneFolder;
+
+void store(const std::filesystem::path& file, const std::string& text) {
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+}
+
+/// What is loaded after `scene`, that came from `origin`, was written to `file`. The schema must accept it.
+Scene saved(const Scene& scene, const SceneOrigin& origin, const std::filesystem::path& file) {
+    const std::string text = sceneText(scene, origin, file);
+    EXPECT_TRUE(test::schemaAccepts(text)) << text;
+    store(file, text);
+    return loadScene(file.string());
+}
+
+/// Changes everything that can be edited: materials by every model in turn, lights and cameras of every kind.
+void edit(Scene& scene) {
+    Edits edits(7);
+    for (std::size_t i = 0; i < scene.materials.size(); i += 2) {
+        scene.materials[i] =
+            edits.material(static_cast<MaterialModel>(i / 2 % 6), std::max(1, static_cast<int>(scene.images.size())));
+        if (scene.images.empty()) scene.materials[i].textures = {};
+    }
+    if (!scene.lights.empty()) scene.lights.erase(scene.lights.begin());
+    for (const LightType type : {LightType::Directional, LightType::Point, LightType::Spot})
+        for (const Falloff falloff : {Falloff::InverseSquare, Falloff::Attenuation})
+            scene.lights.push_back(edits.light(type, falloff));
+    scene.cameras.front().worldFromCamera[3] = glm::dvec4(edits.point(), 1.0);
+    Camera plan = scene.cameras.front();
+    plan.projection = Projection::Orthographic;
+    plan.halfHeightMetres = 1.0 / 3.0;
+    plan.farMetres = 100.0;
+    scene.cameras.push_back(plan); // of the same name
+    scene.background = edits.color();
+    scene.options.exposureEV = 0.1f;
+    scene.options.toneMap = "agx";
+    scene.options.sizePixels = glm::ivec2(640, 360);
+    scene.name = "edited";
+}
+
+void expectRoundTrip(const std::string& nameOrPath, const LoadOptions& options = {}) {
+    SCOPED_TRACE(nameOrPath);
+    const SceneFolder folder;
+    Scene scene = loadScene(nameOrPath, options);
+    const SceneOrigin origin = originOf(nameOrPath, options, scene);
+    expectSameScene(saved(scene, origin, folder.path() / "same.json"), scene);
+    edit(scene);
+    expectSameScene(saved(scene, origin, folder.path() / "deep" / "er" / "edited.json"), scene);
+}
+
+TEST(SceneText, everyBuiltinSceneIsAlwaysLoadedBackIdentically) {
+    for (const BuiltinScene& builtin : builtinScenes()) expectRoundTrip(std::string(builtin.name));
+    LoadOptions fewer;
+    fewer.lights = 5;
+    expectRoundTrip("lattice", fewer);
+}
+
+TEST(SceneText, everyKindOfFileIsAlwaysLoadedBackIdentically) {
+    const SceneFolder folder;
+    folder.write("models/paint.mtl", "newmtl paint\nKd 0.1 0.2 0.3\nmap_Kd ../pictures/specular.tga\n");
+    expectRoundTrip(folder
+                        .write("models/painted.obj",
+                               "mtllib paint.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl paint\nf 1/1 2/1 3/1\n")
+                        .string());
+    expectRoundTrip((folder.path() / "parts" / "lamps.json").string());
+    expectRoundTrip(folder
+                        .write("twice.json", R"({"tessera": 1,
+        "include": [{"file": "parts/lamps.json", "transform": {"eulerDegrees": [10, 20, 30], "translation": [1, 2, 3]}},
+                    {"file": "parts/lamps.json"}, {"file": "builtin:room"}],
+        "materials": [{"name": "skin", "model": "lambert", "k_d": {"texture": "pictures/albedo.tga"}}],
+        "overrides": [{"node": "lamp", "material": "skin"}],
+        "options": {"technique": "forward", "exposureEV": 0.3}})")
+                        .string());
+    gltf::test::Builder gltf;
+    gltf.material();
+    gltf.addTexture();
+    gltf.merge(R"({"materials": [{"name": "paint", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+        "extensionsUsed": ["KHR_lights_punctual"],
+        "nodes": [{"mesh": 0, "camera": 0, "rotation": [0.1, 0.2, 0.3, 0.92736], "translation": [0.1, 0.2, 0.3],
+                   "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.01}}],
+        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "range": 3.3,
+            "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.7}}]}}})");
+    expectRoundTrip(gltf.folder.write("model.gltf", gltf.json.dump()).string());
+}
+
+/// A folder with a scene of one picture, and its origin.
+struct Bust {
+    SceneFolder folder;
+    std::string path = folder
+                           .write("bust.json", R"({"tessera": 1, "base": {"file": "models/bust.obj"},
+        "materials": [{"name": "unused", "model": "lambert", "k_d": {"texture": "pictures/albedo.tga"}}]})")
+                           .string();
+    Scene scene = loadScene(path);
+    SceneOrigin origin = originOf(path, {}, scene);
+    Scene savedScene() const { return saved(scene, origin, folder.path() / "saved.json"); }
+};
+
+TEST(SceneText, everyLightIsAlwaysLoadedBackIdenticallyWithWhatItsTypeDoesNotUse) {
+    Bust bust;
+    Edits edits(1);
+    bust.scene.lights.clear();
+    for (const LightType type : {LightType::Directional, LightType::Point, LightType::Spot})
+        for (const Falloff falloff : {Falloff::InverseSquare, Falloff::Attenuation}) {
+            bust.scene.lights.push_back(edits.light(type, falloff));
+            for (const LightAnimationKind kind : {LightAnimationKind::Orbit, LightAnimationKind::Wobble,
+                                                  LightAnimationKind::Path, LightAnimationKind::Keyframes})
+                bust.scene.lights.emplace_back(edits.light(type, falloff)).animation = edits.animation(kind);
+        }
+    Light wide = edits.light(LightType::Spot, Falloff::InverseSquare);
+    wide.outerConeRadians = 3.0f; // the keys end at a right angle
+    wide.rangeMetres = kInfinity;
+    wide.name.clear();
+    bust.scene.lights.push_back(wide);
+    EXPECT_TRUE(bust.savedScene().lights == bust.scene.lights);
+}
+
+TEST(SceneText, everyMaterialIsAlwaysLoadedBackIdenticallyWithEveryTexture) {
+    Bust bust;
+    Edits edits(2);
+    for (const MaterialModel model :
+         {MaterialModel::SingleColor, MaterialModel::Lambert, MaterialModel::BlinnPhong, MaterialModel::Microfacet,
+          MaterialModel::MicrofacetAnisotropic, MaterialModel::MetallicRoughness})
+        for (const Masking masking : {Masking::Walter, Masking::Directional, Masking::HalfVector})
+            for (const NormalMapSpace space : {NormalMapSpace::Tangent, NormalMapSpace::Object}) {
+                if (masking == Masking::Directional && model != MaterialModel::MicrofacetAnisotropic) continue;
+                Material& material = bust.scene.materials[0] = edits.material(model, 1);
+                material.masking = masking;
+                material.normalMapSpace = space;
+                EXPECT_TRUE(bust.savedScene().materials == bust.scene.materials);
+                material.textures = {};
+                EXPECT_TRUE(bust.savedScene().materials == bust.scene.materials);
+            }
+}
+
+TEST(SceneText, aTextureThatIsRemovedNeverComesBack) {
+    Bust bust;
+    ASSERT_EQ(bust.scene.materials.at(1).texture(TextureSlot::BaseColor).image, 0);
+    bust.scene.materials[1].texture(TextureSlot::BaseColor) = {};
+    EXPECT_TRUE(bust.savedScene().materials == bust.scene.materials);
+}
+
+TEST(SceneText, onlyMaterialsThatWereEditedAreEverWritten) {
+    Bust bust;
+    EXPECT_EQ(sceneText(bust.scene, bust.origin, "a.json").find("replaces"), std::string::npos);
+    bust.scene.materials[1].doubleSided = true;
+    EXPECT_NE(sceneText(bust.scene, bust.origin, "a.json").find("\"replaces\":1"), std::string::npos);
+}
+
+TEST(SceneText, everyCameraIsAlwaysLoadedBackIdentically) {
+    Bust bust;
+    Edits edits(3);
+    for (int i = 0; i < 100; ++i) {
+        Camera& camera = bust.scene.cameras.emplace_back(bust.scene.cameras.front());
+        camera.name = i == 0 ? "" : "edited";
+        camera.worldFromCamera[3] = glm::dvec4(edits.point(), 1.0);
+        camera.fovYRadians = 0.01 + 3.0 * edits.share(); // few are a number of degrees exactly
+        camera.halfHeightMetres = 0.01 + edits.share();
+        camera.projection = i % 2 == 0 ? Projection::Perspective : Projection::Orthographic;
+        camera.nearMetres = 0.01 + edits.share();
+        if (i % 3 == 0) camera.farMetres = 2.0 + edits.share();
+    }
+    EXPECT_TRUE(bust.savedScene().cameras == bust.scene.cameras);
+}
+
+TEST(SceneText, aSavedSceneThatIsEditedAndSavedOverItselfIsAlwaysLoadedBackIdentically) {
+    const SceneFolder folder;
+    const std::string file = (folder.path() / "edited.json").string();
+    Scene scene = loadScene("models");
+    const SceneOrigin models = originOf("models", {}, scene);
+    scene.materials[3].baseColor.x = 0.123f;
+    saved(scene, models, file);
+    for (int round = 0; round < 3; ++round) {
+        scene = loadScene(file);
+        const SceneOrigin origin = originOf(file, {}, scene);
+        EXPECT_EQ(origin.base, "builtin:models");
+        EXPECT_EQ(scene.materials[3].baseColor.x, 0.123f) << "an earlier edit stays";
+        scene.materials[static_cast<std::size_t>(round)].baseColor.y = 0.5f;
+        scene.lights.pop_back();
+        expectSameScene(saved(scene, origin, file), scene);
+    }
+    std::filesystem::remove(file);
+    expectSameScene(saved(scene, models, file), scene);
+}
+
+TEST(SceneText, whatIsSavedElsewhereNeverNeedsTheEditedFileItCameFrom) {
+    const SceneFolder folder;
+    const std::string first = (folder.path() / "first.json").string();
+    Scene scene = loadScene((folder.path() / "models" / "bust.obj").string());
+    saved(scene, originOf((folder.path() / "models" / "bust.obj").string(), {}, scene), first);
+    scene = loadScene(first);
+    const SceneOrigin origin = originOf(first, {}, scene);
+    std::filesystem::remove(first);
+    expectSameScene(saved(scene, origin, folder.path() / "other" / "second.json"), scene);
+}
+
+TEST(SceneText, aFileThatTheSceneIsMadeOfIsNeverWrittenOver) {
+    const SceneFolder folder;
+    const std::string file = folder
+                                 .write("whole.json", R"({"tessera": 1,
+        "include": [{"file": "parts/lamps.json"}]})")
+                                 .string();
+    const Scene scene = loadScene(file);
+    const SceneOrigin origin = originOf(file, {}, scene);
+    for (const std::filesystem::path& made : {std::filesystem::path(file), folder.path() / "parts" / "lamps.json"})
+        EXPECT_EQ(inputErrorOf([&] { sceneText(scene, origin, made); }),
+                  made.string() +
+                      ": the scene is made of this file, which says more than edits; save under another name");
+    EXPECT_NO_THROW(saved(scene, origin, folder.path() / "new.json"));
+}
+
+TEST(SceneText, aSceneWhoseLightsWereDeletedNeverGetsOneSupplied) {
+    const SceneFolder folder;
+    const std::string bust = (folder.path() / "models" / "bust.obj").string();
+    Scene scene = loadScene(bust);
+    const SceneOrigin origin = originOf(bust, {}, scene);
+    ASSERT_EQ(scene.lights.size(), 1u) << "the one that was supplied";
+    scene.lights.clear();
+    const Scene back = saved(scene, origin, folder.path() / "dark.json");
+    EXPECT_TRUE(back.lights.empty());
+    EXPECT_EQ(back.options.defaultLight, false);
+}
+
+TEST(SceneText, namesAreAlwaysRelativeToTheNewFile) {
+    const SceneFolder folder;
+    const std::string bust = (folder.path() / "models" / "bust.obj").string();
+    const Scene scene = loadScene(bust);
+    const SceneOrigin origin = originOf(bust, {}, scene);
+    const auto has = [&](const std::filesystem::path& file, const std::string& name) {
+        return sceneText(scene, origin, file).find("{\"file\":\"" + name + "\"}") != std::string::npos;
+    };
+    EXPECT_TRUE(has(folder.path() / "a.json", "models/bust.obj"));
+    EXPECT_TRUE(has(folder.path() / "models" / "a.json", "bust.obj"));
+    EXPECT_TRUE(has(folder.path() / "x" / "y" / "a.json", "../../models/bust.obj"));
+}
+
+TEST(SceneText, whatCannotBeWrittenAlwaysSaysWhy) {
+    Bust bust;
+    bust.scene.lights.front().name = "caf\xe9";
+    EXPECT_EQ(inputErrorOf([&] { sceneText(bust.scene, bust.origin, "a.json"); }),
+              "a.json: a name of the scene or of its file is not UTF-8, which JSON needs; rename it");
+    bust.scene.lights.front().name = "lamp";
+    bust.scene.lights.front().intensity = -1.0f;
+    EXPECT_EQ(inputErrorOf([&] { sceneText(bust.scene, bust.origin, "a.json"); }),
+              "scene 'bust': light 0 'lamp': its intensity must be finite and not negative");
+}
+
+TEST(SceneTextNumber, everyFloatIsAlwaysReadBackToTheLastBitFromFewDigits) {
+    EXPECT_EQ(write::number(0.1f).dump(), "0.1");
+    EXPECT_EQ(write::number(16777216.0f).dump(), "16777216.0");
+    EXPECT_TRUE(write::number(kInfinity).is_null());
+    tessera::test::Random random(5);
+    for (int i = 0; i < 100000; ++i) {
+        const float value = std::exp2(static_cast<float>(random.between(-120.0, 120.0)));
+        const std::string text = write::number(value).dump();
+        ASSERT_EQ(static_cast<float>(std::stod(text)), value) << text;
+    }
+}
+
+TEST(SceneTextNumber, anglesThatAreNumbersOfDegreesAreAlwaysWrittenAsSuch) {
+    EXPECT_EQ(write::degreesOf(glm::radians(25.0f)).dump(), "25.0");
+    EXPECT_EQ(write::degreesOf(glm::radians(45.0)).dump(), "45.0");
+    EXPECT_EQ(write::degreesOf(glm::radians(62.5)).dump(), "62.5");
+}
+
+} // namespace
+} // namespace tessera::scenes

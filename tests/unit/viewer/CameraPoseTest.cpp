@@ -1,0 +1,138 @@
+#include <numbers>
+
+#include "scenes/Error.h"
+#include "tests/unit/viewer/CameraTest.h"
+#include "viewer/camera/FlyCamera.h"
+#include "viewer/camera/OrbitCamera.h"
+
+namespace tessera::viewer {
+namespace {
+
+using namespace test;
+
+/// Rounding of doubles, far below a pixel's hundredth.
+constexpr double kRoundingPixels = 1e-7;
+
+const std::vector<scenes::Camera>& allKinds() {
+    static const std::vector<scenes::Camera> cameras = {
+        perspective({1, 2, 8}, {0, 1, 0}),
+        perspective({1, 2, 8}, {0, 1, 0}, {0.4, 1, 0.1}, 100.0),          // rolled
+        perspective({0, 9, 0}, {0, 0, 0}, {0.3, 0, -1}),                  // straight down
+        perspective({0, -9, 0}, {0, 0, 0}, {1, 0, 0}),                    // straight up
+        perspective({0, 3, 0}, {0, 3, 5}, {0, -1, 0}),                    // head over heels
+        perspective({5e5, 10, -3e5}, {5e5 + 1, 11, -3e5 + 2}, {0, 1, 0}), // far from the origin
+        orthographic({3, 4, 5}, {0, 1, 0}, 2.5),
+    };
+    return cameras;
+}
+
+TEST(CameraPose, aSceneCameraAlwaysKeepsItsPictureThroughOrbitAndFlyAndBack) {
+    for (const scenes::Camera& camera : allKinds()) {
+        SCOPED_TRACE(glm::dvec3(camera.worldFromCamera[3]).x);
+        const CameraPose pose = poseOf(camera, kBox);
+        const OrbitCamera orbit(pose, camera);
+        const FlyCamera fly(orbit.pose(), camera, kBox);
+        const OrbitCamera again(fly.pose(), camera);
+        // Far from the origin a position is good to 1e-10 m, which at 3 m is a ten-millionth of a pixel's hundredth.
+        const double pixels = glm::length(glm::dvec3(camera.worldFromCamera[3])) > 1e3 ? 1e-5 : kRoundingPixels;
+        for (const CameraPose& one : {pose, orbit.pose(), fly.pose(), again.pose()})
+            expectSamePicture(camera, cameraAt(one, camera), pixels);
+    }
+}
+
+TEST(CameraPose, theFocusIsExactlyTheDepthOfTheBoundsCentreWhereThatLiesAhead) {
+    const scenes::Camera towards = perspective({1, 2.5, 9}, {1, 2.5, 0});
+    EXPECT_DOUBLE_EQ(poseOf(towards, kBox).focusMetres, 10.0);
+    const scenes::Camera away = perspective({1, 2.5, 9}, {1, 2.5, 20});
+    EXPECT_DOUBLE_EQ(poseOf(away, kBox).focusMetres, 0.5 * glm::length(kBox.max - kBox.min));
+    EXPECT_DOUBLE_EQ(poseOf(away, scenes::Box3()).focusMetres, 1.0);
+}
+
+TEST(CameraPose, whatIsDrawnIsExactlyTheChangeMadeToTheStartingCamera) {
+    const scenes::Camera start = perspective({1, 2, 8}, {0, 1, 0}, {0.2, 1, 0});
+    CameraPose pose = poseOf(start, kBox);
+    pose.heading = turned(pose.heading, 0.3, -0.2);
+    const scenes::Camera drawn = cameraAt(pose, start);
+    const scenes::Camera said = scenes::changedCamera(start, changeOf(pose, start));
+    EXPECT_EQ(drawn.worldFromCamera, said.worldFromCamera);
+    EXPECT_EQ(drawn.fovYRadians, start.fovYRadians);
+}
+
+TEST(CameraPose, anUprightChangeNeverSaysUpAndOneAtThePoleAlwaysDoes) {
+    EXPECT_FALSE(changeOf(poseOf(allKinds()[0], kBox), allKinds()[0]).upWS);
+    EXPECT_TRUE(changeOf(poseOf(allKinds()[1], kBox), allKinds()[1]).upWS);
+    EXPECT_TRUE(changeOf(poseOf(allKinds()[2], kBox), allKinds()[2]).upWS);
+}
+
+TEST(Heading, pitchNeverPassesThePoleHoweverFarItIsTurned) {
+    Heading heading;
+    for (int i = 0; i < 100; ++i) heading = turned(heading, 0.0, 0.1);
+    EXPECT_DOUBLE_EQ(heading.pitchRadians, kMostPitchRadians);
+    for (int i = 0; i < 100; ++i) heading = turned(heading, 0.0, -0.1);
+    EXPECT_DOUBLE_EQ(heading.pitchRadians, -kMostPitchRadians);
+    EXPECT_LT(heading.pitchRadians, 0.0);
+}
+
+TEST(Heading, aSteeperCameraOfTheSceneIsNeverMovedBeforeItIsTurnedBack) {
+    const Heading down = headingOf(glm::dmat3(allKinds()[2].worldFromCamera));
+    EXPECT_DOUBLE_EQ(down.pitchRadians, -0.5 * std::numbers::pi);
+    EXPECT_DOUBLE_EQ(turned(down, 0.0, -0.1).pitchRadians, down.pitchRadians);
+    EXPECT_DOUBLE_EQ(turned(down, 0.0, 0.1).pitchRadians, down.pitchRadians + 0.1);
+}
+
+TEST(CameraChange, anEyeAloneAlwaysMovesAndATargetAloneAlwaysTurns) {
+    const scenes::Camera camera = allKinds()[1];
+    scenes::CameraChange moved;
+    moved.eyeWS = glm::dvec3(7, 8, 9);
+    const glm::dmat4 placed = scenes::changedCamera(camera, moved).worldFromCamera;
+    EXPECT_EQ(glm::dmat3(placed), glm::dmat3(camera.worldFromCamera));
+    EXPECT_EQ(glm::dvec3(placed[3]), glm::dvec3(7, 8, 9));
+    scenes::CameraChange turnedTo;
+    turnedTo.targetWS = glm::dvec3(5, 5, 5);
+    const scenes::Camera aimed = scenes::changedCamera(camera, turnedTo);
+    EXPECT_EQ(glm::dvec3(aimed.worldFromCamera[3]), glm::dvec3(camera.worldFromCamera[3]));
+    EXPECT_NEAR(glm::length(glm::dvec2(shownAt(aimed, {5, 5, 5}))), 0.0, kRoundingPixels);
+}
+
+std::string errorOf(const scenes::Camera& camera, const scenes::CameraChange& change) {
+    try {
+        scenes::changedCamera(camera, change);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(CameraChange, whatNoCameraCanHaveIsAlwaysRefusedByName) {
+    const scenes::Camera camera = allKinds()[0];
+    scenes::CameraChange change;
+    change.targetWS = glm::dvec3(camera.worldFromCamera[3]);
+    EXPECT_EQ(errorOf(camera, change), "camera 'test': it cannot look at its own place; give another target");
+    change = {};
+    change.upWS = glm::dvec3(0.0);
+    EXPECT_EQ(errorOf(camera, change), "camera 'test': its up has no length; give a direction");
+    change = {};
+    change.fovYDegrees = 180.0;
+    EXPECT_EQ(errorOf(camera, change),
+              "camera 'test': its field of view would be 180 degrees; less than 180 is needed");
+    change = {};
+    change.halfHeightMetres = 1.0;
+    EXPECT_EQ(errorOf(camera, change),
+              "camera 'test': it is a perspective camera and has no half height; give a field of view");
+    change = {};
+    change.fovYDegrees = 40.0;
+    EXPECT_EQ(errorOf(allKinds().back(), change),
+              "camera 'test': it is orthographic and has no field of view; give a half height");
+    change = {};
+    change.nearMetres = 2.0;
+    change.farMetres = 1.0;
+    EXPECT_EQ(errorOf(camera, change),
+              "camera 'test': its far plane would be at 1, not beyond the near one at 2; move one of them");
+    change = {};
+    change.nearMetres = 0.0;
+    EXPECT_EQ(errorOf(camera, change), "camera 'test': its near plane would be 0; more than 0 is needed");
+    EXPECT_EQ(scenes::changedCamera(allKinds().back(), change).nearMetres, 0.0);
+}
+
+} // namespace
+} // namespace tessera::viewer

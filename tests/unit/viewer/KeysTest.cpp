@@ -1,0 +1,36 @@
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "viewer/session/Keys.h"
+
+namespace tessera::viewer {
+namespace {
+
+TEST(Keys, aKeyNeverStandsForTwoThings) {
+    std::set<std::pair<int, int>> seen;
+    for (const KeyBinding& binding : keyBindings())
+        EXPECT_TRUE(seen.insert({binding.key, binding.modifiers}).second) << binding.name << " " << binding.meaning;
+}
+
+TEST(Keys, everyKeyThatHasANameAlwaysSaysWhatItDoes) {
+    for (const KeyBinding& binding : keyBindings()) {
+        EXPECT_EQ(*binding.name == '\0', *binding.meaning == '\0') << binding.name;
+        ASSERT_NE(binding.act, nullptr);
+        State state;
+        binding.act(state); // without a scene nothing must go wrong
+    }
+}
+
+TEST(Keys, digitsAlwaysShowTheViewOfTheirNumber) {
+    for (const frame::ViewInfo& info : frame::viewTable()) {
+        if (info.key == 0) continue;
+        State state;
+        ASSERT_TRUE(pressKey(state, '0' + info.key, 0)); // GLFW's keys of digits are their characters
+        EXPECT_EQ(state.looks[0].settings.view, info.view);
+    }
+}
+
+} // namespace
+} // namespace tessera::viewer

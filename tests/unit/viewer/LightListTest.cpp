@@ -1,0 +1,138 @@
+#include "viewer/edit/LightList.h"
+
+#include <numbers>
+
+#include "tests/unit/viewer/CameraTest.h"
+#include "viewer/edit/SceneClock.h"
+
+namespace tessera::viewer {
+namespace {
+
+using namespace test;
+
+Lights named(std::initializer_list<const char*> names) {
+    Lights lights;
+    for (const char* name : names) lights.emplace_back().name = name;
+    return lights;
+}
+
+std::vector<std::string> namesOf(const Lights& lights) {
+    std::vector<std::string> names;
+    for (const scenes::Light& light : lights) names.push_back(light.name);
+    return names;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(LightList, everyNewNameIsAlwaysFreeAndOthersNeverChange) {
+    Lights lights = named({"lamp", "sun", "lamp 3"});
+    EXPECT_EQ(duplicateLight(lights, 0), 3u);
+    EXPECT_EQ(duplicateLight(lights, 0), 4u);
+    EXPECT_EQ(duplicateLight(lights, 2), 5u);
+    EXPECT_EQ(addLight(lights, lights[1]), 6u);
+    EXPECT_EQ(addLight(lights, scenes::Light()), 7u);
+    EXPECT_EQ(namesOf(lights), (Names{"lamp", "sun", "lamp 3", "lamp 2", "lamp 4", "lamp 5", "sun 2", "light"}));
+}
+
+TEST(LightList, aCopyIsExactlyTheLightButForItsName) {
+    Lights lights = named({"lamp"});
+    lights[0].intensity = 7.0f;
+    lights[0].animation.emplace().periodSeconds = 3.0;
+    scenes::Light copy = lights[duplicateLight(lights, 0)];
+    copy.name = "lamp";
+    EXPECT_TRUE(copy == lights[0]);
+}
+
+TEST(LightList, soloAlwaysStaysWithItsLightWhileOthersAreDeleted) {
+    Lights lights = named({"a", "b", "c", "d"});
+    std::optional<int> solo = toggledSolo({}, 2);
+    EXPECT_EQ(solo, 2);
+    deleteLight(lights, 3, solo);
+    EXPECT_EQ(solo, 2);
+    deleteLight(lights, 0, solo);
+    EXPECT_EQ(solo, 1);
+    EXPECT_EQ(lights[1].name, "c");
+    deleteLight(lights, 1, solo);
+    EXPECT_FALSE(solo);
+    EXPECT_EQ(namesOf(lights), Names{"b"});
+    EXPECT_FALSE(toggledSolo(0, 0));
+    EXPECT_EQ(toggledSolo(0, 1), 1);
+}
+
+TEST(LightList, aMovedLightAlwaysFollowsTheDragAtItsOwnDepthAlsoWhereItIsAnimated) {
+    for (const scenes::Camera& lens : {perspective({1, 2, 8}, {0, 1, 0}), orthographic({1, 2, 8}, {0, 1, 0}, 3.0)}) {
+        const CameraPose pose = poseOf(lens, kBox);
+        for (int kind = -1; kind < 4; ++kind) {
+            scenes::Light light;
+            light.positionWS = {0.5, 1.5, -2.0};
+            if (kind >= 0) {
+                scenes::LightAnimation& animation = light.animation.emplace();
+                animation.kind = scenes::LightAnimationKind(kind);
+                animation.amplitudeMetres = {1, 1, 0};
+                animation.timesSeconds = {0.0, 1.0};
+                animation.pointsWS = {{0, 0, 0}, {1, 1, 1}};
+            }
+            const double timeSeconds = 0.3;
+            const glm::dvec3 before = shownAt(lens, scenes::lightAtTime(light, timeSeconds).positionWS);
+            moveLight(light, timeSeconds, pose, lens, {30.0, -12.0}, kHeightPixels);
+            const glm::dvec3 after = shownAt(lens, scenes::lightAtTime(light, timeSeconds).positionWS);
+            EXPECT_NEAR(after.x - before.x, 30.0, 1e-9);
+            EXPECT_NEAR(after.y - before.y, -12.0, 1e-9);
+            EXPECT_NEAR(after.z, before.z, 1e-12);
+        }
+    }
+}
+
+TEST(LightList, aLightBehindTheEyeIsAlwaysMovedAsAtTheFocus) {
+    const scenes::Camera lens = perspective({0, 0, 8}, {0, 0, 0});
+    const CameraPose pose = poseOf(lens, kBox);
+    scenes::Light light;
+    light.positionWS = {0, 0, 50};
+    moveLight(light, 0.0, pose, lens, {100.0, 0.0}, kHeightPixels);
+    EXPECT_NEAR(light.positionWS.x, 100.0 * metresPerPixel(lens, pose, pose.focusMetres, kHeightPixels), 1e-12);
+}
+
+TEST(LightList, aDragAcrossThePictureAlwaysTurnsADirectionRoundAndKeepsItsLength) {
+    const scenes::Camera lens = perspective({0, 0, 8}, {0, 0, 0});
+    scenes::Light light;
+    light.type = scenes::LightType::Directional;
+    aimLight(light, poseOf(lens, kBox), {0.5 * kHeightPixels, 0.0}, kHeightPixels);
+    EXPECT_LT(glm::distance(light.directionWS, glm::dvec3(-1, 0, 0)), 1e-12) << "a quarter turn about the vertical";
+    light.directionWS = {0, 0, -1};
+    aimLight(light, poseOf(lens, kBox), {0.0, 0.5 * kHeightPixels}, kHeightPixels);
+    EXPECT_LT(glm::distance(light.directionWS, glm::dvec3(0, 1, 0)), 1e-12);
+    EXPECT_NEAR(glm::length(light.directionWS), 1.0, 1e-15);
+}
+
+TEST(LightList, anOrbitAlwaysBeginsAndAStopAlwaysEndsWhereTheLightIs) {
+    scenes::Light light;
+    light.positionWS = {3, 2, 1};
+    orbitLight(light, 1.5, 4.0);
+    EXPECT_EQ(scenes::lightAtTime(light, 0.0).positionWS, glm::dvec3(3, 2, 1));
+    const glm::dvec3 halfwayWS = scenes::lightAtTime(light, 2.0).positionWS;
+    EXPECT_NEAR(glm::distance(halfwayWS, glm::dvec3(0, 2, 1)), 0.0, 1e-12);
+    stopLight(light, 2.0);
+    EXPECT_FALSE(light.animation);
+    EXPECT_EQ(light.positionWS, halfwayWS);
+}
+
+TEST(LightList, aNewLightAlwaysGivesWhatIsLookedAtAsMuchAsTheDefaultLight) {
+    const scenes::Camera lens = perspective({0, 0, 8}, {0, 0, 0});
+    const CameraPose pose = poseOf(lens, kBox);
+    const scenes::Light light = lightAtFocus(pose);
+    const double distance = glm::distance(light.positionWS, pose.eyeWS + pose.focusMetres * pose.heading.forwardWS());
+    EXPECT_NEAR(light.intensity / (distance * distance), 3.0, 1e-5); // single precision
+}
+
+TEST(SceneClock, timeAlwaysStandsStillWhileItIsPaused) {
+    SceneClock clock;
+    clock.set(2.0);
+    clock.advance(1.0);
+    EXPECT_EQ(clock.timeSeconds(), 2.0);
+    clock.run(true);
+    clock.advance(0.5);
+    EXPECT_EQ(clock.timeSeconds(), 2.5);
+}
+
+} // namespace
+} // namespace tessera::viewer

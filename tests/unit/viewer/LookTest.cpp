@@ -1,0 +1,57 @@
+#include <gtest/gtest.h>
+
+#include "passes/recipes/ChooseCulling.h"
+#include "passes/recipes/ChooseView.h"
+#include "viewer/session/Look.h"
+
+namespace tessera::viewer {
+namespace {
+
+using recipes::Technique;
+
+TEST(Look, whatIsLeftOfALookIsAlwaysWhatItsTechniqueTakes) {
+    for (const recipes::TechniqueInfo& from : recipes::techniqueTable()) {
+        for (const recipes::TechniqueInfo& to : recipes::techniqueTable()) {
+            for (const frame::ViewInfo& view : frame::viewTable()) {
+                Look look;
+                look.technique = to.technique;
+                look.settings.culling.method = from.methods.front();
+                look.settings.culling.tilePixels = 32;
+                look.settings.culling.builder = culling::Builder::Compute;
+                look.settings.lightOn = frame::LightingStage::Compute;
+                look.settings.samples = 4;
+                look.settings.view = view.view;
+                const Look result = possible(look);
+                EXPECT_NO_THROW(recipes::requireCulling(result.technique, result.settings));
+                EXPECT_NO_THROW(recipes::requireView(result.technique, result.settings.view));
+                EXPECT_TRUE(result.settings.samples == 1 || to.multisamples);
+                EXPECT_EQ(possible(result), result);
+            }
+        }
+    }
+}
+
+TEST(Look, whatTheUserChoseAlwaysOutlivesWhatTheNextSceneWishes) {
+    const Look before;
+    Look now = before;
+    now.technique = Technique::ForwardPlus;
+    now.settings.exposureEV = 1.5f;
+    Look wished;
+    wished.technique = Technique::Deferred;
+    wished.settings.exposureEV = -3.0f;
+    wished.settings.toneMap = frame::ToneMap::Aces;
+    const Look result = rebased(now, before, wished);
+    EXPECT_EQ(result.technique, Technique::ForwardPlus);
+    EXPECT_EQ(result.settings.exposureEV, 1.5f);
+    EXPECT_EQ(result.settings.toneMap, frame::ToneMap::Aces);
+}
+
+TEST(Look, theCameraIsAlwaysTheNextScenes) {
+    const Look before;
+    Look now = before;
+    now.settings.camera = 3;
+    EXPECT_EQ(rebased(now, before, {}).settings.camera, 0);
+}
+
+} // namespace
+} // namespace tessera::viewer

@@ -1,0 +1,75 @@
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "scenes/Error.h"
+#include "tests/support/TempFolder.h"
+#include "viewer/session/Preferences.h"
+
+namespace tessera::viewer {
+namespace {
+
+Preferences everything() {
+    Preferences preferences;
+    preferences.recent = {"/a/b.glb", "/c \"d\".json"};
+    preferences.windowSize = glm::ivec2(900, 700);
+    preferences.technique = "forward_plus";
+    preferences.layout = "packed";
+    preferences.culling = "zbin";
+    preferences.toneMap = "agx";
+    preferences.tile = 32;
+    preferences.samples = 4;
+    preferences.automaticScale = false;
+    preferences.showsPanel = false;
+    preferences.showsMarkers = true;
+    return preferences;
+}
+
+TEST(Preferences, whatWasWrittenIsAlwaysReadBack) {
+    const test::TempFolder folder;
+    const std::filesystem::path file = folder.path() / "made" / "viewer.json";
+    writePreferences(everything(), file);
+    EXPECT_EQ(readPreferences(file), everything());
+    writePreferences({}, file);
+    EXPECT_EQ(readPreferences(file), Preferences());
+}
+
+TEST(Preferences, withoutAFileTheyAreAlwaysTheUsualOnes) {
+    const test::TempFolder folder;
+    EXPECT_EQ(readPreferences(folder.path() / "viewer.json"), Preferences());
+}
+
+TEST(Preferences, anEntryOfTheWrongKindIsAlwaysLeftOutAlone) {
+    const test::TempFolder folder;
+    const std::filesystem::path file = folder.path() / "viewer.json";
+    std::ofstream(file) << R"({"technique": 7, "layout": "slim", "window": [1, 1], "recent": "x", "tile": null})";
+    Preferences expected;
+    expected.layout = "slim";
+    EXPECT_EQ(readPreferences(file), expected);
+}
+
+TEST(Preferences, aFileThatIsNoJsonIsAlwaysAnErrorThatNamesIt) {
+    const test::TempFolder folder;
+    const std::filesystem::path file = folder.path() / "viewer.json";
+    std::ofstream(file) << "{\"technique\": ";
+    try {
+        readPreferences(file);
+        FAIL() << "no error";
+    } catch (const InputError& error) {
+        EXPECT_EQ(std::string(error.what()),
+                  file.string() + ": the settings are no JSON object; correct or delete the file");
+    }
+}
+
+TEST(Preferences, theTenLatestFilesAreKeptEachExactlyOnce) {
+    Preferences preferences;
+    for (int i = 0; i < 15; ++i) addRecent(preferences, std::to_string(i));
+    addRecent(preferences, "7");
+    ASSERT_EQ(preferences.recent.size(), 10u);
+    EXPECT_EQ(preferences.recent[0], "7");
+    EXPECT_EQ(preferences.recent[1], "14");
+    EXPECT_EQ(std::count(preferences.recent.begin(), preferences.recent.end(), "7"), 1);
+}
+
+} // namespace
+} // namespace tessera::viewer

@@ -1,0 +1,227 @@
+#include "viewer/save/RenderCommand.h"
+
+#include <wordexp.h>
+
+#include <gmock/gmock.h>
+
+#include "apps/FrameOptionText.h"
+#include "apps/Options.h"
+#include "scenes/Error.h"
+#include "tests/support/TempFolder.h"
+
+namespace tessera::viewer {
+namespace {
+
+using testing::HasSubstr;
+
+/// A scene of two lights and three cameras, the last of the first one's name; `options` are what it asks for.
+std::string sceneFile(const tessera::test::TempFolder& folder, const std::string& options = "{}") {
+    return folder
+        .write("a scene's file.json", R"({"tessera": 1, "base": {"file": "builtin:room"},
+        "lights": [{"type": "directional", "direction": [0, -1, 0]}, {"type": "point", "position": [0, 1, 0]}],
+        "cameras": [{"name": "front", "position": [0, 1, 4], "target": [0, 1, 0]},
+                    {"name": "plan of $HOME", "type": "orthographic", "position": [0, 9, 0], "direction": [0, -1, 0],
+                     "up": [0, 0, -1], "halfHeight": 3},
+                    {"name": "front", "position": [0, 1, 4], "target": [0, 2, 0]}],
+        "options": )" + options + "}")
+        .string();
+}
+
+/// The words that a shell makes of a line.
+std::vector<std::string> wordsOf(const std::string& line) {
+    wordexp_t words{};
+    EXPECT_EQ(wordexp(line.c_str(), &words, WRDE_NOCMD | WRDE_UNDEF), 0) << line;
+    std::vector<std::string> list(words.we_wordv, words.we_wordv + words.we_wordc);
+    wordfree(&words);
+    return list;
+}
+
+struct Parsed {
+    app::FrameOptions options;
+    std::string output;
+    app::Request request;
+};
+
+/// What the program makes of a command line.
+Parsed parsed(const std::string& line) {
+    std::vector<std::string> words = wordsOf(line);
+    EXPECT_EQ(words.at(0), "tessera");
+    EXPECT_EQ(words.at(1), "render");
+    words.erase(words.begin(), words.begin() + 2);
+    std::ranges::reverse(words); // as CLI11 takes them
+    Parsed result;
+    CLI::App command;
+    app::addFrameOptions(command, result.options, "");
+    command.add_option("-o,--output", result.output)->required();
+    command.parse(words);
+    result.request = app::resolve(result.options);
+    return result;
+}
+
+/// Pasting the command gives the same technique, settings and camera, to the last bit.
+void expectSame(const ShownPicture& picture) {
+    scenes::LoadOptions load;
+    load.lights = picture.lights;
+    load.defaultLight = picture.defaultLight;
+    const scenes::Scene scene = scenes::loadScene(picture.source, load);
+    const std::string line = renderCommand(picture, scene, "it's a picture.exr");
+    SCOPED_TRACE(line);
+    const Parsed result = parsed(line);
+    EXPECT_EQ(result.options.scene, picture.source);
+    EXPECT_EQ(result.output, "it's a picture.exr");
+    EXPECT_EQ(result.request.technique, picture.technique);
+    EXPECT_TRUE(result.request.settings == picture.settings);
+    const std::size_t camera = std::size_t(picture.settings.camera);
+    EXPECT_TRUE(result.request.scene.cameras.at(camera) ==
+                scenes::changedCamera(scene.cameras.at(camera), picture.pose));
+    EXPECT_TRUE(result.request.scene.lights == scene.lights);
+}
+
+ShownPicture pictureOf(const std::string& source) {
+    ShownPicture picture;
+    picture.source = source;
+    return picture;
+}
+
+TEST(RenderCommand, whatTheProgramDoesByItselfIsNeverSaid) {
+    const tessera::test::TempFolder folder;
+    const ShownPicture picture = pictureOf("room");
+    EXPECT_EQ(renderCommand(picture, scenes::loadScene("room"), "picture.exr"), "tessera render room -o picture.exr");
+}
+
+TEST(RenderCommand, everyNameOfEveryTableIsAlwaysReadAsItself) {
+    const tessera::test::TempFolder folder;
+    const std::string file = sceneFile(folder);
+    ShownPicture picture = pictureOf(file);
+    for (const recipes::TechniqueInfo& row : recipes::techniqueTable())
+        picture.technique = row.technique, expectSame(picture);
+    for (const frame::LayoutInfo& row : frame::layoutTable()) picture.settings.layout = row.layout, expectSame(picture);
+    for (const frame::ViewInfo& row : frame::viewTable()) picture.settings.view = row.view, expectSame(picture);
+    for (const frame::ToneMapInfo& row : frame::toneMapTable())
+        picture.settings.toneMap = row.toneMap, expectSame(picture);
+    for (const frame::TextureFilterInfo& row : frame::textureFilterTable())
+        picture.settings.filter = row.filter, expectSame(picture);
+    for (const frame::LightingSpaceInfo& row : frame::lightingSpaceTable())
+        picture.settings.space = row.space, expectSame(picture);
+    for (const frame::LightingStageInfo& row : frame::lightingStageTable())
+        picture.settings.lightOn = row.stage, expectSame(picture);
+    for (const culling::MethodInfo& row : culling::methodTable())
+        picture.settings.culling.method = row.method, expectSame(picture);
+    for (const culling::BuilderInfo& row : culling::builderTable())
+        picture.settings.culling.builder = row.builder, expectSame(picture);
+    for (const int pixels : culling::kTileSides) picture.settings.culling.tilePixels = pixels, expectSame(picture);
+    for (const int samples : frame::kSampleCounts) picture.settings.samples = samples, expectSame(picture);
+}
+
+/// Every setting is not what it is by itself.
+ShownPicture everythingSaid(const std::string& file) {
+    ShownPicture picture = pictureOf(file);
+    picture.lights = 1;
+    picture.defaultLight = false;
+    picture.technique = recipes::Technique::ForwardPlus;
+    frame::FrameSettings& settings = picture.settings;
+    settings.sizePixels = {641, 359};
+    settings.samples = 4;
+    settings.camera = 1;
+    settings.timeSeconds = 1.0 / 3.0;
+    settings.layout = frame::layoutTable()[1].layout;
+    settings.view = frame::View::Lights;
+    settings.filter = frame::TextureFilter::Exact;
+    settings.space = frame::LightingSpace::View;
+    settings.prune = false;
+    settings.specular = false;
+    settings.rangeTolerance = 1e-7;
+    settings.soloLight = 0;
+    settings.culling = {culling::Method::Zbin, 32, culling::Builder::Fragment, {}};
+    settings.lightOn = frame::LightingStage::Compute;
+    settings.exposureEV = -0.1f;
+    settings.toneMap = frame::ToneMap::Agx;
+    picture.pose.eyeWS = glm::dvec3(-1.0 / 3.0, 1e-17, 123456.789);
+    picture.pose.targetWS = glm::dvec3(0.1, 0.2, 0.3);
+    picture.pose.upWS = glm::dvec3(-1.0, 1.0, 1.0 / 7.0);
+    picture.pose.halfHeightMetres = 2.0 / 3.0;
+    picture.pose.nearMetres = 1e-3;
+    picture.pose.farMetres = 1e7 / 3.0;
+    return picture;
+}
+
+TEST(RenderCommand, allSettingsAtOnceAreAlwaysReadBackToTheLastBit) {
+    const tessera::test::TempFolder folder;
+    expectSame(everythingSaid(sceneFile(folder)));
+    ShownPicture perspective = everythingSaid(sceneFile(folder));
+    perspective.settings.camera = 2; // named as another
+    perspective.pose.halfHeightMetres.reset();
+    perspective.pose.fovYDegrees = 100.0 / 3.0;
+    expectSame(perspective);
+}
+
+TEST(RenderCommand, everyOptionOfAFrameIsAlwaysSaidWhereItDiffers) {
+    const tessera::test::TempFolder folder;
+    ShownPicture picture = everythingSaid(sceneFile(folder));
+    const scenes::Scene scene = scenes::loadScene(picture.source);
+    std::string said = renderCommand(picture, scene, "a.exr");
+    picture.pose.fovYDegrees = 50.0;
+    said += renderCommand(picture, scene, "a.exr");
+    app::FrameOptions options;
+    CLI::App command;
+    app::addFrameSettings(command, options);
+    int count = 0;
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->get_group() != "Frame" && option->get_group() != "Camera" && option->get_group() != "Display")
+            continue;
+        EXPECT_THAT(said, HasSubstr(" --" + option->get_lnames().at(0) + (option->get_type_size() > 0 ? " " : "")));
+        ++count;
+    }
+    EXPECT_GE(count, 28);
+}
+
+TEST(RenderCommand, whatTheSceneAsksForIsNeverSaidAndTheProgramsOwnChoiceThenAlwaysIs) {
+    const tessera::test::TempFolder folder;
+    const std::string file =
+        sceneFile(folder, R"({"technique": "forward", "layout": "packed", "camera": "plan of $HOME", "toneMap": "aces",
+                              "exposureEV": 1.5, "size": [320, 200]})");
+    ShownPicture wished = pictureOf(file);
+    wished.technique = recipes::Technique::Forward;
+    wished.settings.layout = frame::layoutTable()[1].layout;
+    wished.settings.camera = 1;
+    wished.settings.toneMap = frame::ToneMap::Aces;
+    wished.settings.exposureEV = 1.5f;
+    wished.settings.sizePixels = {320, 200};
+    const std::string line = renderCommand(wished, scenes::loadScene(file), "a.exr");
+    EXPECT_EQ(line.find("--"), std::string::npos) << line;
+    expectSame(wished);
+    expectSame(pictureOf(file));
+}
+
+TEST(RenderCommand, aSceneWhoseNameBeginsWithADashIsNeverTakenForAnOption) {
+    EXPECT_EQ(renderCommand(pictureOf("-x.json"), scenes::loadScene("room"), "-y.exr"),
+              "tessera render ./-x.json -o ./-y.exr");
+}
+
+TEST(FrameOptionText, whatWasGivenIsAlwaysTypedTheSameWayAgain) {
+    const tessera::test::TempFolder folder;
+    const ShownPicture picture = everythingSaid(sceneFile(folder));
+    const app::FrameOptions options = parsed(renderCommand(picture, scenes::loadScene(picture.source), "a")).options;
+    const app::FrameOptions again =
+        parsed("tessera render " + shellWord(picture.source) + app::frameOptionText(options) + " -o a").options;
+    EXPECT_EQ(app::frameOptionText(options), app::frameOptionText(again));
+    EXPECT_TRUE(app::resolve(options).settings == app::resolve(again).settings);
+    EXPECT_TRUE(options.pose == again.pose);
+}
+
+TEST(CameraOptions, whatIsNoPointIsAlwaysNamedWithItsOption) {
+    for (const char* point : {"1,2", "1,2,3,4", "1;2;3", "a,b,c", "1,2,inf", "1, 2,3"}) {
+        app::FrameOptions options;
+        CLI::App command;
+        app::addFrameSettings(command, options);
+        try {
+            command.parse(std::vector<std::string>{point, "--eye"});
+            ADD_FAILURE() << point;
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.what(), std::string("--eye '") + point + "' is not three finite numbers, such as 0,1.5,-2");
+        }
+    }
+}
+
+} // namespace
+} // namespace tessera::viewer

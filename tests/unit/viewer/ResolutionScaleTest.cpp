@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include "viewer/show/ResolutionScale.h"
+
+namespace tessera::viewer {
+namespace {
+
+constexpr double kTargetMs = 45.0;
+
+/// Frames of a scene whose pixels and geometry cost so much, drawn as the scale asks.
+double lastMs(ResolutionScale& scale, double wholeMs, double fixedMs, int frames) {
+    double ms = 0.0;
+    for (int i = 0; i < frames; ++i) {
+        const double side = scale.next();
+        ms = fixedMs + wholeMs * side * side;
+        scale.drew(side, ms);
+    }
+    return ms;
+}
+
+TEST(ResolutionScale, aSlowSceneIsAlwaysWithinTheTargetAfterTwoFrames) {
+    for (const double wholeMs : {50.0, 200.0, 800.0, 3000.0}) {
+        for (const double fixedMs : {0.0, 10.0, 30.0}) {
+            ResolutionScale scale(kTargetMs);
+            scale.restart(1.0);
+            // The first frame tells what pixels cost, the second what geometry does.
+            lastMs(scale, wholeMs, fixedMs, 3);
+            EXPECT_LE(lastMs(scale, wholeMs, fixedMs, 1), kTargetMs) << wholeMs << " + " << fixedMs;
+        }
+    }
+}
+
+TEST(ResolutionScale, aQuickSceneIsAlwaysDrawnWholeInTheEnd) {
+    ResolutionScale scale(kTargetMs);
+    scale.restart(0.0625);
+    lastMs(scale, 20.0, 5.0, 60);
+    EXPECT_EQ(scale.next(), 1.0);
+}
+
+TEST(ResolutionScale, theScaleNeverFlickersWhileTheCostStays) {
+    ResolutionScale scale(kTargetMs);
+    scale.restart(0.25);
+    lastMs(scale, 500.0, 12.0, 60);
+    const double settled = scale.next();
+    for (int i = 0; i < 60; ++i) {
+        lastMs(scale, 500.0, 12.0, 1);
+        EXPECT_EQ(scale.next(), settled);
+    }
+}
+
+TEST(ResolutionScale, aSceneThatNothingMakesQuickIsNeverDrawnBelowTheSmallestStep) {
+    ResolutionScale scale(kTargetMs);
+    lastMs(scale, 1e6, 1e3, 20);
+    EXPECT_EQ(scale.next(), 0.0625);
+}
+
+} // namespace
+} // namespace tessera::viewer

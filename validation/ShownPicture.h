@@ -1,0 +1,14 @@
+#pragma once
+#include <string>
+
+#include "passes/recipes/Renderer.h"
+#include "validation/Picture.h"
+
+namespace tessera::validation {
+
+/// A rendered frame as it is saved to be looked at: what its display pass made of it, and of views that need one a
+/// picture with a title and a legend.
+DisplayImage shownPicture(const recipes::RenderedFrame& frame, const std::string& sceneName,
+                          recipes::Technique technique, frame::View view);
+
+} // namespace tessera::validation

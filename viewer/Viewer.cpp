@@ -1,0 +1,298 @@
+#include "viewer/Viewer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "renderer/gpu/Commands.h"
+#include "renderer/gpu/Debug.h"
+#include "viewer/panels/Frame.h"
+#include "viewer/session/Saver.h"
+#include "viewer/session/SceneSwitch.h"
+#include "viewer/show/Measurements.h"
+#include "viewer/window/Gui.h"
+
+namespace tessera::viewer {
+namespace {
+
+constexpr double kRestSeconds = 0.15;        ///< without input or movement, after which the picture is drawn whole
+constexpr double kShaderPeriodSeconds = 0.5; ///< how often the shader folder is looked at
+constexpr double kLongestStepSeconds = 0.25; ///< of movements: a compile in between is no reason to fly away
+constexpr double kHurrySeconds = 0.05;       ///< between pictures while input waits
+/// Frames after the last event in which the user interface may still change: a list that opens is measured in one
+/// frame and laid out in the next.
+constexpr int kSettleFrames = 3;
+
+glm::ivec2 windowSize(const ViewerOptions& options) {
+    if (!options.pictureSize) return options.windowSize;
+    return windowSizeFor(*options.pictureSize, options.preferences.showsPanel);
+}
+
+class Viewer {
+public:
+    explicit Viewer(const ViewerOptions& options)
+        : options_(options), log_(options.log), window_(windowSize(options)), gui_(window_), screen_(window_.context()),
+          saver_(state_, screen_, log_), measurements_([] { Window::wake(); }),
+          scenes_(options, state_, log_, [] { Window::wake(); }) {
+        facts_.renderer = window_.context().capabilities().renderer;
+        scenes_.open(options.scene, options.load);
+    }
+
+    void run() {
+        while (!window_.shouldClose()) {
+            window_.wait(idleSeconds());
+            if (window_.shouldClose()) break;
+            watchShaders();
+            if (isDue()) frame();
+        }
+        scenes_.remember(window_.sizeScreen());
+        log_.line("closed");
+    }
+
+private:
+    // ---- When to draw ----
+    double now() const { return Window::nowSeconds(); }
+    bool isMoving() const { return state_.isPlaying || (state_.open && !state_.open->rig().isAtRest()); }
+    bool isWhole() const { return !state_.open || screen_.scaleOf(wanted_) >= restScale(); }
+    double restScale() const { return state_.automaticScale ? 1.0 : double(state_.fixedScale); }
+    double movingScale() const { return state_.automaticScale ? screen_.movingScale() : double(state_.fixedScale); }
+    /// A window that is minimised, or too small for a picture, shows nothing.
+    bool hasPicturePlace() const { return !window_.isMinimised() && areaPixels().width > 0 && areaPixels().height > 0; }
+    bool isDue() const {
+        if (window_.hasActivity() || !window_.input().empty() || scenes_.hasResult()) return true;
+        if (settleFrames_ > 0 || measurements_.hasResult()) return true;
+        return hasPicturePlace() && (isMoving() || (!isWhole() && now() >= restAt_));
+    }
+    /// How long nothing needs to happen; negative: until something does.
+    double idleSeconds() const {
+        if (isDue()) return 0.0;
+        double seconds = -1.0;
+        const auto atMost = [&](double most) { seconds = seconds < 0.0 ? most : std::min(seconds, most); };
+        if (!isWhole() && hasPicturePlace()) atMost(std::max(restAt_ - now(), 0.0));
+        if (screen_.renderer() && !screen_.renderer()->programs().tree().isEmbedded()) atMost(kShaderPeriodSeconds);
+        return seconds;
+    }
+
+    // ---- Scenes ----
+    void adoptLoaded() {
+        std::unique_ptr<OpenScene> scene = scenes_.take();
+        if (!scene) return;
+        screen_.open(*scene);
+        measurements_.clear(facts_);
+        state_.timings.clear();
+        state_.open = std::move(scene);
+        nameWindow();
+    }
+
+    void nameWindow() {
+        window_.setTitle("Tessera - " + std::filesystem::path(state_.open->source()).filename().string());
+    }
+
+    void fail(const std::string& text) {
+        state_.notice = {text, true};
+        settleFrames_ = kSettleFrames;
+        log_.line("error " + text);
+    }
+
+    // ---- Shaders ----
+    void watchShaders() {
+        if (!screen_.renderer() || now() < nextShaderLook_) return;
+        nextShaderLook_ = now() + kShaderPeriodSeconds;
+        if (screen_.renderer()->programs().sourcesChanged()) reloadShaders();
+    }
+
+    void reloadShaders() {
+        if (!screen_.renderer()) return;
+        state_.shaderFaults = screen_.renderer()->programs().reload();
+        for (const std::string& fault : state_.shaderFaults) log_.line("shader error " + fault);
+        if (state_.shaderFaults.empty()) {
+            log_.line("shaders reloaded");
+            if (state_.notice.isError) state_.notice = {};
+        }
+        screen_.forget();
+        settleFrames_ = kSettleFrames;
+    }
+
+    // ---- A frame ----
+    void frame() {
+        const double started = now();
+        const bool isAnswer = window_.hasActivity();
+        const double heardAt = window_.activitySinceSeconds();
+        if (window_.takeActivity() || !window_.input().empty()) {
+            settleFrames_ = kSettleFrames;
+            restAt_ = started + kRestSeconds;
+        }
+        settleFrames_ = std::max(settleFrames_ - 1, 0);
+        adoptLoaded();
+        for (const std::string& file : window_.takeDrops()) state_.requests.open = file;
+        if (!layOut()) return window_.input().clear();
+        const std::vector<InputEvent> events = window_.input().takeFrame();
+        gui_.beginFrame(events);
+        controls_.handle(events, state_, area_, {gui_.wantsMouse(), gui_.wantsKeyboard()});
+        drawInterface(state_, facts_, area_, uiScale());
+        gui_.endFrame();
+        serveRequests();
+        advance(started);
+        // More input waits: what it leads to is worth a picture, each step of it only now and then.
+        if (!window_.input().empty() && started - shownAt_ < kHurrySeconds) return;
+        const bool drew = drawPictures();
+        if (screen_.renderer() && measurements_.update(facts_, state_, screen_, wanted_, isWhole()))
+            settleFrames_ = std::max(settleFrames_, 1);
+        show();
+        if (isAnswer && drew) log_.line(fmt::format("answered ms {:.1f}", 1000.0 * (now() - heardAt)));
+    }
+
+    /// Screen coordinates, the units of the user interface, for one of a display of usual density.
+    float uiScale() const { return gui_.scale(); }
+
+    bool layOut() {
+        const glm::ivec2 pixels = window_.sizePixels();
+        if (window_.isMinimised() || pixels.x < 1 || pixels.y < 1) return false;
+        area_ = pictureArea(state_, window_.sizeScreen(), uiScale());
+        state_.pictureAspect = area_.size.y > 0.0f ? double(area_.size.x) / double(area_.size.y) : 1.0;
+        return true;
+    }
+
+    /// The picture's place in pixels, from the lower left.
+    gpu::Rectangle areaPixels() const {
+        const glm::vec2 density = glm::vec2(window_.sizePixels()) / glm::max(glm::vec2(window_.sizeScreen()), 1.0f);
+        const glm::ivec2 corner = glm::round(area_.corner * density);
+        const glm::ivec2 size = glm::round(area_.size * density);
+        return {corner.x, window_.sizePixels().y - corner.y - size.y, size.x, size.y};
+    }
+
+    void serveRequests() {
+        const Requests requests = std::exchange(state_.requests, {});
+        if (requests.open) scenes_.open(*requests.open, {});
+        try {
+            serveSaves(requests);
+        } catch (const std::exception& error) {
+            fail(error.what());
+        }
+        if (requests.reloadShaders) reloadShaders();
+        if (requests.quit) window_.close();
+    }
+
+    void serveSaves(const Requests& requests) {
+        const gpu::Rectangle place = areaPixels();
+        if (!state_.open || place.width < 1 || place.height < 1) return;
+        const glm::ivec2 size(place.width, place.height);
+        if (requests.savePng) saver_.picture(size, ".png");
+        if (requests.saveExr) saver_.picture(size, ".exr");
+        if (!requests.measureLights) return;
+        Look look = state_.active();
+        look.settings.sizePixels = size;
+        measurements_.judgeLights(facts_, screen_, look);
+    }
+
+    /// Moves what moves by itself.
+    void advance(double started) {
+        const double step = std::clamp(started - lastFrame_, 0.0, kLongestStepSeconds);
+        lastFrame_ = started;
+        if (!state_.open) return;
+        if (!state_.open->rig().isAtRest() && area_.size.y >= 1.0f) {
+            state_.open->rig().advance(step, area_.size.y);
+            state_.open->applyRig();
+        }
+        if (state_.isPlaying) state_.active().settings.timeSeconds += step;
+        state_.shareSettings();
+    }
+
+    /// Draws what changed: quickly while something moves, whole when it rests. Whether it drew.
+    bool drawPictures() {
+        const gpu::Rectangle place = areaPixels();
+        if (!state_.open || place.width < 1 || place.height < 1) return false;
+        wanted_.looks = state_.looks;
+        for (Look& look : wanted_.looks) look.settings.sizePixels = {place.width, place.height};
+        wanted_.sides = state_.sides();
+        if (wanted_.sides == 1) wanted_.looks[1] = wanted_.looks[0];
+        wanted_.comparesRadiance = state_.compare != Compare::Off;
+        wanted_.sceneRevision = state_.open->revision();
+        const double have = screen_.scaleOf(wanted_);
+        if (have >= restScale() || (have > 0.0 && have >= movingScale() && isMoving())) return false;
+        const bool isAtRest = !isMoving() && now() >= restAt_ && have > 0.0;
+        if (have > 0.0 && !isAtRest) return false;
+        if (have == 0.0) restAt_ = now() + kRestSeconds;
+        return drawAt(isAtRest ? restScale() : movingScale(), isAtRest);
+    }
+
+    bool drawAt(double scale, bool mayGiveUp) {
+        const auto givesUp = [this] {
+            window_.poll();
+            return window_.hasActivity() || window_.shouldClose();
+        };
+        const double startedAt = now();
+        try {
+            const Screen::Drawn drawn =
+                screen_.draw(wanted_, scale, mayGiveUp ? std::function<bool()>(givesUp) : nullptr);
+            if (drawn.gaveUp) {
+                log_.line(fmt::format("gave up scale {:.4g}", scale));
+                return false;
+            }
+            facts_.ms = drawn.ms;
+            facts_.scale = drawn.scale;
+            facts_.sizePixels = drawn.sizePixels;
+            facts_.targetBytes = screen_.renderer()->backend().poolBytes();
+            ++frames_;
+            for (int side = 0; side < wanted_.sides; ++side)
+                state_.timings.add({frames_, 1000.0 * startedAt, drawn.sideMs[std::size_t(side)], drawn.scale, side,
+                                    drawn.passes[std::size_t(side)]});
+            settleFrames_ = std::max(settleFrames_, 1); // the figures of this frame are shown by the next
+            const Look& look = wanted_.looks[0];
+            log_.line(fmt::format("drawn {} scale {:.4g} size {}x{} ms {:.1f} technique {} view {}", frames_,
+                                  drawn.scale, drawn.sizePixels.x, drawn.sizePixels.y, drawn.ms,
+                                  infoOf(look.technique).name, frame::viewInfo(look.settings.view).name));
+            return true;
+        } catch (const std::exception& error) {
+            fail(error.what());
+            return false;
+        }
+    }
+
+    void show() {
+        const glm::ivec2 pixels = window_.sizePixels();
+        try {
+            if (state_.compare == Compare::Difference)
+                screen_.prepareDifference(state_.amplification * std::exp2(state_.active().settings.exposureEV));
+        } catch (const std::exception& error) {
+            fail(error.what());
+        }
+        screen_.show(pixels, areaPixels(), state_.compare, state_.divider);
+        gui_.draw();
+        gpu::throwIfFailed("while the window was drawn");
+        window_.context().debugLog().takeWarnings(); // advice on performance, of which nobody here takes note
+        window_.context().swapBuffers();
+        shownAt_ = now();
+    }
+
+    const ViewerOptions& options_;
+    EventLog log_;
+    Window window_;
+    Gui gui_;
+    State state_;
+    Screen screen_; ///< after the state, whose scene it draws
+    Controls controls_;
+    Facts facts_;
+    PictureArea area_;
+    Screen::Wanted wanted_;
+    int settleFrames_ = kSettleFrames;
+    double restAt_ = 0.0;
+    double lastFrame_ = 0.0;
+    double shownAt_ = 0.0;
+    double nextShaderLook_ = 0.0;
+    std::uint64_t frames_ = 0;
+    Saver saver_;
+    Measurements measurements_;
+    SceneSwitch scenes_; ///< last: its thread ends before what it wakes
+};
+
+} // namespace
+
+void runViewer(const ViewerOptions& options) {
+    Viewer(options).run();
+}
+
+} // namespace tessera::viewer

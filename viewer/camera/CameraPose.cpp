@@ -1,0 +1,65 @@
+#include "viewer/camera/CameraPose.h"
+
+#include <cassert>
+#include <cmath>
+
+namespace tessera::viewer {
+namespace {
+
+/// Nothing nearer than this share of the focus is clipped, so that zooming in never cuts a hole into things. Depth is
+/// reversed and in floating point: a near plane close by costs no precision.
+constexpr double kNearShare = 0.01;
+
+} // namespace
+
+CameraPose poseOf(const scenes::Camera& camera, const scenes::Box3& boundsWS) {
+    CameraPose pose;
+    pose.eyeWS = glm::dvec3(camera.worldFromCamera[3]);
+    pose.heading = headingOf(glm::dmat3(camera.worldFromCamera));
+    pose.halfHeightMetres = camera.halfHeightMetres;
+    pose.nearMetres = camera.nearMetres;
+    pose.farMetres = camera.farMetres;
+    if (boundsWS.empty()) return pose;
+    const double diagonalMetres = glm::length(boundsWS.max - boundsWS.min);
+    const glm::dvec3 centerWS = 0.5 * (boundsWS.min + boundsWS.max);
+    const double depthMetres = glm::dot(centerWS - pose.eyeWS, pose.heading.forwardWS());
+    // Nearer than this the centre is rather beside the eye than ahead.
+    constexpr double kLeastShare = 0.05;
+    if (depthMetres > kLeastShare * diagonalMetres)
+        pose.focusMetres = depthMetres;
+    else if (diagonalMetres > 0.0)
+        pose.focusMetres = 0.5 * diagonalMetres;
+    return pose;
+}
+
+scenes::CameraChange changeOf(const CameraPose& pose, const scenes::Camera& start) {
+    assert(pose.focusMetres > 0.0);
+    scenes::CameraChange change;
+    change.eyeWS = pose.eyeWS;
+    change.targetWS = pose.eyeWS + pose.focusMetres * pose.heading.forwardWS();
+    // Far from the origin a near focus would be lost in the eye's own rounding.
+    if (*change.targetWS == pose.eyeWS) *change.targetWS += glm::length(pose.eyeWS) * pose.heading.forwardWS();
+    const bool isUpright = pose.heading.rollRadians == 0.0 && std::abs(pose.heading.pitchRadians) <= kMostPitchRadians;
+    if (!isUpright) change.upWS = pose.heading.upWS();
+    double nearMetres = pose.nearMetres;
+    if (start.projection == scenes::Projection::Perspective)
+        nearMetres = std::min(nearMetres, kNearShare * pose.focusMetres);
+    else if (pose.halfHeightMetres != start.halfHeightMetres)
+        change.halfHeightMetres = pose.halfHeightMetres;
+    if (nearMetres != start.nearMetres) change.nearMetres = nearMetres;
+    if (pose.farMetres != start.farMetres) change.farMetres = pose.farMetres;
+    return change;
+}
+
+scenes::Camera cameraAt(const CameraPose& pose, const scenes::Camera& start) {
+    return scenes::changedCamera(start, changeOf(pose, start));
+}
+
+double metresPerPixel(const scenes::Camera& lens, const CameraPose& pose, double depthMetres, double heightPixels) {
+    const bool isPerspective = lens.projection == scenes::Projection::Perspective;
+    const double halfHeightMetres =
+        isPerspective ? depthMetres * std::tan(0.5 * lens.fovYRadians) : pose.halfHeightMetres;
+    return 2.0 * halfHeightMetres / heightPixels;
+}
+
+} // namespace tessera::viewer

@@ -1,0 +1,32 @@
+#pragma once
+#include "scenes/CameraChange.h"
+#include "viewer/camera/Heading.h"
+
+namespace tessera::viewer {
+
+/// Where a camera stands, which way it looks and how much it sees: what orbiting and flying hand to each other.
+struct CameraPose {
+    glm::dvec3 eyeWS{0.0};
+    Heading heading;
+    double focusMetres = 1.0;      ///< ahead of the eye: what orbiting turns about, > 0
+    double halfHeightMetres = 1.0; ///< of the picture, orthographic cameras
+    double nearMetres = 0.1;
+    double farMetres = 1.0;
+    bool operator==(const CameraPose&) const = default;
+};
+
+/// The pose of a scene's camera. It focuses on the depth of the bounds' centre where that lies ahead, else on what is
+/// a half diagonal ahead; without bounds on 1 m ahead.
+CameraPose poseOf(const scenes::Camera& camera, const scenes::Box3& boundsWS);
+
+/// How a command line says the pose of a camera that started as `start`: eye, target and what else differs. What
+/// changedCamera() makes of it is what the viewer draws, so that both are the same to the last bit.
+scenes::CameraChange changeOf(const CameraPose& pose, const scenes::Camera& start);
+
+/// `start` in this pose: changedCamera(start, changeOf(pose, start)).
+scenes::Camera cameraAt(const CameraPose& pose, const scenes::Camera& start);
+
+/// Metres that one pixel shows at a depth.
+double metresPerPixel(const scenes::Camera& lens, const CameraPose& pose, double depthMetres, double heightPixels);
+
+} // namespace tessera::viewer

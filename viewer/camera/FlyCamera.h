@@ -1,0 +1,46 @@
+#pragma once
+#include "viewer/camera/CameraPose.h"
+
+namespace tessera::viewer {
+
+/// Which keys are held; opposite ones cancel.
+struct FlyKeys {
+    bool forward = false, back = false; ///< W, S
+    bool left = false, right = false;   ///< A, D
+    bool down = false, up = false;      ///< Q, E, along world Y
+    bool fast = false;                  ///< Shift
+};
+
+/// Walks through the air by keys and looks by mouse, all damped.
+class FlyCamera {
+public:
+    /// Speeds go with the size of what is drawn: a box is crossed in the same time, be it a ring or a cathedral.
+    FlyCamera(const CameraPose& pose, const scenes::Camera& lens, const scenes::Box3& boundsWS);
+
+    /// Mouse look: the view turns the way the mouse goes, as many pixels in the picture's middle as it went.
+    void look(const glm::dvec2& movePixels, double heightPixels);
+    /// Keys held from now on.
+    void hold(const FlyKeys& keys) { keys_ = keys; }
+    /// What keys would move it by, in metres a second.
+    glm::dvec3 velocityWS() const;
+
+    void goTo(const CameraPose& pose);
+    void jumpTo(const CameraPose& pose);
+
+    /// Moves on by a span of time. Two half steps are one step, also while keys are held.
+    void advance(double stepSeconds, double heightPixels);
+    bool isAtRest() const;
+
+    const CameraPose& pose() const { return shown_; }
+    const CameraPose& goal() const { return goal_; }
+
+private:
+    double pixelsToGoal(double heightPixels) const;
+
+    scenes::Camera lens_;
+    double metresPerSecond_;
+    FlyKeys keys_;
+    CameraPose shown_, goal_;
+};
+
+} // namespace tessera::viewer

@@ -1,0 +1,107 @@
+#include "viewer/camera/OrbitCamera.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "viewer/camera/Damping.h"
+#include "viewer/camera/Turns.h"
+
+namespace tessera::viewer {
+namespace {
+
+/// Zooming ends where distances would leave what double and the single precision of the GPU hold well.
+constexpr double kNearestMetres = 1e-6;
+constexpr double kFarthestMetres = 1e9;
+
+/// Radians a pixel by which a ball about the pivot turns under the cursor. Its radius is a quarter of the picture's
+/// height at the pivot, and at most half the distance, so that the eye stays outside.
+double turnPerPixel(const scenes::Camera& lens, double heightPixels) {
+    if (lens.projection == scenes::Projection::Orthographic) return 4.0 / heightPixels;
+    const double tanHalf = std::tan(0.5 * lens.fovYRadians);
+    const double radius = std::min(0.5 * tanHalf, 0.5); // as a share of the distance
+    return 2.0 * tanHalf * (1.0 - radius) / (radius * heightPixels);
+}
+
+} // namespace
+
+OrbitCamera::OrbitCamera(const CameraPose& pose, const scenes::Camera& lens) : lens_(lens) {
+    jumpTo(pose);
+}
+
+OrbitCamera::State OrbitCamera::stateOf(const CameraPose& pose) {
+    assert(pose.focusMetres > 0.0);
+    State state{pose.eyeWS + pose.focusMetres * pose.heading.forwardWS(), pose};
+    state.pose.eyeWS = glm::dvec3(0.0);
+    return state;
+}
+
+CameraPose OrbitCamera::poseOf(const State& state) {
+    CameraPose pose = state.pose;
+    pose.eyeWS = state.pivotWS - pose.focusMetres * pose.heading.forwardWS();
+    return pose;
+}
+
+void OrbitCamera::rotate(const glm::dvec2& dragPixels, double heightPixels) {
+    const glm::dvec2 angles = dragPixels * turnPerPixel(lens_, heightPixels);
+    // Pulling the front to the right takes the eye to the left, and the view with it to the right.
+    goal_.pose.heading = turned(goal_.pose.heading, -angles.x, -angles.y);
+}
+
+void OrbitCamera::pan(const glm::dvec2& dragPixels, double heightPixels) {
+    const CameraPose& pose = goal_.pose;
+    const double metres = metresPerPixel(lens_, pose, pose.focusMetres, heightPixels);
+    goal_.pivotWS += metres * (dragPixels.y * pose.heading.upWS() - dragPixels.x * pose.heading.rightWS());
+}
+
+void OrbitCamera::zoom(double factor, const glm::dvec2& cursorFromCenterPixels, double heightPixels) {
+    assert(factor > 0.0);
+    CameraPose& pose = goal_.pose;
+    const double metres = metresPerPixel(lens_, pose, pose.focusMetres, heightPixels);
+    const bool isPerspective = lens_.projection == scenes::Projection::Perspective;
+    double& scaled = isPerspective ? pose.focusMetres : pose.halfHeightMetres;
+    const double before = scaled;
+    scaled = std::clamp(before * factor, std::min(before, kNearestMetres), std::max(before, kFarthestMetres));
+    const glm::dvec3 cursorFromPivotWS =
+        metres * (cursorFromCenterPixels.x * pose.heading.rightWS() - cursorFromCenterPixels.y * pose.heading.upWS());
+    goal_.pivotWS += (1.0 - scaled / before) * cursorFromPivotWS;
+}
+
+void OrbitCamera::goTo(const CameraPose& pose) {
+    goal_ = stateOf(pose);
+    goal_.pose.heading = nearestTurn(goal_.pose.heading, shown_.pose.heading);
+}
+
+void OrbitCamera::jumpTo(const CameraPose& pose) {
+    shown_ = goal_ = stateOf(pose);
+}
+
+/// How far the picture is from the goal's, as an upper bound of what moves at the pivot's depth.
+double OrbitCamera::pixelsToGoal(double heightPixels) const {
+    const CameraPose& from = shown_.pose;
+    const CameraPose& to = goal_.pose;
+    const double metres = metresPerPixel(lens_, from, from.focusMetres, heightPixels);
+    const double scale = std::max(std::abs(to.focusMetres / from.focusMetres - 1.0),
+                                  std::abs(to.halfHeightMetres / from.halfHeightMetres - 1.0));
+    return glm::distance(shown_.pivotWS, goal_.pivotWS) / metres +
+           (turnBetween(from.heading, to.heading) * from.focusMetres) / metres + scale * heightPixels;
+}
+
+void OrbitCamera::advance(double stepSeconds, double heightPixels) {
+    assert(stepSeconds >= 0.0);
+    const double share = dampingShare(stepSeconds);
+    const auto approach = [share](auto& from, const auto& to) { from += (to - from) * share; };
+    approach(shown_.pivotWS, goal_.pivotWS);
+    CameraPose& from = shown_.pose;
+    const CameraPose& to = goal_.pose;
+    approach(from.heading.yawRadians, to.heading.yawRadians);
+    approach(from.heading.pitchRadians, to.heading.pitchRadians);
+    approach(from.heading.rollRadians, to.heading.rollRadians);
+    approach(from.focusMetres, to.focusMetres);
+    approach(from.halfHeightMetres, to.halfHeightMetres);
+    from.nearMetres = to.nearMetres; // no picture changes with them while things lie between
+    from.farMetres = to.farMetres;
+    if (pixelsToGoal(heightPixels) < kRestPixels) shown_ = goal_;
+}
+
+} // namespace tessera::viewer

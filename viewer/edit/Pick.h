@@ -1,0 +1,28 @@
+#pragma once
+#include <optional>
+
+#include "scenes/Scene.h"
+
+namespace tessera::viewer {
+
+/// A triangle of what a scene draws.
+struct Pick {
+    int node = scenes::kNone;
+    int instance = scenes::kNone; ///< of the node
+    int mesh = scenes::kNone;
+    int material = scenes::kNone;
+    int triangle = scenes::kNone;         ///< of the mesh
+    std::optional<glm::dvec3> positionWS; ///< where the pixel shows it, if that is known
+};
+
+/// What a pixel of the view `ids` shows (passes/IdsPass.h): its red channel is 1 + the mesh instance in document order,
+/// its green one the triangle. None where nothing opaque is, or where the numbers are none of the scene's.
+std::optional<Pick> pickedFromIds(const scenes::Scene& scene, const glm::vec4& ids);
+
+/// The nearest surface, transparent ones too, that a camera shows at a pixel; rows count from the top. By rays in
+/// double precision, without a picture of it: alpha masks, sides and clip planes count as in the picture. Takes about
+/// as long as one look at every triangle. Throws std::runtime_error when memory runs out.
+std::optional<Pick> pickedByRay(const scenes::Scene& scene, const scenes::Camera& camera, glm::ivec2 sizePixels,
+                                glm::ivec2 pixel);
+
+} // namespace tessera::viewer

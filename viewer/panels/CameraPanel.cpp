@@ -1,0 +1,34 @@
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "viewer/panels/Panels.h"
+#include "viewer/panels/Widgets.h"
+
+namespace tessera::viewer {
+
+void cameraPanel(State& state) {
+    if (!state.open) return;
+    OpenScene& open = *state.open;
+    std::vector<Choice> choices;
+    for (const scenes::Camera& camera : open.cameras()) choices.push_back({camera.name, ""});
+    const auto now = std::size_t(open.camera());
+    if (const auto chosen = choose("Camera", choices[now].name, choices, now)) {
+        open.useCamera(int(*chosen));
+        state.active().settings.camera = int(*chosen);
+    }
+    CameraRig& rig = open.rig();
+    row("Moves by");
+    if (ImGui::RadioButton("orbit", rig.mode() == CameraRig::Mode::Orbit)) rig.setMode(CameraRig::Mode::Orbit);
+    tip("Left drag turns, Alt and drag moves, wheel or Ctrl and drag goes nearer");
+    ImGui::SameLine();
+    if (ImGui::RadioButton("fly", rig.mode() == CameraRig::Mode::Fly)) rig.setMode(CameraRig::Mode::Fly);
+    tip("W A S D and Q E, left drag looks around, Shift is fast");
+    if (ImGui::Button("All in view (F)")) rig.frameScene(state.pictureAspect);
+    ImGui::SameLine();
+    if (ImGui::Button("Home")) rig.goHome();
+    const CameraPose pose = rig.pose();
+    fact("Eye", fmt::format("{:.3f} {:.3f} {:.3f} m", pose.eyeWS.x, pose.eyeWS.y, pose.eyeWS.z));
+    fact("Pivot at", fmt::format("{:.3f} m", pose.focusMetres));
+}
+
+} // namespace tessera::viewer

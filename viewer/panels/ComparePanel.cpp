@@ -1,0 +1,65 @@
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "viewer/panels/Panels.h"
+#include "viewer/panels/Widgets.h"
+
+namespace tessera::viewer {
+namespace {
+
+void compareRows(State& state) {
+    static constexpr Choice kCompare[] = {{"off", "One picture"},
+                                          {"split", "Two pictures with a divider to drag"},
+                                          {"difference", "How much the two differ, amplified"}};
+    const std::size_t now = std::size_t(state.compare);
+    if (const auto chosen = choose("Compare", kCompare[now].name, kCompare, now)) state.compare = Compare(*chosen);
+    if (state.compare == Compare::Off) return;
+    row("Panels set");
+    ImGui::RadioButton("left", &state.activeSide, 0);
+    ImGui::SameLine();
+    ImGui::RadioButton("right", &state.activeSide, 1);
+    tip("Which side technique and view are chosen for");
+    if (state.compare == Compare::Split) {
+        row("Divider");
+        ImGui::SliderFloat("##Divider", &state.divider, 0.0f, 1.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    } else {
+        row("Amplified");
+        ImGui::SliderFloat("##Amplified", &state.amplification, 1.0f, 1e6f, "%.0f x",
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    }
+}
+
+std::string figure(double value) {
+    return std::isnan(value) ? "-" : fmt::format("{:.3g}", value);
+}
+
+void figureRows(const validation::ErrorFigures& figures) {
+    fact("Bit-equal", fmt::format("{:.4f} % of {} pixels", 100.0 * figures.bitEqual, figures.covered));
+    fact("relMse", figure(figures.relMse));
+    fact("rel p50", figure(figures.p50Rel));
+    fact("rel p99", fmt::format("{}, p99.9 {}", figure(figures.p99Rel), figure(figures.p999Rel)));
+    fact("max rel", fmt::format("{} at {}, {}", figure(figures.maxRel), figures.worstX, figures.worstY));
+    fact("max abs", figure(figures.maxAbs));
+    fact("rmse", figure(figures.rmse));
+    fact("bias", figure(figures.bias));
+    fact("FLIP", figures.flip ? figure(*figures.flip) : figures.flipReason);
+    fact("PSNR", figures.psnr ? fmt::format("{:.1f} dB", *figures.psnr) : figures.psnrReason);
+    fact("Bad pixels",
+         fmt::format("{} NaN, {} inf, {} negative", figures.bad.nan, figures.bad.infinite, figures.bad.negative));
+}
+
+} // namespace
+
+void comparePanel(State& state, const Facts& facts) {
+    compareRows(state);
+    if (state.compare == Compare::Off) return;
+    ImGui::TextDisabled("Left against right%s", facts.figuresAreOld ? ", measuring ..." : "");
+    if (!facts.figures) return;
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, facts.figuresAreOld ? 0.5f : 1.0f);
+    figureRows(*facts.figures);
+    ImGui::PopStyleVar();
+}
+
+} // namespace tessera::viewer

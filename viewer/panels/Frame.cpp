@@ -1,0 +1,160 @@
+#include "viewer/panels/Frame.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "viewer/panels/Markers.h"
+#include "viewer/panels/Widgets.h"
+
+namespace tessera::viewer {
+namespace {
+
+constexpr float kPanelWidth = 300.0f;
+constexpr float kStatusHeight = 22.0f;
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+float panelWidth(const State& state, float scale) {
+    return state.showsPanel ? kPanelWidth * scale : 0.0f;
+}
+
+void section(const char* title, bool open, const auto& panel) {
+    if (!ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0)) return;
+    ImGui::PushID(title);
+    panel();
+    ImGui::PopID();
+    ImGui::Spacing();
+}
+
+void sidePanel(State& state, const Facts& facts, float height, float scale) {
+    ImGui::SetNextWindowPos({0.0f, 0.0f});
+    ImGui::SetNextWindowSize({panelWidth(state, scale), height});
+    if (ImGui::Begin("Panels", nullptr, kFixed)) {
+        state.wantsPlan = false;
+        section("Scene", true, [&] { scenePanel(state); });
+        section("Technique", true, [&] { framePanel(state); });
+        section("View", true, [&] { viewPanel(state); });
+        section("Camera", false, [&] { cameraPanel(state); });
+        section("Compare", false, [&] { comparePanel(state, facts); });
+        section("Lights", false, [&] { lightsPanel(state); });
+        section("Materials", false, [&] { materialsPanel(state); });
+        section("Timings", false, [&] { timingsPanel(state, facts); });
+        section("Light culling", false, [&] { cullingPanel(state, facts); });
+        section("Graph", false, [&] { graphPanel(state, facts); });
+        section("Save", false, [&] { savePanel(state); });
+    }
+    ImGui::End();
+}
+
+std::string statusText(const State& state, const Facts& facts) {
+    std::string text;
+    for (int side = 0; side < state.sides(); ++side) {
+        const Look& look = state.looks[std::size_t(side)];
+        text += fmt::format("{}{} / {}", side == 0 ? "" : "  |  ", infoOf(look.technique).name,
+                            frame::viewInfo(look.settings.view).name);
+    }
+    if (facts.scale > 0.0)
+        text += fmt::format("   {:.0f} ms   {}x{}   scale {:.3g}", facts.ms, facts.sizePixels.x, facts.sizePixels.y,
+                            facts.scale);
+    if (!state.loading.empty()) text += "   loading ...";
+    return text;
+}
+
+void statusLine(const State& state, const Facts& facts, const PictureArea& area, float scale) {
+    ImGui::SetNextWindowPos({area.corner.x, area.corner.y + area.size.y});
+    ImGui::SetNextWindowSize({area.size.x, kStatusHeight * scale});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(8.0f * scale, 4.0f * scale));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1.0f, 1.0f));
+    if (ImGui::Begin("Status", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar)) {
+        const std::string text = statusText(state, facts);
+        ImGui::TextUnformatted(text.c_str());
+        const char* hint = "F1 help";
+        const float hintX = area.size.x - ImGui::CalcTextSize(hint).x - 8.0f * scale;
+        if (hintX > ImGui::CalcTextSize(text.c_str()).x + 24.0f * scale) {
+            ImGui::SameLine(hintX);
+            ImGui::TextDisabled("%s", hint);
+        }
+    }
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+}
+
+/// What went wrong, or was done, at the picture's lower edge.
+void notices(State& state, const PictureArea& area, float scale) {
+    if (state.notice.text.empty() && state.shaderFaults.empty()) return;
+    const float margin = 12.0f * scale;
+    const float width = area.size.x - 2.0f * margin;
+    if (width < 100.0f * scale) return;
+    ImGui::SetNextWindowPos({area.corner.x + margin, area.corner.y + area.size.y - margin}, ImGuiCond_Always,
+                            {0.0f, 1.0f});
+    ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, std::max(0.5f * area.size.y, 40.0f * scale)});
+    ImGui::SetNextWindowBgAlpha(0.92f);
+    if (ImGui::Begin("Notice", nullptr,
+                     (kFixed & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_AlwaysAutoResize)) {
+        for (const std::string& fault : state.shaderFaults) errorParagraph(fault);
+        if (state.notice.isError) {
+            errorParagraph(state.notice.text);
+        } else if (!state.notice.text.empty()) {
+            paragraph(state.notice.text);
+        }
+    }
+    ImGui::End();
+}
+
+void divider(const State& state, const PictureArea& area, float scale) {
+    if (state.compare != Compare::Split) return;
+    const float x = area.corner.x + state.divider * area.size.x;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddLine({x, area.corner.y}, {x, area.corner.y + area.size.y}, IM_COL32(235, 240, 250, 200), 1.5f * scale);
+    list.AddCircleFilled({x, area.corner.y + 0.5f * area.size.y}, 6.0f * scale, IM_COL32(235, 240, 250, 230));
+}
+
+/// Which side is which, in the picture's upper corners.
+void sideNames(const State& state, const PictureArea& area, float scale) {
+    if (state.compare != Compare::Split) return;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    for (int side = 0; side < 2; ++side) {
+        const Look& look = state.looks[std::size_t(side)];
+        const std::string name =
+            fmt::format("{} / {}", infoOf(look.technique).name, frame::viewInfo(look.settings.view).name);
+        const ImVec2 size = ImGui::CalcTextSize(name.c_str());
+        const float pad = 5.0f * scale;
+        const float x = side == 0 ? area.corner.x + 2.0f * pad : area.corner.x + area.size.x - size.x - 2.0f * pad;
+        const float y = area.corner.y + 2.0f * pad;
+        list.AddRectFilled({x - pad, y - pad}, {x + size.x + pad, y + size.y + pad}, IM_COL32(20, 21, 24, 200), pad);
+        list.AddText({x, y}, side == state.activeSide ? IM_COL32(140, 195, 255, 255) : IM_COL32(220, 222, 228, 255),
+                     name.c_str());
+    }
+}
+
+} // namespace
+
+PictureArea pictureArea(const State& state, glm::vec2 windowSize, float scale) {
+    PictureArea area;
+    area.corner = {panelWidth(state, scale), 0.0f};
+    area.size = glm::max(windowSize - area.corner - glm::vec2(0.0f, kStatusHeight * scale), glm::vec2(0.0f));
+    if (area.size.x < 1.0f || area.size.y < 1.0f) area.size = glm::vec2(0.0f);
+    return area;
+}
+
+glm::ivec2 windowSizeFor(glm::ivec2 pictureSize, bool showsPanel) {
+    return pictureSize + glm::ivec2(showsPanel ? kPanelWidth : 0.0f, kStatusHeight);
+}
+
+void drawInterface(State& state, const Facts& facts, const PictureArea& area, float scale) {
+    const float height = ImGui::GetIO().DisplaySize.y;
+    if (state.showsPanel) sidePanel(state, facts, height, scale);
+    if (area.size.x > 0.0f) {
+        statusLine(state, facts, area, scale);
+        divider(state, area, scale);
+        sideNames(state, area, scale);
+        drawMarkers(state, area, scale);
+        notices(state, area, scale);
+    }
+    if (state.showsHelp) helpOverlay(state, scale);
+}
+
+} // namespace tessera::viewer

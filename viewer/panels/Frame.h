@@ -1,0 +1,16 @@
+#pragma once
+#include "viewer/panels/Panels.h"
+#include "viewer/session/Controls.h"
+
+namespace tessera::viewer {
+
+/// Where the picture is in a window of this size, screen coordinates; of no size where there is no room.
+PictureArea pictureArea(const State& state, glm::vec2 windowSize, float scale);
+
+/// The window that leaves a picture of this size.
+glm::ivec2 windowSizeFor(glm::ivec2 pictureSize, bool showsPanel);
+
+/// All panels around the picture, the line below it, and what lies over it.
+void drawInterface(State& state, const Facts& facts, const PictureArea& area, float scale);
+
+} // namespace tessera::viewer

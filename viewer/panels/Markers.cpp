@@ -1,0 +1,48 @@
+#include "viewer/panels/Markers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <imgui.h>
+
+#include "viewer/session/Projection.h"
+
+namespace tessera::viewer {
+namespace {
+
+constexpr std::size_t kMostMarkers = 4096; ///< more would hide the picture, and take a frame to draw
+
+ImU32 colorOf(const scenes::Light& light) {
+    const float most = std::max({light.color.r, light.color.g, light.color.b, 1e-6f});
+    const auto code = [most](float value) {
+        return int(std::lround(255.0f * std::sqrt(std::max(value, 0.0f) / most)));
+    };
+    return IM_COL32(code(light.color.r), code(light.color.g), code(light.color.b), light.enabled ? 255 : 90);
+}
+
+} // namespace
+
+void drawMarkers(const State& state, const PictureArea& area, float scale) {
+    if (!state.open || area.size.x < 1.0f) return;
+    const scenes::Scene& scene = state.open->scene();
+    const scenes::Camera& camera = scene.cameras[std::size_t(state.open->camera())];
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.PushClipRect({area.corner.x, area.corner.y}, {area.corner.x + area.size.x, area.corner.y + area.size.y});
+    const auto mark = [&](std::size_t index, bool isSelected) {
+        const scenes::Light light = scenes::lightAtTime(scene.lights[index], state.looks[0].settings.timeSeconds);
+        if (light.type == scenes::LightType::Directional) return;
+        const auto place = projected(camera, state.pictureAspect, light.positionWS);
+        if (!place) return;
+        const glm::vec2 point = area.corner + glm::vec2(*place) * area.size;
+        list.AddCircleFilled({point.x, point.y}, 3.5f * scale, IM_COL32(20, 20, 24, 200));
+        list.AddCircleFilled({point.x, point.y}, 2.5f * scale, colorOf(light));
+        if (isSelected) list.AddCircle({point.x, point.y}, 9.0f * scale, IM_COL32(140, 195, 255, 255), 0, 2.0f * scale);
+    };
+    if (state.showsMarkers)
+        for (std::size_t i = 0; i < std::min(scene.lights.size(), kMostMarkers); ++i) mark(i, false);
+    if (state.selectedLight != scenes::kNone && state.selectedLight < int(scene.lights.size()))
+        mark(std::size_t(state.selectedLight), true);
+    list.PopClipRect();
+}
+
+} // namespace tessera::viewer

@@ -1,0 +1,142 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "viewer/panels/Panels.h"
+#include "viewer/panels/Widgets.h"
+
+namespace tessera::viewer {
+namespace {
+
+using scenes::Material;
+using scenes::MaterialModel;
+
+constexpr Choice kModels[] = {{"single_color", "The colour itself, unlit"},
+                              {"lambert", "k_d cos"},
+                              {"blinn_phong", "k_d cos + k_s (n.h)^p"},
+                              {"microfacet", "k_d and a GGX lobe, exact dielectric Fresnel"},
+                              {"microfacet_anisotropic", "the same with two roughnesses"},
+                              {"metallic_roughness", "glTF 2.0"}};
+constexpr Choice kMaskings[] = {{"walter", "Walter 2007"}, {"directional", "Heitz 2014"}, {"half_vector", ""}};
+constexpr Choice kAlphaModes[] = {{"opaque", ""}, {"mask", "cut out by opacity"}, {"blend", "blended by opacity"}};
+
+template <typename Enum>
+bool chooseEnum(const char* label, Enum& value, std::span<const Choice> choices) {
+    const auto chosen = choose(label, choices[std::size_t(value)].name, choices, std::size_t(value));
+    if (chosen) value = Enum(*chosen);
+    return chosen.has_value();
+}
+
+bool slider(const char* label, float& value, float least, float most, const char* format = "%.3f") {
+    row(label);
+    return ImGui::SliderFloat((std::string("##") + label).c_str(), &value, least, most, format,
+                              ImGuiSliderFlags_AlwaysClamp);
+}
+
+bool color(const char* label, glm::vec3& value, bool isRadiance = false) {
+    row(label);
+    const ImGuiColorEditFlags flags = ImGuiColorEditFlags_Float | (isRadiance ? ImGuiColorEditFlags_HDR : 0);
+    return ImGui::ColorEdit3((std::string("##") + label).c_str(), &value.x, flags);
+}
+
+bool microfacetRows(Material& material) {
+    const bool anisotropic = material.model == MaterialModel::MicrofacetAnisotropic;
+    bool changed = slider(anisotropic ? "Alpha x" : "Alpha", material.alpha, 0.001f, 1.0f, "%.4f");
+    if (anisotropic) changed |= slider("Alpha y", material.alphaY, 0.001f, 1.0f, "%.4f");
+    changed |= color("k_s", material.specularColor);
+    changed |= slider("Index n", material.ior, 1.0f, 4.0f);
+    changed |= chooseEnum("Masking", material.masking, kMaskings);
+    return changed;
+}
+
+bool layerRows(Material& material) {
+    bool changed = slider("Anisotropy", material.anisotropyStrength, 0.0f, 1.0f);
+    if (material.anisotropyStrength > 0.0f) {
+        row("Turned by");
+        changed |= ImGui::SliderAngle("##Turned", &material.anisotropyRotationRadians, -180.0f, 180.0f, "%.1f deg");
+    }
+    changed |= slider("Clearcoat", material.clearcoat, 0.0f, 1.0f);
+    if (material.clearcoat > 0.0f) changed |= slider("Coat rough", material.clearcoatPerceptualRoughness, 0.0f, 1.0f);
+    changed |= color("Sheen", material.sheenColor);
+    if (material.sheenColor != glm::vec3(0.0f))
+        changed |= slider("Sheen rough", material.sheenPerceptualRoughness, 0.0f, 1.0f);
+    return changed;
+}
+
+bool metallicRows(Material& material) {
+    bool changed = slider("Metallic", material.metallic, 0.0f, 1.0f);
+    changed |= slider("Roughness", material.perceptualRoughness, 0.0f, 1.0f);
+    changed |= slider("Index n", material.ior, 1.0f, 4.0f);
+    changed |= slider("Specular", material.specularFactor, 0.0f, 1.0f);
+    changed |= color("F0 tint", material.specularColor);
+    changed |= layerRows(material);
+    return changed;
+}
+
+bool modelRows(Material& material) {
+    switch (material.model) {
+    case MaterialModel::SingleColor:
+    case MaterialModel::Lambert:
+        return false;
+    case MaterialModel::BlinnPhong: {
+        bool changed = color("k_s", material.specularColor);
+        changed |= slider("Exponent", material.exponent, 1.0f, 1000.0f, "%.1f");
+        return changed;
+    }
+    case MaterialModel::Microfacet:
+    case MaterialModel::MicrofacetAnisotropic:
+        return microfacetRows(material);
+    case MaterialModel::MetallicRoughness:
+        break;
+    }
+    return metallicRows(material);
+}
+
+bool surfaceRows(Material& material) {
+    bool changed = chooseEnum("Alpha mode", material.alphaMode, kAlphaModes);
+    if (material.alphaMode != scenes::AlphaMode::Opaque) changed |= slider("Opacity", material.baseColor.w, 0.0f, 1.0f);
+    if (material.alphaMode == scenes::AlphaMode::Mask) changed |= slider("Cutoff", material.alphaCutoff, 0.0f, 1.0f);
+    if (material.texture(scenes::TextureSlot::Normal).image != scenes::kNone)
+        changed |= slider("Normal map", material.normalScale, 0.0f, 4.0f, "x %.2f");
+    row("Two sides");
+    changed |= ImGui::Checkbox("##doubleSided", &material.doubleSided);
+    return changed;
+}
+
+bool materialRows(Material& material) {
+    bool changed = chooseEnum("Model", material.model, kModels);
+    glm::vec3 base(material.baseColor);
+    if (color("Colour", base)) {
+        material.baseColor = glm::vec4(base, material.baseColor.w);
+        changed = true;
+    }
+    changed |= modelRows(material);
+    changed |= color("Emission", material.emissive, true);
+    changed |= surfaceRows(material);
+    const auto textured = std::count_if(material.textures.begin(), material.textures.end(),
+                                        [](const scenes::TextureUse& use) { return use.image != scenes::kNone; });
+    if (textured > 0) ImGui::TextDisabled("%d texture%s scale the values", int(textured), textured == 1 ? "" : "s");
+    return changed;
+}
+
+} // namespace
+
+void materialsPanel(State& state) {
+    if (!state.open) return;
+    std::vector<Material>& materials = state.open->edit().materials;
+    if (state.selectedMaterial >= int(materials.size())) state.selectedMaterial = scenes::kNone;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        names.push_back(materials[i].name.empty() ? fmt::format("material {}", i) : materials[i].name);
+    std::vector<Choice> choices;
+    for (const std::string& name : names) choices.push_back({name, ""});
+    const bool any = state.selectedMaterial != scenes::kNone;
+    const auto now = std::size_t(any ? state.selectedMaterial : int(materials.size()));
+    if (const auto chosen = choose("Material", any ? names[now] : "click a surface", choices, now))
+        state.selectedMaterial = int(*chosen);
+    if (state.selectedMaterial == scenes::kNone) return;
+    if (materialRows(materials[std::size_t(state.selectedMaterial)])) state.open->touchMaterials();
+}
+
+} // namespace tessera::viewer

@@ -1,0 +1,24 @@
+#pragma once
+#include "viewer/session/Facts.h"
+#include "viewer/session/State.h"
+
+/// The viewer's panels, a function each. They show the state and change it; what takes more than that they ask for
+/// (State::requests).
+namespace tessera::viewer {
+
+void scenePanel(State& state);
+void framePanel(State& state);
+void viewPanel(State& state);
+void cameraPanel(State& state);
+void lightsPanel(State& state);
+void materialsPanel(State& state);
+void comparePanel(State& state, const Facts& facts);
+void timingsPanel(State& state, const Facts& facts);
+void cullingPanel(State& state, const Facts& facts);
+void graphPanel(State& state, const Facts& facts);
+void savePanel(State& state);
+
+/// Every key, over the picture.
+void helpOverlay(State& state, float scale);
+
+} // namespace tessera::viewer

@@ -1,0 +1,29 @@
+#include <cfloat>
+
+#include <imgui.h>
+
+#include "viewer/panels/Panels.h"
+#include "viewer/panels/Widgets.h"
+
+namespace tessera::viewer {
+
+void savePanel(State& state) {
+    const float half = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+    if (ImGui::Button("PNG (F12)", {half, 0.0f})) state.requests.savePng = true;
+    tip("The picture as a display shows it");
+    ImGui::SameLine();
+    if (ImGui::Button("EXR (Shift+F12)", {half, 0.0f})) state.requests.saveExr = true;
+    tip("Linear radiance, 32 bits a channel");
+    if (ImGui::Button("Scene (Ctrl+S)", {half, 0.0f})) state.requests.saveScene = true;
+    tip("A .json that loads back with every edit");
+    ImGui::SameLine();
+    if (ImGui::Button("Copy command", {half, 0.0f})) state.requests.copyCommand = true;
+    tip("The command line that renders this picture (Ctrl+C)");
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    std::string& command = state.command;
+    if (!command.empty())
+        ImGui::InputText("##command", command.data(), command.size() + 1, ImGuiInputTextFlags_ReadOnly);
+    paragraph("Files go to the folder the program was started in, under the first free number.");
+}
+
+} // namespace tessera::viewer

@@ -1,0 +1,52 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "scenes/Load.h"
+#include "viewer/panels/Panels.h"
+#include "viewer/panels/Widgets.h"
+
+namespace tessera::viewer {
+namespace {
+
+std::string shortName(const std::string& source) {
+    return std::filesystem::path(source).filename().string();
+}
+
+void sceneList(State& state) {
+    row("Scene");
+    const std::string shown = state.open ? shortName(state.open->source()) : "none";
+    if (!ImGui::BeginCombo("##Scene", shown.c_str(), ImGuiComboFlags_HeightLargest)) return;
+    const auto entry = [&](const std::string& source, std::string_view meaning) {
+        const bool isOpen = state.open && state.open->source() == source;
+        ImGui::PushID(source.c_str());
+        if (ImGui::Selectable(shortName(source).c_str(), isOpen)) state.requests.open = source;
+        tip(meaning);
+        ImGui::PopID();
+    };
+    for (const scenes::BuiltinScene& builtin : scenes::builtinScenes())
+        entry(std::string(builtin.name), builtin.purpose);
+    if (!state.recent.empty()) ImGui::Separator();
+    for (const std::string& file : state.recent) entry(file, file);
+    ImGui::EndCombo();
+}
+
+} // namespace
+
+void scenePanel(State& state) {
+    sceneList(state);
+    if (!state.loading.empty()) {
+        paragraph(fmt::format("Loading {} ...", shortName(state.loading)));
+    } else {
+        ImGui::TextDisabled("or drop a file onto the window");
+    }
+    if (!state.open) return;
+    const scenes::Scene& scene = state.open->scene();
+    fact("Triangles", fmt::format("{}", scenes::triangleCount(scene)));
+    fact("Lights", fmt::format("{}", scene.lights.size()));
+    fact("Materials", fmt::format("{}", scene.materials.size()));
+    for (const std::string& warning : scene.warnings) paragraph(warning);
+}
+
+} // namespace tessera::viewer

@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "renderer/graph/Plan.h"
+#include "viewer/panels/Panels.h"
+#include "viewer/panels/Widgets.h"
+
+namespace tessera::viewer {
+namespace {
+
+void plot(const char* id, const std::vector<float>& values, float height) {
+    if (values.empty()) return;
+    const float most = *std::max_element(values.begin(), values.end());
+    ImGui::PlotLines(id, values.data(), int(values.size()), 0, nullptr, 0.0f, std::max(1.15f * most, 1e-3f),
+                     {-1.0f, height});
+}
+
+std::string milliseconds(const std::optional<double>& ms) {
+    return ms ? fmt::format("{:.2f}", *ms) : "-";
+}
+
+void passTable(const Timings& timings, int side, const FrameTimes& frame) {
+    if (!ImGui::BeginTable("passes", 4, ImGuiTableFlags_RowBg)) return;
+    ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch, 1.3f);
+    ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("CPU ms", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("history", ImGuiTableColumnFlags_WidthStretch, 1.0f);
+    ImGui::TableHeadersRow();
+    std::set<std::string> seen;
+    for (const gpu::PassTiming& pass : frame.passes) {
+        if (!seen.insert(pass.name).second) continue;
+        std::optional<double> gpuMs;
+        double cpuMs = 0.0;
+        for (const gpu::PassTiming& run : frame.passes) {
+            if (run.name != pass.name) continue;
+            if (run.gpuMs) gpuMs = gpuMs.value_or(0.0) + *run.gpuMs;
+            cpuMs += run.cpuMs;
+        }
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(pass.name.c_str());
+        tip(pass.name);
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(milliseconds(gpuMs).c_str());
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(milliseconds(cpuMs).c_str());
+        ImGui::TableNextColumn();
+        plot(("##" + pass.name).c_str(), timings.passMs(side, pass.name), ImGui::GetFontSize());
+    }
+    ImGui::EndTable();
+}
+
+} // namespace
+
+void timingsPanel(State& state, const Facts& facts) {
+    const int side = state.activeSide;
+    const FrameTimes* frame = state.timings.latest(side);
+    if (frame == nullptr) return;
+    fact("Frame", fmt::format("{:.1f} ms at scale {:.3g}", frame->ms, frame->scale));
+    plot("##frames", state.timings.frameMs(side), 3.0f * ImGui::GetFontSize());
+    passTable(state.timings, side, *frame);
+    fact("Targets", graph::readableBytes(facts.targetBytes));
+    tip("Textures and buffers that frames share");
+    ImGui::TextDisabled("%s", facts.renderer.c_str());
+    if (ImGui::Button("Save as Chrome trace")) state.requests.saveTrace = true;
+    tip("For chrome://tracing or Perfetto");
+}
+
+} // namespace tessera::viewer

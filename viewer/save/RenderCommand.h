@@ -1,0 +1,25 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "passes/recipes/Techniques.h"
+#include "renderer/frame/FrameSettings.h"
+#include "scenes/CameraChange.h"
+
+namespace tessera::viewer {
+
+/// A picture as the viewer shows it.
+struct ShownPicture {
+    std::string source;        ///< the scene's file or name
+    std::optional<int> lights; ///< that were asked of the load
+    bool defaultLight = true;  ///< the same
+    recipes::Technique technique = recipes::Technique::Deferred;
+    frame::FrameSettings settings;
+    scenes::CameraChange pose; ///< of the camera that the settings choose
+};
+
+/// The command line that renders this picture to `output`, to paste into a shell: "tessera render hall --size 640x360
+/// -o picture.exr". It says only what is neither the program's default nor what the scene itself asks for.
+std::string renderCommand(const ShownPicture& picture, const scenes::Scene& scene, const std::string& output);
+
+} // namespace tessera::viewer

@@ -1,0 +1,67 @@
+#include "viewer/session/CameraRig.h"
+
+namespace tessera::viewer {
+
+CameraRig::CameraRig(const scenes::Camera& start, const scenes::Box3& boundsWS)
+    : start_(start), boundsWS_(boundsWS), orbit_(poseOf(start, boundsWS), start),
+      fly_(poseOf(start, boundsWS), start, boundsWS) {}
+
+void CameraRig::setMode(Mode mode) {
+    if (mode == mode_) return;
+    fly_.hold({});
+    if (mode == Mode::Fly) {
+        fly_.jumpTo(orbit_.pose());
+        fly_.goTo(orbit_.goal());
+    } else {
+        orbit_.jumpTo(fly_.pose());
+        orbit_.goTo(fly_.goal());
+    }
+    mode_ = mode;
+}
+
+void CameraRig::rotate(const glm::dvec2& dragPixels, double heightPixels) {
+    mode_ == Mode::Orbit ? orbit_.rotate(dragPixels, heightPixels) : fly_.look(dragPixels, heightPixels);
+}
+
+void CameraRig::pan(const glm::dvec2& dragPixels, double heightPixels) {
+    if (mode_ == Mode::Orbit) orbit_.pan(dragPixels, heightPixels);
+}
+
+void CameraRig::zoom(double factor, const glm::dvec2& cursorFromCenterPixels, double heightPixels) {
+    if (mode_ == Mode::Orbit) orbit_.zoom(factor, cursorFromCenterPixels, heightPixels);
+}
+
+void CameraRig::hold(const FlyKeys& keys) {
+    fly_.hold(mode_ == Mode::Fly ? keys : FlyKeys{});
+}
+
+void CameraRig::frameScene(double aspect) {
+    const CameraPose from = mode_ == Mode::Orbit ? orbit_.goal() : fly_.goal();
+    goTo(frameBounds(boundsWS_, from, start_, aspect));
+}
+
+void CameraRig::goHome() {
+    goTo(poseOf(start_, boundsWS_));
+}
+
+void CameraRig::goTo(const CameraPose& pose) {
+    mode_ == Mode::Orbit ? orbit_.goTo(pose) : fly_.goTo(pose);
+}
+
+void CameraRig::jumpTo(const CameraPose& pose) {
+    mode_ == Mode::Orbit ? orbit_.jumpTo(pose) : fly_.jumpTo(pose);
+}
+
+void CameraRig::advance(double stepSeconds, double heightPixels) {
+    mode_ == Mode::Orbit ? orbit_.advance(stepSeconds, heightPixels) : fly_.advance(stepSeconds, heightPixels);
+}
+
+bool CameraRig::isAtRest() const {
+    return mode_ == Mode::Orbit ? orbit_.isAtRest() : fly_.isAtRest();
+}
+
+CameraPose CameraRig::pose() const {
+    return mode_ == Mode::Orbit ? orbit_.pose() : fly_.pose();
+}
+
+} // namespace tessera::viewer

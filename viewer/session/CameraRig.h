@@ -1,0 +1,52 @@
+#pragma once
+#include "viewer/camera/FlyCamera.h"
+#include "viewer/camera/FrameBounds.h"
+#include "viewer/camera/OrbitCamera.h"
+
+namespace tessera::viewer {
+
+/// The camera of the window: it starts as one of the scene's and is moved by orbiting or flying; changing between the
+/// two moves nothing.
+class CameraRig {
+public:
+    enum class Mode { Orbit, Fly };
+
+    CameraRig(const scenes::Camera& start, const scenes::Box3& boundsWS);
+
+    Mode mode() const { return mode_; }
+    void setMode(Mode mode);
+
+    /// Drags and wheel of the mouse; the modes take what is theirs. `heightPixels` is the picture's.
+    void rotate(const glm::dvec2& dragPixels, double heightPixels);
+    void pan(const glm::dvec2& dragPixels, double heightPixels);
+    void zoom(double factor, const glm::dvec2& cursorFromCenterPixels, double heightPixels);
+    void hold(const FlyKeys& keys);
+
+    /// All of the scene in view.
+    void frameScene(double aspect);
+    /// Back to where the scene's camera is.
+    void goHome();
+
+    /// Is at a pose at once.
+    void jumpTo(const CameraPose& pose);
+    void advance(double stepSeconds, double heightPixels);
+    bool isAtRest() const;
+
+    CameraPose pose() const;
+    const scenes::Camera& start() const { return start_; }
+    /// Whether it is elsewhere than the scene's camera.
+    bool isMoved() const { return pose() != poseOf(start_, boundsWS_); }
+    /// What is drawn: the scene's own camera, to the last bit, while nothing moved it.
+    scenes::Camera camera() const { return isMoved() ? cameraAt(pose(), start_) : start_; }
+
+private:
+    void goTo(const CameraPose& pose);
+
+    scenes::Camera start_;
+    scenes::Box3 boundsWS_;
+    Mode mode_ = Mode::Orbit;
+    OrbitCamera orbit_;
+    FlyCamera fly_;
+};
+
+} // namespace tessera::viewer

@@ -1,0 +1,41 @@
+#pragma once
+#include <span>
+
+#include "viewer/session/State.h"
+#include "viewer/window/Input.h"
+
+namespace tessera::viewer {
+
+/// Where the picture is in the window, screen coordinates from the upper left.
+struct PictureArea {
+    glm::vec2 corner{0.0f};
+    glm::vec2 size{0.0f};
+    bool contains(const glm::vec2& point) const;
+};
+
+/// Turns what the user does to the picture into movements of the camera and changes of the state.
+class Controls {
+public:
+    /// Whom the events belong to besides the picture.
+    struct Claims {
+        bool mouse = false;    ///< the pointer is at a panel
+        bool keyboard = false; ///< text is typed
+    };
+    void handle(std::span<const InputEvent> events, State& state, const PictureArea& area, const Claims& claims);
+    /// Something is held that goes on by itself: a key to fly with.
+    bool isHolding() const { return drag_ != Drag::None; }
+
+private:
+    enum class Drag { None, Rotate, Pan, Zoom, Divider };
+    void press(const InputEvent& event, State& state, const PictureArea& area, const Claims& claims);
+    void release(const InputEvent& event);
+    void move(const InputEvent& event, State& state, const PictureArea& area);
+    void key(const InputEvent& event, State& state, const Claims& claims);
+
+    Drag drag_ = Drag::None;
+    int button_ = 0; ///< that began the drag
+    glm::vec2 pointer_{0.0f};
+    FlyKeys flying_;
+};
+
+} // namespace tessera::viewer

@@ -1,0 +1,17 @@
+#pragma once
+#include <string>
+
+namespace tessera::viewer {
+
+/// What the viewer does, a line an event on stdout, for programs that drive it; silent unless asked for.
+class EventLog {
+public:
+    explicit EventLog(bool on) : on_(on) {}
+    /// What has several lines, such as what a shader compiler says, becomes one.
+    void line(const std::string& text) const;
+
+private:
+    bool on_;
+};
+
+} // namespace tessera::viewer

@@ -1,0 +1,25 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "renderer/graph/Plan.h"
+#include "validation/ErrorFigures.h"
+#include "validation/LightOracle.h"
+
+namespace tessera::viewer {
+
+/// What panels show of the frames that were drawn.
+struct Facts {
+    double ms = 0.0;    ///< of the latest frame, all sides
+    double scale = 0.0; ///< its sides' share of the window's pixels
+    glm::ivec2 sizePixels{0};
+    std::string renderer;        ///< as the driver calls itself
+    std::size_t targetBytes = 0; ///< of what frames draw into
+    std::optional<graph::Plan> plan;
+    std::optional<validation::LightOracleFigures> lights; ///< measured when they were asked for,
+    std::string lightsOf;                                 ///< of this technique at this size
+    std::optional<validation::ErrorFigures> figures;      ///< of the left picture against the right
+    bool figuresAreOld = false;                           ///< newer ones are on their way
+};
+
+} // namespace tessera::viewer

@@ -1,0 +1,11 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace tessera::viewer {
+
+/// A file of the present folder that is not there yet: "tessera-STEM-001ENDING", or the first number that is free.
+/// Characters of the stem that file systems or shells take for something else become "-".
+std::filesystem::path freePath(const std::string& stem, const std::string& ending);
+
+} // namespace tessera::viewer

@@ -1,0 +1,125 @@
+#include "viewer/session/Keys.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <GLFW/glfw3.h>
+
+#include "passes/recipes/ChooseView.h"
+#include "renderer/frame/Views.h"
+
+namespace tessera::viewer {
+namespace {
+
+constexpr float kExposureStepEV = 0.5f;
+
+void showNumbered(State& state, int number) {
+    for (const frame::ViewInfo& info : frame::viewTable())
+        if (info.key == number) state.active().settings.view = info.view;
+    state.active() = possible(state.active());
+}
+
+/// The technique `step` places on in the table, around its end.
+void stepTechnique(State& state, int step) {
+    const int count = int(recipes::techniqueTable().size());
+    Look& look = state.active();
+    look.technique = recipes::techniqueTable()[std::size_t((int(look.technique) + step + count) % count)].technique;
+    look = possible(look);
+}
+
+void changeMode(State& state) {
+    if (!state.open) return;
+    CameraRig& rig = state.open->rig();
+    rig.setMode(rig.mode() == CameraRig::Mode::Orbit ? CameraRig::Mode::Fly : CameraRig::Mode::Orbit);
+}
+
+void changeExposure(State& state, float stepEV) {
+    float& exposureEV = state.active().settings.exposureEV;
+    exposureEV = std::clamp(std::round(exposureEV / stepEV) * stepEV + stepEV, -10.0f, 10.0f);
+}
+
+constexpr int kNone = 0;
+constexpr int kShift = GLFW_MOD_SHIFT;
+constexpr int kControl = GLFW_MOD_CONTROL;
+
+constexpr KeyBinding kBindings[] = {
+    {GLFW_KEY_F1, kNone, "F1 or H", "this help", [](State& s) { s.showsHelp = !s.showsHelp; }},
+    {GLFW_KEY_H, kNone, "", "", [](State& s) { s.showsHelp = !s.showsHelp; }},
+    {GLFW_KEY_ESCAPE, kNone, "Esc", "close the help, or the latest message",
+     [](State& s) {
+         if (!s.showsHelp) s.notice = {};
+         s.showsHelp = false;
+     }},
+    {GLFW_KEY_TAB, kNone, "Tab", "hide or show the panels", [](State& s) { s.showsPanel = !s.showsPanel; }},
+    {GLFW_KEY_1, kNone, "1 to 7", "the numbered views; 1 is the lit picture", [](State& s) { showNumbered(s, 1); }},
+    {GLFW_KEY_2, kNone, "", "", [](State& s) { showNumbered(s, 2); }},
+    {GLFW_KEY_3, kNone, "", "", [](State& s) { showNumbered(s, 3); }},
+    {GLFW_KEY_4, kNone, "", "", [](State& s) { showNumbered(s, 4); }},
+    {GLFW_KEY_5, kNone, "", "", [](State& s) { showNumbered(s, 5); }},
+    {GLFW_KEY_6, kNone, "", "", [](State& s) { showNumbered(s, 6); }},
+    {GLFW_KEY_7, kNone, "", "", [](State& s) { showNumbered(s, 7); }},
+    {GLFW_KEY_T, kNone, "T", "the next technique; with Shift the one before", [](State& s) { stepTechnique(s, 1); }},
+    {GLFW_KEY_T, kShift, "", "", [](State& s) { stepTechnique(s, -1); }},
+    {GLFW_KEY_X, kNone, "X", "compare: off, split, difference",
+     [](State& s) { s.compare = Compare((int(s.compare) + 1) % 3); }},
+    {GLFW_KEY_Z, kNone, "Z", "panels set the other side of a comparison",
+     [](State& s) { s.activeSide = s.compare == Compare::Off ? 0 : 1 - s.activeSide; }},
+    {GLFW_KEY_LEFT_BRACKET, kNone, "[ and ]", "exposure down and up by half a step",
+     [](State& s) { changeExposure(s, -kExposureStepEV); }},
+    {GLFW_KEY_RIGHT_BRACKET, kNone, "", "", [](State& s) { changeExposure(s, kExposureStepEV); }},
+    {GLFW_KEY_C, kNone, "C", "camera: orbit or fly", changeMode},
+    {GLFW_KEY_F, kNone, "F", "all of the scene in view",
+     [](State& s) {
+         if (s.open) s.open->rig().frameScene(s.pictureAspect);
+     }},
+    {GLFW_KEY_HOME, kNone, "Home", "back to the scene's camera",
+     [](State& s) {
+         if (s.open) s.open->rig().goHome();
+     }},
+    {GLFW_KEY_M, kNone, "M", "mark where lights are", [](State& s) { s.showsMarkers = !s.showsMarkers; }},
+    {GLFW_KEY_L, kNone, "L", "only the selected light shines, or all again",
+     [](State& s) {
+         std::optional<int>& solo = s.active().settings.soloLight;
+         solo = solo || s.selectedLight == scenes::kNone ? std::nullopt : std::optional<int>(s.selectedLight);
+     }},
+    {GLFW_KEY_SPACE, kNone, "Space", "lights move, or stand still", [](State& s) { s.isPlaying = !s.isPlaying; }},
+    {GLFW_KEY_F5, kNone, "F5", "read the shaders again", [](State& s) { s.requests.reloadShaders = true; }},
+    {GLFW_KEY_F12, kNone, "F12", "save the picture as PNG; with Shift as EXR",
+     [](State& s) { s.requests.savePng = true; }},
+    {GLFW_KEY_F12, kShift, "", "", [](State& s) { s.requests.saveExr = true; }},
+    {GLFW_KEY_S, kControl, "Ctrl+S", "save the scene with its edits", [](State& s) { s.requests.saveScene = true; }},
+    {GLFW_KEY_C, kControl, "Ctrl+C", "copy the command that renders this picture",
+     [](State& s) { s.requests.copyCommand = true; }},
+    {GLFW_KEY_Q, kControl, "Ctrl+Q", "quit", [](State& s) { s.requests.quit = true; }},
+};
+
+constexpr GestureHelp kGestures[] = {
+    {"Left drag", "turn about the pivot, or look around when flying; also with Shift"},
+    {"Alt + left drag", "move across the picture; also the middle button"},
+    {"Ctrl + left drag, wheel", "nearer and farther"},
+    {"W A S D, Q E", "fly: forward, left, back, right; down, up. Shift is fast"},
+    {"Drag the divider", "split view"},
+    {"Drop a file", "opens a scene: .gltf, .glb, .obj, .json"},
+};
+
+} // namespace
+
+std::span<const KeyBinding> keyBindings() {
+    return kBindings;
+}
+
+std::span<const GestureHelp> gestureHelp() {
+    return kGestures;
+}
+
+bool pressKey(State& state, int key, int modifiers) {
+    const int held = modifiers & (GLFW_MOD_SHIFT | GLFW_MOD_CONTROL);
+    const auto found = std::find_if(std::begin(kBindings), std::end(kBindings), [&](const KeyBinding& binding) {
+        return binding.key == key && binding.modifiers == held;
+    });
+    if (found == std::end(kBindings)) return false;
+    found->act(state);
+    return true;
+}
+
+} // namespace tessera::viewer

@@ -1,0 +1,28 @@
+#pragma once
+#include <span>
+
+#include "viewer/session/State.h"
+
+namespace tessera::viewer {
+
+/// A key and what it does: the one list that keyboard and help follow.
+struct KeyBinding {
+    int key;          ///< GLFW_KEY_*
+    int modifiers;    ///< GLFW_MOD_SHIFT and GLFW_MOD_CONTROL that must be held
+    const char* name; ///< as on the keyboard: "Ctrl+S"
+    const char* meaning;
+    void (*act)(State&);
+};
+std::span<const KeyBinding> keyBindings();
+
+/// What the mouse does, and keys that are held; for the help.
+struct GestureHelp {
+    const char* name;
+    const char* meaning;
+};
+std::span<const GestureHelp> gestureHelp();
+
+/// Does what a key stands for; false where it stands for nothing.
+bool pressKey(State& state, int key, int modifiers);
+
+} // namespace tessera::viewer

@@ -1,0 +1,37 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace tessera::viewer {
+
+/// What the viewer remembers from one run to the next. Names are those of the command line.
+struct Preferences {
+    std::vector<std::string> recent; ///< scene files, the latest first
+    std::optional<glm::ivec2> windowSize;
+    std::optional<std::string> technique, layout, culling, toneMap;
+    std::optional<int> tile, samples;
+    bool automaticScale = true;
+    bool showsPanel = true;
+    bool showsMarkers = false;
+    bool operator==(const Preferences&) const = default;
+};
+
+/// A file that was opened comes first among the recent ones; the oldest of more than ten leaves.
+void addRecent(Preferences& preferences, const std::string& file);
+
+/// Where they are kept: $XDG_CONFIG_HOME/tessera/viewer.json or ~/.config, %APPDATA% on Windows, ~/Library/Application
+/// Support on macOS; none where the environment names no such place.
+std::optional<std::filesystem::path> preferencesFile();
+
+/// Those of a file; the usual ones where there is none. Unknown entries, and values of the wrong kind, are left out.
+/// Throws InputError where the file cannot be read or is no JSON.
+Preferences readPreferences(const std::filesystem::path& file);
+
+/// Makes the folder where it lacks. Throws std::runtime_error as validation::writeFileAtomically() does.
+void writePreferences(const Preferences& preferences, const std::filesystem::path& file);
+
+} // namespace tessera::viewer

@@ -1,0 +1,25 @@
+#pragma once
+#include "viewer/session/EventLog.h"
+#include "viewer/session/State.h"
+#include "viewer/show/Screen.h"
+
+namespace tessera::viewer {
+
+/// Writes what the window shows to files of the present folder (freePath). Throws what drawing and writing throw.
+class Saver {
+public:
+    Saver(State& state, Screen& screen, const EventLog& log) : state_(state), screen_(screen), log_(log) {}
+
+    /// The active side's picture, drawn whole: what `tessera render` writes.
+    void picture(glm::ivec2 sizePixels, const char* ending);
+
+private:
+    void tell(const std::string& path);
+    std::string stem() const;
+
+    State& state_;
+    Screen& screen_;
+    const EventLog& log_;
+};
+
+} // namespace tessera::viewer

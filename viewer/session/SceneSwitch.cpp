@@ -1,0 +1,93 @@
+#include "viewer/session/SceneSwitch.h"
+
+#include <filesystem>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "viewer/session/Remember.h"
+
+namespace tessera::viewer {
+
+SceneSwitch::SceneSwitch(const ViewerOptions& options, State& state, const EventLog& log, std::function<void()> done)
+    : options_(options), state_(state), log_(log), loader_(std::move(done)) {
+    state_.recent = options.preferences.recent;
+    state_.automaticScale = options.preferences.automaticScale;
+    state_.showsPanel = options.preferences.showsPanel;
+    state_.showsMarkers = options.preferences.showsMarkers;
+}
+
+void SceneSwitch::open(const std::string& source, const scenes::LoadOptions& load) {
+    loader_.start(source, load);
+    state_.loading = source;
+    log_.line("loading " + source);
+}
+
+std::unique_ptr<OpenScene> SceneSwitch::take() {
+    std::optional<SceneLoader::Result> result = loader_.take();
+    if (!result) return nullptr;
+    state_.loading.clear();
+    if (!result->scene) {
+        fail(result->error);
+        return nullptr;
+    }
+    FirstLook first;
+    std::unique_ptr<OpenScene> scene;
+    try {
+        first = options_.lookOf(*result->scene, result->source, !hadScene_);
+        scene = std::make_unique<OpenScene>(result->source, result->load, std::move(*result->scene));
+        scene->useCamera(first.look.settings.camera);
+        scene->place(first.pose);
+    } catch (const std::exception& error) {
+        fail(error.what());
+        return nullptr;
+    }
+    for (Look& look : state_.looks) look = hadScene_ ? rebased(look, base_, first.look) : first.look;
+    // The other side of a comparison begins as the baseline that all techniques are held to.
+    if (!hadScene_) state_.looks[1].technique = recipes::Technique::Forward;
+    state_.looks[1] = possible(state_.looks[1]);
+    base_ = first.look;
+    hadScene_ = true;
+    if (state_.open) {
+        scene->rig().setMode(state_.open->rig().mode());
+        poses_[state_.open->source()] = state_.open->rig().pose();
+    }
+    if (const auto left = poses_.find(scene->source()); left != poses_.end()) {
+        scene->rig().jumpTo(left->second);
+        scene->applyRig();
+    }
+    state_.selectedLight = state_.selectedMaterial = scenes::kNone;
+    state_.notice = {};
+    state_.shaderFaults.clear();
+    log_.line(fmt::format("opened {} seconds {:.2f}", result->source, result->seconds));
+    noteRecent(result->source);
+    return scene;
+}
+
+void SceneSwitch::noteRecent(const std::string& source) {
+    std::error_code error;
+    if (!std::filesystem::exists(source, error)) return; // a built-in scene
+    Preferences preferences;
+    preferences.recent = state_.recent;
+    addRecent(preferences, std::filesystem::absolute(source).string());
+    state_.recent = preferences.recent;
+}
+
+void SceneSwitch::remember(glm::ivec2 windowSize) {
+    if (!options_.preferencesFile) return;
+    Preferences preferences = options_.preferences;
+    if (hadScene_) viewer::remember(preferences, state_, base_);
+    preferences.windowSize = windowSize;
+    try {
+        writePreferences(preferences, *options_.preferencesFile);
+    } catch (const std::exception& error) {
+        fail(error.what());
+    }
+}
+
+void SceneSwitch::fail(const std::string& text) {
+    state_.notice = {text, true};
+    log_.line("error " + text);
+}
+
+} // namespace tessera::viewer

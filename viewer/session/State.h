@@ -1,0 +1,74 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/session/Look.h"
+#include "viewer/session/OpenScene.h"
+#include "viewer/session/Timings.h"
+
+namespace tessera::viewer {
+
+/// One picture; two looks side by side with a divider; or how much they differ.
+enum class Compare : std::uint8_t { Off, Split, Difference };
+
+/// A line for the user: what was done, or what went wrong and what to do.
+struct Notice {
+    std::string text;
+    bool isError = false;
+};
+
+/// What panels and keys ask for that is more than a change of the state; done between two frames.
+struct Requests {
+    std::optional<std::string> open; ///< a scene
+    bool reloadShaders = false;
+    bool savePng = false;
+    bool saveExr = false;
+    bool saveScene = false;
+    bool saveTrace = false;
+    bool copyCommand = false;
+    bool measureLights = false;
+    std::optional<glm::vec2> pick; ///< a place in the picture, shares of its size from the upper left
+    bool quit = false;
+};
+
+/// What the window shows and how: all that panels show and change.
+struct State {
+    std::unique_ptr<OpenScene> open; ///< none until the first scene has been loaded
+    std::string loading;             ///< a scene that is on its way
+    std::vector<std::string> recent; ///< files, the latest first
+
+    std::array<Look, 2> looks; ///< left of the divider, or all; and right of it
+    int activeSide = 0;        ///< which of them panels and keys change
+    Compare compare = Compare::Off;
+    float divider = 0.5f; ///< share of the picture's width
+    float amplification = 16.0f;
+
+    bool isPlaying = false;     ///< lights move
+    bool automaticScale = true; ///< smaller pictures while something moves
+    float fixedScale = 1.0f;    ///< otherwise
+    bool showsPanel = true;
+    bool showsHelp = false;
+    int selectedLight = scenes::kNone;
+    int selectedMaterial = scenes::kNone;
+
+    double pictureAspect = 1.0; ///< width over height of where the picture is
+
+    bool showsMarkers = false; ///< where lights are
+    bool wantsPlan = false;    ///< a panel shows the plan of the active side's frame
+    std::string command;       ///< that renders the picture, where it was asked for
+    Timings timings;
+
+    Notice notice;
+    std::vector<std::string> shaderFaults;
+    Requests requests;
+
+    int sides() const { return compare == Compare::Off ? 1 : 2; }
+    Look& active() { return looks[std::size_t(activeSide)]; }
+    /// What both sides share: where, when and how bright.
+    void shareSettings();
+};
+
+} // namespace tessera::viewer

@@ -1,0 +1,77 @@
+#include "viewer/show/Measurements.h"
+
+#include <fmt/format.h>
+
+#include "passes/recipes/ChooseSamples.h"
+#include "scenes/Error.h"
+#include "validation/Rendering.h"
+
+namespace tessera::viewer {
+namespace {
+
+constexpr int kJudgedShare = 4; ///< of the picture's sides: the oracle tries every light at every pixel
+
+validation::Picture radianceOf(const Picture& picture) {
+    return validation::toPicture(recipes::readBack(picture.radiance()->texture(), nullptr));
+}
+
+} // namespace
+
+bool Measurements::update(Facts& facts, const State& state, const Screen& screen, const Screen::Wanted& wanted,
+                          bool isWhole) {
+    bool changed = false;
+    if (std::optional<validation::ErrorFigures> figures = figureJob_.take()) {
+        facts.figures = *figures;
+        changed = true;
+    }
+    if (state.compare == Compare::Off) measured_.reset();
+    if (isWhole && state.wantsPlan) changed |= updatePlan(facts, state, screen, wanted);
+    if (isWhole && state.compare != Compare::Off) changed |= updateFigures(facts, screen, wanted);
+    facts.figuresAreOld = figureJob_.isBusy() || measured_ != wanted;
+    return changed;
+}
+
+bool Measurements::updatePlan(Facts& facts, const State& state, const Screen& screen, const Screen::Wanted& wanted) {
+    const recipes::Renderer& renderer = *screen.renderer();
+    const Planned now{wanted.looks[std::size_t(state.activeSide)], wanted.sceneRevision};
+    if (planned_ == now) return false;
+    planned_ = now;
+    try {
+        facts.plan = recipes::planFrame(renderer.scene(), now.look.technique,
+                                        recipes::settingsOn(screen.capabilities(), now.look.settings));
+    } catch (const InputError&) { // the frame itself could not be drawn, and the window says why
+        facts.plan.reset();
+    }
+    return true;
+}
+
+bool Measurements::updateFigures(Facts& facts, const Screen& screen, const Screen::Wanted& wanted) {
+    if (measured_ == wanted || figureJob_.isBusy()) return false;
+    const Picture& a = screen.picture(0);
+    const Picture& b = screen.picture(1);
+    if (!a.isThere() || !b.isThere() || a.radiance() == nullptr || b.radiance() == nullptr) return false;
+    if (a.radiance()->sizePixels() != b.radiance()->sizePixels()) return false;
+    measured_ = wanted;
+    facts.figuresAreOld = true;
+    figureJob_.start(radianceOf(a), radianceOf(b));
+    return true;
+}
+
+void Measurements::judgeLights(Facts& facts, Screen& screen, const Look& look) {
+    frame::FrameSettings settings = look.settings;
+    settings.sizePixels = glm::max(settings.sizePixels / kJudgedShare, glm::ivec2(1));
+    settings.view = frame::View::Final; // views may build no lists
+    facts.lights = validation::judgeLights(*screen.renderer(), look.technique, settings);
+    facts.lightsOf =
+        fmt::format("{}, {}x{}", infoOf(look.technique).name, settings.sizePixels.x, settings.sizePixels.y);
+}
+
+void Measurements::clear(Facts& facts) {
+    planned_.reset();
+    measured_.reset();
+    facts.plan.reset();
+    facts.lights.reset();
+    facts.figures.reset();
+}
+
+} // namespace tessera::viewer

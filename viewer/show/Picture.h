@@ -1,0 +1,44 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "passes/recipes/Renderer.h"
+#include "renderer/gpu/Framebuffer.h"
+#include "viewer/session/Look.h"
+
+namespace tessera::viewer {
+
+/// A texture that can be copied into and from.
+class Target {
+public:
+    Target(const char* label, graph::Format format, glm::ivec2 sizePixels);
+    const gpu::Texture& texture() const { return texture_; }
+    const gpu::Framebuffer& framebuffer() const { return framebuffer_; }
+    glm::ivec2 sizePixels() const { return {framebuffer_.width(), framebuffer_.height()}; }
+    void copyFrom(const gpu::Texture& source);
+
+private:
+    gpu::Texture texture_;
+    gpu::Framebuffer framebuffer_;
+};
+
+/// The latest complete picture of one side of the window. It stays what it is while the next one is drawn, or fails.
+class Picture {
+public:
+    /// Copies what the renderer drew last; its radiance where asked for.
+    void take(const recipes::Renderer& renderer, const Look& look, bool radiance);
+    void clear();
+
+    bool isThere() const { return display_ != nullptr; }
+    const Look& look() const { return look_; } ///< with the size it was drawn at
+    const Target& display() const { return *display_; }
+    const Target* radiance() const { return hasRadiance_ ? radiance_.get() : nullptr; }
+
+private:
+    Look look_;
+    std::unique_ptr<Target> display_, radiance_;
+    bool hasRadiance_ = false; ///< of the picture shown
+};
+
+} // namespace tessera::viewer

@@ -1,0 +1,125 @@
+#include "viewer/show/Screen.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/gpu/Bands.h"
+#include "renderer/gpu/Commands.h"
+#include "renderer/gpu/Timer.h"
+#include "renderer/graph/Execute.h"
+
+namespace tessera::viewer {
+namespace {
+
+/// Input is to be answered within 100 ms: half of it for the picture leaves room for panels, for showing both, and for
+/// a piece of a frame that is given up.
+constexpr double kMovingMs = 45.0;
+/// The first picture of a kind, of which nothing is known.
+constexpr double kSoftwareGuess = 0.25;
+
+constexpr glm::vec4 kBehindPicture{0.05f, 0.05f, 0.055f, 1.0f};
+
+/// Whether a pixel of b costs about what one of a does.
+bool isOfKind(const Look& a, const Look& b) {
+    Look like = a;
+    like.settings.sizePixels = b.settings.sizePixels;
+    like.settings.timeSeconds = b.settings.timeSeconds;
+    like.settings.exposureEV = b.settings.exposureEV;
+    like.settings.toneMap = b.settings.toneMap;
+    like.settings.camera = b.settings.camera;
+    return like == b;
+}
+
+glm::ivec2 scaled(glm::ivec2 size, double scale) {
+    return glm::max(glm::ivec2(glm::round(glm::dvec2(size) * scale)), glm::ivec2(1));
+}
+
+} // namespace
+
+Screen::Screen(gpu::Context& context) : context_(context), resolution_(kMovingMs) {}
+
+void Screen::open(const OpenScene& scene) {
+    scene_ = &scene;
+    renderer_ = std::make_unique<recipes::Renderer>(context_, scene.scene());
+    // Without it a software rasteriser's passes have no times (GraphBackend.h).
+    renderer_->backend().setProfiling(context_.capabilities().isSoftware);
+    materialRevision_ = scene.materialRevision();
+    drawn_.reset();
+    resolution_.restart(context_.capabilities().isSoftware ? kSoftwareGuess : 1.0);
+}
+
+Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::function<bool()>& givesUp) {
+    Drawn result;
+    result.scale = scale;
+    result.sizePixels = scaled(wanted.looks[0].settings.sizePixels, scale);
+    const bool isNewKind =
+        !isOfKind(kinds_[0], wanted.looks[0]) || (wanted.sides == 2 && !isOfKind(kinds_[1], wanted.looks[1]));
+    kinds_ = wanted.looks;
+    // What fails would fail again; it is tried when something else is wanted.
+    drawn_ = wanted;
+    drawnScale_ = 1.0;
+    if (scene_->materialRevision() != materialRevision_) renderer_->materialsChanged();
+    materialRevision_ = scene_->materialRevision();
+    const std::size_t programs = renderer_->programs().size();
+    try {
+        std::optional<gpu::BandedDrawing> banded;
+        if (givesUp) banded.emplace(givesUp);
+        for (int side = 0; side < wanted.sides; ++side) {
+            const gpu::CpuTimer clock;
+            Look look = wanted.looks[std::size_t(side)];
+            look.settings.sizePixels = result.sizePixels;
+            renderer_->draw(look.technique, look.settings);
+            gpu::finish();
+            result.sideMs[std::size_t(side)] = clock.elapsedMs();
+            result.ms += clock.elapsedMs();
+            result.passes[std::size_t(side)] = renderer_->backend().passTimings();
+            banded.reset(); // copying must not be given up half way
+            pictures_[std::size_t(side)].take(*renderer_, look, wanted.comparesRadiance);
+            if (givesUp) banded.emplace(givesUp);
+        }
+    } catch (const graph::Interrupted&) {
+        drawn_.reset();
+        result.gaveUp = true;
+        return result;
+    }
+    drawnScale_ = scale;
+    differenceIsStale_ = true;
+    const bool compiled = renderer_->programs().size() != programs;
+    if (!isNewKind && !compiled) resolution_.drew(scale, result.ms);
+    return result;
+}
+
+void Screen::prepareDifference(float factor) {
+    const Target* a = pictures_[0].radiance();
+    const Target* b = pictures_[1].radiance();
+    if (a == nullptr || b == nullptr || a->sizePixels() != b->sizePixels()) return;
+    if (!differenceIsStale_ && factor == differenceFactor_) return;
+    differenceFactor_ = factor;
+    differenceIsStale_ = false; // also where it fails: the same would fail again
+    difference_.update(renderer_->programs(), *a, *b, factor);
+}
+
+void Screen::show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare compare, float divider) {
+    gpu::bindWindowFramebuffer(windowPixels.x, windowPixels.y);
+    gpu::clearColor(0, kBehindPicture);
+    if (!pictures_[0].isThere() || area.width < 1 || area.height < 1) return;
+    const auto blit = [&](const Target& from, int left, int right) {
+        if (left >= right) return;
+        const glm::ivec2 size = from.sizePixels();
+        const bool isScaled = size != glm::ivec2(area.width, area.height);
+        gpu::setScissor(area.x + left, area.y, right - left, area.height);
+        gpu::blitToWindow(from.framebuffer(), {0, 0, size.x, size.y}, area, isScaled);
+    };
+    if (compare == Compare::Split && pictures_[1].isThere()) {
+        const int middle = std::clamp(int(std::lround(divider * float(area.width))), 0, area.width);
+        blit(pictures_[0].display(), 0, middle);
+        blit(pictures_[1].display(), middle, area.width);
+    } else if (compare == Compare::Difference && difference_.image() != nullptr) {
+        blit(*difference_.image(), 0, area.width);
+    } else {
+        blit(pictures_[0].display(), 0, area.width);
+    }
+    gpu::bindWindowFramebuffer(windowPixels.x, windowPixels.y); // without the scissor
+}
+
+} // namespace tessera::viewer

@@ -1,0 +1,78 @@
+#pragma once
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "renderer/gpu/Commands.h"
+#include "viewer/session/State.h"
+#include "viewer/show/Difference.h"
+#include "viewer/show/Picture.h"
+#include "viewer/show/ResolutionScale.h"
+
+namespace tessera::viewer {
+
+/// Draws the open scene and shows the latest good pictures in the window.
+class Screen {
+public:
+    /// What should be seen.
+    struct Wanted {
+        std::array<Look, 2> looks; ///< of the size they are to be shown at
+        int sides = 1;
+        bool comparesRadiance = false;
+        std::uint64_t sceneRevision = 0;
+        bool operator==(const Wanted&) const = default;
+    };
+    /// What a call of draw() did.
+    struct Drawn {
+        bool gaveUp = false;
+        double scale = 1.0;
+        glm::ivec2 sizePixels{0};
+        double ms = 0.0;                                    ///< of all sides, the waiting for the GPU included
+        std::array<std::vector<gpu::PassTiming>, 2> passes; ///< by side
+        std::array<double, 2> sideMs{};
+    };
+
+    explicit Screen(gpu::Context& context);
+
+    /// Draws this scene from now on, which must outlive its use here; the pictures of the one before stay until then.
+    void open(const OpenScene& scene);
+    recipes::Renderer* renderer() const { return renderer_.get(); }
+
+    /// Whether what is wanted is what was drawn, and at which scale: 0 where it was not.
+    double scaleOf(const Wanted& wanted) const { return drawn_ == wanted ? drawnScale_ : 0.0; }
+    /// A picture that is worth drawing at once while things move.
+    double movingScale() const { return resolution_.next(); }
+    /// Draws what is wanted at a scale. `givesUp` may be null; where it ends the frame, the pictures stay as they were.
+    /// Throws as Renderer::draw does, and then does not try the same again.
+    Drawn draw(const Wanted& wanted, double scale, const std::function<bool()>& givesUp);
+    /// Draws again what is there, though nothing asked for it has changed: shaders have.
+    void forget() {
+        drawn_.reset();
+        differenceIsStale_ = true;
+    }
+
+    /// Makes the picture of the difference, amplified by `factor`, where the pictures or the factor changed. Throws
+    /// gpu::ShaderError.
+    void prepareDifference(float factor);
+    /// Shows the pictures in a part of the window, whose framebuffer stays bound; the rest of it is cleared.
+    void show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare compare, float divider);
+    const gpu::Capabilities& capabilities() const { return context_.capabilities(); }
+    const Picture& picture(int side) const { return pictures_[std::size_t(side)]; }
+
+private:
+    gpu::Context& context_;
+    const OpenScene* scene_ = nullptr;
+    std::unique_ptr<recipes::Renderer> renderer_;
+    std::uint64_t materialRevision_ = 0;
+    std::array<Picture, 2> pictures_;
+    Difference difference_;
+    bool differenceIsStale_ = true;
+    float differenceFactor_ = 0.0f;
+    ResolutionScale resolution_;
+    std::array<Look, 2> kinds_; ///< what the cost of a pixel was learned from
+    std::optional<Wanted> drawn_;
+    double drawnScale_ = 0.0;
+};
+
+} // namespace tessera::viewer

@@ -1,0 +1,119 @@
+#include "viewer/window/Gui.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+#include <imgui_impl_glfw.h>
+#include <imgui_impl_opengl3.h>
+
+#include "viewer/window/Theme.h"
+
+namespace tessera::viewer {
+namespace {
+
+/// Of ImGui's built-in font, which is drawn for this size.
+constexpr float kFontPixels = 13.0f;
+
+void apply(const InputEvent& event, ImGuiIO& io) {
+    switch (event.kind) {
+    case InputEvent::Kind::Move:
+        break;
+    case InputEvent::Kind::Button:
+        if (event.code < IM_ARRAYSIZE(io.MouseDown)) io.MouseDown[event.code] = event.down;
+        break;
+    case InputEvent::Kind::Scroll:
+        io.MouseWheelH += event.scroll.x;
+        io.MouseWheel += event.scroll.y;
+        break;
+    case InputEvent::Kind::Key:
+        if (event.code >= 0 && event.code < IM_ARRAYSIZE(io.KeysDown)) io.KeysDown[event.code] = event.down;
+        break;
+    case InputEvent::Kind::Character:
+        io.AddInputCharacter(static_cast<unsigned int>(event.code));
+        return;
+    case InputEvent::Kind::Focus:
+        io.AddFocusEvent(event.down);
+        // Keys that are let go while another window has the focus are never heard of.
+        if (!event.down) std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
+        return;
+    }
+}
+
+bool anyDown(const ImGuiIO& io, int left, int right) {
+    return io.KeysDown[left] || io.KeysDown[right];
+}
+
+} // namespace
+
+Gui::Gui(Window& window) : window_(window) {
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    const bool input = ImGui_ImplGlfw_InitForOpenGL(window.handle(), false);
+    if (!input || !ImGui_ImplOpenGL3_Init("#version 450 core"))
+        throw std::runtime_error("Dear ImGui cannot draw into the window; update the graphics driver");
+    applyScale(window.contentScale());
+}
+
+Gui::~Gui() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+}
+
+void Gui::applyScale(float scale) {
+    scale_ = scale;
+    ImGuiIO& io = ImGui::GetIO();
+    io.Fonts->Clear();
+    ImFontConfig font;
+    font.SizePixels = std::floor(kFontPixels * scale);
+    io.Fonts->AddFontDefault(&font);
+    ImGui_ImplOpenGL3_DestroyFontsTexture(); // made anew when the next frame begins
+    applyTheme(scale);
+}
+
+void Gui::beginFrame(std::span<const InputEvent> events) {
+    if (window_.contentScale() != scale_) {
+        ImGui_ImplOpenGL3_DestroyDeviceObjects();
+        applyScale(window_.contentScale());
+    }
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGuiIO& io = ImGui::GetIO();
+    // The backend tells where pointer and buttons are now; a frame shows them as they were when its events happened.
+    io.MousePos = {position_.x, position_.y};
+    std::copy(std::begin(buttonsDown_), std::end(buttonsDown_), std::begin(io.MouseDown));
+    for (const InputEvent& event : events) {
+        if (event.kind != InputEvent::Kind::Character && event.kind != InputEvent::Kind::Focus)
+            io.MousePos = {event.position.x, event.position.y};
+        apply(event, io);
+    }
+    position_ = {io.MousePos.x, io.MousePos.y};
+    std::copy(std::begin(io.MouseDown), std::end(io.MouseDown), std::begin(buttonsDown_));
+    io.KeyCtrl = anyDown(io, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
+    io.KeyShift = anyDown(io, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
+    io.KeyAlt = anyDown(io, GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT);
+    io.KeySuper = anyDown(io, GLFW_KEY_LEFT_SUPER, GLFW_KEY_RIGHT_SUPER);
+    ImGui::NewFrame();
+}
+
+void Gui::endFrame() {
+    ImGui::Render();
+}
+
+void Gui::draw() {
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+bool Gui::wantsMouse() const {
+    return ImGui::GetIO().WantCaptureMouse;
+}
+
+bool Gui::wantsKeyboard() const {
+    return ImGui::GetIO().WantTextInput;
+}
+
+} // namespace tessera::viewer

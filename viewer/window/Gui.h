@@ -1,0 +1,37 @@
+#pragma once
+#include <array>
+#include <span>
+
+#include "viewer/window/Window.h"
+
+namespace tessera::viewer {
+
+/// Dear ImGui on a window: what it is told, and how it looks. It keeps no file of its own; sizes below are of a display
+/// of usual density and scale with the window's.
+class Gui {
+public:
+    explicit Gui(Window& window);
+    ~Gui();
+    Gui(const Gui&) = delete;
+    Gui& operator=(const Gui&) = delete;
+
+    /// Begins a frame in which these events happened.
+    void beginFrame(std::span<const InputEvent> events);
+    /// Ends the frame; nothing is drawn yet.
+    void endFrame();
+    /// Draws it into the bound window framebuffer.
+    void draw();
+
+    bool wantsMouse() const;    ///< the pointer is over a panel, or holds something of one
+    bool wantsKeyboard() const; ///< text is typed into a field
+    float scale() const { return scale_; }
+
+private:
+    void applyScale(float scale);
+    Window& window_;
+    float scale_ = 0.0f;
+    glm::vec2 position_{-1.0f}; ///< of the pointer after the latest frame's events
+    std::array<bool, 5> buttonsDown_{};
+};
+
+} // namespace tessera::viewer

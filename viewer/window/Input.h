@@ -1,0 +1,37 @@
+#pragma once
+#include <deque>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace tessera::viewer {
+
+/// One thing the user did, as the window system told it. Keys and buttons are GLFW's numbers.
+struct InputEvent {
+    enum class Kind { Move, Button, Scroll, Key, Character, Focus };
+    Kind kind = Kind::Move;
+    int code = 0;             ///< key, button or Unicode character
+    bool down = false;        ///< of a key (also when it repeats), a button or the focus
+    bool repeated = false;    ///< the key was held down
+    int modifiers = 0;        ///< GLFW_MOD_*
+    glm::vec2 position{0.0f}; ///< of the pointer, screen coordinates from the upper left
+    glm::vec2 scroll{0.0f};   ///< steps
+};
+
+/// Events wait here until a frame takes them, so that none is lost while a frame is drawn.
+class InputQueue {
+public:
+    void push(const InputEvent& event);
+    /// The events of the next frame: as many as one frame of a user interface can tell apart. It sees a pointer in one
+    /// place and a button or key either down or up, so the events end before one that would undo what another of them
+    /// did, and before the pointer moves on from where a button changed.
+    std::vector<InputEvent> takeFrame();
+    void clear() { events_.clear(); }
+    bool empty() const { return events_.empty(); }
+
+private:
+    std::deque<InputEvent> events_;
+};
+
+} // namespace tessera::viewer

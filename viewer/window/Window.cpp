@@ -1,0 +1,150 @@
+#include "viewer/window/Window.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <GLFW/glfw3.h>
+
+namespace tessera::viewer {
+namespace {
+
+Window& windowOf(GLFWwindow* window) {
+    return *static_cast<Window*>(glfwGetWindowUserPointer(window));
+}
+
+std::unique_ptr<gpu::Context> makeContext(glm::ivec2 size) {
+    gpu::ContextOptions options;
+    options.kind = gpu::ContextKind::Window;
+    options.visible = true;
+    options.width = size.x;
+    options.height = size.y;
+    return gpu::Context::create(options);
+}
+
+} // namespace
+
+Window::Window(glm::ivec2 sizeScreen) : context_(makeContext(sizeScreen)) {
+    window_ = static_cast<GLFWwindow*>(context_->windowHandle());
+    if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) {
+        glm::ivec2 corner(0), room(0);
+        glfwGetMonitorWorkarea(monitor, &corner.x, &corner.y, &room.x, &room.y);
+        const glm::ivec2 size = this->sizeScreen();
+        if (room.x > 0 && room.y > 0 && (size.x > room.x || size.y > room.y)) {
+            glfwSetWindowSize(window_, std::min(size.x, room.x), std::min(size.y, room.y));
+            glfwSetWindowPos(window_, corner.x, corner.y);
+        }
+    }
+    glm::dvec2 pointer(0.0);
+    glfwGetCursorPos(window_, &pointer.x, &pointer.y);
+    pointer_ = pointer;
+    installCallbacks();
+}
+
+Window::~Window() = default;
+
+void Window::installCallbacks() {
+    glfwSetWindowUserPointer(window_, this);
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+        Window& self = windowOf(window);
+        self.pointer_ = {float(x), float(y)};
+        self.note({InputEvent::Kind::Move});
+    });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int modifiers) {
+        windowOf(window).note({InputEvent::Kind::Button, button, action == GLFW_PRESS, false, modifiers});
+    });
+    glfwSetScrollCallback(window_, [](GLFWwindow* window, double x, double y) {
+        InputEvent event{InputEvent::Kind::Scroll};
+        event.scroll = {float(x), float(y)};
+        windowOf(window).note(event);
+    });
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
+        windowOf(window).note({InputEvent::Kind::Key, key, action != GLFW_RELEASE, action == GLFW_REPEAT, modifiers});
+    });
+    glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned int character) {
+        windowOf(window).note({InputEvent::Kind::Character, int(character)});
+    });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int focused) {
+        windowOf(window).note({InputEvent::Kind::Focus, 0, focused == GLFW_TRUE});
+    });
+    glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+        Window& self = windowOf(window);
+        self.drops_.insert(self.drops_.end(), paths, paths + count);
+        self.noteActivity();
+    });
+    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* window, int, int) { windowOf(window).noteActivity(); });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) { windowOf(window).noteActivity(); });
+    glfwSetWindowCloseCallback(window_, [](GLFWwindow* window) { windowOf(window).noteActivity(); });
+}
+
+void Window::note(const InputEvent& event) {
+    InputEvent placed = event;
+    placed.position = pointer_;
+    input_.push(placed);
+    noteActivity();
+}
+
+void Window::noteActivity() {
+    if (!activity_) activitySinceSeconds_ = nowSeconds();
+    activity_ = true;
+}
+
+bool Window::shouldClose() const {
+    return glfwWindowShouldClose(window_) != 0;
+}
+
+void Window::close() {
+    glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
+
+void Window::setTitle(const std::string& title) {
+    glfwSetWindowTitle(window_, title.c_str());
+}
+
+glm::ivec2 Window::sizeScreen() const {
+    glm::ivec2 size(0);
+    glfwGetWindowSize(window_, &size.x, &size.y);
+    return size;
+}
+
+glm::ivec2 Window::sizePixels() const {
+    glm::ivec2 size(0);
+    glfwGetFramebufferSize(window_, &size.x, &size.y);
+    return size;
+}
+
+float Window::contentScale() const {
+    glm::vec2 scale(1.0f);
+    glfwGetWindowContentScale(window_, &scale.x, &scale.y);
+    return std::max(scale.x, scale.y);
+}
+
+bool Window::isMinimised() const {
+    return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0;
+}
+
+void Window::poll() {
+    glfwPollEvents();
+}
+
+void Window::wait(double timeoutSeconds) {
+    if (timeoutSeconds < 0.0) return glfwWaitEvents();
+    glfwWaitEventsTimeout(timeoutSeconds);
+}
+
+void Window::wake() {
+    glfwPostEmptyEvent();
+}
+
+std::vector<std::string> Window::takeDrops() {
+    return std::exchange(drops_, {});
+}
+
+bool Window::takeActivity() {
+    return std::exchange(activity_, false);
+}
+
+double Window::nowSeconds() {
+    return glfwGetTime();
+}
+
+} // namespace tessera::viewer
