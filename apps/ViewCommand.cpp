@@ -20,6 +20,7 @@ constexpr recipes::Technique kFirstTechnique = recipes::Technique::ClusteredDefe
 /// What was said on the command line and does not name things of the first scene.
 FrameOptions forAnyScene(FrameOptions options) {
     options.camera.reset();
+    options.pose = {};
     options.solo.reset();
     options.lights.reset();
     return options;
@@ -34,7 +35,7 @@ viewer::FirstLook lookOf(FrameOptions options, const scenes::Scene& scene, const
     request.scene.lights.resize(scene.lights.size()); // their number is all that is asked
     if (!options.technique) request.technique = kFirstTechnique;
     resolveForScene(options, request);
-    return {viewer::possible({request.technique, request.settings}), {}};
+    return {viewer::possible({request.technique, request.settings}), options.pose};
 }
 
 /// Those of the latest runs. A file that cannot be read is said so, and left alone.

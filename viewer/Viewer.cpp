@@ -9,6 +9,7 @@
 
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Debug.h"
+#include "viewer/edit/Pick.h"
 #include "viewer/panels/Frame.h"
 #include "viewer/session/Saver.h"
 #include "viewer/session/SceneSwitch.h"
@@ -21,7 +22,8 @@ namespace {
 constexpr double kRestSeconds = 0.15;        ///< without input or movement, after which the picture is drawn whole
 constexpr double kShaderPeriodSeconds = 0.5; ///< how often the shader folder is looked at
 constexpr double kLongestStepSeconds = 0.25; ///< of movements: a compile in between is no reason to fly away
-constexpr double kHurrySeconds = 0.05;       ///< between pictures while input waits
+constexpr double kNoticeSeconds = 6.0;
+constexpr double kHurrySeconds = 0.05; ///< between pictures while input waits
 /// Frames after the last event in which the user interface may still change: a list that opens is measured in one
 /// frame and laid out in the next.
 constexpr int kSettleFrames = 3;
@@ -63,7 +65,7 @@ private:
     bool hasPicturePlace() const { return !window_.isMinimised() && areaPixels().width > 0 && areaPixels().height > 0; }
     bool isDue() const {
         if (window_.hasActivity() || !window_.input().empty() || scenes_.hasResult()) return true;
-        if (settleFrames_ > 0 || measurements_.hasResult()) return true;
+        if (settleFrames_ > 0 || measurements_.hasResult() || isNoticeOver()) return true;
         return hasPicturePlace() && (isMoving() || (!isWhole() && now() >= restAt_));
     }
     /// How long nothing needs to happen; negative: until something does.
@@ -72,6 +74,7 @@ private:
         double seconds = -1.0;
         const auto atMost = [&](double most) { seconds = seconds < 0.0 ? most : std::min(seconds, most); };
         if (!isWhole() && hasPicturePlace()) atMost(std::max(restAt_ - now(), 0.0));
+        if (!state_.notice.text.empty() && !state_.notice.isError) atMost(std::max(saidUntil_ - now(), 0.0));
         if (screen_.renderer() && !screen_.renderer()->programs().tree().isEmbedded()) atMost(kShaderPeriodSeconds);
         return seconds;
     }
@@ -136,6 +139,7 @@ private:
         gui_.endFrame();
         serveRequests();
         advance(started);
+        expireNotice();
         // More input waits: what it leads to is worth a picture, each step of it only now and then.
         if (!window_.input().empty() && started - shownAt_ < kHurrySeconds) return;
         const bool drew = drawPictures();
@@ -182,10 +186,34 @@ private:
         const glm::ivec2 size(place.width, place.height);
         if (requests.savePng) saver_.picture(size, ".png");
         if (requests.saveExr) saver_.picture(size, ".exr");
+        if (requests.saveScene) {
+            saver_.scene();
+            nameWindow();
+            scenes_.noteRecent(state_.open->source());
+        }
+        if (requests.saveTrace) saver_.trace();
+        if (requests.copyCommand) copyCommand(size);
+        if (requests.pick) pick(*requests.pick, size);
         if (!requests.measureLights) return;
         Look look = state_.active();
         look.settings.sizePixels = size;
         measurements_.judgeLights(facts_, screen_, look);
+    }
+
+    void copyCommand(glm::ivec2 size) {
+        state_.command = saver_.command(size);
+        window_.setClipboard(state_.command);
+        state_.notice = {"Copied: " + state_.command, false};
+        nameWindow();
+    }
+
+    /// The material of the surface at a place of the picture.
+    void pick(const glm::vec2& place, glm::ivec2 size) {
+        const glm::ivec2 pixel = glm::clamp(glm::ivec2(place * glm::vec2(size)), glm::ivec2(0), size - 1);
+        const scenes::Scene& scene = state_.open->scene();
+        const auto picked = pickedByRay(scene, scene.cameras[std::size_t(state_.open->camera())], size, pixel);
+        state_.selectedMaterial = picked ? picked->material : scenes::kNone;
+        log_.line(fmt::format("picked {}", picked ? scene.materials[std::size_t(picked->material)].name : "nothing"));
     }
 
     /// Moves what moves by itself.
@@ -200,6 +228,18 @@ private:
         if (state_.isPlaying) state_.active().settings.timeSeconds += step;
         state_.shareSettings();
     }
+
+    /// What was done is said for a while; what went wrong until it is read.
+    void expireNotice() {
+        if (state_.notice.text != said_) {
+            said_ = state_.notice.text;
+            saidUntil_ = now() + kNoticeSeconds;
+        } else if (isNoticeOver()) {
+            state_.notice = {};
+            settleFrames_ = std::max(settleFrames_, 1);
+        }
+    }
+    bool isNoticeOver() const { return !state_.notice.text.empty() && !state_.notice.isError && now() >= saidUntil_; }
 
     /// Draws what changed: quickly while something moves, whole when it rests. Whether it drew.
     bool drawPictures() {
@@ -284,6 +324,8 @@ private:
     double shownAt_ = 0.0;
     double nextShaderLook_ = 0.0;
     std::uint64_t frames_ = 0;
+    std::string said_; ///< the latest notice
+    double saidUntil_ = 0.0;
     Saver saver_;
     Measurements measurements_;
     SceneSwitch scenes_; ///< last: its thread ends before what it wakes

@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "viewer/edit/LightList.h"
+#include "viewer/edit/Scatter.h"
+#include "viewer/panels/ChooseNamed.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
 
@@ -55,14 +58,6 @@ bool lightList(State& state, scenes::Scene& scene) {
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) changed |= tableRow(state, scene, i);
     ImGui::EndTable();
     return changed;
-}
-
-bool typeRow(scenes::Light& light) {
-    static constexpr Choice kTypes[] = {{"directional", "From far away"}, {"point", ""}, {"spot", "A cone"}};
-    const auto now = std::size_t(light.type);
-    const auto chosen = choose("Type", kTypes[now].name, kTypes, now);
-    if (chosen) light.type = scenes::LightType(*chosen);
-    return chosen.has_value();
 }
 
 bool brightnessRows(scenes::Light& light) {
@@ -137,13 +132,65 @@ bool placeRows(scenes::Light& light, double sceneSizeMetres) {
 }
 
 bool lightRows(scenes::Light& light, double sceneSizeMetres) {
-    bool changed = typeRow(light);
+    bool changed = chooseNamed("Type", light.type);
     changed |= brightnessRows(light);
     if (light.type != scenes::LightType::Directional) changed |= rangeRows(light);
     if (light.type == scenes::LightType::Spot) changed |= coneRows(light);
     changed |= placeRows(light, sceneSizeMetres);
-    if (light.animation) ImGui::TextDisabled("Moves by itself; Space plays");
     return changed;
+}
+
+/// Buttons that change which lights there are; whether they did.
+bool listButtons(State& state, scenes::Scene& scene) {
+    std::optional<int>& solo = state.active().settings.soloLight;
+    const bool any = state.selectedLight != scenes::kNone;
+    const float width = (ImGui::GetContentRegionAvail().x - 2.0f * ImGui::GetStyle().ItemSpacing.x) / 3.0f;
+    bool changed = false;
+    if (ImGui::Button("Add", {width, 0.0f}) && scene.lights.size() < std::size_t(scenes::kMostLights)) {
+        state.selectedLight = int(addLight(scene.lights, lightAtFocus(state.open->rig().pose())));
+        changed = true;
+    }
+    tip("A point light where the camera's pivot is");
+    ImGui::SameLine();
+    if (ImGui::Button("Duplicate", {width, 0.0f}) && any && scene.lights.size() < std::size_t(scenes::kMostLights)) {
+        state.selectedLight = int(duplicateLight(scene.lights, std::size_t(state.selectedLight)));
+        changed = true;
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Delete", {width, 0.0f}) && any) {
+        deleteLight(scene.lights, std::size_t(state.selectedLight), solo);
+        state.selectedLight = scenes::kNone;
+        changed = true;
+    }
+    return changed;
+}
+
+/// Replaces the lights by many; whether it did.
+bool scatterRows(State& state, scenes::Scene& scene) {
+    row("Scatter");
+    ImGui::SliderInt("##Scatter", &state.scatter.count, 1, kMostScattered, "%d lights",
+                     ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    row("");
+    if (!ImGui::Button("Replace all by these")) return false;
+    scene.lights = scatterLights(scene, state.scatter);
+    ++state.scatter.seed; // the next ones lie elsewhere
+    state.selectedLight = scenes::kNone;
+    state.active().settings.soloLight.reset();
+    return true;
+}
+
+bool animationRows(State& state, scenes::Light& light, double sceneSizeMetres) {
+    if (light.type == scenes::LightType::Directional) return false;
+    row("Moves");
+    bool moves = light.animation.has_value();
+    if (!ImGui::Checkbox("by itself", &moves)) return false;
+    constexpr double kPeriodSeconds = 6.0;
+    if (moves) {
+        orbitLight(light, 0.05 * sceneSizeMetres, kPeriodSeconds);
+    } else {
+        stopLight(light, state.active().settings.timeSeconds);
+    }
+    return true;
 }
 
 } // namespace
@@ -153,12 +200,20 @@ void lightsPanel(State& state) {
     OpenScene& open = *state.open;
     scenes::Scene& scene = open.edit();
     bool changed = lightList(state, scene);
+    changed |= listButtons(state, scene);
     if (state.selectedLight >= int(scene.lights.size())) state.selectedLight = scenes::kNone;
     if (state.selectedLight != scenes::kNone) {
         const scenes::Box3& bounds = open.boundsWS();
         const double size = bounds.empty() ? 1.0 : glm::length(bounds.max - bounds.min);
-        changed |= lightRows(scene.lights[std::size_t(state.selectedLight)], size);
+        scenes::Light& light = scene.lights[std::size_t(state.selectedLight)];
+        changed |= lightRows(light, size);
+        changed |= animationRows(state, light, size);
     }
+    ImGui::Separator();
+    changed |= scatterRows(state, scene);
+    row("Markers");
+    ImGui::Checkbox("show (M)", &state.showsMarkers);
+    tip("Drag a marker to move its light");
     row("Animation");
     ImGui::Checkbox("plays (Space)", &state.isPlaying);
     row("Time");

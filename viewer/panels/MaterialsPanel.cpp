@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "viewer/panels/ChooseNamed.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
 
@@ -11,22 +12,6 @@ namespace {
 
 using scenes::Material;
 using scenes::MaterialModel;
-
-constexpr Choice kModels[] = {{"single_color", "The colour itself, unlit"},
-                              {"lambert", "k_d cos"},
-                              {"blinn_phong", "k_d cos + k_s (n.h)^p"},
-                              {"microfacet", "k_d and a GGX lobe, exact dielectric Fresnel"},
-                              {"microfacet_anisotropic", "the same with two roughnesses"},
-                              {"metallic_roughness", "glTF 2.0"}};
-constexpr Choice kMaskings[] = {{"walter", "Walter 2007"}, {"directional", "Heitz 2014"}, {"half_vector", ""}};
-constexpr Choice kAlphaModes[] = {{"opaque", ""}, {"mask", "cut out by opacity"}, {"blend", "blended by opacity"}};
-
-template <typename Enum>
-bool chooseEnum(const char* label, Enum& value, std::span<const Choice> choices) {
-    const auto chosen = choose(label, choices[std::size_t(value)].name, choices, std::size_t(value));
-    if (chosen) value = Enum(*chosen);
-    return chosen.has_value();
-}
 
 bool slider(const char* label, float& value, float least, float most, const char* format = "%.3f") {
     row(label);
@@ -46,7 +31,9 @@ bool microfacetRows(Material& material) {
     if (anisotropic) changed |= slider("Alpha y", material.alphaY, 0.001f, 1.0f, "%.4f");
     changed |= color("k_s", material.specularColor);
     changed |= slider("Index n", material.ior, 1.0f, 4.0f);
-    changed |= chooseEnum("Masking", material.masking, kMaskings);
+    changed |= chooseNamed("Masking", material.masking, [anisotropic](scenes::Masking masking) {
+        return anisotropic || masking != scenes::Masking::Directional;
+    });
     return changed;
 }
 
@@ -94,7 +81,7 @@ bool modelRows(Material& material) {
 }
 
 bool surfaceRows(Material& material) {
-    bool changed = chooseEnum("Alpha mode", material.alphaMode, kAlphaModes);
+    bool changed = chooseNamed("Alpha mode", material.alphaMode);
     if (material.alphaMode != scenes::AlphaMode::Opaque) changed |= slider("Opacity", material.baseColor.w, 0.0f, 1.0f);
     if (material.alphaMode == scenes::AlphaMode::Mask) changed |= slider("Cutoff", material.alphaCutoff, 0.0f, 1.0f);
     if (material.texture(scenes::TextureSlot::Normal).image != scenes::kNone)
@@ -105,7 +92,7 @@ bool surfaceRows(Material& material) {
 }
 
 bool materialRows(Material& material) {
-    bool changed = chooseEnum("Model", material.model, kModels);
+    bool changed = chooseNamed("Model", material.model);
     glm::vec3 base(material.baseColor);
     if (color("Colour", base)) {
         material.baseColor = glm::vec4(base, material.baseColor.w);

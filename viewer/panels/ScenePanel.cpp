@@ -18,6 +18,7 @@ void sceneList(State& state) {
     row("Scene");
     const std::string shown = state.open ? shortName(state.open->source()) : "none";
     if (!ImGui::BeginCombo("##Scene", shown.c_str(), ImGuiComboFlags_HeightLargest)) return;
+    closeOnEscape();
     const auto entry = [&](const std::string& source, std::string_view meaning) {
         const bool isOpen = state.open && state.open->source() == source;
         ImGui::PushID(source.c_str());

@@ -35,7 +35,7 @@ void scaleRows(State& state) {
     tip("Fewer pixels while something moves, all of them at rest");
     if (state.automaticScale) return;
     row("Scale");
-    ImGui::SliderFloat("##Scale", &state.fixedScale, 0.0625f, 1.0f, "%.3f", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderFloat("##Scale", &state.fixedScale, 0.1f, 1.0f, "%.3f", ImGuiSliderFlags_AlwaysClamp);
 }
 
 } // namespace

@@ -30,6 +30,7 @@ std::optional<std::size_t> choose(const char* label, std::string_view shown, std
     row(label);
     const std::string id = std::string("##") + label;
     if (!ImGui::BeginCombo(id.c_str(), std::string(shown).c_str(), ImGuiComboFlags_HeightLargest)) return result;
+    closeOnEscape();
     for (std::size_t i = 0; i < choices.size(); ++i) {
         const ImGuiSelectableFlags flags = choices[i].isPossible ? 0 : ImGuiSelectableFlags_Disabled;
         ImGui::PushID(int(i)); // names may be equal
@@ -40,6 +41,10 @@ std::optional<std::size_t> choose(const char* label, std::string_view shown, std
     }
     ImGui::EndCombo();
     return result;
+}
+
+void closeOnEscape() {
+    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
 }
 
 void paragraph(std::string_view words) {

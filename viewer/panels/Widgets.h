@@ -34,6 +34,9 @@ std::vector<Choice> choicesOf(const Table& table) {
         table, [](const auto& entry) { return entry.summary; }, [](const auto&) { return true; });
 }
 
+/// Lets Esc close the list that is being drawn.
+void closeOnEscape();
+
 /// Text over the whole width, broken where it must be.
 void paragraph(std::string_view text);
 /// The same in the colour of errors.

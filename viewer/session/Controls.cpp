@@ -5,17 +5,41 @@
 
 #include <GLFW/glfw3.h>
 
+#include "viewer/edit/LightList.h"
 #include "viewer/session/Keys.h"
+#include "viewer/session/Projection.h"
 
 namespace tessera::viewer {
 namespace {
 
 constexpr float kDividerReach = 6.0f;   ///< screen coordinates to either side that grab it
+constexpr float kMarkerReach = 9.0f;    ///< the same around a light's marker
+constexpr float kClickReach = 3.0f;     ///< what a hand moves while it clicks
 constexpr double kZoomPerStep = 0.88;   ///< of the distance, a step of the wheel
 constexpr double kZoomPerHeight = 0.05; ///< of the distance, a drag of the picture's height upwards
 
 glm::vec2 fromCenter(const glm::vec2& point, const PictureArea& area) {
     return point - area.corner - 0.5f * area.size;
+}
+
+/// The light whose marker is under the pointer: the selected one before others.
+int markedLight(const State& state, const PictureArea& area, const glm::vec2& point) {
+    if (!state.open) return scenes::kNone;
+    const scenes::Scene& scene = state.open->scene();
+    const auto isUnder = [&](int index) {
+        const scenes::Light light =
+            scenes::lightAtTime(scene.lights[std::size_t(index)], state.looks[0].settings.timeSeconds);
+        if (light.type == scenes::LightType::Directional) return false;
+        const auto place =
+            projected(scene.cameras[std::size_t(state.open->camera())], state.pictureAspect, light.positionWS);
+        return place && glm::distance(area.corner + glm::vec2(*place) * area.size, point) <= kMarkerReach;
+    };
+    const int count = int(scene.lights.size());
+    if (state.selectedLight != scenes::kNone && state.selectedLight < count && isUnder(state.selectedLight))
+        return state.selectedLight;
+    for (int i = 0; state.showsMarkers && i < count; ++i)
+        if (isUnder(i)) return i;
+    return scenes::kNone;
 }
 
 bool* flyKey(FlyKeys& keys, int key) {
@@ -55,7 +79,7 @@ void Controls::handle(std::span<const InputEvent> events, State& state, const Pi
             break;
         case InputEvent::Kind::Button:
             move(event, state, area);
-            event.down ? press(event, state, area, claims) : release(event);
+            event.down ? press(event, state, area, claims) : release(event, state, area);
             break;
         case InputEvent::Kind::Scroll:
             if (!claims.mouse && state.open && area.contains(event.position))
@@ -81,6 +105,7 @@ void Controls::handle(std::span<const InputEvent> events, State& state, const Pi
 void Controls::press(const InputEvent& event, State& state, const PictureArea& area, const Claims& claims) {
     if (drag_ != Drag::None || claims.mouse || !area.contains(event.position)) return;
     button_ = event.code;
+    pressedAt_ = event.position;
     if (event.code == GLFW_MOUSE_BUTTON_MIDDLE) {
         drag_ = Drag::Pan;
     } else if (event.code == GLFW_MOUSE_BUTTON_LEFT) {
@@ -91,14 +116,20 @@ void Controls::press(const InputEvent& event, State& state, const PictureArea& a
             drag_ = Drag::Pan;
         } else if (event.modifiers & GLFW_MOD_CONTROL) {
             drag_ = Drag::Zoom;
+        } else if (const int light = markedLight(state, area, event.position); light != scenes::kNone) {
+            drag_ = Drag::Light;
+            state.selectedLight = light;
         } else {
             drag_ = Drag::Rotate;
         }
     }
 }
 
-void Controls::release(const InputEvent& event) {
-    if (event.code == button_) drag_ = Drag::None;
+void Controls::release(const InputEvent& event, State& state, const PictureArea& area) {
+    if (event.code != button_) return;
+    const bool isClick = drag_ == Drag::Rotate && glm::distance(event.position, pressedAt_) <= kClickReach;
+    if (isClick && area.size.x > 0.0f) state.requests.pick = (event.position - area.corner) / area.size;
+    drag_ = Drag::None;
 }
 
 void Controls::move(const InputEvent& event, State& state, const PictureArea& area) {
@@ -117,6 +148,13 @@ void Controls::move(const InputEvent& event, State& state, const PictureArea& ar
         break;
     case Drag::Zoom:
         rig.zoom(std::pow(kZoomPerHeight, -moved.y / area.size.y), glm::dvec2(0.0), area.size.y);
+        break;
+    case Drag::Light:
+        if (state.selectedLight == scenes::kNone || state.selectedLight >= int(state.open->scene().lights.size()))
+            break;
+        moveLight(state.open->edit().lights[std::size_t(state.selectedLight)], state.active().settings.timeSeconds,
+                  rig.pose(), rig.start(), moved, area.size.y);
+        state.open->touch();
         break;
     case Drag::Divider:
         state.divider = std::clamp((event.position.x - area.corner.x) / area.size.x, 0.0f, 1.0f);

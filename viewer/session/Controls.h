@@ -26,15 +26,16 @@ public:
     bool isHolding() const { return drag_ != Drag::None; }
 
 private:
-    enum class Drag { None, Rotate, Pan, Zoom, Divider };
+    enum class Drag { None, Rotate, Pan, Zoom, Divider, Light };
     void press(const InputEvent& event, State& state, const PictureArea& area, const Claims& claims);
-    void release(const InputEvent& event);
+    void release(const InputEvent& event, State& state, const PictureArea& area);
     void move(const InputEvent& event, State& state, const PictureArea& area);
     void key(const InputEvent& event, State& state, const Claims& claims);
 
     Drag drag_ = Drag::None;
     int button_ = 0; ///< that began the drag
     glm::vec2 pointer_{0.0f};
+    glm::vec2 pressedAt_{0.0f};
     FlyKeys flying_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "passes/recipes/ChooseView.h"
 #include "renderer/frame/Views.h"
+#include "viewer/edit/LightList.h"
 
 namespace tessera::viewer {
 namespace {
@@ -36,6 +37,13 @@ void changeMode(State& state) {
 void changeExposure(State& state, float stepEV) {
     float& exposureEV = state.active().settings.exposureEV;
     exposureEV = std::clamp(std::round(exposureEV / stepEV) * stepEV + stepEV, -10.0f, 10.0f);
+}
+
+void deleteSelected(State& state) {
+    if (!state.open || state.selectedLight == scenes::kNone) return;
+    deleteLight(state.open->edit().lights, std::size_t(state.selectedLight), state.active().settings.soloLight);
+    state.selectedLight = scenes::kNone;
+    state.open->touch();
 }
 
 constexpr int kNone = 0;
@@ -82,6 +90,7 @@ constexpr KeyBinding kBindings[] = {
          std::optional<int>& solo = s.active().settings.soloLight;
          solo = solo || s.selectedLight == scenes::kNone ? std::nullopt : std::optional<int>(s.selectedLight);
      }},
+    {GLFW_KEY_DELETE, kNone, "Del", "delete the selected light", deleteSelected},
     {GLFW_KEY_SPACE, kNone, "Space", "lights move, or stand still", [](State& s) { s.isPlaying = !s.isPlaying; }},
     {GLFW_KEY_F5, kNone, "F5", "read the shaders again", [](State& s) { s.requests.reloadShaders = true; }},
     {GLFW_KEY_F12, kNone, "F12", "save the picture as PNG; with Shift as EXR",
@@ -98,6 +107,8 @@ constexpr GestureHelp kGestures[] = {
     {"Alt + left drag", "move across the picture; also the middle button"},
     {"Ctrl + left drag, wheel", "nearer and farther"},
     {"W A S D, Q E", "fly: forward, left, back, right; down, up. Shift is fast"},
+    {"Click", "picks the material of the surface"},
+    {"Drag a light's marker", "moves the light across the picture"},
     {"Drag the divider", "split view"},
     {"Drop a file", "opens a scene: .gltf, .glb, .obj, .json"},
 };

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/Load.h"
+#include "scenes/write/SceneOrigin.h"
 #include "viewer/session/CameraRig.h"
 
 namespace tessera::viewer {
@@ -10,19 +10,27 @@ namespace tessera::viewer {
 /// A scene that is open: as it was loaded, with what was edited since. Its address is fixed, since a renderer draws it.
 class OpenScene {
 public:
-    OpenScene(std::string source, const scenes::LoadOptions& load, scenes::Scene loaded);
+    OpenScene(std::string source, const scenes::LoadOptions& load, scenes::Scene loaded, scenes::SceneOrigin origin);
     OpenScene(const OpenScene&) = delete;
     OpenScene& operator=(const OpenScene&) = delete;
 
     const std::string& source() const { return source_; } ///< as loadScene() takes it
+    const scenes::SceneOrigin& origin() const { return origin_; }
+    /// Lights or materials were edited since the scene was loaded or saved.
+    bool isEdited() const { return edits_ != savedEdits_; }
+    /// What is open is a file from now on that holds every edit, and the camera where it is.
+    void becomes(const std::string& file);
     const scenes::LoadOptions& load() const { return load_; }
     const scenes::Scene& scene() const { return scene_; }
     /// For edits of lights and materials. Whoever edits says touch().
     scenes::Scene& edit() { return scene_; }
     /// Lights or materials were edited, or, with `material`, one of its materials.
-    void touch() { ++revision_; }
-    void touchMaterials() {
+    void touch() {
         ++revision_;
+        ++edits_;
+    }
+    void touchMaterials() {
+        touch();
         ++materialRevision_;
     }
     /// Counts whatever changes the picture: edits, and movements of the camera.
@@ -46,11 +54,13 @@ private:
     std::string source_;
     scenes::LoadOptions load_;
     scenes::Scene scene_;
+    scenes::SceneOrigin origin_;
     scenes::Box3 boundsWS_;
     std::vector<scenes::Camera> cameras_;
     int camera_ = 0;
     CameraRig rig_;
     std::uint64_t revision_ = 0;
+    std::uint64_t edits_ = 0, savedEdits_ = 0;
     std::uint64_t materialRevision_ = 0;
 };
 

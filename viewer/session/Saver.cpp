@@ -2,16 +2,41 @@
 
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
+#include "validation/AtomicFile.h"
 #include "validation/PictureFile.h"
 #include "validation/Rendering.h"
 #include "validation/ShownPicture.h"
+#include "viewer/save/ChromeTrace.h"
+#include "viewer/save/RenderCommand.h"
+#include "viewer/save/SaveScene.h"
 #include "viewer/session/FreePath.h"
 
 namespace tessera::viewer {
+namespace {
 
+constexpr std::string_view kPrefix = "tessera-";
+
+TraceFrame traced(const FrameTimes& frame) {
+    TraceFrame result;
+    result.number = frame.number;
+    result.startSeconds = frame.startedMs / 1000.0;
+    result.cpuMs = frame.ms;
+    for (const gpu::PassTiming& pass : frame.passes) result.passes.push_back({pass.name, pass.cpuMs, pass.gpuMs});
+    return result;
+}
+
+} // namespace
+
+/// What is saved of a scene that was saved before is named as that was.
 std::string Saver::stem() const {
-    return std::filesystem::path(state_.open->source()).stem().string();
+    std::string stem = std::filesystem::path(state_.open->source()).stem().string();
+    if (!stem.starts_with(kPrefix)) return stem;
+    stem = stem.substr(kPrefix.size());
+    const std::size_t number = stem.find_last_not_of("0123456789");
+    return number != std::string::npos && stem[number] == '-' && number + 1 < stem.size() ? stem.substr(0, number)
+                                                                                          : stem;
 }
 
 void Saver::tell(const std::string& path) {
@@ -31,6 +56,39 @@ void Saver::picture(glm::ivec2 sizePixels, const char* ending) {
     } else {
         validation::writeExr(path, validation::toPicture(frame));
     }
+    tell(path);
+}
+
+void Saver::scene() {
+    OpenScene& open = *state_.open;
+    const std::string path = freePath(stem(), ".json").string();
+    saveScene(path, open.scene(), open.origin());
+    open.becomes(std::filesystem::absolute(path).string());
+    tell(path);
+}
+
+std::string Saver::command(glm::ivec2 sizePixels) {
+    OpenScene& open = *state_.open;
+    if (open.isEdited()) scene();
+    const Look& look = state_.active();
+    ShownPicture shown;
+    shown.source = open.source();
+    shown.lights = open.load().lights;
+    shown.defaultLight = open.load().defaultLight;
+    shown.technique = look.technique;
+    shown.settings = look.settings;
+    shown.settings.sizePixels = sizePixels;
+    if (open.rig().isMoved()) shown.pose = changeOf(open.rig().pose(), open.rig().start());
+    const std::string text = renderCommand(shown, open.scene(), freePath(stem(), ".exr").string());
+    log_.line("command " + text);
+    return text;
+}
+
+void Saver::trace() {
+    std::vector<TraceFrame> frames;
+    for (const FrameTimes& frame : state_.timings.frames()) frames.push_back(traced(frame));
+    const std::string path = freePath(stem(), ".trace.json").string();
+    validation::writeFileAtomically(path, chromeTrace(frames, screen_.capabilities().renderer));
     tell(path);
 }
 

@@ -12,6 +12,12 @@ public:
 
     /// The active side's picture, drawn whole: what `tessera render` writes.
     void picture(glm::ivec2 sizePixels, const char* ending);
+    /// The scene with its edits and the camera where it is. From then on that file is what is open.
+    void scene();
+    /// The command line that renders the active side's picture. A scene that was edited is saved first.
+    std::string command(glm::ivec2 sizePixels);
+    /// The latest frames' timings, for chrome://tracing or Perfetto.
+    void trace();
 
 private:
     void tell(const std::string& path);

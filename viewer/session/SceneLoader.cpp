@@ -17,9 +17,12 @@ SceneLoader::Result load(const std::string& source, const scenes::LoadOptions& o
     const gpu::CpuTimer clock;
     try {
         result.scene = scenes::loadScene(source, options);
+        result.origin = scenes::originOf(source, options, *result.scene);
     } catch (const std::bad_alloc&) {
+        result.scene.reset();
         result.error = source + ": the memory is not enough for it; close other programs or open a smaller scene";
     } catch (const std::exception& error) {
+        result.scene.reset();
         result.error = error.what();
     }
     result.seconds = clock.elapsedMs() / 1000.0;

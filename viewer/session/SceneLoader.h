@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenes/Load.h"
+#include "scenes/write/SceneOrigin.h"
 
 namespace tessera::viewer {
 
@@ -16,7 +17,8 @@ public:
     struct Result {
         std::string source;
         scenes::LoadOptions load;
-        std::optional<scenes::Scene> scene; ///< none: `error` says why
+        std::optional<scenes::SceneOrigin> origin; ///< of the scene, for saving it with edits
+        std::optional<scenes::Scene> scene;        ///< none: `error` says why
         std::string error;
         double seconds = 0.0;
     };

@@ -35,7 +35,8 @@ std::unique_ptr<OpenScene> SceneSwitch::take() {
     std::unique_ptr<OpenScene> scene;
     try {
         first = options_.lookOf(*result->scene, result->source, !hadScene_);
-        scene = std::make_unique<OpenScene>(result->source, result->load, std::move(*result->scene));
+        scene = std::make_unique<OpenScene>(result->source, result->load, std::move(*result->scene),
+                                            std::move(*result->origin));
         scene->useCamera(first.look.settings.camera);
         scene->place(first.pose);
     } catch (const std::exception& error) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "viewer/edit/Scatter.h"
 #include "viewer/session/Look.h"
 #include "viewer/session/OpenScene.h"
 #include "viewer/session/Timings.h"
@@ -53,6 +54,7 @@ struct State {
     bool showsHelp = false;
     int selectedLight = scenes::kNone;
     int selectedMaterial = scenes::kNone;
+    Scatter scatter; ///< what to scatter next
 
     double pictureAspect = 1.0; ///< width over height of where the picture is
 

@@ -1,24 +1,40 @@
 #pragma once
+#include <array>
+#include <cstddef>
+#include <optional>
 
 namespace tessera::viewer {
 
+/// Sides of moving pictures as shares of the whole one's.
+inline constexpr std::array kScales{1.0, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125};
+
 /// Chooses how many pixels pictures have while something moves, so that each is drawn within a target time; at rest the
-/// picture is drawn whole. It knows of a frame what the latest one took: a fixed share for geometry, the rest by pixel.
+/// picture is drawn whole. From what pictures took it learns what a frame costs by itself, for geometry and the like,
+/// and what a pixel costs.
 class ResolutionScale {
 public:
     explicit ResolutionScale(double targetMs) : targetMs_(targetMs) {}
 
-    /// Side of the next moving picture as a share of the whole one's, one of a few steps from 1 down to 1/16.
+    /// Side of the next moving picture, one of kScales. Where no scale meets the target, one below which hardly
+    /// anything would be gained.
     double next() const { return scale_; }
-    /// A picture of this scale took so long. What was spent on compiling shaders is to be left out by the caller.
+    /// A picture took so long. What was spent on compiling shaders is to be left out by the caller.
     void drew(double scale, double ms);
-    /// Another technique, scene or the like: nothing is known of its cost but by `guess`, a scale to begin with.
+    /// Another technique, scene or the like: nothing is known of its cost but `guess`, a scale to begin with.
     void restart(double guess);
 
 private:
+    /// frameMs + wholeMs x scale^2.
+    struct Cost {
+        double frameMs = 0.0;
+        double wholeMs = 0.0;
+    };
+    Cost cost() const;
+    double predictedMs(std::size_t step) const;
+
     double targetMs_;
-    double scale_ = 1.0;
-    int quickFrames_ = 0; ///< in a row that would allow a larger scale
+    double scale_ = kScales.front();
+    std::array<std::optional<double>, kScales.size()> takenMs_; ///< by scale, smoothed
 };
 
 } // namespace tessera::viewer

@@ -100,6 +100,10 @@ void Window::setTitle(const std::string& title) {
     glfwSetWindowTitle(window_, title.c_str());
 }
 
+void Window::setClipboard(const std::string& text) {
+    glfwSetClipboardString(window_, text.c_str());
+}
+
 glm::ivec2 Window::sizeScreen() const {
     glm::ivec2 size(0);
     glfwGetWindowSize(window_, &size.x, &size.y);

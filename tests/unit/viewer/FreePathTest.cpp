@@ -1,0 +1,35 @@
+#include <gtest/gtest.h>
+
+#include "tests/support/TempFolder.h"
+#include "viewer/session/FreePath.h"
+
+namespace tessera::viewer {
+namespace {
+
+/// A test in an empty folder.
+class FreePath : public testing::Test {
+protected:
+    FreePath() { std::filesystem::current_path(folder_.path()); }
+    ~FreePath() override { std::filesystem::current_path(before_); }
+    const test::TempFolder& folder() const { return folder_; }
+
+private:
+    std::filesystem::path before_ = std::filesystem::current_path();
+    test::TempFolder folder_;
+};
+
+TEST_F(FreePath, aFileThatIsThereIsNeverNamed) {
+    EXPECT_EQ(freePath("hall", ".png"), "tessera-hall-001.png");
+    folder().write("tessera-hall-001.png", "");
+    EXPECT_EQ(freePath("hall", ".png"), "tessera-hall-002.png");
+    EXPECT_EQ(freePath("hall", ".exr"), "tessera-hall-001.exr");
+    std::filesystem::create_symlink("nowhere", "tessera-hall-002.png");
+    EXPECT_EQ(freePath("hall", ".png"), "tessera-hall-003.png");
+}
+
+TEST_F(FreePath, aNameIsAlwaysOneWordOfAShell) {
+    EXPECT_EQ(freePath("my model (v2)/$x", ".json"), "tessera-my-model--v2---x-001.json");
+}
+
+} // namespace
+} // namespace tessera::viewer
