@@ -105,8 +105,8 @@ public:
         addAll(name, projection, worldFromCamera, fovYRadians, halfHeightMetres, nearMetres, farMetres);
     }
     void add(const SceneOptions& options) {
-        const auto& [technique, layout, camera, toneMap, exposureEV, sizePixels] = options;
-        addAll(technique, layout, camera, toneMap, exposureEV, sizePixels);
+        const auto& [technique, layout, camera, toneMap, exposureEV, sizePixels, defaultLight] = options;
+        addAll(technique, layout, camera, toneMap, exposureEV, sizePixels, defaultLight);
     }
     void add(const Scene& scene) {
         const auto& [name, images, materials, meshes, nodes, lights, cameras, background, options, warnings] = scene;

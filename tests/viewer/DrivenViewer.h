@@ -1,0 +1,75 @@
+#pragma once
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "tests/support/Process.h"
+#include "tests/viewer/Desktop.h"
+
+namespace tessera::test {
+
+/// What a screen shows: 8 bits a channel, rows from the top.
+struct Shot {
+    glm::ivec2 sizePixels{0};
+    std::vector<std::uint8_t> rgb;
+
+    glm::ivec3 at(glm::ivec2 pixel) const;
+    /// A rectangle of it.
+    Shot part(glm::ivec2 corner, glm::ivec2 size) const;
+    bool operator==(const Shot&) const = default;
+};
+/// An 8-bit picture file.
+Shot readShot(const std::filesystem::path& file);
+/// Share of the pixels that differ in any channel by more than `steps`. Of one size.
+double differingShare(const Shot& a, const Shot& b, int steps = 0);
+
+/// `tessera view --log` on a desktop, used as a person uses it: by keys, mouse and window manager.
+class DrivenViewer {
+public:
+    /// Waits until the window is there. The working folder is where files are saved; settings are kept in its folder
+    /// "config".
+    DrivenViewer(const Desktop& desktop, const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                 const std::map<std::string, std::string>& environment = {});
+
+    // ---- What the viewer said it did ----
+    std::vector<std::string> lines() const;
+    std::size_t mark() const { return lines().size(); } ///< a place in the log: now
+    /// The first line from a place on that begins with `begin`; throws std::runtime_error after `seconds`.
+    std::string waitFor(const std::string& begin, std::size_t from, double seconds = 60.0) const;
+    /// Waits for a picture drawn whole from a place on, after which nothing moves; returns its size in pixels.
+    glm::ivec2 waitForWhole(std::size_t from) const;
+
+    // ---- What a user does ----
+    void key(const std::string& chord) const; ///< xdotool's names: "F12", "ctrl+s"
+    void hold(const std::string& key, double seconds) const;
+    void moveTo(glm::ivec2 pixel) const;
+    void click(glm::ivec2 pixel) const;
+    /// Left button by way of ten points, with keys held.
+    void drag(glm::ivec2 from, glm::ivec2 to, const std::string& held = "") const;
+    void wheel(int clicks) const; ///< positive: away from the user
+    void resize(glm::ivec2 sizePixels) const;
+    void minimise() const;
+    void restore() const;
+
+    Shot capture() const;
+    /// Waits for the end; the exit code, or none when a signal ended it.
+    std::optional<int> wait();
+    /// As a window manager asks a window to close.
+    void close() const;
+    const std::string& errors() const { return errors_; } ///< stderr, after wait()
+
+private:
+    const Desktop& desktop_;
+    std::filesystem::path folder_;
+    std::string window_;
+    std::unique_ptr<Process> process_;
+    std::string errors_;
+};
+
+} // namespace tessera::test

@@ -1,0 +1,47 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/Process.h"
+#include "tests/support/TempFolder.h"
+#include "tests/viewer/DrivenViewer.h"
+#include "validation/Picture.h"
+
+namespace tessera::test {
+
+/// A viewer in a window that fills a screen of 1280 x 800 pixels, and the program beside it to compare with. Nothing
+/// here calls the viewer's code: it is driven by X11 events, and judged by what the screen shows, what it saves and
+/// what it says it did.
+class ViewerTest : public testing::Test {
+protected:
+    static void SetUpTestSuite() { desktop_ = std::make_unique<Desktop>(glm::ivec2(1280, 800)); }
+    static void TearDownTestSuite() { desktop_.reset(); }
+
+    /// Width of the panels at the left; the picture begins there.
+    static constexpr int kPanelPixels = 300;
+    static constexpr glm::ivec2 kPictureCorner{kPanelPixels, 0};
+    /// A place in the picture.
+    static constexpr glm::ivec2 kMiddle{kPanelPixels + 490, 390};
+
+    DrivenViewer open(std::vector<std::string> arguments, const std::map<std::string, std::string>& environment = {}) {
+        return DrivenViewer(*desktop_, folder_.path(), arguments, environment);
+    }
+    /// What the window shows of the picture, of the size that the viewer drew.
+    static Shot pictureIn(const DrivenViewer& viewer, glm::ivec2 sizePixels) {
+        return viewer.capture().part(kPictureCorner, sizePixels);
+    }
+    /// Runs a line of shell in which "tessera" is the program; expects success and returns stdout.
+    std::string shell(const std::string& script) const;
+    /// What `tessera render` writes as a display shows it.
+    Shot rendered(const std::string& arguments, glm::ivec2 sizePixels) const;
+    /// The name after "saved " in a line of the log.
+    static std::string savedFile(const std::string& line) { return line.substr(line.find(' ') + 1); }
+    validation::Picture exr(const std::string& name) const;
+
+    TempFolder folder_;
+    static inline std::unique_ptr<Desktop> desktop_;
+};
+
+} // namespace tessera::test

@@ -1,0 +1,89 @@
+// What the window shows is what `tessera render` writes.
+#include "tests/viewer/ViewerTest.h"
+
+namespace tessera::test {
+namespace {
+
+using ViewerPictures = ViewerTest;
+
+TEST_F(ViewerPictures, theWindowAlwaysShowsExactlyWhatRenderWrites) {
+    DrivenViewer viewer = open({"hall", "--technique", "clustered_deferred"});
+    const glm::ivec2 size = viewer.waitForWhole(0);
+    EXPECT_EQ(size.x, 1280 - kPanelPixels);
+    const Shot shown = pictureIn(viewer, size);
+    EXPECT_TRUE(shown == rendered("hall --technique clustered_deferred", size));
+    // Neither empty nor one colour.
+    EXPECT_GT(differingShare(shown, Shot{size, std::vector<std::uint8_t>(shown.rgb.size(), shown.rgb[0])}, 8), 0.5);
+
+    std::size_t mark = viewer.mark();
+    viewer.key("t");
+    viewer.waitFor("drawn", mark);
+    EXPECT_TRUE(pictureIn(viewer, viewer.waitForWhole(mark)) == shown) << "techniques differ";
+    EXPECT_NE(viewer.waitFor("drawn", mark).find("technique clustered_forward"), std::string::npos);
+
+    // Views by their keys, and back.
+    for (const char* key : {"3", "5"}) {
+        SCOPED_TRACE(key);
+        mark = viewer.mark();
+        viewer.key(key);
+        const glm::ivec2 whole = viewer.waitForWhole(mark);
+        EXPECT_TRUE(pictureIn(viewer, whole) ==
+                    rendered(std::string("hall --technique clustered_forward --view ") + key, size));
+    }
+    mark = viewer.mark();
+    viewer.key("7");
+    EXPECT_TRUE(pictureIn(viewer, viewer.waitForWhole(mark)) == shown);
+    viewer.key("ctrl+q");
+    EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
+}
+
+TEST_F(ViewerPictures, theCommandToPasteAlwaysRendersTheSavedPictureToTheLastBit) {
+    DrivenViewer viewer = open({"models"});
+    viewer.waitForWhole(0);
+    std::size_t mark = viewer.mark();
+    viewer.drag(kMiddle, kMiddle + glm::ivec2(120, 40));
+    viewer.key("bracketright"); // exposure
+    viewer.waitForWhole(mark);
+    mark = viewer.mark();
+    viewer.key("shift+F12");
+    const std::string saved = savedFile(viewer.waitFor("saved ", mark));
+    mark = viewer.mark();
+    viewer.key("ctrl+c");
+    std::string command = viewer.waitFor("command ", mark);
+    command = command.substr(command.find(' ') + 1);
+    EXPECT_TRUE(command.starts_with("tessera render models ")) << command;
+    // The command names its own file; the last option counts.
+    shell(command.substr(0, command.rfind(" -o ")) + " -o pasted.exr");
+    const validation::Picture a = exr(saved), b = exr("pasted.exr");
+    ASSERT_EQ(a.width, b.width);
+    EXPECT_TRUE(a.rgba == b.rgba) << command;
+    mark = viewer.mark();
+    viewer.key("F12");
+    const std::string png = savedFile(viewer.waitFor("saved ", mark));
+    const Shot file = readShot(folder_.path() / png);
+    EXPECT_TRUE(pictureIn(viewer, file.sizePixels) == file) << "the screenshot is not what the window shows";
+}
+
+TEST_F(ViewerPictures, differentTechniquesSideBySideAlwaysDifferInNothing) {
+    DrivenViewer viewer = open({"lattice", "--technique", "forward"});
+    const glm::ivec2 size = viewer.waitForWhole(0);
+    const Shot alone = pictureIn(viewer, size);
+    std::size_t mark = viewer.mark();
+    viewer.key("x"); // split
+    viewer.key("z");
+    viewer.key("t"); // the other side
+    viewer.waitForWhole(mark);
+    const Shot split = pictureIn(viewer, size);
+    // The divider, its handle and the names of the sides cover little.
+    EXPECT_LT(differingShare(split, alone), 0.03);
+    EXPECT_GT(differingShare(split, alone), 0.0005) << "there is no divider";
+    mark = viewer.mark();
+    viewer.key("x"); // difference
+    viewer.waitForWhole(mark);
+    const Shot difference = pictureIn(viewer, size);
+    EXPECT_LT(differingShare(difference, Shot{size, std::vector<std::uint8_t>(difference.rgb.size(), 0)}), 0.001)
+        << "techniques are equal to the last bit, so nothing may be lit";
+}
+
+} // namespace
+} // namespace tessera::test

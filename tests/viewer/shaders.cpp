@@ -1,0 +1,66 @@
+// Shaders are read again when their files change; a mistake is shown while the last good picture stays.
+#include <fstream>
+#include <sstream>
+
+#include "tests/viewer/ViewerTest.h"
+
+namespace tessera::test {
+namespace {
+
+class ViewerShaders : public ViewerTest {
+protected:
+    void SetUp() override {
+        std::filesystem::copy(std::filesystem::path(TESSERA_SOURCE_DIR) / "shaders", shaders(),
+                              std::filesystem::copy_options::recursive);
+    }
+    std::filesystem::path shaders() const { return folder_.path() / "shaders"; }
+    std::string text() const {
+        std::stringstream all;
+        all << std::ifstream(shaders() / kFile).rdbuf();
+        return all.str();
+    }
+    void write(const std::string& text) const { std::ofstream(shaders() / kFile) << text; }
+
+    static constexpr const char* kFile = "passes/display.frag";
+};
+
+TEST_F(ViewerShaders, aBrokenShaderNeverTakesThePictureAndItsMendingIsAlwaysSeen) {
+    DrivenViewer viewer = open({"spheres"}, {{"TESSERA_SHADERS", shaders().string()}});
+    const glm::ivec2 size = viewer.waitForWhole(0);
+    const Shot good = pictureIn(viewer, size);
+    const std::string source = text();
+
+    std::size_t mark = viewer.mark();
+    write(source + "\nthis is no GLSL;\n");
+    const std::string fault = viewer.waitFor("shader error ", mark);
+    EXPECT_NE(fault.find(std::string(kFile) + ":"), std::string::npos) << fault;
+    desktop_->xdotool({"sleep", "1"});
+    // The message covers the lower part, the picture above it is the last good one.
+    const glm::ivec2 upper(size.x, size.y / 2);
+    const Shot broken = pictureIn(viewer, size);
+    EXPECT_TRUE(broken.part({0, 0}, upper) == good.part({0, 0}, upper));
+    EXPECT_GT(differingShare(broken, good), 0.01) << "nothing is said in the window";
+
+    mark = viewer.mark();
+    write(source);
+    viewer.waitFor("shaders reloaded", mark);
+    viewer.waitForWhole(mark);
+    EXPECT_TRUE(pictureIn(viewer, size) == good);
+
+    mark = viewer.mark();
+    const std::size_t main = source.rfind('}');
+    ASSERT_NE(main, std::string::npos);
+    const std::string output = source.substr(source.find("out vec4 ") + 9, source.find(';', source.find("out vec4 ")) -
+                                                                               source.find("out vec4 ") - 9);
+    write(source.substr(0, main) + "    " + output + ".rgb = " + output + ".bgr;\n}\n");
+    viewer.key("F5");
+    viewer.waitFor("shaders reloaded", mark);
+    viewer.waitForWhole(mark);
+    const Shot swapped = pictureIn(viewer, size);
+    EXPECT_GT(differingShare(swapped, good, 4), 0.3);
+    const glm::ivec2 somewhere(size.x / 2, size.y / 2);
+    EXPECT_EQ(swapped.at(somewhere), glm::ivec3(good.at(somewhere).z, good.at(somewhere).y, good.at(somewhere).x));
+}
+
+} // namespace
+} // namespace tessera::test

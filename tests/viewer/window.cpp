@@ -1,0 +1,68 @@
+// Sizes, minimising, closing, and what is remembered.
+#include "tests/viewer/ViewerTest.h"
+
+namespace tessera::test {
+namespace {
+
+using ViewerWindow = ViewerTest;
+
+TEST_F(ViewerWindow, anySizeDownToOnePixelAlwaysSurvivesAndComesBackWhole) {
+    DrivenViewer viewer = open({"room"});
+    const Shot first = pictureIn(viewer, viewer.waitForWhole(0));
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(301, 30), glm::ivec2(800, 600), glm::ivec2(2, 700)}) {
+        viewer.resize(size);
+        desktop_->xdotool({"sleep", "0.4"});
+    }
+    const std::size_t mark = viewer.mark();
+    viewer.resize({1280, 800});
+    EXPECT_TRUE(pictureIn(viewer, viewer.waitForWhole(mark)) == first);
+    viewer.minimise();
+    desktop_->xdotool({"sleep", "0.5"});
+    viewer.restore();
+    desktop_->xdotool({"sleep", "1"});
+    EXPECT_TRUE(pictureIn(viewer, first.sizePixels) == first);
+    viewer.close();
+    EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
+    EXPECT_EQ(viewer.errors(), "");
+}
+
+TEST_F(ViewerWindow, closingDuringALoadIsAlwaysClean) {
+    DrivenViewer viewer = open({"head"});
+    viewer.close();
+    EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
+    EXPECT_EQ(viewer.errors(), "");
+    EXPECT_EQ(viewer.lines().back(), "closed");
+}
+
+TEST_F(ViewerWindow, settingsAreAlwaysRememberedFromRunToRun) {
+    {
+        DrivenViewer viewer = open({"room"});
+        EXPECT_EQ(viewer.waitForWhole(0).x, 1280 - kPanelPixels);
+        const std::size_t mark = viewer.mark();
+        viewer.key("Tab"); // hides the panels
+        viewer.key("t");
+        EXPECT_EQ(viewer.waitForWhole(mark).x, 1280);
+        viewer.key("ctrl+q");
+        EXPECT_EQ(viewer.wait(), 0);
+    }
+    DrivenViewer viewer = open({"room"});
+    EXPECT_EQ(viewer.waitForWhole(0).x, 1280);
+    EXPECT_NE(viewer.waitFor("drawn", 0).find("technique clustered_forward"), std::string::npos);
+}
+
+TEST_F(ViewerWindow, aSceneThatCannotBeLoadedAlwaysEndsWithItsReason) {
+    folder_.write("broken.json", "{\"tessera\": 1, \"materials\": [{\"name\": 3}]}");
+    DrivenViewer viewer = open({"broken.json"});
+    const std::string said = viewer.waitFor("error ", 0);
+    EXPECT_NE(said.find("broken.json"), std::string::npos) << said;
+    desktop_->xdotool({"sleep", "1"});
+    // The reason stands in the window, and the viewer goes on.
+    const Shot shot = viewer.capture();
+    EXPECT_GT(differingShare(shot, Shot{shot.sizePixels, std::vector<std::uint8_t>(shot.rgb.size(), shot.rgb.back())}),
+              0.05);
+    viewer.key("ctrl+q");
+    EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
+}
+
+} // namespace
+} // namespace tessera::test
