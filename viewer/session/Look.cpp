@@ -7,10 +7,6 @@
 
 namespace tessera::viewer {
 
-const recipes::TechniqueInfo& infoOf(recipes::Technique technique) {
-    return infoOf(technique);
-}
-
 Look possible(Look look) {
     frame::FrameSettings& settings = look.settings;
     const recipes::TechniqueInfo& info = infoOf(look.technique);

@@ -11,8 +11,6 @@ struct Look {
     bool operator==(const Look&) const = default;
 };
 
-const recipes::TechniqueInfo& infoOf(recipes::Technique technique);
-
 /// The look without what its technique cannot do: options that it does not take are left open, a view that it cannot
 /// show becomes the lit picture. A look that is possible stays as it is.
 Look possible(Look look);
