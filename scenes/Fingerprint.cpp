@@ -1,0 +1,134 @@
+#include "scenes/Fingerprint.h"
+
+#include <bit>
+#include <type_traits>
+
+namespace tessera::scenes {
+namespace {
+
+/// Takes fields one by one. Every struct is taken apart by a structured binding, so that one with a new field does not
+/// compile until the field is here.
+class Hash {
+public:
+    std::uint64_t value() const { return hash_; }
+
+    void add(std::byte byte) {
+        constexpr std::uint64_t kPrime = 1099511628211ull;
+        hash_ = (hash_ ^ std::to_integer<std::uint64_t>(byte)) * kPrime;
+    }
+    template <typename Number>
+    requires std::is_integral_v<Number> || std::is_enum_v<Number>
+    void add(Number number) {
+        // The lowest byte first, whatever the machine's order.
+        const auto bits = static_cast<std::uint64_t>(number);
+        for (unsigned byte = 0; byte < sizeof(Number); ++byte) add(std::byte(bits >> (8 * byte) & 0xffu));
+    }
+    void add(float number) { add(std::bit_cast<std::uint32_t>(number)); }
+    void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+
+    template <glm::length_t kLength, typename Number, glm::qualifier kQualifier>
+    void add(const glm::vec<kLength, Number, kQualifier>& vector) {
+        for (glm::length_t i = 0; i < kLength; ++i) add(vector[i]);
+    }
+    void add(const glm::dmat4& matrix) {
+        for (glm::length_t i = 0; i < 4; ++i) add(matrix[i]);
+    }
+    void add(const std::string& text) {
+        add(std::uint64_t(text.size()));
+        for (const char c : text) add(std::byte(c));
+    }
+    template <typename Element>
+    void add(const std::vector<Element>& list) {
+        add(std::uint64_t(list.size()));
+        for (const Element& element : list) add(element);
+    }
+    template <typename Element, std::size_t kCount>
+    void add(const std::array<Element, kCount>& list) {
+        for (const Element& element : list) add(element);
+    }
+    template <typename Content>
+    void add(const std::optional<Content>& content) {
+        add(content.has_value());
+        if (content) add(*content);
+    }
+
+    void add(const Image& image) {
+        const auto& [name, format, width, height, texels] = image;
+        addAll(name, format, width, height, texels);
+    }
+    void add(const Sampler& sampler) {
+        const auto& [magnification, minification, wrapU, wrapV] = sampler;
+        addAll(magnification, minification, wrapU, wrapV);
+    }
+    void add(const TextureTransform& transform) {
+        const auto& [offset, scale, rotationRadians] = transform;
+        addAll(offset, scale, rotationRadians);
+    }
+    void add(const TextureUse& use) {
+        const auto& [image, sampler, texCoordSet, transform] = use;
+        addAll(image, sampler, texCoordSet, transform);
+    }
+    void add(const Material& material) {
+        const auto& [name, model, baseColor, emissive, metallic, perceptualRoughness, alpha, alphaY, masking, exponent,
+                     ior, specularFactor, specularColor, anisotropyStrength, anisotropyRotationRadians, clearcoat,
+                     clearcoatPerceptualRoughness, clearcoatNormalScale, sheenColor, sheenPerceptualRoughness,
+                     normalScale, normalMapSpace, alphaMode, alphaCutoff, doubleSided, textures] = material;
+        addAll(name, model, baseColor, emissive, metallic, perceptualRoughness, alpha, alphaY, masking, exponent, ior,
+               specularFactor, specularColor, anisotropyStrength, anisotropyRotationRadians, clearcoat,
+               clearcoatPerceptualRoughness, clearcoatNormalScale, sheenColor, sheenPerceptualRoughness, normalScale,
+               normalMapSpace, alphaMode, alphaCutoff, doubleSided, textures);
+    }
+    void add(const Mesh& mesh) {
+        const auto& [name, positionsOS, normalsOS, tangentsOS, texCoords, colors, indices] = mesh;
+        addAll(name, positionsOS, normalsOS, tangentsOS, texCoords, colors, indices);
+    }
+    void add(const MeshInstance& instance) {
+        const auto& [mesh, material] = instance;
+        addAll(mesh, material);
+    }
+    void add(const Node& node) {
+        const auto& [name, parent, parentFromNode, instances] = node;
+        addAll(name, parent, parentFromNode, instances);
+    }
+    void add(const LightAnimation& animation) {
+        const auto& [kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, timesSeconds, pointsWS] = animation;
+        addAll(kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, timesSeconds, pointsWS);
+    }
+    void add(const Light& light) {
+        const auto& [name, type, enabled, color, intensity, positionWS, directionWS, falloff, rangeMetres, attenuation,
+                     innerConeRadians, outerConeRadians, animation] = light;
+        addAll(name, type, enabled, color, intensity, positionWS, directionWS, falloff, rangeMetres, attenuation,
+               innerConeRadians, outerConeRadians, animation);
+    }
+    void add(const Camera& camera) {
+        const auto& [name, projection, worldFromCamera, fovYRadians, halfHeightMetres, nearMetres, farMetres] = camera;
+        addAll(name, projection, worldFromCamera, fovYRadians, halfHeightMetres, nearMetres, farMetres);
+    }
+    void add(const SceneOptions& options) {
+        const auto& [technique, layout, camera, toneMap, exposureEV, sizePixels] = options;
+        addAll(technique, layout, camera, toneMap, exposureEV, sizePixels);
+    }
+    void add(const Scene& scene) {
+        const auto& [name, images, materials, meshes, nodes, lights, cameras, background, options, warnings] = scene;
+        addAll(name, images, materials, meshes, nodes, lights, cameras, background, options);
+        static_cast<void>(warnings); // words about the file, not content
+    }
+
+private:
+    template <typename... Fields>
+    void addAll(const Fields&... fields) {
+        (add(fields), ...);
+    }
+
+    std::uint64_t hash_ = 14695981039346656037ull; ///< the offset basis
+};
+
+} // namespace
+
+std::uint64_t fingerprint(const Scene& scene) {
+    Hash hash;
+    hash.add(scene);
+    return hash.value();
+}
+
+} // namespace tessera::scenes

@@ -1,0 +1,14 @@
+#pragma once
+#include <cstdint>
+
+#include "scenes/Scene.h"
+
+namespace tessera::scenes {
+
+/// A number that tells two scenes apart: FNV-1a of 64 bits over all that a picture can depend on, which is everything
+/// but the warnings. Numbers count by their bits, lists by their lengths too, and nothing of how structs lie in memory
+/// enters, so that the same scene has the same number in every build. Texels count as they are stored.
+/// Source: Fowler, Noll, Vo, "The FNV Non-Cryptographic Hash Algorithm" (IETF draft-eastlake-fnv).
+std::uint64_t fingerprint(const Scene& scene);
+
+} // namespace tessera::scenes

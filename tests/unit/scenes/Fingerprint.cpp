@@ -1,0 +1,168 @@
+#include "scenes/Fingerprint.h"
+
+#include <functional>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "scenes/Load.h"
+#include "tests/unit/scenes/TinyScene.h"
+
+namespace tessera::scenes {
+namespace {
+
+/// The least scene with one of everything that a scene may hold.
+Scene sceneOfEverything() {
+    Scene scene = tinyScene();
+    Image& image = scene.images.emplace_back();
+    image.width = image.height = 1;
+    image.texels.assign(4, std::byte(7));
+    scene.materials[0].texture(TextureSlot::BaseColor).image = 0;
+    Light& light = scene.lights.emplace_back();
+    light.animation.emplace();
+    light.animation->timesSeconds = {0.0, 1.0};
+    light.animation->pointsWS = {glm::dvec3(0.0), glm::dvec3(1.0)};
+    scene.cameras.emplace_back();
+    return scene;
+}
+
+struct Change {
+    const char* what;
+    std::function<void(Scene&)> make;
+};
+
+TextureUse& use(Scene& scene) {
+    return scene.materials[0].texture(TextureSlot::BaseColor);
+}
+
+const std::vector<Change>& changes() {
+    static const std::vector<Change> table{
+        {"name", [](Scene& s) { s.name += 'x'; }},
+        {"background", [](Scene& s) { s.background.z = 1e-30f; }},
+        {"image.name", [](Scene& s) { s.images[0].name += 'x'; }},
+        {"image.format", [](Scene& s) { s.images[0].format = TexelFormat::Rgba16Unorm; }},
+        {"image.width", [](Scene& s) { s.images[0].width = 2; }},
+        {"image.height", [](Scene& s) { s.images[0].height = 2; }},
+        {"image.texels", [](Scene& s) { s.images[0].texels[3] = std::byte(8); }},
+        {"use.image", [](Scene& s) { use(s).image = kNone; }},
+        {"use.slot", [](Scene& s) { std::swap(use(s), s.materials[0].texture(TextureSlot::Emissive)); }},
+        {"use.magnification", [](Scene& s) { use(s).sampler.magnification = Filter::Nearest; }},
+        {"use.minification", [](Scene& s) { use(s).sampler.minification = Filter::Nearest; }},
+        {"use.wrapU", [](Scene& s) { use(s).sampler.wrapU = Wrap::ClampToEdge; }},
+        {"use.wrapV", [](Scene& s) { use(s).sampler.wrapV = Wrap::ClampToEdge; }},
+        {"use.texCoordSet", [](Scene& s) { use(s).texCoordSet = 1; }},
+        {"use.offset", [](Scene& s) { use(s).transform.offset.y = 1.0f; }},
+        {"use.scale", [](Scene& s) { use(s).transform.scale.x = 2.0f; }},
+        {"use.rotation", [](Scene& s) { use(s).transform.rotationRadians = 1.0f; }},
+        {"material.name", [](Scene& s) { s.materials[0].name += 'x'; }},
+        {"material.model", [](Scene& s) { s.materials[0].model = MaterialModel::Lambert; }},
+        {"material.baseColor", [](Scene& s) { s.materials[0].baseColor.y = 0.5f; }},
+        {"material.emissive", [](Scene& s) { s.materials[0].emissive.x = 1.0f; }},
+        {"material.metallic", [](Scene& s) { s.materials[0].metallic = 0.0f; }},
+        {"material.perceptualRoughness", [](Scene& s) { s.materials[0].perceptualRoughness = 0.5f; }},
+        {"material.alpha", [](Scene& s) { s.materials[0].alpha = 0.25f; }},
+        {"material.alphaY", [](Scene& s) { s.materials[0].alphaY = 0.25f; }},
+        {"material.masking", [](Scene& s) { s.materials[0].masking = Masking::HalfVector; }},
+        {"material.exponent", [](Scene& s) { s.materials[0].exponent = 1.0f; }},
+        {"material.ior", [](Scene& s) { s.materials[0].ior = 2.0f; }},
+        {"material.specularFactor", [](Scene& s) { s.materials[0].specularFactor = 0.5f; }},
+        {"material.specularColor", [](Scene& s) { s.materials[0].specularColor.z = 0.5f; }},
+        {"material.anisotropyStrength", [](Scene& s) { s.materials[0].anisotropyStrength = 0.5f; }},
+        {"material.anisotropyRotation", [](Scene& s) { s.materials[0].anisotropyRotationRadians = 0.5f; }},
+        {"material.clearcoat", [](Scene& s) { s.materials[0].clearcoat = 0.5f; }},
+        {"material.clearcoatRoughness", [](Scene& s) { s.materials[0].clearcoatPerceptualRoughness = 0.5f; }},
+        {"material.clearcoatNormalScale", [](Scene& s) { s.materials[0].clearcoatNormalScale = 0.5f; }},
+        {"material.sheenColor", [](Scene& s) { s.materials[0].sheenColor.x = 0.5f; }},
+        {"material.sheenRoughness", [](Scene& s) { s.materials[0].sheenPerceptualRoughness = 0.5f; }},
+        {"material.normalScale", [](Scene& s) { s.materials[0].normalScale = 0.5f; }},
+        {"material.normalMapSpace", [](Scene& s) { s.materials[0].normalMapSpace = NormalMapSpace::Object; }},
+        {"material.alphaMode", [](Scene& s) { s.materials[0].alphaMode = AlphaMode::Mask; }},
+        {"material.alphaCutoff", [](Scene& s) { s.materials[0].alphaCutoff = 0.25f; }},
+        {"material.doubleSided", [](Scene& s) { s.materials[0].doubleSided = true; }},
+        {"another material", [](Scene& s) { s.materials.emplace_back(); }},
+        {"mesh.name", [](Scene& s) { s.meshes[0].name += 'x'; }},
+        {"mesh.positions", [](Scene& s) { s.meshes[0].positionsOS[2].y = 5.0f; }},
+        {"mesh.normals", [](Scene& s) { s.meshes[0].normalsOS[0].z = -1.0f; }},
+        {"mesh.tangents", [](Scene& s) { s.meshes[0].tangentsOS.assign(3, glm::vec4(1.0f)); }},
+        {"mesh.texCoords0", [](Scene& s) { s.meshes[0].texCoords[0].assign(3, glm::vec2(1.0f)); }},
+        {"mesh.texCoords1", [](Scene& s) { s.meshes[0].texCoords[1].assign(3, glm::vec2(1.0f)); }},
+        {"mesh.colors", [](Scene& s) { s.meshes[0].colors.assign(3, glm::vec4(1.0f)); }},
+        {"mesh.indices",
+         [](Scene& s) {
+             s.meshes[0].indices = {1, 2, 0};
+         }},
+        {"node.name", [](Scene& s) { s.nodes[0].name += 'x'; }},
+        {"node.parent", [](Scene& s) { s.nodes[0].parent = 0; }},
+        {"node.transform", [](Scene& s) { s.nodes[0].parentFromNode[3][0] = 1.0; }},
+        {"node.instances", [](Scene& s) { s.nodes[0].instances.clear(); }},
+        {"instance.mesh", [](Scene& s) { s.nodes[0].instances[0].mesh = 1; }},
+        {"instance.material", [](Scene& s) { s.nodes[0].instances[0].material = kNone; }},
+        {"light.name", [](Scene& s) { s.lights[0].name += 'x'; }},
+        {"light.type", [](Scene& s) { s.lights[0].type = LightType::Spot; }},
+        {"light.enabled", [](Scene& s) { s.lights[0].enabled = false; }},
+        {"light.color", [](Scene& s) { s.lights[0].color.y = 0.5f; }},
+        {"light.intensity", [](Scene& s) { s.lights[0].intensity = 2.0f; }},
+        {"light.position", [](Scene& s) { s.lights[0].positionWS.x = 1e-12; }},
+        {"light.direction", [](Scene& s) { s.lights[0].directionWS.z = 1.0; }},
+        {"light.falloff", [](Scene& s) { s.lights[0].falloff = Falloff::Attenuation; }},
+        {"light.range", [](Scene& s) { s.lights[0].rangeMetres = 2.0f; }},
+        {"light.attenuation", [](Scene& s) { s.lights[0].attenuation.z = 1.0f; }},
+        {"light.innerCone", [](Scene& s) { s.lights[0].innerConeRadians = 0.1f; }},
+        {"light.outerCone", [](Scene& s) { s.lights[0].outerConeRadians = 0.9f; }},
+        {"light.animation", [](Scene& s) { s.lights[0].animation.reset(); }},
+        {"animation.kind", [](Scene& s) { s.lights[0].animation->kind = LightAnimationKind::Path; }},
+        {"animation.period", [](Scene& s) { s.lights[0].animation->periodSeconds = 2.0; }},
+        {"animation.phase", [](Scene& s) { s.lights[0].animation->phase = 0.5; }},
+        {"animation.center", [](Scene& s) { s.lights[0].animation->centerWS.x = 1.0; }},
+        {"animation.axis", [](Scene& s) { s.lights[0].animation->axisWS.x = 1.0; }},
+        {"animation.amplitude", [](Scene& s) { s.lights[0].animation->amplitudeMetres.x = 1.0; }},
+        {"animation.times", [](Scene& s) { s.lights[0].animation->timesSeconds[1] = 2.0; }},
+        {"animation.points", [](Scene& s) { s.lights[0].animation->pointsWS[1].z = 2.0; }},
+        {"camera.name", [](Scene& s) { s.cameras[0].name += 'x'; }},
+        {"camera.projection", [](Scene& s) { s.cameras[0].projection = Projection::Orthographic; }},
+        {"camera.pose", [](Scene& s) { s.cameras[0].worldFromCamera[3][2] = 1.0; }},
+        {"camera.fovY", [](Scene& s) { s.cameras[0].fovYRadians = 1.0; }},
+        {"camera.halfHeight", [](Scene& s) { s.cameras[0].halfHeightMetres = 2.0; }},
+        {"camera.near", [](Scene& s) { s.cameras[0].nearMetres = 0.2; }},
+        {"camera.far", [](Scene& s) { s.cameras[0].farMetres = 9.0; }},
+        {"options.technique", [](Scene& s) { s.options.technique = ""; }},
+        {"options.layout", [](Scene& s) { s.options.layout = ""; }},
+        {"options.camera", [](Scene& s) { s.options.camera = ""; }},
+        {"options.toneMap", [](Scene& s) { s.options.toneMap = ""; }},
+        {"options.exposure", [](Scene& s) { s.options.exposureEV = 0.0f; }},
+        {"options.size", [](Scene& s) { s.options.sizePixels = glm::ivec2(0); }},
+    };
+    return table;
+}
+
+TEST(Fingerprint, aChangeOfAnyFieldAlwaysGivesAnotherOne) {
+    std::set<std::uint64_t> seen{fingerprint(sceneOfEverything())};
+    for (const Change& change : changes()) {
+        Scene scene = sceneOfEverything();
+        change.make(scene);
+        EXPECT_TRUE(seen.insert(fingerprint(scene)).second) << change.what;
+    }
+}
+
+TEST(Fingerprint, whatMovesFromOneListToTheNextAlwaysGivesAnotherOne) {
+    // Without the lengths between them, both would be the same bytes.
+    Scene a = tinyScene(), b = tinyScene();
+    a.materials[0].name = std::string("ab");
+    a.materials.emplace_back().name = std::string("c");
+    b.materials[0].name = std::string("a");
+    b.materials.emplace_back().name = std::string("bc");
+    EXPECT_NE(fingerprint(a), fingerprint(b));
+}
+
+TEST(Fingerprint, equalScenesAndTheirWarningsAlwaysGiveTheSameOne) {
+    Scene scene = sceneOfEverything();
+    scene.warnings.push_back("the file has a feature that is left out");
+    EXPECT_EQ(fingerprint(scene), fingerprint(sceneOfEverything()));
+    EXPECT_EQ(fingerprint(loadScene("lattice")), fingerprint(loadScene("lattice")));
+    // Kept in the files of benches, and so the same in every build: FNV-1a of 74 zero bytes, which are seven lengths
+    // of 8, three floats of 4 and six absent options of 1.
+    EXPECT_EQ(fingerprint(Scene()), 0x5fa04cb853cc3c8dull);
+}
+
+} // namespace
+} // namespace tessera::scenes
