@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "apps/Commands.h"
+#include "apps/OutputFile.h"
 #include "apps/OutputFolder.h"
 #include "apps/Progress.h"
 #include "passes/recipes/ChooseCulling.h"
@@ -11,7 +12,6 @@
 #include "passes/recipes/Renderer.h"
 #include "scenes/Error.h"
 #include "scenes/Names.h"
-#include "validation/AtomicFile.h"
 #include "validation/HeatMap.h"
 #include "validation/PictureFile.h"
 #include "validation/ReferencePicture.h"
@@ -99,7 +99,7 @@ void writeHeatMaps(const std::string& folder, const validation::CompareResult& r
 int compare(const CompareOptions& options, const GlobalOptions& global) {
     validation::CompareRequest comparison;
     comparison.against = truthNamed(options.against);
-    if (!options.json.empty()) validation::requireWritable(options.json);
+    if (!options.json.empty()) requireOutput(options.json);
     if (!options.heatMaps.empty()) requireFolderPlace(options.heatMaps);
     const Request request = resolve(options.frame);
     comparison.settings = request.settings;
@@ -120,9 +120,9 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
     validation::CompareResult result = validation::compareTechniques(renderer, context->capabilities(), comparison);
     result.record.leftOut = std::move(leftOut);
     progress.finish();
-    if (!options.json.empty()) validation::writeFileAtomically(options.json, validation::compareJson(result.record));
+    if (!options.json.empty()) writeOutput(options.json, validation::compareJson(result.record));
     if (!options.heatMaps.empty()) writeHeatMaps(options.heatMaps, result);
-    fmt::print("{}", validation::compareTable(result.record));
+    if (!isStandardOutput(options.json)) fmt::print("{}", validation::compareTable(result.record));
     return result.record.ok() ? kGood : kToleranceMissed;
 }
 
@@ -136,7 +136,7 @@ void addCompareCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     command->add_option("--techniques", options->techniques, "Techniques to compare [all]")->type_name("A,B");
     command->add_option("--against", options->against, "The truth: a technique, a picture file, or reference [forward]")
         ->type_name("NAME|FILE");
-    command->add_option("--json", options->json, "Writes the figures as JSON")->type_name("FILE");
+    command->add_option("--json", options->json, "Writes the figures as JSON; - prints them alone")->type_name("FILE");
     command->add_option("--heatmap", options->heatMaps, "Writes maps of the relative error and of FLIP of each pair")
         ->type_name("DIR");
     command->footer(R"(Examples

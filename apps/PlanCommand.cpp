@@ -1,10 +1,11 @@
 #include <fmt/format.h>
 
 #include "apps/Commands.h"
+#include "apps/OutputFile.h"
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/Renderer.h"
-#include "validation/AtomicFile.h"
+#include "scenes/Error.h"
 #include "validation/Measure.h"
 
 namespace tessera::app {
@@ -18,8 +19,11 @@ struct PlanOptions {
 };
 
 int plan(const PlanOptions& options, const GlobalOptions& global) {
+    const bool printsJson = isStandardOutput(options.json), printsDot = isStandardOutput(options.dot);
+    if (printsJson && printsDot)
+        throw InputError("--json - and --dot - both ask for the standard output; name a file for one of them");
     for (const std::string& path : {options.json, options.dot})
-        if (!path.empty()) validation::requireWritable(path);
+        if (!path.empty()) requireOutput(path);
     Request request = resolve(options.frame);
     recipes::requireSamples(request.technique, request.settings.samples);
     recipes::requireCulling(request.technique, request.settings);
@@ -33,9 +37,9 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
         recipes::Renderer renderer(*context, request.scene);
         validation::measurePlan(plan, renderer, request.technique, request.settings);
     }
-    if (!options.json.empty()) validation::writeFileAtomically(options.json, graph::planJson(plan));
-    if (!options.dot.empty()) validation::writeFileAtomically(options.dot, graph::planDot(plan));
-    fmt::print("{}", graph::planText(plan));
+    if (!options.json.empty()) writeOutput(options.json, graph::planJson(plan));
+    if (!options.dot.empty()) writeOutput(options.dot, graph::planDot(plan));
+    if (!printsJson && !printsDot) fmt::print("{}", graph::planText(plan));
     return kGood;
 }
 
@@ -46,8 +50,9 @@ void addPlanCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
         app.add_subcommand("plan", "Tells what a frame runs, what it leaves out and why, and what it costs");
     auto options = std::make_shared<PlanOptions>();
     addFrameOptions(*command, options->frame, "");
-    command->add_option("--json", options->json, "Writes the plan as JSON")->type_name("FILE");
-    command->add_option("--dot", options->dot, "Writes the graph for Graphviz (dot -Tsvg FILE)")->type_name("FILE");
+    command->add_option("--json", options->json, "Writes the plan as JSON; - prints it alone")->type_name("FILE");
+    command->add_option("--dot", options->dot, "Writes the graph for Graphviz (dot -Tsvg FILE); - prints it alone")
+        ->type_name("FILE");
     command->add_flag("--measure", options->measure, "Draws frames to fill in milliseconds");
     command->footer(R"(Examples
   tessera plan hall                                     passes, what is left out and why, memory

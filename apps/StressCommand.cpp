@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "apps/Commands.h"
+#include "apps/OutputFile.h"
 #include "apps/Progress.h"
 #include "scenes/Error.h"
-#include "validation/AtomicFile.h"
 #include "validation/stress/StressRecord.h"
 
 namespace tessera::app {
@@ -52,7 +52,7 @@ int stress(const StressOptions& options, const GlobalOptions& global) {
     request.cases = casesOf(options);
     request.techniques = techniquesOf(options);
     request.effort = options.quick ? validation::StressEffort::Quick : validation::StressEffort::Full;
-    if (!options.json.empty()) validation::requireWritable(options.json);
+    if (!options.json.empty()) requireOutput(options.json);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     Progress progress("stress", kSteps, global.quiet);
     std::size_t done = 0;
@@ -65,8 +65,8 @@ int stress(const StressOptions& options, const GlobalOptions& global) {
     validation::StressRecord record{context->capabilities().renderer, request.effort, {}};
     record.results = validation::runStress(*context, request);
     progress.finish();
-    if (!options.json.empty()) validation::writeFileAtomically(options.json, validation::stressJson(record));
-    fmt::print("{}", validation::stressTable(record));
+    if (!options.json.empty()) writeOutput(options.json, validation::stressJson(record));
+    if (!isStandardOutput(options.json)) fmt::print("{}", validation::stressTable(record));
     return record.ok() ? kGood : kToleranceMissed;
 }
 
@@ -80,7 +80,7 @@ void addStressCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
         ->type_name("NAME");
     command->add_option("--techniques,--technique", options->techniques, "Techniques that draw pictures [all]")
         ->type_name("A,B");
-    command->add_option("--json", options->json, "Writes the figures as JSON")->type_name("FILE");
+    command->add_option("--json", options->json, "Writes the figures as JSON; - prints them alone")->type_name("FILE");
     command->add_flag("--quick", options->quick, "Fewer samples and lights: some seconds instead of minutes");
     command->add_flag("--list", options->list, "Lists the cases and what each holds, and runs nothing");
     command->footer(R"(Examples

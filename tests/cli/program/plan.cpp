@@ -40,6 +40,25 @@ TEST_F(Plan, theJsonAlwaysHasTheDocumentedFields) {
     EXPECT_THAT(text("p.dot"), HasSubstr("deferred_lighting"));
 }
 
+TEST_F(Plan, aHyphenAlwaysMeansTheStandardOutputAlone) {
+    const Words plan{"plan", "lattice", "--lights", "8"};
+    const auto with = [&](const Words& more) {
+        Words words = plan;
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    };
+    runGood(with({"--json", "p.json", "--dot", "p.dot"}));
+    EXPECT_EQ(runGood(with({"--json", "-"})), text("p.json"));
+    EXPECT_EQ(runGood(with({"--dot", "-"})), text("p.dot"));
+    EXPECT_FALSE(files().contains("-"));
+    expectError(2, with({"--json", "-", "--dot", "-"}), {"--json -", "--dot -", "name a file"});
+    EXPECT_EQ(Json::parse(runGood({"compare", "lattice", "--lights", "8", "--size", "160x90", "--techniques",
+                                   "deferred", "--quiet", "--json", "-"}))["pairs"]
+                  .size(),
+              1u);
+    EXPECT_FALSE(files().contains("-"));
+}
+
 TEST_F(Plan, measureAlwaysFillsInMilliseconds) {
     runGood({"plan", "room", "--size", "160x90", "--measure", "--json", "p.json"});
     const Json plan = json("p.json");

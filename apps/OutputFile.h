@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace tessera::app {
+
+/// Whether a name given for a file stands for the standard output: "-". What else a command prints is then left out.
+bool isStandardOutput(const std::string& path);
+
+/// Throws std::runtime_error where no file of that name can be written: before work that would be in vain.
+void requireOutput(const std::string& path);
+
+/// Writes the text to the standard output, or as a whole file or not at all. Throws std::runtime_error.
+void writeOutput(const std::string& path, std::string_view text);
+
+} // namespace tessera::app
