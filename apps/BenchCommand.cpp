@@ -71,6 +71,15 @@ validation::BenchMatrix matrixOf(const BenchCommandOptions& options) {
     return validation::parseMatrix(text, options.matrix);
 }
 
+/// Which technique to take is a question of the lit picture alone.
+void requireLitPicture(const frame::FrameSettings& settings) {
+    if (settings.view == frame::View::Final) return;
+    const std::string_view name = frame::viewInfo(settings.view).name;
+    throw InputError(fmt::format("--view {}: bench recommends a technique for the lit picture, and a view says nothing "
+                                 "of it; leave --view out, or look at the view with tessera render --view {}",
+                                 name, name));
+}
+
 /// Everything that will be measured; names are checked against every scene before the first frame is drawn.
 validation::BenchPlan planOf(const BenchCommandOptions& options) {
     validation::BenchMatrix matrix = matrixOf(options);
@@ -81,6 +90,7 @@ validation::BenchPlan planOf(const BenchCommandOptions& options) {
         FrameOptions frame = options.frame;
         frame.scene = scene;
         const frame::FrameSettings settings = resolve(frame).settings;
+        requireLitPicture(settings);
         if (truthNamed(options.against) == validation::BenchTruth::Reference)
             validation::requireReferenceTakes(settings);
         validation::addToPlan(plan, matrix, scene, options.frame.lights, settings, [&](std::optional<int> lights) {

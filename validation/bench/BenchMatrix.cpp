@@ -12,6 +12,7 @@
 
 #include "scenes/Error.h"
 #include "scenes/Names.h"
+#include "scenes/import/JsonText.h"
 
 namespace tessera::validation {
 
@@ -110,8 +111,7 @@ const std::vector<Key>& keys() {
 } // namespace
 
 BenchMatrix parseMatrix(std::string_view json, const std::string& source) {
-    const Json root = Json::parse(json, nullptr, false);
-    if (root.is_discarded()) throw InputError(fmt::format("{}: is no JSON", source));
+    const Json root = scenes::parseJson(json, source);
     if (!root.is_object()) throw InputError(fmt::format("{}: must be an object of arrays", source));
     BenchMatrix matrix;
     for (const auto& [name, values] : root.items()) {

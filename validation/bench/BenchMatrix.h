@@ -22,8 +22,9 @@ struct BenchMatrix {
 };
 
 /// Reads the matrix of a JSON object of arrays with the keys technique, culling, tile, layout, lights, size and range.
-/// `source` names it in messages. Throws InputError that names the key or value and the nearest valid ones; keys of
-/// what this version cannot vary (shadow, subsurface) are refused as such.
+/// `source` names it in messages. Throws InputError that names the line and column of broken syntax, a key that is
+/// given twice, or the key or value and the nearest valid ones; keys of what this version cannot vary (shadow,
+/// subsurface) are refused as such.
 BenchMatrix parseMatrix(std::string_view json, const std::string& source);
 
 } // namespace tessera::validation

@@ -105,7 +105,9 @@ TEST_F(Bench, aBadMatrixIsAlwaysRefusedInOneLineThatNamesIt) {
         EXPECT_THAT(result.err, HasSubstr("m.json"));
         return result.err;
     };
-    EXPECT_THAT(refused("{"), HasSubstr("is no JSON"));
+    EXPECT_THAT(refused("{"), HasSubstr("m.json:1:2: "));
+    EXPECT_THAT(refused("{\n  \"tile\": [8,]\n}"), HasSubstr("m.json:2:14: "));
+    EXPECT_THAT(refused(R"({"tile": [8], "lights": [4], "tile": [16]})"), HasSubstr("'tile' is given twice; keep one"));
     EXPECT_THAT(refused("[]"), HasSubstr("object of arrays"));
     EXPECT_THAT(refused(R"({"tiles": [16]})"), HasSubstr("did you mean 'tile'"));
     EXPECT_THAT(refused(R"({"tile": [17]})"), HasSubstr("8, 16, 32, 64"));
@@ -116,6 +118,12 @@ TEST_F(Bench, aBadMatrixIsAlwaysRefusedInOneLineThatNamesIt) {
     EXPECT_THAT(refused(R"({"range": [-1]})"), HasSubstr("range tolerance"));
     EXPECT_THAT(refused(R"({"shadow": [1024]})"), HasSubstr("draws no shadows"));
     EXPECT_THAT(refused(R"({"subsurface": ["blur"]})"), HasSubstr("no subsurface scattering"));
+}
+
+TEST_F(Bench, aViewIsNeverTakenForTheLitPicture) {
+    for (const char* view : {"normal", "lights", "gbuffer.albedo"})
+        expectError(2, {"bench", "room", "-o", "out", "--view", view},
+                    {std::string("--view ") + view, "leave --view out", "tessera render"});
 }
 
 } // namespace
