@@ -4,11 +4,11 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "passes/recipes/Techniques.h"
 #include "validation/FigureHtml.h"
 #include "validation/Html.h"
+#include "validation/bench/BenchJsonTerms.h"
 #include "validation/bench/BenchTables.h"
 #include "validation/bench/Pareto.h"
 #include "validation/bench/Recommend.h"
@@ -17,13 +17,6 @@
 namespace tessera::validation {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-template <typename T>
-Json orNull(const std::optional<T>& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
 
 Json plotPoint(const BenchResult& result, std::optional<bool> pareto, bool isBest) {
     const BenchError error = result.error.value_or(BenchError{});

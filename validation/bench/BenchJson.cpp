@@ -3,21 +3,14 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "scenes/Error.h"
+#include "validation/bench/BenchJsonTerms.h"
 #include "validation/bench/Pareto.h"
 
 namespace tessera::validation {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-template <typename T>
-Json orNull(const std::optional<T>& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
 
 template <typename T>
 void read(const Json& json, const char* name, T& value) {

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "renderer/graph/Table.h"
 #include "validation/FigureText.h"
 #include "validation/bench/BenchJson.h"
+#include "validation/bench/BenchJsonTerms.h"
 #include "validation/bench/Pareto.h"
 #include "validation/bench/Recommend.h"
 #include "validation/bench/ScalingFit.h"
@@ -15,8 +15,6 @@
 namespace tessera::validation {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kTableWidth = 120;
 
@@ -27,7 +25,7 @@ std::string figure(const std::optional<double>& value, const char* format) {
 Json keyJson(const PointKey& key) {
     return {{"technique", key.technique},
             {"culling", key.culling},
-            {"tile", key.tilePixels ? Json(*key.tilePixels) : Json(nullptr)},
+            {"tile", orNull(key.tilePixels)},
             {"layout", key.layout},
             {"range", key.rangeTolerance}};
 }
@@ -62,8 +60,8 @@ Json recommendationsJson(std::span<const BenchGroup> groups) {
                         {"size", {group.sizePixels.x, group.sizePixels.y}},
                         {"take", keyJson(choice->best->key)},
                         {"cpuMs", choice->best->times.cpuMs.median},
-                        {"speedup", choice->speedup ? Json(*choice->speedup) : Json(nullptr)},
-                        {"relMse", error && error->relMse ? Json(*error->relMse) : Json(nullptr)},
+                        {"speedup", orNull(choice->speedup)},
+                        {"relMse", orNull(error ? error->relMse : std::nullopt)},
                         {"text", recommendationText(group)}});
     }
     return list;

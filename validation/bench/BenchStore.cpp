@@ -6,19 +6,18 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "scenes/Error.h"
 #include "validation/AtomicFile.h"
 #include "validation/PictureFile.h"
 #include "validation/bench/BenchJson.h"
+#include "validation/bench/BenchJsonTerms.h"
 
 namespace tessera::validation {
 
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 /// Of the kept files; raised when older ones can no longer be read.
 constexpr int kStoreSchema = 1;
