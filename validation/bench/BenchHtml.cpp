@@ -79,10 +79,11 @@ std::string answerHtml(const BenchGroup& group) {
     std::string html = "<dl class=\"answer\">\n" + tileHtml("Take", escapedHtml(best.key.technique), escapedHtml(how));
     if (choice->speedup) {
         const double speedup = *choice->speedup;
-        html += tileHtml("Speed", fmt::format("{:.1f}&times;", speedup >= 1.0 ? speedup : 1.0 / speedup),
-                         &best == choice->baseline ? "forward is the fastest"
-                         : speedup >= 1.0          ? "faster than forward"
-                                                   : "slower than forward");
+        html +=
+            tileHtml("Speed", fmt::format("{:.1f}&times;", speedup >= 1.0 ? speedup : 1.0 / speedup),
+                     &best == choice->baseline ? (choice->asFast ? "forward, as fast as any" : "forward is the fastest")
+                     : speedup >= 1.0          ? "faster than forward"
+                                               : "slower than forward");
     }
     if (best.error)
         html += tileHtml("Error", figureHtml(best.error->relMse),

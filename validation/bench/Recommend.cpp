@@ -1,6 +1,7 @@
 #include "validation/bench/Recommend.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -42,7 +43,24 @@ const BenchResult* forwardOf(const BenchGroup& group) {
     return found;
 }
 
+/// The fastest of the most exact ones that the times do not tell from `fast`, among those with an acceptable error.
+const BenchResult* mostExactAsFast(const BenchGroup& group, const BenchResult& fast) {
+    const auto isCandidate = [&](const BenchResult& result) {
+        const std::optional<double> relMse = relMseOf(result);
+        return relMse && *relMse <= kAcceptableRelMse && isAsFast(result.times.cpuMs, fast.times.cpuMs);
+    };
+    double least = *relMseOf(fast);
+    for (const BenchResult& result : group.results)
+        if (isCandidate(result)) least = std::min(least, *relMseOf(result));
+    return fastest(
+        group, [&](const BenchResult& result) { return isCandidate(result) && *relMseOf(result) <= kAsExact * least; });
+}
+
 } // namespace
+
+bool isAsFast(const TimeSpread& a, const TimeSpread& b) {
+    return std::abs(a.median - b.median) <= std::min(a.p95 - a.median, b.p95 - b.median);
+}
 
 std::optional<Recommendation> recommendFor(const BenchGroup& group) {
     if (group.results.empty()) return {};
@@ -59,6 +77,10 @@ std::optional<Recommendation> recommendFor(const BenchGroup& group) {
     choice.best = fastest(
         group, [](const BenchResult& result) { return relMseOf(result) && *relMseOf(result) <= kAcceptableRelMse; });
     choice.isAcceptable = choice.best != nullptr;
+    if (const BenchResult* fast = choice.best) {
+        choice.best = mostExactAsFast(group, *fast);
+        if (choice.best != fast) choice.asFast = fast;
+    }
     if (!choice.best) choice.best = fastest(group, isExact);
     if (!choice.best) choice.best = fastest(group, [](const BenchResult&) { return true; }); // no errors are known
     const BenchResult* exact = fastest(group, isExact);
@@ -82,17 +104,21 @@ std::string recommendationText(const BenchGroup& group) {
     const BenchResult& best = *choice->best;
     std::string text = fmt::format("For {} take {}: ", groupName(group), pointName(best.key));
     if (choice->baseline == &best)
-        text += "the fastest here";
+        text += choice->asFast ? "as fast as any" : "the fastest here";
     else if (choice->speedup)
         text += speedText(*choice->speedup);
     else
-        text += "the fastest of those measured";
+        text += choice->asFast ? "as fast as any of those measured" : "the fastest of those measured";
     if (relMseOf(best)) text += fmt::format(" at relMSE {}", figureText(*relMseOf(best)));
     text += fmt::format(", {:.3g} ms a frame", timeOf(best));
     if (best.ratioToFloor) text += fmt::format(", {:.1f} times the floor", *best.ratioToFloor);
     text += ".";
     if (!choice->isAcceptable && relMseOf(best))
         text += fmt::format(" Nothing here stays below relMSE {:g}; this is the most exact.", kAcceptableRelMse);
+    if (choice->asFast)
+        text += fmt::format(" {} takes as long within the spread of the times, {:.3g} ms, at the larger relMSE {}.",
+                            pointName(choice->asFast->key), timeOf(*choice->asFast),
+                            figureText(*relMseOf(*choice->asFast)));
     if (choice->exact) {
         text += fmt::format(" As exact as any is {}", pointName(choice->exact->key));
         if (choice->exact != choice->baseline && choice->exactSpeedup)

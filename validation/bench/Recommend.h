@@ -13,7 +13,11 @@ inline constexpr double kAcceptableRelMse = 1e-4;
 
 /// Which point of a group to take.
 struct Recommendation {
-    const BenchResult* best = nullptr; ///< the fastest whose error is acceptable; else the most exact
+    /// Of those whose error is acceptable the fastest, or a more exact one that takes as long within the spread of the
+    /// times; without any such the most exact.
+    const BenchResult* best = nullptr;
+    const BenchResult* asFast =
+        nullptr; ///< the fastest, where the times do not tell it from best and best is more exact
     /// The fastest that is as exact as any, where that is another point.
     const BenchResult* exact = nullptr;
     const BenchResult* baseline = nullptr; ///< forward, where it was measured
@@ -21,6 +25,9 @@ struct Recommendation {
     std::optional<double> speedup;      ///< of best over forward
     std::optional<double> exactSpeedup; ///< of exact over forward
 };
+
+/// Whether two times cannot be told apart: each median lies within the other's spread, the distance from median to p95.
+bool isAsFast(const TimeSpread& a, const TimeSpread& b);
 
 /// None for a group without results. Pointers into the group.
 std::optional<Recommendation> recommendFor(const BenchGroup& group);

@@ -81,6 +81,33 @@ TEST(Recommend, theFastestPointOfAcceptableErrorIsAlwaysTaken) {
     EXPECT_THAT(text, HasSubstr("As exact as any is deferred, exact: 2.5x faster"));
 }
 
+TEST(Recommend, ofTimesThatTheSpreadDoesNotTellApartTheSmallerErrorIsAlwaysTaken) {
+    // Made-up spreads are a tenth: 32 and 30 ms lie within each other's, 34 and 30 ms do not.
+    const BenchGroup near =
+        madeUpGroup(257, {madeUpResult("forward", 100, 1e-9), madeUpResult("deferred", 30, 2e-5, "packed"),
+                          madeUpResult("deferred", 32, 1e-9), madeUpResult("tiled_deferred", 31, 1e-6, "packed")});
+    const std::optional<Recommendation> choice = recommendFor(near);
+    EXPECT_EQ(choice->best, &near.results[2]);
+    EXPECT_EQ(choice->asFast, &near.results[1]);
+    EXPECT_EQ(choice->exact, nullptr);
+    EXPECT_THAT(recommendationText(near),
+                HasSubstr("take deferred, exact: 3.1x faster than forward at relMSE 1.0e-09"));
+    EXPECT_THAT(recommendationText(near),
+                HasSubstr("deferred, packed takes as long within the spread of the times, 30 ms,"
+                          " at the larger relMSE 2.0e-05."));
+    const BenchGroup apart =
+        madeUpGroup(257, {madeUpResult("deferred", 30, 2e-5, "packed"), madeUpResult("deferred", 34, 1e-9)});
+    EXPECT_EQ(recommendFor(apart)->best, &apart.results[0]);
+    EXPECT_EQ(recommendFor(apart)->asFast, nullptr);
+    // Errors within a factor of two are one error, and then the faster stays.
+    const BenchGroup equal =
+        madeUpGroup(257, {madeUpResult("forward", 31, 1e-9), madeUpResult("deferred", 30, 1.5e-9)});
+    EXPECT_EQ(recommendFor(equal)->best, &equal.results[1]);
+    // One noisy point alone never makes itself as fast as a steady one.
+    EXPECT_FALSE(isAsFast({30.0, 30.1}, {40.0, 90.0}));
+    EXPECT_TRUE(isAsFast({30.0, 45.0}, {40.0, 90.0}));
+}
+
 TEST(Recommend, aGroupWithoutAnAcceptablePointIsAlwaysToldSo) {
     const BenchGroup group = madeUpGroup(10, {madeUpResult("forward", 10, 0.2), madeUpResult("deferred", 5, 0.9)});
     EXPECT_EQ(recommendFor(group)->best, &group.results[0]);
