@@ -27,6 +27,12 @@ Json plotPoint(const BenchResult& result, std::optional<bool> pareto, bool isBes
             {"front", pareto.value_or(false)}, {"best", isBest}};
 }
 
+/// What the legend says of a curve; empty where there are too few points to say anything.
+std::string growthText(const ScalingCurve& curve) {
+    if (!curve.fit) return "";
+    return curve.fit->isTrend() ? fmt::format("{:.2f}", curve.fit->exponent) : "no trend";
+}
+
 /// What bench.js draws.
 Json plotData(const BenchRecord& record) {
     Json data = {{"techniques", Json::array()}, {"groups", Json::array()}, {"curves", Json::array()}};
@@ -48,7 +54,7 @@ Json plotData(const BenchRecord& record) {
                                   {"held", curve.held},
                                   {"x", curve.x},
                                   {"ms", curve.timeMs},
-                                  {"exponent", curve.fit ? Json(curve.fit->exponent) : Json(nullptr)}});
+                                  {"growth", growthText(curve)}});
     }
     return data;
 }
@@ -118,9 +124,10 @@ std::string paretoHtml(const BenchRecord& record, const BenchGroup& headline) {
 std::string scalingHtml(const BenchRecord& record) {
     if (scalingCurves(record.groups).empty()) return "";
     return "<section id=\"scaling\">\n<h2>How time grows</h2>\n"
-           "<p class=\"lede\">Both axes are logarithmic, so that a slope of 1 is time in proportion. Tap a name to "
-           "hide "
-           "its curve.</p>\n"
+           "<p class=\"lede\">Both axes are logarithmic, so that a slope of 1 is time in proportion. The number behind "
+           "a "
+           "name is its slope, where a line explains at least nine tenths of what the times vary by (R&sup2; from 0.9 "
+           "on). Tap a name to hide its curve.</p>\n"
            "<p class=\"controls\"><label>Show <select id=\"scaling-curves\"></select></label></p>\n"
            "<div class=\"plot tall\"><canvas id=\"scaling-plot\" role=\"img\" aria-label=\"Milliseconds a frame "
            "against "

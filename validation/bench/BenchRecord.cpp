@@ -144,8 +144,10 @@ std::string benchTable(const BenchRecord& record) {
     for (const BenchGroup& group : record.groups) text += groupTable(group);
     for (const ScalingCurve& curve : scalingCurves(record.groups)) {
         if (!curve.fit || curve.quantity == "evaluations") continue; // these are in the files
-        text += fmt::format("{}, {}: time grows as {}^{:.2f}{} (R2 {:.3f}, {} points)\n", curve.scene,
-                            pointName(curve.key), curve.quantity, curve.fit->exponent,
+        const std::string growth = curve.fit->isTrend()
+                                       ? fmt::format("time grows as {}^{:.2f}", curve.quantity, curve.fit->exponent)
+                                       : fmt::format("no trend of time with {}", curve.quantity);
+        text += fmt::format("{}, {}: {}{} (R2 {:.3f}, {} points)\n", curve.scene, pointName(curve.key), growth,
                             curve.held.empty() ? "" : " at " + curve.held, curve.fit->r2, curve.fit->points);
     }
     for (const SkippedPoint& point : record.skipped) text += fmt::format("skipped {}: {}\n", point.what, point.why);

@@ -127,7 +127,7 @@ std::string fitsHtml(std::span<const BenchGroup> groups) {
         rows += fmt::format("<tr><th scope=\"row\">{}</th>\n<td data-label=\"Against\">{}{}</td>\n",
                             escapedHtml(curve.scene + ": " + pointName(curve.key)), curve.quantity,
                             curve.held.empty() ? "" : " at " + escapedHtml(curve.held));
-        rows += cellHtml("Exponent", fmt::format("{:.2f}", curve.fit->exponent)) +
+        rows += cellHtml("Exponent", curve.fit->isTrend() ? fmt::format("{:.2f}", curve.fit->exponent) : "no trend") +
                 cellHtml("R&sup2;", fmt::format("{:.3f}", curve.fit->r2)) +
                 cellHtml("Most off", fmt::format("{:.0f}&nbsp;%", 100.0 * curve.fit->mostOff)) +
                 cellHtml("Points", fmt::format("{}", curve.fit->points)) + "</tr>\n";

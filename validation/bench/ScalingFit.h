@@ -8,6 +8,10 @@
 
 namespace tessera::validation {
 
+/// From this R^2 on an exponent is worth telling: the line then explains nine tenths of what log y varies by. Below,
+/// noise or another law decides the slope.
+inline constexpr double kTrendR2 = 0.9;
+
 /// y = factor x^exponent, by least squares in the logarithms of both.
 struct PowerFit {
     double exponent = 0.0;
@@ -15,6 +19,8 @@ struct PowerFit {
     double r2 = 0.0;      ///< share of the variance of log y that the line explains; 1 where y does not vary
     double mostOff = 0.0; ///< largest |y / line - 1|
     std::size_t points = 0;
+
+    bool isTrend() const { return r2 >= kTrendR2; }
 };
 
 /// None with fewer than three different x: two points lie on any line, and say nothing of how good it is. Pairs that

@@ -43,6 +43,24 @@
         axis.ticks = ticks;
     }
 
+    /** A number that was counted: exact, with its thousands apart, as long as it stays short. */
+    const counted = (value) =>
+        Number.isInteger(value) && value < 1e7 ? value.toLocaleString("en-US") : plain(value);
+
+    /** Ticks where something was measured, as many as have room for their names. */
+    function measuredTicks(values) {
+        const sorted = [...new Set(values)].sort((a, b) => a - b);
+        return (axis) => {
+            const share = (value) => Math.log(value / axis.min) / Math.log(axis.max / axis.min);
+            const leastGap = isNarrow() ? 0.16 : 0.07;
+            const ticks = [];
+            for (const value of sorted) {
+                if (!ticks.length || share(value) - share(ticks[ticks.length - 1].value) >= leastGap) ticks.push({ value });
+            }
+            axis.ticks = ticks;
+        };
+    }
+
     function logAxis(title, more) {
         return {
             type: "logarithmic",
@@ -199,7 +217,7 @@
         const configure = () => {
             const curves = data.curves.filter((curve) => titleOf(curve) === scalingChoice.value);
             const datasets = curves.map((curve) => ({
-                label: curve.name + (curve.exponent === null ? "" : " (" + curve.exponent.toFixed(2) + ")"),
+                label: curve.name + (curve.growth ? " (" + curve.growth + ")" : ""),
                 marks: true,
                 data: curve.x.map((x, i) => ({ x, y: curve.ms[i] })),
                 borderColor: colourOf(curve.technique),
@@ -212,13 +230,15 @@
             }));
             const options = commonOptions({
                 title: (items) => items[0].dataset.label,
-                label: (item) => plain(item.raw.x) + " " + curves[0].quantity + ": " + plain(item.raw.y) + " ms",
+                label: (item) => counted(item.raw.x) + " " + curves[0].quantity + ": " + plain(item.raw.y) + " ms",
             });
             options.plugins.tooltip.filter = (item, i) => i === 0;
+            const measured = curves.flatMap((curve) => curve.x);
             options.scales = {
-                x: logAxis(curves[0].quantity, padded(curves.flatMap((curve) => curve.x), 0.04)),
+                x: logAxis(curves[0].quantity, { ...padded(measured, 0.04), afterBuildTicks: measuredTicks(measured) }),
                 y: logAxis("ms a frame", padded(curves.flatMap((curve) => curve.ms), 0.08)),
             };
+            options.scales.x.ticks.callback = counted;
             return { type: "line", data: { datasets }, options };
         };
         const drawScaling = plot("scaling-plot", configure);

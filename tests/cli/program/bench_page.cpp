@@ -23,6 +23,9 @@ addEventListener("load", () => {
     const root = document.documentElement;
     document.title = ["probe", painted("front-plot"), painted("scaling-plot"),
         document.querySelectorAll(".viewer .stage").length, Math.max(0, root.scrollWidth - innerWidth)].join(" ");
+    const scaling = Chart.getChart("scaling-plot");
+    root.dataset.ticks = scaling.scales.x.ticks.map((tick) => tick.label).join(" ");
+    root.dataset.curves = scaling.data.datasets.map((set) => set.label).join("; ");
 });
 </script>)";
 
@@ -48,7 +51,7 @@ protected:
 
 TEST_F(BenchPage, everyPlotAlwaysShowsItsPointsInABrowserWithoutAComplaint) {
     folder_.write("m.json", R"({"technique": ["forward", "deferred"], "layout": ["exact", "packed"],
-                                "lights": [4, 16, 64]})");
+                                "lights": [4, 17, 1025]})");
     runGood({"bench", "lattice", "--size", "64x36", "--frames", "2", "--matrix", "m.json", "-o", "out"});
     std::string page = text("out/report.html");
     page.insert(page.rfind("</body>"), kProbe);
@@ -67,6 +70,9 @@ TEST_F(BenchPage, everyPlotAlwaysShowsItsPointsInABrowserWithoutAComplaint) {
         EXPECT_GT(std::stoi(group(seen.out, probe, 2)), 3000);
         EXPECT_EQ(group(seen.out, probe, 3), "1") << "sliders";
         EXPECT_EQ(group(seen.out, probe, 4), "0") << "pixels beyond the window";
+        EXPECT_EQ(group(seen.out, "data-ticks=\"([^\"]*)\""), "4 17 1,025");
+        const std::string slope = "exact \\((no trend|-?[0-9]\\.[0-9]{2})\\)";
+        EXPECT_NE(group(seen.out, "data-curves=\"(forward, " + slope + "; deferred, " + slope + ")"), "");
     }
 }
 

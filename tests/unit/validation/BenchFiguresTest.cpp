@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/unit/validation/Benches.h"
+#include "validation/bench/BenchHtml.h"
 #include "validation/bench/BenchJson.h"
 #include "validation/bench/Pareto.h"
 #include "validation/bench/Recommend.h"
@@ -57,6 +58,25 @@ TEST(ScalingFit, curvesAlwaysJoinEqualPointsOfDifferentGroupsOnly) {
     EXPECT_EQ(curves[0].quantity, "lights");
     EXPECT_NEAR(curves[0].fit->exponent, 1.0, 1e-12);
     EXPECT_NEAR(curves[1].fit->exponent, 0.5, 1e-12);
+}
+
+TEST(ScalingFit, anExponentIsNeverToldOfTimesThatFollowNoLine) {
+    BenchRecord record;
+    // log10 y is 0, 0.3, 0.1 over x of one step each: R^2 is 0.107. A line fits 10, 100, 1000.
+    const double noisyMs[] = {1.0, 2.0, 1.26};
+    for (int i = 0; i < 3; ++i) {
+        const double ms = std::pow(10.0, i);
+        record.groups.push_back(madeUpGroup(
+            int(ms), {madeUpResult("forward", 10.0 * ms, 1e-9), madeUpResult("deferred", noisyMs[i], 1e-9)}));
+    }
+    record.isComplete = true;
+    const std::string page = benchHtml(record, record.groups[0], {}).sections;
+    EXPECT_THAT(page, HasSubstr(R"("growth":"1.00")"));
+    EXPECT_THAT(page, HasSubstr(R"("growth":"no trend")"));
+    EXPECT_THAT(page, HasSubstr("<span>no trend</span>"));
+    const std::string table = benchTable(record);
+    EXPECT_THAT(table, HasSubstr("forward, exact: time grows as lights^1.00"));
+    EXPECT_THAT(table, HasSubstr("deferred, exact: no trend of time with lights at 64x32 (R2 0.1"));
 }
 
 TEST(Pareto, theFrontIsExactlyWhatNothingBeats) {
