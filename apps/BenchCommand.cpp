@@ -139,7 +139,7 @@ int merge(const BenchCommandOptions& options) {
         throw InputError("--merge puts finished shards together and measures nothing: leave scenes, --matrix, --shard "
                          "and --resume out");
     requireFolderPlace(options.folder);
-    validation::mergeRuns(options.merge, options.folder);
+    const validation::FolderLock lock = validation::mergeRuns(options.merge, options.folder);
     return finish(options.folder, validation::recordIn(options.folder));
 }
 
@@ -151,8 +151,6 @@ int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
         throw InputError("bench measures frames of one sample a pixel; leave --samples out");
     requireFolderPlace(options.folder);
     BenchRun run;
-    run.folder = options.folder;
-    run.resume = options.resume;
     run.options.against = truthNamed(options.against);
     if (options.frames) run.options.frames = *options.frames;
     if (run.options.frames < 1) throw InputError(fmt::format("--frames {} is less than one frame", run.options.frames));
@@ -163,15 +161,15 @@ int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
     for (validation::PlannedGroup& group : run.plan.groups)
         for (validation::BenchPoint& point : group.points)
             point.settings = recipes::settingsOn(context->capabilities(), point.settings);
-    run.identity = {validation::machineName(),
-                    context->capabilities().renderer,
-                    kCommit,
-                    frameOptionText(options.frame),
-                    options.against,
-                    run.options.frames,
-                    shard,
-                    shards,
-                    commandOf(options)};
+    const validation::RunIdentity identity{validation::machineName(),
+                                           context->capabilities().renderer,
+                                           kCommit,
+                                           frameOptionText(options.frame),
+                                           options.against,
+                                           run.options.frames,
+                                           shard,
+                                           shards,
+                                           commandOf(options)};
     run.load = [&](const validation::PlannedGroup& group) {
         FrameOptions frame = options.frame;
         frame.scene = group.scene;
@@ -179,7 +177,10 @@ int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
         return loadFor(frame);
     };
     run.write = [&](const validation::BenchRecord& record) { write(options.folder, record); };
-    return finish(options.folder, runBench(*context, std::move(run), global.quiet));
+    makeFolder(options.folder);
+    const validation::BenchStore store(options.folder, identity, run.plan,
+                                       options.resume ? validation::EarlierRun::Resume : validation::EarlierRun::Keep);
+    return finish(options.folder, runBench(*context, store, std::move(run), global.quiet));
 }
 
 } // namespace

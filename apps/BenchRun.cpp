@@ -1,21 +1,35 @@
 #include "apps/BenchRun.h"
 
-#include "apps/OutputFolder.h"
+#include <fmt/format.h>
+
 #include "apps/Progress.h"
+#include "scenes/Error.h"
+#include "scenes/Fingerprint.h"
 #include "validation/AtomicFile.h"
 
 namespace tessera::app {
 
 using validation::GroupState;
 
+namespace {
+
+/// The scene of a group. Hours may lie between the plan and this, and its file may have been edited since.
+scenes::Scene loadAsPlanned(const BenchRun& run, const validation::PlannedGroup& group) {
+    scenes::Scene scene = run.load(group);
+    if (scenes::fingerprint(scene) == group.fingerprint) return scene;
+    throw InputError(fmt::format("{} changed while it was measured; bring it back and go on with --resume, or name "
+                                 "another folder",
+                                 group.scene));
+}
+
+} // namespace
+
 void writeBenchFiles(const std::string& folder, const validation::BenchRecord& record) {
     validation::writeFileAtomically(folder + "/bench.json", validation::benchJson(record));
     validation::writeFileAtomically(folder + "/bench.csv", validation::benchCsv(record));
 }
 
-validation::BenchRecord runBench(gpu::Context& context, BenchRun run, bool quiet) {
-    makeFolder(run.folder);
-    const validation::BenchStore store(run.folder, run.identity, run.plan, run.resume);
+validation::BenchRecord runBench(gpu::Context& context, const validation::BenchStore& store, BenchRun run, bool quiet) {
     const std::vector<validation::PlannedGroup>& groups = run.plan.groups;
     std::vector<GroupState> states(groups.size());
     std::size_t steps = 0;
@@ -32,11 +46,11 @@ validation::BenchRecord runBench(gpu::Context& context, BenchRun run, bool quiet
         run.options.keepPicture = [&](const std::string& name, const validation::DisplayImage& image) {
             return store.keepPicture(i, name, image);
         };
-        validation::measureGroup(context, run.load(groups[i]), groups[i], run.options, states[i]);
-        run.write(validation::recordIn(run.folder));
+        validation::measureGroup(context, loadAsPlanned(run, groups[i]), groups[i], run.options, states[i]);
+        run.write(validation::recordIn(store.folder()));
     }
     progress.finish();
-    return validation::recordIn(run.folder);
+    return validation::recordIn(store.folder());
 }
 
 } // namespace tessera::app

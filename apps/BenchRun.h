@@ -9,18 +9,16 @@ namespace tessera::app {
 
 /// A benchmark to run, or to go on with.
 struct BenchRun {
-    std::string folder; ///< made where it is missing
-    validation::RunIdentity identity;
     validation::BenchPlan plan;
     validation::BenchOptions options; ///< progress and keep are set by runBench()
-    bool resume = false;
     std::function<scenes::Scene(const validation::PlannedGroup&)> load;
     /// Called after every group, to write what is known; what is not finished is then told as such.
     std::function<void(const validation::BenchRecord&)> write;
 };
 
-/// Measures what is missing, keeps it in the folder, shows progress, and returns all that the folder has then.
-validation::BenchRecord runBench(gpu::Context& context, BenchRun run, bool quiet);
+/// Measures what is missing, keeps it in the store, shows progress, and returns all that the store has then. Throws
+/// InputError when a scene is no longer what the plan was made from.
+validation::BenchRecord runBench(gpu::Context& context, const validation::BenchStore& store, BenchRun run, bool quiet);
 
 /// bench.json and bench.csv of a record.
 void writeBenchFiles(const std::string& folder, const validation::BenchRecord& record);

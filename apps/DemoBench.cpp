@@ -7,6 +7,7 @@
 
 #include "apps/BenchRun.h"
 #include "apps/FrameOptionText.h"
+#include "apps/OutputFolder.h"
 #include "apps/Version.h"
 #include "validation/bench/MachineName.h"
 
@@ -56,31 +57,31 @@ validation::BenchPlan planOf(const DemoBenchRequest& demo, FrameOptions& frame) 
 validation::BenchRecord demoBench(gpu::Context& context, const DemoBenchRequest& demo) {
     FrameOptions frame = demo.options;
     BenchRun run;
-    run.folder = (fs::path(demo.folder) / "bench").string();
-    // An older demonstration that was interrupted is of no use.
-    std::error_code ignored;
-    fs::remove_all(fs::path(run.folder) / "parts", ignored);
     run.plan = planOf(demo, frame);
     run.options.frames = kFrames;
     const glm::ivec2 sizePixels = run.plan.groups.front().sizePixels;
     FrameOptions shown = demo.options;
     shown.size = fmt::format("{}x{}", sizePixels.x, sizePixels.y);
-    run.identity = {validation::machineName(),
-                    context.capabilities().renderer,
-                    kCommit,
-                    frameOptionText(shown),
-                    "",
-                    kFrames,
-                    1,
-                    1,
-                    fmt::format("tessera bench {} -o bench{} --frames {}", shellWord(frame.scene),
-                                frameOptionText(shown), kFrames)};
+    const validation::RunIdentity identity{validation::machineName(),
+                                           context.capabilities().renderer,
+                                           kCommit,
+                                           frameOptionText(shown),
+                                           "",
+                                           kFrames,
+                                           1,
+                                           1,
+                                           fmt::format("tessera bench {} -o bench{} --frames {}",
+                                                       shellWord(frame.scene), frameOptionText(shown), kFrames)};
+    const std::string folder = (fs::path(demo.folder) / "bench").string();
+    makeFolder(folder);
+    // An older demonstration that was interrupted is of no use.
+    const validation::BenchStore store(folder, identity, run.plan, validation::EarlierRun::Replace);
     run.load = [&frame](const validation::PlannedGroup& group) {
         frame.lights = group.lightsToLoad;
         return loadFor(frame);
     };
-    run.write = [folder = run.folder](const validation::BenchRecord& record) { writeBenchFiles(folder, record); };
-    return runBench(context, std::move(run), demo.quiet);
+    run.write = [&folder](const validation::BenchRecord& record) { writeBenchFiles(folder, record); };
+    return runBench(context, store, std::move(run), demo.quiet);
 }
 
 } // namespace tessera::app

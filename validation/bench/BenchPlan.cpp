@@ -6,6 +6,7 @@
 
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/PreparedFrame.h"
+#include "scenes/Fingerprint.h"
 
 namespace tessera::validation {
 
@@ -163,13 +164,19 @@ void addToPlan(BenchPlan& plan, const BenchMatrix& matrix, const std::string& sc
     for (const std::optional<int>& count : orDefault(matrix.lights)) {
         const std::optional<int> lightsToLoad = count ? count : lights;
         const scenes::Scene scene = load(lightsToLoad);
+        const std::uint64_t fingerprint = scenes::fingerprint(scene);
         for (const std::optional<glm::ivec2>& size : orDefault(matrix.sizesPixels)) {
             frame::FrameSettings common = settings;
             common.display = false;
             if (size) common.sizePixels = *size;
-            PlannedGroup group{
-                sceneName, lightsToLoad, int(scene.lights.size()), scenes::triangleCount(scene), common.sizePixels,
-                {},        false};
+            PlannedGroup group{sceneName,
+                               lightsToLoad,
+                               int(scene.lights.size()),
+                               scenes::triangleCount(scene),
+                               fingerprint,
+                               common.sizePixels,
+                               {},
+                               false};
             const bool isKnown = std::any_of(plan.groups.begin(), plan.groups.end(), [&](const PlannedGroup& other) {
                 return other.scene == sceneName && other.lights == group.lights && other.sizePixels == group.sizePixels;
             });

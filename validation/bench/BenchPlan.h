@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -23,6 +24,7 @@ struct PlannedGroup {
     std::optional<int> lightsToLoad; ///< what the scene is loaded with
     int lights = 0;                  ///< that it then has
     std::size_t triangles = 0;
+    std::uint64_t fingerprint = 0; ///< of the scene so loaded (scenes/Fingerprint.h)
     glm::ivec2 sizePixels{0};
     std::vector<BenchPoint> points;
     bool keepsPictures = false; ///< the group with most work of its scene

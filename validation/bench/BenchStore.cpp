@@ -1,8 +1,10 @@
 #include "validation/bench/BenchStore.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -20,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of the kept files; raised when older ones can no longer be read.
-constexpr int kStoreSchema = 1;
+constexpr int kStoreSchema = 2;
 
 fs::path partsOf(const std::string& folder) {
     return fs::path(folder) / "parts";
@@ -40,20 +42,28 @@ fs::path groupFile(const std::string& folder, std::size_t group) {
 
 std::string bytesOf(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw InputError(fmt::format("{}: cannot be read", file.string()));
+    if (!stream)
+        throw InputError(fmt::format("{}: cannot be read; measure its points again, or bring it back", file.string()));
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// What `read` makes of the file's JSON; a damaged file is the user's to decide about.
+/// What `read` makes of the file's JSON; a damaged file is the user's to decide about, and `remedy` says how.
 template <typename Read>
-auto readJson(const fs::path& file, Read&& read) {
+auto readJson(const fs::path& file, const std::string& remedy, Read&& read) {
     const std::string text = bytesOf(file);
+    std::string what;
     try {
         return read(Json::parse(text));
-    } catch (const std::exception& error) {
-        throw InputError(
-            fmt::format("{}: is damaged ({}); remove it to measure its points again", file.string(), error.what()));
+    } catch (const Json::parse_error&) {
+        what = "it is no whole JSON document";
+    } catch (const Json::exception&) {
+        what = "a field is missing or of another kind than tessera writes";
+    } catch (const std::bad_optional_access&) {
+        what = "a time is missing";
+    } catch (const InputError& error) {
+        what = error.what();
     }
+    throw InputError(fmt::format("{}: is damaged: {}; {}", file.string(), what, remedy));
 }
 
 Json planJson(const BenchPlan& plan) {
@@ -65,6 +75,7 @@ Json planJson(const BenchPlan& plan) {
                           {"lights", group.lights},
                           {"size", {group.sizePixels.x, group.sizePixels.y}},
                           {"triangles", group.triangles},
+                          {"fingerprint", fmt::format("{:016x}", group.fingerprint)},
                           {"points", points}});
     }
     return groups;
@@ -90,28 +101,61 @@ std::string shardText(const Json& run) {
     return fmt::format("{}/{}", run.at("shard").at(0).get<int>(), run.at("shard").at(1).get<int>());
 }
 
+/// Throws what reading JSON throws where a field lacks that is read later, or InputError.
+void requireRunFields(const Json& run) {
+    for (const char* name : {"machine", "renderer", "commit", "settings", "against", "command"})
+        static_cast<void>(run.at(name).get_ref<const std::string&>());
+    static_cast<void>(run.at("frames").get<int>());
+    const int shard = run.at("shard").at(0).get<int>(), shards = run.at("shard").at(1).get<int>();
+    if (shard < 1 || shard > shards) throw InputError(fmt::format("there is no shard {}", shardText(run)));
+    for (const Json& skipped : run.at("skipped"))
+        for (const char* name : {"what", "why"}) static_cast<void>(skipped.at(name).get_ref<const std::string&>());
+    for (const Json& group : run.at("groups")) {
+        for (const char* name : {"scene", "fingerprint"})
+            static_cast<void>(group.at(name).get_ref<const std::string&>());
+        for (const char* name : {"lights", "size", "points"}) static_cast<void>(group.at(name));
+    }
+}
+
 Json runIn(const std::string& folder) {
     if (!fs::exists(runFile(folder)))
         throw InputError(fmt::format("{}: holds no bench; there is no {}", folder, runFile(folder).string()));
-    return readJson(runFile(folder), [](const Json& run) {
-        if (run.at("schema") != kStoreSchema) throw InputError("it is of another version of tessera");
-        for (const char* name : {"machine", "renderer", "commit", "settings", "against", "frames", "shard", "command",
-                                 "groups", "skipped"})
-            run.at(name);
-        shardText(run);
-        return run;
+    const std::string remedy = fmt::format("remove {} to measure all of it again", partsOf(folder).string());
+    const Json run = readJson(runFile(folder), remedy, [](const Json& json) {
+        if (json.at("schema").get<int>() == kStoreSchema) requireRunFields(json);
+        return json;
     });
+    if (run.at("schema") != kStoreSchema)
+        throw InputError(fmt::format("{}: is of another version of tessera; go on with that one, or {}",
+                                     runFile(folder).string(), remedy));
+    return run;
+}
+
+/// Two runs that are to become one, and what to do where they cannot.
+struct RunPair {
+    const Json &a, &b;
+    std::string nameA, nameB;
+    std::string remedy;
+};
+
+[[noreturn]] void refuse(const RunPair& runs, const std::string& why) {
+    throw InputError(fmt::format("{} and {} cannot be put together: {}; {}", runs.nameA, runs.nameB, why, runs.remedy));
 }
 
 /// Throws InputError that says in what two runs differ.
-void requireSameRun(const Json& a, const std::string& nameA, const Json& b, const std::string& nameB) {
+void requireSameRun(const RunPair& runs) {
     for (const char* name : {"machine", "renderer", "commit", "settings", "against", "frames"}) {
-        if (a.at(name) == b.at(name)) continue;
-        throw InputError(fmt::format("{} and {} cannot be put together: {} differs, {} and {}", nameA, nameB, name,
-                                     a.at(name).dump(), b.at(name).dump()));
+        if (runs.a.at(name) != runs.b.at(name))
+            refuse(runs, fmt::format("{} differs, {} and {}", name, runs.a.at(name).dump(), runs.b.at(name).dump()));
     }
-    if (a.at("groups") != b.at("groups"))
-        throw InputError(fmt::format("{} and {} cannot be put together: scenes or matrix differ", nameA, nameB));
+    const Json &groupsA = runs.a.at("groups"), &groupsB = runs.b.at("groups");
+    if (groupsA == groupsB) return;
+    for (std::size_t i = 0; i < std::min(groupsA.size(), groupsB.size()); ++i) {
+        const auto isSame = [&](const char* name) { return groupsA[i].at(name) == groupsB[i].at(name); };
+        if (isSame("scene") && isSame("lights") && isSame("size") && !isSame("fingerprint"))
+            refuse(runs, fmt::format("the scene {} changed between them", groupsA[i].at("scene").get<std::string>()));
+    }
+    refuse(runs, "scenes or matrix differ");
 }
 
 bool isOfShard(std::size_t group, int shard, int shards) {
@@ -121,11 +165,13 @@ bool isOfShard(std::size_t group, int shard, int shards) {
 GroupState stateIn(const std::string& folder, std::size_t group) {
     const fs::path file = groupFile(folder, group);
     if (!fs::exists(file)) return {};
-    return readJson(file, [](const Json& json) {
+    return readJson(file, "remove it and go on with --resume", [](const Json& json) {
         GroupState state;
         state.isDone = json.at("done").get<bool>();
         state.roundsMs = json.at("roundsMs").get<std::vector<std::vector<double>>>();
         state.group = groupFromJson(json.at("group"));
+        for (const std::vector<double>& round : state.roundsMs)
+            if (round.size() != state.roundsMs.front().size()) throw InputError("its rounds differ in length");
         return state;
     });
 }
@@ -156,18 +202,20 @@ void clearParts(const std::string& folder) {
 
 } // namespace
 
-BenchStore::BenchStore(const std::string& folder, const RunIdentity& identity, const BenchPlan& plan, bool resume)
-    : folder_(folder), shard_(identity.shard), shards_(identity.shards) {
+BenchStore::BenchStore(const std::string& folder, const RunIdentity& identity, const BenchPlan& plan,
+                       EarlierRun earlier)
+    : folder_(folder), lock_(folder), shard_(identity.shard), shards_(identity.shards) {
     const Json run = identityJson(identity, plan);
-    if (resume && fs::exists(runFile(folder))) {
+    if (earlier == EarlierRun::Resume && fs::exists(runFile(folder))) {
         const Json kept = runIn(folder);
-        requireSameRun(kept, "the run in " + folder, run, "this one");
+        requireSameRun({kept, run, "the run in " + folder, "this one",
+                        "go on with the command and the scenes that it began with, or name another folder"});
         if (kept.at("shard") != run.at("shard"))
             throw InputError(fmt::format("{} holds shard {}, not {}; name another folder, or that shard", folder,
                                          shardText(kept), shardText(run)));
         return;
     }
-    requireNoUnfinishedRun(folder);
+    if (earlier != EarlierRun::Replace) requireNoUnfinishedRun(folder);
     clearParts(folder);
     writeFileAtomically(runFile(folder).string(), run.dump(1) + "\n");
 }
@@ -216,13 +264,13 @@ std::vector<std::uint8_t> keptPicture(const std::string& folder, const std::stri
     return {bytes.begin(), bytes.end()};
 }
 
-void mergeRuns(const std::vector<std::string>& shards, const std::string& folder) {
+FolderLock mergeRuns(const std::vector<std::string>& shards, const std::string& folder) {
     const Json first = runIn(shards.front());
     const int count = first.at("shard").at(1).get<int>();
     std::vector<std::string> folderOf(static_cast<std::size_t>(count));
     for (const std::string& shard : shards) {
         const Json run = runIn(shard);
-        requireSameRun(first, shards.front(), run, shard);
+        requireSameRun({first, run, shards.front(), shard, "measure every shard with the same command and scenes"});
         if (run.at("shard").at(1) != count)
             throw InputError(fmt::format("{} is shard {} and {} is shard {}: of different numbers of shards",
                                          shards.front(), shardText(first), shard, shardText(run)));
@@ -239,6 +287,12 @@ void mergeRuns(const std::vector<std::string>& shards, const std::string& folder
         if (fs::exists(folder) && fs::equivalent(folderOf[i], folder))
             throw InputError(fmt::format("{} is a shard and cannot be written over; name another folder", folder));
     }
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        throw std::runtime_error(
+            fmt::format("cannot make the folder '{}': {}; name another one", folder, error.message()));
+    FolderLock lock(folder);
     requireNoUnfinishedRun(folder);
     clearParts(folder);
     for (const std::string& shard : folderOf) {
@@ -255,6 +309,7 @@ void mergeRuns(const std::vector<std::string>& shards, const std::string& folder
     run["command"] = command;
     // Last, so that a merge cut short is no run.
     writeFileAtomically(runFile(folder).string(), run.dump(1) + "\n");
+    return lock;
 }
 
 } // namespace tessera::validation

@@ -5,6 +5,7 @@
 
 #include "validation/bench/BenchPlan.h"
 #include "validation/bench/BenchRecord.h"
+#include "validation/bench/FolderLock.h"
 #include "validation/bench/MeasureGroup.h"
 
 namespace tessera::validation {
@@ -20,16 +21,25 @@ struct RunIdentity {
     std::string command;
 };
 
+/// What becomes of an unfinished run that a folder holds when another is to begin there.
+enum class EarlierRun : std::uint8_t {
+    Keep,   ///< it stays, and the new one is refused
+    Resume, ///< it goes on; refused where it is another run
+    Replace ///< it goes
+};
+
 /// What is kept of a run in the folder `parts` of its output, so that it can be killed at any time, resumed, and merged
 /// with its other shards: run.json says what the run is, group-NNN.json how far each group is, beside its pictures.
-/// Files are written whole or not at all.
+/// Files are written whole or not at all. The folder is locked as long as the store lives.
 class BenchStore {
 public:
-    /// Begins a run in `folder`, which must exist: anew, or with `resume` where it was left. Throws InputError when the
-    /// folder holds an unfinished run and `resume` is not set; when `resume` is set and the run there is another one,
-    /// saying in what; and when files are damaged. Throws std::runtime_error when nothing can be written.
-    BenchStore(const std::string& folder, const RunIdentity& identity, const BenchPlan& plan, bool resume);
+    /// Begins a run in `folder`, which must exist: anew, or where it was left. Throws InputError when an unfinished run
+    /// there is to stay; when the run to go on with is another one, saying in what, or of a scene that has changed
+    /// since; and when files are damaged. Throws std::runtime_error when another process uses the folder, saying which,
+    /// and when nothing can be written.
+    BenchStore(const std::string& folder, const RunIdentity& identity, const BenchPlan& plan, EarlierRun earlier);
 
+    const std::string& folder() const { return folder_; }
     /// Whether a group is measured here at all.
     bool isOfShard(std::size_t group) const;
     GroupState load(std::size_t group) const; ///< an empty state where nothing is kept
@@ -38,6 +48,7 @@ public:
 
 private:
     std::string folder_;
+    FolderLock lock_;
     int shard_ = 1, shards_ = 1;
 };
 
@@ -47,9 +58,10 @@ BenchRecord recordIn(const std::string& folder);
 /// The bytes of a picture that is kept.
 std::vector<std::uint8_t> keptPicture(const std::string& folder, const std::string& file);
 
-/// Puts finished shards of one run together in `folder`, which is made where it is missing. Throws InputError when they
-/// are of different runs, saying in what, when a shard is unfinished, missing or given twice, and when the folder holds
-/// an unfinished run.
-void mergeRuns(const std::vector<std::string>& shards, const std::string& folder);
+/// Puts finished shards of one run together in `folder`, which is made where it is missing, and returns the lock on it
+/// for what else is to be written there. Throws InputError when they are of different runs or of a scene that changed
+/// between them, saying in what, when a shard is unfinished, missing or given twice, and when the folder holds an
+/// unfinished run; std::runtime_error when another process uses the folder.
+FolderLock mergeRuns(const std::vector<std::string>& shards, const std::string& folder);
 
 } // namespace tessera::validation

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "scenes/Error.h"
 #include "validation/HeatMap.h"
 #include "validation/Rendering.h"
 #include "validation/bench/Attribution.h"
@@ -83,6 +84,9 @@ private:
         const std::size_t kinds = timed_.size() + floorFrames.size();
         InterleaveOptions interleave;
         interleave.rounds = options_.frames;
+        if (!state_.roundsMs.empty() && state_.roundsMs.front().size() != kinds)
+            throw InputError(fmt::format("{}: what is kept of it is of other frames than it has; name another folder",
+                                         groupName(group_)));
         interleave.earlierMs = state_.roundsMs;
         interleave.measured = [&](std::span<const double> roundMs) {
             state_.roundsMs.emplace_back(roundMs.begin(), roundMs.end());

@@ -3,7 +3,11 @@
 #include <filesystem>
 #include <thread>
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include "tests/cli/program/Cli.h"
+#include "validation/bench/FolderLock.h"
 
 namespace tessera::test {
 namespace {
@@ -92,7 +96,48 @@ TEST_F(BenchRuns, whatCannotBePutTogetherIsAlwaysRefusedInOneLine) {
     std::filesystem::remove(folder_.path() / "one/parts/group-000.json");
     expectError(2, command("one"), {"unfinished", "--resume"});
     folder_.write("one/parts/group-000.json", "{}");
-    expectError(2, command("one", {"--shard", "1/2", "--resume"}), {"group-000.json", "is damaged"});
+    expectError(2, command("one", {"--shard", "1/2", "--resume"}), {"group-000.json", "is damaged", "remove it"});
+}
+
+TEST_F(BenchRuns, aSceneThatIsEditedBetweenTwoPartsOfARunIsAlwaysRefused) {
+    const auto paint = [&](const char* colour) {
+        writeQuad(fmt::format(R"({{"name": "paint", "model": "lambert", "k_d": {}}})", colour),
+                  R"([{"type": "point", "position": [0, 0, 1]}])");
+    };
+    const auto bench = [](const std::string& out, const Words& more) {
+        Words words{"bench", "quad.json", "--frames", "1", "--matrix", "sizes.json", "-o", out};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    };
+    folder_.write("sizes.json", R"({"technique": ["forward", "deferred"], "size": ["32x18", "320x180"]})");
+    paint("[1, 1, 1]");
+    runGood(bench("one", {"--shard", "1/2"}));
+    Words words{kProgram};
+    for (const std::string& word : bench("killed", {})) words.push_back(word);
+    Process process(words, {folder_.path(), {}, 60.0});
+    while (!std::filesystem::exists(folder_.path() / "killed/report.html")) // written after each group
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    process.send(SIGKILL);
+    const ProcessResult result = process.wait();
+    ASSERT_EQ(result.signal, SIGKILL) << "it had ended before the second group was measured";
+
+    paint("[1, 1, 0.5]");
+    std::filesystem::remove(folder_.path() / "killed/bench.lock"); // a killed process leaves it; it holds nothing
+    expectError(2, bench("killed", {"--resume"}), {"the scene quad.json changed", "name another folder"});
+    runGood(bench("two", {"--shard", "2/2"}));
+    expectError(2, {"bench", "--merge", "one", "two", "-o", "all"}, {"the scene quad.json changed", "every shard"});
+    paint("[1, 1, 1]");
+    runGood(bench("killed", {"--resume"}));
+}
+
+TEST_F(BenchRuns, aFolderInUseIsAlwaysRefusedAndItsHolderNamed) {
+    runGood(command("out"));
+    const validation::FolderLock held(path("out"));
+    const Words parts{"out is in use", fmt::format("process {}", ::getpid()), "name another folder"};
+    expectError(1, command("out"), parts);
+    expectError(1, command("out", {"--resume"}), parts);
+    runGood(command("whole"));
+    expectError(1, {"bench", "--merge", "whole", "-o", "out"}, parts);
 }
 
 } // namespace

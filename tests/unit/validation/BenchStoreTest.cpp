@@ -1,8 +1,11 @@
 #include "validation/bench/BenchStore.h"
 
 #include <fstream>
+#include <iterator>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include "scenes/Error.h"
 #include "tests/support/TempFolder.h"
@@ -32,7 +35,7 @@ protected:
 
     /// A shard with all its groups measured; its folder.
     std::string finishedShard(const std::string& name, int shard, int shards, int groups) const {
-        const BenchStore store(folder(name), madeUpIdentity(shard, shards), madeUpPlan(groups), false);
+        const BenchStore store(folder(name), madeUpIdentity(shard, shards), madeUpPlan(groups), EarlierRun::Keep);
         for (int i = 0; i < groups; ++i)
             if (store.isOfShard(std::size_t(i))) store.keep(std::size_t(i), finished(i));
         return folder(name);
@@ -56,11 +59,11 @@ TEST_F(BenchStoring, whatIsKeptAlwaysComesBackAfterTheProgramsEnd) {
     GroupState half = finished(1);
     half.isDone = false;
     {
-        const BenchStore store(out, madeUpIdentity(), madeUpPlan(3), false);
+        const BenchStore store(out, madeUpIdentity(), madeUpPlan(3), EarlierRun::Keep);
         store.keep(0, finished(0));
         store.keep(1, half);
     }
-    const BenchStore store(out, madeUpIdentity(), madeUpPlan(3), true);
+    const BenchStore store(out, madeUpIdentity(), madeUpPlan(3), EarlierRun::Resume);
     EXPECT_TRUE(store.load(0).isDone);
     EXPECT_FALSE(store.load(1).isDone);
     EXPECT_EQ(store.load(1).roundsMs, half.roundsMs);
@@ -72,17 +75,17 @@ TEST_F(BenchStoring, whatIsKeptAlwaysComesBackAfterTheProgramsEnd) {
 
 TEST_F(BenchStoring, anUnfinishedRunIsNeverWrittenOverUnasked) {
     const std::string out = folder("out");
-    { const BenchStore store(out, madeUpIdentity(), madeUpPlan(2), false); }
-    EXPECT_THAT(refusal([&] { BenchStore(out, madeUpIdentity(), madeUpPlan(2), false); }),
+    { const BenchStore store(out, madeUpIdentity(), madeUpPlan(2), EarlierRun::Keep); }
+    EXPECT_THAT(refusal([&] { BenchStore(out, madeUpIdentity(), madeUpPlan(2), EarlierRun::Keep); }),
                 testing::AllOf(HasSubstr("--resume"), HasSubstr("parts")));
     finishedShard("done", 1, 1, 2);
-    EXPECT_NO_THROW(BenchStore(folder("done"), madeUpIdentity(), madeUpPlan(2), false));
+    EXPECT_NO_THROW(BenchStore(folder("done"), madeUpIdentity(), madeUpPlan(2), EarlierRun::Keep));
 }
 
 TEST_F(BenchStoring, anotherRunIsNeverResumedAndWhatDiffersIsAlwaysNamed) {
     const std::string out = finishedShard("out", 1, 2, 2);
     const auto resumed = [&](const RunIdentity& identity, const BenchPlan& plan) {
-        return refusal([&] { BenchStore(out, identity, plan, true); });
+        return refusal([&] { BenchStore(out, identity, plan, EarlierRun::Resume); });
     };
     RunIdentity other = madeUpIdentity(1, 2);
     other.machine = "64 x Chip";
@@ -98,6 +101,46 @@ TEST_F(BenchStoring, anotherRunIsNeverResumedAndWhatDiffersIsAlwaysNamed) {
     other = madeUpIdentity(1, 2);
     other.command = "another spelling of it";
     EXPECT_EQ(resumed(other, madeUpPlan(2)), "nothing was refused");
+}
+
+TEST_F(BenchStoring, aSceneThatChangedIsNeverMixedWithWhatItWas) {
+    const std::string a = finishedShard("a", 1, 2, 2);
+    BenchPlan changed = madeUpPlan(2);
+    changed.groups[1].fingerprint ^= 1;
+    EXPECT_THAT(refusal([&] { BenchStore(a, madeUpIdentity(1, 2), changed, EarlierRun::Resume); }),
+                testing::AllOf(HasSubstr("the scene hall changed between them"), HasSubstr("name another folder")));
+    {
+        const BenchStore store(folder("b"), madeUpIdentity(2, 2), changed, EarlierRun::Keep);
+        store.keep(1, finished(1));
+    }
+    EXPECT_THAT(refusal([&] {
+                    mergeRuns({a, folder("b")}, folder("all"));
+                }),
+                testing::AllOf(HasSubstr("the scene hall changed between them"), HasSubstr("measure every shard")));
+}
+
+TEST_F(BenchStoring, aFolderIsNeverGivenToTwoRunsAtOnceAndTheHolderIsAlwaysNamed) {
+    const std::string out = folder("out");
+    const auto refused = [&](auto&& begin) -> std::string {
+        try {
+            begin();
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "nothing was refused";
+    };
+    const auto inUse = testing::AllOf(HasSubstr(out + " is in use"), HasSubstr(fmt::format("process {}", ::getpid())),
+                                      HasSubstr("name another folder"));
+    {
+        const BenchStore store(out, madeUpIdentity(), madeUpPlan(1), EarlierRun::Keep);
+        for (const EarlierRun earlier : {EarlierRun::Keep, EarlierRun::Resume, EarlierRun::Replace})
+            EXPECT_THAT(refused([&] { BenchStore(out, madeUpIdentity(), madeUpPlan(1), earlier); }), inUse);
+        EXPECT_THAT(refused([&] { mergeRuns({finishedShard("whole", 1, 1, 1)}, out); }), inUse);
+    }
+    EXPECT_FALSE(fs::exists(out + "/bench.lock"));
+    // What a killed process leaves behind holds nothing.
+    std::ofstream(out + "/bench.lock") << "process 1";
+    EXPECT_NO_THROW(BenchStore(out, madeUpIdentity(), madeUpPlan(1), EarlierRun::Resume));
 }
 
 TEST_F(BenchStoring, mergedShardsAlwaysEqualOneRun) {
@@ -119,18 +162,39 @@ TEST_F(BenchStoring, shardsThatAreNoWholeRunAreNeverMerged) {
     EXPECT_THAT(merged({a, finishedShard("c", 2, 3, 3)}), HasSubstr("different numbers of shards"));
     EXPECT_THAT(merged({a, finishedShard("d", 2, 2, 4)}), HasSubstr("scenes or matrix differ"));
     EXPECT_THAT(merged({a, folder("nothing")}), HasSubstr("holds no bench"));
-    { const BenchStore begun(folder("e"), madeUpIdentity(2, 2), madeUpPlan(3), false); }
+    { const BenchStore begun(folder("e"), madeUpIdentity(2, 2), madeUpPlan(3), EarlierRun::Keep); }
     EXPECT_THAT(merged({a, folder("e")}), HasSubstr("is not finished"));
     EXPECT_THAT(refusal([&] { mergeRuns({a, b}, a); }), HasSubstr("cannot be written over"));
     EXPECT_EQ(merged({a, b}), "nothing was refused");
 }
 
-TEST_F(BenchStoring, damagedFilesAreAlwaysNamed) {
+TEST_F(BenchStoring, damagedFilesAreAlwaysNamedWithARemedyInWordsOfOurOwn) {
     const std::string out = finishedShard("out", 1, 1, 1);
-    std::ofstream(out + "/parts/group-000.json") << "{\"done\": true, \"roundsMs\": []}";
-    EXPECT_THAT(refusal([&] { recordIn(out); }), testing::AllOf(HasSubstr("group-000.json"), HasSubstr("is damaged")));
-    std::ofstream(out + "/parts/run.json") << "{";
-    EXPECT_THAT(refusal([&] { recordIn(out); }), testing::AllOf(HasSubstr("run.json"), HasSubstr("is damaged")));
+    const auto read = [&](const std::string& file, const std::string& text) {
+        std::ofstream(out + "/parts/" + file) << text;
+        const std::string said = refusal([&] { recordIn(out); });
+        EXPECT_THAT(said, testing::AllOf(HasSubstr(file), testing::Not(HasSubstr("json.exception")),
+                                         testing::Not(HasSubstr("\n"))));
+        return said;
+    };
+    const auto whole = HasSubstr("is damaged: it is no whole JSON document; remove");
+    const auto field = HasSubstr("is damaged: a field is missing or of another kind than tessera writes; remove");
+    for (const char* text : {"", "{\"done\": tr", "[1]]"}) EXPECT_THAT(read("group-000.json", text), whole) << text;
+    for (const char* text : {"{\"done\": true, \"roundsMs\": []}", "[]", "{\"done\": 1}"})
+        EXPECT_THAT(read("group-000.json", text), field) << text;
+    EXPECT_THAT(read("group-000.json", "{}"), HasSubstr("--resume"));
+    std::ifstream kept(out + "/parts/run.json");
+    const std::string run{std::istreambuf_iterator<char>(kept), std::istreambuf_iterator<char>()};
+    const auto changed = [&](const std::string& from, const std::string& to) {
+        std::string text = run;
+        return text.replace(text.find(from), from.size(), to);
+    };
+    EXPECT_THAT(read("run.json", changed("\"abc\"", "3")), field);
+    EXPECT_THAT(read("run.json", changed("\"hall\"", "null")), field);
+    EXPECT_THAT(read("run.json", changed("\"shard\": [\n  1", "\"shard\": [\n  0")),
+                HasSubstr("there is no shard 0/1"));
+    EXPECT_THAT(read("run.json", changed("\"schema\": 2", "\"schema\": 1")), HasSubstr("another version of tessera"));
+    EXPECT_THAT(read("run.json", "{"), testing::AllOf(whole, HasSubstr("to measure all of it again")));
 }
 
 } // namespace

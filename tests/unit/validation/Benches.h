@@ -42,6 +42,7 @@ inline BenchPlan madeUpPlan(int groups) {
         PlannedGroup group;
         group.scene = "hall";
         group.lights = 10 << i;
+        group.fingerprint = 0xfedcba9876543210ull + std::uint64_t(i);
         group.sizePixels = {64, 32};
         BenchPoint point;
         point.key = {"forward", "none", {}, "exact", 0.0};
