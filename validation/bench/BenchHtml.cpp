@@ -75,14 +75,16 @@ std::string tileHtml(const std::string& label, const std::string& figure, const 
     return fmt::format("<div><dt>{}</dt><dd>{}<small>{}</small></dd></div>\n", label, figure, note);
 }
 
-std::string answerHtml(const BenchGroup& group) {
+std::string answerHtml(const BenchRecord& record, const BenchGroup& group) {
     const std::optional<Recommendation> choice = recommendFor(group);
-    if (!choice) return "<p class=\"choice\">Nothing is measured yet.</p>\n";
+    const std::string unfinished = unfinishedHtml(record);
+    if (!choice) return unfinished + "<p class=\"choice\">Nothing is measured yet.</p>\n";
     const BenchResult& best = *choice->best;
     std::string how = best.key.tilePixels ? fmt::format("{} {}, ", best.key.culling, *best.key.tilePixels) : "";
     how += best.key.layout;
     if (best.key.rangeTolerance > 0.0) how += fmt::format(", range {:g}", best.key.rangeTolerance);
-    std::string html = "<dl class=\"answer\">\n" + tileHtml("Take", escapedHtml(best.key.technique), escapedHtml(how));
+    std::string html =
+        unfinished + "<dl class=\"answer\">\n" + tileHtml("Take", escapedHtml(best.key.technique), escapedHtml(how));
     if (choice->speedup) {
         const double speedup = *choice->speedup;
         html +=
@@ -213,10 +215,15 @@ std::string allPointsHtml(const BenchRecord& record, const BenchGroup& headline)
 
 } // namespace
 
+std::string unfinishedHtml(const BenchRecord& record) {
+    if (record.isComplete) return "";
+    return fmt::format("<p class=\"unfinished missed\" role=\"status\">{}</p>\n", escapedHtml(unfinishedText(record)));
+}
+
 ReportBench benchHtml(const BenchRecord& record, const BenchGroup& headline, const PictureBytes& pictureBytes) {
-    return {answerHtml(headline), answersHtml(record) + paretoHtml(record, headline) + scalingHtml(record) +
-                                      allPicturesHtml(record, pictureBytes) + causesHtml(record) +
-                                      allPointsHtml(record, headline) + scriptData(plotData(record))};
+    return {answerHtml(record, headline), answersHtml(record) + paretoHtml(record, headline) + scalingHtml(record) +
+                                              allPicturesHtml(record, pictureBytes) + causesHtml(record) +
+                                              allPointsHtml(record, headline) + scriptData(plotData(record))};
 }
 
 } // namespace tessera::validation

@@ -139,6 +139,16 @@ std::string benchJson(const BenchRecord& record) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string unfinishedText(const BenchRecord& record) {
+    if (record.isComplete) return "";
+    std::size_t measured = 0;
+    for (const BenchGroup& group : record.groups) measured += group.results.size();
+    return fmt::format(
+        "Unfinished: {} of {} points are measured, and what is said here may change with the others. {}.", measured,
+        record.plannedPoints,
+        record.shards > 1 ? "Finish every shard and put them together with --merge" : "Go on with --resume");
+}
+
 std::string benchTable(const BenchRecord& record) {
     std::string text;
     for (const BenchGroup& group : record.groups) text += groupTable(group);
@@ -155,6 +165,7 @@ std::string benchTable(const BenchRecord& record) {
         const std::string words = recommendationText(group);
         if (!words.empty()) text += words + "\n";
     }
+    if (!record.isComplete) text += unfinishedText(record) + "\n";
     return text;
 }
 

@@ -14,13 +14,19 @@ struct BenchRecord {
     int frames = 0;      ///< timed, of each point
     std::vector<BenchGroup> groups;
     std::vector<SkippedPoint> skipped;
-    bool isComplete = false; ///< every group of the matrix is in it
+    bool isComplete = false;       ///< every group of the matrix is in it
+    std::size_t plannedPoints = 0; ///< of the whole matrix
+    int shards = 1;                ///< that the matrix is divided among
 };
+
 /// 2: `error`, `pareto`, `range`, `attribution`, `scaling` and `recommendations` are measured.
 inline constexpr int kBenchSchema = 2;
 
 std::string benchJson(const BenchRecord& record);  ///< the `bench` record of the command line's documentation
 std::string benchCsv(const BenchRecord& record);   ///< its points, one a line; RFC 4180
 std::string benchTable(const BenchRecord& record); ///< for people
+
+/// How much is still to be measured and how to go on, in one sentence or two; empty for a complete record.
+std::string unfinishedText(const BenchRecord& record);
 
 } // namespace tessera::validation

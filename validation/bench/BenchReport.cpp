@@ -46,7 +46,7 @@ Report benchReport(const BenchRecord& record, const std::string& folder) {
     const BenchGroup* headline = headlineGroup(record);
     if (!headline) {
         report.title = "Nothing is measured yet";
-        report.bench = ReportBench{};
+        report.bench = ReportBench{unfinishedHtml(record), ""};
         return report;
     }
     report.title = titleOf(record, *headline);

@@ -250,6 +250,8 @@ BenchRecord recordIn(const std::string& folder) {
     record.frames = run.at("frames").get<int>();
     for (const Json& skipped : run.at("skipped"))
         record.skipped.push_back({skipped.at("what").get<std::string>(), skipped.at("why").get<std::string>()});
+    record.shards = run.at("shard").at(1).get<int>();
+    for (const Json& group : run.at("groups")) record.plannedPoints += group.at("points").size();
     record.isComplete = true;
     for (std::size_t i = 0; i < run.at("groups").size(); ++i) {
         GroupState state = stateIn(folder, i);

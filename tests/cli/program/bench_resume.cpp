@@ -120,6 +120,7 @@ TEST_F(BenchRuns, aSceneThatIsEditedBetweenTwoPartsOfARunIsAlwaysRefused) {
     process.send(SIGKILL);
     const ProcessResult result = process.wait();
     ASSERT_EQ(result.signal, SIGKILL) << "it had ended before the second group was measured";
+    EXPECT_THAT(text("killed/report.html"), HasSubstr("Unfinished: 2 of 4 points are measured"));
 
     paint("[1, 1, 0.5]");
     std::filesystem::remove(folder_.path() / "killed/bench.lock"); // a killed process leaves it; it holds nothing
@@ -128,6 +129,7 @@ TEST_F(BenchRuns, aSceneThatIsEditedBetweenTwoPartsOfARunIsAlwaysRefused) {
     expectError(2, {"bench", "--merge", "one", "two", "-o", "all"}, {"the scene quad.json changed", "every shard"});
     paint("[1, 1, 1]");
     runGood(bench("killed", {"--resume"}));
+    EXPECT_THAT(text("killed/report.html"), testing::Not(HasSubstr("Unfinished")));
 }
 
 TEST_F(BenchRuns, aFolderInUseIsAlwaysRefusedAndItsHolderNamed) {

@@ -6,6 +6,7 @@
 #include "tests/unit/validation/Benches.h"
 #include "validation/bench/BenchHtml.h"
 #include "validation/bench/BenchJson.h"
+#include "validation/bench/BenchReport.h"
 #include "validation/bench/Pareto.h"
 #include "validation/bench/Recommend.h"
 #include "validation/bench/ScalingFit.h"
@@ -77,6 +78,23 @@ TEST(ScalingFit, anExponentIsNeverToldOfTimesThatFollowNoLine) {
     const std::string table = benchTable(record);
     EXPECT_THAT(table, HasSubstr("forward, exact: time grows as lights^1.00"));
     EXPECT_THAT(table, HasSubstr("deferred, exact: no trend of time with lights at 64x32 (R2 0.1"));
+}
+
+TEST(BenchPageHead, anUnfinishedBenchNeverRecommendsWithoutReserve) {
+    BenchRecord record;
+    record.groups = {madeUpGroup(10, {madeUpResult("forward", 10, 1e-9)})};
+    record.plannedPoints = 9;
+    const std::string reserve = "Unfinished: 1 of 9 points are measured";
+    EXPECT_THAT(benchReport(record, "").bench->answer, testing::StartsWith("<p class=\"unfinished"));
+    EXPECT_THAT(benchReport(record, "").bench->answer, HasSubstr(reserve));
+    EXPECT_THAT(benchTable(record), HasSubstr(reserve));
+    EXPECT_THAT(unfinishedText(record), HasSubstr("--resume"));
+    record.shards = 2;
+    EXPECT_THAT(unfinishedText(record), HasSubstr("--merge"));
+    EXPECT_THAT(benchReport(BenchRecord{}, "").bench->answer, HasSubstr("Unfinished"));
+    record.isComplete = true;
+    EXPECT_THAT(benchReport(record, "").bench->answer, Not(HasSubstr("nfinished")));
+    EXPECT_THAT(benchTable(record), Not(HasSubstr("nfinished")));
 }
 
 TEST(Pareto, theFrontIsExactlyWhatNothingBeats) {
