@@ -109,7 +109,7 @@ TEST_F(BenchRuns, aSceneThatIsEditedBetweenTwoPartsOfARunIsAlwaysRefused) {
         words.insert(words.end(), more.begin(), more.end());
         return words;
     };
-    folder_.write("sizes.json", R"({"technique": ["forward", "deferred"], "size": ["32x18", "64x36"]})");
+    folder_.write("sizes.json", R"({"technique": ["forward", "deferred"], "size": ["32x18", "320x180"]})");
     paint("[1, 1, 1]");
     runGood(bench("one", {"--shard", "1/2"}));
     Words words{kProgram};

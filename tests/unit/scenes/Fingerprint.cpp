@@ -37,9 +37,9 @@ TextureUse& use(Scene& scene) {
 
 const std::vector<Change>& changes() {
     static const std::vector<Change> table{
-        {"name", [](Scene& s) { s.name += "x"; }},
+        {"name", [](Scene& s) { s.name += 'x'; }},
         {"background", [](Scene& s) { s.background.z = 1e-30f; }},
-        {"image.name", [](Scene& s) { s.images[0].name = "x"; }},
+        {"image.name", [](Scene& s) { s.images[0].name += 'x'; }},
         {"image.format", [](Scene& s) { s.images[0].format = TexelFormat::Rgba16Unorm; }},
         {"image.width", [](Scene& s) { s.images[0].width = 2; }},
         {"image.height", [](Scene& s) { s.images[0].height = 2; }},
@@ -54,7 +54,7 @@ const std::vector<Change>& changes() {
         {"use.offset", [](Scene& s) { use(s).transform.offset.y = 1.0f; }},
         {"use.scale", [](Scene& s) { use(s).transform.scale.x = 2.0f; }},
         {"use.rotation", [](Scene& s) { use(s).transform.rotationRadians = 1.0f; }},
-        {"material.name", [](Scene& s) { s.materials[0].name = "x"; }},
+        {"material.name", [](Scene& s) { s.materials[0].name += 'x'; }},
         {"material.model", [](Scene& s) { s.materials[0].model = MaterialModel::Lambert; }},
         {"material.baseColor", [](Scene& s) { s.materials[0].baseColor.y = 0.5f; }},
         {"material.emissive", [](Scene& s) { s.materials[0].emissive.x = 1.0f; }},
@@ -80,7 +80,7 @@ const std::vector<Change>& changes() {
         {"material.alphaCutoff", [](Scene& s) { s.materials[0].alphaCutoff = 0.25f; }},
         {"material.doubleSided", [](Scene& s) { s.materials[0].doubleSided = true; }},
         {"another material", [](Scene& s) { s.materials.emplace_back(); }},
-        {"mesh.name", [](Scene& s) { s.meshes[0].name = "x"; }},
+        {"mesh.name", [](Scene& s) { s.meshes[0].name += 'x'; }},
         {"mesh.positions", [](Scene& s) { s.meshes[0].positionsOS[2].y = 5.0f; }},
         {"mesh.normals", [](Scene& s) { s.meshes[0].normalsOS[0].z = -1.0f; }},
         {"mesh.tangents", [](Scene& s) { s.meshes[0].tangentsOS.assign(3, glm::vec4(1.0f)); }},
@@ -91,13 +91,13 @@ const std::vector<Change>& changes() {
          [](Scene& s) {
              s.meshes[0].indices = {1, 2, 0};
          }},
-        {"node.name", [](Scene& s) { s.nodes[0].name = "x"; }},
+        {"node.name", [](Scene& s) { s.nodes[0].name += 'x'; }},
         {"node.parent", [](Scene& s) { s.nodes[0].parent = 0; }},
         {"node.transform", [](Scene& s) { s.nodes[0].parentFromNode[3][0] = 1.0; }},
         {"node.instances", [](Scene& s) { s.nodes[0].instances.clear(); }},
         {"instance.mesh", [](Scene& s) { s.nodes[0].instances[0].mesh = 1; }},
         {"instance.material", [](Scene& s) { s.nodes[0].instances[0].material = kNone; }},
-        {"light.name", [](Scene& s) { s.lights[0].name = "x"; }},
+        {"light.name", [](Scene& s) { s.lights[0].name += 'x'; }},
         {"light.type", [](Scene& s) { s.lights[0].type = LightType::Spot; }},
         {"light.enabled", [](Scene& s) { s.lights[0].enabled = false; }},
         {"light.color", [](Scene& s) { s.lights[0].color.y = 0.5f; }},
@@ -118,7 +118,7 @@ const std::vector<Change>& changes() {
         {"animation.amplitude", [](Scene& s) { s.lights[0].animation->amplitudeMetres.x = 1.0; }},
         {"animation.times", [](Scene& s) { s.lights[0].animation->timesSeconds[1] = 2.0; }},
         {"animation.points", [](Scene& s) { s.lights[0].animation->pointsWS[1].z = 2.0; }},
-        {"camera.name", [](Scene& s) { s.cameras[0].name = "x"; }},
+        {"camera.name", [](Scene& s) { s.cameras[0].name += 'x'; }},
         {"camera.projection", [](Scene& s) { s.cameras[0].projection = Projection::Orthographic; }},
         {"camera.pose", [](Scene& s) { s.cameras[0].worldFromCamera[3][2] = 1.0; }},
         {"camera.fovY", [](Scene& s) { s.cameras[0].fovYRadians = 1.0; }},
@@ -131,6 +131,7 @@ const std::vector<Change>& changes() {
         {"options.toneMap", [](Scene& s) { s.options.toneMap = ""; }},
         {"options.exposure", [](Scene& s) { s.options.exposureEV = 0.0f; }},
         {"options.size", [](Scene& s) { s.options.sizePixels = glm::ivec2(0); }},
+        {"options.defaultLight", [](Scene& s) { s.options.defaultLight = false; }},
     };
     return table;
 }
@@ -147,10 +148,10 @@ TEST(Fingerprint, aChangeOfAnyFieldAlwaysGivesAnotherOne) {
 TEST(Fingerprint, whatMovesFromOneListToTheNextAlwaysGivesAnotherOne) {
     // Without the lengths between them, both would be the same bytes.
     Scene a = tinyScene(), b = tinyScene();
-    a.materials[0].name = "ab";
-    a.materials.emplace_back().name = "c";
-    b.materials[0].name = "a";
-    b.materials.emplace_back().name = "bc";
+    a.materials[0].name = std::string("ab");
+    a.materials.emplace_back().name = std::string("c");
+    b.materials[0].name = std::string("a");
+    b.materials.emplace_back().name = std::string("bc");
     EXPECT_NE(fingerprint(a), fingerprint(b));
 }
 
