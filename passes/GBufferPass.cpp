@@ -1,5 +1,6 @@
 #include "passes/GBufferPass.h"
 
+#include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/slots.h"
 
@@ -33,7 +34,7 @@ GBufferPass::Outputs GBufferPass::add(graph::Graph& graph, const frame::FrameSpe
             gpu::PipelineState state;
             state.depthTest = gpu::DepthTest::GreaterEqual;
             state.depthWrite = true;
-            resources->scene.draw(resources->scene.opaque(), state);
+            gpu::drawInBands([&] { resources->scene.draw(resources->scene.opaque(), state); }, gpu::BandCost::Geometry);
         });
 }
 

@@ -13,12 +13,14 @@ namespace tessera::gpu {
 namespace {
 
 /// What a band should take: an interrupted frame, and the one that answers the input, fit into 100 ms.
-constexpr double kBandMs = 15.0;
+constexpr double kBandMs = 12.0;
+/// Of draws whose geometry each band repeats, at most.
+constexpr int kGeometryBands = 4;
 /// Bands begin at multiples of the side of llvmpipe's rasteriser tiles, so that none is binned twice.
 constexpr int kRowStep = 64;
 
 struct State {
-    std::function<bool()> givesUp;
+    std::function<bool()> givesUp; ///< empty: draws are whole; also once it said yes, while the frame is left
     int width = 0;
     int height = 0;
 };
@@ -46,7 +48,9 @@ BandedDrawing::~BandedDrawing() {
 void askToGoOn() {
     if (!state.givesUp) return;
     glFinish();
-    if (state.givesUp()) throw graph::Interrupted();
+    if (!state.givesUp()) return;
+    state.givesUp = nullptr;
+    throw graph::Interrupted();
 }
 
 void setBandedTarget(int width, int height) {
@@ -54,23 +58,22 @@ void setBandedTarget(int width, int height) {
     state.height = height;
 }
 
-void drawInBands(const std::function<void()>& draw) {
+void drawInBands(const std::function<void()>& draw, BandCost cost) {
     if (!state.givesUp || state.width == 0 || state.height <= kRowStep) return draw();
-    glEnable(GL_SCISSOR_TEST);
-    int rows = kRowStep;
+    const int quarter = (state.height / kGeometryBands + kRowStep - 1) / kRowStep * kRowStep;
+    const int leastRows = cost == BandCost::Geometry ? quarter : kRowStep;
+    int rows = leastRows;
     for (int row = 0; row < state.height;) {
         const CpuTimer clock;
+        glEnable(GL_SCISSOR_TEST);
         glScissor(0, row, state.width, std::min(rows, state.height - row));
         draw();
+        glDisable(GL_SCISSOR_TEST);
         glFinish();
         row += rows;
-        if (row < state.height && state.givesUp()) {
-            glDisable(GL_SCISSOR_TEST);
-            throw graph::Interrupted();
-        }
-        rows = nextRows(rows, clock.elapsedMs());
+        if (row < state.height) askToGoOn();
+        rows = std::max(nextRows(rows, clock.elapsedMs()), leastRows);
     }
-    glDisable(GL_SCISSOR_TEST);
 }
 
 } // namespace tessera::gpu

@@ -16,9 +16,15 @@ public:
     BandedDrawing& operator=(const BandedDrawing&) = delete;
 };
 
+/// What a draw mostly costs besides its pixels.
+enum class BandCost {
+    Nothing, ///< as narrow bands as are needed
+    Geometry ///< each band repeats it: a few bands
+};
+
 /// Issues `draw` once; under BandedDrawing once a band of the bound framebuffer's rows, scissored to it. The draw must
 /// write pixels only, and each on its own. Where setScissor() holds it is issued once.
-void drawInBands(const std::function<void()>& draw);
+void drawInBands(const std::function<void()>& draw, BandCost cost = BandCost::Nothing);
 
 /// Under BandedDrawing: waits for what was drawn and asks. Done after every pass.
 void askToGoOn();

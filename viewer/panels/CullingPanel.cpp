@@ -18,9 +18,8 @@ void cullingPanel(State& state, const Facts& facts) {
     const validation::LightOracleFigures& figures = *facts.lights;
     const std::optional<double> tightness = figures.tightness();
     fact("Measured", facts.lightsOf);
-    fact("Visited",
-         fmt::format("{:.2f} a pixel, p99 {}, most {}", figures.perPixel(figures.evaluated + figures.everywhere),
-                     figures.evaluatedP99, figures.evaluatedMax));
+    fact("Visited", fmt::format("{:.2f} a pixel", figures.perPixel(figures.evaluated + figures.everywhere)));
+    fact("at most", fmt::format("{}, p99 {}", figures.evaluatedMax, figures.evaluatedP99));
     fact("Needed", fmt::format("{:.2f} a pixel, {:.2f} lit", figures.perPixel(figures.needed),
                                figures.perPixel(figures.neededLit)));
     fact("Tightness", tightness ? fmt::format("{:.3f}", *tightness) : "nothing is needed");

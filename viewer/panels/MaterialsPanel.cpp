@@ -103,7 +103,8 @@ bool materialRows(Material& material) {
     changed |= surfaceRows(material);
     const auto textured = std::count_if(material.textures.begin(), material.textures.end(),
                                         [](const scenes::TextureUse& use) { return use.image != scenes::kNone; });
-    if (textured > 0) ImGui::TextDisabled("%d texture%s scale the values", int(textured), textured == 1 ? "" : "s");
+    if (textured > 0)
+        ImGui::TextDisabled("%s", textured == 1 ? "A texture scales a value" : "Textures scale the values");
     return changed;
 }
 

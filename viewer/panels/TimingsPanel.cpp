@@ -19,15 +19,15 @@ void plot(const char* id, const std::vector<float>& values, float height) {
 }
 
 std::string milliseconds(const std::optional<double>& ms) {
-    return ms ? fmt::format("{:.2f}", *ms) : "-";
+    return ms ? fmt::format("{:.1f}", *ms) : "-";
 }
 
 void passTable(const Timings& timings, int side, const FrameTimes& frame) {
     if (!ImGui::BeginTable("passes", 4, ImGuiTableFlags_RowBg)) return;
-    ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch, 1.3f);
-    ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed);
-    ImGui::TableSetupColumn("CPU ms", ImGuiTableColumnFlags_WidthFixed);
-    ImGui::TableSetupColumn("history", ImGuiTableColumnFlags_WidthStretch, 1.0f);
+    ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("GPU", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("CPU", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableHeadersRow();
     std::set<std::string> seen;
     for (const gpu::PassTiming& pass : frame.passes) {

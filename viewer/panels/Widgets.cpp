@@ -70,7 +70,7 @@ void tip(std::string_view words) {
 
 void fact(const char* label, const std::string& value) {
     row(label);
-    text(value);
+    paragraph(value);
 }
 
 } // namespace tessera::viewer

@@ -11,7 +11,9 @@ constexpr double kFreshShare = 0.5;
 /// A larger picture must fit by prediction with this much room, so that the scale does not flicker.
 constexpr double kRoom = 0.85;
 /// What smaller pictures must save for it to be worth their being smaller.
-constexpr double kWorthwhile = 1.25;
+constexpr double kWorthwhile = 1.15;
+/// Pictures after which what one of another scale took is forgotten: the scene, and the machine's load, have changed.
+constexpr int kOldest = 30;
 
 std::size_t stepOf(double scale) {
     std::size_t step = 0;
@@ -29,13 +31,13 @@ double pixelsOf(std::size_t step) {
 ResolutionScale::Cost ResolutionScale::cost() const {
     double weights = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
     for (std::size_t step = 0; step < kScales.size(); ++step) {
-        if (!takenMs_[step]) continue;
-        const double weight = 1.0 / std::max(*takenMs_[step] * *takenMs_[step], 1e-6);
+        if (!samples_[step]) continue;
+        const double weight = 1.0 / std::max(samples_[step]->ms * samples_[step]->ms, 1e-6);
         weights += weight;
         x += weight * pixelsOf(step);
-        y += weight * *takenMs_[step];
+        y += weight * samples_[step]->ms;
         xx += weight * pixelsOf(step) * pixelsOf(step);
-        xy += weight * pixelsOf(step) * *takenMs_[step];
+        xy += weight * pixelsOf(step) * samples_[step]->ms;
     }
     if (weights == 0.0) return {};
     const double spread = weights * xx - x * x;
@@ -47,27 +49,31 @@ ResolutionScale::Cost ResolutionScale::cost() const {
 }
 
 double ResolutionScale::predictedMs(std::size_t step) const {
-    if (takenMs_[step]) return *takenMs_[step];
+    if (samples_[step]) return samples_[step]->ms;
     const Cost known = cost();
     return known.frameMs + known.wholeMs * pixelsOf(step);
 }
 
 void ResolutionScale::drew(double scale, double ms) {
-    std::optional<double>& taken = takenMs_[stepOf(scale)];
-    taken = taken ? kFreshShare * ms + (1.0 - kFreshShare) * *taken : ms;
+    for (std::optional<Sample>& sample : samples_)
+        if (sample && ++sample->age > kOldest) sample.reset();
+    std::optional<Sample>& taken = samples_[stepOf(scale)];
+    taken = Sample{taken ? kFreshShare * ms + (1.0 - kFreshShare) * taken->ms : ms, 0};
     const std::size_t now = stepOf(scale_);
-    const double leastMs = predictedMs(kScales.size() - 1);
-    for (std::size_t step = 0; step < kScales.size(); ++step) {
-        const double allowedMs = std::max(step < now ? kRoom * targetMs_ : targetMs_, kWorthwhile * leastMs);
-        if (predictedMs(step) > allowedMs && step + 1 < kScales.size()) continue;
-        scale_ = kScales[step];
-        return;
-    }
+    const std::size_t last = kScales.size() - 1;
+    // That smaller pictures gain nothing is believed only once the smallest was seen.
+    const double enoughMs = samples_[last] ? kWorthwhile * samples_[last]->ms : 0.0;
+    std::size_t step = 0;
+    const auto isTooSlow = [&](std::size_t tried) {
+        return predictedMs(tried) > std::max(tried < now ? kRoom * targetMs_ : targetMs_, enoughMs);
+    };
+    while (step < last && isTooSlow(step)) ++step;
+    scale_ = kScales[step];
 }
 
 void ResolutionScale::restart(double guess) {
     scale_ = kScales[stepOf(guess)];
-    takenMs_ = {};
+    samples_ = {};
 }
 
 } // namespace tessera::viewer

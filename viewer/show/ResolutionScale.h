@@ -34,7 +34,11 @@ private:
 
     double targetMs_;
     double scale_ = kScales.front();
-    std::array<std::optional<double>, kScales.size()> takenMs_; ///< by scale, smoothed
+    struct Sample {
+        double ms = 0.0; ///< smoothed
+        int age = 0;     ///< pictures since
+    };
+    std::array<std::optional<Sample>, kScales.size()> samples_; ///< by scale
 };
 
 } // namespace tessera::viewer

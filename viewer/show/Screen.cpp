@@ -13,7 +13,7 @@ namespace {
 
 /// Input is to be answered within 100 ms: this for the picture leaves room for panels, for showing both, and for a
 /// piece of a frame that is given up.
-constexpr double kMovingMs = 60.0;
+constexpr double kMovingMs = 45.0;
 /// The first picture of a kind, of which nothing is known.
 constexpr double kSoftwareGuess = 0.25;
 
