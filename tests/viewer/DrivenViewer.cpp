@@ -95,8 +95,8 @@ std::string DrivenViewer::waitFor(const std::string& begin, std::size_t from, do
             if (all[i].starts_with(begin)) return all[i];
         sleepSeconds(0.02);
     }
-    throw std::runtime_error(fmt::format("no \"{}\" within {} s; the log is\n{}", begin, seconds,
-                                         fmt::join(lines(), "\n")));
+    throw std::runtime_error(
+        fmt::format("no \"{}\" within {} s; the log is\n{}", begin, seconds, fmt::join(lines(), "\n")));
 }
 
 glm::ivec2 DrivenViewer::waitForWhole(std::size_t from) const {

@@ -50,8 +50,8 @@ TEST_F(ViewerShaders, aBrokenShaderNeverTakesThePictureAndItsMendingIsAlwaysSeen
     mark = viewer.mark();
     const std::size_t main = source.rfind('}');
     ASSERT_NE(main, std::string::npos);
-    const std::string output = source.substr(source.find("out vec4 ") + 9, source.find(';', source.find("out vec4 ")) -
-                                                                               source.find("out vec4 ") - 9);
+    const std::string output = source.substr(source.find("out vec4 ") + 9,
+                                             source.find(';', source.find("out vec4 ")) - source.find("out vec4 ") - 9);
     write(source.substr(0, main) + "    " + output + ".rgb = " + output + ".bgr;\n}\n");
     viewer.key("F5");
     viewer.waitFor("shaders reloaded", mark);
