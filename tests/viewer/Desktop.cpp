@@ -14,6 +14,8 @@ constexpr double kLongSeconds = 3600.0; ///< of programs that end with the test
 constexpr const char* kManagerSettings = R"(<?xml version="1.0"?>
 <openbox_config xmlns="http://openbox.org/3.4/rc">
   <theme><keepBorder>no</keepBorder></theme>
+  <keyboard><keybind key="A-F4"><action name="Close"/></keybind></keyboard>
+  <mouse><dragThreshold>1</dragThreshold></mouse>
   <applications>
     <application class="*"><decor>no</decor><position force="yes"><x>0</x><y>0</y></position></application>
   </applications>

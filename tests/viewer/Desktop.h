@@ -10,8 +10,8 @@
 
 namespace tessera::test {
 
-/// A screen of its own that no monitor shows (Xvfb), with a window manager (Openbox) that binds no key or button and
-/// draws no frames: the one window is at the upper left.
+/// A screen of its own that no monitor shows (Xvfb), with a window manager (Openbox) that binds no key but Alt+F4,
+/// no button, and draws no frames: the one window is at the upper left.
 class Desktop {
 public:
     explicit Desktop(glm::ivec2 sizePixels);

@@ -191,7 +191,7 @@ std::optional<int> DrivenViewer::wait() {
 }
 
 void DrivenViewer::close() const {
-    desktop_.xdotool({"windowquit", window_});
+    desktop_.xdotool({"key", "alt+F4"});
 }
 
 } // namespace tessera::test

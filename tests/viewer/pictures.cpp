@@ -61,6 +61,8 @@ TEST_F(ViewerPictures, theCommandToPasteAlwaysRendersTheSavedPictureToTheLastBit
     viewer.key("F12");
     const std::string png = savedFile(viewer.waitFor("saved ", mark));
     const Shot file = readShot(folder_.path() / png);
+    viewer.key("Escape"); // the message that says where the file is
+    desktop_->xdotool({"sleep", "1"});
     EXPECT_TRUE(pictureIn(viewer, file.sizePixels) == file) << "the screenshot is not what the window shows";
 }
 
@@ -77,9 +79,8 @@ TEST_F(ViewerPictures, differentTechniquesSideBySideAlwaysDifferInNothing) {
     // The divider, its handle and the names of the sides cover little.
     EXPECT_LT(differingShare(split, alone), 0.03);
     EXPECT_GT(differingShare(split, alone), 0.0005) << "there is no divider";
-    mark = viewer.mark();
-    viewer.key("x"); // difference
-    viewer.waitForWhole(mark);
+    viewer.key("x"); // difference, of the two pictures that are there
+    desktop_->xdotool({"sleep", "2"});
     const Shot difference = pictureIn(viewer, size);
     EXPECT_LT(differingShare(difference, Shot{size, std::vector<std::uint8_t>(difference.rgb.size(), 0)}), 0.001)
         << "techniques are equal to the last bit, so nothing may be lit";
