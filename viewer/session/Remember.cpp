@@ -29,8 +29,7 @@ void remember(Preferences& preferences, const State& state, const Look& base) {
         keep(preferences.layout, now.layout != before.layout, [&] { return std::string(layout->name); });
     // What the technique does by itself needs no remembering.
     preferences.culling.reset();
-    if (now.culling.method)
-        preferences.culling = std::string(infoOf(*now.culling.method).name);
+    if (now.culling.method) preferences.culling = std::string(infoOf(*now.culling.method).name);
     preferences.tile = now.culling.tilePixels;
     preferences.automaticScale = state.automaticScale;
     preferences.showsPanel = state.showsPanel;
