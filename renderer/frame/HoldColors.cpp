@@ -26,6 +26,8 @@ GBufferLayout holdingColors(GBufferLayout layout, const scenes::Scene& scene) {
     Encoding& albedo = layout.encoding[std::size_t(Channel::Albedo)];
     Encoding& specular = layout.encoding[std::size_t(Channel::Specular)];
     for (const scenes::Material& material : scene.materials) {
+        // The colour of single_color is radiance, and goes to another channel.
+        if (material.model == scenes::MaterialModel::SingleColor) continue;
         if (exceedsOne(scene, glm::vec3(material.baseColor), material.texture(TextureSlot::BaseColor)))
             albedo = Encoding::Exact;
         // The F0 of metallic_roughness is held to 1 before it is stored.
