@@ -51,15 +51,17 @@ void sidePanel(State& state, const Facts& facts, float height, float scale) {
 
 std::string statusText(const State& state, const Facts& facts) {
     std::string text;
-    for (int side = 0; side < state.sides(); ++side) {
-        const Look& look = state.looks[std::size_t(side)];
-        text += fmt::format("{}{} / {}", side == 0 ? "" : "  |  ", infoOf(look.technique).name,
-                            frame::viewInfo(look.settings.view).name);
+    // Beside the divider the sides' names stand in the picture; two of them leave no room here.
+    if (state.compare == Compare::Off) {
+        const Look& look = state.looks[0];
+        text = fmt::format("{} / {}   ", infoOf(look.technique).name, frame::viewInfo(look.settings.view).name);
+    } else if (state.compare == Compare::Difference) {
+        text = fmt::format("{} - {}   ", infoOf(state.looks[0].technique).name, infoOf(state.looks[1].technique).name);
     }
     if (facts.scale > 0.0)
-        text += fmt::format("   {:.0f} ms   {}x{}   scale {:.3g}", facts.ms, facts.sizePixels.x, facts.sizePixels.y,
+        text += fmt::format("{:.0f} ms   {}x{}   scale {:.3g}   ", facts.ms, facts.sizePixels.x, facts.sizePixels.y,
                             facts.scale);
-    if (!state.loading.empty()) text += "   loading ...";
+    if (!state.loading.empty()) text += "loading ...";
     return text;
 }
 

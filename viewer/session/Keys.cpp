@@ -59,7 +59,7 @@ constexpr KeyBinding kBindings[] = {
          s.showsHelp = false;
      }},
     {GLFW_KEY_TAB, kNone, "Tab", "hide or show the panels", [](State& s) { s.showsPanel = !s.showsPanel; }},
-    {GLFW_KEY_1, kNone, "1 to 7", "the numbered views; 1 is the lit picture", [](State& s) { showNumbered(s, 1); }},
+    {GLFW_KEY_1, kNone, "1 to 7", "the numbered views; 7 is the lit picture", [](State& s) { showNumbered(s, 1); }},
     {GLFW_KEY_2, kNone, "", "", [](State& s) { showNumbered(s, 2); }},
     {GLFW_KEY_3, kNone, "", "", [](State& s) { showNumbered(s, 3); }},
     {GLFW_KEY_4, kNone, "", "", [](State& s) { showNumbered(s, 4); }},
