@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -122,8 +123,6 @@ private:
     // ---- A frame ----
     void frame() {
         const double started = now();
-        const bool isAnswer = window_.hasActivity();
-        const double heardAt = window_.activitySinceSeconds();
         if (window_.takeActivity() || !window_.input().empty()) {
             settleFrames_ = kSettleFrames;
             restAt_ = started + kRestSeconds;
@@ -133,6 +132,8 @@ private:
         for (const std::string& file : window_.takeDrops()) state_.requests.open = file;
         if (!layOut()) return window_.input().clear();
         const std::vector<InputEvent> events = window_.input().takeFrame();
+        for (const InputEvent& event : events)
+            if (!heardAt_) heardAt_ = event.heardSeconds;
         gui_.beginFrame(events);
         controls_.handle(events, state_, area_, {gui_.wantsMouse(), gui_.wantsKeyboard()});
         drawInterface(state_, facts_, area_, uiScale());
@@ -146,7 +147,8 @@ private:
         if (screen_.renderer() && measurements_.update(facts_, state_, screen_, wanted_, isWhole()))
             settleFrames_ = std::max(settleFrames_, 1);
         show();
-        if (isAnswer && drew) log_.line(fmt::format("answered ms {:.1f}", 1000.0 * (now() - heardAt)));
+        const std::optional<double> heardAt = std::exchange(heardAt_, std::nullopt);
+        if (heardAt && drew) log_.line(fmt::format("answered ms {:.1f}", 1000.0 * (shownAt_ - *heardAt)));
     }
 
     /// Screen coordinates, the units of the user interface, for one of a display of usual density.
@@ -322,6 +324,7 @@ private:
     double restAt_ = 0.0;
     double lastFrame_ = 0.0;
     double shownAt_ = 0.0;
+    std::optional<double> heardAt_; ///< of the oldest input of which nothing was shown yet
     double nextShaderLook_ = 0.0;
     std::uint64_t frames_ = 0;
     std::string said_; ///< the latest notice

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "passes/recipes/ChooseCulling.h"
@@ -5,6 +7,7 @@
 #include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/PreparedFrame.h"
 #include "passes/recipes/Renderer.h"
+#include "renderer/frame/RefineLayout.h"
 
 namespace tessera::recipes {
 
@@ -29,13 +32,15 @@ std::string truncationWords(const frame::TruncatedLights& lights, double toleran
     return words;
 }
 
-/// Channels that are stored otherwise than the layout that was asked for says.
-void addHeldChannels(graph::Plan& plan, const frame::GBufferLayout& asked, const frame::FrameSpec& spec) {
-    for (const frame::Channel channel : spec.channels) {
-        if (spec.settings.layout[channel] == asked[channel]) continue;
-        const std::string_view name = frame::channelTable()[std::size_t(channel)].name;
-        plan.choices.push_back({fmt::format("G-buffer channel {}", name), "exact",
-                                "a colour of the scene may exceed 1, which its packed field cannot hold"});
+/// Channels that are stored finer than the layout that was asked for says.
+void addRefinements(graph::Plan& plan, const scenes::Scene& scene, const frame::GBufferLayout& asked,
+                    const frame::FrameSpec& spec) {
+    for (const frame::Refinement& refinement : frame::refinements(asked, scene)) {
+        if (std::find(spec.channels.begin(), spec.channels.end(), refinement.channel) == spec.channels.end()) continue;
+        plan.choices.push_back(
+            {fmt::format("G-buffer channel {}", frame::channelTable()[std::size_t(refinement.channel)].name),
+             fmt::format("as in {}", frame::layoutTable()[std::size_t(refinement.encoding)].name),
+             std::string(refinement.why)});
     }
 }
 
@@ -93,7 +98,7 @@ graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const fra
     for (graph::Plan::Choice& choice : sampleChoices(settings)) plan.choices.push_back(std::move(choice));
     if (std::optional<graph::Plan::Choice> choice = lightingChoice(technique, settings))
         plan.choices.push_back(std::move(*choice));
-    if (infoOf(technique).usesGBuffer) addHeldChannels(plan, settings.layout, prepared.spec);
+    if (infoOf(technique).usesGBuffer) addRefinements(plan, scene, settings.layout, prepared.spec);
     addCounters(plan, scene, technique, prepared);
     return plan;
 }

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "renderer/frame/HoldColors.h"
+#include "renderer/frame/RefineLayout.h"
 
 namespace tessera::frame {
 
@@ -55,7 +55,7 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     // Half the rounds that a loop may make, so that scanning bitmasks has room beside the lights.
     constexpr std::size_t kLightsOneByOne = 32768;
     spec.manyLights = lights.texels.size() > kLightsOneByOne;
-    spec.settings.layout = holdingColors(settings.layout, scene);
+    spec.settings.layout = refined(settings.layout, scene);
     spec.channels = neededChannels(spec.features, spec.settings.layout, needsNormalTexel(settings.view));
     return spec;
 }

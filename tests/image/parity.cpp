@@ -57,13 +57,7 @@ TEST_F(Parity, everyCoarseLayoutAlwaysKeepsItsPromiseAndAttributesItsError) {
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
         for (const frame::LayoutInfo& layout : frame::layoutTable().subspan(1)) {
             SCOPED_TRACE(fmt::format("{} {}", builtin.name, layout.name));
-            scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
-            if (layout.name == "slim") {
-                // Its promise leaves out this masking, which divides by n.v down to 1e-6: no bound of the normal's
-                // error bounds that of a grazing pixel (docs/numerics.md).
-                for (scenes::Material& material : scene.materials)
-                    if (material.masking == scenes::Masking::HalfVector) material.masking = scenes::Masking::Walter;
-            }
+            const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
             frame::FrameSettings settings;
             settings.sizePixels = kSizes[1];
             settings.layout = layout.layout;

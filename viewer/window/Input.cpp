@@ -25,7 +25,9 @@ void InputQueue::push(const InputEvent& event) {
     // Of a pointer on its way only the end counts; how far it went follows from where it was.
     if (event.kind == InputEvent::Kind::Move && !events_.empty() && events_.back().kind == InputEvent::Kind::Move &&
         events_.back().modifiers == event.modifiers) {
+        const double heardSeconds = events_.back().heardSeconds; // the path has waited since it began
         events_.back() = event;
+        events_.back().heardSeconds = heardSeconds;
         return;
     }
     events_.push_back(event);

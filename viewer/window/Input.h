@@ -11,12 +11,13 @@ namespace tessera::viewer {
 struct InputEvent {
     enum class Kind { Move, Button, Scroll, Key, Character, Focus };
     Kind kind = Kind::Move;
-    int code = 0;             ///< key, button or Unicode character
-    bool down = false;        ///< of a key (also when it repeats), a button or the focus
-    bool repeated = false;    ///< the key was held down
-    int modifiers = 0;        ///< GLFW_MOD_*
-    glm::vec2 position{0.0f}; ///< of the pointer, screen coordinates from the upper left
-    glm::vec2 scroll{0.0f};   ///< steps
+    int code = 0;              ///< key, button or Unicode character
+    bool down = false;         ///< of a key (also when it repeats), a button or the focus
+    bool repeated = false;     ///< the key was held down
+    int modifiers = 0;         ///< GLFW_MOD_*
+    glm::vec2 position{0.0f};  ///< of the pointer, screen coordinates from the upper left
+    glm::vec2 scroll{0.0f};    ///< steps
+    double heardSeconds = 0.0; ///< when it was taken from the window system, by Window::nowSeconds()
 };
 
 /// Events wait here until a frame takes them, so that none is lost while a frame is drawn.

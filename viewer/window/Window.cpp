@@ -69,22 +69,18 @@ void Window::installCallbacks() {
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
         Window& self = windowOf(window);
         self.drops_.insert(self.drops_.end(), paths, paths + count);
-        self.noteActivity();
+        self.activity_ = true;
     });
-    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* window, int, int) { windowOf(window).noteActivity(); });
-    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) { windowOf(window).noteActivity(); });
-    glfwSetWindowCloseCallback(window_, [](GLFWwindow* window) { windowOf(window).noteActivity(); });
+    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* window, int, int) { windowOf(window).activity_ = true; });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) { windowOf(window).activity_ = true; });
+    glfwSetWindowCloseCallback(window_, [](GLFWwindow* window) { windowOf(window).activity_ = true; });
 }
 
 void Window::note(const InputEvent& event) {
     InputEvent placed = event;
     placed.position = pointer_;
+    placed.heardSeconds = nowSeconds();
     input_.push(placed);
-    noteActivity();
-}
-
-void Window::noteActivity() {
-    if (!activity_) activitySinceSeconds_ = nowSeconds();
     activity_ = true;
 }
 

@@ -50,14 +50,11 @@ public:
     /// Whether something happened since the last call that asks for a new frame: input, a new size, damage.
     bool takeActivity();
     bool hasActivity() const { return activity_; }
-    /// When the oldest event of the present activity was heard of, by glfwGetTime().
-    double activitySinceSeconds() const { return activitySinceSeconds_; }
     static double nowSeconds();
 
 private:
     void installCallbacks();
     void note(const InputEvent& event);
-    void noteActivity();
 
     std::unique_ptr<gpu::Context> context_;
     GLFWwindow* window_ = nullptr;
@@ -65,7 +62,6 @@ private:
     std::vector<std::string> drops_;
     glm::vec2 pointer_{0.0f};
     bool activity_ = true;
-    double activitySinceSeconds_ = 0.0;
 };
 
 } // namespace tessera::viewer

@@ -1,0 +1,75 @@
+#include "renderer/frame/RefineLayout.h"
+
+#include <algorithm>
+
+namespace tessera::frame {
+
+namespace {
+
+using scenes::Material;
+using scenes::MaterialModel;
+using scenes::TextureSlot;
+
+constexpr std::string_view kBright = "a colour of the scene may exceed 1, which its packed field cannot hold";
+constexpr std::string_view kGrazing = "a material masks by the half vector, which magnifies what n.v is off at grazing "
+                                      "angles";
+
+bool exceedsOne(const scenes::Scene& scene, const glm::vec3& factor, const scenes::TextureUse& texture) {
+    const bool isFloat = texture.image != scenes::kNone &&
+                         scene.images[std::size_t(texture.image)].format == scenes::TexelFormat::Rgba32Float;
+    return isFloat || std::max({factor.r, factor.g, factor.b}) > 1.0f;
+}
+
+bool exceedsOne(const scenes::Mesh& mesh) {
+    return std::any_of(mesh.colors.begin(), mesh.colors.end(), [](const glm::vec4& color) {
+        return std::max({color.r, color.g, color.b}) > 1.0f;
+    });
+}
+
+bool hasBrightAlbedo(const scenes::Scene& scene) {
+    const auto isBright = [&](const Material& material) {
+        // The colour of single_color is radiance, and goes to another channel.
+        return material.model != MaterialModel::SingleColor &&
+               exceedsOne(scene, glm::vec3(material.baseColor), material.texture(TextureSlot::BaseColor));
+    };
+    return std::any_of(scene.materials.begin(), scene.materials.end(), isBright) ||
+           std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                       [](const scenes::Mesh& mesh) { return exceedsOne(mesh); });
+}
+
+bool hasBrightSpecular(const scenes::Scene& scene) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& material) {
+        // The F0 of metallic_roughness is held to 1 before it is stored.
+        return material.model != MaterialModel::SingleColor && material.model != MaterialModel::MetallicRoughness &&
+               exceedsOne(scene, material.specularColor, material.texture(TextureSlot::SpecularColor));
+    });
+}
+
+bool masksByHalfVector(const scenes::Scene& scene) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
+        return (material.model == MaterialModel::Microfacet ||
+                material.model == MaterialModel::MicrofacetAnisotropic) &&
+               material.masking == scenes::Masking::HalfVector;
+    });
+}
+
+} // namespace
+
+std::vector<Refinement> refinements(const GBufferLayout& layout, const scenes::Scene& scene) {
+    std::vector<Refinement> found;
+    if (layout[Channel::Albedo] != Encoding::Exact && hasBrightAlbedo(scene))
+        found.push_back({Channel::Albedo, Encoding::Exact, kBright});
+    if (layout[Channel::Normal] == Encoding::Slim && masksByHalfVector(scene))
+        found.push_back({Channel::Normal, Encoding::Packed, kGrazing});
+    if (layout[Channel::Specular] != Encoding::Exact && hasBrightSpecular(scene))
+        found.push_back({Channel::Specular, Encoding::Exact, kBright});
+    return found;
+}
+
+GBufferLayout refined(GBufferLayout layout, const scenes::Scene& scene) {
+    for (const Refinement& refinement : refinements(layout, scene))
+        layout.encoding[std::size_t(refinement.channel)] = refinement.encoding;
+    return layout;
+}
+
+} // namespace tessera::frame

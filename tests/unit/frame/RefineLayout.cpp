@@ -1,0 +1,74 @@
+#include "renderer/frame/RefineLayout.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes/Load.h"
+#include "tests/support/TestScenes.h"
+
+namespace tessera::frame {
+namespace {
+
+using scenes::Material;
+using scenes::MaterialModel;
+using scenes::Scene;
+
+/// Whether albedo and specular of the packed layout stay packed.
+std::pair<bool, bool> packed(const Scene& scene) {
+    const GBufferLayout layout = refined(layoutTable()[1].layout, scene);
+    return {layout[Channel::Albedo] == Encoding::Packed, layout[Channel::Specular] == Encoding::Packed};
+}
+
+TEST(RefineLayout, aChannelIsExactOnlyWhereAColourMayExceedItsField) {
+    Material material;
+    material.model = MaterialModel::Microfacet;
+    material.baseColor = glm::vec4(1.0f);
+    material.specularColor = glm::vec3(1.0f);
+    Scene scene = test::quadScene(material);
+    scene.meshes[0].colors.clear();
+    EXPECT_EQ(packed(scene), std::pair(true, true));
+    scene.materials[0].baseColor.b = 1.01f;
+    EXPECT_EQ(packed(scene), std::pair(false, true));
+    scene.materials[0].model = MaterialModel::SingleColor; // radiance
+    EXPECT_EQ(packed(scene), std::pair(true, true));
+    scene.materials[0].model = MaterialModel::BlinnPhong;
+    scene.materials[0].baseColor.b = 1.0f;
+    scene.materials[0].specularColor.g = 1.5f;
+    EXPECT_EQ(packed(scene), std::pair(true, false));
+    scene.materials[0].model = MaterialModel::MetallicRoughness; // its F0 is held to 1
+    EXPECT_EQ(packed(scene), std::pair(true, true));
+    scene.meshes[0].colors.assign(4, glm::vec4(1.0f, 2.0f, 1.0f, 1.0f));
+    EXPECT_EQ(packed(scene), std::pair(false, true));
+}
+
+TEST(RefineLayout, theNormalOfSlimIsThatOfPackedExactlyWhereAMaterialMasksByTheHalfVector) {
+    Material material;
+    material.model = MaterialModel::Microfacet;
+    material.masking = scenes::Masking::HalfVector;
+    Scene scene = test::quadScene(material);
+    scene.meshes[0].colors.clear();
+    const GBufferLayout& slim = layoutTable()[2].layout;
+    GBufferLayout wanted = slim;
+    wanted.encoding[std::size_t(Channel::Normal)] = Encoding::Packed;
+    EXPECT_EQ(refined(slim, scene), wanted);
+    ASSERT_EQ(refinements(slim, scene).size(), 1u);
+    EXPECT_EQ(refinements(slim, scene)[0].channel, Channel::Normal);
+    for (const std::size_t finer : {0u, 1u})
+        EXPECT_EQ(refined(layoutTable()[finer].layout, scene), layoutTable()[finer].layout);
+    scene.materials[0].masking = scenes::Masking::Walter;
+    EXPECT_EQ(refined(slim, scene), slim);
+    scene.materials[0].masking = scenes::Masking::HalfVector;
+    scene.materials[0].model = MaterialModel::MetallicRoughness; // has no such option
+    EXPECT_EQ(refined(slim, scene), slim);
+}
+
+TEST(RefineLayout, builtinScenesNeverNeedMoreThanTheirLayoutButTheHalfVectorOfModels) {
+    for (const char* name : {"hall", "spheres", "models", "lattice", "room"}) {
+        SCOPED_TRACE(name);
+        const Scene scene = scenes::loadScene(name);
+        EXPECT_TRUE(refinements(layoutTable()[1].layout, scene).empty());
+        EXPECT_EQ(refinements(layoutTable()[2].layout, scene).size(), std::string_view(name) == "models" ? 1u : 0u);
+    }
+}
+
+} // namespace
+} // namespace tessera::frame
