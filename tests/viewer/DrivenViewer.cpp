@@ -166,6 +166,10 @@ void DrivenViewer::minimise() const {
     desktop_.xdotool({"windowminimize", "--sync", window_});
 }
 
+void DrivenViewer::pause(double seconds) const {
+    sleepSeconds(seconds);
+}
+
 void DrivenViewer::restore() const {
     desktop_.xdotool({"windowmap", "--sync", window_, "windowactivate", "--sync", window_});
 }

@@ -1,10 +1,62 @@
 #include "tests/viewer/ViewerTest.h"
 
+#include <algorithm>
+#include <stdexcept>
+
 #include <fmt/format.h>
 
 #include "validation/PictureFile.h"
 
 namespace tessera::test {
+namespace {
+
+// The list of scenes under its box: the built-in ones, a line, the recent files.
+constexpr int kEntryPixels = 18;
+constexpr int kFirstEntryPixels = 24;
+constexpr int kLinePixels = 6;
+constexpr std::string_view kBuiltin[] = {"hall", "spheres", "models", "lattice", "room", "head"};
+
+/// Clicks what lies so far under the box of the list.
+void chooseEntry(const DrivenViewer& viewer, glm::ivec2 box, int pixels) {
+    viewer.click(box);
+    viewer.click(box + glm::ivec2(0, pixels));
+}
+
+} // namespace
+
+int ViewerTest::barOf(const DrivenViewer& viewer, Section section) {
+    // Bars reach further to the left than anything else in the panels.
+    constexpr int kColumn = 6, kLeastHeight = 12;
+    const Shot shot = viewer.capture();
+    const glm::ivec3 behind = shot.at({kColumn, 1});
+    std::vector<int> bars;
+    int begin = -1;
+    for (int y = 0; y < shot.sizePixels.y; ++y) {
+        const bool isBar = shot.at({kColumn, y}) != behind;
+        if (isBar && begin < 0) begin = y;
+        if (isBar || begin < 0) continue;
+        if (y - begin >= kLeastHeight) bars.push_back((begin + y) / 2);
+        begin = -1;
+    }
+    if (bars.size() <= std::size_t(section)) throw std::runtime_error("a section of the panels is not in view");
+    return bars[std::size_t(section)];
+}
+
+void ViewerTest::toggle(const DrivenViewer& viewer, Section section) {
+    viewer.click({200, barOf(viewer, section)});
+    viewer.moveTo(kMiddle); // where nothing lights up
+    viewer.pause(0.5);
+}
+
+void ViewerTest::chooseScene(const DrivenViewer& viewer, std::string_view builtin) {
+    const auto index = std::find(std::begin(kBuiltin), std::end(kBuiltin), builtin) - std::begin(kBuiltin);
+    chooseEntry(viewer, inRow(viewer, Section::Scene, 1, 200), kFirstEntryPixels + int(index) * kEntryPixels);
+}
+
+void ViewerTest::chooseRecentScene(const DrivenViewer& viewer, int index) {
+    const int entry = int(std::size(kBuiltin)) + index;
+    chooseEntry(viewer, inRow(viewer, Section::Scene, 1, 200), kFirstEntryPixels + entry * kEntryPixels + kLinePixels);
+}
 
 std::string ViewerTest::shell(const std::string& script) const {
     const std::string whole = fmt::format("tessera() {{ '{}' \"$@\"; }}\n{}", TESSERA_PROGRAM, script);

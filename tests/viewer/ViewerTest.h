@@ -16,6 +16,21 @@ namespace tessera::test {
 /// what it says it did.
 class ViewerTest : public testing::Test {
 protected:
+    /// Of the panels, from the top.
+    enum class Section {
+        Scene,
+        Technique,
+        View,
+        Camera,
+        Compare,
+        Lights,
+        Materials,
+        Timings,
+        LightCulling,
+        Graph,
+        Save
+    };
+
     static void SetUpTestSuite() { desktop_ = std::make_unique<Desktop>(glm::ivec2(1280, 800)); }
     static void TearDownTestSuite() { desktop_.reset(); }
 
@@ -32,6 +47,20 @@ protected:
     static Shot pictureIn(const DrivenViewer& viewer, glm::ivec2 sizePixels) {
         return viewer.capture().part(kPictureCorner, sizePixels);
     }
+    // ---- Panels ----
+    /// Height in the window of the middle of a section's bar, wherever it lies now.
+    static int barOf(const DrivenViewer& viewer, Section section);
+    /// A place in a row of an open section; the first row under its bar is 1.
+    static glm::ivec2 inRow(const DrivenViewer& viewer, Section section, int row, int x) {
+        return {x, barOf(viewer, section) + row * kRowPixels};
+    }
+    /// Opens a section, or closes it.
+    static void toggle(const DrivenViewer& viewer, Section section);
+    /// Chooses an entry of the list of scenes: the built-in ones, then the recent files.
+    static void chooseScene(const DrivenViewer& viewer, std::string_view builtin);
+    static void chooseRecentScene(const DrivenViewer& viewer, int index);
+    static constexpr int kRowPixels = 24;
+
     /// Runs a line of shell in which "tessera" is the program; expects success and returns stdout.
     std::string shell(const std::string& script) const;
     /// What `tessera render` writes as a display shows it.

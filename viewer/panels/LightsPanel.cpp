@@ -29,8 +29,10 @@ bool tableRow(State& state, scenes::Scene& scene, int index) {
     ImGui::TableNextColumn();
     const ImVec4 color(std::sqrt(light.color.r), std::sqrt(light.color.g), std::sqrt(light.color.b), 1.0f);
     const float side = ImGui::GetFontSize();
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 0.5f * (ImGui::GetFrameHeight() - side));
     ImGui::ColorButton("##color", color, ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, {side, side});
     ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
     const std::string name = light.name.empty() ? fmt::format("light {}", index) : light.name;
     if (ImGui::Selectable(name.c_str(), index == state.selectedLight)) state.selectedLight = index;
     ImGui::TableNextColumn();

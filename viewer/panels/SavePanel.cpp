@@ -19,6 +19,8 @@ void savePanel(State& state) {
     ImGui::SameLine();
     if (ImGui::Button("Copy command", {half, 0.0f})) state.requests.copyCommand = true;
     tip("The command line that renders this picture (Ctrl+C)");
+    if (ImGui::Button("Trace", {half, 0.0f})) state.requests.saveTrace = true;
+    tip("Times of the latest frames' passes, for chrome://tracing or Perfetto");
     ImGui::SetNextItemWidth(-FLT_MIN);
     std::string& command = state.command;
     if (!command.empty())

@@ -65,8 +65,6 @@ void timingsPanel(State& state, const Facts& facts) {
     fact("Targets", graph::readableBytes(facts.targetBytes));
     tip("Textures and buffers that frames share");
     ImGui::TextDisabled("%s", facts.renderer.c_str());
-    if (ImGui::Button("Save as Chrome trace")) state.requests.saveTrace = true;
-    tip("For chrome://tracing or Perfetto");
 }
 
 } // namespace tessera::viewer

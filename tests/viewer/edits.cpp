@@ -1,0 +1,169 @@
+// Lights and materials edited, scenes changed, saved and opened again, by way of the panels.
+#include <map>
+
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/viewer/ViewerTest.h"
+
+namespace tessera::test {
+namespace {
+
+class ViewerEdits : public ViewerTest {
+protected:
+    /// The picture when all has come to rest after an action.
+    template <class Action>
+    Shot after(const DrivenViewer& viewer, Action act) {
+        const std::size_t mark = viewer.mark();
+        act();
+        return pictureIn(viewer, viewer.waitForWhole(mark));
+    }
+    /// Saves the scene with its edits, and takes the message away that says so.
+    std::string saveScene(const DrivenViewer& viewer) {
+        const std::size_t mark = viewer.mark();
+        viewer.key("ctrl+s");
+        const std::string file = savedFile(viewer.waitFor("saved ", mark));
+        viewer.key("Escape");
+        viewer.pause(0.3);
+        return file;
+    }
+    nlohmann::json readJson(const std::string& name) { return nlohmann::json::parse(shell("cat '" + name + "'")); }
+};
+
+/// The switch of a light in the list, under the bar of the lights.
+constexpr int kFirstSwitchPixels = 43;
+constexpr int kSwitchPixels = 23;
+
+TEST_F(ViewerEdits, aLightSwitchedOffIsSavedAndOnAgainBringsThePictureBackExactly) {
+    Shot dark;
+    std::string saved;
+    {
+        DrivenViewer viewer = open({"spheres"});
+        const Shot lit = pictureIn(viewer, viewer.waitForWhole(0));
+        toggle(viewer, Section::Lights);
+        const glm::ivec2 onOff(17, barOf(viewer, Section::Lights) + kFirstSwitchPixels + 2 * kSwitchPixels);
+        dark = after(viewer, [&] { viewer.click(onOff); });
+        EXPECT_GT(differingShare(dark, lit, 4), 0.2);
+        long long brighter = 0;
+        for (std::size_t i = 0; i < dark.rgb.size(); ++i) brighter += dark.rgb[i] > lit.rgb[i] ? 1 : 0;
+        EXPECT_EQ(brighter, 0) << "something became brighter without a light";
+        saved = saveScene(viewer);
+        EXPECT_TRUE(rendered(saved, dark.sizePixels) == dark) << saved;
+        EXPECT_TRUE(after(viewer, [&] { viewer.click(onOff); }) == lit);
+        viewer.key("ctrl+q");
+        EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
+    }
+    DrivenViewer again = open({saved});
+    EXPECT_TRUE(pictureIn(again, again.waitForWhole(0)) == dark) << "the saved scene does not load back identically";
+}
+
+TEST_F(ViewerEdits, aLightAddedAndDraggedAlwaysGoesWithThePointer) {
+    DrivenViewer viewer = open({"room"});
+    const Shot before = pictureIn(viewer, viewer.waitForWhole(0));
+    toggle(viewer, Section::Lights);
+    const Shot added = after(viewer, [&] {
+        viewer.click({50, barOf(viewer, Section::Lights) + 197});
+    }); // the button "Add"
+    EXPECT_GT(differingShare(added, before, 4), 0.3);
+    // It is where the camera's pivot is, which is the middle of the picture.
+    const glm::ivec2 middle = kPictureCorner + before.sizePixels / 2, there = middle + glm::ivec2(120, -70);
+    const Shot moved = after(viewer, [&] { viewer.drag(middle, there); });
+    EXPECT_GT(differingShare(moved, added, 4), 0.2);
+    const std::string saved = saveScene(viewer);
+    // What `render` does not draw is the marker, at the pointer.
+    const Shot without = rendered(saved, moved.sizePixels);
+    const Shot with = pictureIn(viewer, moved.sizePixels);
+    glm::dvec2 sum(0.0);
+    double count = 0.0;
+    for (int y = 0; y < with.sizePixels.y; ++y)
+        for (int x = 0; x < with.sizePixels.x; ++x)
+            if (with.at({x, y}) != without.at({x, y})) {
+                sum += glm::dvec2(x, y);
+                count += 1.0;
+            }
+    ASSERT_GT(count, 50.0) << "there is no marker";
+    EXPECT_LT(count, 800.0) << "more than a marker differs from what was saved";
+    EXPECT_LT(glm::distance(sum / count, glm::dvec2(there - kPictureCorner)), 4.0);
+}
+
+TEST_F(ViewerEdits, aMaterialPickedByAClickAndEditedIsAlwaysSaved) {
+    DrivenViewer viewer = open({"spheres"});
+    const Shot before = pictureIn(viewer, viewer.waitForWhole(0));
+    std::size_t mark = viewer.mark();
+    viewer.click({720, 460});
+    EXPECT_EQ(viewer.waitFor("picked ", mark), "picked metalness 0/4, roughness 4/10");
+    toggle(viewer, Section::View);
+    toggle(viewer, Section::Technique);
+    toggle(viewer, Section::Materials);
+    constexpr int kMetallicRow = 4;
+    const glm::ivec2 most = inRow(viewer, Section::Materials, kMetallicRow, 286);
+    const Shot metal = after(viewer, [&] { viewer.click(most); });
+    const double share = differingShare(metal, before, 4);
+    EXPECT_GT(share, 0.005) << "nothing became metal";
+    EXPECT_LT(share, 0.03) << "more than the one sphere changed";
+    const std::string saved = saveScene(viewer);
+    EXPECT_TRUE(rendered(saved, metal.sizePixels) == metal);
+    EXPECT_NE(readJson(saved).dump().find("\"metallic\":1"), std::string::npos) << readJson(saved);
+}
+
+TEST_F(ViewerEdits, aSceneChosenFromTheListAlwaysOpensAndKeepsTheTechnique) {
+    DrivenViewer viewer = open({"room", "--technique", "forward_plus"});
+    viewer.waitForWhole(0);
+    std::size_t mark = viewer.mark();
+    chooseScene(viewer, "spheres");
+    viewer.waitFor("opened spheres", mark);
+    const Shot spheres = pictureIn(viewer, viewer.waitForWhole(mark));
+    EXPECT_TRUE(spheres == rendered("spheres --technique forward_plus", spheres.sizePixels));
+    mark = viewer.mark();
+    chooseScene(viewer, "models");
+    viewer.waitFor("opened models", mark);
+    const Shot models = pictureIn(viewer, viewer.waitForWhole(mark));
+    EXPECT_TRUE(models == rendered("models --technique forward_plus", models.sizePixels));
+}
+
+TEST_F(ViewerEdits, aSceneThatCannotBeReadNeverTakesTheOneThatIsOpen) {
+    const std::string good = R"({"tessera": 1, "base": {"file": "builtin:lattice"}})";
+    folder_.write("other.json", good);
+    DrivenViewer viewer = open({"other.json"});
+    viewer.waitForWhole(0);
+    std::size_t mark = viewer.mark();
+    chooseScene(viewer, "room");
+    viewer.waitFor("opened room", mark);
+    const Shot room = pictureIn(viewer, viewer.waitForWhole(mark));
+    folder_.write("other.json", good.substr(0, 20));
+    mark = viewer.mark();
+    chooseRecentScene(viewer, 0);
+    const std::string said = viewer.waitFor("error ", mark);
+    EXPECT_NE(said.find("other.json"), std::string::npos) << said;
+    viewer.pause(1.0);
+    const Shot failed = pictureIn(viewer, room.sizePixels);
+    const glm::ivec2 upper(room.sizePixels.x, room.sizePixels.y * 3 / 4);
+    EXPECT_TRUE(failed.part({0, 0}, upper) == room.part({0, 0}, upper));
+    EXPECT_GT(differingShare(failed, room), 0.01) << "nothing is said in the window";
+    viewer.key("Escape");
+    viewer.pause(0.5);
+    EXPECT_TRUE(pictureIn(viewer, room.sizePixels) == room);
+    // It goes on: the camera still moves.
+    EXPECT_GT(differingShare(after(viewer, [&] { viewer.drag(kMiddle, kMiddle + glm::ivec2(150, 60)); }), room, 4),
+              0.2);
+}
+
+TEST_F(ViewerEdits, aTraceIsAlwaysJsonThatHoldsThePassesOfTheFrames) {
+    DrivenViewer viewer = open({"room", "--technique", "deferred"});
+    viewer.waitForWhole(0);
+    toggle(viewer, Section::View);
+    toggle(viewer, Section::Save);
+    const std::size_t mark = viewer.mark();
+    viewer.click(inRow(viewer, Section::Save, 3, 60));
+    const nlohmann::json trace = readJson(savedFile(viewer.waitFor("saved ", mark)));
+    std::map<std::string, int> seen;
+    for (const nlohmann::json& event : trace.at("traceEvents"))
+        if (event.value("ph", "") == "X") {
+            ++seen[event.at("name").get<std::string>()];
+            EXPECT_GE(event.at("dur").get<double>(), 0.0);
+        }
+    for (const char* pass : {"gbuffer", "deferred_lighting", "display"}) EXPECT_GE(seen[pass], 2) << pass;
+}
+
+} // namespace
+} // namespace tessera::test
