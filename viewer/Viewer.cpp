@@ -12,6 +12,7 @@
 #include "renderer/gpu/Debug.h"
 #include "viewer/edit/Pick.h"
 #include "viewer/panels/Frame.h"
+#include "viewer/session/LightEdits.h"
 #include "viewer/session/Saver.h"
 #include "viewer/session/SceneSwitch.h"
 #include "viewer/show/Measurements.h"
@@ -41,15 +42,21 @@ public:
           saver_(state_, screen_, log_), measurements_([] { Window::wake(); }),
           scenes_(options, state_, log_, [] { Window::wake(); }) {
         facts_.renderer = window_.context().capabilities().renderer;
+        state_.firstWindowSize = window_.sizeScreen();
         scenes_.open(options.scene, options.load);
     }
 
     void run() {
-        while (!window_.shouldClose()) {
-            window_.wait(idleSeconds());
-            if (window_.shouldClose()) break;
-            watchShaders();
-            if (isDue()) frame();
+        try {
+            while (!window_.shouldClose()) {
+                window_.wait(idleSeconds());
+                if (window_.shouldClose()) break;
+                attempt([this] { watchShaders(); });
+                if (isDue()) frame();
+            }
+        } catch (...) {
+            scenes_.remember(window_.sizeScreen());
+            throw;
         }
         scenes_.remember(window_.sizeScreen());
         log_.line("closed");
@@ -62,11 +69,15 @@ private:
     bool isWhole() const { return !state_.open || screen_.scaleOf(wanted_) >= restScale(); }
     double restScale() const { return state_.automaticScale ? 1.0 : double(state_.fixedScale); }
     double movingScale() const { return state_.automaticScale ? screen_.movingScale() : double(state_.fixedScale); }
-    /// A window that is minimised, or too small for a picture, shows nothing.
-    bool hasPicturePlace() const { return !window_.isMinimised() && areaPixels().width > 0 && areaPixels().height > 0; }
+    /// A window that is minimised shows nothing; what there is to show waits.
+    bool isVisible() const {
+        const glm::ivec2 pixels = window_.sizePixels();
+        return !window_.isMinimised() && pixels.x > 0 && pixels.y > 0;
+    }
+    bool hasPicturePlace() const { return isVisible() && areaPixels().width > 0 && areaPixels().height > 0; }
     bool isDue() const {
-        if (window_.hasActivity() || !window_.input().empty() || scenes_.hasResult()) return true;
-        if (settleFrames_ > 0 || measurements_.hasResult() || isNoticeOver()) return true;
+        if (window_.hasActivity() || scenes_.hasResult() || settleFrames_ > 0) return true;
+        if (isVisible() && (!window_.input().empty() || measurements_.hasResult() || isNoticeOver())) return true;
         return hasPicturePlace() && (isMoving() || (!isWhole() && now() >= restAt_));
     }
     /// How long nothing needs to happen; negative: until something does.
@@ -75,7 +86,8 @@ private:
         double seconds = -1.0;
         const auto atMost = [&](double most) { seconds = seconds < 0.0 ? most : std::min(seconds, most); };
         if (!isWhole() && hasPicturePlace()) atMost(std::max(restAt_ - now(), 0.0));
-        if (!state_.notice.text.empty() && !state_.notice.isError) atMost(std::max(saidUntil_ - now(), 0.0));
+        if (isVisible() && !state_.notice.text.empty() && !state_.notice.isError)
+            atMost(std::max(saidUntil_ - now(), 0.0));
         if (screen_.renderer() && !screen_.renderer()->programs().tree().isEmbedded()) atMost(kShaderPeriodSeconds);
         return seconds;
     }
@@ -93,6 +105,16 @@ private:
 
     void nameWindow() {
         window_.setTitle("Tessera - " + std::filesystem::path(state_.open->source()).filename().string());
+    }
+
+    /// What goes wrong is shown, and the window goes on.
+    template <class Action>
+    void attempt(const Action& act) {
+        try {
+            act();
+        } catch (const std::exception& error) {
+            fail(error.what());
+        }
     }
 
     void fail(const std::string& text) {
@@ -114,7 +136,6 @@ private:
         for (const std::string& fault : state_.shaderFaults) log_.line("shader error " + fault);
         if (state_.shaderFaults.empty()) {
             log_.line("shaders reloaded");
-            if (state_.notice.isError) state_.notice = {};
         }
         screen_.forget();
         settleFrames_ = kSettleFrames;
@@ -128,9 +149,10 @@ private:
             restAt_ = started + kRestSeconds;
         }
         settleFrames_ = std::max(settleFrames_ - 1, 0);
-        adoptLoaded();
+        attempt([this] { adoptLoaded(); });
         for (const std::string& file : window_.takeDrops()) state_.requests.open = file;
-        if (!layOut()) return window_.input().clear();
+        if (!isVisible()) return; // input waits, so that no key that is let go is missed
+        layOut();
         const std::vector<InputEvent> events = window_.input().takeFrame();
         for (const InputEvent& event : events)
             if (!heardAt_) heardAt_ = event.heardSeconds;
@@ -138,14 +160,17 @@ private:
         controls_.handle(events, state_, area_, {gui_.wantsMouse(), gui_.wantsKeyboard()});
         drawInterface(state_, facts_, area_, uiScale());
         gui_.endFrame();
+        screen_.takeEdits();
         serveRequests();
         advance(started);
         expireNotice();
         // More input waits: what it leads to is worth a picture, each step of it only now and then.
         if (!window_.input().empty() && started - shownAt_ < kHurrySeconds) return;
         const bool drew = drawPictures();
-        if (screen_.renderer() && measurements_.update(facts_, state_, screen_, wanted_, isWhole()))
-            settleFrames_ = std::max(settleFrames_, 1);
+        attempt([this] {
+            if (screen_.renderer() && measurements_.update(facts_, state_, screen_, wanted_, isWhole()))
+                settleFrames_ = std::max(settleFrames_, 1);
+        });
         show();
         const std::optional<double> heardAt = std::exchange(heardAt_, std::nullopt);
         if (heardAt && drew) log_.line(fmt::format("answered ms {:.1f}", 1000.0 * (shownAt_ - *heardAt)));
@@ -154,12 +179,9 @@ private:
     /// Screen coordinates, the units of the user interface, for one of a display of usual density.
     float uiScale() const { return gui_.scale(); }
 
-    bool layOut() {
-        const glm::ivec2 pixels = window_.sizePixels();
-        if (window_.isMinimised() || pixels.x < 1 || pixels.y < 1) return false;
+    void layOut() {
         area_ = pictureArea(state_, window_.sizeScreen(), uiScale());
         state_.pictureAspect = area_.size.y > 0.0f ? double(area_.size.x) / double(area_.size.y) : 1.0;
-        return true;
     }
 
     /// The picture's place in pixels, from the lower left.
@@ -172,13 +194,13 @@ private:
 
     void serveRequests() {
         const Requests requests = std::exchange(state_.requests, {});
-        if (requests.open) scenes_.open(*requests.open, {});
-        try {
-            serveSaves(requests);
-        } catch (const std::exception& error) {
-            fail(error.what());
-        }
-        if (requests.reloadShaders) reloadShaders();
+        attempt([&] {
+            if (requests.open) scenes_.open(*requests.open, {});
+        });
+        attempt([&] { serveSaves(requests); });
+        attempt([&] {
+            if (requests.reloadShaders) reloadShaders();
+        });
         if (requests.quit) window_.close();
     }
 
@@ -195,6 +217,7 @@ private:
         }
         if (requests.saveTrace) saver_.trace();
         if (requests.copyCommand) copyCommand(size);
+        if (requests.scatter) replaceByScattered(state_);
         if (requests.pick) pick(*requests.pick, size);
         if (!requests.measureLights) return;
         Look look = state_.active();
@@ -283,25 +306,25 @@ private:
                 state_.timings.add({frames_, 1000.0 * startedAt, drawn.sideMs[std::size_t(side)], drawn.scale, side,
                                     drawn.passes[std::size_t(side)]});
             settleFrames_ = std::max(settleFrames_, 1); // the figures of this frame are shown by the next
+            if (state_.notice.isError && state_.notice.text == drawingFault_) state_.notice = {};
             const Look& look = wanted_.looks[0];
             log_.line(fmt::format("drawn {} scale {:.4g} size {}x{} ms {:.1f} technique {} view {}", frames_,
                                   drawn.scale, drawn.sizePixels.x, drawn.sizePixels.y, drawn.ms,
                                   infoOf(look.technique).name, frame::viewInfo(look.settings.view).name));
             return true;
         } catch (const std::exception& error) {
-            fail(error.what());
+            drawingFault_ = error.what();
+            fail(drawingFault_);
             return false;
         }
     }
 
     void show() {
         const glm::ivec2 pixels = window_.sizePixels();
-        try {
+        attempt([this] {
             if (state_.compare == Compare::Difference)
                 screen_.prepareDifference(state_.amplification * std::exp2(state_.active().settings.exposureEV));
-        } catch (const std::exception& error) {
-            fail(error.what());
-        }
+        });
         screen_.show(pixels, areaPixels(), state_.compare, state_.divider);
         gui_.draw();
         gpu::throwIfFailed("while the window was drawn");
@@ -327,7 +350,8 @@ private:
     std::optional<double> heardAt_; ///< of the oldest input of which nothing was shown yet
     double nextShaderLook_ = 0.0;
     std::uint64_t frames_ = 0;
-    std::string said_; ///< the latest notice
+    std::string said_;         ///< the latest notice
+    std::string drawingFault_; ///< why the latest picture that failed did
     double saidUntil_ = 0.0;
     Saver saver_;
     Measurements measurements_;

@@ -70,9 +70,10 @@ void drawInBands(const std::function<void()>& draw, BandCost cost) {
         draw();
         glDisable(GL_SCISSOR_TEST);
         glFinish();
+        const double drawnMs = clock.elapsedMs();
         row += rows;
         if (row < state.height) askToGoOn();
-        rows = std::max(nextRows(rows, clock.elapsedMs()), leastRows);
+        rows = std::max(nextRows(rows, drawnMs), leastRows);
     }
 }
 

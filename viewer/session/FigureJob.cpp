@@ -9,10 +9,17 @@ void FigureJob::start(validation::Picture a, validation::Picture b) {
     assert(!busy_);
     busy_ = true;
     thread_ = std::jthread([this, a = std::move(a), b = std::move(b)] {
-        const validation::ErrorFigures figures = validation::errorFigures(a, b);
+        std::optional<validation::ErrorFigures> figures;
+        std::exception_ptr failure;
+        try {
+            figures = validation::errorFigures(a, b);
+        } catch (...) {
+            failure = std::current_exception();
+        }
         {
             const std::lock_guard lock(mutex_);
             result_ = figures;
+            failure_ = failure;
         }
         busy_ = false;
         done_();
@@ -21,11 +28,12 @@ void FigureJob::start(validation::Picture a, validation::Picture b) {
 
 bool FigureJob::hasResult() const {
     const std::lock_guard lock(mutex_);
-    return result_.has_value();
+    return result_ || failure_;
 }
 
 std::optional<validation::ErrorFigures> FigureJob::take() {
     const std::lock_guard lock(mutex_);
+    if (const std::exception_ptr failure = std::exchange(failure_, nullptr)) std::rethrow_exception(failure);
     return std::exchange(result_, std::nullopt);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -22,7 +23,7 @@ public:
     /// Picture a against the truth b, of one size.
     void start(validation::Picture a, validation::Picture b);
     bool hasResult() const;
-    /// The latest figures, once.
+    /// The latest figures, once. Throws what measuring them threw, such as std::bad_alloc.
     std::optional<validation::ErrorFigures> take();
 
 private:
@@ -30,6 +31,7 @@ private:
     std::atomic<bool> busy_ = false;
     mutable std::mutex mutex_;
     std::optional<validation::ErrorFigures> result_;
+    std::exception_ptr failure_;
     std::jthread thread_;
 };
 

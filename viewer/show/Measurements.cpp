@@ -26,7 +26,8 @@ bool Measurements::update(Facts& facts, const State& state, const Screen& screen
     }
     if (state.compare == Compare::Off) measured_.reset();
     if (isWhole && state.wantsPlan) changed |= updatePlan(facts, state, screen, wanted);
-    if (isWhole && state.compare != Compare::Off) changed |= updateFigures(facts, screen, wanted);
+    if (isWhole && state.compare != Compare::Off && screen.shows(wanted))
+        changed |= updateFigures(facts, screen, wanted);
     facts.figuresAreOld = figureJob_.isBusy() || measured_ != wanted;
     return changed;
 }

@@ -16,7 +16,7 @@ public:
 
     bool hasResult() const { return figureJob_.hasResult(); }
     /// Brings the facts up to date with the pictures, which are those of `wanted` where they are whole. Whether a fact
-    /// changed.
+    /// changed. Throws what measuring throws.
     bool update(Facts& facts, const State& state, const Screen& screen, const Screen::Wanted& wanted, bool isWhole);
     /// Judges the light lists of a frame at a quarter of its size, by trying every light at every pixel. Throws what
     /// drawing throws.

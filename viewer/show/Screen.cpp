@@ -39,13 +39,19 @@ glm::ivec2 scaled(glm::ivec2 size, double scale) {
 Screen::Screen(gpu::Context& context) : context_(context), resolution_(kMovingMs) {}
 
 void Screen::open(const OpenScene& scene) {
-    scene_ = &scene;
     renderer_ = std::make_unique<recipes::Renderer>(context_, scene.scene());
+    scene_ = &scene;
     // Without it a software rasteriser's passes have no times (GraphBackend.h).
     renderer_->backend().setProfiling(context_.capabilities().isSoftware);
     materialRevision_ = scene.materialRevision();
-    drawn_.reset();
+    forget();
     resolution_.restart(context_.capabilities().isSoftware ? kSoftwareGuess : 1.0);
+}
+
+void Screen::takeEdits() {
+    if (scene_ == nullptr || scene_->materialRevision() == materialRevision_) return;
+    renderer_->materialsChanged();
+    materialRevision_ = scene_->materialRevision();
 }
 
 Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::function<bool()>& givesUp) {
@@ -55,11 +61,8 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::functi
     const bool isNewKind =
         !isOfKind(kinds_[0], wanted.looks[0]) || (wanted.sides == 2 && !isOfKind(kinds_[1], wanted.looks[1]));
     kinds_ = wanted.looks;
-    // What fails would fail again; it is tried when something else is wanted.
-    drawn_ = wanted;
-    drawnScale_ = 1.0;
-    if (scene_->materialRevision() != materialRevision_) renderer_->materialsChanged();
-    materialRevision_ = scene_->materialRevision();
+    drawn_.reset();
+    failed_.reset();
     const std::size_t programs = renderer_->programs().size();
     try {
         std::optional<gpu::BandedDrawing> banded;
@@ -78,10 +81,13 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::functi
             if (givesUp) banded.emplace(givesUp);
         }
     } catch (const graph::Interrupted&) {
-        drawn_.reset();
         result.gaveUp = true;
         return result;
+    } catch (...) {
+        failed_ = wanted;
+        throw;
     }
+    drawn_ = wanted;
     drawnScale_ = scale;
     differenceIsStale_ = true;
     const bool compiled = renderer_->programs().size() != programs;

@@ -36,19 +36,26 @@ public:
     explicit Screen(gpu::Context& context);
 
     /// Draws this scene from now on, which must outlive its use here; the pictures of the one before stay until then.
+    /// Throws as the Renderer's constructor does; then the scene before stays.
     void open(const OpenScene& scene);
+    /// Hands edits of materials to the renderer.
+    void takeEdits();
     recipes::Renderer* renderer() const { return renderer_.get(); }
 
-    /// Whether what is wanted is what was drawn, and at which scale: 0 where it was not.
-    double scaleOf(const Wanted& wanted) const { return drawn_ == wanted ? drawnScale_ : 0.0; }
+    /// Whether what is wanted is what was drawn, and at which scale: 0 where it was not. What could not be drawn counts
+    /// as whole: it would fail again.
+    double scaleOf(const Wanted& wanted) const { return drawn_ == wanted ? drawnScale_ : failed_ == wanted ? 1.0 : 0.0; }
+    /// Whether the pictures are those of what is wanted.
+    bool shows(const Wanted& wanted) const { return drawn_ == wanted; }
     /// A picture that is worth drawing at once while things move.
     double movingScale() const { return resolution_.next(); }
-    /// Draws what is wanted at a scale. `givesUp` may be null; where it ends the frame, the pictures stay as they were.
-    /// Throws as Renderer::draw does, and then does not try the same again.
+    /// Draws what is wanted at a scale. `givesUp` may be null; where it ends the frame, or the frame fails, the pictures
+    /// not yet drawn stay as they were. Throws as Renderer::draw does.
     Drawn draw(const Wanted& wanted, double scale, const std::function<bool()>& givesUp);
     /// Draws again what is there, though nothing asked for it has changed: shaders have.
     void forget() {
         drawn_.reset();
+        failed_.reset();
         differenceIsStale_ = true;
     }
 
@@ -71,7 +78,7 @@ private:
     float differenceFactor_ = 0.0f;
     ResolutionScale resolution_;
     std::array<Look, 2> kinds_; ///< what the cost of a pixel was learned from
-    std::optional<Wanted> drawn_;
+    std::optional<Wanted> drawn_, failed_;
     double drawnScale_ = 0.0;
 };
 

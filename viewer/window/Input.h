@@ -28,7 +28,6 @@ public:
     /// place and a button or key either down or up, so the events end before one that would undo what another of them
     /// did, and before the pointer moves on from where a button changed.
     std::vector<InputEvent> takeFrame();
-    void clear() { events_.clear(); }
     bool empty() const { return events_.empty(); }
 
 private:
