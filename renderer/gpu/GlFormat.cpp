@@ -6,6 +6,8 @@
 
 #include <glad/gl.h>
 
+#include "renderer/graph/EnumTable.h"
+
 namespace tessera::gpu {
 namespace {
 
@@ -29,12 +31,7 @@ constexpr std::array kFormats{
     GlFormat{Format::Depth32Float, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, false, false},
 };
 
-constexpr bool isInOrderOfTheEnum() {
-    for (std::size_t i = 0; i < kFormats.size(); ++i)
-        if (kFormats[i].format != Format(i)) return false;
-    return kFormats.size() == std::size_t(Format::Count);
-}
-static_assert(isInOrderOfTheEnum());
+static_assert(graph::isInOrder(kFormats, &GlFormat::format, std::size_t(Format::Count)));
 
 } // namespace
 

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "renderer/graph/EnumTable.h"
+
 namespace tessera::graph {
 namespace {
 
@@ -29,12 +31,7 @@ constexpr std::array kAccesses{
     AccessInfo{Access::Upload, "Upload", true, true, true, false, false, kTransfer},
 };
 
-constexpr bool isInOrderOfTheEnum() {
-    for (std::size_t i = 0; i < kAccesses.size(); ++i)
-        if (kAccesses[i].access != Access(i)) return false;
-    return kAccesses.size() == std::size_t(Access::Upload) + 1;
-}
-static_assert(isInOrderOfTheEnum());
+static_assert(isInOrder(kAccesses, &AccessInfo::access, std::size_t(Access::Upload) + 1));
 
 std::string unfitTexture(Format format, Access access) {
     const FormatInfo& info = formatInfo(format);

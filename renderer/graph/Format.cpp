@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cstddef>
 
+#include "renderer/graph/EnumTable.h"
+
 namespace tessera::graph {
 namespace {
 
@@ -25,12 +27,7 @@ constexpr std::array kFormats{
     FormatInfo{Format::Depth32Float, "D32F", 4, true, false},
 };
 
-constexpr bool isInOrderOfTheEnum() {
-    for (std::size_t i = 0; i < kFormats.size(); ++i)
-        if (kFormats[i].format != Format(i)) return false;
-    return kFormats.size() == std::size_t(Format::Count);
-}
-static_assert(isInOrderOfTheEnum());
+static_assert(isInOrder(kFormats, &FormatInfo::format, std::size_t(Format::Count)));
 
 } // namespace
 

@@ -62,19 +62,19 @@ float alphaAlong(vec2 alpha, vec3 n, vec3 tangent, vec3 h)
     return along;
 }
 
-// G / (4 n.l n.v) for separable Smith masking, G = G1(l) G1(v). Source: Walter 2007, eq. 23 and 34; the cosines of G1's
-// numerator cancel against the denominator, so grazing directions divide by nothing small. Needs both cosines > 0.
-float visibilitySeparable(float alpha, float cosineLight, float cosineView)
-{
-    precise float v = 1.0 / ((cosineLight + smithLength(alpha, cosineLight)) * (cosineView + smithLength(alpha, cosineView)));
-    return v;
-}
-
-// The same for lengths that were computed before.
-float visibilityOfLengths(float cosineLight, float lengthLight, float cosineView, float lengthView)
+// G / (4 n.l n.v) for separable Smith masking, G = G1(l) G1(v), from the lengths of both directions. Source: Walter 2007, eq. 23
+// and 34; the cosines of G1's numerator cancel against the denominator, so grazing directions divide by nothing small. Needs
+// both cosines > 0.
+float visibilitySeparableOfLengths(float cosineLight, float lengthLight, float cosineView, float lengthView)
 {
     precise float v = 1.0 / ((cosineLight + lengthLight) * (cosineView + lengthView));
     return v;
+}
+
+// The same of one alpha.
+float visibilitySeparable(float alpha, float cosineLight, float cosineView)
+{
+    return visibilitySeparableOfLengths(cosineLight, smithLength(alpha, cosineLight), cosineView, smithLength(alpha, cosineView));
 }
 
 // G / (4 n.l n.v) where G1 depends on the angle to the half vector instead of the normal, as one well-known course handout has
@@ -88,19 +88,18 @@ float visibilityHalfVector(float alpha, float cosineLight, float cosineView, flo
     return v;
 }
 
-// The same as visibilitySeparable for height-correlated Smith masking. Source: Heitz 2014, "Understanding the Masking-Shadowing Function in
+// The same for height-correlated Smith masking. Source: Heitz 2014, "Understanding the Masking-Shadowing Function in
 // Microfacet-Based BRDFs", eq. 99. Needs both cosines > 0.
-float visibilityCorrelated(float alpha, float cosineLight, float cosineView)
-{
-    precise float v = 0.5 / (cosineLight * smithLength(alpha, cosineView) + cosineView * smithLength(alpha, cosineLight));
-    return v;
-}
-
-// The same for lengths that were computed before.
 float visibilityCorrelatedOfLengths(float cosineLight, float lengthLight, float cosineView, float lengthView)
 {
     precise float v = 0.5 / (cosineLight * lengthView + cosineView * lengthLight);
     return v;
+}
+
+// The same of one alpha.
+float visibilityCorrelated(float alpha, float cosineLight, float cosineView)
+{
+    return visibilityCorrelatedOfLengths(cosineLight, smithLength(alpha, cosineLight), cosineView, smithLength(alpha, cosineView));
 }
 
 // What x * x loses to rounding, exactly. Source: Dekker 1971, "A Floating-Point Technique for Extending the Available Precision"

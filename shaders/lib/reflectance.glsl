@@ -12,6 +12,16 @@ struct SpecularTerms {
     vec3 f;   // Fresnel reflectance
 };
 
+// The half vector of two unit vectors. Where they are opposite there is none: false, and h is 0.
+bool halfVector(vec3 toLight, vec3 toViewer, out vec3 h)
+{
+    precise vec3 sum = toLight + toViewer;
+    precise float length2 = dot(sum, sum);
+    precise vec3 unit = length2 > 0.0 ? sum / sqrt(length2) : vec3(0.0);
+    h = unit;
+    return length2 > 0.0;
+}
+
 #if HAS_TANGENT_FRAME
 bool isAnisotropic(Surface surface)
 {
@@ -63,7 +73,7 @@ float visibilityOfMicrofacet(Surface surface, vec3 toLight, vec3 toViewer, vec3 
         vec2 alphas = vec2(surface.alpha, surface.alphaBitangent);
 #if HAS_MASKING_OPTIONS
         if (surface.masking == MASKING_DIRECTIONAL) {
-            return visibilityOfLengths(
+            return visibilitySeparableOfLengths(
                 nl, smithLengthAnisotropic(alphas, surface.normalLS, surface.tangentLS, toLight), nv,
                 smithLengthAnisotropic(alphas, surface.normalLS, surface.tangentLS, toViewer));
         }
@@ -83,12 +93,11 @@ float visibilityOfMicrofacet(Surface surface, vec3 toLight, vec3 toViewer, vec3 
 SpecularTerms specularTerms(Surface surface, vec3 toLight, vec3 toViewer, float nl)
 {
     SpecularTerms terms = SpecularTerms(0.0, 0.0, vec3(0.0));
-    precise vec3 sum = toLight + toViewer;
-    precise float length2 = dot(sum, sum);
-    precise vec3 h = length2 > 0.0 ? sum / sqrt(length2) : vec3(0.0);
+    vec3 h;
+    bool hasHalf = halfVector(toLight, toViewer, h);
     precise float lh = dot(toLight, h);
     precise float nv = dot(surface.normalLS, toViewer);
-    bool glossy = nl > 0.0 && nv > 0.0 && length2 > 0.0;
+    bool glossy = nl > 0.0 && nv > 0.0 && hasHalf;
 #if HAS_BLINN_PHONG
     if (surface.model == MODEL_BLINN_PHONG) {
         if (glossy) terms.d = blinnPhongLobe(surface.exponent, surface.normalLS, h);
@@ -124,10 +133,8 @@ vec3 underSheen(Surface surface, vec3 share, vec3 toLight, vec3 toViewer, float 
     precise float albedo = max(sheenAlbedo(surface.sheenAlpha, nl), sheenAlbedo(surface.sheenAlpha, max(nv, 0.0)));
     precise vec3 layered = share * max(1.0 - strongest * albedo, 0.0);
 #if !SPECULAR_OFF
-    precise vec3 sum = toLight + toViewer;
-    precise float length2 = dot(sum, sum);
-    if (nv > 0.0 && length2 > 0.0) {
-        precise vec3 h = sum / sqrt(length2);
+    vec3 h;
+    if (nv > 0.0 && halfVector(toLight, toViewer, h)) {
         precise float lobe = distributionCharlie(surface.sheenAlpha, surface.normalLS, h)
                              * visibilityCharlie(surface.sheenAlpha, nl, nv);
         layered += surface.sheenColor * lobe;
@@ -190,12 +197,10 @@ vec3 underCoat(Surface surface, vec3 base, vec3 toLight, vec3 toViewer)
     precise float weight = coatWeight(surface, normalLS, toViewer);
     precise vec3 coated = base * (1.0 - weight);
 #if !SPECULAR_OFF
-    precise vec3 sum = toLight + toViewer;
-    precise float length2 = dot(sum, sum);
     precise float nl = dot(normalLS, toLight);
     precise float nv = dot(normalLS, toViewer);
-    if (nl > 0.0 && nv > 0.0 && length2 > 0.0) {
-        precise vec3 h = sum / sqrt(length2);
+    vec3 h;
+    if (nl > 0.0 && nv > 0.0 && halfVector(toLight, toViewer, h)) {
         precise float lobe =
             distributionGgx(surface.coatAlpha, normalLS, h) * visibilityCorrelated(surface.coatAlpha, nl, nv) * nl;
         coated += vec3(weight * lobe);
