@@ -1,34 +1,51 @@
 #include "viewer/camera/CameraPose.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
 namespace tessera::viewer {
 namespace {
 
-/// Nothing nearer than this share of the focus is clipped, so that zooming in never cuts a hole into things. Depth is
-/// reversed and in floating point: a near plane close by costs no precision.
+/// Zooming in takes the near plane along, so that it never cuts a hole into things: it keeps its share of the focus,
+/// or comes to this share where it began nearer than that. A scene's own plane stays where it is at the focus that it
+/// began with: it may cut a wall away. Depth is reversed and in floating point: a near plane close by costs no
+/// precision.
 constexpr double kNearShare = 0.01;
+
+double nearMetresOf(const CameraPose& pose) {
+    if (pose.focusMetres >= pose.nearFocusMetres) return pose.nearMetres;
+    const double share = std::max(pose.nearMetres / pose.nearFocusMetres, kNearShare);
+    return std::min(pose.nearMetres, share * pose.focusMetres);
+}
+
+double focusOf(const scenes::Camera& camera, const scenes::Box3& boundsWS) {
+    if (boundsWS.empty()) return 1.0;
+    const double diagonalMetres = glm::length(boundsWS.max - boundsWS.min);
+    const glm::dvec3 centerWS = 0.5 * (boundsWS.min + boundsWS.max);
+    const glm::dvec3 forwardWS = headingOf(glm::dmat3(camera.worldFromCamera)).forwardWS();
+    const double depthMetres = glm::dot(centerWS - glm::dvec3(camera.worldFromCamera[3]), forwardWS);
+    // Nearer than this the centre is rather beside the eye than ahead.
+    constexpr double kLeastShare = 0.05;
+    if (depthMetres > kLeastShare * diagonalMetres) return depthMetres;
+    return diagonalMetres > 0.0 ? 0.5 * diagonalMetres : 1.0;
+}
 
 } // namespace
 
 CameraPose poseOf(const scenes::Camera& camera, const scenes::Box3& boundsWS) {
+    return poseOf(camera, focusOf(camera, boundsWS));
+}
+
+CameraPose poseOf(const scenes::Camera& camera, double focusMetres) {
+    assert(focusMetres > 0.0);
     CameraPose pose;
     pose.eyeWS = glm::dvec3(camera.worldFromCamera[3]);
     pose.heading = headingOf(glm::dmat3(camera.worldFromCamera));
+    pose.focusMetres = pose.nearFocusMetres = focusMetres;
     pose.halfHeightMetres = camera.halfHeightMetres;
     pose.nearMetres = camera.nearMetres;
     pose.farMetres = camera.farMetres;
-    if (boundsWS.empty()) return pose;
-    const double diagonalMetres = glm::length(boundsWS.max - boundsWS.min);
-    const glm::dvec3 centerWS = 0.5 * (boundsWS.min + boundsWS.max);
-    const double depthMetres = glm::dot(centerWS - pose.eyeWS, pose.heading.forwardWS());
-    // Nearer than this the centre is rather beside the eye than ahead.
-    constexpr double kLeastShare = 0.05;
-    if (depthMetres > kLeastShare * diagonalMetres)
-        pose.focusMetres = depthMetres;
-    else if (diagonalMetres > 0.0)
-        pose.focusMetres = 0.5 * diagonalMetres;
     return pose;
 }
 
@@ -43,7 +60,7 @@ scenes::CameraChange changeOf(const CameraPose& pose, const scenes::Camera& star
     if (!isUpright) change.upWS = pose.heading.upWS();
     double nearMetres = pose.nearMetres;
     if (start.projection == scenes::Projection::Perspective)
-        nearMetres = std::min(nearMetres, kNearShare * pose.focusMetres);
+        nearMetres = nearMetresOf(pose);
     else if (pose.halfHeightMetres != start.halfHeightMetres)
         change.halfHeightMetres = pose.halfHeightMetres;
     if (nearMetres != start.nearMetres) change.nearMetres = nearMetres;

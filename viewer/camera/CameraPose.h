@@ -10,14 +10,17 @@ struct CameraPose {
     Heading heading;
     double focusMetres = 1.0;      ///< ahead of the eye: what orbiting turns about, > 0
     double halfHeightMetres = 1.0; ///< of the picture, orthographic cameras
-    double nearMetres = 0.1;
+    double nearMetres = 0.1;       ///< at nearFocusMetres and beyond
+    double nearFocusMetres = 1.0;  ///< a focus nearer than this takes the near plane along, perspective cameras; > 0
     double farMetres = 1.0;
     bool operator==(const CameraPose&) const = default;
 };
 
 /// The pose of a scene's camera. It focuses on the depth of the bounds' centre where that lies ahead, else on what is
-/// a half diagonal ahead; without bounds on 1 m ahead.
+/// a half diagonal ahead; without bounds on 1 m ahead. The near plane is the camera's own at that focus and beyond.
 CameraPose poseOf(const scenes::Camera& camera, const scenes::Box3& boundsWS);
+/// The same with the focus that many metres ahead, > 0.
+CameraPose poseOf(const scenes::Camera& camera, double focusMetres);
 
 /// How a command line says the pose of a camera that started as `start`: eye, target and what else differs. What
 /// changedCamera() makes of it is what the viewer draws, so that both are the same to the last bit.

@@ -43,7 +43,7 @@ glm::dvec3 FlyCamera::velocityWS() const {
 
 void FlyCamera::goTo(const CameraPose& pose) {
     goal_ = pose;
-    goal_.heading = nearestTurn(goal_.heading, shown_.heading);
+    shown_.heading = nearestTurn(shown_.heading, goal_.heading);
 }
 
 void FlyCamera::jumpTo(const CameraPose& pose) {
@@ -73,6 +73,7 @@ void FlyCamera::advance(double stepSeconds, double heightPixels) {
     approach(shown_.focusMetres, goal_.focusMetres);
     approach(shown_.halfHeightMetres, goal_.halfHeightMetres);
     shown_.nearMetres = goal_.nearMetres;
+    shown_.nearFocusMetres = goal_.nearFocusMetres;
     shown_.farMetres = goal_.farMetres;
     if (velocity == glm::dvec3(0.0) && pixelsToGoal(heightPixels) < kRestPixels) shown_ = goal_;
 }

@@ -24,7 +24,9 @@ public:
     /// What keys would move it by, in metres a second.
     glm::dvec3 velocityWS() const;
 
+    /// Goes to a pose, damped; the shorter way round. At rest it is exactly there.
     void goTo(const CameraPose& pose);
+    /// Is at a pose at once.
     void jumpTo(const CameraPose& pose);
 
     /// Moves on by a span of time. Two half steps are one step, also while keys are held.

@@ -31,32 +31,36 @@ OrbitCamera::OrbitCamera(const CameraPose& pose, const scenes::Camera& lens) : l
 
 OrbitCamera::State OrbitCamera::stateOf(const CameraPose& pose) {
     assert(pose.focusMetres > 0.0);
-    State state{pose.eyeWS + pose.focusMetres * pose.heading.forwardWS(), pose};
-    state.pose.eyeWS = glm::dvec3(0.0);
-    return state;
+    return {pose.eyeWS + pose.focusMetres * pose.heading.forwardWS(), pose};
 }
 
-CameraPose OrbitCamera::poseOf(const State& state) {
-    CameraPose pose = state.pose;
-    pose.eyeWS = state.pivotWS - pose.focusMetres * pose.heading.forwardWS();
-    return pose;
+/// What moves by nothing stays where it is to the last bit.
+void OrbitCamera::changeGoal(State goal) {
+    if (goal == goal_) return;
+    goal.placeEye();
+    goal_ = goal;
 }
 
 void OrbitCamera::rotate(const glm::dvec2& dragPixels, double heightPixels) {
     const glm::dvec2 angles = dragPixels * turnPerPixel(lens_, heightPixels);
     // Pulling the front to the right takes the eye to the left, and the view with it to the right.
-    goal_.pose.heading = turned(goal_.pose.heading, -angles.x, -angles.y);
+    State goal = goal_;
+    goal.pose.heading = turned(goal.pose.heading, -angles.x, -angles.y);
+    changeGoal(goal);
 }
 
 void OrbitCamera::pan(const glm::dvec2& dragPixels, double heightPixels) {
     const CameraPose& pose = goal_.pose;
     const double metres = metresPerPixel(lens_, pose, pose.focusMetres, heightPixels);
-    goal_.pivotWS += metres * (dragPixels.y * pose.heading.upWS() - dragPixels.x * pose.heading.rightWS());
+    State goal = goal_;
+    goal.pivotWS += metres * (dragPixels.y * pose.heading.upWS() - dragPixels.x * pose.heading.rightWS());
+    changeGoal(goal);
 }
 
 void OrbitCamera::zoom(double factor, const glm::dvec2& cursorFromCenterPixels, double heightPixels) {
     assert(factor > 0.0);
-    CameraPose& pose = goal_.pose;
+    State goal = goal_;
+    CameraPose& pose = goal.pose;
     const double metres = metresPerPixel(lens_, pose, pose.focusMetres, heightPixels);
     const bool isPerspective = lens_.projection == scenes::Projection::Perspective;
     double& scaled = isPerspective ? pose.focusMetres : pose.halfHeightMetres;
@@ -64,12 +68,13 @@ void OrbitCamera::zoom(double factor, const glm::dvec2& cursorFromCenterPixels, 
     scaled = std::clamp(before * factor, std::min(before, kNearestMetres), std::max(before, kFarthestMetres));
     const glm::dvec3 cursorFromPivotWS =
         metres * (cursorFromCenterPixels.x * pose.heading.rightWS() - cursorFromCenterPixels.y * pose.heading.upWS());
-    goal_.pivotWS += (1.0 - scaled / before) * cursorFromPivotWS;
+    goal.pivotWS += (1.0 - scaled / before) * cursorFromPivotWS;
+    changeGoal(goal);
 }
 
 void OrbitCamera::goTo(const CameraPose& pose) {
     goal_ = stateOf(pose);
-    goal_.pose.heading = nearestTurn(goal_.pose.heading, shown_.pose.heading);
+    shown_.pose.heading = nearestTurn(shown_.pose.heading, goal_.pose.heading);
 }
 
 void OrbitCamera::jumpTo(const CameraPose& pose) {
@@ -100,7 +105,9 @@ void OrbitCamera::advance(double stepSeconds, double heightPixels) {
     approach(from.focusMetres, to.focusMetres);
     approach(from.halfHeightMetres, to.halfHeightMetres);
     from.nearMetres = to.nearMetres; // no picture changes with them while things lie between
+    from.nearFocusMetres = to.nearFocusMetres;
     from.farMetres = to.farMetres;
+    shown_.placeEye();
     if (pixelsToGoal(heightPixels) < kRestPixels) shown_ = goal_;
 }
 

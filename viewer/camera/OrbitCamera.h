@@ -18,7 +18,7 @@ public:
     /// under the cursor, at the pivot's depth, stays there; the cursor is given from the picture's centre.
     void zoom(double factor, const glm::dvec2& cursorFromCenterPixels, double heightPixels);
 
-    /// Goes to a pose, damped; the shorter way round.
+    /// Goes to a pose, damped; the shorter way round. At rest it is exactly there.
     void goTo(const CameraPose& pose);
     /// Is at a pose at once.
     void jumpTo(const CameraPose& pose);
@@ -28,18 +28,21 @@ public:
     /// Nothing will change until something is asked: redrawing may end.
     bool isAtRest() const { return shown_ == goal_; }
 
-    CameraPose pose() const { return poseOf(shown_); } ///< what to draw
-    CameraPose goal() const { return poseOf(goal_); }  ///< what it moves towards
+    const CameraPose& pose() const { return shown_.pose; } ///< what to draw
+    const CameraPose& goal() const { return goal_.pose; }  ///< what it moves towards
     const glm::dvec3& pivotWS() const { return shown_.pivotWS; }
 
 private:
+    /// The eye follows from the pivot wherever one of them moves. That of a pose which was asked for stays as it was
+    /// said: through the pivot and back, rounding would move it.
     struct State {
         glm::dvec3 pivotWS{0.0};
-        CameraPose pose; ///< eyeWS follows from the pivot and is not used
+        CameraPose pose;
         bool operator==(const State&) const = default;
+        void placeEye() { pose.eyeWS = pivotWS - pose.focusMetres * pose.heading.forwardWS(); }
     };
     static State stateOf(const CameraPose& pose);
-    static CameraPose poseOf(const State& state);
+    void changeGoal(State goal);
     double pixelsToGoal(double heightPixels) const;
 
     scenes::Camera lens_;

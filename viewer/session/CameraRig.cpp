@@ -2,9 +2,8 @@
 
 namespace tessera::viewer {
 
-CameraRig::CameraRig(const scenes::Camera& start, const scenes::Box3& boundsWS)
-    : start_(start), boundsWS_(boundsWS), orbit_(poseOf(start, boundsWS), start),
-      fly_(poseOf(start, boundsWS), start, boundsWS) {}
+CameraRig::CameraRig(const scenes::Camera& start, const CameraPose& home, const scenes::Box3& boundsWS)
+    : start_(start), home_(home), boundsWS_(boundsWS), orbit_(home, start), fly_(home, start, boundsWS) {}
 
 void CameraRig::setMode(Mode mode) {
     if (mode == mode_) return;
@@ -41,7 +40,7 @@ void CameraRig::frameScene(double aspect) {
 }
 
 void CameraRig::goHome() {
-    goTo(poseOf(start_, boundsWS_));
+    goTo(home_);
 }
 
 void CameraRig::goTo(const CameraPose& pose) {
@@ -60,7 +59,12 @@ bool CameraRig::isAtRest() const {
     return mode_ == Mode::Orbit ? orbit_.isAtRest() : fly_.isAtRest();
 }
 
-CameraPose CameraRig::pose() const {
+void CameraRig::startHere(const scenes::Camera& here) {
+    start_ = here;
+    home_ = pose();
+}
+
+const CameraPose& CameraRig::pose() const {
     return mode_ == Mode::Orbit ? orbit_.pose() : fly_.pose();
 }
 

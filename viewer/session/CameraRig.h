@@ -5,13 +5,14 @@
 
 namespace tessera::viewer {
 
-/// The camera of the window: it starts as one of the scene's and is moved by orbiting or flying; changing between the
-/// two moves nothing.
+/// The camera of the window: it starts as a given one and is moved by orbiting or flying; changing between the two
+/// moves nothing.
 class CameraRig {
 public:
     enum class Mode { Orbit, Fly };
 
-    CameraRig(const scenes::Camera& start, const scenes::Box3& boundsWS);
+    /// `home` is the pose of `start`: poseOf(). The bounds are the scene's.
+    CameraRig(const scenes::Camera& start, const CameraPose& home, const scenes::Box3& boundsWS);
 
     Mode mode() const { return mode_; }
     void setMode(Mode mode);
@@ -24,25 +25,28 @@ public:
 
     /// All of the scene in view.
     void frameScene(double aspect);
-    /// Back to where the scene's camera is.
+    /// Back to where it started, exactly.
     void goHome();
 
     /// Is at a pose at once.
     void jumpTo(const CameraPose& pose);
     void advance(double stepSeconds, double heightPixels);
     bool isAtRest() const;
+    /// It starts here from now on, as `here`, which is the camera that it shows. Nothing moves, and no movement ends.
+    void startHere(const scenes::Camera& here);
 
-    CameraPose pose() const;
+    const CameraPose& pose() const;
     const scenes::Camera& start() const { return start_; }
-    /// Whether it is elsewhere than the scene's camera.
-    bool isMoved() const { return pose() != poseOf(start_, boundsWS_); }
-    /// What is drawn: the scene's own camera, to the last bit, while nothing moved it.
+    /// Whether it is elsewhere than where it started.
+    bool isMoved() const { return pose() != home_; }
+    /// What is drawn: the camera that it started as, to the last bit, while nothing moved it.
     scenes::Camera camera() const { return isMoved() ? cameraAt(pose(), start_) : start_; }
 
 private:
     void goTo(const CameraPose& pose);
 
     scenes::Camera start_;
+    CameraPose home_;
     scenes::Box3 boundsWS_;
     Mode mode_ = Mode::Orbit;
     OrbitCamera orbit_;

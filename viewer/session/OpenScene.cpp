@@ -5,15 +5,14 @@ namespace tessera::viewer {
 OpenScene::OpenScene(std::string source, const scenes::LoadOptions& load, scenes::Scene loaded,
                      scenes::SceneOrigin origin)
     : source_(std::move(source)), load_(load), scene_(std::move(loaded)), origin_(std::move(origin)),
-      boundsWS_(scenes::worldBounds(scene_)), cameras_(scene_.cameras), rig_(cameras_.front(), boundsWS_) {}
+      boundsWS_(scenes::worldBounds(scene_)), cameras_(scene_.cameras),
+      rig_(cameras_.front(), poseOf(cameras_.front(), boundsWS_), boundsWS_) {}
 
 void OpenScene::useCamera(int camera) {
-    const CameraRig::Mode mode = rig_.mode();
-    scene_.cameras[std::size_t(camera_)] = cameras_[std::size_t(camera_)];
+    scene_.cameras[std::size_t(camera_)] = sceneCamera();
     camera_ = camera;
-    rig_ = CameraRig(cameras_[std::size_t(camera)], boundsWS_);
-    rig_.setMode(mode);
-    applyRig();
+    placed_ = {};
+    begin(sceneCamera(), poseOf(sceneCamera(), boundsWS_));
 }
 
 void OpenScene::becomes(const std::string& file) {
@@ -21,15 +20,32 @@ void OpenScene::becomes(const std::string& file) {
     load_ = {};
     savedEdits_ = edits_;
     cameras_ = scene_.cameras;
-    const CameraRig::Mode mode = rig_.mode();
-    rig_ = CameraRig(cameras_[std::size_t(camera_)], boundsWS_);
-    rig_.setMode(mode);
-    applyRig();
+    placed_ = {};
+    rig_.startHere(sceneCamera());
 }
 
 void OpenScene::place(const scenes::CameraChange& change) {
-    if (change == scenes::CameraChange()) return;
-    rig_.jumpTo(poseOf(scenes::changedCamera(rig_.start(), change), boundsWS_));
+    const scenes::Camera camera = scenes::changedCamera(sceneCamera(), change);
+    const glm::dvec3 eyeWS(camera.worldFromCamera[3]);
+    placed_ = change;
+    begin(camera, change.targetWS ? poseOf(camera, glm::distance(eyeWS, *change.targetWS)) : poseOf(camera, boundsWS_));
+}
+
+scenes::CameraChange OpenScene::cameraChange() const {
+    if (!rig_.isMoved()) return placed_;
+    // Eye and target are said, so nothing of the place that was said before remains; what else was, does.
+    scenes::CameraChange change = changeOf(rig_.pose(), rig_.start());
+    change.fovYDegrees = placed_.fovYDegrees;
+    if (!change.halfHeightMetres) change.halfHeightMetres = placed_.halfHeightMetres;
+    if (!change.nearMetres) change.nearMetres = placed_.nearMetres;
+    if (!change.farMetres) change.farMetres = placed_.farMetres;
+    return change;
+}
+
+void OpenScene::begin(const scenes::Camera& start, const CameraPose& home) {
+    const CameraRig::Mode mode = rig_.mode();
+    rig_ = CameraRig(start, home, boundsWS_);
+    rig_.setMode(mode);
     applyRig();
 }
 

@@ -18,7 +18,7 @@ public:
     const scenes::SceneOrigin& origin() const { return origin_; }
     /// Lights or materials were edited since the scene was loaded or saved.
     bool isEdited() const { return edits_ != savedEdits_; }
-    /// What is open is a file from now on that holds every edit, and the camera where it is.
+    /// What is open is a file from now on that holds every edit, and the camera where it is. The picture stays.
     void becomes(const std::string& file);
     const scenes::LoadOptions& load() const { return load_; }
     const scenes::Scene& scene() const { return scene_; }
@@ -45,12 +45,22 @@ public:
     const CameraRig& rig() const { return rig_; }
     /// Looks through another of the scene's cameras.
     void useCamera(int camera);
-    /// Looks from where the change puts the camera. Throws InputError for what no camera can have.
+    /// Begins with the change of the scene's camera: what changedCamera() makes of it, to the last bit. Orbiting turns
+    /// about the target that it says. Throws InputError for what no camera can have, and then does nothing.
     void place(const scenes::CameraChange& change);
+    /// What place() put last; empty where the scene's camera is its own.
+    const scenes::CameraChange& placed() const { return placed_; }
+    /// What makes the camera that is shown of the scene's, as a command line says it, to the last bit. Empty where they
+    /// are the same.
+    scenes::CameraChange cameraChange() const;
     /// Puts the scene's camera to where the rig is. To be called after the rig moved.
     void applyRig();
 
 private:
+    const scenes::Camera& sceneCamera() const { return cameras_[std::size_t(camera_)]; }
+    /// Begins anew with a camera and its pose.
+    void begin(const scenes::Camera& start, const CameraPose& home);
+
     std::string source_;
     scenes::LoadOptions load_;
     scenes::Scene scene_;
@@ -58,6 +68,7 @@ private:
     scenes::Box3 boundsWS_;
     std::vector<scenes::Camera> cameras_;
     int camera_ = 0;
+    scenes::CameraChange placed_; ///< made the camera that the rig started as
     CameraRig rig_;
     std::uint64_t revision_ = 0;
     std::uint64_t edits_ = 0, savedEdits_ = 0;

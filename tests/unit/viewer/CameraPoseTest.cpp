@@ -58,6 +58,34 @@ TEST(CameraPose, whatIsDrawnIsExactlyTheChangeMadeToTheStartingCamera) {
     EXPECT_EQ(drawn.fovYRadians, start.fovYRadians);
 }
 
+TEST(CameraPose, theNearPlaneOfTheSceneAlwaysStaysUntilTheFocusComesNearer) {
+    scenes::Camera start = perspective({1, 2, 8}, {0, 1, 0});
+    start.nearMetres = 3.0; // cuts a wall away
+    CameraPose pose = poseOf(start, kBox);
+    pose.heading = turned(pose.heading, 0.3, -0.2);
+    EXPECT_EQ(cameraAt(pose, start).nearMetres, 3.0);
+    EXPECT_FALSE(changeOf(pose, start).nearMetres);
+    pose.focusMetres *= 2.0;
+    EXPECT_EQ(cameraAt(pose, start).nearMetres, 3.0);
+    pose.focusMetres *= 0.25;
+    EXPECT_DOUBLE_EQ(cameraAt(pose, start).nearMetres, 1.5);
+}
+
+TEST(CameraPose, zoomingInNeverCutsHolesIntoWhatIsInFocus) {
+    for (const double nearMetres : {1e-3, 0.1, 3.0, 20.0}) {
+        SCOPED_TRACE(nearMetres);
+        scenes::Camera start = perspective({1, 2, 8}, {0, 1, 0});
+        start.nearMetres = nearMetres;
+        CameraPose pose = poseOf(start, kBox);
+        const double share = std::max(nearMetres / pose.focusMetres, 0.01);
+        for (int i = 0; i < 60; ++i) {
+            pose.focusMetres *= 0.5;
+            EXPECT_LE(cameraAt(pose, start).nearMetres, share * pose.focusMetres * (1.0 + 1e-12));
+            EXPECT_LE(cameraAt(pose, start).nearMetres, nearMetres);
+        }
+    }
+}
+
 TEST(CameraPose, anUprightChangeNeverSaysUpAndOneAtThePoleAlwaysDoes) {
     EXPECT_FALSE(changeOf(poseOf(allKinds()[0], kBox), allKinds()[0]).upWS);
     EXPECT_TRUE(changeOf(poseOf(allKinds()[1], kBox), allKinds()[1]).upWS);

@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -47,6 +48,16 @@ inline void expectSamePicture(const scenes::Camera& a, const scenes::Camera& b, 
         EXPECT_NEAR(inA.y, inB.y, pixels);
         EXPECT_NEAR(inA.z, inB.z, 1e-9 * inA.z);
     }
+}
+
+/// Cameras here and there. Through the pivot and back, rounding would move the eye of many of them.
+inline std::vector<scenes::Camera> manyCameras() {
+    std::vector<scenes::Camera> cameras;
+    for (int i = 0; i < 50; ++i) {
+        const double angle = 0.7 * i;
+        cameras.push_back(perspective({3.2 * std::cos(angle), 0.1 * i, 4.9 * std::sin(angle)}, {0.1, 1.0, 0.3}));
+    }
+    return cameras;
 }
 
 inline const scenes::Box3 kBox{glm::dvec3(-2.0, 0.0, -3.0), glm::dvec3(4.0, 5.0, 1.0)};

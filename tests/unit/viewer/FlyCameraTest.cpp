@@ -78,5 +78,15 @@ TEST(FlyCamera, itIsNeverAtRestWhileAKeyMovesItAndAlwaysComesToRestAfter) {
     EXPECT_EQ(rig.fly.pose(), rig.fly.goal());
 }
 
+TEST(FlyCamera, goingToAPoseAlwaysTakesTheShorterWayRoundAndEndsThereToTheLastBit) {
+    Rig rig;
+    CameraPose pose = rig.fly.pose();
+    pose.heading.yawRadians += 6.0;
+    rig.fly.goTo(pose);
+    EXPECT_LT(std::abs(rig.fly.goal().heading.yawRadians - rig.fly.pose().heading.yawRadians), 0.3);
+    rig.fly.advance(10.0, kHeightPixels);
+    EXPECT_EQ(rig.fly.pose(), pose);
+}
+
 } // namespace
 } // namespace tessera::viewer

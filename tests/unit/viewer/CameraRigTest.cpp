@@ -1,0 +1,89 @@
+#include "viewer/session/CameraRig.h"
+
+#include "tests/unit/viewer/CameraTest.h"
+
+namespace tessera::viewer {
+namespace {
+
+using namespace test;
+
+constexpr double kLongSeconds = 10.0; ///< any damping is over by then
+
+const scenes::Camera kStart = perspective({-3.2, 1.8, 4.9}, {0, 1, 0});
+
+CameraRig rigOf(const scenes::Camera& camera) {
+    return {camera, poseOf(camera, kBox), kBox};
+}
+
+void settle(CameraRig& rig) {
+    rig.advance(kLongSeconds, kHeightPixels);
+    EXPECT_TRUE(rig.isAtRest());
+}
+
+/// Turns by this angle in steps as a hand makes them, about the pivot or on the spot.
+void turn(CameraRig& rig, double degrees) {
+    const double before = rig.pose().heading.yawRadians;
+    while (glm::degrees(std::abs(rig.pose().heading.yawRadians - before)) < degrees) {
+        rig.rotate({40.0, 0.0}, kHeightPixels);
+        settle(rig);
+    }
+}
+
+TEST(CameraRig, whatNothingMovedAlwaysShowsItsCameraToTheLastBit) {
+    for (const scenes::Camera& camera : manyCameras()) {
+        CameraRig rig = rigOf(camera);
+        for (const CameraRig::Mode mode : {CameraRig::Mode::Orbit, CameraRig::Mode::Fly, CameraRig::Mode::Orbit}) {
+            rig.setMode(mode);
+            rig.rotate({0.0, 0.0}, kHeightPixels);
+            rig.zoom(1.0, {20.0, 30.0}, kHeightPixels);
+            settle(rig);
+            EXPECT_FALSE(rig.isMoved());
+            EXPECT_EQ(rig.camera(), camera);
+        }
+    }
+}
+
+TEST(CameraRig, homeIsAlwaysTheCameraItStartedAsHoweverFarItTurned) {
+    for (const CameraRig::Mode mode : {CameraRig::Mode::Orbit, CameraRig::Mode::Fly})
+        for (const double degrees : {20.0, 200.0, 900.0}) {
+            SCOPED_TRACE(degrees);
+            CameraRig rig = rigOf(kStart);
+            rig.setMode(mode);
+            turn(rig, degrees);
+            EXPECT_TRUE(rig.isMoved());
+            rig.goHome();
+            EXPECT_LE(std::abs(rig.pose().heading.yawRadians - poseOf(kStart, kBox).heading.yawRadians),
+                      glm::radians(180.0))
+                << "the shorter way round";
+            settle(rig);
+            EXPECT_FALSE(rig.isMoved());
+            EXPECT_EQ(rig.camera(), kStart);
+        }
+}
+
+TEST(CameraRig, startingHereNeverMovesThePivotAndNeverEndsAMovement) {
+    CameraRig rig = rigOf(kStart), other = rigOf(kStart);
+    for (CameraRig* one : {&rig, &other}) {
+        one->pan({300.0, 50.0}, kHeightPixels);
+        one->zoom(0.5, {}, kHeightPixels);
+        one->advance(0.05, kHeightPixels);
+    }
+    const scenes::Camera here = rig.camera();
+    rig.startHere(here);
+    EXPECT_FALSE(rig.isMoved());
+    EXPECT_FALSE(rig.isAtRest());
+    EXPECT_EQ(rig.camera(), here);
+    for (CameraRig* one : {&rig, &other}) {
+        settle(*one);
+        one->rotate({100.0, 30.0}, kHeightPixels);
+        settle(*one);
+    }
+    EXPECT_EQ(rig.pose(), other.pose());
+    EXPECT_EQ(rig.camera(), other.camera());
+    rig.goHome();
+    settle(rig);
+    EXPECT_EQ(rig.camera(), here);
+}
+
+} // namespace
+} // namespace tessera::viewer

@@ -1,0 +1,151 @@
+#include "viewer/session/OpenScene.h"
+
+#include "scenes/Error.h"
+#include "tests/unit/viewer/CameraTest.h"
+
+namespace tessera::viewer {
+namespace {
+
+using namespace test;
+
+/// A scene of a perspective and an orthographic camera.
+struct Opened {
+    OpenScene open{"test.json", {}, made(), {}};
+
+    static scenes::Scene made() {
+        scenes::Scene scene;
+        scene.cameras = {perspective({-3.2, 1.8, 4.9}, {0, 1, 0}), orthographic({3, 4, 5}, {0, 1, 0}, 2.5)};
+        return scene;
+    }
+    const scenes::Camera& shown() const { return open.scene().cameras[std::size_t(open.camera())]; }
+    /// What `tessera render` draws when it is told what the copied command says.
+    scenes::Camera said() const {
+        return scenes::changedCamera(made().cameras[std::size_t(open.camera())], open.cameraChange());
+    }
+    void move() {
+        open.rig().rotate({120.0, 30.0}, kHeightPixels);
+        open.rig().zoom(0.7, {}, kHeightPixels);
+        settle();
+    }
+    void settle() {
+        open.rig().advance(10.0, kHeightPixels);
+        open.applyRig();
+    }
+};
+
+/// Every kind of change that the command line can make of a perspective camera.
+std::vector<scenes::CameraChange> changes() {
+    std::vector<scenes::CameraChange> list(7);
+    list[0].fovYDegrees = 20.0;
+    list[1].nearMetres = 3.0;
+    list[2].farMetres = 1e3 / 3.0;
+    list[3].eyeWS = glm::dvec3(0.1, 2.0, -7.0 / 3.0);
+    list[4].targetWS = glm::dvec3(1.0, 0.2, 0.3);
+    list[5].upWS = glm::dvec3(1.0, 1.0, 0.1);
+    list[6] = {glm::dvec3(0.1, 2.0, 9.0), glm::dvec3(0, 1, 0), glm::dvec3(1, 1, 0), 100.0 / 3.0, {}, 1.0 / 3.0, 77.7};
+    return list;
+}
+
+TEST(OpenScene, aPlacedCameraIsAlwaysTheChangedOneToTheLastBitAndItsCommandSaysJustThat) {
+    for (const scenes::CameraChange& change : changes()) {
+        Opened opened;
+        opened.open.place(change);
+        const scenes::Camera camera = scenes::changedCamera(Opened::made().cameras[0], change);
+        EXPECT_EQ(opened.shown(), camera);
+        EXPECT_EQ(opened.open.cameraChange(), change);
+        opened.move();
+        EXPECT_NE(opened.shown(), camera);
+        opened.open.rig().goHome();
+        opened.settle();
+        EXPECT_EQ(opened.shown(), camera);
+        EXPECT_EQ(opened.open.cameraChange(), change);
+    }
+}
+
+TEST(OpenScene, theCommandOfAMovedCameraAlwaysMakesWhatIsShownOfTheScenesCamera) {
+    for (const scenes::CameraChange& change : changes()) {
+        Opened opened;
+        opened.open.place(change);
+        opened.open.rig().rotate({120.0, 30.0}, kHeightPixels);
+        opened.settle();
+        EXPECT_EQ(opened.said(), opened.shown());
+        for (const double factor : {1.0, 0.3, 5.0}) {
+            opened.move();
+            opened.open.rig().zoom(factor, {}, kHeightPixels);
+            opened.settle();
+            EXPECT_EQ(opened.said(), opened.shown());
+            EXPECT_EQ(opened.shown().fovYRadians, scenes::changedCamera(Opened::made().cameras[0], change).fovYRadians);
+        }
+    }
+    Opened parallel;
+    parallel.open.useCamera(1);
+    scenes::CameraChange half;
+    half.halfHeightMetres = 0.7;
+    parallel.open.place(half);
+    EXPECT_EQ(parallel.shown().halfHeightMetres, 0.7);
+    parallel.open.rig().rotate({120.0, 30.0}, kHeightPixels);
+    parallel.settle();
+    EXPECT_EQ(parallel.said(), parallel.shown());
+    EXPECT_EQ(parallel.shown().halfHeightMetres, 0.7);
+    parallel.move();
+    EXPECT_EQ(parallel.said(), parallel.shown());
+}
+
+TEST(OpenScene, orbitingAlwaysTurnsAboutTheTargetThatWasSaid) {
+    Opened opened;
+    scenes::CameraChange change;
+    change.eyeWS = glm::dvec3(0, 1, 9);
+    change.targetWS = glm::dvec3(2, 1, 3);
+    opened.open.place(change);
+    opened.open.rig().rotate({200.0, -40.0}, kHeightPixels);
+    opened.settle();
+    const glm::dvec3 shown = shownAt(opened.shown(), *change.targetWS);
+    EXPECT_NEAR(shown.x, 0.0, 1e-9);
+    EXPECT_NEAR(shown.y, 0.0, 1e-9);
+    EXPECT_NEAR(shown.z, glm::distance(*change.eyeWS, *change.targetWS), 1e-12);
+}
+
+TEST(OpenScene, aRefusedPlaceNeverChangesAnything) {
+    Opened opened;
+    scenes::CameraChange change;
+    change.halfHeightMetres = 1.0;
+    EXPECT_THROW(opened.open.place(change), InputError);
+    EXPECT_EQ(opened.shown(), Opened::made().cameras[0]);
+    EXPECT_EQ(opened.open.cameraChange(), scenes::CameraChange());
+}
+
+TEST(OpenScene, anotherCameraIsNeverPlacedAsTheOneBefore) {
+    Opened opened;
+    opened.open.place(changes()[6]);
+    opened.open.useCamera(1);
+    EXPECT_EQ(opened.shown(), Opened::made().cameras[1]);
+    EXPECT_EQ(opened.open.cameraChange(), scenes::CameraChange());
+    opened.open.useCamera(0);
+    EXPECT_EQ(opened.shown(), Opened::made().cameras[0]);
+    EXPECT_EQ(opened.open.cameraChange(), scenes::CameraChange());
+}
+
+TEST(OpenScene, savingNeverMovesThePictureThePivotOrWhatIsStillMoving) {
+    Opened opened, other;
+    for (Opened* one : {&opened, &other}) {
+        one->open.place(changes()[6]);
+        one->open.rig().pan({300.0, 50.0}, kHeightPixels);
+        one->open.rig().zoom(0.3, {}, kHeightPixels);
+        one->open.rig().advance(0.05, kHeightPixels);
+        one->open.applyRig();
+    }
+    const scenes::Camera saved = opened.shown();
+    opened.open.becomes("/saved.json");
+    EXPECT_EQ(opened.shown(), saved);
+    EXPECT_EQ(opened.open.cameras()[0], saved);
+    EXPECT_EQ(opened.open.cameraChange(), scenes::CameraChange()) << "the file's own camera is shown";
+    for (Opened* one : {&opened, &other}) {
+        one->settle();
+        one->move();
+    }
+    EXPECT_EQ(opened.shown(), other.shown());
+    EXPECT_EQ(scenes::changedCamera(saved, opened.open.cameraChange()), opened.shown());
+}
+
+} // namespace
+} // namespace tessera::viewer
