@@ -31,13 +31,6 @@ const Format* formatOf(const std::filesystem::path& file) {
     return found == kFormats.end() ? nullptr : &*found;
 }
 
-const BuiltinScene* builtinCalled(const std::string& name) {
-    const std::span<const BuiltinScene> scenes = builtinScenes();
-    const auto found =
-        std::find_if(scenes.begin(), scenes.end(), [&](const BuiltinScene& s) { return s.name == name; });
-    return found == scenes.end() ? nullptr : &*found;
-}
-
 Scene importFile(const std::string& path) {
     const std::filesystem::path file(path);
     const Format* format = formatOf(file);
@@ -60,12 +53,20 @@ void goOn(const LoadOptions& options) {
 
 } // namespace
 
+const BuiltinScene* builtinScene(std::string_view name) {
+    const std::span<const BuiltinScene> scenes = builtinScenes();
+    const auto found =
+        std::find_if(scenes.begin(), scenes.end(), [&](const BuiltinScene& s) { return s.name == name; });
+    return found == scenes.end() ? nullptr : &*found;
+}
+
 Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     if (options.lights && (*options.lights < 0 || *options.lights > kMostLights)) {
         throw InputError("cannot use " + std::to_string(*options.lights) + " lights; give a number from 0 to 65536");
     }
+    goOn(options);
     Scene scene;
-    if (const BuiltinScene* builtin = builtinCalled(nameOrPath)) {
+    if (const BuiltinScene* builtin = builtinScene(nameOrPath)) {
         scene = builtin->make(options);
     } else {
         scene = importFile(nameOrPath);

@@ -17,7 +17,9 @@ struct LoadOptions {
     std::optional<int> lights; ///< built-in scenes generate this many (0..65,536); files keep their first N
     bool defaultLight = true;  ///< give a scene without lights, emission or unlit material one directional light
     bool useAssets = true;     ///< let a built-in scene use the models under the folder TESSERA_ASSETS names
-    std::stop_token stop;      ///< asked between the steps of a load; where a stop is requested, LoadStopped is thrown
+    /// Asked before a scene is made or its file imported, and between the checks after; while a file is read it is not.
+    /// Where a stop is requested, LoadStopped is thrown.
+    std::stop_token stop;
 };
 
 /// A load was given up, as its LoadOptions asked.
@@ -38,5 +40,7 @@ struct BuiltinScene {
     Scene (*make)(const LoadOptions&);
 };
 std::span<const BuiltinScene> builtinScenes();
+/// The built-in scene of a name, which goes before a file of that name; null where there is none.
+const BuiltinScene* builtinScene(std::string_view name);
 
 } // namespace tessera::scenes

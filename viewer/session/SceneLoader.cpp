@@ -32,28 +32,41 @@ SceneLoader::Result load(const std::string& source, const scenes::LoadOptions& o
 } // namespace
 
 SceneLoader::~SceneLoader() {
-    for (std::jthread& thread : threads_) thread.request_stop();
+    const std::lock_guard lock(mutex_);
+    waiting_.reset();
+    stop_.request_stop();
 }
 
 void SceneLoader::start(const std::string& source, const scenes::LoadOptions& options) {
-    {
-        const std::lock_guard lock(mutex_);
-        // What is given up ends soon, but waiting for it here would keep the window from answering.
-        for (std::jthread& thread : threads_) thread.request_stop();
-        result_.reset();
-    }
-    loading_ = source;
-    threads_.emplace_back([this, source, options](const std::stop_token& stop) {
-        scenes::LoadOptions stoppable = options;
-        stoppable.stop = stop;
-        Result result = load(source, stoppable);
+    const std::lock_guard lock(mutex_);
+    // Waiting here until what is given up has ended would keep the window from answering.
+    stop_.request_stop();
+    result_.reset();
+    waiting_ = {source, options};
+    if (isWorking_) return;
+    thread_ = std::jthread([this] { work(); }); // the one before needs nothing any more to end
+    isWorking_ = true;
+}
+
+void SceneLoader::work() {
+    for (;;) {
+        Request request;
         {
             const std::lock_guard lock(mutex_);
-            if (stop.stop_requested()) return;
+            isWorking_ = waiting_.has_value();
+            if (!isWorking_) return;
+            request = *std::exchange(waiting_, std::nullopt);
+            stop_ = std::stop_source();
+            request.options.stop = stop_.get_token();
+        }
+        Result result = load(request.source, request.options);
+        {
+            const std::lock_guard lock(mutex_);
+            if (request.options.stop.stop_requested()) continue;
             result_ = std::move(result);
         }
         done_();
-    });
+    }
 }
 
 bool SceneLoader::hasResult() const {
@@ -63,7 +76,6 @@ bool SceneLoader::hasResult() const {
 
 std::optional<SceneLoader::Result> SceneLoader::take() {
     const std::lock_guard lock(mutex_);
-    if (result_) loading_.clear();
     return std::exchange(result_, std::nullopt);
 }
 

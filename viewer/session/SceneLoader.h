@@ -4,14 +4,14 @@
 #include <optional>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "scenes/Load.h"
 #include "scenes/write/SceneOrigin.h"
 
 namespace tessera::viewer {
 
-/// Loads scenes in the background, one at a time; a new request gives the one under way up.
+/// Loads scenes in the background, one at a time: two large ones at once might be more than the memory holds. A new
+/// request gives the one under way up, and takes the place of one that waits.
 class SceneLoader {
 public:
     struct Result {
@@ -34,15 +34,21 @@ public:
     /// The result of the latest start(), once.
     std::optional<Result> take();
     bool hasResult() const;
-    /// What is being loaded; empty: nothing.
-    const std::string& loading() const { return loading_; }
 
 private:
+    struct Request {
+        std::string source;
+        scenes::LoadOptions options; ///< `stop` is the load's own
+    };
+    void work();
+
     std::function<void()> done_;
-    std::string loading_;
-    mutable std::mutex mutex_;
+    mutable std::mutex mutex_; ///< of all below but the thread
+    std::optional<Request> waiting_;
+    std::stop_source stop_; ///< of the load under way
+    bool isWorking_ = false;
     std::optional<Result> result_;
-    std::vector<std::jthread> threads_; ///< the last may be loading; a thread is as small as its stack
+    std::jthread thread_; ///< last: it ends before what it uses
 };
 
 } // namespace tessera::viewer

@@ -48,6 +48,22 @@ TEST(LoadScene, numberOfLightsIsAlwaysFrom0To65536) {
     EXPECT_TRUE(loadScene("lattice", options).lights.empty()) << "who asks for none gets no default light either";
 }
 
+TEST(LoadScene, aStopThatWasAskedForIsAlwaysHeardBeforeAFileIsRead) {
+    std::stop_source source;
+    source.request_stop();
+    LoadOptions options;
+    options.stop = source.get_token();
+    EXPECT_THROW(loadScene("nowhere.obj", options), LoadStopped);
+    EXPECT_THROW(loadScene("room", options), LoadStopped);
+}
+
+TEST(LoadScene, aBuiltinSceneIsAlwaysFoundByItsExactName) {
+    ASSERT_NE(builtinScene("room"), nullptr);
+    EXPECT_EQ(builtinScene("room")->name, "room");
+    EXPECT_EQ(builtinScene("Room"), nullptr);
+    EXPECT_EQ(builtinScene("./room"), nullptr);
+}
+
 TEST(LoadScene, filesWithoutViewOrLightAlwaysGetTheDefaults) {
     const test::TempFolder folder;
     folder.write("triangle.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

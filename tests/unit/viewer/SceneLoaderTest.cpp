@@ -1,0 +1,44 @@
+#include "viewer/session/SceneLoader.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iterator>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace tessera::viewer {
+namespace {
+
+TEST(SceneLoader, aNewRequestAlwaysTakesThePlaceOfAllBeforeWhichAreNeverLoadedAtOnce) {
+    const auto threads = [] {
+        const std::filesystem::directory_iterator tasks("/proc/self/task");
+        return std::distance(begin(tasks), end(tasks));
+    };
+    const auto wait = [](const SceneLoader& loader) {
+        for (int i = 0; i < 6000 && !loader.hasResult(); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    };
+    const std::ptrdiff_t before = threads();
+    std::ptrdiff_t most = 0;
+    SceneLoader loader([] {});
+    for (int i = 0; i < 30; ++i) {
+        loader.start("lattice", {});
+        most = std::max(most, threads());
+    }
+    loader.start("room", {});
+    wait(loader);
+    const std::optional<SceneLoader::Result> result = loader.take();
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->source, "room");
+    EXPECT_TRUE(result->scene) << result->error;
+    EXPECT_FALSE(loader.take());
+    EXPECT_LE(most, before + 3) << "not one for each; some that ended may still be counted";
+    loader.start("room", {}); // what has come to rest begins again
+    wait(loader);
+    EXPECT_TRUE(loader.take());
+}
+
+} // namespace
+} // namespace tessera::viewer
