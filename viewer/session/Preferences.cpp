@@ -1,11 +1,13 @@
 #include "viewer/session/Preferences.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,7 +21,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kMostRecent = 10;
-constexpr int kSchema = 1;
 
 std::optional<std::filesystem::path> folderNamed(const char* variable) {
     const char* value = std::getenv(variable);
@@ -44,47 +45,59 @@ std::optional<std::filesystem::path> configurationFolder() {
 #endif
 }
 
+/// What the file holds, by name. A visitor is called with a name and that member.
+template <typename Known, typename Visitor>
+void visitPreferences(Known& preferences, Visitor&& visit) {
+    visit("recent", preferences.recent);
+    visit("window", preferences.windowSize);
+    visit("technique", preferences.technique);
+    visit("layout", preferences.layout);
+    visit("culling", preferences.culling);
+    visit("toneMap", preferences.toneMap);
+    visit("tile", preferences.tile);
+    visit("samples", preferences.samples);
+    visit("automaticScale", preferences.automaticScale);
+    visit("fixedScale", preferences.fixedScale);
+    visit("showsPanel", preferences.showsPanel);
+    visit("showsMarkers", preferences.showsMarkers);
+}
+
+// Each throws json::exception for a value of another kind.
+
 template <typename T>
-void readInto(const json& document, const char* key, T& value) {
-    const auto found = document.find(key);
-    if (found == document.end()) return;
-    try {
-        value = found->template get<T>();
-    } catch (const json::exception&) { // of another version: the usual value stays
-    }
+void readInto(const json& entry, T& value) {
+    value = entry.get<T>();
 }
 
 template <typename T>
-void readInto(const json& document, const char* key, std::optional<T>& value) {
-    T read{};
-    const auto found = document.find(key);
-    if (found == document.end()) return;
-    try {
-        read = found->template get<T>();
-    } catch (const json::exception&) {
-        return;
-    }
-    value = read;
+void readInto(const json& entry, std::optional<T>& value) {
+    value = entry.get<T>();
 }
 
-template <typename T>
-void write(json& document, const char* key, const std::optional<T>& value) {
-    if (value) document[key] = *value;
-}
-
-std::optional<glm::ivec2> sizeOf(const json& document) {
-    std::vector<int> size;
-    readInto(document, "window", size);
+void readInto(const json& entry, std::optional<glm::ivec2>& size) {
     // Smaller windows were made by mistake, larger ones by a screen that is gone.
     const auto fits = [](int side) { return side >= 200 && side <= 16384; };
-    if (size.size() != 2 || !fits(size[0]) || !fits(size[1])) return std::nullopt;
-    return glm::ivec2(size[0], size[1]);
+    const auto sides = entry.get<std::array<int, 2>>();
+    if (fits(sides[0]) && fits(sides[1])) size = glm::ivec2(sides[0], sides[1]);
+}
+
+template <typename T>
+json written(const T& value) {
+    return value;
+}
+
+template <typename T>
+json written(const std::optional<T>& value) {
+    return value ? written(*value) : json();
+}
+
+json written(const std::optional<glm::ivec2>& size) {
+    return size ? json{size->x, size->y} : json();
 }
 
 } // namespace
 
-void addRecent(Preferences& preferences, const std::string& file) {
-    std::vector<std::string>& recent = preferences.recent;
+void addRecent(std::vector<std::string>& recent, const std::string& file) {
     std::erase(recent, file);
     recent.insert(recent.begin(), file);
     if (recent.size() > kMostRecent) recent.resize(kMostRecent);
@@ -106,34 +119,24 @@ Preferences readPreferences(const std::filesystem::path& file) {
     const json document = json::parse(text, nullptr, false);
     if (!document.is_object())
         throw InputError(fmt::format("{}: the settings are no JSON object; correct or delete the file", file.string()));
-    readInto(document, "recent", preferences.recent);
-    preferences.windowSize = sizeOf(document);
-    readInto(document, "technique", preferences.technique);
-    readInto(document, "layout", preferences.layout);
-    readInto(document, "culling", preferences.culling);
-    readInto(document, "toneMap", preferences.toneMap);
-    readInto(document, "tile", preferences.tile);
-    readInto(document, "samples", preferences.samples);
-    readInto(document, "automaticScale", preferences.automaticScale);
-    readInto(document, "showsPanel", preferences.showsPanel);
-    readInto(document, "showsMarkers", preferences.showsMarkers);
+    visitPreferences(preferences, [&](const char* name, auto& value) {
+        const auto entry = document.find(name);
+        if (entry == document.end()) return;
+        try {
+            readInto(*entry, value);
+        } catch (const json::exception&) { // of another version: the usual value stays
+        }
+    });
+    if (!(preferences.fixedScale >= kLeastScale && preferences.fixedScale <= 1.0f))
+        preferences.fixedScale = Preferences().fixedScale;
     return preferences;
 }
 
 void writePreferences(const Preferences& preferences, const std::filesystem::path& file) {
     json document;
-    document["schema"] = kSchema;
-    document["recent"] = preferences.recent;
-    if (preferences.windowSize) document["window"] = {preferences.windowSize->x, preferences.windowSize->y};
-    write(document, "technique", preferences.technique);
-    write(document, "layout", preferences.layout);
-    write(document, "culling", preferences.culling);
-    write(document, "toneMap", preferences.toneMap);
-    write(document, "tile", preferences.tile);
-    write(document, "samples", preferences.samples);
-    document["automaticScale"] = preferences.automaticScale;
-    document["showsPanel"] = preferences.showsPanel;
-    document["showsMarkers"] = preferences.showsMarkers;
+    visitPreferences(preferences, [&](const char* name, const auto& value) {
+        if (json entry = written(value); !entry.is_null()) document[name] = std::move(entry);
+    });
     std::error_code error;
     std::filesystem::create_directories(file.parent_path(), error);
     if (error)

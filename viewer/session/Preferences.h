@@ -8,6 +8,8 @@
 
 namespace tessera::viewer {
 
+inline constexpr float kLeastScale = 0.1f; ///< of a picture's side, where the user sets it
+
 /// What the viewer remembers from one run to the next. Names are those of the command line.
 struct Preferences {
     std::vector<std::string> recent; ///< scene files, the latest first
@@ -15,13 +17,14 @@ struct Preferences {
     std::optional<std::string> technique, layout, culling, toneMap;
     std::optional<int> tile, samples;
     bool automaticScale = true;
+    float fixedScale = 1.0f; ///< otherwise; kLeastScale to 1
     bool showsPanel = true;
     bool showsMarkers = false;
     bool operator==(const Preferences&) const = default;
 };
 
 /// A file that was opened comes first among the recent ones; the oldest of more than ten leaves.
-void addRecent(Preferences& preferences, const std::string& file);
+void addRecent(std::vector<std::string>& recent, const std::string& file);
 
 /// Where they are kept: $XDG_CONFIG_HOME/tessera/viewer.json or ~/.config, %APPDATA% on Windows, ~/Library/Application
 /// Support on macOS; none where the environment names no such place.

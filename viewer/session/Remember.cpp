@@ -5,36 +5,62 @@
 namespace tessera::viewer {
 namespace {
 
-/// `now` by name where it differs from `base` or was remembered.
-template <typename Value, typename Name>
-void keep(std::optional<Value>& remembered, bool differs, const Name& name) {
-    if (differs || remembered) remembered = name();
+/// `now` as `stored` has it, where it is something else than what the window began with.
+template <typename Stored, typename Value, typename StoredAs>
+void keep(Stored& stored, const Value& now, const Value& begun, const StoredAs& storedAs) {
+    if (now != begun) stored = storedAs(now);
+}
+
+std::optional<std::string> nameOf(const std::optional<culling::Method>& method) {
+    if (!method) return std::nullopt;
+    return std::string(infoOf(*method).name);
+}
+
+std::string nameOf(recipes::Technique technique) {
+    return std::string(infoOf(technique).name);
+}
+
+std::string nameOf(frame::ToneMap toneMap) {
+    return std::string(frame::toneMapTable()[std::size_t(toneMap)].name);
+}
+
+/// None for one that the command line has no name for.
+std::optional<std::string> nameOf(const frame::GBufferLayout& layout) {
+    const auto table = frame::layoutTable();
+    const auto found = std::ranges::find(table, layout, &frame::LayoutInfo::layout);
+    if (found == table.end()) return std::nullopt;
+    return std::string(found->name);
 }
 
 } // namespace
 
-void remember(Preferences& preferences, const State& state, const Look& base) {
-    const Look& look = state.looks[0];
-    const frame::FrameSettings& now = look.settings;
-    const frame::FrameSettings& before = base.settings;
-    keep(preferences.technique, look.technique != base.technique,
-         [&] { return std::string(infoOf(look.technique).name); });
-    keep(preferences.toneMap, now.toneMap != before.toneMap,
-         [&] { return std::string(frame::toneMapTable()[std::size_t(now.toneMap)].name); });
-    keep(preferences.samples, now.samples != before.samples, [&] { return now.samples; });
-    const auto table = frame::layoutTable();
-    const auto layout = std::find_if(table.begin(), table.end(),
-                                     [&](const frame::LayoutInfo& info) { return info.layout == now.layout; });
-    if (layout != table.end())
-        keep(preferences.layout, now.layout != before.layout, [&] { return std::string(layout->name); });
-    // What the technique does by itself needs no remembering.
-    preferences.culling.reset();
-    if (now.culling.method) preferences.culling = std::string(infoOf(*now.culling.method).name);
-    preferences.tile = now.culling.tilePixels;
+void recall(const Preferences& preferences, State& state) {
+    state.recent = preferences.recent;
+    state.automaticScale = preferences.automaticScale;
+    state.fixedScale = preferences.fixedScale;
+    state.showsPanel = preferences.showsPanel;
+    state.showsMarkers = preferences.showsMarkers;
+}
+
+void remember(Preferences& preferences, const State& state, const Look& begun, glm::ivec2 windowSize) {
+    const Look now = asked(state.looks[0]), before = asked(begun);
+    const frame::FrameSettings& settings = now.settings;
+    const frame::FrameSettings& first = before.settings;
+    const auto named = [](const auto& value) { return nameOf(value); };
+    const auto asIs = [](const auto& value) { return value; };
+    keep(preferences.technique, now.technique, before.technique, named);
+    keep(preferences.layout, settings.layout, first.layout, named);
+    keep(preferences.toneMap, settings.toneMap, first.toneMap, named);
+    keep(preferences.culling, settings.culling.method, first.culling.method, named);
+    keep(preferences.tile, settings.culling.tilePixels, first.culling.tilePixels, asIs);
+    keep(preferences.samples, settings.samples, first.samples, asIs);
+    keep(preferences.windowSize, std::optional(windowSize), state.firstWindowSize, asIs);
+    // No command line and no scene says these: they began as what was remembered.
+    preferences.recent = state.recent;
     preferences.automaticScale = state.automaticScale;
+    preferences.fixedScale = state.fixedScale;
     preferences.showsPanel = state.showsPanel;
     preferences.showsMarkers = state.showsMarkers;
-    preferences.recent = state.recent;
 }
 
 } // namespace tessera::viewer

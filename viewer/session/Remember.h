@@ -4,8 +4,12 @@
 
 namespace tessera::viewer {
 
-/// Takes into the preferences what the state holds that is worth keeping. Of the look only what differs from `base`,
-/// or was remembered before: the defaults and the wishes of scenes keep their say.
-void remember(Preferences& preferences, const State& state, const Look& base);
+/// Begins with what is remembered of the window's own state. Looks begin with theirs (ViewerOptions::lookOf).
+void recall(const Preferences& preferences, State& state);
+
+/// Takes into the preferences what the state holds that is worth keeping, where it is something else than the window
+/// began with: what was said on the command line once, what a scene wishes and what the latest technique cannot do
+/// leave in peace what was remembered. `begun` is the look that the open scene began with.
+void remember(Preferences& preferences, const State& state, const Look& begun, glm::ivec2 windowSize);
 
 } // namespace tessera::viewer

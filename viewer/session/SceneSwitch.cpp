@@ -11,10 +11,7 @@ namespace tessera::viewer {
 
 SceneSwitch::SceneSwitch(const ViewerOptions& options, State& state, const EventLog& log, std::function<void()> done)
     : options_(options), state_(state), log_(log), loader_(std::move(done)) {
-    state_.recent = options.preferences.recent;
-    state_.automaticScale = options.preferences.automaticScale;
-    state_.showsPanel = options.preferences.showsPanel;
-    state_.showsMarkers = options.preferences.showsMarkers;
+    recall(options.preferences, state_);
 }
 
 void SceneSwitch::open(const std::string& source, const scenes::LoadOptions& load) {
@@ -68,17 +65,13 @@ std::unique_ptr<OpenScene> SceneSwitch::take() {
 void SceneSwitch::noteRecent(const std::string& source) {
     std::error_code error;
     if (!std::filesystem::exists(source, error)) return; // a built-in scene
-    Preferences preferences;
-    preferences.recent = state_.recent;
-    addRecent(preferences, std::filesystem::absolute(source).string());
-    state_.recent = preferences.recent;
+    addRecent(state_.recent, std::filesystem::absolute(source).string());
 }
 
 void SceneSwitch::remember(glm::ivec2 windowSize) {
     if (!options_.preferencesFile) return;
     Preferences preferences = options_.preferences;
-    if (hadScene_) viewer::remember(preferences, state_, base_);
-    preferences.windowSize = windowSize;
+    viewer::remember(preferences, state_, base_, windowSize);
     try {
         writePreferences(preferences, *options_.preferencesFile);
     } catch (const std::exception& error) {

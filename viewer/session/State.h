@@ -31,6 +31,7 @@ struct Requests {
     bool saveTrace = false;
     bool copyCommand = false;
     bool measureLights = false;
+    bool scatter = false;          ///< the lights that `State::scatter` describes, in the place of the scene's
     std::optional<glm::vec2> pick; ///< a place in the picture, shares of its size from the upper left
     bool quit = false;
 };
@@ -56,7 +57,8 @@ struct State {
     int selectedMaterial = scenes::kNone;
     Scatter scatter; ///< what to scatter next
 
-    double pictureAspect = 1.0; ///< width over height of where the picture is
+    double pictureAspect = 1.0;                ///< width over height of where the picture is
+    std::optional<glm::ivec2> firstWindowSize; ///< screen coordinates, as the window opened
 
     bool showsMarkers = false; ///< where lights are
     bool wantsPlan = false;    ///< a panel shows the plan of the active side's frame

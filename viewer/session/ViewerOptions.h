@@ -20,8 +20,9 @@ struct FirstLook {
 struct ViewerOptions {
     std::string scene;        ///< opened first
     scenes::LoadOptions load; ///< of the first scene
-    /// The defaults, what the scene wishes, and on the first scene what the user said on the command line. Throws
-    /// InputError where the scene lacks what was said.
+    /// What the user said on the command line, else what the scene wishes, else what is remembered, else the defaults;
+    /// on scenes after the first without what names things of that one. Throws InputError where the scene lacks what
+    /// was said.
     std::function<FirstLook(const scenes::Scene& scene, const std::string& source, bool first)> lookOf;
     glm::ivec2 windowSize{1280, 800};      ///< screen coordinates
     std::optional<glm::ivec2> pictureSize; ///< instead, on a display of usual density: what the panels leave

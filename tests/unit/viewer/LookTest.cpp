@@ -31,6 +31,53 @@ TEST(Look, whatIsLeftOfALookIsAlwaysWhatItsTechniqueTakes) {
     }
 }
 
+TEST(Look, whatATechniqueCannotDoAlwaysComesBackWithOneThatCan) {
+    Look look;
+    look.technique = Technique::ForwardPlus;
+    look.settings.culling.method = culling::Method::Tile25d;
+    look.settings.culling.tilePixels = 32;
+    look.settings.culling.builder = culling::Builder::Compute;
+    look.settings.samples = 4;
+    Look now = look;
+    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+        now.technique = info.technique;
+        now = possible(now);
+        Look wanted = look;
+        wanted.technique = info.technique;
+        EXPECT_EQ(asked(now), wanted) << info.name;
+    }
+    now.technique = look.technique;
+    EXPECT_EQ(possible(now), look);
+}
+
+TEST(Look, whatIsChosenAlwaysGoesBeforeWhatWasPutAside) {
+    Look look;
+    look.technique = Technique::ForwardPlus;
+    look.settings.culling.tilePixels = 32;
+    look.technique = Technique::Forward;
+    look = possible(look);
+    EXPECT_FALSE(look.settings.culling.tilePixels);
+    look.technique = Technique::ForwardPlus;
+    look.settings.culling.tilePixels = 8;
+    EXPECT_EQ(possible(look).settings.culling.tilePixels, 8);
+    EXPECT_EQ(asked(look).settings.culling.tilePixels, 8);
+}
+
+TEST(Look, aNextSceneNeverTakesWhatIsPutAsideForAChoice) {
+    Look before;
+    before.technique = Technique::ForwardPlus;
+    before.settings.samples = 4;
+    Look now = before;
+    now.technique = Technique::Deferred;
+    now = possible(now);
+    Look wished;
+    wished.settings.samples = 2;
+    Look result = rebased(now, before, wished);
+    EXPECT_EQ(result.technique, Technique::Deferred);
+    result.technique = Technique::ForwardPlus;
+    EXPECT_EQ(possible(result).settings.samples, 2);
+}
+
 TEST(Look, whatTheUserChoseAlwaysOutlivesWhatTheNextSceneWishes) {
     const Look before;
     Look now = before;

@@ -20,6 +20,7 @@ Preferences everything() {
     preferences.tile = 32;
     preferences.samples = 4;
     preferences.automaticScale = false;
+    preferences.fixedScale = 0.25f;
     preferences.showsPanel = false;
     preferences.showsMarkers = true;
     return preferences;
@@ -48,6 +49,15 @@ TEST(Preferences, anEntryOfTheWrongKindIsAlwaysLeftOutAlone) {
     EXPECT_EQ(readPreferences(file), expected);
 }
 
+TEST(Preferences, aScaleThatCannotBeSetIsNeverTakenFromAFile) {
+    const test::TempFolder folder;
+    const std::filesystem::path file = folder.path() / "viewer.json";
+    for (const char* scale : {"0", "0.05", "-1", "1.5", "1e300"}) {
+        std::ofstream(file) << R"({"fixedScale": )" << scale << "}";
+        EXPECT_EQ(readPreferences(file), Preferences()) << scale;
+    }
+}
+
 TEST(Preferences, aFileThatIsNoJsonIsAlwaysAnErrorThatNamesIt) {
     const test::TempFolder folder;
     const std::filesystem::path file = folder.path() / "viewer.json";
@@ -62,13 +72,13 @@ TEST(Preferences, aFileThatIsNoJsonIsAlwaysAnErrorThatNamesIt) {
 }
 
 TEST(Preferences, theTenLatestFilesAreKeptEachExactlyOnce) {
-    Preferences preferences;
-    for (int i = 0; i < 15; ++i) addRecent(preferences, std::to_string(i));
-    addRecent(preferences, "7");
-    ASSERT_EQ(preferences.recent.size(), 10u);
-    EXPECT_EQ(preferences.recent[0], "7");
-    EXPECT_EQ(preferences.recent[1], "14");
-    EXPECT_EQ(std::count(preferences.recent.begin(), preferences.recent.end(), "7"), 1);
+    std::vector<std::string> recent;
+    for (int i = 0; i < 15; ++i) addRecent(recent, std::to_string(i));
+    addRecent(recent, "7");
+    ASSERT_EQ(recent.size(), 10u);
+    EXPECT_EQ(recent[0], "7");
+    EXPECT_EQ(recent[1], "14");
+    EXPECT_EQ(std::count(recent.begin(), recent.end(), "7"), 1);
 }
 
 } // namespace

@@ -5,44 +5,129 @@
 namespace tessera::viewer {
 namespace {
 
-TEST(Remember, whatNobodyChangedIsNeverRemembered) {
-    Look base;
-    base.technique = recipes::Technique::ClusteredForward;
-    base.settings.toneMap = frame::ToneMap::Agx;
-    base.settings.layout = frame::layoutTable().back().layout;
+using recipes::Technique;
+
+constexpr glm::ivec2 kWindow(900, 700);
+
+/// A window that shows a look, and has the size it opened with.
+State showing(const Look& look) {
     State state;
-    state.looks = {base, base};
-    Preferences preferences;
-    remember(preferences, state, base);
-    EXPECT_EQ(preferences, Preferences());
+    state.looks = {look, look};
+    state.firstWindowSize = kWindow;
+    return state;
 }
 
-TEST(Remember, whatWasChangedIsAlwaysRememberedByName) {
-    State state;
-    Look& look = state.looks[0];
-    look.technique = recipes::Technique::ForwardPlus;
+Preferences everything() {
+    Preferences preferences;
+    preferences.windowSize = glm::ivec2(1000, 800);
+    preferences.technique = "forward_plus";
+    preferences.layout = "slim";
+    preferences.culling = "tile_2.5d";
+    preferences.toneMap = "agx";
+    preferences.tile = 32;
+    preferences.samples = 4;
+    return preferences;
+}
+
+/// A look that differs from the defaults in all that is remembered.
+Look ofItsOwn() {
+    Look look;
+    look.technique = Technique::ForwardPlus;
     look.settings.toneMap = frame::ToneMap::Aces;
     look.settings.layout = frame::layoutTable().back().layout;
     look.settings.culling.method = culling::Method::TileMinmax;
     look.settings.culling.tilePixels = 64;
     look.settings.samples = 4;
-    Preferences preferences;
-    remember(preferences, state, {});
-    EXPECT_EQ(preferences.technique, "forward_plus");
-    EXPECT_EQ(preferences.toneMap, "aces");
-    EXPECT_EQ(preferences.layout, frame::layoutTable().back().name);
-    EXPECT_EQ(preferences.culling, "tile_minmax");
-    EXPECT_EQ(preferences.tile, 64);
-    EXPECT_EQ(preferences.samples, 4);
+    return look;
 }
 
-TEST(Remember, whatWasRememberedAlwaysFollowsTheLatestChoice) {
+TEST(Remember, whatNobodyChangedIsNeverRememberedAndNeverChangesWhatIs) {
+    for (const Look& begun : {Look(), ofItsOwn()}) { // said on the command line, or wished by the scene
+        for (const Preferences& before : {Preferences(), everything()}) {
+            Preferences preferences = before;
+            State state = showing(begun);
+            recall(before, state);
+            remember(preferences, state, begun, kWindow);
+            EXPECT_EQ(preferences, before);
+        }
+    }
+}
+
+TEST(Remember, whatWasChangedIsAlwaysRememberedByName) {
+    for (const Preferences& before : {Preferences(), everything()}) {
+        Preferences preferences = before;
+        remember(preferences, showing(ofItsOwn()), {}, {640, 480});
+        EXPECT_EQ(preferences.technique, "forward_plus");
+        EXPECT_EQ(preferences.toneMap, "aces");
+        EXPECT_EQ(preferences.layout, frame::layoutTable().back().name);
+        EXPECT_EQ(preferences.culling, "tile_minmax");
+        EXPECT_EQ(preferences.tile, 64);
+        EXPECT_EQ(preferences.samples, 4);
+        EXPECT_EQ(preferences.windowSize, glm::ivec2(640, 480));
+    }
+}
+
+TEST(Remember, whatBeganAsRememberedAlwaysFollowsTheLatestChoice) {
     Preferences preferences;
     preferences.technique = "forward";
-    State state;
-    state.looks[0].technique = recipes::Technique::Deferred;
-    remember(preferences, state, state.looks[0]); // the look began as what was remembered, or was changed back
+    Look begun;
+    begun.technique = Technique::Forward;
+    Look now = begun;
+    now.technique = Technique::Deferred;
+    remember(preferences, showing(now), begun, kWindow);
     EXPECT_EQ(preferences.technique, "deferred");
+    Look open = ofItsOwn();
+    open.settings.culling = {};
+    open.settings.samples = 1;
+    preferences = everything();
+    remember(preferences, showing(open), ofItsOwn(), kWindow);
+    EXPECT_FALSE(preferences.culling) << "it was left to the technique";
+    EXPECT_FALSE(preferences.tile);
+    EXPECT_EQ(preferences.samples, 1);
+}
+
+TEST(Remember, whatWasSaidOnTheCommandLineNeverBecomesWhatIsRemembered) {
+    Preferences preferences = everything();
+    Look said = ofItsOwn();
+    Look now = said;
+    now.settings.toneMap = frame::ToneMap::None; // another choice changes nothing about that
+    remember(preferences, showing(said), said, kWindow);
+    EXPECT_EQ(preferences, everything());
+    remember(preferences, showing(now), said, kWindow);
+    Preferences expected = everything();
+    expected.toneMap = "none";
+    EXPECT_EQ(preferences, expected);
+}
+
+TEST(Remember, whatATechniqueCannotDoNeverLeavesWhatIsRemembered) {
+    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+        Preferences preferences = everything();
+        const Look begun = possible(ofItsOwn());
+        Look now = begun;
+        now.technique = info.technique;
+        remember(preferences, showing(possible(now)), begun, kWindow);
+        Preferences expected = everything();
+        if (info.technique != begun.technique) expected.technique = info.name;
+        EXPECT_EQ(preferences, expected) << info.name;
+    }
+}
+
+TEST(Remember, theWindowAlwaysBeginsAsItWasLeft) {
+    State left = showing({});
+    left.recent = {"/a.glb"};
+    left.automaticScale = false;
+    left.fixedScale = 0.5f;
+    left.showsPanel = false;
+    left.showsMarkers = true;
+    Preferences preferences;
+    remember(preferences, left, {}, kWindow);
+    State next;
+    recall(preferences, next);
+    EXPECT_EQ(next.recent, left.recent);
+    EXPECT_FALSE(next.automaticScale);
+    EXPECT_EQ(next.fixedScale, 0.5f);
+    EXPECT_FALSE(next.showsPanel);
+    EXPECT_TRUE(next.showsMarkers);
 }
 
 } // namespace

@@ -1,0 +1,111 @@
+#include "apps/FirstLook.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes/Error.h"
+
+namespace tessera::app {
+namespace {
+
+using recipes::Technique;
+
+scenes::Scene wishing(const scenes::SceneOptions& options) {
+    scenes::Scene scene;
+    scene.cameras.emplace_back().name = "front";
+    scene.options = options;
+    return scene;
+}
+
+viewer::Preferences remembered() {
+    viewer::Preferences preferences;
+    preferences.technique = "forward_plus";
+    preferences.layout = "slim";
+    preferences.toneMap = "agx";
+    preferences.culling = "tile_2.5d";
+    preferences.tile = 32;
+    preferences.samples = 4;
+    return preferences;
+}
+
+frame::GBufferLayout layoutNamed(std::string_view name) {
+    for (const frame::LayoutInfo& info : frame::layoutTable())
+        if (info.name == name) return info.layout;
+    throw InputError("no such layout");
+}
+
+TEST(FirstLook, whatIsRememberedIsAlwaysBegunWithWhereNothingElseIsSaid) {
+    const viewer::Look look = firstLook({}, remembered(), wishing({}), "x.json").look;
+    EXPECT_EQ(look.technique, Technique::ForwardPlus);
+    EXPECT_EQ(look.settings.layout, layoutNamed("slim"));
+    EXPECT_EQ(look.settings.toneMap, frame::ToneMap::Agx);
+    EXPECT_EQ(look.settings.culling.method, culling::Method::Tile25d);
+    EXPECT_EQ(look.settings.culling.tilePixels, 32);
+    EXPECT_EQ(look.settings.samples, 4);
+}
+
+TEST(FirstLook, whatTheSceneWishesAlwaysGoesBeforeWhatIsRemembered) {
+    scenes::SceneOptions wish;
+    wish.technique = "forward";
+    wish.layout = "exact";
+    wish.toneMap = "aces";
+    const viewer::Look look = firstLook({}, remembered(), wishing(wish), "x.json").look;
+    EXPECT_EQ(look.technique, Technique::Forward);
+    EXPECT_EQ(look.settings.layout, layoutNamed("exact"));
+    EXPECT_EQ(look.settings.toneMap, frame::ToneMap::Aces);
+    EXPECT_EQ(look.settings.samples, 4) << "of which it says nothing";
+    EXPECT_FALSE(look.settings.culling.tilePixels) << "forward has no tiles";
+    EXPECT_EQ(viewer::asked(look).settings.culling.tilePixels, 32);
+}
+
+TEST(FirstLook, whatTheCommandLineSaysAlwaysGoesBeforeAllElse) {
+    scenes::SceneOptions wish;
+    wish.technique = "forward";
+    FrameOptions said;
+    said.technique = "deferred";
+    said.toneMap = "aces";
+    said.samples = 1;
+    const viewer::Look look = firstLook(said, remembered(), wishing(wish), "x.json").look;
+    EXPECT_EQ(look.technique, Technique::Deferred);
+    EXPECT_EQ(look.settings.toneMap, frame::ToneMap::Aces);
+    EXPECT_EQ(look.settings.samples, 1);
+    EXPECT_EQ(viewer::asked(look).settings.samples, 1);
+}
+
+TEST(FirstLook, aRememberedNameThatThereIsNoMoreIsAlwaysAsIfNothingWere) {
+    viewer::Preferences preferences;
+    preferences.technique = "raster_of_old";
+    preferences.tile = 7;
+    preferences.samples = 3;
+    preferences.toneMap = "agx";
+    const viewer::Look look = firstLook({}, preferences, wishing({}), "x.json").look;
+    viewer::Look expected = firstLook({}, {}, wishing({}), "x.json").look;
+    expected.settings.toneMap = frame::ToneMap::Agx;
+    EXPECT_EQ(look, expected);
+}
+
+TEST(FirstLook, whatNamesThingsOfTheFirstSceneIsNeverAskedOfAnother) {
+    FrameOptions said;
+    said.camera = "side";
+    said.solo = 3;
+    said.pose.fovYDegrees = 30.0;
+    said.technique = "forward";
+    EXPECT_THROW(firstLook(said, {}, wishing({}), "x.json"), InputError);
+    const viewer::FirstLook first = firstLook(forAnyScene(said), {}, wishing({}), "x.json");
+    EXPECT_EQ(first.look.technique, Technique::Forward);
+    EXPECT_EQ(first.look.settings.camera, 0);
+    EXPECT_FALSE(first.look.settings.soloLight);
+    EXPECT_EQ(first.pose, scenes::CameraChange());
+}
+
+TEST(FirstLook, theMostExposureOfTheWindowIsAlwaysExactlyThatOfTheCommandLine) {
+    FrameOptions options;
+    for (const double sign : {-1.0, 1.0}) {
+        options.exposureEV = sign * double(viewer::kMostExposureEV);
+        EXPECT_NO_THROW(resolveWithoutScene(options));
+        options.exposureEV = sign * (double(viewer::kMostExposureEV) + 0.1);
+        EXPECT_THROW(resolveWithoutScene(options), InputError);
+    }
+}
+
+} // namespace
+} // namespace tessera::app
