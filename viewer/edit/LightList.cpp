@@ -1,14 +1,10 @@
 #include "viewer/edit/LightList.h"
 
-#include <algorithm>
 #include <cassert>
-#include <charconv>
-#include <numbers>
+#include <cmath>
 #include <unordered_set>
 
 #include <fmt/format.h>
-#include <glm/ext/quaternion_trigonometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 
 namespace tessera::viewer {
 namespace {
@@ -40,10 +36,9 @@ std::size_t addLight(Lights& lights, scenes::Light light) {
     return lights.size() - 1;
 }
 
-scenes::Light lightAtFocus(const CameraPose& pose) {
+scenes::Light lightBeforeFocus(const CameraPose& pose) {
     scenes::Light light;
     light.name = "light";
-    // Halfway, so that it stands before the things that are looked at and not inside them.
     const double distanceMetres = 0.5 * pose.focusMetres;
     light.positionWS = pose.eyeWS + distanceMetres * pose.heading.forwardWS();
     light.directionWS = pose.heading.forwardWS();
@@ -74,6 +69,17 @@ std::optional<int> toggledSolo(std::optional<int> solo, std::size_t index) {
     return int(index);
 }
 
+void placeLight(scenes::Light& light, double timeSeconds, const glm::dvec3& positionWS) {
+    if (!light.animation) {
+        light.positionWS = positionWS;
+        return;
+    }
+    const glm::dvec3 stepWS = positionWS - scenes::lightAtTime(light, timeSeconds).positionWS;
+    light.positionWS += stepWS;
+    light.animation->centerWS += stepWS;
+    for (glm::dvec3& pointWS : light.animation->pointsWS) pointWS += stepWS;
+}
+
 void moveLight(scenes::Light& light, double timeSeconds, const CameraPose& pose, const scenes::Camera& lens,
                const glm::dvec2& dragPixels, double heightPixels) {
     if (light.type == scenes::LightType::Directional) return;
@@ -81,27 +87,18 @@ void moveLight(scenes::Light& light, double timeSeconds, const CameraPose& pose,
     const double depthMetres = glm::dot(shownWS - pose.eyeWS, pose.heading.forwardWS());
     const double metres =
         metresPerPixel(lens, pose, depthMetres > pose.nearMetres ? depthMetres : pose.focusMetres, heightPixels);
-    const glm::dvec3 stepWS = metres * (dragPixels.x * pose.heading.rightWS() - dragPixels.y * pose.heading.upWS());
-    light.positionWS += stepWS;
-    if (!light.animation) return;
-    light.animation->centerWS += stepWS;
-    for (glm::dvec3& pointWS : light.animation->pointsWS) pointWS += stepWS;
+    placeLight(light, timeSeconds,
+               shownWS + metres * (dragPixels.x * pose.heading.rightWS() - dragPixels.y * pose.heading.upWS()));
 }
 
-void aimLight(scenes::Light& light, const CameraPose& pose, const glm::dvec2& dragPixels, double heightPixels) {
-    if (light.type == scenes::LightType::Point) return;
-    const glm::dvec2 angles = dragPixels * (std::numbers::pi / heightPixels);
-    const glm::dquat turn =
-        glm::angleAxis(angles.x, pose.heading.upWS()) * glm::angleAxis(angles.y, pose.heading.rightWS());
-    light.directionWS = glm::normalize(turn * light.directionWS);
-}
-
-void orbitLight(scenes::Light& light, double radiusMetres, double periodSeconds) {
+void orbitLight(scenes::Light& light, double radiusMetres, double periodSeconds, double timeSeconds) {
     if (light.type == scenes::LightType::Directional) return;
     assert(radiusMetres > 0.0 && periodSeconds > 0.0);
+    const double turns = timeSeconds / periodSeconds;
     scenes::LightAnimation animation;
     animation.kind = scenes::LightAnimationKind::Orbit;
     animation.periodSeconds = periodSeconds;
+    animation.phase = std::ceil(turns) - turns;
     animation.centerWS = light.positionWS - glm::dvec3(radiusMetres, 0.0, 0.0);
     light.animation = animation;
 }

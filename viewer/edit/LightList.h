@@ -16,8 +16,9 @@ std::string freeLightName(const Lights& lights, const std::string& wanted);
 /// Adds a light at the end, under a name that is free. Returns its index.
 std::size_t addLight(Lights& lights, scenes::Light light);
 
-/// A white point light at the camera's focus, bright enough to light what is there as the default light would.
-scenes::Light lightAtFocus(const CameraPose& pose);
+/// A white point light halfway to the camera's focus, before the things that are looked at and not inside them: bright
+/// enough to light what is there as the default light would.
+scenes::Light lightBeforeFocus(const CameraPose& pose);
 
 /// Adds a copy of a light at the end, the number behind its name counted on ("lamp 2"). Returns the copy's index.
 std::size_t duplicateLight(Lights& lights, std::size_t index);
@@ -28,16 +29,16 @@ void deleteLight(Lights& lights, std::size_t index, std::optional<int>& solo);
 /// Solo of a light: on, or off where it was on already.
 std::optional<int> toggledSolo(std::optional<int> solo, std::size_t index);
 
+/// Puts a light, with its path where it is animated, so that it is at a place at this time.
+void placeLight(scenes::Light& light, double timeSeconds, const glm::dvec3& positionWS);
+
 /// Moves a light, with its path where it is animated, so that it follows a drag across the picture at its own depth.
 /// What lies behind the eye moves as if it were at the focus. Directional lights have no place and stay.
 void moveLight(scenes::Light& light, double timeSeconds, const CameraPose& pose, const scenes::Camera& lens,
                const glm::dvec2& dragPixels, double heightPixels);
 
-/// Turns the way a directional or spot light travels: a drag across the height of the picture is half a turn.
-void aimLight(scenes::Light& light, const CameraPose& pose, const glm::dvec2& dragPixels, double heightPixels);
-
-/// Lets a light circle about the vertical axis through a centre beside it, beginning where it is now.
-void orbitLight(scenes::Light& light, double radiusMetres, double periodSeconds);
+/// Lets a light circle about the vertical axis through a centre beside it, from where it is at this time.
+void orbitLight(scenes::Light& light, double radiusMetres, double periodSeconds, double timeSeconds);
 
 /// Ends an animation: the light stays where it is at this time.
 void stopLight(scenes::Light& light, double timeSeconds);

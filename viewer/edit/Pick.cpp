@@ -1,7 +1,6 @@
 #include "viewer/edit/Pick.h"
 
 #include <cassert>
-#include <cmath>
 
 #include "validation/reference/CameraRays.h"
 #include "validation/reference/Objects.h"
@@ -26,13 +25,6 @@ std::optional<Pick> instanceNumbered(const scenes::Scene& scene, std::size_t num
 }
 
 } // namespace
-
-std::optional<Pick> pickedFromIds(const scenes::Scene& scene, const glm::vec4& ids) {
-    // Averages of several samples are no whole numbers: such an edge shows two things.
-    const bool isWhole = std::floor(ids.r) == ids.r && std::floor(ids.g) == ids.g;
-    if (!isWhole || !(ids.r >= 1.0f) || !(ids.g >= 0.0f)) return {};
-    return instanceNumbered(scene, std::size_t(ids.r) - 1, std::size_t(ids.g));
-}
 
 std::optional<Pick> pickedByRay(const scenes::Scene& scene, const scenes::Camera& camera, glm::ivec2 sizePixels,
                                 glm::ivec2 pixel) {

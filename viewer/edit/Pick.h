@@ -11,13 +11,9 @@ struct Pick {
     int instance = scenes::kNone; ///< of the node
     int mesh = scenes::kNone;
     int material = scenes::kNone;
-    int triangle = scenes::kNone;         ///< of the mesh
-    std::optional<glm::dvec3> positionWS; ///< where the pixel shows it, if that is known
+    int triangle = scenes::kNone; ///< of the mesh
+    glm::dvec3 positionWS{0.0};   ///< where the pixel shows it
 };
-
-/// What a pixel of the view `ids` shows (passes/IdsPass.h): its red channel is 1 + the mesh instance in document order,
-/// its green one the triangle. None where nothing opaque is, or where the numbers are none of the scene's.
-std::optional<Pick> pickedFromIds(const scenes::Scene& scene, const glm::vec4& ids);
 
 /// The nearest surface, transparent ones too, that a camera shows at a pixel; rows count from the top. By rays in
 /// double precision, without a picture of it: alpha masks, sides and clip planes count as in the picture. Takes about

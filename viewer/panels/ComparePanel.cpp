@@ -22,12 +22,12 @@ void compareRows(State& state) {
     ImGui::RadioButton("right", &state.activeSide, 1);
     tip("Which side technique and view are chosen for");
     if (state.compare == Compare::Split) {
-        row("Divider");
-        ImGui::SliderFloat("##Divider", &state.divider, 0.0f, 1.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+        slider("Divider", state.divider, 0.0f, 1.0f, "%.2f");
     } else {
         row("Amplified");
-        ImGui::SliderFloat("##Amplified", &state.amplification, 1.0f, 1e6f, "%.0f x",
-                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+        edit(state.amplification, 1.0f, 1e6f, [](float& times) {
+            return ImGui::SliderFloat("##Amplified", &times, 1.0f, 1e6f, "%.0f x", ImGuiSliderFlags_Logarithmic);
+        });
     }
 }
 

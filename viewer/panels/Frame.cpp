@@ -33,7 +33,6 @@ void sidePanel(State& state, const Facts& facts, float height, float scale) {
     ImGui::SetNextWindowPos({0.0f, 0.0f});
     ImGui::SetNextWindowSize({panelWidth(state, scale), height});
     if (ImGui::Begin("Panels", nullptr, kFixed)) {
-        state.wantsPlan = false;
         section("Scene", true, [&] { scenePanel(state); });
         section("Technique", true, [&] { framePanel(state); });
         section("View", true, [&] { viewPanel(state); });
@@ -148,6 +147,7 @@ glm::ivec2 windowSizeFor(glm::ivec2 pictureSize, bool showsPanel) {
 
 void drawInterface(State& state, const Facts& facts, const PictureArea& area, float scale) {
     const float height = ImGui::GetIO().DisplaySize.y;
+    state.wantsPlan = false; // unless a panel that is seen says so
     if (state.showsPanel) sidePanel(state, facts, height, scale);
     if (area.size.x > 0.0f) {
         statusLine(state, facts, area, scale);

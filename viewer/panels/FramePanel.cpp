@@ -12,21 +12,18 @@
 namespace tessera::viewer {
 namespace {
 
-/// A row of choices in front of which stands "automatic", for options that may be left open.
+/// A row of choices in front of which stands "automatic", for options that may be left open. Whether one was chosen.
 template <typename Value>
-void chooseOrOpen(const char* label, std::optional<Value>& value, std::vector<Choice> choices,
+bool chooseOrOpen(const char* label, std::optional<Value>& value, std::vector<Choice> choices,
                   std::span<const Value> values, std::string_view automatic) {
     choices.insert(choices.begin(), {"automatic", automatic});
     std::size_t chosen = 0;
     for (std::size_t i = 0; value && i < values.size(); ++i)
         if (values[i] == *value) chosen = i + 1;
-    if (const auto now = choose(label, choices[chosen].name, choices, chosen)) {
-        if (*now == 0) {
-            value.reset();
-        } else {
-            value = values[*now - 1];
-        }
-    }
+    const auto now = choose(label, choices[chosen].name, choices, chosen);
+    if (now && *now == 0) value.reset();
+    if (now && *now > 0) value = values[*now - 1];
+    return now.has_value();
 }
 
 template <typename Table, typename Member>
@@ -51,8 +48,9 @@ void cullingRows(Look& look) {
     };
     const auto summary = [](const auto& info) { return info.summary; };
     const auto methods = valuesOf(culling::methodTable(), &culling::MethodInfo::method);
-    chooseOrOpen<culling::Method>("Culling", settings.method, choicesOf(culling::methodTable(), summary, takes),
-                                  methods, "the technique's own");
+    if (chooseOrOpen<culling::Method>("Culling", settings.method, choicesOf(culling::methodTable(), summary, takes),
+                                      methods, "the technique's own"))
+        look.aside.method.reset();
     if (!recipes::hasLightLists(look.technique)) return;
     std::vector<std::string> names;
     for (const int side : culling::kTileSides) names.push_back(fmt::format("{} pixels", side));

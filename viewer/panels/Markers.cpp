@@ -10,8 +10,6 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr std::size_t kMostMarkers = 4096; ///< more would hide the picture, and take a frame to draw
-
 ImU32 colorOf(const scenes::Light& light) {
     const float most = std::max({light.color.r, light.color.g, light.color.b, 1e-6f});
     const auto code = [most](float value) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "viewer/edit/MaterialModel.h"
 #include "viewer/panels/ChooseNamed.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
@@ -13,23 +14,11 @@ namespace {
 using scenes::Material;
 using scenes::MaterialModel;
 
-bool slider(const char* label, float& value, float least, float most, const char* format = "%.3f") {
-    row(label);
-    return ImGui::SliderFloat((std::string("##") + label).c_str(), &value, least, most, format,
-                              ImGuiSliderFlags_AlwaysClamp);
-}
-
-bool color(const char* label, glm::vec3& value, bool isRadiance = false) {
-    row(label);
-    const ImGuiColorEditFlags flags = ImGuiColorEditFlags_Float | (isRadiance ? ImGuiColorEditFlags_HDR : 0);
-    return ImGui::ColorEdit3((std::string("##") + label).c_str(), &value.x, flags);
-}
-
 bool microfacetRows(Material& material) {
     const bool anisotropic = material.model == MaterialModel::MicrofacetAnisotropic;
     bool changed = slider(anisotropic ? "Alpha x" : "Alpha", material.alpha, 0.001f, 1.0f, "%.4f");
     if (anisotropic) changed |= slider("Alpha y", material.alphaY, 0.001f, 1.0f, "%.4f");
-    changed |= color("k_s", material.specularColor);
+    changed |= colorRow("k_s", material.specularColor);
     changed |= slider("Index n", material.ior, 1.0f, 4.0f);
     changed |= chooseNamed("Masking", material.masking, [anisotropic](scenes::Masking masking) {
         return anisotropic || masking != scenes::Masking::Directional;
@@ -39,13 +28,11 @@ bool microfacetRows(Material& material) {
 
 bool layerRows(Material& material) {
     bool changed = slider("Anisotropy", material.anisotropyStrength, 0.0f, 1.0f);
-    if (material.anisotropyStrength > 0.0f) {
-        row("Turned by");
-        changed |= ImGui::SliderAngle("##Turned", &material.anisotropyRotationRadians, -180.0f, 180.0f, "%.1f deg");
-    }
+    if (material.anisotropyStrength > 0.0f)
+        changed |= angleSlider("Turned by", material.anisotropyRotationRadians, -180.0f, 180.0f);
     changed |= slider("Clearcoat", material.clearcoat, 0.0f, 1.0f);
     if (material.clearcoat > 0.0f) changed |= slider("Coat rough", material.clearcoatPerceptualRoughness, 0.0f, 1.0f);
-    changed |= color("Sheen", material.sheenColor);
+    changed |= colorRow("Sheen", material.sheenColor);
     if (material.sheenColor != glm::vec3(0.0f))
         changed |= slider("Sheen rough", material.sheenPerceptualRoughness, 0.0f, 1.0f);
     return changed;
@@ -56,7 +43,7 @@ bool metallicRows(Material& material) {
     changed |= slider("Roughness", material.perceptualRoughness, 0.0f, 1.0f);
     changed |= slider("Index n", material.ior, 1.0f, 4.0f);
     changed |= slider("Specular", material.specularFactor, 0.0f, 1.0f);
-    changed |= color("F0 tint", material.specularColor);
+    changed |= colorRow("F0 tint", material.specularColor);
     changed |= layerRows(material);
     return changed;
 }
@@ -67,7 +54,7 @@ bool modelRows(Material& material) {
     case MaterialModel::Lambert:
         return false;
     case MaterialModel::BlinnPhong: {
-        bool changed = color("k_s", material.specularColor);
+        bool changed = colorRow("k_s", material.specularColor);
         changed |= slider("Exponent", material.exponent, 1.0f, 1000.0f, "%.1f");
         return changed;
     }
@@ -92,14 +79,16 @@ bool surfaceRows(Material& material) {
 }
 
 bool materialRows(Material& material) {
-    bool changed = chooseNamed("Model", material.model);
+    MaterialModel model = material.model;
+    bool changed = chooseNamed("Model", model);
+    if (changed) changeModel(material, model);
     glm::vec3 base(material.baseColor);
-    if (color("Colour", base)) {
+    if (colorRow("Colour", base)) {
         material.baseColor = glm::vec4(base, material.baseColor.w);
         changed = true;
     }
     changed |= modelRows(material);
-    changed |= color("Emission", material.emissive, true);
+    changed |= colorRow("Emission", material.emissive, kMostRadiance);
     changed |= surfaceRows(material);
     const auto textured = std::count_if(material.textures.begin(), material.textures.end(),
                                         [](const scenes::TextureUse& use) { return use.image != scenes::kNone; });
@@ -114,14 +103,18 @@ void materialsPanel(State& state) {
     if (!state.open) return;
     std::vector<Material>& materials = state.open->edit().materials;
     if (state.selectedMaterial >= int(materials.size())) state.selectedMaterial = scenes::kNone;
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < materials.size(); ++i)
-        names.push_back(materials[i].name.empty() ? fmt::format("material {}", i) : materials[i].name);
-    std::vector<Choice> choices;
-    for (const std::string& name : names) choices.push_back({name, ""});
+    const auto nameOf = [&materials](std::size_t index) {
+        const std::string& name = materials[index].name;
+        return name.empty() ? fmt::format("material {}", index) : name;
+    };
+    std::string name; // of the entry that is drawn
+    const auto choiceAt = [&](std::size_t index) {
+        name = nameOf(index);
+        return Choice{name, ""};
+    };
     const bool any = state.selectedMaterial != scenes::kNone;
     const auto now = std::size_t(any ? state.selectedMaterial : int(materials.size()));
-    if (const auto chosen = choose("Material", any ? names[now] : "click a surface", choices, now))
+    if (const auto chosen = choose("Material", any ? nameOf(now) : "click a surface", materials.size(), choiceAt, now))
         state.selectedMaterial = int(*chosen);
     if (state.selectedMaterial == scenes::kNone) return;
     if (materialRows(materials[std::size_t(state.selectedMaterial)])) state.open->touchMaterials();

@@ -4,6 +4,7 @@
 #include "passes/recipes/ChooseView.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
+#include "viewer/session/Preferences.h"
 
 namespace tessera::viewer {
 namespace {
@@ -34,8 +35,7 @@ void scaleRows(State& state) {
     ImGui::Checkbox("automatic", &state.automaticScale);
     tip("Fewer pixels while something moves, all of them at rest");
     if (state.automaticScale) return;
-    row("Scale");
-    ImGui::SliderFloat("##Scale", &state.fixedScale, 0.1f, 1.0f, "%.3f", ImGuiSliderFlags_AlwaysClamp);
+    slider("Scale", state.fixedScale, kLeastScale, 1.0f);
 }
 
 } // namespace
@@ -44,7 +44,8 @@ void viewPanel(State& state) {
     Look& look = state.active();
     viewRow(look);
     row("Exposure");
-    ImGui::SliderFloat("##Exposure", &look.settings.exposureEV, -10.0f, 10.0f, "%+.1f EV");
+    edit(look.settings.exposureEV, -kMostExposureEV, kMostExposureEV,
+         [](float& exposureEV) { return ImGui::SliderFloat("##Exposure", &exposureEV, -10.0f, 10.0f, "%+.1f EV"); });
     toneMapRow(look.settings);
     scaleRows(state);
 }

@@ -15,6 +15,11 @@ void text(std::string_view words) {
     ImGui::TextUnformatted(words.data(), words.data() + words.size());
 }
 
+/// Of a widget whose label stands beside it.
+std::string idOf(const char* label) {
+    return std::string("##") + label;
+}
+
 } // namespace
 
 void row(const char* label) {
@@ -26,21 +31,55 @@ void row(const char* label) {
 
 std::optional<std::size_t> choose(const char* label, std::string_view shown, std::span<const Choice> choices,
                                   std::size_t chosen) {
+    return choose(
+        label, shown, choices.size(), [choices](std::size_t i) { return choices[i]; }, chosen);
+}
+
+std::optional<std::size_t> choose(const char* label, std::string_view shown, std::size_t count,
+                                  const std::function<Choice(std::size_t)>& choiceAt, std::size_t chosen) {
     std::optional<std::size_t> result;
     row(label);
-    const std::string id = std::string("##") + label;
-    if (!ImGui::BeginCombo(id.c_str(), std::string(shown).c_str(), ImGuiComboFlags_HeightLargest)) return result;
+    if (!ImGui::BeginCombo(idOf(label).c_str(), std::string(shown).c_str(), ImGuiComboFlags_HeightLargest))
+        return result;
     closeOnEscape();
-    for (std::size_t i = 0; i < choices.size(); ++i) {
-        const ImGuiSelectableFlags flags = choices[i].isPossible ? 0 : ImGuiSelectableFlags_Disabled;
-        ImGui::PushID(int(i)); // names may be equal
-        if (ImGui::Selectable(std::string(choices[i].name).c_str(), i == chosen, flags)) result = i;
-        if (i == chosen) ImGui::SetItemDefaultFocus();
-        tip(choices[i].meaning);
-        ImGui::PopID();
+    ImGuiListClipper clipper;
+    clipper.Begin(int(count));
+    if (chosen < count) clipper.ForceDisplayRangeByIndices(int(chosen), int(chosen) + 1);
+    while (clipper.Step()) {
+        for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
+            const auto i = std::size_t(row);
+            const Choice choice = choiceAt(i);
+            ImGui::PushID(row); // names may be equal
+            if (ImGui::Selectable(std::string(choice.name).c_str(), i == chosen,
+                                  choice.isPossible ? 0 : ImGuiSelectableFlags_Disabled))
+                result = i;
+            if (i == chosen) ImGui::SetItemDefaultFocus();
+            tip(choice.meaning);
+            ImGui::PopID();
+        }
     }
     ImGui::EndCombo();
     return result;
+}
+
+bool slider(const char* label, float& value, float least, float most, const char* format) {
+    row(label);
+    return edit(value, least, most,
+                [&](float& edited) { return ImGui::SliderFloat(idOf(label).c_str(), &edited, least, most, format); });
+}
+
+bool angleSlider(const char* label, float& radians, float leastDegrees, float mostDegrees) {
+    row(label);
+    return edit(radians, glm::radians(leastDegrees), glm::radians(mostDegrees), [&](float& edited) {
+        return ImGui::SliderAngle(idOf(label).c_str(), &edited, leastDegrees, mostDegrees, "%.1f deg");
+    });
+}
+
+bool colorRow(const char* label, glm::vec3& color, float most) {
+    row(label);
+    const ImGuiColorEditFlags flags = ImGuiColorEditFlags_Float | (most > 1.0f ? ImGuiColorEditFlags_HDR : 0);
+    return edit(color, 0.0f, most,
+                [&](glm::vec3& edited) { return ImGui::ColorEdit3(idOf(label).c_str(), &edited.x, flags); });
 }
 
 void closeOnEscape() {

@@ -1,9 +1,13 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "viewer/edit/Bounded.h"
 
 namespace tessera::viewer {
 
@@ -20,6 +24,9 @@ void row(const char* label);
 /// A list that drops down, in a row of its own. Returns what was chosen now.
 std::optional<std::size_t> choose(const char* label, std::string_view shown, std::span<const Choice> choices,
                                   std::size_t chosen);
+/// The same of any number of entries, of which only those in view are asked for; each is used up before the next.
+std::optional<std::size_t> choose(const char* label, std::string_view shown, std::size_t count,
+                                  const std::function<Choice(std::size_t)>& choiceAt, std::size_t chosen);
 
 /// The rows of one of the library's tables to choose from.
 template <typename Table>
@@ -33,6 +40,22 @@ std::vector<Choice> choicesOf(const Table& table) {
     return choicesOf(
         table, [](const auto& entry) { return entry.summary; }, [](const auto&) { return true; });
 }
+
+/// Shows a widget of a value and takes what it made of it inside the bounds (bounded()). Whether that changed it.
+template <typename Value, typename Number, typename Widget>
+bool edit(Value& value, Number least, Number most, const Widget& widget) {
+    Value edited = value;
+    if (!widget(edited)) return false;
+    edited = bounded(edited, value, least, most);
+    return std::exchange(value, edited) != edited;
+}
+
+/// A slider in a row of its own. Whether it changed the value.
+bool slider(const char* label, float& value, float least, float most, const char* format = "%.3f");
+/// The same of an angle, which is shown in degrees.
+bool angleSlider(const char* label, float& radians, float leastDegrees, float mostDegrees);
+/// The channels of a linear colour from 0 to `most`, in a row of its own; above 1 for what shines.
+bool colorRow(const char* label, glm::vec3& color, float most = 1.0f);
 
 /// Lets Esc close the list that is being drawn.
 void closeOnEscape();

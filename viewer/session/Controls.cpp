@@ -37,7 +37,8 @@ int markedLight(const State& state, const PictureArea& area, const glm::vec2& po
     const int count = int(scene.lights.size());
     if (state.selectedLight != scenes::kNone && state.selectedLight < count && isUnder(state.selectedLight))
         return state.selectedLight;
-    for (int i = 0; state.showsMarkers && i < count; ++i)
+    const int marked = state.showsMarkers ? std::min(count, int(kMostMarkers)) : 0;
+    for (int i = 0; i < marked; ++i)
         if (isUnder(i)) return i;
     return scenes::kNone;
 }

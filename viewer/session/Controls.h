@@ -6,6 +6,10 @@
 
 namespace tessera::viewer {
 
+/// Lights that have a marker where all are marked, the scene's first: more would hide the picture, and take a frame to
+/// draw. The selected one always has one.
+inline constexpr std::size_t kMostMarkers = 4096;
+
 /// Where the picture is in the window, screen coordinates from the upper left.
 struct PictureArea {
     glm::vec2 corner{0.0f};
@@ -22,8 +26,6 @@ public:
         bool keyboard = false; ///< text is typed
     };
     void handle(std::span<const InputEvent> events, State& state, const PictureArea& area, const Claims& claims);
-    /// Something is held that goes on by itself: a key to fly with.
-    bool isHolding() const { return drag_ != Drag::None; }
 
 private:
     enum class Drag { None, Rotate, Pan, Zoom, Divider, Light };

@@ -7,7 +7,7 @@
 
 #include "passes/recipes/ChooseView.h"
 #include "renderer/frame/Views.h"
-#include "viewer/edit/LightList.h"
+#include "viewer/session/LightEdits.h"
 
 namespace tessera::viewer {
 namespace {
@@ -36,14 +36,7 @@ void changeMode(State& state) {
 
 void changeExposure(State& state, float stepEV) {
     float& exposureEV = state.active().settings.exposureEV;
-    exposureEV = std::clamp(std::round(exposureEV / stepEV) * stepEV + stepEV, -10.0f, 10.0f);
-}
-
-void deleteSelected(State& state) {
-    if (!state.open || state.selectedLight == scenes::kNone) return;
-    deleteLight(state.open->edit().lights, std::size_t(state.selectedLight), state.active().settings.soloLight);
-    state.selectedLight = scenes::kNone;
-    state.open->touch();
+    exposureEV = std::clamp(std::round(exposureEV / stepEV) * stepEV + stepEV, -kMostExposureEV, kMostExposureEV);
 }
 
 constexpr int kNone = 0;
@@ -90,7 +83,7 @@ constexpr KeyBinding kBindings[] = {
          std::optional<int>& solo = s.active().settings.soloLight;
          solo = solo || s.selectedLight == scenes::kNone ? std::nullopt : std::optional<int>(s.selectedLight);
      }},
-    {GLFW_KEY_DELETE, kNone, "Del", "delete the selected light", deleteSelected},
+    {GLFW_KEY_DELETE, kNone, "Del", "delete the selected light", deleteSelectedLight},
     {GLFW_KEY_SPACE, kNone, "Space", "lights move, or stand still", [](State& s) { s.isPlaying = !s.isPlaying; }},
     {GLFW_KEY_F5, kNone, "F5", "read the shaders again", [](State& s) { s.requests.reloadShaders = true; }},
     {GLFW_KEY_F12, kNone, "F12", "save the picture as PNG; with Shift as EXR",

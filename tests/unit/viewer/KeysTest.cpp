@@ -32,5 +32,18 @@ TEST(Keys, digitsAlwaysShowTheViewOfTheirNumber) {
     }
 }
 
+TEST(Keys, anExposureBeyondTheSliderIsAlwaysSteppedByHalfAStep) {
+    State state;
+    float& exposureEV = state.looks[0].settings.exposureEV;
+    exposureEV = -15.0f;
+    ASSERT_TRUE(pressKey(state, '[', 0));
+    EXPECT_EQ(exposureEV, -15.5f);
+    ASSERT_TRUE(pressKey(state, ']', 0));
+    EXPECT_EQ(exposureEV, -15.0f);
+    exposureEV = kMostExposureEV;
+    ASSERT_TRUE(pressKey(state, ']', 0));
+    EXPECT_EQ(exposureEV, kMostExposureEV);
+}
+
 } // namespace
 } // namespace tessera::viewer

@@ -1,9 +1,6 @@
 #include "viewer/edit/LightList.h"
 
-#include <numbers>
-
 #include "tests/unit/viewer/CameraTest.h"
-#include "viewer/edit/SceneClock.h"
 
 namespace tessera::viewer {
 namespace {
@@ -92,46 +89,54 @@ TEST(LightList, aLightBehindTheEyeIsAlwaysMovedAsAtTheFocus) {
     EXPECT_NEAR(light.positionWS.x, 100.0 * metresPerPixel(lens, pose, pose.focusMetres, kHeightPixels), 1e-12);
 }
 
-TEST(LightList, aDragAcrossThePictureAlwaysTurnsADirectionRoundAndKeepsItsLength) {
-    const scenes::Camera lens = perspective({0, 0, 8}, {0, 0, 0});
-    scenes::Light light;
-    light.type = scenes::LightType::Directional;
-    aimLight(light, poseOf(lens, kBox), {0.5 * kHeightPixels, 0.0}, kHeightPixels);
-    EXPECT_LT(glm::distance(light.directionWS, glm::dvec3(-1, 0, 0)), 1e-12) << "a quarter turn about the vertical";
-    light.directionWS = {0, 0, -1};
-    aimLight(light, poseOf(lens, kBox), {0.0, 0.5 * kHeightPixels}, kHeightPixels);
-    EXPECT_LT(glm::distance(light.directionWS, glm::dvec3(0, 1, 0)), 1e-12);
-    EXPECT_NEAR(glm::length(light.directionWS), 1.0, 1e-15);
+TEST(LightList, aLightIsAlwaysPutExactlyWhereItIsSaidAtThatTime) {
+    for (int kind = -1; kind < 4; ++kind) {
+        scenes::Light light;
+        light.positionWS = {0.5, 1.5, -2.0};
+        if (kind >= 0) {
+            scenes::LightAnimation& animation = light.animation.emplace();
+            animation.kind = scenes::LightAnimationKind(kind);
+            animation.periodSeconds = 3.0;
+            animation.amplitudeMetres = {1, 1, 0};
+            animation.timesSeconds = {0.0, 1.0};
+            animation.pointsWS = {{0, 0, 0}, {1, 1, 1}};
+        }
+        const scenes::Light before = light;
+        const glm::dvec3 wantedWS(-4.1, 0.3, 7.7);
+        placeLight(light, 0.4, wantedWS);
+        EXPECT_LT(glm::distance(scenes::lightAtTime(light, 0.4).positionWS, wantedWS), 1e-12) << kind;
+        // What it does from there on is what it did.
+        const glm::dvec3 stepWS = wantedWS - scenes::lightAtTime(before, 0.4).positionWS;
+        EXPECT_LT(glm::distance(scenes::lightAtTime(light, 0.9).positionWS,
+                                scenes::lightAtTime(before, 0.9).positionWS + stepWS),
+                  1e-12)
+            << kind;
+    }
 }
 
 TEST(LightList, anOrbitAlwaysBeginsAndAStopAlwaysEndsWhereTheLightIs) {
-    scenes::Light light;
-    light.positionWS = {3, 2, 1};
-    orbitLight(light, 1.5, 4.0);
-    EXPECT_EQ(scenes::lightAtTime(light, 0.0).positionWS, glm::dvec3(3, 2, 1));
-    const glm::dvec3 halfwayWS = scenes::lightAtTime(light, 2.0).positionWS;
-    EXPECT_NEAR(glm::distance(halfwayWS, glm::dvec3(0, 2, 1)), 0.0, 1e-12);
-    stopLight(light, 2.0);
-    EXPECT_FALSE(light.animation);
-    EXPECT_EQ(light.positionWS, halfwayWS);
+    for (const double timeSeconds : {0.0, 0.7, 2.0, 4.0, 6.5, 12345.678, -1.3}) {
+        scenes::Light light;
+        light.positionWS = {3, 2, 1};
+        orbitLight(light, 1.5, 4.0, timeSeconds);
+        ASSERT_TRUE(light.animation);
+        EXPECT_GE(light.animation->phase, 0.0);
+        EXPECT_LT(light.animation->phase, 1.0);
+        EXPECT_LT(glm::distance(scenes::lightAtTime(light, timeSeconds).positionWS, glm::dvec3(3, 2, 1)), 1e-11);
+        const glm::dvec3 halfwayWS = scenes::lightAtTime(light, timeSeconds + 2.0).positionWS;
+        EXPECT_LT(glm::distance(halfwayWS, glm::dvec3(0, 2, 1)), 1e-11);
+        stopLight(light, timeSeconds + 2.0);
+        EXPECT_FALSE(light.animation);
+        EXPECT_EQ(light.positionWS, halfwayWS);
+    }
 }
 
 TEST(LightList, aNewLightAlwaysGivesWhatIsLookedAtAsMuchAsTheDefaultLight) {
     const scenes::Camera lens = perspective({0, 0, 8}, {0, 0, 0});
     const CameraPose pose = poseOf(lens, kBox);
-    const scenes::Light light = lightAtFocus(pose);
+    const scenes::Light light = lightBeforeFocus(pose);
     const double distance = glm::distance(light.positionWS, pose.eyeWS + pose.focusMetres * pose.heading.forwardWS());
     EXPECT_NEAR(light.intensity / (distance * distance), 3.0, 1e-5); // single precision
-}
-
-TEST(SceneClock, timeAlwaysStandsStillWhileItIsPaused) {
-    SceneClock clock;
-    clock.set(2.0);
-    clock.advance(1.0);
-    EXPECT_EQ(clock.timeSeconds(), 2.0);
-    clock.run(true);
-    clock.advance(0.5);
-    EXPECT_EQ(clock.timeSeconds(), 2.5);
 }
 
 } // namespace

@@ -1,0 +1,29 @@
+#pragma once
+#include <cmath>
+
+#include <glm/glm.hpp>
+
+/// Edits stay where a scene can be saved (scenes::checkScene) and drawn, whatever is typed.
+namespace tessera::viewer {
+
+inline constexpr double kMostMetres = 1e9;  ///< of a place, either way: its square is finite in single precision
+inline constexpr double kMostSeconds = 1e9; ///< of time, either way: thirty years
+inline constexpr float kMostLightColor = 1e6f;
+inline constexpr float kMostRadiance = 1e29f; ///< of an emission
+
+/// A number as it was edited, inside its bounds; as it was before where it is none. What was not edited stays, also
+/// where a file has it beyond the bounds.
+template <typename Number>
+Number bounded(Number edited, Number before, Number least, Number most) {
+    if (edited == before || std::isnan(edited)) return before;
+    return glm::clamp(edited, least, most);
+}
+
+/// The same of each component.
+template <glm::length_t N, typename Number>
+glm::vec<N, Number> bounded(glm::vec<N, Number> edited, const glm::vec<N, Number>& before, Number least, Number most) {
+    for (glm::length_t i = 0; i < N; ++i) edited[i] = bounded(edited[i], before[i], least, most);
+    return edited;
+}
+
+} // namespace tessera::viewer
