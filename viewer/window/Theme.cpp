@@ -31,8 +31,9 @@ void applyColors(ImVec4* colors) {
     colors[ImGuiCol_ScrollbarGrabHovered] = grey(0.36f);
     colors[ImGuiCol_ScrollbarGrabActive] = grey(0.44f);
     colors[ImGuiCol_CheckMark] = accent(1.2f);
-    colors[ImGuiCol_SliderGrab] = accent(0.9f);
-    colors[ImGuiCol_SliderGrabActive] = accent(1.1f);
+    // Dim: the number is written across it.
+    colors[ImGuiCol_SliderGrab] = accent(0.55f);
+    colors[ImGuiCol_SliderGrabActive] = accent(0.75f);
     colors[ImGuiCol_Button] = grey(0.22f);
     colors[ImGuiCol_ButtonHovered] = grey(0.29f);
     colors[ImGuiCol_ButtonActive] = accent(0.8f);
