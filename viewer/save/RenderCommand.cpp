@@ -9,14 +9,14 @@
 namespace tessera::viewer {
 namespace {
 
-/// The name in a table of the row for which `matches` holds.
+/// The name in a table of the row for which `matches` holds; for tables without an infoOf().
 template <typename Table, typename Matches>
 std::string nameIn(const Table& table, Matches matches) {
     return std::string(std::ranges::find_if(table, matches)->name);
 }
 
 std::string techniqueName(recipes::Technique technique) {
-    return nameIn(recipes::techniqueTable(), [&](const auto& row) { return row.technique == technique; });
+    return std::string(infoOf(technique).name);
 }
 
 std::string layoutName(const frame::GBufferLayout& layout) {
@@ -37,8 +37,8 @@ std::string onOff(bool isOn) {
 
 class CommandLine {
 public:
-    CommandLine(const ShownPicture& picture, const scenes::Scene& scene)
-        : picture_(picture), settings_(picture.settings), scene_(scene) {}
+    CommandLine(const RenderRequest& request, const scenes::Scene& scene)
+        : request_(request), settings_(request.settings), scene_(scene) {}
 
     std::string options() {
         addWished();
@@ -60,7 +60,7 @@ private:
     void addWished() {
         const scenes::SceneOptions& wish = scene_.options;
         const frame::FrameSettings standard;
-        addUnless("--technique", techniqueName(picture_.technique),
+        addUnless("--technique", techniqueName(request_.technique),
                   wish.technique.value_or(techniqueName(recipes::Technique::Deferred)));
         addUnless("--layout", layoutName(settings_.layout), wish.layout.value_or(layoutName(standard.layout)));
         addUnless("--size", sizeText(settings_.sizePixels), sizeText(wish.sizePixels.value_or(standard.sizePixels)));
@@ -71,13 +71,10 @@ private:
 
     void addCulling() {
         const culling::Settings& culling = settings_.culling;
-        const auto methodName = [&](const auto& row) { return row.method == culling.method; };
-        const auto builderName = [&](const auto& row) { return row.builder == culling.builder; };
-        const auto stageName = [&](const auto& row) { return row.stage == settings_.lightOn; };
-        if (culling.method) add("--culling", nameIn(culling::methodTable(), methodName));
+        if (culling.method) add("--culling", std::string(infoOf(*culling.method).name));
         if (culling.tilePixels) add("--tile", fmt::format("{}", *culling.tilePixels));
-        if (culling.builder) add("--cull-on", nameIn(culling::builderTable(), builderName));
-        if (settings_.lightOn) add("--light-on", nameIn(frame::lightingStageTable(), stageName));
+        if (culling.builder) add("--cull-on", std::string(infoOf(*culling.builder).name));
+        if (settings_.lightOn) add("--light-on", std::string(infoOf(*settings_.lightOn).name));
     }
 
     void addCamera() {
@@ -90,20 +87,19 @@ private:
             const bool isFirst = firstCalled(name) == settings_.camera && !name.empty();
             add("--camera", isFirst ? name : fmt::format("{}", settings_.camera));
         }
-        text_ += poseText(picture_.pose);
+        text_ += poseText(request_.pose);
     }
 
     void addRest() {
         const frame::FrameSettings standard;
-        const auto viewName = [&](const auto& row) { return row.view == settings_.view; };
         const auto filterName = [&](const auto& row) { return row.filter == settings_.filter; };
         const auto spaceName = [&](const auto& row) { return row.space == settings_.space; };
         if (settings_.samples != standard.samples) add("--samples", fmt::format("{}", settings_.samples));
         if (settings_.timeSeconds != 0.0) add("--time", numberText(settings_.timeSeconds));
-        if (picture_.lights) add("--lights", fmt::format("{}", *picture_.lights));
-        if (!picture_.defaultLight) text_ += " --no-default-light";
+        if (request_.lights) add("--lights", fmt::format("{}", *request_.lights));
+        if (!request_.defaultLight) text_ += " --no-default-light";
         if (settings_.rangeTolerance != 0.0) add("--range-tolerance", numberText(settings_.rangeTolerance));
-        if (settings_.view != standard.view) add("--view", nameIn(frame::viewTable(), viewName));
+        if (settings_.view != standard.view) add("--view", std::string(frame::viewInfo(settings_.view).name));
         if (settings_.soloLight) add("--solo", fmt::format("{}", *settings_.soloLight));
         if (settings_.specular != standard.specular) add("--specular", onOff(settings_.specular));
         if (settings_.filter != standard.filter) add("--filter", nameIn(frame::textureFilterTable(), filterName));
@@ -111,7 +107,7 @@ private:
         if (settings_.prune != standard.prune) add("--prune", onOff(settings_.prune));
     }
 
-    const ShownPicture& picture_;
+    const RenderRequest& request_;
     const frame::FrameSettings& settings_;
     const scenes::Scene& scene_;
     std::string text_;
@@ -124,8 +120,8 @@ std::string argument(const std::string& path) {
 
 } // namespace
 
-std::string renderCommand(const ShownPicture& picture, const scenes::Scene& scene, const std::string& output) {
-    return fmt::format("tessera render {}{} -o {}", argument(picture.source), CommandLine(picture, scene).options(),
+std::string renderCommand(const RenderRequest& request, const scenes::Scene& scene, const std::string& output) {
+    return fmt::format("tessera render {}{} -o {}", argument(request.source), CommandLine(request, scene).options(),
                        argument(output));
 }
 

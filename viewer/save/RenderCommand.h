@@ -8,8 +8,8 @@
 
 namespace tessera::viewer {
 
-/// A picture as the viewer shows it.
-struct ShownPicture {
+/// What `tessera render` is asked for: a scene and how it is rendered.
+struct RenderRequest {
     std::string source;        ///< the scene's file or name
     std::optional<int> lights; ///< that were asked of the load
     bool defaultLight = true;  ///< the same
@@ -18,8 +18,9 @@ struct ShownPicture {
     scenes::CameraChange pose; ///< of the camera that the settings choose
 };
 
-/// The command line that renders this picture to `output`, to paste into a shell: "tessera render hall --size 640x360
-/// -o picture.exr". It says only what is neither the program's default nor what the scene itself asks for.
-std::string renderCommand(const ShownPicture& picture, const scenes::Scene& scene, const std::string& output);
+/// The command line that asks for this and writes the picture to `output`, to paste into a shell: "tessera render hall
+/// --size 640x360 -o picture.exr". It says only what is neither the program's default nor what the scene itself asks
+/// for.
+std::string renderCommand(const RenderRequest& request, const scenes::Scene& scene, const std::string& output);
 
 } // namespace tessera::viewer

@@ -5,14 +5,24 @@
 #include <fmt/format.h>
 
 namespace tessera::viewer {
+namespace {
+
+std::string oneLine(std::string text) {
+    for (char& c : text)
+        if (c == '\n') c = ';';
+    return text;
+}
+
+} // namespace
 
 void EventLog::line(const std::string& text) const {
     if (!on_) return;
-    std::string oneLine = text;
-    for (char& c : oneLine)
-        if (c == '\n') c = ';';
-    fmt::print("{}\n", oneLine);
+    fmt::print("{}\n", oneLine(text));
     std::fflush(stdout); // whoever reads acts on it now
+}
+
+void EventLog::warning(const std::string& text) const {
+    fmt::print(stderr, "tessera: warning: {}\n", oneLine(text));
 }
 
 } // namespace tessera::viewer

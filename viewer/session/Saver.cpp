@@ -12,6 +12,7 @@
 #include "viewer/save/RenderCommand.h"
 #include "viewer/save/SaveScene.h"
 #include "viewer/session/FreePath.h"
+#include "viewer/session/SceneSource.h"
 
 namespace tessera::viewer {
 namespace {
@@ -64,6 +65,7 @@ void Saver::scene() {
     const std::string path = freePath(stem(), ".json").string();
     saveScene(path, open.scene(), open.origin());
     open.becomes(std::filesystem::absolute(path).string());
+    noteRecent(state_.recent, open.source());
     tell(path);
 }
 
@@ -71,15 +73,15 @@ std::string Saver::command(glm::ivec2 sizePixels) {
     OpenScene& open = *state_.open;
     if (open.isEdited()) scene();
     const Look& look = state_.active();
-    ShownPicture shown;
-    shown.source = open.source();
-    shown.lights = open.load().lights;
-    shown.defaultLight = open.load().defaultLight;
-    shown.technique = look.technique;
-    shown.settings = look.settings;
-    shown.settings.sizePixels = sizePixels;
-    if (open.rig().isMoved()) shown.pose = changeOf(open.rig().pose(), open.rig().start());
-    const std::string text = renderCommand(shown, open.scene(), freePath(stem(), ".exr").string());
+    RenderRequest request;
+    request.source = open.source();
+    request.lights = open.load().lights;
+    request.defaultLight = open.load().defaultLight;
+    request.technique = look.technique;
+    request.settings = look.settings;
+    request.settings.sizePixels = sizePixels;
+    request.pose = open.cameraChange();
+    const std::string text = renderCommand(request, open.scene(), freePath(stem(), ".exr").string());
     log_.line("command " + text);
     return text;
 }

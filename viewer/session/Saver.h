@@ -12,7 +12,8 @@ public:
 
     /// The active side's picture, drawn whole: what `tessera render` writes.
     void picture(glm::ivec2 sizePixels, const char* ending);
-    /// The scene with its edits and the camera where it is. From then on that file is what is open.
+    /// The scene with its edits and the camera where it is. From then on that file is what is open, and
+    /// the first of the recent ones.
     void scene();
     /// The command line that renders the active side's picture. A scene that was edited is saved first.
     std::string command(glm::ivec2 sizePixels);

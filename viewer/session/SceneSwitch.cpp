@@ -1,11 +1,9 @@
 #include "viewer/session/SceneSwitch.h"
 
-#include <filesystem>
-#include <system_error>
-
 #include <fmt/format.h>
 
 #include "viewer/session/Remember.h"
+#include "viewer/session/SceneSource.h"
 
 namespace tessera::viewer {
 
@@ -15,7 +13,11 @@ SceneSwitch::SceneSwitch(const ViewerOptions& options, State& state, const Event
 }
 
 void SceneSwitch::open(const std::string& source, const scenes::LoadOptions& load) {
-    loader_.start(source, load);
+    isFirstLoad_ = !wasAsked_;
+    wasAsked_ = true;
+    scenes::LoadOptions options = load;
+    options.defaultLight = load.defaultLight && options_.load.defaultLight;
+    loader_.start(source, options);
     state_.loading = source;
     log_.line("loading " + source);
 }
@@ -31,7 +33,7 @@ std::unique_ptr<OpenScene> SceneSwitch::take() {
     FirstLook first;
     std::unique_ptr<OpenScene> scene;
     try {
-        first = options_.lookOf(*result->scene, result->source, !hadScene_);
+        first = options_.lookOf(*result->scene, result->source, isFirstLoad_);
         scene = std::make_unique<OpenScene>(result->source, result->load, std::move(*result->scene),
                                             std::move(*result->origin));
         scene->useCamera(first.look.settings.camera);
@@ -48,12 +50,9 @@ std::unique_ptr<OpenScene> SceneSwitch::take() {
     hadScene_ = true;
     if (state_.open) {
         scene->rig().setMode(state_.open->rig().mode());
-        poses_[state_.open->source()] = state_.open->rig().pose();
+        leave(*state_.open);
     }
-    if (const auto left = poses_.find(scene->source()); left != poses_.end()) {
-        scene->rig().jumpTo(left->second);
-        scene->applyRig();
-    }
+    comeBack(*scene);
     state_.selectedLight = state_.selectedMaterial = scenes::kNone;
     state_.notice = {};
     state_.shaderFaults.clear();
@@ -63,9 +62,26 @@ std::unique_ptr<OpenScene> SceneSwitch::take() {
 }
 
 void SceneSwitch::noteRecent(const std::string& source) {
-    std::error_code error;
-    if (!std::filesystem::exists(source, error)) return; // a built-in scene
-    addRecent(state_.recent, std::filesystem::absolute(source).string());
+    viewer::noteRecent(state_.recent, source);
+}
+
+void SceneSwitch::leave(const OpenScene& scene) {
+    Left left{scene.camera(), scene.cameras()[std::size_t(scene.camera())], scene.placed(), {}};
+    if (scene.rig().isMoved()) left.pose = scene.rig().pose();
+    left_[identityOf(scene.source())] = left;
+}
+
+void SceneSwitch::comeBack(OpenScene& scene) {
+    const auto found = left_.find(identityOf(scene.source()));
+    if (found == left_.end()) return;
+    const Left& left = found->second;
+    const std::vector<scenes::Camera>& cameras = scene.cameras(); // of a file that may have changed since
+    if (left.index >= int(cameras.size()) || cameras[std::size_t(left.index)] != left.camera) return;
+    scene.useCamera(left.index);
+    scene.place(left.placed);
+    if (left.pose) scene.rig().jumpTo(*left.pose);
+    scene.applyRig();
+    for (Look& look : state_.looks) look.settings.camera = left.index;
 }
 
 void SceneSwitch::remember(glm::ivec2 windowSize) {
@@ -75,7 +91,7 @@ void SceneSwitch::remember(glm::ivec2 windowSize) {
     try {
         writePreferences(preferences, *options_.preferencesFile);
     } catch (const std::exception& error) {
-        fail(error.what());
+        log_.warning(error.what());
     }
 }
 

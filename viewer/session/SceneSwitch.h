@@ -16,25 +16,39 @@ public:
     /// `done` is called on another thread when a scene waits.
     SceneSwitch(const ViewerOptions& options, State& state, const EventLog& log, std::function<void()> done);
 
-    void open(const std::string& source, const scenes::LoadOptions& load);
+    /// `load` is asked of this load alone. What the program was told of the first scene counts for the first call only,
+    /// whatever becomes of it; what it was told of any scene, for all.
+    void open(const std::string& source, const scenes::LoadOptions& load = {});
     bool hasResult() const { return loader_.hasResult(); }
     /// The scene that was loaded, once; null where there is none, or where it could not be and the state says why. The
     /// looks of the state become its; it still has to be put there.
     std::unique_ptr<OpenScene> take();
-    /// The file that is open comes first among the recent ones.
+    /// As viewer::noteRecent(), of the state's.
     void noteRecent(const std::string& source);
-    /// Writes what is remembered. What goes wrong is said in the state.
+    /// Writes what is remembered, when the window is closed. What goes wrong is said on stderr.
     void remember(glm::ivec2 windowSize);
 
 private:
+    /// How a scene was looked at when it was left.
+    struct Left {
+        int index = 0;
+        scenes::Camera camera; ///< of that index, as the scene has it
+        scenes::CameraChange placed;
+        std::optional<CameraPose> pose; ///< none: nothing had moved it
+    };
+    void leave(const OpenScene& scene);
+    /// Looks at a scene as it was left, where it has that camera still.
+    void comeBack(OpenScene& scene);
     void fail(const std::string& text);
 
     const ViewerOptions& options_;
     State& state_;
     const EventLog& log_;
-    Look base_; ///< what the open scene began with
-    bool hadScene_ = false;
-    std::map<std::string, CameraPose> poses_; ///< by source, where the camera was when the scene was left
+    Look base_;                        ///< what the open scene began with
+    bool hadScene_ = false;            ///< the looks of the state and `base_` are a scene's
+    bool wasAsked_ = false;            ///< to open a scene
+    bool isFirstLoad_ = false;         ///< the latest load is what the program began with
+    std::map<std::string, Left> left_; ///< by identityOf()
     SceneLoader loader_;
 };
 

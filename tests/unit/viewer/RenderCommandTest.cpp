@@ -59,7 +59,7 @@ Parsed parsed(const std::string& line) {
 }
 
 /// Pasting the command gives the same technique, settings and camera, to the last bit.
-void expectSame(const ShownPicture& picture) {
+void expectSame(const RenderRequest& picture) {
     scenes::LoadOptions load;
     load.lights = picture.lights;
     load.defaultLight = picture.defaultLight;
@@ -77,22 +77,22 @@ void expectSame(const ShownPicture& picture) {
     EXPECT_TRUE(result.request.scene.lights == scene.lights);
 }
 
-ShownPicture pictureOf(const std::string& source) {
-    ShownPicture picture;
+RenderRequest pictureOf(const std::string& source) {
+    RenderRequest picture;
     picture.source = source;
     return picture;
 }
 
 TEST(RenderCommand, whatTheProgramDoesByItselfIsNeverSaid) {
     const tessera::test::TempFolder folder;
-    const ShownPicture picture = pictureOf("room");
+    const RenderRequest picture = pictureOf("room");
     EXPECT_EQ(renderCommand(picture, scenes::loadScene("room"), "picture.exr"), "tessera render room -o picture.exr");
 }
 
 TEST(RenderCommand, everyNameOfEveryTableIsAlwaysReadAsItself) {
     const tessera::test::TempFolder folder;
     const std::string file = sceneFile(folder);
-    ShownPicture picture = pictureOf(file);
+    RenderRequest picture = pictureOf(file);
     for (const recipes::TechniqueInfo& row : recipes::techniqueTable())
         picture.technique = row.technique, expectSame(picture);
     for (const frame::LayoutInfo& row : frame::layoutTable()) picture.settings.layout = row.layout, expectSame(picture);
@@ -114,8 +114,8 @@ TEST(RenderCommand, everyNameOfEveryTableIsAlwaysReadAsItself) {
 }
 
 /// Every setting is not what it is by itself.
-ShownPicture everythingSaid(const std::string& file) {
-    ShownPicture picture = pictureOf(file);
+RenderRequest everythingSaid(const std::string& file) {
+    RenderRequest picture = pictureOf(file);
     picture.lights = 1;
     picture.defaultLight = false;
     picture.technique = recipes::Technique::ForwardPlus;
@@ -148,7 +148,7 @@ ShownPicture everythingSaid(const std::string& file) {
 TEST(RenderCommand, allSettingsAtOnceAreAlwaysReadBackToTheLastBit) {
     const tessera::test::TempFolder folder;
     expectSame(everythingSaid(sceneFile(folder)));
-    ShownPicture perspective = everythingSaid(sceneFile(folder));
+    RenderRequest perspective = everythingSaid(sceneFile(folder));
     perspective.settings.camera = 2; // named as another
     perspective.pose.halfHeightMetres.reset();
     perspective.pose.fovYDegrees = 100.0 / 3.0;
@@ -157,7 +157,7 @@ TEST(RenderCommand, allSettingsAtOnceAreAlwaysReadBackToTheLastBit) {
 
 TEST(RenderCommand, everyOptionOfAFrameIsAlwaysSaidWhereItDiffers) {
     const tessera::test::TempFolder folder;
-    ShownPicture picture = everythingSaid(sceneFile(folder));
+    RenderRequest picture = everythingSaid(sceneFile(folder));
     const scenes::Scene scene = scenes::loadScene(picture.source);
     std::string said = renderCommand(picture, scene, "a.exr");
     picture.pose.fovYDegrees = 50.0;
@@ -180,7 +180,7 @@ TEST(RenderCommand, whatTheSceneAsksForIsNeverSaidAndTheProgramsOwnChoiceThenAlw
     const std::string file =
         sceneFile(folder, R"({"technique": "forward", "layout": "packed", "camera": "plan of $HOME", "toneMap": "aces",
                               "exposureEV": 1.5, "size": [320, 200]})");
-    ShownPicture wished = pictureOf(file);
+    RenderRequest wished = pictureOf(file);
     wished.technique = recipes::Technique::Forward;
     wished.settings.layout = frame::layoutTable()[1].layout;
     wished.settings.camera = 1;
@@ -200,7 +200,7 @@ TEST(RenderCommand, aSceneWhoseNameBeginsWithADashIsNeverTakenForAnOption) {
 
 TEST(FrameOptionText, whatWasGivenIsAlwaysTypedTheSameWayAgain) {
     const tessera::test::TempFolder folder;
-    const ShownPicture picture = everythingSaid(sceneFile(folder));
+    const RenderRequest picture = everythingSaid(sceneFile(folder));
     const app::FrameOptions options = parsed(renderCommand(picture, scenes::loadScene(picture.source), "a")).options;
     const app::FrameOptions again =
         parsed("tessera render " + shellWord(picture.source) + app::frameOptionText(options) + " -o a").options;

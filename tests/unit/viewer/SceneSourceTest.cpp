@@ -1,0 +1,54 @@
+#include "viewer/session/SceneSource.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/support/TempFolder.h"
+
+namespace tessera::viewer {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// A test in an empty folder.
+class SceneSource : public testing::Test {
+protected:
+    SceneSource() { std::filesystem::current_path(folder_.path()); }
+    ~SceneSource() override { std::filesystem::current_path(before_); }
+    const test::TempFolder& folder() const { return folder_; }
+    static std::string here(const std::string& name) { return (std::filesystem::current_path() / name).string(); }
+
+private:
+    std::filesystem::path before_ = std::filesystem::current_path();
+    test::TempFolder folder_;
+};
+
+TEST_F(SceneSource, everyWayToSayAFileIsAlwaysTheSameScene) {
+    EXPECT_EQ(identityOf("a.gltf"), here("a.gltf"));
+    EXPECT_EQ(identityOf("./x/../a.gltf"), here("a.gltf"));
+    EXPECT_EQ(identityOf(here("a.gltf")), here("a.gltf"));
+    EXPECT_EQ(identityOf("hall"), "hall");
+    EXPECT_EQ(identityOf("./hall"), here("hall"));
+}
+
+TEST_F(SceneSource, aFileIsAlwaysRecentOnce) {
+    folder().write("a.gltf", "");
+    folder().write("b.obj", "");
+    std::vector<std::string> recent;
+    noteRecent(recent, "a.gltf");
+    noteRecent(recent, "b.obj");
+    noteRecent(recent, here("./a.gltf"));
+    EXPECT_THAT(recent, ElementsAre(here("a.gltf"), here("b.obj")));
+}
+
+TEST_F(SceneSource, whatIsNoSceneFileIsNeverRecent) {
+    folder().write("hall/of/fame.txt", "");
+    folder().write("room", "");
+    folder().write("folder.glb/x", "");
+    std::vector<std::string> recent;
+    for (const char* source : {"hall", "room", "folder.glb", "missing.glb"}) noteRecent(recent, source);
+    EXPECT_THAT(recent, IsEmpty());
+}
+
+} // namespace
+} // namespace tessera::viewer

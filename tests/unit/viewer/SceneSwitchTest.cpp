@@ -1,0 +1,160 @@
+#include "viewer/session/SceneSwitch.h"
+
+#include <chrono>
+#include <thread>
+
+#include <gmock/gmock.h>
+
+#include "scenes/Error.h"
+#include "tests/support/TempFolder.h"
+#include "tests/unit/viewer/CameraTest.h"
+#include "viewer/save/SaveScene.h"
+
+namespace tessera::viewer {
+namespace {
+
+using namespace test;
+using tessera::test::TempFolder;
+using testing::HasSubstr;
+
+/// Switches scenes as the window does, without one.
+class SceneSwitchTest : public testing::Test {
+protected:
+    SceneSwitchTest() {
+        options_.lookOf = [this](const scenes::Scene& scene, const std::string&, bool first) {
+            firsts_.push_back(first);
+            FirstLook look;
+            if (!first) return look;
+            if (saidCamera_ >= int(scene.cameras.size())) throw InputError("no such camera");
+            look.look.settings.camera = saidCamera_;
+            look.pose = saidPose_;
+            return look;
+        };
+    }
+
+    /// Opens a scene and waits for it; whether it is there.
+    bool open(const std::string& source) {
+        switch_.open(source);
+        for (int i = 0; i < 6000 && !switch_.hasResult(); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        EXPECT_TRUE(switch_.hasResult()) << "after a minute";
+        std::unique_ptr<OpenScene> scene = switch_.take();
+        if (!scene) return false;
+        state_.open = std::move(scene);
+        return true;
+    }
+
+    /// A scene of two cameras; other scenes need not look like this.
+    std::string sceneFile(const std::string& name) {
+        return folder_
+            .write(name, R"({"tessera": 1, "base": {"file": "builtin:room"},
+                "cameras": [{"name": "front", "position": [0, 1, 4], "target": [0, 1, 0]},
+                            {"name": "side", "position": [4, 1, 0], "target": [0, 1, 0]}]})")
+            .string();
+    }
+
+    const scenes::Camera& shown() const { return state_.open->scene().cameras[std::size_t(state_.open->camera())]; }
+
+    void moveCamera() {
+        state_.open->rig().rotate({120.0, 30.0}, kHeightPixels);
+        state_.open->rig().advance(10.0, kHeightPixels);
+        state_.open->applyRig();
+    }
+
+    TempFolder folder_;
+    int saidCamera_ = 0;
+    scenes::CameraChange saidPose_;
+    std::vector<bool> firsts_;
+    ViewerOptions options_;
+    State state_;
+    EventLog log_{false};
+    SceneSwitch switch_{options_, state_, log_, [] {}};
+};
+
+TEST_F(SceneSwitchTest, whatWasSaidOfTheFirstSceneNeverCountsForAnotherAlsoWhereTheFirstFailed) {
+    saidCamera_ = 7;
+    EXPECT_FALSE(open("room"));
+    EXPECT_EQ(state_.notice.text, "no such camera");
+    EXPECT_TRUE(open("room"));
+    EXPECT_EQ(firsts_, (std::vector<bool>{true, false}));
+    EXPECT_EQ(state_.looks[1].technique, recipes::Technique::Forward) << "as with the first that is shown";
+}
+
+TEST_F(SceneSwitchTest, aMissingFirstFileNeverPlacesTheCameraOfTheNext) {
+    saidPose_.eyeWS = glm::dvec3(9, 9, 9);
+    EXPECT_FALSE(open((folder_.path() / "missing.glb").string()));
+    EXPECT_TRUE(open("room"));
+    EXPECT_EQ(firsts_, std::vector<bool>{false});
+    EXPECT_FALSE(state_.open->rig().isMoved());
+    EXPECT_EQ(state_.open->cameraChange(), scenes::CameraChange());
+}
+
+TEST_F(SceneSwitchTest, aSceneAlwaysShowsTheCameraAndThePoseThatItWasLeftWith) {
+    const std::string a = sceneFile("a.json"), b = sceneFile("b.json");
+    saidPose_.fovYDegrees = 20.0;
+    ASSERT_TRUE(open(a));
+    const scenes::Camera placed = shown();
+    EXPECT_DOUBLE_EQ(placed.fovYRadians, glm::radians(20.0));
+    ASSERT_TRUE(open(b));
+    state_.open->useCamera(1);
+    for (Look& look : state_.looks) look.settings.camera = 1;
+    moveCamera();
+    const scenes::Camera moved = shown();
+
+    ASSERT_TRUE(open(a));
+    EXPECT_EQ(state_.open->camera(), 0);
+    EXPECT_EQ(state_.looks[0].settings.camera, 0);
+    EXPECT_EQ(shown(), placed);
+    EXPECT_EQ(state_.open->cameraChange(), saidPose_);
+
+    ASSERT_TRUE(open((folder_.path() / "." / "b.json").string()));
+    EXPECT_EQ(state_.open->camera(), 1);
+    EXPECT_EQ(state_.looks[0].settings.camera, 1);
+    EXPECT_EQ(state_.looks[1].settings.camera, 1);
+    EXPECT_EQ(shown(), moved);
+    EXPECT_EQ(state_.open->source(), (folder_.path() / "." / "b.json").string()) << "the user's words";
+}
+
+TEST_F(SceneSwitchTest, aCameraThatWasSavedWhereItIsNeverCountsAsMovedWhenItsFileIsOpenedAgain) {
+    ASSERT_TRUE(open("room"));
+    moveCamera();
+    const std::string file = (folder_.path() / "saved.json").string();
+    saveScene(file, state_.open->scene(), state_.open->origin());
+    state_.open->becomes(file);
+    const scenes::Camera saved = shown();
+    ASSERT_TRUE(open("room"));
+    ASSERT_TRUE(open(file));
+    EXPECT_EQ(shown(), saved);
+    EXPECT_EQ(state_.open->cameraChange(), scenes::CameraChange());
+}
+
+TEST_F(SceneSwitchTest, aCameraThatTheFileHasNoMoreIsNeverComeBackTo) {
+    const std::string file = sceneFile("a.json");
+    ASSERT_TRUE(open(file));
+    state_.open->useCamera(1);
+    moveCamera();
+    folder_.write("a.json", R"({"tessera": 1, "base": {"file": "builtin:room"},
+        "cameras": [{"name": "only", "position": [0, 1, 4], "target": [0, 1, 0]}]})");
+    ASSERT_TRUE(open(file));
+    EXPECT_EQ(state_.open->camera(), 0);
+    EXPECT_FALSE(state_.open->rig().isMoved());
+}
+
+TEST_F(SceneSwitchTest, withoutTheDefaultLightNoSceneEverGetsIt) {
+    options_.load.defaultLight = false;
+    const std::string file = folder_.write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
+    ASSERT_TRUE(open("room"));
+    ASSERT_TRUE(open(file));
+    EXPECT_TRUE(state_.open->scene().lights.empty());
+    EXPECT_FALSE(state_.open->load().defaultLight) << "and the command says so";
+}
+
+TEST_F(SceneSwitchTest, settingsThatCannotBeKeptAreAlwaysToldOnStderr) {
+    options_.preferencesFile = folder_.write("file", "") / "viewer.json";
+    testing::internal::CaptureStderr();
+    switch_.remember({800, 600});
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("tessera: warning: cannot make the folder"));
+}
+
+} // namespace
+} // namespace tessera::viewer

@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+#include <vector>
+
+/// Sources are what loadScene() takes and the user says: a built-in scene's name, or a path of any form.
+namespace tessera::viewer {
+
+/// What two sources of one scene have in common: the built-in scene's name, or the file's absolute path without
+/// detours. Links are not followed.
+std::string identityOf(const std::string& source);
+
+/// A scene that was opened or saved comes first among the recent files. Built-in scenes are none, and what is no file
+/// neither.
+void noteRecent(std::vector<std::string>& recent, const std::string& source);
+
+} // namespace tessera::viewer
