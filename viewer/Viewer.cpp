@@ -65,7 +65,12 @@ public:
 private:
     // ---- When to draw ----
     double now() const { return Window::nowSeconds(); }
-    bool isMoving() const { return state_.isPlaying || (state_.open && !state_.open->rig().isAtRest()); }
+    bool isMoving() const {
+        if (!state_.open) return false;
+        const std::vector<scenes::Light>& lights = state_.open->scene().lights;
+        const auto moves = [](const scenes::Light& light) { return light.animation.has_value(); };
+        return !state_.open->rig().isAtRest() || (state_.isPlaying && std::any_of(lights.begin(), lights.end(), moves));
+    }
     bool isWhole() const { return !state_.open || screen_.scaleOf(wanted_) >= restScale(); }
     double restScale() const { return state_.automaticScale ? 1.0 : double(state_.fixedScale); }
     double movingScale() const { return state_.automaticScale ? screen_.movingScale() : double(state_.fixedScale); }
@@ -100,11 +105,15 @@ private:
         measurements_.clear(facts_);
         state_.timings.clear();
         state_.open = std::move(scene);
-        nameWindow();
     }
 
+    /// The title says which scene is open, and whether it has edits that were not saved.
     void nameWindow() {
-        window_.setTitle("Tessera - " + std::filesystem::path(state_.open->source()).filename().string());
+        if (!state_.open) return;
+        const std::string name = std::filesystem::path(state_.open->source()).filename().string();
+        const std::string title = fmt::format("Tessera - {}{}", name, state_.open->isEdited() ? " *" : "");
+        if (title != title_) window_.setTitle(title);
+        title_ = title;
     }
 
     /// What goes wrong is shown, and the window goes on.
@@ -133,6 +142,10 @@ private:
     void reloadShaders() {
         if (!screen_.renderer()) return;
         state_.shaderFaults = screen_.renderer()->programs().reload();
+        // Programs that share a file share its faults.
+        std::sort(state_.shaderFaults.begin(), state_.shaderFaults.end());
+        state_.shaderFaults.erase(std::unique(state_.shaderFaults.begin(), state_.shaderFaults.end()),
+                                  state_.shaderFaults.end());
         for (const std::string& fault : state_.shaderFaults) log_.line("shader error " + fault);
         if (state_.shaderFaults.empty()) {
             log_.line("shaders reloaded");
@@ -162,6 +175,7 @@ private:
         gui_.endFrame();
         screen_.takeEdits();
         serveRequests();
+        nameWindow();
         advance(started);
         expireNotice();
         // More input waits: what it leads to is worth a picture, each step of it only now and then.
@@ -172,6 +186,7 @@ private:
                 settleFrames_ = std::max(settleFrames_, 1);
         });
         show();
+        if (facts_.isPreparing) return; // the picture that answers is yet to come
         const std::optional<double> heardAt = std::exchange(heardAt_, std::nullopt);
         if (heardAt && drew) log_.line(fmt::format("answered ms {:.1f}", 1000.0 * (shownAt_ - *heardAt)));
     }
@@ -210,11 +225,7 @@ private:
         const glm::ivec2 size(place.width, place.height);
         if (requests.savePng) saver_.picture(size, ".png");
         if (requests.saveExr) saver_.picture(size, ".exr");
-        if (requests.saveScene) {
-            saver_.scene();
-            nameWindow();
-            scenes_.noteRecent(state_.open->source());
-        }
+        if (requests.saveScene) saver_.scene();
         if (requests.saveTrace) saver_.trace();
         if (requests.copyCommand) copyCommand(size);
         if (requests.scatter) replaceByScattered(state_);
@@ -229,7 +240,6 @@ private:
         state_.command = saver_.command(size);
         window_.setClipboard(state_.command);
         state_.notice = {"Copied: " + state_.command, false};
-        nameWindow();
     }
 
     /// The material of the surface at a place of the picture.
@@ -281,22 +291,45 @@ private:
         const bool isAtRest = !isMoving() && now() >= restAt_ && have > 0.0;
         if (have > 0.0 && !isAtRest) return false;
         if (have == 0.0) restAt_ = now() + kRestSeconds;
+        if (isToBeAnnounced()) return false;
         return drawAt(isAtRest ? restScale() : movingScale(), isAtRest);
     }
 
-    bool drawAt(double scale, bool mayGiveUp) {
-        const auto givesUp = [this] {
-            window_.poll();
-            return window_.hasActivity() || window_.shouldClose();
-        };
+    /// Before the first picture of a kind the window says for a frame what it is about to wait for.
+    bool isToBeAnnounced() {
+        constexpr int kFrames = 2; // the interface of this frame is laid out already
+        facts_.isPreparing = screen_.isNewKind(wanted_) && announcements_ < kFrames;
+        if (!facts_.isPreparing) {
+            announcements_ = 0;
+            return false;
+        }
+        ++announcements_;
+        settleFrames_ = std::max(settleFrames_, 1);
+        return true;
+    }
+
+    /// Whether something came while a picture is drawn that is more urgent. A picture of moving things is worth having
+    /// though they have moved on. The whole one is not; but a pointer that only wanders may not keep it away for ever.
+    bool isInterrupted(bool isAtRest) {
+        constexpr int kWanderings = 2;
+        window_.poll();
+        if (window_.shouldClose() || window_.input().hasMoreThanMoves()) return true;
+        return isAtRest && window_.hasActivity() && (window_.isButtonHeld() || givenUp_ < kWanderings);
+    }
+
+    bool drawAt(double scale, bool isAtRest) {
+        const bool mayGiveUp = isAtRest || screen_.isSlow(wanted_);
+        const auto givesUp = [this, isAtRest] { return isInterrupted(isAtRest); };
         const double startedAt = now();
         try {
             const Screen::Drawn drawn =
                 screen_.draw(wanted_, scale, mayGiveUp ? std::function<bool()>(givesUp) : nullptr);
             if (drawn.gaveUp) {
+                ++givenUp_;
                 log_.line(fmt::format("gave up scale {:.4g}", scale));
                 return false;
             }
+            givenUp_ = 0;
             facts_.ms = drawn.ms;
             facts_.scale = drawn.scale;
             facts_.sizePixels = drawn.sizePixels;
@@ -350,6 +383,9 @@ private:
     std::optional<double> heardAt_; ///< of the oldest input of which nothing was shown yet
     double nextShaderLook_ = 0.0;
     std::uint64_t frames_ = 0;
+    int announcements_ = 0; ///< frames for which the next picture has been announced
+    int givenUp_ = 0;       ///< pictures since the latest that was drawn
+    std::string title_;
     std::string said_;         ///< the latest notice
     std::string drawingFault_; ///< why the latest picture that failed did
     double saidUntil_ = 0.0;

@@ -14,13 +14,18 @@ namespace {
 
 /// What a band should take: an interrupted frame, and the one that answers the input, fit into 100 ms.
 constexpr double kBandMs = 12.0;
-/// Of draws whose geometry each band repeats, at most.
+/// Of draws whose geometry each band repeats, at most, unless bands are slow.
 constexpr int kGeometryBands = 4;
+/// A band that takes longer is too long for a person who waits, whatever smaller ones cost together.
+constexpr double kSlowBandMs = 100.0;
 /// Bands begin at multiples of the side of llvmpipe's rasteriser tiles, so that none is binned twice.
 constexpr int kRowStep = 64;
+/// Where bands are slow all the same, their height and width change in steps of this.
+constexpr int kSlowStep = 16;
 
 struct State {
     std::function<bool()> givesUp; ///< empty: draws are whole; also once it said yes, while the frame is left
+    bool isSlow = false;           ///< geometry begins with the narrowest band
     int width = 0;
     int height = 0;
 };
@@ -36,9 +41,10 @@ int nextRows(int rows, double elapsedMs) {
 
 } // namespace
 
-BandedDrawing::BandedDrawing(std::function<bool()> givesUp) {
+BandedDrawing::BandedDrawing(std::function<bool()> givesUp, bool isSlow) {
     assert(!state.givesUp && "banded drawings do not nest");
     state.givesUp = std::move(givesUp);
+    state.isSlow = isSlow;
 }
 
 BandedDrawing::~BandedDrawing() {
@@ -59,21 +65,31 @@ void setBandedTarget(int width, int height) {
 }
 
 void drawInBands(const std::function<void()>& draw, BandCost cost) {
-    if (!state.givesUp || state.width == 0 || state.height <= kRowStep) return draw();
+    if (!state.givesUp || state.width == 0 || (state.height <= kRowStep && !state.isSlow)) return draw();
     const int quarter = (state.height / kGeometryBands + kRowStep - 1) / kRowStep * kRowStep;
-    const int leastRows = cost == BandCost::Geometry ? quarter : kRowStep;
-    int rows = leastRows;
+    const int usualRows = cost == BandCost::Geometry ? quarter : kRowStep;
+    int rows = state.isSlow ? kSlowStep : usualRows, columns = state.width;
     for (int row = 0; row < state.height;) {
-        const CpuTimer clock;
-        glEnable(GL_SCISSOR_TEST);
-        glScissor(0, row, state.width, std::min(rows, state.height - row));
-        draw();
-        glDisable(GL_SCISSOR_TEST);
-        glFinish();
-        const double drawnMs = clock.elapsedMs();
+        double ms = 0.0; // of the latest piece
+        for (int column = 0; column < state.width;) {
+            if (row + column > 0) askToGoOn();
+            const CpuTimer clock;
+            glEnable(GL_SCISSOR_TEST);
+            glScissor(column, row, std::min(columns, state.width - column), std::min(rows, state.height - row));
+            draw();
+            glDisable(GL_SCISSOR_TEST);
+            glFinish();
+            ms = clock.elapsedMs();
+            column += columns;
+            // Narrower than the picture only where even the lowest bands are slow.
+            if (ms > kSlowBandMs && rows == kSlowStep) columns = std::max(columns / 4, kSlowStep);
+            if (ms < 0.5 * kSlowBandMs) columns = std::min(columns * 4, state.width);
+        }
         row += rows;
-        if (row < state.height) askToGoOn();
-        rows = std::max(nextRows(rows, drawnMs), leastRows);
+        if (ms > kSlowBandMs)
+            rows = std::max(rows / 4, kSlowStep);
+        else if (columns == state.width)
+            rows = std::max(nextRows(rows, ms), usualRows);
     }
 }
 

@@ -10,7 +10,8 @@ namespace tessera::gpu {
 /// thread.
 class BandedDrawing {
 public:
-    explicit BandedDrawing(std::function<bool()> givesUp);
+    /// `isSlow`: pixels are known to take long, so that even geometry is drawn in narrow bands from the first on.
+    explicit BandedDrawing(std::function<bool()> givesUp, bool isSlow = false);
     ~BandedDrawing();
     BandedDrawing(const BandedDrawing&) = delete;
     BandedDrawing& operator=(const BandedDrawing&) = delete;
@@ -19,7 +20,7 @@ public:
 /// What a draw mostly costs besides its pixels.
 enum class BandCost {
     Nothing, ///< as narrow bands as are needed
-    Geometry ///< each band repeats it: a few bands
+    Geometry ///< each band repeats it: a few bands, as long as they are not slow
 };
 
 /// Issues `draw` once; under BandedDrawing once a band of the bound framebuffer's rows, scissored to it. The draw must

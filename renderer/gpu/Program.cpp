@@ -46,12 +46,16 @@ std::string linkLog(std::uint32_t program) {
 
 std::string errorText(const std::string& program, const std::vector<ShaderError::StageLog>& stages,
                       const std::string& link) {
-    std::string text = fmt::format("shader program '{}' cannot be built", program);
+    // The place of the fault first: the program's name tells all its defines.
+    std::string text;
+    const auto add = [&text](std::string_view what, std::string_view log) {
+        text += fmt::format("{}\n{}\n", what, log);
+        while (text.ends_with("\n\n")) text.pop_back();
+    };
     for (const ShaderError::StageLog& stage : stages)
-        text += fmt::format("\n{} shader:\n{}", stageName(stage.stage), stage.text);
-    if (!link.empty()) text += fmt::format("\nlinking:\n{}", link);
-    while (text.back() == '\n') text.pop_back();
-    return text;
+        add(fmt::format("a {} shader cannot be compiled:", stageName(stage.stage)), stage.text);
+    if (!link.empty()) add("a shader program cannot be linked:", link);
+    return text + fmt::format("It is program '{}'.", program);
 }
 
 } // namespace

@@ -22,8 +22,8 @@ void cullingPanel(State& state, const Facts& facts) {
     fact("at most", fmt::format("{}, p99 {}", figures.evaluatedMax, figures.evaluatedP99));
     fact("Needed", fmt::format("{:.2f} a pixel, {:.2f} lit", figures.perPixel(figures.needed),
                                figures.perPixel(figures.neededLit)));
-    fact("Tightness", tightness ? fmt::format("{:.3f}", *tightness) : "nothing is needed");
-    tip("Visited / needed: 1 is perfect");
+    fact("Tightness", tightness ? fmt::format("{:.3f}", *tightness) : "no light ends");
+    tip("Visited / needed of the lights that end somewhere: 1 is perfect");
     fact("Lists", fmt::format("{} entries, {}", figures.entries, graph::readableBytes(figures.listBytes)));
     fact("Missed", fmt::format("{}", figures.falseNegatives));
     tip("Lights that a pixel needed and did not visit: must be 0");

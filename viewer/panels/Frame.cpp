@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <imgui.h>
 
+#include "viewer/panels/Legend.h"
 #include "viewer/panels/Markers.h"
 #include "viewer/panels/Widgets.h"
 
@@ -48,20 +50,27 @@ void sidePanel(State& state, const Facts& facts, float height, float scale) {
     ImGui::End();
 }
 
-std::string statusText(const State& state, const Facts& facts) {
-    std::string text;
+/// What the status line says, the more important things first.
+std::vector<std::string> statusParts(const State& state, const Facts& facts) {
+    std::vector<std::string> parts;
+    if (!state.loading.empty())
+        parts.emplace_back("loading ...");
+    else if (facts.isPreparing)
+        parts.emplace_back("preparing shaders ...");
     // Beside the divider the sides' names stand in the picture; two of them leave no room here.
     if (state.compare == Compare::Off) {
         const Look& look = state.looks[0];
-        text = fmt::format("{} / {}   ", infoOf(look.technique).name, frame::viewInfo(look.settings.view).name);
+        parts.push_back(fmt::format("{} / {}", infoOf(look.technique).name, frame::viewInfo(look.settings.view).name));
     } else if (state.compare == Compare::Difference) {
-        text = fmt::format("{} - {}   ", infoOf(state.looks[0].technique).name, infoOf(state.looks[1].technique).name);
+        parts.push_back(
+            fmt::format("{} - {}", infoOf(state.looks[0].technique).name, infoOf(state.looks[1].technique).name));
     }
-    if (facts.scale > 0.0)
-        text += fmt::format("{:.0f} ms   {}x{}   scale {:.3g}   ", facts.ms, facts.sizePixels.x, facts.sizePixels.y,
-                            facts.scale);
-    if (!state.loading.empty()) text += "loading ...";
-    return text;
+    if (facts.scale > 0.0) {
+        parts.push_back(fmt::format("{:.0f} ms", facts.ms));
+        parts.push_back(fmt::format("scale {:.3g}", facts.scale));
+        parts.push_back(fmt::format("{}x{}", facts.sizePixels.x, facts.sizePixels.y));
+    }
+    return parts;
 }
 
 void statusLine(const State& state, const Facts& facts, const PictureArea& area, float scale) {
@@ -70,11 +79,17 @@ void statusLine(const State& state, const Facts& facts, const PictureArea& area,
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(8.0f * scale, 4.0f * scale));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1.0f, 1.0f));
     if (ImGui::Begin("Status", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar)) {
-        const std::string text = statusText(state, facts);
-        ImGui::TextUnformatted(text.c_str());
+        std::vector<std::string> parts = statusParts(state, facts);
         const char* hint = "F1 help";
         const float hintX = area.size.x - ImGui::CalcTextSize(hint).x - 8.0f * scale;
-        if (hintX > ImGui::CalcTextSize(text.c_str()).x + 24.0f * scale) {
+        std::string text;
+        const auto fits = [&] {
+            text = fmt::format("{}", fmt::join(parts, "   "));
+            return ImGui::CalcTextSize(text.c_str()).x + 24.0f * scale < hintX;
+        };
+        while (!fits() && parts.size() > 1) parts.pop_back();
+        ImGui::TextUnformatted(text.c_str());
+        if (fits()) {
             ImGui::SameLine(hintX);
             ImGui::TextDisabled("%s", hint);
         }
@@ -117,7 +132,11 @@ void divider(const State& state, const PictureArea& area, float scale) {
 void sideNames(const State& state, const PictureArea& area, float scale) {
     if (state.compare != Compare::Split) return;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const float dividerX = area.corner.x + state.divider * area.size.x;
     for (int side = 0; side < 2; ++side) {
+        // No name reaches into the other side.
+        list.PushClipRect({side == 0 ? area.corner.x : dividerX, area.corner.y},
+                          {side == 0 ? dividerX : area.corner.x + area.size.x, area.corner.y + area.size.y});
         const Look& look = state.looks[std::size_t(side)];
         const std::string name =
             fmt::format("{} / {}", infoOf(look.technique).name, frame::viewInfo(look.settings.view).name);
@@ -128,6 +147,7 @@ void sideNames(const State& state, const PictureArea& area, float scale) {
         list.AddRectFilled({x - pad, y - pad}, {x + size.x + pad, y + size.y + pad}, IM_COL32(20, 21, 24, 200), pad);
         list.AddText({x, y}, side == state.activeSide ? IM_COL32(140, 195, 255, 255) : IM_COL32(220, 222, 228, 255),
                      name.c_str());
+        list.PopClipRect();
     }
 }
 
@@ -153,6 +173,7 @@ void drawInterface(State& state, const Facts& facts, const PictureArea& area, fl
         statusLine(state, facts, area, scale);
         divider(state, area, scale);
         sideNames(state, area, scale);
+        drawLegend(state, area, scale);
         drawMarkers(state, area, scale);
         notices(state, area, scale);
     }

@@ -6,6 +6,7 @@
 #include "scenes/Load.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
+#include "viewer/session/SceneSource.h"
 
 namespace tessera::viewer {
 namespace {
@@ -20,7 +21,7 @@ void sceneList(State& state) {
     if (!ImGui::BeginCombo("##Scene", shown.c_str(), ImGuiComboFlags_HeightLargest)) return;
     closeOnEscape();
     const auto entry = [&](const std::string& source, std::string_view meaning) {
-        const bool isOpen = state.open && state.open->source() == source;
+        const bool isOpen = state.open && identityOf(state.open->source()) == identityOf(source);
         ImGui::PushID(source.c_str());
         if (ImGui::Selectable(shortName(source).c_str(), isOpen)) state.requests.open = source;
         tip(meaning);

@@ -15,7 +15,7 @@ void plot(const char* id, const std::vector<float>& values, float height) {
     if (values.empty()) return;
     const float most = *std::max_element(values.begin(), values.end());
     ImGui::PlotLines(id, values.data(), int(values.size()), 0, nullptr, 0.0f, std::max(1.15f * most, 1e-3f),
-                     {-1.0f, height});
+                     {ImGui::GetContentRegionAvail().x, height});
 }
 
 std::string milliseconds(const std::optional<double>& ms) {

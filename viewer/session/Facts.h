@@ -10,8 +10,9 @@ namespace tessera::viewer {
 
 /// What panels show of the frames that were drawn.
 struct Facts {
-    double ms = 0.0;    ///< of the latest frame, all sides
-    double scale = 0.0; ///< its sides' share of the window's pixels
+    bool isPreparing = false; ///< the next frame is the first of its kind, whose shaders may have to be compiled
+    double ms = 0.0;          ///< of the latest frame, all sides
+    double scale = 0.0;       ///< its sides' share of the window's pixels
     glm::ivec2 sizePixels{0};
     std::string renderer;        ///< as the driver calls itself
     std::size_t targetBytes = 0; ///< of what frames draw into

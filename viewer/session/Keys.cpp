@@ -48,7 +48,10 @@ constexpr KeyBinding kBindings[] = {
     {GLFW_KEY_H, kNone, "", "", [](State& s) { s.showsHelp = !s.showsHelp; }},
     {GLFW_KEY_ESCAPE, kNone, "Esc", "close the help, or the latest message",
      [](State& s) {
-         if (!s.showsHelp) s.notice = {};
+         if (!s.showsHelp) {
+             s.notice = {};
+             s.shaderFaults.clear();
+         }
          s.showsHelp = false;
      }},
     {GLFW_KEY_TAB, kNone, "Tab", "hide or show the panels", [](State& s) { s.showsPanel = !s.showsPanel; }},

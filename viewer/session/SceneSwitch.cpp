@@ -43,8 +43,10 @@ std::unique_ptr<OpenScene> SceneSwitch::take() {
         return nullptr;
     }
     for (Look& look : state_.looks) look = hadScene_ ? rebased(look, base_, first.look) : first.look;
-    // The other side of a comparison begins as the baseline that all techniques are held to.
-    if (!hadScene_) state_.looks[1].technique = recipes::Technique::Forward;
+    // The other side of a comparison begins as what shades the other way, and as fast with many lights.
+    if (!hadScene_)
+        state_.looks[1].technique = infoOf(first.look.technique).usesGBuffer ? recipes::Technique::ClusteredForward
+                                                                             : recipes::Technique::ClusteredDeferred;
     state_.looks[1] = possible(state_.looks[1]);
     base_ = first.look;
     hadScene_ = true;
@@ -57,12 +59,8 @@ std::unique_ptr<OpenScene> SceneSwitch::take() {
     state_.notice = {};
     state_.shaderFaults.clear();
     log_.line(fmt::format("opened {} seconds {:.2f}", result->source, result->seconds));
-    noteRecent(result->source);
+    noteRecent(state_.recent, result->source);
     return scene;
-}
-
-void SceneSwitch::noteRecent(const std::string& source) {
-    viewer::noteRecent(state_.recent, source);
 }
 
 void SceneSwitch::leave(const OpenScene& scene) {

@@ -23,8 +23,6 @@ public:
     /// The scene that was loaded, once; null where there is none, or where it could not be and the state says why. The
     /// looks of the state become its; it still has to be put there.
     std::unique_ptr<OpenScene> take();
-    /// As viewer::noteRecent(), of the state's.
-    void noteRecent(const std::string& source);
     /// Writes what is remembered, when the window is closed. What goes wrong is said on stderr.
     void remember(glm::ivec2 windowSize);
 

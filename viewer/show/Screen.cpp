@@ -48,6 +48,10 @@ void Screen::open(const OpenScene& scene) {
     resolution_.restart(context_.capabilities().isSoftware ? kSoftwareGuess : 1.0);
 }
 
+bool Screen::isNewKind(const Wanted& wanted) const {
+    return !isOfKind(kinds_[0], wanted.looks[0]) || (wanted.sides == 2 && !isOfKind(kinds_[1], wanted.looks[1]));
+}
+
 void Screen::takeEdits() {
     if (scene_ == nullptr || scene_->materialRevision() == materialRevision_) return;
     renderer_->materialsChanged();
@@ -58,15 +62,14 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::functi
     Drawn result;
     result.scale = scale;
     result.sizePixels = scaled(wanted.looks[0].settings.sizePixels, scale);
-    const bool isNewKind =
-        !isOfKind(kinds_[0], wanted.looks[0]) || (wanted.sides == 2 && !isOfKind(kinds_[1], wanted.looks[1]));
+    const bool isNew = isNewKind(wanted), isSlowKind = isSlow(wanted);
     kinds_ = wanted.looks;
     drawn_.reset();
     failed_.reset();
     const std::size_t programs = renderer_->programs().size();
     try {
         std::optional<gpu::BandedDrawing> banded;
-        if (givesUp) banded.emplace(givesUp);
+        if (givesUp) banded.emplace(givesUp, isSlowKind);
         for (int side = 0; side < wanted.sides; ++side) {
             const gpu::CpuTimer clock;
             Look look = wanted.looks[std::size_t(side)];
@@ -78,7 +81,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::functi
             result.passes[std::size_t(side)] = renderer_->backend().passTimings();
             banded.reset(); // copying must not be given up half way
             pictures_[std::size_t(side)].take(*renderer_, look, wanted.comparesRadiance);
-            if (givesUp) banded.emplace(givesUp);
+            if (givesUp) banded.emplace(givesUp, isSlowKind);
         }
     } catch (const graph::Interrupted&) {
         result.gaveUp = true;
@@ -91,7 +94,8 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::functi
     drawnScale_ = scale;
     differenceIsStale_ = true;
     const bool compiled = renderer_->programs().size() != programs;
-    if (!isNewKind && !compiled) resolution_.drew(scale, result.ms);
+    if (!isNew && !compiled) resolution_.drew(scale, result.ms);
+    if (scale < 1.0) latestMs_ = result.ms;
     return result;
 }
 

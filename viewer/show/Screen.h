@@ -44,13 +44,21 @@ public:
 
     /// Whether what is wanted is what was drawn, and at which scale: 0 where it was not. What could not be drawn counts
     /// as whole: it would fail again.
-    double scaleOf(const Wanted& wanted) const { return drawn_ == wanted ? drawnScale_ : failed_ == wanted ? 1.0 : 0.0; }
+    double scaleOf(const Wanted& wanted) const {
+        return drawn_ == wanted ? drawnScale_ : failed_ == wanted ? 1.0 : 0.0;
+    }
     /// Whether the pictures are those of what is wanted.
     bool shows(const Wanted& wanted) const { return drawn_ == wanted; }
     /// A picture that is worth drawing at once while things move.
     double movingScale() const { return resolution_.next(); }
-    /// Draws what is wanted at a scale. `givesUp` may be null; where it ends the frame, or the frame fails, the pictures
-    /// not yet drawn stay as they were. Throws as Renderer::draw does.
+    /// Whether what is wanted is of another kind than what was drawn last, so that shaders may have to be compiled
+    /// first.
+    bool isNewKind(const Wanted& wanted) const;
+    /// Whether it may take so long that it must be given up where somebody waits: it is the first of its kind, or even
+    /// the latest picture of moving things took that long.
+    bool isSlow(const Wanted& wanted) const { return isNewKind(wanted) || latestMs_ > kSlowMs; }
+    /// Draws what is wanted at a scale. `givesUp` may be null; where it ends the frame, or the frame fails, the
+    /// pictures not yet drawn stay as they were. Throws as Renderer::draw does.
     Drawn draw(const Wanted& wanted, double scale, const std::function<bool()>& givesUp);
     /// Draws again what is there, though nothing asked for it has changed: shaders have.
     void forget() {
@@ -68,6 +76,8 @@ public:
     const Picture& picture(int side) const { return pictures_[std::size_t(side)]; }
 
 private:
+    static constexpr double kSlowMs = 250.0;
+
     gpu::Context& context_;
     const OpenScene* scene_ = nullptr;
     std::unique_ptr<recipes::Renderer> renderer_;
@@ -80,6 +90,7 @@ private:
     std::array<Look, 2> kinds_; ///< what the cost of a pixel was learned from
     std::optional<Wanted> drawn_, failed_;
     double drawnScale_ = 0.0;
+    double latestMs_ = 0.0; ///< of the latest picture while something moved
 };
 
 } // namespace tessera::viewer

@@ -33,6 +33,11 @@ void InputQueue::push(const InputEvent& event) {
     events_.push_back(event);
 }
 
+bool InputQueue::hasMoreThanMoves() const {
+    return std::any_of(events_.begin(), events_.end(),
+                       [](const InputEvent& event) { return event.kind != InputEvent::Kind::Move; });
+}
+
 std::vector<InputEvent> InputQueue::takeFrame() {
     std::vector<InputEvent> taken;
     while (!events_.empty() && fits(taken, events_.front())) {

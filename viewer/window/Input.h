@@ -29,6 +29,8 @@ public:
     /// did, and before the pointer moves on from where a button changed.
     std::vector<InputEvent> takeFrame();
     bool empty() const { return events_.empty(); }
+    /// Whether more waits than a pointer on its way.
+    bool hasMoreThanMoves() const;
 
 private:
     std::deque<InputEvent> events_;

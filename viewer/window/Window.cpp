@@ -122,6 +122,12 @@ bool Window::isMinimised() const {
     return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0;
 }
 
+bool Window::isButtonHeld() const {
+    for (int button = GLFW_MOUSE_BUTTON_1; button <= GLFW_MOUSE_BUTTON_LAST; ++button)
+        if (glfwGetMouseButton(window_, button) == GLFW_PRESS) return true;
+    return false;
+}
+
 void Window::poll() {
     glfwPollEvents();
 }

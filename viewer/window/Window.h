@@ -36,6 +36,7 @@ public:
     float contentScale() const;    ///< how much larger than usual things should be drawn
     bool isMinimised() const;
 
+    bool isButtonHeld() const; ///< of the mouse, as heard last
     /// Takes what the window system has to tell into the queue, without waiting.
     void poll();
     /// The same, after waiting for something to happen, for wake(), or for this long; forever where negative.

@@ -77,7 +77,7 @@ TEST_F(SceneSwitchTest, whatWasSaidOfTheFirstSceneNeverCountsForAnotherAlsoWhere
     EXPECT_EQ(state_.notice.text, "no such camera");
     EXPECT_TRUE(open("room"));
     EXPECT_EQ(firsts_, (std::vector<bool>{true, false}));
-    EXPECT_EQ(state_.looks[1].technique, recipes::Technique::Forward) << "as with the first that is shown";
+    EXPECT_EQ(state_.looks[1].technique, recipes::Technique::ClusteredForward) << "as with the first that is shown";
 }
 
 TEST_F(SceneSwitchTest, aMissingFirstFileNeverPlacesTheCameraOfTheNext) {
