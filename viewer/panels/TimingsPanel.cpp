@@ -25,9 +25,9 @@ std::string milliseconds(const std::optional<double>& ms) {
 void passTable(const Timings& timings, int side, const FrameTimes& frame) {
     if (!ImGui::BeginTable("passes", 4, ImGuiTableFlags_RowBg)) return;
     ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthFixed);
-    ImGui::TableSetupColumn("GPU", ImGuiTableColumnFlags_WidthFixed);
-    ImGui::TableSetupColumn("CPU", ImGuiTableColumnFlags_WidthFixed);
-    ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("CPU ms", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableHeadersRow();
     std::set<std::string> seen;
     for (const gpu::PassTiming& pass : frame.passes) {
