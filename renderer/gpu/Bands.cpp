@@ -16,8 +16,6 @@ namespace {
 constexpr double kBandMs = 12.0;
 /// Of draws whose geometry each band repeats, at most, unless bands are slow.
 constexpr int kGeometryBands = 4;
-/// A band that takes longer is too long for a person who waits, whatever smaller ones cost together.
-constexpr double kSlowBandMs = 100.0;
 /// Bands begin at multiples of the side of llvmpipe's rasteriser tiles, so that none is binned twice.
 constexpr int kRowStep = 64;
 /// Where bands are slow all the same, their height and width change in steps of this.
@@ -25,7 +23,7 @@ constexpr int kSlowStep = 16;
 
 struct State {
     std::function<bool()> givesUp; ///< empty: draws are whole; also once it said yes, while the frame is left
-    bool isSlow = false;           ///< geometry begins with the narrowest band
+    BandPace pace;
     int width = 0;
     int height = 0;
 };
@@ -41,10 +39,10 @@ int nextRows(int rows, double elapsedMs) {
 
 } // namespace
 
-BandedDrawing::BandedDrawing(std::function<bool()> givesUp, bool isSlow) {
+BandedDrawing::BandedDrawing(std::function<bool()> givesUp, BandPace pace) {
     assert(!state.givesUp && "banded drawings do not nest");
     state.givesUp = std::move(givesUp);
-    state.isSlow = isSlow;
+    state.pace = pace;
 }
 
 BandedDrawing::~BandedDrawing() {
@@ -65,10 +63,10 @@ void setBandedTarget(int width, int height) {
 }
 
 void drawInBands(const std::function<void()>& draw, BandCost cost) {
-    if (!state.givesUp || state.width == 0 || (state.height <= kRowStep && !state.isSlow)) return draw();
+    if (!state.givesUp || state.width == 0 || (state.height <= kRowStep && !state.pace.beginsSlow)) return draw();
     const int quarter = (state.height / kGeometryBands + kRowStep - 1) / kRowStep * kRowStep;
     const int usualRows = cost == BandCost::Geometry ? quarter : kRowStep;
-    int rows = state.isSlow ? kSlowStep : usualRows, columns = state.width;
+    int rows = state.pace.beginsSlow ? kSlowStep : usualRows, columns = state.width;
     for (int row = 0; row < state.height;) {
         double ms = 0.0; // of the latest piece
         for (int column = 0; column < state.width;) {
@@ -82,11 +80,11 @@ void drawInBands(const std::function<void()>& draw, BandCost cost) {
             ms = clock.elapsedMs();
             column += columns;
             // Narrower than the picture only where even the lowest bands are slow.
-            if (ms > kSlowBandMs && rows == kSlowStep) columns = std::max(columns / 4, kSlowStep);
-            if (ms < 0.5 * kSlowBandMs) columns = std::min(columns * 4, state.width);
+            if (ms > state.pace.longestMs && rows == kSlowStep) columns = std::max(columns / 4, kSlowStep);
+            if (ms < 0.5 * state.pace.longestMs) columns = std::min(columns * 4, state.width);
         }
         row += rows;
-        if (ms > kSlowBandMs)
+        if (ms > state.pace.longestMs)
             rows = std::max(rows / 4, kSlowStep);
         else if (columns == state.width)
             rows = std::max(nextRows(rows, ms), usualRows);

@@ -5,13 +5,20 @@
 /// for a full-screen triangle, and an interactive program owes an answer within a tenth of that.
 namespace tessera::gpu {
 
+/// How finely draws are divided.
+struct BandPace {
+    bool beginsSlow =
+        false; ///< pixels are known to take long: even geometry is drawn in small pieces from the first on
+    /// A piece that takes longer is too long for a person who waits, whatever smaller ones cost together.
+    double longestMs = 100.0;
+};
+
 /// While one lives, drawInBands() draws band by band, waits for each, and asks `givesUp`; where that says yes,
 /// graph::Interrupted is thrown. Which pixels are written, and with what, does not depend on it. At most one lives on a
 /// thread.
 class BandedDrawing {
 public:
-    /// `isSlow`: pixels are known to take long, so that even geometry is drawn in narrow bands from the first on.
-    explicit BandedDrawing(std::function<bool()> givesUp, bool isSlow = false);
+    explicit BandedDrawing(std::function<bool()> givesUp, BandPace pace = {});
     ~BandedDrawing();
     BandedDrawing(const BandedDrawing&) = delete;
     BandedDrawing& operator=(const BandedDrawing&) = delete;

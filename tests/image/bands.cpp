@@ -37,6 +37,27 @@ TEST_F(Bands, aPictureDrawnInBandsIsExactlyTheSameWithEveryTechnique) {
     }
 }
 
+TEST_F(Bands, aPictureDrawnInTheSmallestPiecesIsExactlyTheSame) {
+    const scenes::Scene scene = test::everythingScene();
+    recipes::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {75, 51}; // pieces of 16 pixels, the last of them cut
+    for (const recipes::Technique technique : {recipes::Technique::Forward, recipes::Technique::TiledDeferred}) {
+        SCOPED_TRACE(infoOf(technique).name);
+        const recipes::RenderedFrame whole = renderer.render(technique, settings);
+        int asked = 0;
+        const auto ask = [&asked] {
+            ++asked;
+            return false;
+        };
+        const gpu::BandedDrawing banded(ask, {.beginsSlow = true, .longestMs = 0.0});
+        const recipes::RenderedFrame pieces = renderer.render(technique, settings);
+        EXPECT_EQ(pieces.radiance, whole.radiance);
+        EXPECT_EQ(pieces.display, whole.display);
+        EXPECT_GT(asked, 20) << "the pieces are not small";
+    }
+}
+
 TEST_F(Bands, aFrameIsAlwaysGivenUpWhereverItIsAsked) {
     const scenes::Scene scene = scenes::loadScene("lattice");
     recipes::Renderer renderer(context(), scene);

@@ -163,12 +163,14 @@ bool listButtons(State& state, scenes::Scene& scene) {
     }
     tip("A point light in the picture's middle, halfway to the camera's pivot");
     ImGui::SameLine();
-    if (ImGui::Button("Duplicate", {width, 0.0f}) && any && scene.lights.size() < std::size_t(scenes::kMostLights)) {
+    ImGui::BeginDisabled(!any);
+    if (ImGui::Button("Duplicate", {width, 0.0f}) && scene.lights.size() < std::size_t(scenes::kMostLights)) {
         state.selectedLight = int(duplicateLight(scene.lights, std::size_t(state.selectedLight)));
         changed = true;
     }
     ImGui::SameLine();
     if (ImGui::Button("Delete", {width, 0.0f})) deleteSelectedLight(state);
+    ImGui::EndDisabled();
     return changed;
 }
 

@@ -1,5 +1,6 @@
 #include "viewer/session/FreePath.h"
 
+#include <algorithm>
 #include <cctype>
 #include <stdexcept>
 #include <system_error>
@@ -10,8 +11,10 @@ namespace tessera::viewer {
 namespace {
 
 constexpr int kMostNumbers = 100000;
+constexpr std::size_t kLongestStem = 120; ///< file systems end names at 255 bytes, of which some are ours
 
 std::string plain(std::string stem) {
+    stem.resize(std::min(stem.size(), kLongestStem));
     for (char& c : stem)
         if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '.') c = '-';
     return stem;

@@ -69,7 +69,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::functi
     const std::size_t programs = renderer_->programs().size();
     try {
         std::optional<gpu::BandedDrawing> banded;
-        if (givesUp) banded.emplace(givesUp, isSlowKind);
+        if (givesUp) banded.emplace(givesUp, gpu::BandPace{isSlowKind});
         for (int side = 0; side < wanted.sides; ++side) {
             const gpu::CpuTimer clock;
             Look look = wanted.looks[std::size_t(side)];
@@ -81,7 +81,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::functi
             result.passes[std::size_t(side)] = renderer_->backend().passTimings();
             banded.reset(); // copying must not be given up half way
             pictures_[std::size_t(side)].take(*renderer_, look, wanted.comparesRadiance);
-            if (givesUp) banded.emplace(givesUp, isSlowKind);
+            if (givesUp) banded.emplace(givesUp, gpu::BandPace{isSlowKind});
         }
     } catch (const graph::Interrupted&) {
         result.gaveUp = true;

@@ -31,5 +31,9 @@ TEST_F(FreePath, aNameIsAlwaysOneWordOfAShell) {
     EXPECT_EQ(freePath("my model (v2)/$x", ".json"), "tessera-my-model--v2---x-001.json");
 }
 
+TEST_F(FreePath, aNameIsNeverLongerThanFileSystemsAllow) {
+    EXPECT_LT(freePath(std::string(250, 'x'), ".trace.json").string().size(), 200u);
+}
+
 } // namespace
 } // namespace tessera::viewer

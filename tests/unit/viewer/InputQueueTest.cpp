@@ -44,6 +44,28 @@ TEST(InputQueue, ofAPointerOnItsWayExactlyTheEndIsKept) {
     EXPECT_EQ(taken[0].position.x, 99.0f);
 }
 
+TEST(InputQueue, aPathIsAlwaysAsOldAsItsBeginning) {
+    InputQueue queue;
+    for (const double seconds : {1.0, 2.0, 3.0}) {
+        InputEvent event = at(Kind::Move, float(seconds));
+        event.heardSeconds = seconds;
+        queue.push(event);
+    }
+    EXPECT_EQ(queue.takeFrame().front().heardSeconds, 1.0);
+}
+
+TEST(InputQueue, whatIsMoreThanAPointerOnItsWayIsAlwaysTold) {
+    InputQueue queue;
+    EXPECT_FALSE(queue.hasMoreThanMoves());
+    queue.push(at(Kind::Move, 1.0f));
+    EXPECT_FALSE(queue.hasMoreThanMoves());
+    for (const Kind kind : {Kind::Button, Kind::Scroll, Kind::Key, Kind::Focus}) {
+        InputQueue more = queue;
+        more.push(at(kind, 1.0f));
+        EXPECT_TRUE(more.hasMoreThanMoves());
+    }
+}
+
 TEST(InputQueue, differentKeysAlwaysShareAFrame) {
     InputQueue queue;
     queue.push(at(Kind::Key, 0.0f, 65));

@@ -71,6 +71,18 @@ TEST(Preferences, aFileThatIsNoJsonIsAlwaysAnErrorThatNamesIt) {
     }
 }
 
+TEST(Preferences, aFolderInTheirPlaceIsAlwaysAnErrorThatNamesIt) {
+    const test::TempFolder folder;
+    const std::filesystem::path file = folder.path() / "viewer.json";
+    std::filesystem::create_directory(file);
+    try {
+        readPreferences(file);
+        FAIL() << "no error";
+    } catch (const InputError& error) {
+        EXPECT_EQ(std::string(error.what()), file.string() + ": is no file, so settings are not kept; rename it");
+    }
+}
+
 TEST(Preferences, theTenLatestFilesAreKeptEachExactlyOnce) {
     std::vector<std::string> recent;
     for (int i = 0; i < 15; ++i) addRecent(recent, std::to_string(i));
