@@ -29,14 +29,18 @@ protected:
 TEST_F(Invariance, pruningNeverChangesABitOfAnyBuiltinScene) {
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
         const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
+        recipes::Renderer renderer(context(), scene);
+        const auto drawn = [&](const recipes::TechniqueInfo& technique, const frame::FrameSettings& settings) {
+            return validation::toPicture(renderer.render(technique.technique, settings));
+        };
         for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
             for (const frame::LayoutInfo& layout : frame::layoutTable()) {
                 SCOPED_TRACE(fmt::format("{} {} {}", builtin.name, technique.name, layout.name));
                 frame::FrameSettings settings = small();
                 settings.layout = layout.layout;
-                const validation::Picture pruned = picture(scene, settings, technique.technique);
+                const validation::Picture pruned = drawn(technique, settings);
                 settings.prune = false;
-                const validation::Picture whole = picture(scene, settings, technique.technique);
+                const validation::Picture whole = drawn(technique, settings);
                 EXPECT_EQ(pruned.rgba, whole.rgba);
                 EXPECT_GT(validation::errorFigures(whole, pruned).litShare, 0.1);
             }

@@ -89,11 +89,12 @@ std::vector<std::string> DrivenViewer::lines() const {
 }
 
 std::string DrivenViewer::waitFor(const std::string& begin, std::size_t from, double seconds) const {
-    for (double waited = 0.0; waited <= seconds; waited += 0.02) {
+    constexpr double kPeriodSeconds = 0.005;
+    for (double waited = 0.0; waited <= seconds; waited += kPeriodSeconds) {
         const std::vector<std::string> all = lines();
         for (std::size_t i = from; i < all.size(); ++i)
             if (all[i].starts_with(begin)) return all[i];
-        sleepSeconds(0.02);
+        sleepSeconds(kPeriodSeconds);
     }
     throw std::runtime_error(
         fmt::format("no \"{}\" within {} s; the log is\n{}", begin, seconds, fmt::join(lines(), "\n")));

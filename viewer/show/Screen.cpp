@@ -11,9 +11,9 @@
 namespace tessera::viewer {
 namespace {
 
-/// Input is to be answered within 100 ms: this for the picture leaves room for panels, for showing both, and for a
-/// piece of a frame that is given up.
-constexpr double kMovingMs = 45.0;
+/// Input is to be answered within 100 ms. What comes just after a frame began waits for two of them, each with its
+/// panels and the time to show both, or for a piece of one that is given up: so much is left for a picture.
+constexpr double kMovingMs = 36.0;
 /// The first picture of a kind, of which nothing is known.
 constexpr double kSoftwareGuess = 0.25;
 
