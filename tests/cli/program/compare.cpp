@@ -158,7 +158,8 @@ TEST_F(Compare, thePackedLayoutIsAlwaysHeldToItsOwnBarAgainstTheReferenceToo) {
 
 TEST_F(Compare, everyTechniqueShowsExactlyTheSameTriangles) {
     runGood(lattice({"--view", "ids", "--json", "c.json"}));
-    for (const Json& pair : json("c.json")["pairs"]) EXPECT_EQ(pair["bitEqual"], 1.0) << pair["a"];
+    const Json record = json("c.json");
+    for (const Json& pair : record["pairs"]) EXPECT_EQ(pair["bitEqual"], 1.0) << pair["a"];
 }
 
 TEST_F(Compare, whatTheReferenceDoesNotRenderIsAlwaysRefused) {

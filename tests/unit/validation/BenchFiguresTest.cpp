@@ -180,7 +180,8 @@ TEST(BenchJson, aGroupAlwaysComesBackFromItsJsonDigitForDigit) {
 
 TEST(BenchJson, everyNullOfAPointAlwaysHasItsReason) {
     const BenchGroup group = madeUpGroup(10, {madeUpResult("forward", 10, {}), madeUpResult("deferred", 5, 1e-9)});
-    for (const nlohmann::ordered_json& point : groupJson(group)["points"]) {
+    const nlohmann::ordered_json json = groupJson(group);
+    for (const nlohmann::ordered_json& point : json["points"]) {
         for (const auto& [name, value] : point.items())
             EXPECT_TRUE(!value.is_null() || point["why"].contains(name)) << name;
     }
