@@ -48,9 +48,9 @@ public:
 
     void run() {
         try {
-            while (!window_.shouldClose()) {
+            while (!isLeaving()) {
                 window_.wait(idleSeconds());
-                if (window_.shouldClose()) break;
+                if (isLeaving()) break;
                 attempt([this] { watchShaders(); });
                 if (isDue()) frame();
             }
@@ -98,6 +98,28 @@ private:
     }
 
     // ---- Scenes ----
+    bool isLeaving() {
+        if (!window_.shouldClose()) return false;
+        if (mayLeave()) return true;
+        window_.keepOpen();
+        return false;
+    }
+
+    /// Edits that were not saved are left behind only by who asks for it twice.
+    bool mayLeave() {
+        if (!state_.open || !state_.open->isEdited()) return true;
+        const bool wasWarned = warnedOf_ == state_.open->revision() && now() < warnedUntil_;
+        warnedOf_ = state_.open->revision();
+        warnedUntil_ = now() + kNoticeSeconds;
+        if (wasWarned) return true;
+        state_.notice = {std::filesystem::path(state_.open->source()).filename().string() +
+                             " has edits that are not saved. Ctrl+S saves them; the same again leaves them behind.",
+                         false};
+        settleFrames_ = kSettleFrames;
+        log_.line("edits are not saved");
+        return false;
+    }
+
     void adoptLoaded() {
         std::unique_ptr<OpenScene> scene = scenes_.take();
         if (!scene) return;
@@ -210,7 +232,7 @@ private:
     void serveRequests() {
         const Requests requests = std::exchange(state_.requests, {});
         attempt([&] {
-            if (requests.open) scenes_.open(*requests.open, {});
+            if (requests.open && mayLeave()) scenes_.open(*requests.open, {});
         });
         attempt([&] { serveSaves(requests); });
         attempt([&] {
@@ -386,6 +408,8 @@ private:
     int announcements_ = 0; ///< frames for which the next picture has been announced
     int givenUp_ = 0;       ///< pictures since the latest that was drawn
     std::string title_;
+    std::optional<std::uint64_t> warnedOf_; ///< edits of which the user was told that they are not saved
+    double warnedUntil_ = 0.0;
     std::string said_;         ///< the latest notice
     std::string drawingFault_; ///< why the latest picture that failed did
     double saidUntil_ = 0.0;

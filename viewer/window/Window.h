@@ -29,6 +29,7 @@ public:
 
     bool shouldClose() const;
     void close();
+    void keepOpen(); ///< though it was asked to close
     void setClipboard(const std::string& text);
     void setTitle(const std::string& title);
     glm::ivec2 sizeScreen() const; ///< screen coordinates, those of the pointer
