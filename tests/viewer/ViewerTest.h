@@ -47,6 +47,14 @@ protected:
     static Shot pictureIn(const DrivenViewer& viewer, glm::ivec2 sizePixels) {
         return viewer.capture().part(kPictureCorner, sizePixels);
     }
+    /// The picture when all has come to rest after an action.
+    template <class Action>
+    static Shot after(const DrivenViewer& viewer, Action act) {
+        const std::size_t mark = viewer.mark();
+        act();
+        return pictureIn(viewer, viewer.waitForWhole(mark));
+    }
+
     // ---- Panels ----
     /// Height in the window of the middle of a section's bar, wherever it lies now.
     static int barOf(const DrivenViewer& viewer, Section section);

@@ -4,16 +4,7 @@
 namespace tessera::test {
 namespace {
 
-class ViewerCameras : public ViewerTest {
-protected:
-    /// What the window shows when all has come to rest after an action.
-    template <class Action>
-    Shot after(const DrivenViewer& viewer, Action act) {
-        const std::size_t mark = viewer.mark();
-        act();
-        return pictureIn(viewer, viewer.waitForWhole(mark));
-    }
-};
+using ViewerCameras = ViewerTest;
 
 TEST_F(ViewerCameras, everyGestureAlwaysMovesThePictureAndHomeBringsItBackExactly) {
     DrivenViewer viewer = open({"spheres"});

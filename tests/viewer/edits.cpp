@@ -11,13 +11,6 @@ namespace {
 
 class ViewerEdits : public ViewerTest {
 protected:
-    /// The picture when all has come to rest after an action.
-    template <class Action>
-    Shot after(const DrivenViewer& viewer, Action act) {
-        const std::size_t mark = viewer.mark();
-        act();
-        return pictureIn(viewer, viewer.waitForWhole(mark));
-    }
     /// Saves the scene with its edits, and takes the message away that says so.
     std::string saveScene(const DrivenViewer& viewer) {
         const std::size_t mark = viewer.mark();
