@@ -21,6 +21,20 @@ std::vector<std::string> namesOf(const Lights& lights) {
 
 using Names = std::vector<std::string>;
 
+/// A point light that moves in one of the ways there are, or stands still where `kind` is -1.
+scenes::Light movingLight(int kind) {
+    scenes::Light light;
+    light.positionWS = {0.5, 1.5, -2.0};
+    if (kind < 0) return light;
+    scenes::LightAnimation& animation = light.animation.emplace();
+    animation.kind = scenes::LightAnimationKind(kind);
+    animation.periodSeconds = 3.0;
+    animation.amplitudeMetres = {1, 1, 0};
+    animation.timesSeconds = {0.0, 1.0};
+    animation.pointsWS = {{0, 0, 0}, {1, 1, 1}};
+    return light;
+}
+
 TEST(LightList, everyNewNameIsAlwaysFreeAndOthersNeverChange) {
     Lights lights = named({"lamp", "sun", "lamp 3"});
     EXPECT_EQ(duplicateLight(lights, 0), 3u);
@@ -60,15 +74,7 @@ TEST(LightList, aMovedLightAlwaysFollowsTheDragAtItsOwnDepthAlsoWhereItIsAnimate
     for (const scenes::Camera& lens : {perspective({1, 2, 8}, {0, 1, 0}), orthographic({1, 2, 8}, {0, 1, 0}, 3.0)}) {
         const CameraPose pose = poseOf(lens, kBox);
         for (int kind = -1; kind < 4; ++kind) {
-            scenes::Light light;
-            light.positionWS = {0.5, 1.5, -2.0};
-            if (kind >= 0) {
-                scenes::LightAnimation& animation = light.animation.emplace();
-                animation.kind = scenes::LightAnimationKind(kind);
-                animation.amplitudeMetres = {1, 1, 0};
-                animation.timesSeconds = {0.0, 1.0};
-                animation.pointsWS = {{0, 0, 0}, {1, 1, 1}};
-            }
+            scenes::Light light = movingLight(kind);
             const double timeSeconds = 0.3;
             const glm::dvec3 before = shownAt(lens, scenes::lightAtTime(light, timeSeconds).positionWS);
             moveLight(light, timeSeconds, pose, lens, {30.0, -12.0}, kHeightPixels);
@@ -91,16 +97,7 @@ TEST(LightList, aLightBehindTheEyeIsAlwaysMovedAsAtTheFocus) {
 
 TEST(LightList, aLightIsAlwaysPutExactlyWhereItIsSaidAtThatTime) {
     for (int kind = -1; kind < 4; ++kind) {
-        scenes::Light light;
-        light.positionWS = {0.5, 1.5, -2.0};
-        if (kind >= 0) {
-            scenes::LightAnimation& animation = light.animation.emplace();
-            animation.kind = scenes::LightAnimationKind(kind);
-            animation.periodSeconds = 3.0;
-            animation.amplitudeMetres = {1, 1, 0};
-            animation.timesSeconds = {0.0, 1.0};
-            animation.pointsWS = {{0, 0, 0}, {1, 1, 1}};
-        }
+        scenes::Light light = movingLight(kind);
         const scenes::Light before = light;
         const glm::dvec3 wantedWS(-4.1, 0.3, 7.7);
         placeLight(light, 0.4, wantedWS);
