@@ -291,6 +291,7 @@ private:
         if (state_.notice.text != said_) {
             said_ = state_.notice.text;
             saidUntil_ = now() + kNoticeSeconds;
+            settleFrames_ = kSettleFrames; // it is laid out anew
         } else if (isNoticeOver()) {
             state_.notice = {};
             settleFrames_ = std::max(settleFrames_, 1);

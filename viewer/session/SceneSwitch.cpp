@@ -1,5 +1,8 @@
 #include "viewer/session/SceneSwitch.h"
 
+#include <stdexcept>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "viewer/session/Remember.h"
@@ -26,22 +29,12 @@ std::unique_ptr<OpenScene> SceneSwitch::take() {
     std::optional<SceneLoader::Result> result = loader_.take();
     if (!result) return nullptr;
     state_.loading.clear();
-    if (!result->scene) {
-        fail(result->error);
-        return nullptr;
-    }
-    FirstLook first;
-    std::unique_ptr<OpenScene> scene;
-    try {
-        first = options_.lookOf(*result->scene, result->source, isFirstLoad_);
-        scene = std::make_unique<OpenScene>(result->source, result->load, std::move(*result->scene),
-                                            std::move(*result->origin));
-        scene->useCamera(first.look.settings.camera);
-        scene->place(first.pose);
-    } catch (const std::exception& error) {
-        fail(error.what());
-        return nullptr;
-    }
+    if (!result->scene) throw std::runtime_error(result->error);
+    const FirstLook first = options_.lookOf(*result->scene, result->source, isFirstLoad_);
+    auto scene = std::make_unique<OpenScene>(result->source, result->load, std::move(*result->scene),
+                                             std::move(*result->origin));
+    scene->useCamera(first.look.settings.camera);
+    scene->place(first.pose);
     for (Look& look : state_.looks) look = hadScene_ ? rebased(look, base_, first.look) : first.look;
     // The other side of a comparison begins as what shades the other way, and as fast with many lights.
     if (!hadScene_)
@@ -91,11 +84,6 @@ void SceneSwitch::remember(glm::ivec2 windowSize) {
     } catch (const std::exception& error) {
         log_.warning(error.what());
     }
-}
-
-void SceneSwitch::fail(const std::string& text) {
-    state_.notice = {text, true};
-    log_.line("error " + text);
 }
 
 } // namespace tessera::viewer

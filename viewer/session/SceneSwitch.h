@@ -20,8 +20,8 @@ public:
     /// whatever becomes of it; what it was told of any scene, for all.
     void open(const std::string& source, const scenes::LoadOptions& load = {});
     bool hasResult() const { return loader_.hasResult(); }
-    /// The scene that was loaded, once; null where there is none, or where it could not be and the state says why. The
-    /// looks of the state become its; it still has to be put there.
+    /// The scene that was loaded, once; null where there is none. The looks of the state become its; it still has to be
+    /// put there. Throws std::runtime_error where it could not be loaded.
     std::unique_ptr<OpenScene> take();
     /// Writes what is remembered, when the window is closed. What goes wrong is said on stderr.
     void remember(glm::ivec2 windowSize);
@@ -37,7 +37,6 @@ private:
     void leave(const OpenScene& scene);
     /// Looks at a scene as it was left, where it has that camera still.
     void comeBack(OpenScene& scene);
-    void fail(const std::string& text);
 
     const ViewerOptions& options_;
     State& state_;
