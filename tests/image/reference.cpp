@@ -54,6 +54,14 @@ TEST_F(Reference, everyBuiltinSceneAlwaysAgreesWithIt) {
     }
 }
 
+using ReferenceSlow = Reference;
+
+/// At the size at which the programs render by themselves: single pixels that miss by much are rare.
+TEST_F(ReferenceSlow, everyBuiltinSceneAlwaysAgreesWithItAtTheDefaultSize) {
+    for (const scenes::BuiltinScene& builtin : scenes::builtinScenes())
+        expectAgreement(std::string(builtin.name), scenes::loadScene(std::string(builtin.name)), {});
+}
+
 TEST_F(Reference, aSceneOfEveryFeatureAlwaysAgreesWithIt) {
     scenes::Scene scene = test::everythingScene();
     expectAgreement("everything", scene, ofSize(161, 89));

@@ -41,6 +41,7 @@ std::vector<int> addTeaching(Scene& scene) {
     Material handout = satin;
     handout.name = "microfacet, masking half_vector";
     handout.masking = Masking::HalfVector;
+    handout.doubleSided = true; // on an open shape
     std::vector<int> materials;
     for (const Material& material : {lantern, terrazzo, glaze, satin, handout})
         materials.push_back(addMaterial(scene, material));

@@ -38,6 +38,22 @@ Mesh discMesh() {
     return mesh;
 }
 
+/// The cap of a sphere, facing +z, whose every place shows itself to who stands before it. It is for the material whose
+/// masking is divided by n.v: at a sphere's silhouette single precision does not know that.
+Mesh capMesh() {
+    constexpr double kHalfAngleRadians = 0.75;
+    const double sphereMetres = kRadiusMetres / std::sin(kHalfAngleRadians);
+    Mesh mesh;
+    appendPatch(mesh, 64, 16, [&](double u, double v) {
+        const double around = 2.0 * std::numbers::pi * u;
+        const double away = kHalfAngleRadians * (1.0 - v); // from the axis, which is +z
+        const glm::dvec3 normal(std::sin(away) * std::cos(around), std::sin(away) * std::sin(around), std::cos(away));
+        return SurfacePoint{
+            sphereMetres * (normal - glm::dvec3(0.0, 0.0, std::cos(kHalfAngleRadians))), normal, {u, v}};
+    });
+    return mesh;
+}
+
 void addStage(Scene& scene) {
     const double halfWidth = 0.5 * kSpacingMetres * kPieces + 0.3;
     const int stone = addMaterial(scene, metallicRoughness("steps", glm::vec3(0.055f, 0.055f, 0.06f), 0.0f, 0.42f));
@@ -66,6 +82,7 @@ void addPieces(Scene& scene, const models::Exhibits& exhibits) {
     appendSphere(sphere, glm::dvec3(0.0), kRadiusMetres, 56, 36);
     const int sphereMesh = addMesh(scene, "sphere", std::move(sphere));
     const int disc = addMesh(scene, "disc", discMesh());
+    const int cap = addMesh(scene, "cap", capMesh());
     const int foot = addMesh(scene, "foot", footMesh());
     const int brass = addMaterial(scene, metallicRoughness("feet", {0.75f, 0.58f, 0.30f}, 1.0f, 0.35f));
     const std::vector<int>* const rows[kRows] = {&exhibits.teaching, &exhibits.directional, &exhibits.layered};
@@ -77,9 +94,16 @@ void addPieces(Scene& scene, const models::Exhibits& exhibits) {
                                      -kDepthMetres * row);
             addNode(scene, "foot of " + name, glm::translate(glm::dmat4(1.0), standWS), {{foot, brass}});
             glm::dmat4 place = glm::translate(glm::dmat4(1.0), standWS + glm::dvec3(0.0, 0.04 + kRadiusMetres, 0.0));
-            const bool isDisc = row == 1 && column == 2;
-            if (isDisc) place = glm::rotate(place, -0.30, glm::dvec3(1.0, 0.0, 0.0));
-            addNode(scene, name, place, {{isDisc ? disc : sphereMesh, material}});
+            int mesh = sphereMesh;
+            if (row == 0 && column == 4) {
+                mesh = cap;
+                place = glm::rotate(place, -0.33, glm::dvec3(0.0, 1.0, 0.0));
+                place = glm::rotate(place, -0.20, glm::dvec3(1.0, 0.0, 0.0));
+            } else if (row == 1 && column == 2) {
+                mesh = disc;
+                place = glm::rotate(place, -0.30, glm::dvec3(1.0, 0.0, 0.0));
+            }
+            addNode(scene, name, place, {{mesh, material}});
         }
     }
 }
