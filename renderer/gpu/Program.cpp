@@ -124,7 +124,14 @@ Program::Program(std::string label, std::span<const StageSource> stages)
 Program::Program(std::string label, Id id) : label_(std::move(label)), id_(std::move(id)) {}
 
 Program::~Program() {
-    if (const std::uint32_t id = id_.value()) glDeleteProgram(id);
+    const std::uint32_t id = id_.value();
+    if (id == 0) return;
+    // A deleted program that is current lives on until another one is; whoever puts back then what was current before,
+    // as Dear ImGui does, would name a program that is no more.
+    GLint current = 0;
+    glGetIntegerv(GL_CURRENT_PROGRAM, &current);
+    if (std::uint32_t(current) == id) glUseProgram(0);
+    glDeleteProgram(id);
 }
 
 } // namespace tessera::gpu

@@ -7,6 +7,7 @@
 namespace tessera::gpu {
 namespace {
 
+using testing::EndsWith;
 using testing::HasSubstr;
 
 class ProgramTest : public test::GlTest {};
@@ -25,6 +26,7 @@ TEST_F(ProgramTest, aFaultyStageIsAlwaysNamedWithTheDriversLog) {
         EXPECT_EQ(error.stageLogs()[0].stage, Stage::Compute);
         EXPECT_THAT(error.stageLogs()[0].text, HasSubstr("undeclaredName"));
         EXPECT_THAT(error.what(), HasSubstr("a compute shader cannot be compiled:\n"));
+        EXPECT_THAT(error.what(), EndsWith("\nIt is program 'broken'."));
         EXPECT_TRUE(error.linkLog().empty());
     }
 }
@@ -39,6 +41,7 @@ TEST_F(ProgramTest, aProgramThatDoesNotLinkIsAlwaysNamed) {
     } catch (const ShaderError& error) {
         EXPECT_TRUE(error.stageLogs().empty());
         EXPECT_THAT(error.what(), HasSubstr("a shader program cannot be linked:\n"));
+        EXPECT_THAT(error.what(), EndsWith("\nIt is program 'unlinked'."));
     }
 }
 
