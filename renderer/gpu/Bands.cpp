@@ -68,26 +68,32 @@ void drawInBands(const std::function<void()>& draw, BandCost cost) {
     const int usualRows = cost == BandCost::Geometry ? quarter : kRowStep;
     int rows = state.pace.beginsSlow ? kSlowStep : usualRows, columns = state.width;
     for (int row = 0; row < state.height;) {
-        double ms = 0.0; // of the latest piece
+        double slowestMs = 0.0; // of the band's pieces
         for (int column = 0; column < state.width;) {
             if (row + column > 0) askToGoOn();
             const CpuTimer clock;
             glEnable(GL_SCISSOR_TEST);
-            glScissor(column, row, std::min(columns, state.width - column), std::min(rows, state.height - row));
+            const int width = std::min(columns, state.width - column);
+            glScissor(column, row, width, std::min(rows, state.height - row));
             draw();
             glDisable(GL_SCISSOR_TEST);
             glFinish();
-            ms = clock.elapsedMs();
-            column += columns;
+            const double ms = clock.elapsedMs();
+            slowestMs = std::max(slowestMs, ms);
+            column += width;
             // Narrower than the picture only where even the lowest bands are slow.
-            if (ms > state.pace.longestMs && rows == kSlowStep) columns = std::max(columns / 4, kSlowStep);
-            if (ms < 0.5 * state.pace.longestMs) columns = std::min(columns * 4, state.width);
+            if (ms > state.pace.longestMs && rows == kSlowStep)
+                columns = std::max(columns / 4, kSlowStep);
+            else if (2.0 * ms < state.pace.longestMs && width == columns) // not of one that the edge cut
+                columns = std::min(columns * 2, state.width);
         }
         row += rows;
-        if (ms > state.pace.longestMs)
-            rows = std::max(rows / 4, kSlowStep);
-        else if (columns == state.width)
-            rows = std::max(nextRows(rows, ms), usualRows);
+        if (slowestMs > state.pace.longestMs)
+            rows = std::max(rows / 4 / kSlowStep * kSlowStep, kSlowStep);
+        else if (columns == state.width && rows >= usualRows)
+            rows = std::max(nextRows(rows, slowestMs), usualRows);
+        else if (columns == state.width && 2.0 * slowestMs < state.pace.longestMs)
+            rows = std::min(rows * 2, usualRows);
     }
 }
 
