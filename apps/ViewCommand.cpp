@@ -42,6 +42,7 @@ int view(const ViewOptions& options, const GlobalOptions& global) {
     viewing.load.lights = options.frame.lights;
     viewing.load.defaultLight = !options.frame.noDefaultLight;
     viewing.log = options.log;
+    viewing.warn = [](const std::string& text) { spdlog::warn("{}", text); };
     viewing.windowSize = viewing.preferences.windowSize.value_or(viewing.windowSize);
     if (options.window) viewing.windowSize = sizeNamed(*options.window);
     if (options.frame.size && !options.window) viewing.pictureSize = sizeNamed(*options.frame.size);

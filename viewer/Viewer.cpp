@@ -100,16 +100,17 @@ private:
     // ---- Scenes ----
     bool isLeaving() {
         if (!window_.shouldClose()) return false;
-        if (mayLeave()) return true;
+        if (mayLeave("quit")) return true;
         window_.keepOpen();
         return false;
     }
 
-    /// Edits that were not saved are left behind only by who asks for it twice.
-    bool mayLeave() {
+    /// Edits that were not saved are left behind only by who asks twice for the same.
+    bool mayLeave(const std::string& order) {
         if (!state_.open || !state_.open->isEdited()) return true;
-        const bool wasWarned = warnedOf_ == state_.open->revision() && now() < warnedUntil_;
-        warnedOf_ = state_.open->revision();
+        const Warned warned{order, state_.open->edits()};
+        const bool wasWarned = warned_ == warned && now() < warnedUntil_;
+        warned_ = warned;
         warnedUntil_ = now() + kNoticeSeconds;
         if (wasWarned) return true;
         state_.notice = {std::filesystem::path(state_.open->source()).filename().string() +
@@ -120,10 +121,19 @@ private:
         return false;
     }
 
+    void open(const std::string& source) {
+        if (!mayLeave(orderToOpen(source))) return;
+        editsLeft_ = state_.open ? state_.open->edits() : 0;
+        scenes_.open(source);
+    }
+    static std::string orderToOpen(const std::string& source) { return "open " + source; }
+
     void adoptLoaded() {
-        std::unique_ptr<OpenScene> scene = scenes_.take();
+        // Of edits that were made while it was loaded nobody was asked.
+        const bool hasNewEdits = state_.open && state_.open->edits() != editsLeft_;
+        if (scenes_.hasScene() && hasNewEdits && !mayLeave(orderToOpen(state_.loading))) return scenes_.discard();
+        std::unique_ptr<OpenScene> scene = scenes_.take([this](const OpenScene& loaded) { screen_.open(loaded); });
         if (!scene) return;
-        screen_.open(*scene);
         measurements_.clear(facts_);
         state_.timings.clear();
         state_.open = std::move(scene);
@@ -169,9 +179,7 @@ private:
         state_.shaderFaults.erase(std::unique(state_.shaderFaults.begin(), state_.shaderFaults.end()),
                                   state_.shaderFaults.end());
         for (const std::string& fault : state_.shaderFaults) log_.line("shader error " + fault);
-        if (state_.shaderFaults.empty()) {
-            log_.line("shaders reloaded");
-        }
+        if (state_.shaderFaults.empty()) log_.line("shaders reloaded");
         screen_.forget();
         settleFrames_ = kSettleFrames;
     }
@@ -202,13 +210,14 @@ private:
         expireNotice();
         // More input waits: what it leads to is worth a picture, each step of it only now and then.
         if (!window_.input().empty() && started - shownAt_ < kHurrySeconds) return;
+        const int givenUp = givenUp_;
         const bool drew = drawPictures();
         attempt([this] {
             if (screen_.renderer() && measurements_.update(facts_, state_, screen_, wanted_, isWhole()))
                 settleFrames_ = std::max(settleFrames_, 1);
         });
         show();
-        if (facts_.isPreparing) return; // the picture that answers is yet to come
+        if (facts_.isPreparing || givenUp_ > givenUp) return; // the picture that answers is yet to come
         const std::optional<double> heardAt = std::exchange(heardAt_, std::nullopt);
         if (heardAt && drew) log_.line(fmt::format("answered ms {:.1f}", 1000.0 * (shownAt_ - *heardAt)));
     }
@@ -232,16 +241,16 @@ private:
     void serveRequests() {
         const Requests requests = std::exchange(state_.requests, {});
         attempt([&] {
-            if (requests.open && mayLeave()) scenes_.open(*requests.open, {});
+            if (requests.open) open(*requests.open);
         });
-        attempt([&] { serveSaves(requests); });
+        attempt([&] { serveSceneRequests(requests); });
         attempt([&] {
             if (requests.reloadShaders) reloadShaders();
         });
         if (requests.quit) window_.close();
     }
 
-    void serveSaves(const Requests& requests) {
+    void serveSceneRequests(const Requests& requests) {
         const gpu::Rectangle place = areaPixels();
         if (!state_.open || place.width < 1 || place.height < 1) return;
         const glm::ivec2 size(place.width, place.height);
@@ -302,6 +311,7 @@ private:
     /// Draws what changed: quickly while something moves, whole when it rests. Whether it drew.
     bool drawPictures() {
         const gpu::Rectangle place = areaPixels();
+        if (!std::exchange(facts_.isPreparing, false)) announcements_ = 0;
         if (!state_.open || place.width < 1 || place.height < 1) return false;
         wanted_.looks = state_.looks;
         for (Look& look : wanted_.looks) look.settings.sizePixels = {place.width, place.height};
@@ -322,21 +332,18 @@ private:
     bool isToBeAnnounced() {
         constexpr int kFrames = 2; // the interface of this frame is laid out already
         facts_.isPreparing = screen_.isNewKind(wanted_) && announcements_ < kFrames;
-        if (!facts_.isPreparing) {
-            announcements_ = 0;
-            return false;
-        }
+        if (!facts_.isPreparing) return false;
         ++announcements_;
         settleFrames_ = std::max(settleFrames_, 1);
         return true;
     }
 
     /// Whether something came while a picture is drawn that is more urgent. A picture of moving things is worth having
-    /// though they have moved on. The whole one is not; but a pointer that only wanders may not keep it away for ever.
+    /// though they have moved on. The whole one is not; but a pointer that only wanders may give it up twice at most.
     bool isInterrupted(bool isAtRest) {
         constexpr int kWanderings = 2;
         window_.poll();
-        if (window_.shouldClose() || window_.input().hasMoreThanMoves()) return true;
+        if (window_.shouldClose() || window_.input().isUrgent()) return true;
         return isAtRest && window_.hasActivity() && (window_.isButtonHeld() || givenUp_ < kWanderings);
     }
 
@@ -409,10 +416,17 @@ private:
     int announcements_ = 0; ///< frames for which the next picture has been announced
     int givenUp_ = 0;       ///< pictures since the latest that was drawn
     std::string title_;
-    std::optional<std::uint64_t> warnedOf_; ///< edits of which the user was told that they are not saved
+    /// What was asked for though there were edits that are not saved, and how many.
+    struct Warned {
+        std::string order;
+        std::uint64_t edits = 0;
+        bool operator==(const Warned&) const = default;
+    };
+    std::optional<Warned> warned_;
     double warnedUntil_ = 0.0;
-    std::string said_;         ///< the latest notice
-    std::string drawingFault_; ///< why the latest picture that failed did
+    std::uint64_t editsLeft_ = 0; ///< of the open scene, when the one that is loading was asked for
+    std::string said_;            ///< the latest notice
+    std::string drawingFault_;    ///< why the latest picture that failed did
     double saidUntil_ = 0.0;
     Saver saver_;
     Measurements measurements_;

@@ -1,4 +1,5 @@
 // Lights and materials edited, scenes changed, saved and opened again, by way of the panels.
+#include <algorithm>
 #include <map>
 
 #include <glm/geometric.hpp>
@@ -56,6 +57,23 @@ TEST_F(ViewerEdits, aLightSwitchedOffIsSavedAndOnAgainBringsThePictureBackExactl
     EXPECT_TRUE(pictureIn(again, again.waitForWhole(0)) == dark) << "the saved scene does not load back identically";
 }
 
+TEST_F(ViewerEdits, whatIsEditedWhileAnotherSceneLoadsIsNeverLeftBehindUnasked) {
+    DrivenViewer viewer = open({"spheres"});
+    viewer.waitForWhole(0);
+    toggle(viewer, Section::Lights);
+    const glm::ivec2 onOff(17, barOf(viewer, Section::Lights) + kFirstSwitchPixels + 2 * kSwitchPixels);
+    const std::size_t mark = viewer.mark();
+    chooseScene(viewer, "hall"); // takes seconds
+    viewer.waitFor("loading hall", mark);
+    viewer.click(onOff);
+    viewer.waitFor("edits are not saved", mark);
+    const std::vector<std::string> lines = viewer.lines();
+    EXPECT_FALSE(std::any_of(lines.begin(), lines.end(),
+                             [](const std::string& line) { return line.starts_with("opened hall"); }));
+    chooseScene(viewer, "hall");
+    viewer.waitFor("opened hall", mark);
+}
+
 TEST_F(ViewerEdits, aLightAddedAndDraggedAlwaysGoesWithThePointer) {
     DrivenViewer viewer = open({"room"});
     const Shot before = pictureIn(viewer, viewer.waitForWhole(0));
@@ -64,7 +82,7 @@ TEST_F(ViewerEdits, aLightAddedAndDraggedAlwaysGoesWithThePointer) {
         viewer.click({50, barOf(viewer, Section::Lights) + 197});
     }); // the button "Add"
     EXPECT_GT(differingShare(added, before, 4), 0.3);
-    // It is where the camera's pivot is, which is the middle of the picture.
+    // It is halfway to the camera's pivot, in the middle of the picture.
     const glm::ivec2 middle = kPictureCorner + before.sizePixels / 2, there = middle + glm::ivec2(120, -70);
     const Shot moved = after(viewer, [&] { viewer.drag(middle, there); });
     EXPECT_GT(differingShare(moved, added, 4), 0.2);

@@ -21,8 +21,4 @@ void EventLog::line(const std::string& text) const {
     std::fflush(stdout); // whoever reads acts on it now
 }
 
-void EventLog::warning(const std::string& text) const {
-    fmt::print(stderr, "tessera: warning: {}\n", oneLine(text));
-}
-
 } // namespace tessera::viewer

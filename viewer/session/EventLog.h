@@ -9,8 +9,6 @@ public:
     explicit EventLog(bool on) : on_(on) {}
     /// What has several lines, such as what a shader compiler says, becomes one.
     void line(const std::string& text) const;
-    /// What goes wrong when no window shows it any more: on stderr as the program's warnings are, asked for or not.
-    void warning(const std::string& text) const;
 
 private:
     bool on_;

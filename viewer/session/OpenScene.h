@@ -18,6 +18,8 @@ public:
     const scenes::SceneOrigin& origin() const { return origin_; }
     /// Lights or materials were edited since the scene was loaded or saved.
     bool isEdited() const { return edits_ != savedEdits_; }
+    /// Counts edits of lights and materials.
+    std::uint64_t edits() const { return edits_; }
     /// What is open is a file from now on that holds every edit, and the camera where it is. The picture stays.
     void becomes(const std::string& file);
     const scenes::LoadOptions& load() const { return load_; }

@@ -114,7 +114,8 @@ Preferences readPreferences(const std::filesystem::path& file) {
     std::error_code error;
     if (!std::filesystem::exists(file, error)) return preferences;
     if (!std::filesystem::is_regular_file(file, error))
-        throw InputError(fmt::format("{}: is no file, so settings are not kept; rename it", file.string()));
+        throw InputError(
+            fmt::format("{}: is not a regular file, so settings cannot be kept; rename or remove it", file.string()));
     std::ifstream stream(file, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
     if (!stream) throw InputError(fmt::format("{}: the settings cannot be read; check the permissions", file.string()));

@@ -42,8 +42,8 @@ void recall(const Preferences& preferences, State& state) {
     state.showsMarkers = preferences.showsMarkers;
 }
 
-void remember(Preferences& preferences, const State& state, const Look& begun, glm::ivec2 windowSize) {
-    const Look now = asked(state.looks[0]), before = asked(begun);
+void rememberLook(Preferences& preferences, const Look& look, const Look& begun) {
+    const Look now = asked(look), before = asked(begun);
     const frame::FrameSettings& settings = now.settings;
     const frame::FrameSettings& first = before.settings;
     const auto named = [](const auto& value) { return nameOf(value); };
@@ -54,7 +54,11 @@ void remember(Preferences& preferences, const State& state, const Look& begun, g
     keep(preferences.culling, settings.culling.method, first.culling.method, named);
     keep(preferences.tile, settings.culling.tilePixels, first.culling.tilePixels, asIs);
     keep(preferences.samples, settings.samples, first.samples, asIs);
-    keep(preferences.windowSize, std::optional(windowSize), state.firstWindowSize, asIs);
+}
+
+void remember(Preferences& preferences, const State& state, const Look& begun, glm::ivec2 windowSize) {
+    rememberLook(preferences, state.looks[0], begun);
+    if (windowSize != state.firstWindowSize) preferences.windowSize = windowSize;
     // No command line and no scene says these: they began as what was remembered.
     preferences.recent = state.recent;
     preferences.automaticScale = state.automaticScale;

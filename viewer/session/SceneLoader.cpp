@@ -74,6 +74,11 @@ bool SceneLoader::hasResult() const {
     return result_.has_value();
 }
 
+bool SceneLoader::hasScene() const {
+    const std::lock_guard lock(mutex_);
+    return result_ && result_->scene;
+}
+
 std::optional<SceneLoader::Result> SceneLoader::take() {
     const std::lock_guard lock(mutex_);
     return std::exchange(result_, std::nullopt);

@@ -34,6 +34,8 @@ public:
     /// The result of the latest start(), once.
     std::optional<Result> take();
     bool hasResult() const;
+    /// Whether that is a scene.
+    bool hasScene() const;
 
 private:
     struct Request {

@@ -9,8 +9,8 @@ namespace tessera::viewer {
 /// detours. Links are not followed.
 std::string identityOf(const std::string& source);
 
-/// A scene that was opened or saved comes first among the recent files. Built-in scenes are none, and what is no file
-/// neither.
+/// A scene that was opened or saved comes first among the recent files. Built-in scenes and anything that is not a file
+/// are left out.
 void noteRecent(std::vector<std::string>& recent, const std::string& source);
 
 } // namespace tessera::viewer

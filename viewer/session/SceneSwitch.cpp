@@ -11,8 +11,8 @@
 namespace tessera::viewer {
 
 SceneSwitch::SceneSwitch(const ViewerOptions& options, State& state, const EventLog& log, std::function<void()> done)
-    : options_(options), state_(state), log_(log), loader_(std::move(done)) {
-    recall(options.preferences, state_);
+    : options_(options), state_(state), log_(log), preferences_(options.preferences), loader_(std::move(done)) {
+    recall(preferences_, state_);
 }
 
 void SceneSwitch::open(const std::string& source, const scenes::LoadOptions& load) {
@@ -25,7 +25,12 @@ void SceneSwitch::open(const std::string& source, const scenes::LoadOptions& loa
     log_.line("loading " + source);
 }
 
-std::unique_ptr<OpenScene> SceneSwitch::take() {
+void SceneSwitch::discard() {
+    loader_.take();
+    state_.loading.clear();
+}
+
+std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const OpenScene& scene)>& show) {
     std::optional<SceneLoader::Result> result = loader_.take();
     if (!result) return nullptr;
     state_.loading.clear();
@@ -35,6 +40,9 @@ std::unique_ptr<OpenScene> SceneSwitch::take() {
                                              std::move(*result->origin));
     scene->useCamera(first.look.settings.camera);
     scene->place(first.pose);
+    show(*scene);
+    // From here on nothing fails.
+    if (hadScene_) rememberLook(preferences_, state_.looks[0], base_);
     for (Look& look : state_.looks) look = hadScene_ ? rebased(look, base_, first.look) : first.look;
     // The other side of a comparison begins as what shades the other way, and as fast with many lights.
     if (!hadScene_)
@@ -77,12 +85,11 @@ void SceneSwitch::comeBack(OpenScene& scene) {
 
 void SceneSwitch::remember(glm::ivec2 windowSize) {
     if (!options_.preferencesFile) return;
-    Preferences preferences = options_.preferences;
-    viewer::remember(preferences, state_, base_, windowSize);
+    viewer::remember(preferences_, state_, base_, windowSize);
     try {
-        writePreferences(preferences, *options_.preferencesFile);
+        writePreferences(preferences_, *options_.preferencesFile);
     } catch (const std::exception& error) {
-        log_.warning(error.what());
+        options_.warn(error.what());
     }
 }
 

@@ -20,10 +20,15 @@ public:
     /// whatever becomes of it; what it was told of any scene, for all.
     void open(const std::string& source, const scenes::LoadOptions& load = {});
     bool hasResult() const { return loader_.hasResult(); }
-    /// The scene that was loaded, once; null where there is none. The looks of the state become its; it still has to be
-    /// put there. Throws std::runtime_error where it could not be loaded.
-    std::unique_ptr<OpenScene> take();
-    /// Writes what is remembered, when the window is closed. What goes wrong is said on stderr.
+    /// Whether that is a scene, and not a failure.
+    bool hasScene() const { return loader_.hasScene(); }
+    /// The scene that was loaded, once; null where there is none. `show` gets it first; then the looks of the state
+    /// become its, and it still has to be put there. Throws where it could not be loaded, and what `show` throws; then
+    /// nothing has changed but that no scene waits.
+    std::unique_ptr<OpenScene> take(const std::function<void(const OpenScene& scene)>& show);
+    /// Leaves the result aside.
+    void discard();
+    /// Writes what is remembered, when the window is closed. What goes wrong is told as a warning.
     void remember(glm::ivec2 windowSize);
 
 private:
@@ -41,6 +46,7 @@ private:
     const ViewerOptions& options_;
     State& state_;
     const EventLog& log_;
+    Preferences preferences_;          ///< of the runs before, and what was chosen since
     Look base_;                        ///< what the open scene began with
     bool hadScene_ = false;            ///< the looks of the state and `base_` are a scene's
     bool wasAsked_ = false;            ///< to open a scene

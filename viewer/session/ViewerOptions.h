@@ -29,6 +29,8 @@ struct ViewerOptions {
     Preferences preferences;               ///< of the runs before
     std::optional<std::filesystem::path> preferencesFile; ///< where they are kept; none: nowhere
     bool log = false;                                     ///< a line on stdout for whatever happens
+    /// Told of what goes wrong when no window shows it any more.
+    std::function<void(const std::string& text)> warn = [](const std::string&) {};
 };
 
 } // namespace tessera::viewer

@@ -45,11 +45,14 @@ void Screen::open(const OpenScene& scene) {
     renderer_->backend().setProfiling(context_.capabilities().isSoftware);
     materialRevision_ = scene.materialRevision();
     forget();
+    kinds_.reset(); // its programs are yet to be compiled
+    latestMs_ = 0.0;
     resolution_.restart(context_.capabilities().isSoftware ? kSoftwareGuess : 1.0);
 }
 
 bool Screen::isNewKind(const Wanted& wanted) const {
-    return !isOfKind(kinds_[0], wanted.looks[0]) || (wanted.sides == 2 && !isOfKind(kinds_[1], wanted.looks[1]));
+    return !kinds_ || !isOfKind((*kinds_)[0], wanted.looks[0]) ||
+           (wanted.sides == 2 && !isOfKind((*kinds_)[1], wanted.looks[1]));
 }
 
 void Screen::takeEdits() {
@@ -63,7 +66,6 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::functi
     result.scale = scale;
     result.sizePixels = scaled(wanted.looks[0].settings.sizePixels, scale);
     const bool isNew = isNewKind(wanted), isSlowKind = isSlow(wanted);
-    kinds_ = wanted.looks;
     drawn_.reset();
     failed_.reset();
     const std::size_t programs = renderer_->programs().size();
@@ -91,11 +93,13 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::functi
         throw;
     }
     drawn_ = wanted;
+    kinds_ = wanted.looks;
     drawnScale_ = scale;
     differenceIsStale_ = true;
     const bool compiled = renderer_->programs().size() != programs;
-    if (!isNew && !compiled) resolution_.drew(scale, result.ms);
-    if (scale < 1.0) latestMs_ = result.ms;
+    if (isNew || compiled) return result;
+    resolution_.drew(scale, result.ms);
+    if (scale < 1.0 || result.ms < kSlowMs) latestMs_ = result.ms;
     return result;
 }
 

@@ -87,10 +87,10 @@ private:
     bool differenceIsStale_ = true;
     float differenceFactor_ = 0.0f;
     ResolutionScale resolution_;
-    std::array<Look, 2> kinds_; ///< what the cost of a pixel was learned from
+    std::optional<std::array<Look, 2>> kinds_; ///< what was drawn last of this scene
     std::optional<Wanted> drawn_, failed_;
     double drawnScale_ = 0.0;
-    double latestMs_ = 0.0; ///< of the latest picture while something moved
+    double latestMs_ = 0.0; ///< of the latest picture while something moved, without what was spent on compiling
 };
 
 } // namespace tessera::viewer

@@ -33,9 +33,10 @@ void InputQueue::push(const InputEvent& event) {
     events_.push_back(event);
 }
 
-bool InputQueue::hasMoreThanMoves() const {
-    return std::any_of(events_.begin(), events_.end(),
-                       [](const InputEvent& event) { return event.kind != InputEvent::Kind::Move; });
+bool InputQueue::isUrgent() const {
+    return std::any_of(events_.begin(), events_.end(), [](const InputEvent& event) {
+        return event.kind == InputEvent::Kind::Scroll || (isSwitch(event) && !event.repeated);
+    });
 }
 
 std::vector<InputEvent> InputQueue::takeFrame() {

@@ -29,8 +29,8 @@ public:
     /// did, and before the pointer moves on from where a button changed.
     std::vector<InputEvent> takeFrame();
     bool empty() const { return events_.empty(); }
-    /// Whether more waits than a pointer on its way.
-    bool hasMoreThanMoves() const;
+    /// Whether a button, a wheel or a key that was not held down already waits.
+    bool isUrgent() const;
 
 private:
     std::deque<InputEvent> events_;

@@ -54,15 +54,20 @@ TEST(InputQueue, aPathIsAlwaysAsOldAsItsBeginning) {
     EXPECT_EQ(queue.takeFrame().front().heardSeconds, 1.0);
 }
 
-TEST(InputQueue, whatIsMoreThanAPointerOnItsWayIsAlwaysTold) {
+TEST(InputQueue, buttonsWheelAndKeysAreAlwaysUrgentButNotAKeyThatIsHeld) {
     InputQueue queue;
-    EXPECT_FALSE(queue.hasMoreThanMoves());
+    EXPECT_FALSE(queue.isUrgent());
     queue.push(at(Kind::Move, 1.0f));
-    EXPECT_FALSE(queue.hasMoreThanMoves());
-    for (const Kind kind : {Kind::Button, Kind::Scroll, Kind::Key, Kind::Focus}) {
+    queue.push(at(Kind::Focus, 1.0f));
+    InputEvent held = at(Kind::Key, 1.0f, 87);
+    held.repeated = true;
+    queue.push(held);
+    queue.push(at(Kind::Character, 1.0f, 'w')); // comes with the key each time
+    EXPECT_FALSE(queue.isUrgent()) << "whoever flies would never see a slow picture";
+    for (const Kind kind : {Kind::Button, Kind::Scroll, Kind::Key}) {
         InputQueue more = queue;
         more.push(at(kind, 1.0f));
-        EXPECT_TRUE(more.hasMoreThanMoves());
+        EXPECT_TRUE(more.isUrgent());
     }
 }
 

@@ -79,7 +79,8 @@ TEST(Preferences, aFolderInTheirPlaceIsAlwaysAnErrorThatNamesIt) {
         readPreferences(file);
         FAIL() << "no error";
     } catch (const InputError& error) {
-        EXPECT_EQ(std::string(error.what()), file.string() + ": is no file, so settings are not kept; rename it");
+        EXPECT_EQ(std::string(error.what()),
+                  file.string() + ": is not a regular file, so settings cannot be kept; rename or remove it");
     }
 }
 

@@ -32,16 +32,23 @@ protected:
         };
     }
 
-    /// Opens a scene and waits for it; whether it is there.
+    /// Opens a scene and waits for it; whether it is there, else why not is in failure_.
     bool open(const std::string& source) {
         switch_.open(source);
         for (int i = 0; i < 6000 && !switch_.hasResult(); ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         EXPECT_TRUE(switch_.hasResult()) << "after a minute";
-        std::unique_ptr<OpenScene> scene = switch_.take();
-        if (!scene) return false;
-        state_.open = std::move(scene);
-        return true;
+        try {
+            std::unique_ptr<OpenScene> scene = switch_.take([this](const OpenScene&) {
+                if (cannotShow_) throw std::runtime_error("no memory");
+            });
+            EXPECT_TRUE(scene);
+            state_.open = std::move(scene);
+            return true;
+        } catch (const std::exception& error) {
+            failure_ = error.what();
+            return false;
+        }
     }
 
     /// A scene of two cameras; other scenes need not look like this.
@@ -62,6 +69,8 @@ protected:
     }
 
     TempFolder folder_;
+    std::string failure_;
+    bool cannotShow_ = false;
     int saidCamera_ = 0;
     scenes::CameraChange saidPose_;
     std::vector<bool> firsts_;
@@ -74,7 +83,7 @@ protected:
 TEST_F(SceneSwitchTest, whatWasSaidOfTheFirstSceneNeverCountsForAnotherAlsoWhereTheFirstFailed) {
     saidCamera_ = 7;
     EXPECT_FALSE(open("room"));
-    EXPECT_EQ(state_.notice.text, "no such camera");
+    EXPECT_EQ(failure_, "no such camera");
     EXPECT_TRUE(open("room"));
     EXPECT_EQ(firsts_, (std::vector<bool>{true, false}));
     EXPECT_EQ(state_.looks[1].technique, recipes::Technique::ClusteredForward) << "as with the first that is shown";
@@ -83,6 +92,7 @@ TEST_F(SceneSwitchTest, whatWasSaidOfTheFirstSceneNeverCountsForAnotherAlsoWhere
 TEST_F(SceneSwitchTest, aMissingFirstFileNeverPlacesTheCameraOfTheNext) {
     saidPose_.eyeWS = glm::dvec3(9, 9, 9);
     EXPECT_FALSE(open((folder_.path() / "missing.glb").string()));
+    EXPECT_THAT(failure_, HasSubstr("missing.glb"));
     EXPECT_TRUE(open("room"));
     EXPECT_EQ(firsts_, std::vector<bool>{false});
     EXPECT_FALSE(state_.open->rig().isMoved());
@@ -140,6 +150,46 @@ TEST_F(SceneSwitchTest, aCameraThatTheFileHasNoMoreIsNeverComeBackTo) {
     EXPECT_FALSE(state_.open->rig().isMoved());
 }
 
+TEST_F(SceneSwitchTest, aSceneThatCannotBeShownNeverChangesWhatTheOpenOneLooksLike) {
+    ASSERT_TRUE(open(sceneFile("a.json")));
+    state_.open->useCamera(1);
+    for (Look& look : state_.looks) look.settings.camera = 1;
+    const auto looks = state_.looks;
+    const std::vector<std::string> recent = state_.recent;
+    cannotShow_ = true;
+    EXPECT_FALSE(open(sceneFile("b.json")));
+    EXPECT_EQ(failure_, "no memory");
+    EXPECT_TRUE(state_.looks == looks);
+    EXPECT_EQ(state_.recent, recent);
+    EXPECT_TRUE(state_.loading.empty());
+    cannotShow_ = false;
+    EXPECT_TRUE(open("room"));
+}
+
+TEST_F(SceneSwitchTest, whatWasChosenIsAlwaysRememberedThoughTheNextSceneWishesTheSame) {
+    options_.preferencesFile = folder_.path() / "viewer.json";
+    ASSERT_TRUE(open("room"));
+    for (Look& look : state_.looks) look.technique = recipes::Technique::Forward;
+    options_.lookOf = [](const scenes::Scene&, const std::string&, bool) {
+        FirstLook look;
+        look.look.technique = recipes::Technique::Forward;
+        return look;
+    };
+    ASSERT_TRUE(open("spheres"));
+    switch_.remember({800, 600});
+    EXPECT_EQ(readPreferences(*options_.preferencesFile).technique, "forward");
+}
+
+TEST_F(SceneSwitchTest, aResultThatIsDiscardedNeverComesBack) {
+    switch_.open("room");
+    for (int i = 0; i < 6000 && !switch_.hasResult(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_TRUE(switch_.hasScene());
+    switch_.discard();
+    EXPECT_FALSE(switch_.hasResult() || switch_.hasScene());
+    EXPECT_TRUE(state_.loading.empty());
+    EXPECT_EQ(switch_.take([](const OpenScene&) { FAIL() << "shown"; }), nullptr);
+}
+
 TEST_F(SceneSwitchTest, withoutTheDefaultLightNoSceneEverGetsIt) {
     options_.load.defaultLight = false;
     const std::string file = folder_.write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
@@ -149,11 +199,12 @@ TEST_F(SceneSwitchTest, withoutTheDefaultLightNoSceneEverGetsIt) {
     EXPECT_FALSE(state_.open->load().defaultLight) << "and the command says so";
 }
 
-TEST_F(SceneSwitchTest, settingsThatCannotBeKeptAreAlwaysToldOnStderr) {
+TEST_F(SceneSwitchTest, settingsThatCannotBeKeptAreAlwaysToldAsAWarning) {
     options_.preferencesFile = folder_.write("file", "") / "viewer.json";
-    testing::internal::CaptureStderr();
+    std::string told;
+    options_.warn = [&told](const std::string& text) { told = text; };
     switch_.remember({800, 600});
-    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("tessera: warning: cannot make the folder"));
+    EXPECT_THAT(told, HasSubstr("cannot make the folder"));
 }
 
 } // namespace
