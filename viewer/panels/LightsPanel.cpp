@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "viewer/edit/Bounded.h"
 #include "viewer/edit/LightList.h"
 #include "viewer/panels/ChooseNamed.h"
 #include "viewer/panels/Panels.h"
@@ -14,7 +15,6 @@ namespace tessera::viewer {
 namespace {
 
 constexpr float kListRows = 7.0f;
-constexpr float kLeastRangeMetres = 1e-3f;
 constexpr float kFirstRangeMetres = 10.0f; ///< of a light that had none
 
 bool tableRow(State& state, scenes::Scene& scene, int index) {
@@ -64,23 +64,21 @@ bool lightList(State& state, scenes::Scene& scene) {
 }
 
 bool brightnessRows(scenes::Light& light) {
-    constexpr float kMost = 1e9f;
     bool changed = colorRow("Colour", light.color, kMostLightColor);
     const char* unit = light.type == scenes::LightType::Directional ? "%.4g lx" : "%.4g cd";
     row("Intensity");
-    changed |= edit(light.intensity, 0.0f, kMost, [&](float& intensity) {
-        return ImGui::DragFloat("##Intensity", &intensity, 0.01f * std::max(intensity, 0.01f), 0.0f, kMost,
+    changed |= edit(light.intensity, 0.0f, kMostIntensity, [&](float& intensity) {
+        return ImGui::DragFloat("##Intensity", &intensity, 0.01f * std::max(intensity, 0.01f), 0.0f, kMostIntensity,
                                 light.falloff == scenes::Falloff::Attenuation ? "%.4g" : unit);
     });
     return changed;
 }
 
 bool attenuationRow(scenes::Light& light) {
-    constexpr float kMost = 1e6f;
     row("A, B, C");
     glm::vec3 attenuation = light.attenuation;
-    const bool changed = edit(attenuation, 0.0f, kMost, [](glm::vec3& value) {
-        return ImGui::DragFloat3("##Attenuation", &value.x, 0.01f, 0.0f, kMost, "%.4g");
+    const bool changed = edit(attenuation, 0.0f, kMostAttenuation, [](glm::vec3& value) {
+        return ImGui::DragFloat3("##Attenuation", &value.x, 0.01f, 0.0f, kMostAttenuation, "%.4g");
     });
     tip("Divided by A + B d + C d\xc2\xb2");
     // Not all may be 0: the light would be endless at every distance.
@@ -90,7 +88,6 @@ bool attenuationRow(scenes::Light& light) {
 }
 
 bool rangeRow(scenes::Light& light) {
-    constexpr float kMost = 1e6f;
     bool changed = false;
     bool ends = !std::isinf(light.rangeMetres);
     row("Range");
@@ -102,15 +99,15 @@ bool rangeRow(scenes::Light& light) {
     if (!ends) return changed;
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1.0f);
-    changed |= edit(light.rangeMetres, kLeastRangeMetres, kMost, [](float& metres) {
-        return ImGui::DragFloat("##Range", &metres, 0.01f * metres, kLeastRangeMetres, kMost, "%.3g m");
+    changed |= edit(light.rangeMetres, kLeastRangeMetres, kMostRangeMetres, [](float& metres) {
+        return ImGui::DragFloat("##Range", &metres, 0.01f * metres, kLeastRangeMetres, kMostRangeMetres, "%.3g m");
     });
     return changed;
 }
 
 bool coneRows(scenes::Light& light) {
-    bool changed = angleSlider("Inner cone", light.innerConeRadians, 0.0f, 90.0f);
-    changed |= angleSlider("Outer cone", light.outerConeRadians, 0.0f, 90.0f);
+    bool changed = angleSlider("Inner cone", light.innerConeRadians, 0.0f, kMostConeDegrees);
+    changed |= angleSlider("Outer cone", light.outerConeRadians, 0.0f, kMostConeDegrees);
     if (changed) light.innerConeRadians = std::min(light.innerConeRadians, light.outerConeRadians);
     return changed;
 }
@@ -134,7 +131,7 @@ bool placeRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres)
     }
     if (light.type != scenes::LightType::Point) {
         glm::dvec3 directionWS = light.directionWS;
-        if (dragVector("Direction", directionWS, 0.01f, kMostMetres) && glm::length(directionWS) > 1e-3) {
+        if (dragVector("Direction", directionWS, 0.01f, kMostDirection) && glm::length(directionWS) > 1e-3) {
             light.directionWS = glm::normalize(directionWS);
             changed = true;
         }

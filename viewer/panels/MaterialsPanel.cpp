@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "viewer/edit/Bounded.h"
 #include "viewer/edit/MaterialModel.h"
 #include "viewer/panels/ChooseNamed.h"
 #include "viewer/panels/Panels.h"
@@ -16,10 +17,10 @@ using scenes::MaterialModel;
 
 bool microfacetRows(Material& material) {
     const bool anisotropic = material.model == MaterialModel::MicrofacetAnisotropic;
-    bool changed = slider(anisotropic ? "Alpha x" : "Alpha", material.alpha, 0.001f, 1.0f, "%.4f");
-    if (anisotropic) changed |= slider("Alpha y", material.alphaY, 0.001f, 1.0f, "%.4f");
+    bool changed = slider(anisotropic ? "Alpha x" : "Alpha", material.alpha, kLeastAlpha, kMostAlpha, "%.4f");
+    if (anisotropic) changed |= slider("Alpha y", material.alphaY, kLeastAlpha, kMostAlpha, "%.4f");
     changed |= colorRow("k_s", material.specularColor);
-    changed |= slider("Index n", material.ior, 1.0f, 4.0f);
+    changed |= slider("Index n", material.ior, kLeastIor, kMostIor);
     changed |= chooseNamed("Masking", material.masking, [anisotropic](scenes::Masking masking) {
         return anisotropic || masking != scenes::Masking::Directional;
     });
@@ -41,7 +42,7 @@ bool layerRows(Material& material) {
 bool metallicRows(Material& material) {
     bool changed = slider("Metallic", material.metallic, 0.0f, 1.0f);
     changed |= slider("Roughness", material.perceptualRoughness, 0.0f, 1.0f);
-    changed |= slider("Index n", material.ior, 1.0f, 4.0f);
+    changed |= slider("Index n", material.ior, kLeastIor, kMostIor);
     changed |= slider("Specular", material.specularFactor, 0.0f, 1.0f);
     changed |= colorRow("F0 tint", material.specularColor);
     changed |= layerRows(material);
@@ -55,7 +56,7 @@ bool modelRows(Material& material) {
         return false;
     case MaterialModel::BlinnPhong: {
         bool changed = colorRow("k_s", material.specularColor);
-        changed |= slider("Exponent", material.exponent, 1.0f, 1000.0f, "%.1f");
+        changed |= slider("Exponent", material.exponent, kLeastExponent, kMostExponent, "%.1f");
         return changed;
     }
     case MaterialModel::Microfacet:
@@ -72,7 +73,7 @@ bool surfaceRows(Material& material) {
     if (material.alphaMode != scenes::AlphaMode::Opaque) changed |= slider("Opacity", material.baseColor.w, 0.0f, 1.0f);
     if (material.alphaMode == scenes::AlphaMode::Mask) changed |= slider("Cutoff", material.alphaCutoff, 0.0f, 1.0f);
     if (material.texture(scenes::TextureSlot::Normal).image != scenes::kNone)
-        changed |= slider("Normal map", material.normalScale, 0.0f, 4.0f, "x %.2f");
+        changed |= slider("Normal map", material.normalScale, 0.0f, kMostNormalScale, "x %.2f");
     row("Two sides");
     changed |= ImGui::Checkbox("##doubleSided", &material.doubleSided);
     return changed;

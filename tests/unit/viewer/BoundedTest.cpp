@@ -30,18 +30,45 @@ TEST(Bounded, aChannelThatWasNotEditedNeverChangesAlsoBeyondTheBounds) {
     EXPECT_EQ(bounded(glm::vec3(2.0f, -1.0f, NAN), before, 0.0f, 1.0f), glm::vec3(2.0f, 0.0f, 0.5f));
 }
 
+scenes::Material materialAtBounds(bool isMost) {
+    const float share = isMost ? 1.0f : 0.0f; // of what lies between 0 and 1
+    scenes::Material material;
+    material.baseColor = glm::vec4(share);
+    material.specularColor = material.sheenColor = glm::vec3(share);
+    material.metallic = material.perceptualRoughness = material.specularFactor = share;
+    material.anisotropyStrength = material.clearcoat = share;
+    material.clearcoatPerceptualRoughness = material.sheenPerceptualRoughness = material.alphaCutoff = share;
+    material.emissive = glm::vec3(isMost ? kMostRadiance : 0.0f);
+    material.alpha = material.alphaY = isMost ? kMostAlpha : kLeastAlpha;
+    material.ior = isMost ? kMostIor : kLeastIor;
+    material.exponent = isMost ? kMostExponent : kLeastExponent;
+    material.normalScale = isMost ? kMostNormalScale : 0.0f;
+    return material;
+}
+
+scenes::Light lightAtBounds(bool isMost) {
+    scenes::Light light;
+    light.type = scenes::LightType::Spot;
+    light.color = glm::vec3(isMost ? kMostLightColor : 0.0f);
+    light.intensity = isMost ? kMostIntensity : 0.0f;
+    light.positionWS = glm::dvec3(isMost ? kMostMetres : -kMostMetres);
+    light.directionWS = glm::normalize(glm::dvec3(isMost ? kMostDirection : -kMostDirection));
+    light.rangeMetres = isMost ? kMostRangeMetres : kLeastRangeMetres;
+    light.attenuation = isMost ? glm::vec3(kMostAttenuation) : glm::vec3(1.0f, 0.0f, 0.0f); // never all 0
+    light.innerConeRadians = light.outerConeRadians = isMost ? glm::radians(kMostConeDegrees) : 0.0f;
+    return light;
+}
+
 TEST(Bounded, aSceneEditedToEveryBoundCanAlwaysBeSaved) {
     for (const bool isMost : {false, true}) {
         scenes::Scene scene;
-        scenes::Material& material = scene.materials.emplace_back();
-        material.emissive = glm::vec3(isMost ? kMostRadiance : 0.0f);
-        material.baseColor = material.emissive.x > 0.0f ? glm::vec4(1.0f) : glm::vec4(0.0f);
-        material.specularColor = material.sheenColor = glm::vec3(material.baseColor);
-        scenes::Light& light = scene.lights.emplace_back();
-        light.color = glm::vec3(isMost ? kMostLightColor : 0.0f);
-        light.positionWS = glm::dvec3(isMost ? kMostMetres : -kMostMetres);
+        scene.materials.push_back(materialAtBounds(isMost));
+        for (const scenes::Falloff falloff : {scenes::Falloff::InverseSquare, scenes::Falloff::Attenuation}) {
+            scene.lights.push_back(lightAtBounds(isMost));
+            scene.lights.back().falloff = falloff;
+        }
         EXPECT_NO_THROW(scenes::checkScene(scene));
-        const glm::vec3 position(light.positionWS);
+        const glm::vec3 position(scene.lights[0].positionWS);
         EXPECT_TRUE(std::isfinite(glm::dot(position, position)));
     }
 }
