@@ -53,11 +53,6 @@ Feature textureFeature(std::size_t slot) {
     return static_cast<Feature>(static_cast<std::size_t>(Feature::BaseColorTexture) + slot);
 }
 
-bool isMicrofacet(const scenes::Material& material) {
-    return material.model == scenes::MaterialModel::Microfacet ||
-           material.model == scenes::MaterialModel::MicrofacetAnisotropic;
-}
-
 bool changesSpecular(const scenes::Material& material) {
     const bool tinted = material.specularColor != glm::vec3(1.0f) ||
                         material.texture(scenes::TextureSlot::SpecularColor).image != scenes::kNone;
@@ -128,6 +123,11 @@ bool FeatureSet::textures() const {
         if ((*this)[textureFeature(slot)]) return true;
     }
     return false;
+}
+
+bool isMicrofacet(const scenes::Material& material) {
+    return material.model == scenes::MaterialModel::Microfacet ||
+           material.model == scenes::MaterialModel::MicrofacetAnisotropic;
 }
 
 FeatureSet materialFeatures(const scenes::Scene& scene) {

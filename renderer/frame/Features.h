@@ -81,6 +81,9 @@ struct FeatureSet {
     bool operator==(const FeatureSet&) const = default;
 };
 
+/// Whether it has one of the two microfacet models, which alone have options of masking.
+bool isMicrofacet(const scenes::Material& material);
+
 /// The set of what materials in use need; lights are added by packLights, which knows which of them can be seen, and
 /// the camera by makeFrameSpec.
 FeatureSet materialFeatures(const scenes::Scene& scene);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "renderer/frame/Features.h"
+
 namespace tessera::frame {
 
 namespace {
@@ -47,9 +49,7 @@ bool hasBrightSpecular(const scenes::Scene& scene) {
 
 bool masksByHalfVector(const scenes::Scene& scene) {
     return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
-        return (material.model == MaterialModel::Microfacet ||
-                material.model == MaterialModel::MicrofacetAnisotropic) &&
-               material.masking == scenes::Masking::HalfVector;
+        return isMicrofacet(material) && material.masking == scenes::Masking::HalfVector;
     });
 }
 

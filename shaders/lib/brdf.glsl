@@ -88,8 +88,8 @@ float visibilityHalfVector(float alpha, float cosineLight, float cosineView, flo
     return v;
 }
 
-// The same for height-correlated Smith masking. Source: Heitz 2014, "Understanding the Masking-Shadowing Function in
-// Microfacet-Based BRDFs", eq. 99. Needs both cosines > 0.
+// As visibilitySeparableOfLengths, for height-correlated Smith masking. Source: Heitz 2014, "Understanding the
+// Masking-Shadowing Function in Microfacet-Based BRDFs", eq. 99. Needs both cosines > 0.
 float visibilityCorrelatedOfLengths(float cosineLight, float lengthLight, float cosineView, float lengthView)
 {
     precise float v = 0.5 / (cosineLight * lengthView + cosineView * lengthLight);

@@ -55,7 +55,7 @@ public:
     void wheel(int clicks) const; ///< positive: away from the user
     void resize(glm::ivec2 sizePixels) const;
     void minimise() const;
-    void pause(double seconds) const; ///< does nothing
+    void pause(double seconds) const; ///< waits
     void restore() const;
 
     Shot capture() const;

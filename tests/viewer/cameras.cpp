@@ -38,7 +38,7 @@ TEST_F(ViewerCameras, aPictureAtRestIsNeverDrawnAgain) {
     DrivenViewer viewer = open({"room"});
     viewer.waitForWhole(0);
     const std::size_t mark = viewer.mark();
-    desktop_->xdotool({"sleep", "2"});
+    viewer.pause(2.0);
     EXPECT_EQ(viewer.mark(), mark) << "something was done while nothing changed";
 }
 

@@ -62,7 +62,7 @@ TEST_F(ViewerPictures, theCommandToPasteAlwaysRendersTheSavedPictureToTheLastBit
     const std::string png = savedFile(viewer.waitFor("saved ", mark));
     const Shot file = readShot(folder_.path() / png);
     viewer.key("Escape"); // the message that says where the file is
-    desktop_->xdotool({"sleep", "1"});
+    viewer.pause(1.0);
     EXPECT_TRUE(pictureIn(viewer, file.sizePixels) == file) << "the screenshot is not what the window shows";
 }
 
@@ -80,7 +80,7 @@ TEST_F(ViewerPictures, differentTechniquesSideBySideAlwaysDifferInNothing) {
     EXPECT_LT(differingShare(split, alone), 0.03);
     EXPECT_GT(differingShare(split, alone), 0.0005) << "there is no divider";
     viewer.key("x"); // difference, of the two pictures that are there
-    desktop_->xdotool({"sleep", "2"});
+    viewer.pause(2.0);
     const Shot difference = pictureIn(viewer, size);
     EXPECT_LT(differingShare(difference, Shot{size, std::vector<std::uint8_t>(difference.rgb.size(), 0)}), 0.001)
         << "techniques are equal to the last bit, so nothing may be lit";

@@ -34,7 +34,7 @@ TEST_F(ViewerShaders, aBrokenShaderNeverTakesThePictureAndItsMendingIsAlwaysSeen
     write(source + "\nthis is no GLSL;\n");
     const std::string fault = viewer.waitFor("shader error ", mark);
     EXPECT_NE(fault.find(std::string(kFile) + ":"), std::string::npos) << fault;
-    desktop_->xdotool({"sleep", "1"});
+    viewer.pause(1.0);
     // The message covers the lower part, the picture above it is the last good one.
     const glm::ivec2 upper(size.x, size.y / 2);
     const Shot broken = pictureIn(viewer, size);

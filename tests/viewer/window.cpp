@@ -11,15 +11,15 @@ TEST_F(ViewerWindow, anySizeDownToOnePixelAlwaysSurvivesAndComesBackWhole) {
     const Shot first = pictureIn(viewer, viewer.waitForWhole(0));
     for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(301, 30), glm::ivec2(800, 600), glm::ivec2(2, 700)}) {
         viewer.resize(size);
-        desktop_->xdotool({"sleep", "0.4"});
+        viewer.pause(0.4);
     }
     const std::size_t mark = viewer.mark();
     viewer.resize({1280, 800});
     EXPECT_TRUE(pictureIn(viewer, viewer.waitForWhole(mark)) == first);
     viewer.minimise();
-    desktop_->xdotool({"sleep", "0.5"});
+    viewer.pause(0.5);
     viewer.restore();
-    desktop_->xdotool({"sleep", "1"});
+    viewer.pause(1.0);
     EXPECT_TRUE(pictureIn(viewer, first.sizePixels) == first);
     viewer.close();
     EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
@@ -56,7 +56,7 @@ TEST_F(ViewerWindow, whyASceneCannotBeLoadedIsAlwaysShown) {
     DrivenViewer viewer = open({"broken.json"});
     const std::string said = viewer.waitFor("error ", 0);
     EXPECT_NE(said.find("broken.json"), std::string::npos) << said;
-    desktop_->xdotool({"sleep", "1"});
+    viewer.pause(1.0);
     // The reason stands in the window, and the viewer goes on.
     const auto lowerPart = [&] { return viewer.capture().part({kPanelPixels, 600}, {1280 - kPanelPixels, 170}); };
     const Shot message = lowerPart();

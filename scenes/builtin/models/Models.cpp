@@ -38,18 +38,18 @@ Mesh discMesh() {
     return mesh;
 }
 
-/// The cap of a sphere, facing +z, whose every place shows itself to who stands before it. It is for the material whose
-/// masking is divided by n.v: at a sphere's silhouette single precision does not know that.
+/// The cap of a sphere, facing +z, all of which is visible from in front. It is for the material whose masking is
+/// divided by n.v: at a sphere's silhouette single precision does not know that.
 Mesh capMesh() {
     constexpr double kHalfAngleRadians = 0.75;
-    const double sphereMetres = kRadiusMetres / std::sin(kHalfAngleRadians);
+    const double sphereRadiusMetres = kRadiusMetres / std::sin(kHalfAngleRadians);
     Mesh mesh;
     appendPatch(mesh, 64, 16, [&](double u, double v) {
         const double around = 2.0 * std::numbers::pi * u;
         const double away = kHalfAngleRadians * (1.0 - v); // from the axis, which is +z
         const glm::dvec3 normal(std::sin(away) * std::cos(around), std::sin(away) * std::sin(around), std::cos(away));
         return SurfacePoint{
-            sphereMetres * (normal - glm::dvec3(0.0, 0.0, std::cos(kHalfAngleRadians))), normal, {u, v}};
+            sphereRadiusMetres * (normal - glm::dvec3(0.0, 0.0, std::cos(kHalfAngleRadians))), normal, {u, v}};
     });
     return mesh;
 }

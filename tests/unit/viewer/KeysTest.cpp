@@ -32,7 +32,7 @@ TEST(Keys, digitsAlwaysShowTheViewOfTheirNumber) {
     }
 }
 
-TEST(Keys, anExposureBeyondTheSliderIsAlwaysSteppedByHalfAStep) {
+TEST(Keys, anExposureBeyondTheSliderIsAlwaysSteppedByHalfAStop) {
     State state;
     float& exposureEV = state.looks[0].settings.exposureEV;
     exposureEV = -15.0f;

@@ -59,67 +59,67 @@ Parsed parsed(const std::string& line) {
 }
 
 /// Pasting the command gives the same technique, settings and camera, to the last bit.
-void expectSame(const RenderRequest& picture) {
+void expectSame(const RenderRequest& request) {
     scenes::LoadOptions load;
-    load.lights = picture.lights;
-    load.defaultLight = picture.defaultLight;
-    const scenes::Scene scene = scenes::loadScene(picture.source, load);
-    const std::string line = renderCommand(picture, scene, "it's a picture.exr");
+    load.lights = request.lights;
+    load.defaultLight = request.defaultLight;
+    const scenes::Scene scene = scenes::loadScene(request.source, load);
+    const std::string line = renderCommand(request, scene, "it's a picture.exr");
     SCOPED_TRACE(line);
     const Parsed result = parsed(line);
-    EXPECT_EQ(result.options.scene, picture.source);
+    EXPECT_EQ(result.options.scene, request.source);
     EXPECT_EQ(result.output, "it's a picture.exr");
-    EXPECT_EQ(result.request.technique, picture.technique);
-    EXPECT_TRUE(result.request.settings == picture.settings);
-    const std::size_t camera = std::size_t(picture.settings.camera);
+    EXPECT_EQ(result.request.technique, request.technique);
+    EXPECT_TRUE(result.request.settings == request.settings);
+    const std::size_t camera = std::size_t(request.settings.camera);
     EXPECT_TRUE(result.request.scene.cameras.at(camera) ==
-                scenes::changedCamera(scene.cameras.at(camera), picture.pose));
+                scenes::changedCamera(scene.cameras.at(camera), request.pose));
     EXPECT_TRUE(result.request.scene.lights == scene.lights);
 }
 
-RenderRequest pictureOf(const std::string& source) {
-    RenderRequest picture;
-    picture.source = source;
-    return picture;
+RenderRequest requestOf(const std::string& source) {
+    RenderRequest request;
+    request.source = source;
+    return request;
 }
 
 TEST(RenderCommand, whatTheProgramDoesByItselfIsNeverSaid) {
     const tessera::test::TempFolder folder;
-    const RenderRequest picture = pictureOf("room");
-    EXPECT_EQ(renderCommand(picture, scenes::loadScene("room"), "picture.exr"), "tessera render room -o picture.exr");
+    const RenderRequest request = requestOf("room");
+    EXPECT_EQ(renderCommand(request, scenes::loadScene("room"), "picture.exr"), "tessera render room -o picture.exr");
 }
 
 TEST(RenderCommand, everyNameOfEveryTableIsAlwaysReadAsItself) {
     const tessera::test::TempFolder folder;
     const std::string file = sceneFile(folder);
-    RenderRequest picture = pictureOf(file);
+    RenderRequest request = requestOf(file);
     for (const recipes::TechniqueInfo& row : recipes::techniqueTable())
-        picture.technique = row.technique, expectSame(picture);
-    for (const frame::LayoutInfo& row : frame::layoutTable()) picture.settings.layout = row.layout, expectSame(picture);
-    for (const frame::ViewInfo& row : frame::viewTable()) picture.settings.view = row.view, expectSame(picture);
+        request.technique = row.technique, expectSame(request);
+    for (const frame::LayoutInfo& row : frame::layoutTable()) request.settings.layout = row.layout, expectSame(request);
+    for (const frame::ViewInfo& row : frame::viewTable()) request.settings.view = row.view, expectSame(request);
     for (const frame::ToneMapInfo& row : frame::toneMapTable())
-        picture.settings.toneMap = row.toneMap, expectSame(picture);
+        request.settings.toneMap = row.toneMap, expectSame(request);
     for (const frame::TextureFilterInfo& row : frame::textureFilterTable())
-        picture.settings.filter = row.filter, expectSame(picture);
+        request.settings.filter = row.filter, expectSame(request);
     for (const frame::LightingSpaceInfo& row : frame::lightingSpaceTable())
-        picture.settings.space = row.space, expectSame(picture);
+        request.settings.space = row.space, expectSame(request);
     for (const frame::LightingStageInfo& row : frame::lightingStageTable())
-        picture.settings.lightOn = row.stage, expectSame(picture);
+        request.settings.lightOn = row.stage, expectSame(request);
     for (const culling::MethodInfo& row : culling::methodTable())
-        picture.settings.culling.method = row.method, expectSame(picture);
+        request.settings.culling.method = row.method, expectSame(request);
     for (const culling::BuilderInfo& row : culling::builderTable())
-        picture.settings.culling.builder = row.builder, expectSame(picture);
-    for (const int pixels : culling::kTileSides) picture.settings.culling.tilePixels = pixels, expectSame(picture);
-    for (const int samples : frame::kSampleCounts) picture.settings.samples = samples, expectSame(picture);
+        request.settings.culling.builder = row.builder, expectSame(request);
+    for (const int pixels : culling::kTileSides) request.settings.culling.tilePixels = pixels, expectSame(request);
+    for (const int samples : frame::kSampleCounts) request.settings.samples = samples, expectSame(request);
 }
 
 /// Every setting is not what it is by itself.
 RenderRequest everythingSaid(const std::string& file) {
-    RenderRequest picture = pictureOf(file);
-    picture.lights = 1;
-    picture.defaultLight = false;
-    picture.technique = recipes::Technique::ForwardPlus;
-    frame::FrameSettings& settings = picture.settings;
+    RenderRequest request = requestOf(file);
+    request.lights = 1;
+    request.defaultLight = false;
+    request.technique = recipes::Technique::ForwardPlus;
+    frame::FrameSettings& settings = request.settings;
     settings.sizePixels = {641, 359};
     settings.samples = 4;
     settings.camera = 1;
@@ -136,13 +136,13 @@ RenderRequest everythingSaid(const std::string& file) {
     settings.lightOn = frame::LightingStage::Compute;
     settings.exposureEV = -0.1f;
     settings.toneMap = frame::ToneMap::Agx;
-    picture.pose.eyeWS = glm::dvec3(-1.0 / 3.0, 1e-17, 123456.789);
-    picture.pose.targetWS = glm::dvec3(0.1, 0.2, 0.3);
-    picture.pose.upWS = glm::dvec3(-1.0, 1.0, 1.0 / 7.0);
-    picture.pose.halfHeightMetres = 2.0 / 3.0;
-    picture.pose.nearMetres = 1e-3;
-    picture.pose.farMetres = 1e7 / 3.0;
-    return picture;
+    request.pose.eyeWS = glm::dvec3(-1.0 / 3.0, 1e-17, 123456.789);
+    request.pose.targetWS = glm::dvec3(0.1, 0.2, 0.3);
+    request.pose.upWS = glm::dvec3(-1.0, 1.0, 1.0 / 7.0);
+    request.pose.halfHeightMetres = 2.0 / 3.0;
+    request.pose.nearMetres = 1e-3;
+    request.pose.farMetres = 1e7 / 3.0;
+    return request;
 }
 
 TEST(RenderCommand, allSettingsAtOnceAreAlwaysReadBackToTheLastBit) {
@@ -157,11 +157,11 @@ TEST(RenderCommand, allSettingsAtOnceAreAlwaysReadBackToTheLastBit) {
 
 TEST(RenderCommand, everyOptionOfAFrameIsAlwaysSaidWhereItDiffers) {
     const tessera::test::TempFolder folder;
-    RenderRequest picture = everythingSaid(sceneFile(folder));
-    const scenes::Scene scene = scenes::loadScene(picture.source);
-    std::string said = renderCommand(picture, scene, "a.exr");
-    picture.pose.fovYDegrees = 50.0;
-    said += renderCommand(picture, scene, "a.exr");
+    RenderRequest request = everythingSaid(sceneFile(folder));
+    const scenes::Scene scene = scenes::loadScene(request.source);
+    std::string said = renderCommand(request, scene, "a.exr");
+    request.pose.fovYDegrees = 50.0;
+    said += renderCommand(request, scene, "a.exr");
     app::FrameOptions options;
     CLI::App command;
     app::addFrameSettings(command, options);
@@ -180,7 +180,7 @@ TEST(RenderCommand, whatTheSceneAsksForIsNeverSaidAndTheProgramsOwnChoiceThenAlw
     const std::string file =
         sceneFile(folder, R"({"technique": "forward", "layout": "packed", "camera": "plan of $HOME", "toneMap": "aces",
                               "exposureEV": 1.5, "size": [320, 200]})");
-    RenderRequest wished = pictureOf(file);
+    RenderRequest wished = requestOf(file);
     wished.technique = recipes::Technique::Forward;
     wished.settings.layout = frame::layoutTable()[1].layout;
     wished.settings.camera = 1;
@@ -190,20 +190,20 @@ TEST(RenderCommand, whatTheSceneAsksForIsNeverSaidAndTheProgramsOwnChoiceThenAlw
     const std::string line = renderCommand(wished, scenes::loadScene(file), "a.exr");
     EXPECT_EQ(line.find("--"), std::string::npos) << line;
     expectSame(wished);
-    expectSame(pictureOf(file));
+    expectSame(requestOf(file));
 }
 
 TEST(RenderCommand, aSceneWhoseNameBeginsWithADashIsNeverTakenForAnOption) {
-    EXPECT_EQ(renderCommand(pictureOf("-x.json"), scenes::loadScene("room"), "-y.exr"),
+    EXPECT_EQ(renderCommand(requestOf("-x.json"), scenes::loadScene("room"), "-y.exr"),
               "tessera render ./-x.json -o ./-y.exr");
 }
 
 TEST(FrameOptionText, whatWasGivenIsAlwaysTypedTheSameWayAgain) {
     const tessera::test::TempFolder folder;
-    const RenderRequest picture = everythingSaid(sceneFile(folder));
-    const app::FrameOptions options = parsed(renderCommand(picture, scenes::loadScene(picture.source), "a")).options;
+    const RenderRequest request = everythingSaid(sceneFile(folder));
+    const app::FrameOptions options = parsed(renderCommand(request, scenes::loadScene(request.source), "a")).options;
     const app::FrameOptions again =
-        parsed("tessera render " + shellWord(picture.source) + app::frameOptionText(options) + " -o a").options;
+        parsed("tessera render " + shellWord(request.source) + app::frameOptionText(options) + " -o a").options;
     EXPECT_EQ(app::frameOptionText(options), app::frameOptionText(again));
     EXPECT_TRUE(app::resolve(options).settings == app::resolve(again).settings);
     EXPECT_TRUE(options.pose == again.pose);

@@ -1,0 +1,36 @@
+#include <gtest/gtest.h>
+
+#include "passes/recipes/Renderer.h"
+#include "renderer/frame/RefineLayout.h"
+#include "scenes/Load.h"
+
+namespace tessera::recipes {
+namespace {
+
+/// What the plan says of channels that are not stored as the layout says.
+std::vector<graph::Plan::Choice> channelChoices(const scenes::Scene& scene, const frame::GBufferLayout& layout) {
+    frame::FrameSettings settings;
+    settings.layout = layout;
+    std::vector<graph::Plan::Choice> found;
+    for (const graph::Plan::Choice& choice : planFrame(scene, Technique::Deferred, settings).choices)
+        if (choice.what.starts_with("G-buffer channel ")) found.push_back(choice);
+    return found;
+}
+
+TEST(PlanFrame, aChannelThatIsStoredFinerThanTheLayoutIsAlwaysNamedWithItsReasonAndNoOtherIs) {
+    const scenes::Scene scene = scenes::loadScene("models"); // one of its materials masks by the half vector
+    const frame::GBufferLayout& packed = frame::layoutTable()[1].layout;
+    const frame::GBufferLayout& slim = frame::layoutTable()[2].layout;
+    const std::vector<graph::Plan::Choice> choices = channelChoices(scene, slim);
+    const std::vector<frame::Refinement> refinements = frame::refinements(slim, scene);
+    ASSERT_EQ(choices.size(), 1u);
+    ASSERT_EQ(refinements.size(), 1u);
+    EXPECT_EQ(choices[0].what, "G-buffer channel normal");
+    EXPECT_EQ(choices[0].chosen, "as in packed");
+    EXPECT_FALSE(choices[0].why.empty());
+    EXPECT_EQ(choices[0].why, refinements[0].why);
+    EXPECT_TRUE(channelChoices(scene, packed).empty());
+}
+
+} // namespace
+} // namespace tessera::recipes
