@@ -56,6 +56,7 @@ void copyBuffer(const Buffer& from, const Buffer& to, std::size_t bytes, std::si
 
 void setState(const PipelineState& state);
 void useProgram(const Program& program);
+void useProgram(Program&& program) = delete; ///< it would be gone before anything is drawn
 void bindVertexArray(const VertexArray& vertexArray);
 
 enum class ImageAccess { Read, Write, ReadWrite };

@@ -30,7 +30,6 @@ inline testing::Environment* const kGlEnvironment = testing::AddGlobalTestEnviro
 /// behind.
 class GlTest : public testing::Test {
 protected:
-    void SetUp() override { context_ = &GlEnvironment::context(); }
     void TearDown() override {
         EXPECT_NO_THROW(gpu::throwIfFailed("after the test"));
         for (const std::string& warning : context_->debugLog().takeWarnings()) ADD_FAILURE() << warning;
@@ -38,7 +37,7 @@ protected:
     gpu::Context& context() { return *context_; }
 
 private:
-    gpu::Context* context_ = nullptr;
+    gpu::Context* context_ = &GlEnvironment::context(); ///< before the members of test classes, which may need it
 };
 
 } // namespace tessera::test

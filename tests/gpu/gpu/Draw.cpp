@@ -40,7 +40,8 @@ class FramebufferTest : public test::GlTest {};
 TEST_F(DrawTest, aFullscreenTriangleAlwaysCoversEveryPixelFromTheLowerLeft) {
     bindFramebuffer(framebuffers.get(target));
     setState({});
-    useProgram(fullscreen("color = vec4(gl_FragCoord.xy, 0.0, 1.0);"));
+    const Program coordinates = fullscreen("color = vec4(gl_FragCoord.xy, 0.0, 1.0);");
+    useProgram(coordinates);
     drawFullscreenTriangle();
     const std::vector<glm::vec4> texels = target.downloadAs<glm::vec4>();
     for (int y = 0; y < 2; ++y)
