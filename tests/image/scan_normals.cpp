@@ -24,12 +24,7 @@ protected:
         if (assets == nullptr || *assets == '\0') GTEST_SKIP() << "TESSERA_ASSETS is not set";
         folder_ = std::filesystem::path(assets) / "LeePerrySmith";
         if (!std::filesystem::exists(folder_ / "LeePerrySmith.gltf")) GTEST_SKIP() << folder_ << " is not there";
-        GlTest::SetUp();
     }
-    void TearDown() override {
-        if (!IsSkipped()) GlTest::TearDown();
-    }
-
     /// The normals that are lit, seen from the front.
     std::vector<float> normals(NormalMapSpace space, bool flipsGreen) {
         scenes::Scene scene = scenes::loadScene((folder_ / "LeePerrySmith.gltf").string());
