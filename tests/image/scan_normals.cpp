@@ -25,6 +25,7 @@ protected:
         folder_ = std::filesystem::path(assets) / "LeePerrySmith";
         if (!std::filesystem::exists(folder_ / "LeePerrySmith.gltf")) GTEST_SKIP() << folder_ << " is not there";
     }
+
     /// The normals that are lit, seen from the front.
     std::vector<float> normals(NormalMapSpace space, bool flipsGreen) {
         scenes::Scene scene = scenes::loadScene((folder_ / "LeePerrySmith.gltf").string());

@@ -21,6 +21,13 @@ protected:
         viewer.pause(0.3);
         return file;
     }
+    /// Opens a built-in scene by the list; its whole picture.
+    static Shot change(const DrivenViewer& viewer, const std::string& builtin) {
+        const std::size_t mark = viewer.mark();
+        chooseScene(viewer, builtin);
+        viewer.waitFor("opened " + builtin, mark);
+        return pictureIn(viewer, viewer.waitForWhole(mark));
+    }
     nlohmann::json readJson(const std::string& name) { return nlohmann::json::parse(shell("cat '" + name + "'")); }
 };
 
@@ -62,14 +69,11 @@ TEST_F(ViewerEdits, whatIsEditedWhileAnotherSceneLoadsIsNeverLeftBehindUnasked) 
     folder_.write("slow.json", room);
     DrivenViewer viewer = open({"slow.json"});
     viewer.waitForWhole(0);
-    std::size_t mark = viewer.mark();
-    chooseScene(viewer, "spheres");
-    viewer.waitFor("opened spheres", mark);
-    viewer.waitForWhole(mark);
+    change(viewer, "spheres");
     toggle(viewer, Section::Lights);
     const glm::ivec2 onOff(17, barOf(viewer, Section::Lights) + kFirstSwitchPixels + 2 * kSwitchPixels);
     folder_.write("slow.json", room + std::string(300'000'000, ' ')); // takes seconds to read
-    mark = viewer.mark();
+    const std::size_t mark = viewer.mark();
     chooseRecentScene(viewer, 0);
     viewer.waitFor("loading ", mark);
     viewer.click(onOff);
@@ -134,15 +138,9 @@ TEST_F(ViewerEdits, aMaterialPickedByAClickAndEditedIsAlwaysSaved) {
 TEST_F(ViewerEdits, aSceneChosenFromTheListAlwaysOpensAndKeepsTheTechnique) {
     DrivenViewer viewer = open({"room", "--technique", "forward_plus"});
     viewer.waitForWhole(0);
-    std::size_t mark = viewer.mark();
-    chooseScene(viewer, "spheres");
-    viewer.waitFor("opened spheres", mark);
-    const Shot spheres = pictureIn(viewer, viewer.waitForWhole(mark));
+    const Shot spheres = change(viewer, "spheres");
     EXPECT_TRUE(spheres == rendered("spheres --technique forward_plus", spheres.sizePixels));
-    mark = viewer.mark();
-    chooseScene(viewer, "models");
-    viewer.waitFor("opened models", mark);
-    const Shot models = pictureIn(viewer, viewer.waitForWhole(mark));
+    const Shot models = change(viewer, "models");
     EXPECT_TRUE(models == rendered("models --technique forward_plus", models.sizePixels));
 }
 
@@ -151,13 +149,10 @@ TEST_F(ViewerEdits, aSceneThatCannotBeReadNeverTakesTheOneThatIsOpen) {
     folder_.write("other.json", good);
     DrivenViewer viewer = open({"other.json"});
     viewer.waitForWhole(0);
-    std::size_t mark = viewer.mark();
-    chooseScene(viewer, "room");
-    viewer.waitFor("opened room", mark);
-    const Shot room = pictureIn(viewer, viewer.waitForWhole(mark));
+    const Shot room = change(viewer, "room");
     // It takes long enough to read that nothing else moves in the window when that fails.
     folder_.write("other.json", good.substr(0, 20) + std::string(30'000'000, ' '));
-    mark = viewer.mark();
+    const std::size_t mark = viewer.mark();
     chooseRecentScene(viewer, 0);
     const std::string said = viewer.waitFor("error ", mark);
     EXPECT_NE(said.find("other.json"), std::string::npos) << said;
