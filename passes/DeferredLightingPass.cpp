@@ -67,6 +67,7 @@ DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, con
             gpu::useProgram(resources->programs.get(program));
             gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
             resources->lights.bind();
+            resources->scene.bindMaterialTable();
             if (out.read.lists) resources->lightLists.bind();
             for (std::size_t i = 0; i < out.read.textures.size(); ++i) {
                 gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), context.texture(out.read.textures[i]));

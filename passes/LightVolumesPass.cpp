@@ -51,6 +51,7 @@ LightVolumesPass::Outputs LightVolumesPass::add(graph::Graph& graph, const frame
             gpu::useProgram(resources->programs.get(program));
             gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
             resources->lights.bind();
+            resources->scene.bindMaterialTable();
             for (std::size_t i = 0; i < out.textures.size(); ++i) {
                 gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), context.texture(out.textures[i]));
             }

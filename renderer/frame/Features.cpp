@@ -1,5 +1,7 @@
 #include "renderer/frame/Features.h"
 
+#include "shaders/shared/material.h"
+
 namespace tessera::frame {
 
 namespace {
@@ -45,6 +47,8 @@ constexpr FeatureInfo kTable[] = {
     {Feature::AlphaMask, "ALPHA_MASK", "alpha masks", "no material is alpha-masked"},
     {Feature::Blend, "BLEND", "transparent pass", "no material is alpha-blended"},
     {Feature::DoubleSided, "DOUBLE_SIDED", "two-sided normals", "no material is double-sided"},
+    {Feature::VaryingMaterials, "VARYING_MATERIALS", "materials that vary over a surface",
+     "no texture but normal maps, no vertex colour and no tangent changes one"},
     {Feature::OrthographicCamera, "ORTHOGRAPHIC_CAMERA", "parallel rays", "the camera is perspective"},
 };
 static_assert(std::size(kTable) == kFeatureCount);
@@ -61,6 +65,18 @@ bool changesSpecular(const scenes::Material& material) {
            (tinted || material.ior != 1.5f || material.texture(scenes::TextureSlot::Ior).image != scenes::kNone ||
             material.specularFactor != 1.0f ||
             material.texture(scenes::TextureSlot::SpecularFactor).image != scenes::kNone);
+}
+
+/// Whether pixels of a material can differ in more than directions. Anisotropy is a matter of directions, but one that
+/// changes alpha with them.
+bool varies(const scenes::Material& material) {
+    for (std::size_t i = 0; i < scenes::kTextureSlotCount; ++i) {
+        const auto slot = static_cast<scenes::TextureSlot>(i);
+        const bool bends = slot == scenes::TextureSlot::Normal || slot == scenes::TextureSlot::ClearcoatNormal;
+        if (!bends && material.textures[i].image != scenes::kNone) return true;
+    }
+    return material.model == scenes::MaterialModel::MicrofacetAnisotropic ||
+           (material.model == scenes::MaterialModel::MetallicRoughness && material.anisotropyStrength > 0.0f);
 }
 
 void addMaterial(FeatureSet& set, const scenes::Material& material) {
@@ -93,6 +109,7 @@ void addMaterial(FeatureSet& set, const scenes::Material& material) {
     set.add(Feature::AlphaMask, material.alphaMode == scenes::AlphaMode::Mask);
     set.add(Feature::Blend, material.alphaMode == scenes::AlphaMode::Blend);
     set.add(Feature::DoubleSided, material.doubleSided);
+    set.add(Feature::VaryingMaterials, varies(material));
 }
 
 } // namespace
@@ -144,6 +161,8 @@ FeatureSet materialFeatures(const scenes::Scene& scene) {
         }
     }
     if (!several) set.soleModel = model;
+    // More than fit their table are stored in the pixels as those that vary.
+    set.add(Feature::VaryingMaterials, set[Feature::VertexColor] || scene.materials.size() > MATERIAL_TABLE_MOST);
     return set;
 }
 

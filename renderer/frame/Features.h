@@ -50,6 +50,7 @@ enum class Feature : std::uint8_t {
     AlphaMask,
     Blend,
     DoubleSided,
+    VaryingMaterials, // values of a material change over a surface, so each pixel must hold its own
     OrthographicCamera,
     Count
 };

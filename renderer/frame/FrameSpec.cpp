@@ -52,6 +52,8 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     } else {
         spec.features = allFeatures();
     }
+    // What a view shows of the G-buffer is stored.
+    spec.features.add(Feature::VaryingMaterials, storedComponents(settings.view).has_value());
     // Half the rounds that a loop may make, so that scanning bitmasks has room beside the lights.
     constexpr std::size_t kLightsOneByOne = 32768;
     spec.manyLights = lights.texels.size() > kLightsOneByOne;
@@ -114,8 +116,10 @@ std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const Fram
         more.push_back(info.channel);
         const auto bytes =
             std::size_t(bytesPerPixel(spec.settings.layout, more) - bytesPerPixel(spec.settings.layout, spec.channels));
+        const bool tabled = info.ofMaterial && holdMaterialNumber(spec.settings.layout, spec.channels);
         out.push_back({fmt::format("G-buffer channel {}", info.name),
-                       fmt::format("needed only by {}", info.needed),
+                       tabled ? "no material varies over a surface, so lighting reads it by its number"
+                              : fmt::format("needed only by {}", info.needed),
                        pixels * bytes,
                        {}});
     }

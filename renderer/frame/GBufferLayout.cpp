@@ -21,7 +21,8 @@ constexpr ChannelInfo kChannels[] = {
      "square roots of red, green, blue",
      {9, 9, 9},
      {8, 8, 8},
-     "scenes with a lit model"},
+     "scenes with a lit model",
+     true},
     {Channel::Normal,
      "normal",
      "NORMAL",
@@ -29,7 +30,8 @@ constexpr ChannelInfo kChannels[] = {
      "octahedral, two coordinates",
      {16, 16},
      {10, 10},
-     "scenes with a lit model"},
+     "scenes with a lit model",
+     false},
     {Channel::Microsurface,
      "microsurface",
      "MICROSURFACE",
@@ -38,7 +40,8 @@ constexpr ChannelInfo kChannels[] = {
      "the last three",
      {4, 9, 5, 8},
      {4, 7, 2, 6},
-     "scenes with several models, another ior, or no room beside albedo and normal"},
+     "scenes with several models, another ior, or no room beside albedo and normal",
+     true},
     {Channel::Specular,
      "specular",
      "SPECULAR",
@@ -46,7 +49,8 @@ constexpr ChannelInfo kChannels[] = {
      "square roots of red, green, blue",
      {6, 6, 6},
      {4, 4, 4},
-     "scenes that change k_s or the dielectric F0"},
+     "scenes that change k_s or the dielectric F0",
+     true},
     {Channel::Emission,
      "emission",
      "EMISSION",
@@ -54,7 +58,8 @@ constexpr ChannelInfo kChannels[] = {
      "shared exponent; red, green, blue",
      {7, 6, 6, 6},
      {6, 5, 5, 5},
-     "scenes with emissive or unlit materials"},
+     "scenes with emissive or unlit materials",
+     true},
     {Channel::Tangent,
      "tangent",
      "TANGENT",
@@ -62,7 +67,8 @@ constexpr ChannelInfo kChannels[] = {
      "axis, point on half a diamond, fourth root of alpha",
      {2, 13, 9},
      {2, 9, 7},
-     "scenes with anisotropic materials"},
+     "scenes with anisotropic materials",
+     false},
     {Channel::Clearcoat,
      "clearcoat",
      "CLEARCOAT",
@@ -70,7 +76,8 @@ constexpr ChannelInfo kChannels[] = {
      "octahedral, two coordinates; share, fourth root of alpha",
      {12, 12, 8, 9},
      {10, 10, 6, 7},
-     "scenes with coated materials"},
+     "scenes with coated materials",
+     false},
     {Channel::Sheen,
      "sheen",
      "SHEEN",
@@ -78,7 +85,8 @@ constexpr ChannelInfo kChannels[] = {
      "square roots of red, green, blue; fourth root of alpha",
      {8, 8, 8, 8},
      {6, 6, 6, 6},
-     "scenes with cloth"},
+     "scenes with cloth",
+     true},
     {Channel::NormalTexel,
      "normal_texel",
      "NORMAL_TEXEL",
@@ -86,7 +94,8 @@ constexpr ChannelInfo kChannels[] = {
      "red, green, blue",
      {8, 8, 8},
      {8, 8, 8},
-     "the view that shows it"},
+     "the view that shows it",
+     false},
 };
 static_assert(std::size(kChannels) == kChannelCount);
 
@@ -120,6 +129,42 @@ int wordsOf(const GBufferLayout& layout, std::span<const Channel> channels) {
     return (bits + 31) / 32;
 }
 
+bool contain(std::span<const Channel> channels, Channel channel) {
+    return std::find(channels.begin(), channels.end(), channel) != channels.end();
+}
+
+bool canHoldMaterialNumber(const GBufferLayout& layout) {
+    return layout[Channel::Normal] == Encoding::Exact &&
+           std::all_of(std::begin(kChannels), std::end(kChannels), [&](const ChannelInfo& info) {
+               return !info.ofMaterial || layout[info.channel] == Encoding::Exact;
+           });
+}
+
+/// Where every pixel holds all of its surface.
+std::vector<Channel> channelsOfSurfaces(const FeatureSet& features, const GBufferLayout& layout, bool normalTexel) {
+    const bool glossy = features.glossyModels();
+    std::vector<Channel> channels;
+    if (features.litModels()) {
+        channels.push_back(Channel::Albedo);
+        channels.push_back(Channel::Normal);
+    }
+    const bool alphaAndMetallicOnly =
+        features.soleModel == scenes::MaterialModel::MetallicRoughness && !features[Feature::Specular];
+    const bool spare =
+        alphaAndMetallicOnly && haveSpareComponents(layout) && layout[Channel::Microsurface] == Encoding::Exact;
+    if ((glossy || !features.soleModel) && !spare) channels.push_back(Channel::Microsurface);
+    if (glossy && features[Feature::Specular]) channels.push_back(Channel::Specular);
+    if (features[Feature::Emission]) channels.push_back(Channel::Emission);
+    if (normalTexel) {
+        channels.push_back(Channel::NormalTexel);
+        return channels;
+    }
+    if (features.tangentFrame()) channels.push_back(Channel::Tangent);
+    if (features[Feature::Clearcoat]) channels.push_back(Channel::Clearcoat);
+    if (features[Feature::Sheen]) channels.push_back(Channel::Sheen);
+    return channels;
+}
+
 } // namespace
 
 std::span<const ChannelInfo> channelTable() {
@@ -146,27 +191,15 @@ int GBufferLayout::bits(Channel channel) const {
 }
 
 std::vector<Channel> neededChannels(const FeatureSet& features, const GBufferLayout& layout, bool normalTexel) {
-    const bool glossy = features.glossyModels();
-    std::vector<Channel> channels;
-    if (features.litModels()) {
-        channels.push_back(Channel::Albedo);
-        channels.push_back(Channel::Normal);
-    }
-    const bool alphaAndMetallicOnly =
-        features.soleModel == scenes::MaterialModel::MetallicRoughness && !features[Feature::Specular];
-    const bool spare =
-        alphaAndMetallicOnly && haveSpareComponents(layout) && layout[Channel::Microsurface] == Encoding::Exact;
-    if ((glossy || !features.soleModel) && !spare) channels.push_back(Channel::Microsurface);
-    if (glossy && features[Feature::Specular]) channels.push_back(Channel::Specular);
-    if (features[Feature::Emission]) channels.push_back(Channel::Emission);
-    if (normalTexel) {
-        channels.push_back(Channel::NormalTexel);
-        return channels;
-    }
-    if (features.tangentFrame()) channels.push_back(Channel::Tangent);
-    if (features[Feature::Clearcoat]) channels.push_back(Channel::Clearcoat);
-    if (features[Feature::Sheen]) channels.push_back(Channel::Sheen);
+    std::vector<Channel> channels = channelsOfSurfaces(features, layout, normalTexel);
+    if (features.litModels() && !features[Feature::VaryingMaterials] && canHoldMaterialNumber(layout))
+        std::erase_if(channels, [](Channel channel) { return infoOf(channel).ofMaterial; });
     return channels;
+}
+
+bool holdMaterialNumber(const GBufferLayout& layout, std::span<const Channel> channels) {
+    return layout[Channel::Normal] == Encoding::Exact && contain(channels, Channel::Normal) &&
+           !contain(channels, Channel::Albedo);
 }
 
 std::vector<GBufferTexture> gbufferTextures(const GBufferLayout& layout, std::span<const Channel> channels) {
@@ -217,10 +250,10 @@ Defines channelDefines(const GBufferLayout& layout, std::span<const Channel> cha
         defines.emplace_back("GBUFFER_WORDS", std::to_string((bit + 31) / 32));
         defines.emplace_back("GBUFFER_WORD_TEXTURE", std::to_string(attachment));
     }
-    const auto has = [&](Channel channel) {
-        return std::find(channels.begin(), channels.end(), channel) != channels.end();
-    };
-    if (has(Channel::Albedo) && has(Channel::Normal) && !has(Channel::Microsurface) && haveSpareComponents(layout))
+    if (holdMaterialNumber(layout, channels))
+        defines.emplace_back("GBUFFER_MATERIAL_NUMBER", "1");
+    else if (contain(channels, Channel::Albedo) && !contain(channels, Channel::Microsurface) &&
+             haveSpareComponents(layout))
         defines.emplace_back("GBUFFER_SPARE_COMPONENTS", "1");
     return defines;
 }

@@ -42,6 +42,7 @@ struct ChannelInfo {
     FieldWidths packed;
     FieldWidths slim;
     std::string_view needed; ///< which scenes need it
+    bool ofMaterial;         ///< holds what a material has everywhere, unless it varies over the surface
 };
 std::span<const ChannelInfo> channelTable();
 
@@ -70,10 +71,15 @@ std::span<const LayoutInfo> layoutTable();
 double promisedRelMse(const GBufferLayout& layout);
 
 /// The channels that surfaces of these features need, in table order. `normalTexel` is for the view that shows it, and
-/// shows nothing of tangents, coats and sheens. In fp32 the fourth components of albedo and normal are free: alpha and
-/// metallic go there, and the microsurface channel is left out, where all surfaces are metallic_roughness with the
-/// usual specular lobe.
+/// shows nothing of tangents, coats and sheens. In fp32 the fourth components of albedo and normal are free:
+///  - Where no material varies and every channel of materials would be exact, these are left out: the normal's fourth
+///    component is the material's number, and lighting reads its values from the table of all materials.
+///  - Else alpha and metallic go there, and the microsurface channel is left out, where all surfaces are
+///    metallic_roughness with the usual specular lobe.
 std::vector<Channel> neededChannels(const FeatureSet& features, const GBufferLayout& layout, bool normalTexel);
+
+/// Whether these channels leave a pixel's material to the table of all materials.
+bool holdMaterialNumber(const GBufferLayout& layout, std::span<const Channel> channels);
 
 struct GBufferTexture {
     std::string name; ///< that of its channel, or "words", "words 4 to 5"
@@ -88,7 +94,8 @@ int bytesPerPixel(const GBufferLayout& layout, std::span<const Channel> channels
 /// GBUFFER_<NAME>_PACKED = 0 or 1 of each channel. Of an exact one GBUFFER_<NAME> is its attachment; of others
 /// GBUFFER_<NAME> is the bit where its fields begin and GBUFFER_<NAME>_WIDTHS their widths. GBUFFER_EXACT_CHANNELS is
 /// the number of exact ones, GBUFFER_WORDS of words and GBUFFER_WORD_TEXTURE the attachment of the first, where there
-/// are any. GBUFFER_SPARE_COMPONENTS where alpha and metallic lie in the fourth components of others.
+/// are any. GBUFFER_SPARE_COMPONENTS where alpha and metallic lie in the fourth components of others,
+/// GBUFFER_MATERIAL_NUMBER where the material's number lies in the normal's.
 Defines channelDefines(const GBufferLayout& layout, std::span<const Channel> channels);
 
 } // namespace tessera::frame

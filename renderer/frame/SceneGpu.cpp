@@ -70,7 +70,8 @@ gpu::VertexAttribute attribute(std::uint32_t location, int components, const gpu
 } // namespace
 
 SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter)
-    : scene_(scene), filter_(filter), drawList_(makeDrawList(scene)), alphaModes_(alphaModes(scene)) {
+    : scene_(scene), filter_(filter), hasMaterialTable_(!features[Feature::VaryingMaterials]),
+      drawList_(makeDrawList(scene)), alphaModes_(alphaModes(scene)) {
     uploadGeometry(features);
     uploadMaterials();
     uploadTextures();
@@ -119,13 +120,24 @@ void SceneGpu::uploadDraws() {
 void SceneGpu::uploadMaterials() {
     materialStride_ =
         (sizeof(shared::MaterialConstants) + kUniformAlignment - 1) / kUniformAlignment * kUniformAlignment;
+    constexpr std::size_t kTabledBytes = MATERIAL_TEXELS * sizeof(glm::vec4);
+    static_assert(kTabledBytes == offsetof(shared::MaterialConstants, uvRow0));
     std::vector<std::byte> bytes(materialStride_ * scene_.materials.size());
+    std::vector<std::byte> tabled(kTabledBytes * scene_.materials.size());
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
         shared::MaterialConstants constants = packMaterial(scene_.materials[i]);
         for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
             if (shadersDecode(scene_.materials[i], slot)) constants.uvRow1[slot].w += float(TEXTURE_MODE_SRGB);
         }
+        constants.kind.w = glm::uint(i);
         std::memcpy(bytes.data() + i * materialStride_, &constants, sizeof constants);
+        std::memcpy(tabled.data() + i * kTabledBytes, &constants, kTabledBytes);
+    }
+    if (hasMaterialTable_) {
+        materialTable_.reset();
+        tabledMaterials_ = std::make_unique<gpu::Buffer>(gpu::Buffer::of("material table", tabled));
+        materialTable_ =
+            std::make_unique<gpu::TexelBuffer>("material table", graph::Format::Rgba32Uint, *tabledMaterials_);
     }
     materials_ = std::make_unique<gpu::Buffer>(gpu::Buffer::of("materials", bytes));
 }
@@ -189,6 +201,10 @@ const gpu::Sampler* SceneGpu::sampler(const scenes::Sampler& wanted) {
 void SceneGpu::setView(const CameraView& view) {
     drawRows_->upload(makeDrawRows(drawList_, view));
     transparent_ = sortedTransparent(drawList_, view);
+}
+
+void SceneGpu::bindMaterialTable() const {
+    if (materialTable_) gpu::bindTexelBuffer(TEXTURE_UNIT_MATERIALS, *materialTable_);
 }
 
 void SceneGpu::bindMaterial(int material) const {

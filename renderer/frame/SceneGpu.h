@@ -9,6 +9,7 @@
 #include "renderer/gpu/Buffer.h"
 #include "renderer/gpu/PipelineState.h"
 #include "renderer/gpu/Sampler.h"
+#include "renderer/gpu/TexelBuffer.h"
 #include "renderer/gpu/Texture.h"
 #include "renderer/gpu/VertexArray.h"
 
@@ -26,6 +27,10 @@ public:
 
     /// Puts draws into the view's lighting space and sorts the transparent ones.
     void setView(const CameraView& view);
+
+    /// Makes the constants of all materials readable by their numbers (shaders/lib/material_table.glsl), where frames
+    /// of the features need them.
+    void bindMaterialTable() const;
 
     const std::vector<Batch>& opaque() const { return drawList_.opaque; }
     const std::vector<Batch>& transparent() const { return transparent_; }
@@ -54,6 +59,7 @@ private:
 
     const scenes::Scene& scene_;
     TextureFilter filter_;
+    bool hasMaterialTable_;
     DrawList drawList_;
     std::vector<scenes::AlphaMode> alphaModes_; ///< by material, that drawList_ was made with
     std::vector<VertexStreams::Range> ranges_;  ///< by mesh
@@ -64,7 +70,9 @@ private:
     std::unique_ptr<gpu::Buffer> drawRows_;
     std::unique_ptr<gpu::VertexArray> vertexArray_;
     std::unique_ptr<gpu::Buffer> materials_;
-    std::size_t materialStride_ = 0; ///< bytes
+    std::size_t materialStride_ = 0;                  ///< bytes
+    std::unique_ptr<gpu::Buffer> tabledMaterials_;    ///< the first MATERIAL_TEXELS of each, without gaps
+    std::unique_ptr<gpu::TexelBuffer> materialTable_; ///< a view of tabledMaterials_
     std::map<std::pair<int, bool>, std::unique_ptr<gpu::Texture>>
         textures_; ///< by image and whether it is decoded from sRGB
     std::vector<std::pair<scenes::Sampler, std::unique_ptr<gpu::Sampler>>> samplers_;

@@ -1,5 +1,8 @@
 // Reads a surface from the channels of the G-buffer; included by lib/gbuffer.glsl.
 #pragma once
+#ifdef GBUFFER_MATERIAL_NUMBER
+#include "lib/material_table.glsl"
+#endif
 
 #ifdef GBUFFER_EXACT_CHANNELS
 layout(binding = TEXTURE_UNIT_GBUFFER) uniform sampler2D exactChannels[GBUFFER_EXACT_CHANNELS];
@@ -41,15 +44,7 @@ void fetchWords(ivec2 pixel)
 Surface surfaceFromGBuffer(ivec2 pixel)
 {
     Surface surface;
-    surface.model = surfaceModel(MODEL_SINGLE_COLOR);
-    surface.albedo = vec3(0.0);
-    surface.metallic = 0.0;
-    surface.alpha = 1.0;
-    surface.iorOrF90 = 1.0;
-    surface.emission = vec3(0.0);
-    surface.normalLS = vec3(0.0, 0.0, 1.0);
-    surface.normalTexel = vec3(0.5, 0.5, 1.0);
-    setNeutralLobes(surface);
+    setNeutralValues(surface);
 #ifdef GBUFFER_WORDS
     fetchWords(pixel);
 #endif
@@ -72,6 +67,9 @@ Surface surfaceFromGBuffer(ivec2 pixel)
 #else
     vec4 normal = texelFetch(exactChannels[GBUFFER_NORMAL], pixel, 0);
     surface.normalLS = normal.xyz;
+#ifdef GBUFFER_MATERIAL_NUMBER
+    setTabledValues(int(normal.w), surface);
+#endif
 #ifdef GBUFFER_SPARE_COMPONENTS
     surface.alpha = normal.w;
 #endif
@@ -85,7 +83,9 @@ Surface surfaceFromGBuffer(ivec2 pixel)
     readExactMicrosurface(texelFetch(exactChannels[GBUFFER_MICROSURFACE], pixel, 0), surface);
 #endif
 #endif
+#ifndef GBUFFER_MATERIAL_NUMBER
     surface.specular = defaultSpecular(surface.model);
+#endif
 #ifdef GBUFFER_SPECULAR
 #if GBUFFER_SPECULAR_PACKED
     gbufferBit = GBUFFER_SPECULAR;

@@ -53,7 +53,12 @@ void writeGBuffer(Surface surface)
     gbufferBit = GBUFFER_NORMAL;
     putOctahedral(encodeOctahedral(surface.normalLS), ivec4(GBUFFER_NORMAL_WIDTHS));
 #else
-    exactChannels[GBUFFER_NORMAL] = vec4(surface.normalLS, surface.alpha);
+#ifdef GBUFFER_MATERIAL_NUMBER
+    float fourth = float(surface.material);
+#else
+    float fourth = surface.alpha;
+#endif
+    exactChannels[GBUFFER_NORMAL] = vec4(surface.normalLS, fourth);
 #endif
 #endif
 #ifdef GBUFFER_MICROSURFACE

@@ -4,27 +4,15 @@
 #include "lib/material_lobes.glsl"
 #include "lib/surface.glsl"
 
-Surface surfaceFromMaterial(Fragment fragment, vec4 baseColor)
+// All of a surface that has nothing to do with directions on it: what is one for all its pixels where the scene has no varying
+// materials.
+void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
 {
-    Surface surface;
     surface.model = surfaceModel(material.kind.x);
+#if !HAS_VARYING_MATERIALS
+    surface.material = material.kind.w;
+#endif
     surface.albedo = baseColor.rgb;
-    surface.metallic = 0.0;
-    surface.alpha = 1.0;
-    surface.iorOrF90 = 1.0;
-    surface.emission = vec3(0.0);
-    setNeutralLobes(surface);
-
-    surface.normalTexel = vec3(0.5, 0.5, 1.0);
-#if HAS_NORMAL_TEXTURE
-    vec3 normalTexel = sampleSlot(normalTexture, TEXTURE_SLOT_NORMAL, fragment).rgb;
-    if ((material.kind.y & MATERIAL_FLAG_NORMAL_MAP) != 0u) surface.normalTexel = normalTexel;
-#endif
-    surface.normalLS = materialNormal(fragment, surface.normalTexel);
-#if VIEW == VIEW_NORMAL_OBJECT
-    surface.normalTexel = objectNormal(fragment, surface.normalLS) * 0.5 + 0.5;
-#endif
-
 #if HAS_GLOSSY_MODELS
     precise vec2 roughnessMetallic = material.microsurface.yx;
 #if HAS_METALLIC_ROUGHNESS_TEXTURE
@@ -83,12 +71,6 @@ Surface surfaceFromMaterial(Fragment fragment, vec4 baseColor)
 #endif
     }
 #endif
-#if HAS_TANGENT_FRAME
-    setAnisotropy(fragment, surface);
-#endif
-#if HAS_CLEARCOAT
-    setClearcoat(fragment, surface);
-#endif
 #if HAS_SHEEN
     setSheen(fragment, surface);
 #endif
@@ -105,6 +87,28 @@ Surface surfaceFromMaterial(Fragment fragment, vec4 baseColor)
     if (surface.model == MODEL_SINGLE_COLOR) emission += baseColor.rgb;
 #endif
     surface.emission = emission;
+#endif
+}
+
+Surface surfaceFromMaterial(Fragment fragment, vec4 baseColor)
+{
+    Surface surface;
+    setNeutralValues(surface);
+    setMaterialValues(fragment, baseColor, surface);
+
+#if HAS_NORMAL_TEXTURE
+    vec3 normalTexel = sampleSlot(normalTexture, TEXTURE_SLOT_NORMAL, fragment).rgb;
+    if ((material.kind.y & MATERIAL_FLAG_NORMAL_MAP) != 0u) surface.normalTexel = normalTexel;
+#endif
+    surface.normalLS = materialNormal(fragment, surface.normalTexel);
+#if VIEW == VIEW_NORMAL_OBJECT
+    surface.normalTexel = objectNormal(fragment, surface.normalLS) * 0.5 + 0.5;
+#endif
+#if HAS_TANGENT_FRAME
+    setAnisotropy(fragment, surface);
+#endif
+#if HAS_CLEARCOAT
+    setClearcoat(fragment, surface);
 #endif
     return surface;
 }

@@ -8,10 +8,14 @@
 #include "lib/features.glsl"
 #include "lib/texture_filter.glsl"
 
+#if MATERIAL_FROM_TABLE
+MaterialConstants material; // lib/material_table.glsl reads it
+#else
 layout(std140, binding = UNIFORM_MATERIAL) uniform MaterialBlock
 {
     MaterialConstants material;
 };
+#endif
 
 layout(binding = TEXTURE_SLOT_BASE_COLOR) uniform sampler2D baseColorTexture;
 layout(binding = TEXTURE_SLOT_NORMAL) uniform sampler2D normalTexture;
@@ -39,6 +43,23 @@ struct Fragment {
     mat3 objectFromNormal; // transposed LS-from-object: takes normals back, up to their length
 #endif
 };
+
+// Where nothing is interpolated.
+Fragment plainFragment()
+{
+    Fragment fragment;
+    fragment.normalLS = vec3(0.0, 0.0, 1.0);
+    fragment.tangentLS = vec4(0.0);
+    fragment.texCoord[0] = TexCoord(0.0);
+    fragment.texCoord[1] = TexCoord(0.0);
+    fragment.color = vec4(1.0);
+    fragment.normalFromObject = mat3(1.0);
+    fragment.frontFacing = true;
+#if VIEW == VIEW_NORMAL_OBJECT
+    fragment.objectFromNormal = mat3(1.0);
+#endif
+    return fragment;
+}
 
 TexCoord slotCoordinate(Fragment fragment, int slot)
 {

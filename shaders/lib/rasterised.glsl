@@ -42,16 +42,7 @@ layout(location = 8) flat in float largestColor; // 0 without vertex colours
 
 Fragment rasterisedFragment()
 {
-    Fragment fragment;
-    fragment.normalLS = vec3(0.0, 0.0, 1.0);
-    fragment.tangentLS = vec4(0.0);
-    fragment.texCoord[0] = TexCoord(0.0);
-    fragment.texCoord[1] = TexCoord(0.0);
-    fragment.color = vec4(1.0);
-    fragment.normalFromObject = mat3(1.0);
-#if VIEW == VIEW_NORMAL_OBJECT
-    fragment.objectFromNormal = mat3(1.0);
-#endif
+    Fragment fragment = plainFragment();
 #if FILTER_EXACT
     dvec3 weights = triangleWeights(gl_FragCoord.xy);
 #endif

@@ -6,6 +6,9 @@
 
 struct Surface {
     uint model;        // MODEL_*
+#if !HAS_VARYING_MATERIALS
+    uint material;     // its number
+#endif
     vec3 albedo;       // k_d, or base colour of metallic_roughness
     float metallic;    // metallic_roughness
     float alpha;       // GGX alpha, >= ALPHA_MIN; along the tangent where the lobe is anisotropic
@@ -89,4 +92,18 @@ void setNeutralLobes(inout Surface surface)
     surface.sheenColor = vec3(0.0);
     surface.sheenAlpha = 1.0;
 #endif
+}
+
+// A surface of which nothing is known.
+void setNeutralValues(inout Surface surface)
+{
+    surface.model = surfaceModel(MODEL_SINGLE_COLOR);
+    surface.albedo = vec3(0.0);
+    surface.metallic = 0.0;
+    surface.alpha = 1.0;
+    surface.iorOrF90 = 1.0;
+    surface.emission = vec3(0.0);
+    surface.normalLS = vec3(0.0, 0.0, 1.0);
+    surface.normalTexel = vec3(0.5, 0.5, 1.0);
+    setNeutralLobes(surface);
 }

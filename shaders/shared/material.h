@@ -11,6 +11,11 @@
 #define MATERIAL_FLAG_ANISOTROPY_TEXTURE 32u
 #define MATERIAL_FLAG_CLEARCOAT_NORMAL_MAP 64u
 
+// RGBA32UI texels of a material in the table of all of them, which lighting reads where pixels hold only their
+// material's number: what lies before uvRow0. OpenGL 4.5 guarantees 65536 texels.
+#define MATERIAL_TEXELS 9
+#define MATERIAL_TABLE_MOST (65536 / MATERIAL_TEXELS)
+
 // Added to a slot's wrap modes: its texture holds sRGB code values, which the shader decodes.
 #define TEXTURE_MODE_SRGB 16
 
@@ -27,7 +32,7 @@ struct MaterialConstants {
                        // turn
     vec4 clearcoat;    // x factor, y perceptual roughness, z normal-map scale
     vec4 sheen;        // rgb colour, a perceptual roughness
-    uvec4 kind;        // x model, y flags, z masking
+    uvec4 kind;        // x model, y flags, z masking, w number of the material
     vec4 uvRow0[TEXTURE_SLOT_COUNT]; // x y z: u' = x u + y v + z; w texture-coordinate set
     vec4 uvRow1[TEXTURE_SLOT_COUNT]; // x y z: v' = x u + y v + z; w for --filter exact: wrap modes, u + 4 v,
                                      // and TEXTURE_MODE_SRGB

@@ -61,6 +61,7 @@ SHARED_BEGIN
 #define TEXTURE_UNIT_TRANSPARENT_DEPTH 20
 #define TEXTURE_UNIT_CULL_LIGHTS 21
 #define TEXTURE_UNIT_LIGHT_REACH 22
+#define TEXTURE_UNIT_MATERIALS 23
 #define TEXTURE_UNIT_SAMPLES 15 // no pass reads samples and radiance
 
 // Image units.

@@ -8,14 +8,9 @@ void main()
 {
     int record = recordIndex(4);
     if (record < 0) return;
-    Fragment fragment;
+    Fragment fragment = plainFragment();
     fragment.normalLS = inputs[record * 4].xyz;
     fragment.tangentLS = inputs[record * 4 + 1];
-    fragment.texCoord[0] = TexCoord(0.0);
-    fragment.texCoord[1] = TexCoord(0.0);
-    fragment.color = vec4(1.0);
-    fragment.normalFromObject = mat3(1.0);
-    fragment.frontFacing = true;
     Surface surface = surfaceFromMaterial(fragment, materialBaseColor(fragment));
     vec3 toLight = inputs[record * 4 + 2].xyz;
     vec3 share = reflectedShare(surface, toLight, inputs[record * 4 + 3].xyz);

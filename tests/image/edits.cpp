@@ -18,8 +18,8 @@ protected:
         return settings;
     }
     /// Holds what a renderer draws after an edit to what a new one draws.
-    void expectSameAsNew(const std::function<void(scenes::Scene&)>& edit, bool ofMaterials) {
-        scenes::Scene scene = test::everythingScene();
+    void expectSameAsNew(const std::function<void(scenes::Scene&)>& edit, bool ofMaterials,
+                         scenes::Scene scene = test::everythingScene()) {
         recipes::Renderer renderer(context(), scene);
         for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
             const std::vector<float> before = renderer.render(technique, small()).radiance;
@@ -34,17 +34,20 @@ protected:
 };
 
 TEST_F(Edits, factorsOfMaterialsAreAlwaysDrawnAsByANewRenderer) {
-    float step = 0.0f;
-    expectSameAsNew(
-        [&step](scenes::Scene& scene) {
-            step += 0.1f;
-            for (scenes::Material& material : scene.materials) {
-                material.baseColor *= glm::vec4(1.0f - step, 0.5f + step, 0.9f, 1.0f);
-                material.perceptualRoughness = 0.5f + step;
-                material.alpha = 0.3f + step;
-            }
-        },
-        true);
+    // The first keeps materials in its pixels, the second their numbers.
+    for (const scenes::Scene& scene : {test::everythingScene(), test::evenScene()}) {
+        float step = 0.0f;
+        expectSameAsNew(
+            [&step](scenes::Scene& edited) {
+                step += 0.1f;
+                for (scenes::Material& material : edited.materials) {
+                    material.baseColor *= glm::vec4(1.0f - step, 0.5f + step, 0.9f, 1.0f);
+                    material.perceptualRoughness = 0.5f + step;
+                    material.alpha = 0.3f + step;
+                }
+            },
+            true, scene);
+    }
 }
 
 TEST_F(Edits, surfacesThatBecomeTransparentAreAlwaysDrawnAsByANewRenderer) {

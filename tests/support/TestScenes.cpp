@@ -250,6 +250,22 @@ Scene everythingScene() {
     return scene;
 }
 
+scenes::Scene evenScene() {
+    scenes::Scene scene = everythingScene();
+    for (scenes::Material& material : scene.materials) {
+        for (std::size_t i = 0; i < scenes::kTextureSlotCount; ++i) {
+            const auto slot = static_cast<scenes::TextureSlot>(i);
+            if (slot != scenes::TextureSlot::Normal && slot != scenes::TextureSlot::ClearcoatNormal)
+                material.textures[i] = {};
+        }
+        material.anisotropyStrength = 0.0f;
+        if (material.model == scenes::MaterialModel::MicrofacetAnisotropic)
+            material.model = scenes::MaterialModel::Microfacet;
+    }
+    for (scenes::Mesh& mesh : scene.meshes) mesh.colors.clear();
+    return scene;
+}
+
 Scene quadScene(const Material& material) {
     Scene scene;
     scene.name = "quad";

@@ -9,6 +9,10 @@ namespace tessera::test {
 /// floor.
 scenes::Scene everythingScene();
 
+/// The same without what changes a material over a surface: of its textures it keeps normal maps, and no vertex colours
+/// and no anisotropy.
+scenes::Scene evenScene();
+
 /// 2 x 2 m in the plane z = 0 facing +z, its picture upright: u grows along x, v (down) along -y.
 scenes::Mesh quad();
 

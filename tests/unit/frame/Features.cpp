@@ -97,6 +97,7 @@ std::vector<Change> changes() {
         {Feature::AlphaMask, material([](Material& m) { m.alphaMode = scenes::AlphaMode::Mask; })},
         {Feature::Blend, material([](Material& m) { m.alphaMode = scenes::AlphaMode::Blend; })},
         {Feature::DoubleSided, material([](Material& m) { m.doubleSided = true; })},
+        {Feature::VaryingMaterials, texture(TextureSlot::BaseColor)},
     };
 }
 
@@ -158,6 +159,33 @@ TEST(Features, everyWayToChangeTheSpecularLobeIsAlwaysSeen) {
         EXPECT_FALSE(changed(model, ior));
         EXPECT_FALSE(changed(model, nothing));
     }
+}
+
+TEST(Features, materialsVaryExactlyByWhatChangesMoreThanNormals) {
+    const auto varies = [](const std::function<void(scenes::Scene&)>& change) {
+        scenes::Scene scene = plainScene();
+        change(scene);
+        return materialFeatures(scene)[Feature::VaryingMaterials];
+    };
+    EXPECT_FALSE(varies([](scenes::Scene&) {}));
+    for (std::size_t i = 0; i < scenes::kTextureSlotCount; ++i) {
+        const auto slot = static_cast<TextureSlot>(i);
+        const bool bends = slot == TextureSlot::Normal || slot == TextureSlot::ClearcoatNormal;
+        EXPECT_EQ(varies([&](scenes::Scene& scene) { addTexture(scene.materials[0], slot); }), !bends) << i;
+    }
+    EXPECT_TRUE(varies([](scenes::Scene& scene) { scene.meshes[0].colors.assign(3, glm::vec4(1.0f)); }));
+    EXPECT_TRUE(varies([](scenes::Scene& scene) { scene.materials[0].model = MaterialModel::MicrofacetAnisotropic; }));
+    const auto brushed = [](MaterialModel model) {
+        return [model](scenes::Scene& scene) {
+            scene.materials[0].model = model;
+            scene.materials[0].anisotropyStrength = 0.5f;
+        };
+    };
+    EXPECT_TRUE(varies(brushed(MaterialModel::MetallicRoughness)));
+    EXPECT_FALSE(varies(brushed(MaterialModel::Microfacet)));
+    // A table of 65536 texels is what OpenGL guarantees.
+    EXPECT_FALSE(varies([](scenes::Scene& scene) { scene.materials.resize(7281); }));
+    EXPECT_TRUE(varies([](scenes::Scene& scene) { scene.materials.resize(7282); }));
 }
 
 TEST(Features, layersAndMaskingNeverCountForAModelThatLacksThem) {

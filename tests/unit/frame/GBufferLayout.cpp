@@ -23,6 +23,12 @@ FeatureSet featuresOf(
     return materialFeatures(scene);
 }
 
+/// The same where values of materials change over surfaces, so that pixels must hold them.
+FeatureSet varying(FeatureSet features) {
+    features.add(Feature::VaryingMaterials);
+    return features;
+}
+
 const GBufferLayout& namedLayout(std::string_view name) {
     for (const LayoutInfo& info : layoutTable())
         if (info.name == name) return info.layout;
@@ -43,17 +49,44 @@ TEST(GBufferLayout, theExactLayoutIsAlwaysFp32) {
 
 TEST(GBufferLayout, alphaAndMetallicAlwaysFillSpareComponentsWhereNothingElseIsStoredOfTheMicrosurface) {
     const GBufferLayout& exact = namedLayout("exact");
-    const FeatureSet plain = featuresOf(MaterialModel::MetallicRoughness);
+    const FeatureSet plain = varying(featuresOf(MaterialModel::MetallicRoughness));
     const std::vector<Channel> channels = neededChannels(plain, exact, false);
     EXPECT_THAT(channels, ElementsAre(Channel::Albedo, Channel::Normal));
     EXPECT_EQ(channelDefines(exact, channels).back(),
               std::make_pair(std::string("GBUFFER_SPARE_COMPONENTS"), std::string("1")));
     const FeatureSet tinted = featuresOf(MaterialModel::MetallicRoughness, [](scenes::Material& m) { m.ior = 1.4f; });
-    for (const FeatureSet& features : {tinted, featuresOf(MaterialModel::Microfacet), allFeatures()})
+    for (const FeatureSet& features : {varying(tinted), varying(featuresOf(MaterialModel::Microfacet)), allFeatures()})
         EXPECT_THAT(neededChannels(features, exact, false), testing::Contains(Channel::Microsurface));
     GBufferLayout mixed = exact;
     mixed.encoding[std::size_t(Channel::Normal)] = Encoding::Packed;
     EXPECT_THAT(neededChannels(plain, mixed, false), testing::Contains(Channel::Microsurface));
+}
+
+TEST(GBufferLayout, pixelsAlwaysHoldTheNumberOfTheirMaterialWhereNoneVariesAndNothingOfItIsPacked) {
+    const GBufferLayout& exact = namedLayout("exact");
+    const auto coated = [](scenes::Material& m) {
+        m.clearcoat = 0.5f;
+        m.sheenColor.g = 0.5f;
+        m.emissive.r = 1.0f;
+        m.ior = 1.4f;
+    };
+    const FeatureSet features = featuresOf(MaterialModel::MetallicRoughness, coated);
+    const std::vector<Channel> channels = neededChannels(features, exact, false);
+    EXPECT_THAT(channels, ElementsAre(Channel::Normal, Channel::Clearcoat));
+    EXPECT_TRUE(holdMaterialNumber(exact, channels));
+    EXPECT_EQ(channelDefines(exact, channels).back(),
+              std::make_pair(std::string("GBUFFER_MATERIAL_NUMBER"), std::string("1")));
+    EXPECT_EQ(bytesPerPixel(exact, channels), 32);
+
+    EXPECT_FALSE(holdMaterialNumber(exact, neededChannels(varying(features), exact, false)));
+    EXPECT_FALSE(holdMaterialNumber(exact, neededChannels(featuresOf(MaterialModel::SingleColor), exact, false)));
+    for (const Channel packed : {Channel::Albedo, Channel::Normal, Channel::Microsurface, Channel::Specular,
+                                 Channel::Emission, Channel::Sheen}) {
+        // A channel of another encoding must give the picture of that encoding, whatever else the scene has.
+        GBufferLayout mixed = exact;
+        mixed.encoding[std::size_t(packed)] = Encoding::Packed;
+        EXPECT_FALSE(holdMaterialNumber(mixed, neededChannels(features, mixed, false))) << int(packed);
+    }
 }
 
 TEST(GBufferLayout, channelsAreAllocatedExactlyWhenASurfaceNeedsThem) {
@@ -109,7 +142,7 @@ struct Bytes {
 Bytes bytesOf(const FeatureSet& features) {
     const auto bytes = [&](const char* name) {
         const GBufferLayout& layout = namedLayout(name);
-        return bytesPerPixel(layout, neededChannels(features, layout, false));
+        return bytesPerPixel(layout, neededChannels(varying(features), layout, false));
     };
     return {bytes("exact"), bytes("packed"), bytes("slim")};
 }
