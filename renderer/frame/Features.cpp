@@ -48,7 +48,7 @@ constexpr FeatureInfo kTable[] = {
     {Feature::Blend, "BLEND", "transparent pass", "no material is alpha-blended"},
     {Feature::DoubleSided, "DOUBLE_SIDED", "two-sided normals", "no material is double-sided"},
     {Feature::VaryingMaterials, "VARYING_MATERIALS", "materials that vary over a surface",
-     "no texture but normal maps, no vertex colour and no tangent changes one"},
+     "no texture but normal maps, no vertex colour and no anisotropy changes one"},
     {Feature::OrthographicCamera, "ORTHOGRAPHIC_CAMERA", "parallel rays", "the camera is perspective"},
 };
 static_assert(std::size(kTable) == kFeatureCount);
@@ -67,8 +67,8 @@ bool changesSpecular(const scenes::Material& material) {
             material.texture(scenes::TextureSlot::SpecularFactor).image != scenes::kNone);
 }
 
-/// Whether pixels of a material can differ in more than directions. Anisotropy is a matter of directions, but one that
-/// changes alpha with them.
+/// Whether pixels of a material may differ in more than directions: by any texture that is no normal map, whether its
+/// model uses it or not, and by anisotropy, which turns its alphas with the tangent.
 bool varies(const scenes::Material& material) {
     for (std::size_t i = 0; i < scenes::kTextureSlotCount; ++i) {
         const auto slot = static_cast<scenes::TextureSlot>(i);

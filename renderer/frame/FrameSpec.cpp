@@ -52,8 +52,9 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     } else {
         spec.features = allFeatures();
     }
-    // What a view shows of the G-buffer is stored.
-    spec.features.add(Feature::VaryingMaterials, storedComponents(settings.view).has_value());
+    // A channel that is looked at is stored.
+    if (const std::optional<StoredComponents> shown = storedComponents(settings.view))
+        spec.features.add(Feature::VaryingMaterials, channelTable()[std::size_t(shown->channel)].ofMaterial);
     // Half the rounds that a loop may make, so that scanning bitmasks has room beside the lights.
     constexpr std::size_t kLightsOneByOne = 32768;
     spec.manyLights = lights.texels.size() > kLightsOneByOne;
@@ -109,14 +110,22 @@ std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const Fram
                                           bool gbuffer) {
     std::vector<graph::Plan::LeftOut> out;
     const std::size_t pixels = std::size_t(spec.settings.sizePixels.x) * std::size_t(spec.settings.sizePixels.y);
+    // What pixels would hold if they did not hold the number of their material.
+    FeatureSet varying = spec.features;
+    varying.add(Feature::VaryingMaterials);
+    const std::vector<Channel> stored =
+        neededChannels(varying, spec.settings.layout, needsNormalTexel(spec.settings.view));
+    const auto contain = [](const std::vector<Channel>& channels, Channel channel) {
+        return std::find(channels.begin(), channels.end(), channel) != channels.end();
+    };
     for (const ChannelInfo& info : channelTable()) {
         if (!gbuffer) break;
-        if (std::find(spec.channels.begin(), spec.channels.end(), info.channel) != spec.channels.end()) continue;
+        if (contain(spec.channels, info.channel)) continue;
         std::vector<Channel> more = spec.channels;
         more.push_back(info.channel);
         const auto bytes =
             std::size_t(bytesPerPixel(spec.settings.layout, more) - bytesPerPixel(spec.settings.layout, spec.channels));
-        const bool tabled = info.ofMaterial && holdMaterialNumber(spec.settings.layout, spec.channels);
+        const bool tabled = contain(stored, info.channel);
         out.push_back({fmt::format("G-buffer channel {}", info.name),
                        tabled ? "no material varies over a surface, so lighting reads it by its number"
                               : fmt::format("needed only by {}", info.needed),

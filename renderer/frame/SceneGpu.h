@@ -15,7 +15,8 @@
 
 namespace tessera::frame {
 
-/// A scene's geometry, materials and textures on the GPU. What `features` does not hold is not uploaded. With
+/// A scene's geometry, materials and textures on the GPU. What `features` does not hold is not uploaded,
+/// and a table of materials only where they do not vary. With
 /// TextureFilter::Exact 8-bit colours are uploaded as the code values they are, since drivers decode sRGB formats only
 /// approximately, and no levels beyond the first, which the filter does not read. The scene must outlive the object.
 class SceneGpu {

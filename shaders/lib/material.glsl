@@ -1,4 +1,4 @@
-// A surface from a material as it is rasterised.
+// A surface from a material, as it is rasterised; and where pixels hold only the number of their material, what it has everywhere.
 #pragma once
 #include "lib/material_frame.glsl"
 #include "lib/material_lobes.glsl"

@@ -73,6 +73,9 @@ vec3 defaultSpecular(uint model)
 // Members that only some scenes have, where nothing sets them.
 void setNeutralLobes(inout Surface surface)
 {
+#if !HAS_VARYING_MATERIALS
+    surface.material = 0u;
+#endif
 #if HAS_BLINN_PHONG
     surface.exponent = 0.0;
 #endif
@@ -97,6 +100,7 @@ void setNeutralLobes(inout Surface surface)
 // A surface of which nothing is known.
 void setNeutralValues(inout Surface surface)
 {
+    surface.specular = vec3(0.0);
     surface.model = surfaceModel(MODEL_SINGLE_COLOR);
     surface.albedo = vec3(0.0);
     surface.metallic = 0.0;

@@ -172,7 +172,11 @@ TEST_F(ViewValues, storedChannelsAreExactlyWhatIsInTheGBuffer) {
     material.baseColor = {0.25f, 0.5f, 1.0f, 1.0f};
     material.metallic = 0.375f;
     material.perceptualRoughness = 0.5f;
-    const Scene scene = flatScene(material);
+    Scene scene = flatScene(Material{});
+    scene.materials.push_back(material);
+    for (scenes::Node& node : scene.nodes)
+        for (scenes::MeshInstance& instance : node.instances) instance.material = int(scene.materials.size()) - 1;
+    ASSERT_EQ(scene.materials.size(), 2u);
     const auto stored = [&](frame::Channel channel, bool fourth, const frame::GBufferLayout& layout) {
         frame::FrameSettings settings;
         settings.layout = layout;
@@ -183,7 +187,9 @@ TEST_F(ViewValues, storedChannelsAreExactlyWhatIsInTheGBuffer) {
     EXPECT_EQ(pixel(stored(frame::Channel::Albedo, true, exact), 4, 4), glm::vec4(0.375f, 0.375f, 0.375f, 1.0f));
     EXPECT_EQ(pixel(stored(frame::Channel::Normal, false, exact), 4, 4), glm::vec4(0, 0, 1, 1));
     EXPECT_EQ(stored(frame::Channel::Normal, false, exact).display[0], 128) << "directions are n/2 + 1/2";
-    EXPECT_EQ(pixel(stored(frame::Channel::Normal, true, exact), 4, 4).r, 0.25f) << "alpha, in the spare component";
+    EXPECT_EQ(pixel(stored(frame::Channel::Normal, true, exact), 4, 4).r, 1.0f) << "the number of the material";
+    scene.meshes[0].colors.assign(scene.meshes[0].positionsOS.size(), glm::vec4(1.0f));
+    EXPECT_EQ(pixel(stored(frame::Channel::Normal, true, exact), 4, 4).r, 0.25f) << "alpha, where materials vary";
     // Fields as shares of their largest codes. The normal's are octahedral: 0 is the middle of an odd number of steps.
     const float middle = 32767.0f / 65535.0f;
     EXPECT_EQ(pixel(stored(frame::Channel::Normal, false, packed), 4, 4), glm::vec4(middle, middle, 0, 1));

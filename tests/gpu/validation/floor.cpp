@@ -55,6 +55,9 @@ protected:
         const scenes::Scene scene = lattice(16);
         std::vector<frame::FrameSpec> result{
             recipes::prepareFrame(scene, recipes::Technique::Forward, settings()).spec};
+        // Of the floor's surface every pixel is another material.
+        result[0].features.add(frame::Feature::VaryingMaterials);
+        result[0].channels = frame::neededChannels(result[0].features, settings().layout, false);
         result.emplace_back().settings = settings();
         result.back().features = frame::allFeatures();
         result.back().channels = frame::neededChannels(result.back().features, settings().layout, false);

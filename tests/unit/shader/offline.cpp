@@ -16,6 +16,7 @@
 #include "renderer/shader/ProgramDesc.h"
 #include "scenes/Load.h"
 #include "tests/support/TempFolder.h"
+#include "tests/support/TestScenes.h"
 #include "validation/FloorGeometry.h"
 #include "validation/FloorLighting.h"
 
@@ -132,6 +133,7 @@ std::map<std::string, shader::ProgramDesc> requestedPrograms() {
         options.useAssets = false;
         addPrograms(programs, scenes::loadScene(std::string(builtin.name), options));
     }
+    addPrograms(programs, test::evenScene()); // materials by number beside maps and layers
     return programs;
 }
 
