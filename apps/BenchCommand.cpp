@@ -37,7 +37,7 @@ struct NamedTruth {
 constexpr NamedTruth kTruths[] = {{"reference", validation::BenchTruth::Reference},
                                   {"forward", validation::BenchTruth::Forward}};
 
-std::optional<validation::BenchTruth> truthNamed(const std::string& name) {
+std::optional<validation::BenchTruth> benchTruthNamed(const std::string& name) {
     if (name.empty()) return {};
     std::vector<std::string_view> names;
     for (const NamedTruth& row : kTruths) {
@@ -91,7 +91,7 @@ validation::BenchPlan planOf(const BenchCommandOptions& options) {
         frame.scene = scene;
         const frame::FrameSettings settings = resolve(frame).settings;
         requireLitPicture(settings);
-        if (truthNamed(options.against) == validation::BenchTruth::Reference)
+        if (benchTruthNamed(options.against) == validation::BenchTruth::Reference)
             validation::requireReferenceTakes(settings);
         validation::addToPlan(plan, matrix, scene, options.frame.lights, settings, [&](std::optional<int> lights) {
             frame.lights = lights;
@@ -151,7 +151,7 @@ int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
         throw InputError("bench measures frames of one sample a pixel; leave --samples out");
     requireFolderPlace(options.folder);
     BenchRun run;
-    run.options.against = truthNamed(options.against);
+    run.options.against = benchTruthNamed(options.against);
     if (options.frames) run.options.frames = *options.frames;
     if (run.options.frames < 1) throw InputError(fmt::format("--frames {} is less than one frame", run.options.frames));
     const auto [shard, shards] = shardNamed(options.shard);

@@ -8,7 +8,7 @@ namespace tessera::validation {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 /// The widest Gaussian of all channels, whose radius all of them use.
 constexpr double kWidestB = 0.04;
 /// Width of the feature detector in degrees. Source: Andersson et al. 2020, section 4.2.
@@ -81,16 +81,16 @@ Plane filtered(const Plane& plane, const Kernel& alongRow, const Kernel& alongCo
 }
 
 Plane seenBy(const ContrastSensitivity& eye, const Plane& channel, double pixelsPerDegree) {
-    const int radius = int(std::ceil(3.0 * std::sqrt(kWidestB / (2.0 * kPi * kPi)) * pixelsPerDegree));
+    const int radius = int(std::ceil(3.0 * std::sqrt(kWidestB / (2.0 * pi * pi)) * pixelsPerDegree));
     const auto gaussian = [&](double b) {
         return kernelOf(radius, [&](double pixels) {
             const double degrees = pixels / pixelsPerDegree;
-            return std::exp(-kPi * kPi * degrees * degrees / b);
+            return std::exp(-pi * pi * degrees * degrees / b);
         });
     };
     const Kernel first = gaussian(eye.b1), second = gaussian(eye.b2);
     // Weight of each whole product kernel, whose own sum is that of one dimension squared.
-    const double weight1 = eye.a1 * std::sqrt(kPi / eye.b1), weight2 = eye.a2 * std::sqrt(kPi / eye.b2);
+    const double weight1 = eye.a1 * std::sqrt(pi / eye.b1), weight2 = eye.a2 * std::sqrt(pi / eye.b2);
     const double sum1 = sumOf(first), sum2 = sumOf(second);
     const double whole = weight1 * sum1 * sum1 + weight2 * sum2 * sum2;
     Plane seen = filtered(channel, first, first);

@@ -15,13 +15,13 @@ namespace {
 constexpr int kWarmUpFrames = 2; ///< compile shaders, fill caches
 constexpr int kFrames = 7;
 
-struct FrameTimes {
+struct ProfiledTimes {
     std::vector<double> totalMs;
     std::map<std::string, std::vector<double>> passMs;
 };
 
 void drawProfiled(recipes::Renderer& renderer, recipes::Technique technique, const frame::FrameSettings& settings,
-                  FrameTimes* times) {
+                  ProfiledTimes* times) {
     renderer.draw(technique, settings);
     if (!times) return;
     double total = 0.0;
@@ -54,7 +54,7 @@ void measurePlan(graph::Plan& plan, recipes::Renderer& renderer, recipes::Techni
                  const frame::FrameSettings& settings) {
     frame::FrameSettings whole = settings;
     whole.prune = false;
-    FrameTimes asPlanned, unpruned;
+    ProfiledTimes asPlanned, unpruned;
     renderer.backend().setProfiling(true);
     for (int i = 0; i < kWarmUpFrames + kFrames; ++i) {
         drawProfiled(renderer, technique, settings, i < kWarmUpFrames ? nullptr : &asPlanned);

@@ -7,7 +7,7 @@
 namespace tessera::scenes::builtin {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 /// A triangle with a smaller doubled area, in m^2, is the collapsed side of a pole.
 constexpr double kNoArea = 1e-9;
 
@@ -92,8 +92,8 @@ void appendBox(Mesh& mesh, const glm::dvec3& lo, const glm::dvec3& hi) {
 
 void appendSphere(Mesh& mesh, const glm::dvec3& centerOS, double radiusMetres, int slices, int stacks) {
     appendPatch(mesh, slices, stacks, [&](double u, double v) {
-        const double longitude = 2.0 * kPi * u;
-        const double colatitude = kPi * v;
+        const double longitude = 2.0 * pi * u;
+        const double colatitude = pi * v;
         const glm::dvec3 outOS(std::sin(colatitude) * std::cos(longitude), std::cos(colatitude),
                                -std::sin(colatitude) * std::sin(longitude));
         return SurfacePoint{centerOS + radiusMetres * outOS, outOS, {u, v}};
@@ -113,9 +113,9 @@ void appendLathe(Mesh& mesh, const Profile& profile, int slices) {
     for (const Profile::Run& run : profile.runs()) {
         for (const glm::dvec2& point : run.points) widest = std::max(widest, point.x);
     }
-    appendSweep(mesh, profile, slices, 2.0 * kPi * widest, [](double u) {
-        const double c = std::cos(2.0 * kPi * u);
-        const double s = std::sin(2.0 * kPi * u);
+    appendSweep(mesh, profile, slices, 2.0 * pi * widest, [](double u) {
+        const double c = std::cos(2.0 * pi * u);
+        const double s = std::sin(2.0 * pi * u);
         return glm::dmat4({c, 0.0, -s, 0.0}, {0.0, 1.0, 0.0, 0.0}, {s, 0.0, c, 0.0}, {0.0, 0.0, 0.0, 1.0});
     });
 }
@@ -130,9 +130,9 @@ void appendMoulding(Mesh& mesh, const Profile& profile, double fromZ, double toZ
 
 void appendArch(Mesh& mesh, const Profile& profile, const glm::dvec3& centerOS, int steps) {
     const double radiusMetres = profile.runs().front().points.front().x;
-    appendSweep(mesh, profile, steps, kPi * radiusMetres, [&](double u) {
-        const double c = std::cos(kPi * u);
-        const double s = std::sin(kPi * u);
+    appendSweep(mesh, profile, steps, pi * radiusMetres, [&](double u) {
+        const double c = std::cos(pi * u);
+        const double s = std::sin(pi * u);
         return glm::dmat4({c, s, 0.0, 0.0}, {0.0, 0.0, -1.0, 0.0}, {-s, c, 0.0, 0.0}, glm::dvec4(centerOS, 1.0));
     });
 }
@@ -141,7 +141,7 @@ void appendArchedWall(Mesh& mesh, const ArchedWall& wall) {
     const double half = wall.widthMetres / 2.0;
     const double open = wall.halfOpeningMetres;
     const auto outline = [&](double u) { // the round head, from its right end over the top to the left
-        return glm::dvec2(open * std::cos(kPi * u), wall.springY + open * std::sin(kPi * u));
+        return glm::dvec2(open * std::cos(pi * u), wall.springY + open * std::sin(pi * u));
     };
     for (const double side : wall.back ? std::vector<double>{1.0, -1.0} : std::vector<double>{1.0}) {
         const double z = side > 0.0 ? 0.0 : -wall.depthMetres;
@@ -163,8 +163,8 @@ void appendArchedWall(Mesh& mesh, const ArchedWall& wall) {
     if (!wall.soffit) return;
     appendPatch(mesh, wall.archSteps, 1, [&](double u, double v) {
         const glm::dvec2 arch = outline(u);
-        const glm::dvec3 inwards(-std::cos(kPi * u), -std::sin(kPi * u), 0.0);
-        return SurfacePoint{{arch.x, arch.y, -v * wall.depthMetres}, inwards, {kPi * open * u, v * wall.depthMetres}};
+        const glm::dvec3 inwards(-std::cos(pi * u), -std::sin(pi * u), 0.0);
+        return SurfacePoint{{arch.x, arch.y, -v * wall.depthMetres}, inwards, {pi * open * u, v * wall.depthMetres}};
     });
     for (const double side : {-1.0, 1.0}) {
         appendPatch(mesh, 1, 1, [&](double u, double v) {

@@ -21,10 +21,10 @@ struct Methods {
     Method method;
     Technique techniques[2];
 };
-constexpr Methods kMethods[] = {{Method::TileMinmax, {Technique::TiledDeferred, Technique::ForwardPlus}},
-                                {Method::Tile25d, {Technique::TiledDeferred, Technique::ForwardPlus}},
-                                {Method::Cluster, {Technique::ClusteredDeferred, Technique::ClusteredForward}},
-                                {Method::Zbin, {Technique::ClusteredDeferred, Technique::ClusteredForward}}};
+constexpr Methods kEdgeMethods[] = {{Method::TileMinmax, {Technique::TiledDeferred, Technique::ForwardPlus}},
+                                    {Method::Tile25d, {Technique::TiledDeferred, Technique::ForwardPlus}},
+                                    {Method::Cluster, {Technique::ClusteredDeferred, Technique::ClusteredForward}},
+                                    {Method::Zbin, {Technique::ClusteredDeferred, Technique::ClusteredForward}}};
 
 /// A light, somewhere, whose range or cone ends a hair behind the surface of a pixel.
 scenes::Light lightThatJustReaches(const glm::dvec3& surfaceWS, test::Random& random) {
@@ -88,7 +88,7 @@ TEST_F(LightEdges, aLightThatReachesAPixelByAHairIsNeverMissing) {
         ++scenes;
         lights += scene.lights.size();
         const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
-        for (const Methods& method : kMethods) {
+        for (const Methods& method : kEdgeMethods) {
             frame::FrameSettings asked = settings;
             asked.culling.method = method.method;
             asked.culling.tilePixels = culling::kTileSides[random.index(4)];

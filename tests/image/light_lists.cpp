@@ -92,7 +92,7 @@ protected:
 };
 
 /// The lattice with `count` lights.
-scenes::Scene lattice(int count) {
+scenes::Scene latticeOf(int count) {
     scenes::LoadOptions options;
     options.lights = count;
     return scenes::loadScene("lattice", options);
@@ -101,7 +101,7 @@ scenes::Scene lattice(int count) {
 TEST_F(LightLists, listsBuiltOnTheGpuAreExactlyThoseBuiltOnTheCpu) {
     frame::FrameSettings settings;
     settings.sizePixels = {321, 179};
-    expectSameLists(lattice(256), settings, culling::kTileSides);
+    expectSameLists(latticeOf(256), settings, culling::kTileSides);
 }
 
 TEST_F(LightLists, listsOfEveryLightTypeAndTransparentSurfacesAreExactlyTheSameOnTheGpu) {
@@ -151,20 +151,20 @@ TEST_F(LightLists, anyCountOfLightsAlwaysGivesTheSameLists) {
     settings.prune = false; // the lattice's first light is out of view
     for (const int count : {1, 31, 32, 33, 4097}) {
         SCOPED_TRACE(count);
-        expectSameLists(lattice(count), settings, std::array{16});
+        expectSameLists(latticeOf(count), settings, std::array{16});
     }
 }
 
 TEST_F(LightLists, manyLightsAlwaysGiveThePictureOfForward) {
     frame::FrameSettings settings;
     settings.sizePixels = {65, 49};
-    expectForwardsPicture(lattice(4097), settings);
+    expectForwardsPicture(latticeOf(4097), settings);
 }
 
 TEST_F(LightLists, theMostLightsOfASceneAreNeverTooManyForTheGpu) {
     frame::FrameSettings settings;
     settings.sizePixels = {33, 17};
-    const scenes::Scene scene = lattice(65536);
+    const scenes::Scene scene = latticeOf(65536);
     expectSameLists(scene, settings, std::array{32});
     recipes::Renderer renderer(context(), scene);
     const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;

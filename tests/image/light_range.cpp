@@ -18,7 +18,7 @@ namespace {
 
 using recipes::Technique;
 
-constexpr int kSide = 64;
+constexpr int kRangeSide = 64;
 
 scenes::Light attenuatedLight(const glm::dvec3& positionWS, float intensity, const glm::vec3& abc) {
     scenes::Light light = test::pointLight(positionWS, intensity);
@@ -58,7 +58,7 @@ TEST_F(LightRange, anEndedLightIsExactlyZeroFromItsRadiusOnAndWindowedBefore) {
     const glm::dvec3 placeWS(0.25, -0.125, 0.5);
     scene.lights = {attenuatedLight(placeWS, intensity, {a, b, c})};
     frame::FrameSettings settings;
-    settings.sizePixels = {kSide, kSide};
+    settings.sizePixels = {kRangeSide, kRangeSide};
     settings.rangeTolerance = 1.0;
     const double left = intensity / settings.rangeTolerance - a;
     const double radius = (-b + std::sqrt(b * b + 4.0 * c * left)) / (2.0 * c);
@@ -68,8 +68,8 @@ TEST_F(LightRange, anEndedLightIsExactlyZeroFromItsRadiusOnAndWindowedBefore) {
         const validation::Picture picture = validation::toPicture(renderer.render(technique.technique, settings));
         std::size_t beyond = 0, inside = 0;
         for (std::size_t i = 0; i < picture.pixelCount(); ++i) {
-            const int x = int(i) % kSide, y = int(i) / kSide;
-            const glm::dvec3 pointWS(2.0 * (x + 0.5) / kSide - 1.0, 1.0 - 2.0 * (y + 0.5) / kSide, 0.0);
+            const int x = int(i) % kRangeSide, y = int(i) / kRangeSide;
+            const glm::dvec3 pointWS(2.0 * (x + 0.5) / kRangeSide - 1.0, 1.0 - 2.0 * (y + 0.5) / kRangeSide, 0.0);
             const double d = glm::distance(pointWS, placeWS);
             const double whole = intensity / (a + b * d + c * d * d) * placeWS.z / d;
             const double window = std::max(0.0, 1.0 - std::pow(d / radius, 4.0));

@@ -15,7 +15,7 @@ using scenes::Scene;
 using scenes::TextureSlot;
 
 /// Two dozen fp32 roundings of 2^-24 each, relative, and the exponents' share (docs/numerics.md).
-constexpr double kRounding = 3e-6;
+constexpr double kLobeRounding = 3e-6;
 
 /// The eye straight above, the sun aslant and not along an axis, so that a lobe's turn shows.
 const glm::dvec3 kToSun = glm::normalize(glm::dvec3(0.35, 0.2, 1.0));
@@ -26,7 +26,7 @@ protected:
     void expectColor(const Scene& scene, const glm::dvec3& wanted) {
         const glm::vec4 found = center(scene);
         EXPECT_GT(glm::length(wanted), 1e-4) << "there is nothing to see";
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], kRounding * (1e-2 + wanted[c])) << c;
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], kLobeRounding * (1e-2 + wanted[c])) << c;
     }
     /// A material with a texture of one texel looks like the material `equal` without it.
     void expectTexel(const Material& material, TextureSlot slot, const glm::vec4& texel, const Material& equal) {

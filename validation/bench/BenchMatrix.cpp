@@ -18,7 +18,7 @@ namespace tessera::validation {
 
 namespace {
 
-using Json = nlohmann::json;
+using ParsedJson = nlohmann::json;
 using culling::Method;
 using recipes::Technique;
 
@@ -33,7 +33,7 @@ constexpr const char* kNoSubsurface =
 }
 
 template <typename Table>
-const auto& rowNamed(const Table& table, const Json& value, const std::string& source, const std::string& key) {
+const auto& rowNamed(const Table& table, const ParsedJson& value, const std::string& source, const std::string& key) {
     std::vector<std::string_view> names;
     for (const auto& row : table) names.push_back(row.name);
     if (!value.is_string())
@@ -45,12 +45,12 @@ const auto& rowNamed(const Table& table, const Json& value, const std::string& s
     refuse(source, key, fmt::format("unknown '{}': {}", name, suggestNames(name, names)));
 }
 
-int numberIn(const Json& value, int least, int most, const std::string& source, const std::string& key) {
+int numberIn(const ParsedJson& value, int least, int most, const std::string& source, const std::string& key) {
     if (value.is_number_integer() && value >= least && value <= most) return value.get<int>();
     refuse(source, key, fmt::format("{} is no whole number from {} to {}", value.dump(), least, most));
 }
 
-glm::ivec2 sizeIn(const Json& value, const std::string& source, const std::string& key) {
+glm::ivec2 sizeIn(const ParsedJson& value, const std::string& source, const std::string& key) {
     const std::string text = value.is_string() ? value.get<std::string>() : "";
     glm::ivec2 size(0);
     const char* const end = text.data() + text.size();
@@ -67,21 +67,21 @@ glm::ivec2 sizeIn(const Json& value, const std::string& source, const std::strin
 /// Keys of the matrix and what reads a value of each.
 struct Key {
     std::string_view name;
-    std::function<void(BenchMatrix&, const Json&, const std::string& source)> add;
+    std::function<void(BenchMatrix&, const ParsedJson&, const std::string& source)> add;
 };
 
 const std::vector<Key>& keys() {
     static const std::vector<Key> table{
         {"technique",
-         [](BenchMatrix& m, const Json& v, const std::string& s) {
+         [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
              m.techniques.push_back(rowNamed(recipes::techniqueTable(), v, s, "technique").technique);
          }},
         {"culling",
-         [](BenchMatrix& m, const Json& v, const std::string& s) {
+         [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
              m.methods.push_back(rowNamed(culling::methodTable(), v, s, "culling").method);
          }},
         {"tile",
-         [](BenchMatrix& m, const Json& v, const std::string& s) {
+         [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
              const auto isTile = [&](int side) { return v == side; };
              if (!v.is_number_integer() ||
                  std::none_of(std::begin(culling::kTileSides), std::end(culling::kTileSides), isTile))
@@ -89,21 +89,22 @@ const std::vector<Key>& keys() {
                         fmt::format("{}: tiles are {} pixels wide", v.dump(), fmt::join(culling::kTileSides, ", ")));
              m.tilesPixels.push_back(v.get<int>());
          }},
-        {"layout", [](BenchMatrix& m, const Json& v,
+        {"layout", [](BenchMatrix& m, const ParsedJson& v,
                       const std::string& s) { m.layouts.push_back(rowNamed(frame::layoutTable(), v, s, "layout")); }},
-        {"lights", [](BenchMatrix& m, const Json& v,
+        {"lights", [](BenchMatrix& m, const ParsedJson& v,
                       const std::string& s) { m.lights.push_back(numberIn(v, 0, kMostLights, s, "lights")); }},
         {"range",
-         [](BenchMatrix& m, const Json& v, const std::string& s) {
+         [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
              if (!v.is_number() || !std::isfinite(v.get<double>()) || v.get<double>() < 0.0)
                  refuse(s, "range",
                         fmt::format("{} is no range tolerance; give 0, which ends no light, or more", v.dump()));
              m.rangeTolerances.push_back(v.get<double>());
          }},
-        {"shadow", [](BenchMatrix&, const Json&, const std::string& s) { refuse(s, "shadow", kNoShadows); }},
-        {"subsurface", [](BenchMatrix&, const Json&, const std::string& s) { refuse(s, "subsurface", kNoSubsurface); }},
-        {"size",
-         [](BenchMatrix& m, const Json& v, const std::string& s) { m.sizesPixels.push_back(sizeIn(v, s, "size")); }},
+        {"shadow", [](BenchMatrix&, const ParsedJson&, const std::string& s) { refuse(s, "shadow", kNoShadows); }},
+        {"subsurface",
+         [](BenchMatrix&, const ParsedJson&, const std::string& s) { refuse(s, "subsurface", kNoSubsurface); }},
+        {"size", [](BenchMatrix& m, const ParsedJson& v,
+                    const std::string& s) { m.sizesPixels.push_back(sizeIn(v, s, "size")); }},
     };
     return table;
 }
@@ -111,7 +112,7 @@ const std::vector<Key>& keys() {
 } // namespace
 
 BenchMatrix parseMatrix(std::string_view json, const std::string& source) {
-    const Json root = scenes::parseJson(json, source);
+    const ParsedJson root = scenes::parseJson(json, source);
     if (!root.is_object()) throw InputError(fmt::format("{}: must be an object of arrays", source));
     BenchMatrix matrix;
     for (const auto& [name, values] : root.items()) {
@@ -123,7 +124,7 @@ BenchMatrix parseMatrix(std::string_view json, const std::string& source) {
         }
         if (!found) throw InputError(fmt::format("{}: unknown key '{}': {}", source, name, suggestNames(name, names)));
         if (!values.is_array() || values.empty()) refuse(source, name, "must be an array with at least one entry");
-        for (const Json& value : values) found->add(matrix, value, source);
+        for (const ParsedJson& value : values) found->add(matrix, value, source);
     }
     return matrix;
 }

@@ -4,11 +4,11 @@
 
 namespace tessera::validation {
 
-namespace {
-
 std::optional<double> relMseOf(const BenchResult& result) {
     return result.error ? result.error->relMse : std::nullopt;
 }
+
+namespace {
 
 bool dominates(const BenchResult& a, const BenchResult& b) {
     if (!relMseOf(a)) return false;

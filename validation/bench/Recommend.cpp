@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "validation/FigureText.h"
+#include "validation/bench/Pareto.h"
 
 namespace tessera::validation {
 
@@ -18,10 +19,6 @@ constexpr double kSameSpeed = 1.05;
 
 double timeOf(const BenchResult& result) {
     return result.times.cpuMs.median;
-}
-
-std::optional<double> relMseOf(const BenchResult& result) {
-    return result.error ? result.error->relMse : std::nullopt;
 }
 
 template <typename Condition>

@@ -124,7 +124,7 @@ glm::dvec3 metallicRoughness(const SurfacePoint& point, const Directions& direct
     const double contrast = (point.ior - 1.0) / (point.ior + 1.0);
     const double grazing = point.specularFactor + (1.0 - point.specularFactor) * point.metallic;
     const double lobe = specular && directions.hasLobe() ? glossyLobe(point, directions) : 0.0;
-    glm::dvec3 share;
+    glm::dvec3 share(0.0);
     for (int c = 0; c < 3; ++c) {
         const double dielectric = std::min(contrast * contrast * point.specularColor[c], 1.0) * point.specularFactor;
         const double normalIncidence = dielectric + (point.color[c] - dielectric) * point.metallic;

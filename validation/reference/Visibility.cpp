@@ -10,8 +10,6 @@
 
 namespace tessera::reference {
 
-namespace {
-
 struct ReleaseDevice {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
 };
@@ -20,6 +18,8 @@ struct ReleaseScene {
 };
 using Device = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 using Tree = std::unique_ptr<RTCSceneTy, ReleaseScene>;
+
+namespace {
 
 void throwIfFailed(RTCDevice device, const char* what) {
     const RTCError error = rtcGetDeviceError(device);

@@ -24,8 +24,8 @@ struct Probe {
     std::size_t light;
 };
 
-constexpr double kTolerance = 3e-6;
-constexpr const char* kReason =
+constexpr double kLightTolerance = 3e-6;
+constexpr const char* kLightReason =
     "some twenty roundings of 6e-8, of the light without its windows: those subtract from one. A cone counts with the "
     "reciprocal of its width besides";
 
@@ -187,7 +187,7 @@ void measureRandomLights(StressBench& bench, StressFigures& figures) {
 
 void addLightCases(std::vector<StressCase>& cases) {
     const auto add = [&cases](const char* name, const char* holds, void (*run)(StressBench&, StressFigures&)) {
-        cases.push_back({name, holds, StressBound::WorstRel, kTolerance, kReason, run});
+        cases.push_back({name, holds, StressBound::WorstRel, kLightTolerance, kLightReason, run});
     };
     add("light/distance", "a light at d = 0, and from 1e-6 m to 1e6 m away, with each falloff", measureDistances);
     add("light/intensity", "intensities from 1e-20 to 1e20 of every kind of light", measureIntensities);

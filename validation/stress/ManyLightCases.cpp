@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kCounts[] = {1, 31, 32, 33, 255, 256, 257, 1024, 4097, 65536};
 constexpr int kQuickCount = 1024;
-constexpr double kTolerance = 1e-4;
-constexpr const char* kReason =
+constexpr double kManyLightTolerance = 1e-4;
+constexpr const char* kManyLightReason =
     "N positive terms summed in fp32 differ by at most N 2^-24, 6e-5 for 1024, and by 3e-6 for each; errors of more "
     "lights count 1024/N";
 
@@ -69,10 +69,13 @@ void scattered(scenes::Scene& scene, int count) {
 
 void addManyLightCases(std::vector<StressCase>& cases) {
     const auto add = [&cases](const char* name, const char* holds, const char* what, auto addLights) {
-        cases.push_back(
-            {name, holds, StressBound::WorstRel, kTolerance, kReason, {}, [what, addLights](StressEffort effort) {
-                 return picturesOf(effort, what, addLights);
-             }});
+        cases.push_back({name,
+                         holds,
+                         StressBound::WorstRel,
+                         kManyLightTolerance,
+                         kManyLightReason,
+                         {},
+                         [what, addLights](StressEffort effort) { return picturesOf(effort, what, addLights); }});
     };
     add("lights/one_tile", "1 to 65,536 lights, all but one in one tile", "lights, most in one tile", &crowd);
     add("lights/identical", "1 to 65,536 lights, all the same", "identical lights", &identical);

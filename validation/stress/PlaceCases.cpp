@@ -11,9 +11,10 @@ namespace tessera::validation {
 
 namespace {
 
-constexpr double kTolerance = 1e-3;
-constexpr const char* kReason = "fp32 lighting of the same surface, most of it 3e-6: where n.v or n.l is near 0 at a "
-                                "ball's edge it keeps fewer digits";
+constexpr double kPlaceTolerance = 1e-3;
+constexpr const char* kPlaceReason =
+    "fp32 lighting of the same surface, most of it 3e-6: where n.v or n.l is near 0 at a "
+    "ball's edge it keeps fewer digits";
 
 frame::FrameSettings settingsOf(glm::ivec2 sizePixels = {64, 45}) {
     frame::FrameSettings settings;
@@ -158,7 +159,7 @@ std::vector<StressPicture> animatedPictures(StressEffort) {
 
 void addPlaceCases(std::vector<StressCase>& cases) {
     const auto add = [&cases](const char* name, const char* holds, auto pictures) {
-        cases.push_back({name, holds, StressBound::WorstRel, kTolerance, kReason, {}, pictures});
+        cases.push_back({name, holds, StressBound::WorstRel, kPlaceTolerance, kPlaceReason, {}, pictures});
     };
     add("scene/light_place", "lights on the surface, a millionth of a metre beside it and 1000 km away", &lightPlaces);
     add("scene/light_strength", "intensities from 1e-20 to 1e20", &lightStrengths);

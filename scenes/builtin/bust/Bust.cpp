@@ -14,7 +14,7 @@
 namespace tessera::scenes::builtin {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Where rays towards the skin start and how steeply they rise, by height on the bust: level through the shoulders and
 /// neck, fanning out around the skull, so that every ray meets the skin once and no quad is stretched under the chin.
@@ -42,7 +42,7 @@ Ray rayTowardsSkin(double around, double up) {
     const RayKnot& b = kRayKnots[i + 1];
     const double t = (up - a.up) / (b.up - a.up);
     // More columns in front: the longitude grows slower there. u = 0 and 1 lie at the back.
-    const double longitude = 2.0 * kPi * (around - 0.5) - 0.55 * std::sin(2.0 * kPi * (around - 0.5));
+    const double longitude = 2.0 * pi * (around - 0.5) - 0.55 * std::sin(2.0 * pi * (around - 0.5));
     // Only the chin calls for falling rays; at the sides they would graze the shoulders.
     double elevationDegrees = glm::mix(a.elevationDegrees, b.elevationDegrees, t);
     if (elevationDegrees < 0.0) elevationDegrees *= 0.5 + 0.5 * std::cos(longitude);

@@ -9,7 +9,7 @@
 namespace tessera::scenes::builtin {
 namespace {
 
-constexpr std::uint32_t kSeed = 29;
+constexpr std::uint32_t kHairSeed = 29;
 constexpr double kCellBU = 0.27;   // about one curl a cell
 constexpr double kDomeBU = 0.05;   // height of a curl's middle
 constexpr double kPitchBU = 0.055; // from one turn of the spiral to the next
@@ -28,8 +28,8 @@ BustCurl bustCurl(const glm::dvec3& pointBU) {
         for (int j = -1; j <= 1; ++j) {
             for (int i = -1; i <= 1; ++i) {
                 const glm::ivec3 c = cell + glm::ivec3(i, j, k);
-                const glm::dvec3 scatter(hashUnit(c.x, c.y, c.z, kSeed), hashUnit(c.x, c.y, c.z, kSeed + 1),
-                                         hashUnit(c.x, c.y, c.z, kSeed + 2));
+                const glm::dvec3 scatter(hashUnit(c.x, c.y, c.z, kHairSeed), hashUnit(c.x, c.y, c.z, kHairSeed + 1),
+                                         hashUnit(c.x, c.y, c.z, kHairSeed + 2));
                 const glm::dvec3 point = glm::dvec3(c) + 0.2 + 0.6 * scatter;
                 const double distance = glm::distance(scaled, point);
                 if (distance < nearest) {

@@ -10,12 +10,12 @@
 namespace tessera::scenes::builtin::hall {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double kTopY = kVaultSpringY + kVaultRadius + 0.4;
 
 /// The near end faces the apse: a wall made facing +Z is turned around.
 glm::dmat4 nearEnd() {
-    return glm::rotate(glm::translate(glm::dmat4(1.0), {0.0, 0.0, kHalfLength}), kPi, glm::dvec3(0.0, 1.0, 0.0));
+    return glm::rotate(glm::translate(glm::dmat4(1.0), {0.0, 0.0, kHalfLength}), pi, glm::dvec3(0.0, 1.0, 0.0));
 }
 glm::dmat4 farEnd() {
     return glm::translate(glm::dmat4(1.0), {0.0, 0.0, -kHalfLength});
@@ -73,7 +73,7 @@ Mesh endTrim() {
     // The apse's own string course, where its dome begins.
     const int slices = 40;
     const auto ring = [&](double u) {
-        const glm::dvec3 out(std::cos(kPi * u), 0.0, -std::sin(kPi * u));
+        const glm::dvec3 out(std::cos(pi * u), 0.0, -std::sin(pi * u));
         return out;
     };
     Mesh course;

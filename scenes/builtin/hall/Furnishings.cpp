@@ -8,7 +8,7 @@
 namespace tessera::scenes::builtin::hall {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double kCarpetHalf = 1.2;
 
 } // namespace
@@ -39,7 +39,7 @@ Mesh dais() {
     double y = 0.0;
     for (const double radius : {2.35, 2.0, 0.0}) {
         const double edge = steps.runs().empty() ? 2.7 : steps.runs().back().points.back().x;
-        steps.lineTo({edge, y + 0.13}).arcAround({edge - 0.03, y + 0.13}, 0.5 * kPi, 3);
+        steps.lineTo({edge, y + 0.13}).arcAround({edge - 0.03, y + 0.13}, 0.5 * pi, 3);
         y += 0.16;
         steps.lineTo({radius, y});
     }
@@ -55,7 +55,7 @@ Mesh banner() {
     const auto cloth = [](double u, double v) {
         const double across = 2.0 * u - 1.0;
         const double point = 0.16 * (1.0 - std::abs(across));
-        const double fold = (0.012 + 0.03 * v) * std::sin(3.0 * kPi * across + 1.2 * v) + 0.05 * v * v;
+        const double fold = (0.012 + 0.03 * v) * std::sin(3.0 * pi * across + 1.2 * v) + 0.05 * v * v;
         return glm::dvec3(-kNaveHalf + 0.12 + fold, kTopY - v * (kLength - 0.16 + point), -kHalfWidth * across);
     };
     constexpr double kStep = 1e-4;
@@ -72,7 +72,7 @@ Mesh banner() {
 Mesh vase() {
     const Profile amphora = Profile({0.0, 0.0})
                                 .lineTo({0.17, 0.0})
-                                .arcAround({0.17, 0.025}, kPi, 4)
+                                .arcAround({0.17, 0.025}, pi, 4)
                                 .curveThrough({{0.09, 0.1},
                                                {0.14, 0.2},
                                                {0.29, 0.45},
@@ -82,21 +82,21 @@ Mesh vase() {
                                                {0.1, 1.03},
                                                {0.17, 1.12}},
                                               3)
-                                .arcAround({0.165, 1.135}, kPi, 4)
+                                .arcAround({0.165, 1.135}, pi, 4)
                                 .curveThrough({{0.08, 1.05}, {0.07, 0.95}}, 3);
     Mesh mesh;
     appendLathe(mesh, amphora, 28);
     // Two handles from the shoulder to the neck.
     for (const double side : {-1.0, 1.0}) {
         const auto spine = [&](double t) {
-            const double a = kPi * (0.5 - t) + 0.25;
+            const double a = pi * (0.5 - t) + 0.25;
             return glm::dvec3(side * (0.14 + 0.16 * std::cos(a)), 0.88 + 0.17 * std::sin(a), 0.0);
         };
         appendPatch(mesh, 10, 12, [&](double u, double v) {
             const glm::dvec3 tangent = glm::normalize(spine(v + 1e-4) - spine(v - 1e-4));
             const glm::dvec3 binormal(0.0, 0.0, 1.0);
             const glm::dvec3 normal = glm::cross(binormal, tangent);
-            const glm::dvec3 out = std::cos(2.0 * kPi * u) * normal + std::sin(2.0 * kPi * u) * binormal;
+            const glm::dvec3 out = std::cos(2.0 * pi * u) * normal + std::sin(2.0 * pi * u) * binormal;
             return SurfacePoint{spine(v) + 0.022 * out, out, {0.14 * u, 0.5 * v}};
         });
     }

@@ -12,7 +12,7 @@
 namespace tessera::scenes::builtin::hall {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int kPlaces = 256;
 
 constexpr glm::vec3 kAmber(1.0f, 0.56f, 0.22f);
@@ -25,7 +25,7 @@ constexpr glm::vec3 kSky(0.25f, 0.52f, 1.0f);
 glm::vec3 hueColor(double hue) {
     glm::vec3 color;
     for (glm::length_t k = 0; k < 3; ++k) {
-        color[k] = static_cast<float>(0.5 + 0.5 * std::cos(2.0 * kPi * (hue - static_cast<double>(k) / 3.0)));
+        color[k] = static_cast<float>(0.5 + 0.5 * std::cos(2.0 * pi * (hue - static_cast<double>(k) / 3.0)));
     }
     return color / std::max({color.x, color.y, color.z});
 }
@@ -66,7 +66,7 @@ void addFixtures(std::vector<Light>& places) {
 void addApse(std::vector<Light>& places) {
     constexpr int kLamps = 18;
     for (int i = 0; i < kLamps; ++i) {
-        const double angle = kPi * (i + 0.5) / kLamps;
+        const double angle = pi * (i + 0.5) / kLamps;
         const double radius = i % 2 == 0 ? 2.45 : 1.9;
         const double y = i % 2 == 0 ? 5.9 : 1.1;
         const glm::dvec3 positionWS(radius * std::cos(angle), y, -kHalfLength - radius * std::sin(angle));
@@ -92,7 +92,7 @@ void addWisps(std::vector<Light>& places) {
     assert(count > 0);
     for (int i = 0; i < count; ++i) {
         const double way = (i + 0.5) / count;
-        const double angle = 2.0 * kPi * 5.0 * way + kPi * (i % 2);
+        const double angle = 2.0 * pi * 5.0 * way + pi * (i % 2);
         const glm::dvec3 positionWS(1.75 * std::cos(angle), 2.4 + 1.35 * std::sin(angle),
                                     -kHalfLength + 1.5 + (2.0 * kHalfLength - 4.0) * way);
         addPlace(places, "wisp", positionWS, hueColor(0.08 + 0.9 * way), 3.2f, 3.4f);

@@ -10,14 +10,14 @@
 namespace tessera::scenes::builtin::hall {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int kAround = 10; // coffers from springing to springing
 constexpr int kAlong = 4;   // coffers in a bay
 
 /// A point of the vault by its shares of the half circle and of the bay, `depth` behind the vault's face.
 glm::dvec3 vaultPoint(double around, double along, double depth) {
     const double r = kVaultRadius + depth;
-    return {r * std::cos(kPi * around), kVaultSpringY + r * std::sin(kPi * around), (along - 0.5) * kBayLength};
+    return {r * std::cos(pi * around), kVaultSpringY + r * std::sin(pi * around), (along - 0.5) * kBayLength};
 }
 
 /// A coffer: two frames, each with a step inwards behind it, and the ground. Insets are metres along the face.
@@ -25,7 +25,7 @@ struct Coffer {
     double around0, around1, along0, along1;
 
     Coffer inset(double metres) const {
-        const double around = metres / (kPi * kVaultRadius);
+        const double around = metres / (pi * kVaultRadius);
         const double along = metres / kBayLength;
         return {around0 + around, around1 - around, along0 + along, along1 - along};
     }
@@ -103,10 +103,10 @@ Mesh vaultRosettes() {
     constexpr double kRadius = 0.19;
     appendPatch(flower, 16, 4, [](double u, double v) {
         const auto at = [](double a, double r) {
-            const double petal = 0.84 + 0.16 * std::cos(8.0 * 2.0 * kPi * a);
-            const double height = 0.1 * (1.0 - r * r) + 0.02 * std::cos(3.0 * kPi * r);
-            return glm::dvec3(kRadius * r * petal * std::cos(2.0 * kPi * a), height,
-                              -kRadius * r * petal * std::sin(2.0 * kPi * a));
+            const double petal = 0.84 + 0.16 * std::cos(8.0 * 2.0 * pi * a);
+            const double height = 0.1 * (1.0 - r * r) + 0.02 * std::cos(3.0 * pi * r);
+            return glm::dvec3(kRadius * r * petal * std::cos(2.0 * pi * a), height,
+                              -kRadius * r * petal * std::sin(2.0 * pi * a));
         };
         constexpr double kStep = 1e-3;
         const double r = std::max(v, 0.02);
@@ -119,10 +119,10 @@ Mesh vaultRosettes() {
     forEachCoffer([&](const Coffer& coffer) {
         const double around = 0.5 * (coffer.around0 + coffer.around1);
         const double along = 0.5 * (coffer.along0 + coffer.along1);
-        const glm::dvec3 up = glm::normalize(glm::dvec3(-std::cos(kPi * around), -std::sin(kPi * around), 0.0));
+        const glm::dvec3 up = glm::normalize(glm::dvec3(-std::cos(pi * around), -std::sin(pi * around), 0.0));
         const glm::dvec3 side(0.0, 0.0, 1.0);
         // The ground is a chord of the vault and lies a little below its arc.
-        const double sagitta = (kVaultRadius + kDepth) * (1.0 - std::cos(0.5 * kPi / kAround));
+        const double sagitta = (kVaultRadius + kDepth) * (1.0 - std::cos(0.5 * pi / kAround));
         const glm::dvec3 foot = vaultPoint(around, along, kDepth - 0.6 * sagitta);
         appendMesh(
             mesh, flower,

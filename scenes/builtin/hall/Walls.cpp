@@ -10,7 +10,7 @@
 namespace tessera::scenes::builtin::hall {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Puts what was made facing +Z around the origin into the plane x, facing +X.
 glm::dmat4 facingRight(double x) {
@@ -48,17 +48,17 @@ Profile corniceProfile() {
 } // namespace
 
 void appendAlcove(Mesh& mesh, double radius, double floorY, double springY, int slices, int stacks) {
-    const auto out = [](double u) { return glm::dvec3(std::cos(kPi * u), 0.0, -std::sin(kPi * u)); };
+    const auto out = [](double u) { return glm::dvec3(std::cos(pi * u), 0.0, -std::sin(pi * u)); };
     appendPatch(mesh, slices, 1, [&](double u, double v) {
         return SurfacePoint{radius * out(u) + glm::dvec3(0.0, glm::mix(floorY, springY, v), 0.0),
                             -out(u),
-                            {kPi * radius * u, glm::mix(springY, floorY, v)}};
+                            {pi * radius * u, glm::mix(springY, floorY, v)}};
     });
     appendPatch(mesh, slices, stacks, [&](double u, double v) {
-        const double rise = 0.5 * kPi * v;
+        const double rise = 0.5 * pi * v;
         const glm::dvec3 direction = std::cos(rise) * out(u) + glm::dvec3(0.0, std::sin(rise), 0.0);
         return SurfacePoint{
-            radius * direction + glm::dvec3(0.0, springY, 0.0), -direction, {kPi * radius * u, -radius * rise}};
+            radius * direction + glm::dvec3(0.0, springY, 0.0), -direction, {pi * radius * u, -radius * rise}};
     });
     appendPatch(mesh, slices, 1, [&](double u, double v) {
         const glm::dvec3 p = radius * v * out(u);
@@ -117,9 +117,9 @@ Mesh bayWalls() {
     const double radius = 0.5 * (kAisleOuterX + innerX);
     const double centerX = 0.5 * (innerX - kAisleOuterX);
     appendPatch(mesh, 20, 1, [&](double u, double v) {
-        const glm::dvec3 out(std::cos(kPi * u), std::sin(kPi * u), 0.0);
+        const glm::dvec3 out(std::cos(pi * u), std::sin(pi * u), 0.0);
         const double z = (v - 0.5) * kBayLength;
-        return SurfacePoint{glm::dvec3(centerX, kAisleVaultSpringY, z) + radius * out, -out, {kPi * radius * u, z}};
+        return SurfacePoint{glm::dvec3(centerX, kAisleVaultSpringY, z) + radius * out, -out, {pi * radius * u, z}};
     });
     return mesh;
 }
@@ -181,7 +181,7 @@ Mesh bayGilding() {
     const double half = 0.5 * kBayLength;
     const auto fillet = [&](double x, double y, double size) {
         Mesh part;
-        appendMoulding(part, Profile({0.0, y - size}).arcAround({0.0, y}, kPi, 6), -half, half);
+        appendMoulding(part, Profile({0.0, y - size}).arcAround({0.0, y}, pi, 6), -half, half);
         appendMesh(mesh, part, glm::translate(glm::dmat4(1.0), {x, 0.0, 0.0}));
     };
     fillet(-kNaveHalf + 0.05, kCorniceY - 0.12, 0.035);
@@ -189,7 +189,7 @@ Mesh bayGilding() {
     fillet(-kNaveHalf + 0.06, kVaultSpringY - 0.15, 0.035);
     // A bead around the arch, between its two steps.
     Mesh bead;
-    appendArch(bead, Profile({kArchRadius + 0.1, -0.042}).arcAround({kArchRadius + 0.135, -0.042}, kPi, 6),
+    appendArch(bead, Profile({kArchRadius + 0.1, -0.042}).arcAround({kArchRadius + 0.135, -0.042}, pi, 6),
                {0.0, kImpostY, 0.0}, 32);
     appendMesh(mesh, bead, facingRight(-kNaveHalf));
     return mesh;

@@ -15,6 +15,9 @@ namespace tessera::test {
 
 using Words = std::vector<std::string>;
 
+/// Exit codes of the program.
+inline constexpr int kGood = 0, kBadInput = 2, kToleranceMissed = 3;
+
 /// Runs the program in a folder of the test's own.
 class Cli : public testing::Test {
 protected:

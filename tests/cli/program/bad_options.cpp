@@ -3,8 +3,6 @@
 namespace tessera::test {
 namespace {
 
-constexpr int kBadInput = 2;
-
 class BadOptions : public Cli {
 protected:
     void SetUp() override { folder_.write("a.png", "an older picture"); }

@@ -11,7 +11,6 @@ namespace {
 using scenes::gltf::test::Builder;
 using scenes::gltf::test::Json;
 
-constexpr int kBadInput = 2;
 constexpr int kFloat = 5126, kUnsignedByte = 5121;
 
 class BadScenes : public Cli {

@@ -10,8 +10,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr int kGood = 0, kBadInput = 2, kToleranceMissed = 3;
-
 std::set<std::string> keysOf(const Json& object) {
     std::set<std::string> keys;
     for (const auto& [key, value] : object.items()) keys.insert(key);

@@ -14,7 +14,7 @@ using test::StoredSurface;
 
 constexpr frame::Encoding kCoarse[] = {frame::Encoding::Packed, frame::Encoding::Slim};
 
-bool isMicrofacet(const StoredSurface& surface) {
+bool isMicrofacetModel(const StoredSurface& surface) {
     return surface.model == float(MODEL_MICROFACET) || surface.model == float(MODEL_MICROFACET_ANISOTROPIC);
 }
 
@@ -31,7 +31,7 @@ TEST_F(GBufferTest, everyLayoutAlwaysKeepsModelAndMasking) {
         const std::vector<StoredSurface> back = roundTrip(surfaces, encoding);
         for (std::size_t i = 0; i < surfaces.size(); ++i) {
             ASSERT_EQ(back[i].model, surfaces[i].model) << "surface " << i;
-            if (isMicrofacet(surfaces[i])) {
+            if (isMicrofacetModel(surfaces[i])) {
                 ASSERT_EQ(back[i].masking, surfaces[i].masking) << "surface " << i;
             }
         }

@@ -12,13 +12,13 @@ using testing::HasSubstr;
 
 class ProgramTest : public test::GlTest {};
 
-std::vector<StageSource> compute(const std::string& body) {
+std::vector<StageSource> computeStage(const std::string& body) {
     return {{Stage::Compute, "#version 450 core\nlayout(local_size_x = 1) in;\n" + body}};
 }
 
 TEST_F(ProgramTest, aFaultyStageIsAlwaysNamedWithTheDriversLog) {
     try {
-        const Program program("broken", compute("void main() { undeclaredName = 1.0; }"));
+        const Program program("broken", computeStage("void main() { undeclaredName = 1.0; }"));
         FAIL() << "expected a ShaderError";
     } catch (const ShaderError& error) {
         EXPECT_EQ(error.program(), "broken");
@@ -46,7 +46,7 @@ TEST_F(ProgramTest, aProgramThatDoesNotLinkIsAlwaysNamed) {
 }
 
 TEST_F(ProgramTest, blocksAlwaysTellTheirMembersAndTheirSize) {
-    const Program program("blocks", compute(R"(
+    const Program program("blocks", computeStage(R"(
 struct Light { vec3 positionVS; float rangeMetres; vec4 weights[2]; };
 layout(binding = 2, std140) uniform View { mat4 clipFromView; float timeSeconds; vec4 planes[3]; };
 layout(binding = 5, std430) buffer Lights { uint count; Light lights[]; };

@@ -10,7 +10,7 @@
 namespace tessera::scenes {
 namespace {
 
-constexpr double kRounding = 1e-12; // a dozen operations in double on numbers near 10
+constexpr double kDefaultsRounding = 1e-12; // a dozen operations in double on numbers near 10
 
 TEST(DefaultCamera, alwaysSeesTheBoundsFromTheSpecifiedPlace) {
     Scene scene = tinyScene();
@@ -25,9 +25,9 @@ TEST(DefaultCamera, alwaysSeesTheBoundsFromTheSpecifiedPlace) {
     const double radius = std::sqrt(5.0);
     const double distance = 1.2 * radius / std::sin(std::numbers::pi / 8.0);
     const glm::dvec3 eyeWS = centerWS + distance * glm::normalize(glm::dvec3(1.0, 0.7, 1.0));
-    EXPECT_LT(glm::distance(glm::dvec3(camera.worldFromCamera[3]), eyeWS), kRounding);
+    EXPECT_LT(glm::distance(glm::dvec3(camera.worldFromCamera[3]), eyeWS), kDefaultsRounding);
     EXPECT_LT(glm::distance(-glm::dvec3(camera.worldFromCamera[2]), -glm::normalize(glm::dvec3(1.0, 0.7, 1.0))),
-              kRounding);
+              kDefaultsRounding);
     EXPECT_GT(camera.worldFromCamera[1].y, 0.0);
     EXPECT_LT(camera.nearMetres, distance - radius);
     checkScene(scene);

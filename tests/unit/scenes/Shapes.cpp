@@ -14,7 +14,7 @@
 namespace tessera::scenes::builtin {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 double area(const Mesh& mesh) {
     double sum = 0.0;
@@ -51,7 +51,7 @@ TEST(Shapes, sphereAlwaysNearsItsVolumeFromBelow) {
     Mesh mesh;
     appendSphere(mesh, {0.0, 1.0, 0.0}, 2.0, 96, 64);
     expectMeshRules(mesh);
-    const double exact = 4.0 / 3.0 * kPi * 8.0;
+    const double exact = 4.0 / 3.0 * pi * 8.0;
     EXPECT_LT(volume(mesh), exact);
     EXPECT_GT(volume(mesh), 0.995 * exact); // inscribed: short by about (2 pi / 96)^2 / 3
 }
@@ -60,14 +60,14 @@ TEST(Shapes, latheOfAConeAlwaysHasItsVolumeAndOutwardNormals) {
     Mesh mesh;
     appendLathe(mesh, Profile({0.0, 0.0}).lineTo({1.0, 0.0}).lineTo({0.0, 3.0}), 256);
     expectMeshRules(mesh);
-    EXPECT_NEAR(volume(mesh), kPi, 1e-3 * kPi); // inscribed polygon of 256 sides: 1e-4 short
+    EXPECT_NEAR(volume(mesh), pi, 1e-3 * pi); // inscribed polygon of 256 sides: 1e-4 short
 }
 
 TEST(Shapes, archAlwaysSweepsTheUpperHalfCircle) {
     Mesh mesh; // a band of radius 2, seen from inside, 0.5 m wide
     appendArch(mesh, Profile({2.0, 0.5}).lineTo({2.0, 0.0}), {0.0, 1.0, 0.0}, 256);
     expectMeshRules(mesh);
-    EXPECT_NEAR(area(mesh), 0.5 * 2.0 * kPi, 1e-3);
+    EXPECT_NEAR(area(mesh), 0.5 * 2.0 * pi, 1e-3);
     for (std::size_t i = 0; i < mesh.positionsOS.size(); ++i) {
         const glm::dvec3 arm = glm::dvec3(mesh.positionsOS[i]) - glm::dvec3(0.0, 1.0, 0.0);
         EXPECT_NEAR(std::hypot(arm.x, arm.y), 2.0, 1e-6);
@@ -91,14 +91,14 @@ TEST(Shapes, archedWallAlwaysHasTheAreaOfItsFacesAndSoffit) {
     Mesh mesh;
     appendArchedWall(mesh, wall);
     expectMeshRules(mesh);
-    const double face = 4.0 * 6.0 - 2.0 * 2.0 - 0.5 * kPi;
-    const double soffit = 0.5 * (kPi + 2.0 * 2.0 + 2.0);
+    const double face = 4.0 * 6.0 - 2.0 * 2.0 - 0.5 * pi;
+    const double soffit = 0.5 * (pi + 2.0 * 2.0 + 2.0);
     EXPECT_NEAR(area(mesh), 2.0 * face + soffit, 1e-3);
 }
 
 TEST(Shapes, profileArcsAndCurvesAlwaysHaveUnitNormalsToTheRight) {
     // Counter-clockwise about the origin from +X: travelling up, the outside on the right is away from the centre.
-    const Profile arc = Profile({1.0, 0.0}).arcAround({0.0, 0.0}, kPi / 2.0, 8);
+    const Profile arc = Profile({1.0, 0.0}).arcAround({0.0, 0.0}, pi / 2.0, 8);
     for (std::size_t i = 0; i < arc.runs()[0].points.size(); ++i) {
         EXPECT_LT(glm::distance(arc.runs()[0].points[i], arc.runs()[0].normals[i]), 1e-12);
     }

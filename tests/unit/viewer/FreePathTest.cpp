@@ -11,11 +11,11 @@ class FreePath : public testing::Test {
 protected:
     FreePath() { std::filesystem::current_path(folder_.path()); }
     ~FreePath() override { std::filesystem::current_path(before_); }
-    const test::TempFolder& folder() const { return folder_; }
+    const tessera::test::TempFolder& folder() const { return folder_; }
 
 private:
     std::filesystem::path before_ = std::filesystem::current_path();
-    test::TempFolder folder_;
+    tessera::test::TempFolder folder_;
 };
 
 TEST_F(FreePath, aFileThatIsThereIsNeverNamed) {

@@ -27,7 +27,7 @@ Preferences everything() {
 }
 
 TEST(Preferences, whatWasWrittenIsAlwaysReadBack) {
-    const test::TempFolder folder;
+    const tessera::test::TempFolder folder;
     const std::filesystem::path file = folder.path() / "made" / "viewer.json";
     writePreferences(everything(), file);
     EXPECT_EQ(readPreferences(file), everything());
@@ -36,12 +36,12 @@ TEST(Preferences, whatWasWrittenIsAlwaysReadBack) {
 }
 
 TEST(Preferences, withoutAFileTheyAreAlwaysTheUsualOnes) {
-    const test::TempFolder folder;
+    const tessera::test::TempFolder folder;
     EXPECT_EQ(readPreferences(folder.path() / "viewer.json"), Preferences());
 }
 
 TEST(Preferences, anEntryOfTheWrongKindIsAlwaysLeftOutAlone) {
-    const test::TempFolder folder;
+    const tessera::test::TempFolder folder;
     const std::filesystem::path file = folder.path() / "viewer.json";
     std::ofstream(file) << R"({"technique": 7, "layout": "slim", "window": [1, 1], "recent": "x", "tile": null})";
     Preferences expected;
@@ -50,7 +50,7 @@ TEST(Preferences, anEntryOfTheWrongKindIsAlwaysLeftOutAlone) {
 }
 
 TEST(Preferences, aScaleThatCannotBeSetIsNeverTakenFromAFile) {
-    const test::TempFolder folder;
+    const tessera::test::TempFolder folder;
     const std::filesystem::path file = folder.path() / "viewer.json";
     for (const char* scale : {"0", "0.05", "-1", "1.5", "1e300"}) {
         std::ofstream(file) << R"({"fixedScale": )" << scale << "}";
@@ -59,7 +59,7 @@ TEST(Preferences, aScaleThatCannotBeSetIsNeverTakenFromAFile) {
 }
 
 TEST(Preferences, aFileThatIsNoJsonIsAlwaysAnErrorThatNamesIt) {
-    const test::TempFolder folder;
+    const tessera::test::TempFolder folder;
     const std::filesystem::path file = folder.path() / "viewer.json";
     std::ofstream(file) << "{\"technique\": ";
     try {
@@ -72,7 +72,7 @@ TEST(Preferences, aFileThatIsNoJsonIsAlwaysAnErrorThatNamesIt) {
 }
 
 TEST(Preferences, aFolderInTheirPlaceIsAlwaysAnErrorThatNamesIt) {
-    const test::TempFolder folder;
+    const tessera::test::TempFolder folder;
     const std::filesystem::path file = folder.path() / "viewer.json";
     std::filesystem::create_directory(file);
     try {

@@ -17,7 +17,7 @@ State showing(const Look& look) {
     return state;
 }
 
-Preferences everything() {
+Preferences remembered() {
     Preferences preferences;
     preferences.windowSize = glm::ivec2(1000, 800);
     preferences.technique = "forward_plus";
@@ -43,7 +43,7 @@ Look ofItsOwn() {
 
 TEST(Remember, whatNobodyChangedIsNeverRememberedAndNeverChangesWhatIs) {
     for (const Look& begun : {Look(), ofItsOwn()}) { // said on the command line, or wished by the scene
-        for (const Preferences& before : {Preferences(), everything()}) {
+        for (const Preferences& before : {Preferences(), remembered()}) {
             Preferences preferences = before;
             State state = showing(begun);
             recall(before, state);
@@ -54,7 +54,7 @@ TEST(Remember, whatNobodyChangedIsNeverRememberedAndNeverChangesWhatIs) {
 }
 
 TEST(Remember, whatWasChangedIsAlwaysRememberedByName) {
-    for (const Preferences& before : {Preferences(), everything()}) {
+    for (const Preferences& before : {Preferences(), remembered()}) {
         Preferences preferences = before;
         remember(preferences, showing(ofItsOwn()), {}, {640, 480});
         EXPECT_EQ(preferences.technique, "forward_plus");
@@ -79,7 +79,7 @@ TEST(Remember, whatBeganAsRememberedAlwaysFollowsTheLatestChoice) {
     Look open = ofItsOwn();
     open.settings.culling = {};
     open.settings.samples = 1;
-    preferences = everything();
+    preferences = remembered();
     remember(preferences, showing(open), ofItsOwn(), kWindow);
     EXPECT_FALSE(preferences.culling) << "it was left to the technique";
     EXPECT_FALSE(preferences.tile);
@@ -87,26 +87,26 @@ TEST(Remember, whatBeganAsRememberedAlwaysFollowsTheLatestChoice) {
 }
 
 TEST(Remember, whatWasSaidOnTheCommandLineNeverBecomesWhatIsRemembered) {
-    Preferences preferences = everything();
+    Preferences preferences = remembered();
     Look said = ofItsOwn();
     Look now = said;
     now.settings.toneMap = frame::ToneMap::None; // another choice changes nothing about that
     remember(preferences, showing(said), said, kWindow);
-    EXPECT_EQ(preferences, everything());
+    EXPECT_EQ(preferences, remembered());
     remember(preferences, showing(now), said, kWindow);
-    Preferences expected = everything();
+    Preferences expected = remembered();
     expected.toneMap = "none";
     EXPECT_EQ(preferences, expected);
 }
 
 TEST(Remember, whatATechniqueCannotDoNeverLeavesWhatIsRemembered) {
     for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
-        Preferences preferences = everything();
+        Preferences preferences = remembered();
         const Look begun = possible(ofItsOwn());
         Look now = begun;
         now.technique = info.technique;
         remember(preferences, showing(possible(now)), begun, kWindow);
-        Preferences expected = everything();
+        Preferences expected = remembered();
         if (info.technique != begun.technique) expected.technique = info.name;
         EXPECT_EQ(preferences, expected) << info.name;
     }

@@ -9,10 +9,10 @@ namespace tessera::scenes::gltf::test {
 namespace {
 
 /// Rounding of a few double operations on numbers near 1.
-constexpr double kRounding = 1e-14;
+constexpr double kNodeRounding = 1e-14;
 
 void expectNear(const glm::dvec3& value, const glm::dvec3& expected) {
-    EXPECT_LT(glm::length(value - expected), kRounding) << value.x << ' ' << value.y << ' ' << value.z;
+    EXPECT_LT(glm::length(value - expected), kNodeRounding) << value.x << ' ' << value.y << ' ' << value.z;
 }
 
 Builder withNodes(const char* nodes, const char* roots = "[0]") {
@@ -162,8 +162,8 @@ TEST(GltfCameras, worldFromCameraIsAlwaysRigid) {
     const glm::dmat3 rotation(builder.import().cameras.at(0).worldFromCamera);
     const glm::dmat3 product = glm::transpose(rotation) * rotation;
     for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 3; ++r) EXPECT_NEAR(product[c][r], c == r ? 1.0 : 0.0, kRounding);
-    EXPECT_NEAR(glm::determinant(rotation), 1.0, kRounding);
+        for (int r = 0; r < 3; ++r) EXPECT_NEAR(product[c][r], c == r ? 1.0 : 0.0, kNodeRounding);
+    EXPECT_NEAR(glm::determinant(rotation), 1.0, kNodeRounding);
 }
 
 TEST(GltfCameras, namesAreAlwaysUnique) {

@@ -11,7 +11,7 @@ Camera cameraOf(const SceneFolder& folder, const std::string& camera) {
     return folder.import(R"({"tessera": 1, "cameras": [)" + camera + "]}").cameras.at(0);
 }
 
-std::string errorOf(const SceneFolder& folder, const std::string& camera) {
+std::string errorOfCamera(const SceneFolder& folder, const std::string& camera) {
     return folder.errorOf(R"({"tessera": 1, "cameras": [)" + camera + "]}");
 }
 
@@ -48,7 +48,7 @@ TEST(SceneJsonCameras, anOrthographicCameraAlwaysHasItsHalfHeight) {
     EXPECT_EQ(camera.projection, Projection::Orthographic);
     EXPECT_EQ(camera.halfHeightMetres, 3.0);
     EXPECT_EQ(camera.nearMetres, 0.0);
-    EXPECT_EQ(errorOf(folder, R"({"type": "orthographic", "position": [0, 9, 0], "direction": [0, -1, 0]})"),
+    EXPECT_EQ(errorOfCamera(folder, R"({"type": "orthographic", "position": [0, 9, 0], "direction": [0, -1, 0]})"),
               "/cameras/0: lacks the key 'halfHeight'; add it");
 }
 
@@ -60,23 +60,26 @@ TEST(SceneJsonCameras, aMatrixAlwaysPlacesTheCamera) {
     EXPECT_EQ(folder.errorBeyondSchemaOf(
                   R"({"tessera": 1, "cameras": [{"matrix": [2, 0, 0, 0,  0, 2, 0, 0,  0, 0, 2, 0,  0, 0, 0, 1]}]})"),
               "/cameras/0/matrix: a camera's matrix must only rotate and move; remove its scale");
-    EXPECT_EQ(errorOf(folder, R"({"matrix": [1, 0, 0, 0,  0, 1, 0, 0,  0, 0, 1, 0,  0, 0, 0, 1], "up": [0, 1, 0]})"),
-              "/cameras/0/up: is given beside 'matrix'; keep one");
-    EXPECT_EQ(errorOf(folder, R"({"matrix": [1, 0, 0]})"), "/cameras/0/matrix: has 3 elements; exactly 16 are needed");
+    EXPECT_EQ(
+        errorOfCamera(folder, R"({"matrix": [1, 0, 0, 0,  0, 1, 0, 0,  0, 0, 1, 0,  0, 0, 0, 1], "up": [0, 1, 0]})"),
+        "/cameras/0/up: is given beside 'matrix'; keep one");
+    EXPECT_EQ(errorOfCamera(folder, R"({"matrix": [1, 0, 0]})"),
+              "/cameras/0/matrix: has 3 elements; exactly 16 are needed");
 }
 
 TEST(SceneJsonCameras, impossibleCamerasAreAlwaysRefused) {
     const SceneFolder folder;
     const std::string start = R"({"position": [0, 0, 1], "target": [0, 0, 0], )";
-    EXPECT_EQ(errorOf(folder, start + R"("fovYDegrees": 180})"),
+    EXPECT_EQ(errorOfCamera(folder, start + R"("fovYDegrees": 180})"),
               "/cameras/0/fovYDegrees: is 180; less than 180 is needed");
-    EXPECT_EQ(errorOf(folder, start + R"("fovYDegrees": 0})"), "/cameras/0/fovYDegrees: is 0; more than 0 is needed");
-    EXPECT_EQ(errorOf(folder, start + R"("near": 0})"), "/cameras/0/near: is 0; more than 0 is needed");
-    EXPECT_EQ(errorOf(folder, start + R"("direction": [0, 0, 1]})"),
+    EXPECT_EQ(errorOfCamera(folder, start + R"("fovYDegrees": 0})"),
+              "/cameras/0/fovYDegrees: is 0; more than 0 is needed");
+    EXPECT_EQ(errorOfCamera(folder, start + R"("near": 0})"), "/cameras/0/near: is 0; more than 0 is needed");
+    EXPECT_EQ(errorOfCamera(folder, start + R"("direction": [0, 0, 1]})"),
               "/cameras/0/target: is given beside 'direction'; keep one");
-    EXPECT_EQ(errorOf(folder, start + R"("type": "fisheye"})"),
+    EXPECT_EQ(errorOfCamera(folder, start + R"("type": "fisheye"})"),
               "/cameras/0/type: there is no projection 'fisheye'; valid are perspective, orthographic");
-    EXPECT_EQ(errorOf(folder, R"({"position": [0, 0, 1]})"), "/cameras/0: lacks the key 'target'; add it");
+    EXPECT_EQ(errorOfCamera(folder, R"({"position": [0, 0, 1]})"), "/cameras/0: lacks the key 'target'; add it");
     EXPECT_EQ(
         folder.errorBeyondSchemaOf(R"({"tessera": 1, "cameras": [{"position": [0, 0, 1], "target": [0, 0, 1]}]})"),
         "/cameras/0/target: is the camera's own position; give another point");

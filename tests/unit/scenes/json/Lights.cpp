@@ -15,7 +15,7 @@ Light lightOf(const SceneFolder& folder, const std::string& light) {
     return folder.import(R"({"tessera": 1, "lights": [)" + light + "]}").lights.at(0);
 }
 
-std::string errorOf(const SceneFolder& folder, const std::string& light) {
+std::string errorOfLight(const SceneFolder& folder, const std::string& light) {
     return folder.errorOf(R"({"tessera": 1, "lights": [)" + light + "]}");
 }
 
@@ -64,14 +64,14 @@ TEST(SceneJsonLights, bothFalloffsAreAlwaysKept) {
 TEST(SceneJsonLights, attenuationWithoutOrBelowZeroIsAlwaysRefused) {
     const SceneFolder folder;
     for (const char* falloff : {R"({"type": "attenuation"})", R"({"type": "attenuation", "A": 0, "B": 0, "C": 0})"})
-        EXPECT_EQ(errorOf(folder, point(std::string(R"("falloff": )") + falloff)),
+        EXPECT_EQ(errorOfLight(folder, point(std::string(R"("falloff": )") + falloff)),
                   "/lights/0/falloff: the attenuation coefficients A, B and C are all 0, which divides by 0; give at "
                   "least one above 0");
-    EXPECT_EQ(errorOf(folder, point(R"("falloff": {"type": "attenuation", "A": 1, "B": -0.5})")),
+    EXPECT_EQ(errorOfLight(folder, point(R"("falloff": {"type": "attenuation", "A": 1, "B": -0.5})")),
               "/lights/0/falloff/B: the attenuation coefficient B is -0.5; it must not be negative");
-    EXPECT_EQ(errorOf(folder, point(R"("falloff": {"type": "attenuation", "A": 1, "range": 5})")),
+    EXPECT_EQ(errorOfLight(folder, point(R"("falloff": {"type": "attenuation", "A": 1, "range": 5})")),
               "/lights/0/falloff: an attenuation falloff has no key 'range'; valid are type, A, B, C");
-    EXPECT_EQ(errorOf(folder, point(R"("falloff": {"type": "linear"})")),
+    EXPECT_EQ(errorOfLight(folder, point(R"("falloff": {"type": "linear"})")),
               "/lights/0/falloff/type: there is no falloff 'linear'; valid are inverse_square, attenuation");
 }
 
@@ -84,9 +84,9 @@ TEST(SceneJsonLights, directionsAreAlwaysOfUnitLength) {
     EXPECT_NEAR(sun.directionWS.z, -0.8, 1e-15);
     EXPECT_EQ(lightOf(folder, R"({"type": "directional", "direction": [1e300, 0, 0]})").directionWS,
               glm::dvec3(1, 0, 0));
-    EXPECT_EQ(errorOf(folder, R"({"type": "directional", "direction": [0, 0, 0]})"),
+    EXPECT_EQ(errorOfLight(folder, R"({"type": "directional", "direction": [0, 0, 0]})"),
               "/lights/0/direction: has no length; give a direction");
-    EXPECT_EQ(errorOf(folder, R"({"type": "directional"})"), "/lights/0: lacks the key 'direction'; add it");
+    EXPECT_EQ(errorOfLight(folder, R"({"type": "directional"})"), "/lights/0: lacks the key 'direction'; add it");
 }
 
 TEST(SceneJsonLights, aSpotLightAlwaysHasItsConesInRadians) {
@@ -111,9 +111,9 @@ TEST(SceneJsonLights, impossibleSpotsAreAlwaysRefused) {
               "/lights/0/innerDegrees: is 50, wider than the outer cone of 45 degrees; make it narrower");
     EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "lights": [)" + start + R"("target": [0, 2, 0]}]})"),
               "/lights/0/target: is the light's own position; give another point");
-    EXPECT_EQ(errorOf(folder, start + R"("direction": [1, 0, 0], "outerDegrees": 91})"),
+    EXPECT_EQ(errorOfLight(folder, start + R"("direction": [1, 0, 0], "outerDegrees": 91})"),
               "/lights/0/outerDegrees: is 91; at most 90 is allowed");
-    EXPECT_EQ(errorOf(folder, start + R"("direction": [1, 0, 0], "target": [0, 0, 0]})"),
+    EXPECT_EQ(errorOfLight(folder, start + R"("direction": [1, 0, 0], "target": [0, 0, 0]})"),
               "/lights/0/target: is given beside 'direction'; keep one");
 }
 
@@ -121,24 +121,26 @@ TEST(SceneJsonLights, typesThatAreNotShadedYetAreAlwaysRefusedByName) {
     const SceneFolder folder;
     for (const char* type : {"area", "environment"})
         EXPECT_EQ(
-            errorOf(folder, fmt::format(R"({{"type": "{}"}})", type)),
+            errorOfLight(folder, fmt::format(R"({{"type": "{}"}})", type)),
             fmt::format("/lights/0/type: lights of type '{}' are not shaded yet; shaded are directional, point, spot",
                         type));
-    EXPECT_EQ(errorOf(folder, R"({"type": "spott"})"),
+    EXPECT_EQ(errorOfLight(folder, R"({"type": "spott"})"),
               "/lights/0/type: there is no light type 'spott'; did you mean 'spot'?");
 }
 
 TEST(SceneJsonLights, numbersOutOfRangeAreAlwaysRefused) {
     const SceneFolder folder;
-    EXPECT_EQ(errorOf(folder, point(R"("intensity": -1)")), "/lights/0/intensity: is -1; at least 0 is needed");
-    EXPECT_EQ(errorOf(folder, point(R"("intensity": 1e39)")),
+    EXPECT_EQ(errorOfLight(folder, point(R"("intensity": -1)")), "/lights/0/intensity: is -1; at least 0 is needed");
+    EXPECT_EQ(errorOfLight(folder, point(R"("intensity": 1e39)")),
               "/lights/0/intensity: is 1e+39; at most 3.4028234663852886e+38 is allowed");
-    EXPECT_EQ(errorOf(folder, point(R"("color": [1, 1])")), "/lights/0/color: has 2 elements; exactly 3 are needed");
-    EXPECT_EQ(errorOf(folder, point(R"("color": [1, 1, 1, 1])")),
+    EXPECT_EQ(errorOfLight(folder, point(R"("color": [1, 1])")),
+              "/lights/0/color: has 2 elements; exactly 3 are needed");
+    EXPECT_EQ(errorOfLight(folder, point(R"("color": [1, 1, 1, 1])")),
               "/lights/0/color: has 4 elements; exactly 3 are needed");
-    EXPECT_EQ(errorOf(folder, point(R"("color": [1, -1, 1])")), "/lights/0/color/1: is -1; at least 0 is needed");
-    EXPECT_EQ(errorOf(folder, point(R"("enabled": 1)")), "/lights/0/enabled: is a number; true or false is needed");
-    EXPECT_EQ(errorOf(folder, point(R"("falloff": {"type": "inverse_square", "range": -2})")),
+    EXPECT_EQ(errorOfLight(folder, point(R"("color": [1, -1, 1])")), "/lights/0/color/1: is -1; at least 0 is needed");
+    EXPECT_EQ(errorOfLight(folder, point(R"("enabled": 1)")),
+              "/lights/0/enabled: is a number; true or false is needed");
+    EXPECT_EQ(errorOfLight(folder, point(R"("falloff": {"type": "inverse_square", "range": -2})")),
               "/lights/0/falloff/range: is -2; at least 0 is needed");
 }
 
@@ -163,7 +165,7 @@ TEST(SceneJsonLights, everyAnimationAlwaysMovesTheLight) {
 TEST(SceneJsonLights, brokenAnimationsAreAlwaysRefused) {
     const SceneFolder folder;
     const auto animationError = [&](const std::string& animation) {
-        return errorOf(folder, point(R"("animation": )" + animation));
+        return errorOfLight(folder, point(R"("animation": )" + animation));
     };
     const auto beyondSchema = [&](const std::string& animation) {
         return folder.errorBeyondSchemaOf(R"({"tessera": 1, "lights": [)" + point(R"("animation": )" + animation) +
@@ -185,9 +187,10 @@ TEST(SceneJsonLights, brokenAnimationsAreAlwaysRefused) {
               "/lights/0/animation/times/1: is 1, which does not follow 1; times must ascend");
     EXPECT_EQ(beyondSchema(R"({"type": "keyframes", "times": [1, 2], "points": [[0, 0, 0]]})"),
               "/lights/0/animation/points: has 1 elements for 2 times; give one for each");
-    EXPECT_EQ(errorOf(folder, R"({"type": "directional", "direction": [1, 0, 0], "animation": {"type": "orbit"}})"),
-              "/lights/0: a directional light has no key 'animation'; valid are type, name, enabled, color, intensity, "
-              "direction, fields");
+    EXPECT_EQ(
+        errorOfLight(folder, R"({"type": "directional", "direction": [1, 0, 0], "animation": {"type": "orbit"}})"),
+        "/lights/0: a directional light has no key 'animation'; valid are type, name, enabled, color, intensity, "
+        "direction, fields");
 }
 
 } // namespace

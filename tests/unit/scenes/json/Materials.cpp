@@ -28,7 +28,7 @@ Material materialOf(const SceneFolder& folder, const std::string& material) {
     return sceneOf(folder, material).materials.at(0);
 }
 
-std::string errorOf(const SceneFolder& folder, const std::string& material) {
+std::string errorOfMaterial(const SceneFolder& folder, const std::string& material) {
     return folder.errorOfMembers(bound(material));
 }
 
@@ -121,9 +121,9 @@ TEST(SceneJsonMaterials, normalMapsAlwaysKeepTheirSpaceAndScale) {
     EXPECT_EQ(tangent.texture(TextureSlot::Normal).texCoordSet, 1);
     const Material object = materialOf(folder, start + R"({"file": "pictures/normal.tga", "space": "object"})");
     EXPECT_EQ(object.normalMapSpace, NormalMapSpace::Object);
-    EXPECT_EQ(errorOf(folder, start + R"({"file": "pictures/normal.tga", "space": "object", "scale": 2})"),
+    EXPECT_EQ(errorOfMaterial(folder, start + R"({"file": "pictures/normal.tga", "space": "object", "scale": 2})"),
               "/materials/0/normalMap/scale: only a tangent-space normal map can be scaled; remove it");
-    EXPECT_EQ(errorOf(folder, start + R"({"file": "pictures/normal.tga", "space": "world"})"),
+    EXPECT_EQ(errorOfMaterial(folder, start + R"({"file": "pictures/normal.tga", "space": "world"})"),
               "/materials/0/normalMap/space: there is no normal map space 'world'; valid are tangent, object");
 }
 
@@ -170,7 +170,7 @@ TEST(SceneJsonMaterials, blinnPhongAlwaysHasItsThreeParametersAndTheirTextures) 
     EXPECT_EQ(scene.materials[0].exponent, 0.5f);
     EXPECT_EQ(redOf(scene, TextureSlot::SpecularColor), 40);
     EXPECT_EQ(redOf(scene, TextureSlot::MetallicRoughness), 128);
-    EXPECT_EQ(errorOf(folder, R"("model": "blinn_phong", "exponent": -1)"),
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "blinn_phong", "exponent": -1)"),
               "/materials/0/exponent: is -1; at least 0 is needed");
 }
 
@@ -201,7 +201,7 @@ TEST(SceneJsonMaterials, maskingIsAlwaysOneThatTheModelHas) {
     EXPECT_EQ(masking("microfacet_anisotropic", "walter"), Masking::Walter);
     EXPECT_EQ(masking("microfacet_anisotropic", "directional"), Masking::Directional);
     EXPECT_EQ(masking("microfacet_anisotropic", "half_vector"), Masking::HalfVector);
-    EXPECT_EQ(errorOf(folder, R"("model": "microfacet", "masking": "directional")"),
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "microfacet", "masking": "directional")"),
               "/materials/0/masking: there is no masking 'directional'; valid are walter, half_vector");
 }
 
@@ -229,50 +229,54 @@ TEST(SceneJsonMaterials, layersOfMetallicRoughnessAlwaysHaveTheirParametersAndTe
     EXPECT_EQ(material.texture(TextureSlot::ClearcoatNormal).texCoordSet, 1);
     EXPECT_EQ(redOf(scene, TextureSlot::SheenColor), 10);
     EXPECT_EQ(redOf(scene, TextureSlot::SheenRoughness), 40);
-    EXPECT_EQ(errorOf(folder, R"("model": "metallic_roughness", "sheenColor": [0, 2, 0])"),
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "metallic_roughness", "sheenColor": [0, 2, 0])"),
               "/materials/0/sheenColor/1: is 2; at most 1 is allowed");
-    EXPECT_EQ(errorOf(folder, R"("model": "metallic_roughness", "clearcoat": -1)"),
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "metallic_roughness", "clearcoat": -1)"),
               "/materials/0/clearcoat: is -1; at least 0 is needed");
 }
 
 TEST(SceneJsonMaterials, modelsThatDoNotExistAreAlwaysRefusedByName) {
     const SceneFolder folder;
-    EXPECT_EQ(errorOf(folder, R"("model": "lambertian")"),
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "lambertian")"),
               "/materials/0/model: there is no material model 'lambertian'; did you mean 'lambert'?");
-    EXPECT_EQ(errorOf(folder, R"("k_d": [1, 1, 1])"), "/materials/0: lacks the key 'model'; add it");
+    EXPECT_EQ(errorOfMaterial(folder, R"("k_d": [1, 1, 1])"), "/materials/0: lacks the key 'model'; add it");
 }
 
 TEST(SceneJsonMaterials, parametersOfAnotherModelAreAlwaysRefused) {
     const SceneFolder folder;
-    EXPECT_EQ(errorOf(folder, R"("model": "lambert", "alpha": 0.5)"),
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "lambert", "alpha": 0.5)"),
               "/materials/0: a lambert material has no key 'alpha'; valid are name, model, replaces, k_d, normalMap, "
               "alphaMode, alphaCutoff, doubleSided, fields");
-    EXPECT_EQ(errorOf(folder, R"("model": "metallic_roughness", "metalic": 0.5)"),
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "metallic_roughness", "metalic": 0.5)"),
               "/materials/0: a metallic_roughness material has no key 'metalic'; did you mean 'metallic'?");
-    EXPECT_EQ(errorOf(folder, R"("model": "single_color", "normalMap": "pictures/normal.tga")"),
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "single_color", "normalMap": "pictures/normal.tga")"),
               "/materials/0: a single_color material has no key 'normalMap'; valid are name, model, replaces, color, "
               "alphaMode, alphaCutoff, doubleSided, fields");
-    EXPECT_EQ(errorOf(folder, R"("model": "lambert", "k_d": {"factr": [1, 1, 1]})"),
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "lambert", "k_d": {"factr": [1, 1, 1]})"),
               "/materials/0/k_d: a parameter with a texture has no key 'factr'; did you mean 'factor'?");
 }
 
 TEST(SceneJsonMaterials, numbersOutOfRangeAreAlwaysRefused) {
     const SceneFolder folder;
     const std::string pbr = R"("model": "metallic_roughness", )";
-    EXPECT_EQ(errorOf(folder, R"("model": "lambert", "k_d": [1, 1])"),
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "lambert", "k_d": [1, 1])"),
               "/materials/0/k_d: has 2 elements; at least 3 are needed");
-    EXPECT_EQ(errorOf(folder, R"("model": "lambert", "k_d": [1, 1, 1, 1, 1])"),
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "lambert", "k_d": [1, 1, 1, 1, 1])"),
               "/materials/0/k_d: has 5 elements; at most 4 are allowed");
-    EXPECT_EQ(errorOf(folder, R"("model": "lambert", "k_d": [1, 1, 1, 2])"),
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "lambert", "k_d": [1, 1, 1, 2])"),
               "/materials/0/k_d/3: is 2; at most 1 is allowed");
-    EXPECT_EQ(errorOf(folder, R"("model": "lambert", "k_d": 1)"), "/materials/0/k_d: is a number; an array is needed");
-    EXPECT_EQ(errorOf(folder, R"("model": "microfacet", "ior": 0)"), "/materials/0/ior: is 0; more than 0 is needed");
-    EXPECT_EQ(errorOf(folder, R"("model": "microfacet", "alpha": {"factor": -1})"),
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "lambert", "k_d": 1)"),
+              "/materials/0/k_d: is a number; an array is needed");
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "microfacet", "ior": 0)"),
+              "/materials/0/ior: is 0; more than 0 is needed");
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "microfacet", "alpha": {"factor": -1})"),
               "/materials/0/alpha/factor: is -1; at least 0 is needed");
-    EXPECT_EQ(errorOf(folder, pbr + R"("metallic": 1.5)"), "/materials/0/metallic: is 1.5; at most 1 is allowed");
-    EXPECT_EQ(errorOf(folder, pbr + R"("ior": 0.5)"), "/materials/0/ior: is 0.5; 0 or at least 1 is needed");
-    EXPECT_EQ(errorOf(folder, R"("model": "lambert", "normalMap": {"file": "pictures/normal.tga", "texCoord": 2})"),
-              "/materials/0/normalMap/texCoord: is 2; at most 1 is allowed");
+    EXPECT_EQ(errorOfMaterial(folder, pbr + R"("metallic": 1.5)"),
+              "/materials/0/metallic: is 1.5; at most 1 is allowed");
+    EXPECT_EQ(errorOfMaterial(folder, pbr + R"("ior": 0.5)"), "/materials/0/ior: is 0.5; 0 or at least 1 is needed");
+    EXPECT_EQ(
+        errorOfMaterial(folder, R"("model": "lambert", "normalMap": {"file": "pictures/normal.tga", "texCoord": 2})"),
+        "/materials/0/normalMap/texCoord: is 2; at most 1 is allowed");
     EXPECT_EQ(folder.errorBeyondSchemaOfMembers(bound(pbr + R"("emissive": [1e30, 0, 0], "emissiveStrength": 1e30)")),
               "/materials/0/emissiveStrength: emissive times emissiveStrength is not finite in single precision; lower "
               "it");
