@@ -19,7 +19,7 @@ STAND_INS = {
     "cmake": 'mkdir -p build/release build/asan; : > build/release/build.ninja; : > build/asan/build.ninja',
     "ninja": 'cat "$MACHINE/ninja-says"; exit $(cat "$MACHINE/ninja-code")',
     "glad": "",
-    "ctest": 'echo "100% tests passed"',
+    "ctest": 'case " $* " in *" -N "*) echo "  Test #7: Slow.thing" ;; *) echo "100% tests passed"; exit $(cat "$MACHINE/ctest-code") ;; esac',
 }
 
 
@@ -42,6 +42,7 @@ class Scripts(unittest.TestCase):
         self.write("missing", "")
         self.ninja("ninja: Entering directory\nninja: no work to do.\n", 0)
         self.write("log", "")
+        self.write("ctest-code", "0")
 
     def write(self, name, text):
         (self.machine / name).write_text(text)
@@ -109,13 +110,39 @@ class Scripts(unittest.TestCase):
     def testEverydayTestsNeverIncludeTheSlowOnesAndPassArgumentsOn(self):
         result = self.run_("test", "-R", "Graph")
         self.assertIn("100% tests passed", result.stdout)
-        (call,) = self.called("ctest")
+        call = self.called("ctest")[0]
         self.assertTrue(call.endswith("-LE slow -R Graph"), call)
         self.assertIn("--no-tests=error", call)
         self.run_("test", "--all", "--asan")
         (call,) = self.called("ctest")
         self.assertNotIn("slow", call)
         self.assertIn(f"--test-dir {self.root}/build/asan", call)
+
+    def testWhatTheEverydayTestsLeaveOutIsAlwaysListedAtTheirEnd(self):
+        result = self.run_("test")
+        self.assertTrue(result.stdout.endswith("(./test --all runs them):\n  Slow.thing\n"), result.stdout)
+        self.assertNotIn("Left out", self.run_("test", "--all").stdout)
+        self.write("ctest-code", "8")
+        self.assertEqual(self.run_("test").returncode, 8)
+
+    def testAPieceIsAlwaysEveryNthTestAndNothingElseIsTaken(self):
+        self.run_("test", "--all", "--piece", "2/4")
+        (call,) = self.called("ctest")
+        self.assertTrue(call.endswith("-I 2,,4"), call)
+        for wrong in ("5/4", "0/4", "half", ""):
+            result = self.run_("test", "--piece", wrong)
+            self.assertEqual((result.returncode, self.called("ctest")), (1, []))
+            self.assertIn("I/N", result.stderr)
+
+    def testAnotherDriverIsAlwaysInstalledSetAndHeldToWhatNeedsOpenGl(self):
+        self.write("missing", "mesa-vulkan-drivers")
+        self.script(self.machine / "bin/ctest", 'echo "ctest $* $MESA_LOADER_DRIVER_OVERRIDE" >> "$MACHINE/log"')
+        self.assertEqual(self.run_("test", "--driver", "zink").returncode, 0)
+        self.assertEqual([call.split("--yes ")[1] for call in self.called("apt-get")], ["mesa-vulkan-drivers"])
+        self.assertTrue(self.called("ctest")[0].endswith("-LE slow -L gpu|image|cli zink"), self.calls)
+        result = self.run_("test", "--driver", "nix")
+        self.assertEqual((result.returncode, self.called("ctest")), (1, []))
+        self.assertIn("zink", result.stderr)
 
 
 if __name__ == "__main__":

@@ -198,15 +198,16 @@ TEST_F(LightCulling, everyTileGivesExactlyForwardsPicture) {
     expectForwardsPicture(lattice(257), kOdd, culling::kTileSides);
 }
 
-using LightCullingSlow = LightCulling;
+/// By the number of lights of `lattice`, or 0 for `hall`, and size.
+class LightCullingSlow : public LightCulling, public testing::WithParamInterface<std::tuple<int, glm::ivec2>> {};
 
-TEST_F(LightCullingSlow, thousandsOfLightsGiveExactlyForwardsPictureWithEveryMethodAndTile) {
-    for (const glm::ivec2 size : {kEven, kOdd}) {
-        expectForwardsPicture(lattice(1024), size, culling::kTileSides);
-        expectForwardsPicture(lattice(4097), size, culling::kTileSides);
-        expectForwardsPicture(scenes::loadScene("hall"), size, culling::kTileSides);
-    }
+TEST_P(LightCullingSlow, thousandsOfLightsGiveExactlyForwardsPictureWithEveryMethodAndTile) {
+    const auto& [lights, size] = GetParam();
+    expectForwardsPicture(lights > 0 ? lattice(lights) : scenes::loadScene("hall"), size, culling::kTileSides);
 }
+
+INSTANTIATE_TEST_SUITE_P(Scenes, LightCullingSlow,
+                         testing::Combine(testing::Values(1024, 4097, 0), testing::Values(kEven, kOdd)));
 
 /// The scene with one of its transparent instances, made opaque, and all of its opaque ones; `which` counts from 0.
 /// None where there are fewer.

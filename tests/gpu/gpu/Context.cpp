@@ -1,3 +1,5 @@
+#include <cstdlib>
+
 #include <gmock/gmock.h>
 
 #include "renderer/gpu/Buffer.h"
@@ -23,6 +25,13 @@ TEST_F(ContextTest, capabilitiesAlwaysNameTheDriverAndItsLimits) {
     EXPECT_GE(capabilities.maxSamples, 1);
     EXPECT_GE(capabilities.maxAnisotropy, 1.0f);
     EXPECT_EQ(capabilities.isSoftware, capabilities.renderer.find("llvmpipe") != std::string::npos);
+}
+
+/// Else ./test --driver would test the first driver again where the second cannot be loaded.
+TEST_F(ContextTest, aDriverThatTheEnvironmentAsksForIsAlwaysTheOneInUse) {
+    const char* const driver = std::getenv("MESA_LOADER_DRIVER_OVERRIDE");
+    if (!driver) GTEST_SKIP() << "the environment names no driver";
+    EXPECT_THAT(context().capabilities().renderer, testing::StartsWith(driver));
 }
 
 TEST_F(ContextTest, aSecondHeadlessContextNeverDisturbsTheFirst) {
