@@ -15,11 +15,11 @@ std::optional<FloorFigures::Store> FloorFigures::fastestStore() const {
     return fastest == stores.end() ? std::nullopt : std::optional(*fastest);
 }
 
-std::optional<double> FloorFigures::floorMs(double neededEvaluations) const {
-    if (neededEvaluations == 0.0) return geometryMs;
+std::optional<double> FloorFigures::floorMs(double evaluations) const {
+    if (evaluations == 0.0) return geometryMs;
     const std::optional<Store> store = fastestStore();
     if (!store) return {};
-    return geometryMs + neededEvaluations * store->nsPerPair * 1e-6;
+    return geometryMs + evaluations * store->nsPerPair * 1e-6;
 }
 
 FloorBench::FloorBench(recipes::Renderer& renderer, const frame::FrameSettings& settings)
@@ -50,7 +50,10 @@ std::vector<TimedFrame> FloorBench::frames() {
 
 FloorFigures FloorBench::figures(std::span<const std::vector<double>> timesMs) const {
     FloorFigures figures;
-    figures.geometryMs = spreadOf(timesMs[0]).median;
+    const TimeSpread geometry = spreadOf(timesMs[0]);
+    figures.geometryMs = geometry.median;
+    figures.geometryMsP95 = geometry.p95;
+    figures.rounds = int(timesMs[0].size());
     if (!lighting_) {
         figures.whyNoStores = "the scene has no lit surface, or no light in view";
         return figures;
@@ -58,14 +61,27 @@ FloorFigures FloorBench::figures(std::span<const std::vector<double>> timesMs) c
     assert(timesMs.size() == 1 + 2 * lightStoreTable().size());
     const double pairs = double(sizePixels_.x) * double(sizePixels_.y) * double(kManyLights - kFewLights);
     for (std::size_t i = 0; i < lightStoreTable().size(); ++i) {
-        const double msPerPair = medianSlope(timesMs[1 + 2 * i], timesMs[2 + 2 * i], pairs);
+        const TimeSpread msPerPair = slopeSpread(timesMs[1 + 2 * i], timesMs[2 + 2 * i], pairs);
         // Where the machine's unrest is larger than what the lights cost, the slope says nothing.
-        if (msPerPair > 0.0) figures.stores.push_back({lightStoreTable()[i].name, msPerPair * 1e6});
+        if (msPerPair.median > 0.0)
+            figures.stores.push_back({lightStoreTable()[i].name, msPerPair.median * 1e6, msPerPair.p95 * 1e6});
     }
     if (figures.stores.empty())
         figures.whyNoStores =
             "96 lights a pixel took no longer than 32: the picture is too small or the machine too busy";
     return figures;
+}
+
+FloorFigures FloorBench::figuresOf(std::vector<std::vector<double>> timesMs) {
+    InterleaveOptions more;
+    more.warmUpRounds = 0; // the rounds before have drawn every kind
+    more.rounds = kLeastRounds - int(timesMs[0].size());
+    if (more.rounds > 0) {
+        const std::vector<std::vector<double>> others = timeInterleaved(frames(), more);
+        for (std::size_t kind = 0; kind < timesMs.size(); ++kind)
+            timesMs[kind].insert(timesMs[kind].end(), others[kind].begin(), others[kind].end());
+    }
+    return figures(timesMs);
 }
 
 FloorFigures FloorBench::measure(const InterleaveOptions& options) {

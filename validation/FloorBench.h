@@ -16,17 +16,20 @@ namespace tessera::validation {
 struct FloorFigures {
     struct Store {
         std::string_view name;
-        double nsPerPair = 0.0; ///< nanoseconds a light costs a pixel that it reaches
+        double nsPerPair = 0.0;    ///< nanoseconds a light costs a pixel that it reaches, median over rounds
+        double nsPerPairP95 = 0.0; ///< the same, 95th percentile
     };
-    double geometryMs = 0.0;   ///< R: all geometry, depth-tested, into one constant target
+    double geometryMs = 0.0;   ///< R: all geometry, depth-tested, into one constant target, median over rounds
     std::vector<Store> stores; ///< r by light store; empty where the scene lights nothing, or it could not be told
     std::string whyNoStores;
+    double geometryMsP95 = 0.0;
+    int rounds = 0; ///< that the medians are of
 
     /// r, the store with the smallest; none where there is none.
     std::optional<Store> fastestStore() const;
-    /// `neededEvaluations`: pairs of a covered pixel and a light that reaches it (E). None where these cannot be
-    /// priced.
-    std::optional<double> floorMs(double neededEvaluations) const;
+    /// `evaluations`: pairs of a covered pixel and a light that reaches it (E), or of those the ones whose light lies
+    /// in front of the surface. None where these cannot be priced.
+    std::optional<double> floorMs(double evaluations) const;
 };
 
 /// Measures the floor of a scene with a renderer's settings: camera, size, filter, specular and pruning as asked for,
@@ -38,13 +41,17 @@ class FloorBench {
 public:
     static constexpr int kFewLights = 32;
     static constexpr int kManyLights = 96;
+    /// Rounds that a floor's medians are at least of, however few frames of the points are asked for.
+    static constexpr int kLeastRounds = 5;
 
     /// The renderer must outlive the object. Throws InputError as Renderer::draw does.
     FloorBench(recipes::Renderer& renderer, const frame::FrameSettings& settings);
 
     /// The frames to time; they refer to the object.
     std::vector<TimedFrame> frames();
-    /// `timesMs`: one time a round of each of frames().
+    /// `timesMs`: one time a round of each of frames(). With fewer than kLeastRounds of them, the others are timed now.
+    FloorFigures figuresOf(std::vector<std::vector<double>> timesMs);
+    /// The same of the times alone.
     FloorFigures figures(std::span<const std::vector<double>> timesMs) const;
 
     FloorFigures measure(const InterleaveOptions& options = {});

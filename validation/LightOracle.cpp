@@ -28,9 +28,15 @@ struct TrueLight {
     double cosOuter = -1.0;
 };
 
+/// A light that reaches everywhere.
+struct EndlessLight {
+    int sceneLight = 0;
+    glm::dvec4 placeWS{0.0}; ///< homogeneous: its position, or with w = 0 the direction that it comes from
+};
+
 struct TrueLights {
     std::vector<TrueLight> finite;
-    std::vector<int> everywhere; ///< scene lights
+    std::vector<EndlessLight> everywhere;
 };
 
 /// Directional lights, and those whose falloff never ends: without a range, or of A B C where no tolerance ends it or
@@ -50,7 +56,9 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
         const bool isSpot = light.type == scenes::LightType::Spot;
         if (isSpot && !(light.outerConeRadians > 0.0f)) continue;
         if (reachesEverywhere(light, settings.rangeTolerance)) {
-            lights.everywhere.push_back(int(i));
+            const bool isFar = light.type == scenes::LightType::Directional;
+            lights.everywhere.push_back(
+                {int(i), isFar ? glm::dvec4(-light.directionWS, 0.0) : glm::dvec4(light.positionWS, 1.0)});
             continue;
         }
         TrueLight plain;
@@ -141,11 +149,13 @@ private:
             if (next == visited.end() || *next != light.sceneLight) miss(light.sceneLight, pixel, figures);
         }
         std::uint64_t everywhere = 0;
-        for (const int light : lights_.everywhere) {
-            if (std::binary_search(visited.begin(), visited.end(), light))
+        for (const EndlessLight& light : lights_.everywhere) {
+            const glm::dvec3 toLight = glm::dvec3(light.placeWS) - light.placeWS.w * positionWS;
+            if (glm::dot(normal, toLight) > 0.0) ++figures.everywhereLit;
+            if (std::binary_search(visited.begin(), visited.end(), light.sceneLight))
                 ++everywhere;
             else
-                miss(light, pixel, figures);
+                miss(light.sceneLight, pixel, figures);
         }
         figures.everywhere += everywhere;
         figures.evaluated += visited.size() - everywhere;
@@ -168,6 +178,7 @@ void add(RowCounts& sum, const RowCounts& rows) {
     sum.figures.neededLit += rows.figures.neededLit;
     sum.figures.evaluated += rows.figures.evaluated;
     sum.figures.everywhere += rows.figures.everywhere;
+    sum.figures.everywhereLit += rows.figures.everywhereLit;
     sum.figures.falseNegatives += rows.figures.falseNegatives;
     if (!sum.figures.firstMissing) sum.figures.firstMissing = rows.figures.firstMissing;
     if (sum.pixelsByVisited.size() < rows.pixelsByVisited.size())

@@ -11,11 +11,11 @@ TimeSpread spreadOf(std::vector<double> samples) {
     return {median, nearestRank(samples, 950)};
 }
 
-double medianSlope(std::span<const double> low, std::span<const double> high, double step) {
+TimeSpread slopeSpread(std::span<const double> low, std::span<const double> high, double step) {
     assert(low.size() == high.size() && step > 0.0);
     std::vector<double> slopes;
     for (std::size_t round = 0; round < low.size(); ++round) slopes.push_back((high[round] - low[round]) / step);
-    return nearestRank(slopes, 500);
+    return spreadOf(std::move(slopes));
 }
 
 } // namespace tessera::validation

@@ -13,9 +13,8 @@ struct TimeSpread {
 /// NaN for no samples.
 TimeSpread spreadOf(std::vector<double> samples);
 
-/// The median over rounds of (high - low) / step: how much time one unit more costs. Low and high of one round were
-/// measured next to each other, so that a machine that changes its pace between rounds does not enter. NaN for no
-/// rounds.
-double medianSlope(std::span<const double> low, std::span<const double> high, double step);
+/// Over rounds, (high - low) / step: how much time one unit more costs. Low and high of one round were measured next to
+/// each other, so that a machine that changes its pace between rounds does not enter. NaN for no rounds.
+TimeSpread slopeSpread(std::span<const double> low, std::span<const double> high, double step);
 
 } // namespace tessera::validation

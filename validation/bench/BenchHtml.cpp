@@ -20,11 +20,17 @@ namespace {
 
 Json plotPoint(const BenchResult& result, std::optional<bool> pareto, bool isBest) {
     const BenchError error = result.error.value_or(BenchError{});
-    return {{"name", pointName(result.key)},   {"technique", result.key.technique},
-            {"layout", result.key.layout},     {"ms", result.times.cpuMs.median},
-            {"p95", result.times.cpuMs.p95},   {"relMse", orNull(error.relMse)},
-            {"p99Rel", orNull(error.p99Rel)},  {"toFloor", orNull(result.ratioToFloor)},
-            {"front", pareto.value_or(false)}, {"best", isBest}};
+    return {{"name", pointName(result.key)},
+            {"technique", result.key.technique},
+            {"layout", result.key.layout},
+            {"ms", result.times.cpuMs.median},
+            {"p95", result.times.cpuMs.p95},
+            {"relMse", orNull(error.relMse)},
+            {"p99Rel", orNull(error.p99Rel)},
+            {"toFloor", orNull(result.ratioToFloor)},
+            {"toLitFloor", orNull(result.ratioToLitFloor)},
+            {"front", pareto.value_or(false)},
+            {"best", isBest}};
 }
 
 /// What the legend says of a curve; empty where there are too few points to say anything.

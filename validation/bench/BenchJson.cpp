@@ -110,6 +110,8 @@ BenchResult resultFrom(const Json& json) {
     result.counters = countersFrom(json.at("counters"));
     read(json, "floorMs", result.floorMs);
     read(json, "ratioToFloor", result.ratioToFloor);
+    read(json, "floorLitMs", result.floorLitMs);
+    read(json, "ratioToLitFloor", result.ratioToLitFloor);
     result.error = errorFrom(json.at("error"));
     read(json, "why", result.why);
     return result;
@@ -118,13 +120,16 @@ BenchResult resultFrom(const Json& json) {
 FloorFigures floorFrom(const Json& json) {
     FloorFigures floor;
     read(json, "geometryMs", floor.geometryMs);
+    read(json, "geometryMsP95", floor.geometryMsP95);
+    read(json, "rounds", floor.rounds);
     read(json, "why", floor.whyNoStores);
     for (const Json& store : json.at("stores")) {
         const std::string name = store.at("store").get<std::string>();
         bool isKnown = false;
         for (const LightStoreInfo& info : lightStoreTable()) {
             if (info.name != name) continue;
-            floor.stores.push_back({info.name, store.at("nsPerPair").get<double>()});
+            floor.stores.push_back(
+                {info.name, store.at("nsPerPair").get<double>(), store.at("nsPerPairP95").get<double>()});
             isKnown = true;
         }
         if (!isKnown) throw InputError(fmt::format("unknown light store '{}'", name));
@@ -168,6 +173,8 @@ Json pointJson(const BenchGroup& group, const BenchResult& result, std::optional
             {"counters", countersJson(result.counters)},
             {"floorMs", orNull(result.floorMs)},
             {"ratioToFloor", orNull(result.ratioToFloor)},
+            {"floorLitMs", orNull(result.floorLitMs)},
+            {"ratioToLitFloor", orNull(result.ratioToLitFloor)},
             {"error", errorJson(result.error)},
             {"against", group.truth},
             {"pareto", orNull(pareto)},
@@ -177,13 +184,16 @@ Json pointJson(const BenchGroup& group, const BenchResult& result, std::optional
 Json floorJson(const BenchGroup& group) {
     Json stores = Json::array();
     for (const FloorFigures::Store& store : group.floor.stores)
-        stores.push_back({{"store", store.name}, {"nsPerPair", store.nsPerPair}});
+        stores.push_back({{"store", store.name}, {"nsPerPair", store.nsPerPair}, {"nsPerPairP95", store.nsPerPairP95}});
     const std::optional<FloorFigures::Store> fastest = group.floor.fastestStore();
     return {{"scene", group.scene},
             {"lights", group.lights},
             {"size", {group.sizePixels.x, group.sizePixels.y}},
+            {"rounds", group.floor.rounds},
             {"geometryMs", group.floor.geometryMs},
+            {"geometryMsP95", group.floor.geometryMsP95},
             {"nsPerPair", fastest ? Json(fastest->nsPerPair) : Json(nullptr)},
+            {"nsPerPairP95", fastest ? Json(fastest->nsPerPairP95) : Json(nullptr)},
             {"stores", stores},
             {"why", group.floor.whyNoStores}};
 }

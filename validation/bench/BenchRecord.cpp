@@ -71,8 +71,8 @@ std::string groupTable(const BenchGroup& group) {
     using graph::Table;
     const std::optional<FloorFigures::Store> store = group.floor.fastestStore();
     std::string text =
-        fmt::format("{}; errors against {}; floor: {:.1f} ms for the geometry{}\n", groupName(group), group.truth,
-                    group.floor.geometryMs,
+        fmt::format("{}; errors against {}; floor, median of {}: {:.1f} ms for the geometry{}\n", groupName(group),
+                    group.truth, group.floor.rounds, group.floor.geometryMs,
                     store ? fmt::format(", {:.2f} ns a light and pixel ({})", store->nsPerPair, store->name) : "");
     Table table(kTableWidth);
     table.addColumn("technique");
@@ -81,7 +81,7 @@ std::string groupTable(const BenchGroup& group) {
     const bool hasRange = std::any_of(group.results.begin(), group.results.end(),
                                       [](const BenchResult& result) { return result.key.rangeTolerance > 0.0; });
     if (hasRange) table.addColumn("range", Table::Align::Right, Table::Cells::Whole);
-    for (const char* title : {"ms", "p95", "to floor", "visited", "relMSE", "bias"})
+    for (const char* title : {"ms", "p95", "to floor", "to lit", "visited", "relMSE", "bias"})
         table.addColumn(title, Table::Align::Right, Table::Cells::Whole);
     table.addColumn("front", Table::Align::Left, Table::Cells::Whole);
     const std::vector<std::optional<bool>> pareto = paretoFront(group);
@@ -94,9 +94,9 @@ std::string groupTable(const BenchGroup& group) {
         if (hasRange) row.push_back(key.rangeTolerance > 0.0 ? fmt::format("{:g}", key.rangeTolerance) : "-");
         for (const std::string& cell :
              {fmt::format("{:.1f}", result.times.cpuMs.median), fmt::format("{:.1f}", result.times.cpuMs.p95),
-              figure(result.ratioToFloor, "{:.2f}"), figure(result.counters.evaluatedMean, "{:.1f}"),
-              error.relMse ? figureText(*error.relMse) : "-", error.bias ? figureText(*error.bias) : "-",
-              std::string(pareto[i].value_or(false) ? "*" : "")})
+              figure(result.ratioToFloor, "{:.2f}"), figure(result.ratioToLitFloor, "{:.2f}"),
+              figure(result.counters.evaluatedMean, "{:.1f}"), error.relMse ? figureText(*error.relMse) : "-",
+              error.bias ? figureText(*error.bias) : "-", std::string(pareto[i].value_or(false) ? "*" : "")})
             row.push_back(cell);
         table.addRow(std::move(row));
     }

@@ -20,7 +20,7 @@ struct BenchRecord {
 };
 
 /// 2: `error`, `pareto`, `range`, `attribution`, `scaling` and `recommendations` are measured.
-inline constexpr int kBenchSchema = 2;
+inline constexpr int kBenchSchema = 3;
 
 std::string benchJson(const BenchRecord& record);  ///< the `bench` record of the command line's documentation
 std::string benchCsv(const BenchRecord& record);   ///< its points, one a line; RFC 4180

@@ -52,7 +52,8 @@ struct BenchResult {
     std::string builder; ///< of the light lists; empty without
     PointTimes times;
     BenchCounters counters;
-    std::optional<double> floorMs, ratioToFloor;
+    std::optional<double> floorMs, ratioToFloor;       ///< of all needed evaluations
+    std::optional<double> floorLitMs, ratioToLitFloor; ///< of those whose light lies in front of the surface
     std::optional<BenchError> error;
     std::map<std::string, std::string> why; ///< of figures that are none
 };

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of the kept files; raised when older ones can no longer be read.
-constexpr int kStoreSchema = 2;
+constexpr int kStoreSchema = 3;
 
 fs::path partsOf(const std::string& folder) {
     return fs::path(folder) / "parts";

@@ -86,7 +86,7 @@ std::string pointsHtml(const BenchGroup& group) {
     std::string html = headHtml({"Technique", "Culling", "Layout"});
     html.erase(html.rfind("</tr>"));
     if (hasRange) html += "<th scope=\"col\">Range</th>";
-    for (const char* title : {"ms a frame", "p95", "To floor", "Visited", "relMSE", "p99 rel", "Bias"})
+    for (const char* title : {"ms a frame", "p95", "To floor", "To lit floor", "Visited", "relMSE", "p99 rel", "Bias"})
         html += fmt::format("<th scope=\"col\">{}</th>", title);
     if (hasFlip) html += "<th scope=\"col\">FLIP</th>";
     html += "<th scope=\"col\">Front</th></tr></thead>\n<tbody>\n";
@@ -111,6 +111,7 @@ std::string pointsHtml(const BenchGroup& group) {
         html += cellHtml("ms a frame", fmt::format("{:.1f}", result.times.cpuMs.median)) +
                 cellHtml("p95", fmt::format("{:.1f}", result.times.cpuMs.p95)) +
                 cellHtml("To floor", orDash(result.ratioToFloor, "{:.2f}")) +
+                cellHtml("To lit floor", orDash(result.ratioToLitFloor, "{:.2f}")) +
                 cellHtml("Visited", orDash(result.counters.evaluatedMean, "{:.1f}")) +
                 cellHtml("relMSE", figureHtml(error.relMse)) + cellHtml("p99 rel", figureHtml(error.p99Rel)) +
                 cellHtml("Bias", figureHtml(error.bias));

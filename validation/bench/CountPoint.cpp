@@ -75,7 +75,7 @@ void countPoint(recipes::Renderer& renderer, const BenchPoint& point, BenchResul
         oracle.evaluatedMax = visited.empty() ? 0 : visited.back();
     }
     counters.neededEvaluations = oracle.needed + oracle.everywhere;
-    counters.neededLitEvaluations = oracle.neededLit;
+    counters.neededLitEvaluations = oracle.neededLit + oracle.everywhereLit;
     counters.tightness = oracle.tightness();
     if (!counters.tightness) result.why["tightness"] = "no light that ends somewhere reaches a visible surface";
     counters.evaluatedMean = oracle.perPixel(oracle.evaluated + oracle.everywhere);

@@ -94,7 +94,9 @@ private:
         };
         interleave.progress = [&](int, int) { options_.progress(kinds); };
         timesMs_ = timeInTurn(timed_, floorFrames, interleave);
-        group_.floor = floor_.figures(std::span(timesMs_).subspan(timed_.size()));
+        // Points that are done were held against the floor that is kept with them.
+        if (group_.results.empty())
+            group_.floor = floor_.figuresOf({timesMs_.begin() + std::ptrdiff_t(timed_.size()), timesMs_.end()});
     }
 
     BenchResult resultOf(std::size_t index, const GroupTruth& truth) {
@@ -113,15 +115,20 @@ private:
     }
 
     void compareWithFloor(BenchResult& result) const {
-        if (!result.counters.neededEvaluations) {
-            result.why["floorMs"] = result.why["ratioToFloor"] = result.why["neededEvaluations"];
-            return;
-        }
-        result.floorMs = group_.floor.floorMs(double(*result.counters.neededEvaluations));
-        if (result.floorMs)
-            result.ratioToFloor = result.times.cpuMs.median / *result.floorMs;
-        else
-            result.why["floorMs"] = result.why["ratioToFloor"] = group_.floor.whyNoStores;
+        const auto compare = [&](std::optional<std::uint64_t> evaluations, const char* evaluationsName,
+                                 std::optional<double>& floorMs, const char* floorName, std::optional<double>& ratio,
+                                 const char* ratioName) {
+            if (evaluations) floorMs = group_.floor.floorMs(double(*evaluations));
+            if (floorMs)
+                ratio = result.times.cpuMs.median / *floorMs;
+            else
+                result.why[floorName] = result.why[ratioName] =
+                    evaluations ? group_.floor.whyNoStores : result.why[evaluationsName];
+        };
+        compare(result.counters.neededEvaluations, "neededEvaluations", result.floorMs, "floorMs", result.ratioToFloor,
+                "ratioToFloor");
+        compare(result.counters.neededLitEvaluations, "neededLitEvaluations", result.floorLitMs, "floorLitMs",
+                result.ratioToLitFloor, "ratioToLitFloor");
     }
 
     /// Most points of a group show one picture, bit for bit: it is kept once.

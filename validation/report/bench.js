@@ -188,6 +188,7 @@
                     "relMSE " + plain(point.relMse) + ", p99 rel " + (point.p99Rel === null ? "\u2013" : plain(point.p99Rel)),
                 ];
                 if (point.toFloor !== null) lines.push(plain(point.toFloor) + " times the floor");
+                if (point.toLitFloor !== null) lines.push(plain(point.toLitFloor) + " times that of lit pairs");
                 return lines;
             },
         });

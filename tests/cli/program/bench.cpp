@@ -18,7 +18,7 @@ TEST_F(Bench, everyPointIsAlwaysMeasuredCountedAndHeldAgainstTheFloor) {
     EXPECT_THAT(said, HasSubstr("tile_minmax, 16"));
     EXPECT_THAT(said, HasSubstr("skipped forward, cluster"));
     const Json record = json("out/of/bench/bench.json");
-    EXPECT_EQ(record["schema"], 2);
+    EXPECT_EQ(record["schema"], 3);
     EXPECT_EQ(record["complete"], true);
     EXPECT_FALSE(record["machine"].get<std::string>().empty());
     EXPECT_FALSE(record["commit"].get<std::string>().empty());
@@ -28,6 +28,10 @@ TEST_F(Bench, everyPointIsAlwaysMeasuredCountedAndHeldAgainstTheFloor) {
     EXPECT_THAT(said, HasSubstr("it is the same frame as tiled_deferred, exact"));
     EXPECT_THAT(record["recommendation"].get<std::string>(), HasSubstr("with 40 lights at 96x54 take "));
     EXPECT_THAT(text("out/of/bench/bench.csv"), HasSubstr("\r\nlattice,clustered_deferred,cluster,32,"));
+    for (const Json& floor : record["floors"]) {
+        EXPECT_EQ(floor["rounds"], 5) << "two frames of each point were asked for";
+        EXPECT_GE(floor["geometryMsP95"], floor["geometryMs"]);
+    }
     for (const Json& point : record["points"]) {
         SCOPED_TRACE(point.dump());
         EXPECT_GT(point["cpuMs"]["median"], 0.0);
@@ -41,6 +45,12 @@ TEST_F(Bench, everyPointIsAlwaysMeasuredCountedAndHeldAgainstTheFloor) {
         }
         EXPECT_GT(point["counters"]["lightEvaluations"], point["counters"]["neededEvaluations"]);
         EXPECT_GT(point["floorMs"], 0.0);
+        // Surfaces turn their backs to some of the lights that reach them, so the lit floor is lower.
+        EXPECT_GT(point["counters"]["neededLitEvaluations"], 0);
+        EXPECT_LT(point["counters"]["neededLitEvaluations"], point["counters"]["neededEvaluations"]);
+        EXPECT_GT(point["floorLitMs"], 0.0);
+        EXPECT_LT(point["floorLitMs"], point["floorMs"]);
+        EXPECT_GT(point["ratioToLitFloor"], point["ratioToFloor"]);
         EXPECT_GE(point["counters"]["tightness"], 1.0);
         // What fp32 and an exact layout are held to against the reference where there are no textures.
         EXPECT_EQ(point["against"], "reference");
@@ -92,6 +102,7 @@ TEST_F(Bench, unlitAndTransparentSurfacesNeverCountAsWhatTheyAreNot) {
          counters(R"({"name": "paint", "model": "lambert", "k_d": [1, 1, 1, 0.5], "alphaMode": "blend"})")) {
         EXPECT_TRUE(point["counters"]["neededEvaluations"].is_null());
         EXPECT_TRUE(point["floorMs"].is_null());
+        EXPECT_TRUE(point["floorLitMs"].is_null());
     }
     expectError(2, {"bench", "room", "-o", "none", "--technique", "forward", "--samples", "4"}, {"--samples"});
 }

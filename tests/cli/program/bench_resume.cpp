@@ -34,7 +34,9 @@ protected:
         for (const char* field : {"floors", "scaling", "recommendation", "recommendations", "command"})
             record.erase(field);
         for (Json& point : record["points"]) {
-            for (const char* field : {"cpuMs", "gpuMs", "floorMs", "ratioToFloor", "pareto", "why"}) point.erase(field);
+            for (const char* field :
+                 {"cpuMs", "gpuMs", "floorMs", "ratioToFloor", "floorLitMs", "ratioToLitFloor", "pareto", "why"})
+                point.erase(field);
             for (Json& pass : point["passes"]) pass.erase("gpuMs");
         }
         return record;

@@ -176,6 +176,10 @@ TEST(BenchJson, aGroupAlwaysComesBackFromItsJsonDigitForDigit) {
     EXPECT_EQ(back.results[0].times.cpuMs.median, 100.0 / 3.0);
     EXPECT_EQ(back.pictures[0].hash, 0xfedcba9876543210ull);
     EXPECT_EQ(back.floor.stores[0].nsPerPair, 1.0 / 7.0);
+    EXPECT_EQ(back.floor.stores[0].nsPerPairP95, 1.0 / 6.0);
+    EXPECT_EQ(back.floor.geometryMsP95, 0.3);
+    EXPECT_EQ(back.floor.rounds, 5);
+    EXPECT_EQ(back.results[0].floorLitMs, 1.0 / 6.0);
 }
 
 TEST(BenchJson, everyNullOfAPointAlwaysHasItsReason) {

@@ -18,6 +18,8 @@ inline BenchResult madeUpResult(const std::string& technique, double ms, std::op
     result.counters.triangles = 12;
     result.floorMs = 1.0 / 3.0; // whose digits must survive
     result.ratioToFloor = 3.0 * ms;
+    result.floorLitMs = 1.0 / 6.0;
+    result.ratioToLitFloor = 6.0 * ms;
     if (relMse) result.error = BenchError{relMse, 2e-3, 1e-3, 1.5e-3, -1e-5, {}, 0.01};
     return result;
 }
@@ -30,7 +32,9 @@ inline BenchGroup madeUpGroup(int lights, std::vector<BenchResult> results) {
     group.triangles = 12;
     group.truth = "reference";
     group.floor.geometryMs = 0.1;
-    group.floor.stores = {{lightStoreTable()[0].name, 1.0 / 7.0}};
+    group.floor.stores = {{lightStoreTable()[0].name, 1.0 / 7.0, 1.0 / 6.0}};
+    group.floor.geometryMsP95 = 0.3;
+    group.floor.rounds = 5;
     group.results = std::move(results);
     group.attribution = {{"layout", "packed: albedo", "that channel in fp32", 1e-7, {}, {}}};
     return group;

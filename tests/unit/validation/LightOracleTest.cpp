@@ -206,6 +206,7 @@ TEST_F(LightOracle, lightsThatReachEverywhereAreAlwaysNeededAndCountedApart) {
     scene_.lights = {sun, lightAt({0.0, 0.0, -4.0}, 2.0f), endless};
     const LightOracleFigures figures = judge();
     EXPECT_EQ(figures.everywhere, 2u);
+    EXPECT_EQ(figures.everywhereLit, 2u) << "one shines along the view, one from 5 m before the plane";
     EXPECT_EQ(figures.needed, 1u);
     EXPECT_EQ(figures.evaluated, 1u);
     EXPECT_EQ(figures.evaluatedMax, 3u);

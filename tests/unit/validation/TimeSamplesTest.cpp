@@ -20,14 +20,14 @@ TEST(TimeSamples, medianAndP95AreAlwaysMeasuredTimes) {
 TEST(TimeSamples, noSamplesNeverGiveANumber) {
     EXPECT_TRUE(std::isnan(spreadOf({}).median));
     EXPECT_TRUE(std::isnan(spreadOf({}).p95));
-    EXPECT_TRUE(std::isnan(medianSlope({}, {}, 1.0)));
+    EXPECT_TRUE(std::isnan(slopeSpread({}, {}, 1.0).median));
 }
 
 TEST(TimeSamples, theSlopeIsExactlyTheMedianOverRoundsWhateverTheMachinesPace) {
     // Rounds at paces 1, 2 and 10, the last one as if something else had run: 3 a unit at pace 1.
     const std::vector<double> low{5.0, 10.0, 50.0}, high{5.0 + 12.0, 10.0 + 24.0, 50.0 + 120.0};
-    EXPECT_EQ(medianSlope(low, high, 4.0), 6.0);
-    EXPECT_EQ(medianSlope(high, low, 4.0), -6.0);
+    EXPECT_EQ(slopeSpread(low, high, 4.0).median, 6.0);
+    EXPECT_EQ(slopeSpread(high, low, 4.0).median, -6.0);
 }
 
 TEST(SummarisePasses, passesThatSumToTheirFrameAreAlwaysKept) {
