@@ -21,6 +21,10 @@ Json number(std::optional<double> value) {
     return value ? number(*value) : Json(nullptr);
 }
 
+double litCoveredShare(const ErrorFigures& figures) {
+    return figures.compared > 0 ? double(figures.litCovered) / double(figures.compared) : 0.0;
+}
+
 Json toleranceJson(const Tolerance& tolerance) {
     return {{"maxRel", number(tolerance.maxRel)},
             {"bitEqual", number(tolerance.bitEqual)},
@@ -68,6 +72,7 @@ Json pairJson(const ComparePair& pair) {
                  {"negative", figures.bad.negative},
                  {"excluded", number(figures.excluded)},
                  {"litShare", number(figures.litShare)},
+                 {"litCovered", number(litCoveredShare(figures))},
                  {"meanLuminance", number(figures.meanLuminance)}};
     Json why = reasons(json, figures);
     if (pair.culling.empty()) why["culling"] = "every light is visited, or the picture came from elsewhere";
@@ -115,7 +120,7 @@ Row rowOf(const ComparePair& pair) {
             figureText(figures.bias),
             figureText(figures.flip.value_or(std::nan(""))),
             psnrText(figures),
-            shareText(figures.litShare),
+            shareText(litCoveredShare(figures)),
             pair.verdict.ok ? "ok" : "MISSED"};
 }
 

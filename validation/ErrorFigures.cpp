@@ -93,6 +93,8 @@ void addDifferences(ErrorFigures& figures, const Picture& a, const Picture& b, c
         }
         luminanceA += luminance(valueA);
         luminanceB += luminance(valueB);
+        figures.litCoveredA += std::abs(luminance(valueA)) > errors.litThreshold;
+        figures.litCovered += std::abs(luminance(valueB)) > errors.litThreshold;
         rels.push_back(errors.rel[i]);
     }
 

@@ -45,7 +45,9 @@ struct ErrorFigures : DisplayFigures {
     double excluded = 0.0; ///< share of the pixels covered in either picture that were excluded
     double litShare;       ///< share of all pixels of b that are lit; of a, by b's threshold: litShareA
     double litShareA;
-    double meanLuminance; ///< of b, over all its finite pixels; of a: meanLuminanceA
+    std::size_t litCovered = 0;  ///< compared pixels of b that are lit
+    std::size_t litCoveredA = 0; ///< of a, by b's threshold
+    double meanLuminance;        ///< of b, over all its finite pixels; of a: meanLuminanceA
     double meanLuminanceA;
     double typicalLuminance; ///< m: median luminance of b's lit covered pixels, at least 1e-30
 };

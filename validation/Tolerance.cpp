@@ -7,15 +7,22 @@
 namespace tessera::validation {
 namespace {
 
-constexpr double kLeastLitShare = 0.10;     // below it a picture shows too little to prove anything
+constexpr double kLeastLitShare = 0.10;     // of the covered pixels; below it a picture proves too little
 constexpr double kMostExcludedShare = 0.05; // silhouettes alone stay well under 2 %
 
-void checkSignal(std::vector<std::string>& missed, const char* name, double meanLuminance, double litShare) {
-    if (!(meanLuminance > 0.0))
+/// Pictures that are equal to the last bit prove themselves by any light; that others show much is what keeps a few lit
+/// pixels from hiding behind the percentiles of many dark ones.
+void checkSignal(std::vector<std::string>& missed, const char* name, double meanLuminance, std::size_t lit,
+                 const ErrorFigures& figures) {
+    if (!(meanLuminance > 0.0)) {
         missed.push_back(fmt::format("no signal: picture {} is black (mean luminance {:.3g})", name, meanLuminance));
-    else if (!(litShare >= kLeastLitShare))
-        missed.push_back(fmt::format("too little signal: only {:.3g} % of picture {} is lit, at least 10 % must be",
-                                     100.0 * litShare, name));
+    } else if (lit == 0) {
+        missed.push_back(fmt::format("no signal: no covered pixel of picture {} is lit", name));
+    } else if (figures.bitEqual != 1.0 && double(lit) < kLeastLitShare * double(figures.compared)) {
+        missed.push_back(fmt::format("too little signal: only {:.3g} % of the covered pixels of picture {} are lit, at "
+                                     "least 10 % must be",
+                                     100.0 * double(lit) / double(figures.compared), name));
+    }
 }
 
 void checkBad(std::vector<std::string>& missed, const char* where, BadPixels bad, bool mayBeNegative) {
@@ -40,8 +47,8 @@ void checkFigure(std::vector<std::string>& missed, const char* name, double valu
 Verdict checkTolerance(const ErrorFigures& figures, const Tolerance& tolerance) {
     Verdict verdict;
     std::vector<std::string>& missed = verdict.missed;
-    checkSignal(missed, "a", figures.meanLuminanceA, figures.litShareA);
-    checkSignal(missed, "b", figures.meanLuminance, figures.litShare);
+    checkSignal(missed, "a", figures.meanLuminanceA, figures.litCoveredA, figures);
+    checkSignal(missed, "b", figures.meanLuminance, figures.litCovered, figures);
     checkBad(missed, "covered", figures.bad, tolerance.isSigned);
     checkBad(missed, "uncovered or excluded", figures.badOutside, tolerance.isSigned);
     if (figures.excluded > kMostExcludedShare)

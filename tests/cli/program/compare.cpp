@@ -42,10 +42,11 @@ TEST_F(Compare, theJsonHasExactlyTheDocumentedFields) {
     EXPECT_EQ(record["size"], Json::parse("[160, 90]"));
     EXPECT_FALSE(record["renderer"].get<std::string>().empty());
     // `missed` and `why` explain verdicts and nulls; `channels` is there where a channel is packed.
-    const std::set<std::string> fields{
-        "a",        "b",        "maxAbs",        "maxRel",    "rmse", "relMse", "p50Rel", "p99Rel",
-        "p999Rel",  "bias",     "bitEqual",      "flip",      "psnr", "nan",    "inf",    "negative",
-        "excluded", "litShare", "meanLuminance", "tolerance", "ok",   "missed", "why",    "culling"};
+    const std::set<std::string> fields{"a",         "b",        "maxAbs",   "maxRel",     "rmse",
+                                       "relMse",    "p50Rel",   "p99Rel",   "p999Rel",    "bias",
+                                       "bitEqual",  "flip",     "psnr",     "nan",        "inf",
+                                       "negative",  "excluded", "litShare", "litCovered", "meanLuminance",
+                                       "tolerance", "ok",       "missed",   "why",        "culling"};
     ASSERT_EQ(record["pairs"].size(), recipes::techniqueTable().size() - 1);
     for (const Json& pair : record["pairs"]) {
         std::set<std::string> keys = keysOf(pair);
@@ -56,7 +57,7 @@ TEST_F(Compare, theJsonHasExactlyTheDocumentedFields) {
         EXPECT_EQ(pair["b"], "forward");
         EXPECT_EQ(pair["ok"], true);
         EXPECT_EQ(pair["missed"], Json::array());
-        for (const char* share : {"bitEqual", "excluded", "litShare"}) {
+        for (const char* share : {"bitEqual", "excluded", "litShare", "litCovered"}) {
             EXPECT_GE(pair[share], 0.0);
             EXPECT_LE(pair[share], 1.0);
         }

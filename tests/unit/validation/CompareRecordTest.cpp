@@ -46,7 +46,7 @@ TEST(CompareRecord, jsonAlwaysHasExactlyTheAgreedFields) {
         EXPECT_THAT(keys(pair),
                     ElementsAre("a", "b", "maxAbs", "maxRel", "rmse", "relMse", "p50Rel", "p99Rel", "p999Rel", "bias",
                                 "bitEqual", "flip", "psnr", "nan", "inf", "negative", "excluded", "litShare",
-                                "meanLuminance", "tolerance", "ok", "missed", "culling", "why"));
+                                "litCovered", "meanLuminance", "tolerance", "ok", "missed", "culling", "why"));
         EXPECT_THAT(keys(pair["tolerance"]), ElementsAre("maxRel", "bitEqual", "relMse", "p999Rel", "bias"));
     }
 }

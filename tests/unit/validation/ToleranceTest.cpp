@@ -27,15 +27,42 @@ TEST(Tolerance, twoBlackPicturesNeverPass) {
                                             "no signal: picture b is black (mean luminance 0)"));
 }
 
-TEST(Tolerance, aPictureUnderATenthLitNeverPassesEvenAgainstItself) {
+TEST(Tolerance, aPairThatIsNotBitEqualNeverPassesWhereUnderATenthOfItsCoveredPixelsAreLit) {
     std::vector<Rgb> colours(100, Rgb{0, 0, 0});
     for (std::size_t i = 0; i < 9; ++i) colours[i] = {1, 1, 1};
     const Picture dim = pictureOf(10, 10, colours);
-    EXPECT_THAT(verdictOf(dim, dim).missed,
-                ElementsAre(HasSubstr("only 9 % of picture a is lit"), HasSubstr("only 9 % of picture b is lit")));
+    Picture other = dim;
+    setPixel(other, 0, {1.5f, 1, 1});
+    EXPECT_THAT(verdictOf(other, dim).missed,
+                ElementsAre(HasSubstr("only 9 % of the covered pixels of picture a are"),
+                            HasSubstr("only 9 % of the covered pixels of picture b are")));
+    setPixel(other, 9, {1, 1, 1});
     colours[9] = {1, 1, 1};
-    const Picture enough = pictureOf(10, 10, colours);
-    EXPECT_TRUE(verdictOf(enough, enough).ok);
+    EXPECT_TRUE(verdictOf(other, pictureOf(10, 10, colours)).ok);
+}
+
+TEST(Tolerance, theSignalIsAlwaysCountedOverCoveredPixels) {
+    // Ten covered pixels of a hundred; a bright background is not what is compared.
+    Picture small = greyPicture(10, 10, 0.f);
+    small.covered.assign(100, 0);
+    for (std::size_t i = 0; i < 10; ++i) {
+        small.covered[i] = 1;
+        setPixel(small, i, {1, 1, 1});
+    }
+    Picture other = small;
+    setPixel(other, 0, {1.5f, 1, 1});
+    EXPECT_TRUE(verdictOf(other, small).ok);
+    Picture dark = greyPicture(10, 10, 1.f);
+    dark.covered = small.covered;
+    for (std::size_t i = 0; i < 10; ++i) setPixel(dark, i, {0, 0, 0});
+    EXPECT_THAT(verdictOf(dark, dark).missed, ElementsAre("no signal: no covered pixel of picture a is lit",
+                                                          "no signal: no covered pixel of picture b is lit"));
+}
+
+TEST(Tolerance, picturesEqualToTheLastBitAlwaysPassWithOneLitPixel) {
+    Picture picture = greyPicture(20, 20, 0.f);
+    setPixel(picture, 7, {1e-3f, 0, 0});
+    EXPECT_TRUE(verdictOf(picture, picture, {.maxRel = 0.0, .bitEqual = 1.0}).ok);
 }
 
 TEST(Tolerance, aPictureOfNothingNeverPasses) {
