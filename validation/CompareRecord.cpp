@@ -102,6 +102,14 @@ Json rangeTruncationJson(const RangeTruncation& truncation) {
     return json;
 }
 
+Json lostJson(const LostGeometry& lost) {
+    Json json = {{"what", lostName(lost.kind)}, {"instance", lost.instance ? Json(*lost.instance) : Json(nullptr)},
+                 {"node", lost.node},           {"mesh", lost.mesh},
+                 {"pixels", lost.pixels},       {"pixel", {lost.x, lost.y}}};
+    json["why"] = lost.instance ? Json::object() : Json{{"instance", "which transparent surface it is cannot be told"}};
+    return json;
+}
+
 constexpr std::size_t kColumns = 10;
 using Row = std::array<std::string, kColumns>;
 
@@ -154,6 +162,14 @@ ComparePair comparePair(std::string nameA, const Picture& a, std::string nameB, 
     return pair;
 }
 
+void missLostGeometry(Verdict& verdict, std::span<const LostGeometry> lost) {
+    if (lost.empty()) return;
+    std::string missed = "geometry: " + lostText(lost.front());
+    if (lost.size() > 1) missed += fmt::format("; and {} more", lost.size() - 1);
+    verdict.missed.push_back(std::move(missed));
+    verdict.ok = false;
+}
+
 std::string compareJson(const CompareRecord& record) {
     Json pairs = Json::array();
     for (const ComparePair& pair : record.pairs) pairs.push_back(pairJson(pair));
@@ -167,6 +183,10 @@ std::string compareJson(const CompareRecord& record) {
                  {"renderer", record.renderer},
                  {"pairs", pairs},
                  {"left_out", leftOut}};
+    if (record.excludesPixels) {
+        json["lost"] = Json::array();
+        for (const LostGeometry& lost : record.lost) json["lost"].push_back(lostJson(lost));
+    }
     if (record.rangeTruncation) json["rangeTruncation"] = rangeTruncationJson(*record.rangeTruncation);
     // A file's name need not be UTF-8, and must not keep the record from being written.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -181,8 +201,9 @@ std::string compareTable(const CompareRecord& record) {
         fmt::format("{}  {}x{}{}  {}\n", record.scene, record.width, record.height, samples, record.renderer) +
         textTable(rows);
     if (record.excludesPixels && !record.pairs.empty())
-        text += fmt::format("excluded: {} of the covered pixels, where the two show different triangles\n",
+        text += fmt::format("excluded: {} of the covered pixels, where rounding moves an edge\n",
                             shareText(record.pairs.front().figures.excluded));
+    for (const LostGeometry& lost : record.lost) text += "geometry: " + lostText(lost) + "\n";
     for (const ComparePair& pair : record.pairs)
         for (const std::string& missed : pair.verdict.missed)
             text += fmt::format("missed: {} vs {}: {}\n", pair.a, pair.b, missed);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "validation/ErrorFigures.h"
+#include "validation/LostGeometry.h"
 #include "validation/Tolerance.h"
 
 namespace tessera::validation {
@@ -47,6 +48,7 @@ struct CompareRecord {
     std::vector<ComparePair> pairs;
     int samples = 1;             ///< of a pixel, as the driver gives them
     bool excludesPixels = false; ///< those that show different triangles were left out, the same ones of every pair
+    std::vector<LostGeometry> lost = {}; ///< what no rounding explains of that; then no pair holds
     std::vector<LeftOutTechnique> leftOut = {};
     std::optional<RangeTruncation> rangeTruncation = {}; ///< where a tolerance is set
 
@@ -57,6 +59,9 @@ struct CompareRecord {
 /// Measures and judges one pair. `excluded` and `shown` are as errorFigures() takes them.
 ComparePair comparePair(std::string nameA, const Picture& a, std::string nameB, const Picture& b, Tolerance tolerance,
                         std::span<const std::uint8_t> excluded = {}, const ShownPair& shown = {});
+
+/// Lets a verdict miss when geometry was lost, and say what.
+void missLostGeometry(Verdict& verdict, std::span<const LostGeometry> lost);
 
 /// The record as JSON, schema 1, indented and ending in a newline. Figures that could not be measured or are infinite
 /// are null, with the reason under `why`; `missed` says in words what a pair did not hold.

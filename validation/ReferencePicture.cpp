@@ -7,8 +7,6 @@
 
 namespace tessera::validation {
 
-namespace {
-
 reference::Settings referenceSettings(const scenes::Scene& scene, const frame::FrameSettings& settings) {
     reference::Settings result;
     result.sizePixels = settings.sizePixels;
@@ -19,8 +17,6 @@ reference::Settings referenceSettings(const scenes::Scene& scene, const frame::F
     result.rangeTolerance = settings.rangeTolerance;
     return result;
 }
-
-} // namespace
 
 void requireReferenceTakes(const frame::FrameSettings& settings) {
     if (settings.view != frame::View::Final) {
@@ -48,23 +44,6 @@ ReferencePicture referencePicture(const scenes::Scene& scene, const frame::Frame
     result.picture.covered = std::move(rendered.covered);
     result.ids = std::move(rendered.ids);
     return result;
-}
-
-std::vector<std::uint8_t> differingTriangles(recipes::Renderer& renderer, const frame::FrameSettings& settings,
-                                             const std::vector<reference::Ids>& ids) {
-    frame::FrameSettings view = settings;
-    view.view = frame::View::Ids;
-    view.display = false;
-    view.culling = {};
-    view.lightOn.reset();
-    const std::vector<float> drawn = renderer.render(recipes::Technique::Forward, view).radiance;
-    std::vector<std::uint8_t> differs(ids.size());
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-        const reference::Ids& own = ids[i];
-        differs[i] = drawn[4 * i] != float(own.object) || drawn[4 * i + 1] != float(own.triangle) ||
-                     drawn[4 * i + 2] != float(own.transparent);
-    }
-    return differs;
 }
 
 Tolerance referenceTolerance(const scenes::Scene& scene, frame::TextureFilter filter) {

@@ -7,12 +7,15 @@
 #include "validation/Tolerance.h"
 #include "validation/reference/Render.h"
 
-/// The reference renderer (validation/reference) beside the product: the same frame, the pixels that can be compared,
-/// and what a technique is held to there.
+/// The reference renderer (validation/reference) beside the product: the same frame, and what a technique is held to
+/// there.
 namespace tessera::validation {
 
 /// Throws InputError unless the reference renders frames of these settings: the final view, one sample a pixel.
 void requireReferenceTakes(const frame::FrameSettings& settings);
+
+/// A frame's settings as the reference takes them.
+reference::Settings referenceSettings(const scenes::Scene& scene, const frame::FrameSettings& settings);
 
 struct ReferencePicture {
     Picture picture; ///< rounded to single precision
@@ -24,11 +27,6 @@ struct ReferencePicture {
 /// requireReferenceTakes() does.
 ReferencePicture referencePicture(
     const scenes::Scene& scene, const frame::FrameSettings& settings, const std::function<void()>& rowDone = [] {});
-
-/// By pixel of the picture, 1 where the GPU shows other triangles than the reference, as at silhouettes: there the two
-/// look at different surfaces, and are not compared. Draws the view `ids`, which is the same for every technique.
-std::vector<std::uint8_t> differingTriangles(recipes::Renderer& renderer, const frame::FrameSettings& settings,
-                                             const std::vector<reference::Ids>& ids);
 
 /// What a technique with every G-buffer channel in fp32 is held to against the reference, with the reason. Hardware
 /// filtering is held to nothing: how exact it is, and which level it takes, is the driver's choice.

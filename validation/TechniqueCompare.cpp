@@ -11,6 +11,7 @@
 #include "validation/RangeTruncation.h"
 #include "validation/ReferencePicture.h"
 #include "validation/Rendering.h"
+#include "validation/ShownTriangles.h"
 
 namespace tessera::validation {
 
@@ -28,11 +29,10 @@ bool isReference(const CompareRequest& request) {
 }
 
 /// The truth, and where it shows other surfaces than the GPU.
-NamedPicture truthPicture(recipes::Renderer& renderer, const CompareRequest& request,
-                          std::vector<std::uint8_t>& excluded) {
+NamedPicture truthPicture(recipes::Renderer& renderer, const CompareRequest& request, ShownTriangles& triangles) {
     if (isReference(request)) {
         ReferencePicture reference = referencePicture(renderer.scene(), request.settings, request.renderedOne);
-        excluded = differingTriangles(renderer, request.settings, reference.ids);
+        triangles = shownTriangles(renderer, request.settings, reference.ids);
         const DisplayImage display = toDisplayImage(reference.picture);
         return {"reference", std::move(reference.picture), display};
     }
@@ -203,7 +203,10 @@ Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout,
 CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabilities& gl,
                                 const CompareRequest& request) {
     CompareResult result;
-    result.truth = truthPicture(renderer, request, result.excluded);
+    ShownTriangles triangles;
+    result.truth = truthPicture(renderer, request, triangles);
+    result.excluded = std::move(triangles.excluded);
+    result.record.lost = std::move(triangles.lost);
     result.record.excludesPixels = !result.excluded.empty();
     result.record.scene = renderer.scene().name;
     result.record.width = request.settings.sizePixels.x;
@@ -232,6 +235,7 @@ CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabili
         request.renderedOne();
     }
     if (showsHardwareFilter(renderer, request)) addHardwareFilter(renderer, request, result);
+    for (ComparePair& pair : result.record.pairs) missLostGeometry(pair.verdict, result.record.lost);
     if (measuresTruncation(request)) {
         result.record.rangeTruncation = truncationOf(renderer, request);
         request.renderedOne();

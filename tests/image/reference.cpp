@@ -8,6 +8,7 @@
 #include "validation/TechniqueCompare.h"
 #include "validation/reference/Texels.h"
 
+#include "validation/ShownTriangles.h"
 namespace tessera {
 namespace {
 
@@ -114,8 +115,8 @@ TEST_F(Reference, aLightThatDiffersByOnePercentNeverPasses) {
     scene.lights[0].intensity *= 1.01f;
     recipes::Renderer renderer(context(), scene);
     const validation::Picture picture = validation::toPicture(renderer.render(Technique::Forward, settings));
-    const validation::ErrorFigures figures =
-        validation::errorFigures(picture, truth.picture, validation::differingTriangles(renderer, settings, truth.ids));
+    const validation::ErrorFigures figures = validation::errorFigures(
+        picture, truth.picture, validation::shownTriangles(renderer, settings, truth.ids).excluded);
     EXPECT_FALSE(validation::checkTolerance(figures, validation::referenceTolerance(scene, settings.filter)).ok);
 }
 
@@ -123,7 +124,7 @@ validation::ErrorFigures hardwareFigures(recipes::Renderer& renderer, const fram
     const validation::ReferencePicture truth = validation::referencePicture(renderer.scene(), settings);
     const validation::Picture picture = validation::toPicture(renderer.render(Technique::Forward, settings));
     return validation::errorFigures(picture, truth.picture,
-                                    validation::differingTriangles(renderer, settings, truth.ids));
+                                    validation::shownTriangles(renderer, settings, truth.ids).excluded);
 }
 
 /// So what is left of hardware filtering's difference without levels is its rounding.

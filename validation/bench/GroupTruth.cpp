@@ -7,6 +7,7 @@
 #include "validation/ErrorFigures.h"
 #include "validation/ReferencePicture.h"
 #include "validation/Rendering.h"
+#include "validation/ShownTriangles.h"
 
 namespace tessera::validation {
 
@@ -47,7 +48,7 @@ GroupTruth::GroupTruth(recipes::Renderer& renderer, BenchTruth truth, const fram
         return;
     }
     ReferencePicture reference = referencePicture(renderer.scene(), exact, rowDone);
-    excluded_ = differingTriangles(renderer, exact, reference.ids);
+    excluded_ = shownTriangles(renderer, exact, reference.ids).excluded;
     picture_ = std::move(reference.picture);
 }
 

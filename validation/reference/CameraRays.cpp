@@ -22,10 +22,10 @@ CameraRays::CameraRays(const scenes::Camera& camera, glm::ivec2 sizePixels)
         farMetres_ = nearMetres_ + kOrthographicReachHeights * 2.0 * halfHeight_;
 }
 
-Ray CameraRays::through(int column, int row) const {
+Ray CameraRays::through(const glm::dvec2& placePixels) const {
     // -1 to 1 from the left to the right and from the bottom to the top edge of the picture.
-    const double x = 2.0 * (column + 0.5) / sizePixels_.x - 1.0;
-    const double y = 1.0 - 2.0 * (row + 0.5) / sizePixels_.y;
+    const double x = 2.0 * placePixels.x / sizePixels_.x - 1.0;
+    const double y = 1.0 - 2.0 * placePixels.y / sizePixels_.y;
     const double halfWidth = halfHeight_ * sizePixels_.x / sizePixels_.y;
     const glm::dvec3 aside = x * halfWidth * right_ + y * halfHeight_ * up_;
     if (isPerspective_) return {glm::dvec3(0.0), forward_ + aside};

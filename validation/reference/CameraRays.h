@@ -19,7 +19,9 @@ public:
     CameraRays(const scenes::Camera& camera, glm::ivec2 sizePixels);
 
     /// Through the centre of a pixel; rows count from the top.
-    Ray through(int column, int row) const;
+    Ray through(int column, int row) const { return through(glm::dvec2(column + 0.5, row + 0.5)); }
+    /// Through any place of the picture, in pixels from its left and its top edge.
+    Ray through(const glm::dvec2& placePixels) const;
 
     /// Depths that are drawn, in metres.
     double nearMetres() const { return nearMetres_; }

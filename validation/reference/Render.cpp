@@ -10,8 +10,7 @@
 
 namespace tessera::reference {
 
-namespace {
-
+/// Of this file alone, but a part of Probe, whose type has a name.
 class Pixels {
 public:
     Pixels(const scenes::Scene& scene, const Settings& settings)
@@ -23,6 +22,22 @@ public:
             const std::size_t at = std::size_t(row) * std::size_t(rendered.width) + std::size_t(column);
             pixel(rays_.through(column, row), at, rendered);
         }
+    }
+
+    Layers layers(const glm::dvec2& placePixels) const {
+        const Ray ray = rays_.through(placePixels);
+        Layers found;
+        double depthMetres = std::numeric_limits<double>::infinity();
+        if (const std::optional<Hit> hit = visibility_.nearestOpaque(ray)) {
+            depthMetres = hit->depthMetres;
+            found.ids.object = 1 + hit->object->number;
+            found.ids.triangle = hit->triangle;
+        }
+        for (const Hit& hit : visibility_.transparentBefore(ray, depthMetres)) {
+            found.transparent.push_back({1 + hit.object->number, transparentId(hit.object->number, hit.triangle)});
+            found.ids.transparent += found.transparent.back().id;
+        }
+        return found;
     }
 
 private:
@@ -66,8 +81,6 @@ private:
     std::vector<ShiningLight> lights_;
 };
 
-} // namespace
-
 std::uint32_t transparentId(std::uint32_t objectNumber, std::uint32_t triangle) {
     // Two rounds of a multiplicative hash; both factors are odd, so that no bit of either number is lost.
     const std::uint32_t mixed = (objectNumber + 1u) * 0x9E3779B1u + triangle * 0x85EBCA6Bu;
@@ -88,6 +101,19 @@ Rendered render(const scenes::Scene& scene, const Settings& settings, const std:
         rowDone();
     });
     return rendered;
+}
+
+struct Probe::Seen {
+    Settings settings;
+    Pixels pixels;
+    Seen(const scenes::Scene& scene, const Settings& asked) : settings(asked), pixels(scene, settings) {}
+};
+
+Probe::Probe(const scenes::Scene& scene, const Settings& settings) : seen_(new Seen(scene, settings)) {}
+Probe::~Probe() = default;
+
+Layers Probe::at(const glm::dvec2& placePixels) const {
+    return seen_->pixels.layers(placePixels);
 }
 
 } // namespace tessera::reference

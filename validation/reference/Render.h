@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "scenes/Scene.h"
@@ -16,6 +17,16 @@ struct Ids {
     std::uint32_t triangle = 0;    ///< of its mesh
     std::uint32_t transparent = 0; ///< sum of transparentId() over the surfaces before it
     bool operator==(const Ids&) const = default;
+};
+
+/// The same, and of which instances the transparent surfaces are.
+struct Layers {
+    struct Layer {
+        std::uint32_t object = 0; ///< as Ids::object
+        std::uint32_t id = 0;     ///< transparentId(), the surface's part of Ids::transparent
+    };
+    Ids ids;
+    std::vector<Layer> transparent; ///< in the order in which they are blended
 };
 
 /// Below 2^16, so that sums of 256 of them are exact in single precision; of any two sets of triangles one pair in
@@ -34,5 +45,19 @@ struct Rendered {
 /// checkScene(). Throws std::runtime_error when the rays cannot be traced for lack of memory.
 Rendered render(
     const scenes::Scene& scene, const Settings& settings, const std::function<void()>& rowDone = [] {});
+
+/// Sees at single places of a picture which triangles are there. May be used by several threads.
+class Probe {
+public:
+    /// The scene must outlive it. Throws as render() does.
+    Probe(const scenes::Scene& scene, const Settings& settings);
+    ~Probe();
+    /// In pixels from the picture's left and its top edge: a pixel's centre is half a pixel in.
+    Layers at(const glm::dvec2& placePixels) const;
+
+private:
+    struct Seen;
+    std::unique_ptr<Seen> seen_;
+};
 
 } // namespace tessera::reference

@@ -9,6 +9,7 @@
 #include "scenes/Names.h"
 #include "validation/ReferencePicture.h"
 #include "validation/Rendering.h"
+#include "validation/ShownTriangles.h"
 
 namespace tessera::validation {
 
@@ -43,16 +44,18 @@ private:
         checkScene(picture.scene);
         recipes::Renderer renderer(context_, picture.scene, request_.shaders);
         std::optional<ReferencePicture> truth;
-        std::vector<std::uint8_t> excluded;
+        ShownTriangles triangles;
         if (!picture.sameAs) {
             truth = referencePicture(picture.scene, picture.settings);
-            excluded = differingTriangles(renderer, picture.settings, truth->ids);
+            triangles = shownTriangles(renderer, picture.settings, truth->ids);
         }
         for (std::size_t t = 0; t < results_.size(); ++t) {
             const Technique technique = request_.techniques[t];
             Picture shown = toPicture(renderer.render(technique, picture.settings));
             const Picture& wanted = truth ? truth->picture : drawn_[*picture.sameAs][t];
-            results_[t].figures.addPicture(errorFigures(shown, wanted, excluded), picture.what, picture.allowed);
+            results_[t].figures.addPicture(errorFigures(shown, wanted, triangles.excluded), picture.what,
+                                           picture.allowed);
+            if (!triangles.lost.empty()) results_[t].figures.geometryLost(picture.what, triangles.lost.front());
             if (isTruth(index)) drawn_[index].push_back(std::move(shown));
         }
     }

@@ -52,4 +52,8 @@ void StressFigures::addPicture(const ErrorFigures& picture, const std::string& w
     if (fault.empty() && !signal.ok) fault = fmt::format("{}: {}", what, signal.missed.front());
 }
 
+void StressFigures::geometryLost(const std::string& what, const LostGeometry& lost) {
+    if (fault.empty()) fault = fmt::format("{}: {}", what, lostText(lost));
+}
+
 } // namespace tessera::validation

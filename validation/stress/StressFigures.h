@@ -5,6 +5,7 @@
 #include <string>
 
 #include "validation/ErrorFigures.h"
+#include "validation/LostGeometry.h"
 
 namespace tessera::validation {
 
@@ -34,6 +35,8 @@ struct StressFigures {
     void add(const StressFigures& other);
     /// Adds a picture's figures, its errors divided by `allowed`. `what` names the picture.
     void addPicture(const ErrorFigures& picture, const std::string& what, double allowed = 1.0);
+    /// Geometry that a picture lacks or has too much.
+    void geometryLost(const std::string& what, const LostGeometry& lost);
 };
 
 } // namespace tessera::validation

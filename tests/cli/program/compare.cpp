@@ -292,6 +292,39 @@ TEST_F(Sabotage, aFaultOfOneLobeAlwaysMissesTheReference) {
     }
 }
 
+/// All techniques lack it alike, and it fills few pixels.
+TEST_F(Sabotage, aDroppedInstanceAlwaysMissesTheReferenceAndIsNamed) {
+    replace("passes/geometry.vert", "gl_Position = clip;",
+            "gl_Position = drawNormal2.w == 13.0 ? vec4(2.0, 2.0, 2.0, 1.0) : clip;");
+    const ProcessResult result = run({"compare", "models", "--size", "160x90", "--techniques", "deferred", "--against",
+                                      "reference", "--json", "c.json"},
+                                     {{"TESSERA_SHADERS", path("shaders")}});
+    EXPECT_EQ(result.exitCode, kToleranceMissed) << result.out;
+    EXPECT_THAT(result.out, testing::ContainsRegex("geometry: instance 12 .* is missing from [0-9]+ pixels, such as "));
+    const Json record = json("c.json");
+    ASSERT_EQ(record["lost"].size(), 1u) << record["lost"].dump();
+    const Json& lost = record["lost"][0];
+    EXPECT_EQ(keysOf(lost), (std::set<std::string>{"what", "instance", "node", "mesh", "pixels", "pixel", "why"}));
+    EXPECT_EQ(lost["what"], "missing");
+    EXPECT_EQ(lost["instance"], 12);
+    EXPECT_GT(lost["pixels"], 10);
+    for (const Json& pair : record["pairs"]) EXPECT_EQ(pair["ok"], false);
+}
+
+/// Bit-equal pictures of a model that fills little of the frame.
+TEST_F(Compare, aSmallModelAlwaysHoldsAgainstItself) {
+    const char* assets = std::getenv("TESSERA_ASSETS");
+    if (assets == nullptr) GTEST_SKIP() << "TESSERA_ASSETS is not set";
+    for (const char* model : {"SpecularTest", "AlphaBlendModeTest", "Cameras"}) {
+        SCOPED_TRACE(model);
+        for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(assets) / model)) {
+            const std::string extension = entry.path().extension().string();
+            if (extension != ".gltf" && extension != ".glb") continue;
+            runGood({"compare", entry.path().string(), "--size", "160x90", "--techniques", "deferred"});
+        }
+    }
+}
+
 TEST_F(Sabotage, aShaderThatDoesNotCompileIsAlwaysNamedInOneLine) {
     replace("lib/light_cursor.glsl", "    light = cursor.next;", "    light = cursor.nix;\n    light = cursor.nox;");
     const ProcessResult result = run({"render", "room", "-o", "a.png"}, {{"TESSERA_SHADERS", path("shaders")}});

@@ -51,6 +51,28 @@ TEST(CompareRecord, jsonAlwaysHasExactlyTheAgreedFields) {
     }
 }
 
+TEST(CompareRecord, lostGeometryIsAlwaysNamedAndLetsNoPairHold) {
+    CompareRecord record = sampleRecord();
+    EXPECT_FALSE(Json::parse(compareJson(record)).contains("lost")) << "nothing was compared with the reference";
+    record.excludesPixels = true;
+    EXPECT_EQ(Json::parse(compareJson(record))["lost"], Json::array());
+    record.lost = {{LostKind::Missing, 12, "coat", "ball", 103, 80, 45}, {LostKind::Transparent, {}, "", "", 1, 2, 3}};
+    EXPECT_TRUE(record.pairs[0].verdict.ok);
+    missLostGeometry(record.pairs[0].verdict, record.lost);
+    EXPECT_FALSE(record.pairs[0].verdict.ok);
+    const std::string sentence = "instance 12 (node 'coat', mesh 'ball') is missing from 103 pixels, such as 80,45";
+    EXPECT_THAT(record.pairs[0].verdict.missed, ElementsAre("geometry: " + sentence + "; and 1 more"));
+    const std::string table = compareTable(record);
+    EXPECT_THAT(table, HasSubstr("\ngeometry: " + sentence + "\n"));
+    EXPECT_THAT(table, HasSubstr("\ngeometry: a transparent surface differs from the reference, or another "
+                                 "transparent one before or behind it, in 1 pixel, such as 2,3\n"));
+    const Json lost = Json::parse(compareJson(record))["lost"];
+    EXPECT_EQ(lost[0], Json::parse(R"({"what": "missing", "instance": 12, "node": "coat", "mesh": "ball", "pixels": 103,
+                                       "pixel": [80, 45], "why": {}})"));
+    EXPECT_TRUE(lost[1]["instance"].is_null());
+    EXPECT_TRUE(lost[1]["why"].contains("instance"));
+}
+
 TEST(CompareRecord, jsonAlwaysHoldsTheFiguresWithEveryDigit) {
     const CompareRecord record = sampleRecord();
     const Json pair = Json::parse(compareJson(record))["pairs"][1];
@@ -121,9 +143,8 @@ TEST(CompareRecord, theShareOfExcludedPixelsIsAlwaysToldWherePixelsCanBe) {
     CompareRecord record{"hall", 4, 1, "llvmpipe", {comparePair("forward", a, "reference", a, {}, excluded)}};
     EXPECT_THAT(compareTable(record), testing::Not(testing::HasSubstr("excluded:")));
     record.excludesPixels = true;
-    EXPECT_THAT(
-        compareTable(record),
-        testing::HasSubstr("excluded: 25.000 % of the covered pixels, where the two show different triangles\n"));
+    EXPECT_THAT(compareTable(record),
+                testing::HasSubstr("excluded: 25.000 % of the covered pixels, where rounding moves an edge\n"));
     record.pairs = {comparePair("forward", a, "reference", a, {})};
     EXPECT_THAT(compareTable(record), testing::HasSubstr("excluded: 0 % of"));
 }

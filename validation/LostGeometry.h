@@ -1,0 +1,30 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace tessera::validation {
+
+enum class LostKind : std::uint8_t {
+    Missing,        ///< the reference shows the instance, the GPU does not
+    Extra,          ///< the GPU shows it, the reference nothing opaque
+    OtherTriangles, ///< both show it, by different triangles
+    Transparent     ///< transparent surfaces differ, and no single missing instance explains it
+};
+
+/// Geometry that the GPU and the reference show differently where no rounding explains it.
+struct LostGeometry {
+    LostKind kind = LostKind::Missing;
+    std::optional<std::uint32_t> instance; ///< mesh instance in document order, from 0; none: of unknown surfaces
+    std::string node, mesh;                ///< the instance's names in the scene, empty where it has none
+    std::size_t pixels = 0;
+    int x = 0, y = 0; ///< one of them, from the left and from the top
+};
+
+/// One sentence: "instance 12 (node 'coat', mesh 'ball') is missing from 103 pixels, such as 80,45".
+std::string lostText(const LostGeometry& lost);
+/// "missing", "extra", "other triangles", "transparent".
+const char* lostName(LostKind kind);
+
+} // namespace tessera::validation
