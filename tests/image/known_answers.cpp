@@ -16,10 +16,11 @@ using scenes::Material;
 using scenes::MaterialModel;
 
 constexpr int kSide = 96;
+/// The specification's bar for the sharpest highlight it names, alpha = 0.002: rounding multiplied by 1/alpha.
+constexpr double kAnyDriver = 3e-4;
 
 struct Errors {
-    double p999 = 0.0;
-    double worst = 0.0;
+    double worst = 0.0; ///< relative, of every pixel and channel
     double brightest = 0.0;
 };
 
@@ -61,28 +62,26 @@ protected:
         // Where a window or cone lets almost nothing through, fp32 has no relative precision left; there a thousandth
         // of the picture's median is the unit (the measure of every comparison).
         const double floor = 1e-3 * channels[channels.size() / 2];
-        std::vector<double> relative;
         for (std::size_t i = 0; i < truths.size(); ++i) {
-            double worst = 0.0;
             for (int c = 0; c < 3; ++c) {
-                worst = std::max(worst, std::abs(picture.pixel(i)[c] - truths[i][c]) / std::max(truths[i][c], floor));
+                const double error = std::abs(picture.pixel(i)[c] - truths[i][c]) / std::max(truths[i][c], floor);
+                result.worst = std::max(result.worst, error);
             }
-            relative.push_back(worst);
         }
-        std::ranges::sort(relative);
-        result.worst = relative.back();
-        result.p999 = relative[std::size_t(0.999 * double(relative.size() - 1))];
         return result;
     }
 
+    /// `tolerance` is for software rasterisers, which round every operation correctly; GLSL leaves 2.5 roundings to a
+    /// division and more to a square root (4.7.1), so others have the specification's bar.
     void expectAnswer(const char* what, const Material& material, const Light& light, double tolerance) {
+        if (!context().capabilities().isSoftware) tolerance = std::max(tolerance, kAnyDriver);
         for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
             SCOPED_TRACE(fmt::format("{} {}", what, technique.name));
             const Errors found = errors(material, light, technique.technique);
             EXPECT_GT(found.brightest, 1e-3) << "the light does not reach the quad";
-            EXPECT_LE(found.p999, tolerance);
+            EXPECT_LE(found.worst, tolerance);
             if (technique.technique == Technique::Deferred) {
-                fmt::print("{:<62} p99.9 {:.1e}  worst {:.1e}  brightest {:.3g}\n", what, found.p999, found.worst,
+                fmt::print("{:<62} worst {:.1e} of {:.1e}  brightest {:.3g}\n", what, found.worst, tolerance,
                            found.brightest);
             }
         }
@@ -155,9 +154,16 @@ TEST_F(KnownAnswers, metallicRoughnessWithoutLobeIsAlwaysLambertOverPi) {
     for (const NamedLight& named : everyLight()) expectAnswer(named.name, chalk(), named.light, named.tolerance);
 }
 
-// End to end in fp32 a highlight's slope multiplies the rounding of n, l and v by up to 1/alpha; 3e-4 is the
-// specification's bar for the sharpest highlight it names, alpha = 0.002.
-constexpr double kHighlight = 3e-4;
+/// In fp32 a highlight's slope multiplies the rounding of h, 2^-24, by up to 2/alpha. Measured: half of that.
+double highlight(float alpha) {
+    return kPlain + 2.0 * 0x1p-24 / double(alpha);
+}
+
+/// A power of the cosine falls over a width of 1/sqrt(exponent); at its foot, a thousandth of the median, its slope is
+/// four times that. Measured: a quarter to all of that.
+double highlightOf(float exponent) {
+    return kPlain + 4.0 * 0x1p-24 * std::sqrt(double(exponent));
+}
 
 TEST_F(KnownAnswers, microfacetHighlightsAreAlwaysTheTextbooks) {
     Light sun = everyLight().back().light;
@@ -171,9 +177,9 @@ TEST_F(KnownAnswers, microfacetHighlightsAreAlwaysTheTextbooks) {
             material.alpha = alpha;
             material.ior = ior;
             expectAnswer(fmt::format("microfacet alpha {} ior {}, point", alpha, ior).c_str(), material,
-                         everyLight().front().light, kHighlight);
+                         everyLight().front().light, highlight(alpha));
             expectAnswer(fmt::format("microfacet alpha {} ior {}, directional", alpha, ior).c_str(), material, sun,
-                         kHighlight);
+                         highlight(alpha));
         }
     }
 }
@@ -183,8 +189,9 @@ TEST_F(KnownAnswers, totalInternalReflectionIsAlwaysTheTextbooks) {
     material.model = MaterialModel::Microfacet;
     material.alpha = 0.4f;
     material.ior = 0.6f;
-    // Grazing, so that part of the quad lies beyond the critical angle of 37 degrees.
-    expectAnswer("microfacet ior 0.6", material, test::pointLight({1.5, 0.4, 0.5}, 2.0f), kHighlight);
+    // Grazing, so that part of the quad lies beyond the critical angle of 37 degrees, where F rises as a square root:
+    // 1e-4 is what it makes of a rounding at the quad's nearest pixel. Measured 3.3e-5.
+    expectAnswer("microfacet ior 0.6", material, test::pointLight({1.5, 0.4, 0.5}, 2.0f), 1e-4);
 }
 
 TEST_F(KnownAnswers, blinnPhongHighlightsAreAlwaysTheTextbooks) {
@@ -195,9 +202,9 @@ TEST_F(KnownAnswers, blinnPhongHighlightsAreAlwaysTheTextbooks) {
         material.specularColor = {1.0f, 0.75f, 0.5f};
         material.exponent = exponent;
         expectAnswer(fmt::format("blinn_phong exponent {}, point", exponent).c_str(), material,
-                     everyLight().front().light, kHighlight);
+                     everyLight().front().light, highlightOf(exponent));
         expectAnswer(fmt::format("blinn_phong exponent {}, directional", exponent).c_str(), material,
-                     everyLight().back().light, kHighlight);
+                     everyLight().back().light, highlightOf(exponent));
     }
 }
 
@@ -213,7 +220,7 @@ TEST_F(KnownAnswers, anisotropicHighlightsAreAlwaysTheTextbooks) {
             material.alphaY = alphaY;
             material.masking = masking;
             expectAnswer(fmt::format("anisotropic {} {}, masking {}", alphaX, alphaY, int(masking)).c_str(), material,
-                         everyLight().front().light, kHighlight);
+                         everyLight().front().light, highlight(std::min(alphaX, alphaY)));
         }
     }
 }
@@ -223,7 +230,7 @@ TEST_F(KnownAnswers, maskingByTheHalfVectorIsAlwaysTheHandouts) {
     material.model = MaterialModel::Microfacet;
     material.alpha = 0.5f;
     material.masking = scenes::Masking::HalfVector;
-    expectAnswer("microfacet, masking half_vector", material, test::pointLight({1.5, 0.4, 0.5}, 2.0f), kHighlight);
+    expectAnswer("microfacet, masking half_vector", material, test::pointLight({1.5, 0.4, 0.5}, 2.0f), highlight(0.5f));
 }
 
 TEST_F(KnownAnswers, layersOfMetallicRoughnessAreAlwaysTheExtensions) {
@@ -235,11 +242,11 @@ TEST_F(KnownAnswers, layersOfMetallicRoughnessAreAlwaysTheExtensions) {
     Material stretched = base;
     stretched.anisotropyStrength = 0.8f;
     stretched.anisotropyRotationRadians = 0.7f;
-    expectAnswer("anisotropy", stretched, light, kHighlight);
+    expectAnswer("anisotropy", stretched, light, highlight(0.25f)); // alpha is the roughness squared
     Material coated = stretched;
     coated.clearcoat = 0.8f;
     coated.clearcoatPerceptualRoughness = 0.3f;
-    expectAnswer("clearcoat over anisotropy", coated, light, kHighlight);
+    expectAnswer("clearcoat over anisotropy", coated, light, highlight(0.09f));
     // What lies below a sheen is scaled by a fit, off by up to 0.035 of the sheen's brightest colour (SheenTest).
     Material cloth = base;
     cloth.sheenColor = {0.2f, 0.5f, 1.0f};
@@ -247,7 +254,8 @@ TEST_F(KnownAnswers, layersOfMetallicRoughnessAreAlwaysTheExtensions) {
     expectAnswer("sheen", cloth, light, 0.06);
     cloth.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
     cloth.metallic = 1.0f;
-    expectAnswer("sheen over black", cloth, light, kHighlight);
+    // Its D is a power of the sine of h, 1 - (n.h)^2, which cancels where h is near n. Measured 5.6e-6.
+    expectAnswer("sheen over black", cloth, light, 2e-5);
 }
 
 TEST_F(KnownAnswers, emissionIsAlwaysDimmedByItsCoat) {
@@ -280,7 +288,7 @@ TEST_F(KnownAnswers, metallicRoughnessHighlightsAreAlwaysTheTextbooks) {
             material.specularColor = {1.0f, 0.8f, 0.5f};
             material.emissive = {0.01f, 0.02f, 0.03f};
             expectAnswer(fmt::format("metallic_roughness {} metallic {}", roughness, metallic).c_str(), material,
-                         test::pointLight({0.3, -0.2, 0.8}, 2.5f), kHighlight);
+                         test::pointLight({0.3, -0.2, 0.8}, 2.5f), highlight(roughness * roughness));
         }
     }
 }

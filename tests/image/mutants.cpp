@@ -95,6 +95,40 @@ TEST_F(Mutants, everyFaultIsAlwaysSeenByTheCaseThatIsThereForIt) {
     }
 }
 
+/// A tolerance, a weight or a scale so wide that nothing can fail shows here: no case holds with half the signal, and
+/// of pictures none does.
+TEST_F(Mutants, noCaseAndNoPictureEverHoldsWhereWhatItMeasuresIsHalved) {
+    validation::StressRequest request;
+    request.techniques = {Technique::Forward};
+    request.effort = validation::StressEffort::Quick;
+    request.measuredTimes = 0.5f;
+    std::vector<validation::StressCase> rows;
+    for (const validation::StressCase& row : validation::stressCases()) {
+        if (!row.pictures) {
+            rows.push_back(row);
+            continue;
+        }
+        const std::vector<validation::StressPicture> pictures = row.pictures(request.effort);
+        for (std::size_t i = 0; i < pictures.size(); ++i) {
+            validation::StressCase one = row;
+            one.name += ": " + pictures[i].what;
+            // A picture that is compared with an earlier one brings that along, which counts for itself already.
+            one.pictures = [pictures, i](validation::StressEffort) {
+                std::vector<validation::StressPicture> alone{pictures[i]};
+                alone.front().sameAs.reset();
+                return alone;
+            };
+            rows.push_back(std::move(one));
+        }
+    }
+    for (const validation::StressCase& row : rows) request.cases.push_back(&row);
+    for (const validation::StressResult& result : validation::runStress(context(), request)) {
+        EXPECT_FALSE(result.held() <= result.tolerance) << result.name << " holds at half the signal: " << result.held()
+                                                        << ", at most " << result.tolerance << " is asked";
+        EXPECT_GT(result.figures.samples, 0u) << result.name;
+    }
+}
+
 /// Else a case that never holds would see every fault.
 TEST_F(Mutants, shadersWithoutAFaultAlwaysHoldEachOfTheirCases) {
     std::vector<std::string> cases;

@@ -1,19 +1,49 @@
 // The GPU's picture against the reference renderer's, pixel by pixel, with exact filtering on both sides.
+#include <cmath>
+#include <span>
+
 #include <fmt/format.h>
 
 #include "scenes/Load.h"
 #include "tests/image/FlatTest.h"
 #include "validation/ErrorFigures.h"
 #include "validation/ReferencePicture.h"
+#include "validation/ShownTriangles.h"
 #include "validation/TechniqueCompare.h"
 #include "validation/reference/Texels.h"
 
-#include "validation/ShownTriangles.h"
 namespace tessera {
 namespace {
 
 using recipes::Technique;
 using scenes::TextureSlot;
+
+frame::FrameSettings ofSize(int width, int height) {
+    frame::FrameSettings settings;
+    settings.sizePixels = {width, height};
+    return settings;
+}
+
+/// What a built-in scene is held to on software rasterisers, at most ten times what is measured there
+/// (docs/reference.md has the figures): two to five times, for compilers that order operations otherwise. Each scene's
+/// own surfaces say why it is where it is: normal maps far away in hall, edge-on triangles in lattice, one model in
+/// every pixel of room.
+struct SceneBars {
+    const char* scene;
+    int width, height;
+    double p999Rel, relMse, bias, excluded;
+};
+constexpr SceneBars kSmallBars[] = {
+    {"hall", 160, 90, 1e-3, 2.5e-9, 7e-6, 0.015},   {"spheres", 160, 90, 1e-4, 1.5e-11, 7e-7, 0.012},
+    {"models", 160, 90, 5e-4, 6e-10, 5e-6, 0.005},  {"lattice", 160, 90, 4e-4, 4e-10, 1.2e-5, 0.008},
+    {"room", 160, 90, 6e-6, 5e-13, 1.5e-7, 0.0003}, {"head", 160, 90, 6e-5, 6e-12, 7e-7, 0.003},
+};
+/// At the size at which the programs render by themselves. One sharp highlight decides the bias of spheres.
+constexpr SceneBars kDefaultBars[] = {
+    {"hall", 1280, 720, 1.2e-3, 3e-9, 3e-6, 0.002},    {"spheres", 1280, 720, 1.2e-4, 5e-11, 1e-4, 0.0015},
+    {"models", 1280, 720, 4e-4, 5e-9, 5e-7, 0.0006},   {"lattice", 1280, 720, 4e-4, 2e-10, 2.5e-6, 0.001},
+    {"room", 1280, 720, 6e-6, 4e-13, 1.2e-7, 0.00005}, {"head", 1280, 720, 6e-5, 1.2e-11, 6e-7, 0.0005},
+};
 
 class Reference : public test::GlTest {
 protected:
@@ -28,7 +58,8 @@ protected:
         return validation::compareTechniques(renderer, context().capabilities(), request).record.pairs.front();
     }
 
-    void expectAgreement(const std::string& what, const scenes::Scene& scene, const frame::FrameSettings& settings) {
+    validation::ErrorFigures expectAgreement(const std::string& what, const scenes::Scene& scene,
+                                             const frame::FrameSettings& settings) {
         SCOPED_TRACE(what);
         const validation::ComparePair pair = compared(scene, settings);
         const validation::ErrorFigures& figures = pair.figures;
@@ -39,28 +70,41 @@ protected:
         EXPECT_TRUE(pair.verdict.ok) << testing::PrintToString(pair.verdict.missed);
         // Silhouettes: an edge moved by the rasteriser's 1/256 of a pixel, and triangles no larger than a pixel.
         EXPECT_LT(figures.excluded, 0.02);
+        return figures;
+    }
+
+    /// A built-in scene held to what the software rasteriser really reaches. Other drivers may round divisions and
+    /// roots otherwise, and have the bars of referenceTolerance() alone.
+    void expectAsGoodAsMeasured(const SceneBars& bars) {
+        const validation::ErrorFigures figures =
+            expectAgreement(bars.scene, scenes::loadScene(bars.scene), ofSize(bars.width, bars.height));
+        if (!context().capabilities().isSoftware) return;
+        SCOPED_TRACE(bars.scene);
+        EXPECT_LE(figures.p999Rel, bars.p999Rel);
+        EXPECT_LE(figures.relMse, bars.relMse);
+        EXPECT_LE(std::abs(figures.bias), bars.bias);
+        EXPECT_LE(figures.excluded, bars.excluded);
+        // A bar that has become this wide no longer says what is reached: lower it. Sums of errors with signs and
+        // counts of single pixels may be small by chance.
+        EXPECT_GE(figures.p999Rel, 0.1 * bars.p999Rel);
+        EXPECT_GE(figures.relMse, 0.1 * bars.relMse);
+    }
+
+    void expectEverySceneAsGoodAsMeasured(std::span<const SceneBars> bars) {
+        EXPECT_EQ(bars.size(), scenes::builtinScenes().size()) << "a scene has no bars";
+        for (const SceneBars& row : bars) expectAsGoodAsMeasured(row);
     }
 };
 
-frame::FrameSettings ofSize(int width, int height) {
-    frame::FrameSettings settings;
-    settings.sizePixels = {width, height};
-    return settings;
-}
-
 TEST_F(Reference, everyBuiltinSceneAlwaysAgreesWithIt) {
-    for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
-        const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
-        expectAgreement(std::string(builtin.name), scene, ofSize(160, 90));
-    }
+    expectEverySceneAsGoodAsMeasured(kSmallBars);
 }
 
 using ReferenceSlow = Reference;
 
 /// At the size at which the programs render by themselves: single pixels that miss by much are rare.
 TEST_F(ReferenceSlow, everyBuiltinSceneAlwaysAgreesWithItAtTheDefaultSize) {
-    for (const scenes::BuiltinScene& builtin : scenes::builtinScenes())
-        expectAgreement(std::string(builtin.name), scenes::loadScene(std::string(builtin.name)), {});
+    expectEverySceneAsGoodAsMeasured(kDefaultBars);
 }
 
 TEST_F(Reference, aSceneOfEveryFeatureAlwaysAgreesWithIt) {

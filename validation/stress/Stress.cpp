@@ -53,11 +53,17 @@ private:
             const Technique technique = request_.techniques[t];
             Picture shown = toPicture(renderer.render(technique, picture.settings));
             const Picture& wanted = truth ? truth->picture : drawn_[*picture.sameAs][t];
-            results_[t].figures.addPicture(errorFigures(shown, wanted, triangles.excluded), picture.what,
+            results_[t].figures.addPicture(errorFigures(measured(shown), wanted, triangles.excluded), picture.what,
                                            picture.allowed);
             if (!triangles.lost.empty()) results_[t].figures.geometryLost(picture.what, triangles.lost.front());
             if (isTruth(index)) drawn_[index].push_back(std::move(shown));
         }
+    }
+
+    Picture measured(Picture picture) const {
+        for (std::size_t i = 0; i < picture.rgba.size(); ++i)
+            if (i % 4 != 3) picture.rgba[i] *= request_.measuredTimes;
+        return picture;
     }
 
     /// Whether a later picture is compared with this one.
@@ -107,7 +113,7 @@ std::vector<StressResult> runStress(gpu::Context& context, const StressRequest& 
         };
         progress(0.0);
         if (row.measure) {
-            StressBench bench(context, request.shaders, request.effort, progress);
+            StressBench bench(context, request.shaders, request.effort, progress, request.measuredTimes);
             StressResult result = resultOf(row, {});
             row.measure(bench, result.figures);
             keep(std::move(result));

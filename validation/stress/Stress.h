@@ -29,6 +29,8 @@ struct StressRequest {
     std::vector<recipes::Technique> techniques;
     StressEffort effort = StressEffort::Full;
     shader::SourceTree shaders; ///< under test
+    /// All that is measured is multiplied by it before it is compared: every case must miss when it is halved.
+    float measuredTimes = 1.0f;
     /// Called with the share 0..1 of all cases done.
     std::function<void(double)> progress = [](double) {};
     std::function<void(const StressResult&)> found = [](const StressResult&) {}; ///< called for each result

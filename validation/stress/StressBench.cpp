@@ -18,7 +18,9 @@ std::vector<glm::vec4> StressBench::run(const std::string& shader, const shader:
     gpu::bindStorageBuffer(STORAGE_STRESS_OUTPUTS, out);
     gpu::dispatch(std::uint32_t((records + STRESS_GROUP - 1) / STRESS_GROUP));
     gpu::memoryBarrier(graph::Barrier::TransferOrUpdate);
-    return out.downloadAs<glm::vec4>(records * outputsPerRecord);
+    std::vector<glm::vec4> outputs = out.downloadAs<glm::vec4>(records * outputsPerRecord);
+    for (glm::vec4& output : outputs) output *= measuredTimes_;
+    return outputs;
 }
 
 } // namespace tessera::validation

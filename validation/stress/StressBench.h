@@ -20,8 +20,9 @@ public:
     /// The context must be current and outlive the object. `progress` is called with the share 0..1 of the case done.
     StressBench(
         gpu::Context& context, const shader::SourceTree& shaders, StressEffort effort,
-        std::function<void(double)> progress = [](double) {})
-        : context_(context), shaders_(shaders), effort_(effort), progress_(std::move(progress)), programs_(shaders) {}
+        std::function<void(double)> progress = [](double) {}, float measuredTimes = 1.0f)
+        : context_(context), shaders_(shaders), effort_(effort), progress_(std::move(progress)), programs_(shaders),
+          measuredTimes_(measuredTimes) {}
 
     /// Runs a compute shader of shaders/stress, one invocation a record. It reads vec4 inputs[] and writes vec4
     /// outputs[] (shaders/shared/slots.h), as many of each a record as it says. Other bindings are the caller's.
@@ -39,6 +40,7 @@ private:
     StressEffort effort_;
     std::function<void(double)> progress_;
     shader::ProgramLibrary programs_;
+    float measuredTimes_; ///< what run() multiplies all outputs by
 };
 
 } // namespace tessera::validation
