@@ -23,7 +23,8 @@ std::optional<double> FloorFigures::floorMs(double evaluations) const {
 }
 
 FloorBench::FloorBench(recipes::Renderer& renderer, const frame::FrameSettings& settings)
-    : sizePixels_(settings.sizePixels), geometry_(renderer, settings) {
+    : sizePixels_(settings.sizePixels), stores_(lightStores(gpu::Context::current()->capabilities())),
+      geometry_(renderer, settings) {
     frame::FrameSettings lit = settings;
     lit.culling = {};
     lit.view = frame::View::Final;
@@ -37,7 +38,7 @@ FloorBench::FloorBench(recipes::Renderer& renderer, const frame::FrameSettings& 
 std::vector<TimedFrame> FloorBench::frames() {
     std::vector<TimedFrame> frames{[this](const glm::dvec3& eyeOffsetWS) { geometry_.draw(eyeOffsetWS); }};
     if (!lighting_) return frames;
-    for (const LightStoreInfo& store : lightStoreTable()) {
+    for (const LightStoreInfo& store : stores_) {
         for (const frame::PackedLights* lights : {&few_, &many_}) {
             frames.emplace_back([this, &store, lights](const glm::dvec3&) {
                 lighting_->setLights(*lights);
@@ -58,13 +59,13 @@ FloorFigures FloorBench::figures(std::span<const std::vector<double>> timesMs) c
         figures.whyNoStores = "the scene has no lit surface, or no light in view";
         return figures;
     }
-    assert(timesMs.size() == 1 + 2 * lightStoreTable().size());
+    assert(timesMs.size() == 1 + 2 * stores_.size());
     const double pairs = double(sizePixels_.x) * double(sizePixels_.y) * double(kManyLights - kFewLights);
-    for (std::size_t i = 0; i < lightStoreTable().size(); ++i) {
+    for (std::size_t i = 0; i < stores_.size(); ++i) {
         const TimeSpread msPerPair = slopeSpread(timesMs[1 + 2 * i], timesMs[2 + 2 * i], pairs);
         // Where the machine's unrest is larger than what the lights cost, the slope says nothing.
         if (msPerPair.median > 0.0)
-            figures.stores.push_back({lightStoreTable()[i].name, msPerPair.median * 1e6, msPerPair.p95 * 1e6});
+            figures.stores.push_back({stores_[i].name, msPerPair.median * 1e6, msPerPair.p95 * 1e6});
     }
     if (figures.stores.empty())
         figures.whyNoStores =

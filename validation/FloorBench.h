@@ -58,6 +58,7 @@ public:
 
 private:
     glm::ivec2 sizePixels_;
+    std::span<const LightStoreInfo> stores_;
     FloorGeometry geometry_;
     std::optional<FloorLighting> lighting_; ///< where anything is lit
     frame::PackedLights few_, many_;

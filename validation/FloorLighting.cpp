@@ -11,15 +11,19 @@ namespace tessera::validation {
 namespace {
 
 constexpr LightStoreInfo kStores[] = {
-    {LIGHT_STORE_UNIFORM, "uniform buffer", "LIGHT_STORE_UNIFORM"},
     {LIGHT_STORE_TEXEL, "texel buffer", "LIGHT_STORE_TEXEL"},
     {LIGHT_STORE_STORAGE, "storage buffer", "LIGHT_STORE_STORAGE"},
+    {LIGHT_STORE_UNIFORM, "uniform buffer", "LIGHT_STORE_UNIFORM"},
 };
 
 } // namespace
 
 std::span<const LightStoreInfo> lightStoreTable() {
     return kStores;
+}
+
+std::span<const LightStoreInfo> lightStores(const gpu::Capabilities& gl) {
+    return std::span(kStores).first(std::size(kStores) - (gl.indexesUniformBlocks ? 0 : 1));
 }
 
 shader::ProgramDesc FloorLighting::program(const frame::FrameSpec& spec, const LightStoreInfo& store) {

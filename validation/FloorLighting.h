@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "passes/recipes/Renderer.h"
+#include "renderer/gpu/Capabilities.h"
 #include "renderer/gpu/Framebuffer.h"
 #include "renderer/gpu/TexelBuffer.h"
 #include "shaders/shared/light.h"
@@ -17,6 +18,8 @@ struct LightStoreInfo {
     std::string_view define;
 };
 std::span<const LightStoreInfo> lightStoreTable();
+/// Those that a driver can read.
+std::span<const LightStoreInfo> lightStores(const gpu::Capabilities& gl);
 
 /// Lights a synthetic surface at every pixel: nothing but the product's light evaluation, in its loop over all lights.
 /// Reads   its lights, from any of three stores

@@ -89,6 +89,8 @@ Capabilities readCapabilities(std::string contextWay) {
     capabilities.glslVersion = text(GL_SHADING_LANGUAGE_VERSION);
     capabilities.contextWay = std::move(contextWay);
     capabilities.isSoftware = isSoftwareRenderer(capabilities.renderer);
+    // Seen with Mesa 22.3's zink over lavapipe.
+    capabilities.indexesUniformBlocks = !(capabilities.isSoftware && capabilities.renderer.starts_with("zink"));
     capabilities.maxTextureBufferTexels = std::size_t(integer(GL_MAX_TEXTURE_BUFFER_SIZE));
     capabilities.maxUniformBlockBytes = std::size_t(integer(GL_MAX_UNIFORM_BLOCK_SIZE));
     capabilities.maxStorageBlockBytes = std::size_t(integer(GL_MAX_SHADER_STORAGE_BLOCK_SIZE));

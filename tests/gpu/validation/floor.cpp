@@ -126,7 +126,7 @@ TEST_F(FloorTest, everyLightStoreAlwaysGivesTheVerySamePicture) {
         lighting.setLights(lightsOf(spec, validation::FloorBench::kManyLights));
         const std::vector<float> first = draw(lighting, validation::lightStoreTable()[0]);
         EXPECT_GT(*std::min_element(first.begin(), first.end()), 0.0f);
-        for (const validation::LightStoreInfo& store : validation::lightStoreTable())
+        for (const validation::LightStoreInfo& store : validation::lightStores(context().capabilities()))
             EXPECT_EQ(differences(draw(lighting, store), first), 0) << store.name;
     }
 }
@@ -237,7 +237,7 @@ TEST_F(FloorTest, geometryAndEveryLightStoreAlwaysCostSomething) {
     validation::FloorBench floor(renderer, large);
     const validation::FloorFigures figures = floor.measure({.rounds = 7});
     EXPECT_GT(figures.geometryMs, 0.0);
-    ASSERT_EQ(figures.stores.size(), validation::lightStoreTable().size());
+    ASSERT_EQ(figures.stores.size(), validation::lightStores(context().capabilities()).size());
     fmt::print("R {:.2f} ms\n", figures.geometryMs);
     for (const validation::FloorFigures::Store& store : figures.stores) {
         fmt::print("r {:.2f} ns, {}\n", store.nsPerPair, store.name);
