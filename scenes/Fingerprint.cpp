@@ -72,11 +72,11 @@ public:
         const auto& [name, model, baseColor, emissive, metallic, perceptualRoughness, alpha, alphaY, masking, exponent,
                      ior, specularFactor, specularColor, anisotropyStrength, anisotropyRotationRadians, clearcoat,
                      clearcoatPerceptualRoughness, clearcoatNormalScale, sheenColor, sheenPerceptualRoughness,
-                     normalScale, normalMapSpace, alphaMode, alphaCutoff, doubleSided, textures] = material;
+                     normalScale, normalMapSpace, tangents, alphaMode, alphaCutoff, doubleSided, textures] = material;
         addAll(name, model, baseColor, emissive, metallic, perceptualRoughness, alpha, alphaY, masking, exponent, ior,
                specularFactor, specularColor, anisotropyStrength, anisotropyRotationRadians, clearcoat,
                clearcoatPerceptualRoughness, clearcoatNormalScale, sheenColor, sheenPerceptualRoughness, normalScale,
-               normalMapSpace, alphaMode, alphaCutoff, doubleSided, textures);
+               normalMapSpace, tangents, alphaMode, alphaCutoff, doubleSided, textures);
     }
     void add(const Mesh& mesh) {
         const auto& [name, positionsOS, normalsOS, tangentsOS, texCoords, colors, indices] = mesh;

@@ -113,6 +113,12 @@ enum class Masking : std::uint8_t {
 enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
 enum class NormalMapSpace : std::uint8_t { Tangent, Object };
 
+/// How tangents are derived for meshes that bring none.
+enum class TangentMethod : std::uint8_t {
+    MikkTSpace, ///< as bakers do and glTF recommends: weighted by angle, split where the texture is mirrored
+    Lengyel     ///< summed over each vertex's triangles, as course notes teach it (Lengyel 2001)
+};
+
 struct Material {
     std::string name;
     MaterialModel model = MaterialModel::MetallicRoughness;
@@ -137,6 +143,7 @@ struct Material {
     float sheenPerceptualRoughness = 0.0f; ///< 0..1
     float normalScale = 1.0f;              ///< scales x and y of a tangent-space normal texel
     NormalMapSpace normalMapSpace = NormalMapSpace::Tangent;
+    TangentMethod tangents = TangentMethod::MikkTSpace;
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f; ///< Mask: a fragment stays when opacity >= cutoff
     bool doubleSided = false;

@@ -100,6 +100,7 @@ void visitMaterial(Visitor&& visit, Materials&... material) {
     visit("sheenPerceptualRoughness", material.sheenPerceptualRoughness...);
     visit("normalScale", material.normalScale...);
     visit("normalMapSpace", material.normalMapSpace...);
+    visit("tangents", material.tangents...);
     visit("alphaMode", material.alphaMode...);
     visit("alphaCutoff", material.alphaCutoff...);
     visit("doubleSided", material.doubleSided...);

@@ -117,6 +117,11 @@ public:
         map.done("a normal map");
     }
 
+    void tangents() {
+        if (const auto value = object_.find("tangents"))
+            material_.tangents = value->oneOf<TangentMethod>("way to derive tangents", kTangentMethods);
+    }
+
     void setTexture(const JsonValue& value, TextureSlot slot) {
         material_.texture(slot) = value.isNull() ? TextureUse{} : readTexture(value, images_);
     }
@@ -191,6 +196,7 @@ void readModelParameters(JsonObject& object, Material& material, Images& images)
         break;
     }
     parameters.normalMap();
+    parameters.tangents();
 }
 
 } // namespace

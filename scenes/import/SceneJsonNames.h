@@ -38,6 +38,8 @@ inline constexpr std::array kAlphaModes = {Named<AlphaMode>{"opaque", AlphaMode:
                                            Named<AlphaMode>{"blend", AlphaMode::Blend}};
 inline constexpr std::array kNormalMapSpaces = {Named<NormalMapSpace>{"tangent", NormalMapSpace::Tangent},
                                                 Named<NormalMapSpace>{"object", NormalMapSpace::Object}};
+inline constexpr std::array kTangentMethods = {Named<TangentMethod>{"mikktspace", TangentMethod::MikkTSpace},
+                                               Named<TangentMethod>{"lengyel", TangentMethod::Lengyel}};
 inline constexpr std::array kLightTypes = {Named<LightType>{"directional", LightType::Directional},
                                            Named<LightType>{"point", LightType::Point},
                                            Named<LightType>{"spot", LightType::Spot}};
@@ -68,6 +70,9 @@ inline std::span<const Named<AlphaMode>> choicesOf(AlphaMode) {
 }
 inline std::span<const Named<NormalMapSpace>> choicesOf(NormalMapSpace) {
     return kNormalMapSpaces;
+}
+inline std::span<const Named<TangentMethod>> choicesOf(TangentMethod) {
+    return kTangentMethods;
 }
 inline std::span<const Named<LightType>> choicesOf(LightType) {
     return kLightTypes;

@@ -129,6 +129,8 @@ Json byKeys(const Material& material) {
         break;
     }
     if (material.model != MaterialModel::SingleColor) keys.normalMap();
+    if (material.model != MaterialModel::SingleColor && material.tangents != TangentMethod::MikkTSpace)
+        json["tangents"] = scenejson::nameOf(material.tangents);
     json["alphaMode"] = scenejson::nameOf(material.alphaMode);
     json["alphaCutoff"] = number(material.alphaCutoff);
     json["doubleSided"] = material.doubleSided;

@@ -76,6 +76,7 @@ const std::vector<Change>& changes() {
         {"material.sheenRoughness", [](Scene& s) { s.materials[0].sheenPerceptualRoughness = 0.5f; }},
         {"material.normalScale", [](Scene& s) { s.materials[0].normalScale = 0.5f; }},
         {"material.normalMapSpace", [](Scene& s) { s.materials[0].normalMapSpace = NormalMapSpace::Object; }},
+        {"material.tangents", [](Scene& s) { s.materials[0].tangents = TangentMethod::Lengyel; }},
         {"material.alphaMode", [](Scene& s) { s.materials[0].alphaMode = AlphaMode::Mask; }},
         {"material.alphaCutoff", [](Scene& s) { s.materials[0].alphaCutoff = 0.25f; }},
         {"material.doubleSided", [](Scene& s) { s.materials[0].doubleSided = true; }},

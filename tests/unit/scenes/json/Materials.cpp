@@ -108,6 +108,18 @@ TEST(SceneJsonMaterials, metallicRoughnessAlwaysHasItsParametersAndTheirTextures
     EXPECT_EQ(materialOf(folder, R"("model": "metallic_roughness", "ior": 0)").ior, 0.0f);
 }
 
+TEST(SceneJsonMaterials, tangentsAreAlwaysDerivedAsTheMaterialSays) {
+    const SceneFolder folder;
+    EXPECT_EQ(materialOf(folder, R"("model": "lambert")").tangents, TangentMethod::MikkTSpace);
+    for (const char* model : {"lambert", "blinn_phong", "microfacet", "microfacet_anisotropic", "metallic_roughness"}) {
+        const std::string start = fmt::format(R"("model": "{}", "tangents": )", model);
+        EXPECT_EQ(materialOf(folder, start + R"("lengyel")").tangents, TangentMethod::Lengyel);
+        EXPECT_EQ(materialOf(folder, start + R"("mikktspace")").tangents, TangentMethod::MikkTSpace);
+    }
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "lambert", "tangents": "mikk")"),
+              "/materials/0/tangents: there is no way to derive tangents 'mikk'; valid are mikktspace, lengyel");
+}
+
 TEST(SceneJsonMaterials, normalMapsAlwaysKeepTheirSpaceAndScale) {
     const SceneFolder folder;
     const std::string start = R"("model": "lambert", "normalMap": )";
@@ -246,7 +258,7 @@ TEST(SceneJsonMaterials, parametersOfAnotherModelAreAlwaysRefused) {
     const SceneFolder folder;
     EXPECT_EQ(errorOfMaterial(folder, R"("model": "lambert", "alpha": 0.5)"),
               "/materials/0: a lambert material has no key 'alpha'; valid are name, model, replaces, k_d, normalMap, "
-              "alphaMode, alphaCutoff, doubleSided, fields");
+              "tangents, alphaMode, alphaCutoff, doubleSided, fields");
     EXPECT_EQ(errorOfMaterial(folder, R"("model": "metallic_roughness", "metalic": 0.5)"),
               "/materials/0: a metallic_roughness material has no key 'metalic'; did you mean 'metallic'?");
     EXPECT_EQ(errorOfMaterial(folder, R"("model": "single_color", "normalMap": "pictures/normal.tga")"),

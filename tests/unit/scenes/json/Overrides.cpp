@@ -123,7 +123,7 @@ TEST(SceneJsonOverrides, anOverrideThatMatchesNothingIsAlwaysRefusedWithTheNeare
               "metallic, perceptualRoughness, metallicRoughnessTexture, ior, specularFactor, specularColor, emissive, "
               "emissiveStrength, anisotropyStrength, anisotropyRotationDegrees, anisotropyTexture, clearcoat, "
               "clearcoatPerceptualRoughness, clearcoatNormalMap, sheenColor, sheenPerceptualRoughness, normalMap, "
-              "alphaMode, alphaCutoff, doubleSided, fields");
+              "tangents, alphaMode, alphaCutoff, doubleSided, fields");
     EXPECT_EQ(folder.errorOf(threeParts(R"("overrides": [{"k_d": [1, 1, 1]}])")),
               "/overrides/0: names neither a 'node' nor a 'material' to override");
     EXPECT_EQ(folder.errorOf(threeParts(R"("overrides": [{"node": "left", "material": "brass", "metallic": 1}])")),

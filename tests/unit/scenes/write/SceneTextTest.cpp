@@ -143,6 +143,8 @@ TEST(SceneText, everyMaterialIsAlwaysLoadedBackIdenticallyWithEveryTexture) {
                 Material& material = bust.scene.materials[0] = edits.material(model, 1);
                 material.masking = masking;
                 material.normalMapSpace = space;
+                material.tangents =
+                    space == NormalMapSpace::Object ? TangentMethod::MikkTSpace : TangentMethod::Lengyel;
                 EXPECT_TRUE(bust.savedScene().materials == bust.scene.materials);
                 material.textures = {};
                 EXPECT_TRUE(bust.savedScene().materials == bust.scene.materials);
