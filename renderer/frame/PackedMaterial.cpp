@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "renderer/frame/Tangents.h"
 #include "shaders/shared/models.h"
 
 namespace tessera::frame {
@@ -70,10 +71,22 @@ float roughnessParameter(const scenes::Material& material) {
     }
 }
 
+/// -1 where the matrix mirrors.
+float sideOf(const glm::dmat2& turn) {
+    return glm::determinant(turn) < 0.0 ? -1.0f : 1.0f;
+}
+
 glm::vec4 packAnisotropy(const scenes::Material& material) {
-    if (material.model == MaterialModel::MicrofacetAnisotropic) return {material.alphaY, 1.0f, 0.0f, 0.0f};
-    const double rotation = double(material.anisotropyRotationRadians);
-    return {material.anisotropyStrength, float(std::cos(rotation)), float(std::sin(rotation)), 0.0f};
+    const glm::dmat2 turn = tangentsFromTexture(material, TextureSlot::Anisotropy);
+    const bool isMicrofacet = material.model == MaterialModel::MicrofacetAnisotropic;
+    const double rotation = isMicrofacet ? 0.0 : double(material.anisotropyRotationRadians);
+    const glm::vec2 axis(turn * glm::dvec2(std::cos(rotation), std::sin(rotation)));
+    return {isMicrofacet ? material.alphaY : material.anisotropyStrength, axis, sideOf(turn)};
+}
+
+glm::vec4 packClearcoatTurn(const scenes::Material& material) {
+    const glm::dmat2 turn = tangentsFromTexture(material, TextureSlot::ClearcoatNormal);
+    return {glm::vec2(turn[0]), sideOf(turn), 0.0f};
 }
 
 } // namespace
@@ -95,6 +108,7 @@ shared::MaterialConstants packMaterial(const scenes::Material& material) {
     for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
         packTexture(material.textures[slot], packed.uvRow0[slot], packed.uvRow1[slot]);
     }
+    packed.clearcoatTurn = packClearcoatTurn(material);
     return packed;
 }
 

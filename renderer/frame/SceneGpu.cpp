@@ -111,7 +111,7 @@ void SceneGpu::uploadGeometry(const FeatureSet& features) {
 void SceneGpu::uploadDraws() {
     std::vector<gpu::DrawIndexedCommand> commands;
     for (const Draw& draw : drawList_.draws) {
-        const VertexStreams::Range& range = ranges_[std::size_t(draw.mesh)];
+        const VertexStreams::Range& range = ranges_.at({draw.mesh, draw.material});
         commands.push_back({range.indexCount, 1, range.firstIndex, range.baseVertex, std::uint32_t(commands.size())});
     }
     commands_ = std::make_unique<gpu::Buffer>(gpu::Buffer::of("draw commands", commands));

@@ -63,7 +63,7 @@ private:
     bool hasMaterialTable_;
     DrawList drawList_;
     std::vector<scenes::AlphaMode> alphaModes_; ///< by material, that drawList_ was made with
-    std::vector<VertexStreams::Range> ranges_;  ///< by mesh
+    VertexStreams::Ranges ranges_;
     std::vector<Batch> transparent_;
     std::vector<std::unique_ptr<gpu::Buffer>> vertexBuffers_;
     std::unique_ptr<gpu::Buffer> indices_;

@@ -2,56 +2,159 @@
 
 #include <cmath>
 
+#include "renderer/frame/MikkTSpace.h"
+
 namespace tessera::frame {
 
 namespace {
 
-/// A unit vector perpendicular to n that does not jump between neighbouring normals, except near n = -z.
-/// Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
-glm::dvec3 anyPerpendicular(const glm::dvec3& n) {
-    const double sign = std::copysign(1.0, n.z);
-    const double a = -1.0 / (sign + n.z);
-    return {1.0 + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x};
+using scenes::TextureSlot;
+
+bool hasAnisotropyMap(const scenes::Material& material) {
+    return material.model == scenes::MaterialModel::MetallicRoughness &&
+           material.texture(TextureSlot::Anisotropy).image != scenes::kNone;
 }
 
-glm::vec4 tangentAt(const glm::dvec3& normal, const glm::dvec3& alongU, const glm::dvec3& alongV) {
-    // The normal's length is off by its rounding to fp32, which matters where the texture runs nearly along it.
-    const glm::dvec3 flat = alongU - normal * (glm::dot(normal, alongU) / glm::dot(normal, normal));
-    const double length = glm::length(flat);
-    // Below this share of its own length the direction is rounding noise.
-    if (!(length > 1e-12 * glm::length(alongU)) || length == 0.0) return {glm::vec3(anyPerpendicular(normal)), 1.0f};
-    const glm::dvec3 tangent = flat / length;
-    const bool mirrored = glm::dot(glm::cross(normal, tangent), alongV) < 0.0;
-    return {glm::vec3(tangent), mirrored ? -1.0f : 1.0f};
+/// Whether the slot's texture holds vectors. That of microfacet_anisotropic holds a number.
+bool holdsVectors(const scenes::Material& material, TextureSlot slot) {
+    return slot == TextureSlot::Anisotropy ? hasAnisotropyMap(material) : material.texture(slot).image != scenes::kNone;
 }
 
-} // namespace
+/// The slot that the tangents follow.
+std::optional<TextureSlot> followedSlot(const scenes::Material& material) {
+    const bool normalMap = material.texture(TextureSlot::Normal).image != scenes::kNone;
+    if (normalMap && material.normalMapSpace == scenes::NormalMapSpace::Tangent) return TextureSlot::Normal;
+    const bool metallicRoughness = material.model == scenes::MaterialModel::MetallicRoughness;
+    if (material.model == scenes::MaterialModel::MicrofacetAnisotropic ||
+        (metallicRoughness && material.anisotropyStrength > 0.0f))
+        return TextureSlot::Anisotropy;
+    const bool coatMap = material.texture(TextureSlot::ClearcoatNormal).image != scenes::kNone;
+    if (metallicRoughness && material.clearcoat > 0.0f && coatMap) return TextureSlot::ClearcoatNormal;
+    return std::nullopt;
+}
 
-std::vector<glm::vec4> computeTangents(const scenes::Mesh& mesh, std::size_t texCoordSet) {
-    const std::vector<glm::vec2>& uv = mesh.texCoords[texCoordSet];
+/// KHR_texture_transform without its offset.
+glm::dmat2 linearPart(const scenes::TextureTransform& transform) {
+    const double c = std::cos(double(transform.rotationRadians)), s = std::sin(double(transform.rotationRadians));
+    const glm::dvec2 scale(transform.scale);
+    return {c * scale.x, -s * scale.x, s * scale.y, c * scale.y};
+}
+
+glm::dmat2 linearPart(const scenes::Material& material, TextureSlot slot) {
+    return holdsVectors(material, slot) ? linearPart(material.texture(slot).transform) : glm::dmat2(1.0);
+}
+
+/// The axes of a texture, u and against v, as unit vectors along a mesh's tangent and bitangent, with v made
+/// perpendicular to u. A texture that is scaled to nothing has the mesh's.
+glm::dmat2 axesOf(const glm::dmat2& textureFromUv) {
+    const double area = glm::determinant(textureFromUv);
+    if (area == 0.0) return glm::dmat2(1.0);
+    const double side = area < 0.0 ? -1.0 : 1.0;
+    // The first column of the inverse up to a positive factor, with v turned upwards.
+    const glm::dvec2 alongU = side * glm::dvec2(textureFromUv[1][1], textureFromUv[0][1]);
+    const glm::dvec2 u = alongU / glm::length(alongU);
+    return {u, side * glm::dvec2(-u.y, u.x)};
+}
+
+/// Lengyel 2001.
+std::vector<glm::vec4> summedTangents(const scenes::Mesh& mesh, const TangentBasis& basis) {
+    const std::vector<glm::vec2>& uv = mesh.texCoords[std::size_t(basis.texCoordSet)];
+    // v points down in Scene's texture coordinates and up in tangent space.
+    const glm::dmat2 upwards = glm::dmat2(1.0, 0.0, 0.0, -1.0) * basis.textureFromUv;
     std::vector<glm::dvec3> alongU(mesh.positionsOS.size(), glm::dvec3(0.0));
     std::vector<glm::dvec3> alongV(mesh.positionsOS.size(), glm::dvec3(0.0));
     for (std::size_t i = 0; i + 2 < mesh.indices.size() && !uv.empty(); i += 3) {
         const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
         const glm::dvec3 edge1 = glm::dvec3(mesh.positionsOS[b]) - glm::dvec3(mesh.positionsOS[a]);
         const glm::dvec3 edge2 = glm::dvec3(mesh.positionsOS[c]) - glm::dvec3(mesh.positionsOS[a]);
-        // v points down in Scene's texture coordinates and up in tangent space.
-        const glm::dvec2 d1 = glm::dvec2(uv[b] - uv[a]) * glm::dvec2(1.0, -1.0);
-        const glm::dvec2 d2 = glm::dvec2(uv[c] - uv[a]) * glm::dvec2(1.0, -1.0);
-        const double area = d1.x * d2.y - d2.x * d1.y;
+        const glm::dvec2 side1 = glm::dvec2(uv[b]) - glm::dvec2(uv[a]), side2 = glm::dvec2(uv[c]) - glm::dvec2(uv[a]);
+        const glm::dvec2 d1 = upwards * side1, d2 = upwards * side2;
+        const double area = glm::determinant(upwards) * glm::determinant(glm::dmat2(side1, side2));
         if (area == 0.0) continue;
         const glm::dvec3 u = (edge1 * d2.y - edge2 * d1.y) / area;
         const glm::dvec3 v = (edge2 * d1.x - edge1 * d2.x) / area;
-        for (std::uint32_t vertex : {a, b, c}) {
+        for (const std::uint32_t vertex : {a, b, c}) {
             alongU[vertex] += u;
             alongV[vertex] += v;
         }
     }
-    std::vector<glm::vec4> tangents(mesh.positionsOS.size());
-    for (std::size_t i = 0; i < tangents.size(); ++i) {
-        tangents[i] = tangentAt(glm::dvec3(mesh.normalsOS[i]), alongU[i], alongV[i]);
+    std::vector<glm::vec4> tangents;
+    tangents.reserve(alongU.size());
+    for (std::size_t i = 0; i < alongU.size(); ++i) {
+        const glm::dvec3 normal(mesh.normalsOS[i]);
+        // The normal's length is off by its rounding to fp32, which matters where the texture runs nearly along it.
+        const glm::dvec3 flat = alongU[i] - normal * (glm::dot(normal, alongU[i]) / glm::dot(normal, normal));
+        const double length = glm::length(flat);
+        // Below this share of its own length the direction is rounding noise.
+        const bool hasDirection = length > 1e-12 * glm::length(alongU[i]) && length > 0.0;
+        const glm::dvec3 tangent = hasDirection ? flat / length : anyPerpendicular(normal);
+        const bool mirrored = hasDirection && glm::dot(glm::cross(normal, tangent), alongV[i]) < 0.0;
+        tangents.emplace_back(glm::vec3(tangent), mirrored ? -1.0f : 1.0f);
     }
     return tangents;
+}
+
+std::vector<glm::vec4> turnedTangents(const scenes::Mesh& mesh, const glm::dmat2& textureFromUv) {
+    const glm::dmat2 axes = axesOf(textureFromUv);
+    if (axes == glm::dmat2(1.0)) return mesh.tangentsOS;
+    std::vector<glm::vec4> tangents;
+    tangents.reserve(mesh.tangentsOS.size());
+    for (std::size_t i = 0; i < mesh.tangentsOS.size(); ++i) {
+        const glm::dvec3 tangent(mesh.tangentsOS[i]);
+        const glm::dvec3 bitangent = glm::cross(glm::dvec3(mesh.normalsOS[i]), tangent) * double(mesh.tangentsOS[i].w);
+        const glm::dvec3 turned = axes[0].x * tangent + axes[0].y * bitangent;
+        const double length = glm::length(turned);
+        tangents.emplace_back(glm::vec3(length > 0.0 ? turned / length : tangent),
+                              mesh.tangentsOS[i].w * float(glm::sign(glm::determinant(axes))));
+    }
+    return tangents;
+}
+
+/// Gives every vertex the tangent of its first corner, and a copy for each other that its corners have.
+TangentMesh splitByTangent(const scenes::Mesh& mesh, const std::vector<glm::vec4>& cornerTangents) {
+    constexpr std::uint32_t kNoMore = ~0u;
+    TangentMesh split;
+    split.indices = mesh.indices;
+    split.tangentsOS.assign(mesh.positionsOS.size(), glm::vec4(0.0f)); // w is never 0 once it is given
+    std::vector<std::uint32_t> nextCopy(mesh.positionsOS.size(), kNoMore);
+    for (std::size_t corner = 0; corner < cornerTangents.size(); ++corner) {
+        const glm::vec4& tangent = cornerTangents[corner];
+        std::uint32_t vertex = mesh.indices[corner];
+        while (split.tangentsOS[vertex].w != 0.0f && split.tangentsOS[vertex] != tangent) {
+            if (nextCopy[vertex] == kNoMore) {
+                nextCopy[vertex] = std::uint32_t(split.tangentsOS.size());
+                split.tangentsOS.emplace_back(0.0f);
+                split.copiedOf.push_back(mesh.indices[corner]);
+                nextCopy.push_back(kNoMore);
+            }
+            vertex = nextCopy[vertex];
+        }
+        split.tangentsOS[vertex] = tangent;
+        split.indices[corner] = vertex;
+    }
+    for (glm::vec4& tangent : split.tangentsOS)
+        if (tangent.w == 0.0f) tangent = {1.0f, 0.0f, 0.0f, 1.0f}; // no triangle has this vertex
+    return split;
+}
+
+} // namespace
+
+std::optional<TangentBasis> tangentBasis(const scenes::Material& material) {
+    const std::optional<TextureSlot> slot = followedSlot(material);
+    if (!slot) return std::nullopt;
+    return TangentBasis{material.tangents, material.texture(*slot).texCoordSet, linearPart(material, *slot)};
+}
+
+glm::dmat2 tangentsFromTexture(const scenes::Material& material, scenes::TextureSlot slot) {
+    const std::optional<TextureSlot> followed = followedSlot(material);
+    if (!followed || *followed == slot) return glm::dmat2(1.0);
+    return glm::transpose(axesOf(linearPart(material, *followed))) * axesOf(linearPart(material, slot));
+}
+
+TangentMesh meshWithTangents(const scenes::Mesh& mesh, const TangentBasis& basis) {
+    if (!mesh.tangentsOS.empty()) return {mesh.indices, {}, turnedTangents(mesh, basis.textureFromUv)};
+    if (basis.method == scenes::TangentMethod::Lengyel) return {mesh.indices, {}, summedTangents(mesh, basis)};
+    return splitByTangent(mesh, mikkTSpaceTangents(mesh, std::size_t(basis.texCoordSet), basis.textureFromUv));
 }
 
 } // namespace tessera::frame

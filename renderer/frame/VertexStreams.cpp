@@ -1,70 +1,81 @@
 #include "renderer/frame/VertexStreams.h"
 
+#include <algorithm>
+#include <optional>
+#include <set>
+
 #include "renderer/frame/Tangents.h"
 
 namespace tessera::frame {
 
 namespace {
 
-/// Appends a mesh's attribute, or `count` neutral values where the mesh has none.
+/// Appends a mesh's attribute, or `count` neutral values where the mesh has none; then those of the copied vertices.
 template <typename T>
-void append(std::vector<T>& stream, const std::vector<T>& values, std::size_t count, const T& neutral) {
+void append(std::vector<T>& stream, const std::vector<T>& values, std::size_t count,
+            const std::vector<std::uint32_t>& copiedOf, const T& neutral) {
     if (values.empty()) {
-        stream.resize(stream.size() + count, neutral);
+        stream.resize(stream.size() + count + copiedOf.size(), neutral);
     } else {
         stream.insert(stream.end(), values.begin(), values.end());
+        for (const std::uint32_t vertex : copiedOf) stream.push_back(values[vertex]);
     }
 }
 
-/// The texture-coordinate set that the material's tangents follow, or -1 where it needs none: that of its tangent-space
-/// normal map, else of what else is given in tangent space.
-int tangentSet(const scenes::Material& material) {
-    using scenes::TextureSlot;
-    const scenes::TextureUse& normal = material.texture(TextureSlot::Normal);
-    if (normal.image != scenes::kNone && material.normalMapSpace == scenes::NormalMapSpace::Tangent)
-        return normal.texCoordSet;
-    const bool metallicRoughness = material.model == scenes::MaterialModel::MetallicRoughness;
-    const bool anisotropic = material.model == scenes::MaterialModel::MicrofacetAnisotropic ||
-                             (metallicRoughness && material.anisotropyStrength > 0.0f);
-    if (anisotropic) return material.texture(TextureSlot::Anisotropy).texCoordSet;
-    const scenes::TextureUse& coat = material.texture(TextureSlot::ClearcoatNormal);
-    return metallicRoughness && material.clearcoat > 0.0f && coat.image != scenes::kNone ? coat.texCoordSet : -1;
+VertexStreams::Range appendMesh(VertexStreams& streams, const scenes::Mesh& mesh, const FeatureSet& features,
+                                const std::optional<TangentBasis>& basis) {
+    TangentMesh split{mesh.indices, {}, mesh.tangentsOS};
+    if (features.tangents() && basis) split = meshWithTangents(mesh, *basis);
+    const VertexStreams::Range range{std::uint32_t(streams.indices.size()), std::uint32_t(split.indices.size()),
+                                     std::int32_t(streams.positionsOS.size())};
+    streams.indices.insert(streams.indices.end(), split.indices.begin(), split.indices.end());
+    const auto copy = [&](auto& stream, const auto& values, const auto& neutral) {
+        append(stream, values, mesh.positionsOS.size(), split.copiedOf, neutral);
+    };
+    copy(streams.positionsOS, mesh.positionsOS, glm::vec3(0.0f));
+    copy(streams.normalsOS, mesh.normalsOS, glm::vec3(0.0f));
+    if (features.tangents())
+        append(streams.tangentsOS, split.tangentsOS, mesh.positionsOS.size(), {}, glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
+    if (features.textures()) copy(streams.texCoords[0], mesh.texCoords[0], glm::vec2(0.0f));
+    if (features[Feature::TexCoord1]) copy(streams.texCoords[1], mesh.texCoords[1], glm::vec2(0.0f));
+    if (features[Feature::VertexColor]) copy(streams.colors, mesh.colors, glm::vec4(1.0f));
+    return range;
 }
 
-/// The same of each mesh. A mesh drawn with materials that differ follows the first.
-std::vector<int> tangentSets(const scenes::Scene& scene) {
-    std::vector<int> sets(scene.meshes.size(), -1);
+/// A mesh as one or more of its materials need it.
+struct Version {
+    std::optional<TangentBasis> basis;
+    std::set<int> materials;
+};
+
+/// Those of each mesh, in document order. Materials that need no tangents are content with any.
+std::vector<std::vector<Version>> versionsOf(const scenes::Scene& scene) {
+    std::vector<std::vector<Version>> meshes(scene.meshes.size());
     for (const scenes::Node& node : scene.nodes) {
         for (const scenes::MeshInstance& instance : node.instances) {
-            const scenes::Material& material = scene.materials[std::size_t(instance.material)];
-            int& set = sets[std::size_t(instance.mesh)];
-            if (set < 0) set = tangentSet(material);
+            const std::optional<TangentBasis> basis = tangentBasis(scene.materials[std::size_t(instance.material)]);
+            std::vector<Version>& versions = meshes[std::size_t(instance.mesh)];
+            auto fitting = std::find_if(versions.begin(), versions.end(), [&](const Version& version) {
+                return !basis || !version.basis || version.basis == basis;
+            });
+            if (fitting == versions.end()) fitting = versions.insert(fitting, Version{});
+            if (basis) fitting->basis = basis;
+            fitting->materials.insert(instance.material);
         }
     }
-    return sets;
+    return meshes;
 }
 
 } // namespace
 
 VertexStreams makeVertexStreams(const scenes::Scene& scene, const FeatureSet& features) {
     VertexStreams streams;
-    const std::vector<int> sets = tangentSets(scene);
-    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-        const scenes::Mesh& mesh = scene.meshes[i];
-        const std::size_t count = mesh.positionsOS.size();
-        streams.ranges.push_back({std::uint32_t(streams.indices.size()), std::uint32_t(mesh.indices.size()),
-                                  std::int32_t(streams.positionsOS.size())});
-        streams.indices.insert(streams.indices.end(), mesh.indices.begin(), mesh.indices.end());
-        append(streams.positionsOS, mesh.positionsOS, count, glm::vec3(0.0f));
-        append(streams.normalsOS, mesh.normalsOS, count, glm::vec3(0.0f));
-        if (features.tangents()) {
-            const bool computed = mesh.tangentsOS.empty() && sets[i] >= 0;
-            append(streams.tangentsOS, computed ? computeTangents(mesh, std::size_t(sets[i])) : mesh.tangentsOS, count,
-                   glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
+    const std::vector<std::vector<Version>> versions = versionsOf(scene);
+    for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+        for (const Version& version : versions[mesh]) {
+            const VertexStreams::Range range = appendMesh(streams, scene.meshes[mesh], features, version.basis);
+            for (const int material : version.materials) streams.ranges[{int(mesh), material}] = range;
         }
-        if (features.textures()) append(streams.texCoords[0], mesh.texCoords[0], count, glm::vec2(0.0f));
-        if (features[Feature::TexCoord1]) append(streams.texCoords[1], mesh.texCoords[1], count, glm::vec2(0.0f));
-        if (features[Feature::VertexColor]) append(streams.colors, mesh.colors, count, glm::vec4(1.0f));
     }
     return streams;
 }

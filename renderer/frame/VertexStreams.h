@@ -1,5 +1,7 @@
 #pragma once
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -11,13 +13,15 @@ namespace tessera::frame {
 
 /// All meshes of a scene end to end, one array a vertex attribute. Streams that no feature needs are empty; where a
 /// mesh lacks an attribute that others have, it gets the neutral value (white, zero coordinates, computed tangents).
+/// A mesh whose materials want different tangents is there once for each.
 struct VertexStreams {
     struct Range {
         std::uint32_t firstIndex = 0;
         std::uint32_t indexCount = 0;
         std::int32_t baseVertex = 0;
     };
-    std::vector<Range> ranges; ///< by mesh
+    using Ranges = std::map<std::pair<int, int>, Range>;
+    Ranges ranges; ///< by mesh and material, of all mesh instances
     std::vector<std::uint32_t> indices;
     std::vector<glm::vec3> positionsOS;
     std::vector<glm::vec3> normalsOS;

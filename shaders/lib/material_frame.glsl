@@ -27,11 +27,21 @@ vec3 fromTangentSpace(Fragment fragment, vec3 vertexNormal, vec3 direction)
     return turned;
 }
 
-vec3 tangentSpaceNormal(Fragment fragment, vec3 vertexNormal, vec3 texel, float scale)
+// A texture's vector along tangent and bitangent, whose own transform turns it against the texture that they follow.
+// `turn` is as MaterialConstants has it.
+vec2 turnedTexel(vec2 texel, vec3 turn)
+{
+    precise float across = texel.y * turn.z;
+    precise vec2 turned = vec2(turn.x * texel.x - turn.y * across, turn.y * texel.x + turn.x * across);
+    return turned;
+}
+
+vec3 tangentSpaceNormal(Fragment fragment, vec3 vertexNormal, vec3 texel, float scale, vec3 turn)
 {
     precise vec3 mapped = texel * 2.0 - 1.0;
-    precise vec3 scaled = vec3(mapped.x * scale, mapped.y * scale, mapped.z);
-    return safeNormalize(fromTangentSpace(fragment, vertexNormal, scaled), vertexNormal);
+    precise vec2 scaled = mapped.xy * scale;
+    vec3 direction = vec3(turnedTexel(scaled, turn), mapped.z);
+    return safeNormalize(fromTangentSpace(fragment, vertexNormal, direction), vertexNormal);
 }
 #endif
 
@@ -49,7 +59,7 @@ vec3 materialNormal(Fragment fragment, vec3 texel)
 #endif
         } else {
 #if HAS_TANGENT_SPACE_NORMALS
-            normal = tangentSpaceNormal(fragment, vertexNormal, texel, material.microsurface.w);
+            normal = tangentSpaceNormal(fragment, vertexNormal, texel, material.microsurface.w, vec3(1.0, 0.0, 1.0));
 #endif
         }
     }

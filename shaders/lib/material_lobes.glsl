@@ -47,15 +47,12 @@ void setAnisotropy(Fragment fragment, inout Surface surface)
             // A texel of 8 bits cannot say 0; less than its step has no direction.
             if (dot(mapped, mapped) > 1e-4) direction = mapped;
         }
-        precise vec2 turned = vec2(material.anisotropy.y * direction.x - material.anisotropy.z * direction.y,
-                                   material.anisotropy.z * direction.x + material.anisotropy.y * direction.y);
-        direction = turned;
         precise float strength = material.anisotropy.x * texel.b;
         precise float along = surface.alpha + (1.0 - surface.alpha) * (strength * strength);
         surface.alpha = along;
     }
 #endif
-    surface.tangentLS = surfaceTangent(fragment, surface.normalLS, direction);
+    surface.tangentLS = surfaceTangent(fragment, surface.normalLS, turnedTexel(direction, material.anisotropy.yzw));
 }
 #endif
 
@@ -75,7 +72,7 @@ void setClearcoat(Fragment fragment, inout Surface surface)
 #if HAS_CLEARCOAT_NORMAL_TEXTURE
     vec3 texel = sampleSlot(clearcoatNormalTexture, TEXTURE_SLOT_CLEARCOAT_NORMAL, fragment).rgb;
     if (materialFlag(MATERIAL_FLAG_CLEARCOAT_NORMAL_MAP))
-        normalLS = tangentSpaceNormal(fragment, normalLS, texel, material.clearcoat.z);
+        normalLS = tangentSpaceNormal(fragment, normalLS, texel, material.clearcoat.z, material.clearcoatTurn.xyz);
 #endif
     surface.coatNormalCode = encodeOctahedral(facing(fragment, normalLS));
     surface.coatFactor = surface.model == MODEL_METALLIC_ROUGHNESS ? factor : 0.0;

@@ -129,6 +129,33 @@ TEST_F(LobeValues, theCoatAlwaysFollowsItsOwnNormalMapAndNeverThatBelow) {
                 textbook::reflected(material, half, kToSun, {0, 0, 1}));
 }
 
+/// Each map with vectors is turned by its own transform, whichever of them the tangents follow.
+TEST_F(LobeValues, aTransformOfOneMapNeverTurnsWhatAnotherHolds) {
+    const scenes::TextureTransform mirrored{{}, {1, -1}, 0.0f}, quarter{{}, {1, 1}, glm::radians(90.0f)};
+    const glm::dvec3 tilted = glm::normalize(glm::dvec3(0.3, -0.2, 1.0));
+    const glm::vec4 texel(glm::vec3(tilted * 0.5 + 0.5), 1.0f);
+    Scene coated = texturedScene(underTheSun(lacquer()), TextureSlot::ClearcoatNormal, floatImage(texel));
+    coated.materials[0].texture(TextureSlot::Normal) = coated.materials[0].texture(TextureSlot::ClearcoatNormal);
+    const auto expectTilt = [&](const glm::dvec3& normal) {
+        expectColor(coated, textbook::reflected(lacquer(), normal, kToSun, {0, 0, 1}));
+    };
+    expectTilt(tilted);
+    coated.materials[0].texture(TextureSlot::Normal).transform = mirrored;
+    expectTilt(tilted);
+    coated.materials[0].texture(TextureSlot::ClearcoatNormal).transform = mirrored;
+    expectTilt({tilted.x, -tilted.y, tilted.z});
+    coated.materials[0].texture(TextureSlot::ClearcoatNormal).transform = quarter; // u along -y, -v along x
+    expectTilt({tilted.y, -tilted.x, tilted.z});
+
+    const Material steel = brushedSteel();
+    Scene brushed = texturedScene(underTheSun(steel), TextureSlot::Normal, floatImage({0.5f, 0.5f, 1.0f, 1.0f}));
+    const glm::dvec3 plain = textbook::reflected(steel, {0, 0, 1}, kToSun, {0, 0, 1});
+    for (const scenes::TextureTransform& transform : {mirrored, quarter}) {
+        brushed.materials[0].texture(TextureSlot::Normal).transform = transform;
+        expectColor(brushed, plain);
+    }
+}
+
 TEST_F(LobeValues, theSheenIsAlwaysMultipliedByRedGreenAndBlueAndItsRoughnessByAlpha) {
     Material material;
     material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};

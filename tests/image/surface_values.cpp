@@ -191,6 +191,39 @@ TEST_F(SurfaceValues, aTangentSpaceMapAlwaysTiltsAlongItsTextureWhereverTheMirro
     }
 }
 
+/// KHR_texture_transform. Where u and -v point then, found by hand: coordinates that turn counter-clockwise turn the
+/// picture clockwise.
+TEST_F(SurfaceValues, aTransformOfANormalMapAlwaysTurnsAndMirrorsItsNormals) {
+    struct Case {
+        glm::vec2 scale;
+        float degrees;
+        glm::dvec3 alongU, againstV;
+    };
+    const glm::dvec3 right(1, 0, 0), up(0, 1, 0);
+    Material material;
+    material.model = MaterialModel::Lambert;
+    const glm::dvec3 sunWS = glm::normalize(glm::dvec3(0.5, 0.8, 1.0));
+    for (const Case& each :
+         {Case{{1, 1}, 0.0f, right, up}, Case{{1, -1}, 0.0f, right, -up}, Case{{-1, 1}, 0.0f, -right, up},
+          Case{{1, 1}, 90.0f, -up, right}, Case{{1, -1}, 90.0f, up, right}, Case{{-3, -3}, 90.0f, up, -right}}) {
+        for (const bool authored : {false, true}) {
+            SCOPED_TRACE(testing::Message()
+                         << each.scale.x << ' ' << each.scale.y << ' ' << each.degrees << ' ' << authored);
+            Scene scene = texturedScene(flatScene(material), TextureSlot::Normal, uniformImage(kTilted));
+            scene.materials[0].texture(TextureSlot::Normal).transform = {{}, each.scale, glm::radians(each.degrees)};
+            if (authored) scene.meshes[0].tangentsOS.assign(4, {1.0f, 0.0f, 0.0f, 1.0f});
+            scenes::Light sun;
+            sun.type = scenes::LightType::Directional;
+            sun.directionWS = -sunWS;
+            scene.lights = {sun};
+            const glm::dvec3 texel = glm::dvec3(kTilted[0], kTilted[1], kTilted[2]) * 2.0 / 255.0 - 1.0;
+            const glm::dvec3 normalWS =
+                glm::normalize(texel.x * each.alongU + texel.y * each.againstV + texel.z * glm::dvec3(0, 0, 1));
+            EXPECT_NEAR(center(scene).r, std::max(0.0, glm::dot(normalWS, sunWS)), 2e-6); // fp32, and 90 degrees in it
+        }
+    }
+}
+
 TEST_F(SurfaceValues, aNormalScaleOfZeroIsAlwaysTheFlatSurface) {
     Material material;
     material.model = MaterialModel::Lambert;

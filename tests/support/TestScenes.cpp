@@ -84,6 +84,7 @@ void addLobes(std::vector<Material>& materials) {
     brushed.masking = Masking::Directional;
     brushed.texture(TextureSlot::Anisotropy) = textured(kColors);
     brushed.texture(TextureSlot::Normal) = textured(kNormals);
+    brushed.texture(TextureSlot::Normal).transform = {{0.0f, 0.2f}, {-1.0f, 1.0f}, 0.7f};
     Material& silk = add(MaterialModel::MicrofacetAnisotropic, "silk, masking of Walter", {0.1f, 0.2f, 0.3f});
     silk.alpha = 0.2f;
     silk.alphaY = 0.7f;
@@ -105,6 +106,7 @@ void addLobes(std::vector<Material>& materials) {
     coated.texture(TextureSlot::Clearcoat) = textured(kColors);
     coated.texture(TextureSlot::ClearcoatRoughness) = textured(kColors);
     coated.texture(TextureSlot::ClearcoatNormal) = textured(kNormals);
+    coated.texture(TextureSlot::ClearcoatNormal).transform = {{0.2f, 0.1f}, {1.0f, -1.0f}, 0.5f};
     Material& cloth = add(MaterialModel::MetallicRoughness, "cloth", {0.2f, 0.3f, 0.6f});
     cloth.metallic = 0.0f;
     cloth.perceptualRoughness = 0.9f;
@@ -145,6 +147,7 @@ std::vector<Material> everyMaterial() {
     metal.normalScale = 0.7f;
     metal.emissive = {0.02f, 0.01f, 0.05f};
     metal.texture(TextureSlot::Normal) = textured(kNormals);
+    metal.texture(TextureSlot::Normal).transform = {{0.1f, 0.0f}, {1.0f, -1.0f}, -0.3f};
     metal.texture(TextureSlot::MetallicRoughness) = textured(kColors);
     metal.texture(TextureSlot::Emissive) = textured(kColors);
     Material& specular = add(MaterialModel::MetallicRoughness, "dielectric with specular textures, uv 1");

@@ -26,6 +26,15 @@ struct Hit {
         }
         return sum;
     }
+
+    /// Whatever belongs to each of the mesh's indices, at the point that is met.
+    template <class Vector>
+    Vector atCorners(const std::vector<Vector>& corners) const {
+        Vector sum(0.0);
+        for (int corner = 0; corner < 3; ++corner)
+            sum += weights[corner] * corners[3 * std::size_t(triangle) + std::size_t(corner)];
+        return sum;
+    }
 };
 
 /// Where a ray meets the plane of a triangle, which may be outside it; nothing where it runs along it.

@@ -5,6 +5,7 @@
 
 #include "validation/reference/NormalAt.h"
 #include "validation/reference/Slots.h"
+#include "validation/reference/TangentFrame.h"
 
 namespace tessera::reference {
 
@@ -52,7 +53,7 @@ void setDirection(const Hit& hit, const std::vector<scenes::Image>& images, Surf
     } else {
         return;
     }
-    point.tangent = tangentAt(hit, point.normal, direction);
+    point.tangent = tangentAt(hit, point.normal, alongTangents(material, TextureSlot::Anisotropy, direction));
 }
 
 void setLayers(const Hit& hit, const std::vector<scenes::Image>& images, SurfacePoint& point) {

@@ -1,6 +1,7 @@
 #include "validation/reference/NormalAt.h"
 
 #include "validation/reference/Slots.h"
+#include "validation/reference/TangentFrame.h"
 
 namespace tessera::reference {
 
@@ -14,7 +15,7 @@ glm::dvec3 unitOr(const glm::dvec3& vector, const glm::dvec3& fallback) {
 /// The texel's direction in the frame of tangent, bitangent and normal. What the vertices hold is interpolated as it
 /// is; only the sums are made unit, and the bitangent is perpendicular to both whatever the angle between them.
 glm::dvec3 fromTangentSpace(const Hit& hit, const glm::dvec3& texel, const glm::dvec3& vertexNormal) {
-    const glm::dvec4 tangentOS = hit.at<glm::dvec4>(*hit.object->tangentsOS);
+    const glm::dvec4 tangentOS = hit.atCorners(*hit.object->tangentsOS);
     const glm::dvec3 tangent = unitOr(glm::dmat3(hit.object->relFromObject) * glm::dvec3(tangentOS), glm::dvec3(0.0));
     const glm::dvec3 bitangent = glm::cross(vertexNormal, tangent) * (tangentOS.w * hit.object->handedness);
     return texel.x * tangent + texel.y * bitangent + texel.z * vertexNormal;
@@ -58,7 +59,8 @@ glm::dvec3 coatNormalAt(const Hit& hit, const std::vector<scenes::Image>& images
     if (material.texture(scenes::TextureSlot::ClearcoatNormal).image == scenes::kNone) return facing(hit, vertexNormal);
     const glm::dvec3 texel = directionOf(scenes::TextureSlot::ClearcoatNormal, hit, images);
     const double scale = material.clearcoatNormalScale;
-    const glm::dvec3 mapped = fromTangentSpace(hit, texel * glm::dvec3(scale, scale, 1.0), vertexNormal);
+    const glm::dvec2 leaning = alongTangents(material, scenes::TextureSlot::ClearcoatNormal, scale * glm::dvec2(texel));
+    const glm::dvec3 mapped = fromTangentSpace(hit, {leaning, texel.z}, vertexNormal);
     return facing(hit, unitOr(mapped, vertexNormal));
 }
 

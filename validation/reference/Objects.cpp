@@ -1,8 +1,8 @@
 #include "validation/reference/Objects.h"
 
 #include <algorithm>
-#include <optional>
 
+#include "validation/reference/TangentFrame.h"
 #include "validation/reference/Tangents.h"
 
 namespace tessera::reference {
@@ -20,22 +20,6 @@ glm::dmat3 cofactorMatrix(const glm::dmat3& m) {
         }
     }
     return cofactor;
-}
-
-/// The texture coordinates that a material's tangents follow, where it needs some: those of its normal map in tangent
-/// space, else of its anisotropy, else of its coat's normal map.
-std::optional<int> tangentSet(const scenes::Material& material) {
-    using scenes::TextureSlot;
-    const scenes::TextureUse& normalMap = material.texture(TextureSlot::Normal);
-    if (normalMap.image != scenes::kNone && material.normalMapSpace == scenes::NormalMapSpace::Tangent)
-        return normalMap.texCoordSet;
-    const bool isMetallicRoughness = material.model == scenes::MaterialModel::MetallicRoughness;
-    if (material.model == scenes::MaterialModel::MicrofacetAnisotropic ||
-        (isMetallicRoughness && material.anisotropyStrength > 0.0f))
-        return material.texture(TextureSlot::Anisotropy).texCoordSet;
-    const scenes::TextureUse& coat = material.texture(TextureSlot::ClearcoatNormal);
-    if (isMetallicRoughness && material.clearcoat > 0.0f && coat.image != scenes::kNone) return coat.texCoordSet;
-    return std::nullopt;
 }
 
 double depthOfBoxCentre(const Object& object, const glm::dvec3& forward) {
@@ -72,20 +56,14 @@ void Objects::add(const scenes::Scene& scene, const scenes::MeshInstance& instan
     object.relFromObject[3] -= glm::dvec4(rays.eyeWS(), 0.0);
     object.handedness = glm::determinant(glm::dmat3(worldFromNode)) < 0.0 ? -1.0 : 1.0;
     object.normalFromObject = cofactorMatrix(glm::dmat3(worldFromNode)) * object.handedness;
-    if (const std::optional<int> set = tangentSet(*object.material))
-        object.tangentsOS = &tangentsOf(*object.mesh, std::size_t(*set));
+    if (tangentSlot(*object.material)) object.tangentsOS = &tangentsOf(*object.mesh, *object.material);
     const bool isTransparent = object.material->alphaMode == scenes::AlphaMode::Blend;
     (isTransparent ? transparent_ : opaque_).push_back(object);
 }
 
-const std::vector<glm::dvec4>& Objects::tangentsOf(const scenes::Mesh& mesh, std::size_t texCoordSet) {
-    std::unique_ptr<std::vector<glm::dvec4>>& known = tangents_[{&mesh, texCoordSet}];
-    if (known) return *known;
-    known = std::make_unique<std::vector<glm::dvec4>>();
-    if (mesh.tangentsOS.empty())
-        *known = reference::tangentsOS(mesh, texCoordSet);
-    else
-        for (const glm::vec4& tangent : mesh.tangentsOS) known->push_back(glm::dvec4(tangent));
+const std::vector<glm::dvec4>& Objects::tangentsOf(const scenes::Mesh& mesh, const scenes::Material& material) {
+    std::unique_ptr<std::vector<glm::dvec4>>& known = tangents_[{&mesh, &material}];
+    if (!known) known = std::make_unique<std::vector<glm::dvec4>>(reference::tangentsOS(mesh, material));
     return *known;
 }
 

@@ -17,7 +17,7 @@ struct Object {
     glm::dmat4 relFromObject{1.0};
     glm::dmat3 normalFromObject{1.0};                    ///< cofactor matrix times the determinant's sign
     double handedness = 1.0;                             ///< -1 where the transform mirrors
-    const std::vector<glm::dvec4>* tangentsOS = nullptr; ///< where the material needs them
+    const std::vector<glm::dvec4>* tangentsOS = nullptr; ///< by index of the mesh, where the material needs them
 
     glm::dvec3 cornerRel(std::uint32_t triangle, int corner) const {
         const std::uint32_t vertex = mesh->indices[3 * std::size_t(triangle) + std::size_t(corner)];
@@ -37,10 +37,11 @@ public:
 private:
     void add(const scenes::Scene& scene, const scenes::MeshInstance& instance, const glm::dmat4& worldFromNode,
              const CameraRays& rays, std::uint32_t number);
-    const std::vector<glm::dvec4>& tangentsOf(const scenes::Mesh& mesh, std::size_t texCoordSet);
+    const std::vector<glm::dvec4>& tangentsOf(const scenes::Mesh& mesh, const scenes::Material& material);
 
     std::vector<Object> opaque_, transparent_;
-    std::map<std::pair<const scenes::Mesh*, std::size_t>, std::unique_ptr<std::vector<glm::dvec4>>> tangents_;
+    std::map<std::pair<const scenes::Mesh*, const scenes::Material*>, std::unique_ptr<std::vector<glm::dvec4>>>
+        tangents_;
 };
 
 } // namespace tessera::reference

@@ -67,13 +67,33 @@ TEST(PackedMaterial, anisotropyCoatAndSheenAreAlwaysTheMaterialsOwnValues) {
     material.sheenColor = {0.1f, 0.8f, 0.9f};
     material.sheenPerceptualRoughness = 0.25f;
     const shared::MaterialConstants packed = packMaterial(material);
-    EXPECT_EQ(packed.anisotropy, glm::vec4(0.4f, float(std::cos(double(0.5f))), float(std::sin(double(0.5f))), 0.0f));
+    EXPECT_EQ(packed.anisotropy, glm::vec4(0.4f, float(std::cos(double(0.5f))), float(std::sin(double(0.5f))), 1.0f));
     EXPECT_EQ(packed.clearcoat, glm::vec4(0.6f, 0.2f, 3.0f, 0.0f));
+    EXPECT_EQ(packed.clearcoatTurn, glm::vec4(1.0f, 0.0f, 1.0f, 0.0f));
     EXPECT_EQ(packed.sheen, glm::vec4(0.1f, 0.8f, 0.9f, 0.25f));
     material.model = MaterialModel::MicrofacetAnisotropic;
     EXPECT_EQ(packMaterial(material).microsurface.y, 0.3f) << "alpha_x";
     EXPECT_EQ(packMaterial(material).anisotropy.x, 0.7f) << "alpha_y";
     EXPECT_EQ(packMaterial(material).kind.z, MASKING_DIRECTIONAL);
+}
+
+TEST(PackedMaterial, theTransformsOfTexturesWithVectorsAlwaysTurnWhatTheyHold) {
+    Material material;
+    material.clearcoat = 1.0f;
+    material.anisotropyStrength = 0.5f;
+    material.anisotropyRotationRadians = 0.25f;
+    material.texture(TextureSlot::ClearcoatNormal).image = 0;
+    material.texture(TextureSlot::ClearcoatNormal).transform.rotationRadians = 0.5f;
+    scenes::TextureUse& normal = material.texture(TextureSlot::Normal);
+    normal.image = 0;
+    normal.transform = {{0, 0}, {1, -1}, 0.0f}; // which tangents follow: all others are mirrored against it
+    const shared::MaterialConstants packed = packMaterial(material);
+    const auto expectNear = [](const glm::vec4& value, const glm::dvec4& expected) {
+        EXPECT_LE(glm::distance(glm::dvec4(value), expected), 1e-7) << value.x << ' ' << value.y << ' ' << value.z;
+    };
+    // The coat's u runs 0.5 to the right of the coordinates', and so to the left of the mirrored ones'.
+    expectNear(packed.clearcoatTurn, {std::cos(0.5), std::sin(0.5), -1, 0});
+    expectNear(packed.anisotropy, {0.5, std::cos(0.25), -std::sin(0.25), -1});
 }
 
 TEST(PackedMaterial, flagsAreAlwaysExactlyWhatTheMaterialHas) {

@@ -27,10 +27,10 @@ scenes::Scene twoMeshes() {
 TEST(VertexStreams, meshesAlwaysLieEndToEnd) {
     const VertexStreams streams = makeVertexStreams(twoMeshes(), allFeatures());
     ASSERT_EQ(streams.ranges.size(), 2u);
-    EXPECT_EQ(streams.ranges[0].firstIndex, 0u);
-    EXPECT_EQ(streams.ranges[1].firstIndex, 3u);
-    EXPECT_EQ(streams.ranges[1].indexCount, 3u);
-    EXPECT_EQ(streams.ranges[1].baseVertex, 3);
+    EXPECT_EQ(streams.ranges.at({0, 0}).firstIndex, 0u);
+    EXPECT_EQ(streams.ranges.at({1, 0}).firstIndex, 3u);
+    EXPECT_EQ(streams.ranges.at({1, 0}).indexCount, 3u);
+    EXPECT_EQ(streams.ranges.at({1, 0}).baseVertex, 3);
     EXPECT_THAT(streams.indices, ElementsAre(0, 1, 2, 2, 1, 0));
     EXPECT_EQ(streams.positionsOS.size(), 6u);
     EXPECT_EQ(streams.positionsOS[5], glm::vec3(0, 4, 0));
@@ -73,7 +73,7 @@ TEST(VertexStreams, tangentsAreComputedExactlyForMeshesWithATangentSpaceMapAndNo
         << "no instance has the map";
     scene.nodes[0].instances.back().material = 1;
     const VertexStreams streams = makeVertexStreams(scene, features);
-    const std::vector<glm::vec4> expected = computeTangents(scene.meshes[1], 1);
+    const std::vector<glm::vec4> expected = meshWithTangents(scene.meshes[1], {{}, 1}).tangentsOS;
     EXPECT_EQ(std::vector(streams.tangentsOS.begin() + 3, streams.tangentsOS.end()), expected);
     scene.meshes[1].tangentsOS.assign(3, {0, 0, 1, 1});
     EXPECT_EQ(makeVertexStreams(scene, features).tangentsOS[4], glm::vec4(0, 0, 1, 1)) << "its own come first";
@@ -95,8 +95,8 @@ TEST(VertexStreams, tangentsOfAnisotropicAndCoatedMaterialsAlwaysFollowTheirOwnT
     };
     const scenes::TextureUse onSecondSet{.image = 0, .sampler = {}, .texCoordSet = 1, .transform = {}};
     const std::vector<glm::vec4> none(3, glm::vec4(1, 0, 0, 1));
-    const std::vector<glm::vec4> ofSet0 = computeTangents(scene.meshes[1], 0);
-    const std::vector<glm::vec4> ofSet1 = computeTangents(scene.meshes[1], 1);
+    const std::vector<glm::vec4> ofSet0 = meshWithTangents(scene.meshes[1], {}).tangentsOS;
+    const std::vector<glm::vec4> ofSet1 = meshWithTangents(scene.meshes[1], {{}, 1}).tangentsOS;
     ASSERT_NE(ofSet0, ofSet1);
     scenes::Material material;
     EXPECT_EQ(second(material), none);
@@ -114,6 +114,57 @@ TEST(VertexStreams, tangentsOfAnisotropicAndCoatedMaterialsAlwaysFollowTheirOwnT
     scenes::Material brushed;
     brushed.model = scenes::MaterialModel::MicrofacetAnisotropic;
     EXPECT_EQ(second(brushed), ofSet0);
+}
+
+TEST(VertexStreams, materialsThatWantDifferentTangentsAlwaysGetAMeshOfTheirOwnAndOthersShare) {
+    scenes::Scene scene = twoMeshes();
+    scene.meshes[1].tangentsOS.clear();
+    scene.images.emplace_back();
+    scenes::Material mapped;
+    mapped.texture(scenes::TextureSlot::Normal).image = 0;
+    for (int i = 0; i < 4; ++i) scene.materials.push_back(mapped);
+    scene.materials[3].texture(scenes::TextureSlot::Normal).transform.scale = {1, -1};
+    scene.materials[4].tangents = scenes::TangentMethod::Lengyel;
+    for (const int material : {1, 2, 3, 3, 4, 2}) scene.nodes[0].instances.push_back({1, material});
+    FeatureSet features;
+    features.add(Feature::TangentSpaceNormals);
+    const VertexStreams streams = makeVertexStreams(scene, features);
+    const auto firstIndex = [&](int material) { return streams.ranges.at({1, material}).firstIndex; };
+    EXPECT_EQ(firstIndex(0), 3u) << "needs no tangents";
+    EXPECT_EQ(firstIndex(1), 3u);
+    EXPECT_EQ(firstIndex(2), 3u);
+    EXPECT_EQ(firstIndex(3), 6u);
+    EXPECT_EQ(firstIndex(4), 9u);
+    EXPECT_EQ(streams.indices.size(), 12u);
+    const auto handedness = [&](int material) {
+        return streams.tangentsOS[std::size_t(streams.ranges.at({1, material}).baseVertex)].w;
+    };
+    EXPECT_EQ(handedness(3), -handedness(1));
+    EXPECT_EQ(makeVertexStreams(scene, FeatureSet{}).tangentsOS.size(), 0u);
+}
+
+TEST(VertexStreams, splitVerticesAlwaysKeepAllTheirOtherAttributes) {
+    scenes::Scene scene = scenes::tinyScene();
+    scenes::Mesh& mesh = scene.meshes[0];
+    // A second triangle below the first, whose texture is mirrored.
+    mesh.positionsOS.emplace_back(0.0f, -4.0f, 0.0f);
+    mesh.normalsOS.emplace_back(0, 0, 1);
+    mesh.indices.insert(mesh.indices.end(), {1, 0, 3});
+    mesh.texCoords[0] = {{0, 1}, {1, 1}, {0, 0}, {0, 0}};
+    mesh.texCoords[1] = {{0.1f, 0}, {0.2f, 0}, {0.3f, 0}, {0.4f, 0}};
+    mesh.colors = {glm::vec4(0.1f), glm::vec4(0.2f), glm::vec4(0.3f), glm::vec4(0.4f)};
+    scene.images.emplace_back();
+    scene.materials[0].texture(scenes::TextureSlot::Normal).image = 0;
+    const VertexStreams streams = makeVertexStreams(scene, allFeatures());
+    EXPECT_THAT(streams.indices, ElementsAre(0, 1, 2, 4, 5, 3));
+    for (const auto& [copy, own] : {std::pair<std::size_t, std::size_t>(4, 1), {5, 0}}) {
+        EXPECT_EQ(streams.positionsOS.at(copy), mesh.positionsOS[own]);
+        EXPECT_EQ(streams.normalsOS.at(copy), mesh.normalsOS[own]);
+        EXPECT_EQ(streams.texCoords[0].at(copy), mesh.texCoords[0][own]);
+        EXPECT_EQ(streams.texCoords[1].at(copy), mesh.texCoords[1][own]);
+        EXPECT_EQ(streams.colors.at(copy), mesh.colors[own]);
+        EXPECT_EQ(streams.tangentsOS.at(copy).w, -streams.tangentsOS[own].w);
+    }
 }
 
 } // namespace
