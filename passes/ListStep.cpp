@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "renderer/frame/LightRounds.h"
 #include "renderer/gpu/Commands.h"
+#include "shaders/shared/light_lists.h"
 #include "shaders/shared/slots.h"
 
 namespace tessera::passes {
@@ -14,10 +16,16 @@ constexpr int kGroup = 64;
 /// The same on software rasterisers, which run 4 to 16 together; there a row of tiles is seldom a multiple of 64.
 constexpr int kSoftwareGroup = 8;
 
-/// Lights that a lane may look at in one shader on software rasterisers. Mesa's stop a shader after 65535 iterations of
-/// all its loops (LP_MAX_TGSI_LOOP_ITERATIONS), and a light may take 260: itself and 64 cells, tested and written,
-/// twice.
-constexpr std::size_t kSoftwareLightsALane = 240;
+/// Lights that a lane may look at in one shader on software rasterisers, whose loops end after some iterations. A light
+/// takes at most: itself, the end of the loop that looked for it, and its cells, tested and written, twice, once to
+/// count and once to write; and each of the other lanes may leave it out one after the other.
+constexpr std::size_t kIterationsALight = 2 * (2 + 2 * (LIGHT_TILE_SLICES + 1)) + 2 * (frame::kMostLanesTogether - 1);
+constexpr std::size_t kSoftwareLightsALane =
+    (frame::kMostLoopIterations - frame::kOtherLoopIterations) / kIterationsALight;
+
+/// Masks are built without rounds, a word after the other.
+constexpr std::size_t kIterationsAWord = 2 + 32 / MASK_LIGHTS_AN_ITERATION;
+static_assert(scenes::kMostLights / 32 * kIterationsAWord <= frame::kMostLoopIterations - frame::kOtherLoopIterations);
 
 const char* methodDefine(culling::Method method) {
     switch (method) {

@@ -6,6 +6,8 @@
 #include <system_error>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "scenes/Defaults.h"
 #include "scenes/Error.h"
 #include "scenes/LoadLedger.h"
@@ -70,9 +72,17 @@ const BuiltinScene* builtinScene(std::string_view name) {
     return found == scenes.end() ? nullptr : &*found;
 }
 
+void requireDrawableLights(const std::string& source, std::size_t lights) {
+    if (lights <= std::size_t(kMostLights)) return;
+    throw InputError(
+        fmt::format("{}: has {} lights, and {} at most can be drawn; keep fewer of them, or the first N with "
+                    "--lights N",
+                    source, lights, kMostLights));
+}
+
 Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     if (options.lights && (*options.lights < 0 || *options.lights > kMostLights)) {
-        throw InputError("cannot use " + std::to_string(*options.lights) + " lights; give a number from 0 to 65536");
+        throw InputError(fmt::format("cannot use {} lights; give a number from 0 to {}", *options.lights, kMostLights));
     }
     goOn(options);
     Scene scene;
@@ -86,6 +96,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
         if (options.lights && static_cast<std::size_t>(*options.lights) < scene.lights.size()) {
             scene.lights.resize(static_cast<std::size_t>(*options.lights));
         }
+        requireDrawableLights(nameOrPath, scene.lights.size());
     }
     keepFirstWarnings(scene.warnings);
     goOn(options);

@@ -13,10 +13,15 @@
 
 namespace tessera::scenes {
 
-inline constexpr int kMostLights = 65536; ///< that a scene can be asked to have
+/// Lights that a scene can be asked to have, that a file can give it and that can be drawn: on software rasterisers,
+/// whose loops end early, shaders get through so many (renderer/frame/LightRounds.h).
+inline constexpr int kMostLights = 262144;
+
+/// Throws InputError when these lights are more than kMostLights; `source` is the file that gives them, or the scene.
+void requireDrawableLights(const std::string& source, std::size_t lights);
 
 struct LoadOptions {
-    std::optional<int> lights; ///< built-in scenes generate this many (0..65,536); files keep their first N
+    std::optional<int> lights; ///< built-in scenes generate this many (0 to kMostLights); files keep their first N
     bool defaultLight = true;  ///< give a scene without lights, emission or unlit material one directional light
     /// The memory that reading files may take (LoadLedger.h); none: half of the machine's.
     std::optional<std::uint64_t> memoryLimitBytes;

@@ -30,8 +30,8 @@ shared::LightTexels floorLight(int kind, int index, int count) {
 /// A cone of full intensity everywhere ahead (cos inner 0, cos outer -1), and a mild falloff.
 shared::LightShapeTexels floorLightShape() {
     shared::LightShapeTexels shape{};
-    shape.axis = glm::vec4(0.0f, 0.0f, -1.0f, 1.0f);
-    shape.attenuation = glm::vec4(1.0f, 0.1f, 0.01f, 1.0f);
+    shape.axis = glm::vec4(0.0f, 0.0f, 1.0f, -0.5f);
+    shape.attenuation = glm::vec4(1.0f, 0.1f, 0.01f, 0.0f);
     return shape;
 }
 
@@ -46,7 +46,7 @@ frame::PackedLights floorLights(const frame::PackedLights& like, int count) {
         // When there are fewer than `count`, the same ones in turn; else evenly spaced ones.
         const std::size_t chosen = known < std::size_t(count) ? std::size_t(i) % std::max<std::size_t>(known, 1)
                                                               : std::size_t(i) * known / std::size_t(count);
-        const int kind = known == 0 ? LIGHT_POINT : int(like.texels[chosen].color.w);
+        const int kind = known == 0 ? LIGHT_POINT : int(like.texels[chosen].color.w) & ~LIGHT_BROAD;
         lights.texels.push_back(floorLight(kind, i, count));
         lights.shapes.push_back(floorLightShape());
     }

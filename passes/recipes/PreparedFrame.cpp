@@ -10,6 +10,7 @@
 #include "passes/recipes/ChooseView.h"
 #include "renderer/culling/TileGrid.h"
 #include "scenes/Error.h"
+#include "scenes/Load.h"
 
 namespace tessera::recipes {
 
@@ -32,6 +33,7 @@ PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, cons
         throw InputError(fmt::format("{}: there is no light {} to show alone; the scene has {} (0 to {})", scene.name,
                                      *settings.soloLight, scene.lights.size(), int(scene.lights.size()) - 1));
     }
+    scenes::requireDrawableLights(scene.name, scene.lights.size());
     const int samples = chooseSamples(technique, settings);
     if (!(settings.rangeTolerance >= 0.0) || std::isinf(settings.rangeTolerance)) {
         throw InputError(fmt::format("a range tolerance of {} ends no light; give 0, which keeps all of it, or more",

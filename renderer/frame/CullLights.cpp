@@ -36,9 +36,8 @@ shared::CullLight cullLight(const shared::LightTexels& light, const shared::Ligh
     const double margin = double(shared::roundingMargin(float(reach + glm::length(position)), orthographic, lens));
     Sphere sphere{position, reach};
     if ((kind & LIGHT_SPOT) != 0) {
-        const double cosOuter =
-            std::clamp(double(-shape.attenuation.w) / double(shape.axis.w) - CONE_COSINE_MARGIN, -1.0, 1.0);
-        const glm::dvec3 axis = glm::normalize(cameraFromLS * glm::dvec3(shape.axis));
+        const double cosOuter = std::clamp(double(shared::spotCosOuter(kind, shape)) - CONE_COSINE_MARGIN, -1.0, 1.0);
+        const glm::dvec3 axis = glm::normalize(cameraFromLS * glm::dvec3(shared::spotTravel(shape)));
         sphere = sphereAroundCone(position, axis, cosOuter, reach);
         // A cone whose apex stands back by m / sin(outer) encloses all that lies within m of it. What is a share of the
         // distance coneTouchesBox() adds.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/frame/LightRounds.h"
 #include "renderer/frame/RefineLayout.h"
 
 namespace tessera::frame {
@@ -55,9 +56,6 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     // A channel that is looked at is stored.
     if (const std::optional<StoredComponents> shown = storedComponents(settings.view))
         spec.features.add(Feature::VaryingMaterials, channelTable()[std::size_t(shown->channel)].ofMaterial);
-    // Half the rounds that a loop may make, so that scanning bitmasks has room beside the lights.
-    constexpr std::size_t kLightsOneByOne = 32768;
-    spec.manyLights = lights.texels.size() > kLightsOneByOne;
     spec.settings.layout = refined(settings.layout, scene);
     spec.channels = neededChannels(spec.features, spec.settings.layout, needsNormalTexel(settings.view));
     return spec;
@@ -67,7 +65,7 @@ Defines frameDefines(const FrameSpec& spec) {
     Defines defines = featureDefines(spec.features);
     defines.emplace_back("VIEW", std::to_string(shaderView(spec.settings.view)));
     defines.emplace_back("FILTER_EXACT", spec.settings.filter == TextureFilter::Exact ? "1" : "0");
-    defines.emplace_back("LIGHTS_PER_ROUND", spec.manyLights ? "2" : "1");
+    defines.emplace_back("LIGHTS_PER_ROUND", std::to_string(lightsPerRound(spec.lights)));
     defines.emplace_back("SPECULAR_OFF", spec.settings.specular ? "0" : "1");
     defines.emplace_back("SAMPLES", std::to_string(spec.samples));
     return defines;

@@ -20,9 +20,8 @@ struct FrameSpec {
     culling::Choice culling;
     LightingStage lightOn = LightingStage::Fragment; ///< where the technique has a lighting pass
     std::size_t lights = 0;                          ///< that the frame's pixels may visit
-    bool manyLights = false;       ///< one light a round of a shader's loop would be too few (lib/light_cursor.glsl)
-    bool lightsEverywhere = false; ///< some lights reach everywhere, while others do not
-    int samples = 1;               ///< that the pixels of render targets have
+    bool lightsEverywhere = false;                   ///< some lights reach everywhere, while others do not
+    int samples = 1;                                 ///< that the pixels of render targets have
 
     /// Of the G-buffer, by attachment.
     std::vector<GBufferTexture> gbufferTextures() const { return frame::gbufferTextures(settings.layout, channels); }

@@ -35,6 +35,24 @@ struct PackedLight {
     shared::LightShapeTexels shape{};
 };
 
+/// KHR_lights_punctual's cone: clamp((cos angle - cos outer) / max(0.001, cos inner - cos outer), 0, 1), squared by the
+/// shader, in the form that keeps its digits (shared/light.h). Returns LIGHT_BROAD or 0.
+int packCone(const scenes::Light& light, const glm::dvec3& travelLS, shared::LightShapeTexels& shape) {
+    const double outer = double(light.outerConeRadians), cosOuter = std::cos(outer);
+    const double scale = 1.0 / std::max(0.001, std::cos(double(light.innerConeRadians)) - cosOuter);
+    if (std::abs(cosOuter) < 0.5) {
+        shape.axis = glm::vec4(glm::vec3(travelLS), float(scale));
+        shape.attenuation.w = float(-cosOuter * scale);
+        return LIGHT_BROAD;
+    }
+    const double side = cosOuter > 0.0 ? 1.0 : -1.0;
+    // 1 - cos outer = 2 root^2, or 1 + cos outer.
+    const double root = cosOuter > 0.0 ? std::sin(0.5 * outer) : std::cos(0.5 * outer);
+    shape.axis = glm::vec4(glm::vec3(side * travelLS), float(side * 0.5 * scale));
+    shape.attenuation.w = float(side * 2.0 * root * root * scale);
+    return 0;
+}
+
 PackedLight packLight(const scenes::Light& light, double reach, const CameraView& view) {
     PackedLight result;
     shared::LightTexels& packed = result.texels;
@@ -51,11 +69,7 @@ PackedLight packLight(const scenes::Light& light, double reach, const CameraView
         }
     }
     if (light.type == scenes::LightType::Spot) {
-        // KHR_lights_punctual's cone: clamp((cos angle - cos outer) / max(0.001, cos inner - cos outer), 0, 1) squared.
-        const double cosOuter = std::cos(double(light.outerConeRadians));
-        const double scale = 1.0 / std::max(0.001, std::cos(double(light.innerConeRadians)) - cosOuter);
-        result.shape.axis = glm::vec4(glm::vec3(travelLS), float(scale));
-        result.shape.attenuation.w = float(-cosOuter * scale);
+        kind |= packCone(light, travelLS, result.shape);
     }
     packed.color = glm::vec4(isDark(light, reach) ? glm::vec3(0.0f) : glm::vec3(lightColor(light)), float(kind));
     return result;

@@ -43,7 +43,9 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
 #if HAS_SPOT_LIGHTS
     if ((kind & LIGHT_SPOT) != 0) {
         vec4 axis = lightShapeTexel(index, 0);
-        precise float cone = clamp(-dot(direction, axis.xyz) * axis.w + attenuation.w, 0.0, 1.0);
+        precise vec3 beside = direction + axis.xyz;
+        precise float apart = (kind & LIGHT_BROAD) != 0 ? dot(direction, axis.xyz) : dot(beside, beside);
+        precise float cone = clamp(attenuation.w - axis.w * apart, 0.0, 1.0);
         if (!(cone > 0.0)) return false;
         falloff *= cone * cone;
     }

@@ -163,16 +163,44 @@ bool nextLight(inout LightCursor cursor, out int light)
     return found;
 }
 
-// A batch is what a word holds.
+// Goes on to the next word if there is one and this one is empty.
+void leaveEmptyWord(inout LightCursor cursor)
+{
+    if (cursor.bits != 0u || cursor.word >= cursor.end) return;
+    cursor.word += 1;
+    if (cursor.word >= cursor.end) return;
+    cursor.bits = texelFetch(lightEntries, cursor.tileWords + cursor.word).x
+                  & texelFetch(lightEntries, cursor.binWords + cursor.word).x;
+}
+
+void leaveTwoEmptyWords(inout LightCursor cursor)
+{
+    leaveEmptyWord(cursor);
+    leaveEmptyWord(cursor);
+}
+
+// A batch is what a word holds. Where lights are so many that iterations are short, a step leaves twice as many words as a
+// round visits lights (renderer/frame/LightRounds.h).
 bool nextBatch(inout LightCursor cursor, out int light)
 {
-    light = 0;
-    while (cursor.bits == 0u) {
-        cursor.word += 1;
-        if (cursor.word >= cursor.end) return false;
-        cursor.bits = texelFetch(lightEntries, cursor.tileWords + cursor.word).x
-                      & texelFetch(lightEntries, cursor.binWords + cursor.word).x;
-    }
+    do {
+#if LIGHTS_PER_ROUND == 1
+        leaveEmptyWord(cursor);
+#else
+        leaveTwoEmptyWords(cursor);
+        leaveTwoEmptyWords(cursor);
+#endif
+#if LIGHTS_PER_ROUND > 2
+        leaveTwoEmptyWords(cursor);
+        leaveTwoEmptyWords(cursor);
+#endif
+#if LIGHTS_PER_ROUND > 4
+        leaveTwoEmptyWords(cursor);
+        leaveTwoEmptyWords(cursor);
+        leaveTwoEmptyWords(cursor);
+        leaveTwoEmptyWords(cursor);
+#endif
+    } while (cursor.bits == 0u && cursor.word < cursor.end);
     return nextLight(cursor, light);
 }
 

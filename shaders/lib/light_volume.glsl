@@ -145,10 +145,12 @@ vec4 lightVolumeVertex(int index, int vertex)
     float margin = volumeMargin(place.xyz, reach);
     if (isVastInPicture(reach + margin)) return screenVertex(vertex, 0.0);
 #if HAS_SPOT_LIGHTS
-    if ((int(lightTexel(index, 1).w) & LIGHT_SPOT) != 0) {
-        vec4 axis = lightShapeTexel(index, 0);
-        float cosOuter = -lightShapeTexel(index, 1).w / axis.w - CONE_COSINE_MARGIN;
-        if (cosOuter > kWidestConeCosine) return coneVertex(vertex, place.xyz, axis.xyz, cosOuter, reach, margin);
+    int kind = int(lightTexel(index, 1).w);
+    if ((kind & LIGHT_SPOT) != 0) {
+        LightShapeTexels shape = LightShapeTexels(lightShapeTexel(index, 0), lightShapeTexel(index, 1));
+        float cosOuter = spotCosOuter(kind, shape) - CONE_COSINE_MARGIN;
+        if (cosOuter > kWidestConeCosine)
+            return coneVertex(vertex, place.xyz, spotTravel(shape), cosOuter, reach, margin);
     }
 #endif
     return sphereVertex(vertex, place.xyz, reach + margin);

@@ -45,11 +45,19 @@ vec3 lightsOnSurface(vec3 before, Surface surface, Viewpoint viewpoint, vec2 pix
     int light;
     if (!nextLight(cursor, light) && !nextBatch(cursor, light)) return radiance;
     // Tested at the end: rasterisers that mask lanes instead of branching would run a loop's body once more than its lights.
+    // LIGHTS_PER_ROUND (renderer/frame/LightRounds.h) is spelt out: an inner loop would count towards the same limit.
+#define ADD_NEXT_LIGHT if (nextLight(cursor, light)) addLightOnSurface(light, surface, viewpoint, radiance);
     do {
         do {
             addLightOnSurface(light, surface, viewpoint, radiance);
-#if LIGHTS_PER_ROUND == 2
-            if (nextLight(cursor, light)) addLightOnSurface(light, surface, viewpoint, radiance);
+#if LIGHTS_PER_ROUND > 1
+            ADD_NEXT_LIGHT
+#endif
+#if LIGHTS_PER_ROUND > 2
+            ADD_NEXT_LIGHT ADD_NEXT_LIGHT
+#endif
+#if LIGHTS_PER_ROUND > 4
+            ADD_NEXT_LIGHT ADD_NEXT_LIGHT ADD_NEXT_LIGHT ADD_NEXT_LIGHT
 #endif
         } while (nextLight(cursor, light));
     } while (nextBatch(cursor, light));

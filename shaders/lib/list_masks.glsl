@@ -24,19 +24,16 @@ layout(std430, binding = STORAGE_LIGHT_ENTRIES) writeonly buffer LightEntries
 
 LIST_MEMORY uvec2 laneWords[LIST_THREADS];
 
-// Four lights an iteration: software rasterisers stop a shader after 65535 iterations of its loops.
-#define LIGHTS_AN_ITERATION 4u
+// Bits of the eight lights from `first` on: 1 where test(light, at) is.
+#define FOUR_BITS(test, first, at) \
+    (test(first, at) | test(first + 1u, at) << 1 | test(first + 2u, at) << 2 | test(first + 3u, at) << 3)
+#define EIGHT_BITS(test, first, at) (FOUR_BITS(test, first, at) | FOUR_BITS(test, first + 4u, at) << 4)
 
 // View depths in metres between which a bin lies.
 vec2 runOfBin(uint bin)
 {
     vec2 depths = depthsOfSlices(listTotals.x, bin, bin, frame.depthKey.x);
     return vec2(viewDepthMetres(frame.depthToViewDepth, depths.y), viewDepthMetres(frame.depthToViewDepth, max(0.0, depths.x)));
-}
-
-uint fourBits(uvec4 bits)
-{
-    return bits.x | bits.y << 1 | bits.z << 2 | bits.w << 3;
 }
 
 // 1 where the light may touch the bin.
@@ -65,10 +62,8 @@ void maskBin(uvec2 item)
     uvec2 occupied = uvec2(words, 0u); // first word with a bit, one past the last
     for (uint word = LIST_LANE; word < words; word += uint(LIST_THREADS)) {
         uint bits = 0u;
-        for (uint i = 0u; i < 32u; i += LIGHTS_AN_ITERATION)
-            bits |= fourBits(uvec4(binBit(32u * word + i, run), binBit(32u * word + i + 1u, run),
-                                   binBit(32u * word + i + 2u, run), binBit(32u * word + i + 3u, run)))
-                    << i;
+        for (uint i = 0u; i < 32u; i += MASK_LIGHTS_AN_ITERATION)
+            bits |= EIGHT_BITS(binBit, 32u * word + i, run) << i;
         lightEntries[bin * words + word] = bits;
         if (bits != 0u) occupied = uvec2(min(occupied.x, word), max(occupied.y, word + 1u));
     }
@@ -88,10 +83,8 @@ void maskTile(uvec2 item)
     uint first = (listTotals.y + tileIndex(item)) * words;
     for (uint word = LIST_LANE; word < words; word += uint(LIST_THREADS)) {
         uint bits = 0u;
-        for (uint i = 0u; i < 32u; i += LIGHTS_AN_ITERATION)
-            bits |= fourBits(uvec4(tileBit(32u * word + i, item), tileBit(32u * word + i + 1u, item),
-                                   tileBit(32u * word + i + 2u, item), tileBit(32u * word + i + 3u, item)))
-                    << i;
+        for (uint i = 0u; i < 32u; i += MASK_LIGHTS_AN_ITERATION)
+            bits |= EIGHT_BITS(tileBit, 32u * word + i, item) << i;
         lightEntries[first + word] = bits;
     }
     if (LIST_LANE != 0u) return;

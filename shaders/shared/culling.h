@@ -8,8 +8,9 @@
 // Columns of tiles whose lights are told apart by the planes between columns together; their boxes tell the rest.
 #define CULL_BLOCK_COLUMNS 8u
 
-// The shader's cosine of a spot's angle is off by some 1e-7; a cone wider by this in its cosine encloses whatever it
-// lights.
+// A spot's angle, and the outer angle it is compared with, are off by 4e-7 in their cosines at most: some roundings of
+// 2^-24, of the directions and of the squares (lib/light.glsl, shared/light.h). A cone wider by this in its cosine
+// encloses whatever is lit.
 #define CONE_COSINE_MARGIN 1e-6
 
 SHARED_BEGIN

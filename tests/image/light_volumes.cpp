@@ -279,6 +279,24 @@ TEST_F(LightVolumes, aConeNeverVisitsMuchMoreThanItsSpot) {
     EXPECT_LE(share.visited, 1.3 * share.lit);
 }
 
+// Up to 84 degrees a hull is drawn, not the sphere, which is more than twice as large.
+TEST_F(LightVolumes, aWideConeNeverVisitsItsWholeSphere) {
+    scenes::Scene scene = wall();
+    scene.lights = {spotLight({0.0, -0.2, 0.01}, {0.0, 1.0, 0.0}, 82.0 * pi / 180.0)};
+    scene.lights[0].rangeMetres = 0.6f;
+    const Share share = shareOf(scene);
+    ASSERT_GT(share.lit, 5000);
+    EXPECT_LE(share.visited, 1.5 * share.lit) << share.visited << " " << share.lit;
+}
+
+// Beside the eye, which is just outside of it: still an outline, not the whole picture.
+TEST_F(LightVolumes, aSphereThatAlmostHoldsTheEyeNeverVisitsTheWholePicture) {
+    scenes::Scene scene = wall();
+    scene.lights = {rangedLight({40.0, 0.0, 3.0}, 39.8f)};
+    const Share share = shareOf(scene);
+    EXPECT_LE(share.visited, 0.6 * 240 * 160) << share.visited << " " << share.lit;
+}
+
 TEST_F(LightVolumes, aLightThatFloatsBeforeAllSurfacesIsNeverVisited) {
     scenes::Scene scene = wall();
     scene.lights = {rangedLight({0.0, 0.0, 1.0}, 0.9f), spotLight({0.3, 0.0, 2.0}, {0.0, 1.0, 0.0}, 0.5)};

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scenes/Error.h"
+#include "scenes/Load.h"
 #include "scenes/Names.h"
 #include "scenes/import/JsonText.h"
 
@@ -22,7 +23,6 @@ using ParsedJson = nlohmann::json;
 using culling::Method;
 using recipes::Technique;
 
-constexpr int kMostLights = 65536;
 constexpr int kLargestSide = 16384;
 constexpr const char* kNoShadows = "this version draws no shadows, so there is nothing to vary; leave the key out";
 constexpr const char* kNoSubsurface =
@@ -92,7 +92,7 @@ const std::vector<Key>& keys() {
         {"layout", [](BenchMatrix& m, const ParsedJson& v,
                       const std::string& s) { m.layouts.push_back(rowNamed(frame::layoutTable(), v, s, "layout")); }},
         {"lights", [](BenchMatrix& m, const ParsedJson& v,
-                      const std::string& s) { m.lights.push_back(numberIn(v, 0, kMostLights, s, "lights")); }},
+                      const std::string& s) { m.lights.push_back(numberIn(v, 0, scenes::kMostLights, s, "lights")); }},
         {"range",
          [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
              if (!v.is_number() || !std::isfinite(v.get<double>()) || v.get<double>() < 0.0)

@@ -25,9 +25,9 @@ struct Probe {
 };
 
 constexpr double kLightTolerance = 3e-6;
-constexpr const char* kLightReason =
-    "some twenty roundings of 6e-8, of the light without its windows: those subtract from one. A cone counts with the "
-    "reciprocal of its width besides";
+constexpr const char* kLightReason = "some twenty roundings of 6e-8, of the light without its range: that subtracts "
+                                     "from one; a cone counts with what it "
+                                     "changes by when the directions it is computed from move by four roundings";
 
 reference::Incident truthAt(const Light& light, const glm::dvec3& positionWS) {
     scenes::Scene scene;
@@ -36,14 +36,39 @@ reference::Incident truthAt(const Light& light, const glm::dvec3& positionWS) {
     return shining.empty() ? reference::Incident{} : reference::incidentAt(shining.front(), positionWS);
 }
 
-/// What an error is taken relative to: the light without range and cone, by the cone's width.
+/// The cone's factor, and how much it changes at most when what decides it is off by four roundings of fp32: the angle
+/// at the light, since the ray is rounded when it is subtracted and when it is made unit, and the axis when it is
+/// packed, and each of the two cosines' distances from 1 (of a wide cone, -1), by its share.
+struct Cone {
+    double factor = 1.0;
+    double condition = 0.0;
+};
+
+Cone coneOf(const Light& light, const glm::dvec3& positionWS) {
+    if (light.type != LightType::Spot) return {};
+    constexpr double kRounding = 4.0 * 0x1p-24;
+    const glm::dvec3 ray = glm::normalize(positionWS - light.positionWS);
+    const double cosAngle = glm::dot(ray, light.directionWS),
+                 sinAngle = glm::length(glm::cross(ray, light.directionWS));
+    const double cosOuter = std::cos(double(light.outerConeRadians));
+    const double scale = 1.0 / std::max(0.001, std::cos(double(light.innerConeRadians)) - cosOuter);
+    const double side = cosOuter < 0.0 ? -1.0 : 1.0;
+    const double distances = (1.0 - side * cosAngle) + (1.0 - side * cosOuter);
+    const double move = kRounding * (sinAngle + 0.5 * kRounding + distances) * scale;
+    const auto squared = [](double open) { return std::pow(std::clamp(open, 0.0, 1.0), 2); };
+    const double open = (cosAngle - cosOuter) * scale;
+    const double factor = squared(open);
+    return {factor, std::max(squared(open + move) - factor, factor - squared(open - move))};
+}
+
+/// What an error is taken relative to: the light without range, by the cone's factor and the share of its condition
+/// that is worth the tolerance. 0 where the light is certain to be 0.
 double scaleOf(const Light& light, const glm::dvec3& positionWS) {
     Light open = light;
     open.rangeMetres = scenes::kInfinity;
     if (open.type == LightType::Spot) open.type = LightType::Point;
-    const double width = std::cos(double(light.innerConeRadians)) - std::cos(double(light.outerConeRadians));
-    const double cone = light.type == LightType::Spot ? 1.0 + 1.0 / (3.0 * std::max(0.001, width)) : 1.0;
-    return cone * truthAt(open, positionWS).intensity.x;
+    const Cone cone = coneOf(light, positionWS);
+    return (cone.factor + cone.condition / kLightTolerance) * truthAt(open, positionWS).intensity.x;
 }
 
 std::string describe(const Light& light, const glm::vec3& positionWS) {
@@ -147,18 +172,38 @@ void measureRanges(StressBench& bench, StressFigures& figures) {
     everyLightAtEveryPoint(bench, lights, 13, figures);
 }
 
+/// A point that the light may reach or just not: 0 to 1.2 times its outer angle from where it points.
+glm::vec3 pointAboutTheCone(StressRandom& random, const Light& light) {
+    const double angle = std::min(std::numbers::pi, 1.2 * std::sqrt(random.unit()) * double(light.outerConeRadians));
+    const glm::dvec3 across = random.around(light.directionWS, 0.0);
+    const glm::dvec3 ray = light.directionWS * std::cos(angle) + across * std::sin(angle);
+    return glm::vec3(light.positionWS + ray * random.logarithmic(1e-2, 1e3));
+}
+
+/// Narrow, wide, soft and hard ones, pointing anywhere, each seen from within as from without.
 void measureCones(StressBench& bench, StressFigures& figures) {
+    StressRandom random(14);
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    const int turns = bench.effort() == StressEffort::Full ? 100 : 10;
     std::vector<Light> lights;
-    for (const double outer : {0.0, 1e-4, 0.01, 0.5, 1.5, 3.0, std::numbers::pi}) {
-        for (const double share : {0.0, 0.5, 0.999, 1.0}) {
-            Light light = pointLight(1.0f);
-            light.type = LightType::Spot;
-            light.outerConeRadians = std::min(float(outer), std::numbers::pi_v<float>);
-            light.innerConeRadians = float(share) * light.outerConeRadians;
-            lights.push_back(light);
+    std::vector<Probe> probes;
+    for (const double outer : {0.0, 1e-4, 0.1 * kDegree, 0.5 * kDegree, kDegree, 5.0 * kDegree, 10.0 * kDegree, 0.5,
+                               1.5, 1.6, 3.0, 179.9 * kDegree, std::numbers::pi}) {
+        for (const double share : {0.0, 0.5, 0.99, 0.999, 1.0}) {
+            for (int turn = 0; turn < turns; ++turn) {
+                Light light = pointLight(1.0f);
+                light.type = LightType::Spot;
+                // Exact in fp32, so that both sides see one position.
+                if (turn % 2 == 1) light.positionWS = glm::dvec3(glm::vec3(random.direction()));
+                light.directionWS = turn == 0 ? glm::dvec3(0.0, 0.0, -1.0) : random.direction();
+                light.outerConeRadians = std::min(float(outer), std::numbers::pi_v<float>);
+                light.innerConeRadians = float(share) * light.outerConeRadians;
+                for (int i = 0; i < 32; ++i) probes.push_back({pointAboutTheCone(random, light), lights.size()});
+                lights.push_back(light);
+            }
         }
     }
-    everyLightAtEveryPoint(bench, lights, 14, figures);
+    measure(bench, lights, probes, figures);
 }
 
 void measureRandomLights(StressBench& bench, StressFigures& figures) {
@@ -192,7 +237,7 @@ void addLightCases(std::vector<StressCase>& cases) {
     add("light/distance", "a light at d = 0, and from 1e-6 m to 1e6 m away, with each falloff", measureDistances);
     add("light/intensity", "intensities from 1e-20 to 1e20 of every kind of light", measureIntensities);
     add("light/range", "ranges of 0, 1e-6 m to 1e6 m and without end", measureRanges);
-    add("light/cone", "cones of 0 to 180 degrees, from soft to sharp", measureCones);
+    add("light/cone", "cones of 0 to 180 degrees, from soft to sharp, from within and from just outside", measureCones);
     add("light/random", "random lights of every kind", measureRandomLights);
 }
 

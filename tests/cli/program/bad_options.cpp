@@ -87,8 +87,8 @@ TEST_F(BadOptions, numbersThatAreNoneAreAlwaysRefused) {
 }
 
 TEST_F(BadOptions, lightsThatASceneCannotHaveAreAlwaysRefused) {
-    expectRefused({"--lights", "-1"}, {"-1 lights", "0 to 65536"});
-    expectRefused({"--lights", "65537"}, {"65537 lights", "0 to 65536"});
+    expectRefused({"--lights", "-1"}, {"-1 lights", "0 to 262144"});
+    expectRefused({"--lights", "262145"}, {"262145 lights", "0 to 262144"});
     expectRefused({"--solo", "1"}, {"--solo 1: room has 1 light, counted from 0"});
     expectRefused({"--solo", "-1"}, {"--solo -1: room has 1 light"});
     expectError(kBadInput, {"render", "lattice", "--lights", "0", "--solo", "0", "-o", "a.png"},

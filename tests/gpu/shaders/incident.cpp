@@ -78,6 +78,26 @@ double expectedIntensity(const Light& light, const glm::dvec3& position) {
     return double(light.intensity) * falloff * cone * cone;
 }
 
+/// What expectedIntensity() may be off by: 3e-6, twenty roundings, of the light without its range, which subtracts from
+/// one; and what its cone changes by when the angle at the light is off by four roundings of fp32 (the ray to the light
+/// is rounded twice, the packed axis once, and each in three components), and the distances of the two cosines from 1,
+/// or of a wide cone from -1, by four of their own.
+double allowedError(Light light, const glm::dvec3& position) {
+    light.rangeMetres = scenes::kInfinity;
+    const double windowed = expectedIntensity(light, position);
+    if (light.type != LightType::Spot) return 3e-6 * windowed;
+    const glm::dvec3 ray = glm::normalize(position - light.positionWS);
+    const double outer = double(light.outerConeRadians), side = std::cos(outer) < 0.0 ? -1.0 : 1.0;
+    const double cosine = glm::dot(ray, light.directionWS), sine = glm::length(glm::cross(ray, light.directionWS));
+    const double scale = 1.0 / std::max(0.001, std::cos(double(light.innerConeRadians)) - std::cos(outer));
+    constexpr double kFour = 4.0 * 0x1p-24;
+    const double moved = kFour * (sine + 0.5 * kFour + (1.0 - side * cosine) + (1.0 - side * std::cos(outer))) * scale;
+    const double cone = (cosine - std::cos(outer)) * scale;
+    const double low = std::clamp(cone - moved, 0.0, 1.0), high = std::clamp(cone + moved, 0.0, 1.0);
+    light.type = LightType::Point;
+    return 3e-6 * windowed + (high * high - low * low) * expectedIntensity(light, position);
+}
+
 Light randomLight(test::Random& random) {
     Light light;
     light.type = std::array{LightType::Directional, LightType::Point, LightType::Spot}[std::size_t(random.index(3))];
@@ -104,17 +124,10 @@ TEST_F(IncidentTest, everyKindOfLightAlwaysSendsWhatItsFormulaSays) {
     const std::vector<Arrival> arrivals = run(lights, probes);
     int reached = 0;
     for (std::size_t i = 0; i < probes.size(); ++i) {
-        const double expected = expectedIntensity(lights[i], glm::dvec3(probes[i].position));
-        // The windows subtract from one: near the range and the cone's edge only the unwindowed light bounds the error.
-        // The cone's scale is at most 1000, times the roundings of a cosine: 1000 x 2e-7, squared near one.
-        Light open = lights[i];
-        open.rangeMetres = scenes::kInfinity;
-        if (open.type == LightType::Spot) open.type = LightType::Point;
-        const double unwindowed = expectedIntensity(open, glm::dvec3(probes[i].position));
-        const double scale = 1.0 / std::max(0.001, std::cos(double(lights[i].innerConeRadians)) -
-                                                       std::cos(double(lights[i].outerConeRadians)));
-        const double coneError = lights[i].type == LightType::Spot ? 1e-6 * scale : 0.0;
-        ASSERT_NEAR(double(arrivals[i].intensity.x), expected, (3e-6 + coneError) * unwindowed) << "light " << i;
+        const glm::dvec3 position(probes[i].position);
+        ASSERT_NEAR(double(arrivals[i].intensity.x), expectedIntensity(lights[i], position),
+                    allowedError(lights[i], position))
+            << "light " << i;
         if (!arrivals[i].reaches) continue;
         ++reached;
         const glm::dvec3 direction = lights[i].type == LightType::Directional
@@ -123,6 +136,42 @@ TEST_F(IncidentTest, everyKindOfLightAlwaysSendsWhatItsFormulaSays) {
         ASSERT_LE(glm::length(glm::dvec3(arrivals[i].toLight) - direction), 5e-7) << "light " << i; // a few ulp of one
     }
     EXPECT_GT(reached, 5000);
+}
+
+/// Of random directions, looked into everywhere from their middles to just outside.
+TEST_F(IncidentTest, aConeHoweverNarrowWideOrHardAlwaysKeepsItsDigits) {
+    test::Random random(12);
+    std::vector<Light> lights;
+    std::vector<Probe> probes;
+    constexpr double kDegree = test::pi / 180.0;
+    constexpr std::pair<double, double> kInnerOuter[] = {{0.0, 0.1},   {0.0, 0.5},   {0.9, 1.0},     {0.0, 1.0},
+                                                         {2.0, 5.0},   {9.9, 10.0},  {0.0, 45.0},    {89.0, 89.9},
+                                                         {89.0, 90.1}, {0.0, 135.0}, {178.0, 179.0}, {179.9, 179.9}};
+    for (const auto& [inner, outer] : kInnerOuter) {
+        for (int i = 0; i < 2000; ++i) {
+            Light light;
+            light.type = LightType::Spot;
+            light.positionWS = glm::dvec3(glm::vec3(random.direction())); // exact in fp32
+            light.directionWS = random.direction();
+            light.innerConeRadians = float(inner * kDegree);
+            light.outerConeRadians = float(outer * kDegree);
+            const double angle = std::min(test::pi, 1.1 * std::sqrt(random.unit()) * outer * kDegree);
+            const glm::dvec3 ray = random.around(light.directionWS, std::cos(angle), std::cos(angle));
+            probes.push_back({glm::vec3(light.positionWS + ray * random.between(0.5, 20.0)), int(lights.size())});
+            lights.push_back(light);
+        }
+    }
+    const std::vector<Arrival> arrivals = run(lights, probes);
+    int lit = 0, dark = 0;
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+        const glm::dvec3 position(probes[i].position);
+        ASSERT_NEAR(double(arrivals[i].intensity.x), expectedIntensity(lights[i], position),
+                    allowedError(lights[i], position))
+            << "cone of " << lights[i].innerConeRadians / kDegree << " to " << lights[i].outerConeRadians / kDegree;
+        (arrivals[i].reaches ? lit : dark) += 1;
+    }
+    EXPECT_GT(lit, 12000);
+    EXPECT_GT(dark, 2000);
 }
 
 TEST_F(IncidentTest, atItsRangeAndBeyondALightIsExactlyZero) {

@@ -59,11 +59,30 @@ TEST(PackedLights, theConeIsAlwaysScaledFromOneInsideToZeroOutside) {
     spot.innerConeRadians = 0.3f;
     spot.outerConeRadians = 0.9f;
     const shared::LightShapeTexels packed = pack({spot}).shapes.at(0);
-    const auto cone = [&](double angle) { return std::cos(angle) * packed.axis.w + packed.attenuation.w; };
-    EXPECT_NEAR(cone(0.3), 1.0, 1e-6); // fp32 scale and offset of order one
-    EXPECT_NEAR(cone(0.9), 0.0, 1e-6);
+    const auto cone = [](int kind, const shared::LightShapeTexels& shape, double angle) {
+        const glm::dvec3 toLight(std::sin(angle), 0.0, std::cos(angle)), axis(shape.axis); // the light travels along -z
+        const double apart =
+            (kind & LIGHT_BROAD) != 0 ? glm::dot(toLight, axis) : glm::dot(toLight + axis, toLight + axis);
+        return double(shape.attenuation.w) - double(shape.axis.w) * apart;
+    };
+    EXPECT_NEAR(cone(LIGHT_SPOT, packed, 0.3), 1.0, 1e-6); // fp32 weight and offset of order one
+    EXPECT_NEAR(cone(LIGHT_SPOT, packed, 0.9), 0.0, 1e-6);
     spot.innerConeRadians = spot.outerConeRadians; // a hard edge is held at KHR_lights_punctual's least width
-    EXPECT_EQ(pack({spot}).shapes.at(0).axis.w, 1000.0f);
+    EXPECT_EQ(pack({spot}).shapes.at(0).axis.w, 500.0f);
+    // From a laser's to all but a ray, each to the digits of its difference, not of cosines near one.
+    for (const double outer : {1e-4, 1e-2, 1.0, 1.1, 1.5, 1.6, 2.0, 2.2, 3.0, 3.14159}) {
+        SCOPED_TRACE(outer);
+        spot.outerConeRadians = float(outer);
+        spot.innerConeRadians = 0.0f;
+        const PackedLights lights = pack({spot});
+        const int kind = int(lights.texels.at(0).color.w);
+        const shared::LightShapeTexels& one = lights.shapes.at(0);
+        const double angle = double(spot.outerConeRadians), cosine = std::cos(angle);
+        const double fromPole = std::min(1.0 - cosine, 1.0 + cosine);
+        EXPECT_NEAR(cone(kind, one, angle), 0.0, 3e-7 * fromPole * 2.0 * std::abs(double(one.axis.w)) + 1e-12);
+        EXPECT_NEAR(shared::spotCosOuter(kind, one), cosine, 2e-7);
+        EXPECT_EQ(shared::spotTravel(one), glm::vec3(0, 0, -1));
+    }
 }
 
 TEST(PackedLights, theSetAlwaysHoldsExactlyTheKindsThatWerePacked) {

@@ -38,14 +38,28 @@ TEST(LoadScene, missingAndForeignFilesAreAlwaysNamed) {
     EXPECT_EQ(complaint(directory), directory + ": not a scene file; give a .gltf, .glb, .obj or .json file");
 }
 
-TEST(LoadScene, numberOfLightsIsAlwaysFrom0To65536) {
+TEST(LoadScene, numberOfLightsIsAlwaysFrom0ToTheMost) {
     LoadOptions options;
     options.lights = -1;
-    EXPECT_EQ(complaint("lattice", options), "cannot use -1 lights; give a number from 0 to 65536");
-    options.lights = 65537;
-    EXPECT_EQ(complaint("lattice", options), "cannot use 65537 lights; give a number from 0 to 65536");
+    EXPECT_EQ(complaint("lattice", options), "cannot use -1 lights; give a number from 0 to 262144");
+    options.lights = 262145;
+    EXPECT_EQ(complaint("lattice", options), "cannot use 262145 lights; give a number from 0 to 262144");
     options.lights = 0;
     EXPECT_TRUE(loadScene("lattice", options).lights.empty()) << "who asks for none gets no default light either";
+}
+
+TEST(LoadScene, aFileOfMoreLightsThanCanBeDrawnIsAlwaysRefusedUnlessItsFirstAreAskedFor) {
+    const test::TempFolder folder;
+    std::string text = R"({"tessera": 1, "lights": [{"type": "point", "position": [0, 0, 0], "intensity": 1})";
+    for (int i = 1; i <= kMostLights; ++i) text += R"(,{"type": "point", "position": [0, 0, 0], "intensity": 1})";
+    folder.write("many.json", text + "]}");
+    const std::string file = (folder.path() / "many.json").string();
+    EXPECT_EQ(complaint(file), file +
+                                   ": has 262145 lights, and 262144 at most can be drawn; keep fewer of them, or the "
+                                   "first N with --lights N");
+    LoadOptions options;
+    options.lights = kMostLights;
+    EXPECT_EQ(loadScene(file, options).lights.size(), std::size_t(kMostLights));
 }
 
 TEST(LoadScene, aStopThatWasAskedForIsAlwaysHeardBeforeAFileIsRead) {

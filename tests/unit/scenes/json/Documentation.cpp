@@ -1,6 +1,9 @@
 #include <fstream>
 #include <sstream>
 
+#include <fmt/format.h>
+
+#include "scenes/Load.h"
 #include "scenes/Schema.h"
 #include "tests/unit/scenes/json/SceneFiles.h"
 
@@ -17,6 +20,14 @@ const std::filesystem::path kRepository = TESSERA_SOURCE_DIR;
 
 TEST(SceneFormat, theEmbeddedSchemaIsExactlyTheShippedFile) {
     EXPECT_EQ(sceneSchema(), textOf(kRepository / "scenes" / "schema" / "scene.schema.json"));
+}
+
+TEST(SceneFormat, theSchemaAlwaysTakesAsManyLightsOfABuiltinSceneAsCanBeDrawn) {
+    const auto based = [](int lights) {
+        return fmt::format(R"({{"tessera": 1, "base": {{"file": "builtin:lattice", "lights": {}}}}})", lights);
+    };
+    EXPECT_TRUE(test::schemaAccepts(based(kMostLights)));
+    EXPECT_FALSE(test::schemaAccepts(based(kMostLights + 1)));
 }
 
 TEST(SceneFormat, everyDocumentedExampleAlwaysLoads) {

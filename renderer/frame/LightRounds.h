@@ -1,0 +1,40 @@
+#pragma once
+#include <cstddef>
+
+#include "scenes/Load.h"
+
+/// How shaders get through all lights although Mesa's software rasterisers end loops early.
+namespace tessera::frame {
+
+/// Iterations that one invocation of a shader makes, over all its loops, nested ones included; after them every loop
+/// ends after its first iteration, without an error. Source: LP_MAX_TGSI_LOOP_ITERATIONS in Mesa's
+/// gallivm/lp_bld_limits.h; invocations that run together, at most kMostLanesTogether, share one counter.
+inline constexpr std::size_t kMostLoopIterations = 65535;
+inline constexpr std::size_t kMostLanesTogether = 16;
+/// What loops other than those over lights may make: texture filters, the cells of a tile.
+inline constexpr std::size_t kOtherLoopIterations = 2048;
+
+/// Lights that a round of lib/lighting.glsl's loop visits at most: it spells out that many.
+inline constexpr std::size_t kMostLightsPerRound = 8;
+
+/// The most iterations that lighting a surface takes with so many lights a round. Bitmasks (zbin) take more than lists:
+/// a round of its own for what is left of each word of 32 lights, and steps over words without any, which lanes that
+/// run together may take one after the other.
+constexpr std::size_t loopIterations(std::size_t lights, std::size_t lightsPerRound) {
+    const std::size_t words = (lights + 31) / 32;
+    const std::size_t wordsAStep = lightsPerRound == 1 ? 1 : 2 * lightsPerRound; // lib/light_cursor.glsl
+    return words * (32 / lightsPerRound + 2) + kMostLanesTogether * (words / wordsAStep + 1);
+}
+
+/// LIGHTS_PER_ROUND of a frame: the least power of two with which every light is visited.
+constexpr std::size_t lightsPerRound(std::size_t lights) {
+    std::size_t perRound = 1;
+    while (perRound < kMostLightsPerRound &&
+           loopIterations(lights, perRound) > kMostLoopIterations - kOtherLoopIterations)
+        perRound *= 2;
+    return perRound;
+}
+static_assert(loopIterations(scenes::kMostLights, lightsPerRound(scenes::kMostLights)) <=
+              kMostLoopIterations - kOtherLoopIterations);
+
+} // namespace tessera::frame

@@ -1,0 +1,169 @@
+// More lights than software rasterisers let a loop visit one by one: none is lost, in any technique.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "renderer/frame/LightRounds.h"
+#include "scenes/Error.h"
+#include "scenes/Load.h"
+#include "tests/support/GlContext.h"
+#include "tests/support/ShaderMutant.h"
+#include "tests/support/TestScenes.h"
+#include "validation/ErrorFigures.h"
+#include "validation/ReferencePicture.h"
+#include "validation/Rendering.h"
+
+namespace tessera {
+namespace {
+
+using culling::Builder;
+using culling::Method;
+using recipes::Technique;
+
+constexpr int kSidePixels = 8;
+
+/// A wall that leans away to the left, so that its pixels lie in several bins of depth, lit by `count` lights in as
+/// many runs as there are pixels, each above a pixel of its own. Half of them reach only that pixel, so that bitmasks
+/// have empty words, the others all. The last of a run is as bright as the rest of it, so that losing one light is
+/// seen.
+scenes::Scene wallOf(int count) {
+    scenes::Material material;
+    material.model = scenes::MaterialModel::Lambert;
+    scenes::Scene scene = test::quadScene(material);
+    scenes::Camera& camera = scene.cameras[0];
+    camera.projection = scenes::Projection::Orthographic;
+    camera.halfHeightMetres = 0.5;
+    camera.farMetres = 5.0;
+    scene.nodes[0].parentFromNode = glm::dmat4(1.0);
+    scene.nodes[0].parentFromNode[0].z = 0.5;
+    constexpr int kPixels = kSidePixels * kSidePixels;
+    for (int i = 0; i < count; ++i) {
+        const auto runOf = [&](int light) { return int(std::int64_t(light) * kPixels / count); };
+        const int pixel = runOf(i);
+        const bool last = i + 1 == count || runOf(i + 1) != pixel;
+        const double x = (pixel % kSidePixels + 0.5) / kSidePixels - 0.5,
+                     y = 0.5 - (pixel / kSidePixels + 0.5) / kSidePixels;
+        scenes::Light light = test::pointLight({x, y, 0.5 * x + 0.05}, last ? 1.0f : float(kPixels) / float(count));
+        light.rangeMetres = i % 64 < 32 ? 0.09f : 4.0f;
+        scene.lights.push_back(light);
+    }
+    return scene;
+}
+
+class LightRounds : public test::GlTest {
+protected:
+    static frame::FrameSettings settings() {
+        frame::FrameSettings result;
+        result.sizePixels = {kSidePixels, kSidePixels};
+        result.display = false;
+        return result;
+    }
+    /// Forward against the reference, and every other technique and method against forward, bit by bit.
+    void expectEveryLight(int count);
+    /// The same bits with every number of lights a round.
+    void expectOnePicture(const scenes::Scene& scene);
+};
+
+void LightRounds::expectEveryLight(int count) {
+    SCOPED_TRACE(fmt::format("{} lights, {} a round", count, frame::lightsPerRound(std::size_t(count))));
+    const scenes::Scene scene = wallOf(count);
+    recipes::Renderer renderer(context(), scene);
+    const recipes::RenderedFrame forward = renderer.render(Technique::Forward, settings());
+    const validation::ErrorFigures figures = validation::errorFigures(
+        validation::toPicture(forward), validation::referencePicture(scene, settings()).picture);
+    EXPECT_EQ(figures.compared, std::size_t(kSidePixels * kSidePixels));
+    // A sum of N terms in fp32 is off by N 2^-24 of itself at most. The last light of a run is a fifth of its pixel.
+    EXPECT_LE(figures.maxRel, std::max(1e-4, count * 0x1p-24));
+    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+        frame::FrameSettings asked = settings();
+        if (technique.methods.empty()) {
+            EXPECT_TRUE(renderer.render(technique.technique, asked).radiance == forward.radiance) << technique.name;
+            continue;
+        }
+        for (const Method method : technique.methods) {
+            asked.culling.method = method;
+            EXPECT_TRUE(renderer.render(technique.technique, asked).radiance == forward.radiance)
+                << technique.name << ", " << infoOf(method).name;
+        }
+    }
+}
+
+TEST_F(LightRounds, everyLightAlwaysReachesItsPixelInEveryTechnique) {
+    for (const int count : {32767, 32769, 65535, 65537, 131071, 200000}) expectEveryLight(count);
+}
+
+TEST_F(LightRounds, asManyLightsAsASceneCanHaveAlwaysReachTheirPixelsInEveryTechnique) {
+    expectEveryLight(scenes::kMostLights);
+}
+
+TEST_F(LightRounds, oneLightMoreThanASceneCanHaveIsAlwaysRefused) {
+    scenes::Scene scene = wallOf(64);
+    scene.name = "wall";
+    scene.lights.resize(std::size_t(scenes::kMostLights) + 1, scene.lights[0]);
+    recipes::Renderer renderer(context(), scene);
+    try {
+        renderer.draw(Technique::Forward, settings());
+        ADD_FAILURE() << "it was drawn";
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(),
+                     "wall: has 262145 lights, and 262144 at most can be drawn; keep fewer of them, or the "
+                     "first N with --lights N");
+    }
+}
+
+/// What builds lists in shaders loops over lights too.
+TEST_F(LightRounds, listsBuiltOnTheGpuNeverLackALight) {
+    const scenes::Scene scene = wallOf(scenes::kMostLights);
+    recipes::Renderer renderer(context(), scene);
+    const std::vector<float> forward = renderer.render(Technique::Forward, settings()).radiance;
+    for (const Method method : {Method::TileMinmax, Method::Tile25d, Method::Cluster, Method::Zbin}) {
+        const bool tiled = method == Method::TileMinmax || method == Method::Tile25d;
+        for (const auto& [builder, lanes] :
+             {std::pair(Builder::Compute, 64), std::pair(Builder::Compute, 1), std::pair(Builder::Fragment, 1)}) {
+            SCOPED_TRACE(fmt::format("{}, {} lanes, {}", infoOf(method).name, lanes, infoOf(builder).name));
+            frame::FrameSettings asked = settings();
+            asked.culling.method = method;
+            asked.culling.builder = builder;
+            asked.culling.lanes = lanes;
+            const Technique technique = tiled ? Technique::TiledDeferred : Technique::ClusteredDeferred;
+            EXPECT_TRUE(renderer.render(technique, asked).radiance == forward);
+        }
+    }
+}
+
+void LightRounds::expectOnePicture(const scenes::Scene& scene) {
+    frame::FrameSettings asked = settings();
+    asked.sizePixels = {97, 61};
+    std::vector<float> first;
+    for (std::size_t perRound = 1; perRound <= frame::kMostLightsPerRound; perRound *= 2) {
+        const test::ShaderMutant shaders;
+        for (const char* file : {"lib/lighting.glsl", "lib/light_cursor.glsl"})
+            shaders.replace(file, "LIGHTS_PER_ROUND", std::to_string(perRound));
+        recipes::Renderer renderer(context(), scene, shaders.tree());
+        for (const auto& [technique, method] :
+             {std::pair(Technique::Forward, Method::None), std::pair(Technique::ClusteredForward, Method::Cluster),
+              std::pair(Technique::ClusteredDeferred, Method::Zbin)}) {
+            SCOPED_TRACE(fmt::format("{}, {} lights a round", infoOf(technique).name, perRound));
+            asked.culling = {};
+            if (method != Method::None) asked.culling.method = method;
+            const std::vector<float> picture = renderer.render(technique, asked).radiance;
+            if (first.empty()) first = picture;
+            EXPECT_TRUE(picture == first);
+        }
+    }
+}
+
+TEST_F(LightRounds, thePictureNeverDependsOnHowManyLightsARoundVisits) {
+    scenes::LoadOptions options;
+    options.lights = 257;
+    expectOnePicture(scenes::loadScene("lattice", options));
+}
+
+using LightRoundsSlow = LightRounds;
+
+TEST_F(LightRoundsSlow, aPictureOfEveryFeatureNeverDependsOnHowManyLightsARoundVisits) {
+    expectOnePicture(test::everythingScene());
+}
+
+} // namespace
+} // namespace tessera
