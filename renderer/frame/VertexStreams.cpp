@@ -1,6 +1,7 @@
 #include "renderer/frame/VertexStreams.h"
 
 #include "renderer/frame/Tangents.h"
+#include "scenes/InUse.h"
 
 namespace tessera::frame {
 
@@ -31,11 +32,12 @@ int tangentSet(const scenes::Material& material) {
     return metallicRoughness && material.clearcoat > 0.0f && coat.image != scenes::kNone ? coat.texCoordSet : -1;
 }
 
-/// The same of each mesh. A mesh drawn with materials that differ follows the first.
+/// The same of each mesh that is drawn. A mesh drawn with materials that differ follows the first.
 std::vector<int> tangentSets(const scenes::Scene& scene) {
     std::vector<int> sets(scene.meshes.size(), -1);
     for (const scenes::Node& node : scene.nodes) {
         for (const scenes::MeshInstance& instance : node.instances) {
+            if (!scenes::isDrawn(scene, instance)) continue;
             const scenes::Material& material = scene.materials[std::size_t(instance.material)];
             int& set = sets[std::size_t(instance.mesh)];
             if (set < 0) set = tangentSet(material);
@@ -49,7 +51,12 @@ std::vector<int> tangentSets(const scenes::Scene& scene) {
 VertexStreams makeVertexStreams(const scenes::Scene& scene, const FeatureSet& features) {
     VertexStreams streams;
     const std::vector<int> sets = tangentSets(scene);
+    const std::vector<bool> used = scenes::inUse(scene).meshes;
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        if (!used[i]) {
+            streams.ranges.emplace_back();
+            continue;
+        }
         const scenes::Mesh& mesh = scene.meshes[i];
         const std::size_t count = mesh.positionsOS.size();
         streams.ranges.push_back({std::uint32_t(streams.indices.size()), std::uint32_t(mesh.indices.size()),

@@ -9,15 +9,16 @@
 
 namespace tessera::frame {
 
-/// All meshes of a scene end to end, one array a vertex attribute. Streams that no feature needs are empty; where a
-/// mesh lacks an attribute that others have, it gets the neutral value (white, zero coordinates, computed tangents).
+/// All meshes of a scene that are drawn, end to end, one array a vertex attribute. Streams that no feature needs are
+/// empty; where a mesh lacks an attribute that others have, it gets the neutral value (white, zero coordinates,
+/// computed tangents).
 struct VertexStreams {
     struct Range {
         std::uint32_t firstIndex = 0;
         std::uint32_t indexCount = 0;
         std::int32_t baseVertex = 0;
     };
-    std::vector<Range> ranges; ///< by mesh
+    std::vector<Range> ranges; ///< by mesh; empty for one that is not drawn
     std::vector<std::uint32_t> indices;
     std::vector<glm::vec3> positionsOS;
     std::vector<glm::vec3> normalsOS;

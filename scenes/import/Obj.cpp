@@ -122,9 +122,9 @@ private:
     bool lacksTexCoords_ = false;
 };
 
-class Importer {
+class ObjImporter {
 public:
-    explicit Importer(const std::filesystem::path& file)
+    explicit ObjImporter(const std::filesystem::path& file)
         : file_(file), checked_(checkText(readText(file), file)), parsed_(parse(checked_, file)),
           normals_(parsed_.attributes, parsed_.shapes), materials_(scene_) {}
 
@@ -198,7 +198,7 @@ private:
 } // namespace
 
 Scene importObj(const std::filesystem::path& file) {
-    return Importer(file).import();
+    return ObjImporter(file).import();
 }
 
 } // namespace tessera::scenes

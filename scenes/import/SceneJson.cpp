@@ -29,7 +29,7 @@ struct BaseSize {
     std::size_t materials, images;
 };
 
-class Importer {
+class SceneJsonImporter {
 public:
     Scene import(const std::filesystem::path& file) {
         chain_.push_back(file);
@@ -235,7 +235,7 @@ private:
 } // namespace
 
 Scene importSceneJson(const std::filesystem::path& file) {
-    return Importer().import(file);
+    return SceneJsonImporter().import(file);
 }
 
 } // namespace tessera::scenes
