@@ -15,7 +15,7 @@ inline constexpr int kMostLights = 65536; ///< that a scene can be asked to have
 
 struct LoadOptions {
     std::optional<int> lights; ///< built-in scenes generate this many (0..65,536); files keep their first N
-    bool defaultLight = true;  ///< give a scene without lights, emission or unlit material one directional light
+    bool defaultLight = true;  ///< give a scene without lights one directional light, unless all is unlit
     bool useAssets = true;     ///< let a built-in scene use the models under the folder TESSERA_ASSETS names
     /// Asked before a scene is made or its file imported, and between the checks after; while a file is read it is not.
     /// Where a stop is requested, LoadStopped is thrown.
