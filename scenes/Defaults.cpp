@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "scenes/Error.h"
+#include "scenes/InUse.h"
 #include "scenes/LookAt.h"
 
 namespace tessera::scenes {
@@ -26,15 +27,13 @@ const Camera& viewedCamera(const Scene& scene) {
     return named == scene.cameras.end() ? scene.cameras.front() : *named;
 }
 
-/// Whether a material in use shines by itself or shows its colour unlit.
-bool showsWithoutLight(const Scene& scene) {
-    for (const Node& node : scene.nodes) {
-        for (const MeshInstance& instance : node.instances) {
-            const Material& material = scene.materials[static_cast<std::size_t>(instance.material)];
-            if (material.model == MaterialModel::SingleColor || material.emissive != glm::vec3(0.0f)) return true;
-        }
-    }
-    return false;
+/// Whether light changes nothing that is drawn. Emission does not count: most models that glow do so in few places,
+/// and are black elsewhere without light.
+bool isAllUnlit(const Scene& scene) {
+    const std::vector<const Material*> materials = materialsInUse(scene);
+    return !materials.empty() && std::all_of(materials.begin(), materials.end(), [](const Material* material) {
+        return material->model == MaterialModel::SingleColor;
+    });
 }
 
 } // namespace
@@ -61,16 +60,14 @@ void addDefaultCamera(Scene& scene) {
 }
 
 void addDefaultLight(Scene& scene) {
-    if (!scene.lights.empty() || showsWithoutLight(scene)) return;
+    if (!scene.lights.empty() || isAllUnlit(scene)) return;
     Light light;
     light.name = kDefaultName;
     light.type = LightType::Directional;
     light.intensity = kDefaultLightLux;
     light.directionWS = glm::normalize(-glm::dvec3(viewedCamera(scene).worldFromCamera[2]));
     scene.lights.push_back(light);
-    scene.warnings.push_back(
-        "the scene has no light, emission or unlit material: lit by the directional light 'default' "
-        "of 3 lux along the view");
+    scene.warnings.push_back("the scene has no light: lit by the directional light 'default' of 3 lux along the view");
 }
 
 } // namespace tessera::scenes

@@ -12,8 +12,8 @@ inline constexpr const char* kDefaultName = "default";
 /// radius 1 m about the origin. Throws InputError when the bounds are too large to be numbers.
 void addDefaultCamera(Scene& scene);
 
-/// A scene that nothing would light (no light, no emission, no unlit material in use) gets one white directional light
-/// of 3 lux along the forward axis of its camera (the one its options name, else the first); a warning says so.
+/// A scene without lights gets one white directional light of 3 lux along the forward axis of its camera (the one its
+/// options name, else the first), unless every material in use is unlit; a warning says so.
 void addDefaultLight(Scene& scene);
 
 } // namespace tessera::scenes

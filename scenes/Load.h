@@ -22,7 +22,7 @@ void requireDrawableLights(const std::string& source, std::size_t lights);
 
 struct LoadOptions {
     std::optional<int> lights; ///< built-in scenes generate this many (0 to kMostLights); files keep their first N
-    bool defaultLight = true;  ///< give a scene without lights, emission or unlit material one directional light
+    bool defaultLight = true;  ///< give a scene without lights one directional light, unless all is unlit
     /// The memory that reading files may take (LoadLedger.h); none: half of the machine's.
     std::optional<std::uint64_t> memoryLimitBytes;
     /// Where it is given, the names of the files that are read are added to it.

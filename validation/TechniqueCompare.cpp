@@ -1,5 +1,6 @@
 #include "validation/TechniqueCompare.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -91,7 +92,10 @@ Tolerance toleranceOf(const recipes::Renderer& renderer, const gpu::Capabilities
                       Technique technique, const frame::GBufferLayout& layout) {
     const bool quantises = infoOf(technique).usesGBuffer && isPacked(layout);
     if (isReference(request) && !quantises) return referenceTolerance(renderer.scene(), request.settings.filter);
-    return pairTolerance(technique, layout, gl.isSoftware, renderer.scene().lights.size());
+    const std::vector<scenes::Light>& lights = renderer.scene().lights;
+    const auto on =
+        std::count_if(lights.begin(), lights.end(), [](const scenes::Light& light) { return light.enabled; });
+    return pairTolerance(technique, layout, gl.isSoftware, std::size_t(on));
 }
 
 bool showsSigned(const CompareRequest& request) {
@@ -178,11 +182,14 @@ Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout,
                         std::size_t lightCount) {
     Tolerance tolerance;
     if (infoOf(technique).usesGBuffer && isPacked(layout)) {
-        tolerance.relMse = frame::promisedRelMse(layout);
+        const frame::LayoutPromise& promise = frame::promiseOf(layout);
+        tolerance.relMse = promise.relMse;
+        tolerance.p999Rel = promise.p999Rel;
+        tolerance.bias = promise.bias;
         tolerance.reason =
             fmt::format("the layout's promise: its channels' steps change a pixel by {:.1f} % in the mean "
-                        "square",
-                        100.0 * std::sqrt(*tolerance.relMse));
+                        "square, hardly any by more than one step of k_s, and dithered steps none in the mean",
+                        100.0 * std::sqrt(promise.relMse));
     } else if (isSoftware) {
         tolerance.bitEqual = 1.0;
         tolerance.maxRel = 0.0;

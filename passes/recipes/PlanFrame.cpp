@@ -8,6 +8,7 @@
 #include "passes/recipes/PreparedFrame.h"
 #include "passes/recipes/Renderer.h"
 #include "renderer/frame/RefineLayout.h"
+#include "scenes/InUse.h"
 
 namespace tessera::recipes {
 
@@ -64,7 +65,10 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const PreparedFra
 
 void addCounters(graph::Plan& plan, const scenes::Scene& scene, Technique technique, const PreparedFrame& prepared) {
     std::size_t draws = 0;
-    for (const scenes::Node& node : scene.nodes) draws += node.instances.size();
+    for (const scenes::Node& node : scene.nodes)
+        draws += std::size_t(
+            std::count_if(node.instances.begin(), node.instances.end(),
+                          [&](const scenes::MeshInstance& instance) { return scenes::isDrawn(scene, instance); }));
     const frame::FrameSpec& spec = prepared.spec;
     const int gbufferBytes =
         infoOf(technique).usesGBuffer ? frame::bytesPerPixel(spec.settings.layout, spec.channels) : 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scenes/InUse.h"
+
 namespace tessera::frame {
 
 namespace {
@@ -43,7 +45,7 @@ DrawList makeDrawList(const scenes::Scene& scene) {
         const bool mirrored = glm::determinant(glm::dmat3(worldFromObject)) < 0.0;
         for (const scenes::MeshInstance& instance : scene.nodes[node].instances) {
             const int own = number++;
-            if (scene.meshes[std::size_t(instance.mesh)].indices.empty()) continue;
+            if (!scenes::isDrawn(scene, instance)) continue;
             const glm::dvec3 centerWS(worldFromObject * glm::dvec4(centersOS[std::size_t(instance.mesh)], 1.0));
             list.draws.push_back({instance.mesh, instance.material, int(node), own, mirrored,
                                   largestColors[std::size_t(instance.mesh)], centerWS});

@@ -1,5 +1,6 @@
 #include "renderer/frame/Features.h"
 
+#include "scenes/InUse.h"
 #include "shaders/shared/material.h"
 
 namespace tessera::frame {
@@ -151,18 +152,16 @@ FeatureSet materialFeatures(const scenes::Scene& scene) {
     FeatureSet set;
     std::optional<scenes::MaterialModel> model;
     bool several = false;
-    for (const scenes::Node& node : scene.nodes) {
-        for (const scenes::MeshInstance& instance : node.instances) {
-            const scenes::Material& material = scene.materials[static_cast<std::size_t>(instance.material)];
-            addMaterial(set, material);
-            set.add(Feature::VertexColor, !scene.meshes[static_cast<std::size_t>(instance.mesh)].colors.empty());
-            several = several || (model && *model != material.model);
-            model = material.model;
-        }
+    const std::vector<const scenes::Material*> materials = scenes::materialsInUse(scene);
+    for (const scenes::Material* material : materials) {
+        addMaterial(set, *material);
+        several = several || (model && *model != material->model);
+        model = material->model;
     }
+    for (const scenes::Mesh* mesh : scenes::meshesInUse(scene)) set.add(Feature::VertexColor, !mesh->colors.empty());
     if (!several) set.soleModel = model;
     // More than fit their table are stored in the pixels as those that vary.
-    set.add(Feature::VaryingMaterials, set[Feature::VertexColor] || scene.materials.size() > MATERIAL_TABLE_MOST);
+    set.add(Feature::VaryingMaterials, set[Feature::VertexColor] || materials.size() > MATERIAL_TABLE_MOST);
     return set;
 }
 

@@ -6,6 +6,7 @@
 
 #include "renderer/frame/LightRounds.h"
 #include "renderer/frame/RefineLayout.h"
+#include "scenes/InUse.h"
 
 namespace tessera::frame {
 
@@ -13,7 +14,7 @@ namespace {
 
 std::size_t vertexCount(const scenes::Scene& scene) {
     std::size_t count = 0;
-    for (const scenes::Mesh& mesh : scene.meshes) count += mesh.positionsOS.size();
+    for (const scenes::Mesh* mesh : scenes::meshesInUse(scene)) count += mesh->positionsOS.size();
     return count;
 }
 

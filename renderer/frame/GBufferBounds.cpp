@@ -17,41 +17,41 @@ int largestCode(int width) {
     return (1 << width) - 1;
 }
 double share(int width) {
-    return 0.5 / largestCode(width);
+    return 1.0 / largestCode(width);
 }
 /// Steps are the largest multiple of 5 that fits.
 double root(int width) {
-    return 0.5 / (largestCode(width) / 5 * 5);
+    return 1.0 / (largestCode(width) / 5 * 5);
 }
 double fourthRootOfAlpha(int width) {
     return share(width) * (1.0 - std::pow(ALPHA_MIN, 0.25));
 }
-/// Half a step d = 1/(2^width - 2) of both coordinates moves a point of the octahedron |x| + |y| + |z| = 1 by at most
+/// A step d = 2/(2^width - 2) of both coordinates moves a point of the octahedron |x| + |y| + |z| = 1 by at most
 /// sqrt(6) d, and a face's centre is 1/sqrt(3) from the middle.
 double octahedralDegrees(int width) {
-    return std::sqrt(18.0) / (largestCode(width) - 1) * kDegrees;
+    return std::sqrt(18.0) * 2.0 / (largestCode(width) - 1) * kDegrees;
 }
-/// A tangent leans as far as its normal, and turns about it by its own step and with the frame that the decoder builds
-/// from a normal that is off: by up to tan 35.3 degrees = sqrt(1/2) of the normal's error, 35.3 degrees being the
-/// normal's largest elevation over the plane at right angles to the axis farthest from it. A step of the diamond is
-/// farthest round at the middle of a side, where it counts twice.
+/// A tangent leans as far as its normal, and turns about it by half its own step and with the frame that the decoder
+/// builds from a normal that is off: by up to tan 35.3 degrees = sqrt(1/2) of the normal's error, 35.3 degrees being
+/// the normal's largest elevation over the plane at right angles to the axis farthest from it. Half a step of the
+/// diamond is farthest round at the middle of a side, where it counts twice.
 double tangentDegrees(const FieldWidths& tangent, const FieldWidths& normal) {
     const double lean = octahedralDegrees(normal[0]);
     const double turn = 2.0 / (largestCode(tangent[1]) - 1) * kDegrees + std::sqrt(0.5) * lean;
     return std::hypot(lean, turn);
 }
 double contrastOfIor(int width) {
-    return 1.0 / (largestCode(width) / 10 * 10);
+    return 2.0 / (largestCode(width) / 10 * 10);
 }
-/// 8 bits are of the exponent; the rounded mantissa has the rest and a leading 1.
+/// 8 bits are of the exponent; the mantissa has the rest and a leading 1.
 double relativeOfFloat(int width) {
-    return std::ldexp(1.0, -(width - 8) - 1);
+    return std::ldexp(1.0, -(width - 8));
 }
-/// Of the largest colour. Half a step is 2^(exponent - width - 1), and the largest colour at least 2^(exponent - 1); or
-/// it is rounded up there from half a step below, in the steps of the exponent before.
+/// Of the largest colour. A step is 2^(exponent - width), and the largest colour at least 2^(exponent - 1); or it is
+/// rounded up there from less than a step below, in the steps of the exponent before.
 double relativeOfSharedExponent(const FieldWidths& widths, std::size_t color) {
     const int coarsest = std::min({widths[1], widths[2], widths[3]});
-    return std::ldexp(1.0, -widths[color]) / (1.0 - std::ldexp(1.0, -coarsest - 1));
+    return std::ldexp(2.0, -widths[color]) / (1.0 - std::ldexp(1.0, -coarsest));
 }
 const FieldWidths& widthsIn(Encoding encoding, Channel channel) {
     const ChannelInfo& info = channelTable()[static_cast<std::size_t>(channel)];
@@ -88,7 +88,7 @@ std::vector<FieldBound> fieldBounds(Encoding encoding) {
     bounds.push_back({Channel::Tangent, "direction", "degrees", tangentDegrees(tangent, widths(Channel::Normal))});
     bounds.push_back({Channel::Tangent, "fourth root of alpha", "", fourthRootOfAlpha(tangent[2])});
     const FieldWidths& coat = widths(Channel::Clearcoat);
-    bounds.push_back({Channel::Clearcoat, "direction", "degrees", octahedralDegrees(coat[0])});
+    bounds.push_back({Channel::Clearcoat, "direction", "degrees", 0.5 * octahedralDegrees(coat[0])});
     bounds.push_back({Channel::Clearcoat, "share", "", share(coat[2])});
     bounds.push_back({Channel::Clearcoat, "fourth root of alpha", "", fourthRootOfAlpha(coat[3])});
     roots(Channel::Sheen);

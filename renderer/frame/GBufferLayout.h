@@ -58,17 +58,25 @@ struct GBufferLayout {
     bool operator==(const GBufferLayout&) const = default;
 };
 
+/// What pictures of a layout are held to against `exact`; derived in docs/numerics.md.
+struct LayoutPromise {
+    double relMse;  ///< at most
+    double p999Rel; ///< 99.9 % of the pixels differ by no more, relatively
+    double bias;    ///< at most, of its magnitude
+    bool operator==(const LayoutPromise&) const = default;
+};
+
 struct LayoutInfo {
     std::string_view name;
     std::string_view summary;
     GBufferLayout layout;
-    double relMse; ///< of its pictures against `exact`, at most
+    LayoutPromise promise;
 };
 /// The named layouts, `exact` first.
 std::span<const LayoutInfo> layoutTable();
 
 /// What the pictures of a layout, named or mixed, are held to: the promise of its coarsest channel.
-double promisedRelMse(const GBufferLayout& layout);
+const LayoutPromise& promiseOf(const GBufferLayout& layout);
 
 /// The channels that surfaces of these features need, in table order. `normalTexel` is for the view that shows it, and
 /// shows nothing of tangents, coats and sheens. In fp32 the fourth components of albedo and normal are free:

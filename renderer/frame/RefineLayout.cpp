@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "renderer/frame/Features.h"
+#include "scenes/InUse.h"
 
 namespace tessera::frame {
 
@@ -22,10 +23,17 @@ bool exceedsOne(const scenes::Scene& scene, const glm::vec3& factor, const scene
     return isFloat || std::max({factor.r, factor.g, factor.b}) > 1.0f;
 }
 
-bool exceedsOne(const scenes::Mesh& mesh) {
+bool hasBrightColors(const scenes::Mesh& mesh) {
     return std::any_of(mesh.colors.begin(), mesh.colors.end(), [](const glm::vec4& color) {
         return std::max({color.r, color.g, color.b}) > 1.0f;
     });
+}
+
+/// Whether a material that is drawn is so.
+template <typename Predicate>
+bool anyMaterial(const scenes::Scene& scene, Predicate&& isSo) {
+    const std::vector<const Material*> used = scenes::materialsInUse(scene);
+    return std::any_of(used.begin(), used.end(), [&](const Material* material) { return isSo(*material); });
 }
 
 bool hasBrightAlbedo(const scenes::Scene& scene) {
@@ -34,13 +42,13 @@ bool hasBrightAlbedo(const scenes::Scene& scene) {
         return material.model != MaterialModel::SingleColor &&
                exceedsOne(scene, glm::vec3(material.baseColor), material.texture(TextureSlot::BaseColor));
     };
-    return std::any_of(scene.materials.begin(), scene.materials.end(), isBright) ||
-           std::any_of(scene.meshes.begin(), scene.meshes.end(),
-                       [](const scenes::Mesh& mesh) { return exceedsOne(mesh); });
+    const std::vector<const scenes::Mesh*> meshes = scenes::meshesInUse(scene);
+    return anyMaterial(scene, isBright) ||
+           std::any_of(meshes.begin(), meshes.end(), [](const scenes::Mesh* mesh) { return hasBrightColors(*mesh); });
 }
 
 bool hasBrightSpecular(const scenes::Scene& scene) {
-    return std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& material) {
+    return anyMaterial(scene, [&](const Material& material) {
         // The F0 of metallic_roughness is held to 1 before it is stored.
         return material.model != MaterialModel::SingleColor && material.model != MaterialModel::MetallicRoughness &&
                exceedsOne(scene, material.specularColor, material.texture(TextureSlot::SpecularColor));
@@ -48,7 +56,7 @@ bool hasBrightSpecular(const scenes::Scene& scene) {
 }
 
 bool masksByHalfVector(const scenes::Scene& scene) {
-    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
+    return anyMaterial(scene, [](const Material& material) {
         return isMicrofacet(material) && material.masking == scenes::Masking::HalfVector;
     });
 }

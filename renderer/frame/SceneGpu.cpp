@@ -7,6 +7,7 @@
 
 #include "renderer/frame/PackedMaterial.h"
 #include "renderer/gpu/Commands.h"
+#include "scenes/InUse.h"
 #include "shaders/shared/slots.h"
 
 namespace tessera::frame {
@@ -71,7 +72,7 @@ gpu::VertexAttribute attribute(std::uint32_t location, int components, const gpu
 
 SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter)
     : scene_(scene), filter_(filter), hasMaterialTable_(!features[Feature::VaryingMaterials]),
-      drawList_(makeDrawList(scene)), alphaModes_(alphaModes(scene)) {
+      drawList_(makeDrawList(scene)), alphaModes_(alphaModes(scene)), materialsInUse_(scenes::inUse(scene).materials) {
     uploadGeometry(features);
     uploadMaterials();
     uploadTextures();
@@ -123,17 +124,19 @@ void SceneGpu::uploadMaterials() {
     constexpr std::size_t kTabledBytes = MATERIAL_TEXELS * sizeof(glm::vec4);
     static_assert(kTabledBytes == offsetof(shared::MaterialConstants, uvRow0));
     std::vector<std::byte> bytes(materialStride_ * scene_.materials.size());
-    std::vector<std::byte> tabled(kTabledBytes * scene_.materials.size());
+    std::vector<std::byte> tabled;
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
         shared::MaterialConstants constants = packMaterial(scene_.materials[i]);
         for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
             if (shadersDecode(scene_.materials[i], slot)) constants.uvRow1[slot].w += float(TEXTURE_MODE_SRGB);
         }
-        constants.kind.w = glm::uint(i);
+        constants.kind.w = glm::uint(tabled.size() / kTabledBytes);
         std::memcpy(bytes.data() + i * materialStride_, &constants, sizeof constants);
-        std::memcpy(tabled.data() + i * kTabledBytes, &constants, kTabledBytes);
+        if (!materialsInUse_[i]) continue;
+        const auto* const first = reinterpret_cast<const std::byte*>(&constants);
+        tabled.insert(tabled.end(), first, first + kTabledBytes);
     }
-    if (hasMaterialTable_) {
+    if (hasMaterialTable_ && !tabled.empty()) {
         materialTable_.reset();
         tabledMaterials_ = std::make_unique<gpu::Buffer>(gpu::Buffer::of("material table", tabled));
         materialTable_ =
@@ -160,10 +163,11 @@ bool SceneGpu::shadersDecode(const scenes::Material& material, std::size_t slot)
 void SceneGpu::uploadTextures() {
     white_ = std::make_unique<gpu::Texture>("white", graph::TextureDesc{graph::Format::Rgba8Unorm, 1, 1, 1});
     white_->upload(0, std::vector<std::uint8_t>(4, 255));
-    for (const scenes::Material& material : scene_.materials) {
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+        const scenes::Material& material = scene_.materials[i];
         for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
             const scenes::TextureUse& use = material.textures[slot];
-            if (use.image == scenes::kNone) {
+            if (!materialsInUse_[i] || use.image == scenes::kNone) {
                 bound_.push_back({white_.get(), nullptr});
             } else {
                 const bool srgb = slotIsSrgb(scenes::TextureSlot(slot)) && !shadersDecode(material, slot);

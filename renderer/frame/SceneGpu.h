@@ -15,8 +15,8 @@
 
 namespace tessera::frame {
 
-/// A scene's geometry, materials and textures on the GPU. What `features` does not hold is not uploaded,
-/// and a table of materials only where they do not vary. With
+/// A scene's geometry, materials and textures on the GPU. What `features` does not hold is not uploaded, nor meshes and
+/// textures that nothing drawn uses, and a table of materials only where they do not vary. With
 /// TextureFilter::Exact 8-bit colours are uploaded as the code values they are, since drivers decode sRGB formats only
 /// approximately, and no levels beyond the first, which the filter does not read. The scene must outlive the object.
 class SceneGpu {
@@ -63,6 +63,7 @@ private:
     bool hasMaterialTable_;
     DrawList drawList_;
     std::vector<scenes::AlphaMode> alphaModes_; ///< by material, that drawList_ was made with
+    std::vector<bool> materialsInUse_;          ///< by material: those in the table, in its order
     VertexStreams::Ranges ranges_;
     std::vector<Batch> transparent_;
     std::vector<std::unique_ptr<gpu::Buffer>> vertexBuffers_;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "renderer/frame/Tangents.h"
+#include "scenes/InUse.h"
 
 namespace tessera::frame {
 
@@ -48,11 +49,12 @@ struct Version {
     std::set<int> materials;
 };
 
-/// Those of each mesh, in document order. Materials that need no tangents are content with any.
+/// Those of each mesh that is drawn, in document order. Materials that need no tangents are content with any.
 std::vector<std::vector<Version>> versionsOf(const scenes::Scene& scene) {
     std::vector<std::vector<Version>> meshes(scene.meshes.size());
     for (const scenes::Node& node : scene.nodes) {
         for (const scenes::MeshInstance& instance : node.instances) {
+            if (!scenes::isDrawn(scene, instance)) continue;
             const std::optional<TangentBasis> basis = tangentBasis(scene.materials[std::size_t(instance.material)]);
             std::vector<Version>& versions = meshes[std::size_t(instance.mesh)];
             auto fitting = std::find_if(versions.begin(), versions.end(), [&](const Version& version) {

@@ -11,9 +11,9 @@
 
 namespace tessera::frame {
 
-/// All meshes of a scene end to end, one array a vertex attribute. Streams that no feature needs are empty; where a
-/// mesh lacks an attribute that others have, it gets the neutral value (white, zero coordinates, computed tangents).
-/// A mesh whose materials want different tangents is there once for each.
+/// All meshes of a scene that are drawn, end to end, one array a vertex attribute. Streams that no feature needs are
+/// empty; where a mesh lacks an attribute that others have, it gets the neutral value (white, zero coordinates,
+/// computed tangents). A mesh whose materials want different tangents is there once for each.
 struct VertexStreams {
     struct Range {
         std::uint32_t firstIndex = 0;
@@ -21,7 +21,7 @@ struct VertexStreams {
         std::int32_t baseVertex = 0;
     };
     using Ranges = std::map<std::pair<int, int>, Range>;
-    Ranges ranges; ///< by mesh and material, of all mesh instances
+    Ranges ranges; ///< by mesh and material, of all mesh instances that are drawn
     std::vector<std::uint32_t> indices;
     std::vector<glm::vec3> positionsOS;
     std::vector<glm::vec3> normalsOS;

@@ -13,9 +13,20 @@ uint rootSteps(int width)
     return largestCode(width) / 5u * 5u;
 }
 
-void putRoots(vec3 color, ivec4 widths)
+// The mean over pixels is that of the value, not of its root.
+uint encodeRoot(float value, uint steps, int field)
 {
-    for (int i = 0; i < 3; ++i) putField(encodeShare(sqrt(clamp(color[i], 0.0, 1.0)), rootSteps(widths[i])), widths[i]);
+    precise float held = clamp(value, 0.0, 1.0);
+    precise float position = sqrt(held) * float(steps);
+    uint below = min(uint(position), steps - 1u);
+    precise float square = float(below * below);
+    precise float share = (held * float(steps * steps) - square) / float(2u * below + 1u);
+    return below + ditheredUp(share, field, steps);
+}
+
+void putRoots(vec3 color, ivec4 widths, int field)
+{
+    for (int i = 0; i < 3; ++i) putField(encodeRoot(color[i], rootSteps(widths[i]), field + i), widths[i]);
 }
 
 vec3 takeRoots(ivec4 widths)
@@ -29,9 +40,11 @@ vec3 takeRoots(ivec4 widths)
     return color;
 }
 
-void putOctahedral(vec2 code, ivec4 widths)
+// The field is that of the first coordinate; DITHER_NOT rounds both to the nearest.
+void putOctahedral(vec2 code, ivec4 widths, int field)
 {
-    for (int i = 0; i < 2; ++i) putField(encodeSigned(code[i], widths[i]), widths[i]);
+    putField(encodeSigned(code.x, widths.x, field), widths.x);
+    putField(encodeSigned(code.y, widths.y, field == DITHER_NOT ? field : field + 1), widths.y);
 }
 
 vec2 takeOctahedral(ivec4 widths)
@@ -45,17 +58,23 @@ vec2 takeOctahedral(ivec4 widths)
 // are wide enough to be seen. Square roots are exact enough to be the same everywhere; a logarithm is not.
 const float kLeastRoot = 0.17782794; // the fourth root of ALPHA_MIN
 
-uint encodeAlpha(float alpha, int width)
-{
-    return encodeShare(1.0 - (1.0 - sqrt(sqrt(alpha))) / (1.0 - kLeastRoot), largestCode(width));
-}
-
 float decodeAlpha(uint code, int width)
 {
     uint steps = largestCode(width);
     precise float root = 1.0 - (1.0 - kLeastRoot) * (float(steps - code) / float(steps));
     precise float alpha = (root * root) * (root * root);
     return max(alpha, ALPHA_MIN);
+}
+
+// The mean over pixels is that of alpha, not of its root.
+uint encodeAlpha(float alpha, int width, int field)
+{
+    uint steps = largestCode(width);
+    precise float position = clamp(1.0 - (1.0 - sqrt(sqrt(alpha))) / (1.0 - kLeastRoot), 0.0, 1.0) * float(steps);
+    uint below = min(uint(position), steps - 1u);
+    precise float first = decodeAlpha(below, width);
+    precise float share = (alpha - first) / (decodeAlpha(below + 1u, width) - first);
+    return below + ditheredUp(share, field, steps);
 }
 
 // Model and masking in 4 bits: the models, then the four of them with another masking than the first.
@@ -85,9 +104,14 @@ uint iorSteps(int width)
     return largestCode(width) / 10u * 10u;
 }
 
-uint encodeIor(float ior, int width)
+// The mean over pixels is that of the reflectance.
+uint encodeIor(float ior, int width, int field)
 {
-    return encodeShare(0.5 + 0.5 * (ior - 1.0) / (ior + 1.0), iorSteps(width));
+    int middle = int(iorSteps(width)) / 2;
+    precise float position = (ior - 1.0) / (ior + 1.0) * float(middle);
+    int below = clamp(int(floor(position)), -middle, middle - 1);
+    precise float share = (position * position - float(below * below)) / float(2 * below + 1);
+    return uint(below + middle) + ditheredUp(share, field, iorSteps(width));
 }
 
 float decodeIor(uint code, int width)
@@ -106,17 +130,17 @@ void putMicrosurface(Surface surface, ivec4 widths)
     int tail = widths.z + widths.w;
 #if HAS_BLINN_PHONG
     if (surface.model == MODEL_BLINN_PHONG) {
-        putField(encodeFloat(surface.exponent, widths.y + tail), widths.y + tail);
+        putField(encodeFloat(surface.exponent, widths.y + tail, DITHER_ALPHA), widths.y + tail);
         return;
     }
 #endif
-    putField(encodeAlpha(surface.alpha, widths.y), widths.y);
+    putField(encodeAlpha(surface.alpha, widths.y, DITHER_ALPHA), widths.y);
     uint code;
     if (isMicrofacet(surface.model)) {
-        code = encodeIor(surface.iorOrF90, tail);
+        code = encodeIor(surface.iorOrF90, tail, DITHER_F90);
     } else {
-        code = encodeShare(surface.iorOrF90, largestCode(widths.z)) |
-               (encodeShare(surface.metallic, largestCode(widths.w)) << widths.z);
+        code = encodeShare(surface.iorOrF90, largestCode(widths.z), DITHER_F90) |
+               (encodeShare(surface.metallic, largestCode(widths.w), DITHER_METALLIC) << widths.z);
     }
     putField(code, tail);
 }
@@ -173,13 +197,15 @@ void putRadiance(vec3 color, ivec4 widths)
     uvec3 code;
     bool over = false;
     for (int i = 0; i < 3; ++i) {
-        code[i] = uint(min(timesPowerOfTwo(c[i], -exponent), 1.0) * float(1 << widths[i + 1]) + 0.5);
+        code[i] = encodeShare(timesPowerOfTwo(c[i], -exponent), 1u << widths[i + 1], DITHER_EMISSION + i);
         over = over || code[i] > largestCode(widths[i + 1]);
     }
-    // A colour that is rounded up to the next power of two takes all three there.
+    // A colour that is rounded up to the next power of two takes all three there; with the thresholds as they are it is
+    // that power, so the mean stays.
     if (over && exponent < top) {
         exponent += 1;
-        for (int i = 0; i < 3; ++i) code[i] = uint(timesPowerOfTwo(c[i], -exponent) * float(1 << widths[i + 1]) + 0.5);
+        for (int i = 0; i < 3; ++i)
+            code[i] = encodeShare(timesPowerOfTwo(c[i], -exponent), 1u << widths[i + 1], DITHER_EMISSION + i);
     }
     putField(uint(exponent - bottom), widths.x);
     for (int i = 0; i < 3; ++i) putField(min(code[i], largestCode(widths[i + 1])), widths[i + 1]);
@@ -195,7 +221,7 @@ vec3 takeRadiance(ivec4 widths)
 
 void putTexel(vec3 texel, ivec4 widths)
 {
-    for (int i = 0; i < 3; ++i) putField(encodeShare(texel[i], largestCode(widths[i])), widths[i]);
+    for (int i = 0; i < 3; ++i) putField(encodeShare(texel[i], largestCode(widths[i]), DITHER_TEXEL + i), widths[i]);
 }
 
 vec3 takeTexel(ivec4 widths)

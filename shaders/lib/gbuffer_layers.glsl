@@ -23,8 +23,8 @@ void putTangent(Surface surface, ivec4 widths)
     vec2 direction = vec2(dot(surface.tangentLS, first), dot(surface.tangentLS, second));
     if (direction.y < 0.0) direction = -direction;
     putField(axis, widths.x);
-    putField(encodeSigned(direction.x / (abs(direction.x) + direction.y), widths.y), widths.y);
-    putField(encodeAlpha(surface.alphaBitangent, widths.z), widths.z);
+    putField(encodeSigned(direction.x / (abs(direction.x) + direction.y), widths.y, DITHER_NOT), widths.y);
+    putField(encodeAlpha(surface.alphaBitangent, widths.z, DITHER_ALPHA), widths.z);
 }
 
 void takeTangent(ivec4 widths, inout Surface surface)
@@ -40,9 +40,9 @@ void takeTangent(ivec4 widths, inout Surface surface)
 #if HAS_CLEARCOAT
 void putClearcoat(Surface surface, ivec4 widths)
 {
-    putOctahedral(surface.coatNormalCode, widths);
-    putField(encodeShare(surface.coatFactor, largestCode(widths.z)), widths.z);
-    putField(encodeAlpha(surface.coatAlpha, widths.w), widths.w);
+    putOctahedral(surface.coatNormalCode, widths, DITHER_NOT);
+    putField(encodeShare(surface.coatFactor, largestCode(widths.z), DITHER_COAT), widths.z);
+    putField(encodeAlpha(surface.coatAlpha, widths.w, DITHER_COAT_ALPHA), widths.w);
 }
 
 void takeClearcoat(ivec4 widths, inout Surface surface)
@@ -56,8 +56,8 @@ void takeClearcoat(ivec4 widths, inout Surface surface)
 #if HAS_SHEEN
 void putSheen(Surface surface, ivec4 widths)
 {
-    putRoots(surface.sheenColor, widths);
-    putField(encodeAlpha(surface.sheenAlpha, widths.w), widths.w);
+    putRoots(surface.sheenColor, widths, DITHER_SHEEN);
+    putField(encodeAlpha(surface.sheenAlpha, widths.w, DITHER_SHEEN_ALPHA), widths.w);
 }
 
 void takeSheen(ivec4 widths, inout Surface surface)

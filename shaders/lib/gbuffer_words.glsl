@@ -2,6 +2,7 @@
 // not a normalised format, because OpenGL lets a driver round those either way (4.5 core, section 2.3.5.2) and llvmpipe is up to
 // a whole step off.
 #pragma once
+#include "lib/gbuffer_dither.glsl"
 
 uint gbufferWords[GBUFFER_WORDS];
 int gbufferBit; // where the next field begins
@@ -28,10 +29,12 @@ uint largestCode(int width)
     return (1u << width) - 1u;
 }
 
-// 0..1 in equal steps, both ends exactly.
-uint encodeShare(float x, uint steps)
+// 0..1 in equal steps, both ends exactly. Encoders take the number of their field, DITHER_*.
+uint encodeShare(float x, uint steps, int field)
 {
-    return uint(clamp(x, 0.0, 1.0) * float(steps) + 0.5);
+    precise float position = clamp(x, 0.0, 1.0) * float(steps);
+    uint below = min(uint(position), steps - 1u);
+    return below + ditheredUp(position - float(below), field, steps);
 }
 
 float decodeShare(uint code, uint steps)
@@ -41,9 +44,9 @@ float decodeShare(uint code, uint steps)
 }
 
 // -1..1 in equal steps, 0 and both ends exactly.
-uint encodeSigned(float x, int width)
+uint encodeSigned(float x, int width, int field)
 {
-    return encodeShare(0.5 * x + 0.5, largestCode(width) - 1u);
+    return encodeShare(0.5 * x + 0.5, largestCode(width) - 1u, field);
 }
 
 float decodeSigned(uint code, int width)
@@ -54,10 +57,11 @@ float decodeSigned(uint code, int width)
 }
 
 // A float >= 0 by the topmost bits below its sign: 8 of exponent, then mantissa.
-uint encodeFloat(float x, int width)
+uint encodeFloat(float x, int width, int field)
 {
     int dropped = 31 - width;
-    return (floatBitsToUint(clamp(x, 0.0, 1e38)) + (1u << (dropped - 1))) >> dropped;
+    uint threshold = uint(ditherThreshold(field) * float(1u << dropped));
+    return (floatBitsToUint(clamp(x, 0.0, 1e38)) + threshold) >> dropped;
 }
 
 float decodeFloat(uint code, int width)

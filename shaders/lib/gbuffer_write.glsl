@@ -39,11 +39,12 @@ void writeGBuffer(Surface surface)
 {
 #ifdef GBUFFER_WORDS
     for (int word = 0; word < GBUFFER_WORDS; ++word) gbufferWords[word] = 0u;
+    ditheredPixel = uvec2(gl_FragCoord.xy);
 #endif
 #ifdef GBUFFER_ALBEDO
 #if GBUFFER_ALBEDO_PACKED
     gbufferBit = GBUFFER_ALBEDO;
-    putRoots(surface.albedo, ivec4(GBUFFER_ALBEDO_WIDTHS));
+    putRoots(surface.albedo, ivec4(GBUFFER_ALBEDO_WIDTHS), DITHER_ALBEDO);
 #else
     exactChannels[GBUFFER_ALBEDO] = vec4(surface.albedo, surface.metallic);
 #endif
@@ -51,7 +52,7 @@ void writeGBuffer(Surface surface)
 #ifdef GBUFFER_NORMAL
 #if GBUFFER_NORMAL_PACKED
     gbufferBit = GBUFFER_NORMAL;
-    putOctahedral(encodeOctahedral(surface.normalLS), ivec4(GBUFFER_NORMAL_WIDTHS));
+    putOctahedral(encodeOctahedral(surface.normalLS), ivec4(GBUFFER_NORMAL_WIDTHS), DITHER_NORMAL);
 #else
 #ifdef GBUFFER_MATERIAL_NUMBER
     float fourth = float(surface.material);
@@ -72,7 +73,7 @@ void writeGBuffer(Surface surface)
 #ifdef GBUFFER_SPECULAR
 #if GBUFFER_SPECULAR_PACKED
     gbufferBit = GBUFFER_SPECULAR;
-    putRoots(surface.specular, ivec4(GBUFFER_SPECULAR_WIDTHS));
+    putRoots(surface.specular, ivec4(GBUFFER_SPECULAR_WIDTHS), DITHER_SPECULAR);
 #else
     exactChannels[GBUFFER_SPECULAR] = vec4(surface.specular, 0.0);
 #endif

@@ -39,7 +39,7 @@ vec3 toneMapAgx(vec3 color)
                              0.0792237451477643, 0.0791661274605434, 0.879142973793104);
     const float kDarkestEV = -12.47393;
     const float kBrightestEV = 4.026069;
-    vec3 stops = log2(max(kInset * color, vec3(1e-10)));
+    vec3 stops = log2(max(kInset * color, vec3(exp2(kDarkestEV))));
     vec3 x = clamp((stops - kDarkestEV) / (kBrightestEV - kDarkestEV), 0.0, 1.0);
     vec3 curve = -0.00232 + x * (0.1191 + x * (0.4298 + x * (-6.868 + x * (31.96 + x * (-40.14 + x * 15.5)))));
     return pow(clamp(inverse(kInset) * curve, 0.0, 1.0), vec3(2.2));

@@ -69,6 +69,32 @@ TEST_F(Invariance, pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe) {
     }
 }
 
+TEST_F(Invariance, whatNothingDrawsNeverChangesABitOrThePlanOfAnyBuiltinScene) {
+    for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
+        const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
+        scenes::Scene more = test::withUnusedOfEverything(scene);
+        checkScene(more);
+        recipes::Renderer renderer(context(), scene), rendererOfMore(context(), more);
+        for (const frame::LayoutInfo& layout : frame::layoutTable()) {
+            for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
+                SCOPED_TRACE(fmt::format("{} {} {}", builtin.name, int(technique), layout.name));
+                frame::FrameSettings settings = small();
+                settings.layout = layout.layout;
+                EXPECT_EQ(graph::planText(recipes::planFrame(more, technique, settings)),
+                          graph::planText(recipes::planFrame(scene, technique, settings)));
+                EXPECT_EQ(rendererOfMore.render(technique, settings).radiance,
+                          renderer.render(technique, settings).radiance);
+            }
+        }
+        // Lights that are off or dark are named in plans, as what is left out.
+        more.lights.emplace_back(test::pointLight({0.0, 1.0, 0.0}, 10.0f)).enabled = false;
+        more.lights.push_back(test::pointLight({0.0, 1.0, 0.0}, 0.0f));
+        recipes::Renderer rendererOfLights(context(), more);
+        EXPECT_EQ(rendererOfLights.render(Technique::Deferred, small()).radiance,
+                  renderer.render(Technique::Deferred, small()).radiance);
+    }
+}
+
 /// Pixels that hold the number of their material instead of its values.
 TEST_F(Invariance, materialsReadByTheirNumberAlwaysGiveEveryBitOfStoredOnesAndOfForward) {
     const scenes::Scene scene = test::evenScene();

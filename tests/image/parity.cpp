@@ -67,7 +67,9 @@ TEST_F(Parity, everyCoarseLayoutAlwaysKeepsItsPromiseAndAttributesItsError) {
             EXPECT_TRUE(record.ok()) << validation::compareTable(record);
             for (const validation::ComparePair& pair : record.pairs) {
                 if (!usesGBuffer(pair.a)) continue;
-                EXPECT_LE(pair.figures.relMse, layout.relMse);
+                EXPECT_LE(pair.figures.relMse, layout.promise.relMse);
+                EXPECT_LE(pair.figures.p999Rel, layout.promise.p999Rel);
+                EXPECT_LE(std::abs(pair.figures.bias), layout.promise.bias);
                 EXPECT_LT(pair.figures.bitEqual, 1.0) << "a packed G-buffer that costs nothing was not used";
                 ASSERT_FALSE(pair.channels.empty());
                 // Errors of channels are independent of each other, near enough for their shares to make up the whole.

@@ -269,6 +269,32 @@ scenes::Scene evenScene() {
     return scene;
 }
 
+Scene withUnusedOfEverything(Scene scene) {
+    const Scene spare = everythingScene();
+    const int firstImage = int(scene.images.size()), firstMaterial = int(scene.materials.size());
+    scene.images.insert(scene.images.end(), spare.images.begin(), spare.images.end());
+    scene.materials.insert(scene.materials.end(), spare.materials.begin(), spare.materials.end());
+    Material& bright = scene.materials.emplace_back();
+    bright.model = scenes::MaterialModel::Microfacet;
+    bright.masking = scenes::Masking::HalfVector;
+    bright.baseColor = glm::vec4(4.0f);
+    bright.specularColor = glm::vec3(4.0f);
+    for (std::size_t i = std::size_t(firstMaterial); i < scene.materials.size(); ++i) {
+        for (scenes::TextureUse& use : scene.materials[i].textures)
+            if (use.image != scenes::kNone) use.image += firstImage;
+    }
+    scene.meshes.insert(scene.meshes.end(), spare.meshes.begin(), spare.meshes.end());
+    scenes::Mesh painted = quad();
+    painted.colors.assign(painted.positionsOS.size(), glm::vec4(4.0f));
+    scene.meshes.push_back(painted);
+    scene.meshes.emplace_back().name = "no triangles";
+    scenes::Node& node = scene.nodes.emplace_back();
+    for (int material = firstMaterial; material < int(scene.materials.size()); ++material)
+        node.instances.push_back({int(scene.meshes.size()) - 1, material});
+    scene.cameras.insert(scene.cameras.end(), spare.cameras.begin(), spare.cameras.end());
+    return scene;
+}
+
 Scene quadScene(const Material& material) {
     Scene scene;
     scene.name = "quad";

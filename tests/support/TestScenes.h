@@ -13,6 +13,10 @@ scenes::Scene everythingScene();
 /// and no anisotropy.
 scenes::Scene evenScene();
 
+/// The scene with one of everything that nothing draws: materials, pictures and meshes of everythingScene(), colours
+/// above 1, masking by the half vector, more materials on a mesh without triangles, and cameras.
+scenes::Scene withUnusedOfEverything(scenes::Scene scene);
+
 /// 2 x 2 m in the plane z = 0 facing +z, its picture upright: u grows along x, v (down) along -y.
 scenes::Mesh quad();
 

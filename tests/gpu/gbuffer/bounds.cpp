@@ -133,5 +133,46 @@ TEST_F(GBufferTest, errorsNeverExceedTheBoundDerivedFromTheirFieldAndAlwaysComeN
     }
 }
 
+/// What lighting is linear in, or nearly: the mean of these over pixels is what a flat paint shows. Tangents and the
+/// coat's normal are not dithered.
+std::vector<double> linearValues(const StoredSurface& s) {
+    std::vector<double> values;
+    const auto add = [&](const glm::vec3& v) { values.insert(values.end(), {v.x, v.y, v.z}); };
+    for (const glm::vec3& v : {s.albedo, s.normal, s.specular, s.emission, s.sheenColor, s.normalTexel}) add(v);
+    const double reflectance = isMicrofacet(s) ? contrast(s.iorOrF90) * contrast(s.iorOrF90) : s.iorOrF90;
+    const double metallic = isMicrofacet(s) || isBlinnPhong(s) ? 0.0 : s.metallic;
+    values.insert(values.end(), {s.alpha, s.exponent, reflectance, metallic, s.alphaBitangent, s.coatFactor,
+                                 s.coatAlpha, s.sheenAlpha});
+    return values;
+}
+
+TEST_F(GBufferTest, theMeanOfAValueOverPixelsIsAlwaysTheValue) {
+    for (const frame::Encoding encoding : {frame::Encoding::Packed, frame::Encoding::Slim}) {
+        double worst = 0.0;
+        std::vector<StoredSurface> random = test::randomSurfaces(6);
+        random.resize(6); // one of each model, without the axes behind them
+        for (StoredSurface surface : random) {
+            if (surface.emission.x > 1e3f || surface.emission.x < 1e-3f) surface.emission = surface.albedo;
+            if (isBlinnPhong(surface)) surface.alpha = 1.0f;                                // not stored
+            if (isMicrofacet(surface)) surface.iorOrF90 = std::min(surface.iorOrF90, 5.0f); // held far above that
+            // A picture's worth of the same surface.
+            const std::vector<StoredSurface> back = roundTrip(std::vector<StoredSurface>(512 * 128, surface), encoding);
+            const std::vector<double> wanted = linearValues(surface);
+            std::vector<double> mean(wanted.size(), 0.0);
+            for (const StoredSurface& stored : back) {
+                const std::vector<double> values = linearValues(stored);
+                for (std::size_t v = 0; v < values.size(); ++v) mean[v] += values[v] / double(back.size());
+            }
+            for (std::size_t v = 0; v < wanted.size(); ++v) {
+                const double bias = std::abs(mean[v] - wanted[v]) / std::max(1.0, std::abs(wanted[v]));
+                worst = std::max(worst, bias);
+                // Parts of a unit vector are linear in its code but for the second order of a step.
+                EXPECT_LE(bias, 1e-4) << "value " << v << " is " << wanted[v] << ", in the mean " << mean[v];
+            }
+        }
+        fmt::print("{}: means are off by {:.2g} at most\n", frame::layoutTable()[std::size_t(encoding)].name, worst);
+    }
+}
+
 } // namespace
 } // namespace tessera

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,11 @@ namespace tessera::test {
 /// tests/gpu/ as test/. They see the product's shader tree as it lies in the source folder.
 class ShaderBench {
 public:
-    ShaderBench() : library_(shader::SourceTree(sources())) {}
+    ShaderBench() : ShaderBench([](const std::filesystem::path&) {}) {}
+
+    /// With sources that `edit` changes before they are read; it is given their folder.
+    explicit ShaderBench(const std::function<void(const std::filesystem::path&)>& edit)
+        : library_(shader::SourceTree(sources(edit))) {}
 
     /// One invocation a record. A shader reads vec4 inputs[] (binding 0) and writes vec4 outputs[] (binding 1), a fixed
     /// number of each a record, which the shader knows.
@@ -41,7 +46,7 @@ public:
 private:
     static constexpr std::size_t kGroup = 64; ///< local_size_x of every test shader
 
-    const std::filesystem::path& sources() {
+    const std::filesystem::path& sources(const std::function<void(const std::filesystem::path&)>& edit) {
         const std::filesystem::path root(TESSERA_SOURCE_DIR);
         const auto recursive = std::filesystem::copy_options::recursive;
         std::filesystem::copy(root / "shaders", folder_.path(), recursive);
@@ -52,6 +57,7 @@ private:
                 std::filesystem::copy_file(entry.path(), folder_.path() / "test" / entry.path().filename());
             }
         }
+        edit(folder_.path());
         return folder_.path();
     }
 

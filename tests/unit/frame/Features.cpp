@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "shaders/shared/material.h"
 #include "tests/unit/scenes/TinyScene.h"
 
 namespace tessera::frame {
@@ -184,8 +185,14 @@ TEST(Features, materialsVaryExactlyByWhatChangesMoreThanNormals) {
     EXPECT_TRUE(varies(brushed(MaterialModel::MetallicRoughness)));
     EXPECT_FALSE(varies(brushed(MaterialModel::Microfacet)));
     // A table of 65536 texels is what OpenGL guarantees.
-    EXPECT_FALSE(varies([](scenes::Scene& scene) { scene.materials.resize(7281); }));
-    EXPECT_TRUE(varies([](scenes::Scene& scene) { scene.materials.resize(7282); }));
+    const auto inUse = [](int count) {
+        return [count](scenes::Scene& scene) {
+            scene.materials.resize(std::size_t(count));
+            for (int material = 1; material < count; ++material) scene.nodes[0].instances.push_back({0, material});
+        };
+    };
+    EXPECT_FALSE(varies(inUse(7281)));
+    EXPECT_TRUE(varies(inUse(7282)));
 }
 
 TEST(Features, layersAndMaskingNeverCountForAModelThatLacksThem) {
@@ -220,6 +227,20 @@ TEST(Features, theSoleModelIsSetExactlyWhenEverySurfaceHasIt) {
     EXPECT_EQ(materialFeatures(scene).soleModel, std::nullopt);
     scene.nodes.clear();
     EXPECT_EQ(materialFeatures(scene).soleModel, std::nullopt);
+}
+
+TEST(Features, materialsThatNothingDrawsNeverCount) {
+    scenes::Scene scene = plainScene();
+    const FeatureSet features = materialFeatures(scene);
+    ASSERT_FALSE(features[Feature::VaryingMaterials]);
+    scene.materials.resize(scene.materials.size() + MATERIAL_TABLE_MOST);
+    scene.materials.back().emissive = glm::vec3(1.0f);
+    EXPECT_EQ(materialFeatures(scene), features);
+    scene.meshes.emplace_back().name = "no triangles";
+    scene.nodes[0].instances.push_back({int(scene.meshes.size()) - 1, int(scene.materials.size()) - 1});
+    EXPECT_EQ(materialFeatures(scene), features);
+    scene.nodes[0].instances.back().mesh = 0;
+    EXPECT_TRUE(materialFeatures(scene)[Feature::Emission]);
 }
 
 TEST(Features, everyFeatureAlwaysBecomesADefineOfZeroOrOne) {

@@ -1,11 +1,14 @@
 #include "renderer/frame/GBufferLayout.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
 
+#include "renderer/frame/GBufferBounds.h"
 #include "tests/unit/scenes/TinyScene.h"
 
 namespace tessera::frame {
@@ -190,11 +193,27 @@ TEST(GBufferLayout, wordsAlwaysLieFourTwoAndOneInATextureBehindTheExactChannels)
 
 TEST(GBufferLayout, aMixedLayoutIsAlwaysHeldToThePromiseOfItsCoarsestChannel) {
     GBufferLayout layout = namedLayout("exact");
-    EXPECT_EQ(promisedRelMse(layout), 0.0);
+    EXPECT_EQ(promiseOf(layout), LayoutPromise());
     layout.encoding[0] = Encoding::Packed;
-    EXPECT_EQ(promisedRelMse(layout), 1e-4);
+    EXPECT_EQ(promiseOf(layout), layoutTable()[1].promise);
     layout.encoding[1] = Encoding::Slim;
-    EXPECT_EQ(promisedRelMse(layout), 5e-4);
+    EXPECT_EQ(promiseOf(layout), layoutTable()[2].promise);
+}
+
+TEST(GBufferLayout, promisesAlwaysFollowFromTheStepsOfTheirFields) {
+    for (const Encoding encoding : {Encoding::Packed, Encoding::Slim}) {
+        const std::vector<FieldBound> bounds = fieldBounds(encoding);
+        const auto stepOf = [&](Channel channel, std::string_view quantity) {
+            const auto found = std::find_if(bounds.begin(), bounds.end(), [&](const FieldBound& bound) {
+                return bound.channel == channel && bound.quantity == quantity;
+            });
+            return found->bound;
+        };
+        const LayoutPromise& promise = layoutTable()[std::size_t(encoding)].promise;
+        EXPECT_DOUBLE_EQ(promise.p999Rel, 2.0 * stepOf(Channel::Specular, "square root of red") / std::sqrt(0.04));
+        const double shareOfAlpha = 4.0 * stepOf(Channel::Microsurface, "fourth root of alpha") / std::pow(0.01, 0.25);
+        EXPECT_NEAR(promise.bias, 3.0 * shareOfAlpha * shareOfAlpha / 4.0, 0.05 * promise.bias);
+    }
 }
 
 TEST(GBufferLayout, definesAlwaysGiveAttachmentsOfExactChannelsAndBitsOfTheOthers) {
@@ -203,8 +222,8 @@ TEST(GBufferLayout, definesAlwaysGiveAttachmentsOfExactChannelsAndBitsOfTheOther
     const std::vector<Channel> channels{Channel::Normal, Channel::Specular, Channel::Emission};
     EXPECT_EQ(channelDefines(layout, channels), (Defines{{"GBUFFER_NORMAL", "0"},
                                                          {"GBUFFER_NORMAL_PACKED", "1"},
-                                                         {"GBUFFER_NORMAL_WIDTHS", "16, 16, 0, 0"},
-                                                         {"GBUFFER_SPECULAR", "32"},
+                                                         {"GBUFFER_NORMAL_WIDTHS", "15, 15, 0, 0"},
+                                                         {"GBUFFER_SPECULAR", "30"},
                                                          {"GBUFFER_SPECULAR_PACKED", "1"},
                                                          {"GBUFFER_SPECULAR_WIDTHS", "6, 6, 6, 0"},
                                                          {"GBUFFER_EMISSION", "0"},

@@ -36,6 +36,16 @@ TEST(VertexStreams, meshesAlwaysLieEndToEnd) {
     EXPECT_EQ(streams.positionsOS[5], glm::vec3(0, 4, 0));
 }
 
+TEST(VertexStreams, aMeshThatNothingDrawsIsNeverThere) {
+    scenes::Scene scene = twoMeshes();
+    scene.nodes[0].instances.erase(scene.nodes[0].instances.begin());
+    const VertexStreams streams = makeVertexStreams(scene, allFeatures());
+    ASSERT_EQ(streams.ranges.size(), 1u);
+    EXPECT_EQ(streams.ranges.at({1, 0}).firstIndex, 0u);
+    EXPECT_EQ(streams.ranges.at({1, 0}).baseVertex, 0);
+    EXPECT_EQ(streams.positionsOS.size(), 3u);
+}
+
 TEST(VertexStreams, missingAttributesAlwaysGetTheirNeutralValue) {
     const VertexStreams streams = makeVertexStreams(twoMeshes(), allFeatures());
     const auto expectStream = [](const auto& stream, const auto& neutral, const auto& last) {

@@ -73,7 +73,7 @@ TEST(DefaultLight, alwaysShinesAlongTheViewedCamera) {
     EXPECT_EQ(scene.lights[0].directionWS, glm::dvec3(-1.0, 0.0, 0.0));
 }
 
-TEST(DefaultLight, neverJoinsLightsEmissionOrUnlitMaterialsInUse) {
+TEST(DefaultLight, alwaysShinesUnlessThereAreLightsOrEverythingInUseIsUnlit) {
     const auto lightsOf = [](Scene scene) {
         scene.cameras.emplace_back();
         addDefaultLight(scene);
@@ -84,10 +84,15 @@ TEST(DefaultLight, neverJoinsLightsEmissionOrUnlitMaterialsInUse) {
     EXPECT_EQ(lightsOf(lit), 1u);
     Scene glowing = tinyScene();
     glowing.materials[0].emissive.z = 0.1f;
-    EXPECT_EQ(lightsOf(glowing), 0u);
+    EXPECT_EQ(lightsOf(glowing), 1u) << "it may be black where it does not glow";
     Scene unlit = tinyScene();
     unlit.materials[0].model = MaterialModel::SingleColor;
     EXPECT_EQ(lightsOf(unlit), 0u);
+    Scene partlyUnlit = unlit;
+    partlyUnlit.materials.emplace_back().name = "lit";
+    EXPECT_EQ(lightsOf(partlyUnlit), 0u) << "nothing uses it";
+    partlyUnlit.nodes[0].instances.push_back({0, 1});
+    EXPECT_EQ(lightsOf(partlyUnlit), 1u);
     Scene unusedUnlit = tinyScene();
     unusedUnlit.materials.emplace_back().model = MaterialModel::SingleColor;
     EXPECT_EQ(lightsOf(unusedUnlit), 1u);
