@@ -6,8 +6,10 @@
 
 #include "apps/BenchRun.h"
 #include "apps/Commands.h"
+#include "apps/ErrorLine.h"
 #include "apps/FrameOptionText.h"
 #include "apps/Numbers.h"
+#include "apps/OutputFile.h"
 #include "apps/OutputFolder.h"
 #include "apps/Version.h"
 #include "passes/recipes/ChooseSamples.h"
@@ -126,8 +128,8 @@ int finish(const std::string& folder, const validation::BenchRecord& record) {
     for (const validation::BenchGroup& group : record.groups) {
         for (const validation::BenchResult& result : group.results) {
             if (result.counters.falseNegatives == 0) continue;
-            fmt::print(stderr, "tessera: {} misses {} lights that pixels need\n", validation::pointName(result.key),
-                       result.counters.falseNegatives);
+            printProblem(fmt::format("{} misses {} lights that pixels need", validation::pointName(result.key),
+                                     result.counters.falseNegatives));
             return kToleranceMissed;
         }
     }
@@ -150,6 +152,7 @@ int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
     if (options.frame.samples.value_or(1) != 1)
         throw InputError("bench measures frames of one sample a pixel; leave --samples out");
     requireFolderPlace(options.folder);
+    requireNotRead({options.matrix}, {options.folder + "/bench.json", options.folder + "/bench.csv"});
     BenchRun run;
     run.options.against = benchTruthNamed(options.against);
     if (options.frames) run.options.frames = *options.frames;

@@ -78,7 +78,8 @@ std::vector<recipes::Technique> techniquesOf(const CompareOptions& options, cons
     return techniques;
 }
 
-void writeHeatMaps(const std::string& folder, const validation::CompareResult& result) {
+void writeHeatMaps(const std::string& folder, const validation::CompareResult& result,
+                   const std::vector<std::string>& inputs) {
     makeFolder(folder);
     for (const validation::NamedPicture& picture : result.pictures) {
         const std::string title = picture.name + " vs " + std::filesystem::path(result.truth.name).filename().string();
@@ -88,6 +89,7 @@ void writeHeatMaps(const std::string& folder, const validation::CompareResult& r
         std::replace(file.begin(), file.end(), ' ', '_');
         std::erase_if(file, [](char c) { return c == '(' || c == ')'; });
         const std::filesystem::path place(folder);
+        requireNotRead(inputs, {(place / (file + ".png")).string(), (place / (file + "_flip.png")).string()});
         validation::writePng((place / (file + ".png")).string(), map);
         if (picture.display.isConsistent() && result.truth.display.isConsistent()) {
             validation::writePng((place / (file + "_flip.png")).string(),
@@ -102,6 +104,9 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
     if (!options.json.empty()) requireOutput(options.json);
     if (!options.heatMaps.empty()) requireFolderPlace(options.heatMaps);
     const Request request = resolve(options.frame);
+    std::vector<std::string> inputs = request.files;
+    if (const auto* picture = std::get_if<std::string>(&comparison.against)) inputs.push_back(*picture);
+    requireNotRead(inputs, {options.json});
     comparison.settings = request.settings;
     if (const frame::ViewInfo& view = frame::viewInfo(request.settings.view); view.ofTechnique)
         throw InputError(fmt::format(
@@ -121,7 +126,7 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
     result.record.leftOut = std::move(leftOut);
     progress.finish();
     if (!options.json.empty()) writeOutput(options.json, validation::compareJson(result.record));
-    if (!options.heatMaps.empty()) writeHeatMaps(options.heatMaps, result);
+    if (!options.heatMaps.empty()) writeHeatMaps(options.heatMaps, result, inputs);
     if (!isStandardOutput(options.json)) fmt::print("{}", validation::compareTable(result.record));
     return result.record.ok() ? kGood : kToleranceMissed;
 }

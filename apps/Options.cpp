@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
+#include "apps/ErrorLine.h"
 #include "apps/Numbers.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "scenes/Error.h"
@@ -103,6 +105,25 @@ double rangeToleranceOf(double tolerance) {
     return tolerance;
 }
 
+/// 512M, 4G: a whole number of bytes, or of 2^10, 2^20, 2^30 of them.
+std::uint64_t bytesNamed(const std::string& text) {
+    struct Unit {
+        char letter;
+        int bits;
+    };
+    constexpr Unit kUnits[] = {{'K', 10}, {'M', 20}, {'G', 30}};
+    const char* end = text.data() + text.size();
+    std::uint64_t number = 0;
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    int bits = rest == end ? 0 : -1;
+    for (const Unit& unit : kUnits)
+        if (end - rest == 1 && *rest == unit.letter) bits = unit.bits;
+    if (error != std::errc() || bits < 0 || number == 0 || number > std::numeric_limits<std::uint64_t>::max() >> bits)
+        throw InputError(
+            fmt::format("--memory-limit '{}' is no size; give bytes, or K, M or G of them, as in 4G", text));
+    return number << bits;
+}
+
 /// What can be read without the scene: a mistake in it is found before a large scene is read for nothing.
 void resolveOptions(const FrameOptions& options, Request& request) {
     frame::FrameSettings& settings = request.settings;
@@ -129,6 +150,7 @@ void resolveOptions(const FrameOptions& options, Request& request) {
     settings.rangeTolerance = rangeToleranceOf(options.rangeTolerance.value_or(0.0));
     settings.timeSeconds = options.timeSeconds.value_or(0.0);
     settings.soloLight = options.solo;
+    if (options.memoryLimit) bytesNamed(*options.memoryLimit);
 }
 
 /// What the scene wishes where the user says nothing, and the names of things in the scene.
@@ -238,6 +260,8 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     text("--prune", options.prune, "off keeps what the scene does not need; the picture is the same [on]", "on|off");
     command.add_flag("--no-default-light", options.noDefaultLight, "Leaves a scene without lights dark")
         ->group("Frame");
+    text("--memory-limit", options.memoryLimit, "The most memory that reading a scene may take [half of the machine's]",
+         "SIZE");
     addPoint(command, "--eye", options.pose.eyeWS, "Moves the camera there; alone it looks the same way", "X,Y,Z")
         ->group("Camera");
     addPoint(command, "--target", options.pose.targetWS, "Turns the camera to look there", "X,Y,Z")->group("Camera");
@@ -255,10 +279,17 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     text("--tonemap", options.toneMap, "One of " + namesOf(frame::toneMapTable()) + " [none]", "NAME", "Display");
 }
 
-scenes::Scene loadFor(const FrameOptions& options) {
+scenes::LoadOptions loadOptionsOf(const FrameOptions& options) {
     scenes::LoadOptions load;
     load.lights = options.lights;
     load.defaultLight = !options.noDefaultLight;
+    if (options.memoryLimit) load.memoryLimitBytes = bytesNamed(*options.memoryLimit);
+    return load;
+}
+
+scenes::Scene loadFor(const FrameOptions& options, std::vector<std::string>* files) {
+    scenes::LoadOptions load = loadOptionsOf(options);
+    load.files = files;
     scenes::Scene scene = scenes::loadScene(options.scene, load);
     placeCamera(options, scene);
     return scene;
@@ -283,9 +314,10 @@ void resolveForScene(const FrameOptions& options, Request& request) {
 
 Request resolve(const FrameOptions& options) {
     Request request = resolveWithoutScene(options);
-    request.scene = loadFor(options);
+    request.scene = loadFor(options, &request.files);
     resolveForScene(options, request);
-    for (const std::string& warning : request.scene.warnings) spdlog::warn("{}: {}", request.scene.name, warning);
+    for (const std::string& warning : request.scene.warnings)
+        spdlog::warn("{}", oneLine(request.scene.name + ": " + warning));
     return request;
 }
 

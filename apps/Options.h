@@ -29,7 +29,7 @@ std::unique_ptr<gpu::Context> makeContext(const GlobalOptions& options);
 struct FrameOptions {
     std::string scene;
     std::optional<std::string> technique, layout, camera, view, toneMap, size, filter, space, prune, specular, culling,
-        cullOn, lightOn;
+        cullOn, lightOn, memoryLimit;
     std::optional<double> exposureEV, timeSeconds, rangeTolerance;
     std::optional<int> lights, solo, tile, samples;
     bool noDefaultLight = false;
@@ -45,9 +45,11 @@ struct Request {
     scenes::Scene scene;
     recipes::Technique technique = recipes::Technique::Deferred;
     frame::FrameSettings settings;
+    std::vector<std::string> files; ///< that the scene was read from
 };
 /// The scene alone, as the options have it, the camera they choose where they place it.
-scenes::Scene loadFor(const FrameOptions& options);
+/// Names of the files it was read from are added to `files`.
+scenes::Scene loadFor(const FrameOptions& options, std::vector<std::string>* files = nullptr);
 /// What can be read without the scene: a mistake in it is found before a large scene is read for nothing.
 Request resolveWithoutScene(const FrameOptions& options);
 /// What names things of the request's scene, and what the scene wishes where the options say nothing.
@@ -56,6 +58,9 @@ void resolveForScene(const FrameOptions& options, Request& request);
 void placeCamera(const FrameOptions& options, scenes::Scene& scene);
 /// Loads the scene, resolves every name, and when all is well warns of what the scene lacks. Throws InputError.
 Request resolve(const FrameOptions& options);
+
+/// How loadScene() is asked for the scene. Throws InputError.
+scenes::LoadOptions loadOptionsOf(const FrameOptions& options);
 
 recipes::Technique techniqueNamed(const std::string& name);
 glm::ivec2 sizeNamed(const std::string& text);

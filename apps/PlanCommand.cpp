@@ -24,7 +24,9 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
         throw InputError("--json - and --dot - both ask for the standard output; name a file for one of them");
     for (const std::string& path : {options.json, options.dot})
         if (!path.empty()) requireOutput(path);
+    requireNotRead({}, {options.json, options.dot});
     Request request = resolve(options.frame);
+    requireNotRead(request.files, {options.json, options.dot});
     recipes::requireSamples(request.technique, request.settings.samples);
     recipes::requireCulling(request.technique, request.settings);
     std::unique_ptr<gpu::Context> context;

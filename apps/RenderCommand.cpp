@@ -8,6 +8,7 @@
 #include "apps/Commands.h"
 #include "apps/FramePattern.h"
 #include "apps/Numbers.h"
+#include "apps/OutputFile.h"
 #include "apps/Progress.h"
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseSamples.h"
@@ -49,6 +50,14 @@ void requirePictureExtension(const std::string& path) {
         throw InputError(
             fmt::format("{}: pictures end in .exr (linear, 32 bit) or .png (as a display shows it)", path));
     }
+}
+
+std::vector<std::string> outputsOf(const RenderOptions& options) {
+    if (!options.frames) return {options.output};
+    std::vector<std::string> outputs;
+    const FramePattern pattern(options.output);
+    for (int i = 0; i < *options.frames; ++i) outputs.push_back(pattern.path(i));
+    return outputs;
 }
 
 /// Makes one picture at a path.
@@ -100,6 +109,7 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     const bool isReference = frame.technique == kReference;
     if (isReference) frame.technique.reset();
     Request request = resolve(frame);
+    requireNotRead(request.files, outputsOf(options));
     if (isReference) {
         renderReference(options, request, global);
         return kGood;

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "apps/Commands.h"
+#include "apps/ErrorLine.h"
 #include "apps/FirstLook.h"
 #include "scenes/Error.h"
 #include "viewer/Viewer.h"
@@ -39,10 +40,9 @@ int view(const ViewOptions& options, const GlobalOptions& global) {
     viewer::ViewerOptions viewing;
     readPreferences(viewing);
     viewing.scene = options.frame.scene;
-    viewing.load.lights = options.frame.lights;
-    viewing.load.defaultLight = !options.frame.noDefaultLight;
+    viewing.load = loadOptionsOf(options.frame);
     viewing.log = options.log;
-    viewing.warn = [](const std::string& text) { spdlog::warn("{}", text); };
+    viewing.warn = [](const std::string& text) { spdlog::warn("{}", oneLine(text)); };
     viewing.windowSize = viewing.preferences.windowSize.value_or(viewing.windowSize);
     if (options.window) viewing.windowSize = sizeNamed(*options.window);
     if (options.frame.size && !options.window) viewing.pictureSize = sizeNamed(*options.frame.size);

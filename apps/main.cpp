@@ -2,17 +2,20 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <sstream>
+#include <new>
 
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include "apps/Commands.h"
+#include "apps/ErrorLine.h"
 #include "apps/HelpFormat.h"
 #include "apps/Interrupt.h"
 #include "apps/ParseMessage.h"
@@ -42,6 +45,13 @@ void keepFreedMemory() {
 #endif
 }
 
+/// Where a standard stream is closed, the next file that is opened would take its number, and messages would end in it.
+/// What takes it here cannot be written either.
+void holdStandardStreams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(stream, F_GETFD) == -1 && errno == EBADF && open("/dev/null", O_RDONLY) == -1) return;
+}
+
 void configureLog(const GlobalOptions& options) {
     auto logger = spdlog::stderr_logger_st("tessera");
     logger->set_pattern("tessera: %l: %v");
@@ -66,12 +76,7 @@ int printVersion(const GlobalOptions& options) {
 
 /// An error is one line, whatever its origin: a shader compiler's log has many.
 int fail(const std::string& text, int code) {
-    std::string line;
-    std::istringstream lines(text);
-    for (std::string part; std::getline(lines, part);) {
-        if (!part.empty()) line += (line.empty() ? "" : "; ") + part;
-    }
-    fmt::print(stderr, "tessera: error: {}\n", line);
+    printProblem("error: " + text);
     return code;
 }
 
@@ -121,11 +126,15 @@ int runProgram(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
+        holdStandardStreams();
         keepFreedMemory();
         cleanUpWhenInterrupted();
         return flushed(runProgram(argc, argv));
     } catch (const tessera::InputError& error) {
         return fail(error.what(), kBadInput);
+    } catch (const std::bad_alloc&) {
+        return fail("the memory is not enough for this; give a smaller scene or picture, or close other programs",
+                    kFailed);
     } catch (const std::exception& error) {
         return fail(error.what(), kFailed);
     }

@@ -1,5 +1,6 @@
 #include "scenes/CameraChange.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -42,9 +43,11 @@ void place(Camera& camera, const CameraChange& change) {
     if (!(glm::distance(eyeWS, targetWS) > 0.0)) fail(camera, "it cannot look at its own place; give another target");
     glm::dvec3 upWS(0.0, 1.0, 0.0);
     if (change.upWS) {
-        const double length = glm::length(*change.upWS);
-        if (!(length > 0.0) || !std::isfinite(length)) fail(camera, "its up has no length; give a direction");
-        upWS = *change.upWS / length;
+        // Scaled first, so that squaring neither overflows nor vanishes.
+        const glm::dvec3 size = glm::abs(*change.upWS);
+        const double largest = std::max({size.x, size.y, size.z});
+        if (!(largest > 0.0)) fail(camera, "its up has no length; give a direction");
+        upWS = glm::normalize(*change.upWS / largest);
     }
     camera.worldFromCamera = worldFromLookAt(eyeWS, targetWS, upWS);
 }

@@ -8,6 +8,7 @@
 
 #include "scenes/Defaults.h"
 #include "scenes/Error.h"
+#include "scenes/LoadLedger.h"
 #include "scenes/Names.h"
 #include "scenes/import/Importers.h"
 
@@ -16,7 +17,7 @@ namespace {
 
 struct Format {
     std::string_view extension;
-    Scene (*import)(const std::filesystem::path&);
+    Scene (*import)(const std::filesystem::path&, const LoadLedger&);
 };
 constexpr std::array kFormats = {Format{".gltf", importGltf}, Format{".glb", importGltf}, Format{".obj", importObj},
                                  Format{".json", importSceneJson}};
@@ -31,7 +32,7 @@ const Format* formatOf(const std::filesystem::path& file) {
     return found == kFormats.end() ? nullptr : &*found;
 }
 
-Scene importFile(const std::string& path) {
+Scene importFile(const std::string& path, const LoadLedger& ledger) {
     const std::filesystem::path file(path);
     const Format* format = formatOf(file);
     std::error_code failure;
@@ -44,7 +45,16 @@ Scene importFile(const std::string& path) {
     if (format == nullptr || std::filesystem::is_directory(file, failure)) {
         throw InputError(path + ": not a scene file; give a .gltf, .glb, .obj or .json file");
     }
-    return format->import(file);
+    return format->import(file, ledger);
+}
+
+/// A file may give cause for a warning in every line; nobody reads thousands.
+void keepFirstWarnings(std::vector<std::string>& warnings) {
+    constexpr std::size_t kMostWarnings = 100;
+    if (warnings.size() <= kMostWarnings) return;
+    const std::size_t more = warnings.size() - kMostWarnings;
+    warnings.resize(kMostWarnings);
+    warnings.push_back("and " + std::to_string(more) + " more warnings of this kind or others");
 }
 
 void goOn(const LoadOptions& options) {
@@ -69,11 +79,15 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     if (const BuiltinScene* builtin = builtinScene(nameOrPath)) {
         scene = builtin->make(options);
     } else {
-        scene = importFile(nameOrPath);
+        const LoadLedger ledger(options.memoryLimitBytes);
+        scene = importFile(nameOrPath, ledger);
+        if (options.files != nullptr)
+            options.files->insert(options.files->end(), ledger.files().begin(), ledger.files().end());
         if (options.lights && static_cast<std::size_t>(*options.lights) < scene.lights.size()) {
             scene.lights.resize(static_cast<std::size_t>(*options.lights));
         }
     }
+    keepFirstWarnings(scene.warnings);
     goOn(options);
     checkScene(scene);
     goOn(options);

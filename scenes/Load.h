@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <optional>
@@ -6,6 +7,7 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scenes/Scene.h"
 
@@ -16,7 +18,11 @@ inline constexpr int kMostLights = 65536; ///< that a scene can be asked to have
 struct LoadOptions {
     std::optional<int> lights; ///< built-in scenes generate this many (0..65,536); files keep their first N
     bool defaultLight = true;  ///< give a scene without lights, emission or unlit material one directional light
-    bool useAssets = true;     ///< let a built-in scene use the models under the folder TESSERA_ASSETS names
+    /// The memory that reading files may take (LoadLedger.h); none: half of the machine's.
+    std::optional<std::uint64_t> memoryLimitBytes;
+    /// Where it is given, the names of the files that are read are added to it.
+    std::vector<std::string>* files = nullptr;
+    bool useAssets = true; ///< let a built-in scene use the models under the folder TESSERA_ASSETS names
     /// Asked before a scene is made or its file imported, and between the checks after; while a file is read it is not.
     /// Where a stop is requested, LoadStopped is thrown.
     std::stop_token stop;

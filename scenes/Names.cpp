@@ -64,7 +64,11 @@ std::string suggestNames(std::string_view name, std::span<const std::string_view
     if (candidates.empty()) return "there are none";
 
     std::string all = "valid are ";
-    for (std::size_t i = 0; i < candidates.size(); ++i) all.append(i > 0 ? ", " : "").append(candidates[i]);
+    constexpr std::size_t kMostListed =
+        64; // a table of the program's own is shown whole, a large scene's names are not
+    const std::size_t listed = std::min(candidates.size(), kMostListed);
+    for (std::size_t i = 0; i < listed; ++i) all.append(i > 0 ? ", " : "").append(candidates[i]);
+    if (listed < candidates.size()) all += " and " + std::to_string(candidates.size() - listed) + " more";
     return all;
 }
 

@@ -103,8 +103,13 @@ Capabilities readCapabilities(std::string contextWay) {
 
 } // namespace
 
+void Answers::add(const std::string& way, const std::runtime_error& error) {
+    all.push_back(fmt::format("{}: {}", way, error.what()));
+    if (dynamic_cast<const DriverTooOld*>(&error) != nullptr) tooOld = error.what();
+}
+
 std::unique_ptr<Context> Context::create(const ContextOptions& options) {
-    std::vector<std::string> answers;
+    Answers answers;
     std::unique_ptr<Context> context;
     Context* const previous = currentContext;
     releaseCurrent();
@@ -116,9 +121,14 @@ std::unique_ptr<Context> Context::create(const ContextOptions& options) {
     if (!context && window && !options.visible) context = createWindowContext(options, answers);
     if (context) return context;
     if (previous) previous->makeCurrent();
+    if (!answers.tooOld.empty())
+        throw std::runtime_error(
+            fmt::format("no OpenGL 4.5 context can be made: {}; use another driver, such as Mesa's llvmpipe (Debian: "
+                        "libgl1-mesa-dri, without GALLIUM_DRIVER in the environment)",
+                        answers.tooOld));
     throw std::runtime_error(fmt::format(
         "no OpenGL 4.5 context can be made ({}); install a driver (Debian: libegl1 libgl1-mesa-dri{}, or the maker's)",
-        fmt::join(answers, "; "), window ? " libglx-mesa0 and a running display for windows" : ""));
+        fmt::join(answers.all, "; "), window ? " libglx-mesa0 and a running display for windows" : ""));
 }
 
 Context::Context(std::string contextWay, LoadFunction load) : load_(load), debugLog_(std::make_unique<DebugLog>()) {
@@ -151,8 +161,8 @@ Context* Context::current() {
 void Context::initialise(bool debug) {
     const int version = gladLoadGL(load_);
     if (version < GLAD_MAKE_VERSION(4, 5))
-        throw std::runtime_error(fmt::format("it offers OpenGL {}.{}, and 4.5 is needed", GLAD_VERSION_MAJOR(version),
-                                             GLAD_VERSION_MINOR(version)));
+        throw DriverTooOld(
+            fmt::format("the driver offers OpenGL {}.{}", GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version)));
     capabilities_ = readCapabilities(std::move(capabilities_.contextWay));
     if (debug) {
         glEnable(GL_DEBUG_OUTPUT);

@@ -76,6 +76,26 @@ private:
     EGLDisplay display_;
 };
 
+/// What a driver that refuses OpenGL 4.5 has instead; nothing where it makes no context at all.
+std::string offered(EGLDisplay display, EGLConfig config) {
+    const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, nullptr);
+    if (context == EGL_NO_CONTEXT) return {};
+    std::string text;
+    if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+        using GetString = const unsigned char* (*)(unsigned int);
+        const auto getString = reinterpret_cast<GetString>(eglGetProcAddress("glGetString"));
+        const auto said = [&](unsigned int name) {
+            const unsigned char* value = getString != nullptr ? getString(name) : nullptr;
+            return std::string(value != nullptr ? reinterpret_cast<const char*>(value) : "?");
+        };
+        constexpr unsigned int kRenderer = 0x1F01, kVersion = 0x1F02; // GL_RENDERER, GL_VERSION
+        text = fmt::format("the driver '{}' offers OpenGL {}", said(kRenderer), said(kVersion));
+        eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
+    eglDestroyContext(display, context);
+    return text;
+}
+
 class EglContext final : public Context {
 public:
     EglContext(std::string way, EGLDisplay display, bool debug)
@@ -105,7 +125,10 @@ private:
                                         debug ? EGL_TRUE : EGL_FALSE,
                                         EGL_NONE};
             context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
-            if (context == EGL_NO_CONTEXT) fail("eglCreateContext");
+            if (context != EGL_NO_CONTEXT) return;
+            const EGLint error = eglGetError();
+            if (const std::string less = offered(display, config); !less.empty()) throw DriverTooOld(less);
+            throw std::runtime_error("eglCreateContext failed, " + errorName(error));
         }
         ~Handle() {
             if (eglGetCurrentContext() == context)
@@ -137,7 +160,7 @@ Function entryPoint(const char* name) {
 /// Tries displays one after another, and keeps the first software context in case there is no hardware.
 class Search {
 public:
-    Search(const ContextOptions& options, std::vector<std::string>& answers) : options_(options), answers_(answers) {}
+    Search(const ContextOptions& options, Answers& answers) : options_(options), answers_(answers) {}
 
     /// Ends the search when the display gives a context of a hardware device.
     void tryDisplay(const std::string& way, EGLDisplay display) {
@@ -148,10 +171,10 @@ public:
             auto& place = context->capabilities().isSoftware ? software_ : hardware_;
             if (!place) place = std::move(context);
         } catch (const std::runtime_error& error) {
-            answers_.push_back(fmt::format("{}: {}", way, error.what()));
+            answers_.add(way, error);
         }
     }
-    void refuse(std::string answer) { answers_.push_back(std::move(answer)); }
+    void refuse(std::string answer) { answers_.all.push_back(std::move(answer)); }
     bool done() const { return hardware_ != nullptr; }
     bool hasSoftware() const { return software_ != nullptr; }
     std::unique_ptr<Context> result() {
@@ -163,7 +186,7 @@ public:
 
 private:
     const ContextOptions& options_;
-    std::vector<std::string>& answers_;
+    Answers& answers_;
     std::unique_ptr<Context> hardware_, software_;
 };
 
@@ -186,7 +209,7 @@ void tryDevices(Search& search, PFNEGLGETPLATFORMDISPLAYEXTPROC getPlatformDispl
 
 } // namespace
 
-std::unique_ptr<Context> createEglContext(const ContextOptions& options, std::vector<std::string>& answers) {
+std::unique_ptr<Context> createEglContext(const ContextOptions& options, Answers& answers) {
     const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const auto getPlatformDisplay = entryPoint<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
     Search search(options, answers);

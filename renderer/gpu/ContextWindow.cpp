@@ -86,11 +86,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<Context> createWindowContext(const ContextOptions& options, std::vector<std::string>& answers) {
+std::unique_ptr<Context> createWindowContext(const ContextOptions& options, Answers& answers) {
     try {
         return std::make_unique<WindowContext>(options);
     } catch (const std::runtime_error& error) {
-        answers.push_back(fmt::format("GLFW window: {}", error.what()));
+        answers.add("GLFW window", error);
         return nullptr;
     }
 }

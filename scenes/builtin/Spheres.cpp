@@ -10,7 +10,7 @@ namespace {
 constexpr int kRoughnessSteps = 11;
 constexpr int kMetalnessSteps = 5;
 constexpr double kRadiusMetres = 0.42;
-constexpr double kSpacingMetres = 1.0;
+constexpr double kSphereSpacingMetres = 1.0;
 
 /// Spheres stand in rising rows, the dielectric one in front, so that none hides another.
 void addSpheres(Scene& scene) {
@@ -18,13 +18,13 @@ void addSpheres(Scene& scene) {
     appendSphere(sphere, glm::dvec3(0.0), kRadiusMetres, 64, 40);
     const int mesh = addMesh(scene, "sphere", std::move(sphere));
     Mesh step;
-    const double halfWidth = 0.5 * kSpacingMetres * kRoughnessSteps + 0.1;
-    appendBox(step, {-halfWidth, -1.0, -0.5 * kSpacingMetres}, {halfWidth, 0.0, 0.5 * kSpacingMetres});
+    const double halfWidth = 0.5 * kSphereSpacingMetres * kRoughnessSteps + 0.1;
+    appendBox(step, {-halfWidth, -1.0, -0.5 * kSphereSpacingMetres}, {halfWidth, 0.0, 0.5 * kSphereSpacingMetres});
     const int stepMesh = addMesh(scene, "step", std::move(step));
     const int stepMaterial = addMaterial(scene, metallicRoughness("step", glm::vec3(0.09f, 0.09f, 0.1f), 0.0f, 0.55f));
     for (int row = 0; row < kMetalnessSteps; ++row) {
         const double stepY = 0.32 * row;
-        const double z = -kSpacingMetres * row;
+        const double z = -kSphereSpacingMetres * row;
         addNode(scene, "step " + std::to_string(row), glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, stepY, z)),
                 {{stepMesh, stepMaterial}});
         for (int column = 0; column < kRoughnessSteps; ++column) {
@@ -35,8 +35,8 @@ void addSpheres(Scene& scene) {
                                      std::to_string(kRoughnessSteps - 1);
             const int material =
                 addMaterial(scene, metallicRoughness(name, glm::vec3(0.86f, 0.42f, 0.2f), metallic, roughness));
-            const glm::dvec3 centerWS(kSpacingMetres * (column - 0.5 * (kRoughnessSteps - 1)), stepY + kRadiusMetres,
-                                      z);
+            const glm::dvec3 centerWS(kSphereSpacingMetres * (column - 0.5 * (kRoughnessSteps - 1)),
+                                      stepY + kRadiusMetres, z);
             addNode(scene, name, glm::translate(glm::dmat4(1.0), centerWS), {{mesh, material}});
         }
     }

@@ -1,6 +1,11 @@
 #include "scenes/import/AppendScene.h"
 
+#include <cmath>
 #include <iterator>
+
+#include <fmt/format.h>
+
+#include "scenes/Error.h"
 
 namespace tessera::scenes {
 namespace {
@@ -23,14 +28,25 @@ glm::dmat3 cofactorOf(const glm::dmat3& matrix) {
     return {glm::cross(matrix[1], matrix[2]), glm::cross(matrix[2], matrix[0]), glm::cross(matrix[0], matrix[1])};
 }
 
+/// `what` names whose direction it is.
+glm::dvec3 movedDirection(const glm::dvec3& vector, const char* what, const std::string& name) {
+    const double length = glm::length(vector);
+    if (!(length > 0.0) || !std::isfinite(length))
+        throw InputError(fmt::format("its transform leaves the {} '{}' no direction; give scales that are not 0 and "
+                                     "finite",
+                                     what, name));
+    return vector / length;
+}
+
 void moveLight(Light& light, const glm::dmat4& worldFromPart) {
     const glm::dmat3 linear(worldFromPart);
     light.positionWS = movedPoint(worldFromPart, light.positionWS);
-    light.directionWS = glm::normalize(linear * light.directionWS);
+    light.directionWS = movedDirection(linear * light.directionWS, "light", light.name);
     if (!light.animation) return;
     LightAnimation& animation = *light.animation;
     animation.centerWS = movedPoint(worldFromPart, animation.centerWS);
-    animation.axisWS = glm::normalize(cofactorOf(linear) * animation.axisWS); // mirrored, an orbit runs the other way
+    animation.axisWS = movedDirection(cofactorOf(linear) * animation.axisWS, "light",
+                                      light.name); // mirrored, an orbit runs the other way
     animation.amplitudeMetres = linear * animation.amplitudeMetres;
     for (glm::dvec3& pointWS : animation.pointsWS) pointWS = movedPoint(worldFromPart, pointWS);
 }
@@ -38,8 +54,8 @@ void moveLight(Light& light, const glm::dmat4& worldFromPart) {
 /// View direction and position go along exactly; up follows as far as a rotation allows.
 void moveCamera(Camera& camera, const glm::dmat4& worldFromPart) {
     const glm::dmat4 moved = worldFromPart * camera.worldFromCamera;
-    const glm::dvec3 back = glm::normalize(glm::dvec3(moved[2]));
-    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(moved[1]), back));
+    const glm::dvec3 back = movedDirection(glm::dvec3(moved[2]), "camera", camera.name);
+    const glm::dvec3 right = movedDirection(glm::cross(glm::dvec3(moved[1]), back), "camera", camera.name);
     camera.worldFromCamera = {glm::dvec4(right, 0.0), glm::dvec4(glm::cross(back, right), 0.0), glm::dvec4(back, 0.0),
                               moved[3]};
 }

@@ -7,7 +7,7 @@ namespace tessera::scenes {
 
 /// Adds all of `part` to `whole`, below a new root node called `name` that places it. Lights and cameras move along; as
 /// in KHR_lights_punctual a scale changes no light's intensity or range, and cameras keep their scale of 1. Background
-/// and options of `part` are left out.
+/// and options of `part` are left out. Throws InputError where the transform leaves one of them no direction.
 void appendScene(Scene& whole, Scene part, const std::string& name, const glm::dmat4& worldFromPart);
 
 } // namespace tessera::scenes

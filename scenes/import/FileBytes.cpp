@@ -9,7 +9,7 @@
 
 namespace tessera::scenes {
 
-std::vector<std::byte> readFileBytes(const std::filesystem::path& file) {
+std::vector<std::byte> readFileBytes(const std::filesystem::path& file, const LoadLedger& ledger) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(file, error);
     if (!std::filesystem::exists(status))
@@ -19,6 +19,8 @@ std::vector<std::byte> readFileBytes(const std::filesystem::path& file) {
     const std::uintmax_t size = std::filesystem::file_size(file, error);
     std::ifstream stream(file, std::ios::binary);
     if (error || !stream) throw InputError(fmt::format("{}: cannot be opened; check its permissions", file.string()));
+    ledger.addFile(file);
+    ledger.charge(size, [&] { return file.string(); });
     std::vector<std::byte> bytes(static_cast<std::size_t>(size));
     if (size > 0 && !stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
         throw InputError(

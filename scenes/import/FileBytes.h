@@ -3,10 +3,12 @@
 #include <filesystem>
 #include <vector>
 
+#include "scenes/LoadLedger.h"
+
 namespace tessera::scenes {
 
 /// The whole contents of a regular file. Throws InputError, naming it, when it is missing, not a regular file or
-/// unreadable.
-std::vector<std::byte> readFileBytes(const std::filesystem::path& file);
+/// unreadable. The ledger is charged for it, and told of it.
+std::vector<std::byte> readFileBytes(const std::filesystem::path& file, const LoadLedger& ledger = LoadLedger());
 
 } // namespace tessera::scenes

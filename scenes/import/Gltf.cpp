@@ -58,8 +58,9 @@ void warnOfIgnoredFeatures(Context& context) {
 
 } // namespace
 
-Scene importGltf(const std::filesystem::path& file) {
-    const Document document = loadDocument(file);
+Scene importGltf(const std::filesystem::path& file, const LoadLedger& ledger) {
+    const std::uint64_t mark = ledger.usedBytes();
+    const Document document = loadDocument(file, ledger);
     Scene scene;
     scene.name = file.stem().string();
     Buffers buffers(document);
@@ -75,11 +76,16 @@ Scene importGltf(const std::filesystem::path& file) {
         node.name = nameOr(stored.name, "node", placed.node);
         node.parent = placed.parent;
         node.parentFromNode = placed.parentFromNode;
-        if (stored.mesh >= 0) node.instances = meshes.instancesOf(stored.mesh);
+        if (stored.mesh >= 0) {
+            const std::vector<MeshInstance>& instances = meshes.instancesOf(stored.mesh);
+            document.charge(instances.size() * sizeof(MeshInstance), "nodes", placed.node);
+            node.instances = instances;
+        }
         scene.nodes.push_back(std::move(node));
         importCamera(context, placed.node, placed.worldFromNode);
         importLight(context, placed.node, placed.worldFromNode);
     }
+    ledger.settle(mark, bytesOf(scene));
     return scene;
 }
 

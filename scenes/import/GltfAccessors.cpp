@@ -99,6 +99,11 @@ std::vector<Value> Accessors::read(int index, Convert convert) {
     const auto width = static_cast<std::size_t>(components);
     std::vector<Value> values;
 
+    // Once here, once as what the caller makes of them.
+    const auto reserve = [&] {
+        document_.charge(2 * accessor.count * width * sizeof(Value), "accessors", index);
+        values.resize(accessor.count * width);
+    };
     const auto copyElement = [&](const Source& source, std::size_t from, std::size_t to) {
         const std::byte* element = source.first + from * source.byteStride;
         for (std::size_t c = 0; c < width; ++c)
@@ -110,13 +115,13 @@ std::vector<Value> Accessors::read(int index, Convert convert) {
             document_.model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
         const Source source = placed(index, accessor.bufferView, accessor.byteOffset, accessor.count,
                                      accessor.componentType, components, stride);
-        values.resize(accessor.count * width);
+        reserve();
         for (std::size_t i = 0; i < accessor.count; ++i) copyElement(source, i, i);
     } else {
         if (accessor.count > kMaxCountWithoutView)
             document_.fail(place, fmt::format("has {} elements but no buffer view; at most {} are supported then",
                                               accessor.count, kMaxCountWithoutView));
-        values.resize(accessor.count * width);
+        reserve();
     }
     if (!accessor.sparse.isSparse) return values;
 

@@ -19,15 +19,20 @@ std::span<const std::byte> Buffers::buffer(int index) {
     if (const auto uri = buffer.find("uri"); uri != buffer.end()) {
         auto found = buffers_.find(index);
         if (found == buffers_.end()) {
+            const std::uint64_t mark = document_.ledger.usedBytes();
             const std::string& text = uri->get_ref<const std::string&>();
             try {
+                if (isDataUri(text)) document_.charge(2 * text.size(), "buffers", index);
                 found = buffers_
-                            .emplace(index, isDataUri(text) ? decodeDataUri(text)
-                                                            : readFileBytes(fileOfUri(text, document_.folder)))
+                            .emplace(index, isDataUri(text)
+                                                ? decodeDataUri(text)
+                                                : readFileBytes(fileOfUri(text, document_.folder), document_.ledger))
                             .first;
             } catch (const InputError& error) {
                 document_.fail(place, error.what());
             }
+            document_.ledger.settle(mark, found->second.size());
+            heldBytes_ += found->second.size();
         }
         bytes = found->second;
     } else if (index == 0 && document_.binary) {
@@ -60,6 +65,8 @@ std::vector<std::byte> Buffers::decompress(int bufferView, const Json& extension
     const MeshoptLayout layout{extension["count"].get<std::size_t>(), extension["byteStride"].get<std::size_t>(), mode,
                                filter};
     const std::span<const std::byte> encoded = slice(extension["buffer"].get<int>(), extension, place);
+    document_.charge(decodedBytes(layout, encoded.size()), "bufferViews", bufferView);
+    heldBytes_ += decodedBytes(layout, encoded.size());
     try {
         return decodeMeshopt(encoded, layout);
     } catch (const InputError& error) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <span>
 #include <vector>
@@ -16,6 +17,8 @@ public:
     /// The bytes of a buffer view, decompressed, valid as long as this object. Throws InputError naming the view or the
     /// buffer.
     std::span<const std::byte> view(int bufferView);
+    /// Of the ledger, what stays as long as this object.
+    std::uint64_t heldBytes() const { return heldBytes_; }
 
 private:
     std::span<const std::byte> buffer(int index);
@@ -25,6 +28,7 @@ private:
     const Document& document_;
     std::map<int, std::vector<std::byte>> buffers_;      ///< those read from URIs
     std::map<int, std::vector<std::byte>> decompressed_; ///< by buffer view
+    std::uint64_t heldBytes_ = 0;
 };
 
 } // namespace tessera::scenes::gltf

@@ -1,6 +1,5 @@
 #include "scenes/import/GltfCameras.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -26,10 +25,10 @@ glm::dmat4 rigidOf(const glm::dmat4& worldFromNode, bool& isDegenerate) {
     return rigid;
 }
 
-std::string uniqueName(const std::vector<Camera>& cameras, const std::string& wanted) {
+std::string uniqueName(Context& context, const std::string& wanted) {
     std::string name = wanted;
-    const auto isTaken = [&](const Camera& camera) { return camera.name == name; };
-    for (int i = 2; std::ranges::any_of(cameras, isTaken); ++i) name = fmt::format("{} {}", wanted, i);
+    int& number = context.cameraNumbers.try_emplace(wanted, 1).first->second;
+    while (!context.cameraNames.insert(name).second) name = fmt::format("{} {}", wanted, ++number);
     return name;
 }
 
@@ -76,8 +75,7 @@ void importCamera(Context& context, int nodeIndex, const glm::dmat4& worldFromNo
     const nlohmann::json& written = context.document.json["cameras"][static_cast<std::size_t>(node.camera)];
 
     Camera camera;
-    camera.name = uniqueName(context.scene.cameras,
-                             !stored.name.empty() ? stored.name : nameOr(node.name, "camera", node.camera));
+    camera.name = uniqueName(context, !stored.name.empty() ? stored.name : nameOr(node.name, "camera", node.camera));
     bool isDegenerate = false;
     camera.worldFromCamera = rigidOf(worldFromNode, isDegenerate);
     if (isDegenerate)

@@ -68,9 +68,10 @@ Container readBinary(std::span<const std::byte> bytes, const std::string& name) 
 
 } // namespace
 
-Container readContainer(const std::filesystem::path& file) {
-    const std::vector<std::byte> bytes = readFileBytes(file);
+Container readContainer(const std::filesystem::path& file, const LoadLedger& ledger) {
+    const std::vector<std::byte> bytes = readFileBytes(file, ledger);
     const std::string name = file.string();
+    ledger.charge(bytes.size(), [&] { return name; }); // once more, cut into its parts
     if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty", name));
     if (bytes.size() >= 4 && wordAt(bytes, 0) == kMagic) return readBinary(bytes, name);
     Container container{textOf(bytes), std::nullopt};

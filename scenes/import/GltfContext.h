@@ -1,5 +1,7 @@
 #pragma once
 #include <string>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "scenes/Scene.h"
 #include "scenes/import/GltfAccessors.h"
@@ -14,6 +16,9 @@ struct Context {
     Buffers& buffers;
     Accessors& accessors;
     Scene& scene;
+    std::unordered_set<std::string> warned = {};             ///< the scene's warnings
+    std::unordered_map<std::string, int> cameraNumbers = {}; ///< the last number behind a name that was taken
+    std::unordered_set<std::string> cameraNames = {};
 
     /// Adds "file: text" to the scene's warnings unless it already stands there.
     void warn(const std::string& text);

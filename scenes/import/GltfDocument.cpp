@@ -8,7 +8,9 @@
 
 #include "scenes/Error.h"
 #include "scenes/import/GltfContainer.h"
+#include "scenes/import/GltfHierarchy.h"
 #include "scenes/import/GltfShape.h"
+#include "scenes/import/JsonText.h"
 
 namespace tessera::scenes::gltf {
 namespace {
@@ -29,14 +31,11 @@ constexpr std::string_view kSupportedExtensions[] = {
     "KHR_texture_transform",
 };
 
-/// Far deeper than glTF nests; printing and converting JSON recurse, so depth must not be the file's to choose.
-constexpr int kMaxJsonDepth = 64;
-
 bool isSupported(std::string_view extension) {
     return std::ranges::find(kSupportedExtensions, extension) != std::end(kSupportedExtensions);
 }
 
-Json parseJson(const std::string& text, const std::string& file) {
+Json parseDocument(const std::string& text, const std::string& file) {
     const auto limitDepth = [&](int depth, Json::parse_event_t, Json&) {
         if (depth > kMaxJsonDepth)
             throw InputError(fmt::format("{}: the JSON nests deeper than {}", file, kMaxJsonDepth));
@@ -82,6 +81,31 @@ void checkRequiredExtensions(const Document& document) {
                                   fmt::join(missing, ", "), missing.size() == 1 ? "is" : "are"));
 }
 
+/// What tinygltf, and the importer after it, make of the elements of a document's arrays.
+void chargeElements(const Document& document) {
+    struct Elements {
+        const char* key;
+        std::size_t bytesEach;
+    };
+    constexpr std::size_t kCopies = 2; // while a vector grows
+    constexpr Elements kElements[] = {
+        {"nodes", kCopies * (sizeof(tinygltf::Node) + sizeof(PlacedNode) + sizeof(Node))},
+        {"meshes", kCopies * sizeof(tinygltf::Mesh)},
+        {"materials", kCopies * (sizeof(tinygltf::Material) + sizeof(Material))},
+        {"accessors", kCopies * sizeof(tinygltf::Accessor)},
+        {"bufferViews", kCopies * sizeof(tinygltf::BufferView)},
+        {"textures", kCopies * sizeof(tinygltf::Texture)},
+        {"samplers", kCopies * sizeof(tinygltf::Sampler)},
+        {"scenes", kCopies * sizeof(tinygltf::Scene)},
+        {"cameras", kCopies * sizeof(tinygltf::Camera)},
+    };
+    for (const Elements& elements : kElements)
+        if (const auto found = document.json.find(elements.key); found != document.json.end())
+            document.ledger.charge(found->size() * elements.bytesEach, [&] {
+                return fmt::format("{}: /{}, {} elements", document.file, elements.key, found->size());
+            });
+}
+
 /// What tinygltf is given: buffers and images are left out, because they are loaded here, checked and only when used;
 /// skins, animations and morph targets, because nothing reads them; and accessors without a buffer view point at one
 /// past the document's, because tinygltf refuses index accessors that have none.
@@ -108,19 +132,28 @@ void Document::fail(std::string_view place, std::string_view what) const {
     throw InputError(fmt::format("{}: {}: {}", file, place, what));
 }
 
-Document loadDocument(const std::filesystem::path& file) {
+void Document::charge(std::uint64_t bytes, std::string_view kind, int index) const {
+    ledger.charge(bytes, [&] { return fmt::format("{}: /{}/{}", file, kind, index); });
+}
+
+Document loadDocument(const std::filesystem::path& file, const LoadLedger& ledger) {
     Document document;
+    document.ledger = ledger;
     document.file = file.string();
     document.folder = file.parent_path();
-    Container container = readContainer(file);
+    Container container = readContainer(file, ledger);
     document.binary = std::move(container.binary);
-    document.json = parseJson(container.json, document.file);
+    // The document, its copy without what is loaded here, that one's text, and tinygltf's own document of it.
+    ledger.charge(3 * parsedJsonBytes(container.json) + container.json.size(),
+                  [&] { return document.file + ": its JSON"; });
+    document.json = parseDocument(container.json, document.file);
     checkVersion(document.json, document.file);
     checkShape(document.json, document.file);
     checkRequiredExtensions(document);
     if (const auto views = document.json.find("bufferViews"); views != document.json.end())
         document.bufferViewCount = static_cast<int>(views->size());
 
+    chargeElements(document);
     const std::string text = documentForParser(document.json).dump();
     if (text.size() > std::numeric_limits<unsigned>::max())
         throw InputError(fmt::format("{}: the JSON is larger than 4 GiB; move data into .bin files", document.file));

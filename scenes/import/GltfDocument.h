@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
 
+#include "scenes/LoadLedger.h"
+
 namespace tessera::scenes::gltf {
 
 /// A parsed glTF file of sound shape (GltfShape.h). Buffers and images are not loaded: what is never used is never
@@ -18,16 +20,19 @@ struct Document {
     std::filesystem::path folder; ///< relative URIs start here
     nlohmann::json json;          ///< the document as written; read for buffers, images and unsigned 64-bit properties
     std::optional<std::vector<std::byte>> binary; ///< the binary chunk of a .glb
-    tinygltf::Model model;   ///< everything but buffers, images, skins, animations and morph targets
+    tinygltf::Model model; ///< everything but buffers, images, skins, animations and morph targets
+    LoadLedger ledger;
     int bufferViewCount = 0; ///< an accessor's bufferView from here on stands for none
 
     /// Throws InputError "file: place: what".
     [[noreturn]] void fail(std::string_view place, std::string_view what) const;
+    /// Charges the ledger for what `kind` `index`, such as accessors 3, is about to take.
+    void charge(std::uint64_t bytes, std::string_view kind, int index) const;
 };
 
 /// Throws InputError when the file is missing, broken, of another glTF version or requires an extension that is not
 /// supported.
-Document loadDocument(const std::filesystem::path& file);
+Document loadDocument(const std::filesystem::path& file, const LoadLedger& ledger);
 
 /// The optional extensions that the document uses and the importer leaves out.
 std::vector<std::string> ignoredExtensions(const Document& document);

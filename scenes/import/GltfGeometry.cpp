@@ -40,6 +40,7 @@ public:
         if (primitive_.indices < 0) {
             if (vertexCount_ > std::numeric_limits<std::uint32_t>::max())
                 fail("POSITION", "has more vertices than 32-bit indices can name");
+            context_.document.ledger.charge(vertexCount_ * sizeof(std::uint32_t), [&] { return placeInFile(); });
             std::vector<std::uint32_t> all(vertexCount_);
             std::iota(all.begin(), all.end(), 0u);
             return all;
@@ -82,6 +83,8 @@ private:
         return kWidestRestart >> (32 - bits);
     }
 
+    std::string placeInFile() const { return fmt::format("{}: {}", context_.document.file, place_); }
+
     [[noreturn]] void fail(const std::string& attribute, const std::string& what) const {
         const int accessor = primitive_.attributes.at(attribute);
         context_.document.fail(fmt::format("{}/attributes/{}", place_, attribute),
@@ -118,6 +121,7 @@ private:
                             place_));
         }
         if (elements.components == 4) return elements;
+        context_.document.charge(elements.count * sizeof(glm::vec4), "accessors", primitive_.attributes.at("COLOR_0"));
         std::vector<float> withAlpha;
         withAlpha.reserve(elements.count * 4);
         for (std::size_t i = 0; i < elements.count; ++i) {
@@ -152,7 +156,12 @@ private:
 };
 
 void finishNormals(Context& context, const std::string& place, Mesh& mesh) {
-    if (mesh.normalsOS.empty()) return makeFlat(mesh);
+    if (mesh.normalsOS.empty()) {
+        constexpr std::size_t kMostVertexBytes = 2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec2) + sizeof(glm::vec4);
+        context.document.ledger.charge(mesh.indices.size() * kMostVertexBytes,
+                                       [&] { return fmt::format("{}: {}", context.document.file, place); });
+        return makeFlat(mesh);
+    }
     if (const std::size_t broken = repairNormals(mesh); broken > 0)
         context.warn(fmt::format("{}/attributes/NORMAL: {} normals have no direction; their triangles' are used", place,
                                  broken));
@@ -173,6 +182,8 @@ std::optional<Mesh> importPrimitive(Context& context, int meshIndex, int primiti
     mesh.name = nameOr(stored.name, "mesh", meshIndex);
     if (stored.primitives.size() > 1) mesh.name += fmt::format(" primitive {}", primitiveIndex);
 
+    const LoadLedger& ledger = context.document.ledger;
+    const std::uint64_t mark = ledger.usedBytes() - context.buffers.heldBytes();
     PrimitiveReader reader(context, primitive, place, mesh.name);
     if (primitive.mode < kFirstTriangleMode) {
         context.warn(fmt::format("{}: mesh '{}' draws {}, which are left out", place, mesh.name,
@@ -189,9 +200,13 @@ std::optional<Mesh> importPrimitive(Context& context, int meshIndex, int primiti
         context.warn(
             fmt::format("{}: mesh '{}' has {} corners, which is no multiple of 3; the last triangle is left out", place,
                         mesh.name, corners.size()));
+    if (primitive.mode != TINYGLTF_MODE_TRIANGLES) // three corners for every one after the second
+        ledger.charge(2 * 3 * corners.size() * sizeof(std::uint32_t),
+                      [&] { return fmt::format("{}: {}", context.document.file, place); });
     mesh.indices = trianglesOf(primitive.mode, std::move(corners));
     reader.warnOfUnused();
     finishNormals(context, place, mesh);
+    ledger.settle(mark, context.buffers.heldBytes() + bytesOf(mesh));
     if (mesh.indices.empty()) {
         context.warn(fmt::format("{}: mesh '{}' has no triangle and is left out", place, mesh.name));
         return std::nullopt;

@@ -1,5 +1,7 @@
 #include "scenes/import/GltfMeshopt.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <meshoptimizer.h>
 
@@ -34,6 +36,10 @@ void checkLayout(const MeshoptLayout& layout, std::size_t encodedBytes) {
 }
 
 } // namespace
+
+std::uint64_t decodedBytes(const MeshoptLayout& layout, std::size_t encodedBytes) {
+    return std::min<std::uint64_t>(layout.count * layout.byteStride, encodedBytes * kMaxRatio + kBlockBytes);
+}
 
 std::vector<std::byte> decodeMeshopt(std::span<const std::byte> encoded, const MeshoptLayout& layout) {
     checkLayout(layout, encoded.size());

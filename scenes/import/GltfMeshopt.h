@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,9 @@ struct MeshoptLayout {
     std::string_view mode;   ///< ATTRIBUTES, TRIANGLES or INDICES
     std::string_view filter; ///< NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL
 };
+
+/// The bytes that the layout says, as far as `encodedBytes` can hold them.
+std::uint64_t decodedBytes(const MeshoptLayout& layout, std::size_t encodedBytes);
 
 /// `layout.count` elements of `layout.byteStride` bytes. Throws InputError with the reason when the layout breaks a
 /// rule of the extension or the data is broken.

@@ -29,6 +29,26 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     }
 }
 
+/// A place in the document, whose text is made for messages only: nearly all places are good. It refers to the one
+/// above it.
+class Place {
+public:
+    Place() = default; ///< the document
+    Place(const Place& above, std::string_view key) : above_(&above), key_(key) {}
+    Place(const Place& above, std::size_t index) : above_(&above), index_(index) {}
+
+    bool isDocument() const { return above_ == nullptr; }
+    std::string text() const {
+        if (isDocument()) return {};
+        return above_->text() + (key_.data() != nullptr ? fmt::format("/{}", key_) : fmt::format("/{}", index_));
+    }
+
+private:
+    const Place* above_ = nullptr;
+    std::string_view key_; ///< no data: an array's element
+    std::size_t index_ = 0;
+};
+
 class Checker {
 public:
     Checker(Json& document, const std::string& file) : document_(document), file_(file) {}
@@ -37,42 +57,41 @@ public:
         std::string_view path = rule.path;
         const bool required = path.starts_with('!');
         if (required) path.remove_prefix(1);
-        walk(document_, split(path, '/'), 0, "", required, rule);
+        walk(document_, split(path, '/'), 0, Place(), required, rule);
     }
 
 private:
-    [[noreturn]] void fail(const std::string& place, const std::string& what) const {
-        throw InputError(fmt::format("{}: {}: {}", file_, place.empty() ? "/" : place, what));
+    [[noreturn]] void fail(const Place& place, const std::string& what) const {
+        throw InputError(fmt::format("{}: {}: {}", file_, place.isDocument() ? "/" : place.text(), what));
     }
 
-    void requireType(bool good, const std::string& place, std::string_view type, const Json& value) const {
+    void requireType(bool good, const Place& place, std::string_view type, const Json& value) const {
         if (!good) fail(place, fmt::format("must be {}, but is {}", type, value.type_name()));
     }
 
-    void walk(Json& value, const std::vector<std::string_view>& path, std::size_t depth, const std::string& place,
+    void walk(Json& value, const std::vector<std::string_view>& path, std::size_t depth, const Place& place,
               bool required, const Rule& rule) {
         if (depth == path.size()) return test(value, place, rule);
         const std::string_view segment = path[depth];
         if (segment == "*") {
             requireType(value.is_array(), place, "an array", value);
             for (std::size_t i = 0; i < value.size(); ++i)
-                walk(value[i], path, depth + 1, fmt::format("{}/{}", place, i), required, rule);
+                walk(value[i], path, depth + 1, Place(place, i), required, rule);
             return;
         }
         requireType(value.is_object(), place, "an object", value);
         if (segment == "@") {
-            for (auto& [key, member] : value.items())
-                walk(member, path, depth + 1, fmt::format("{}/{}", place, key), required, rule);
+            for (auto& [key, member] : value.items()) walk(member, path, depth + 1, Place(place, key), required, rule);
             return;
         }
         const auto member = value.find(segment);
         if (member != value.end())
-            walk(*member, path, depth + 1, fmt::format("{}/{}", place, segment), required, rule);
+            walk(*member, path, depth + 1, Place(place, segment), required, rule);
         else if (required && depth + 1 == path.size())
             fail(place, fmt::format("the required property '{}' is missing", segment));
     }
 
-    void test(Json& value, const std::string& place, const Rule& rule) {
+    void test(Json& value, const Place& place, const Rule& rule) {
         switch (rule.kind) {
         case Kind::Object:
             return requireType(value.is_object(), place, "an object", value);
@@ -88,7 +107,7 @@ private:
             requireType(value.is_array(), place, "an array of numbers", value);
             if (value.size() != rule.length)
                 fail(place, fmt::format("must hold {} numbers, but holds {}", rule.length, value.size()));
-            for (std::size_t i = 0; i < value.size(); ++i) testNumber(value[i], fmt::format("{}/{}", place, i), rule);
+            for (std::size_t i = 0; i < value.size(); ++i) testNumber(value[i], Place(place, i), rule);
             return;
         case Kind::Integer:
             return testInteger(value, place, rule);
@@ -113,7 +132,7 @@ private:
     }
 
     /// Numbers end as 32-bit floats in the scene, so anything that overflows one is out of range.
-    void testNumber(const Json& value, const std::string& place, const Rule& rule) const {
+    void testNumber(const Json& value, const Place& place, const Rule& rule) const {
         requireType(value.is_number(), place, "a number", value);
         const double number = value.get<double>();
         if (!(std::abs(number) <= std::numeric_limits<float>::max()))
@@ -121,7 +140,7 @@ private:
         testRange(number, place, rule);
     }
 
-    void testInteger(Json& value, const std::string& place, const Rule& rule) const {
+    void testInteger(Json& value, const Place& place, const Rule& rule) const {
         requireType(value.is_number(), place, "an integer", value);
         const double number = value.get<double>();
         if (!std::isfinite(number) || number != std::floor(number) || std::abs(number) > kMaxInteger)
@@ -130,12 +149,12 @@ private:
         if (!value.is_number_integer()) value = static_cast<std::int64_t>(number);
     }
 
-    void testRange(double number, const std::string& place, const Rule& rule) const {
+    void testRange(double number, const Place& place, const Rule& rule) const {
         if (number < rule.min) fail(place, fmt::format("is {}; it must be at least {}", number, rule.min));
         if (number > rule.max) fail(place, fmt::format("is {}; it must be at most {}", number, rule.max));
     }
 
-    void testIndex(Json& value, const std::string& place, const Rule& rule) {
+    void testIndex(Json& value, const Place& place, const Rule& rule) {
         testInteger(value, place, rule);
         const Json* target = &document_;
         for (const std::string_view segment : split(rule.choices, '/')) {
@@ -145,7 +164,7 @@ private:
                      fmt::format("points at /{}/{}, but the document has no {}", rule.choices, value.dump(), segment));
             target = &*member;
         }
-        requireType(target->is_array(), fmt::format("/{}", rule.choices), "an array", *target);
+        requireType(target->is_array(), Place(Place(), rule.choices), "an array", *target);
         if (value.get<std::size_t>() >= target->size())
             fail(place,
                  fmt::format("points at /{}/{}, but there are only {}", rule.choices, value.dump(), target->size()));

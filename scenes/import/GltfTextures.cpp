@@ -107,18 +107,22 @@ Image Textures::decoded(int index) const {
     const std::string uri = stored.value("uri", std::string());
     Image image;
     if (const auto view = stored.find("bufferView"); view != stored.end()) {
-        image = decodeImage(context_.buffers.view(view->get<int>()), fmt::format("{}: {}", document.file, place));
+        image = decodeImage(context_.buffers.view(view->get<int>()), fmt::format("{}: {}", document.file, place),
+                            document.ledger);
     } else if (isDataUri(uri)) {
+        const std::uint64_t mark = document.ledger.usedBytes();
         std::vector<std::byte> bytes;
         try {
+            context_.document.charge(2 * uri.size(), "images", index);
             bytes = decodeDataUri(uri);
         } catch (const InputError& error) {
             document.fail(place, error.what());
         }
-        image = decodeImage(bytes, fmt::format("{}: {}", document.file, place));
+        image = decodeImage(bytes, fmt::format("{}: {}", document.file, place), document.ledger);
+        document.ledger.settle(mark, image.texels.size());
     } else if (!uri.empty()) {
         try {
-            image = readImage(fileOfUri(uri, document.folder));
+            image = readImage(fileOfUri(uri, document.folder), document.ledger);
         } catch (const InputError& error) {
             document.fail(place, error.what());
         }

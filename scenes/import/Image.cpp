@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstdint>
 #include <cstring>
-#include <optional>
 #include <string_view>
 
 #include <OpenImageIO/filesystem.h>
@@ -13,15 +11,10 @@
 #include "scenes/Error.h"
 #include "scenes/import/FileBytes.h"
 #include "scenes/import/Importers.h"
+#include "scenes/import/PictureCodecs.h"
 
 namespace tessera::scenes {
 namespace {
-
-constexpr int kMaxSide = 32768;                            ///< the largest side of a texture on current hardware
-constexpr std::int64_t kMaxTexels = std::int64_t{1} << 28; ///< 16384 x 16384
-/// No picture codec packs texels tighter than this (deflate reaches 1032 bytes a byte, a 1-bit grey texel becomes 4
-/// bytes): a header that claims more texels than its file can hold is refused before memory is reserved for them.
-constexpr std::int64_t kMaxTexelsPerByte = 16384;
 
 struct Signature {
     std::string_view bytes;
@@ -38,16 +31,21 @@ constexpr Signature kSignatures[] = {
     {"II*\0"sv, 0, "tiff"},
     {"MM\0*"sv, 0, "tiff"},
     {"GIF8"sv, 0, "gif"},
+    {"WEBP"sv, 8, "webp"},
+    {"BM"sv, 0, "bmp"},
     {"8BPS"sv, 0, "psd"},
     {"DDS "sv, 0, "dds"},
-    {"WEBP"sv, 8, "webp"},
     {"\xabKTX 11"sv, 0, "ktx"},
     {"\xabKTX 20"sv, 0, "ktx2"},
-    {"BM"sv, 0, "bmp"},
     {"\0\0\0\x0cjP  "sv, 0, "jpeg2000"},
 };
 
-/// The format by its first bytes, else by the extension of `name` (TGA has no signature).
+/// The formats that are decoded. OpenImageIO has many more readers, some of which crash on broken files, and some open
+/// what is no picture at all; none of them is ever asked.
+constexpr std::string_view kDecoded[] = {"png", "jpeg", "openexr", "hdr", "tiff", "gif", "webp", "bmp", "tga"};
+
+/// The format by its first bytes, whatever the name says; TGA, which has no signature, by the extension of `name`.
+/// Else that extension, or nothing.
 std::string formatOf(std::span<const std::byte> bytes, const std::string& name) {
     for (const Signature& signature : kSignatures)
         if (bytes.size() >= signature.offset + signature.bytes.size() &&
@@ -56,23 +54,10 @@ std::string formatOf(std::span<const std::byte> bytes, const std::string& name) 
     std::string extension = std::filesystem::path(name).extension().string();
     if (!extension.empty()) extension.erase(0, 1);
     std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-    return extension;
-}
-
-/// libpng prints a line of its own to stderr when a file ends early, so that is found out before it is asked.
-/// Source: PNG specification, section 5.3: a chunk is length, type, data, CRC, with the length big-endian.
-bool isCompletePng(std::span<const std::byte> bytes) {
-    constexpr std::size_t kSignatureBytes = 8;
-    constexpr std::size_t kFrameBytes = 12;
-    std::size_t at = kSignatureBytes;
-    while (bytes.size() - at >= kFrameBytes) {
-        std::size_t length = 0;
-        for (std::size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<std::size_t>(bytes[at + i]);
-        if (length > bytes.size() - at - kFrameBytes) return false;
-        if (std::memcmp(bytes.data() + at + 4, "IEND", 4) == 0) return true;
-        at += length + kFrameBytes;
-    }
-    return false;
+    if (extension == "tga") return extension;
+    const bool isMisnamed = std::ranges::find(kDecoded, extension) != std::end(kDecoded) || extension == "jpg" ||
+                            extension == "exr" || extension == "tif";
+    return isMisnamed ? std::string() : extension;
 }
 
 std::string oneLine(std::string text) {
@@ -118,54 +103,38 @@ bool readTexels(OIIO::ImageInput& input, int channels, bool alphaIsLast, OIIO::T
     return true;
 }
 
-/// `file` names the bytes' file for formats that OpenImageIO cannot read from memory.
-Image decode(std::span<const std::byte> bytes, const std::string& name,
-             const std::optional<std::filesystem::path>& file) {
-    if (bytes.empty()) throw InputError(fmt::format("{}: the picture is empty (0 bytes)", name));
-    const std::string format = formatOf(bytes, name);
-    if (format.empty() || format == "ktx" || format == "ktx2")
-        throw InputError(fmt::format("{}: {}; convert the picture to PNG, JPEG, HDR or EXR", name,
-                                     format.empty() ? "is in no known picture format"
-                                                    : fmt::format("the picture format {} is not supported", format)));
-    if (format == "png" && (bytes.size() < 8 || !isCompletePng(bytes)))
-        throw InputError(fmt::format("{}: the png picture is broken or cut short", name));
+Image decodeByOiio(std::span<const std::byte> bytes, const std::string& name, const std::string& format,
+                   const LoadLedger& ledger) {
+    const std::uint64_t mark = ledger.usedBytes();
+    requirePictureSize(claimedSize(bytes, format), bytes, name, ledger);
     std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
-    if (!input) {
-        OIIO::geterror(); // clears the text, which lists plugins instead of saying what to do
-        throw InputError(fmt::format("{}: the picture format '{}' is not supported; convert the picture to PNG, JPEG, "
-                                     "HDR or EXR",
-                                     name, format));
-    }
+    if (!input)
+        throw std::runtime_error(fmt::format("OpenImageIO cannot read {}: {}; install it with that format", format,
+                                             oneLine(OIIO::geterror())));
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
     OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
     OIIO::ImageSpec spec;
-    const bool fromMemory = input->supports("ioproxy") && input->set_ioproxy(&reader);
-    if (!fromMemory && !file)
-        throw InputError(
-            fmt::format("{}: an embedded {} picture is not supported; store it as PNG or JPEG", name, format));
-    if (!input->open(fromMemory ? "picture." + format : file->string(), spec, config))
+    if (!input->supports("ioproxy") || !input->set_ioproxy(&reader))
+        throw std::runtime_error("this OpenImageIO cannot read the format from memory; install 2.4 or newer");
+    if (!input->open("picture." + format, spec, config))
         throw InputError(
             fmt::format("{}: the {} picture cannot be decoded ({})", name, format, oneLine(input->geterror())));
 
-    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0)
+    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 || spec.deep)
         throw InputError(fmt::format("{}: the picture has {}x{}x{} texels of {} channels; a flat picture with at least "
                                      "one of each is needed",
                                      name, spec.width, spec.height, spec.depth, spec.nchannels));
-    const std::int64_t texelCount = std::int64_t{spec.width} * spec.height;
-    if (spec.width > kMaxSide || spec.height > kMaxSide || texelCount > kMaxTexels)
-        throw InputError(fmt::format("{}: the picture has {}x{} texels; at most {} a side and {} in all can be used",
-                                     name, spec.width, spec.height, kMaxSide, kMaxTexels));
-    if (texelCount / kMaxTexelsPerByte > static_cast<std::int64_t>(bytes.size()))
-        throw InputError(
-            fmt::format("{}: the header claims {}x{} texels, more than {} bytes can hold; the file is broken", name,
-                        spec.width, spec.height, bytes.size()));
-
     Image image;
     image.name = name;
     image.width = spec.width;
     image.height = spec.height;
     image.format = texelFormatOf(spec.format);
+    // The reader's own copy, what it hands over, and the texels made of that.
+    const std::uint64_t bytesATexel =
+        2 * static_cast<std::uint64_t>(spec.nchannels) * texelBytes(image.format) / 4 + texelBytes(image.format);
+    ledger.settle(mark, 0);
+    requirePictureSize({spec.width, spec.height, bytesATexel}, bytes, name, ledger);
     // Beyond RGBA stand depth and the like, which no texture slot uses.
     const int channels = spec.nchannels <= 4 ? spec.nchannels : (spec.alpha_channel == 3 ? 4 : 3);
     const bool alphaIsLast = channels == 2 || channels == 4;
@@ -189,12 +158,38 @@ Image decode(std::span<const std::byte> bytes, const std::string& name,
 
 } // namespace
 
-Image readImage(const std::filesystem::path& file) {
-    return decode(readFileBytes(file), file.string(), file);
+Image readImage(const std::filesystem::path& file, const LoadLedger& ledger) {
+    const std::uint64_t mark = ledger.usedBytes();
+    Image image = decodeImage(readFileBytes(file, ledger), file.string(), ledger);
+    ledger.settle(mark, image.texels.size());
+    return image;
 }
 
-Image decodeImage(std::span<const std::byte> bytes, const std::string& name) {
-    return decode(bytes, name, std::nullopt);
+Image decodeImage(std::span<const std::byte> bytes, const std::string& name, const LoadLedger& ledger) {
+    if (bytes.empty()) throw InputError(fmt::format("{}: the picture is empty (0 bytes)", name));
+    const std::string format = formatOf(bytes, name);
+    if (std::ranges::find(kDecoded, format) == std::end(kDecoded))
+        throw InputError(fmt::format("{}: {}; convert the picture to PNG, JPEG, HDR or EXR", name,
+                                     format.empty() ? "is in no known picture format"
+                                                    : fmt::format("the picture format {} is not supported", format)));
+    const std::uint64_t mark = ledger.usedBytes();
+    Image image;
+    try {
+        if (format == "png")
+            image = decodePng(bytes, name, ledger);
+        else if (format == "bmp" || format == "tga")
+            image = decodeBmpOrTga(bytes, name, ledger);
+        else
+            image = decodeByOiio(bytes, name, format, ledger);
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) { // some readers throw their own
+        throw InputError(fmt::format("{}: the {} picture cannot be decoded ({})", name, format, oneLine(error.what())));
+    }
+    ledger.settle(mark, image.texels.size());
+    return image;
 }
 
 } // namespace tessera::scenes

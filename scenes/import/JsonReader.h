@@ -29,6 +29,7 @@ public:
     bool isText() const { return value_->is_string(); }
     bool isArray() const { return value_->is_array(); }
     bool isObject() const { return value_->is_object(); }
+    std::size_t size() const { return value_->size(); } ///< elements of an array, members of an object
 
     /// Within the limits, both included.
     double number(double least = -std::numeric_limits<double>::infinity(),

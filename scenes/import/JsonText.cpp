@@ -68,6 +68,8 @@ private:
 
     bool open() {
         open_.emplace_back();
+        if (open_.size() > kMaxJsonDepth)
+            throw InputError(fmt::format("{}: the JSON nests deeper than {}", file_.string(), kMaxJsonDepth));
         return true;
     }
 
@@ -90,7 +92,28 @@ private:
 
 } // namespace
 
-json parseJson(std::string_view text, const std::filesystem::path& file) {
+std::uint64_t parsedJsonBytes(std::string_view text) {
+    // Strings stand in the document once; the rest is one value after each of these, twice over while an array grows,
+    // and an object's members are nodes of a tree.
+    constexpr std::uint64_t kValueBytes = 2 * sizeof(json), kObjectBytes = 64, kMemberBytes = 96;
+    std::uint64_t bytes = text.size() + kValueBytes;
+    bool inString = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"') inString = !inString;
+        if (inString) {
+            if (c == '\\') ++i;
+            continue;
+        }
+        if (c == ',' || c == '[') bytes += kValueBytes;
+        if (c == '{') bytes += kValueBytes + kObjectBytes;
+        if (c == ':') bytes += kMemberBytes;
+    }
+    return bytes;
+}
+
+json parseJson(std::string_view text, const std::filesystem::path& file, const LoadLedger& ledger) {
+    ledger.charge(parsedJsonBytes(text), [&] { return file.string() + ": its JSON"; });
     Checker checker(text, file);
     json::sax_parse(text, &checker);
     return json::parse(text);

@@ -5,11 +5,22 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scenes/LoadLedger.h"
+
 namespace tessera::scenes {
 
 /// Parses a JSON document. Throws InputError "file:line:column: what" for broken syntax (NaN and comments are none of
-/// JSON's) and numbers too large for a double, "file:/json/pointer: what" for a key that an object has twice.
-nlohmann::json parseJson(std::string_view text, const std::filesystem::path& file);
+/// JSON's) and numbers too large for a double, "file:/json/pointer: what" for a key that an object has twice
+/// or that nests deeper than 64. The ledger is charged for the document.
+nlohmann::json parseJson(std::string_view text, const std::filesystem::path& file,
+                         const LoadLedger& ledger = LoadLedger());
+
+/// Far deeper than any document here nests; printing and converting JSON recurse, so depth must not be the file's to
+/// choose.
+inline constexpr int kMaxJsonDepth = 64;
+
+/// At most what a parsed document of this text takes.
+std::uint64_t parsedJsonBytes(std::string_view text);
 
 /// `pointer` with one more step. Source: RFC 6901, "JSON Pointer".
 std::string jsonPointerTo(const std::string& pointer, std::string_view key);

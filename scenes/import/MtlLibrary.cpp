@@ -29,7 +29,8 @@ std::vector<std::string> fileNamesOf(const std::string& statement, const std::fi
 } // namespace
 
 std::vector<MtlMaterial> findMaterials(const std::vector<std::string>& names, const std::vector<std::string>& libraries,
-                                       const std::filesystem::path& objFile, std::vector<std::string>& warnings) {
+                                       const std::filesystem::path& objFile, std::vector<std::string>& warnings,
+                                       const LoadLedger& ledger) {
     std::map<std::string, MtlMaterial> defined;
     std::set<std::string> visited;
     for (const std::string& statement : libraries) {
@@ -41,7 +42,8 @@ std::vector<MtlMaterial> findMaterials(const std::vector<std::string>& names, co
                                                objFile.string(), name));
                 continue;
             }
-            for (MtlMaterial& material : readMtl(file, warnings)) defined.emplace(material.name, std::move(material));
+            for (MtlMaterial& material : readMtl(file, warnings, ledger))
+                defined.emplace(material.name, std::move(material));
         }
     }
     std::vector<MtlMaterial> found;

@@ -61,12 +61,13 @@ bool equalsIgnoringCase(std::string_view a, std::string_view b) {
                               [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
-class Checker {
+class MtlChecker {
 public:
-    Checker(const std::filesystem::path& file, std::vector<std::string>& warnings) : file_(file), warnings_(warnings) {}
+    MtlChecker(const std::filesystem::path& file, std::vector<std::string>& warnings, const LoadLedger& ledger)
+        : file_(file), warnings_(warnings), ledger_(ledger) {}
 
     std::vector<MtlMaterial> read() {
-        forEachLine(readText(file_), [&](const Line& line) { readLine(line); });
+        forEachLine(readText(file_, ledger_), [&](const Line& line) { readLine(line); });
         const auto warn = [&](const char* what, const std::set<std::string>& which) {
             if (!which.empty())
                 warnings_.push_back(fmt::format("{}: {}: {}", file_.string(), what, fmt::join(which, ", ")));
@@ -83,6 +84,10 @@ private:
             if (line.rest.empty()) failAt(file_, line.number, "'newmtl' gives no name");
             // The number keeps names with spaces, and equal ones, apart from what the parser makes of them.
             fmt::format_to(std::back_inserter(text_), "newmtl {}\n", materials_.size());
+            // In the file's list, grown; in the parser's; and as those that are used.
+            constexpr std::size_t kCopies = 4;
+            ledger_.charge(kCopies * (sizeof(MtlMaterial) + sizeof(Material)),
+                           [&] { return fmt::format("{}:{}", file_.string(), line.number); });
             materials_.emplace_back();
             materials_.back().name = line.rest;
             materials_.back().file = file_;
@@ -187,6 +192,7 @@ private:
 
     const std::filesystem::path& file_;
     std::vector<std::string>& warnings_;
+    const LoadLedger& ledger_;
     std::string text_;
     std::vector<MtlMaterial> materials_;
     std::set<std::string> unknown_;
@@ -195,8 +201,9 @@ private:
 
 } // namespace
 
-std::vector<MtlMaterial> readMtl(const std::filesystem::path& file, std::vector<std::string>& warnings) {
-    return Checker(file, warnings).read();
+std::vector<MtlMaterial> readMtl(const std::filesystem::path& file, std::vector<std::string>& warnings,
+                                 const LoadLedger& ledger) {
+    return MtlChecker(file, warnings, ledger).read();
 }
 
 } // namespace tessera::scenes::obj

@@ -122,16 +122,16 @@ private:
     bool lacksTexCoords_ = false;
 };
 
-class Importer {
+class ObjImporter {
 public:
-    explicit Importer(const std::filesystem::path& file)
-        : file_(file), checked_(checkText(readText(file), file)), parsed_(parse(checked_, file)),
-          normals_(parsed_.attributes, parsed_.shapes), materials_(scene_) {}
+    ObjImporter(const std::filesystem::path& file, const LoadLedger& ledger)
+        : file_(file), ledger_(ledger), checked_(checkText(readText(file, ledger), file, ledger)),
+          parsed_(parse(checked_, file)), normals_(parsed_.attributes, parsed_.shapes), materials_(scene_, ledger) {}
 
     Scene import() {
         scene_.name = file_.stem().string();
         scene_.warnings = checked_.warnings;
-        mtl_ = findMaterials(checked_.materials, checked_.libraries, file_, scene_.warnings);
+        mtl_ = findMaterials(checked_.materials, checked_.libraries, file_, scene_.warnings, ledger_);
         for (const tinyobj::shape_t& shape : parsed_.shapes) addShape(shape);
         warnOfLosses();
         return std::move(scene_);
@@ -185,6 +185,7 @@ private:
     }
 
     const std::filesystem::path& file_;
+    const LoadLedger& ledger_;
     Scene scene_;
     CheckedText checked_;
     Parsed parsed_;
@@ -197,8 +198,11 @@ private:
 
 } // namespace
 
-Scene importObj(const std::filesystem::path& file) {
-    return Importer(file).import();
+Scene importObj(const std::filesystem::path& file, const LoadLedger& ledger) {
+    const std::uint64_t mark = ledger.usedBytes();
+    Scene scene = ObjImporter(file, ledger).import();
+    ledger.settle(mark, bytesOf(scene));
+    return scene;
 }
 
 } // namespace tessera::scenes

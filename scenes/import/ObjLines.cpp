@@ -111,8 +111,9 @@ void failAt(const std::filesystem::path& file, int line, const std::string& what
     throw InputError(fmt::format("{}:{}: {}", file.string(), line, what));
 }
 
-std::string readText(const std::filesystem::path& file) {
-    const std::vector<std::byte> bytes = readFileBytes(file);
+std::string readText(const std::filesystem::path& file, const LoadLedger& ledger) {
+    const std::vector<std::byte> bytes = readFileBytes(file, ledger);
+    ledger.charge(bytes.size(), [&] { return file.string(); }); // once more as text
     std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/LoadLedger.h"
+
 namespace tessera::scenes::obj {
 
 /// One statement of an OBJ or MTL file. The views hold during the call that receives them.
@@ -31,6 +33,6 @@ float finiteNumber(const std::filesystem::path& file, const Line& line, std::str
 [[noreturn]] void failAt(const std::filesystem::path& file, int line, const std::string& what);
 
 /// A file's text without a byte order mark. Throws InputError when it is missing, unreadable or empty.
-std::string readText(const std::filesystem::path& file);
+std::string readText(const std::filesystem::path& file, const LoadLedger& ledger);
 
 } // namespace tessera::scenes::obj

@@ -100,7 +100,7 @@ int MaterialConverter::image(const MtlMaterial& mtl, const char* keyword, const 
     const auto [entry, isNew] = imageOfFile_.try_emplace(path.lexically_normal().string(), kNone);
     if (!isNew) return entry->second;
     try {
-        scene_.images.push_back(readImage(path));
+        scene_.images.push_back(readImage(path, ledger_));
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: material '{}', {}: {}", mtl.file.string(), mtl.name, keyword, error.what()));
     }
@@ -126,6 +126,7 @@ void MaterialConverter::setOpacity(const MtlMaterial& mtl, Material& material) {
     }
     const auto [entry, isNew] = colourAndOpacity_.try_emplace({colour.image, opacity.image}, kNone);
     if (isNew) {
+        charge(colour.image, opacity.image, mtl);
         const Image* rgb = colour.image == kNone ? nullptr : &scene_.images[static_cast<std::size_t>(colour.image)];
         const Image& mask = scene_.images[static_cast<std::size_t>(opacity.image)];
         const int channel = hasAlpha(mask) ? 3 : 0; // MTL's default is the matte channel; grey pictures hold it in red
@@ -165,6 +166,7 @@ void MaterialConverter::setMetallicRoughness(const MtlMaterial& mtl, Material& m
     if (roughness.image != metalness.image) {
         const auto [entry, isNew] = roughnessAndMetalness_.try_emplace({roughness.image, metalness.image}, kNone);
         if (isNew) {
+            charge(roughness.image, metalness.image, mtl);
             const auto source = [&](int image) {
                 return ChannelSource{image == kNone ? nullptr : &scene_.images[static_cast<std::size_t>(image)], 0};
             };
@@ -205,6 +207,21 @@ void MaterialConverter::setNormalMap(const MtlMaterial& mtl, Material& material)
         material.texture(TextureSlot::Normal) = textureUse(mtl, keyword, values.bump_texname, values.bump_texopt);
         material.normalScale = values.bump_texopt.bump_multiplier;
     }
+}
+
+/// For a picture packed of two: as wide and as high as the larger, in at most the wider format.
+void MaterialConverter::charge(int image, int other, const MtlMaterial& mtl) {
+    std::uint64_t width = 0, height = 0, bytes = 0;
+    for (const int one : {image, other}) {
+        if (one == kNone) continue;
+        const Image& part = scene_.images[static_cast<std::size_t>(one)];
+        width = std::max(width, static_cast<std::uint64_t>(part.width));
+        height = std::max(height, static_cast<std::uint64_t>(part.height));
+        bytes = std::max<std::uint64_t>(bytes, texelBytes(part.format));
+    }
+    ledger_.charge(width * height * bytes, [&] {
+        return fmt::format("{}: material '{}', a picture of {}x{} texels", mtl.file.string(), mtl.name, width, height);
+    });
 }
 
 void MaterialConverter::warn(const MtlMaterial& mtl, const std::string& what) {

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenes/LoadLedger.h"
 #include "scenes/Scene.h"
 #include "scenes/import/MtlLibrary.h"
 
@@ -24,7 +25,7 @@ namespace tessera::scenes::obj {
 /// Values above what a parameter allows are clamped to it.
 class MaterialConverter {
 public:
-    explicit MaterialConverter(Scene& scene) : scene_(scene) {}
+    MaterialConverter(Scene& scene, const LoadLedger& ledger) : scene_(scene), ledger_(ledger) {}
 
     /// The index of the new material. Throws InputError naming MTL file, material and picture when one cannot be read.
     int add(const MtlMaterial& mtl);
@@ -42,7 +43,10 @@ private:
     void setNormalMap(const MtlMaterial& mtl, Material& material);
     void warn(const MtlMaterial& mtl, const std::string& what);
 
+    void charge(int image, int other, const MtlMaterial& mtl);
+
     Scene& scene_;
+    const LoadLedger& ledger_;
     std::map<std::string, int> imageOfFile_;
     std::map<std::pair<int, int>, int> colourAndOpacity_;      ///< packed image of two images, either may be kNone
     std::map<std::pair<int, int>, int> roughnessAndMetalness_; ///< likewise

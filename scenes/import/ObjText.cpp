@@ -4,10 +4,12 @@
 #include <array>
 #include <iterator>
 #include <set>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
 #include "scenes/Error.h"
+#include "scenes/import/MtlLibrary.h"
 #include "scenes/import/ObjLines.h"
 #include "scenes/import/ObjPolygon.h"
 
@@ -22,9 +24,17 @@ constexpr std::array<std::string_view, 8> kWithoutEffect = {"lod", "bevel",     
 constexpr std::array<std::string_view, 3> kAttributes = {"position", "texture coordinate", "normal"};
 constexpr std::array<std::string_view, 3> kAttributeKeywords = {"v", "vt", "vn"};
 
-class Checker {
+/// What becomes of a triangle, most of it at once: three lines' worth of text in three copies, tinyobjloader's corners,
+/// and vertices of its own with their entries in the table of shared ones. And of an attribute: text and numbers.
+constexpr std::size_t kTriangleBytes = 3 * 3 * 24 + 3 * 96 + 3 * (52 + 64);
+constexpr std::size_t kAttributeBytes = 3 * 40 + 64;
+/// And of a name that usemtl gives: the parser's material, the library's and the scene's, vectors growing.
+constexpr std::size_t kMaterialBytes = 2 * (sizeof(tinyobj::material_t) + sizeof(MtlMaterial) + sizeof(Material));
+
+class ObjChecker {
 public:
-    Checker(std::string_view text, const std::filesystem::path& file) : source_(text), file_(file) {}
+    ObjChecker(std::string_view text, const std::filesystem::path& file, const LoadLedger& ledger)
+        : source_(text), file_(file), ledger_(ledger) {}
 
     CheckedText check() {
         forEachLine(source_, [&](const Line& line) { readAttribute(line); });
@@ -49,6 +59,7 @@ private:
         if (line.words.size() < needed)
             failAt(file_, line.number,
                    fmt::format("'{}' has {} of the {} numbers it needs", line.keyword, line.words.size(), needed));
+        charge(kAttributeBytes, line);
         attributes_ += line.keyword;
         glm::dvec3 first(0.0);
         glm::length_t count = 0;
@@ -72,9 +83,12 @@ private:
         } else if (keyword == "s") {
             readSmoothing(line);
         } else if (keyword == "usemtl") {
-            const auto at = std::ranges::find(checked_.materials, line.rest);
-            fmt::format_to(std::back_inserter(elements_), "usemtl {}\n", at - checked_.materials.begin());
-            if (at == checked_.materials.end()) checked_.materials.emplace_back(line.rest);
+            const auto [number, isNew] = materialNumbers_.try_emplace(std::string(line.rest), materialNumbers_.size());
+            fmt::format_to(std::back_inserter(elements_), "usemtl {}\n", number->second);
+            if (isNew) {
+                charge(kMaterialBytes, line);
+                checked_.materials.emplace_back(line.rest);
+            }
         } else if (keyword == "mtllib") {
             checked_.libraries.emplace_back(line.rest);
         } else if (keyword == "l" || keyword == "p") {
@@ -96,6 +110,7 @@ private:
                    fmt::format("the face has {} corners, more than {}; cut it into smaller polygons", line.words.size(),
                                kMostCorners));
         ++faces_;
+        charge((line.words.size() - 2) * kTriangleBytes, line);
         std::vector<std::array<std::size_t, 3>> corners;
         std::vector<glm::dvec3> positionsOS;
         for (const std::string_view word : line.words) {
@@ -107,6 +122,10 @@ private:
             for (const std::size_t corner : triangle) appendCorner(corners[corner]);
             elements_ += '\n';
         }
+    }
+
+    void charge(std::uint64_t bytes, const Line& line) const {
+        ledger_.charge(bytes, [&] { return fmt::format("{}:{}", file_.string(), line.number); });
     }
 
     void appendCorner(const std::array<std::size_t, 3>& index) {
@@ -180,12 +199,14 @@ private:
 
     std::string_view source_;
     const std::filesystem::path& file_;
+    const LoadLedger& ledger_;
     CheckedText checked_;
     std::vector<glm::dvec3> positionsOS_;
     std::string attributes_;
     std::string elements_;
     std::array<std::size_t, 3> read_{};    ///< attributes read so far, in the order of kAttributes
     std::array<std::size_t, 3> defined_{}; ///< in the whole file
+    std::unordered_map<std::string, std::size_t> materialNumbers_;
     std::size_t faces_ = 0;
     std::size_t degenerateFaces_ = 0;
     int firstDegenerateLine_ = 0;
@@ -195,8 +216,8 @@ private:
 
 } // namespace
 
-CheckedText checkText(std::string_view text, const std::filesystem::path& file) {
-    return Checker(text, file).check();
+CheckedText checkText(std::string_view text, const std::filesystem::path& file, const LoadLedger& ledger) {
+    return ObjChecker(text, file, ledger).check();
 }
 
 } // namespace tessera::scenes::obj

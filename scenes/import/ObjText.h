@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/LoadLedger.h"
+
 namespace tessera::scenes::obj {
 
 /// An OBJ file after every statement has been checked, rewritten so that tinyobjloader reads it as it is meant:
@@ -18,7 +20,7 @@ struct CheckedText {
 };
 
 /// Throws InputError "file:line: ..." for a number that is none or not finite, a face's index that is out of range, and
-/// "file: ..." when there is no face.
-CheckedText checkText(std::string_view text, const std::filesystem::path& file);
+/// "file: ..." when there is no face. Charges the ledger for all that is made of the text.
+CheckedText checkText(std::string_view text, const std::filesystem::path& file, const LoadLedger& ledger);
 
 } // namespace tessera::scenes::obj

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <system_error>
+#include <unordered_map>
 
 #include "scenes/Error.h"
 #include "scenes/Load.h"
@@ -20,6 +22,8 @@ using namespace scenejson;
 
 /// Included files in all, nested ones counted: documents that each include the next one twice would grow without end.
 constexpr int kMostIncludes = 4096;
+/// Documents that include or are based on one another: each takes some kilobytes of the call stack.
+constexpr std::size_t kMostNested = 64;
 constexpr int kVersion = 1;
 constexpr int kMostPixelsASide = 16384; ///< the largest target of current hardware
 constexpr std::string_view kBuiltin = "builtin:";
@@ -29,16 +33,33 @@ struct BaseSize {
     std::size_t materials, images;
 };
 
-class Importer {
+/// Where each name stands that elements of a kind have so far.
+class Names {
 public:
+    /// Throws InputError at `value` where the name is taken.
+    void add(const std::string& name, const JsonValue& value) {
+        const auto [taken, isNew] = elements_.try_emplace(name, elements_.size());
+        if (!isNew) value.fail(fmt::format("the name '{}' is taken by element {}; give another", name, taken->second));
+    }
+
+private:
+    std::unordered_map<std::string, std::size_t> elements_;
+};
+
+class DocumentImporter {
+public:
+    explicit DocumentImporter(const LoadLedger& ledger) : ledger_(ledger) {}
+
     Scene import(const std::filesystem::path& file) {
+        const std::uint64_t mark = ledger_.usedBytes();
         chain_.push_back(file);
-        const std::vector<std::byte> bytes = readFileBytes(file);
+        const std::vector<std::byte> bytes = readFileBytes(file, ledger_);
         if (bytes.empty()) throw InputError(file.string() + ": the file is empty; start with {\"tessera\": 1}");
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-        const nlohmann::json document = parseJson(text, file);
+        const nlohmann::json document = parseJson(text, file, ledger_);
         Scene scene = readDocument(JsonValue(document, file), file);
         chain_.pop_back();
+        ledger_.settle(mark, bytesOf(scene));
         return scene;
     }
 
@@ -47,16 +68,20 @@ private:
         JsonObject document = value.object();
         Scene scene;
         readHeader(document, file, scene);
-        const auto elementsOf = [&](std::string_view key) {
+        const auto elementsOf = [&](std::string_view key, std::size_t bytesEach = 0) {
             const std::optional<JsonValue> list = document.find(key);
-            return list ? list->elements() : std::vector<JsonValue>();
+            if (!list) return std::vector<JsonValue>();
+            constexpr std::size_t kCopies = 3; // while a vector grows, and in the scene
+            ledger_.charge(list->size() * (sizeof(JsonValue) + kCopies * bytesEach),
+                           [&] { return fmt::format("{}:/{}, {} elements", file.string(), key, list->size()); });
+            return list->elements();
         };
         // Everything that is quick to check comes before the files, and unknown keys before all of it.
         const std::vector<JsonValue> includes = elementsOf("include");
-        const std::vector<JsonValue> materials = elementsOf("materials");
+        const std::vector<JsonValue> materials = elementsOf("materials", sizeof(Material));
         const std::vector<JsonValue> overrides = elementsOf("overrides");
-        const std::vector<JsonValue> lights = elementsOf("lights");
-        const std::vector<JsonValue> cameras = elementsOf("cameras");
+        const std::vector<JsonValue> lights = elementsOf("lights", sizeof(Light));
+        const std::vector<JsonValue> cameras = elementsOf("cameras", sizeof(Camera));
         const std::optional<JsonValue> environment = document.find("environment");
         const std::optional<JsonValue> options = document.find("options");
         const std::optional<JsonValue> base = document.find("base");
@@ -67,12 +92,11 @@ private:
         std::vector<Light> ownLights;
         std::vector<Camera> ownCameras;
         for (std::size_t i = 0; i < lights.size(); ++i) ownLights.push_back(readLight(lights[i], i));
+        Names cameraNames;
         for (std::size_t i = 0; i < cameras.size(); ++i) {
+            ownCameras.push_back(readCamera(cameras[i], i));
             // Those that replace a base's may share names, as its own may.
-            if (base)
-                ownCameras.push_back(readCamera(cameras[i], i));
-            else
-                addUnique(readCamera(cameras[i], i), cameras[i], ownCameras);
+            if (!base) cameraNames.add(ownCameras.back().name, cameras[i]);
         }
 
         if (base) {
@@ -126,15 +150,6 @@ private:
         scene.name = std::move(name);
     }
 
-    template <typename Element>
-    static void addUnique(Element element, const JsonValue& value, std::vector<Element>& elements,
-                          std::size_t first = 0) {
-        for (std::size_t i = first; i < elements.size(); ++i)
-            if (elements[i].name == element.name)
-                value.fail(fmt::format("the name '{}' is taken by element {}; give another", element.name, i - first));
-        elements.push_back(std::move(element));
-    }
-
     void addInclude(const JsonValue& value, Scene& scene) {
         JsonObject object = value.object();
         const JsonValue file = object.require("file");
@@ -142,11 +157,44 @@ private:
         const std::optional<JsonValue> name = object.find("name");
         const std::string rootName = name ? name->text() : std::string();
         object.done("an include");
-        if (++includes_ > kMostIncludes)
-            file.fail(fmt::format("is include number {} of the scene; at most {} are read", includes_, kMostIncludes));
-        Scene part = load(file, LoadOptions{});
+        countIncludes(file, 1);
+        Scene part = loadPart(file);
         const std::string partName = part.name;
-        appendScene(scene, std::move(part), name ? rootName : partName, worldFromPart);
+        try {
+            appendScene(scene, std::move(part), name ? rootName : partName, worldFromPart);
+        } catch (const InputError& error) {
+            value.fail(error.what());
+        }
+    }
+
+    void countIncludes(const JsonValue& file, int more) {
+        if ((includes_ += more) > kMostIncludes)
+            file.fail(fmt::format("is include number {} of the scene; at most {} are read", kMostIncludes + 1,
+                                  kMostIncludes));
+    }
+
+    /// A file that is included again and again is read twice, and the second one kept for the rest.
+    Scene loadPart(const JsonValue& name) {
+        const std::string text = name.text();
+        const std::string file = text.starts_with(kBuiltin) ? text : resolveFile(name).lexically_normal().string();
+        Part& part = parts_[file];
+        if (part.kept) {
+            countIncludes(name, part.includes);
+            return copyOf(*part.kept, name);
+        }
+        const int before = includes_;
+        Scene scene = load(name, LoadOptions{});
+        part.includes = includes_ - before;
+        if (part.wasRead) part.kept = copyOf(scene, name);
+        part.wasRead = true;
+        return scene;
+    }
+
+    Scene copyOf(const Scene& part, const JsonValue& name) {
+        ledger_.charge(bytesOf(part), [&] {
+            return fmt::format("{}: include {} of the scene, '{}'", name.file().string(), includes_, name.text());
+        });
+        return part;
     }
 
     Scene load(const JsonValue& name, const LoadOptions& options) {
@@ -155,18 +203,27 @@ private:
         const std::filesystem::path file = resolveFile(name);
         std::string extension = file.extension().string();
         std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-        if (extension == ".gltf" || extension == ".glb") return importGltf(file);
-        if (extension == ".obj") return importObj(file);
+        if (extension == ".gltf" || extension == ".glb") return importGltf(file, ledger_);
+        if (extension == ".obj") return importObj(file, ledger_);
         if (extension != ".json")
             name.fail(fmt::format("'{}' is not a scene file; give a .gltf, .glb, .obj or .json file", name.text()));
         refuseCycle(name, file);
+        if (chain_.size() == kMostNested)
+            name.fail(
+                fmt::format("is document {} of a chain in which each includes or is based on the next; at most {} "
+                            "are read",
+                            chain_.size() + 1, kMostNested));
         return import(file);
     }
 
-    static Scene builtinCalled(const JsonValue& value, const std::string& name, const LoadOptions& options) {
+    Scene builtinCalled(const JsonValue& value, const std::string& name, const LoadOptions& options) {
         std::vector<std::string_view> names;
         for (const BuiltinScene& builtin : builtinScenes()) {
-            if (builtin.name == name) return builtin.make(options);
+            if (builtin.name == name) {
+                Scene scene = builtin.make(options);
+                ledger_.charge(bytesOf(scene), [&] { return fmt::format("{}: '{}'", value.file().string(), name); });
+                return scene;
+            }
             names.push_back(builtin.name);
         }
         value.failUnknown("built-in scene", name, names);
@@ -183,15 +240,17 @@ private:
         name.fail(fmt::format("includes itself: {}{}; remove one of the includes", text, file.filename().string()));
     }
 
-    static void addMaterials(const std::vector<JsonValue>& materials, const std::vector<JsonValue>& overrides,
-                             const std::filesystem::path& file, const BaseSize& base, Scene& scene) {
+    void addMaterials(const std::vector<JsonValue>& materials, const std::vector<JsonValue>& overrides,
+                      const std::filesystem::path& file, const BaseSize& base, Scene& scene) {
         const std::size_t ownMaterials = scene.materials.size();
-        Images images(scene, base.images);
+        Images images(scene, base.images, ledger_);
+        Names names;
         for (const JsonValue& material : materials) {
             if (const auto replaces = material.object().find("replaces")) {
                 replaceMaterial(material, *replaces, base, images, scene);
             } else {
-                addUnique(readMaterial(material, images), material, scene.materials, ownMaterials);
+                scene.materials.push_back(readMaterial(material, images));
+                names.add(scene.materials.back().name, material);
             }
         }
         std::vector<bool> wasUsed = usedMaterials(scene);
@@ -228,14 +287,23 @@ private:
         object.done("an options object");
     }
 
+    /// A file that is included.
+    struct Part {
+        bool wasRead = false;
+        int includes = 0; ///< of its own
+        std::optional<Scene> kept;
+    };
+
+    const LoadLedger& ledger_;
+    std::map<std::string, Part> parts_;
     std::vector<std::filesystem::path> chain_; ///< the documents being read, each included by the one before
     int includes_ = 0;
 };
 
 } // namespace
 
-Scene importSceneJson(const std::filesystem::path& file) {
-    return Importer().import(file);
+Scene importSceneJson(const std::filesystem::path& file, const LoadLedger& ledger) {
+    return DocumentImporter(ledger).import(file);
 }
 
 } // namespace tessera::scenes

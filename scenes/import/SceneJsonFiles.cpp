@@ -62,7 +62,7 @@ int Images::image(const JsonValue& fileName) {
     const auto [entry, isNew] = imageOfFile_.try_emplace(file.lexically_normal().string(), kNone);
     if (!isNew) return entry->second;
     try {
-        scene_.images.push_back(readImage(file));
+        scene_.images.push_back(readImage(file, ledger_));
     } catch (const InputError& error) {
         fileName.fail(error.what());
     }

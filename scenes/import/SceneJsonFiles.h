@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 
+#include "scenes/LoadLedger.h"
 #include "scenes/Scene.h"
 #include "scenes/import/JsonReader.h"
 
@@ -17,7 +18,8 @@ std::filesystem::path resolveFile(const JsonValue& name);
 class Images {
 public:
     /// The first `baseImages` pictures are those of the document's base, which it may name by number.
-    explicit Images(Scene& scene, std::size_t baseImages = 0) : scene_(scene), baseImages_(baseImages) {}
+    Images(Scene& scene, std::size_t baseImages, const LoadLedger& ledger)
+        : scene_(scene), baseImages_(baseImages), ledger_(ledger) {}
 
     /// Throws InputError naming the place in the document and the file.
     int image(const JsonValue& fileName);
@@ -26,6 +28,7 @@ public:
 private:
     Scene& scene_;
     std::size_t baseImages_;
+    const LoadLedger& ledger_;
     std::map<std::string, int> imageOfFile_;
 };
 

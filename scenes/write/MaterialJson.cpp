@@ -141,7 +141,8 @@ Json materialJson(const Material& material, std::size_t images) {
     const Json least = {{"name", "material"}, {"model", "metallic_roughness"}};
     return withFields(material, byKeys(material), least, [images](const JsonValue& value) {
         Scene none;
-        scenejson::Images known(none, images);
+        const LoadLedger ledger;
+        scenejson::Images known(none, images, ledger);
         return scenejson::readMaterial(value, known);
     });
 }

@@ -127,5 +127,50 @@ TEST_F(BadOptions, comparisonsThatCannotBeMadeAreAlwaysRefused) {
     expectError(kBadInput, {"compare", "room", "--size", "16x9", "--against", "empty.exr"}, {"empty.exr", "empty"});
 }
 
+TEST_F(BadOptions, memoryThatIsNoSizeIsAlwaysRefused) {
+    for (const char* size : {"0", "-1", "4T", "4 G", "G", "1e9", "99999999999999999999", "17179869184G", ""})
+        expectRefused({"--memory-limit", size}, {std::string("--memory-limit '") + size + "' is no size", "as in 4G"});
+    folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    expectError(kBadInput, {"plan", "m.obj", "--memory-limit", "512"}, {"m.obj:", "may take 512 B (--memory-limit)"});
+    EXPECT_EQ(run({"plan", "m.obj", "--memory-limit", "1M"}).exitCode, 0);
+}
+
+TEST_F(BadOptions, whatIsReadIsNeverWrittenOver) {
+    folder_.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n");
+    folder_.write("m.mtl", "newmtl m\nmap_Kd paint.png\n");
+    ASSERT_EQ(run({"render", "room", "--size", "16x9", "-o", "paint.png"}).exitCode, 0);
+    std::filesystem::create_symlink("m.obj", folder_.path() / "link.json");
+    const std::string written = "would be written over";
+    expectError(kBadInput, {"--quiet", "render", "m.obj", "-o", "paint.png"}, {"paint.png", written});
+    expectError(kBadInput, {"--quiet", "render", "m.obj", "-o", "./paint.png"}, {"paint.png"});
+    expectError(kBadInput, {"--quiet", "plan", "m.obj", "--json", "m.mtl"}, {"m.mtl", written});
+    expectError(kBadInput, {"--quiet", "plan", "m.obj", "--dot", "link.json"}, {"link.json", written});
+    expectError(kBadInput, {"plan", "room", "--json", "p", "--dot", "./p"}, {"p", "two outputs have this name"});
+    expectError(kBadInput, {"compare", "room", "--size", "16x9", "--against", "paint.png", "--json", "paint.png"},
+                {"paint.png", written});
+}
+
+TEST_F(BadOptions, controlCharactersOfAMessageAreAlwaysEscaped) {
+    expectError(kBadInput, {"plan", "a\x1b[31m.obj"}, {"a\\x1b[31m.obj"});
+    expectError(kBadInput, {"plan", "room", "--technique", "de\nf"}, {"de; f"});
+}
+
+TEST_F(BadOptions, anErrorThatCannotBeSaidKeepsItsExitCode) {
+    for (const char* closed : {"2>/dev/full", "2>&-"}) {
+        const ProcessResult result = runShell(std::string(kProgram) + " plan nix.obj " + closed, folder_.path());
+        EXPECT_EQ(result.exitCode, kBadInput) << closed;
+    }
+    // A closed stream's number never goes to a file, in which messages would end.
+    folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nf 1 2 3\n");
+    ASSERT_EQ(runShell(std::string(kProgram) + " plan m.obj --json p.json 2>&-", folder_.path()).exitCode, 0);
+    EXPECT_EQ(json("p.json").at("scene"), "m");
+}
+
+TEST_F(BadOptions, aDriverWithoutOpenGl45IsAlwaysNamedWithWhatItOffers) {
+    expectError(1, {"render", "room", "-o", "a.png", "--context", "egl"},
+                {"no OpenGL 4.5 context", "the driver 'softpipe' offers OpenGL", "use another driver"},
+                {{"GALLIUM_DRIVER", "softpipe"}, {"LIBGL_ALWAYS_SOFTWARE", "1"}});
+}
+
 } // namespace
 } // namespace tessera::test

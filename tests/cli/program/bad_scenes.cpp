@@ -122,5 +122,18 @@ TEST_F(BadScenes, mistakesInASceneFileAreAlwaysNamedByFileAndPointer) {
     expectSceneRefused(R"({"tessera": 1, "options": {"size": [0, 9]}})", "/options/size");
 }
 
+TEST_F(BadScenes, aBrokenPngIsAlwaysOneLine) {
+    ASSERT_EQ(run({"render", "room", "--size", "32x18", "-o", "whole.png"}).exitCode, 0);
+    const std::string whole = text("whole.png");
+    folder_.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n");
+    folder_.write("m.mtl", "newmtl m\nmap_Kd b.png\n");
+    for (const std::size_t harmed : {std::size_t(20), std::size_t(30), whole.size() / 2, whole.size() - 30}) {
+        std::string bytes = whole;
+        bytes[harmed] = char(bytes[harmed] ^ 0x55);
+        folder_.write("b.png", bytes);
+        expectRefused("m.obj", {"b.png", "broken"});
+    }
+}
+
 } // namespace
 } // namespace tessera::test

@@ -131,6 +131,16 @@ std::string errorOf(const scenes::Camera& camera, const scenes::CameraChange& ch
     return "no error";
 }
 
+TEST(CameraChange, upIsADirectionWhateverItsLength) {
+    const scenes::Camera camera = perspective({1, 2, 8}, {0, 1, 0});
+    scenes::CameraChange plain, huge, tiny;
+    plain.upWS = {1.0, 2.0, 0.0};
+    huge.upWS = {1e300, 2e300, 0.0};
+    tiny.upWS = {1e-300, 2e-300, 0.0};
+    for (const scenes::CameraChange& change : {huge, tiny})
+        expectSamePicture(changedCamera(camera, plain), changedCamera(camera, change), kRoundingPixels);
+}
+
 TEST(CameraChange, whatNoCameraCanHaveIsAlwaysRefusedByName) {
     const scenes::Camera camera = allKinds()[0];
     scenes::CameraChange change;

@@ -107,9 +107,8 @@ TEST(Image, unusablePicturesAreAlwaysRefusedByName) {
     const std::string ktx2 = "\xabKTX 20\xbb\r\n\x1a\n";
     EXPECT_EQ(decodeError(bytesOf(std::vector<char>(ktx2.begin(), ktx2.end())), "t"),
               "t: the picture format ktx2 is not supported; convert the picture to PNG, JPEG, HDR or EXR");
-    EXPECT_EQ(
-        decodeError(bytesOf(std::vector<char>{'a', 'b', 'c'}), "a.nonsense"),
-        "a.nonsense: the picture format 'nonsense' is not supported; convert the picture to PNG, JPEG, HDR or EXR");
+    EXPECT_EQ(decodeError(bytesOf(std::vector<char>{'a', 'b', 'c'}), "a.nonsense"),
+              "a.nonsense: the picture format nonsense is not supported; convert the picture to PNG, JPEG, HDR or EXR");
     Bytes cut = pngRedBlue();
     cut.resize(45); // inside the texels
     EXPECT_NE(decodeError(cut, "cut.png").find("cut.png: the png picture is broken or cut short"), std::string::npos);
@@ -118,6 +117,41 @@ TEST(Image, unusablePicturesAreAlwaysRefusedByName) {
     EXPECT_NE(decodeError(bytesOf(kHugeClaim), "huge.png").find("the header claims 16000x16000 texels, more than"),
               std::string::npos);
     EXPECT_THROW(readImage("/nowhere/at/all.png"), InputError);
+}
+
+TEST(Image, paletteIndicesBeyondThePaletteAreNeverReadPastIt) {
+    // Four colours, and texels of four bytes that refer to colours far beyond them.
+    std::vector<std::uint8_t> tga{0, 1, 1, 0, 0, 4, 0, 24, 0, 0, 0, 0, 2, 0, 2, 0, 32, 0};
+    tga.insert(tga.end(), 12, 7);
+    tga.insert(tga.end(), 16, 0x7f);
+    std::vector<std::uint8_t> bmp{'B', 'M', 0, 0, 0, 0, 0, 0, 0, 0, 58, 0, 0, 0, 40,
+                                  0,   0,   0, 1, 0, 0, 0, 1, 0, 0, 0,  1, 0, 8, 0};
+    bmp.resize(46, 0);
+    bmp.insert(bmp.end(), {1, 0, 0, 0, 0, 0, 0, 0}); // one colour
+    bmp.insert(bmp.end(), {9, 9, 9, 0, 255, 255, 255, 255});
+    for (const auto& [name, bytes] : {std::pair{"a.tga", tga}, std::pair{"a.bmp", bmp}}) {
+        try {
+            EXPECT_FALSE(decodeImage(bytesOf(bytes), name).texels.empty());
+        } catch (const InputError&) { // refused is as good
+        }
+    }
+}
+
+TEST(Image, readersOfOtherFormatsAreNeverAsked) {
+    const Folder folder;
+    // "null" makes pictures of nothing, "mp4" opens films, and those of IFF and DPX crash on what is broken.
+    for (const char* extension : {"null", "mp4", "raw", "vdb", "iff", "dpx", "cin", "psd", "jp2", "ptx", "txt"}) {
+        const std::string name = std::string("a.") + extension;
+        const std::string error = decodeError(bytesOf(std::vector<char>{'F', 'O', 'R', '4', 0, 0}), name);
+        EXPECT_EQ(error, name + ": the picture format " + extension +
+                             " is not supported; convert the picture to PNG, JPEG, HDR or EXR");
+    }
+    const std::string psd = "8BPS";
+    EXPECT_NE(decodeError(bytesOf(std::vector<char>(psd.begin(), psd.end())), "a.png").find("format psd is not"),
+              std::string::npos);
+    for (const char* misnamed : {"a.png", "a.jpg", "a.exr", "a.gif"})
+        EXPECT_NE(decodeError(bytesOf(std::vector<char>{'n', 'o'}), misnamed).find("is in no known picture format"),
+                  std::string::npos);
 }
 
 } // namespace

@@ -236,5 +236,27 @@ TEST(SceneJsonInclude, theLeePerrySmithSceneAlwaysBindsItsMaps) {
         2048);
 }
 
+TEST(SceneJsonInclude, aChainOfIncludesOrBasesIsNeverFollowedForever) {
+    for (const char* link : {R"("include": [{"file": "FILE"}])", R"("base": {"file": "FILE"})"}) {
+        const SceneFolder folder;
+        const auto documentOf = [&](int next) {
+            std::string text = std::string(R"({"tessera": 1, )") + link + "}";
+            return text.replace(text.find("FILE"), 4, std::to_string(next) + ".json");
+        };
+        for (int i = 0; i < 5000; ++i) folder.write(std::to_string(i) + ".json", documentOf(i + 1));
+        folder.write("5000.json", R"({"tessera": 1})");
+        EXPECT_THAT(test::inputErrorOf([&] { importSceneJson(folder.path() / "0.json"); }),
+                    HasSubstr("is document 65 of a chain"));
+        EXPECT_NO_THROW(importSceneJson(folder.path() / "4950.json"));
+    }
+}
+
+TEST(SceneJsonInclude, aScaleThatLeavesACameraNoDirectionIsAlwaysTheIncludesFault) {
+    const SceneFolder folder;
+    EXPECT_THAT(
+        folder.errorBeyondSchemaOf(including(R"({"file": "parts/lamps.json", "transform": {"scale": [1, 0, 1]}})")),
+        testing::AllOf(testing::StartsWith("/include/0: its transform leaves"), HasSubstr("no direction")));
+}
+
 } // namespace
 } // namespace tessera::scenes

@@ -1,0 +1,76 @@
+#include "scenes/LoadLedger.h"
+
+#include <fstream>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "scenes/Error.h"
+
+namespace tessera::scenes {
+namespace {
+
+constexpr std::uint64_t kUnknownMachineBytes = std::uint64_t{8} << 30;
+
+template <typename Element>
+std::uint64_t bytesOf(const std::vector<Element>& elements) {
+    return elements.size() * sizeof(Element);
+}
+
+} // namespace
+
+std::uint64_t defaultMemoryLimitBytes() {
+    std::uint64_t machineBytes = kUnknownMachineBytes;
+    const long pages = sysconf(_SC_PHYS_PAGES), pageBytes = sysconf(_SC_PAGESIZE);
+    if (pages > 0 && pageBytes > 0)
+        machineBytes = static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(pageBytes);
+    // Linux, control groups version 2: a number, or "max".
+    std::uint64_t groupBytes = 0;
+    if (std::ifstream file("/sys/fs/cgroup/memory.max"); file >> groupBytes && groupBytes > 0)
+        machineBytes = std::min(machineBytes, groupBytes);
+    return machineBytes / 2;
+}
+
+std::string sizeText(std::uint64_t bytes) {
+    if (bytes < 1024) return fmt::format("{} B", bytes);
+    double size = static_cast<double>(bytes) / 1024.0;
+    const char* unit = "KiB";
+    for (const char* larger : {"MiB", "GiB", "TiB", "PiB", "EiB"}) {
+        if (size < 1024.0) break;
+        size /= 1024.0;
+        unit = larger;
+    }
+    return fmt::format("{:.1f} {}", size, unit);
+}
+
+LoadLedger::LoadLedger(std::optional<std::uint64_t> limitBytes) : state_(std::make_shared<State>()) {
+    state_->limitBytes = limitBytes ? *limitBytes : defaultMemoryLimitBytes();
+}
+
+void LoadLedger::refuse(const std::string& who, std::uint64_t bytes) const {
+    throw InputError(fmt::format("{}: asks for {} of memory, and {} are in use; a load may take {} (--memory-limit)",
+                                 who, sizeText(bytes), sizeText(state_->usedBytes), sizeText(state_->limitBytes)));
+}
+
+std::uint64_t bytesOf(const Mesh& mesh) {
+    return sizeof(Mesh) + mesh.name.size() + bytesOf(mesh.positionsOS) + bytesOf(mesh.normalsOS) +
+           bytesOf(mesh.tangentsOS) + bytesOf(mesh.texCoords[0]) + bytesOf(mesh.texCoords[1]) + bytesOf(mesh.colors) +
+           bytesOf(mesh.indices);
+}
+
+std::uint64_t bytesOf(const Scene& scene) {
+    std::uint64_t bytes = sizeof(Scene) + bytesOf(scene.materials) + bytesOf(scene.lights) + bytesOf(scene.cameras);
+    for (const Image& image : scene.images) bytes += sizeof(Image) + image.name.size() + image.texels.size();
+    for (const Material& material : scene.materials) bytes += material.name.size();
+    for (const Mesh& mesh : scene.meshes) bytes += bytesOf(mesh);
+    for (const Node& node : scene.nodes) bytes += sizeof(Node) + node.name.size() + bytesOf(node.instances);
+    for (const Light& light : scene.lights) {
+        bytes += light.name.size();
+        if (light.animation) bytes += bytesOf(light.animation->timesSeconds) + bytesOf(light.animation->pointsWS);
+    }
+    for (const Camera& camera : scene.cameras) bytes += camera.name.size();
+    for (const std::string& warning : scene.warnings) bytes += sizeof(std::string) + warning.size();
+    return bytes;
+}
+
+} // namespace tessera::scenes

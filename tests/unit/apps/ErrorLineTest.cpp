@@ -1,0 +1,19 @@
+#include "apps/ErrorLine.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera::app {
+namespace {
+
+TEST(ErrorLine, anErrorIsAlwaysOneLineThatNoTerminalObeys) {
+    EXPECT_EQ(oneLine("a.png: broken"), "a.png: broken");
+    EXPECT_EQ(oneLine("log:\n\nline 1\r\nline 2\n"), "log:; line 1; line 2");
+    EXPECT_EQ(oneLine("a\x1b[2Jb\tc\x7f"), "a\\x1b[2Jb\\x09c\\x7f");
+    EXPECT_EQ(oneLine("a\xc2\x9b"
+                      "2J"),
+              "a\\x9b2J");                          // U+009B begins an escape sequence
+    EXPECT_EQ(oneLine("f\xc3\xbcr"), "f\xc3\xbcr"); // other letters stay
+}
+
+} // namespace
+} // namespace tessera::app

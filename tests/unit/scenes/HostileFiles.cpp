@@ -1,0 +1,188 @@
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "scenes/Load.h"
+#include "scenes/LoadLedger.h"
+#include "tests/unit/scenes/gltf/GltfBuilder.h"
+#include "tests/unit/scenes/json/SceneFiles.h"
+
+namespace tessera::scenes {
+namespace {
+
+using gltf::test::Builder;
+using test::inputErrorOf;
+using test::SceneFolder;
+using test::TempFolder;
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
+
+/// What quadratic loading took longer than, many times over, where linear loading takes a tenth; on a busy machine too.
+constexpr double kSeconds = 10.0;
+
+double secondsOf(const std::function<void()>& action) {
+    const auto start = std::chrono::steady_clock::now();
+    action();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// `count` times what `element` makes of 0, 1, 2 ..., with commas between.
+template <typename Element>
+std::string listOf(int count, Element element) {
+    std::string list;
+    for (int i = 0; i < count; ++i) list += (i > 0 ? "," : "") + element(i);
+    return list;
+}
+
+TEST(Memory, aLimitThatIsNotGivenIsAlwaysHalfOfTheMachinesOrLess) {
+    EXPECT_GE(defaultMemoryLimitBytes(), 64 * kMiB);
+    EXPECT_EQ(sizeText(694), "694 B");
+    EXPECT_EQ(sizeText(3 * kMiB / 2), "1.5 MiB");
+}
+
+TEST(Memory, accessorsThatAreReadAgainAndAgainAreAlwaysCharged) {
+    // A few hundred bytes: one accessor of a million zeros, drawn by hundreds of primitives.
+    Builder builder;
+    builder.json["accessors"].push_back({{"componentType", 5126}, {"type", "VEC3"}, {"count", 1'000'000}});
+    const std::size_t zeros = builder.json["accessors"].size() - 1;
+    for (int i = 0; i < 100; ++i)
+        builder.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", zeros}}}});
+    const TempFolder folder;
+    const std::filesystem::path file = folder.write("m.gltf", builder.json.dump());
+    const std::string error = inputErrorOf([&] { importGltf(file, LoadLedger(256 * kMiB)); });
+    EXPECT_THAT(error, AllOf(HasSubstr("m.gltf: /"), HasSubstr("of memory"), HasSubstr("may take 256.0 MiB"),
+                             HasSubstr("--memory-limit")));
+}
+
+TEST(Memory, instancesAreAlwaysCharged) {
+    Builder builder; // 2000 nodes of a mesh of 2000 primitives: 4 million instances
+    for (int i = 0; i < 2000; ++i) builder.json["meshes"][0]["primitives"].push_back(builder.primitive());
+    builder.json["nodes"] = gltf::test::Json::array();
+    for (int i = 0; i < 2000; ++i) builder.json["nodes"].push_back({{"mesh", 0}});
+    builder.json.erase("scenes");
+    builder.json.erase("scene");
+    const TempFolder folder;
+    const std::filesystem::path file = folder.write("m.gltf", builder.json.dump());
+    EXPECT_EQ(importGltf(file, LoadLedger(128 * kMiB)).nodes.size(), 2000u);
+    EXPECT_THAT(inputErrorOf([&] { importGltf(file, LoadLedger(24 * kMiB)); }), HasSubstr("m.gltf: /nodes/"));
+}
+
+TEST(Memory, picturesAreAlwaysChargedFromTheirHeader) {
+    // 8192 x 8192 texels of one bit, all 0, of which nothing but the header is ever read.
+    std::string png("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\x20\0\0\0\x20\0\x01\0\0\0\0", 29);
+    // The chunk's check sum. Source: PNG specification, annex D.
+    std::uint32_t crc = 0xffffffffu;
+    for (std::size_t i = 12; i < 29; ++i) {
+        crc ^= static_cast<std::uint8_t>(png[i]);
+        for (int bit = 0; bit < 8; ++bit) crc = crc & 1 ? crc >> 1 ^ 0xedb88320u : crc >> 1;
+    }
+    for (int shift = 24; shift >= 0; shift -= 8) png += static_cast<char>(~crc >> shift & 0xff);
+    png += std::string("\0\0\x10\0IDAT", 8) + std::string(4096, '\0');
+    const TempFolder folder;
+    const std::filesystem::path file = folder.write("bomb.png", png);
+    EXPECT_THAT(inputErrorOf([&] { readImage(file, LoadLedger(64 * kMiB)); }),
+                AllOf(HasSubstr("bomb.png: the picture of 8192x8192 texels"), HasSubstr("asks for 256.0 MiB")));
+}
+
+TEST(Memory, whatReadersWouldReserveAtOnceIsAlwaysLookedAtBefore) {
+    const TempFolder folder;
+    const std::string gif("GIF89a\x20\x4e\x20\x4e\x80\0\0\0\0\0\0\0\0,\0\0\0\0\x20\x4e\x20\x4e\0\x02\x02\x4c\x01\0;",
+                          35);
+    EXPECT_THAT(inputErrorOf([&] { readImage(folder.write("a.gif", gif)); }),
+                HasSubstr("a.gif: the picture has 20000x20000 texels"));
+    std::string exr("\x76\x2f\x31\x01\x02\0\0\0dataWindow\0box2i\0\x10\0\0\0", 29);
+    exr += std::string("\0\0\0\x80\0\0\0\x80\xff\xff\xff\x7f\xff\xff\xff\x7f\0", 17);
+    EXPECT_THAT(inputErrorOf([&] { readImage(folder.write("a.exr", exr)); }),
+                HasSubstr("a.exr: the picture has 4294967296x4294967296 texels"));
+}
+
+TEST(Memory, whatAFileLeavesBehindIsAlwaysWhatItIsChargedFor) {
+    const SceneFolder folder;
+    const LoadLedger ledger(64 * kMiB);
+    for (int i = 0; i < 1000; ++i) { // by far more in all than what one may take
+        const std::uint64_t before = ledger.usedBytes();
+        const Scene scene = importObj(folder.path() / "models/bust.obj", ledger);
+        ASSERT_EQ(ledger.usedBytes() - before, bytesOf(scene));
+    }
+}
+
+TEST(Memory, copiesOfAnIncludeAreAlwaysChargedAndItsFileReadTwiceAtMost) {
+    const SceneFolder folder;
+    std::string big = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (int i = 0; i < 2000; ++i) big += "f 1 2 3\n";
+    folder.write("models/big.obj", big);
+    const std::string text = R"({"tessera": 1, "include": [)" +
+                             listOf(1000, [](int) { return std::string(R"({"file": "models/big.obj"})"); }) + "]}";
+    const std::filesystem::path file = folder.write("scene.json", text);
+    const LoadLedger ledger;
+    EXPECT_EQ(importSceneJson(file, ledger).meshes.size(), 1000u);
+    EXPECT_LE(ledger.files().size(), 3u);
+    EXPECT_THAT(inputErrorOf([&] { importSceneJson(file, LoadLedger(16 * kMiB)); }),
+                AllOf(HasSubstr("scene.json: include"), HasSubstr("models/big.obj")));
+}
+
+TEST(Memory, jsonAndObjTextsAreAlwaysCharged) {
+    const TempFolder folder;
+    const std::filesystem::path json = folder.write(
+        "s.json", R"({"tessera": 1, "lights": [)" + listOf(300'000, [](int) { return std::string("[]"); }) + "]}");
+    EXPECT_THAT(inputErrorOf([&] { importSceneJson(json, LoadLedger(8 * kMiB)); }), HasSubstr("s.json: its JSON"));
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (int i = 0; i < 100'000; ++i) text += "f 1 2 3\n";
+    const std::filesystem::path obj = folder.write("m.obj", text);
+    EXPECT_THAT(inputErrorOf([&] { importObj(obj, LoadLedger(8 * kMiB)); }), HasSubstr("m.obj:"));
+}
+
+TEST(Growth, aHundredThousandMaterialsOrCamerasOfASceneFileTakeSeconds) {
+    const TempFolder folder;
+    const std::filesystem::path file = folder.write(
+        "s.json",
+        R"({"tessera": 1, "materials": [)" +
+            listOf(100'000, [](int i) { return fmt::format(R"({{"name":"m{}","model":"lambert"}})", i); }) +
+            R"(], "cameras": [)" +
+            listOf(100'000,
+                   [](int i) { return fmt::format(R"({{"name":"c{}","position":[0,0,1],"target":[0,0,0]}})", i); }) +
+            "]}");
+    EXPECT_LT(secondsOf([&] { EXPECT_EQ(importSceneJson(file).materials.size(), 100'000u); }), kSeconds);
+}
+
+TEST(Growth, aHundredThousandMaterialsOfAnObjFileTakeSeconds) {
+    const TempFolder folder;
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (int i = 0; i < 100'000; ++i) text += fmt::format("usemtl m{}\nf 1 2 3\n", i);
+    const std::filesystem::path file = folder.write("m.obj", text);
+    EXPECT_LT(secondsOf([&] { EXPECT_EQ(importObj(file).materials.size(), 100'000u); }), kSeconds);
+}
+
+TEST(Growth, warningsAreNeverMoreThanAHundredAndTheirRest) {
+    const TempFolder folder;
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (int i = 0; i < 300; ++i) text += fmt::format("usemtl m{}\nf 1 2 3\n", i);
+    LoadOptions options;
+    options.defaultLight = false;
+    const Scene scene = loadScene(folder.write("m.obj", text).string(), options);
+    ASSERT_EQ(scene.warnings.size(), 102u); // the last one is about the camera that is supplied
+    EXPECT_EQ(scene.warnings[100], "and 200 more warnings of this kind or others");
+}
+
+/// glTF nodes, every other one with a camera, all of one name.
+double secondsOfNodes(int count) {
+    const TempFolder folder;
+    const std::filesystem::path file = folder.write(
+        "m.gltf",
+        R"({"asset":{"version":"2.0"},"cameras":[{"name":"c","type":"perspective","perspective":{"yfov":1,"znear":1}}],"nodes":[)" +
+            listOf(count, [](int i) { return std::string(i % 2 == 0 ? "{}" : R"({"camera":0})"); }) + "]}");
+    return secondsOf([&] { EXPECT_EQ(importGltf(file).nodes.size(), static_cast<std::size_t>(count)); });
+}
+
+TEST(Growth, aHundredThousandNodesAndCamerasOfAGltfFileTakeSeconds) {
+    EXPECT_LT(secondsOfNodes(100'000), kSeconds);
+}
+
+TEST(GrowthSlow, aMillionNodesOfAGltfFileTakeAtMostTenSeconds) {
+    EXPECT_LT(secondsOfNodes(1'000'000), kSeconds);
+}
+
+} // namespace
+} // namespace tessera::scenes
