@@ -1,0 +1,64 @@
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <string>
+
+#include <unistd.h>
+
+#include "scenes/Error.h"
+#include "tests/fuzz/Targets.h"
+
+/// libFuzzer's entry: one program a target, TESSERA_FUZZ_TARGET. Inputs become a file, because that is what is read,
+/// with those of tests/fuzz/beside around it, in a folder of the process's own that is in memory where there is such.
+namespace {
+
+namespace fs = std::filesystem;
+using namespace tessera;
+
+const fuzz::Target& target() {
+    for (const fuzz::Target& one : fuzz::targets())
+        if (one.name == TESSERA_FUZZ_TARGET) return one;
+    std::abort();
+}
+
+class Folder {
+public:
+    Folder() {
+        const fs::path memory("/dev/shm");
+        std::error_code failure;
+        path_ = (fs::is_directory(memory, failure) ? memory : fs::temp_directory_path()) /
+                ("tessera_fuzz_" + std::to_string(getpid()));
+        fs::create_directories(path_);
+        fs::copy(TESSERA_FUZZ_BESIDE, path_, fs::copy_options::overwrite_existing);
+    }
+    ~Folder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
+    static const Folder folder;
+    static const fuzz::Target& one = target();
+    static const fs::path file = folder.path() / one.fileName;
+    std::FILE* stream = std::fopen(file.c_str(), "wb");
+    if (stream == nullptr) std::abort();
+    const bool isWritten = std::fwrite(bytes, 1, count, stream) == count;
+    if (std::fclose(stream) != 0 || !isWritten) std::abort();
+    try {
+        one.read(file);
+    } catch (const InputError& error) {
+        if (*error.what() == '\0') std::abort();
+    }
+    return 0;
+}

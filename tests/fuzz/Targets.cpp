@@ -1,0 +1,53 @@
+#include "tests/fuzz/Targets.h"
+
+#include "renderer/shader/Preprocess.h"
+#include "scenes/import/Importers.h"
+
+namespace tessera::fuzz {
+namespace {
+
+using std::filesystem::path;
+
+void readGltf(const path& file) {
+    const scenes::Scene scene = scenes::importGltf(file, scenes::LoadLedger(kMemoryLimitBytes));
+    scenes::checkScene(scene);
+}
+
+void readObj(const path& file) {
+    const scenes::Scene scene = scenes::importObj(file, scenes::LoadLedger(kMemoryLimitBytes));
+    scenes::checkScene(scene);
+}
+
+/// A material library, used by a model beside it.
+void readMtl(const path& file) {
+    readObj(file.parent_path() / "uses.obj");
+}
+
+void readScene(const path& file) {
+    const scenes::Scene scene = scenes::importSceneJson(file, scenes::LoadLedger(kMemoryLimitBytes));
+    scenes::checkScene(scene);
+}
+
+void readPicture(const path& file) {
+    scenes::readImage(file, scenes::LoadLedger(kMemoryLimitBytes));
+}
+
+/// A file of shaders/ that includes those beside it, and itself.
+void expandShader(const path& file) {
+    const shader::SourceTree tree(file.parent_path());
+    shader::mapLog(shader::expand(tree, file.filename().string()).text, {});
+}
+
+constexpr Target kTargets[] = {
+    {"gltf", "input.gltf", readGltf},  {"glb", "input.glb", readGltf},         {"obj", "input.obj", readObj},
+    {"mtl", "input.mtl", readMtl},     {"scene", "input.json", readScene},     {"picture", "input.png", readPicture},
+    {"tga", "input.tga", readPicture}, {"shader", "input.glsl", expandShader},
+};
+
+} // namespace
+
+std::span<const Target> targets() {
+    return kTargets;
+}
+
+} // namespace tessera::fuzz

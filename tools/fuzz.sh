@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Feeds broken files to every importer (tests/fuzz). Usage: ./test --fuzz SECONDS [TARGET...]
+# The seconds are spread over the targets. Ends with exit code 1 at the first finding, and says where its input lies.
+# Inputs that reach new code are kept in build/fuzz/corpus, and are where the next run begins.
+set -euo pipefail
+root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd)
+source "$root/tools/setup.sh"
+
+seconds=${1:-}
+[[ $seconds =~ ^[1-9][0-9]*$ ]] || fail "--fuzz needs a number of seconds, as in ./test --fuzz 60"
+shift
+ensurePackages build test fuzz
+buildPreset fuzz fuzz
+
+targets=("$@")
+if [ ${#targets[@]} -eq 0 ]; then
+    for program in "$root"/build/fuzz/tests/fuzz/fuzz_*; do
+        [ ! -x "$program" ] || targets+=("${program##*/fuzz_}")
+    done
+fi
+each=$(((seconds + ${#targets[@]} - 1) / ${#targets[@]}))
+for target in "${targets[@]}"; do
+    program=$root/build/fuzz/tests/fuzz/fuzz_$target
+    [ -x "$program" ] || fail "There is no target '$target' in tests/fuzz/Targets.cpp."
+    kept=$root/build/fuzz/corpus/$target findings=$root/build/fuzz/findings/$target log=$root/build/fuzz/$target.log
+    mkdir -p "$kept" "$findings"
+    options=("-artifact_prefix=$findings/" -max_total_time="$each" -rss_limit_mb=2048 -timeout=10 -max_len=65536)
+    dictionary=$root/tests/fuzz/dictionaries/$target.txt
+    [ ! -e "$dictionary" ] || options+=("-dict=$dictionary")
+    # Allocations that fail end in std::bad_alloc; libraries cast between the types of functions they register.
+    if ! ASAN_OPTIONS=allocator_may_return_null=0:detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 \
+        "$program" "${options[@]}" "$kept" "$root/tests/fuzz/corpus/$target" >"$log" 2>&1 </dev/null; then
+        grep -E 'ERROR|SUMMARY|runtime error|what\(\)' "$log" >&2 || true
+        fail "fuzz $target: a finding. What was said is in $log, the input in $findings."
+    fi
+    echo "fuzz $target: $(grep -oE '^Done [0-9]+ runs' "$log" | grep -oE '[0-9]+') runs, no finding"
+done
