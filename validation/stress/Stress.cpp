@@ -51,7 +51,7 @@ private:
         for (std::size_t t = 0; t < results_.size(); ++t) {
             const Technique technique = request_.techniques[t];
             Picture shown = toPicture(renderer.render(technique, picture.settings));
-            const Picture& wanted = truth ? truth->picture : drawn_[*picture.sameAs][t];
+            const Picture wanted = truth ? truth->nearestTo(shown) : drawn_[*picture.sameAs][t];
             results_[t].figures.addPicture(errorFigures(shown, wanted, excluded), picture.what, picture.allowed);
             if (isTruth(index)) drawn_[index].push_back(std::move(shown));
         }
