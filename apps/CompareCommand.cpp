@@ -81,10 +81,12 @@ std::vector<recipes::Technique> techniquesOf(const CompareOptions& options, cons
 void writeHeatMaps(const std::string& folder, const validation::CompareResult& result,
                    const std::vector<std::string>& inputs) {
     makeFolder(folder);
-    for (const validation::NamedPicture& picture : result.pictures) {
+    for (std::size_t i = 0; i < result.pictures.size(); ++i) {
+        const validation::NamedPicture& picture = result.pictures[i];
+        const validation::PairTruth& truth = result.truths[i];
         const std::string title = picture.name + " vs " + std::filesystem::path(result.truth.name).filename().string();
         const validation::DisplayImage map =
-            validation::errorHeatMap(picture.picture, result.truth.picture, title, result.excluded);
+            validation::errorHeatMap(picture.picture, truth.picture, title, truth.excluded);
         std::string file = picture.name;
         std::replace(file.begin(), file.end(), ' ', '_');
         std::erase_if(file, [](char c) { return c == '(' || c == ')'; });
@@ -120,7 +122,7 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
     }
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     recipes::Renderer renderer(*context, request.scene);
-    Progress progress("comparing", validation::stepCount(comparison), global.quiet);
+    Progress progress("comparing", validation::stepCount(request.scene, comparison), global.quiet);
     comparison.renderedOne = [&progress] { progress.advance(); };
     validation::CompareResult result = validation::compareTechniques(renderer, context->capabilities(), comparison);
     result.record.leftOut = std::move(leftOut);

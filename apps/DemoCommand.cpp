@@ -142,7 +142,9 @@ CompareResult compared(recipes::Renderer& renderer, const gpu::Capabilities& gl,
     packed.settings.layout = frame::layoutTable()[1].layout;
     // A G-buffer, and with it a layout to compare, there is only with one sample a pixel.
     const bool comparesPacked = request.settings.samples == 1;
-    Progress progress("rendering", validation::stepCount(exact) + (comparesPacked ? validation::stepCount(packed) : 0),
+    Progress progress("rendering",
+                      validation::stepCount(request.scene, exact) +
+                          (comparesPacked ? validation::stepCount(request.scene, packed) : 0),
                       quiet);
     exact.renderedOne = packed.renderedOne = [&progress] { progress.advance(); };
     CompareResult result = validation::compareTechniques(renderer, gl, exact);

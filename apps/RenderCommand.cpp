@@ -76,7 +76,9 @@ void makePictures(const RenderOptions& options, frame::FrameSettings settings, c
 
 /// Without a context: what a display shows is exposure and sRGB alone.
 void renderReference(const RenderOptions& options, const Request& request, const GlobalOptions& global) {
-    const frame::FrameSettings& settings = request.settings;
+    frame::FrameSettings settings = request.settings;
+    // As compare does; hardware filtering is there for whoever asks for it.
+    if (!options.frame.filter) settings.filter = frame::TextureFilter::Exact;
     validation::requireReferenceTakes(settings);
     const bool isLinear = std::filesystem::path(options.output).extension() == ".exr";
     if (!isLinear && settings.toneMap != frame::ToneMap::None)
@@ -84,8 +86,9 @@ void renderReference(const RenderOptions& options, const Request& request, const
     Progress progress("rendering", std::size_t(options.frames.value_or(1)) * std::size_t(settings.sizePixels.y),
                       global.quiet);
     makePictures(options, settings, [&](const std::string& path, const frame::FrameSettings& one) {
-        validation::Picture picture =
-            validation::referencePicture(request.scene, one, [&progress] { progress.advance(); }).picture;
+        validation::Picture picture = validation::referencePicture(
+                                          request.scene, one, [&progress] { progress.advance(); }, false)
+                                          .picture;
         if (isLinear) return validation::writeExr(path, picture);
         for (float& value : picture.rgba) value *= std::exp2(settings.exposureEV);
         validation::writePng(path, validation::toDisplayImage(picture));

@@ -20,16 +20,22 @@ reference::Settings referenceSettings(const scenes::Scene& scene, const frame::F
 struct ReferencePicture {
     Picture picture; ///< rounded to single precision
     std::vector<reference::Ids> ids;
+    std::vector<std::vector<glm::dvec3>> alternatives; ///< as in reference::Rendered
+    std::vector<reference::Span> spans;                ///< as in reference::Rendered
+
+    /// Of the pictures that the definition allows the one nearest to `shown`, which is of the same size: pixel by pixel
+    /// the nearest alternative, and with hardware filtering the nearest value of its span.
+    Picture nearestTo(const Picture& shown) const;
 };
 
-/// What a frame shows by definition. Textures are bilinear at level 0, whatever settings.filter. `rowDone` is called
-/// once a row, from any thread. Throws InputError when the settings name what the scene lacks or
-/// requireReferenceTakes() does.
+/// What a frame shows by definition, with the filter of the settings. `rowDone` is called once a row, from any thread.
+/// Without `leeway` there are no alternatives and spans, which take up to fifteen times as long. Throws InputError when
+/// the settings name what the scene lacks or requireReferenceTakes() does.
 ReferencePicture referencePicture(
-    const scenes::Scene& scene, const frame::FrameSettings& settings, const std::function<void()>& rowDone = [] {});
+    const scenes::Scene& scene, const frame::FrameSettings& settings, const std::function<void()>& rowDone = [] {},
+    bool leeway = true);
 
-/// What a technique with every G-buffer channel in fp32 is held to against the reference, with the reason. Hardware
-/// filtering is held to nothing: how exact it is, and which level it takes, is the driver's choice.
+/// What a technique with every G-buffer channel in fp32 is held to against the reference, with the reason.
 Tolerance referenceTolerance(const scenes::Scene& scene, frame::TextureFilter filter);
 
 } // namespace tessera::validation

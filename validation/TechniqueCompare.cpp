@@ -29,22 +29,40 @@ bool isReference(const CompareRequest& request) {
     return std::holds_alternative<Reference>(request.against);
 }
 
-/// The truth, and where it shows other surfaces than the GPU.
-NamedPicture truthPicture(recipes::Renderer& renderer, const CompareRequest& request, ShownTriangles& triangles) {
-    if (isReference(request)) {
-        ReferencePicture reference = referencePicture(renderer.scene(), request.settings, request.renderedOne);
-        triangles = shownTriangles(renderer, request.settings, reference.ids);
-        const DisplayImage display = toDisplayImage(reference.picture);
-        return {"reference", std::move(reference.picture), display};
+/// What pictures are measured against.
+struct TruthPicture {
+    NamedPicture own;
+    std::optional<ReferencePicture> reference;
+    ShownTriangles triangles; ///< where the reference shows other surfaces than the GPU
+
+    PairTruth of(const Picture& shown) const {
+        return {reference ? reference->nearestTo(shown) : own.picture, triangles.excluded};
     }
+    ErrorFigures figuresOf(const Picture& shown) const {
+        const PairTruth truth = of(shown);
+        return errorFigures(shown, truth.picture, truth.excluded);
+    }
+};
+
+TruthPicture referenceTruth(recipes::Renderer& renderer, const frame::FrameSettings& settings,
+                            const std::function<void()>& rowDone) {
+    TruthPicture truth;
+    truth.reference = referencePicture(renderer.scene(), settings, rowDone);
+    truth.triangles = shownTriangles(renderer, settings, truth.reference->ids);
+    truth.own = {"reference", truth.reference->picture, toDisplayImage(truth.reference->picture)};
+    return truth;
+}
+
+TruthPicture truthPicture(recipes::Renderer& renderer, const CompareRequest& request) {
+    if (isReference(request)) return referenceTruth(renderer, request.settings, request.renderedOne);
     if (const auto* technique = std::get_if<Technique>(&request.against)) {
-        NamedPicture truth = rendered(renderer, *technique, request.settings);
+        TruthPicture truth{rendered(renderer, *technique, request.settings), {}, {}};
         request.renderedOne();
         return truth;
     }
     const std::string& path = std::get<std::string>(request.against);
-    NamedPicture truth{path, readPicture(path), {}};
-    truth.display = toDisplayImage(truth.picture);
+    TruthPicture truth{{path, readPicture(path), {}}, {}, {}};
+    truth.own.display = toDisplayImage(truth.own.picture);
     return truth;
 }
 
@@ -73,7 +91,7 @@ bool isPacked(const frame::GBufferLayout& layout) {
 
 /// The error that each stored channel causes: what is left of the pair's relMse when that channel alone is fp32.
 std::vector<ChannelShare> channelShares(recipes::Renderer& renderer, const CompareRequest& request, Technique technique,
-                                        const CompareResult& result, double relMse) {
+                                        const TruthPicture& truth, double relMse) {
     std::vector<ChannelShare> shares;
     const frame::FeatureSet features =
         request.settings.prune ? frame::materialFeatures(renderer.scene()) : frame::allFeatures();
@@ -81,7 +99,7 @@ std::vector<ChannelShare> channelShares(recipes::Renderer& renderer, const Compa
         frame::FrameSettings settings = request.settings;
         settings.layout.encoding[std::size_t(channel)] = frame::Encoding::Exact;
         const Picture picture = toPicture(renderer.render(technique, settingsTakenBy(technique, settings)));
-        const double without = errorFigures(picture, result.truth.picture, result.excluded).relMse;
+        const double without = truth.figuresOf(picture).relMse;
         shares.push_back({std::string(frame::channelTable()[std::size_t(channel)].name), without, relMse - without});
     }
     return shares;
@@ -105,14 +123,13 @@ bool showsSigned(const CompareRequest& request) {
 /// A packed layout's tolerance is wide enough to hide a faint light that was skipped. So the same picture with every
 /// channel in fp32 must hold what the exact layout is held to: then quantisation is all that differs.
 void checkWithoutPacking(recipes::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
-                         Technique technique, const CompareResult& result, Verdict& verdict) {
+                         Technique technique, const TruthPicture& truth, Verdict& verdict) {
     frame::FrameSettings settings = request.settings;
     settings.layout = frame::layoutTable()[0].layout;
     const Picture picture = toPicture(renderer.render(technique, settingsTakenBy(technique, settings)));
     Tolerance tolerance = toleranceOf(renderer, gl, request, technique, settings.layout);
     tolerance.isSigned = showsSigned(request);
-    const ErrorFigures figures = errorFigures(picture, result.truth.picture, result.excluded);
-    for (const std::string& missed : checkTolerance(figures, tolerance).missed)
+    for (const std::string& missed : checkTolerance(truth.figuresOf(picture), tolerance).missed)
         verdict.missed.push_back("with every channel in fp32: " + missed);
     verdict.ok = verdict.missed.empty();
 }
@@ -124,10 +141,9 @@ ShownPair shownPair(const CompareRequest& request, const NamedPicture& a, const 
 }
 
 /// Hardware filtering beside the exact one, which all other pairs use.
-bool showsHardwareFilter(const recipes::Renderer& renderer, const CompareRequest& request) {
-    return isReference(request) && !request.techniques.empty() &&
-           request.settings.filter == frame::TextureFilter::Exact &&
-           frame::materialFeatures(renderer.scene()).textures();
+bool showsHardwareFilter(const scenes::Scene& scene, const CompareRequest& request) {
+    return isReference(request) && request.hardwareFilter && !request.techniques.empty() &&
+           request.settings.filter == frame::TextureFilter::Exact && frame::materialFeatures(scene).textures();
 }
 
 void addHardwareFilter(recipes::Renderer& renderer, const CompareRequest& request, CompareResult& result) {
@@ -136,9 +152,11 @@ void addHardwareFilter(recipes::Renderer& renderer, const CompareRequest& reques
     settings.layout = frame::layoutTable()[0].layout;
     NamedPicture picture = rendered(renderer, request.techniques.front(), settings);
     picture.name = hardwareFilterName(picture.name);
-    result.record.pairs.push_back(comparePair(picture.name, picture.picture, result.truth.name, result.truth.picture,
-                                              referenceTolerance(renderer.scene(), settings.filter), result.excluded));
+    PairTruth truth = referenceTruth(renderer, settings, request.renderedOne).of(picture.picture);
+    result.record.pairs.push_back(comparePair(picture.name, picture.picture, result.truth.name, truth.picture,
+                                              referenceTolerance(renderer.scene(), settings.filter), truth.excluded));
     result.pictures.push_back(std::move(picture));
+    result.truths.push_back(std::move(truth));
 }
 
 } // namespace
@@ -155,8 +173,9 @@ std::string hardwareFilterName(const std::string& technique) {
     return technique + " (hardware filter)";
 }
 
-std::size_t stepCount(const CompareRequest& request) {
-    const std::size_t truth = isReference(request) ? std::size_t(request.settings.sizePixels.y)
+std::size_t stepCount(const scenes::Scene& scene, const CompareRequest& request) {
+    const std::size_t references = showsHardwareFilter(scene, request) ? 2 : 1;
+    const std::size_t truth = isReference(request) ? references * std::size_t(request.settings.sizePixels.y)
                               : std::holds_alternative<Technique>(request.against) ? 1
                                                                                    : 0;
     return request.techniques.size() + truth + (measuresTruncation(request) ? 1 : 0);
@@ -210,11 +229,10 @@ Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout,
 CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabilities& gl,
                                 const CompareRequest& request) {
     CompareResult result;
-    ShownTriangles triangles;
-    result.truth = truthPicture(renderer, request, triangles);
-    result.excluded = std::move(triangles.excluded);
-    result.record.lost = std::move(triangles.lost);
-    result.record.excludesPixels = !result.excluded.empty();
+    const TruthPicture truth = truthPicture(renderer, request);
+    result.truth = truth.own;
+    result.record.lost = truth.triangles.lost;
+    result.record.excludesPixels = !truth.triangles.excluded.empty();
     result.record.scene = renderer.scene().name;
     result.record.width = request.settings.sizePixels.x;
     result.record.height = request.settings.sizePixels.y;
@@ -228,20 +246,22 @@ CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabili
                                   ? *request.tolerance
                                   : toleranceOf(renderer, gl, request, technique, request.settings.layout);
         tolerance.isSigned = showsSigned(request);
-        ComparePair pair = comparePair(picture.name, picture.picture, result.truth.name, result.truth.picture,
-                                       tolerance, result.excluded, shownPair(request, picture, result.truth));
+        PairTruth own = truth.of(picture.picture);
+        ComparePair pair = comparePair(picture.name, picture.picture, truth.own.name, own.picture, tolerance,
+                                       own.excluded, shownPair(request, picture, truth.own));
         pair.culling = culling;
         if (infoOf(technique).usesGBuffer && isPacked(request.settings.layout)) {
-            pair.channels = channelShares(renderer, request, technique, result, pair.figures.relMse);
+            pair.channels = channelShares(renderer, request, technique, truth, pair.figures.relMse);
             // Against a picture file the tolerance is about that picture, which need not come from this renderer.
             if (!request.tolerance && !std::holds_alternative<std::string>(request.against))
-                checkWithoutPacking(renderer, gl, request, technique, result, pair.verdict);
+                checkWithoutPacking(renderer, gl, request, technique, truth, pair.verdict);
         }
         result.record.pairs.push_back(std::move(pair));
         result.pictures.push_back(std::move(picture));
+        result.truths.push_back(std::move(own));
         request.renderedOne();
     }
-    if (showsHardwareFilter(renderer, request)) addHardwareFilter(renderer, request, result);
+    if (showsHardwareFilter(renderer.scene(), request)) addHardwareFilter(renderer, request, result);
     for (ComparePair& pair : result.record.pairs) missLostGeometry(pair.verdict, result.record.lost);
     if (measuresTruncation(request)) {
         result.record.rangeTruncation = truncationOf(renderer, request);

@@ -21,6 +21,7 @@ struct CompareRequest {
     Truth against = recipes::Technique::Forward;
     frame::FrameSettings settings;
     bool rangeTruncation = true;               ///< whether to measure what settings.rangeTolerance drops
+    bool hardwareFilter = true;                ///< whether to measure hardware filtering beside the exact one
     std::optional<Tolerance> tolerance;        ///< instead of the one each pair is held to by itself
     std::function<void()> renderedOne = [] {}; ///< called stepCount() times from any thread, for progress
 };
@@ -32,26 +33,33 @@ struct NamedPicture {
     DisplayImage display;
 };
 
+/// What one picture was measured against: the truth, or of the pictures that the reference allows the nearest.
+struct PairTruth {
+    Picture picture;
+    /// By pixel: 1 where the truth shows another surface, so that nothing is compared; empty where that cannot be.
+    std::vector<std::uint8_t> excluded;
+};
+
 struct CompareResult {
     CompareRecord record;
     NamedPicture truth;
     std::vector<NamedPicture> pictures; ///< parallel to record.pairs
-    /// By pixel: 1 where the truth shows another surface, so that nothing is compared; empty where that cannot be.
-    std::vector<std::uint8_t> excluded;
+    std::vector<PairTruth> truths;      ///< parallel to record.pairs: what each was measured against
 };
 
 /// What was asked for of culling and lighting goes to the techniques that take it; the others keep their own.
 frame::FrameSettings settingsTakenBy(recipes::Technique technique, frame::FrameSettings settings);
 
 /// Steps of compareTechniques(), for progress: pictures, each row of the reference's, and what a range tolerance drops.
-std::size_t stepCount(const CompareRequest& request);
+std::size_t stepCount(const scenes::Scene& scene, const CompareRequest& request);
 
 /// Renders every technique and measures it against the truth. Pairs that must agree to the last bit (no G-buffer, or
 /// the exact layout, on a software rasteriser) are held to that; see pairTolerance(). Where the G-buffer is packed,
 /// each channel's share of the error is found by storing that channel alone in fp32, and against a technique the
 /// picture with all of them in fp32 must hold the exact layout's tolerance. What a range tolerance drops is measured on
 /// the technique that is the truth, or the first one where that is none. Against the reference pixels that show
-/// other triangles are excluded; textures filtered by hardware are one pair of their own there (hardwareFilterName()).
+/// other triangles are excluded; textures filtered by hardware are one pair of their own there (hardwareFilterName()),
+/// against the reference's picture with that filter.
 CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabilities& gl,
                                 const CompareRequest& request);
 

@@ -1,6 +1,7 @@
 #include "renderer/frame/Features.h"
 
 #include "scenes/InUse.h"
+#include "renderer/gpu/Sampler.h"
 #include "shaders/shared/material.h"
 
 namespace tessera::frame {
@@ -34,6 +35,8 @@ constexpr FeatureInfo kTable[] = {
     {Feature::SheenColorTexture, "SHEEN_COLOR_TEXTURE", "sheen-colour texture", "no material has one"},
     {Feature::SheenRoughnessTexture, "SHEEN_ROUGHNESS_TEXTURE", "sheen-roughness texture", "no material has one"},
     {Feature::TextureTransform, "TEXTURE_TRANSFORM", "texture transforms", "every texture lies as its coordinates say"},
+    {Feature::MixedFilters, "MIXED_FILTERS", "choice between magnifying and minifying filters",
+     "no sampler takes single texels for one of them only"},
     {Feature::TexCoord1, "TEXCOORD1", "second texture coordinates", "no texture uses them"},
     {Feature::VertexColor, "VERTEX_COLOR", "vertex colours", "no mesh has them"},
     {Feature::TangentSpaceNormals, "TANGENT_SPACE_NORMALS", "tangents", "no normal map is in tangent space"},
@@ -99,6 +102,8 @@ void addMaterial(FeatureSet& set, const scenes::Material& material) {
         if (use.image == scenes::kNone) continue;
         set.add(textureFeature(slot));
         set.add(Feature::TexCoord1, use.texCoordSet == 1);
+        set.add(Feature::MixedFilters,
+                gpu::takesNearest(use.sampler.magnification) != gpu::takesNearest(use.sampler.minification));
         set.add(Feature::TextureTransform, use.transform != scenes::TextureTransform{});
     }
     const bool normalMap = material.texture(scenes::TextureSlot::Normal).image != scenes::kNone;

@@ -37,6 +37,7 @@ enum class Feature : std::uint8_t {
     SheenColorTexture,
     SheenRoughnessTexture,
     TextureTransform,
+    MixedFilters, // samplers that take single texels on one side of the choice between magnifying and minifying
     TexCoord1,
     VertexColor,
     TangentSpaceNormals,

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "renderer/frame/Tangents.h"
+#include "renderer/gpu/Sampler.h"
+#include "shaders/shared/material.h"
 #include "shaders/shared/models.h"
 
 namespace tessera::frame {
@@ -49,14 +51,24 @@ glm::uint materialFlags(const scenes::Material& material) {
     return flags;
 }
 
+/// uvRow1[slot].w of the constants, but for what depends on the format of the texture.
+int textureModes(const scenes::Sampler& sampler) {
+    const bool magnifiesNearest = gpu::takesNearest(sampler.magnification);
+    const bool minifiesNearest = gpu::takesNearest(sampler.minification);
+    // OpenGL 4.5 core, section 8.15: where magnification is smooth and minification takes single texels of levels,
+    // magnification goes on up to half a level.
+    const bool halfLevel = !magnifiesNearest && minifiesNearest && sampler.minification != scenes::Filter::Nearest;
+    return int(sampler.wrapU) + 4 * int(sampler.wrapV) + (magnifiesNearest ? TEXTURE_MODE_MAGNIFIES_NEAREST : 0) +
+           (minifiesNearest ? TEXTURE_MODE_MINIFIES_NEAREST : 0) + (halfLevel ? TEXTURE_MODE_HALF_LEVEL : 0);
+}
+
 /// KHR_texture_transform: offset + rotation x scale x uv, as two rows.
 void packTexture(const scenes::TextureUse& use, glm::vec4& row0, glm::vec4& row1) {
     const double c = std::cos(double(use.transform.rotationRadians)),
                  s = std::sin(double(use.transform.rotationRadians));
     const scenes::TextureTransform& t = use.transform;
     row0 = glm::vec4(float(c * t.scale.x), float(s * t.scale.y), t.offset.x, float(use.texCoordSet));
-    row1 = glm::vec4(float(-s * t.scale.x), float(c * t.scale.y), t.offset.y,
-                     float(int(use.sampler.wrapU) + 4 * int(use.sampler.wrapV)));
+    row1 = glm::vec4(float(-s * t.scale.x), float(c * t.scale.y), t.offset.y, float(textureModes(use.sampler)));
 }
 
 /// What `microsurface.y` of the constants holds.

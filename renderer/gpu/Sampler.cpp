@@ -48,9 +48,7 @@ GLint glFilter(scenes::Filter filter) {
 
 /// Magnification has no mip levels.
 GLint glMagnification(scenes::Filter filter) {
-    const bool nearest = filter == scenes::Filter::Nearest || filter == scenes::Filter::NearestMipmapNearest ||
-                         filter == scenes::Filter::NearestMipmapLinear;
-    return nearest ? GL_NEAREST : GL_LINEAR;
+    return takesNearest(filter) ? GL_NEAREST : GL_LINEAR;
 }
 
 scenes::Sampler clamped(scenes::Filter filter) {
@@ -61,6 +59,11 @@ scenes::Sampler clamped(scenes::Filter filter) {
 }
 
 } // namespace
+
+bool takesNearest(scenes::Filter filter) {
+    return filter == scenes::Filter::Nearest || filter == scenes::Filter::NearestMipmapNearest ||
+           filter == scenes::Filter::NearestMipmapLinear;
+}
 
 Sampler::Sampler(std::string label, const scenes::Sampler& sampler, float maxAnisotropy) {
     std::uint32_t id = 0;

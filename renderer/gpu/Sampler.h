@@ -7,6 +7,9 @@
 
 namespace tessera::gpu {
 
+/// Whether a filter takes single texels of a level.
+bool takesNearest(scenes::Filter filter);
+
 /// How a texture is filtered and wrapped, apart from its texels.
 class Sampler {
 public:

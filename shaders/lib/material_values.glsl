@@ -36,6 +36,9 @@ struct Fragment {
     vec3 normalLS;      // not unit
     vec4 tangentLS;     // xyz not unit, w handedness with the node's mirroring
     TexCoord texCoord[2];
+#if FILTER_EXACT && HAS_MIXED_FILTERS
+    dmat2 texCoordChange[2]; // to the next pixel: a column to the right, a column up
+#endif
     vec4 color;
     mat3 normalFromObject; // cofactor matrix of the node, with its mirroring
     bool frontFacing;
@@ -52,6 +55,10 @@ Fragment plainFragment()
     fragment.tangentLS = vec4(0.0);
     fragment.texCoord[0] = TexCoord(0.0);
     fragment.texCoord[1] = TexCoord(0.0);
+#if FILTER_EXACT && HAS_MIXED_FILTERS
+    fragment.texCoordChange[0] = dmat2(0.0);
+    fragment.texCoordChange[1] = dmat2(0.0);
+#endif
     fragment.color = vec4(1.0);
     fragment.normalFromObject = mat3(1.0);
     fragment.frontFacing = true;
@@ -76,9 +83,28 @@ TexCoord slotCoordinate(Fragment fragment, int slot)
     return uv;
 }
 
+// Whether the slot's sampler takes single texels here.
+bool slotTakesNearest(sampler2D image, int slot, Fragment fragment, int modes)
+{
+#if FILTER_EXACT && HAS_MIXED_FILTERS
+    dmat2 change = fragment.texCoordChange[0];
+#if HAS_TEXCOORD1
+    if (material.uvRow0[slot].w > 0.5) change = fragment.texCoordChange[1];
+#endif
+#if HAS_TEXTURE_TRANSFORM
+    dmat2 moved = dmat2(material.uvRow0[slot].x, material.uvRow1[slot].x, material.uvRow0[slot].y, material.uvRow1[slot].y);
+    change = moved * change;
+#endif
+    return takesNearest(image, change, modes);
+#else
+    return (modes & TEXTURE_MODE_MAGNIFIES_NEAREST) != 0;
+#endif
+}
+
 vec4 sampleSlot(sampler2D image, int slot, Fragment fragment)
 {
-    return sampleFiltered(image, slotCoordinate(fragment, slot), int(material.uvRow1[slot].w));
+    int modes = int(material.uvRow1[slot].w);
+    return sampleFiltered(image, slotCoordinate(fragment, slot), modes, slotTakesNearest(image, slot, fragment, modes));
 }
 
 // rgb colour, a opacity.

@@ -67,6 +67,12 @@ Fragment rasterisedFragment()
     dvec4 texCoord = triangleTexCoord(weights);
     fragment.texCoord[0] = texCoord.xy;
     fragment.texCoord[1] = texCoord.zw;
+#if HAS_MIXED_FILTERS
+    dvec4 texCoordDx = triangleTexCoord(triangleWeightsChange(gl_FragCoord.xy, weights, dvec3(frame.rayDxLS.xyz)));
+    dvec4 texCoordDy = triangleTexCoord(triangleWeightsChange(gl_FragCoord.xy, weights, dvec3(frame.rayDyLS.xyz)));
+    fragment.texCoordChange[0] = dmat2(texCoordDx.xy, texCoordDy.xy);
+    fragment.texCoordChange[1] = dmat2(texCoordDx.zw, texCoordDy.zw);
+#endif
 #elif HAS_TEXTURES
     fragment.texCoord[0] = texCoord0;
 #if HAS_TEXCOORD1

@@ -1,7 +1,7 @@
-// How a material texture is read. `hardware` is what the sampler says (mipmaps, anisotropy). `exact` is bilinear at level 0
-// computed in fp32 from fetched texels, the definition that the double-precision reference shares: hardware bilinear of
-// 8-bit textures may be off by 3.5e-3, and the choice of level is the implementation's. For the same reason `exact` decodes
-// sRGB colours itself, from textures that hold their code values.
+// How a material texture is read. `hardware` is what the sampler says, by the driver. `exact` is what OpenGL says of a
+// texture of one level, computed in fp32 from fetched texels, the definition that the double-precision reference shares:
+// hardware bilinear of 8-bit textures may be off by 3.5e-3, and the choice of level is the implementation's. For the same
+// reason `exact` decodes sRGB colours itself, from textures that hold their code values.
 #pragma once
 #include "shared/material.h"
 
@@ -49,14 +49,27 @@ vec4 linearTexel(sampler2D image, int x, int y, int modes)
 }
 #endif
 
-// modes: MaterialConstants::uvRow1[slot].w.
-vec4 sampleFiltered(sampler2D image, TexCoord uv, int modes)
+#if FILTER_EXACT && HAS_MIXED_FILTERS
+// Whether the sampler takes single texels where the coordinate changes by the columns of `change` to the next pixels: by
+// the level of detail, log2 of the longer one in texels. Source: OpenGL 4.5 core, sections 8.14.1 and 8.15.
+bool takesNearest(sampler2D image, dmat2 change, int modes)
+{
+    dvec2 size = dvec2(textureSize(image, 0));
+    dvec2 right = change[0] * size, up = change[1] * size;
+    double length2 = max(dot(right, right), dot(up, up));
+    bool magnified = length2 <= ((modes & TEXTURE_MODE_HALF_LEVEL) != 0 ? 2.0 : 1.0);
+    return (modes & (magnified ? TEXTURE_MODE_MAGNIFIES_NEAREST : TEXTURE_MODE_MINIFIES_NEAREST)) != 0;
+}
+#endif
+
+// modes: MaterialConstants::uvRow1[slot].w; nearest: whether single texels are taken, for `exact`.
+vec4 sampleFiltered(sampler2D image, TexCoord uv, int modes, bool nearest)
 {
 #if FILTER_EXACT
     ivec2 size = textureSize(image, 0);
-    precise dvec2 place = uv * dvec2(size) - 0.5;
+    precise dvec2 place = uv * dvec2(size) - (nearest ? 0.0 : 0.5);
     precise dvec2 corner = floor(place);
-    precise vec2 weight = vec2(place - corner);
+    precise vec2 weight = nearest ? vec2(0.0) : vec2(place - corner);
     int modeU = modes & 3;
     int modeV = (modes >> 2) & 3;
     int x0 = wrapTexel(int(corner.x), size.x, modeU);

@@ -32,6 +32,27 @@ dvec3 triangleWeights(vec2 pixel)
     return dvec3(1.0 - weight1 - weight2, weight1, weight2);
 }
 
+#if HAS_MIXED_FILTERS
+// Change of those weights to the next pixel, along a change of the pixel's ray: the quotient rule on Cramer's.
+dvec3 triangleWeightsChange(vec2 pixel, dvec3 weights, dvec3 rayChange)
+{
+    dvec3 ray = dvec3(frame.rayOriginLS.xyz) + double(pixel.x) * dvec3(frame.rayDxLS.xyz)
+                + double(pixel.y) * dvec3(frame.rayDyLS.xyz);
+    bool parallelRays = frame.forwardLS.w != 0.0;
+    dvec3 direction = parallelRays ? dvec3(frame.forwardLS.xyz) : ray;
+    dvec3 edge1 = dvec3(triangleLS[1]) - dvec3(triangleLS[0]);
+    dvec3 edge2 = dvec3(triangleLS[2]) - dvec3(triangleLS[0]);
+    dvec3 area = cross(edge1, edge2);
+    double slope = dot(area, direction);
+    if (slope == 0.0) return dvec3(0.0);
+    dvec3 across = parallelRays ? cross(rayChange, direction) : cross(rayChange, dvec3(triangleLS[0]));
+    double slopeChange = parallelRays ? 0.0 : dot(area, rayChange);
+    double change1 = (-dot(edge2, across) - weights.y * slopeChange) / slope;
+    double change2 = (dot(edge1, across) - weights.z * slopeChange) / slope;
+    return dvec3(-change1 - change2, change1, change2);
+}
+#endif
+
 #if HAS_TEXTURES
 // Both sets.
 dvec4 triangleTexCoord(dvec3 weights)

@@ -16,8 +16,12 @@
 #define MATERIAL_TEXELS 9
 #define MATERIAL_TABLE_MOST (65536 / MATERIAL_TEXELS)
 
-// Added to a slot's wrap modes: its texture holds sRGB code values, which the shader decodes.
+// Added to a slot's wrap modes for --filter exact: its texture holds sRGB code values, which the shader decodes; its
+// sampler takes the nearest texel where it magnifies, and where it minifies; it magnifies up to half a level, not 0.
 #define TEXTURE_MODE_SRGB 16
+#define TEXTURE_MODE_MAGNIFIES_NEAREST 32
+#define TEXTURE_MODE_MINIFIES_NEAREST 64
+#define TEXTURE_MODE_HALF_LEVEL 128
 
 SHARED_BEGIN
 
@@ -35,7 +39,7 @@ struct MaterialConstants {
     uvec4 kind;        // x model, y flags, z masking, w number of the material
     vec4 uvRow0[TEXTURE_SLOT_COUNT]; // x y z: u' = x u + y v + z; w texture-coordinate set
     vec4 uvRow1[TEXTURE_SLOT_COUNT]; // x y z: v' = x u + y v + z; w for --filter exact: wrap modes, u + 4 v,
-                                     // and TEXTURE_MODE_SRGB
+                                     // and TEXTURE_MODE_*
     vec4 clearcoatTurn;              // x y z: of the coat's normal map, as y z w of anisotropy
 };
 

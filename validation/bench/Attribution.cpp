@@ -29,7 +29,7 @@ void addFilter(const GroupTruth& truth, const std::string& truthName, const Benc
                std::vector<AttributionLine>& lines) {
     const Picture exact = truth.pictureOf(Technique::Forward, exactSettings(any.settings, truth.filter()));
     lines.push_back(lineOf("arithmetic", "fp32 arithmetic of forward", truthName,
-                           errorFigures(exact, truth.picture(), truth.excluded())));
+                           errorFigures(exact, truth.pictureFor(exact), truth.excluded())));
     if (truth.filter() != frame::TextureFilter::Exact || !frame::materialFeatures(truth.renderer().scene()).textures())
         return;
     frame::FrameSettings hardware = exactSettings(any.settings, frame::TextureFilter::Hardware);

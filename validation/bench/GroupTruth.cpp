@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "validation/ErrorFigures.h"
-#include "validation/ReferencePicture.h"
 #include "validation/Rendering.h"
 #include "validation/ShownTriangles.h"
 
@@ -47,9 +46,13 @@ GroupTruth::GroupTruth(recipes::Renderer& renderer, BenchTruth truth, const fram
         picture_ = toPicture(renderer.render(recipes::Technique::Forward, exact));
         return;
     }
-    ReferencePicture reference = referencePicture(renderer.scene(), exact, rowDone);
-    excluded_ = shownTriangles(renderer, exact, reference.ids).excluded;
-    picture_ = std::move(reference.picture);
+    reference_ = referencePicture(renderer.scene(), exact, rowDone);
+    excluded_ = shownTriangles(renderer, exact, reference_->ids).excluded;
+    picture_ = reference_->picture;
+}
+
+Picture GroupTruth::pictureFor(const Picture& shown) const {
+    return reference_ ? reference_->nearestTo(shown) : picture_;
 }
 
 Picture GroupTruth::pictureOf(recipes::Technique technique, const frame::FrameSettings& settings) const {
@@ -60,7 +63,7 @@ Picture GroupTruth::pictureOf(recipes::Technique technique, const frame::FrameSe
 }
 
 BenchError GroupTruth::errorOf(const Picture& picture, std::map<std::string, std::string>& why) const {
-    const ErrorFigures figures = errorFigures(picture, picture_, excluded_);
+    const ErrorFigures figures = errorFigures(picture, pictureFor(picture), excluded_);
     BenchError error;
     const auto take = [&](const char* name, double value) -> std::optional<double> {
         if (std::isfinite(value)) return value;

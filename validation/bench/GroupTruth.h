@@ -6,6 +6,7 @@
 
 #include "passes/recipes/Renderer.h"
 #include "validation/Picture.h"
+#include "validation/ReferencePicture.h"
 #include "validation/bench/BenchResult.h"
 
 namespace tessera::validation {
@@ -30,7 +31,7 @@ frame::FrameSettings exactSettings(frame::FrameSettings settings, frame::Texture
 /// The truth of one group, made once, and points held against it.
 class GroupTruth {
 public:
-    /// Errors are of frames with `filter`: the reference filters by the exact one. `rowDone` as referencePicture().
+    /// Errors are of frames with `filter`, the reference's picture too. `rowDone` as referencePicture().
     GroupTruth(recipes::Renderer& renderer, BenchTruth truth, const frame::FrameSettings& settings,
                frame::TextureFilter filter, const std::function<void()>& rowDone);
 
@@ -40,6 +41,8 @@ public:
     BenchError errorOf(const Picture& picture, std::map<std::string, std::string>& why) const;
 
     const Picture& picture() const { return picture_; }
+    /// Of the pictures that the truth allows the one nearest to `shown`.
+    Picture pictureFor(const Picture& shown) const;
     const std::vector<std::uint8_t>& excluded() const { return excluded_; }
     frame::TextureFilter filter() const { return filter_; }
     recipes::Renderer& renderer() const { return renderer_; }
@@ -48,6 +51,7 @@ private:
     recipes::Renderer& renderer_;
     frame::TextureFilter filter_;
     Picture picture_;
+    std::optional<ReferencePicture> reference_;
     std::vector<std::uint8_t> excluded_;
 };
 

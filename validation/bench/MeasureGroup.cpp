@@ -146,9 +146,9 @@ private:
             {name,
              {name},
              options_.keepPicture(number, shown(picture, point.settings.exposureEV)),
-             options_.keepPicture(
-                 number + "-error",
-                 errorHeatMap(picture, truth.picture(), fmt::format("{} vs {}", name, group_.truth), truth.excluded())),
+             options_.keepPicture(number + "-error",
+                                  errorHeatMap(picture, truth.pictureFor(picture),
+                                               fmt::format("{} vs {}", name, group_.truth), truth.excluded())),
              hash});
     }
 

@@ -28,8 +28,10 @@ Ray CameraRays::through(const glm::dvec2& placePixels) const {
     const double y = 1.0 - 2.0 * placePixels.y / sizePixels_.y;
     const double halfWidth = halfHeight_ * sizePixels_.x / sizePixels_.y;
     const glm::dvec3 aside = x * halfWidth * right_ + y * halfHeight_ * up_;
-    if (isPerspective_) return {glm::dvec3(0.0), forward_ + aside};
-    return {aside, forward_};
+    const double stepMetres = 2.0 * halfHeight_ / sizePixels_.y;
+    const glm::dvec3 dx = stepMetres * right_, dy = stepMetres * up_, none(0.0);
+    if (isPerspective_) return {none, forward_ + aside, none, none, dx, dy};
+    return {aside, forward_, dx, dy, none, none};
 }
 
 glm::dvec3 CameraRays::toViewer(const glm::dvec3& positionRel) const {

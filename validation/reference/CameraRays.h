@@ -10,6 +10,8 @@ namespace tessera::reference {
 struct Ray {
     glm::dvec3 originRel{0.0};
     glm::dvec3 direction{0.0}; ///< 1 long along the forward axis
+    /// Both changes to the pixel to the right and to the one above.
+    glm::dvec3 originDx{0.0}, originDy{0.0}, directionDx{0.0}, directionDy{0.0};
     glm::dvec3 at(double depthMetres) const { return originRel + depthMetres * direction; }
 };
 

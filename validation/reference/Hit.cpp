@@ -1,8 +1,45 @@
 #include "validation/reference/Hit.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace tessera::reference {
+
+namespace {
+
+/// What rounding leaves of a position: products, sums and a turn of the axes, some eight operations in fp32.
+constexpr double kPositionRounding = 8.0 * 0x1p-24;
+
+/// Ray differentials (Igehy 1999, "Tracing Ray Differentials"): where the rays of the next pixels meet the plane.
+void setChanges(const Object& object, const Ray& ray, const glm::dvec3& edge1, const glm::dvec3& edge2, Hit& hit) {
+    const glm::dvec3 area = glm::cross(edge1, edge2);
+    const double slope = glm::dot(area, ray.direction), area2 = glm::dot(area, area);
+    const auto changeOf = [&](const glm::dvec3& originStep, const glm::dvec3& directionStep) {
+        const glm::dvec3 aside = originStep + hit.depthMetres * directionStep;
+        const glm::dvec3 alongPlane = aside - glm::dot(area, aside) / slope * ray.direction;
+        const double weight1 = glm::dot(glm::cross(alongPlane, edge2), area) / area2;
+        const double weight2 = glm::dot(glm::cross(edge1, alongPlane), area) / area2;
+        return glm::dvec3(-weight1 - weight2, weight1, weight2);
+    };
+    hit.weightsDx = changeOf(ray.originDx, ray.directionDx);
+    hit.weightsDy = changeOf(ray.originDy, ray.directionDy);
+    hit.perspective =
+        (std::abs(glm::dot(area, ray.directionDx)) + std::abs(glm::dot(area, ray.directionDy))) / std::abs(slope);
+    const double pixelMetres = glm::length(ray.originDx + hit.depthMetres * ray.directionDx);
+    double reach = glm::length(ray.at(hit.depthMetres)), largestReach = reach;
+    for (int corner = 0; corner < 3; ++corner) {
+        const double own = object.cornerReach(hit.triangle, corner);
+        reach += std::abs(hit.weights[corner]) * own;
+        largestReach = std::max(largestReach, own);
+    }
+    const double longestEdge = std::max({glm::length(edge1), glm::length(edge2), glm::length(edge2 - edge1)});
+    const double height = std::sqrt(area2) / longestEdge;
+    hit.roundingPixels = kPositionRounding * reach / pixelMetres;
+    hit.roundingLevels = kPositionRounding * largestReach / height * std::numbers::log2e;
+}
+
+} // namespace
 
 std::optional<Hit> hitOf(const Object& object, std::uint32_t triangle, const Ray& ray) {
     const glm::dvec3 a = object.cornerRel(triangle, 0);
@@ -22,6 +59,7 @@ std::optional<Hit> hitOf(const Object& object, std::uint32_t triangle, const Ray
     hit.weights.x = 1.0 - hit.weights.y - hit.weights.z;
     hit.frontFacing = slope * object.handedness < 0.0;
     if (!std::isfinite(hit.depthMetres)) return {};
+    setChanges(object, ray, edge1, edge2, hit);
     return hit;
 }
 

@@ -14,10 +14,10 @@ namespace {
 using scenes::MaterialModel;
 using scenes::TextureSlot;
 
-glm::dvec4 baseColorAt(const Hit& hit, const std::vector<scenes::Image>& images) {
+glm::dvec4 baseColorAt(const Hit& hit, const Textures& textures) {
     const std::vector<glm::vec4>& colors = hit.object->mesh->colors;
     const glm::dvec4 vertexColor = colors.empty() ? glm::dvec4(1.0) : hit.at<glm::dvec4>(colors);
-    return glm::dvec4(hit.object->material->baseColor) * texelOf(TextureSlot::BaseColor, hit, images) * vertexColor;
+    return glm::dvec4(hit.object->material->baseColor) * texelOf(TextureSlot::BaseColor, hit, textures) * vertexColor;
 }
 
 /// metallic_roughness squares its perceptual roughness; microfacet takes alpha as it is.
@@ -33,9 +33,9 @@ double squaredRoughness(double perceptual) {
 }
 
 /// KHR_materials_anisotropy, and the second alpha of microfacet_anisotropic.
-void setDirection(const Hit& hit, const std::vector<scenes::Image>& images, SurfacePoint& point) {
+void setDirection(const Hit& hit, const Textures& textures, SurfacePoint& point) {
     const scenes::Material& material = *hit.object->material;
-    const glm::dvec4 texel = texelOf(TextureSlot::Anisotropy, hit, images);
+    const glm::dvec4 texel = texelOf(TextureSlot::Anisotropy, hit, textures);
     point.alphaAcross = point.alpha;
     glm::dvec2 direction(1.0, 0.0);
     if (material.model == MaterialModel::MicrofacetAnisotropic) {
@@ -56,14 +56,14 @@ void setDirection(const Hit& hit, const std::vector<scenes::Image>& images, Surf
     point.tangent = tangentAt(hit, point.normal, alongTangents(material, TextureSlot::Anisotropy, direction));
 }
 
-void setLayers(const Hit& hit, const std::vector<scenes::Image>& images, SurfacePoint& point) {
+void setLayers(const Hit& hit, const Textures& textures, SurfacePoint& point) {
     const scenes::Material& material = *hit.object->material;
-    const auto texel = [&](TextureSlot slot) { return texelOf(slot, hit, images); };
+    const auto texel = [&](TextureSlot slot) { return texelOf(slot, hit, textures); };
     if (material.model != MaterialModel::MetallicRoughness) return;
     point.coat = double(material.clearcoat) * texel(TextureSlot::Clearcoat).r;
     point.coatAlpha =
         squaredRoughness(double(material.clearcoatPerceptualRoughness) * texel(TextureSlot::ClearcoatRoughness).g);
-    if (point.coat > 0.0) point.coatNormal = coatNormalAt(hit, images);
+    if (point.coat > 0.0) point.coatNormal = coatNormalAt(hit, textures);
     point.sheenColor = glm::dvec3(material.sheenColor) * glm::dvec3(texel(TextureSlot::SheenColor));
     point.sheenAlpha =
         squaredRoughness(double(material.sheenPerceptualRoughness) * texel(TextureSlot::SheenRoughness).a);
@@ -71,10 +71,10 @@ void setLayers(const Hit& hit, const std::vector<scenes::Image>& images, Surface
 
 } // namespace
 
-SurfacePoint surfaceAt(const Hit& hit, const std::vector<scenes::Image>& images) {
+SurfacePoint surfaceAt(const Hit& hit, const Textures& textures) {
     const scenes::Material& material = *hit.object->material;
-    const auto texel = [&](TextureSlot slot) { return texelOf(slot, hit, images); };
-    const glm::dvec4 base = baseColorAt(hit, images);
+    const auto texel = [&](TextureSlot slot) { return texelOf(slot, hit, textures); };
+    const glm::dvec4 base = baseColorAt(hit, textures);
     const glm::dvec4 roughnessMetallic = texel(TextureSlot::MetallicRoughness);
     SurfacePoint point;
     point.model = material.model;
@@ -88,14 +88,14 @@ SurfacePoint surfaceAt(const Hit& hit, const std::vector<scenes::Image>& images)
     point.emission = glm::dvec3(material.emissive) * glm::dvec3(texel(TextureSlot::Emissive));
     point.exponent = double(material.exponent) * roughnessMetallic.g;
     point.masking = material.masking;
-    point.normal = normalAt(hit, images);
-    setDirection(hit, images, point);
-    setLayers(hit, images, point);
+    point.normal = normalAt(hit, textures);
+    setDirection(hit, textures, point);
+    setLayers(hit, textures, point);
     return point;
 }
 
-double opacityAt(const Hit& hit, const std::vector<scenes::Image>& images) {
-    return baseColorAt(hit, images).a;
+double opacityAt(const Hit& hit, const Textures& textures) {
+    return baseColorAt(hit, textures).a;
 }
 
 } // namespace tessera::reference

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "validation/reference/Hit.h"
+#include "validation/reference/Textures.h"
 
 namespace tessera::reference {
 
@@ -31,9 +32,9 @@ struct SurfacePoint {
     double sheenAlpha = 1.0;
 };
 
-SurfacePoint surfaceAt(const Hit& hit, const std::vector<scenes::Image>& images);
+SurfacePoint surfaceAt(const Hit& hit, const Textures& textures);
 
 /// Base colour's alpha x texel x vertex colour, as it is.
-double opacityAt(const Hit& hit, const std::vector<scenes::Image>& images);
+double opacityAt(const Hit& hit, const Textures& textures);
 
 } // namespace tessera::reference

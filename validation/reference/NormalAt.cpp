@@ -31,19 +31,19 @@ glm::dvec3 facing(const Hit& hit, const glm::dvec3& normal) {
 }
 
 /// A texel of a normal map, as its direction.
-glm::dvec3 directionOf(scenes::TextureSlot slot, const Hit& hit, const std::vector<scenes::Image>& images) {
-    return 2.0 * glm::dvec3(texelOf(slot, hit, images)) - 1.0;
+glm::dvec3 directionOf(scenes::TextureSlot slot, const Hit& hit, const Textures& textures) {
+    return 2.0 * glm::dvec3(texelOf(slot, hit, textures)) - 1.0;
 }
 
 } // namespace
 
-glm::dvec3 normalAt(const Hit& hit, const std::vector<scenes::Image>& images) {
+glm::dvec3 normalAt(const Hit& hit, const Textures& textures) {
     const Object& object = *hit.object;
     const scenes::Material& material = *object.material;
     const glm::dvec3 vertexNormal = vertexNormalAt(hit);
     glm::dvec3 normal = vertexNormal;
     if (material.texture(scenes::TextureSlot::Normal).image != scenes::kNone) {
-        const glm::dvec3 texel = directionOf(scenes::TextureSlot::Normal, hit, images);
+        const glm::dvec3 texel = directionOf(scenes::TextureSlot::Normal, hit, textures);
         const double scale = material.normalScale;
         const bool inObjectSpace = material.normalMapSpace == scenes::NormalMapSpace::Object;
         normal = unitOr(inObjectSpace ? object.normalFromObject * texel
@@ -53,11 +53,11 @@ glm::dvec3 normalAt(const Hit& hit, const std::vector<scenes::Image>& images) {
     return facing(hit, normal);
 }
 
-glm::dvec3 coatNormalAt(const Hit& hit, const std::vector<scenes::Image>& images) {
+glm::dvec3 coatNormalAt(const Hit& hit, const Textures& textures) {
     const scenes::Material& material = *hit.object->material;
     const glm::dvec3 vertexNormal = vertexNormalAt(hit);
     if (material.texture(scenes::TextureSlot::ClearcoatNormal).image == scenes::kNone) return facing(hit, vertexNormal);
-    const glm::dvec3 texel = directionOf(scenes::TextureSlot::ClearcoatNormal, hit, images);
+    const glm::dvec3 texel = directionOf(scenes::TextureSlot::ClearcoatNormal, hit, textures);
     const double scale = material.clearcoatNormalScale;
     const glm::dvec2 leaning = alongTangents(material, scenes::TextureSlot::ClearcoatNormal, scale * glm::dvec2(texel));
     const glm::dvec3 mapped = fromTangentSpace(hit, {leaning, texel.z}, vertexNormal);

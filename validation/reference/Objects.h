@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -22,6 +23,15 @@ struct Object {
     glm::dvec3 cornerRel(std::uint32_t triangle, int corner) const {
         const std::uint32_t vertex = mesh->indices[3 * std::size_t(triangle) + std::size_t(corner)];
         return glm::dvec3(relFromObject * glm::dvec4(glm::dvec3(mesh->positionsOS[vertex]), 1.0));
+    }
+
+    /// The sum of the magnitudes that a corner's position is added up from, which rounding goes with.
+    double cornerReach(std::uint32_t triangle, int corner) const {
+        const std::uint32_t vertex = mesh->indices[3 * std::size_t(triangle) + std::size_t(corner)];
+        double reach = glm::length(glm::dvec3(relFromObject[3]));
+        for (int axis = 0; axis < 3; ++axis)
+            reach += glm::length(glm::dvec3(relFromObject[axis])) * std::abs(double(mesh->positionsOS[vertex][axis]));
+        return reach;
     }
 };
 

@@ -1,11 +1,13 @@
 #include "validation/reference/Render.h"
 
+#include <algorithm>
 #include <limits>
 
 #include <tbb/parallel_for.h>
 
 #include "validation/reference/LightAt.h"
 #include "validation/reference/Reflectance.h"
+#include "validation/reference/Slots.h"
 #include "validation/reference/Visibility.h"
 
 namespace tessera::reference {
@@ -15,7 +17,8 @@ class Pixels {
 public:
     Pixels(const scenes::Scene& scene, const Settings& settings)
         : scene_(scene), settings_(settings), rays_(settings.camera, settings.sizePixels), objects_(scene, rays_),
-          visibility_(objects_, rays_, scene.images), lights_(shiningLights(scene, settings, rays_.eyeWS())) {}
+          textures_(scene, settings.filtering), visibility_(objects_, rays_, textures_),
+          lights_(shiningLights(scene, settings, rays_.eyeWS())) {}
 
     void row(int row, Rendered& rendered) const {
         for (int column = 0; column < rendered.width; ++column) {
@@ -42,23 +45,79 @@ public:
 
 private:
     void pixel(const Ray& ray, std::size_t at, Rendered& rendered) const {
-        glm::dvec3 radiance(scene_.background);
+        Seen seen;
+        seen.opaque = visibility_.nearestOpaque(ray);
         double depthMetres = std::numeric_limits<double>::infinity();
-        if (const std::optional<Hit> hit = visibility_.nearestOpaque(ray)) {
-            radiance = radianceOf(surfaceAt(*hit, scene_.images), ray.at(hit->depthMetres));
-            depthMetres = hit->depthMetres;
-            rendered.ids[at].object = 1 + hit->object->number;
-            rendered.ids[at].triangle = hit->triangle;
+        if (seen.opaque) {
+            depthMetres = seen.opaque->depthMetres;
+            rendered.ids[at].object = 1 + seen.opaque->object->number;
+            rendered.ids[at].triangle = seen.opaque->triangle;
             rendered.covered[at] = 1;
         }
-        for (const Hit& hit : visibility_.transparentBefore(ray, depthMetres)) {
-            const SurfacePoint point = surfaceAt(hit, scene_.images);
+        seen.transparent = visibility_.transparentBefore(ray, depthMetres);
+        for (const Hit& hit : seen.transparent) {
+            rendered.ids[at].transparent += transparentId(hit.object->number, hit.triangle);
+            if (surfaceAt(hit, textures_).opacity > 0.0) rendered.covered[at] = 1;
+        }
+        const glm::dvec3 radiance = radianceOf(ray, seen, Nudge());
+        rendered.radiance[at] = radiance;
+        const bool byHardware = settings_.filtering == Filtering::Hardware;
+        if (byHardware) rendered.spans[at] = {radiance, radiance};
+        if (!settings_.leeway || !isUndecided(seen)) return;
+        for (const Nudge& nudge : nudges()) {
+            const glm::dvec3 other = radianceOf(ray, seen, nudge);
+            if (byHardware) {
+                rendered.spans[at].least = glm::min(rendered.spans[at].least, other);
+                rendered.spans[at].most = glm::max(rendered.spans[at].most, other);
+            } else {
+                rendered.alternatives[at].push_back(other);
+            }
+        }
+    }
+
+    /// The surfaces that a pixel shows.
+    struct Seen {
+        std::optional<Hit> opaque;
+        std::vector<Hit> transparent; ///< in the order in which they are blended
+    };
+
+    bool isUndecided(const Seen& seen) const {
+        const auto open = [this](const Hit& hit) { return reference::isUndecided(hit, textures_); };
+        return (seen.opaque && open(*seen.opaque)) ||
+               std::any_of(seen.transparent.begin(), seen.transparent.end(), open);
+    }
+
+    /// The ends of every leeway: all surfaces of a pixel go the same way, as they share the ray.
+    static const std::vector<Nudge>& nudges() {
+        static const std::vector<Nudge> all = [] {
+            const glm::ivec2 corners[] = {{-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+            std::vector<Nudge> ends;
+            for (const int level : {-1, 0, 1}) {
+                for (const glm::ivec2& corner : corners) ends.push_back({corner, level, {}});
+            }
+            for (const int level : {-1, 0, 1}) {
+                for (const glm::ivec2& corner : corners) ends.push_back({{}, level, corner});
+            }
+            for (const int level : {-1, 1}) ends.push_back({{}, level, {}});
+            return ends;
+        }();
+        return all;
+    }
+
+    glm::dvec3 radianceOf(const Ray& ray, const Seen& seen, const Nudge& nudge) const {
+        glm::dvec3 radiance(scene_.background);
+        if (seen.opaque) radiance = radianceOf(nudged(*seen.opaque, nudge), ray.at(seen.opaque->depthMetres));
+        for (const Hit& hit : seen.transparent) {
+            const SurfacePoint point = nudged(hit, nudge);
             const glm::dvec3 own = radianceOf(point, ray.at(hit.depthMetres));
             radiance = point.opacity * own + (1.0 - point.opacity) * radiance;
-            rendered.ids[at].transparent += transparentId(hit.object->number, hit.triangle);
-            if (point.opacity > 0.0) rendered.covered[at] = 1;
         }
-        rendered.radiance[at] = radiance;
+        return radiance;
+    }
+
+    SurfacePoint nudged(Hit hit, const Nudge& nudge) const {
+        hit.nudge = nudge;
+        return surfaceAt(hit, textures_);
     }
 
     glm::dvec3 radianceOf(const SurfacePoint& point, const glm::dvec3& positionRel) const {
@@ -77,6 +136,7 @@ private:
     const Settings& settings_;
     CameraRays rays_;
     Objects objects_;
+    Textures textures_;
     Visibility visibility_;
     std::vector<ShiningLight> lights_;
 };
@@ -95,6 +155,8 @@ Rendered render(const scenes::Scene& scene, const Settings& settings, const std:
     rendered.radiance.resize(pixels);
     rendered.covered.resize(pixels);
     rendered.ids.resize(pixels);
+    rendered.alternatives.resize(pixels);
+    if (settings.filtering == Filtering::Hardware) rendered.spans.resize(pixels);
     const Pixels picture(scene, settings);
     tbb::parallel_for(0, rendered.height, [&](int row) {
         picture.row(row, rendered);

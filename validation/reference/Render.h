@@ -33,12 +33,23 @@ struct Layers {
 /// 65,536 has one sum.
 std::uint32_t transparentId(std::uint32_t objectNumber, std::uint32_t triangle);
 
+/// Values that a driver is free to show.
+struct Span {
+    glm::dvec3 least{0.0}, most{0.0};
+};
+
 /// Rows from the top.
 struct Rendered {
     int width = 0, height = 0;
     std::vector<glm::dvec3> radiance;  ///< linear, before exposure
     std::vector<std::uint8_t> covered; ///< 1 where anything was drawn
     std::vector<Ids> ids;
+
+    /// By pixel, what else the definition allows: another texel of a `nearest` filter where the coordinate lies within
+    /// rounding of an edge, or another filter where the level does.
+    std::vector<std::vector<glm::dvec3>> alternatives;
+    /// By pixel, what Filtering::Hardware leaves to a driver, channel by channel; else empty.
+    std::vector<Span> spans;
 };
 
 /// Renders on all cores. `rowDone` is called once a row of the picture, from any thread. The scene must have passed

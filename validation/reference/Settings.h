@@ -7,6 +7,9 @@
 
 namespace tessera::reference {
 
+/// How textures are read: the picture alone, or with smaller levels as a driver's hardware does (see Filtering.h).
+enum class Filtering { Exact, Hardware };
+
 /// What is rendered of a scene.
 struct Settings {
     glm::ivec2 sizePixels{1280, 720};
@@ -14,7 +17,9 @@ struct Settings {
     double timeSeconds = 0.0;     ///< of animated lights
     std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
     bool specular = true;         ///< false leaves the specular lobe out
-    double rangeTolerance = 0.0;  ///< unit of colour x intensity: A B C lights end where they fall to it; 0: nowhere
+    Filtering filtering = Filtering::Exact;
+    bool leeway = true;          ///< whether to find what else the definition allows (Rendered::alternatives, ::spans)
+    double rangeTolerance = 0.0; ///< unit of colour x intensity: A B C lights end where they fall to it; 0: nowhere
 };
 
 } // namespace tessera::reference

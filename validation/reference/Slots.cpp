@@ -1,16 +1,84 @@
 #include "validation/reference/Slots.h"
 
-#include "validation/reference/Texels.h"
+#include <algorithm>
+#include <cmath>
+
+#include "validation/reference/Filtering.h"
+#include "validation/reference/Leeway.h"
 
 namespace tessera::reference {
 
-glm::dvec4 texelOf(scenes::TextureSlot slot, const Hit& hit, const std::vector<scenes::Image>& images) {
+namespace {
+
+Footprint footprintOf(const scenes::TextureUse& use, const Hit& hit) {
+    const std::vector<glm::vec2>& texCoords = hit.object->mesh->texCoords[std::size_t(use.texCoordSet)];
+    if (texCoords.empty()) return {transformed(use.transform, glm::dvec2(0.0)), {}, {}};
+    scenes::TextureTransform unmoved = use.transform;
+    unmoved.offset = glm::vec2(0.0f);
+    return {transformed(use.transform, hit.at<glm::dvec2>(texCoords)),
+            transformed(unmoved, hit.weighted<glm::dvec2>(texCoords, hit.weightsDx)),
+            transformed(unmoved, hit.weighted<glm::dvec2>(texCoords, hit.weightsDy))};
+}
+
+bool isUndecided(const scenes::Sampler& sampler, const Footprint& footprint, glm::ivec2 sizeTexels,
+                 const Leeway& leeway) {
+    const bool magnified = takesNearest(sampler.magnification), minified = takesNearest(sampler.minification);
+    if (!magnified && !minified) return false;
+    const double level = levelOf(footprint, sizeTexels), limit = magnifiedUpTo(sampler);
+    if (magnified != minified && level > leeway.magnifiedFrom - leeway.coarser && level <= limit + leeway.finer)
+        return true;
+    if (!(level > limit ? minified : magnified)) return false;
+    const glm::dvec2 place = footprint.texCoord * glm::dvec2(sizeTexels);
+    const glm::dvec2 toEdge = glm::abs(place - glm::round(place));
+    return glm::any(glm::lessThanEqual(toEdge, leeway.texCoord * glm::dvec2(sizeTexels)));
+}
+
+/// A texel whose code values are off by `codes`, down or up.
+glm::dvec4 recoded(const glm::dvec4& texel, const Pyramid& pyramid, const glm::ivec2& nudge, double codes) {
+    if (nudge == glm::ivec2(0) || codes == 0.0) return texel;
+    glm::dvec4 result;
+    for (int c = 0; c < 4; ++c) {
+        const bool isSrgb = pyramid.transfer() == Transfer::Srgb && c < 3;
+        const double code = isSrgb ? srgbFromLinear(texel[c]) : texel[c];
+        const double moved = std::clamp(code + nudge[c % 2] * codes, 0.0, 1.0);
+        result[c] = isSrgb ? linearFromSrgb(moved) : moved;
+    }
+    return result;
+}
+
+} // namespace
+
+glm::dvec4 texelOf(scenes::TextureSlot slot, const Hit& hit, const Textures& textures) {
     const scenes::TextureUse& use = hit.object->material->texture(slot);
     if (use.image == scenes::kNone) return glm::dvec4(1.0);
-    const std::vector<glm::vec2>& texCoords = hit.object->mesh->texCoords[std::size_t(use.texCoordSet)];
-    const glm::dvec2 uv = texCoords.empty() ? glm::dvec2(0.0) : hit.at<glm::dvec2>(texCoords);
-    return sampleBilinear(images[std::size_t(use.image)], transferOf(slot), use.sampler,
-                          transformed(use.transform, uv));
+    const Pyramid& pyramid = textures.pyramid(use.image, transferOf(slot));
+    const Footprint footprint = footprintOf(use, hit);
+    const double level = levelOf(footprint, pyramid.sizeTexels(0));
+    const double magnified = magnifiedUpTo(use.sampler);
+    if (hit.nudge == Nudge()) return filtered(pyramid, use.sampler, footprint.texCoord, level, magnified);
+    const Leeway leeway = leewayOf(textures.filtering(), use, footprint, pyramid, hit);
+    const glm::dvec2 texCoord = footprint.texCoord + glm::dvec2(hit.nudge.texCoord) * leeway.texCoord;
+    // At the middle of the levels it magnifies wherever it may, at both ends it minifies wherever it may.
+    double nudged = level, upTo = magnified + leeway.finer;
+    if (hit.nudge.level != 0) {
+        nudged += hit.nudge.level > 0 ? leeway.coarser : -leeway.finer;
+        upTo = leeway.magnifiedFrom - leeway.coarser + (nudged - level);
+    }
+    return recoded(filtered(pyramid, use.sampler, texCoord, nudged, upTo), pyramid, hit.nudge.texel, leeway.codes);
+}
+
+bool isUndecided(const Hit& hit, const Textures& textures) {
+    for (std::size_t i = 0; i < scenes::kTextureSlotCount; ++i) {
+        const scenes::TextureUse& use = hit.object->material->textures[i];
+        if (use.image == scenes::kNone) continue;
+        if (textures.filtering() == Filtering::Hardware) return true;
+        const Pyramid& pyramid = textures.pyramid(use.image, transferOf(scenes::TextureSlot(i)));
+        const Footprint footprint = footprintOf(use, hit);
+        if (isUndecided(use.sampler, footprint, pyramid.sizeTexels(0),
+                        leewayOf(textures.filtering(), use, footprint, pyramid, hit)))
+            return true;
+    }
+    return false;
 }
 
 } // namespace tessera::reference

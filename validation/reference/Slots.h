@@ -1,11 +1,14 @@
 #pragma once
-#include <vector>
-
 #include "validation/reference/Hit.h"
+#include "validation/reference/Textures.h"
 
 namespace tessera::reference {
 
 /// The texel of a material's slot at a hit, linear; 1 in every channel where the slot is empty.
-glm::dvec4 texelOf(scenes::TextureSlot slot, const Hit& hit, const std::vector<scenes::Image>& images);
+glm::dvec4 texelOf(scenes::TextureSlot slot, const Hit& hit, const Textures& textures);
+
+/// Whether the hit's textures may be others within what is left open (see Leeway): by hardware always, by the exact
+/// definition where a `nearest` filter has two texels to choose from, or the coordinate two filters.
+bool isUndecided(const Hit& hit, const Textures& textures);
 
 } // namespace tessera::reference

@@ -45,6 +45,10 @@ double linearFromSrgb(double code) {
     return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
 }
 
+double srgbFromLinear(double linear) {
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
 glm::dvec4 texelAt(const scenes::Image& image, Transfer transfer, int column, int row) {
     const std::size_t index = std::size_t(row) * std::size_t(image.width) + std::size_t(column);
     const bool decodes = transfer == Transfer::Srgb && image.format != scenes::TexelFormat::Rgba32Float;
@@ -62,22 +66,6 @@ int wrapped(long long index, int size, scenes::Wrap wrap) {
     if (wrap == scenes::Wrap::Repeat) return int(modulo(size));
     const long long inside = modulo(2LL * size);
     return int(inside < size ? inside : 2LL * size - 1 - inside);
-}
-
-glm::dvec4 sampleBilinear(const scenes::Image& image, Transfer transfer, const scenes::Sampler& sampler,
-                          const glm::dvec2& texCoord) {
-    // Beyond this many texels from the picture neighbours cannot be told apart; it also keeps the indices in range.
-    constexpr double kFarthest = 1e15;
-    const double x = std::clamp(texCoord.x * image.width - 0.5, -kFarthest, kFarthest);
-    const double y = std::clamp(texCoord.y * image.height - 0.5, -kFarthest, kFarthest);
-    const double left = std::floor(x), upper = std::floor(y);
-    const auto texel = [&](int column, int row) {
-        return texelAt(image, transfer, wrapped(static_cast<long long>(left) + column, image.width, sampler.wrapU),
-                       wrapped(static_cast<long long>(upper) + row, image.height, sampler.wrapV));
-    };
-    // a + (b - a) w: equal texels stay what they are to the last bit, so that a normal of no length gains none.
-    const auto between = [](const glm::dvec4& a, const glm::dvec4& b, double weight) { return a + (b - a) * weight; };
-    return between(between(texel(0, 0), texel(1, 0), x - left), between(texel(0, 1), texel(1, 1), x - left), y - upper);
 }
 
 glm::dvec2 transformed(const scenes::TextureTransform& transform, const glm::dvec2& uv) {

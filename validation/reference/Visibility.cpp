@@ -32,7 +32,7 @@ void throwIfFailed(RTCDevice device, const char* what) {
 /// What a candidate must be to count, and what has been found of a ray.
 struct Query : RTCIntersectContext {
     const Ray* ray = nullptr;
-    const std::vector<scenes::Image>* images = nullptr;
+    const Textures* textures = nullptr;
     double nearMetres = 0.0, farMetres = 0.0;
     std::optional<Hit> nearest;
     std::vector<Hit>* all = nullptr; ///< where every hit is wanted, not the nearest
@@ -43,7 +43,7 @@ std::optional<Hit> keptHit(const Object& object, std::uint32_t triangle, const Q
     if (!hit || hit->depthMetres < query.nearMetres || hit->depthMetres > query.farMetres) return {};
     if (!hit->frontFacing && !object.material->doubleSided) return {};
     if (object.material->alphaMode == scenes::AlphaMode::Mask &&
-        opacityAt(*hit, *query.images) < double(object.material->alphaCutoff))
+        opacityAt(*hit, *query.textures) < double(object.material->alphaCutoff))
         return {};
     return hit;
 }
@@ -117,13 +117,13 @@ void trace(RTCScene tree, Query& query) {
 struct Visibility::Trees {
     const Objects& objects;
     const CameraRays& rays;
-    const std::vector<scenes::Image>& images;
+    const Textures& textures;
     Device device;
     Tree opaque, transparent;
 };
 
-Visibility::Visibility(const Objects& objects, const CameraRays& rays, const std::vector<scenes::Image>& images)
-    : trees_(new Trees{objects, rays, images, Device(rtcNewDevice(nullptr)), {}, {}}) {
+Visibility::Visibility(const Objects& objects, const CameraRays& rays, const Textures& textures)
+    : trees_(new Trees{objects, rays, textures, Device(rtcNewDevice(nullptr)), {}, {}}) {
     if (!trees_->device) throw std::runtime_error("Embree, which traces the reference renderer's rays, does not start");
     trees_->opaque = makeTree(trees_->device.get(), objects.opaque());
     if (!objects.transparent().empty()) trees_->transparent = makeTree(trees_->device.get(), objects.transparent());
@@ -135,7 +135,7 @@ std::optional<Hit> Visibility::nearestOpaque(const Ray& ray) const {
     Query query{};
     rtcInitIntersectContext(&query);
     query.ray = &ray;
-    query.images = &trees_->images;
+    query.textures = &trees_->textures;
     query.nearMetres = trees_->rays.nearMetres();
     query.farMetres = trees_->rays.farMetres();
     trace(trees_->opaque.get(), query);
@@ -148,7 +148,7 @@ std::vector<Hit> Visibility::transparentBefore(const Ray& ray, double depthMetre
     Query query{};
     rtcInitIntersectContext(&query);
     query.ray = &ray;
-    query.images = &trees_->images;
+    query.textures = &trees_->textures;
     query.nearMetres = trees_->rays.nearMetres();
     query.farMetres = std::min(depthMetres, trees_->rays.farMetres());
     query.all = &hits;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "validation/reference/Hit.h"
+#include "validation/reference/Textures.h"
 
 namespace tessera::reference {
 
@@ -13,7 +14,7 @@ namespace tessera::reference {
 class Visibility {
 public:
     /// The objects must outlive it. Throws std::runtime_error when Embree fails, as for lack of memory.
-    Visibility(const Objects& objects, const CameraRays& rays, const std::vector<scenes::Image>& images);
+    Visibility(const Objects& objects, const CameraRays& rays, const Textures& textures);
     ~Visibility();
 
     /// The nearest opaque or alpha-masked surface.

@@ -52,7 +52,7 @@ private:
         for (std::size_t t = 0; t < results_.size(); ++t) {
             const Technique technique = request_.techniques[t];
             Picture shown = toPicture(renderer.render(technique, picture.settings));
-            const Picture& wanted = truth ? truth->picture : drawn_[*picture.sameAs][t];
+            const Picture wanted = truth ? truth->nearestTo(shown) : drawn_[*picture.sameAs][t];
             results_[t].figures.addPicture(errorFigures(measured(shown), wanted, triangles.excluded), picture.what,
                                            picture.allowed);
             if (!triangles.lost.empty()) results_[t].figures.geometryLost(picture.what, triangles.lost.front());

@@ -31,7 +31,8 @@ std::optional<Pick> pickedByRay(const scenes::Scene& scene, const scenes::Camera
     assert(pixel.x >= 0 && pixel.y >= 0 && pixel.x < sizePixels.x && pixel.y < sizePixels.y);
     const reference::CameraRays rays(camera, sizePixels);
     const reference::Objects objects(scene, rays);
-    const reference::Visibility visibility(objects, rays, scene.images);
+    const reference::Textures textures(scene, reference::Filtering::Exact);
+    const reference::Visibility visibility(objects, rays, textures);
     const reference::Ray ray = rays.through(pixel.x, pixel.y);
     std::optional<reference::Hit> nearest = visibility.nearestOpaque(ray);
     const double behindMetres = nearest ? nearest->depthMetres : rays.farMetres();

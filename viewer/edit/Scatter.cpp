@@ -39,7 +39,8 @@ private:
 class Clearance {
 public:
     Clearance(const scenes::Scene& scene, const scenes::Box3& boundsWS)
-        : rays_(cameraIn(boundsWS), {1, 1}), objects_(scene, rays_), visibility_(objects_, rays_, scene.images) {}
+        : rays_(cameraIn(boundsWS), {1, 1}), objects_(scene, rays_), textures_(scene, reference::Filtering::Exact),
+          visibility_(objects_, rays_, textures_) {}
 
     double metresAbove(const Surfaces::Place& place, double mostMetres) const {
         // Off the surface itself, by more than single precision blurs it.
@@ -61,6 +62,7 @@ private:
 
     reference::CameraRays rays_;
     reference::Objects objects_;
+    reference::Textures textures_;
     reference::Visibility visibility_;
 };
 

@@ -62,6 +62,10 @@ std::vector<Change> changes() {
              addTexture(m, TextureSlot::BaseColor);
              m.texture(TextureSlot::BaseColor).transform.rotationRadians = 1.0f;
          })},
+        {Feature::MixedFilters, material([](Material& m) {
+             addTexture(m, TextureSlot::BaseColor);
+             m.texture(TextureSlot::BaseColor).sampler.magnification = scenes::Filter::Nearest;
+         })},
         {Feature::TexCoord1, material([](Material& m) {
              addTexture(m, TextureSlot::Emissive);
              m.texture(TextureSlot::Emissive).texCoordSet = 1;

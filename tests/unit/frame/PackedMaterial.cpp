@@ -146,6 +146,23 @@ TEST(PackedMaterial, setsAndWrapModesAlwaysGoToTheirSlot) {
     }
 }
 
+TEST(PackedMaterial, filtersAlwaysGoToTheModesOfTheirSlot) {
+    using scenes::Filter;
+    const auto modes = [](Filter magnification, Filter minification) {
+        Material material;
+        material.textures[0].sampler.magnification = magnification;
+        material.textures[0].sampler.minification = minification;
+        return int(packMaterial(material).uvRow1[0].w);
+    };
+    EXPECT_EQ(modes(Filter::Linear, Filter::LinearMipmapNearest), 0);
+    EXPECT_EQ(modes(Filter::Nearest, Filter::Linear), TEXTURE_MODE_MAGNIFIES_NEAREST);
+    EXPECT_EQ(modes(Filter::Linear, Filter::Nearest), TEXTURE_MODE_MINIFIES_NEAREST);
+    for (const Filter levels : {Filter::NearestMipmapNearest, Filter::NearestMipmapLinear}) {
+        EXPECT_EQ(modes(Filter::Linear, levels), TEXTURE_MODE_MINIFIES_NEAREST + TEXTURE_MODE_HALF_LEVEL);
+        EXPECT_EQ(modes(Filter::Nearest, levels), TEXTURE_MODE_MAGNIFIES_NEAREST + TEXTURE_MODE_MINIFIES_NEAREST);
+    }
+}
+
 TEST(PackedMaterial, exactlyTheColourSlotsAreSrgb) {
     for (const TextureSlot slot :
          {TextureSlot::BaseColor, TextureSlot::Emissive, TextureSlot::SpecularColor, TextureSlot::SheenColor})

@@ -33,7 +33,8 @@ protected:
     std::optional<Hit> at(int column, int row, glm::ivec2 size = {1, 1}) const {
         const CameraRays rays(camera_, size);
         const Objects objects(scene_, rays);
-        return copied(Visibility(objects, rays, scene_.images).nearestOpaque(rays.through(column, row)));
+        const Textures textures(scene_, Filtering::Exact);
+        return copied(Visibility(objects, rays, textures).nearestOpaque(rays.through(column, row)));
     }
     /// The object's number instead of the object, which does not outlive the call.
     std::optional<Hit> copied(std::optional<Hit> hit) const {
@@ -94,6 +95,24 @@ TEST_F(ReferenceVisibility, aMirroringTransformNeverTurnsAFrontIntoABack) {
     EXPECT_TRUE(middle()->frontFacing);
 }
 
+/// Against differences of the weights two pixels apart; a picture of 2000 rows leaves them an error of 1e-6.
+TEST_F(ReferenceVisibility, changesToTheNextPixelsAreAlwaysDerivativesOfTheWeights) {
+    camera_.worldFromCamera = scenes::worldFromLookAt({3.0, -1.0, 4.0}, {0.5, 1.0, 0.0});
+    for (const auto projection : {scenes::Projection::Perspective, scenes::Projection::Orthographic}) {
+        camera_.projection = projection;
+        const glm::ivec2 size(2000, 2000);
+        const auto hit = at(1000, 1000, size), right = at(1001, 1000, size), left = at(999, 1000, size);
+        const auto up = at(1000, 999, size), down = at(1000, 1001, size);
+        ASSERT_TRUE(hit && right && left && up && down);
+        const double scale = glm::length(hit->weightsDx);
+        EXPECT_LT(glm::distance(hit->weightsDx, 0.5 * (right->weights - left->weights)), 1e-5 * scale);
+        EXPECT_LT(glm::distance(hit->weightsDy, 0.5 * (up->weights - down->weights)), 1e-5 * scale);
+        EXPECT_GT(scale, 1e-5);
+        const double change = glm::length(right->weightsDx - hit->weightsDx) / scale;
+        EXPECT_LE(change, 2.0 * hit->perspective * 1.01 + 1e-12);
+    }
+}
+
 TEST_F(ReferenceVisibility, onlyWhatLiesBetweenTheNearAndTheFarPlaneIsEverSeen) {
     addTriangle(2.0);
     middle();
@@ -120,7 +139,8 @@ TEST_F(ReferenceVisibility, transparentSurfacesAreAlwaysBlendedFarToNearAndNever
     for (const double z : {1.0, -1.0, 3.0, 2.0}) addTriangle(z, AlphaMode::Blend);
     const CameraRays rays(camera_, {1, 1});
     const Objects objects(scene_, rays);
-    const Visibility visibility(objects, rays, scene_.images);
+    const Textures textures(scene_, Filtering::Exact);
+    const Visibility visibility(objects, rays, textures);
     const Ray ray = rays.through(0, 0);
     const std::optional<Hit> opaque = visibility.nearestOpaque(ray);
     ASSERT_TRUE(opaque);

@@ -1,0 +1,201 @@
+// Every filter with every wrap mode against the reference, by the exact definition and by the driver's hardware.
+#include <fmt/format.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "tests/image/FlatTest.h"
+#include "tests/support/ShaderMutant.h"
+#include "validation/ErrorFigures.h"
+#include "validation/ReferencePicture.h"
+#include "validation/ShownTriangles.h"
+
+namespace tessera {
+namespace {
+
+using frame::TextureFilter;
+using recipes::Technique;
+using scenes::Filter;
+using scenes::Wrap;
+
+constexpr int kTilePixels = 12, kTexels = 32;
+constexpr Filter kMinifying[] = {Filter::Nearest,
+                                 Filter::Linear,
+                                 Filter::NearestMipmapNearest,
+                                 Filter::LinearMipmapNearest,
+                                 Filter::NearestMipmapLinear,
+                                 Filter::LinearMipmapLinear};
+constexpr Filter kMagnifying[] = {Filter::Nearest, Filter::Linear};
+constexpr Wrap kWraps[] = {Wrap::Repeat, Wrap::ClampToEdge, Wrap::MirroredRepeat};
+constexpr int kColumns = 12, kRows = 9; ///< filters by wrap modes
+
+/// Every texel has its own colour, with steps between neighbours and a slope over the whole, so that no level is even.
+scenes::Image colourfulImage(glm::ivec2 sizeTexels, scenes::TexelFormat format) {
+    scenes::Image image;
+    image.name = "colours";
+    image.width = sizeTexels.x;
+    image.height = sizeTexels.y;
+    image.format = format;
+    for (int y = 0; y < sizeTexels.y; ++y) {
+        for (int x = 0; x < sizeTexels.x; ++x) {
+            const int step = (x * 5 + y * 3) % 7;
+            for (const int value : {90 + 20 * step, 60 + 190 * x / sizeTexels.x, 60 + 190 * y / sizeTexels.y, 255}) {
+                const float linear = float(value) / 255.0f;
+                const auto* bytes = reinterpret_cast<const std::byte*>(&linear);
+                if (format == scenes::TexelFormat::Rgba32Float)
+                    image.texels.insert(image.texels.end(), bytes, bytes + sizeof linear);
+                else
+                    image.texels.push_back(std::byte(value));
+            }
+        }
+    }
+    return image;
+}
+
+/// How the tiles lie.
+struct Layout {
+    const char* what;
+    double texelsPerPixel;     ///< of a picture of kTexels
+    float turnRadians = 0.0f;  ///< of the texture
+    double slantDegrees = 0.0; ///< of the wall, seen in perspective; 0: parallel rays meet it squarely
+    glm::ivec2 sizeTexels{kTexels, kTexels};
+    scenes::TexelFormat format = scenes::TexelFormat::Rgba8Unorm; ///< of sRGB colours; floats are linear
+};
+
+constexpr Layout kLayouts[] = {
+    {"magnified", 0.37},
+    {"a little minified", 1.3},
+    {"minified, turned, linear", 5.1, -1.0f, 0.0, {kTexels, kTexels}, scenes::TexelFormat::Rgba32Float},
+    {"minified to the end", 40.0},
+    {"slanted, turned, oblong", 1.1, 0.4f, 62.0, {64, 16}},
+};
+
+/// A wall of tiles, each with its own sampler; the corner of the picture lies in their middle.
+scenes::Scene wall(const Layout& layout) {
+    scenes::Scene scene = test::quadScene(test::unlit());
+    scene.images = {colourfulImage(layout.sizeTexels, layout.format)};
+    scene.nodes.clear();
+    scene.materials.clear();
+    const glm::dmat4 slanted = glm::rotate(glm::dmat4(1.0), glm::radians(layout.slantDegrees), glm::dvec3(0, 1, 0));
+    for (int row = 0; row < kRows; ++row) {
+        for (int column = 0; column < kColumns; ++column) {
+            scenes::Material material = test::unlit();
+            scenes::TextureUse& use = material.texture(scenes::TextureSlot::BaseColor);
+            use.image = 0;
+            use.sampler = {kMagnifying[column % 2], kMinifying[column / 2], kWraps[row % 3], kWraps[row / 3]};
+            const float scale = float(layout.texelsPerPixel * kTilePixels / kTexels);
+            const float c = std::cos(layout.turnRadians), s = std::sin(layout.turnRadians);
+            use.transform.scale = glm::vec2(scale);
+            use.transform.rotationRadians = layout.turnRadians;
+            const glm::vec2 middle = 0.5f * scale * glm::vec2(c + s, c - s);
+            use.transform.offset = glm::vec2(0.0313f, 0.0171f) - middle;
+            scenes::Node node;
+            node.parentFromNode =
+                glm::translate(slanted, glm::dvec3(2.0 * column - kColumns + 1.0, kRows - 1.0 - 2.0 * row, 0.0));
+            node.instances = {{0, int(scene.materials.size())}};
+            scene.nodes.push_back(node);
+            scene.materials.push_back(material);
+        }
+    }
+    scenes::Camera& camera = scene.cameras[0];
+    if (layout.slantDegrees == 0.0) {
+        camera.projection = scenes::Projection::Orthographic;
+        camera.halfHeightMetres = kRows;
+    } else {
+        camera.worldFromCamera[3] = glm::dvec4(0.0, 0.0, 16.0, 1.0);
+        camera.fovYRadians = 1.0;
+    }
+    return scene;
+}
+
+class TextureFilters : public test::GlTest {
+protected:
+    struct Judged {
+        validation::ErrorFigures figures;
+        validation::Verdict verdict;
+    };
+    Judged judged(const scenes::Scene& scene, TextureFilter filter, const shader::SourceTree& shaders = {}) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {kColumns * kTilePixels, kRows * kTilePixels};
+        settings.filter = filter;
+        recipes::Renderer renderer(context(), scene, shaders);
+        const validation::Picture shown = validation::toPicture(renderer.render(Technique::Forward, settings));
+        const validation::ReferencePicture truth = validation::referencePicture(scene, settings);
+        Judged result;
+        result.figures = validation::errorFigures(shown, truth.nearestTo(shown),
+                                                  validation::shownTriangles(renderer, settings, truth.ids).excluded);
+        result.verdict =
+            validation::checkTolerance(result.figures, validation::referenceTolerance(scene, settings.filter));
+        return result;
+    }
+    static std::string tileAt(const validation::ErrorFigures& figures) {
+        return fmt::format("tile {}, {}", figures.worstX / kTilePixels, figures.worstY / kTilePixels);
+    }
+};
+
+/// Texels of 2x + 1 edges: every pixel's centre lies on a corner of four texels, and any of them may be shown.
+TEST_F(TextureFilters, pixelsOnTheEdgesOfNearestTexelsAlwaysShowATexelThatMeetsThere) {
+    Layout layout{"on edges", 2.0};
+    scenes::Scene scene = wall(layout);
+    for (scenes::Material& material : scene.materials) {
+        scenes::TextureUse& use = material.texture(scenes::TextureSlot::BaseColor);
+        use.transform.scale = glm::vec2(2.0f * kTilePixels / kTexels);
+        use.transform.offset = glm::vec2(0.0f);
+        use.sampler.magnification = use.sampler.minification = Filter::Nearest;
+    }
+    const Judged found = judged(scene, TextureFilter::Exact);
+    EXPECT_TRUE(found.verdict.ok) << testing::PrintToString(found.verdict.missed);
+    EXPECT_LT(found.figures.excluded, 0.02); // the diagonals of the tiles alone
+}
+
+TEST_F(TextureFilters, everyFilterWithEveryWrapModeAlwaysAgreesWithTheReference) {
+    for (const Layout& layout : kLayouts) {
+        for (const TextureFilter filter : {TextureFilter::Exact, TextureFilter::Hardware}) {
+            SCOPED_TRACE(layout.what);
+            const Judged found = judged(wall(layout), filter);
+            fmt::print("{:<28} {:<9} p99.9 {:.1e}  relMse {:.1e}  bias {:+.1e}  max {:.1e} at {}\n", layout.what,
+                       filter == TextureFilter::Exact ? "exact" : "hardware", found.figures.p999Rel,
+                       found.figures.relMse, found.figures.bias, found.figures.maxRel, tileAt(found.figures));
+            EXPECT_TRUE(found.verdict.ok) << testing::PrintToString(found.verdict.missed);
+        }
+    }
+}
+
+struct Mutant {
+    const char* fault;
+    TextureFilter filter;
+    const char* file; ///< below shaders/
+    const char* from;
+    const char* to;
+};
+
+constexpr Mutant kMutants[] = {
+    {"no smaller levels", TextureFilter::Hardware, "lib/texture_filter.glsl", "texture(image, uv)",
+     "textureLod(image, uv, 0.0)"},
+    {"half a level too coarse", TextureFilter::Hardware, "lib/texture_filter.glsl", "texture(image, uv)",
+     "texture(image, uv, 0.5)"},
+    {"half a level too fine", TextureFilter::Hardware, "lib/texture_filter.glsl", "texture(image, uv)",
+     "texture(image, uv, -0.5)"},
+    {"nearest filters blend", TextureFilter::Exact, "lib/material_values.glsl",
+     "slotTakesNearest(image, slot, fragment, modes)", "false"},
+    {"the magnifying filter everywhere", TextureFilter::Exact, "lib/texture_filter.glsl",
+     "magnified ? TEXTURE_MODE_MAGNIFIES_NEAREST : TEXTURE_MODE_MINIFIES_NEAREST", "TEXTURE_MODE_MAGNIFIES_NEAREST"},
+    {"magnified up to level 0 only", TextureFilter::Exact, "lib/texture_filter.glsl", "!= 0 ? 2.0 : 1.0",
+     "!= 0 ? 1.0 : 1.0"},
+};
+
+TEST_F(TextureFilters, aFaultAlwaysMissesTheReference) {
+    // Every level from magnified to minified; and one between the two limits of magnification.
+    const scenes::Scene slanted = wall(kLayouts[std::size(kLayouts) - 1]), little = wall(kLayouts[1]);
+    for (const Mutant& mutant : kMutants) {
+        SCOPED_TRACE(mutant.fault);
+        const test::ShaderMutant shaders;
+        shaders.replace(mutant.file, mutant.from, mutant.to);
+        const Judged found =
+            judged(mutant.filter == TextureFilter::Hardware ? slanted : little, mutant.filter, shaders.tree());
+        EXPECT_FALSE(found.verdict.ok) << "p99.9 " << found.figures.p999Rel << ", relMse " << found.figures.relMse;
+        fmt::print("{:<36} {}\n", mutant.fault, found.verdict.ok ? "NOT SEEN" : found.verdict.missed.front());
+    }
+}
+
+} // namespace
+} // namespace tessera

@@ -1,0 +1,54 @@
+#include "validation/reference/Leeway.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tessera::reference {
+
+namespace {
+
+/// A coordinate comes from two products and two sums of numbers that were rounded to single precision.
+constexpr double kCoordinateRounding = 4.0 * 0x1p-24;
+
+/// Corners snapped to a grid of 1/256 of a pixel, which is what rasterisers have, move what lies between them.
+constexpr double kSnappedPixels = 1.0 / 256.0;
+
+/// Eight bits of a weight between two texels.
+constexpr double kWeightTexels = 1.0 / 256.0;
+
+/// One of 255: what a level stores is rounded, and every level once more; so are weights, and sRGB is decoded by less
+/// than half of that.
+constexpr double kTexelCodes = 1.0 / 255.0;
+
+/// Levels by which drivers shorten the blend between two levels or approximate the logarithm.
+constexpr double kBlendLevels = 0.35;
+
+glm::dvec2 transformedMagnitudes(const scenes::TextureUse& use, const Footprint& footprint) {
+    return glm::abs(glm::dvec2(use.transform.offset)) + glm::abs(footprint.texCoord - glm::dvec2(use.transform.offset));
+}
+
+} // namespace
+
+Leeway leewayOf(Filtering filtering, const scenes::TextureUse& use, const Footprint& footprint, const Pyramid& pyramid,
+                const Hit& hit) {
+    const glm::dvec2 aPixel = glm::abs(footprint.dx) + glm::abs(footprint.dy);
+    Leeway leeway;
+    leeway.texCoord = hit.roundingPixels * aPixel + kCoordinateRounding * transformedMagnitudes(use, footprint);
+    leeway.finer = leeway.coarser = hit.roundingLevels;
+    leeway.magnifiedFrom = magnifiedUpTo(use.sampler);
+    if (filtering == Filtering::Exact) return leeway;
+    leeway.magnifiedFrom = 0.0;
+    if (pyramid.image().format != scenes::TexelFormat::Rgba32Float) leeway.codes = kTexelCodes;
+    const glm::ivec2 sizeTexels = pyramid.sizeTexels(0);
+    const double level = levelOf(footprint, sizeTexels);
+    const double texelOfLevel = std::exp2(std::max(level, 0.0));
+    leeway.texCoord += kSnappedPixels * aPixel + kWeightTexels * texelOfLevel / glm::dvec2(sizeTexels);
+    // Drivers take one footprint for a block of 2x2 pixels, by differences.
+    const double block = 2.0 * hit.perspective * std::numbers::log2e;
+    leeway.coarser += kBlendLevels + block;
+    leeway.finer += kBlendLevels + block + std::max(level - finestLevelOf(footprint, sizeTexels), 0.0);
+    return leeway;
+}
+
+} // namespace tessera::reference

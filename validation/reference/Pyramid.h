@@ -1,0 +1,37 @@
+#pragma once
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "validation/reference/Texels.h"
+
+namespace tessera::reference {
+
+/// A picture and its smaller levels, linear. A level has half the size of the one before, rounded down, and its texels
+/// are the means of what they cover there, by area: the box filter that OpenGL 4.5 core, section 8.14.4, recommends.
+/// Alpha and the texels of normal maps are averaged as they are.
+class Pyramid {
+public:
+    /// With `hasLevels` down to a level of one texel, else level 0 alone. The picture must outlive the object.
+    Pyramid(const scenes::Image& image, Transfer transfer, bool hasLevels);
+
+    const scenes::Image& image() const { return *image_; }
+    Transfer transfer() const { return transfer_; }
+    int smallestLevel() const { return int(smaller_.size()); }
+    glm::ivec2 sizeTexels(int level) const;
+    /// Must lie inside.
+    glm::dvec4 texel(int level, int column, int row) const;
+
+private:
+    struct Level {
+        glm::ivec2 sizeTexels;
+        std::vector<glm::vec4> texels; ///< single precision: a rounding of 6e-8, and the head's maps fit into memory
+    };
+    Level halved(int level) const;
+
+    const scenes::Image* image_;
+    Transfer transfer_;
+    std::vector<Level> smaller_; ///< from level 1
+};
+
+} // namespace tessera::reference

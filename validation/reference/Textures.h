@@ -1,0 +1,29 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "validation/reference/Pyramid.h"
+#include "validation/reference/Settings.h"
+
+namespace tessera::reference {
+
+/// The pictures that a scene's materials use, ready to be looked up.
+class Textures {
+public:
+    /// For materials without any.
+    Textures() = default;
+    /// The scene must outlive the object.
+    Textures(const scenes::Scene& scene, Filtering filtering);
+
+    Filtering filtering() const { return filtering_; }
+    /// Of an image that some material uses in a slot with this transfer function.
+    const Pyramid& pyramid(int image, Transfer transfer) const {
+        return *pyramids_[2 * std::size_t(image) + std::size_t(transfer)];
+    }
+
+private:
+    Filtering filtering_ = Filtering::Exact;
+    std::vector<std::optional<Pyramid>> pyramids_; ///< two an image, by transfer function
+};
+
+} // namespace tessera::reference
