@@ -27,11 +27,11 @@ LIST_MEMORY uvec2 laneWords[LIST_THREADS];
 // Four lights an iteration: software rasterisers stop a shader after 65535 iterations of its loops.
 #define LIGHTS_AN_ITERATION 4u
 
-// View depths in metres between which a bin lies.
+// Metres ahead between which a bin lies.
 vec2 runOfBin(uint bin)
 {
     vec2 depths = depthsOfSlices(listTotals.x, bin, bin, frame.depthKey.x);
-    return vec2(viewDepthMetres(frame.depthToViewDepth, depths.y), viewDepthMetres(frame.depthToViewDepth, max(0.0, depths.x)));
+    return vec2(aheadMetres(frame.aheadFromDepth, depths.y), aheadMetres(frame.aheadFromDepth, max(0.0, depths.x)));
 }
 
 uint fourBits(uvec4 bits)
