@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "scenes/Error.h"
+#include "scenes/Limits.h"
 #include "scenes/LookAt.h"
 
 namespace tessera::scenes {
@@ -81,6 +82,7 @@ Camera changedCamera(Camera camera, const CameraChange& change) {
     if (!(camera.farMetres > camera.nearMetres))
         fail(camera, fmt::format("its far plane would be at {}, not beyond the near one at {}; move one of them",
                                  camera.farMetres, camera.nearMetres));
+    if (const std::string problem = limitProblem(camera); !problem.empty()) fail(camera, problem);
     return camera;
 }
 

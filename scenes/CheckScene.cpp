@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <initializer_list>
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "scenes/Error.h"
+#include "scenes/Limits.h"
 #include "scenes/Scene.h"
 
 namespace tessera::scenes {
@@ -180,6 +182,33 @@ void checkNode(const Element& element, const Node& node, std::size_t index, cons
     }
 }
 
+Box3 boxOf(const Mesh& mesh) {
+    Box3 boxOS;
+    for (const glm::vec3& positionOS : mesh.positionsOS) boxOS.extend(glm::dvec3(positionOS));
+    return boxOS;
+}
+
+/// That everything drawn lies within kFarthestMetres.
+void checkPlaces(const Scene& scene) {
+    std::vector<Box3> boxesOS;
+    std::transform(scene.meshes.begin(), scene.meshes.end(), std::back_inserter(boxesOS), boxOf);
+    const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        const Element element(scene, "node", i, scene.nodes[i].name);
+        for (const MeshInstance& instance : scene.nodes[i].instances) {
+            const Box3& boxOS = boxesOS[static_cast<std::size_t>(instance.mesh)];
+            if (boxOS.empty()) continue;
+            for (const double x : {boxOS.min.x, boxOS.max.x})
+                for (const double y : {boxOS.min.y, boxOS.max.y})
+                    for (const double z : {boxOS.min.z, boxOS.max.z})
+                        element.require(
+                            isNearEnough(glm::dvec3(worldFromNode[i] * glm::dvec4(x, y, z, 1.0))),
+                            fmt::format("part of it lies more than {:g} m from the origin; make the scene smaller",
+                                        kFarthestMetres));
+        }
+    }
+}
+
 void checkAnimation(const Element& element, const LightAnimation& animation) {
     element.require(std::isfinite(animation.periodSeconds) && animation.periodSeconds > 0.0,
                     "the period of its animation must be positive");
@@ -191,6 +220,11 @@ void checkAnimation(const Element& element, const LightAnimation& animation) {
         element.require(glm::length(animation.axisWS) > 0.0, "the axis of its orbit has no length");
     }
     for (const glm::dvec3& pointWS : animation.pointsWS) element.require(allFinite(pointWS), "a point is not finite");
+    const auto& points = animation.pointsWS;
+    element.require(
+        isNearEnough(animation.centerWS) && isNearEnough(animation.amplitudeMetres) &&
+            std::all_of(points.begin(), points.end(), isNearEnough),
+        fmt::format("its animation leads more than {:g} m from the origin; keep it nearer", kFarthestMetres));
     if (animation.kind == LightAnimationKind::Path) {
         element.require(animation.pointsWS.size() >= 2, "its path needs at least two points");
     }
@@ -211,6 +245,8 @@ void checkLight(const Element& element, const Light& light) {
     element.require(std::isfinite(light.intensity) && light.intensity >= 0.0f,
                     "its intensity must be finite and not negative");
     element.require(allFinite(light.positionWS), "its position is not finite");
+    element.require(isNearEnough(light.positionWS),
+                    fmt::format("it lies more than {:g} m from the origin; move it nearer", kFarthestMetres));
     element.require(isUnit(light.directionWS), "its direction must be of unit length");
     element.require(light.rangeMetres >= 0.0f, "its range must not be negative");
     element.require(allFiniteAndNotNegative(light.attenuation),
@@ -242,6 +278,8 @@ void checkCamera(const Element& element, const Camera& camera) {
         element.require(std::isfinite(camera.nearMetres) && camera.nearMetres >= 0.0,
                         "its near plane must not be negative");
     }
+    const std::string problem = limitProblem(camera);
+    element.require(problem.empty(), problem);
 }
 
 void checkSceneWide(const Scene& scene) {
@@ -261,6 +299,19 @@ void checkSceneWide(const Scene& scene) {
 
 } // namespace
 
+std::string limitProblem(const Camera& camera) {
+    if (!isNearEnough(glm::dvec3(camera.worldFromCamera[3])))
+        return fmt::format("it stands more than {:g} m from the origin; move it nearer", kFarthestMetres);
+    const bool isPerspective = camera.projection == Projection::Perspective;
+    if ((isPerspective && camera.nearMetres < kNearestPlaneMetres) || camera.nearMetres > kFarthestMetres)
+        return fmt::format("its near plane at {:g} m must lie {:g} to {:g} m ahead", camera.nearMetres,
+                           isPerspective ? kNearestPlaneMetres : 0.0, kFarthestMetres);
+    if (!isPerspective && camera.halfHeightMetres > kFarthestMetres)
+        return fmt::format("its half height of {:g} m must be at most {:g} m", camera.halfHeightMetres,
+                           kFarthestMetres);
+    return {};
+}
+
 void checkScene(const Scene& scene) {
     for (std::size_t i = 0; i < scene.images.size(); ++i) {
         checkImage({scene, "image", i, scene.images[i].name}, scene.images[i]);
@@ -274,6 +325,7 @@ void checkScene(const Scene& scene) {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         checkNode({scene, "node", i, scene.nodes[i].name}, scene.nodes[i], i, scene);
     }
+    checkPlaces(scene);
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         checkLight({scene, "light", i, scene.lights[i].name}, scene.lights[i]);
     }

@@ -29,7 +29,7 @@ void FloorGeometry::draw(const glm::dvec3& eyeOffsetWS) {
     frame::FrameSettings settings = spec_.settings;
     settings.eyeOffsetWS += eyeOffsetWS;
     const frame::CameraView view = frame::makeCameraView(recipes::frameCamera(renderer_.scene(), settings),
-                                                         settings.sizePixels, settings.space, glm::vec3(0.0f));
+                                                         settings.sizePixels, settings.space, glm::vec3(0.0f), renderer_.bounds());
     frame::SceneGpu& scene = renderer_.sceneGpu(spec_);
     scene.setView(view);
     frameConstants_.uploadValue(view.constants);

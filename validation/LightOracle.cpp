@@ -103,7 +103,7 @@ class Judge {
 public:
     explicit Judge(const OracleInput& input)
         : input_(input), lights_(trueLights(input.scene, input.settings)), visited_(input.drawn),
-          positions_(input.scene.cameras[std::size_t(input.settings.camera)], input.settings) {}
+          positions_(input.scene.cameras[std::size_t(input.settings.camera)], input.settings, input.drawn.depths) {}
 
     void row(int row, RowCounts& counts) const {
         std::vector<int> visited;

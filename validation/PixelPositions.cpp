@@ -4,18 +4,17 @@
 
 namespace tessera::validation {
 
-PixelPositions::PixelPositions(const scenes::Camera& camera, const frame::FrameSettings& settings)
+PixelPositions::PixelPositions(const scenes::Camera& camera, const frame::FrameSettings& settings,
+                               const frame::DepthInterval& depths)
     : camera_(camera), sizePixels_(settings.sizePixels),
       isPerspective_(camera.projection == scenes::Projection::Perspective),
       halfHeight_(isPerspective_ ? std::tan(camera.fovYRadians / 2.0) : camera.halfHeightMetres),
-      farMetres_(camera.farMetres) {
+      nearMetres_(depths.nearMetres), farMetres_(depths.farMetres) {
     camera_.worldFromCamera[3] += glm::dvec4(settings.eyeOffsetWS, 0.0);
-    // An orthographic depth buffer ends a thousand picture heights behind the near plane where the camera does not.
-    if (!isPerspective_ && std::isinf(farMetres_)) farMetres_ = camera.nearMetres + 2000.0 * camera.halfHeightMetres;
 }
 
 glm::dvec3 PixelPositions::positionWS(int column, int row, float depth) const {
-    const double n = camera_.nearMetres, f = farMetres_, d = depth;
+    const double n = nearMetres_, f = farMetres_, d = depth;
     double ahead = f - d * (f - n);
     if (isPerspective_) ahead = std::isinf(f) ? n / d : f * n / (n + d * (f - n));
     const double aspect = double(sizePixels_.x) / double(sizePixels_.y);

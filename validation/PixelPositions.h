@@ -1,4 +1,5 @@
 #pragma once
+#include "renderer/frame/DepthInterval.h"
 #include "renderer/frame/FrameSettings.h"
 #include "scenes/Scene.h"
 
@@ -8,7 +9,9 @@ namespace tessera::validation {
 /// the renderer's matrices.
 class PixelPositions {
 public:
-    PixelPositions(const scenes::Camera& camera, const frame::FrameSettings& settings);
+    /// `depths` is what the depth buffer stands for.
+    PixelPositions(const scenes::Camera& camera, const frame::FrameSettings& settings,
+                   const frame::DepthInterval& depths);
 
     /// `row` counts from the bottom; `depth` is the depth buffer's value, reverse-Z, more than 0.
     glm::dvec3 positionWS(int column, int row, float depth) const;
@@ -18,7 +21,7 @@ private:
     glm::ivec2 sizePixels_;
     bool isPerspective_;
     double halfHeight_; ///< of the picture: metres, or for a perspective camera those a metre ahead
-    double farMetres_;
+    double nearMetres_, farMetres_;
 };
 
 } // namespace tessera::validation

@@ -52,8 +52,7 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const PreparedFra
     plan.choices.push_back(
         {"light store", "buffer texture, RGBA32F",
          "read fastest of uniform, storage and texture buffers on software rasterisers, and has no 64 KiB limit"});
-    plan.choices.push_back({"lighting space",
-                            settings.space == frame::LightingSpace::World ? "world, relative to the eye" : "view",
+    plan.choices.push_back({"lighting space", settings.space == frame::LightingSpace::World ? "world axes" : "view",
                             "the subtraction happens in double precision, so far scenes keep their digits"});
     const frame::TruncatedLights& truncated = prepared.lights.truncated;
     if (settings.rangeTolerance > 0.0 || truncated.sum() > 0) {

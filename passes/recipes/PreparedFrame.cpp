@@ -20,7 +20,8 @@ scenes::Camera frameCamera(const scenes::Scene& scene, const frame::FrameSetting
     return camera;
 }
 
-PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings) {
+PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings,
+                           std::span<const frame::SurfaceBounds> bounds) {
     if (settings.sizePixels.x < 1 || settings.sizePixels.y < 1) {
         throw InputError(
             fmt::format("a picture of {}x{} pixels has no pixel", settings.sizePixels.x, settings.sizePixels.y));
@@ -44,7 +45,7 @@ PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, cons
     const scenes::Camera camera = frameCamera(scene, settings);
     // A debug view shows quantities of surfaces; where there is none it shows 0.
     const glm::vec3 background = frame::showsLitPicture(settings.view) ? scene.background : glm::vec3(0.0f);
-    prepared.view = frame::makeCameraView(camera, settings.sizePixels, settings.space, background);
+    prepared.view = frame::makeCameraView(camera, settings.sizePixels, settings.space, background, bounds);
     prepared.lights = frame::packLights(scene, prepared.view, settings);
     const std::size_t lightCount = prepared.lights.texels.size();
     prepared.view.constants.lights =

@@ -49,7 +49,7 @@ struct Renderer::Drawn {
 };
 
 Renderer::Renderer(gpu::Context& context, const scenes::Scene& scene, shader::SourceTree shaders)
-    : context_(context), scene_(scene), programs_(std::move(shaders)),
+    : context_(context), scene_(scene), bounds_(frame::surfaceBounds(scene)), programs_(std::move(shaders)),
       frameConstants_("frame constants", sizeof(shared::FrameConstants), gpu::BufferUse::Dynamic),
       displayConstants_("display constants", sizeof(shared::DisplayConstants), gpu::BufferUse::Dynamic) {}
 
@@ -73,7 +73,7 @@ frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
 void Renderer::draw(Technique technique, const frame::FrameSettings& asked) {
     const frame::FrameSettings settings = settingsOn(context_.capabilities(), asked);
     auto drawn = std::make_unique<Drawn>();
-    drawn->prepared = prepareFrame(scene_, technique, settings);
+    drawn->prepared = prepareFrame(scene_, technique, settings, bounds_);
     const PreparedFrame& prepared = drawn->prepared;
     sceneGpu(prepared.spec).setView(prepared.view);
     lights_.upload(prepared.lights);
@@ -125,6 +125,7 @@ DrawnLists Renderer::downloadLists() const {
     DrawnLists drawn;
     drawn.culling = prepared.spec.culling;
     drawn.constants = prepared.view.constants;
+    drawn.depths = prepared.view.depths;
     drawn.sceneIndex = prepared.lights.sceneIndex;
     for (std::size_t i = 0; i < prepared.lights.texels.size(); ++i) {
         if (prepared.lights.texels[i].position.w == 0.0f) drawn.everywhere.push_back(std::uint32_t(i));

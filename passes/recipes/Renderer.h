@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "passes/recipes/Techniques.h"
+#include "renderer/frame/DepthInterval.h"
 #include "renderer/gpu/Context.h"
 #include "renderer/gpu/GraphBackend.h"
 
@@ -25,6 +26,7 @@ struct DrawnLists {
     culling::Choice culling;
     culling::LightLists lists;             ///< empty where every pixel visits every light
     shared::FrameConstants constants{};    ///< how a pixel finds its tile, slice and cell
+    frame::DepthInterval depths;           ///< what the depth buffer stands for
     std::vector<int> sceneIndex;           ///< by light of the lists: index into Scene::lights
     std::vector<std::uint32_t> everywhere; ///< lights of the lists that reach everywhere, ascending
 };
@@ -59,7 +61,7 @@ public:
     }
 
     /// To be called after factors of the scene's materials were changed, not their textures: the next draw() takes them
-    /// as they are then. Lights and cameras of the scene may change between draws without notice.
+    /// as they are then. Lights and cameras of the scene may change between draws without notice, nodes and meshes not.
     void materialsChanged() { materialsChanged_ = true; }
 
     /// The scene as frames of this spec have it on the GPU. Whoever draws it sets its view first; draw() does.
@@ -68,12 +70,14 @@ public:
     gpu::GraphBackend& backend() { return backend_; }
     shader::ProgramLibrary& programs() { return programs_; }
     const scenes::Scene& scene() const { return scene_; }
+    std::span<const frame::SurfaceBounds> bounds() const { return bounds_; }
 
 private:
     struct Drawn;
 
     gpu::Context& context_;
     const scenes::Scene& scene_;
+    std::vector<frame::SurfaceBounds> bounds_;
     shader::ProgramLibrary programs_;
     gpu::GraphBackend backend_;
     gpu::Buffer frameConstants_;

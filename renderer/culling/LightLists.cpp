@@ -41,7 +41,7 @@ struct Build {
     TileGrid grid;
 
     shared::CellBox box(const glm::vec4& rays, const DepthRun& run) const {
-        return shared::cellBox(rays, run.nearMetres, run.farMetres, grid.orthographic);
+        return shared::cellBox(rays, run.nearMetres, run.farMetres, grid.spread);
     }
 
     /// Boxes around a tile's occupied slices: one a slice for clusters, else one a run of neighbours.

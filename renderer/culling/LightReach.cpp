@@ -6,10 +6,10 @@
 namespace tessera::culling {
 
 LightReach::Range LightReach::rangeOf(float across, const shared::CullLight& light, std::span<const glm::vec2> slabs,
-                                      bool orthographic) {
+                                      const glm::vec2& spread) {
     Range range;
     for (std::size_t i = 0; i < slabs.size(); ++i) {
-        if (!shared::sphereTouchesSlab(across, light.sphere.z, light.sphere.w, slabs[i], orthographic)) continue;
+        if (!shared::sphereTouchesSlab(across, light.sphere.z, light.sphere.w, slabs[i], spread)) continue;
         if (range.first > range.last) range.first = std::uint16_t(i);
         range.last = std::uint16_t(i);
     }
@@ -33,8 +33,8 @@ void LightReach::set(std::span<const shared::CullLight> lights, const TileGrid& 
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lights.size(), 64), [&](const auto& part) {
         for (std::size_t i = part.begin(); i < part.end(); ++i) {
             if (lights[i].sphere.w < 0.0f) continue;
-            columns_[i] = rangeOf(lights[i].sphere.x, lights[i], columnSlabs_, grid.orthographic);
-            rows_[i] = rangeOf(lights[i].sphere.y, lights[i], rowSlabs_, grid.orthographic);
+            columns_[i] = rangeOf(lights[i].sphere.x, lights[i], columnSlabs_, grid.spread);
+            rows_[i] = rangeOf(lights[i].sphere.y, lights[i], rowSlabs_, grid.spread);
         }
     });
 }

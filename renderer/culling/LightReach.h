@@ -28,7 +28,7 @@ private:
         bool overlaps(std::uint32_t from, std::uint32_t to) const { return (first <= to) & (last >= from); }
     };
     static Range rangeOf(float across, const shared::CullLight& light, std::span<const glm::vec2> slabs,
-                         bool orthographic);
+                         const glm::vec2& spread);
 
     std::vector<std::uint32_t> everywhere_;
     std::vector<Range> columns_, rows_; ///< by light

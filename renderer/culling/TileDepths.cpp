@@ -76,8 +76,7 @@ TileDepths tileDepthsOf(const float* depth, const shared::FrameConstants& frame,
 }
 
 DepthRun runBetween(float nearest, float farthest, const shared::FrameConstants& frame) {
-    return {shared::viewDepthMetres(frame.depthToViewDepth, nearest),
-            shared::viewDepthMetres(frame.depthToViewDepth, farthest)};
+    return {shared::aheadMetres(frame.aheadFromDepth, nearest), shared::aheadMetres(frame.aheadFromDepth, farthest)};
 }
 
 } // namespace

@@ -18,7 +18,7 @@ struct TileDepths {
 TileDepths tileDepths(const DepthPicture& picture, const shared::FrameConstants& frame, int widthPixels, int column,
                       int row);
 
-/// A run of depths in a tile, as view depths in metres.
+/// A run of depths in a tile, as metres ahead of the origin of lighting space.
 struct DepthRun {
     float nearMetres;
     float farMetres;

@@ -12,7 +12,7 @@ struct TileGrid {
     std::uint32_t sidePixels = 0;
     glm::uvec2 sizePixels{0u};
     glm::vec4 lensVS{0.0f};
-    bool orthographic = false;
+    glm::vec2 spread{0.0f}; ///< of rays, as shaders/shared/culling.h has it
 
     glm::vec4 rays(std::uint32_t column, std::uint32_t row) const {
         return shared::tileRays(lensVS, column, row, sidePixels, sizePixels);

@@ -35,11 +35,11 @@ void setBit(std::uint32_t* mask, std::size_t bit) {
     mask[bit / kBits] |= 1u << (bit % kBits);
 }
 
-/// View depths in metres between which bin `index` lies.
+/// Metres ahead of the origin of lighting space between which bin `index` lies.
 DepthRun binDepths(const Bins& bins, std::uint32_t index, const shared::FrameConstants& frame) {
     const glm::vec2 depths = shared::depthsOfSlices(bins.slicing, index, index, frame.depthKey.x);
-    return {shared::viewDepthMetres(frame.depthToViewDepth, depths.y),
-            shared::viewDepthMetres(frame.depthToViewDepth, std::max(0.0f, depths.x))};
+    return {shared::aheadMetres(frame.aheadFromDepth, depths.y),
+            shared::aheadMetres(frame.aheadFromDepth, std::max(0.0f, depths.x))};
 }
 
 } // namespace

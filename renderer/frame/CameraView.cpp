@@ -6,39 +6,45 @@ namespace tessera::frame {
 
 namespace {
 
-/// Clip-from-view, and the depth mapping's inverse as the coefficients of FrameConstants::depthToViewDepth.
+/// What the image plane sees, by the camera alone.
 struct Lens {
-    glm::dmat4 clipFromView{0.0};
-    glm::dvec4 depthToViewDepth{0.0};
-    glm::dvec2 halfExtent{1.0}; ///< of the image plane: at unit distance (perspective) or anywhere (orthographic)
+    glm::dmat4 clipFromView{0.0}; ///< clip.z is left 0
+    glm::dvec2 halfExtent{1.0};   ///< of the image plane: at unit distance (perspective) or anywhere (orthographic)
 };
 
 Lens makeLens(const scenes::Camera& camera, double aspect) {
     Lens lens;
-    const double n = camera.nearMetres;
-    const bool endless = std::isinf(camera.farMetres);
-    if (camera.projection == scenes::Projection::Perspective) {
-        const double halfHeight = std::tan(0.5 * camera.fovYRadians);
-        lens.halfExtent = {halfHeight * aspect, halfHeight};
-        // depth = b / viewDepth - a, which is 1 at the near plane and 0 at the far one.
-        const double a = endless ? 0.0 : n / (camera.farMetres - n);
-        const double b = endless ? n : a * camera.farMetres;
-        lens.clipFromView[2][2] = a;
-        lens.clipFromView[2][3] = -1.0;
-        lens.clipFromView[3][2] = b;
-        lens.depthToViewDepth = {b, 0.0, a, 1.0};
-    } else {
-        // An orthographic depth buffer cannot reach infinity; a thousand picture heights stand in for it.
-        const double f = endless ? n + 2000.0 * camera.halfHeightMetres : camera.farMetres;
-        lens.halfExtent = {camera.halfHeightMetres * aspect, camera.halfHeightMetres};
-        lens.clipFromView[2][2] = 1.0 / (f - n);
-        lens.clipFromView[3][2] = f / (f - n);
-        lens.clipFromView[3][3] = 1.0;
-        lens.depthToViewDepth = {f, -(f - n), 1.0, 0.0};
-    }
+    const bool isPerspective = camera.projection == scenes::Projection::Perspective;
+    const double halfHeight = isPerspective ? std::tan(0.5 * camera.fovYRadians) : camera.halfHeightMetres;
+    lens.halfExtent = {halfHeight * aspect, halfHeight};
     lens.clipFromView[0][0] = 1.0 / lens.halfExtent.x;
     lens.clipFromView[1][1] = 1.0 / lens.halfExtent.y;
+    (isPerspective ? lens.clipFromView[2][3] : lens.clipFromView[3][3]) = isPerspective ? -1.0 : 1.0;
     return lens;
+}
+
+/// Depth by the distance s ahead of lighting space's origin: clip.z = slope s + offset, and its inverse as the
+/// coefficients of FrameConstants::aheadFromDepth. Every term is as small as the interval is short.
+struct DepthCoding {
+    double slope = 0.0, offset = 0.0;
+    glm::dvec4 aheadFromDepth{0.0};
+};
+
+DepthCoding depthCoding(const DepthInterval& depths, bool isPerspective) {
+    const double n = depths.nearMetres, f = depths.farMetres, origin = depths.originMetres;
+    DepthCoding coding;
+    if (isPerspective) {
+        // depth = a (f - z) / z at view depth z, which is 1 at the near end and 0 at the far one.
+        const double a = std::isinf(f) ? 0.0 : n / (f - n);
+        coding.slope = -a;
+        coding.offset = std::isinf(f) ? n : a * (f - origin);
+        coding.aheadFromDepth = {coding.offset, -origin, a, 1.0};
+    } else {
+        coding.slope = -1.0 / (f - n);
+        coding.offset = (f - origin) / (f - n);
+        coding.aheadFromDepth = {f - origin, -(f - n), 1.0, 0.0};
+    }
+    return coding;
 }
 
 glm::dvec4 row(const glm::dmat4& m, int i) {
@@ -52,41 +58,51 @@ glm::dvec4 unitPlane(const glm::dvec4& plane) {
 } // namespace
 
 CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, LightingSpace space,
-                          const glm::vec3& background) {
+                          const glm::vec3& background, std::span<const SurfaceBounds> bounds) {
     const bool orthographic = camera.projection == scenes::Projection::Orthographic;
     const Lens lens = makeLens(camera, double(sizePixels.x) / double(sizePixels.y));
     const glm::dmat3 worldFromView(camera.worldFromCamera);
+    const glm::dvec3 forwardWS = -worldFromView[2];
 
     CameraView view;
     view.eyeWS = glm::dvec3(camera.worldFromCamera[3]);
+    view.depths = depthInterval(camera, lens.halfExtent, bounds);
+    const double origin = view.depths.originMetres;
+    view.originWS = view.eyeWS + origin * forwardWS;
     view.lsFromWorld = space == LightingSpace::World ? glm::dmat3(1.0) : glm::transpose(worldFromView);
     view.lsFromView = view.lsFromWorld * worldFromView;
     const glm::dmat3& lsFromView = view.lsFromView;
-    view.clipFromLS = lens.clipFromView * glm::dmat4(glm::transpose(lsFromView));
     view.forwardLS = lsFromView * glm::dvec3(0.0, 0.0, -1.0);
 
+    // View space moved to the origin of lighting space.
+    const DepthCoding coding = depthCoding(view.depths, !orthographic);
+    glm::dmat4 clipFromOrigin = lens.clipFromView;
+    clipFromOrigin[2][2] = -coding.slope;
+    clipFromOrigin[3][2] = coding.offset;
+    if (!orthographic) clipFromOrigin[3][3] = origin;
+    view.clipFromLS = clipFromOrigin * glm::dmat4(glm::transpose(lsFromView));
     const glm::dvec4 x = row(view.clipFromLS, 0), y = row(view.clipFromLS, 1), w = row(view.clipFromLS, 3);
     view.frustumPlanesLS = {unitPlane(w + x), unitPlane(w - x), unitPlane(w + y), unitPlane(w - y),
-                            glm::dvec4(view.forwardLS, -camera.nearMetres)};
+                            glm::dvec4(view.forwardLS, origin - camera.nearMetres)};
 
-    // Pixel p lies at (2 p / size - 1) of the image plane's half extent, one unit ahead for a perspective camera.
     const glm::dvec2 pixelStep = 2.0 * lens.halfExtent / glm::dvec2(sizePixels);
     shared::FrameConstants& c = view.constants;
     c.clipFromLS = glm::mat4(view.clipFromLS);
-    c.clipFromES = glm::mat4(lens.clipFromView * glm::dmat4(glm::transpose(worldFromView)));
+    c.clipFromRS = glm::mat4(clipFromOrigin * glm::dmat4(glm::transpose(worldFromView)));
     c.worldFromLS = glm::mat4(glm::dmat4(glm::transpose(view.lsFromWorld)));
-    c.rayOriginLS = glm::vec4(lsFromView * glm::dvec3(-lens.halfExtent, orthographic ? 0.0 : -1.0), 0.0f);
+    c.eyeLS = glm::vec4(glm::vec3(-origin * view.forwardLS), float(origin));
     c.rayDxLS = glm::vec4(lsFromView * glm::dvec3(pixelStep.x, 0.0, 0.0), 0.0f);
     c.rayDyLS = glm::vec4(lsFromView * glm::dvec3(0.0, pixelStep.y, 0.0), 0.0f);
     c.forwardLS = glm::vec4(view.forwardLS, orthographic ? 1.0f : 0.0f);
-    c.depthToViewDepth = glm::vec4(lens.depthToViewDepth);
+    c.aheadFromDepth = glm::vec4(coding.aheadFromDepth);
     c.background = glm::vec4(background, 0.0f);
     c.lights = glm::uvec4(0u);
-    c.lensVS = glm::vec4(-lens.halfExtent.x, pixelStep.x, -lens.halfExtent.y, pixelStep.y);
+    c.lensVS = glm::vec4(pixelStep, 0.5 * glm::dvec2(sizePixels));
     c.tileGrid = glm::uvec4(0u);
     c.sizePixels = glm::uvec4(sizePixels, 0u, 0u);
-    // b/distance - a is the depth of a perspective camera; what is added back makes the key's sum b/distance.
-    c.depthKey = glm::vec4(orthographic ? 1.0f : c.depthToViewDepth.z, 0.0f, 0.0f, 0.0f);
+    // a (f - z) / z is the depth of a perspective camera; adding a makes the key's sum a f / z.
+    const double span = view.depths.isEven ? view.depths.farMetres - view.depths.nearMetres : 0.0;
+    c.depthKey = glm::vec4(view.depths.isEven ? 1.0f : c.aheadFromDepth.z, 0.0f, float(span), 0.0f);
     return view;
 }
 

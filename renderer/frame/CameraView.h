@@ -1,18 +1,23 @@
 #pragma once
 #include <array>
+#include <span>
 
 #include <glm/glm.hpp>
 
+#include "renderer/frame/DepthInterval.h"
 #include "renderer/frame/FrameSettings.h"
 #include "scenes/Scene.h"
 #include "shaders/shared/frame.h"
 
 namespace tessera::frame {
 
-/// A camera at a picture size, in double precision. LS (lighting space) is world space moved to the eye, or view space.
-/// Clip space is reverse-Z, zero to one: depth 1 at the near plane, 0 at the far plane or infinity.
+/// A camera at a picture size, in double precision. LS (lighting space) has the axes of the world or of the view, and
+/// its origin on the view axis: at the eye, or, where all that is seen is far away, in the middle of it. Clip space is
+/// reverse-Z, zero to one: depth 1 at the near end of `depths`, 0 at the far one or infinity.
 struct CameraView {
     glm::dvec3 eyeWS{0.0};
+    glm::dvec3 originWS{0.0}; ///< of lighting space
+    DepthInterval depths;
     glm::dmat3 lsFromWorld{1.0}; ///< rotation
     glm::dmat3 lsFromView{1.0};  ///< rotation; view space looks along -z
     glm::dmat4 clipFromLS{1.0};
@@ -20,10 +25,11 @@ struct CameraView {
     std::array<glm::dvec4, 5> frustumPlanesLS; ///< n.p + d >= 0 inside: left, right, bottom, top, near
     shared::FrameConstants constants;          ///< lights and tileGrid are left 0
 
-    glm::dvec3 positionLS(const glm::dvec3& positionWS) const { return lsFromWorld * (positionWS - eyeWS); }
+    glm::dvec3 positionLS(const glm::dvec3& positionWS) const { return lsFromWorld * (positionWS - originWS); }
 };
 
+/// `bounds` are those of the scene; without them depth and lighting space are the camera's own, whatever it sees.
 CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, LightingSpace space,
-                          const glm::vec3& background);
+                          const glm::vec3& background, std::span<const SurfaceBounds> bounds = {});
 
 } // namespace tessera::frame

@@ -31,9 +31,8 @@ shared::CullLight cullLight(const shared::LightTexels& light, const shared::Ligh
 
     const glm::dvec3 position = cameraFromLS * glm::dvec3(light.position);
     const double reach = 1.0 / std::sqrt(double(light.position.w));
-    const bool orthographic = view.constants.forwardLS.w == 1.0f;
-    const glm::vec4& lens = view.constants.depthToViewDepth;
-    const double margin = double(shared::roundingMargin(float(reach + glm::length(position)), orthographic, lens));
+    const glm::vec4& depthKey = view.constants.depthKey;
+    const double margin = double(shared::roundingMargin(float(reach + glm::length(position)), depthKey));
     Sphere sphere{position, reach};
     if ((kind & LIGHT_SPOT) != 0) {
         const double cosOuter = std::clamp(double(shared::spotCosOuter(kind, shape)) - CONE_COSINE_MARGIN, -1.0, 1.0);
@@ -41,7 +40,7 @@ shared::CullLight cullLight(const shared::LightTexels& light, const shared::Ligh
         sphere = sphereAroundCone(position, axis, cosOuter, reach);
         // A cone whose apex stands back by m / sin(outer) encloses all that lies within m of it. What is a share of the
         // distance coneTouchesBox() adds.
-        const double errorMetres = double(shared::roundingMargin(0.0f, orthographic, lens));
+        const double errorMetres = double(shared::roundingMargin(0.0f, depthKey));
         const double sinOuter = std::sqrt(1.0 - cosOuter * cosOuter);
         const glm::dvec3 apex = sinOuter > 0.0 ? position - axis * (errorMetres / sinOuter) : position;
         cull.apex = glm::vec4(glm::vec3(apex), float(sinOuter));

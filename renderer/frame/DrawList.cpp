@@ -73,7 +73,7 @@ std::vector<Batch> sortedTransparent(const DrawList& list, const CameraView& vie
     std::vector<double> depth(list.draws.size(), 0.0);
     for (int i = list.firstTransparent; i < int(list.draws.size()); ++i) {
         const Draw& draw = list.draws[std::size_t(i)];
-        depth[std::size_t(i)] = glm::dot(view.forwardLS, view.positionLS(draw.centerWS));
+        depth[std::size_t(i)] = glm::dot(view.forwardLS, view.lsFromWorld * (draw.centerWS - view.eyeWS));
         batches.push_back({i, 1, draw.material, draw.mirrored});
     }
     std::stable_sort(batches.begin(), batches.end(), [&](const Batch& a, const Batch& b) {
@@ -87,7 +87,7 @@ std::vector<DrawRows> makeDrawRows(const DrawList& list, const CameraView& view)
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const glm::dmat4& worldFromObject = list.worldFromObject[std::size_t(list.draws[i].node)];
         const glm::dmat3 linear(worldFromObject);
-        const glm::dvec3 originES = glm::dvec3(worldFromObject[3]) - view.eyeWS;
+        const glm::dvec3 originRS = glm::dvec3(worldFromObject[3]) - view.originWS;
         const double sign = list.draws[i].mirrored ? -1.0 : 1.0;
         glm::dmat3 normal = cofactor(view.lsFromWorld * linear) * sign;
         // Scaled to order one: the cofactors of a node scaled by 1e-20 would leave fp32's range.
@@ -97,7 +97,7 @@ std::vector<DrawRows> makeDrawRows(const DrawList& list, const CameraView& view)
         if (largest > 0.0) normal /= largest;
         const double extra[3] = {sign, double(list.draws[i].largestColor), 1.0 + list.draws[i].instance};
         for (int r = 0; r < 3; ++r) {
-            rows[i].position[r] = glm::vec4(linear[0][r], linear[1][r], linear[2][r], originES[r]);
+            rows[i].position[r] = glm::vec4(linear[0][r], linear[1][r], linear[2][r], originRS[r]);
             rows[i].normal[r] = glm::vec4(normal[0][r], normal[1][r], normal[2][r], extra[r]);
         }
     }

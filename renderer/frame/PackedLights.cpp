@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shaders/shared/culling.h"
+
 namespace tessera::frame {
 
 namespace {
@@ -16,7 +18,8 @@ bool isUnseen(const scenes::Light& light, double reach, const CameraView& view) 
     if (std::isinf(reach)) return false;
     const glm::dvec4 position(view.positionLS(light.positionWS), 1.0);
     // The margin covers what rounding the packed position and the rebuilt surface positions to fp32 can move.
-    const double margin = 1e-5 * (reach + glm::length(glm::dvec3(position)));
+    const double farthestMetres = reach + glm::length(glm::dvec3(position));
+    const double margin = double(shared::roundingMargin(float(farthestMetres), view.constants.depthKey));
     return std::any_of(view.frustumPlanesLS.begin(), view.frustumPlanesLS.end(),
                        [&](const glm::dvec4& plane) { return glm::dot(plane, position) < -(reach + margin); });
 }

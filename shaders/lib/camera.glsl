@@ -10,27 +10,52 @@ layout(std140, binding = UNIFORM_FRAME) uniform FrameBlock
     FrameConstants frame;
 };
 
+// The depth-buffer value at a distance ahead of the origin of lighting space.
+float depthFromAhead(float ahead)
+{
+    vec4 lens = frame.aheadFromDepth;
+    precise float depth = (lens.x - ahead * lens.z) / (ahead * lens.w - lens.y);
+    return depth;
+}
+
+// Where a pixel looks, across the view axis: a metre ahead of the eye, or (orthographic) anywhere.
+vec3 acrossOfPixel(vec2 pixel)
+{
+    precise vec2 place = pixel - frame.lensVS.zw;
+    precise vec3 across = place.x * frame.rayDxLS.xyz + place.y * frame.rayDyLS.xyz;
+    return across;
+}
+
+// How wide the rays of pixels lie apart s metres ahead of the origin of lighting space: x + y s times as wide as lensVS.
+vec2 raySpread()
+{
+    return frame.forwardLS.w != 0.0 ? vec2(1.0, 0.0) : vec2(frame.eyeLS.w, 1.0);
+}
+
 Viewpoint viewpointFromDepth(vec2 pixel, float depth)
 {
 #if HAS_ORTHOGRAPHIC_CAMERA
-    precise float viewDepth = (frame.depthToViewDepth.x + frame.depthToViewDepth.y * depth)
-                              / (frame.depthToViewDepth.z + frame.depthToViewDepth.w * depth);
+    precise float ahead = (frame.aheadFromDepth.x + frame.aheadFromDepth.y * depth)
+                          / (frame.aheadFromDepth.z + frame.aheadFromDepth.w * depth);
 #else
-    // y is 0 and w is 1 for a perspective camera: the same number, and two constants less to read.
-    precise float viewDepth = frame.depthToViewDepth.x / (frame.depthToViewDepth.z + depth);
+    // w is 1 for a perspective camera.
+    precise float ahead = (frame.aheadFromDepth.x + frame.aheadFromDepth.y * depth) / (frame.aheadFromDepth.z + depth);
 #endif
-    precise vec3 ray = frame.rayOriginLS.xyz + pixel.x * frame.rayDxLS.xyz + pixel.y * frame.rayDyLS.xyz;
+    precise vec3 across = acrossOfPixel(pixel);
     Viewpoint viewpoint;
     viewpoint.depth = depth;
 #if HAS_ORTHOGRAPHIC_CAMERA
     if (frame.forwardLS.w != 0.0) {
-        precise vec3 position = ray + viewDepth * frame.forwardLS.xyz;
+        precise vec3 position = across + ahead * frame.forwardLS.xyz;
         viewpoint.positionLS = position;
         viewpoint.toViewerLS = -frame.forwardLS.xyz;
         return viewpoint;
     }
 #endif
-    precise vec3 position = viewDepth * ray;
+    // Along the axis and across it: each part is as small as what is seen, however far the eye is.
+    precise float viewDepth = frame.eyeLS.w + ahead;
+    precise vec3 position = viewDepth * across + ahead * frame.forwardLS.xyz;
+    precise vec3 ray = across + frame.forwardLS.xyz;
     precise vec3 toViewer = -ray / sqrt(dot(ray, ray));
     viewpoint.positionLS = position;
     viewpoint.toViewerLS = toViewer;

@@ -18,9 +18,8 @@ float floorDepth(vec2 pixel)
 {
     precise float viewDepth = FLOOR_NEAREST_METRES
                               + (FLOOR_FARTHEST_METRES - FLOOR_NEAREST_METRES) * floorShare(pixel, vec2(0.00371, 0.00533));
-    vec4 lens = frame.depthToViewDepth;
-    precise float depth = (lens.x - viewDepth * lens.z) / (viewDepth * lens.w - lens.y);
-    return depth;
+    precise float ahead = viewDepth - frame.eyeLS.w;
+    return depthFromAhead(ahead);
 }
 
 #if HAS_LIT_MODELS

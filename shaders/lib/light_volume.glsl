@@ -22,17 +22,16 @@ const float kWidestConeCosine = 0.1;
 float volumeMargin(vec3 positionLS, float reachMetres)
 {
     bool orthographic = frame.forwardLS.w != 0.0;
-    float farthest = length(positionLS) + reachMetres;
-    float pixel = max(frame.lensVS.y, frame.lensVS.w) * (orthographic ? 1.0 : farthest);
-    return roundingMargin(farthest, orthographic, frame.depthToViewDepth) + 0.125 * pixel;
+    float farthestFromEye = length(positionLS - frame.eyeLS.xyz) + reachMetres;
+    float pixel = max(frame.lensVS.x, frame.lensVS.y) * (orthographic ? 1.0 : farthestFromEye);
+    return roundingMargin(length(positionLS) + reachMetres, frame.depthKey) + 0.125 * pixel;
 }
 
-// The depth that would be stored at a distance along the camera's axis. What lies behind the eye is in front of it all.
-float depthAtViewDepth(float viewDepth)
+// The depth that would be stored at a distance ahead. What lies behind the eye is in front of it all.
+float depthAt(float ahead)
 {
-    vec4 lens = frame.depthToViewDepth;
-    if (frame.forwardLS.w == 0.0 && !(viewDepth > 0.0)) return 1.0;
-    return clamp((lens.x - viewDepth * lens.z) / (viewDepth * lens.w - lens.y), 0.0, 1.0);
+    if (frame.forwardLS.w == 0.0 && !(frame.eyeLS.w + ahead > 0.0)) return 1.0;
+    return clamp(depthFromAhead(ahead), 0.0, 1.0);
 }
 
 vec3 perpendicularTo(vec3 direction)
@@ -65,17 +64,18 @@ vec4 vertexAtDepth(vec3 positionLS, float depth)
 vec4 sphereVertex(int vertex, vec3 centerLS, float radius)
 {
     bool orthographic = frame.forwardLS.w != 0.0;
-    float depth = depthAtViewDepth(dot(frame.forwardLS.xyz, centerLS) + radius);
-    float distance = length(centerLS);
+    float depth = depthAt(dot(frame.forwardLS.xyz, centerLS) + radius);
+    vec3 toCenter = centerLS - frame.eyeLS.xyz;
+    float distance = length(toCenter);
     // 0.999: close to the sphere the pyramid opens to a half space.
     if (!orthographic && !(radius < 0.999 * distance)) return screenVertex(vertex, depth);
     // The circle where sight touches the sphere.
     float sine = orthographic ? 0.0 : radius / distance;
     float cosine2 = 1.0 - sine * sine;
-    vec3 sight = orthographic ? frame.forwardLS.xyz : centerLS / distance;
+    vec3 sight = orthographic ? frame.forwardLS.xyz : toCenter / distance;
     int fan = vertex < LIGHT_VOLUME_SPHERE_VERTICES ? vertex / 3 : 0;
     int side = vertex < LIGHT_VOLUME_SPHERE_VERTICES && vertex % 3 > 0 ? fan + vertex % 3 : 0;
-    return vertexAtDepth(centerLS * cosine2 + cornerAround(sight, side, radius * sqrt(cosine2)), depth);
+    return vertexAtDepth(centerLS - toCenter * (sine * sine) + cornerAround(sight, side, radius * sqrt(cosine2)), depth);
 }
 
 #if HAS_SPOT_LIGHTS
@@ -122,7 +122,7 @@ vec4 coneVertex(int vertex, vec3 apexLS, vec3 axisLS, float cosOuter, float reac
     float cosForward = dot(axisLS, frame.forwardLS.xyz);
     float sinForward = sqrt(max(0.0, 1.0 - cosForward * cosForward));
     float share = cosForward >= cosOuter ? 1.0 : max(0.0, cosForward * cosOuter + sinForward * sinOuter);
-    float depth = depthAtViewDepth(dot(frame.forwardLS.xyz, apexLS) + reachMetres * share + margin);
+    float depth = depthAt(dot(frame.forwardLS.xyz, apexLS) + reachMetres * share + margin);
     return vertexAtDepth(apexLS + along * axisLS + cornerAround(axisLS, side, radius), depth);
 }
 #endif

@@ -13,7 +13,7 @@ layout(std430, binding = STORAGE_TILE_DEPTHS) readonly buffer TileDepths
     vec2 tileDepths[]; // nearest, farthest, reverse-Z
 };
 
-// View depths in metres between which each box of the tile lies.
+// Metres ahead between which each box of the tile lies.
 LIST_MEMORY vec2 boxRuns[LIGHT_TILE_SLICES];
 
 struct ListedTile {
@@ -53,7 +53,7 @@ uint bitsOf(uvec2 bits)
 
 vec2 runBetween(float nearest, float farthest)
 {
-    return vec2(viewDepthMetres(frame.depthToViewDepth, nearest), viewDepthMetres(frame.depthToViewDepth, farthest));
+    return vec2(aheadMetres(frame.aheadFromDepth, nearest), aheadMetres(frame.aheadFromDepth, farthest));
 }
 
 // Slices first..last of a tile, not more than its surfaces take up.
@@ -96,7 +96,7 @@ ListedTile listedTile(uvec2 item)
     tile.cells = min(slices, 1u);
     tile.boxes = 0u;
     vec2 run = runBetween(tile.depths.x, tile.depths.y);
-    tile.whole = cellBox(tile.rays, run.x, run.y, isOrthographic());
+    tile.whole = cellBox(tile.rays, run.x, run.y, raySpread());
 #if LIST_METHOD == LIST_METHOD_CLUSTER
     tile.cells = slices;
     if (slices > 1u) tile.boxes = slices;
@@ -110,7 +110,7 @@ ListedTile listedTile(uvec2 item)
 
 bool touchesBox(ListedTile tile, CullLight cull, uint box)
 {
-    return lightTouchesBox(cull, cellBox(tile.rays, boxRuns[box].x, boxRuns[box].y, isOrthographic()));
+    return lightTouchesBox(cull, cellBox(tile.rays, boxRuns[box].x, boxRuns[box].y, raySpread()));
 }
 
 // This lane's share of the round's lights.

@@ -23,11 +23,6 @@ CullLight cullLight(uint light)
     return cull;
 }
 
-bool isOrthographic()
-{
-    return frame.forwardLS.w != 0.0;
-}
-
 uint lightCount()
 {
     return frame.lights.x;

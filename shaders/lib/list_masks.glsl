@@ -29,11 +29,11 @@ LIST_MEMORY uvec2 laneWords[LIST_THREADS];
     (test(first, at) | test(first + 1u, at) << 1 | test(first + 2u, at) << 2 | test(first + 3u, at) << 3)
 #define EIGHT_BITS(test, first, at) (FOUR_BITS(test, first, at) | FOUR_BITS(test, first + 4u, at) << 4)
 
-// View depths in metres between which a bin lies.
+// Metres ahead between which a bin lies.
 vec2 runOfBin(uint bin)
 {
     vec2 depths = depthsOfSlices(listTotals.x, bin, bin, frame.depthKey.x);
-    return vec2(viewDepthMetres(frame.depthToViewDepth, depths.y), viewDepthMetres(frame.depthToViewDepth, max(0.0, depths.x)));
+    return vec2(aheadMetres(frame.aheadFromDepth, depths.y), aheadMetres(frame.aheadFromDepth, max(0.0, depths.x)));
 }
 
 // 1 where the light may touch the bin.

@@ -11,12 +11,12 @@ layout(std430, binding = STORAGE_LIGHT_REACH) writeonly buffer LightReach
 
 bool touchesColumn(vec4 sphere, uint column)
 {
-    return sphereTouchesSlab(sphere.x, sphere.z, sphere.w, raysOfTile(column, 0u).xy, isOrthographic());
+    return sphereTouchesSlab(sphere.x, sphere.z, sphere.w, raysOfTile(column, 0u).xy, raySpread());
 }
 
 bool touchesRow(vec4 sphere, uint row)
 {
-    return sphereTouchesSlab(sphere.y, sphere.z, sphere.w, raysOfTile(0u, row).zw, isOrthographic());
+    return sphereTouchesSlab(sphere.y, sphere.z, sphere.w, raysOfTile(0u, row).zw, raySpread());
 }
 
 void findReach(uvec2 item)

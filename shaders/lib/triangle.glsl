@@ -16,19 +16,19 @@ layout(location = 16) flat in vec3 triangleNormalLS[3];
 // Weights of the triangle's corners where the ray through the pixel's centre meets its plane, by Cramer's rule.
 dvec3 triangleWeights(vec2 pixel)
 {
-    dvec3 ray = dvec3(frame.rayOriginLS.xyz) + double(pixel.x) * dvec3(frame.rayDxLS.xyz)
-                + double(pixel.y) * dvec3(frame.rayDyLS.xyz);
-    bool parallelRays = frame.forwardLS.w != 0.0;
-    dvec3 origin = parallelRays ? ray : dvec3(0.0);
-    dvec3 direction = parallelRays ? dvec3(frame.forwardLS.xyz) : ray;
+    dvec3 across = double(pixel.x - frame.lensVS.z) * dvec3(frame.rayDxLS.xyz)
+                   + double(pixel.y - frame.lensVS.w) * dvec3(frame.rayDyLS.xyz);
+    // Where the ray meets the plane through the origin of lighting space.
+    dvec3 origin = double(raySpread().x) * across;
+    dvec3 direction = dvec3(frame.forwardLS.xyz) + double(raySpread().y) * across;
     dvec3 corner = dvec3(triangleLS[0]) - origin;
     dvec3 edge1 = dvec3(triangleLS[1]) - dvec3(triangleLS[0]);
     dvec3 edge2 = dvec3(triangleLS[2]) - dvec3(triangleLS[0]);
     double slope = dot(cross(edge1, edge2), direction);
     if (slope == 0.0) return dvec3(1.0, 0.0, 0.0); // seen exactly edge-on: nothing to be met
-    dvec3 across = cross(direction, corner);
-    double weight1 = -dot(edge2, across) / slope;
-    double weight2 = dot(edge1, across) / slope;
+    dvec3 moment = cross(direction, corner);
+    double weight1 = -dot(edge2, moment) / slope;
+    double weight2 = dot(edge1, moment) / slope;
     return dvec3(1.0 - weight1 - weight2, weight1, weight2);
 }
 

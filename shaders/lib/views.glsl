@@ -53,7 +53,7 @@ vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
 #elif VIEW == VIEW_LIGHTS
     return lightsOnSurface(vec3(0.0), surface, viewpoint, pixel); // counted
 #elif VIEW == VIEW_DEPTH
-    return vec3(dot(viewpoint.positionLS, frame.forwardLS.xyz));
+    return vec3(frame.eyeLS.w + dot(viewpoint.positionLS, frame.forwardLS.xyz));
 #else
     return specularFactorView(surface, viewpoint);
 #endif

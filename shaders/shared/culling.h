@@ -1,8 +1,11 @@
 #pragma once
 // The test of light culling, for C++ and GLSL: may a light reach a cell, the part of the view that a tile sees between
 // two depths? It never says no where the light changes a pixel (sound); where it says yes too often is counted by the
-// oracle. View space (VS) here is metres to the right, up and ahead of the camera. Everything is precise, so that two
-// shaders that ask the same question, one to count lights and one to list them, get the same answer.
+// oracle. View space (VS) here is metres to the right of, above and ahead of the origin of lighting space (frame.h).
+// Rays of pixels spread: s metres ahead they lie (spread.x + spread.y s) times as far to the side as FrameConstants'
+// lensVS says, (view depth of the origin, 1) for a perspective camera and (1, 0) for an orthographic one. Everything is
+// precise, so that two shaders that ask the same question, one to count lights and one to list them, get the same
+// answer.
 #include "interop.h"
 
 // Columns of tiles whose lights are told apart by the planes between columns together; their boxes tell the rest.
@@ -16,11 +19,11 @@
 SHARED_BEGIN
 
 // What rounding to fp32 can move of a light and the surfaces it reaches, in metres: 1e-5 of the farthest of it from the
-// eye (24 bits keep 6e-8 of each distance, and a handful of roundings follow one another), and the steps of an
-// orthographic camera's even depths, however near a surface is: view depth is far - depth (far - near), so two rounded
-// coefficients, a product, a sum, and the sum in the depth key are off by 2^-24 of the far distance each.
-SHARED_FUNCTION float roundingMargin(float farthestMetres, bool orthographic, vec4 depthToViewDepth) {
-    return 1e-5f * farthestMetres + (orthographic ? 4.76837158e-7f * depthToViewDepth.x : 0.0f);
+// origin (24 bits keep 6e-8 of each distance, and a handful of roundings follow one another), and the steps of even
+// depths, however near a surface is: two rounded coefficients, a product, a sum, and the sum in the depth key are off
+// by 2^-24 of the distance from depth 0 to 1 each, which is FrameConstants::depthKey.z. Eight of them.
+SHARED_FUNCTION float roundingMargin(float farthestMetres, vec4 depthKey) {
+    return 1e-5f * farthestMetres + 4.76837158e-7f * depthKey.z;
 }
 
 // Where a light is not exactly 0. Every length is enlarged by what rounding of positions to fp32 can move.
@@ -42,18 +45,19 @@ SHARED_FUNCTION vec4 tileRays(vec4 lensVS, uint column, uint row, uint side, uve
     float right = float(min((column + 1u) * side, size.x)) - 0.5f;
     float top = float(size.y - row * side) - 0.5f;
     float bottom = float(size.y - min((row + 1u) * side, size.y)) + 0.5f;
-    SHARED_PRECISE vec4 rays = vec4(lensVS.x + lensVS.y * left, lensVS.x + lensVS.y * right,
-                                    lensVS.z + lensVS.w * bottom, lensVS.z + lensVS.w * top);
+    SHARED_PRECISE vec4 rays = vec4(lensVS.x * (left - lensVS.z), lensVS.x * (right - lensVS.z),
+                                    lensVS.y * (bottom - lensVS.w), lensVS.y * (top - lensVS.w));
     return rays;
 }
 
 // Whether a sphere reaches between the two planes through the camera (orthographic: parallel to its axis) that a row or
 // a column of tiles lies between; `across` is the centre's coordinate to the right or up.
-SHARED_FUNCTION bool sphereTouchesSlab(float across, float ahead, float radius, vec2 rays, bool orthographic) {
-    SHARED_PRECISE float low = orthographic ? rays.x : rays.x * ahead;
-    SHARED_PRECISE float high = orthographic ? rays.y : rays.y * ahead;
-    SHARED_PRECISE float lowLength = orthographic ? 1.0f : sqrt(1.0f + rays.x * rays.x);
-    SHARED_PRECISE float highLength = orthographic ? 1.0f : sqrt(1.0f + rays.y * rays.y);
+SHARED_FUNCTION bool sphereTouchesSlab(float across, float ahead, float radius, vec2 rays, vec2 spread) {
+    SHARED_PRECISE float width = spread.x + spread.y * ahead;
+    SHARED_PRECISE float low = rays.x * width;
+    SHARED_PRECISE float high = rays.y * width;
+    SHARED_PRECISE float lowLength = sqrt(1.0f + spread.y * rays.x * rays.x);
+    SHARED_PRECISE float highLength = sqrt(1.0f + spread.y * rays.y * rays.y);
     SHARED_PRECISE float lowGap = across - low;
     SHARED_PRECISE float highGap = across - high;
     SHARED_PRECISE float lowReach = -radius * lowLength;
@@ -61,12 +65,12 @@ SHARED_FUNCTION bool sphereTouchesSlab(float across, float ahead, float radius, 
     return lowGap >= lowReach && highGap <= highReach;
 }
 
-// The box around what a tile sees between two view depths in metres, near < far.
-SHARED_FUNCTION CellBox cellBox(vec4 rays, float nearMetres, float farMetres, bool orthographic) {
-    SHARED_PRECISE float n = nearMetres * (1.0f - 1e-5f);
-    SHARED_PRECISE float f = farMetres * (1.0f + 1e-5f);
-    float n1 = orthographic ? 1.0f : n;
-    float f1 = orthographic ? 1.0f : f;
+// The box around what a tile sees between two distances ahead in metres, near < far.
+SHARED_FUNCTION CellBox cellBox(vec4 rays, float nearMetres, float farMetres, vec2 spread) {
+    SHARED_PRECISE float n = nearMetres - 1e-5f * abs(nearMetres);
+    SHARED_PRECISE float f = farMetres + 1e-5f * abs(farMetres);
+    SHARED_PRECISE float n1 = spread.x + spread.y * n;
+    SHARED_PRECISE float f1 = spread.x + spread.y * f;
     SHARED_PRECISE CellBox box;
     box.low = vec4(min(rays.x * n1, rays.x * f1), min(rays.z * n1, rays.z * f1), n, 0.0f);
     box.high = vec4(max(rays.y * n1, rays.y * f1), max(rays.w * n1, rays.w * f1), f, 0.0f);
@@ -107,17 +111,17 @@ SHARED_FUNCTION bool lightTouchesBox(CullLight light, CellBox box) {
     return !hasCone(light) || coneTouchesBox(light, box);
 }
 
-// View depth in metres at a depth-buffer value, by FrameConstants::depthToViewDepth.
-SHARED_FUNCTION float viewDepthMetres(vec4 depthToViewDepth, float depth) {
+// Metres ahead at a depth-buffer value, by FrameConstants::aheadFromDepth.
+SHARED_FUNCTION float aheadMetres(vec4 aheadFromDepth, float depth) {
     SHARED_PRECISE float metres =
-        (depthToViewDepth.x + depthToViewDepth.y * depth) / (depthToViewDepth.z + depthToViewDepth.w * depth);
+        (aheadFromDepth.x + aheadFromDepth.y * depth) / (aheadFromDepth.z + aheadFromDepth.w * depth);
     return metres;
 }
 
-// Whether a light may touch anything between two view depths.
+// Whether a light may touch anything between two distances ahead.
 SHARED_FUNCTION bool sphereTouchesDepths(vec4 sphere, float nearMetres, float farMetres) {
-    SHARED_PRECISE float nearest = nearMetres * (1.0f - 1e-5f);
-    SHARED_PRECISE float farthest = farMetres * (1.0f + 1e-5f);
+    SHARED_PRECISE float nearest = nearMetres - 1e-5f * abs(nearMetres);
+    SHARED_PRECISE float farthest = farMetres + 1e-5f * abs(farMetres);
     SHARED_PRECISE float back = sphere.z + sphere.w;
     SHARED_PRECISE float front = sphere.z - sphere.w;
     return back >= nearest && front <= farthest;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 namespace tessera::shared {
+using glm::abs;
 using glm::log2;
 using glm::mat4;
 using glm::max;

@@ -31,8 +31,8 @@
 SHARED_BEGIN
 
 // A surface's depth key, floatBitsToUint(bias + depth), grows towards the viewer. Its high bits slice depth evenly in
-// the logarithm of the distance for a perspective camera, where bias + depth is proportional to 1/distance, and evenly
-// in the distance for an orthographic one, whose bias is 1. No logarithm is taken, so CPU and GPU agree on every bit.
+// the logarithm of the distance where bias + depth is proportional to 1/distance, and evenly in the distance where
+// depth is even, or nearly so, and the bias 1. No logarithm is taken, so CPU and GPU agree on every bit.
 
 // A tile's slices: slice 0 begins at `first`, a multiple of 2^shift, and a slice is 2^shift keys deep. Packed in one
 // word, since shift needs 5 bits and is at least 5.

@@ -1,5 +1,8 @@
 #include "tests/support/CullingScenes.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scenes/builtin/Shapes.h"
@@ -104,6 +107,17 @@ Scene randomLitScene(std::uint64_t seed) {
     const int lights = 1 + random.index(80);
     for (int i = 0; i < lights; ++i) scene.lights.push_back(randomLight(random, eyeWS));
     return scene;
+}
+
+Camera seenFromAfar(Camera camera, double times) {
+    const glm::dvec3 backWS(camera.worldFromCamera[2]);
+    const double nearEyeMetres = std::max(1.0, glm::length(glm::dvec3(camera.worldFromCamera[3])));
+    const double stepMetres = (times - 1.0) * nearEyeMetres;
+    camera.worldFromCamera[3] += glm::dvec4(stepMetres * backWS, 0.0);
+    camera.fovYRadians = 2.0 * std::atan(std::tan(0.5 * camera.fovYRadians) / times);
+    camera.nearMetres += stepMetres;
+    camera.farMetres += stepMetres;
+    return camera;
 }
 
 Scene columnsBeforeWall(int lights) {

@@ -10,6 +10,10 @@ namespace tessera::test {
 /// some of which hold the camera or lie behind it. The same for the same seed.
 scenes::Scene randomLitScene(std::uint64_t seed);
 
+/// The same picture, nearly, from so many times as far away: the eye stands back along its axis, a perspective lens is
+/// the narrower, and the near and far planes stay where they are.
+scenes::Camera seenFromAfar(scenes::Camera camera, double times);
+
 /// Deep discontinuities of depth: two rows of columns and a curtain of leaf-like cards before a far wall, with `lights`
 /// small lights in the room between.
 scenes::Scene columnsBeforeWall(int lights);

@@ -4,23 +4,12 @@
 
 namespace tessera::reference {
 
-namespace {
-
-/// How far an orthographic camera without a far plane sees, in heights of its picture. An orthographic depth buffer
-/// cannot reach infinity, so the product ends there; what lies beyond is not drawn by either.
-constexpr double kOrthographicReachHeights = 1000.0;
-
-} // namespace
-
 CameraRays::CameraRays(const scenes::Camera& camera, glm::ivec2 sizePixels)
     : eyeWS_(camera.worldFromCamera[3]), right_(camera.worldFromCamera[0]), up_(camera.worldFromCamera[1]),
       forward_(-glm::dvec3(camera.worldFromCamera[2])), sizePixels_(sizePixels),
       isPerspective_(camera.projection == scenes::Projection::Perspective),
       halfHeight_(isPerspective_ ? std::tan(0.5 * camera.fovYRadians) : camera.halfHeightMetres),
-      nearMetres_(camera.nearMetres), farMetres_(camera.farMetres) {
-    if (!isPerspective_ && std::isinf(farMetres_))
-        farMetres_ = nearMetres_ + kOrthographicReachHeights * 2.0 * halfHeight_;
-}
+      nearMetres_(camera.nearMetres), farMetres_(camera.farMetres) {}
 
 Ray CameraRays::through(const glm::dvec2& placePixels) const {
     // -1 to 1 from the left to the right and from the bottom to the top edge of the picture.

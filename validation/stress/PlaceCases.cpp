@@ -103,6 +103,26 @@ std::vector<StressPicture> lightPlaces(StressEffort) {
     return pictures;
 }
 
+/// A metre of surface seen through narrow lenses from far away, also by parallel rays, and a light close above it.
+std::vector<StressPicture> farEyes(StressEffort) {
+    std::vector<StressPicture> pictures;
+    const auto floor = [&](double eyeMetres, double lampMetres) {
+        scenes::Scene scene = stressFarFloor(eyeMetres);
+        scene.lights = {stressLight({0.013, lampMetres, 0.007}, 1.0f)};
+        const std::string what = fmt::format("a lamp {:g} m above a floor, from {:g} m", lampMetres, eyeMetres);
+        pictures.push_back({what, std::move(scene), settingsOf()});
+    };
+    for (const double eyeMetres : {1e3, 1e4, 1e5}) floor(eyeMetres, 0.2);
+    for (const double eyeMetres : {10.0, 1e3}) floor(eyeMetres, 1e-3);
+    floor(1e4, 0.2);
+    scenes::Camera& parallel = pictures.back().scene.cameras[0];
+    parallel.projection = scenes::Projection::Orthographic;
+    parallel.halfHeightMetres = 0.45;
+    pictures.back().what += ", parallel rays";
+    pictures.push_back({"300 lights around a ball, from 1e3 m", stressFarBall(1e3, 300), settingsOf()});
+    return pictures;
+}
+
 std::vector<StressPicture> lightStrengths(StressEffort) {
     std::vector<StressPicture> pictures;
     for (const int exponent : {-20, -10, 0, 10, 20}) {
@@ -171,6 +191,7 @@ void addPlaceCases(std::vector<StressCase>& cases) {
                      "positions are subtracted in double, which keeps 2e-9 m at 1e7 m",
                      {},
                      &farPictures});
+    add("scene/far_eye", "a metre of surface from 10 m to 100 km, a light 1 mm above it", &farEyes);
     add("scene/scale", "the scene 1e-4 to 1e4 times as large", &scaledPictures);
     add("scene/transform", "non-uniform, mirrored, sheared and singular transforms", &transformedPictures);
     cases.push_back({"scene/animation",

@@ -1,10 +1,13 @@
 #include "validation/stress/StressScene.h"
 
+#include <cmath>
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scenes/builtin/Author.h"
 #include "scenes/builtin/Shapes.h"
 #include "validation/stress/StressModels.h"
+#include "validation/stress/StressRandom.h"
 
 namespace tessera::validation {
 
@@ -74,6 +77,44 @@ scenes::Scene stressFloor() {
     camera.projection = scenes::Projection::Orthographic;
     camera.halfHeightMetres = 1.0;
     scene.cameras = {camera};
+    return scene;
+}
+
+namespace {
+
+/// An eye so far from the origin, above and to a side, that a circle of that radius about the origin fills the picture.
+void addFarCamera(scenes::Scene& scene, double eyeMetres, double radiusMetres) {
+    const glm::dvec3 directionWS = glm::normalize(glm::dvec3(0.48, 0.6, 0.64));
+    addCamera(scene, "far", eyeMetres * directionWS, glm::dvec3(0.0),
+              glm::degrees(2.0 * std::atan(radiusMetres / eyeMetres)));
+}
+
+} // namespace
+
+scenes::Scene stressFarFloor(double eyeMetres) {
+    scenes::Scene scene;
+    scene.name = "far floor";
+    scenes::Mesh floor;
+    appendFloor(floor, glm::dvec3(0.0), {1.0, 1.0}, {1, 1});
+    const int stone = addMaterial(scene, microfacet("floor", {0.6f, 0.5f, 0.4f}, 1.5f, 0.4f));
+    addNode(scene, "floor", glm::dmat4(1.0), {{addMesh(scene, "floor", floor), stone}});
+    addFarCamera(scene, eyeMetres, 0.45);
+    return scene;
+}
+
+scenes::Scene stressFarBall(double eyeMetres, int lights) {
+    scenes::Scene scene;
+    scene.name = "far ball";
+    scenes::Mesh ball;
+    appendSphere(ball, glm::dvec3(0.0), 0.5, 96, 64);
+    const int stone = addMaterial(scene, microfacet("ball", {0.6f, 0.5f, 0.4f}, 1.5f, 0.4f));
+    addNode(scene, "ball", glm::dmat4(1.0), {{addMesh(scene, "ball", ball), stone}});
+    StressRandom random(77);
+    for (int i = 0; i < lights; ++i) {
+        scene.lights.push_back(stressLight(random.direction() * (0.5 + random.logarithmic(0.01, 0.3)), 0.02f));
+        scene.lights.back().rangeMetres = 0.4f;
+    }
+    addFarCamera(scene, eyeMetres, 0.55);
     return scene;
 }
 

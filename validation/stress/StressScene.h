@@ -12,6 +12,12 @@ scenes::Scene stressScene();
 /// material is lambert, white.
 scenes::Scene stressFloor();
 
+/// A floor 1 m wide, world origin in its middle, that fills the picture of an eye so far away. Nothing lights it.
+scenes::Scene stressFarFloor(double eyeMetres);
+
+/// A glossy ball of 1 m about the world's origin, seen from as far, with that many lights of 0.4 m around it.
+scenes::Scene stressFarBall(double eyeMetres, int lights);
+
 scenes::Light stressLight(const glm::dvec3& positionWS, float candela);
 
 /// An image of 8 x 8 texels, all alike.

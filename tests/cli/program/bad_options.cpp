@@ -86,6 +86,14 @@ TEST_F(BadOptions, numbersThatAreNoneAreAlwaysRefused) {
             expectRefused({option, value}, {std::string(option) + " '" + value + "' is not a whole number"});
 }
 
+TEST_F(BadOptions, lengthsBeyondThoseOfSinglePrecisionAreAlwaysRefused) {
+    expectRefused({"--near", "1e-30"}, {"near plane at 1e-30 m", "1e-09 to 1e+15 m"});
+    expectRefused({"--eye", "1e30,0,0"}, {"more than 1e+15 m from the origin"});
+    folder_.write("vast.json",
+                  R"({"tessera": 1, "include": [{"file": "builtin:room", "transform": {"scale": 1e30}}]})");
+    expectError(kBadInput, {"render", "vast.json", "-o", "a.png"}, {"vast.json", "more than 1e+15 m from the origin"});
+}
+
 TEST_F(BadOptions, lightsThatASceneCannotHaveAreAlwaysRefused) {
     expectRefused({"--lights", "-1"}, {"-1 lights", "0 to 262144"});
     expectRefused({"--lights", "262145"}, {"262145 lights", "0 to 262144"});

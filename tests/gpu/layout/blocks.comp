@@ -16,11 +16,11 @@ void main()
     outputs[1] = frame.clipFromLS[3];
     outputs[2] = frame.worldFromLS[0];
     outputs[3] = frame.worldFromLS[3];
-    outputs[4] = frame.rayOriginLS;
+    outputs[4] = frame.eyeLS;
     outputs[5] = frame.rayDxLS;
     outputs[6] = frame.rayDyLS;
     outputs[7] = frame.forwardLS;
-    outputs[8] = frame.depthToViewDepth;
+    outputs[8] = frame.aheadFromDepth;
     outputs[9] = frame.background;
     outputs[10] = vec4(frame.lights);
     outputs[11] = material.baseColor;

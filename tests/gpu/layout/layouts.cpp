@@ -38,13 +38,13 @@ TEST_F(LayoutTest, frameConstantsLieExactlyWhereTheDriverReadsThem) {
     EXPECT_EQ(bytes("FrameBlock"), sizeof(FrameConstants));
     EXPECT_THAT(places("FrameBlock"),
                 ElementsAre(Place("frame.clipFromLS", offsetof(FrameConstants, clipFromLS), sizeof(glm::vec4)),
-                            Place("frame.clipFromES", offsetof(FrameConstants, clipFromES), sizeof(glm::vec4)),
+                            Place("frame.clipFromRS", offsetof(FrameConstants, clipFromRS), sizeof(glm::vec4)),
                             Place("frame.worldFromLS", offsetof(FrameConstants, worldFromLS), sizeof(glm::vec4)),
-                            Place("frame.rayOriginLS", offsetof(FrameConstants, rayOriginLS), 0),
+                            Place("frame.eyeLS", offsetof(FrameConstants, eyeLS), 0),
                             Place("frame.rayDxLS", offsetof(FrameConstants, rayDxLS), 0),
                             Place("frame.rayDyLS", offsetof(FrameConstants, rayDyLS), 0),
                             Place("frame.forwardLS", offsetof(FrameConstants, forwardLS), 0),
-                            Place("frame.depthToViewDepth", offsetof(FrameConstants, depthToViewDepth), 0),
+                            Place("frame.aheadFromDepth", offsetof(FrameConstants, aheadFromDepth), 0),
                             Place("frame.background", offsetof(FrameConstants, background), 0),
                             Place("frame.lights", offsetof(FrameConstants, lights), 0),
                             Place("frame.lensVS", offsetof(FrameConstants, lensVS), 0),
@@ -87,7 +87,7 @@ TEST_F(LayoutTest, blocksAreAlwaysBoundWhereTheSharedListSays) {
 TEST_F(LayoutTest, theShaderAlwaysReadsTheValuesThatCppWrote) {
     shared::FrameConstants frame{};
     frame.clipFromLS[3] = {1, 2, 3, 4};
-    frame.depthToViewDepth = {5, 6, 7, 8};
+    frame.aheadFromDepth = {5, 6, 7, 8};
     frame.lights = {9, 10, 11, 12};
     frame.tileGrid = {13, 14, 15, 16};
     frame.depthKey = {17, 18, 19, 20};
@@ -108,7 +108,7 @@ TEST_F(LayoutTest, theShaderAlwaysReadsTheValuesThatCppWrote) {
     gpu::bindUniformBuffer(UNIFORM_DISPLAY, displayBuffer);
     const std::vector<glm::vec4> out = bench.run("test/blocks.comp", {}, {glm::vec4(0.0f)}, 1, kOutputs);
     EXPECT_EQ(out[1], frame.clipFromLS[3]);
-    EXPECT_EQ(out[8], frame.depthToViewDepth);
+    EXPECT_EQ(out[8], frame.aheadFromDepth);
     EXPECT_EQ(out[10], glm::vec4(frame.lights));
     EXPECT_EQ(out[15], glm::vec4(material.kind));
     EXPECT_EQ(out[16 + 6], material.uvRow0[6]);

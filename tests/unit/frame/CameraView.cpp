@@ -3,6 +3,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "scenes/LookAt.h"
 #include "tests/support/Random.h"
 
 namespace tessera::frame {
@@ -41,11 +42,12 @@ Projected project(const CameraView& view, const glm::dvec3& positionLS) {
 
 /// viewpointFromDepth of shaders/lib/camera.glsl, in fp32 as it runs there.
 glm::vec3 rebuilt(const shared::FrameConstants& c, const Projected& p) {
-    const float viewDepth = (c.depthToViewDepth.x + c.depthToViewDepth.y * p.depth) /
-                            (c.depthToViewDepth.z + c.depthToViewDepth.w * p.depth);
-    const glm::vec3 ray =
-        glm::vec3(c.rayOriginLS) + p.pixel.x * glm::vec3(c.rayDxLS) + p.pixel.y * glm::vec3(c.rayDyLS);
-    return c.forwardLS.w != 0.0f ? ray + viewDepth * glm::vec3(c.forwardLS) : viewDepth * ray;
+    const float ahead =
+        (c.aheadFromDepth.x + c.aheadFromDepth.y * p.depth) / (c.aheadFromDepth.z + c.aheadFromDepth.w * p.depth);
+    const glm::vec2 place = p.pixel - glm::vec2(c.lensVS.z, c.lensVS.w);
+    const glm::vec3 across = place.x * glm::vec3(c.rayDxLS) + place.y * glm::vec3(c.rayDyLS);
+    const float width = c.forwardLS.w != 0.0f ? 1.0f : c.eyeLS.w + ahead;
+    return width * across + ahead * glm::vec3(c.forwardLS);
 }
 
 /// A random point of the view volume between two depths, by its place in the picture.
@@ -116,8 +118,8 @@ TEST(CameraView, bothLightingSpacesAlwaysPutAWorldPointAtTheSamePixelAndDepth) {
             ASSERT_LE(glm::distance(a, b), 1e-11); // double rounding of rotations of 20 m
         }
         EXPECT_EQ(world.constants.worldFromLS, glm::mat4(1.0f));
-        EXPECT_EQ(world.constants.clipFromES, world.constants.clipFromLS);
-        EXPECT_EQ(eye.constants.clipFromES, world.constants.clipFromES) << "vertices lie where they lie";
+        EXPECT_EQ(world.constants.clipFromRS, world.constants.clipFromLS);
+        EXPECT_EQ(eye.constants.clipFromRS, world.constants.clipFromRS) << "vertices lie where they lie";
         const glm::vec3 forwardWS = glm::mat3(eye.constants.worldFromLS) * glm::vec3(eye.constants.forwardLS);
         EXPECT_LE(glm::distance(forwardWS, glm::vec3(world.constants.forwardLS)), 1e-6f);
         EXPECT_LE(glm::distance(eye.forwardLS, glm::dvec3(0.0, 0.0, -1.0)), 1e-15); // double rounding of a rotation
@@ -146,6 +148,72 @@ TEST(CameraView, frustumPlanesAlwaysHoldExactlyWhatTheCameraSees) {
             EXPECT_GT(seen, 1000);
         }
     }
+}
+
+/// A box of a metre about the origin.
+SurfaceBounds cube(const glm::dvec3& centerWS = glm::dvec3(0.0), double halfMetres = 0.5) {
+    return {{centerWS - halfMetres, centerWS + halfMetres}, halfMetres * std::sqrt(3.0)};
+}
+
+/// An eye on the axis through (1, 1, 1) that looks at the origin from so far, with a lens that sees 0.9 m there.
+scenes::Camera farCamera(double eyeMetres, scenes::Projection projection = scenes::Projection::Perspective) {
+    scenes::Camera camera;
+    camera.worldFromCamera = scenes::worldFromLookAt(glm::normalize(glm::dvec3(1.0)) * eyeMetres, glm::dvec3(0.0));
+    camera.fovYRadians = 2.0 * std::atan(0.9 / eyeMetres);
+    camera.projection = projection;
+    camera.halfHeightMetres = 0.9;
+    return camera;
+}
+
+TEST(CameraView, pointsOfAMetreAlwaysKeepTheirDigitsFromAnyDistance) {
+    test::Random random(4);
+    const SurfaceBounds bounds = cube();
+    for (const auto projection : {scenes::Projection::Perspective, scenes::Projection::Orthographic}) {
+        for (const double eyeMetres : {10.0, 1e3, 1e6, 1e9}) {
+            for (const LightingSpace space : {LightingSpace::World, LightingSpace::View}) {
+                const CameraView view =
+                    makeCameraView(farCamera(eyeMetres, projection), kSize, space, glm::vec3(0.0f), {&bounds, 1});
+                for (int i = 0; i < 2000; ++i) {
+                    const glm::dvec3 pointWS(random.between(-0.5, 0.5), random.between(-0.5, 0.5),
+                                             random.between(-0.5, 0.5));
+                    const glm::dvec3 pointLS = view.positionLS(pointWS);
+                    ASSERT_LT(glm::length(pointLS), 2.0);
+                    const Projected projected = project(view, pointLS);
+                    ASSERT_GT(projected.depth, 0.0f);
+                    ASSERT_LT(projected.depth, 1.0f);
+                    // Some eight roundings of 2^-24 of an interval of 2.2 m, and of a pixel's place of up to 641 pixels
+                    // that are 2.8 mm wide each. At 1e9 m doubles themselves have steps of 1.2e-7 m.
+                    const double bound = 8.0 * 0x1p-24 * (2.2 + 1.8) + 4e-16 * eyeMetres;
+                    ASSERT_LE(glm::distance(glm::dvec3(rebuilt(view.constants, projected)), pointLS), bound)
+                        << eyeMetres << " m";
+                }
+            }
+        }
+    }
+}
+
+TEST(CameraView, anEyeAmongSurfacesAlwaysHasItsOwnDepths) {
+    const scenes::Camera camera = farCamera(10.0);
+    for (const SurfaceBounds& bounds : {cube({}, 20.0), cube({}, 5.0)}) {
+        const CameraView fitted = makeCameraView(camera, kSize, LightingSpace::World, glm::vec3(0.0f), {&bounds, 1});
+        EXPECT_EQ(fitted.originWS, fitted.eyeWS);
+        EXPECT_EQ(fitted.depths.nearMetres, camera.nearMetres);
+        EXPECT_TRUE(std::isinf(fitted.depths.farMetres));
+    }
+}
+
+TEST(CameraView, whatThePictureDoesNotShowNeverChangesItsDepths) {
+    const std::vector<SurfaceBounds> bounds{cube(), cube({40.0, -40.0, 0.0}), cube({600.0, 600.0, 600.0})};
+    scenes::Camera camera = farCamera(1e3); // 1039 m before the last of them
+    const auto depthsOf = [&](std::size_t count) {
+        return makeCameraView(camera, kSize, LightingSpace::World, glm::vec3(0.0f), {bounds.data(), count}).depths;
+    };
+    EXPECT_EQ(depthsOf(1).nearMetres, depthsOf(3).nearMetres) << "beside the picture and behind the eye";
+    EXPECT_EQ(depthsOf(1).farMetres, depthsOf(3).farMetres);
+    camera.nearMetres = 999.9;
+    camera.farMetres = 1000.1;
+    EXPECT_EQ(depthsOf(1).nearMetres, 999.9) << "the camera's own planes cut";
+    EXPECT_EQ(depthsOf(1).farMetres, 1000.1);
 }
 
 TEST(CameraView, theBackgroundIsAlwaysUncovered) {

@@ -103,6 +103,21 @@ TEST(CheckScene, eachBrokenRuleIsAlwaysReported) {
         {"colour must", [](Scene& s) { s.lights[0].color.x = -0.5f; }},
         {"intensity", [](Scene& s) { s.lights[0].intensity = kInfinity; }},
         {"position", [](Scene& s) { s.lights[0].positionWS.z = kNaN; }},
+        {"more than 1e+15 m from the origin; move", [](Scene& s) { s.lights[0].positionWS.z = -1.1e15; }},
+        {"leads more than 1e+15 m", [](Scene& s) { s.lights[0].animation.emplace().amplitudeMetres.y = 1e16; }},
+        {"more than 1e+15 m from the origin; make", [](Scene& s) { s.nodes[0].parentFromNode *= glm::dmat4(1e30); }},
+        {"stands more than 1e+15 m", [](Scene& s) { s.cameras[0].worldFromCamera[3].x = 1e16; }},
+        {"near plane at 1e-30 m must lie 1e-09 to 1e+15 m ahead", [](Scene& s) { s.cameras[0].nearMetres = 1e-30; }},
+        {"near plane at 1e+16 m must lie 0 to 1e+15 m ahead",
+         [](Scene& s) {
+             s.cameras[0].projection = Projection::Orthographic;
+             s.cameras[0].nearMetres = 1e16;
+         }},
+        {"half height of 1e+30 m must be at most 1e+15 m",
+         [](Scene& s) {
+             s.cameras[0].projection = Projection::Orthographic;
+             s.cameras[0].halfHeightMetres = 1e30;
+         }},
         {"unit length", [](Scene& s) { s.lights[0].directionWS = glm::dvec3(0.0); }},
         {"range", [](Scene& s) { s.lights[0].rangeMetres = -1.0f; }},
         {"range", [](Scene& s) { s.lights[0].rangeMetres = kNaN; }},

@@ -36,11 +36,13 @@ protected:
         camera.nearMetres = 0.0;
         camera.farMetres = 10.0;
         scene_.cameras.push_back(camera);
+        drawn_.depths = {camera.nearMetres, camera.farMetres};
         settings_.sizePixels = {1, 1};
     }
 
     LightOracleFigures judge() {
         drawn_.sceneIndex.clear();
+        drawn_.depths = {scene_.cameras[0].nearMetres, scene_.cameras[0].farMetres};
         for (std::size_t i = 0; i < scene_.lights.size(); ++i) drawn_.sceneIndex.push_back(int(i));
         return judgeLights({scene_, settings_, drawn_, depth_, normalWS_});
     }

@@ -117,6 +117,7 @@ protected:
         scene_.lights[3].enabled = false;
         scene_.lights[4].rangeMetres = 0.1f;
         settings_.sizePixels = {8, 16};
+        drawn_.depths = {camera.nearMetres, camera.farMetres};
         depth_[3] = 1.0f; // the near plane
     }
     LightOracleFigures judge() const { return judgeLights({scene_, settings_, drawn_, depth_, {}}); }

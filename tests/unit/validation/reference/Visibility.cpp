@@ -67,7 +67,7 @@ TEST_F(ReferenceVisibility, raysOfOddPicturesAlwaysGoThroughThePositionsOfTheirP
         camera_.farMetres = 50.0;
         frame::FrameSettings settings;
         settings.sizePixels = {7, 5};
-        const validation::PixelPositions positions(camera_, settings);
+        const validation::PixelPositions positions(camera_, settings, {camera_.nearMetres, camera_.farMetres});
         const CameraRays rays(camera_, settings.sizePixels);
         for (int row = 0; row < 5; ++row) {
             for (int column = 0; column < 7; ++column) {

@@ -1,0 +1,22 @@
+#pragma once
+#include <cmath>
+#include <string>
+
+#include "scenes/Scene.h"
+
+/// How far lengths may go. Beyond, squares of distances or depths leave fp32, and techniques would disagree.
+namespace tessera::scenes {
+
+inline constexpr double kNearestPlaneMetres = 1e-9; ///< near plane of a perspective camera, at least
+inline constexpr double kFarthestMetres = 1e15;     ///< any coordinate in the world, near plane or half height, at most
+
+/// Whether a place in the world lies within the limits.
+inline bool isNearEnough(const glm::dvec3& positionWS) {
+    const auto isWithin = [](double coordinate) { return std::abs(coordinate) <= kFarthestMetres; };
+    return isWithin(positionWS.x) && isWithin(positionWS.y) && isWithin(positionWS.z);
+}
+
+/// What of a camera, of finite numbers, lies beyond the limits, and what to do; empty where nothing does.
+std::string limitProblem(const Camera& camera);
+
+} // namespace tessera::scenes

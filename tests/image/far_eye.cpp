@@ -1,0 +1,126 @@
+// An eye far away with a narrow lens, and a light close to a surface: positions must keep their digits.
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "scenes/Limits.h"
+#include "tests/support/GlContext.h"
+#include "tests/support/TestScenes.h"
+#include "validation/ErrorFigures.h"
+#include "validation/ReferencePicture.h"
+#include "validation/Rendering.h"
+#include "validation/Tolerance.h"
+#include "validation/stress/StressScene.h"
+
+namespace tessera {
+namespace {
+
+using recipes::Technique;
+
+constexpr Technique kTechniques[] = {Technique::Forward, Technique::Deferred, Technique::ClusteredDeferred,
+                                     Technique::DeferredVolumes};
+
+class FarEye : public test::GlTest {
+protected:
+    /// 99.9 % of the pixels of every technique lie within `p999Rel` of the reference, and all techniques agree.
+    void expectAgreement(const std::string& what, const scenes::Scene& scene, double p999Rel) {
+        SCOPED_TRACE(what);
+        recipes::Renderer renderer(context(), scene);
+        const validation::ReferencePicture truth = validation::referencePicture(scene, settings_);
+        const std::vector<std::uint8_t> excluded = validation::differingTriangles(renderer, settings_, truth.ids);
+        std::vector<float> first;
+        for (const Technique technique : kTechniques) {
+            const recipes::RenderedFrame frame = renderer.render(technique, settings_);
+            const validation::ErrorFigures figures =
+                validation::errorFigures(validation::toPicture(frame), truth.picture, excluded);
+            if (first.empty()) {
+                first = frame.radiance;
+                fmt::print("{:<28} p99.9 {:.1e}  relMse {:.1e}  max {:.1e}  excluded {:.2f} %\n", what, figures.p999Rel,
+                           figures.relMse, figures.maxRel, 100.0 * figures.excluded);
+            }
+            EXPECT_TRUE(frame.radiance == first) << infoOf(technique).name;
+            EXPECT_LE(figures.p999Rel, p999Rel) << infoOf(technique).name;
+            EXPECT_GE(figures.litShare, 0.5);
+            EXPECT_LT(figures.excluded, 0.02);
+        }
+    }
+
+    static scenes::Scene floorUnderLamp(double eyeMetres, double lampMetres) {
+        scenes::Scene scene = validation::stressFarFloor(eyeMetres);
+        // Off the places where pixels' centres look.
+        scene.lights = {validation::stressLight({0.013, lampMetres, 0.007}, 1.0f)};
+        return scene;
+    }
+
+    frame::FrameSettings settings_ = [] {
+        frame::FrameSettings settings;
+        settings.sizePixels = {160, 90};
+        settings.display = false;
+        return settings;
+    }();
+};
+
+/// The bar of pictures without textures (docs/reference.md).
+constexpr double kBar = 3e-4;
+
+TEST_F(FarEye, aFloorUnderALampAlwaysLooksAsInTheReferenceFromAnyDistance) {
+    for (const double eyeMetres : {10.0, 1e3, 1e4, 1e5}) {
+        for (const frame::LightingSpace space : {frame::LightingSpace::World, frame::LightingSpace::View}) {
+            settings_.space = space;
+            expectAgreement(fmt::format("a floor from {:g} m", eyeMetres), floorUnderLamp(eyeMetres, 0.2), kBar);
+        }
+    }
+}
+
+TEST_F(FarEye, aBallWithThreeHundredLightsAlwaysLooksAsInTheReferenceFromAKilometre) {
+    expectAgreement("a ball, 300 lights", validation::stressFarBall(1e3, 300), kBar);
+}
+
+TEST_F(FarEye, aLightAMillimetreAboveAFloorAlwaysLooksAsInTheReference) {
+    expectAgreement("a light 1 mm above, 10 m", floorUnderLamp(10.0, 1e-3), kBar);
+    expectAgreement("a light 1 mm above, 1 km", floorUnderLamp(1e3, 1e-3), kBar);
+}
+
+TEST_F(FarEye, parallelRaysAlwaysSeeAFloorAsInTheReferenceFromAnyDistance) {
+    for (const double eyeMetres : {10.0, 1e4}) {
+        scenes::Scene scene = floorUnderLamp(eyeMetres, 0.2);
+        scene.cameras[0].projection = scenes::Projection::Orthographic;
+        scene.cameras[0].halfHeightMetres = 0.45;
+        expectAgreement(fmt::format("parallel rays, {:g} m", eyeMetres), scene, kBar);
+    }
+}
+
+/// The ends of scenes/Limits.h.
+TEST_F(FarEye, techniquesAlwaysAgreeAtTheEndsOfWhatLengthsMayBe) {
+    scenes::Scene near = test::everythingScene();
+    near.cameras[0].nearMetres = scenes::kNearestPlaneMetres;
+    scenes::Scene vast = test::everythingScene();
+    const double scale = 0.05 * scenes::kFarthestMetres; // of a scene some 20 m wide
+    for (scenes::Node& node : vast.nodes)
+        if (node.parent == scenes::kNone)
+            node.parentFromNode = glm::scale(glm::dmat4(1.0), glm::dvec3(scale)) * node.parentFromNode;
+    for (scenes::Light& light : vast.lights) {
+        light.positionWS *= scale;
+        light.rangeMetres *= float(scale);
+        light.intensity = std::min(1e30f, light.intensity * float(scale * scale));
+    }
+    vast.cameras[0].worldFromCamera[3] = glm::dvec4(scale * glm::dvec3(vast.cameras[0].worldFromCamera[3]), 1.0);
+    vast.cameras[0].nearMetres *= scale;
+    scenes::Scene both = vast;
+    both.cameras[0].nearMetres = scenes::kNearestPlaneMetres;
+    for (const scenes::Scene& scene : {near, vast, both}) {
+        SCOPED_TRACE(scene.cameras[0].nearMetres);
+        scenes::checkScene(scene);
+        recipes::Renderer renderer(context(), scene);
+        const recipes::RenderedFrame truth = renderer.render(Technique::Forward, settings_);
+        int lit = 0;
+        for (std::size_t i = 0; i < truth.radiance.size(); i += 4) lit += truth.radiance[i] > 0.0f;
+        EXPECT_GT(lit, 160 * 90 / 4);
+        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable())
+            EXPECT_TRUE(renderer.render(technique.technique, settings_).radiance == truth.radiance) << technique.name;
+    }
+}
+
+} // namespace
+} // namespace tessera
