@@ -13,42 +13,51 @@ layout(location = 13) flat in vec4 triangleTexCoords[3]; // xy the first set, zw
 layout(location = 16) flat in vec3 triangleNormalLS[3];
 #endif
 
-// Weights of the triangle's corners where the ray through the pixel's centre meets its plane, by Cramer's rule.
-dvec3 triangleWeights(vec2 pixel)
+// The ray through a pixel's centre.
+struct PixelRay {
+    dvec3 originLS; // where it meets the plane across the view axis through the origin of lighting space
+    dvec3 directionLS;
+};
+
+PixelRay pixelRay(vec2 pixel)
 {
     dvec3 across = double(pixel.x - frame.lensVS.z) * dvec3(frame.rayDxLS.xyz)
                    + double(pixel.y - frame.lensVS.w) * dvec3(frame.rayDyLS.xyz);
-    // Where the ray meets the plane through the origin of lighting space.
-    dvec3 origin = double(raySpread().x) * across;
-    dvec3 direction = dvec3(frame.forwardLS.xyz) + double(raySpread().y) * across;
-    dvec3 corner = dvec3(triangleLS[0]) - origin;
+    dvec2 spread = dvec2(raySpread());
+    return PixelRay(spread.x * across, dvec3(frame.forwardLS.xyz) + spread.y * across);
+}
+
+// Weights of the triangle's corners where the ray through the pixel's centre meets its plane, by Cramer's rule.
+dvec3 triangleWeights(vec2 pixel)
+{
+    PixelRay ray = pixelRay(pixel);
     dvec3 edge1 = dvec3(triangleLS[1]) - dvec3(triangleLS[0]);
     dvec3 edge2 = dvec3(triangleLS[2]) - dvec3(triangleLS[0]);
-    double slope = dot(cross(edge1, edge2), direction);
+    double slope = dot(cross(edge1, edge2), ray.directionLS);
     if (slope == 0.0) return dvec3(1.0, 0.0, 0.0); // seen exactly edge-on: nothing to be met
-    dvec3 moment = cross(direction, corner);
+    dvec3 moment = cross(ray.directionLS, dvec3(triangleLS[0]) - ray.originLS);
     double weight1 = -dot(edge2, moment) / slope;
     double weight2 = dot(edge1, moment) / slope;
     return dvec3(1.0 - weight1 - weight2, weight1, weight2);
 }
 
 #if HAS_MIXED_FILTERS
-// Change of those weights to the next pixel, along a change of the pixel's ray: the quotient rule on Cramer's.
-dvec3 triangleWeightsChange(vec2 pixel, dvec3 weights, dvec3 rayChange)
+// Change of those weights to the next pixel, whose ray lies `acrossChange` beside, a metre ahead of the eye or anywhere:
+// the quotient rule on Cramer's.
+dvec3 triangleWeightsChange(vec2 pixel, dvec3 weights, dvec3 acrossChange)
 {
-    dvec3 ray = dvec3(frame.rayOriginLS.xyz) + double(pixel.x) * dvec3(frame.rayDxLS.xyz)
-                + double(pixel.y) * dvec3(frame.rayDyLS.xyz);
-    bool parallelRays = frame.forwardLS.w != 0.0;
-    dvec3 direction = parallelRays ? dvec3(frame.forwardLS.xyz) : ray;
+    PixelRay ray = pixelRay(pixel);
+    dvec2 spread = dvec2(raySpread());
     dvec3 edge1 = dvec3(triangleLS[1]) - dvec3(triangleLS[0]);
     dvec3 edge2 = dvec3(triangleLS[2]) - dvec3(triangleLS[0]);
     dvec3 area = cross(edge1, edge2);
-    double slope = dot(area, direction);
+    double slope = dot(area, ray.directionLS);
     if (slope == 0.0) return dvec3(0.0);
-    dvec3 across = parallelRays ? cross(rayChange, direction) : cross(rayChange, dvec3(triangleLS[0]));
-    double slopeChange = parallelRays ? 0.0 : dot(area, rayChange);
-    double change1 = (-dot(edge2, across) - weights.y * slopeChange) / slope;
-    double change2 = (dot(edge1, across) - weights.z * slopeChange) / slope;
+    dvec3 momentChange = spread.y * cross(acrossChange, dvec3(triangleLS[0]) - ray.originLS)
+                         - spread.x * cross(ray.directionLS, acrossChange);
+    double slopeChange = spread.y * dot(area, acrossChange);
+    double change1 = (-dot(edge2, momentChange) - weights.y * slopeChange) / slope;
+    double change2 = (dot(edge1, momentChange) - weights.z * slopeChange) / slope;
     return dvec3(-change1 - change2, change1, change2);
 }
 #endif
