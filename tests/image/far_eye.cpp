@@ -10,6 +10,7 @@
 #include "validation/ErrorFigures.h"
 #include "validation/ReferencePicture.h"
 #include "validation/Rendering.h"
+#include "validation/ShownTriangles.h"
 #include "validation/Tolerance.h"
 #include "validation/stress/StressScene.h"
 
@@ -28,7 +29,7 @@ protected:
         SCOPED_TRACE(what);
         recipes::Renderer renderer(context(), scene);
         const validation::ReferencePicture truth = validation::referencePicture(scene, settings_);
-        const std::vector<std::uint8_t> excluded = validation::differingTriangles(renderer, settings_, truth.ids);
+        const std::vector<std::uint8_t> excluded = validation::shownTriangles(renderer, settings_, truth.ids).excluded;
         std::vector<float> first;
         for (const Technique technique : kTechniques) {
             const recipes::RenderedFrame frame = renderer.render(technique, settings_);
