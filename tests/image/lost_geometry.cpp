@@ -86,7 +86,11 @@ TEST_F(LostGeometryTest, compareNeverHoldsWhereAnInstanceOfTheHallIsDropped) {
     const scenes::Scene scene = scenes::loadScene("hall");
     const frame::FrameSettings settings = exactOfSize(160, 90);
     const std::vector<reference::Ids> ids = validation::referencePicture(scene, settings).ids;
-    for (const std::uint32_t instance : {5u, 12u, 30u}) {
+    std::size_t seen = 0;
+    for (const std::uint32_t instance : {4u, 5u, 11u, 12u, 29u, 30u}) {
+        if (std::none_of(ids.begin(), ids.end(), [&](const reference::Ids& own) { return own.object == instance + 1; }))
+            continue; // hidden
+        ++seen;
         const ShownTriangles found = shown(scene, settings, ids, Without(instance).tree());
         ASSERT_FALSE(found.lost.empty()) << instance;
         EXPECT_EQ(found.lost.front().instance, instance);
@@ -96,6 +100,7 @@ TEST_F(LostGeometryTest, compareNeverHoldsWhereAnInstanceOfTheHallIsDropped) {
         EXPECT_FALSE(verdict.ok);
         EXPECT_THAT(verdict.missed, testing::ElementsAre(testing::HasSubstr(fmt::format("instance {} ", instance))));
     }
+    EXPECT_GE(seen, 3u);
 }
 
 /// The stress floor, seen straight from above, with a mesh 10 cm above it. Metres are pixels / (height / 2).

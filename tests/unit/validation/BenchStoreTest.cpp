@@ -193,7 +193,7 @@ TEST_F(BenchStoring, damagedFilesAreAlwaysNamedWithARemedyInWordsOfOurOwn) {
     EXPECT_THAT(read("run.json", changed("\"hall\"", "null")), field);
     EXPECT_THAT(read("run.json", changed("\"shard\": [\n  1", "\"shard\": [\n  0")),
                 HasSubstr("there is no shard 0/1"));
-    EXPECT_THAT(read("run.json", changed("\"schema\": 2", "\"schema\": 1")), HasSubstr("another version of tessera"));
+    EXPECT_THAT(read("run.json", changed("\"schema\": 3", "\"schema\": 2")), HasSubstr("another version of tessera"));
     EXPECT_THAT(read("run.json", "{"), testing::AllOf(whole, HasSubstr("to measure all of it again")));
 }
 
