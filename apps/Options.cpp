@@ -261,7 +261,7 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     command.add_flag("--no-default-light", options.noDefaultLight, "Leaves a scene without lights dark")
         ->group("Frame");
     text("--memory-limit", options.memoryLimit, "The most memory that reading a scene may take [half of the machine's]",
-         "SIZE");
+         "SIZE", "Reading");
     addPoint(command, "--eye", options.pose.eyeWS, "Moves the camera there; alone it looks the same way", "X,Y,Z")
         ->group("Camera");
     addPoint(command, "--target", options.pose.targetWS, "Turns the camera to look there", "X,Y,Z")->group("Camera");

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "scenes/Limits.h"
+
 namespace tessera::viewer {
 namespace {
 
@@ -16,7 +18,7 @@ constexpr double kNearShare = 0.01;
 double nearMetresOf(const CameraPose& pose) {
     if (pose.focusMetres >= pose.nearFocusMetres) return pose.nearMetres;
     const double share = std::max(pose.nearMetres / pose.nearFocusMetres, kNearShare);
-    return std::min(pose.nearMetres, share * pose.focusMetres);
+    return std::min(pose.nearMetres, std::max(share * pose.focusMetres, scenes::kNearestPlaneMetres));
 }
 
 double focusOf(const scenes::Camera& camera, const scenes::Box3& boundsWS) {

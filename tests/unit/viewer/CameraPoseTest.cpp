@@ -1,6 +1,7 @@
 #include <numbers>
 
 #include "scenes/Error.h"
+#include "scenes/Limits.h"
 #include "tests/unit/viewer/CameraTest.h"
 #include "viewer/camera/FlyCamera.h"
 #include "viewer/camera/OrbitCamera.h"
@@ -80,7 +81,8 @@ TEST(CameraPose, zoomingInNeverCutsHolesIntoWhatIsInFocus) {
         const double share = std::max(nearMetres / pose.focusMetres, 0.01);
         for (int i = 0; i < 60; ++i) {
             pose.focusMetres *= 0.5;
-            EXPECT_LE(cameraAt(pose, start).nearMetres, share * pose.focusMetres * (1.0 + 1e-12));
+            EXPECT_LE(cameraAt(pose, start).nearMetres,
+                      std::max(share * pose.focusMetres * (1.0 + 1e-12), scenes::kNearestPlaneMetres));
             EXPECT_LE(cameraAt(pose, start).nearMetres, nearMetres);
         }
     }
