@@ -36,13 +36,9 @@ bool isSupported(std::string_view extension) {
 }
 
 Json parseDocument(const std::string& text, const std::string& file) {
-    const auto limitDepth = [&](int depth, Json::parse_event_t, Json&) {
-        if (depth > kMaxJsonDepth)
-            throw InputError(fmt::format("{}: the JSON nests deeper than {}", file, kMaxJsonDepth));
-        return true;
-    };
+    if (nestsTooDeep(text)) throw InputError(fmt::format("{}: the JSON nests deeper than {}", file, kMaxJsonDepth));
     try {
-        return Json::parse(text, limitDepth);
+        return Json::parse(text);
     } catch (const Json::exception& error) {
         std::string what = error.what(); // "[json.exception.parse_error.101] parse error at line ..."
         if (const std::size_t end = what.find("] "); what.starts_with('[') && end != std::string::npos)

@@ -90,25 +90,40 @@ private:
     std::vector<Level> open_;
 };
 
+/// Calls `look` with every character that is not part of a string.
+template <typename Look>
+void eachOutsideStrings(std::string_view text, Look&& look) {
+    bool inString = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"') inString = !inString;
+        if (inString && c == '\\') ++i;
+        if (!inString) look(c);
+    }
+}
+
 } // namespace
+
+bool nestsTooDeep(std::string_view text) {
+    int depth = 0;
+    bool isTooDeep = false;
+    eachOutsideStrings(text, [&](char c) {
+        if (c == '{' || c == '[') isTooDeep = ++depth > kMaxJsonDepth || isTooDeep;
+        if (c == '}' || c == ']') --depth;
+    });
+    return isTooDeep;
+}
 
 std::uint64_t parsedJsonBytes(std::string_view text) {
     // Strings stand in the document once; the rest is one value after each of these, twice over while an array grows,
     // and an object's members are nodes of a tree.
     constexpr std::uint64_t kValueBytes = 2 * sizeof(json), kObjectBytes = 64, kMemberBytes = 96;
     std::uint64_t bytes = text.size() + kValueBytes;
-    bool inString = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (c == '"') inString = !inString;
-        if (inString) {
-            if (c == '\\') ++i;
-            continue;
-        }
+    eachOutsideStrings(text, [&](char c) {
         if (c == ',' || c == '[') bytes += kValueBytes;
         if (c == '{') bytes += kValueBytes + kObjectBytes;
         if (c == ':') bytes += kMemberBytes;
-    }
+    });
     return bytes;
 }
 

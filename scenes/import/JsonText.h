@@ -19,6 +19,10 @@ nlohmann::json parseJson(std::string_view text, const std::filesystem::path& fil
 /// choose.
 inline constexpr int kMaxJsonDepth = 64;
 
+/// Whether brackets of a text nest deeper than kMaxJsonDepth. The library's own way to ask, a callback for each value,
+/// looks through all of an array for every element.
+bool nestsTooDeep(std::string_view text);
+
 /// At most what a parsed document of this text takes.
 std::uint64_t parsedJsonBytes(std::string_view text);
 
