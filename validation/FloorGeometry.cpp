@@ -28,8 +28,9 @@ FloorGeometry::FloorGeometry(recipes::Renderer& renderer, const frame::FrameSett
 void FloorGeometry::draw(const glm::dvec3& eyeOffsetWS) {
     frame::FrameSettings settings = spec_.settings;
     settings.eyeOffsetWS += eyeOffsetWS;
-    const frame::CameraView view = frame::makeCameraView(recipes::frameCamera(renderer_.scene(), settings),
-                                                         settings.sizePixels, settings.space, glm::vec3(0.0f), renderer_.bounds());
+    const frame::CameraView view =
+        frame::makeCameraView(recipes::frameCamera(renderer_.scene(), settings), settings.sizePixels, settings.space,
+                              glm::vec3(0.0f), renderer_.bounds());
     frame::SceneGpu& scene = renderer_.sceneGpu(spec_);
     scene.setView(view);
     frameConstants_.uploadValue(view.constants);

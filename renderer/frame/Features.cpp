@@ -1,7 +1,7 @@
 #include "renderer/frame/Features.h"
 
-#include "scenes/InUse.h"
 #include "renderer/gpu/Sampler.h"
+#include "scenes/InUse.h"
 #include "shaders/shared/material.h"
 
 namespace tessera::frame {
