@@ -35,15 +35,15 @@ struct SceneBars {
     double p999Rel, relMse, bias, excluded;
 };
 constexpr SceneBars kSmallBars[] = {
-    {"hall", 160, 90, 1e-3, 2.5e-9, 7e-6, 0.015},   {"spheres", 160, 90, 1e-4, 1.5e-11, 7e-7, 0.012},
-    {"models", 160, 90, 5e-4, 6e-10, 5e-6, 0.005},  {"lattice", 160, 90, 4e-4, 4e-10, 1.2e-5, 0.008},
-    {"room", 160, 90, 6e-6, 5e-13, 1.5e-7, 0.0003}, {"head", 160, 90, 6e-5, 6e-12, 7e-7, 0.003},
+    {"hall", 160, 90, 1e-3, 1.5e-9, 2e-5, 0.015},   {"spheres", 160, 90, 1e-4, 6e-12, 7e-7, 0.012},
+    {"models", 160, 90, 5e-4, 6e-10, 5e-6, 0.005},  {"lattice", 160, 90, 4e-4, 1.5e-10, 1.2e-5, 0.008},
+    {"room", 160, 90, 6e-6, 5e-13, 1.5e-7, 0.0003}, {"head", 160, 90, 1.5e-4, 1.5e-11, 1e-6, 0.003},
 };
 /// At the size at which the programs render by themselves. One sharp highlight decides the bias of spheres.
 constexpr SceneBars kDefaultBars[] = {
     {"hall", 1280, 720, 1.2e-3, 3e-9, 3e-6, 0.002},    {"spheres", 1280, 720, 1.2e-4, 5e-11, 1e-4, 0.0015},
     {"models", 1280, 720, 4e-4, 5e-9, 5e-7, 0.0006},   {"lattice", 1280, 720, 4e-4, 2e-10, 2.5e-6, 0.001},
-    {"room", 1280, 720, 6e-6, 4e-13, 1.2e-7, 0.00005}, {"head", 1280, 720, 6e-5, 1.2e-11, 6e-7, 0.0005},
+    {"room", 1280, 720, 6e-6, 4e-13, 1.2e-7, 0.00005}, {"head", 1280, 720, 1.5e-4, 4e-11, 1e-6, 0.0005},
 };
 
 class Reference : public test::GlTest {
@@ -91,7 +91,8 @@ protected:
         EXPECT_LE(std::abs(figures.bias), bars.bias);
         EXPECT_LE(figures.excluded, bars.excluded);
         // A bar that has become this wide no longer says what is reached: lower it. Sums of errors with signs and
-        // counts of single pixels may be small by chance.
+        // counts of single pixels may be small by chance, and over a million pixels a single one may decide relMse.
+        if (bars.width > 160) return;
         EXPECT_GE(figures.p999Rel, 0.1 * bars.p999Rel);
         EXPECT_GE(figures.relMse, 0.1 * bars.relMse);
     }
