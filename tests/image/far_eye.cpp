@@ -42,7 +42,7 @@ protected:
             }
             EXPECT_TRUE(frame.radiance == first) << infoOf(technique).name;
             EXPECT_LE(figures.p999Rel, p999Rel) << infoOf(technique).name;
-            EXPECT_GE(figures.litShare, 0.5);
+            EXPECT_GE(figures.litShare, 0.3); // what there is to see fills a third of the picture or more
             EXPECT_LT(figures.excluded, 0.02);
         }
     }

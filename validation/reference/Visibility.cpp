@@ -1,6 +1,7 @@
 #include "validation/reference/Visibility.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include <embree3/rtcore.h>
@@ -18,6 +19,39 @@ struct ReleaseScene {
 };
 using Device = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 using Tree = std::unique_ptr<RTCSceneTy, ReleaseScene>;
+
+/// Where Embree's single precision has its origin, and how far around it everything lies. From a far eye that is the
+/// middle of what there is to see, else the eye: the digits are where the triangles are.
+struct Anchor {
+    glm::dvec3 centreRel{0.0};
+    double radiusMetres = 0.0; ///< 0 at the eye
+
+    explicit Anchor(const Objects& objects) {
+        glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+        for (const auto* list : {&objects.opaque(), &objects.transparent()}) {
+            for (const Object& object : *list) {
+                for (const glm::vec3& vertexOS : object.mesh->positionsOS) {
+                    const glm::dvec3 vertexRel(object.relFromObject * glm::dvec4(glm::dvec3(vertexOS), 1.0));
+                    low = glm::min(low, vertexRel);
+                    high = glm::max(high, vertexRel);
+                }
+            }
+        }
+        const double radius = 0.5 * glm::length(high - low);
+        const glm::dvec3 middleRel = 0.5 * (low + high);
+        if (!(glm::length(middleRel) > 2.0 * radius)) return;
+        centreRel = middleRel;
+        radiusMetres = radius;
+    }
+
+    /// Where along the ray everything still lies ahead.
+    double startOf(const Ray& ray) const {
+        if (radiusMetres == 0.0) return 0.0;
+        const double length = glm::length(ray.direction);
+        const double nearest = glm::dot(centreRel - ray.originRel, ray.direction) / (length * length);
+        return std::max(0.0, nearest - 1.01 * radiusMetres / length);
+    }
+};
 
 namespace {
 
@@ -61,7 +95,7 @@ void judgeCandidate(const RTCFilterFunctionNArguments* arguments) {
         query.nearest = hit;
 }
 
-Tree makeTree(RTCDevice device, const std::vector<Object>& objects) {
+Tree makeTree(RTCDevice device, const std::vector<Object>& objects, const Anchor& anchor) {
     Tree tree(rtcNewScene(device));
     throwIfFailed(device, "it makes a scene");
     rtcSetSceneFlags(tree.get(), RTC_SCENE_FLAG_ROBUST); // rays along shared edges slip through neither triangle
@@ -78,7 +112,7 @@ Tree makeTree(RTCDevice device, const std::vector<Object>& objects) {
         }
         for (const glm::vec3& vertexOS : object.mesh->positionsOS) {
             const glm::dvec4 positionRel = object.relFromObject * glm::dvec4(glm::dvec3(vertexOS), 1.0);
-            for (int axis = 0; axis < 3; ++axis) *position++ = float(positionRel[axis]);
+            for (int axis = 0; axis < 3; ++axis) *position++ = float(positionRel[axis] - anchor.centreRel[axis]);
         }
         std::copy(object.mesh->indices.begin(), object.mesh->indices.end(), index);
         rtcSetGeometryUserData(geometry, const_cast<Object*>(&object));
@@ -95,17 +129,18 @@ Tree makeTree(RTCDevice device, const std::vector<Object>& objects) {
 /// Embree's single precision may place a hit this share of its depth off; the double one decides.
 constexpr double kDepthSlack = 1e-4;
 
-void trace(RTCScene tree, Query& query) {
+void trace(RTCScene tree, const Anchor& anchor, Query& query) {
     RTCRayHit rayHit{};
-    const glm::vec3 origin(query.ray->originRel), direction(query.ray->direction);
+    const double start = anchor.startOf(*query.ray);
+    const glm::vec3 origin(query.ray->at(start) - anchor.centreRel), direction(query.ray->direction);
     rayHit.ray.org_x = origin.x;
     rayHit.ray.org_y = origin.y;
     rayHit.ray.org_z = origin.z;
     rayHit.ray.dir_x = direction.x;
     rayHit.ray.dir_y = direction.y;
     rayHit.ray.dir_z = direction.z;
-    rayHit.ray.tnear = float(query.nearMetres * (1.0 - kDepthSlack));
-    rayHit.ray.tfar = float(query.farMetres * (1.0 + kDepthSlack));
+    rayHit.ray.tnear = float(std::max(0.0, query.nearMetres * (1.0 - kDepthSlack) - start));
+    rayHit.ray.tfar = float(query.farMetres * (1.0 + kDepthSlack) - start);
     rayHit.ray.mask = ~0u;
     rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -118,15 +153,17 @@ struct Visibility::Trees {
     const Objects& objects;
     const CameraRays& rays;
     const Textures& textures;
+    Anchor anchor;
     Device device;
     Tree opaque, transparent;
 };
 
 Visibility::Visibility(const Objects& objects, const CameraRays& rays, const Textures& textures)
-    : trees_(new Trees{objects, rays, textures, Device(rtcNewDevice(nullptr)), {}, {}}) {
+    : trees_(new Trees{objects, rays, textures, Anchor(objects), Device(rtcNewDevice(nullptr)), {}, {}}) {
     if (!trees_->device) throw std::runtime_error("Embree, which traces the reference renderer's rays, does not start");
-    trees_->opaque = makeTree(trees_->device.get(), objects.opaque());
-    if (!objects.transparent().empty()) trees_->transparent = makeTree(trees_->device.get(), objects.transparent());
+    trees_->opaque = makeTree(trees_->device.get(), objects.opaque(), trees_->anchor);
+    if (!objects.transparent().empty())
+        trees_->transparent = makeTree(trees_->device.get(), objects.transparent(), trees_->anchor);
 }
 
 Visibility::~Visibility() = default;
@@ -138,7 +175,7 @@ std::optional<Hit> Visibility::nearestOpaque(const Ray& ray) const {
     query.textures = &trees_->textures;
     query.nearMetres = trees_->rays.nearMetres();
     query.farMetres = trees_->rays.farMetres();
-    trace(trees_->opaque.get(), query);
+    trace(trees_->opaque.get(), trees_->anchor, query);
     return query.nearest;
 }
 
@@ -152,7 +189,7 @@ std::vector<Hit> Visibility::transparentBefore(const Ray& ray, double depthMetre
     query.nearMetres = trees_->rays.nearMetres();
     query.farMetres = std::min(depthMetres, trees_->rays.farMetres());
     query.all = &hits;
-    trace(trees_->transparent.get(), query);
+    trace(trees_->transparent.get(), trees_->anchor, query);
     // Objects lie in their order of drawing, so their addresses tell it; Embree may offer a candidate twice.
     const auto drawnBefore = [](const Hit& a, const Hit& b) {
         return std::pair(a.object, a.triangle) < std::pair(b.object, b.triangle);
