@@ -91,7 +91,8 @@ TEST_F(BadOptions, lengthsBeyondThoseOfSinglePrecisionAreAlwaysRefused) {
     expectRefused({"--eye", "1e30,0,0"}, {"more than 1e+15 m from the origin"});
     folder_.write("vast.json",
                   R"({"tessera": 1, "include": [{"file": "builtin:room", "transform": {"scale": 1e30}}]})");
-    expectError(kBadInput, {"render", "vast.json", "-o", "a.png"}, {"vast.json", "more than 1e+15 m from the origin"});
+    expectError(kBadInput, {"render", "vast.json", "-o", "a.png"},
+                {"scene 'vast'", "more than 1e+15 m from the origin"});
 }
 
 TEST_F(BadOptions, lightsThatASceneCannotHaveAreAlwaysRefused) {
