@@ -131,7 +131,7 @@ TEST_F(BadScenes, aBrokenPngIsAlwaysOneLine) {
         std::string bytes = whole;
         bytes[harmed] = char(bytes[harmed] ^ 0x55);
         folder_.write("b.png", bytes);
-        expectRefused("m.obj", {"b.png", "broken"});
+        expectError(kBadInput, {"render", "m.obj", "-o", "a.png"}, {"m.mtl", "b.png", "broken"});
     }
 }
 
