@@ -183,7 +183,9 @@ constexpr Mutant kMutants[] = {
      "!= 0 ? 1.0 : 1.0"},
 };
 
-TEST_F(TextureFilters, aFaultAlwaysMissesTheReference) {
+using TextureFiltersSlow = TextureFilters;
+
+TEST_F(TextureFiltersSlow, aFaultAlwaysMissesTheReference) {
     // Every level from magnified to minified; and one between the two limits of magnification.
     const scenes::Scene slanted = wall(kLayouts[std::size(kLayouts) - 1]), little = wall(kLayouts[1]);
     for (const Mutant& mutant : kMutants) {
