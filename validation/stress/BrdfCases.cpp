@@ -120,6 +120,7 @@ shader::Defines definesOf(scenes::MaterialModel model) {
     material.sheenColor = glm::vec3(0.5f);
     scene.materials = {material};
     scene.meshes.resize(1);
+    scene.meshes[0].indices = {0, 0, 0}; // what draws nothing has no features
     scene.nodes.resize(1);
     scene.nodes[0].instances = {{0, 0}};
     shader::Defines defines = frame::featureDefines(frame::materialFeatures(scene));
