@@ -12,7 +12,7 @@ namespace tessera::test {
 struct ProcessOptions {
     std::filesystem::path folder;                   ///< working directory; empty: this process's own
     std::map<std::string, std::string> environment; ///< set on top of this process's own
-    double timeoutSeconds = 60.0;                   ///< beyond it the program is killed and std::runtime_error thrown
+    double timeoutSeconds = 180.0;                  ///< beyond it the program is killed and std::runtime_error thrown
 };
 
 struct ProcessResult {
