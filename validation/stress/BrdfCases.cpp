@@ -32,7 +32,7 @@ constexpr const char* kReason =
 /// A batch as both sides take it: each surface is a triangle whose corners are one vertex.
 struct Surfaces {
     scenes::Mesh mesh;
-    std::vector<glm::dvec4> tangents;
+    std::vector<glm::dvec4> tangents; ///< by index
     std::vector<StressView> views;
 
     void add(const StressView& view) {
@@ -41,7 +41,7 @@ struct Surfaces {
         mesh.positionsOS.emplace_back(0.0f);
         mesh.normalsOS.push_back(view.normal);
         mesh.tangentsOS.emplace_back(view.tangent, 1.0f);
-        tangents.emplace_back(glm::dvec4(mesh.tangentsOS.back()));
+        tangents.insert(tangents.end(), 3, glm::dvec4(mesh.tangentsOS.back()));
         mesh.indices.insert(mesh.indices.end(), 3, vertex);
     }
     std::vector<glm::vec4> inputs() const {
