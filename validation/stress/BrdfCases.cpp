@@ -77,8 +77,9 @@ double weightOf(const scenes::Material& material, double sharpness, const refere
     const double cosLight = std::abs(directions.cosLight), cosView = std::abs(directions.cosView);
     const double apart = glm::length(directions.toLight + directions.toViewer);
     if (cosLight < kUndecided || cosView < kUndecided || apart < 1e-5) return -1.0;
-    double weight = std::min(1.0, sharpness / 0.002) * std::min(1.0, cosLight / 1e-3) * std::min(1.0, cosView / 1e-3) *
-                    std::min(1.0, apart * apart);
+    double weight = std::min(1.0, sharpness / 0.002) * std::min(1.0, cosLight / 1e-3) * std::min(1.0, cosView / 1e-3);
+    // Lambert's law knows no half vector: it is right where l = -v, too.
+    if (material.model != scenes::MaterialModel::Lambert) weight *= std::min(1.0, apart * apart);
     const double azimuth = azimuthWeight(material, directions);
     if (azimuth < 0.0) return -1.0;
     weight *= azimuth;
