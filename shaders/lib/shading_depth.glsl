@@ -19,6 +19,8 @@ float shadingDepth()
 #else
 float shadingDepth()
 {
-    return gl_FragCoord.z;
+    // As the depth buffer holds it: where the near plane cuts a triangle, rounding may leave it beyond 0 to 1.
+    precise float depth = clamp(gl_FragCoord.z, 0.0, 1.0);
+    return depth;
 }
 #endif
