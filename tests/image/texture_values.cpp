@@ -199,6 +199,7 @@ TEST_F(ExactFilter, everyPairOfWrapModesAlwaysFindsAndBlendsItsOwnTexels) {
     settings.filter = frame::TextureFilter::Exact;
     Scene scene = texturedScene(flatScene(unlit()), TextureSlot::BaseColor, placeImage());
     scenes::TextureUse& use = scene.materials[0].texture(TextureSlot::BaseColor);
+    use.sampler.magnification = use.sampler.minification = scenes::Filter::Linear;
     // Pixel (x, y) reads the place (5x, 3y) + start: more than a period before the picture and after it, each way.
     const glm::dvec2 step(5.0, 3.0), size(kWidth, kHeight);
     constexpr scenes::Wrap kModes[] = {scenes::Wrap::Repeat, scenes::Wrap::ClampToEdge, scenes::Wrap::MirroredRepeat};

@@ -177,6 +177,10 @@ TEST_F(ViewValues, storedChannelsAreExactlyWhatIsInTheGBuffer) {
     for (scenes::Node& node : scene.nodes)
         for (scenes::MeshInstance& instance : node.instances) instance.material = int(scene.materials.size()) - 1;
     ASSERT_EQ(scene.materials.size(), 2u);
+    // Out of the picture, so that the first material is in use and the second one's number is 1.
+    scene.nodes.push_back(scene.nodes.back());
+    scene.nodes.back().instances.front().material = 0;
+    scene.nodes.back().parentFromNode[3] += glm::dvec4(100.0, 0.0, 0.0, 0.0);
     const auto stored = [&](frame::Channel channel, bool fourth, const frame::GBufferLayout& layout) {
         frame::FrameSettings settings;
         settings.layout = layout;
@@ -191,13 +195,14 @@ TEST_F(ViewValues, storedChannelsAreExactlyWhatIsInTheGBuffer) {
     scene.meshes[0].colors.assign(scene.meshes[0].positionsOS.size(), glm::vec4(1.0f));
     EXPECT_EQ(pixel(stored(frame::Channel::Normal, true, exact), 4, 4).r, 0.25f) << "alpha, where materials vary";
     // Fields as shares of their largest codes. The normal's are octahedral: 0 is the middle of an odd number of steps.
-    const float middle = 32767.0f / 65535.0f;
+    const float middle = 16383.0f / 32767.0f;
     EXPECT_EQ(pixel(stored(frame::Channel::Normal, false, packed), 4, 4), glm::vec4(middle, middle, 0, 1));
-    // The square root of the colour in 9 bits, the last code left out so that both ends are exact.
-    const glm::vec4 codes = pixel(stored(frame::Channel::Albedo, false, packed), 4, 4) * 511.0f;
-    EXPECT_NEAR(codes.r, 0.5 * 511.0, 1.0);
-    EXPECT_NEAR(codes.g, std::sqrt(0.5) * 511.0, 1.0);
-    EXPECT_NEAR(codes.b, 511.0, 1.0);
+    // The square root of the colour in 10 bits, of which 1020 steps, a multiple of five, are used; between two steps
+    // either is taken.
+    const glm::vec4 codes = pixel(stored(frame::Channel::Albedo, false, packed), 4, 4) * 1023.0f;
+    EXPECT_NEAR(codes.r, 0.5 * 1020.0, 1e-3);
+    EXPECT_NEAR(codes.g, std::sqrt(0.5) * 1020.0, 1.0);
+    EXPECT_NEAR(codes.b, 1020.0, 1e-3);
     for (const float code : {codes.r, codes.g, codes.b}) EXPECT_NEAR(code, std::round(code), 1e-4) << "a whole code";
 }
 
