@@ -109,11 +109,11 @@ constexpr GBufferLayout uniformLayout(Encoding encoding) {
     return layout;
 }
 
-// By Encoding. 99.9 % of the pixels: no step is a larger share of what it is a step of than that of k_s, where it
-// reflects 4 %, of which 1/60 or 1/15 in the root is 2/(60 x 0.2) or 2/(15 x 0.2). Bias: every field is right in the
-// mean, so what is left is of second order in the steps of alpha: a highlight's peak goes with 1/alpha^2, of which half
-// the second derivative is 3/alpha^4, and the variance of a dithered value is at most a quarter of the step's square.
-// At alpha 0.01.
+// By Encoding. 99.9 % of the pixels: the coarsest step, relative to the value, is that of k_s, where it reflects 4 %,
+// of which 1/60 or 1/15 in the root is 2/(60 x 0.2) or 2/(15 x 0.2). Bias: every field is right in the mean, so what is
+// left is of second order in the steps of alpha: a highlight's peak goes with 1/alpha^2, of which half the second
+// derivative is 3/alpha^4, and the variance of a dithered value is at most a quarter of the step's square. At alpha
+// 0.01.
 constexpr LayoutInfo kLayouts[] = {
     {"exact",
      "fp32 everywhere; deferred equals forward to the last bit",

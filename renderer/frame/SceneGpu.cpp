@@ -171,7 +171,10 @@ void SceneGpu::uploadTextures() {
                 bound_.push_back({white_.get(), nullptr});
             } else {
                 const bool srgb = slotIsSrgb(scenes::TextureSlot(slot)) && !shadersDecode(material, slot);
-                bound_.push_back({uploadImage(use.image, srgb), sampler(use.sampler)});
+                // Exact filtering fetches texels. A sampler would change nothing there but the number of programs that
+                // a driver compiles: llvmpipe compiles one for each.
+                const bool fetches = filter_ == TextureFilter::Exact;
+                bound_.push_back({uploadImage(use.image, srgb), fetches ? nullptr : sampler(use.sampler)});
             }
         }
     }

@@ -125,7 +125,7 @@ TEST_F(LightEdges, aLightThatReachesAPixelByAHairIsNeverMissing) {
 }
 
 TEST_F(LightEdges, aLightThatReachesAPixelByAHairIsNeverMissingWhereTheEyeIsFarAway) {
-    expectSound(80, [](std::uint64_t seed) { return std::pow(10.0, double(1 + seed % 6)); });
+    expectSound(40, [](std::uint64_t seed) { return std::pow(10.0, double(1 + seed % 6)); });
 }
 
 } // namespace

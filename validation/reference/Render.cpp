@@ -12,7 +12,7 @@
 
 namespace tessera::reference {
 
-/// Of this file alone, but a part of Probe, whose type has a name.
+/// Not in the anonymous namespace: Probe, which other files see, holds one.
 class Pixels {
 public:
     Pixels(const scenes::Scene& scene, const Settings& settings)

@@ -29,8 +29,8 @@ struct Layers {
     std::vector<Layer> transparent; ///< in the order in which they are blended
 };
 
-/// Below 2^16, so that sums of 256 of them are exact in single precision; of any two sets of triangles one pair in
-/// 65,536 has one sum.
+/// Below 2^16, so that sums of 256 of them are exact in single precision. Two sets of triangles have the same sum with
+/// probability 1/65,536.
 std::uint32_t transparentId(std::uint32_t objectNumber, std::uint32_t triangle);
 
 /// Values that a driver is free to show.
