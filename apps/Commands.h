@@ -18,6 +18,9 @@ void addStressCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 void addViewCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 void addDemoCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 
+/// What takes a technique calls the reference renderer.
+inline constexpr const char* kReferenceName = "reference";
+
 /// Exit codes of the documented command line.
 inline constexpr int kGood = 0;
 inline constexpr int kFailed = 1;

@@ -21,8 +21,6 @@ namespace tessera::app {
 
 namespace {
 
-constexpr const char* kReference = "reference";
-
 struct CompareOptions {
     FrameOptions frame;
     std::string techniques;
@@ -43,8 +41,8 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
 
 /// A technique's name, the reference, or the path of a picture that exists.
 validation::Truth truthNamed(const std::string& name) {
-    if (name == kReference) return validation::Reference{};
-    std::vector<std::string_view> names{kReference};
+    if (name == kReferenceName) return validation::Reference{};
+    std::vector<std::string_view> names{kReferenceName};
     for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
         if (info.name == name) return info.technique;
         names.push_back(info.name);

@@ -26,7 +26,6 @@ namespace tessera::app {
 namespace {
 
 constexpr double kFramesPerSecond = 30.0;
-constexpr const char* kReference = "reference";
 
 struct RenderOptions {
     FrameOptions frame;
@@ -109,7 +108,7 @@ void check(const RenderOptions& options) {
 int render(const RenderOptions& options, const GlobalOptions& global) {
     check(options);
     FrameOptions frame = options.frame;
-    const bool isReference = frame.technique == kReference;
+    const bool isReference = frame.technique == kReferenceName;
     if (isReference) frame.technique.reset();
     Request request = resolve(frame);
     requireNotRead(request.files, outputsOf(options));

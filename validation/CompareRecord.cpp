@@ -1,7 +1,6 @@
 #include "validation/CompareRecord.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,23 +13,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-Json number(std::optional<double> value) {
-    return value ? number(*value) : Json(nullptr);
-}
-
 double litCoveredShare(const ErrorFigures& figures) {
     return figures.compared > 0 ? double(figures.litCovered) / double(figures.compared) : 0.0;
 }
 
 Json toleranceJson(const Tolerance& tolerance) {
-    return {{"maxRel", number(tolerance.maxRel)},
-            {"bitEqual", number(tolerance.bitEqual)},
-            {"relMse", number(tolerance.relMse)},
-            {"p999Rel", number(tolerance.p999Rel)},
-            {"bias", number(tolerance.bias)}};
+    return {{"maxRel", figureJson(tolerance.maxRel)},
+            {"bitEqual", figureJson(tolerance.bitEqual)},
+            {"relMse", figureJson(tolerance.relMse)},
+            {"p999Rel", figureJson(tolerance.p999Rel)},
+            {"bias", figureJson(tolerance.bias)}};
 }
 
 /// A reason for every figure that is null.
@@ -56,24 +48,24 @@ Json pairJson(const ComparePair& pair) {
     const ErrorFigures& figures = pair.figures;
     Json json = {{"a", pair.a},
                  {"b", pair.b},
-                 {"maxAbs", number(figures.maxAbs)},
-                 {"maxRel", number(figures.maxRel)},
-                 {"rmse", number(figures.rmse)},
-                 {"relMse", number(figures.relMse)},
-                 {"p50Rel", number(figures.p50Rel)},
-                 {"p99Rel", number(figures.p99Rel)},
-                 {"p999Rel", number(figures.p999Rel)},
-                 {"bias", number(figures.bias)},
-                 {"bitEqual", number(figures.bitEqual)},
-                 {"flip", number(figures.flip)},
-                 {"psnr", number(figures.psnr)},
+                 {"maxAbs", figureJson(figures.maxAbs)},
+                 {"maxRel", figureJson(figures.maxRel)},
+                 {"rmse", figureJson(figures.rmse)},
+                 {"relMse", figureJson(figures.relMse)},
+                 {"p50Rel", figureJson(figures.p50Rel)},
+                 {"p99Rel", figureJson(figures.p99Rel)},
+                 {"p999Rel", figureJson(figures.p999Rel)},
+                 {"bias", figureJson(figures.bias)},
+                 {"bitEqual", figureJson(figures.bitEqual)},
+                 {"flip", figureJson(figures.flip)},
+                 {"psnr", figureJson(figures.psnr)},
                  {"nan", figures.bad.nan},
                  {"inf", figures.bad.infinite},
                  {"negative", figures.bad.negative},
-                 {"excluded", number(figures.excluded)},
-                 {"litShare", number(figures.litShare)},
-                 {"litCovered", number(litCoveredShare(figures))},
-                 {"meanLuminance", number(figures.meanLuminance)}};
+                 {"excluded", figureJson(figures.excluded)},
+                 {"litShare", figureJson(figures.litShare)},
+                 {"litCovered", figureJson(litCoveredShare(figures))},
+                 {"meanLuminance", figureJson(figures.meanLuminance)}};
     Json why = reasons(json, figures);
     if (pair.culling.empty()) why["culling"] = "every light is visited, or the picture came from elsewhere";
     json["tolerance"] = toleranceJson(pair.tolerance);
@@ -84,8 +76,8 @@ Json pairJson(const ComparePair& pair) {
     if (pair.channels.empty()) return json;
     for (const ChannelShare& channel : pair.channels) {
         json["channels"].push_back({{"channel", channel.channel},
-                                    {"relMseWithout", number(channel.relMseWithout)},
-                                    {"share", number(channel.share)}});
+                                    {"relMseWithout", figureJson(channel.relMseWithout)},
+                                    {"share", figureJson(channel.share)}});
     }
     return json;
 }
@@ -94,9 +86,9 @@ Json rangeTruncationJson(const RangeTruncation& truncation) {
     const ErrorFigures& figures = truncation.figures;
     Json json = {{"tolerance", truncation.tolerance},
                  {"technique", truncation.technique},
-                 {"bias", number(figures.bias)},
-                 {"relMse", number(figures.relMse)},
-                 {"p99Rel", number(figures.p99Rel)}};
+                 {"bias", figureJson(figures.bias)},
+                 {"relMse", figureJson(figures.relMse)},
+                 {"p99Rel", figureJson(figures.p99Rel)}};
     const Json why = reasons(json, figures);
     json["why"] = why;
     return json;
@@ -110,8 +102,7 @@ Json lostJson(const LostGeometry& lost) {
     return json;
 }
 
-constexpr std::size_t kColumns = 10;
-using Row = std::array<std::string, kColumns>;
+using Row = std::vector<std::string>;
 
 /// Equal bytes have no noise; what could not be compared has no figure.
 std::string psnrText(const ErrorFigures& figures) {
@@ -130,21 +121,6 @@ Row rowOf(const ComparePair& pair) {
             psnrText(figures),
             shareText(litCoveredShare(figures)),
             pair.verdict.ok ? "ok" : "MISSED"};
-}
-
-std::string textTable(const std::vector<Row>& rows) {
-    std::array<std::size_t, kColumns> widths{};
-    for (const Row& row : rows)
-        for (std::size_t column = 0; column < kColumns; ++column)
-            widths[column] = std::max(widths[column], row[column].size());
-    std::string text;
-    for (const Row& row : rows) {
-        text += fmt::format("{:<{}}", row[0], widths[0]);
-        for (std::size_t column = 1; column + 1 < kColumns; ++column)
-            text += fmt::format("  {:>{}}", row[column], widths[column]);
-        text += "  " + row.back() + "\n";
-    }
-    return text;
 }
 
 } // namespace
@@ -199,7 +175,7 @@ std::string compareTable(const CompareRecord& record) {
     const std::string samples = record.samples == 1 ? "" : fmt::format(", {} samples", record.samples);
     std::string text =
         fmt::format("{}  {}x{}{}  {}\n", record.scene, record.width, record.height, samples, record.renderer) +
-        textTable(rows);
+        textTable(rows, 1);
     if (record.excludesPixels && !record.pairs.empty())
         text += fmt::format("excluded: {} of the covered pixels, where rounding moves an edge\n",
                             shareText(record.pairs.front().figures.excluded));

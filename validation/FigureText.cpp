@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace tessera::validation {
 
@@ -21,6 +22,28 @@ std::string shareText(double share) {
 
 std::string decibelText(std::optional<double> decibel) {
     return decibel ? fmt::format("{:.1f} dB", *decibel) : "-";
+}
+
+nlohmann::ordered_json figureJson(std::optional<double> value) {
+    if (!value || !std::isfinite(*value)) return nullptr;
+    return *value;
+}
+
+std::string textTable(std::span<const std::vector<std::string>> rows, std::size_t leftColumns) {
+    if (rows.empty()) return {};
+    const std::size_t columns = rows.front().size();
+    std::vector<std::size_t> widths(columns);
+    for (const std::vector<std::string>& row : rows)
+        for (std::size_t column = 0; column < columns; ++column)
+            widths[column] = std::max(widths[column], row[column].size());
+    std::string text;
+    for (const std::vector<std::string>& row : rows) {
+        for (std::size_t column = 0; column + 1 < columns; ++column)
+            text += column < leftColumns ? fmt::format("{:<{}}  ", row[column], widths[column])
+                                         : fmt::format("{:>{}}  ", row[column], widths[column]);
+        text += row.back() + "\n";
+    }
+    return text;
 }
 
 } // namespace tessera::validation

@@ -1,6 +1,10 @@
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 namespace tessera::validation {
 
@@ -10,5 +14,10 @@ std::string figureText(double value);
 std::string shareText(double share);
 /// Decibels, or "-".
 std::string decibelText(std::optional<double> decibel);
+/// null for what is absent, and for what is not finite: JSON has no number for it.
+nlohmann::ordered_json figureJson(std::optional<double> value);
+
+/// Rows of equally many cells in aligned columns, the first `leftColumns` and the last one to the left.
+std::string textTable(std::span<const std::vector<std::string>> rows, std::size_t leftColumns);
 
 } // namespace tessera::validation

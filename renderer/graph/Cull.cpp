@@ -17,10 +17,6 @@ std::string listNames(const std::vector<std::string>& names, std::string_view co
     return text;
 }
 
-void addOnce(std::vector<std::string>& names, const std::string& name) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-}
-
 /// The passes that would have used what this write makes: its readers, and the pass that adds to it.
 std::vector<std::string> usersOf(const Graph& graph, const Flow& flow, std::uint32_t pass, const Graph::Use& use) {
     std::vector<std::string> users;

@@ -1,5 +1,7 @@
 #include "renderer/graph/Flow.h"
 
+#include <algorithm>
+
 namespace tessera::graph {
 
 Flow::Flow(const Graph& graph) {
@@ -24,6 +26,10 @@ std::optional<std::uint32_t> Flow::writer(std::uint32_t resource, std::uint32_t 
 std::span<const std::uint32_t> Flow::readers(std::uint32_t resource, std::uint32_t version) const {
     if (resource >= versions_.size() || version >= versions_[resource].size()) return {};
     return versions_[resource][version].readers;
+}
+
+void addOnce(std::vector<std::string>& names, const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
 } // namespace tessera::graph

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "renderer/graph/Graph.h"
@@ -25,5 +26,8 @@ private:
     };
     std::vector<std::vector<Version>> versions_; ///< [resource][version]
 };
+
+/// Appends a name to a list that lacks it.
+void addOnce(std::vector<std::string>& names, const std::string& name);
 
 } // namespace tessera::graph

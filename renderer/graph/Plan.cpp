@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "renderer/graph/Access.h"
+#include "renderer/graph/Flow.h"
 
 namespace tessera::graph {
 namespace {
@@ -19,10 +20,6 @@ std::vector<std::string> uniqueNames(const Graph& graph) {
         names.push_back(count == 1 ? resource.name : fmt::format("{} ({})", resource.name, count));
     }
     return names;
-}
-
-void addOnce(std::vector<std::string>& names, const std::string& name) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
 /// What a pass takes in; what it only reads back from itself is no input.

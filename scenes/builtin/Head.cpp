@@ -68,7 +68,7 @@ void addSpot(Scene& scene, const std::string& name, const glm::dvec3& positionWS
     scene.lights.push_back(light);
 }
 
-void addLights(Scene& scene) {
+void addStudioLights(Scene& scene) {
     const glm::dvec3 faceWS(0.0, 0.52, 0.0);
     addSpot(scene, "key", {-1.1, 1.35, 1.35}, faceWS, {1.0f, 0.88f, 0.74f}, 4.2f, 14.0f, 32.0f);
     addSpot(scene, "rim", {1.0, 1.2, -1.1}, faceWS, {0.62f, 0.78f, 1.0f}, 5.0f, 16.0f, 34.0f);
@@ -93,7 +93,7 @@ Scene makeHead(const LoadOptions& options) {
         addBust(scene);
     }
     addSurroundings(scene);
-    addLights(scene);
+    addStudioLights(scene);
     keepFirstLights(scene, options);
     addCamera(scene, "portrait", {0.33, 0.56, 1.5}, {0.0, 0.41, 0.0}, 29.0);
     addCamera(scene, "three-quarter", {1.2, 0.6, 1.0}, {0.0, 0.43, 0.0}, 32.0);

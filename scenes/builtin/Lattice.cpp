@@ -21,7 +21,7 @@ constexpr int kFloorQuads = 32;
 constexpr double kSphereRadiusMetres = 0.45;
 constexpr double kBoxHalfMetres = 0.35;
 constexpr int kFloorMaterial = 8;
-constexpr int kDefaultLights = 256;
+constexpr int kDefaultLatticeLights = 256;
 constexpr float kLightRangeMetres = 2.5f;
 constexpr std::uint32_t kLightSeed = 12345;
 
@@ -113,7 +113,7 @@ Scene makeLattice(const LoadOptions& options) {
     scene.options.sizePixels = glm::ivec2(1280, 720);
     addMaterials(scene);
     addSolids(scene);
-    addLights(scene, options.lights.value_or(kDefaultLights));
+    addLights(scene, options.lights.value_or(kDefaultLatticeLights));
     addCamera(scene, "overview", {0.0, 7.0, 9.0}, {0.0, 0.0, -1.0}, 45.0);
     scene.cameras.back().nearMetres = 0.1;
     scene.cameras.back().farMetres = 100.0;

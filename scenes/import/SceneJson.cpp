@@ -26,7 +26,6 @@ constexpr int kMostIncludes = 4096;
 constexpr std::size_t kMostNested = 64;
 constexpr int kVersion = 1;
 constexpr int kMostPixelsASide = 16384; ///< the largest target of current hardware
-constexpr std::string_view kBuiltin = "builtin:";
 
 /// How much of a scene its base made.
 struct BaseSize {
@@ -141,7 +140,7 @@ private:
         LoadOptions options;
         if (const auto lights = object.find("lights")) {
             options.lights = lights->integer(0, kMostLights);
-            if (!file.text().starts_with(kBuiltin))
+            if (!file.text().starts_with(kBuiltinPrefix))
                 lights->fail("only a built-in scene makes as many lights as it is asked for; remove it");
         }
         object.done("a base");
@@ -176,7 +175,8 @@ private:
     /// A file that is included again and again is read twice, and the second one kept for the rest.
     Scene loadPart(const JsonValue& name) {
         const std::string text = name.text();
-        const std::string file = text.starts_with(kBuiltin) ? text : resolveFile(name).lexically_normal().string();
+        const std::string file =
+            text.starts_with(kBuiltinPrefix) ? text : resolveFile(name).lexically_normal().string();
         Part& part = parts_[file];
         if (part.kept) {
             countIncludes(name, part.includes);
@@ -198,8 +198,8 @@ private:
     }
 
     Scene load(const JsonValue& name, const LoadOptions& options) {
-        if (const std::string text = name.text(); text.starts_with(kBuiltin))
-            return builtinCalled(name, text.substr(kBuiltin.size()), options);
+        if (const std::string text = name.text(); text.starts_with(kBuiltinPrefix))
+            return builtinCalled(name, text.substr(kBuiltinPrefix.size()), options);
         const std::filesystem::path file = resolveFile(name);
         std::string extension = file.extension().string();
         std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });

@@ -11,8 +11,7 @@ namespace tessera::scenes {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::string_view kBuiltin = "builtin:";
+using scenejson::kBuiltinPrefix;
 
 bool isDocument(const fs::path& file) {
     std::string extension = file.extension().string();
@@ -61,7 +60,7 @@ void addDocuments(const fs::path& file, std::vector<fs::path>& documents) {
     documents.push_back(file);
     const nlohmann::json document = documentOf(file);
     const auto follow = [&](const nlohmann::json& value, const char* key) {
-        if (value["file"].get<std::string>().starts_with(kBuiltin)) return;
+        if (value["file"].get<std::string>().starts_with(kBuiltinPrefix)) return;
         addDocuments(fileNamed(value, file, key), documents);
     };
     if (document.contains("base")) follow(document["base"], "base");
@@ -78,7 +77,7 @@ void followBases(fs::path file, SceneOrigin& origin) {
             for (const nlohmann::json& material : document["materials"]) // an upper document's stay
                 origin.replacedMaterials.try_emplace(material["replaces"].get<std::size_t>(), material.dump());
         const nlohmann::json& base = document["base"];
-        if (const std::string name = base["file"]; name.starts_with(kBuiltin)) {
+        if (const std::string name = base["file"]; name.starts_with(kBuiltinPrefix)) {
             origin.base = name;
             if (base.contains("lights")) origin.lights = base["lights"].get<int>();
             return;
@@ -99,7 +98,7 @@ SceneOrigin originOf(const std::string& nameOrPath, const LoadOptions& options, 
     origin.nodes = loaded.nodes.size();
     const auto isCalled = [&](const BuiltinScene& scene) { return scene.name == nameOrPath; };
     if (std::ranges::any_of(builtinScenes(), isCalled)) {
-        origin.base = std::string(kBuiltin) + nameOrPath;
+        origin.base = std::string(kBuiltinPrefix) + nameOrPath;
         origin.lights = options.lights;
     } else {
         followBases(nameOrPath, origin);

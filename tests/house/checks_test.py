@@ -7,9 +7,31 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 
+import check_batches
 import check_floors
 import check_packages
 import run_document
+
+
+class Batches(unittest.TestCase):
+    def faults(self, first, second, where=("apps/A.cpp", "apps/B.cpp")):
+        wrapped = [f"namespace tessera::app {{\nnamespace {{\n{text}\n}} // namespace\n}} // namespace tessera::app\n"
+                   for text in (first, second)]
+        return check_batches.faultsOf(dict(zip(where, wrapped)))
+
+    def testANameThatTwoSourcesOfATargetDefineIsNamedWithBothPlaces(self):
+        self.assertEqual(self.faults("constexpr int kSteps = 4;", "\nconstexpr double kSteps[] = {0.5};"),
+                         ["apps/B.cpp:4: kSteps has the name of that of apps/A.cpp:3, which may be compiled in one batch with it"])
+        for text in ("struct Row {", "template <class T>\nT sum(T a, T b = 0) {", "std::string sum(const std::vector<int>& a,\n   int b) {"):
+            self.assertEqual(len(self.faults(text, text)), 1, text)
+
+    def testOverloadsMembersDeclarationsAndOtherTargetsAreNoFaults(self):
+        self.assertEqual(self.faults("int sum(int a) {", "int sum(int a, int b) {"), [])
+        self.assertEqual(self.faults("class A {\nprivate:\n    int sum() { return 1; }\n};",
+                                     "class B {\nprivate:\n    int sum() { return 1; }\n};"), [])
+        self.assertEqual(self.faults("int sum(int a);", "int sum(int a);"), [])
+        self.assertEqual(self.faults('const char* kA = R"(\nvoid main() {\n)";', 'const char* kB = R"(\nvoid main() {\n)";'), [])
+        self.assertEqual(self.faults("struct Row {", "struct Row {", ("apps/A.cpp", "viewer/B.cpp")), [])
 
 
 class Floors(unittest.TestCase):

@@ -147,7 +147,7 @@ TEST_F(SurfaceValues, anObjectSpaceMapAlwaysTurnsWithItsObjectAndATangentSpaceMa
 }
 
 /// A normal that leans to the right and, more, upwards.
-constexpr std::array<int, 4> kTilted = {176, 208, 216, 255};
+constexpr std::array<int, 4> kTiltedTexel = {176, 208, 216, 255};
 
 TEST_F(SurfaceValues, aTangentSpaceMapAlwaysTiltsAlongItsTextureWhereverTheMirroringIs) {
     Material material;
@@ -155,13 +155,14 @@ TEST_F(SurfaceValues, aTangentSpaceMapAlwaysTiltsAlongItsTextureWhereverTheMirro
     const glm::dvec3 lightWS(0.8, 1.1, 1.0);
     for (const bool mirroredTexture : {false, true}) {
         // Tangent space has x along u and y along -v, which is up in all four of these.
-        glm::dvec3 normalWS = glm::normalize(glm::dvec3(kTilted[0], kTilted[1], kTilted[2]) * 2.0 / 255.0 - 1.0);
+        glm::dvec3 normalWS =
+            glm::normalize(glm::dvec3(kTiltedTexel[0], kTiltedTexel[1], kTiltedTexel[2]) * 2.0 / 255.0 - 1.0);
         if (mirroredTexture) normalWS.x = -normalWS.x;
         for (const bool mirroredNode : {false, true}) {
             for (const bool authored : {false, true}) {
                 SCOPED_TRACE(testing::Message() << "texture " << mirroredTexture << ", node " << mirroredNode
                                                 << ", authored tangents " << authored);
-                Scene scene = texturedScene(flatScene(material), TextureSlot::Normal, uniformImage(kTilted));
+                Scene scene = texturedScene(flatScene(material), TextureSlot::Normal, uniformImage(kTiltedTexel));
                 scene.lights = {test::pointLight(lightWS, 2.0f)};
                 scene.cameras[0].farMetres = 4.0; // an orthographic depth has steps of its range / 2^24
                 scenes::Mesh& mesh = scene.meshes[0];
@@ -209,14 +210,14 @@ TEST_F(SurfaceValues, aTransformOfANormalMapAlwaysTurnsAndMirrorsItsNormals) {
         for (const bool authored : {false, true}) {
             SCOPED_TRACE(testing::Message()
                          << each.scale.x << ' ' << each.scale.y << ' ' << each.degrees << ' ' << authored);
-            Scene scene = texturedScene(flatScene(material), TextureSlot::Normal, uniformImage(kTilted));
+            Scene scene = texturedScene(flatScene(material), TextureSlot::Normal, uniformImage(kTiltedTexel));
             scene.materials[0].texture(TextureSlot::Normal).transform = {{}, each.scale, glm::radians(each.degrees)};
             if (authored) scene.meshes[0].tangentsOS.assign(4, {1.0f, 0.0f, 0.0f, 1.0f});
             scenes::Light sun;
             sun.type = scenes::LightType::Directional;
             sun.directionWS = -sunWS;
             scene.lights = {sun};
-            const glm::dvec3 texel = glm::dvec3(kTilted[0], kTilted[1], kTilted[2]) * 2.0 / 255.0 - 1.0;
+            const glm::dvec3 texel = glm::dvec3(kTiltedTexel[0], kTiltedTexel[1], kTiltedTexel[2]) * 2.0 / 255.0 - 1.0;
             const glm::dvec3 normalWS =
                 glm::normalize(texel.x * each.alongU + texel.y * each.againstV + texel.z * glm::dvec3(0, 0, 1));
             EXPECT_NEAR(center(scene).r, std::max(0.0, glm::dot(normalWS, sunWS)), 2e-6); // fp32, and 90 degrees in it

@@ -163,7 +163,7 @@ TEST_F(TextureFilters, everyFilterWithEveryWrapModeAlwaysAgreesWithTheReference)
     }
 }
 
-struct Mutant {
+struct Fault {
     const char* fault;
     TextureFilter filter;
     const char* file; ///< below shaders/
@@ -171,7 +171,7 @@ struct Mutant {
     const char* to;
 };
 
-constexpr Mutant kMutants[] = {
+constexpr Fault kFaults[] = {
     {"no smaller levels", TextureFilter::Hardware, "lib/texture_filter.glsl", "texture(image, uv)",
      "textureLod(image, uv, 0.0)"},
     {"half a level too coarse", TextureFilter::Hardware, "lib/texture_filter.glsl", "texture(image, uv)",
@@ -191,14 +191,14 @@ using TextureFiltersSlow = TextureFilters;
 TEST_F(TextureFiltersSlow, aFaultAlwaysMissesTheReference) {
     // Every level from magnified to minified; and one between the two limits of magnification.
     const scenes::Scene slanted = wall(kLayouts[std::size(kLayouts) - 1]), little = wall(kLayouts[1]);
-    for (const Mutant& mutant : kMutants) {
-        SCOPED_TRACE(mutant.fault);
+    for (const Fault& fault : kFaults) {
+        SCOPED_TRACE(fault.fault);
         const test::ShaderMutant shaders;
-        shaders.replace(mutant.file, mutant.from, mutant.to);
+        shaders.replace(fault.file, fault.from, fault.to);
         const Judged found =
-            judged(mutant.filter == TextureFilter::Hardware ? slanted : little, mutant.filter, shaders.tree());
+            judged(fault.filter == TextureFilter::Hardware ? slanted : little, fault.filter, shaders.tree());
         EXPECT_FALSE(found.verdict.ok) << "p99.9 " << found.figures.p999Rel << ", relMse " << found.figures.relMse;
-        fmt::print("{:<36} {}\n", mutant.fault, found.verdict.ok ? "NOT SEEN" : found.verdict.missed.front());
+        fmt::print("{:<36} {}\n", fault.fault, found.verdict.ok ? "NOT SEEN" : found.verdict.missed.front());
     }
 }
 

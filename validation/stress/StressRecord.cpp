@@ -1,7 +1,6 @@
 #include "validation/stress/StressRecord.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -15,10 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 std::string techniqueName(const StressResult& result) {
     return result.technique ? std::string(infoOf(*result.technique).name) : "";
 }
@@ -31,11 +26,11 @@ Json resultJson(const StressResult& result) {
                  {"nan", figures.nan},
                  {"inf", figures.infinite},
                  {"negative", figures.negative},
-                 {"worstRel", number(figures.worstRel)},
+                 {"worstRel", figureJson(figures.worstRel)},
                  {"tolerance", result.tolerance},
                  {"ok", result.ok()},
                  {"toleranceOf", result.bound == StressBound::WorstRel ? "worstRel" : "relMse"},
-                 {"relMse", result.technique ? number(figures.worstRelMse) : Json(nullptr)},
+                 {"relMse", result.technique ? figureJson(figures.worstRelMse) : Json(nullptr)},
                  {"undecided", figures.undecided},
                  {"where", figures.where},
                  {"missed", result.missed()},
@@ -52,8 +47,7 @@ Json resultJson(const StressResult& result) {
     return json;
 }
 
-constexpr std::size_t kColumns = 7;
-using Row = std::array<std::string, kColumns>;
+using Row = std::vector<std::string>;
 
 Row rowOf(const StressResult& result) {
     const StressFigures& figures = result.figures;
@@ -64,19 +58,6 @@ Row rowOf(const StressResult& result) {
             (result.bound == StressBound::RelMse ? "relMSE " : "") + figureText(result.held()),
             figureText(result.tolerance),
             result.ok() ? "ok" : "MISSED"};
-}
-
-std::string textTable(const std::vector<Row>& rows) {
-    std::array<std::size_t, kColumns> widths{};
-    for (const Row& row : rows)
-        for (std::size_t c = 0; c < kColumns; ++c) widths[c] = std::max(widths[c], row[c].size());
-    std::string text;
-    for (const Row& row : rows) {
-        text += fmt::format("{:<{}}  {:<{}}", row[0], widths[0], row[1], widths[1]);
-        for (std::size_t c = 2; c + 1 < kColumns; ++c) text += fmt::format("  {:>{}}", row[c], widths[c]);
-        text += "  " + row.back() + "\n";
-    }
-    return text;
 }
 
 } // namespace
@@ -100,7 +81,7 @@ std::string stressJson(const StressRecord& record) {
 std::string stressTable(const StressRecord& record) {
     std::vector<Row> rows = {{"case", "technique", "samples", "nan/inf/neg", "worst rel", "at most", "verdict"}};
     for (const StressResult& result : record.results) rows.push_back(rowOf(result));
-    std::string text = record.renderer + "\n" + textTable(rows);
+    std::string text = record.renderer + "\n" + textTable(rows, 2);
     std::size_t missedCount = 0;
     for (const StressResult& result : record.results) {
         missedCount += !result.ok();

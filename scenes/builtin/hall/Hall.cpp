@@ -15,7 +15,7 @@ namespace {
 
 using namespace hall;
 
-constexpr int kDefaultLights = 256;
+constexpr int kDefaultHallLights = 256;
 
 glm::dmat4 placed(double x, double y, double z, double turnRadians = 0.0) {
     return glm::rotate(glm::translate(glm::dmat4(1.0), {x, y, z}), turnRadians, glm::dvec3(0.0, 1.0, 0.0));
@@ -106,7 +106,7 @@ Scene makeHall(const LoadOptions& options) {
     const Finishes finishes = addFinishes(scene);
     addArchitecture(scene, finishes);
     addFurnishings(scene, finishes);
-    addPointLights(scene, options.lights.value_or(kDefaultLights));
+    addPointLights(scene, options.lights.value_or(kDefaultHallLights));
     addSkyLight(scene);
     addCamera(scene, "nave", {0.9, 1.75, 17.6}, {-0.25, 4.35, 0.0}, 62.0);
     addCamera(scene, "aisle", {-5.6, 1.7, 13.0}, {-6.4, 2.4, 6.0}, 60.0);

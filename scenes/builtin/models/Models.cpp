@@ -11,8 +11,8 @@
 namespace tessera::scenes::builtin {
 namespace {
 
-constexpr double kRadiusMetres = 0.5;
-constexpr double kSpacingMetres = 1.3;
+constexpr double kPieceRadiusMetres = 0.5;
+constexpr double kPieceSpacingMetres = 1.3;
 constexpr double kStepMetres = 0.55; ///< height of a step
 constexpr double kDepthMetres = 1.35;
 constexpr int kPieces = 5; ///< a row
@@ -32,7 +32,7 @@ Mesh discMesh() {
     Mesh mesh;
     appendPatch(mesh, 64, 12, [](double u, double v) {
         const double angle = 2.0 * std::numbers::pi * u;
-        const double radius = kRadiusMetres * (0.03 + 0.97 * v);
+        const double radius = kPieceRadiusMetres * (0.03 + 0.97 * v);
         return SurfacePoint{{radius * std::cos(angle), radius * std::sin(angle), 0.0}, {0.0, 0.0, 1.0}, {u, 1.0 - v}};
     });
     return mesh;
@@ -42,7 +42,7 @@ Mesh discMesh() {
 /// divided by n.v: at a sphere's silhouette single precision does not know that.
 Mesh capMesh() {
     constexpr double kHalfAngleRadians = 0.75;
-    const double sphereRadiusMetres = kRadiusMetres / std::sin(kHalfAngleRadians);
+    const double sphereRadiusMetres = kPieceRadiusMetres / std::sin(kHalfAngleRadians);
     Mesh mesh;
     appendPatch(mesh, 64, 16, [&](double u, double v) {
         const double around = 2.0 * std::numbers::pi * u;
@@ -55,7 +55,7 @@ Mesh capMesh() {
 }
 
 void addStage(Scene& scene) {
-    const double halfWidth = 0.5 * kSpacingMetres * kPieces + 0.3;
+    const double halfWidth = 0.5 * kPieceSpacingMetres * kPieces + 0.3;
     const int stone = addMaterial(scene, metallicRoughness("steps", glm::vec3(0.055f, 0.055f, 0.06f), 0.0f, 0.42f));
     for (int row = 0; row < kRows; ++row) {
         Mesh step;
@@ -79,7 +79,7 @@ void addStage(Scene& scene) {
 
 void addPieces(Scene& scene, const models::Exhibits& exhibits) {
     Mesh sphere;
-    appendSphere(sphere, glm::dvec3(0.0), kRadiusMetres, 56, 36);
+    appendSphere(sphere, glm::dvec3(0.0), kPieceRadiusMetres, 56, 36);
     const int sphereMesh = addMesh(scene, "sphere", std::move(sphere));
     const int disc = addMesh(scene, "disc", discMesh());
     const int cap = addMesh(scene, "cap", capMesh());
@@ -90,10 +90,11 @@ void addPieces(Scene& scene, const models::Exhibits& exhibits) {
         for (int column = 0; column < kPieces; ++column) {
             const int material = (*rows[row])[static_cast<std::size_t>(column)];
             const std::string& name = scene.materials[static_cast<std::size_t>(material)].name;
-            const glm::dvec3 standWS(kSpacingMetres * (column - 0.5 * (kPieces - 1)), kStepMetres * row,
+            const glm::dvec3 standWS(kPieceSpacingMetres * (column - 0.5 * (kPieces - 1)), kStepMetres * row,
                                      -kDepthMetres * row);
             addNode(scene, "foot of " + name, glm::translate(glm::dmat4(1.0), standWS), {{foot, brass}});
-            glm::dmat4 place = glm::translate(glm::dmat4(1.0), standWS + glm::dvec3(0.0, 0.04 + kRadiusMetres, 0.0));
+            glm::dmat4 place =
+                glm::translate(glm::dmat4(1.0), standWS + glm::dvec3(0.0, 0.04 + kPieceRadiusMetres, 0.0));
             int mesh = sphereMesh;
             if (row == 0 && column == 4) {
                 mesh = cap;
@@ -118,7 +119,7 @@ void addSpot(Scene& scene, const std::string& name, const glm::dvec3& positionWS
     light.outerConeRadians = 0.65f;
 }
 
-void addLights(Scene& scene) {
+void addSpotsAndLamps(Scene& scene) {
     addSpot(scene, "key", {-5.0, 6.0, 5.5}, {-0.3, 0.6, -1.2}, {1.0f, 0.93f, 0.82f}, 120.0f);
     addSpot(scene, "fill", {6.0, 4.0, 5.0}, {0.4, 0.6, -1.2}, {0.62f, 0.78f, 1.0f}, 55.0f);
     // Two rows of lamps stand for long windows: polished things show what surrounds them.
@@ -147,7 +148,7 @@ Scene makeModels(const LoadOptions& options) {
     const models::Exhibits exhibits = models::addExhibits(scene);
     addStage(scene);
     addPieces(scene, exhibits);
-    addLights(scene);
+    addSpotsAndLamps(scene);
     keepFirstLights(scene, options);
     addCamera(scene, "front", {0.0, 2.75, 7.6}, {0.0, 0.98, -1.0}, 29.0);
     addCamera(scene, "gloss with a direction", {-1.6, 1.9, 2.2}, {0.1, 0.95, -1.4}, 42.0);

@@ -8,8 +8,8 @@
 namespace tessera {
 namespace {
 
-constexpr int kPsiSteps = 384;
-constexpr int kPhiSteps = 96;
+constexpr int kFurnacePsiSteps = 384;
+constexpr int kFurnacePhiSteps = 96;
 // The midpoint rule's own error at these steps, measured against 4 times as many: 1.0e-4 where mu = 0.02 and grazing
 // half vectors cut the lobe, below 2e-5 from mu = 0.1 on.
 constexpr double kQuadrature = 2e-5;
@@ -29,7 +29,7 @@ protected:
         const glm::dvec3 v(std::sqrt(1.0 - mu * mu), 0.0, mu);
         std::vector<glm::vec4> inputs;
         std::vector<double> solidAngle, sinkLight, sinkSphere;
-        test::forHalfVectors(alpha, kPsiSteps, kPhiSteps, [&](const test::HalfVector& half) {
+        test::forHalfVectors(alpha, kFurnacePsiSteps, kFurnacePhiSteps, [&](const test::HalfVector& half) {
             const double vh = glm::dot(v, half.h);
             const double nl = 2.0 * vh * half.h.z - mu;
             inputs.insert(
@@ -116,7 +116,7 @@ TEST_F(FurnaceTest, splitSumsAreExactlyThoseOfTheTable) {
             const glm::dvec3 v(std::sqrt(1.0 - mu * mu), 0.0, mu);
             std::vector<glm::vec4> inputs;
             std::vector<double> weight;
-            test::forHalfVectors(double(alpha), kPsiSteps, kPhiSteps, [&](const test::HalfVector& half) {
+            test::forHalfVectors(double(alpha), kFurnacePsiSteps, kFurnacePhiSteps, [&](const test::HalfVector& half) {
                 const double vh = glm::dot(v, half.h), nl = 2.0 * vh * half.h.z - mu;
                 if (vh <= 0.0 || nl <= 0.0) return;
                 weight.push_back(half.weight * 4.0 * vh * nl);
@@ -155,7 +155,7 @@ TEST_F(WhiteFurnace, aWhiteMetalNeverReflectsMoreThanArrivesAndExactlyItsClosedF
             const glm::dvec3 v(std::sqrt(1.0 - mu * mu), 0.0, mu);
             std::vector<test::LobeCase> cases;
             std::vector<double> weight;
-            test::forHalfVectors(float(alpha), kPsiSteps, kPhiSteps, [&](const test::HalfVector& half) {
+            test::forHalfVectors(float(alpha), kFurnacePsiSteps, kFurnacePhiSteps, [&](const test::HalfVector& half) {
                 const double vh = glm::dot(v, half.h);
                 if (vh <= 0.0) return;
                 const glm::vec3 l(2.0 * vh * half.h - v);

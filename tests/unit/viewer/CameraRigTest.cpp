@@ -7,8 +7,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kLongSeconds = 10.0; ///< any damping is over by then
-
 const scenes::Camera kStart = perspective({-3.2, 1.8, 4.9}, {0, 1, 0});
 
 CameraRig rigOf(const scenes::Camera& camera) {

@@ -60,6 +60,7 @@ inline std::vector<scenes::Camera> manyCameras() {
     return cameras;
 }
 
+inline constexpr double kLongSeconds = 10.0; ///< any damping is over by then
 inline const scenes::Box3 kBox{glm::dvec3(-2.0, 0.0, -3.0), glm::dvec3(4.0, 5.0, 1.0)};
 
 } // namespace tessera::viewer::test

@@ -7,14 +7,14 @@ namespace {
 
 using namespace test;
 
-struct Rig {
+struct FlyRig {
     scenes::Camera lens = perspective({0, 1, 8}, {0, 1, 0});
     FlyCamera fly{poseOf(lens, kBox), lens, kBox};
     glm::dvec3 eyeWS() const { return fly.pose().eyeWS; }
 };
 
 TEST(FlyCamera, everyKeyAlwaysMovesItsWayAndOppositeOnesCancel) {
-    Rig rig;
+    FlyRig rig;
     const auto velocity = [&](const FlyKeys& keys) {
         rig.fly.hold(keys);
         const glm::dvec3 velocityWS = rig.fly.velocityWS();
@@ -31,7 +31,7 @@ TEST(FlyCamera, everyKeyAlwaysMovesItsWayAndOppositeOnesCancel) {
 }
 
 TEST(FlyCamera, speedAlwaysGoesWithTheSizeOfTheSceneAndShiftIsFaster) {
-    Rig rig;
+    FlyRig rig;
     rig.fly.hold({.forward = true});
     const double slow = glm::length(rig.fly.velocityWS());
     rig.fly.hold({.forward = true, .right = true, .fast = true});
@@ -42,8 +42,8 @@ TEST(FlyCamera, speedAlwaysGoesWithTheSizeOfTheSceneAndShiftIsFaster) {
 }
 
 TEST(FlyCamera, twoHalfStepsAreAlwaysOneStepAlsoWhileAKeyIsHeld) {
-    Rig one, two;
-    for (Rig* rig : {&one, &two}) {
+    FlyRig one, two;
+    for (FlyRig* rig : {&one, &two}) {
         rig->fly.look({200.0, 80.0}, kHeightPixels);
         rig->fly.hold({.forward = true, .up = true});
     }
@@ -55,7 +55,7 @@ TEST(FlyCamera, twoHalfStepsAreAlwaysOneStepAlsoWhileAKeyIsHeld) {
 }
 
 TEST(FlyCamera, mouseLookAlwaysMovesThePictureByThePixelsOfTheMouseTheOtherWay) {
-    Rig rig;
+    FlyRig rig;
     const glm::dvec3 pointWS = rig.eyeWS() + 5.0 * rig.fly.pose().heading.forwardWS();
     rig.fly.look({4.0, -3.0}, kHeightPixels);
     rig.fly.advance(10.0, kHeightPixels);
@@ -65,7 +65,7 @@ TEST(FlyCamera, mouseLookAlwaysMovesThePictureByThePixelsOfTheMouseTheOtherWay) 
 }
 
 TEST(FlyCamera, itIsNeverAtRestWhileAKeyMovesItAndAlwaysComesToRestAfter) {
-    Rig rig;
+    FlyRig rig;
     EXPECT_TRUE(rig.fly.isAtRest());
     rig.fly.hold({.forward = true});
     rig.fly.advance(0.5, kHeightPixels);
@@ -79,7 +79,7 @@ TEST(FlyCamera, itIsNeverAtRestWhileAKeyMovesItAndAlwaysComesToRestAfter) {
 }
 
 TEST(FlyCamera, goingToAPoseAlwaysTakesTheShorterWayRoundAndEndsThereToTheLastBit) {
-    Rig rig;
+    FlyRig rig;
     CameraPose pose = rig.fly.pose();
     pose.heading.yawRadians += 6.0;
     rig.fly.goTo(pose);

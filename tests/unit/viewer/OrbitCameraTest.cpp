@@ -8,12 +8,10 @@ namespace {
 
 using namespace test;
 
-constexpr double kLongSeconds = 10.0; ///< any damping is over by then
-
-struct Rig {
+struct OrbitRig {
     scenes::Camera lens;
     OrbitCamera orbit;
-    explicit Rig(const scenes::Camera& camera) : lens(camera), orbit(poseOf(camera, kBox), camera) {}
+    explicit OrbitRig(const scenes::Camera& camera) : lens(camera), orbit(poseOf(camera, kBox), camera) {}
     scenes::Camera shown() const { return cameraAt(orbit.pose(), lens); }
     void settle() { orbit.advance(kLongSeconds, kHeightPixels); }
 };
@@ -24,7 +22,7 @@ std::vector<scenes::Camera> lenses() {
 }
 
 /// The point at the pivot's depth under a pixel.
-glm::dvec3 pointUnder(const Rig& rig, const glm::dvec2& pixels) {
+glm::dvec3 pointUnder(const OrbitRig& rig, const glm::dvec2& pixels) {
     const CameraPose pose = rig.orbit.pose();
     const double metres = metresPerPixel(rig.lens, pose, pose.focusMetres, kHeightPixels);
     return rig.orbit.pivotWS() + metres * (pixels.x * pose.heading.rightWS() - pixels.y * pose.heading.upWS());
@@ -32,7 +30,7 @@ glm::dvec3 pointUnder(const Rig& rig, const glm::dvec2& pixels) {
 
 TEST(OrbitCamera, panningAlwaysKeepsThePointUnderTheCursor) {
     for (const scenes::Camera& lens : lenses()) {
-        Rig rig(lens);
+        OrbitRig rig(lens);
         const glm::dvec3 pointWS = pointUnder(rig, {40.0, -70.0});
         rig.orbit.pan({120.0, 55.0}, kHeightPixels);
         rig.settle();
@@ -44,7 +42,7 @@ TEST(OrbitCamera, panningAlwaysKeepsThePointUnderTheCursor) {
 
 TEST(OrbitCamera, zoomingAlwaysKeepsThePointUnderTheCursorAlsoOnTheWay) {
     for (const scenes::Camera& lens : lenses()) {
-        Rig rig(lens);
+        OrbitRig rig(lens);
         const glm::dvec3 pointWS = pointUnder(rig, {300.0, 200.0});
         rig.orbit.zoom(0.5, {300.0, 200.0}, kHeightPixels);
         for (int i = 0; i < 60; ++i) {
@@ -59,7 +57,7 @@ TEST(OrbitCamera, zoomingAlwaysKeepsThePointUnderTheCursorAlsoOnTheWay) {
 }
 
 TEST(OrbitCamera, zoomingByAFactorIsExactlyMultiplicative) {
-    Rig rig(lenses()[0]);
+    OrbitRig rig(lenses()[0]);
     const double before = rig.orbit.pose().focusMetres;
     rig.orbit.zoom(0.5, {}, kHeightPixels);
     rig.orbit.zoom(0.5, {}, kHeightPixels);
@@ -68,14 +66,14 @@ TEST(OrbitCamera, zoomingByAFactorIsExactlyMultiplicative) {
     rig.orbit.zoom(4.0, {}, kHeightPixels);
     rig.settle();
     EXPECT_DOUBLE_EQ(rig.orbit.pose().focusMetres, before);
-    Rig parallel(lenses()[2]);
+    OrbitRig parallel(lenses()[2]);
     parallel.orbit.zoom(0.5, {}, kHeightPixels);
     parallel.settle();
     EXPECT_DOUBLE_EQ(parallel.orbit.pose().halfHeightMetres, 1.5);
 }
 
 TEST(OrbitCamera, zoomingFarBeyondTheLimitsNeverReachesThePivotOrInfinity) {
-    Rig rig(lenses()[0]);
+    OrbitRig rig(lenses()[0]);
     for (int i = 0; i < 2000; ++i) rig.orbit.zoom(0.5, {}, kHeightPixels);
     rig.settle();
     EXPECT_GT(rig.orbit.pose().focusMetres, 0.0);
@@ -86,7 +84,7 @@ TEST(OrbitCamera, zoomingFarBeyondTheLimitsNeverReachesThePivotOrInfinity) {
 
 TEST(OrbitCamera, rotatingAlwaysTakesTheFrontOfABallHalfAsHighAsThePictureAlong) {
     for (const scenes::Camera& lens : lenses()) {
-        Rig rig(lens);
+        OrbitRig rig(lens);
         const CameraPose pose = rig.orbit.pose();
         const double halfHeight = metresPerPixel(rig.lens, pose, pose.focusMetres, 2.0);
         const double radius =
@@ -105,8 +103,8 @@ TEST(OrbitCamera, rotatingAlwaysTakesTheFrontOfABallHalfAsHighAsThePictureAlong)
 }
 
 TEST(OrbitCamera, twoHalfStepsAreAlwaysOneStep) {
-    Rig one(lenses()[1]), two(lenses()[1]);
-    for (Rig* rig : {&one, &two}) {
+    OrbitRig one(lenses()[1]), two(lenses()[1]);
+    for (OrbitRig* rig : {&one, &two}) {
         rig->orbit.rotate({300.0, 100.0}, kHeightPixels);
         rig->orbit.pan({200.0, 0.0}, kHeightPixels);
         rig->orbit.zoom(0.3, {10.0, 20.0}, kHeightPixels);
@@ -119,7 +117,7 @@ TEST(OrbitCamera, twoHalfStepsAreAlwaysOneStep) {
 }
 
 TEST(OrbitCamera, restIsAlwaysReachedAndTheLastJumpIsNeverVisible) {
-    Rig rig(lenses()[0]);
+    OrbitRig rig(lenses()[0]);
     EXPECT_TRUE(rig.orbit.isAtRest());
     rig.orbit.rotate({400.0, 100.0}, kHeightPixels);
     rig.orbit.zoom(0.7, {}, kHeightPixels);
@@ -138,7 +136,7 @@ TEST(OrbitCamera, restIsAlwaysReachedAndTheLastJumpIsNeverVisible) {
 }
 
 TEST(OrbitCamera, goingToAPoseAlwaysTakesTheShorterWayRound) {
-    Rig rig(lenses()[0]);
+    OrbitRig rig(lenses()[0]);
     CameraPose pose = rig.orbit.pose();
     pose.heading.yawRadians += 6.0;
     rig.orbit.goTo(pose);
@@ -150,7 +148,7 @@ TEST(OrbitCamera, goingToAPoseAlwaysTakesTheShorterWayRound) {
 
 TEST(OrbitCamera, aPoseIsAlwaysHeldToTheLastBitUntilSomethingMovesIt) {
     for (const scenes::Camera& camera : manyCameras()) {
-        Rig rig(camera);
+        OrbitRig rig(camera);
         const CameraPose pose = poseOf(camera, kBox);
         rig.orbit.rotate({0.0, 0.0}, kHeightPixels);
         rig.orbit.pan({0.0, 0.0}, kHeightPixels);
@@ -163,7 +161,7 @@ TEST(OrbitCamera, aPoseIsAlwaysHeldToTheLastBitUntilSomethingMovesIt) {
 }
 
 TEST(OrbitCamera, theEyeIsAlwaysTheFocusAwayFromThePivot) {
-    Rig rig(lenses()[0]);
+    OrbitRig rig(lenses()[0]);
     const CameraPose pose = rig.orbit.pose();
     rig.orbit.rotate({30.0, 0.0}, kHeightPixels);
     rig.settle();
