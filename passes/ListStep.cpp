@@ -4,6 +4,7 @@
 
 #include "renderer/frame/LightRounds.h"
 #include "renderer/gpu/Commands.h"
+#include "scenes/Limits.h"
 #include "shaders/shared/light_lists.h"
 #include "shaders/shared/slots.h"
 
@@ -16,10 +17,10 @@ constexpr int kGroup = 64;
 /// The same on software rasterisers, which run 4 to 16 together; there a row of tiles is seldom a multiple of 64.
 constexpr int kSoftwareGroup = 8;
 
-/// Lights that a lane may look at in one shader on software rasterisers, whose loops end after some iterations. A light
-/// takes at most: itself, the end of the loop that looked for it, and its cells, tested and written, twice, once to
-/// count and once to write; and each of the other lanes may leave it out one after the other.
+/// A light takes at most: itself, the end of the loop that looked for it, and its cells, tested and written, twice,
+/// once to count and once to write; and each of the other lanes may leave it out one after the other.
 constexpr std::size_t kIterationsALight = 2 * (2 + 2 * (LIGHT_TILE_SLICES + 1)) + 2 * (frame::kMostLanesTogether - 1);
+/// Lights that a lane may look at in one shader on software rasterisers, whose loops end after some iterations.
 constexpr std::size_t kSoftwareLightsALane =
     (frame::kMostLoopIterations - frame::kOtherLoopIterations) / kIterationsALight;
 

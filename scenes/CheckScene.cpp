@@ -299,19 +299,6 @@ void checkSceneWide(const Scene& scene) {
 
 } // namespace
 
-std::string limitProblem(const Camera& camera) {
-    if (!isNearEnough(glm::dvec3(camera.worldFromCamera[3])))
-        return fmt::format("it stands more than {:g} m from the origin; move it nearer", kFarthestMetres);
-    const bool isPerspective = camera.projection == Projection::Perspective;
-    if ((isPerspective && camera.nearMetres < kNearestPlaneMetres) || camera.nearMetres > kFarthestMetres)
-        return fmt::format("its near plane at {:g} m must lie {:g} to {:g} m ahead", camera.nearMetres,
-                           isPerspective ? kNearestPlaneMetres : 0.0, kFarthestMetres);
-    if (!isPerspective && camera.halfHeightMetres > kFarthestMetres)
-        return fmt::format("its half height of {:g} m must be at most {:g} m", camera.halfHeightMetres,
-                           kFarthestMetres);
-    return {};
-}
-
 void checkScene(const Scene& scene) {
     for (std::size_t i = 0; i < scene.images.size(); ++i) {
         checkImage({scene, "image", i, scene.images[i].name}, scene.images[i]);

@@ -4,9 +4,17 @@
 
 #include "scenes/Scene.h"
 
-/// How far lengths may go. Beyond, squares of distances or depths leave fp32, and techniques would disagree.
+/// How many lights a scene may have and how far lengths may go.
 namespace tessera::scenes {
 
+/// Lights that a scene can be asked to have, that a file can give it and that can be drawn: on software rasterisers,
+/// whose loops end early, shaders get through so many (renderer/frame/LightRounds.h).
+inline constexpr int kMostLights = 262144;
+
+/// Throws InputError when these lights are more than kMostLights; `source` is the file that gives them, or the scene.
+void requireDrawableLights(const std::string& source, std::size_t lights);
+
+// Beyond these, squares of distances or depths leave fp32, and techniques would disagree.
 inline constexpr double kNearestPlaneMetres = 1e-9; ///< near plane of a perspective camera, at least
 inline constexpr double kFarthestMetres = 1e15;     ///< any coordinate in the world, near plane or half height, at most
 

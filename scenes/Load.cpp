@@ -10,6 +10,7 @@
 
 #include "scenes/Defaults.h"
 #include "scenes/Error.h"
+#include "scenes/Limits.h"
 #include "scenes/LoadLedger.h"
 #include "scenes/Names.h"
 #include "scenes/import/Importers.h"
@@ -70,14 +71,6 @@ const BuiltinScene* builtinScene(std::string_view name) {
     const auto found =
         std::find_if(scenes.begin(), scenes.end(), [&](const BuiltinScene& s) { return s.name == name; });
     return found == scenes.end() ? nullptr : &*found;
-}
-
-void requireDrawableLights(const std::string& source, std::size_t lights) {
-    if (lights <= std::size_t(kMostLights)) return;
-    throw InputError(
-        fmt::format("{}: has {} lights, and {} at most can be drawn; keep fewer of them, or the first N with "
-                    "--lights N",
-                    source, lights, kMostLights));
 }
 
 Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {

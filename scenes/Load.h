@@ -13,13 +13,6 @@
 
 namespace tessera::scenes {
 
-/// Lights that a scene can be asked to have, that a file can give it and that can be drawn: on software rasterisers,
-/// whose loops end early, shaders get through so many (renderer/frame/LightRounds.h).
-inline constexpr int kMostLights = 262144;
-
-/// Throws InputError when these lights are more than kMostLights; `source` is the file that gives them, or the scene.
-void requireDrawableLights(const std::string& source, std::size_t lights);
-
 struct LoadOptions {
     std::optional<int> lights; ///< built-in scenes generate this many (0 to kMostLights); files keep their first N
     bool defaultLight = true;  ///< give a scene without lights one directional light, unless all is unlit

@@ -10,6 +10,7 @@
 #include "passes/recipes/ChooseView.h"
 #include "renderer/culling/TileGrid.h"
 #include "scenes/Error.h"
+#include "scenes/Limits.h"
 #include "scenes/Load.h"
 
 namespace tessera::recipes {

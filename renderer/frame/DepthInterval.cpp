@@ -97,9 +97,9 @@ DepthInterval depthInterval(const scenes::Camera& camera, const glm::dvec2& half
     const double room = span / 8.0 + 1e-3 * (span + seen.across) + 1e-6 * seen.reach;
     const double nearMetres = std::max(camera.nearMetres, seen.nearest - room);
     const double farMetres = std::min(camera.farMetres, seen.farthest + room);
-    const bool isFlat = camera.projection == scenes::Projection::Orthographic;
+    const bool isOrthographic = camera.projection == scenes::Projection::Orthographic;
     if (!(farMetres > nearMetres) || !std::isfinite(farMetres)) return interval;
-    if (!isFlat && farMetres > 2.0 * nearMetres) return interval;
+    if (!isOrthographic && farMetres > 2.0 * nearMetres) return interval;
     interval.nearMetres = nearMetres;
     interval.farMetres = farMetres;
     interval.originMetres = 0.5 * (nearMetres + farMetres);

@@ -1,7 +1,7 @@
 #pragma once
 #include <cstddef>
 
-#include "scenes/Load.h"
+#include "scenes/Limits.h"
 
 /// How shaders get through all lights although Mesa's software rasterisers end loops early.
 namespace tessera::frame {

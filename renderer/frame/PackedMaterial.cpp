@@ -64,11 +64,10 @@ int textureModes(const scenes::Sampler& sampler) {
 
 /// KHR_texture_transform: offset + rotation x scale x uv, as two rows.
 void packTexture(const scenes::TextureUse& use, glm::vec4& row0, glm::vec4& row1) {
-    const double c = std::cos(double(use.transform.rotationRadians)),
-                 s = std::sin(double(use.transform.rotationRadians));
-    const scenes::TextureTransform& t = use.transform;
-    row0 = glm::vec4(float(c * t.scale.x), float(s * t.scale.y), t.offset.x, float(use.texCoordSet));
-    row1 = glm::vec4(float(-s * t.scale.x), float(c * t.scale.y), t.offset.y, float(textureModes(use.sampler)));
+    const glm::mat2 turn(linearPart(use.transform));
+    const glm::vec2 offset = use.transform.offset;
+    row0 = glm::vec4(turn[0].x, turn[1].x, offset.x, float(use.texCoordSet));
+    row1 = glm::vec4(turn[0].y, turn[1].y, offset.y, float(textureModes(use.sampler)));
 }
 
 /// What `microsurface.y` of the constants holds.
@@ -102,6 +101,12 @@ glm::vec4 packClearcoatTurn(const scenes::Material& material) {
 }
 
 } // namespace
+
+glm::dmat2 linearPart(const scenes::TextureTransform& transform) {
+    const double c = std::cos(double(transform.rotationRadians)), s = std::sin(double(transform.rotationRadians));
+    const glm::dvec2 scale(transform.scale);
+    return {c * scale.x, -s * scale.x, s * scale.y, c * scale.y};
+}
 
 shared::MaterialConstants packMaterial(const scenes::Material& material) {
     shared::MaterialConstants packed{};

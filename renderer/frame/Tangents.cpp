@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "renderer/frame/MikkTSpace.h"
+#include "renderer/frame/PackedMaterial.h"
 
 namespace tessera::frame {
 
@@ -33,14 +34,7 @@ std::optional<TextureSlot> followedSlot(const scenes::Material& material) {
     return std::nullopt;
 }
 
-/// KHR_texture_transform without its offset.
-glm::dmat2 linearPart(const scenes::TextureTransform& transform) {
-    const double c = std::cos(double(transform.rotationRadians)), s = std::sin(double(transform.rotationRadians));
-    const glm::dvec2 scale(transform.scale);
-    return {c * scale.x, -s * scale.x, s * scale.y, c * scale.y};
-}
-
-glm::dmat2 linearPart(const scenes::Material& material, TextureSlot slot) {
+glm::dmat2 vectorTransform(const scenes::Material& material, TextureSlot slot) {
     return holdsVectors(material, slot) ? linearPart(material.texture(slot).transform) : glm::dmat2(1.0);
 }
 
@@ -142,13 +136,13 @@ TangentMesh splitByTangent(const scenes::Mesh& mesh, const std::vector<glm::vec4
 std::optional<TangentBasis> tangentBasis(const scenes::Material& material) {
     const std::optional<TextureSlot> slot = followedSlot(material);
     if (!slot) return std::nullopt;
-    return TangentBasis{material.tangents, material.texture(*slot).texCoordSet, linearPart(material, *slot)};
+    return TangentBasis{material.tangents, material.texture(*slot).texCoordSet, vectorTransform(material, *slot)};
 }
 
 glm::dmat2 tangentsFromTexture(const scenes::Material& material, scenes::TextureSlot slot) {
     const std::optional<TextureSlot> followed = followedSlot(material);
     if (!followed || *followed == slot) return glm::dmat2(1.0);
-    return glm::transpose(axesOf(linearPart(material, *followed))) * axesOf(linearPart(material, slot));
+    return glm::transpose(axesOf(vectorTransform(material, *followed))) * axesOf(vectorTransform(material, slot));
 }
 
 TangentMesh meshWithTangents(const scenes::Mesh& mesh, const TangentBasis& basis) {

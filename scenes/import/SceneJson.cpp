@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "scenes/Error.h"
+#include "scenes/Limits.h"
 #include "scenes/Load.h"
 #include "scenes/import/AppendScene.h"
 #include "scenes/import/FileBytes.h"

@@ -164,7 +164,7 @@ bool nextLight(inout LightCursor cursor, out int light)
 }
 
 // Goes on to the next word if there is one and this one is empty.
-void leaveEmptyWord(inout LightCursor cursor)
+void skipEmptyWord(inout LightCursor cursor)
 {
     if (cursor.bits != 0u || cursor.word >= cursor.end) return;
     cursor.word += 1;
@@ -175,8 +175,8 @@ void leaveEmptyWord(inout LightCursor cursor)
 
 void leaveTwoEmptyWords(inout LightCursor cursor)
 {
-    leaveEmptyWord(cursor);
-    leaveEmptyWord(cursor);
+    skipEmptyWord(cursor);
+    skipEmptyWord(cursor);
 }
 
 // A batch is what a word holds. Where lights are so many that iterations are short, a step leaves twice as many words as a
@@ -185,7 +185,7 @@ bool nextBatch(inout LightCursor cursor, out int light)
 {
     do {
 #if LIGHTS_PER_ROUND == 1
-        leaveEmptyWord(cursor);
+        skipEmptyWord(cursor);
 #else
         leaveTwoEmptyWords(cursor);
         leaveTwoEmptyWords(cursor);

@@ -5,6 +5,7 @@
 
 #include "renderer/frame/LightRounds.h"
 #include "scenes/Error.h"
+#include "scenes/Limits.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/ShaderMutant.h"

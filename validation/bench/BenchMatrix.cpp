@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scenes/Error.h"
+#include "scenes/Limits.h"
 #include "scenes/Load.h"
 #include "scenes/Names.h"
 #include "scenes/import/JsonText.h"

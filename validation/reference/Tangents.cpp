@@ -83,22 +83,22 @@ struct Corner {
     bool operator==(const Corner&) const = default;
 };
 
-class Walks {
+class VertexFans {
 public:
-    Walks(const scenes::Mesh& mesh, const Texture& texture)
+    VertexFans(const scenes::Mesh& mesh, const Texture& texture)
         : mesh_(mesh), triangles_(mesh.indices.size() / 3), tangents_(mesh.indices.size()),
           neighbours_(mesh.indices.size()) {
         weld(texture);
         for (std::size_t t = 0; t < triangles_; ++t) {
             growth_.push_back(texture.growthOf(t));
             const bool says = growth_[t].u != glm::dvec3(0.0) && growth_[t].v != glm::dvec3(0.0);
-            hands_.push_back(says ? std::optional(growth_[t].area > 0.0 ? 1.0 : -1.0) : std::nullopt);
-            speaks_.push_back(says);
+            orientations_.push_back(says ? std::optional(growth_[t].area > 0.0 ? 1.0 : -1.0) : std::nullopt);
+            hasUvArea_.push_back(says);
         }
         meetNeighbours();
         for (std::size_t i = 0; i < 3 * triangles_; ++i) {
             const Corner corner{i / 3, i % 3};
-            if (isPointed(corner.triangle) || !speaks_[corner.triangle] || tangents_[i]) continue;
+            if (isDegenerate(corner.triangle) || !hasUvArea_[corner.triangle] || tangents_[i]) continue;
             walkFrom(corner);
         }
         copyToPointed();
@@ -116,7 +116,7 @@ private:
     glm::dvec3 normalAt(const Corner& corner) const {
         return glm::dvec3(mesh_.normalsOS[mesh_.indices[corner.index()]]);
     }
-    bool isPointed(std::size_t t) const {
+    bool isDegenerate(std::size_t t) const {
         return at({t, 0}) == at({t, 1}) || at({t, 1}) == at({t, 2}) || at({t, 2}) == at({t, 0});
     }
     int vertexOf(const Corner& corner) const { return vertices_[corner.index()]; }
@@ -139,7 +139,7 @@ private:
         std::map<std::pair<int, int>, std::list<Corner>> waiting;
         for (std::size_t i = 0; i < 3 * triangles_; ++i) {
             const Corner from{i / 3, i % 3};
-            if (isPointed(from.triangle)) continue;
+            if (isDegenerate(from.triangle)) continue;
             const int start = vertexOf(from), end = vertexOf(from.next());
             std::list<Corner>& back = waiting[{end, start}];
             if (back.empty()) {
@@ -162,9 +162,9 @@ private:
             if (!side) return met;
             corner = isLeft ? *side : side->next();
             if (corner == first || tangents_[corner.index()]) return met;
-            std::optional<double>& hand = hands_[corner.triangle];
-            if (!hand) hand = hands_[first.triangle];
-            if (hand != hands_[first.triangle]) return met;
+            std::optional<double>& hand = orientations_[corner.triangle];
+            if (!hand) hand = orientations_[first.triangle];
+            if (hand != orientations_[first.triangle]) return met;
             tangents_[corner.index()] = glm::dvec4(0.0);
             met.push_back(corner);
         }
@@ -183,7 +183,7 @@ private:
         glm::dvec3 weighed(0.0), alike(0.0);
         double angles = 0.0;
         for (const Corner& corner : met) {
-            if (!speaks_[corner.triangle]) continue;
+            if (!hasUvArea_[corner.triangle]) continue;
             const glm::dvec3 one = flat(at(corner.next()) - at(corner)),
                              other = flat(at(corner.previous()) - at(corner));
             // Kahan's angle between two vectors of one length.
@@ -197,16 +197,17 @@ private:
         }
         const glm::dvec3 mean = angles > kSmallestAngle ? weighed / angles : alike;
         const glm::dvec3 tangent = glm::length(mean) > kSmallestShare ? glm::normalize(mean) : perpendicularTo(normal);
-        for (const Corner& corner : met) tangents_[corner.index()] = glm::dvec4(tangent, *hands_[first.triangle]);
+        for (const Corner& corner : met)
+            tangents_[corner.index()] = glm::dvec4(tangent, *orientations_[first.triangle]);
     }
 
     void copyToPointed() {
         std::map<int, Corner> firstAt;
         for (std::size_t i = 0; i < 3 * triangles_; ++i)
-            if (!isPointed(i / 3)) firstAt.try_emplace(vertices_[i], Corner{i / 3, i % 3});
+            if (!isDegenerate(i / 3)) firstAt.try_emplace(vertices_[i], Corner{i / 3, i % 3});
         for (std::size_t i = 0; i < 3 * triangles_; ++i) {
             const auto found = firstAt.find(vertices_[i]);
-            if (isPointed(i / 3) && found != firstAt.end()) tangents_[i] = tangents_[found->second.index()];
+            if (isDegenerate(i / 3) && found != firstAt.end()) tangents_[i] = tangents_[found->second.index()];
         }
     }
 
@@ -214,8 +215,8 @@ private:
     std::size_t triangles_;
     std::vector<int> vertices_;                       ///< welded, by corner
     std::vector<Growth> growth_;                      ///< by triangle
-    std::vector<std::optional<double>> hands_;        ///< by triangle, once it is known
-    std::vector<bool> speaks_;                        ///< by triangle: its own texture tells its hand
+    std::vector<std::optional<double>> orientations_; ///< by triangle, once it is known
+    std::vector<bool> hasUvArea_;                     ///< by triangle: its own texture tells its hand
     std::vector<std::optional<glm::dvec4>> tangents_; ///< by corner, once it is met
     std::vector<std::optional<Corner>> neighbours_;   ///< by corner: where the neighbour's side begins that runs back
 };
@@ -264,7 +265,7 @@ std::vector<glm::dvec4> tangentsOS(const scenes::Mesh& mesh, const scenes::Mater
     if (!mesh.tangentsOS.empty()) return turned(mesh, axisOf(textureFromUv(material, *tangentSlot(material))));
     const Texture texture(mesh, material);
     return material.tangents == scenes::TangentMethod::Lengyel ? summed(mesh, texture)
-                                                               : Walks(mesh, texture).tangents();
+                                                               : VertexFans(mesh, texture).tangents();
 }
 
 } // namespace tessera::reference

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "scenes/Limits.h"
 #include "viewer/edit/Bounded.h"
 #include "viewer/edit/LightList.h"
 #include "viewer/panels/ChooseNamed.h"

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/Error.h"
+#include "scenes/Limits.h"
 #include "tests/unit/scenes/TempFolder.h"
 
 namespace tessera::scenes {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "scenes/Limits.h"
 #include "scenes/Load.h"
 #include "scenes/Schema.h"
 #include "tests/unit/scenes/json/SceneFiles.h"
