@@ -5,6 +5,7 @@
 #include <string>
 
 #include "renderer/shader/SourceTree.h"
+#include "tests/support/ShaderFolder.h"
 #include "tests/support/TempFolder.h"
 
 namespace tessera::test {
@@ -13,8 +14,7 @@ namespace tessera::test {
 class ShaderMutant {
 public:
     ShaderMutant() {
-        std::filesystem::copy(std::filesystem::path(TESSERA_SOURCE_DIR) / "shaders", folder_.path(),
-                              std::filesystem::copy_options::recursive);
+        std::filesystem::copy(shaderFolder(), folder_.path(), std::filesystem::copy_options::recursive);
     }
 
     /// Replaces every `from` in a file below shaders/. Throws when there is none, so that no mutant is ever the

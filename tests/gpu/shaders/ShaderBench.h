@@ -11,12 +11,13 @@
 #include "renderer/shader/ProgramLibrary.h"
 #include "shaders/shared/slots.h"
 #include "tests/support/GlContext.h"
+#include "tests/support/ShaderFolder.h"
 #include "tests/support/TempFolder.h"
 
 namespace tessera::test {
 
 /// Runs the product's shader functions on numbers of a test's choice: compute shaders of shaders/stress/, and of
-/// tests/gpu/ as test/. They see the product's shader tree as it lies in the source folder.
+/// tests/gpu/ as test/. They see the product's shader tree as it lies in shaderFolder().
 class ShaderBench {
 public:
     ShaderBench() : ShaderBench([](const std::filesystem::path&) {}) {}
@@ -49,7 +50,7 @@ private:
     const std::filesystem::path& sources(const std::function<void(const std::filesystem::path&)>& edit) {
         const std::filesystem::path root(TESSERA_SOURCE_DIR);
         const auto recursive = std::filesystem::copy_options::recursive;
-        std::filesystem::copy(root / "shaders", folder_.path(), recursive);
+        std::filesystem::copy(shaderFolder(), folder_.path(), recursive);
         std::filesystem::create_directories(folder_.path() / "test");
         for (const char* part : {"shaders", "layout", "gbuffer", "validation"}) {
             for (const auto& entry : std::filesystem::directory_iterator(root / "tests/gpu" / part)) {

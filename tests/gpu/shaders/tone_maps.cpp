@@ -219,7 +219,7 @@ std::vector<std::pair<std::size_t, std::size_t>> constantsIn(const std::string& 
 }
 
 TEST_F(ToneMaps, everyConstantThatIsOffByOnePercentIsAlwaysNoticed) {
-    std::ifstream stream(std::string(TESSERA_SOURCE_DIR) + "/shaders/lib/tonemap.glsl");
+    std::ifstream stream(test::shaderFolder() / "lib/tonemap.glsl");
     std::stringstream text;
     text << stream.rdbuf();
     const std::string code = text.str();
