@@ -1,11 +1,11 @@
 #include "renderer/frame/SceneGpu.h"
 
-#include <cmath>
 #include <cstring>
 
 #include <fmt/format.h>
 
 #include "renderer/frame/PackedMaterial.h"
+#include "renderer/frame/TextureLevels.h"
 #include "renderer/gpu/Commands.h"
 #include "scenes/InUse.h"
 #include "shaders/shared/slots.h"
@@ -20,35 +20,6 @@ constexpr std::size_t kUniformAlignment = 256;
 /// Anisotropy of material textures under the hardware filter. Doubles the cost of a textured pass on software
 /// rasterisers, so it stays at trilinear.
 constexpr float kAnisotropy = 1.0f;
-
-/// IEC 61966-2-1, decoded in double.
-float decodeSrgb(double code) {
-    return float(code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4));
-}
-
-/// Texels as linear fp32, for the formats that GL cannot decode from sRGB by itself. Alpha is linear as it is.
-std::vector<float> linearTexels(const scenes::Image& image) {
-    const std::size_t count = std::size_t(image.width) * std::size_t(image.height) * 4;
-    std::vector<float> linear(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        std::uint16_t code = 0;
-        std::memcpy(&code, image.texels.data() + i * sizeof code, sizeof code);
-        linear[i] = i % 4 == 3 ? float(code / 65535.0) : decodeSrgb(code / 65535.0);
-    }
-    return linear;
-}
-
-graph::Format storedFormat(scenes::TexelFormat format, bool srgb) {
-    switch (format) {
-    case scenes::TexelFormat::Rgba8Unorm:
-        return srgb ? graph::Format::Srgb8Alpha8 : graph::Format::Rgba8Unorm;
-    case scenes::TexelFormat::Rgba16Unorm:
-        return srgb ? graph::Format::Rgba32Float : graph::Format::Rgba16Unorm;
-    case scenes::TexelFormat::Rgba32Float:
-        break;
-    }
-    return graph::Format::Rgba32Float; // a float picture holds linear colours whatever its slot
-}
 
 std::vector<scenes::AlphaMode> alphaModes(const scenes::Scene& scene) {
     std::vector<scenes::AlphaMode> modes;
@@ -187,12 +158,16 @@ const gpu::Texture* SceneGpu::uploadImage(int index, bool srgb) {
     const graph::TextureDesc desc{storedFormat(image.format, srgb), image.width, image.height, 1};
     const int levels = filter_ == TextureFilter::Exact ? 1 : gpu::mipLevelsFor(image.width, image.height);
     texture = std::make_unique<gpu::Texture>(image.name, desc, levels);
-    if (image.format == scenes::TexelFormat::Rgba16Unorm && srgb) {
-        texture->upload(0, linearTexels(image));
-    } else {
+    if (isStoredDecoded(image, srgb))
+        texture->upload(0, decodedTexels(image));
+    else
         texture->upload(0, std::span<const std::byte>(image.texels));
+    if (levels > 1 && hasOddLevel(image.width, image.height)) {
+        int level = 0;
+        for (const std::vector<std::byte>& texels : smallerLevels(image, srgb)) texture->upload(++level, texels);
+    } else if (levels > 1) {
+        texture->generateMips();
     }
-    if (levels > 1) texture->generateMips();
     return texture.get();
 }
 

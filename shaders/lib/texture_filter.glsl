@@ -17,8 +17,8 @@ int wrapTexel(int index, int size, int mode)
 {
     if (mode == 1) return clamp(index, 0, size - 1);
     int period = mode == 2 ? 2 * size : size;
-    int inside = index % period;
-    if (inside < 0) inside += period;
+    // GLSL leaves % of negative numbers undefined.
+    int inside = index >= 0 ? index % period : period - 1 - (-1 - index) % period;
     return inside < size ? inside : period - 1 - inside;
 }
 

@@ -67,6 +67,7 @@ constexpr Layout kLayouts[] = {
     {"a little minified", 1.3},
     {"minified, turned, linear", 5.1, -1.0f, 0.0, {kTexels, kTexels}, scenes::TexelFormat::Rgba32Float},
     {"minified to the end", 40.0},
+    {"odd sides, minified", 2.3, 0.3f, 0.0, {31, 19}},
     {"slanted, turned, oblong", 1.1, 0.4f, 62.0, {64, 16}},
 };
 

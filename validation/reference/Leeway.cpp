@@ -17,9 +17,19 @@ constexpr double kSnappedPixels = 1.0 / 256.0;
 /// Eight bits of a weight between two texels.
 constexpr double kWeightTexels = 1.0 / 256.0;
 
-/// One of 255: what a level stores is rounded, and every level once more; so are weights, and sRGB is decoded by less
-/// than half of that.
-constexpr double kTexelCodes = 1.0 / 255.0;
+/// One code value: what a level stores is rounded, and every level once more; so are weights, and sRGB is decoded by
+/// less than half of that. OpenGL has no 16-bit sRGB; such pictures are stored as floats.
+double codesOf(const Pyramid& pyramid) {
+    switch (pyramid.image().format) {
+    case scenes::TexelFormat::Rgba8Unorm:
+        return 1.0 / 255.0;
+    case scenes::TexelFormat::Rgba16Unorm:
+        return pyramid.transfer() == Transfer::Linear ? 1.0 / 65535.0 : 0.0;
+    case scenes::TexelFormat::Rgba32Float:
+        return 0.0;
+    }
+    return 0.0;
+}
 
 /// Levels by which drivers shorten the blend between two levels or approximate the logarithm.
 constexpr double kBlendLevels = 0.35;
@@ -39,7 +49,7 @@ Leeway leewayOf(Filtering filtering, const scenes::TextureUse& use, const Footpr
     leeway.magnifiedFrom = magnifiedUpTo(use.sampler);
     if (filtering == Filtering::Exact) return leeway;
     leeway.magnifiedFrom = 0.0;
-    if (pyramid.image().format != scenes::TexelFormat::Rgba32Float) leeway.codes = kTexelCodes;
+    leeway.codes = codesOf(pyramid);
     const glm::ivec2 sizeTexels = pyramid.sizeTexels(0);
     const double level = levelOf(footprint, sizeTexels);
     const double texelOfLevel = std::exp2(std::max(level, 0.0));

@@ -1,0 +1,146 @@
+#include "renderer/frame/TextureLevels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include <tbb/parallel_for.h>
+
+namespace tessera::frame {
+
+namespace {
+
+using scenes::TexelFormat;
+
+// IEC 61966-2-1, both in double.
+double decodeSrgb(double code) {
+    return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+}
+double encodeSrgb(double linear) {
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+/// A level in linear light.
+struct Level {
+    int width = 0, height = 0;
+    std::vector<glm::vec4> texels;
+    const glm::vec4* row(int y) const { return texels.data() + std::size_t(y) * std::size_t(width); }
+};
+
+template <class Component>
+Component componentAt(const scenes::Image& image, std::size_t index) {
+    Component component;
+    std::memcpy(&component, image.texels.data() + index * sizeof component, sizeof component);
+    return component;
+}
+
+/// A component of a picture, in linear light.
+float linearAt(const scenes::Image& image, bool srgb, std::size_t index) {
+    if (image.format == TexelFormat::Rgba32Float) return componentAt<float>(image, index);
+    const double code = image.format == TexelFormat::Rgba16Unorm ? componentAt<std::uint16_t>(image, index) / 65535.0
+                                                                 : componentAt<std::uint8_t>(image, index) / 255.0;
+    return float(srgb && index % 4 != 3 ? decodeSrgb(code) : code);
+}
+
+Level linearLevel(const scenes::Image& image, bool srgb) {
+    Level level{image.width, image.height, {}};
+    level.texels.resize(std::size_t(image.width) * std::size_t(image.height));
+    tbb::parallel_for(std::size_t(0), level.texels.size(), [&](std::size_t i) {
+        for (std::size_t c = 0; c < 4; ++c) level.texels[i][int(c)] = linearAt(image, srgb, 4 * i + c);
+    });
+    return level;
+}
+
+/// What each texel of a smaller side covers of the larger one: at most the first, all between, and the last.
+struct Span {
+    int first, last;
+    double firstShare, lastShare; ///< of a texel
+};
+
+Span spanOf(int index, int size, int sizeBefore) {
+    // In units of 1/size of a texel, so that all is exact.
+    const std::int64_t begin = std::int64_t(index) * sizeBefore, end = std::int64_t(index + 1) * sizeBefore;
+    const int first = int(begin / size), last = int((end - 1) / size);
+    return {first, last, double(std::int64_t(first + 1) * size - begin) / size,
+            double(end - std::int64_t(last) * size) / size};
+}
+
+/// The mean of span texels, `texel` giving them by index; equal texels keep every bit.
+template <class Texel>
+glm::dvec4 meanOver(const Span& span, const Texel& texel) {
+    if (span.first == span.last) return texel(span.first);
+    const glm::dvec4 first = texel(span.first);
+    glm::dvec4 beyond = span.lastShare * (texel(span.last) - first);
+    for (int i = span.first + 1; i < span.last; ++i) beyond += texel(i) - first;
+    return first + beyond / (span.firstShare + span.lastShare + double(span.last - span.first - 1));
+}
+
+Level halved(const Level& before) {
+    Level next{std::max(before.width / 2, 1), std::max(before.height / 2, 1), {}};
+    next.texels.resize(std::size_t(next.width) * std::size_t(next.height));
+    tbb::parallel_for(0, next.height, [&](int y) {
+        const Span rows = spanOf(y, next.height, before.height);
+        for (int x = 0; x < next.width; ++x) {
+            const Span columns = spanOf(x, next.width, before.width);
+            next.texels[std::size_t(y) * std::size_t(next.width) + std::size_t(x)] =
+                glm::vec4(meanOver(rows, [&](int row) {
+                    return meanOver(columns, [&](int column) { return glm::dvec4(before.row(row)[column]); });
+                }));
+        }
+    });
+    return next;
+}
+
+template <class Component, class Encode>
+std::vector<std::byte> encoded(const Level& level, const Encode& encode) {
+    std::vector<std::byte> bytes(level.texels.size() * 4 * sizeof(Component));
+    for (std::size_t i = 0; i < 4 * level.texels.size(); ++i) {
+        const Component component = encode(level.texels[i / 4][int(i % 4)], i % 4 == 3);
+        std::memcpy(bytes.data() + i * sizeof component, &component, sizeof component);
+    }
+    return bytes;
+}
+
+std::vector<std::byte> storedLevel(const Level& level, graph::Format format) {
+    if (format == graph::Format::Rgba32Float) return encoded<float>(level, [](float value, bool) { return value; });
+    if (format == graph::Format::Rgba16Unorm)
+        return encoded<std::uint16_t>(level, [](float value, bool) { return std::uint16_t(value * 65535.0 + 0.5); });
+    const bool srgb = format == graph::Format::Srgb8Alpha8;
+    return encoded<std::uint8_t>(level, [&](float value, bool isAlpha) {
+        return std::uint8_t((srgb && !isAlpha ? encodeSrgb(value) : double(value)) * 255.0 + 0.5);
+    });
+}
+
+} // namespace
+
+graph::Format storedFormat(TexelFormat format, bool srgb) {
+    if (format == TexelFormat::Rgba8Unorm) return srgb ? graph::Format::Srgb8Alpha8 : graph::Format::Rgba8Unorm;
+    if (format == TexelFormat::Rgba16Unorm && !srgb) return graph::Format::Rgba16Unorm;
+    return graph::Format::Rgba32Float;
+}
+
+bool isStoredDecoded(const scenes::Image& image, bool srgb) {
+    return image.format == TexelFormat::Rgba16Unorm && srgb;
+}
+
+std::vector<float> decodedTexels(const scenes::Image& image) {
+    std::vector<float> linear(std::size_t(image.width) * std::size_t(image.height) * 4);
+    for (std::size_t i = 0; i < linear.size(); ++i) linear[i] = linearAt(image, true, i);
+    return linear;
+}
+
+bool hasOddLevel(int width, int height) {
+    return (width & (width - 1)) != 0 || (height & (height - 1)) != 0;
+}
+
+std::vector<std::vector<std::byte>> smallerLevels(const scenes::Image& image, bool srgb) {
+    std::vector<std::vector<std::byte>> levels;
+    for (Level level = linearLevel(image, srgb); std::max(level.width, level.height) > 1;) {
+        level = halved(level);
+        levels.push_back(storedLevel(level, storedFormat(image.format, srgb)));
+    }
+    return levels;
+}
+
+} // namespace tessera::frame
