@@ -255,7 +255,9 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     addWholeNumber(command, "--solo", options.solo, "Only this light shines, counted from 0", "N")->group("Frame");
     text("--specular", options.specular, "off leaves the specular lobe out [on]", "on|off");
     text("--filter", options.filter,
-         "Textures by hardware, or exact: bilinear at level 0, computed by the shader [hardware]", "NAME");
+         "Textures by hardware, or exact: level 0 alone, by the sampler's nearest or linear filter in full precision "
+         "[hardware]",
+         "NAME");
     text("--space", options.space, "Lighting in world or view space; the pictures agree [world]", "NAME");
     text("--prune", options.prune, "off keeps what the scene does not need; the picture is the same [on]", "on|off");
     command.add_flag("--no-default-light", options.noDefaultLight, "Leaves a scene without lights dark")

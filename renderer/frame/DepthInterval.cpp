@@ -22,35 +22,93 @@ struct Seen {
     double farthest = -std::numeric_limits<double>::infinity();
     double across = 0.0; ///< from the view axis
     double reach = 0.0;  ///< the largest SurfaceBounds::reachMetres
+
+    void add(const glm::dvec3& placeVS) {
+        nearest = std::min(nearest, -placeVS.z);
+        farthest = std::max(farthest, -placeVS.z);
+        across = std::max(across, glm::length(glm::dvec2(placeVS)));
+    }
 };
 
-/// Boxes just outside a side of the picture, by this share of their distance from the view axis, are taken in too:
-/// rounding to fp32 may move what they hold into the picture.
+/// What lies just outside a side of the picture is taken in too, since rounding to fp32 may move it into the picture:
+/// by these shares of the picture and of the distance of the box's farthest corner.
 constexpr double kSideMargin = 1e-4;
+constexpr double kRoundingMargin = 1e-6;
 
-void addBox(Seen& seen, const SurfaceBounds& bounds, const scenes::Camera& camera, const glm::dvec2& halfExtent) {
+/// A side of the picture in view space: dot(normal, place) <= offset within it.
+struct Side {
+    glm::dvec3 normal;
+    double offset;
+    double beyond(const glm::dvec3& placeVS) const { return glm::dot(normal, placeVS) - offset; }
+};
+
+std::array<Side, 5> sidesOf(const scenes::Camera& camera, const glm::dvec2& halfExtent, double farthestMetres) {
     const bool isPerspective = camera.projection == scenes::Projection::Perspective;
-    const glm::dmat3 viewFromWorld = glm::inverse(glm::dmat3(camera.worldFromCamera));
-    std::array<glm::dvec3, 8> cornersVS;
-    std::array<glm::dvec3, 8> cornersWS = cornersOf(bounds.boxWS);
-    std::transform(cornersWS.begin(), cornersWS.end(), cornersVS.begin(), [&](const glm::dvec3& cornerWS) {
-        return viewFromWorld * (cornerWS - glm::dvec3(camera.worldFromCamera[3]));
-    });
-    for (const double side : {-1.0, 1.0}) {
-        for (int axis = 0; axis < 2; ++axis) {
-            const auto isOutside = [&](const glm::dvec3& cornerVS) {
-                const double edge = halfExtent[axis] * (isPerspective ? -cornerVS.z : 1.0);
-                return side * cornerVS[axis] > edge + kSideMargin * glm::length(glm::dvec2(cornerVS));
-            };
-            if (std::all_of(cornersVS.begin(), cornersVS.end(), isOutside)) return;
-        }
+    const double margin = kRoundingMargin * farthestMetres;
+    std::array<Side, 5> sides;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const int axis = int(i) / 2;
+        const double half = halfExtent[axis] * (1.0 + kSideMargin);
+        sides[i] = {{0.0, 0.0, isPerspective ? half : 0.0}, margin + (isPerspective ? 0.0 : half)};
+        sides[i].normal[axis] = i % 2 == 0 ? 1.0 : -1.0;
     }
-    const auto [farthest, nearest] = std::minmax_element(
-        cornersVS.begin(), cornersVS.end(), [](const glm::dvec3& a, const glm::dvec3& b) { return a.z < b.z; });
-    if (-farthest->z < camera.nearMetres || -nearest->z > camera.farMetres) return;
-    seen.nearest = std::min(seen.nearest, -nearest->z);
-    seen.farthest = std::max(seen.farthest, -farthest->z);
-    for (const glm::dvec3& cornerVS : cornersVS) seen.across = std::max(seen.across, glm::length(glm::dvec2(cornerVS)));
+    sides[4] = {{0.0, 0.0, 1.0}, 0.0}; // ahead
+    return sides;
+}
+
+using Polygon = std::vector<glm::dvec3>;
+
+/// The part of a polygon within a side. Source: Sutherland and Hodgman 1974, "Reentrant Polygon Clipping".
+Polygon clipped(const Polygon& polygon, const Side& side) {
+    Polygon within;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec3 &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+        const double a = side.beyond(from), b = side.beyond(to);
+        if (a <= 0.0) within.push_back(from);
+        if ((a <= 0.0) != (b <= 0.0)) within.push_back(from + (a / (a - b)) * (to - from));
+    }
+    return within;
+}
+
+/// Of a box the camera sees what its sides leave of the box's faces, and the eye itself where it stands in the box.
+void addBox(Seen& seen, const SurfaceBounds& bounds, const scenes::Camera& camera, const glm::dvec2& halfExtent) {
+    const glm::dmat3 viewFromWorld = glm::inverse(glm::dmat3(camera.worldFromCamera));
+    const glm::dvec3 eyeWS(camera.worldFromCamera[3]);
+    std::array<glm::dvec3, 8> cornersVS = cornersOf(bounds.boxWS);
+    double farthestMetres = 0.0;
+    for (glm::dvec3& corner : cornersVS) {
+        corner = viewFromWorld * (corner - eyeWS);
+        farthestMetres = std::max(farthestMetres, glm::length(corner));
+    }
+    Seen own;
+    bool isWhole = true;
+    const std::array<Side, 5> sides = sidesOf(camera, halfExtent, farthestMetres);
+    for (const Side& side : sides) {
+        const auto isBeyond = [&](const glm::dvec3& corner) { return side.beyond(corner) > 0.0; };
+        const std::ptrdiff_t beyond = std::count_if(cornersVS.begin(), cornersVS.end(), isBeyond);
+        if (beyond == 8) return;
+        isWhole = isWhole && beyond == 0;
+    }
+    if (isWhole) {
+        for (const glm::dvec3& corner : cornersVS) own.add(corner);
+    } else {
+        constexpr std::size_t kFaces[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                              {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
+        for (const auto& face : kFaces) {
+            Polygon polygon;
+            for (const std::size_t corner : face) polygon.push_back(cornersVS[corner]);
+            for (const Side& side : sides) polygon = clipped(polygon, side);
+            for (const glm::dvec3& place : polygon) own.add(place);
+        }
+        const glm::dvec3 room(kRoundingMargin * farthestMetres);
+        const bool isInside = glm::all(glm::lessThanEqual(bounds.boxWS.min - room, eyeWS)) &&
+                              glm::all(glm::lessThanEqual(eyeWS, bounds.boxWS.max + room));
+        if (isInside) own.add(glm::dvec3(0.0));
+    }
+    if (!(own.nearest <= own.farthest) || own.farthest < camera.nearMetres || own.nearest > camera.farMetres) return;
+    seen.nearest = std::min(seen.nearest, own.nearest);
+    seen.farthest = std::max(seen.farthest, own.farthest);
+    seen.across = std::max(seen.across, own.across);
     seen.reach = std::max(seen.reach, bounds.reachMetres);
 }
 
@@ -88,7 +146,13 @@ DepthInterval depthInterval(const scenes::Camera& camera, const glm::dvec2& half
                             std::span<const SurfaceBounds> bounds) {
     DepthInterval interval = ownInterval(camera);
     Seen seen;
-    for (const SurfaceBounds& one : bounds) addBox(seen, one, camera, halfExtent);
+    const bool isOrthographic = camera.projection == scenes::Projection::Orthographic;
+    for (const SurfaceBounds& one : bounds) {
+        addBox(seen, one, camera, halfExtent);
+        const bool isTooLong =
+            std::min(seen.farthest, camera.farMetres) > 2.0 * std::max(seen.nearest, camera.nearMetres);
+        if (isTooLong && !isOrthographic) return interval;
+    }
     if (!(seen.nearest <= seen.farthest)) return interval;
 
     // Room for what rounds: positions relative to the middle, and vertices relative to their nodes. With several
@@ -97,7 +161,6 @@ DepthInterval depthInterval(const scenes::Camera& camera, const glm::dvec2& half
     const double room = span / 8.0 + 1e-3 * (span + seen.across) + 1e-6 * seen.reach;
     const double nearMetres = std::max(camera.nearMetres, seen.nearest - room);
     const double farMetres = std::min(camera.farMetres, seen.farthest + room);
-    const bool isOrthographic = camera.projection == scenes::Projection::Orthographic;
     if (!(farMetres > nearMetres) || !std::isfinite(farMetres)) return interval;
     if (!isOrthographic && farMetres > 2.0 * nearMetres) return interval;
     interval.nearMetres = nearMetres;

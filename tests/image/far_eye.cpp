@@ -74,6 +74,21 @@ TEST_F(FarEye, aFloorUnderALampAlwaysLooksAsInTheReferenceFromAnyDistance) {
     }
 }
 
+/// Of a plain that goes on far beyond the picture only what the picture shows counts for the depths. Its corners are
+/// rounded to 2^-24 of its width, and with them the lamp's distance, the square of which the light falls with.
+TEST_F(FarEye, aFloorInAWidePlainLooksAsInTheReferenceFromAnyDistance) {
+    for (const double eyeMetres : {1e3, 1e4}) {
+        const double plainMetres = 4.0 * eyeMetres;
+        scenes::Scene scene = floorUnderLamp(eyeMetres, 0.2);
+        scenes::Node plain = scene.nodes[0];
+        plain.parentFromNode = glm::translate(glm::dmat4(1.0), {0.0, -0.05, 0.0}) * plain.parentFromNode *
+                               glm::scale(glm::dmat4(1.0), glm::dvec3(plainMetres));
+        scene.nodes.push_back(plain);
+        expectAgreement(fmt::format("a plain from {:g} m", eyeMetres), scene,
+                        std::max(kBar, 2.0 * 0x1p-24 * plainMetres / 0.2));
+    }
+}
+
 TEST_F(FarEye, aBallWithThreeHundredLightsAlwaysLooksAsInTheReferenceFromAKilometre) {
     expectAgreement("a ball, 300 lights", validation::stressFarBall(1e3, 300), kBar);
 }
@@ -81,6 +96,14 @@ TEST_F(FarEye, aBallWithThreeHundredLightsAlwaysLooksAsInTheReferenceFromAKilome
 TEST_F(FarEye, aLightAMillimetreAboveAFloorAlwaysLooksAsInTheReference) {
     expectAgreement("a light 1 mm above, 10 m", floorUnderLamp(10.0, 1e-3), kBar);
     expectAgreement("a light 1 mm above, 1 km", floorUnderLamp(1e3, 1e-3), kBar);
+}
+
+/// A floor that ends near the eye spreads the depths from there on. Twice 4 * 2^-24 of the distance is what a position
+/// may then be off by, over the lamp's distance (docs/numerics.md).
+TEST_F(FarEye, aLightAMillimetreAboveAWideFloorKeepsTheDigitsThatDepthHas) {
+    scenes::Scene scene = floorUnderLamp(10.0, 1e-3);
+    scene.nodes[0].parentFromNode = glm::scale(scene.nodes[0].parentFromNode, glm::dvec3(30.0));
+    expectAgreement("a light 1 mm above 30 m", scene, 2.0 * 4.0 * 0x1p-24 * 10.0 / 1e-3);
 }
 
 TEST_F(FarEye, parallelRaysAlwaysSeeAFloorAsInTheReferenceFromAnyDistance) {
