@@ -18,11 +18,9 @@ double litCoveredShare(const ErrorFigures& figures) {
 }
 
 Json toleranceJson(const Tolerance& tolerance) {
-    return {{"maxRel", figureJson(tolerance.maxRel)},
-            {"bitEqual", figureJson(tolerance.bitEqual)},
-            {"relMse", figureJson(tolerance.relMse)},
-            {"p999Rel", figureJson(tolerance.p999Rel)},
-            {"bias", figureJson(tolerance.bias)}};
+    return {{"maxRel", figureJson(tolerance.maxRel)}, {"bitEqual", figureJson(tolerance.bitEqual)},
+            {"relMse", figureJson(tolerance.relMse)}, {"p999Rel", figureJson(tolerance.p999Rel)},
+            {"bias", figureJson(tolerance.bias)},     {"biasNoises", tolerance.biasNoises}};
 }
 
 /// A reason for every figure that is null.
@@ -56,6 +54,7 @@ Json pairJson(const ComparePair& pair) {
                  {"p99Rel", figureJson(figures.p99Rel)},
                  {"p999Rel", figureJson(figures.p999Rel)},
                  {"bias", figureJson(figures.bias)},
+                 {"biasNoise", figureJson(figures.biasNoise)},
                  {"bitEqual", figureJson(figures.bitEqual)},
                  {"flip", figureJson(figures.flip)},
                  {"psnr", figureJson(figures.psnr)},

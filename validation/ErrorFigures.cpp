@@ -71,7 +71,7 @@ Signal signalOf(const Picture& picture, double litThreshold) {
 /// The figures that are sums or maxima over the compared pixels.
 void addDifferences(ErrorFigures& figures, const Picture& a, const Picture& b, const PixelErrors& errors) {
     const double floorOfSquare = 1e-2 * errors.typicalLuminance * errors.typicalLuminance;
-    double squares = 0.0, relSquares = 0.0, luminanceA = 0.0, luminanceB = 0.0;
+    double squares = 0.0, relSquares = 0.0, luminanceA = 0.0, luminanceB = 0.0, luminanceSquares = 0.0;
     double maxAbs = 0.0, maxRel = 0.0;
     std::vector<double> rels;
     rels.reserve(errors.rel.size());
@@ -93,6 +93,7 @@ void addDifferences(ErrorFigures& figures, const Picture& a, const Picture& b, c
         }
         luminanceA += luminance(valueA);
         luminanceB += luminance(valueB);
+        luminanceSquares += std::pow(luminance(valueA) - luminance(valueB), 2.0);
         figures.litCoveredA += std::abs(luminance(valueA)) > errors.litThreshold;
         figures.litCovered += std::abs(luminance(valueB)) > errors.litThreshold;
         rels.push_back(errors.rel[i]);
@@ -109,6 +110,7 @@ void addDifferences(ErrorFigures& figures, const Picture& a, const Picture& b, c
     figures.p99Rel = nearestRank(rels, 990);
     figures.p999Rel = nearestRank(rels, 999);
     figures.bias = luminanceB != 0.0 ? (luminanceA - luminanceB) / luminanceB : kNotMeasured;
+    figures.biasNoise = luminanceB != 0.0 ? std::sqrt(luminanceSquares) / std::abs(luminanceB) : kNotMeasured;
 }
 
 } // namespace

@@ -35,8 +35,9 @@ struct ErrorFigures : DisplayFigures {
     double p50Rel;
     double p99Rel;
     double p999Rel;
-    double bias;     ///< (mean a - mean b) / mean b, of luminance
-    double bitEqual; ///< share of covered pixels with equal bit patterns in R, G and B, +0 = -0
+    double bias;      ///< (mean a - mean b) / mean b, of luminance
+    double biasNoise; ///< standard error of bias where the pixels' errors are independent of each other
+    double bitEqual;  ///< share of covered pixels with equal bit patterns in R, G and B, +0 = -0
 
     BadPixels bad;        ///< covered pixels, bad in a or in b
     BadPixels badA, badB; ///< covered pixels, by picture

@@ -50,14 +50,26 @@ struct IdPictures {
     }
 };
 
+bool isAmong(const Ids& shown, const std::vector<Layers::Other>& others) {
+    return std::any_of(others.begin(), others.end(), [&](const Layers::Other& other) { return other.ids == shown; });
+}
+
+/// Several triangles lie in one place, and the GPU shows another than the reference: that can be compared.
+bool isCoincident(const Ids& shown, const Layers& centre) {
+    return std::any_of(centre.others.begin(), centre.others.end(),
+                       [&](const Layers::Other& other) { return other.isCoincident && other.ids == shown; });
+}
+
 bool isRounding(const IdPictures& pictures, std::size_t at, std::span<const Layers, kRays> rays) {
     const Ids& shown = pictures.shown[at];
     const Ids& truth = pictures.truth[at];
     const auto anyRay = [&](const auto& holds) {
         return std::any_of(rays.begin(), rays.end(), [&](const Layers& ray) { return holds(ray.ids); });
     };
-    if (!anyRay([&](const Ids& ids) { return ids != truth; })) return false;
     if (anyRay([&](const Ids& ids) { return ids == shown; })) return true;
+    if (std::any_of(rays.begin(), rays.end(), [&](const Layers& ray) { return isAmong(shown, ray.others); }))
+        return true;
+    if (!anyRay([&](const Ids& ids) { return ids != truth; })) return false;
     const bool isAtEdge = pictures.anyNeighbour(pictures.shown, at, [&](const Ids& ids) { return ids != shown; });
     const bool isSwapped = pictures.anyNeighbour(pictures.shown, at, [&](const Ids& ids) {
         return ids.object == truth.object;
@@ -141,19 +153,11 @@ ShownTriangles shownTriangles(recipes::Renderer& renderer, const frame::FrameSet
     const std::vector<Ids> shown = drawnIds(renderer, settings);
     const IdPictures pictures{settings.sizePixels, shown, ids};
     const std::vector<Instance> instances = instancesOf(renderer.scene());
-    const auto isMasked = [&](std::uint32_t object) {
-        return object > 0 && instances[object - 1].material->alphaMode == scenes::AlphaMode::Mask;
-    };
-
     ShownTriangles result;
     result.excluded.resize(ids.size());
     std::vector<std::size_t> open; // pixels that are to be explained
     for (std::size_t i = 0; i < ids.size(); ++i) {
-        if (shown[i] == ids[i]) continue;
-        if (settings.filter == frame::TextureFilter::Hardware && (isMasked(shown[i].object) || isMasked(ids[i].object)))
-            result.excluded[i] = 1;
-        else
-            open.push_back(i);
+        if (shown[i] != ids[i]) open.push_back(i);
     }
     if (open.empty()) return result;
 
@@ -162,6 +166,7 @@ ShownTriangles shownTriangles(recipes::Renderer& renderer, const frame::FrameSet
     tbb::parallel_for(std::size_t(0), open.size(), [&](std::size_t k) {
         const std::size_t at = open[k], width = std::size_t(pictures.size.x);
         const auto rays = layersAround(probe, {double(at % width) + 0.5, double(at / width) + 0.5});
+        if (isCoincident(shown[at], rays.front())) return;
         if (isRounding(pictures, at, rays))
             result.excluded[at] = 1;
         else

@@ -25,7 +25,9 @@ inline constexpr double kEdgeShiftPixels = 1.0 / 128.0;
 ///   picture runs beside the pixel (one of the eight neighbours differs), one of the rays meets the opaque instance
 ///   that the GPU shows, or each of the two shows the other's opaque instance in a neighbour, and transparent surfaces
 ///   are the same or differ among the rays.
-/// Holes of alpha masks that hardware filters are the driver's choice; there a difference is always excluded.
+/// Where one of the rays meets a mask whose opacity lies on either side of its cutoff within what is left open of its
+/// texture, the surface with the hole and without it both count as met. Of several triangles in one place any may be
+/// shown: the reference has the radiance of each, and the pixel is compared.
 /// Draws the view `ids`, which is the same for every technique. `ids`: of the reference's picture of these settings.
 ShownTriangles shownTriangles(recipes::Renderer& renderer, const frame::FrameSettings& settings,
                               const std::vector<reference::Ids>& ids);

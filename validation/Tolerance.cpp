@@ -58,7 +58,9 @@ Verdict checkTolerance(const ErrorFigures& figures, const Tolerance& tolerance) 
     checkFigure(missed, "bitEqual", figures.bitEqual, tolerance.bitEqual, true);
     checkFigure(missed, "relMse", figures.relMse, tolerance.relMse);
     checkFigure(missed, "p999Rel", figures.p999Rel, tolerance.p999Rel);
-    checkFigure(missed, "bias (magnitude)", std::abs(figures.bias), tolerance.bias);
+    if (tolerance.bias)
+        checkFigure(missed, "bias (magnitude)", std::abs(figures.bias),
+                    *tolerance.bias + tolerance.biasNoises * figures.biasNoise);
     verdict.ok = missed.empty();
     return verdict;
 }

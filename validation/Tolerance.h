@@ -14,6 +14,7 @@ struct Tolerance {
     std::optional<double> relMse = {};   ///< at most
     std::optional<double> p999Rel = {};  ///< at most
     std::optional<double> bias = {};     ///< at most, of its magnitude
+    double biasNoises = 0.0;             ///< bias may exceed that by so many of its standard errors (biasNoise)
     bool isSigned = false;               ///< directions, which may be negative; radiance may not
     std::string reason = {};             ///< why these values: one sentence
 };

@@ -200,5 +200,41 @@ TEST_F(LostGeometryTest, holesOfMasksThatHardwareFiltersNeverCountAsLost) {
     EXPECT_TRUE(shown(scene, settings, validation::referencePicture(scene, settings).ids).lost.empty());
 }
 
+/// The driver's choice is where a hole ends, not whether there is a mask.
+TEST_F(LostGeometryTest, aMaskThatHardwareFiltersIsNamedWhereItIsDropped) {
+    frame::FrameSettings settings = exactOfSize(96, 54);
+    settings.filter = frame::TextureFilter::Hardware;
+    expectEveryInstanceNamed(test::everythingScene(), settings);
+}
+
+/// Which of two triangles in one place is seen is up to the order of drawing.
+TEST_F(LostGeometryTest, trianglesInOnePlaceAreComparedWithTheOneThatIsShown) {
+    for (const bool swapped : {false, true}) {
+        scenes::Mesh square;
+        scenes::builtin::appendFloor(square, {0.013, 0.1, 0.0}, {2.2, 2.2}, {1, 1});
+        scenes::Scene scene = floorWith(std::move(square));
+        scenes::Node twin = scene.nodes.back();
+        twin.instances[0].material = 0;
+        scene.nodes.push_back(twin);
+        if (swapped) std::swap(scene.nodes[1], scene.nodes[2]);
+        frame::FrameSettings settings = exactOfSize(64, 64);
+        recipes::Renderer renderer(context(), scene);
+        for (const frame::TextureFilter filter : {frame::TextureFilter::Exact, frame::TextureFilter::Hardware}) {
+            settings.filter = filter;
+            validation::CompareRequest request;
+            request.techniques = {recipes::Technique::Deferred};
+            request.against = validation::Reference{};
+            request.settings = settings;
+            const validation::CompareRecord record =
+                validation::compareTechniques(renderer, context().capabilities(), request).record;
+            EXPECT_TRUE(record.ok()) << validation::compareTable(record);
+            EXPECT_EQ(record.pairs[0].figures.excluded, 0.0);
+        }
+        const ShownTriangles found =
+            shown(scene, settings, validation::referencePicture(scene, settings).ids, Without(1).tree());
+        EXPECT_TRUE(found.lost.empty()) << "the other of the two fills its place";
+    }
+}
+
 } // namespace
 } // namespace tessera

@@ -1,7 +1,9 @@
 #include "validation/reference/Render.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -40,10 +42,55 @@ public:
             found.transparent.push_back({1 + hit.object->number, transparentId(hit.object->number, hit.triangle)});
             found.ids.transparent += found.transparent.back().id;
         }
+        addOthers(ray, depthMetres, found);
         return found;
     }
 
 private:
+    /// Triangles in one place: their depths differ by no more than some roundings to fp32.
+    static bool areCoincident(double aMetres, double bMetres) {
+        return std::abs(aMetres - bMetres) <= 0x1p-20 * std::min(aMetres, bMetres);
+    }
+
+    /// The surfaces that may be the nearest: up to the first that has no hole there whatever its texture's leeway.
+    std::vector<Hit> candidates(const Ray& ray) const {
+        std::vector<Hit> found;
+        double solidMetres = std::numeric_limits<double>::infinity();
+        for (const Hit& hit : visibility_.opaqueBefore(ray, solidMetres)) {
+            if (hit.depthMetres > solidMetres && !areCoincident(hit.depthMetres, solidMetres)) break;
+            const auto [least, most] = opacitiesOf(hit);
+            if (most < double(hit.object->material->alphaCutoff)) continue;
+            found.push_back(hit);
+            if (least >= double(hit.object->material->alphaCutoff))
+                solidMetres = std::min(solidMetres, hit.depthMetres);
+        }
+        return found;
+    }
+
+    /// From the least to the most that the leeway allows; beyond every cutoff where nothing is cut.
+    std::pair<double, double> opacitiesOf(Hit hit) const {
+        constexpr double kSolid = std::numeric_limits<double>::infinity();
+        if (hit.object->material->alphaMode != scenes::AlphaMode::Mask) return {kSolid, kSolid};
+        const double own = opacityAt(hit, textures_);
+        std::pair<double, double> range{own, own};
+        if (!reference::isUndecided(hit, textures_)) return range;
+        for (const Nudge& nudge : nudges()) {
+            hit.nudge = nudge;
+            const double other = opacityAt(hit, textures_);
+            range = {std::min(range.first, other), std::max(range.second, other)};
+        }
+        return range;
+    }
+
+    void addOthers(const Ray& ray, double depthMetres, Layers& found) const {
+        for (const Hit& hit : candidates(ray)) {
+            Layers::Other other{{1 + hit.object->number, hit.triangle, 0}, areCoincident(hit.depthMetres, depthMetres)};
+            for (const Hit& before : visibility_.transparentBefore(ray, hit.depthMetres))
+                other.ids.transparent += transparentId(before.object->number, before.triangle);
+            if (other.ids != found.ids) found.others.push_back(other);
+        }
+    }
+
     void pixel(const Ray& ray, std::size_t at, Rendered& rendered) const {
         Seen seen;
         seen.opaque = visibility_.nearestOpaque(ray);
@@ -63,15 +110,18 @@ private:
         rendered.radiance[at] = radiance;
         const bool byHardware = settings_.filtering == Filtering::Hardware;
         if (byHardware) rendered.spans[at] = {radiance, radiance};
-        if (!settings_.leeway || !isUndecided(seen)) return;
-        for (const Nudge& nudge : nudges()) {
-            const glm::dvec3 other = radianceOf(ray, seen, nudge);
+        const auto allow = [&](const glm::dvec3& other) {
             if (byHardware) {
                 rendered.spans[at].least = glm::min(rendered.spans[at].least, other);
                 rendered.spans[at].most = glm::max(rendered.spans[at].most, other);
             } else {
                 rendered.alternatives[at].push_back(other);
             }
+        };
+        for (const Hit& hit : coincidentWith(ray, seen)) allow(radianceOf(ray, {hit, seen.transparent}, Nudge()));
+        if (!settings_.leeway || !isUndecided(seen)) return;
+        for (const Nudge& nudge : nudges()) {
+            allow(radianceOf(ray, seen, nudge));
         }
     }
 
@@ -80,6 +130,18 @@ private:
         std::optional<Hit> opaque;
         std::vector<Hit> transparent; ///< in the order in which they are blended
     };
+
+    std::vector<Hit> coincidentWith(const Ray& ray, const Seen& seen) const {
+        std::vector<Hit> others;
+        if (!seen.opaque) return others;
+        for (const Hit& hit : visibility_.opaqueBefore(ray, seen.opaque->depthMetres * (1.0 + 0x1p-20))) {
+            const bool isOther = hit.object != seen.opaque->object || hit.triangle != seen.opaque->triangle;
+            if (isOther && areCoincident(hit.depthMetres, seen.opaque->depthMetres) &&
+                opacitiesOf(hit).second >= double(hit.object->material->alphaCutoff))
+                others.push_back(hit);
+        }
+        return others;
+    }
 
     bool isUndecided(const Seen& seen) const {
         const auto open = [this](const Hit& hit) { return reference::isUndecided(hit, textures_); };

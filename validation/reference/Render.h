@@ -25,8 +25,16 @@ struct Layers {
         std::uint32_t object = 0; ///< as Ids::object
         std::uint32_t id = 0;     ///< transparentId(), the surface's part of Ids::transparent
     };
+    /// What else may be seen there.
+    struct Other {
+        Ids ids;
+        /// It lies where the opaque surface does, so that the order of drawing decides; else the hole of a mask, which
+        /// lies within what is left open of its texture.
+        bool isCoincident = false;
+    };
     Ids ids;
     std::vector<Layer> transparent; ///< in the order in which they are blended
+    std::vector<Other> others;
 };
 
 /// Below 2^16, so that sums of 256 of them are exact in single precision. Two sets of triangles have the same sum with
@@ -46,7 +54,7 @@ struct Rendered {
     std::vector<Ids> ids;
 
     /// By pixel, what else the definition allows: another texel of a `nearest` filter where the coordinate lies within
-    /// rounding of an edge, or another filter where the level does.
+    /// rounding of an edge, or another filter where the level does; another of several triangles in one place.
     std::vector<std::vector<glm::dvec3>> alternatives;
     /// By pixel, what Filtering::Hardware leaves to a driver, channel by channel; else empty.
     std::vector<Span> spans;

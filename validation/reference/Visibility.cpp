@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
@@ -70,13 +71,14 @@ struct Query : RTCIntersectContext {
     double nearMetres = 0.0, farMetres = 0.0;
     std::optional<Hit> nearest;
     std::vector<Hit>* all = nullptr; ///< where every hit is wanted, not the nearest
+    bool masksHaveHoles = true;
 };
 
 std::optional<Hit> keptHit(const Object& object, std::uint32_t triangle, const Query& query) {
     std::optional<Hit> hit = hitOf(object, triangle, *query.ray);
     if (!hit || hit->depthMetres < query.nearMetres || hit->depthMetres > query.farMetres) return {};
     if (!hit->frontFacing && !object.material->doubleSided) return {};
-    if (object.material->alphaMode == scenes::AlphaMode::Mask &&
+    if (query.masksHaveHoles && object.material->alphaMode == scenes::AlphaMode::Mask &&
         opacityAt(*hit, *query.textures) < double(object.material->alphaCutoff))
         return {};
     return hit;
@@ -147,6 +149,10 @@ void trace(RTCScene tree, const Anchor& anchor, Query& query) {
     rtcIntersect1(tree, &query, &rayHit);
 }
 
+bool isSame(const Hit& a, const Hit& b) {
+    return a.object == b.object && a.triangle == b.triangle;
+}
+
 } // namespace
 
 struct Visibility::Trees {
@@ -195,7 +201,24 @@ std::vector<Hit> Visibility::transparentBefore(const Ray& ray, double depthMetre
         return std::pair(a.object, a.triangle) < std::pair(b.object, b.triangle);
     };
     std::sort(hits.begin(), hits.end(), drawnBefore);
-    const auto isSame = [](const Hit& a, const Hit& b) { return a.object == b.object && a.triangle == b.triangle; };
+    hits.erase(std::unique(hits.begin(), hits.end(), isSame), hits.end());
+    return hits;
+}
+
+std::vector<Hit> Visibility::opaqueBefore(const Ray& ray, double depthMetres) const {
+    std::vector<Hit> hits;
+    Query query{};
+    rtcInitIntersectContext(&query);
+    query.ray = &ray;
+    query.textures = &trees_->textures;
+    query.nearMetres = trees_->rays.nearMetres();
+    query.farMetres = std::min(depthMetres, trees_->rays.farMetres());
+    query.all = &hits;
+    query.masksHaveHoles = false;
+    trace(trees_->opaque.get(), trees_->anchor, query);
+    std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
+        return std::tuple(a.depthMetres, a.object, a.triangle) < std::tuple(b.depthMetres, b.object, b.triangle);
+    });
     hits.erase(std::unique(hits.begin(), hits.end(), isSame), hits.end());
     return hits;
 }

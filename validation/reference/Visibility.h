@@ -20,6 +20,9 @@ public:
     /// The nearest opaque or alpha-masked surface.
     std::optional<Hit> nearestOpaque(const Ray& ray) const;
 
+    /// Every opaque or alpha-masked surface not behind `depthMetres`, the nearest first; masks have no holes.
+    std::vector<Hit> opaqueBefore(const Ray& ray, double depthMetres) const;
+
     /// Transparent surfaces not behind `depthMetres`, in the order in which they are blended.
     std::vector<Hit> transparentBefore(const Ray& ray, double depthMetres) const;
 

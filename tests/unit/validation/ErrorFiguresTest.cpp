@@ -56,6 +56,7 @@ TEST(ErrorFigures, everyFigureIsExactlyTheHandComputedOne) {
     EXPECT_EQ(figures.p999Rel, 0.5);
     // luminance: a's sum is 1 + 0.2126 * 0.5 + 2 + 3, b's is 7
     EXPECT_NEAR(figures.bias, (6.1063 - 7.0) / 7.0, kRounding);
+    EXPECT_NEAR(figures.biasNoise, std::sqrt(0.1063 * 0.1063 + 1.0) / 7.0, kRounding);
     EXPECT_NEAR(figures.bitEqual, 1.0 / 3.0, kRounding);
     EXPECT_NEAR(figures.meanLuminance, 7.0 / 3.0, kRounding);
     EXPECT_NEAR(figures.meanLuminanceA, 6.1063 / 3.0, kRounding);
@@ -157,7 +158,7 @@ TEST(ErrorFigures, figuresOfNothingAreNeverNumbers) {
     const Picture broken = pictureOf(1, 1, {{kNan, kNan, kNan}});
     for (const ErrorFigures& figures : {errorFigures(none, none), errorFigures(broken, broken)}) {
         for (double figure : {figures.maxAbs, figures.maxRel, figures.rmse, figures.relMse, figures.p50Rel,
-                              figures.p99Rel, figures.p999Rel, figures.bias})
+                              figures.p99Rel, figures.p999Rel, figures.bias, figures.biasNoise})
             EXPECT_TRUE(std::isnan(figure));
         EXPECT_FALSE(figures.psnr.has_value());
         EXPECT_EQ(figures.psnrReason, "no pixel could be compared");

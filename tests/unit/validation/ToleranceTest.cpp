@@ -111,6 +111,9 @@ TEST(Tolerance, everyLimitIsCheckedExactlyAtItsValue) {
     EXPECT_FALSE(passes({.p999Rel = 0.499}));
     EXPECT_TRUE(passes({.bias = 0.2501}));
     EXPECT_FALSE(passes({.bias = 0.2499})); // the magnitude counts: the bias is negative
+    // One pixel alone errs, so the noise is 0.25 as well.
+    EXPECT_TRUE(passes({.bias = 0.0, .biasNoises = 1.001}));
+    EXPECT_FALSE(passes({.bias = 0.0, .biasNoises = 0.999}));
     EXPECT_THAT(checkTolerance(figures, {.maxRel = 0.25, .bitEqual = 1.0}).missed,
                 ElementsAre("maxRel is 0.5, at most 0.25 was asked", "bitEqual is 0.5, at least 1 was asked"));
 }
