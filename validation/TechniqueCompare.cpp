@@ -206,10 +206,6 @@ std::vector<Technique> techniquesTaking(int samples, std::optional<culling::Meth
     return techniques;
 }
 
-/// Dithering is right in the mean over all pictures; one picture's mean strays by its standard error. Of 16,000
-/// pictures one strays by four.
-constexpr double kDitherNoises = 4.0;
-
 Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout, bool isSoftware,
                         std::size_t lightCount) {
     Tolerance tolerance;
@@ -218,7 +214,7 @@ Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout,
         tolerance.relMse = promise.relMse;
         tolerance.p999Rel = promise.p999Rel;
         tolerance.bias = promise.bias;
-        tolerance.biasNoises = kDitherNoises;
+        tolerance.biasNoises = kBiasNoises;
         tolerance.reason =
             fmt::format("the layout's promise: rms error at most {:.1f} %, 99.9 % of the pixels within about a step of "
                         "k_s, and dithering keeps the mean",

@@ -7,6 +7,10 @@
 
 namespace tessera::validation {
 
+/// Errors that are right in the mean over pictures, as those of rounding and dithering, leave one picture's mean off by
+/// its standard error, by four of them in one picture of 16,000.
+inline constexpr double kBiasNoises = 4.0;
+
 /// What a pair must hold; what is not set is not checked.
 struct Tolerance {
     std::optional<double> maxRel = {};   ///< at most
