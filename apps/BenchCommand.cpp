@@ -70,7 +70,8 @@ validation::BenchMatrix matrixOf(const BenchCommandOptions& options) {
     std::ifstream file(options.matrix);
     if (!file) throw InputError(fmt::format("{}: cannot be read; --matrix names a JSON file", options.matrix));
     const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-    return validation::parseMatrix(text, options.matrix);
+    scenes::LoadLedger ledger(loadOptionsOf(options.frame).memoryLimitBytes);
+    return validation::parseMatrix(text, options.matrix, ledger);
 }
 
 /// Which technique to take is a question of the lit picture alone.

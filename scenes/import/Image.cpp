@@ -104,7 +104,7 @@ bool readTexels(OIIO::ImageInput& input, int channels, bool alphaIsLast, OIIO::T
 }
 
 Image decodeByOiio(std::span<const std::byte> bytes, const std::string& name, const std::string& format,
-                   const LoadLedger& ledger) {
+                   LoadLedger& ledger) {
     const std::uint64_t mark = ledger.usedBytes();
     requirePictureSize(claimedSize(bytes, format), bytes, name, ledger);
     std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
@@ -158,14 +158,14 @@ Image decodeByOiio(std::span<const std::byte> bytes, const std::string& name, co
 
 } // namespace
 
-Image readImage(const std::filesystem::path& file, const LoadLedger& ledger) {
+Image readImage(const std::filesystem::path& file, LoadLedger& ledger) {
     const std::uint64_t mark = ledger.usedBytes();
     Image image = decodeImage(readFileBytes(file, ledger), file.string(), ledger);
     ledger.settle(mark, image.texels.size());
     return image;
 }
 
-Image decodeImage(std::span<const std::byte> bytes, const std::string& name, const LoadLedger& ledger) {
+Image decodeImage(std::span<const std::byte> bytes, const std::string& name, LoadLedger& ledger) {
     if (bytes.empty()) throw InputError(fmt::format("{}: the picture is empty (0 bytes)", name));
     const std::string format = formatOf(bytes, name);
     if (std::ranges::find(kDecoded, format) == std::end(kDecoded))

@@ -79,7 +79,7 @@ private:
 
 } // namespace
 
-Image decodePng(std::span<const std::byte> bytes, const std::string& name, const LoadLedger& ledger) {
+Image decodePng(std::span<const std::byte> bytes, const std::string& name, LoadLedger& ledger) {
     Reader reader(bytes);
     const auto require = [&](bool good) {
         if (!good)

@@ -15,7 +15,7 @@
 
 namespace tessera::scenes {
 
-Image decodeBmpOrTga(std::span<const std::byte> bytes, const std::string& name, const LoadLedger& ledger) {
+Image decodeBmpOrTga(std::span<const std::byte> bytes, const std::string& name, LoadLedger& ledger) {
     const auto require = [&](bool good) {
         if (!good)
             throw InputError(

@@ -13,16 +13,16 @@
 namespace tessera::scenes {
 
 /// glTF 2.0, .gltf and .glb
-Scene importGltf(const std::filesystem::path& file, const LoadLedger& ledger = LoadLedger());
+Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger);
 /// Wavefront OBJ with MTL
-Scene importObj(const std::filesystem::path& file, const LoadLedger& ledger = LoadLedger());
+Scene importObj(const std::filesystem::path& file, LoadLedger& ledger);
 /// Tessera's own .json, see docs/scene-format.md
-Scene importSceneJson(const std::filesystem::path& file, const LoadLedger& ledger = LoadLedger());
+Scene importSceneJson(const std::filesystem::path& file, LoadLedger& ledger);
 
 /// Decodes a picture file, or bytes of one (`name` then serves error messages). PNG, JPEG, OpenEXR, Radiance HDR, TIFF,
 /// WebP, BMP and GIF are told by their first bytes, whatever the name says; TGA, which has no signature, by the name's
 /// extension .tga. No other format is read.
-Image readImage(const std::filesystem::path& file, const LoadLedger& ledger = LoadLedger());
-Image decodeImage(std::span<const std::byte> bytes, const std::string& name, const LoadLedger& ledger = LoadLedger());
+Image readImage(const std::filesystem::path& file, LoadLedger& ledger);
+Image decodeImage(std::span<const std::byte> bytes, const std::string& name, LoadLedger& ledger);
 
 } // namespace tessera::scenes

@@ -16,16 +16,16 @@ struct PictureSize {
 /// Charges the ledger. Throws InputError for a picture that no texture can be, that the ledger has no room for, or that
 /// its file cannot hold; before memory is reserved for the texels.
 void requirePictureSize(const PictureSize& size, std::span<const std::byte> file, const std::string& name,
-                        const LoadLedger& ledger);
+                        LoadLedger& ledger);
 
 /// What the headers of formats claim whose readers reserve memory, or take seconds, as soon as they see it; else 0 x 0.
 PictureSize claimedSize(std::span<const std::byte> bytes, const std::string& format);
 
 /// PNG by libpng itself: OpenImageIO lets it print to stderr what is wrong. Throws InputError.
-Image decodePng(std::span<const std::byte> bytes, const std::string& name, const LoadLedger& ledger);
+Image decodePng(std::span<const std::byte> bytes, const std::string& name, LoadLedger& ledger);
 
 /// BMP and TGA by stb_image: OpenImageIO's readers crash on palettes that are shorter than what refers to them. Throws
 /// InputError.
-Image decodeBmpOrTga(std::span<const std::byte> bytes, const std::string& name, const LoadLedger& ledger);
+Image decodeBmpOrTga(std::span<const std::byte> bytes, const std::string& name, LoadLedger& ledger);
 
 } // namespace tessera::scenes

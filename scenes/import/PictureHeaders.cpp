@@ -88,7 +88,7 @@ PictureSize exrSize(std::span<const std::byte> bytes) {
 } // namespace
 
 void requirePictureSize(const PictureSize& size, std::span<const std::byte> file, const std::string& name,
-                        const LoadLedger& ledger) {
+                        LoadLedger& ledger) {
     if (size.width > kMaxSide || size.height > kMaxSide || size.width * size.height > kMaxTexels)
         throw InputError(fmt::format("{}: the picture has {}x{} texels; at most {} a side and {} in all can be used",
                                      name, size.width, size.height, kMaxSide, kMaxTexels));

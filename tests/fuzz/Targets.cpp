@@ -9,12 +9,14 @@ namespace {
 using std::filesystem::path;
 
 void readGltf(const path& file) {
-    const scenes::Scene scene = scenes::importGltf(file, scenes::LoadLedger(kMemoryLimitBytes));
+    scenes::LoadLedger ledger(kMemoryLimitBytes);
+    const scenes::Scene scene = scenes::importGltf(file, ledger);
     scenes::checkScene(scene);
 }
 
 void readObj(const path& file) {
-    const scenes::Scene scene = scenes::importObj(file, scenes::LoadLedger(kMemoryLimitBytes));
+    scenes::LoadLedger ledger(kMemoryLimitBytes);
+    const scenes::Scene scene = scenes::importObj(file, ledger);
     scenes::checkScene(scene);
 }
 
@@ -24,12 +26,14 @@ void readMtl(const path& file) {
 }
 
 void readScene(const path& file) {
-    const scenes::Scene scene = scenes::importSceneJson(file, scenes::LoadLedger(kMemoryLimitBytes));
+    scenes::LoadLedger ledger(kMemoryLimitBytes);
+    const scenes::Scene scene = scenes::importSceneJson(file, ledger);
     scenes::checkScene(scene);
 }
 
 void readPicture(const path& file) {
-    scenes::readImage(file, scenes::LoadLedger(kMemoryLimitBytes));
+    scenes::LoadLedger ledger(kMemoryLimitBytes);
+    scenes::readImage(file, ledger);
 }
 
 /// A file of shaders/ that includes those beside it, and itself.
