@@ -39,7 +39,7 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
     return parts;
 }
 
-/// A technique's name, the reference, or the path of a picture that exists.
+/// A technique's name, the reference, or the path of a picture that exists, which is not read yet.
 validation::Truth truthNamed(const std::string& name) {
     if (name == kReferenceName) return validation::Reference{};
     std::vector<std::string_view> names{kReferenceName};
@@ -47,9 +47,16 @@ validation::Truth truthNamed(const std::string& name) {
         if (info.name == name) return info.technique;
         names.push_back(info.name);
     }
-    if (std::filesystem::exists(name)) return name;
+    if (std::filesystem::exists(name)) return validation::PictureTruth{name, {}};
     throw InputError(
         fmt::format("--against '{}' is neither a technique nor a picture file: {}", name, suggestNames(name, names)));
+}
+
+/// What the scene holds is in use already: one limit for all that a command reads.
+validation::Picture readBeside(const scenes::Scene& scene, const std::string& path, const FrameOptions& options) {
+    scenes::LoadLedger ledger(loadOptionsOf(options).memoryLimitBytes);
+    ledger.charge(scenes::bytesOf(scene), [&] { return options.scene; });
+    return validation::readPicture(path, ledger);
 }
 
 /// Those asked for; else all but the truth that take the samples and the culling method, the others to `leftOut`.
@@ -105,8 +112,10 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
     if (!options.heatMaps.empty()) requireFolderPlace(options.heatMaps);
     const Request request = resolve(options.frame);
     std::vector<std::string> inputs = request.files;
-    if (const auto* picture = std::get_if<std::string>(&comparison.against)) inputs.push_back(*picture);
+    auto* picture = std::get_if<validation::PictureTruth>(&comparison.against);
+    if (picture) inputs.push_back(picture->path);
     requireNotRead(inputs, {options.json});
+    if (picture) picture->picture = readBeside(request.scene, picture->path, options.frame);
     comparison.settings = request.settings;
     if (const frame::ViewInfo& view = frame::viewInfo(request.settings.view); view.ofTechnique)
         throw InputError(fmt::format(

@@ -131,7 +131,16 @@ TEST_F(BadOptions, comparisonsThatCannotBeMadeAreAlwaysRefused) {
     expectError(kBadInput, {"compare", "room", "--techniques", "forward,"}, {"unknown technique ''"});
     expectError(kBadInput, {"compare", "room", "--against", "nix.exr"}, {"nix.exr"});
     expectError(kBadInput, {"compare", "room", "--size", "16x9", "--against", "a.png"},
-                {"a.png", "not a readable picture"});
+                {"a.png: is in no known picture format; convert the picture to png"});
+    for (const char* name : {"x.null", "x.mp4"}) {
+        folder_.write(name, "not a picture");
+        expectError(kBadInput, {"compare", "room", "--size", "16x9", "--against", name},
+                    {std::string(name) + ": the picture format " + (name + 2) + " is not supported"});
+    }
+    folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    ASSERT_EQ(run({"--quiet", "render", "m.obj", "--size", "160x90", "-o", "b.exr"}).exitCode, 0);
+    expectError(kBadInput, {"--quiet", "compare", "m.obj", "--against", "b.exr", "--memory-limit", "600K"},
+                {"b.exr: the picture of 160x90 texels", "may take 600.0 KiB (--memory-limit)"});
     folder_.write("empty.exr", "");
     expectError(kBadInput, {"compare", "room", "--size", "16x9", "--against", "empty.exr"}, {"empty.exr", "empty"});
 }

@@ -135,6 +135,32 @@ TEST(Memory, whatReadersWouldReserveAtOnceIsAlwaysLookedAtBefore) {
                 HasSubstr("a.exr: the picture has 4294967296x4294967296 texels"));
 }
 
+/// The refusal of an EXR whose first attribute is this, after the file's name.
+std::string refusalOfExr(const std::string& type, const std::string& sizeAndValue) {
+    const TempFolder folder;
+    const std::string exr = std::string("\x76\x2f\x31\x01\x02\0\0\0", 8) + "owner" + '\0' + type + '\0' + sizeAndValue;
+    const std::filesystem::path file = folder.write("a.exr", exr);
+    const std::string error = inputErrorOf([&] { underLedger(readImage, file); });
+    EXPECT_THAT(error, testing::StartsWith(file.string() + ": the openexr picture cannot be decoded ("));
+    const std::size_t first = error.find('(');
+    return error.substr(first, error.find(')') + 1 - first);
+}
+
+TEST(Memory, aValueOfAnExrHeaderIsNeverReservedUnlessTheFileHoldsIt) {
+    const std::string twoGiB("\xff\xff\xff\x7f", 4), eight("\x08\0\0\0", 4);
+    EXPECT_EQ(refusalOfExr("string", twoGiB + "abcd"),
+              "(its attribute 'owner' of type string claims 2147483647 bytes where 4 are left)");
+    EXPECT_EQ(refusalOfExr("none of its own", twoGiB + "abcd"),
+              "(its attribute 'owner' of type none of its own claims 2147483647 bytes where 4 are left)");
+    EXPECT_EQ(refusalOfExr("stringvector", eight + twoGiB + "abcd"),
+              "(its attribute 'owner' of type stringvector claims 2147483647 bytes where 4 are left)");
+    // What the reader takes without a look at the size would hide what follows.
+    EXPECT_EQ(refusalOfExr("box2i", eight + "abcdefgh"),
+              "(its attribute 'owner' of type box2i claims 8 bytes and has 16)");
+    EXPECT_EQ(refusalOfExr("chlist", std::string("\x02\0\0\0\0abcdefgh", 13)),
+              "(its attribute 'owner' of type chlist claims 2 bytes where 1 are left)");
+}
+
 TEST(Memory, whatAFileLeavesBehindIsAlwaysWhatItIsChargedFor) {
     const SceneFolder folder;
     LoadLedger ledger(64 * kMiB);

@@ -47,7 +47,7 @@ std::vector<T> texelsOf(const Image& image) {
 }
 
 /// What every refused picture may be converted to.
-const std::string kConvert = "; convert the picture to PNG, JPEG, HDR or EXR";
+const std::string kConvert = "; convert the picture to png, jpeg, openexr, hdr, pfm, tiff, webp, bmp, gif or tga";
 
 using Texels8 = std::vector<std::uint8_t>;
 
@@ -110,7 +110,7 @@ TEST(Image, formatIsAlwaysFoundByContentBeforeExtension) {
 }
 
 TEST(Image, unusablePicturesAreAlwaysRefusedByName) {
-    EXPECT_EQ(decodeError({}, "a.png"), "a.png: the picture is empty (0 bytes)");
+    EXPECT_EQ(decodeError({}, "a.png"), "a.png: the picture is empty (0 bytes); save it again");
     EXPECT_EQ(decodeError(bytesOf(std::vector<char>{'a', 'b', 'c'}), "thing"),
               "thing: is in no known picture format" + kConvert);
     const std::string ktx2 = "\xabKTX 20\xbb\r\n\x1a\n";
