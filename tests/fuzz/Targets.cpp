@@ -43,9 +43,9 @@ void expandShader(const path& file) {
 }
 
 constexpr Target kTargets[] = {
-    {"gltf", "input.gltf", readGltf},  {"glb", "input.glb", readGltf},         {"obj", "input.obj", readObj},
-    {"mtl", "input.mtl", readMtl},     {"scene", "input.json", readScene},     {"picture", "input.png", readPicture},
-    {"tga", "input.tga", readPicture}, {"shader", "input.glsl", expandShader},
+#define TARGET(name, fileName, read) {#name, fileName, read},
+#include "tests/fuzz/Targets.inc"
+#undef TARGET
 };
 
 } // namespace
