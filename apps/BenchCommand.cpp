@@ -9,13 +9,12 @@
 #include "apps/ErrorLine.h"
 #include "apps/FrameOptionText.h"
 #include "apps/Numbers.h"
-#include "apps/OutputFile.h"
 #include "apps/OutputFolder.h"
+#include "apps/Outputs.h"
 #include "apps/Version.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "scenes/Error.h"
 #include "scenes/Names.h"
-#include "validation/AtomicFile.h"
 #include "validation/ReferencePicture.h"
 #include "validation/bench/BenchReport.h"
 #include "validation/bench/MachineName.h"
@@ -23,6 +22,8 @@
 namespace tessera::app {
 
 namespace {
+
+constexpr const char* kReport = "/report.html";
 
 struct BenchCommandOptions {
     FrameOptions frame;
@@ -70,7 +71,8 @@ validation::BenchMatrix matrixOf(const BenchCommandOptions& options) {
     std::ifstream file(options.matrix);
     if (!file) throw InputError(fmt::format("{}: cannot be read; --matrix names a JSON file", options.matrix));
     const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-    return validation::parseMatrix(text, options.matrix);
+    scenes::LoadLedger ledger(loadOptionsOf(options.frame).memoryLimitBytes);
+    return validation::parseMatrix(text, options.matrix, ledger);
 }
 
 /// Which technique to take is a question of the lit picture alone.
@@ -82,8 +84,9 @@ void requireLitPicture(const frame::FrameSettings& settings) {
                                  name, name));
 }
 
-/// Everything that will be measured; names are checked against every scene before the first frame is drawn.
-validation::BenchPlan planOf(const BenchCommandOptions& options) {
+/// Everything that will be measured; names, and files against the outputs, are checked for every scene before the first
+/// frame is drawn.
+validation::BenchPlan planOf(const BenchCommandOptions& options, Outputs& outputs) {
     validation::BenchMatrix matrix = matrixOf(options);
     if (matrix.techniques.empty() && options.frame.technique)
         matrix.techniques.push_back(techniqueNamed(*options.frame.technique));
@@ -91,7 +94,9 @@ validation::BenchPlan planOf(const BenchCommandOptions& options) {
     for (const std::string& scene : options.scenes) {
         FrameOptions frame = options.frame;
         frame.scene = scene;
-        const frame::FrameSettings settings = resolve(frame).settings;
+        const Request request = resolve(frame);
+        outputs.reads(request.files);
+        const frame::FrameSettings& settings = request.settings;
         requireLitPicture(settings);
         if (benchTruthNamed(options.against) == validation::BenchTruth::Reference)
             validation::requireReferenceTakes(settings);
@@ -116,15 +121,22 @@ std::string commandOf(const BenchCommandOptions& options) {
     return command;
 }
 
-void write(const std::string& folder, const validation::BenchRecord& record) {
-    writeBenchFiles(folder, record);
-    validation::writeFileAtomically(folder + "/report.html",
-                                    validation::reportHtml(validation::benchReport(record, folder)));
+Outputs outputsOf(const BenchCommandOptions& options) {
+    Outputs outputs({options.folder + kReport});
+    addBenchFiles(options.folder, outputs);
+    if (!options.matrix.empty()) outputs.reads({options.matrix});
+    for (const std::string& shard : options.merge) outputs.reads({shard + "/parts/run.json"});
+    return outputs;
 }
 
-int finish(const std::string& folder, const validation::BenchRecord& record) {
-    write(folder, record);
-    fmt::print("{}report    {}/report.html\n", validation::benchTable(record), folder);
+void write(const Outputs& outputs, const std::string& folder, const validation::BenchRecord& record) {
+    writeBenchFiles(outputs, folder, record);
+    outputs.write(folder + kReport, validation::reportHtml(validation::benchReport(record, folder)));
+}
+
+int finish(const Outputs& outputs, const std::string& folder, const validation::BenchRecord& record) {
+    write(outputs, folder, record);
+    fmt::print("{}report    {}{}\n", validation::benchTable(record), folder, kReport);
     for (const validation::BenchGroup& group : record.groups) {
         for (const validation::BenchResult& result : group.results) {
             if (result.counters.falseNegatives == 0) continue;
@@ -141,8 +153,9 @@ int merge(const BenchCommandOptions& options) {
         throw InputError("--merge puts finished shards together and measures nothing: leave scenes, --matrix, --shard "
                          "and --resume out");
     requireFolderPlace(options.folder);
+    const Outputs outputs = outputsOf(options);
     const validation::FolderLock lock = validation::mergeRuns(options.merge, options.folder);
-    return finish(options.folder, validation::recordIn(options.folder));
+    return finish(outputs, options.folder, validation::recordIn(options.folder));
 }
 
 int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
@@ -152,13 +165,13 @@ int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
     if (options.frame.samples.value_or(1) != 1)
         throw InputError("bench measures frames of one sample a pixel; leave --samples out");
     requireFolderPlace(options.folder);
-    requireNotRead({options.matrix}, {options.folder + "/bench.json", options.folder + "/bench.csv"});
+    Outputs outputs = outputsOf(options);
     BenchRun run;
     run.options.against = benchTruthNamed(options.against);
     if (options.frames) run.options.frames = *options.frames;
     if (run.options.frames < 1) throw InputError(fmt::format("--frames {} is less than one frame", run.options.frames));
     const auto [shard, shards] = shardNamed(options.shard);
-    run.plan = planOf(options);
+    run.plan = planOf(options, outputs);
     if (options.frame.filter) run.options.errorFilter = run.plan.groups.front().points.front().settings.filter;
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     for (validation::PlannedGroup& group : run.plan.groups)
@@ -179,11 +192,11 @@ int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
         frame.lights = group.lightsToLoad;
         return loadFor(frame);
     };
-    run.write = [&](const validation::BenchRecord& record) { write(options.folder, record); };
+    run.write = [&](const validation::BenchRecord& record) { write(outputs, options.folder, record); };
     makeFolder(options.folder);
     const validation::BenchStore store(options.folder, identity, run.plan,
                                        options.resume ? validation::EarlierRun::Resume : validation::EarlierRun::Keep);
-    return finish(options.folder, runBench(*context, store, std::move(run), global.quiet));
+    return finish(outputs, options.folder, runBench(*context, store, std::move(run), global.quiet));
 }
 
 } // namespace

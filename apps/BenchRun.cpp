@@ -5,13 +5,14 @@
 #include "apps/Progress.h"
 #include "scenes/Error.h"
 #include "scenes/Fingerprint.h"
-#include "validation/AtomicFile.h"
 
 namespace tessera::app {
 
 using validation::GroupState;
 
 namespace {
+
+constexpr const char *kJson = "/bench.json", *kCsv = "/bench.csv";
 
 /// The scene of a group. Hours may lie between the plan and this, and its file may have been edited since.
 scenes::Scene loadAsPlanned(const BenchRun& run, const validation::PlannedGroup& group) {
@@ -24,9 +25,14 @@ scenes::Scene loadAsPlanned(const BenchRun& run, const validation::PlannedGroup&
 
 } // namespace
 
-void writeBenchFiles(const std::string& folder, const validation::BenchRecord& record) {
-    validation::writeFileAtomically(folder + "/bench.json", validation::benchJson(record));
-    validation::writeFileAtomically(folder + "/bench.csv", validation::benchCsv(record));
+void addBenchFiles(const std::string& folder, Outputs& outputs) {
+    for (const char* file : {kJson, kCsv}) outputs.add(folder + file);
+    outputs.addFolder(folder + "/parts");
+}
+
+void writeBenchFiles(const Outputs& outputs, const std::string& folder, const validation::BenchRecord& record) {
+    outputs.write(folder + kJson, validation::benchJson(record));
+    outputs.write(folder + kCsv, validation::benchCsv(record));
 }
 
 validation::BenchRecord runBench(gpu::Context& context, const validation::BenchStore& store, BenchRun run, bool quiet) {

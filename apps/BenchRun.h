@@ -2,6 +2,7 @@
 #include <functional>
 #include <string>
 
+#include "apps/Outputs.h"
 #include "renderer/gpu/Context.h"
 #include "validation/bench/BenchStore.h"
 
@@ -20,7 +21,9 @@ struct BenchRun {
 /// InputError when a scene is no longer what the plan was made from.
 validation::BenchRecord runBench(gpu::Context& context, const validation::BenchStore& store, BenchRun run, bool quiet);
 
+/// Tells the outputs what a benchmark writes into its folder: bench.json, bench.csv, and all that BenchStore keeps.
+void addBenchFiles(const std::string& folder, Outputs& outputs);
 /// bench.json and bench.csv of a record.
-void writeBenchFiles(const std::string& folder, const validation::BenchRecord& record);
+void writeBenchFiles(const Outputs& outputs, const std::string& folder, const validation::BenchRecord& record);
 
 } // namespace tessera::app

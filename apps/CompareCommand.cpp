@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "apps/Commands.h"
-#include "apps/OutputFile.h"
 #include "apps/OutputFolder.h"
+#include "apps/Outputs.h"
 #include "apps/Progress.h"
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseSamples.h"
@@ -20,6 +20,9 @@
 namespace tessera::app {
 
 namespace {
+
+/// Of the maps of the relative error and of FLIP.
+constexpr const char* kMapExtensions[] = {".png", "_flip.png"};
 
 struct CompareOptions {
     FrameOptions frame;
@@ -39,7 +42,7 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
     return parts;
 }
 
-/// A technique's name, the reference, or the path of a picture that exists.
+/// A technique's name, the reference, or the path of a picture that exists, which is not read yet.
 validation::Truth truthNamed(const std::string& name) {
     if (name == kReferenceName) return validation::Reference{};
     std::vector<std::string_view> names{kReferenceName};
@@ -47,9 +50,16 @@ validation::Truth truthNamed(const std::string& name) {
         if (info.name == name) return info.technique;
         names.push_back(info.name);
     }
-    if (std::filesystem::exists(name)) return name;
+    if (std::filesystem::exists(name)) return validation::PictureTruth{name, {}};
     throw InputError(
         fmt::format("--against '{}' is neither a technique nor a picture file: {}", name, suggestNames(name, names)));
+}
+
+/// What the scene holds is in use already: one limit for all that a command reads.
+validation::Picture readBeside(const scenes::Scene& scene, const std::string& path, const FrameOptions& options) {
+    scenes::LoadLedger ledger(loadOptionsOf(options).memoryLimitBytes);
+    ledger.charge(scenes::bytesOf(scene), [&] { return options.scene; });
+    return validation::readPicture(path, ledger);
 }
 
 /// Those asked for; else all but the truth that take the samples and the culling method, the others to `leftOut`.
@@ -76,23 +86,26 @@ std::vector<recipes::Technique> techniquesOf(const CompareOptions& options, cons
     return techniques;
 }
 
-void writeHeatMaps(const std::string& folder, const validation::CompareResult& result,
-                   const std::vector<std::string>& inputs) {
-    makeFolder(folder);
+std::string mapFile(const CompareOptions& options, const std::string& picture, const char* extension) {
+    return (std::filesystem::path(options.heatMaps) / pictureFile(picture, extension)).string();
+}
+
+/// Of each picture that will be compared.
+void addHeatMaps(const CompareOptions& options, const std::vector<std::string>& pictures, Outputs& outputs) {
+    for (const std::string& picture : pictures)
+        for (const char* extension : kMapExtensions) outputs.add(mapFile(options, picture, extension));
+}
+
+void writeHeatMaps(const CompareOptions& options, const validation::CompareResult& result, const Outputs& outputs) {
+    makeFolder(options.heatMaps);
     for (std::size_t i = 0; i < result.pictures.size(); ++i) {
         const validation::NamedPicture& picture = result.pictures[i];
         const validation::PairTruth& truth = result.truths[i];
         const std::string title = picture.name + " vs " + std::filesystem::path(result.truth.name).filename().string();
-        const validation::DisplayImage map =
-            validation::errorHeatMap(picture.picture, truth.picture, title, truth.excluded);
-        std::string file = picture.name;
-        std::replace(file.begin(), file.end(), ' ', '_');
-        std::erase_if(file, [](char c) { return c == '(' || c == ')'; });
-        const std::filesystem::path place(folder);
-        requireNotRead(inputs, {(place / (file + ".png")).string(), (place / (file + "_flip.png")).string()});
-        validation::writePng((place / (file + ".png")).string(), map);
+        validation::writePng(outputs.at(mapFile(options, picture.name, kMapExtensions[0])),
+                             validation::errorHeatMap(picture.picture, truth.picture, title, truth.excluded));
         if (picture.display.isConsistent() && result.truth.display.isConsistent()) {
-            validation::writePng((place / (file + "_flip.png")).string(),
+            validation::writePng(outputs.at(mapFile(options, picture.name, kMapExtensions[1])),
                                  validation::flipHeatMap(picture.display, result.truth.display, "FLIP  " + title));
         }
     }
@@ -104,9 +117,12 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
     if (!options.json.empty()) requireOutput(options.json);
     if (!options.heatMaps.empty()) requireFolderPlace(options.heatMaps);
     const Request request = resolve(options.frame);
-    std::vector<std::string> inputs = request.files;
-    if (const auto* picture = std::get_if<std::string>(&comparison.against)) inputs.push_back(*picture);
-    requireNotRead(inputs, {options.json});
+    Outputs outputs({options.json});
+    outputs.reads(request.files);
+    if (auto* picture = std::get_if<validation::PictureTruth>(&comparison.against)) {
+        outputs.reads({picture->path});
+        picture->picture = readBeside(request.scene, picture->path, options.frame);
+    }
     comparison.settings = request.settings;
     if (const frame::ViewInfo& view = frame::viewInfo(request.settings.view); view.ofTechnique)
         throw InputError(fmt::format(
@@ -118,6 +134,7 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
         // Hardware filtering would hide what is compared; it gets a pair of its own.
         if (!options.frame.filter) comparison.settings.filter = frame::TextureFilter::Exact;
     }
+    if (!options.heatMaps.empty()) addHeatMaps(options, validation::pictureNames(request.scene, comparison), outputs);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     recipes::Renderer renderer(*context, request.scene);
     Progress progress("comparing", validation::stepCount(request.scene, comparison), global.quiet);
@@ -125,8 +142,8 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
     validation::CompareResult result = validation::compareTechniques(renderer, context->capabilities(), comparison);
     result.record.leftOut = std::move(leftOut);
     progress.finish();
-    if (!options.json.empty()) writeOutput(options.json, validation::compareJson(result.record));
-    if (!options.heatMaps.empty()) writeHeatMaps(options.heatMaps, result, inputs);
+    if (!options.json.empty()) outputs.write(options.json, validation::compareJson(result.record));
+    if (!options.heatMaps.empty()) writeHeatMaps(options, result, outputs);
     if (!isStandardOutput(options.json)) fmt::print("{}", validation::compareTable(result.record));
     return result.record.ok() ? kGood : kToleranceMissed;
 }

@@ -54,6 +54,10 @@ validation::BenchPlan planOf(const DemoBenchRequest& demo, FrameOptions& frame) 
 
 } // namespace
 
+std::string demoBenchFolder(const std::string& folder) {
+    return (fs::path(folder) / "bench").string();
+}
+
 validation::BenchRecord demoBench(gpu::Context& context, const DemoBenchRequest& demo) {
     FrameOptions frame = demo.options;
     BenchRun run;
@@ -72,7 +76,7 @@ validation::BenchRecord demoBench(gpu::Context& context, const DemoBenchRequest&
                                            1,
                                            fmt::format("tessera bench {} -o bench{} --frames {}",
                                                        shellWord(frame.scene), frameOptionText(shown), kFrames)};
-    const std::string folder = (fs::path(demo.folder) / "bench").string();
+    const std::string folder = demoBenchFolder(demo.folder);
     makeFolder(folder);
     // An older demonstration that was interrupted is of no use.
     const validation::BenchStore store(folder, identity, run.plan, validation::EarlierRun::Replace);
@@ -80,7 +84,7 @@ validation::BenchRecord demoBench(gpu::Context& context, const DemoBenchRequest&
         frame.lights = group.lightsToLoad;
         return loadFor(frame);
     };
-    run.write = [&folder](const validation::BenchRecord& record) { writeBenchFiles(folder, record); };
+    run.write = [&](const validation::BenchRecord& record) { writeBenchFiles(demo.outputs, folder, record); };
     return runBench(context, store, std::move(run), demo.quiet);
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "apps/Options.h"
+#include "apps/Outputs.h"
 #include "validation/bench/BenchRecord.h"
 
 namespace tessera::app {
@@ -12,11 +13,15 @@ struct DemoBenchRequest {
     const Request& request;
     std::vector<recipes::Technique> techniques;
     std::string folder; ///< of the demonstration
+    const Outputs& outputs;
     bool quiet = false;
 };
 
 /// Error against run time of the demonstration's scene: the techniques in every layout, at three numbers of lights, in
-/// a small picture, so that it stays short. What is measured lies in the folder's own folder `bench`.
+/// a small picture, so that it stays short. What is measured lies in the folder's own folder `bench`,
+/// demoBenchFolder().
 validation::BenchRecord demoBench(gpu::Context& context, const DemoBenchRequest& demo);
+
+std::string demoBenchFolder(const std::string& folder);
 
 } // namespace tessera::app

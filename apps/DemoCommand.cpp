@@ -2,14 +2,16 @@
 
 #include <fmt/format.h>
 
+#include "apps/BenchRun.h"
 #include "apps/Commands.h"
 #include "apps/DemoBench.h"
+#include "apps/FrameOptionText.h"
 #include "apps/OutputFolder.h"
+#include "apps/Outputs.h"
 #include "apps/Progress.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/Renderer.h"
 #include "renderer/graph/Plan.h"
-#include "validation/AtomicFile.h"
 #include "validation/HeatMap.h"
 #include "validation/Measure.h"
 #include "validation/PictureFile.h"
@@ -32,6 +34,9 @@ constexpr int kTimedFrames = 3;
 constexpr Technique kShown[] = {Technique::Forward, Technique::Deferred, Technique::TiledDeferred,
                                 Technique::ForwardPlus};
 
+/// After a technique's name: the pictures of its packed layout.
+constexpr const char* kPacked = " (packed)";
+
 struct DemoOptions {
     FrameOptions frame;
     std::string folder = "out";
@@ -40,8 +45,8 @@ struct DemoOptions {
 /// The pairs of the packed layout under names of their own, joined to those of the exact one.
 void joinPacked(CompareResult& result, CompareResult&& packed) {
     for (std::size_t i = 0; i < packed.record.pairs.size(); ++i) {
-        packed.record.pairs[i].a += " (packed)";
-        packed.pictures[i].name += " (packed)";
+        packed.record.pairs[i].a += kPacked;
+        packed.pictures[i].name += kPacked;
         result.record.pairs.push_back(std::move(packed.record.pairs[i]));
         result.pictures.push_back(std::move(packed.pictures[i]));
     }
@@ -66,11 +71,11 @@ std::string choiceOf(const std::vector<Technique>& techniques, const std::vector
                        agree ? "the same picture" : "beware: the pictures do not agree");
 }
 
-/// What gives the figures of the page again.
-std::vector<std::string> commandsOf(const Request& request) {
-    const frame::FrameSettings& settings = request.settings;
+/// What gives the figures of the page again. `source` is the scene as it was named: its own name is the file's to
+/// choose.
+std::vector<std::string> commandsOf(const std::string& source, const frame::FrameSettings& settings) {
     const std::string frame =
-        fmt::format("{} --size {}x{}", request.scene.name, settings.sizePixels.x, settings.sizePixels.y);
+        fmt::format("{} --size {}x{}", shellWord(source), settings.sizePixels.x, settings.sizePixels.y);
     if (settings.samples > 1) {
         return {fmt::format("tessera compare {} --samples {}", frame, settings.samples),
                 fmt::format("tessera plan {} --technique forward --samples {}", frame, settings.samples)};
@@ -86,7 +91,7 @@ void addBench(validation::Report& report, const DemoResult& result) {
     report.commands.insert(report.commands.begin(), result.bench->command);
 }
 
-validation::Report makeReport(const Request& request, const DemoResult& result) {
+validation::Report makeReport(const std::string& source, const Request& request, const DemoResult& result) {
     const CompareResult& comparison = result.comparison;
     validation::Report report;
     report.title = fmt::format("{}, rendered {} ways", request.scene.name, result.techniques.size());
@@ -114,21 +119,40 @@ validation::Report makeReport(const Request& request, const DemoResult& result) 
             {picture.name, truth.name,
              validation::errorHeatMap(picture.picture, truth.picture, picture.name + " vs " + truth.name)});
     }
-    report.commands = commandsOf(request);
+    report.commands = commandsOf(source, request.settings);
     if (result.bench) addBench(report, result);
     return report;
 }
 
-void writePictures(const fs::path& folder, const Request& request, const CompareResult& result) {
-    makeFolder(folder.string());
-    validation::writeExr((folder / (request.scene.name + ".exr")).string(), result.truth.picture);
-    validation::writePng((folder / (result.truth.name + ".png")).string(), result.truth.display);
-    for (std::size_t i = 0; i < result.pictures.size(); ++i) {
-        std::string name = result.pictures[i].name;
-        std::replace(name.begin(), name.end(), ' ', '_');
-        std::erase_if(name, [](char c) { return c == '(' || c == ')'; });
-        validation::writePng((folder / (name + ".png")).string(), result.pictures[i].display);
+/// Paths of what the demonstration writes.
+struct DemoFiles {
+    fs::path folder;
+
+    std::string page() const { return (folder / "index.html").string(); }
+    std::string radiance(const Request& request) const {
+        return (folder / pictureFile(request.scene.name, ".exr")).string();
     }
+    std::string picture(const std::string& name) const { return (folder / pictureFile(name, ".png")).string(); }
+};
+
+Outputs outputsOf(const DemoFiles& files, const Request& request, const std::vector<Technique>& techniques) {
+    Outputs outputs({files.page(), files.radiance(request)});
+    for (const Technique technique : techniques) outputs.add(files.picture(std::string(infoOf(technique).name)));
+    if (request.settings.samples == 1) {
+        outputs.add(files.picture(std::string(infoOf(Technique::Deferred).name) + kPacked));
+        addBenchFiles(demoBenchFolder(files.folder.string()), outputs);
+    }
+    outputs.reads(request.files);
+    return outputs;
+}
+
+void writePictures(const DemoFiles& files, const Outputs& outputs, const Request& request,
+                   const CompareResult& result) {
+    makeFolder(files.folder.string());
+    validation::writeExr(outputs.at(files.radiance(request)), result.truth.picture);
+    validation::writePng(outputs.at(files.picture(result.truth.name)), result.truth.display);
+    for (const validation::NamedPicture& picture : result.pictures)
+        validation::writePng(outputs.at(files.picture(picture.name)), picture.display);
 }
 
 CompareResult compared(recipes::Renderer& renderer, const gpu::Capabilities& gl, const Request& request,
@@ -161,6 +185,8 @@ int demo(const DemoOptions& options, const GlobalOptions& global) {
     DemoResult result;
     result.techniques = validation::techniquesTaking(request.settings.samples, {}, leftOut);
     if (leftOut.empty()) result.techniques.assign(std::begin(kShown), std::end(kShown));
+    const DemoFiles files{options.folder};
+    const Outputs outputs = outputsOf(files, request, result.techniques);
     {
         recipes::Renderer renderer(*context, request.scene);
         result.comparison = compared(renderer, context->capabilities(), request, result.techniques, global.quiet);
@@ -169,16 +195,16 @@ int demo(const DemoOptions& options, const GlobalOptions& global) {
     }
     validation::CompareRecord& record = result.comparison.record;
     record.leftOut = std::move(leftOut);
-    writePictures(options.folder, request, result.comparison);
+    writePictures(files, outputs, request, result.comparison);
     if (request.settings.samples > 1) {
         result.choice = choiceOf(result.techniques, result.ms, record.ok());
     } else {
-        result.bench = demoBench(*context, {options.frame, request, result.techniques, options.folder, global.quiet});
+        result.bench =
+            demoBench(*context, {options.frame, request, result.techniques, options.folder, outputs, global.quiet});
         result.choice = validation::recommendationText(*validation::headlineGroup(*result.bench));
     }
-    const fs::path page = fs::path(options.folder) / "index.html";
-    validation::writeFileAtomically(page.string(), validation::reportHtml(makeReport(request, result)));
-    fmt::print("{}\n{}\nreport    {}\npictures  {}\n", validation::compareTable(record), result.choice, page.string(),
+    outputs.write(files.page(), validation::reportHtml(makeReport(options.frame.scene, request, result)));
+    fmt::print("{}\n{}\nreport    {}\npictures  {}\n", validation::compareTable(record), result.choice, files.page(),
                (fs::path(options.folder) / "*.png").string());
     return record.ok() ? kGood : kToleranceMissed;
 }

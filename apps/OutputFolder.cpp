@@ -1,5 +1,6 @@
 #include "apps/OutputFolder.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
@@ -37,6 +38,15 @@ void makeFolder(const std::string& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) fail(folder, error.message());
+}
+
+std::string pictureFile(const std::string& name, const std::string& extension) {
+    std::string file = name;
+    std::erase_if(file, [](char c) { return c == '(' || c == ')'; });
+    std::ranges::replace_if(
+        file, [](unsigned char c) { return c <= ' ' || c == 0x7f || c == '/' || c == '\\' || c == ':'; }, '_');
+    if (file.starts_with('.')) file.front() = '_'; // a hidden file
+    return (file.empty() ? "picture" : file) + extension;
 }
 
 } // namespace tessera::app

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "apps/Commands.h"
-#include "apps/OutputFile.h"
+#include "apps/Outputs.h"
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/Renderer.h"
@@ -24,9 +24,9 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
         throw InputError("--json - and --dot - both ask for the standard output; name a file for one of them");
     for (const std::string& path : {options.json, options.dot})
         if (!path.empty()) requireOutput(path);
-    requireNotRead({}, {options.json, options.dot});
+    Outputs outputs({options.json, options.dot});
     Request request = resolve(options.frame);
-    requireNotRead(request.files, {options.json, options.dot});
+    outputs.reads(request.files);
     recipes::requireSamples(request.technique, request.settings.samples);
     recipes::requireCulling(request.technique, request.settings);
     std::unique_ptr<gpu::Context> context;
@@ -39,8 +39,8 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
         recipes::Renderer renderer(*context, request.scene);
         validation::measurePlan(plan, renderer, request.technique, request.settings);
     }
-    if (!options.json.empty()) writeOutput(options.json, graph::planJson(plan));
-    if (!options.dot.empty()) writeOutput(options.dot, graph::planDot(plan));
+    if (!options.json.empty()) outputs.write(options.json, graph::planJson(plan));
+    if (!options.dot.empty()) outputs.write(options.dot, graph::planDot(plan));
     if (!printsJson && !printsDot) fmt::print("{}", graph::planText(plan));
     return kGood;
 }

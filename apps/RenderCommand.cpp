@@ -8,7 +8,7 @@
 #include "apps/Commands.h"
 #include "apps/FramePattern.h"
 #include "apps/Numbers.h"
-#include "apps/OutputFile.h"
+#include "apps/Outputs.h"
 #include "apps/Progress.h"
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseSamples.h"
@@ -34,6 +34,7 @@ struct RenderOptions {
     std::optional<double> framesPerSecond;
 };
 
+/// `path` is one of the outputs.
 void writePicture(const std::string& path, const Request& request, const recipes::RenderedFrame& frame) {
     if (std::filesystem::path(path).extension() == ".exr") {
         validation::writeExr(path, validation::toPicture(frame));
@@ -63,18 +64,20 @@ std::vector<std::string> outputsOf(const RenderOptions& options) {
 using MakePicture = std::function<void(const std::string& path, const frame::FrameSettings& settings)>;
 
 /// One picture, or a sequence in which frame i shows the time start + i / fps.
-void makePictures(const RenderOptions& options, frame::FrameSettings settings, const MakePicture& make) {
-    if (!options.frames) return make(options.output, settings);
+void makePictures(const RenderOptions& options, const Outputs& outputs, frame::FrameSettings settings,
+                  const MakePicture& make) {
+    if (!options.frames) return make(outputs.at(options.output), settings);
     const FramePattern pattern(options.output);
     const double start = settings.timeSeconds;
     for (int i = 0; i < *options.frames; ++i) {
         settings.timeSeconds = start + i / options.framesPerSecond.value_or(kFramesPerSecond);
-        make(pattern.path(i), settings);
+        make(outputs.at(pattern.path(i)), settings);
     }
 }
 
 /// Without a context: what a display shows is exposure and sRGB alone.
-void renderReference(const RenderOptions& options, const Request& request, const GlobalOptions& global) {
+void renderReference(const RenderOptions& options, const Outputs& outputs, const Request& request,
+                     const GlobalOptions& global) {
     frame::FrameSettings settings = request.settings;
     // As compare does; hardware filtering is there for whoever asks for it.
     if (!options.frame.filter) settings.filter = frame::TextureFilter::Exact;
@@ -84,7 +87,7 @@ void renderReference(const RenderOptions& options, const Request& request, const
         throw InputError("--technique reference has no tone maps; give --tonemap none, or write .exr");
     Progress progress("rendering", std::size_t(options.frames.value_or(1)) * std::size_t(settings.sizePixels.y),
                       global.quiet);
-    makePictures(options, settings, [&](const std::string& path, const frame::FrameSettings& one) {
+    makePictures(options, outputs, settings, [&](const std::string& path, const frame::FrameSettings& one) {
         validation::Picture picture = validation::referencePicture(
                                           request.scene, one, [&progress] { progress.advance(); }, false)
                                           .picture;
@@ -111,9 +114,10 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     const bool isReference = frame.technique == kReferenceName;
     if (isReference) frame.technique.reset();
     Request request = resolve(frame);
-    requireNotRead(request.files, outputsOf(options));
+    Outputs outputs(outputsOf(options));
+    outputs.reads(request.files);
     if (isReference) {
-        renderReference(options, request, global);
+        renderReference(options, outputs, request, global);
         return kGood;
     }
     recipes::requireSamples(request.technique, request.settings.samples);
@@ -124,7 +128,7 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     request.settings.display = std::filesystem::path(options.output).extension() != ".exr";
     // One picture is soon made.
     Progress progress("rendering", std::size_t(options.frames.value_or(1)), global.quiet || !options.frames);
-    makePictures(options, request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
+    makePictures(options, outputs, request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
         writePicture(path, request, renderer.render(request.technique, one));
         progress.advance();
     });

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/Commands.h"
-#include "apps/OutputFile.h"
+#include "apps/Outputs.h"
 #include "apps/Progress.h"
 #include "scenes/Error.h"
 #include "validation/stress/StressRecord.h"
@@ -53,6 +53,7 @@ int stress(const StressOptions& options, const GlobalOptions& global) {
     request.techniques = techniquesOf(options);
     request.effort = options.quick ? validation::StressEffort::Quick : validation::StressEffort::Full;
     if (!options.json.empty()) requireOutput(options.json);
+    const Outputs outputs({options.json});
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     Progress progress("stress", kSteps, global.quiet);
     std::size_t done = 0;
@@ -65,7 +66,7 @@ int stress(const StressOptions& options, const GlobalOptions& global) {
     validation::StressRecord record{context->capabilities().renderer, request.effort, {}};
     record.results = validation::runStress(*context, request);
     progress.finish();
-    if (!options.json.empty()) writeOutput(options.json, validation::stressJson(record));
+    if (!options.json.empty()) outputs.write(options.json, validation::stressJson(record));
     if (!isStandardOutput(options.json)) fmt::print("{}", validation::stressTable(record));
     return record.ok() ? kGood : kToleranceMissed;
 }

@@ -20,7 +20,7 @@ namespace {
 
 struct Format {
     std::string_view extension;
-    Scene (*import)(const std::filesystem::path&, const LoadLedger&);
+    Scene (*import)(const std::filesystem::path&, LoadLedger&);
 };
 constexpr std::array kFormats = {Format{".gltf", importGltf}, Format{".glb", importGltf}, Format{".obj", importObj},
                                  Format{".json", importSceneJson}};
@@ -35,7 +35,7 @@ const Format* formatOf(const std::filesystem::path& file) {
     return found == kFormats.end() ? nullptr : &*found;
 }
 
-Scene importFile(const std::string& path, const LoadLedger& ledger) {
+Scene importFile(const std::string& path, LoadLedger& ledger) {
     const std::filesystem::path file(path);
     const Format* format = formatOf(file);
     std::error_code failure;
@@ -73,24 +73,34 @@ const BuiltinScene* builtinScene(std::string_view name) {
     return found == scenes.end() ? nullptr : &*found;
 }
 
+Scene makeBuiltin(const BuiltinScene& builtin, const LoadOptions& options, LoadLedger& ledger, const std::string& who) {
+    constexpr std::uint64_t kCopies = 3; // while a vector grows, and in the scene
+    const std::uint64_t mark = ledger.usedBytes();
+    const auto lights = static_cast<std::uint64_t>(options.lights.value_or(0));
+    ledger.charge(builtin.bytes + kCopies * lights * sizeof(Light), [&] { return who; });
+    Scene scene = builtin.make(options, ledger);
+    ledger.settle(mark, bytesOf(scene));
+    return scene;
+}
+
 Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     if (options.lights && (*options.lights < 0 || *options.lights > kMostLights)) {
         throw InputError(fmt::format("cannot use {} lights; give a number from 0 to {}", *options.lights, kMostLights));
     }
     goOn(options);
     Scene scene;
+    LoadLedger ledger(options.memoryLimitBytes);
     if (const BuiltinScene* builtin = builtinScene(nameOrPath)) {
-        scene = builtin->make(options);
+        scene = makeBuiltin(*builtin, options, ledger, nameOrPath);
     } else {
-        const LoadLedger ledger(options.memoryLimitBytes);
         scene = importFile(nameOrPath, ledger);
-        if (options.files != nullptr)
-            options.files->insert(options.files->end(), ledger.files().begin(), ledger.files().end());
         if (options.lights && static_cast<std::size_t>(*options.lights) < scene.lights.size()) {
             scene.lights.resize(static_cast<std::size_t>(*options.lights));
         }
         requireDrawableLights(nameOrPath, scene.lights.size());
     }
+    if (options.files != nullptr)
+        options.files->insert(options.files->end(), ledger.files().begin(), ledger.files().end());
     keepFirstWarnings(scene.warnings);
     goOn(options);
     checkScene(scene);

@@ -13,6 +13,8 @@
 
 namespace tessera::scenes {
 
+class LoadLedger;
+
 struct LoadOptions {
     std::optional<int> lights; ///< built-in scenes generate this many (0 to kMostLights); files keep their first N
     bool defaultLight = true;  ///< give a scene without lights one directional light, unless all is unlit
@@ -41,10 +43,14 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options = {});
 struct BuiltinScene {
     std::string_view name;
     std::string_view purpose; ///< one line: what it is for
-    Scene (*make)(const LoadOptions&);
+    Scene (*make)(const LoadOptions&, LoadLedger&);
+    /// At most what making it takes with as many lights as it has by itself and no assets. A test holds it.
+    std::uint64_t bytes;
 };
 std::span<const BuiltinScene> builtinScenes();
 /// The built-in scene of a name, which goes before a file of that name; null where there is none.
 const BuiltinScene* builtinScene(std::string_view name);
+/// Makes it. The ledger is charged before; `who` is what asks for it, for the error.
+Scene makeBuiltin(const BuiltinScene& builtin, const LoadOptions& options, LoadLedger& ledger, const std::string& who);
 
 } // namespace tessera::scenes

@@ -1,5 +1,6 @@
 #include "scenes/LoadLedger.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -43,13 +44,12 @@ std::string sizeText(std::uint64_t bytes) {
     return fmt::format("{:.1f} {}", size, unit);
 }
 
-LoadLedger::LoadLedger(std::optional<std::uint64_t> limitBytes) : state_(std::make_shared<State>()) {
-    state_->limitBytes = limitBytes ? *limitBytes : defaultMemoryLimitBytes();
-}
+LoadLedger::LoadLedger(std::optional<std::uint64_t> limitBytes)
+    : limitBytes_(limitBytes ? *limitBytes : defaultMemoryLimitBytes()) {}
 
 void LoadLedger::refuse(const std::string& who, std::uint64_t bytes) const {
     throw InputError(fmt::format("{}: asks for {} of memory, and {} are in use; a load may take {} (--memory-limit)",
-                                 who, sizeText(bytes), sizeText(state_->usedBytes), sizeText(state_->limitBytes)));
+                                 who, sizeText(bytes), sizeText(usedBytes_), sizeText(limitBytes_)));
 }
 
 std::uint64_t bytesOf(const Mesh& mesh) {

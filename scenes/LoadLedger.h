@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,36 +17,37 @@ std::uint64_t defaultMemoryLimitBytes();
 std::string sizeText(std::uint64_t bytes);
 
 /// What one load has read, and the memory it may take. Importers charge what they are about to reserve, so that a small
-/// file that asks for much is refused before the memory is gone. Copies are the same ledger.
+/// file that asks for much is refused before the memory is gone. One load has one ledger: it cannot be copied, and
+/// nothing that reads files makes one of its own.
 class LoadLedger {
 public:
+    /// Without a limit: defaultMemoryLimitBytes().
     explicit LoadLedger(std::optional<std::uint64_t> limitBytes = {});
+    LoadLedger(const LoadLedger&) = delete;
+    LoadLedger& operator=(const LoadLedger&) = delete;
 
     /// Throws InputError when `bytes` more would exceed the limit; `who` is called for "file: place" of what asks.
     template <typename Who>
-    void charge(std::uint64_t bytes, Who&& who) const {
-        if (bytes > state_->limitBytes - state_->usedBytes) refuse(who(), bytes);
-        state_->usedBytes += bytes;
+    void charge(std::uint64_t bytes, Who&& who) {
+        if (bytes > limitBytes_ - usedBytes_) refuse(who(), bytes);
+        usedBytes_ += bytes;
     }
 
-    std::uint64_t usedBytes() const { return state_->usedBytes; }
+    std::uint64_t usedBytes() const { return usedBytes_; }
     /// Of all charged since usedBytes() was `markBytes`, only `keptBytes` are still there.
-    void settle(std::uint64_t markBytes, std::uint64_t keptBytes) const {
-        state_->usedBytes = std::min(markBytes + keptBytes, state_->limitBytes);
+    void settle(std::uint64_t markBytes, std::uint64_t keptBytes) {
+        usedBytes_ = std::min(markBytes + keptBytes, limitBytes_);
     }
 
-    void addFile(const std::filesystem::path& file) const { state_->files.push_back(file.string()); }
-    const std::vector<std::string>& files() const { return state_->files; }
+    void addFile(const std::filesystem::path& file) { files_.push_back(file.string()); }
+    const std::vector<std::string>& files() const { return files_; }
 
 private:
     [[noreturn]] void refuse(const std::string& who, std::uint64_t bytes) const;
 
-    struct State {
-        std::uint64_t limitBytes = 0;
-        std::uint64_t usedBytes = 0; ///< at most limitBytes
-        std::vector<std::string> files;
-    };
-    std::shared_ptr<State> state_;
+    std::uint64_t limitBytes_;
+    std::uint64_t usedBytes_ = 0; ///< at most limitBytes_
+    std::vector<std::string> files_;
 };
 
 /// Bytes that parts of a scene hold.

@@ -14,14 +14,12 @@ buildPreset fuzz fuzz
 
 targets=("$@")
 if [ ${#targets[@]} -eq 0 ]; then
-    for program in "$root"/build/fuzz/tests/fuzz/fuzz_*; do
-        [ ! -x "$program" ] || targets+=("${program##*/fuzz_}")
-    done
+    mapfile -t targets < <(sed -n 's/^TARGET(\([a-z0-9_]*\),.*/\1/p' "$root/tests/fuzz/Targets.inc")
 fi
 each=$(((seconds + ${#targets[@]} - 1) / ${#targets[@]}))
 for target in "${targets[@]}"; do
     program=$root/build/fuzz/tests/fuzz/fuzz_$target
-    [ -x "$program" ] || fail "There is no target '$target' in tests/fuzz/Targets.cpp."
+    [ -x "$program" ] || fail "There is no target '$target' in tests/fuzz/Targets.inc."
     kept=$root/build/fuzz/corpus/$target findings=$root/build/fuzz/findings/$target log=$root/build/fuzz/$target.log
     mkdir -p "$kept" "$findings"
     options=("-artifact_prefix=$findings/" -max_total_time="$each" -rss_limit_mb=2048 -timeout=10 -max_len=65536)

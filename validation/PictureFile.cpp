@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cassert>
-#include <filesystem>
+#include <cstring>
 #include <memory>
 #include <stdexcept>
-#include <string_view>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
 #include "scenes/Error.h"
+#include "scenes/import/Importers.h"
 #include "validation/AtomicFile.h"
 #include "validation/Srgb.h"
 
@@ -20,8 +19,6 @@ namespace tessera::validation {
 namespace {
 
 constexpr const char* kSoftware = "tessera";
-// 16,384 x 16,384: beyond it a picture takes over 4 GiB, and a header that asks for more is nearly always a broken one.
-constexpr std::uint64_t kMaxPixels = 1ull << 28;
 
 std::string firstLine(const std::string& text) {
     return text.substr(0, text.find_first_of("\r\n"));
@@ -39,50 +36,29 @@ std::vector<std::uint8_t> encode(const char* format, const OIIO::ImageSpec& spec
     return bytes;
 }
 
-/// Which channels of a file are red, green and blue.
-struct ColourChannels {
-    int red = 0, green = 0, blue = 0;
-};
+void refuseWhatCannotBeCompared(const std::string& path, const scenes::PictureTags& tags) {
+    if (tags.isCropped)
+        throw InputError(fmt::format("{}: its data window is not its display window; save it uncropped", path));
+    if (tags.orientation != 1)
+        throw InputError(fmt::format("{}: its Orientation tag is {}; save it upright, with 1", path, tags.orientation));
+}
 
-ColourChannels findColour(const OIIO::ImageSpec& spec) {
-    const auto named = [&](std::string_view name) {
-        for (int channel = 0; channel < spec.nchannels; ++channel)
-            if (OIIO::Strutil::iequals(spec.channelnames[std::size_t(channel)], std::string(name))) return channel;
-        return -1;
+/// A texel's four numbers: 0..1 where they are integers.
+glm::vec4 texelAt(const scenes::Image& image, std::size_t index) {
+    const auto numbers = [&]<typename T>(T one) {
+        T texel[4];
+        std::memcpy(texel, image.texels.data() + index * sizeof(texel), sizeof(texel));
+        return glm::vec4(float(texel[0]), float(texel[1]), float(texel[2]), float(texel[3])) / float(one);
     };
-    const ColourChannels byName{named("r"), named("g"), named("b")};
-    if (byName.red >= 0 && byName.green >= 0 && byName.blue >= 0) return byName;
-    const bool isGrey = spec.nchannels < 3;
-    return isGrey ? ColourChannels{} : ColourChannels{0, 1, 2};
-}
-
-void refuseWhatCannotBeRead(const std::string& path, const OIIO::ImageSpec& spec) {
-    const auto refuse = [&](const std::string& why) { throw InputError(fmt::format("{}: {}", path, why)); };
-    if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0)
-        refuse("the picture is empty; give one with pixels");
-    if (std::uint64_t(spec.width) * std::uint64_t(spec.height) > kMaxPixels || spec.nchannels > 1024)
-        refuse(fmt::format("{}x{} with {} channels is too large or its header is broken; at most {} pixels are read",
-                           spec.width, spec.height, spec.nchannels, kMaxPixels));
-    if (spec.deep) refuse("deep pictures are not read; flatten it first");
-    if (spec.depth > 1) refuse("volumes are not read; give one slice");
-    if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
-        spec.height != spec.full_height)
-        refuse("its data window is not its display window; save it uncropped");
-    if (const int orientation = spec.get_int_attribute("Orientation", 1); orientation != 1)
-        refuse(fmt::format("its Orientation tag is {}; save it upright, with 1", orientation));
-}
-
-/// Reads coverage from alpha as the header of this module promises.
-std::vector<std::uint8_t> coverageOf(const OIIO::ImageSpec& spec, const std::vector<float>& values,
-                                     std::size_t pixelCount) {
-    std::vector<std::uint8_t> covered(pixelCount, 1);
-    if (spec.alpha_channel < 0) return covered;
-    for (std::size_t i = 0; i < pixelCount; ++i)
-        covered[i] = values[i * std::size_t(spec.nchannels) + std::size_t(spec.alpha_channel)] > 0.f;
-    const bool isOurs = spec.get_string_attribute("Software") == kSoftware;
-    if (!isOurs && std::find(covered.begin(), covered.end(), 1) == covered.end())
-        std::fill(covered.begin(), covered.end(), std::uint8_t{1});
-    return covered;
+    switch (image.format) {
+    case scenes::TexelFormat::Rgba8Unorm:
+        return numbers(std::uint8_t{0xff});
+    case scenes::TexelFormat::Rgba16Unorm:
+        return numbers(std::uint16_t{0xffff});
+    case scenes::TexelFormat::Rgba32Float:
+        return numbers(1.f);
+    }
+    return glm::vec4(0.f);
 }
 
 } // namespace
@@ -115,48 +91,30 @@ void writePng(const std::string& path, const DisplayImage& image) {
     writeFileAtomically(path, encodePng(image));
 }
 
-Picture readPicture(const std::string& path) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored))
-        throw InputError(fmt::format("{}: there is no such file; check the name of the picture", path));
-    if (std::filesystem::is_directory(path, ignored))
-        throw InputError(fmt::format("{}: this is a folder; name a picture in it", path));
-    if (std::filesystem::file_size(path, ignored) == 0)
-        throw InputError(fmt::format("{}: the file is empty; give a picture", path));
-
-    // Alpha tells coverage here and nothing else, so colours must not be multiplied by it.
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &config);
-    if (!input)
-        throw InputError(fmt::format("{}: not a readable picture ({}); give EXR, HDR, PFM or PNG", path,
-                                     firstLine(OIIO::geterror())));
-    const OIIO::ImageSpec spec = input->spec();
-    refuseWhatCannotBeRead(path, spec);
+Picture readPicture(const std::string& path, scenes::LoadLedger& ledger) {
+    const std::uint64_t mark = ledger.usedBytes();
+    const scenes::DecodedPicture decoded = scenes::readPicture(path, ledger);
+    refuseWhatCannotBeCompared(path, decoded.tags);
 
     Picture picture;
-    picture.width = spec.width;
-    picture.height = spec.height;
-    const std::size_t channels = std::size_t(spec.nchannels);
-    std::vector<float> values(picture.pixelCount() * channels);
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()))
-        throw InputError(fmt::format("{}: the picture is cut short or damaged ({}); write it again", path,
-                                     firstLine(input->geterror())));
-
-    const bool isEncoded = !spec.format.is_floating_point() &&
-                           !OIIO::Strutil::iequals(spec.get_string_attribute("oiio:ColorSpace"), "Linear");
-    const auto linear = [&](float value) { return isEncoded ? float(linearFromSrgb(double(value))) : value; };
-    const ColourChannels colour = findColour(spec);
-    picture.covered = coverageOf(spec, values, picture.pixelCount());
+    picture.width = decoded.image.width;
+    picture.height = decoded.image.height;
+    const std::uint64_t bytes = picture.pixelCount() * (4 * sizeof(float) + 1);
+    ledger.charge(bytes, [&] { return path + ": the picture to compare with"; });
     picture.rgba.resize(4 * picture.pixelCount());
+    picture.covered.resize(picture.pixelCount());
     for (std::size_t i = 0; i < picture.pixelCount(); ++i) {
-        const float* from = &values[i * channels];
-        float* to = &picture.rgba[4 * i];
-        to[0] = linear(from[colour.red]);
-        to[1] = linear(from[colour.green]);
-        to[2] = linear(from[colour.blue]);
-        to[3] = picture.covered[i] ? 1.f : 0.f;
+        const glm::vec4 texel = texelAt(decoded.image, i);
+        picture.covered[i] = texel.a > 0.f;
+        for (glm::length_t c = 0; c < 3; ++c)
+            picture.rgba[4 * i + std::size_t(c)] =
+                decoded.tags.isLinear ? texel[c] : float(linearFromSrgb(double(texel[c])));
     }
+    const bool isOurs = decoded.tags.software == kSoftware;
+    if (!isOurs && std::ranges::find(picture.covered, 1) == picture.covered.end())
+        std::ranges::fill(picture.covered, std::uint8_t{1});
+    for (std::size_t i = 0; i < picture.pixelCount(); ++i) picture.rgba[4 * i + 3] = picture.covered[i] ? 1.f : 0.f;
+    ledger.settle(mark, bytes);
     return picture;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "scenes/LoadLedger.h"
 #include "validation/Picture.h"
 
 namespace tessera::validation {
@@ -19,10 +20,11 @@ void writePng(const std::string& path, const DisplayImage& image);
 /// The bytes of that PNG. Throws std::runtime_error when they cannot be made.
 std::vector<std::uint8_t> encodePng(const DisplayImage& image);
 
-/// Reads EXR, Radiance HDR, PFM, PNG, JPEG, TIFF ... as linear radiance. Floating-point pixels are taken as they are;
-/// integer pixels are decoded from sRGB, unless the file declares itself linear. One channel is read as grey. Covered
-/// is where alpha > 0; everywhere when the file has no alpha, or when a file not written by Tessera has alpha 0
-/// throughout. Throws InputError naming the file and what is wrong with it.
-Picture readPicture(const std::string& path);
+/// Reads a picture of any format that textures may have (scenes/import/Importers.h) as linear radiance. Floating-point
+/// pixels are taken as they are; integer pixels are decoded from sRGB, unless the file declares itself linear. One
+/// channel is read as grey. Covered is where alpha > 0; everywhere when the file has no alpha, or when a file not
+/// written by Tessera has alpha 0 throughout. The ledger is charged for it. Throws InputError naming the file and what
+/// is wrong with it.
+Picture readPicture(const std::string& path, scenes::LoadLedger& ledger);
 
 } // namespace tessera::validation

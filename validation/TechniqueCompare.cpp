@@ -9,7 +9,6 @@
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseLighting.h"
 #include "passes/recipes/ChooseSamples.h"
-#include "validation/PictureFile.h"
 #include "validation/RangeTruncation.h"
 #include "validation/ReferencePicture.h"
 #include "validation/Rendering.h"
@@ -61,8 +60,8 @@ TruthPicture truthPicture(recipes::Renderer& renderer, const CompareRequest& req
         request.renderedOne();
         return truth;
     }
-    const std::string& path = std::get<std::string>(request.against);
-    TruthPicture truth{{path, readPicture(path), {}}, {}, {}};
+    const auto& [path, picture] = std::get<PictureTruth>(request.against);
+    TruthPicture truth{{path, picture, {}}, {}, {}};
     truth.own.display = toDisplayImage(truth.own.picture);
     return truth;
 }
@@ -190,6 +189,13 @@ std::size_t stepCount(const scenes::Scene& scene, const CompareRequest& request)
     return request.techniques.size() + truth + (measuresTruncation(request) ? 1 : 0);
 }
 
+std::vector<std::string> pictureNames(const scenes::Scene& scene, const CompareRequest& request) {
+    std::vector<std::string> names;
+    for (const Technique technique : request.techniques) names.emplace_back(infoOf(technique).name);
+    if (showsHardwareFilter(scene, request)) names.push_back(hardwareFilterName(names.front()));
+    return names;
+}
+
 std::vector<Technique> techniquesTaking(int samples, std::optional<culling::Method> method,
                                         std::vector<LeftOutTechnique>& leftOut) {
     std::vector<Technique> techniques;
@@ -266,7 +272,7 @@ CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabili
             pair.channels = equal ? result.record.pairs[*equal].channels
                                   : channelShares(renderer, request, technique, truth, pair.figures.relMse);
             // Against a picture file the tolerance is about that picture, which need not come from this renderer.
-            if (!request.tolerance && !std::holds_alternative<std::string>(request.against))
+            if (!request.tolerance && !std::holds_alternative<PictureTruth>(request.against))
                 checkWithoutPacking(renderer, gl, request, technique, truth, pair.verdict);
         }
         result.record.pairs.push_back(std::move(pair));

@@ -12,8 +12,13 @@ namespace tessera::validation {
 
 /// The double-precision renderer as the truth.
 struct Reference {};
-/// A technique, a picture file, or the reference.
-using Truth = std::variant<recipes::Technique, std::string, Reference>;
+/// A picture that was read from a file.
+struct PictureTruth {
+    std::string path;
+    Picture picture;
+};
+/// A technique, a picture, or the reference.
+using Truth = std::variant<recipes::Technique, PictureTruth, Reference>;
 
 /// What to compare with what.
 struct CompareRequest {
@@ -52,6 +57,9 @@ frame::FrameSettings settingsTakenBy(recipes::Technique technique, frame::FrameS
 
 /// Steps of compareTechniques(), for progress: pictures, each row of the reference's, and what a range tolerance drops.
 std::size_t stepCount(const scenes::Scene& scene, const CompareRequest& request);
+
+/// Names of the pictures that compareTechniques() measures, in its order.
+std::vector<std::string> pictureNames(const scenes::Scene& scene, const CompareRequest& request);
 
 /// Renders every technique and measures it against the truth. Pairs that must agree to the last bit (no G-buffer, or
 /// the exact layout, on a software rasteriser) are held to that; see pairTolerance(). Where the G-buffer is packed,

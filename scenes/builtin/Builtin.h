@@ -1,20 +1,22 @@
 #pragma once
 #include "scenes/Load.h"
+#include "scenes/LoadLedger.h"
 
-/// The built-in scenes, one function each; builtinScenes() lists them. All are the same on every machine.
+/// The built-in scenes, one function each; builtinScenes() lists them. All are the same on every machine. The ledger is
+/// charged for the files that they read.
 namespace tessera::scenes::builtin {
 
 /// A colonnaded hall; `lights` point lights (256 by default, weaker where there are more) and one directional.
-Scene makeHall(const LoadOptions& options);
+Scene makeHall(const LoadOptions& options, LoadLedger& ledger);
 /// Spheres in rows of growing metalness and columns of growing roughness.
-Scene makeSpheres(const LoadOptions& options);
+Scene makeSpheres(const LoadOptions& options, LoadLedger& ledger);
 /// Every material model and layer, with pictures and without, on three steps.
-Scene makeModels(const LoadOptions& options);
+Scene makeModels(const LoadOptions& options, LoadLedger& ledger);
 /// The benchmark scene: 256 spheres and boxes, `lights` point lights (256 by default), every number of it specified.
-Scene makeLattice(const LoadOptions& options);
+Scene makeLattice(const LoadOptions& options, LoadLedger& ledger);
 /// A closed room whose radiance is known in closed form (Room.h); `lights` share the one lamp's place and intensity.
-Scene makeRoom(const LoadOptions& options);
+Scene makeRoom(const LoadOptions& options, LoadLedger& ledger);
 /// A bust with an object-space normal map; a scanned head where TESSERA_ASSETS holds one and `useAssets` is set.
-Scene makeHead(const LoadOptions& options);
+Scene makeHead(const LoadOptions& options, LoadLedger& ledger);
 
 } // namespace tessera::scenes::builtin

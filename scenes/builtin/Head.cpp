@@ -83,12 +83,12 @@ void addStudioLights(Scene& scene) {
 
 } // namespace
 
-Scene makeHead(const LoadOptions& options) {
+Scene makeHead(const LoadOptions& options, LoadLedger& ledger) {
     Scene scene;
     scene.name = "head";
     const std::optional<std::filesystem::path> scan = options.useAssets ? headScanFolder() : std::nullopt;
     if (scan) {
-        addHeadScan(scene, *scan, kPlinthTopY, kBustHeightMetres);
+        addHeadScan(scene, *scan, kPlinthTopY, kBustHeightMetres, ledger);
     } else {
         addBust(scene);
     }

@@ -18,17 +18,18 @@ std::optional<std::filesystem::path> headScanFolder() {
     return folder;
 }
 
-void addHeadScan(Scene& scene, const std::filesystem::path& folder, double bottomY, double heightMetres) {
-    Scene scan = importObj(folder / "head.obj");
+void addHeadScan(Scene& scene, const std::filesystem::path& folder, double bottomY, double heightMetres,
+                 LoadLedger& ledger) {
+    Scene scan = importObj(folder / "head.obj", ledger);
     const Box3 boundsWS = worldBounds(scan);
     if (boundsWS.empty() || boundsWS.max.y <= boundsWS.min.y) {
         throw InputError((folder / "head.obj").string() + ": holds no surface; get the model again");
     }
     Material skin = microfacet("head", glm::vec3(1.0f), 1.4f, 0.35f);
     skin.normalMapSpace = NormalMapSpace::Object;
-    skin.texture(TextureSlot::BaseColor).image = addImage(scene, readImage(folder / "albedo_2k.jpg"));
-    skin.texture(TextureSlot::SpecularColor).image = addImage(scene, readImage(folder / "specular_2k.jpg"));
-    skin.texture(TextureSlot::Normal).image = addImage(scene, readImage(folder / "normal_object_2k.jpg"));
+    skin.texture(TextureSlot::BaseColor).image = addImage(scene, readImage(folder / "albedo_2k.jpg", ledger));
+    skin.texture(TextureSlot::SpecularColor).image = addImage(scene, readImage(folder / "specular_2k.jpg", ledger));
+    skin.texture(TextureSlot::Normal).image = addImage(scene, readImage(folder / "normal_object_2k.jpg", ledger));
     const int material = addMaterial(scene, skin);
 
     const double scale = heightMetres / (boundsWS.max.y - boundsWS.min.y);

@@ -107,7 +107,7 @@ void addLights(Scene& scene, int count) {
 
 } // namespace
 
-Scene makeLattice(const LoadOptions& options) {
+Scene makeLattice(const LoadOptions& options, LoadLedger&) {
     Scene scene;
     scene.name = "lattice";
     scene.options.sizePixels = glm::ivec2(1280, 720);

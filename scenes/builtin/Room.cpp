@@ -134,7 +134,7 @@ std::optional<RoomPoint> roomPointAlong(const glm::dvec3& originWS, const glm::d
     return seen;
 }
 
-Scene makeRoom(const LoadOptions& options) {
+Scene makeRoom(const LoadOptions& options, LoadLedger&) {
     Scene scene;
     scene.name = "room";
     for (std::size_t i = 0; i < kRoomMaterialCount; ++i) addMaterial(scene, roomMaterial(static_cast<RoomMaterial>(i)));

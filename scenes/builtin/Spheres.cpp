@@ -44,7 +44,7 @@ void addSpheres(Scene& scene) {
 
 } // namespace
 
-Scene makeSpheres(const LoadOptions& options) {
+Scene makeSpheres(const LoadOptions& options, LoadLedger&) {
     Scene scene;
     scene.name = "spheres";
     scene.background = {0.03f, 0.034f, 0.042f};

@@ -9,7 +9,7 @@
 
 namespace tessera::scenes {
 
-std::vector<std::byte> readFileBytes(const std::filesystem::path& file, const LoadLedger& ledger) {
+std::vector<std::byte> readFileBytes(const std::filesystem::path& file, LoadLedger& ledger) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(file, error);
     if (!std::filesystem::exists(status))

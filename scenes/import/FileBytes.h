@@ -9,6 +9,6 @@ namespace tessera::scenes {
 
 /// The whole contents of a regular file. Throws InputError, naming it, when it is missing, not a regular file or
 /// unreadable. The ledger is charged for it, and told of it.
-std::vector<std::byte> readFileBytes(const std::filesystem::path& file, const LoadLedger& ledger = LoadLedger());
+std::vector<std::byte> readFileBytes(const std::filesystem::path& file, LoadLedger& ledger);
 
 } // namespace tessera::scenes

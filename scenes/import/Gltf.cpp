@@ -58,7 +58,7 @@ void warnOfIgnoredFeatures(Context& context) {
 
 } // namespace
 
-Scene importGltf(const std::filesystem::path& file, const LoadLedger& ledger) {
+Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
     const std::uint64_t mark = ledger.usedBytes();
     const Document document = loadDocument(file, ledger);
     Scene scene;

@@ -68,7 +68,7 @@ Container readBinary(std::span<const std::byte> bytes, const std::string& name) 
 
 } // namespace
 
-Container readContainer(const std::filesystem::path& file, const LoadLedger& ledger) {
+Container readContainer(const std::filesystem::path& file, LoadLedger& ledger) {
     const std::vector<std::byte> bytes = readFileBytes(file, ledger);
     const std::string name = file.string();
     ledger.charge(bytes.size(), [&] { return name; }); // once more, cut into its parts

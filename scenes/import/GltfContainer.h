@@ -17,6 +17,6 @@ struct Container {
 
 /// Reads a .gltf or .glb; which one it is follows from its first bytes, not from its name.
 /// Source: glTF 2.0 section 4.4, "Binary glTF Layout". Throws InputError naming the file and the broken part.
-Container readContainer(const std::filesystem::path& file, const LoadLedger& ledger);
+Container readContainer(const std::filesystem::path& file, LoadLedger& ledger);
 
 } // namespace tessera::scenes::gltf

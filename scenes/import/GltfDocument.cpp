@@ -132,11 +132,8 @@ void Document::charge(std::uint64_t bytes, std::string_view kind, int index) con
     ledger.charge(bytes, [&] { return fmt::format("{}: /{}/{}", file, kind, index); });
 }
 
-Document loadDocument(const std::filesystem::path& file, const LoadLedger& ledger) {
-    Document document;
-    document.ledger = ledger;
-    document.file = file.string();
-    document.folder = file.parent_path();
+Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger) {
+    Document document{file.string(), file.parent_path(), {}, {}, {}, ledger};
     Container container = readContainer(file, ledger);
     document.binary = std::move(container.binary);
     // The document, its copy without what is loaded here, that one's text, and tinygltf's own document of it.

@@ -21,7 +21,7 @@ struct Document {
     nlohmann::json json;          ///< the document as written; read for buffers, images and unsigned 64-bit properties
     std::optional<std::vector<std::byte>> binary; ///< the binary chunk of a .glb
     tinygltf::Model model; ///< everything but buffers, images, skins, animations and morph targets
-    LoadLedger ledger;
+    LoadLedger& ledger;
     int bufferViewCount = 0; ///< an accessor's bufferView from here on stands for none
 
     /// Throws InputError "file: place: what".
@@ -32,7 +32,7 @@ struct Document {
 
 /// Throws InputError when the file is missing, broken, of another glTF version or requires an extension that is not
 /// supported.
-Document loadDocument(const std::filesystem::path& file, const LoadLedger& ledger);
+Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger);
 
 /// The optional extensions that the document uses and the importer leaves out.
 std::vector<std::string> ignoredExtensions(const Document& document);

@@ -182,7 +182,7 @@ std::optional<Mesh> importPrimitive(Context& context, int meshIndex, int primiti
     mesh.name = nameOr(stored.name, "mesh", meshIndex);
     if (stored.primitives.size() > 1) mesh.name += fmt::format(" primitive {}", primitiveIndex);
 
-    const LoadLedger& ledger = context.document.ledger;
+    LoadLedger& ledger = context.document.ledger;
     const std::uint64_t mark = ledger.usedBytes() - context.buffers.heldBytes();
     PrimitiveReader reader(context, primitive, place, mesh.name);
     if (primitive.mode < kFirstTriangleMode) {

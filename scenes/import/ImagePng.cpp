@@ -1,5 +1,6 @@
 #include "scenes/import/PictureCodecs.h"
 
+#include <cmath>
 #include <csetjmp>
 #include <cstring>
 
@@ -65,6 +66,14 @@ public:
         return true;
     }
 
+    /// True when the file says that its numbers are light itself. Source: PNG specification, 11.3.2.5 and 11.3.2.6.
+    bool isLinear() const {
+        constexpr double kClose = 0.005; // some writers round 1
+        int intent = 0;
+        double gamma = 0.0;
+        return png_get_sRGB(png_, info_, &intent) == 0 && png_get_gAMA(png_, info_, &gamma) != 0 &&
+               std::abs(gamma - 1.0) < kClose;
+    }
     int width() const { return static_cast<int>(png_get_image_width(png_, info_)); }
     int height() const { return static_cast<int>(png_get_image_height(png_, info_)); }
     bool has16Bits() const { return png_get_bit_depth(png_, info_) == 16; }
@@ -79,14 +88,18 @@ private:
 
 } // namespace
 
-Image decodePng(std::span<const std::byte> bytes, const std::string& name, const LoadLedger& ledger) {
+DecodedPicture decodePng(std::span<const std::byte> bytes, const std::string& name, const PictureFormat&,
+                         LoadLedger& ledger) {
     Reader reader(bytes);
     const auto require = [&](bool good) {
         if (!good)
-            throw InputError(fmt::format("{}: the png picture is broken or cut short ({})", name, reader.problem()));
+            throw InputError(
+                fmt::format("{}: the png picture is broken or cut short ({}); save it again", name, reader.problem()));
     };
     require(reader.readHeader());
-    Image image;
+    DecodedPicture decoded;
+    decoded.tags.isLinear = reader.isLinear();
+    Image& image = decoded.image;
     image.name = name;
     image.width = reader.width();
     image.height = reader.height();
@@ -97,7 +110,7 @@ Image decodePng(std::span<const std::byte> bytes, const std::string& name, const
     for (std::size_t row = 0; row < rows.size(); ++row)
         rows[row] = reinterpret_cast<png_bytep>(image.texels.data() + row * reader.rowBytes());
     require(reader.readRows(rows));
-    return image;
+    return decoded;
 }
 
 } // namespace tessera::scenes

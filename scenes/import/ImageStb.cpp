@@ -15,18 +15,20 @@
 
 namespace tessera::scenes {
 
-Image decodeBmpOrTga(std::span<const std::byte> bytes, const std::string& name, const LoadLedger& ledger) {
+DecodedPicture decodeByStb(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
+                           LoadLedger& ledger) {
     const auto require = [&](bool good) {
         if (!good)
-            throw InputError(
-                fmt::format("{}: the bmp or tga picture is broken or cut short ({})", name, stbi_failure_reason()));
+            throw InputError(fmt::format("{}: the {} picture is broken or cut short ({}); save it again", name,
+                                         format.name, stbi_failure_reason()));
     };
     if (bytes.size() > std::size_t(std::numeric_limits<int>::max()))
-        throw InputError(fmt::format("{}: the bmp or tga picture is larger than 2 GiB; convert it to PNG", name));
+        throw InputError(fmt::format("{}: the {} picture is larger than 2 GiB; convert it to PNG", name, format.name));
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const auto count = static_cast<int>(bytes.size());
     constexpr int kChannels = 4;
-    Image image;
+    DecodedPicture decoded;
+    Image& image = decoded.image;
     image.name = name;
     int stored = 0;
     require(stbi_info_from_memory(data, count, &image.width, &image.height, &stored) != 0);
@@ -39,7 +41,7 @@ Image decodeBmpOrTga(std::span<const std::byte> bytes, const std::string& name, 
     image.texels.assign(first, first + static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
                                            kChannels);
     stbi_image_free(texels);
-    return image;
+    return decoded;
 }
 
 } // namespace tessera::scenes

@@ -13,16 +13,30 @@
 namespace tessera::scenes {
 
 /// glTF 2.0, .gltf and .glb
-Scene importGltf(const std::filesystem::path& file, const LoadLedger& ledger = LoadLedger());
+Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger);
 /// Wavefront OBJ with MTL
-Scene importObj(const std::filesystem::path& file, const LoadLedger& ledger = LoadLedger());
+Scene importObj(const std::filesystem::path& file, LoadLedger& ledger);
 /// Tessera's own .json, see docs/scene-format.md
-Scene importSceneJson(const std::filesystem::path& file, const LoadLedger& ledger = LoadLedger());
+Scene importSceneJson(const std::filesystem::path& file, LoadLedger& ledger);
 
-/// Decodes a picture file, or bytes of one (`name` then serves error messages). PNG, JPEG, OpenEXR, Radiance HDR, TIFF,
-/// WebP, BMP and GIF are told by their first bytes, whatever the name says; TGA, which has no signature, by the name's
-/// extension .tga. No other format is read.
-Image readImage(const std::filesystem::path& file, const LoadLedger& ledger = LoadLedger());
-Image decodeImage(std::span<const std::byte> bytes, const std::string& name, const LoadLedger& ledger = LoadLedger());
+/// What a picture's file says beside its texels, for those who show the picture itself; of a texture the scene says
+/// how it is meant.
+struct PictureTags {
+    std::string software;   ///< that wrote it; empty where the format's decoder does not tell
+    bool isLinear = false;  ///< its numbers are light itself: floating point, or declared linear
+    bool isCropped = false; ///< its data window is not its display window
+    int orientation = 1;    ///< TIFF's tag; 1 is upright
+};
+struct DecodedPicture {
+    Image image;
+    PictureTags tags;
+};
+
+/// Decodes a picture file, or bytes of one (`name` then serves error messages). Which format it is in follows from its
+/// first bytes, whatever the name says; TGA, which has no signature, is told by the name's extension .tga. No format is
+/// read but those of pictureFormats() (PictureCodecs.h).
+DecodedPicture readPicture(const std::filesystem::path& file, LoadLedger& ledger);
+Image readImage(const std::filesystem::path& file, LoadLedger& ledger);
+Image decodeImage(std::span<const std::byte> bytes, const std::string& name, LoadLedger& ledger);
 
 } // namespace tessera::scenes

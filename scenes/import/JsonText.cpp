@@ -127,7 +127,7 @@ std::uint64_t parsedJsonBytes(std::string_view text) {
     return bytes;
 }
 
-json parseJson(std::string_view text, const std::filesystem::path& file, const LoadLedger& ledger) {
+json parseJson(std::string_view text, const std::filesystem::path& file, LoadLedger& ledger) {
     ledger.charge(parsedJsonBytes(text), [&] { return file.string() + ": its JSON"; });
     Checker checker(text, file);
     json::sax_parse(text, &checker);

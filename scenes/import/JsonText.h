@@ -12,8 +12,7 @@ namespace tessera::scenes {
 /// Parses a JSON document. Throws InputError "file:line:column: what" for broken syntax (NaN and comments are none of
 /// JSON's) and numbers too large for a double, "file:/json/pointer: what" for a key that an object has twice
 /// or that nests deeper than 64. The ledger is charged for the document.
-nlohmann::json parseJson(std::string_view text, const std::filesystem::path& file,
-                         const LoadLedger& ledger = LoadLedger());
+nlohmann::json parseJson(std::string_view text, const std::filesystem::path& file, LoadLedger& ledger);
 
 /// Far deeper than any document here nests; printing and converting JSON recurse, so depth must not be the file's to
 /// choose.

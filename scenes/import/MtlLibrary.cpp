@@ -30,7 +30,7 @@ std::vector<std::string> fileNamesOf(const std::string& statement, const std::fi
 
 std::vector<MtlMaterial> findMaterials(const std::vector<std::string>& names, const std::vector<std::string>& libraries,
                                        const std::filesystem::path& objFile, std::vector<std::string>& warnings,
-                                       const LoadLedger& ledger) {
+                                       LoadLedger& ledger) {
     std::map<std::string, MtlMaterial> defined;
     std::set<std::string> visited;
     for (const std::string& statement : libraries) {

@@ -25,13 +25,13 @@ struct MtlMaterial {
 /// parser takes a word that is no number for 0 and reads past a texture option with fewer than three numbers.
 /// Throws InputError "file:line: ..."; what is not supported is added to `warnings`.
 std::vector<MtlMaterial> readMtl(const std::filesystem::path& file, std::vector<std::string>& warnings,
-                                 const LoadLedger& ledger);
+                                 LoadLedger& ledger);
 
 /// The materials called `names`, looked up in the libraries that `libraries` (texts of mtllib statements) name beside
 /// `objFile`; the first definition counts. A missing library or an undefined material is a warning; the material then
 /// states nothing.
 std::vector<MtlMaterial> findMaterials(const std::vector<std::string>& names, const std::vector<std::string>& libraries,
                                        const std::filesystem::path& objFile, std::vector<std::string>& warnings,
-                                       const LoadLedger& ledger);
+                                       LoadLedger& ledger);
 
 } // namespace tessera::scenes::obj

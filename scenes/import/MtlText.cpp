@@ -63,7 +63,7 @@ bool equalsIgnoringCase(std::string_view a, std::string_view b) {
 
 class MtlChecker {
 public:
-    MtlChecker(const std::filesystem::path& file, std::vector<std::string>& warnings, const LoadLedger& ledger)
+    MtlChecker(const std::filesystem::path& file, std::vector<std::string>& warnings, LoadLedger& ledger)
         : file_(file), warnings_(warnings), ledger_(ledger) {}
 
     std::vector<MtlMaterial> read() {
@@ -192,7 +192,7 @@ private:
 
     const std::filesystem::path& file_;
     std::vector<std::string>& warnings_;
-    const LoadLedger& ledger_;
+    LoadLedger& ledger_;
     std::string text_;
     std::vector<MtlMaterial> materials_;
     std::set<std::string> unknown_;
@@ -202,7 +202,7 @@ private:
 } // namespace
 
 std::vector<MtlMaterial> readMtl(const std::filesystem::path& file, std::vector<std::string>& warnings,
-                                 const LoadLedger& ledger) {
+                                 LoadLedger& ledger) {
     return MtlChecker(file, warnings, ledger).read();
 }
 

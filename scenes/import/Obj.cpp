@@ -124,7 +124,7 @@ private:
 
 class ObjImporter {
 public:
-    ObjImporter(const std::filesystem::path& file, const LoadLedger& ledger)
+    ObjImporter(const std::filesystem::path& file, LoadLedger& ledger)
         : file_(file), ledger_(ledger), checked_(checkText(readText(file, ledger), file, ledger)),
           parsed_(parse(checked_, file)), normals_(parsed_.attributes, parsed_.shapes), materials_(scene_, ledger) {}
 
@@ -185,7 +185,7 @@ private:
     }
 
     const std::filesystem::path& file_;
-    const LoadLedger& ledger_;
+    LoadLedger& ledger_;
     Scene scene_;
     CheckedText checked_;
     Parsed parsed_;
@@ -198,7 +198,7 @@ private:
 
 } // namespace
 
-Scene importObj(const std::filesystem::path& file, const LoadLedger& ledger) {
+Scene importObj(const std::filesystem::path& file, LoadLedger& ledger) {
     const std::uint64_t mark = ledger.usedBytes();
     Scene scene = ObjImporter(file, ledger).import();
     ledger.settle(mark, bytesOf(scene));

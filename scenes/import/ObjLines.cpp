@@ -111,7 +111,7 @@ void failAt(const std::filesystem::path& file, int line, const std::string& what
     throw InputError(fmt::format("{}:{}: {}", file.string(), line, what));
 }
 
-std::string readText(const std::filesystem::path& file, const LoadLedger& ledger) {
+std::string readText(const std::filesystem::path& file, LoadLedger& ledger) {
     const std::vector<std::byte> bytes = readFileBytes(file, ledger);
     ledger.charge(bytes.size(), [&] { return file.string(); }); // once more as text
     std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -33,6 +33,6 @@ float finiteNumber(const std::filesystem::path& file, const Line& line, std::str
 [[noreturn]] void failAt(const std::filesystem::path& file, int line, const std::string& what);
 
 /// A file's text without a byte order mark. Throws InputError when it is missing, unreadable or empty.
-std::string readText(const std::filesystem::path& file, const LoadLedger& ledger);
+std::string readText(const std::filesystem::path& file, LoadLedger& ledger);
 
 } // namespace tessera::scenes::obj

@@ -25,7 +25,7 @@ namespace tessera::scenes::obj {
 /// Values above what a parameter allows are clamped to it.
 class MaterialConverter {
 public:
-    MaterialConverter(Scene& scene, const LoadLedger& ledger) : scene_(scene), ledger_(ledger) {}
+    MaterialConverter(Scene& scene, LoadLedger& ledger) : scene_(scene), ledger_(ledger) {}
 
     /// The index of the new material. Throws InputError naming MTL file, material and picture when one cannot be read.
     int add(const MtlMaterial& mtl);
@@ -46,7 +46,7 @@ private:
     void charge(int image, int other, const MtlMaterial& mtl);
 
     Scene& scene_;
-    const LoadLedger& ledger_;
+    LoadLedger& ledger_;
     std::map<std::string, int> imageOfFile_;
     std::map<std::pair<int, int>, int> colourAndOpacity_;      ///< packed image of two images, either may be kNone
     std::map<std::pair<int, int>, int> roughnessAndMetalness_; ///< likewise

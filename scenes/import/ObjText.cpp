@@ -33,7 +33,7 @@ constexpr std::size_t kMaterialBytes = 2 * (sizeof(tinyobj::material_t) + sizeof
 
 class ObjChecker {
 public:
-    ObjChecker(std::string_view text, const std::filesystem::path& file, const LoadLedger& ledger)
+    ObjChecker(std::string_view text, const std::filesystem::path& file, LoadLedger& ledger)
         : source_(text), file_(file), ledger_(ledger) {}
 
     CheckedText check() {
@@ -199,7 +199,7 @@ private:
 
     std::string_view source_;
     const std::filesystem::path& file_;
-    const LoadLedger& ledger_;
+    LoadLedger& ledger_;
     CheckedText checked_;
     std::vector<glm::dvec3> positionsOS_;
     std::string attributes_;
@@ -216,7 +216,7 @@ private:
 
 } // namespace
 
-CheckedText checkText(std::string_view text, const std::filesystem::path& file, const LoadLedger& ledger) {
+CheckedText checkText(std::string_view text, const std::filesystem::path& file, LoadLedger& ledger) {
     return ObjChecker(text, file, ledger).check();
 }
 

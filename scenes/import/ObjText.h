@@ -21,6 +21,6 @@ struct CheckedText {
 
 /// Throws InputError "file:line: ..." for a number that is none or not finite, a face's index that is out of range, and
 /// "file: ..." when there is no face. Charges the ledger for all that is made of the text.
-CheckedText checkText(std::string_view text, const std::filesystem::path& file, const LoadLedger& ledger);
+CheckedText checkText(std::string_view text, const std::filesystem::path& file, LoadLedger& ledger);
 
 } // namespace tessera::scenes::obj

@@ -2,10 +2,17 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
-#include "scenes/LoadLedger.h"
+#include "scenes/import/Importers.h"
 
 namespace tessera::scenes {
+
+struct PictureFormat;
+
+/// Decodes the bytes of a picture; `name` serves messages. Throws InputError.
+using DecodePicture = DecodedPicture(std::span<const std::byte> bytes, const std::string& name,
+                                     const PictureFormat& format, LoadLedger& ledger);
 
 /// What a picture's header says of it.
 struct PictureSize {
@@ -13,19 +20,40 @@ struct PictureSize {
     std::uint64_t bytesATexel = 0;      ///< that decoding takes, copies counted
 };
 
+/// Bytes that all files of a format have at one place.
+struct PictureSignature {
+    std::string_view bytes;
+    std::size_t offset = 0;
+};
+
+/// All that is known of a format. OpenImageIO has many more readers, some of which crash on broken files, and some open
+/// what is no picture at all; none of them is ever asked.
+struct PictureFormat {
+    std::string_view name;          ///< in messages, and OpenImageIO's
+    PictureSignature signatures[2]; ///< either tells the format; none: its extension does
+    std::string_view extensions[2]; ///< lower case
+    DecodePicture* decode;          ///< null: known by its first bytes and refused by name
+    /// Where the reader reserves memory, or takes seconds, as soon as it sees the header: what that claims. Throws
+    /// std::runtime_error for claims that cannot be true.
+    PictureSize (*claimedSize)(std::span<const std::byte> bytes);
+};
+std::span<const PictureFormat> pictureFormats();
+
 /// Charges the ledger. Throws InputError for a picture that no texture can be, that the ledger has no room for, or that
 /// its file cannot hold; before memory is reserved for the texels.
 void requirePictureSize(const PictureSize& size, std::span<const std::byte> file, const std::string& name,
-                        const LoadLedger& ledger);
+                        LoadLedger& ledger);
 
-/// What the headers of formats claim whose readers reserve memory, or take seconds, as soon as they see it; else 0 x 0.
-PictureSize claimedSize(std::span<const std::byte> bytes, const std::string& format);
+PictureSize claimedSizeOfGif(std::span<const std::byte> bytes);
+PictureSize claimedSizeOfExr(std::span<const std::byte> bytes);
 
-/// PNG by libpng itself: OpenImageIO lets it print to stderr what is wrong. Throws InputError.
-Image decodePng(std::span<const std::byte> bytes, const std::string& name, const LoadLedger& ledger);
-
-/// BMP and TGA by stb_image: OpenImageIO's readers crash on palettes that are shorter than what refers to them. Throws
-/// InputError.
-Image decodeBmpOrTga(std::span<const std::byte> bytes, const std::string& name, const LoadLedger& ledger);
+/// By OpenImageIO's reader of that format, and no other.
+DecodePicture decodeByOiio;
+/// PNG by libpng itself: OpenImageIO lets it print to stderr what is wrong.
+DecodePicture decodePng;
+/// BMP and TGA by stb_image: OpenImageIO's readers crash on palettes that are shorter than what refers to them.
+DecodePicture decodeByStb;
+/// PFM, which is a header and floats.
+DecodePicture decodePfm;
 
 } // namespace tessera::scenes

@@ -48,7 +48,7 @@ private:
 
 class DocumentImporter {
 public:
-    explicit DocumentImporter(const LoadLedger& ledger) : ledger_(ledger) {}
+    explicit DocumentImporter(LoadLedger& ledger) : ledger_(ledger) {}
 
     Scene import(const std::filesystem::path& file) {
         const std::uint64_t mark = ledger_.usedBytes();
@@ -220,11 +220,8 @@ private:
     Scene builtinCalled(const JsonValue& value, const std::string& name, const LoadOptions& options) {
         std::vector<std::string_view> names;
         for (const BuiltinScene& builtin : builtinScenes()) {
-            if (builtin.name == name) {
-                Scene scene = builtin.make(options);
-                ledger_.charge(bytesOf(scene), [&] { return fmt::format("{}: '{}'", value.file().string(), name); });
-                return scene;
-            }
+            if (builtin.name == name)
+                return makeBuiltin(builtin, options, ledger_, fmt::format("{}: '{}'", value.file().string(), name));
             names.push_back(builtin.name);
         }
         value.failUnknown("built-in scene", name, names);
@@ -295,7 +292,7 @@ private:
         std::optional<Scene> kept;
     };
 
-    const LoadLedger& ledger_;
+    LoadLedger& ledger_;
     std::map<std::string, Part> parts_;
     std::vector<std::filesystem::path> chain_; ///< the documents being read, each included by the one before
     int includes_ = 0;
@@ -303,7 +300,7 @@ private:
 
 } // namespace
 
-Scene importSceneJson(const std::filesystem::path& file, const LoadLedger& ledger) {
+Scene importSceneJson(const std::filesystem::path& file, LoadLedger& ledger) {
     return DocumentImporter(ledger).import(file);
 }
 

@@ -58,15 +58,16 @@ std::filesystem::path resolveFile(const JsonValue& name) {
 }
 
 int Images::image(const JsonValue& fileName) {
+    if (scene_ == nullptr) fileName.fail("names a file where only pictures of the base can be used");
     const std::filesystem::path file = resolveFile(fileName);
     const auto [entry, isNew] = imageOfFile_.try_emplace(file.lexically_normal().string(), kNone);
     if (!isNew) return entry->second;
     try {
-        scene_.images.push_back(readImage(file, ledger_));
+        scene_->images.push_back(readImage(file, *ledger_));
     } catch (const InputError& error) {
         fileName.fail(error.what());
     }
-    return entry->second = static_cast<int>(scene_.images.size()) - 1;
+    return entry->second = static_cast<int>(scene_->images.size()) - 1;
 }
 
 int Images::baseImage(const JsonValue& index) const {

@@ -18,21 +18,24 @@ inline constexpr std::string_view kBuiltinPrefix = "builtin:";
 /// file is missing.
 std::filesystem::path resolveFile(const JsonValue& name);
 
-/// The pictures of a scene, each decoded once however often it is named.
+/// The pictures that a document may name. The first `baseImages` of the scene are those of the document's base, which
+/// are named by number.
 class Images {
 public:
-    /// The first `baseImages` pictures are those of the document's base, which it may name by number.
-    Images(Scene& scene, std::size_t baseImages, const LoadLedger& ledger)
-        : scene_(scene), baseImages_(baseImages), ledger_(ledger) {}
+    /// Reads files into the scene, each once however often it is named.
+    Images(Scene& scene, std::size_t baseImages, LoadLedger& ledger)
+        : baseImages_(baseImages), scene_(&scene), ledger_(&ledger) {}
+    /// Reads none: a document that names a file is refused.
+    explicit Images(std::size_t baseImages) : baseImages_(baseImages) {}
 
     /// Throws InputError naming the place in the document and the file.
     int image(const JsonValue& fileName);
     int baseImage(const JsonValue& index) const;
 
 private:
-    Scene& scene_;
     std::size_t baseImages_;
-    const LoadLedger& ledger_;
+    Scene* scene_ = nullptr;
+    LoadLedger* ledger_ = nullptr;
     std::map<std::string, int> imageOfFile_;
 };
 

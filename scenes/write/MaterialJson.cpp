@@ -142,9 +142,7 @@ Json byKeys(const Material& material) {
 Json materialJson(const Material& material, std::size_t images) {
     const Json least = {{"name", "material"}, {"model", "metallic_roughness"}};
     return withFields(material, byKeys(material), least, [images](const JsonValue& value) {
-        Scene none;
-        const LoadLedger ledger;
-        scenejson::Images known(none, images, ledger);
+        scenejson::Images known(images);
         return scenejson::readMaterial(value, known);
     });
 }

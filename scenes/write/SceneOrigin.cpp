@@ -19,9 +19,9 @@ bool isDocument(const fs::path& file) {
     return extension == ".json";
 }
 
-nlohmann::json documentOf(const fs::path& file) {
-    const std::vector<std::byte> bytes = readFileBytes(file);
-    return parseJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+nlohmann::json documentOf(const fs::path& file, LoadLedger& ledger) {
+    const std::vector<std::byte> bytes = readFileBytes(file, ledger);
+    return parseJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, ledger);
 }
 
 bool namesAFile(const nlohmann::json& value) {
@@ -55,13 +55,13 @@ fs::path fileNamed(const nlohmann::json& value, const fs::path& document, const 
     return scenejson::resolveFile(JsonValue(value["file"], document, std::string("/") + key + "/file"));
 }
 
-void addDocuments(const fs::path& file, std::vector<fs::path>& documents) {
+void addDocuments(const fs::path& file, std::vector<fs::path>& documents, LoadLedger& ledger) {
     if (!isDocument(file)) return;
     documents.push_back(file);
-    const nlohmann::json document = documentOf(file);
+    const nlohmann::json document = documentOf(file, ledger);
     const auto follow = [&](const nlohmann::json& value, const char* key) {
         if (value["file"].get<std::string>().starts_with(kBuiltinPrefix)) return;
-        addDocuments(fileNamed(value, file, key), documents);
+        addDocuments(fileNamed(value, file, key), documents, ledger);
     };
     if (document.contains("base")) follow(document["base"], "base");
     if (document.contains("include"))
@@ -69,9 +69,9 @@ void addDocuments(const fs::path& file, std::vector<fs::path>& documents) {
 }
 
 /// Follows bases down to the first that is more than edits.
-void followBases(fs::path file, SceneOrigin& origin) {
+void followBases(fs::path file, SceneOrigin& origin, LoadLedger& ledger) {
     while (isDocument(file)) {
-        const nlohmann::json document = documentOf(file);
+        const nlohmann::json document = documentOf(file, ledger);
         if (!onlyEdits(document)) break;
         if (document.contains("materials"))
             for (const nlohmann::json& material : document["materials"]) // an upper document's stay
@@ -85,7 +85,7 @@ void followBases(fs::path file, SceneOrigin& origin) {
         file = fileNamed(base, file, "base");
     }
     origin.base = fs::absolute(file).lexically_normal().string();
-    addDocuments(file, origin.documents);
+    addDocuments(file, origin.documents, ledger);
 }
 
 } // namespace
@@ -101,7 +101,8 @@ SceneOrigin originOf(const std::string& nameOrPath, const LoadOptions& options, 
         origin.base = std::string(kBuiltinPrefix) + nameOrPath;
         origin.lights = options.lights;
     } else {
-        followBases(nameOrPath, origin);
+        LoadLedger ledger(options.memoryLimitBytes);
+        followBases(nameOrPath, origin, ledger);
     }
     return origin;
 }

@@ -9,12 +9,14 @@ namespace {
 using std::filesystem::path;
 
 void readGltf(const path& file) {
-    const scenes::Scene scene = scenes::importGltf(file, scenes::LoadLedger(kMemoryLimitBytes));
+    scenes::LoadLedger ledger(kMemoryLimitBytes);
+    const scenes::Scene scene = scenes::importGltf(file, ledger);
     scenes::checkScene(scene);
 }
 
 void readObj(const path& file) {
-    const scenes::Scene scene = scenes::importObj(file, scenes::LoadLedger(kMemoryLimitBytes));
+    scenes::LoadLedger ledger(kMemoryLimitBytes);
+    const scenes::Scene scene = scenes::importObj(file, ledger);
     scenes::checkScene(scene);
 }
 
@@ -24,12 +26,14 @@ void readMtl(const path& file) {
 }
 
 void readScene(const path& file) {
-    const scenes::Scene scene = scenes::importSceneJson(file, scenes::LoadLedger(kMemoryLimitBytes));
+    scenes::LoadLedger ledger(kMemoryLimitBytes);
+    const scenes::Scene scene = scenes::importSceneJson(file, ledger);
     scenes::checkScene(scene);
 }
 
 void readPicture(const path& file) {
-    scenes::readImage(file, scenes::LoadLedger(kMemoryLimitBytes));
+    scenes::LoadLedger ledger(kMemoryLimitBytes);
+    scenes::readImage(file, ledger);
 }
 
 /// A file of shaders/ that includes those beside it, and itself.
@@ -39,9 +43,9 @@ void expandShader(const path& file) {
 }
 
 constexpr Target kTargets[] = {
-    {"gltf", "input.gltf", readGltf},  {"glb", "input.glb", readGltf},         {"obj", "input.obj", readObj},
-    {"mtl", "input.mtl", readMtl},     {"scene", "input.json", readScene},     {"picture", "input.png", readPicture},
-    {"tga", "input.tga", readPicture}, {"shader", "input.glsl", expandShader},
+#define TARGET(name, fileName, read) {#name, fileName, read},
+#include "tests/fuzz/Targets.inc"
+#undef TARGET
 };
 
 } // namespace

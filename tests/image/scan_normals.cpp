@@ -9,6 +9,7 @@
 #include "scenes/Load.h"
 #include "scenes/import/Importers.h"
 #include "tests/support/GlContext.h"
+#include "tests/support/UnderLedger.h"
 #include "validation/Rendering.h"
 
 namespace tessera {
@@ -32,7 +33,7 @@ protected:
         scenes::Material& skin = scene.materials[0];
         skin.normalMapSpace = space;
         scenes::Image& map = scene.images[std::size_t(skin.texture(scenes::TextureSlot::Normal).image)];
-        if (space == NormalMapSpace::Object) map = scenes::readImage(folder_ / "normal_object_2k.jpg");
+        if (space == NormalMapSpace::Object) map = underLedger(scenes::readImage, folder_ / "normal_object_2k.jpg");
         if (flipsGreen) {
             for (std::size_t i = 1; i < map.texels.size(); i += 4) map.texels[i] ^= std::byte(255);
         }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "tests/support/UnderLedger.h"
 #include "validation/PictureFile.h"
 
 namespace tessera::test {
@@ -71,7 +72,7 @@ Shot ViewerTest::rendered(const std::string& arguments, glm::ivec2 sizePixels) c
 }
 
 validation::Picture ViewerTest::exr(const std::string& name) const {
-    return validation::readPicture((folder_.path() / name).string());
+    return underLedger(validation::readPicture, (folder_.path() / name).string());
 }
 
 } // namespace tessera::test

@@ -112,8 +112,8 @@ const std::vector<Key>& keys() {
 
 } // namespace
 
-BenchMatrix parseMatrix(std::string_view json, const std::string& source) {
-    const ParsedJson root = scenes::parseJson(json, source);
+BenchMatrix parseMatrix(std::string_view json, const std::string& source, scenes::LoadLedger& ledger) {
+    const ParsedJson root = scenes::parseJson(json, source, ledger);
     if (!root.is_object()) throw InputError(fmt::format("{}: must be an object of arrays", source));
     BenchMatrix matrix;
     for (const auto& [name, values] : root.items()) {

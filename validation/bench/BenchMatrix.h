@@ -5,6 +5,7 @@
 
 #include "passes/recipes/Techniques.h"
 #include "renderer/frame/FrameSettings.h"
+#include "scenes/LoadLedger.h"
 
 namespace tessera::validation {
 
@@ -24,7 +25,7 @@ struct BenchMatrix {
 /// Reads the matrix of a JSON object of arrays with the keys technique, culling, tile, layout, lights, size and range.
 /// `source` names it in messages. Throws InputError that names the line and column of broken syntax, a key that is
 /// given twice, or the key or value and the nearest valid ones; keys of what this version cannot vary (shadow,
-/// subsurface) are refused as such.
-BenchMatrix parseMatrix(std::string_view json, const std::string& source);
+/// subsurface) are refused as such. The ledger is charged for it.
+BenchMatrix parseMatrix(std::string_view json, const std::string& source, scenes::LoadLedger& ledger);
 
 } // namespace tessera::validation

@@ -99,7 +99,7 @@ void addFurnishings(Scene& scene, const Finishes& f) {
 
 } // namespace
 
-Scene makeHall(const LoadOptions& options) {
+Scene makeHall(const LoadOptions& options, LoadLedger&) {
     Scene scene;
     scene.name = "hall";
     scene.background = {0.035f, 0.06f, 0.13f}; // the evening sky behind the windows

@@ -141,7 +141,7 @@ void addSpotsAndLamps(Scene& scene) {
 
 } // namespace
 
-Scene makeModels(const LoadOptions& options) {
+Scene makeModels(const LoadOptions& options, LoadLedger&) {
     Scene scene;
     scene.name = "models";
     scene.background = {0.004f, 0.005f, 0.007f};

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "tests/support/UnderLedger.h"
 #include "validation/PictureFile.h"
 
 namespace tessera::test {
@@ -47,7 +48,7 @@ std::string Cli::text(const std::string& name) const {
 }
 
 validation::Picture Cli::picture(const std::string& name) const {
-    return validation::readPicture(path(name));
+    return underLedger(validation::readPicture, path(name));
 }
 
 std::map<std::string, std::string> Cli::files() const {

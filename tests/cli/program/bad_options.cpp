@@ -131,7 +131,16 @@ TEST_F(BadOptions, comparisonsThatCannotBeMadeAreAlwaysRefused) {
     expectError(kBadInput, {"compare", "room", "--techniques", "forward,"}, {"unknown technique ''"});
     expectError(kBadInput, {"compare", "room", "--against", "nix.exr"}, {"nix.exr"});
     expectError(kBadInput, {"compare", "room", "--size", "16x9", "--against", "a.png"},
-                {"a.png", "not a readable picture"});
+                {"a.png: is in no known picture format; convert the picture to png"});
+    for (const char* name : {"x.null", "x.mp4"}) {
+        folder_.write(name, "not a picture");
+        expectError(kBadInput, {"compare", "room", "--size", "16x9", "--against", name},
+                    {std::string(name) + ": the picture format " + (name + 2) + " is not supported"});
+    }
+    folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    ASSERT_EQ(run({"--quiet", "render", "m.obj", "--size", "160x90", "-o", "b.exr"}).exitCode, 0);
+    expectError(kBadInput, {"--quiet", "compare", "m.obj", "--against", "b.exr", "--memory-limit", "600K"},
+                {"b.exr: the picture of 160x90 texels", "may take 600.0 KiB (--memory-limit)"});
     folder_.write("empty.exr", "");
     expectError(kBadInput, {"compare", "room", "--size", "16x9", "--against", "empty.exr"}, {"empty.exr", "empty"});
 }
@@ -157,6 +166,46 @@ TEST_F(BadOptions, whatIsReadIsNeverWrittenOver) {
     expectError(kBadInput, {"plan", "room", "--json", "p", "--dot", "./p"}, {"p", "two outputs have this name"});
     expectError(kBadInput, {"compare", "room", "--size", "16x9", "--against", "paint.png", "--json", "paint.png"},
                 {"paint.png", written});
+}
+
+TEST_F(BadOptions, whatABenchmarkReadsIsNeverWrittenOver) {
+    const std::string quad = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const std::string including = R"({"tessera": 1, "include": [{"file": "../m.obj"}]})";
+    folder_.write("m.obj", quad);
+    folder_.write("out/bench.json", including);
+    folder_.write("out/report.obj", "mtllib report.html\n" + quad);
+    folder_.write("out/report.html", "newmtl paint\n");
+    folder_.write("out/parts/scene.obj", quad);
+    const std::string written = "would be written over";
+    for (const auto& [scene, file] : {std::pair{"out/bench.json", "out/bench.json"},
+                                      {"out/report.obj", "out/report.html"},
+                                      {"out/parts/scene.obj", "out/parts/scene.obj"}})
+        expectError(kBadInput, {"--quiet", "bench", scene, "-o", "out"}, {file, written});
+    expectError(kBadInput, {"--quiet", "bench", "room", "--matrix", "out/report.html", "-o", "out"},
+                {"out/report.html", written});
+}
+
+TEST_F(BadOptions, whatADemonstrationReadsIsNeverWrittenOver) {
+    folder_.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n");
+    folder_.write("m.mtl", "newmtl m\nmap_Kd deferred.png\n");
+    folder_.write("bench/bench.json", R"({"tessera": 1, "include": [{"file": "../m.obj"}]})");
+    ASSERT_EQ(run({"render", "room", "--size", "16x9", "-o", "deferred.png"}).exitCode, 0);
+    const std::string written = "would be written over";
+    expectError(kBadInput, {"--quiet", "demo", "m.obj", "-o", "."}, {"deferred.png", written});
+    std::filesystem::rename(path("deferred.png"), path("paint.png"));
+    folder_.write("m.mtl", "newmtl m\nmap_Kd paint.png\n");
+    expectError(kBadInput, {"--quiet", "demo", "bench/bench.json", "-o", "."}, {"bench/bench.json", written});
+}
+
+TEST_F(BadOptions, heatMapsAreNeverWhatIsReadNorAnotherOutput) {
+    ASSERT_EQ(run({"render", "room", "--size", "16x9", "-o", "deferred_flip.png"}).exitCode, 0);
+    std::filesystem::create_directory(path("maps"));
+    const Words compare{"compare", "room", "--size", "16x9", "--heatmap"};
+    Words against = compare, json = compare;
+    against.insert(against.end(), {".", "--against", "deferred_flip.png"});
+    json.insert(json.end(), {"maps", "--json", "maps/../maps/deferred.png"});
+    expectError(kBadInput, against, {"deferred_flip.png", "would be written over"});
+    expectError(kBadInput, json, {"maps/deferred.png", "two outputs have this name"});
 }
 
 TEST_F(BadOptions, controlCharactersOfAMessageAreAlwaysEscaped) {

@@ -27,6 +27,14 @@ TEST_F(Demo, theReportAndItsPicturesAreAlwaysWrittenWhereItSays) {
     EXPECT_EQ(picture("out/report/lattice.exr").height, 90);
 }
 
+TEST_F(Demo, theNameThatAFileGivesASceneNeverLeadsOutOfTheFolder) {
+    folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder_.write("s.json", R"json({"tessera": 1, "name": "../../a $(b)", "include": [{"file": "m.obj"}]})json");
+    runGood({"--quiet", "demo", "s.json", "--size", "32x18", "-o", "out/report"});
+    EXPECT_EQ(picture("out/report/_._.._a_$b.exr").width, 32);
+    EXPECT_THAT(text("out/report/index.html"), HasSubstr("tessera compare s.json"));
+}
+
 TEST_F(Demo, aWindowsContextAlwaysGivesThePictureOfEglBitForBit) {
     if (runShell("command -v xvfb-run", folder_.path()).exitCode != 0) GTEST_SKIP() << "xvfb-run is not installed";
     runGood({"render", "lattice", "--lights", "8", "--size", "160x90", "--context", "egl", "-o", "egl.exr"});

@@ -4,12 +4,17 @@
 #include <set>
 #include <string>
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "scenes/Limits.h"
 #include "scenes/Load.h"
 #include "scenes/builtin/Builtin.h"
 #include "scenes/builtin/hall/Lights.h"
+#include "tests/support/UnderLedger.h"
 #include "tests/unit/scenes/MeshRules.h"
+#include "tests/unit/scenes/TempFolder.h"
 
 namespace tessera::scenes {
 
@@ -112,7 +117,7 @@ void expectAllUsed(const Scene& scene) {
 class BuiltinScenes : public testing::TestWithParam<BuiltinScene> {};
 
 TEST_P(BuiltinScenes, areAlwaysSoundAndFaceTheirNormals) {
-    const Scene scene = GetParam().make(withoutAssets());
+    const Scene scene = underLedger(GetParam().make, withoutAssets());
     EXPECT_NO_THROW(checkScene(scene));
     EXPECT_EQ(scene.name, GetParam().name);
     EXPECT_FALSE(scene.cameras.empty());
@@ -124,7 +129,27 @@ TEST_P(BuiltinScenes, areAlwaysSoundAndFaceTheirNormals) {
 }
 
 TEST_P(BuiltinScenes, areAlwaysTheSameTwice) {
-    EXPECT_EQ(digest(GetParam().make(withoutAssets())), digest(GetParam().make(withoutAssets())));
+    EXPECT_EQ(digest(underLedger(GetParam().make, withoutAssets())),
+              digest(underLedger(GetParam().make, withoutAssets())));
+}
+
+TEST_P(BuiltinScenes, areAlwaysChargedBeforeTheyAreMadeAndForNoLessThanTheyTake) {
+    const BuiltinScene& builtin = GetParam();
+    const std::uint64_t held = bytesOf(underLedger(builtin.make, withoutAssets()));
+    EXPECT_LE(held, builtin.bytes) << sizeText(held);
+    EXPECT_LE(builtin.bytes, std::max(std::uint64_t{1} << 20, 8 * held)) << sizeText(held) << ": refuses for nothing";
+    LoadOptions options = withoutAssets();
+    options.memoryLimitBytes = builtin.bytes - 1;
+    EXPECT_EQ(test::inputErrorOf([&] { loadScene(std::string(builtin.name), options); }),
+              fmt::format("{}: asks for {} of memory, and 0 B are in use; a load may take {} (--memory-limit)",
+                          builtin.name, sizeText(builtin.bytes), sizeText(builtin.bytes - 1)));
+}
+
+TEST(BuiltinMemory, lightsThatABuiltinSceneIsAskedForAreAlwaysChargedBeforeTheyAreMade) {
+    LoadOptions options;
+    options.lights = kMostLights;
+    options.memoryLimitBytes = builtinScene("lattice")->bytes + 1000;
+    EXPECT_THAT(test::inputErrorOf([&] { loadScene("lattice", options); }), testing::StartsWith("lattice: asks for "));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BuiltinScenes, testing::ValuesIn(builtinScenes().begin(), builtinScenes().end()),
@@ -146,7 +171,7 @@ double power(int count) {
 }
 
 TEST(Hall, alwaysHasWhatItIsKnownFor) {
-    const Scene scene = builtin::makeHall(withoutAssets());
+    const Scene scene = underLedger(builtin::makeHall, withoutAssets());
     EXPECT_GE(triangleCount(scene), 200000u);
     EXPECT_GE(scene.materials.size(), 8u);
     EXPECT_GE(scene.cameras.size(), 3u);
@@ -182,22 +207,22 @@ TEST(Hall, askedForNumberOfLightsIsAlwaysExactlyMade) {
         EXPECT_EQ(scene.lights.size(), static_cast<std::size_t>(count));
         EXPECT_NO_THROW(checkScene(scene));
     }
-    EXPECT_EQ(builtin::makeHall(withLights(3)).lights.size(), 4u) << "and the sky";
+    EXPECT_EQ(underLedger(builtin::makeHall, withLights(3)).lights.size(), 4u) << "and the sky";
 }
 
 TEST(Spheres, alwaysSpanRoughnessAndMetalness) {
-    const Scene scene = builtin::makeSpheres(withoutAssets());
+    const Scene scene = underLedger(builtin::makeSpheres, withoutAssets());
     int spheres = 0;
     for (const Material& material : scene.materials) {
         if (material.name.find("metalness") == 0) ++spheres;
     }
     EXPECT_EQ(spheres, 55);
     EXPECT_EQ(scene.lights.size(), 4u);
-    EXPECT_EQ(builtin::makeSpheres(withLights(2)).lights.size(), 2u);
+    EXPECT_EQ(underLedger(builtin::makeSpheres, withLights(2)).lights.size(), 2u);
 }
 
 TEST(Models, alwaysShowEveryModelMaskingAndLayerSomeOfThemTextured) {
-    const Scene scene = builtin::makeModels(withoutAssets());
+    const Scene scene = underLedger(builtin::makeModels, withoutAssets());
     std::set<MaterialModel> models;
     std::set<Masking> maskings;
     std::set<std::size_t> slots;
@@ -219,11 +244,11 @@ TEST(Models, alwaysShowEveryModelMaskingAndLayerSomeOfThemTextured) {
     std::set<LightType> lights;
     for (const Light& light : scene.lights) lights.insert(light.type);
     EXPECT_EQ(lights.size(), 3u);
-    EXPECT_EQ(builtin::makeModels(withLights(2)).lights.size(), 2u);
+    EXPECT_EQ(underLedger(builtin::makeModels, withLights(2)).lights.size(), 2u);
 }
 
 TEST(Head, generatedBustAlwaysHasObjectSpaceNormals) {
-    const Scene scene = builtin::makeHead(withoutAssets());
+    const Scene scene = underLedger(builtin::makeHead, withoutAssets());
     const Material* bust = nullptr;
     for (const Material& material : scene.materials) {
         if (material.texture(TextureSlot::Normal).image != kNone) bust = &material;
@@ -241,7 +266,7 @@ TEST(Head, generatedBustAlwaysHasObjectSpaceNormals) {
 }
 
 TEST(Head, objectSpaceNormalsAlwaysAgreeWithTheMeshTheyRefine) {
-    const Scene scene = builtin::makeHead(withoutAssets());
+    const Scene scene = underLedger(builtin::makeHead, withoutAssets());
     const auto bust =
         std::find_if(scene.meshes.begin(), scene.meshes.end(), [](const Mesh& m) { return m.name == "bust"; });
     const auto map =

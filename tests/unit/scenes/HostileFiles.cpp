@@ -4,6 +4,8 @@
 
 #include "scenes/Load.h"
 #include "scenes/LoadLedger.h"
+#include "tests/support/AssetsFolder.h"
+#include "tests/support/UnderLedger.h"
 #include "tests/unit/scenes/gltf/GltfBuilder.h"
 #include "tests/unit/scenes/json/SceneFiles.h"
 
@@ -51,7 +53,7 @@ TEST(Memory, accessorsThatAreReadAgainAndAgainAreAlwaysCharged) {
         builder.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", zeros}}}});
     const TempFolder folder;
     const std::filesystem::path file = folder.write("m.gltf", builder.json.dump());
-    const std::string error = inputErrorOf([&] { importGltf(file, LoadLedger(256 * kMiB)); });
+    const std::string error = inputErrorOf([&] { underLedger(importGltf, file, 256 * kMiB); });
     EXPECT_THAT(error, AllOf(HasSubstr("m.gltf: /"), HasSubstr("of memory"), HasSubstr("may take 256.0 MiB"),
                              HasSubstr("--memory-limit")));
 }
@@ -65,12 +67,12 @@ TEST(Memory, instancesAreAlwaysCharged) {
     builder.json.erase("scene");
     const TempFolder folder;
     const std::filesystem::path file = folder.write("m.gltf", builder.json.dump());
-    EXPECT_EQ(importGltf(file, LoadLedger(128 * kMiB)).nodes.size(), 2000u);
-    EXPECT_THAT(inputErrorOf([&] { importGltf(file, LoadLedger(24 * kMiB)); }), HasSubstr("m.gltf: /nodes/"));
+    EXPECT_EQ(underLedger(importGltf, file, 128 * kMiB).nodes.size(), 2000u);
+    EXPECT_THAT(inputErrorOf([&] { underLedger(importGltf, file, 24 * kMiB); }), HasSubstr("m.gltf: /nodes/"));
 }
 
-TEST(Memory, picturesAreAlwaysChargedFromTheirHeader) {
-    // 8192 x 8192 texels of one bit, all 0, of which nothing but the header is ever read.
+/// A PNG of 8192 x 8192 texels of one bit, all 0, of which nothing but the header is ever read.
+std::string pictureBomb() {
     std::string png("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\x20\0\0\0\x20\0\x01\0\0\0\0", 29);
     // The chunk's check sum. Source: PNG specification, annex D.
     std::uint32_t crc = 0xffffffffu;
@@ -79,28 +81,89 @@ TEST(Memory, picturesAreAlwaysChargedFromTheirHeader) {
         for (int bit = 0; bit < 8; ++bit) crc = crc & 1 ? crc >> 1 ^ 0xedb88320u : crc >> 1;
     }
     for (int shift = 24; shift >= 0; shift -= 8) png += static_cast<char>(~crc >> shift & 0xff);
-    png += std::string("\0\0\x10\0IDAT", 8) + std::string(4096, '\0');
+    return png + std::string("\0\0\x10\0IDAT", 8) + std::string(4096, '\0');
+}
+
+TEST(Memory, picturesAreAlwaysChargedFromTheirHeader) {
     const TempFolder folder;
-    const std::filesystem::path file = folder.write("bomb.png", png);
-    EXPECT_THAT(inputErrorOf([&] { readImage(file, LoadLedger(64 * kMiB)); }),
+    const std::filesystem::path file = folder.write("bomb.png", pictureBomb());
+    EXPECT_THAT(inputErrorOf([&] { underLedger(readImage, file, 64 * kMiB); }),
                 AllOf(HasSubstr("bomb.png: the picture of 8192x8192 texels"), HasSubstr("asks for 256.0 MiB")));
+}
+
+TEST(Memory, theFilesOfABuiltinSceneAreAlwaysChargedAndRecordedWithTheLoad) {
+    const TempFolder folder;
+    const tessera::test::AssetsFolder assets(folder.path().c_str());
+    const std::string scan =
+        folder.write("LeePerrySmith/head.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").parent_path();
+    std::vector<std::string> files{scan + "/head.obj"};
+    for (const char* name : {"albedo_2k.jpg", "specular_2k.jpg", "normal_object_2k.jpg"}) {
+        folder.write(std::string("LeePerrySmith/") + name,
+                     "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x40\x20\x82");
+        files.push_back(scan + "/" + name);
+    }
+    LoadOptions options;
+    std::vector<std::string> read;
+    options.files = &read;
+    EXPECT_EQ(loadScene("head", options).images.size(), 3u);
+    EXPECT_EQ(read, files);
+
+    folder.write("LeePerrySmith/albedo_2k.jpg", pictureBomb());
+    options.memoryLimitBytes = builtinScene("head")->bytes + kMiB;
+    EXPECT_THAT(inputErrorOf([&] { loadScene("head", options); }),
+                HasSubstr("albedo_2k.jpg: the picture of 8192x8192 texels: asks for 256.0 MiB of memory"));
+}
+
+TEST(Memory, aBuiltinSceneThatIsIncludedIsAlwaysChargedBeforeItIsMade) {
+    const TempFolder folder;
+    const std::filesystem::path file =
+        folder.write("s.json", R"({"tessera": 1, "include": [{"file": "builtin:hall"}]})");
+    EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, file, kMiB); }),
+                AllOf(HasSubstr("s.json: 'hall': asks for " + sizeText(builtinScene("hall")->bytes)),
+                      HasSubstr("may take 1.0 MiB")));
 }
 
 TEST(Memory, whatReadersWouldReserveAtOnceIsAlwaysLookedAtBefore) {
     const TempFolder folder;
     const std::string gif("GIF89a\x20\x4e\x20\x4e\x80\0\0\0\0\0\0\0\0,\0\0\0\0\x20\x4e\x20\x4e\0\x02\x02\x4c\x01\0;",
                           35);
-    EXPECT_THAT(inputErrorOf([&] { readImage(folder.write("a.gif", gif)); }),
+    EXPECT_THAT(inputErrorOf([&] { underLedger(readImage, folder.write("a.gif", gif)); }),
                 HasSubstr("a.gif: the picture has 20000x20000 texels"));
     std::string exr("\x76\x2f\x31\x01\x02\0\0\0dataWindow\0box2i\0\x10\0\0\0", 29);
     exr += std::string("\0\0\0\x80\0\0\0\x80\xff\xff\xff\x7f\xff\xff\xff\x7f\0", 17);
-    EXPECT_THAT(inputErrorOf([&] { readImage(folder.write("a.exr", exr)); }),
+    EXPECT_THAT(inputErrorOf([&] { underLedger(readImage, folder.write("a.exr", exr)); }),
                 HasSubstr("a.exr: the picture has 4294967296x4294967296 texels"));
+}
+
+/// The refusal of an EXR whose first attribute is this, after the file's name.
+std::string refusalOfExr(const std::string& type, const std::string& sizeAndValue) {
+    const TempFolder folder;
+    const std::string exr = std::string("\x76\x2f\x31\x01\x02\0\0\0", 8) + "owner" + '\0' + type + '\0' + sizeAndValue;
+    const std::filesystem::path file = folder.write("a.exr", exr);
+    const std::string error = inputErrorOf([&] { underLedger(readImage, file); });
+    EXPECT_THAT(error, testing::StartsWith(file.string() + ": the openexr picture cannot be decoded ("));
+    const std::size_t first = error.find('(');
+    return error.substr(first, error.find(')') + 1 - first);
+}
+
+TEST(Memory, aValueOfAnExrHeaderIsNeverReservedUnlessTheFileHoldsIt) {
+    const std::string twoGiB("\xff\xff\xff\x7f", 4), eight("\x08\0\0\0", 4);
+    EXPECT_EQ(refusalOfExr("string", twoGiB + "abcd"),
+              "(its attribute 'owner' of type string claims 2147483647 bytes where 4 are left)");
+    EXPECT_EQ(refusalOfExr("none of its own", twoGiB + "abcd"),
+              "(its attribute 'owner' of type none of its own claims 2147483647 bytes where 4 are left)");
+    EXPECT_EQ(refusalOfExr("stringvector", eight + twoGiB + "abcd"),
+              "(its attribute 'owner' of type stringvector claims 2147483647 bytes where 4 are left)");
+    // What the reader takes without a look at the size would hide what follows.
+    EXPECT_EQ(refusalOfExr("box2i", eight + "abcdefgh"),
+              "(its attribute 'owner' of type box2i claims 8 bytes and has 16)");
+    EXPECT_EQ(refusalOfExr("chlist", std::string("\x02\0\0\0\0abcdefgh", 13)),
+              "(its attribute 'owner' of type chlist claims 2 bytes where 1 are left)");
 }
 
 TEST(Memory, whatAFileLeavesBehindIsAlwaysWhatItIsChargedFor) {
     const SceneFolder folder;
-    const LoadLedger ledger(64 * kMiB);
+    LoadLedger ledger(64 * kMiB);
     for (int i = 0; i < 1000; ++i) { // by far more in all than what one may take
         const std::uint64_t before = ledger.usedBytes();
         const Scene scene = importObj(folder.path() / "models/bust.obj", ledger);
@@ -116,10 +179,10 @@ TEST(Memory, copiesOfAnIncludeAreAlwaysChargedAndItsFileReadTwiceAtMost) {
     const std::string text = R"({"tessera": 1, "include": [)" +
                              listOf(1000, [](int) { return std::string(R"({"file": "models/big.obj"})"); }) + "]}";
     const std::filesystem::path file = folder.write("scene.json", text);
-    const LoadLedger ledger;
+    LoadLedger ledger;
     EXPECT_EQ(importSceneJson(file, ledger).meshes.size(), 1000u);
     EXPECT_LE(ledger.files().size(), 3u);
-    EXPECT_THAT(inputErrorOf([&] { importSceneJson(file, LoadLedger(16 * kMiB)); }),
+    EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, file, 16 * kMiB); }),
                 AllOf(HasSubstr("scene.json: include"), HasSubstr("models/big.obj")));
 }
 
@@ -127,11 +190,11 @@ TEST(Memory, jsonAndObjTextsAreAlwaysCharged) {
     const TempFolder folder;
     const std::filesystem::path json = folder.write(
         "s.json", R"({"tessera": 1, "lights": [)" + listOf(300'000, [](int) { return std::string("[]"); }) + "]}");
-    EXPECT_THAT(inputErrorOf([&] { importSceneJson(json, LoadLedger(8 * kMiB)); }), HasSubstr("s.json: its JSON"));
+    EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, json, 8 * kMiB); }), HasSubstr("s.json: its JSON"));
     std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (int i = 0; i < 100'000; ++i) text += "f 1 2 3\n";
     const std::filesystem::path obj = folder.write("m.obj", text);
-    EXPECT_THAT(inputErrorOf([&] { importObj(obj, LoadLedger(8 * kMiB)); }), HasSubstr("m.obj:"));
+    EXPECT_THAT(inputErrorOf([&] { underLedger(importObj, obj, 8 * kMiB); }), HasSubstr("m.obj:"));
 }
 
 TEST(Growth, aHundredThousandMaterialsOrCamerasOfASceneFileTakeSeconds) {
@@ -144,7 +207,7 @@ TEST(Growth, aHundredThousandMaterialsOrCamerasOfASceneFileTakeSeconds) {
             listOf(100'000,
                    [](int i) { return fmt::format(R"({{"name":"c{}","position":[0,0,1],"target":[0,0,0]}})", i); }) +
             "]}");
-    EXPECT_LT(secondsOf([&] { EXPECT_EQ(importSceneJson(file).materials.size(), 100'000u); }), kSeconds);
+    EXPECT_LT(secondsOf([&] { EXPECT_EQ(underLedger(importSceneJson, file).materials.size(), 100'000u); }), kSeconds);
 }
 
 TEST(Growth, aHundredThousandMaterialsOfAnObjFileTakeSeconds) {
@@ -152,7 +215,7 @@ TEST(Growth, aHundredThousandMaterialsOfAnObjFileTakeSeconds) {
     std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (int i = 0; i < 100'000; ++i) text += fmt::format("usemtl m{}\nf 1 2 3\n", i);
     const std::filesystem::path file = folder.write("m.obj", text);
-    EXPECT_LT(secondsOf([&] { EXPECT_EQ(importObj(file).materials.size(), 100'000u); }), kSeconds);
+    EXPECT_LT(secondsOf([&] { EXPECT_EQ(underLedger(importObj, file).materials.size(), 100'000u); }), kSeconds);
 }
 
 TEST(Growth, warningsAreNeverMoreThanAHundredAndTheirRest) {
@@ -173,7 +236,7 @@ double secondsOfNodes(int count) {
         "m.gltf",
         R"({"asset":{"version":"2.0"},"cameras":[{"name":"c","type":"perspective","perspective":{"yfov":1,"znear":1}}],"nodes":[)" +
             listOf(count, [](int i) { return std::string(i % 2 == 0 ? "{}" : R"({"camera":0})"); }) + "]}");
-    return secondsOf([&] { EXPECT_EQ(importGltf(file).nodes.size(), static_cast<std::size_t>(count)); });
+    return secondsOf([&] { EXPECT_EQ(underLedger(importGltf, file).nodes.size(), static_cast<std::size_t>(count)); });
 }
 
 TEST(Growth, aHundredThousandNodesAndCamerasOfAGltfFileTakeSeconds) {

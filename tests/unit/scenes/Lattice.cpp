@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/builtin/Builtin.h"
+#include "tests/support/UnderLedger.h"
 
 namespace tessera::scenes::builtin {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 Scene lattice(std::optional<int> lights = {}) {
     LoadOptions options;
     options.lights = lights;
-    return makeLattice(options);
+    return underLedger(makeLattice, options);
 }
 
 TEST(Lattice, hasExactlyTheSpecifiedCountsAndBounds) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/builtin/Builtin.h"
+#include "tests/support/UnderLedger.h"
 
 namespace tessera::scenes::builtin {
 namespace {
@@ -47,7 +48,7 @@ Hit trace(const Scene& scene, const glm::dvec3& originWS, const glm::dvec3& dire
 }
 
 TEST(Room, closedFormAlwaysMatchesTheSceneAlongEveryRay) {
-    const Scene scene = makeRoom({});
+    const Scene scene = underLedger(makeRoom, LoadOptions{});
     int seen[kRoomMaterialCount] = {};
     for (const Camera& camera : scene.cameras) {
         for (int i = 0; i < 41; ++i) {
@@ -83,7 +84,7 @@ TEST(Room, radianceIsAlwaysTheInverseSquareTimesTheCosine) {
 }
 
 TEST(Room, materialsAlwaysCarryTheFinishesNumbers) {
-    const Scene scene = makeRoom({});
+    const Scene scene = underLedger(makeRoom, LoadOptions{});
     ASSERT_EQ(scene.materials.size(), kRoomMaterialCount);
     for (std::size_t i = 0; i < kRoomMaterialCount; ++i) {
         const Material& material = scene.materials[i];
@@ -101,7 +102,7 @@ TEST(Room, materialsAlwaysCarryTheFinishesNumbers) {
 TEST(Room, anyNumberOfLightsAlwaysSharesTheOneLamp) {
     LoadOptions options;
     options.lights = 8;
-    const Scene scene = makeRoom(options);
+    const Scene scene = underLedger(makeRoom, options);
     ASSERT_EQ(scene.lights.size(), 8u);
     float sum = 0.0f;
     for (const Light& light : scene.lights) {

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include "scenes/Error.h"
+#include "tests/support/UnderLedger.h"
 #include "tests/unit/validation/Samples.h"
 
 namespace tessera::validation {
@@ -44,7 +45,7 @@ TEST(PictureFile, exrAlwaysKeepsEveryBitAndTheCoverage) {
     const TemporaryFolder folder;
     const Picture written = extremes();
     writeExr(folder.file("a.exr"), written);
-    const Picture read = readPicture(folder.file("a.exr"));
+    const Picture read = underLedger(readPicture, folder.file("a.exr"));
     EXPECT_EQ(read.width, 3);
     EXPECT_EQ(read.height, 2);
     EXPECT_EQ(colourBits(read), colourBits(written));
@@ -57,7 +58,7 @@ TEST(PictureFile, exrOfAPictureWithoutGeometryIsAlwaysReadBackUncovered) {
     Picture picture = greyPicture(2, 1, 1.f);
     picture.covered = {0, 0};
     writeExr(folder.file("a.exr"), picture);
-    EXPECT_THAT(readPicture(folder.file("a.exr")).covered, ElementsAre(0, 0));
+    EXPECT_THAT(underLedger(readPicture, folder.file("a.exr")).covered, ElementsAre(0, 0));
 }
 
 TEST(PictureFile, exrOfOnePictureIsAlwaysTheSameFile) {
@@ -73,7 +74,7 @@ TEST(PictureFile, exrOfOnePictureIsAlwaysTheSameFile) {
 TEST(PictureFile, pngIsAlwaysDecodedFromSrgbToLinear) {
     const TemporaryFolder folder;
     writePng(folder.file("a.png"), {2, 1, {0, 255, 188, 10, 11, 128}});
-    const Picture picture = readPicture(folder.file("a.png"));
+    const Picture picture = underLedger(readPicture, folder.file("a.png"));
     EXPECT_THAT(picture.covered, ElementsAre(1, 1));
     // IEC 61966-2-1 by hand: x / 12.92 up to 10/255, ((x + 0.055) / 1.055)^2.4 above; 1e-6 is what fp32 leaves.
     EXPECT_EQ(picture.pixel(0)[0], 0.f);
@@ -89,9 +90,12 @@ TEST(PictureFile, pfmIsAlwaysReadLinearAndFromTheTop) {
     // PFM stores its rows from the bottom; a negative scale says little-endian.
     const float rows[2][3] = {{1.f, 2.f, 3.f}, {4.f, 5.f, 1e-20f}};
     writeText(folder.file("a.pfm"), "PF\n1 2\n-1.0\n" + std::string(reinterpret_cast<const char*>(rows), sizeof(rows)));
-    const Picture picture = readPicture(folder.file("a.pfm"));
+    const Picture picture = underLedger(readPicture, folder.file("a.pfm"));
     ASSERT_EQ(picture.height, 2);
     EXPECT_THAT(picture.rgba, ElementsAre(4.f, 5.f, 1e-20f, 1.f, 1.f, 2.f, 3.f, 1.f));
+    // One channel is grey; a positive scale says big-endian and multiplies.
+    writeText(folder.file("b.pfm"), std::string("Pf\n1 1\n2\n\x3f\x80\0\0", 14));
+    EXPECT_THAT(underLedger(readPicture, folder.file("b.pfm")).rgba, ElementsAre(2.f, 2.f, 2.f, 1.f));
 }
 
 TEST(PictureFile, aBrokenInputIsAlwaysAnInputErrorThatNamesTheFile) {
@@ -102,12 +106,58 @@ TEST(PictureFile, aBrokenInputIsAlwaysAnInputErrorThatNamesTheFile) {
     writeText(folder.file("cut-in-header.exr"), whole.substr(0, 40));
     writeText(folder.file("text.png"), "not a picture");
     writeText(folder.file("empty.exr"), "");
+    writeText(folder.file("cut.pfm"), "PF\n2 2\n-1.0\n1234");
     writeText(folder.file("huge.pfm"), "PF\n2000000000 2000000000\n-1.0\n");
-    for (const char* name : {"cut.exr", "cut-in-header.exr", "text.png", "empty.exr", "huge.pfm", "absent.exr", ""}) {
+    for (const char* name :
+         {"cut.exr", "cut-in-header.exr", "text.png", "empty.exr", "huge.pfm", "cut.pfm", "absent.exr", ""}) {
         const std::string path = folder.file(name);
-        const std::string message = errorOf<InputError>([&] { readPicture(path); });
+        const std::string message = errorOf<InputError>([&] { underLedger(readPicture, path); });
         EXPECT_THAT(message, AllOf(StartsWith(path + ": "), HasSubstr("; "), Not(HasSubstr("\n"))));
     }
+}
+
+/// Why a file with these bytes cannot be compared with, after its name.
+std::string refusalOf(const TemporaryFolder& folder, const std::string& name, const std::string& bytes) {
+    writeText(folder.file(name), bytes);
+    const std::string message = errorOf<InputError>([&] { underLedger(readPicture, folder.file(name)); });
+    EXPECT_THAT(message, StartsWith(folder.file(name) + ": "));
+    return message.substr(std::min(message.size(), folder.file(name).size() + 2));
+}
+
+TEST(PictureFile, noReaderButThoseOfTexturesIsEverAsked) {
+    const TemporaryFolder folder;
+    // "null" makes pictures of nothing at all, "mp4" opens films, and those of IFF and DPX crash on what is broken.
+    for (const char* extension : {"null", "mp4", "raw", "vdb", "iff", "dpx", "psd"})
+        EXPECT_EQ(refusalOf(folder, std::string("a.") + extension, "FOR4"),
+                  fmt::format("the picture format {} is not supported; convert the picture to png, jpeg, openexr, hdr, "
+                              "pfm, tiff, webp, bmp, gif or tga",
+                              extension));
+    writePng(folder.file("a.png"), {2, 1, {0, 255, 188, 10, 11, 128}});
+    writeText(folder.file("a.null"), readText(folder.file("a.png")));
+    EXPECT_EQ(underLedger(readPicture, folder.file("a.null")).width, 2);
+}
+
+TEST(PictureFile, whatIsReadIsAlwaysChargedBeforeItIsDecoded) {
+    const TemporaryFolder folder;
+    writeExr(folder.file("a.exr"), greyPicture(512, 512, 1.f));
+    const std::uint64_t kept = 512 * 512 * 17; // four floats a pixel, and whether it is covered
+    scenes::LoadLedger ledger(std::uint64_t{32} << 20);
+    readPicture(folder.file("a.exr"), ledger);
+    EXPECT_EQ(ledger.usedBytes(), kept);
+    EXPECT_THAT(ledger.files(), ElementsAre(folder.file("a.exr")));
+    EXPECT_THAT(errorOf<InputError>([&] { underLedger(readPicture, folder.file("a.exr"), std::uint64_t{2} << 20); }),
+                HasSubstr("a.exr: the picture of 512x512 texels: asks for 4.0 MiB of memory"));
+}
+
+TEST(PictureFile, whatCannotBeLaidOverAPictureIsAlwaysRefusedWithTheRemedy) {
+    const TemporaryFolder folder;
+    writeExr(folder.file("a.exr"), greyPicture(2, 2, 1.f));
+    std::string cropped = readText(folder.file("a.exr"));
+    const std::string window = std::string("displayWindow\0box2i\0\x10\0\0\0", 25);
+    const std::size_t at = cropped.find(window);
+    ASSERT_NE(at, std::string::npos);
+    cropped[at + window.size()] = -1; // its left edge
+    EXPECT_EQ(refusalOf(folder, "b.exr", cropped), "its data window is not its display window; save it uncropped");
 }
 
 TEST(PictureFile, anUnwritableOutputIsAlwaysARuntimeErrorAndNeverAnInputError) {

@@ -12,6 +12,7 @@
 
 #include "scenes/Error.h"
 #include "scenes/import/Importers.h"
+#include "tests/support/UnderLedger.h"
 
 /// Small glTF documents for the importer's tests.
 namespace tessera::scenes::gltf::test {
@@ -120,13 +121,13 @@ public:
         json["textures"] = Json::parse(R"([{"source": 0}])");
     }
 
-    Scene import() const { return importGltf(folder.write("model.gltf", json.dump())); }
+    Scene import() const { return underLedger(importGltf, folder.write("model.gltf", json.dump())); }
 
     /// What the import refuses the document with, or "" when it does not.
     std::string error() const { return errorOf(folder.write("model.gltf", json.dump())); }
     static std::string errorOf(const std::filesystem::path& file) {
         try {
-            importGltf(file);
+            underLedger(importGltf, file);
         } catch (const InputError& error) {
             return error.what();
         }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "GltfBuilder.h"
+#include "tests/support/UnderLedger.h"
 
 namespace tessera::scenes::gltf::test {
 namespace {
@@ -45,7 +46,7 @@ std::string errorOfText(const std::string& text) {
 
 TEST(GltfDocument, glbIsReadLikeGltf) {
     const Folder folder;
-    const Scene scene = importGltf(folder.write("model.glb", triangleGlb()));
+    const Scene scene = underLedger(importGltf, folder.write("model.glb", triangleGlb()));
     EXPECT_EQ(scene.meshes.at(0).positionsOS.at(2), glm::vec3(0, 1, 0));
 }
 
@@ -96,7 +97,7 @@ TEST(GltfDocument, deeplyNestedJsonNeverOverflowsTheStack) {
 
 TEST(GltfDocument, emptySceneIsAlwaysImported) {
     const Folder folder;
-    EXPECT_TRUE(importGltf(folder.write("model.gltf", R"({"asset": {"version": "2.0"}})")).nodes.empty());
+    EXPECT_TRUE(underLedger(importGltf, folder.write("model.gltf", R"({"asset": {"version": "2.0"}})")).nodes.empty());
 }
 
 TEST(GltfDocument, requiredExtensionThatIsNotSupportedIsAlwaysRefused) {

@@ -4,6 +4,7 @@
 #include <meshoptimizer.h>
 
 #include "GltfBuilder.h"
+#include "tests/support/UnderLedger.h"
 
 namespace tessera::scenes::gltf::test {
 namespace {
@@ -49,7 +50,7 @@ Json richDocument() {
 /// Imported, or refused as input: anything else escapes and fails the test.
 bool isImported(const std::filesystem::path& file) {
     try {
-        importGltf(file);
+        underLedger(importGltf, file);
         return true;
     } catch (const InputError& error) {
         EXPECT_STRNE(error.what(), "");

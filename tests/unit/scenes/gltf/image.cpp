@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "GltfBuilder.h"
+#include "tests/support/UnderLedger.h"
 
 namespace tessera::scenes::gltf::test {
 namespace {
@@ -45,11 +46,19 @@ std::vector<T> texelsOf(const Image& image) {
     return texels;
 }
 
+/// What every refused picture may be converted to.
+const std::string kConvert = "; convert the picture to png, jpeg, openexr, hdr, pfm, tiff, webp, bmp, gif or tga";
+
 using Texels8 = std::vector<std::uint8_t>;
+
+Image decoded(const Bytes& bytes, const std::string& name) {
+    LoadLedger ledger;
+    return decodeImage(bytes, name, ledger);
+}
 
 std::string decodeError(const Bytes& bytes, const std::string& name) {
     try {
-        decodeImage(bytes, name);
+        decoded(bytes, name);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -57,13 +66,13 @@ std::string decodeError(const Bytes& bytes, const std::string& name) {
 }
 
 TEST(Image, greyIsAlwaysReplicatedAndMissingAlphaIsOne) {
-    EXPECT_EQ(texelsOf<std::uint8_t>(decodeImage(bytesOf(kGrey), "grey")), (Texels8{7, 7, 7, 255, 200, 200, 200, 255}));
-    EXPECT_EQ(texelsOf<std::uint8_t>(decodeImage(bytesOf(kGreyAlpha), "grey")), (Texels8{9, 9, 9, 77}));
-    EXPECT_EQ(texelsOf<std::uint8_t>(decodeImage(bytesOf(kRgb), "rgb")), (Texels8{1, 2, 3, 255}));
+    EXPECT_EQ(texelsOf<std::uint8_t>(decoded(bytesOf(kGrey), "grey")), (Texels8{7, 7, 7, 255, 200, 200, 200, 255}));
+    EXPECT_EQ(texelsOf<std::uint8_t>(decoded(bytesOf(kGreyAlpha), "grey")), (Texels8{9, 9, 9, 77}));
+    EXPECT_EQ(texelsOf<std::uint8_t>(decoded(bytesOf(kRgb), "rgb")), (Texels8{1, 2, 3, 255}));
 }
 
 TEST(Image, colorIsNeverMultipliedByAlpha) {
-    const Image image = decodeImage(pngRedBlue(), "red and blue");
+    const Image image = decoded(pngRedBlue(), "red and blue");
     EXPECT_EQ(image.format, TexelFormat::Rgba8Unorm);
     EXPECT_EQ(image.width, 2);
     EXPECT_EQ(image.height, 1);
@@ -71,13 +80,13 @@ TEST(Image, colorIsNeverMultipliedByAlpha) {
 }
 
 TEST(Image, sixteenBitsAreAlwaysKept) {
-    const Image image = decodeImage(bytesOf(kRgb16), "deep");
+    const Image image = decoded(bytesOf(kRgb16), "deep");
     EXPECT_EQ(image.format, TexelFormat::Rgba16Unorm);
     EXPECT_EQ(texelsOf<std::uint16_t>(image), (std::vector<std::uint16_t>{1000, 2000, 65535, 65535}));
 }
 
 TEST(Image, radianceIsReadExactlyAsFloat) {
-    const Image image = decodeImage(bytesOf(kHdr), "sky");
+    const Image image = decoded(bytesOf(kHdr), "sky");
     EXPECT_EQ(image.format, TexelFormat::Rgba32Float);
     const std::vector<float> texels = texelsOf<float>(image);
     ASSERT_EQ(texels.size(), 4u);
@@ -90,25 +99,25 @@ TEST(Image, radianceIsReadExactlyAsFloat) {
 
 TEST(Image, rowsAlwaysStartAtTheTop) {
     const Folder folder;
-    const Image image = readImage(folder.write("two rows.tga", bytesOf(kTga)));
+    const Image image = underLedger(readImage, folder.write("two rows.tga", bytesOf(kTga)));
     EXPECT_EQ(texelsOf<std::uint8_t>(image), (Texels8{40, 50, 60, 255, 10, 20, 30, 255}));
 }
 
 TEST(Image, formatIsAlwaysFoundByContentBeforeExtension) {
     const Folder folder;
-    EXPECT_EQ(readImage(folder.write("wrong.jpg", bytesOf(kRgb))).width, 1);
-    EXPECT_EQ(readImage(folder.write("none", bytesOf(kRgb))).width, 1);
+    EXPECT_EQ(underLedger(readImage, folder.write("wrong.jpg", bytesOf(kRgb))).width, 1);
+    EXPECT_EQ(underLedger(readImage, folder.write("none", bytesOf(kRgb))).width, 1);
 }
 
 TEST(Image, unusablePicturesAreAlwaysRefusedByName) {
-    EXPECT_EQ(decodeError({}, "a.png"), "a.png: the picture is empty (0 bytes)");
+    EXPECT_EQ(decodeError({}, "a.png"), "a.png: the picture is empty (0 bytes); save it again");
     EXPECT_EQ(decodeError(bytesOf(std::vector<char>{'a', 'b', 'c'}), "thing"),
-              "thing: is in no known picture format; convert the picture to PNG, JPEG, HDR or EXR");
+              "thing: is in no known picture format" + kConvert);
     const std::string ktx2 = "\xabKTX 20\xbb\r\n\x1a\n";
     EXPECT_EQ(decodeError(bytesOf(std::vector<char>(ktx2.begin(), ktx2.end())), "t"),
-              "t: the picture format ktx2 is not supported; convert the picture to PNG, JPEG, HDR or EXR");
+              "t: the picture format ktx2 is not supported" + kConvert);
     EXPECT_EQ(decodeError(bytesOf(std::vector<char>{'a', 'b', 'c'}), "a.nonsense"),
-              "a.nonsense: the picture format nonsense is not supported; convert the picture to PNG, JPEG, HDR or EXR");
+              "a.nonsense: the picture format nonsense is not supported" + kConvert);
     Bytes cut = pngRedBlue();
     cut.resize(45); // inside the texels
     EXPECT_NE(decodeError(cut, "cut.png").find("cut.png: the png picture is broken or cut short"), std::string::npos);
@@ -116,7 +125,7 @@ TEST(Image, unusablePicturesAreAlwaysRefusedByName) {
     EXPECT_NE(decodeError(cut, "cut.png").find("cut.png: the png picture is broken or cut short"), std::string::npos);
     EXPECT_NE(decodeError(bytesOf(kHugeClaim), "huge.png").find("the header claims 16000x16000 texels, more than"),
               std::string::npos);
-    EXPECT_THROW(readImage("/nowhere/at/all.png"), InputError);
+    EXPECT_THROW(underLedger(readImage, "/nowhere/at/all.png"), InputError);
 }
 
 TEST(Image, paletteIndicesBeyondThePaletteAreNeverReadPastIt) {
@@ -131,7 +140,7 @@ TEST(Image, paletteIndicesBeyondThePaletteAreNeverReadPastIt) {
     bmp.insert(bmp.end(), {9, 9, 9, 0, 255, 255, 255, 255});
     for (const auto& [name, bytes] : {std::pair{"a.tga", tga}, std::pair{"a.bmp", bmp}}) {
         try {
-            EXPECT_FALSE(decodeImage(bytesOf(bytes), name).texels.empty());
+            EXPECT_FALSE(decoded(bytesOf(bytes), name).texels.empty());
         } catch (const InputError&) { // refused is as good
         }
     }
@@ -143,8 +152,7 @@ TEST(Image, readersOfOtherFormatsAreNeverAsked) {
     for (const char* extension : {"null", "mp4", "raw", "vdb", "iff", "dpx", "cin", "psd", "jp2", "ptx", "txt"}) {
         const std::string name = std::string("a.") + extension;
         const std::string error = decodeError(bytesOf(std::vector<char>{'F', 'O', 'R', '4', 0, 0}), name);
-        EXPECT_EQ(error, name + ": the picture format " + extension +
-                             " is not supported; convert the picture to PNG, JPEG, HDR or EXR");
+        EXPECT_EQ(error, name + ": the picture format " + extension + " is not supported" + kConvert);
     }
     const std::string psd = "8BPS";
     EXPECT_NE(decodeError(bytesOf(std::vector<char>(psd.begin(), psd.end())), "a.png").find("format psd is not"),

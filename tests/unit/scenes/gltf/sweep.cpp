@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "GltfBuilder.h"
+#include "tests/support/UnderLedger.h"
 
 namespace tessera::scenes::gltf::test {
 namespace {
@@ -53,7 +54,7 @@ void sweep(const std::filesystem::path& folder) {
         SCOPED_TRACE(model.string());
         const std::string name = std::filesystem::relative(model, folder).string();
         try {
-            const Scene scene = importGltf(model);
+            const Scene scene = underLedger(importGltf, model);
             expectSound(scene);
             ++importedCount;
             if (drawnTriangles(scene) == 0) {

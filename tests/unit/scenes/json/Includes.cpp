@@ -2,35 +2,17 @@
 #include <cstdlib>
 #include <optional>
 
+#include "tests/support/AssetsFolder.h"
+#include "tests/support/UnderLedger.h"
 #include "tests/unit/scenes/json/SceneFiles.h"
 
 namespace tessera::scenes {
 namespace {
 
+using tessera::test::AssetsFolder;
 using test::SceneFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-/// Sets TESSERA_ASSETS for one test, or unsets it.
-class AssetsFolder {
-public:
-    explicit AssetsFolder(const char* folder) {
-        if (const char* before = std::getenv("TESSERA_ASSETS")) before_ = before;
-        set(folder);
-    }
-    ~AssetsFolder() { set(before_ ? before_->c_str() : nullptr); }
-    AssetsFolder(const AssetsFolder&) = delete;
-    AssetsFolder& operator=(const AssetsFolder&) = delete;
-
-private:
-    static void set(const char* folder) {
-        if (folder != nullptr)
-            setenv("TESSERA_ASSETS", folder, 1);
-        else
-            unsetenv("TESSERA_ASSETS");
-    }
-    std::optional<std::string> before_;
-};
 
 std::string including(const std::string& include) {
     return R"({"tessera": 1, "include": [)" + include + "]}";
@@ -183,7 +165,7 @@ TEST(SceneJsonInclude, aCycleIsAlwaysRefusedNamingItsChain) {
     const std::filesystem::path last =
         folder.write("parts/c.json", R"({"tessera": 1, "include": [{"file": "lamps.json"}, {"file": "../b.json"}]})");
     const std::filesystem::path file = folder.write("scene.json", including(R"({"file": "b.json"})"));
-    EXPECT_EQ(test::inputErrorOf([&] { importSceneJson(file); }),
+    EXPECT_EQ(test::inputErrorOf([&] { underLedger(importSceneJson, file); }),
               (folder.path() / "parts/../parts/c.json").lexically_normal().string() +
                   ":/include/1/file: includes itself: b.json -> c.json -> b.json; remove one of the includes");
     EXPECT_EQ(folder.errorBeyondSchemaOf(including(R"({"file": "scene.json"})")),
@@ -197,7 +179,7 @@ TEST(SceneJsonInclude, includesWithoutEndAreAlwaysRefused) {
         const std::string next = R"({"file": "d)" + std::to_string(level + 1) + R"(.json"})";
         folder.write(std::string("d") + std::to_string(level) + ".json", including(next + ", " + next));
     }
-    const std::string error = test::inputErrorOf([&] { importSceneJson(folder.path() / "d0.json"); });
+    const std::string error = test::inputErrorOf([&] { underLedger(importSceneJson, folder.path() / "d0.json"); });
     EXPECT_THAT(error, HasSubstr("is include number 4097 of the scene; at most 4096 are read"));
 }
 
@@ -224,8 +206,8 @@ TEST(SceneJsonInclude, theLeePerrySmithSceneAlwaysBindsItsMaps) {
     const char* assets = std::getenv("TESSERA_ASSETS");
     if (assets == nullptr || !std::filesystem::exists(std::filesystem::path(assets) / "LeePerrySmith" / "head.obj"))
         GTEST_SKIP() << "TESSERA_ASSETS does not hold LeePerrySmith";
-    const Scene scene =
-        importSceneJson(std::filesystem::path(TESSERA_SOURCE_DIR) / "scenes" / "files" / "lee_perry_smith.json");
+    const Scene scene = underLedger(importSceneJson, std::filesystem::path(TESSERA_SOURCE_DIR) / "scenes" / "files" /
+                                                         "lee_perry_smith.json");
     checkScene(scene);
     EXPECT_EQ(triangleCount(scene), 17684u);
     ASSERT_EQ(scene.materials.size(), 1u);
@@ -245,9 +227,9 @@ TEST(SceneJsonInclude, aChainOfIncludesOrBasesIsNeverFollowedForever) {
         };
         for (int i = 0; i < 5000; ++i) folder.write(std::to_string(i) + ".json", documentOf(i + 1));
         folder.write("5000.json", R"({"tessera": 1})");
-        EXPECT_THAT(test::inputErrorOf([&] { importSceneJson(folder.path() / "0.json"); }),
+        EXPECT_THAT(test::inputErrorOf([&] { underLedger(importSceneJson, folder.path() / "0.json"); }),
                     HasSubstr("is document 65 of a chain"));
-        EXPECT_NO_THROW(importSceneJson(folder.path() / "4950.json"));
+        EXPECT_NO_THROW(underLedger(importSceneJson, folder.path() / "4950.json"));
     }
 }
 

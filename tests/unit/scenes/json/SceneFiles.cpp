@@ -1,4 +1,5 @@
 #include "tests/unit/scenes/json/SceneFiles.h"
+#include "tests/support/UnderLedger.h"
 
 namespace tessera::scenes::test {
 namespace {
@@ -30,7 +31,7 @@ SceneFolder::SceneFolder() {
 
 Scene SceneFolder::import(std::string_view text) const {
     EXPECT_TRUE(schemaAccepts(text)) << text;
-    Scene scene = importSceneJson(write("scene.json", text));
+    Scene scene = underLedger(importSceneJson, write("scene.json", text));
     checkScene(scene);
     return scene;
 }
@@ -41,7 +42,7 @@ Scene SceneFolder::importMembers(const std::string& members) const {
 
 std::string SceneFolder::importError(std::string_view text) const {
     const std::filesystem::path file = write("scene.json", text);
-    const std::string error = inputErrorOf([&] { importSceneJson(file); });
+    const std::string error = inputErrorOf([&] { underLedger(importSceneJson, file); });
     const std::string prefix = file.string() + ":";
     EXPECT_TRUE(error.starts_with(prefix)) << error;
     return error.substr(std::min(error.size(), prefix.size()));

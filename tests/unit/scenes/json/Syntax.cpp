@@ -1,3 +1,4 @@
+#include "tests/support/UnderLedger.h"
 #include "tests/unit/scenes/json/SceneFiles.h"
 
 namespace tessera::scenes {
@@ -8,7 +9,7 @@ using test::SceneFolder;
 std::string syntaxErrorOf(std::string_view text) {
     const test::TempFolder folder;
     const std::filesystem::path file = folder.write("scene.json", text);
-    const std::string error = test::inputErrorOf([&] { importSceneJson(file); });
+    const std::string error = test::inputErrorOf([&] { underLedger(importSceneJson, file); });
     return error.substr(std::min(error.size(), file.string().size() + 1));
 }
 
@@ -38,7 +39,7 @@ TEST(SceneJson, anEmptyFileIsAlwaysRefused) {
 }
 
 TEST(SceneJson, aMissingFileIsAlwaysNamed) {
-    EXPECT_EQ(test::inputErrorOf([] { importSceneJson("no/such.json"); }),
+    EXPECT_EQ(test::inputErrorOf([] { underLedger(importSceneJson, "no/such.json"); }),
               "no/such.json: there is no such file; check the name and the folder");
 }
 

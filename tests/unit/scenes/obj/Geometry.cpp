@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "scenes/import/Importers.h"
+#include "tests/support/UnderLedger.h"
 #include "tests/unit/scenes/TempFolder.h"
 
 namespace tessera::scenes {
@@ -13,7 +14,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 Scene importText(const TempFolder& folder, std::string_view text) {
-    Scene scene = importObj(folder.write("model.obj", text));
+    Scene scene = underLedger(importObj, folder.write("model.obj", text));
     checkScene(scene);
     return scene;
 }
@@ -253,7 +254,7 @@ TEST(Obj, brokenTextIsAlwaysRefusedWithFileAndLine) {
     const TempFolder folder;
     const auto errorOf = [&](std::string_view text) {
         const std::filesystem::path file = folder.write("model.obj", text);
-        const std::string error = test::inputErrorOf([&] { importObj(file); });
+        const std::string error = test::inputErrorOf([&] { underLedger(importObj, file); });
         EXPECT_TRUE(error.starts_with(file.string() + ":")) << error;
         return error.substr(std::min(error.size(), file.string().size() + 1));
     };
@@ -283,7 +284,7 @@ TEST(Obj, brokenTextIsAlwaysRefusedWithFileAndLine) {
 TEST(Obj, aMissingFileIsAlwaysNamed) {
     const TempFolder folder;
     const std::filesystem::path file = folder.path() / "none.obj";
-    EXPECT_EQ(test::inputErrorOf([&] { importObj(file); }),
+    EXPECT_EQ(test::inputErrorOf([&] { underLedger(importObj, file); }),
               file.string() + ": there is no such file; check the name and the folder");
 }
 

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "scenes/import/Importers.h"
+#include "tests/support/UnderLedger.h"
 #include "tests/unit/scenes/TempFolder.h"
 
 namespace tessera::scenes {
@@ -17,8 +18,8 @@ constexpr std::string_view kVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 /// The scene of one triangle whose material "paint" is the given MTL text.
 Scene painted(const TempFolder& folder, const std::string& mtl) {
     folder.write("paint.mtl", "newmtl paint\n" + mtl);
-    Scene scene =
-        importObj(folder.write("model.obj", "mtllib paint.mtl\n" + std::string(kVertices) + "usemtl paint\nf 1 2 3\n"));
+    Scene scene = underLedger(importObj, folder.write("model.obj", "mtllib paint.mtl\n" + std::string(kVertices) +
+                                                                       "usemtl paint\nf 1 2 3\n"));
     checkScene(scene);
     return scene;
 }
@@ -39,7 +40,7 @@ const Image& imageOf(const Scene& scene, TextureSlot slot) {
 
 TEST(ObjMaterials, facesWithoutAMaterialAlwaysGetTheDefaultOne) {
     const TempFolder folder;
-    const Scene scene = importObj(folder.write("model.obj", std::string(kVertices) + "f 1 2 3\n"));
+    const Scene scene = underLedger(importObj, folder.write("model.obj", std::string(kVertices) + "f 1 2 3\n"));
     ASSERT_EQ(scene.materials.size(), 1u);
     EXPECT_EQ(scene.materials[0].name, "default");
     EXPECT_EQ(scene.materials[0].baseColor, glm::vec4(0.8f, 0.8f, 0.8f, 1.0f));
@@ -189,8 +190,10 @@ TEST(ObjMaterials, eachMaterialOfAShapeAlwaysHasItsOwnMesh) {
     const TempFolder folder;
     folder.write("a.mtl", "newmtl warm red\nKd 1 0 0\nnewmtl unused\nmap_Kd none.png\n");
     folder.write("b.mtl", "newmtl warm blue\nKd 0 0 1\nnewmtl warm red\nKd 0 1 0\n");
-    const Scene scene = importObj(folder.write(
-        "model.obj", "mtllib a.mtl b.mtl\n" + std::string(kVertices) +
+    const Scene scene = underLedger(
+        importObj,
+        folder.write("model.obj",
+                     "mtllib a.mtl b.mtl\n" + std::string(kVertices) +
                          "o box\nusemtl warm red\nf 1 2 3\nusemtl warm blue\nf 1 3 2\nusemtl warm red\nf 1 2 3\n"));
     ASSERT_EQ(scene.nodes.size(), 1u);
     ASSERT_EQ(scene.nodes[0].instances.size(), 2u);
@@ -207,7 +210,7 @@ TEST(ObjMaterials, aMissingLibraryAlwaysWarnsAndKeepsTheMaterialsNames) {
     const TempFolder folder;
     const std::filesystem::path file =
         folder.write("model.obj", "mtllib no such.mtl\n" + std::string(kVertices) + "usemtl skin\nf 1 2 3\n");
-    const Scene scene = importObj(file);
+    const Scene scene = underLedger(importObj, file);
     EXPECT_EQ(scene.materials.at(0).name, "skin");
     EXPECT_EQ(scene.materials.at(0).baseColor, glm::vec4(0.8f, 0.8f, 0.8f, 1.0f));
     EXPECT_THAT(

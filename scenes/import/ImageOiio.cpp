@@ -1,0 +1,151 @@
+#include <algorithm>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
+#include <fmt/format.h>
+
+#include "scenes/Error.h"
+#include "scenes/import/PictureCodecs.h"
+
+namespace tessera::scenes {
+namespace {
+
+std::string oneLine(std::string text) {
+    std::ranges::replace(text, '\n', ' ');
+    while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+    return text;
+}
+
+TexelFormat texelFormatOf(OIIO::TypeDesc type) {
+    switch (type.basetype) {
+    case OIIO::TypeDesc::UINT8:
+    case OIIO::TypeDesc::INT8:
+        return TexelFormat::Rgba8Unorm;
+    case OIIO::TypeDesc::UINT16:
+    case OIIO::TypeDesc::INT16:
+        return TexelFormat::Rgba16Unorm;
+    default:
+        return TexelFormat::Rgba32Float;
+    }
+}
+
+/// Which channels of a file are red, green, blue and alpha, which may be missing: -1. Beside them stand depth and the
+/// like, which nothing uses.
+struct Channels {
+    int red, green, blue, alpha;
+
+    int count() const { return 1 + std::max({red, green, blue, alpha}); }
+};
+
+Channels channelsOf(const OIIO::ImageSpec& spec) {
+    const auto named = [&](const char* name) {
+        for (std::size_t i = 0; i < spec.channelnames.size(); ++i)
+            if (OIIO::Strutil::iequals(spec.channelnames[i], name)) return static_cast<int>(i);
+        return -1;
+    };
+    const int alpha = spec.alpha_channel < spec.nchannels ? spec.alpha_channel : -1;
+    const Channels byName{named("r"), named("g"), named("b"), alpha};
+    if (byName.red >= 0 && byName.green >= 0 && byName.blue >= 0 && byName.count() <= spec.nchannels) return byName;
+    const bool isGrey = spec.nchannels < 3;
+    return isGrey ? Channels{0, 0, 0, alpha} : Channels{0, 1, 2, alpha};
+}
+
+/// Grey is replicated, a missing alpha is `one`.
+template <typename T>
+bool readTexels(OIIO::ImageInput& input, const Channels& channels, OIIO::TypeDesc type, T one, Image& image) {
+    const std::size_t texels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    const auto stride = static_cast<std::size_t>(channels.count());
+    std::vector<T> stored(texels * stride);
+    if (!input.read_image(0, 0, 0, channels.count(), type, stored.data())) return false;
+    image.texels.resize(texels * 4 * sizeof(T));
+    T* to = reinterpret_cast<T*>(image.texels.data());
+    for (const T* from = stored.data(); from != stored.data() + stored.size(); from += stride) {
+        *to++ = from[channels.red];
+        *to++ = from[channels.green];
+        *to++ = from[channels.blue];
+        *to++ = channels.alpha >= 0 ? from[channels.alpha] : one;
+    }
+    return true;
+}
+
+bool readTexels(OIIO::ImageInput& input, const Channels& channels, Image& image) {
+    switch (image.format) {
+    case TexelFormat::Rgba8Unorm:
+        return readTexels<std::uint8_t>(input, channels, OIIO::TypeDesc::UINT8, 0xff, image);
+    case TexelFormat::Rgba16Unorm:
+        return readTexels<std::uint16_t>(input, channels, OIIO::TypeDesc::UINT16, 0xffff, image);
+    case TexelFormat::Rgba32Float:
+        return readTexels<float>(input, channels, OIIO::TypeDesc::FLOAT, 1.0f, image);
+    }
+    return false;
+}
+
+PictureTags tagsOf(const OIIO::ImageSpec& spec) {
+    PictureTags tags;
+    tags.software = spec.get_string_attribute("Software");
+    tags.isLinear = spec.format.is_floating_point() ||
+                    OIIO::Strutil::iequals(spec.get_string_attribute("oiio:ColorSpace"), "Linear");
+    tags.isCropped = spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
+                     spec.height != spec.full_height;
+    tags.orientation = spec.get_int_attribute("Orientation", 1);
+    return tags;
+}
+
+DecodedPicture decode(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
+                      LoadLedger& ledger) {
+    const std::string formatName(format.name);
+    const std::uint64_t mark = ledger.usedBytes();
+    if (format.claimedSize != nullptr) requirePictureSize(format.claimedSize(bytes), bytes, name, ledger);
+    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(formatName);
+    if (!input)
+        throw std::runtime_error(fmt::format("OpenImageIO cannot read {}: {}; install it with that format", formatName,
+                                             oneLine(OIIO::geterror())));
+    // Alpha is coverage or opacity, and colours are meant without it.
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
+    OIIO::ImageSpec spec;
+    if (!input->supports("ioproxy") || !input->set_ioproxy(&reader))
+        throw std::runtime_error("this OpenImageIO cannot read the format from memory; install 2.4 or newer");
+    if (!input->open("picture." + formatName, spec, config)) throw std::runtime_error(input->geterror());
+
+    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 || spec.deep)
+        throw InputError(fmt::format("{}: the picture has {}x{}x{} texels of {} channels{}; a flat picture with at "
+                                     "least one of each is needed",
+                                     name, spec.width, spec.height, spec.depth, spec.nchannels,
+                                     spec.deep ? ", several deep" : ""));
+    DecodedPicture decoded{{}, tagsOf(spec)};
+    Image& image = decoded.image;
+    image.name = name;
+    image.width = spec.width;
+    image.height = spec.height;
+    image.format = texelFormatOf(spec.format);
+    // The reader's own copy, what it hands over, and the texels made of that.
+    const std::uint64_t bytesATexel =
+        2 * static_cast<std::uint64_t>(spec.nchannels) * texelBytes(image.format) / 4 + texelBytes(image.format);
+    ledger.settle(mark, 0);
+    requirePictureSize({spec.width, spec.height, bytesATexel}, bytes, name, ledger);
+    if (!readTexels(*input, channelsOf(spec), image))
+        throw InputError(fmt::format("{}: the {} picture is broken or cut short ({}); save it again", name, formatName,
+                                     oneLine(input->geterror())));
+    return decoded;
+}
+
+} // namespace
+
+DecodedPicture decodeByOiio(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
+                            LoadLedger& ledger) {
+    try {
+        return decode(bytes, name, format, ledger);
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) { // some readers throw their own
+        throw InputError(fmt::format("{}: the {} picture cannot be decoded ({}); save it again", name, format.name,
+                                     oneLine(error.what())));
+    }
+}
+
+} // namespace tessera::scenes

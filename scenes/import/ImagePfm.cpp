@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "scenes/Error.h"
+#include "scenes/import/PictureCodecs.h"
+
+namespace tessera::scenes {
+namespace {
+
+constexpr bool isSpace(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+
+/// The words of a PFM's header, and where its texels begin.
+class Header {
+public:
+    explicit Header(std::string_view text) : text_(text) {}
+
+    /// Empty where the text ends, or goes on for longer than a number does. The one space after it is taken too.
+    std::string_view word() {
+        constexpr std::size_t kMostCharacters = 64;
+        while (at_ < text_.size() && isSpace(text_[at_])) ++at_;
+        const std::size_t first = at_;
+        while (at_ < text_.size() && at_ - first < kMostCharacters && !isSpace(text_[at_])) ++at_;
+        if (at_ == text_.size() || !isSpace(text_[at_])) return {};
+        return text_.substr(first, at_++ - first);
+    }
+
+    std::size_t end() const { return at_; }
+
+private:
+    std::string_view text_;
+    std::size_t at_ = 0;
+};
+
+template <typename Number>
+bool readNumber(std::string_view word, Number& number) {
+    const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    return error == std::errc() && rest == word.data() + word.size();
+}
+
+} // namespace
+
+/// Source: Debevec, "Portable FloatMap Image Format": PF or Pf (grey), width, height and scale; rows from the bottom.
+/// Texels are multiplied by the scale, whose sign tells the order of their bytes: below 0 is little-endian.
+DecodedPicture decodePfm(std::span<const std::byte> bytes, const std::string& name, const PictureFormat&,
+                         LoadLedger& ledger) {
+    const auto require = [&](bool good, const char* why) {
+        if (!good)
+            throw InputError(fmt::format("{}: the pfm picture is broken or cut short ({}); save it again", name, why));
+    };
+    Header header({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    const std::size_t channels = header.word() == "PF" ? 3 : 1;
+    std::int32_t width = 0, height = 0;
+    float scale = 0.0f;
+    require(readNumber(header.word(), width) && readNumber(header.word(), height) && width > 0 && height > 0,
+            "it has no size");
+    require(readNumber(header.word(), scale) && std::isfinite(scale) && scale != 0.0f, "it has no scale");
+    requirePictureSize({width, height, texelBytes(TexelFormat::Rgba32Float)}, bytes, name, ledger);
+    const std::size_t columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+    const std::span<const std::byte> stored = bytes.subspan(header.end());
+    require(stored.size() / (channels * sizeof(float)) / columns >= rows, "it ends early");
+
+    DecodedPicture decoded;
+    decoded.tags.isLinear = true;
+    Image& image = decoded.image;
+    image.name = name;
+    image.width = width;
+    image.height = height;
+    image.format = TexelFormat::Rgba32Float;
+    image.texels.resize(columns * rows * 4 * sizeof(float));
+    const bool isSwapped = (scale < 0.0f) != (std::endian::native == std::endian::little);
+    const auto valueAt = [&](std::size_t index) {
+        std::array<std::byte, sizeof(float)> value;
+        std::memcpy(value.data(), stored.data() + index * sizeof(float), sizeof(float));
+        if (isSwapped) std::ranges::reverse(value);
+        return std::bit_cast<float>(value) * std::abs(scale);
+    };
+    for (std::size_t row = 0; row < rows; ++row) {
+        for (std::size_t column = 0; column < columns; ++column) {
+            const std::size_t first = ((rows - 1 - row) * columns + column) * channels;
+            const float texel[4] = {valueAt(first), valueAt(first + channels / 2), valueAt(first + channels - 1), 1.0f};
+            std::memcpy(image.texels.data() + (row * columns + column) * sizeof(texel), texel, sizeof(texel));
+        }
+    }
+    return decoded;
+}
+
+} // namespace tessera::scenes

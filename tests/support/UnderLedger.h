@@ -1,0 +1,17 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include "scenes/LoadLedger.h"
+
+// Beside LoadLedger, so that calls find it.
+namespace tessera::scenes {
+
+/// What `read` makes of `input` under a ledger of its own: for tests that look at one file.
+template <typename Read, typename Input>
+auto underLedger(const Read& read, const Input& input, std::optional<std::uint64_t> limitBytes = {}) {
+    LoadLedger ledger(limitBytes);
+    return read(input, ledger);
+}
+
+} // namespace tessera::scenes

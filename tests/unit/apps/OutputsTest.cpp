@@ -1,0 +1,57 @@
+#include "apps/Outputs.h"
+
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenes/Error.h"
+#include "tests/support/TempFolder.h"
+
+namespace tessera::app {
+namespace {
+
+using tessera::test::TempFolder;
+
+std::string refusal(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Outputs, aFileThatIsReadIsNeverAnOutputWhicheverIsToldFirst) {
+    const TempFolder folder;
+    const std::string file = folder.write("a.json", "").string(), link = (folder.path() / "b.json").string();
+    std::filesystem::create_symlink("a.json", link);
+    const std::string why = ": is read for this, and would be written over; name another file";
+    Outputs first({link});
+    EXPECT_EQ(refusal([&] { first.reads({file}); }), link + why);
+    Outputs second;
+    second.reads({file});
+    EXPECT_EQ(refusal([&] { second.add(link); }), link + why);
+    EXPECT_EQ(refusal([&] { second.addFolder(folder.path().string()); }), file + why);
+    Outputs third;
+    third.addFolder(folder.path().string());
+    EXPECT_EQ(refusal([&] { third.reads({file}); }), file + why);
+}
+
+TEST(Outputs, twoOutputsAreNeverOneFileUnlessThatIsNone) {
+    Outputs outputs({"a.json", "-", "-", "", "", "/dev/null", "/dev/null"});
+    EXPECT_EQ(refusal([&] { outputs.add("none/../a.json"); }),
+              "none/../a.json: two outputs have this name; give each its own");
+}
+
+TEST(Outputs, nothingIsEverWrittenThatWasNotTold) {
+    Outputs outputs({"a.json"});
+    outputs.addFolder("parts");
+    for (const char* told : {"a.json", "./a.json", "-", "", "/dev/null", "parts/b.json"})
+        EXPECT_EQ(refusal([&] { outputs.at(told); }), "") << told;
+    for (const char* untold : {"b.json", "parts", "parts2/b.json"})
+        EXPECT_THROW(outputs.at(untold), std::logic_error) << untold;
+}
+
+} // namespace
+} // namespace tessera::app
