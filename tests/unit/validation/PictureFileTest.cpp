@@ -156,7 +156,7 @@ TEST(PictureFile, whatCannotBeLaidOverAPictureIsAlwaysRefusedWithTheRemedy) {
     const std::string window = std::string("displayWindow\0box2i\0\x10\0\0\0", 25);
     const std::size_t at = cropped.find(window);
     ASSERT_NE(at, std::string::npos);
-    cropped[at + window.size()] = -1; // its left edge
+    cropped.replace(at + window.size(), 4, 4, '\xff'); // its left edge is -1
     EXPECT_EQ(refusalOf(folder, "b.exr", cropped), "its data window is not its display window; save it uncropped");
 }
 
