@@ -42,18 +42,18 @@ TEST_F(Compare, theJsonHasExactlyTheDocumentedFields) {
     EXPECT_EQ(record["size"], Json::parse("[160, 90]"));
     EXPECT_FALSE(record["renderer"].get<std::string>().empty());
     // `missed` and `why` explain verdicts and nulls; `channels` is there where a channel is packed.
-    const std::set<std::string> fields{"a",         "b",        "maxAbs",   "maxRel",     "rmse",
-                                       "relMse",    "p50Rel",   "p99Rel",   "p999Rel",    "bias",
-                                       "bitEqual",  "flip",     "psnr",     "nan",        "inf",
-                                       "negative",  "excluded", "litShare", "litCovered", "meanLuminance",
-                                       "tolerance", "ok",       "missed",   "why",        "culling"};
+    const std::set<std::string> fields{
+        "a",      "b",        "maxAbs",   "maxRel",   "rmse",       "relMse",        "p50Rel",
+        "p99Rel", "p999Rel",  "bias",     "bitEqual", "flip",       "psnr",          "nan",
+        "inf",    "negative", "excluded", "litShare", "litCovered", "meanLuminance", "tolerance",
+        "ok",     "missed",   "why",      "culling",  "biasNoise"};
     ASSERT_EQ(record["pairs"].size(), recipes::techniqueTable().size() - 1);
     for (const Json& pair : record["pairs"]) {
         std::set<std::string> keys = keysOf(pair);
         EXPECT_EQ(keys.erase("channels"), usesGBuffer(pair["a"]) ? 1u : 0u);
         EXPECT_EQ(keys, fields);
         EXPECT_EQ(keysOf(pair["tolerance"]),
-                  (std::set<std::string>{"maxRel", "bitEqual", "relMse", "p999Rel", "bias"}));
+                  (std::set<std::string>{"maxRel", "bitEqual", "relMse", "p999Rel", "bias", "biasNoises"}));
         EXPECT_EQ(pair["b"], "forward");
         EXPECT_EQ(pair["ok"], true);
         EXPECT_EQ(pair["missed"], Json::array());
