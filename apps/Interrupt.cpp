@@ -19,6 +19,8 @@ void cleanUpAndEnd(int signal) {
 void cleanUpWhenInterrupted() {
     // A file that grows beyond what is allowed is then an error of the write, as a full disk is.
     std::signal(SIGXFSZ, SIG_IGN);
+    // A reader of messages who left must not cost the picture; endAsByClosedPipe() is for the output's.
+    std::signal(SIGPIPE, SIG_IGN);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
         struct sigaction old {};
         // Who is told to ignore a signal, as by nohup, goes on.
@@ -29,6 +31,12 @@ void cleanUpWhenInterrupted() {
         sigfillset(&action.sa_mask);
         sigaction(signal, &action, nullptr);
     }
+}
+
+void endAsByClosedPipe() {
+    validation::removeTemporaries();
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
 }
 
 } // namespace tessera::app

@@ -6,4 +6,8 @@ namespace tessera::app {
 /// written whole. The program then ends by that signal, so that a shell sees why.
 void cleanUpWhenInterrupted();
 
+/// Ends the program by SIGPIPE, as a program whose output nobody reads any more does. cleanUpWhenInterrupted() keeps
+/// that signal from ending it elsewhere.
+void endAsByClosedPipe();
+
 } // namespace tessera::app

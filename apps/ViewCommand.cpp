@@ -1,5 +1,3 @@
-#include <csignal>
-
 #include <spdlog/spdlog.h>
 
 #include "apps/Commands.h"
@@ -31,9 +29,6 @@ void readPreferences(viewer::ViewerOptions& viewing) {
 }
 
 int view(const ViewOptions& options, const GlobalOptions& global) {
-#ifdef SIGPIPE
-    std::signal(SIGPIPE, SIG_IGN); // whoever reads the log may leave before the window is closed
-#endif
     if (contextKind(global.context) == gpu::ContextKind::Egl)
         throw InputError("--context egl makes no window, and the viewer is one; give window or auto");
     resolveWithoutScene(options.frame); // mistakes end the program before there is a window

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <system_error>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -80,10 +81,17 @@ int fail(const std::string& text, int code) {
     return code;
 }
 
+/// The end of a program whose standard output cannot be written. Where its reader has seen enough (`tessera plan hall |
+/// head -1`) that is no error to speak of.
+int failedOutput(int error) {
+    if (error == EPIPE) endAsByClosedPipe();
+    return fail(fmt::format("cannot write the output: {}; free some space", std::strerror(error)), kFailed);
+}
+
 /// What was printed may still wait in memory; a full disk shows only when it leaves.
 int flushed(int code) {
     if (code == kFailed || (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)) return code;
-    return fail(fmt::format("cannot write the output: {}; free some space", std::strerror(errno)), kFailed);
+    return failedOutput(errno);
 }
 
 int runProgram(int argc, char** argv) {
@@ -135,6 +143,8 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return fail("the memory is not enough for this; give a smaller scene or picture, or close other programs",
                     kFailed);
+    } catch (const std::system_error& error) {
+        return std::ferror(stdout) != 0 ? failedOutput(error.code().value()) : fail(error.what(), kFailed);
     } catch (const std::exception& error) {
         return fail(error.what(), kFailed);
     }

@@ -60,6 +60,19 @@ TEST_F(Output, whatCannotBePrintedIsAlwaysAnError) {
     EXPECT_THAT(result.err, testing::HasSubstr("tessera: error: cannot write the output: No space left on device"));
 }
 
+TEST_F(Output, aReaderWhoLeftCostsNoFile) {
+    folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nf 1 2 3\n"); // warns of the line
+    const std::string tessera = kProgram;
+    // Neither of the messages, which are a warning here, nor of the output, which then ends the program as others.
+    const std::string run = "(sleep 0.3; " + tessera + " plan m.obj ";
+    ASSERT_EQ(runShell(run + "--json p.json 2>&1 >/dev/null; echo $? >code) | true", folder_.path()).exitCode, 0);
+    EXPECT_EQ(text("code"), "0\n");
+    EXPECT_EQ(json("p.json").at("scene"), "m");
+    const ProcessResult ended = runShell(run + "; echo $? >code) | true", folder_.path());
+    EXPECT_EQ(text("code"), std::to_string(128 + SIGPIPE) + "\n");
+    EXPECT_THAT(ended.err, testing::Not(testing::HasSubstr("error")));
+}
+
 TEST_F(Output, anInterruptedRunAlwaysEndsByItsSignalAndNeverLeavesTemporaries) {
     // Most of the time of these small pictures goes into writing them, so some of the signals come in the midst of it.
     int midWrites = 0;
