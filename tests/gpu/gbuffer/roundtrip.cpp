@@ -84,6 +84,25 @@ TEST_F(GBufferTest, anIsotropicLobeNeverBecomesAnisotropic) {
     }
 }
 
+TEST_F(GBufferTest, whatIsNotDitheredGoesToTheNearestCode) {
+    // The coat's normal in steps of its 12 or 10 bits, of which all but the last code are used; 0.497 of a step is
+    // further from the half than fp32 rounds -1..1 at 2^11 steps (1e-4) and than what counts as a whole step (1e-3).
+    for (const frame::Encoding encoding : kCoarse) {
+        const int middle = encoding == frame::Encoding::Packed ? 2047 : 511;
+        std::vector<StoredSurface> surfaces(2);
+        for (const int code : {-400, -3, 0, 7, 400}) {
+            surfaces[0].coatNormal = glm::vec2(float((code + 0.497) / middle), float((code - 0.497) / middle));
+            surfaces[1].coatNormal = glm::vec2(float((code + 0.503) / middle), float((code - 0.503) / middle));
+            const std::vector<StoredSurface> back = roundTrip(surfaces, encoding);
+            const auto codeOf = [&](float x) { return int(std::lround(double(x) * middle)); };
+            EXPECT_EQ(codeOf(back[0].coatNormal.x), code);
+            EXPECT_EQ(codeOf(back[0].coatNormal.y), code);
+            EXPECT_EQ(codeOf(back[1].coatNormal.x), code + 1);
+            EXPECT_EQ(codeOf(back[1].coatNormal.y), code - 1);
+        }
+    }
+}
+
 TEST_F(GBufferTest, decodedDirectionsAreAlwaysUnitAndAtRightAngles) {
     for (const frame::Encoding encoding : kCoarse) {
         std::vector<StoredSurface> surfaces = test::randomSurfaces(50000);

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "shaders/shared/culling.h"
+
 namespace tessera::validation {
 namespace {
 
@@ -276,6 +278,78 @@ TEST_F(LightOracle, theMissingPairIsAlwaysNamedByItsPixelFromTheTopLeft) {
     EXPECT_EQ(figures.firstMissing->x, 1);
     EXPECT_EQ(figures.firstMissing->y, 2);
     EXPECT_EQ(figures.firstMissing->light, 1);
+}
+
+// The test that lists are built by (shaders/shared/culling.h), at its edges, where it must still say yes. Numbers are
+// such that fp32 holds them exactly.
+
+TEST(LightTouch, aTileIsExactlyTheCentresOfItsPixels) {
+    const glm::vec4 lensVS(0.25f, 0.5f, 3.0f, 2.0f);
+    const glm::uvec2 size(13u, 9u);
+    const auto rays = [&](unsigned column, unsigned row) { return shared::tileRays(lensVS, column, row, 4u, size); };
+    // Tile (1, 0) has the columns 4 to 7 and the rows 5 to 8 from below.
+    EXPECT_EQ(rays(1, 0),
+              glm::vec4(0.25f * (4.5f - 3.0f), 0.25f * (7.5f - 3.0f), 0.5f * (5.5f - 2.0f), 0.5f * (8.5f - 2.0f)));
+    // The last tile has one column and one row.
+    EXPECT_EQ(rays(3, 2), glm::vec4(0.25f * 9.5f, 0.25f * 9.5f, 0.5f * -1.5f, 0.5f * -1.5f));
+}
+
+TEST(LightTouch, aSphereThatJustMeetsAPlaneOfASlabTouchesIt) {
+    // Planes through the eye with slopes -3/4 and 3/4: a point so far aside is 4/5 of that away.
+    const glm::vec2 rays(-0.75f, 0.75f), eyeAtOrigin(0.0f, 1.0f), orthographic(1.0f, 0.0f);
+    const auto touches = [&](float across, const glm::vec2& spread) {
+        return shared::sphereTouchesSlab(across, 4.0f, 1.0f, rays, spread);
+    };
+    EXPECT_TRUE(touches(-4.25f, eyeAtOrigin));
+    EXPECT_TRUE(touches(4.25f, eyeAtOrigin));
+    EXPECT_FALSE(touches(-4.375f, eyeAtOrigin));
+    EXPECT_FALSE(touches(4.375f, eyeAtOrigin));
+    EXPECT_TRUE(touches(-1.75f, orthographic));
+    EXPECT_TRUE(touches(1.75f, orthographic));
+    EXPECT_FALSE(touches(-1.875f, orthographic));
+    EXPECT_FALSE(touches(1.875f, orthographic));
+}
+
+TEST(LightTouch, aSphereThatJustMeetsADepthTouchesIt) {
+    const auto touches = [](float z, float radius, float nearMetres, float farMetres) {
+        return shared::sphereTouchesDepths(glm::vec4(0.0f, 0.0f, z, radius), nearMetres, farMetres);
+    };
+    EXPECT_TRUE(touches(2.0f, 1.0f, 3.0f, 4.0f));
+    EXPECT_TRUE(touches(5.0f, 1.0f, 3.0f, 4.0f));
+    EXPECT_FALSE(touches(1.875f, 1.0f, 3.0f, 4.0f));
+    EXPECT_FALSE(touches(5.125f, 1.0f, 3.0f, 4.0f));
+    // At the origin of lighting space, where the margin for rounding is 0 too.
+    EXPECT_TRUE(touches(-1.0f, 1.0f, 0.0f, 1.0f));
+    EXPECT_TRUE(touches(1.0f, 1.0f, -1.0f, 0.0f));
+}
+
+TEST(LightTouch, theDistanceOfAPointFromABoxIsThatOfTheNearestPoint) {
+    const shared::CellBox box{glm::vec4(1, 2, 3, 0), glm::vec4(4, 6, 8, 0)};
+    EXPECT_EQ(shared::squaredDistance(2.0f, 3.0f, 4.0f, box), 0.0f);
+    EXPECT_EQ(shared::squaredDistance(-1.0f, 3.0f, 4.0f, box), 4.0f);
+    EXPECT_EQ(shared::squaredDistance(7.0f, 3.0f, 4.0f, box), 9.0f);
+    EXPECT_EQ(shared::squaredDistance(2.0f, 1.0f, 4.0f, box), 1.0f);
+    EXPECT_EQ(shared::squaredDistance(2.0f, 10.0f, 4.0f, box), 16.0f);
+    EXPECT_EQ(shared::squaredDistance(2.0f, 3.0f, 0.0f, box), 9.0f);
+    EXPECT_EQ(shared::squaredDistance(2.0f, 3.0f, 13.0f, box), 25.0f);
+    EXPECT_EQ(shared::squaredDistance(0.0f, 8.0f, 10.0f, box), 9.0f);
+}
+
+TEST(LightTouch, aConeTouchesWhatLiesInItOrWithinABoxsHalfDiagonalOfIt) {
+    // Travels ahead from the origin, 45 degrees to each side.
+    const float root = std::sqrt(0.5f);
+    const shared::CullLight light{glm::vec4(0, 0, 0, 100), glm::vec4(0, 0, 0, root), glm::vec4(0, 0, 1, root)};
+    const auto touches = [&](const glm::vec3& center, float halfSide) {
+        return shared::coneTouchesBox(light, {glm::vec4(center - halfSide, 0.0f), glm::vec4(center + halfSide, 0.0f)});
+    };
+    EXPECT_TRUE(touches({0, 0, 8}, 0.25f));
+    EXPECT_TRUE(touches({0, 0, 0.0625f}, 1e-3f)) << "a small box on the axis, near the apex";
+    EXPECT_TRUE(touches({7.5f, 0, 8}, 1e-3f));
+    EXPECT_FALSE(touches({8.5f, 0, 8}, 1e-3f));
+    EXPECT_FALSE(touches({0, 0, -8}, 1.0f));
+    // (9, 0, 8) is 1 / sqrt 2 = 0.707 away from the cone; a box's half diagonal is sqrt 3 times half its side.
+    EXPECT_TRUE(touches({9, 0, 8}, 0.42f));
+    EXPECT_FALSE(touches({9, 0, 8}, 0.4f));
 }
 
 } // namespace
