@@ -175,7 +175,7 @@ float powerOfTwo(int n)
 // The largest exponent of a field: 2^68 in 7 bits; 2^36 in 6, brighter than any surface in cd/m^2.
 int topExponent(int width)
 {
-    return min((1 << (width - 1)) + 4, 128);
+    return (1 << (width - 1)) + 4;
 }
 
 // x 2^n in two factors, neither of which leaves fp32.
@@ -186,36 +186,44 @@ float timesPowerOfTwo(float x, int n)
     return result;
 }
 
+uint encodeRadiance(float value, int exponent, int width, int field)
+{
+    return encodeShare(timesPowerOfTwo(value, -exponent), 1u << width, field);
+}
+
+uvec3 encodeRadiances(vec3 color, int exponent, int width)
+{
+    return uvec3(encodeRadiance(color.r, exponent, width, DITHER_EMISSION), encodeRadiance(color.g, exponent, width, DITHER_EMISSION + 1),
+                 encodeRadiance(color.b, exponent, width, DITHER_EMISSION + 2));
+}
+
 // Radiance with one exponent for its three colours: each is below 2^exponent, and an integer times 2^(exponent - its width).
-// Widths: exponent, red, green, blue.
+// Widths: exponent, red, green and blue, which are equal.
 void putRadiance(vec3 color, ivec4 widths)
 {
     vec3 c = clamp(color, 0.0, 3.4e38);
     float largest = max(max(c.r, c.g), c.b);
     int top = topExponent(widths.x), bottom = top - int(largestCode(widths.x));
     int exponent = clamp(int(floatBitsToUint(largest) >> 23) - 126, bottom, top);
-    uvec3 code;
-    bool over = false;
-    for (int i = 0; i < 3; ++i) {
-        code[i] = encodeShare(timesPowerOfTwo(c[i], -exponent), 1u << widths[i + 1], DITHER_EMISSION + i);
-        over = over || code[i] > largestCode(widths[i + 1]);
-    }
+    uvec3 code = encodeRadiances(c, exponent, widths.y);
     // A colour that is rounded up to the next power of two takes all three there; with the thresholds as they are it is
     // that power, so the mean stays.
-    if (over && exponent < top) {
+    if (any(greaterThan(code, uvec3(largestCode(widths.y)))) && exponent < top) {
         exponent += 1;
-        for (int i = 0; i < 3; ++i)
-            code[i] = encodeShare(timesPowerOfTwo(c[i], -exponent), 1u << widths[i + 1], DITHER_EMISSION + i);
+        code = encodeRadiances(c, exponent, widths.y);
     }
     putField(uint(exponent - bottom), widths.x);
-    for (int i = 0; i < 3; ++i) putField(min(code[i], largestCode(widths[i + 1])), widths[i + 1]);
+    code = min(code, uvec3(largestCode(widths.y)));
+    putField(code.r, widths.y);
+    putField(code.g, widths.y);
+    putField(code.b, widths.y);
 }
 
 vec3 takeRadiance(ivec4 widths)
 {
     int exponent = int(takeField(widths.x)) + topExponent(widths.x) - int(largestCode(widths.x));
     vec3 color;
-    for (int i = 0; i < 3; ++i) color[i] = timesPowerOfTwo(float(takeField(widths[i + 1])), exponent - widths[i + 1]);
+    for (int i = 0; i < 3; ++i) color[i] = timesPowerOfTwo(float(takeField(widths.y)), exponent - widths.y);
     return color;
 }
 
