@@ -5,15 +5,6 @@
 #include "lib/surface.glsl"
 
 #if HAS_TANGENT_FRAME
-// A unit vector at right angles to the unit vector n. Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
-vec3 anyPerpendicular(vec3 n)
-{
-    float side = n.z >= 0.0 ? 1.0 : -1.0;
-    precise float a = -1.0 / (side + n.z);
-    precise vec3 perpendicular = vec3(1.0 + side * (n.x * n.x) * a, side * (n.x * n.y) * a, -side * n.x);
-    return perpendicular;
-}
-
 // `direction` lies in tangent space, of any length.
 vec3 surfaceTangent(Fragment fragment, vec3 normalLS, vec2 direction)
 {

@@ -13,3 +13,12 @@ vec3 safeNormalize(vec3 v, vec3 fallback)
     precise vec3 unit = scaled / sqrt(dot(scaled, scaled));
     return unit;
 }
+
+// A unit vector at right angles to the unit vector n. Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+vec3 anyPerpendicular(vec3 n)
+{
+    float side = n.z >= 0.0 ? 1.0 : -1.0;
+    precise float a = -1.0 / (side + n.z);
+    precise vec3 perpendicular = vec3(1.0 + side * (n.x * n.x) * a, side * (n.x * n.y) * a, -side * n.x);
+    return perpendicular;
+}

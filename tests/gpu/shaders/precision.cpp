@@ -156,5 +156,35 @@ TEST_F(PrecisionTest, schlickAlwaysMeetsItsEndPointsExactly) {
     }
 }
 
+TEST_F(PrecisionTest, aVectorOfAnyLengthIsNormalisedAndOnlyThatOfNoLengthIsNot) {
+    std::vector<glm::vec4> inputs;
+    const std::vector<float> lengths{1e-37f, 1e-25f, 1e-10f, 1.0f, 1e10f, 1e25f, 1e37f, 0.0f};
+    for (const float length : lengths)
+        inputs.insert(inputs.end(), {{2.0f * length, -3.0f * length, 6.0f * length, 0}, {0, 0, 1, 0}});
+    const std::vector<glm::vec4> out = bench.run("test/vectors.comp", {}, inputs, lengths.size(), 2);
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+        SCOPED_TRACE(lengths[i]);
+        const glm::dvec3 wanted = lengths[i] > 0.0f ? glm::dvec3(2, -3, 6) / 7.0 : glm::dvec3(7.0);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(out[2 * i][c], wanted[c], 3e-7); // five roundings
+    }
+}
+
+// What a surface without tangents gets in their place.
+TEST_F(PrecisionTest, anyPerpendicularIsAlwaysUnitAndAtRightAngles) {
+    test::Random random(5);
+    std::vector<glm::vec4> inputs;
+    constexpr std::size_t kCount = 20000;
+    for (std::size_t i = 0; i < kCount; ++i)
+        inputs.insert(inputs.end(), {glm::vec4(1), {glm::vec3(random.direction()), 0}});
+    for (const float z : {-1.0f, 1.0f}) inputs.insert(inputs.end(), {glm::vec4(1), {0, 0, z, 0}});
+    const std::vector<glm::vec4> out = bench.run("test/vectors.comp", {}, inputs, kCount + 2, 2);
+    for (std::size_t i = 0; i < kCount + 2; ++i) {
+        const glm::dvec3 n(inputs[2 * i + 1]), found(out[2 * i + 1]);
+        // Products and sums of numbers up to 1; some six roundings.
+        ASSERT_NEAR(glm::length(found), 1.0, 4e-7) << "n.z " << n.z;
+        ASSERT_NEAR(glm::dot(found, n), 0.0, 4e-7) << "n.z " << n.z;
+    }
+}
+
 } // namespace
 } // namespace tessera
