@@ -1,30 +1,34 @@
-"""run.py ROOT [N] [--seed S] [--only GLOB] [--jobs J]: mutation testing.
+"""run.py ROOT [N] [--seed S] [--only GLOB] [--jobs J] [--resume] [--again]: mutation testing.
 
 Puts one fault at a time (a constant, an operator, a line) into copies of the sources that suites.txt names, runs the
 tests that it names beside them, and reports the faults that no test saw. Exit code 3 when more than 3 % of the mutants
 survive, those of equivalent.txt, which change nothing that a program could see, left out.
 
 Shaders are read from a folder (TESSERA_SHADERS), so only faults in C++ are compiled, in a copy below build/mutants.
+
+build/mutants/results.json keeps what every fault met, written as soon as it is known: a run that was stopped goes on with
+--resume, and the test that saw a fault last time is tried first the next time, so that later runs take a fraction of the time.
 """
 
 import argparse
 import concurrent.futures
+import fcntl
 import fnmatch
+import hashlib
 import json
 import os
 import pathlib
-import queue
-import random
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
 import threading
+import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 MOST_SURVIVORS = 0.03
-SECONDS_A_SUITE = 300  # a fault may make a loop endless
+SECONDS_A_SUITE = 240  # a fault may make a loop endless
 INVALID = re.compile(r"shader cannot be compiled|program cannot be linked|error: ")
 
 # What a line may become. Binary operators stand between blanks, as the sources are laid out.
@@ -65,6 +69,7 @@ def mutantsOfLine(line):
 class Mutant:
     def __init__(self, path, number, what, before, after):
         self.path, self.number, self.what, self.before, self.after = path, number, what, before, after
+        self.name = ""  # its key, told apart from the same change to the same line elsewhere in the file
 
     def key(self):
         return f"{self.path} | {self.before.strip()} | {self.after.strip()}"
@@ -74,13 +79,16 @@ class Mutant:
 
 
 def mutantsOfFile(root, path):
-    comment = False
+    comment, seen = False, {}
     for number, line in enumerate((root / path).read_text().splitlines(), 1):
         if "/*" in line:
             comment = True
         if not comment:
             for what, after in mutantsOfLine(line):
-                yield Mutant(path, number, what, line, after)
+                mutant = Mutant(path, number, what, line, after)
+                times = seen[mutant.key()] = seen.get(mutant.key(), 0) + 1
+                mutant.name = mutant.key() + (f" | {times}" if times > 1 else "")
+                yield mutant
         if "*/" in line:
             comment = False
 
@@ -109,25 +117,29 @@ def readEquivalent():
     return result
 
 
-def choose(mutants, count, seed):
-    """In an order that is the same for a seed, every file in turn, so that any number covers all files."""
-    generator = random.Random(seed)
+def choose(mutants, seed):
+    """In an order that is the same for a seed, every file in turn, so that any number covers all files. Where a mutant stands
+    hangs on its own text, so that edits elsewhere in the repository hardly move it."""
+    def number(text):
+        return int.from_bytes(hashlib.sha256(f"{seed} {text}".encode()).digest()[:8], "big")
+
     byFile = {}
     for mutant in mutants:
         byFile.setdefault(mutant.path, []).append(mutant)
-    for ofFile in byFile.values():
-        generator.shuffle(ofFile)
-    # The share of a file is that of its mutants.
-    order = sorted(((index + generator.random()) / len(ofFile), path, index)
-                   for path, ofFile in byFile.items() for index in range(len(ofFile)))
-    return [byFile[path][index] for _, path, index in order][:count]
+    order = []
+    for path, ofFile in byFile.items():
+        ofFile.sort(key=lambda mutant: number(mutant.name))
+        # The share of a file is that of its mutants.
+        order += [((index + number(path) / 2**64) / len(ofFile), path, index) for index in range(len(ofFile))]
+    return [byFile[path][index] for _, path, index in sorted(order)]
 
 
 def runSuite(tests, suite, environment):
     """None when all tests pass, else the name of the first that fails; "invalid" when the fault is none."""
     program, _, names = suite.partition(":")
+    slow = ":*Slow.*" if "-" in names else "-*Slow.*"
     try:
-        result = subprocess.run([tests / program, f"--gtest_filter={names}-*Slow.*", "--gtest_brief=1", "--gtest_fail_fast"],
+        result = subprocess.run([tests / program, f"--gtest_filter={names}{slow}", "--gtest_brief=1", "--gtest_fail_fast"],
                                 env={**os.environ, **environment}, text=True, errors="replace", stdin=subprocess.DEVNULL,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=SECONDS_A_SUITE)
     except subprocess.TimeoutExpired:
@@ -136,8 +148,8 @@ def runSuite(tests, suite, environment):
         return None
     if INVALID.search(result.stdout):
         return "invalid"
-    failed = re.search(r"\[  FAILED  \] (\S+)", result.stdout)
-    return failed.group(1) if failed else f"{suite} (exit {result.returncode})"
+    failed = re.search(r"\[  FAILED  \] ([\w/]+\.[\w/]+)", result.stdout)
+    return f"{program}:{failed.group(1)}" if failed else f"{suite} (exit {result.returncode})"
 
 
 class Shaders:
@@ -151,16 +163,18 @@ class Shaders:
             tree = pathlib.Path(folder) / "shaders"
             shutil.copytree(self.root / "shaders", tree)
             replaceLine(tree / pathlib.Path(mutant.path).relative_to("shaders"), mutant)
-            environment = {"TESSERA_SHADERS": str(tree), "LP_NUM_THREADS": "1"}
-            return firstKiller(self.tests, suites, environment)
+            # Nearly all the time goes into compiling shaders: without LLVM's optimisations it halves.
+            environment = {"TESSERA_SHADERS": str(tree), "LP_NUM_THREADS": "1", "GALLIVM_PERF": "nopt"}
+            return firstKiller(suites, lambda suite: runSuite(self.tests, suite, environment))
 
 
 class Sources:
     """Judges faults in C++: compiled in a copy of the repository, one at a time."""
 
+    programs = ["test_unit", "test_gpu", "test_image"]
+
     def __init__(self, root):
         self.copy = root / "build/mutants/source"
-        self.lock = threading.Lock()
         files = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=root, check=True, text=True,
                                stdout=subprocess.PIPE).stdout.split("\0")
         for name in filter(None, files):
@@ -172,24 +186,33 @@ class Sources:
         if not (self.build / "build.ninja").exists():
             launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
             subprocess.run(["cmake", "--preset", "release", *launcher], cwd=self.copy, check=True, stdout=subprocess.DEVNULL)
-        if not self.compiles():
+        if not self.compiles(*self.programs):
             sys.exit("the sources do not compile")
 
-    def compiles(self):
-        return subprocess.run(["ninja", "-C", self.build, "test_unit", "test_gpu", "test_image"], stdout=subprocess.DEVNULL,
+    def compiles(self, *programs):
+        return subprocess.run(["ninja", "-C", self.build, *programs], stdout=subprocess.DEVNULL,
                               stderr=subprocess.DEVNULL).returncode == 0
 
     def judge(self, mutant, suites):
-        with self.lock:
-            file = self.copy / mutant.path
-            text = file.read_text()
-            try:
-                replaceLine(file, mutant)
-                if not self.compiles():
-                    return "invalid"
-                return firstKiller(self.build / "tests", suites, {})
-            finally:
-                file.write_text(text)
+        file = self.copy / mutant.path
+        text = file.read_text()
+
+        def run(suite):
+            if not self.compiles(suite.partition(":")[0]):
+                return "invalid"
+            return runSuite(self.build / "tests", suite, {})
+
+        try:
+            replaceLine(file, mutant)
+            if file.suffix == ".cpp":  # an index beyond a vector's end is to be seen, where the source is compiled on its own
+                file.write_text("#define _GLIBCXX_ASSERTIONS\n" + file.read_text())
+            return firstKiller(suites, run)
+        finally:
+            file.write_text(text)
+
+
+def isShader(mutant):
+    return mutant.path.startswith("shaders/lib/")
 
 
 def replaceLine(file, mutant):
@@ -199,12 +222,51 @@ def replaceLine(file, mutant):
     file.write_text("\n".join(lines))
 
 
-def firstKiller(tests, suites, environment):
+def firstKiller(suites, run):
     for suite in suites:
-        killer = runSuite(tests, suite, environment)
+        killer = run(suite)
         if killer:
             return killer
     return None
+
+
+class Results:
+    """What every mutant met in earlier runs: {name: {"killedBy": test or None, "sources": hash}}, on disk."""
+
+    def __init__(self, root):
+        self.path = root / "build/mutants/results.json"
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        self.known = json.loads(self.path.read_text()) if self.path.exists() else {}
+        files = subprocess.run(["git", "ls-files", "-z"], cwd=root, check=True, text=True, stdout=subprocess.PIPE).stdout.split("\0")
+        digest = hashlib.sha256()
+        for name in filter(None, files):
+            if not name.startswith(("docs/", "tests/mutants/")) and (root / name).is_file():
+                digest.update(name.encode() + hashlib.sha256((root / name).read_bytes()).digest())
+        self.sources = digest.hexdigest()[:16]
+
+    def kept(self, mutant, resume, again):
+        """(known, killer): what a run with these options need not find out once more."""
+        result = self.known.get(mutant.name)
+        known = result is not None and (
+            (resume and result["sources"] == self.sources) or (again and result["killedBy"] is not None))
+        return known, result["killedBy"] if known else None
+
+    def lastKiller(self, mutant):
+        """["program:test"] that saw the mutant last time."""
+        killer = (self.known.get(mutant.name) or {}).get("killedBy") or ""
+        return [killer.split(" ")[0]] if ":" in killer else []
+
+    def add(self, mutant, killer):
+        self.known[mutant.name] = {"killedBy": killer, "sources": self.sources}
+        with open(self.path.with_suffix(".lock"), "w") as lock:  # another run may know more by now
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            self.write(json.loads(self.path.read_text()) if self.path.exists() else {}, mutant.name)
+
+    def write(self, others, name):
+        others[name] = self.known[name]
+        with tempfile.NamedTemporaryFile("w", dir=self.path.parent, delete=False) as file:
+            json.dump(others, file, indent=1)
+        os.replace(file.name, self.path)
 
 
 def main():
@@ -214,7 +276,10 @@ def main():
     parser.add_argument("count", type=int, nargs="?", default=300, help="how many faults (300)")
     parser.add_argument("--seed", type=int, default=1, help="which ones (1)")
     parser.add_argument("--only", default="*", metavar="GLOB", help="files to change, for example 'shaders/lib/light*'")
+    parser.add_argument("--part", default="*", metavar="GLOB", help="of the chosen faults, judge those in these files")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="how many at a time (one a processor)")
+    parser.add_argument("--resume", action="store_true", help="keep what earlier runs found of the same sources and tests")
+    parser.add_argument("--again", action="store_true", help="keep the faults that any earlier run saw killed: judge survivors again")
     options = parser.parse_args()
     root = options.root.resolve()
     rows, rest = readSuites()
@@ -227,44 +292,78 @@ def main():
         if row and row != ["-"] and fnmatch.fnmatch(path, options.only):
             suitesOf[path] = row + [suite for suite in rest if suite not in row]
     mutants = [mutant for path in suitesOf for mutant in mutantsOfFile(root, path)]
-    candidates = queue.Queue()
-    for mutant in choose(mutants, 2 * options.count, options.seed):
-        candidates.put(mutant)
-
-    shaders = Shaders(root)
-    sources = None
-    if any(not path.startswith("shaders/lib/") for path in suitesOf):
-        print("Building a copy for faults in C++ ...", flush=True)
-        sources = Sources(root)
+    candidates = choose(mutants, options.seed)
+    known = Results(root)
     print(f"{len(mutants)} faults are possible in {len(suitesOf)} files; trying {min(options.count, len(mutants))}", flush=True)
 
     lock = threading.Lock()
-    results = []  # (mutant, killer or None)
+    found = {}  # place in `candidates`: killer or None
+    taken = set()
+    state = {"limit": options.count, "sources": None, "compiling": False}  # each invalid one lets one more in
+
+    def take():
+        """A place in `candidates`; None when nothing is left; -1 when all that is left waits for the compiler."""
+        waiting = False
+        for place in range(min(state["limit"], len(candidates))):
+            if place not in taken and fnmatch.fnmatch(candidates[place].path, options.part):
+                if state["compiling"] and not isShader(candidates[place]):
+                    waiting = True
+                    continue
+                taken.add(place)
+                return place
+        return -1 if waiting else None
+
+    def judged(mutant):
+        if mutant.key() in equivalent:
+            return "equivalent"
+        isKnown, killer = known.kept(mutant, options.resume, options.again)
+        if isKnown:
+            return killer
+        suites = known.lastKiller(mutant) + suitesOf[mutant.path]
+        if isShader(mutant):
+            return Shaders(root).judge(mutant, suites)
+        if not state["sources"]:
+            print("Building a copy for faults in C++ ...", flush=True)
+            state["sources"] = Sources(root)
+        return state["sources"].judge(mutant, suites)
 
     def work():
         while True:
             with lock:
-                if len(results) + work.running >= options.count or candidates.empty():
+                place = take()
+                if place is None:
                     return
-                mutant = candidates.get()
-                work.running += 1
-            judge = shaders if mutant.path.startswith("shaders/lib/") else sources
-            killer = "equivalent" if mutant.key() in equivalent else judge.judge(mutant, suitesOf[mutant.path])
+                if place >= 0 and not isShader(candidates[place]):
+                    state["compiling"] = True
+            if place < 0:
+                time.sleep(1)
+                continue
+            mutant = candidates[place]
+            start = time.monotonic()
+            try:
+                killer = judged(mutant)
+            finally:
+                if not isShader(mutant):
+                    state["compiling"] = False
             with lock:
-                work.running -= 1
+                if killer == "invalid":
+                    state["limit"] += 1
+                else:
+                    found[place] = killer
+                if killer != "equivalent":
+                    known.add(mutant, killer)
                 if killer != "invalid":
-                    results.append((mutant, killer))
-                    print(f"[{len(results)}/{options.count}] {'SURVIVED' if killer is None else killer}  {mutant}", flush=True)
+                    print(f"[{len(found)}/{options.count}] {'SURVIVED' if killer is None else killer}  {mutant}  "
+                          f"({time.monotonic() - start:.0f} s)", flush=True)
 
-    work.running = 0
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for future in [pool.submit(work) for _ in range(options.jobs)]:
             future.result()
 
+    results = [(candidates[place], found[place]) for place in sorted(found)]
     survivors = [mutant for mutant, killer in results if killer is None]
     judged = sum(killer != "equivalent" for _, killer in results)
     report = root / "build/mutants/report.json"
-    report.parent.mkdir(parents=True, exist_ok=True)
     report.write_text(json.dumps({"schema": 1, "seed": options.seed, "judged": judged,
                                   "survivors": [str(mutant) for mutant in survivors],
                                   "mutants": [{"file": m.path, "line": m.number, "what": m.what, "before": m.before.strip(),
