@@ -125,6 +125,14 @@ TEST_F(LightLists, listsOfAnOrthographicCameraAreExactlyTheSameOnTheGpu) {
     expectSameLists(scene, settings, std::array{8, 32});
 }
 
+TEST_F(LightLists, listsOfSurfacesFarBeyondTheNearPlaneAreExactlyTheSameOnTheGpu) {
+    scenes::Scene scene = latticeOf(64);
+    scene.cameras[0].nearMetres *= 1e-3; // every depth is below a hundredth
+    frame::FrameSettings settings;
+    settings.sizePixels = {161, 91};
+    expectSameLists(scene, settings, std::array{16});
+}
+
 TEST_F(LightLists, picturesLitFromListsOfTheGpuAreAlwaysThoseOfForward) {
     frame::FrameSettings settings;
     settings.sizePixels = {161, 91};

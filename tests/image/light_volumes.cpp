@@ -302,9 +302,19 @@ TEST_F(LightVolumes, aSphereThatAlmostHoldsTheEyeNeverVisitsTheWholePicture) {
 
 TEST_F(LightVolumes, aLightThatFloatsBeforeAllSurfacesIsNeverVisited) {
     scenes::Scene scene = wall();
-    scene.lights = {rangedLight({0.0, 0.0, 1.0}, 0.9f), spotLight({0.3, 0.0, 2.0}, {0.0, 1.0, 0.0}, 0.5)};
+    scene.lights = {rangedLight({0.0, 0.0, 1.0}, 0.9f), spotLight({0.3, 0.0, 2.0}, {0.0, 1.0, 0.0}, 0.5),
+                    spotLight({0.0, 0.0, 1.5}, {0.0, 0.0, -1.0}, 0.2)};
     scene.lights[1].rangeMetres = 1.5f;
+    scene.lights[2].rangeMetres = 1.495f; // ends 5 mm before the wall, of which an eighth of a pixel is 1.2 mm
     EXPECT_EQ(shareOf(scene).visited, 0);
+}
+
+TEST_F(LightVolumes, aLightWithoutEndVisitsEveryPixelOnce) {
+    scenes::Scene scene = wall();
+    scene.cameras[0].fovYRadians = 0.4; // the wall goes on beyond the picture on every side
+    scene.lights = {test::pointLight({}, 3.0f)};
+    scene.lights[0].type = scenes::LightType::Directional;
+    EXPECT_EQ(shareOf(scene).visited, 240 * 160);
 }
 
 TEST_F(LightVolumes, uncoveredPixelsAlwaysKeepTheBackground) {

@@ -63,6 +63,24 @@ TEST_F(MaterialValues, theTintedDielectricReflectanceIsAlwaysHeldToOneAndThenSca
     expectColor(underTheSun(material), 0.5 * glm::dvec3(1.0, 0.08, 0.04) / (4.0 * pi));
 }
 
+TEST_F(MaterialValues, aDielectricReflectsItsF90TheMoreTheLowerTheSunStands) {
+    // Alpha 1: D = 1/pi and, with n.v = 1, V = 1 / (2 (1 + n.l)); F by the cosine between sun and half vector.
+    for (const double angle : {0.5, 1.0, 1.4}) {
+        for (const float f90 : {1.0f, 0.5f}) {
+            SCOPED_TRACE(testing::Message() << angle << " radians from the normal, F90 " << f90);
+            Material material = blackDielectric();
+            material.specularFactor = f90; // scales F0 too
+            const double nl = std::cos(angle), grazing = std::pow(1.0 - std::cos(0.5 * angle), 5.0);
+            const double f = double(f90) * (0.04 + 0.96 * grazing);
+            const Scene plain = underTheSun(material, {-std::sin(angle), 0.0, -nl});
+            const glm::dvec3 wanted(f * nl / (2.0 * pi * (1.0 + nl)));
+            expectColor(plain, wanted);
+            // Where colours vary, other channels hold the surface.
+            expectColor(texturedScene(plain, TextureSlot::BaseColor, uniformImage({0, 0, 0, 255})), wanted);
+        }
+    }
+}
+
 TEST_F(MaterialValues, anIorTextureAlwaysMultipliesTheIorByItsRed) {
     for (Material material : {blackDielectric(), blackMicrofacet()}) {
         SCOPED_TRACE(material.model == MaterialModel::Microfacet ? "microfacet" : "metallic_roughness");

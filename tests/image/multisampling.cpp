@@ -226,6 +226,21 @@ TEST_F(Multisampling, oneSampleIsAlwaysDrawnAsWithoutThem) {
     EXPECT_EQ(alphasOf(picture(opaque, sampled({161, 90}, 1))), (std::set<float>{0.0f, 1.0f}));
 }
 
+TEST_F(Multisampling, verticesBrighterThanOneAreNotHeldToIt) {
+    scenes::Material paint;
+    paint.model = scenes::MaterialModel::SingleColor;
+    Scene scene = test::quadScene(paint);
+    scene.cameras[0].projection = scenes::Projection::Orthographic;
+    scene.cameras[0].halfHeightMetres = 1.0;
+    scene.meshes[0].colors.assign(4, {4.0f, 2.0f, 0.5f, 1.0f});
+    const validation::Picture shown = picture(scene, sampled({8, 8}));
+    for (std::size_t i = 0; i < shown.pixelCount(); ++i) {
+        const float wanted[] = {4.0f, 2.0f, 0.5f};
+        // Interpolating equal values rounds three times.
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown.pixel(i)[c], wanted[c], 1e-6f * wanted[c]) << "pixel " << i;
+    }
+}
+
 /// A unit square of one colour whose alpha is a ramp: 0 at its left edge, 1 at its right one.
 Scene rampScene(float cutoff) {
     scenes::Material paint;

@@ -228,5 +228,29 @@ TEST_F(ExactFilter, everyPairOfWrapModesAlwaysFindsAndBlendsItsOwnTexels) {
     }
 }
 
+TEST_F(ExactFilter, theSecondSetOfCoordinatesAlsoSaysWhetherTexelsAreTakenSingly) {
+    frame::FrameSettings settings;
+    settings.filter = frame::TextureFilter::Exact;
+    Scene scene = texturedScene(flatScene(unlit()), TextureSlot::BaseColor, placeImage());
+    scene.meshes[0].texCoords[1] = scene.meshes[0].texCoords[0];
+    scenes::TextureUse& use = scene.materials[0].texture(TextureSlot::BaseColor);
+    use.texCoordSet = 1;
+    use.sampler.magnification = scenes::Filter::Linear;
+    use.sampler.minification = scenes::Filter::Nearest;
+    // As above; a pixel steps over 5 and 3 texels, so the picture is minified.
+    const glm::dvec2 step(5.0, 3.0), size(kWidth, kHeight), start(-17.25, -11.625);
+    use.transform.scale = double(kSide) * step / size;
+    use.transform.offset = (start + 0.5 - 0.5 * step) / size;
+    const recipes::RenderedFrame shown = frame(scene, settings);
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            const glm::dvec2 texel = glm::floor(step * glm::dvec2(x, y) + start + 0.5);
+            const glm::vec4 found = pixel(shown, x, y);
+            EXPECT_EQ(found.r, float(wrapped(int(texel.x), kWidth, use.sampler.wrapU))) << "column " << x;
+            EXPECT_EQ(found.g, float(wrapped(int(texel.y), kHeight, use.sampler.wrapV))) << "row " << y;
+        }
+    }
+}
+
 } // namespace
 } // namespace tessera
