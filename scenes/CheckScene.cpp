@@ -300,6 +300,22 @@ void checkSceneWide(const Scene& scene) {
 } // namespace
 
 void checkScene(const Scene& scene) {
+    const auto checkName = [&](std::string_view kind, const std::string& name) {
+        if (name.size() > kMostNameBytes)
+            throw InputError(fmt::format("scene '{:.40}': a {} has a name of {} bytes, and at most {} can be used; "
+                                         "shorten it",
+                                         scene.name, kind, name.size(), kMostNameBytes));
+    };
+    const auto checkNames = [&](std::string_view kind, const auto& elements) {
+        for (const auto& element : elements) checkName(kind, element.name);
+    };
+    checkName("scene", scene.name);
+    checkNames("picture", scene.images);
+    checkNames("material", scene.materials);
+    checkNames("mesh", scene.meshes);
+    checkNames("node", scene.nodes);
+    checkNames("light", scene.lights);
+    checkNames("camera", scene.cameras);
     for (std::size_t i = 0; i < scene.images.size(); ++i) {
         checkImage({scene, "image", i, scene.images[i].name}, scene.images[i]);
     }

@@ -14,6 +14,8 @@ inline constexpr int kMostLights = 262144;
 /// Throws InputError when these lights are more than kMostLights; `source` is the file that gives them, or the scene.
 void requireDrawableLights(const std::string& source, std::size_t lights);
 
+inline constexpr std::size_t kMostNameBytes = 4096; ///< of a scene or anything in it; messages and tables show names
+
 // Beyond these, squares of distances or depths leave fp32, and techniques would disagree.
 inline constexpr double kNearestPlaneMetres = 1e-9; ///< near plane of a perspective camera, at least
 inline constexpr double kFarthestMetres = 1e15;     ///< any coordinate in the world, near plane or half height, at most

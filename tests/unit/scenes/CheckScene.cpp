@@ -57,6 +57,16 @@ TEST(CheckScene, messageAlwaysNamesSceneAndElement) {
               "scene 'tiny': the option camera names 'door', but no camera is called that");
 }
 
+TEST(CheckScene, aNameThatNoMessageCanShowIsRefused) {
+    const std::string longest(4096, 'x');
+    EXPECT_EQ(verdict([&](Scene& s) { s.name = s.nodes[0].name = s.materials[0].name = longest; }), "");
+    EXPECT_EQ(verdict([&](Scene& s) { s.nodes[0].name = longest + "x"; }),
+              "scene 'tiny': a node has a name of 4097 bytes, and at most 4096 can be used; shorten it");
+    EXPECT_EQ(verdict([&](Scene& s) { s.name = longest + "x"; }),
+              "scene '" + std::string(40, 'x') +
+                  "': a scene has a name of 4097 bytes, and at most 4096 can be used; shorten it");
+}
+
 TEST(CheckScene, eachBrokenRuleIsAlwaysReported) {
     using testing::HasSubstr;
     const std::vector<std::pair<const char*, std::function<void(Scene&)>>> cases = {

@@ -153,7 +153,7 @@ TEST(PictureFile, whatCannotBeLaidOverAPictureIsAlwaysRefusedWithTheRemedy) {
     const TemporaryFolder folder;
     writeExr(folder.file("a.exr"), greyPicture(2, 2, 1.f));
     std::string cropped = readText(folder.file("a.exr"));
-    const std::string window = std::string("displayWindow\0box2i\0\x10\0\0\0", 25);
+    const std::string window = std::string("displayWindow\0box2i\0\x10\0\0\0", 24);
     const std::size_t at = cropped.find(window);
     ASSERT_NE(at, std::string::npos);
     cropped.replace(at + window.size(), 4, 4, '\xff'); // its left edge is -1
