@@ -70,7 +70,6 @@ Picture ReferencePicture::nearestTo(const Picture& shown) const {
 
 Tolerance referenceTolerance(const scenes::Scene& scene, frame::TextureFilter filter) {
     Tolerance tolerance;
-    tolerance.biasNoises = kBiasNoises; // a few highlights may decide a picture's mean
     if (!frame::materialFeatures(scene).textures()) {
         tolerance.p999Rel = 3e-4;
         tolerance.relMse = 1e-8;

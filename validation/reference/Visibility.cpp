@@ -162,6 +162,17 @@ struct Visibility::Trees {
     Anchor anchor;
     Device device;
     Tree opaque, transparent;
+
+    /// For the nearest hit of a ray, within the camera's depths and not behind `depthMetres`.
+    Query queryOf(const Ray& ray, double depthMetres) const {
+        Query query{};
+        rtcInitIntersectContext(&query);
+        query.ray = &ray;
+        query.textures = &textures;
+        query.nearMetres = rays.nearMetres();
+        query.farMetres = std::min(depthMetres, rays.farMetres());
+        return query;
+    }
 };
 
 Visibility::Visibility(const Objects& objects, const CameraRays& rays, const Textures& textures)
@@ -175,12 +186,7 @@ Visibility::Visibility(const Objects& objects, const CameraRays& rays, const Tex
 Visibility::~Visibility() = default;
 
 std::optional<Hit> Visibility::nearestOpaque(const Ray& ray) const {
-    Query query{};
-    rtcInitIntersectContext(&query);
-    query.ray = &ray;
-    query.textures = &trees_->textures;
-    query.nearMetres = trees_->rays.nearMetres();
-    query.farMetres = trees_->rays.farMetres();
+    Query query = trees_->queryOf(ray, trees_->rays.farMetres());
     trace(trees_->opaque.get(), trees_->anchor, query);
     return query.nearest;
 }
@@ -188,12 +194,7 @@ std::optional<Hit> Visibility::nearestOpaque(const Ray& ray) const {
 std::vector<Hit> Visibility::transparentBefore(const Ray& ray, double depthMetres) const {
     std::vector<Hit> hits;
     if (!trees_->transparent) return hits;
-    Query query{};
-    rtcInitIntersectContext(&query);
-    query.ray = &ray;
-    query.textures = &trees_->textures;
-    query.nearMetres = trees_->rays.nearMetres();
-    query.farMetres = std::min(depthMetres, trees_->rays.farMetres());
+    Query query = trees_->queryOf(ray, depthMetres);
     query.all = &hits;
     trace(trees_->transparent.get(), trees_->anchor, query);
     // Objects lie in their order of drawing, so their addresses tell it; Embree may offer a candidate twice.
@@ -207,12 +208,7 @@ std::vector<Hit> Visibility::transparentBefore(const Ray& ray, double depthMetre
 
 std::vector<Hit> Visibility::opaqueBefore(const Ray& ray, double depthMetres) const {
     std::vector<Hit> hits;
-    Query query{};
-    rtcInitIntersectContext(&query);
-    query.ray = &ray;
-    query.textures = &trees_->textures;
-    query.nearMetres = trees_->rays.nearMetres();
-    query.farMetres = std::min(depthMetres, trees_->rays.farMetres());
+    Query query = trees_->queryOf(ray, depthMetres);
     query.all = &hits;
     query.masksHaveHoles = false;
     trace(trees_->opaque.get(), trees_->anchor, query);
