@@ -4,8 +4,10 @@
 #include <functional>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "apps/Commands.h"
+#include "apps/ErrorLine.h"
 #include "apps/FramePattern.h"
 #include "apps/Numbers.h"
 #include "apps/Outputs.h"
@@ -60,6 +62,18 @@ std::vector<std::string> outputsOf(const RenderOptions& options) {
     return outputs;
 }
 
+/// Says why, where a picture (RGBA, A the share of a pixel that is covered) shows nothing of its scene.
+void warnWhereEmpty(const std::string& path, const scenes::Scene& scene, const std::vector<float>& rgba) {
+    for (std::size_t alpha = 3; alpha < rgba.size(); alpha += 4) {
+        if (rgba[alpha] > 0.0f) return;
+    }
+    spdlog::warn("{}", oneLine(fmt::format("{}: {}", path,
+                                           scenes::triangleCount(scene) == 0
+                                               ? "the scene has no triangles to draw"
+                                               : "the camera sees nothing of the scene; check --eye, --target, "
+                                                 "--near and --far, or see --help")));
+}
+
 /// Makes one picture at a path.
 using MakePicture = std::function<void(const std::string& path, const frame::FrameSettings& settings)>;
 
@@ -91,6 +105,7 @@ void renderReference(const RenderOptions& options, const Outputs& outputs, const
         validation::Picture picture = validation::referencePicture(
                                           request.scene, one, [&progress] { progress.advance(); }, false)
                                           .picture;
+        warnWhereEmpty(path, request.scene, picture.rgba);
         if (isLinear) return validation::writeExr(path, picture);
         for (float& value : picture.rgba) value *= std::exp2(settings.exposureEV);
         validation::writePng(path, validation::toDisplayImage(picture));
@@ -129,7 +144,9 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     // One picture is soon made.
     Progress progress("rendering", std::size_t(options.frames.value_or(1)), global.quiet || !options.frames);
     makePictures(options, outputs, request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
-        writePicture(path, request, renderer.render(request.technique, one));
+        const recipes::RenderedFrame picture = renderer.render(request.technique, one);
+        warnWhereEmpty(path, request.scene, picture.radiance);
+        writePicture(path, request, picture);
         progress.advance();
     });
     return kGood;
@@ -141,6 +158,9 @@ void addRenderCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     CLI::App* command = app.add_subcommand("render", "Renders a scene to a picture, or to a numbered sequence");
     auto options = std::make_shared<RenderOptions>();
     addFrameOptions(*command, options->frame, "");
+    CLI::Option* technique = command->get_option("--technique");
+    technique->description(fmt::format("{}: by formulas in double precision; or o{}", kReferenceName,
+                                       technique->get_description().substr(1)));
     command
         ->add_option("-o,--output", options->output, "The picture: .exr is linear radiance, .png as a display shows it")
         ->type_name("FILE")

@@ -143,8 +143,10 @@ private:
     void testInteger(Json& value, const Place& place, const Rule& rule) const {
         requireType(value.is_number(), place, "an integer", value);
         const double number = value.get<double>();
-        if (!std::isfinite(number) || number != std::floor(number) || std::abs(number) > kMaxInteger)
+        if (!std::isfinite(number) || number != std::floor(number))
             fail(place, fmt::format("must be an integer, but is {}", value.dump()));
+        if (std::abs(number) > kMaxInteger)
+            fail(place, fmt::format("is {}, farther from 0 than {}", value.dump(), std::int64_t(kMaxInteger)));
         testRange(number, place, rule);
         if (!value.is_number_integer()) value = static_cast<std::int64_t>(number);
     }

@@ -117,6 +117,25 @@ TEST_F(Render, quietAlwaysSilencesWarningsAndNothingElse) {
     expectError(2, {"--quiet", "render", "nix.obj", "-o", "a.png"}, {"nix.obj"});
 }
 
+TEST_F(Render, aPictureOfNothingAlwaysSaysWhy) {
+    folder_.write("tri.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
+    folder_.write("none.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{}]})");
+    for (const char* technique : {"forward", "reference"}) {
+        const auto said = [&](const char* scene, std::vector<std::string> more) {
+            std::vector<std::string> arguments = {"render", scene,         "--size",  "16x9",     "-o",
+                                                  "a.png",  "--technique", technique, "--filter", "exact"};
+            arguments.insert(arguments.end(), more.begin(), more.end());
+            const ProcessResult result = run(arguments);
+            EXPECT_EQ(result.exitCode, 0) << result.err;
+            return result.err;
+        };
+        EXPECT_THAT(said("tri.obj", {}), testing::Not(testing::HasSubstr("a.png: ")));
+        EXPECT_THAT(said("tri.obj", {"--near", "1000", "--far", "1001"}),
+                    testing::HasSubstr("warning: a.png: the camera sees nothing of the scene"));
+        EXPECT_THAT(said("none.gltf", {}), testing::HasSubstr("warning: a.png: the scene has no triangles to draw"));
+    }
+}
+
 TEST_F(Render, warningsNeverComeBeforeAnError) {
     folder_.write("tri.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
     expectError(2, {"render", "tri.obj", "--camera", "nix", "-o", "a.png"}, {"unknown camera 'nix'"});

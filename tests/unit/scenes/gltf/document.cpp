@@ -165,7 +165,7 @@ constexpr Fault kDataFaults[] = {
     {"/accessors/0/count", "0", "/accessors/0/count: is 0; it must be at least 1"},
     {"/accessors/0/count", "4000000000", "/accessors/0: reads 47999999964 bytes past the end of buffer view 0"},
     {"/accessors/0/count", "9007199254740992", "/accessors/0: reads "},
-    {"/accessors/0/count", "18446744073709551615", "/accessors/0/count: must be an integer, but is"},
+    {"/accessors/0/count", "18446744073709551615", "/accessors/0/count: is 18446744073709551615, farther from 0 than 9007199254740992"},
     {"/accessors/0/byteOffset", "9007199254740991", "/accessors/0: reads 9007199254740991 bytes past the end"},
     {"/accessors/0/byteOffset", "-4", "/accessors/0/byteOffset: is -4; it must be at least 0"},
     {"/accessors/0/byteOffset", "4", "/accessors/0: reads 4 bytes past the end of buffer view 0"},
