@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/culling/TileGrid.h"
 #include "shaders/shared/culling.h"
 
 namespace tessera::validation {
@@ -350,6 +351,45 @@ TEST(LightTouch, aConeTouchesWhatLiesInItOrWithinABoxsHalfDiagonalOfIt) {
     // (9, 0, 8) is 1 / sqrt 2 = 0.707 away from the cone; a box's half diagonal is sqrt 3 times half its side.
     EXPECT_TRUE(touches({9, 0, 8}, 0.42f));
     EXPECT_FALSE(touches({9, 0, 8}, 0.4f));
+}
+
+TEST(LightTouch, aLightTouchesABoxExactlyWithinItsRadiusAndItsCone) {
+    const shared::CellBox box{glm::vec4(1, 2, 3, 0), glm::vec4(4, 6, 8, 0)};
+    const auto touches = [&](float radius, const glm::vec4& axis) { // three metres to the right of the box
+        return shared::lightTouchesBox({glm::vec4(7, 3, 4, radius), glm::vec4(7, 3, 4, std::sqrt(0.5f)), axis}, box);
+    };
+    const glm::vec4 noCone(0, 0, 0, -2), left(-1, 0, 0, std::sqrt(0.5f)), right(1, 0, 0, std::sqrt(0.5f));
+    EXPECT_TRUE(touches(3.0f, noCone));
+    EXPECT_FALSE(touches(2.875f, noCone));
+    EXPECT_TRUE(touches(3.0f, left));
+    EXPECT_FALSE(touches(2.875f, left));
+    EXPECT_FALSE(touches(3.0f, right));
+}
+
+TEST(LightTouch, theMarginForRoundingIsThatOfPositionsAndThatOfEvenDepthsTogether) {
+    EXPECT_EQ(shared::roundingMargin(2.0f, {3.0f, 5.0f, 0.0f, 7.0f}), 2e-5f);
+    EXPECT_EQ(shared::roundingMargin(0.0f, {3.0f, 5.0f, 0x1p21f, 7.0f}), 1.0f) << "eight times 2^-24 of 2^21 m";
+    EXPECT_EQ(shared::roundingMargin(2.0f, {3.0f, 5.0f, 0x1p21f, 7.0f}), 2e-5f + 1.0f);
+}
+
+TEST(TileGrid, theFinestSlicesOfDepthAreAlwaysAsDeepAsATileOfSixteenPixelsIsWide) {
+    // Of keys, 2^23 cover a factor of two in distance, or an even interval; a slice covers 2^shift. All numbers are
+    // powers of two, so the slice is exactly as deep, not only the nearest power of two.
+    const auto finestShift = [](float pixelMetres, bool orthographic, float originMetres, float evenMetres) {
+        shared::FrameConstants frame{};
+        frame.lensVS.y = pixelMetres;
+        frame.forwardLS.w = orthographic ? 1.0f : 0.0f;
+        frame.eyeLS.w = originMetres;
+        frame.depthKey.z = evenMetres;
+        culling::setTileGrid(frame, {640, 360}, 16);
+        return frame.depthKey.y;
+    };
+    EXPECT_EQ(finestShift(0x1p-8f, false, 0.0f, 0.0f), 23.0f - 4.0f) << "1/16 of the distance: 2^4 slices";
+    EXPECT_EQ(finestShift(0x1p-8f, false, 1024.0f, 512.0f), 23.0f - 3.0f) << "64 m in the middle: 2^3 of 512 m";
+    EXPECT_EQ(finestShift(0x1p-8f, true, 1024.0f, 512.0f), 23.0f - 13.0f) << "1/16 m everywhere: 2^13 of 512 m";
+    EXPECT_EQ(finestShift(0x1p-16f, true, 0.0f, 0x1p-8f), 23.0f - 4.0f) << "1/4096 m: 2^4 of 4 mm";
+    EXPECT_EQ(finestShift(0x1p-40f, false, 0.0f, 0.0f), 5.0f) << "what packSlices() has room for";
+    EXPECT_EQ(finestShift(1.0f, false, 0.0f, 0.0f), 22.0f) << "two slices where tiles are wider";
 }
 
 } // namespace
