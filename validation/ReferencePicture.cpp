@@ -50,7 +50,6 @@ ReferencePicture referencePicture(const scenes::Scene& scene, const frame::Frame
     result.picture.covered = std::move(rendered.covered);
     result.ids = std::move(rendered.ids);
     result.alternatives = std::move(rendered.alternatives);
-    result.spans = std::move(rendered.spans);
     return result;
 }
 
@@ -60,9 +59,10 @@ Picture ReferencePicture::nearestTo(const Picture& shown) const {
         const glm::dvec3 seen(shown.pixel(i)[0], shown.pixel(i)[1], shown.pixel(i)[2]);
         if (!std::isfinite(seen.r + seen.g + seen.b)) continue;
         glm::dvec3 own(picture.pixel(i)[0], picture.pixel(i)[1], picture.pixel(i)[2]);
-        if (!spans.empty()) own = glm::clamp(seen, spans[i].least, spans[i].most);
-        for (const glm::dvec3& other : alternatives[i])
+        for (const reference::Span& span : alternatives[i]) {
+            const glm::dvec3 other = glm::clamp(seen, span.least, span.most);
             if (glm::distance(other, seen) < glm::distance(own, seen)) own = other;
+        }
         for (int c = 0; c < 3; ++c) nearest.rgba[4 * i + std::size_t(c)] = float(own[c]);
     }
     return nearest;
@@ -85,9 +85,9 @@ Tolerance referenceTolerance(const scenes::Scene& scene, frame::TextureFilter fi
         tolerance.p999Rel = 0.2;
         tolerance.relMse = 1e-4;
         tolerance.bias = 5e-3;
-        tolerance.reason =
-            "what OpenGL leaves open is the reference's span; a highlight may peak between its ends, and "
-            "every level that is stored in 8 bits rounds once more";
+        tolerance.reason = "what OpenGL leaves open is the reference's span; a highlight may peak between its ends, "
+                           "and every level that "
+                           "is stored in 8 bits rounds once more. The built-in scenes reach 0.11 and 7.0e-5";
     }
     return tolerance;
 }

@@ -20,16 +20,14 @@ reference::Settings referenceSettings(const scenes::Scene& scene, const frame::F
 struct ReferencePicture {
     Picture picture; ///< rounded to single precision
     std::vector<reference::Ids> ids;
-    std::vector<std::vector<glm::dvec3>> alternatives; ///< as in reference::Rendered
-    std::vector<reference::Span> spans;                ///< as in reference::Rendered
+    std::vector<std::vector<reference::Span>> alternatives; ///< as in reference::Rendered
 
-    /// Of the pictures that the definition allows the one nearest to `shown`, which is of the same size: pixel by pixel
-    /// the nearest alternative, and with hardware filtering the nearest value of its span.
+    /// Of the pictures that the definition allows the one nearest to `shown`, which is of the same size.
     Picture nearestTo(const Picture& shown) const;
 };
 
 /// What a frame shows by definition, with the filter of the settings. `rowDone` is called once a row, from any thread.
-/// Without `leeway` there are no alternatives and spans, which take up to fifteen times as long. Throws InputError when
+/// Without `leeway` there are no alternatives, which take up to fifteen times as long. Throws InputError when
 /// the settings name what the scene lacks or requireReferenceTakes() does.
 ReferencePicture referencePicture(
     const scenes::Scene& scene, const frame::FrameSettings& settings, const std::function<void()>& rowDone = [] {},

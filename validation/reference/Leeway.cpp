@@ -31,7 +31,8 @@ double codesOf(const Pyramid& pyramid) {
     return 0.0;
 }
 
-/// Levels by which drivers shorten the blend between two levels or approximate the logarithm.
+/// Drivers may shorten the blend between two levels and approximate the logarithm: llvmpipe blends in the middle half
+/// of their distance, up to 1/4 of a level off, and takes log2 as straight between powers of two, up to 0.09 off.
 constexpr double kBlendLevels = 0.35;
 
 glm::dvec2 transformedMagnitudes(const scenes::TextureUse& use, const Footprint& footprint) {
@@ -57,7 +58,10 @@ Leeway leewayOf(Filtering filtering, const scenes::TextureUse& use, const Footpr
     // Drivers take one footprint for a block of 2x2 pixels, by differences.
     const double block = 2.0 * hit.perspective * std::numbers::log2e;
     leeway.coarser += kBlendLevels + block;
-    leeway.finer += kBlendLevels + block + std::max(level - finestLevelOf(footprint, sizeTexels), 0.0);
+    leeway.finer += kBlendLevels + block;
+    // Both are endless where the mesh has no coordinates.
+    const double finest = finestLevelOf(footprint, sizeTexels);
+    if (level > finest) leeway.finer += level - finest;
     return leeway;
 }
 

@@ -29,6 +29,15 @@ double depthOfBoxCentre(const Object& object, const glm::dvec3& forward) {
     return glm::dot(forward, glm::dvec3(object.relFromObject * glm::dvec4(centreOS, 1.0)));
 }
 
+Anchor anchorOf(const scenes::Box3& boundsRel) {
+    const double radius = 0.5 * glm::length(boundsRel.max - boundsRel.min);
+    const glm::dvec3 middleRel = 0.5 * (boundsRel.min + boundsRel.max);
+    // From there on all depths lie within a factor of two, where the product leaves the eye too.
+    constexpr double kFarRadii = 4.0;
+    if (boundsRel.empty() || !(glm::length(middleRel) > kFarRadii * radius)) return {};
+    return {middleRel, radius};
+}
+
 } // namespace
 
 Objects::Objects(const scenes::Scene& scene, const CameraRays& rays) {
@@ -43,6 +52,16 @@ Objects::Objects(const scenes::Scene& scene, const CameraRays& rays) {
     std::stable_sort(byDepth.begin(), byDepth.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     std::transform(byDepth.begin(), byDepth.end(), transparent_.begin(),
                    [](const auto& entry) { return entry.second; });
+    scenes::Box3 boundsRel;
+    for (const std::vector<Object>* list : {&opaque_, &transparent_}) {
+        for (const Object& object : *list) {
+            for (const glm::vec3& vertexOS : object.mesh->positionsOS)
+                boundsRel.extend(glm::dvec3(object.relFromObject * glm::dvec4(glm::dvec3(vertexOS), 1.0)));
+        }
+    }
+    anchor_ = anchorOf(boundsRel);
+    for (std::vector<Object>* list : {&opaque_, &transparent_})
+        for (Object& object : *list) object.anchor = anchor_;
 }
 
 void Objects::add(const scenes::Scene& scene, const scenes::MeshInstance& instance, const glm::dmat4& worldFromNode,

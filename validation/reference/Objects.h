@@ -10,6 +10,21 @@
 
 namespace tessera::reference {
 
+/// Where positions in single precision have their origin: from a far eye the middle of what there is to see, else the
+/// eye. The digits are where the triangles are.
+struct Anchor {
+    glm::dvec3 centreRel{0.0};
+    double radiusMetres = 0.0; ///< around the centre, which holds everything; 0 at the eye
+
+    /// The product's own origin lies elsewhere among what is seen: at most so far from this one.
+    double otherOriginMetres() const { return 2.0 * radiusMetres; }
+
+    /// How far from either origin a surface at a depth may lie.
+    double reachMetres(double depthMetres) const {
+        return radiusMetres == 0.0 ? depthMetres : radiusMetres + otherOriginMetres();
+    }
+};
+
 /// A mesh as it is drawn with a material at a node. Rel: world axes, the eye as the origin.
 struct Object {
     const scenes::Mesh* mesh = nullptr;
@@ -19,6 +34,7 @@ struct Object {
     glm::dmat3 normalFromObject{1.0};                    ///< cofactor matrix times the determinant's sign
     double handedness = 1.0;                             ///< -1 where the transform mirrors
     const std::vector<glm::dvec4>* tangentsOS = nullptr; ///< by index of the mesh, where the material needs them
+    Anchor anchor;                                       ///< of all objects
 
     glm::dvec3 cornerRel(std::uint32_t triangle, int corner) const {
         const std::uint32_t vertex = mesh->indices[3 * std::size_t(triangle) + std::size_t(corner)];
@@ -28,7 +44,7 @@ struct Object {
     /// The sum of the magnitudes that a corner's position is added up from, which rounding goes with.
     double cornerReach(std::uint32_t triangle, int corner) const {
         const std::uint32_t vertex = mesh->indices[3 * std::size_t(triangle) + std::size_t(corner)];
-        double reach = glm::length(glm::dvec3(relFromObject[3]));
+        double reach = glm::length(glm::dvec3(relFromObject[3]) - anchor.centreRel) + anchor.otherOriginMetres();
         for (int axis = 0; axis < 3; ++axis)
             reach += glm::length(glm::dvec3(relFromObject[axis])) * std::abs(double(mesh->positionsOS[vertex][axis]));
         return reach;
@@ -43,12 +59,14 @@ public:
     const std::vector<Object>& opaque() const { return opaque_; } ///< alpha-masked ones too
     /// In the order in which they are blended: far to near by the depth of their mesh's box centre, ties by number.
     const std::vector<Object>& transparent() const { return transparent_; }
+    const Anchor& anchor() const { return anchor_; }
 
 private:
     void add(const scenes::Scene& scene, const scenes::MeshInstance& instance, const glm::dmat4& worldFromNode,
              const CameraRays& rays, std::uint32_t number);
     const std::vector<glm::dvec4>& tangentsOf(const scenes::Mesh& mesh, const scenes::Material& material);
 
+    Anchor anchor_;
     std::vector<Object> opaque_, transparent_;
     std::map<std::pair<const scenes::Mesh*, const scenes::Material*>, std::unique_ptr<std::vector<glm::dvec4>>>
         tangents_;

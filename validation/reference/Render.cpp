@@ -47,9 +47,10 @@ public:
     }
 
 private:
-    /// Triangles in one place: their depths differ by no more than some roundings to fp32.
-    static bool areCoincident(double aMetres, double bMetres) {
-        return std::abs(aMetres - bMetres) <= 0x1p-20 * std::min(aMetres, bMetres);
+    /// Triangles in one place: their depths differ by no more than some roundings of positions to fp32.
+    double coincidentMetres(double depthMetres) const { return 0x1p-20 * objects_.anchor().reachMetres(depthMetres); }
+    bool areCoincident(double aMetres, double bMetres) const {
+        return std::abs(aMetres - bMetres) <= coincidentMetres(std::min(aMetres, bMetres));
     }
 
     /// The surfaces that may be the nearest: up to the first that has no hole there whatever its texture's leeway.
@@ -108,20 +109,14 @@ private:
         }
         const glm::dvec3 radiance = radianceOf(ray, seen, Nudge());
         rendered.radiance[at] = radiance;
-        const bool byHardware = settings_.filtering == Filtering::Hardware;
-        if (byHardware) rendered.spans[at] = {radiance, radiance};
-        const auto allow = [&](const glm::dvec3& other) {
-            if (byHardware) {
-                rendered.spans[at].least = glm::min(rendered.spans[at].least, other);
-                rendered.spans[at].most = glm::max(rendered.spans[at].most, other);
-            } else {
-                rendered.alternatives[at].push_back(other);
-            }
-        };
-        for (const Hit& hit : coincidentWith(ray, seen)) allow(radianceOf(ray, {hit, seen.transparent}, Nudge()));
-        if (!settings_.leeway || !isUndecided(seen)) return;
-        for (const Nudge& nudge : nudges()) {
-            allow(radianceOf(ray, seen, nudge));
+        if (!settings_.leeway) return;
+        std::vector<Span>& alternatives = rendered.alternatives[at];
+        addLeeway(ray, seen, radiance, alternatives);
+        for (const Hit& hit : coincidentWith(ray, seen)) {
+            const Seen other{hit, seen.transparent};
+            const glm::dvec3 otherRadiance = radianceOf(ray, other, Nudge());
+            alternatives.push_back({otherRadiance, otherRadiance});
+            addLeeway(ray, other, otherRadiance, alternatives);
         }
     }
 
@@ -134,9 +129,10 @@ private:
     std::vector<Hit> coincidentWith(const Ray& ray, const Seen& seen) const {
         std::vector<Hit> others;
         if (!seen.opaque) return others;
-        for (const Hit& hit : visibility_.opaqueBefore(ray, seen.opaque->depthMetres * (1.0 + 0x1p-20))) {
+        const double depthMetres = seen.opaque->depthMetres;
+        for (const Hit& hit : visibility_.opaqueBefore(ray, depthMetres + coincidentMetres(depthMetres))) {
             const bool isOther = hit.object != seen.opaque->object || hit.triangle != seen.opaque->triangle;
-            if (isOther && areCoincident(hit.depthMetres, seen.opaque->depthMetres) &&
+            if (isOther && areCoincident(hit.depthMetres, depthMetres) &&
                 opacitiesOf(hit).second >= double(hit.object->material->alphaCutoff))
                 others.push_back(hit);
         }
@@ -147,6 +143,19 @@ private:
         const auto open = [this](const Hit& hit) { return reference::isUndecided(hit, textures_); };
         return (seen.opaque && open(*seen.opaque)) ||
                std::any_of(seen.transparent.begin(), seen.transparent.end(), open);
+    }
+
+    /// What surfaces with this radiance may show besides: the ends of each leeway, and by hardware all between them.
+    void addLeeway(const Ray& ray, const Seen& seen, const glm::dvec3& radiance,
+                   std::vector<Span>& alternatives) const {
+        if (!isUndecided(seen)) return;
+        Span span{radiance, radiance};
+        for (const Nudge& nudge : nudges()) {
+            const glm::dvec3 other = radianceOf(ray, seen, nudge);
+            span = {glm::min(span.least, other), glm::max(span.most, other)};
+            if (settings_.filtering == Filtering::Exact) alternatives.push_back({other, other});
+        }
+        if (settings_.filtering == Filtering::Hardware) alternatives.push_back(span);
     }
 
     /// The ends of every leeway: all surfaces of a pixel go the same way, as they share the ray.
@@ -218,7 +227,6 @@ Rendered render(const scenes::Scene& scene, const Settings& settings, const std:
     rendered.covered.resize(pixels);
     rendered.ids.resize(pixels);
     rendered.alternatives.resize(pixels);
-    if (settings.filtering == Filtering::Hardware) rendered.spans.resize(pixels);
     const Pixels picture(scene, settings);
     tbb::parallel_for(0, rendered.height, [&](int row) {
         picture.row(row, rendered);

@@ -41,7 +41,7 @@ struct Layers {
 /// probability 1/65,536.
 std::uint32_t transparentId(std::uint32_t objectNumber, std::uint32_t triangle);
 
-/// Values that a driver is free to show.
+/// Radiance that a driver is free to show, channel by channel from `least` to `most`.
 struct Span {
     glm::dvec3 least{0.0}, most{0.0};
 };
@@ -54,10 +54,9 @@ struct Rendered {
     std::vector<Ids> ids;
 
     /// By pixel, what else the definition allows: another texel of a `nearest` filter where the coordinate lies within
-    /// rounding of an edge, or another filter where the level does; another of several triangles in one place.
-    std::vector<std::vector<glm::dvec3>> alternatives;
-    /// By pixel, what Filtering::Hardware leaves to a driver, channel by channel; else empty.
-    std::vector<Span> spans;
+    /// rounding of an edge, or another filter where the level does; what Filtering::Hardware leaves to a driver;
+    /// another of several triangles in one place.
+    std::vector<std::vector<Span>> alternatives;
 };
 
 /// Renders on all cores. `rowDone` is called once a row of the picture, from any thread. The scene must have passed

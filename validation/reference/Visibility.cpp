@@ -21,39 +21,6 @@ struct ReleaseScene {
 using Device = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 using Tree = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 
-/// Where Embree's single precision has its origin, and how far around it everything lies. From a far eye that is the
-/// middle of what there is to see, else the eye: the digits are where the triangles are.
-struct Anchor {
-    glm::dvec3 centreRel{0.0};
-    double radiusMetres = 0.0; ///< 0 at the eye
-
-    explicit Anchor(const Objects& objects) {
-        glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
-        for (const auto* list : {&objects.opaque(), &objects.transparent()}) {
-            for (const Object& object : *list) {
-                for (const glm::vec3& vertexOS : object.mesh->positionsOS) {
-                    const glm::dvec3 vertexRel(object.relFromObject * glm::dvec4(glm::dvec3(vertexOS), 1.0));
-                    low = glm::min(low, vertexRel);
-                    high = glm::max(high, vertexRel);
-                }
-            }
-        }
-        const double radius = 0.5 * glm::length(high - low);
-        const glm::dvec3 middleRel = 0.5 * (low + high);
-        if (!(glm::length(middleRel) > 2.0 * radius)) return;
-        centreRel = middleRel;
-        radiusMetres = radius;
-    }
-
-    /// Where along the ray everything still lies ahead.
-    double startOf(const Ray& ray) const {
-        if (radiusMetres == 0.0) return 0.0;
-        const double length = glm::length(ray.direction);
-        const double nearest = glm::dot(centreRel - ray.originRel, ray.direction) / (length * length);
-        return std::max(0.0, nearest - 1.01 * radiusMetres / length);
-    }
-};
-
 namespace {
 
 void throwIfFailed(RTCDevice device, const char* what) {
@@ -62,6 +29,14 @@ void throwIfFailed(RTCDevice device, const char* what) {
     throw std::runtime_error(error == RTC_ERROR_OUT_OF_MEMORY
                                  ? fmt::format("the reference renderer is out of memory while {}", what)
                                  : fmt::format("Embree failed while {} (error {})", what, int(error)));
+}
+
+/// Where along the ray everything still lies ahead.
+double startOf(const Ray& ray, const Anchor& anchor) {
+    if (anchor.radiusMetres == 0.0) return 0.0;
+    const double length = glm::length(ray.direction);
+    const double nearest = glm::dot(anchor.centreRel - ray.originRel, ray.direction) / (length * length);
+    return std::max(0.0, nearest - 1.01 * anchor.radiusMetres / length);
 }
 
 /// What a candidate must be to count, and what has been found of a ray.
@@ -97,6 +72,7 @@ void judgeCandidate(const RTCFilterFunctionNArguments* arguments) {
         query.nearest = hit;
 }
 
+/// Positions in single precision are relative to the anchor.
 Tree makeTree(RTCDevice device, const std::vector<Object>& objects, const Anchor& anchor) {
     Tree tree(rtcNewScene(device));
     throwIfFailed(device, "it makes a scene");
@@ -133,7 +109,7 @@ constexpr double kDepthSlack = 1e-4;
 
 void trace(RTCScene tree, const Anchor& anchor, Query& query) {
     RTCRayHit rayHit{};
-    const double start = anchor.startOf(*query.ray);
+    const double start = startOf(*query.ray, anchor);
     const glm::vec3 origin(query.ray->at(start) - anchor.centreRel), direction(query.ray->direction);
     rayHit.ray.org_x = origin.x;
     rayHit.ray.org_y = origin.y;
@@ -159,7 +135,6 @@ struct Visibility::Trees {
     const Objects& objects;
     const CameraRays& rays;
     const Textures& textures;
-    Anchor anchor;
     Device device;
     Tree opaque, transparent;
 
@@ -176,18 +151,18 @@ struct Visibility::Trees {
 };
 
 Visibility::Visibility(const Objects& objects, const CameraRays& rays, const Textures& textures)
-    : trees_(new Trees{objects, rays, textures, Anchor(objects), Device(rtcNewDevice(nullptr)), {}, {}}) {
+    : trees_(new Trees{objects, rays, textures, Device(rtcNewDevice(nullptr)), {}, {}}) {
     if (!trees_->device) throw std::runtime_error("Embree, which traces the reference renderer's rays, does not start");
-    trees_->opaque = makeTree(trees_->device.get(), objects.opaque(), trees_->anchor);
+    trees_->opaque = makeTree(trees_->device.get(), objects.opaque(), trees_->objects.anchor());
     if (!objects.transparent().empty())
-        trees_->transparent = makeTree(trees_->device.get(), objects.transparent(), trees_->anchor);
+        trees_->transparent = makeTree(trees_->device.get(), objects.transparent(), trees_->objects.anchor());
 }
 
 Visibility::~Visibility() = default;
 
 std::optional<Hit> Visibility::nearestOpaque(const Ray& ray) const {
     Query query = trees_->queryOf(ray, trees_->rays.farMetres());
-    trace(trees_->opaque.get(), trees_->anchor, query);
+    trace(trees_->opaque.get(), trees_->objects.anchor(), query);
     return query.nearest;
 }
 
@@ -196,7 +171,7 @@ std::vector<Hit> Visibility::transparentBefore(const Ray& ray, double depthMetre
     if (!trees_->transparent) return hits;
     Query query = trees_->queryOf(ray, depthMetres);
     query.all = &hits;
-    trace(trees_->transparent.get(), trees_->anchor, query);
+    trace(trees_->transparent.get(), trees_->objects.anchor(), query);
     // Objects lie in their order of drawing, so their addresses tell it; Embree may offer a candidate twice.
     const auto drawnBefore = [](const Hit& a, const Hit& b) {
         return std::pair(a.object, a.triangle) < std::pair(b.object, b.triangle);
@@ -211,7 +186,7 @@ std::vector<Hit> Visibility::opaqueBefore(const Ray& ray, double depthMetres) co
     Query query = trees_->queryOf(ray, depthMetres);
     query.all = &hits;
     query.masksHaveHoles = false;
-    trace(trees_->opaque.get(), trees_->anchor, query);
+    trace(trees_->opaque.get(), trees_->objects.anchor(), query);
     std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
         return std::tuple(a.depthMetres, a.object, a.triangle) < std::tuple(b.depthMetres, b.object, b.triangle);
     });

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "scenes/Load.h"
+#include "scenes/LookAt.h"
 #include "scenes/builtin/Room.h"
+#include "tests/unit/scenes/TinyScene.h"
 #include "validation/reference/CameraRays.h"
 
 namespace tessera::reference {
@@ -51,6 +53,50 @@ TEST(ReferenceRender, whereNothingIsDrawnThereIsExactlyTheBackground) {
         EXPECT_EQ(rendered.covered[i], 0);
         EXPECT_EQ(rendered.ids[i], Ids{});
     }
+}
+
+/// A red triangle and a blue one behind it, seen from the front.
+Settings settingsOfTwoTriangles(scenes::Scene& scene, double eyeMetres, double gapMetres) {
+    scene = scenes::tinyScene();
+    scene.materials = {scene.materials.front(), scene.materials.front()};
+    scene.materials[0].model = scene.materials[1].model = scenes::MaterialModel::SingleColor;
+    scene.materials[0].baseColor = {1.0f, 0.0f, 0.0f, 1.0f};
+    scene.materials[1].baseColor = {0.0f, 0.0f, 1.0f, 1.0f};
+    scene.nodes = {scene.nodes.front(), scene.nodes.front()};
+    scene.nodes[1].parentFromNode[3].z = -gapMetres;
+    scene.nodes[0].instances.front().material = 0;
+    scene.nodes[1].instances.front().material = 1;
+    Settings settings;
+    settings.sizePixels = {1, 1};
+    settings.camera.worldFromCamera = scenes::worldFromLookAt({0.5, 1.0, eyeMetres}, {0.5, 1.0, 0.0});
+    settings.camera.fovYRadians = 1.0 / eyeMetres;
+    return settings;
+}
+
+TEST(ReferenceRender, trianglesACentimetreApartAreNeverInOnePlaceHoweverFarTheEyeIs) {
+    for (const double eyeMetres : {5.0, 1e3, 1e5}) {
+        scenes::Scene scene;
+        EXPECT_TRUE(Probe(scene, settingsOfTwoTriangles(scene, eyeMetres, 0.01)).at({0.5, 0.5}).others.empty());
+        const Layers together = Probe(scene, settingsOfTwoTriangles(scene, eyeMetres, 0.0)).at({0.5, 0.5});
+        ASSERT_EQ(together.others.size(), 1u) << eyeMetres;
+        EXPECT_TRUE(together.others.front().isCoincident);
+    }
+}
+
+TEST(ReferenceRender, ofTrianglesInOnePlaceEitherIsAllowedAndNoMixOfThem) {
+    scenes::Scene scene;
+    Settings settings = settingsOfTwoTriangles(scene, 5.0, 0.0);
+    for (const Filtering filtering : {Filtering::Exact, Filtering::Hardware}) {
+        settings.filtering = filtering;
+        const Rendered rendered = render(scene, settings);
+        ASSERT_EQ(rendered.alternatives[0].size(), 1u);
+        const Span& other = rendered.alternatives[0].front();
+        EXPECT_EQ(other.least, other.most);
+        EXPECT_EQ(rendered.radiance[0] + other.least, glm::dvec3(1.0, 0.0, 1.0));
+        EXPECT_EQ(rendered.radiance[0] * other.least, glm::dvec3(0.0));
+    }
+    settings.leeway = false;
+    EXPECT_TRUE(render(scene, settings).alternatives[0].empty());
 }
 
 TEST(ReferenceRender, idsOfTransparentTrianglesAlwaysStayBelowTheirBound) {
