@@ -1,6 +1,7 @@
 #include "renderer/frame/TextureLevels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -38,18 +39,18 @@ Component componentAt(const scenes::Image& image, std::size_t index) {
 /// A component of a picture, in linear light.
 float linearAt(const scenes::Image& image, bool srgb, std::size_t index) {
     if (image.format == TexelFormat::Rgba32Float) return componentAt<float>(image, index);
-    const double code = image.format == TexelFormat::Rgba16Unorm ? componentAt<std::uint16_t>(image, index) / 65535.0
-                                                                 : componentAt<std::uint8_t>(image, index) / 255.0;
-    return float(srgb && index % 4 != 3 ? decodeSrgb(code) : code);
-}
-
-Level linearLevel(const scenes::Image& image, bool srgb) {
-    Level level{image.width, image.height, {}};
-    level.texels.resize(std::size_t(image.width) * std::size_t(image.height));
-    tbb::parallel_for(std::size_t(0), level.texels.size(), [&](std::size_t i) {
-        for (std::size_t c = 0; c < 4; ++c) level.texels[i][int(c)] = linearAt(image, srgb, 4 * i + c);
-    });
-    return level;
+    const bool isEncoded = srgb && index % 4 != 3;
+    if (image.format == TexelFormat::Rgba16Unorm) {
+        const double code = componentAt<std::uint16_t>(image, index) / 65535.0;
+        return float(isEncoded ? decodeSrgb(code) : code);
+    }
+    static const auto linear = [] {
+        std::array<float, 256> byCode{};
+        for (std::size_t code = 0; code < byCode.size(); ++code) byCode[code] = float(decodeSrgb(double(code) / 255.0));
+        return byCode;
+    }();
+    const auto code = componentAt<std::uint8_t>(image, index);
+    return isEncoded ? linear[code] : float(code / 255.0);
 }
 
 /// What each texel of a smaller side covers of the larger one: at most the first, all between, and the last.
@@ -76,20 +77,32 @@ glm::dvec4 meanOver(const Span& span, const Texel& texel) {
     return first + beyond / (span.firstShare + span.lastShare + double(span.last - span.first - 1));
 }
 
-Level halved(const Level& before) {
-    Level next{std::max(before.width / 2, 1), std::max(before.height / 2, 1), {}};
+/// The level below one of this size, `texel` giving its texels by column and row.
+template <class Texel>
+Level halved(int width, int height, const Texel& texel) {
+    Level next{std::max(width / 2, 1), std::max(height / 2, 1), {}};
     next.texels.resize(std::size_t(next.width) * std::size_t(next.height));
     tbb::parallel_for(0, next.height, [&](int y) {
-        const Span rows = spanOf(y, next.height, before.height);
+        const Span rows = spanOf(y, next.height, height);
         for (int x = 0; x < next.width; ++x) {
-            const Span columns = spanOf(x, next.width, before.width);
+            const Span columns = spanOf(x, next.width, width);
             next.texels[std::size_t(y) * std::size_t(next.width) + std::size_t(x)] =
                 glm::vec4(meanOver(rows, [&](int row) {
-                    return meanOver(columns, [&](int column) { return glm::dvec4(before.row(row)[column]); });
+                    return meanOver(columns, [&](int column) { return glm::dvec4(texel(column, row)); });
                 }));
         }
     });
     return next;
+}
+
+/// Level 1. Decodes as it goes: a copy of level 0 in linear light would take four times the picture.
+Level firstLevel(const scenes::Image& image, bool srgb) {
+    return halved(image.width, image.height, [&](int column, int row) {
+        const std::size_t first = 4 * (std::size_t(row) * std::size_t(image.width) + std::size_t(column));
+        glm::vec4 texel;
+        for (std::size_t c = 0; c < 4; ++c) texel[int(c)] = linearAt(image, srgb, first + c);
+        return texel;
+    });
 }
 
 template <class Component, class Encode>
@@ -136,8 +149,11 @@ bool hasOddLevel(int width, int height) {
 
 std::vector<std::vector<std::byte>> smallerLevels(const scenes::Image& image, bool srgb) {
     std::vector<std::vector<std::byte>> levels;
-    for (Level level = linearLevel(image, srgb); std::max(level.width, level.height) > 1;) {
-        level = halved(level);
+    if (std::max(image.width, image.height) == 1) return levels;
+    Level level = firstLevel(image, srgb);
+    levels.push_back(storedLevel(level, storedFormat(image.format, srgb)));
+    while (std::max(level.width, level.height) > 1) {
+        level = halved(level.width, level.height, [&](int column, int row) { return level.row(row)[column]; });
         levels.push_back(storedLevel(level, storedFormat(image.format, srgb)));
     }
     return levels;

@@ -16,9 +16,9 @@ graph::Format storedFormat(scenes::TexelFormat format, bool srgb);
 bool isStoredDecoded(const scenes::Image& image, bool srgb);
 std::vector<float> decodedTexels(const scenes::Image& image);
 
-/// Whether OpenGL says what the texels of the smaller levels are: where each level has just twice the size of the next,
-/// drivers take the mean of 2 x 2. The reduction of an odd side is theirs to choose (OpenGL 4.5 core, section 8.14.4),
-/// and Mesa's leaves out a third of the texels of three.
+/// Whether some level has an odd side, whose reduction OpenGL leaves to drivers (OpenGL 4.5 core, section 8.14.4):
+/// Mesa's leaves out a third of the texels of three. Where each level has just twice the size of the next, drivers take
+/// the mean of 2 x 2.
 bool hasOddLevel(int width, int height);
 
 /// Levels 1 and up, from the largest to one texel, as storedFormat() has them. A level has half the size of the one
