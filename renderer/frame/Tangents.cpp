@@ -1,6 +1,10 @@
 #include "renderer/frame/Tangents.h"
 
 #include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include <tbb/parallel_sort.h>
 
 #include "renderer/frame/MikkTSpace.h"
 #include "renderer/frame/PackedMaterial.h"
@@ -104,30 +108,33 @@ std::vector<glm::vec4> turnedTangents(const scenes::Mesh& mesh, const glm::dmat2
     return tangents;
 }
 
-/// Gives every vertex the tangent of its first corner, and a copy for each other that its corners have.
+/// Gives every vertex the first of its corners' tangents, and a copy for each other that they have.
 TangentMesh splitByTangent(const scenes::Mesh& mesh, const std::vector<glm::vec4>& cornerTangents) {
-    constexpr std::uint32_t kNoMore = ~0u;
+    std::vector<std::uint32_t> corners(cornerTangents.size()); // by vertex, then by tangent
+    std::iota(corners.begin(), corners.end(), 0u);
+    const auto keyOf = [&](std::uint32_t corner) {
+        const glm::vec4& t = cornerTangents[corner];
+        return std::tuple(mesh.indices[corner], t.x, t.y, t.z, t.w, corner);
+    };
+    tbb::parallel_sort(corners.begin(), corners.end(),
+                       [&](std::uint32_t a, std::uint32_t b) { return keyOf(a) < keyOf(b); });
+
     TangentMesh split;
-    split.indices = mesh.indices;
-    split.tangentsOS.assign(mesh.positionsOS.size(), glm::vec4(0.0f)); // w is never 0 once it is given
-    std::vector<std::uint32_t> nextCopy(mesh.positionsOS.size(), kNoMore);
-    for (std::size_t corner = 0; corner < cornerTangents.size(); ++corner) {
-        const glm::vec4& tangent = cornerTangents[corner];
-        std::uint32_t vertex = mesh.indices[corner];
-        while (split.tangentsOS[vertex].w != 0.0f && split.tangentsOS[vertex] != tangent) {
-            if (nextCopy[vertex] == kNoMore) {
-                nextCopy[vertex] = std::uint32_t(split.tangentsOS.size());
-                split.tangentsOS.emplace_back(0.0f);
-                split.copiedOf.push_back(mesh.indices[corner]);
-                nextCopy.push_back(kNoMore);
-            }
-            vertex = nextCopy[vertex];
+    split.indices.resize(mesh.indices.size());
+    split.tangentsOS.assign(mesh.positionsOS.size(), glm::vec4(1.0f, 0.0f, 0.0f, 1.0f)); // where no triangle is
+    std::uint32_t vertex = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const std::uint32_t corner = corners[i], own = mesh.indices[corner];
+        if (i == 0 || own != mesh.indices[corners[i - 1]]) {
+            vertex = own;
+        } else if (cornerTangents[corner] != cornerTangents[corners[i - 1]]) {
+            vertex = std::uint32_t(split.tangentsOS.size());
+            split.tangentsOS.emplace_back();
+            split.copiedOf.push_back(own);
         }
-        split.tangentsOS[vertex] = tangent;
+        split.tangentsOS[vertex] = cornerTangents[corner];
         split.indices[corner] = vertex;
     }
-    for (glm::vec4& tangent : split.tangentsOS)
-        if (tangent.w == 0.0f) tangent = {1.0f, 0.0f, 0.0f, 1.0f}; // no triangle has this vertex
     return split;
 }
 

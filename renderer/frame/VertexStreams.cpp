@@ -4,7 +4,10 @@
 #include <optional>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "renderer/frame/Tangents.h"
+#include "scenes/Error.h"
 #include "scenes/InUse.h"
 
 namespace tessera::frame {
@@ -68,11 +71,28 @@ std::vector<std::vector<Version>> versionsOf(const scenes::Scene& scene) {
     return meshes;
 }
 
+/// Vertices that meshes may take up beyond their own for the tangents of further materials: about 2 GiB of them.
+constexpr std::size_t kMostCopiedVertices = std::size_t(1) << 25;
+
+void requireFewCopies(const scenes::Scene& scene, const std::vector<std::vector<Version>>& versions) {
+    std::size_t copied = 0;
+    for (std::size_t mesh = 0; mesh < versions.size(); ++mesh) {
+        if (versions[mesh].size() < 2) continue;
+        copied += (versions[mesh].size() - 1) * scene.meshes[mesh].positionsOS.size();
+        if (copied > kMostCopiedVertices)
+            throw InputError(
+                fmt::format("mesh '{}' is drawn with {} materials that turn its tangents differently: copies "
+                            "of more than {} vertices; give their normal textures one transform",
+                            scene.meshes[mesh].name, versions[mesh].size(), kMostCopiedVertices));
+    }
+}
+
 } // namespace
 
 VertexStreams makeVertexStreams(const scenes::Scene& scene, const FeatureSet& features) {
     VertexStreams streams;
     const std::vector<std::vector<Version>> versions = versionsOf(scene);
+    if (features.tangents()) requireFewCopies(scene, versions);
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
         for (const Version& version : versions[mesh]) {
             const VertexStreams::Range range = appendMesh(streams, scene.meshes[mesh], features, version.basis);
