@@ -27,6 +27,12 @@ std::vector<scenes::AlphaMode> alphaModes(const scenes::Scene& scene) {
     return modes;
 }
 
+std::vector<std::optional<TangentBasis>> tangentBases(const scenes::Scene& scene) {
+    std::vector<std::optional<TangentBasis>> bases;
+    for (const scenes::Material& material : scene.materials) bases.push_back(tangentBasis(material));
+    return bases;
+}
+
 gpu::VertexAttribute attribute(std::uint32_t location, int components, const gpu::Buffer* buffer, std::size_t stride,
                                std::size_t offset = 0, std::uint32_t divisor = 0) {
     gpu::VertexAttribute result;
@@ -42,15 +48,17 @@ gpu::VertexAttribute attribute(std::uint32_t location, int components, const gpu
 } // namespace
 
 SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter)
-    : scene_(scene), filter_(filter), hasMaterialTable_(!features[Feature::VaryingMaterials]),
-      drawList_(makeDrawList(scene)), alphaModes_(alphaModes(scene)), materialsInUse_(scenes::inUse(scene).materials) {
-    uploadGeometry(features);
+    : scene_(scene), features_(features), filter_(filter), drawList_(makeDrawList(scene)),
+      alphaModes_(alphaModes(scene)), materialsInUse_(scenes::inUse(scene).materials) {
+    uploadGeometry();
     uploadMaterials();
     uploadTextures();
 }
 
-void SceneGpu::uploadGeometry(const FeatureSet& features) {
-    const VertexStreams streams = makeVertexStreams(scene_, features);
+void SceneGpu::uploadGeometry() {
+    tangentBases_ = tangentBases(scene_);
+    vertexBuffers_.clear();
+    const VertexStreams streams = makeVertexStreams(scene_, features_);
     drawRows_ =
         std::make_unique<gpu::Buffer>("draw rows", drawList_.draws.size() * sizeof(DrawRows), gpu::BufferUse::Dynamic);
     std::vector<gpu::VertexAttribute> attributes;
@@ -107,7 +115,7 @@ void SceneGpu::uploadMaterials() {
         const auto* const first = reinterpret_cast<const std::byte*>(&constants);
         tabled.insert(tabled.end(), first, first + kTabledBytes);
     }
-    if (hasMaterialTable_ && !tabled.empty()) {
+    if (!features_[Feature::VaryingMaterials] && !tabled.empty()) {
         materialTable_.reset();
         tabledMaterials_ = std::make_unique<gpu::Buffer>(gpu::Buffer::of("material table", tabled));
         materialTable_ =
@@ -118,11 +126,16 @@ void SceneGpu::uploadMaterials() {
 
 void SceneGpu::updateMaterials() {
     uploadMaterials();
-    if (alphaModes(scene_) == alphaModes_) return;
-    // Blended surfaces are drawn last, in an order of their own.
-    alphaModes_ = alphaModes(scene_);
-    drawList_ = makeDrawList(scene_);
-    uploadDraws();
+    const bool reorders =
+        alphaModes(scene_) != alphaModes_; // blended surfaces are drawn last, in an order of their own
+    if (reorders) {
+        alphaModes_ = alphaModes(scene_);
+        drawList_ = makeDrawList(scene_);
+    }
+    if (features_.tangents() && tangentBases(scene_) != tangentBases_)
+        uploadGeometry();
+    else if (reorders)
+        uploadDraws();
 }
 
 bool SceneGpu::shadersDecode(const scenes::Material& material, std::size_t slot) const {

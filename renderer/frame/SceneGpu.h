@@ -1,10 +1,12 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "renderer/frame/DrawList.h"
 #include "renderer/frame/Features.h"
+#include "renderer/frame/Tangents.h"
 #include "renderer/frame/VertexStreams.h"
 #include "renderer/gpu/Buffer.h"
 #include "renderer/gpu/PipelineState.h"
@@ -24,6 +26,7 @@ public:
     SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter = TextureFilter::Hardware);
 
     /// Takes the scene's materials as they are now; their textures, and what they are drawn with, must be the same.
+    /// Derives tangents anew where a material follows others than before.
     void updateMaterials();
 
     /// Puts draws into the view's lighting space and sorts the transparent ones.
@@ -47,7 +50,7 @@ private:
         const gpu::Texture* texture = nullptr;
         const gpu::Sampler* sampler = nullptr;
     };
-    void uploadGeometry(const FeatureSet& features);
+    void uploadGeometry();
     void uploadDraws();
     void uploadMaterials();
     void uploadTextures();
@@ -59,11 +62,12 @@ private:
     bool shadersDecode(const scenes::Material& material, std::size_t slot) const;
 
     const scenes::Scene& scene_;
+    FeatureSet features_;
     TextureFilter filter_;
-    bool hasMaterialTable_;
     DrawList drawList_;
     std::vector<scenes::AlphaMode> alphaModes_; ///< by material, that drawList_ was made with
-    std::vector<bool> materialsInUse_;          ///< by material: those in the table, in its order
+    std::vector<bool> materialsInUse_;          ///< by material; the table holds those in use, in their order
+    std::vector<std::optional<TangentBasis>> tangentBases_; ///< by material, that the vertex streams were made with
     VertexStreams::Ranges ranges_;
     std::vector<Batch> transparent_;
     std::vector<std::unique_ptr<gpu::Buffer>> vertexBuffers_;

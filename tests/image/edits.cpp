@@ -50,6 +50,25 @@ TEST_F(Edits, factorsOfMaterialsAreAlwaysDrawnAsByANewRenderer) {
     }
 }
 
+TEST_F(Edits, tangentsAreDerivedAnewWhereAMaterialFollowsOthersThanBefore) {
+    // Anisotropy and coats that begin, and end again. Others of the scene keep both features in use.
+    std::vector<std::size_t> turned;
+    expectSameAsNew(
+        [&turned](scenes::Scene& scene) {
+            const bool begins = turned.empty();
+            for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+                scenes::Material& material = scene.materials[i];
+                if (begins && material.model == scenes::MaterialModel::MetallicRoughness &&
+                    material.anisotropyStrength == 0.0f && material.clearcoat == 0.0f)
+                    turned.push_back(i);
+            }
+            ASSERT_FALSE(turned.empty());
+            for (const std::size_t i : turned)
+                scene.materials[i].anisotropyStrength = scene.materials[i].clearcoat = begins ? 0.7f : 0.0f;
+        },
+        true);
+}
+
 TEST_F(Edits, surfacesThatBecomeTransparentAreAlwaysDrawnAsByANewRenderer) {
     std::size_t next = 0;
     expectSameAsNew(
