@@ -126,8 +126,8 @@ std::unique_ptr<Context> Context::create(const ContextOptions& options) {
     if (!answers.tooOld.empty())
         throw std::runtime_error(
             fmt::format("no OpenGL 4.5 context can be made: {}; use another driver, such as Mesa's llvmpipe (Debian: "
-                        "libgl1-mesa-dri, without GALLIUM_DRIVER in the environment)",
-                        answers.tooOld));
+                        "libgl1-mesa-dri, without GALLIUM_DRIVER in the environment); all that were tried: {}",
+                        answers.tooOld, fmt::join(answers.all, "; ")));
     throw std::runtime_error(fmt::format(
         "no OpenGL 4.5 context can be made ({}); install a driver (Debian: libegl1 libgl1-mesa-dri{}, or the maker's)",
         fmt::join(answers.all, "; "), window ? " libglx-mesa0 and a running display for windows" : ""));
