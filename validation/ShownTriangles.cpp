@@ -20,13 +20,30 @@ using reference::Layers;
 /// thinner than the whole hold.
 constexpr std::size_t kRays = 17;
 
+/// An id as a picture of floats holds it, which is exact below 2^24; one that is none of the scene's is told as such.
+std::uint32_t drawnId(float id) {
+    constexpr std::uint32_t kNoId = ~0u;
+    return id >= 0.0f && id < 0x1p32f ? std::uint32_t(id) : kNoId;
+}
+
+Ids asDrawn(const Ids& ids) {
+    return {drawnId(float(ids.object)), drawnId(float(ids.triangle)), drawnId(float(ids.transparent))};
+}
+
+Layers layersAt(const reference::Probe& probe, const glm::dvec2& placePixels) {
+    Layers layers = probe.at(placePixels);
+    layers.ids = asDrawn(layers.ids);
+    for (Layers::Other& other : layers.others) other.ids = asDrawn(other.ids);
+    return layers;
+}
+
 std::array<Layers, kRays> layersAround(const reference::Probe& probe, const glm::dvec2& centrePixels) {
-    std::array<Layers, kRays> layers{probe.at(centrePixels)};
+    std::array<Layers, kRays> layers{layersAt(probe, centrePixels)};
     std::size_t next = 0;
     for (const double shift : {kEdgeShiftPixels, 0.25 * kEdgeShiftPixels})
         for (int y = -1; y <= 1; ++y)
             for (int x = -1; x <= 1; ++x)
-                if (x != 0 || y != 0) layers[++next] = probe.at(centrePixels + shift * glm::dvec2(x, y));
+                if (x != 0 || y != 0) layers[++next] = layersAt(probe, centrePixels + shift * glm::dvec2(x, y));
     return layers;
 }
 
@@ -142,7 +159,7 @@ std::vector<Ids> drawnIds(recipes::Renderer& renderer, const frame::FrameSetting
     const std::vector<float> drawn = renderer.render(recipes::Technique::Forward, view).radiance;
     std::vector<Ids> ids(drawn.size() / 4);
     for (std::size_t i = 0; i < ids.size(); ++i)
-        ids[i] = {std::uint32_t(drawn[4 * i]), std::uint32_t(drawn[4 * i + 1]), std::uint32_t(drawn[4 * i + 2])};
+        ids[i] = {drawnId(drawn[4 * i]), drawnId(drawn[4 * i + 1]), drawnId(drawn[4 * i + 2])};
     return ids;
 }
 
@@ -151,13 +168,15 @@ std::vector<Ids> drawnIds(recipes::Renderer& renderer, const frame::FrameSetting
 ShownTriangles shownTriangles(recipes::Renderer& renderer, const frame::FrameSettings& settings,
                               const std::vector<Ids>& ids) {
     const std::vector<Ids> shown = drawnIds(renderer, settings);
-    const IdPictures pictures{settings.sizePixels, shown, ids};
+    std::vector<Ids> truth(ids.size());
+    std::transform(ids.begin(), ids.end(), truth.begin(), asDrawn);
+    const IdPictures pictures{settings.sizePixels, shown, truth};
     const std::vector<Instance> instances = instancesOf(renderer.scene());
     ShownTriangles result;
     result.excluded.resize(ids.size());
     std::vector<std::size_t> open; // pixels that are to be explained
     for (std::size_t i = 0; i < ids.size(); ++i) {
-        if (shown[i] != ids[i]) open.push_back(i);
+        if (shown[i] != truth[i]) open.push_back(i);
     }
     if (open.empty()) return result;
 
@@ -180,7 +199,7 @@ ShownTriangles shownTriangles(recipes::Renderer& renderer, const frame::FrameSet
             entry.kind = loss.first;
             entry.x = int(open[k]) % pictures.size.x;
             entry.y = int(open[k]) / pictures.size.x;
-            if (loss.second == 0) continue;
+            if (loss.second == 0 || loss.second > instances.size()) continue; // no instance of the scene
             entry.instance = loss.second - 1;
             entry.node = instances[*entry.instance].node->name;
             entry.mesh = instances[*entry.instance].mesh->name;
