@@ -42,7 +42,7 @@ validation::BenchRecord runBench(gpu::Context& context, const validation::BenchS
     for (std::size_t i = 0; i < groups.size(); ++i) {
         if (!store.isOfShard(i)) continue;
         states[i] = store.load(i);
-        steps += validation::stepsOf(groups[i], states[i], run.options);
+        steps += validation::stepsOf(context.capabilities(), groups[i], states[i], run.options);
     }
     Progress progress("measuring", steps, quiet);
     run.options.progress = [&progress](std::size_t done) { progress.advance(done); };

@@ -13,10 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double litCoveredShare(const ErrorFigures& figures) {
-    return figures.compared > 0 ? double(figures.litCovered) / double(figures.compared) : 0.0;
-}
-
 Json toleranceJson(const Tolerance& tolerance) {
     return {{"maxRel", figureJson(tolerance.maxRel)}, {"bitEqual", figureJson(tolerance.bitEqual)},
             {"relMse", figureJson(tolerance.relMse)}, {"p999Rel", figureJson(tolerance.p999Rel)},
@@ -63,7 +59,7 @@ Json pairJson(const ComparePair& pair) {
                  {"negative", figures.bad.negative},
                  {"excluded", figureJson(figures.excluded)},
                  {"litShare", figureJson(figures.litShare)},
-                 {"litCovered", figureJson(litCoveredShare(figures))},
+                 {"litCovered", figureJson(figures.litCoveredShare())},
                  {"meanLuminance", figureJson(figures.meanLuminance)}};
     Json why = reasons(json, figures);
     if (pair.culling.empty()) why["culling"] = "every light is visited, or the picture came from elsewhere";
@@ -118,7 +114,7 @@ Row rowOf(const ComparePair& pair) {
             figureText(figures.bias),
             figureText(figures.flip.value_or(std::nan(""))),
             psnrText(figures),
-            shareText(litCoveredShare(figures)),
+            shareText(figures.litCoveredShare()),
             pair.verdict.ok ? "ok" : "MISSED"};
 }
 

@@ -46,8 +46,8 @@ struct CompareRecord {
     int width = 0, height = 0;
     std::string renderer; ///< as GL reports it
     std::vector<ComparePair> pairs;
-    int samples = 1;             ///< of a pixel, as the driver gives them
-    bool excludesPixels = false; ///< those that show different triangles were left out, the same ones of every pair
+    int samples = 1;                     ///< of a pixel, as the driver gives them
+    bool excludesPixels = false;         ///< those that show different triangles were left out
     std::vector<LostGeometry> lost = {}; ///< what no rounding explains of that; then no pair holds
     std::vector<LeftOutTechnique> leftOut = {};
     std::optional<RangeTruncation> rangeTruncation = {}; ///< where a tolerance is set

@@ -144,7 +144,6 @@ ErrorFigures errorFigures(const Picture& a, const Picture& b, std::span<const st
     figures.meanLuminance = signalB.meanLuminance;
     figures.litShare = signalB.litShare;
     figures.meanLuminanceA = signalA.meanLuminance;
-    figures.litShareA = signalA.litShare;
     static_cast<DisplayFigures&>(figures) = shown.a && shown.b
                                                 ? displayFigures(*shown.a, *shown.b, errors.state)
                                                 : displayFigures(toDisplayImage(a), toDisplayImage(b), errors.state);

@@ -43,14 +43,16 @@ struct ErrorFigures : DisplayFigures {
     BadPixels badA, badB; ///< covered pixels, by picture
     BadPixels badOutside; ///< pixels that are not covered, or excluded; bad in a or in b
 
-    double excluded = 0.0; ///< share of the pixels covered in either picture that were excluded
-    double litShare;       ///< share of all pixels of b that are lit; of a, by b's threshold: litShareA
-    double litShareA;
+    double excluded = 0.0;       ///< share of the pixels covered in either picture that were excluded
+    double litShare;             ///< share of all pixels of b that are lit
     std::size_t litCovered = 0;  ///< compared pixels of b that are lit
     std::size_t litCoveredA = 0; ///< of a, by b's threshold
     double meanLuminance;        ///< of b, over all its finite pixels; of a: meanLuminanceA
     double meanLuminanceA;
     double typicalLuminance; ///< m: median luminance of b's lit covered pixels, at least 1e-30
+
+    /// Of the compared pixels.
+    double litCoveredShare() const { return compared > 0 ? double(litCovered) / double(compared) : 0.0; }
 };
 
 /// A pair as it is shown; without it as a display shows radiance without exposure and tone map: clamped to 0..1, sRGB.

@@ -35,6 +35,10 @@ FloorBench::FloorBench(recipes::Renderer& renderer, const frame::FrameSettings& 
     many_ = floorLights(frame.lights, kManyLights);
 }
 
+std::size_t FloorBench::kindsOf(std::span<const LightStoreInfo> stores) {
+    return 1 + 2 * stores.size();
+}
+
 std::vector<TimedFrame> FloorBench::frames() {
     std::vector<TimedFrame> frames{[this](const glm::dvec3& eyeOffsetWS) { geometry_.draw(eyeOffsetWS); }};
     if (!lighting_) return frames;
@@ -59,7 +63,7 @@ FloorFigures FloorBench::figures(std::span<const std::vector<double>> timesMs) c
         figures.whyNoStores = "the scene has no lit surface, or no light in view";
         return figures;
     }
-    assert(timesMs.size() == 1 + 2 * stores_.size());
+    assert(timesMs.size() == kindsOf(stores_));
     const double pairs = double(sizePixels_.x) * double(sizePixels_.y) * double(kManyLights - kFewLights);
     for (std::size_t i = 0; i < stores_.size(); ++i) {
         const TimeSpread msPerPair = slopeSpread(timesMs[1 + 2 * i], timesMs[2 + 2 * i], pairs);
@@ -75,7 +79,7 @@ FloorFigures FloorBench::figures(std::span<const std::vector<double>> timesMs) c
 
 FloorFigures FloorBench::figuresOf(std::vector<std::vector<double>> timesMs) {
     InterleaveOptions more;
-    more.warmUpRounds = 0; // the rounds before have drawn every kind
+    more.warmUpRounds = 1; // rounds that were kept from an earlier run have drawn nothing in this one
     more.rounds = kLeastRounds - int(timesMs[0].size());
     if (more.rounds > 0) {
         const std::vector<std::vector<double>> others = timeInterleaved(frames(), more);

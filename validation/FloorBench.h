@@ -47,6 +47,9 @@ public:
     /// The renderer must outlive the object. Throws InputError as Renderer::draw does.
     FloorBench(recipes::Renderer& renderer, const frame::FrameSettings& settings);
 
+    /// How many kinds of frame the floor of a lit scene takes: the geometry, and two numbers of lights in each store.
+    static std::size_t kindsOf(std::span<const LightStoreInfo> stores);
+
     /// The frames to time; they refer to the object.
     std::vector<TimedFrame> frames();
     /// `timesMs`: one time a round of each of frames(). With fewer than kLeastRounds of them, the others are timed now.

@@ -23,6 +23,7 @@ std::span<const LightStoreInfo> lightStoreTable() {
 }
 
 std::span<const LightStoreInfo> lightStores(const gpu::Capabilities& gl) {
+    static_assert(std::rbegin(kStores)->store == LIGHT_STORE_UNIFORM);
     return std::span(kStores).first(std::size(kStores) - (gl.indexesUniformBlocks ? 0 : 1));
 }
 

@@ -32,6 +32,9 @@ struct TrueLight {
 struct EndlessLight {
     int sceneLight = 0;
     glm::dvec4 placeWS{0.0}; ///< homogeneous: its position, or with w = 0 the direction that it comes from
+    bool isSpot = false;
+    glm::dvec3 directionWS{0.0};
+    double cosOuter = -1.0;
 };
 
 struct TrueLights {
@@ -58,7 +61,8 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
         if (reachesEverywhere(light, settings.rangeTolerance)) {
             const bool isFar = light.type == scenes::LightType::Directional;
             lights.everywhere.push_back(
-                {int(i), isFar ? glm::dvec4(-light.directionWS, 0.0) : glm::dvec4(light.positionWS, 1.0)});
+                {int(i), isFar ? glm::dvec4(-light.directionWS, 0.0) : glm::dvec4(light.positionWS, 1.0), isSpot,
+                 light.directionWS, std::cos(double(light.outerConeRadians))});
             continue;
         }
         TrueLight plain;
@@ -80,6 +84,12 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
     return lights;
 }
 
+/// Whether a point lies in a light's cone; everywhere where it has none. `toLight` is of any length.
+template <class Light>
+bool isInCone(const Light& light, const glm::dvec3& toLight) {
+    return !light.isSpot || glm::dot(-toLight, light.directionWS) > light.cosOuter * glm::length(toLight);
+}
+
 bool reaches(const TrueLight& light, const glm::dvec3& positionWS, double squaredDistance) {
     // The falloff itself, not the radius that solves it, is held against the tolerance.
     const double distance = std::sqrt(squaredDistance);
@@ -87,9 +97,7 @@ bool reaches(const TrueLight& light, const glm::dvec3& positionWS, double square
                                                       light.attenuation.z * squaredDistance)
                             : !(squaredDistance < light.squaredRange))
         return false;
-    if (!light.isSpot) return true;
-    const glm::dvec3 away = positionWS - light.positionWS;
-    return glm::dot(away, light.directionWS) > light.cosOuter * distance;
+    return isInCone(light, light.positionWS - positionWS);
 }
 
 /// The counts of some rows of pixels.
@@ -151,7 +159,7 @@ private:
         std::uint64_t everywhere = 0;
         for (const EndlessLight& light : lights_.everywhere) {
             const glm::dvec3 toLight = glm::dvec3(light.placeWS) - light.placeWS.w * positionWS;
-            if (glm::dot(normal, toLight) > 0.0) ++figures.everywhereLit;
+            if (glm::dot(normal, toLight) > 0.0 && isInCone(light, toLight)) ++figures.everywhereLit;
             if (std::binary_search(visited.begin(), visited.end(), light.sceneLight))
                 ++everywhere;
             else

@@ -61,7 +61,7 @@ std::string allFiguresHtml(const ErrorFigures& figures) {
         {"the same, uncovered", countsHtml(figures.badOutside)},
         {"Covered pixels", fmt::format("{}", figures.covered)},
         {"Excluded of them", shareHtml(figures.excluded)},
-        {"Lit share", shareHtml(figures.litShare)},
+        {"Lit of the compared", shareHtml(figures.litCoveredShare())},
         {"Mean luminance", figureHtml(figures.meanLuminance)}};
     std::string html = "<dl class=\"figures\">\n";
     for (const auto& [label, value] : entries) html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", label, value);

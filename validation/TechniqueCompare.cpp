@@ -160,9 +160,11 @@ void addHardwareFilter(recipes::Renderer& renderer, const CompareRequest& reques
     settings.layout = frame::layoutTable()[0].layout;
     NamedPicture picture = rendered(renderer, request.techniques.front(), settings);
     picture.name = hardwareFilterName(picture.name);
-    PairTruth truth = referenceTruth(renderer, settings, request.renderedOne).of(picture.picture);
+    const TruthPicture reference = referenceTruth(renderer, settings, request.renderedOne);
+    PairTruth truth = reference.of(picture.picture);
     result.record.pairs.push_back(comparePair(picture.name, picture.picture, result.truth.name, truth.picture,
                                               referenceTolerance(renderer.scene(), settings.filter), truth.excluded));
+    missLostGeometry(result.record.pairs.back().verdict, reference.triangles.lost);
     result.pictures.push_back(std::move(picture));
     result.truths.push_back(std::move(truth));
 }
@@ -280,8 +282,8 @@ CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabili
         result.truths.push_back(std::move(own));
         request.renderedOne();
     }
-    if (showsHardwareFilter(renderer.scene(), request)) addHardwareFilter(renderer, request, result);
     for (ComparePair& pair : result.record.pairs) missLostGeometry(pair.verdict, result.record.lost);
+    if (showsHardwareFilter(renderer.scene(), request)) addHardwareFilter(renderer, request, result);
     if (measuresTruncation(request)) {
         result.record.rangeTruncation = truncationOf(renderer, request);
         request.renderedOne();

@@ -64,11 +64,10 @@ std::vector<std::string> pictureNames(const scenes::Scene& scene, const CompareR
 /// Renders every technique and measures it against the truth. Pairs that must agree to the last bit (no G-buffer, or
 /// the exact layout, on a software rasteriser) are held to that; see pairTolerance(). Where the G-buffer is packed,
 /// each channel's share of the error is found by storing that channel alone in fp32, once for techniques whose pictures
-/// are equal in every bit, and against a technique the picture with all of them in fp32 must hold the exact layout's
-/// tolerance. What a range tolerance drops is measured on
-/// the technique that is the truth, or the first one where that is none. Against the reference pixels that show
-/// other triangles are excluded; textures filtered by hardware are one pair of their own there (hardwareFilterName()),
-/// against the reference's picture with that filter.
+/// are equal in every bit; and unless the truth is a file, the picture with all of them in fp32 must hold the exact
+/// layout's tolerance. What a range tolerance drops is measured on the technique that is the truth, or the first one
+/// where that is none. Against the reference, pixels that show other triangles are excluded; textures filtered by
+/// hardware are one pair of their own there (hardwareFilterName()), against the reference's picture with that filter.
 CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabilities& gl,
                                 const CompareRequest& request);
 

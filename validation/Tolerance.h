@@ -28,8 +28,8 @@ struct Verdict {
     std::vector<std::string> missed; ///< one sentence each, empty exactly when ok
 };
 
-/// Whether a pair holds. Whatever the tolerance, it does not when there is no signal in either picture (mean luminance
-/// 0, no covered pixel lit, or under 10 % of them where the pair is not equal to the last bit: two black pictures never
+/// Whether a pair holds. Whatever the tolerance, it does not when one of the pictures has no signal (mean luminance 0,
+/// no covered pixel lit, or under 10 % of them where the pair is not equal to the last bit: two black pictures never
 /// pass), when any pixel is NaN, infinite or (unless isSigned) negative, or when over 5 % of the covered pixels were
 /// excluded. A figure that could not be measured misses its tolerance.
 Verdict checkTolerance(const ErrorFigures& figures, const Tolerance& tolerance);

@@ -11,7 +11,6 @@
 #include "renderer/culling/TileGrid.h"
 #include "scenes/Error.h"
 #include "scenes/Limits.h"
-#include "scenes/Load.h"
 
 namespace tessera::recipes {
 

@@ -12,7 +12,6 @@
 
 #include "scenes/Error.h"
 #include "scenes/Limits.h"
-#include "scenes/Load.h"
 #include "scenes/Names.h"
 #include "scenes/import/JsonText.h"
 

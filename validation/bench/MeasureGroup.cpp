@@ -165,10 +165,10 @@ private:
 
 } // namespace
 
-std::size_t stepsOf(const PlannedGroup& group, const GroupState& state, const BenchOptions& options) {
+std::size_t stepsOf(const gpu::Capabilities& gl, const PlannedGroup& group, const GroupState& state,
+                    const BenchOptions& options) {
     if (state.isDone) return 0;
-    // The floor's frames: the geometry, and two numbers of lights in each store.
-    const std::size_t kinds = group.points.size() + 1 + 2 * lightStoreTable().size();
+    const std::size_t kinds = group.points.size() + FloorBench::kindsOf(lightStores(gl));
     const int left = options.frames - int(state.roundsMs.size());
     const std::size_t rounds = left > 0 ? std::size_t(left + InterleaveOptions{}.warmUpRounds) : 0;
     return rounds * kinds + kStepsOfTheTruth + kStepsOfTheCauses +

@@ -30,7 +30,8 @@ struct BenchOptions {
 };
 
 /// Steps that `progress` will count for a group from the state it is in.
-std::size_t stepsOf(const PlannedGroup& group, const GroupState& state, const BenchOptions& options);
+std::size_t stepsOf(const gpu::Capabilities& gl, const PlannedGroup& group, const GroupState& state,
+                    const BenchOptions& options);
 
 /// Measures what is missing of a group. The scene is loaded already, with the group's number of lights. Throws what
 /// drawing throws, and InputError where the reference does not take the settings.

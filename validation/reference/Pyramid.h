@@ -25,7 +25,7 @@ public:
 private:
     struct Level {
         glm::ivec2 sizeTexels;
-        std::vector<glm::vec4> texels; ///< single precision: a rounding of 6e-8, and the head's maps fit into memory
+        std::vector<glm::vec4> texels; ///< single precision: a rounding of 6e-8, for half the memory
     };
     Level halved(int level) const;
 

@@ -7,7 +7,7 @@
 
 namespace tessera::reference {
 
-/// The pictures that a scene's materials use, ready to be looked up.
+/// The pictures that the materials of what is drawn use, ready to be looked up.
 class Textures {
 public:
     /// For materials without any.

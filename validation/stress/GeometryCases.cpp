@@ -13,11 +13,6 @@ namespace {
 
 using scenes::TextureSlot;
 
-constexpr double kGeometryTolerance = 1e-3;
-constexpr const char* kGeometryReason =
-    "fp32 lighting of the same surface, most of it 3e-6: where n.v or n.l is near 0 at a "
-    "ball's edge it keeps fewer digits";
-
 frame::FrameSettings exactSettings() {
     frame::FrameSettings settings;
     settings.sizePixels = {64, 45};
@@ -128,7 +123,7 @@ std::vector<StressPicture> degeneratePictures(StressEffort) {
 
 void addGeometryCases(std::vector<StressCase>& cases) {
     const auto add = [&cases](const char* name, const char* holds, auto pictures) {
-        cases.push_back({name, holds, StressBound::WorstRel, kGeometryTolerance, kGeometryReason, {}, pictures});
+        cases.push_back({name, holds, StressBound::WorstRel, kBallTolerance, kBallReason, {}, pictures});
     };
     add("geometry/normal_map", "normals from maps that point away from the viewer, sideways and steeply",
         &normalMapPictures);

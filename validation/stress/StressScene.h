@@ -4,6 +4,11 @@
 /// The scene that picture cases vary, and short forms for what they add to it.
 namespace tessera::validation {
 
+/// What a frame of balls is held to against the reference.
+inline constexpr double kBallTolerance = 1e-3;
+inline constexpr const char* kBallReason = "fp32 lighting of the same surface, most of it 3e-6: where n.v or n.l is "
+                                           "near 0 at a ball's edge it keeps fewer digits";
+
 /// A floor 4 m wide with a ball and a slanted board of every lit material model on it, one point and one spot light,
 /// and a camera that sees all of it from 5 m away. World origin in the middle of the floor.
 scenes::Scene stressScene();
