@@ -17,8 +17,8 @@ constexpr int kGroup = 64;
 /// The same on software rasterisers, which run 4 to 16 together; there a row of tiles is seldom a multiple of 64.
 constexpr int kSoftwareGroup = 8;
 
-/// A light takes at most: itself, the end of the loop that looked for it, and its cells, tested and written, twice,
-/// once to count and once to write; and each of the other lanes may leave it out one after the other.
+/// A light takes at most, once to count and once to write: itself, the end of the loop that looked for it, and its
+/// cells, tested and written. The other lanes' loops may pass over it in iterations of their own, up to 15 more.
 constexpr std::size_t kIterationsALight = 2 * (2 + 2 * (LIGHT_TILE_SLICES + 1)) + 2 * (frame::kMostLanesTogether - 1);
 /// Lights that a lane may look at in one shader on software rasterisers, whose loops end after some iterations.
 constexpr std::size_t kSoftwareLightsALane =

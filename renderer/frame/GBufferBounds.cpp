@@ -101,9 +101,8 @@ std::vector<FieldBound> fieldBounds(Encoding encoding) {
 RadianceRange radianceRange(Encoding encoding) {
     assert(encoding != Encoding::Exact);
     const FieldWidths& widths = widthsIn(encoding, Channel::Emission);
-    const int top = std::min((1 << (widths[0] - 1)) + 4, 128); // as topExponent() of shaders/lib/gbuffer_encodings.glsl
-    const int coarsest = std::min({widths[1], widths[2], widths[3]});
-    return {std::ldexp(1.0, top - largestCode(widths[0]) - 1), std::ldexp(1.0 - std::ldexp(1.0, -coarsest), top)};
+    const int top = (1 << (widths[0] - 1)) + 4; // as topExponent() of shaders/lib/gbuffer_encodings.glsl
+    return {std::ldexp(1.0, top - largestCode(widths[0]) - 1), std::ldexp(1.0 - std::ldexp(1.0, -widths[1]), top)};
 }
 
 } // namespace tessera::frame

@@ -98,6 +98,11 @@ constexpr ChannelInfo kChannels[] = {
      false},
 };
 static_assert(std::size(kChannels) == kChannelCount);
+// One exponent serves three colours of one width.
+static_assert(std::ranges::all_of(kChannels, [](const ChannelInfo& row) {
+    const auto isEven = [](const FieldWidths& widths) { return widths[1] == widths[2] && widths[1] == widths[3]; };
+    return row.channel != Channel::Emission || (isEven(row.packed) && isEven(row.slim));
+}));
 
 const ChannelInfo& infoOf(Channel channel) {
     return kChannels[static_cast<std::size_t>(channel)];

@@ -6,9 +6,9 @@
 /// How shaders get through all lights although Mesa's software rasterisers end loops early.
 namespace tessera::frame {
 
-/// Iterations that one invocation of a shader makes, over all its loops, nested ones included; after them every loop
-/// ends after its first iteration, without an error. Source: LP_MAX_TGSI_LOOP_ITERATIONS in Mesa's
-/// gallivm/lp_bld_limits.h; invocations that run together, at most kMostLanesTogether, share one counter.
+/// Iterations of all loops of a shader, nested ones included, that invocations which run together make between them;
+/// kMostLanesTogether may run together. After them every loop ends after its first iteration, without an error.
+/// Source: LP_MAX_TGSI_LOOP_ITERATIONS in Mesa's gallivm/lp_bld_limits.h.
 inline constexpr std::size_t kMostLoopIterations = 65535;
 inline constexpr std::size_t kMostLanesTogether = 16;
 /// What loops other than those over lights may make: texture filters, the cells of a tile.

@@ -3,11 +3,12 @@
 
 #if SAMPLES > 1
 // With several samples a pixel is still lit once, where the triangle's plane meets the ray through the pixel's centre.
-// A triangle that covers other samples only may have left the view there: its plane passes behind the eye (0 or less)
-// or before the near plane (more than 1). The samples it does cover lie within half a pixel, so within `reach` of the
-// centre's depth: where the plane could end within the pixel, the nearest depth a sample can have stands in. The result
-// is finite, never before the near plane, and at most twice as far away as a covered sample. The floor matters only
-// where a triangle seen edge-on is so steep that the sum loses its digits.
+// A triangle that covers other samples only may have left the depths there: its plane passes the far end or, with depth
+// as 1/distance, behind the eye (0 or less), or passes before the near end (more than 1). The samples it does cover lie
+// within half a pixel, so within `reach` of the centre's depth: where the plane could end within the pixel, the nearest
+// depth a sample can have stands in. The result is finite, never before the near end, and with depth as 1/distance at
+// most twice as far away as a covered sample. The floor matters only where a triangle seen edge-on is so steep that the
+// sum loses its digits.
 float shadingDepth()
 {
     const float kFloor = 1e-6;

@@ -2,9 +2,9 @@
 // What every pass of a frame knows: the camera, in lighting space (LS). Lighting space has the axes of the world or of
 // the view, as FrameSettings::space says, and its origin on the view axis: at the eye, or in the middle of what is seen
 // where all of it is far away, so that fp32 keeps the digits of positions. The CPU puts normals, lights and rays into
-// it in double precision, and shaders do not know which it is. Vertices pass through world axes at that origin (RS)
-// whatever lighting space is: rounded in another space they would lie elsewhere by a bit, and pixels at edges would
-// show another triangle.
+// it in double precision, and shaders do not know which it is. Vertices pass through world axes at that origin, which
+// is rasterising space (RS), whatever lighting space is: rounded in another space they would lie elsewhere by a bit,
+// and pixels at edges would show another triangle.
 #include "interop.h"
 
 SHARED_BEGIN
