@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstring>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -92,6 +93,24 @@ PictureTags tagsOf(const OIIO::ImageSpec& spec) {
     return tags;
 }
 
+/// The bytes of the file. OpenImageIO 2.4's own pread() reads what lies before them for an offset below 0, as broken
+/// tables of offsets hold.
+class FileInMemory : public OIIO::Filesystem::IOMemReader {
+public:
+    explicit FileInMemory(std::span<const std::byte> bytes) : IOMemReader(bytes.data(), bytes.size()), bytes_(bytes) {}
+
+    std::size_t pread(void* target, std::size_t count, std::int64_t offset) override {
+        if (offset < 0 || static_cast<std::uint64_t>(offset) >= bytes_.size()) return 0;
+        const std::span<const std::byte> rest = bytes_.subspan(static_cast<std::size_t>(offset));
+        count = std::min(count, rest.size());
+        std::memcpy(target, rest.data(), count);
+        return count;
+    }
+
+private:
+    std::span<const std::byte> bytes_;
+};
+
 DecodedPicture decode(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
                       LoadLedger& ledger) {
     const std::string formatName(format.name);
@@ -104,9 +123,9 @@ DecodedPicture decode(std::span<const std::byte> bytes, const std::string& name,
     // Alpha is coverage or opacity, and colours are meant without it.
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
-    OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
+    FileInMemory file(bytes);
     OIIO::ImageSpec spec;
-    if (!input->supports("ioproxy") || !input->set_ioproxy(&reader))
+    if (!input->supports("ioproxy") || !input->set_ioproxy(&file))
         throw std::runtime_error("this OpenImageIO cannot read the format from memory; install 2.4 or newer");
     if (!input->open("picture." + formatName, spec, config)) throw std::runtime_error(input->geterror());
 
