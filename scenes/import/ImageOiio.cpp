@@ -111,29 +111,21 @@ private:
     std::span<const std::byte> bytes_;
 };
 
-DecodedPicture decode(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
-                      LoadLedger& ledger) {
-    const std::string formatName(format.name);
+DecodedPicture decode(OIIO::ImageInput& input, std::span<const std::byte> bytes, const std::string& name,
+                      const PictureFormat& format, LoadLedger& ledger) {
     const std::uint64_t mark = ledger.usedBytes();
     if (format.claimedSize != nullptr) requirePictureSize(format.claimedSize(bytes), bytes, name, ledger);
-    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(formatName);
-    if (!input)
-        throw std::runtime_error(fmt::format("OpenImageIO cannot read {}: {}; install it with that format", formatName,
-                                             oneLine(OIIO::geterror())));
     // Alpha is coverage or opacity, and colours are meant without it.
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
-    FileInMemory file(bytes);
     OIIO::ImageSpec spec;
-    if (!input->supports("ioproxy") || !input->set_ioproxy(&file))
-        throw std::runtime_error("this OpenImageIO cannot read the format from memory; install 2.4 or newer");
-    if (!input->open("picture." + formatName, spec, config)) throw std::runtime_error(input->geterror());
+    if (!input.open(fmt::format("picture.{}", format.name), spec, config)) throw std::runtime_error(input.geterror());
 
     if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 || spec.deep)
         throw InputError(fmt::format("{}: the picture has {}x{}x{} texels of {} channels{}; a flat picture with at "
                                      "least one of each is needed",
                                      name, spec.width, spec.height, spec.depth, spec.nchannels,
-                                     spec.deep ? ", several deep" : ""));
+                                     spec.deep ? ", with several samples at different depths a texel" : ""));
     DecodedPicture decoded{{}, tagsOf(spec)};
     Image& image = decoded.image;
     image.name = name;
@@ -145,9 +137,9 @@ DecodedPicture decode(std::span<const std::byte> bytes, const std::string& name,
         2 * static_cast<std::uint64_t>(spec.nchannels) * texelBytes(image.format) / 4 + texelBytes(image.format);
     ledger.settle(mark, 0);
     requirePictureSize({spec.width, spec.height, bytesATexel}, bytes, name, ledger);
-    if (!readTexels(*input, channelsOf(spec), image))
-        throw InputError(fmt::format("{}: the {} picture is broken or cut short ({}); save it again", name, formatName,
-                                     oneLine(input->geterror())));
+    if (!readTexels(input, channelsOf(spec), image))
+        throw InputError(fmt::format("{}: the {} picture is broken or cut short ({}); save it again", name, format.name,
+                                     oneLine(input.geterror())));
     return decoded;
 }
 
@@ -155,8 +147,17 @@ DecodedPicture decode(std::span<const std::byte> bytes, const std::string& name,
 
 DecodedPicture decodeByOiio(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
                             LoadLedger& ledger) {
+    // Declared first: the reader asks for it until it ends.
+    FileInMemory file(bytes);
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(std::string(format.name));
+    if (!input)
+        throw std::runtime_error(fmt::format("{}: OpenImageIO cannot read {} ({}); install it with that format", name,
+                                             format.name, oneLine(OIIO::geterror())));
+    if (!input->supports("ioproxy") || !input->set_ioproxy(&file))
+        throw std::runtime_error(
+            fmt::format("{}: this OpenImageIO cannot read {} from memory; install 2.4 or newer", name, format.name));
     try {
-        return decode(bytes, name, format, ledger);
+        return decode(*input, bytes, name, format, ledger);
     } catch (const InputError&) {
         throw;
     } catch (const std::bad_alloc&) {

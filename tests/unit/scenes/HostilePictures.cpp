@@ -36,5 +36,21 @@ TEST(HostilePicture, nothingIsEverReadBeforeTheBeginningOfAnExr) {
                 HasSubstr("Unexpected end of file); save it again"));
 }
 
+TEST(HostilePicture, whatOpenImageIoLacksIsNeverTakenForABrokenPicture) {
+    const auto failureOf = [](const char* format) {
+        LoadLedger ledger;
+        try {
+            decodeByOiio({}, "a", PictureFormat{format, {}, {}, decodeByOiio, nullptr}, ledger);
+        } catch (const InputError&) {
+        } catch (const std::runtime_error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_THAT(failureOf("nosuch"), AllOf(testing::StartsWith("a: OpenImageIO cannot read nosuch ("),
+                                           testing::EndsWith("); install it with that format")));
+    EXPECT_EQ(failureOf("softimage"), "a: this OpenImageIO cannot read softimage from memory; install 2.4 or newer");
+}
+
 } // namespace
 } // namespace tessera::scenes
