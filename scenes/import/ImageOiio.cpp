@@ -113,7 +113,6 @@ private:
 
 DecodedPicture decode(OIIO::ImageInput& input, std::span<const std::byte> bytes, const std::string& name,
                       const PictureFormat& format, LoadLedger& ledger) {
-    const std::uint64_t mark = ledger.usedBytes();
     if (format.claimedSize != nullptr) requirePictureSize(format.claimedSize(bytes), bytes, name, ledger);
     // Alpha is coverage or opacity, and colours are meant without it.
     OIIO::ImageSpec config;
@@ -132,10 +131,10 @@ DecodedPicture decode(OIIO::ImageInput& input, std::span<const std::byte> bytes,
     image.width = spec.width;
     image.height = spec.height;
     image.format = texelFormatOf(spec.format);
-    // The reader's own copy, what it hands over, and the texels made of that.
+    // The reader's own copy, where its header did not tell it, what it hands over, and the texels made of that.
+    const std::uint64_t copies = format.claimedSize != nullptr ? 1 : 2;
     const std::uint64_t bytesATexel =
-        2 * static_cast<std::uint64_t>(spec.nchannels) * texelBytes(image.format) / 4 + texelBytes(image.format);
-    ledger.settle(mark, 0);
+        copies * static_cast<std::uint64_t>(spec.nchannels) * texelBytes(image.format) / 4 + texelBytes(image.format);
     requirePictureSize({spec.width, spec.height, bytesATexel}, bytes, name, ledger);
     if (!readTexels(input, channelsOf(spec), image))
         throw InputError(fmt::format("{}: the {} picture is broken or cut short ({}); save it again", name, format.name,

@@ -44,8 +44,10 @@ std::span<const PictureFormat> pictureFormats();
 void requirePictureSize(const PictureSize& size, std::span<const std::byte> file, const std::string& name,
                         LoadLedger& ledger);
 
-PictureSize claimedSizeOfGif(std::span<const std::byte> bytes);
 PictureSize claimedSizeOfExr(std::span<const std::byte> bytes);
+PictureSize claimedSizeOfGif(std::span<const std::byte> bytes);
+PictureSize claimedSizeOfJpeg(std::span<const std::byte> bytes);
+PictureSize claimedSizeOfWebp(std::span<const std::byte> bytes);
 
 /// By OpenImageIO's reader of that format, and no other.
 DecodePicture decodeByOiio;

@@ -52,5 +52,65 @@ TEST(HostilePicture, whatOpenImageIoLacksIsNeverTakenForABrokenPicture) {
     EXPECT_EQ(failureOf("softimage"), "a: this OpenImageIO cannot read softimage from memory; install 2.4 or newer");
 }
 
+constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
+
+/// A line of /proc/self/status, or 0.
+std::uint64_t statusBytes(std::string_view key) {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with(key)) return 1024 * std::stoull(line.substr(key.size()));
+    return 0;
+}
+
+/// By how much the process grows at most while this runs. Source: Linux, proc(5): 5 sets the peak to what is in use.
+std::uint64_t growthOf(const std::function<void()>& action) {
+    std::ofstream("/proc/self/clear_refs") << 5;
+    const std::uint64_t before = statusBytes("VmHWM:");
+    action();
+    return statusBytes("VmHWM:") - before;
+}
+
+TEST(HostilePicture, aProgressiveJpegIsAlwaysChargedBeforeItsReaderReservesIt) {
+    std::string jpeg = bytesOfSeed("picture/progressive.jpg"); // 4000 x 4000 texels, none of which it holds
+    EXPECT_LT(growthOf([&] { EXPECT_THAT(refusalOf(jpeg, "a"), HasSubstr("claims 4000x4000 texels")); }), 8 * kMiB);
+    jpeg.resize(4096); // what may hold them
+    EXPECT_LT(growthOf([&] {
+                  EXPECT_THAT(refusalOf(jpeg, "a", 64 * kMiB),
+                              HasSubstr("a: the picture of 4000x4000 texels: asks for 91.6 MiB"));
+              }),
+              8 * kMiB);
+}
+
+TEST(HostilePicture, theCopyThatAReaderHoldsIsAlwaysChargedWithTheTexels) {
+    std::string jpeg = bytesOfSeed("picture/progressive.jpg");
+    jpeg.resize(4096);
+    // 6 bytes a texel are coefficients, 3 are handed over, 4 are kept.
+    EXPECT_THAT(refusalOf(jpeg, "a", 128 * kMiB), HasSubstr("asks for 106.8 MiB of memory, and 91.6 MiB are in use"));
+}
+
+TEST(HostilePicture, scansOfAJpegAreAlwaysBounded) {
+    std::string jpeg = bytesOfSeed("picture/progressive.jpg");
+    const std::size_t height = jpeg.find("\xff\xc2") + 5, scan = jpeg.find("\xff\xda");
+    jpeg.replace(height, 4, "\0\x10\0\x10", 4);
+    const std::string first = jpeg.substr(scan, jpeg.size() - 2 - scan);
+    const auto withScans = [&](int count) {
+        std::string scans;
+        for (int i = 0; i < count; ++i) scans += first;
+        return jpeg.substr(0, scan) + scans + "\xff\xd9";
+    };
+    EXPECT_EQ(decoded(withScans(100), "a").width, 16);
+    EXPECT_EQ(refusalOf(withScans(101), "a"), "a: the jpeg picture cannot be decoded (it has more than 100 scans, each "
+                                              "of which takes as long as a picture); save it again");
+}
+
+TEST(HostilePicture, everyKindOfWebpIsAlwaysChargedBeforeItsReaderReservesIt) {
+    for (const char* seed : {"picture/lossy.webp", "picture/lossless.webp", "picture/canvas.webp"}) {
+        std::string webp = bytesOfSeed(seed);
+        webp.resize(8192);
+        EXPECT_THAT(refusalOf(webp, seed, 64 * kMiB),
+                    HasSubstr("webp: the picture of 8000x8000 texels: asks for 488.3 MiB of memory, and 0 B are"));
+    }
+}
+
 } // namespace
 } // namespace tessera::scenes
