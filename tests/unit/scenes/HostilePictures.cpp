@@ -112,5 +112,14 @@ TEST(HostilePicture, everyKindOfWebpIsAlwaysChargedBeforeItsReaderReservesIt) {
     }
 }
 
+TEST(HostilePicture, textsOfAPngAreNeverKept) {
+    // One compressed text of 7.9 MB, and nine copies of it.
+    std::string png = bytesOfSeed("picture/text.png");
+    constexpr std::size_t kHeaderEnd = 33;
+    const std::string text = png.substr(kHeaderEnd, png.find("IDAT") - 4 - kHeaderEnd);
+    for (int i = 0; i < 9; ++i) png.insert(kHeaderEnd, text);
+    EXPECT_LT(growthOf([&] { EXPECT_EQ(decoded(png, "a").width, 1); }), 4 * kMiB);
+}
+
 } // namespace
 } // namespace tessera::scenes
