@@ -121,5 +121,37 @@ TEST(HostilePicture, textsOfAPngAreNeverKept) {
     EXPECT_LT(growthOf([&] { EXPECT_EQ(decoded(png, "a").width, 1); }), 4 * kMiB);
 }
 
+TEST(HostilePicture, aBmpOrTgaThatEndsEarlyIsAlwaysRefused) {
+    struct Seed {
+        const char* name;
+        std::vector<int> firstTexel; ///< at the top left
+    };
+    const Seed seeds[] = {{"picture/small.bmp", {0, 1, 2, 255}},
+                          {"tga/palette.tga", {8, 7, 6, 255}},
+                          {"tga/rgba.tga", {2, 1, 0, 3}},
+                          {"tga/rle.tga", {3, 2, 1, 255}}};
+    for (const Seed& seed : seeds) {
+        const std::string whole = bytesOfSeed(seed.name);
+        const Image image = decoded(whole, seed.name);
+        ASSERT_GE(image.texels.size(), 4u);
+        for (std::size_t i = 0; i < 4; ++i)
+            EXPECT_EQ(std::to_integer<int>(image.texels[i]), seed.firstTexel[i]) << seed.name;
+        for (std::size_t size = 2; size < whole.size(); ++size)
+            EXPECT_THAT(refusalOf(whole.substr(0, size), seed.name),
+                        HasSubstr("picture is broken or cut short (the file ends early); save it again"))
+                << seed.name << " cut to " << size;
+    }
+}
+
+TEST(HostilePicture, aTgaWithMoreBehindItsTexelsIsAlwaysRead) {
+    // More than stb_image reads ahead, and lines longer than that.
+    std::string tga = bytesOfSeed("tga/rgba.tga").substr(0, 18);
+    tga[12] = 100;
+    tga.append(2 * 100 * 4, '\x7f');
+    EXPECT_EQ(decoded(tga, "a.tga").texels, std::vector<std::byte>(800, std::byte{0x7f}));
+    EXPECT_EQ(decoded(tga + std::string(300, 'x'), "a.tga").texels, std::vector<std::byte>(800, std::byte{0x7f}));
+    EXPECT_THAT(refusalOf(tga.substr(0, tga.size() - 1), "a.tga"), HasSubstr("the file ends early"));
+}
+
 } // namespace
 } // namespace tessera::scenes
