@@ -9,7 +9,7 @@
 #define STBI_NO_STDIO
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
-#include <stb/stb_image.h>
+#include <stb_image.h>
 
 #include "scenes/Error.h"
 #include "scenes/import/PictureCodecs.h"
