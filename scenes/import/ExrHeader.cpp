@@ -80,10 +80,16 @@ struct Attribute {
     std::string name, type;
     Cursor value;
 
-    void require(bool good, std::uint64_t claimedBytes, const Cursor& left) const {
-        if (!good)
+    void requireRoom(std::uint32_t claimedBytes, const Cursor& rest) const {
+        if (claimedBytes > rest.left())
             throw std::runtime_error(fmt::format("its attribute '{}' of type {} claims {} bytes where {} are left",
-                                                 name, type, claimedBytes, left.left()));
+                                                 name, type, claimedBytes, rest.left()));
+    }
+
+    void requireLength(bool good, std::string_view rule) const {
+        if (!good)
+            throw std::runtime_error(
+                fmt::format("its attribute '{}' of type {} has {} bytes: {}", name, type, value.left(), rule));
     }
 
     void check() const {
@@ -96,14 +102,14 @@ struct Attribute {
         if (type == "stringvector") {
             while (!rest.isAtEnd()) {
                 const auto textBytes = rest.number<std::uint32_t>();
-                require(textBytes <= rest.left(), textBytes, rest);
+                requireRoom(textBytes, rest);
                 rest.skip(textBytes);
             }
         } else if (type == "floatvector") {
-            require(claimed % sizeof(float) == 0, claimed, rest);
+            requireLength(claimed % sizeof(float) == 0, "a number takes 4");
         } else if (type == "chlist") { // names with 16 bytes each, up to an empty one
             while (!rest.text().empty()) rest.skip(16);
-            require(rest.isAtEnd(), claimed, rest);
+            requireLength(rest.isAtEnd(), "its list ends before");
         }
     }
 };
@@ -129,11 +135,11 @@ PictureSize claimedSizeOfExr(std::span<const std::byte> bytes) {
         const std::string type = cursor.text();
         const auto claimedBytes = cursor.number<std::uint32_t>();
         Attribute attribute{name, type, cursor.part(claimedBytes)};
-        attribute.require(claimedBytes <= cursor.left(), claimedBytes, cursor);
+        attribute.requireRoom(claimedBytes, cursor);
         attribute.check();
         cursor.skip(claimedBytes);
         Cursor& value = attribute.value;
-        if (name == "dataWindow" || name == "displayWindow") {
+        if (name == "dataWindow") {
             std::array<std::int64_t, 4> box{}; // least x, least y, most x, most y
             for (std::int64_t& side : box) side = value.number<std::int32_t>();
             size.width = std::max(size.width, box[2] - box[0] + 1);

@@ -153,5 +153,12 @@ TEST(HostilePicture, aTgaWithMoreBehindItsTexelsIsAlwaysRead) {
     EXPECT_THAT(refusalOf(tga.substr(0, tga.size() - 1), "a.tga"), HasSubstr("the file ends early"));
 }
 
+TEST(HostilePicture, whatAnExrIsShownInIsNeverTakenForItsSize) {
+    std::string exr = bytesOfSeed("picture/small.exr");
+    const std::size_t most = exr.find("displayWindow") + 14 + 6 + 4 + 8;
+    exr.replace(most, 8, "\x3f\x9c\0\0\x3f\x9c\0\0", 8); // to 39999, 39999
+    EXPECT_EQ(decoded(exr, "a").width, 4);
+}
+
 } // namespace
 } // namespace tessera::scenes
