@@ -1,0 +1,20 @@
+// The boxes of tiles whose depth is cut into slices (method tile_2.5d). In: slicing, the tile's occupied slices, -.
+// Out: for each box the metres ahead at which it begins and ends, -1 where there is none.
+#define LIST_IN_COMPUTE 1
+#include "lib/list_cells.glsl"
+
+layout(std430, binding = 1) readonly buffer Inputs { uvec4 inputs[]; };
+layout(std430, binding = 2) writeonly buffer Outputs { vec2 outputs[]; };
+
+void main()
+{
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= uint(inputs.length())) return;
+    ListedTile tile;
+    tile.depths = vec2(2.0, 0.0); // beyond every slice
+    tile.slicing = inputs[i].x;
+    tile.slices = inputs[i].yz;
+    for (uint box = 0u; box < LIGHT_TILE_SLICES; ++box) boxRuns[box] = vec2(-1.0);
+    findBoxRuns(tile);
+    for (uint box = 0u; box < LIGHT_TILE_SLICES; ++box) outputs[i * LIGHT_TILE_SLICES + box] = boxRuns[box];
+}
