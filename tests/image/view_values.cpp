@@ -206,6 +206,32 @@ TEST_F(ViewValues, storedChannelsAreExactlyWhatIsInTheGBuffer) {
     for (const float code : {codes.r, codes.g, codes.b}) EXPECT_NEAR(code, std::round(code), 1e-4) << "a whole code";
 }
 
+/// There the frame that turns the tangent is off least where the stored normal is (docs/numerics.md).
+TEST_F(ViewValues, aTangentIsAlwaysStoredBesideTheAxisFarthestFromItsNormal) {
+    Material material;
+    material.model = MaterialModel::MicrofacetAnisotropic;
+    const Scene upright = flatScene(material);
+    frame::FrameSettings settings;
+    settings.layout = frame::layoutTable()[1].layout;
+    const frame::View view = frame::storedView({frame::Channel::Tangent, false});
+    std::array<int, 3> order{0, 1, 2}; // of the normal's components by size
+    do {
+        for (const double sign : {1.0, -1.0}) {
+            glm::dvec3 normal;
+            normal[order[0]] = 0.2 * sign;
+            normal[order[1]] = -0.5;
+            normal[order[2]] = 0.8 * sign;
+            const glm::dvec3 n = glm::normalize(normal), right = glm::normalize(glm::cross(normal, {0.3, 0.4, 0.5}));
+            const glm::dmat4 turn(glm::dmat3(right, glm::cross(n, right), n));
+            Scene scene = upright;
+            scene.nodes[0].parentFromNode = turn * scene.nodes[0].parentFromNode;
+            scene.cameras[0].worldFromCamera = turn * scene.cameras[0].worldFromCamera;
+            const float code = 3.0f * pixel(shown(scene, view, Technique::Deferred, settings), 4, 4).r;
+            EXPECT_EQ(code, float(order[0])) << normal.x << " " << normal.y << " " << normal.z;
+        }
+    } while (std::ranges::next_permutation(order).found);
+}
+
 TEST_F(ViewValues, storedChannelsAreNeverShownWhereThereAreNone) {
     const Scene scene = flatScene(Material{});
     const auto message = [&](Technique technique, frame::Channel channel) -> std::string {
@@ -224,6 +250,43 @@ TEST_F(ViewValues, storedChannelsAreNeverShownWhereThereAreNone) {
               "--view gbuffer.sheen: this frame's G-buffer has no such channel, which is for scenes with cloth; it has "
               "albedo, normal");
     EXPECT_EQ(message(Technique::Deferred, frame::Channel::NormalTexel), "no error") << "stored when it is shown";
+}
+
+TEST_F(ViewValues, theDepthViewIsAlwaysTheDistanceAheadOfTheEyeHoweverFar) {
+    for (const double metres : {3.0, 1e3, 1e6}) {
+        Scene scene = quadScene(unlit());
+        scene.nodes.push_back(scene.nodes[0]); // twice as large, a metre behind
+        scene.nodes[1].parentFromNode = glm::dmat4(2.0);
+        scene.nodes[1].parentFromNode[3] = {0, 0, -1, 1};
+        scene.cameras[0].worldFromCamera[3].z = metres;
+        scene.cameras[0].fovYRadians = 2.0 * std::atan(1.4 / metres); // 1.4 m up and down at the quad
+        const recipes::RenderedFrame view = frame(scene, viewSettings(frame::View::Depth));
+        // Some four roundings of 2^-24 each.
+        EXPECT_NEAR(pixel(view, kSide / 2, kSide / 2).r, metres, 3e-7 * metres);
+        EXPECT_NEAR(pixel(view, 0, 0).r, metres + 1.0, 3e-7 * (metres + 1.0));
+    }
+}
+
+TEST_F(ViewValues, aLightThatIsDarkHasNoHighlightToShowAndAnotherNeverStandsInForIt) {
+    Material material;
+    material.model = MaterialModel::Microfacet;
+    Scene scene = flatScene(material);
+    scene.lights = {pointLight({0.0, 0.0, 1.0}, 1.0f), pointLight({0.5, 0.5, 1.0}, 1.0f)};
+    recipes::Renderer renderer(context(), scene);
+    frame::FrameSettings settings = viewSettings(frame::View::Distribution);
+    settings.sizePixels = {kSide, kSide};
+    const auto brightest = [&](Technique technique) {
+        const std::vector<float> values = renderer.render(technique, settings).radiance;
+        float most = 0.0f;
+        for (std::size_t i = 0; i < values.size(); i += 4) most = std::max(most, values[i]);
+        return most;
+    };
+    for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
+        scene.lights[0].intensity = 1.0f;
+        EXPECT_GT(brightest(technique), 0.1f);
+        scene.lights[0].intensity = 0.0f; // it is the light that is shown still, and nothing packs it
+        EXPECT_EQ(brightest(technique), 0.0f);
+    }
 }
 
 TEST_F(ViewValues, distributionsOfAnySizeAlwaysFitTheDisplay) {
