@@ -150,6 +150,27 @@ TEST_F(Multisampling, aSurfaceWhosePixelCentreLiesBeyondTheHorizonAlwaysHasItsLi
     }
 }
 
+/// The ray through such a pixel's centre runs along the floor and never meets it, so the coordinates of a corner stand
+/// in, which do not change from pixel to pixel (lib/triangle.glsl).
+TEST_F(Multisampling, aPixelWhoseCentreLiesOnTheHorizonTakesOneTexelOfACornerWithTheExactFilter) {
+    Scene scene = endlessFloor(scenes::AlphaMode::Opaque);
+    scene.lights.clear();
+    scene.materials[0] = test::unlit();
+    // Columns of red and green: no texel has both, and any blend does.
+    scene = test::texturedScene(scene, scenes::TextureSlot::BaseColor, test::image8([](int x, int) {
+                                    return std::array<int, 4>{x % 2 == 0 ? 255 : 0, x % 2 == 0 ? 0 : 255, 0, 255};
+                                }));
+    scene.materials[0].texture(scenes::TextureSlot::BaseColor).sampler.minification = scenes::Filter::Linear;
+    frame::FrameSettings settings = sampled({65, 17});
+    settings.filter = frame::TextureFilter::Exact;
+    const validation::Picture shown = picture(scene, settings);
+    for (int x = 0; x < 65; ++x) {
+        const float* pixel = shown.pixel(std::size_t(8 * 65 + x));
+        EXPECT_GT(pixel[0] + pixel[1], 0.0f) << "no sample of column " << x << " lies below the horizon";
+        EXPECT_EQ(std::min(pixel[0], pixel[1]), 0.0f) << "column " << x;
+    }
+}
+
 TEST_F(Multisampling, everyViewIsExactlyTheSameInTheForwardFamily) {
     const Scene scene = test::everythingScene();
     recipes::Renderer renderer(context(), scene);
