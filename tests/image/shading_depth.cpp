@@ -166,6 +166,28 @@ TEST_F(ShadingDepth, aPixelIsAlwaysLitAtTheDepthThatThePrepassSays) {
     }
 }
 
+/// A wall that leans back to the right, cut by the near plane just right of the centres of a column of pixels.
+/// Rasterisers move the cut to the nearest point of their grid, 1/256 of a pixel, which covers the centres, and there
+/// the wall's plane lies before the near plane. The depth buffer holds such fragments at it.
+TEST_F(ShadingDepth, aFragmentThatRoundingPutsBeforeTheNearPlaneIsLitAtIt) {
+    scenes::Scene scene = test::quadScene(scenes::Material{});
+    scene.cameras[0].projection = scenes::Projection::Orthographic;
+    scene.cameras[0].halfHeightMetres = 1.0;
+    scene.cameras[0].nearMetres = 3.0; // as far away as the wall's middle, which the middle column's centres see
+    scene.cameras[0].farMetres = 4.0;  // so that a thousandth of a pixel is hundreds of steps of depth
+    scene.nodes[0].parentFromNode[0].z = -0.5;
+    constexpr double kPixelMetres = 2.0 / kHeight;
+    int atPlane = 0;
+    for (const double rightPixels : {1.0 / 4096, 1.0 / 2048, 1.0 / 1024}) {
+        scene.nodes[0].parentFromNode[3].z = 0.5 * rightPixels * kPixelMetres;
+        for (const Pixel& pixel : prepassed(scene, settings(1))) {
+            EXPECT_EQ(pixel.depth, pixel.shadingDepth);
+            atPlane += pixel.depth[0] == 1.0f;
+        }
+    }
+    EXPECT_GT(atPlane, 0) << "the cut meets no pixel's centre";
+}
+
 TEST_F(ShadingDepth, withOneSampleItIsExactlyTheDepth) {
     for (const Pixel& pixel : prepassed(test::everythingScene(), settings(1))) {
         ASSERT_EQ(pixel.depth.size(), 1u);
