@@ -32,8 +32,9 @@ void fetchWords(ivec2 pixel)
     for (int i = 0; i < 4; ++i) gbufferWords[4 + i] = secondWordsTexel[i];
 #endif
 #if (GBUFFER_WORDS & 2) != 0
-    uvec4 pairOfWordsTexel = texelFetch(pairOfWords, pixel, 0);
-    for (int i = 0; i < 2; ++i) gbufferWords[GBUFFER_WORDS / 4 * 4 + i] = pairOfWordsTexel[i];
+    uvec2 pairOfWordsTexel = texelFetch(pairOfWords, pixel, 0).rg;
+    gbufferWords[GBUFFER_WORDS & ~3] = pairOfWordsTexel.x;
+    gbufferWords[(GBUFFER_WORDS & ~3) + 1] = pairOfWordsTexel.y;
 #endif
 #if (GBUFFER_WORDS & 1) != 0
     gbufferWords[GBUFFER_WORDS - 1] = texelFetch(lastWord, pixel, 0).r;
