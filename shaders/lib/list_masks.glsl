@@ -56,7 +56,7 @@ uint tileBit(uint light, uvec2 item)
 void maskBin(uvec2 item)
 {
     uint bin = item.x;
-    if (bin >= listTotals.y || item.y > 0u) return;
+    if (bin >= listTotals.y) return;
     uint words = frame.lights.w;
     vec2 run = runOfBin(bin);
     uvec2 occupied = uvec2(words, 0u); // first word with a bit, one past the last
@@ -78,7 +78,7 @@ void maskBin(uvec2 item)
 // The masks of tiles do not depend on depth, so both layers share them.
 void maskTile(uvec2 item)
 {
-    if (item.x >= frame.tileGrid.x || item.y >= frame.tileGrid.y) return;
+    if (item.x >= frame.tileGrid.x) return;
     uint words = frame.lights.w;
     uint first = (listTotals.y + tileIndex(item)) * words;
     for (uint word = LIST_LANE; word < words; word += uint(LIST_THREADS)) {

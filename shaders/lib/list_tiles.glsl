@@ -20,7 +20,7 @@ uint listedTiles()
 
 bool isTile(uvec2 item)
 {
-    return item.x < frame.tileGrid.x && item.y * frame.tileGrid.x < listedTiles();
+    return item.x < frame.tileGrid.x;
 }
 
 uint tileIndex(uvec2 item)
