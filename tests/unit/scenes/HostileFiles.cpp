@@ -19,8 +19,6 @@ using test::TempFolder;
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
-
 /// What quadratic loading took longer than, many times over, where linear loading takes a tenth; on a busy machine too.
 constexpr double kSeconds = 10.0;
 

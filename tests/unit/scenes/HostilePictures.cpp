@@ -52,8 +52,6 @@ TEST(HostilePicture, whatOpenImageIoLacksIsNeverTakenForABrokenPicture) {
     EXPECT_EQ(failureOf("softimage"), "a: this OpenImageIO cannot read softimage from memory; install 2.4 or newer");
 }
 
-constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
-
 /// A line of /proc/self/status, or 0.
 std::uint64_t statusBytes(std::string_view key) {
     std::ifstream status("/proc/self/status");
