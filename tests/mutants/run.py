@@ -108,13 +108,25 @@ def readSuites():
 
 
 def readEquivalent():
-    """{key of a mutant: why it changes nothing that a program could see}"""
-    result = {}
-    for line in (HERE / "equivalent.txt").read_text().splitlines():
-        if line.strip() and not line.startswith("#"):
-            path, before, after, why = [field.strip() for field in line.split(" | ", 3)]
-            result[f"{path} | {before} | {after}"] = why
-    return result
+    """Rows of equivalent.txt: the key of a mutant, and why it changes nothing that a program could see."""
+    lines = (HERE / "equivalent.txt").read_text().splitlines()
+    return [line for line in lines if line.strip() and not line.startswith("#")]
+
+
+def isEquivalent(mutant, rows):
+    """Lines of code hold the mark between the fields, too, so that a row is not taken apart."""
+    return any(row.startswith(mutant.key() + " | ") for row in rows)
+
+
+def requireTests(tests, suites):
+    """Ends the program where a part of a suite's filter names no test, which would see nothing."""
+    for suite in sorted(suites):
+        program, _, names = suite.partition(":")
+        for name in re.split("[:-]", names):
+            listed = subprocess.run([tests / program, "--gtest_list_tests", f"--gtest_filter={name}"], text=True,
+                                    stdout=subprocess.PIPE, check=True).stdout
+            if not re.search(r"^  \w", listed, re.MULTILINE):
+                sys.exit(f"suites.txt: {program} has no test '{name}'")
 
 
 def choose(mutants, seed):
@@ -175,8 +187,12 @@ class Sources:
 
     def __init__(self, root):
         self.copy = root / "build/mutants/source"
+        self.copy.mkdir(parents=True, exist_ok=True)
+        self.lock = open(self.copy.with_suffix(".lock"), "w")  # one run at a time has the copy
+        fcntl.flock(self.lock, fcntl.LOCK_EX)
         files = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=root, check=True, text=True,
                                stdout=subprocess.PIPE).stdout.split("\0")
+        self.removeAllBut(files)
         for name in filter(None, files):
             source, target = root / name, self.copy / name
             if source.exists() and (not target.exists() or target.read_bytes() != source.read_bytes()):
@@ -188,6 +204,13 @@ class Sources:
             subprocess.run(["cmake", "--preset", "release", *launcher], cwd=self.copy, check=True, stdout=subprocess.DEVNULL)
         if not self.compiles(*self.programs):
             sys.exit("the sources do not compile")
+
+    def removeAllBut(self, files):
+        """What was deleted or renamed since the last run would be compiled: sources are found by their names."""
+        for path in sorted(self.copy.rglob("*"), reverse=True):
+            name = path.relative_to(self.copy)
+            if name.parts[0] != "build" and path.is_file() and str(name) not in files:
+                path.unlink()
 
     def compiles(self, *programs):
         return subprocess.run(["ninja", "-C", self.build, *programs], stdout=subprocess.DEVNULL,
@@ -291,6 +314,7 @@ def main():
         row = next((suites for pattern, suites in rows if fnmatch.fnmatch(path, pattern)), None)
         if row and row != ["-"] and fnmatch.fnmatch(path, options.only):
             suitesOf[path] = row + [suite for suite in rest if suite not in row]
+    requireTests(root / "build/release/tests", {suite for suites in suitesOf.values() for suite in suites})
     mutants = [mutant for path in suitesOf for mutant in mutantsOfFile(root, path)]
     candidates = choose(mutants, options.seed)
     known = Results(root)
@@ -314,7 +338,7 @@ def main():
         return -1 if waiting else None
 
     def judged(mutant):
-        if mutant.key() in equivalent:
+        if isEquivalent(mutant, equivalent):
             return "equivalent"
         isKnown, killer = known.kept(mutant, options.resume, options.again)
         if isKnown:
