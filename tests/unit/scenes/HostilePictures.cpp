@@ -119,6 +119,21 @@ TEST(HostilePicture, textsOfAPngAreNeverKept) {
     EXPECT_LT(growthOf([&] { EXPECT_EQ(decoded(png, "a").width, 1); }), 4 * kMiB);
 }
 
+TEST(HostilePicture, whatAPngSaysOfItsNumbersIsAlwaysRead) {
+    const std::string png = bytesOfSeed("picture/text.png");
+    const std::string isLight("\0\0\0\4gAMA\0\1\x86\xa0\x31\xe8\x96\x5f", 16);
+    const std::string isSrgb("\0\0\0\1sRGB\0\xae\xce\x1c\xe9", 13);
+    const auto isLinearWith = [&](const std::string& chunks) {
+        constexpr std::size_t kHeaderEnd = 33;
+        const std::string picture = std::string(png).insert(kHeaderEnd, chunks);
+        LoadLedger ledger;
+        return decodePng(std::as_bytes(std::span(picture)), "a", {}, ledger).tags.isLinear;
+    };
+    EXPECT_FALSE(isLinearWith(""));
+    EXPECT_TRUE(isLinearWith(isLight));
+    EXPECT_FALSE(isLinearWith(isSrgb + isLight));
+}
+
 TEST(HostilePicture, aBmpOrTgaThatEndsEarlyIsAlwaysRefused) {
     struct Seed {
         const char* name;
