@@ -57,7 +57,7 @@ void keepFirstWarnings(std::vector<std::string>& warnings) {
     if (warnings.size() <= kMostWarnings) return;
     const std::size_t more = warnings.size() - kMostWarnings;
     warnings.resize(kMostWarnings);
-    warnings.push_back("and " + std::to_string(more) + " more warnings of this kind or others");
+    warnings.push_back("and " + std::to_string(more) + " more warnings");
 }
 
 void goOn(const LoadOptions& options) {

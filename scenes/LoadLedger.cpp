@@ -48,8 +48,10 @@ LoadLedger::LoadLedger(std::optional<std::uint64_t> limitBytes)
     : limitBytes_(limitBytes ? *limitBytes : defaultMemoryLimitBytes()) {}
 
 void LoadLedger::refuse(const std::string& who, std::uint64_t bytes) const {
-    throw InputError(fmt::format("{}: asks for {} of memory, and {} are in use; a load may take {} (--memory-limit)",
-                                 who, sizeText(bytes), sizeText(usedBytes_), sizeText(limitBytes_)));
+    throw InputError(
+        fmt::format("{}: asks for {} of memory, and {} are in use; a load may take {}; make it smaller or raise "
+                    "--memory-limit",
+                    who, sizeText(bytes), sizeText(usedBytes_), sizeText(limitBytes_)));
 }
 
 std::uint64_t bytesOf(const Mesh& mesh) {

@@ -58,7 +58,8 @@ std::filesystem::path resolveFile(const JsonValue& name) {
 }
 
 int Images::image(const JsonValue& fileName) {
-    if (scene_ == nullptr) fileName.fail("names a file where only pictures of the base can be used");
+    if (scene_ == nullptr)
+        fileName.fail("names a file where only pictures of the base can be used; give the number of one as 'image'");
     const std::filesystem::path file = resolveFile(fileName);
     const auto [entry, isNew] = imageOfFile_.try_emplace(file.lexically_normal().string(), kNone);
     if (!isNew) return entry->second;

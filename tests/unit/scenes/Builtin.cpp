@@ -141,7 +141,8 @@ TEST_P(BuiltinScenes, areAlwaysChargedBeforeTheyAreMadeAndForNoLessThanTheyTake)
     LoadOptions options = withoutAssets();
     options.memoryLimitBytes = builtin.bytes - 1;
     EXPECT_EQ(test::inputErrorOf([&] { loadScene(std::string(builtin.name), options); }),
-              fmt::format("{}: asks for {} of memory, and 0 B are in use; a load may take {} (--memory-limit)",
+              fmt::format("{}: asks for {} of memory, and 0 B are in use; a load may take {}; make it smaller or raise "
+                          "--memory-limit",
                           builtin.name, sizeText(builtin.bytes), sizeText(builtin.bytes - 1)));
 }
 
