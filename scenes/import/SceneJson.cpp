@@ -51,7 +51,7 @@ public:
     explicit DocumentImporter(LoadLedger& ledger) : ledger_(ledger) {}
 
     Scene import(const std::filesystem::path& file) {
-        const std::uint64_t mark = ledger_.usedBytes();
+        const std::uint64_t mark = ledger_.usedBytes(), keptBefore = keptBytes_;
         chain_.push_back(file);
         const std::vector<std::byte> bytes = readFileBytes(file, ledger_);
         if (bytes.empty()) throw InputError(file.string() + ": the file is empty; start with {\"tessera\": 1}");
@@ -59,7 +59,7 @@ public:
         const nlohmann::json document = parseJson(text, file, ledger_);
         Scene scene = readDocument(JsonValue(document, file), file);
         chain_.pop_back();
-        ledger_.settle(mark, bytesOf(scene));
+        ledger_.settle(mark, bytesOf(scene) + keptBytes_ - keptBefore);
         return scene;
     }
 
@@ -186,7 +186,10 @@ private:
         const int before = includes_;
         Scene scene = load(name, LoadOptions{});
         part.includes = includes_ - before;
-        if (part.wasRead) part.kept = copyOf(scene, name);
+        if (part.wasRead) {
+            part.kept = copyOf(scene, name);
+            keptBytes_ += bytesOf(*part.kept);
+        }
         part.wasRead = true;
         return scene;
     }
@@ -294,6 +297,7 @@ private:
 
     LoadLedger& ledger_;
     std::map<std::string, Part> parts_;
+    std::uint64_t keptBytes_ = 0;              ///< of the scenes in parts_
     std::vector<std::filesystem::path> chain_; ///< the documents being read, each included by the one before
     int includes_ = 0;
 };
@@ -301,7 +305,10 @@ private:
 } // namespace
 
 Scene importSceneJson(const std::filesystem::path& file, LoadLedger& ledger) {
-    return DocumentImporter(ledger).import(file);
+    const std::uint64_t mark = ledger.usedBytes();
+    Scene scene = DocumentImporter(ledger).import(file);
+    ledger.settle(mark, bytesOf(scene));
+    return scene;
 }
 
 } // namespace tessera::scenes

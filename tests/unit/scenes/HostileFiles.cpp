@@ -193,6 +193,27 @@ TEST(Memory, copiesOfAnIncludeAreAlwaysChargedAndItsFileReadTwiceAtMost) {
                 AllOf(HasSubstr("scene.json: include"), HasSubstr("models/big.obj")));
 }
 
+TEST(Memory, whatIsKeptOfIncludesIsAlwaysChargedWhenTheirDocumentIsRead) {
+    const SceneFolder folder;
+    std::string big;
+    for (int i = 0; i < 200; ++i) big += fmt::format("v {0} 0 0\nv {0} 1 0\nv {0} 0 1\nf -3 -2 -1\n", i);
+    constexpr int kDocuments = 60;
+    for (int i = 0; i < kDocuments; ++i) {
+        folder.write(fmt::format("big{}.obj", i), big);
+        const std::string include = fmt::format(R"({{"file": "big{}.obj"}})", i);
+        folder.write(fmt::format("part{}.json", i), R"({"tessera": 1, "include": [)" + include + "," + include + "]}");
+    }
+    const std::string text = R"({"tessera": 1, "include": [)" +
+                             listOf(kDocuments, [](int i) { return fmt::format(R"({{"file": "part{}.json"}})", i); }) +
+                             "]}";
+    const std::filesystem::path file = folder.write("scene.json", text);
+    LoadLedger ledger;
+    const std::uint64_t sceneBytes = bytesOf(importSceneJson(file, ledger));
+    EXPECT_EQ(ledger.usedBytes(), sceneBytes);
+    // The scene holds each file twice, and the importer a third copy.
+    EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, file, sceneBytes * 5 / 4); }), HasSubstr("of memory"));
+}
+
 TEST(Memory, jsonAndObjTextsAreAlwaysCharged) {
     const TempFolder folder;
     const std::filesystem::path json = folder.write(
