@@ -49,6 +49,12 @@ TEST(LoadScene, numberOfLightsIsAlwaysFrom0ToTheMost) {
     EXPECT_TRUE(loadScene("lattice", options).lights.empty()) << "who asks for none gets no default light either";
 }
 
+TEST(LoadScene, aBuiltinScenesOwnLightsAlwaysCountAmongThoseThatCanBeDrawn) {
+    LoadOptions options;
+    options.lights = kMostLights;
+    EXPECT_EQ(loadScene("hall", options).lights.size(), std::size_t(kMostLights));
+}
+
 TEST(LoadScene, aFileOfMoreLightsThanCanBeDrawnIsAlwaysRefusedUnlessItsFirstAreAskedFor) {
     const test::TempFolder folder;
     std::string text = R"({"tessera": 1, "lights": [{"type": "point", "position": [0, 0, 0], "intensity": 1})";
