@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "scenes/import/FileBytes.h"
 #include "scenes/import/JsonText.h"
@@ -19,9 +20,13 @@ bool isDocument(const fs::path& file) {
     return extension == ".json";
 }
 
+/// The ledger is charged until the document is read: nothing but one at a time is kept.
 nlohmann::json documentOf(const fs::path& file, LoadLedger& ledger) {
+    const std::uint64_t mark = ledger.usedBytes();
     const std::vector<std::byte> bytes = readFileBytes(file, ledger);
-    return parseJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, ledger);
+    nlohmann::json document = parseJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, ledger);
+    ledger.settle(mark, 0);
+    return document;
 }
 
 bool namesAFile(const nlohmann::json& value) {
@@ -55,17 +60,25 @@ fs::path fileNamed(const nlohmann::json& value, const fs::path& document, const 
     return scenejson::resolveFile(JsonValue(value["file"], document, std::string("/") + key + "/file"));
 }
 
-void addDocuments(const fs::path& file, std::vector<fs::path>& documents, LoadLedger& ledger) {
-    if (!isDocument(file)) return;
-    documents.push_back(file);
-    const nlohmann::json document = documentOf(file, ledger);
-    const auto follow = [&](const nlohmann::json& value, const char* key) {
-        if (value["file"].get<std::string>().starts_with(kBuiltinPrefix)) return;
-        addDocuments(fileNamed(value, file, key), documents, ledger);
-    };
-    if (document.contains("base")) follow(document["base"], "base");
-    if (document.contains("include"))
-        for (const nlohmann::json& include : document["include"]) follow(include, "include");
+/// The file and all that it is made of, each once.
+std::vector<fs::path> documentsOf(const fs::path& first, LoadLedger& ledger) {
+    std::vector<fs::path> documents, open{first};
+    std::set<fs::path> known;
+    while (!open.empty()) {
+        const fs::path file = std::move(open.back());
+        open.pop_back();
+        if (!isDocument(file) || !known.insert(file.lexically_normal()).second) continue;
+        documents.push_back(file);
+        const nlohmann::json document = documentOf(file, ledger);
+        const auto follow = [&](const nlohmann::json& value, const char* key) {
+            if (!value["file"].get<std::string>().starts_with(kBuiltinPrefix))
+                open.push_back(fileNamed(value, file, key));
+        };
+        if (document.contains("base")) follow(document["base"], "base");
+        if (document.contains("include"))
+            for (const nlohmann::json& include : document["include"]) follow(include, "include");
+    }
+    return documents;
 }
 
 /// Follows bases down to the first that is more than edits.
@@ -85,7 +98,7 @@ void followBases(fs::path file, SceneOrigin& origin, LoadLedger& ledger) {
         file = fileNamed(base, file, "base");
     }
     origin.base = fs::absolute(file).lexically_normal().string();
-    addDocuments(file, origin.documents, ledger);
+    origin.documents = documentsOf(file, ledger);
 }
 
 } // namespace

@@ -214,6 +214,21 @@ TEST(Memory, whatIsKeptOfIncludesIsAlwaysChargedWhenTheirDocumentIsRead) {
     EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, file, sceneBytes * 5 / 4); }), HasSubstr("of memory"));
 }
 
+TEST(Memory, theOriginOfASceneNeverTakesMoreThanADocumentAtATime) {
+    const TempFolder folder;
+    folder.write("shared.json",
+                 R"({"tessera": 1, "name": ")" + std::string(4000, 'n') + "\"" + std::string(100'000, ' ') + "}");
+    const std::string file =
+        folder
+            .write("s.json", R"({"tessera": 1, "include": [)" +
+                                 listOf(1000, [](int) { return std::string(R"({"file": "shared.json"})"); }) + "]}")
+            .string();
+    LoadOptions options;
+    options.memoryLimitBytes = 16 * kMiB;
+    const Scene scene = loadScene(file, options);
+    EXPECT_EQ(originOf(file, options, scene).documents.size(), 2u);
+}
+
 TEST(Memory, jsonAndObjTextsAreAlwaysCharged) {
     const TempFolder folder;
     const std::filesystem::path json = folder.write(
