@@ -36,7 +36,7 @@ bool isSupported(std::string_view extension) {
 }
 
 Json parseDocument(const std::string& text, const std::string& file) {
-    if (nestsTooDeep(text)) throw InputError(fmt::format("{}: the JSON nests deeper than {}", file, kMaxJsonDepth));
+    requireJsonDepth(text, file);
     try {
         return Json::parse(text);
     } catch (const Json::exception& error) {

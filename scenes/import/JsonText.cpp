@@ -68,8 +68,6 @@ private:
 
     bool open() {
         open_.emplace_back();
-        if (open_.size() > kMaxJsonDepth)
-            throw InputError(fmt::format("{}: the JSON nests deeper than {}", file_.string(), kMaxJsonDepth));
         return true;
     }
 
@@ -90,7 +88,7 @@ private:
     std::vector<Level> open_;
 };
 
-/// Calls `look` with every character that is not part of a string.
+/// Calls `look` with every character that is not part of a string; of a string, with both quotes.
 template <typename Look>
 void eachOutsideStrings(std::string_view text, Look&& look) {
     bool inString = false;
@@ -98,37 +96,42 @@ void eachOutsideStrings(std::string_view text, Look&& look) {
         const char c = text[i];
         if (c == '"') inString = !inString;
         if (inString && c == '\\') ++i;
-        if (!inString) look(c);
+        if (!inString || c == '"') look(c);
     }
 }
 
 } // namespace
 
-bool nestsTooDeep(std::string_view text) {
+void requireJsonDepth(std::string_view text, const std::filesystem::path& file) {
     int depth = 0;
-    bool isTooDeep = false;
     eachOutsideStrings(text, [&](char c) {
-        if (c == '{' || c == '[') isTooDeep = ++depth > kMaxJsonDepth || isTooDeep;
+        if ((c == '{' || c == '[') && ++depth > kMaxJsonDepth)
+            throw InputError(
+                fmt::format("{}: the JSON nests deeper than {}; make it flatter", file.string(), kMaxJsonDepth));
         if (c == '}' || c == ']') --depth;
     });
-    return isTooDeep;
 }
 
 std::uint64_t parsedJsonBytes(std::string_view text) {
-    // Strings stand in the document once; the rest is one value after each of these, twice over while an array grows,
-    // and an object's members are nodes of a tree.
-    constexpr std::uint64_t kValueBytes = 2 * sizeof(json), kObjectBytes = 64, kMemberBytes = 96;
+    // One value stands after each of these, three times over while an array that doubles is copied; arrays, objects and
+    // strings lie on the heap, strings with their letters on it once more, and members of objects are nodes of a tree.
+    // The sizes are those of the heap's blocks.
+    constexpr std::uint64_t kValueBytes = 3 * sizeof(json), kArrayBytes = 32, kObjectBytes = 64, kMemberBytes = 96;
+    constexpr std::uint64_t kStringBytes = 48 + 24;
     std::uint64_t bytes = text.size() + kValueBytes;
     eachOutsideStrings(text, [&](char c) {
-        if (c == ',' || c == '[') bytes += kValueBytes;
+        if (c == ',') bytes += kValueBytes;
+        if (c == '[') bytes += kValueBytes + kArrayBytes;
         if (c == '{') bytes += kValueBytes + kObjectBytes;
         if (c == ':') bytes += kMemberBytes;
+        if (c == '"') bytes += kStringBytes / 2;
     });
     return bytes;
 }
 
 json parseJson(std::string_view text, const std::filesystem::path& file, LoadLedger& ledger) {
     ledger.charge(parsedJsonBytes(text), [&] { return file.string() + ": its JSON"; });
+    requireJsonDepth(text, file);
     Checker checker(text, file);
     json::sax_parse(text, &checker);
     return json::parse(text);

@@ -9,18 +9,18 @@
 
 namespace tessera::scenes {
 
-/// Parses a JSON document. Throws InputError "file:line:column: what" for broken syntax (NaN and comments are none of
-/// JSON's) and numbers too large for a double, "file:/json/pointer: what" for a key that an object has twice
-/// or that nests deeper than 64. The ledger is charged for the document.
+/// Parses a JSON document; the ledger is charged for it. Throws InputError: "file:line:column: what" for broken syntax,
+/// NaN and comments among it, and for numbers too large for a double; "file:/json/pointer: what" for a key that an
+/// object has twice; "file: what" for a document that nests too deep.
 nlohmann::json parseJson(std::string_view text, const std::filesystem::path& file, LoadLedger& ledger);
 
 /// Far deeper than any document here nests; printing and converting JSON recurse, so depth must not be the file's to
 /// choose.
 inline constexpr int kMaxJsonDepth = 64;
 
-/// Whether brackets of a text nest deeper than kMaxJsonDepth. The library's own way to ask, a callback for each value,
-/// looks through all of an array for every element.
-bool nestsTooDeep(std::string_view text);
+/// Throws InputError where brackets of a text nest deeper than kMaxJsonDepth. The library's own way to ask, a callback
+/// for each value, looks through all of an array for every element.
+void requireJsonDepth(std::string_view text, const std::filesystem::path& file);
 
 /// At most what a parsed document of this text takes.
 std::uint64_t parsedJsonBytes(std::string_view text);

@@ -229,6 +229,23 @@ TEST(Memory, theOriginOfASceneNeverTakesMoreThanADocumentAtATime) {
     EXPECT_EQ(originOf(file, options, scene).documents.size(), 2u);
 }
 
+TEST(Memory, aParsedDocumentNeverTakesMoreThanItIsChargedFor) {
+    constexpr int kCount = 100'000;
+    for (const char* element :
+         {"0", "[]", "{}", R"("")", R"("sixteen letters!")", R"({"":0})", R"({"a":"b","c":[0]})"}) {
+        const std::string text = "[" + listOf(kCount, [&](int) { return std::string(element); }) + "]";
+        const auto heapBytes = [] {
+            const struct mallinfo2 heap = mallinfo2();
+            return heap.uordblks + heap.hblkhd;
+        };
+        const std::size_t before = heapBytes();
+        const nlohmann::json document = nlohmann::json::parse(text);
+        EXPECT_LE(heapBytes() - before, parsedJsonBytes(text)) << element;
+        // Before an array grows, half of it is copied.
+        EXPECT_GE(parsedJsonBytes(text), kCount * 3 * sizeof(nlohmann::json)) << element;
+    }
+}
+
 TEST(Memory, jsonAndObjTextsAreAlwaysCharged) {
     const TempFolder folder;
     const std::filesystem::path json = folder.write(
