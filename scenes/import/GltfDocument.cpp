@@ -102,16 +102,29 @@ void chargeElements(const Document& document) {
             });
 }
 
+/// Removes what would become values of tinygltf's, which are large, and is never read: extras and unknown extensions.
+void stripUnread(Json& value) {
+    if (value.is_object()) {
+        value.erase("extras");
+        if (const auto extensions = value.find("extensions"); extensions != value.end() && extensions->is_object())
+            for (auto extension = extensions->begin(); extension != extensions->end();)
+                extension = isSupported(extension.key()) ? std::next(extension) : extensions->erase(extension);
+    }
+    if (value.is_structured())
+        for (Json& element : value) stripUnread(element);
+}
+
 /// What tinygltf is given: buffers and images are left out, because they are loaded here, checked and only when used;
-/// skins, animations and morph targets, because nothing reads them; and accessors without a buffer view point at one
-/// past the document's, because tinygltf refuses index accessors that have none.
+/// skins, animations, morph targets, extras and unknown extensions, because nothing reads them; and accessors without a
+/// buffer view point at one past the document's, because tinygltf refuses index accessors that have none.
 Json documentForParser(const Json& json) {
     Json stripped = json;
-    for (const char* key : {"buffers", "images", "animations", "skins", "extras"}) stripped.erase(key);
+    for (const char* key : {"buffers", "images", "animations", "skins"}) stripped.erase(key);
     if (const auto meshes = stripped.find("meshes"); meshes != stripped.end())
         for (Json& mesh : *meshes)
             for (Json& primitive : mesh["primitives"])
                 for (const char* key : {"targets", "extensions"}) primitive.erase(key);
+    stripUnread(stripped);
     Json& views = stripped["bufferViews"];
     if (!views.is_array()) views = Json::array();
     const std::size_t none = views.size();

@@ -246,6 +246,19 @@ TEST(Memory, aParsedDocumentNeverTakesMoreThanItIsChargedFor) {
     }
 }
 
+TEST(Memory, whatNothingReadsOfAGltfFileIsNeverGivenToItsParser) {
+    Builder builder;
+    builder.json["nodes"][0]["extras"] = {1, 2, 3};
+    builder.json["nodes"][0]["extensions"]["EXT_unknown"] = {1, 2, 3};
+    builder.json["materials"] = {{{"pbrMetallicRoughness", {{"extras", {1, 2, 3}}}}}};
+    const TempFolder folder;
+    LoadLedger ledger;
+    const gltf::Document document = gltf::loadDocument(folder.write("m.gltf", builder.json.dump()), ledger);
+    EXPECT_EQ(document.model.nodes.at(0).extras.Type(), tinygltf::NULL_TYPE);
+    EXPECT_TRUE(document.model.nodes.at(0).extensions.empty());
+    EXPECT_EQ(document.model.materials.at(0).pbrMetallicRoughness.extras.Type(), tinygltf::NULL_TYPE);
+}
+
 TEST(Memory, jsonAndObjTextsAreAlwaysCharged) {
     const TempFolder folder;
     const std::filesystem::path json = folder.write(
