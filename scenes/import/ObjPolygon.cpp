@@ -36,8 +36,8 @@ double areaOf(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
 
 class Clipper {
 public:
-    explicit Clipper(std::span<const glm::dvec3> corners)
-        : corners_(corners), flat_(flattened(corners)), left_(corners.size()) {
+    Clipper(std::span<const glm::dvec3> corners, std::uint64_t& steps)
+        : corners_(corners), flat_(flattened(corners)), left_(corners.size()), steps_(steps) {
         std::iota(left_.begin(), left_.end(), std::size_t{0});
     }
 
@@ -59,7 +59,8 @@ private:
         left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(at));
     }
 
-    std::optional<std::size_t> bestEar() const {
+    std::optional<std::size_t> bestEar() {
+        steps_ += left_.size();
         std::optional<std::size_t> best;
         double shortest = std::numeric_limits<double>::infinity();
         for (std::size_t at = 0; at < left_.size(); ++at) {
@@ -73,12 +74,13 @@ private:
         return best;
     }
 
-    bool isEar(std::size_t at) const {
+    bool isEar(std::size_t at) {
         const glm::dvec2& a = flat_[before(at)];
         const glm::dvec2& b = flat_[left_[at]];
         const glm::dvec2& c = flat_[after(at)];
         if (!(areaOf(a, b, c) > 0.0)) return false;
         return std::ranges::none_of(left_, [&](std::size_t other) {
+            ++steps_;
             const glm::dvec2& p = flat_[other];
             if (p == a || p == b || p == c) return false; // a corner itself, or one where a hole's bridge returns
             return areaOf(a, b, p) >= 0.0 && areaOf(b, c, p) >= 0.0 && areaOf(c, a, p) >= 0.0;
@@ -88,14 +90,15 @@ private:
     std::span<const glm::dvec3> corners_;
     std::vector<glm::dvec2> flat_;
     std::vector<std::size_t> left_; ///< corners not yet cut off
+    std::uint64_t& steps_;
     std::vector<std::array<std::size_t, 3>> triangles_;
 };
 
 } // namespace
 
-std::vector<std::array<std::size_t, 3>> cutPolygon(std::span<const glm::dvec3> corners) {
+std::vector<std::array<std::size_t, 3>> cutPolygon(std::span<const glm::dvec3> corners, std::uint64_t& steps) {
     assert(corners.size() >= 3);
-    return Clipper(corners).clip();
+    return Clipper(corners, steps).clip();
 }
 
 } // namespace tessera::scenes::obj

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <unordered_map>
 
@@ -24,12 +25,22 @@ constexpr std::array<std::string_view, 8> kWithoutEffect = {"lod", "bevel",     
 constexpr std::array<std::string_view, 3> kAttributes = {"position", "texture coordinate", "normal"};
 constexpr std::array<std::string_view, 3> kAttributeKeywords = {"v", "vt", "vn"};
 
-/// What becomes of a triangle, most of it at once: three lines' worth of text in three copies, tinyobjloader's corners,
-/// and vertices of its own with their entries in the table of shared ones. And of an attribute: text and numbers.
-constexpr std::size_t kTriangleBytes = 3 * 3 * 24 + 3 * 96 + 3 * (52 + 64);
-constexpr std::size_t kAttributeBytes = 3 * 40 + 64;
-/// And of a name that usemtl gives: the parser's material, the library's and the scene's, vectors growing.
+// Three copies of the text are made, and vectors that double hold their elements three times while they are copied.
+constexpr std::size_t kCopies = 3;
+/// A triangle makes three words of text, tinyobjloader's corners, and vertices with their entries in the table of
+/// shared ones.
+constexpr std::size_t kTriangleBytes = kCopies * 3 * 24 + 3 * 96 + 3 * (52 + 64);
+/// An attribute makes text and numbers.
+constexpr std::size_t kAttributeBytes = kCopies * 40 + 64;
+/// A name that usemtl gives makes the parser's material, the library's and the scene's.
 constexpr std::size_t kMaterialBytes = 2 * (sizeof(tinyobj::material_t) + sizeof(MtlMaterial) + sizeof(Material));
+/// A material of a group makes a mesh, and may be the only one: then with the parser's shape and a node.
+constexpr std::size_t kMeshBytes = kCopies * (sizeof(tinyobj::shape_t) + sizeof(Mesh) + sizeof(Node));
+
+/// Corners that are looked at to cut all polygons of a file: a second or so.
+constexpr std::uint64_t kMostSteps = 500'000'000;
+/// Of them, each corner of the file is granted these: quads take no more.
+constexpr std::uint64_t kStepsACorner = 16;
 
 class ObjChecker {
 public:
@@ -79,11 +90,15 @@ private:
         } else if (keyword == "f") {
             readFace(line);
         } else if (keyword == "g" || keyword == "o") {
+            charge(kCopies * (line.rest.size() + 3), line);
+            groupNameBytes_ = line.rest.size();
+            groupMaterials_.clear();
             elements_.append(keyword).append(" ").append(line.rest).append("\n");
         } else if (keyword == "s") {
             readSmoothing(line);
         } else if (keyword == "usemtl") {
             const auto [number, isNew] = materialNumbers_.try_emplace(std::string(line.rest), materialNumbers_.size());
+            material_ = number->second;
             fmt::format_to(std::back_inserter(elements_), "usemtl {}\n", number->second);
             if (isNew) {
                 charge(kMaterialBytes, line);
@@ -103,13 +118,15 @@ private:
             if (++degenerateFaces_ == 1) firstDegenerateLine_ = line.number;
             return;
         }
-        // Cutting n corners takes up to n^3 steps.
         constexpr std::size_t kMostCorners = 1024;
         if (line.words.size() > kMostCorners)
             failAt(file_, line.number,
                    fmt::format("the face has {} corners, more than {}; cut it into smaller polygons", line.words.size(),
                                kMostCorners));
         ++faces_;
+        corners_ += line.words.size();
+        // The group's name is that of its node and of each mesh.
+        if (groupMaterials_.insert(material_).second) charge(kMeshBytes + kCopies * groupNameBytes_, line);
         charge((line.words.size() - 2) * kTriangleBytes, line);
         std::vector<std::array<std::size_t, 3>> corners;
         std::vector<glm::dvec3> positionsOS;
@@ -117,7 +134,11 @@ private:
             corners.push_back(readCorner(line, word));
             positionsOS.push_back(positionsOS_[corners.back()[0] - 1]);
         }
-        for (const std::array<std::size_t, 3>& triangle : cutPolygon(positionsOS)) {
+        const std::vector<std::array<std::size_t, 3>> triangles = cutPolygon(positionsOS, steps_);
+        if (steps_ > kMostSteps + kStepsACorner * corners_)
+            failAt(file_, line.number,
+                   "the faces up to here take too long to cut into triangles; export the model with triangles");
+        for (const std::array<std::size_t, 3>& triangle : triangles) {
             elements_ += 'f';
             for (const std::size_t corner : triangle) appendCorner(corners[corner]);
             elements_ += '\n';
@@ -207,7 +228,11 @@ private:
     std::array<std::size_t, 3> read_{};    ///< attributes read so far, in the order of kAttributes
     std::array<std::size_t, 3> defined_{}; ///< in the whole file
     std::unordered_map<std::string, std::size_t> materialNumbers_;
-    std::size_t faces_ = 0;
+    std::size_t groupNameBytes_ = 0;                      ///< of the group that faces belong to
+    std::optional<std::size_t> material_;                 ///< in use
+    std::set<std::optional<std::size_t>> groupMaterials_; ///< that faces of the group have
+    std::size_t faces_ = 0, corners_ = 0;
+    std::uint64_t steps_ = 0; ///< of cutting polygons
     std::size_t degenerateFaces_ = 0;
     int firstDegenerateLine_ = 0;
     std::size_t linesAndPoints_ = 0;

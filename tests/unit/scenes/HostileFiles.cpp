@@ -259,6 +259,14 @@ TEST(Memory, whatNothingReadsOfAGltfFileIsNeverGivenToItsParser) {
     EXPECT_EQ(document.model.materials.at(0).pbrMetallicRoughness.extras.Type(), tinygltf::NULL_TYPE);
 }
 
+TEST(Memory, everyMeshOfAnObjFileIsAlwaysCharged) {
+    const TempFolder folder;
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (int i = 0; i < 20'000; ++i) text += "g\nf 1 2 3\n";
+    const std::filesystem::path file = folder.write("m.obj", text);
+    EXPECT_THAT(inputErrorOf([&] { underLedger(importObj, file, 32 * kMiB); }), HasSubstr("m.obj:"));
+}
+
 TEST(Memory, jsonAndObjTextsAreAlwaysCharged) {
     const TempFolder folder;
     const std::filesystem::path json = folder.write(
@@ -300,6 +308,27 @@ TEST(Growth, warningsAreNeverMoreThanAHundredAndTheirRest) {
     const Scene scene = loadScene(folder.write("m.obj", text).string(), options);
     ASSERT_EQ(scene.warnings.size(), 102u); // the last one is about the camera that is supplied
     EXPECT_EQ(scene.warnings[100], "and 200 more warnings");
+}
+
+TEST(Growth, polygonsThatTakeLongToCutAreAlwaysRefused) {
+    // Convex, and every cut shorter than the one before: each corner is an ear and all others are looked at for it.
+    constexpr int kCorners = 1024;
+    std::string text;
+    double x = 0.0;
+    for (int i = 0; i < kCorners; ++i) {
+        text += fmt::format("v {} {} 0\n", x, x * x);
+        x += (kCorners - i) / 1e6;
+    }
+    std::string face = "f";
+    for (int i = 1; i <= kCorners; ++i) face += fmt::format(" {}", i);
+    for (int i = 0; i < 1000; ++i) text += face + "\n";
+    const TempFolder folder;
+    const std::filesystem::path file = folder.write("m.obj", text);
+    EXPECT_LT(secondsOf([&] {
+                  EXPECT_THAT(inputErrorOf([&] { underLedger(importObj, file); }),
+                              HasSubstr("take too long to cut into triangles"));
+              }),
+              kSeconds);
 }
 
 /// glTF nodes, every other one with a camera, all of one name.
