@@ -255,7 +255,7 @@ private:
             }
         }
         std::vector<bool> wasUsed = usedMaterials(scene);
-        for (const JsonValue& override : overrides) applyOverride(override, scene, ownMaterials, images);
+        applyOverrides(overrides, scene, ownMaterials, images);
         dropReplacedMaterials(scene, ownMaterials, wasUsed, file);
     }
 

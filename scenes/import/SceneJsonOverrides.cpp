@@ -1,72 +1,146 @@
 #include "scenes/import/SceneJsonOverrides.h"
 
 #include <algorithm>
+#include <numeric>
+#include <unordered_set>
 
 #include "scenes/import/SceneJsonMaterials.h"
 
 namespace tessera::scenes::scenejson {
 namespace {
 
+/// Elements of a kind by name.
 template <typename Element>
-std::vector<std::string_view> namesOf(std::span<const Element> elements) {
-    std::vector<std::string_view> names;
-    for (const Element& element : elements)
-        if (std::ranges::find(names, element.name) == names.end()) names.push_back(element.name);
-    return names;
-}
+class ByName {
+public:
+    explicit ByName(std::span<const Element> elements) : elements_(elements), sorted_(elements.size()) {
+        std::iota(sorted_.begin(), sorted_.end(), std::size_t{0});
+        std::ranges::stable_sort(sorted_, {}, [this](std::size_t i) { return nameOf(i); });
+    }
 
-/// A material to bind: the document's own of that name, else the first included one.
-int materialCalled(const JsonValue& value, const Scene& scene, std::size_t ownMaterials) {
-    const std::string name = value.text();
-    const auto findFrom = [&](std::size_t first) {
-        return std::ranges::find(scene.materials.begin() + static_cast<std::ptrdiff_t>(first), scene.materials.end(),
-                                 name, &Material::name);
-    };
-    auto found = findFrom(ownMaterials);
-    if (found == scene.materials.end()) found = findFrom(0);
-    if (found == scene.materials.end())
-        value.failUnknown("material", name, namesOf(std::span<const Material>(scene.materials)));
-    return static_cast<int>(found - scene.materials.begin());
-}
+    /// Their indices, ascending.
+    std::span<const std::size_t> called(std::string_view name) const {
+        return std::ranges::equal_range(sorted_, name, {}, [this](std::size_t i) { return nameOf(i); });
+    }
 
-void bindMaterial(JsonObject& object, const JsonValue& pattern, Scene& scene, std::size_t ownMaterials) {
-    const int material = materialCalled(object.require("material"), scene, ownMaterials);
-    object.done("an override of a node");
-    const std::string text = pattern.text();
-    std::vector<bool> isBelow(scene.nodes.size(), false);
-    bool someMatch = false;
-    bool someDrawn = false;
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        Node& node = scene.nodes[i];
-        const bool matches = matchesPattern(text, node.name);
-        someMatch = someMatch || matches;
-        // A parent stands before its children, so its mark is set already.
-        isBelow[i] = matches || (node.parent != kNone && isBelow[static_cast<std::size_t>(node.parent)]);
-        if (!isBelow[i]) continue;
-        for (MeshInstance& instance : node.instances) {
-            instance.material = material;
-            someDrawn = true;
+    /// Each once, in the elements' order.
+    std::vector<std::string_view> names() const {
+        std::vector<std::string_view> names;
+        std::unordered_set<std::string_view> known;
+        for (const Element& element : elements_)
+            if (known.insert(element.name).second) names.push_back(element.name);
+        return names;
+    }
+
+    std::size_t size() const { return elements_.size(); }
+    std::string_view nameOf(std::size_t i) const { return elements_[i].name; }
+
+private:
+    std::span<const Element> elements_;
+    std::vector<std::size_t> sorted_; ///< indices by name
+};
+
+class Overrides {
+public:
+    Overrides(Scene& scene, std::size_t ownMaterials, Images& images)
+        : scene_(scene), images_(images), nodes_(scene.nodes), materials_(scene.materials),
+          included_(std::span(scene.materials).first(ownMaterials)), binding_(scene.nodes.size(), kNone),
+          isDrawn_(scene.nodes.size(), false) {
+        for (std::size_t i = scene.nodes.size(); i-- > 0;) {
+            if (!scene.nodes[i].instances.empty()) isDrawn_[i] = true;
+            if (isDrawn_[i] && scene.nodes[i].parent != kNone)
+                isDrawn_[static_cast<std::size_t>(scene.nodes[i].parent)] = true;
         }
     }
-    if (!someMatch) pattern.failUnknown("node", text, namesOf(std::span<const Node>(scene.nodes)));
-    if (!someDrawn)
-        pattern.fail(fmt::format("nothing is drawn at or below the nodes '{}'; name one that has a mesh", text));
-}
 
-void changeMaterials(const JsonValue& value, const JsonValue& pattern, Scene& scene, std::size_t ownMaterials,
-                     Images& images) {
-    const std::string text = pattern.text();
-    bool someMatch = false;
-    for (std::size_t i = 0; i < ownMaterials; ++i) {
-        if (!matchesPattern(text, scene.materials[i].name)) continue;
-        someMatch = true;
-        JsonObject object = value.object(); // anew, because each material's model has other keys
-        object.find("material");
-        changeMaterial(object, scene.materials[i], images);
+    void apply(const JsonValue& value) {
+        JsonObject object = value.object();
+        if (const auto node = object.find("node")) return bindMaterial(object, *node);
+        const std::optional<JsonValue> material = object.find("material");
+        if (!material) value.fail("names neither a 'node' nor a 'material' to override");
+        changeMaterials(value, *material);
     }
-    const std::span<const Material> included(scene.materials.data(), ownMaterials);
-    if (!someMatch) pattern.failUnknown("included material", text, namesOf(included));
-}
+
+    /// Gives the nodes the materials that are bound to them or to a node above: the last override counts.
+    void bind() {
+        for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+            Node& node = scene_.nodes[i];
+            // A parent stands before its children, so it has its own already.
+            if (node.parent != kNone)
+                binding_[i] = std::max(binding_[i], binding_[static_cast<std::size_t>(node.parent)]);
+            if (binding_[i] == kNone) continue;
+            for (MeshInstance& instance : node.instances)
+                instance.material = boundMaterials_[static_cast<std::size_t>(binding_[i])];
+        }
+    }
+
+private:
+    void bindMaterial(JsonObject& object, const JsonValue& pattern) {
+        const int material = materialCalled(object.require("material"));
+        object.done("an override of a node");
+        const std::vector<std::size_t> matches = matching(nodes_, pattern);
+        if (matches.empty()) pattern.failUnknown("node", pattern.text(), nodes_.names());
+        if (std::ranges::none_of(matches, [&](std::size_t node) { return isDrawn_[node]; }))
+            pattern.fail(
+                fmt::format("nothing is drawn at or below the nodes '{}'; name one that has a mesh", pattern.text()));
+        for (const std::size_t node : matches) binding_[node] = static_cast<int>(boundMaterials_.size());
+        boundMaterials_.push_back(material);
+    }
+
+    /// A material to bind: the document's own of that name, else the first included one.
+    int materialCalled(const JsonValue& value) const {
+        const std::string name = value.text();
+        const std::span<const std::size_t> called = materials_.called(name);
+        if (called.empty()) value.failUnknown("material", name, materials_.names());
+        const auto own = std::ranges::lower_bound(called, included_.size());
+        return static_cast<int>(own != called.end() ? *own : called.front());
+    }
+
+    void changeMaterials(const JsonValue& value, const JsonValue& pattern) {
+        const std::vector<std::size_t> matches = matching(included_, pattern);
+        if (matches.empty()) pattern.failUnknown("included material", pattern.text(), included_.names());
+        constexpr std::size_t kLooksAChange = 100; // takes about as long
+        look(kLooksAChange * matches.size(), pattern);
+        for (const std::size_t material : matches) {
+            JsonObject object = value.object(); // anew, because each material's model has other keys
+            object.find("material");
+            changeMaterial(object, scene_.materials[material], images_);
+        }
+    }
+
+    template <typename Element>
+    std::vector<std::size_t> matching(const ByName<Element>& elements, const JsonValue& pattern) {
+        const std::string text = pattern.text();
+        if (text.find_first_of("*?") == std::string::npos) {
+            const std::span<const std::size_t> called = elements.called(text);
+            look(called.size(), pattern);
+            return {called.begin(), called.end()};
+        }
+        look(elements.size(), pattern);
+        std::vector<std::size_t> matches;
+        for (std::size_t i = 0; i < elements.size(); ++i)
+            if (matchesPattern(text, elements.nameOf(i))) matches.push_back(i);
+        return matches;
+    }
+
+    /// Counts elements that are looked at: many overrides that match as many would take very long.
+    void look(std::size_t elements, const JsonValue& pattern) {
+        constexpr std::size_t kMostLooks = 100'000'000;
+        if ((looks_ += elements) > kMostLooks)
+            pattern.fail(fmt::format("the overrides up to here look at nodes and materials more than {} times; give "
+                                     "fewer, or names without * and ?",
+                                     kMostLooks));
+    }
+
+    Scene& scene_;
+    Images& images_;
+    ByName<Node> nodes_;
+    ByName<Material> materials_, included_;
+    std::vector<int> boundMaterials_; ///< of the overrides of nodes, in their order
+    std::vector<int> binding_;        ///< index in boundMaterials_ by node; kNone is none
+    std::vector<bool> isDrawn_;       ///< whether a mesh is drawn at or below a node
+    std::size_t looks_ = 0;
+};
 
 } // namespace
 
@@ -91,12 +165,11 @@ bool matchesPattern(std::string_view pattern, std::string_view name) {
     return pattern.find_first_not_of('*', at) == std::string_view::npos;
 }
 
-void applyOverride(const JsonValue& value, Scene& scene, std::size_t ownMaterials, Images& images) {
-    JsonObject object = value.object();
-    if (const auto node = object.find("node")) return bindMaterial(object, *node, scene, ownMaterials);
-    const std::optional<JsonValue> material = object.find("material");
-    if (!material) value.fail("names neither a 'node' nor a 'material' to override");
-    changeMaterials(value, *material, scene, ownMaterials, images);
+void applyOverrides(const std::vector<JsonValue>& overrides, Scene& scene, std::size_t ownMaterials, Images& images) {
+    if (overrides.empty()) return;
+    Overrides all(scene, ownMaterials, images);
+    for (const JsonValue& override : overrides) all.apply(override);
+    all.bind();
 }
 
 std::vector<bool> usedMaterials(const Scene& scene) {

@@ -310,6 +310,29 @@ TEST(Growth, warningsAreNeverMoreThanAHundredAndTheirRest) {
     EXPECT_EQ(scene.warnings[100], "and 200 more warnings");
 }
 
+TEST(Growth, tenThousandOverridesOfNodesAndMaterialsByNameTakeSeconds) {
+    constexpr int kCount = 10'000;
+    const TempFolder folder;
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (int i = 0; i < kCount; ++i) text += fmt::format("g n{0}\nusemtl m{0}\nf 1 2 3\n", i);
+    folder.write("m.obj", text);
+    const auto sceneOf = [&](const std::string& overrides) {
+        return folder.write(
+            "s.json",
+            R"({"tessera": 1, "include": [{"file": "m.obj"}], "materials": [)" +
+                listOf(kCount, [](int i) { return fmt::format(R"({{"name":"own{}","model":"lambert"}})", i); }) +
+                R"(], "overrides": [)" + overrides + "]}");
+    };
+    const std::filesystem::path named = sceneOf(listOf(kCount, [](int i) {
+        return fmt::format(R"({{"material":"m{0}","ior":1.5}},{{"node":"n{0}","material":"own{0}"}})", i);
+    }));
+    EXPECT_LT(secondsOf([&] { EXPECT_EQ(underLedger(importSceneJson, named).materials.size(), kCount + 0u); }), 2.0);
+    const std::filesystem::path patterns =
+        sceneOf(listOf(2 * kCount, [](int) { return std::string(R"({"node":"n*","material":"own0"})"); }));
+    EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, patterns); }),
+                HasSubstr("/node: the overrides up to here look at nodes and materials more than"));
+}
+
 TEST(Growth, polygonsThatTakeLongToCutAreAlwaysRefused) {
     // Convex, and every cut shorter than the one before: each corner is an ear and all others are looked at for it.
     constexpr int kCorners = 1024;
