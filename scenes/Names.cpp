@@ -46,14 +46,17 @@ std::string quotedAlternatives(const std::vector<std::string_view>& names) {
 } // namespace
 
 std::string suggestNames(std::string_view name, std::span<const std::string_view> candidates) {
-    constexpr std::size_t kMostSuggestions = 3; // more would be a list, not a suggestion
+    constexpr std::size_t kMostSuggestions = 3;   // more would be a list, not a suggestion
+    constexpr std::size_t kLongestCompared = 128; // comparing takes the product of both lengths
     std::vector<std::string_view> nearest;
     std::size_t nearestDistance = 0;
     for (const std::string_view candidate : candidates) {
         // Near: at most a third of the letters differ, or one, but never all of them.
-        const std::size_t longest = std::max(name.size(), candidate.size());
+        const auto [shortest, longest] = std::minmax({name.size(), candidate.size()});
+        const std::size_t farthest = std::max<std::size_t>(1, longest / 3);
+        if (longest > kLongestCompared || longest - shortest > farthest) continue;
         const std::size_t distance = editDistance(name, candidate);
-        if (distance > std::max<std::size_t>(1, longest / 3) || distance >= longest) continue;
+        if (distance > farthest || distance >= longest) continue;
         if (nearest.empty() || distance < nearestDistance) {
             nearest.clear();
             nearestDistance = distance;

@@ -333,6 +333,17 @@ TEST(Growth, tenThousandOverridesOfNodesAndMaterialsByNameTakeSeconds) {
                 HasSubstr("/node: the overrides up to here look at nodes and materials more than"));
 }
 
+TEST(Growth, anErrorAboutANameOfAHundredThousandTakesSeconds) {
+    const TempFolder folder;
+    const std::filesystem::path file = folder.write(
+        "s.json", R"({"tessera": 1, "include": [{"file": "builtin:room"}], "materials": [)" +
+                      listOf(100'000, [](int i) { return fmt::format(R"({{"name":"m{}","model":"lambert"}})", i); }) +
+                      R"(], "overrides": [{"node": "*", "material": ")" + std::string(100'000, 'm') + "\"}]}");
+    EXPECT_LT(
+        secondsOf([&] { EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, file); }), HasSubstr("more")); }),
+        kSeconds);
+}
+
 TEST(Growth, polygonsThatTakeLongToCutAreAlwaysRefused) {
     // Convex, and every cut shorter than the one before: each corner is an ear and all others are looked at for it.
     constexpr int kCorners = 1024;

@@ -29,6 +29,13 @@ TEST(Names, equallyNearNamesAreAlwaysAllSuggested) {
     EXPECT_EQ(suggestNames("at", kThree), "did you mean 'bat', 'cat' or 'hat'?");
 }
 
+TEST(Names, namesOfMoreThan128BytesAreNeverCompared) {
+    const std::string most(128, 'a'), more(129, 'a');
+    const std::array<std::string_view, 2> names = {most, more};
+    EXPECT_EQ(suggestNames(most.substr(1), names), "did you mean '" + most + "'?");
+    EXPECT_EQ(suggestNames(more.substr(1) + "b", names), "valid are " + most + ", " + more);
+}
+
 TEST(Names, farNamesAreNeverSuggestedButListed) {
     EXPECT_EQ(suggestNames("quetzalcoatl", kScenes), "valid are hall, spheres, lattice, room, head");
     EXPECT_EQ(suggestNames("", kScenes), "valid are hall, spheres, lattice, room, head");
