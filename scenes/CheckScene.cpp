@@ -201,10 +201,11 @@ void checkPlaces(const Scene& scene) {
             for (const double x : {boxOS.min.x, boxOS.max.x})
                 for (const double y : {boxOS.min.y, boxOS.max.y})
                     for (const double z : {boxOS.min.z, boxOS.max.z})
-                        element.require(
-                            isNearEnough(glm::dvec3(worldFromNode[i] * glm::dvec4(x, y, z, 1.0))),
-                            fmt::format("part of it lies more than {:g} m from the origin; make the scene smaller",
-                                        kFarthestMetres));
+                        if (!isNearEnough(glm::dvec3(worldFromNode[i] * glm::dvec4(x, y, z, 1.0))))
+                            element.require(
+                                false, fmt::format("part of it lies more than {:g} m from the origin; make the scene "
+                                                   "smaller",
+                                                   kFarthestMetres));
         }
     }
 }
