@@ -21,12 +21,12 @@ std::span<const std::byte> Buffers::buffer(int index) {
         if (found == buffers_.end()) {
             const std::uint64_t mark = document_.ledger.usedBytes();
             const std::string& text = uri->get_ref<const std::string&>();
+            const bool isData = isDataUri(text);
+            if (isData) document_.charge(2 * text.size(), "buffers", index);
             try {
-                if (isDataUri(text)) document_.charge(2 * text.size(), "buffers", index);
                 found = buffers_
-                            .emplace(index, isDataUri(text)
-                                                ? decodeDataUri(text)
-                                                : readFileBytes(fileOfUri(text, document_.folder), document_.ledger))
+                            .emplace(index, isData ? decodeDataUri(text)
+                                                   : readFileBytes(fileOfUri(text, document_.folder), document_.ledger))
                             .first;
             } catch (const InputError& error) {
                 document_.fail(place, error.what());

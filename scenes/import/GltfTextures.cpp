@@ -111,9 +111,9 @@ Image Textures::decoded(int index) const {
                             document.ledger);
     } else if (isDataUri(uri)) {
         const std::uint64_t mark = document.ledger.usedBytes();
+        document.charge(2 * uri.size(), "images", index);
         std::vector<std::byte> bytes;
         try {
-            context_.document.charge(2 * uri.size(), "images", index);
             bytes = decodeDataUri(uri);
         } catch (const InputError& error) {
             document.fail(place, error.what());

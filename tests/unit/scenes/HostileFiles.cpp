@@ -259,6 +259,15 @@ TEST(Memory, whatNothingReadsOfAGltfFileIsNeverGivenToItsParser) {
     EXPECT_EQ(document.model.materials.at(0).pbrMetallicRoughness.extras.Type(), tinygltf::NULL_TYPE);
 }
 
+TEST(Memory, aBufferThatIsTooLargeIsAlwaysNamedOnce) {
+    Builder builder;
+    builder.json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + std::string(4 * kMiB, 'A');
+    const TempFolder folder;
+    const std::filesystem::path file = folder.write("m.gltf", builder.json.dump());
+    EXPECT_THAT(inputErrorOf([&] { underLedger(importGltf, file, 26 * kMiB); }),
+                testing::StartsWith(file.string() + ": /buffers/0: asks for"));
+}
+
 TEST(Memory, everyMeshOfAnObjFileIsAlwaysCharged) {
     const TempFolder folder;
     std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
