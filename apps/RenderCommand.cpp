@@ -28,6 +28,7 @@ namespace tessera::app {
 namespace {
 
 constexpr double kFramesPerSecond = 30.0;
+constexpr int kMostFrames = 1'000'000; ///< their names are all known before the first is written
 
 struct RenderOptions {
     FrameOptions frame;
@@ -118,6 +119,9 @@ void check(const RenderOptions& options) {
         throw InputError("--fps needs --frames: how many pictures to render");
     if (options.frames && *options.frames < 1)
         throw InputError(fmt::format("--frames {} is less than one picture", *options.frames));
+    if (options.frames && *options.frames > kMostFrames)
+        throw InputError(fmt::format("--frames {} is more than {} pictures; render fewer at a time, from --time S on",
+                                     *options.frames, kMostFrames));
     if (options.framesPerSecond && !(*options.framesPerSecond > 0.0))
         throw InputError(fmt::format("--fps {} must be more than 0", *options.framesPerSecond));
     validation::requireWritable(options.frames ? FramePattern(options.output).path(0) : options.output);

@@ -114,6 +114,8 @@ TEST_F(BadOptions, sequencesThatCannotBeNumberedAreAlwaysRefused) {
         expectSequenceRefused({"--frames", "2", "-o", pattern}, {pattern, "f_%04d.png"});
     expectSequenceRefused({"--frames", "0", "-o", "a_%d.png"}, {"--frames 0"});
     expectSequenceRefused({"--frames", "-2", "-o", "a_%d.png"}, {"--frames -2"});
+    expectSequenceRefused({"--frames", "2000000000", "-o", "a_%d.png"},
+                          {"--frames 2000000000 is more than 1000000 pictures"});
     for (const char* fps : {"0", "-1"})
         expectSequenceRefused({"--frames", "2", "--fps", fps, "-o", "a_%d.png"}, {std::string("--fps ") + fps});
     for (const char* fps : {"nan", "inf"})
