@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "scenes/Utf8.h"
+
 namespace tessera::app {
 
 std::string oneLine(std::string_view text) {
@@ -27,6 +29,8 @@ std::string oneLine(std::string_view text) {
             line += text[i];
         }
     }
+    constexpr std::size_t kMostBytes = 2000; // of what files say: one word of theirs may have megabytes
+    if (line.size() > kMostBytes) line = std::string(beginningOf(line, kMostBytes)) + "...";
     return line;
 }
 

@@ -15,5 +15,12 @@ TEST(ErrorLine, anErrorIsAlwaysOneLineThatNoTerminalObeys) {
     EXPECT_EQ(oneLine("f\xc3\xbcr"), "f\xc3\xbcr"); // other letters stay
 }
 
+TEST(ErrorLine, aLineIsNeverLongerThanTwoThousandBytesAndDotsAndEndsWithAWholeLetter) {
+    EXPECT_EQ(oneLine(std::string(2000, 'a')), std::string(2000, 'a'));
+    EXPECT_EQ(oneLine(std::string(2001, 'a')), std::string(2000, 'a') + "...");
+    EXPECT_EQ(oneLine(std::string(1999, 'a') + "\xc3\xbcr"), std::string(1999, 'a') + "...");
+    EXPECT_EQ(oneLine(std::string(1'000'000, '\x80')).size(), 2003u) << "no UTF-8";
+}
+
 } // namespace
 } // namespace tessera::app
