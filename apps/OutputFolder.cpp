@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "scenes/Utf8.h"
 #include "validation/AtomicFile.h"
 
 namespace tessera::app {
@@ -46,6 +48,9 @@ std::string pictureFile(const std::string& name, const std::string& extension) {
     std::ranges::replace_if(
         file, [](unsigned char c) { return c <= ' ' || c == 0x7f || c == '/' || c == '\\' || c == ':'; }, '_');
     if (file.starts_with('.')) file.front() = '_'; // a hidden file
+    constexpr std::size_t kMostBytes = 200;        // of the 255 that file systems take
+    if (file.size() > kMostBytes)
+        file = fmt::format("{}_{:016x}", beginningOf(file, kMostBytes), std::hash<std::string>()(name));
     return (file.empty() ? "picture" : file) + extension;
 }
 
