@@ -25,11 +25,33 @@ std::uint64_t defaultMemoryLimitBytes() {
     const long pages = sysconf(_SC_PHYS_PAGES), pageBytes = sysconf(_SC_PAGESIZE);
     if (pages > 0 && pageBytes > 0)
         machineBytes = static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(pageBytes);
-    // Linux, control groups version 2: a number, or "max".
-    std::uint64_t groupBytes = 0;
-    if (std::ifstream file("/sys/fs/cgroup/memory.max"); file >> groupBytes && groupBytes > 0)
-        machineBytes = std::min(machineBytes, groupBytes);
-    return machineBytes / 2;
+    return std::min(machineBytes, groupLimitBytes().value_or(machineBytes)) / 2;
+}
+
+std::optional<std::uint64_t> groupLimitBytes(const std::filesystem::path& membership,
+                                             const std::filesystem::path& groups) {
+    std::optional<std::uint64_t> least;
+    std::ifstream lines(membership);
+    // Each is NUMBER:CONTROLLERS:/PATH; version 2 names no controllers.
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t first = line.find(':');
+        const std::size_t second = first == std::string::npos ? first : line.find(':', first + 1);
+        if (second == std::string::npos) continue;
+        const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+        const bool isVersion2 = controllers == ",,";
+        if (!isVersion2 && controllers.find(",memory,") == std::string::npos) continue;
+        const std::filesystem::path root = isVersion2 ? groups : groups / "memory";
+        // In a container the path may be one of the host's, and only the root is there.
+        std::filesystem::path group = (root / line.substr(std::min(second + 2, line.size()))).lexically_normal();
+        while (true) {
+            // A number, or "max".
+            std::ifstream file(group / (isVersion2 ? "memory.max" : "memory.limit_in_bytes"));
+            if (std::uint64_t bytes = 0; file >> bytes && bytes > 0) least = std::min(bytes, least.value_or(bytes));
+            if (group == root || !group.has_relative_path()) break;
+            group = group.parent_path();
+        }
+    }
+    return least;
 }
 
 std::string sizeText(std::uint64_t bytes) {

@@ -10,8 +10,13 @@
 
 namespace tessera::scenes {
 
-/// Half of the machine's memory, or of what its control group may use where that is less.
+/// Half of the machine's memory, or of what the control groups of the process may use where that is less.
 std::uint64_t defaultMemoryLimitBytes();
+
+/// The least that the control groups in which the process is, and those above them, may use; none without a limit.
+/// `membership` says which they are, `groups` is the folder of all. Source: Linux, cgroups(7), both versions.
+std::optional<std::uint64_t> groupLimitBytes(const std::filesystem::path& membership = "/proc/self/cgroup",
+                                             const std::filesystem::path& groups = "/sys/fs/cgroup");
 
 /// "512 B", "1.5 KiB", "2.0 GiB".
 std::string sizeText(std::uint64_t bytes);

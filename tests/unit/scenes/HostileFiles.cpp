@@ -49,6 +49,24 @@ TEST(Memory, aLimitThatIsNotGivenIsAlwaysHalfOfTheMachinesOrLess) {
     EXPECT_EQ(sizeText(3 * kMiB / 2), "1.5 MiB");
 }
 
+TEST(Memory, theLimitOfAControlGroupIsAlwaysTheLeastOfItsOwnAndThoseAbove) {
+    const TempFolder folder;
+    const auto limitOf = [&](const std::string& membership) {
+        return groupLimitBytes(folder.write("membership", membership), folder.path() / "groups");
+    };
+    folder.write("groups/user/session/memory.max", "max\n");
+    EXPECT_FALSE(limitOf("0::/user/session\n"));
+    folder.write("groups/user/memory.max", "3000\n");
+    folder.write("groups/user/session/app/memory.max", "5000\n");
+    EXPECT_EQ(limitOf("0::/user/session/app\n"), 3000u);
+    folder.write("groups/memory.max", "2000\n");
+    EXPECT_EQ(limitOf("0::/of/the/host\n"), 2000u);
+    EXPECT_EQ(limitOf("0::/\n"), 2000u);
+    folder.write("groups/memory/user/memory.limit_in_bytes", "700\n");
+    EXPECT_EQ(limitOf("5:cpu,cpuacct:/user\n4:hugetlb,memory:/user\n"), 700u);
+    EXPECT_FALSE(limitOf("5:cpu:/user\nbroken\n"));
+}
+
 TEST(Memory, accessorsThatAreReadAgainAndAgainAreAlwaysCharged) {
     // A few hundred bytes: one accessor of a million zeros, drawn by hundreds of primitives.
     Builder builder;
