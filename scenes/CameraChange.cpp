@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 
+#include "scenes/Direction.h"
 #include "scenes/Error.h"
 #include "scenes/Limits.h"
 #include "scenes/LookAt.h"
@@ -44,11 +45,9 @@ void place(Camera& camera, const CameraChange& change) {
     if (!(glm::distance(eyeWS, targetWS) > 0.0)) fail(camera, "it cannot look at its own place; give another target");
     glm::dvec3 upWS(0.0, 1.0, 0.0);
     if (change.upWS) {
-        // Scaled first, so that squaring neither overflows nor vanishes.
-        const glm::dvec3 size = glm::abs(*change.upWS);
-        const double largest = std::max({size.x, size.y, size.z});
-        if (!(largest > 0.0)) fail(camera, "its up has no length; give a direction");
-        upWS = glm::normalize(*change.upWS / largest);
+        const std::optional<glm::dvec3> direction = directionOf(*change.upWS);
+        if (!direction) fail(camera, "its up has no length; give a direction");
+        upWS = *direction;
     }
     camera.worldFromCamera = worldFromLookAt(eyeWS, targetWS, upWS);
 }

@@ -1,10 +1,13 @@
 #include "scenes/import/AppendScene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "scenes/Direction.h"
 #include "scenes/Error.h"
 
 namespace tessera::scenes {
@@ -23,19 +26,23 @@ glm::dvec3 movedPoint(const glm::dmat4& worldFromPart, const glm::dvec3& point) 
     return glm::dvec3(worldFromPart * glm::dvec4(point, 1.0));
 }
 
-/// det(M) M^-T without a division: what normals and axes of rotation are moved by.
-glm::dmat3 cofactorOf(const glm::dmat3& matrix) {
+/// det(M) M^-T without a division, up to a positive factor: what normals and axes of rotation are moved by.
+glm::dmat3 cofactorOf(glm::dmat3 matrix) {
+    // Products of its entries neither overflow nor vanish.
+    double largest = 0.0;
+    for (glm::length_t i = 0; i < 9; ++i) largest = std::max(largest, std::abs(matrix[i / 3][i % 3]));
+    if (largest > 0.0) matrix /= largest;
     return {glm::cross(matrix[1], matrix[2]), glm::cross(matrix[2], matrix[0]), glm::cross(matrix[0], matrix[1])};
 }
 
 /// `what` names whose direction it is.
 glm::dvec3 movedDirection(const glm::dvec3& vector, const char* what, const std::string& name) {
-    const double length = glm::length(vector);
-    if (!(length > 0.0) || !std::isfinite(length))
+    const std::optional<glm::dvec3> direction = directionOf(vector);
+    if (!direction)
         throw InputError(fmt::format("its transform leaves the {} '{}' no direction; give scales that are not 0 and "
                                      "finite",
                                      what, name));
-    return vector / length;
+    return *direction;
 }
 
 void moveLight(Light& light, const glm::dmat4& worldFromPart) {

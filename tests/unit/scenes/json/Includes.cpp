@@ -240,5 +240,18 @@ TEST(SceneJsonInclude, aScaleThatLeavesACameraNoDirectionIsAlwaysTheIncludesFaul
         testing::AllOf(testing::StartsWith("/include/0: its transform leaves"), HasSubstr("no direction")));
 }
 
+TEST(SceneJsonInclude, aScaleWhoseSquareLeavesDoubleNeverTakesADirection) {
+    const SceneFolder folder;
+    folder.write("parts/orbit.json", R"({"tessera": 1, "lights": [{"type": "spot", "position": [0, 0, 0],
+        "direction": [0, -1, 0], "intensity": 1, "outerDegrees": 30,
+        "animation": {"type": "orbit", "axis": [0, 0, 1], "periodSeconds": 1}}]})");
+    for (const char* scale : {"1e170", "1e-170"}) {
+        const Scene scene = folder.import(
+            including(R"({"file": "parts/orbit.json", "transform": {"scale": )" + std::string(scale) + "}}"));
+        EXPECT_EQ(scene.lights.at(0).directionWS, glm::dvec3(0.0, -1.0, 0.0)) << scale;
+        EXPECT_EQ(scene.lights.at(0).animation->axisWS, glm::dvec3(0.0, 0.0, 1.0)) << scale;
+    }
+}
+
 } // namespace
 } // namespace tessera::scenes
