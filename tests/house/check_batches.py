@@ -14,6 +14,14 @@ from sources import sourcesOf
 # Folders whose sources are one target each; the longest that holds a file counts.
 TARGETS = ("apps", "passes", "renderer", "scenes", "shaders", "validation", "viewer", "tests/unit", "tests/gpu", "tests/image",
            "tests/cli/program", "tests/viewer")
+# Sources of other folders that tests/CMakeLists.txt compiles into a target too.
+GUESTS = {
+    "tests/unit": ["apps/" + part + ".cpp" for part in ("ErrorLine", "FirstLook", "FrameOptionText", "Numbers", "Options",
+                                                        "OutputFolder", "Outputs", "Progress")] + ["tests/support/TestScenes.cpp"],
+    "tests/image": ["tests/support/TestScenes.cpp", "tests/support/CullingScenes.cpp"],
+    "tests/cli/program": ["tests/support/Process.cpp"],
+    "tests/viewer": ["tests/support/Process.cpp"],
+}
 NAMESPACE = re.compile(r"(?:inline )?namespace ([\w:]*) ?\{$")
 END = re.compile(r"\} // namespace")
 TYPE = re.compile(r"(?:struct|class|union|enum(?: class)?) (\w+)\b(?!;)")
@@ -55,14 +63,20 @@ def parameterTypes(text):
     return ",".join(re.sub(r"\s*\w+(\[\])?$", "", parameter.split("=")[0].strip()) for parameter in parameters)
 
 
+def targetsOf(path):
+    """The targets that a source is compiled into."""
+    home = max((target for target in TARGETS if path.startswith(target + "/")), key=len, default=None)
+    return ([home] if home else []) + [target for target, guests in GUESTS.items() if path in guests]
+
+
 def faultsOf(files):
     """Messages on {path: text}, paths relative to the repository's root."""
     places = collections.defaultdict(dict) # of each name, by file
     for path, text in sorted(files.items()):
-        target = max((target for target in TARGETS if path.startswith(target + "/")), key=len, default=None)
-        if target and path.endswith(".cpp"):
+        if path.endswith(".cpp"):
             for number, where, name in namesIn(text):
-                places[target, where, name].setdefault(path, number)
+                for target in targetsOf(path):
+                    places[target, where, name].setdefault(path, number)
     messages = []
     for (_, _, name), found in places.items():
         (path, number), *others = found.items()

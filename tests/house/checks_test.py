@@ -25,6 +25,11 @@ class Batches(unittest.TestCase):
         for text in ("struct Row {", "template <class T>\nT sum(T a, T b = 0) {", "std::string sum(const std::vector<int>& a,\n   int b) {"):
             self.assertEqual(len(self.faults(text, text)), 1, text)
 
+    def testSourcesThatATargetTakesFromElsewhereAreItsOwnToo(self):
+        self.assertEqual(len(self.faults("struct Row {", "struct Row {", ("apps/Outputs.cpp", "tests/unit/apps/A.cpp"))), 1)
+        self.assertEqual(len(self.faults("struct Row {", "struct Row {", ("tests/support/Process.cpp", "tests/viewer/A.cpp"))), 1)
+        self.assertEqual(self.faults("struct Row {", "struct Row {", ("apps/main.cpp", "tests/unit/apps/A.cpp")), [])
+
     def testOverloadsMembersDeclarationsAndOtherTargetsAreNoFaults(self):
         self.assertEqual(self.faults("int sum(int a) {", "int sum(int a, int b) {"), [])
         self.assertEqual(self.faults("class A {\nprivate:\n    int sum() { return 1; }\n};",
