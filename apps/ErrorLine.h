@@ -9,7 +9,7 @@ namespace tessera::app {
 /// U+0080 to U+009F: ECMA-48.
 std::string oneLine(std::string_view text);
 
-/// Writes "tessera: TEXT" as one line to stderr; that this may fail is nobody's concern any more.
+/// Writes "tessera: TEXT" as one line to stderr. A failure is ignored: there is no other place to tell it.
 void printProblem(std::string_view text);
 
 } // namespace tessera::app

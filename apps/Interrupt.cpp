@@ -8,7 +8,8 @@ namespace tessera::app {
 
 namespace {
 
-/// Only async-signal-safe calls. SA_RESETHAND has put the signal's own action back, and it is held until the return.
+/// Makes only async-signal-safe calls. SA_RESETHAND has put the signal's own action back; the raised signal waits for
+/// the return, then ends the program.
 void cleanUpAndEnd(int signal) {
     validation::removeTemporaries();
     std::raise(signal);
@@ -17,13 +18,13 @@ void cleanUpAndEnd(int signal) {
 } // namespace
 
 void cleanUpWhenInterrupted() {
-    // A file that grows beyond what is allowed is then an error of the write, as a full disk is.
+    // A file that outgrows its limit fails the write, as a full disk does, instead of ending the program.
     std::signal(SIGXFSZ, SIG_IGN);
-    // A reader of messages who left must not cost the picture; endAsByClosedPipe() is for the output's.
+    // Messages that nobody reads must not cost the picture. endAsByClosedPipe() ends who writes the output itself.
     std::signal(SIGPIPE, SIG_IGN);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
         struct sigaction old {};
-        // Who is told to ignore a signal, as by nohup, goes on.
+        // A signal that the parent had ignored, as nohup does, stays ignored.
         if (sigaction(signal, nullptr, &old) != 0 || old.sa_handler == SIG_IGN) continue;
         struct sigaction action {};
         action.sa_handler = cleanUpAndEnd;

@@ -7,8 +7,8 @@
 /// How many lights a scene may have and how far lengths may go.
 namespace tessera::scenes {
 
-/// Lights that a scene can be asked to have, that a file can give it and that can be drawn: on software rasterisers,
-/// whose loops end early, shaders get through so many (renderer/frame/LightRounds.h).
+/// The most lights that a scene can have. Software rasterisers end loops early, and shaders cannot visit more
+/// (renderer/frame/LightRounds.h).
 inline constexpr int kMostLights = 262144;
 
 /// Throws InputError when these lights are more than kMostLights; `source` is the file that gives them, or the scene.

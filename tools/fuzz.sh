@@ -25,7 +25,7 @@ for target in "${targets[@]}"; do
     options=("-artifact_prefix=$findings/" -max_total_time="$each" -rss_limit_mb=2048 -timeout=10 -max_len=65536)
     dictionary=$root/tests/fuzz/dictionaries/$target.txt
     [ ! -e "$dictionary" ] || options+=("-dict=$dictionary")
-    # Allocations that fail end in std::bad_alloc; libraries cast between the types of functions they register.
+    # An allocation that is too large is a finding, not a null pointer.
     if ! ASAN_OPTIONS=allocator_may_return_null=0:detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 \
         "$program" "${options[@]}" "$kept" "$root/tests/fuzz/corpus/$target" >"$log" 2>&1 </dev/null; then
         grep -E 'ERROR|SUMMARY|runtime error|what\(\)' "$log" >&2 || true

@@ -17,7 +17,7 @@ public:
     /// The bytes of a buffer view, decompressed, valid as long as this object. Throws InputError naming the view or the
     /// buffer.
     std::span<const std::byte> view(int bufferView);
-    /// Of the ledger, what stays as long as this object.
+    /// Bytes charged to the ledger that this object keeps until its end.
     std::uint64_t heldBytes() const { return heldBytes_; }
 
 private:

@@ -10,8 +10,8 @@
 #include "scenes/Error.h"
 #include "tests/fuzz/Targets.h"
 
-/// libFuzzer's entry: one program a target, TESSERA_FUZZ_TARGET. Inputs become a file, because that is what is read,
-/// with those of tests/fuzz/beside around it, in a folder of the process's own that is in memory where there is such.
+/// libFuzzer's entry: one program a target, TESSERA_FUZZ_TARGET. Readers take files, so each input is written to one,
+/// beside those of tests/fuzz/beside. Their folder belongs to the process, and lies in memory where /dev/shm exists.
 namespace {
 
 namespace fs = std::filesystem;
