@@ -39,7 +39,7 @@ constexpr std::size_t kMeshBytes = kCopies * (sizeof(tinyobj::shape_t) + sizeof(
 
 /// Corners that are looked at to cut all polygons of a file: a second or so.
 constexpr std::uint64_t kMostSteps = 500'000'000;
-/// Of them, each corner of the file is granted these: quads take no more.
+/// Beside them, each corner of the file is granted so many: quads take fewer.
 constexpr std::uint64_t kStepsACorner = 16;
 
 class ObjChecker {

@@ -18,7 +18,8 @@ struct SceneOrigin {
     std::size_t images = 0, meshes = 0, nodes = 0;
 };
 
-/// The origin of a scene that loadScene() has just made of these. Throws InputError where a file has changed since in a
+/// The origin of a scene that loadScene() has just made of these. Reads its documents again, one at a time, under a
+/// ledger of its own. Throws InputError where a file has changed since in a
 /// way that cannot be read.
 SceneOrigin originOf(const std::string& nameOrPath, const LoadOptions& options, const Scene& loaded);
 
