@@ -114,6 +114,15 @@ void stripUnread(Json& value) {
         for (Json& element : value) stripUnread(element);
 }
 
+/// Values in the extensions at any level, for each of which tinygltf keeps one of its own.
+std::size_t extensionValues(const Json& value, bool isInExtension = false) {
+    std::size_t count = isInExtension ? 1 : 0;
+    if (!value.is_structured()) return count;
+    for (auto element = value.begin(); element != value.end(); ++element)
+        count += extensionValues(*element, isInExtension || (value.is_object() && element.key() == "extensions"));
+    return count;
+}
+
 /// What tinygltf is given: buffers and images are left out, because they are loaded here, checked and only when used;
 /// skins, animations, morph targets, extras and unknown extensions, because nothing reads them; and accessors without a
 /// buffer view point at one past the document's, because tinygltf refuses index accessors that have none.
@@ -160,7 +169,11 @@ Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger) {
         document.bufferViewCount = static_cast<int>(views->size());
 
     chargeElements(document);
-    const std::string text = documentForParser(document.json).dump();
+    const Json stripped = documentForParser(document.json);
+    constexpr std::uint64_t kCopies = 3; // while an array of them that doubles is copied
+    ledger.charge(kCopies * sizeof(tinygltf::Value) * extensionValues(stripped),
+                  [&] { return document.file + ": its extensions"; });
+    const std::string text = stripped.dump();
     if (text.size() > std::numeric_limits<unsigned>::max())
         throw InputError(fmt::format("{}: the JSON is larger than 4 GiB; move data into .bin files", document.file));
     tinygltf::TinyGLTF parser;

@@ -277,6 +277,15 @@ TEST(Memory, whatNothingReadsOfAGltfFileIsNeverGivenToItsParser) {
     EXPECT_EQ(document.model.materials.at(0).pbrMetallicRoughness.extras.Type(), tinygltf::NULL_TYPE);
 }
 
+TEST(Memory, everyValueOfAnExtensionOfAGltfFileIsAlwaysCharged) {
+    Builder builder;
+    builder.json["materials"] = gltf::test::Json::parse(R"([{"extensions": {"KHR_materials_ior": {"ior": 1.5}}}])");
+    builder.json["materials"][0]["extensions"]["KHR_materials_ior"]["more"] = std::vector<int>(100'000, 0);
+    const TempFolder folder;
+    EXPECT_THAT(inputErrorOf([&] { underLedger(importGltf, folder.write("m.gltf", builder.json.dump()), 32 * kMiB); }),
+                HasSubstr("m.gltf: its extensions: asks for"));
+}
+
 TEST(Memory, aBufferThatIsTooLargeIsAlwaysNamedOnce) {
     Builder builder;
     builder.json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + std::string(4 * kMiB, 'A');
@@ -337,8 +346,8 @@ TEST(Growth, warningsAreNeverMoreThanAHundredAndTheirRest) {
     EXPECT_EQ(scene.warnings[100], "and 200 more warnings");
 }
 
-TEST(Growth, tenThousandOverridesOfNodesAndMaterialsByNameTakeSeconds) {
-    constexpr int kCount = 10'000;
+TEST(Growth, thirtyThousandOverridesOfNodesAndMaterialsByNameTakeSeconds) {
+    constexpr int kCount = 30'000;
     const TempFolder folder;
     std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (int i = 0; i < kCount; ++i) text += fmt::format("g n{0}\nusemtl m{0}\nf 1 2 3\n", i);
@@ -353,7 +362,8 @@ TEST(Growth, tenThousandOverridesOfNodesAndMaterialsByNameTakeSeconds) {
     const std::filesystem::path named = sceneOf(listOf(kCount, [](int i) {
         return fmt::format(R"({{"material":"m{0}","ior":1.5}},{{"node":"n{0}","material":"own{0}"}})", i);
     }));
-    EXPECT_LT(secondsOf([&] { EXPECT_EQ(underLedger(importSceneJson, named).materials.size(), kCount + 0u); }), 2.0);
+    EXPECT_LT(secondsOf([&] { EXPECT_EQ(underLedger(importSceneJson, named).materials.size(), kCount + 0u); }),
+              kSeconds);
     const std::filesystem::path patterns =
         sceneOf(listOf(2 * kCount, [](int) { return std::string(R"({"node":"n*","material":"own0"})"); }));
     EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, patterns); }),
