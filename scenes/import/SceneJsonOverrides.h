@@ -6,7 +6,8 @@ namespace tessera::scenes::scenejson {
 /// True when `pattern`, in which * stands for any text and ? for any character, matches the whole name.
 bool matchesPattern(std::string_view pattern, std::string_view name);
 
-/// Applies overrides one after the other: {"node": PATTERN, "material": NAME} binds a material to all that is drawn at the matching nodes and below them;
+/// Applies overrides one after the other: {"node": PATTERN, "material": NAME} binds a material to all that is drawn at
+/// the matching nodes and below them;
 /// {"material": PATTERN, ...} changes parameters of the matching materials. `ownMaterials` is the index of the first
 /// material that the document itself defines: those are found by name before included ones, and are not changed.
 /// Throws InputError with the nearest names when nothing matches, and when they are too many for all that they match.

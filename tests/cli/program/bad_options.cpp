@@ -151,7 +151,8 @@ TEST_F(BadOptions, memoryThatIsNoSizeIsAlwaysRefused) {
     for (const char* size : {"0", "-1", "4T", "4 G", "G", "1e9", "99999999999999999999", "17179869184G", ""})
         expectRefused({"--memory-limit", size}, {std::string("--memory-limit '") + size + "' is no size", "as in 4G"});
     folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    expectError(kBadInput, {"plan", "m.obj", "--memory-limit", "512"}, {"m.obj:", "may take 512 B; make it smaller or raise --memory-limit"});
+    expectError(kBadInput, {"plan", "m.obj", "--memory-limit", "512"},
+                {"m.obj:", "may take 512 B; make it smaller or raise --memory-limit"});
     EXPECT_EQ(run({"plan", "m.obj", "--memory-limit", "1M"}).exitCode, 0);
 }
 
