@@ -79,8 +79,6 @@ Scene makeBuiltin(const BuiltinScene& builtin, const LoadOptions& options, LoadL
     const auto lights = static_cast<std::uint64_t>(options.lights.value_or(0));
     ledger.charge(builtin.bytes + kCopies * lights * sizeof(Light), [&] { return who; });
     Scene scene = builtin.make(options, ledger);
-    // Its own lights, such as a sky, count among those that can be drawn; where all are asked for, the last give way.
-    if (scene.lights.size() > std::size_t(kMostLights)) scene.lights.resize(std::size_t(kMostLights));
     ledger.settle(mark, bytesOf(scene));
     return scene;
 }

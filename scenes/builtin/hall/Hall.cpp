@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scenes/Limits.h"
 #include "scenes/builtin/Author.h"
 #include "scenes/builtin/Builtin.h"
 #include "scenes/builtin/bust/Bust.h"
@@ -106,7 +108,8 @@ Scene makeHall(const LoadOptions& options, LoadLedger&) {
     const Finishes finishes = addFinishes(scene);
     addArchitecture(scene, finishes);
     addFurnishings(scene, finishes);
-    addPointLights(scene, options.lights.value_or(kDefaultHallLights));
+    constexpr int kMostPointLights = kMostLights - 1; // and the sky
+    addPointLights(scene, std::min(options.lights.value_or(kDefaultHallLights), kMostPointLights));
     addSkyLight(scene);
     addCamera(scene, "nave", {0.9, 1.75, 17.6}, {-0.25, 4.35, 0.0}, 62.0);
     addCamera(scene, "aisle", {-5.6, 1.7, 13.0}, {-6.4, 2.4, 6.0}, 60.0);

@@ -52,7 +52,9 @@ TEST(LoadScene, numberOfLightsIsAlwaysFrom0ToTheMost) {
 TEST(LoadScene, aBuiltinScenesOwnLightsAlwaysCountAmongThoseThatCanBeDrawn) {
     LoadOptions options;
     options.lights = kMostLights;
-    EXPECT_EQ(loadScene("hall", options).lights.size(), std::size_t(kMostLights));
+    const Scene hall = loadScene("hall", options);
+    EXPECT_EQ(hall.lights.size(), std::size_t(kMostLights));
+    EXPECT_EQ(hall.lights.back().type, LightType::Directional) << "the sky stays";
 }
 
 TEST(LoadScene, aFileOfMoreLightsThanCanBeDrawnIsAlwaysRefusedUnlessItsFirstAreAskedFor) {
