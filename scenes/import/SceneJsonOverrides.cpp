@@ -20,7 +20,10 @@ public:
 
     /// Their indices, ascending.
     std::span<const std::size_t> called(std::string_view name) const {
-        return std::ranges::equal_range(sorted_, name, {}, [this](std::size_t i) { return nameOf(i); });
+        const auto byName = [this](std::size_t i) { return nameOf(i); };
+        // Not equal_range(), whose result clang 14 cannot take with the GNU library.
+        return {std::ranges::lower_bound(sorted_, name, {}, byName),
+                std::ranges::upper_bound(sorted_, name, {}, byName)};
     }
 
     /// Each once, in the elements' order.
