@@ -20,15 +20,6 @@ std::string canonicalName(const std::string& path) {
     return failure ? std::string() : canonical.string();
 }
 
-/// One text for all names of a file, which need not exist; nothing for what is no file: a device, a pipe.
-std::string identityOf(const std::string& path) {
-    if (path.empty() || isStandardOutput(path)) return {};
-    std::error_code failure;
-    const std::filesystem::file_status status = std::filesystem::status(path, failure);
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return {};
-    return canonicalName(path);
-}
-
 bool isWithin(const std::string& identity, const std::string& folder) {
     return identity.size() > folder.size() && identity.starts_with(folder) && identity[folder.size()] == '/';
 }
@@ -41,6 +32,24 @@ bool isStandardOutput(const std::string& path) {
 
 void requireOutput(const std::string& path) {
     if (!isStandardOutput(path)) validation::requireWritable(path);
+}
+
+/// A file that is not there yet has the name of its folder before its own: for a sequence of pictures the folder is
+/// looked up once.
+std::string Outputs::identityOf(const std::string& path) const {
+    if (path.empty() || isStandardOutput(path)) return {};
+    std::error_code failure;
+    if (std::filesystem::exists(std::filesystem::symlink_status(path, failure))) {
+        const std::filesystem::file_status status = std::filesystem::status(path, failure);
+        const bool isFile = !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
+        return isFile ? canonicalName(path) : std::string();
+    }
+    const std::filesystem::path name(path);
+    if (!name.has_filename()) return canonicalName(path);
+    const std::string folder = name.parent_path().string();
+    const auto [known, isNew] = canonicalFolders_.try_emplace(folder);
+    if (isNew) known->second = canonicalName(folder.empty() ? "." : folder);
+    return known->second.empty() ? std::string() : (known->second / name.filename()).string();
 }
 
 Outputs::Outputs(const std::vector<std::string>& paths) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -35,10 +36,13 @@ public:
     void write(const std::string& path, std::string_view text) const;
 
 private:
+    /// One text for all names of a file, which need not exist; nothing for what is no file: a device, a pipe.
+    std::string identityOf(const std::string& path) const;
     void requireNotRead(const std::string& file, const std::string& identity) const;
 
-    std::map<std::string, std::string> outputs_; ///< as they were told, by identity
-    std::set<std::string> folders_, read_;       ///< identities
+    std::map<std::string, std::string> outputs_;                            ///< as they were told, by identity
+    std::set<std::string> folders_, read_;                                  ///< identities
+    mutable std::map<std::string, std::filesystem::path> canonicalFolders_; ///< by the name that outputs give it
 };
 
 } // namespace tessera::app
