@@ -87,7 +87,8 @@ Tolerance referenceTolerance(const scenes::Scene& scene, frame::TextureFilter fi
         tolerance.bias = 5e-3;
         tolerance.reason = "what OpenGL leaves open is the reference's span; a highlight may peak between its ends, "
                            "and every level that "
-                           "is stored in 8 bits rounds once more. The built-in scenes reach 0.11 and 7.0e-5";
+                           "is stored in 8 bits rounds once more. Set by measurement: built-in scenes reach 0.11 for "
+                           "99.9 % of the pixels, and relMse 7.0e-5";
     }
     return tolerance;
 }

@@ -31,6 +31,7 @@ public:
 
     const glm::dvec3& eyeWS() const { return eyeWS_; }
     const glm::dvec3& forward() const { return forward_; }
+    bool isPerspective() const { return isPerspective_; }
 
     /// Unit direction from a point to whoever looks at it.
     glm::dvec3 toViewer(const glm::dvec3& positionRel) const;

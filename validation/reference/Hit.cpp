@@ -28,7 +28,7 @@ void setChanges(const Object& object, const Ray& ray, const glm::dvec3& edge1, c
         (std::abs(glm::dot(area, ray.directionDx)) + std::abs(glm::dot(area, ray.directionDy))) / std::abs(slope);
     const double pixelMetres = glm::length(ray.originDx + hit.depthMetres * ray.directionDx);
     const Anchor& anchor = object.anchor;
-    double reach = glm::length(ray.at(hit.depthMetres) - anchor.centreRel) + anchor.otherOriginMetres();
+    double reach = glm::length(ray.at(hit.depthMetres) - anchor.centreRel) + anchor.otherOriginMetres;
     double largestReach = reach;
     for (int corner = 0; corner < 3; ++corner) {
         const double own = object.cornerReach(hit.triangle, corner);

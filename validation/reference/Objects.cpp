@@ -29,13 +29,17 @@ double depthOfBoxCentre(const Object& object, const glm::dvec3& forward) {
     return glm::dot(forward, glm::dvec3(object.relFromObject * glm::dvec4(centreOS, 1.0)));
 }
 
-Anchor anchorOf(const scenes::Box3& boundsRel) {
+/// With perspective the product leaves the eye where the farthest depth of what it sees, with room for roundings, is at
+/// most twice the nearest; here all of the scene must be so.
+Anchor anchorOf(const scenes::Box3& boundsRel, const CameraRays& rays) {
+    if (boundsRel.empty()) return {};
+    const glm::dvec3 centreRel = 0.5 * (boundsRel.min + boundsRel.max);
     const double radius = 0.5 * glm::length(boundsRel.max - boundsRel.min);
-    const glm::dvec3 middleRel = 0.5 * (boundsRel.min + boundsRel.max);
-    // From there on all depths lie within a factor of two, where the product leaves the eye too.
-    constexpr double kFarRadii = 4.0;
-    if (boundsRel.empty() || !(glm::length(middleRel) > kFarRadii * radius)) return {};
-    return {middleRel, radius};
+    const double ahead = glm::dot(centreRel, rays.forward());
+    const double beside = glm::length(centreRel - ahead * rays.forward());
+    const double roomyRadius = 1.3 * radius + 2e-3 * beside;
+    if (rays.isPerspective() && !(ahead > 3.0 * roomyRadius)) return {};
+    return {centreRel, radius, beside + roomyRadius};
 }
 
 } // namespace
@@ -55,11 +59,13 @@ Objects::Objects(const scenes::Scene& scene, const CameraRays& rays) {
     scenes::Box3 boundsRel;
     for (const std::vector<Object>* list : {&opaque_, &transparent_}) {
         for (const Object& object : *list) {
-            for (const glm::vec3& vertexOS : object.mesh->positionsOS)
-                boundsRel.extend(glm::dvec3(object.relFromObject * glm::dvec4(glm::dvec3(vertexOS), 1.0)));
+            for (const std::uint32_t vertex : object.mesh->indices) {
+                const glm::dvec3 vertexOS(object.mesh->positionsOS[vertex]);
+                boundsRel.extend(glm::dvec3(object.relFromObject * glm::dvec4(vertexOS, 1.0)));
+            }
         }
     }
-    anchor_ = anchorOf(boundsRel);
+    anchor_ = anchorOf(boundsRel, rays);
     for (std::vector<Object>* list : {&opaque_, &transparent_})
         for (Object& object : *list) object.anchor = anchor_;
 }

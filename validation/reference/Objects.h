@@ -10,18 +10,16 @@
 
 namespace tessera::reference {
 
-/// Where positions in single precision have their origin: from a far eye the middle of what there is to see, else the
-/// eye. The digits are where the triangles are.
+/// Where positions in single precision have their origin: from a far eye, and under parallel rays, the middle of what
+/// there is to see, else the eye. The digits are where the triangles are.
 struct Anchor {
     glm::dvec3 centreRel{0.0};
-    double radiusMetres = 0.0; ///< around the centre, which holds everything; 0 at the eye
-
-    /// The product's own origin lies elsewhere among what is seen: at most so far from this one.
-    double otherOriginMetres() const { return 2.0 * radiusMetres; }
+    double radiusMetres = 0.0;      ///< around the centre, which holds everything; 0 at the eye
+    double otherOriginMetres = 0.0; ///< the product's origin, on the view axis beside all this, is at most so far away
 
     /// How far from either origin a surface at a depth may lie.
     double reachMetres(double depthMetres) const {
-        return radiusMetres == 0.0 ? depthMetres : radiusMetres + otherOriginMetres();
+        return radiusMetres == 0.0 ? depthMetres : radiusMetres + otherOriginMetres;
     }
 };
 
@@ -44,7 +42,7 @@ struct Object {
     /// The sum of the magnitudes that a corner's position is added up from, which rounding goes with.
     double cornerReach(std::uint32_t triangle, int corner) const {
         const std::uint32_t vertex = mesh->indices[3 * std::size_t(triangle) + std::size_t(corner)];
-        double reach = glm::length(glm::dvec3(relFromObject[3]) - anchor.centreRel) + anchor.otherOriginMetres();
+        double reach = glm::length(glm::dvec3(relFromObject[3]) - anchor.centreRel) + anchor.otherOriginMetres;
         for (int axis = 0; axis < 3; ++axis)
             reach += glm::length(glm::dvec3(relFromObject[axis])) * std::abs(double(mesh->positionsOS[vertex][axis]));
         return reach;

@@ -204,6 +204,19 @@ TEST_F(LightOracle, aMovingLightIsAlwaysWhereItIsAtTheFramesTime) {
     EXPECT_EQ(needed(moving), 1u);
 }
 
+TEST_F(LightOracle, aSpotWithoutARangeIsLitInItsConeAlone) {
+    scenes::Light spot = lightAt({0.0, 0.0, 0.0}, scenes::kInfinity);
+    spot.type = scenes::LightType::Spot;
+    spot.outerConeRadians = 0.5f;
+    for (const double towards : {-1.0, 1.0}) {
+        spot.directionWS = {0.0, 0.0, towards};
+        scene_.lights = {spot};
+        const LightOracleFigures figures = judge();
+        EXPECT_EQ(figures.everywhere, 1u);
+        EXPECT_EQ(figures.everywhereLit, towards < 0.0 ? 1u : 0u);
+    }
+}
+
 TEST_F(LightOracle, lightsThatReachEverywhereAreAlwaysNeededAndCountedApart) {
     scenes::Light sun;
     sun.type = scenes::LightType::Directional;

@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/frame/CameraView.h"
 #include "scenes/Load.h"
 #include "scenes/LookAt.h"
 #include "scenes/builtin/Room.h"
+#include "tests/support/Random.h"
 #include "tests/unit/scenes/TinyScene.h"
 #include "validation/reference/CameraRays.h"
 
@@ -81,6 +83,39 @@ TEST(ReferenceRender, trianglesACentimetreApartAreNeverInOnePlaceHoweverFarTheEy
         ASSERT_EQ(together.others.size(), 1u) << eyeMetres;
         EXPECT_TRUE(together.others.front().isCoincident);
     }
+}
+
+/// Roundings of the product's positions go with their distance from an origin that is its own business: the reference
+/// grants what lies between that and its own.
+TEST(ReferenceRender, fromAFarEyeTheProductsOriginIsNeverFartherFromTheReferencesThanIsGranted) {
+    test::Random random(21);
+    int far = 0;
+    for (int i = 0; i < 2000; ++i) {
+        scenes::Scene scene = scenes::tinyScene();      // 2 m by 4 m
+        scene.meshes[0].positionsOS.emplace_back(1e6f); // which no triangle has
+        scene.meshes[0].normalsOS.emplace_back(0.0f, 0.0f, 1.0f);
+        Settings settings;
+        settings.sizePixels = {64, 64};
+        scenes::Camera& camera = settings.camera;
+        const bool isParallel = i % 4 == 0;
+        camera.projection = isParallel ? scenes::Projection::Orthographic : scenes::Projection::Perspective;
+        const double eyeMetres = random.logarithmic(1.0, 1e6);
+        camera.fovYRadians = 1.5;
+        camera.halfHeightMetres = 2.0 * eyeMetres;
+        camera.nearMetres = 1e-3;
+        // The triangle lies up to 35 degrees beside the view axis.
+        const glm::dvec3 beside(random.between(-0.5, 0.5) * eyeMetres, random.between(-0.5, 0.5) * eyeMetres, 0.0);
+        camera.worldFromCamera = scenes::worldFromLookAt({0.7, 1.3, eyeMetres}, glm::dvec3(0.7, 1.3, 0.0) + beside);
+        const CameraRays rays(camera, settings.sizePixels);
+        const Anchor anchor = Objects(scene, rays).anchor();
+        if (anchor.radiusMetres == 0.0) continue;
+        ++far;
+        const frame::CameraView view = frame::makeCameraView(camera, settings.sizePixels, frame::LightingSpace::World,
+                                                             glm::vec3(0.0f), frame::surfaceBounds(scene));
+        ASSERT_TRUE(view.depths.isEven) << "the product stays at the eye, " << eyeMetres << " m away";
+        ASSERT_LE(glm::distance(view.originWS - view.eyeWS, anchor.centreRel), anchor.otherOriginMetres) << eyeMetres;
+    }
+    EXPECT_GT(far, 1000);
 }
 
 TEST(ReferenceRender, ofTrianglesInOnePlaceEitherIsAllowedAndNoMixOfThem) {
