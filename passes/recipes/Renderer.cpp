@@ -60,7 +60,8 @@ frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     frame::FeatureSet features = spec.settings.prune ? frame::materialFeatures(scene_) : frame::allFeatures();
     const frame::TextureFilter filter = spec.settings.filter;
     if (sceneGpu_ && features == sceneFeatures_ && filter == sceneFilter_) {
-        if (std::exchange(materialsChanged_, false)) sceneGpu_->updateMaterials();
+        if (materialsChanged_) sceneGpu_->updateMaterials();
+        materialsChanged_ = false;
         return *sceneGpu_;
     }
     materialsChanged_ = false;

@@ -50,15 +50,14 @@ gpu::VertexAttribute attribute(std::uint32_t location, int components, const gpu
 SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter)
     : scene_(scene), features_(features), filter_(filter), drawList_(makeDrawList(scene)),
       alphaModes_(alphaModes(scene)), materialsInUse_(scenes::inUse(scene).materials) {
-    uploadGeometry();
+    uploadGeometry(makeVertexStreams(scene_, features_));
     uploadMaterials();
     uploadTextures();
 }
 
-void SceneGpu::uploadGeometry() {
+void SceneGpu::uploadGeometry(const VertexStreams& streams) {
     tangentBases_ = tangentBases(scene_);
     vertexBuffers_.clear();
-    const VertexStreams streams = makeVertexStreams(scene_, features_);
     drawRows_ =
         std::make_unique<gpu::Buffer>("draw rows", drawList_.draws.size() * sizeof(DrawRows), gpu::BufferUse::Dynamic);
     std::vector<gpu::VertexAttribute> attributes;
@@ -125,15 +124,18 @@ void SceneGpu::uploadMaterials() {
 }
 
 void SceneGpu::updateMaterials() {
+    // First what may throw, so that all is as it was then.
+    std::optional<VertexStreams> streams;
+    if (features_.tangents() && tangentBases(scene_) != tangentBases_) streams = makeVertexStreams(scene_, features_);
     uploadMaterials();
-    const bool reorders =
-        alphaModes(scene_) != alphaModes_; // blended surfaces are drawn last, in an order of their own
+    // Blended surfaces are drawn last, in an order of their own.
+    const bool reorders = alphaModes(scene_) != alphaModes_;
     if (reorders) {
         alphaModes_ = alphaModes(scene_);
         drawList_ = makeDrawList(scene_);
     }
-    if (features_.tangents() && tangentBases(scene_) != tangentBases_)
-        uploadGeometry();
+    if (streams)
+        uploadGeometry(*streams);
     else if (reorders)
         uploadDraws();
 }

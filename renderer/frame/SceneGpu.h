@@ -26,7 +26,7 @@ public:
     SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter = TextureFilter::Hardware);
 
     /// Takes the scene's materials as they are now; their textures, and what they are drawn with, must be the same.
-    /// Derives tangents anew where a material follows others than before.
+    /// Derives tangents anew where a material follows others than before, and throws as makeVertexStreams() does.
     void updateMaterials();
 
     /// Puts draws into the view's lighting space and sorts the transparent ones.
@@ -50,7 +50,7 @@ private:
         const gpu::Texture* texture = nullptr;
         const gpu::Sampler* sampler = nullptr;
     };
-    void uploadGeometry();
+    void uploadGeometry(const VertexStreams& streams);
     void uploadDraws();
     void uploadMaterials();
     void uploadTextures();

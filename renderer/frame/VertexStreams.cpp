@@ -78,12 +78,14 @@ void requireFewCopies(const scenes::Scene& scene, const std::vector<std::vector<
     std::size_t copied = 0;
     for (std::size_t mesh = 0; mesh < versions.size(); ++mesh) {
         if (versions[mesh].size() < 2) continue;
-        copied += (versions[mesh].size() - 1) * scene.meshes[mesh].positionsOS.size();
+        copied += (versions[mesh].size() - 1) *
+                  std::max(scene.meshes[mesh].positionsOS.size(), scene.meshes[mesh].indices.size());
         if (copied > kMostCopiedVertices)
             throw InputError(
-                fmt::format("mesh '{}' is drawn with {} materials that turn its tangents differently: copies "
-                            "of more than {} vertices; give their normal textures one transform",
-                            scene.meshes[mesh].name, versions[mesh].size(), kMostCopiedVertices));
+                fmt::format("materials turn the tangents of their meshes in different ways, which takes copies of "
+                            "more than {} vertices ('{}' has {} such materials); give their normal textures "
+                            "one transform",
+                            kMostCopiedVertices, scene.meshes[mesh].name, versions[mesh].size()));
     }
 }
 

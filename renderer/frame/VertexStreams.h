@@ -29,6 +29,7 @@ struct VertexStreams {
     std::vector<glm::vec2> texCoords[2];
     std::vector<glm::vec4> colors;
 };
+/// Throws InputError where that would make very many copies.
 VertexStreams makeVertexStreams(const scenes::Scene& scene, const FeatureSet& features);
 
 } // namespace tessera::frame
