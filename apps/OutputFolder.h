@@ -11,8 +11,8 @@ void requireFolderPlace(const std::string& folder);
 void makeFolder(const std::string& folder);
 
 /// The name of a picture's file, without its folder, from that of a technique or a scene, which a file may give:
-/// "deferred (packed)" is "deferred_packed", and no name leads out of the folder. Of one that is too long for a file
-/// the beginning stays, and a number that tells it from others.
+/// "deferred (packed)" is "deferred_packed", and no name leads out of the folder. A name that is
+/// too long for a file is cut, and ends in a number that tells it from others.
 std::string pictureFile(const std::string& name, const std::string& extension);
 
 } // namespace tessera::app

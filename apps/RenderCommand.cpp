@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -63,11 +64,14 @@ std::vector<std::string> outputsOf(const RenderOptions& options) {
     return outputs;
 }
 
-/// Says why, where a picture (RGBA, A the share of a pixel that is covered) shows nothing of its scene.
-void warnWhereEmpty(const std::string& path, const scenes::Scene& scene, const std::vector<float>& rgba) {
+/// Says why, where a picture (RGBA, A the share of a pixel that is covered) shows nothing of its scene; of a sequence
+/// about the first such picture alone.
+void warnWhereEmpty(const std::string& path, const scenes::Scene& scene, const std::vector<float>& rgba,
+                    bool& hasWarned) {
     for (std::size_t alpha = 3; alpha < rgba.size(); alpha += 4) {
         if (rgba[alpha] > 0.0f) return;
     }
+    if (std::exchange(hasWarned, true)) return;
     spdlog::warn("{}", oneLine(fmt::format("{}: {}", path,
                                            scenes::triangleCount(scene) == 0
                                                ? "the scene has no triangles to draw"
@@ -102,11 +106,12 @@ void renderReference(const RenderOptions& options, const Outputs& outputs, const
         throw InputError("--technique reference has no tone maps; give --tonemap none, or write .exr");
     Progress progress("rendering", std::size_t(options.frames.value_or(1)) * std::size_t(settings.sizePixels.y),
                       global.quiet);
+    bool hasWarned = false;
     makePictures(options, outputs, settings, [&](const std::string& path, const frame::FrameSettings& one) {
         validation::Picture picture = validation::referencePicture(
                                           request.scene, one, [&progress] { progress.advance(); }, false)
                                           .picture;
-        warnWhereEmpty(path, request.scene, picture.rgba);
+        warnWhereEmpty(path, request.scene, picture.rgba, hasWarned);
         if (isLinear) return validation::writeExr(path, picture);
         for (float& value : picture.rgba) value *= std::exp2(settings.exposureEV);
         validation::writePng(path, validation::toDisplayImage(picture));
@@ -147,9 +152,10 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     request.settings.display = std::filesystem::path(options.output).extension() != ".exr";
     // One picture is soon made.
     Progress progress("rendering", std::size_t(options.frames.value_or(1)), global.quiet || !options.frames);
+    bool hasWarned = false;
     makePictures(options, outputs, request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
         const recipes::RenderedFrame picture = renderer.render(request.technique, one);
-        warnWhereEmpty(path, request.scene, picture.radiance);
+        warnWhereEmpty(path, request.scene, picture.radiance, hasWarned);
         writePicture(path, request, picture);
         progress.advance();
     });
@@ -163,8 +169,8 @@ void addRenderCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     auto options = std::make_shared<RenderOptions>();
     addFrameOptions(*command, options->frame, "");
     CLI::Option* technique = command->get_option("--technique");
-    technique->description(fmt::format("{}: by formulas in double precision; or o{}", kReferenceName,
-                                       technique->get_description().substr(1)));
+    technique->description(fmt::format("{}; or {}, which renders by formulas in double precision",
+                                       technique->get_description(), kReferenceName));
     command
         ->add_option("-o,--output", options->output, "The picture: .exr is linear radiance, .png as a display shows it")
         ->type_name("FILE")

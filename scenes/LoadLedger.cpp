@@ -43,6 +43,8 @@ std::optional<std::uint64_t> groupLimitBytes(const std::filesystem::path& member
         const std::filesystem::path root = isVersion2 ? groups : groups / "memory";
         // In a container the path may be one of the host's, and only the root is there.
         std::filesystem::path group = (root / line.substr(std::min(second + 2, line.size()))).lexically_normal();
+        const bool isBelowRoot = std::ranges::mismatch(root, group).in1 == root.end();
+        if (!isBelowRoot) group = root;
         while (true) {
             // A number, or "max".
             std::ifstream file(group / (isVersion2 ? "memory.max" : "memory.limit_in_bytes"));
@@ -71,7 +73,7 @@ LoadLedger::LoadLedger(std::optional<std::uint64_t> limitBytes)
 
 void LoadLedger::refuse(const std::string& who, std::uint64_t bytes) const {
     throw InputError(
-        fmt::format("{}: asks for {} of memory, and {} are in use; a load may take {}; make it smaller or raise "
+        fmt::format("{}: asks for {} of memory, and {} are in use; a load may take {}; use a smaller file, or raise "
                     "--memory-limit",
                     who, sizeText(bytes), sizeText(usedBytes_), sizeText(limitBytes_)));
 }

@@ -109,7 +109,7 @@ struct Attribute {
             requireLength(claimed % sizeof(float) == 0, "a number takes 4");
         } else if (type == "chlist") { // names with 16 bytes each, up to an empty one
             while (!rest.text().empty()) rest.skip(16);
-            requireLength(rest.isAtEnd(), "its list ends before");
+            requireLength(rest.isAtEnd(), "its list of channels ends earlier");
         }
     }
 };

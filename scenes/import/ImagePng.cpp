@@ -40,7 +40,7 @@ public:
         if (png_ != nullptr) info_ = png_create_info_struct(png_);
         if (info_ == nullptr) throw std::bad_alloc();
         png_set_read_fn(png_, &source_, readBytes);
-        // All chunks that decoding does not need are skipped, or texts of megabytes would be kept: but for these two.
+        // Skips all chunks that decoding does not need but these two, so that no text of megabytes is kept.
         png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
         png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_AS_DEFAULT, reinterpret_cast<png_const_bytep>("gAMA\0sRGB"),
                                     2);

@@ -39,7 +39,7 @@ PictureSize claimedSizeOfGif(std::span<const std::byte> bytes) {
 }
 
 /// Where texels need more than one scan, libjpeg reads all scans at once and keeps the coefficients, 2 bytes each, of
-/// all components. Source: ITU-T T.81, annex B; between markers stands whatever holds none, as for libjpeg.
+/// all components. Source: ITU-T T.81, annex B; bytes between markers are skipped, as by libjpeg.
 PictureSize claimedSizeOfJpeg(std::span<const std::byte> bytes) {
     constexpr std::uint32_t kFrame = 0xc0, kRestart = 0xd0, kEnd = 0xd9, kScan = 0xda;
     constexpr int kMaxScans = 100; // encoders write about ten

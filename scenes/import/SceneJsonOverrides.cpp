@@ -119,17 +119,21 @@ private:
             look(called.size(), pattern);
             return {called.begin(), called.end()};
         }
-        look(elements.size(), pattern);
         std::vector<std::size_t> matches;
-        for (std::size_t i = 0; i < elements.size(); ++i)
+        for (std::size_t i = 0; i < elements.size(); ++i) {
+            look(1 + text.size() * elements.nameOf(i).size() / kCharactersALook, pattern);
             if (matchesPattern(text, elements.nameOf(i))) matches.push_back(i);
+        }
         return matches;
     }
 
-    /// Counts elements that are looked at: many overrides that match as many would take very long.
-    void look(std::size_t elements, const JsonValue& pattern) {
-        constexpr std::size_t kMostLooks = 100'000'000;
-        if ((looks_ += elements) > kMostLooks)
+    /// A pattern is held to a name in at most the product of their lengths: a look is about what short names take.
+    static constexpr std::size_t kCharactersALook = 64;
+    static constexpr std::size_t kMostLooks = 100'000'000;
+
+    /// Counts looks at elements: many overrides that match as many, or long patterns, would take very long.
+    void look(std::size_t looks, const JsonValue& pattern) {
+        if ((looks_ += looks) > kMostLooks)
             pattern.fail(fmt::format("the overrides up to here look at nodes and materials more than {} times; give "
                                      "fewer, or names without * and ?",
                                      kMostLooks));

@@ -11,7 +11,7 @@ LIST_MEMORY uint laneEntries[LIST_THREADS];
 
 void countTile(uvec2 item)
 {
-    if (!isTile(item)) return;
+    if (!isInGrid(item)) return;
     ListedTile tile = listedTile(item);
     uint entries = 0u;
     if (tile.cells > 0u) {

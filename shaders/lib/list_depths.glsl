@@ -97,7 +97,7 @@ uvec2 occupiedSlices(TilePixels pixels, bool transparent, uint slicing)
 
 void findDepths(uvec2 item)
 {
-    if (!isTile(item)) return;
+    if (!isInGrid(item)) return;
     bool transparent = isTransparentTile(item);
     TilePixels pixels = pixelsOfTile(item.x, tileRow(item));
     vec2 depths = nearestAndFarthest(pixels, transparent);

@@ -103,7 +103,7 @@ void writeLane(ListedTile tile, uvec2 share)
 // Adds the round's lights to the sizes of the tile's cells; after the last round the cells have their places.
 void sizeTile(uvec2 item)
 {
-    if (!isTile(item)) return;
+    if (!isInGrid(item)) return;
     ListedTile tile = listedTile(item);
     if (tile.cells == 0u) return;
     uvec2 firsts = tileFirsts[tileIndex(item)];
@@ -120,7 +120,7 @@ void sizeTile(uvec2 item)
 
 void fillTile(uvec2 item)
 {
-    if (!isTile(item)) return;
+    if (!isInGrid(item)) return;
     ListedTile tile = listedTile(item);
     if (tile.cells == 0u) return;
     uvec2 firsts = tileFirsts[tileIndex(item)];

@@ -18,7 +18,7 @@ uint listedTiles()
 #endif
 }
 
-bool isTile(uvec2 item)
+bool isInGrid(uvec2 item)
 {
     return item.x < frame.tileGrid.x;
 }

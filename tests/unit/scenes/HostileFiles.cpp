@@ -181,7 +181,7 @@ TEST(Memory, aValueOfAnExrHeaderIsNeverReservedUnlessTheFileHoldsIt) {
     EXPECT_EQ(refusalOfExr("box2i", eight + "abcdefgh"),
               "(its attribute 'owner' of type box2i claims 8 bytes and has 16)");
     EXPECT_EQ(refusalOfExr("chlist", std::string("\x02\0\0\0\0abcdefgh", 13)),
-              "(its attribute 'owner' of type chlist has 2 bytes: its list ends before)");
+              "(its attribute 'owner' of type chlist has 2 bytes: its list of channels ends earlier)");
     EXPECT_EQ(refusalOfExr("floatvector", std::string("\x06\0\0\0abcdef", 10)),
               "(its attribute 'owner' of type floatvector has 6 bytes: a number takes 4)");
 }

@@ -62,8 +62,10 @@ std::uint64_t statusBytes(std::string_view key) {
 
 /// By how much the process grows at most while this runs. Source: Linux, proc(5): 5 sets the peak to what is in use.
 std::uint64_t growthOf(const std::function<void()>& action) {
-    std::ofstream("/proc/self/clear_refs") << 5;
+    std::ofstream clear("/proc/self/clear_refs");
+    EXPECT_TRUE(clear << 5 << std::flush) << "the peak stays what it was, and nothing can be measured";
     const std::uint64_t before = statusBytes("VmHWM:");
+    EXPECT_GT(before, 0u);
     action();
     return statusBytes("VmHWM:") - before;
 }
