@@ -74,6 +74,7 @@ TEST_F(Output, aReaderWhoLeftCostsNoFile) {
 }
 
 TEST_F(Output, anInterruptedRunAlwaysEndsByItsSignalAndNeverLeavesTemporaries) {
+    std::signal(SIGINT, SIG_DFL); // what a shell starts in the background ignores it, and so would the program
     // Most of the time of these small pictures goes into writing them, so some of the signals come in the midst of it.
     int midWrites = 0;
     for (int attempt = 0; attempt < 12; ++attempt) {
