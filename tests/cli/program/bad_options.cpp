@@ -141,8 +141,9 @@ TEST_F(BadOptions, comparisonsThatCannotBeMadeAreAlwaysRefused) {
     }
     folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     ASSERT_EQ(run({"--quiet", "render", "m.obj", "--size", "160x90", "-o", "b.exr"}).exitCode, 0);
-    expectError(kBadInput, {"--quiet", "compare", "m.obj", "--against", "b.exr", "--memory-limit", "600K"},
-                {"b.exr: the picture of 160x90 texels", "may take 600.0 KiB; use a smaller file, or raise --memory-limit"});
+    expectError(
+        kBadInput, {"--quiet", "compare", "m.obj", "--against", "b.exr", "--memory-limit", "600K"},
+        {"b.exr: the picture of 160x90 texels", "may take 600.0 KiB; use a smaller file, or raise --memory-limit"});
     folder_.write("empty.exr", "");
     expectError(kBadInput, {"compare", "room", "--size", "16x9", "--against", "empty.exr"}, {"empty.exr", "empty"});
 }
