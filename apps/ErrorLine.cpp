@@ -1,5 +1,6 @@
 #include "apps/ErrorLine.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -19,15 +20,15 @@ std::string oneLine(std::string_view text) {
         }
         if (isNew) line += "; ";
         isNew = false;
-        const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0;
-        if (c < 0x20 || c == 0x7f) {
+        const std::string_view letter = text.substr(i, letterBytes(text.substr(i)));
+        const bool isC1 = letter.size() == 2 && c == 0xc2 && static_cast<unsigned char>(letter[1]) < 0xa0;
+        if (letter.empty() || c < 0x20 || c == 0x7f)
             line += fmt::format("\\x{:02x}", c);
-        } else if (c == 0xc2 && next >= 0x80 && next < 0xa0) { // U+0080 to U+009F in UTF-8
-            line += fmt::format("\\x{:02x}", next);
-            ++i;
-        } else {
-            line += text[i];
-        }
+        else if (isC1)
+            line += fmt::format("\\x{:02x}", static_cast<unsigned char>(letter[1]));
+        else
+            line += letter;
+        i += std::max<std::size_t>(letter.size(), 1) - 1;
     }
     constexpr std::size_t kMostBytes = 2000; // of what files say: one word of theirs may have megabytes
     if (line.size() > kMostBytes) line = std::string(beginningOf(line, kMostBytes)) + "...";

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <climits>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 
@@ -62,6 +64,7 @@ DecodedPicture decodeByStb(std::span<const std::byte> bytes, const std::string& 
     int stored = 0;
     Stream header{bytes};
     require(stbi_info_from_callbacks(&kCallbacks, &header, &image.width, &image.height, &stored) != 0, header);
+    image.height = static_cast<int>(std::min<std::int64_t>(std::abs(std::int64_t{image.height}), INT_MAX)); // top-down
     // The picture as it is stored, with four channels, and as texels.
     constexpr std::uint64_t kCopies = 3;
     requirePictureSize({image.width, image.height, kCopies * kChannels}, bytes, name, ledger);

@@ -47,6 +47,7 @@ void requirePictureSize(const PictureSize& size, std::span<const std::byte> file
 PictureSize claimedSizeOfExr(std::span<const std::byte> bytes);
 PictureSize claimedSizeOfGif(std::span<const std::byte> bytes);
 PictureSize claimedSizeOfJpeg(std::span<const std::byte> bytes);
+PictureSize claimedSizeOfTiff(std::span<const std::byte> bytes);
 PictureSize claimedSizeOfWebp(std::span<const std::byte> bytes);
 
 /// By OpenImageIO's reader of that format, and no other.

@@ -12,7 +12,7 @@ std::span<const PictureFormat> pictureFormats() {
         PictureFormat{"openexr", {{"\x76\x2f\x31\x01"sv}}, {"exr"}, decodeByOiio, claimedSizeOfExr},
         PictureFormat{"hdr", {{"#?"sv}}, {"hdr"}, decodeByOiio, nullptr},
         PictureFormat{"pfm", {{"PF\n"sv}, {"Pf\n"sv}}, {"pfm"}, decodePfm, nullptr},
-        PictureFormat{"tiff", {{"II*\0"sv}, {"MM\0*"sv}}, {"tif", "tiff"}, decodeByOiio, nullptr},
+        PictureFormat{"tiff", {{"II*\0"sv}, {"MM\0*"sv}}, {"tif", "tiff"}, decodeByOiio, claimedSizeOfTiff},
         PictureFormat{"webp", {{"WEBP"sv, 8}}, {"webp"}, decodeByOiio, claimedSizeOfWebp},
         PictureFormat{"bmp", {{"BM"sv}}, {"bmp"}, decodeByStb, nullptr},
         PictureFormat{"gif", {{"GIF8"sv}}, {"gif"}, decodeByOiio, claimedSizeOfGif},

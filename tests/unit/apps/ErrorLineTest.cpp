@@ -13,6 +13,10 @@ TEST(ErrorLine, anErrorIsAlwaysOneLineThatNoTerminalObeys) {
                       "2J"),
               "a\\x9b2J");                          // U+009B begins an escape sequence
     EXPECT_EQ(oneLine("f\xc3\xbcr"), "f\xc3\xbcr"); // other letters stay
+    EXPECT_EQ(oneLine("a\x9b"
+                      "31m\xff\xc3"),
+              "a\\x9b31m\\xff\\xc3")
+        << "bytes that are no UTF-8";
 }
 
 TEST(ErrorLine, aLineIsNeverLongerThanTwoThousandBytesAndDotsAndEndsWithAWholeLetter) {

@@ -112,6 +112,55 @@ TEST(HostilePicture, everyKindOfWebpIsAlwaysChargedBeforeItsReaderReservesIt) {
     }
 }
 
+/// A TIFF of one grey texel whose XMP description is this.
+std::string tiffOf(const std::string& xmp) {
+    std::string tiff("II*\0\x08\0\0\0\x08\0", 10);
+    const auto entry = [&](int tag, int type, std::uint32_t count, std::uint32_t value) {
+        for (const std::uint32_t half : {std::uint32_t(tag), std::uint32_t(type)})
+            tiff += {char(half), char(half >> 8)};
+        for (const std::uint32_t word : {count, value})
+            for (int byte = 0; byte < 4; ++byte) tiff += char(word >> (8 * byte));
+    };
+    constexpr std::uint32_t kEnd = 10 + 8 * 12 + 4;
+    for (const int tag : {256, 257}) entry(tag, 3, 1, 1); // one by one
+    entry(258, 3, 1, 8);
+    entry(262, 3, 1, 1);
+    entry(273, 4, 1, kEnd);
+    entry(278, 3, 1, 1);
+    entry(279, 4, 1, 1);
+    entry(700, 1, std::uint32_t(xmp.size()), kEnd + 1);
+    return tiff + std::string(4, '\0') + '\x7f' + xmp;
+}
+
+TEST(HostilePicture, theDescriptionOfATiffNeverNestsDeeperThanItsReaderCanFollow) {
+    const auto nested = [](int levels, const std::string& between) {
+        std::string xmp = "<rdf:RDF><rdf:Description>";
+        for (int i = 0; i < levels; ++i) xmp += "<a>" + between;
+        for (int i = 0; i < levels; ++i) xmp += "</a>";
+        return tiffOf(xmp + "</rdf:Description></rdf:RDF>");
+    };
+    EXPECT_EQ(decoded(nested(100, ""), "a").texels[0], std::byte{0x7f});
+    // What looks like an end and is none hides nothing.
+    for (const char* between : {"", "<!--</a>-->", "<![CDATA[</a>]]>", "<?</a>?>", "<b c='</a>'/>", "<b c=\"/>\"></b>"})
+        EXPECT_THAT(refusalOf(nested(50000, between), "a"), HasSubstr("its XMP description nests more than 256 deep"));
+    EXPECT_THAT(refusalOf(tiffOf("<!DOCTYPE a [</a></a></a>]><a>"), "a"), HasSubstr("nests more than 256 deep"));
+}
+
+TEST(HostilePicture, tilesOfATiffAreAlwaysChargedWhole) {
+    const std::string tiff = bytesOfSeed("picture/large_tiles.tif"); // 16 x 16 texels in a tile of 16384 x 16384
+    EXPECT_THAT(refusalOf(tiff, "a", 64 * kMiB), HasSubstr("the header claims 16384x16384 texels"));
+}
+
+TEST(HostilePicture, aBmpThatBeginsAtItsTopIsRead) {
+    std::string bmp = bytesOfSeed("picture/small.bmp");
+    const Image fromBottom = decoded(bmp, "a");
+    for (int i = 0; i < 4; ++i) bmp[std::size_t(22 + i)] = char(std::uint32_t(-fromBottom.height) >> (8 * i));
+    const Image fromTop = decoded(bmp, "a");
+    ASSERT_EQ(fromTop.height, fromBottom.height);
+    const auto row = std::ptrdiff_t(4 * fromTop.width);
+    EXPECT_TRUE(std::equal(fromTop.texels.begin(), fromTop.texels.begin() + row, fromBottom.texels.end() - row));
+}
+
 TEST(HostilePicture, textsOfAPngAreNeverKept) {
     // One compressed text of 7.9 MB, and nine copies of it.
     std::string png = bytesOfSeed("picture/text.png");
