@@ -140,10 +140,11 @@ TEST_P(BuiltinScenes, areAlwaysChargedBeforeTheyAreMadeAndForNoLessThanTheyTake)
     EXPECT_LE(builtin.bytes, std::max(std::uint64_t{1} << 20, 8 * held)) << sizeText(held) << ": refuses for nothing";
     LoadOptions options = withoutAssets();
     options.memoryLimitBytes = builtin.bytes - 1;
-    EXPECT_EQ(test::inputErrorOf([&] { loadScene(std::string(builtin.name), options); }),
-              fmt::format("{}: asks for {} of memory, and 0 B are in use; a load may take {}; make it smaller or raise "
-                          "--memory-limit",
-                          builtin.name, sizeText(builtin.bytes), sizeText(builtin.bytes - 1)));
+    EXPECT_EQ(
+        test::inputErrorOf([&] { loadScene(std::string(builtin.name), options); }),
+        fmt::format("{}: asks for {} of memory, and 0 B are in use; a load may take {}; use a smaller file, or raise "
+                    "--memory-limit",
+                    builtin.name, sizeText(builtin.bytes), sizeText(builtin.bytes - 1)));
 }
 
 TEST(BuiltinMemory, lightsThatABuiltinSceneIsAskedForAreAlwaysChargedBeforeTheyAreMade) {
