@@ -15,8 +15,8 @@ Ray CameraRays::through(const glm::dvec2& placePixels) const {
     // -1 to 1 from the left to the right and from the bottom to the top edge of the picture.
     const double x = 2.0 * placePixels.x / sizePixels_.x - 1.0;
     const double y = 1.0 - 2.0 * placePixels.y / sizePixels_.y;
-    const double halfWidth = halfHeight_ * sizePixels_.x / sizePixels_.y;
-    const glm::dvec3 aside = x * halfWidth * right_ + y * halfHeight_ * up_;
+    const glm::dvec2 half = halfExtent();
+    const glm::dvec3 aside = x * half.x * right_ + y * half.y * up_;
     const double stepMetres = 2.0 * halfHeight_ / sizePixels_.y;
     const glm::dvec3 dx = stepMetres * right_, dy = stepMetres * up_, none(0.0);
     if (isPerspective_) return {none, forward_ + aside, none, none, dx, dy};

@@ -30,7 +30,11 @@ public:
     double farMetres() const { return farMetres_; }
 
     const glm::dvec3& eyeWS() const { return eyeWS_; }
+    const glm::dvec3& right() const { return right_; }
+    const glm::dvec3& up() const { return up_; }
     const glm::dvec3& forward() const { return forward_; }
+    /// Half the picture's width and height: metres a metre ahead of the eye, or for parallel rays anywhere.
+    glm::dvec2 halfExtent() const { return halfHeight_ * glm::dvec2(sizePixels_.x / sizePixels_.y, 1.0); }
     bool isPerspective() const { return isPerspective_; }
 
     /// Unit direction from a point to whoever looks at it.
@@ -40,7 +44,7 @@ private:
     glm::dvec3 eyeWS_, right_, up_, forward_;
     glm::dvec2 sizePixels_;
     bool isPerspective_;
-    double halfHeight_; ///< of the picture: metres a metre ahead of the eye, or for parallel rays anywhere
+    double halfHeight_; ///< as halfExtent()
     double nearMetres_, farMetres_;
 };
 

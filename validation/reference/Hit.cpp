@@ -8,9 +8,6 @@ namespace tessera::reference {
 
 namespace {
 
-/// What rounding leaves of a position: products, sums and a turn of the axes, some eight operations in fp32.
-constexpr double kPositionRounding = 8.0 * 0x1p-24;
-
 /// Ray differentials (Igehy 1999, "Tracing Ray Differentials"): where the rays of the next pixels meet the plane.
 void setChanges(const Object& object, const Ray& ray, const glm::dvec3& edge1, const glm::dvec3& edge2, Hit& hit) {
     const glm::dvec3 area = glm::cross(edge1, edge2);
@@ -28,16 +25,17 @@ void setChanges(const Object& object, const Ray& ray, const glm::dvec3& edge1, c
         (std::abs(glm::dot(area, ray.directionDx)) + std::abs(glm::dot(area, ray.directionDy))) / std::abs(slope);
     const double pixelMetres = glm::length(ray.originDx + hit.depthMetres * ray.directionDx);
     const Anchor& anchor = object.anchor;
-    double reach = glm::length(ray.at(hit.depthMetres) - anchor.centreRel) + anchor.otherOriginMetres;
-    double largestReach = reach;
+    const double pointReach = glm::length(ray.at(hit.depthMetres) - anchor.centreRel) + anchor.otherOriginMetres;
+    double cornerReach = 0.0, largestReach = pointReach;
     for (int corner = 0; corner < 3; ++corner) {
         const double own = object.cornerReach(hit.triangle, corner);
-        reach += std::abs(hit.weights[corner]) * own;
+        cornerReach += std::abs(hit.weights[corner]) * own;
         largestReach = std::max(largestReach, own);
     }
     const double longestEdge = std::max({glm::length(edge1), glm::length(edge2), glm::length(edge2 - edge1)});
     const double height = std::sqrt(area2) / longestEdge;
-    hit.roundingPixels = kPositionRounding * reach / pixelMetres;
+    hit.roundingMetres = kPositionRounding * cornerReach;
+    hit.roundingPixels = kPositionRounding * (pointReach + cornerReach) / pixelMetres;
     hit.roundingLevels = kPositionRounding * largestReach / height * std::numbers::log2e;
 }
 

@@ -1,6 +1,8 @@
 #include "validation/reference/Objects.h"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 
 #include "validation/reference/TangentFrame.h"
 #include "validation/reference/Tangents.h"
@@ -29,16 +31,100 @@ double depthOfBoxCentre(const Object& object, const glm::dvec3& forward) {
     return glm::dot(forward, glm::dvec3(object.relFromObject * glm::dvec4(centreOS, 1.0)));
 }
 
-/// With perspective the product leaves the eye where the farthest depth of what it sees, with room for roundings, is at
-/// most twice the nearest; here all of the scene must be so.
-Anchor anchorOf(const scenes::Box3& boundsRel, const CameraRays& rays) {
+/// What triangles of an object use of its mesh.
+struct Bounds {
+    scenes::Box3 boxRel;
+    double nodeMetres = 0.0; ///< from the node's origin to the box's farthest corner
+};
+
+Bounds boundsOf(const Object& object) {
+    Bounds bounds;
+    for (const std::uint32_t vertex : object.mesh->indices)
+        bounds.boxRel.extend(
+            glm::dvec3(object.relFromObject * glm::dvec4(glm::dvec3(object.mesh->positionsOS[vertex]), 1.0)));
+    const glm::dvec3 node(object.relFromObject[3]);
+    bounds.nodeMetres = glm::length(glm::max(glm::abs(bounds.boxRel.min - node), glm::abs(bounds.boxRel.max - node)));
+    return bounds;
+}
+
+struct Range {
+    double least = -std::numeric_limits<double>::infinity();
+    double most = std::numeric_limits<double>::infinity();
+    void intersect(double a, double b) {
+        least = std::max(least, std::min(a, b));
+        most = std::min(most, std::max(a, b));
+    }
+};
+
+/// Depths at which a box can meet the picture of parallel rays, not closer than they are; nothing where it cannot.
+/// Places of the picture are x right + y up + depth forward, so that the box's extent along each axis of the world
+/// bounds the depth, once x and y are anything that the picture holds.
+std::optional<Range> depthsInPicture(const scenes::Box3& boxRel, const glm::dvec2& half, const CameraRays& rays) {
+    const glm::dvec3 centre = 0.5 * (boxRel.min + boxRel.max), extent = 0.5 * (boxRel.max - boxRel.min);
+    const auto along = [&](const glm::dvec3& axis) {
+        const double middle = glm::dot(axis, centre), reach = glm::dot(glm::abs(axis), extent);
+        return Range{middle - reach, middle + reach};
+    };
+    const Range x = along(rays.right()), y = along(rays.up());
+    if (x.least > half.x || x.most < -half.x || y.least > half.y || y.most < -half.y) return {};
+    Range depths = along(rays.forward());
+    depths.intersect(rays.nearMetres(), rays.farMetres());
+    for (int axis = 0; axis < 3; ++axis) {
+        const double slope = rays.forward()[axis];
+        const double aside = half.x * std::abs(rays.right()[axis]) + half.y * std::abs(rays.up()[axis]);
+        if (slope != 0.0)
+            depths.intersect((boxRel.min[axis] - aside) / slope, (boxRel.max[axis] + aside) / slope);
+        else if (boxRel.min[axis] > aside || boxRel.max[axis] < -aside)
+            return {};
+    }
+    if (!(depths.least <= depths.most)) return {};
+    return depths;
+}
+
+/// What the product adds to the depths of what it sees, at most: an eighth and 1e-3 of their span, and what rounding to
+/// fp32 may move (renderer/frame/DepthInterval.h).
+double roomMetres(double spanMetres, double acrossMetres, double nodeMetres) {
+    return 0.13 * spanMetres + 2e-3 * acrossMetres + 1e-6 * nodeMetres;
+}
+
+/// The product puts its origin amid the depths that it sees, which lie within these.
+Anchor parallelAnchor(const std::vector<Bounds>& all, const CameraRays& rays) {
+    Range seen{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    double nodeMetres = 0.0;
+    glm::dvec2 largestHalf(0.0);
+    for (const Bounds& bounds : all) {
+        // Rounding may move into the picture what lies just outside it.
+        const double farthest = glm::length(glm::max(glm::abs(bounds.boxRel.min), glm::abs(bounds.boxRel.max)));
+        const glm::dvec2 half = 1.001 * rays.halfExtent() + 2e-6 * farthest;
+        const std::optional<Range> depths = depthsInPicture(bounds.boxRel, half, rays);
+        if (!depths) continue;
+        seen = {std::min(seen.least, depths->least), std::max(seen.most, depths->most)};
+        nodeMetres = std::max(nodeMetres, bounds.nodeMetres);
+        largestHalf = glm::max(largestHalf, half);
+    }
+    if (!(seen.least <= seen.most)) return {};
+    const double span = seen.most - seen.least, across = glm::length(largestHalf);
+    return {0.5 * (seen.least + seen.most) * rays.forward(), glm::length(glm::dvec2(0.5 * span, across)),
+            0.5 * span + roomMetres(span, across, nodeMetres)};
+}
+
+/// The product leaves the eye where the farthest depth of what it sees, with its room, is at most twice the nearest;
+/// here all of the scene must be so.
+Anchor perspectiveAnchor(const std::vector<Bounds>& all, const CameraRays& rays) {
+    scenes::Box3 boundsRel;
+    double nodeMetres = 0.0;
+    for (const Bounds& bounds : all) {
+        boundsRel.extend(bounds.boxRel.min);
+        boundsRel.extend(bounds.boxRel.max);
+        nodeMetres = std::max(nodeMetres, bounds.nodeMetres);
+    }
     if (boundsRel.empty()) return {};
     const glm::dvec3 centreRel = 0.5 * (boundsRel.min + boundsRel.max);
     const double radius = 0.5 * glm::length(boundsRel.max - boundsRel.min);
     const double ahead = glm::dot(centreRel, rays.forward());
     const double beside = glm::length(centreRel - ahead * rays.forward());
-    const double roomyRadius = 1.3 * radius + 2e-3 * beside;
-    if (rays.isPerspective() && !(ahead > 3.0 * roomyRadius)) return {};
+    const double roomyRadius = radius + roomMetres(2.0 * radius, beside + radius, nodeMetres);
+    if (!(ahead > 3.0 * roomyRadius)) return {};
     return {centreRel, radius, beside + roomyRadius};
 }
 
@@ -56,18 +142,20 @@ Objects::Objects(const scenes::Scene& scene, const CameraRays& rays) {
     std::stable_sort(byDepth.begin(), byDepth.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     std::transform(byDepth.begin(), byDepth.end(), transparent_.begin(),
                    [](const auto& entry) { return entry.second; });
-    scenes::Box3 boundsRel;
-    for (const std::vector<Object>* list : {&opaque_, &transparent_}) {
-        for (const Object& object : *list) {
-            for (const std::uint32_t vertex : object.mesh->indices) {
-                const glm::dvec3 vertexOS(object.mesh->positionsOS[vertex]);
-                boundsRel.extend(glm::dvec3(object.relFromObject * glm::dvec4(vertexOS, 1.0)));
+    std::vector<Bounds> bounds;
+    for (const std::vector<Object>* list : {&opaque_, &transparent_})
+        for (const Object& object : *list) bounds.push_back(boundsOf(object));
+    anchor_ = rays.isPerspective() ? perspectiveAnchor(bounds, rays) : parallelAnchor(bounds, rays);
+    for (std::vector<Object>* list : {&opaque_, &transparent_}) {
+        for (Object& object : *list) {
+            object.anchor = anchor_;
+            for (std::uint32_t triangle = 0; triangle < object.mesh->indices.size() / 3; ++triangle) {
+                for (int corner = 0; corner < 3; ++corner)
+                    roundingMetres_ =
+                        std::max(roundingMetres_, kPositionRounding * object.cornerReach(triangle, corner));
             }
         }
     }
-    anchor_ = anchorOf(boundsRel, rays);
-    for (std::vector<Object>* list : {&opaque_, &transparent_})
-        for (Object& object : *list) object.anchor = anchor_;
 }
 
 void Objects::add(const scenes::Scene& scene, const scenes::MeshInstance& instance, const glm::dmat4& worldFromNode,

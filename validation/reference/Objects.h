@@ -10,18 +10,16 @@
 
 namespace tessera::reference {
 
-/// Where positions in single precision have their origin: from a far eye, and under parallel rays, the middle of what
-/// there is to see, else the eye. The digits are where the triangles are.
+/// Where positions in single precision have their origin: the middle of the scene from a far eye, the middle of what
+/// the picture shows under parallel rays, else the eye. The digits are where the pixels look.
 struct Anchor {
     glm::dvec3 centreRel{0.0};
-    double radiusMetres = 0.0;      ///< around the centre, which holds everything; 0 at the eye
+    double radiusMetres = 0.0;      ///< around the centre, which holds all that pixels see; 0 at the eye
     double otherOriginMetres = 0.0; ///< the product's origin, on the view axis beside all this, is at most so far away
-
-    /// How far from either origin a surface at a depth may lie.
-    double reachMetres(double depthMetres) const {
-        return radiusMetres == 0.0 ? depthMetres : radiusMetres + otherOriginMetres;
-    }
 };
+
+/// What rounding leaves of a position: products, sums and a turn of the axes, some eight operations in fp32.
+inline constexpr double kPositionRounding = 8.0 * 0x1p-24;
 
 /// A mesh as it is drawn with a material at a node. Rel: world axes, the eye as the origin.
 struct Object {
@@ -58,6 +56,8 @@ public:
     /// In the order in which they are blended: far to near by the depth of their mesh's box centre, ties by number.
     const std::vector<Object>& transparent() const { return transparent_; }
     const Anchor& anchor() const { return anchor_; }
+    /// By how much rounding to fp32 moves any corner at most.
+    double roundingMetres() const { return roundingMetres_; }
 
 private:
     void add(const scenes::Scene& scene, const scenes::MeshInstance& instance, const glm::dmat4& worldFromNode,
@@ -65,6 +65,7 @@ private:
     const std::vector<glm::dvec4>& tangentsOf(const scenes::Mesh& mesh, const scenes::Material& material);
 
     Anchor anchor_;
+    double roundingMetres_ = 0.0;
     std::vector<Object> opaque_, transparent_;
     std::map<std::pair<const scenes::Mesh*, const scenes::Material*>, std::unique_ptr<std::vector<glm::dvec4>>>
         tangents_;

@@ -33,37 +33,39 @@ public:
         const Ray ray = rays_.through(placePixels);
         Layers found;
         double depthMetres = std::numeric_limits<double>::infinity();
-        if (const std::optional<Hit> hit = visibility_.nearestOpaque(ray)) {
-            depthMetres = hit->depthMetres;
-            found.ids.object = 1 + hit->object->number;
-            found.ids.triangle = hit->triangle;
+        const std::optional<Hit> nearest = visibility_.nearestOpaque(ray);
+        if (nearest) {
+            depthMetres = nearest->depthMetres;
+            found.ids.object = 1 + nearest->object->number;
+            found.ids.triangle = nearest->triangle;
         }
         for (const Hit& hit : visibility_.transparentBefore(ray, depthMetres)) {
             found.transparent.push_back({1 + hit.object->number, transparentId(hit.object->number, hit.triangle)});
             found.ids.transparent += found.transparent.back().id;
         }
-        addOthers(ray, depthMetres, found);
+        addOthers(ray, nearest, found);
         return found;
     }
 
 private:
-    /// Triangles in one place: their depths differ by no more than some roundings of positions to fp32.
-    double coincidentMetres(double depthMetres) const { return 0x1p-20 * objects_.anchor().reachMetres(depthMetres); }
-    bool areCoincident(double aMetres, double bMetres) const {
-        return std::abs(aMetres - bMetres) <= coincidentMetres(std::min(aMetres, bMetres));
+    /// Triangles in one place: their depths differ by no more than rounding to fp32 may move both.
+    static bool areCoincident(const Hit& a, const Hit& b) {
+        return std::abs(a.depthMetres - b.depthMetres) <= a.roundingMetres + b.roundingMetres;
     }
 
     /// The surfaces that may be the nearest: up to the first that has no hole there whatever its texture's leeway.
     std::vector<Hit> candidates(const Ray& ray) const {
         std::vector<Hit> found;
-        double solidMetres = std::numeric_limits<double>::infinity();
-        for (const Hit& hit : visibility_.opaqueBefore(ray, solidMetres)) {
-            if (hit.depthMetres > solidMetres && !areCoincident(hit.depthMetres, solidMetres)) break;
+        std::optional<Hit> solid;
+        for (const Hit& hit : visibility_.opaqueBefore(ray, std::numeric_limits<double>::infinity())) {
+            if (solid && !areCoincident(hit, *solid)) {
+                if (hit.depthMetres > solid->depthMetres + solid->roundingMetres + objects_.roundingMetres()) break;
+                continue;
+            }
             const auto [least, most] = opacitiesOf(hit);
             if (most < double(hit.object->material->alphaCutoff)) continue;
             found.push_back(hit);
-            if (least >= double(hit.object->material->alphaCutoff))
-                solidMetres = std::min(solidMetres, hit.depthMetres);
+            if (!solid && least >= double(hit.object->material->alphaCutoff)) solid = hit;
         }
         return found;
     }
@@ -83,9 +85,9 @@ private:
         return range;
     }
 
-    void addOthers(const Ray& ray, double depthMetres, Layers& found) const {
+    void addOthers(const Ray& ray, const std::optional<Hit>& nearest, Layers& found) const {
         for (const Hit& hit : candidates(ray)) {
-            Layers::Other other{{1 + hit.object->number, hit.triangle, 0}, areCoincident(hit.depthMetres, depthMetres)};
+            Layers::Other other{{1 + hit.object->number, hit.triangle, 0}, nearest && areCoincident(hit, *nearest)};
             for (const Hit& before : visibility_.transparentBefore(ray, hit.depthMetres))
                 other.ids.transparent += transparentId(before.object->number, before.triangle);
             if (other.ids != found.ids) found.others.push_back(other);
@@ -129,10 +131,11 @@ private:
     std::vector<Hit> coincidentWith(const Ray& ray, const Seen& seen) const {
         std::vector<Hit> others;
         if (!seen.opaque) return others;
-        const double depthMetres = seen.opaque->depthMetres;
-        for (const Hit& hit : visibility_.opaqueBefore(ray, depthMetres + coincidentMetres(depthMetres))) {
-            const bool isOther = hit.object != seen.opaque->object || hit.triangle != seen.opaque->triangle;
-            if (isOther && areCoincident(hit.depthMetres, depthMetres) &&
+        const Hit& nearest = *seen.opaque;
+        const double leewayMetres = nearest.roundingMetres + objects_.roundingMetres();
+        for (const Hit& hit : visibility_.opaqueBefore(ray, nearest.depthMetres + leewayMetres)) {
+            const bool isOther = hit.object != nearest.object || hit.triangle != nearest.triangle;
+            if (isOther && areCoincident(hit, nearest) &&
                 opacitiesOf(hit).second >= double(hit.object->material->alphaCutoff))
                 others.push_back(hit);
         }

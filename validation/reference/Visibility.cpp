@@ -104,10 +104,12 @@ Tree makeTree(RTCDevice device, const std::vector<Object>& objects, const Anchor
     return tree;
 }
 
-/// Embree's single precision may place a hit this share of its depth off; the double one decides.
+/// Embree's single precision may place a hit this share of its depth off, besides what it rounds of positions; the
+/// double one decides.
 constexpr double kDepthSlack = 1e-4;
 
-void trace(RTCScene tree, const Anchor& anchor, Query& query) {
+void trace(RTCScene tree, const Objects& objects, Query& query) {
+    const Anchor& anchor = objects.anchor();
     RTCRayHit rayHit{};
     const double start = startOf(*query.ray, anchor);
     const glm::vec3 origin(query.ray->at(start) - anchor.centreRel), direction(query.ray->direction);
@@ -117,8 +119,8 @@ void trace(RTCScene tree, const Anchor& anchor, Query& query) {
     rayHit.ray.dir_x = direction.x;
     rayHit.ray.dir_y = direction.y;
     rayHit.ray.dir_z = direction.z;
-    rayHit.ray.tnear = float(std::max(0.0, query.nearMetres * (1.0 - kDepthSlack) - start));
-    rayHit.ray.tfar = float(query.farMetres * (1.0 + kDepthSlack) - start);
+    rayHit.ray.tnear = float(std::max(0.0, query.nearMetres * (1.0 - kDepthSlack) - objects.roundingMetres() - start));
+    rayHit.ray.tfar = float(query.farMetres * (1.0 + kDepthSlack) + objects.roundingMetres() - start);
     rayHit.ray.mask = ~0u;
     rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -162,7 +164,7 @@ Visibility::~Visibility() = default;
 
 std::optional<Hit> Visibility::nearestOpaque(const Ray& ray) const {
     Query query = trees_->queryOf(ray, trees_->rays.farMetres());
-    trace(trees_->opaque.get(), trees_->objects.anchor(), query);
+    trace(trees_->opaque.get(), trees_->objects, query);
     return query.nearest;
 }
 
@@ -171,7 +173,7 @@ std::vector<Hit> Visibility::transparentBefore(const Ray& ray, double depthMetre
     if (!trees_->transparent) return hits;
     Query query = trees_->queryOf(ray, depthMetres);
     query.all = &hits;
-    trace(trees_->transparent.get(), trees_->objects.anchor(), query);
+    trace(trees_->transparent.get(), trees_->objects, query);
     // Objects lie in their order of drawing, so their addresses tell it; Embree may offer a candidate twice.
     const auto drawnBefore = [](const Hit& a, const Hit& b) {
         return std::pair(a.object, a.triangle) < std::pair(b.object, b.triangle);
@@ -186,7 +188,7 @@ std::vector<Hit> Visibility::opaqueBefore(const Ray& ray, double depthMetres) co
     Query query = trees_->queryOf(ray, depthMetres);
     query.all = &hits;
     query.masksHaveHoles = false;
-    trace(trees_->opaque.get(), trees_->objects.anchor(), query);
+    trace(trees_->opaque.get(), trees_->objects, query);
     std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
         return std::tuple(a.depthMetres, a.object, a.triangle) < std::tuple(b.depthMetres, b.object, b.triangle);
     });

@@ -76,13 +76,48 @@ Settings settingsOfTwoTriangles(scenes::Scene& scene, double eyeMetres, double g
 }
 
 TEST(ReferenceRender, trianglesACentimetreApartAreNeverInOnePlaceHoweverFarTheEyeIs) {
-    for (const double eyeMetres : {5.0, 1e3, 1e5}) {
-        scenes::Scene scene;
-        EXPECT_TRUE(Probe(scene, settingsOfTwoTriangles(scene, eyeMetres, 0.01)).at({0.5, 0.5}).others.empty());
-        const Layers together = Probe(scene, settingsOfTwoTriangles(scene, eyeMetres, 0.0)).at({0.5, 0.5});
-        ASSERT_EQ(together.others.size(), 1u) << eyeMetres;
-        EXPECT_TRUE(together.others.front().isCoincident);
+    for (const auto projection : {scenes::Projection::Perspective, scenes::Projection::Orthographic}) {
+        for (const double eyeMetres : {5.0, 1e3, 1e5}) {
+            const auto seen = [&](double gapMetres) {
+                scenes::Scene scene;
+                Settings settings = settingsOfTwoTriangles(scene, eyeMetres, gapMetres);
+                settings.camera.projection = projection;
+                return Probe(scene, settings).at({0.5, 0.5});
+            };
+            EXPECT_TRUE(seen(0.01).others.empty()) << eyeMetres;
+            const Layers together = seen(0.0);
+            ASSERT_EQ(together.others.size(), 1u) << eyeMetres;
+            EXPECT_TRUE(together.others.front().isCoincident);
+        }
     }
+}
+
+TEST(ReferenceRender, whatLiesOutsideThePictureNeverTakesDigitsFromParallelRays) {
+    for (const double farMetres : {1e4, 1e6, 1e8}) {
+        scenes::Scene scene;
+        Settings settings = settingsOfTwoTriangles(scene, 5.0, 0.01);
+        settings.camera.projection = scenes::Projection::Orthographic;
+        settings.camera.halfHeightMetres = 0.5;
+        settings.sizePixels = {20, 20};
+        const Rendered alone = render(scene, settings);
+        scene.nodes.push_back(scene.nodes.front());
+        scene.nodes.back().parentFromNode[3] = glm::dvec4(farMetres, 0.3 * farMetres, -0.7 * farMetres, 1.0);
+        const Rendered beside = render(scene, settings);
+        EXPECT_EQ(beside.covered, alone.covered) << farMetres;
+        EXPECT_EQ(beside.radiance, alone.radiance) << farMetres;
+        EXPECT_TRUE(Probe(scene, settings).at({10.3, 10.3}).others.empty()) << farMetres;
+    }
+}
+
+TEST(ReferenceRender, trianglesAreInOnePlaceWhereRoundingsOfTheirNodesMayExchangeThem) {
+    scenes::Scene scene;
+    const Settings settings = settingsOfTwoTriangles(scene, 5.0, 0.006);
+    EXPECT_TRUE(Probe(scene, settings).at({0.5, 0.5}).others.empty());
+    for (glm::vec3& positionOS : scene.meshes[0].positionsOS) positionOS.z += 131072.0f; // steps of 16 mm in fp32
+    for (scenes::Node& node : scene.nodes) node.parentFromNode[3].z -= 131072.0;
+    const Layers seen = Probe(scene, settings).at({0.5, 0.5});
+    ASSERT_EQ(seen.others.size(), 1u);
+    EXPECT_TRUE(seen.others.front().isCoincident);
 }
 
 /// Roundings of the product's positions go with their distance from an origin that is its own business: the reference
@@ -102,13 +137,21 @@ TEST(ReferenceRender, fromAFarEyeTheProductsOriginIsNeverFartherFromTheReference
         const double eyeMetres = random.logarithmic(1.0, 1e6);
         camera.fovYRadians = 1.5;
         camera.halfHeightMetres = 2.0 * eyeMetres;
-        camera.nearMetres = 1e-3;
+        camera.nearMetres = i % 3 == 0 ? 1e-3 : 0.5 * eyeMetres;
+        if (i % 5 == 0) camera.farMetres = 1.5 * eyeMetres;
         // The triangle lies up to 35 degrees beside the view axis.
         const glm::dvec3 beside(random.between(-0.5, 0.5) * eyeMetres, random.between(-0.5, 0.5) * eyeMetres, 0.0);
         camera.worldFromCamera = scenes::worldFromLookAt({0.7, 1.3, eyeMetres}, glm::dvec3(0.7, 1.3, 0.0) + beside);
+        if (isParallel) { // one more beside the picture
+            scene.nodes.push_back(scene.nodes.front());
+            scene.nodes.back().parentFromNode[3] =
+                glm::dvec4(5.0 * camera.halfHeightMetres * glm::dvec3(camera.worldFromCamera[0]), 1.0);
+        }
         const CameraRays rays(camera, settings.sizePixels);
         const Anchor anchor = Objects(scene, rays).anchor();
         if (anchor.radiusMetres == 0.0) continue;
+        const double mostMetres = isParallel ? 5.0 + 0.01 * camera.halfHeightMetres : scenes::kInfinity;
+        ASSERT_LE(anchor.otherOriginMetres, mostMetres) << eyeMetres;
         ++far;
         const frame::CameraView view = frame::makeCameraView(camera, settings.sizePixels, frame::LightingSpace::World,
                                                              glm::vec3(0.0f), frame::surfaceBounds(scene));
