@@ -64,8 +64,8 @@ frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
         materialsChanged_ = false;
         return *sceneGpu_;
     }
-    materialsChanged_ = false;
     sceneGpu_ = std::make_unique<frame::SceneGpu>(scene_, features, filter);
+    materialsChanged_ = false;
     sceneFeatures_ = features;
     sceneFilter_ = filter;
     return *sceneGpu_;

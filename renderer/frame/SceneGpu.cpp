@@ -17,6 +17,10 @@ namespace {
 /// What GL guarantees to accept as offset of a uniform range (the largest GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT allowed).
 constexpr std::size_t kUniformAlignment = 256;
 
+/// Bytes between the constants of two materials.
+constexpr std::size_t kMaterialStride =
+    (sizeof(shared::MaterialConstants) + kUniformAlignment - 1) / kUniformAlignment * kUniformAlignment;
+
 /// Anisotropy of material textures under the hardware filter. Doubles the cost of a textured pass on software
 /// rasterisers, so it stays at trilinear.
 constexpr float kAnisotropy = 1.0f;
@@ -48,24 +52,24 @@ gpu::VertexAttribute attribute(std::uint32_t location, int components, const gpu
 } // namespace
 
 SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter)
-    : scene_(scene), features_(features), filter_(filter), drawList_(makeDrawList(scene)),
-      alphaModes_(alphaModes(scene)), materialsInUse_(scenes::inUse(scene).materials) {
-    uploadGeometry(makeVertexStreams(scene_, features_));
-    uploadMaterials();
+    : scene_(scene), features_(features), filter_(filter), materialsInUse_(scenes::inUse(scene).materials),
+      drawRows_(std::make_unique<gpu::Buffer>("draw rows", makeDrawList(scene).draws.size() * sizeof(DrawRows),
+                                              gpu::BufferUse::Dynamic)),
+      geometry_(makeGeometry()), draws_(makeDraws(geometry_.ranges)), materials_(makeMaterials()) {
     uploadTextures();
 }
 
-void SceneGpu::uploadGeometry(const VertexStreams& streams) {
-    tangentBases_ = tangentBases(scene_);
-    vertexBuffers_.clear();
-    drawRows_ =
-        std::make_unique<gpu::Buffer>("draw rows", drawList_.draws.size() * sizeof(DrawRows), gpu::BufferUse::Dynamic);
+SceneGpu::Geometry SceneGpu::makeGeometry() const {
+    const VertexStreams streams = makeVertexStreams(scene_, features_);
+    Geometry geometry;
+    geometry.tangentBases = tangentBases(scene_);
+    geometry.ranges = streams.ranges;
     std::vector<gpu::VertexAttribute> attributes;
     const auto stream = [&](std::uint32_t location, const char* label, const auto& values) {
         using Value = typename std::decay_t<decltype(values)>::value_type;
         if (values.empty()) return;
-        vertexBuffers_.push_back(std::make_unique<gpu::Buffer>(gpu::Buffer::of(label, values)));
-        attributes.push_back(attribute(location, Value::length(), vertexBuffers_.back().get(), sizeof(Value)));
+        geometry.vertices.push_back(std::make_unique<gpu::Buffer>(gpu::Buffer::of(label, values)));
+        attributes.push_back(attribute(location, Value::length(), geometry.vertices.back().get(), sizeof(Value)));
     };
     stream(ATTRIBUTE_POSITION, "positions", streams.positionsOS);
     stream(ATTRIBUTE_NORMAL, "normals", streams.normalsOS);
@@ -80,28 +84,26 @@ void SceneGpu::uploadGeometry(const VertexStreams& streams) {
         attributes.push_back(attribute(ATTRIBUTE_DRAW_NORMAL_ROW0 + row, 4, drawRows_.get(), sizeof(DrawRows),
                                        offsetof(DrawRows, normal) + offset, 1));
     }
-    indices_ = std::make_unique<gpu::Buffer>(gpu::Buffer::of("indices", streams.indices));
-    vertexArray_ = std::make_unique<gpu::VertexArray>("scene", attributes, indices_.get());
-
-    ranges_ = streams.ranges;
-    uploadDraws();
+    geometry.indices = std::make_unique<gpu::Buffer>(gpu::Buffer::of("indices", streams.indices));
+    geometry.array = std::make_unique<gpu::VertexArray>("scene", attributes, geometry.indices.get());
+    return geometry;
 }
 
-void SceneGpu::uploadDraws() {
+SceneGpu::Draws SceneGpu::makeDraws(const VertexStreams::Ranges& ranges) const {
+    Draws draws{alphaModes(scene_), makeDrawList(scene_), nullptr};
     std::vector<gpu::DrawIndexedCommand> commands;
-    for (const Draw& draw : drawList_.draws) {
-        const VertexStreams::Range& range = ranges_.at({draw.mesh, draw.material});
+    for (const Draw& draw : draws.list.draws) {
+        const VertexStreams::Range& range = ranges.at({draw.mesh, draw.material});
         commands.push_back({range.indexCount, 1, range.firstIndex, range.baseVertex, std::uint32_t(commands.size())});
     }
-    commands_ = std::make_unique<gpu::Buffer>(gpu::Buffer::of("draw commands", commands));
+    draws.commands = std::make_unique<gpu::Buffer>(gpu::Buffer::of("draw commands", commands));
+    return draws;
 }
 
-void SceneGpu::uploadMaterials() {
-    materialStride_ =
-        (sizeof(shared::MaterialConstants) + kUniformAlignment - 1) / kUniformAlignment * kUniformAlignment;
+SceneGpu::Materials SceneGpu::makeMaterials() const {
     constexpr std::size_t kTabledBytes = MATERIAL_TEXELS * sizeof(glm::vec4);
     static_assert(kTabledBytes == offsetof(shared::MaterialConstants, uvRow0));
-    std::vector<std::byte> bytes(materialStride_ * scene_.materials.size());
+    std::vector<std::byte> bytes(kMaterialStride * scene_.materials.size());
     std::vector<std::byte> tabled;
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
         shared::MaterialConstants constants = packMaterial(scene_.materials[i]);
@@ -109,35 +111,34 @@ void SceneGpu::uploadMaterials() {
             if (shadersDecode(scene_.materials[i], slot)) constants.uvRow1[slot].w += float(TEXTURE_MODE_SRGB);
         }
         constants.kind.w = glm::uint(tabled.size() / kTabledBytes);
-        std::memcpy(bytes.data() + i * materialStride_, &constants, sizeof constants);
+        std::memcpy(bytes.data() + i * kMaterialStride, &constants, sizeof constants);
         if (!materialsInUse_[i]) continue;
         const auto* const first = reinterpret_cast<const std::byte*>(&constants);
         tabled.insert(tabled.end(), first, first + kTabledBytes);
     }
+    Materials materials;
+    materials.constants = std::make_unique<gpu::Buffer>(gpu::Buffer::of("materials", bytes));
     if (!features_[Feature::VaryingMaterials] && !tabled.empty()) {
-        materialTable_.reset();
-        tabledMaterials_ = std::make_unique<gpu::Buffer>(gpu::Buffer::of("material table", tabled));
-        materialTable_ =
-            std::make_unique<gpu::TexelBuffer>("material table", graph::Format::Rgba32Uint, *tabledMaterials_);
+        materials.tabled = std::make_unique<gpu::Buffer>(gpu::Buffer::of("material table", tabled));
+        materials.table =
+            std::make_unique<gpu::TexelBuffer>("material table", graph::Format::Rgba32Uint, *materials.tabled);
     }
-    materials_ = std::make_unique<gpu::Buffer>(gpu::Buffer::of("materials", bytes));
+    return materials;
 }
 
 void SceneGpu::updateMaterials() {
-    // First what may throw, so that all is as it was then.
-    std::optional<VertexStreams> streams;
-    if (features_.tangents() && tangentBases(scene_) != tangentBases_) streams = makeVertexStreams(scene_, features_);
-    uploadMaterials();
+    std::optional<Geometry> geometry;
+    if (features_.tangents() && tangentBases(scene_) != geometry_.tangentBases) geometry = makeGeometry();
     // Blended surfaces are drawn last, in an order of their own.
-    const bool reorders = alphaModes(scene_) != alphaModes_;
-    if (reorders) {
-        alphaModes_ = alphaModes(scene_);
-        drawList_ = makeDrawList(scene_);
-    }
-    if (streams)
-        uploadGeometry(*streams);
-    else if (reorders)
-        uploadDraws();
+    std::optional<Draws> draws;
+    if (geometry || alphaModes(scene_) != draws_.alphaModes)
+        draws = makeDraws(geometry ? geometry->ranges : geometry_.ranges);
+    Materials materials = makeMaterials();
+    // Nothing throws from here on.
+    materials_.table.reset(); // before its buffer
+    materials_ = std::move(materials);
+    if (geometry) geometry_ = std::move(*geometry);
+    if (draws) draws_ = std::move(*draws);
 }
 
 bool SceneGpu::shadersDecode(const scenes::Material& material, std::size_t slot) const {
@@ -196,16 +197,16 @@ const gpu::Sampler* SceneGpu::sampler(const scenes::Sampler& wanted) {
 }
 
 void SceneGpu::setView(const CameraView& view) {
-    drawRows_->upload(makeDrawRows(drawList_, view));
-    transparent_ = sortedTransparent(drawList_, view);
+    drawRows_->upload(makeDrawRows(draws_.list, view));
+    transparent_ = sortedTransparent(draws_.list, view);
 }
 
 void SceneGpu::bindMaterialTable() const {
-    if (materialTable_) gpu::bindTexelBuffer(TEXTURE_UNIT_MATERIALS, *materialTable_);
+    if (materials_.table) gpu::bindTexelBuffer(TEXTURE_UNIT_MATERIALS, *materials_.table);
 }
 
 void SceneGpu::bindMaterial(int material) const {
-    gpu::bindUniformBuffer(UNIFORM_MATERIAL, *materials_, std::size_t(material) * materialStride_,
+    gpu::bindUniformBuffer(UNIFORM_MATERIAL, *materials_.constants, std::size_t(material) * kMaterialStride,
                            sizeof(shared::MaterialConstants));
     for (std::uint32_t slot = 0; slot < TEXTURE_SLOT_COUNT; ++slot) {
         const BoundTexture& bound = bound_[std::size_t(material) * TEXTURE_SLOT_COUNT + slot];
@@ -214,7 +215,7 @@ void SceneGpu::bindMaterial(int material) const {
 }
 
 void SceneGpu::draw(const std::vector<Batch>& batches, const gpu::PipelineState& state) const {
-    gpu::bindVertexArray(*vertexArray_);
+    gpu::bindVertexArray(*geometry_.array);
     int boundMaterial = -1;
     for (const Batch& batch : batches) {
         gpu::PipelineState batchState = state;
@@ -224,7 +225,7 @@ void SceneGpu::draw(const std::vector<Batch>& batches, const gpu::PipelineState&
         gpu::setState(batchState);
         if (batch.material != boundMaterial) bindMaterial(batch.material);
         boundMaterial = batch.material;
-        gpu::drawIndexedIndirect(*commands_, std::uint32_t(batch.first), std::uint32_t(batch.count));
+        gpu::drawIndexedIndirect(*draws_.commands, std::uint32_t(batch.first), std::uint32_t(batch.count));
     }
 }
 

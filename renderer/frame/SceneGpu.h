@@ -26,7 +26,8 @@ public:
     SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter = TextureFilter::Hardware);
 
     /// Takes the scene's materials as they are now; their textures, and what they are drawn with, must be the same.
-    /// Derives tangents anew where a material follows others than before, and throws as makeVertexStreams() does.
+    /// Derives tangents anew where a material follows others than before. Throws as makeVertexStreams() does, and
+    /// std::runtime_error when memory runs out; then all is as it was.
     void updateMaterials();
 
     /// Puts draws into the view's lighting space and sorts the transparent ones.
@@ -36,23 +37,40 @@ public:
     /// of the features need them.
     void bindMaterialTable() const;
 
-    const std::vector<Batch>& opaque() const { return drawList_.opaque; }
+    const std::vector<Batch>& opaque() const { return draws_.list.opaque; }
     const std::vector<Batch>& transparent() const { return transparent_; }
 
     /// Binds the vertex streams; then each batch of `batches` with its material, textures, winding and cull state.
     /// `state` is the pass's pipeline state, of which culling and winding are the batch's.
     void draw(const std::vector<Batch>& batches, const gpu::PipelineState& state) const;
 
-    std::size_t drawCount() const { return drawList_.draws.size(); }
+    std::size_t drawCount() const { return draws_.list.draws.size(); }
 
 private:
     struct BoundTexture {
         const gpu::Texture* texture = nullptr;
         const gpu::Sampler* sampler = nullptr;
     };
-    void uploadGeometry(const VertexStreams& streams);
-    void uploadDraws();
-    void uploadMaterials();
+    struct Geometry {
+        std::vector<std::optional<TangentBasis>> tangentBases; ///< by material, that the streams were made with
+        VertexStreams::Ranges ranges;
+        std::vector<std::unique_ptr<gpu::Buffer>> vertices;
+        std::unique_ptr<gpu::Buffer> indices;
+        std::unique_ptr<gpu::VertexArray> array;
+    };
+    struct Draws {
+        std::vector<scenes::AlphaMode> alphaModes; ///< by material, that the list was made with
+        DrawList list;
+        std::unique_ptr<gpu::Buffer> commands; ///< one indirect draw a Draw; its baseInstance selects the draw's rows
+    };
+    struct Materials {
+        std::unique_ptr<gpu::Buffer> constants;  ///< of each, 256 bytes or a multiple apart
+        std::unique_ptr<gpu::Buffer> tabled;     ///< the first MATERIAL_TEXELS of each, without gaps
+        std::unique_ptr<gpu::TexelBuffer> table; ///< a view of it
+    };
+    Geometry makeGeometry() const;
+    Draws makeDraws(const VertexStreams::Ranges& ranges) const;
+    Materials makeMaterials() const;
     void uploadTextures();
     void bindMaterial(int material) const;
     const gpu::Texture* uploadImage(int image, bool srgb);
@@ -64,21 +82,12 @@ private:
     const scenes::Scene& scene_;
     FeatureSet features_;
     TextureFilter filter_;
-    DrawList drawList_;
-    std::vector<scenes::AlphaMode> alphaModes_; ///< by material, that drawList_ was made with
-    std::vector<bool> materialsInUse_;          ///< by material; the table holds those in use, in their order
-    std::vector<std::optional<TangentBasis>> tangentBases_; ///< by material, that the vertex streams were made with
-    VertexStreams::Ranges ranges_;
-    std::vector<Batch> transparent_;
-    std::vector<std::unique_ptr<gpu::Buffer>> vertexBuffers_;
-    std::unique_ptr<gpu::Buffer> indices_;
-    std::unique_ptr<gpu::Buffer> commands_; ///< one indirect draw a Draw; its baseInstance selects the draw's rows
+    std::vector<bool> materialsInUse_; ///< by material; the table holds those in use, in their order
     std::unique_ptr<gpu::Buffer> drawRows_;
-    std::unique_ptr<gpu::VertexArray> vertexArray_;
-    std::unique_ptr<gpu::Buffer> materials_;
-    std::size_t materialStride_ = 0;                  ///< bytes
-    std::unique_ptr<gpu::Buffer> tabledMaterials_;    ///< the first MATERIAL_TEXELS of each, without gaps
-    std::unique_ptr<gpu::TexelBuffer> materialTable_; ///< a view of tabledMaterials_
+    Geometry geometry_;
+    Draws draws_;
+    Materials materials_;
+    std::vector<Batch> transparent_;
     std::map<std::pair<int, bool>, std::unique_ptr<gpu::Texture>>
         textures_; ///< by image and whether it is decoded from sRGB
     std::vector<std::pair<scenes::Sampler, std::unique_ptr<gpu::Sampler>>> samplers_;

@@ -74,17 +74,23 @@ std::vector<std::vector<Version>> versionsOf(const scenes::Scene& scene) {
 /// Vertices that meshes may take up beyond their own for the tangents of further materials: about 2 GiB of them.
 constexpr std::size_t kMostCopiedVertices = std::size_t(1) << 25;
 
+/// Derived by MikkTSpace, each corner of a triangle may need a vertex of its own.
+std::size_t mostVertices(const scenes::Mesh& mesh, const Version& version) {
+    const bool splits =
+        mesh.tangentsOS.empty() && version.basis && version.basis->method == scenes::TangentMethod::MikkTSpace;
+    return splits ? std::max(mesh.positionsOS.size(), mesh.indices.size()) : mesh.positionsOS.size();
+}
+
 void requireFewCopies(const scenes::Scene& scene, const std::vector<std::vector<Version>>& versions) {
     std::size_t copied = 0;
     for (std::size_t mesh = 0; mesh < versions.size(); ++mesh) {
-        if (versions[mesh].size() < 2) continue;
-        copied += (versions[mesh].size() - 1) *
-                  std::max(scene.meshes[mesh].positionsOS.size(), scene.meshes[mesh].indices.size());
+        for (std::size_t further = 1; further < versions[mesh].size(); ++further)
+            copied += mostVertices(scene.meshes[mesh], versions[mesh][further]);
         if (copied > kMostCopiedVertices)
             throw InputError(
-                fmt::format("materials turn the tangents of their meshes in different ways, which takes copies of "
-                            "more than {} vertices ('{}' has {} such materials); give their normal textures "
-                            "one transform",
+                fmt::format("materials need different tangents of their meshes, which takes copies of more than {} "
+                            "vertices ('{}' has {} such materials); give the textures that tangents follow one "
+                            "transform, one set of coordinates and one method",
                             kMostCopiedVertices, scene.meshes[mesh].name, versions[mesh].size()));
     }
 }

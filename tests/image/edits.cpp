@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <functional>
 
+#include "scenes/Error.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
 #include "validation/Rendering.h"
@@ -67,6 +69,50 @@ TEST_F(Edits, tangentsAreDerivedAnewWhereAMaterialFollowsOthersThanBefore) {
                 scene.materials[i].anisotropyStrength = scene.materials[i].clearcoat = begins ? 0.7f : 0.0f;
         },
         true);
+}
+
+TEST_F(Edits, anEditThatCannotBeDrawnIsNeverForgottenAndLeavesNoTrace) {
+    scenes::Scene scene = test::everythingScene();
+    const auto normalMap = [](scenes::Material& material) -> scenes::TextureUse& {
+        return material.texture(scenes::TextureSlot::Normal);
+    };
+    const auto mapped = std::ranges::find_if(scene.materials, [&](scenes::Material& material) {
+        return normalMap(material).image != scenes::kNone && material.normalMapSpace == scenes::NormalMapSpace::Tangent;
+    });
+    ASSERT_NE(mapped, scene.materials.end());
+    // A triangle among a million vertices, with 40 materials.
+    constexpr std::size_t kVertices = std::size_t(1) << 20, kMaterials = 40;
+    scenes::Mesh mesh;
+    mesh.positionsOS.resize(kVertices);
+    mesh.normalsOS.resize(kVertices, glm::vec3(0.0f, 0.0f, 1.0f));
+    mesh.texCoords[0].resize(kVertices);
+    mesh.tangentsOS.resize(kVertices, glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
+    mesh.positionsOS[1].x = mesh.positionsOS[2].y = 0.1f;
+    mesh.indices = {0, 1, 2};
+    const scenes::Material material = *mapped;
+    const scenes::TextureTransform before = normalMap(*mapped).transform;
+    const std::size_t first = scene.materials.size();
+    scenes::Node node;
+    for (std::size_t i = 0; i < kMaterials; ++i) {
+        scene.materials.push_back(material);
+        node.instances.push_back({int(scene.meshes.size()), int(first + i)});
+    }
+    scene.meshes.push_back(std::move(mesh));
+    scene.nodes.push_back(std::move(node));
+
+    recipes::Renderer renderer(context(), scene);
+    renderer.draw(Technique::Forward, small());
+    frame::FrameSettings exact = small();
+    exact.filter = frame::TextureFilter::Exact;
+    for (std::size_t i = 0; i < kMaterials; ++i)
+        normalMap(scene.materials[first + i]).transform.rotationRadians = 0.1f * float(i);
+    for (scenes::Material& each : scene.materials) each.baseColor *= 0.5f;
+    renderer.materialsChanged();
+    for (const frame::FrameSettings& settings : {small(), exact, small()})
+        EXPECT_THROW(renderer.draw(Technique::Forward, settings), InputError);
+    for (std::size_t i = 0; i < kMaterials; ++i) normalMap(scene.materials[first + i]).transform = before;
+    const std::vector<float> after = renderer.render(Technique::Forward, small()).radiance;
+    EXPECT_EQ(after, recipes::Renderer(context(), scene).render(Technique::Forward, small()).radiance);
 }
 
 TEST_F(Edits, surfacesThatBecomeTransparentAreAlwaysDrawnAsByANewRenderer) {

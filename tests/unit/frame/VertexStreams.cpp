@@ -184,12 +184,13 @@ TEST(VertexStreams, splitVerticesAlwaysKeepAllTheirOtherAttributes) {
     EXPECT_EQ(streams.tangentsOS[streams.indices[0]].w, -streams.tangentsOS[streams.indices[3]].w);
 }
 
-TEST(VertexStreams, copiesForManyTransformsOfOneLargeMeshAreRefusedBeforeTheyAreMade) {
+/// A triangle drawn with 40 materials that turn its tangents each in its own way, among many vertices.
+scenes::Scene sceneOfManyTransforms(std::size_t vertices) {
     scenes::Scene scene = scenes::tinyScene();
     scenes::Mesh& mesh = scene.meshes[0];
-    mesh.positionsOS.resize(std::size_t(1) << 20);
-    mesh.normalsOS.resize(mesh.positionsOS.size(), glm::vec3(0.0f, 0.0f, 1.0f));
-    mesh.texCoords[0].resize(mesh.positionsOS.size());
+    mesh.positionsOS.resize(vertices);
+    mesh.normalsOS.resize(vertices, glm::vec3(0.0f, 0.0f, 1.0f));
+    mesh.texCoords[0].resize(vertices);
     scene.images.emplace_back();
     scene.materials[0].texture(scenes::TextureSlot::Normal).image = 0;
     const scenes::Node node = scene.nodes[0];
@@ -199,12 +200,27 @@ TEST(VertexStreams, copiesForManyTransformsOfOneLargeMeshAreRefusedBeforeTheyAre
         scene.nodes.push_back(node);
         scene.nodes.back().instances[0].material = i;
     }
+    return scene;
+}
+
+TEST(VertexStreams, copiesForManyTransformsOfOneLargeMeshAreRefusedBeforeTheyAreMade) {
     try {
-        makeVertexStreams(scene, allFeatures());
+        makeVertexStreams(sceneOfManyTransforms(std::size_t(1) << 20), allFeatures());
         FAIL() << "39 copies of a million vertices are made";
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(), testing::HasSubstr("('triangle' has 40 such materials)"));
     }
+}
+
+TEST(VertexStreams, aMeshThatBringsTangentsIsNeverTakenToBeSplit) {
+    scenes::Scene scene = sceneOfManyTransforms(1000);
+    scenes::Mesh& mesh = scene.meshes[0];
+    mesh.indices.resize(3 << 20); // 39 times as many corners are too many, vertices not
+    for (std::size_t corner = 0; corner < mesh.indices.size(); ++corner) mesh.indices[corner] = corner % 3;
+    mesh.tangentsOS.resize(mesh.positionsOS.size(), glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
+    scene.nodes.resize(14);
+    scene.materials.resize(14);
+    EXPECT_EQ(makeVertexStreams(scene, allFeatures()).positionsOS.size(), 14000u);
 }
 
 TEST(VertexStreams, aVertexOfManyTrianglesWithTangentsOfTheirOwnIsSplitInLittleTime) {
