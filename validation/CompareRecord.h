@@ -48,7 +48,7 @@ struct CompareRecord {
     std::vector<ComparePair> pairs;
     int samples = 1;                     ///< of a pixel, as the driver gives them
     bool excludesPixels = false;         ///< those that show different triangles were left out
-    std::vector<LostGeometry> lost = {}; ///< what no rounding explains of that
+    std::vector<LostGeometry> lost = {}; ///< what no rounding explains of that, by either filter
     std::vector<LeftOutTechnique> leftOut = {};
     std::optional<RangeTruncation> rangeTruncation = {}; ///< where a tolerance is set
 

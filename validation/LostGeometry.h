@@ -20,6 +20,8 @@ struct LostGeometry {
     std::string node, mesh;                ///< the instance's names in the scene, empty where it has none
     std::size_t pixels = 0;
     int x = 0, y = 0; ///< one of them, from the left and from the top
+
+    bool isOfSame(const LostGeometry& other) const { return kind == other.kind && instance == other.instance; }
 };
 
 /// One sentence: "instance 12 (node 'coat', mesh 'ball') is missing from 103 pixels, such as 80,45".

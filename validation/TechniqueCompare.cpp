@@ -165,6 +165,11 @@ void addHardwareFilter(recipes::Renderer& renderer, const CompareRequest& reques
     result.record.pairs.push_back(comparePair(picture.name, picture.picture, result.truth.name, truth.picture,
                                               referenceTolerance(renderer.scene(), settings.filter), truth.excluded));
     missLostGeometry(result.record.pairs.back().verdict, reference.triangles.lost);
+    result.record.excludesPixels |= !reference.triangles.excluded.empty();
+    std::vector<LostGeometry>& all = result.record.lost;
+    for (const LostGeometry& lost : reference.triangles.lost)
+        if (std::ranges::none_of(all, [&](const LostGeometry& known) { return known.isOfSame(lost); }))
+            all.push_back(lost);
     result.pictures.push_back(std::move(picture));
     result.truths.push_back(std::move(truth));
 }

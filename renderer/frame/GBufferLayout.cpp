@@ -98,10 +98,12 @@ constexpr ChannelInfo kChannels[] = {
      false},
 };
 static_assert(std::size(kChannels) == kChannelCount);
-// One exponent serves three colours of one width.
+// One exponent serves three colours of one width; with more bits than 7 it would leave fp32's range.
 static_assert(std::ranges::all_of(kChannels, [](const ChannelInfo& row) {
-    const auto isEven = [](const FieldWidths& widths) { return widths[1] == widths[2] && widths[1] == widths[3]; };
-    return row.channel != Channel::Emission || (isEven(row.packed) && isEven(row.slim));
+    const auto isGood = [](const FieldWidths& widths) {
+        return widths[0] <= 7 && widths[1] == widths[2] && widths[1] == widths[3];
+    };
+    return row.channel != Channel::Emission || (isGood(row.packed) && isGood(row.slim));
 }));
 
 const ChannelInfo& infoOf(Channel channel) {
