@@ -44,6 +44,17 @@ TEST(Outputs, twoOutputsAreNeverOneFileUnlessThatIsNone) {
               "none/../a.json: two outputs have this name; give each its own");
 }
 
+TEST(Outputs, aFileInALinkedFolderIsAlwaysTheOneInTheFolderItself) {
+    const TempFolder folder;
+    const std::string real = (folder.path() / "real/a.json").string(), linked = (folder.path() / "l/a.json").string();
+    std::filesystem::create_directory(folder.path() / "real");
+    std::filesystem::create_directory_symlink("real", folder.path() / "l");
+    Outputs outputs({linked});
+    EXPECT_EQ(refusal([&] { outputs.add(real); }), real + ": two outputs have this name; give each its own");
+    folder.write("real/a.json", "");
+    for (const std::string& name : {linked, real}) EXPECT_EQ(refusal([&] { outputs.at(name); }), "") << name;
+}
+
 TEST(Outputs, nothingIsEverWrittenThatWasNotTold) {
     Outputs outputs({"a.json"});
     outputs.addFolder("parts");
