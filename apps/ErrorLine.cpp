@@ -1,39 +1,11 @@
 #include "apps/ErrorLine.h"
 
-#include <algorithm>
 #include <cstdio>
+#include <string>
 
-#include <fmt/format.h>
-
-#include "scenes/Utf8.h"
+#include "scenes/OneLine.h"
 
 namespace tessera::app {
-
-std::string oneLine(std::string_view text) {
-    std::string line;
-    bool isNew = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const auto c = static_cast<unsigned char>(text[i]);
-        if (c == '\n' || c == '\r') {
-            isNew = !line.empty();
-            continue;
-        }
-        if (isNew) line += "; ";
-        isNew = false;
-        const std::string_view letter = text.substr(i, letterBytes(text.substr(i)));
-        const bool isC1 = letter.size() == 2 && c == 0xc2 && static_cast<unsigned char>(letter[1]) < 0xa0;
-        if (letter.empty() || c < 0x20 || c == 0x7f)
-            line += fmt::format("\\x{:02x}", c);
-        else if (isC1)
-            line += fmt::format("\\x{:02x}", static_cast<unsigned char>(letter[1]));
-        else
-            line += letter;
-        i += std::max<std::size_t>(letter.size(), 1) - 1;
-    }
-    constexpr std::size_t kMostBytes = 2000; // of what files say: one word of theirs may have megabytes
-    if (line.size() > kMostBytes) line = std::string(beginningOf(line, kMostBytes)) + "...";
-    return line;
-}
 
 void printProblem(std::string_view text) {
     const std::string line = "tessera: " + oneLine(text) + "\n";

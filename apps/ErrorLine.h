@@ -1,15 +1,9 @@
 #pragma once
-#include <string>
 #include <string_view>
 
 namespace tessera::app {
 
-/// The text as one line that a terminal only shows: lines are joined by "; ", control characters and bytes that are
-/// no UTF-8, which file names and files may bring, are written \x1b, and beyond 2000 bytes "..." stands for the rest.
-/// Source of the C1 controls, U+0080 to U+009F: ECMA-48.
-std::string oneLine(std::string_view text);
-
-/// Writes "tessera: TEXT" as one line to stderr. A failure is ignored: there is no other place to tell it.
+/// Writes "tessera: TEXT" as one line (oneLine()) to stderr. A failure is ignored: there is no other place to tell it.
 void printProblem(std::string_view text);
 
 } // namespace tessera::app

@@ -9,11 +9,11 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include "apps/ErrorLine.h"
 #include "apps/Numbers.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "scenes/Error.h"
 #include "scenes/Names.h"
+#include "scenes/OneLine.h"
 
 namespace tessera::app {
 

@@ -8,7 +8,6 @@
 #include <spdlog/spdlog.h>
 
 #include "apps/Commands.h"
-#include "apps/ErrorLine.h"
 #include "apps/FramePattern.h"
 #include "apps/Numbers.h"
 #include "apps/Outputs.h"
@@ -18,6 +17,7 @@
 #include "passes/recipes/ChooseView.h"
 #include "passes/recipes/Renderer.h"
 #include "scenes/Error.h"
+#include "scenes/OneLine.h"
 #include "validation/AtomicFile.h"
 #include "validation/PictureFile.h"
 #include "validation/ReferencePicture.h"

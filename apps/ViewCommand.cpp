@@ -1,9 +1,9 @@
 #include <spdlog/spdlog.h>
 
 #include "apps/Commands.h"
-#include "apps/ErrorLine.h"
 #include "apps/FirstLook.h"
 #include "scenes/Error.h"
+#include "scenes/OneLine.h"
 #include "viewer/Viewer.h"
 
 namespace tessera::app {

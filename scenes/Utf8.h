@@ -4,20 +4,25 @@
 
 namespace tessera {
 
-/// How many bytes the letter at the beginning of a UTF-8 text has; 0 where there is none, as in other encodings.
+/// How many bytes the letter at the beginning of a text has in UTF-8; 0 where there is none, as in other encodings.
+/// Source: The Unicode Standard, table 3-7.
 inline std::size_t letterBytes(std::string_view text) {
-    if (text.empty()) return 0;
-    const auto first = static_cast<unsigned char>(text[0]);
-    const std::size_t count = first < 0x80   ? 1
-                              : first < 0xc2 ? 0
-                              : first < 0xe0 ? 2
-                              : first < 0xf0 ? 3
-                              : first < 0xf5 ? 4
-                                             : 0;
-    if (count > text.size()) return 0;
-    for (std::size_t i = 1; i < count; ++i)
-        if ((static_cast<unsigned char>(text[i]) & 0xc0u) != 0x80u) return 0;
-    return count;
+    const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+    const auto isTail = [&](std::size_t i) { return (byte(i) & 0xc0u) == 0x80u; };
+    const unsigned first = byte(0), second = byte(1);
+    if (first < 0x80) return text.empty() ? 0 : 1;
+    if (first >= 0xc2 && first <= 0xdf) return isTail(1) ? 2 : 0;
+    if (first >= 0xe0 && first <= 0xef) {
+        const bool isOverlong = first == 0xe0 && second < 0xa0;
+        const bool isSurrogate = first == 0xed && second > 0x9f;
+        return isTail(1) && isTail(2) && !isOverlong && !isSurrogate ? 3 : 0;
+    }
+    if (first >= 0xf0 && first <= 0xf4) {
+        const bool isOverlong = first == 0xf0 && second < 0x90;
+        const bool isBeyond = first == 0xf4 && second > 0x8f;
+        return isTail(1) && isTail(2) && isTail(3) && !isOverlong && !isBeyond ? 4 : 0;
+    }
+    return 0;
 }
 
 /// The beginning of a UTF-8 text, of at most so many bytes, that ends with a whole letter.

@@ -4,17 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "scenes/OneLine.h"
+
 namespace tessera::viewer {
-namespace {
-
-std::string oneLine(std::string text) {
-    for (char& c : text)
-        if (c == '\n') c = ';';
-    return text;
-}
-
-} // namespace
-
 void EventLog::line(const std::string& text) const {
     if (!on_) return;
     fmt::print("{}\n", oneLine(text));

@@ -15,12 +15,12 @@ class SceneSource : public testing::Test {
 protected:
     SceneSource() { std::filesystem::current_path(folder_.path()); }
     ~SceneSource() override { std::filesystem::current_path(before_); }
-    const test::TempFolder& folder() const { return folder_; }
+    const tessera::test::TempFolder& folder() const { return folder_; }
     static std::string here(const std::string& name) { return (std::filesystem::current_path() / name).string(); }
 
 private:
     std::filesystem::path before_ = std::filesystem::current_path();
-    test::TempFolder folder_;
+    tessera::test::TempFolder folder_;
 };
 
 TEST_F(SceneSource, everyWayToSayAFileIsAlwaysTheSameScene) {

@@ -1,11 +1,11 @@
-#include "apps/ErrorLine.h"
+#include "scenes/OneLine.h"
 
 #include <gtest/gtest.h>
 
-namespace tessera::app {
+namespace tessera {
 namespace {
 
-TEST(ErrorLine, anErrorIsAlwaysOneLineThatNoTerminalObeys) {
+TEST(OneLine, anErrorIsAlwaysOneLineThatNoTerminalObeys) {
     EXPECT_EQ(oneLine("a.png: broken"), "a.png: broken");
     EXPECT_EQ(oneLine("log:\n\nline 1\r\nline 2\n"), "log:; line 1; line 2");
     EXPECT_EQ(oneLine("a\x1b[2Jb\tc\x7f"), "a\\x1b[2Jb\\x09c\\x7f");
@@ -19,7 +19,7 @@ TEST(ErrorLine, anErrorIsAlwaysOneLineThatNoTerminalObeys) {
         << "bytes that are no UTF-8";
 }
 
-TEST(ErrorLine, aLineIsNeverLongerThanTwoThousandBytesAndDotsAndEndsWithAWholeLetter) {
+TEST(OneLine, aLineIsNeverLongerThanTwoThousandBytesAndDotsAndEndsWithAWholeLetter) {
     EXPECT_EQ(oneLine(std::string(2000, 'a')), std::string(2000, 'a'));
     EXPECT_EQ(oneLine(std::string(2001, 'a')), std::string(2000, 'a') + "...");
     EXPECT_EQ(oneLine(std::string(1999, 'a') + "\xc3\xbcr"), std::string(1999, 'a') + "...");
@@ -27,4 +27,4 @@ TEST(ErrorLine, aLineIsNeverLongerThanTwoThousandBytesAndDotsAndEndsWithAWholeLe
 }
 
 } // namespace
-} // namespace tessera::app
+} // namespace tessera
