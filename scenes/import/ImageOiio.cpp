@@ -7,15 +7,15 @@
 #include <fmt/format.h>
 
 #include "scenes/Error.h"
+#include "scenes/OneLine.h"
 #include "scenes/import/PictureCodecs.h"
 
 namespace tessera::scenes {
 namespace {
 
-std::string oneLine(std::string text) {
-    std::ranges::replace(text, '\n', ' ');
-    while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
-    return text;
+/// What OpenImageIO says, to stand within a message.
+std::string reasonOf(const std::string& text) {
+    return oneLine(text.substr(0, text.find_last_not_of(" .\r\n") + 1));
 }
 
 TexelFormat texelFormatOf(OIIO::TypeDesc type) {
@@ -113,7 +113,11 @@ private:
 
 DecodedPicture decode(OIIO::ImageInput& input, std::span<const std::byte> bytes, const std::string& name,
                       const PictureFormat& format, LoadLedger& ledger) {
-    if (format.claimedSize != nullptr) requirePictureSize(format.claimedSize(bytes), bytes, name, ledger);
+    if (format.claimedSize != nullptr) {
+        const PictureSize claimed = format.claimedSize(bytes);
+        const bool isTold = claimed.width != 0 || claimed.height != 0; // else the reader says what is wrong
+        if (isTold) requirePictureSize(claimed, bytes, name, format, ledger);
+    }
     // Alpha is coverage or opacity, and colours are meant without it.
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
@@ -135,10 +139,10 @@ DecodedPicture decode(OIIO::ImageInput& input, std::span<const std::byte> bytes,
     const std::uint64_t copies = format.claimedSize != nullptr ? 1 : 2;
     const std::uint64_t bytesATexel =
         copies * static_cast<std::uint64_t>(spec.nchannels) * texelBytes(image.format) / 4 + texelBytes(image.format);
-    requirePictureSize({spec.width, spec.height, bytesATexel}, bytes, name, ledger);
+    requirePictureSize({spec.width, spec.height, bytesATexel}, bytes, name, format, ledger);
     if (!readTexels(input, channelsOf(spec), image))
         throw InputError(fmt::format("{}: the {} picture is broken or cut short ({}); save it again", name, format.name,
-                                     oneLine(input.geterror())));
+                                     reasonOf(input.geterror())));
     return decoded;
 }
 
@@ -146,16 +150,23 @@ DecodedPicture decode(OIIO::ImageInput& input, std::span<const std::byte> bytes,
 
 DecodedPicture decodeByOiio(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
                             LoadLedger& ledger) {
+    std::vector<std::byte> reduced;
+    if (format.takeOutMetadata != nullptr) {
+        ledger.charge(bytes.size(), [&] { return fmt::format("{}: a copy of the picture's file", name); });
+        reduced.assign(bytes.begin(), bytes.end());
+        bytes = reduced;
+    }
     // Declared first: the reader asks for it until it ends.
     FileInMemory file(bytes);
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(std::string(format.name));
     if (!input)
         throw std::runtime_error(fmt::format("{}: OpenImageIO cannot read {} ({}); install it with that format", name,
-                                             format.name, oneLine(OIIO::geterror())));
+                                             format.name, reasonOf(OIIO::geterror())));
     if (!input->supports("ioproxy") || !input->set_ioproxy(&file))
         throw std::runtime_error(
             fmt::format("{}: this OpenImageIO cannot read {} from memory; install 2.4 or newer", name, format.name));
     try {
+        if (format.takeOutMetadata != nullptr) format.takeOutMetadata(reduced);
         return decode(*input, bytes, name, format, ledger);
     } catch (const InputError&) {
         throw;
@@ -163,7 +174,7 @@ DecodedPicture decodeByOiio(std::span<const std::byte> bytes, const std::string&
         throw;
     } catch (const std::exception& error) { // some readers throw their own
         throw InputError(fmt::format("{}: the {} picture cannot be decoded ({}); save it again", name, format.name,
-                                     oneLine(error.what())));
+                                     reasonOf(error.what())));
     }
 }
 

@@ -48,7 +48,7 @@ bool readNumber(std::string_view word, Number& number) {
 
 /// Source: Debevec, "Portable FloatMap Image Format": PF or Pf (grey), width, height and scale; rows from the bottom.
 /// Texels are multiplied by the scale, whose sign tells the order of their bytes: below 0 is little-endian.
-DecodedPicture decodePfm(std::span<const std::byte> bytes, const std::string& name, const PictureFormat&,
+DecodedPicture decodePfm(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
                          LoadLedger& ledger) {
     const auto require = [&](bool good, const char* why) {
         if (!good)
@@ -61,7 +61,7 @@ DecodedPicture decodePfm(std::span<const std::byte> bytes, const std::string& na
     require(readNumber(header.word(), width) && readNumber(header.word(), height) && width > 0 && height > 0,
             "it has no size");
     require(readNumber(header.word(), scale) && std::isfinite(scale) && scale != 0.0f, "it has no scale");
-    requirePictureSize({width, height, texelBytes(TexelFormat::Rgba32Float)}, bytes, name, ledger);
+    requirePictureSize({width, height, texelBytes(TexelFormat::Rgba32Float)}, bytes, name, format, ledger);
     const std::size_t columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
     const std::span<const std::byte> stored = bytes.subspan(header.end());
     require(stored.size() / (channels * sizeof(float)) / columns >= rows, "it ends early");

@@ -92,7 +92,7 @@ private:
 
 } // namespace
 
-DecodedPicture decodePng(std::span<const std::byte> bytes, const std::string& name, const PictureFormat&,
+DecodedPicture decodePng(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
                          LoadLedger& ledger) {
     Reader reader(bytes);
     const auto require = [&](bool good) {
@@ -108,7 +108,7 @@ DecodedPicture decodePng(std::span<const std::byte> bytes, const std::string& na
     image.width = reader.width();
     image.height = reader.height();
     image.format = reader.has16Bits() ? TexelFormat::Rgba16Unorm : TexelFormat::Rgba8Unorm;
-    requirePictureSize({image.width, image.height, texelBytes(image.format)}, bytes, name, ledger);
+    requirePictureSize({image.width, image.height, texelBytes(image.format)}, bytes, name, format, ledger);
     image.texels.resize(reader.rowBytes() * static_cast<std::size_t>(image.height));
     std::vector<png_bytep> rows(static_cast<std::size_t>(image.height));
     for (std::size_t row = 0; row < rows.size(); ++row)

@@ -67,7 +67,7 @@ DecodedPicture decodeByStb(std::span<const std::byte> bytes, const std::string& 
     image.height = static_cast<int>(std::min<std::int64_t>(std::abs(std::int64_t{image.height}), INT_MAX)); // top-down
     // The picture as it is stored, with four channels, and as texels.
     constexpr std::uint64_t kCopies = 3;
-    requirePictureSize({image.width, image.height, kCopies * kChannels}, bytes, name, ledger);
+    requirePictureSize({image.width, image.height, kCopies * kChannels}, bytes, name, format, ledger);
     Stream stream{bytes};
     const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> texels(
         stbi_load_from_callbacks(&kCallbacks, &stream, &image.width, &image.height, &stored, kChannels),

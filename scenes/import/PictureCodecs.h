@@ -18,6 +18,7 @@ using DecodePicture = DecodedPicture(std::span<const std::byte> bytes, const std
 struct PictureSize {
     std::int64_t width = 0, height = 0; ///< texels
     std::uint64_t bytesATexel = 0;      ///< that decoding takes, copies counted
+    std::uint64_t bytes = 0;            ///< that it takes besides, for a row of tiles or the like
 };
 
 /// Bytes that all files of a format have at one place.
@@ -33,22 +34,36 @@ struct PictureFormat {
     PictureSignature signatures[2]; ///< either tells the format; none: its extension does
     std::string_view extensions[2]; ///< lower case
     DecodePicture* decode;          ///< null: known by its first bytes and refused by name
+    /// Texels that a byte of a file may hold at most: a header that claims more is refused before memory is reserved
+    /// for them. 0 where a codec packs one colour without a bound, and the ledger alone counts.
+    std::int64_t maxTexelsAByte = 0;
     /// Where the reader reserves memory, or takes seconds, as soon as it sees the header: what that claims. Throws
     /// std::runtime_error for claims that cannot be true.
-    PictureSize (*claimedSize)(std::span<const std::byte> bytes);
+    PictureSize (*claimedSize)(std::span<const std::byte> bytes) = nullptr;
+    /// Takes descriptions, profiles and the like, which the reader would keep or crash on, out of a copy of the file.
+    /// Comes before claimedSize, and throws like it.
+    void (*takeOutMetadata)(std::span<std::byte> bytes) = nullptr;
 };
 std::span<const PictureFormat> pictureFormats();
 
 /// Charges the ledger. Throws InputError for a picture that no texture can be, that the ledger has no room for, or that
 /// its file cannot hold; before memory is reserved for the texels.
 void requirePictureSize(const PictureSize& size, std::span<const std::byte> file, const std::string& name,
-                        LoadLedger& ledger);
+                        const PictureFormat& format, LoadLedger& ledger);
 
 PictureSize claimedSizeOfExr(std::span<const std::byte> bytes);
 PictureSize claimedSizeOfGif(std::span<const std::byte> bytes);
 PictureSize claimedSizeOfJpeg(std::span<const std::byte> bytes);
 PictureSize claimedSizeOfTiff(std::span<const std::byte> bytes);
 PictureSize claimedSizeOfWebp(std::span<const std::byte> bytes);
+
+void takeOutMetadataOfJpeg(std::span<std::byte> bytes);
+void takeOutMetadataOfTiff(std::span<std::byte> bytes);
+void takeOutMetadataOfWebp(std::span<std::byte> bytes);
+
+/// Leaves of a TIFF's directories the first, and of that the first entry of each of these tags. False, and nothing is
+/// changed, where the file does not hold it.
+bool keepTiffTags(std::span<std::byte> tiff, std::span<const std::uint16_t> tags);
 
 /// By OpenImageIO's reader of that format, and no other.
 DecodePicture decodeByOiio;

@@ -4,24 +4,44 @@
 
 namespace tessera::scenes {
 
+namespace {
+
+/// Deflate reaches 1032 bytes a byte, and a grey texel may have one bit; Huffman codes of a JPEG's blocks and runs of
+/// the others stay below.
+constexpr std::int64_t kMaxTexelsAByte = 16384;
+
+} // namespace
+
 std::span<const PictureFormat> pictureFormats() {
     using namespace std::string_view_literals;
     static constexpr std::array kFormats = {
-        PictureFormat{"png", {{"\x89PNG\r\n\x1a\n"sv}}, {"png"}, decodePng, nullptr},
-        PictureFormat{"jpeg", {{"\xff\xd8\xff"sv}}, {"jpg", "jpeg"}, decodeByOiio, claimedSizeOfJpeg},
-        PictureFormat{"openexr", {{"\x76\x2f\x31\x01"sv}}, {"exr"}, decodeByOiio, claimedSizeOfExr},
-        PictureFormat{"hdr", {{"#?"sv}}, {"hdr"}, decodeByOiio, nullptr},
-        PictureFormat{"pfm", {{"PF\n"sv}, {"Pf\n"sv}}, {"pfm"}, decodePfm, nullptr},
-        PictureFormat{"tiff", {{"II*\0"sv}, {"MM\0*"sv}}, {"tif", "tiff"}, decodeByOiio, claimedSizeOfTiff},
-        PictureFormat{"webp", {{"WEBP"sv, 8}}, {"webp"}, decodeByOiio, claimedSizeOfWebp},
-        PictureFormat{"bmp", {{"BM"sv}}, {"bmp"}, decodeByStb, nullptr},
-        PictureFormat{"gif", {{"GIF8"sv}}, {"gif"}, decodeByOiio, claimedSizeOfGif},
-        PictureFormat{"tga", {}, {"tga"}, decodeByStb, nullptr},
-        PictureFormat{"psd", {{"8BPS"sv}}, {}, nullptr, nullptr},
-        PictureFormat{"dds", {{"DDS "sv}}, {}, nullptr, nullptr},
-        PictureFormat{"ktx", {{"\xabKTX 11"sv}}, {}, nullptr, nullptr},
-        PictureFormat{"ktx2", {{"\xabKTX 20"sv}}, {}, nullptr, nullptr},
-        PictureFormat{"jpeg2000", {{"\0\0\0\x0cjP  "sv}}, {}, nullptr, nullptr},
+        PictureFormat{"png", {{"\x89PNG\r\n\x1a\n"sv}}, {"png"}, decodePng, kMaxTexelsAByte},
+        PictureFormat{"jpeg",
+                      {{"\xff\xd8\xff"sv}},
+                      {"jpg", "jpeg"},
+                      decodeByOiio,
+                      kMaxTexelsAByte,
+                      claimedSizeOfJpeg,
+                      takeOutMetadataOfJpeg},
+        PictureFormat{"openexr", {{"\x76\x2f\x31\x01"sv}}, {"exr"}, decodeByOiio, kMaxTexelsAByte, claimedSizeOfExr},
+        PictureFormat{"hdr", {{"#?"sv}}, {"hdr"}, decodeByOiio, kMaxTexelsAByte},
+        PictureFormat{"pfm", {{"PF\n"sv}, {"Pf\n"sv}}, {"pfm"}, decodePfm, kMaxTexelsAByte},
+        PictureFormat{"tiff",
+                      {{"II*\0"sv}, {"MM\0*"sv}},
+                      {"tif", "tiff"},
+                      decodeByOiio,
+                      0,
+                      claimedSizeOfTiff,
+                      takeOutMetadataOfTiff},
+        PictureFormat{"webp", {{"WEBP"sv, 8}}, {"webp"}, decodeByOiio, 0, claimedSizeOfWebp, takeOutMetadataOfWebp},
+        PictureFormat{"bmp", {{"BM"sv}}, {"bmp"}, decodeByStb, kMaxTexelsAByte},
+        PictureFormat{"gif", {{"GIF8"sv}}, {"gif"}, decodeByOiio, kMaxTexelsAByte, claimedSizeOfGif},
+        PictureFormat{"tga", {}, {"tga"}, decodeByStb, kMaxTexelsAByte},
+        PictureFormat{"psd", {{"8BPS"sv}}, {}, nullptr},
+        PictureFormat{"dds", {{"DDS "sv}}, {}, nullptr},
+        PictureFormat{"ktx", {{"\xabKTX 11"sv}}, {}, nullptr},
+        PictureFormat{"ktx2", {{"\xabKTX 20"sv}}, {}, nullptr},
+        PictureFormat{"jpeg2000", {{"\0\0\0\x0cjP  "sv}}, {}, nullptr},
     };
     return kFormats;
 }

@@ -1,8 +1,9 @@
 #include <algorithm>
-#include <climits>
+#include <cstring>
+#include <initializer_list>
+#include <limits>
 #include <stdexcept>
-#include <string_view>
-#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,11 +12,15 @@
 namespace tessera::scenes {
 namespace {
 
+constexpr std::size_t kEntryBytes = 12;
+
 /// Numbers of a TIFF file, in its order of bytes; 0 beyond its end. Source: Adobe 1992, TIFF revision 6.0, section 2.
 class Tiff {
 public:
     explicit Tiff(std::span<const std::byte> bytes)
         : bytes_(bytes), isBigEndian_(!bytes.empty() && bytes[0] == std::byte{'M'}) {}
+
+    bool isBigEndian() const { return isBigEndian_; }
 
     std::uint64_t number(std::size_t at, int count) const {
         std::uint64_t value = 0;
@@ -26,34 +31,31 @@ public:
         return value;
     }
 
+    /// Where the first directory begins: with the number of its entries.
+    std::size_t directory() const { return number(4, 4); }
+
     /// The entry of a tag in the first directory, or 0.
     std::size_t entryOf(std::uint64_t tag) const {
-        const std::size_t directory = number(4, 4);
-        const std::uint64_t entries = number(directory, 2);
+        const std::uint64_t entries = number(directory(), 2);
         for (std::uint64_t i = 0; i < entries; ++i) {
-            const std::size_t entry = directory + 2 + 12 * i;
+            const std::size_t entry = directory() + 2 + kEntryBytes * i;
             if (number(entry, 2) == tag) return entry;
         }
         return 0;
     }
 
-    /// The first number that a tag has, or `otherwise`.
+    /// The first number that a tag has, or `otherwise`. Other types than these libtiff reads too, by other rules.
     std::uint64_t valueOf(std::uint64_t tag, std::uint64_t otherwise) const {
-        constexpr std::uint64_t kShort = 3;
+        constexpr std::uint64_t kShort = 3, kLong = 4;
         const std::size_t entry = entryOf(tag);
         if (entry == 0) return otherwise;
-        const int size = number(entry + 2, 2) == kShort ? 2 : 4;
+        const std::uint64_t type = number(entry + 2, 2);
+        if (type != kShort && type != kLong)
+            throw std::runtime_error(
+                fmt::format("its tag {} is of type {}, where 3 (SHORT) or 4 (LONG) is needed", tag, type));
+        const int size = type == kShort ? 2 : 4;
         const bool isElsewhere = number(entry + 4, 4) * std::uint64_t(size) > 4;
         return number(isElsewhere ? number(entry + 8, 4) : entry + 8, size);
-    }
-
-    /// The bytes of a tag, as far as the file has them.
-    std::string_view textOf(std::uint64_t tag) const {
-        const std::size_t entry = entryOf(tag);
-        if (entry == 0) return {};
-        const std::string_view text(reinterpret_cast<const char*>(bytes_.data()), bytes_.size());
-        const std::size_t first = std::min<std::size_t>(number(entry + 8, 4), text.size());
-        return text.substr(first, number(entry + 4, 4));
     }
 
 private:
@@ -61,66 +63,72 @@ private:
     bool isBigEndian_;
 };
 
-constexpr int kTooDeep = INT_MAX;
-
-/// Where the tag that begins at `at` ends: at the first > outside quotes.
-std::size_t endOfTag(std::string_view xml, std::size_t at) {
-    char quote = 0;
-    for (; at < xml.size(); ++at) {
-        if (quote != 0)
-            quote = xml[at] == quote ? 0 : quote;
-        else if (xml[at] == '"' || xml[at] == '\'')
-            quote = xml[at];
-        else if (xml[at] == '>')
-            break;
-    }
-    return std::min(at, xml.size());
+/// The greatest number where it would be greater.
+std::uint64_t product(std::initializer_list<std::uint64_t> factors) {
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t result = 1;
+    for (const std::uint64_t factor : factors)
+        result = factor != 0 && result > kMost / factor ? kMost : result * factor;
+    return result;
 }
 
-/// How deep the elements of an XML text nest.
-int depthOfXml(std::string_view xml) {
-    constexpr std::pair<std::string_view, std::string_view> kSkipped[] = {
-        {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}};
-    int depth = 0, deepest = 0;
-    for (std::size_t at = xml.find('<'); at < xml.size(); at = xml.find('<', at)) {
-        const std::string_view rest = xml.substr(at);
-        const auto skipped =
-            std::ranges::find_if(kSkipped, [&](const auto& row) { return rest.starts_with(row.first); });
-        if (skipped != std::end(kSkipped)) {
-            at = xml.find(skipped->second, at + skipped->first.size());
-        } else if (rest.starts_with("<!")) {
-            return kTooDeep; // declarations, which descriptions have none of, may hide anything
-        } else if (rest.starts_with("</")) {
-            depth = std::max(depth - 1, 0);
-            ++at;
-        } else {
-            deepest = std::max(deepest, ++depth);
-            at = endOfTag(xml, at);
-            if (xml[at - 1] == '/') --depth;
-        }
-    }
-    return deepest;
-}
+/// Those that decoding needs; of the others libtiff would copy each value, even one that thousands of tags share.
+/// Source: TIFF revision 6.0; Adobe's supplements (347); Pixar's (33300, 33301).
+constexpr std::uint16_t kDecodingTags[] = {
+    254, 256, 257, 258, 259,   262,   266,      // the picture's kind, sides, bits, compression, colours, order of bits
+    273, 274, 277, 278, 279,                    // strips, orientation, samples
+    282, 283, 284, 286, 287,   292,   293, 296, // resolution, planes, place, fax
+    305, 317, 320, 322, 323,   324,   325,      // software, predictor, palette, tiles
+    332, 338, 339, 347,                         // inks, alpha, numbers, tables of JPEG
+    529, 530, 531, 532, 33300, 33301,           // luma and chroma, the whole of which this is a part
+};
 
 } // namespace
 
-/// libtiff and OpenImageIO reserve whole tiles, however small the picture is. OpenImageIO reads the description (XMP)
-/// by recursion, which tens of thousands of levels end.
-PictureSize claimedSizeOfTiff(std::span<const std::byte> bytes) {
-    constexpr std::uint64_t kWidth = 256, kHeight = 257, kBits = 258, kSamples = 277, kTileWidth = 322,
-                            kTileHeight = 323, kXmp = 700;
-    constexpr int kMaxXmpDepth = 256; // Adobe's programs nest about ten deep
+bool keepTiffTags(std::span<std::byte> bytes, std::span<const std::uint16_t> tags) {
+    constexpr std::size_t kHeaderBytes = 8;
     const Tiff tiff(bytes);
-    if (depthOfXml(tiff.textOf(kXmp)) > kMaxXmpDepth)
-        throw std::runtime_error(fmt::format("its XMP description nests more than {} deep", kMaxXmpDepth));
-    const auto wholeTiles = [&](std::uint64_t side, std::uint64_t tile) {
-        return std::int64_t(tile == 0 ? side : (std::max<std::uint64_t>(side, 1) + tile - 1) / tile * tile);
-    };
+    const std::size_t directory = tiff.directory(), first = directory + 2;
+    const std::size_t end = first + kEntryBytes * tiff.number(directory, 2);
+    if (directory < kHeaderBytes || end > bytes.size()) return false;
+    std::vector<std::uint64_t> missing(tags.begin(), tags.end());
+    std::size_t keptEnd = first;
+    for (std::size_t entry = first; entry < end; entry += kEntryBytes) {
+        const auto tag = std::ranges::find(missing, tiff.number(entry, 2));
+        if (tag == missing.end()) continue;
+        missing.erase(tag);
+        std::memmove(bytes.data() + keptEnd, bytes.data() + entry, kEntryBytes);
+        keptEnd += kEntryBytes;
+    }
+    const std::size_t count = (keptEnd - first) / kEntryBytes;
+    bytes[directory + (tiff.isBigEndian() ? 1 : 0)] = std::byte(count & 0xff);
+    bytes[directory + (tiff.isBigEndian() ? 0 : 1)] = std::byte(count >> 8);
+    const std::span<std::byte> next = bytes.subspan(keptEnd);
+    std::ranges::fill(next.first(std::min<std::size_t>(next.size(), 4)), std::byte{0});
+    return true;
+}
+
+void takeOutMetadataOfTiff(std::span<std::byte> bytes) {
+    if (!keepTiffTags(bytes, kDecodingTags)) throw std::runtime_error("its directory of tags is not in the file");
+}
+
+/// libtiff and OpenImageIO hold a row of tiles, or a strip, as it is stored and as it is handed over: whole, however
+/// small the picture is. Colours that OpenImageIO leaves to libtiff are converted for the whole picture at once.
+PictureSize claimedSizeOfTiff(std::span<const std::byte> bytes) {
+    constexpr std::uint64_t kWidth = 256, kHeight = 257, kBits = 258, kCompression = 259, kColours = 262,
+                            kSamples = 277, kRows = 278, kTileWidth = 322, kTileHeight = 323;
+    constexpr std::uint64_t kOldJpeg = 6, kJpeg = 7, kSeparated = 5, kCopies = 2, kConvertedBytes = 4;
+    const Tiff tiff(bytes);
+    const std::uint64_t width = tiff.valueOf(kWidth, 0), height = tiff.valueOf(kHeight, 0);
+    const std::uint64_t tileWidth = tiff.valueOf(kTileWidth, 0), tileHeight = tiff.valueOf(kTileHeight, 0);
+    const std::uint64_t columns = tileWidth == 0 ? width : (width + tileWidth - 1) / tileWidth * tileWidth;
+    const std::uint64_t rows = tileHeight == 0 ? std::min(tiff.valueOf(kRows, height), height) : tileHeight;
     const std::uint64_t bytesASample = std::max<std::uint64_t>((tiff.valueOf(kBits, 1) + 7) / 8, 1);
-    // A row of tiles as it is stored and as it is handed over.
-    return {wholeTiles(tiff.valueOf(kWidth, 0), tiff.valueOf(kTileWidth, 0)),
-            wholeTiles(tiff.valueOf(kHeight, 0), tiff.valueOf(kTileHeight, 0)),
-            2 * bytesASample * std::max<std::uint64_t>(tiff.valueOf(kSamples, 1), 1)};
+    const std::uint64_t samples = std::max<std::uint64_t>(tiff.valueOf(kSamples, 1), 1);
+    const std::uint64_t compression = tiff.valueOf(kCompression, 1);
+    const bool isConverted = tiff.valueOf(kColours, 0) > kSeparated || compression == kOldJpeg || compression == kJpeg;
+    return {std::int64_t(width), std::int64_t(height), isConverted ? kConvertedBytes : 0,
+            product({kCopies, columns, rows, bytesASample, samples})};
 }
 
 } // namespace tessera::scenes
