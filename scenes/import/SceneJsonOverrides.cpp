@@ -102,8 +102,7 @@ private:
     void changeMaterials(const JsonValue& value, const JsonValue& pattern) {
         const std::vector<std::size_t> matches = matching(included_, pattern);
         if (matches.empty()) pattern.failUnknown("included material", pattern.text(), included_.names());
-        constexpr std::size_t kLooksAChange = 100; // takes about as long
-        look(kLooksAChange * matches.size(), pattern);
+        charge(kStepsAChange * matches.size(), pattern);
         for (const std::size_t material : matches) {
             JsonObject object = value.object(); // anew, because each material's model has other keys
             object.find("material");
@@ -116,27 +115,28 @@ private:
         const std::string text = pattern.text();
         if (text.find_first_of("*?") == std::string::npos) {
             const std::span<const std::size_t> called = elements.called(text);
-            look(called.size(), pattern);
+            charge(kStepsALook * called.size(), pattern);
             return {called.begin(), called.end()};
         }
         std::vector<std::size_t> matches;
         for (std::size_t i = 0; i < elements.size(); ++i) {
-            look(1 + text.size() * elements.nameOf(i).size() / kCharactersALook, pattern);
-            if (matchesPattern(text, elements.nameOf(i))) matches.push_back(i);
+            const PatternMatch match = matchesPattern(text, elements.nameOf(i));
+            charge(kStepsALook + match.steps, pattern);
+            if (match) matches.push_back(i);
         }
         return matches;
     }
 
-    /// A pattern is held to a name in at most the product of their lengths: a look is about what short names take.
-    static constexpr std::size_t kCharactersALook = 64;
-    static constexpr std::size_t kMostLooks = 100'000'000;
+    /// A step takes about a nanosecond: a character held to a pattern, a tenth of a look at an element, or a thousandth
+    /// of a change of a material.
+    static constexpr std::size_t kStepsALook = 10, kStepsAChange = 1000, kMostSteps = 1'000'000'000;
 
-    /// Counts looks at elements: many overrides that match as many, or long patterns, would take very long.
-    void look(std::size_t looks, const JsonValue& pattern) {
-        if ((looks_ += looks) > kMostLooks)
-            pattern.fail(fmt::format("the overrides up to here look at nodes and materials more than {} times; give "
-                                     "fewer, or names without * and ?",
-                                     kMostLooks));
+    /// Many overrides that match as many, or patterns that begin again at every character, would take very long.
+    void charge(std::size_t steps, const JsonValue& pattern) {
+        if ((steps_ += steps) > kMostSteps)
+            pattern.fail(fmt::format("the overrides up to here take more than {} steps to find and change nodes and "
+                                     "materials; give fewer, or names without * and ?",
+                                     kMostSteps));
     }
 
     Scene& scene_;
@@ -146,16 +146,17 @@ private:
     std::vector<int> boundMaterials_; ///< of the overrides of nodes, in their order
     std::vector<int> binding_;        ///< index in boundMaterials_ by node; kNone is none
     std::vector<bool> isDrawn_;       ///< whether a mesh is drawn at or below a node
-    std::size_t looks_ = 0;
+    std::size_t steps_ = 0;
 };
 
 } // namespace
 
-bool matchesPattern(std::string_view pattern, std::string_view name) {
+PatternMatch matchesPattern(std::string_view pattern, std::string_view name) {
     std::size_t at = 0;
     std::size_t star = std::string_view::npos; // the last one seen, which takes up whatever the rest does not
     std::size_t taken = 0;
-    for (std::size_t i = 0; i < name.size();) {
+    std::size_t steps = 0;
+    for (std::size_t i = 0; i < name.size(); ++steps) {
         if (at < pattern.size() && pattern[at] == '*') {
             star = at++;
             taken = i;
@@ -166,10 +167,10 @@ bool matchesPattern(std::string_view pattern, std::string_view name) {
             at = star + 1;
             i = ++taken;
         } else {
-            return false;
+            return {false, steps};
         }
     }
-    return pattern.find_first_not_of('*', at) == std::string_view::npos;
+    return {pattern.find_first_not_of('*', at) == std::string_view::npos, steps};
 }
 
 void applyOverrides(const std::vector<JsonValue>& overrides, Scene& scene, std::size_t ownMaterials, Images& images) {

@@ -3,8 +3,15 @@
 
 namespace tessera::scenes::scenejson {
 
-/// True when `pattern`, in which * stands for any text and ? for any character, matches the whole name.
-bool matchesPattern(std::string_view pattern, std::string_view name);
+struct PatternMatch {
+    bool isMatch;
+    std::size_t steps; ///< that were taken to find out, of a character each
+
+    explicit operator bool() const { return isMatch; }
+};
+
+/// Whether `pattern`, in which * stands for any text and ? for any character, matches the whole name.
+PatternMatch matchesPattern(std::string_view pattern, std::string_view name);
 
 /// Applies overrides one after the other. {"node": PATTERN, "material": NAME} binds a material to all that is drawn at
 /// the matching nodes and below them; {"material": PATTERN, ...} changes parameters of the matching materials.

@@ -371,7 +371,45 @@ TEST(Growth, thirtyThousandOverridesOfNodesAndMaterialsByNameTakeSeconds) {
     const std::filesystem::path patterns =
         sceneOf(listOf(2 * kCount, [](int) { return std::string(R"({"node":"n*","material":"own0"})"); }));
     EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, patterns); }),
-                HasSubstr("/node: the overrides up to here look at nodes and materials more than"));
+                HasSubstr("/node: the overrides up to here take more than 1000000000 steps"));
+}
+
+/// A scene of triangles with these names, to which these overrides give a material.
+std::filesystem::path sceneOfNames(const TempFolder& folder, int count, const std::function<std::string(int)>& nameOf,
+                                   const std::vector<std::string>& patterns) {
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (int i = 0; i < count; ++i) text += "g " + nameOf(i) + "\nf 1 2 3\n";
+    folder.write("m.obj", text);
+    return folder.write(
+        "s.json",
+        R"({"tessera": 1, "include": [{"file": "m.obj"}], "materials": [{"name": "own", "model": "lambert"}],
+            "overrides": [)" +
+            listOf(
+                int(patterns.size()),
+                [&](int i) { return fmt::format(R"({{"node":"{}","material":"own"}})", patterns[std::size_t(i)]); }) +
+            "]}");
+}
+
+TEST(Growth, fortyPatternsOverAHundredThousandNodesAreAlwaysRead) {
+    constexpr int kCount = 100'000;
+    const TempFolder folder;
+    const auto nameOf = [](int i) { return fmt::format("hangar_7/wing_left/engine_2/turbine/blade_{:06}", i); };
+    std::vector<std::string> patterns;
+    for (int i = 0; i < 40; ++i) patterns.push_back(nameOf(i * 1000).substr(0, 45) + "*");
+    const std::filesystem::path file = sceneOfNames(folder, kCount, nameOf, patterns);
+    EXPECT_LT(secondsOf([&] { EXPECT_GE(underLedger(importSceneJson, file).nodes.size(), kCount + 0u); }), kSeconds);
+}
+
+TEST(Growth, patternsThatBeginAgainAtEveryCharacterAreAlwaysRefused) {
+    const TempFolder folder;
+    const std::filesystem::path file =
+        sceneOfNames(folder, 2000, [](int i) { return std::string(4000, 'x') + std::to_string(i); },
+                     {"*0", "*" + std::string(2000, 'x') + "y*"});
+    EXPECT_LT(secondsOf([&] {
+                  EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, file); }),
+                              HasSubstr("/overrides/1/node: the overrides up to here take more than 1000000000 steps"));
+              }),
+              kSeconds);
 }
 
 TEST(Growth, anErrorAboutANameOfAHundredThousandTakesSeconds) {
