@@ -22,8 +22,9 @@ std::optional<std::uint64_t> groupLimitBytes(const std::filesystem::path& member
 std::string sizeText(std::uint64_t bytes);
 
 /// What one load has read, and the memory it may take. Importers charge what they are about to reserve, so that a small
-/// file that asks for much is refused before the memory is gone. One load has one ledger: it cannot be copied, and
-/// nothing that reads files makes one of its own.
+/// file that asks for much is refused before the memory is gone. One load has one ledger: it cannot be copied, and no
+/// importer makes one of its own. What a command reads beside a loaded scene has a ledger that begins with what that
+/// scene takes.
 class LoadLedger {
 public:
     /// Without a limit: defaultMemoryLimitBytes().

@@ -115,6 +115,7 @@ SceneOrigin originOf(const std::string& nameOrPath, const LoadOptions& options, 
         origin.lights = options.lights;
     } else {
         LoadLedger ledger(options.memoryLimitBytes);
+        ledger.settle(0, bytesOf(loaded));
         followBases(nameOrPath, origin, ledger);
     }
     return origin;

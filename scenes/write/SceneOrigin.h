@@ -19,8 +19,8 @@ struct SceneOrigin {
 };
 
 /// The origin of a scene that loadScene() has just made of these. Reads its documents again, one at a time, under a
-/// ledger of its own. Throws InputError where a file has changed since in a
-/// way that cannot be read.
+/// ledger that begins with what the scene takes. Throws InputError where a file has changed since in a way that cannot
+/// be read, or that takes too much.
 SceneOrigin originOf(const std::string& nameOrPath, const LoadOptions& options, const Scene& loaded);
 
 } // namespace tessera::scenes

@@ -249,6 +249,9 @@ TEST(Memory, theOriginOfASceneNeverTakesMoreThanADocumentAtATime) {
     options.memoryLimitBytes = 16 * kMiB;
     const Scene scene = loadScene(file, options);
     EXPECT_EQ(originOf(file, options, scene).documents.size(), 2u);
+    options.memoryLimitBytes = bytesOf(scene) + 1000;
+    EXPECT_THAT(inputErrorOf([&] { originOf(file, options, scene); }),
+                HasSubstr(sizeText(bytesOf(scene)) + " are in use"));
 }
 
 TEST(Memory, aParsedDocumentNeverTakesMoreThanItIsChargedFor) {
