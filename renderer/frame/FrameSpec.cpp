@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/frame/LightBuffers.h"
 #include "renderer/frame/LightRounds.h"
 #include "renderer/frame/RefineLayout.h"
 #include "scenes/InUse.h"
@@ -32,12 +33,9 @@ std::size_t bytesWithout(Feature feature, const FeatureSet& features) {
     }
 }
 
-void addLights(std::vector<graph::Plan::LeftOut>& out, std::size_t count, const char* why) {
+void addLights(std::vector<graph::Plan::LeftOut>& out, const FeatureSet& features, std::size_t count, const char* why) {
     if (count == 0) return;
-    out.push_back({fmt::format("{} light{}", count, count == 1 ? "" : "s"),
-                   why,
-                   count * (sizeof(shared::LightTexels) + sizeof(shared::LightShapeTexels)),
-                   {}});
+    out.push_back({fmt::format("{} light{}", count, count == 1 ? "" : "s"), why, lightBytes(features, count), {}});
 }
 
 } // namespace
@@ -138,9 +136,9 @@ std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const Fram
                        vertexCount(scene) * bytesWithout(info.feature, spec.features),
                        {}});
     }
-    addLights(out, lights.off, "off, or not the solo light");
-    addLights(out, lights.dark, "no intensity, range or cone");
-    addLights(out, lights.unseen, "their range ends outside the view");
+    addLights(out, lights.features, lights.off, "off, or not the solo light");
+    addLights(out, lights.features, lights.dark, "no intensity, range or cone");
+    addLights(out, lights.features, lights.unseen, "their range ends outside the view");
     return out;
 }
 

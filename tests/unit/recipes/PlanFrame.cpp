@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "passes/recipes/Renderer.h"
@@ -30,6 +32,22 @@ TEST(PlanFrame, aChannelThatIsStoredFinerThanTheLayoutIsAlwaysNamedWithItsReason
     EXPECT_FALSE(choices[0].why.empty());
     EXPECT_EQ(choices[0].why, refinements[0].why);
     EXPECT_TRUE(channelChoices(scene, packed).empty());
+}
+
+TEST(PlanFrame, aLightThatIsLeftOutAlwaysSavesJustTheBytesThatALightTakes) {
+    scenes::Scene scene = scenes::loadScene("room");
+    scene.lights.assign(3, scenes::Light());
+    for (const scenes::LightType type : {scenes::LightType::Point, scenes::LightType::Spot}) {
+        for (scenes::Light& light : scene.lights) light.type = type;
+        scene.lights[1].enabled = scene.lights[2].enabled = false;
+        const graph::Plan plan = planFrame(scene, Technique::Forward, {});
+        const auto left = std::ranges::find(plan.leftOut, "2 lights", &graph::Plan::LeftOut::what);
+        ASSERT_NE(left, plan.leftOut.end());
+        const auto isLightBytes = [](const auto& counter) { return counter.first == "lightBytes"; };
+        const auto taken = std::ranges::find_if(plan.counters, isLightBytes);
+        ASSERT_NE(taken, plan.counters.end());
+        EXPECT_EQ(left->bytes, 2 * taken->second);
+    }
 }
 
 } // namespace
