@@ -20,7 +20,7 @@ namespace {
 constexpr int kTextScale = 2;
 constexpr int kTextHeight = kTextScale * kGlyphHeight;
 constexpr int kMargin = 12;
-constexpr int kLeastWidth = 560; // what the legend needs to be read
+constexpr int kLeastWidth = 640; // what the swatches take with their words, and labels apart from each other
 constexpr int kBarHeight = 16;
 constexpr int kTickHeight = 5;
 constexpr int kSwatch = 14;

@@ -1,5 +1,6 @@
 #include "validation/HeatMap.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -74,6 +75,39 @@ TEST(HeatMap, theLegendIsAlwaysTheScaleFromEndToEnd) {
     for (int x = 0; x < layout.legendWidth; ++x)
         EXPECT_EQ(at(image, layout.legendX + x, layout.legendY + layout.legendHeight - 1),
                   scaleColour(double(x) / (layout.legendWidth - 1)));
+}
+
+/// By column, whether anything is drawn below the colour bar.
+std::vector<bool> inkBelow(const DisplayImage& image, int firstRow, int endRow) {
+    std::vector<bool> hasInk(std::size_t(image.width));
+    for (int y = firstRow; y < endRow; ++y)
+        for (int x = 0; x < image.width; ++x)
+            if (at(image, x, y) != at(image, 0, 0)) hasInk[std::size_t(x)] = true;
+    return hasInk;
+}
+
+TEST(HeatMap, theLegendsWordsAreNeverCutOffAndItsLabelsAlwaysStandApart) {
+    for (const auto& [width, height] : {std::pair{64, 64}, {560, 4}, {541, 300}, {1, 1}, {1280, 2}}) {
+        SCOPED_TRACE(width);
+        const Picture picture = greyPicture(width, height, 1.f);
+        const DisplayImage shown{width, height, std::vector<std::uint8_t>(3 * picture.pixelCount(), 7)};
+        const HeatMapLayout layout = heatMapLayout(width, height);
+        const int bottom = layout.legendY + layout.legendHeight;
+        for (const DisplayImage& image : {errorHeatMap(picture, picture, "t"), flipHeatMap(shown, shown, "t")}) {
+            const std::vector<bool> ink = inkBelow(image, bottom, layout.height);
+            EXPECT_EQ(std::find(ink.begin() + layout.legendX + layout.legendWidth, ink.end(), true), ink.end());
+        }
+        // The labels are all between ticks and swatches; a gap of a letter's width is between two of them.
+        constexpr int kTextScale = 2, kTickRows = 5 + 3;
+        const std::vector<bool> ink = inkBelow(errorHeatMap(picture, picture, "t"), bottom + kTickRows,
+                                               bottom + kTickRows + kTextScale * kGlyphHeight);
+        int labels = 0, gap = kTextScale * kGlyphAdvance;
+        for (const bool hasInk : ink) {
+            if (hasInk && gap >= kTextScale * kGlyphAdvance) ++labels;
+            gap = hasInk ? 0 : gap + 1;
+        }
+        EXPECT_EQ(labels, 8);
+    }
 }
 
 TEST(HeatMap, aPictureIsNeverShrunkAndItsLayoutAlwaysHoldsIt) {
