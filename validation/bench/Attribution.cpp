@@ -36,8 +36,8 @@ void addFilter(const GroupTruth& truth, const std::string& truthName, const Benc
     const recipes::RenderedFrame frame = truth.renderer().render(Technique::Forward, hardware);
     Picture filtered = exact; // the same pixels are covered
     filtered.rgba = frame.radiance;
-    lines.push_back(
-        lineOf("filter", "textures filtered by hardware", "exact filtering", errorFigures(filtered, exact)));
+    lines.push_back(lineOf(kFilterCause, "smaller texture levels, hardware filter", "level 0 alone, exact filter",
+                           errorFigures(filtered, exact)));
 }
 
 void addRanges(const GroupTruth& truth, std::span<const BenchPoint> points, std::vector<AttributionLine>& lines) {

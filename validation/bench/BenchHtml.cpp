@@ -196,8 +196,7 @@ std::string causesHtml(const BenchRecord& record) {
     if (html.empty()) return "";
     return "<section id=\"causes\">\n<h2>Where the error comes from</h2>\n<p class=\"lede\">Each cause alone, all "
            "others "
-           "absent. Errors of points are measured with exact filtering, so that filtering by hardware, which the timed "
-           "frames use, stands here only. Bars are logarithmic, from 10<sup>&minus;12</sup> to 1.</p>\n" +
+           "absent. Bars are logarithmic, from 10<sup>&minus;12</sup> to 1.</p>\n" +
            html + "</section>\n";
 }
 

@@ -58,7 +58,11 @@ struct BenchResult {
     std::map<std::string, std::string> why; ///< of figures that are none
 };
 
-/// How much one cause adds to the error, with all others absent.
+/// AttributionLine::cause of what is no error.
+inline constexpr const char* kFilterCause = "filter";
+
+/// How much one cause adds to the error, with all others absent. "filter" is no error but a choice: how far a picture
+/// whose textures are filtered with their smaller levels is from one of the finest level alone.
 struct AttributionLine {
     std::string cause; ///< "arithmetic", "filter", "range" or "layout"
     std::string what;  ///< "range tolerance 0.01", "packed: albedo"

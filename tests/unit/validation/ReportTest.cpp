@@ -8,9 +8,11 @@
 #include "tests/unit/validation/Benches.h"
 #include "tests/unit/validation/Samples.h"
 #include "validation/Base64.h"
+#include "validation/FigureHtml.h"
 #include "validation/HeatMap.h"
 #include "validation/Html.h"
 #include "validation/bench/BenchHtml.h"
+#include "validation/bench/BenchTables.h"
 
 namespace tessera::validation {
 namespace {
@@ -132,6 +134,17 @@ TEST(Report, thePageNeverReachesOutsideItself) {
     for (auto found = std::sregex_iterator(html.begin(), html.end(), reference); found != std::sregex_iterator();
          ++found)
         EXPECT_TRUE((*found)[2].str().starts_with("data:") || (*found)[2].str().starts_with("#")) << found->str();
+}
+
+TEST(Report, theChoiceOfAFilterIsAlwaysExplainedAndNeverAmongTheErrors) {
+    BenchGroup group = madeUpGroup(10, {madeUpResult("forward", 2.0, 1e-9)});
+    const std::string without = attributionHtml(group);
+    group.attribution.push_back({kFilterCause, "smaller levels", "level 0 alone", 0.73, 4.0, 0.1});
+    const std::string with = attributionHtml(group);
+    EXPECT_EQ(with.substr(0, without.size()), without) << "the table of the errors stays";
+    EXPECT_THAT(without, testing::HasSubstr("packed: albedo"));
+    EXPECT_THAT(with.substr(without.size()), testing::HasSubstr("A choice and no error"));
+    EXPECT_THAT(with.substr(without.size()), testing::HasSubstr(figureHtml(0.73)));
 }
 
 TEST(Report, whatARangeToleranceDropsIsAlwaysOnThePage) {
