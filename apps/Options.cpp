@@ -11,6 +11,7 @@
 
 #include "apps/Numbers.h"
 #include "passes/recipes/ChooseSamples.h"
+#include "scenes/Defaults.h"
 #include "scenes/Error.h"
 #include "scenes/Names.h"
 #include "scenes/OneLine.h"
@@ -50,16 +51,10 @@ struct NamedContext {
 constexpr NamedContext kContexts[] = {
     {"auto", gpu::ContextKind::Auto}, {"window", gpu::ContextKind::Window}, {"egl", gpu::ContextKind::Egl}};
 
-/// By name, else by number: an included file may bring a camera of a name that is there already.
 int cameraNamed(const scenes::Scene& scene, const std::string& name) {
+    if (const std::optional<std::size_t> camera = scenes::cameraCalled(scene, name)) return int(*camera);
     std::vector<std::string_view> names;
-    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-        if (scene.cameras[i].name == name) return int(i);
-        names.push_back(scene.cameras[i].name);
-    }
-    std::size_t number = 0;
-    const auto [rest, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-    if (error == std::errc() && rest == name.data() + name.size() && number < scene.cameras.size()) return int(number);
+    for (const scenes::Camera& camera : scene.cameras) names.push_back(camera.name);
     throw InputError(fmt::format("{}: unknown camera '{}': {}", scene.name, name, suggestNames(name, names)));
 }
 
@@ -298,10 +293,11 @@ scenes::Scene loadFor(const FrameOptions& options, std::vector<std::string>* fil
 }
 
 void placeCamera(const FrameOptions& options, scenes::Scene& scene) {
-    if (options.pose == scenes::CameraChange()) return;
+    if (!options.camera && options.pose == scenes::CameraChange()) return;
     const std::optional<std::string>& name = options.camera ? options.camera : scene.options.camera;
     scenes::Camera& camera = scene.cameras[name ? std::size_t(cameraNamed(scene, *name)) : 0];
     camera = scenes::changedCamera(camera, options.pose);
+    scenes::aimDefaultLight(scene, camera);
 }
 
 Request resolveWithoutScene(const FrameOptions& options) {

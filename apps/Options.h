@@ -54,7 +54,8 @@ scenes::Scene loadFor(const FrameOptions& options, std::vector<std::string>* fil
 Request resolveWithoutScene(const FrameOptions& options);
 /// What names things of the request's scene, and what the scene wishes where the options say nothing.
 void resolveForScene(const FrameOptions& options, Request& request);
-/// Places the camera that the options, else the scene choose. Throws InputError for what no camera can have.
+/// Places the camera that the options, else the scene choose, and turns the light along it that the scene was given
+/// for want of its own. Throws InputError for what no camera can have.
 void placeCamera(const FrameOptions& options, scenes::Scene& scene);
 /// Loads the scene, resolves every name, and when all is well warns of what the scene lacks. Throws InputError.
 Request resolve(const FrameOptions& options);

@@ -22,9 +22,8 @@ constexpr float kDefaultLightLux = 3.0f;
 
 const Camera& viewedCamera(const Scene& scene) {
     assert(!scene.cameras.empty());
-    const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
-                                    [&](const Camera& camera) { return camera.name == scene.options.camera; });
-    return named == scene.cameras.end() ? scene.cameras.front() : *named;
+    const std::optional<std::string>& wish = scene.options.camera;
+    return scene.cameras[wish ? cameraCalled(scene, *wish).value_or(0) : 0];
 }
 
 /// Whether light changes nothing that is drawn. Emission does not count: most models that glow do so in few places,
@@ -65,9 +64,16 @@ void addDefaultLight(Scene& scene) {
     light.name = kDefaultName;
     light.type = LightType::Directional;
     light.intensity = kDefaultLightLux;
-    light.directionWS = glm::normalize(-glm::dvec3(viewedCamera(scene).worldFromCamera[2]));
     scene.lights.push_back(light);
+    scene.hasDefaultLight = true;
+    aimDefaultLight(scene, viewedCamera(scene));
     scene.warnings.push_back("the scene has no light: lit by the directional light 'default' of 3 lux along the view");
+}
+
+void aimDefaultLight(Scene& scene, const Camera& camera) {
+    if (!scene.hasDefaultLight) return;
+    assert(scene.lights.size() == 1);
+    scene.lights.front().directionWS = glm::normalize(-glm::dvec3(camera.worldFromCamera[2]));
 }
 
 } // namespace tessera::scenes

@@ -16,4 +16,8 @@ void addDefaultCamera(Scene& scene);
 /// options name, else the first), unless every material in use is unlit; a warning says so.
 void addDefaultLight(Scene& scene);
 
+/// Turns the light that addDefaultLight() gave along the forward axis of the camera that is drawn; lights of the
+/// author's stay. For whoever chooses or moves a camera after the scene was loaded.
+void aimDefaultLight(Scene& scene, const Camera& camera);
+
 } // namespace tessera::scenes

@@ -109,9 +109,11 @@ public:
         addAll(technique, layout, camera, toneMap, exposureEV, sizePixels, defaultLight);
     }
     void add(const Scene& scene) {
-        const auto& [name, images, materials, meshes, nodes, lights, cameras, background, options, warnings] = scene;
+        const auto& [name, images, materials, meshes, nodes, lights, cameras, background, options, hasDefaultLight,
+                     warnings] = scene;
         addAll(name, images, materials, meshes, nodes, lights, cameras, background, options);
-        static_cast<void>(warnings); // words about the file, not content
+        static_cast<void>(hasDefaultLight); // where a light comes from, not what it is
+        static_cast<void>(warnings);        // words about the file, not content
     }
 
 private:

@@ -1,6 +1,8 @@
 #include "scenes/Scene.h"
 
+#include <algorithm>
 #include <cassert>
+#include <charconv>
 
 namespace tessera::scenes {
 
@@ -15,6 +17,16 @@ std::size_t texelBytes(TexelFormat format) {
     }
     assert(false && "a texel format without a size");
     return 0;
+}
+
+std::optional<std::size_t> cameraCalled(const Scene& scene, std::string_view nameOrNumber) {
+    const auto named = std::ranges::find(scene.cameras, nameOrNumber, &Camera::name);
+    if (named != scene.cameras.end()) return std::size_t(named - scene.cameras.begin());
+    std::size_t number = 0;
+    const char* const end = nameOrNumber.data() + nameOrNumber.size();
+    const auto [rest, error] = std::from_chars(nameOrNumber.data(), end, number);
+    const bool isNumber = error == std::errc() && rest == end && number < scene.cameras.size();
+    return isNumber ? std::optional(number) : std::nullopt;
 }
 
 std::vector<glm::dmat4> worldFromNodes(const Scene& scene) {

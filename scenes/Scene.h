@@ -277,8 +277,13 @@ struct Scene {
     std::vector<Camera> cameras;
     glm::vec3 background{0.0f}; ///< radiance where nothing is drawn, linear
     SceneOptions options;
+    bool hasDefaultLight = false;      ///< its only light is addDefaultLight()'s, which follows the view that is drawn
     std::vector<std::string> warnings; ///< what the importer left out, each naming the feature
 };
+
+/// The camera that a name chooses, else a number counted from 0: an included file may bring a camera of a name that is
+/// there already. None where there is no such camera.
+std::optional<std::size_t> cameraCalled(const Scene& scene, std::string_view nameOrNumber);
 
 /// World-from-node of every node, in double precision.
 std::vector<glm::dmat4> worldFromNodes(const Scene& scene);

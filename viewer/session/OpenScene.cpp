@@ -1,5 +1,7 @@
 #include "viewer/session/OpenScene.h"
 
+#include "scenes/Defaults.h"
+
 namespace tessera::viewer {
 
 OpenScene::OpenScene(std::string source, const scenes::LoadOptions& load, scenes::Scene loaded,
@@ -18,6 +20,7 @@ void OpenScene::useCamera(int camera) {
 void OpenScene::becomes(const std::string& file) {
     source_ = file;
     load_ = {};
+    scene_.hasDefaultLight = false; // the file has it as a light of its own
     savedEdits_ = edits_;
     cameras_ = scene_.cameras;
     placed_ = {};
@@ -50,7 +53,9 @@ void OpenScene::begin(const scenes::Camera& start, const CameraPose& home) {
 }
 
 void OpenScene::applyRig() {
-    scene_.cameras[std::size_t(camera_)] = rig_.camera();
+    scenes::Camera& shown = scene_.cameras[std::size_t(camera_)];
+    shown = rig_.camera();
+    scenes::aimDefaultLight(scene_, shown);
     ++revision_;
 }
 

@@ -24,15 +24,15 @@ public:
     void becomes(const std::string& file);
     const scenes::LoadOptions& load() const { return load_; }
     const scenes::Scene& scene() const { return scene_; }
-    /// For edits of lights and materials. Whoever edits says touch().
+    /// For edits of lights and materials. Whoever edits says touch() or touchMaterials().
     scenes::Scene& edit() { return scene_; }
-    /// Lights or materials were edited, or, with `material`, one of its materials.
+    /// Lights were edited: they are the user's from now on, and stay where they shine.
     void touch() {
-        ++revision_;
-        ++edits_;
+        scene_.hasDefaultLight = false;
+        countEdit();
     }
     void touchMaterials() {
-        touch();
+        countEdit();
         ++materialRevision_;
     }
     /// Counts whatever changes the picture: edits, and movements of the camera.
@@ -55,10 +55,14 @@ public:
     /// What makes the camera that is shown of the scene's, as a command line says it, to the last bit. Empty where they
     /// are the same.
     scenes::CameraChange cameraChange() const;
-    /// Puts the scene's camera to where the rig is. To be called after the rig moved.
+    /// Puts the scene's camera to where the rig is, and the default light along it. To be called after the rig moved.
     void applyRig();
 
 private:
+    void countEdit() {
+        ++revision_;
+        ++edits_;
+    }
     const scenes::Camera& sceneCamera() const { return cameras_[std::size_t(camera_)]; }
     /// Begins anew with a camera and its pose.
     void begin(const scenes::Camera& start, const CameraPose& home);

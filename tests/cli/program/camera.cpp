@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "tests/cli/program/Cli.h"
+#include "validation/ErrorFigures.h"
 
 namespace tessera::test {
 namespace {
@@ -43,6 +44,32 @@ TEST_F(CameraOptions, everyCommandThatLooksAtAFrameAlwaysTakesThem) {
                 testing::HasSubstr(kNoneInView));
     EXPECT_THAT(runGood({"plan", "lattice"}), testing::Not(testing::HasSubstr(kNoneInView)));
     runGood({"compare", "spheres", "--techniques", "forward", "--size", "48x27", "--eye", "3,2,-4"});
+}
+
+TEST_F(CameraOptions, theDefaultLightAlwaysShinesAlongTheViewThatTheOptionsGive) {
+    // A cube, which looks the same from opposite sides.
+    folder_.write("cube.obj", "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+                              "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n");
+    folder_.write("cube.json", R"({"tessera": 1, "include": [{"file": "cube.obj"}],
+        "cameras": [{"name": "front", "position": [0, 0, 5], "target": [0, 0, 0]},
+                    {"name": "behind", "position": [0, 0, -5], "target": [0, 0, 0]}]})");
+    const Words behind{"--eye", "0,0,-5", "--target", "0,0,0"};
+    const auto made = [&](const char* file, const Words& more) {
+        Words words{"--quiet", "render", "cube.json", "--size", "48x27", "-o", file};
+        words.insert(words.end(), more.begin(), more.end());
+        runGood(words);
+        return text(file);
+    };
+    made("front.exr", {});
+    const std::string behindText = made("behind.exr", behind);
+    EXPECT_TRUE(made("named.exr", {"--camera", "behind"}) == behindText);
+    EXPECT_LT(validation::errorFigures(picture("behind.exr"), picture("front.exr")).maxRel, 1e-5)
+        << "a cube looks the same from both sides";
+    EXPECT_GT(picture("front.exr").pixel(13 * 48 + 24)[0], 0.1f);
+    Words compare{"--quiet",      "compare", "cube.json", "--size",    "48x27",
+                  "--techniques", "forward", "--against", "behind.exr"};
+    compare.insert(compare.end(), behind.begin(), behind.end());
+    runGood(compare);
 }
 
 TEST_F(CameraOptions, whatNoCameraCanHaveIsAlwaysRefusedInOneLine) {

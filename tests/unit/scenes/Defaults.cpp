@@ -71,6 +71,29 @@ TEST(DefaultLight, alwaysShinesAlongTheViewedCamera) {
     scene.options.camera = "side";
     addDefaultLight(scene);
     EXPECT_EQ(scene.lights[0].directionWS, glm::dvec3(-1.0, 0.0, 0.0));
+
+    scene.lights.clear();
+    scene.options.camera = "1"; // as it may be asked for too
+    addDefaultLight(scene);
+    EXPECT_EQ(scene.lights[0].directionWS, glm::dvec3(-1.0, 0.0, 0.0));
+}
+
+TEST(DefaultLight, isAlwaysTurnedAlongTheCameraThatIsDrawnAndAnAuthorsLightNever) {
+    Scene scene = tinyScene();
+    scene.cameras.emplace_back();
+    Camera side; // looks along -X
+    side.worldFromCamera = {{0, 0, -1, 0}, {0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, 0, 1}};
+    addDefaultLight(scene);
+    aimDefaultLight(scene, side);
+    EXPECT_EQ(scene.lights.at(0).directionWS, glm::dvec3(-1.0, 0.0, 0.0));
+
+    Scene lit = tinyScene();
+    lit.cameras.emplace_back();
+    lit.lights = {scene.lights[0]}; // the same, but the author's
+    lit.lights[0].directionWS = glm::dvec3(0.0, -1.0, 0.0);
+    addDefaultLight(lit);
+    aimDefaultLight(lit, side);
+    EXPECT_EQ(lit.lights.at(0).directionWS, glm::dvec3(0.0, -1.0, 0.0));
 }
 
 TEST(DefaultLight, alwaysShinesUnlessThereAreLightsOrEverythingInUseIsUnlit) {
