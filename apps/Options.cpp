@@ -328,7 +328,7 @@ glm::ivec2 sizeNamed(const std::string& text) {
     glm::ivec2 size(0);
     const char* end = text.data() + text.size();
     const auto width = std::from_chars(text.data(), end, size.x);
-    const bool hasCross = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
+    const bool hasCross = width.ec == std::errc() && width.ptr != end && (*width.ptr == 'x' || *width.ptr == 'X');
     const auto height = hasCross ? std::from_chars(width.ptr + 1, end, size.y) : width;
     const bool good = hasCross && height.ec == std::errc() && height.ptr == end;
     if (!good || size.x < 1 || size.y < 1 || size.x > kLargestSide || size.y > kLargestSide) {

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include "passes/recipes/ChooseView.h"
 #include "passes/recipes/Renderer.h"
 #include "scenes/Error.h"
+#include "scenes/Extension.h"
 #include "scenes/OneLine.h"
 #include "validation/AtomicFile.h"
 #include "validation/PictureFile.h"
@@ -40,7 +40,7 @@ struct RenderOptions {
 
 /// `path` is one of the outputs.
 void writePicture(const std::string& path, const Request& request, const recipes::RenderedFrame& frame) {
-    if (std::filesystem::path(path).extension() == ".exr") {
+    if (extensionOf(path) == ".exr") {
         validation::writeExr(path, validation::toPicture(frame));
     } else {
         validation::writePng(
@@ -49,7 +49,7 @@ void writePicture(const std::string& path, const Request& request, const recipes
 }
 
 void requirePictureExtension(const std::string& path) {
-    const std::string extension = std::filesystem::path(path).extension().string();
+    const std::string extension = extensionOf(path);
     if (extension != ".exr" && extension != ".png") {
         throw InputError(
             fmt::format("{}: pictures end in .exr (linear, 32 bit) or .png (as a display shows it)", path));
@@ -101,7 +101,7 @@ void renderReference(const RenderOptions& options, const Outputs& outputs, const
     // As compare does; hardware filtering is there for whoever asks for it.
     if (!options.frame.filter) settings.filter = frame::TextureFilter::Exact;
     validation::requireReferenceTakes(settings);
-    const bool isLinear = std::filesystem::path(options.output).extension() == ".exr";
+    const bool isLinear = extensionOf(options.output) == ".exr";
     if (!isLinear && settings.toneMap != frame::ToneMap::None)
         throw InputError("--technique reference has no tone maps; give --tonemap none, or write .exr");
     Progress progress("rendering", std::size_t(options.frames.value_or(1)) * std::size_t(settings.sizePixels.y),
@@ -149,7 +149,7 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     recipes::requireView(request.technique, request.settings.view);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     recipes::Renderer renderer(*context, request.scene);
-    request.settings.display = std::filesystem::path(options.output).extension() != ".exr";
+    request.settings.display = extensionOf(options.output) != ".exr";
     // One picture is soon made.
     Progress progress("rendering", std::size_t(options.frames.value_or(1)), global.quiet || !options.frames);
     bool hasWarned = false;

@@ -10,6 +10,7 @@
 
 #include "scenes/Defaults.h"
 #include "scenes/Error.h"
+#include "scenes/Extension.h"
 #include "scenes/Limits.h"
 #include "scenes/LoadLedger.h"
 #include "scenes/Names.h"
@@ -26,10 +27,7 @@ constexpr std::array kFormats = {Format{".gltf", importGltf}, Format{".glb", imp
                                  Format{".json", importSceneJson}};
 
 const Format* formatOf(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
+    const std::string extension = extensionOf(file);
     const auto found = std::find_if(kFormats.begin(), kFormats.end(),
                                     [&](const Format& format) { return format.extension == extension; });
     return found == kFormats.end() ? nullptr : &*found;

@@ -4,6 +4,7 @@
 #include <array>
 #include <set>
 
+#include "scenes/Extension.h"
 #include "scenes/import/FileBytes.h"
 #include "scenes/import/JsonText.h"
 #include "scenes/import/SceneJsonFiles.h"
@@ -15,9 +16,7 @@ namespace fs = std::filesystem;
 using scenejson::kBuiltinPrefix;
 
 bool isDocument(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-    return extension == ".json";
+    return extensionOf(file) == ".json";
 }
 
 /// The ledger is charged until the document is read: nothing but one at a time is kept.

@@ -59,7 +59,7 @@ TEST_F(BadOptions, lightingShadersOfATechniqueWithoutALightingPassAreAlwaysRefus
 }
 
 TEST_F(BadOptions, sizesThatNoPictureHasAreAlwaysRefused) {
-    for (const char* size : {"0x0", "-1x5", "16385x9", "9x999999999999", "12", "16x", "16X9", "16x9x3", "+16x9", ""})
+    for (const char* size : {"0x0", "-1x5", "16385x9", "9x999999999999", "12", "16x", "16x9x3", "+16x9", ""})
         expectRefused({"--size", size}, {std::string("--size '") + size + "'", "1 to 16384"});
 }
 

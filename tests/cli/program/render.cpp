@@ -142,5 +142,14 @@ TEST_F(Render, warningsNeverComeBeforeAnError) {
     expectError(2, {"render", "tri.obj", "--solo", "7", "-o", "a.png"}, {"--solo 7"});
 }
 
+TEST_F(Render, namesAndSizesAlwaysMeanTheSameInCapitals) {
+    folder_.write("M.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    for (const auto& [name, size] :
+         {std::pair{"a.png", "16x9"}, {"A.PNG", "16X9"}, {"a.exr", "16x9"}, {"A.EXR", "16X9"}})
+        runGood({"--quiet", "render", "M.OBJ", "--size", size, "-o", name});
+    EXPECT_TRUE(text("a.png") == text("A.PNG"));
+    EXPECT_TRUE(text("a.exr") == text("A.EXR"));
+}
+
 } // namespace
 } // namespace tessera::test
