@@ -33,6 +33,19 @@ const Format* formatOf(const std::filesystem::path& file) {
     return found == kFormats.end() ? nullptr : &*found;
 }
 
+/// Names the scene file in the folder where there is just one: most models come in a folder of their own.
+[[noreturn]] void refuseFolder(const std::string& path) {
+    std::vector<std::string> files;
+    std::error_code failure;
+    for (std::filesystem::directory_iterator at(path, failure), end; !failure && at != end && files.size() < 2;
+         at.increment(failure)) {
+        if (formatOf(at->path()) != nullptr && at->is_regular_file(failure)) files.push_back(at->path().string());
+    }
+    throw InputError(fmt::format("{}: is a folder; give {}", path,
+                                 files.size() == 1 ? fmt::format("the scene in it, '{}'", files.front())
+                                                   : "a .gltf, .glb, .obj or .json file"));
+}
+
 Scene importFile(const std::string& path, LoadLedger& ledger) {
     const std::filesystem::path file(path);
     const Format* format = formatOf(file);
@@ -43,7 +56,8 @@ Scene importFile(const std::string& path, LoadLedger& ledger) {
         for (const BuiltinScene& scene : builtinScenes()) names.push_back(scene.name);
         throw InputError("no built-in scene or file is called '" + path + "'; " + suggestNames(path, names));
     }
-    if (format == nullptr || std::filesystem::is_directory(file, failure)) {
+    if (std::filesystem::is_directory(file, failure)) refuseFolder(path);
+    if (format == nullptr) {
         throw InputError(path + ": not a scene file; give a .gltf, .glb, .obj or .json file");
     }
     return format->import(file, ledger);

@@ -40,7 +40,7 @@ TEST_F(BadScenes, missingAndEmptyFilesAreAlwaysRefused) {
     }
     folder_.write("m.txt", "text");
     expectRefused("m.txt", {"not a scene file", ".gltf, .glb, .obj or .json"});
-    expectError(kBadInput, {"render", ".", "-o", "a.png"}, {"not a scene file"});
+    expectError(kBadInput, {"render", ".", "-o", "a.png"}, {".: is a folder; give"});
 }
 
 TEST_F(BadScenes, truncatedGlbIsAlwaysRefused) {

@@ -36,7 +36,12 @@ TEST(LoadScene, missingAndForeignFilesAreAlwaysNamed) {
     const std::string fbx = (folder.path() / "scene.fbx").string();
     EXPECT_EQ(complaint(fbx), fbx + ": not a scene file; give a .gltf, .glb, .obj or .json file");
     const std::string directory = folder.path().string();
-    EXPECT_EQ(complaint(directory), directory + ": not a scene file; give a .gltf, .glb, .obj or .json file");
+    EXPECT_EQ(complaint(directory), directory + ": is a folder; give a .gltf, .glb, .obj or .json file");
+    folder.write("box.GLTF", "{}");
+    EXPECT_EQ(complaint(directory),
+              directory + ": is a folder; give the scene in it, '" + (folder.path() / "box.GLTF").string() + "'");
+    folder.write("other.obj", "");
+    EXPECT_EQ(complaint(directory), directory + ": is a folder; give a .gltf, .glb, .obj or .json file");
 }
 
 TEST(LoadScene, numberOfLightsIsAlwaysFrom0ToTheMost) {
