@@ -11,6 +11,12 @@ char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
+/// Case aside.
+bool startsWith(std::string_view text, std::string_view beginning) {
+    return text.size() >= beginning.size() &&
+           std::ranges::equal(text.substr(0, beginning.size()), beginning, {}, lower, lower);
+}
+
 /// Letters inserted, deleted, replaced or swapped with their neighbour to get from `a` to `b`, case aside.
 /// Source: Damerau 1964, "A technique for computer detection and correction of spelling errors", in the form that edits
 /// no place twice (optimal string alignment).
@@ -62,6 +68,12 @@ std::string suggestNames(std::string_view name, std::span<const std::string_view
             nearestDistance = distance;
         }
         if (distance == nearestDistance && nearest.size() < kMostSuggestions) nearest.push_back(candidate);
+    }
+    // A word that was cut short.
+    constexpr std::size_t kShortestCut = 3;
+    if (nearest.empty() && name.size() >= kShortestCut) {
+        for (const std::string_view candidate : candidates)
+            if (nearest.size() < kMostSuggestions && startsWith(candidate, name)) nearest.push_back(candidate);
     }
     if (!nearest.empty()) return "did you mean " + quotedAlternatives(nearest) + "?";
     if (candidates.empty()) return "there are none";

@@ -42,6 +42,7 @@ TEST_F(BadOptions, unknownOptionsAndStrayWordsAreAlwaysNamed) {
     expectRefused({"--techniqe", "deferred"}, {"unknown option '--techniqe'", "did you mean '--technique'?"});
     expectRefused({"--sise=4x4"}, {"unknown option '--sise'", "did you mean '--size'?"});
     expectRefused({"--qiet"}, {"unknown option '--qiet'", "did you mean '--quiet'?"});
+    expectRefused({"--out", "b.png"}, {"unknown option '--out'", "did you mean '--output'?"});
     expectRefused({"--nonsense"}, {"unknown option '--nonsense'", "tessera render --help"});
     expectRefused({"other"}, {"render: unexpected argument 'other'"});
     expectRefused({"-o", "b.png"}, {"--output"});

@@ -29,6 +29,13 @@ TEST(Names, equallyNearNamesAreAlwaysAllSuggested) {
     EXPECT_EQ(suggestNames("at", kThree), "did you mean 'bat', 'cat' or 'hat'?");
 }
 
+TEST(Names, aWordCutShortAlwaysBringsThoseThatBeginWithIt) {
+    constexpr std::array<std::string_view, 4> kOptions = {"--output", "--tile", "--clustered-a", "--clustered-b"};
+    EXPECT_EQ(suggestNames("--out", kOptions), "did you mean '--output'?");
+    EXPECT_EQ(suggestNames("--CLUS", kOptions), "did you mean '--clustered-a' or '--clustered-b'?");
+    EXPECT_EQ(suggestNames("--", kOptions), "valid are --output, --tile, --clustered-a, --clustered-b");
+}
+
 TEST(Names, namesOfMoreThan128BytesAreNeverCompared) {
     const std::string most(128, 'a'), more(129, 'a');
     const std::array<std::string_view, 2> names = {most, more};
