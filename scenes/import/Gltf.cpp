@@ -41,11 +41,19 @@ private:
     std::map<int, std::vector<MeshInstance>> imported_;
 };
 
+/// What is drawn in the place of what an extension asks for, where its name does not say it.
+std::string_view drawnInstead(std::string_view extension) {
+    const bool isTransparency = extension == "KHR_materials_transmission" || extension == "KHR_materials_volume" ||
+                                extension == "KHR_materials_diffuse_transmission";
+    return isTransparency ? "; its materials let through only what their alpha does" : "";
+}
+
 /// Features of the document that the importer reads past, whether or not the imported scene shows them.
 void warnOfIgnoredFeatures(Context& context) {
     const nlohmann::json& json = context.document.json;
     for (const std::string& extension : ignoredExtensions(context.document))
-        context.warn(fmt::format("the extension {} is not supported and was ignored", extension));
+        context.warn(
+            fmt::format("the extension {} is not supported and was ignored{}", extension, drawnInstead(extension)));
     const auto hasSome = [&](const char* key) { return json.contains(key) && !json[key].empty(); };
     if (hasSome("skins")) context.warn("skins are not supported; skinned meshes keep their unskinned shape");
     if (hasSome("animations")) context.warn("animations are not supported; nodes stay where they are");

@@ -118,6 +118,14 @@ TEST(GltfDocument, optionalExtensionThatIsNotSupportedIsAlwaysWarnedOf) {
     EXPECT_FALSE(hasWarning(scene, "unlit"));
 }
 
+TEST(GltfDocument, transmissionThatIsIgnoredIsAlwaysWarnedOfWithWhatIsDrawnInstead) {
+    Builder builder;
+    builder.merge(R"({"extensionsUsed": ["KHR_materials_transmission"]})");
+    EXPECT_TRUE(hasWarning(builder.import(),
+                           "KHR_materials_transmission is not supported and was ignored; its materials "
+                           "let through only what their alpha does"));
+}
+
 TEST(GltfDocument, integersWithADecimalPointAreReadExactly) {
     Builder builder;
     builder.json["accessors"][0]["count"] = 3.0;
