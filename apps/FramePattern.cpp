@@ -8,9 +8,21 @@
 
 namespace tessera::app {
 
+namespace {
+
+const std::regex& place() {
+    static const std::regex text("%(0?)([1-9]?)d");
+    return text;
+}
+
+} // namespace
+
+bool FramePattern::hasPlace(const std::string& name) {
+    return std::regex_search(name, place());
+}
+
 FramePattern::FramePattern(const std::string& pattern) {
-    static const std::regex place("%(0?)([1-9]?)d");
-    const auto first = std::sregex_iterator(pattern.begin(), pattern.end(), place);
+    const auto first = std::sregex_iterator(pattern.begin(), pattern.end(), place());
     if (std::distance(first, std::sregex_iterator()) != 1) {
         throw InputError(
             fmt::format("{}: a sequence needs exactly one place for the frame number, as in f_%04d.png", pattern));

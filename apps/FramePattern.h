@@ -8,6 +8,8 @@ class FramePattern {
 public:
     /// Throws InputError when the pattern has no such place, or more than one.
     explicit FramePattern(const std::string& pattern);
+    /// Whether a name has such a place.
+    static bool hasPlace(const std::string& name);
     std::string path(int frame) const;
 
 private:

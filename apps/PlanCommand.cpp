@@ -22,6 +22,9 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
     const bool printsJson = isStandardOutput(options.json), printsDot = isStandardOutput(options.dot);
     if (printsJson && printsDot)
         throw InputError("--json - and --dot - both ask for the standard output; name a file for one of them");
+    if (options.frame.technique == kReferenceName)
+        throw InputError("the reference has no plan: it follows a ray a pixel in double precision, without passes and "
+                         "without OpenGL; give another technique");
     for (const std::string& path : {options.json, options.dot})
         if (!path.empty()) requireOutput(path);
     Outputs outputs({options.json, options.dot});

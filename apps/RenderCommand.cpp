@@ -120,6 +120,9 @@ void renderReference(const RenderOptions& options, const Outputs& outputs, const
 
 void check(const RenderOptions& options) {
     requirePictureExtension(options.output);
+    if (!options.frames && FramePattern::hasPlace(options.output))
+        throw InputError(fmt::format(
+            "{}: has a place for a frame number; say with --frames how many pictures to render", options.output));
     if (options.framesPerSecond && !options.frames)
         throw InputError("--fps needs --frames: how many pictures to render");
     if (options.frames && *options.frames < 1)

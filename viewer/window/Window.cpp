@@ -1,6 +1,8 @@
 #include "viewer/window/Window.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
 #include <utility>
 
 #include <GLFW/glfw3.h>
@@ -12,7 +14,20 @@ Window& windowOf(GLFWwindow* window) {
     return *static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
 
+/// Whoever works on a machine from afar has none; drivers are then nothing to look for.
+void requireDisplay() {
+#if !defined(_WIN32) && !defined(__APPLE__)
+    for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY"}) {
+        const char* const value = std::getenv(name);
+        if (value != nullptr && *value != '\0') return;
+    }
+    throw std::runtime_error("there is no display for the viewer's window: neither DISPLAY nor WAYLAND_DISPLAY is set; "
+                             "start it where windows are shown, or make pictures with tessera render");
+#endif
+}
+
 std::unique_ptr<gpu::Context> makeContext(glm::ivec2 size) {
+    requireDisplay();
     gpu::ContextOptions options;
     options.kind = gpu::ContextKind::Window;
     options.visible = true;

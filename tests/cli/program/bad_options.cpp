@@ -124,6 +124,22 @@ TEST_F(BadOptions, sequencesThatCannotBeNumberedAreAlwaysRefused) {
     expectSequenceRefused({"--fps", "25", "-o", "a.png"}, {"--fps needs --frames"});
 }
 
+TEST_F(BadOptions, aNameForASequenceIsAlwaysRefusedForOnePicture) {
+    for (const char* name : {"x_%04d.png", "x_%d.exr"})
+        expectError(kBadInput, {"render", "room", "-o", name}, {name, "place for a frame number", "--frames"});
+}
+
+TEST_F(BadOptions, aPlanOfTheReferenceIsAlwaysRefusedWithTheReason) {
+    expectError(kBadInput, {"plan", "room", "--technique", "reference"},
+                {"the reference has no plan", "without passes"});
+}
+
+TEST_F(BadOptions, aViewerWithoutADisplayAlwaysSaysThatItIsMissing) {
+    const ProcessResult result = run({"view"}, {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}});
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_THAT(result.err, testing::StartsWith("tessera: error: there is no display for the viewer's window"));
+}
+
 TEST_F(BadOptions, picturesOfOtherKindsAreAlwaysRefused) {
     for (const char* name : {"b.jpg", "b", ".png", ""})
         expectError(kBadInput, {"render", "room", "-o", name}, {".exr", ".png"});
