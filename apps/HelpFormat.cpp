@@ -73,7 +73,7 @@ public:
         std::string line = "\nUsage: " + name;
         if (!app->get_subcommands({}).empty()) line += " COMMAND";
         for (const CLI::Option* option : app->get_options({})) {
-            const std::string& type = option->get_type_name();
+            const std::string type = option->get_type_name() + (option->get_expected_max() > 1 ? "..." : "");
             if (option->get_positional())
                 line += option->get_required() ? " " + type : " [" + type + "]";
             else if (option->get_required())

@@ -232,7 +232,7 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     text("--cull-on", options.cullOn,
          "Who builds the light lists, one of " + namesOf(culling::builderTable()) + " [by backend]", "NAME");
     text("--light-on", options.lightOn,
-         "What lights the G-buffer, one of " + namesOf(frame::lightingStageTable()) + " [by backend]", "NAME");
+         "What lights the G-buffer, one of " + namesOf(frame::lightingStageTable()) + " [fragment]", "NAME");
     text("--size", options.size, "Picture size in pixels [1280x720]", "WxH");
     addWholeNumber(command, "--samples", options.samples,
                    "Samples of a pixel, 1, 2 or 4; more than 1 without a G-buffer only [1]", "N")

@@ -3,7 +3,9 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -94,6 +96,15 @@ int flushed(int code) {
     return failedOutput(errno);
 }
 
+/// "help render" is "render --help", and "help" alone "--help".
+std::vector<const char*> withoutHelpCommand(std::vector<const char*> words) {
+    if (words.size() > 1 && std::string_view(words[1]) == "help") {
+        words.erase(words.begin() + 1);
+        words.push_back("--help");
+    }
+    return words;
+}
+
 int runProgram(int argc, char** argv) {
     CLI::App app("Tessera renders scenes with very many lights, by several techniques that must agree, and proves it.",
                  "tessera");
@@ -114,12 +125,13 @@ int runProgram(int argc, char** argv) {
     addViewCommand(app, global, run);
     addDemoCommand(app, global, run);
     app.footer(kFooter);
+    const std::vector<const char*> words = withoutHelpCommand({argv, argv + argc});
     try {
-        app.parse(argc, argv);
+        app.parse(int(words.size()), words.data());
     } catch (const CLI::Success& wanted) { // --help
         return app.exit(wanted);
     } catch (const CLI::ParseError& error) {
-        return fail(parseMessage(app, error, argc, argv), kBadInput);
+        return fail(parseMessage(app, error, int(words.size()), words.data()), kBadInput);
     }
     configureLog(global);
     if (version) return printVersion(global);

@@ -49,6 +49,16 @@ TEST_F(Help, noArgumentAlwaysPrintsTheHelp) {
         EXPECT_THAT(text, HasSubstr(command));
 }
 
+TEST_F(Help, theWordHelpIsAlwaysTheOption) {
+    EXPECT_EQ(runGood({"help"}), runGood({"--help"}));
+    EXPECT_EQ(runGood({"help", "render"}), runGood({"render", "--help"}));
+}
+
+TEST_F(Help, whatIsTakenSeveralTimesIsAlwaysShownSo) {
+    EXPECT_THAT(runGood({"bench", "--help"}), HasSubstr("Usage: tessera bench [SCENE...] -o DIR [options]"));
+    EXPECT_THAT(runGood({"demo", "--help"}), HasSubstr("Usage: tessera demo [SCENE] [options]"));
+}
+
 TEST_F(Help, versionIsAlwaysOneLineAndVerboseAlwaysAddsWhatOpenGLSays) {
     EXPECT_THAT(runGood({"--version"}), testing::MatchesRegex("tessera [0-9]+\\.[0-9]+\\.[0-9]+\n"));
     const ProcessResult verbose = run({"--version", "--verbose"});
