@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "apps/Commands.h"
 #include "apps/OutputFolder.h"
@@ -12,6 +13,7 @@
 #include "passes/recipes/Renderer.h"
 #include "scenes/Error.h"
 #include "scenes/Names.h"
+#include "scenes/OneLine.h"
 #include "validation/HeatMap.h"
 #include "validation/PictureFile.h"
 #include "validation/ReferencePicture.h"
@@ -70,8 +72,9 @@ std::vector<recipes::Technique> techniquesOf(const CompareOptions& options, cons
     const auto* truth = std::get_if<recipes::Technique>(&against);
     if (truth) recipes::requireSamples(*truth, samples);
     std::vector<recipes::Technique> techniques;
-    if (!options.techniques.empty()) {
-        for (const std::string& name : splitAtCommas(options.techniques)) {
+    const std::string& asked = options.techniques.empty() ? options.frame.technique.value_or("") : options.techniques;
+    if (!asked.empty()) {
+        for (const std::string& name : splitAtCommas(asked)) {
             const recipes::Technique technique = techniqueNamed(name);
             if (std::find(techniques.begin(), techniques.end(), technique) != techniques.end())
                 throw InputError(fmt::format("--techniques {} names {} twice", options.techniques, name));
@@ -111,9 +114,19 @@ void writeHeatMaps(const CompareOptions& options, const validation::CompareResul
     }
 }
 
+void warnOfIntegers(const validation::Truth& truth) {
+    const auto* picture = std::get_if<validation::PictureTruth>(&truth);
+    if (picture == nullptr || !picture->picture.isInteger) return;
+    spdlog::warn("{}",
+                 oneLine(picture->path + ": holds integers, which are cut off at white and rounded to steps, so it "
+                                         "cannot hold bars for linear radiance; give an .exr"));
+}
+
 int compare(const CompareOptions& options, const GlobalOptions& global) {
     validation::CompareRequest comparison;
     comparison.against = truthNamed(options.against);
+    if (options.frame.technique && !options.techniques.empty())
+        throw InputError("--technique and --techniques both say what to compare; give --techniques alone");
     if (!options.json.empty()) requireOutput(options.json);
     if (!options.heatMaps.empty()) requireFolderPlace(options.heatMaps);
     const Request request = resolve(options.frame);
@@ -142,6 +155,7 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
     validation::CompareResult result = validation::compareTechniques(renderer, context->capabilities(), comparison);
     result.record.leftOut = std::move(leftOut);
     progress.finish();
+    warnOfIntegers(comparison.against);
     if (!options.json.empty()) outputs.write(options.json, validation::compareJson(result.record));
     if (!options.heatMaps.empty()) writeHeatMaps(options, result, outputs);
     if (!isStandardOutput(options.json)) fmt::print("{}", validation::compareTable(result.record));
@@ -155,6 +169,7 @@ void addCompareCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
         app.add_subcommand("compare", "Renders a scene with several techniques and measures how they differ");
     auto options = std::make_shared<CompareOptions>();
     addFrameOptions(*command, options->frame, "");
+    command->get_option("--technique")->description("Compares this technique alone, as --techniques does [all]");
     command->add_option("--techniques", options->techniques, "Techniques to compare [all]")->type_name("A,B");
     command->add_option("--against", options->against, "The truth: a technique, a picture file, or reference [forward]")
         ->type_name("NAME|FILE");

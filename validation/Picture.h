@@ -11,6 +11,7 @@ struct Picture {
     int height = 0;
     std::vector<float> rgba; ///< 4 floats a pixel, rows from the top, linear Rec.709 radiance; alpha is not used
     std::vector<std::uint8_t> covered; ///< 1 where geometry was drawn, one a pixel in the same order
+    bool isInteger = false;            ///< read from a file of integers: cut off at 1, and in steps
 
     std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
     const float* pixel(std::size_t index) const { return &rgba[4 * index]; }

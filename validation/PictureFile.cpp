@@ -99,6 +99,7 @@ Picture readPicture(const std::string& path, scenes::LoadLedger& ledger) {
     Picture picture;
     picture.width = decoded.image.width;
     picture.height = decoded.image.height;
+    picture.isInteger = decoded.image.format != scenes::TexelFormat::Rgba32Float;
     const std::uint64_t bytes = picture.pixelCount() * (4 * sizeof(float) + 1);
     ledger.charge(bytes, [&] { return path + ": the picture to compare with"; });
     picture.rgba.resize(4 * picture.pixelCount());

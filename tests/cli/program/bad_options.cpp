@@ -147,6 +147,8 @@ TEST_F(BadOptions, picturesOfOtherKindsAreAlwaysRefused) {
 
 TEST_F(BadOptions, comparisonsThatCannotBeMadeAreAlwaysRefused) {
     expectError(kBadInput, {"compare", "room", "--techniques", "forward,forward"}, {"forward twice"});
+    expectError(kBadInput, {"compare", "room", "--techniques", "forward", "--technique", "deferred"},
+                {"--technique and --techniques", "give --techniques alone"});
     expectError(kBadInput, {"compare", "room", "--techniques", "forward,"}, {"unknown technique ''"});
     expectError(kBadInput, {"compare", "room", "--against", "nix.exr"}, {"nix.exr"});
     expectError(kBadInput, {"compare", "room", "--size", "16x9", "--against", "a.png"},

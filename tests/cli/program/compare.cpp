@@ -116,6 +116,24 @@ TEST_F(Compare, techniquesAreExactlyThoseAskedForAndHeatMapsAlwaysShowEach) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path() / "maps/of"), fs::directory_iterator()), 4);
 }
 
+TEST_F(Compare, techniqueAlwaysChoosesTheOneThatIsCompared) {
+    runGood(lattice({"--technique", "deferred_volumes", "--json", "c.json"}));
+    const Json pairs = json("c.json")["pairs"];
+    ASSERT_EQ(pairs.size(), 1u);
+    EXPECT_EQ(pairs[0]["a"], "deferred_volumes");
+}
+
+TEST_F(Compare, aPictureOfIntegersIsAlwaysWarnedOf) {
+    for (const auto& [name, warnings] : {std::pair{"truth.png", 1}, {"truth.exr", 0}}) {
+        runGood({"render", "lattice", "--lights", "8", "--size", "160x90", "-o", name});
+        const ProcessResult result = run(lattice({"--techniques", "forward", "--against", name}));
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), warnings) << result.err;
+        if (warnings == 0) continue;
+        EXPECT_THAT(result.err, testing::AllOf(testing::HasSubstr("truth.png: holds integers"),
+                                               testing::HasSubstr("give an .exr")));
+    }
+}
+
 TEST_F(Compare, aPictureThatRenderWroteAlwaysEqualsEveryTechniqueBitForBit) {
     runGood({"render", "lattice", "--lights", "8", "--size", "160x90", "-o", "truth.exr"});
     runGood(lattice({"--against", "truth.exr", "--json", "c.json"}));
