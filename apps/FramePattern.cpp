@@ -8,21 +8,14 @@
 
 namespace tessera::app {
 
-namespace {
-
-const std::regex& place() {
-    static const std::regex text("%(0?)([1-9]?)d");
-    return text;
-}
-
-} // namespace
-
-bool FramePattern::hasPlace(const std::string& name) {
-    return std::regex_search(name, place());
+bool FramePattern::hasPlace(const std::filesystem::path& file) {
+    static const std::regex likely("%0?[1-9]d|%d(?![A-Za-z])"); // not "100%done"
+    return std::regex_search(file.filename().string(), likely);
 }
 
 FramePattern::FramePattern(const std::string& pattern) {
-    const auto first = std::sregex_iterator(pattern.begin(), pattern.end(), place());
+    static const std::regex place("%(0?)([1-9]?)d");
+    const auto first = std::sregex_iterator(pattern.begin(), pattern.end(), place);
     if (std::distance(first, std::sregex_iterator()) != 1) {
         throw InputError(
             fmt::format("{}: a sequence needs exactly one place for the frame number, as in f_%04d.png", pattern));

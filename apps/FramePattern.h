@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <string>
 
 namespace tessera::app {
@@ -8,8 +9,8 @@ class FramePattern {
 public:
     /// Throws InputError when the pattern has no such place, or more than one.
     explicit FramePattern(const std::string& pattern);
-    /// Whether a name has such a place.
-    static bool hasPlace(const std::string& name);
+    /// Whether the name of a file has what can hardly be anything but such a place.
+    static bool hasPlace(const std::filesystem::path& file);
     std::string path(int frame) const;
 
 private:

@@ -324,18 +324,9 @@ recipes::Technique techniqueNamed(const std::string& name) {
 }
 
 glm::ivec2 sizeNamed(const std::string& text) {
-    constexpr int kLargestSide = 16384;
-    glm::ivec2 size(0);
-    const char* end = text.data() + text.size();
-    const auto width = std::from_chars(text.data(), end, size.x);
-    const bool hasCross = width.ec == std::errc() && width.ptr != end && (*width.ptr == 'x' || *width.ptr == 'X');
-    const auto height = hasCross ? std::from_chars(width.ptr + 1, end, size.y) : width;
-    const bool good = hasCross && height.ec == std::errc() && height.ptr == end;
-    if (!good || size.x < 1 || size.y < 1 || size.x > kLargestSide || size.y > kLargestSide) {
-        throw InputError(
-            fmt::format("--size '{}' is not WIDTHxHEIGHT in pixels, each 1 to {}, as in 1280x720", text, kLargestSide));
-    }
-    return size;
+    if (const std::optional<glm::ivec2> size = frame::sizeIn(text)) return *size;
+    throw InputError(fmt::format("--size '{}' is not WIDTHxHEIGHT in pixels, each 1 to {}, as in 1280x720", text,
+                                 frame::kLargestSidePixels));
 }
 
 } // namespace tessera::app

@@ -122,7 +122,8 @@ void check(const RenderOptions& options) {
     requirePictureExtension(options.output);
     if (!options.frames && FramePattern::hasPlace(options.output))
         throw InputError(fmt::format(
-            "{}: has a place for a frame number; say with --frames how many pictures to render", options.output));
+            "{}: has a place for a frame number; say with --frames how many pictures to render, or give another name",
+            options.output));
     if (options.framesPerSecond && !options.frames)
         throw InputError("--fps needs --frames: how many pictures to render");
     if (options.frames && *options.frames < 1)

@@ -8,7 +8,7 @@
 
 namespace tessera {
 
-std::string oneLine(std::string_view text) {
+std::string oneLine(std::string_view text, std::size_t mostBytes) {
     std::string line;
     bool isNew = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -29,8 +29,7 @@ std::string oneLine(std::string_view text) {
             line += letter;
         i += std::max<std::size_t>(letter.size(), 1) - 1;
     }
-    constexpr std::size_t kMostBytes = 2000; // of what files say: one word of theirs may have megabytes
-    if (line.size() > kMostBytes) line = std::string(beginningOf(line, kMostBytes)) + "...";
+    if (line.size() > mostBytes) line = std::string(beginningOf(line, mostBytes)) + "...";
     return line;
 }
 

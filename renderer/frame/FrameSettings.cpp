@@ -1,5 +1,8 @@
 #include "renderer/frame/FrameSettings.h"
 
+#include <algorithm>
+#include <charconv>
+
 #include "shaders/shared/display.h"
 
 namespace tessera::frame {
@@ -32,6 +35,17 @@ std::span<const TextureFilterInfo> textureFilterTable() {
 
 std::span<const LightingSpaceInfo> lightingSpaceTable() {
     return kLightingSpaces;
+}
+
+std::optional<glm::ivec2> sizeIn(std::string_view text) {
+    glm::ivec2 size(0);
+    const char* const end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.x);
+    if (width.ec != std::errc() || width.ptr == end || (*width.ptr != 'x' && *width.ptr != 'X')) return std::nullopt;
+    const auto height = std::from_chars(width.ptr + 1, end, size.y);
+    if (height.ec != std::errc() || height.ptr != end) return std::nullopt;
+    const bool fits = std::min(size.x, size.y) >= 1 && std::max(size.x, size.y) <= kLargestSidePixels;
+    return fits ? std::optional(size) : std::nullopt;
 }
 
 } // namespace tessera::frame

@@ -40,6 +40,11 @@ std::span<const LightingSpaceInfo> lightingSpaceTable();
 /// Samples of a pixel that can be asked for; a driver may give more.
 inline constexpr int kSampleCounts[] = {1, 2, 4};
 
+/// Pixels along a side of a picture that can be asked for.
+inline constexpr int kLargestSidePixels = 16384;
+/// The size that a text such as "1280x720" names; nothing where it names none, or one with a side that cannot be.
+std::optional<glm::ivec2> sizeIn(std::string_view text);
+
 struct FrameSettings {
     glm::ivec2 sizePixels{1280, 720};
     int samples = 1;                 ///< of a pixel, one of kSampleCounts

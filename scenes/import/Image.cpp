@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 
 #include <fmt/format.h>
 
 #include "scenes/Error.h"
+#include "scenes/Extension.h"
 #include "scenes/import/FileBytes.h"
 #include "scenes/import/PictureCodecs.h"
 
@@ -20,16 +20,10 @@ bool hasSignature(const PictureFormat& format) {
     return !format.signatures[0].bytes.empty();
 }
 
-bool hasExtension(const PictureFormat& format, const std::string& extension) {
-    return !extension.empty() && std::ranges::find(format.extensions, extension) != std::end(format.extensions);
-}
-
-/// Lower case, without its dot.
-std::string extensionOf(const std::string& name) {
-    std::string extension = std::filesystem::path(name).extension().string();
-    if (!extension.empty()) extension.erase(0, 1);
-    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-    return extension;
+/// An extension has its dot.
+bool hasExtension(const PictureFormat& format, std::string_view extension) {
+    return extension.size() > 1 &&
+           std::ranges::find(format.extensions, extension.substr(1)) != std::end(format.extensions);
 }
 
 /// "a, b or c": the formats that are decoded.

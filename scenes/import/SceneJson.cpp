@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <system_error>
 #include <unordered_map>
 
 #include "scenes/Error.h"
+#include "scenes/Extension.h"
 #include "scenes/Limits.h"
 #include "scenes/Load.h"
 #include "scenes/import/AppendScene.h"
@@ -205,8 +205,7 @@ private:
         if (const std::string text = name.text(); text.starts_with(kBuiltinPrefix))
             return builtinCalled(name, text.substr(kBuiltinPrefix.size()), options);
         const std::filesystem::path file = resolveFile(name);
-        std::string extension = file.extension().string();
-        std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+        const std::string extension = extensionOf(file);
         if (extension == ".gltf" || extension == ".glb") return importGltf(file, ledger_);
         if (extension == ".obj") return importObj(file, ledger_);
         if (extension != ".json")

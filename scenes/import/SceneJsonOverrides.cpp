@@ -170,7 +170,8 @@ PatternMatch matchesPattern(std::string_view pattern, std::string_view name) {
             return {false, steps};
         }
     }
-    return {pattern.find_first_not_of('*', at) == std::string_view::npos, steps};
+    const std::size_t rest = std::min(pattern.find_first_not_of('*', at), pattern.size());
+    return {rest == pattern.size(), steps + (rest - at)};
 }
 
 void applyOverrides(const std::vector<JsonValue>& overrides, Scene& scene, std::size_t ownMaterials, Images& images) {

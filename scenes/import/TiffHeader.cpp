@@ -46,14 +46,14 @@ public:
 
     /// The first number that a tag has, or `otherwise`. Other types than these libtiff reads too, by other rules.
     std::uint64_t valueOf(std::uint64_t tag, std::uint64_t otherwise) const {
-        constexpr std::uint64_t kShort = 3, kLong = 4;
+        constexpr std::uint64_t kByte = 1, kShort = 3, kLong = 4;
         const std::size_t entry = entryOf(tag);
         if (entry == 0) return otherwise;
         const std::uint64_t type = number(entry + 2, 2);
-        if (type != kShort && type != kLong)
+        if (type != kByte && type != kShort && type != kLong)
             throw std::runtime_error(
-                fmt::format("its tag {} is of type {}, where 3 (SHORT) or 4 (LONG) is needed", tag, type));
-        const int size = type == kShort ? 2 : 4;
+                fmt::format("its tag {} is of type {}, where 1 (BYTE), 3 (SHORT) or 4 (LONG) is needed", tag, type));
+        const int size = type == kByte ? 1 : type == kShort ? 2 : 4;
         const bool isElsewhere = number(entry + 4, 4) * std::uint64_t(size) > 4;
         return number(isElsewhere ? number(entry + 8, 4) : entry + 8, size);
     }
@@ -73,14 +73,16 @@ std::uint64_t product(std::initializer_list<std::uint64_t> factors) {
 }
 
 /// Those that decoding needs; of the others libtiff would copy each value, even one that thousands of tags share.
-/// Source: TIFF revision 6.0; Adobe's supplements (347); Pixar's (33300, 33301).
+/// Source: TIFF revision 6.0; Adobe's supplements (347); Pixar's (33300, 33301), SGI's
+/// (32996) and Esri's (50674).
 constexpr std::uint16_t kDecodingTags[] = {
-    254, 256, 257, 258, 259,   262,   266,      // the picture's kind, sides, bits, compression, colours, order of bits
-    273, 274, 277, 278, 279,                    // strips, orientation, samples
-    282, 283, 284, 286, 287,   292,   293, 296, // resolution, planes, place, fax
-    305, 317, 320, 322, 323,   324,   325,      // software, predictor, palette, tiles
-    332, 338, 339, 347,                         // inks, alpha, numbers, tables of JPEG
-    529, 530, 531, 532, 33300, 33301,           // luma and chroma, the whole of which this is a part
+    254,   256,   257, 258, 259,   262,   266, // the picture's kind, sides, bits, compression, colours, order of bits
+    273,   274,   277, 278, 279,               // strips, orientation, samples
+    282,   283,   284, 286, 287,   292,   293, 296, // resolution, planes, place, fax
+    305,   317,   318, 320, 322,   323,   324, 325, // software, predictor, white of Lab, palette, tiles
+    332,   338,   339, 347,                         // inks, alpha, numbers, tables of JPEG
+    529,   530,   531, 532, 33300, 33301,           // luma and chroma, the whole of which this is a part
+    32996, 50674,                                   // SGI's kind of numbers, what packs LERC
 };
 
 } // namespace
@@ -126,7 +128,8 @@ PictureSize claimedSizeOfTiff(std::span<const std::byte> bytes) {
     const std::uint64_t bytesASample = std::max<std::uint64_t>((tiff.valueOf(kBits, 1) + 7) / 8, 1);
     const std::uint64_t samples = std::max<std::uint64_t>(tiff.valueOf(kSamples, 1), 1);
     const std::uint64_t compression = tiff.valueOf(kCompression, 1);
-    const bool isConverted = tiff.valueOf(kColours, 0) > kSeparated || compression == kOldJpeg || compression == kJpeg;
+    if (compression == kOldJpeg) throw std::runtime_error("it is packed as JPEG in the way of TIFF before 1995");
+    const bool isConverted = tiff.valueOf(kColours, 0) > kSeparated || compression == kJpeg;
     return {std::int64_t(width), std::int64_t(height), isConverted ? kConvertedBytes : 0,
             product({kCopies, columns, rows, bytesASample, samples})};
 }

@@ -30,7 +30,9 @@ void addFilter(const GroupTruth& truth, const std::string& truthName, const Benc
     const Picture exact = truth.pictureOf(Technique::Forward, exactSettings(any.settings, truth.filter()));
     lines.push_back(lineOf("arithmetic", "fp32 arithmetic of forward", truthName,
                            errorFigures(exact, truth.pictureFor(exact), truth.excluded())));
-    if (truth.filter() != frame::TextureFilter::Exact || !frame::materialFeatures(truth.renderer().scene()).textures())
+    // Nothing was chosen where the timed frames filter exactly too.
+    if (any.settings.filter == frame::TextureFilter::Exact || truth.filter() != frame::TextureFilter::Exact ||
+        !frame::materialFeatures(truth.renderer().scene()).textures())
         return;
     frame::FrameSettings hardware = exactSettings(any.settings, frame::TextureFilter::Hardware);
     const recipes::RenderedFrame frame = truth.renderer().render(Technique::Forward, hardware);

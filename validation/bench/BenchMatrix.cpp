@@ -23,7 +23,6 @@ using ParsedJson = nlohmann::json;
 using culling::Method;
 using recipes::Technique;
 
-constexpr int kLargestSide = 16384;
 constexpr const char* kNoShadows = "this version draws no shadows, so there is nothing to vary; leave the key out";
 constexpr const char* kNoSubsurface =
     "this version has no subsurface scattering, so there is nothing to vary; leave the key out";
@@ -51,17 +50,11 @@ int numberIn(const ParsedJson& value, int least, int most, const std::string& so
 }
 
 glm::ivec2 sizeIn(const ParsedJson& value, const std::string& source, const std::string& key) {
-    const std::string text = value.is_string() ? value.get<std::string>() : "";
-    glm::ivec2 size(0);
-    const char* const end = text.data() + text.size();
-    const auto width = std::from_chars(text.data(), end, size.x);
-    if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
-        const auto height = std::from_chars(width.ptr + 1, end, size.y);
-        const bool fits = std::min(size.x, size.y) >= 1 && std::max(size.x, size.y) <= kLargestSide;
-        if (height.ec == std::errc() && height.ptr == end && fits) return size;
-    }
-    refuse(source, key,
-           fmt::format("{} is no size such as \"1280x720\", each side 1 to {}", value.dump(), kLargestSide));
+    if (value.is_string())
+        if (const std::optional<glm::ivec2> size = frame::sizeIn(value.get<std::string>())) return *size;
+    refuse(
+        source, key,
+        fmt::format("{} is no size such as \"1280x720\", each side 1 to {}", value.dump(), frame::kLargestSidePixels));
 }
 
 /// Keys of the matrix and what reads a value of each.

@@ -9,8 +9,8 @@
 namespace tessera::viewer {
 void EventLog::line(const std::string& text) const {
     if (!on_) return;
-    fmt::print("{}\n", oneLine(text));
-    std::fflush(stdout); // whoever reads acts on it now
+    fmt::print("{}\n", oneLine(text, text.max_size())); // whole: it holds commands to be run
+    std::fflush(stdout);                                // whoever reads acts on it now
 }
 
 } // namespace tessera::viewer

@@ -415,6 +415,14 @@ TEST(Growth, patternsThatBeginAgainAtEveryCharacterAreAlwaysRefused) {
               kSeconds);
 }
 
+TEST(Growth, starsAtTheEndOfAPatternAreAlwaysCounted) {
+    const TempFolder folder;
+    const std::filesystem::path file =
+        sceneOfNames(folder, 2000, [](int) { return "a"; }, {"a" + std::string(1'000'000, '*')});
+    EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, file); }),
+                HasSubstr("/overrides/0/node: the overrides up to here take more than 1000000000 steps"));
+}
+
 TEST(Growth, anErrorAboutANameOfAHundredThousandTakesSeconds) {
     const TempFolder folder;
     const std::filesystem::path file = folder.write(
