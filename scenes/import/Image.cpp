@@ -20,10 +20,9 @@ bool hasSignature(const PictureFormat& format) {
     return !format.signatures[0].bytes.empty();
 }
 
-/// An extension has its dot.
+/// An extension is without its dot here.
 bool hasExtension(const PictureFormat& format, std::string_view extension) {
-    return extension.size() > 1 &&
-           std::ranges::find(format.extensions, extension.substr(1)) != std::end(format.extensions);
+    return !extension.empty() && std::ranges::find(format.extensions, extension) != std::end(format.extensions);
 }
 
 /// "a, b or c": the formats that are decoded.
@@ -52,7 +51,7 @@ const PictureFormat& formatOf(std::span<const std::byte> bytes, const std::strin
         if (format.decode == nullptr) throw refusal(unsupported(format.name));
         return format;
     }
-    const std::string extension = extensionOf(name);
+    const std::string dotted = extensionOf(name), extension = dotted.substr(dotted.empty() ? 0 : 1);
     bool hasKnownExtension = extension.empty();
     for (const PictureFormat& format : pictureFormats()) {
         if (!hasExtension(format, extension)) continue;
