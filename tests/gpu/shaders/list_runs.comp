@@ -9,7 +9,6 @@ layout(std430, binding = 2) writeonly buffer Outputs { vec2 outputs[]; };
 void main()
 {
     uint i = gl_GlobalInvocationID.x;
-    if (i >= uint(inputs.length())) return;
     ListedTile tile;
     tile.depths = vec2(2.0, 0.0); // beyond every slice
     tile.slicing = inputs[i].x;

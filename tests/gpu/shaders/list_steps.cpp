@@ -113,18 +113,19 @@ TEST_F(ListSteps, everyRunOfNeighbouringSlicesIsOneBoxFromItsNearestToItsFarthes
     std::vector<glm::uvec4> inputs;
     for (const std::uint64_t slices : tiles)
         inputs.emplace_back(slicing, std::uint32_t(slices), std::uint32_t(slices >> 32), 0u);
+    inputs.resize((inputs.size() + 63) / 64 * 64, glm::uvec4(slicing, 0u, 0u, 0u)); // whole groups
 
     const gpu::Program& program =
         bench_.programs().get({"runs", "", "", "test/list_runs.comp", definesOf("LIST_METHOD_SLICES", 1)});
     const gpu::Buffer constants = gpu::Buffer::of("frame constants", std::span(&constants_, 1));
     const gpu::Buffer in = gpu::Buffer::of("inputs", inputs);
-    const std::size_t boxes = tiles.size() * LIGHT_TILE_SLICES;
+    const std::size_t boxes = inputs.size() * LIGHT_TILE_SLICES;
     const gpu::Buffer out("outputs", boxes * sizeof(glm::vec2), gpu::BufferUse::Readback);
     gpu::useProgram(program);
     gpu::bindUniformBuffer(UNIFORM_FRAME, constants);
     gpu::bindStorageBuffer(1, in);
     gpu::bindStorageBuffer(2, out);
-    gpu::dispatch(std::uint32_t((tiles.size() + 63) / 64));
+    gpu::dispatch(std::uint32_t(inputs.size() / 64));
     gpu::memoryBarrier(graph::Barrier::TransferOrUpdate);
     const std::vector<glm::vec2> runs = out.downloadAs<glm::vec2>(boxes);
 
