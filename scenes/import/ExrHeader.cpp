@@ -108,8 +108,17 @@ struct Attribute {
         } else if (type == "floatvector") {
             requireLength(claimed % sizeof(float) == 0, "a number takes 4");
         } else if (type == "chlist") { // names with 16 bytes each, up to an empty one
-            while (!rest.text().empty()) rest.skip(16);
+            bool hasEnded = false;
+            while (!rest.isAtEnd() && !(hasEnded = rest.text().empty())) {
+                requireLength(rest.left() >= 16, "its list of channels ends later");
+                rest.skip(16);
+            }
+            requireLength(hasEnded, "its list of channels ends later");
             requireLength(rest.isAtEnd(), "its list of channels ends earlier");
+        } else if (type == "preview") { // width, height and 4 bytes a texel
+            const std::uint64_t width = rest.number<std::uint32_t>(), height = rest.number<std::uint32_t>();
+            requireLength(width <= claimed && height <= claimed && 8 + 4 * width * height == claimed,
+                          "its picture has another size");
         }
     }
 };
