@@ -1,5 +1,3 @@
-#include <chrono>
-
 #include <fmt/format.h>
 #include <malloc.h>
 #include <unistd.h>
@@ -19,31 +17,11 @@ namespace {
 
 using gltf::test::Builder;
 using test::inputErrorOf;
+using test::listOf;
 using test::SceneFolder;
 using test::TempFolder;
 using testing::AllOf;
 using testing::HasSubstr;
-
-/// What quadratic loading took longer than, many times over, where linear loading takes a tenth; on a busy machine too.
-#ifdef __SANITIZE_ADDRESS__
-constexpr double kSeconds = 100.0; // sanitizers take several times as long
-#else
-constexpr double kSeconds = 10.0;
-#endif
-
-double secondsOf(const std::function<void()>& action) {
-    const auto start = std::chrono::steady_clock::now();
-    action();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// `count` times what `element` makes of 0, 1, 2 ..., with commas between.
-template <typename Element>
-std::string listOf(int count, Element element) {
-    std::string list;
-    for (int i = 0; i < count; ++i) list += (i > 0 ? "," : "") + element(i);
-    return list;
-}
 
 TEST(Memory, aLimitThatIsNotGivenIsAlwaysHalfOfTheMachinesOrLess) {
     EXPECT_GE(defaultMemoryLimitBytes(), 64 * kMiB);
@@ -326,158 +304,6 @@ TEST(Memory, jsonAndObjTextsAreAlwaysCharged) {
     for (int i = 0; i < 100'000; ++i) text += "f 1 2 3\n";
     const std::filesystem::path obj = folder.write("m.obj", text);
     EXPECT_THAT(inputErrorOf([&] { underLedger(importObj, obj, 8 * kMiB); }), HasSubstr("m.obj:"));
-}
-
-TEST(Growth, aHundredThousandMaterialsOrCamerasOfASceneFileTakeSeconds) {
-    const TempFolder folder;
-    const std::filesystem::path file = folder.write(
-        "s.json",
-        R"({"tessera": 1, "materials": [)" +
-            listOf(100'000, [](int i) { return fmt::format(R"({{"name":"m{}","model":"lambert"}})", i); }) +
-            R"(], "cameras": [)" +
-            listOf(100'000,
-                   [](int i) { return fmt::format(R"({{"name":"c{}","position":[0,0,1],"target":[0,0,0]}})", i); }) +
-            "]}");
-    EXPECT_LT(secondsOf([&] { EXPECT_EQ(underLedger(importSceneJson, file).materials.size(), 100'000u); }), kSeconds);
-}
-
-TEST(Growth, aHundredThousandMaterialsOfAnObjFileTakeSeconds) {
-    const TempFolder folder;
-    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    for (int i = 0; i < 100'000; ++i) text += fmt::format("usemtl m{}\nf 1 2 3\n", i);
-    const std::filesystem::path file = folder.write("m.obj", text);
-    EXPECT_LT(secondsOf([&] { EXPECT_EQ(underLedger(importObj, file).materials.size(), 100'000u); }), kSeconds);
-}
-
-TEST(Growth, warningsAreNeverMoreThanAHundredAndTheirRest) {
-    const TempFolder folder;
-    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    for (int i = 0; i < 300; ++i) text += fmt::format("usemtl m{}\nf 1 2 3\n", i);
-    LoadOptions options;
-    options.defaultLight = false;
-    const Scene scene = loadScene(folder.write("m.obj", text).string(), options);
-    ASSERT_EQ(scene.warnings.size(), 102u); // the last one is about the camera that is supplied
-    EXPECT_EQ(scene.warnings[100], "and 200 more warnings");
-}
-
-TEST(Growth, thirtyThousandOverridesOfNodesAndMaterialsByNameTakeSeconds) {
-    constexpr int kCount = 30'000;
-    const TempFolder folder;
-    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    for (int i = 0; i < kCount; ++i) text += fmt::format("g n{0}\nusemtl m{0}\nf 1 2 3\n", i);
-    folder.write("m.obj", text);
-    const auto sceneOf = [&](const std::string& overrides) {
-        return folder.write(
-            "s.json",
-            R"({"tessera": 1, "include": [{"file": "m.obj"}], "materials": [)" +
-                listOf(kCount, [](int i) { return fmt::format(R"({{"name":"own{}","model":"lambert"}})", i); }) +
-                R"(], "overrides": [)" + overrides + "]}");
-    };
-    const std::filesystem::path named = sceneOf(listOf(kCount, [](int i) {
-        return fmt::format(R"({{"material":"m{0}","ior":1.5}},{{"node":"n{0}","material":"own{0}"}})", i);
-    }));
-    EXPECT_LT(secondsOf([&] { EXPECT_EQ(underLedger(importSceneJson, named).materials.size(), kCount + 0u); }),
-              kSeconds);
-    const std::filesystem::path patterns =
-        sceneOf(listOf(2 * kCount, [](int) { return std::string(R"({"node":"n*","material":"own0"})"); }));
-    EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, patterns); }),
-                HasSubstr("/node: the overrides up to here take more than 1000000000 steps"));
-}
-
-/// A scene of triangles with these names, to which these overrides give a material.
-std::filesystem::path sceneOfNames(const TempFolder& folder, int count, const std::function<std::string(int)>& nameOf,
-                                   const std::vector<std::string>& patterns) {
-    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    for (int i = 0; i < count; ++i) text += "g " + nameOf(i) + "\nf 1 2 3\n";
-    folder.write("m.obj", text);
-    return folder.write(
-        "s.json",
-        R"({"tessera": 1, "include": [{"file": "m.obj"}], "materials": [{"name": "own", "model": "lambert"}],
-            "overrides": [)" +
-            listOf(
-                int(patterns.size()),
-                [&](int i) { return fmt::format(R"({{"node":"{}","material":"own"}})", patterns[std::size_t(i)]); }) +
-            "]}");
-}
-
-TEST(Growth, fortyPatternsOverAHundredThousandNodesAreAlwaysRead) {
-    constexpr int kCount = 100'000;
-    const TempFolder folder;
-    const auto nameOf = [](int i) { return fmt::format("hangar_7/wing_left/engine_2/turbine/blade_{:06}", i); };
-    std::vector<std::string> patterns;
-    for (int i = 0; i < 40; ++i) patterns.push_back(nameOf(i * 1000).substr(0, 45) + "*");
-    const std::filesystem::path file = sceneOfNames(folder, kCount, nameOf, patterns);
-    EXPECT_LT(secondsOf([&] { EXPECT_GE(underLedger(importSceneJson, file).nodes.size(), kCount + 0u); }), kSeconds);
-}
-
-TEST(Growth, patternsThatBeginAgainAtEveryCharacterAreAlwaysRefused) {
-    const TempFolder folder;
-    const std::filesystem::path file =
-        sceneOfNames(folder, 2000, [](int i) { return std::string(4000, 'x') + std::to_string(i); },
-                     {"*0", "*" + std::string(2000, 'x') + "y*"});
-    EXPECT_LT(secondsOf([&] {
-                  EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, file); }),
-                              HasSubstr("/overrides/1/node: the overrides up to here take more than 1000000000 steps"));
-              }),
-              kSeconds);
-}
-
-TEST(Growth, starsAtTheEndOfAPatternAreAlwaysCounted) {
-    const TempFolder folder;
-    const std::filesystem::path file =
-        sceneOfNames(folder, 2000, [](int) { return "a"; }, {"a" + std::string(1'000'000, '*')});
-    EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, file); }),
-                HasSubstr("/overrides/0/node: the overrides up to here take more than 1000000000 steps"));
-}
-
-TEST(Growth, anErrorAboutANameOfAHundredThousandTakesSeconds) {
-    const TempFolder folder;
-    const std::filesystem::path file = folder.write(
-        "s.json", R"({"tessera": 1, "include": [{"file": "builtin:room"}], "materials": [)" +
-                      listOf(100'000, [](int i) { return fmt::format(R"({{"name":"m{}","model":"lambert"}})", i); }) +
-                      R"(], "overrides": [{"node": "*", "material": ")" + std::string(100'000, 'm') + "\"}]}");
-    EXPECT_LT(
-        secondsOf([&] { EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, file); }), HasSubstr("more")); }),
-        kSeconds);
-}
-
-TEST(Growth, polygonsThatTakeLongToCutAreAlwaysRefused) {
-    // Convex, and every cut shorter than the one before: each corner is an ear and all others are looked at for it.
-    constexpr int kCorners = 1024;
-    std::string text;
-    double x = 0.0;
-    for (int i = 0; i < kCorners; ++i) {
-        text += fmt::format("v {} {} 0\n", x, x * x);
-        x += (kCorners - i) / 1e6;
-    }
-    std::string face = "f";
-    for (int i = 1; i <= kCorners; ++i) face += fmt::format(" {}", i);
-    for (int i = 0; i < 1000; ++i) text += face + "\n";
-    const TempFolder folder;
-    const std::filesystem::path file = folder.write("m.obj", text);
-    EXPECT_LT(secondsOf([&] {
-                  EXPECT_THAT(inputErrorOf([&] { underLedger(importObj, file); }),
-                              HasSubstr("take too long to cut into triangles"));
-              }),
-              kSeconds);
-}
-
-/// glTF nodes, every other one with a camera, all of one name.
-double secondsOfNodes(int count) {
-    const TempFolder folder;
-    const std::filesystem::path file = folder.write(
-        "m.gltf",
-        R"({"asset":{"version":"2.0"},"cameras":[{"name":"c","type":"perspective","perspective":{"yfov":1,"znear":1}}],"nodes":[)" +
-            listOf(count, [](int i) { return std::string(i % 2 == 0 ? "{}" : R"({"camera":0})"); }) + "]}");
-    return secondsOf([&] { EXPECT_EQ(underLedger(importGltf, file).nodes.size(), static_cast<std::size_t>(count)); });
-}
-
-TEST(Growth, aHundredThousandNodesAndCamerasOfAGltfFileTakeSeconds) {
-    EXPECT_LT(secondsOfNodes(100'000), kSeconds);
-}
-
-TEST(GrowthSlow, aMillionNodesOfAGltfFileTakeAtMostTenSeconds) {
-    EXPECT_LT(secondsOfNodes(1'000'000), kSeconds);
 }
 
 } // namespace

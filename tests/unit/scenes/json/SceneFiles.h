@@ -33,4 +33,12 @@ private:
     std::string importError(std::string_view text) const;
 };
 
+/// `count` times what `element` makes of 0, 1, 2 ..., with commas between.
+template <typename Element>
+std::string listOf(int count, Element element) {
+    std::string list;
+    for (int i = 0; i < count; ++i) list += (i > 0 ? "," : "") + element(i);
+    return list;
+}
+
 } // namespace tessera::scenes::test
