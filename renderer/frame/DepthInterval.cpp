@@ -106,8 +106,8 @@ void addBox(Seen& seen, const SurfaceBounds& bounds, const scenes::Camera& camer
         if (isInside) own.add(glm::dvec3(0.0));
     }
     if (!(own.nearest <= own.farthest) || own.farthest < camera.nearMetres || own.nearest > camera.farMetres) return;
-    seen.nearest = std::min(seen.nearest, own.nearest);
-    seen.farthest = std::max(seen.farthest, own.farthest);
+    seen.nearest = std::min(seen.nearest, std::max(own.nearest, camera.nearMetres));
+    seen.farthest = std::max(seen.farthest, std::min(own.farthest, camera.farMetres));
     seen.across = std::max(seen.across, own.across);
     seen.reach = std::max(seen.reach, bounds.reachMetres);
 }

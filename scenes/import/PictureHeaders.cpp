@@ -92,7 +92,7 @@ void takeOutMetadataOfJpeg(std::span<std::byte> bytes) {
     constexpr std::uint32_t kApp1 = 0xe1, kApp2 = 0xe2, kApp13 = 0xed, kComment = 0xfe;
     constexpr std::byte kApp15{0xef};
     bool hasExif = false;
-    const auto isExif = [&](std::size_t at) {
+    const auto keepsExif = [&](std::size_t at) {
         constexpr std::size_t kTiff = 2 + kExifBegin.size(); // after the length
         const std::size_t length = std::min<std::size_t>(bigEndian16(bytes, at), bytes.size() - at);
         return length >= kTiff && std::memcmp(bytes.data() + at + 2, kExifBegin.data(), kExifBegin.size()) == 0 &&
@@ -100,7 +100,7 @@ void takeOutMetadataOfJpeg(std::span<std::byte> bytes) {
     };
     forEachSegment(bytes, [&](std::uint32_t marker, std::size_t at) {
         if (marker != kApp1 && marker != kApp2 && marker != kApp13 && marker != kComment) return;
-        if (marker == kApp1 && !hasExif && isExif(at))
+        if (marker == kApp1 && !hasExif && keepsExif(at))
             hasExif = true;
         else
             bytes[at - 1] = kApp15;

@@ -17,7 +17,8 @@ using test::listOf;
 using test::TempFolder;
 using testing::HasSubstr;
 
-/// What quadratic loading took longer than, many times over, where linear loading takes a tenth; on a busy machine too.
+/// Linear loading takes about a second of each file here; quadratic loading took minutes. The rest is room for a machine
+/// that has other work.
 #ifdef __SANITIZE_ADDRESS__
 constexpr double kSeconds = 100.0; // sanitizers take several times as long
 #else
@@ -30,7 +31,7 @@ double secondsOf(const std::function<void()>& action) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-TEST(Growth, aHundredThousandMaterialsOrCamerasOfASceneFileTakeSeconds) {
+TEST(Growth, aHundredThousandMaterialsAndCamerasOfASceneFileTakeSeconds) {
     const TempFolder folder;
     const std::filesystem::path file = folder.write(
         "s.json",
@@ -40,7 +41,12 @@ TEST(Growth, aHundredThousandMaterialsOrCamerasOfASceneFileTakeSeconds) {
             listOf(100'000,
                    [](int i) { return fmt::format(R"({{"name":"c{}","position":[0,0,1],"target":[0,0,0]}})", i); }) +
             "]}");
-    EXPECT_LT(secondsOf([&] { EXPECT_EQ(underLedger(importSceneJson, file).materials.size(), 100'000u); }), kSeconds);
+    const auto load = [&] {
+        const Scene scene = underLedger(importSceneJson, file);
+        EXPECT_EQ(scene.materials.size(), 100'000u);
+        EXPECT_EQ(scene.cameras.size(), 100'000u);
+    };
+    EXPECT_LT(secondsOf(load), kSeconds);
 }
 
 TEST(Growth, aHundredThousandMaterialsOfAnObjFileTakeSeconds) {
@@ -178,7 +184,7 @@ TEST(Growth, aHundredThousandNodesAndCamerasOfAGltfFileTakeSeconds) {
     EXPECT_LT(secondsOfNodes(100'000), kSeconds);
 }
 
-TEST(GrowthSlow, aMillionNodesOfAGltfFileTakeAtMostTenSeconds) {
+TEST(GrowthSlow, aMillionNodesOfAGltfFileTakeSeconds) {
     EXPECT_LT(secondsOfNodes(1'000'000), kSeconds);
 }
 

@@ -166,11 +166,9 @@ TEST(Memory, aValueOfAnExrHeaderIsNeverReservedUnlessTheFileHoldsIt) {
               "(its attribute 'owner' of type chlist has 2 bytes: its list of channels ends earlier)");
     // OpenEXR reads on behind a list without an end, where an attribute may claim anything.
     EXPECT_EQ(refusalOfExr("chlist", std::string("\x12\0\0\0R\0", 6) + std::string(16, '\1')),
-              "(its attribute 'owner' of type chlist has 18 bytes: its list of channels ends later)");
+              "(its attribute 'owner' of type chlist has 18 bytes: its list of channels has no end)");
     EXPECT_EQ(refusalOfExr("chlist", std::string("\x06\0\0\0R\0\1\1\1\1", 10)),
-              "(its attribute 'owner' of type chlist has 6 bytes: its list of channels ends later)");
-    EXPECT_EQ(refusalOfExr("preview", std::string("\x08\0\0\0\0\0\1\0\0\0\1\0", 12)),
-              "(its attribute 'owner' of type preview has 8 bytes: its picture has another size)");
+              "(its attribute 'owner' of type chlist has 6 bytes: its list of channels has no end)");
     EXPECT_EQ(refusalOfExr("floatvector", std::string("\x06\0\0\0abcdef", 10)),
               "(its attribute 'owner' of type floatvector has 6 bytes: a number takes 4)");
 }

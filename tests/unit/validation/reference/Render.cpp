@@ -142,15 +142,22 @@ TEST(ReferenceRender, fromAFarEyeTheProductsOriginIsNeverFartherFromTheReference
         // The triangle lies up to 35 degrees beside the view axis.
         const glm::dvec3 beside(random.between(-0.5, 0.5) * eyeMetres, random.between(-0.5, 0.5) * eyeMetres, 0.0);
         camera.worldFromCamera = scenes::worldFromLookAt({0.7, 1.3, eyeMetres}, glm::dvec3(0.7, 1.3, 0.0) + beside);
+        const bool isCut = isParallel && i % 5 == 0;
         if (isParallel) { // one more beside the picture
             scene.nodes.push_back(scene.nodes.front());
             scene.nodes.back().parentFromNode[3] =
                 glm::dvec4(5.0 * camera.halfHeightMetres * glm::dvec3(camera.worldFromCamera[0]), 1.0);
         }
+        if (isCut) { // one more that lies along the view axis and ends far beyond the far plane
+            scene.nodes.push_back(scene.nodes.front());
+            glm::dmat4& placed = scene.nodes.back().parentFromNode;
+            placed[1] = -100.0 * eyeMetres * camera.worldFromCamera[2];
+            placed[2] = camera.worldFromCamera[1];
+        }
         const CameraRays rays(camera, settings.sizePixels);
         const Anchor anchor = Objects(scene, rays).anchor();
         if (anchor.radiusMetres == 0.0) continue;
-        const double mostMetres = isParallel ? 5.0 + 0.01 * camera.halfHeightMetres : scenes::kInfinity;
+        const double mostMetres = isParallel && !isCut ? 5.0 + 0.01 * camera.halfHeightMetres : scenes::kInfinity;
         ASSERT_LE(anchor.otherOriginMetres, mostMetres) << eyeMetres;
         ++far;
         const frame::CameraView view = frame::makeCameraView(camera, settings.sizePixels, frame::LightingSpace::World,
