@@ -13,9 +13,9 @@ bool inCompute(const frame::FrameSpec& spec) {
     return spec.lightOn == frame::LightingStage::Compute;
 }
 
-void drawPicture(const frame::FrameResources& resources, const gpu::Texture& radiance) {
-    gpu::bindFramebuffer(resources.framebuffers.get({{&radiance}, nullptr}));
-    gpu::clearColor(0, resources.background);
+void drawPicture(const graph::PassContext& context, const glm::vec4& background) {
+    context.bindTargets();
+    gpu::clearColor(0, background);
     gpu::setState({});
     gpu::drawFullscreenTriangle();
 }
@@ -46,37 +46,24 @@ shader::ProgramDesc DeferredLightingPass::program(const frame::FrameSpec& spec, 
 }
 
 DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
-                                                        const Params& params, const Inputs& inputs,
-                                                        const frame::FrameResources* resources) {
+                                                        const Params& params, const Inputs& inputs) {
     return graph.addPass<Outputs>(
         "deferred_lighting",
         [&](graph::PassBuilder& pass, Outputs& out) {
-            const std::vector<frame::GBufferTexture> textures = spec.gbufferTextures();
-            for (std::size_t i = 0; i < inputs.textures.size(); ++i) {
-                pass.expect(inputs.textures[i], spec.texture(textures[i].format));
-                out.read.textures.push_back(pass.read(inputs.textures[i]));
-            }
-            pass.expect(inputs.depth, spec.texture(graph::Format::Depth32Float));
-            out.read.depth = pass.read(inputs.depth);
-            if (inputs.lists) out.read.lists = frame::readLightLists(pass, *inputs.lists);
+            pass.program(program(spec, params));
+            out.read = {inputs.gbuffer.read(pass, spec), inputs.lighting.read(pass)};
             out.radiance = pass.create("radiance", spec.texture(graph::Format::Rgba32Float),
                                        inCompute(spec) ? graph::Access::ImageWrite : graph::Access::ColorAttachment);
         },
-        [resources, compute = inCompute(spec), program = program(spec, params)](const Outputs& out,
-                                                                                const graph::PassContext& context) {
-            gpu::useProgram(resources->programs.get(program));
-            gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
-            resources->lights.bind();
-            resources->scene.bindMaterialTable();
-            if (out.read.lists) resources->lightLists.bind();
-            for (std::size_t i = 0; i < out.read.textures.size(); ++i) {
-                gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), context.texture(out.read.textures[i]));
-            }
-            gpu::bindTexture(TEXTURE_UNIT_DEPTH, context.texture(out.read.depth));
+        [background = spec.background, compute = inCompute(spec)](const Outputs& out,
+                                                                  const graph::PassContext& context) {
+            gpu::useProgram(context.program());
+            out.read.lighting.bind(context);
+            out.read.gbuffer.bind(context);
             if (compute)
                 dispatchPicture(context.texture(out.radiance));
             else
-                drawPicture(*resources, context.texture(out.radiance));
+                drawPicture(context, background);
         });
 }
 

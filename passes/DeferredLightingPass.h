@@ -1,10 +1,5 @@
 #pragma once
-#include <optional>
-#include <vector>
-
-#include "renderer/frame/FrameResources.h"
-#include "renderer/frame/FrameSpec.h"
-#include "renderer/graph/Graph.h"
+#include "renderer/frame/FrameHandles.h"
 
 namespace tessera::passes {
 
@@ -19,17 +14,15 @@ struct DeferredLightingPass {
         bool visitsLights = true; ///< false: emission alone, for passes that add lights to it
     };
     struct Inputs {
-        std::vector<graph::TextureHandle> textures; ///< by attachment, as FrameSpec::gbufferTextures()
-        graph::TextureHandle depth;
-        std::optional<frame::LightListHandles> lists; ///< where FrameSpec::culling asks for them
+        frame::GBufferHandles gbuffer;
+        frame::LightingInputs lighting;
     };
     struct Outputs {
         Inputs read;
         graph::TextureHandle radiance;
     };
     static shader::ProgramDesc program(const frame::FrameSpec& spec, const Params& params);
-    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params, const Inputs& inputs,
-                       const frame::FrameResources* resources);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params, const Inputs& inputs);
 };
 
 } // namespace tessera::passes

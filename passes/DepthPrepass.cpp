@@ -1,7 +1,6 @@
 #include "passes/DepthPrepass.h"
 
 #include "renderer/gpu/Commands.h"
-#include "shaders/shared/slots.h"
 
 namespace tessera::passes {
 
@@ -18,28 +17,27 @@ shader::ProgramDesc DepthPrepass::program(const frame::FrameSpec& spec, const Pa
 }
 
 DepthPrepass::Outputs DepthPrepass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params,
-                                        const frame::FrameResources* resources) {
+                                        const Inputs& inputs) {
     return graph.addPass<Outputs>(
         "depth_prepass",
         [&](graph::PassBuilder& pass, Outputs& out) {
+            pass.program(program(spec, params));
+            out.read.surfaces = inputs.surfaces.read(pass);
             out.depth =
                 pass.create("depth", spec.renderTarget(graph::Format::Depth32Float), graph::Access::DepthAttachment);
             if (params.shadingDepth)
                 out.shadingDepth = pass.create("shading_depth", spec.renderTarget(graph::Format::Rg32Float));
         },
-        [resources, program = program(spec, params)](const Outputs& out, const graph::PassContext& context) {
-            gpu::Attachments targets{{}, &context.texture(out.depth)};
-            if (out.shadingDepth) targets.colors.push_back(&context.texture(*out.shadingDepth));
-            gpu::bindFramebuffer(resources->framebuffers.get(targets));
+        [](const Outputs& out, const graph::PassContext& context) {
+            context.bindTargets();
             gpu::clearDepth(0.0f);
             if (out.shadingDepth) gpu::clearColor(0, kNoSurface);
-            gpu::useProgram(resources->programs.get(program));
-            gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
+            gpu::useProgram(context.program());
             gpu::PipelineState state;
             // Of two surfaces at one depth the later drawn wins, here as in every other pass.
             state.depthTest = gpu::DepthTest::GreaterEqual;
             state.depthWrite = true;
-            resources->scene.draw(resources->scene.opaque(), state);
+            out.read.surfaces.draw(context, frame::SurfaceHandles::Kind::Opaque, state);
         });
 }
 

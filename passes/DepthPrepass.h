@@ -1,9 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "renderer/frame/FrameResources.h"
-#include "renderer/frame/FrameSpec.h"
-#include "renderer/graph/Graph.h"
+#include "renderer/frame/FrameHandles.h"
 
 namespace tessera::passes {
 
@@ -18,13 +16,16 @@ struct DepthPrepass {
     struct Params {
         bool shadingDepth = false;
     };
+    struct Inputs {
+        frame::SurfaceHandles surfaces;
+    };
     struct Outputs {
+        Inputs read;
         graph::TextureHandle depth;
         std::optional<graph::TextureHandle> shadingDepth; ///< where Params ask for it
     };
     static shader::ProgramDesc program(const frame::FrameSpec& spec, const Params& params);
-    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params,
-                       const frame::FrameResources* resources);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params, const Inputs& inputs);
 };
 
 } // namespace tessera::passes

@@ -1,9 +1,24 @@
 #include "passes/DisplayPass.h"
 
+#include <cmath>
+
 #include "renderer/gpu/Commands.h"
+#include "shaders/shared/display.h"
 #include "shaders/shared/slots.h"
 
 namespace tessera::passes {
+
+namespace {
+
+shared::DisplayConstants displayConstants(const frame::FrameSettings& settings) {
+    shared::DisplayConstants constants{};
+    constants.exposure = glm::vec4(std::exp2(settings.exposureEV));
+    const frame::DisplayMapping mapping = frame::displayMapping(settings.view, settings.layout);
+    constants.mapping = glm::uvec4(unsigned(mapping), unsigned(settings.toneMap), 0u, 0u);
+    return constants;
+}
+
+} // namespace
 
 shader::ProgramDesc DisplayPass::program() {
     shader::ProgramDesc program;
@@ -13,20 +28,20 @@ shader::ProgramDesc DisplayPass::program() {
     return program;
 }
 
-DisplayPass::Outputs DisplayPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
-                                      const frame::FrameResources* resources) {
+DisplayPass::Outputs DisplayPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs) {
     return graph.addPass<Outputs>(
         "display",
         [&](graph::PassBuilder& pass, Outputs& out) {
+            pass.program(program());
             pass.expect(inputs.radiance, spec.texture(graph::Format::Rgba32Float));
             out.radiance = pass.read(inputs.radiance);
             out.display = pass.create("display", spec.texture(graph::Format::Rgba8Unorm));
         },
-        [resources](const Outputs& out, const graph::PassContext& context) {
-            gpu::bindFramebuffer(resources->framebuffers.get({{&context.texture(out.display)}, nullptr}));
+        [constants = displayConstants(spec.settings)](const Outputs& out, const graph::PassContext& context) {
+            context.bindTargets();
             gpu::setState({});
-            gpu::useProgram(resources->programs.get(program()));
-            gpu::bindUniformBuffer(UNIFORM_DISPLAY, resources->displayConstants);
+            gpu::useProgram(context.program());
+            context.constants(UNIFORM_DISPLAY, constants);
             gpu::bindTexture(TEXTURE_UNIT_RADIANCE, context.texture(out.radiance));
             gpu::drawFullscreenTriangle();
         });

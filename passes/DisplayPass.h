@@ -1,5 +1,4 @@
 #pragma once
-#include "renderer/frame/FrameResources.h"
 #include "renderer/frame/FrameSpec.h"
 #include "renderer/graph/Graph.h"
 
@@ -18,8 +17,7 @@ struct DisplayPass {
         graph::TextureHandle display;
     };
     static shader::ProgramDesc program();
-    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
-                       const frame::FrameResources* resources);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs);
 };
 
 } // namespace tessera::passes

@@ -2,7 +2,6 @@
 
 #include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
-#include "shaders/shared/slots.h"
 
 namespace tessera::passes {
 
@@ -32,12 +31,15 @@ shader::ProgramDesc ForwardPass::program(const frame::FrameSpec& spec, const Par
 }
 
 ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params,
-                                      const Inputs& inputs, const frame::FrameResources* resources) {
+                                      const Inputs& inputs) {
     const bool transparent = params.surfaces == Surfaces::Transparent;
     const bool prepassed = inputs.depth.has_value();
     return graph.addPass<Outputs>(
         transparent ? "transparent" : "forward",
         [&](graph::PassBuilder& pass, Outputs& out) {
+            pass.program(program(spec, params));
+            out.surfaces = inputs.surfaces.read(pass);
+            out.lighting = inputs.lighting.read(pass);
             if (prepassed) {
                 pass.expect(*inputs.depth, spec.renderTarget(graph::Format::Depth32Float));
                 out.depth = pass.read(*inputs.depth, graph::Access::DepthTest);
@@ -45,26 +47,19 @@ ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpe
                 out.depth = pass.create("depth", spec.renderTarget(graph::Format::Depth32Float),
                                         graph::Access::DepthAttachment);
             }
-            if (inputs.lists) out.lists = frame::readLightLists(pass, *inputs.lists);
             if (inputs.radiance) pass.expect(*inputs.radiance, spec.renderTarget(graph::Format::Rgba32Float));
             out.radiance = inputs.radiance ? pass.write(*inputs.radiance)
                                            : pass.create("radiance", spec.renderTarget(graph::Format::Rgba32Float));
         },
-        [resources, params, prepassed, view = spec.settings.view, keepsPicture = inputs.radiance.has_value(),
-         program = program(spec, params)](const Outputs& out, const graph::PassContext& context) {
-            gpu::bindFramebuffer(
-                resources->framebuffers.get({{&context.texture(out.radiance)}, &context.texture(out.depth)}));
-            if (!keepsPicture) gpu::clearColor(0, resources->background);
+        [params, prepassed, view = spec.settings.view, background = spec.background,
+         keepsPicture = inputs.radiance.has_value()](const Outputs& out, const graph::PassContext& context) {
+            context.bindTargets();
+            if (!keepsPicture) gpu::clearColor(0, background);
             if (!prepassed) gpu::clearDepth(0.0f);
-            gpu::useProgram(resources->programs.get(program));
-            gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
-            resources->lights.bind();
-            if (out.lists) resources->lightLists.bind();
-            const frame::SceneGpu& scene = resources->scene;
-            gpu::drawInBands([&] {
-                scene.draw(params.surfaces == Surfaces::Transparent ? scene.transparent() : scene.opaque(),
-                           pipelineState(params, prepassed, view));
-            });
+            gpu::useProgram(context.program());
+            out.lighting.bind(context);
+            gpu::drawInBands(
+                [&] { out.surfaces.draw(context, params.surfaces, pipelineState(params, prepassed, view)); });
         });
 }
 

@@ -1,9 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "renderer/frame/FrameResources.h"
-#include "renderer/frame/FrameSpec.h"
-#include "renderer/graph/Graph.h"
+#include "renderer/frame/FrameHandles.h"
 
 namespace tessera::passes {
 
@@ -15,23 +13,24 @@ namespace tessera::passes {
 /// Space   lighting space
 /// Source  Walter 2007; Heitz 2014 (shaders/lib/brdf.glsl)
 struct ForwardPass {
-    enum class Surfaces { Opaque, Transparent };
+    using Surfaces = frame::SurfaceHandles::Kind;
     struct Params {
         Surfaces surfaces = Surfaces::Opaque;
     };
     struct Inputs {
+        frame::SurfaceHandles surfaces;
+        frame::LightingInputs lighting;
         std::optional<graph::TextureHandle> depth;    ///< of a prepass, or of what lies under transparent surfaces
         std::optional<graph::TextureHandle> radiance; ///< the picture to draw transparent surfaces on
-        std::optional<frame::LightListHandles> lists; ///< where FrameSpec::culling asks for them
     };
     struct Outputs {
-        std::optional<frame::LightListHandles> lists; ///< as read
+        frame::SurfaceHandles surfaces; ///< as read
+        frame::LightingInputs lighting; ///< as read
         graph::TextureHandle radiance;
         graph::TextureHandle depth;
     };
     static shader::ProgramDesc program(const frame::FrameSpec& spec, const Params& params);
-    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params, const Inputs& inputs,
-                       const frame::FrameResources* resources);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params, const Inputs& inputs);
 };
 
 } // namespace tessera::passes

@@ -1,9 +1,5 @@
 #pragma once
-#include <vector>
-
-#include "renderer/frame/FrameResources.h"
-#include "renderer/frame/FrameSpec.h"
-#include "renderer/graph/Graph.h"
+#include "renderer/frame/FrameHandles.h"
 
 namespace tessera::passes {
 
@@ -13,12 +9,15 @@ namespace tessera::passes {
 ///         reverse-Z
 /// Space   lighting space
 struct GBufferPass {
+    struct Inputs {
+        frame::SurfaceHandles surfaces;
+    };
     struct Outputs {
-        std::vector<graph::TextureHandle> textures; ///< by attachment, as FrameSpec::gbufferTextures()
-        graph::TextureHandle depth;
+        Inputs read;
+        frame::GBufferHandles gbuffer;
     };
     static shader::ProgramDesc program(const frame::FrameSpec& spec);
-    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const frame::FrameResources* resources);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs);
 };
 
 } // namespace tessera::passes

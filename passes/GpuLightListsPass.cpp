@@ -2,13 +2,10 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "passes/ListStep.h"
 #include "passes/ScanTiles.h"
+#include "passes/TexelRoom.h"
 #include "renderer/gpu/Commands.h"
-#include "renderer/gpu/Context.h"
-#include "scenes/Error.h"
 #include "shaders/shared/slots.h"
 
 namespace tessera::passes {
@@ -33,58 +30,88 @@ struct Steps {
 struct Handles {
     GpuLightListsPass::Inputs read;
     frame::LightListHandles lists;
+    graph::BufferHandle cullLights; ///< shared::CullLight each
+    graph::BufferHandle reach;      ///< uvec2 a light: the columns and rows of tiles that it may touch
     graph::BufferHandle tileDepths; ///< vec2 a tile
     graph::BufferHandle tileCounts; ///< uvec2 a tile
     graph::BufferHandle totals;     ///< uvec4
+
+    /// Constants of the view and of its lights, which every step takes.
+    void readConstants(graph::PassBuilder& pass) const {
+        read.view.read(pass);
+        pass.read(read.lighting, Access::UniformRead);
+    }
+    void readLights(graph::PassBuilder& pass) const {
+        pass.read(cullLights, Access::TexelRead);
+        pass.read(reach, Access::TexelRead);
+    }
+    void bindConstants(const graph::PassContext& context) const {
+        read.view.bind(context);
+        gpu::bindUniformBuffer(UNIFORM_LIGHTING, context.buffer(read.lighting), 0, sizeof(shared::LightingConstants));
+    }
+    void bindLights(const graph::PassContext& context) const {
+        gpu::bindTexelBuffer(TEXTURE_UNIT_CULL_LIGHTS, context.buffer(cullLights).texels(graph::Format::Rgba32Float));
+        gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHT_REACH, context.buffer(reach).texels(graph::Format::Rg32Uint));
+    }
+    /// Of cells and entries the part that the frame's lists take.
+    void bindLists(const graph::PassContext& context) const {
+        const auto bind = [&](std::uint32_t slot, graph::BufferHandle handle, std::size_t least) {
+            gpu::bindStorageBuffer(slot, context.buffer(handle), 0, std::max(context.bytes(handle), least));
+        };
+        gpu::bindStorageBuffer(STORAGE_LIGHT_TILES, context.buffer(lists.tiles));
+        bind(STORAGE_LIGHT_CELLS, lists.cells, sizeof(glm::uvec2));
+        bind(STORAGE_LIGHT_ENTRIES, lists.entries, sizeof(std::uint32_t));
+    }
 };
 
 struct Builder {
     graph::Graph& graph;
     const frame::FrameSpec& spec;
-    const frame::FrameResources* resources;
+    const frame::DrawnView* drawn;
     Steps steps;
     Handles handles;
 
     bool isZbin() const { return spec.culling.method == culling::Method::Zbin; }
-    graph::BufferDesc twoWordsATile() const { return {frame::lightTileCount(spec) * sizeof(glm::uvec2)}; }
+    std::size_t tiles() const { return frame::lightTileCount(spec); }
+    graph::BufferDesc twoWordsATile() const { return {tiles() * sizeof(glm::uvec2)}; }
+    /// Tiles as a grid of items, the layers below one another.
+    glm::uvec2 tileItems() const {
+        const int side = spec.culling.tilePixels;
+        const auto columns = std::uint32_t((spec.settings.sizePixels.x + side - 1) / side);
+        return {columns, std::uint32_t(tiles()) / columns};
+    }
 
     void findReach();
     void findDepths();
-    void count();
+    void count(const glm::uvec4& round);
     void scan();
-    void fill();
+    void makeListRoom();
+    void size(const glm::uvec4& round);
+    void fill(const glm::uvec4& round);
+    void fillMasks();
 };
 
-/// Tiles as a grid of items, the layers below one another.
-glm::uvec2 tileItems(const frame::FrameSpec& spec, const frame::FrameResources& resources) {
-    const auto columns = resources.constants.tileGrid.x;
-    return {columns, std::uint32_t(frame::lightTileCount(spec)) / columns};
-}
-
-void bindLights(const frame::LightListBuffers& lists) {
-    gpu::bindTexelBuffer(TEXTURE_UNIT_CULL_LIGHTS, lists.cullLights.texels());
-    gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHT_REACH, lists.reach.texels());
-}
-
 void Builder::findReach() {
-    const graph::BufferHandle reach =
-        frame::importLightReach(graph, spec.lights, resources ? &resources->lightLists : nullptr);
+    const std::size_t lights = std::max<std::size_t>(spec.lights, 1);
     handles = graph.addPass<Handles>(
         "light_reach",
         [&](graph::PassBuilder& pass, Handles& out) {
+            pass.program(steps.reach.program());
             out = handles;
-            out.lists.reach = pass.write(reach, Access::StorageWrite);
+            out.readConstants(pass);
+            out.cullLights = pass.create("cull_lights", {lights * sizeof(shared::CullLight), true}, Access::Upload);
+            pass.read(out.cullLights, Access::TexelRead);
+            out.reach = pass.create("light_reach", {lights * sizeof(glm::uvec2), true});
         },
-        [step = steps.reach, used = resources](const Handles& out, const graph::PassContext& context) {
-            frame::LightListBuffers& lists = used->lightLists;
-            const std::size_t texelsALight = sizeof(shared::CullLight) / sizeof(glm::vec4);
-            lists.cullLights.require(used->cullLights.size() * texelsALight);
-            lists.cullLights.buffer().upload(used->cullLights);
-            lists.reach.require(used->cullLights.size());
-            gpu::bindTexelBuffer(TEXTURE_UNIT_CULL_LIGHTS, lists.cullLights.texels());
-            gpu::bindStorageBuffer(STORAGE_LIGHT_REACH, context.buffer(*out.lists.reach));
-            const std::uint32_t rows = (used->constants.lights.x + ListStep::kLightsARow - 1) / ListStep::kLightsARow;
-            step.run(*used, {ListStep::kLightsARow, std::max(rows, 1u)}); // no lights: a row that finds none
+        [step = steps.reach, used = drawn, lights](const Handles& out, const graph::PassContext& context) {
+            context.buffer(out.cullLights).upload(used->prepared.cullLights);
+            out.bindConstants(context);
+            gpu::bindTexelBuffer(TEXTURE_UNIT_CULL_LIGHTS,
+                                 context.buffer(out.cullLights).texels(graph::Format::Rgba32Float));
+            gpu::bindStorageBuffer(STORAGE_LIGHT_REACH, context.buffer(out.reach));
+            // Without lights there is a row that finds none.
+            step.run(context, {ListStep::kLightsARow,
+                               std::uint32_t((lights + ListStep::kLightsARow - 1) / ListStep::kLightsARow)});
         });
 }
 
@@ -92,38 +119,43 @@ void Builder::findDepths() {
     handles = graph.addPass<Handles>(
         "light_depths",
         [&](graph::PassBuilder& pass, Handles& out) {
+            pass.program(steps.depths.program());
             out = handles;
-            out.read.depths = frame::readLitDepths(pass, spec, handles.read.depths);
-            out.lists.tiles = pass.write(handles.lists.tiles, Access::StorageWrite);
+            out.readConstants(pass);
+            out.read.depths = handles.read.depths.read(pass, spec);
+            out.lists.tiles = pass.create("light_tiles", graph::BufferDesc{tiles() * sizeof(shared::LightTile)});
             out.tileDepths = pass.create("tile_depths", twoWordsATile());
         },
-        [step = steps.depths, used = resources, frame = spec](const Handles& out, const graph::PassContext& context) {
-            used->lightLists.requireTiles(frame::lightTileCount(frame));
-            gpu::bindTexture(TEXTURE_UNIT_DEPTH, context.texture(out.read.depths.opaque));
-            if (out.read.depths.transparent)
-                gpu::bindTexture(TEXTURE_UNIT_TRANSPARENT_DEPTH, context.texture(*out.read.depths.transparent));
+        [step = steps.depths, items = tileItems()](const Handles& out, const graph::PassContext& context) {
+            out.bindConstants(context);
+            out.read.depths.bind(context);
             gpu::bindStorageBuffer(STORAGE_LIGHT_TILES, context.buffer(out.lists.tiles));
             gpu::bindStorageBuffer(STORAGE_TILE_DEPTHS, context.buffer(out.tileDepths));
-            step.run(*used, tileItems(frame, *used));
+            step.run(context, items);
         });
 }
 
-void Builder::count() {
+void Builder::count(const glm::uvec4& round) {
     handles = graph.addPass<Handles>(
         "light_count",
         [&](graph::PassBuilder& pass, Handles& out) {
+            pass.program(steps.count.program());
             out = handles;
-            out.lists.reach = pass.read(*handles.lists.reach, Access::TexelRead);
+            out.readConstants(pass);
+            out.readLights(pass);
             out.lists.tiles = pass.read(handles.lists.tiles);
             out.tileDepths = pass.read(handles.tileDepths);
-            out.tileCounts = pass.create("tile_counts", twoWordsATile());
+            out.tileCounts = handles.tileCounts ? pass.write(handles.tileCounts, Access::StorageWrite)
+                                                : pass.create("tile_counts", twoWordsATile());
         },
-        [step = steps.count, used = resources, frame = spec](const Handles& out, const graph::PassContext& context) {
-            bindLights(used->lightLists);
+        [step = steps.count, items = tileItems(), round](const Handles& out, const graph::PassContext& context) {
+            out.bindConstants(context);
+            out.bindLights(context);
             gpu::bindStorageBuffer(STORAGE_LIGHT_TILES, context.buffer(out.lists.tiles));
             gpu::bindStorageBuffer(STORAGE_TILE_DEPTHS, context.buffer(out.tileDepths));
             gpu::bindStorageBuffer(STORAGE_TILE_COUNTS, context.buffer(out.tileCounts));
-            step.runRounds(frame, *used, tileItems(frame, *used));
+            context.constants(UNIFORM_LIST_ROUND, round);
+            step.run(context, items);
         });
 }
 
@@ -133,6 +165,8 @@ void Builder::scan() {
         "light_scan",
         [&](graph::PassBuilder& pass, Handles& out) {
             out = handles;
+            out.readConstants(pass);
+            if (!onCpu) pass.program(steps.scan.program());
             const Access read = onCpu ? Access::Download : Access::StorageRead;
             const Access write = onCpu ? Access::Upload : Access::StorageWrite;
             if (isZbin()) {
@@ -143,127 +177,163 @@ void Builder::scan() {
             }
             out.totals = pass.create("light_totals", graph::BufferDesc{sizeof(glm::uvec4)}, write);
         },
-        [step = steps.scan, used = resources, zbin = isZbin(), onCpu,
-         tiles = frame::lightTileCount(spec)](const Handles& out, const graph::PassContext& context) {
+        [step = steps.scan, used = drawn, zbin = isZbin(), onCpu, count = tiles()](const Handles& out,
+                                                                                   const graph::PassContext& context) {
             const gpu::Buffer& of = context.buffer(zbin ? out.tileDepths : out.tileCounts);
             const gpu::Buffer& totals = context.buffer(out.totals);
             if (onCpu) {
-                totals.uploadValue(zbin ? scanDepths(of, tiles, used->constants)
-                                        : scanCounts(of, tiles, used->constants));
+                const culling::FrameConstants constants = used->prepared.constants();
+                totals.uploadValue(zbin ? scanDepths(of, count, constants) : scanCounts(of, count, constants));
                 return;
             }
+            out.bindConstants(context);
             gpu::bindStorageBuffer(zbin ? STORAGE_TILE_DEPTHS : STORAGE_TILE_COUNTS, of);
             gpu::bindStorageBuffer(STORAGE_LIST_TOTALS, totals);
-            step.run(*used, {1, 1});
+            step.run(context, {1, 1});
         });
-}
-
-/// What a buffer must hold for shaders to write it.
-void requireWritable(const char* what, std::size_t bytes) {
-    const std::size_t most = gpu::Context::current()->capabilities().maxStorageBlockBytes;
-    if (bytes <= most) return;
-    throw InputError(
-        fmt::format("light {} would take {} bytes, and shaders of this driver write {} at most: build them "
-                    "on the CPU (--cull-on cpu), or use larger tiles (--tile 64) or fewer lights (--lights N)",
-                    what, bytes, most));
 }
 
 struct Totals {
     std::size_t cells, entries;
 };
 
-Totals totalsOf(const frame::FrameSpec& spec, const glm::uvec4& scanned, const glm::uvec4& lights,
-                const glm::uvec4& grid) {
+Totals totalsOf(const frame::FrameSpec& spec, const glm::uvec4& scanned, const shared::LightingConstants& lighting) {
     if (spec.culling.method != culling::Method::Zbin)
         return {scanned.x, std::size_t(scanned.z) << 32 | std::size_t(scanned.y)};
     const std::size_t bins = scanned.y;
-    return {bins, (bins + std::size_t(grid.x) * grid.y) * lights.w};
+    return {bins, (bins + std::size_t(lighting.tileGrid.x) * lighting.tileGrid.y) * lighting.lights.w};
 }
 
-/// The empty cell, and in front of the entries the lights that reach everywhere.
-void uploadFirsts(const frame::FrameResources& resources) {
+/// The lights that reach everywhere, which stand in front of the entries.
+std::vector<std::uint32_t> lightsEverywhere(const frame::PreparedView& view) {
     std::vector<std::uint32_t> everywhere;
-    for (std::size_t i = 0; i < resources.cullLights.size(); ++i)
-        if (resources.cullLights[i].sphere.w < 0.0f) everywhere.push_back(std::uint32_t(i));
-    resources.lightLists.cells.buffer().uploadValue(glm::uvec2(0u));
-    resources.lightLists.entries.buffer().upload(everywhere);
+    for (std::size_t i = 0; i < view.cullLights.size(); ++i)
+        if (view.cullLights[i].sphere.w < 0.0f) everywhere.push_back(std::uint32_t(i));
+    return everywhere;
 }
 
-void Builder::fill() {
+/// Where the lists go, once their size is known.
+void Builder::makeListRoom() {
+    handles = graph.addPass<Handles>(
+        "light_room",
+        [&](graph::PassBuilder& pass, Handles& out) {
+            out = handles;
+            out.totals = pass.read(handles.totals, Access::Download);
+            out.lists.cells = pass.create(frame::kLightCellsName, kGrowing, Access::Upload);
+            out.lists.entries = pass.create(frame::kLightEntriesName, kGrowing, Access::Upload);
+        },
+        [used = drawn, frame = spec, zbin = isZbin()](const Handles& out, const graph::PassContext& context) {
+            const frame::PreparedView& view = used->prepared;
+            const glm::uvec4 scanned = context.buffer(out.totals).downloadAs<glm::uvec4>(1).front();
+            const Totals totals = totalsOf(frame, scanned, view.lighting);
+            requireWritable("cells", totals.cells * sizeof(glm::uvec2));
+            requireWritable("entries", totals.entries * sizeof(std::uint32_t));
+            const gpu::Buffer& cells =
+                makeRoom(context, out.lists.cells, "light cells", totals.cells, graph::Format::Rg32Uint);
+            const gpu::Buffer& entries =
+                makeRoom(context, out.lists.entries, "light entries", totals.entries, graph::Format::R32Uint);
+            if (zbin) return;
+            cells.uploadValue(glm::uvec2(0u)); // the empty cell
+            entries.upload(lightsEverywhere(view));
+        });
+}
+
+void Builder::size(const glm::uvec4& round) {
+    handles = graph.addPass<Handles>(
+        "light_sizes",
+        [&](graph::PassBuilder& pass, Handles& out) {
+            pass.program(steps.sizes.program());
+            out = handles;
+            out.readConstants(pass);
+            out.readLights(pass);
+            out.tileDepths = pass.read(handles.tileDepths);
+            out.tileCounts = pass.read(handles.tileCounts);
+            out.lists.tiles = pass.read(handles.lists.tiles);
+            out.lists.entries = pass.read(handles.lists.entries);
+            out.lists.cells = pass.write(handles.lists.cells, Access::StorageWrite);
+        },
+        [step = steps.sizes, items = tileItems(), round](const Handles& out, const graph::PassContext& context) {
+            out.bindConstants(context);
+            out.bindLights(context);
+            out.bindLists(context);
+            gpu::bindStorageBuffer(STORAGE_TILE_DEPTHS, context.buffer(out.tileDepths));
+            gpu::bindStorageBuffer(STORAGE_TILE_COUNTS, context.buffer(out.tileCounts));
+            context.constants(UNIFORM_LIST_ROUND, round);
+            step.run(context, items);
+        });
+}
+
+void Builder::fill(const glm::uvec4& round) {
     handles = graph.addPass<Handles>(
         "light_lists",
         [&](graph::PassBuilder& pass, Handles& out) {
+            pass.program(steps.fill.program());
             out = handles;
-            out.lists.reach = pass.read(*handles.lists.reach, Access::TexelRead);
-            out.totals = pass.read(handles.totals, Access::Download);
-            if (isZbin()) {
-                pass.read(handles.totals);
-            } else {
-                out.tileDepths = pass.read(handles.tileDepths);
-                out.tileCounts = pass.read(handles.tileCounts);
-            }
+            out.readConstants(pass);
+            out.readLights(pass);
+            out.tileDepths = pass.read(handles.tileDepths);
+            out.tileCounts = pass.read(handles.tileCounts);
             out.lists.tiles = pass.write(handles.lists.tiles, Access::StorageWrite);
             out.lists.cells = pass.write(handles.lists.cells, Access::StorageWrite);
             out.lists.entries = pass.write(handles.lists.entries, Access::StorageWrite);
         },
-        [all = steps, used = resources, frame = spec](const Handles& out, const graph::PassContext& context) {
-            frame::LightListBuffers& lists = used->lightLists;
-            const glm::uvec4 scanned = context.buffer(out.totals).downloadAs<glm::uvec4>(1).front();
-            const Totals totals = totalsOf(frame, scanned, used->constants.lights, used->constants.tileGrid);
-            requireWritable("cells", totals.cells * sizeof(glm::uvec2));
-            requireWritable("entries", totals.entries * sizeof(std::uint32_t));
-            lists.requireLists(totals.cells, totals.entries);
-            bindLights(lists);
-            gpu::bindStorageBuffer(STORAGE_LIGHT_TILES, context.buffer(out.lists.tiles));
-            gpu::bindStorageBuffer(STORAGE_LIGHT_CELLS, context.buffer(out.lists.cells), 0,
-                                   std::max<std::size_t>(totals.cells, 1) * sizeof(glm::uvec2));
-            gpu::bindStorageBuffer(STORAGE_LIGHT_ENTRIES, context.buffer(out.lists.entries), 0,
-                                   std::max<std::size_t>(totals.entries, 1) * sizeof(std::uint32_t));
-            if (frame.culling.method == culling::Method::Zbin) {
-                gpu::bindStorageBuffer(STORAGE_LIST_TOTALS, context.buffer(out.totals));
-                all.binMasks.run(*used, {std::uint32_t(totals.cells), 1});
-                all.tileMasks.run(*used, glm::uvec2(used->constants.tileGrid));
-                return;
-            }
-            uploadFirsts(*used);
+        [step = steps.fill, items = tileItems(), round](const Handles& out, const graph::PassContext& context) {
+            out.bindConstants(context);
+            out.bindLights(context);
+            out.bindLists(context);
             gpu::bindStorageBuffer(STORAGE_TILE_DEPTHS, context.buffer(out.tileDepths));
             gpu::bindStorageBuffer(STORAGE_TILE_COUNTS, context.buffer(out.tileCounts));
-            if (ListStep::inRounds(frame)) {
-                all.sizes.runRounds(frame, *used, tileItems(frame, *used));
-                gpu::memoryBarrier(graph::Barrier::ShaderStorage);
-            }
-            all.fill.runRounds(frame, *used, tileItems(frame, *used));
+            context.constants(UNIFORM_LIST_ROUND, round);
+            step.run(context, items);
+        });
+}
+
+void Builder::fillMasks() {
+    handles = graph.addPass<Handles>(
+        "light_lists",
+        [&](graph::PassBuilder& pass, Handles& out) {
+            pass.program(steps.binMasks.program());
+            pass.program(steps.tileMasks.program());
+            out = handles;
+            out.readConstants(pass);
+            out.readLights(pass);
+            out.totals = pass.read(handles.totals);
+            out.lists.tiles = pass.write(handles.lists.tiles, Access::StorageWrite);
+            out.lists.cells = pass.write(handles.lists.cells, Access::StorageWrite);
+            out.lists.entries = pass.write(handles.lists.entries, Access::StorageWrite);
+        },
+        // The layers share the masks of a tile.
+        [bins = steps.binMasks, ofTiles = steps.tileMasks, used = drawn](const Handles& out,
+                                                                         const graph::PassContext& context) {
+            out.bindConstants(context);
+            out.bindLights(context);
+            out.bindLists(context);
+            gpu::bindStorageBuffer(STORAGE_LIST_TOTALS, context.buffer(out.totals));
+            bins.run(context, {std::uint32_t(context.bytes(out.lists.cells) / sizeof(glm::uvec2)), 1}, 0);
+            ofTiles.run(context, glm::uvec2(used->prepared.lighting.tileGrid), 1);
         });
 }
 
 } // namespace
 
-std::vector<shader::ProgramDesc> GpuLightListsPass::programs(const frame::FrameSpec& spec) {
-    const Steps steps(spec);
-    std::vector<shader::ProgramDesc> programs{steps.reach.program(), steps.depths.program()};
-    if (spec.culling.builder == culling::Builder::Compute) programs.push_back(steps.scan.program());
-    if (spec.culling.method == culling::Method::Zbin) {
-        programs.push_back(steps.binMasks.program());
-        programs.push_back(steps.tileMasks.program());
-        return programs;
-    }
-    programs.push_back(steps.count.program());
-    if (ListStep::inRounds(spec)) programs.push_back(steps.sizes.program());
-    programs.push_back(steps.fill.program());
-    return programs;
-}
-
 GpuLightListsPass::Outputs GpuLightListsPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
-                                                  const Inputs& inputs, const frame::FrameResources* resources) {
-    Builder builder{graph, spec, resources, Steps(spec), {}};
+                                                  const Inputs& inputs, const frame::DrawnView* drawn) {
+    Builder builder{graph, spec, drawn, Steps(spec), {}};
     builder.handles.read = inputs;
-    builder.handles.lists =
-        frame::importLightLists(graph, frame::lightTileCount(spec), resources ? &resources->lightLists : nullptr);
     builder.findReach();
     builder.findDepths();
-    if (spec.culling.method != culling::Method::Zbin) builder.count();
+    const std::vector<glm::uvec4> rounds = ListStep::rounds(spec);
+    if (!builder.isZbin())
+        for (const glm::uvec4& round : rounds) builder.count(round);
     builder.scan();
-    builder.fill();
+    builder.makeListRoom();
+    if (builder.isZbin()) {
+        builder.fillMasks();
+        return {builder.handles.lists};
+    }
+    if (rounds.size() > 1)
+        for (const glm::uvec4& round : rounds) builder.size(round);
+    for (const glm::uvec4& round : rounds) builder.fill(round);
     return {builder.handles.lists};
 }
 

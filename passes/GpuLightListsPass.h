@@ -1,15 +1,12 @@
 #pragma once
-#include <vector>
-
-#include "renderer/frame/FrameResources.h"
-#include "renderer/frame/FrameSpec.h"
-#include "renderer/graph/Graph.h"
+#include "renderer/frame/FrameHandles.h"
 
 namespace tessera::passes {
 
 /// Builds on the GPU, by compute or by fragment shaders, what LightListsPass builds on the CPU, entry for entry. The
 /// lists are counted, then allocated, then filled, so they never overflow: only their size travels to the CPU. Several
-/// passes of the graph: light_reach, light_depths, light_count (not for zbin), light_scan, light_lists.
+/// passes of the graph: light_reach, light_depths, light_count (not for zbin), light_scan, light_room, light_lists; of
+/// many lights light_count, light_sizes and light_lists once for each round over them.
 /// Reads   the depths at which opaque and transparent surfaces are lit (frame::LitDepths)
 /// Writes  light tiles, cells and entries (shaders/shared/light_lists.h)
 /// Space   view space
@@ -17,13 +14,14 @@ namespace tessera::passes {
 struct GpuLightListsPass {
     struct Inputs {
         frame::LitDepths depths;
+        frame::ViewHandles view;
+        graph::BufferHandle lighting; ///< shared::LightingConstants
     };
     struct Outputs {
         frame::LightListHandles lists;
     };
-    static std::vector<shader::ProgramDesc> programs(const frame::FrameSpec& spec);
     static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
-                       const frame::FrameResources* resources);
+                       const frame::DrawnView* drawn);
 };
 
 } // namespace tessera::passes

@@ -1,7 +1,6 @@
 #include "passes/IdsPass.h"
 
 #include "renderer/gpu/Commands.h"
-#include "shaders/shared/slots.h"
 
 namespace tessera::passes {
 
@@ -11,32 +10,32 @@ shader::ProgramDesc IdsPass::program(const frame::FrameSpec& spec, Surfaces surf
                                {{"DEPTH_ONLY", "1"}, {"DRAW_IDS", "1"}, {"BLENDED", blended ? "1" : "0"}});
 }
 
-IdsPass::Outputs IdsPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
-                              const frame::FrameResources* resources) {
+IdsPass::Outputs IdsPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs) {
+    const bool blends = spec.features[frame::Feature::Blend];
     return graph.addPass<Outputs>(
         "ids",
         [&](graph::PassBuilder& pass, Outputs& out) {
+            pass.program(program(spec, Surfaces::Opaque));
+            out.read.surfaces = inputs.surfaces.read(pass);
+            if (blends) pass.program(program(spec, Surfaces::Transparent));
             out.ids = pass.create("ids", spec.renderTarget(graph::Format::Rgba32Float));
             out.depth =
                 pass.create("depth", spec.renderTarget(graph::Format::Depth32Float), graph::Access::DepthAttachment);
         },
-        [resources, opaque = program(spec, Surfaces::Opaque), transparent = program(spec, Surfaces::Transparent),
-         blends = spec.features[frame::Feature::Blend]](const Outputs& out, const graph::PassContext& context) {
-            gpu::bindFramebuffer(
-                resources->framebuffers.get({{&context.texture(out.ids)}, &context.texture(out.depth)}));
+        [blends](const Outputs& out, const graph::PassContext& context) {
+            context.bindTargets();
             gpu::clearColor(0, glm::vec4(0.0f));
             gpu::clearDepth(0.0f);
-            gpu::useProgram(resources->programs.get(opaque));
-            gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
+            gpu::useProgram(context.program(0));
             gpu::PipelineState state;
             state.depthTest = gpu::DepthTest::GreaterEqual;
             state.depthWrite = true;
-            resources->scene.draw(resources->scene.opaque(), state);
+            out.read.surfaces.draw(context, Surfaces::Opaque, state);
             if (!blends) return;
-            gpu::useProgram(resources->programs.get(transparent));
+            gpu::useProgram(context.program(1));
             state.depthWrite = false;
             state.blend = gpu::Blend::AdditiveCovering;
-            resources->scene.draw(resources->scene.transparent(), state);
+            out.read.surfaces.draw(context, Surfaces::Transparent, state);
         });
 }
 

@@ -1,7 +1,5 @@
 #pragma once
-#include "renderer/frame/FrameResources.h"
-#include "renderer/frame/FrameSpec.h"
-#include "renderer/graph/Graph.h"
+#include "renderer/frame/FrameHandles.h"
 
 namespace tessera::passes {
 
@@ -12,13 +10,17 @@ namespace tessera::passes {
 ///         D32F of opaque surfaces. Both are of FrameSpec::samples
 /// Space   lighting space, through the vertex function that every pass shares
 struct IdsPass {
-    enum class Surfaces { Opaque, Transparent };
+    using Surfaces = frame::SurfaceHandles::Kind;
+    struct Inputs {
+        frame::SurfaceHandles surfaces;
+    };
     struct Outputs {
+        Inputs read;
         graph::TextureHandle ids;
         graph::TextureHandle depth;
     };
     static shader::ProgramDesc program(const frame::FrameSpec& spec, Surfaces surfaces);
-    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const frame::FrameResources* resources);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs);
 };
 
 } // namespace tessera::passes

@@ -2,6 +2,7 @@
 
 #include <new>
 
+#include "passes/TexelRoom.h"
 #include "renderer/gpu/Texture.h"
 #include "scenes/Error.h"
 
@@ -17,17 +18,26 @@ culling::DepthPicture download(const gpu::Texture& texture, std::vector<float>& 
     return {memory, isRange};
 }
 
-void build(const frame::FrameSpec& spec, const frame::FrameResources& resources, const LightListsPass::Inputs& read,
+template <typename Value>
+void upload(const graph::PassContext& context, graph::BufferHandle handle, const char* what, graph::Format format,
+            const std::vector<Value>& values) {
+    makeRoom(context, handle, what, values.size(), format).upload(values);
+}
+
+void build(const frame::FrameSpec& spec, const frame::DrawnView& drawn, const LightListsPass::Outputs& out,
            const graph::PassContext& context) {
-    frame::LightListBuffers& lists = resources.lightLists;
-    const culling::DepthPicture opaque = download(context.texture(read.depths.opaque), lists.depth);
+    frame::LightListMemory& memory = *drawn.listMemory;
+    const culling::DepthPicture opaque = download(context.texture(out.read.depths.opaque), memory.depth);
     culling::DepthPicture transparent;
-    if (read.depths.transparent)
-        transparent = download(context.texture(*read.depths.transparent), lists.transparentDepth);
+    const bool hasTransparent = out.read.depths.transparent.has_value();
+    if (hasTransparent) transparent = download(context.texture(*out.read.depths.transparent), memory.transparentDepth);
     try {
-        lists.upload(
-            lists.builder.build({resources.constants, spec.settings.sizePixels, resources.cullLights,
-                                 spec.culling.method, opaque, read.depths.transparent ? &transparent : nullptr}));
+        const culling::LightLists& lists =
+            memory.builder.build({drawn.prepared.constants(), drawn.prepared.cullLights, spec.culling.method, opaque,
+                                  hasTransparent ? &transparent : nullptr});
+        upload(context, out.lists.tiles, "light tiles", graph::Format::Rgba32Uint, lists.tiles);
+        upload(context, out.lists.cells, "light cells", graph::Format::Rg32Uint, lists.cells);
+        upload(context, out.lists.entries, "light entries", graph::Format::R32Uint, lists.entries);
     } catch (const std::bad_alloc&) {
         throw InputError(
             "light lists do not fit into this machine's memory: larger tiles (--tile 64), another --culling "
@@ -38,20 +48,16 @@ void build(const frame::FrameSpec& spec, const frame::FrameResources& resources,
 } // namespace
 
 LightListsPass::Outputs LightListsPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
-                                            const frame::FrameResources* resources) {
-    const frame::LightListHandles buffers =
-        frame::importLightLists(graph, frame::lightTileCount(spec), resources ? &resources->lightLists : nullptr);
+                                            const frame::DrawnView* drawn) {
     return graph.addPass<Outputs>(
         "light_lists",
         [&](graph::PassBuilder& pass, Outputs& out) {
-            out.read.depths = frame::readLitDepths(pass, spec, inputs.depths, graph::Access::Download);
-            out.lists.tiles = pass.write(buffers.tiles, graph::Access::Upload);
-            out.lists.cells = pass.write(buffers.cells, graph::Access::Upload);
-            out.lists.entries = pass.write(buffers.entries, graph::Access::Upload);
+            out.read.depths = inputs.depths.read(pass, spec, graph::Access::Download);
+            out.lists.tiles = pass.create("light_tiles", kGrowing, graph::Access::Upload);
+            out.lists.cells = pass.create(frame::kLightCellsName, kGrowing, graph::Access::Upload);
+            out.lists.entries = pass.create(frame::kLightEntriesName, kGrowing, graph::Access::Upload);
         },
-        [resources, spec](const Outputs& out, const graph::PassContext& context) {
-            build(spec, *resources, out.read, context);
-        });
+        [drawn, spec](const Outputs& out, const graph::PassContext& context) { build(spec, *drawn, out, context); });
 }
 
 } // namespace tessera::passes

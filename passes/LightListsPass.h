@@ -1,8 +1,5 @@
 #pragma once
-
-#include "renderer/frame/FrameResources.h"
-#include "renderer/frame/FrameSpec.h"
-#include "renderer/graph/Graph.h"
+#include "renderer/frame/FrameHandles.h"
 
 namespace tessera::passes {
 
@@ -21,7 +18,7 @@ struct LightListsPass {
         frame::LightListHandles lists;
     };
     static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
-                       const frame::FrameResources* resources);
+                       const frame::DrawnView* drawn);
 };
 
 } // namespace tessera::passes

@@ -1,9 +1,5 @@
 #pragma once
-#include <vector>
-
-#include "renderer/frame/FrameResources.h"
-#include "renderer/frame/FrameSpec.h"
-#include "renderer/graph/Graph.h"
+#include "renderer/frame/FrameHandles.h"
 
 namespace tessera::passes {
 
@@ -15,20 +11,19 @@ namespace tessera::passes {
 /// Source  Hargreaves and Harris 2004, "Deferred Shading"
 struct LightVolumesPass {
     struct Inputs {
-        std::vector<graph::TextureHandle> textures; ///< by attachment, as FrameSpec::gbufferTextures()
-        graph::TextureHandle depth;
+        frame::GBufferHandles gbuffer;
+        frame::LightingInputs lighting;
         graph::TextureHandle radiance; ///< emission and background
     };
     struct Outputs {
-        std::vector<graph::TextureHandle> textures; ///< as read
-        graph::TextureHandle depth;                 ///< as read
+        frame::GBufferHandles gbuffer;  ///< as read
+        frame::LightingInputs lighting; ///< as read
         graph::TextureHandle radiance;
     };
     /// Whether the frame's view sums over lights, and there are lights and surfaces that take light.
     static bool isNeeded(const frame::FrameSpec& spec);
     static shader::ProgramDesc program(const frame::FrameSpec& spec);
-    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
-                       const frame::FrameResources* resources);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs);
 };
 
 } // namespace tessera::passes

@@ -28,6 +28,12 @@ constexpr std::size_t kSoftwareLightsALane =
 constexpr std::size_t kIterationsAWord = 2 + 32 / MASK_LIGHTS_AN_ITERATION;
 static_assert(scenes::kMostLights / 32 * kIterationsAWord <= frame::kMostLoopIterations - frame::kOtherLoopIterations);
 
+std::size_t lightsARound(const frame::FrameSpec& spec) {
+    if (!spec.settings.softwareBackend) return std::max<std::size_t>(spec.lights, 1);
+    const bool compute = spec.culling.builder == culling::Builder::Compute;
+    return kSoftwareLightsALane * std::size_t(compute ? spec.culling.lanes : 1);
+}
+
 const char* methodDefine(culling::Method method) {
     switch (method) {
     case culling::Method::TileMinmax:
@@ -60,7 +66,7 @@ ListStep::ListStep(const frame::FrameSpec& spec, std::string name, Lanes lanes) 
         program_.fragment = path + ".frag";
     }
     program_.defines = {{"LIST_METHOD", methodDefine(spec.culling.method)},
-                        {"LIST_IN_ROUNDS", inRounds(spec) ? "1" : "0"},
+                        {"LIST_IN_ROUNDS", spec.lights > lightsARound(spec) ? "1" : "0"},
                         {"LIST_THREADS", std::to_string(itemLanes)},
                         {"LIST_LIGHTS_A_ROW", std::to_string(kLightsARow)},
                         {"SAMPLES", std::to_string(spec.samples)},
@@ -68,34 +74,25 @@ ListStep::ListStep(const frame::FrameSpec& spec, std::string name, Lanes lanes) 
     if (compute) program_.defines.emplace_back("LIST_GROUP", std::to_string(group));
 }
 
-std::size_t ListStep::lightsARound(const frame::FrameSpec& spec) {
-    if (!spec.settings.softwareBackend) return spec.lights;
-    const bool compute = spec.culling.builder == culling::Builder::Compute;
-    return kSoftwareLightsALane * std::size_t(compute ? spec.culling.lanes : 1);
-}
-
-void ListStep::runRounds(const frame::FrameSpec& spec, const frame::FrameResources& resources, glm::uvec2 items) const {
-    const gpu::Buffer& round = resources.lightLists.round;
-    const auto lights = std::uint32_t(spec.lights);
-    std::uint32_t first = 0;
+std::vector<glm::uvec4> ListStep::rounds(const frame::FrameSpec& spec) {
+    const std::size_t most = lightsARound(spec);
+    std::vector<glm::uvec4> rounds;
+    std::size_t first = 0;
     do {
-        const auto end = std::uint32_t(std::min(first + lightsARound(spec), spec.lights));
-        round.uploadValue(glm::uvec4(first, end, 0u, 0u));
-        gpu::bindUniformBuffer(UNIFORM_LIST_ROUND, round);
-        if (first > 0) gpu::memoryBarrier(graph::Barrier::ShaderStorage); // the round before is the same pass's
-        run(resources, items);
+        const std::size_t end = std::min(first + most, spec.lights);
+        rounds.emplace_back(first, end, 0u, 0u);
         first = end;
-    } while (first < lights);
+    } while (first < spec.lights);
+    return rounds;
 }
 
-void ListStep::run(const frame::FrameResources& resources, glm::uvec2 items) const {
-    gpu::useProgram(resources.programs.get(program_));
-    gpu::bindUniformBuffer(UNIFORM_FRAME, resources.frameConstants);
+void ListStep::run(const graph::PassContext& context, glm::uvec2 items, std::size_t program) const {
+    gpu::useProgram(context.program(program));
     if (itemsAGroup_ > 0) {
         gpu::dispatch((items.x + itemsAGroup_ - 1) / itemsAGroup_, items.y);
         return;
     }
-    gpu::bindFramebuffer(resources.framebuffers.get({{}, nullptr, int(items.x), int(items.y)}));
+    context.bindNoTargets(int(items.x), int(items.y));
     gpu::setState({});
     gpu::drawFullscreenTriangle();
 }

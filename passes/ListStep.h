@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
+#include <vector>
 
-#include "renderer/frame/FrameResources.h"
-#include "renderer/frame/FrameSpec.h"
+#include "renderer/frame/FrameHandles.h"
 
 namespace tessera::passes {
 
@@ -19,14 +19,13 @@ public:
 
     const shader::ProgramDesc& program() const { return program_; }
 
-    /// Whether lists of the frame take several rounds over its lights, and how many lights one of them takes.
-    static bool inRounds(const frame::FrameSpec& spec) { return spec.lights > lightsARound(spec); }
-    static std::size_t lightsARound(const frame::FrameSpec& spec);
+    /// Lists of many lights take several rounds over them, each a pass of its own: x the first light of a round, y one
+    /// beyond its last, as the uniform block ListRound holds them. At least one round, though there be no lights.
+    static std::vector<glm::uvec4> rounds(const frame::FrameSpec& spec);
 
-    /// Runs the step for items (0, 0) .. (columns - 1, rows - 1). What it reads and writes must be bound.
-    void run(const frame::FrameResources& resources, glm::uvec2 items) const;
-    /// The same in rounds over the frame's lights.
-    void runRounds(const frame::FrameSpec& spec, const frame::FrameResources& resources, glm::uvec2 items) const;
+    /// Runs the pass's program of a number, which is this step's, for items (0, 0) .. (columns - 1, rows - 1). What it
+    /// reads and writes must be bound.
+    void run(const graph::PassContext& context, glm::uvec2 items, std::size_t program = 0) const;
 
 private:
     shader::ProgramDesc program_;

@@ -1,9 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "renderer/frame/FrameResources.h"
-#include "renderer/frame/FrameSpec.h"
-#include "renderer/graph/Graph.h"
+#include "renderer/frame/FrameHandles.h"
 
 namespace tessera::passes {
 
@@ -14,17 +12,18 @@ namespace tessera::passes {
 ///         where there is any. Depth D32F of opaque surfaces, where no prepass made it. Both are of FrameSpec::samples
 /// Space   lighting space, through the vertex function that every pass shares
 struct OverdrawPass {
-    enum class Surfaces { Opaque, Transparent };
+    using Surfaces = frame::SurfaceHandles::Kind;
     struct Inputs {
+        frame::SurfaceHandles surfaces;
         std::optional<graph::TextureHandle> depth; ///< of a prepass
     };
     struct Outputs {
+        frame::SurfaceHandles surfaces; ///< as read
         graph::TextureHandle overdraw;
         graph::TextureHandle depth;
     };
     static shader::ProgramDesc program(const frame::FrameSpec& spec, Surfaces surfaces);
-    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
-                       const frame::FrameResources* resources);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs);
 };
 
 } // namespace tessera::passes

@@ -38,19 +38,20 @@ shader::ProgramDesc ResolvePass::program(const frame::FrameSpec& spec, const Par
 }
 
 ResolvePass::Outputs ResolvePass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params,
-                                      const Inputs& inputs, const frame::FrameResources* resources) {
+                                      const Inputs& inputs) {
     const KindInfo& info = infoOf(params);
     return graph.addPass<Outputs>(
         info.pass,
         [&](graph::PassBuilder& pass, Outputs& out) {
+            pass.program(program(spec, params));
             pass.expect(inputs.samples, spec.renderTarget(info.format));
             out.read.samples = pass.read(inputs.samples);
             out.resolved = pass.create(info.resolved, spec.texture(info.format));
         },
-        [resources, program = program(spec, params)](const Outputs& out, const graph::PassContext& context) {
-            gpu::bindFramebuffer(resources->framebuffers.get({{&context.texture(out.resolved)}, nullptr}));
+        [](const Outputs& out, const graph::PassContext& context) {
+            context.bindTargets();
             gpu::setState({});
-            gpu::useProgram(resources->programs.get(program));
+            gpu::useProgram(context.program());
             gpu::bindTexture(TEXTURE_UNIT_SAMPLES, context.texture(out.read.samples));
             gpu::drawFullscreenTriangle();
         });

@@ -1,5 +1,4 @@
 #pragma once
-#include "renderer/frame/FrameResources.h"
 #include "renderer/frame/FrameSpec.h"
 #include "renderer/graph/Graph.h"
 
@@ -24,8 +23,7 @@ struct ResolvePass {
         graph::TextureHandle resolved;
     };
     static shader::ProgramDesc program(const frame::FrameSpec& spec, const Params& params);
-    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params, const Inputs& inputs,
-                       const frame::FrameResources* resources);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params, const Inputs& inputs);
 };
 
 } // namespace tessera::passes

@@ -1,15 +1,15 @@
 #pragma once
+#include "renderer/culling/TileGrid.h"
 #include "renderer/gpu/Buffer.h"
-#include "shaders/shared/frame.h"
 
 /// What shaders/lib/list_scan.glsl does, on the CPU: for fragment shaders, of which one alone would have to go over all
 /// tiles. Both return the totals as that shader writes them.
 namespace tessera::passes {
 
 /// Turns cells and entries of each tile (uvec2) into the index of its first of each.
-glm::uvec4 scanCounts(const gpu::Buffer& tileCounts, std::size_t tiles, const shared::FrameConstants& frame);
+glm::uvec4 scanCounts(const gpu::Buffer& tileCounts, std::size_t tiles, const culling::FrameConstants& frame);
 
 /// The bins of depth between the nearest and farthest surface of all tiles (vec2 each).
-glm::uvec4 scanDepths(const gpu::Buffer& tileDepths, std::size_t tiles, const shared::FrameConstants& frame);
+glm::uvec4 scanDepths(const gpu::Buffer& tileDepths, std::size_t tiles, const culling::FrameConstants& frame);
 
 } // namespace tessera::passes

@@ -3,7 +3,6 @@
 #include <string>
 
 #include "renderer/gpu/Commands.h"
-#include "shaders/shared/slots.h"
 
 namespace tessera::passes {
 
@@ -19,28 +18,20 @@ shader::ProgramDesc StoredChannelPass::program(const frame::FrameSpec& spec, con
 }
 
 StoredChannelPass::Outputs StoredChannelPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
-                                                  const Params& params, const Inputs& inputs,
-                                                  const frame::FrameResources* resources) {
+                                                  const Params& params, const Inputs& inputs) {
     return graph.addPass<Outputs>(
         "stored_channel",
         [&](graph::PassBuilder& pass, Outputs& out) {
-            const auto textures = frame::gbufferTextures(spec.settings.layout, spec.channels);
-            for (std::size_t i = 0; i < inputs.textures.size(); ++i) {
-                pass.expect(inputs.textures[i], spec.texture(textures[i].format));
-                out.read.textures.push_back(pass.read(inputs.textures[i]));
-            }
-            pass.expect(inputs.depth, spec.texture(graph::Format::Depth32Float));
-            out.read.depth = pass.read(inputs.depth);
+            pass.program(program(spec, params));
+            out.read.gbuffer = inputs.gbuffer.read(pass, spec);
             out.radiance = pass.create("radiance", spec.texture(graph::Format::Rgba32Float));
         },
-        [resources, program = program(spec, params)](const Outputs& out, const graph::PassContext& context) {
-            gpu::bindFramebuffer(resources->framebuffers.get({{&context.texture(out.radiance)}, nullptr}));
+        [](const Outputs& out, const graph::PassContext& context) {
+            context.bindTargets();
             gpu::clearColor(0, glm::vec4(0.0f));
             gpu::setState({});
-            gpu::useProgram(resources->programs.get(program));
-            for (std::size_t i = 0; i < out.read.textures.size(); ++i)
-                gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), context.texture(out.read.textures[i]));
-            gpu::bindTexture(TEXTURE_UNIT_DEPTH, context.texture(out.read.depth));
+            gpu::useProgram(context.program());
+            out.read.gbuffer.bind(context);
             gpu::drawFullscreenTriangle();
         });
 }

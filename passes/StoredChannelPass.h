@@ -1,9 +1,5 @@
 #pragma once
-#include <vector>
-
-#include "renderer/frame/FrameResources.h"
-#include "renderer/frame/FrameSpec.h"
-#include "renderer/graph/Graph.h"
+#include "renderer/frame/FrameHandles.h"
 
 namespace tessera::passes {
 
@@ -16,16 +12,14 @@ struct StoredChannelPass {
         frame::StoredComponents shown;
     };
     struct Inputs {
-        std::vector<graph::TextureHandle> textures;
-        graph::TextureHandle depth;
+        frame::GBufferHandles gbuffer;
     };
     struct Outputs {
         Inputs read;
         graph::TextureHandle radiance;
     };
     static shader::ProgramDesc program(const frame::FrameSpec& spec, const Params& params);
-    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params, const Inputs& inputs,
-                       const frame::FrameResources* resources);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params, const Inputs& inputs);
 };
 
 } // namespace tessera::passes

@@ -1,7 +1,6 @@
 #include "passes/TransparentDepthPass.h"
 
 #include "renderer/gpu/Commands.h"
-#include "shaders/shared/slots.h"
 
 namespace tessera::passes {
 
@@ -11,24 +10,24 @@ shader::ProgramDesc TransparentDepthPass::program(const frame::FrameSpec& spec) 
 }
 
 TransparentDepthPass::Outputs TransparentDepthPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
-                                                        const Inputs& inputs, const frame::FrameResources* resources) {
+                                                        const Inputs& inputs) {
     return graph.addPass<Outputs>(
         "transparent_depth",
         [&](graph::PassBuilder& pass, Outputs& out) {
+            pass.program(program(spec));
+            out.read.surfaces = inputs.surfaces.read(pass);
             pass.expect(inputs.depth, spec.renderTarget(graph::Format::Depth32Float));
             out.read.depth = pass.read(inputs.depth, graph::Access::DepthTest);
             out.transparentDepth = pass.create("transparent_depth", spec.renderTarget(graph::Format::Rg32Float));
         },
-        [resources, program = program(spec)](const Outputs& out, const graph::PassContext& context) {
-            gpu::bindFramebuffer(resources->framebuffers.get(
-                {{&context.texture(out.transparentDepth)}, &context.texture(out.read.depth)}));
+        [](const Outputs& out, const graph::PassContext& context) {
+            context.bindTargets();
             gpu::clearColor(0, glm::vec4(0.0f, -2.0f, 0.0f, 0.0f));
-            gpu::useProgram(resources->programs.get(program));
-            gpu::bindUniformBuffer(UNIFORM_FRAME, resources->frameConstants);
+            gpu::useProgram(context.program());
             gpu::PipelineState state;
             state.depthTest = gpu::DepthTest::GreaterEqual;
             state.blend = gpu::Blend::Max;
-            resources->scene.draw(resources->scene.transparent(), state);
+            out.read.surfaces.draw(context, frame::SurfaceHandles::Kind::Transparent, state);
         });
 }
 

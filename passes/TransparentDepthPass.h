@@ -1,7 +1,5 @@
 #pragma once
-#include "renderer/frame/FrameResources.h"
-#include "renderer/frame/FrameSpec.h"
-#include "renderer/graph/Graph.h"
+#include "renderer/frame/FrameHandles.h"
 
 namespace tessera::passes {
 
@@ -12,6 +10,7 @@ namespace tessera::passes {
 /// Space   lighting space, through the vertex function that every pass shares
 struct TransparentDepthPass {
     struct Inputs {
+        frame::SurfaceHandles surfaces;
         graph::TextureHandle depth;
     };
     struct Outputs {
@@ -19,8 +18,7 @@ struct TransparentDepthPass {
         graph::TextureHandle transparentDepth;
     };
     static shader::ProgramDesc program(const frame::FrameSpec& spec);
-    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs,
-                       const frame::FrameResources* resources);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs);
 };
 
 } // namespace tessera::passes

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "passes/recipes/PreparedFrame.h"
+#include "passes/recipes/PrepareView.h"
 #include "validation/FloorLights.h"
 #include "validation/TimeSamples.h"
 
@@ -28,7 +28,7 @@ FloorBench::FloorBench(recipes::Renderer& renderer, const frame::FrameSettings& 
     frame::FrameSettings lit = settings;
     lit.culling = {};
     lit.view = frame::View::Final;
-    const recipes::PreparedFrame frame = recipes::prepareFrame(renderer.scene(), recipes::Technique::Forward, lit);
+    const frame::PreparedView frame = recipes::prepareView(renderer.scene(), recipes::Technique::Forward, lit);
     if (!frame.spec.features.litModels() || frame.lights.texels.empty()) return;
     lighting_.emplace(renderer.programs(), frame.spec);
     few_ = floorLights(frame.lights, kFewLights);

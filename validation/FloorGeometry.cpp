@@ -1,6 +1,6 @@
 #include "validation/FloorGeometry.h"
 
-#include "passes/recipes/PreparedFrame.h"
+#include "passes/recipes/PrepareView.h"
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/slots.h"
 
@@ -10,7 +10,15 @@ namespace {
 
 frame::FrameSpec specOf(const recipes::Renderer& renderer, frame::FrameSettings settings) {
     settings.culling = {}; // nothing is lit, and Forward takes no lists
-    return recipes::prepareFrame(renderer.scene(), recipes::Technique::Forward, settings).spec;
+    return recipes::prepareView(renderer.scene(), recipes::Technique::Forward, settings).spec;
+}
+
+/// Uploads values into a buffer that is made anew only where they do not fit.
+template <typename Value>
+void fill(std::optional<gpu::Buffer>& buffer, const char* label, const std::vector<Value>& values) {
+    const std::size_t bytes = values.size() * sizeof(Value);
+    if (!buffer || buffer->bytes() < bytes) buffer.emplace(label, bytes, gpu::BufferUse::Dynamic);
+    buffer->upload(values);
 }
 
 } // namespace
@@ -21,7 +29,7 @@ shader::ProgramDesc FloorGeometry::program(const frame::FrameSpec& spec) {
 
 FloorGeometry::FloorGeometry(recipes::Renderer& renderer, const frame::FrameSettings& settings)
     : renderer_(renderer), spec_(specOf(renderer, settings)),
-      frameConstants_("floor frame constants", sizeof(shared::FrameConstants), gpu::BufferUse::Dynamic),
+      constants_("floor view", sizeof(shared::ViewConstants), gpu::BufferUse::Dynamic),
       value_("floor value", spec_.texture(graph::Format::Rgba32Float)),
       depth_("floor depth", spec_.texture(graph::Format::Depth32Float)), framebuffer_({{&value_}, &depth_}) {}
 
@@ -31,21 +39,23 @@ void FloorGeometry::draw(const glm::dvec3& eyeOffsetWS) {
     const frame::CameraView view =
         frame::makeCameraView(recipes::frameCamera(renderer_.scene(), settings), settings.sizePixels, settings.space,
                               glm::vec3(0.0f), renderer_.bounds());
-    frame::SceneGpu& scene = renderer_.sceneGpu(spec_);
-    scene.setView(view);
-    frameConstants_.uploadValue(view.constants);
+    const frame::SceneGpu& scene = renderer_.sceneGpu(spec_);
+    const frame::ViewDraws draws = frame::makeViewDraws(scene.drawList(), view, spec_.settings.prune);
+    fill(rows_, "floor draw rows", draws.rows);
+    fill(commands_, "floor draw commands", scene.commandsOf(draws));
+    constants_.uploadValue(view.constants);
 
     gpu::bindFramebuffer(framebuffer_);
     gpu::clearColor(0, glm::vec4(0.0f));
     gpu::clearDepth(0.0f);
     gpu::useProgram(renderer_.programs().get(program(spec_)));
-    gpu::bindUniformBuffer(UNIFORM_FRAME, frameConstants_);
+    gpu::bindUniformBuffer(UNIFORM_VIEW, constants_);
     gpu::PipelineState state;
     state.depthTest = gpu::DepthTest::GreaterEqual;
     state.depthWrite = true;
-    scene.draw(scene.opaque(), state);
+    scene.draw({*rows_, *commands_}, draws.opaque, state);
     state.depthWrite = false;
-    scene.draw(scene.transparent(), state);
+    scene.draw({*rows_, *commands_}, draws.transparent, state);
 }
 
 } // namespace tessera::validation

@@ -23,7 +23,8 @@ public:
 private:
     recipes::Renderer& renderer_;
     frame::FrameSpec spec_;
-    gpu::Buffer frameConstants_;
+    gpu::Buffer constants_;
+    std::optional<gpu::Buffer> rows_, commands_; ///< of the latest frame's draws
     gpu::Texture value_;
     gpu::Texture depth_;
     gpu::Framebuffer framebuffer_;

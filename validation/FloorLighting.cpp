@@ -33,25 +33,30 @@ shader::ProgramDesc FloorLighting::program(const frame::FrameSpec& spec, const L
 }
 
 FloorLighting::FloorLighting(shader::ProgramLibrary& programs, const frame::FrameSpec& spec)
-    : programs_(programs), spec_(spec), constants_(frame::makeCameraView(scenes::Camera{}, spec.settings.sizePixels,
-                                                                         frame::LightingSpace::World, glm::vec3(0.0f))
-                                                       .constants),
-      frameConstants_("floor frame constants", sizeof(shared::FrameConstants), gpu::BufferUse::Dynamic),
+    : programs_(programs), spec_(spec), view_("floor view", sizeof(shared::ViewConstants)),
+      constants_("floor lighting", sizeof(shared::LightingConstants), gpu::BufferUse::Dynamic),
       lights_("floor lights", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightTexels), gpu::BufferUse::Dynamic),
       shapes_("floor light shapes", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightShapeTexels), gpu::BufferUse::Dynamic),
-      lightTexels_("floor lights", graph::Format::Rgba32Float, lights_),
-      shapeTexels_("floor light shapes", graph::Format::Rgba32Float, shapes_),
       radiance_("floor radiance", spec.texture(graph::Format::Rgba32Float)), framebuffer_({{&radiance_}, nullptr}) {
     assert(spec.features.litModels());
+    view_.uploadValue(
+        frame::makeCameraView(scenes::Camera{}, spec.settings.sizePixels, frame::LightingSpace::World, glm::vec3(0.0f))
+            .constants);
     setLights({});
 }
 
 void FloorLighting::setLights(const frame::PackedLights& lights) {
     assert(lights.texels.size() <= LIGHT_UNIFORM_LIGHTS && lights.shapes.size() == lights.texels.size());
-    constants_.lights = glm::uvec4(unsigned(lights.texels.size()), 0u, 0u, 0u);
-    frameConstants_.uploadValue(constants_);
+    shared::LightingConstants constants{};
+    constants.lights.x = unsigned(lights.texels.size());
+    constants_.uploadValue(constants);
     lights_.upload(lights.texels);
     shapes_.upload(lights.shapes);
+}
+
+void FloorLighting::bindConstants() const {
+    gpu::bindUniformBuffer(UNIFORM_VIEW, view_);
+    gpu::bindUniformBuffer(UNIFORM_LIGHTING, constants_);
 }
 
 void FloorLighting::bindLights(const LightStoreInfo& store) const {
@@ -65,8 +70,8 @@ void FloorLighting::bindLights(const LightStoreInfo& store) const {
         gpu::bindStorageBuffer(STORAGE_LIGHT_SHAPES, shapes_);
         break;
     default:
-        gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, lightTexels_);
-        gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHT_SHAPES, shapeTexels_);
+        gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, lights_.texels(graph::Format::Rgba32Float));
+        gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHT_SHAPES, shapes_.texels(graph::Format::Rgba32Float));
     }
 }
 
@@ -74,7 +79,7 @@ void FloorLighting::draw(const LightStoreInfo& store) const {
     gpu::bindFramebuffer(framebuffer_);
     gpu::setState({});
     gpu::useProgram(programs_.get(program(spec_, store)));
-    gpu::bindUniformBuffer(UNIFORM_FRAME, frameConstants_);
+    bindConstants();
     bindLights(store);
     gpu::drawFullscreenTriangle();
 }

@@ -6,7 +6,6 @@
 #include "passes/recipes/Renderer.h"
 #include "renderer/gpu/Capabilities.h"
 #include "renderer/gpu/Framebuffer.h"
-#include "renderer/gpu/TexelBuffer.h"
 #include "shaders/shared/light.h"
 
 namespace tessera::validation {
@@ -38,16 +37,14 @@ public:
     std::vector<float> download() const { return radiance_.downloadAs<float>(); }
 
     static shader::ProgramDesc program(const frame::FrameSpec& spec, const LightStoreInfo& store);
-    const gpu::Buffer& frameConstants() const { return frameConstants_; }
+    void bindConstants() const;
     void bindLights(const LightStoreInfo& store) const;
 
 private:
     shader::ProgramLibrary& programs_;
     frame::FrameSpec spec_;
-    shared::FrameConstants constants_;
-    gpu::Buffer frameConstants_;
+    gpu::Buffer view_, constants_;
     gpu::Buffer lights_, shapes_; ///< the same buffers for every store
-    gpu::TexelBuffer lightTexels_, shapeTexels_;
     gpu::Texture radiance_;
     gpu::Framebuffer framebuffer_;
 };

@@ -16,7 +16,7 @@ using recipes::Technique;
 Technique deferredTechnique(Method method) {
     for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
         const bool takes = std::ranges::find(technique.methods, method) != technique.methods.end();
-        if (technique.usesGBuffer && takes) return technique.technique;
+        if (technique.usesGBuffer() && takes) return technique.technique;
     }
     assert(method == Method::None);
     return Technique::Deferred;

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "passes/recipes/PreparedFrame.h"
+#include "passes/recipes/PrepareView.h"
 #include "scenes/Error.h"
 
 namespace tessera::validation {
@@ -35,7 +35,7 @@ void requireReferenceTakes(const frame::FrameSettings& settings) {
 ReferencePicture referencePicture(const scenes::Scene& scene, const frame::FrameSettings& settings,
                                   const std::function<void()>& rowDone, bool leeway) {
     requireReferenceTakes(settings);
-    recipes::prepareFrame(scene, recipes::Technique::Forward, settings); // names what the scene lacks
+    recipes::prepareView(scene, recipes::Technique::Forward, settings); // names what the scene lacks
     reference::Settings wanted = referenceSettings(scene, settings);
     wanted.leeway = leeway;
     reference::Rendered rendered = reference::render(scene, wanted, rowDone);

@@ -93,7 +93,7 @@ bool isPacked(const frame::GBufferLayout& layout) {
 std::optional<std::size_t> equalPicture(const CompareResult& result, const CompareRequest& request,
                                         const Picture& picture) {
     for (std::size_t i = 0; i < result.pictures.size(); ++i)
-        if (infoOf(request.techniques[i]).usesGBuffer && result.pictures[i].picture.rgba == picture.rgba) return i;
+        if (infoOf(request.techniques[i]).usesGBuffer() && result.pictures[i].picture.rgba == picture.rgba) return i;
     return {};
 }
 
@@ -116,7 +116,7 @@ std::vector<ChannelShare> channelShares(recipes::Renderer& renderer, const Compa
 /// What a technique is held to, with a layout, against what the request asks for.
 Tolerance toleranceOf(const recipes::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
                       Technique technique, const frame::GBufferLayout& layout) {
-    const bool quantises = infoOf(technique).usesGBuffer && isPacked(layout);
+    const bool quantises = infoOf(technique).usesGBuffer() && isPacked(layout);
     if (isReference(request) && !quantises) return referenceTolerance(renderer.scene(), request.settings.filter);
     const std::vector<scenes::Light>& lights = renderer.scene().lights;
     const auto on =
@@ -180,7 +180,7 @@ frame::FrameSettings settingsTakenBy(recipes::Technique technique, frame::FrameS
     if (settings.culling.method && !recipes::takesMethod(technique, *settings.culling.method))
         settings.culling.method.reset();
     if (!recipes::hasLightLists(technique)) settings.culling = {};
-    if (!recipes::takesLightingStage(technique)) settings.lightOn.reset();
+    if (!recipes::infoOf(technique).choosesStage) settings.lightOn.reset();
     return settings;
 }
 
@@ -222,7 +222,7 @@ std::vector<Technique> techniquesTaking(int samples, std::optional<culling::Meth
 Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout, bool isSoftware,
                         std::size_t lightCount) {
     Tolerance tolerance;
-    if (infoOf(technique).usesGBuffer && isPacked(layout)) {
+    if (infoOf(technique).usesGBuffer() && isPacked(layout)) {
         const frame::LayoutPromise& promise = frame::promiseOf(layout);
         tolerance.relMse = promise.relMse;
         tolerance.p999Rel = promise.p999Rel;
@@ -273,7 +273,7 @@ CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabili
         ComparePair pair = comparePair(picture.name, picture.picture, truth.own.name, own.picture, tolerance,
                                        own.excluded, shownPair(request, picture, truth.own));
         pair.culling = culling;
-        if (infoOf(technique).usesGBuffer && isPacked(request.settings.layout)) {
+        if (infoOf(technique).usesGBuffer() && isPacked(request.settings.layout)) {
             // One G-buffer, one picture: the channels' shares are the same.
             const std::optional<std::size_t> equal = equalPicture(result, request, picture.picture);
             pair.channels = equal ? result.record.pairs[*equal].channels

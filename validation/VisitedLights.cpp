@@ -11,7 +11,7 @@ using culling::Method;
 
 /// Position of a depth among the slices that a tile's second word describes.
 std::uint32_t sliceAt(const recipes::DrawnLists& drawn, float depth, std::uint32_t slicing) {
-    const std::uint32_t key = std::bit_cast<std::uint32_t>(drawn.constants.depthKey.x + depth);
+    const std::uint32_t key = std::bit_cast<std::uint32_t>(drawn.view.depthKey.x + depth);
     const std::uint32_t shift = slicing % 32;
     return (key - (slicing - shift)) >> shift;
 }
@@ -22,7 +22,7 @@ VisitedLights::VisitedLights(const recipes::DrawnLists& drawn) : drawn_(drawn) {
 
 VisitedCell VisitedLights::cellAt(int column, int row, float depth, SurfaceLayer layer) const {
     if (drawn_.culling.method == Method::None) return {};
-    const glm::uvec4& grid = drawn_.constants.tileGrid;
+    const glm::uvec4& grid = drawn_.lighting.tileGrid;
     const std::uint32_t side = 1u << grid.w;
     const std::uint32_t tileColumn = std::uint32_t(column) / side;
     const std::uint32_t tileRow = (grid.z - 1u - std::uint32_t(row)) / side;
@@ -58,7 +58,7 @@ void VisitedLights::ofList(const VisitedCell& visited, std::vector<int>& sceneLi
 void VisitedLights::ofMasks(const VisitedCell& visited, std::vector<int>& sceneLights) const {
     const glm::uvec4& tile = drawn_.lists.tiles.at(visited.tile).words;
     const glm::uvec2 words = drawn_.lists.cells.at(visited.slice);
-    const std::uint32_t maskWords = drawn_.constants.lights.w;
+    const std::uint32_t maskWords = drawn_.lighting.lights.w;
     for (std::uint32_t word = words.x; word < words.y; ++word) {
         std::uint32_t bits =
             drawn_.lists.entries.at(tile.x + word) & drawn_.lists.entries.at(visited.slice * maskWords + word);

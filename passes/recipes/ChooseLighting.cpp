@@ -6,25 +6,19 @@
 
 namespace tessera::recipes {
 
-bool takesLightingStage(Technique technique) {
-    // Volumes are rasterised: what is lit stands in fragment shaders.
-    return infoOf(technique).usesGBuffer && technique != Technique::DeferredVolumes;
-}
-
 frame::LightingStage chooseLighting(Technique technique, const frame::FrameSettings& settings) {
     if (!settings.lightOn) return frame::LightingStage::Fragment;
-    if (takesLightingStage(technique)) return *settings.lightOn;
+    if (infoOf(technique).choosesStage) return *settings.lightOn;
     std::string techniques;
     for (const TechniqueInfo& other : techniqueTable()) {
-        if (takesLightingStage(other.technique))
-            techniques += (techniques.empty() ? "" : ", ") + std::string(other.name);
+        if (other.choosesStage) techniques += (techniques.empty() ? "" : ", ") + std::string(other.name);
     }
     throw InputError(fmt::format("technique {} does not take --light-on {}, since it lights as it rasterises; {} do",
                                  infoOf(technique).name, infoOf(*settings.lightOn).name, techniques));
 }
 
 std::optional<graph::Plan::Choice> lightingChoice(Technique technique, const frame::FrameSettings& settings) {
-    if (!takesLightingStage(technique)) return std::nullopt;
+    if (!infoOf(technique).choosesStage) return std::nullopt;
     const char* const why = settings.lightOn ? "asked for"
                             : settings.softwareBackend
                                 ? "measured 15 to 40 % faster than compute shaders on software rasterisers"

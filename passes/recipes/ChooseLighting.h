@@ -7,9 +7,6 @@
 
 namespace tessera::recipes {
 
-/// Whether the technique lights in a pass of its own, which may be of fragment or of compute shaders.
-bool takesLightingStage(Technique technique);
-
 /// The shaders that light: what was asked for, else fragment shaders. Throws InputError when it was asked and the
 /// technique lights as it rasterises.
 frame::LightingStage chooseLighting(Technique technique, const frame::FrameSettings& settings);

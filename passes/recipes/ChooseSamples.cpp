@@ -16,7 +16,7 @@ void requireSampleCount(int samples) {
 }
 
 bool takesSamples(const TechniqueInfo& info, int samples) {
-    return samples == 1 || info.multisamples;
+    return samples == 1 || info.multisamples();
 }
 
 void requireSamples(Technique technique, int samples) {

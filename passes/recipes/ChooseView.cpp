@@ -10,7 +10,7 @@
 namespace tessera::recipes {
 
 bool takesView(const TechniqueInfo& info, frame::View view) {
-    return info.usesGBuffer || !frame::viewInfo(view).needsGBuffer;
+    return info.usesGBuffer() || !frame::viewInfo(view).needsGBuffer;
 }
 
 void requireView(Technique technique, frame::View view) {

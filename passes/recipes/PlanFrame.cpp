@@ -5,7 +5,7 @@
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseLighting.h"
 #include "passes/recipes/ChooseSamples.h"
-#include "passes/recipes/PreparedFrame.h"
+#include "passes/recipes/PrepareView.h"
 #include "passes/recipes/Renderer.h"
 #include "renderer/frame/RefineLayout.h"
 #include "scenes/InUse.h"
@@ -45,7 +45,7 @@ void addRefinements(graph::Plan& plan, const scenes::Scene& scene, const frame::
     }
 }
 
-void addChoices(graph::Plan& plan, const scenes::Scene& scene, const PreparedFrame& prepared) {
+void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::PreparedView& prepared) {
     const frame::FrameSettings& settings = prepared.spec.settings;
     plan.choices.push_back(
         {"camera", scene.cameras[std::size_t(settings.camera)].name, "asked for, or the scene's first"});
@@ -62,7 +62,8 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const PreparedFra
     for (const std::string& warning : scene.warnings) plan.choices.push_back({"scene", scene.name, warning});
 }
 
-void addCounters(graph::Plan& plan, const scenes::Scene& scene, Technique technique, const PreparedFrame& prepared) {
+void addCounters(graph::Plan& plan, const scenes::Scene& scene, Technique technique,
+                 const frame::PreparedView& prepared) {
     std::size_t draws = 0;
     for (const scenes::Node& node : scene.nodes)
         draws += std::size_t(
@@ -70,7 +71,7 @@ void addCounters(graph::Plan& plan, const scenes::Scene& scene, Technique techni
                           [&](const scenes::MeshInstance& instance) { return scenes::isDrawn(scene, instance); }));
     const frame::FrameSpec& spec = prepared.spec;
     const int gbufferBytes =
-        infoOf(technique).usesGBuffer ? frame::bytesPerPixel(spec.settings.layout, spec.channels) : 0;
+        infoOf(technique).usesGBuffer() ? frame::bytesPerPixel(spec.settings.layout, spec.channels) : 0;
     plan.counters = {{"triangles", scenes::triangleCount(scene)},
                      {"draws", draws},
                      {"lights", scene.lights.size()},
@@ -84,15 +85,15 @@ void addCounters(graph::Plan& plan, const scenes::Scene& scene, Technique techni
 } // namespace
 
 graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings) {
-    const PreparedFrame prepared = prepareFrame(scene, technique, settings);
-    const DeclaredFrame frame = declareFrame(technique, prepared.spec, nullptr);
-    const graph::CompiledGraph compiled =
-        graph::compile(frame.graph, {.cull = settings.prune, .alias = settings.prune});
-    graph::Plan plan = graph::makePlan(frame.graph, compiled);
+    const frame::PreparedView prepared = prepareView(scene, technique, settings);
+    graph::Graph graph;
+    declareView(graph, technique, prepared.spec, nullptr);
+    const graph::CompiledGraph compiled = graph::compile(graph, {.cull = settings.prune, .alias = settings.prune});
+    graph::Plan plan = graph::makePlan(graph, compiled);
     plan.scene = scene.name;
     plan.technique = std::string(infoOf(technique).name);
     for (graph::Plan::LeftOut& item :
-         frame::leftOut(scene, prepared.spec, prepared.lights, infoOf(technique).usesGBuffer)) {
+         frame::leftOut(scene, prepared.spec, prepared.lights, infoOf(technique).usesGBuffer())) {
         plan.leftOut.push_back(std::move(item));
     }
     addChoices(plan, scene, prepared);
@@ -101,14 +102,24 @@ graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const fra
     for (graph::Plan::Choice& choice : sampleChoices(settings)) plan.choices.push_back(std::move(choice));
     if (std::optional<graph::Plan::Choice> choice = lightingChoice(technique, settings))
         plan.choices.push_back(std::move(*choice));
-    if (infoOf(technique).usesGBuffer) addRefinements(plan, scene, settings.layout, prepared.spec);
+    if (infoOf(technique).usesGBuffer()) addRefinements(plan, scene, settings.layout, prepared.spec);
     addCounters(plan, scene, technique, prepared);
     return plan;
 }
 
+graph::Plan planViews(const scenes::Scene& scene, std::span<const View> views) {
+    graph::Graph graph;
+    for (const View& view : views)
+        declareView(graph, view.technique, prepareView(scene, view.technique, view.settings).spec, nullptr);
+    const bool prune = std::all_of(views.begin(), views.end(), [](const View& view) { return view.settings.prune; });
+    return graph::makePlan(graph, graph::compile(graph, {.cull = prune, .alias = prune}));
+}
+
 std::vector<shader::ProgramDesc> framePrograms(const scenes::Scene& scene, Technique technique,
                                                const frame::FrameSettings& settings) {
-    return declareFrame(technique, prepareFrame(scene, technique, settings).spec, nullptr).programs;
+    graph::Graph graph;
+    declareView(graph, technique, prepareView(scene, technique, settings).spec, nullptr);
+    return graph::compile(graph, {.cull = false}).programs;
 }
 
 } // namespace tessera::recipes

@@ -1,29 +1,18 @@
 #include "passes/recipes/Renderer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "passes/recipes/ChooseSamples.h"
-#include "passes/recipes/PreparedFrame.h"
+#include "passes/recipes/PrepareView.h"
 #include "renderer/graph/Execute.h"
 #include "scenes/Error.h"
-#include "shaders/shared/display.h"
-#include "shaders/shared/frame.h"
 
 namespace tessera::recipes {
 
 namespace {
-
-shared::DisplayConstants displayConstants(const frame::FrameSettings& settings) {
-    shared::DisplayConstants constants{};
-    constants.exposure = glm::vec4(std::exp2(settings.exposureEV));
-    const frame::DisplayMapping mapping = frame::displayMapping(settings.view, settings.layout);
-    constants.mapping = glm::uvec4(unsigned(mapping), unsigned(settings.toneMap), 0u, 0u);
-    return constants;
-}
 
 /// GL's rows run from the bottom.
 template <typename T>
@@ -40,22 +29,19 @@ std::vector<T> flipped(const std::vector<T>& rows, int width, int height) {
 } // namespace
 
 struct Renderer::Drawn {
-    frame::FrameSettings settings;
-    PreparedFrame prepared;
-    std::unique_ptr<frame::FrameResources> resources;
-    DeclaredFrame frame;
+    std::vector<frame::DrawnView> views;
+    std::vector<DeclaredView> declared; ///< parallel to views
+    graph::Graph graph;
     graph::CompiledGraph compiled;
     std::unique_ptr<graph::Execution> execution;
 };
 
 Renderer::Renderer(gpu::Context& context, const scenes::Scene& scene, shader::SourceTree shaders)
-    : context_(context), scene_(scene), bounds_(frame::surfaceBounds(scene)), programs_(std::move(shaders)),
-      frameConstants_("frame constants", sizeof(shared::FrameConstants), gpu::BufferUse::Dynamic),
-      displayConstants_("display constants", sizeof(shared::DisplayConstants), gpu::BufferUse::Dynamic) {}
+    : context_(context), scene_(scene), bounds_(frame::surfaceBounds(scene)), programs_(std::move(shaders)) {}
 
 Renderer::~Renderer() = default;
 
-frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
+const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     // Light types change from frame to frame and do not concern the scene's buffers.
     frame::FeatureSet features = spec.settings.prune ? frame::materialFeatures(scene_) : frame::allFeatures();
     const frame::TextureFilter filter = spec.settings.filter;
@@ -71,41 +57,43 @@ frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     return *sceneGpu_;
 }
 
-void Renderer::draw(Technique technique, const frame::FrameSettings& asked) {
-    const frame::FrameSettings settings = settingsOn(context_.capabilities(), asked);
+void Renderer::draw(std::span<const View> views) {
     auto drawn = std::make_unique<Drawn>();
-    drawn->prepared = prepareFrame(scene_, technique, settings, bounds_);
-    const PreparedFrame& prepared = drawn->prepared;
-    sceneGpu(prepared.spec).setView(prepared.view);
-    lights_.upload(prepared.lights);
-    frameConstants_.uploadValue(prepared.view.constants);
-    displayConstants_.uploadValue(displayConstants(settings));
-
+    for (const View& view : views) {
+        frame::DrawnView& added = drawn->views.emplace_back();
+        const frame::FrameSettings settings = settingsOn(context_.capabilities(), view.settings);
+        added.prepared = prepareView(scene_, view.technique, settings, bounds_);
+        const frame::FrameSettings& first = drawn->views.front().prepared.spec.settings;
+        if (settings.prune != first.prune || settings.filter != first.filter)
+            throw InputError("the views of a frame need one filter, and are pruned or not together");
+    }
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        frame::DrawnView& view = drawn->views[i];
+        const frame::FrameSpec& spec = view.prepared.spec;
+        view.scene = &sceneGpu(spec);
+        view.draws = frame::makeViewDraws(view.scene->drawList(), view.prepared.camera, spec.settings.prune);
+        view.listMemory = &listMemory_;
+        drawn->declared.push_back(declareView(drawn->graph, views[i].technique, spec, &view));
+    }
+    const bool prune = drawn->views.front().prepared.spec.settings.prune;
     drawn_ = std::move(drawn);
-    drawn_->settings = settings;
-    drawn_->resources = std::make_unique<frame::FrameResources>(frame::FrameResources{
-        *sceneGpu_, frameConstants_, displayConstants_, lights_, lightLists_, prepared.view.constants,
-        prepared.cullLights, prepared.view.constants.background, programs_, backend_.framebuffers()});
-    drawn_->frame = declareFrame(technique, prepared.spec, drawn_->resources.get());
-    drawn_->compiled = graph::compile(drawn_->frame.graph, {.cull = settings.prune, .alias = settings.prune});
-    programs_.warm(drawn_->frame.programs);
-    std::vector<graph::ImportedBuffer> imported;
-    if (drawn_->frame.lists) imported = lightLists_.imported(*drawn_->frame.lists);
-    drawn_->execution = std::make_unique<graph::Execution>(drawn_->frame.graph, drawn_->compiled, backend_,
-                                                           std::span<const graph::ImportedTexture>{}, imported);
+    drawn_->compiled = graph::compile(drawn_->graph, {.cull = prune, .alias = prune});
+    programs_.warm(drawn_->compiled.programs);
+    drawn_->execution = std::make_unique<graph::Execution>(drawn_->graph, drawn_->compiled, backend_, &programs_);
     drawn_->execution->run();
 }
 
-const gpu::Texture& Renderer::radianceTexture() const {
-    return drawn_->execution->texture(drawn_->frame.radiance);
+const gpu::Texture& Renderer::radianceTexture(std::size_t view) const {
+    return drawn_->execution->texture(drawn_->declared.at(view).radiance);
 }
 
-const gpu::Texture& Renderer::displayTexture() const {
-    return drawn_->execution->texture(drawn_->frame.display);
+const gpu::Texture& Renderer::displayTexture(std::size_t view) const {
+    return drawn_->execution->texture(drawn_->declared.at(view).display);
 }
 
-RenderedFrame Renderer::download() const {
-    return readBack(radianceTexture(), drawn_->settings.display ? &displayTexture() : nullptr);
+RenderedFrame Renderer::download(std::size_t view) const {
+    const bool display = drawn_->views.at(view).prepared.spec.settings.display;
+    return readBack(radianceTexture(view), display ? &displayTexture(view) : nullptr);
 }
 
 RenderedFrame readBack(const gpu::Texture& radiance, const gpu::Texture* display) {
@@ -117,21 +105,31 @@ RenderedFrame readBack(const gpu::Texture& radiance, const gpu::Texture* display
     return frame;
 }
 
-std::vector<float> Renderer::downloadDepth() const {
-    return drawn_->execution->texture(drawn_->frame.depth).downloadAs<float>();
+std::vector<float> Renderer::downloadDepth(std::size_t view) const {
+    return drawn_->execution->texture(drawn_->declared.at(view).depth).downloadAs<float>();
 }
 
-DrawnLists Renderer::downloadLists() const {
-    const PreparedFrame& prepared = drawn_->prepared;
+DrawnLists Renderer::downloadLists(std::size_t view) const {
+    const frame::PreparedView& prepared = drawn_->views.at(view).prepared;
     DrawnLists drawn;
     drawn.culling = prepared.spec.culling;
-    drawn.constants = prepared.view.constants;
-    drawn.depths = prepared.view.depths;
+    drawn.view = prepared.camera.constants;
+    drawn.lighting = prepared.lighting;
+    drawn.depths = prepared.camera.depths;
     drawn.sceneIndex = prepared.lights.sceneIndex;
     for (std::size_t i = 0; i < prepared.lights.texels.size(); ++i) {
         if (prepared.lights.texels[i].position.w == 0.0f) drawn.everywhere.push_back(std::uint32_t(i));
     }
-    if (drawn.culling.method != culling::Method::None) drawn.lists = lightLists_.download();
+    if (const std::optional<frame::LightListHandles>& lists = drawn_->declared[view].lists) {
+        const auto all = [&](graph::BufferHandle from, auto& values) {
+            using Value = typename std::decay_t<decltype(values)>::value_type;
+            const graph::Execution& execution = *drawn_->execution;
+            values = execution.buffer(from).downloadAs<Value>(execution.bytes(from) / sizeof(Value));
+        };
+        all(lists->tiles, drawn.lists.tiles);
+        all(lists->cells, drawn.lists.cells);
+        all(lists->entries, drawn.lists.entries);
+    }
     return drawn;
 }
 

@@ -1,12 +1,14 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "passes/recipes/Techniques.h"
 #include "renderer/frame/DepthInterval.h"
 #include "renderer/gpu/Context.h"
 #include "renderer/gpu/GraphBackend.h"
+#include "renderer/shader/ProgramLibrary.h"
 
 namespace tessera::recipes {
 
@@ -24,11 +26,18 @@ RenderedFrame readBack(const gpu::Texture& radiance, const gpu::Texture* display
 /// Which lights a drawn frame's pixels visited, and how.
 struct DrawnLists {
     culling::Choice culling;
-    culling::LightLists lists;             ///< empty where every pixel visits every light
-    shared::FrameConstants constants{};    ///< how a pixel finds its tile, slice and cell
+    culling::LightLists lists;    ///< empty where every pixel visits every light
+    shared::ViewConstants view{}; ///< with lighting, how a pixel finds its tile, slice and cell
+    shared::LightingConstants lighting{};
     frame::DepthInterval depths;           ///< what the depth buffer stands for
     std::vector<int> sceneIndex;           ///< by light of the lists: index into Scene::lights
     std::vector<std::uint32_t> everywhere; ///< lights of the lists that reach everywhere, ascending
+};
+
+/// A view of the scene: how it is drawn, and by which camera at which size.
+struct View {
+    Technique technique = Technique::Deferred;
+    frame::FrameSettings settings;
 };
 
 /// Renders pictures of one scene, with any technique and settings, on the context that is current. Everything derived
@@ -39,21 +48,26 @@ public:
     Renderer(gpu::Context& context, const scenes::Scene& scene, shader::SourceTree shaders = shader::SourceTree());
     ~Renderer();
 
-    /// Draws one frame and waits for nothing; download() reads it, passTimings() times it. Throws InputError when the
-    /// settings name what the scene lacks, std::runtime_error when GL fails.
-    void draw(Technique technique, const frame::FrameSettings& settings);
+    /// Draws one frame of one or more views and waits for nothing; download() reads it, passTimings() times it. The
+    /// views share what is on the GPU of the scene, so they have one filter and one answer to pruning. Throws
+    /// InputError where that is not so, or settings name what the scene lacks; std::runtime_error when GL fails.
+    void draw(std::span<const View> views);
+    void draw(Technique technique, const frame::FrameSettings& settings) {
+        const View view{technique, settings};
+        draw({&view, 1});
+    }
 
-    /// The picture of the latest draw().
-    RenderedFrame download() const;
+    /// The picture of a view of the latest draw(), counted from 0.
+    RenderedFrame download(std::size_t view = 0) const;
     /// The same where it is, until the next draw(): radiance RGBA32F, and display RGBA8 where the settings asked for
     /// it.
-    const gpu::Texture& radianceTexture() const;
-    const gpu::Texture& displayTexture() const;
+    const gpu::Texture& radianceTexture(std::size_t view = 0) const;
+    const gpu::Texture& displayTexture(std::size_t view = 0) const;
 
-    /// Depth of the latest draw(): reverse-Z, rows from the bottom, 0 where nothing opaque was drawn.
-    std::vector<float> downloadDepth() const;
-    /// The light lists that the latest draw() really used.
-    DrawnLists downloadLists() const;
+    /// Depth of a view of the latest draw(): reverse-Z, rows from the bottom, 0 where nothing opaque was drawn.
+    std::vector<float> downloadDepth(std::size_t view = 0) const;
+    /// The light lists that a view of the latest draw() really used.
+    DrawnLists downloadLists(std::size_t view = 0) const;
 
     RenderedFrame render(Technique technique, const frame::FrameSettings& settings) {
         draw(technique, settings);
@@ -64,8 +78,8 @@ public:
     /// as they are then. Lights and cameras of the scene may change between draws without notice, nodes and meshes not.
     void materialsChanged() { materialsChanged_ = true; }
 
-    /// The scene as frames of this spec have it on the GPU. Whoever draws it sets its view first; draw() does.
-    frame::SceneGpu& sceneGpu(const frame::FrameSpec& spec);
+    /// The scene as frames of this spec have it on the GPU.
+    const frame::SceneGpu& sceneGpu(const frame::FrameSpec& spec);
 
     gpu::GraphBackend& backend() { return backend_; }
     shader::ProgramLibrary& programs() { return programs_; }
@@ -80,10 +94,7 @@ private:
     std::vector<frame::SurfaceBounds> bounds_;
     shader::ProgramLibrary programs_;
     gpu::GraphBackend backend_;
-    gpu::Buffer frameConstants_;
-    gpu::Buffer displayConstants_;
-    frame::LightBuffers lights_;
-    frame::LightListBuffers lightLists_;
+    frame::LightListMemory listMemory_;
     std::unique_ptr<frame::SceneGpu> sceneGpu_;
     frame::FeatureSet sceneFeatures_;                                   ///< what sceneGpu_ was made with
     frame::TextureFilter sceneFilter_ = frame::TextureFilter::Hardware; ///< the same
@@ -91,8 +102,10 @@ private:
     std::unique_ptr<Drawn> drawn_; ///< the latest frame
 };
 
-/// What a frame would run, leave out and need, without a context.
+/// What a frame of one view would run, leave out and need, without a context.
 graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings);
+/// The passes and resources of a frame of several views.
+graph::Plan planViews(const scenes::Scene& scene, std::span<const View> views);
 
 /// The programs a frame would use, without a context.
 std::vector<shader::ProgramDesc> framePrograms(const scenes::Scene& scene, Technique technique,

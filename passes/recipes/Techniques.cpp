@@ -1,6 +1,8 @@
 #include "passes/recipes/Techniques.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 
 #include "passes/DeferredLightingPass.h"
 #include "passes/DepthPrepass.h"
@@ -15,6 +17,8 @@
 #include "passes/ResolvePass.h"
 #include "passes/StoredChannelPass.h"
 #include "passes/TransparentDepthPass.h"
+#include "passes/UploadPass.h"
+#include "renderer/graph/EnumTable.h"
 
 namespace tessera::recipes {
 
@@ -28,103 +32,52 @@ constexpr Method kAllLights[] = {Method::None};
 constexpr Method kTiled[] = {Method::Tile25d, Method::TileMinmax, Method::None};
 constexpr Method kClustered[] = {Method::Cluster, Method::Zbin, Method::None};
 
-constexpr TechniqueInfo kTechniques[] = {
-    {Technique::Forward, "forward", "shaded as it is rasterised", "every fragment loops over all lights; the baseline",
-     false, kAllLights, true},
-    {Technique::ForwardPrepass, "forward_prepass", "depth first, then equal depth only",
-     "each visible pixel once, all lights", false, kAllLights, true},
-    {Technique::Deferred, "deferred", "G-buffer", "full screen, each covered pixel once, all lights", true, kAllLights},
-    {Technique::DeferredVolumes, "deferred_volumes", "G-buffer",
-     "one proxy volume a light, depth tested, added by blending", true, kAllLights},
-    {Technique::TiledDeferred, "tiled_deferred", "G-buffer", "full screen, each covered pixel once, its tile's lights",
-     true, kTiled},
-    {Technique::ForwardPlus, "forward_plus", "depth first, then equal depth only",
-     "each visible pixel once, its tile's lights", false, kTiled, true},
-    {Technique::ClusteredDeferred, "clustered_deferred", "G-buffer",
-     "full screen, each covered pixel once, its cluster's lights", true, kClustered},
-    {Technique::ClusteredForward, "clustered_forward", "depth first, then equal depth only",
-     "each visible pixel once, its cluster's lights", false, kClustered, true},
-};
-
-/// Declares passes and notes their programs as it goes.
+/// What a recipe wires passes with.
 struct Recipe {
-    DeclaredFrame& frame;
+    graph::Graph& graph;
     const frame::FrameSpec& spec;
-    const frame::FrameResources* resources;
+    const frame::DrawnView* drawn;
+    frame::SurfaceHandles surfaces; ///< the scene, as the view draws it
+    frame::LightingInputs lighting; ///< with the lists, once there are some
 
-    ForwardPass::Outputs forward(const ForwardPass::Params& params, const ForwardPass::Inputs& inputs) {
-        frame.programs.push_back(ForwardPass::program(spec, params));
-        return ForwardPass::add(frame.graph, spec, params, inputs, resources);
+    Recipe(graph::Graph& ofGraph, const frame::FrameSpec& ofSpec, const frame::DrawnView* ofView)
+        : graph(ofGraph), spec(ofSpec), drawn(ofView), surfaces(frame::importSurfaces(graph, spec, drawn)) {
+        const UploadViewPass::Outputs view = UploadViewPass::add(graph, drawn);
+        surfaces.view = {view.constants};
+        surfaces.rows = view.rows;
+        surfaces.commands = view.commands;
+        const UploadLightsPass::Outputs lights = UploadLightsPass::add(graph, spec, drawn);
+        lighting = {surfaces.view,
+                    lights.constants,
+                    lights.lights,
+                    lights.shapes,
+                    frame::importMaterialTable(graph, spec, drawn),
+                    {}};
     }
+
     bool hasLightLists() const { return spec.culling.method != Method::None; }
-    DepthPrepass::Outputs depthPrepass(const DepthPrepass::Params& params) {
-        frame.programs.push_back(DepthPrepass::program(spec, params));
-        return DepthPrepass::add(frame.graph, spec, params, resources);
-    }
-    IdsPass::Outputs ids() {
-        frame.programs.push_back(IdsPass::program(spec, IdsPass::Surfaces::Opaque));
-        if (spec.features[frame::Feature::Blend])
-            frame.programs.push_back(IdsPass::program(spec, IdsPass::Surfaces::Transparent));
-        return IdsPass::add(frame.graph, spec, resources);
-    }
-    OverdrawPass::Outputs overdraw(const OverdrawPass::Inputs& inputs) {
-        frame.programs.push_back(OverdrawPass::program(spec, OverdrawPass::Surfaces::Opaque));
-        if (spec.features[frame::Feature::Blend])
-            frame.programs.push_back(OverdrawPass::program(spec, OverdrawPass::Surfaces::Transparent));
-        return OverdrawPass::add(frame.graph, spec, inputs, resources);
-    }
-    GBufferPass::Outputs gbuffer() {
-        frame.programs.push_back(GBufferPass::program(spec));
-        return GBufferPass::add(frame.graph, spec, resources);
-    }
-    TextureHandle deferredLighting(const DeferredLightingPass::Params& params, const GBufferPass::Outputs& gbuffer) {
-        frame.programs.push_back(DeferredLightingPass::program(spec, params));
-        return DeferredLightingPass::add(frame.graph, spec, params, {gbuffer.textures, gbuffer.depth, frame.lists},
-                                         resources)
-            .radiance;
-    }
-    TextureHandle lightVolumes(const GBufferPass::Outputs& gbuffer, TextureHandle radiance) {
-        if (!LightVolumesPass::isNeeded(spec)) return radiance;
-        frame.programs.push_back(LightVolumesPass::program(spec));
-        return LightVolumesPass::add(frame.graph, spec, {gbuffer.textures, gbuffer.depth, radiance}, resources)
-            .radiance;
-    }
-    TextureHandle storedChannel(frame::StoredComponents shown, const GBufferPass::Outputs& gbuffer) {
-        frame.programs.push_back(StoredChannelPass::program(spec, {shown}));
-        return StoredChannelPass::add(frame.graph, spec, {shown}, {gbuffer.textures, gbuffer.depth}, resources)
-            .radiance;
-    }
+    bool blends() const { return spec.features[frame::Feature::Blend]; }
     /// One sample a pixel of what was drawn with several.
     TextureHandle resolve(TextureHandle samples, ResolvePass::Kind kind) {
         if (spec.samples == 1) return samples;
-        frame.programs.push_back(ResolvePass::program(spec, {kind}));
-        return ResolvePass::add(frame.graph, spec, {kind}, {samples}, resources).resolved;
+        return ResolvePass::add(graph, spec, {kind}, {samples}).resolved;
     }
     /// The depths at which what shows is lit: opaque surfaces at `opaque`, transparent ones in front of `depth`.
     frame::LitDepths litDepths(TextureHandle depth, TextureHandle opaque) {
         frame::LitDepths depths{resolve(opaque, ResolvePass::Kind::Depths), {}};
-        if (!spec.features[frame::Feature::Blend]) return depths;
-        frame.programs.push_back(TransparentDepthPass::program(spec));
-        const TextureHandle transparent =
-            TransparentDepthPass::add(frame.graph, spec, {depth}, resources).transparentDepth;
+        if (!blends()) return depths;
+        const TextureHandle transparent = TransparentDepthPass::add(graph, spec, {surfaces, depth}).transparentDepth;
         depths.transparent = resolve(transparent, ResolvePass::Kind::TransparentDepths);
         return depths;
     }
     /// Light lists for what shows, where the frame culls lights.
-    void lightLists(TextureHandle depth, TextureHandle opaque) {
+    void addLightLists(TextureHandle depth, TextureHandle opaque) {
         if (!hasLightLists()) return;
         const frame::LitDepths depths = litDepths(depth, opaque);
-        if (spec.culling.builder == culling::Builder::Cpu) {
-            frame.lists = LightListsPass::add(frame.graph, spec, {depths}, resources).lists;
-            return;
-        }
-        for (shader::ProgramDesc& program : GpuLightListsPass::programs(spec))
-            frame.programs.push_back(std::move(program));
-        frame.lists = GpuLightListsPass::add(frame.graph, spec, {depths}, resources).lists;
-    }
-    TextureHandle display(TextureHandle radiance) {
-        frame.programs.push_back(DisplayPass::program());
-        return DisplayPass::add(frame.graph, spec, {radiance}, resources).display;
+        lighting.lists =
+            spec.culling.builder == culling::Builder::Cpu
+                ? LightListsPass::add(graph, spec, {depths}, drawn).lists
+                : GpuLightListsPass::add(graph, spec, {depths, lighting.view, lighting.constants}, drawn).lists;
     }
 };
 
@@ -132,90 +85,129 @@ struct Recipe {
 struct OpaquePicture {
     TextureHandle radiance;
     TextureHandle depth;
+    std::optional<frame::GBufferHandles> gbuffer; ///< where the technique has stored surfaces
 };
 
 OpaquePicture opaqueForward(Recipe& recipe) {
-    const ForwardPass::Outputs lit = recipe.forward({}, {});
-    return {lit.radiance, lit.depth};
+    const ForwardPass::Inputs inputs{recipe.surfaces, recipe.lighting, {}, {}};
+    const ForwardPass::Outputs lit = ForwardPass::add(recipe.graph, recipe.spec, {}, inputs);
+    return {lit.radiance, lit.depth, {}};
 }
 
 OpaquePicture opaqueForwardPrepass(Recipe& recipe) {
-    const DepthPrepass::Outputs drawn = recipe.depthPrepass({recipe.hasLightLists() && recipe.spec.samples > 1});
-    recipe.lightLists(drawn.depth, drawn.shadingDepth.value_or(drawn.depth));
-    return {recipe.forward({}, {drawn.depth, {}, recipe.frame.lists}).radiance, drawn.depth};
+    const DepthPrepass::Params params{recipe.hasLightLists() && recipe.spec.samples > 1};
+    const DepthPrepass::Outputs drawn = DepthPrepass::add(recipe.graph, recipe.spec, params, {recipe.surfaces});
+    recipe.addLightLists(drawn.depth, drawn.shadingDepth.value_or(drawn.depth));
+    const ForwardPass::Inputs inputs{recipe.surfaces, recipe.lighting, drawn.depth, {}};
+    return {ForwardPass::add(recipe.graph, recipe.spec, {}, inputs).radiance, drawn.depth, {}};
 }
 
 OpaquePicture opaqueDeferred(Recipe& recipe) {
-    const GBufferPass::Outputs gbuffer = recipe.gbuffer();
-    recipe.lightLists(gbuffer.depth, gbuffer.depth);
-    return {recipe.deferredLighting({}, gbuffer), gbuffer.depth};
+    const frame::GBufferHandles gbuffer = GBufferPass::add(recipe.graph, recipe.spec, {recipe.surfaces}).gbuffer;
+    recipe.addLightLists(gbuffer.depth, gbuffer.depth);
+    const DeferredLightingPass::Outputs lit =
+        DeferredLightingPass::add(recipe.graph, recipe.spec, {}, {gbuffer, recipe.lighting});
+    return {lit.radiance, gbuffer.depth, gbuffer};
 }
 
 OpaquePicture opaqueDeferredVolumes(Recipe& recipe) {
-    const GBufferPass::Outputs gbuffer = recipe.gbuffer();
-    const TextureHandle unlit = recipe.deferredLighting({.visitsLights = false}, gbuffer);
-    return {recipe.lightVolumes(gbuffer, unlit), gbuffer.depth};
+    const frame::GBufferHandles gbuffer = GBufferPass::add(recipe.graph, recipe.spec, {recipe.surfaces}).gbuffer;
+    const DeferredLightingPass::Params params{.visitsLights = false};
+    const TextureHandle unlit =
+        DeferredLightingPass::add(recipe.graph, recipe.spec, params, {gbuffer, recipe.lighting}).radiance;
+    if (!LightVolumesPass::isNeeded(recipe.spec)) return {unlit, gbuffer.depth, gbuffer};
+    const LightVolumesPass::Inputs inputs{gbuffer, recipe.lighting, unlit};
+    return {LightVolumesPass::add(recipe.graph, recipe.spec, inputs).radiance, gbuffer.depth, gbuffer};
 }
 
-OpaquePicture opaquePicture(Technique technique, Recipe& recipe) {
-    switch (technique) {
-    case Technique::Forward:
-        return opaqueForward(recipe);
-    case Technique::ForwardPrepass:
-    case Technique::ForwardPlus:
-    case Technique::ClusteredForward:
-        return opaqueForwardPrepass(recipe);
-    case Technique::DeferredVolumes:
-        return opaqueDeferredVolumes(recipe);
-    case Technique::Deferred:
-    case Technique::TiledDeferred:
-    case Technique::ClusteredDeferred:
-        break;
-    }
-    return opaqueDeferred(recipe);
-}
+/// A technique, and how it draws opaque surfaces.
+struct Row {
+    TechniqueInfo info;
+    OpaquePicture (*drawOpaque)(Recipe& recipe);
+};
+constexpr Row kRows[] = {
+    {{Technique::Forward, "forward", Geometry::Shaded, "every fragment loops over all lights; the baseline",
+      kAllLights},
+     opaqueForward},
+    {{Technique::ForwardPrepass, "forward_prepass", Geometry::DepthFirst, "each visible pixel once, all lights",
+      kAllLights},
+     opaqueForwardPrepass},
+    {{Technique::Deferred, "deferred", Geometry::GBuffer, "full screen, each covered pixel once, all lights",
+      kAllLights, true},
+     opaqueDeferred},
+    {{Technique::DeferredVolumes, "deferred_volumes", Geometry::GBuffer,
+      "one proxy volume a light, depth tested, added by blending", kAllLights},
+     opaqueDeferredVolumes},
+    {{Technique::TiledDeferred, "tiled_deferred", Geometry::GBuffer,
+      "full screen, each covered pixel once, its tile's lights", kTiled, true},
+     opaqueDeferred},
+    {{Technique::ForwardPlus, "forward_plus", Geometry::DepthFirst, "each visible pixel once, its tile's lights",
+      kTiled},
+     opaqueForwardPrepass},
+    {{Technique::ClusteredDeferred, "clustered_deferred", Geometry::GBuffer,
+      "full screen, each covered pixel once, its cluster's lights", kClustered, true},
+     opaqueDeferred},
+    {{Technique::ClusteredForward, "clustered_forward", Geometry::DepthFirst,
+      "each visible pixel once, its cluster's lights", kClustered},
+     opaqueForwardPrepass},
+};
+constexpr auto kTechniques = [] {
+    std::array<TechniqueInfo, std::size(kRows)> infos{};
+    std::ranges::transform(kRows, infos.begin(), &Row::info);
+    return infos;
+}();
+static_assert(graph::isInOrder(kTechniques, &TechniqueInfo::technique, kTechniques.size()));
 
-/// The lit picture, transparent surfaces included, and the depth of opaque ones.
-void addLitPicture(Technique technique, Recipe& recipe) {
-    DeclaredFrame& frame = recipe.frame;
-    const OpaquePicture opaque = opaquePicture(technique, recipe);
-    frame.radiance = opaque.radiance;
-    frame.depth = opaque.depth;
-    if (!recipe.spec.features[tessera::frame::Feature::Blend]) return;
+/// A picture that a view shows, and the depth of opaque surfaces.
+struct Shown {
+    TextureHandle radiance;
+    TextureHandle depth;
+};
+
+/// The lit picture, transparent surfaces included.
+Shown addLitPicture(Technique technique, Recipe& recipe) {
+    const OpaquePicture opaque = kRows[std::size_t(technique)].drawOpaque(recipe);
+    // Here is the place of passes that need what is opaque and that transparent surfaces lie over.
+    if (!recipe.blends()) return {opaque.radiance, opaque.depth};
     const ForwardPass::Params params{ForwardPass::Surfaces::Transparent};
-    frame.radiance = recipe.forward(params, {opaque.depth, opaque.radiance, frame.lists}).radiance;
+    const ForwardPass::Inputs inputs{recipe.surfaces, recipe.lighting, opaque.depth, opaque.radiance};
+    return {ForwardPass::add(recipe.graph, recipe.spec, params, inputs).radiance, opaque.depth};
 }
 
-bool hasPrepass(Technique technique) {
-    return technique == Technique::ForwardPrepass || technique == Technique::ForwardPlus ||
-           technique == Technique::ClusteredForward;
-}
-
-/// What stands in for the lit picture in views that are drawn by passes of their own; false for all others.
-bool addView(Technique technique, Recipe& recipe) {
-    DeclaredFrame& frame = recipe.frame;
+/// What stands in for the lit picture in debug views that passes of their own draw; none for all others.
+std::optional<Shown> addDebugView(Technique technique, Recipe& recipe) {
     const frame::View view = recipe.spec.settings.view;
     if (view == frame::View::Ids) {
-        const IdsPass::Outputs drawn = recipe.ids();
-        frame.radiance = drawn.ids;
-        frame.depth = drawn.depth;
-    } else if (view == frame::View::Overdraw) {
-        OverdrawPass::Inputs inputs;
-        if (hasPrepass(technique)) inputs.depth = recipe.depthPrepass({}).depth;
-        const OverdrawPass::Outputs drawn = recipe.overdraw(inputs);
-        frame.radiance = drawn.overdraw;
-        frame.depth = drawn.depth;
-    } else if (const std::optional<frame::StoredComponents> shown = frame::storedComponents(view)) {
-        const GBufferPass::Outputs gbuffer = recipe.gbuffer();
-        frame.radiance = recipe.storedChannel(*shown, gbuffer);
-        frame.depth = gbuffer.depth;
-    } else {
-        return false;
+        const IdsPass::Outputs drawn = IdsPass::add(recipe.graph, recipe.spec, {recipe.surfaces});
+        return Shown{drawn.ids, drawn.depth};
     }
-    return true;
+    if (view == frame::View::Overdraw) {
+        OverdrawPass::Inputs inputs{recipe.surfaces, {}};
+        if (infoOf(technique).geometry == Geometry::DepthFirst)
+            inputs.depth = DepthPrepass::add(recipe.graph, recipe.spec, {}, {recipe.surfaces}).depth;
+        const OverdrawPass::Outputs drawn = OverdrawPass::add(recipe.graph, recipe.spec, inputs);
+        return Shown{drawn.overdraw, drawn.depth};
+    }
+    if (const std::optional<frame::StoredComponents> shown = frame::storedComponents(view)) {
+        const frame::GBufferHandles gbuffer = GBufferPass::add(recipe.graph, recipe.spec, {recipe.surfaces}).gbuffer;
+        return Shown{StoredChannelPass::add(recipe.graph, recipe.spec, {*shown}, {gbuffer}).radiance, gbuffer.depth};
+    }
+    return {};
 }
 
 } // namespace
+
+std::string_view describe(Geometry geometry) {
+    switch (geometry) {
+    case Geometry::Shaded:
+        return "shaded as it is rasterised";
+    case Geometry::DepthFirst:
+        return "depth first, then equal depth only";
+    case Geometry::GBuffer:
+        break;
+    }
+    return "G-buffer";
+}
 
 std::span<const TechniqueInfo> techniqueTable() {
     return kTechniques;
@@ -225,16 +217,25 @@ const TechniqueInfo& infoOf(Technique technique) {
     return kTechniques[std::size_t(technique)];
 }
 
-DeclaredFrame declareFrame(Technique technique, const frame::FrameSpec& spec, const frame::FrameResources* resources) {
-    DeclaredFrame frame;
-    Recipe recipe{frame, spec, resources};
-    if (!addView(technique, recipe)) addLitPicture(technique, recipe);
-    frame.radiance = recipe.resolve(frame.radiance, ResolvePass::Kind::Radiance);
-    frame.display = recipe.display(frame.radiance);
-    frame.graph.output(frame.radiance);
-    frame.graph.output(frame.depth);
-    if (spec.settings.display) frame.graph.output(frame.display);
-    return frame;
+DeclaredView declareView(graph::Graph& graph, Technique technique, const frame::FrameSpec& spec,
+                         const frame::DrawnView* drawn) {
+    Recipe recipe(graph, spec, drawn);
+    std::optional<Shown> shown = addDebugView(technique, recipe);
+    if (!shown) shown = addLitPicture(technique, recipe);
+    DeclaredView view;
+    view.radiance = recipe.resolve(shown->radiance, ResolvePass::Kind::Radiance);
+    view.depth = shown->depth;
+    view.display = DisplayPass::add(graph, spec, {view.radiance}).display;
+    view.lists = recipe.lighting.lists;
+    graph.output(view.radiance);
+    graph.output(view.depth);
+    if (spec.settings.display) graph.output(view.display);
+    if (view.lists) {
+        graph.output(view.lists->tiles);
+        graph.output(view.lists->cells);
+        graph.output(view.lists->entries);
+    }
+    return view;
 }
 
 } // namespace tessera::recipes

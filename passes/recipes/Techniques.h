@@ -4,9 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "renderer/frame/FrameResources.h"
-#include "renderer/frame/FrameSpec.h"
-#include "renderer/graph/Graph.h"
+#include "renderer/frame/FrameHandles.h"
 
 /// The techniques: how passes are wired into a frame. Passes know nothing of each other; here is the only place that
 /// connects them.
@@ -22,31 +20,37 @@ enum class Technique : std::uint8_t {
     ClusteredDeferred,
     ClusteredForward
 };
+/// What a technique rasterises first.
+enum class Geometry : std::uint8_t { Shaded, DepthFirst, GBuffer };
+std::string_view describe(Geometry geometry);
+
 struct TechniqueInfo {
     Technique technique;
     std::string_view name;
-    std::string_view geometry; ///< what is rasterised, in words
-    std::string_view lighting; ///< who lights what, in words
-    bool usesGBuffer;
+    Geometry geometry;
+    std::string_view lighting;                ///< what is lit by which lights, in words
     std::span<const culling::Method> methods; ///< of light culling that it takes, the one it prefers first
-    bool multisamples = false;                ///< takes more than one sample a pixel
+    bool choosesStage = false; ///< lights in a pass of its own, which may be of fragment or of compute shaders
+
+    bool usesGBuffer() const { return geometry == Geometry::GBuffer; }
+    bool multisamples() const { return geometry != Geometry::GBuffer; } ///< takes more than one sample a pixel
 };
+/// In the order of Technique.
 std::span<const TechniqueInfo> techniqueTable();
 const TechniqueInfo& infoOf(Technique technique);
 
-/// A declared frame. The graph's outputs are radiance and, where the settings ask for it, display; both of one sample a
-/// pixel. Alpha of radiance is the covered share of the pixel.
-struct DeclaredFrame {
-    graph::Graph graph;
+/// What a frame makes of a view. The graph's outputs are radiance, depth, light lists and, where the settings ask for
+/// it, display; both pictures of one sample a pixel. Alpha of radiance is the covered share of the pixel.
+struct DeclaredView {
     graph::TextureHandle radiance;                ///< RGBA32F, linear
     graph::TextureHandle depth;                   ///< D32F of opaque surfaces, reverse-Z
     graph::TextureHandle display;                 ///< RGBA8, display code values
-    std::vector<shader::ProgramDesc> programs;    ///< every program its passes use
-    std::optional<frame::LightListHandles> lists; ///< imported; absent where every pixel visits every light
+    std::optional<frame::LightListHandles> lists; ///< absent where every pixel visits every light
 };
 
-/// Declares the frame of a technique. `resources` may be null when the graph is only planned; else it must be valid
-/// while the graph runs.
-DeclaredFrame declareFrame(Technique technique, const frame::FrameSpec& spec, const frame::FrameResources* resources);
+/// Declares a technique's passes for a view of the frame; a frame may have several views. `drawn` is null where the
+/// frame is only planned; else it must live while the graph runs.
+DeclaredView declareView(graph::Graph& graph, Technique technique, const frame::FrameSpec& spec,
+                         const frame::DrawnView* drawn);
 
 } // namespace tessera::recipes

@@ -132,7 +132,7 @@ LightListBuilder::LightListBuilder() : scratch_(std::make_unique<Scratch>()) {}
 LightListBuilder::~LightListBuilder() = default;
 
 const LightLists& LightListBuilder::build(const BuildInput& input) {
-    const Build build{input, tileGrid(input.frame, input.sizePixels)};
+    const Build build{input, tileGrid(input.frame)};
     const std::uint32_t layers = input.transparent ? 2u : 1u;
     const std::size_t tiles = std::size_t(build.grid.columns) * build.grid.rows;
     LightLists& lists = scratch_->lists;
@@ -146,7 +146,7 @@ const LightLists& LightListBuilder::build(const BuildInput& input) {
         const auto tileRow = std::uint32_t(i % build.grid.rows);
         TileDepths* depths = scratch_->depths.data() + i * build.grid.columns;
         for (std::uint32_t column = 0; column < build.grid.columns; ++column) {
-            depths[column] = tileDepths(picture, input.frame, input.sizePixels.x, int(column), int(tileRow));
+            depths[column] = tileDepths(picture, input.frame, int(column), int(tileRow));
         }
         if (input.method == Method::Zbin) return;
         build.row(scratch_->reach, depths, tileRow, scratch_->rows[i], lists.tiles.data() + i * build.grid.columns);

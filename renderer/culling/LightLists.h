@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "renderer/culling/CullingMethod.h"
+#include "renderer/culling/TileGrid.h"
 #include "shaders/shared/culling.h"
-#include "shaders/shared/frame.h"
 #include "shaders/shared/light_lists.h"
 
 namespace tessera::culling {
@@ -31,8 +31,7 @@ struct LightLists {
 };
 
 struct BuildInput {
-    const shared::FrameConstants& frame;
-    glm::ivec2 sizePixels;
+    FrameConstants frame;
     std::span<const shared::CullLight> lights;
     Method method = Method::Cluster;
     DepthPicture opaque;

@@ -23,9 +23,10 @@ struct PixelRows {
     int left, right, bottom, top; ///< right and top are one beyond
 };
 
-PixelRows pixelsOf(const shared::FrameConstants& frame, int widthPixels, int column, int row) {
-    const int side = 1 << frame.tileGrid.w;
-    const int height = int(frame.tileGrid.z);
+PixelRows pixelsOf(const FrameConstants& frame, int column, int row) {
+    const int widthPixels = int(frame.view.sizePixels.x);
+    const int side = 1 << frame.lighting.tileGrid.w;
+    const int height = int(frame.lighting.tileGrid.z);
     return {column * side, std::min((column + 1) * side, widthPixels), std::max(0, height - (row + 1) * side),
             height - row * side};
 }
@@ -35,12 +36,12 @@ std::uint64_t bitsFromTo(std::uint32_t first, std::uint32_t last) {
 }
 
 template <bool kIsRange>
-TileDepths tileDepthsOf(const float* depth, const shared::FrameConstants& frame, int widthPixels,
-                        const PixelRows& pixels) {
+TileDepths tileDepthsOf(const float* depth, const FrameConstants& frame, const PixelRows& pixels) {
+    const std::size_t widthPixels = frame.view.sizePixels.x;
     TileDepths tile;
     tile.farthest = 2.0f;
     for (int y = pixels.bottom; y < pixels.top; ++y) {
-        const std::size_t start = std::size_t(y) * std::size_t(widthPixels);
+        const std::size_t start = std::size_t(y) * widthPixels;
         for (int x = pixels.left; x < pixels.right; ++x) {
             const PixelDepths d = pixelDepths<kIsRange>(depth, start + std::size_t(x));
             tile.nearest = std::max(tile.nearest, d.nearest);
@@ -49,16 +50,16 @@ TileDepths tileDepthsOf(const float* depth, const shared::FrameConstants& frame,
     }
     if (!(tile.nearest > 0.0f)) return {};
 
-    const float bias = frame.depthKey.x;
+    const float bias = frame.view.depthKey.x;
     const std::uint32_t low = std::bit_cast<std::uint32_t>(bias + tile.farthest);
     const std::uint32_t high = std::bit_cast<std::uint32_t>(bias + tile.nearest);
-    tile.slicing = shared::slicingOf(low, high, std::uint32_t(frame.depthKey.y), LIGHT_TILE_SLICES);
+    tile.slicing = shared::slicingOf(low, high, frame.lighting.slices.x, LIGHT_TILE_SLICES);
     if (shared::sliceOfKey(high, tile.slicing) == 0) {
         tile.slices = 1;
         return tile;
     }
     for (int y = pixels.bottom; y < pixels.top; ++y) {
-        const std::size_t start = std::size_t(y) * std::size_t(widthPixels);
+        const std::size_t start = std::size_t(y) * widthPixels;
         for (int x = pixels.left; x < pixels.right; ++x) {
             const PixelDepths d = pixelDepths<kIsRange>(depth, start + std::size_t(x));
             if (!(d.nearest > 0.0f)) continue;
@@ -75,26 +76,26 @@ TileDepths tileDepthsOf(const float* depth, const shared::FrameConstants& frame,
     return tile;
 }
 
-DepthRun runBetween(float nearest, float farthest, const shared::FrameConstants& frame) {
-    return {shared::aheadMetres(frame.aheadFromDepth, nearest), shared::aheadMetres(frame.aheadFromDepth, farthest)};
+DepthRun runBetween(float nearest, float farthest, const FrameConstants& frame) {
+    return {shared::aheadMetres(frame.view.aheadFromDepth, nearest),
+            shared::aheadMetres(frame.view.aheadFromDepth, farthest)};
 }
 
 } // namespace
 
-TileDepths tileDepths(const DepthPicture& picture, const shared::FrameConstants& frame, int widthPixels, int column,
-                      int row) {
-    const PixelRows pixels = pixelsOf(frame, widthPixels, column, row);
-    return picture.isRange ? tileDepthsOf<true>(picture.depth.data(), frame, widthPixels, pixels)
-                           : tileDepthsOf<false>(picture.depth.data(), frame, widthPixels, pixels);
+TileDepths tileDepths(const DepthPicture& picture, const FrameConstants& frame, int column, int row) {
+    const PixelRows pixels = pixelsOf(frame, column, row);
+    return picture.isRange ? tileDepthsOf<true>(picture.depth.data(), frame, pixels)
+                           : tileDepthsOf<false>(picture.depth.data(), frame, pixels);
 }
 
-DepthRun depthRun(const TileDepths& tile, const shared::FrameConstants& frame) {
+DepthRun depthRun(const TileDepths& tile, const FrameConstants& frame) {
     return runBetween(tile.nearest, tile.farthest, frame);
 }
 
-DepthRun depthRun(const TileDepths& tile, int firstSlice, int lastSlice, const shared::FrameConstants& frame) {
-    const glm::vec2 depths =
-        shared::depthsOfSlices(tile.slicing, std::uint32_t(firstSlice), std::uint32_t(lastSlice), frame.depthKey.x);
+DepthRun depthRun(const TileDepths& tile, int firstSlice, int lastSlice, const FrameConstants& frame) {
+    const glm::vec2 depths = shared::depthsOfSlices(tile.slicing, std::uint32_t(firstSlice), std::uint32_t(lastSlice),
+                                                    frame.view.depthKey.x);
     return runBetween(std::min(tile.nearest, depths.y), std::max(tile.farthest, depths.x), frame);
 }
 

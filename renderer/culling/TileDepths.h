@@ -15,8 +15,7 @@ struct TileDepths {
 };
 
 /// The depths of tile (column, row).
-TileDepths tileDepths(const DepthPicture& picture, const shared::FrameConstants& frame, int widthPixels, int column,
-                      int row);
+TileDepths tileDepths(const DepthPicture& picture, const FrameConstants& frame, int column, int row);
 
 /// A run of depths in a tile, as metres ahead of the origin of lighting space.
 struct DepthRun {
@@ -25,7 +24,7 @@ struct DepthRun {
 };
 
 /// All of a tile's depths, or its slices first..last only, not more than the tile's surfaces take up.
-DepthRun depthRun(const TileDepths& tile, const shared::FrameConstants& frame);
-DepthRun depthRun(const TileDepths& tile, int firstSlice, int lastSlice, const shared::FrameConstants& frame);
+DepthRun depthRun(const TileDepths& tile, const FrameConstants& frame);
+DepthRun depthRun(const TileDepths& tile, int firstSlice, int lastSlice, const FrameConstants& frame);
 
 } // namespace tessera::culling

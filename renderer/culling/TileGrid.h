@@ -6,6 +6,12 @@
 
 namespace tessera::culling {
 
+/// What culling knows of a view.
+struct FrameConstants {
+    const shared::ViewConstants& view;
+    const shared::LightingConstants& lighting;
+};
+
 /// The tiles of a picture; (0, 0) is its top left one.
 struct TileGrid {
     std::uint32_t columns = 0, rows = 0;
@@ -18,9 +24,9 @@ struct TileGrid {
         return shared::tileRays(lensVS, column, row, sidePixels, sizePixels);
     }
 };
-TileGrid tileGrid(const shared::FrameConstants& frame, glm::ivec2 sizePixels);
+TileGrid tileGrid(const FrameConstants& frame);
 
-/// Sets frame.tileGrid, and the finest slices of depth: about as deep as a tile is wide, so that cells are cubes.
-void setTileGrid(shared::FrameConstants& frame, glm::ivec2 sizePixels, int tilePixels);
+/// Sets the grid of tiles, and the finest slices of depth: about as deep as a tile is wide, so that cells are cubes.
+void setTileGrid(shared::LightingConstants& lighting, const shared::ViewConstants& view, int tilePixels);
 
 } // namespace tessera::culling

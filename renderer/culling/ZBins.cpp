@@ -17,7 +17,7 @@ struct Bins {
 };
 
 /// Bins over the depths of the frame's surfaces, as fine as ZBIN_COUNT allows.
-Bins binsOf(std::span<const TileDepths> depths, const shared::FrameConstants& frame) {
+Bins binsOf(std::span<const TileDepths> depths, const FrameConstants& frame) {
     float nearest = 0.0f, farthest = 2.0f;
     for (const TileDepths& tile : depths) {
         if (tile.isEmpty()) continue;
@@ -25,9 +25,9 @@ Bins binsOf(std::span<const TileDepths> depths, const shared::FrameConstants& fr
         farthest = std::min(farthest, tile.farthest);
     }
     if (!(nearest > 0.0f)) return {ONE_LIGHT_SLICE, 1};
-    const std::uint32_t low = std::bit_cast<std::uint32_t>(frame.depthKey.x + farthest);
-    const std::uint32_t high = std::bit_cast<std::uint32_t>(frame.depthKey.x + nearest);
-    const std::uint32_t slicing = shared::slicingOf(low, high, std::uint32_t(frame.depthKey.y), ZBIN_COUNT);
+    const std::uint32_t low = std::bit_cast<std::uint32_t>(frame.view.depthKey.x + farthest);
+    const std::uint32_t high = std::bit_cast<std::uint32_t>(frame.view.depthKey.x + nearest);
+    const std::uint32_t slicing = shared::slicingOf(low, high, frame.lighting.slices.x, ZBIN_COUNT);
     return {slicing, shared::sliceOfKey(high, slicing) + 1};
 }
 
@@ -36,17 +36,17 @@ void setBit(std::uint32_t* mask, std::size_t bit) {
 }
 
 /// Metres ahead of the origin of lighting space between which bin `index` lies.
-DepthRun binDepths(const Bins& bins, std::uint32_t index, const shared::FrameConstants& frame) {
-    const glm::vec2 depths = shared::depthsOfSlices(bins.slicing, index, index, frame.depthKey.x);
-    return {shared::aheadMetres(frame.aheadFromDepth, depths.y),
-            shared::aheadMetres(frame.aheadFromDepth, std::max(0.0f, depths.x))};
+DepthRun binDepths(const Bins& bins, std::uint32_t index, const FrameConstants& frame) {
+    const glm::vec2 depths = shared::depthsOfSlices(bins.slicing, index, index, frame.view.depthKey.x);
+    return {shared::aheadMetres(frame.view.aheadFromDepth, depths.y),
+            shared::aheadMetres(frame.view.aheadFromDepth, std::max(0.0f, depths.x))};
 }
 
 } // namespace
 
 void buildZBins(const BuildInput& input, const LightReach& reach, std::span<const TileDepths> depths,
                 LightLists& lists) {
-    const TileGrid grid = tileGrid(input.frame, input.sizePixels);
+    const TileGrid grid = tileGrid(input.frame);
     const Bins bins = binsOf(depths, input.frame);
     const std::size_t words = (input.lights.size() + kBits - 1) / kBits;
     const std::size_t tiles = std::size_t(grid.columns) * grid.rows;

@@ -24,7 +24,7 @@ Lens makeLens(const scenes::Camera& camera, double aspect) {
 }
 
 /// Depth by the distance s ahead of lighting space's origin: clip.z = slope s + offset, and its inverse as the
-/// coefficients of FrameConstants::aheadFromDepth. Every term is as small as the interval is short.
+/// coefficients of ViewConstants::aheadFromDepth. Every term is as small as the interval is short.
 struct DepthCoding {
     double slope = 0.0, offset = 0.0;
     glm::dvec4 aheadFromDepth{0.0};
@@ -86,7 +86,7 @@ CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, L
                             glm::dvec4(view.forwardLS, origin - camera.nearMetres)};
 
     const glm::dvec2 pixelStep = 2.0 * lens.halfExtent / glm::dvec2(sizePixels);
-    shared::FrameConstants& c = view.constants;
+    shared::ViewConstants& c = view.constants;
     c.clipFromLS = glm::mat4(view.clipFromLS);
     c.clipFromRS = glm::mat4(clipFromOrigin * glm::dmat4(glm::transpose(worldFromView)));
     c.worldFromLS = glm::mat4(glm::dmat4(glm::transpose(view.lsFromWorld)));
@@ -96,13 +96,11 @@ CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, L
     c.forwardLS = glm::vec4(view.forwardLS, orthographic ? 1.0f : 0.0f);
     c.aheadFromDepth = glm::vec4(coding.aheadFromDepth);
     c.background = glm::vec4(background, 0.0f);
-    c.lights = glm::uvec4(0u);
     c.lensVS = glm::vec4(pixelStep, 0.5 * glm::dvec2(sizePixels));
-    c.tileGrid = glm::uvec4(0u);
     c.sizePixels = glm::uvec4(sizePixels, 0u, 0u);
     // a (f - z) / z is the depth of a perspective camera; adding a makes the key's sum a f / z.
     const double span = view.depths.isEven ? view.depths.farMetres - view.depths.nearMetres : 0.0;
-    c.depthKey = glm::vec4(view.depths.isEven ? 1.0f : c.aheadFromDepth.z, 0.0f, float(span), 0.0f);
+    c.depthKey = glm::vec4(view.depths.isEven ? 1.0f : c.aheadFromDepth.z, float(span), 0.0f, 0.0f);
     return view;
 }
 

@@ -23,7 +23,7 @@ struct CameraView {
     glm::dmat4 clipFromLS{1.0};
     glm::dvec3 forwardLS{0.0, 0.0, -1.0};
     std::array<glm::dvec4, 5> frustumPlanesLS; ///< n.p + d >= 0 inside: left, right, bottom, top, near
-    shared::FrameConstants constants;          ///< lights and tileGrid are left 0
+    shared::ViewConstants constants;
 
     glm::dvec3 positionLS(const glm::dvec3& positionWS) const { return lsFromWorld * (positionWS - originWS); }
 };

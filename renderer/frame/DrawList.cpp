@@ -12,10 +12,22 @@ bool isTransparent(const scenes::Scene& scene, const Draw& draw) {
     return scene.materials[std::size_t(draw.material)].alphaMode == scenes::AlphaMode::Blend;
 }
 
-glm::dvec3 boxCenter(const scenes::Mesh& mesh) {
+scenes::Box3 boxOf(const scenes::Mesh& mesh) {
     scenes::Box3 box;
     for (const glm::vec3& position : mesh.positionsOS) box.extend(glm::dvec3(position));
-    return box.empty() ? glm::dvec3(0.0) : 0.5 * (box.min + box.max);
+    return box;
+}
+
+/// The box around a transformed one.
+scenes::Box3 transformed(const scenes::Box3& box, const glm::dmat4& transform) {
+    scenes::Box3 result;
+    if (box.empty()) return result;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 point(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                               corner & 4 ? box.max.z : box.min.z);
+        result.extend(glm::dvec3(transform * glm::dvec4(point, 1.0)));
+    }
+    return result;
 }
 
 /// Draw::largestColor of a mesh.
@@ -35,8 +47,8 @@ glm::dmat3 cofactor(const glm::dmat3& m) {
 DrawList makeDrawList(const scenes::Scene& scene) {
     DrawList list;
     list.worldFromObject = worldFromNodes(scene);
-    std::vector<glm::dvec3> centersOS(scene.meshes.size());
-    std::transform(scene.meshes.begin(), scene.meshes.end(), centersOS.begin(), boxCenter);
+    std::vector<scenes::Box3> boxesOS(scene.meshes.size());
+    std::transform(scene.meshes.begin(), scene.meshes.end(), boxesOS.begin(), boxOf);
     std::vector<float> largestColors(scene.meshes.size());
     std::transform(scene.meshes.begin(), scene.meshes.end(), largestColors.begin(), largestColor);
     int number = 0;
@@ -46,9 +58,11 @@ DrawList makeDrawList(const scenes::Scene& scene) {
         for (const scenes::MeshInstance& instance : scene.nodes[node].instances) {
             const int own = number++;
             if (!scenes::isDrawn(scene, instance)) continue;
-            const glm::dvec3 centerWS(worldFromObject * glm::dvec4(centersOS[std::size_t(instance.mesh)], 1.0));
+            const scenes::Box3& boxOS = boxesOS[std::size_t(instance.mesh)];
+            const glm::dvec3 centerOS = boxOS.empty() ? glm::dvec3(0.0) : 0.5 * (boxOS.min + boxOS.max);
             list.draws.push_back({instance.mesh, instance.material, int(node), own, mirrored,
-                                  largestColors[std::size_t(instance.mesh)], centerWS});
+                                  largestColors[std::size_t(instance.mesh)], transformed(boxOS, worldFromObject),
+                                  glm::dvec3(worldFromObject * glm::dvec4(centerOS, 1.0))});
         }
     }
     const auto transparent = std::stable_partition(list.draws.begin(), list.draws.end(),
@@ -57,51 +71,72 @@ DrawList makeDrawList(const scenes::Scene& scene) {
         return a.material != b.material ? a.material < b.material : a.mirrored < b.mirrored;
     });
     list.firstTransparent = int(transparent - list.draws.begin());
-    for (int i = 0; i < list.firstTransparent; ++i) {
-        const Draw& draw = list.draws[std::size_t(i)];
-        if (list.opaque.empty() || list.opaque.back().material != draw.material ||
-            list.opaque.back().mirrored != draw.mirrored) {
-            list.opaque.push_back({i, 0, draw.material, draw.mirrored});
-        }
-        ++list.opaque.back().count;
-    }
     return list;
 }
 
-std::vector<Batch> sortedTransparent(const DrawList& list, const CameraView& view) {
-    std::vector<Batch> batches;
-    std::vector<double> depth(list.draws.size(), 0.0);
-    for (int i = list.firstTransparent; i < int(list.draws.size()); ++i) {
-        const Draw& draw = list.draws[std::size_t(i)];
-        depth[std::size_t(i)] = glm::dot(view.forwardLS, view.lsFromWorld * (draw.centerWS - view.eyeWS));
-        batches.push_back({i, 1, draw.material, draw.mirrored});
-    }
-    std::stable_sort(batches.begin(), batches.end(), [&](const Batch& a, const Batch& b) {
-        return depth[std::size_t(a.first)] > depth[std::size_t(b.first)];
+namespace {
+
+/// Of vertices in fp32, far beyond their rounding, of the distances that go into their places.
+constexpr double kRoundingShare = 1e-4;
+
+/// Whether some plane of the view's frustum has all of the box behind it.
+bool isOutside(const scenes::Box3& boxWS, const CameraView& view) {
+    if (boxWS.empty()) return false;
+    const glm::dvec3 low = boxWS.min - view.originWS, high = boxWS.max - view.originWS;
+    const double reachMetres = glm::length(glm::max(glm::abs(low), glm::abs(high)));
+    return std::any_of(view.frustumPlanesLS.begin(), view.frustumPlanesLS.end(), [&](const glm::dvec4& plane) {
+        const glm::dvec3 normal = glm::dvec3(plane) * view.lsFromWorld; // by the transpose, into world axes
+        const glm::dvec3 innermost(normal.x > 0.0 ? high.x : low.x, normal.y > 0.0 ? high.y : low.y,
+                                   normal.z > 0.0 ? high.z : low.z);
+        const double insideMetres = glm::dot(normal, innermost) + plane.w;
+        return insideMetres < -kRoundingShare * (reachMetres + std::abs(plane.w));
     });
-    return batches;
 }
 
-std::vector<DrawRows> makeDrawRows(const DrawList& list, const CameraView& view) {
-    std::vector<DrawRows> rows(list.draws.size());
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const glm::dmat4& worldFromObject = list.worldFromObject[std::size_t(list.draws[i].node)];
-        const glm::dmat3 linear(worldFromObject);
-        const glm::dvec3 originRS = glm::dvec3(worldFromObject[3]) - view.originWS;
-        const double sign = list.draws[i].mirrored ? -1.0 : 1.0;
-        glm::dmat3 normal = cofactor(view.lsFromWorld * linear) * sign;
-        // Scaled to order one: the cofactors of a node scaled by 1e-20 would leave fp32's range.
-        double largest = 0.0;
-        for (int c = 0; c < 3; ++c)
-            largest = std::max({largest, std::abs(normal[c].x), std::abs(normal[c].y), std::abs(normal[c].z)});
-        if (largest > 0.0) normal /= largest;
-        const double extra[3] = {sign, double(list.draws[i].largestColor), 1.0 + list.draws[i].instance};
-        for (int r = 0; r < 3; ++r) {
-            rows[i].position[r] = glm::vec4(linear[0][r], linear[1][r], linear[2][r], originRS[r]);
-            rows[i].normal[r] = glm::vec4(normal[0][r], normal[1][r], normal[2][r], extra[r]);
-        }
+DrawRows rowsOf(const Draw& draw, const glm::dmat4& worldFromObject, const CameraView& view) {
+    const glm::dmat3 linear(worldFromObject);
+    const glm::dvec3 originRS = glm::dvec3(worldFromObject[3]) - view.originWS;
+    const double sign = draw.mirrored ? -1.0 : 1.0;
+    glm::dmat3 normal = cofactor(view.lsFromWorld * linear) * sign;
+    // Scaled to order one: the cofactors of a node scaled by 1e-20 would leave fp32's range.
+    double largest = 0.0;
+    for (int c = 0; c < 3; ++c)
+        largest = std::max({largest, std::abs(normal[c].x), std::abs(normal[c].y), std::abs(normal[c].z)});
+    if (largest > 0.0) normal /= largest;
+    const double extra[3] = {sign, double(draw.largestColor), 1.0 + draw.instance};
+    DrawRows rows;
+    for (int r = 0; r < 3; ++r) {
+        rows.position[r] = glm::vec4(linear[0][r], linear[1][r], linear[2][r], originRS[r]);
+        rows.normal[r] = glm::vec4(normal[0][r], normal[1][r], normal[2][r], extra[r]);
     }
     return rows;
+}
+
+} // namespace
+
+ViewDraws makeViewDraws(const DrawList& list, const CameraView& view, bool culls) {
+    ViewDraws result;
+    std::vector<double> depths; ///< parallel to seen
+    for (int i = 0; i < int(list.draws.size()); ++i) {
+        const Draw& draw = list.draws[std::size_t(i)];
+        if (culls && isOutside(draw.boxWS, view)) continue;
+        const int place = int(result.seen.size());
+        result.seen.push_back(i);
+        result.rows.push_back(rowsOf(draw, list.worldFromObject[std::size_t(draw.node)], view));
+        depths.push_back(glm::dot(view.forwardLS, view.lsFromWorld * (draw.centerWS - view.eyeWS)));
+        if (i >= list.firstTransparent) {
+            result.transparent.push_back({place, 1, draw.material, draw.mirrored});
+            continue;
+        }
+        if (result.opaque.empty() || result.opaque.back().material != draw.material ||
+            result.opaque.back().mirrored != draw.mirrored)
+            result.opaque.push_back({place, 0, draw.material, draw.mirrored});
+        ++result.opaque.back().count;
+    }
+    std::stable_sort(result.transparent.begin(), result.transparent.end(), [&](const Batch& a, const Batch& b) {
+        return depths[std::size_t(a.first)] > depths[std::size_t(b.first)];
+    });
+    return result;
 }
 
 } // namespace tessera::frame

@@ -14,10 +14,11 @@ struct Draw {
     int instance = 0;       ///< place among the mesh instances of all nodes, in document order
     bool mirrored = false;  ///< the node's transform turns the winding round
     float largestColor = 0; ///< of the mesh's vertex colours, any channel, 1 or more; 0 without vertex colours
+    scenes::Box3 boxWS{};   ///< around the mesh's own box; empty without vertices
     glm::dvec3 centerWS{0}; ///< of the mesh's box, for the order of transparent draws
 };
 
-/// Draws [first, first + count) that share material and winding.
+/// Draws [first, first + count) of a view that share material and winding.
 struct Batch {
     int first = 0;
     int count = 0;
@@ -30,13 +31,9 @@ struct Batch {
 struct DrawList {
     std::vector<Draw> draws;
     std::vector<glm::dmat4> worldFromObject; ///< by node
-    std::vector<Batch> opaque;
     int firstTransparent = 0;
 };
 DrawList makeDrawList(const scenes::Scene& scene);
-
-/// The transparent draws far to near by the view depth of their boxes' centres, ties by index; one batch each.
-std::vector<Batch> sortedTransparent(const DrawList& list, const CameraView& view);
 
 /// Per-draw vertex attributes (shaders/passes/geometry.vert): rows of RS-from-object (world axes at the origin of
 /// lighting space, as shaders/shared/frame.h says) and of the cofactor matrix of LS-from-object, which carries normals
@@ -47,6 +44,16 @@ struct DrawRows {
     glm::vec4 position[3];
     glm::vec4 normal[3];
 };
-std::vector<DrawRows> makeDrawRows(const DrawList& list, const CameraView& view);
+
+/// What a view draws of a list. Rows and batches speak of the list's draws that may be seen, in its order.
+struct ViewDraws {
+    std::vector<int> seen;      ///< index into DrawList::draws
+    std::vector<DrawRows> rows; ///< parallel to seen
+    std::vector<Batch> opaque;
+    std::vector<Batch>
+        transparent; ///< one a draw, far to near by the view depth of their boxes' centres, ties by index
+};
+/// With `culls` draws whose boxes lie outside the view are left out.
+ViewDraws makeViewDraws(const DrawList& list, const CameraView& view, bool culls);
 
 } // namespace tessera::frame

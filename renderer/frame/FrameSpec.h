@@ -22,6 +22,7 @@ struct FrameSpec {
     std::size_t lights = 0;                          ///< that the frame's pixels may visit
     bool lightsEverywhere = false;                   ///< some lights reach everywhere, while others do not
     int samples = 1;                                 ///< that the pixels of render targets have
+    glm::vec4 background{0.0f};                      ///< radiance where nothing is drawn; a is 0, the coverage
 
     /// Of the G-buffer, by attachment.
     std::vector<GBufferTexture> gbufferTextures() const { return frame::gbufferTextures(settings.layout, channels); }

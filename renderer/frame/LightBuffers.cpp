@@ -5,29 +5,20 @@
 
 namespace tessera::frame {
 
-namespace {
-
 bool hasShapes(const FeatureSet& features) {
     return features[Feature::SpotLights] || features[Feature::AttenuationLights];
 }
-
-} // namespace
 
 std::size_t lightBytes(const FeatureSet& features, std::size_t count) {
     return count * (sizeof(shared::LightTexels) + (hasShapes(features) ? sizeof(shared::LightShapeTexels) : 0));
 }
 
-void LightBuffers::upload(const PackedLights& lights) {
-    lights_.require(lights.texels.size() * LIGHT_TEXELS);
-    lights_.buffer().upload(lights.texels);
-    if (!hasShapes(lights.features)) return;
-    shapes_.require(lights.shapes.size() * LIGHT_SHAPE_TEXELS);
-    shapes_.buffer().upload(lights.shapes);
-}
+LightBuffers::LightBuffers(const PackedLights& lights)
+    : lights_(gpu::Buffer::of("lights", lights.texels)), shapes_(gpu::Buffer::of("light shapes", lights.shapes)) {}
 
 void LightBuffers::bind() const {
-    gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, lights_.texels());
-    gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHT_SHAPES, shapes_.texels());
+    gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, lights_.texels(graph::Format::Rgba32Float));
+    gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHT_SHAPES, shapes_.texels(graph::Format::Rgba32Float));
 }
 
 } // namespace tessera::frame

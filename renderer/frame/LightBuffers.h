@@ -1,22 +1,24 @@
 #pragma once
-#include "renderer/frame/GrowingTexelBuffer.h"
+#include <memory>
+
 #include "renderer/frame/PackedLights.h"
+#include "renderer/gpu/Buffer.h"
 
 namespace tessera::frame {
 
 /// Bytes that `count` lights of these kinds take.
 std::size_t lightBytes(const FeatureSet& features, std::size_t count);
+/// Whether any light has a shape, which shaders read besides its texels.
+bool hasShapes(const FeatureSet& features);
 
-/// The frame's lights on the GPU, as shaders/lib/light.glsl reads them.
+/// Lights on the GPU, as shaders/lib/light.glsl reads them, for whoever lights without a render graph.
 class LightBuffers {
 public:
-    /// Shapes are uploaded only where a light has one.
-    void upload(const PackedLights& lights);
+    explicit LightBuffers(const PackedLights& lights);
     void bind() const;
 
 private:
-    GrowingTexelBuffer lights_{"lights", graph::Format::Rgba32Float};
-    GrowingTexelBuffer shapes_{"light shapes", graph::Format::Rgba32Float};
+    gpu::Buffer lights_, shapes_;
 };
 
 } // namespace tessera::frame

@@ -1,12 +1,12 @@
 #include "renderer/frame/SceneGpu.h"
 
+#include <array>
 #include <cstring>
 
 #include <fmt/format.h>
 
 #include "renderer/frame/PackedMaterial.h"
 #include "renderer/frame/TextureLevels.h"
-#include "renderer/gpu/Commands.h"
 #include "scenes/InUse.h"
 #include "shaders/shared/slots.h"
 
@@ -49,12 +49,26 @@ gpu::VertexAttribute attribute(std::uint32_t location, int components, const gpu
     return result;
 }
 
+/// The rows of a draw. Each view has a buffer of its own for them.
+const std::array<gpu::VertexAttribute, 6>& drawAttributes() {
+    static const std::array<gpu::VertexAttribute, 6> attributes = [] {
+        std::array<gpu::VertexAttribute, 6> result;
+        for (std::uint32_t row = 0; row < 3; ++row) {
+            const std::size_t offset = row * sizeof(glm::vec4);
+            result[row] = attribute(ATTRIBUTE_DRAW_POSITION_ROW0 + row, 4, nullptr, sizeof(DrawRows),
+                                    offsetof(DrawRows, position) + offset, 1);
+            result[3 + row] = attribute(ATTRIBUTE_DRAW_NORMAL_ROW0 + row, 4, nullptr, sizeof(DrawRows),
+                                        offsetof(DrawRows, normal) + offset, 1);
+        }
+        return result;
+    }();
+    return attributes;
+}
+
 } // namespace
 
 SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter)
     : scene_(scene), features_(features), filter_(filter), materialsInUse_(scenes::inUse(scene).materials),
-      drawRows_(std::make_unique<gpu::Buffer>("draw rows", makeDrawList(scene).draws.size() * sizeof(DrawRows),
-                                              gpu::BufferUse::Dynamic)),
       geometry_(makeGeometry()), draws_(makeDraws(geometry_.ranges)), materials_(makeMaterials()) {
     uploadTextures();
 }
@@ -69,34 +83,24 @@ SceneGpu::Geometry SceneGpu::makeGeometry() const {
         using Value = typename std::decay_t<decltype(values)>::value_type;
         if (values.empty()) return;
         geometry.vertices.push_back(std::make_unique<gpu::Buffer>(gpu::Buffer::of(label, values)));
-        attributes.push_back(attribute(location, Value::length(), geometry.vertices.back().get(), sizeof(Value)));
+        geometry.streams.push_back(geometry.vertices.back().get());
+        attributes.push_back(attribute(location, Value::length(), geometry.streams.back(), sizeof(Value)));
     };
     stream(ATTRIBUTE_POSITION, "positions", streams.positionsOS);
     stream(ATTRIBUTE_NORMAL, "normals", streams.normalsOS);
     stream(ATTRIBUTE_TANGENT, "tangents", streams.tangentsOS);
-    stream(ATTRIBUTE_TEXCOORD0, "texture coordinates 0", streams.texCoords[0]);
-    stream(ATTRIBUTE_TEXCOORD1, "texture coordinates 1", streams.texCoords[1]);
-    stream(ATTRIBUTE_COLOR, "vertex colours", streams.colors);
-    for (std::uint32_t row = 0; row < 3; ++row) {
-        const std::size_t offset = row * sizeof(glm::vec4);
-        attributes.push_back(attribute(ATTRIBUTE_DRAW_POSITION_ROW0 + row, 4, drawRows_.get(), sizeof(DrawRows),
-                                       offsetof(DrawRows, position) + offset, 1));
-        attributes.push_back(attribute(ATTRIBUTE_DRAW_NORMAL_ROW0 + row, 4, drawRows_.get(), sizeof(DrawRows),
-                                       offsetof(DrawRows, normal) + offset, 1));
-    }
+    stream(ATTRIBUTE_TEXCOORD0, "texture_coordinates_0", streams.texCoords[0]);
+    stream(ATTRIBUTE_TEXCOORD1, "texture_coordinates_1", streams.texCoords[1]);
+    stream(ATTRIBUTE_COLOR, "vertex_colors", streams.colors);
+    for (const gpu::VertexAttribute& ofDraw : drawAttributes()) attributes.push_back(ofDraw);
     geometry.indices = std::make_unique<gpu::Buffer>(gpu::Buffer::of("indices", streams.indices));
     geometry.array = std::make_unique<gpu::VertexArray>("scene", attributes, geometry.indices.get());
     return geometry;
 }
 
 SceneGpu::Draws SceneGpu::makeDraws(const VertexStreams::Ranges& ranges) const {
-    Draws draws{alphaModes(scene_), makeDrawList(scene_), nullptr};
-    std::vector<gpu::DrawIndexedCommand> commands;
-    for (const Draw& draw : draws.list.draws) {
-        const VertexStreams::Range& range = ranges.at({draw.mesh, draw.material});
-        commands.push_back({range.indexCount, 1, range.firstIndex, range.baseVertex, std::uint32_t(commands.size())});
-    }
-    draws.commands = std::make_unique<gpu::Buffer>(gpu::Buffer::of("draw commands", commands));
+    Draws draws{alphaModes(scene_), makeDrawList(scene_), {}};
+    for (const Draw& draw : draws.list.draws) draws.ranges.push_back(ranges.at({draw.mesh, draw.material}));
     return draws;
 }
 
@@ -118,11 +122,8 @@ SceneGpu::Materials SceneGpu::makeMaterials() const {
     }
     Materials materials;
     materials.constants = std::make_unique<gpu::Buffer>(gpu::Buffer::of("materials", bytes));
-    if (!features_[Feature::VaryingMaterials] && !tabled.empty()) {
+    if (!features_[Feature::VaryingMaterials] && !tabled.empty())
         materials.tabled = std::make_unique<gpu::Buffer>(gpu::Buffer::of("material table", tabled));
-        materials.table =
-            std::make_unique<gpu::TexelBuffer>("material table", graph::Format::Rgba32Uint, *materials.tabled);
-    }
     return materials;
 }
 
@@ -135,7 +136,6 @@ void SceneGpu::updateMaterials() {
         draws = makeDraws(geometry ? geometry->ranges : geometry_.ranges);
     Materials materials = makeMaterials();
     // Nothing throws from here on.
-    materials_.table.reset(); // before its buffer
     materials_ = std::move(materials);
     if (geometry) geometry_ = std::move(*geometry);
     if (draws) draws_ = std::move(*draws);
@@ -171,9 +171,9 @@ const gpu::Texture* SceneGpu::uploadImage(int index, bool srgb) {
     std::unique_ptr<gpu::Texture>& texture = textures_[{index, srgb}];
     if (texture) return texture.get();
     const scenes::Image& image = scene_.images[std::size_t(index)];
-    const graph::TextureDesc desc{storedFormat(image.format, srgb), image.width, image.height, 1};
-    const int levels = filter_ == TextureFilter::Exact ? 1 : gpu::mipLevelsFor(image.width, image.height);
-    texture = std::make_unique<gpu::Texture>(image.name, desc, levels);
+    const int levels = filter_ == TextureFilter::Exact ? 1 : graph::mipLevelsFor(image.width, image.height);
+    const graph::TextureDesc desc{storedFormat(image.format, srgb), image.width, image.height, 1, levels};
+    texture = std::make_unique<gpu::Texture>(image.name, desc);
     if (isStoredDecoded(image, srgb))
         texture->upload(0, decodedTexels(image));
     else
@@ -196,13 +196,14 @@ const gpu::Sampler* SceneGpu::sampler(const scenes::Sampler& wanted) {
     return samplers_.back().second.get();
 }
 
-void SceneGpu::setView(const CameraView& view) {
-    drawRows_->upload(makeDrawRows(draws_.list, view));
-    transparent_ = sortedTransparent(draws_.list, view);
-}
-
-void SceneGpu::bindMaterialTable() const {
-    if (materials_.table) gpu::bindTexelBuffer(TEXTURE_UNIT_MATERIALS, *materials_.table);
+std::vector<gpu::DrawIndexedCommand> SceneGpu::commandsOf(const ViewDraws& draws) const {
+    std::vector<gpu::DrawIndexedCommand> commands;
+    commands.reserve(draws.seen.size());
+    for (const int draw : draws.seen) {
+        const VertexStreams::Range& range = draws_.ranges[std::size_t(draw)];
+        commands.push_back({range.indexCount, 1, range.firstIndex, range.baseVertex, std::uint32_t(commands.size())});
+    }
+    return commands;
 }
 
 void SceneGpu::bindMaterial(int material) const {
@@ -214,7 +215,8 @@ void SceneGpu::bindMaterial(int material) const {
     }
 }
 
-void SceneGpu::draw(const std::vector<Batch>& batches, const gpu::PipelineState& state) const {
+void SceneGpu::draw(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state) const {
+    for (const gpu::VertexAttribute& ofDraw : drawAttributes()) geometry_.array->setBuffer(ofDraw, view.rows);
     gpu::bindVertexArray(*geometry_.array);
     int boundMaterial = -1;
     for (const Batch& batch : batches) {
@@ -225,7 +227,7 @@ void SceneGpu::draw(const std::vector<Batch>& batches, const gpu::PipelineState&
         gpu::setState(batchState);
         if (batch.material != boundMaterial) bindMaterial(batch.material);
         boundMaterial = batch.material;
-        gpu::drawIndexedIndirect(*draws_.commands, std::uint32_t(batch.first), std::uint32_t(batch.count));
+        gpu::drawIndexedIndirect(view.commands, std::uint32_t(batch.first), std::uint32_t(batch.count));
     }
 }
 

@@ -2,6 +2,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "renderer/frame/DrawList.h"
@@ -9,9 +10,9 @@
 #include "renderer/frame/Tangents.h"
 #include "renderer/frame/VertexStreams.h"
 #include "renderer/gpu/Buffer.h"
+#include "renderer/gpu/Commands.h"
 #include "renderer/gpu/PipelineState.h"
 #include "renderer/gpu/Sampler.h"
-#include "renderer/gpu/TexelBuffer.h"
 #include "renderer/gpu/Texture.h"
 #include "renderer/gpu/VertexArray.h"
 
@@ -30,21 +31,25 @@ public:
     /// std::runtime_error when memory runs out; then all is as it was.
     void updateMaterials();
 
-    /// Puts draws into the view's lighting space and sorts the transparent ones.
-    void setView(const CameraView& view);
+    const DrawList& drawList() const { return draws_.list; }
+    /// One for each draw that a view may see. Its baseInstance selects the draw's rows.
+    std::vector<gpu::DrawIndexedCommand> commandsOf(const ViewDraws& draws) const;
 
-    /// Makes the constants of all materials readable by their numbers (shaders/lib/material_table.glsl), where frames
-    /// of the features need them.
-    void bindMaterialTable() const;
-
-    const std::vector<Batch>& opaque() const { return draws_.list.opaque; }
-    const std::vector<Batch>& transparent() const { return transparent_; }
-
+    /// What commandsOf() and ViewDraws::rows say of a view, on the GPU.
+    struct ViewBuffers {
+        const gpu::Buffer& rows;
+        const gpu::Buffer& commands;
+    };
     /// Binds the vertex streams; then each batch of `batches` with its material, textures, winding and cull state.
     /// `state` is the pass's pipeline state, of which culling and winding are the batch's.
-    void draw(const std::vector<Batch>& batches, const gpu::PipelineState& state) const;
+    void draw(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state) const;
 
-    std::size_t drawCount() const { return draws_.list.draws.size(); }
+    std::span<const gpu::Buffer* const> vertices() const { return geometry_.streams; }
+    const gpu::Buffer& indices() const { return *geometry_.indices; }
+    const gpu::Buffer& materials() const { return *materials_.constants; }
+    /// The constants of all materials by their numbers (shaders/lib/material_table.glsl); null where frames of the
+    /// features do not need them.
+    const gpu::Buffer* materialTable() const { return materials_.tabled.get(); }
 
 private:
     struct BoundTexture {
@@ -55,18 +60,18 @@ private:
         std::vector<std::optional<TangentBasis>> tangentBases; ///< by material, that the streams were made with
         VertexStreams::Ranges ranges;
         std::vector<std::unique_ptr<gpu::Buffer>> vertices;
+        std::vector<const gpu::Buffer*> streams; ///< the same
         std::unique_ptr<gpu::Buffer> indices;
         std::unique_ptr<gpu::VertexArray> array;
     };
     struct Draws {
         std::vector<scenes::AlphaMode> alphaModes; ///< by material, that the list was made with
         DrawList list;
-        std::unique_ptr<gpu::Buffer> commands; ///< one indirect draw a Draw; its baseInstance selects the draw's rows
+        std::vector<VertexStreams::Range> ranges; ///< parallel to list.draws
     };
     struct Materials {
-        std::unique_ptr<gpu::Buffer> constants;  ///< of each, 256 bytes or a multiple apart
-        std::unique_ptr<gpu::Buffer> tabled;     ///< the first MATERIAL_TEXELS of each, without gaps
-        std::unique_ptr<gpu::TexelBuffer> table; ///< a view of it
+        std::unique_ptr<gpu::Buffer> constants; ///< of each, 256 bytes or a multiple apart
+        std::unique_ptr<gpu::Buffer> tabled;    ///< the first MATERIAL_TEXELS of each, without gaps
     };
     Geometry makeGeometry() const;
     Draws makeDraws(const VertexStreams::Ranges& ranges) const;
@@ -83,11 +88,9 @@ private:
     FeatureSet features_;
     TextureFilter filter_;
     std::vector<bool> materialsInUse_; ///< by material; the table holds those in use, in their order
-    std::unique_ptr<gpu::Buffer> drawRows_;
     Geometry geometry_;
     Draws draws_;
     Materials materials_;
-    std::vector<Batch> transparent_;
     std::map<std::pair<int, bool>, std::unique_ptr<gpu::Texture>>
         textures_; ///< by image and whether it is decoded from sRGB
     std::vector<std::pair<scenes::Sampler, std::unique_ptr<gpu::Sampler>>> samplers_;

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct VertexStreams {
     std::vector<glm::vec2> texCoords[2];
     std::vector<glm::vec4> colors;
 };
+/// What the streams are called that such features need, in their order.
+std::vector<std::string> streamNames(const FeatureSet& features);
 /// Throws InputError where that would make very many copies.
 VertexStreams makeVertexStreams(const scenes::Scene& scene, const FeatureSet& features);
 

@@ -6,6 +6,7 @@
 #include <glad/gl.h>
 
 #include "renderer/gpu/Debug.h"
+#include "renderer/gpu/TexelBuffer.h"
 
 namespace tessera::gpu {
 namespace {
@@ -45,8 +46,18 @@ Buffer::Buffer(std::string label, std::size_t bytes, BufferUse use)
     }
 }
 
+Buffer::Buffer(Buffer&&) noexcept = default;
+Buffer& Buffer::operator=(Buffer&&) noexcept = default;
+
 Buffer::~Buffer() {
+    texels_.clear(); // before what they show
     if (const std::uint32_t id = id_.value()) glDeleteBuffers(1, &id);
+}
+
+const TexelBuffer& Buffer::texels(graph::Format format) const {
+    for (const auto& [known, view] : texels_)
+        if (known == format) return *view;
+    return *texels_.emplace_back(format, std::make_unique<TexelBuffer>(label_, format, *this)).second;
 }
 
 void Buffer::uploadBytes(std::span<const std::byte> source, std::size_t offsetBytes) const {

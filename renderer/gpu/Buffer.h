@@ -1,15 +1,20 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <ranges>
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "renderer/gpu/Id.h"
+#include "renderer/graph/Format.h"
 
 namespace tessera::gpu {
+
+class TexelBuffer;
 
 /// Static: written seldom. Dynamic: written every frame. Readback: lives where the CPU reads it cheaply.
 enum class BufferUse { Static, Dynamic, Readback };
@@ -27,8 +32,8 @@ public:
         return buffer;
     }
     ~Buffer();
-    Buffer(Buffer&&) noexcept = default;
-    Buffer& operator=(Buffer&&) noexcept = default;
+    Buffer(Buffer&&) noexcept;
+    Buffer& operator=(Buffer&&) noexcept;
 
     /// Writes a vector, span or array of plain values at `offsetBytes`; must fit (asserted).
     template <std::ranges::contiguous_range Range>
@@ -53,6 +58,10 @@ public:
         return values;
     }
 
+    /// The buffer as texels of a format, made when it is first asked for: as many whole ones as the driver can read.
+    /// Throws as TexelBuffer.
+    const TexelBuffer& texels(graph::Format format) const;
+
     std::size_t bytes() const { return bytes_; }
     std::uint32_t id() const { return id_.value(); }
     const std::string& label() const { return label_; }
@@ -61,6 +70,7 @@ private:
     std::string label_;
     std::size_t bytes_ = 0;
     Id id_;
+    mutable std::vector<std::pair<graph::Format, std::unique_ptr<TexelBuffer>>> texels_;
 };
 
 } // namespace tessera::gpu

@@ -93,6 +93,9 @@ constexpr std::pair<graph::Barrier, GLbitfield> kBarrierBits[] = {
     {graph::Barrier::Framebuffer, GL_FRAMEBUFFER_BARRIER_BIT},
     {graph::Barrier::TransferOrUpdate,
      GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_PIXEL_BUFFER_BARRIER_BIT},
+    {graph::Barrier::VertexAttribute, GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT},
+    {graph::Barrier::ElementArray, GL_ELEMENT_ARRAY_BARRIER_BIT},
+    {graph::Barrier::Command, GL_COMMAND_BARRIER_BIT},
 };
 
 } // namespace
@@ -194,13 +197,13 @@ void bindTexelBuffer(std::uint32_t unit, const TexelBuffer& buffer) {
     glBindSampler(unit, 0);
 }
 
-void bindImage(std::uint32_t unit, const Texture& texture, ImageAccess access, int level) {
+void bindImage(std::uint32_t unit, const Texture& texture, ImageAccess access, const graph::Part& part) {
     const GlFormat& format = glFormat(texture.desc().format);
     assert(format.inImages && "this format cannot be bound as an image");
     const GLenum mode = access == ImageAccess::Read    ? GL_READ_ONLY
                         : access == ImageAccess::Write ? GL_WRITE_ONLY
                                                        : GL_READ_WRITE;
-    glBindImageTexture(unit, texture.id(), level, GL_FALSE, 0, mode, format.internalFormat);
+    glBindImageTexture(unit, texture.id(), part.level, GL_FALSE, part.layer, mode, format.internalFormat);
 }
 
 void bindUniformBuffer(std::uint32_t slot, const Buffer& buffer) {

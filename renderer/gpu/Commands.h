@@ -63,7 +63,7 @@ enum class ImageAccess { Read, Write, ReadWrite };
 /// A null sampler uses the texture's own filtering: nearest, clamped.
 void bindTexture(std::uint32_t unit, const Texture& texture, const Sampler* sampler = nullptr);
 void bindTexelBuffer(std::uint32_t unit, const TexelBuffer& buffer);
-void bindImage(std::uint32_t unit, const Texture& texture, ImageAccess access, int level = 0);
+void bindImage(std::uint32_t unit, const Texture& texture, ImageAccess access, const graph::Part& part = {});
 void bindUniformBuffer(std::uint32_t slot, const Buffer& buffer); ///< all of it
 void bindUniformBuffer(std::uint32_t slot, const Buffer& buffer, std::size_t offset, std::size_t bytes);
 void bindStorageBuffer(std::uint32_t slot, const Buffer& buffer);

@@ -13,18 +13,21 @@
 namespace tessera::gpu {
 namespace {
 
-std::string describe(const Texture& texture) {
-    const graph::TextureDesc& desc = texture.desc();
-    return fmt::format("'{}' {} x {} {}, {} sample{}", texture.label(), desc.width, desc.height,
-                       graph::formatInfo(desc.format).name, desc.samples, desc.samples == 1 ? "" : "s");
+std::string describe(const graph::Target& target) {
+    const graph::TextureDesc desc = graph::mipDesc(target.texture->desc(), target.part.level);
+    std::string text = fmt::format("'{}' {} x {} {}, {} sample{}", target.texture->label(), desc.width, desc.height,
+                                   graph::formatInfo(desc.format).name, desc.samples, desc.samples == 1 ? "" : "s");
+    if (target.part != graph::Part()) text += fmt::format(", level {}, layer {}", target.part.level, target.part.layer);
+    return text;
 }
 
 std::string describe(const Attachments& attachments) {
     std::string text;
     for (std::size_t i = 0; i < attachments.colors.size(); ++i)
-        if (attachments.colors[i])
-            text += fmt::format("{}colour {} = {}", text.empty() ? "" : "; ", i, describe(*attachments.colors[i]));
-    if (attachments.depth) text += fmt::format("{}depth = {}", text.empty() ? "" : "; ", describe(*attachments.depth));
+        if (attachments.colors[i].texture)
+            text += fmt::format("{}colour {} = {}", text.empty() ? "" : "; ", i, describe(attachments.colors[i]));
+    if (attachments.depth.texture)
+        text += fmt::format("{}depth = {}", text.empty() ? "" : "; ", describe(attachments.depth));
     return text.empty() ? "nothing" : text;
 }
 
@@ -43,10 +46,18 @@ std::string statusName(GLenum status) {
     }
 }
 
-std::vector<const Texture*> textures(const Attachments& attachments) {
-    std::vector<const Texture*> all{attachments.depth};
+std::vector<graph::Target> targets(const Attachments& attachments) {
+    std::vector<graph::Target> all{attachments.depth};
     all.insert(all.end(), attachments.colors.begin(), attachments.colors.end());
     return all;
+}
+
+void attach(std::uint32_t framebuffer, GLenum point, const graph::Target& target) {
+    const auto& [texture, part] = target;
+    if (texture->desc().shape == graph::Shape::Flat)
+        glNamedFramebufferTexture(framebuffer, point, texture->id(), part.level);
+    else
+        glNamedFramebufferTextureLayer(framebuffer, point, texture->id(), part.level, part.layer);
 }
 
 [[noreturn]] void fail(const Attachments& attachments, const std::string& why) {
@@ -56,9 +67,9 @@ std::vector<const Texture*> textures(const Attachments& attachments) {
 } // namespace
 
 Framebuffer::Framebuffer(const Attachments& attachments) : width_(attachments.width), height_(attachments.height) {
-    for (const Texture* texture : textures(attachments)) {
-        if (!texture) continue;
-        const graph::TextureDesc& desc = texture->desc();
+    for (const graph::Target& target : targets(attachments)) {
+        if (!target.texture) continue;
+        const graph::TextureDesc desc = graph::mipDesc(target.texture->desc(), target.part.level);
         if (width_ != 0 && (width_ != desc.width || height_ != desc.height))
             fail(attachments, "the attachments' sizes differ");
         width_ = desc.width;
@@ -71,14 +82,14 @@ Framebuffer::Framebuffer(const Attachments& attachments) : width_(attachments.wi
     std::vector<GLenum> drawBuffers;
     for (std::size_t i = 0; i < attachments.colors.size(); ++i) {
         const GLenum point = GL_COLOR_ATTACHMENT0 + GLenum(i);
-        drawBuffers.push_back(attachments.colors[i] ? point : GLenum(GL_NONE));
-        if (attachments.colors[i]) glNamedFramebufferTexture(id, point, attachments.colors[i]->id(), 0);
+        drawBuffers.push_back(attachments.colors[i].texture ? point : GLenum(GL_NONE));
+        if (attachments.colors[i].texture) attach(id, point, attachments.colors[i]);
     }
     if (attachments.width > 0) {
         glNamedFramebufferParameteri(id, GL_FRAMEBUFFER_DEFAULT_WIDTH, width_);
         glNamedFramebufferParameteri(id, GL_FRAMEBUFFER_DEFAULT_HEIGHT, height_);
     }
-    if (attachments.depth) glNamedFramebufferTexture(id, GL_DEPTH_ATTACHMENT, attachments.depth->id(), 0);
+    if (attachments.depth.texture) attach(id, GL_DEPTH_ATTACHMENT, attachments.depth);
     glNamedFramebufferDrawBuffers(id, GLsizei(drawBuffers.size()), drawBuffers.data());
     if (drawBuffers.empty() || drawBuffers.front() == GL_NONE) glNamedFramebufferReadBuffer(id, GL_NONE);
     labelObject(LabelKind::Framebuffer, id, describe(attachments));
@@ -114,12 +125,15 @@ std::vector<glm::vec2> Framebuffer::samplePositions() const {
 
 const Framebuffer& FramebufferCache::get(const Attachments& attachments) {
     std::vector<std::uint64_t> key{std::uint64_t(attachments.width), std::uint64_t(attachments.height)};
-    for (const Texture* texture : textures(attachments)) key.push_back(texture ? *texture->serial() : 0);
+    for (const auto& [texture, part] : targets(attachments)) {
+        key.push_back(texture ? *texture->serial() : 0);
+        key.push_back(std::uint64_t(part.level) << 32 | std::uint64_t(part.layer));
+    }
     if (const auto found = entries_.find(key); found != entries_.end()) return found->second.framebuffer;
     collect();
     Entry entry{{}, Framebuffer(attachments)};
-    for (const Texture* texture : textures(attachments))
-        if (texture) entry.textures.emplace_back(texture->serial());
+    for (const graph::Target& target : targets(attachments))
+        if (target.texture) entry.textures.emplace_back(target.texture->serial());
     return entries_.emplace(std::move(key), std::move(entry)).first->second.framebuffer;
 }
 

@@ -12,10 +12,10 @@
 
 namespace tessera::gpu {
 
-/// Where a pass rasterises to. A null colour leaves its output location unwritten.
+/// Where a pass rasterises to. A colour without a texture leaves its output location unwritten.
 struct Attachments {
-    std::vector<const Texture*> colors;
-    const Texture* depth = nullptr;
+    std::vector<graph::Target> colors;
+    graph::Target depth = {};
     int width = 0; ///< pixels; where nothing is attached, since shaders only write buffers
     int height = 0;
 };
@@ -58,7 +58,7 @@ private:
         Framebuffer framebuffer;
     };
     std::map<std::vector<std::uint64_t>, Entry>
-        entries_; ///< by size where nothing is attached, then texture serials, depth first; 0: none
+        entries_; ///< by size where nothing is attached, then texture serials and parts, depth first; 0: none
 };
 
 } // namespace tessera::gpu

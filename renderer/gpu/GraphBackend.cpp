@@ -7,15 +7,22 @@
 #include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Context.h"
+#include "renderer/gpu/Program.h"
+#include "renderer/graph/Access.h"
 
 namespace tessera::gpu {
 namespace {
 
 std::string poolLabel(const graph::ResourceDesc& desc) {
     if (const auto* texture = std::get_if<graph::TextureDesc>(&desc))
-        return fmt::format("transient {} {} x {}, {} samples", graph::formatInfo(texture->format).name, texture->width,
-                           texture->height, texture->samples);
+        return fmt::format("transient {} {}", graph::formatInfo(texture->format).name, graph::describeSize(desc));
     return fmt::format("transient buffer, {} bytes", std::get<graph::BufferDesc>(desc).bytes);
+}
+
+template <typename Resource>
+Resource made(const std::string& label, const graph::ResourceDesc& desc) {
+    if (const auto* texture = std::get_if<graph::TextureDesc>(&desc)) return std::make_unique<Texture>(label, *texture);
+    return std::make_unique<Buffer>(label, std::get<graph::BufferDesc>(desc).bytes);
 }
 
 } // namespace
@@ -30,12 +37,7 @@ GraphBackend::Pooled& GraphBackend::take(const graph::ResourceDesc& desc) {
         pooled->idleFrames = 0;
         return *pooled;
     }
-    auto pooled = std::make_unique<Pooled>();
-    pooled->desc = desc;
-    if (const auto* texture = std::get_if<graph::TextureDesc>(&desc))
-        pooled->resource = std::make_unique<Texture>(poolLabel(desc), *texture);
-    else
-        pooled->resource = std::make_unique<Buffer>(poolLabel(desc), std::get<graph::BufferDesc>(desc).bytes);
+    auto pooled = std::make_unique<Pooled>(Pooled{desc, made<Resource>(poolLabel(desc), desc)});
     pooled->taken = true;
     return *pool_.emplace_back(std::move(pooled));
 }
@@ -62,6 +64,59 @@ const Texture& GraphBackend::texture(int physical) {
 const Buffer& GraphBackend::buffer(int physical) {
     assert(physical >= 0 && std::size_t(physical) < physical_.size());
     return *std::get<std::unique_ptr<Buffer>>(physical_[std::size_t(physical)]->resource);
+}
+
+const Buffer& GraphBackend::growingBuffer(const std::string& name, int number, std::size_t bytes) {
+    const auto known = growing_.find({name, number});
+    if (known != growing_.end() && known->second.bytes() >= bytes) return known->second;
+    if (known != growing_.end()) growing_.erase(known); // its memory may be needed
+    // A quarter more, so that it seldom grows.
+    return growing_.emplace(std::pair(name, number), Buffer(name, bytes + bytes / 4, BufferUse::Dynamic)).first->second;
+}
+
+GraphBackend::Resource& GraphBackend::persistent(const std::string& name, const graph::ResourceDesc& desc) {
+    const auto known = persistent_.find(name);
+    if (known != persistent_.end() && known->second.desc == desc) return known->second.resource;
+    forget(name);
+    return persistent_.emplace(name, Persistent{desc, made<Resource>(name, desc), {}}).first->second.resource;
+}
+
+const Texture& GraphBackend::persistentTexture(const std::string& name, const graph::TextureDesc& desc) {
+    return *std::get<std::unique_ptr<Texture>>(persistent(name, desc));
+}
+
+const Buffer& GraphBackend::persistentBuffer(const std::string& name, const graph::BufferDesc& desc) {
+    return *std::get<std::unique_ptr<Buffer>>(persistent(name, desc));
+}
+
+void GraphBackend::setRevision(const std::string& name, std::optional<std::uint64_t> revision) {
+    persistent_.at(name).revision = revision;
+}
+
+bool GraphBackend::holds(const std::string& name, const graph::ResourceDesc& desc, std::uint64_t revision) const {
+    const auto known = persistent_.find(name);
+    return known != persistent_.end() && known->second.desc == desc && known->second.revision == revision;
+}
+
+void GraphBackend::forget(const std::string& name) {
+    if (persistent_.erase(name) > 0) framebuffers_.collect();
+}
+
+void GraphBackend::bindTargets(std::span<const graph::Target> colors, const graph::Target& depth, int width,
+                               int height) {
+    bindFramebuffer(framebuffers_.get({{colors.begin(), colors.end()}, depth, width, height}));
+}
+
+void GraphBackend::bindConstants(std::uint32_t slot, std::span<const std::byte> bytes,
+                                 std::span<const Program* const> programs) {
+    for (const Program* program : programs) {
+        const std::size_t wanted = program->uniformBlockBytes(slot);
+        if (wanted != 0 && wanted != bytes.size())
+            throw std::logic_error(
+                fmt::format("program '{}' has a uniform block of {} bytes at slot {}, and is given {}",
+                            program->label(), wanted, slot, bytes.size()));
+    }
+    constants_.bind(slot, bytes);
 }
 
 void GraphBackend::beginPass(std::string_view name, graph::Barrier barrier) {
@@ -112,6 +167,8 @@ std::vector<PassTiming> GraphBackend::passTimings() {
 std::size_t GraphBackend::poolBytes() const {
     std::size_t bytes = 0;
     for (const auto& pooled : pool_) bytes += graph::descBytes(pooled->desc);
+    for (const auto& [name, kept] : persistent_) bytes += graph::descBytes(kept.desc);
+    for (const auto& [key, buffer] : growing_) bytes += buffer.bytes();
     return bytes;
 }
 

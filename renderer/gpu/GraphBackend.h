@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/gpu/Buffer.h"
+#include "renderer/gpu/ConstantRing.h"
 #include "renderer/gpu/Debug.h"
 #include "renderer/gpu/Framebuffer.h"
 #include "renderer/gpu/Texture.h"
@@ -45,14 +46,24 @@ public:
     void allocate(std::span<const graph::ResourceDesc> allocations) override;
     const Texture& texture(int physical) override;
     const Buffer& buffer(int physical) override;
+    const Buffer& growingBuffer(const std::string& name, int number, std::size_t bytes) override;
+    const Texture& persistentTexture(const std::string& name, const graph::TextureDesc& desc) override;
+    const Buffer& persistentBuffer(const std::string& name, const graph::BufferDesc& desc) override;
+    void setRevision(const std::string& name, std::optional<std::uint64_t> revision) override;
+    /// Whether a frame that ended well has left this revision under the name, in that shape.
+    bool holds(const std::string& name, const graph::ResourceDesc& desc, std::uint64_t revision) const;
+    /// Gives back what lives across frames under a name.
+    void forget(const std::string& name);
+    void bindTargets(std::span<const graph::Target> colors, const graph::Target& depth, int width, int height) override;
+    void bindConstants(std::uint32_t slot, std::span<const std::byte> bytes,
+                       std::span<const Program* const> programs) override;
     void beginPass(std::string_view name, graph::Barrier barrier) override;
     void endPass(std::string_view name) override;
     void endFrame(graph::Barrier barrier) override;
 
     /// Passes of the latest frame in order of execution. Without profiling gpuMs is some frames old.
     std::vector<PassTiming> passTimings();
-    FramebufferCache& framebuffers() { return framebuffers_; }
-    /// Bytes held, pooled and idle ones included.
+    /// Bytes held, pooled, idle and persistent ones included.
     std::size_t poolBytes() const;
 
 private:
@@ -63,6 +74,11 @@ private:
         int idleFrames = 0;
         bool taken = false;
     };
+    struct Persistent {
+        graph::ResourceDesc desc;
+        Resource resource;
+        std::optional<std::uint64_t> revision; ///< none: no frame has ended well that wrote it
+    };
     struct PassRecord {
         std::optional<GpuTimer> gpuTimer; ///< absent on software rasterisers
         std::optional<double> profiledMs;
@@ -71,10 +87,14 @@ private:
     using PassKey = std::pair<std::string, int>; ///< a pass may run several times a frame under one name
 
     Pooled& take(const graph::ResourceDesc& desc);
+    Resource& persistent(const std::string& name, const graph::ResourceDesc& desc);
 
     FramebufferCache framebuffers_;
+    ConstantRing constants_;
     std::vector<std::unique_ptr<Pooled>> pool_;
     std::vector<Pooled*> physical_;
+    std::map<std::string, Persistent> persistent_;          ///< by name
+    std::map<std::pair<std::string, int>, Buffer> growing_; ///< by name and number
     std::map<PassKey, PassRecord> records_;
     std::vector<PassKey> frame_; ///< passes of the frame, in order
     std::map<std::string, int, std::less<>> runsOfName_;

@@ -1,6 +1,7 @@
 #include "renderer/gpu/Program.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 #include <fmt/format.h>
@@ -121,7 +122,22 @@ Program PendingProgram::finish() {
 Program::Program(std::string label, std::span<const StageSource> stages)
     : Program(PendingProgram(std::move(label), stages).finish()) {}
 
-Program::Program(std::string label, Id id) : label_(std::move(label)), id_(std::move(id)) {}
+Program::Program(std::string label, Id id) : label_(std::move(label)), id_(std::move(id)) {
+    GLint blocks = 0;
+    glGetProgramInterfaceiv(id_.value(), GL_UNIFORM_BLOCK, GL_ACTIVE_RESOURCES, &blocks);
+    for (GLint block = 0; block < blocks; ++block) {
+        constexpr std::array<GLenum, 2> kAsked{GL_BUFFER_BINDING, GL_BUFFER_DATA_SIZE};
+        std::array<GLint, 2> values{};
+        glGetProgramResourceiv(id_.value(), GL_UNIFORM_BLOCK, GLuint(block), GLsizei(kAsked.size()), kAsked.data(),
+                               GLsizei(values.size()), nullptr, values.data());
+        uniformBlockBytes_[std::uint32_t(values[0])] = std::size_t(values[1]);
+    }
+}
+
+std::size_t Program::uniformBlockBytes(std::uint32_t slot) const {
+    const auto found = uniformBlockBytes_.find(slot);
+    return found == uniformBlockBytes_.end() ? 0 : found->second;
+}
 
 Program::~Program() {
     const std::uint32_t id = id_.value();

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -63,6 +64,8 @@ public:
     /// Binding slot of a block or of a sampler or image uniform; -1 when it is not active.
     int blockSlot(std::string_view block, BlockKind kind) const;
     int samplerUnit(std::string_view uniform) const;
+    /// GL_BUFFER_DATA_SIZE of the active uniform block at a slot, bytes; 0 when there is none.
+    std::size_t uniformBlockBytes(std::uint32_t slot) const;
 
     std::uint32_t id() const { return id_.value(); }
     const std::string& label() const { return label_; }
@@ -72,6 +75,7 @@ private:
     Program(std::string label, Id id);
     std::string label_;
     Id id_;
+    std::map<std::uint32_t, std::size_t> uniformBlockBytes_; ///< by slot
 };
 
 /// A program on its way: the constructor only issues the work, so that a driver with KHR_parallel_shader_compile builds

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cassert>
 #include <stdexcept>
 
@@ -12,6 +11,7 @@
 #include "renderer/gpu/Context.h"
 #include "renderer/gpu/Debug.h"
 #include "renderer/gpu/GlFormat.h"
+#include "renderer/graph/Access.h"
 
 namespace tessera::gpu {
 namespace {
@@ -22,12 +22,23 @@ std::uint64_t nextSerial() {
 }
 
 std::string describe(const std::string& label, const graph::TextureDesc& desc) {
-    const std::string samples = desc.samples > 1 ? fmt::format(", {} samples", desc.samples) : "";
-    return fmt::format("texture '{}' ({} x {} {}{})", label, desc.width, desc.height,
-                       graph::formatInfo(desc.format).name, samples);
+    return fmt::format("texture '{}' ({} {})", label, graph::describeSize(desc), graph::formatInfo(desc.format).name);
 }
 
-void checkDesc(const std::string& label, const graph::TextureDesc& desc, int mipLevels) {
+GLenum targetOf(const graph::TextureDesc& desc) {
+    if (desc.samples > 1) return GL_TEXTURE_2D_MULTISAMPLE;
+    switch (desc.shape) {
+    case graph::Shape::Array:
+        return GL_TEXTURE_2D_ARRAY;
+    case graph::Shape::Cube:
+        return GL_TEXTURE_CUBE_MAP;
+    case graph::Shape::Flat:
+        break;
+    }
+    return GL_TEXTURE_2D;
+}
+
+void checkDesc(const std::string& label, const graph::TextureDesc& desc) {
     const Capabilities& capabilities = Context::current()->capabilities();
     const std::string what = describe(label, desc);
     if (desc.width < 1 || desc.height < 1 || desc.samples < 1)
@@ -39,48 +50,39 @@ void checkDesc(const std::string& label, const graph::TextureDesc& desc, int mip
     if (desc.samples > capabilities.maxSamples)
         throw std::runtime_error(
             fmt::format("{} has more samples than this driver's limit of {}", what, capabilities.maxSamples));
-    assert(mipLevels >= 1 && mipLevels <= mipLevelsFor(desc.width, desc.height));
-    assert((desc.samples == 1 || mipLevels == 1) && "a multisampled texture has one level");
-    static_cast<void>(mipLevels);
+    assert(desc.levels >= 1 && desc.levels <= graph::mipLevelsFor(desc.width, desc.height));
+    assert((desc.samples == 1 || (desc.levels == 1 && desc.shape == graph::Shape::Flat)) &&
+           "several samples, one part");
+    assert(desc.shape != graph::Shape::Cube || (desc.layers == 6 && desc.width == desc.height));
+    assert(desc.shape != graph::Shape::Flat || desc.layers == 1);
 }
 
 } // namespace
 
-int mipLevelsFor(int width, int height) {
-    return std::bit_width(unsigned(std::max({width, height, 1})));
-}
-
-graph::TextureDesc mipDesc(const graph::TextureDesc& desc, int level) {
-    graph::TextureDesc result = desc;
-    result.width = std::max(1, desc.width >> level);
-    result.height = std::max(1, desc.height >> level);
-    return result;
-}
-
-Texture::Texture(std::string label, const graph::TextureDesc& desc, int mipLevels)
-    : label_(std::move(label)), desc_(desc), mipLevels_(mipLevels),
-      serial_(std::make_shared<const std::uint64_t>(nextSerial())) {
+Texture::Texture(std::string label, const graph::TextureDesc& desc)
+    : label_(std::move(label)), desc_(desc), serial_(std::make_shared<const std::uint64_t>(nextSerial())) {
     throwIfFailed(fmt::format("before creating texture '{}'", label_));
-    checkDesc(label_, desc, mipLevels);
+    checkDesc(label_, desc);
     const bool multisampled = desc.samples > 1;
     const GLenum internalFormat = glFormat(desc.format).internalFormat;
     std::uint32_t id = 0;
-    glCreateTextures(multisampled ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, 1, &id);
+    glCreateTextures(targetOf(desc), 1, &id);
     id_ = Id(id);
     if (multisampled) {
         glTextureStorage2DMultisample(id, desc.samples, internalFormat, desc.width, desc.height, GL_TRUE);
     } else {
-        glTextureStorage2D(id, mipLevels, internalFormat, desc.width, desc.height);
+        if (desc.shape == graph::Shape::Array)
+            glTextureStorage3D(id, desc.levels, internalFormat, desc.width, desc.height, desc.layers);
+        else
+            glTextureStorage2D(id, desc.levels, internalFormat, desc.width, desc.height);
         glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
         glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
         glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     }
     labelObject(LabelKind::Texture, id, label_);
-    std::size_t bytes = 0;
-    for (int level = 0; level < mipLevels; ++level) bytes += levelBytes(level);
     try {
-        throwIfAllocationFailed(describe(label_, desc), bytes);
+        throwIfAllocationFailed(describe(label_, desc), graph::descBytes(desc));
     } catch (...) {
         glDeleteTextures(1, &id);
         throw;
@@ -92,18 +94,20 @@ Texture::~Texture() {
 }
 
 std::size_t Texture::levelBytes(int level) const {
-    const graph::TextureDesc size = mipDesc(desc_, level);
-    return std::size_t(size.width) * std::size_t(size.height) * std::size_t(size.samples) *
-           std::size_t(graph::formatInfo(desc_.format).bytes);
+    return graph::descBytes(graph::mipDesc(desc_, level)) / std::size_t(desc_.layers);
 }
 
-void Texture::upload(int level, std::span<const std::byte> texels) const {
-    assert(desc_.samples == 1 && level >= 0 && level < mipLevels_);
+void Texture::upload(int level, std::span<const std::byte> texels, int layer) const {
+    assert(desc_.samples == 1 && level >= 0 && level < desc_.levels && layer >= 0 && layer < desc_.layers);
     assert(texels.size() == levelBytes(level) && "an upload replaces a whole level");
     const GlFormat& format = glFormat(desc_.format);
-    const graph::TextureDesc size = mipDesc(desc_, level);
-    glTextureSubImage2D(id_.value(), level, 0, 0, size.width, size.height, format.transferFormat, format.transferType,
-                        texels.data());
+    const graph::TextureDesc size = graph::mipDesc(desc_, level);
+    if (desc_.shape == graph::Shape::Flat)
+        glTextureSubImage2D(id_.value(), level, 0, 0, size.width, size.height, format.transferFormat,
+                            format.transferType, texels.data());
+    else
+        glTextureSubImage3D(id_.value(), level, 0, 0, layer, size.width, size.height, 1, format.transferFormat,
+                            format.transferType, texels.data());
     throwIfAllocationFailed(describe(label_, desc_), levelBytes(level));
 }
 
@@ -112,26 +116,26 @@ void Texture::generateMips() const {
     throwIfAllocationFailed(describe(label_, desc_), levelBytes(0));
 }
 
-std::vector<std::byte> Texture::downloadBytes(int level) const {
+std::vector<std::byte> Texture::downloadBytes(int level, int layer) const {
     std::vector<std::byte> texels(levelBytes(level));
-    downloadInto(level, texels);
+    downloadInto(level, texels, layer);
     return texels;
 }
 
-void Texture::downloadInto(int level, std::span<std::byte> texels) const {
-    assert(level >= 0 && level < mipLevels_);
+void Texture::downloadInto(int level, std::span<std::byte> texels, int layer) const {
+    assert(level >= 0 && level < desc_.levels && layer >= 0 && layer < desc_.layers);
     if (desc_.samples > 1)
         throw std::runtime_error(
             fmt::format("{} cannot be read back; resolve it with blit() first", describe(label_, desc_)));
     assert(texels.size() == levelBytes(level));
     const GlFormat& format = glFormat(desc_.format);
     // GL counts in a signed 32-bit size; larger levels are read in bands of rows.
-    const graph::TextureDesc size = mipDesc(desc_, level);
+    const graph::TextureDesc size = graph::mipDesc(desc_, level);
     const std::size_t rowBytes = texels.size() / std::size_t(size.height);
     const int rowsAtOnce = int(std::clamp<std::size_t>((std::size_t(1) << 30) / rowBytes, 1, std::size_t(size.height)));
     for (int row = 0; row < size.height; row += rowsAtOnce) {
         const int rows = std::min(rowsAtOnce, size.height - row);
-        glGetTextureSubImage(id_.value(), level, 0, row, 0, size.width, rows, 1, format.transferFormat,
+        glGetTextureSubImage(id_.value(), level, 0, row, layer, size.width, rows, 1, format.transferFormat,
                              format.transferType, GLsizei(rowBytes * std::size_t(rows)),
                              texels.data() + rowBytes * std::size_t(row));
     }

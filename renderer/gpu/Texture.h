@@ -14,49 +14,43 @@
 
 namespace tessera::gpu {
 
-/// Levels of a full mip chain down to 1 x 1.
-int mipLevelsFor(int width, int height);
-
-/// Width and height of level `level` of a texture of this size.
-graph::TextureDesc mipDesc(const graph::TextureDesc& desc, int level);
-
-/// A 2D texture of immutable storage; samples > 1 makes it multisampled (one level, no upload, no download). Made with
-/// nearest filtering and clamped edges, which is what texelFetch and the G-buffer need; a Sampler overrides both.
+/// A texture of immutable storage: flat, an array or a cube; samples > 1 makes it multisampled (flat, one level, no
+/// upload, no download). Made with nearest filtering and clamped edges, which is what texelFetch and the G-buffer need;
+/// a Sampler overrides both.
 class Texture {
 public:
     /// Throws std::runtime_error naming label, size and format when the size or the samples are beyond the driver or
     /// memory runs out. Contents are undefined until written.
-    Texture(std::string label, const graph::TextureDesc& desc, int mipLevels = 1);
+    Texture(std::string label, const graph::TextureDesc& desc);
     ~Texture();
     Texture(Texture&&) noexcept = default;
     Texture& operator=(Texture&&) noexcept = default;
 
-    /// Replaces one level. Rows tightly packed, in GL order: the first row is the one sampled at v = 0.
-    void upload(int level, std::span<const std::byte> texels) const;
+    /// Replaces one level of a layer. Rows tightly packed, in GL order: the first row is the one sampled at v = 0.
+    void upload(int level, std::span<const std::byte> texels, int layer = 0) const;
     template <std::ranges::contiguous_range Range>
-    requires(!std::convertible_to<Range, std::span<const std::byte>>) void upload(int level,
-                                                                                  const Range& texels) const {
-        upload(level, std::as_bytes(std::span(std::ranges::data(texels), std::ranges::size(texels))));
+    requires(!std::convertible_to<Range, std::span<const std::byte>>) void upload(int level, const Range& texels,
+                                                                                  int layer = 0) const {
+        upload(level, std::as_bytes(std::span(std::ranges::data(texels), std::ranges::size(texels))), layer);
     }
     /// Fills levels 1.. from level 0 by the driver's box filter.
     void generateMips() const;
 
-    /// One level's texels, tightly packed, rows in GL order (lower-left first for rendered pictures); waits for the
-    /// GPU.
-    std::vector<std::byte> downloadBytes(int level = 0) const;
+    /// One level's texels of a layer, tightly packed, rows in GL order (lower-left first for rendered pictures); waits
+    /// for the GPU.
+    std::vector<std::byte> downloadBytes(int level = 0, int layer = 0) const;
     /// The same into memory of levelBytes(level).
-    void downloadInto(int level, std::span<std::byte> texels) const;
+    void downloadInto(int level, std::span<std::byte> texels, int layer = 0) const;
     template <typename T>
-    std::vector<T> downloadAs(int level = 0) const {
+    std::vector<T> downloadAs(int level = 0, int layer = 0) const {
         static_assert(std::is_trivially_copyable_v<T>);
         std::vector<T> values(levelBytes(level) / sizeof(T));
-        downloadInto(level, std::as_writable_bytes(std::span(values)));
+        downloadInto(level, std::as_writable_bytes(std::span(values)), layer);
         return values;
     }
 
     const graph::TextureDesc& desc() const { return desc_; }
-    int mipLevels() const { return mipLevels_; }
-    std::size_t levelBytes(int level) const;
+    std::size_t levelBytes(int level) const; ///< of one layer
     std::uint32_t id() const { return id_.value(); }
     const std::string& label() const { return label_; }
 
@@ -66,7 +60,6 @@ public:
 private:
     std::string label_;
     graph::TextureDesc desc_;
-    int mipLevels_ = 1;
     std::shared_ptr<const std::uint64_t> serial_;
     Id id_;
 };

@@ -14,7 +14,7 @@ VertexArray::VertexArray(std::string label, std::span<const VertexAttribute> att
     glCreateVertexArrays(1, &id);
     id_ = Id(id);
     for (const VertexAttribute& attribute : attributes) {
-        assert(attribute.buffer && attribute.components >= 1 && attribute.components <= 4);
+        assert(attribute.components >= 1 && attribute.components <= 4);
         assert((!attribute.integer || attribute.type == VertexType::Uint32) && "only Uint32 is read as an integer");
         const GLuint location = attribute.location;
         glEnableVertexArrayAttrib(id, location);
@@ -26,8 +26,7 @@ VertexArray::VertexArray(std::string label, std::span<const VertexAttribute> att
             glVertexArrayAttribFormat(id, location, attribute.components,
                                       attribute.type == VertexType::Float ? GL_FLOAT : GL_UNSIGNED_INT, GL_FALSE, 0);
         // One binding an attribute: simple, and every driver takes at least as many bindings as attributes.
-        glVertexArrayVertexBuffer(id, location, attribute.buffer->id(), GLintptr(attribute.offset),
-                                  GLsizei(attribute.stride));
+        if (attribute.buffer) setBuffer(attribute, *attribute.buffer);
         glVertexArrayAttribBinding(id, location, location);
         glVertexArrayBindingDivisor(id, location, attribute.divisor);
     }
@@ -39,6 +38,11 @@ VertexArray::VertexArray(std::string label, std::span<const VertexAttribute> att
         glDeleteVertexArrays(1, &id);
         throw;
     }
+}
+
+void VertexArray::setBuffer(const VertexAttribute& attribute, const Buffer& buffer) const {
+    glVertexArrayVertexBuffer(id_.value(), attribute.location, buffer.id(), GLintptr(attribute.offset),
+                              GLsizei(attribute.stride));
 }
 
 VertexArray::~VertexArray() {

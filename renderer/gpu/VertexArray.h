@@ -14,7 +14,7 @@ struct VertexAttribute {
     std::uint32_t location = 0;
     int components = 1; ///< 1..4
     VertexType type = VertexType::Float;
-    const Buffer* buffer = nullptr; ///< must outlive the vertex array
+    const Buffer* buffer = nullptr; ///< must outlive the vertex array; null: setBuffer() says before anything is drawn
     std::size_t offset = 0;         ///< bytes, of the first element
     std::size_t stride = 0;         ///< bytes between elements; 0: the same value for every vertex
     std::uint32_t divisor = 0;      ///< 0: by vertex; n: a new element every n instances
@@ -29,6 +29,9 @@ public:
     ~VertexArray();
     VertexArray(VertexArray&&) noexcept = default;
     VertexArray& operator=(VertexArray&&) noexcept = default;
+
+    /// Takes an attribute from another buffer from now on.
+    void setBuffer(const VertexAttribute& attribute, const Buffer& buffer) const;
 
     std::uint32_t id() const { return id_.value(); }
 

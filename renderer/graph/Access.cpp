@@ -27,6 +27,9 @@ constexpr std::array kAccesses{
     AccessInfo{Access::StorageRead, "StorageRead", false, false, true, false, true, Barrier::ShaderStorage},
     AccessInfo{Access::StorageWrite, "StorageWrite", true, false, true, true, false, Barrier::ShaderStorage},
     AccessInfo{Access::TexelRead, "TexelRead", false, false, true, false, true, Barrier::TextureFetch},
+    AccessInfo{Access::VertexRead, "VertexRead", false, false, true, false, true, Barrier::VertexAttribute},
+    AccessInfo{Access::IndexRead, "IndexRead", false, false, true, false, true, Barrier::ElementArray},
+    AccessInfo{Access::IndirectRead, "IndirectRead", false, false, true, false, true, Barrier::Command},
     AccessInfo{Access::Download, "Download", false, true, true, false, false, kTransfer},
     AccessInfo{Access::Upload, "Upload", true, true, true, false, false, kTransfer},
 };
@@ -70,6 +73,10 @@ bool isAttachment(Access access) {
     return access == Access::ColorAttachment || access == Access::DepthAttachment || access == Access::DepthTest;
 }
 
+bool isOfPart(Access access) {
+    return isAttachment(access) || access == Access::ImageRead || access == Access::ImageWrite;
+}
+
 std::string unfitReason(const ResourceDesc& desc, Access access) {
     const AccessInfo& info = accessInfo(access);
     if (const auto* texture = std::get_if<TextureDesc>(&desc))
@@ -81,18 +88,25 @@ std::string unfitReason(const ResourceDesc& desc, Access access) {
 std::string describeSize(const ResourceDesc& desc) {
     if (const auto* buffer = std::get_if<BufferDesc>(&desc)) return fmt::format("{} bytes", buffer->bytes);
     const auto& texture = std::get<TextureDesc>(desc);
-    const std::string size = fmt::format("{} x {}", texture.width, texture.height);
-    return texture.samples == 1 ? size : fmt::format("{}, {} samples", size, texture.samples);
+    std::string size = fmt::format("{} x {}", texture.width, texture.height);
+    if (texture.shape == Shape::Cube) size += ", a cube";
+    if (texture.shape == Shape::Array) size += fmt::format(", {} layers", texture.layers);
+    if (texture.levels != 1) size += fmt::format(", {} levels", texture.levels);
+    if (texture.samples != 1) size += fmt::format(", {} samples", texture.samples);
+    return size;
 }
 
 std::string describeBarrier(Barrier barrier) {
-    static constexpr std::array<std::pair<Barrier, std::string_view>, 6> kNames{
+    static constexpr std::array<std::pair<Barrier, std::string_view>, 9> kNames{
         {{Barrier::TextureFetch, "texture fetch"},
          {Barrier::ShaderImage, "image"},
          {Barrier::ShaderStorage, "storage"},
          {Barrier::Uniform, "uniform"},
          {Barrier::Framebuffer, "framebuffer"},
-         {Barrier::TransferOrUpdate, "update"}}};
+         {Barrier::TransferOrUpdate, "update"},
+         {Barrier::VertexAttribute, "vertices"},
+         {Barrier::ElementArray, "indices"},
+         {Barrier::Command, "draw commands"}}};
     std::string words;
     for (const auto& [bit, name] : kNames)
         if ((barrier & bit) != Barrier::None) words += (words.empty() ? "" : ", ") + std::string(name);

@@ -21,11 +21,13 @@ struct AccessInfo {
 const AccessInfo& accessInfo(Access access);
 
 bool isAttachment(Access access);
+/// Whether the access is of one part of a texture.
+bool isOfPart(Access access);
 
 /// Why a resource of this shape does not allow the access, with the remedy; empty when it does.
 std::string unfitReason(const ResourceDesc& desc, Access access);
 
-/// "1280 x 720" or "1280 x 720, 4 samples" or "4096 bytes".
+/// "1280 x 720", "1280 x 720, 4 samples", "512 x 512, 4 layers, 3 levels", "64 x 64, a cube" or "4096 bytes".
 std::string describeSize(const ResourceDesc& desc);
 
 /// A set of barriers in words: "texture fetch, image".

@@ -35,6 +35,10 @@ void allocate(const Graph& graph, bool alias, CompiledGraph& compiled) {
     for (CompiledResource* resource : byFirstUse) {
         const ResourceDesc& desc = graph.resources()[resource->resource].desc;
         compiled.bytesWithoutAliasing += resource->bytes;
+        if (const auto* buffer = std::get_if<BufferDesc>(&desc); buffer && buffer->grows) { // has memory of its own
+            compiled.bytes += resource->bytes;
+            continue;
+        }
         std::size_t slot = alias ? 0 : tenancies.size();
         while (slot < tenancies.size() &&
                (tenancies[slot].last >= resource->first || compiled.allocations[slot] != desc))

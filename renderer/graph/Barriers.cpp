@@ -6,7 +6,8 @@ namespace tessera::graph {
 namespace {
 
 constexpr Barrier kAll = Barrier::TextureFetch | Barrier::ShaderImage | Barrier::ShaderStorage | Barrier::Uniform |
-                         Barrier::Framebuffer | Barrier::TransferOrUpdate;
+                         Barrier::Framebuffer | Barrier::TransferOrUpdate | Barrier::VertexAttribute |
+                         Barrier::ElementArray | Barrier::Command;
 constexpr Barrier kStores = Barrier::ShaderImage | Barrier::ShaderStorage;
 
 constexpr Barrier without(Barrier a, Barrier b) {

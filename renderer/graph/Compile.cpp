@@ -23,6 +23,10 @@ CompiledGraph compile(const Graph& graph, const CompileOptions& options) {
         else
             compiled.culled.push_back(
                 {.pass = pass, .why = whyCulled(graph, flow, pass), .before = std::uint32_t(compiled.order.size())});
+    for (const CompiledPass& entry : compiled.order) {
+        const std::vector<ProgramDesc>& programs = graph.passes()[entry.pass].programs;
+        compiled.programs.insert(compiled.programs.end(), programs.begin(), programs.end());
+    }
     findLifetimes(graph, compiled);
     allocate(graph, options.alias, compiled);
     placeBarriers(graph, compiled);

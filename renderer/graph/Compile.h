@@ -16,7 +16,10 @@ enum class Barrier : std::uint32_t {
     ShaderStorage = 1u << 2,
     Uniform = 1u << 3,
     Framebuffer = 1u << 4,
-    TransferOrUpdate = 1u << 5
+    TransferOrUpdate = 1u << 5,
+    VertexAttribute = 1u << 6,
+    ElementArray = 1u << 7,
+    Command = 1u << 8
 };
 constexpr Barrier operator|(Barrier a, Barrier b) {
     return Barrier(std::uint32_t(a) | std::uint32_t(b));
@@ -35,7 +38,7 @@ struct CompiledResource {
     std::size_t bytes = 0;
     int first = -1;    ///< position in CompiledGraph::order of the first use; -1: unused
     int last = -1;     ///< position of the last use; outputs live to the end of the frame
-    int physical = -1; ///< index of the allocation it lives in; -1 for imported and unused resources
+    int physical = -1; ///< index of the allocation it lives in; -1 for imported, growing and unused resources
     int aliasOf = -1;  ///< the resource (index) that first used that allocation, or -1 when this one did
 };
 
@@ -47,8 +50,9 @@ struct Culled {
 
 struct CompiledGraph {
     std::vector<CompiledPass> order;
-    Barrier after = Barrier::None; ///< once all have run, for whoever uses outputs, imports or the allocations next
-    std::vector<Culled> culled;    ///< in the order in which they would have run
+    Barrier after = Barrier::None;     ///< once all have run, for whoever uses outputs, imports or the allocations next
+    std::vector<ProgramDesc> programs; ///< of the passes that run, in their order
+    std::vector<Culled> culled;        ///< in the order in which they would have run
     std::vector<CompiledResource> resources; ///< parallel to Graph::resources()
     std::vector<ResourceDesc> allocations;   ///< what a backend must provide, by CompiledResource::physical
     std::size_t bytes = 0;                   ///< with aliasing, imported resources left out

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/graph/Access.h"
 #include "scenes/Error.h"
 
 namespace tessera::graph {
@@ -31,14 +32,6 @@ constexpr const char* kKind = std::is_same_v<Handle<Tag>, TextureHandle> ? "text
     }
 }
 
-template <typename Tag, typename Resource>
-void take(const Graph& graph, Handle<Tag> handle, const Resource* resource, std::vector<const Resource*>& byResource) {
-    if (handle.resource >= graph.resources().size() || !graph.resources()[handle.resource].imported)
-        throw std::logic_error(
-            fmt::format("an execution was given a {} for a handle that import() did not return", kKind<Tag>));
-    byResource[handle.resource] = resource;
-}
-
 } // namespace
 
 void Backend::endFrame(Barrier barrier) {
@@ -50,7 +43,7 @@ void Backend::endFrame(Barrier barrier) {
 /// What one pass may ask for: the handles it was given by, or handed to, its PassBuilder.
 class Execution::Context final : public PassContext {
 public:
-    Context(const Execution& execution, const Graph::Pass& pass) : execution_(execution), pass_(pass) {}
+    Context(Execution& execution, const Graph::Pass& pass) : execution_(execution), pass_(pass) {}
     const gpu::Texture& texture(TextureHandle handle) const override {
         requireDeclared(handle);
         return execution_.resolve(handle);
@@ -58,6 +51,55 @@ public:
     const gpu::Buffer& buffer(BufferHandle handle) const override {
         requireDeclared(handle);
         return execution_.resolve(handle);
+    }
+    const gpu::Buffer& allocate(BufferHandle handle, std::size_t bytes) const override {
+        requireDeclared(handle);
+        const Graph::Resource& resource = execution_.graph_.resources()[handle.resource];
+        const auto& desc = std::get<BufferDesc>(resource.desc);
+        if (!desc.grows || desc.bytes > 0)
+            throw std::logic_error(
+                fmt::format("makes room in '{}', whose bytes are known; only a buffer that grows and "
+                            "is created with 0 bytes takes more while the frame runs",
+                            resource.name));
+        if (execution_.places_[handle.resource].buffer != nullptr)
+            throw std::logic_error(fmt::format("makes room in '{}', which has room already", resource.name));
+        return execution_.grow(handle.resource, bytes);
+    }
+    std::size_t bytes(BufferHandle handle) const override {
+        requireDeclared(handle);
+        return execution_.bytes(handle);
+    }
+    const gpu::Program& program(std::size_t number) const override {
+        if (number >= pass_.programs.size())
+            throw std::logic_error(fmt::format("asked for its program {}, and declared {}; name it in its setup",
+                                               number, pass_.programs.size()));
+        if (execution_.programs_ == nullptr) throw std::logic_error("the execution was given no programs");
+        return execution_.programs_->get(pass_.programs[number]);
+    }
+    void bindTargets() const override {
+        std::vector<Target> colors;
+        Target depth;
+        for (const Graph::Use& use : pass_.uses) {
+            if (!isAttachment(use.access)) continue;
+            const Target target(&execution_.resolve(TextureHandle{use.resource, use.version}), use.part);
+            if (use.access == Access::ColorAttachment)
+                colors.push_back(target);
+            else
+                depth = target;
+        }
+        if (colors.empty() && depth.texture == nullptr)
+            throw std::logic_error("binds its targets and declared none; create or write an attachment in its setup");
+        execution_.backend_.bindTargets(colors, depth, 0, 0);
+    }
+    void bindNoTargets(int width, int height) const override {
+        execution_.backend_.bindTargets({}, Target(), width, height);
+    }
+
+protected:
+    void bindConstants(std::uint32_t slot, std::span<const std::byte> bytes) const override {
+        std::vector<const gpu::Program*> programs;
+        for (std::size_t i = 0; i < pass_.programs.size(); ++i) programs.push_back(&program(i));
+        execution_.backend_.bindConstants(slot, bytes, programs);
     }
 
 private:
@@ -75,32 +117,73 @@ private:
                             handle.version, execution_.graph_.resources()[handle.resource].name));
     }
 
-    const Execution& execution_;
+    Execution& execution_;
     const Graph::Pass& pass_;
 };
 
-Execution::Execution(const Graph& graph, const CompiledGraph& compiled, Backend& backend,
-                     std::span<const ImportedTexture> textures, std::span<const ImportedBuffer> buffers)
-    : graph_(graph), compiled_(compiled), backend_(backend), importedTextures_(graph.resources().size()),
-      importedBuffers_(graph.resources().size()) {
-    for (const ImportedTexture& imported : textures) take(graph, imported.handle, imported.texture, importedTextures_);
-    for (const ImportedBuffer& imported : buffers) take(graph, imported.handle, imported.buffer, importedBuffers_);
+Execution::Execution(const Graph& graph, const CompiledGraph& compiled, Backend& backend, ProgramSource* programs)
+    : graph_(graph), compiled_(compiled), backend_(backend), programs_(programs), places_(graph.resources().size()) {
     for (std::size_t i = 0; i < graph.resources().size(); ++i) {
         const Graph::Resource& resource = graph.resources()[i];
+        Place& place = places_[i];
+        if (!resource.imported || compiled.resources[i].first < 0) continue;
         const bool isTexture = std::holds_alternative<TextureDesc>(resource.desc);
-        const bool given = isTexture ? importedTextures_[i] != nullptr : importedBuffers_[i] != nullptr;
-        if (resource.imported && compiled.resources[i].first >= 0 && !given)
-            throw std::logic_error(fmt::format("the frame uses the imported {} '{}', but the execution was given none",
+        if (resource.revision && isTexture)
+            place.texture = &backend.persistentTexture(resource.name, std::get<TextureDesc>(resource.desc));
+        else if (resource.revision)
+            place.buffer = &backend.persistentBuffer(resource.name, std::get<BufferDesc>(resource.desc));
+        else if (isTexture)
+            place.texture = std::get<const gpu::Texture*>(resource.outside);
+        else
+            place.buffer = std::get<const gpu::Buffer*>(resource.outside);
+        if (place.texture == nullptr && place.buffer == nullptr)
+            throw std::logic_error(fmt::format("the frame uses the imported {} '{}', but was declared without it",
                                                isTexture ? "texture" : "buffer", resource.name));
+    }
+}
+
+/// Of the resources of its name, which one it is, counted from 0.
+int Execution::numberOf(std::uint32_t resource) const {
+    const auto& all = graph_.resources();
+    return int(std::count_if(all.begin(), all.begin() + resource,
+                             [&](const Graph::Resource& other) { return other.name == all[resource].name; }));
+}
+
+const gpu::Buffer& Execution::grow(std::uint32_t resource, std::size_t bytes) {
+    Place& place = places_[resource];
+    place.bytes = bytes;
+    place.buffer = &backend_.growingBuffer(graph_.resources()[resource].name, numberOf(resource), bytes);
+    return *place.buffer;
+}
+
+void Execution::findGrowing() {
+    for (std::uint32_t i = 0; i < graph_.resources().size(); ++i) {
+        const auto* desc = std::get_if<BufferDesc>(&graph_.resources()[i].desc);
+        if (desc == nullptr || !desc->grows || compiled_.resources[i].first < 0) continue;
+        places_[i] = {};
+        if (desc->bytes > 0) grow(i, desc->bytes);
     }
 }
 
 void Execution::run() {
     hasRun_ = false;
     backend_.allocate(compiled_.allocations);
+    findGrowing();
+    setRevisions(false); // a frame that fails leaves nothing to rely on
     for (const CompiledPass& pass : compiled_.order) runPass(pass);
     backend_.endFrame(compiled_.after);
+    setRevisions(true);
     hasRun_ = true;
+}
+
+void Execution::setRevisions(bool areWritten) {
+    for (const CompiledPass& entry : compiled_.order) {
+        for (const Graph::Use& use : graph_.passes()[entry.pass].uses) {
+            const Graph::Resource& resource = graph_.resources()[use.resource];
+            if (use.isWrite && resource.revision)
+                backend_.setRevision(resource.name, areWritten ? resource.revision : std::nullopt);
+        }
+    }
 }
 
 void Execution::runPass(const CompiledPass& compiledPass) {
@@ -145,7 +228,7 @@ void Execution::requireKept(std::uint32_t resource, std::uint32_t version, bool 
         throw std::logic_error(fmt::format("an execution was asked for an invalid {} handle", kind));
     const std::string& name = graph_.resources()[resource].name;
     if (!hasRun_) throw std::logic_error(fmt::format("an execution was asked for '{}' before run()", name));
-    if (isTexture ? importedTextures_[resource] != nullptr : importedBuffers_[resource] != nullptr) return;
+    if (graph_.resources()[resource].imported && compiled_.resources[resource].first >= 0) return;
     for (const Graph::Use& output : graph_.outputs())
         if (output.resource == resource && output.version == version && compiled_.resources[resource].first >= 0)
             return;
@@ -157,12 +240,22 @@ void Execution::requireKept(std::uint32_t resource, std::uint32_t version, bool 
 
 const gpu::Texture& Execution::resolve(TextureHandle handle) const {
     const int physical = compiled_.resources[handle.resource].physical;
-    return physical >= 0 ? backend_.texture(physical) : *importedTextures_[handle.resource];
+    return physical >= 0 ? backend_.texture(physical) : *places_[handle.resource].texture;
 }
 
 const gpu::Buffer& Execution::resolve(BufferHandle handle) const {
     const int physical = compiled_.resources[handle.resource].physical;
-    return physical >= 0 ? backend_.buffer(physical) : *importedBuffers_[handle.resource];
+    if (physical >= 0) return backend_.buffer(physical);
+    const gpu::Buffer* const buffer = places_[handle.resource].buffer;
+    if (buffer == nullptr)
+        throw std::logic_error(fmt::format("asked for '{}' before any pass said how many bytes it holds",
+                                           graph_.resources()[handle.resource].name));
+    return *buffer;
+}
+
+std::size_t Execution::bytes(BufferHandle handle) const {
+    const auto& desc = std::get<BufferDesc>(graph_.resources()[handle.resource].desc);
+    return desc.grows ? places_[handle.resource].bytes : desc.bytes;
 }
 
 } // namespace tessera::graph

@@ -1,6 +1,8 @@
 #pragma once
 #include <exception>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "renderer/graph/Compile.h"
@@ -15,6 +17,20 @@ public:
     virtual void allocate(std::span<const ResourceDesc> allocations) = 0;
     virtual const gpu::Texture& texture(int physical) = 0;
     virtual const gpu::Buffer& buffer(int physical) = 0;
+    /// What lives across frames under a name, made where there is none of that shape.
+    virtual const gpu::Texture& persistentTexture(const std::string& name, const TextureDesc& desc) = 0;
+    /// The buffer of a name that grows, made larger where it is smaller than so many bytes. Several of one name in a
+    /// frame are told apart by a number.
+    virtual const gpu::Buffer& growingBuffer(const std::string& name, int number, std::size_t bytes) = 0;
+    virtual const gpu::Buffer& persistentBuffer(const std::string& name, const BufferDesc& desc) = 0;
+    /// Notes what a persistent resource holds from now on; none: nothing that can be relied on.
+    virtual void setRevision(const std::string& name, std::optional<std::uint64_t> revision) = 0;
+    /// Binds a framebuffer of these textures, or of so many pixels where there are none.
+    virtual void bindTargets(std::span<const Target> colors, const Target& depth, int width, int height) = 0;
+    /// Binds a copy of the bytes as the uniform block at a slot. Throws std::logic_error where one of the programs has
+    /// a block of another size there.
+    virtual void bindConstants(std::uint32_t slot, std::span<const std::byte> bytes,
+                               std::span<const gpu::Program* const> programs) = 0;
     /// Opens debug group and timers of a pass, after the barrier; `endPass` closes them, also when the pass throws.
     virtual void beginPass(std::string_view name, Barrier barrier) = 0;
     virtual void endPass(std::string_view name) = 0;
@@ -23,29 +39,26 @@ public:
     virtual void endFrame(Barrier barrier);
 };
 
+/// Where programs come from; shader::ProgramLibrary in the product.
+class ProgramSource {
+public:
+    virtual ~ProgramSource() = default;
+    /// The reference holds as long as the source.
+    virtual const gpu::Program& get(const ProgramDesc& desc) = 0;
+};
+
 /// Thrown through a frame that whoever asked for it gives up; no failure, so no pass's name is put in front.
 class Interrupted : public std::exception {
 public:
     const char* what() const noexcept override { return "the frame was given up"; }
 };
 
-/// The outside resources behind Graph::import().
-struct ImportedTexture {
-    TextureHandle handle;
-    const gpu::Texture* texture;
-};
-struct ImportedBuffer {
-    BufferHandle handle;
-    const gpu::Buffer* buffer;
-};
-
-/// Where a graph's resources are while (and after) it runs. Graph, compiled graph, backend and imported resources must
-/// outlive it.
+/// Where a graph's resources are while (and after) it runs. Graph, compiled graph, backend, programs and imported
+/// resources must outlive it.
 class Execution {
 public:
-    /// Throws std::logic_error when a resource that the frame imports and uses is not given.
-    Execution(const Graph& graph, const CompiledGraph& compiled, Backend& backend,
-              std::span<const ImportedTexture> textures = {}, std::span<const ImportedBuffer> buffers = {});
+    /// Throws std::logic_error where the frame uses an imported resource that is null.
+    Execution(const Graph& graph, const CompiledGraph& compiled, Backend& backend, ProgramSource* programs = nullptr);
     /// Runs every pass of the plan in order. What a pass throws is thrown on with the pass's name in front: as
     /// InputError or std::logic_error where it was one, else as std::runtime_error, the original nested inside;
     /// Interrupted as it is.
@@ -54,6 +67,8 @@ public:
     /// a std::logic_error.
     const gpu::Texture& texture(TextureHandle handle) const;
     const gpu::Buffer& buffer(BufferHandle handle) const;
+    /// The bytes that a buffer holds, as PassContext::bytes().
+    std::size_t bytes(BufferHandle handle) const;
 
 private:
     class Context;
@@ -61,12 +76,22 @@ private:
     const gpu::Buffer& resolve(BufferHandle handle) const;
     void requireKept(std::uint32_t resource, std::uint32_t version, bool isTexture) const;
     void runPass(const CompiledPass& compiledPass);
+    void setRevisions(bool areWritten);
 
     const Graph& graph_;
     const CompiledGraph& compiled_;
     Backend& backend_;
-    std::vector<const gpu::Texture*> importedTextures_; ///< by resource
-    std::vector<const gpu::Buffer*> importedBuffers_;   ///< by resource
+    ProgramSource* programs_; ///< null where no pass has one
+    struct Place {
+        const gpu::Texture* texture = nullptr;
+        const gpu::Buffer* buffer = nullptr;
+        std::size_t bytes = 0; ///< of a buffer that grows
+    };
+    void findGrowing();
+    const gpu::Buffer& grow(std::uint32_t resource, std::size_t bytes);
+    int numberOf(std::uint32_t resource) const;
+    std::vector<Place>
+        places_; ///< by resource, of those that have no allocation of this frame: imported, kept, growing
     bool hasRun_ = false;
 };
 

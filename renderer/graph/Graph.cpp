@@ -1,5 +1,7 @@
 #include "renderer/graph/Graph.h"
 
+#include <algorithm>
+#include <bit>
 #include <type_traits>
 #include <utility>
 
@@ -21,20 +23,22 @@ std::string joinFaults(const std::vector<std::string>& faults) {
 }
 
 template <typename Tag>
-Graph::Use readOf(Handle<Tag> handle, Access access) {
+Graph::Use readOf(Handle<Tag> handle, Access access, const Part& part = {}) {
     return {.resource = handle.resource,
             .version = handle.version,
             .handed = handle.version,
             .access = access,
             .isWrite = false,
-            .isTexture = kIsTexture<Tag>};
+            .isTexture = kIsTexture<Tag>,
+            .stale = false,
+            .part = part};
 }
 
 /// Records a write and returns the handle of the version it makes; an unusable handle stays unusable.
 template <typename Tag>
 Handle<Tag> writeTo(std::vector<Graph::Resource>& resources, std::vector<Graph::Use>& uses, Handle<Tag> handle,
-                    Access access) {
-    Graph::Use use = readOf(handle, access);
+                    Access access, const Part& part = {}) {
+    Graph::Use use = readOf(handle, access, part);
     use.isWrite = true;
     if (handle.resource < resources.size()) {
         std::uint32_t& newest = resources[handle.resource].newestVersion;
@@ -45,25 +49,57 @@ Handle<Tag> writeTo(std::vector<Graph::Resource>& resources, std::vector<Graph::
     return {handle.resource, use.version};
 }
 
+template <typename Resource>
+Graph::Resource imported(std::string name, ResourceDesc desc, const Resource* resource) {
+    return {.name = std::move(name),
+            .desc = std::move(desc),
+            .imported = true,
+            .outside = resource,
+            .revision = {},
+            .hasContents = true};
+}
+
+Graph::Resource kept(std::string name, ResourceDesc desc, std::uint64_t revision, bool holds) {
+    return {
+        .name = std::move(name), .desc = std::move(desc), .imported = true, .revision = revision, .hasContents = holds};
+}
+
 } // namespace
+
+int mipLevelsFor(int width, int height) {
+    return std::bit_width(unsigned(std::max({width, height, 1})));
+}
+
+TextureDesc mipDesc(const TextureDesc& desc, int level) {
+    TextureDesc result = desc;
+    result.width = std::max(1, desc.width >> level);
+    result.height = std::max(1, desc.height >> level);
+    result.levels = 1;
+    return result;
+}
 
 std::size_t descBytes(const ResourceDesc& desc) {
     if (const auto* buffer = std::get_if<BufferDesc>(&desc)) return buffer->bytes;
     const auto& texture = std::get<TextureDesc>(desc);
-    return std::size_t(texture.width) * std::size_t(texture.height) * std::size_t(texture.samples) *
-           std::size_t(formatInfo(texture.format).bytes);
+    std::size_t texels = 0;
+    for (int level = 0; level < texture.levels; ++level) {
+        const TextureDesc size = mipDesc(texture, level);
+        texels += std::size_t(size.width) * std::size_t(size.height) * std::size_t(size.layers);
+    }
+    return texels * std::size_t(texture.samples) * std::size_t(formatInfo(texture.format).bytes);
 }
 
-TextureHandle PassBuilder::create(std::string name, const TextureDesc& desc, Access access) {
-    return write(TextureHandle{graph_.addResource(std::move(name), desc, false), 0}, access);
+TextureHandle PassBuilder::create(std::string name, const TextureDesc& desc, Access access, const Part& part) {
+    return write(TextureHandle{graph_.addResource({.name = std::move(name), .desc = desc, .revision = {}}), 0}, access,
+                 part);
 }
 
 BufferHandle PassBuilder::create(std::string name, const BufferDesc& desc, Access access) {
-    return write(BufferHandle{graph_.addResource(std::move(name), desc, false), 0}, access);
+    return write(BufferHandle{graph_.addResource({.name = std::move(name), .desc = desc, .revision = {}}), 0}, access);
 }
 
-TextureHandle PassBuilder::read(TextureHandle handle, Access access) {
-    graph_.passes_[pass_].uses.push_back(readOf(handle, access));
+TextureHandle PassBuilder::read(TextureHandle handle, Access access, const Part& part) {
+    graph_.passes_[pass_].uses.push_back(readOf(handle, access, part));
     return handle;
 }
 
@@ -72,8 +108,8 @@ BufferHandle PassBuilder::read(BufferHandle handle, Access access) {
     return handle;
 }
 
-TextureHandle PassBuilder::write(TextureHandle handle, Access access) {
-    return writeTo(graph_.resources_, graph_.passes_[pass_].uses, handle, access);
+TextureHandle PassBuilder::write(TextureHandle handle, Access access, const Part& part) {
+    return writeTo(graph_.resources_, graph_.passes_[pass_].uses, handle, access, part);
 }
 
 BufferHandle PassBuilder::write(BufferHandle handle, Access access) {
@@ -82,6 +118,10 @@ BufferHandle PassBuilder::write(BufferHandle handle, Access access) {
 
 void PassBuilder::expect(TextureHandle handle, const TextureDesc& desc) {
     graph_.passes_[pass_].expectations.push_back({handle.resource, desc});
+}
+
+void PassBuilder::program(ProgramDesc desc) {
+    graph_.passes_[pass_].programs.push_back(std::move(desc));
 }
 
 void PassBuilder::keep() {
@@ -93,12 +133,20 @@ Graph::~Graph() = default;
 Graph::Graph(Graph&&) noexcept = default;
 Graph& Graph::operator=(Graph&&) noexcept = default;
 
-TextureHandle Graph::import(std::string name, const TextureDesc& desc) {
-    return {addResource(std::move(name), desc, true), 0};
+TextureHandle Graph::import(std::string name, const TextureDesc& desc, const gpu::Texture* texture) {
+    return {addResource(imported(std::move(name), desc, texture)), 0};
 }
 
-BufferHandle Graph::import(std::string name, const BufferDesc& desc) {
-    return {addResource(std::move(name), desc, true), 0};
+BufferHandle Graph::import(std::string name, const BufferDesc& desc, const gpu::Buffer* buffer) {
+    return {addResource(imported(std::move(name), desc, buffer)), 0};
+}
+
+TextureHandle Graph::persist(std::string name, const TextureDesc& desc, std::uint64_t revision, bool holds) {
+    return {addResource(kept(std::move(name), desc, revision, holds)), 0};
+}
+
+BufferHandle Graph::persist(std::string name, const BufferDesc& desc, std::uint64_t revision, bool holds) {
+    return {addResource(kept(std::move(name), desc, revision, holds)), 0};
 }
 
 void Graph::output(TextureHandle handle) {
@@ -116,12 +164,13 @@ const TextureDesc& Graph::desc(TextureHandle handle) const {
 }
 
 std::uint32_t Graph::beginPass(std::string name) {
-    passes_.push_back({.name = std::move(name), .uses = {}, .expectations = {}, .keep = false, .execute = {}});
+    passes_.push_back(
+        {.name = std::move(name), .uses = {}, .expectations = {}, .programs = {}, .keep = false, .execute = {}});
     return std::uint32_t(passes_.size() - 1);
 }
 
-std::uint32_t Graph::addResource(std::string name, ResourceDesc desc, bool imported) {
-    resources_.push_back({.name = std::move(name), .desc = std::move(desc), .imported = imported, .newestVersion = 0});
+std::uint32_t Graph::addResource(Resource resource) {
+    resources_.push_back(std::move(resource));
     return std::uint32_t(resources_.size() - 1);
 }
 

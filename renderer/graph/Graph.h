@@ -2,11 +2,16 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "renderer/graph/ProgramDesc.h"
 #include "renderer/graph/Resource.h"
 
 /// Declaration of a frame: passes, the resources they read and write, nothing of OpenGL. A recipe declares, compile()
@@ -14,29 +19,44 @@
 namespace tessera::gpu {
 class Texture;
 class Buffer;
+class Program;
 } // namespace tessera::gpu
 
 namespace tessera::graph {
 
 class Graph;
 
-/// Handed to a pass's setup function: what is said here is all the graph knows of the pass.
+/// A texture to rasterise into.
+struct Target {
+    const gpu::Texture* texture = nullptr;
+    Part part;
+    Target(const gpu::Texture* ofTexture = nullptr, const Part& itsPart = {}) : texture(ofTexture), part(itsPart) {}
+};
+
+/// Handed to a pass's setup function: what is said here is all the graph knows of the pass. Attachments and images are
+/// one part of a texture; every other access is of all of it.
 class PassBuilder {
 public:
     /// A transient resource that this pass is the first to write.
-    TextureHandle create(std::string name, const TextureDesc& desc, Access write = Access::ColorAttachment);
+    TextureHandle create(std::string name, const TextureDesc& desc, Access write = Access::ColorAttachment,
+                         const Part& part = {});
     BufferHandle create(std::string name, const BufferDesc& desc, Access write = Access::StorageWrite);
 
-    TextureHandle read(TextureHandle handle, Access access = Access::Sampled);
+    TextureHandle read(TextureHandle handle, Access access = Access::Sampled, const Part& part = {});
     BufferHandle read(BufferHandle handle, Access access = Access::StorageRead);
 
-    /// Adds to what the version holds (a blend, a depth-tested draw): depends on it, and returns the next version.
-    TextureHandle write(TextureHandle handle, Access access = Access::ColorAttachment);
+    /// Adds to what the version holds (a blend, a depth-tested draw, another layer): depends on it, and returns the
+    /// next version.
+    TextureHandle write(TextureHandle handle, Access access = Access::ColorAttachment, const Part& part = {});
     BufferHandle write(BufferHandle handle, Access access = Access::StorageWrite);
 
     /// States what this pass needs of a texture it uses; a difference is a fault of compile(). A width, height or
     /// sample count of 0 stands for any.
     void expect(TextureHandle handle, const TextureDesc& desc);
+
+    /// States a program that this pass runs; PassContext::program() counts them from 0. So the programs of a frame
+    /// follow from its passes.
+    void program(ProgramDesc desc);
 
     /// Keeps the pass though nobody needs its outputs (it reports, downloads, presents).
     void keep();
@@ -48,12 +68,35 @@ private:
     std::uint32_t pass_;
 };
 
-/// Resolves handles while a pass executes. Only handles the pass declared may be asked for.
+/// Resolves handles and programs while a pass executes. Only what the pass declared may be asked for.
 class PassContext {
 public:
     virtual ~PassContext() = default;
     virtual const gpu::Texture& texture(TextureHandle handle) const = 0;
     virtual const gpu::Buffer& buffer(BufferHandle handle) const = 0;
+    /// Makes room in a buffer that grows and was created with 0 bytes, once a frame and before anything else is asked
+    /// of it. So a buffer that was resolved is never replaced while the frame runs. Its memory may hold more.
+    virtual const gpu::Buffer& allocate(BufferHandle handle, std::size_t bytes) const = 0;
+    /// What a buffer holds: the bytes of its description, or those that allocate() was told.
+    virtual std::size_t bytes(BufferHandle handle) const = 0;
+    /// The pass's program of this number, in the order in which it declared them.
+    virtual const gpu::Program& program(std::size_t number) const = 0;
+    const gpu::Program& program() const { return program(0); }
+    /// Binds what the pass declared to rasterise into, colours in the order of their declaration.
+    virtual void bindTargets() const = 0;
+    /// The same of so many pixels, for a pass that rasterises into nothing because its shaders write buffers.
+    virtual void bindNoTargets(int width, int height) const = 0;
+    /// Binds a copy of a value as the uniform block at a slot (shaders/shared/slots.h) until the pass ends. Throws
+    /// std::logic_error where a program of the pass has a block of another size there. std140 only ever adds padding to
+    /// what C++ lays out, so that equal sizes are equal offsets.
+    template <typename T>
+    void constants(std::uint32_t slot, const T& value) const {
+        static_assert(std::is_trivially_copyable_v<T>);
+        bindConstants(slot, std::as_bytes(std::span(&value, 1)));
+    }
+
+protected:
+    virtual void bindConstants(std::uint32_t slot, std::span<const std::byte> bytes) const = 0;
 };
 
 class Graph {
@@ -66,6 +109,7 @@ public:
         bool isWrite;
         bool isTexture;     ///< the kind of the handle that was passed
         bool stale = false; ///< a write that was handed a version other than the newest
+        Part part = {};     ///< of an attachment or an image
     };
     struct Expectation {
         std::uint32_t resource;
@@ -75,14 +119,18 @@ public:
         std::string name;
         std::vector<Use> uses;
         std::vector<Expectation> expectations;
+        std::vector<ProgramDesc> programs;
         bool keep = false;
         std::function<void(const PassContext&)> execute;
     };
     struct Resource {
         std::string name;
         ResourceDesc desc;
-        bool imported = false;
+        bool imported = false;           ///< exists outside the frame, which gives it no memory
         std::uint32_t newestVersion = 0; ///< 0: before any write
+        std::variant<const gpu::Texture*, const gpu::Buffer*> outside = {}; ///< what was imported; null in a plan
+        std::optional<std::uint64_t> revision; ///< of one that lives across frames: what the frame leaves in it
+        bool hasContents = false;              ///< may be read before any pass has written it
     };
 
     Graph();
@@ -104,10 +152,16 @@ public:
         return *data;
     }
 
-    /// A resource that exists outside the frame (a history, a window). Reading it needs no producer. A
-    /// buffer of 0 bytes is one whose owner sizes it while the frame runs.
-    TextureHandle import(std::string name, const TextureDesc& desc);
-    BufferHandle import(std::string name, const BufferDesc& desc);
+    /// A resource that exists outside the frame (a scene's vertices, a window), and outlives it. Reading it needs no
+    /// producer. Null where the frame is only planned.
+    TextureHandle import(std::string name, const TextureDesc& desc, const gpu::Texture* texture = nullptr);
+    BufferHandle import(std::string name, const BufferDesc& desc, const gpu::Buffer* buffer = nullptr);
+
+    /// A resource that the backend keeps from frame to frame under its name: a cache, a history. The revision says of
+    /// what its contents are made; `holds` whether they are there already (Backend::holds()). Where not, a pass of the
+    /// frame must write it before another reads it.
+    TextureHandle persist(std::string name, const TextureDesc& desc, std::uint64_t revision, bool holds);
+    BufferHandle persist(std::string name, const BufferDesc& desc, std::uint64_t revision, bool holds);
 
     /// Declares what the frame is for: passes that do not lead here are culled.
     void output(TextureHandle handle);
@@ -121,7 +175,7 @@ public:
 private:
     friend class PassBuilder;
     std::uint32_t beginPass(std::string name);
-    std::uint32_t addResource(std::string name, ResourceDesc desc, bool imported);
+    std::uint32_t addResource(Resource resource);
     std::vector<Pass> passes_;
     std::vector<Resource> resources_;
     std::vector<Use> outputs_;

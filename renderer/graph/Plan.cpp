@@ -62,7 +62,7 @@ Plan::Resource describe(const Graph::Resource& resource, const CompiledResource&
         described.height = texture->height;
         described.samples = texture->samples;
     }
-    if (!resource.imported || compiled.bytes > 0) described.bytes = compiled.bytes;
+    if (compiled.bytes > 0) described.bytes = compiled.bytes;
     described.first = compiled.first;
     described.last = compiled.last;
     if (compiled.aliasOf >= 0) described.aliasOf = names[std::size_t(compiled.aliasOf)];

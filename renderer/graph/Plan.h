@@ -37,7 +37,7 @@ struct Plan {
         std::string format; ///< "buffer" for buffers
         int width = 0;      ///< texels; 0 for buffers
         int height = 0;
-        std::optional<std::size_t> bytes; ///< none where an imported one is sized only while the frame runs
+        std::optional<std::size_t> bytes; ///< none where it is known only while the frame runs
         int first = -1;                   ///< index into passes
         int last = -1;
         std::string aliasOf; ///< empty: none

@@ -144,8 +144,9 @@ private:
         std::string shape = resource.format;
         if (resource.width > 0) shape += fmt::format(" {} x {}", resource.width, resource.height);
         if (resource.samples != 1) shape += fmt::format(" x{}", resource.samples);
-        return {shape, (resource.bytes ? readableBytes(*resource.bytes) : "as counted") +
-                           (resource.imported ? ", imported" : "")};
+        return {shape, (resource.bytes      ? readableBytes(*resource.bytes) + (resource.imported ? ", imported" : "")
+                        : resource.imported ? "imported"
+                                            : "as counted")};
     }
 
     const Plan::Resource* find(const std::string& name) const {

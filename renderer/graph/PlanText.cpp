@@ -110,7 +110,9 @@ std::string resources(const Plan& plan) {
     table.addColumn("in the memory of");
     for (const Plan::Resource& resource : plan.resources)
         table.addRow({resource.name, resource.format, sizeOf(resource),
-                      resource.bytes ? readableBytes(*resource.bytes) : "as counted",
+                      resource.bytes      ? readableBytes(*resource.bytes)
+                      : resource.imported ? "-"
+                                          : "as counted",
                       lifetime(resource, plan.passes.size()),
                       resource.imported ? "(imported)" : orDash(resource.aliasOf)});
     return table.text();

@@ -21,6 +21,7 @@ public:
                 const std::string verb = subject + (use.isWrite ? " writes" : " reads");
                 if (!checkHandle(verb, use.resource, use.isTexture)) continue;
                 checkAccess(verb, use);
+                checkPart(verb, use);
                 checkVersion(verb, use);
             }
             checkExpectations(subject, pass);
@@ -49,8 +50,33 @@ private:
         if (texture && (texture->width < 1 || texture->height < 1 || texture->samples < 1))
             report(fmt::format("texture '{}', {}, is empty ({}): width, height and samples must be at least 1",
                                made.name, origin, describeSize(made.desc)));
-        if (!texture && !made.imported && descBytes(made.desc) == 0)
-            report(fmt::format("buffer '{}', {}, is empty: it must have at least 1 byte", made.name, origin));
+        else if (const std::string fault = texture ? faultOfShape(*texture) : ""; !fault.empty())
+            report(
+                fmt::format("texture '{}', {}, cannot be ({}): {}", made.name, origin, describeSize(made.desc), fault));
+        const auto* buffer = std::get_if<BufferDesc>(&made.desc);
+        if (buffer && !made.imported && buffer->bytes == 0 && !buffer->grows)
+            report(fmt::format("buffer '{}', {}, is empty: it must have at least 1 byte, or grow", made.name, origin));
+    }
+
+    static std::string faultOfShape(const TextureDesc& desc) {
+        const int most = mipLevelsFor(desc.width, desc.height);
+        if (desc.levels < 1 || desc.levels > most) return fmt::format("it can have 1 to {} levels", most);
+        if (desc.shape == Shape::Flat && desc.layers != 1) return "only an array has layers";
+        if (desc.shape == Shape::Array && desc.layers < 1) return "an array has 1 layer or more";
+        if (desc.shape == Shape::Cube && (desc.layers != 6 || desc.width != desc.height))
+            return "a cube has 6 layers, as wide as high";
+        if (desc.samples > 1 && (desc.levels > 1 || desc.shape != Shape::Flat))
+            return "with several samples it has one level and one layer";
+        return {};
+    }
+
+    void checkPart(const std::string& verb, const Graph::Use& use) {
+        const auto* desc = std::get_if<TextureDesc>(&resource(use.resource).desc);
+        if (desc == nullptr || !isOfPart(use.access)) return;
+        const auto [level, layer] = use.part;
+        if (level < 0 || level >= desc->levels || layer < 0 || layer >= desc->layers)
+            report(fmt::format("{} level {}, layer {} of '{}', which has {} and {}", verb, level, layer, nameOf(use),
+                               desc->levels, desc->layers));
     }
 
     bool checkHandle(const std::string& verb, std::uint32_t index, bool isTexture) {
@@ -79,7 +105,7 @@ private:
     }
 
     bool exists(const Graph::Use& use) const {
-        if (use.handed == 0) return resource(use.resource).imported;
+        if (use.handed == 0) return resource(use.resource).hasContents;
         return use.handed <= resource(use.resource).newestVersion;
     }
 
@@ -115,7 +141,14 @@ private:
                                    anyOr(wanted.height), is.width, is.height));
             if (wanted.samples != 0 && is.samples != wanted.samples)
                 report(fmt::format("{} samples {}, but it has {}", expects, wanted.samples, is.samples));
+            if (is.shape != wanted.shape || is.layers != wanted.layers || is.levels != wanted.levels)
+                report(fmt::format("{} the shape {}, but it has {}", expects, shapeOf(wanted), shapeOf(is)));
         }
+    }
+
+    static std::string shapeOf(const TextureDesc& desc) {
+        const char* const name = desc.shape == Shape::Flat ? "flat" : desc.shape == Shape::Array ? "array" : "cube";
+        return fmt::format("{} of {} layers and {} levels", name, desc.layers, desc.levels);
     }
 
     static std::string anyOr(int size) { return size == 0 ? "any" : std::to_string(size); }
@@ -127,9 +160,9 @@ private:
         const Graph::Use* depth = nullptr;
         for (const Graph::Use& use : pass.uses) {
             if (!isAttachment(use.access) || !isUsableTexture(use)) continue;
-            const auto& desc = std::get<TextureDesc>(resource(use.resource).desc);
+            const TextureDesc desc = attachedDesc(use);
             if (!first) first = &use;
-            const auto& reference = std::get<TextureDesc>(resource(first->resource).desc);
+            const TextureDesc reference = attachedDesc(*first);
             if (desc.width != reference.width || desc.height != reference.height || desc.samples != reference.samples)
                 report(fmt::format("{} attaches '{}' ({}) and '{}' ({}), which must be equal in size and samples",
                                    subject, nameOf(*first), describeSize(reference), nameOf(use), describeSize(desc)));
@@ -143,10 +176,17 @@ private:
         }
     }
 
+    TextureDesc attachedDesc(const Graph::Use& use) const {
+        TextureDesc desc = mipDesc(std::get<TextureDesc>(resource(use.resource).desc), use.part.level);
+        desc.layers = 1;
+        desc.shape = Shape::Flat;
+        return desc;
+    }
+
     void checkAlone(const std::string& subject, const Graph::Pass& pass, const Graph::Use& attached) {
         for (const Graph::Use& other : pass.uses) {
             if (&other == &attached || other.resource != attached.resource) continue;
-            if (other.isWrite && isAttachment(other.access))
+            if (other.isWrite && isAttachment(other.access) && other.part == attached.part)
                 report(fmt::format("{} attaches '{}' twice", subject, nameOf(attached)));
             if (other.access == Access::Sampled)
                 report(fmt::format("{} samples '{}' while it draws into it", subject, nameOf(attached)));

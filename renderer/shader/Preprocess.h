@@ -6,11 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/graph/ProgramDesc.h"
 #include "renderer/shader/SourceTree.h"
 
 namespace tessera::shader {
 
-using Defines = std::vector<std::pair<std::string, std::string>>; ///< name, value; an empty value is fine
+using graph::Defines;
 
 /// Line i of file f is numbered f * kLinesAFile + i: Mesa keeps a message's line but, past the syntax, says file 0 (its
 /// glsl_parser.yy clears the source of every location it combines).

@@ -1,21 +1,10 @@
 #include "renderer/shader/ProgramDesc.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "scenes/Error.h"
 
 namespace tessera::shader {
-
-std::string ProgramDesc::key() const {
-    std::string text = fmt::format("{}|{}|{}|{}|{}|", name, vertex, fragment, compute, geometry);
-    Defines sorted = defines;
-    std::sort(sorted.begin(), sorted.end());
-    for (std::size_t i = 0; i < sorted.size(); ++i)
-        text += fmt::format("{}{}={}", i == 0 ? "" : ";", sorted[i].first, sorted[i].second);
-    return text;
-}
 
 std::vector<ExpandedStage> expandStages(const SourceTree& tree, const ProgramDesc& desc) {
     const bool rasterises = !desc.vertex.empty();

@@ -1,26 +1,13 @@
 #pragma once
-#include <compare>
-#include <string>
 #include <vector>
 
 #include "renderer/gpu/Program.h"
+#include "renderer/graph/ProgramDesc.h"
 #include "renderer/shader/Preprocess.h"
 
 namespace tessera::shader {
 
-/// One variant of a program: its entry files below shaders/ (unused stages empty) and its defines.
-struct ProgramDesc {
-    std::string name; ///< for messages and labels
-    std::string vertex;
-    std::string fragment;
-    std::string compute;
-    Defines defines;
-    std::string geometry = {}; ///< between vertex and fragment
-    auto operator<=>(const ProgramDesc&) const = default;
-
-    /// Equal for equal variants, whatever the order of the defines: "lighting|v|f|||A=1;B=2".
-    std::string key() const;
-};
+using graph::ProgramDesc;
 
 struct ExpandedStage {
     gpu::Stage stage;

@@ -8,18 +8,19 @@
 #include <vector>
 
 #include "renderer/gpu/Program.h"
+#include "renderer/graph/Execute.h"
 #include "renderer/shader/ProgramDesc.h"
 
 namespace tessera::shader {
 
 /// Every program of the process, compiled once a distinct variant, on the context that is current when it is asked for.
-class ProgramLibrary {
+class ProgramLibrary : public graph::ProgramSource {
 public:
     explicit ProgramLibrary(SourceTree tree = SourceTree());
 
     /// Compiles at the first request. The reference holds as long as the library, also across reload(). Throws
     /// gpu::ShaderError whose log lines name file and line, or InputError when a source is missing.
-    const gpu::Program& get(const ProgramDesc& desc);
+    const gpu::Program& get(const ProgramDesc& desc) override;
     /// Issues all that are missing before collecting the first, so that drivers that can compile in parallel do. Throws
     /// as get(), after every good one has been kept.
     void warm(std::span<const ProgramDesc> descs);

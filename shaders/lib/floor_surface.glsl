@@ -18,7 +18,7 @@ float floorDepth(vec2 pixel)
 {
     precise float viewDepth = FLOOR_NEAREST_METRES
                               + (FLOOR_FARTHEST_METRES - FLOOR_NEAREST_METRES) * floorShare(pixel, vec2(0.00371, 0.00533));
-    precise float ahead = viewDepth - frame.eyeLS.w;
+    precise float ahead = viewDepth - view.eyeLS.w;
     return depthFromAhead(ahead);
 }
 

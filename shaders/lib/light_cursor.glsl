@@ -21,17 +21,17 @@ layout(binding = TEXTURE_UNIT_LIGHT_ENTRIES) uniform usamplerBuffer lightEntries
 
 uvec4 lightTile(vec2 pixel)
 {
-    uvec2 tile = uvec2(uint(pixel.x), frame.tileGrid.z - 1u - uint(pixel.y)) >> frame.tileGrid.w;
-    uint index = tile.y * frame.tileGrid.x + tile.x;
+    uvec2 tile = uvec2(uint(pixel.x), lighting.tileGrid.z - 1u - uint(pixel.y)) >> lighting.tileGrid.w;
+    uint index = tile.y * lighting.tileGrid.x + tile.x;
 #if LIGHT_LAYER == LIGHT_LAYER_TRANSPARENT
-    index += frame.tileGrid.x * frame.tileGrid.y;
+    index += lighting.tileGrid.x * lighting.tileGrid.y;
 #endif
     return texelFetch(lightTiles, int(index));
 }
 
 uint depthSlice(float depth, uint slices)
 {
-    precise float sum = frame.depthKey.x + depth;
+    precise float sum = view.depthKey.x + depth;
     return sliceOfKey(floatBitsToUint(sum), slices);
 }
 #endif
@@ -48,7 +48,7 @@ LightCursor lightCursor(vec2 pixel, float depth)
 #if LIGHT_CURSOR == LIGHT_CURSOR_NONE
     return LightCursor(0, 0);
 #else
-    return LightCursor(0, int(frame.lights.x));
+    return LightCursor(0, int(lighting.lights.x));
 #endif
 }
 
@@ -96,7 +96,7 @@ LightCursor lightCursor(vec2 pixel, float depth)
 #if HAS_LIGHTS_EVERYWHERE
     LightCursor cursor = LightCursor(int(cell.x), int(cell.x + cell.y), 0, kNoLight, kNoLight);
     if (cell.y > 0u) cursor.headOfList = int(texelFetch(lightEntries, cursor.next).x);
-    if (frame.lights.z > 0u) cursor.headEverywhere = int(texelFetch(lightEntries, 0).x);
+    if (lighting.lights.z > 0u) cursor.headEverywhere = int(texelFetch(lightEntries, 0).x);
     return cursor;
 #else
     return LightCursor(int(cell.x), int(cell.x + cell.y), int(texelFetch(lightEntries, int(cell.x)).x));
@@ -114,7 +114,7 @@ bool nextLight(inout LightCursor cursor, out int light)
         cursor.nextEverywhere += 1;
     }
     int at = fromList ? cursor.next : cursor.nextEverywhere;
-    int end = fromList ? cursor.end : int(frame.lights.z);
+    int end = fromList ? cursor.end : int(lighting.lights.z);
     int head = at < end ? int(texelFetch(lightEntries, at).x) : kNoLight;
     if (fromList) {
         cursor.headOfList = head;
@@ -152,7 +152,7 @@ LightCursor lightCursor(vec2 pixel, float depth)
     uvec4 tile = lightTile(pixel);
     uint bin = depthSlice(depth, tile.y);
     uvec2 words = texelFetch(lightCells, int(bin)).xy;
-    return LightCursor(int(tile.x), int(bin * frame.lights.w), int(words.x) - 1, int(words.y), 0u);
+    return LightCursor(int(tile.x), int(bin * lighting.lights.w), int(words.x) - 1, int(words.y), 0u);
 }
 
 bool nextLight(inout LightCursor cursor, out int light)

@@ -21,16 +21,16 @@ const float kWidestConeCosine = 0.1;
 // At an outline seen edge-on, snapping may turn a face over; there the light is 0 already, so that changes nothing.
 float volumeMargin(vec3 positionLS, float reachMetres)
 {
-    bool orthographic = frame.forwardLS.w != 0.0;
-    float farthestFromEye = length(positionLS - frame.eyeLS.xyz) + reachMetres;
-    float pixel = max(frame.lensVS.x, frame.lensVS.y) * (orthographic ? 1.0 : farthestFromEye);
-    return roundingMargin(length(positionLS) + reachMetres, frame.depthKey) + 0.125 * pixel;
+    bool orthographic = view.forwardLS.w != 0.0;
+    float farthestFromEye = length(positionLS - view.eyeLS.xyz) + reachMetres;
+    float pixel = max(view.lensVS.x, view.lensVS.y) * (orthographic ? 1.0 : farthestFromEye);
+    return roundingMargin(length(positionLS) + reachMetres, view.depthKey) + 0.125 * pixel;
 }
 
 // The depth that would be stored at a distance ahead. What lies behind the eye is in front of it all.
 float depthAt(float ahead)
 {
-    if (frame.forwardLS.w == 0.0 && !(frame.eyeLS.w + ahead > 0.0)) return 1.0;
+    if (view.forwardLS.w == 0.0 && !(view.eyeLS.w + ahead > 0.0)) return 1.0;
     return clamp(depthFromAhead(ahead), 0.0, 1.0);
 }
 
@@ -57,22 +57,22 @@ vec4 screenVertex(int vertex, float depth)
 // Clip-space position at a depth that the position does not decide.
 vec4 vertexAtDepth(vec3 positionLS, float depth)
 {
-    vec4 clip = frame.clipFromLS * vec4(positionLS, 1.0);
+    vec4 clip = view.clipFromLS * vec4(positionLS, 1.0);
     return vec4(clip.xy, depth * clip.w, clip.w);
 }
 
 vec4 sphereVertex(int vertex, vec3 centerLS, float radius)
 {
-    bool orthographic = frame.forwardLS.w != 0.0;
-    float depth = depthAt(dot(frame.forwardLS.xyz, centerLS) + radius);
-    vec3 toCenter = centerLS - frame.eyeLS.xyz;
+    bool orthographic = view.forwardLS.w != 0.0;
+    float depth = depthAt(dot(view.forwardLS.xyz, centerLS) + radius);
+    vec3 toCenter = centerLS - view.eyeLS.xyz;
     float distance = length(toCenter);
     // 0.999: close to the sphere the pyramid opens to a half space.
     if (!orthographic && !(radius < 0.999 * distance)) return screenVertex(vertex, depth);
     // The circle where sight touches the sphere.
     float sine = orthographic ? 0.0 : radius / distance;
     float cosine2 = 1.0 - sine * sine;
-    vec3 sight = orthographic ? frame.forwardLS.xyz : toCenter / distance;
+    vec3 sight = orthographic ? view.forwardLS.xyz : toCenter / distance;
     int fan = vertex < LIGHT_VOLUME_SPHERE_VERTICES ? vertex / 3 : 0;
     int side = vertex < LIGHT_VOLUME_SPHERE_VERTICES && vertex % 3 > 0 ? fan + vertex % 3 : 0;
     return vertexAtDepth(centerLS - toCenter * (sine * sine) + cornerAround(sight, side, radius * sqrt(cosine2)), depth);
@@ -119,10 +119,10 @@ vec4 coneVertex(int vertex, vec3 apexLS, vec3 axisLS, float cosOuter, float reac
     }
 
     // The farthest of the cap if it faces away from the eye, else of its rim, else the apex.
-    float cosForward = dot(axisLS, frame.forwardLS.xyz);
+    float cosForward = dot(axisLS, view.forwardLS.xyz);
     float sinForward = sqrt(max(0.0, 1.0 - cosForward * cosForward));
     float share = cosForward >= cosOuter ? 1.0 : max(0.0, cosForward * cosOuter + sinForward * sinOuter);
-    float depth = depthAt(dot(frame.forwardLS.xyz, apexLS) + reachMetres * share + margin);
+    float depth = depthAt(dot(view.forwardLS.xyz, apexLS) + reachMetres * share + margin);
     return vertexAtDepth(apexLS + along * axisLS + cornerAround(axisLS, side, radius), depth);
 }
 #endif
@@ -131,9 +131,9 @@ vec4 coneVertex(int vertex, vec3 apexLS, vec3 axisLS, float cosOuter, float reac
 // orthographic camera: a perspective one sees a vast sphere from within, or as a circle of ordinary size.
 bool isVastInPicture(float reach)
 {
-    float clipPerMetre = max(length(vec3(frame.clipFromLS[0].x, frame.clipFromLS[1].x, frame.clipFromLS[2].x)),
-                             length(vec3(frame.clipFromLS[0].y, frame.clipFromLS[1].y, frame.clipFromLS[2].y)));
-    return frame.forwardLS.w != 0.0 && reach * clipPerMetre > 256.0;
+    float clipPerMetre = max(length(vec3(view.clipFromLS[0].x, view.clipFromLS[1].x, view.clipFromLS[2].x)),
+                             length(vec3(view.clipFromLS[0].y, view.clipFromLS[1].y, view.clipFromLS[2].y)));
+    return view.forwardLS.w != 0.0 && reach * clipPerMetre > 256.0;
 }
 
 // Corner `vertex` of what is drawn of light `index`.

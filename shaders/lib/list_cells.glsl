@@ -53,13 +53,13 @@ uint bitsOf(uvec2 bits)
 
 vec2 runBetween(float nearest, float farthest)
 {
-    return vec2(aheadMetres(frame.aheadFromDepth, nearest), aheadMetres(frame.aheadFromDepth, farthest));
+    return vec2(aheadMetres(view.aheadFromDepth, nearest), aheadMetres(view.aheadFromDepth, farthest));
 }
 
 // Slices first..last of a tile, not more than its surfaces take up.
 vec2 runOfSlices(ListedTile tile, uint first, uint last)
 {
-    vec2 depths = depthsOfSlices(tile.slicing, first, last, frame.depthKey.x);
+    vec2 depths = depthsOfSlices(tile.slicing, first, last, view.depthKey.x);
     return runBetween(min(tile.depths.x, depths.y), max(tile.depths.y, depths.x));
 }
 
@@ -123,7 +123,7 @@ bool inReach(ListedTile tile, uint light)
 {
     uvec2 reach = texelFetch(lightReachTexels, int(light)).xy;
     uint block = tile.column / CULL_BLOCK_COLUMNS * CULL_BLOCK_COLUMNS;
-    return reaches(reach.x, block, min(block + CULL_BLOCK_COLUMNS, frame.tileGrid.x) - 1u)
+    return reaches(reach.x, block, min(block + CULL_BLOCK_COLUMNS, lighting.tileGrid.x) - 1u)
            && reaches(reach.y, tile.row, tile.row);
 }
 

@@ -44,8 +44,8 @@ struct TilePixels {
 TilePixels pixelsOfTile(uint column, uint row)
 {
     // Tiles count from the top, pixels from the bottom.
-    uint side = 1u << frame.tileGrid.w;
-    uvec2 size = frame.sizePixels.xy;
+    uint side = 1u << lighting.tileGrid.w;
+    uvec2 size = view.sizePixels.xy;
     uint bottom = size.y - min((row + 1u) * side, size.y);
     TilePixels pixels;
     pixels.low = uvec2(column * side, bottom);
@@ -107,7 +107,7 @@ void findDepths(uvec2 item)
         uint high = depthKeyOf(depths.x);
         slices = uvec2(1u, 0u);
 #if LIST_METHOD == LIST_METHOD_SLICES || LIST_METHOD == LIST_METHOD_CLUSTER
-        slicing = slicingOf(depthKeyOf(depths.y), high, uint(frame.depthKey.y), LIGHT_TILE_SLICES);
+        slicing = slicingOf(depthKeyOf(depths.y), high, lighting.slices.x, LIGHT_TILE_SLICES);
         if (sliceOfKey(high, slicing) != 0u) slices = occupiedSlices(pixels, transparent, slicing);
 #endif
     } else {

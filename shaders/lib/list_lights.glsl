@@ -25,7 +25,7 @@ CullLight cullLight(uint light)
 
 uint lightCount()
 {
-    return frame.lights.x;
+    return lighting.lights.x;
 }
 
 // The lights that this round is about, x the first, y one beyond the last. Where one round takes them all it is the only.
@@ -47,7 +47,7 @@ bool isLastRound()
 // Rays of the tile in this column and row.
 vec4 raysOfTile(uint column, uint row)
 {
-    return tileRays(frame.lensVS, column, row, 1u << frame.tileGrid.w, frame.sizePixels.xy);
+    return tileRays(view.lensVS, column, row, 1u << lighting.tileGrid.w, view.sizePixels.xy);
 }
 
 // Whether a run of columns or rows, first | last << 16, has any of first..last.

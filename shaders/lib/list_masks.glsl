@@ -32,8 +32,8 @@ LIST_MEMORY uvec2 laneWords[LIST_THREADS];
 // Metres ahead between which a bin lies.
 vec2 runOfBin(uint bin)
 {
-    vec2 depths = depthsOfSlices(listTotals.x, bin, bin, frame.depthKey.x);
-    return vec2(aheadMetres(frame.aheadFromDepth, depths.y), aheadMetres(frame.aheadFromDepth, max(0.0, depths.x)));
+    vec2 depths = depthsOfSlices(listTotals.x, bin, bin, view.depthKey.x);
+    return vec2(aheadMetres(view.aheadFromDepth, depths.y), aheadMetres(view.aheadFromDepth, max(0.0, depths.x)));
 }
 
 // 1 where the light may touch the bin.
@@ -57,7 +57,7 @@ void maskBin(uvec2 item)
 {
     uint bin = item.x;
     if (bin >= listTotals.y) return;
-    uint words = frame.lights.w;
+    uint words = lighting.lights.w;
     vec2 run = runOfBin(bin);
     uvec2 occupied = uvec2(words, 0u); // first word with a bit, one past the last
     for (uint word = LIST_LANE; word < words; word += uint(LIST_THREADS)) {
@@ -78,8 +78,8 @@ void maskBin(uvec2 item)
 // The masks of tiles do not depend on depth, so both layers share them.
 void maskTile(uvec2 item)
 {
-    if (item.x >= frame.tileGrid.x) return;
-    uint words = frame.lights.w;
+    if (item.x >= lighting.tileGrid.x) return;
+    uint words = lighting.lights.w;
     uint first = (listTotals.y + tileIndex(item)) * words;
     for (uint word = LIST_LANE; word < words; word += uint(LIST_THREADS)) {
         uint bits = 0u;

@@ -28,10 +28,10 @@ void findReach(uvec2 item)
     uvec2 rows = uvec2(1u, 0u);
     // Lights that reach everywhere stand in no tile's list.
     if (sphere.w >= 0.0) {
-        for (uint i = 0u; i < frame.tileGrid.x; ++i) {
+        for (uint i = 0u; i < lighting.tileGrid.x; ++i) {
             if (touchesColumn(sphere, i)) columns = uvec2(columns.x > columns.y ? i : columns.x, i);
         }
-        for (uint i = 0u; i < frame.tileGrid.y; ++i) {
+        for (uint i = 0u; i < lighting.tileGrid.y; ++i) {
             if (touchesRow(sphere, i)) rows = uvec2(rows.x > rows.y ? i : rows.x, i);
         }
     }

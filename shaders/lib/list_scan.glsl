@@ -33,7 +33,7 @@ void scanTiles(uvec2 item)
         range = vec2(max(range.x, laneDepths[lane].x), min(range.y, laneDepths[lane].y));
     uvec2 bins = uvec2(ONE_LIGHT_SLICE, 1u);
     if (range.x > 0.0) {
-        bins.x = slicingOf(depthKeyOf(range.y), depthKeyOf(range.x), uint(frame.depthKey.y), ZBIN_COUNT);
+        bins.x = slicingOf(depthKeyOf(range.y), depthKeyOf(range.x), lighting.slices.x, ZBIN_COUNT);
         bins.y = sliceOfKey(depthKeyOf(range.x), bins.x) + 1u;
     }
     listTotals = uvec4(bins, 0u, 0u);
@@ -64,7 +64,7 @@ void scanTiles(uvec2 item)
     for (uint tile = share.x; tile < share.y; ++tile) sum = added(sum, uvec3(tileCounts[tile], 0u));
     laneSums[LIST_LANE] = sum;
     listSync();
-    uvec3 first = uvec3(1u, frame.lights.z, 0u);
+    uvec3 first = uvec3(1u, lighting.lights.z, 0u);
     for (uint lane = 0u; lane < LIST_LANE; ++lane) first = added(first, laneSums[lane]);
     for (uint tile = share.x; tile < share.y; ++tile) {
         uvec3 counts = uvec3(tileCounts[tile], 0u);

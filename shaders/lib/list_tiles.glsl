@@ -6,7 +6,7 @@
 
 uint tilesALayer()
 {
-    return frame.tileGrid.x * frame.tileGrid.y;
+    return lighting.tileGrid.x * lighting.tileGrid.y;
 }
 
 uint listedTiles()
@@ -20,26 +20,26 @@ uint listedTiles()
 
 bool isInGrid(uvec2 item)
 {
-    return item.x < frame.tileGrid.x;
+    return item.x < lighting.tileGrid.x;
 }
 
 uint tileIndex(uvec2 item)
 {
-    return item.y * frame.tileGrid.x + item.x;
+    return item.y * lighting.tileGrid.x + item.x;
 }
 
 uint tileRow(uvec2 item)
 {
-    return item.y < frame.tileGrid.y ? item.y : item.y - frame.tileGrid.y;
+    return item.y < lighting.tileGrid.y ? item.y : item.y - lighting.tileGrid.y;
 }
 
 bool isTransparentTile(uvec2 item)
 {
-    return item.y >= frame.tileGrid.y;
+    return item.y >= lighting.tileGrid.y;
 }
 
 uint depthKeyOf(float depth)
 {
-    precise float sum = frame.depthKey.x + depth;
+    precise float sum = view.depthKey.x + depth;
     return floatBitsToUint(sum);
 }

@@ -60,7 +60,7 @@ Fragment rasterisedFragment()
     fragment.normalFromObject = transpose(mat3(normalFromObject0, normalFromObject1, normalFromObject2));
 #endif
 #if VIEW == VIEW_NORMAL_OBJECT
-    fragment.objectFromNormal = mat3(objectRow0, objectRow1, objectRow2) * mat3(frame.worldFromLS);
+    fragment.objectFromNormal = mat3(objectRow0, objectRow1, objectRow2) * mat3(view.worldFromLS);
 #endif
 #endif
 #if HAS_TEXTURES && FILTER_EXACT
@@ -68,8 +68,8 @@ Fragment rasterisedFragment()
     fragment.texCoord[0] = texCoord.xy;
     fragment.texCoord[1] = texCoord.zw;
 #if HAS_MIXED_FILTERS
-    dvec4 texCoordDx = triangleTexCoord(triangleWeightsChange(gl_FragCoord.xy, weights, dvec3(frame.rayDxLS.xyz)));
-    dvec4 texCoordDy = triangleTexCoord(triangleWeightsChange(gl_FragCoord.xy, weights, dvec3(frame.rayDyLS.xyz)));
+    dvec4 texCoordDx = triangleTexCoord(triangleWeightsChange(gl_FragCoord.xy, weights, dvec3(view.rayDxLS.xyz)));
+    dvec4 texCoordDy = triangleTexCoord(triangleWeightsChange(gl_FragCoord.xy, weights, dvec3(view.rayDyLS.xyz)));
     fragment.texCoordChange[0] = dmat2(texCoordDx.xy, texCoordDy.xy);
     fragment.texCoordChange[1] = dmat2(texCoordDx.zw, texCoordDy.zw);
 #endif

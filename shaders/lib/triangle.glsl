@@ -21,10 +21,10 @@ struct PixelRay {
 
 PixelRay pixelRay(vec2 pixel)
 {
-    dvec3 across = double(pixel.x - frame.lensVS.z) * dvec3(frame.rayDxLS.xyz)
-                   + double(pixel.y - frame.lensVS.w) * dvec3(frame.rayDyLS.xyz);
+    dvec3 across = double(pixel.x - view.lensVS.z) * dvec3(view.rayDxLS.xyz)
+                   + double(pixel.y - view.lensVS.w) * dvec3(view.rayDyLS.xyz);
     dvec2 spread = dvec2(raySpread());
-    return PixelRay(spread.x * across, dvec3(frame.forwardLS.xyz) + spread.y * across);
+    return PixelRay(spread.x * across, dvec3(view.forwardLS.xyz) + spread.y * across);
 }
 
 // Weights of the triangle's corners where the ray through the pixel's centre meets its plane, by Cramer's rule.

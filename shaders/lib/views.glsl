@@ -8,7 +8,7 @@
 #endif
 #include "lib/lighting.glsl"
 
-// D, G or F of the one light that frame.lights.y names, as rgb; 0 where the light is not visible from the point. Of
+// D, G or F of the one light that lighting.lights.y names, as rgb; 0 where the light is not visible from the point. Of
 // blinn_phong D is the highlight, and the others are 0; of layered materials they are those of the lowest lobe.
 vec3 specularFactorView(Surface surface, Viewpoint viewpoint)
 {
@@ -16,8 +16,8 @@ vec3 specularFactorView(Surface surface, Viewpoint viewpoint)
 #if HAS_GLOSSY_MODELS
     Incident incident;
     if (surface.model == MODEL_SINGLE_COLOR || surface.model == MODEL_LAMBERT) return shown;
-    if (int(frame.lights.y) >= int(frame.lights.x)) return shown;
-    if (!incidentLight(int(frame.lights.y), viewpoint.positionLS, incident)) return shown;
+    if (int(lighting.lights.y) >= int(lighting.lights.x)) return shown;
+    if (!incidentLight(int(lighting.lights.y), viewpoint.positionLS, incident)) return shown;
     precise float nl = dot(surface.normalLS, incident.toLightLS);
     if (!(nl > 0.0)) return shown;
     SpecularTerms terms = specularTerms(surface, incident.toLightLS, viewpoint.toViewerLS, nl);
@@ -43,17 +43,17 @@ vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
 #elif VIEW == VIEW_NORMAL_TEXEL
     return surface.normalTexel;
 #elif VIEW == VIEW_NORMAL
-    return mat3(frame.worldFromLS) * surface.normalLS;
+    return mat3(view.worldFromLS) * surface.normalLS;
 #elif VIEW == VIEW_NORMAL_VIEW
     // Rays step along the view's x and y axes from pixel to pixel.
-    return vec3(dot(surface.normalLS, normalize(frame.rayDxLS.xyz)), dot(surface.normalLS, normalize(frame.rayDyLS.xyz)),
-                -dot(surface.normalLS, frame.forwardLS.xyz));
+    return vec3(dot(surface.normalLS, normalize(view.rayDxLS.xyz)), dot(surface.normalLS, normalize(view.rayDyLS.xyz)),
+                -dot(surface.normalLS, view.forwardLS.xyz));
 #elif VIEW == VIEW_NORMAL_OBJECT
     return surface.normalTexel * 2.0 - 1.0; // put there as it was rasterised (lib/material.glsl)
 #elif VIEW == VIEW_LIGHTS
     return lightsOnSurface(vec3(0.0), surface, viewpoint, pixel); // counted
 #elif VIEW == VIEW_DEPTH
-    return vec3(frame.eyeLS.w + dot(viewpoint.positionLS, frame.forwardLS.xyz));
+    return vec3(view.eyeLS.w + dot(viewpoint.positionLS, view.forwardLS.xyz));
 #else
     return specularFactorView(surface, viewpoint);
 #endif

@@ -7,9 +7,9 @@ layout(binding = IMAGE_UNIT_RADIANCE, rgba32f) writeonly uniform image2D radianc
 void main()
 {
     uvec2 pixel = gl_GlobalInvocationID.xy;
-    if (any(greaterThanEqual(pixel, frame.sizePixels.xy))) return;
+    if (any(greaterThanEqual(pixel, view.sizePixels.xy))) return;
     float depth = depthOfPixel(ivec2(pixel));
-    vec4 radiance = frame.background;
+    vec4 radiance = view.background;
     if (depth != 0.0) radiance = deferredRadiance(ivec2(pixel), depth);
     imageStore(radianceImage, ivec2(pixel), radiance);
 }

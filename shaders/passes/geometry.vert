@@ -59,7 +59,7 @@ layout(location = 9) flat out float drawnObject;
 // Turned by the transpose; exact where both are one space.
 vec3 lsFromRS(vec3 directionRS)
 {
-    precise vec3 directionLS = directionRS * mat3(frame.worldFromLS);
+    precise vec3 directionLS = directionRS * mat3(view.worldFromLS);
     return directionLS;
 }
 #endif
@@ -68,7 +68,7 @@ void main()
 {
     precise vec4 object = vec4(positionOS, 1.0);
     precise vec3 positionRS = vec3(dot(drawRow0, object), dot(drawRow1, object), dot(drawRow2, object));
-    precise vec4 clip = frame.clipFromRS * vec4(positionRS, 1.0);
+    precise vec4 clip = view.clipFromRS * vec4(positionRS, 1.0);
     gl_Position = clip;
 #if FILTER_EXACT
     vertexLS = lsFromRS(positionRS);

@@ -2,7 +2,7 @@
 // The test of light culling, for C++ and GLSL: may a light reach a cell, the part of the view that a tile sees between
 // two depths? It never says no where the light changes a pixel (sound); where it says yes too often is counted by the
 // oracle. View space (VS) here is metres to the right of, above and ahead of the origin of lighting space (frame.h).
-// Rays of pixels spread: s metres ahead they lie (spread.x + spread.y s) times as far to the side as FrameConstants'
+// Rays of pixels spread: s metres ahead they lie (spread.x + spread.y s) times as far to the side as ViewConstants'
 // lensVS says, (view depth of the origin, 1) for a perspective camera and (1, 0) for an orthographic one. Everything is
 // precise, so that two shaders that ask the same question, one to count lights and one to list them, get the same
 // answer.
@@ -21,9 +21,9 @@ SHARED_BEGIN
 // What rounding to fp32 can move of a light and the surfaces it reaches, in metres: 1e-5 of the farthest of it from the
 // origin (24 bits keep 6e-8 of each distance, and a handful of roundings follow one another), and the steps of even
 // depths, however near a surface is: two rounded coefficients, a product, a sum, and the sum in the depth key are off
-// by 2^-24 of the distance from depth 0 to 1 each, which is FrameConstants::depthKey.z. Eight of them.
+// by 2^-24 of the distance from depth 0 to 1 each, which is ViewConstants::depthKey.y. Eight of them.
 SHARED_FUNCTION float roundingMargin(float farthestMetres, vec4 depthKey) {
-    return 1e-5f * farthestMetres + 4.76837158e-7f * depthKey.z;
+    return 1e-5f * farthestMetres + 4.76837158e-7f * depthKey.y;
 }
 
 // Where a light is not exactly 0. Every length is enlarged by what rounding of positions to fp32 can move.
@@ -111,7 +111,7 @@ SHARED_FUNCTION bool lightTouchesBox(CullLight light, CellBox box) {
     return !hasCone(light) || coneTouchesBox(light, box);
 }
 
-// Metres ahead at a depth-buffer value, by FrameConstants::aheadFromDepth.
+// Metres ahead at a depth-buffer value, by ViewConstants::aheadFromDepth.
 SHARED_FUNCTION float aheadMetres(vec4 aheadFromDepth, float depth) {
     SHARED_PRECISE float metres =
         (aheadFromDepth.x + aheadFromDepth.y * depth) / (aheadFromDepth.z + aheadFromDepth.w * depth);

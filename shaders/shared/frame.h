@@ -1,15 +1,16 @@
 #pragma once
-// What every pass of a frame knows: the camera, in lighting space (LS). Lighting space has the axes of the world or of
-// the view, as FrameSettings::space says, and its origin on the view axis: at the eye, or in the middle of what is seen
-// where all of it is far away, so that fp32 keeps the digits of positions. The CPU puts normals, lights and rays into
-// it in double precision, and shaders do not know which it is. Vertices pass through world axes at that origin, which
-// is rasterising space (RS), whatever lighting space is: rounded in another space they would lie elsewhere by a bit,
-// and pixels at edges would show another triangle.
+// What passes know of a view, which is a camera that looks into a picture of some size, and of its lights. Positions
+// are in lighting space (LS). Lighting space has the axes of the world or of the view, as FrameSettings::space says,
+// and its origin on the view axis: at the eye, or in the middle of what is seen where all of it is far away, so that
+// fp32 keeps the digits of positions. The CPU puts normals, lights and rays into it in double precision, and shaders do
+// not know which it is. Vertices pass through world axes at that origin, which is rasterising space (RS), whatever
+// lighting space is: rounded in another space they would lie elsewhere by a bit, and pixels at edges would show another
+// triangle.
 #include "interop.h"
 
 SHARED_BEGIN
 
-struct FrameConstants {
+struct ViewConstants {
     mat4 clipFromLS;
     mat4 clipFromRS;
     mat4 worldFromLS; // rotation only, of world axes, so also RS from LS; the unit matrix where LS is RS
@@ -19,14 +20,18 @@ struct FrameConstants {
     vec4 forwardLS; // unit; w is 1 for an orthographic camera, else 0
     vec4 aheadFromDepth; // metres ahead of the origin of lighting space = (x + y depth) / (z + w depth)
     vec4 background;     // radiance where nothing is drawn; a is 0, the coverage
-    uvec4 lights;        // x number of lights, y index of the one that the D, G and F views show, z those that reach
-                         // everywhere, w words of a bitmask over the lights
     vec4 lensVS; // a pixel p sees x (p.x - z) to the right and y (p.y - w) up, in metres: a metre ahead of the eye, or
                  // (orthographic) anywhere; window coordinates, lower-left origin
-    uvec4 tileGrid; // x columns, y rows of tiles; z height of the picture in pixels; w log2 of a tile's side in pixels
-    vec4 depthKey; // x bias of depth keys (light_lists.h), y shift of the finest depth slices; z metres from depth 0 to
-                   // 1 where depth is even in the distance or nearly so, else 0
+    vec4 depthKey;    // x bias of depth keys (light_lists.h); y metres from depth 0 to 1 where depth is even in the
+                      // distance or nearly so, else 0
     uvec4 sizePixels; // x width, y height of the picture
+};
+
+struct LightingConstants {
+    uvec4 lights;   // x number of lights, y index of the one that the D, G and F views show, z those that reach
+                    // everywhere, w words of a bitmask over the lights
+    uvec4 tileGrid; // x columns, y rows of tiles; z height of the picture in pixels; w log2 of a tile's side in pixels
+    uvec4 slices;   // x shift of the finest depth slices (light_lists.h)
 };
 
 SHARED_END

@@ -46,7 +46,7 @@ SHARED_FUNCTION uint sliceOfKey(uint key, uint slices) {
     return (key - firstKeyOfSlices(slices)) >> (slices & 31u);
 }
 
-// The depths that slices first..last lie between: x the farthest, y the nearest. `bias` is FrameConstants::depthKey's.
+// The depths that slices first..last lie between: x the farthest, y the nearest. `bias` is ViewConstants::depthKey's.
 SHARED_FUNCTION vec2 depthsOfSlices(uint slices, uint first, uint last, float bias) {
     uint shift = slices & 31u;
     uint begin = firstKeyOfSlices(slices) + (first << shift);

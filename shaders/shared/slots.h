@@ -15,12 +15,13 @@ SHARED_BEGIN
 #define ATTRIBUTE_DRAW_NORMAL_ROW0 9
 
 // Uniform blocks.
-#define UNIFORM_FRAME 0
+#define UNIFORM_VIEW 0
 #define UNIFORM_MATERIAL 1
 #define UNIFORM_DISPLAY 2
 #define UNIFORM_LIGHTS 3
 #define UNIFORM_LIGHT_SHAPES 4
 #define UNIFORM_LIST_ROUND 5
+#define UNIFORM_LIGHTING 6
 
 // Storage blocks. OpenGL 4.5 guarantees 0 to 7; what builds light lists never reads lights from storage blocks.
 #define STORAGE_LIGHT_TILES 0

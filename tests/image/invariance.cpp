@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "passes/recipes/PreparedFrame.h"
+#include "passes/recipes/PrepareView.h"
 #include "renderer/graph/Plan.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
@@ -124,7 +124,7 @@ TEST_F(Invariance, materialsReadByTheirNumberAlwaysGiveEveryBitOfStoredOnesAndOf
     const auto bytes = [&](bool prune) {
         frame::FrameSettings settings = small();
         settings.prune = prune;
-        const frame::FrameSpec spec = recipes::prepareFrame(scene, Technique::Deferred, settings).spec;
+        const frame::FrameSpec spec = recipes::prepareView(scene, Technique::Deferred, settings).spec;
         return std::pair(frame::holdMaterialNumber(spec.settings.layout, spec.channels),
                          frame::bytesPerPixel(spec.settings.layout, spec.channels));
     };

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "passes/recipes/ChooseCulling.h"
-#include "passes/recipes/PreparedFrame.h"
+#include "passes/recipes/PrepareView.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/Random.h"
 #include "tests/support/TestScenes.h"
@@ -130,7 +130,7 @@ TEST_F(LightRange, anEndedLightIsExactlyTheSameWithEveryTechniqueAndCullingMetho
         for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
             if (!recipes::takesMethod(technique.technique, method.method)) continue;
             request.techniques.push_back(technique.technique);
-            if (recipes::prepareFrame(scene, technique.technique, request.settings).spec.culling.method !=
+            if (recipes::prepareView(scene, technique.technique, request.settings).spec.culling.method !=
                 culling::Method::None)
                 ++listed;
         }

@@ -21,7 +21,7 @@ protected:
         const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
         settings.lightOn = frame::LightingStage::Compute;
         for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
-            if (!recipes::takesLightingStage(technique.technique)) continue;
+            if (!recipes::infoOf(technique.technique).choosesStage) continue;
             SCOPED_TRACE(technique.name);
             EXPECT_TRUE(renderer.render(technique.technique, settings).radiance == truth);
         }
@@ -75,7 +75,7 @@ TEST_F(LightingInCompute, techniquesWithoutALightingPassAlwaysRefuseIt) {
     frame::FrameSettings settings;
     settings.lightOn = frame::LightingStage::Compute;
     for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
-        if (recipes::takesLightingStage(technique.technique)) continue;
+        if (recipes::infoOf(technique.technique).choosesStage) continue;
         EXPECT_THROW(recipes::planFrame(scene, technique.technique, settings), InputError) << technique.name;
     }
 }

@@ -34,7 +34,7 @@ protected:
 
 bool usesGBuffer(const std::string& technique) {
     for (const recipes::TechniqueInfo& info : recipes::techniqueTable())
-        if (info.name == technique) return info.usesGBuffer;
+        if (info.name == technique) return info.usesGBuffer();
     return false;
 }
 

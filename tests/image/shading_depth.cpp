@@ -2,8 +2,9 @@
 #include <cmath>
 
 #include "passes/DepthPrepass.h"
+#include "passes/UploadPass.h"
 #include "passes/recipes/ChooseSamples.h"
-#include "passes/recipes/PreparedFrame.h"
+#include "passes/recipes/PrepareView.h"
 #include "passes/recipes/Renderer.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/GraphBackend.h"
@@ -37,28 +38,24 @@ protected:
 
     /// Pixels in GL's order, rows from below.
     std::vector<Pixel> prepassed(const scenes::Scene& scene, const frame::FrameSettings& settings) {
-        const recipes::PreparedFrame prepared = recipes::prepareFrame(scene, Technique::ForwardPrepass, settings);
+        const frame::PreparedView prepared = recipes::prepareView(scene, Technique::ForwardPrepass, settings);
         const frame::FrameSpec& spec = prepared.spec;
-        frame::SceneGpu sceneGpu(scene, spec.features);
-        sceneGpu.setView(prepared.view);
-        gpu::Buffer constants("frame constants", sizeof(shared::FrameConstants), gpu::BufferUse::Dynamic);
-        constants.uploadValue(prepared.view.constants);
-        const gpu::Buffer none("nothing", 64);
-        const frame::LightBuffers lights;
-        frame::LightListBuffers lightLists;
+        const frame::SceneGpu sceneGpu(scene, spec.features);
+        const frame::DrawnView view{prepared, &sceneGpu,
+                                    frame::makeViewDraws(sceneGpu.drawList(), prepared.camera, false), nullptr};
         shader::ProgramLibrary programs;
         gpu::GraphBackend backend;
-        const frame::FrameResources resources{sceneGpu,   constants,
-                                              none,       lights,
-                                              lightLists, prepared.view.constants,
-                                              {},         glm::vec4(0.0f),
-                                              programs,   backend.framebuffers()};
         graph::Graph graph;
-        const passes::DepthPrepass::Outputs drawn = passes::DepthPrepass::add(graph, spec, {true}, &resources);
+        frame::SurfaceHandles surfaces = frame::importSurfaces(graph, spec, &view);
+        const passes::UploadViewPass::Outputs uploaded = passes::UploadViewPass::add(graph, &view);
+        surfaces.view = {uploaded.constants};
+        surfaces.rows = uploaded.rows;
+        surfaces.commands = uploaded.commands;
+        const passes::DepthPrepass::Outputs drawn = passes::DepthPrepass::add(graph, spec, {true}, {surfaces});
         const graph::BufferHandle read = readBack(graph, drawn, spec.samples);
         graph.output(read);
         const graph::CompiledGraph compiled = graph::compile(graph);
-        graph::Execution execution(graph, compiled, backend);
+        graph::Execution execution(graph, compiled, backend, &programs);
         execution.run();
         const std::vector<float> values =
             execution.buffer(read).downloadAs<float>(std::size_t(kWidth) * kHeight * std::size_t(spec.samples) * 2);

@@ -4,7 +4,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "passes/recipes/PreparedFrame.h"
+#include "passes/recipes/PrepareView.h"
 #include "scenes/Error.h"
 #include "scenes/Load.h"
 #include "shaders/shared/faults.h"
@@ -125,7 +125,7 @@ Scene layers(const Material& material) {
 TEST_F(ViewValues, overdrawIsExactlyTheSurfacesThatEachTechniqueShades) {
     for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
         SCOPED_TRACE(info.name);
-        const bool prepass = info.geometry.find("depth first") != std::string_view::npos;
+        const bool prepass = info.geometry == recipes::Geometry::DepthFirst;
         const Scene opaque = layers(Material{});
         const recipes::RenderedFrame drawn = shown(opaque, frame::View::Overdraw, info.technique);
         EXPECT_EQ(pixel(drawn, 4, 4), prepass ? glm::vec4(1.0f) : glm::vec4(3, 3, 3, 1));
@@ -237,7 +237,7 @@ TEST_F(ViewValues, storedChannelsAreNeverShownWhereThereAreNone) {
     const auto message = [&](Technique technique, frame::Channel channel) -> std::string {
         frame::FrameSettings settings = viewSettings(frame::storedView({channel, false}));
         try {
-            recipes::prepareFrame(scene, technique, settings);
+            recipes::prepareView(scene, technique, settings);
         } catch (const InputError& error) {
             return error.what();
         }

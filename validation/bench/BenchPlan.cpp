@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "passes/recipes/ChooseCulling.h"
-#include "passes/recipes/PreparedFrame.h"
+#include "passes/recipes/PrepareView.h"
 #include "scenes/Fingerprint.h"
 
 namespace tessera::validation {
@@ -85,7 +85,7 @@ private:
 
     /// A technique without a G-buffer is measured once, whatever the layouts, for others to be held against.
     std::vector<std::optional<frame::LayoutInfo>> layoutsTaken() {
-        if (info_.usesGBuffer) return orDefault(matrix_.layouts);
+        if (info_.usesGBuffer()) return orDefault(matrix_.layouts);
         for (const frame::LayoutInfo& layout : matrix_.layouts) {
             if (!(layout.layout == frame::layoutTable()[0].layout))
                 skip(plan_, fmt::format("{}, {}", info_.name, layout.name), "the technique has no G-buffer to lay out");
@@ -106,7 +106,7 @@ private:
         if (range) point.settings.rangeTolerance = *range;
         if (!rangesMatter(scene_)) point.settings.rangeTolerance = 0.0;
         const culling::Choice choice =
-            recipes::prepareFrame(scene_, technique_, point.settings).spec.culling; // what is left of it in this scene
+            recipes::prepareView(scene_, technique_, point.settings).spec.culling; // what is left of it in this scene
         point.key = {std::string(info_.name),
                      std::string(infoOf(choice.method).name),
                      {},

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "passes/recipes/PreparedFrame.h"
+#include "passes/recipes/PrepareView.h"
 #include "renderer/gpu/SampleCounter.h"
 #include "validation/FloorGeometry.h"
 #include "validation/LightOracle.h"
@@ -53,7 +53,7 @@ void forgetCounts(BenchResult& result) {
 
 void countPoint(recipes::Renderer& renderer, const BenchPoint& point, BenchResult& result) {
     LightOracleFigures oracle = judgeLights(renderer, point.technique, point.settings);
-    const recipes::PreparedFrame prepared = recipes::prepareFrame(renderer.scene(), point.technique, point.settings);
+    const frame::PreparedView prepared = recipes::prepareView(renderer.scene(), point.technique, point.settings);
     const graph::Plan plan = recipes::planFrame(renderer.scene(), point.technique, point.settings);
     if (prepared.spec.culling.method != culling::Method::None)
         result.builder = infoOf(prepared.spec.culling.builder).name;
@@ -88,7 +88,7 @@ void countPoint(recipes::Renderer& renderer, const BenchPoint& point, BenchResul
     for (const auto& [name, value] : plan.counters) {
         if (name == "triangles") counters.triangles = value;
         if (name == "draws") counters.draws = value;
-        if (name == "gbufferBytesPerPixel" && infoOf(point.technique).usesGBuffer)
+        if (name == "gbufferBytesPerPixel" && infoOf(point.technique).usesGBuffer())
             counters.gbufferBytes = value * oracle.covered;
     }
 }

@@ -88,8 +88,7 @@ void measure(StressBench& bench, const std::vector<Light>& lights, const std::ve
     // The eye is the world's origin, so that world and lighting space are one.
     const frame::CameraView view =
         frame::makeCameraView(scenes::Camera{}, {64, 64}, frame::LightingSpace::World, glm::vec3(0.0f));
-    frame::LightBuffers buffers;
-    buffers.upload(frame::packLights(scene, view, settings));
+    const frame::LightBuffers buffers(frame::packLights(scene, view, settings));
     buffers.bind();
     std::vector<glm::vec4> inputs;
     for (const Probe& probe : probes) inputs.emplace_back(probe.positionWS, float(probe.light));

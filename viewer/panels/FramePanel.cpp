@@ -99,13 +99,13 @@ void framePanel(State& state) {
     Look& look = state.active();
     techniqueRow(look);
     cullingRows(look);
-    if (infoOf(look.technique).usesGBuffer) layoutRow(look);
-    if (recipes::takesLightingStage(look.technique)) {
+    if (infoOf(look.technique).usesGBuffer()) layoutRow(look);
+    if (recipes::infoOf(look.technique).choosesStage) {
         const auto stages = valuesOf(frame::lightingStageTable(), &frame::LightingStageInfo::stage);
         chooseOrOpen<frame::LightingStage>("Light on", look.settings.lightOn, choicesOf(frame::lightingStageTable()),
                                            stages, "fragment shaders");
     }
-    if (infoOf(look.technique).multisamples) samplesRow(look);
+    if (infoOf(look.technique).multisamples()) samplesRow(look);
     switchRows(look.settings);
     look = possible(look);
 }

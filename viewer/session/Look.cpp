@@ -39,7 +39,7 @@ Look possible(Look look) {
         [&](culling::Method method) { return recipes::takesMethod(look.technique, method); });
     fit(settings.culling.tilePixels, aside.tilePixels, hasLists);
     fit(settings.culling.builder, aside.builder, hasLists);
-    fit(settings.lightOn, aside.lightOn, [&](auto) { return recipes::takesLightingStage(look.technique); });
+    fit(settings.lightOn, aside.lightOn, [&](auto) { return recipes::infoOf(look.technique).choosesStage; });
     fit(samples, aside.samples, [&](int count) { return recipes::takesSamples(info, count); });
     settings.samples = samples.value_or(1);
     if (!recipes::takesView(info, settings.view)) settings.view = frame::View::Final;

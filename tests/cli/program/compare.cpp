@@ -18,7 +18,7 @@ std::set<std::string> keysOf(const Json& object) {
 
 bool usesGBuffer(const std::string& technique) {
     for (const recipes::TechniqueInfo& info : recipes::techniqueTable())
-        if (info.name == technique) return info.usesGBuffer;
+        if (info.name == technique) return info.usesGBuffer();
     return false;
 }
 
@@ -264,9 +264,10 @@ TEST_F(Sabotage, swappedChannelsAlwaysMissTheTolerance) {
 
 TEST_F(Sabotage, oneSkippedLightAlwaysMissesTheTolerance) {
     // GBUFFER_NORMAL without GBUFFER_WRITE: the pass that reads the G-buffer.
-    replace("lib/light_cursor.glsl", "    return LightCursor(0, int(frame.lights.x));",
-            "#if !defined(GBUFFER_WRITE) && defined(GBUFFER_NORMAL)\n    return LightCursor(1, int(frame.lights.x));\n"
-            "#else\n    return LightCursor(0, int(frame.lights.x));\n#endif");
+    replace(
+        "lib/light_cursor.glsl", "    return LightCursor(0, int(lighting.lights.x));",
+        "#if !defined(GBUFFER_WRITE) && defined(GBUFFER_NORMAL)\n    return LightCursor(1, int(lighting.lights.x));\n"
+        "#else\n    return LightCursor(0, int(lighting.lights.x));\n#endif");
     expectExitCode(kToleranceMissed);
 }
 

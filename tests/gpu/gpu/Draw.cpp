@@ -236,6 +236,33 @@ TEST_F(FramebufferTest, incompleteAttachmentsAreAlwaysNamed) {
     EXPECT_THAT(faultOf({{}, nullptr}), HasSubstr("nothing is attached"));
 }
 
+TEST_F(FramebufferTest, everyPartOfATextureIsAlwaysDrawnIntoAloneAndReadBack) {
+    for (const graph::Shape shape : {graph::Shape::Array, graph::Shape::Cube}) {
+        const Texture texture(
+            "parts",
+            {.format = graph::Format::Rgba32Float, .width = 4, .height = 4, .levels = 3, .layers = 6, .shape = shape});
+        FramebufferCache cache;
+        const auto valueOf = [](int level, int layer) { return glm::vec4(float(level), float(layer), 0.5f, 1.0f); };
+        for (int level = 0; level < 3; ++level) {
+            for (int layer = 0; layer < 6; ++layer) {
+                const Framebuffer& framebuffer = cache.get(Attachments{{graph::Target(&texture, {level, layer})}, {}});
+                EXPECT_EQ(framebuffer.width(), 4 >> level);
+                bindFramebuffer(framebuffer);
+                clearColor(0, valueOf(level, layer));
+            }
+        }
+        EXPECT_EQ(cache.size(), 18u);
+        for (int level = 0; level < 3; ++level) {
+            for (int layer = 0; layer < 6; ++layer)
+                EXPECT_THAT(texture.downloadAs<glm::vec4>(level, layer), testing::Each(valueOf(level, layer)));
+        }
+        const std::vector<glm::vec4> uploaded(4, glm::vec4(9.0f));
+        texture.upload(1, uploaded, 5);
+        EXPECT_EQ(texture.downloadAs<glm::vec4>(1, 5), uploaded);
+        EXPECT_THAT(texture.downloadAs<glm::vec4>(1, 4), testing::Each(valueOf(1, 4)));
+    }
+}
+
 TEST_F(FramebufferTest, aFramebufferNeverOutlivesItsTexturesInTheCache) {
     FramebufferCache cache;
     const Texture depth("depth", {graph::Format::Depth32Float, 4, 4, 1});

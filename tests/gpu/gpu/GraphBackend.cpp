@@ -1,5 +1,7 @@
 #include "renderer/gpu/GraphBackend.h"
 
+#include <array>
+
 #include <gmock/gmock.h>
 
 #include "renderer/gpu/Commands.h"
@@ -183,6 +185,86 @@ TEST_F(GraphBackendTest, unprofiledPassesOfASoftwareRasteriserNeverClaimAGpuTime
     finish();
     for (const PassTiming& timing : backend.passTimings())
         EXPECT_EQ(timing.gpuMs.has_value(), !context().capabilities().isSoftware) << timing.name;
+}
+
+TEST_F(GraphBackendTest, constantsAreAlwaysThoseOfTheirOwnDispatchHoweverManyThereAre) {
+    const Program program{"copy", compute("layout(binding = 3, std140) uniform C { uvec4 value; };\n"
+                                          "layout(binding = 0, std430) buffer N { uint n[]; };\n"
+                                          "void main() { n[value.x] = value.y; }")};
+    constexpr std::uint32_t kCount = 5000; // of 256 bytes each: some rounds of the ring
+    const Buffer numbers("numbers", kCount * sizeof(std::uint32_t));
+    bindStorageBuffer(0, numbers);
+    useProgram(program);
+    const Program* const programs[] = {&program};
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+        const std::array<std::uint32_t, 4> value{i, 7 * i + 1, 0, 0};
+        backend.bindConstants(3, std::as_bytes(std::span(value)), programs);
+        dispatch(1);
+    }
+    memoryBarrier(graph::Barrier::TransferOrUpdate);
+    const std::vector<std::uint32_t> found = numbers.downloadAs<std::uint32_t>(kCount);
+    for (std::uint32_t i = 0; i < kCount; ++i) ASSERT_EQ(found[i], 7 * i + 1);
+}
+
+TEST_F(GraphBackendTest, constantsOfAnotherSizeThanTheProgramsBlockAreAlwaysRefused) {
+    const Program program{"copy", compute("layout(binding = 3, std140) uniform C { uvec4 value[2]; };\n"
+                                          "layout(binding = 0, std430) buffer N { uint n[]; };\n"
+                                          "void main() { n[value[0].x] = value[1].y; }")};
+    const Program* const programs[] = {&program};
+    const std::array<std::uint32_t, 8> value{};
+    EXPECT_NO_THROW(backend.bindConstants(3, std::as_bytes(std::span(value)), programs));
+    EXPECT_NO_THROW(backend.bindConstants(4, std::as_bytes(std::span(value)), programs)) << "no block there";
+    try {
+        backend.bindConstants(3, std::as_bytes(std::span(value).first(4)), programs);
+        FAIL() << "16 bytes are taken for 32";
+    } catch (const std::logic_error& error) {
+        EXPECT_STREQ(error.what(), "program 'copy' has a uniform block of 32 bytes at slot 3, and is given 16");
+    }
+}
+
+TEST_F(GraphBackendTest, whatLivesAcrossFramesAlwaysKeepsItsContentsUntilItsShapeChanges) {
+    graph::TextureDesc desc{graph::Format::Rgba32Float, 4, 4};
+    const auto runFrame = [&](std::uint64_t revision) {
+        graph::Graph graph;
+        const bool holds = backend.holds("history", desc, revision);
+        graph::TextureHandle history = graph.persist("history", desc, revision, holds);
+        struct Written {
+            graph::TextureHandle history;
+        };
+        if (!holds) {
+            history =
+                graph
+                    .addPass<Written>(
+                        "write",
+                        [&](graph::PassBuilder& builder, Written& data) { data.history = builder.write(history); },
+                        [revision](const Written&, const graph::PassContext& context) {
+                            context.bindTargets();
+                            clearColor(0, glm::vec4(float(revision)));
+                        })
+                    .history;
+        }
+        graph.output(history);
+        const graph::CompiledGraph compiled = graph::compile(graph);
+        graph::Execution execution(graph, compiled, backend);
+        execution.run();
+        EXPECT_EQ(compiled.order.size(), holds ? 0u : 1u);
+    };
+    const auto value = [&] { return backend.persistentTexture("history", desc).downloadAs<glm::vec4>().front().x; };
+    runFrame(3);
+    EXPECT_EQ(value(), 3.0f);
+    runFrame(3); // nothing runs
+    EXPECT_EQ(value(), 3.0f);
+    runFrame(4);
+    EXPECT_EQ(value(), 4.0f);
+    EXPECT_FALSE(backend.holds("history", desc, 3));
+    const std::size_t bytes = backend.poolBytes();
+    desc.width = 8;
+    EXPECT_FALSE(backend.holds("history", desc, 4)) << "of another shape";
+    runFrame(4);
+    EXPECT_EQ(value(), 4.0f);
+    EXPECT_EQ(backend.poolBytes(), bytes + 4 * 4 * 16);
+    backend.forget("history");
+    EXPECT_FALSE(backend.holds("history", desc, 4));
 }
 
 } // namespace

@@ -96,10 +96,10 @@ TEST_F(TextureTest, texelsOfEveryFormatAlwaysSurviveARoundTrip) {
 }
 
 TEST_F(TextureTest, mipLevelsAlwaysHalveDownToOneTexel) {
-    EXPECT_EQ(mipLevelsFor(1, 1), 1);
-    EXPECT_EQ(mipLevelsFor(8, 3), 4);
-    EXPECT_EQ(mipLevelsFor(8193, 1), 14);
-    const Texture texture("mips", {graph::Format::R32Float, 4, 2, 1}, mipLevelsFor(4, 2));
+    EXPECT_EQ(graph::mipLevelsFor(1, 1), 1);
+    EXPECT_EQ(graph::mipLevelsFor(8, 3), 4);
+    EXPECT_EQ(graph::mipLevelsFor(8193, 1), 14);
+    const Texture texture("mips", {graph::Format::R32Float, 4, 2, 1, graph::mipLevelsFor(4, 2)});
     texture.upload(0, std::vector<float>{1, 3, 5, 7, 1, 3, 5, 7});
     texture.generateMips();
     EXPECT_THAT(texture.downloadAs<float>(1), ElementsAre(2, 6));

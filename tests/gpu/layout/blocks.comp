@@ -4,7 +4,8 @@
 #include "shared/material.h"
 
 layout(local_size_x = 64) in;
-layout(std140, binding = UNIFORM_FRAME) uniform FrameBlock { FrameConstants frame; };
+layout(std140, binding = UNIFORM_VIEW) uniform ViewBlock { ViewConstants view; };
+layout(std140, binding = UNIFORM_LIGHTING) uniform LightingBlock { LightingConstants lighting; };
 layout(std140, binding = UNIFORM_MATERIAL) uniform MaterialBlock { MaterialConstants material; };
 layout(std140, binding = UNIFORM_DISPLAY) uniform DisplayBlock { DisplayConstants display; };
 layout(std430, binding = 1) writeonly buffer Outputs { vec4 outputs[]; };
@@ -12,17 +13,17 @@ layout(std430, binding = 1) writeonly buffer Outputs { vec4 outputs[]; };
 void main()
 {
     if (gl_GlobalInvocationID.x > 0u) return;
-    outputs[0] = frame.clipFromLS[0];
-    outputs[1] = frame.clipFromLS[3];
-    outputs[2] = frame.worldFromLS[0];
-    outputs[3] = frame.worldFromLS[3];
-    outputs[4] = frame.eyeLS;
-    outputs[5] = frame.rayDxLS;
-    outputs[6] = frame.rayDyLS;
-    outputs[7] = frame.forwardLS;
-    outputs[8] = frame.aheadFromDepth;
-    outputs[9] = frame.background;
-    outputs[10] = vec4(frame.lights);
+    outputs[0] = view.clipFromLS[0];
+    outputs[1] = view.clipFromLS[3];
+    outputs[2] = view.worldFromLS[0];
+    outputs[3] = view.worldFromLS[3];
+    outputs[4] = view.eyeLS;
+    outputs[5] = view.rayDxLS;
+    outputs[6] = view.rayDyLS;
+    outputs[7] = view.forwardLS;
+    outputs[8] = view.aheadFromDepth;
+    outputs[9] = view.background;
+    outputs[10] = vec4(lighting.lights);
     outputs[11] = material.baseColor;
     outputs[12] = material.emissive;
     outputs[13] = material.microsurface;
@@ -34,8 +35,9 @@ void main()
     }
     outputs[16 + 2 * TEXTURE_SLOT_COUNT] = display.exposure;
     outputs[17 + 2 * TEXTURE_SLOT_COUNT] = vec4(display.mapping);
-    outputs[18 + 2 * TEXTURE_SLOT_COUNT] = frame.lensVS;
-    outputs[19 + 2 * TEXTURE_SLOT_COUNT] = vec4(frame.tileGrid);
-    outputs[20 + 2 * TEXTURE_SLOT_COUNT] = frame.depthKey;
-    outputs[21 + 2 * TEXTURE_SLOT_COUNT] = vec4(frame.sizePixels);
+    outputs[18 + 2 * TEXTURE_SLOT_COUNT] = view.lensVS;
+    outputs[19 + 2 * TEXTURE_SLOT_COUNT] = vec4(lighting.tileGrid);
+    outputs[20 + 2 * TEXTURE_SLOT_COUNT] = view.depthKey;
+    outputs[21 + 2 * TEXTURE_SLOT_COUNT] = vec4(view.sizePixels);
+    outputs[22 + 2 * TEXTURE_SLOT_COUNT] = vec4(lighting.slices);
 }

@@ -18,7 +18,7 @@ using testing::ElementsAre;
 /// Name, offset, and the stride of its array or columns (0: neither).
 using Place = std::tuple<std::string, std::size_t, std::size_t>;
 
-constexpr std::size_t kOutputs = 22 + 2 * TEXTURE_SLOT_COUNT;
+constexpr std::size_t kOutputs = 23 + 2 * TEXTURE_SLOT_COUNT;
 
 class LayoutTest : public test::GlTest {
 protected:
@@ -33,24 +33,31 @@ protected:
     test::ShaderBench bench;
 };
 
-TEST_F(LayoutTest, frameConstantsLieExactlyWhereTheDriverReadsThem) {
-    using shared::FrameConstants;
-    EXPECT_EQ(bytes("FrameBlock"), sizeof(FrameConstants));
-    EXPECT_THAT(places("FrameBlock"),
-                ElementsAre(Place("frame.clipFromLS", offsetof(FrameConstants, clipFromLS), sizeof(glm::vec4)),
-                            Place("frame.clipFromRS", offsetof(FrameConstants, clipFromRS), sizeof(glm::vec4)),
-                            Place("frame.worldFromLS", offsetof(FrameConstants, worldFromLS), sizeof(glm::vec4)),
-                            Place("frame.eyeLS", offsetof(FrameConstants, eyeLS), 0),
-                            Place("frame.rayDxLS", offsetof(FrameConstants, rayDxLS), 0),
-                            Place("frame.rayDyLS", offsetof(FrameConstants, rayDyLS), 0),
-                            Place("frame.forwardLS", offsetof(FrameConstants, forwardLS), 0),
-                            Place("frame.aheadFromDepth", offsetof(FrameConstants, aheadFromDepth), 0),
-                            Place("frame.background", offsetof(FrameConstants, background), 0),
-                            Place("frame.lights", offsetof(FrameConstants, lights), 0),
-                            Place("frame.lensVS", offsetof(FrameConstants, lensVS), 0),
-                            Place("frame.tileGrid", offsetof(FrameConstants, tileGrid), 0),
-                            Place("frame.depthKey", offsetof(FrameConstants, depthKey), 0),
-                            Place("frame.sizePixels", offsetof(FrameConstants, sizePixels), 0)));
+TEST_F(LayoutTest, viewConstantsLieExactlyWhereTheDriverReadsThem) {
+    using shared::ViewConstants;
+    EXPECT_EQ(bytes("ViewBlock"), sizeof(ViewConstants));
+    EXPECT_THAT(places("ViewBlock"),
+                ElementsAre(Place("view.clipFromLS", offsetof(ViewConstants, clipFromLS), sizeof(glm::vec4)),
+                            Place("view.clipFromRS", offsetof(ViewConstants, clipFromRS), sizeof(glm::vec4)),
+                            Place("view.worldFromLS", offsetof(ViewConstants, worldFromLS), sizeof(glm::vec4)),
+                            Place("view.eyeLS", offsetof(ViewConstants, eyeLS), 0),
+                            Place("view.rayDxLS", offsetof(ViewConstants, rayDxLS), 0),
+                            Place("view.rayDyLS", offsetof(ViewConstants, rayDyLS), 0),
+                            Place("view.forwardLS", offsetof(ViewConstants, forwardLS), 0),
+                            Place("view.aheadFromDepth", offsetof(ViewConstants, aheadFromDepth), 0),
+                            Place("view.background", offsetof(ViewConstants, background), 0),
+                            Place("view.lensVS", offsetof(ViewConstants, lensVS), 0),
+                            Place("view.depthKey", offsetof(ViewConstants, depthKey), 0),
+                            Place("view.sizePixels", offsetof(ViewConstants, sizePixels), 0)));
+}
+
+TEST_F(LayoutTest, lightingConstantsLieExactlyWhereTheDriverReadsThem) {
+    using shared::LightingConstants;
+    EXPECT_EQ(bytes("LightingBlock"), sizeof(LightingConstants));
+    EXPECT_THAT(places("LightingBlock"),
+                ElementsAre(Place("lighting.lights", offsetof(LightingConstants, lights), 0),
+                            Place("lighting.tileGrid", offsetof(LightingConstants, tileGrid), 0),
+                            Place("lighting.slices", offsetof(LightingConstants, slices), 0)));
 }
 
 TEST_F(LayoutTest, materialConstantsLieExactlyWhereTheDriverReadsThem) {
@@ -79,44 +86,50 @@ TEST_F(LayoutTest, displayConstantsLieExactlyWhereTheDriverReadsThem) {
 }
 
 TEST_F(LayoutTest, blocksAreAlwaysBoundWhereTheSharedListSays) {
-    EXPECT_EQ(program().blockSlot("FrameBlock", gpu::BlockKind::Uniform), UNIFORM_FRAME);
+    EXPECT_EQ(program().blockSlot("ViewBlock", gpu::BlockKind::Uniform), UNIFORM_VIEW);
+    EXPECT_EQ(program().blockSlot("LightingBlock", gpu::BlockKind::Uniform), UNIFORM_LIGHTING);
     EXPECT_EQ(program().blockSlot("MaterialBlock", gpu::BlockKind::Uniform), UNIFORM_MATERIAL);
     EXPECT_EQ(program().blockSlot("DisplayBlock", gpu::BlockKind::Uniform), UNIFORM_DISPLAY);
 }
 
 TEST_F(LayoutTest, theShaderAlwaysReadsTheValuesThatCppWrote) {
-    shared::FrameConstants frame{};
-    frame.clipFromLS[3] = {1, 2, 3, 4};
-    frame.aheadFromDepth = {5, 6, 7, 8};
-    frame.lights = {9, 10, 11, 12};
-    frame.tileGrid = {13, 14, 15, 16};
-    frame.depthKey = {17, 18, 19, 20};
-    frame.sizePixels = {21, 22, 23, 24};
+    shared::ViewConstants view{};
+    shared::LightingConstants lighting{};
+    view.clipFromLS[3] = {1, 2, 3, 4};
+    view.aheadFromDepth = {5, 6, 7, 8};
+    lighting.lights = {9, 10, 11, 12};
+    lighting.tileGrid = {13, 14, 15, 16};
+    view.depthKey = {17, 18, 19, 20};
+    view.sizePixels = {21, 22, 23, 24};
+    lighting.slices = {25, 26, 27, 28};
     shared::MaterialConstants material{};
     material.kind = {1, 2, 3, 4};
     material.uvRow0[6] = {5, 6, 7, 8};
     material.uvRow1[6] = {9, 10, 11, 12};
     shared::DisplayConstants display{};
     display.mapping = {13, 14, 15, 16};
-    const gpu::Buffer frameBuffer("frame", sizeof frame), materialBuffer("material", sizeof material),
-        displayBuffer("display", sizeof display);
-    frameBuffer.uploadValue(frame);
+    const gpu::Buffer viewBuffer("view", sizeof view), lightingBuffer("lighting", sizeof lighting),
+        materialBuffer("material", sizeof material), displayBuffer("display", sizeof display);
+    viewBuffer.uploadValue(view);
+    lightingBuffer.uploadValue(lighting);
     materialBuffer.uploadValue(material);
     displayBuffer.uploadValue(display);
-    gpu::bindUniformBuffer(UNIFORM_FRAME, frameBuffer);
+    gpu::bindUniformBuffer(UNIFORM_VIEW, viewBuffer);
+    gpu::bindUniformBuffer(UNIFORM_LIGHTING, lightingBuffer);
     gpu::bindUniformBuffer(UNIFORM_MATERIAL, materialBuffer);
     gpu::bindUniformBuffer(UNIFORM_DISPLAY, displayBuffer);
     const std::vector<glm::vec4> out = bench.run("test/blocks.comp", {}, {glm::vec4(0.0f)}, 1, kOutputs);
-    EXPECT_EQ(out[1], frame.clipFromLS[3]);
-    EXPECT_EQ(out[8], frame.aheadFromDepth);
-    EXPECT_EQ(out[10], glm::vec4(frame.lights));
+    EXPECT_EQ(out[1], view.clipFromLS[3]);
+    EXPECT_EQ(out[8], view.aheadFromDepth);
+    EXPECT_EQ(out[10], glm::vec4(lighting.lights));
     EXPECT_EQ(out[15], glm::vec4(material.kind));
     EXPECT_EQ(out[16 + 6], material.uvRow0[6]);
     EXPECT_EQ(out[16 + TEXTURE_SLOT_COUNT + 6], material.uvRow1[6]);
     EXPECT_EQ(out[17 + 2 * TEXTURE_SLOT_COUNT], glm::vec4(display.mapping));
-    EXPECT_EQ(out[19 + 2 * TEXTURE_SLOT_COUNT], glm::vec4(frame.tileGrid));
-    EXPECT_EQ(out[20 + 2 * TEXTURE_SLOT_COUNT], frame.depthKey);
-    EXPECT_EQ(out.back(), glm::vec4(frame.sizePixels));
+    EXPECT_EQ(out[19 + 2 * TEXTURE_SLOT_COUNT], glm::vec4(lighting.tileGrid));
+    EXPECT_EQ(out[20 + 2 * TEXTURE_SLOT_COUNT], view.depthKey);
+    EXPECT_EQ(out[21 + 2 * TEXTURE_SLOT_COUNT], glm::vec4(view.sizePixels));
+    EXPECT_EQ(out.back(), glm::vec4(lighting.slices));
 }
 
 TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexelOfEveryStore) {
@@ -131,8 +144,7 @@ TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexelOfEveryStore) {
                                   &lights.shapes[i].attenuation})
             for (int k = 0; k < 4; ++k) (*member)[k] = next++;
     lights.features.add(frame::Feature::SpotLights);
-    frame::LightBuffers buffers;
-    buffers.upload(lights);
+    const frame::LightBuffers buffers(lights);
     buffers.bind();
     const gpu::Buffer texels = gpu::Buffer::of("lights", lights.texels);
     const gpu::Buffer shapes = gpu::Buffer::of("light shapes", lights.shapes);

@@ -36,8 +36,7 @@ protected:
         const frame::CameraView view =
             frame::makeCameraView(scenes::Camera{}, {64, 64}, frame::LightingSpace::World, glm::vec3(0.0f));
         const frame::PackedLights packed = frame::packLights(scene, view, settings);
-        frame::LightBuffers lightBuffers;
-        lightBuffers.upload(packed);
+        const frame::LightBuffers lightBuffers(packed);
         lightBuffers.bind();
         std::vector<glm::vec4> inputs;
         for (const Probe& probe : probes) inputs.emplace_back(probe.position, float(probe.light));

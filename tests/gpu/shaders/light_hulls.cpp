@@ -31,22 +31,21 @@ struct Volume {
 class LightHulls : public test::GlTest {
 protected:
     LightHulls() {
-        frame_ = {};
+        view_ = {};
         // x, y and w of clip coordinates are the position, so that all of it can be read.
-        frame_.clipFromLS =
-            glm::mat4(glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 0, 1), glm::vec4(0));
-        frame_.forwardLS = {0, 0, -1, 1};
-        frame_.aheadFromDepth = {10, -10, 1, 0};
-        frame_.depthKey = {1, 0, 0, 0};
-        frame_.lensVS = {0.01f, 0.01f, 0, 0};
+        view_.clipFromLS = glm::mat4(glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 0, 1), glm::vec4(0));
+        view_.forwardLS = {0, 0, -1, 1};
+        view_.aheadFromDepth = {10, -10, 1, 0};
+        view_.depthKey = {1, 0, 0, 0};
+        view_.lensVS = {0.01f, 0.01f, 0, 0};
     }
 
     std::vector<Volume> volumes(const std::vector<Spot>& spots) {
         std::vector<glm::vec4> inputs;
         for (const Spot& spot : spots)
             inputs.insert(inputs.end(), {{spot.apex, spot.reach}, {spot.axis, spot.cosOuter}, {spot.margin, 0, 0, 0}});
-        const gpu::Buffer constants = gpu::Buffer::of("frame constants", std::span(&frame_, 1));
-        gpu::bindUniformBuffer(UNIFORM_FRAME, constants);
+        const gpu::Buffer constants = gpu::Buffer::of("view", std::span(&view_, 1));
+        gpu::bindUniformBuffer(UNIFORM_VIEW, constants);
         constexpr std::size_t kOutputs = LIGHT_VOLUME_CONE_VERTICES + 1;
         const std::vector<glm::vec4> out = bench_.run(
             "test/light_hulls.comp", frame::featureDefines(frame::allFeatures()), inputs, spots.size(), kOutputs);
@@ -75,7 +74,7 @@ protected:
         return spots;
     }
 
-    shared::FrameConstants frame_;
+    shared::ViewConstants view_;
     test::ShaderBench bench_;
 };
 
@@ -173,31 +172,31 @@ TEST_F(LightHulls, theHullOfASpotIsNeverMuchLargerThanItsLight) {
 }
 
 TEST_F(LightHulls, aVolumeIsAlwaysAnEighthOfAPixelLargerThanItsLight) {
-    frame_.lensVS = {0.01f, 0.02f, 0, 0};
+    view_.lensVS = {0.01f, 0.02f, 0, 0};
     Spot small;
     small.reach = 1e-3f;
     small.cosOuter = 0.9f;
     // An eighth is promised, and 1 % more is not; lengths of a millimetre round by some 1e-8 m.
     EXPECT_NEAR(volumes({small})[0].margin, 0.125 * 0.02, 1e-6 + 1e-3 * 0.125 * 0.02);
-    frame_.forwardLS.w = 0.0f;
-    frame_.eyeLS = {0, 0, 50, 50}; // a pixel of the lens is that wide a metre ahead of the eye
+    view_.forwardLS.w = 0.0f;
+    view_.eyeLS = {0, 0, 50, 50}; // a pixel of the lens is that wide a metre ahead of the eye
     EXPECT_NEAR(volumes({small})[0].margin, 0.125 * 0.02 * 50.0, 1e-3 * 0.125 * 0.02 * 50.0);
 }
 
 TEST_F(LightHulls, aLightIsVastWhereEitherSideOfThePictureIsTooSmallForIt) {
     for (const glm::vec2 clipPerMetre : {glm::vec2(1.0f, 0.25f), glm::vec2(0.25f, 1.0f)}) {
         SCOPED_TRACE(clipPerMetre.x);
-        frame_.clipFromLS = glm::mat4(1.0f);
-        frame_.clipFromLS[0].x = clipPerMetre.x;
-        frame_.clipFromLS[1].y = clipPerMetre.y;
+        view_.clipFromLS = glm::mat4(1.0f);
+        view_.clipFromLS[0].x = clipPerMetre.x;
+        view_.clipFromLS[1].y = clipPerMetre.y;
         std::vector<Spot> spots(2);
         spots[0].reach = 255.0f;
         spots[1].reach = 257.0f;
-        frame_.forwardLS.w = 1.0f;
+        view_.forwardLS.w = 1.0f;
         const std::vector<Volume> orthographic = volumes(spots);
         EXPECT_FALSE(orthographic[0].vast);
         EXPECT_TRUE(orthographic[1].vast);
-        frame_.forwardLS.w = 0.0f;
+        view_.forwardLS.w = 0.0f;
         EXPECT_FALSE(volumes(spots)[1].vast) << "a perspective camera";
     }
 }

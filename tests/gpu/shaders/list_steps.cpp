@@ -19,9 +19,9 @@ constexpr std::uint32_t kShiftOfAnEighth = 20;
 class ListSteps : public test::GlTest {
 protected:
     ListSteps()
-        : constants_(frame::makeCameraView(scenes::Camera{}, {64, 64}, frame::LightingSpace::World, glm::vec3(0.0f))
-                         .constants) {
-        constants_.depthKey.y = float(kShiftOfAnEighth);
+        : view_(frame::makeCameraView(scenes::Camera{}, {64, 64}, frame::LightingSpace::World, glm::vec3(0.0f))
+                    .constants) {
+        lighting_.slices.x = kShiftOfAnEighth;
     }
 
     static shader::Defines definesOf(const char* method, int lanes) {
@@ -32,13 +32,15 @@ protected:
 
     /// What the scan writes as its totals, of a row of tiles; 64 lanes share them.
     glm::uvec4 scanned(const char* method, std::uint32_t storage, const gpu::Buffer& ofTiles, std::size_t tiles) {
-        constants_.tileGrid = {std::uint32_t(tiles), 1u, 0u, 0u};
+        lighting_.tileGrid = {std::uint32_t(tiles), 1u, 0u, 0u};
         const gpu::Program& program =
             bench_.programs().get({"scan", "", "", "passes/light_scan.comp", definesOf(method, 64)});
-        const gpu::Buffer constants = gpu::Buffer::of("frame constants", std::span(&constants_, 1));
+        const gpu::Buffer view = gpu::Buffer::of("view", std::span(&view_, 1));
+        const gpu::Buffer lighting = gpu::Buffer::of("lighting", std::span(&lighting_, 1));
         const gpu::Buffer totals("totals", sizeof(glm::uvec4), gpu::BufferUse::Readback);
         gpu::useProgram(program);
-        gpu::bindUniformBuffer(UNIFORM_FRAME, constants);
+        gpu::bindUniformBuffer(UNIFORM_VIEW, view);
+        gpu::bindUniformBuffer(UNIFORM_LIGHTING, lighting);
         gpu::bindStorageBuffer(storage, ofTiles);
         gpu::bindStorageBuffer(STORAGE_LIST_TOTALS, totals);
         gpu::dispatch(1);
@@ -46,13 +48,14 @@ protected:
         return totals.downloadAs<glm::uvec4>(1).front();
     }
 
-    shared::FrameConstants constants_;
+    shared::ViewConstants view_;
+    shared::LightingConstants lighting_{};
     test::ShaderBench bench_;
 };
 
 TEST_F(ListSteps, firstsAndTotalsAreAlwaysTheSumsOfTheTilesBeforeBeyondThirtyTwoBits) {
     test::Random random(1);
-    constants_.lights.z = 3; // reach everywhere, so their entries come first
+    lighting_.lights.z = 3; // reach everywhere, so their entries come first
     for (const std::size_t tiles : {1, 63, 64, 65, 1000}) {
         SCOPED_TRACE(tiles);
         std::vector<glm::uvec2> counts;
@@ -62,7 +65,7 @@ TEST_F(ListSteps, firstsAndTotalsAreAlwaysTheSumsOfTheTilesBeforeBeyondThirtyTwo
         const glm::uvec4 totals = scanned("LIST_METHOD_CLUSTER", STORAGE_TILE_COUNTS, buffer, tiles);
         const std::vector<glm::uvec2> firsts = buffer.downloadAs<glm::uvec2>(tiles);
         std::uint32_t cells = 1; // the empty cell
-        std::uint64_t entries = constants_.lights.z;
+        std::uint64_t entries = lighting_.lights.z;
         for (std::size_t i = 0; i < tiles; ++i) {
             ASSERT_EQ(firsts[i], glm::uvec2(cells, std::uint32_t(entries))) << "tile " << i;
             cells += counts[i].x;
@@ -75,7 +78,7 @@ TEST_F(ListSteps, firstsAndTotalsAreAlwaysTheSumsOfTheTilesBeforeBeyondThirtyTwo
 /// A tile in front of all others and one behind them, each at every place.
 TEST_F(ListSteps, binsAlwaysReachFromTheFarthestToTheNearestTileWhereverTheyAre) {
     constexpr std::size_t kTiles = 130; // three for some lanes, two for the others
-    const auto key = [&](float depth) { return std::bit_cast<std::uint32_t>(constants_.depthKey.x + depth); };
+    const auto key = [&](float depth) { return std::bit_cast<std::uint32_t>(view_.depthKey.x + depth); };
     const auto bins = [&](float nearest, float farthest) {
         const std::uint32_t slicing = shared::slicingOf(key(farthest), key(nearest), kShiftOfAnEighth, ZBIN_COUNT);
         return glm::uvec4(slicing, shared::sliceOfKey(key(nearest), slicing) + 1u, 0u, 0u);
@@ -109,7 +112,7 @@ TEST_F(ListSteps, everyRunOfNeighbouringSlicesIsOneBoxFromItsNearestToItsFarthes
         tiles.push_back(slices);
     }
     const std::uint32_t slicing =
-        shared::packSlices(std::bit_cast<std::uint32_t>(0x1p-8f + constants_.depthKey.x), kShiftOfAnEighth);
+        shared::packSlices(std::bit_cast<std::uint32_t>(0x1p-8f + view_.depthKey.x), kShiftOfAnEighth);
     std::vector<glm::uvec4> inputs;
     for (const std::uint64_t slices : tiles)
         inputs.emplace_back(slicing, std::uint32_t(slices), std::uint32_t(slices >> 32), 0u);
@@ -117,12 +120,12 @@ TEST_F(ListSteps, everyRunOfNeighbouringSlicesIsOneBoxFromItsNearestToItsFarthes
 
     const gpu::Program& program =
         bench_.programs().get({"runs", "", "", "test/list_runs.comp", definesOf("LIST_METHOD_SLICES", 1)});
-    const gpu::Buffer constants = gpu::Buffer::of("frame constants", std::span(&constants_, 1));
+    const gpu::Buffer view = gpu::Buffer::of("view", std::span(&view_, 1));
     const gpu::Buffer in = gpu::Buffer::of("inputs", inputs);
     const std::size_t boxes = inputs.size() * LIGHT_TILE_SLICES;
     const gpu::Buffer out("outputs", boxes * sizeof(glm::vec2), gpu::BufferUse::Readback);
     gpu::useProgram(program);
-    gpu::bindUniformBuffer(UNIFORM_FRAME, constants);
+    gpu::bindUniformBuffer(UNIFORM_VIEW, view);
     gpu::bindStorageBuffer(1, in);
     gpu::bindStorageBuffer(2, out);
     gpu::dispatch(std::uint32_t(inputs.size() / 64));
@@ -138,8 +141,8 @@ TEST_F(ListSteps, everyRunOfNeighbouringSlicesIsOneBoxFromItsNearestToItsFarthes
             if (!occupied(first) || (first > 0 && occupied(first - 1))) continue;
             std::uint32_t last = first;
             while (occupied(last + 1)) ++last;
-            const glm::vec2 depths = shared::depthsOfSlices(slicing, first, last, constants_.depthKey.x);
-            const auto ahead = [&](float depth) { return shared::aheadMetres(constants_.aheadFromDepth, depth); };
+            const glm::vec2 depths = shared::depthsOfSlices(slicing, first, last, view_.depthKey.x);
+            const auto ahead = [&](float depth) { return shared::aheadMetres(view_.aheadFromDepth, depth); };
             // The same few operations, but GLSL lets a division be off by 2.5 units in the last place (4.7.1).
             const glm::vec2 wanted(ahead(depths.y), ahead(depths.x));
             EXPECT_NEAR(runs[box].x, wanted.x, 1e-6f * wanted.x) << "slices " << first << " to " << last;

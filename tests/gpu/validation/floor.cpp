@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/DeferredLightingPass.h"
-#include "passes/recipes/PreparedFrame.h"
+#include "passes/recipes/PrepareView.h"
 #include "scenes/Load.h"
 #include "shaders/shared/models.h"
 #include "tests/gpu/shaders/ShaderBench.h"
@@ -53,8 +53,7 @@ protected:
     /// A scene of one model and one kind of light; and one of everything, whose models and kinds take turns.
     static std::vector<frame::FrameSpec> specs() {
         const scenes::Scene scene = lattice(16);
-        std::vector<frame::FrameSpec> result{
-            recipes::prepareFrame(scene, recipes::Technique::Forward, settings()).spec};
+        std::vector<frame::FrameSpec> result{recipes::prepareView(scene, recipes::Technique::Forward, settings()).spec};
         // Of the floor's surface every pixel is another material.
         result[0].features.add(frame::Feature::VaryingMaterials);
         result[0].channels = frame::neededChannels(result[0].features, settings().layout, false);
@@ -95,7 +94,7 @@ protected:
         gpu::useProgram(bench.programs().get(
             frame::frameProgram(spec, "floor_gbuffer", "passes/fullscreen.vert", "test/floor_gbuffer.frag",
                                 frame::channelDefines(spec.settings.layout, spec.channels))));
-        gpu::bindUniformBuffer(UNIFORM_FRAME, lighting.frameConstants());
+        lighting.bindConstants();
         gpu::drawFullscreenTriangle();
         return stored;
     }
@@ -108,7 +107,7 @@ protected:
         gpu::bindFramebuffer(target);
         gpu::setState({});
         gpu::useProgram(bench.programs().get(passes::DeferredLightingPass::program(spec, {})));
-        gpu::bindUniformBuffer(UNIFORM_FRAME, lighting.frameConstants());
+        lighting.bindConstants();
         lighting.bindLights(kProductsStore);
         for (std::size_t i = 0; i < stored.channels.size(); ++i)
             gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), *stored.channels[i]);

@@ -69,7 +69,7 @@ TEST(Documentation, theBoundsOfTheGBuffersErrorsAreExactlyThoseOfTheProgram) {
 TEST(Documentation, theTechniquesAreExactlyThoseOfTheProgram) {
     Rows rows;
     for (const recipes::TechniqueInfo& info : recipes::techniqueTable())
-        rows.push_back({code(info.name), std::string(info.geometry), std::string(info.lighting)});
+        rows.push_back({code(info.name), std::string(describe(info.geometry)), std::string(info.lighting)});
     expectTable("README.md", {"technique", "geometry", "lighting"}, rows);
 }
 

@@ -41,7 +41,7 @@ Projected project(const CameraView& view, const glm::dvec3& positionLS) {
 }
 
 /// viewpointFromDepth of shaders/lib/camera.glsl, in fp32 as it runs there.
-glm::vec3 rebuilt(const shared::FrameConstants& c, const Projected& p) {
+glm::vec3 rebuilt(const shared::ViewConstants& c, const Projected& p) {
     const float ahead =
         (c.aheadFromDepth.x + c.aheadFromDepth.y * p.depth) / (c.aheadFromDepth.z + c.aheadFromDepth.w * p.depth);
     const glm::vec2 place = p.pixel - glm::vec2(c.lensVS.z, c.lensVS.w);

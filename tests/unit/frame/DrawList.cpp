@@ -43,9 +43,11 @@ TEST(DrawList, batchesAlwaysCoverEveryDrawExactlyOnce) {
     const scenes::Scene scene = mixedScene();
     const DrawList list = makeDrawList(scene);
     EXPECT_EQ(list.draws.size(), 24u); // 12 nodes x 2 meshes that have triangles
+    const ViewDraws view = makeViewDraws(list, defaultView(), false);
+    EXPECT_EQ(view.seen.size(), list.draws.size());
     std::vector<int> drawn(list.draws.size(), 0);
-    std::vector<Batch> batches = list.opaque;
-    for (const Batch& batch : sortedTransparent(list, defaultView())) batches.push_back(batch);
+    std::vector<Batch> batches = view.opaque;
+    for (const Batch& batch : view.transparent) batches.push_back(batch);
     for (const Batch& batch : batches) {
         for (int i = batch.first; i < batch.first + batch.count; ++i) {
             ++drawn.at(std::size_t(i));
@@ -63,9 +65,9 @@ TEST(DrawList, batchesAlwaysCoverEveryDrawExactlyOnce) {
 }
 
 TEST(DrawList, batchesOfTheSameMaterialAndWindingAreNeverApart) {
-    const DrawList list = makeDrawList(mixedScene());
+    const ViewDraws view = makeViewDraws(makeDrawList(mixedScene()), defaultView(), false);
     std::vector<std::pair<int, bool>> seen;
-    for (const Batch& batch : list.opaque) seen.emplace_back(batch.material, batch.mirrored);
+    for (const Batch& batch : view.opaque) seen.emplace_back(batch.material, batch.mirrored);
     EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
     EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end());
 }
@@ -88,24 +90,76 @@ TEST(DrawList, transparentDrawsAlwaysRunFarToNearWithTiesInDocumentOrder) {
     }
     const CameraView view = makeCameraView(scenes::Camera{}, {64, 64}, LightingSpace::World, glm::vec3(0.0f));
     const DrawList list = makeDrawList(scene);
+    const ViewDraws draws = makeViewDraws(list, view, false);
     std::vector<int> nodes;
-    for (const Batch& batch : sortedTransparent(list, view)) nodes.push_back(list.draws[std::size_t(batch.first)].node);
+    for (const Batch& batch : draws.transparent) nodes.push_back(list.draws[std::size_t(batch.first)].node);
     EXPECT_THAT(nodes, ElementsAre(1, 4, 0, 2, 3));
-    EXPECT_TRUE(list.opaque.empty());
+    EXPECT_TRUE(draws.opaque.empty());
 }
 
 TEST(DrawList, anEmptySceneAlwaysDrawsNothing) {
     scenes::Scene scene;
     const DrawList list = makeDrawList(scene);
-    EXPECT_TRUE(list.draws.empty() && list.opaque.empty() && sortedTransparent(list, defaultView()).empty());
-    EXPECT_TRUE(makeDrawRows(list, defaultView()).empty());
+    const ViewDraws view = makeViewDraws(list, defaultView(), true);
+    EXPECT_TRUE(list.draws.empty() && view.seen.empty() && view.rows.empty());
+    EXPECT_TRUE(view.opaque.empty() && view.transparent.empty());
+}
+
+/// What of a view's draws tells apart what is drawn: the draw and the rows it is drawn with.
+std::vector<std::pair<int, float>> drawn(const ViewDraws& view, const std::vector<Batch>& batches) {
+    std::vector<std::pair<int, float>> result;
+    for (const Batch& batch : batches)
+        for (int i = batch.first; i < batch.first + batch.count; ++i)
+            result.emplace_back(view.seen.at(std::size_t(i)), view.rows.at(std::size_t(i)).normal[2].w);
+    return result;
+}
+
+/// Whether some vertex of the box's corners, or the eye in it, could show: by points inside the box, brute force.
+bool someOfItIsInside(const scenes::Box3& box, const CameraView& view) {
+    constexpr int kSteps = 8;
+    for (int x = 0; x <= kSteps; ++x)
+        for (int y = 0; y <= kSteps; ++y)
+            for (int z = 0; z <= kSteps; ++z) {
+                const glm::dvec3 point = glm::mix(box.min, box.max, glm::dvec3(x, y, z) / double(kSteps));
+                const glm::dvec4 clip = view.clipFromLS * glm::dvec4(view.positionLS(point), 1.0);
+                if (std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w && clip.w > 0.0) return true;
+            }
+    return false;
+}
+
+TEST(ViewDraws, whatMayBeSeenKeepsItsOrderAndItsRowsAndTheRestIsLeftOut) {
+    test::Random random(5);
+    std::size_t left = 0, all = 0;
+    for (int round = 0; round < 200; ++round) {
+        scenes::Scene scene = mixedScene();
+        for (scenes::Node& node : scene.nodes)
+            node.parentFromNode = glm::translate(glm::dmat4(1.0), 20.0 * random.direction()) * node.parentFromNode;
+        const DrawList list = makeDrawList(scene);
+        const CameraView view = defaultView(round % 2 == 0 ? LightingSpace::World : LightingSpace::View);
+        const ViewDraws whole = makeViewDraws(list, view, false), culled = makeViewDraws(list, view, true);
+        const auto isLeft = [&](const std::pair<int, float>& draw) {
+            return std::find(culled.seen.begin(), culled.seen.end(), draw.first) == culled.seen.end();
+        };
+        for (const auto member : {&ViewDraws::opaque, &ViewDraws::transparent}) {
+            std::vector<std::pair<int, float>> expected = drawn(whole, whole.*member);
+            std::erase_if(expected, isLeft);
+            EXPECT_EQ(drawn(culled, culled.*member), expected);
+        }
+        for (std::size_t i = 0; i < list.draws.size(); ++i) {
+            if (!isLeft({int(i), 0.0f})) continue;
+            ++left;
+            EXPECT_FALSE(someOfItIsInside(list.draws[i].boxWS, view)) << "round " << round << ", draw " << i;
+        }
+        all += list.draws.size();
+    }
+    EXPECT_GT(double(left), 0.5 * double(all)) << "most of a sphere of 20 m around lies outside a view of 45 degrees";
 }
 
 /// The one draw's rows for a node with this transform.
 DrawRows rowsOf(const glm::dmat4& worldFromObject, const CameraView& view) {
     scenes::Scene scene = scenes::tinyScene();
     scene.nodes[0].parentFromNode = worldFromObject;
-    return makeDrawRows(makeDrawList(scene), view).at(0);
+    return makeViewDraws(makeDrawList(scene), view, false).rows.at(0);
 }
 
 glm::dvec3 apply(const glm::vec4 rows[3], const glm::dvec4& v) {

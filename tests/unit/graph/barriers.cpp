@@ -70,6 +70,9 @@ TEST(Barriers, bitIsAlwaysThatOfTheLaterAccessToABuffer) {
              {Access::UniformRead, Barrier::Uniform},
              {Access::StorageRead, Barrier::ShaderStorage},
              {Access::TexelRead, Barrier::TextureFetch},
+             {Access::VertexRead, Barrier::VertexAttribute},
+             {Access::IndexRead, Barrier::ElementArray},
+             {Access::IndirectRead, Barrier::Command},
              {Access::Download, Barrier::TransferOrUpdate | Barrier::Framebuffer}}) {
         Graph graph;
         readKept(graph, bufferStore(graph, "store", "lists"), access);

@@ -25,6 +25,30 @@ public:
     }
     const gpu::Texture& texture(int physical) override { return standIn<gpu::Texture>(places[std::size_t(physical)]); }
     const gpu::Buffer& buffer(int physical) override { return standIn<gpu::Buffer>(places[std::size_t(physical)]); }
+    const gpu::Buffer& growingBuffer(const std::string& name, int number, std::size_t bytes) override {
+        calls.push_back("room for " + std::to_string(bytes) + " bytes in " + name + " " + std::to_string(number));
+        return standIn<gpu::Buffer>(places[6]);
+    }
+    const gpu::Texture& persistentTexture(const std::string& name, const TextureDesc&) override {
+        calls.push_back("persistent " + name);
+        return standIn<gpu::Texture>(places.back());
+    }
+    const gpu::Buffer& persistentBuffer(const std::string& name, const BufferDesc&) override {
+        calls.push_back("persistent " + name);
+        return standIn<gpu::Buffer>(places.back());
+    }
+    void setRevision(const std::string& name, std::optional<std::uint64_t> revision) override {
+        calls.push_back(name + " holds " + (revision ? std::to_string(*revision) : "nothing"));
+    }
+    void bindTargets(std::span<const Target> colors, const Target& depth, int width, int height) override {
+        calls.push_back("targets " + std::to_string(colors.size()) + (depth.texture ? " and depth" : "") +
+                        (width > 0 ? " of " + std::to_string(width) + " x " + std::to_string(height) : ""));
+    }
+    void bindConstants(std::uint32_t slot, std::span<const std::byte> bytes,
+                       std::span<const gpu::Program* const> programs) override {
+        calls.push_back("constants " + std::to_string(slot) + ", " + std::to_string(bytes.size()) + " bytes, " +
+                        std::to_string(programs.size()) + " programs");
+    }
     void beginPass(std::string_view name, Barrier barrier) override {
         calls.push_back("begin " + std::string(name) + (barrier == Barrier::None ? "" : " after a barrier"));
     }
@@ -95,11 +119,11 @@ TEST(Execution, frameWithoutStoresNeverEndsInABarrier) {
 TEST(Execution, handlesAlwaysResolveToTheirAllocationOrImport) {
     Recorder backend;
     Graph graph;
-    const TextureHandle window = graph.import("window", kColor);
-    const BufferHandle lights = graph.import("lights", kBytes);
-    const TextureHandle image = draw(graph, "shade", "image");
     const int windowPlace = 0;
     const int lightsPlace = 0;
+    const TextureHandle window = graph.import("window", kColor, &standIn<gpu::Texture>(windowPlace));
+    const BufferHandle lights = graph.import("lights", kBytes, &standIn<gpu::Buffer>(lightsPlace));
+    const TextureHandle image = draw(graph, "shade", "image");
     bool ran = false;
     struct Data {
         TextureHandle source;
@@ -122,14 +146,72 @@ TEST(Execution, handlesAlwaysResolveToTheirAllocationOrImport) {
     graph.output(present.target);
     graph.output(image);
     const CompiledGraph compiled = compile(graph);
-    const ImportedTexture windowImport{window, &standIn<gpu::Texture>(windowPlace)};
-    const ImportedBuffer lightsImport{lights, &standIn<gpu::Buffer>(lightsPlace)};
-    Execution execution(graph, compiled, backend, {&windowImport, 1}, {&lightsImport, 1});
+    Execution execution(graph, compiled, backend);
     execution.run();
     EXPECT_TRUE(ran);
     EXPECT_EQ(&execution.texture(image), &standIn<gpu::Texture>(backend.places[0]));
     EXPECT_EQ(&execution.texture(present.target), &standIn<gpu::Texture>(windowPlace));
     EXPECT_EQ(&execution.buffer(lights), &standIn<gpu::Buffer>(lightsPlace));
+}
+
+/// A pass that makes room for so many bytes in a buffer that grows, and asks how many it holds.
+struct Grown {
+    BufferHandle list;
+};
+Grown growing(Graph& graph, std::size_t bytes, const std::function<void(const Grown&, const PassContext&)>& body) {
+    return graph.addPass<Grown>(
+        "count",
+        [&](PassBuilder& builder, Grown& data) {
+            data.list = builder.create("list", BufferDesc{bytes, true}, Access::Upload);
+            builder.keep();
+        },
+        [body](const Grown& data, const PassContext& context) { body(data, context); });
+}
+
+TEST(Execution, aBufferThatGrowsHoldsWhatItsFirstWriterSays) {
+    Recorder backend;
+    Graph graph;
+    std::vector<std::size_t> held;
+    const auto grow = [&](std::size_t bytes) {
+        return growing(graph, 0, [&held, bytes](const Grown& data, const PassContext& context) {
+            context.allocate(data.list, bytes);
+            held.push_back(context.bytes(data.list));
+        });
+    };
+    graph.output(grow(100).list);
+    const Grown second = grow(0);
+    graph.output(second.list);
+    const Grown known = growing(graph, 7, [&](const Grown& data, const PassContext& context) {
+        EXPECT_EQ(&context.buffer(data.list), &standIn<gpu::Buffer>(backend.places[6]));
+        held.push_back(context.bytes(data.list));
+    });
+    const CompiledGraph compiled = compile(graph);
+    EXPECT_EQ(compiled.resources[known.list.resource].physical, -1) << "its memory is kept by name";
+    Execution execution(graph, compiled, backend);
+    for (int run = 0; run < 2; ++run) {
+        execution.run();
+        EXPECT_EQ(execution.bytes(second.list), 0u);
+    }
+    EXPECT_THAT(held, ElementsAre(100u, 0u, 7u, 100u, 0u, 7u));
+    EXPECT_THAT(backend.calls, testing::IsSupersetOf({"room for 100 bytes in list 0", "room for 0 bytes in list 1",
+                                                      "room for 7 bytes in list 2"}));
+}
+
+TEST(Execution, aBufferThatGrowsIsNeverResolvedBeforeItHasRoomNorGivenRoomTwice) {
+    Recorder backend;
+    const auto errorOf = [&](std::size_t bytes, const std::function<void(const Grown&, const PassContext&)>& body) {
+        Graph graph;
+        growing(graph, bytes, body);
+        return errorOfRun<std::logic_error>(graph, backend);
+    };
+    EXPECT_EQ(errorOf(0, [](const Grown& data, const PassContext& context) { context.buffer(data.list); }),
+              "pass 'count': asked for 'list' before any pass said how many bytes it holds");
+    const auto twice = [](const Grown& data, const PassContext& context) {
+        context.allocate(data.list, 1);
+        context.allocate(data.list, 2);
+    };
+    EXPECT_EQ(errorOf(0, twice), "pass 'count': makes room in 'list', which has room already");
+    EXPECT_THAT(errorOf(8, twice), testing::HasSubstr("makes room in 'list', whose bytes are known"));
 }
 
 TEST(Execution, handleThatThePassDidNotDeclareIsNeverResolved) {
@@ -202,31 +284,22 @@ TEST(Execution, firstOfTwoFailuresIsAlwaysTheOneReported) {
 
 TEST(Execution, importThatTheFrameUsesIsNeverMissing) {
     Recorder backend;
-    Graph graph;
-    const TextureHandle history = graph.import("history", kColor);
-    const BufferHandle lights = graph.import("lights", kBytes);
-    graph.import("unused", kColor);
-    consume(graph, "show", {history});
-    const CompiledGraph compiled = compile(graph);
-    const auto errorOf = [&](std::span<const ImportedTexture> textures, std::span<const ImportedBuffer> buffers) {
+    const int place = 0;
+    const auto errorOf = [&](const gpu::Texture* history, const gpu::Buffer* lights) {
+        Graph graph;
+        const TextureHandle shown = graph.import("history", kColor, history);
+        graph.import("lights", kBytes, lights);
+        consume(graph, "show", {shown});
+        const CompiledGraph compiled = compile(graph);
         try {
-            Execution(graph, compiled, backend, textures, buffers);
+            Execution(graph, compiled, backend);
         } catch (const std::logic_error& error) {
             return std::string(error.what());
         }
         return std::string("no error");
     };
-    const int place = 0;
-    const ImportedTexture given{history, &standIn<gpu::Texture>(place)};
-    const ImportedTexture null{history, nullptr};
-    const ImportedBuffer unused{lights, &standIn<gpu::Buffer>(place)};
-    const ImportedBuffer unknown{BufferHandle{}, &standIn<gpu::Buffer>(place)};
-    const std::string missing = "the frame uses the imported texture 'history', but the execution was given none";
-    EXPECT_EQ(errorOf({}, {}), missing);
-    EXPECT_EQ(errorOf({&null, 1}, {}), missing);
-    EXPECT_EQ(errorOf({&given, 1}, {&unused, 1}), "no error");
-    EXPECT_EQ(errorOf({&given, 1}, {&unknown, 1}),
-              "an execution was given a buffer for a handle that import() did not return");
+    EXPECT_EQ(errorOf(nullptr, nullptr), "the frame uses the imported texture 'history', but was declared without it");
+    EXPECT_EQ(errorOf(&standIn<gpu::Texture>(place), nullptr), "no error") << "the lights are not used";
 }
 
 TEST(Execution, onlyOutputsAreEverHandedOutAfterTheRun) {
@@ -254,6 +327,146 @@ TEST(Execution, onlyOutputsAreEverHandedOutAfterTheRun) {
     EXPECT_EQ(errorOf(gbuffer), "an execution was asked for version 1 of 'normal', which is no output of the frame, so "
                                 "that other data may have replaced it; declare it with Graph::output()");
     EXPECT_EQ(errorOf(TextureHandle{}), "an execution was asked for an invalid texture handle");
+}
+
+/// Hands out a stand-in for each program that it is asked for, and notes its name.
+class Programs : public ProgramSource {
+public:
+    const gpu::Program& get(const ProgramDesc& desc) override {
+        asked.push_back(desc.name);
+        return standIn<gpu::Program>(place);
+    }
+    std::vector<std::string> asked;
+    int place = 0;
+};
+
+ProgramDesc programNamed(const std::string& name) {
+    ProgramDesc desc;
+    desc.name = name;
+    return desc;
+}
+
+TEST(Execution, aPassIsAlwaysGivenItsOwnProgramsInTheOrderOfTheirDeclaration) {
+    Recorder backend;
+    Programs programs;
+    Graph graph;
+    graph.addPass<None>(
+        "ids",
+        [](PassBuilder& builder, None&) {
+            builder.program(programNamed("opaque"));
+            builder.program(programNamed("transparent"));
+            builder.keep();
+        },
+        [](const None&, const PassContext& context) {
+            context.program(1);
+            context.program();
+        });
+    declare(graph, "culled", [](PassBuilder& builder) {
+        builder.program(programNamed("never"));
+        builder.create("c", kColor);
+    });
+    const CompiledGraph compiled = compile(graph);
+    ASSERT_EQ(compiled.programs.size(), 2u) << "a pass that is left out needs no program";
+    EXPECT_EQ(compiled.programs[0].name, "opaque");
+    EXPECT_EQ(compiled.programs[1].name, "transparent");
+    Execution(graph, compiled, backend, &programs).run();
+    EXPECT_THAT(programs.asked, ElementsAre("transparent", "opaque"));
+}
+
+TEST(Execution, aProgramThatAPassDidNotDeclareIsAlwaysRefused) {
+    Recorder backend;
+    Graph undeclared;
+    failingPass(undeclared, [](const PassContext& context) { context.program(); });
+    EXPECT_EQ(errorOfRun<std::logic_error>(undeclared, backend),
+              "pass 'broken': asked for its program 0, and declared 0; name it in its setup");
+    Graph without;
+    without.addPass<None>(
+        "lost",
+        [](PassBuilder& builder, None&) {
+            builder.program(programNamed("p"));
+            builder.keep();
+        },
+        [](const None&, const PassContext& context) { context.program(); });
+    EXPECT_EQ(errorOfRun<std::logic_error>(without, backend), "pass 'lost': the execution was given no programs");
+}
+
+TEST(Execution, aPassAlwaysRasterisesIntoExactlyWhatItDeclared) {
+    Recorder backend;
+    Graph graph;
+    const TextureHandle input = draw(graph, "before", "input");
+    graph.addPass<None>(
+        "gbuffer",
+        [&](PassBuilder& builder, None&) {
+            builder.create("albedo", kColor);
+            builder.read(input);
+            builder.create("depth", kDepth, Access::DepthAttachment);
+            builder.create("normal", kColor);
+            builder.keep();
+        },
+        [](const None&, const PassContext& context) { context.bindTargets(); });
+    graph.addPass<None>(
+        "lists", [](PassBuilder& builder, None&) { builder.keep(); },
+        [](const None&, const PassContext& context) { context.bindNoTargets(80, 45); });
+    const CompiledGraph compiled = compile(graph);
+    Execution(graph, compiled, backend).run();
+    EXPECT_THAT(backend.calls, testing::Contains("targets 2 and depth"));
+    EXPECT_THAT(backend.calls, testing::Contains("targets 0 of 80 x 45"));
+    Graph none;
+    failingPass(none, [](const PassContext& context) { context.bindTargets(); });
+    EXPECT_EQ(errorOfRun<std::logic_error>(none, backend),
+              "pass 'broken': binds its targets and declared none; create or write an attachment in its setup");
+}
+
+TEST(Execution, constantsAlwaysGoWithTheProgramsOfTheirPass) {
+    Recorder backend;
+    Programs programs;
+    Graph graph;
+    graph.addPass<None>(
+        "post",
+        [](PassBuilder& builder, None&) {
+            builder.program(programNamed("post"));
+            builder.keep();
+        },
+        [](const None&, const PassContext& context) { context.constants(2, std::array<float, 4>{}); });
+    const CompiledGraph compiled = compile(graph);
+    Execution(graph, compiled, backend, &programs).run();
+    EXPECT_THAT(backend.calls, testing::Contains("constants 2, 16 bytes, 1 programs"));
+}
+
+/// A frame that shades with a shadow map, and draws that first where it is not held.
+Graph shadowedFrame(bool holds) {
+    Graph graph;
+    TextureHandle shadows = graph.persist("shadows", kDepth, 7, holds);
+    if (!holds)
+        declare(graph, "draw shadows",
+                [&](PassBuilder& builder) { shadows = builder.write(shadows, Access::DepthAttachment); });
+    graph.output(draw(graph, "shade", "image", {shadows}));
+    return graph;
+}
+
+TEST(Execution, whatLivesAcrossFramesHoldsItsRevisionOnlyOnceTheFrameHasEnded) {
+    Recorder backend;
+    const Graph first = shadowedFrame(false);
+    const CompiledGraph compiled = compile(first);
+    Execution(first, compiled, backend).run();
+    EXPECT_THAT(backend.calls,
+                ElementsAre("persistent shadows", "allocate 1", "shadows holds nothing", "begin draw shadows",
+                            "end draw shadows", "begin shade", "end shade", "shadows holds 7"));
+    backend.calls.clear();
+    const Graph next = shadowedFrame(true);
+    const CompiledGraph nextCompiled = compile(next);
+    Execution(next, nextCompiled, backend).run();
+    EXPECT_THAT(backend.calls, ElementsAre("persistent shadows", "allocate 1", "begin shade", "end shade"));
+    backend.failsAtEnd = true;
+    EXPECT_THROW(Execution(first, compiled, backend).run(), std::runtime_error);
+    EXPECT_THAT(backend.calls, testing::Not(testing::Contains("shadows holds 7")));
+}
+
+TEST(Execution, whatIsNotHeldYetIsNeverReadUnwritten) {
+    Graph graph;
+    const TextureHandle shadows = graph.persist("shadows", kDepth, 7, false);
+    graph.output(draw(graph, "shade", "image", {shadows}));
+    EXPECT_THAT(faultsOf(graph), ElementsAre("pass 'shade' reads version 0 of 'shadows', which no pass produces"));
 }
 
 } // namespace

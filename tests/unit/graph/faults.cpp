@@ -183,6 +183,58 @@ TEST(Faults, twoDepthTexturesOrOneAttachedTwiceAreAlwaysReported) {
                                              "pass 'shade' attaches 'color' twice"));
 }
 
+constexpr TextureDesc kAtlas{
+    .format = Format::Rgba16Float, .width = 64, .height = 32, .levels = 3, .layers = 4, .shape = Shape::Array};
+
+TEST(Faults, partThatATextureLacksIsAlwaysReported) {
+    Graph graph;
+    declare(graph, "p", [](PassBuilder& builder) {
+        const TextureHandle atlas = builder.create("atlas", kAtlas, Access::ColorAttachment, {3, 0});
+        builder.read(atlas, Access::ImageRead, {0, 4});
+        builder.read(atlas, Access::ImageRead, {2, 3});
+        builder.read(atlas, Access::Sampled);
+    });
+    EXPECT_THAT(faultsOf(graph),
+                testing::IsSupersetOf({"pass 'p' writes level 3, layer 0 of 'atlas', which has 3 and 4",
+                                       "pass 'p' reads level 0, layer 4 of 'atlas', which has 3 and 4"}));
+}
+
+TEST(Faults, layersOfOneTextureMayAlwaysBeAttachedTogether) {
+    Graph graph;
+    declare(graph, "p", [](PassBuilder& builder) {
+        const TextureHandle first = builder.create("atlas", kAtlas, Access::ColorAttachment, {1, 0});
+        const TextureHandle second = builder.write(first, Access::ColorAttachment, {1, 1});
+        builder.create("half", {.format = Format::Rgba16Float, .width = 32, .height = 16});
+        builder.keep();
+        builder.write(second, Access::ColorAttachment, {1, 0});
+    });
+    EXPECT_THAT(faultsOf(graph), ElementsAre("pass 'p' attaches 'atlas' twice"));
+}
+
+TEST(Faults, shapeThatNoTextureCanHaveIsAlwaysReported) {
+    const auto faultOf = [](const TextureDesc& desc) {
+        Graph graph;
+        graph.import("t", desc);
+        const std::vector<std::string> faults = faultsOf(graph);
+        return faults.empty() ? std::string() : faults.front();
+    };
+    EXPECT_EQ(faultOf(kAtlas), "");
+    EXPECT_EQ(faultOf({.width = 4, .height = 2, .levels = 4}),
+              "texture 't', imported, cannot be (4 x 2, 4 levels): it can have 1 to 3 levels");
+    EXPECT_EQ(faultOf({.width = 4, .height = 2, .layers = 2}),
+              "texture 't', imported, cannot be (4 x 2): only an array has layers");
+    EXPECT_EQ(faultOf({.width = 4, .height = 2, .layers = 6, .shape = Shape::Cube}),
+              "texture 't', imported, cannot be (4 x 2, a cube): a cube has 6 layers, as wide as high");
+    EXPECT_EQ(faultOf({.width = 4, .height = 4, .samples = 4, .layers = 2, .shape = Shape::Array}),
+              "texture 't', imported, cannot be (4 x 4, 2 layers, 4 samples): with several samples it has one level "
+              "and one layer");
+}
+
+TEST(Faults, bytesOfATextureAreAlwaysThoseOfAllItsLevelsAndLayers) {
+    EXPECT_EQ(descBytes(kAtlas), std::size_t(64 * 32 + 32 * 16 + 16 * 8) * 4 * 8);
+    EXPECT_EQ(descBytes(TextureDesc{.format = Format::R8Uint, .width = 5, .height = 1, .levels = 3}), 5u + 2u + 1u);
+}
+
 TEST(Faults, samplingWhatIsDrawnIntoIsAlwaysReported) {
     Graph graph;
     const TextureHandle image = draw(graph, "opaque", "image");
@@ -214,7 +266,7 @@ TEST(Faults, emptyResourceIsAlwaysNamedWithItsOrigin) {
     EXPECT_THAT(faultsOf(graph),
                 ElementsAre("texture 'window', imported, is empty (0 x 720): width, height and samples must be at "
                             "least 1",
-                            "buffer 'lists', created by pass 'cull', is empty: it must have at least 1 byte",
+                            "buffer 'lists', created by pass 'cull', is empty: it must have at least 1 byte, or grow",
                             "texture 'image', created by pass 'cull', is empty (4 x 4, 0 samples): width, height and "
                             "samples must be at least 1"));
 }

@@ -36,8 +36,8 @@ gpu::Capabilities giving(std::vector<int> samples) {
 TEST(ChooseSamples, aTechniqueWithAGBufferIsAlwaysRefusedWithTheNamesOfThoseThatCan) {
     for (const TechniqueInfo& info : techniqueTable()) {
         EXPECT_NO_THROW(requireSamples(info.technique, 1));
-        EXPECT_EQ(faultOf([&] { requireSamples(info.technique, 4); }).empty(), info.multisamples) << info.name;
-        EXPECT_FALSE(info.multisamples && info.usesGBuffer) << info.name;
+        EXPECT_EQ(faultOf([&] { requireSamples(info.technique, 4); }).empty(), info.multisamples()) << info.name;
+        EXPECT_FALSE(info.multisamples() && info.usesGBuffer()) << info.name;
     }
     EXPECT_THAT(faultOf([] { requireSamples(Technique::Deferred, 2); }),
                 HasSubstr("technique deferred does not take --samples 2; forward, forward_prepass"));

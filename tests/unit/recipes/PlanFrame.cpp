@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -48,6 +50,38 @@ TEST(PlanFrame, aLightThatIsLeftOutAlwaysSavesJustTheBytesThatALightTakes) {
         ASSERT_NE(taken, plan.counters.end());
         EXPECT_EQ(left->bytes, 2 * taken->second);
     }
+}
+
+TEST(PlanFrame, everyRoundOverTheLightsIsAPassThatWaitsForTheOneBefore) {
+    scenes::LoadOptions options;
+    options.lights = 1000;
+    const scenes::Scene scene = scenes::loadScene("lattice", options);
+    frame::FrameSettings settings;
+    settings.culling.builder = culling::Builder::Fragment; // a lane a tile: more lights than its loops may visit
+    const graph::Plan plan = planFrame(scene, Technique::ClusteredDeferred, settings);
+    for (const char* step : {"light_count", "light_sizes", "light_lists"}) {
+        int rounds = 0;
+        for (const graph::Plan::Pass& pass : plan.passes) {
+            if (!pass.name.starts_with(step)) continue;
+            const bool waits = pass.barrier.find("storage") != std::string::npos;
+            EXPECT_TRUE(waits || rounds == 0) << pass.name << ", round " << rounds;
+            ++rounds;
+        }
+        EXPECT_GT(rounds, 1) << step;
+    }
+}
+
+TEST(PlanFrame, twoViewsOfAFrameShareTheMemoryOfWhatIsNeededNoMore) {
+    const scenes::Scene scene = scenes::loadScene("hall");
+    const std::vector<View> views(2);
+    const graph::Plan one = planViews(scene, std::span(views).first(1)), two = planViews(scene, views);
+    EXPECT_LT(two.bytes, two.bytesWithoutAliasing);
+    EXPECT_EQ(one.bytes, one.bytesWithoutAliasing) << "of one view all lives at once";
+    // The second view's G-buffer lies where the first one's was.
+    const auto sharing = std::ranges::find_if(
+        two.resources, [](const graph::Plan::Resource& resource) { return resource.name == "gbuffer.albedo (2)"; });
+    ASSERT_NE(sharing, two.resources.end());
+    EXPECT_TRUE(sharing->aliasOf.starts_with("gbuffer.")) << sharing->aliasOf;
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/recipes/PreparedFrame.h"
+#include "passes/recipes/PrepareView.h"
 #include "passes/recipes/Renderer.h"
 #include "scenes/Error.h"
 
@@ -51,7 +51,7 @@ TEST(RangeTolerance, whatIsNegativeOrNotFiniteIsAlwaysRefused) {
                                    std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
         frame::FrameSettings settings;
         settings.rangeTolerance = tolerance;
-        EXPECT_THROW(prepareFrame(scene, Technique::Forward, settings), InputError) << tolerance;
+        EXPECT_THROW(prepareView(scene, Technique::Forward, settings), InputError) << tolerance;
     }
 }
 

@@ -12,7 +12,7 @@
 #include "passes/recipes/ChooseLighting.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/ChooseView.h"
-#include "passes/recipes/PreparedFrame.h"
+#include "passes/recipes/PrepareView.h"
 #include "passes/recipes/Renderer.h"
 #include "renderer/shader/ProgramDesc.h"
 #include "scenes/Load.h"
@@ -78,7 +78,7 @@ std::vector<std::pair<recipes::Technique, frame::FrameSettings>> listBuildersAnd
     frame::FrameSettings settings;
     settings.sizePixels = {64, 36};
     for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
-        if (recipes::takesLightingStage(technique.technique)) settings.lightOn = frame::LightingStage::Compute;
+        if (recipes::infoOf(technique.technique).choosesStage) settings.lightOn = frame::LightingStage::Compute;
         for (const culling::Method method : technique.methods) {
             settings.culling.method = method;
             for (const Lanes lanes : {Lanes{culling::Builder::Compute, 64}, Lanes{culling::Builder::Compute, 1},
@@ -97,7 +97,7 @@ std::vector<std::pair<recipes::Technique, frame::FrameSettings>> listBuildersAnd
 void addPrograms(std::map<std::string, shader::ProgramDesc>& programs, const scenes::Scene& scene) {
     for (const frame::FrameSettings& settings : settingsThatMatter()) {
         if (settings.view == frame::View::Final && settings.samples == 1)
-            addFloorPrograms(programs, recipes::prepareFrame(scene, recipes::Technique::Forward, settings).spec);
+            addFloorPrograms(programs, recipes::prepareView(scene, recipes::Technique::Forward, settings).spec);
         for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
             if (!recipes::takesSamples(technique, settings.samples)) continue;
             if (!recipes::takesView(technique, settings.view)) continue;

@@ -380,29 +380,31 @@ TEST(LightTouch, aLightTouchesABoxExactlyWithinItsRadiusAndItsCone) {
 }
 
 TEST(LightTouch, theMarginForRoundingIsThatOfPositionsAndThatOfEvenDepthsTogether) {
-    EXPECT_EQ(shared::roundingMargin(2.0f, {3.0f, 5.0f, 0.0f, 7.0f}), 2e-5f);
-    EXPECT_EQ(shared::roundingMargin(0.0f, {3.0f, 5.0f, 0x1p21f, 7.0f}), 1.0f) << "eight times 2^-24 of 2^21 m";
-    EXPECT_EQ(shared::roundingMargin(2.0f, {3.0f, 5.0f, 0x1p21f, 7.0f}), 2e-5f + 1.0f);
+    EXPECT_EQ(shared::roundingMargin(2.0f, {3.0f, 0.0f, 5.0f, 7.0f}), 2e-5f);
+    EXPECT_EQ(shared::roundingMargin(0.0f, {3.0f, 0x1p21f, 5.0f, 7.0f}), 1.0f) << "eight times 2^-24 of 2^21 m";
+    EXPECT_EQ(shared::roundingMargin(2.0f, {3.0f, 0x1p21f, 5.0f, 7.0f}), 2e-5f + 1.0f);
 }
 
 TEST(TileGrid, theFinestSlicesOfDepthAreAlwaysAsDeepAsATileOfSixteenPixelsIsWide) {
     // Of keys, 2^23 cover a factor of two in distance, or an even interval; a slice covers 2^shift. All numbers are
     // powers of two, so the slice is exactly as deep, not only the nearest power of two.
     const auto finestShift = [](float pixelMetres, bool orthographic, float originMetres, float evenMetres) {
-        shared::FrameConstants frame{};
-        frame.lensVS.y = pixelMetres;
-        frame.forwardLS.w = orthographic ? 1.0f : 0.0f;
-        frame.eyeLS.w = originMetres;
-        frame.depthKey.z = evenMetres;
-        culling::setTileGrid(frame, {640, 360}, 16);
-        return frame.depthKey.y;
+        shared::ViewConstants view{};
+        view.sizePixels = {640, 360, 0, 0};
+        view.lensVS.y = pixelMetres;
+        view.forwardLS.w = orthographic ? 1.0f : 0.0f;
+        view.eyeLS.w = originMetres;
+        view.depthKey.y = evenMetres;
+        shared::LightingConstants lighting{};
+        culling::setTileGrid(lighting, view, 16);
+        return lighting.slices.x;
     };
-    EXPECT_EQ(finestShift(0x1p-8f, false, 0.0f, 0.0f), 23.0f - 4.0f) << "1/16 of the distance: 2^4 slices";
-    EXPECT_EQ(finestShift(0x1p-8f, false, 1024.0f, 512.0f), 23.0f - 3.0f) << "64 m in the middle: 2^3 of 512 m";
-    EXPECT_EQ(finestShift(0x1p-8f, true, 1024.0f, 512.0f), 23.0f - 13.0f) << "1/16 m everywhere: 2^13 of 512 m";
-    EXPECT_EQ(finestShift(0x1p-16f, true, 0.0f, 0x1p-8f), 23.0f - 4.0f) << "1/4096 m: 2^4 of 4 mm";
-    EXPECT_EQ(finestShift(0x1p-40f, false, 0.0f, 0.0f), 5.0f) << "what packSlices() has room for";
-    EXPECT_EQ(finestShift(1.0f, false, 0.0f, 0.0f), 22.0f) << "two slices where tiles are wider";
+    EXPECT_EQ(finestShift(0x1p-8f, false, 0.0f, 0.0f), 23u - 4u) << "1/16 of the distance: 2^4 slices";
+    EXPECT_EQ(finestShift(0x1p-8f, false, 1024.0f, 512.0f), 23u - 3u) << "64 m in the middle: 2^3 of 512 m";
+    EXPECT_EQ(finestShift(0x1p-8f, true, 1024.0f, 512.0f), 23u - 13u) << "1/16 m everywhere: 2^13 of 512 m";
+    EXPECT_EQ(finestShift(0x1p-16f, true, 0.0f, 0x1p-8f), 23u - 4u) << "1/4096 m: 2^4 of 4 mm";
+    EXPECT_EQ(finestShift(0x1p-40f, false, 0.0f, 0.0f), 5u) << "what packSlices() has room for";
+    EXPECT_EQ(finestShift(1.0f, false, 0.0f, 0.0f), 22u) << "two slices where tiles are wider";
 }
 
 } // namespace

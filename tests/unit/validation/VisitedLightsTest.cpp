@@ -22,8 +22,8 @@ constexpr std::uint32_t kHalfShift = 22;
 recipes::DrawnLists listsByHand(Method method) {
     recipes::DrawnLists drawn;
     drawn.culling.method = method;
-    drawn.constants.tileGrid = {1, 2, 16, 3};
-    drawn.constants.depthKey.x = 1.0f;
+    drawn.lighting.tileGrid = {1, 2, 16, 3};
+    drawn.view.depthKey.x = 1.0f;
     drawn.sceneIndex = {0, 2, 3, 4};
     return drawn;
 }
@@ -80,7 +80,7 @@ TEST(VisitedLights, aPixelAlwaysVisitsTheBitsThatItsTileAndBinShare) {
     recipes::DrawnLists drawn = listsByHand(Method::Zbin);
     drawn.sceneIndex.clear();
     for (int light = 0; light < 70; ++light) drawn.sceneIndex.push_back(light);
-    drawn.constants.lights.w = 3; // words of 32 lights
+    drawn.lighting.lights.w = 3; // words of 32 lights
     const std::uint32_t first = std::bit_cast<std::uint32_t>(1.5f);
     drawn.lists.tiles.resize(2);
     drawn.lists.tiles[0].words = {6, shared::packSlices(first, kHalfShift), 0, 0};

@@ -24,7 +24,7 @@ TEST(Look, whatIsLeftOfALookIsAlwaysWhatItsTechniqueTakes) {
                 const Look result = possible(look);
                 EXPECT_NO_THROW(recipes::requireCulling(result.technique, result.settings));
                 EXPECT_NO_THROW(recipes::requireView(result.technique, result.settings.view));
-                EXPECT_TRUE(result.settings.samples == 1 || to.multisamples);
+                EXPECT_TRUE(result.settings.samples == 1 || to.multisamples());
                 EXPECT_EQ(possible(result), result);
             }
         }

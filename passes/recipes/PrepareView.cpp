@@ -1,4 +1,4 @@
-#include "passes/recipes/PreparedFrame.h"
+#include "passes/recipes/PrepareView.h"
 
 #include <cmath>
 
@@ -20,8 +20,8 @@ scenes::Camera frameCamera(const scenes::Scene& scene, const frame::FrameSetting
     return camera;
 }
 
-PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings,
-                           std::span<const frame::SurfaceBounds> bounds) {
+frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings,
+                                std::span<const frame::SurfaceBounds> bounds) {
     if (settings.sizePixels.x < 1 || settings.sizePixels.y < 1) {
         throw InputError(
             fmt::format("a picture of {}x{} pixels has no pixel", settings.sizePixels.x, settings.sizePixels.y));
@@ -41,18 +41,19 @@ PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, cons
                                      settings.rangeTolerance));
     }
     requireView(technique, settings.view);
-    PreparedFrame prepared;
+    frame::PreparedView prepared;
     const scenes::Camera camera = frameCamera(scene, settings);
     // A debug view shows quantities of surfaces; where there is none it shows 0.
     const glm::vec3 background = frame::showsLitPicture(settings.view) ? scene.background : glm::vec3(0.0f);
-    prepared.view = frame::makeCameraView(camera, settings.sizePixels, settings.space, background, bounds);
-    prepared.lights = frame::packLights(scene, prepared.view, settings);
+    prepared.camera = frame::makeCameraView(camera, settings.sizePixels, settings.space, background, bounds);
+    prepared.lights = frame::packLights(scene, prepared.camera, settings);
     const std::size_t lightCount = prepared.lights.texels.size();
-    prepared.view.constants.lights =
+    prepared.lighting.lights =
         glm::uvec4(lightCount, prepared.lights.shown, prepared.lights.everywhere, (lightCount + 31) / 32);
     prepared.spec = frame::makeFrameSpec(scene, prepared.lights, settings);
     frame::FrameSpec& spec = prepared.spec;
     spec.samples = samples;
+    spec.background = prepared.camera.constants.background;
     requireStoredChannel(spec);
     spec.lightOn = chooseLighting(technique, settings);
     spec.culling = chooseCulling(technique, settings, spec.features, prepared.lights);
@@ -60,8 +61,8 @@ PreparedFrame prepareFrame(const scenes::Scene& scene, Technique technique, cons
     if (settings.view == frame::View::Ids) spec.culling = {};
     if (spec.culling.method == culling::Method::None) return prepared;
     spec.lightsEverywhere = !settings.prune || prepared.lights.everywhere > 0;
-    culling::setTileGrid(prepared.view.constants, settings.sizePixels, spec.culling.tilePixels);
-    prepared.cullLights = frame::cullLights(prepared.lights, prepared.view);
+    culling::setTileGrid(prepared.lighting, prepared.camera.constants, spec.culling.tilePixels);
+    prepared.cullLights = frame::cullLights(prepared.lights, prepared.camera);
     return prepared;
 }
 

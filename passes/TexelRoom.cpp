@@ -1,0 +1,38 @@
+#include "passes/TexelRoom.h"
+
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "renderer/gpu/Context.h"
+#include "scenes/Error.h"
+
+namespace tessera::passes {
+
+const gpu::Buffer& makeRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
+                            std::size_t texels, graph::Format format) {
+    const std::size_t most = gpu::Context::current()->capabilities().maxTextureBufferTexels;
+    const char* const remedy =
+        "larger tiles (--tile 64), another --culling method or fewer lights (--lights N) need less";
+    if (texels > most)
+        throw InputError(
+            fmt::format("{} would take {} entries, and this driver reads {}: {}", what, texels, most, remedy));
+    try {
+        return context.allocate(handle, texels * std::size_t(graph::formatInfo(format).bytes));
+    } catch (const std::logic_error&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(fmt::format("{}; {}", error.what(), remedy));
+    }
+}
+
+void requireWritable(const char* what, std::size_t bytes) {
+    const std::size_t most = gpu::Context::current()->capabilities().maxStorageBlockBytes;
+    if (bytes <= most) return;
+    throw InputError(
+        fmt::format("{} would take {} bytes, and shaders of this driver write {} at most: build them on the CPU "
+                    "(--cull-on cpu), or use larger tiles (--tile 64) or fewer lights (--lights N)",
+                    what, bytes, most));
+}
+
+} // namespace tessera::passes

@@ -1,0 +1,27 @@
+#pragma once
+#include "renderer/frame/FrameHandles.h"
+
+namespace tessera::passes {
+
+/// Puts a view's camera, and what it draws, on the GPU.
+/// Writes  the view's constants; rows and commands of the draws that it may see
+struct UploadViewPass {
+    struct Outputs {
+        graph::BufferHandle constants, rows, commands;
+    };
+    /// `drawn`, null for a plan, must live while the graph runs.
+    static Outputs add(graph::Graph& graph, const frame::DrawnView* drawn);
+};
+
+/// Puts a view's lights on the GPU.
+/// Writes  light texels and shapes (shaders/shared/light.h), and the constants of lighting
+/// Space   lighting space
+struct UploadLightsPass {
+    struct Outputs {
+        graph::BufferHandle constants, lights;
+        std::optional<graph::BufferHandle> shapes; ///< where a light has a shape
+    };
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const frame::DrawnView* drawn);
+};
+
+} // namespace tessera::passes

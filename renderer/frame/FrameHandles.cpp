@@ -1,0 +1,138 @@
+#include "renderer/frame/FrameHandles.h"
+
+#include "renderer/gpu/Commands.h"
+#include "shaders/shared/light_lists.h"
+#include "shaders/shared/slots.h"
+
+namespace tessera::frame {
+
+using graph::Access;
+using graph::Format;
+
+namespace {
+
+template <typename Handle>
+std::optional<Handle> readWhereThere(graph::PassBuilder& pass, const std::optional<Handle>& handle, Access access) {
+    return handle ? std::optional<Handle>(pass.read(*handle, access)) : std::nullopt;
+}
+
+void bindTexels(const graph::PassContext& context, std::uint32_t unit, graph::BufferHandle handle, Format format) {
+    gpu::bindTexelBuffer(unit, context.buffer(handle).texels(format));
+}
+
+} // namespace
+
+ViewHandles ViewHandles::read(graph::PassBuilder& pass) const {
+    return {pass.read(constants, Access::UniformRead)};
+}
+
+void ViewHandles::bind(const graph::PassContext& context) const {
+    gpu::bindUniformBuffer(UNIFORM_VIEW, context.buffer(constants), 0, sizeof(shared::ViewConstants));
+}
+
+SurfaceHandles SurfaceHandles::read(graph::PassBuilder& pass) const {
+    SurfaceHandles result{drawn,
+                          view.read(pass),
+                          pass.read(rows, Access::VertexRead),
+                          pass.read(commands, Access::IndirectRead),
+                          {},
+                          pass.read(indices, Access::IndexRead),
+                          pass.read(materials, Access::UniformRead)};
+    for (const graph::BufferHandle& stream : vertices) result.vertices.push_back(pass.read(stream, Access::VertexRead));
+    return result;
+}
+
+void SurfaceHandles::draw(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const {
+    view.bind(context);
+    const ViewDraws& draws = drawn->draws;
+    drawn->scene->draw({context.buffer(rows), context.buffer(commands)},
+                       kind == Kind::Opaque ? draws.opaque : draws.transparent, state);
+}
+
+LightListHandles LightListHandles::read(graph::PassBuilder& pass) const {
+    return {pass.read(tiles, Access::TexelRead), pass.read(cells, Access::TexelRead),
+            pass.read(entries, Access::TexelRead)};
+}
+
+void LightListHandles::bind(const graph::PassContext& context) const {
+    bindTexels(context, TEXTURE_UNIT_LIGHT_TILES, tiles, Format::Rgba32Uint);
+    bindTexels(context, TEXTURE_UNIT_LIGHT_CELLS, cells, Format::Rg32Uint);
+    bindTexels(context, TEXTURE_UNIT_LIGHT_ENTRIES, entries, Format::R32Uint);
+}
+
+LightingInputs LightingInputs::read(graph::PassBuilder& pass) const {
+    LightingInputs result{view.read(pass),
+                          pass.read(constants, Access::UniformRead),
+                          pass.read(lights, Access::TexelRead),
+                          readWhereThere(pass, shapes, Access::TexelRead),
+                          readWhereThere(pass, materialTable, Access::TexelRead),
+                          {}};
+    if (lists) result.lists = lists->read(pass);
+    return result;
+}
+
+void LightingInputs::bind(const graph::PassContext& context) const {
+    view.bind(context);
+    gpu::bindUniformBuffer(UNIFORM_LIGHTING, context.buffer(constants), 0, sizeof(shared::LightingConstants));
+    bindTexels(context, TEXTURE_UNIT_LIGHTS, lights, Format::Rgba32Float);
+    if (shapes) bindTexels(context, TEXTURE_UNIT_LIGHT_SHAPES, *shapes, Format::Rgba32Float);
+    if (materialTable) bindTexels(context, TEXTURE_UNIT_MATERIALS, *materialTable, Format::Rgba32Uint);
+    if (lists) lists->bind(context);
+}
+
+GBufferHandles GBufferHandles::read(graph::PassBuilder& pass, const FrameSpec& spec, Access depthAccess) const {
+    GBufferHandles result;
+    const std::vector<GBufferTexture> stored = spec.gbufferTextures();
+    for (std::size_t i = 0; i < textures.size(); ++i) {
+        pass.expect(textures[i], spec.texture(stored[i].format));
+        result.textures.push_back(pass.read(textures[i]));
+    }
+    pass.expect(depth, spec.texture(Format::Depth32Float));
+    result.depth = pass.read(depth, depthAccess);
+    return result;
+}
+
+void GBufferHandles::bind(const graph::PassContext& context) const {
+    for (std::size_t i = 0; i < textures.size(); ++i)
+        gpu::bindTexture(TEXTURE_UNIT_GBUFFER + std::uint32_t(i), context.texture(textures[i]));
+    gpu::bindTexture(TEXTURE_UNIT_DEPTH, context.texture(depth));
+}
+
+LitDepths LitDepths::read(graph::PassBuilder& pass, const FrameSpec& spec, Access access) const {
+    pass.expect(opaque, spec.texture(spec.samples > 1 ? Format::Rg32Float : Format::Depth32Float));
+    if (transparent) pass.expect(*transparent, spec.texture(Format::Rg32Float));
+    return {pass.read(opaque, access), readWhereThere(pass, transparent, access)};
+}
+
+void LitDepths::bind(const graph::PassContext& context) const {
+    gpu::bindTexture(TEXTURE_UNIT_DEPTH, context.texture(opaque));
+    if (transparent) gpu::bindTexture(TEXTURE_UNIT_TRANSPARENT_DEPTH, context.texture(*transparent));
+}
+
+SurfaceHandles importSurfaces(graph::Graph& graph, const FrameSpec& spec, const DrawnView* drawn) {
+    const auto import = [&](std::string name, const gpu::Buffer* buffer) {
+        return graph.import(std::move(name), graph::BufferDesc{buffer ? buffer->bytes() : 0}, buffer);
+    };
+    SurfaceHandles surfaces;
+    surfaces.drawn = drawn;
+    const SceneGpu* const scene = drawn ? drawn->scene : nullptr;
+    if (scene) {
+        for (const gpu::Buffer* stream : scene->vertices())
+            surfaces.vertices.push_back(import(stream->label(), stream));
+    } else {
+        for (const std::string& name : streamNames(spec.features)) surfaces.vertices.push_back(import(name, nullptr));
+    }
+    surfaces.indices = import("indices", scene ? &scene->indices() : nullptr);
+    surfaces.materials = import("materials", scene ? &scene->materials() : nullptr);
+    return surfaces;
+}
+
+std::optional<graph::BufferHandle> importMaterialTable(graph::Graph& graph, const FrameSpec& spec,
+                                                       const DrawnView* drawn) {
+    if (spec.features[Feature::VaryingMaterials]) return {};
+    const gpu::Buffer* const table = drawn ? drawn->scene->materialTable() : nullptr;
+    if (drawn && table == nullptr) return {};
+    return graph.import("material_table", graph::BufferDesc{table ? table->bytes() : 0}, table);
+}
+
+} // namespace tessera::frame

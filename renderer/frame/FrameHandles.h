@@ -1,0 +1,111 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "renderer/culling/LightLists.h"
+#include "renderer/frame/PreparedView.h"
+#include "renderer/frame/SceneGpu.h"
+#include "renderer/graph/Graph.h"
+
+/// What passes take in, as typed handles. Each says in a pass's setup what the pass reads (`read`), and binds it while
+/// the pass runs (`bind`); whoever makes one fills it in.
+namespace tessera::frame {
+
+/// Memory that light lists are built in on the CPU, kept from frame to frame.
+struct LightListMemory {
+    culling::LightListBuilder builder;
+    std::vector<float> depth, transparentDepth;
+};
+
+/// A view of a scene while its frame runs: what the CPU knows of it. Passes get a pointer to it, which is null where
+/// the frame is only planned.
+struct DrawnView {
+    PreparedView prepared;
+    const SceneGpu* scene = nullptr;
+    ViewDraws draws;
+    LightListMemory* listMemory = nullptr;
+};
+
+/// The camera of a view.
+struct ViewHandles {
+    graph::BufferHandle constants; ///< shared::ViewConstants
+
+    ViewHandles read(graph::PassBuilder& pass) const;
+    void bind(const graph::PassContext& context) const;
+};
+
+/// The scene as a view draws it.
+struct SurfaceHandles {
+    const DrawnView* drawn = nullptr;
+    ViewHandles view;
+    graph::BufferHandle rows;                  ///< DrawRows of each draw of the view
+    graph::BufferHandle commands;              ///< gpu::DrawIndexedCommand of the same
+    std::vector<graph::BufferHandle> vertices; ///< a stream each
+    graph::BufferHandle indices;
+    graph::BufferHandle materials; ///< shared::MaterialConstants of each
+
+    enum class Kind { Opaque, Transparent };
+
+    SurfaceHandles read(graph::PassBuilder& pass) const;
+    /// Draws the surfaces of a kind with the program in use. Of `state` culling and winding are each batch's own.
+    void draw(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const;
+};
+
+/// Light lists (shaders/shared/light_lists.h), where a pass finds the lights of a pixel in them.
+struct LightListHandles {
+    graph::BufferHandle tiles;   ///< shared::LightTile each
+    graph::BufferHandle cells;   ///< uvec2 each
+    graph::BufferHandle entries; ///< uint each
+
+    LightListHandles read(graph::PassBuilder& pass) const;
+    void bind(const graph::PassContext& context) const;
+};
+/// What a plan calls the buffers whose bytes are counted while the frame runs.
+inline constexpr const char* kLightCellsName = "light_cells";
+inline constexpr const char* kLightEntriesName = "light_entries";
+
+/// What a pass lights with.
+struct LightingInputs {
+    ViewHandles view;
+    graph::BufferHandle constants;                    ///< shared::LightingConstants
+    graph::BufferHandle lights;                       ///< shared::LightTexels each
+    std::optional<graph::BufferHandle> shapes;        ///< shared::LightShapeTexels each, where a light has a shape
+    std::optional<graph::BufferHandle> materialTable; ///< where surfaces hold their material's number
+    std::optional<LightListHandles> lists;            ///< where FrameSpec::culling asks for them
+
+    LightingInputs read(graph::PassBuilder& pass) const;
+    void bind(const graph::PassContext& context) const;
+};
+
+/// The G-buffer, and the depths of its surfaces.
+struct GBufferHandles {
+    std::vector<graph::TextureHandle> textures; ///< by attachment, as FrameSpec::gbufferTextures()
+    graph::TextureHandle depth;                 ///< D32F, reverse-Z; 0 where nothing is
+
+    /// `depthAccess`: Sampled, or DepthTest, which may be sampled too.
+    GBufferHandles read(graph::PassBuilder& pass, const FrameSpec& spec,
+                        graph::Access depthAccess = graph::Access::Sampled) const;
+    void bind(const graph::PassContext& context) const;
+};
+
+/// What light lists are built from.
+struct LitDepths {
+    /// Of opaque surfaces: the depth buffer, D32F; with several samples a pixel the range in which each is lit, RG32F:
+    /// x nearest depth, y farthest depth negated, x 0 where there is no surface.
+    graph::TextureHandle opaque;
+    std::optional<graph::TextureHandle> transparent; ///< RG32F, as that range
+
+    LitDepths read(graph::PassBuilder& pass, const FrameSpec& spec,
+                   graph::Access access = graph::Access::Sampled) const;
+    /// As textures.
+    void bind(const graph::PassContext& context) const;
+};
+
+/// Makes the scene's own buffers known to a graph.
+SurfaceHandles importSurfaces(graph::Graph& graph, const FrameSpec& spec, const DrawnView* drawn);
+/// The table of materials, where pixels hold their material's number.
+std::optional<graph::BufferHandle> importMaterialTable(graph::Graph& graph, const FrameSpec& spec,
+                                                       const DrawnView* drawn);
+
+} // namespace tessera::frame

@@ -1,0 +1,105 @@
+// A frame of several views gives each the picture that it has in a frame of its own.
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "passes/recipes/Renderer.h"
+#include "scenes/Error.h"
+#include "scenes/Load.h"
+#include "tests/support/GlContext.h"
+#include "tests/support/TestScenes.h"
+
+namespace tessera {
+namespace {
+
+using recipes::Technique;
+using recipes::View;
+
+class SeveralViews : public test::GlTest {
+protected:
+    /// The scene with a second camera, which looks from another place at another part of it.
+    static scenes::Scene withTwoCameras(scenes::Scene scene) {
+        scenes::Camera other = scene.cameras.front();
+        other.worldFromCamera[3] += glm::dvec4(0.7, 0.3, 0.5, 0.0);
+        other.worldFromCamera =
+            other.worldFromCamera * glm::dmat4(glm::dvec4(0.8, 0.0, -0.6, 0.0), glm::dvec4(0.0, 1.0, 0.0, 0.0),
+                                               glm::dvec4(0.6, 0.0, 0.8, 0.0), glm::dvec4(0, 0, 0, 1));
+        scene.cameras.push_back(other);
+        return scene;
+    }
+
+    static View view(Technique technique, int camera, glm::ivec2 sizePixels) {
+        View view{technique, {}};
+        view.settings.camera = camera;
+        view.settings.sizePixels = sizePixels;
+        return view;
+    }
+
+    /// Draws the views in one frame, then each in a frame of its own.
+    void expectEqual(const scenes::Scene& scene, const std::vector<View>& views) {
+        recipes::Renderer together(context(), scene), alone(context(), scene);
+        together.draw(views);
+        for (std::size_t i = 0; i < views.size(); ++i) {
+            SCOPED_TRACE(fmt::format("view {}, {}", i, recipes::infoOf(views[i].technique).name));
+            const recipes::RenderedFrame truth = alone.render(views[i].technique, views[i].settings);
+            const recipes::RenderedFrame drawn = together.download(i);
+            EXPECT_EQ(drawn.width, views[i].settings.sizePixels.x);
+            EXPECT_TRUE(drawn.radiance == truth.radiance);
+            EXPECT_TRUE(drawn.display == truth.display);
+            if (views[i].settings.samples == 1) {
+                EXPECT_TRUE(together.downloadDepth(i) == alone.downloadDepth());
+            }
+            EXPECT_TRUE(together.downloadLists(i).lists.entries == alone.downloadLists().lists.entries);
+            EXPECT_GT(std::count_if(truth.radiance.begin(), truth.radiance.end(), [](float v) { return v > 0.0f; }),
+                      std::ptrdiff_t(truth.radiance.size() / 8))
+                << "there is something to see";
+        }
+    }
+};
+
+TEST_F(SeveralViews, twoCamerasInOneFrameAreTwoFramesToTheLastBit) {
+    const scenes::Scene scene = withTwoCameras(test::everythingScene());
+    for (const recipes::TechniqueInfo& info : recipes::techniqueTable())
+        expectEqual(scene, {view(info.technique, 0, {97, 55}), view(info.technique, 1, {97, 55})});
+}
+
+TEST_F(SeveralViews, viewsMayDifferInTechniqueSizeSamplesAndWhoBuildsTheirLists) {
+    const scenes::Scene scene = withTwoCameras(test::everythingScene());
+    View fragment = view(Technique::ClusteredDeferred, 0, {64, 48});
+    fragment.settings.culling.builder = culling::Builder::Fragment;
+    View compute = view(Technique::ForwardPlus, 1, {97, 55});
+    compute.settings.culling.builder = culling::Builder::Compute;
+    compute.settings.samples = 4;
+    View zbin = view(Technique::ClusteredForward, 0, {33, 90});
+    zbin.settings.culling.method = culling::Method::Zbin;
+    View volumes = view(Technique::DeferredVolumes, 1, {64, 48});
+    volumes.settings.space = frame::LightingSpace::View;
+    expectEqual(scene, {fragment, compute, zbin, volumes});
+}
+
+TEST_F(SeveralViews, sharedMemoryChangesNoBit) {
+    // Without pruning no memory is shared within a frame, and nothing is left out.
+    const scenes::Scene scene = withTwoCameras(scenes::loadScene("hall"));
+    std::vector<View> views{view(Technique::Deferred, 0, {96, 54}), view(Technique::TiledDeferred, 1, {96, 54})};
+    recipes::Renderer renderer(context(), scene);
+    renderer.draw(views);
+    const std::size_t bytes = recipes::planViews(scene, views).bytes;
+    const std::vector<float> first = renderer.download(0).radiance, second = renderer.download(1).radiance;
+    for (View& each : views) each.settings.prune = false;
+    renderer.draw(views);
+    EXPECT_TRUE(renderer.download(0).radiance == first);
+    EXPECT_TRUE(renderer.download(1).radiance == second);
+    EXPECT_LT(bytes, recipes::planViews(scene, views).bytes);
+}
+
+TEST_F(SeveralViews, viewsThatNeedTheSceneInTwoWaysAreRefused) {
+    const scenes::Scene scene = withTwoCameras(test::everythingScene());
+    std::vector<View> views{view(Technique::Deferred, 0, {8, 8}), view(Technique::Deferred, 1, {8, 8})};
+    views[1].settings.filter = frame::TextureFilter::Exact;
+    recipes::Renderer renderer(context(), scene);
+    EXPECT_THROW(renderer.draw(views), InputError);
+}
+
+} // namespace
+} // namespace tessera
