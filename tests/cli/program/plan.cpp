@@ -21,7 +21,7 @@ protected:
 
 TEST_F(Plan, theJsonAlwaysHasTheDocumentedFields) {
     const std::string said = runGood({"plan", "lattice", "--lights", "8", "--json", "p.json", "--dot", "p.dot"});
-    EXPECT_THAT(said, testing::StartsWith("lattice, deferred: 3 passes run, "));
+    EXPECT_THAT(said, testing::StartsWith("lattice, deferred: 5 passes run, "));
     const Json plan = json("p.json");
     expectKeys(plan, {"schema", "scene", "technique", "passes", "left_out", "choices", "counters", "resources", "bytes",
                       "bytesWithoutAliasing"});
