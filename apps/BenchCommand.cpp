@@ -88,8 +88,8 @@ void requireLitPicture(const frame::FrameSettings& settings) {
 /// frame is drawn.
 validation::BenchPlan planOf(const BenchCommandOptions& options, Outputs& outputs) {
     validation::BenchMatrix matrix = matrixOf(options);
-    if (matrix.techniques.empty() && options.frame.technique)
-        matrix.techniques.push_back(techniqueNamed(*options.frame.technique));
+    if (const auto technique = options.frame.said("technique"); technique && matrix.techniques.empty())
+        matrix.techniques.push_back(techniqueNamed(*technique));
     validation::BenchPlan plan;
     for (const std::string& scene : options.scenes) {
         FrameOptions frame = options.frame;
@@ -98,6 +98,7 @@ validation::BenchPlan planOf(const BenchCommandOptions& options, Outputs& output
         outputs.reads(request.files);
         const frame::FrameSettings& settings = request.settings;
         requireLitPicture(settings);
+        if (settings.samples != 1) throw InputError("bench measures frames of one sample a pixel; give --samples 1");
         if (benchTruthNamed(options.against) == validation::BenchTruth::Reference)
             validation::requireReferenceTakes(settings);
         validation::addToPlan(plan, matrix, scene, options.frame.lights, settings, [&](std::optional<int> lights) {
@@ -162,8 +163,6 @@ int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
     if (!options.merge.empty()) return merge(options);
     if (options.scenes.empty())
         throw InputError("bench needs a SCENE to measure, or --merge with the folders of finished shards");
-    if (options.frame.samples.value_or(1) != 1)
-        throw InputError("bench measures frames of one sample a pixel; leave --samples out");
     requireFolderPlace(options.folder);
     Outputs outputs = outputsOf(options);
     BenchRun run;
@@ -172,7 +171,7 @@ int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
     if (run.options.frames < 1) throw InputError(fmt::format("--frames {} is less than one frame", run.options.frames));
     const auto [shard, shards] = shardNamed(options.shard);
     run.plan = planOf(options, outputs);
-    if (options.frame.filter) run.options.errorFilter = run.plan.groups.front().points.front().settings.filter;
+    if (options.frame.said("filter")) run.options.errorFilter = run.plan.groups.front().points.front().settings.filter;
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     for (validation::PlannedGroup& group : run.plan.groups)
         for (validation::BenchPoint& point : group.points)

@@ -8,8 +8,6 @@
 #include "apps/OutputFolder.h"
 #include "apps/Outputs.h"
 #include "apps/Progress.h"
-#include "passes/recipes/ChooseCulling.h"
-#include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/Renderer.h"
 #include "scenes/Error.h"
 #include "scenes/Names.h"
@@ -64,27 +62,26 @@ validation::Picture readBeside(const scenes::Scene& scene, const std::string& pa
     return validation::readPicture(path, ledger);
 }
 
-/// Those asked for; else all but the truth that take the samples and the culling method, the others to `leftOut`.
+/// Those asked for; else all but the truth that take the settings, the others to `leftOut`.
 std::vector<recipes::Technique> techniquesOf(const CompareOptions& options, const validation::Truth& against,
                                              const frame::FrameSettings& settings,
                                              std::vector<validation::LeftOutTechnique>& leftOut) {
-    const int samples = settings.samples;
     const auto* truth = std::get_if<recipes::Technique>(&against);
-    if (truth) recipes::requireSamples(*truth, samples);
+    if (truth) recipes::requireTaken({*truth, validation::settingsTakenBy(*truth, settings)});
     std::vector<recipes::Technique> techniques;
-    const std::string& asked = options.techniques.empty() ? options.frame.technique.value_or("") : options.techniques;
+    const std::string asked =
+        options.techniques.empty() ? options.frame.said("technique").value_or("") : options.techniques;
     if (!asked.empty()) {
         for (const std::string& name : splitAtCommas(asked)) {
             const recipes::Technique technique = techniqueNamed(name);
             if (std::find(techniques.begin(), techniques.end(), technique) != techniques.end())
                 throw InputError(fmt::format("--techniques {} names {} twice", options.techniques, name));
-            recipes::requireSamples(technique, samples);
-            if (recipes::hasLightLists(technique)) recipes::requireCulling(technique, settings);
+            recipes::requireTaken({technique, validation::settingsHeededBy(technique, settings)});
             techniques.push_back(technique);
         }
         return techniques;
     }
-    techniques = validation::techniquesTaking(samples, settings.culling.method, leftOut);
+    techniques = validation::techniquesTaking(settings, leftOut);
     if (truth) std::erase(techniques, *truth);
     return techniques;
 }
@@ -125,7 +122,7 @@ void warnOfIntegers(const validation::Truth& truth) {
 int compare(const CompareOptions& options, const GlobalOptions& global) {
     validation::CompareRequest comparison;
     comparison.against = truthNamed(options.against);
-    if (options.frame.technique && !options.techniques.empty())
+    if (options.frame.said("technique") && !options.techniques.empty())
         throw InputError("--technique and --techniques both say what to compare; give --techniques alone");
     if (!options.json.empty()) requireOutput(options.json);
     if (!options.heatMaps.empty()) requireFolderPlace(options.heatMaps);
@@ -145,7 +142,7 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
     if (std::holds_alternative<validation::Reference>(comparison.against)) {
         validation::requireReferenceTakes(comparison.settings);
         // Hardware filtering would hide what is compared; it gets a pair of its own.
-        if (!options.frame.filter) comparison.settings.filter = frame::TextureFilter::Exact;
+        if (!options.frame.said("filter")) comparison.settings.filter = frame::TextureFilter::Exact;
     }
     if (!options.heatMaps.empty()) addHeatMaps(options, validation::pictureNames(request.scene, comparison), outputs);
     const std::unique_ptr<gpu::Context> context = makeContext(global);

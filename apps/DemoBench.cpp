@@ -65,7 +65,7 @@ validation::BenchRecord demoBench(gpu::Context& context, const DemoBenchRequest&
     run.options.frames = kFrames;
     const glm::ivec2 sizePixels = run.plan.groups.front().sizePixels;
     FrameOptions shown = demo.options;
-    shown.size = fmt::format("{}x{}", sizePixels.x, sizePixels.y);
+    shown.settings["size"] = fmt::format("{}x{}", sizePixels.x, sizePixels.y);
     const validation::RunIdentity identity{validation::machineName(),
                                            context.capabilities().renderer,
                                            kCommit,

@@ -183,7 +183,9 @@ int demo(const DemoOptions& options, const GlobalOptions& global) {
     request.settings = recipes::settingsOn(context->capabilities(), request.settings);
     std::vector<validation::LeftOutTechnique> leftOut;
     DemoResult result;
-    result.techniques = validation::techniquesTaking(request.settings.samples, {}, leftOut);
+    frame::FrameSettings sampled;
+    sampled.samples = request.settings.samples;
+    result.techniques = validation::techniquesTaking(sampled, leftOut);
     if (leftOut.empty()) result.techniques.assign(std::begin(kShown), std::end(kShown));
     const DemoFiles files{options.folder};
     const Outputs outputs = outputsOf(files, request, result.techniques);

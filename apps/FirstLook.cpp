@@ -13,23 +13,18 @@ constexpr recipes::Technique kFirstTechnique = recipes::Technique::ClusteredDefe
 /// The options, with what is remembered where neither they nor the scene say anything.
 FrameOptions withRemembered(FrameOptions options, const viewer::Preferences& remembered,
                             const scenes::SceneOptions& wish) {
-    const auto fill = [&options](auto member, const auto& value, bool isWished = false) {
-        if (options.*member || isWished || !value) return;
-        FrameOptions tried = options;
-        tried.*member = *value;
+    for (const recipes::Setting& setting : recipes::settingTable()) {
+        const auto known = remembered.settings.find(setting.key);
+        const bool isAsked = options.said(setting.key) || wish.wishes.contains(setting.key);
+        if (!setting.isRemembered || isAsked || known == remembered.settings.end()) continue;
         try {
-            resolveWithoutScene(tried);
-            options = tried;
+            recipes::FrameRequest tried;
+            setting.read(tried, known->second);
+            options.settings.insert(*known);
         } catch (const InputError& error) {
             spdlog::debug("a remembered setting is left out: {}", error.what());
         }
-    };
-    fill(&FrameOptions::technique, remembered.technique, wish.technique.has_value());
-    fill(&FrameOptions::layout, remembered.layout, wish.layout.has_value());
-    fill(&FrameOptions::toneMap, remembered.toneMap, wish.toneMap.has_value());
-    fill(&FrameOptions::culling, remembered.culling);
-    fill(&FrameOptions::tile, remembered.tile);
-    fill(&FrameOptions::samples, remembered.samples);
+    }
     return options;
 }
 
@@ -44,15 +39,15 @@ viewer::FirstLook firstLook(const FrameOptions& said, const viewer::Preferences&
     request.scene.options = scene.options;
     request.scene.cameras = scene.cameras;
     request.scene.lights.resize(scene.lights.size()); // their number is all that is asked
-    if (!options.technique) request.technique = kFirstTechnique;
+    if (!options.said("technique")) request.technique = kFirstTechnique;
     resolveForScene(options, request);
-    return {viewer::possible({request.technique, request.settings, {}}), options.pose};
+    return {viewer::possible({request, {}}), options.pose};
 }
 
 FrameOptions forAnyScene(FrameOptions said) {
-    said.camera.reset();
+    for (const recipes::Setting& setting : recipes::settingTable())
+        if (setting.isOfScene) said.settings.erase(std::string(setting.key));
     said.pose = {};
-    said.solo.reset();
     said.lights.reset();
     return said;
 }

@@ -6,30 +6,15 @@ namespace tessera::app {
 
 std::string frameOptionText(const FrameOptions& options) {
     std::string text;
-    const auto add = [&text](const char* flag, const auto& value) {
-        if (value) text += fmt::format(" {} {}", flag, shellWord(fmt::format("{}", *value)));
-    };
-    add("--technique", options.technique);
-    add("--layout", options.layout);
-    add("--culling", options.culling);
-    add("--tile", options.tile);
-    add("--cull-on", options.cullOn);
-    add("--light-on", options.lightOn);
-    add("--size", options.size);
-    add("--samples", options.samples);
-    add("--camera", options.camera);
-    add("--time", options.timeSeconds);
-    add("--lights", options.lights);
-    add("--range-tolerance", options.rangeTolerance);
-    add("--view", options.view);
-    add("--solo", options.solo);
-    add("--specular", options.specular);
-    add("--filter", options.filter);
-    add("--space", options.space);
-    add("--prune", options.prune);
+    for (const recipes::Setting& setting : recipes::settingTable()) {
+        const auto said = options.said(setting.key);
+        if (!said) continue;
+        recipes::FrameRequest request;
+        if (!setting.isOfScene) setting.read(request, *said); // so that 1.0 and 1 are the same command
+        text += fmt::format(" {} {}", setting.flag, shellWord(setting.isOfScene ? *said : setting.text(request)));
+    }
+    if (options.lights) text += fmt::format(" --lights {}", *options.lights);
     text += viewer::poseText(options.pose);
-    add("--exposure", options.exposureEV);
-    add("--tonemap", options.toneMap);
     if (options.noDefaultLight) text += " --no-default-light";
     return text;
 }

@@ -1,16 +1,12 @@
 #include "apps/Options.h"
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include "apps/Numbers.h"
-#include "passes/recipes/ChooseSamples.h"
 #include "scenes/Defaults.h"
 #include "scenes/Error.h"
 #include "scenes/Names.h"
@@ -31,74 +27,12 @@ const auto& rowNamed(const Table& table, const std::string& name, std::string_vi
     throw InputError(fmt::format("unknown {} '{}': {}", kind, name, suggestNames(name, names)));
 }
 
-template <typename Table>
-std::string namesOf(const Table& table) {
-    std::string names;
-    for (const auto& row : table) names += (names.empty() ? "" : ", ") + std::string(row.name);
-    return names;
-}
-
-struct NamedSwitch {
-    std::string_view name;
-    bool on;
-};
-constexpr NamedSwitch kSwitch[] = {{"on", true}, {"off", false}};
-
 struct NamedContext {
     std::string_view name;
     gpu::ContextKind kind;
 };
 constexpr NamedContext kContexts[] = {
     {"auto", gpu::ContextKind::Auto}, {"window", gpu::ContextKind::Window}, {"egl", gpu::ContextKind::Egl}};
-
-int cameraNamed(const scenes::Scene& scene, const std::string& name) {
-    if (const std::optional<std::size_t> camera = scenes::cameraCalled(scene, name)) return int(*camera);
-    std::vector<std::string_view> names;
-    for (const scenes::Camera& camera : scene.cameras) names.push_back(camera.name);
-    throw InputError(fmt::format("{}: unknown camera '{}': {}", scene.name, name, suggestNames(name, names)));
-}
-
-/// Those of the G-buffer's channels as one pattern.
-std::string viewNames() {
-    std::string names;
-    for (const frame::ViewInfo& info : frame::viewTable())
-        if (!info.needsGBuffer) names += std::string(info.name) + ", ";
-    return names + "or gbuffer.CHANNEL and gbuffer.CHANNEL.w as stored, CHANNEL one of " +
-           namesOf(frame::channelTable());
-}
-
-frame::View viewNamed(const std::string& name) {
-    for (const frame::ViewInfo& info : frame::viewTable()) {
-        if (info.key != 0 && std::to_string(info.key) == name) return info.view;
-    }
-    const bool isNumber = !name.empty() && name.find_first_not_of("0123456789") == std::string::npos;
-    if (isNumber) throw InputError(fmt::format("unknown view '{}': views are numbered 1 to 7", name));
-    return rowNamed(frame::viewTable(), name, "view").view;
-}
-
-/// 2^EV must be a number a picture can be multiplied by.
-float exposureOf(double exposureEV) {
-    constexpr double kMostEV = 120.0; // fp32 spans 2^-126 to 2^128
-    if (std::abs(exposureEV) > kMostEV)
-        throw InputError(
-            fmt::format("--exposure {} is beyond any picture; give -{} to {}", exposureEV, kMostEV, kMostEV));
-    return float(exposureEV);
-}
-
-int tileOf(int pixels) {
-    if (std::find(std::begin(culling::kTileSides), std::end(culling::kTileSides), pixels) ==
-        std::end(culling::kTileSides))
-        throw InputError(
-            fmt::format("--tile {}: tiles are {} pixels wide", pixels, fmt::join(culling::kTileSides, ", ")));
-    return pixels;
-}
-
-double rangeToleranceOf(double tolerance) {
-    if (tolerance < 0.0)
-        throw InputError(
-            fmt::format("--range-tolerance {} is below 0; give 0, which ends no light, or more", tolerance));
-    return tolerance;
-}
 
 /// 512M, 4G: a whole number of bytes, or of 2^10, 2^20, 2^30 of them.
 std::uint64_t bytesNamed(const std::string& text) {
@@ -119,68 +53,37 @@ std::uint64_t bytesNamed(const std::string& text) {
     return number << bits;
 }
 
-/// What can be read without the scene: a mistake in it is found before a large scene is read for nothing.
-void resolveOptions(const FrameOptions& options, Request& request) {
-    frame::FrameSettings& settings = request.settings;
-    if (options.technique) request.technique = techniqueNamed(*options.technique);
-    if (options.layout) settings.layout = rowNamed(frame::layoutTable(), *options.layout, "layout").layout;
-    if (options.toneMap) settings.toneMap = rowNamed(frame::toneMapTable(), *options.toneMap, "tone map").toneMap;
-    if (options.size) settings.sizePixels = sizeNamed(*options.size);
-    if (options.exposureEV) settings.exposureEV = exposureOf(*options.exposureEV);
-    if (options.view) settings.view = viewNamed(*options.view);
-    if (options.filter) settings.filter = rowNamed(frame::textureFilterTable(), *options.filter, "--filter").filter;
-    if (options.space) settings.space = rowNamed(frame::lightingSpaceTable(), *options.space, "--space").space;
-    if (options.prune) settings.prune = rowNamed(kSwitch, *options.prune, "--prune").on;
-    if (options.specular) settings.specular = rowNamed(kSwitch, *options.specular, "--specular").on;
-    if (options.culling)
-        settings.culling.method = rowNamed(culling::methodTable(), *options.culling, "--culling").method;
-    if (options.tile) settings.culling.tilePixels = tileOf(*options.tile);
-    if (options.cullOn)
-        settings.culling.builder = rowNamed(culling::builderTable(), *options.cullOn, "--cull-on").builder;
-    if (options.samples) {
-        recipes::requireSampleCount(*options.samples);
-        settings.samples = *options.samples;
-    }
-    if (options.lightOn) settings.lightOn = rowNamed(frame::lightingStageTable(), *options.lightOn, "--light-on").stage;
-    settings.rangeTolerance = rangeToleranceOf(options.rangeTolerance.value_or(0.0));
-    settings.timeSeconds = options.timeSeconds.value_or(0.0);
-    settings.soloLight = options.solo;
-    if (options.memoryLimit) bytesNamed(*options.memoryLimit);
+/// As the command line calls a setting.
+recipes::TextSource fromCommandLine(const recipes::Setting& setting, const scenes::Scene* scene = nullptr) {
+    return {setting.flag, scene};
 }
 
-/// What the scene wishes where the user says nothing, and the names of things in the scene.
-void resolveWishes(const FrameOptions& options, Request& request) {
-    const scenes::SceneOptions& wish = request.scene.options;
-    frame::FrameSettings& settings = request.settings;
-    const auto wished = [&](const char* key, const auto& said, const auto& wanted, auto&& take) {
-        if (said || !wanted) return;
-        try {
-            take(*wanted);
-        } catch (const InputError& error) {
-            throw InputError(fmt::format("{}:/options/{}: {}", options.scene, key, error.what()));
-        }
-    };
-    wished("technique", options.technique, wish.technique,
-           [&](const std::string& name) { request.technique = techniqueNamed(name); });
-    wished("layout", options.layout, wish.layout,
-           [&](const std::string& name) { settings.layout = rowNamed(frame::layoutTable(), name, "layout").layout; });
-    wished("toneMap", options.toneMap, wish.toneMap, [&](const std::string& name) {
-        settings.toneMap = rowNamed(frame::toneMapTable(), name, "tone map").toneMap;
-    });
-    wished("camera", options.camera, wish.camera,
-           [&](const std::string& name) { settings.camera = cameraNamed(request.scene, name); });
-    wished("size", options.size, wish.sizePixels, [&](glm::ivec2 size) { settings.sizePixels = size; });
-    wished("exposureEV", options.exposureEV, wish.exposureEV,
-           [&](float exposureEV) { settings.exposureEV = exposureEV; });
-    if (options.camera) settings.camera = cameraNamed(request.scene, *options.camera);
-    const std::size_t lightCount = request.scene.lights.size();
-    if (options.solo && (*options.solo < 0 || std::size_t(*options.solo) >= lightCount)) {
-        throw InputError(fmt::format("--solo {}: {} has {} light{}, counted from 0", *options.solo, request.scene.name,
-                                     lightCount, lightCount == 1 ? "" : "s"));
+void addSettings(CLI::App& command, FrameOptions& options, std::string_view group) {
+    for (const recipes::Setting& setting : recipes::settingTable()) {
+        if (setting.group != group) continue;
+        const std::string byItself =
+            setting.byItself.empty() ? setting.text(recipes::FrameRequest()) : std::string(setting.byItself);
+        const auto say = [&options, &setting](const std::string& text) {
+            options.settings.insert_or_assign(std::string(setting.key), text);
+        };
+        command
+            .add_option_function<std::string>(std::string(setting.flag), say,
+                                              fmt::format("{} [{}]", setting.help, byItself))
+            ->type_name(std::string(setting.type))
+            ->group(std::string(group));
+        if (setting.key == "time") // beside what else says which lights there are, and where
+            addWholeNumber(command, "--lights", options.lights,
+                           "Built-in scenes make this many lights, files keep their first N", "N")
+                ->group(std::string(group));
     }
 }
 
 } // namespace
+
+std::optional<std::string> FrameOptions::said(std::string_view key) const {
+    const auto found = settings.find(key);
+    return found == settings.end() ? std::nullopt : std::optional(found->second);
+}
 
 void addGlobalOptions(CLI::App& app, GlobalOptions& options) {
     app.add_flag("--quiet", options.quiet, "Errors only: no warnings, no progress");
@@ -219,46 +122,14 @@ void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string
 }
 
 void addFrameSettings(CLI::App& command, FrameOptions& options) {
-    const auto text = [&](const char* flag, std::optional<std::string>& target, const std::string& help,
-                          const char* type, const char* group = "Frame") {
-        command.add_option(flag, target, help)->type_name(type)->group(group);
-    };
-    text("--technique", options.technique, "One of " + namesOf(recipes::techniqueTable()) + " [deferred]", "NAME");
-    text("--layout", options.layout, "G-buffer layout, one of " + namesOf(frame::layoutTable()) + " [exact]", "NAME");
-    text("--culling", options.culling,
-         "How lights are culled, one of " + namesOf(culling::methodTable()) + " [the technique's own]", "NAME");
-    addWholeNumber(command, "--tile", options.tile, "Side of a light-culling tile, 8, 16, 32 or 64 [16]", "PIXELS")
-        ->group("Frame");
-    text("--cull-on", options.cullOn,
-         "Who builds the light lists, one of " + namesOf(culling::builderTable()) + " [by backend]", "NAME");
-    text("--light-on", options.lightOn,
-         "What lights the G-buffer, one of " + namesOf(frame::lightingStageTable()) + " [fragment]", "NAME");
-    text("--size", options.size, "Picture size in pixels [1280x720]", "WxH");
-    addWholeNumber(command, "--samples", options.samples,
-                   "Samples of a pixel, 1, 2 or 4; more than 1 without a G-buffer only [1]", "N")
-        ->group("Frame");
-    text("--camera", options.camera, "A camera of the scene, by name or counted from 0 [its first]", "NAME");
-    addNumber(command, "--time", options.timeSeconds, "Moves animated lights to this time [0]", "SECONDS")
-        ->group("Frame");
-    addWholeNumber(command, "--lights", options.lights,
-                   "Built-in scenes make this many lights, files keep their first N", "N")
-        ->group("Frame");
-    addNumber(command, "--range-tolerance", options.rangeTolerance,
-              "Ends lights of A B C falloff where they fall to this; compare tells what it drops [0]", "EPS")
-        ->group("Frame");
-    text("--view", options.view, "What to show: 1 to 7, or one of " + viewNames() + " [final]", "NAME");
-    addWholeNumber(command, "--solo", options.solo, "Only this light shines, counted from 0", "N")->group("Frame");
-    text("--specular", options.specular, "off leaves the specular lobe out [on]", "on|off");
-    text("--filter", options.filter,
-         "Textures by hardware, or exact: level 0 alone, by the sampler's nearest or linear filter in full precision "
-         "[hardware]",
-         "NAME");
-    text("--space", options.space, "Lighting in world or view space; the pictures agree [world]", "NAME");
-    text("--prune", options.prune, "off keeps what the scene does not need; the picture is the same [on]", "on|off");
+    addSettings(command, options, "Frame");
     command.add_flag("--no-default-light", options.noDefaultLight, "Leaves a scene without lights dark")
         ->group("Frame");
-    text("--memory-limit", options.memoryLimit, "The most memory that reading a scene may take [half of the machine's]",
-         "SIZE", "Reading");
+    command
+        .add_option("--memory-limit", options.memoryLimit,
+                    "The most memory that reading a scene may take [half of the machine's]")
+        ->type_name("SIZE")
+        ->group("Reading");
     addPoint(command, "--eye", options.pose.eyeWS, "Moves the camera there; alone it looks the same way", "X,Y,Z")
         ->group("Camera");
     addPoint(command, "--target", options.pose.targetWS, "Turns the camera to look there", "X,Y,Z")->group("Camera");
@@ -271,9 +142,7 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
         ->group("Camera");
     addNumber(command, "--near", options.pose.nearMetres, "Nothing nearer is drawn", "METRES")->group("Camera");
     addNumber(command, "--far", options.pose.farMetres, "Nothing farther is drawn", "METRES")->group("Camera");
-    addNumber(command, "--exposure", options.exposureEV, "Multiplies the display picture by 2^EV [0]", "EV")
-        ->group("Display");
-    text("--tonemap", options.toneMap, "One of " + namesOf(frame::toneMapTable()) + " [none]", "NAME", "Display");
+    addSettings(command, options, "Display");
 }
 
 scenes::LoadOptions loadOptionsOf(const FrameOptions& options) {
@@ -293,21 +162,30 @@ scenes::Scene loadFor(const FrameOptions& options, std::vector<std::string>* fil
 }
 
 void placeCamera(const FrameOptions& options, scenes::Scene& scene) {
-    if (!options.camera && options.pose == scenes::CameraChange()) return;
-    const std::optional<std::string>& name = options.camera ? options.camera : scene.options.camera;
-    scenes::Camera& camera = scene.cameras[name ? std::size_t(cameraNamed(scene, *name)) : 0];
+    const std::optional<std::string> said = options.said("camera");
+    if (!said && options.pose == scenes::CameraChange()) return;
+    const std::optional<std::string>& name = said ? said : scene.options.camera;
+    recipes::FrameRequest request;
+    if (name) recipes::settingOf("camera").read(request, *name, {{}, &scene});
+    scenes::Camera& camera = scene.cameras[std::size_t(request.settings.camera)];
     camera = scenes::changedCamera(camera, options.pose);
     scenes::aimDefaultLight(scene, camera);
 }
 
 Request resolveWithoutScene(const FrameOptions& options) {
     Request request;
-    resolveOptions(options, request);
+    for (const recipes::Setting& setting : recipes::settingTable())
+        if (const auto text = options.said(setting.key)) setting.read(request, *text, fromCommandLine(setting));
+    if (options.memoryLimit) bytesNamed(*options.memoryLimit);
     return request;
 }
 
 void resolveForScene(const FrameOptions& options, Request& request) {
-    resolveWishes(options, request);
+    const auto isSaid = [&](const recipes::Setting& setting) { return options.said(setting.key).has_value(); };
+    recipes::takeWishes(request.scene, options.scene, request, isSaid);
+    for (const recipes::Setting& setting : recipes::settingTable())
+        if (const auto text = setting.isOfScene ? options.said(setting.key) : std::nullopt)
+            setting.read(request, *text, fromCommandLine(setting, &request.scene));
 }
 
 Request resolve(const FrameOptions& options) {
@@ -320,13 +198,15 @@ Request resolve(const FrameOptions& options) {
 }
 
 recipes::Technique techniqueNamed(const std::string& name) {
-    return rowNamed(recipes::techniqueTable(), name, "technique").technique;
+    recipes::FrameRequest request;
+    recipes::settingOf("technique").read(request, name);
+    return request.technique;
 }
 
-glm::ivec2 sizeNamed(const std::string& text) {
-    if (const std::optional<glm::ivec2> size = frame::sizeIn(text)) return *size;
-    throw InputError(fmt::format("--size '{}' is not WIDTHxHEIGHT in pixels, each 1 to {}, as in 1280x720", text,
-                                 frame::kLargestSidePixels));
+glm::ivec2 sizeNamed(const std::string& flag, const std::string& text) {
+    recipes::FrameRequest request;
+    recipes::settingOf("size").read(request, text, {flag, nullptr});
+    return request.settings.sizePixels;
 }
 
 } // namespace tessera::app

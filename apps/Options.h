@@ -1,12 +1,14 @@
 #pragma once
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
-#include "passes/recipes/Techniques.h"
-#include "renderer/frame/FrameSettings.h"
+#include "passes/recipes/Settings.h"
 #include "renderer/gpu/Context.h"
 #include "scenes/CameraChange.h"
 #include "scenes/Load.h"
@@ -28,12 +30,14 @@ std::unique_ptr<gpu::Context> makeContext(const GlobalOptions& options);
 /// Options that every command that looks at a frame shares. Unset ones take what the scene asks for, else the default.
 struct FrameOptions {
     std::string scene;
-    std::optional<std::string> technique, layout, camera, view, toneMap, size, filter, space, prune, specular, culling,
-        cullOn, lightOn, memoryLimit;
-    std::optional<double> exposureEV, timeSeconds, rangeTolerance;
-    std::optional<int> lights, solo, tile, samples;
+    std::map<std::string, std::string, std::less<>> settings; ///< texts, by the settings' keys
+    std::optional<std::string> memoryLimit;
+    std::optional<int> lights;
     bool noDefaultLight = false;
     scenes::CameraChange pose; ///< of the camera that is chosen
+
+    /// What was said of the setting of that key.
+    std::optional<std::string> said(std::string_view key) const;
 };
 /// All but the scene.
 void addFrameSettings(CLI::App& command, FrameOptions& options);
@@ -41,10 +45,8 @@ void addFrameSettings(CLI::App& command, FrameOptions& options);
 void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string& defaultScene);
 
 /// A scene and how to look at it.
-struct Request {
+struct Request : recipes::FrameRequest {
     scenes::Scene scene;
-    recipes::Technique technique = recipes::Technique::Deferred;
-    frame::FrameSettings settings;
     std::vector<std::string> files; ///< that the scene was read from
 };
 /// The scene alone, as the options have it, the camera they choose where they place it.
@@ -64,6 +66,6 @@ Request resolve(const FrameOptions& options);
 scenes::LoadOptions loadOptionsOf(const FrameOptions& options);
 
 recipes::Technique techniqueNamed(const std::string& name);
-glm::ivec2 sizeNamed(const std::string& text);
+glm::ivec2 sizeNamed(const std::string& flag, const std::string& text);
 
 } // namespace tessera::app

@@ -2,7 +2,6 @@
 
 #include "apps/Commands.h"
 #include "apps/Outputs.h"
-#include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/Renderer.h"
 #include "scenes/Error.h"
@@ -22,7 +21,7 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
     const bool printsJson = isStandardOutput(options.json), printsDot = isStandardOutput(options.dot);
     if (printsJson && printsDot)
         throw InputError("--json - and --dot - both ask for the standard output; name a file for one of them");
-    if (options.frame.technique == kReferenceName)
+    if (options.frame.said("technique") == kReferenceName)
         throw InputError("the reference has no plan: it follows a ray a pixel in double precision, without passes and "
                          "without OpenGL; give another technique");
     for (const std::string& path : {options.json, options.dot})
@@ -30,8 +29,7 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
     Outputs outputs({options.json, options.dot});
     Request request = resolve(options.frame);
     outputs.reads(request.files);
-    recipes::requireSamples(request.technique, request.settings.samples);
-    recipes::requireCulling(request.technique, request.settings);
+    recipes::requireTaken(request);
     std::unique_ptr<gpu::Context> context;
     if (options.measure) {
         context = makeContext(global);

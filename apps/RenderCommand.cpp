@@ -11,9 +11,6 @@
 #include "apps/Numbers.h"
 #include "apps/Outputs.h"
 #include "apps/Progress.h"
-#include "passes/recipes/ChooseCulling.h"
-#include "passes/recipes/ChooseSamples.h"
-#include "passes/recipes/ChooseView.h"
 #include "passes/recipes/Renderer.h"
 #include "scenes/Error.h"
 #include "scenes/Extension.h"
@@ -99,7 +96,7 @@ void renderReference(const RenderOptions& options, const Outputs& outputs, const
                      const GlobalOptions& global) {
     frame::FrameSettings settings = request.settings;
     // As compare does; hardware filtering is there for whoever asks for it.
-    if (!options.frame.filter) settings.filter = frame::TextureFilter::Exact;
+    if (!options.frame.said("filter")) settings.filter = frame::TextureFilter::Exact;
     validation::requireReferenceTakes(settings);
     const bool isLinear = extensionOf(options.output) == ".exr";
     if (!isLinear && settings.toneMap != frame::ToneMap::None)
@@ -139,8 +136,8 @@ void check(const RenderOptions& options) {
 int render(const RenderOptions& options, const GlobalOptions& global) {
     check(options);
     FrameOptions frame = options.frame;
-    const bool isReference = frame.technique == kReferenceName;
-    if (isReference) frame.technique.reset();
+    const bool isReference = frame.said("technique") == kReferenceName;
+    if (isReference) frame.settings.erase("technique");
     Request request = resolve(frame);
     Outputs outputs(outputsOf(options));
     outputs.reads(request.files);
@@ -148,9 +145,7 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
         renderReference(options, outputs, request, global);
         return kGood;
     }
-    recipes::requireSamples(request.technique, request.settings.samples);
-    recipes::requireCulling(request.technique, request.settings);
-    recipes::requireView(request.technique, request.settings.view);
+    recipes::requireTaken(request);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     recipes::Renderer renderer(*context, request.scene);
     request.settings.display = extensionOf(options.output) != ".exr";

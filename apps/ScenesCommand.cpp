@@ -1,4 +1,7 @@
+#include <cmath>
+
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "apps/Commands.h"
 #include "scenes/Load.h"
@@ -18,8 +21,52 @@ int listScenes() {
     return kGood;
 }
 
+using Json = nlohmann::ordered_json;
+
+Json schemaOf(const recipes::ChoiceKind& kind) {
+    Json names = Json::array();
+    for (const recipes::ChoiceKind::Entry& entry : kind.entries) {
+        if (kind.ofNumbers)
+            names.push_back(std::stoi(entry.name));
+        else
+            names.push_back(entry.name);
+    }
+    return {{"enum", std::move(names)}};
+}
+
+Json schemaOf(const recipes::NumberKind& kind) {
+    Json schema{{"type", kind.isWhole ? "integer" : "number"}};
+    if (std::isfinite(kind.least)) schema["minimum"] = kind.least;
+    if (std::isfinite(kind.most)) schema["maximum"] = kind.most;
+    return schema;
+}
+
+Json schemaOf(const recipes::SwitchKind&) {
+    return {{"type", "boolean"}};
+}
+
+Json schemaOf(const recipes::SizeKind&) {
+    const Json side{{"type", "integer"}, {"minimum", 1}, {"maximum", frame::kLargestSidePixels}};
+    return {{"type", "array"}, {"items", side}, {"minItems", 2}, {"maxItems", 2}};
+}
+
+Json schemaOf(const recipes::CameraKind&) {
+    return {{"$ref", "#/definitions/name"}};
+}
+
+/// That of scenes, which know no settings, with those there are.
 int printSchema() {
-    fmt::print("{}\n", scenes::sceneSchema());
+    Json schema = Json::parse(scenes::sceneSchema());
+    Json& options = schema["definitions"]["options"];
+    for (const recipes::Setting& setting : recipes::settingTable()) {
+        if (!setting.isWishable) continue;
+        Json own = std::visit([](const auto& kind) { return schemaOf(kind); }, setting.value.kind);
+        if (!setting.value.open.empty()) own = {{"anyOf", {std::move(own), {{"const", setting.value.open}}}}};
+        if (!own.contains("$ref")) own["description"] = setting.help;
+        options["properties"][std::string(setting.key)] = std::move(own);
+    }
+    options["additionalProperties"] = false;
+    fmt::print("{}\n", schema.dump(2));
     return kGood;
 }
 

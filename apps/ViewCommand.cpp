@@ -31,7 +31,8 @@ void readPreferences(viewer::ViewerOptions& viewing) {
 int view(const ViewOptions& options, const GlobalOptions& global) {
     if (contextKind(global.context) == gpu::ContextKind::Egl)
         throw InputError("--context egl makes no window, and the viewer is one; give window or auto");
-    resolveWithoutScene(options.frame); // mistakes end the program before there is a window
+    const recipes::FrameRequest said =
+        resolveWithoutScene(options.frame); // mistakes end the program before there is a window
     viewer::ViewerOptions viewing;
     readPreferences(viewing);
     viewing.scene = options.frame.scene;
@@ -39,8 +40,8 @@ int view(const ViewOptions& options, const GlobalOptions& global) {
     viewing.log = options.log;
     viewing.warn = [](const std::string& text) { spdlog::warn("{}", oneLine(text)); };
     viewing.windowSize = viewing.preferences.windowSize.value_or(viewing.windowSize);
-    if (options.window) viewing.windowSize = sizeNamed(*options.window);
-    if (options.frame.size && !options.window) viewing.pictureSize = sizeNamed(*options.frame.size);
+    if (options.window) viewing.windowSize = sizeNamed("--window", *options.window);
+    if (options.frame.said("size") && !options.window) viewing.pictureSize = said.settings.sizePixels;
     viewing.lookOf = [&](const scenes::Scene& scene, const std::string& source, bool first) {
         return firstLook(first ? options.frame : forAnyScene(options.frame), viewing.preferences, scene, source);
     };

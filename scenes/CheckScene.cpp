@@ -289,9 +289,13 @@ void checkSceneWide(const Scene& scene) {
     };
     require(allFiniteAndNotNegative(scene.background), "the background must be finite and not negative");
     const SceneOptions& options = scene.options;
-    require(!options.exposureEV || std::isfinite(*options.exposureEV), "the option exposure is not finite");
-    require(!options.sizePixels || (options.sizePixels->x > 0 && options.sizePixels->y > 0),
-            "the option size must be positive");
+    for (const auto& [key, wish] : options.wishes) {
+        const auto* const number = std::get_if<double>(&wish);
+        const auto* const list = std::get_if<std::vector<double>>(&wish);
+        const bool areFinite = list == nullptr || std::ranges::all_of(*list, [](double n) { return std::isfinite(n); });
+        require((number == nullptr || std::isfinite(*number)) && areFinite,
+                fmt::format("the option {} is not finite", key));
+    }
     if (!options.camera) return;
     bool found = false;
     for (const Camera& camera : scene.cameras) found = found || camera.name == *options.camera;

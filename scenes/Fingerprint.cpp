@@ -105,8 +105,12 @@ public:
         addAll(name, projection, worldFromCamera, fovYRadians, halfHeightMetres, nearMetres, farMetres);
     }
     void add(const SceneOptions& options) {
-        const auto& [technique, layout, camera, toneMap, exposureEV, sizePixels, defaultLight] = options;
-        addAll(technique, layout, camera, toneMap, exposureEV, sizePixels, defaultLight);
+        const auto& [camera, defaultLight, wishes] = options;
+        addAll(camera, defaultLight, std::uint64_t(wishes.size()));
+        for (const auto& [key, wish] : wishes) {
+            addAll(key, std::uint64_t(wish.index()));
+            std::visit([this](const auto& value) { add(value); }, wish);
+        }
     }
     void add(const Scene& scene) {
         const auto& [name, images, materials, meshes, nodes, lights, cameras, background, options, hasDefaultLight,

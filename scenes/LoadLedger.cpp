@@ -95,6 +95,11 @@ std::uint64_t bytesOf(const Scene& scene) {
         if (light.animation) bytes += bytesOf(light.animation->timesSeconds) + bytesOf(light.animation->pointsWS);
     }
     for (const Camera& camera : scene.cameras) bytes += camera.name.size();
+    for (const auto& [key, wish] : scene.options.wishes) {
+        bytes += sizeof(key) + sizeof(wish) + key.size();
+        if (const auto* text = std::get_if<std::string>(&wish)) bytes += text->size();
+        if (const auto* list = std::get_if<std::vector<double>>(&wish)) bytes += bytesOf(*list);
+    }
     for (const std::string& warning : scene.warnings) bytes += sizeof(std::string) + warning.size();
     return bytes;
 }

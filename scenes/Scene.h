@@ -3,8 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -255,15 +257,14 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
-/// What a scene asks for where the user does not say otherwise; names are those of the command line.
+/// The value that a scene asks for of a setting, as its file has it.
+using Wish = std::variant<bool, double, std::string, std::vector<double>>;
+
+/// What a scene asks for where the user does not say otherwise.
 struct SceneOptions {
-    std::optional<std::string> technique;
-    std::optional<std::string> layout;
     std::optional<std::string> camera;
-    std::optional<std::string> toneMap;
-    std::optional<float> exposureEV;
-    std::optional<glm::ivec2> sizePixels;
-    std::optional<bool> defaultLight; ///< false: where there is no light, none is supplied
+    std::optional<bool> defaultLight;                ///< false: where there is no light, none is supplied
+    std::map<std::string, Wish, std::less<>> wishes; ///< by the settings' keys, which whoever draws the scene knows
     bool operator==(const SceneOptions&) const = default;
 };
 

@@ -152,8 +152,8 @@ ErrorFigures errorFigures(const Picture& a, const Picture& b, std::span<const st
 
 void requireSameSize(const Picture& a, const std::string& nameA, const Picture& b, const std::string& nameB) {
     if (a.width == b.width && a.height == b.height) return;
-    throw InputError(fmt::format("{} is {}x{} but {} is {}x{}; pictures that are compared must be of one size (--size)",
-                                 nameA, a.width, a.height, nameB, b.width, b.height));
+    throw InputError(fmt::format("{} is {}x{} but {} is {}x{}; pictures that are compared must be of one size", nameA,
+                                 a.width, a.height, nameB, b.width, b.height));
 }
 
 } // namespace tessera::validation

@@ -24,11 +24,11 @@ reference::Settings referenceSettings(const scenes::Scene& scene, const frame::F
 
 void requireReferenceTakes(const frame::FrameSettings& settings) {
     if (settings.view != frame::View::Final) {
-        throw InputError(fmt::format("the reference renders the view final, not {}; leave --view out",
-                                     frame::viewInfo(settings.view).name));
+        throw InputError(
+            fmt::format("the reference renders the view final, not {}", frame::viewInfo(settings.view).name));
     }
     if (settings.samples != 1) {
-        throw InputError(fmt::format("the reference takes one sample a pixel, not --samples {}", settings.samples));
+        throw InputError(fmt::format("the reference takes one sample a pixel, not {}", settings.samples));
     }
 }
 

@@ -6,9 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "passes/recipes/ChooseCulling.h"
-#include "passes/recipes/ChooseLighting.h"
 #include "passes/recipes/ChooseSamples.h"
+#include "passes/recipes/Settings.h"
 #include "validation/RangeTruncation.h"
 #include "validation/ReferencePicture.h"
 #include "validation/Rendering.h"
@@ -174,14 +173,26 @@ void addHardwareFilter(recipes::Renderer& renderer, const CompareRequest& reques
     result.truths.push_back(std::move(truth));
 }
 
+template <typename Drops>
+frame::FrameSettings resetWhere(Technique technique, const frame::FrameSettings& settings, const Drops& drops) {
+    recipes::FrameRequest request{technique, settings};
+    for (const recipes::Setting& setting : recipes::settingTable())
+        if (drops(setting, request)) setting.reset(request);
+    return request.settings;
+}
+
 } // namespace
 
-frame::FrameSettings settingsTakenBy(recipes::Technique technique, frame::FrameSettings settings) {
-    if (settings.culling.method && !recipes::takesMethod(technique, *settings.culling.method))
-        settings.culling.method.reset();
-    if (!recipes::hasLightLists(technique)) settings.culling = {};
-    if (!recipes::infoOf(technique).choosesStage) settings.lightOn.reset();
-    return settings;
+frame::FrameSettings settingsTakenBy(recipes::Technique technique, const frame::FrameSettings& settings) {
+    return resetWhere(technique, settings, [](const recipes::Setting& setting, const recipes::FrameRequest& request) {
+        return setting.samePicture && !setting.isTaken(request);
+    });
+}
+
+frame::FrameSettings settingsHeededBy(recipes::Technique technique, const frame::FrameSettings& settings) {
+    return resetWhere(technique, settings, [](const recipes::Setting& setting, const recipes::FrameRequest& request) {
+        return setting.samePicture && !setting.isHeededBy(request.technique);
+    });
 }
 
 std::string hardwareFilterName(const std::string& technique) {
@@ -203,18 +214,18 @@ std::vector<std::string> pictureNames(const scenes::Scene& scene, const CompareR
     return names;
 }
 
-std::vector<Technique> techniquesTaking(int samples, std::optional<culling::Method> method,
-                                        std::vector<LeftOutTechnique>& leftOut) {
+std::vector<Technique> techniquesTaking(const frame::FrameSettings& settings, std::vector<LeftOutTechnique>& leftOut) {
     std::vector<Technique> techniques;
     for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
-        const bool culls = method && recipes::hasLightLists(info.technique);
-        if (!recipes::takesSamples(info, samples))
-            leftOut.push_back({std::string(info.name), fmt::format("it does not take --samples {}", samples)});
-        else if (culls && !recipes::takesMethod(info.technique, *method))
-            leftOut.push_back(
-                {std::string(info.name), fmt::format("it does not take --culling {}", infoOf(*method).name)});
-        else
+        const recipes::FrameRequest request{info.technique, settingsHeededBy(info.technique, settings)};
+        const auto table = recipes::settingTable();
+        const auto refused =
+            std::ranges::find_if(table, [&](const recipes::Setting& setting) { return !setting.isTaken(request); });
+        if (refused == table.end())
             techniques.push_back(info.technique);
+        else
+            leftOut.push_back(
+                {std::string(info.name), fmt::format("it does not take {} {}", refused->name, refused->text(request))});
     }
     return techniques;
 }

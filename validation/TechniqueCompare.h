@@ -52,8 +52,11 @@ struct CompareResult {
     std::vector<PairTruth> truths;      ///< parallel to record.pairs: what each was measured against
 };
 
-/// What was asked for of culling and lighting goes to the techniques that take it; the others keep their own.
-frame::FrameSettings settingsTakenBy(recipes::Technique technique, frame::FrameSettings settings);
+/// What was asked for of who makes a picture and how (recipes::Setting::samePicture) goes to the techniques that take
+/// it; the others keep their own.
+frame::FrameSettings settingsTakenBy(recipes::Technique technique, const frame::FrameSettings& settings);
+/// The same for techniques that do not heed it at all: what one heeds and does not take stays.
+frame::FrameSettings settingsHeededBy(recipes::Technique technique, const frame::FrameSettings& settings);
 
 /// Steps of compareTechniques(), for progress: pictures, each row of the reference's, and what a range tolerance drops.
 std::size_t stepCount(const scenes::Scene& scene, const CompareRequest& request);
@@ -74,9 +77,8 @@ CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabili
 /// What the pair that shows hardware filtering beside the exact one calls a technique.
 std::string hardwareFilterName(const std::string& technique);
 
-/// The techniques that take so many samples a pixel; those with light lists only if they take the culling method, where
-/// one is asked for. The others go to `leftOut` with the reason.
-std::vector<recipes::Technique> techniquesTaking(int samples, std::optional<culling::Method> method,
+/// The techniques that take the settings which they heed. The others go to `leftOut` with the reason.
+std::vector<recipes::Technique> techniquesTaking(const frame::FrameSettings& settings,
                                                  std::vector<LeftOutTechnique>& leftOut);
 
 /// What a technique is held to against another in a scene of so many lights, with the reason in Tolerance::reason.

@@ -4,24 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "scenes/Error.h"
-
 namespace tessera::recipes {
 
 namespace {
 
 using culling::Method;
-
-void requireMethod(const TechniqueInfo& info, Method method) {
-    if (takesMethod(info.technique, method)) return;
-    std::string techniques;
-    for (const TechniqueInfo& other : techniqueTable()) {
-        if (takesMethod(other.technique, method))
-            techniques += (techniques.empty() ? "" : ", ") + std::string(other.name);
-    }
-    throw InputError(
-        fmt::format("technique {} does not take --culling {}; {} do", info.name, infoOf(method).name, techniques));
-}
 
 /// Invocations that build a tile's lists together: all that hardware runs in step; one on software rasterisers, where
 /// those of a group take turns.
@@ -50,23 +37,10 @@ bool hasLightLists(Technique technique) {
     return infoOf(technique).methods.front() != Method::None;
 }
 
-void requireCulling(Technique technique, const frame::FrameSettings& settings) {
-    const TechniqueInfo& info = infoOf(technique);
-    if (settings.culling.method) requireMethod(info, *settings.culling.method);
-    if (hasLightLists(technique) || !(settings.culling.tilePixels || settings.culling.builder)) return;
-    std::string techniques;
-    for (const TechniqueInfo& other : techniqueTable()) {
-        if (hasLightLists(other.technique)) techniques += (techniques.empty() ? "" : ", ") + std::string(other.name);
-    }
-    throw InputError(fmt::format("technique {} has no light lists, so no {}; {} have", info.name,
-                                 settings.culling.tilePixels ? "--tile" : "--cull-on", techniques));
-}
-
 culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& settings,
                               const frame::FeatureSet& features, const frame::PackedLights& lights) {
     const TechniqueInfo& info = infoOf(technique);
     culling::Choice choice;
-    if (settings.culling.method) requireMethod(info, *settings.culling.method);
     choice.method = settings.culling.method.value_or(info.methods.front());
     if (settings.prune && !canCull(features, lights)) choice.method = Method::None;
     choice.tilePixels = settings.culling.tilePixels.value_or(16);

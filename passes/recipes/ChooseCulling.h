@@ -10,14 +10,11 @@ namespace tessera::recipes {
 
 bool takesMethod(Technique technique, culling::Method method);
 
-/// What a frame does to cull lights: what was asked for, else what is measured to be fastest on the backend, and
-/// nothing where nothing can be culled (settings.prune). Throws InputError when the technique cannot do what was asked.
 /// Whether a technique lights from light lists at all.
 bool hasLightLists(Technique technique);
 
-/// Throws InputError when a culling method, a tile or a builder was asked for that the technique has no use for.
-void requireCulling(Technique technique, const frame::FrameSettings& settings);
-
+/// What a frame does to cull lights: what was asked for, which the technique must take, else what is measured to be
+/// fastest on the backend, and nothing where nothing can be culled (settings.prune).
 culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& settings,
                               const frame::FeatureSet& features, const frame::PackedLights& lights);
 

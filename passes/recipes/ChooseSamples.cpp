@@ -9,26 +9,8 @@
 
 namespace tessera::recipes {
 
-void requireSampleCount(int samples) {
-    const auto& counts = frame::kSampleCounts;
-    if (std::find(std::begin(counts), std::end(counts), samples) != std::end(counts)) return;
-    throw InputError(fmt::format("--samples {}: a pixel can have {} samples", samples, fmt::join(counts, ", ")));
-}
-
 bool takesSamples(const TechniqueInfo& info, int samples) {
     return samples == 1 || info.multisamples();
-}
-
-void requireSamples(Technique technique, int samples) {
-    requireSampleCount(samples);
-    const TechniqueInfo& info = infoOf(technique);
-    if (takesSamples(info, samples)) return;
-    std::vector<std::string_view> able;
-    for (const TechniqueInfo& other : techniqueTable()) {
-        if (takesSamples(other, samples)) able.push_back(other.name);
-    }
-    throw InputError(
-        fmt::format("technique {} does not take --samples {}; {} do", info.name, samples, fmt::join(able, ", ")));
 }
 
 frame::FrameSettings settingsOn(const gpu::Capabilities& capabilities, frame::FrameSettings settings) {
@@ -36,7 +18,7 @@ frame::FrameSettings settingsOn(const gpu::Capabilities& capabilities, frame::Fr
     const std::vector<int>& given = capabilities.renderTargetSamples;
     const auto enough = std::lower_bound(given.begin(), given.end(), settings.samples);
     if (enough == given.end()) {
-        throw InputError(fmt::format("--samples {}: this driver's 32-bit float render targets have {} samples; "
+        throw InputError(fmt::format("samples {}: this driver's 32-bit float render targets have {} samples; "
                                      "ask for fewer",
                                      settings.samples, fmt::join(given, " or ")));
     }
@@ -44,8 +26,11 @@ frame::FrameSettings settingsOn(const gpu::Capabilities& capabilities, frame::Fr
     return settings;
 }
 
-int chooseSamples(Technique technique, const frame::FrameSettings& settings) {
-    requireSamples(technique, settings.samples);
+int chooseSamples(const frame::FrameSettings& settings) {
+    const auto& counts = frame::kSampleCounts;
+    if (std::find(std::begin(counts), std::end(counts), settings.samples) == std::end(counts))
+        throw InputError(
+            fmt::format("samples {}: a pixel can have {} samples", settings.samples, fmt::join(counts, ", ")));
     // No driver is asked for one sample: every texture can have it.
     return settings.samples == 1 ? 1 : settings.samplesGiven.value_or(settings.samples);
 }

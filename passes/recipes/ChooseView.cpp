@@ -13,17 +13,6 @@ bool takesView(const TechniqueInfo& info, frame::View view) {
     return info.usesGBuffer() || !frame::viewInfo(view).needsGBuffer;
 }
 
-void requireView(Technique technique, frame::View view) {
-    const TechniqueInfo& info = infoOf(technique);
-    if (takesView(info, view)) return;
-    std::vector<std::string_view> able;
-    for (const TechniqueInfo& other : techniqueTable()) {
-        if (takesView(other, view)) able.push_back(other.name);
-    }
-    throw InputError(fmt::format("technique {} has no G-buffer for --view {} to show; {} have one", info.name,
-                                 frame::viewInfo(view).name, fmt::join(able, ", ")));
-}
-
 void requireStoredChannel(const frame::FrameSpec& spec) {
     const frame::View view = spec.settings.view;
     const std::optional<frame::StoredComponents> shown = frame::storedComponents(view);
@@ -32,7 +21,7 @@ void requireStoredChannel(const frame::FrameSpec& spec) {
     std::vector<std::string_view> stored;
     for (const frame::Channel channel : spec.channels)
         stored.push_back(frame::channelTable()[std::size_t(channel)].name);
-    throw InputError(fmt::format("--view {}: this frame's G-buffer has no such channel, which is for {}; it has {}",
+    throw InputError(fmt::format("view {}: this frame's G-buffer has no such channel, which is for {}; it has {}",
                                  frame::viewInfo(view).name, frame::channelTable()[std::size_t(shown->channel)].needed,
                                  stored.empty() ? "none" : fmt::format("{}", fmt::join(stored, ", "))));
 }

@@ -7,9 +7,6 @@ namespace tessera::recipes {
 
 bool takesView(const TechniqueInfo& info, frame::View view);
 
-/// Throws InputError naming the techniques that can where this one cannot show the view.
-void requireView(Technique technique, frame::View view);
-
 /// Throws InputError naming the channels that there are where the view shows one that the frame does not store.
 void requireStoredChannel(const frame::FrameSpec& spec);
 

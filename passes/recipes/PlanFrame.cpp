@@ -107,11 +107,12 @@ graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const fra
     return plan;
 }
 
-graph::Plan planViews(const scenes::Scene& scene, std::span<const View> views) {
+graph::Plan planViews(const scenes::Scene& scene, std::span<const FrameRequest> views) {
     graph::Graph graph;
-    for (const View& view : views)
+    for (const FrameRequest& view : views)
         declareView(graph, view.technique, prepareView(scene, view.technique, view.settings).spec, nullptr);
-    const bool prune = std::all_of(views.begin(), views.end(), [](const View& view) { return view.settings.prune; });
+    const bool prune =
+        std::all_of(views.begin(), views.end(), [](const FrameRequest& view) { return view.settings.prune; });
     return graph::makePlan(graph, graph::compile(graph, {.cull = prune, .alias = prune}));
 }
 

@@ -8,6 +8,7 @@
 #include "passes/recipes/ChooseLighting.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/ChooseView.h"
+#include "passes/recipes/Settings.h"
 #include "renderer/culling/TileGrid.h"
 #include "scenes/Error.h"
 #include "scenes/Limits.h"
@@ -35,12 +36,12 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
                                      *settings.soloLight, scene.lights.size(), int(scene.lights.size()) - 1));
     }
     scenes::requireDrawableLights(scene.name, scene.lights.size());
-    const int samples = chooseSamples(technique, settings);
+    requireDrawable({technique, settings});
+    const int samples = chooseSamples(settings);
     if (!(settings.rangeTolerance >= 0.0) || std::isinf(settings.rangeTolerance)) {
         throw InputError(fmt::format("a range tolerance of {} ends no light; give 0, which keeps all of it, or more",
                                      settings.rangeTolerance));
     }
-    requireView(technique, settings.view);
     frame::PreparedView prepared;
     const scenes::Camera camera = frameCamera(scene, settings);
     // A debug view shows quantities of surfaces; where there is none it shows 0.
@@ -55,7 +56,7 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
     spec.samples = samples;
     spec.background = prepared.camera.constants.background;
     requireStoredChannel(spec);
-    spec.lightOn = chooseLighting(technique, settings);
+    spec.lightOn = chooseLighting(settings);
     spec.culling = chooseCulling(technique, settings, spec.features, prepared.lights);
     // That view lights nothing, and no lists are built for it.
     if (settings.view == frame::View::Ids) spec.culling = {};

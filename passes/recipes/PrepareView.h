@@ -5,8 +5,8 @@
 namespace tessera::recipes {
 
 /// Throws InputError when the settings name a camera or light that the scene lacks, a size or number of samples that no
-/// picture has, a range tolerance that is negative or not finite, or a culling method or number of samples that the
-/// technique does not take. Whoever draws the view hands over the scene's bounds.
+/// picture has, a range tolerance that is negative or not finite, or a setting that the technique cannot draw. Whoever
+/// draws the view hands over the scene's bounds.
 frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings,
                                 std::span<const frame::SurfaceBounds> bounds = {});
 

@@ -57,9 +57,9 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     return *sceneGpu_;
 }
 
-void Renderer::draw(std::span<const View> views) {
+void Renderer::draw(std::span<const FrameRequest> views) {
     auto drawn = std::make_unique<Drawn>();
-    for (const View& view : views) {
+    for (const FrameRequest& view : views) {
         frame::DrawnView& added = drawn->views.emplace_back();
         const frame::FrameSettings settings = settingsOn(context_.capabilities(), view.settings);
         added.prepared = prepareView(scene_, view.technique, settings, bounds_);

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "passes/recipes/Settings.h"
 #include "passes/recipes/Techniques.h"
 #include "renderer/frame/DepthInterval.h"
 #include "renderer/gpu/Context.h"
@@ -34,12 +35,6 @@ struct DrawnLists {
     std::vector<std::uint32_t> everywhere; ///< lights of the lists that reach everywhere, ascending
 };
 
-/// A view of the scene: how it is drawn, and by which camera at which size.
-struct View {
-    Technique technique = Technique::Deferred;
-    frame::FrameSettings settings;
-};
-
 /// Renders pictures of one scene, with any technique and settings, on the context that is current. Everything derived
 /// from the scene is made once and kept.
 class Renderer {
@@ -51,9 +46,9 @@ public:
     /// Draws one frame of one or more views and waits for nothing; download() reads it, passTimings() times it. The
     /// views share what is on the GPU of the scene, so they have one filter and one answer to pruning. Throws
     /// InputError where that is not so, or settings name what the scene lacks; std::runtime_error when GL fails.
-    void draw(std::span<const View> views);
+    void draw(std::span<const FrameRequest> views);
     void draw(Technique technique, const frame::FrameSettings& settings) {
-        const View view{technique, settings};
+        const FrameRequest view{technique, settings};
         draw({&view, 1});
     }
 
@@ -105,7 +100,7 @@ private:
 /// What a frame of one view would run, leave out and need, without a context.
 graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings);
 /// The passes and resources of a frame of several views.
-graph::Plan planViews(const scenes::Scene& scene, std::span<const View> views);
+graph::Plan planViews(const scenes::Scene& scene, std::span<const FrameRequest> views);
 
 /// The programs a frame would use, without a context.
 std::vector<shader::ProgramDesc> framePrograms(const scenes::Scene& scene, Technique technique,

@@ -11,8 +11,8 @@
 #include "renderer/frame/LightingStage.h"
 #include "renderer/frame/Views.h"
 
-/// What a user may ask of a frame besides its technique. Names are those of the command line; the tables are the only
-/// lists.
+/// What a user may ask of a frame besides its technique, by rows of passes/recipes/Settings.cpp. Names are those of the
+/// command line; the tables are the only lists.
 namespace tessera::frame {
 
 enum class ToneMap : std::uint8_t { None, KhronosNeutral, Aces, Agx };
@@ -36,6 +36,9 @@ struct LightingSpaceInfo {
     std::string_view name;
 };
 std::span<const LightingSpaceInfo> lightingSpaceTable();
+
+/// 2^EV must be a number that a picture can be multiplied by: fp32 spans 2^-126 to 2^128.
+inline constexpr float kMostExposureEV = 120.0f; ///< either way
 
 /// Samples of a pixel that can be asked for; a driver may give more.
 inline constexpr int kSampleCounts[] = {1, 2, 4};

@@ -124,6 +124,12 @@ std::optional<JsonValue> JsonObject::find(std::string_view key) {
     return JsonValue(*found, *value_.file_, jsonPointerTo(value_.pointer_, key));
 }
 
+std::vector<std::string> JsonObject::keys() const {
+    std::vector<std::string> keys;
+    for (const auto& [key, ignored] : value_.value_->items()) keys.push_back(key);
+    return keys;
+}
+
 JsonValue JsonObject::require(std::string_view key) {
     if (std::optional<JsonValue> found = find(key)) return *std::move(found);
     value_.fail(fmt::format("lacks the key '{}'; add it", key));

@@ -26,6 +26,7 @@ public:
     const std::filesystem::path& file() const { return *file_; }
     bool isNull() const { return value_->is_null(); }
     bool isNumber() const { return value_->is_number(); }
+    bool isBoolean() const { return value_->is_boolean(); }
     bool isText() const { return value_->is_string(); }
     bool isArray() const { return value_->is_array(); }
     bool isObject() const { return value_->is_object(); }
@@ -83,6 +84,7 @@ public:
 
     std::optional<JsonValue> find(std::string_view key);
     JsonValue require(std::string_view key);
+    std::vector<std::string> keys() const;
     bool has(std::string_view key) const { return value_.value_->contains(key); }
     const JsonValue& value() const { return value_; }
 

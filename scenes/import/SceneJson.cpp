@@ -26,7 +26,7 @@ constexpr int kMostIncludes = 4096;
 /// Documents that include or are based on one another: each takes some kilobytes of the call stack.
 constexpr std::size_t kMostNested = 64;
 constexpr int kVersion = 1;
-constexpr int kMostPixelsASide = 16384; ///< the largest target of current hardware
+constexpr std::size_t kMostOptions = 256; ///< far more than there are settings
 
 /// How much of a scene its base made.
 struct BaseSize {
@@ -268,23 +268,34 @@ private:
     static void readOptions(const JsonValue& value, Scene& scene) {
         JsonObject object = value.object();
         SceneOptions& options = scene.options;
-        if (const auto technique = object.find("technique")) options.technique = technique->text();
-        if (const auto layout = object.find("layout")) options.layout = layout->text();
-        if (const auto toneMap = object.find("toneMap")) options.toneMap = toneMap->text();
-        if (const auto light = object.find("defaultLight")) options.defaultLight = light->boolean();
-        if (const auto exposure = object.find("exposureEV")) options.exposureEV = exposure->single();
-        if (const auto size = object.find("size")) {
-            const std::vector<JsonValue> sides = size->elements(2, 2);
-            options.sizePixels = {sides[0].integer(1, kMostPixelsASide), sides[1].integer(1, kMostPixelsASide)};
+        if (value.size() > kMostOptions)
+            value.fail(fmt::format("has {} members; at most {} are allowed", value.size(), kMostOptions));
+        for (const std::string& key : object.keys()) {
+            const JsonValue option = object.require(key);
+            if (key == "defaultLight") {
+                options.defaultLight = option.boolean();
+            } else if (key == "camera") {
+                options.camera = option.text();
+                std::vector<std::string_view> names;
+                for (const Camera& known : scene.cameras) names.push_back(known.name);
+                if (std::ranges::find(names, *options.camera) == names.end())
+                    option.failUnknown("camera", *options.camera, names);
+            } else {
+                options.wishes[key] = readWish(option); // which settings there are is not this floor's business
+            }
         }
-        if (const auto camera = object.find("camera")) {
-            options.camera = camera->text();
-            std::vector<std::string_view> names;
-            for (const Camera& known : scene.cameras) names.push_back(known.name);
-            if (std::ranges::find(names, *options.camera) == names.end())
-                camera->failUnknown("camera", *options.camera, names);
-        }
-        object.done("an options object");
+    }
+
+    static Wish readWish(const JsonValue& value) {
+        if (value.isBoolean()) return value.boolean();
+        if (value.isNumber()) return value.number();
+        if (value.isText()) return value.text();
+        if (!value.isArray())
+            value.fail("is no setting's value; give a name, a number, true or false, or an array of numbers");
+        constexpr std::size_t kMostElements = 16;
+        std::vector<double> list;
+        for (const JsonValue& element : value.elements(0, kMostElements)) list.push_back(element.number());
+        return list;
     }
 
     /// A file that is included.

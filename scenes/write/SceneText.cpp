@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -64,15 +65,28 @@ Json materialsJson(const Scene& scene, const SceneOrigin& origin) {
     return materials;
 }
 
+/// Whole numbers as such: "size": [640, 360].
+Json wishJson(double value) {
+    constexpr double kMostWhole = 9007199254740992.0; // 2^53
+    const bool isWhole = value == std::floor(value) && std::abs(value) <= kMostWhole && !std::signbit(value);
+    return isWhole ? Json(static_cast<std::uint64_t>(value)) : write::number(value);
+}
+Json wishJson(const std::vector<double>& list) {
+    Json json = Json::array();
+    for (const double value : list) json.push_back(wishJson(value));
+    return json;
+}
+template <typename Value>
+Json wishJson(const Value& value) {
+    return value;
+}
+
 Json optionsJson(const Scene& scene) {
     const SceneOptions& options = scene.options;
     Json json = Json::object();
-    if (options.technique) json["technique"] = *options.technique;
-    if (options.layout) json["layout"] = *options.layout;
+    for (const auto& [key, wish] : options.wishes)
+        json[key] = std::visit([](const auto& value) { return wishJson(value); }, wish);
     if (options.camera) json["camera"] = *options.camera;
-    if (options.toneMap) json["toneMap"] = *options.toneMap;
-    if (options.exposureEV) json["exposureEV"] = write::number(*options.exposureEV);
-    if (options.sizePixels) json["size"] = {options.sizePixels->x, options.sizePixels->y};
     // Who deletes the last light wants the dark.
     if (options.defaultLight || scene.lights.empty()) json["defaultLight"] = options.defaultLight.value_or(false);
     return json;

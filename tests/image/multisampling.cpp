@@ -36,7 +36,7 @@ protected:
     void expectAgreement(recipes::Renderer& renderer, const frame::FrameSettings& settings) {
         validation::CompareRequest request;
         std::vector<validation::LeftOutTechnique> leftOut;
-        request.techniques = validation::techniquesTaking(settings.samples, {}, leftOut);
+        request.techniques = validation::techniquesTaking(settings, leftOut);
         std::erase(request.techniques, Technique::Forward);
         request.settings = settings;
         const validation::CompareRecord record =

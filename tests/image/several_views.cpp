@@ -13,8 +13,8 @@
 namespace tessera {
 namespace {
 
+using View = recipes::FrameRequest;
 using recipes::Technique;
-using recipes::View;
 
 class SeveralViews : public test::GlTest {
 protected:

@@ -28,19 +28,6 @@ std::optional<std::size_t> choose(const char* label, std::string_view shown, std
 std::optional<std::size_t> choose(const char* label, std::string_view shown, std::size_t count,
                                   const std::function<Choice(std::size_t)>& choiceAt, std::size_t chosen);
 
-/// The rows of one of the library's tables to choose from.
-template <typename Table>
-std::vector<Choice> choicesOf(const Table& table, const auto& meaning, const auto& isPossible) {
-    std::vector<Choice> choices;
-    for (const auto& entry : table) choices.push_back({entry.name, meaning(entry), isPossible(entry)});
-    return choices;
-}
-template <typename Table>
-std::vector<Choice> choicesOf(const Table& table) {
-    return choicesOf(
-        table, [](const auto& entry) { return entry.summary; }, [](const auto&) { return true; });
-}
-
 /// Shows a widget of a value and takes what it made of it inside the bounds (bounded()). Whether that changed it.
 template <typename Value, typename Number, typename Widget>
 bool edit(Value& value, Number least, Number most, const Widget& widget) {

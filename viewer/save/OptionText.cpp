@@ -1,7 +1,5 @@
 #include "viewer/save/OptionText.h"
 
-#include <charconv>
-
 #include <fmt/format.h>
 
 namespace tessera::viewer {
@@ -18,25 +16,13 @@ std::string shellWord(const std::string& word) {
     return quoted;
 }
 
-std::string numberText(double value) {
-    return fmt::format("{}", value);
-}
-
-std::string numberText(float value) {
-    std::string text = fmt::format("{}", value);
-    double read = 0.0;
-    std::from_chars(text.data(), text.data() + text.size(), read);
-    // Read as a double and rounded to single, text beside the middle of two floats may end up at the other one.
-    return static_cast<float>(read) == value ? text : numberText(static_cast<double>(value));
-}
-
 std::string poseText(const scenes::CameraChange& change) {
     std::string text;
     const auto addPoint = [&text](const char* flag, const std::optional<glm::dvec3>& point) {
         if (point) text += fmt::format(" {} {},{},{}", flag, point->x, point->y, point->z);
     };
     const auto addNumber = [&text](const char* flag, const std::optional<double>& number) {
-        if (number) text += fmt::format(" {} {}", flag, numberText(*number));
+        if (number) text += fmt::format(" {} {}", flag, *number);
     };
     addPoint("--eye", change.eyeWS);
     addPoint("--target", change.targetWS);

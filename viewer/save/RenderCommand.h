@@ -2,19 +2,16 @@
 #include <optional>
 #include <string>
 
-#include "passes/recipes/Techniques.h"
-#include "renderer/frame/FrameSettings.h"
+#include "passes/recipes/Settings.h"
 #include "scenes/CameraChange.h"
 
 namespace tessera::viewer {
 
 /// What `tessera render` is asked for: a scene and how it is rendered.
-struct RenderRequest {
+struct RenderRequest : recipes::FrameRequest {
     std::string source;        ///< the scene's file or name
     std::optional<int> lights; ///< that were asked of the load
     bool defaultLight = true;  ///< the same
-    recipes::Technique technique = recipes::Technique::Deferred;
-    frame::FrameSettings settings;
     scenes::CameraChange pose; ///< of the camera that the settings choose
 };
 

@@ -36,7 +36,8 @@ void changeMode(State& state) {
 
 void changeExposure(State& state, float stepEV) {
     float& exposureEV = state.active().settings.exposureEV;
-    exposureEV = std::clamp(std::round(exposureEV / stepEV) * stepEV + stepEV, -kMostExposureEV, kMostExposureEV);
+    exposureEV =
+        std::clamp(std::round(exposureEV / stepEV) * stepEV + stepEV, -frame::kMostExposureEV, frame::kMostExposureEV);
 }
 
 constexpr int kNone = 0;

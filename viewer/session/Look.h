@@ -1,32 +1,22 @@
 #pragma once
-#include "passes/recipes/Techniques.h"
-#include "renderer/frame/FrameSettings.h"
+#include <functional>
+#include <map>
+#include <string>
+
+#include "passes/recipes/Settings.h"
 
 namespace tessera::viewer {
 
-inline constexpr float kMostExposureEV = 120.0f; ///< either way: what --exposure takes
-
-/// What was asked for and the technique cannot do, until another one can.
-struct PutAside {
-    std::optional<culling::Method> method;
-    std::optional<int> tilePixels;
-    std::optional<culling::Builder> builder;
-    std::optional<frame::LightingStage> lightOn;
-    std::optional<int> samples;
-    bool operator==(const PutAside&) const = default;
-};
-
 /// How a scene is looked at: the technique and all that a command line can ask of a frame.
-struct Look {
-    recipes::Technique technique = recipes::Technique::Deferred;
-    frame::FrameSettings settings;
-    PutAside aside;
+struct Look : recipes::FrameRequest {
+    /// What was asked for and the technique cannot do, until another one can: texts, by the settings' keys.
+    std::map<std::string, std::string, std::less<>> aside;
     bool operator==(const Look&) const = default;
 };
 
-/// The look as its technique can do it: options that it does not take are put aside and left open, those put aside
-/// that it takes come back, and a view that it cannot show becomes the lit picture. A look that is possible stays as
-/// it is.
+/// The look as its technique can do it: settings that it does not take are put aside and get their defaults, those put
+/// aside that it takes come back, and a view that it cannot show becomes the lit picture. A look that is possible stays
+/// as it is.
 Look possible(Look look);
 
 /// The look with nothing put aside: what was asked for, whether its technique can do it or not.

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "passes/recipes/Settings.h"
 #include "scenes/Error.h"
 #include "validation/AtomicFile.h"
 
@@ -45,17 +46,11 @@ std::optional<std::filesystem::path> configurationFolder() {
 #endif
 }
 
-/// What the file holds, by name. A visitor is called with a name and that member.
+/// What the file holds besides settings, by name. A visitor is called with a name and that member.
 template <typename Known, typename Visitor>
 void visitPreferences(Known& preferences, Visitor&& visit) {
     visit("recent", preferences.recent);
     visit("window", preferences.windowSize);
-    visit("technique", preferences.technique);
-    visit("layout", preferences.layout);
-    visit("culling", preferences.culling);
-    visit("toneMap", preferences.toneMap);
-    visit("tile", preferences.tile);
-    visit("samples", preferences.samples);
     visit("automaticScale", preferences.automaticScale);
     visit("fixedScale", preferences.fixedScale);
     visit("showsPanel", preferences.showsPanel);
@@ -79,6 +74,19 @@ void readInto(const json& entry, std::optional<glm::ivec2>& size) {
     const auto fits = [](int side) { return side >= 200 && side <= 16384; };
     const auto sides = entry.get<std::array<int, 2>>();
     if (fits(sides[0]) && fits(sides[1])) size = glm::ivec2(sides[0], sides[1]);
+}
+
+/// The text of a remembered setting; none for a value that it does not take, as of another version.
+std::optional<std::string> settingText(const recipes::Setting& setting, const json& entry) {
+    if (!entry.is_string() && !entry.is_number()) return std::nullopt;
+    const std::string text = entry.is_string() ? entry.get<std::string>() : entry.dump();
+    try {
+        recipes::FrameRequest request;
+        setting.read(request, text);
+        return text;
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
 }
 
 template <typename T>
@@ -130,6 +138,11 @@ Preferences readPreferences(const std::filesystem::path& file) {
         } catch (const json::exception&) { // of another version: the usual value stays
         }
     });
+    for (const recipes::Setting& setting : recipes::settingTable()) {
+        const auto entry = document.find(setting.key);
+        if (!setting.isRemembered || entry == document.end()) continue;
+        if (auto known = settingText(setting, *entry)) preferences.settings.emplace(setting.key, *std::move(known));
+    }
     if (!(preferences.fixedScale >= kLeastScale && preferences.fixedScale <= 1.0f))
         preferences.fixedScale = Preferences().fixedScale;
     return preferences;
@@ -140,6 +153,7 @@ void writePreferences(const Preferences& preferences, const std::filesystem::pat
     visitPreferences(preferences, [&](const char* name, const auto& value) {
         if (json entry = written(value); !entry.is_null()) document[name] = std::move(entry);
     });
+    for (const auto& [key, text] : preferences.settings) document[key] = text;
     std::error_code error;
     std::filesystem::create_directories(file.parent_path(), error);
     if (error)

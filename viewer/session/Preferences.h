@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,8 +16,7 @@ inline constexpr float kLeastScale = 0.1f; ///< of a picture's side, where the u
 struct Preferences {
     std::vector<std::string> recent; ///< scene files, the latest first
     std::optional<glm::ivec2> windowSize;
-    std::optional<std::string> technique, layout, culling, toneMap;
-    std::optional<int> tile, samples;
+    std::map<std::string, std::string, std::less<>> settings; ///< texts, by the settings' keys
     bool automaticScale = true;
     float fixedScale = 1.0f; ///< otherwise; kLeastScale to 1
     bool showsPanel = true;

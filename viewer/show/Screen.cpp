@@ -22,11 +22,8 @@ constexpr glm::vec4 kBehindPicture{0.05f, 0.05f, 0.055f, 1.0f};
 /// Whether a pixel of b costs about what one of a does.
 bool isOfKind(const Look& a, const Look& b) {
     Look like = a;
-    like.settings.sizePixels = b.settings.sizePixels;
-    like.settings.timeSeconds = b.settings.timeSeconds;
-    like.settings.exposureEV = b.settings.exposureEV;
-    like.settings.toneMap = b.settings.toneMap;
-    like.settings.camera = b.settings.camera;
+    for (const recipes::Setting& setting : recipes::settingTable())
+        if (setting.sameCost) setting.value.copy(like, b);
     return like == b;
 }
 

@@ -1,10 +1,13 @@
+#include <set>
 #include <sstream>
 
+#include "passes/recipes/Settings.h"
 #include "tests/cli/program/Cli.h"
 
 namespace tessera::test {
 namespace {
 
+using Json = nlohmann::json;
 using testing::AllOf;
 using testing::ContainsRegex;
 using testing::HasSubstr;
@@ -66,6 +69,18 @@ TEST_F(Help, versionIsAlwaysOneLineAndVerboseAlwaysAddsWhatOpenGLSays) {
     EXPECT_THAT(verbose.out, AllOf(HasSubstr("tessera "), ContainsRegex("\nvendor +[^ ]"),
                                    ContainsRegex("\nrenderer +[^ ]"), ContainsRegex("\nOpenGL +4\\.[5-9]"),
                                    ContainsRegex("\nGLSL +4"), ContainsRegex("\ncontext +[^ ]")));
+}
+
+TEST_F(Help, theSchemaOfScenesAlwaysHoldsEverySettingAndNoOther) {
+    const Json options = Json::parse(runGood({"scenes", "--schema"}))["definitions"]["options"];
+    std::set<std::string> keys{"defaultLight"};
+    for (const recipes::Setting& setting : recipes::settingTable())
+        if (setting.isWishable) keys.emplace(setting.key);
+    for (const auto& [key, schema] : options["properties"].items()) EXPECT_EQ(keys.erase(key), 1u) << key;
+    EXPECT_EQ(keys, std::set<std::string>());
+    EXPECT_EQ(options["additionalProperties"], false);
+    EXPECT_EQ(options["properties"]["exposureEV"]["maximum"], 120.0);
+    EXPECT_EQ(options["properties"]["layout"]["enum"], Json({"exact", "packed", "slim"}));
 }
 
 TEST_F(Help, scenesAlwaysListsTheSixBuiltinOnes) {

@@ -1,5 +1,6 @@
 #include "apps/FirstLook.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "scenes/Error.h"
@@ -18,12 +19,12 @@ scenes::Scene wishing(const scenes::SceneOptions& options) {
 
 viewer::Preferences remembered() {
     viewer::Preferences preferences;
-    preferences.technique = "forward_plus";
-    preferences.layout = "slim";
-    preferences.toneMap = "agx";
-    preferences.culling = "tile_2.5d";
-    preferences.tile = 32;
-    preferences.samples = 4;
+    preferences.settings["technique"] = "forward_plus";
+    preferences.settings["layout"] = "slim";
+    preferences.settings["toneMap"] = "agx";
+    preferences.settings["culling"] = "tile_2.5d";
+    preferences.settings["tile"] = "32";
+    preferences.settings["samples"] = "4";
     return preferences;
 }
 
@@ -45,9 +46,9 @@ TEST(FirstLook, whatIsRememberedIsAlwaysBegunWithWhereNothingElseIsSaid) {
 
 TEST(FirstLook, whatTheSceneWishesAlwaysGoesBeforeWhatIsRemembered) {
     scenes::SceneOptions wish;
-    wish.technique = "forward";
-    wish.layout = "exact";
-    wish.toneMap = "aces";
+    wish.wishes["technique"] = "forward";
+    wish.wishes["layout"] = "exact";
+    wish.wishes["toneMap"] = "aces";
     const viewer::Look look = firstLook({}, remembered(), wishing(wish), "x.json").look;
     EXPECT_EQ(look.technique, Technique::Forward);
     EXPECT_EQ(look.settings.layout, layoutNamed("exact"));
@@ -59,11 +60,11 @@ TEST(FirstLook, whatTheSceneWishesAlwaysGoesBeforeWhatIsRemembered) {
 
 TEST(FirstLook, whatTheCommandLineSaysAlwaysGoesBeforeAllElse) {
     scenes::SceneOptions wish;
-    wish.technique = "forward";
+    wish.wishes["technique"] = "forward";
     FrameOptions said;
-    said.technique = "deferred";
-    said.toneMap = "aces";
-    said.samples = 1;
+    said.settings["technique"] = "deferred";
+    said.settings["toneMap"] = "aces";
+    said.settings["samples"] = "1";
     const viewer::Look look = firstLook(said, remembered(), wishing(wish), "x.json").look;
     EXPECT_EQ(look.technique, Technique::Deferred);
     EXPECT_EQ(look.settings.toneMap, frame::ToneMap::Aces);
@@ -73,10 +74,10 @@ TEST(FirstLook, whatTheCommandLineSaysAlwaysGoesBeforeAllElse) {
 
 TEST(FirstLook, aRememberedNameThatThereIsNoMoreIsAlwaysAsIfNothingWere) {
     viewer::Preferences preferences;
-    preferences.technique = "raster_of_old";
-    preferences.tile = 7;
-    preferences.samples = 3;
-    preferences.toneMap = "agx";
+    preferences.settings["technique"] = "raster_of_old";
+    preferences.settings["tile"] = "7";
+    preferences.settings["samples"] = "3";
+    preferences.settings["toneMap"] = "agx";
     const viewer::Look look = firstLook({}, preferences, wishing({}), "x.json").look;
     viewer::Look expected = firstLook({}, {}, wishing({}), "x.json").look;
     expected.settings.toneMap = frame::ToneMap::Agx;
@@ -85,10 +86,10 @@ TEST(FirstLook, aRememberedNameThatThereIsNoMoreIsAlwaysAsIfNothingWere) {
 
 TEST(FirstLook, whatNamesThingsOfTheFirstSceneIsNeverAskedOfAnother) {
     FrameOptions said;
-    said.camera = "side";
-    said.solo = 3;
+    said.settings["camera"] = "side";
+    said.settings["solo"] = "3";
     said.pose.fovYDegrees = 30.0;
-    said.technique = "forward";
+    said.settings["technique"] = "forward";
     EXPECT_THROW(firstLook(said, {}, wishing({}), "x.json"), InputError);
     const viewer::FirstLook first = firstLook(forAnyScene(said), {}, wishing({}), "x.json");
     EXPECT_EQ(first.look.technique, Technique::Forward);
@@ -100,9 +101,9 @@ TEST(FirstLook, whatNamesThingsOfTheFirstSceneIsNeverAskedOfAnother) {
 TEST(FirstLook, theMostExposureOfTheWindowIsAlwaysExactlyThatOfTheCommandLine) {
     FrameOptions options;
     for (const double sign : {-1.0, 1.0}) {
-        options.exposureEV = sign * double(viewer::kMostExposureEV);
+        options.settings["exposureEV"] = fmt::format("{}", sign * double(frame::kMostExposureEV));
         EXPECT_NO_THROW(resolveWithoutScene(options));
-        options.exposureEV = sign * (double(viewer::kMostExposureEV) + 0.1);
+        options.settings["exposureEV"] = fmt::format("{}", sign * (double(frame::kMostExposureEV) + 0.1));
         EXPECT_THROW(resolveWithoutScene(options), InputError);
     }
 }

@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "passes/recipes/Techniques.h"
-#include "renderer/frame/FrameSettings.h"
+#include "passes/recipes/Settings.h"
 #include "renderer/frame/GBufferBounds.h"
 
 namespace tessera {
@@ -86,6 +85,14 @@ std::string namesIn(const Table& table) {
     std::string names;
     for (const auto& row : table) names += (names.empty() ? "" : ", ") + code(row.name);
     return names;
+}
+
+TEST(Documentation, everySettingAlwaysHasARow) {
+    const std::string text = test::textOf(test::kRepository / "docs" / "command-line.md");
+    for (const recipes::Setting& setting : recipes::settingTable())
+        EXPECT_TRUE(text.find(fmt::format("| `{}` |", setting.flag)) != text.npos ||
+                    text.find(fmt::format("| `{} ", setting.flag)) != text.npos)
+            << "docs/command-line.md should have a row of " << setting.flag;
 }
 
 TEST(Documentation, theNamesThatOptionsTakeAreExactlyThoseOfTheProgram) {

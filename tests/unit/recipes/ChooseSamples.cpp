@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "passes/recipes/Renderer.h"
+#include "passes/recipes/Settings.h"
 #include "scenes/Error.h"
 #include "scenes/Load.h"
 
@@ -35,19 +36,25 @@ gpu::Capabilities giving(std::vector<int> samples) {
 
 TEST(ChooseSamples, aTechniqueWithAGBufferIsAlwaysRefusedWithTheNamesOfThoseThatCan) {
     for (const TechniqueInfo& info : techniqueTable()) {
-        EXPECT_NO_THROW(requireSamples(info.technique, 1));
-        EXPECT_EQ(faultOf([&] { requireSamples(info.technique, 4); }).empty(), info.multisamples()) << info.name;
+        EXPECT_NO_THROW(requireTaken({info.technique, asking(1)}));
+        EXPECT_EQ(faultOf([&] {
+                      requireTaken({info.technique, asking(4)});
+                  }).empty(),
+                  info.multisamples())
+            << info.name;
         EXPECT_FALSE(info.multisamples() && info.usesGBuffer()) << info.name;
     }
-    EXPECT_THAT(faultOf([] { requireSamples(Technique::Deferred, 2); }),
-                HasSubstr("technique deferred does not take --samples 2; forward, forward_prepass"));
+    EXPECT_THAT(faultOf([] {
+                    requireTaken({Technique::Deferred, asking(2)});
+                }),
+                HasSubstr("technique deferred does not take samples 2, since it has a G-buffer; forward, "));
 }
 
 TEST(ChooseSamples, numbersThatNobodyMayAskForAreAlwaysRefused) {
     const scenes::Scene room = scenes::loadScene("room");
     for (const int samples : {-1, 0, 3, 8}) {
         EXPECT_EQ(faultOf([&] { planFrame(room, Technique::Forward, asking(samples)); }),
-                  "--samples " + std::to_string(samples) + ": a pixel can have 1, 2, 4 samples");
+                  "samples " + std::to_string(samples) + ": a pixel can have 1, 2, 4 samples");
     }
 }
 
@@ -60,7 +67,7 @@ TEST(ChooseSamples, aDriverAlwaysGivesItsNextLargerNumberAndThePlanSaysBoth) {
     EXPECT_EQ(faultOf([] {
                   settingsOn(giving({1, 2}), asking(4));
               }),
-              "--samples 4: this driver's 32-bit float render targets have 1 or 2 samples; ask for fewer");
+              "samples 4: this driver's 32-bit float render targets have 1 or 2 samples; ask for fewer");
 
     const scenes::Scene room = scenes::loadScene("room");
     const graph::Plan plan = planFrame(room, Technique::ForwardPrepass, settingsOn(fours, asking(2)));

@@ -73,7 +73,7 @@ TEST(PlanFrame, everyRoundOverTheLightsIsAPassThatWaitsForTheOneBefore) {
 
 TEST(PlanFrame, twoViewsOfAFrameShareTheMemoryOfWhatIsNeededNoMore) {
     const scenes::Scene scene = scenes::loadScene("hall");
-    const std::vector<View> views(2);
+    const std::vector<FrameRequest> views(2);
     const graph::Plan one = planViews(scene, std::span(views).first(1)), two = planViews(scene, views);
     EXPECT_LT(two.bytes, two.bytesWithoutAliasing);
     EXPECT_EQ(one.bytes, one.bytesWithoutAliasing) << "of one view all lives at once";

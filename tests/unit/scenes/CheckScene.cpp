@@ -167,10 +167,10 @@ TEST(CheckScene, eachBrokenRuleIsAlwaysReported) {
         {"alphaY", [](Scene& s) { s.materials[0].alphaY = 1.1e6f; }},
         {"the index of refraction", [](Scene& s) { s.materials[0].ior = 1.1e6f; }},
         {"background", [](Scene& s) { s.background.x = kNaN; }},
-        {"exposure", [](Scene& s) { s.options.exposureEV = kNaN; }},
-        {"size",
+        {"the option exposureEV is not finite", [](Scene& s) { s.options.wishes["exposureEV"] = double(kNaN); }},
+        {"the option size is not finite",
          [](Scene& s) {
-             s.options.sizePixels = {0, 5};
+             s.options.wishes["size"] = std::vector<double>{double(kNaN), 5.0};
          }},
     };
     for (const auto& [text, spoil] : cases) EXPECT_THAT(verdict(spoil), HasSubstr(text));

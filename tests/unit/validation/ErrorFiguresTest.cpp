@@ -214,7 +214,7 @@ TEST(ErrorFigures, picturesAsTheyAreShownAlwaysDecideWhatADisplayTells) {
 TEST(ErrorFigures, picturesOfTwoSizesAreAlwaysRefusedByName) {
     EXPECT_EQ(
         errorOf<InputError>([] { requireSameSize(greyPicture(2, 1, 1), "forward", greyPicture(1, 2, 1), "x.exr"); }),
-        "forward is 2x1 but x.exr is 1x2; pictures that are compared must be of one size (--size)");
+        "forward is 2x1 but x.exr is 1x2; pictures that are compared must be of one size");
 }
 
 } // namespace

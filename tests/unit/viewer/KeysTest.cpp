@@ -40,9 +40,9 @@ TEST(Keys, anExposureBeyondTheSliderIsAlwaysSteppedByHalfAStop) {
     EXPECT_EQ(exposureEV, -15.5f);
     ASSERT_TRUE(pressKey(state, ']', 0));
     EXPECT_EQ(exposureEV, -15.0f);
-    exposureEV = kMostExposureEV;
+    exposureEV = frame::kMostExposureEV;
     ASSERT_TRUE(pressKey(state, ']', 0));
-    EXPECT_EQ(exposureEV, kMostExposureEV);
+    EXPECT_EQ(exposureEV, frame::kMostExposureEV);
 }
 
 } // namespace

@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "passes/recipes/ChooseCulling.h"
-#include "passes/recipes/ChooseView.h"
-#include "viewer/session/Look.h"
+#include "tests/support/SettingTexts.h"
+#include "viewer/session/State.h"
 
 namespace tessera::viewer {
 namespace {
@@ -22,8 +21,7 @@ TEST(Look, whatIsLeftOfALookIsAlwaysWhatItsTechniqueTakes) {
                 look.settings.samples = 4;
                 look.settings.view = view.view;
                 const Look result = possible(look);
-                EXPECT_NO_THROW(recipes::requireCulling(result.technique, result.settings));
-                EXPECT_NO_THROW(recipes::requireView(result.technique, result.settings.view));
+                EXPECT_NO_THROW(recipes::requireTaken(result));
                 EXPECT_TRUE(result.settings.samples == 1 || to.multisamples());
                 EXPECT_EQ(possible(result), result);
             }
@@ -91,6 +89,33 @@ TEST(Look, whatTheUserChoseAlwaysOutlivesWhatTheNextSceneWishes) {
     EXPECT_EQ(result.technique, Technique::ForwardPlus);
     EXPECT_EQ(result.settings.exposureEV, 1.5f);
     EXPECT_EQ(result.settings.toneMap, frame::ToneMap::Aces);
+}
+
+TEST(Look, everySettingThatNamesNothingOfAnotherSceneAlwaysOutlivesIt) {
+    const scenes::Scene scene = tessera::test::sceneOfTwoCameras();
+    for (const recipes::Setting& setting : recipes::settingTable()) {
+        Look before, now;
+        before.technique = now.technique = Technique::ClusteredDeferred;
+        setting.value.copy(now, tessera::test::changedIn(setting, scene));
+        const Look result = asked(rebased(now, before, before));
+        EXPECT_EQ(result, setting.isOfScene ? before : asked(possible(now))) << setting.name;
+    }
+}
+
+TEST(Look, theSidesOfAComparisonAlwaysShareWhatTheTableSaysAndNothingElse) {
+    const scenes::Scene scene = tessera::test::sceneOfTwoCameras();
+    for (const recipes::Setting& setting : recipes::settingTable()) {
+        State state;
+        state.compare = Compare::Split;
+        state.activeSide = 1;
+        setting.value.copy(state.looks[1], tessera::test::changedIn(setting, scene));
+        state.shareSettings();
+        EXPECT_FALSE(setting.isDefault(state.looks[1])) << setting.name;
+        EXPECT_EQ(setting.isDefault(state.looks[0]), !setting.isShared) << setting.name;
+    }
+    const auto isShared = [](const char* key) { return recipes::settingOf(key).isShared; };
+    for (const char* key : {"camera", "time", "solo", "exposureEV", "toneMap"}) EXPECT_TRUE(isShared(key)) << key;
+    for (const char* key : {"technique", "layout", "culling", "view", "filter"}) EXPECT_FALSE(isShared(key)) << key;
 }
 
 TEST(Look, theCameraIsAlwaysTheNextScenes) {

@@ -1,4 +1,5 @@
 // The panels, laid out without a window.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
 
@@ -89,10 +90,38 @@ TEST_F(Panels, whatIsOnlyLookedAtNeverChanges) {
         show([&] { materialsPanel(state); });
     }
     show([&] { viewPanel(state); });
+    show([&] { framePanel(state); });
     EXPECT_TRUE(state.open->scene().lights == lights);
     EXPECT_TRUE(state.open->scene().materials == materials);
     EXPECT_FALSE(state.open->isEdited());
     EXPECT_EQ(state.looks[0], look);
+}
+
+TEST_F(Panels, everySettingOfAPanelAlwaysHasARowWhereTheTechniqueHeedsIt) {
+    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+        State state;
+        state.looks[0].technique = info.technique;
+        std::array<std::string, 2> texts; // of the panels, as the window could copy them
+        show([&] {
+            const auto panelText = [](const auto& panel) {
+                ImGui::LogToClipboard();
+                panel();
+                ImGui::LogFinish();
+                return std::string("\n") + ImGui::GetClipboardText();
+            };
+            texts = {panelText([&] { framePanel(state); }), panelText([&] { viewPanel(state); })};
+        });
+        for (const recipes::Setting& setting : recipes::settingTable()) {
+            const bool isShown[] = {setting.panel == recipes::SettingPanel::Frame,
+                                    setting.panel == recipes::SettingPanel::View};
+            for (const int panel : {0, 1}) {
+                const bool hasRow =
+                    texts[std::size_t(panel)].find(fmt::format("\n{}", setting.panelLabel())) != std::string::npos;
+                EXPECT_EQ(hasRow, isShown[panel] && setting.isHeededBy(info.technique))
+                    << setting.name << " with " << info.name << " in" << texts[std::size_t(panel)];
+            }
+        }
+    }
 }
 
 TEST_F(Panels, aPlanIsNeverAskedForWhileThePanelsAreHidden) {

@@ -13,12 +13,12 @@ Preferences everything() {
     Preferences preferences;
     preferences.recent = {"/a/b.glb", "/c \"d\".json"};
     preferences.windowSize = glm::ivec2(900, 700);
-    preferences.technique = "forward_plus";
-    preferences.layout = "packed";
-    preferences.culling = "zbin";
-    preferences.toneMap = "agx";
-    preferences.tile = 32;
-    preferences.samples = 4;
+    preferences.settings["technique"] = "forward_plus";
+    preferences.settings["layout"] = "packed";
+    preferences.settings["culling"] = "zbin";
+    preferences.settings["toneMap"] = "agx";
+    preferences.settings["tile"] = "32";
+    preferences.settings["samples"] = "4";
     preferences.automaticScale = false;
     preferences.fixedScale = 0.25f;
     preferences.showsPanel = false;
@@ -45,7 +45,7 @@ TEST(Preferences, anEntryOfTheWrongKindIsAlwaysLeftOutAlone) {
     const std::filesystem::path file = folder.path() / "viewer.json";
     std::ofstream(file) << R"({"technique": 7, "layout": "slim", "window": [1, 1], "recent": "x", "tile": null})";
     Preferences expected;
-    expected.layout = "slim";
+    expected.settings["layout"] = "slim";
     EXPECT_EQ(readPreferences(file), expected);
 }
 

@@ -20,18 +20,19 @@ State showing(const Look& look) {
 Preferences remembered() {
     Preferences preferences;
     preferences.windowSize = glm::ivec2(1000, 800);
-    preferences.technique = "forward_plus";
-    preferences.layout = "slim";
-    preferences.culling = "tile_2.5d";
-    preferences.toneMap = "agx";
-    preferences.tile = 32;
-    preferences.samples = 4;
+    preferences.settings["technique"] = "forward_plus";
+    preferences.settings["layout"] = "slim";
+    preferences.settings["culling"] = "tile_2.5d";
+    preferences.settings["toneMap"] = "agx";
+    preferences.settings["tile"] = "32";
+    preferences.settings["samples"] = "4";
     return preferences;
 }
 
-/// A look that differs from the defaults in all that is remembered.
+/// A look that differs from the defaults in all that is remembered, and in the exposure, which is not.
 Look ofItsOwn() {
     Look look;
+    look.settings.exposureEV = 1.5f;
     look.technique = Technique::ForwardPlus;
     look.settings.toneMap = frame::ToneMap::Aces;
     look.settings.layout = frame::layoutTable().back().layout;
@@ -57,33 +58,34 @@ TEST(Remember, whatWasChangedIsAlwaysRememberedByName) {
     for (const Preferences& before : {Preferences(), remembered()}) {
         Preferences preferences = before;
         remember(preferences, showing(ofItsOwn()), {}, {640, 480});
-        EXPECT_EQ(preferences.technique, "forward_plus");
-        EXPECT_EQ(preferences.toneMap, "aces");
-        EXPECT_EQ(preferences.layout, frame::layoutTable().back().name);
-        EXPECT_EQ(preferences.culling, "tile_minmax");
-        EXPECT_EQ(preferences.tile, 64);
-        EXPECT_EQ(preferences.samples, 4);
+        EXPECT_EQ(preferences.settings.size(), 6u);
+        EXPECT_EQ(preferences.settings.at("technique"), "forward_plus");
+        EXPECT_EQ(preferences.settings.at("toneMap"), "aces");
+        EXPECT_EQ(preferences.settings.at("layout"), frame::layoutTable().back().name);
+        EXPECT_EQ(preferences.settings.at("culling"), "tile_minmax");
+        EXPECT_EQ(preferences.settings.at("tile"), "64");
+        EXPECT_EQ(preferences.settings.at("samples"), "4");
         EXPECT_EQ(preferences.windowSize, glm::ivec2(640, 480));
     }
 }
 
 TEST(Remember, whatBeganAsRememberedAlwaysFollowsTheLatestChoice) {
     Preferences preferences;
-    preferences.technique = "forward";
+    preferences.settings["technique"] = "forward";
     Look begun;
     begun.technique = Technique::Forward;
     Look now = begun;
     now.technique = Technique::Deferred;
     remember(preferences, showing(now), begun, kWindow);
-    EXPECT_EQ(preferences.technique, "deferred");
+    EXPECT_EQ(preferences.settings.at("technique"), "deferred");
     Look open = ofItsOwn();
     open.settings.culling = {};
     open.settings.samples = 1;
     preferences = remembered();
     remember(preferences, showing(open), ofItsOwn(), kWindow);
-    EXPECT_FALSE(preferences.culling) << "it was left to the technique";
-    EXPECT_FALSE(preferences.tile);
-    EXPECT_EQ(preferences.samples, 1);
+    EXPECT_FALSE(preferences.settings.contains("culling")) << "it was left to the technique";
+    EXPECT_FALSE(preferences.settings.contains("tile"));
+    EXPECT_EQ(preferences.settings.at("samples"), "1");
 }
 
 TEST(Remember, whatWasSaidOnTheCommandLineNeverBecomesWhatIsRemembered) {
@@ -95,7 +97,7 @@ TEST(Remember, whatWasSaidOnTheCommandLineNeverBecomesWhatIsRemembered) {
     EXPECT_EQ(preferences, remembered());
     remember(preferences, showing(now), said, kWindow);
     Preferences expected = remembered();
-    expected.toneMap = "none";
+    expected.settings["toneMap"] = "none";
     EXPECT_EQ(preferences, expected);
 }
 
@@ -107,7 +109,7 @@ TEST(Remember, whatATechniqueCannotDoNeverLeavesWhatIsRemembered) {
         now.technique = info.technique;
         remember(preferences, showing(possible(now)), begun, kWindow);
         Preferences expected = remembered();
-        if (info.technique != begun.technique) expected.technique = info.name;
+        if (info.technique != begun.technique) expected.settings["technique"] = info.name;
         EXPECT_EQ(preferences, expected) << info.name;
     }
 }

@@ -7,6 +7,7 @@
 #include "apps/FrameOptionText.h"
 #include "apps/Options.h"
 #include "scenes/Error.h"
+#include "tests/support/SettingTexts.h"
 #include "tests/support/TempFolder.h"
 
 namespace tessera::viewer {
@@ -89,28 +90,20 @@ TEST(RenderCommand, whatTheProgramDoesByItselfIsNeverSaid) {
     EXPECT_EQ(renderCommand(request, scenes::loadScene("room"), "picture.exr"), "tessera render room -o picture.exr");
 }
 
-TEST(RenderCommand, everyNameOfEveryTableIsAlwaysReadAsItself) {
+TEST(RenderCommand, everyValueOfEverySettingIsAlwaysReadAsItselfAndSaidByItsOwnOptionAlone) {
     const tessera::test::TempFolder folder;
     const std::string file = sceneFile(folder);
-    RenderRequest request = requestOf(file);
-    for (const recipes::TechniqueInfo& row : recipes::techniqueTable())
-        request.technique = row.technique, expectSame(request);
-    for (const frame::LayoutInfo& row : frame::layoutTable()) request.settings.layout = row.layout, expectSame(request);
-    for (const frame::ViewInfo& row : frame::viewTable()) request.settings.view = row.view, expectSame(request);
-    for (const frame::ToneMapInfo& row : frame::toneMapTable())
-        request.settings.toneMap = row.toneMap, expectSame(request);
-    for (const frame::TextureFilterInfo& row : frame::textureFilterTable())
-        request.settings.filter = row.filter, expectSame(request);
-    for (const frame::LightingSpaceInfo& row : frame::lightingSpaceTable())
-        request.settings.space = row.space, expectSame(request);
-    for (const frame::LightingStageInfo& row : frame::lightingStageTable())
-        request.settings.lightOn = row.stage, expectSame(request);
-    for (const culling::MethodInfo& row : culling::methodTable())
-        request.settings.culling.method = row.method, expectSame(request);
-    for (const culling::BuilderInfo& row : culling::builderTable())
-        request.settings.culling.builder = row.builder, expectSame(request);
-    for (const int pixels : culling::kTileSides) request.settings.culling.tilePixels = pixels, expectSame(request);
-    for (const int samples : frame::kSampleCounts) request.settings.samples = samples, expectSame(request);
+    const scenes::Scene scene = scenes::loadScene(file);
+    for (const recipes::Setting& setting : recipes::settingTable()) {
+        for (const std::string& text : tessera::test::textsOf(setting)) {
+            RenderRequest request = requestOf(file);
+            setting.read(request, text, {{}, &scene});
+            expectSame(request);
+            const std::string line = renderCommand(request, scene, "a.exr"), flag = fmt::format(" {} ", setting.flag);
+            EXPECT_EQ(line.find(flag) != line.npos, !setting.isDefault(request)) << line;
+            EXPECT_EQ(line.find(" --") == line.npos, setting.isDefault(request)) << line;
+        }
+    }
 }
 
 /// Every setting is not what it is by itself.
@@ -118,24 +111,11 @@ RenderRequest everythingSaid(const std::string& file) {
     RenderRequest request = requestOf(file);
     request.lights = 1;
     request.defaultLight = false;
-    request.technique = recipes::Technique::ForwardPlus;
-    frame::FrameSettings& settings = request.settings;
-    settings.sizePixels = {641, 359};
-    settings.samples = 4;
-    settings.camera = 1;
-    settings.timeSeconds = 1.0 / 3.0;
-    settings.layout = frame::layoutTable()[1].layout;
-    settings.view = frame::View::Lights;
-    settings.filter = frame::TextureFilter::Exact;
-    settings.space = frame::LightingSpace::View;
-    settings.prune = false;
-    settings.specular = false;
-    settings.rangeTolerance = 1e-7;
-    settings.soloLight = 0;
-    settings.culling = {culling::Method::Zbin, 32, culling::Builder::Fragment, {}};
-    settings.lightOn = frame::LightingStage::Compute;
-    settings.exposureEV = -0.1f;
-    settings.toneMap = frame::ToneMap::Agx;
+    for (const recipes::Setting& setting : recipes::settingTable())
+        setting.value.copy(request, tessera::test::changedIn(setting, tessera::test::sceneOfTwoCameras()));
+    request.settings.timeSeconds = 1.0 / 3.0;
+    request.settings.rangeTolerance = 1e-7;
+    request.settings.exposureEV = -0.1f;
     request.pose.eyeWS = glm::dvec3(-1.0 / 3.0, 1e-17, 123456.789);
     request.pose.targetWS = glm::dvec3(0.1, 0.2, 0.3);
     request.pose.upWS = glm::dvec3(-1.0, 1.0, 1.0 / 7.0);
@@ -207,6 +187,12 @@ TEST(FrameOptionText, whatWasGivenIsAlwaysTypedTheSameWayAgain) {
     EXPECT_EQ(app::frameOptionText(options), app::frameOptionText(again));
     EXPECT_TRUE(app::resolve(options).settings == app::resolve(again).settings);
     EXPECT_TRUE(options.pose == again.pose);
+}
+
+TEST(FrameOptionText, theSameValueIsAlwaysTheSameTextHoweverItWasTyped) {
+    app::FrameOptions options;
+    options.settings = {{"exposureEV", "1.50"}, {"view", "3"}, {"camera", "a b"}, {"tile", "8"}};
+    EXPECT_EQ(app::frameOptionText(options), " --tile 8 --camera 'a b' --view normal --exposure 1.5");
 }
 
 TEST(CameraOptions, whatIsNoPointIsAlwaysNamedWithItsOption) {

@@ -177,7 +177,7 @@ TEST_F(SceneSwitchTest, whatWasChosenIsAlwaysRememberedThoughTheNextSceneWishesT
     };
     ASSERT_TRUE(open("spheres"));
     switch_.remember({800, 600});
-    EXPECT_EQ(readPreferences(*options_.preferencesFile).technique, "forward");
+    EXPECT_EQ(readPreferences(*options_.preferencesFile).settings.at("technique"), "forward");
 }
 
 TEST_F(SceneSwitchTest, aResultThatIsDiscardedNeverComesBack) {

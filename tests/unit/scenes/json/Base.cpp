@@ -38,9 +38,9 @@ TEST(SceneJsonBase, lightsCamerasBackgroundAndOptionsAlwaysReplaceThoseOfTheBase
     ASSERT_EQ(scene.cameras.size(), 1u);
     EXPECT_EQ(scene.cameras[0].name, "a");
     EXPECT_EQ(scene.background, glm::vec3(1.0f, 2.0f, 3.0f));
-    EXPECT_EQ(scene.options.layout, "packed");
+    EXPECT_EQ(scene.options.wishes.at("layout"), Wish("packed"));
     EXPECT_EQ(scene.options.defaultLight, false);
-    EXPECT_FALSE(scene.options.technique) << "of the base";
+    EXPECT_FALSE(scene.options.wishes.contains("technique")) << "of the base";
 }
 
 TEST(SceneJsonBase, aMaterialThatReplacesAlwaysTakesThePlaceOfTheBases) {

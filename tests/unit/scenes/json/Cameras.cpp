@@ -1,5 +1,7 @@
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "tests/unit/scenes/json/SceneFiles.h"
 
 namespace tessera::scenes {
@@ -96,28 +98,28 @@ TEST(SceneJsonOptions, optionsAndBackgroundAreAlwaysKept) {
     const Scene scene = folder.import(R"({"tessera": 1,
         "cameras": [{"name": "front", "position": [0, 0, 1], "target": [0, 0, 0]}],
         "environment": {"background": [0.5, 1, 2]},
-        "options": {"technique": "deferred", "layout": "packed", "camera": "front", "toneMap": "none",
-                    "exposureEV": -1.5, "size": [640, 361]}})");
+        "options": {"technique": "deferred", "camera": "front", "prune": false, "exposureEV": -1.5,
+                    "size": [640, 361]}})");
     EXPECT_EQ(scene.background, glm::vec3(0.5f, 1, 2));
-    EXPECT_EQ(scene.options.technique, "deferred");
-    EXPECT_EQ(scene.options.layout, "packed");
     EXPECT_EQ(scene.options.camera, "front");
-    EXPECT_EQ(scene.options.toneMap, "none");
-    EXPECT_EQ(scene.options.exposureEV, -1.5f);
-    EXPECT_EQ(scene.options.sizePixels, glm::ivec2(640, 361));
-    const Scene plain = folder.import(R"({"tessera": 1})");
-    EXPECT_FALSE(plain.options.technique || plain.options.layout || plain.options.camera || plain.options.toneMap ||
-                 plain.options.exposureEV || plain.options.sizePixels);
+    const std::map<std::string, Wish, std::less<>> wishes{
+        {"technique", "deferred"}, {"prune", false}, {"exposureEV", -1.5}, {"size", std::vector<double>{640, 361}}};
+    EXPECT_EQ(scene.options.wishes, wishes);
+    EXPECT_EQ(folder.import(R"({"tessera": 1})").options, SceneOptions());
 }
 
 TEST(SceneJsonOptions, wrongOptionsAreAlwaysRefused) {
     const SceneFolder folder;
-    EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "options": {"size": [0, 1]}})"),
-              "/options/size/0: is 0; at least 1 is needed");
-    EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "options": {"size": [1.5, 1]}})"),
-              "/options/size/0: is 1.5; a whole number is needed");
-    EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "options": {"exposure": 1}})"),
-              "/options: an options object has no key 'exposure'; did you mean 'exposureEV'?");
+    EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "options": {"size": [0, "1"]}})"),
+              "/options/size/1: is text; a number is needed");
+    EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "options": {"layout": null}})"),
+              "/options/layout: is no setting's value; give a name, a number, true or false, or an array of numbers");
+    EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "options": {"layout": ""}})"), "/options/layout: is empty; give a name");
+    EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "options": {"defaultLight": 1}})"),
+              "/options/defaultLight: is a number; true or false is needed");
+    const auto many = test::listOf(257, [](int i) { return fmt::format("\"k{}\": 1", i); });
+    EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "options": {)" + many + "}}"),
+              "/options: has 257 members; at most 256 are allowed");
     EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "options": {"camera": "back"}})"),
               "/options/camera: there is no camera 'back'; there are none");
     EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "environment": {"map": "sky.hdr"}})"),

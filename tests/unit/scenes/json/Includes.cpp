@@ -117,7 +117,7 @@ TEST(SceneJsonInclude, backgroundAndOptionsOfAnIncludeNeverCount) {
     const SceneFolder folder;
     const Scene scene = folder.import(including(R"({"file": "parts/lamps.json"})"));
     EXPECT_EQ(scene.background, glm::vec3(0));
-    EXPECT_FALSE(scene.options.technique);
+    EXPECT_TRUE(scene.options.wishes.empty());
 }
 
 TEST(SceneJsonInclude, fileNamesAreAlwaysRelativeToTheirOwnDocument) {

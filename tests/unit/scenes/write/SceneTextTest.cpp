@@ -48,9 +48,10 @@ void edit(Scene& scene) {
     plan.farMetres = 100.0;
     scene.cameras.push_back(plan); // of the same name
     scene.background = edits.color();
-    scene.options.exposureEV = 0.1f;
-    scene.options.toneMap = "agx";
-    scene.options.sizePixels = glm::ivec2(640, 360);
+    scene.options.wishes["exposureEV"] = 0.1;
+    scene.options.wishes["toneMap"] = "agx";
+    scene.options.wishes["prune"] = false;
+    scene.options.wishes["size"] = std::vector<double>{640, 360};
     scene.name = "edited";
 }
 

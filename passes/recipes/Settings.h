@@ -1,0 +1,123 @@
+#pragma once
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "passes/recipes/Techniques.h"
+#include "renderer/frame/FrameSettings.h"
+#include "scenes/Scene.h"
+
+/// Settings: all that a user can ask of a frame, a row each. The command line with its help and messages, the options
+/// of scene files and their schema, the commands that are printed and copied, and what the viewer shows, shares,
+/// carries over and remembers follow from the rows (docs/add-a-setting.md).
+namespace tessera::recipes {
+
+/// A view of a scene as it is asked for: a technique, and what is asked of its pictures.
+struct FrameRequest {
+    Technique technique = Technique::Deferred;
+    frame::FrameSettings settings;
+    bool operator==(const FrameRequest&) const = default;
+};
+
+/// One of some names, or of some whole numbers.
+struct ChoiceKind {
+    struct Entry {
+        std::string name;         ///< as it is written
+        std::string label;        ///< as the viewer shows it
+        std::string_view meaning; ///< a tip of the viewer
+    };
+    std::vector<Entry> entries;
+    bool ofNumbers = false;
+};
+struct NumberKind {
+    double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
+    bool isWhole = false;
+    float sliderLeast = 0.0f, sliderMost = 0.0f; ///< of the viewer's slider; equal ones: all that is taken
+    const char* format = "%.3f";                 ///< of the slider, for printf
+};
+struct SwitchKind {}; ///< on or off
+struct SizeKind {};   ///< of a picture: 1280x720
+struct CameraKind {}; ///< of the scene, by name or counted from 0
+using SettingKind = std::variant<ChoiceKind, NumberKind, SwitchKind, SizeKind, CameraKind>;
+
+/// Where a text comes from.
+struct TextSource {
+    std::string_view called{};            ///< the setting, by whom wrote the text: "--exposure"; empty: by its name
+    const scenes::Scene* scene = nullptr; ///< whose things a text may name; null: they are not looked up yet
+};
+
+/// A setting's value in a request, whatever its type. Texts are those of the command line: what text() gives, read()
+/// takes for the same value, to the last bit.
+struct SettingValue {
+    SettingKind kind;
+    std::string_view open{}; ///< the text that leaves it open; empty: it is never open
+    std::function<std::string(const FrameRequest& request, const scenes::Scene* scene)> text;
+    std::function<void(FrameRequest& request, const std::string& text, const TextSource& source)> read;
+    std::function<bool(const FrameRequest& a, const FrameRequest& b)> equal;
+    std::function<void(FrameRequest& to, const FrameRequest& from)> copy;
+};
+
+enum class SettingPanel : std::uint8_t { None, Frame, View };
+
+/// A row of the table.
+struct Setting {
+    std::string_view name{};          ///< of messages: "range tolerance"
+    std::string_view flag{};          ///< of the command line: "--range-tolerance"
+    std::string_view key{};           ///< of scene files and of what the viewer remembers: "rangeTolerance"
+    std::string_view type{};          ///< behind the flag in --help: "METRES"
+    std::string help{};               ///< its line in --help, without the default
+    std::string_view byItself{};      ///< the default in words, where its text says too little
+    std::string_view group = "Frame"; ///< in --help
+
+    SettingPanel panel = SettingPanel::Frame; ///< of the viewer that shows it; None: it has a widget elsewhere, or none
+    std::string_view label{};                 ///< there; empty: the name
+
+    bool (*heeds)(Technique technique) = nullptr; ///< whether it changes anything of that technique's frames; null: all
+    /// Why users may not ask it of the others: "it has no light lists"; empty: they may, in vain.
+    std::string_view refusal{};
+    bool (*takes)(const FrameRequest& request) = nullptr; ///< whether the technique can draw it; null: always
+
+    bool samePicture = false;  ///< only who makes the picture, and how fast: comparisons drop what a technique refuses
+    bool sameCost = false;     ///< a pixel costs about the same whatever it is
+    bool isOfScene = false;    ///< names things of one scene
+    bool isWishable = true;    ///< scene files may ask for it
+    bool isShared = false;     ///< by the two sides of the viewer's comparisons
+    bool isRemembered = false; ///< by the viewer from one run to the next
+    bool comesBack = true;     ///< in the viewer, with a technique that takes it, after one that did not
+
+    SettingValue value;
+
+    std::string text(const FrameRequest& request, const scenes::Scene* scene = nullptr) const {
+        return value.text(request, scene);
+    }
+    /// Throws InputError that names the setting and what it takes.
+    void read(FrameRequest& request, const std::string& text, const TextSource& source = {}) const;
+    std::string panelLabel() const;
+    bool isDefault(const FrameRequest& request) const { return value.equal(request, FrameRequest()); }
+    void reset(FrameRequest& request) const { value.copy(request, FrameRequest()); }
+    bool isHeededBy(Technique technique) const { return heeds == nullptr || heeds(technique); }
+    /// Whether the request's technique takes what the request asks of this setting.
+    bool isTaken(const FrameRequest& request) const;
+};
+
+/// In the order of --help.
+std::span<const Setting> settingTable();
+/// The row of that key, which must be there.
+const Setting& settingOf(std::string_view key);
+
+/// Throws InputError for the first setting that the request's technique does not take, with those that do.
+void requireTaken(const FrameRequest& request);
+/// The same for what it cannot draw; what it does not heed changes nothing.
+void requireDrawable(const FrameRequest& request);
+
+/// What the scene itself asks for, where `isSaid` does not say that the user asked for something else. Throws
+/// InputError "FILE:/options/KEY: what"; `file` is what the scene was read from.
+void takeWishes(
+    const scenes::Scene& scene, const std::string& file, FrameRequest& request,
+    const std::function<bool(const Setting& setting)>& isSaid = [](const Setting&) { return false; });
+
+} // namespace tessera::recipes

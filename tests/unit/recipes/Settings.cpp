@@ -1,0 +1,236 @@
+#include "passes/recipes/Settings.h"
+
+#include <set>
+
+#include <gmock/gmock.h>
+
+#include "scenes/Error.h"
+#include "scenes/Fingerprint.h"
+#include "scenes/Load.h"
+#include "scenes/write/SceneText.h"
+#include "tests/support/SettingTexts.h"
+#include "tests/support/TempFolder.h"
+
+namespace tessera::recipes {
+namespace {
+
+using test::changedIn;
+using test::sceneOfTwoCameras;
+using test::textsOf;
+using testing::HasSubstr;
+
+std::string refusal(const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+/// In which members two requests differ: first those that users set, then those that they do not. A struct with a new
+/// member does not compile here until the member is among them.
+struct Differences {
+    std::vector<bool> ofUsers, ofOthers;
+};
+Differences differences(const FrameRequest& a, const FrameRequest& b) {
+    const auto members = [](const FrameRequest& request) {
+        const auto& [technique, settings] = request;
+        const auto& [sizePixels, samples, samplesGiven, camera, timeSeconds, eyeOffsetWS, layout, view, filter, space,
+                     prune, specular, rangeTolerance, soloLight, culling, lightOn, softwareBackend, display, exposureEV,
+                     toneMap] = settings;
+        const auto& [method, tilePixels, builder, lanes] = culling;
+        return std::pair(std::tuple(technique, sizePixels, samples, camera, timeSeconds, layout, view, filter, space,
+                                    prune, specular, rangeTolerance, soloLight, method, tilePixels, builder, lightOn,
+                                    exposureEV, toneMap),
+                         std::tuple(samplesGiven, eyeOffsetWS, softwareBackend, display, lanes));
+    };
+    const auto differ = []<std::size_t... kIndex>(const auto& x, const auto& y, std::index_sequence<kIndex...>) {
+        return std::vector<bool>{!(std::get<kIndex>(x) == std::get<kIndex>(y))...};
+    };
+    const auto membersA = members(a), membersB = members(b);
+    using Users = std::tuple_size<decltype(membersA.first)>;
+    using Others = std::tuple_size<decltype(membersA.second)>;
+    return {differ(membersA.first, membersB.first, std::make_index_sequence<Users::value>()),
+            differ(membersA.second, membersB.second, std::make_index_sequence<Others::value>())};
+}
+
+TEST(Settings, everyMemberThatUsersSetIsAlwaysChangedByExactlyOneRowAndNoOtherMemberIs) {
+    const FrameRequest standard;
+    std::vector<int> changes(differences(standard, standard).ofUsers.size(), 0);
+    for (const Setting& setting : settingTable()) {
+        const Differences changed = differences(changedIn(setting, sceneOfTwoCameras()), standard);
+        EXPECT_EQ(std::ranges::count(changed.ofUsers, true), 1) << setting.name;
+        EXPECT_EQ(std::ranges::count(changed.ofOthers, true), 0) << setting.name;
+        for (std::size_t i = 0; i < changes.size(); ++i) changes[i] += changed.ofUsers[i] ? 1 : 0;
+    }
+    EXPECT_EQ(changes, std::vector<int>(changes.size(), 1)) << "by member, in the order of differences()";
+}
+
+TEST(Settings, theTextOfAValueIsAlwaysReadAsTheSameOne) {
+    const scenes::Scene scene = sceneOfTwoCameras();
+    for (const Setting& setting : settingTable()) {
+        const FrameRequest changed = changedIn(setting, scene);
+        for (const std::string& text : textsOf(setting)) {
+            SCOPED_TRACE(fmt::format("{} {}", setting.flag, text));
+            FrameRequest first, second = changed;
+            setting.read(first, text, {{}, &scene});
+            for (const scenes::Scene* names : {static_cast<const scenes::Scene*>(nullptr), &scene}) {
+                setting.read(second, setting.text(first, names), {{}, &scene});
+                EXPECT_EQ(first, second) << setting.text(first, names);
+            }
+        }
+    }
+}
+
+TEST(Settings, theDefaultIsAlwaysThatOfTheStructAndIsTakenByEveryTechnique) {
+    const scenes::Scene scene = sceneOfTwoCameras();
+    for (const Setting& setting : settingTable()) {
+        SCOPED_TRACE(setting.name);
+        FrameRequest request = changedIn(setting, scene);
+        EXPECT_FALSE(setting.isDefault(request));
+        setting.read(request, setting.text(FrameRequest()), {{}, &scene});
+        EXPECT_EQ(request, FrameRequest());
+        request = changedIn(setting, scene);
+        setting.reset(request);
+        EXPECT_EQ(request, FrameRequest());
+        for (const TechniqueInfo& info : techniqueTable()) EXPECT_TRUE(setting.isTaken({info.technique, {}}));
+    }
+}
+
+TEST(Settings, everyRowAlwaysHasNamesOfItsOwnAndWordsForHelp) {
+    std::set<std::string_view> names, flags, keys;
+    for (const Setting& setting : settingTable()) {
+        EXPECT_TRUE(names.insert(setting.name).second) << setting.name;
+        EXPECT_TRUE(flags.insert(setting.flag).second && setting.flag.starts_with("--")) << setting.flag;
+        EXPECT_TRUE(keys.insert(setting.key).second) << setting.key;
+        EXPECT_EQ(&settingOf(setting.key), &setting);
+        EXPECT_FALSE(setting.type.empty() || setting.help.empty()) << setting.name;
+        EXPECT_TRUE(setting.group == "Frame" || setting.group == "Display") << setting.name;
+        const bool isRefused = setting.takes != nullptr || !setting.refusal.empty();
+        EXPECT_FALSE(isRefused && setting.heeds == nullptr && setting.takes == nullptr) << setting.name;
+        const bool hasWidget = std::holds_alternative<ChoiceKind>(setting.value.kind) || setting.value.open.empty();
+        EXPECT_TRUE(setting.panel == SettingPanel::None || hasWidget)
+            << setting.name << ": no widget can leave it open";
+    }
+}
+
+TEST(Settings, whatASettingDoesNotTakeIsAlwaysRefusedByTheWordsOfWhoeverAsked) {
+    for (const Setting& setting : settingTable()) {
+        const scenes::Scene scene = sceneOfTwoCameras();
+        FrameRequest request;
+        for (const char* text : {"", "nix", "on|off", "-1e999"}) {
+            const std::string fault = refusal([&] { setting.read(request, text, {setting.flag, &scene}); });
+            EXPECT_THAT(fault, HasSubstr(fmt::format("'{}'", text))) << setting.name;
+            EXPECT_TRUE(fault.find(setting.flag) != fault.npos || fault.find(setting.name) != fault.npos) << fault;
+        }
+        const auto* number = std::get_if<NumberKind>(&setting.value.kind);
+        for (const double beyond : {number ? number->least - 0.5 : 0.0, number ? number->most + 0.5 : 0.0}) {
+            if (!std::isfinite(beyond) || number == nullptr || number->isWhole) continue;
+            const std::string text = fmt::format("{}", beyond);
+            EXPECT_THAT(refusal([&] {
+                            setting.read(request, text, {setting.flag, nullptr});
+                        }),
+                        HasSubstr(fmt::format("{} {} is ", setting.flag, text)));
+        }
+        EXPECT_EQ(request, FrameRequest());
+    }
+    FrameRequest request;
+    EXPECT_EQ(refusal([&] { settingOf("tile").read(request, "7"); }), "tile 7: give one of 8, 16, 32, 64");
+    EXPECT_EQ(refusal([&] {
+                  settingOf("exposureEV").read(request, "121", {"--exposure", nullptr});
+              }),
+              "--exposure 121 is above 120; give -120 to 120");
+    EXPECT_EQ(refusal([&] { settingOf("rangeTolerance").read(request, "-1"); }),
+              "range tolerance -1 is below 0; give 0 or more");
+}
+
+TEST(Settings, aTechniqueAlwaysRefusesWhatItDoesNotTakeAndNamesThoseThatDo) {
+    FrameRequest request{Technique::Forward, {}};
+    request.settings.culling.tilePixels = 32;
+    EXPECT_EQ(refusal([&] { requireTaken(request); }),
+              "technique forward does not take tile 32, since it has no light lists; tiled_deferred, forward_plus, "
+              "clustered_deferred, clustered_forward do");
+    request.settings.culling = {culling::Method::Zbin, {}, {}, {}};
+    EXPECT_EQ(refusal([&] { requireTaken(request); }),
+              "technique forward does not take culling zbin; clustered_deferred, clustered_forward do");
+    request.technique = Technique::ClusteredForward;
+    EXPECT_EQ(refusal([&] { requireTaken(request); }), "");
+}
+
+// ---- Scenes ask for settings ---------------------------------------------------------------------------------------
+
+/// A text as a scene's file has it.
+scenes::Wish wishOf(const Setting& setting, const std::string& text) {
+    if (text == setting.value.open) return text;
+    const auto* choice = std::get_if<ChoiceKind>(&setting.value.kind);
+    if (std::holds_alternative<NumberKind>(setting.value.kind) || (choice && choice->ofNumbers)) return std::stod(text);
+    if (std::holds_alternative<SwitchKind>(setting.value.kind)) return text == "on";
+    if (!std::holds_alternative<SizeKind>(setting.value.kind)) return text;
+    const glm::dvec2 size(frame::sizeIn(text).value());
+    return std::vector<double>{size.x, size.y};
+}
+
+FrameRequest wished(const scenes::Scene& scene) {
+    FrameRequest request;
+    takeWishes(scene, "s.json", request);
+    return request;
+}
+
+TEST(Settings, whatASceneWishesIsAlwaysTakenAlsoAfterItWasSavedAndFingerprinted) {
+    const tessera::test::TempFolder folder;
+    const std::string base = folder
+                                 .write("base.json", R"({"tessera": 1, "base": {"file": "builtin:room"},
+        "cameras": [{"name": "front", "position": [0, 1, 4], "target": [0, 1, 0]},
+                    {"name": "side", "position": [4, 1, 0], "target": [0, 1, 0]}]})")
+                                 .string();
+    scenes::Scene scene = scenes::loadScene(base);
+    const scenes::SceneOrigin origin = scenes::originOf(base, {}, scene);
+    std::set<std::uint64_t> fingerprints{scenes::fingerprint(scene)};
+    for (const Setting& setting : settingTable()) {
+        if (!setting.isWishable) continue;
+        scene.options = {};
+        const FrameRequest asked = changedIn(setting, scene);
+        const std::string text = setting.text(asked, &scene);
+        SCOPED_TRACE(fmt::format("{} {}", setting.key, text));
+        if (setting.key == "camera")
+            scene.options.camera = text;
+        else
+            scene.options.wishes[std::string(setting.key)] = wishOf(setting, text);
+        EXPECT_EQ(wished(scene), asked);
+        EXPECT_TRUE(fingerprints.insert(scenes::fingerprint(scene)).second);
+        const std::filesystem::path file = folder.path() / "saved.json";
+        folder.write("saved.json", scenes::sceneText(scene, origin, file));
+        const scenes::Scene saved = scenes::loadScene(file.string());
+        EXPECT_EQ(saved.options, scene.options);
+        EXPECT_EQ(wished(saved), asked);
+        FrameRequest said;
+        takeWishes(saved, "s.json", said, [&](const Setting& other) { return &other == &setting; });
+        EXPECT_EQ(said, FrameRequest()) << "what the user said goes before";
+    }
+}
+
+TEST(Settings, aWishThatCannotBeIsAlwaysNamedByFileAndKey) {
+    const auto refusedWish = [](const char* key, const scenes::Wish& wish) {
+        scenes::Scene scene = sceneOfTwoCameras();
+        scene.options.wishes[key] = wish;
+        return refusal([&] { wished(scene); });
+    };
+    EXPECT_EQ(refusedWish("exposure", 1.0),
+              "s.json:/options: an options object has no key 'exposure'; did you mean 'exposureEV'?");
+    EXPECT_THAT(refusedWish("solo", 0.0), HasSubstr("s.json:/options: an options object has no key 'solo'"));
+    EXPECT_EQ(refusedWish("defaultLigth", true),
+              "s.json:/options: an options object has no key 'defaultLigth'; did you mean 'defaultLight'?");
+    EXPECT_EQ(refusedWish("size", std::vector<double>{1.5, 1}),
+              "s.json:/options/size: size '1.5x1' is not WIDTHxHEIGHT in pixels, each 1 to 16384, as in 1280x720");
+    EXPECT_EQ(refusedWish("layout", "pakced"),
+              "s.json:/options/layout: unknown layout 'pakced': did you mean 'packed'?");
+    EXPECT_EQ(refusedWish("layout", 1.0), "s.json:/options/layout: is a number; text is needed");
+    EXPECT_EQ(refusedWish("exposureEV", "bright"), "s.json:/options/exposureEV: is text; a number is needed");
+    EXPECT_EQ(refusedWish("prune", "off"), "s.json:/options/prune: is text; true or false is needed");
+    EXPECT_EQ(refusedWish("exposureEV", 200.0),
+              "s.json:/options/exposureEV: exposure 200 is above 120; give -120 to 120");
+}
+
+} // namespace
+} // namespace tessera::recipes

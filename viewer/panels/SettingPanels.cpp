@@ -1,0 +1,119 @@
+// The panels of settings: a widget each by the setting's kind, in the order of the table.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "viewer/panels/Panels.h"
+#include "viewer/panels/Widgets.h"
+#include "viewer/session/Preferences.h"
+
+namespace tessera::viewer {
+namespace {
+
+using recipes::Setting;
+
+/// A list to choose from; "automatic" stands in front where the setting may be left open.
+bool show(const Setting& setting, const recipes::ChoiceKind& kind, Look& look) {
+    using Entry = recipes::ChoiceKind::Entry;
+    std::vector<Entry> entries = kind.entries;
+    const std::string open(setting.value.open);
+    if (!open.empty()) entries.insert(entries.begin(), {open, open, setting.byItself});
+    std::vector<Choice> choices;
+    for (const Entry& entry : entries) {
+        recipes::FrameRequest tried = look;
+        setting.read(tried, entry.name);
+        choices.push_back({entry.label, entry.meaning, setting.isTaken(tried)});
+    }
+    const std::string now = setting.text(look);
+    const auto chosen = std::size_t(std::ranges::find(entries, now, &Entry::name) - entries.begin());
+    const bool showsLabel = kind.ofNumbers && chosen < entries.size();
+    const auto picked = choose(setting.panelLabel().c_str(), showsLabel ? entries[chosen].label : now, choices, chosen);
+    if (picked) setting.read(look, entries[*picked].name);
+    return picked.has_value();
+}
+
+bool show(const Setting& setting, const recipes::NumberKind& kind, Look& look) {
+    const std::string id = "##" + setting.panelLabel(), text = setting.text(look);
+    double value = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool hasSlider = kind.sliderLeast < kind.sliderMost;
+    const bool isBounded = hasSlider || (std::isfinite(kind.least) && std::isfinite(kind.most));
+    row(setting.panelLabel().c_str());
+    const auto slideOrDrag = [&](auto& edited, auto least, auto most, const auto& slide, const auto& drag) {
+        return edit(edited, least, most, [&](auto& number) { return isBounded ? slide(number) : drag(number); });
+    };
+    bool isEdited = false;
+    if (kind.isWhole) {
+        constexpr double kMostWhole = 1e9;
+        const int least = int(std::max(kind.least, -kMostWhole)), most = int(std::min(kind.most, kMostWhole));
+        int edited = int(value);
+        isEdited = slideOrDrag(
+            edited, least, most, [&](int& n) { return ImGui::SliderInt(id.c_str(), &n, least, most); },
+            [&](int& n) { return ImGui::DragInt(id.c_str(), &n); });
+        if (isEdited) value = edited;
+    } else {
+        const float sliderLeast = hasSlider ? kind.sliderLeast : float(kind.least);
+        const float sliderMost = hasSlider ? kind.sliderMost : float(kind.most);
+        float edited = float(value);
+        isEdited = slideOrDrag(
+            edited, float(kind.least), float(kind.most),
+            [&](float& n) { return ImGui::SliderFloat(id.c_str(), &n, sliderLeast, sliderMost, kind.format); },
+            [&](float& n) { return ImGui::DragFloat(id.c_str(), &n, 0.01f, 0.0f, 0.0f, kind.format); });
+        if (isEdited) value = std::clamp(double(edited), kind.least, kind.most);
+    }
+    tip(setting.help);
+    if (isEdited) setting.read(look, fmt::format("{}", value));
+    return isEdited;
+}
+
+bool show(const Setting& setting, const recipes::SwitchKind&, Look& look) {
+    bool isOn = setting.text(look) == "on";
+    row(setting.panelLabel().c_str());
+    const bool isEdited = ImGui::Checkbox(("##" + setting.panelLabel()).c_str(), &isOn);
+    tip(setting.help);
+    if (isEdited) setting.read(look, isOn ? "on" : "off");
+    return isEdited;
+}
+
+/// Sizes are the window's, and cameras have a panel of their own.
+bool show(const Setting&, const recipes::SizeKind&, Look&) {
+    return false;
+}
+bool show(const Setting&, const recipes::CameraKind&, Look&) {
+    return false;
+}
+
+void settingRows(Look& look, recipes::SettingPanel panel) {
+    for (const Setting& setting : recipes::settingTable()) {
+        if (setting.panel != panel || !setting.isHeededBy(look.technique)) continue;
+        const bool isChosen =
+            std::visit([&](const auto& kind) { return show(setting, kind, look); }, setting.value.kind);
+        if (const auto aside = look.aside.find(setting.key); isChosen && aside != look.aside.end())
+            look.aside.erase(aside); // another choice was made in its place
+    }
+    look = possible(look);
+}
+
+void scaleRows(State& state) {
+    row("Resolution");
+    ImGui::Checkbox("automatic", &state.automaticScale);
+    tip("Fewer pixels while something moves, all of them at rest");
+    if (state.automaticScale) return;
+    slider("Scale", state.fixedScale, kLeastScale, 1.0f);
+}
+
+} // namespace
+
+void framePanel(State& state) {
+    settingRows(state.active(), recipes::SettingPanel::Frame);
+}
+
+void viewPanel(State& state) {
+    settingRows(state.active(), recipes::SettingPanel::View);
+    scaleRows(state);
+}
+
+} // namespace tessera::viewer
