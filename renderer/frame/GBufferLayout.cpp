@@ -106,6 +106,18 @@ static_assert(std::ranges::all_of(kChannels, [](const ChannelInfo& row) {
     return row.channel != Channel::Emission || (isGood(row.packed) && isGood(row.slim));
 }));
 
+// The field of model and masking holds the models, then each of those that mask once more for each other masking
+// (shaders/lib/gbuffer_encodings.glsl).
+constexpr std::size_t kKindCodes = [] {
+    std::size_t codes = scenes::kMaterialModelCount;
+    for (const scenes::MaterialModelInfo& model : scenes::materialModels())
+        if (model.microsurface == scenes::Microsurface::Dielectric) codes += std::size_t(scenes::Masking::Count) - 1;
+    return codes;
+}();
+static_assert(std::ranges::all_of(kChannels, [](const ChannelInfo& row) {
+    return row.channel != Channel::Microsurface || kKindCodes <= std::size_t(1) << std::min(row.packed[0], row.slim[0]);
+}));
+
 const ChannelInfo& infoOf(Channel channel) {
     return kChannels[static_cast<std::size_t>(channel)];
 }
@@ -167,10 +179,12 @@ std::vector<Channel> channelsOfSurfaces(const FeatureSet& features, const GBuffe
         channels.push_back(Channel::Normal);
     }
     const bool alphaAndMetallicOnly =
-        features.soleModel == scenes::MaterialModel::MetallicRoughness && !features[Feature::Specular];
+        features.soleModel &&
+        scenes::infoOf(*features.soleModel).microsurface == scenes::Microsurface::MetallicRoughness &&
+        !features[Feature::Specular];
     const bool spare =
         alphaAndMetallicOnly && haveSpareComponents(layout) && layout[Channel::Microsurface] == Encoding::Exact;
-    if ((glossy || !features.soleModel) && !spare) channels.push_back(Channel::Microsurface);
+    if ((features.microsurfaces() || !features.soleModel) && !spare) channels.push_back(Channel::Microsurface);
     if (glossy && features[Feature::Specular]) channels.push_back(Channel::Specular);
     if (features[Feature::Emission]) channels.push_back(Channel::Emission);
     if (normalTexel) {

@@ -77,23 +77,26 @@ uint encodeAlpha(float alpha, int width, int field)
     return below + ditheredUp(share, field, steps);
 }
 
-// Model and masking in 4 bits: the models, then the four of them with another masking than the first.
+// Model and masking: the models, then each microfacet model with every masking but the first. That the field holds all of them
+// is asserted beside its width.
+#define OTHER_MASKINGS (MASKING_COUNT - 1u)
+
 uint encodeKind(Surface surface)
 {
     uint kind = surface.model;
 #if HAS_MASKING_OPTIONS
-    if (isMicrofacet(surface.model) && surface.masking > 0u)
-        kind = 5u + 2u * (surface.model - MODEL_MICROFACET) + surface.masking;
+    if (IS_MICROFACET(surface.model) && surface.masking != MASKING_WALTER)
+        kind = MODEL_COUNT + OTHER_MASKINGS * (surface.model - MODEL_FIRST_MICROFACET) + (surface.masking - 1u);
 #endif
     return kind;
 }
 
 void decodeKind(uint kind, inout Surface surface)
 {
-    uint masked = max(kind, 6u) - 6u;
-    surface.model = surfaceModel(kind < 6u ? kind : MODEL_MICROFACET + masked / 2u);
+    uint masked = max(kind, MODEL_COUNT) - MODEL_COUNT;
+    surface.model = surfaceModel(kind < MODEL_COUNT ? kind : MODEL_FIRST_MICROFACET + masked / OTHER_MASKINGS);
 #if HAS_MASKING_OPTIONS
-    surface.masking = kind < 6u ? MASKING_WALTER : MASKING_DIRECTIONAL + masked % 2u;
+    surface.masking = kind < MODEL_COUNT ? MASKING_WALTER : 1u + masked % OTHER_MASKINGS;
 #endif
 }
 
@@ -122,21 +125,19 @@ float decodeIor(uint code, int width)
     return ior;
 }
 
-// A microfacet model has an index of refraction where metallic_roughness has F90 and metallic; blinn_phong's exponent takes
-// the room of alpha too.
+// A microfacet model has an index of refraction where metallic_roughness has F90 and metallic; the one parameter of a model
+// takes the room of alpha too.
 void putMicrosurface(Surface surface, ivec4 widths)
 {
     putField(encodeKind(surface), widths.x);
     int tail = widths.z + widths.w;
-#if HAS_BLINN_PHONG
-    if (surface.model == MODEL_BLINN_PHONG) {
-        putField(encodeFloat(surface.exponent, widths.y + tail, DITHER_ALPHA), widths.y + tail);
+    if (HAS_PARAMETER(surface.model)) {
+        putField(encodeFloat(surface.parameter, widths.y + tail, DITHER_ALPHA), widths.y + tail);
         return;
     }
-#endif
     putField(encodeAlpha(surface.alpha, widths.y, DITHER_ALPHA), widths.y);
     uint code;
-    if (isMicrofacet(surface.model)) {
+    if (IS_MICROFACET(surface.model)) {
         code = encodeIor(surface.iorOrF90, tail, DITHER_F90);
     } else {
         code = encodeShare(surface.iorOrF90, largestCode(widths.z), DITHER_F90) |
@@ -150,15 +151,13 @@ void takeMicrosurface(ivec4 widths, inout Surface surface)
     decodeKind(takeField(widths.x), surface);
     int tail = widths.z + widths.w;
     uint code = takeField(widths.y + tail);
-#if HAS_BLINN_PHONG
-    if (surface.model == MODEL_BLINN_PHONG) {
-        surface.exponent = decodeFloat(code, widths.y + tail);
+    if (HAS_PARAMETER(surface.model)) {
+        surface.parameter = decodeFloat(code, widths.y + tail);
         return;
     }
-#endif
     surface.alpha = decodeAlpha(code & largestCode(widths.y), widths.y);
     code >>= widths.y;
-    if (isMicrofacet(surface.model)) {
+    if (IS_MICROFACET(surface.model)) {
         surface.iorOrF90 = decodeIor(code, tail);
     } else {
         surface.iorOrF90 = decodeShare(code & largestCode(widths.z), largestCode(widths.z));

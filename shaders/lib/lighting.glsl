@@ -13,11 +13,7 @@
 // Whether any light changes the surface.
 bool takesLight(Surface surface)
 {
-#if HAS_SINGLE_COLOR
-    return surface.model != MODEL_SINGLE_COLOR;
-#else
-    return true;
-#endif
+    return !IS_UNLIT(surface.model);
 }
 
 // Adds the radiance towards the viewer that one light gives to a surface that takes light; where visits are counted, 1.

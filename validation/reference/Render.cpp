@@ -195,7 +195,7 @@ private:
     }
 
     glm::dvec3 radianceOf(const SurfacePoint& point, const glm::dvec3& positionRel) const {
-        if (modelOf(point.model).isUnlit) return point.emission + point.color;
+        if (!scenes::infoOf(point.model).isLit) return point.emission + point.color;
         const glm::dvec3 toViewer = rays_.toViewer(positionRel);
         glm::dvec3 radiance = emitted(point, toViewer);
         for (const ShiningLight& light : lights_) {

@@ -287,10 +287,9 @@ TEST_F(Sabotage, aFaultOfOneLobeAlwaysMissesTheReference) {
         const char* to;
     };
     constexpr Fault kFaults[] = {
-        {"lib/reflectance.glsl", "surface.albedo * nl + surface.specular * terms.d;",
-         "surface.albedo * nl + surface.specular * terms.d * nl;"},
-        {"lib/reflectance.glsl", "visibilityHalfVector(alpha, nl, nv, dot(toLight, h))",
-         "visibilitySeparable(alpha, nl, nv)"},
+        {"lib/reflectance.glsl", "surface.specular * highlight;", "surface.specular * highlight * directions.nl;"},
+        {"lib/reflectance.glsl", "visibilityHalfVector(alpha, directions.nl, directions.nv, directions.lh)",
+         "visibilitySeparable(alpha, directions.nl, directions.nv)"},
         {"lib/reflectance.glsl", "if (surface.masking == MASKING_DIRECTIONAL)", "if (false)"},
         {"lib/reflectance.glsl", "fresnelSchlick(vec3(0.04), 1.0", "fresnelSchlick(vec3(0.05), 1.0"},
         {"lib/material_lobes.glsl", "(strength * strength)", "strength"},

@@ -121,7 +121,7 @@ TEST(GBufferLayout, channelsAreAllocatedExactlyWhenASurfaceNeedsThem) {
     EXPECT_EQ(channels(allFeatures()).size(), kChannelCount - 1);
 
     FeatureSet mixed = featuresOf(MaterialModel::Lambert); // with unlit surfaces, so that a pixel must say which it is
-    mixed.add(Feature::SingleColor);
+    mixed.add(featureOf(MaterialModel::SingleColor));
     mixed.soleModel.reset();
     EXPECT_THAT(channels(mixed), ElementsAre(Channel::Albedo, Channel::Normal, Channel::Microsurface));
 }
@@ -152,7 +152,7 @@ Bytes bytesOf(const FeatureSet& features) {
 FeatureSet allIsotropicFeatures() {
     FeatureSet all = allFeatures();
     for (const Feature layer :
-         {Feature::MicrofacetAnisotropic, Feature::Anisotropy, Feature::Clearcoat, Feature::Sheen})
+         {featureOf(MaterialModel::MicrofacetAnisotropic), Feature::Anisotropy, Feature::Clearcoat, Feature::Sheen})
         all.has.reset(std::size_t(layer));
     return all;
 }
