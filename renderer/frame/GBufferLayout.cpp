@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -120,6 +121,17 @@ static_assert(std::ranges::all_of(kChannels, [](const ChannelInfo& row) {
 
 const ChannelInfo& infoOf(Channel channel) {
     return kChannels[static_cast<std::size_t>(channel)];
+}
+
+/// A channel's name in those of its functions: "NormalTexel".
+std::string capitalised(std::string_view name) {
+    std::string words;
+    bool begins = true;
+    for (const char c : name) {
+        if (c != '_') words += begins ? char(c - 'a' + 'A') : c;
+        begins = c == '_';
+    }
+    return words;
 }
 
 constexpr GBufferLayout uniformLayout(Encoding encoding) {
@@ -262,26 +274,27 @@ int bytesPerPixel(const GBufferLayout& layout, std::span<const Channel> channels
 }
 
 Defines channelDefines(const GBufferLayout& layout, std::span<const Channel> channels) {
+    if (channels.empty()) return {};
     Defines defines;
+    std::string list;
     int attachment = 0, bit = 0;
     for (const Channel channel : channels) {
         const std::string name = "GBUFFER_" + std::string(infoOf(channel).define);
-        if (layout[channel] == Encoding::Exact) {
-            defines.emplace_back(name, std::to_string(attachment++));
-            defines.emplace_back(name + "_PACKED", "0");
-        } else {
-            const FieldWidths& w = layout.widths(channel);
-            defines.emplace_back(name, std::to_string(bit));
-            defines.emplace_back(name + "_PACKED", "1");
-            defines.emplace_back(name + "_WIDTHS", fmt::format("{}, {}, {}, {}", w[0], w[1], w[2], w[3]));
-            bit += layout.bits(channel);
-        }
+        const bool isPacked = layout[channel] != Encoding::Exact;
+        const FieldWidths w = isPacked ? layout.widths(channel) : FieldWidths{};
+        const int at = isPacked ? std::exchange(bit, bit + layout.bits(channel)) : attachment++;
+        const std::string widths = fmt::format("{}, {}, {}, {}", w[0], w[1], w[2], w[3]);
+        defines.emplace_back(name, std::to_string(at));
+        if (isPacked) defines.emplace_back(name + "_WIDTHS", widths);
+        const std::string functions = fmt::format("put{0}, take{0}", capitalised(infoOf(channel).name));
+        list += list.empty() ? "" : " ";
+        list += isPacked ? fmt::format("PACKED_CHANNEL({}, {}, ivec4({}))", functions, at, widths)
+                         : fmt::format("EXACT_CHANNEL({}, {})", functions, at);
     }
-    if (attachment > 0) defines.emplace_back("GBUFFER_EXACT_CHANNELS", std::to_string(attachment));
-    if (bit > 0) {
-        defines.emplace_back("GBUFFER_WORDS", std::to_string((bit + 31) / 32));
-        defines.emplace_back("GBUFFER_WORD_TEXTURE", std::to_string(attachment));
-    }
+    defines.emplace_back("GBUFFER_CHANNELS", list);
+    defines.emplace_back("GBUFFER_EXACT_CHANNELS", std::to_string(attachment));
+    defines.emplace_back("GBUFFER_WORDS", std::to_string((bit + 31) / 32));
+    if (bit > 0) defines.emplace_back("GBUFFER_WORD_TEXTURE", std::to_string(attachment));
     if (holdMaterialNumber(layout, channels))
         defines.emplace_back("GBUFFER_MATERIAL_NUMBER", "1");
     else if (contain(channels, Channel::Albedo) && !contain(channels, Channel::Microsurface) &&

@@ -125,46 +125,6 @@ float decodeIor(uint code, int width)
     return ior;
 }
 
-// A microfacet model has an index of refraction where metallic_roughness has F90 and metallic; the one parameter of a model
-// takes the room of alpha too.
-void putMicrosurface(Surface surface, ivec4 widths)
-{
-    putField(encodeKind(surface), widths.x);
-    int tail = widths.z + widths.w;
-    if (HAS_PARAMETER(surface.model)) {
-        putField(encodeFloat(surface.parameter, widths.y + tail, DITHER_ALPHA), widths.y + tail);
-        return;
-    }
-    putField(encodeAlpha(surface.alpha, widths.y, DITHER_ALPHA), widths.y);
-    uint code;
-    if (IS_MICROFACET(surface.model)) {
-        code = encodeIor(surface.iorOrF90, tail, DITHER_F90);
-    } else {
-        code = encodeShare(surface.iorOrF90, largestCode(widths.z), DITHER_F90) |
-               (encodeShare(surface.metallic, largestCode(widths.w), DITHER_METALLIC) << widths.z);
-    }
-    putField(code, tail);
-}
-
-void takeMicrosurface(ivec4 widths, inout Surface surface)
-{
-    decodeKind(takeField(widths.x), surface);
-    int tail = widths.z + widths.w;
-    uint code = takeField(widths.y + tail);
-    if (HAS_PARAMETER(surface.model)) {
-        surface.parameter = decodeFloat(code, widths.y + tail);
-        return;
-    }
-    surface.alpha = decodeAlpha(code & largestCode(widths.y), widths.y);
-    code >>= widths.y;
-    if (IS_MICROFACET(surface.model)) {
-        surface.iorOrF90 = decodeIor(code, tail);
-    } else {
-        surface.iorOrF90 = decodeShare(code & largestCode(widths.z), largestCode(widths.z));
-        surface.metallic = decodeShare(code >> widths.z, largestCode(widths.w));
-    }
-}
-
 // 2^n for -126 <= n <= 127, exactly, which exp2 need not be.
 float powerOfTwo(int n)
 {
@@ -236,4 +196,36 @@ vec3 takeTexel(ivec4 widths)
     vec3 texel;
     for (int i = 0; i < 3; ++i) texel[i] = decodeShare(takeField(widths[i]), largestCode(widths[i]));
     return texel;
+}
+
+// Two directions at right angles to n, which turn smoothly with it: the first is also at right angles to the coordinate axis of
+// that number, which must not be near n.
+void axisFrame(vec3 n, uint axis, out vec3 first, out vec3 second)
+{
+    vec3 across = axis == 0u ? vec3(0.0, -n.z, n.y) : axis == 1u ? vec3(n.z, 0.0, -n.x) : vec3(-n.y, n.x, 0.0);
+    first = across / length(across);
+    second = cross(n, first);
+}
+
+// A direction at right angles to the normal, whose sign does not matter: a point p on half of a diamond, (p, 1 - |p|) in the
+// frame of the axis farthest from the normal; the decoder has a normal that is off by its own packing and must be told the
+// axis. Widths: axis and point.
+void putDirectionAcross(vec3 normal, vec3 across, ivec4 widths)
+{
+    vec3 n = abs(normal);
+    uint axis = n.x <= n.y && n.x <= n.z ? 0u : n.y <= n.z ? 1u : 2u;
+    vec3 first, second;
+    axisFrame(normal, axis, first, second);
+    vec2 direction = vec2(dot(across, first), dot(across, second));
+    if (direction.y < 0.0) direction = -direction;
+    putField(axis, widths.x);
+    putField(encodeSigned(direction.x / (abs(direction.x) + direction.y), widths.y, DITHER_NOT), widths.y);
+}
+
+vec3 takeDirectionAcross(vec3 normal, ivec4 widths)
+{
+    vec3 first, second;
+    axisFrame(normal, takeField(widths.x), first, second);
+    float point = decodeSigned(takeField(widths.y), widths.y);
+    return normalize(point * first + (1.0 - abs(point)) * second);
 }

@@ -253,9 +253,9 @@ TEST_F(Sabotage, anUntouchedCopyOfTheShadersAlwaysPasses) {
 }
 
 TEST_F(Sabotage, swappedChannelsAlwaysMissTheTolerance) {
-    replace("lib/gbuffer_read.glsl", "surface.albedo = albedo.rgb;", "surface.albedo = albedo.bgr;");
-    replace("lib/gbuffer_read.glsl", "surface.albedo = takeRoots(ivec4(GBUFFER_ALBEDO_WIDTHS));",
-            "surface.albedo = takeRoots(ivec4(GBUFFER_ALBEDO_WIDTHS)).bgr;");
+    replace("lib/gbuffer_channels.glsl", "surface.albedo = texel.rgb;", "surface.albedo = texel.bgr;");
+    replace("lib/gbuffer_channels.glsl", "surface.albedo = takeRoots(encoding.widths);",
+            "surface.albedo = takeRoots(encoding.widths).bgr;");
     // Of lattice no material varies, so on exact its pixels hold their numbers.
     replace("lib/material_table.glsl", "material.baseColor = tabledConstants(number, 0);",
             "material.baseColor = tabledConstants(number, 0).bgra;");
