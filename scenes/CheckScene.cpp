@@ -18,12 +18,6 @@ namespace {
 /// decimals lose, far below what would be seen.
 constexpr double kUnitTolerance = 1e-3;
 
-// Beyond any surface, and low enough that no product in a shader leaves fp32.
-constexpr double kMostColor = 1e6;
-constexpr double kMostRadiance = 1e30;
-constexpr double kMostRoughness = 1e6;
-constexpr double kMostIor = 1e6;
-
 template <typename Vector>
 bool allFinite(const Vector& vector) {
     for (glm::length_t i = 0; i < vector.length(); ++i) {
@@ -99,38 +93,32 @@ void checkImage(const Element& element, const Image& image) {
     }
 }
 
-void checkLayers(const Element& element, const Material& material) {
-    element.require(between(material.anisotropyStrength, 0.0, 1.0), "the anisotropy must be between 0 and 1");
-    element.require(std::isfinite(material.anisotropyRotationRadians), "the anisotropy's rotation is not finite");
-    element.require(between(material.clearcoat, 0.0, 1.0), "the clearcoat must be between 0 and 1");
-    element.require(between(material.clearcoatPerceptualRoughness, 0.0, 1.0),
-                    "the clearcoat's roughness must be between 0 and 1");
-    element.require(std::isfinite(material.clearcoatNormalScale), "the clearcoat normal map's scale must be finite");
-    const glm::vec3& sheen = material.sheenColor;
-    element.require(between(sheen.x, 0.0, 1.0) && between(sheen.y, 0.0, 1.0) && between(sheen.z, 0.0, 1.0),
-                    "the sheen's colour must be between 0 and 1");
-    element.require(between(material.sheenPerceptualRoughness, 0.0, 1.0),
-                    "the sheen's roughness must be between 0 and 1");
+/// What messages say of bounds.
+std::string boundsText(double least, double most) {
+    if (most < kAnyNumber) return fmt::format("between {:g} and {:g}", least, most);
+    return least < 0.0 ? "finite" : "finite and not negative";
+}
+
+/// Whether a number, or each component of a vector, lies between the bounds of its field. Nothing else has bounds.
+template <typename Value>
+bool isWithin(const Value&, const MaterialField<Value>&) {
+    return true;
+}
+bool isWithin(float value, const MaterialField<float>& field) {
+    return between(double(value), field.least, field.most);
+}
+template <glm::length_t Length>
+bool isWithin(const glm::vec<Length, float>& vector, const MaterialField<glm::vec<Length, float>>& field) {
+    return allBetween(vector, field.least, field.most);
 }
 
 void checkMaterial(const Element& element, const Material& material, std::size_t imageCount) {
-    element.require(allBetween(material.baseColor, 0.0, kMostColor), "the base colour must be between 0 and 1e6");
-    element.require(allBetween(material.emissive, 0.0, kMostRadiance), "the emission must be between 0 and 1e30");
-    element.require(allBetween(material.specularColor, 0.0, kMostColor),
-                    "the specular colour must be between 0 and 1e6");
-    element.require(between(material.metallic, 0.0, 1.0), "metalness must be between 0 and 1");
-    element.require(between(material.perceptualRoughness, 0.0, 1.0), "roughness must be between 0 and 1");
-    element.require(between(material.alpha, 0.0, kMostRoughness), "alpha must be between 0 and 1e6");
-    element.require(between(material.alphaY, 0.0, kMostRoughness), "alphaY must be between 0 and 1e6");
-    element.require(std::isfinite(material.exponent) && material.exponent >= 0.0f,
-                    "the exponent must be finite and not negative");
+    visitMaterialFields([&](const auto& field) {
+        if (!isWithin(material.*field.member, field))
+            element.require(false, fmt::format("{} must be {}", field.what, boundsText(field.least, field.most)));
+    });
     element.require(material.masking != Masking::Directional || material.model != MaterialModel::Microfacet,
                     "masking by direction needs the model microfacet_anisotropic");
-    checkLayers(element, material);
-    element.require(between(material.ior, 0.0, kMostIor), "the index of refraction must be between 0 and 1e6");
-    element.require(between(material.specularFactor, 0.0, 1.0), "the specular factor must be between 0 and 1");
-    element.require(std::isfinite(material.normalScale), "the normal map's scale must be finite");
-    element.require(std::isfinite(material.alphaCutoff), "the alpha cutoff must be finite");
     for (const TextureUse& use : material.textures) {
         if (use.image == kNone) continue;
         element.requireIndex(use.image, imageCount, "image");

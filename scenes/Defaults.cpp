@@ -31,7 +31,7 @@ const Camera& viewedCamera(const Scene& scene) {
 bool isAllUnlit(const Scene& scene) {
     const std::vector<const Material*> materials = materialsInUse(scene);
     return !materials.empty() && std::all_of(materials.begin(), materials.end(), [](const Material* material) {
-        return material->model == MaterialModel::SingleColor;
+        return !infoOf(material->model).isLit;
     });
 }
 

@@ -7,7 +7,7 @@ namespace tessera::scenes {
 namespace {
 
 /// Takes fields one by one. Every struct is taken apart by a structured binding, so that one with a new field does not
-/// compile until the field is here.
+/// compile until the field is here; kMaterialFields is held to Material in the same way.
 class Hash {
 public:
     std::uint64_t value() const { return hash_; }
@@ -69,14 +69,8 @@ public:
         addAll(image, sampler, texCoordSet, transform);
     }
     void add(const Material& material) {
-        const auto& [name, model, baseColor, emissive, metallic, perceptualRoughness, alpha, alphaY, masking, exponent,
-                     ior, specularFactor, specularColor, anisotropyStrength, anisotropyRotationRadians, clearcoat,
-                     clearcoatPerceptualRoughness, clearcoatNormalScale, sheenColor, sheenPerceptualRoughness,
-                     normalScale, normalMapSpace, tangents, alphaMode, alphaCutoff, doubleSided, textures] = material;
-        addAll(name, model, baseColor, emissive, metallic, perceptualRoughness, alpha, alphaY, masking, exponent, ior,
-               specularFactor, specularColor, anisotropyStrength, anisotropyRotationRadians, clearcoat,
-               clearcoatPerceptualRoughness, clearcoatNormalScale, sheenColor, sheenPerceptualRoughness, normalScale,
-               normalMapSpace, tangents, alphaMode, alphaCutoff, doubleSided, textures);
+        visitMaterialFields([&](const auto& field) { add(material.*field.member); });
+        add(material.textures);
     }
     void add(const Mesh& mesh) {
         const auto& [name, positionsOS, normalsOS, tangentsOS, texCoords, colors, indices] = mesh;

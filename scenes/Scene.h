@@ -11,15 +11,16 @@
 
 #include <glm/glm.hpp>
 
+#include "scenes/Material.h"
+
 /// A scene as plain data, as its author wrote it: nothing here is packed for a GPU and nothing is derived that a
 /// renderer could derive (tangents, culling radii, cone scales). World space is right-handed, Y up, metres; colours are
 /// linear unless a texture slot says otherwise. Indices are -1 where something is absent.
 namespace tessera::scenes {
 
-inline constexpr int kNone = -1;
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// ---- Images and textures -------------------------------------------------------------------------------------------
+// ---- Images --------------------------------------------------------------------------------------------------------
 
 enum class TexelFormat : std::uint8_t { Rgba8Unorm, Rgba16Unorm, Rgba32Float };
 
@@ -34,127 +35,6 @@ struct Image {
 
 /// Bytes of one texel of `format`.
 std::size_t texelBytes(TexelFormat format);
-
-enum class Wrap : std::uint8_t { Repeat, ClampToEdge, MirroredRepeat };
-enum class Filter : std::uint8_t {
-    Nearest,
-    Linear,
-    NearestMipmapNearest,
-    LinearMipmapNearest,
-    NearestMipmapLinear,
-    LinearMipmapLinear
-};
-
-struct Sampler {
-    Filter magnification = Filter::Linear;
-    Filter minification = Filter::LinearMipmapLinear;
-    Wrap wrapU = Wrap::Repeat;
-    Wrap wrapV = Wrap::Repeat;
-    bool operator==(const Sampler&) const = default;
-};
-
-/// Applied to a texture coordinate as offset + rotation(scale * uv), after KHR_texture_transform (v points down, the
-/// origin is the picture's top-left corner, a positive angle turns the coordinates counter-clockwise in that
-/// convention).
-struct TextureTransform {
-    glm::vec2 offset{0.0f};
-    glm::vec2 scale{1.0f};
-    float rotationRadians = 0.0f;
-    bool operator==(const TextureTransform&) const = default;
-};
-
-/// A texture as a material uses it; `image` is kNone when the slot is empty, and then the factor alone counts.
-struct TextureUse {
-    int image = kNone;
-    Sampler sampler;
-    int texCoordSet = 0; ///< 0 or 1
-    TextureTransform transform;
-    bool operator==(const TextureUse&) const = default;
-};
-
-/// Where a material may carry a texture. Every value is factor x texel; the channels used and the transfer function:
-enum class TextureSlot : std::uint8_t {
-    BaseColor,          ///< RGB base colour, k_d or the unlit colour (sRGB); A opacity
-    Normal,             ///< RGB normal, tangent or object space (linear)
-    MetallicRoughness,  ///< G roughness (perceptual for metallic_roughness, alpha or alpha_x for the microfacet models,
-                        ///< the exponent for blinn_phong), B metalness (linear)
-    Emissive,           ///< RGB (sRGB)
-    SpecularFactor,     ///< A strength of the dielectric specular lobe (linear)
-    SpecularColor,      ///< RGB k_s, or the tint of the dielectric F0 (sRGB)
-    Ior,                ///< R index of refraction (linear)
-    Anisotropy,         ///< RG direction in tangent space as 2 x texel - 1, B strength (metallic_roughness);
-                        ///< R alpha_y (microfacet_anisotropic) (linear)
-    Clearcoat,          ///< R share of the coat (linear)
-    ClearcoatRoughness, ///< G perceptual roughness of the coat (linear)
-    ClearcoatNormal,    ///< RGB normal of the coat, tangent space (linear)
-    SheenColor,         ///< RGB (sRGB)
-    SheenRoughness,     ///< A perceptual roughness of the sheen (linear)
-    Count
-};
-inline constexpr std::size_t kTextureSlotCount = static_cast<std::size_t>(TextureSlot::Count);
-
-// ---- Materials -----------------------------------------------------------------------------------------------------
-
-/// The models of the shading specification.
-enum class MaterialModel : std::uint8_t {
-    SingleColor,           ///< the colour itself, unlit
-    Lambert,               ///< k_d max(0, n.l), no 1/pi
-    BlinnPhong,            ///< k_d max(0, n.l) + k_s (n.h)^p
-    Microfacet,            ///< k_d plus k_s F D G / 4, exact dielectric Fresnel
-    MicrofacetAnisotropic, ///< the same with alpha_x along the tangent and alpha_y along the bitangent
-    MetallicRoughness      ///< glTF 2.0 appendix B
-};
-
-/// How the microfacet models let microfacets hide each other.
-enum class Masking : std::uint8_t {
-    Walter,      ///< by the angle to the normal; alpha along the microfacet normal where anisotropic (Walter 2007)
-    Directional, ///< microfacet_anisotropic: alpha along the direction itself (Heitz 2014)
-    HalfVector   ///< by the angle to the half vector; gains energy
-};
-
-enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
-enum class NormalMapSpace : std::uint8_t { Tangent, Object };
-
-/// How tangents are derived for meshes that bring none.
-enum class TangentMethod : std::uint8_t {
-    MikkTSpace, ///< as bakers do and glTF recommends: weighted by angle, split where the texture is mirrored
-    Lengyel     ///< summed over each vertex's triangles, as course notes teach it (Lengyel 2001)
-};
-
-struct Material {
-    std::string name;
-    MaterialModel model = MaterialModel::MetallicRoughness;
-    glm::vec4 baseColor{1.0f};         ///< base colour, k_d or the colour itself, linear; w is opacity
-    glm::vec3 emissive{0.0f};          ///< radiance, linear, emissive strength multiplied in
-    float metallic = 1.0f;             ///< 0..1, metallic_roughness only
-    float perceptualRoughness = 1.0f;  ///< 0..1, metallic_roughness only; alpha is its square
-    float alpha = 0.5f;                ///< GGX alpha of microfacet, alpha_x of microfacet_anisotropic, used as it is
-    float alphaY = 0.5f;               ///< GGX alpha along the bitangent, microfacet_anisotropic only
-    Masking masking = Masking::Walter; ///< microfacet models only
-    float exponent = 32.0f;            ///< p of blinn_phong
-    float ior = 1.5f;                  ///< index of refraction n2/n1
-    float specularFactor = 1.0f;       ///< strength of the dielectric specular lobe (KHR_materials_specular)
-    glm::vec3 specularColor{1.0f};     ///< k_s, or the tint of the dielectric F0 (KHR_materials_specular)
-    /// KHR_materials_anisotropy, _clearcoat and _sheen, metallic_roughness only.
-    float anisotropyStrength = 0.0f;           ///< 0..1
-    float anisotropyRotationRadians = 0.0f;    ///< counter-clockwise from the tangent
-    float clearcoat = 0.0f;                    ///< 0..1, share of the coat
-    float clearcoatPerceptualRoughness = 0.0f; ///< 0..1
-    float clearcoatNormalScale = 1.0f;
-    glm::vec3 sheenColor{0.0f};            ///< 0..1
-    float sheenPerceptualRoughness = 0.0f; ///< 0..1
-    float normalScale = 1.0f;              ///< scales x and y of a tangent-space normal texel
-    NormalMapSpace normalMapSpace = NormalMapSpace::Tangent;
-    TangentMethod tangents = TangentMethod::MikkTSpace;
-    AlphaMode alphaMode = AlphaMode::Opaque;
-    float alphaCutoff = 0.5f; ///< Mask: a fragment stays when opacity >= cutoff
-    bool doubleSided = false;
-    std::array<TextureUse, kTextureSlotCount> textures;
-
-    TextureUse& texture(TextureSlot slot) { return textures[static_cast<std::size_t>(slot)]; }
-    const TextureUse& texture(TextureSlot slot) const { return textures[static_cast<std::size_t>(slot)]; }
-    bool operator==(const Material&) const = default;
-};
 
 // ---- Geometry ------------------------------------------------------------------------------------------------------
 

@@ -222,7 +222,7 @@ std::vector<float> flippedRows(const std::vector<float>& rgba, int width, int he
 
 /// 1 where the opaque surface that shows takes light; empty where no material is unlit, so that all do.
 std::vector<std::uint8_t> litPixels(const scenes::Scene& scene, const frame::FrameSettings& settings) {
-    if (!frame::materialFeatures(scene)[frame::Feature::SingleColor]) return {};
+    if (!frame::materialFeatures(scene)[scenes::MaterialModel::SingleColor]) return {};
     scenes::Scene opaque = scene;
     for (scenes::Node& node : opaque.nodes) {
         std::erase_if(node.instances, [&](const scenes::MeshInstance& instance) {

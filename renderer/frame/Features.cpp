@@ -1,5 +1,11 @@
 #include "renderer/frame/Features.h"
 
+#include <algorithm>
+#include <cassert>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "renderer/gpu/Sampler.h"
 #include "scenes/InUse.h"
 #include "shaders/shared/material.h"
@@ -8,54 +14,71 @@ namespace tessera::frame {
 
 namespace {
 
-constexpr FeatureInfo kTable[] = {
-    {Feature::SingleColor, "SINGLE_COLOR", "unlit surfaces", "no material is single_color"},
-    {Feature::Lambert, "LAMBERT", "model lambert", "no material is lambert"},
-    {Feature::BlinnPhong, "BLINN_PHONG", "model blinn_phong", "no material is blinn_phong"},
-    {Feature::Microfacet, "MICROFACET", "model microfacet", "no material is microfacet"},
-    {Feature::MicrofacetAnisotropic, "MICROFACET_ANISOTROPIC", "model microfacet_anisotropic",
-     "no material is microfacet_anisotropic"},
-    {Feature::MetallicRoughness, "METALLIC_ROUGHNESS", "model metallic_roughness", "no material is metallic_roughness"},
-    {Feature::DirectionalLights, "DIRECTIONAL_LIGHTS", "directional lights", "no directional light is on"},
-    {Feature::PointLights, "POINT_LIGHTS", "point lights", "no point light is on and in view"},
-    {Feature::SpotLights, "SPOT_LIGHTS", "spot lights", "no spot light is on and in view"},
-    {Feature::AttenuationLights, "ATTENUATION_LIGHTS", "A B C falloff", "no light falls off by A + B d + C d^2"},
-    {Feature::BaseColorTexture, "BASE_COLOR_TEXTURE", "base-colour texture", "no material has one"},
-    {Feature::NormalTexture, "NORMAL_TEXTURE", "normal maps", "no material has one"},
-    {Feature::MetallicRoughnessTexture, "METALLIC_ROUGHNESS_TEXTURE", "roughness texture", "no material has one"},
-    {Feature::EmissiveTexture, "EMISSIVE_TEXTURE", "emissive texture", "no material has one"},
-    {Feature::SpecularFactorTexture, "SPECULAR_FACTOR_TEXTURE", "specular-strength texture", "no material has one"},
-    {Feature::SpecularColorTexture, "SPECULAR_COLOR_TEXTURE", "specular-colour texture", "no material has one"},
-    {Feature::IorTexture, "IOR_TEXTURE", "index-of-refraction texture", "no material has one"},
-    {Feature::AnisotropyTexture, "ANISOTROPY_TEXTURE", "anisotropy texture", "no material has one"},
-    {Feature::ClearcoatTexture, "CLEARCOAT_TEXTURE", "clearcoat texture", "no material has one"},
-    {Feature::ClearcoatRoughnessTexture, "CLEARCOAT_ROUGHNESS_TEXTURE", "clearcoat-roughness texture",
-     "no material has one"},
-    {Feature::ClearcoatNormalTexture, "CLEARCOAT_NORMAL_TEXTURE", "clearcoat normal maps", "no material has one"},
-    {Feature::SheenColorTexture, "SHEEN_COLOR_TEXTURE", "sheen-colour texture", "no material has one"},
-    {Feature::SheenRoughnessTexture, "SHEEN_ROUGHNESS_TEXTURE", "sheen-roughness texture", "no material has one"},
-    {Feature::TextureTransform, "TEXTURE_TRANSFORM", "texture transforms", "every texture lies as its coordinates say"},
-    {Feature::MixedFilters, "MIXED_FILTERS", "choice between magnifying and minifying filters",
-     "no sampler takes single texels for one of them only"},
-    {Feature::TexCoord1, "TEXCOORD1", "second texture coordinates", "no texture uses them"},
-    {Feature::VertexColor, "VERTEX_COLOR", "vertex colours", "no mesh has them"},
-    {Feature::TangentSpaceNormals, "TANGENT_SPACE_NORMALS", "tangents", "no normal map is in tangent space"},
-    {Feature::ObjectSpaceNormals, "OBJECT_SPACE_NORMALS", "object-space normal maps",
-     "no normal map is in object space"},
-    {Feature::Emission, "EMISSION", "emission", "no material emits or is unlit"},
-    {Feature::Specular, "SPECULAR", "specular colour and strength", "every material keeps k_s = 1 or F0 = 0.04"},
-    {Feature::MaskingOptions, "MASKING_OPTIONS", "options of masking", "every material keeps masking = walter"},
-    {Feature::Anisotropy, "ANISOTROPY", "anisotropy of metallic_roughness", "no material has any"},
-    {Feature::Clearcoat, "CLEARCOAT", "clearcoat", "no material has any"},
-    {Feature::Sheen, "SHEEN", "sheen", "no material has any"},
-    {Feature::AlphaMask, "ALPHA_MASK", "alpha masks", "no material is alpha-masked"},
-    {Feature::Blend, "BLEND", "transparent pass", "no material is alpha-blended"},
-    {Feature::DoubleSided, "DOUBLE_SIDED", "two-sided normals", "no material is double-sided"},
-    {Feature::VaryingMaterials, "VARYING_MATERIALS", "materials that vary over a surface",
-     "no texture but normal maps, no vertex colour and no anisotropy changes one"},
-    {Feature::OrthographicCamera, "ORTHOGRAPHIC_CAMERA", "parallel rays", "the camera is perspective"},
-};
-static_assert(std::size(kTable) == kFeatureCount);
+std::string inCapitals(std::string_view name) {
+    std::string capitals(name);
+    for (char& c : capitals) c = c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
+    return capitals;
+}
+
+std::vector<FeatureInfo> makeTable() {
+    std::vector<FeatureInfo> table;
+    for (const scenes::MaterialModelInfo& model : scenes::materialModels()) {
+        table.push_back({featureOf(model.model), inCapitals(model.name),
+                         model.isLit ? fmt::format("model {}", model.name) : "unlit surfaces",
+                         fmt::format("no material is {}", model.name)});
+    }
+    table.insert(
+        table.end(),
+        {
+            {Feature::DirectionalLights, "DIRECTIONAL_LIGHTS", "directional lights", "no directional light is on"},
+            {Feature::PointLights, "POINT_LIGHTS", "point lights", "no point light is on and in view"},
+            {Feature::SpotLights, "SPOT_LIGHTS", "spot lights", "no spot light is on and in view"},
+            {Feature::AttenuationLights, "ATTENUATION_LIGHTS", "A B C falloff",
+             "no light falls off by A + B d + C d^2"},
+            {Feature::BaseColorTexture, "BASE_COLOR_TEXTURE", "base-colour texture", "no material has one"},
+            {Feature::NormalTexture, "NORMAL_TEXTURE", "normal maps", "no material has one"},
+            {Feature::MetallicRoughnessTexture, "METALLIC_ROUGHNESS_TEXTURE", "roughness texture",
+             "no material has one"},
+            {Feature::EmissiveTexture, "EMISSIVE_TEXTURE", "emissive texture", "no material has one"},
+            {Feature::SpecularFactorTexture, "SPECULAR_FACTOR_TEXTURE", "specular-strength texture",
+             "no material has one"},
+            {Feature::SpecularColorTexture, "SPECULAR_COLOR_TEXTURE", "specular-colour texture", "no material has one"},
+            {Feature::IorTexture, "IOR_TEXTURE", "index-of-refraction texture", "no material has one"},
+            {Feature::AnisotropyTexture, "ANISOTROPY_TEXTURE", "anisotropy texture", "no material has one"},
+            {Feature::ClearcoatTexture, "CLEARCOAT_TEXTURE", "clearcoat texture", "no material has one"},
+            {Feature::ClearcoatRoughnessTexture, "CLEARCOAT_ROUGHNESS_TEXTURE", "clearcoat-roughness texture",
+             "no material has one"},
+            {Feature::ClearcoatNormalTexture, "CLEARCOAT_NORMAL_TEXTURE", "clearcoat normal maps",
+             "no material has one"},
+            {Feature::SheenColorTexture, "SHEEN_COLOR_TEXTURE", "sheen-colour texture", "no material has one"},
+            {Feature::SheenRoughnessTexture, "SHEEN_ROUGHNESS_TEXTURE", "sheen-roughness texture",
+             "no material has one"},
+            {Feature::TextureTransform, "TEXTURE_TRANSFORM", "texture transforms",
+             "every texture lies as its coordinates say"},
+            {Feature::MixedFilters, "MIXED_FILTERS", "choice between magnifying and minifying filters",
+             "no sampler takes single texels for one of them only"},
+            {Feature::TexCoord1, "TEXCOORD1", "second texture coordinates", "no texture uses them"},
+            {Feature::VertexColor, "VERTEX_COLOR", "vertex colours", "no mesh has them"},
+            {Feature::TangentSpaceNormals, "TANGENT_SPACE_NORMALS", "tangents", "no normal map is in tangent space"},
+            {Feature::ObjectSpaceNormals, "OBJECT_SPACE_NORMALS", "object-space normal maps",
+             "no normal map is in object space"},
+            {Feature::Emission, "EMISSION", "emission", "no material emits or is unlit"},
+            {Feature::Specular, "SPECULAR", "specular colour and strength",
+             "every material keeps k_s = 1 or F0 = 0.04"},
+            {Feature::MaskingOptions, "MASKING_OPTIONS", "options of masking", "every material keeps masking = walter"},
+            {Feature::Anisotropy, "ANISOTROPY", "anisotropy of metallic_roughness", "no material has any"},
+            {Feature::Clearcoat, "CLEARCOAT", "clearcoat", "no material has any"},
+            {Feature::Sheen, "SHEEN", "sheen", "no material has any"},
+            {Feature::AlphaMask, "ALPHA_MASK", "alpha masks", "no material is alpha-masked"},
+            {Feature::Blend, "BLEND", "transparent pass", "no material is alpha-blended"},
+            {Feature::DoubleSided, "DOUBLE_SIDED", "two-sided normals", "no material is double-sided"},
+            {Feature::VaryingMaterials, "VARYING_MATERIALS", "materials that vary over a surface",
+             "no texture but normal maps, no vertex colour and no anisotropy changes one"},
+            {Feature::OrthographicCamera, "ORTHOGRAPHIC_CAMERA", "parallel rays", "the camera is perspective"},
+        });
+    assert(table.size() == kFeatureCount);
+    return table;
+}
 
 Feature textureFeature(std::size_t slot) {
     return static_cast<Feature>(static_cast<std::size_t>(Feature::BaseColorTexture) + slot);
@@ -64,8 +87,9 @@ Feature textureFeature(std::size_t slot) {
 bool changesSpecular(const scenes::Material& material) {
     const bool tinted = material.specularColor != glm::vec3(1.0f) ||
                         material.texture(scenes::TextureSlot::SpecularColor).image != scenes::kNone;
-    if (isMicrofacet(material) || material.model == scenes::MaterialModel::BlinnPhong) return tinted;
-    return material.model == scenes::MaterialModel::MetallicRoughness &&
+    const scenes::Highlight highlight = scenes::infoOf(material.model).highlight;
+    if (highlight == scenes::Highlight::Tinted) return tinted;
+    return highlight == scenes::Highlight::Dielectric &&
            (tinted || material.ior != 1.5f || material.texture(scenes::TextureSlot::Ior).image != scenes::kNone ||
             material.specularFactor != 1.0f ||
             material.texture(scenes::TextureSlot::SpecularFactor).image != scenes::kNone);
@@ -85,13 +109,8 @@ bool varies(const scenes::Material& material) {
 
 void addMaterial(FeatureSet& set, const scenes::Material& material) {
     using scenes::MaterialModel;
-    set.add(Feature::SingleColor, material.model == MaterialModel::SingleColor);
-    set.add(Feature::Lambert, material.model == MaterialModel::Lambert);
-    set.add(Feature::BlinnPhong, material.model == MaterialModel::BlinnPhong);
-    set.add(Feature::Microfacet, material.model == MaterialModel::Microfacet);
-    set.add(Feature::MicrofacetAnisotropic, material.model == MaterialModel::MicrofacetAnisotropic);
-    set.add(Feature::MetallicRoughness, material.model == MaterialModel::MetallicRoughness);
-    set.add(Feature::MaskingOptions, isMicrofacet(material) && material.masking != scenes::Masking::Walter);
+    set.add(featureOf(material.model));
+    set.add(Feature::MaskingOptions, canMask(material) && material.masking != scenes::Masking::Walter);
     if (material.model == MaterialModel::MetallicRoughness) {
         set.add(Feature::Anisotropy, material.anisotropyStrength > 0.0f);
         set.add(Feature::Clearcoat, material.clearcoat > 0.0f);
@@ -110,7 +129,7 @@ void addMaterial(FeatureSet& set, const scenes::Material& material) {
     const bool objectSpace = material.normalMapSpace == scenes::NormalMapSpace::Object;
     set.add(Feature::TangentSpaceNormals, normalMap && !objectSpace);
     set.add(Feature::ObjectSpaceNormals, normalMap && objectSpace);
-    set.add(Feature::Emission, material.emissive != glm::vec3(0.0f) || material.model == MaterialModel::SingleColor);
+    set.add(Feature::Emission, material.emissive != glm::vec3(0.0f) || !scenes::infoOf(material.model).isLit);
     set.add(Feature::Specular, changesSpecular(material));
     set.add(Feature::AlphaMask, material.alphaMode == scenes::AlphaMode::Mask);
     set.add(Feature::Blend, material.alphaMode == scenes::AlphaMode::Blend);
@@ -118,23 +137,80 @@ void addMaterial(FeatureSet& set, const scenes::Material& material) {
     set.add(Feature::VaryingMaterials, varies(material));
 }
 
+constexpr bool isMicrofacet(const scenes::MaterialModelInfo& model) {
+    return model.microsurface == scenes::Microsurface::Dielectric;
+}
+
+/// They stand side by side, as the G-buffer numbers their maskings one after the other.
+constexpr scenes::MaterialModel kFirstMicrofacet = std::ranges::find_if(scenes::materialModels(), isMicrofacet)->model;
+static_assert(std::ranges::is_partitioned(scenes::materialModels().subspan(std::size_t(kFirstMicrofacet)),
+                                          isMicrofacet));
+
+// What a surface is of which nothing is known (shaders/lib/surface.glsl).
+static_assert(!scenes::materialModels().front().isLit);
+
+/// The number of a model in a shader.
+std::string numberOf(scenes::MaterialModel model) {
+    return fmt::format("{}u", static_cast<int>(model));
+}
+
+void addModels(const FeatureSet& features, Defines& defines) {
+    using scenes::Highlight, scenes::Microsurface, scenes::MaterialModelInfo;
+    for (const MaterialModelInfo& model : scenes::materialModels())
+        defines.emplace_back("MODEL_" + inCapitals(model.name), numberOf(model.model));
+    defines.emplace_back("MODEL_COUNT", fmt::format("{}u", scenes::kMaterialModelCount));
+    defines.emplace_back("MODEL_FIRST_MICROFACET", numberOf(kFirstMicrofacet));
+    if (features.soleModel) defines.emplace_back("SOLE_MODEL", numberOf(*features.soleModel));
+
+    const auto addList = [&](const char* name, const char* each, const char* between, const char* none,
+                             const auto& isOne) {
+        std::vector<std::string> list;
+        for (const MaterialModelInfo& model : scenes::materialModels())
+            if (features[model.model] && isOne(model))
+                list.push_back(fmt::format(fmt::runtime(each), int(model.model)));
+        defines.emplace_back(name, list.empty() ? none : fmt::format("{}", fmt::join(list, between)));
+    };
+    const auto isLit = [](const MaterialModelInfo& model) { return model.isLit; };
+    addList("LIT_MODELS", "{}u", ", ", "", isLit);
+    // Whether a surface's model is one of those; false is known before the shader runs.
+    const auto addQuestion = [&](const char* name, const auto& isOne) {
+        addList(name, "(model) == {}u", " || ", "false", isOne);
+        defines.back().second = "(" + defines.back().second + ")";
+    };
+    addQuestion("IS_UNLIT(model)", [](const MaterialModelInfo& model) { return !model.isLit; });
+    addQuestion("IS_GLOSSY(model)", [](const MaterialModelInfo& model) { return model.highlight != Highlight::None; });
+    addQuestion("HAS_PARAMETER(model)",
+                [](const MaterialModelInfo& model) { return model.microsurface == Microsurface::Parameter; });
+    addQuestion("IS_MICROFACET(model)", isMicrofacet);
+}
+
 } // namespace
 
 std::span<const FeatureInfo> featureTable() {
-    return kTable;
+    static const std::vector<FeatureInfo> table = makeTable();
+    return table;
+}
+
+bool FeatureSet::any(bool (*isOne)(const scenes::MaterialModelInfo&)) const {
+    const std::span<const scenes::MaterialModelInfo> models = scenes::materialModels();
+    return std::any_of(models.begin(), models.end(),
+                       [&](const scenes::MaterialModelInfo& model) { return (*this)[model.model] && isOne(model); });
 }
 
 bool FeatureSet::litModels() const {
-    return (*this)[Feature::Lambert] || glossyModels();
+    return any([](const scenes::MaterialModelInfo& model) { return model.isLit; });
 }
 
 bool FeatureSet::glossyModels() const {
-    return (*this)[Feature::BlinnPhong] || (*this)[Feature::Microfacet] || (*this)[Feature::MicrofacetAnisotropic] ||
-           (*this)[Feature::MetallicRoughness];
+    return any([](const scenes::MaterialModelInfo& model) { return model.highlight != scenes::Highlight::None; });
+}
+
+bool FeatureSet::microsurfaces() const {
+    return any([](const scenes::MaterialModelInfo& model) { return model.microsurface != scenes::Microsurface::None; });
 }
 
 bool FeatureSet::tangentFrame() const {
-    return (*this)[Feature::MicrofacetAnisotropic] || (*this)[Feature::Anisotropy];
+    return (*this)[scenes::MaterialModel::MicrofacetAnisotropic] || (*this)[Feature::Anisotropy];
 }
 
 bool FeatureSet::tangents() const {
@@ -148,9 +224,8 @@ bool FeatureSet::textures() const {
     return false;
 }
 
-bool isMicrofacet(const scenes::Material& material) {
-    return material.model == scenes::MaterialModel::Microfacet ||
-           material.model == scenes::MaterialModel::MicrofacetAnisotropic;
+bool canMask(const scenes::Material& material) {
+    return isMicrofacet(scenes::infoOf(material.model));
 }
 
 FeatureSet materialFeatures(const scenes::Scene& scene) {
@@ -178,14 +253,15 @@ FeatureSet allFeatures() {
 
 Defines featureDefines(const FeatureSet& features) {
     Defines defines;
-    for (const FeatureInfo& info : kTable) {
-        defines.emplace_back("HAS_" + std::string(info.define), features[info.feature] ? "1" : "0");
-    }
-    defines.emplace_back("HAS_LIT_MODELS", features.litModels() ? "1" : "0");
-    defines.emplace_back("HAS_TEXTURES", features.textures() ? "1" : "0");
-    if (features.soleModel) {
-        defines.emplace_back("SOLE_MODEL", std::to_string(static_cast<int>(*features.soleModel)) + "u");
-    }
+    const auto addFlag = [&](std::string name, bool flag) { defines.emplace_back(std::move(name), flag ? "1" : "0"); };
+    for (const FeatureInfo& info : featureTable()) addFlag("HAS_" + info.define, features[info.feature]);
+    addFlag("HAS_LIT_MODELS", features.litModels());
+    addFlag("HAS_GLOSSY_MODELS", features.glossyModels());
+    addFlag("HAS_MICROSURFACES", features.microsurfaces());
+    addFlag("HAS_TANGENT_FRAME", features.tangentFrame());
+    addFlag("HAS_TANGENTS", features.tangents());
+    addFlag("HAS_TEXTURES", features.textures());
+    addModels(features, defines);
     return defines;
 }
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string_view>
+#include <string>
 
 #include "renderer/shader/Preprocess.h"
 #include "scenes/Scene.h"
@@ -13,12 +13,8 @@
 namespace tessera::frame {
 
 enum class Feature : std::uint8_t {
-    SingleColor,
-    Lambert,
-    BlinnPhong,
-    Microfacet,
-    MicrofacetAnisotropic,
-    MetallicRoughness,
+    FirstModel, // the features of models follow scenes::MaterialModel
+    LastModel = FirstModel + scenes::kMaterialModelCount - 1,
     DirectionalLights,
     PointLights,
     SpotLights,
@@ -57,11 +53,16 @@ enum class Feature : std::uint8_t {
 };
 inline constexpr std::size_t kFeatureCount = static_cast<std::size_t>(Feature::Count);
 
+/// That some surface has the model.
+constexpr Feature featureOf(scenes::MaterialModel model) {
+    return static_cast<Feature>(static_cast<std::size_t>(Feature::FirstModel) + static_cast<std::size_t>(model));
+}
+
 struct FeatureInfo {
     Feature feature;
-    std::string_view define; ///< HAS_<define> is 0 or 1 in every shader
-    std::string_view what;   ///< what is left out without it
-    std::string_view absent; ///< why it is left out
+    std::string define; ///< HAS_<define> is 0 or 1 in every shader
+    std::string what;   ///< what is left out without it
+    std::string absent; ///< why it is left out
 };
 std::span<const FeatureInfo> featureTable();
 
@@ -72,19 +73,24 @@ struct FeatureSet {
     std::optional<scenes::MaterialModel> soleModel; ///< set when every surface has this model
 
     bool operator[](Feature feature) const { return has[static_cast<std::size_t>(feature)]; }
+    bool operator[](scenes::MaterialModel model) const { return (*this)[featureOf(model)]; }
     void add(Feature feature, bool present = true) {
         if (present) has.set(static_cast<std::size_t>(feature));
     }
     bool litModels() const;
-    bool glossyModels() const; ///< models with a highlight
-    bool tangentFrame() const; ///< surfaces keep a tangent
-    bool tangents() const;     ///< meshes bring tangents
+    bool glossyModels() const;  ///< models with a highlight
+    bool microsurfaces() const; ///< models with more parameters than colours
+    bool tangentFrame() const;  ///< surfaces keep a tangent
+    bool tangents() const;      ///< meshes bring tangents
     bool textures() const;
     bool operator==(const FeatureSet&) const = default;
+
+private:
+    bool any(bool (*isOne)(const scenes::MaterialModelInfo&)) const; ///< whether one of the set's models is so
 };
 
-/// Whether it has one of the two microfacet models, which alone have options of masking.
-bool isMicrofacet(const scenes::Material& material);
+/// Whether its model has options of masking.
+bool canMask(const scenes::Material& material);
 
 /// The set of what materials in use need; lights are added by packLights, which knows which of them can be seen, and
 /// the camera by makeFrameSpec.
@@ -93,7 +99,10 @@ FeatureSet materialFeatures(const scenes::Scene& scene);
 /// Everything there is (prune = off).
 FeatureSet allFeatures();
 
-/// HAS_* of every feature as 0 or 1, HAS_LIT_MODELS, HAS_TEXTURES, and SOLE_MODEL where there is one.
+/// What shaders know of the scene: HAS_* of every feature as 0 or 1, and of what several have in common (litModels(),
+/// glossyModels() and so on); of each model its number MODEL_<NAME>, and MODEL_COUNT; SOLE_MODEL where there is one. Of
+/// the scene's models LIT_MODELS lists the numbers of the lit ones, and macros say what a model is: IS_UNLIT(model),
+/// IS_GLOSSY(model) and so on.
 Defines featureDefines(const FeatureSet& features);
 
 } // namespace tessera::frame

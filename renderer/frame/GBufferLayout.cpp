@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -106,8 +107,31 @@ static_assert(std::ranges::all_of(kChannels, [](const ChannelInfo& row) {
     return row.channel != Channel::Emission || (isGood(row.packed) && isGood(row.slim));
 }));
 
+// The field of model and masking holds the models, then each of those that mask once more for each other masking
+// (shaders/lib/gbuffer_encodings.glsl).
+constexpr std::size_t kKindCodes = [] {
+    std::size_t codes = scenes::kMaterialModelCount;
+    for (const scenes::MaterialModelInfo& model : scenes::materialModels())
+        if (model.microsurface == scenes::Microsurface::Dielectric) codes += std::size_t(scenes::Masking::Count) - 1;
+    return codes;
+}();
+static_assert(std::ranges::all_of(kChannels, [](const ChannelInfo& row) {
+    return row.channel != Channel::Microsurface || kKindCodes <= std::size_t(1) << std::min(row.packed[0], row.slim[0]);
+}));
+
 const ChannelInfo& infoOf(Channel channel) {
     return kChannels[static_cast<std::size_t>(channel)];
+}
+
+/// A channel's name in those of its functions: "NormalTexel".
+std::string capitalised(std::string_view name) {
+    std::string words;
+    bool begins = true;
+    for (const char c : name) {
+        if (c != '_') words += begins ? char(c - 'a' + 'A') : c;
+        begins = c == '_';
+    }
+    return words;
 }
 
 constexpr GBufferLayout uniformLayout(Encoding encoding) {
@@ -167,10 +191,12 @@ std::vector<Channel> channelsOfSurfaces(const FeatureSet& features, const GBuffe
         channels.push_back(Channel::Normal);
     }
     const bool alphaAndMetallicOnly =
-        features.soleModel == scenes::MaterialModel::MetallicRoughness && !features[Feature::Specular];
+        features.soleModel &&
+        scenes::infoOf(*features.soleModel).microsurface == scenes::Microsurface::MetallicRoughness &&
+        !features[Feature::Specular];
     const bool spare =
         alphaAndMetallicOnly && haveSpareComponents(layout) && layout[Channel::Microsurface] == Encoding::Exact;
-    if ((glossy || !features.soleModel) && !spare) channels.push_back(Channel::Microsurface);
+    if ((features.microsurfaces() || !features.soleModel) && !spare) channels.push_back(Channel::Microsurface);
     if (glossy && features[Feature::Specular]) channels.push_back(Channel::Specular);
     if (features[Feature::Emission]) channels.push_back(Channel::Emission);
     if (normalTexel) {
@@ -248,26 +274,27 @@ int bytesPerPixel(const GBufferLayout& layout, std::span<const Channel> channels
 }
 
 Defines channelDefines(const GBufferLayout& layout, std::span<const Channel> channels) {
+    if (channels.empty()) return {};
     Defines defines;
+    std::string list;
     int attachment = 0, bit = 0;
     for (const Channel channel : channels) {
         const std::string name = "GBUFFER_" + std::string(infoOf(channel).define);
-        if (layout[channel] == Encoding::Exact) {
-            defines.emplace_back(name, std::to_string(attachment++));
-            defines.emplace_back(name + "_PACKED", "0");
-        } else {
-            const FieldWidths& w = layout.widths(channel);
-            defines.emplace_back(name, std::to_string(bit));
-            defines.emplace_back(name + "_PACKED", "1");
-            defines.emplace_back(name + "_WIDTHS", fmt::format("{}, {}, {}, {}", w[0], w[1], w[2], w[3]));
-            bit += layout.bits(channel);
-        }
+        const bool isPacked = layout[channel] != Encoding::Exact;
+        const FieldWidths w = isPacked ? layout.widths(channel) : FieldWidths{};
+        const int at = isPacked ? std::exchange(bit, bit + layout.bits(channel)) : attachment++;
+        const std::string widths = fmt::format("{}, {}, {}, {}", w[0], w[1], w[2], w[3]);
+        defines.emplace_back(name, std::to_string(at));
+        if (isPacked) defines.emplace_back(name + "_WIDTHS", widths);
+        const std::string functions = fmt::format("put{0}, take{0}", capitalised(infoOf(channel).name));
+        list += list.empty() ? "" : " ";
+        list += isPacked ? fmt::format("PACKED_CHANNEL({}, {}, ivec4({}))", functions, at, widths)
+                         : fmt::format("EXACT_CHANNEL({}, {})", functions, at);
     }
-    if (attachment > 0) defines.emplace_back("GBUFFER_EXACT_CHANNELS", std::to_string(attachment));
-    if (bit > 0) {
-        defines.emplace_back("GBUFFER_WORDS", std::to_string((bit + 31) / 32));
-        defines.emplace_back("GBUFFER_WORD_TEXTURE", std::to_string(attachment));
-    }
+    defines.emplace_back("GBUFFER_CHANNELS", list);
+    defines.emplace_back("GBUFFER_EXACT_CHANNELS", std::to_string(attachment));
+    defines.emplace_back("GBUFFER_WORDS", std::to_string((bit + 31) / 32));
+    if (bit > 0) defines.emplace_back("GBUFFER_WORD_TEXTURE", std::to_string(attachment));
     if (holdMaterialNumber(layout, channels))
         defines.emplace_back("GBUFFER_MATERIAL_NUMBER", "1");
     else if (contain(channels, Channel::Albedo) && !contain(channels, Channel::Microsurface) &&

@@ -14,12 +14,6 @@ namespace {
 using scenes::MaterialModel;
 using scenes::TextureSlot;
 
-static_assert(unsigned(MaterialModel::SingleColor) == MODEL_SINGLE_COLOR &&
-              unsigned(MaterialModel::Lambert) == MODEL_LAMBERT);
-static_assert(unsigned(MaterialModel::BlinnPhong) == MODEL_BLINN_PHONG);
-static_assert(unsigned(MaterialModel::Microfacet) == MODEL_MICROFACET &&
-              unsigned(MaterialModel::MicrofacetAnisotropic) == MODEL_MICROFACET_ANISOTROPIC);
-static_assert(unsigned(MaterialModel::MetallicRoughness) == MODEL_METALLIC_ROUGHNESS);
 static_assert(int(TextureSlot::BaseColor) == TEXTURE_SLOT_BASE_COLOR &&
               int(TextureSlot::Normal) == TEXTURE_SLOT_NORMAL);
 static_assert(int(TextureSlot::MetallicRoughness) == TEXTURE_SLOT_METALLIC_ROUGHNESS);
@@ -72,14 +66,8 @@ void packTexture(const scenes::TextureUse& use, glm::vec4& row0, glm::vec4& row1
 
 /// What `microsurface.y` of the constants holds.
 float roughnessParameter(const scenes::Material& material) {
-    switch (material.model) {
-    case MaterialModel::MetallicRoughness:
-        return material.perceptualRoughness;
-    case MaterialModel::BlinnPhong:
-        return material.exponent;
-    default:
-        return material.alpha;
-    }
+    float scenes::Material::*const member = scenes::infoOf(material.model).roughness;
+    return member ? material.*member : 0.0f;
 }
 
 /// -1 where the matrix mirrors.

@@ -10,7 +10,6 @@ namespace tessera::frame {
 namespace {
 
 using scenes::Material;
-using scenes::MaterialModel;
 using scenes::TextureSlot;
 
 constexpr std::string_view kBright = "a colour of the scene may exceed 1, which its packed field cannot hold";
@@ -38,8 +37,8 @@ bool anyMaterial(const scenes::Scene& scene, Predicate&& isSo) {
 
 bool hasBrightAlbedo(const scenes::Scene& scene) {
     const auto isBright = [&](const Material& material) {
-        // The colour of single_color is radiance, and goes to another channel.
-        return material.model != MaterialModel::SingleColor &&
+        // The colour of what is unlit is radiance, and goes to another channel.
+        return scenes::infoOf(material.model).isLit &&
                exceedsOne(scene, glm::vec3(material.baseColor), material.texture(TextureSlot::BaseColor));
     };
     const std::vector<const scenes::Mesh*> meshes = scenes::meshesInUse(scene);
@@ -50,14 +49,14 @@ bool hasBrightAlbedo(const scenes::Scene& scene) {
 bool hasBrightSpecular(const scenes::Scene& scene) {
     return anyMaterial(scene, [&](const Material& material) {
         // The F0 of metallic_roughness is held to 1 before it is stored.
-        return material.model != MaterialModel::SingleColor && material.model != MaterialModel::MetallicRoughness &&
+        return scenes::infoOf(material.model).highlight == scenes::Highlight::Tinted &&
                exceedsOne(scene, material.specularColor, material.texture(TextureSlot::SpecularColor));
     });
 }
 
 bool masksByHalfVector(const scenes::Scene& scene) {
     return anyMaterial(scene, [](const Material& material) {
-        return isMicrofacet(material) && material.masking == scenes::Masking::HalfVector;
+        return canMask(material) && material.masking == scenes::Masking::HalfVector;
     });
 }
 

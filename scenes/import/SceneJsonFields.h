@@ -78,32 +78,7 @@ inline constexpr std::array<const char*, kTextureSlotCount> kTextureFields = {"b
 
 template <typename Visitor, typename... Materials>
 void visitMaterial(Visitor&& visit, Materials&... material) {
-    visit("name", material.name...);
-    visit("model", material.model...);
-    visit("baseColor", material.baseColor...);
-    visit("emissive", material.emissive...);
-    visit("metallic", material.metallic...);
-    visit("perceptualRoughness", material.perceptualRoughness...);
-    visit("alpha", material.alpha...);
-    visit("alphaY", material.alphaY...);
-    visit("masking", material.masking...);
-    visit("exponent", material.exponent...);
-    visit("ior", material.ior...);
-    visit("specularFactor", material.specularFactor...);
-    visit("specularColor", material.specularColor...);
-    visit("anisotropyStrength", material.anisotropyStrength...);
-    visit("anisotropyRotationRadians", material.anisotropyRotationRadians...);
-    visit("clearcoat", material.clearcoat...);
-    visit("clearcoatPerceptualRoughness", material.clearcoatPerceptualRoughness...);
-    visit("clearcoatNormalScale", material.clearcoatNormalScale...);
-    visit("sheenColor", material.sheenColor...);
-    visit("sheenPerceptualRoughness", material.sheenPerceptualRoughness...);
-    visit("normalScale", material.normalScale...);
-    visit("normalMapSpace", material.normalMapSpace...);
-    visit("tangents", material.tangents...);
-    visit("alphaMode", material.alphaMode...);
-    visit("alphaCutoff", material.alphaCutoff...);
-    visit("doubleSided", material.doubleSided...);
+    visitMaterialFields([&](const auto& field) { visit(field.name, material.*field.member...); });
     for (std::size_t slot = 0; slot < kTextureSlotCount; ++slot)
         visit(kTextureFields[slot], material.textures[slot]...);
 }

@@ -26,12 +26,19 @@ public:
         parts.done("a parameter with a texture");
     }
 
-    void number(std::string_view key, TextureSlot slot, float& factor, double least, double most) {
-        read(key, slot, [&](const JsonValue& value) { factor = value.single(least, most); });
+    /// One of the table's.
+    void parameter(const MaterialParameter& parameter) {
+        const auto set = [&](const JsonValue& value) {
+            std::visit([&](auto member) { setFactor(value, parameter.kind, member); }, parameter.member);
+        };
+        if (parameter.slot != TextureSlot::Count)
+            read(parameter.key, parameter.slot, set);
+        else if (const auto value = object_.find(parameter.key))
+            set(*value);
     }
 
-    void color(std::string_view key, TextureSlot slot, glm::vec3& factor) {
-        read(key, slot, [&](const JsonValue& value) { factor = value.color(); });
+    void number(std::string_view key, TextureSlot slot, float& factor, double least, double most) {
+        read(key, slot, [&](const JsonValue& value) { factor = value.single(least, most); });
     }
 
     /// RGB, or RGB and opacity.
@@ -50,17 +57,6 @@ public:
             const std::vector<JsonValue> channels = value.elements(3, 3);
             for (glm::length_t i = 0; i < 3; ++i) factor[i] = channels[static_cast<std::size_t>(i)].single(0.0, 1.0);
         });
-    }
-
-    void ior() {
-        read("ior", TextureSlot::Ior, [&](const JsonValue& value) {
-            value.positive();
-            material_.ior = value.single();
-        });
-    }
-
-    void masking(std::span<const Named<Masking>> names) {
-        if (const auto value = object_.find("masking")) material_.masking = value->oneOf<Masking>("masking", names);
     }
 
     void anisotropy() {
@@ -127,7 +123,7 @@ public:
     }
 
     void emission() {
-        color("emissive", TextureSlot::Emissive, material_.emissive);
+        read("emissive", TextureSlot::Emissive, [&](const JsonValue& value) { material_.emissive = value.color(); });
         if (const auto strength = object_.find("emissiveStrength")) {
             const double factor = strength->number(0.0);
             const glm::dvec3 radiance = glm::dvec3(material_.emissive) * factor;
@@ -137,64 +133,46 @@ public:
         }
     }
 
+    /// What only metallic_roughness has.
+    void layers() {
+        if (const auto texture = object_.find("metallicRoughnessTexture"))
+            setTexture(*texture, TextureSlot::MetallicRoughness);
+        emission();
+        anisotropy();
+        clearcoat();
+        sheen();
+    }
+
 private:
+    void setFactor(const JsonValue& value, MaterialParameter::Kind kind, float Material::*member) {
+        using Kind = MaterialParameter::Kind;
+        if (kind == Kind::Ior) value.positive();
+        float& factor = material_.*member = value.single(materialField(member).least,
+                                                         kind == Kind::Number ? materialField(member).most : kAnyNumber);
+        if (kind == Kind::IorOrPerfect && factor > 0.0f && factor < 1.0f)
+            value.fail(fmt::format("is {}; 0 or at least 1 is needed", factor));
+    }
+    void setFactor(const JsonValue& value, MaterialParameter::Kind, glm::vec3 Material::*member) {
+        material_.*member = value.color();
+    }
+    void setFactor(const JsonValue& value, MaterialParameter::Kind, Masking Material::*member) {
+        const std::span<const Named<Masking>> all = kMaskings;
+        material_.*member = value.oneOf<Masking>(
+            "masking", material_.model == MaterialModel::MicrofacetAnisotropic ? all : all.first<2>());
+    }
+
     JsonObject& object_;
     Material& material_;
     Images& images_;
 };
 
-constexpr double kMost = std::numeric_limits<float>::max();
-
 void readModelParameters(JsonObject& object, Material& material, Images& images) {
     Parameters parameters(object, material, images);
-    switch (material.model) {
-    case MaterialModel::SingleColor:
-        parameters.baseColor("color");
-        return;
-    case MaterialModel::Lambert:
-        parameters.baseColor("k_d");
-        break;
-    case MaterialModel::Microfacet:
-        parameters.baseColor("k_d");
-        parameters.color("k_s", TextureSlot::SpecularColor, material.specularColor);
-        parameters.number("alpha", TextureSlot::MetallicRoughness, material.alpha, 0.0, kMost);
-        parameters.ior();
-        parameters.masking(std::span(kMaskings).first<2>());
-        break;
-    case MaterialModel::MicrofacetAnisotropic:
-        parameters.baseColor("k_d");
-        parameters.color("k_s", TextureSlot::SpecularColor, material.specularColor);
-        parameters.number("alphaX", TextureSlot::MetallicRoughness, material.alpha, 0.0, kMost);
-        parameters.number("alphaY", TextureSlot::Anisotropy, material.alphaY, 0.0, kMost);
-        parameters.ior();
-        parameters.masking(kMaskings);
-        break;
-    case MaterialModel::BlinnPhong:
-        parameters.baseColor("k_d");
-        parameters.color("k_s", TextureSlot::SpecularColor, material.specularColor);
-        parameters.number("exponent", TextureSlot::MetallicRoughness, material.exponent, 0.0, kMost);
-        break;
-    case MaterialModel::MetallicRoughness:
-        parameters.baseColor("baseColor");
-        if (const auto metallic = object.find("metallic")) material.metallic = metallic->single(0.0, 1.0);
-        if (const auto roughness = object.find("perceptualRoughness"))
-            material.perceptualRoughness = roughness->single(0.0, 1.0);
-        if (const auto texture = object.find("metallicRoughnessTexture"))
-            parameters.setTexture(*texture, TextureSlot::MetallicRoughness);
-        // 0 and above 1 as KHR_materials_ior has them: 0 reflects everything.
-        parameters.read("ior", TextureSlot::Ior, [&](const JsonValue& value) {
-            material.ior = value.single(0.0);
-            if (material.ior > 0.0f && material.ior < 1.0f)
-                value.fail(fmt::format("is {}; 0 or at least 1 is needed", material.ior));
-        });
-        parameters.number("specularFactor", TextureSlot::SpecularFactor, material.specularFactor, 0.0, 1.0);
-        parameters.color("specularColor", TextureSlot::SpecularColor, material.specularColor);
-        parameters.emission();
-        parameters.anisotropy();
-        parameters.clearcoat();
-        parameters.sheen();
-        break;
-    }
+    const MaterialModelInfo& model = infoOf(material.model);
+    parameters.baseColor(model.colorKey);
+    for (const MaterialParameter& parameter : model.parameters) parameters.parameter(parameter);
+    if (model.hasLayers) parameters.layers();
+    if (!model.isLit) return;
     parameters.normalMap();
     parameters.tangents();
 }

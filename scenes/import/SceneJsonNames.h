@@ -22,13 +22,11 @@ inline constexpr std::array kFilters = {Named<Filter>{"nearest", Filter::Nearest
                                         Named<Filter>{"linear_mipmap_nearest", Filter::LinearMipmapNearest},
                                         Named<Filter>{"nearest_mipmap_linear", Filter::NearestMipmapLinear},
                                         Named<Filter>{"linear_mipmap_linear", Filter::LinearMipmapLinear}};
-inline constexpr std::array kModels = {
-    Named<MaterialModel>{"single_color", MaterialModel::SingleColor},
-    Named<MaterialModel>{"lambert", MaterialModel::Lambert},
-    Named<MaterialModel>{"blinn_phong", MaterialModel::BlinnPhong},
-    Named<MaterialModel>{"microfacet", MaterialModel::Microfacet},
-    Named<MaterialModel>{"microfacet_anisotropic", MaterialModel::MicrofacetAnisotropic},
-    Named<MaterialModel>{"metallic_roughness", MaterialModel::MetallicRoughness}};
+inline constexpr auto kModels = [] {
+    std::array<Named<MaterialModel>, kMaterialModelCount> names;
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = {materialModels()[i].name, materialModels()[i].model};
+    return names;
+}();
 /// The first two are those of isotropic microfacets.
 inline constexpr std::array kMaskings = {Named<Masking>{"walter", Masking::Walter},
                                          Named<Masking>{"half_vector", Masking::HalfVector},

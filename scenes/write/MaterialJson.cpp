@@ -47,8 +47,14 @@ public:
 
     void baseColor(const char* key) { parameter(key, numbers(material_.baseColor), TextureSlot::BaseColor); }
 
-    void specularColor(const char* key) {
-        parameter(key, numbers(material_.specularColor), TextureSlot::SpecularColor);
+    /// One of the table's.
+    void parameter(const MaterialParameter& parameter) {
+        const auto json = [&](auto member) { return factorJson(material_.*member); };
+        Json factor = std::visit(json, parameter.member);
+        if (parameter.slot == TextureSlot::Count)
+            json_[parameter.key] = std::move(factor);
+        else
+            this->parameter(parameter.key, std::move(factor), parameter.slot);
     }
 
     void normalMap() {
@@ -58,7 +64,10 @@ public:
         if (material_.normalMapSpace == NormalMapSpace::Tangent) map["scale"] = number(material_.normalScale);
     }
 
+    /// What only metallic_roughness has.
     void layers() {
+        texture("metallicRoughnessTexture", TextureSlot::MetallicRoughness);
+        parameter("emissive", numbers(material_.emissive), TextureSlot::Emissive);
         if (material_.anisotropyStrength != 0.0f) {
             factor("anisotropyStrength", material_.anisotropyStrength);
             json_["anisotropyRotationDegrees"] = degreesOf(material_.anisotropyRotationRadians);
@@ -79,19 +88,11 @@ public:
         }
     }
 
-    void metallicRoughness() {
-        baseColor("baseColor");
-        factor("metallic", material_.metallic);
-        factor("perceptualRoughness", material_.perceptualRoughness);
-        texture("metallicRoughnessTexture", TextureSlot::MetallicRoughness);
-        parameter("ior", material_.ior, TextureSlot::Ior);
-        parameter("specularFactor", material_.specularFactor, TextureSlot::SpecularFactor);
-        specularColor("specularColor");
-        parameter("emissive", numbers(material_.emissive), TextureSlot::Emissive);
-        layers();
-    }
-
 private:
+    static Json factorJson(float value) { return number(value); }
+    static Json factorJson(const glm::vec3& value) { return numbers(value); }
+    static Json factorJson(Masking masking) { return scenejson::nameOf(masking); }
+
     const Material& material_;
     Json& json_;
 };
@@ -101,35 +102,12 @@ Json byKeys(const Material& material) {
     json["name"] = material.name;
     json["model"] = scenejson::nameOf(material.model);
     Keys keys(material, json);
-    switch (material.model) {
-    case MaterialModel::SingleColor:
-        keys.baseColor("color");
-        break;
-    case MaterialModel::Lambert:
-        keys.baseColor("k_d");
-        break;
-    case MaterialModel::BlinnPhong:
-        keys.baseColor("k_d");
-        keys.specularColor("k_s");
-        keys.parameter("exponent", material.exponent, TextureSlot::MetallicRoughness);
-        break;
-    case MaterialModel::Microfacet:
-    case MaterialModel::MicrofacetAnisotropic: {
-        const bool isAnisotropic = material.model == MaterialModel::MicrofacetAnisotropic;
-        keys.baseColor("k_d");
-        keys.specularColor("k_s");
-        keys.parameter(isAnisotropic ? "alphaX" : "alpha", material.alpha, TextureSlot::MetallicRoughness);
-        if (isAnisotropic) keys.parameter("alphaY", material.alphaY, TextureSlot::Anisotropy);
-        keys.parameter("ior", material.ior, TextureSlot::Ior);
-        json["masking"] = scenejson::nameOf(material.masking);
-        break;
-    }
-    case MaterialModel::MetallicRoughness:
-        keys.metallicRoughness();
-        break;
-    }
-    if (material.model != MaterialModel::SingleColor) keys.normalMap();
-    if (material.model != MaterialModel::SingleColor && material.tangents != TangentMethod::MikkTSpace)
+    const MaterialModelInfo& model = infoOf(material.model);
+    keys.baseColor(model.colorKey);
+    for (const MaterialParameter& parameter : model.parameters) keys.parameter(parameter);
+    if (model.hasLayers) keys.layers();
+    if (model.isLit) keys.normalMap();
+    if (model.isLit && material.tangents != TangentMethod::MikkTSpace)
         json["tangents"] = scenejson::nameOf(material.tangents);
     json["alphaMode"] = scenejson::nameOf(material.alphaMode);
     json["alphaCutoff"] = number(material.alphaCutoff);

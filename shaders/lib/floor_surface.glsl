@@ -30,25 +30,9 @@ uint floorModel(vec2 pixel)
 #ifdef SOLE_MODEL
     return SOLE_MODEL;
 #else
-    const uint models[] = uint[](
-#if HAS_LAMBERT
-        MODEL_LAMBERT,
-#endif
-#if HAS_BLINN_PHONG
-        MODEL_BLINN_PHONG,
-#endif
-#if HAS_MICROFACET
-        MODEL_MICROFACET,
-#endif
-#if HAS_MICROFACET_ANISOTROPIC
-        MODEL_MICROFACET_ANISOTROPIC,
-#endif
-#if HAS_METALLIC_ROUGHNESS
-        MODEL_METALLIC_ROUGHNESS,
-#endif
-        MODEL_SINGLE_COLOR);
+    const uint models[] = uint[](LIT_MODELS);
     uvec2 block = uvec2(pixel) / 64u;
-    return models[(block.x + block.y) % uint(models.length() - 1)]; // the last one is unlit and only ends the list
+    return models[(block.x + block.y) % uint(models.length())];
 #endif
 }
 
@@ -56,10 +40,8 @@ uint floorModel(vec2 pixel)
 void setFloorLobes(vec2 pixel, inout Surface surface)
 {
     setNeutralLobes(surface);
-#if HAS_BLINN_PHONG
-    precise float exponent = 8.0 + 64.0 * floorShare(pixel, vec2(0.0143, 0.0203));
-    surface.exponent = exponent;
-#endif
+    precise float parameter = 8.0 + 64.0 * floorShare(pixel, vec2(0.0143, 0.0203));
+    surface.parameter = parameter;
 #if HAS_MASKING_OPTIONS
     surface.masking = surface.model == MODEL_MICROFACET ? MASKING_HALF_VECTOR : MASKING_DIRECTIONAL;
 #endif
@@ -97,11 +79,9 @@ Surface floorSurface(vec2 pixel, Viewpoint viewpoint)
     surface.alpha = alpha;
     precise float iorOrF90 = 1.0;
     precise vec3 specular = defaultSpecular(surface.model);
-#if HAS_MICROFACET || HAS_MICROFACET_ANISOTROPIC
-    if (isMicrofacet(surface.model)) iorOrF90 = 1.6 - 0.1 * floorShare(pixel, vec2(0.0181, 0.0221));
-#endif
+    if (IS_MICROFACET(surface.model)) iorOrF90 = 1.6 - 0.1 * floorShare(pixel, vec2(0.0181, 0.0221));
 #if HAS_SPECULAR
-    if (!isMicrofacet(surface.model)) iorOrF90 = 1.0 - 0.1 * floorShare(pixel, vec2(0.0181, 0.0221));
+    if (!IS_MICROFACET(surface.model)) iorOrF90 = 1.0 - 0.1 * floorShare(pixel, vec2(0.0181, 0.0221));
     specular *= 0.5 + 0.5 * floorShare(pixel, vec2(0.0061, 0.0149));
 #endif
     surface.iorOrF90 = iorOrF90;

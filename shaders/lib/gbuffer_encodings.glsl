@@ -77,23 +77,26 @@ uint encodeAlpha(float alpha, int width, int field)
     return below + ditheredUp(share, field, steps);
 }
 
-// Model and masking in 4 bits: the models, then the four of them with another masking than the first.
+// Model and masking: the models, then each microfacet model with every masking but the first. That the field holds all of them
+// is asserted beside its width.
+#define OTHER_MASKINGS (MASKING_COUNT - 1u)
+
 uint encodeKind(Surface surface)
 {
     uint kind = surface.model;
 #if HAS_MASKING_OPTIONS
-    if (isMicrofacet(surface.model) && surface.masking > 0u)
-        kind = 5u + 2u * (surface.model - MODEL_MICROFACET) + surface.masking;
+    if (IS_MICROFACET(surface.model) && surface.masking != MASKING_WALTER)
+        kind = MODEL_COUNT + OTHER_MASKINGS * (surface.model - MODEL_FIRST_MICROFACET) + (surface.masking - 1u);
 #endif
     return kind;
 }
 
 void decodeKind(uint kind, inout Surface surface)
 {
-    uint masked = max(kind, 6u) - 6u;
-    surface.model = surfaceModel(kind < 6u ? kind : MODEL_MICROFACET + masked / 2u);
+    uint masked = max(kind, MODEL_COUNT) - MODEL_COUNT;
+    surface.model = surfaceModel(kind < MODEL_COUNT ? kind : MODEL_FIRST_MICROFACET + masked / OTHER_MASKINGS);
 #if HAS_MASKING_OPTIONS
-    surface.masking = kind < 6u ? MASKING_WALTER : MASKING_DIRECTIONAL + masked % 2u;
+    surface.masking = kind < MODEL_COUNT ? MASKING_WALTER : 1u + masked % OTHER_MASKINGS;
 #endif
 }
 
@@ -120,50 +123,6 @@ float decodeIor(uint code, int width)
     precise float contrast = float(int(code) - middle) / float(middle);
     precise float ior = (1.0 + contrast) / max(1.0 - contrast, 1e-4);
     return ior;
-}
-
-// A microfacet model has an index of refraction where metallic_roughness has F90 and metallic; blinn_phong's exponent takes
-// the room of alpha too.
-void putMicrosurface(Surface surface, ivec4 widths)
-{
-    putField(encodeKind(surface), widths.x);
-    int tail = widths.z + widths.w;
-#if HAS_BLINN_PHONG
-    if (surface.model == MODEL_BLINN_PHONG) {
-        putField(encodeFloat(surface.exponent, widths.y + tail, DITHER_ALPHA), widths.y + tail);
-        return;
-    }
-#endif
-    putField(encodeAlpha(surface.alpha, widths.y, DITHER_ALPHA), widths.y);
-    uint code;
-    if (isMicrofacet(surface.model)) {
-        code = encodeIor(surface.iorOrF90, tail, DITHER_F90);
-    } else {
-        code = encodeShare(surface.iorOrF90, largestCode(widths.z), DITHER_F90) |
-               (encodeShare(surface.metallic, largestCode(widths.w), DITHER_METALLIC) << widths.z);
-    }
-    putField(code, tail);
-}
-
-void takeMicrosurface(ivec4 widths, inout Surface surface)
-{
-    decodeKind(takeField(widths.x), surface);
-    int tail = widths.z + widths.w;
-    uint code = takeField(widths.y + tail);
-#if HAS_BLINN_PHONG
-    if (surface.model == MODEL_BLINN_PHONG) {
-        surface.exponent = decodeFloat(code, widths.y + tail);
-        return;
-    }
-#endif
-    surface.alpha = decodeAlpha(code & largestCode(widths.y), widths.y);
-    code >>= widths.y;
-    if (isMicrofacet(surface.model)) {
-        surface.iorOrF90 = decodeIor(code, tail);
-    } else {
-        surface.iorOrF90 = decodeShare(code & largestCode(widths.z), largestCode(widths.z));
-        surface.metallic = decodeShare(code >> widths.z, largestCode(widths.w));
-    }
 }
 
 // 2^n for -126 <= n <= 127, exactly, which exp2 need not be.
@@ -237,4 +196,36 @@ vec3 takeTexel(ivec4 widths)
     vec3 texel;
     for (int i = 0; i < 3; ++i) texel[i] = decodeShare(takeField(widths[i]), largestCode(widths[i]));
     return texel;
+}
+
+// Two directions at right angles to n, which turn smoothly with it: the first is also at right angles to the coordinate axis of
+// that number, which must not be near n.
+void axisFrame(vec3 n, uint axis, out vec3 first, out vec3 second)
+{
+    vec3 across = axis == 0u ? vec3(0.0, -n.z, n.y) : axis == 1u ? vec3(n.z, 0.0, -n.x) : vec3(-n.y, n.x, 0.0);
+    first = across / length(across);
+    second = cross(n, first);
+}
+
+// A direction at right angles to the normal, whose sign does not matter: a point p on half of a diamond, (p, 1 - |p|) in the
+// frame of the axis farthest from the normal; the decoder has a normal that is off by its own packing and must be told the
+// axis. Widths: axis and point.
+void putDirectionAcross(vec3 normal, vec3 across, ivec4 widths)
+{
+    vec3 n = abs(normal);
+    uint axis = n.x <= n.y && n.x <= n.z ? 0u : n.y <= n.z ? 1u : 2u;
+    vec3 first, second;
+    axisFrame(normal, axis, first, second);
+    vec2 direction = vec2(dot(across, first), dot(across, second));
+    if (direction.y < 0.0) direction = -direction;
+    putField(axis, widths.x);
+    putField(encodeSigned(direction.x / (abs(direction.x) + direction.y), widths.y, DITHER_NOT), widths.y);
+}
+
+vec3 takeDirectionAcross(vec3 normal, ivec4 widths)
+{
+    vec3 first, second;
+    axisFrame(normal, takeField(widths.x), first, second);
+    float point = decodeSigned(takeField(widths.y), widths.y);
+    return normalize(point * first + (1.0 - abs(point)) * second);
 }

@@ -4,7 +4,7 @@
 #pragma once
 #include "lib/gbuffer_dither.glsl"
 
-uint gbufferWords[GBUFFER_WORDS];
+uint gbufferWords[GBUFFER_WORDS > 0 ? GBUFFER_WORDS : 1];
 int gbufferBit; // where the next field begins
 
 void putField(uint value, int width)

@@ -1,4 +1,4 @@
-// Lighting, once for all techniques: the loop over lights. What one of them gives is lib/reflectance.glsl's business, which of
+// Lighting, once for all techniques: what one light gives to a surface, and the loop over them. Which of
 // them a pixel visits the light cursor's (lib/light_cursor.glsl).
 #pragma once
 #include "lib/reflectance.glsl"
@@ -13,25 +13,21 @@
 // Whether any light changes the surface.
 bool takesLight(Surface surface)
 {
-#if HAS_SINGLE_COLOR
-    return surface.model != MODEL_SINGLE_COLOR;
-#else
-    return true;
-#endif
+    return !IS_UNLIT(surface.model);
 }
 
-// Adds the radiance towards the viewer that one light gives to a surface that takes light; where visits are counted, 1.
-void addLightOnSurface(int light, Surface surface, Viewpoint viewpoint, inout vec3 radiance)
+// What one light gives to a surface that takes light: radiance towards the viewer; where visits are counted, 1. All that any
+// pass knows of a light. A light without one direction, or what stands before it, is this function's business and no loop's;
+// what that needs of the surface beside its shading normal becomes a member of Surface.
+vec3 lightOnSurface(int light, Surface surface, Viewpoint viewpoint)
 {
 #if VISIT_COUNTS
-    radiance += vec3(1.0);
+    return vec3(1.0);
 #else
     Incident incident;
-    if (incidentLight(light, viewpoint.positionLS, incident)) {
-        precise vec3 reflected = reflectedShare(surface, incident.toLightLS, viewpoint.toViewerLS);
-        precise vec3 sum = radiance + reflected * incident.intensity;
-        radiance = sum;
-    }
+    if (!incidentLight(light, viewpoint.positionLS, incident)) return vec3(0.0);
+    precise vec3 given = reflectedShare(surface, incident.toLightLS, viewpoint.toViewerLS) * incident.intensity;
+    return given;
 #endif
 }
 
@@ -46,10 +42,11 @@ vec3 lightsOnSurface(vec3 before, Surface surface, Viewpoint viewpoint, vec2 pix
     if (!nextLight(cursor, light) && !nextBatch(cursor, light)) return radiance;
     // Tested at the end: rasterisers that mask lanes instead of branching would run a loop's body once more than its lights.
     // LIGHTS_PER_ROUND (renderer/frame/LightRounds.h) is spelt out: an inner loop would count towards the same limit.
-#define ADD_NEXT_LIGHT if (nextLight(cursor, light)) addLightOnSurface(light, surface, viewpoint, radiance);
+#define ADD_LIGHT radiance += lightOnSurface(light, surface, viewpoint);
+#define ADD_NEXT_LIGHT if (nextLight(cursor, light)) ADD_LIGHT
     do {
         do {
-            addLightOnSurface(light, surface, viewpoint, radiance);
+            ADD_LIGHT
 #if LIGHTS_PER_ROUND > 1
             ADD_NEXT_LIGHT
 #endif

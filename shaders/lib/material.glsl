@@ -13,7 +13,7 @@ void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
     surface.material = material.kind.w;
 #endif
     surface.albedo = baseColor.rgb;
-#if HAS_GLOSSY_MODELS
+#if HAS_MICROSURFACES
     precise vec2 roughnessMetallic = material.microsurface.yx;
 #if HAS_METALLIC_ROUGHNESS_TEXTURE
     roughnessMetallic *= sampleSlot(metallicRoughnessTexture, TEXTURE_SLOT_METALLIC_ROUGHNESS, fragment).gb;
@@ -51,8 +51,7 @@ void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
 #endif
     }
 #endif
-#if HAS_MICROFACET || HAS_MICROFACET_ANISOTROPIC
-    if (isMicrofacet(surface.model)) {
+    if (IS_MICROFACET(surface.model)) {
         surface.alpha = max(roughnessMetallic.x, ALPHA_MIN);
         surface.iorOrF90 = ior;
 #if HAS_SPECULAR
@@ -62,15 +61,12 @@ void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
         surface.masking = material.kind.z;
 #endif
     }
-#endif
-#if HAS_BLINN_PHONG
-    if (surface.model == MODEL_BLINN_PHONG) {
-        surface.exponent = max(roughnessMetallic.x, 0.0);
+    if (HAS_PARAMETER(surface.model)) {
+        surface.parameter = max(roughnessMetallic.x, 0.0);
 #if HAS_SPECULAR
         surface.specular = specularColor;
 #endif
     }
-#endif
 #if HAS_SHEEN
     setSheen(fragment, surface);
 #endif
@@ -83,9 +79,7 @@ void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
 #if HAS_EMISSIVE_TEXTURE
     emission *= sampleSlot(emissiveTexture, TEXTURE_SLOT_EMISSIVE, fragment).rgb;
 #endif
-#if HAS_SINGLE_COLOR
-    if (surface.model == MODEL_SINGLE_COLOR) emission += baseColor.rgb;
-#endif
+    if (IS_UNLIT(surface.model)) emission += baseColor.rgb;
     surface.emission = emission;
 #endif
 }

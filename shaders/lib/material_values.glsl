@@ -5,7 +5,6 @@
 #include "shared/slots.h"
 #include "shared/material.h"
 #include "shared/views.h"
-#include "lib/features.glsl"
 #include "lib/texture_filter.glsl"
 
 #if MATERIAL_FROM_TABLE

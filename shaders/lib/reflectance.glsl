@@ -1,9 +1,14 @@
-// What one light direction gives on one surface: the models, and the layers of metallic_roughness, once for all techniques.
+// What one light direction gives on one surface: a function a model, which reflection() chooses among, and the layers over
+// them, once for all techniques.
 #pragma once
 #include "lib/brdf.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/sheen.glsl"
 #include "lib/surface.glsl"
+
+#ifndef SPECULAR_OFF
+#define SPECULAR_OFF 0
+#endif
 
 // The factors of the specular lobe, kept apart for the views that show them.
 struct SpecularTerms {
@@ -11,6 +16,7 @@ struct SpecularTerms {
     float v;  // G / (4 n.l n.v)
     vec3 f;   // Fresnel reflectance
 };
+const SpecularTerms kNoTerms = SpecularTerms(0.0, 0.0, vec3(0.0));
 
 // The half vector of two unit vectors. Where they are opposite there is none: false, and h is 0.
 bool halfVector(vec3 toLight, vec3 toViewer, out vec3 h)
@@ -20,6 +26,26 @@ bool halfVector(vec3 toLight, vec3 toViewer, out vec3 h)
     precise vec3 unit = length2 > 0.0 ? sum / sqrt(length2) : vec3(0.0);
     h = unit;
     return length2 > 0.0;
+}
+
+// A light and a viewer seen from a surface; all unit.
+struct Directions {
+    vec3 toLight;
+    vec3 toViewer;
+    vec3 h;       // halfway between them; 0 where they are opposite
+    float nl;     // cosines
+    float nv;
+    float lh;     // goes on to its grazing value where l = -v, so that the diffuse share 1 - F stays continuous
+    bool hasLobe; // both above the horizon, and not opposite
+};
+
+Directions directionsOn(Surface surface, vec3 toLight, vec3 toViewer, float nl)
+{
+    vec3 h;
+    bool hasHalf = halfVector(toLight, toViewer, h);
+    precise float lh = dot(toLight, h);
+    precise float nv = dot(surface.normalLS, toViewer);
+    return Directions(toLight, toViewer, h, nl, nv, lh, nl > 0.0 && nv > 0.0 && hasHalf);
 }
 
 #if HAS_TANGENT_FRAME
@@ -47,25 +73,22 @@ float lobeDistribution(Surface surface, vec3 h)
     return distributionGgx(surface.alpha, surface.normalLS, h);
 }
 
-#if HAS_METALLIC_ROUGHNESS
 // Of metallic_roughness: height-correlated, directional where anisotropic (KHR_materials_anisotropy).
-float visibilityOfMetallicRoughness(Surface surface, vec3 toLight, vec3 toViewer, float nl, float nv)
+float visibilityOfMetallicRoughness(Surface surface, Directions directions)
 {
 #if HAS_ANISOTROPY
     if (isAnisotropic(surface)) {
         vec2 alpha = vec2(surface.alpha, surface.alphaBitangent);
         return visibilityCorrelatedOfLengths(
-            nl, smithLengthAnisotropic(alpha, surface.normalLS, surface.tangentLS, toLight), nv,
-            smithLengthAnisotropic(alpha, surface.normalLS, surface.tangentLS, toViewer));
+            directions.nl, smithLengthAnisotropic(alpha, surface.normalLS, surface.tangentLS, directions.toLight), directions.nv,
+            smithLengthAnisotropic(alpha, surface.normalLS, surface.tangentLS, directions.toViewer));
     }
 #endif
-    return visibilityCorrelated(surface.alpha, nl, nv);
+    return visibilityCorrelated(surface.alpha, directions.nl, directions.nv);
 }
-#endif
 
-#if HAS_MICROFACET || HAS_MICROFACET_ANISOTROPIC
 // Of the teaching models: separable, by the surface's masking option.
-float visibilityOfMicrofacet(Surface surface, vec3 toLight, vec3 toViewer, vec3 h, float nl, float nv)
+float visibilityOfMicrofacet(Surface surface, Directions directions)
 {
     precise float alpha = surface.alpha;
 #if HAS_MICROFACET_ANISOTROPIC
@@ -74,69 +97,34 @@ float visibilityOfMicrofacet(Surface surface, vec3 toLight, vec3 toViewer, vec3 
 #if HAS_MASKING_OPTIONS
         if (surface.masking == MASKING_DIRECTIONAL) {
             return visibilitySeparableOfLengths(
-                nl, smithLengthAnisotropic(alphas, surface.normalLS, surface.tangentLS, toLight), nv,
-                smithLengthAnisotropic(alphas, surface.normalLS, surface.tangentLS, toViewer));
+                directions.nl, smithLengthAnisotropic(alphas, surface.normalLS, surface.tangentLS, directions.toLight),
+                directions.nv, smithLengthAnisotropic(alphas, surface.normalLS, surface.tangentLS, directions.toViewer));
         }
 #endif
-        alpha = alphaAlong(alphas, surface.normalLS, surface.tangentLS, h);
+        alpha = alphaAlong(alphas, surface.normalLS, surface.tangentLS, directions.h);
     }
 #endif
 #if HAS_MASKING_OPTIONS
-    if (surface.masking == MASKING_HALF_VECTOR) return visibilityHalfVector(alpha, nl, nv, dot(toLight, h));
+    if (surface.masking == MASKING_HALF_VECTOR)
+        return visibilityHalfVector(alpha, directions.nl, directions.nv, directions.lh);
 #endif
-    return visibilitySeparable(alpha, nl, nv);
-}
-#endif
-
-// d and v are 0 where the lobe is: l or v below the horizon, or l = -v. The Fresnel factor needs only the angle between l and h and
-// goes on to its grazing value where l = -v, so that the diffuse share 1 - F stays continuous.
-SpecularTerms specularTerms(Surface surface, vec3 toLight, vec3 toViewer, float nl)
-{
-    SpecularTerms terms = SpecularTerms(0.0, 0.0, vec3(0.0));
-    vec3 h;
-    bool hasHalf = halfVector(toLight, toViewer, h);
-    precise float lh = dot(toLight, h);
-    precise float nv = dot(surface.normalLS, toViewer);
-    bool glossy = nl > 0.0 && nv > 0.0 && hasHalf;
-#if HAS_BLINN_PHONG
-    if (surface.model == MODEL_BLINN_PHONG) {
-        if (glossy) terms.d = blinnPhongLobe(surface.exponent, surface.normalLS, h);
-        return terms;
-    }
-#endif
-    if (glossy) terms.d = lobeDistribution(surface, h);
-#if HAS_METALLIC_ROUGHNESS
-    if (surface.model == MODEL_METALLIC_ROUGHNESS) {
-        precise vec3 f0 = surface.specular + (surface.albedo - surface.specular) * surface.metallic;
-        precise float f90 = surface.iorOrF90 + (1.0 - surface.iorOrF90) * surface.metallic;
-        terms.f = fresnelSchlick(f0, f90, lh);
-        if (glossy) terms.v = visibilityOfMetallicRoughness(surface, toLight, toViewer, nl, nv);
-    }
-#endif
-#if HAS_MICROFACET || HAS_MICROFACET_ANISOTROPIC
-    if (isMicrofacet(surface.model)) {
-        terms.f = vec3(fresnelDielectric(surface.iorOrF90, lh));
-        if (glossy) terms.v = visibilityOfMicrofacet(surface, toLight, toViewer, h, nl, nv);
-    }
-#endif
-    return terms;
+    return visibilitySeparable(alpha, directions.nl, directions.nv);
 }
 
 #if HAS_SHEEN
 // The sheen over the rest of the material, which it darkens by what a white sheen of its brightest colour would reflect.
 // Source: KHR_materials_sheen, "Albedo-scaling technique".
-vec3 underSheen(Surface surface, vec3 share, vec3 toLight, vec3 toViewer, float nl)
+vec3 underSheen(Surface surface, vec3 share, Directions directions)
 {
     precise float strongest = max(max(surface.sheenColor.r, surface.sheenColor.g), surface.sheenColor.b);
     if (!(strongest > 0.0)) return share;
-    precise float nv = dot(surface.normalLS, toViewer);
-    precise float albedo = max(sheenAlbedo(surface.sheenAlpha, nl), sheenAlbedo(surface.sheenAlpha, max(nv, 0.0)));
+    precise float albedo =
+        max(sheenAlbedo(surface.sheenAlpha, directions.nl), sheenAlbedo(surface.sheenAlpha, max(directions.nv, 0.0)));
     precise vec3 layered = share * max(1.0 - strongest * albedo, 0.0);
 #if !SPECULAR_OFF
-    vec3 h;
-    if (nv > 0.0 && halfVector(toLight, toViewer, h)) {
-        precise float lobe = distributionCharlie(surface.sheenAlpha, surface.normalLS, h)
-                             * visibilityCharlie(surface.sheenAlpha, nl, nv);
+    if (directions.hasLobe) {
+        precise float lobe = distributionCharlie(surface.sheenAlpha, surface.normalLS, directions.h)
+                             * visibilityCharlie(surface.sheenAlpha, directions.nl, directions.nv);
         layered += surface.sheenColor * lobe;
     }
 #endif
@@ -144,41 +132,82 @@ vec3 underSheen(Surface surface, vec3 share, vec3 toLight, vec3 toViewer, float 
 }
 #endif
 
-// Radiance towards the viewer for one unit of incident intensity, below the coat: the model's BRDF times max(0, n.l).
+// What a model does with light from above the horizon.
+struct Reflection {
+    vec3 share;          // its BRDF times n.l
+    SpecularTerms terms; // 0 where it has no lobe there
+};
+
+// Source: Lambert 1760, "Photometria". k_d without 1/pi, as the teaching models have it.
+Reflection lambert(Surface surface, Directions directions)
+{
+    precise vec3 share = surface.albedo * directions.nl;
+    return Reflection(share, kNoTerms);
+}
+
+// Source: Blinn 1977, "Models of Light Reflection for Computer Synthesized Pictures".
+Reflection blinnPhong(Surface surface, Directions directions)
+{
+    SpecularTerms terms = kNoTerms;
+    if (directions.hasLobe) terms.d = blinnPhongLobe(surface.parameter, surface.normalLS, directions.h);
+    precise float highlight = SPECULAR_OFF != 0 ? 0.0 : terms.d;
+    precise vec3 share = surface.albedo * directions.nl + surface.specular * highlight; // which takes no cosine
+    return Reflection(share, terms);
+}
+
+// microfacet and microfacet_anisotropic; `d` is lobeDistribution(). Source: Cook and Torrance 1982 with the D, G and F of
+// Walter et al. 2007.
+Reflection microfacet(Surface surface, Directions directions, float d)
+{
+    SpecularTerms terms = SpecularTerms(d, 0.0, vec3(fresnelDielectric(surface.iorOrF90, directions.lh)));
+    if (directions.hasLobe) terms.v = visibilityOfMicrofacet(surface, directions);
+    precise float dv = SPECULAR_OFF != 0 ? 0.0 : terms.d * terms.v;
+    precise vec3 share = (surface.albedo + surface.specular * (terms.f * dv)) * directions.nl;
+    return Reflection(share, terms);
+}
+
+// Source: glTF 2.0, appendix B, with KHR_materials_ior, _specular, _anisotropy and _sheen.
+Reflection metallicRoughness(Surface surface, Directions directions, float d)
+{
+    precise vec3 f0 = surface.specular + (surface.albedo - surface.specular) * surface.metallic;
+    precise float f90 = surface.iorOrF90 + (1.0 - surface.iorOrF90) * surface.metallic;
+    SpecularTerms terms = SpecularTerms(d, 0.0, fresnelSchlick(f0, f90, directions.lh));
+    if (directions.hasLobe) terms.v = visibilityOfMetallicRoughness(surface, directions);
+    precise float dv = SPECULAR_OFF != 0 ? 0.0 : terms.d * terms.v;
+    precise vec3 transmitted = vec3(1.0) - terms.f;
+    precise vec3 diffuse = transmitted * ((1.0 - surface.metallic) / kPi) * surface.albedo;
+    precise vec3 share = diffuse + terms.f * dv;
+#if HAS_SHEEN
+    share = underSheen(surface, share, directions);
+#endif
+    precise vec3 reflected = share * directions.nl;
+    return Reflection(reflected, terms);
+}
+
+Reflection reflection(Surface surface, Directions directions)
+{
+#if HAS_MICROFACET || HAS_MICROFACET_ANISOTROPIC || HAS_METALLIC_ROUGHNESS
+    // Once for both, since rasterisers that mask lanes take every branch.
+    float d = directions.hasLobe ? lobeDistribution(surface, directions.h) : 0.0;
+#endif
+#if HAS_BLINN_PHONG
+    if (surface.model == MODEL_BLINN_PHONG) return blinnPhong(surface, directions);
+#endif
+#if HAS_MICROFACET || HAS_MICROFACET_ANISOTROPIC
+    if (IS_MICROFACET(surface.model)) return microfacet(surface, directions, d);
+#endif
+#if HAS_METALLIC_ROUGHNESS
+    if (surface.model == MODEL_METALLIC_ROUGHNESS) return metallicRoughness(surface, directions, d);
+#endif
+    return lambert(surface, directions);
+}
+
+// Radiance towards the viewer for one unit of incident intensity, below the coat.
 vec3 baseShare(Surface surface, vec3 toLight, vec3 toViewer)
 {
     precise float nl = dot(surface.normalLS, toLight);
     if (!(nl > 0.0)) return vec3(0.0);
-    precise vec3 share = surface.albedo; // k_d of the teaching models, which carry no 1/pi
-#if HAS_GLOSSY_MODELS
-    SpecularTerms terms = specularTerms(surface, toLight, toViewer, nl);
-#if SPECULAR_OFF
-    precise float dv = 0.0;
-#else
-    precise float dv = terms.d * terms.v;
-#endif
-#if HAS_METALLIC_ROUGHNESS
-    if (surface.model == MODEL_METALLIC_ROUGHNESS) {
-        precise vec3 transmitted = vec3(1.0) - terms.f;
-        precise vec3 diffuse = transmitted * ((1.0 - surface.metallic) / kPi) * surface.albedo;
-        share = diffuse + terms.f * dv;
-#if HAS_SHEEN
-        share = underSheen(surface, share, toLight, toViewer, nl);
-#endif
-    }
-#endif
-#if HAS_MICROFACET || HAS_MICROFACET_ANISOTROPIC
-    if (isMicrofacet(surface.model)) share = surface.albedo + surface.specular * (terms.f * dv);
-#endif
-#if HAS_BLINN_PHONG && !SPECULAR_OFF
-    if (surface.model == MODEL_BLINN_PHONG) {
-        precise vec3 lit = surface.albedo * nl + surface.specular * terms.d; // the highlight takes no cosine
-        return lit;
-    }
-#endif
-#endif
-    precise vec3 reflected = share * nl;
-    return reflected;
+    return reflection(surface, directionsOn(surface, toLight, toViewer, nl)).share;
 }
 
 #if HAS_CLEARCOAT

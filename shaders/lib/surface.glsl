@@ -2,7 +2,6 @@
 // G-buffer (lib/gbuffer.glsl).
 #pragma once
 #include "shared/models.h"
-#include "lib/features.glsl"
 
 struct Surface {
     uint model;        // MODEL_*
@@ -18,9 +17,7 @@ struct Surface {
     vec3 normalLS;     // unit
     vec3 normalTexel;  // the normal map's texel as stored, for the view that shows it; for the view
                        // normal_object that normal, coded the same way
-#if HAS_BLINN_PHONG
-    float exponent;    // p of blinn_phong, >= 0
-#endif
+    float parameter;   // the one of models that HAS_PARAMETER, >= 0: p of blinn_phong
 #if HAS_MASKING_OPTIONS
     uint masking;      // MASKING_*, of the microfacet models
 #endif
@@ -56,18 +53,13 @@ uint surfaceModel(uint stored)
 #endif
 }
 
-bool isMicrofacet(uint model)
-{
-#if HAS_MICROFACET_ANISOTROPIC
-    if (model == MODEL_MICROFACET_ANISOTROPIC) return true;
-#endif
-    return model == MODEL_MICROFACET;
-}
-
 // The dielectric lobe where no material changes it: k_s = 1, or F0 of ior 1.5.
 vec3 defaultSpecular(uint model)
 {
-    return model == MODEL_METALLIC_ROUGHNESS ? vec3(0.04) : vec3(1.0);
+#if HAS_METALLIC_ROUGHNESS
+    if (model == MODEL_METALLIC_ROUGHNESS) return vec3(0.04);
+#endif
+    return vec3(1.0);
 }
 
 // Members that only some scenes have, where nothing sets them.
@@ -75,9 +67,6 @@ void setNeutralLobes(inout Surface surface)
 {
 #if !HAS_VARYING_MATERIALS
     surface.material = 0u;
-#endif
-#if HAS_BLINN_PHONG
-    surface.exponent = 0.0;
 #endif
 #if HAS_MASKING_OPTIONS
     surface.masking = MASKING_WALTER;
@@ -97,15 +86,16 @@ void setNeutralLobes(inout Surface surface)
 #endif
 }
 
-// A surface of which nothing is known.
+// A surface of which nothing is known; the first model is unlit.
 void setNeutralValues(inout Surface surface)
 {
     surface.specular = vec3(0.0);
-    surface.model = surfaceModel(MODEL_SINGLE_COLOR);
+    surface.model = surfaceModel(0u);
     surface.albedo = vec3(0.0);
     surface.metallic = 0.0;
     surface.alpha = 1.0;
     surface.iorOrF90 = 1.0;
+    surface.parameter = 0.0;
     surface.emission = vec3(0.0);
     surface.normalLS = vec3(0.0, 0.0, 1.0);
     surface.normalTexel = vec3(0.5, 0.5, 1.0);

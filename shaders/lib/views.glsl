@@ -15,12 +15,12 @@ vec3 specularFactorView(Surface surface, Viewpoint viewpoint)
     vec3 shown = vec3(0.0);
 #if HAS_GLOSSY_MODELS
     Incident incident;
-    if (surface.model == MODEL_SINGLE_COLOR || surface.model == MODEL_LAMBERT) return shown;
+    if (!IS_GLOSSY(surface.model)) return shown;
     if (int(lighting.lights.y) >= int(lighting.lights.x)) return shown;
     if (!incidentLight(int(lighting.lights.y), viewpoint.positionLS, incident)) return shown;
     precise float nl = dot(surface.normalLS, incident.toLightLS);
     if (!(nl > 0.0)) return shown;
-    SpecularTerms terms = specularTerms(surface, incident.toLightLS, viewpoint.toViewerLS, nl);
+    SpecularTerms terms = reflection(surface, directionsOn(surface, incident.toLightLS, viewpoint.toViewerLS, nl)).terms;
 #if VIEW == VIEW_DISTRIBUTION
     shown = vec3(terms.d);
 #elif VIEW == VIEW_GEOMETRY
@@ -39,7 +39,7 @@ vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
 #if VIEW == VIEW_FINAL
     return shadeSurface(surface, viewpoint, pixel);
 #elif VIEW == VIEW_DIFFUSE
-    return surface.model == MODEL_SINGLE_COLOR ? surface.emission : surface.albedo;
+    return IS_UNLIT(surface.model) ? surface.emission : surface.albedo;
 #elif VIEW == VIEW_NORMAL_TEXEL
     return surface.normalTexel;
 #elif VIEW == VIEW_NORMAL

@@ -2,7 +2,6 @@
 #include "shared/slots.h"
 #include "shared/views.h"
 #include "lib/camera.glsl"
-#include "lib/features.glsl"
 
 layout(location = ATTRIBUTE_POSITION) in vec3 positionOS;
 layout(location = ATTRIBUTE_NORMAL) in vec3 normalOS;

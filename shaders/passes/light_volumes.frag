@@ -13,7 +13,5 @@ void main()
     Surface surface = surfaceFromGBuffer(pixel);
     if (!takesLight(surface)) discard;
     Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, texelFetch(depthChannel, pixel, 0).r);
-    precise vec3 added = vec3(0.0);
-    addLightOnSurface(light, surface, viewpoint, added);
-    radiance = vec4(added, 0.0);
+    radiance = vec4(lightOnSurface(light, surface, viewpoint), 0.0);
 }

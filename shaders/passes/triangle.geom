@@ -1,7 +1,6 @@
 // Hands every fragment its whole triangle, for --filter exact (lib/triangle.glsl); the rest goes through as it is.
 #include "shared/slots.h"
 #include "shared/views.h"
-#include "lib/features.glsl"
 
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;

@@ -28,8 +28,8 @@ SHARED_BEGIN
 struct MaterialConstants {
     vec4 baseColor;    // rgb base colour, k_d or the colour; a opacity
     vec4 emissive;     // rgb radiance; a alpha cutoff
-    vec4 microsurface; // x metallic, y perceptual roughness, alpha (microfacet models) or exponent (blinn_phong), z
-                       // ior, w normal-map scale
+    vec4 microsurface; // x metallic, y scenes::MaterialModelInfo::roughness (perceptual roughness, alpha,
+                       // exponent), z ior, w normal-map scale
     vec4 specular;     // rgb k_s, or the tint of the dielectric F0; a specular factor
     vec4 dielectric;   // x F0 of the ior, computed in double so that ior 1.5 gives 0.04 to the last bit
     vec4 anisotropy;   // x strength, or alpha along the bitangent (microfacet_anisotropic); y z what it turns the x of

@@ -1,18 +1,13 @@
 #pragma once
-// Ids of the material models as the G-buffer stores them; scenes::MaterialModel has the same order.
+// What shaders and C++ share of the material models; their numbers come from the table scenes::materialModels() as defines
+// (renderer/frame/Features.h).
 #include "interop.h"
-
-#define MODEL_SINGLE_COLOR 0u
-#define MODEL_LAMBERT 1u
-#define MODEL_BLINN_PHONG 2u
-#define MODEL_MICROFACET 3u
-#define MODEL_MICROFACET_ANISOTROPIC 4u
-#define MODEL_METALLIC_ROUGHNESS 5u
 
 // How the microfacet models hide microfacets from each other; scenes::Masking has the same order.
 #define MASKING_WALTER 0u
 #define MASKING_DIRECTIONAL 1u
 #define MASKING_HALF_VECTOR 2u
+#define MASKING_COUNT 3u
 
 // The floor of GGX alpha on every path, the reference included: below it D's denominator leaves fp32's range at the
 // peak.

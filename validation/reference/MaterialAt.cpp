@@ -20,14 +20,6 @@ glm::dvec4 baseColorAt(const Hit& hit, const Textures& textures) {
     return glm::dvec4(hit.object->material->baseColor) * texelOf(TextureSlot::BaseColor, hit, textures) * vertexColor;
 }
 
-/// metallic_roughness squares its perceptual roughness; microfacet takes alpha as it is.
-double alphaAt(const scenes::Material& material, double roughnessTexel) {
-    const double perceptual = double(material.perceptualRoughness) * roughnessTexel;
-    const double alpha = material.model == MaterialModel::MetallicRoughness ? perceptual * perceptual
-                                                                            : double(material.alpha) * roughnessTexel;
-    return std::max(alpha, kSmallestAlpha);
-}
-
 double squaredRoughness(double perceptual) {
     return std::max(perceptual * perceptual, kSmallestAlpha);
 }
@@ -81,12 +73,16 @@ SurfacePoint surfaceAt(const Hit& hit, const Textures& textures) {
     point.color = glm::dvec3(base);
     point.opacity = std::clamp(base.a, 0.0, 1.0);
     point.metallic = double(material.metallic) * roughnessMetallic.b;
-    point.alpha = alphaAt(material, roughnessMetallic.g);
+    if (float scenes::Material::*const roughness = scenes::infoOf(material.model).roughness) {
+        point.roughness = double(material.*roughness) * roughnessMetallic.g;
+        // metallic_roughness squares its perceptual roughness; microfacet takes alpha as it is.
+        point.alpha = material.model == MaterialModel::MetallicRoughness ? squaredRoughness(point.roughness)
+                                                                         : std::max(point.roughness, kSmallestAlpha);
+    }
     point.ior = double(material.ior) * texel(TextureSlot::Ior).r;
     point.specularFactor = double(material.specularFactor) * texel(TextureSlot::SpecularFactor).a;
     point.specularColor = glm::dvec3(material.specularColor) * glm::dvec3(texel(TextureSlot::SpecularColor));
     point.emission = glm::dvec3(material.emissive) * glm::dvec3(texel(TextureSlot::Emissive));
-    point.exponent = double(material.exponent) * roughnessMetallic.g;
     point.masking = material.masking;
     point.normal = normalAt(hit, textures);
     setDirection(hit, textures, point);

@@ -18,14 +18,14 @@ struct SurfacePoint {
     double alpha = 1.0;                                ///< of GGX; along the tangent where the lobe has a direction
     double alphaAcross = 1.0;                          ///< along the bitangent
     scenes::Masking masking = scenes::Masking::Walter; ///< of the microfacet models
-    double exponent = 0.0;                             ///< of blinn_phong
-    double ior = 1.5;                                  ///< n2/n1
-    double specularFactor = 1.0;                       ///< KHR_materials_specular
-    glm::dvec3 specularColor{1.0};                     ///< k_s, or the tint of the dielectric reflectance
-    glm::dvec3 emission{0.0};                          ///< radiance that needs no light, without the unlit colour
-    glm::dvec3 normal{0.0};                            ///< unit, world axes: the one that is lit
-    glm::dvec3 tangent{0.0};                           ///< unit, at right angles to it, where the lobe has a direction
-    double coat = 0.0;                                 ///< 0..1, KHR_materials_clearcoat
+    double roughness = 0.0;        ///< as the model has it: perceptual, alpha, exponent of blinn_phong
+    double ior = 1.5;              ///< n2/n1
+    double specularFactor = 1.0;   ///< KHR_materials_specular
+    glm::dvec3 specularColor{1.0}; ///< k_s, or the tint of the dielectric reflectance
+    glm::dvec3 emission{0.0};      ///< radiance that needs no light, without the unlit colour
+    glm::dvec3 normal{0.0};        ///< unit, world axes: the one that is lit
+    glm::dvec3 tangent{0.0};       ///< unit, at right angles to it, where the lobe has a direction
+    double coat = 0.0;             ///< 0..1, KHR_materials_clearcoat
     double coatAlpha = 1.0;
     glm::dvec3 coatNormal{0.0}; ///< unit, where there is a coat
     glm::dvec3 sheenColor{0.0}; ///< 0..1, KHR_materials_sheen

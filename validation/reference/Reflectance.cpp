@@ -26,7 +26,7 @@ glm::dvec3 lambert(const SurfacePoint& point, const Directions& directions, bool
 /// k_d n.l + k_s (n.h)^p. Source: Blinn 1977, "Models of Light Reflection for Computer Synthesized Pictures".
 glm::dvec3 blinnPhong(const SurfacePoint& point, const Directions& directions, bool specular) {
     glm::dvec3 share = point.color * directions.cosLight;
-    if (specular && directions.hasLobe()) share += point.specularColor * std::pow(directions.cosHalf, point.exponent);
+    if (specular && directions.hasLobe()) share += point.specularColor * std::pow(directions.cosHalf, point.roughness);
     return share;
 }
 
@@ -135,13 +135,14 @@ glm::dvec3 metallicRoughness(const SurfacePoint& point, const Directions& direct
 }
 
 constexpr Model kModels[] = {
-    {MaterialModel::SingleColor, true, unlit},
-    {MaterialModel::Lambert, false, lambert},
-    {MaterialModel::BlinnPhong, false, blinnPhong},
-    {MaterialModel::Microfacet, false, microfacet},
-    {MaterialModel::MicrofacetAnisotropic, false, microfacetAnisotropic},
-    {MaterialModel::MetallicRoughness, false, metallicRoughness},
+    {MaterialModel::SingleColor, unlit},
+    {MaterialModel::Lambert, lambert},
+    {MaterialModel::BlinnPhong, blinnPhong},
+    {MaterialModel::Microfacet, microfacet},
+    {MaterialModel::MicrofacetAnisotropic, microfacetAnisotropic},
+    {MaterialModel::MetallicRoughness, metallicRoughness},
 };
+static_assert(std::size(kModels) == scenes::kMaterialModelCount);
 
 } // namespace
 

@@ -19,7 +19,6 @@ struct Directions {
 /// How a material model scatters light. The table is the only list of models.
 struct Model {
     scenes::MaterialModel model;
-    bool isUnlit;
     /// BRDF times max(0, n.l) for a light above the horizon; `specular` false leaves the specular lobe out.
     glm::dvec3 (*reflected)(const SurfacePoint& point, const Directions& directions, bool specular);
 };

@@ -195,15 +195,19 @@ private:
     }
 
     glm::dvec3 radianceOf(const SurfacePoint& point, const glm::dvec3& positionRel) const {
-        if (modelOf(point.model).isUnlit) return point.emission + point.color;
+        if (!scenes::infoOf(point.model).isLit) return point.emission + point.color;
         const glm::dvec3 toViewer = rays_.toViewer(positionRel);
         glm::dvec3 radiance = emitted(point, toViewer);
-        for (const ShiningLight& light : lights_) {
-            const Incident incident = incidentAt(light, positionRel);
-            if (incident.intensity == glm::dvec3(0.0)) continue;
-            radiance += reflected(point, incident.toLight, toViewer, settings_.specular) * incident.intensity;
-        }
+        for (const ShiningLight& light : lights_) radiance += lightOn(point, light, positionRel, toViewer);
         return radiance;
+    }
+
+    /// What one light gives to a point: radiance towards the viewer. All that a picture knows of a light.
+    glm::dvec3 lightOn(const SurfacePoint& point, const ShiningLight& light, const glm::dvec3& positionRel,
+                       const glm::dvec3& toViewer) const {
+        const Incident incident = incidentAt(light, positionRel);
+        if (incident.intensity == glm::dvec3(0.0)) return glm::dvec3(0.0);
+        return reflected(point, incident.toLight, toViewer, settings_.specular) * incident.intensity;
     }
 
     const scenes::Scene& scene_;

@@ -78,8 +78,8 @@ double weightOf(const scenes::Material& material, double sharpness, const refere
     const double apart = glm::length(directions.toLight + directions.toViewer);
     if (cosLight < kUndecided || cosView < kUndecided || apart < 1e-5) return -1.0;
     double weight = std::min(1.0, sharpness / 0.002) * std::min(1.0, cosLight / 1e-3) * std::min(1.0, cosView / 1e-3);
-    // Lambert's law knows no half vector: it is right where l = -v, too.
-    if (material.model != scenes::MaterialModel::Lambert) weight *= std::min(1.0, apart * apart);
+    // What has no highlight knows no half vector: it is right where l = -v, too.
+    if (scenes::infoOf(material.model).highlight != scenes::Highlight::None) weight *= std::min(1.0, apart * apart);
     const double azimuth = azimuthWeight(material, directions);
     if (azimuth < 0.0) return -1.0;
     weight *= azimuth;
@@ -171,9 +171,10 @@ private:
     std::string describe(const scenes::Material& material, const StressDirection& direction,
                          const StressView& view) const {
         const auto dot = [](const glm::vec3& a, const glm::vec3& b) { return glm::dot(glm::dvec3(a), glm::dvec3(b)); };
-        return fmt::format("{}, {}: alpha {:.3g}, ior {:.4g}, n.l {:.3g}, n.v {:.3g}, l.v {:.6g}", model_.name,
-                           direction.name, model_.sharpness(material), material.ior, dot(view.normal, view.toLight),
-                           dot(view.normal, view.toViewer), dot(view.toLight, view.toViewer));
+        return fmt::format("{}, {}: alpha {:.3g}, ior {:.4g}, n.l {:.3g}, n.v {:.3g}, l.v {:.6g}",
+                           scenes::infoOf(model_.model).name, direction.name, model_.sharpness(material), material.ior,
+                           dot(view.normal, view.toLight), dot(view.normal, view.toViewer),
+                           dot(view.toLight, view.toViewer));
     }
 
     StressBench& bench_;
@@ -232,7 +233,7 @@ void sweepRoughness(StressBench& bench, const StressModel& model, StressFigures&
 
 void addBrdfCases(std::vector<StressCase>& cases) {
     for (const StressModel& model : stressModels()) {
-        cases.push_back({fmt::format("brdf/{}", model.name),
+        cases.push_back({fmt::format("brdf/{}", scenes::infoOf(model.model).name),
                          "random materials, lights and viewers are the reference's, finite and never negative",
                          StressBound::WorstRel, kTolerance, kReason,
                          [&model](StressBench& bench, StressFigures& figures) { sweepModel(bench, model, figures); }});
@@ -245,8 +246,8 @@ void addBrdfCases(std::vector<StressCase>& cases) {
     for (const StressModel& model : stressModels()) {
         if (!model.setRoughness) continue;
         cases.push_back(
-            {fmt::format("roughness/{}", model.name), "roughness from 0 in steps of 1e-4, then to 1",
-             StressBound::WorstRel, kTolerance, kReason,
+            {fmt::format("roughness/{}", scenes::infoOf(model.model).name),
+             "roughness from 0 in steps of 1e-4, then to 1", StressBound::WorstRel, kTolerance, kReason,
              [&model](StressBench& bench, StressFigures& figures) { sweepRoughness(bench, model, figures); }});
     }
 }

@@ -100,15 +100,15 @@ double sharpnessOfLayers(const Material& material) {
 }
 
 constexpr StressModel kModels[] = {
-    {MaterialModel::Lambert, "lambert", randomLambert, nullptr, [](const Material&) { return 1.0; }},
-    {MaterialModel::BlinnPhong, "blinn_phong", randomBlinnPhong, nullptr, sharpnessOfExponent},
-    {MaterialModel::Microfacet, "microfacet", randomMicrofacet,
+    {MaterialModel::Lambert, randomLambert, nullptr, [](const Material&) { return 1.0; }},
+    {MaterialModel::BlinnPhong, randomBlinnPhong, nullptr, sharpnessOfExponent},
+    {MaterialModel::Microfacet, randomMicrofacet,
      [](Material& material, double roughness) { material.alpha = float(roughness); },
      [](const Material& material) { return floored(material.alpha); }},
-    {MaterialModel::MicrofacetAnisotropic, "microfacet_anisotropic", randomAnisotropic,
+    {MaterialModel::MicrofacetAnisotropic, randomAnisotropic,
      [](Material& material, double roughness) { material.alpha = float(roughness); },
      [](const Material& material) { return floored(std::min(material.alpha, material.alphaY)); }},
-    {MaterialModel::MetallicRoughness, "metallic_roughness", randomMetallicRoughness,
+    {MaterialModel::MetallicRoughness, randomMetallicRoughness,
      [](Material& material, double roughness) { material.perceptualRoughness = float(roughness); }, sharpnessOfLayers},
 };
 

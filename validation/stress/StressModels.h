@@ -10,7 +10,6 @@ namespace tessera::validation {
 /// joins every case by a row.
 struct StressModel {
     scenes::MaterialModel model;
-    const char* name; ///< of the scene format
     /// Sets every parameter of the model at random over its whole range; the material has the model already.
     void (*randomise)(scenes::Material& material, StressRandom& random);
     /// Sets the roughness, 0 (smoothest) to 1; null where the model has none.

@@ -44,7 +44,7 @@ scenes::Scene stressScene() {
     double place = 0.0;
     for (const StressModel& model : stressModels()) {
         scenes::Material material;
-        material.name = model.name;
+        material.name = scenes::infoOf(model.model).name;
         material.model = model.model;
         material.baseColor = {0.7f, 0.3f, 0.2f, 1.0f};
         material.metallic = 0.5f;

@@ -18,16 +18,10 @@ inline constexpr float kMostRangeMetres = 1e6f;
 inline constexpr float kMostConeDegrees = 90.0f; ///< from a cone's axis
 inline constexpr double kMostDirection = 1e9;    ///< of its components, either way, before it has unit length
 
-// Materials.
+// Materials; those of a model's parameters stand in scenes::materialModels().
 /// Of an emission. scenes::checkScene takes up to 1e30, but the float nearest to that lies above it; a tenth of it is
 /// the round number below.
 inline constexpr float kMostRadiance = 1e29f;
-inline constexpr float kLeastAlpha = 1e-3f; ///< the shading formulas' own bound
-inline constexpr float kMostAlpha = 1.0f;
-inline constexpr float kLeastIor = 1.0f;
-inline constexpr float kMostIor = 4.0f;
-inline constexpr float kLeastExponent = 1.0f;
-inline constexpr float kMostExponent = 1000.0f;
 inline constexpr float kMostNormalScale = 4.0f;
 
 /// A number as it was edited, inside its bounds; as it was before where it is none. What was not edited stays, also

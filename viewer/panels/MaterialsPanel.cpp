@@ -15,18 +15,6 @@ namespace {
 using scenes::Material;
 using scenes::MaterialModel;
 
-bool microfacetRows(Material& material) {
-    const bool anisotropic = material.model == MaterialModel::MicrofacetAnisotropic;
-    bool changed = slider(anisotropic ? "Alpha x" : "Alpha", material.alpha, kLeastAlpha, kMostAlpha, "%.4f");
-    if (anisotropic) changed |= slider("Alpha y", material.alphaY, kLeastAlpha, kMostAlpha, "%.4f");
-    changed |= colorRow("k_s", material.specularColor);
-    changed |= slider("Index n", material.ior, kLeastIor, kMostIor);
-    changed |= chooseNamed("Masking", material.masking, [anisotropic](scenes::Masking masking) {
-        return anisotropic || masking != scenes::Masking::Directional;
-    });
-    return changed;
-}
-
 bool layerRows(Material& material) {
     bool changed = slider("Anisotropy", material.anisotropyStrength, 0.0f, 1.0f);
     if (material.anisotropyStrength > 0.0f)
@@ -39,33 +27,26 @@ bool layerRows(Material& material) {
     return changed;
 }
 
-bool metallicRows(Material& material) {
-    bool changed = slider("Metallic", material.metallic, 0.0f, 1.0f);
-    changed |= slider("Roughness", material.perceptualRoughness, 0.0f, 1.0f);
-    changed |= slider("Index n", material.ior, kLeastIor, kMostIor);
-    changed |= slider("Specular", material.specularFactor, 0.0f, 1.0f);
-    changed |= colorRow("F0 tint", material.specularColor);
-    changed |= layerRows(material);
-    return changed;
+bool parameterRow(Material& material, const scenes::MaterialParameter& parameter, float Material::*member) {
+    return slider(parameter.label, material.*member, parameter.leastShown, parameter.mostShown, parameter.format);
+}
+
+bool parameterRow(Material& material, const scenes::MaterialParameter& parameter, glm::vec3 Material::*member) {
+    return colorRow(parameter.label, material.*member);
+}
+
+bool parameterRow(Material& material, const scenes::MaterialParameter& parameter, scenes::Masking Material::*member) {
+    return chooseNamed(parameter.label, material.*member, [&material](scenes::Masking masking) {
+        return material.model == MaterialModel::MicrofacetAnisotropic || masking != scenes::Masking::Directional;
+    });
 }
 
 bool modelRows(Material& material) {
-    switch (material.model) {
-    case MaterialModel::SingleColor:
-    case MaterialModel::Lambert:
-        return false;
-    case MaterialModel::BlinnPhong: {
-        bool changed = colorRow("k_s", material.specularColor);
-        changed |= slider("Exponent", material.exponent, kLeastExponent, kMostExponent, "%.1f");
-        return changed;
-    }
-    case MaterialModel::Microfacet:
-    case MaterialModel::MicrofacetAnisotropic:
-        return microfacetRows(material);
-    case MaterialModel::MetallicRoughness:
-        break;
-    }
-    return metallicRows(material);
+    const scenes::MaterialModelInfo& model = scenes::infoOf(material.model);
+    bool changed = false;
+    for (const scenes::MaterialParameter& parameter : model.parameters)
+        changed |= std::visit([&](auto member) { return parameterRow(material, parameter, member); }, parameter.member);
+    return model.hasLayers && layerRows(material) ? true : changed;
 }
 
 bool surfaceRows(Material& material) {

@@ -254,9 +254,9 @@ TEST_F(Sabotage, anUntouchedCopyOfTheShadersAlwaysPasses) {
 }
 
 TEST_F(Sabotage, swappedChannelsAlwaysMissTheTolerance) {
-    replace("lib/gbuffer_read.glsl", "surface.albedo = albedo.rgb;", "surface.albedo = albedo.bgr;");
-    replace("lib/gbuffer_read.glsl", "surface.albedo = takeRoots(ivec4(GBUFFER_ALBEDO_WIDTHS));",
-            "surface.albedo = takeRoots(ivec4(GBUFFER_ALBEDO_WIDTHS)).bgr;");
+    replace("lib/gbuffer_channels.glsl", "surface.albedo = texel.rgb;", "surface.albedo = texel.bgr;");
+    replace("lib/gbuffer_channels.glsl", "surface.albedo = takeRoots(encoding.widths);",
+            "surface.albedo = takeRoots(encoding.widths).bgr;");
     // Of lattice no material varies, so on exact its pixels hold their numbers.
     replace("lib/material_table.glsl", "material.baseColor = tabledConstants(number, 0);",
             "material.baseColor = tabledConstants(number, 0).bgra;");
@@ -289,10 +289,9 @@ TEST_F(Sabotage, aFaultOfOneLobeAlwaysMissesTheReference) {
         const char* to;
     };
     constexpr Fault kFaults[] = {
-        {"lib/reflectance.glsl", "surface.albedo * nl + surface.specular * terms.d;",
-         "surface.albedo * nl + surface.specular * terms.d * nl;"},
-        {"lib/reflectance.glsl", "visibilityHalfVector(alpha, nl, nv, dot(toLight, h))",
-         "visibilitySeparable(alpha, nl, nv)"},
+        {"lib/reflectance.glsl", "surface.specular * highlight;", "surface.specular * highlight * directions.nl;"},
+        {"lib/reflectance.glsl", "visibilityHalfVector(alpha, directions.nl, directions.nv, directions.lh)",
+         "visibilitySeparable(alpha, directions.nl, directions.nv)"},
         {"lib/reflectance.glsl", "if (surface.masking == MASKING_DIRECTIONAL)", "if (false)"},
         {"lib/reflectance.glsl", "fresnelSchlick(vec3(0.04), 1.0", "fresnelSchlick(vec3(0.05), 1.0"},
         {"lib/material_lobes.glsl", "(strength * strength)", "strength"},

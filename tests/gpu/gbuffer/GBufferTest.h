@@ -18,7 +18,7 @@ struct StoredSurface {
     glm::vec3 specular{0.5f};
     float iorOrF90 = 1.0f;
     glm::vec3 emission{0.0f};
-    float model = float(MODEL_MICROFACET);
+    float model = float(scenes::MaterialModel::Microfacet);
     glm::vec3 normalTexel{0.5f, 0.5f, 1.0f};
     float exponent = 0.0f;
     glm::vec3 tangent{1, 0, 0};
@@ -34,14 +34,7 @@ struct StoredSurface {
 constexpr std::size_t kVectors = 9;
 static_assert(sizeof(StoredSurface) == kVectors * sizeof(glm::vec4));
 
-inline const shader::Defines kEveryMember{{"HAS_BLINN_PHONG", "1"},
-                                          {"HAS_MICROFACET", "1"},
-                                          {"HAS_MICROFACET_ANISOTROPIC", "1"},
-                                          {"HAS_METALLIC_ROUGHNESS", "1"},
-                                          {"HAS_MASKING_OPTIONS", "1"},
-                                          {"HAS_ANISOTROPY", "1"},
-                                          {"HAS_CLEARCOAT", "1"},
-                                          {"HAS_SHEEN", "1"}};
+inline const shader::Defines kEveryMember = frame::featureDefines(frame::allFeatures());
 
 /// Surfaces through a real render into the channels of the table and back.
 class GBufferTest : public GlTest {

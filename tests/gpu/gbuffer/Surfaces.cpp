@@ -17,9 +17,10 @@ std::vector<StoredSurface> randomSurfaces(int count) {
         s.normal = glm::vec3(random.direction());
         s.alpha = float(random.logarithmic(ALPHA_MIN, 1.0));
         s.specular = {random.unit(), random.unit(), random.unit()};
-        constexpr unsigned kStoredModels[] = {MODEL_LAMBERT,     MODEL_SINGLE_COLOR,
-                                              MODEL_MICROFACET,  MODEL_METALLIC_ROUGHNESS,
-                                              MODEL_BLINN_PHONG, MODEL_MICROFACET_ANISOTROPIC};
+        constexpr unsigned kStoredModels[] = {
+            unsigned(scenes::MaterialModel::Lambert),    unsigned(scenes::MaterialModel::SingleColor),
+            unsigned(scenes::MaterialModel::Microfacet), unsigned(scenes::MaterialModel::MetallicRoughness),
+            unsigned(scenes::MaterialModel::BlinnPhong), unsigned(scenes::MaterialModel::MicrofacetAnisotropic)};
         s.model = float(kStoredModels[i % 6]);
         const bool microfacet = i % 6 == 2 || i % 6 == 5;
         s.iorOrF90 = microfacet ? float(random.logarithmic(0.05, 1e4)) : float(random.unit());
@@ -29,7 +30,7 @@ std::vector<StoredSurface> randomSurfaces(int count) {
             s.metallic = 0.0f;
             s.masking = float(random.index(3));
         }
-        if (s.model == float(MODEL_BLINN_PHONG)) { // no index of refraction
+        if (s.model == float(scenes::MaterialModel::BlinnPhong)) { // no index of refraction
             s.iorOrF90 = 1.0f;
             s.exponent = i % 5 == 0 ? 0.0f : float(random.logarithmic(1e-3, 1e6));
         }
@@ -113,12 +114,12 @@ std::vector<StoredSurface> surfacesBetweenSteps(frame::Encoding encoding, int co
             break;
         }
         case 1:
-            s.model = float(MODEL_METALLIC_ROUGHNESS);
+            s.model = float(scenes::MaterialModel::MetallicRoughness);
             s.iorOrF90 = float(between(largest(micro[2])));
             s.metallic = float(between(largest(micro[3])));
             break;
         default: {
-            s.model = float(MODEL_BLINN_PHONG);
+            s.model = float(scenes::MaterialModel::BlinnPhong);
             const int mantissa = micro[1] + micro[2] + micro[3] - 8;
             s.exponent = float(std::ldexp(1.0 + (random.index(8) + 0.5) / (1 << mantissa), random.index(20) - 3));
         }
@@ -147,7 +148,7 @@ std::vector<StoredSurface> surfacesAtTheEnds() {
         StoredSurface& s = surfaces.emplace_back();
         s.albedo = s.specular = s.sheenColor = s.normalTexel = glm::vec3(x);
         s.coatFactor = s.metallic = s.iorOrF90 = x;
-        s.model = float(MODEL_METALLIC_ROUGHNESS);
+        s.model = float(scenes::MaterialModel::MetallicRoughness);
         s.coatNormal = {x, -x};
     }
     for (const double alpha : {ALPHA_MIN, 1.0, ALPHA_MIN * 1.0001, 0.999999}) {

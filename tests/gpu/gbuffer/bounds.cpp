@@ -29,10 +29,11 @@ double rootError(float was, float is, double power) {
     return std::abs(std::pow(double(was), power) - std::pow(double(is), power));
 }
 bool isBlinnPhong(const StoredSurface& s) {
-    return s.model == float(MODEL_BLINN_PHONG);
+    return s.model == float(scenes::MaterialModel::BlinnPhong);
 }
 bool isMicrofacet(const StoredSurface& s) {
-    return s.model == float(MODEL_MICROFACET) || s.model == float(MODEL_MICROFACET_ANISOTROPIC);
+    return s.model == float(scenes::MaterialModel::Microfacet) ||
+           s.model == float(scenes::MaterialModel::MicrofacetAnisotropic);
 }
 double contrast(double ior) {
     return (ior - 1.0) / (ior + 1.0);

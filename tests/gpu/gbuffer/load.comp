@@ -13,7 +13,7 @@ void main()
     outputs[i * 9 + 1] = vec4(surface.normalLS, surface.alpha);
     outputs[i * 9 + 2] = vec4(surface.specular, surface.iorOrF90);
     outputs[i * 9 + 3] = vec4(surface.emission, float(surface.model));
-    outputs[i * 9 + 4] = vec4(surface.normalTexel, surface.exponent);
+    outputs[i * 9 + 4] = vec4(surface.normalTexel, surface.parameter);
     outputs[i * 9 + 5] = vec4(surface.tangentLS, surface.alphaBitangent);
     outputs[i * 9 + 6] = vec4(surface.coatNormalCode, surface.coatFactor, surface.coatAlpha);
     outputs[i * 9 + 7] = vec4(surface.sheenColor, surface.sheenAlpha);

@@ -15,7 +15,8 @@ using test::StoredSurface;
 constexpr frame::Encoding kCoarse[] = {frame::Encoding::Packed, frame::Encoding::Slim};
 
 bool isMicrofacetModel(const StoredSurface& surface) {
-    return surface.model == float(MODEL_MICROFACET) || surface.model == float(MODEL_MICROFACET_ANISOTROPIC);
+    return surface.model == float(scenes::MaterialModel::Microfacet) ||
+           surface.model == float(scenes::MaterialModel::MicrofacetAnisotropic);
 }
 
 TEST_F(GBufferTest, theExactLayoutAlwaysKeepsEveryBit) {
@@ -27,7 +28,12 @@ TEST_F(GBufferTest, theExactLayoutAlwaysKeepsEveryBit) {
 
 TEST_F(GBufferTest, everyLayoutAlwaysKeepsModelAndMasking) {
     for (const frame::Encoding encoding : kCoarse) {
-        const std::vector<StoredSurface> surfaces = test::randomSurfaces(20000);
+        std::vector<StoredSurface> surfaces = test::randomSurfaces(20000);
+        for (const scenes::MaterialModelInfo& model : scenes::materialModels()) {
+            StoredSurface surface;
+            surface.model = float(model.model);
+            surfaces.push_back(surface);
+        }
         const std::vector<StoredSurface> back = roundTrip(surfaces, encoding);
         for (std::size_t i = 0; i < surfaces.size(); ++i) {
             ASSERT_EQ(back[i].model, surfaces[i].model) << "surface " << i;
@@ -46,13 +52,13 @@ TEST_F(GBufferTest, everyLayoutAlwaysKeepsTheValuesOfAbsentChannelsExactly) {
         surfaces[0].specular = glm::vec3(1.0f);
         surfaces[0].albedo = glm::vec3(0.0f, 1.0f, 0.04f);
         surfaces[1].specular = glm::vec3(0.04f);
-        surfaces[1].model = surfaces[2].model = float(MODEL_METALLIC_ROUGHNESS);
+        surfaces[1].model = surfaces[2].model = float(scenes::MaterialModel::MetallicRoughness);
         surfaces[1].metallic = 1.0f;
         surfaces[2].iorOrF90 = 0.0f;
         surfaces[2].sheenColor = glm::vec3(1.0f);
         surfaces[2].coatFactor = 1.0f;
         surfaces[2].coatNormal = {1.0f, -1.0f};
-        surfaces[3].model = float(MODEL_BLINN_PHONG);
+        surfaces[3].model = float(scenes::MaterialModel::BlinnPhong);
         for (StoredSurface& surface : surfaces) surface.alpha = surface.coatAlpha = surface.sheenAlpha = 1.0f;
         const std::vector<StoredSurface> back = roundTrip(surfaces, encoding);
         for (std::size_t i = 0; i < surfaces.size(); ++i) {
@@ -77,7 +83,8 @@ TEST_F(GBufferTest, anIsotropicLobeNeverBecomesAnisotropic) {
         const std::vector<StoredSurface> surfaces = test::randomSurfaces(20000);
         const std::vector<StoredSurface> back = roundTrip(surfaces, encoding);
         for (std::size_t i = 0; i < surfaces.size(); ++i) {
-            if (surfaces[i].alphaBitangent != surfaces[i].alpha || surfaces[i].model == float(MODEL_BLINN_PHONG))
+            if (surfaces[i].alphaBitangent != surfaces[i].alpha ||
+                surfaces[i].model == float(scenes::MaterialModel::BlinnPhong))
                 continue;
             ASSERT_EQ(back[i].alphaBitangent, back[i].alpha) << "surface " << i;
         }
@@ -122,7 +129,7 @@ TEST_F(GBufferTest, noLayoutEverMakesAValueThatLightingMustNotMeet) {
         std::vector<StoredSurface> surfaces = test::surfacesAtTheEnds();
         surfaces.emplace_back().emission = glm::vec3(3e38f);
         surfaces.emplace_back().exponent = 3e38f;
-        surfaces.back().model = float(MODEL_BLINN_PHONG);
+        surfaces.back().model = float(scenes::MaterialModel::BlinnPhong);
         surfaces.emplace_back().iorOrF90 = 3e38f;
         const std::vector<StoredSurface> back = roundTrip(surfaces, encoding);
         for (std::size_t i = 0; i < surfaces.size(); ++i) {

@@ -19,7 +19,7 @@ void main()
     surface.emission = inputs[i + 3].rgb;
     surface.model = uint(inputs[i + 3].w);
     surface.normalTexel = inputs[i + 4].rgb;
-    surface.exponent = inputs[i + 4].w;
+    surface.parameter = inputs[i + 4].w;
     surface.tangentLS = inputs[i + 5].xyz;
     surface.alphaBitangent = inputs[i + 5].w;
     surface.coatNormalCode = inputs[i + 6].xy;

@@ -1,4 +1,5 @@
 #pragma once
+#include "renderer/frame/Features.h"
 #include "shaders/shared/models.h"
 #include "tests/gpu/shaders/ShaderBench.h"
 #include "tests/support/Random.h"
@@ -7,7 +8,7 @@ namespace tessera::test {
 
 /// A surface of any model and layers with a light and a viewer.
 struct LobeCase {
-    unsigned model = MODEL_METALLIC_ROUGHNESS;
+    unsigned model = unsigned(scenes::MaterialModel::MetallicRoughness);
     glm::vec3 albedo{0.5f};
     float metallic = 0.0f;
     glm::vec3 n{0, 0, 1};
@@ -107,7 +108,8 @@ protected:
     static LobeCase randomCase(Random& random, unsigned model) {
         LobeCase c;
         c.model = model;
-        const bool microfacet = model == MODEL_MICROFACET || model == MODEL_MICROFACET_ANISOTROPIC;
+        const bool microfacet = model == unsigned(scenes::MaterialModel::Microfacet) ||
+                                model == unsigned(scenes::MaterialModel::MicrofacetAnisotropic);
         const auto alpha = [&] {
             return random.index(4) == 0 ? float(ALPHA_MIN) : float(random.logarithmic(ALPHA_MIN, 1.0));
         };
@@ -155,11 +157,7 @@ protected:
     }
 
 private:
-    static inline const shader::Defines kEverything{
-        {"HAS_BLINN_PHONG", "1"},        {"HAS_MICROFACET", "1"},      {"HAS_MICROFACET_ANISOTROPIC", "1"},
-        {"HAS_METALLIC_ROUGHNESS", "1"}, {"HAS_MASKING_OPTIONS", "1"}, {"HAS_ANISOTROPY", "1"},
-        {"HAS_CLEARCOAT", "1"},          {"HAS_SHEEN", "1"},           {"HAS_EMISSION", "1"},
-        {"HAS_LIT_MODELS", "1"}};
+    static inline const shader::Defines kEverything = frame::featureDefines(frame::allFeatures());
     ShaderBench bench_;
 };
 

@@ -117,12 +117,12 @@ TEST_F(Anisotropy, aSurfaceOfEqualAlphasAlwaysReflectsLikeTheIsotropicModel) {
     test::Random random(22);
     std::vector<LobeCase> cases;
     while (cases.size() < 100000) {
-        LobeCase c = randomCase(random, MODEL_MICROFACET_ANISOTROPIC);
+        LobeCase c = randomCase(random, unsigned(scenes::MaterialModel::MicrofacetAnisotropic));
         c.alphaBitangent = c.alpha = float(random.logarithmic(0.01, 1.0));
         c.iorOrF90 = float(random.between(1.1, 3.0));
         c.specular = glm::vec3(1.0f);
         cases.push_back(c);
-        c.model = MODEL_MICROFACET;
+        c.model = unsigned(scenes::MaterialModel::Microfacet);
         if (c.masking == MASKING_DIRECTIONAL) c.masking = MASKING_WALTER;
         cases.push_back(c);
     }
@@ -183,7 +183,8 @@ TEST_F(Anisotropy, aMicrofacetAlongTheNormalAlwaysHasTheMeanAlpha) {
 TEST_F(Anisotropy, reflectedEnergyNeverExceedsWhatArrives) {
     for (const glm::vec2 alpha : {glm::vec2(0.1f, 0.6f), glm::vec2(0.9f, 0.2f)}) {
         const std::vector<test::HalfVector> halves = halfVectors(alpha, kPsiSteps, 2 * kPhiSteps);
-        for (const unsigned model : {MODEL_METALLIC_ROUGHNESS, MODEL_MICROFACET_ANISOTROPIC}) {
+        for (const unsigned model : {unsigned(scenes::MaterialModel::MetallicRoughness),
+                                     unsigned(scenes::MaterialModel::MicrofacetAnisotropic)}) {
             for (const double mu : {0.1, 0.5, 1.0}) {
                 for (const double turn : {0.0, 0.8, 1.57}) {
                     const double sine = std::sqrt(1.0 - mu * mu);
@@ -195,7 +196,7 @@ TEST_F(Anisotropy, reflectedEnergyNeverExceedsWhatArrives) {
                         if (vh <= 0.0) continue;
                         LobeCase c;
                         c.model = model;
-                        const bool metal = model == MODEL_METALLIC_ROUGHNESS;
+                        const bool metal = model == unsigned(scenes::MaterialModel::MetallicRoughness);
                         c.albedo = glm::vec3(metal ? 1.0f : 0.0f); // F = 1
                         c.metallic = metal ? 1.0f : 0.0f;
                         c.specular = glm::vec3(1.0f);

@@ -152,7 +152,7 @@ TEST_F(Sheen, aBlackSheenLeavesEveryBitAsItIs) {
     test::Random random(32);
     std::vector<LobeCase> cases;
     for (int i = 0; i < 20000; ++i) {
-        LobeCase c = randomCase(random, MODEL_METALLIC_ROUGHNESS);
+        LobeCase c = randomCase(random, unsigned(scenes::MaterialModel::MetallicRoughness));
         c.coatFactor = 0.0f;
         c.sheenColor = glm::vec3(0.0f);
         cases.push_back(c);
@@ -171,7 +171,7 @@ TEST_F(Clearcoat, aCoatAlwaysLiesOverTheMaterialAsTheExtensionSays) {
     test::Random random(33);
     std::vector<LobeCase> cases;
     for (int i = 0; i < 20000; ++i) {
-        LobeCase c = randomCase(random, MODEL_METALLIC_ROUGHNESS);
+        LobeCase c = randomCase(random, unsigned(scenes::MaterialModel::MetallicRoughness));
         c.coatAlpha = float(random.logarithmic(0.05, 1.0));
         c.l = glm::vec3(random.around(glm::normalize(glm::dvec3(c.n)), -0.2, 1.0));
         c.v = glm::vec3(random.around(glm::normalize(glm::dvec3(c.n)), 0.0, 1.0));

@@ -15,7 +15,7 @@ TEST_F(LimitsTest, aBlackMicrofacetSurfaceAlwaysReflectsExactlyItsSpecularTerms)
     test::Random random(6);
     std::vector<LobeCase> cases;
     for (int i = 0; i < 20000; ++i) {
-        cases.push_back(bare(randomCase(random, MODEL_MICROFACET)));
+        cases.push_back(bare(randomCase(random, unsigned(scenes::MaterialModel::Microfacet))));
         cases.back().albedo = glm::vec3(0.0f);
         cases.back().specular = glm::vec3(1.0f);
     }
@@ -28,7 +28,8 @@ TEST_F(LimitsTest, aBlackMicrofacetSurfaceAlwaysReflectsExactlyItsSpecularTerms)
 
 TEST_F(LimitsTest, specularIsExactlyZeroWhereItsDirectionsHaveNoLobe) {
     const glm::vec3 up(0, 0, 1), side(1, 0, 0), slant(0.6f, 0.0f, 0.8f), below(0.6f, 0.0f, -0.8f);
-    for (const unsigned model : {MODEL_MICROFACET, MODEL_METALLIC_ROUGHNESS}) {
+    for (const unsigned model :
+         {unsigned(scenes::MaterialModel::Microfacet), unsigned(scenes::MaterialModel::MetallicRoughness)}) {
         for (const float alpha : {float(ALPHA_MIN), 0.1f, 1.0f}) {
             std::vector<LobeCase> cases;
             for (const auto& [l, v] :
@@ -37,8 +38,8 @@ TEST_F(LimitsTest, specularIsExactlyZeroWhereItsDirectionsHaveNoLobe) {
                 LobeCase c;
                 c.model = model;
                 c.alpha = alpha;
-                c.iorOrF90 = model == MODEL_MICROFACET ? 1.5f : 1.0f;
-                c.specular = glm::vec3(model == MODEL_MICROFACET ? 1.0f : 0.04f);
+                c.iorOrF90 = model == unsigned(scenes::MaterialModel::Microfacet) ? 1.5f : 1.0f;
+                c.specular = glm::vec3(model == unsigned(scenes::MaterialModel::Microfacet) ? 1.0f : 0.04f);
                 c.l = l;
                 c.v = v;
                 cases.push_back(c);
@@ -62,7 +63,7 @@ TEST_F(LimitsTest, specularIsExactlyZeroWhereItsDirectionsHaveNoLobe) {
 TEST_F(LimitsTest, lambertIsAlwaysItsColourTimesTheCosine) {
     test::Random random(7);
     std::vector<LobeCase> cases;
-    for (int i = 0; i < 20000; ++i) cases.push_back(bare(randomCase(random, MODEL_LAMBERT)));
+    for (int i = 0; i < 20000; ++i) cases.push_back(bare(randomCase(random, unsigned(scenes::MaterialModel::Lambert))));
     const std::vector<LobeResult> results = run(cases);
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const double nl = glm::dot(glm::dvec3(cases[i].n), glm::dvec3(cases[i].l));

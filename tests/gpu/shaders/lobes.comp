@@ -20,7 +20,7 @@ void main()
     surface.specular = inputs[i * 9u + 2u].rgb;
     surface.iorOrF90 = inputs[i * 9u + 2u].w;
     surface.model = uint(inputs[i * 9u + 3u].w);
-    surface.exponent = inputs[i * 9u + 4u].w;
+    surface.parameter = inputs[i * 9u + 4u].w;
     surface.tangentLS = inputs[i * 9u + 5u].xyz;
     surface.alphaBitangent = inputs[i * 9u + 5u].w;
     surface.coatNormalCode = encodeOctahedral(inputs[i * 9u + 6u].xyz);
@@ -34,7 +34,7 @@ void main()
     vec3 l = inputs[i * 9u + 3u].xyz;
     vec3 v = inputs[i * 9u + 4u].xyz;
     precise float nl = dot(surface.normalLS, l);
-    SpecularTerms terms = specularTerms(surface, l, v, nl);
+    SpecularTerms terms = reflection(surface, directionsOn(surface, l, v, nl)).terms;
     outputs[i * 2u] = vec4(reflectedShare(surface, l, v), nl);
     outputs[i * 2u + 1u] = vec4(terms.d, terms.v, terms.f.g, 0.0);
 }

@@ -14,14 +14,17 @@ using test::TermsCase;
 
 using Lobes = test::LobeTest;
 
-constexpr unsigned kGlossy[] = {MODEL_BLINN_PHONG, MODEL_MICROFACET, MODEL_MICROFACET_ANISOTROPIC,
-                                MODEL_METALLIC_ROUGHNESS};
+constexpr unsigned kGlossy[] = {
+    unsigned(scenes::MaterialModel::BlinnPhong), unsigned(scenes::MaterialModel::Microfacet),
+    unsigned(scenes::MaterialModel::MicrofacetAnisotropic), unsigned(scenes::MaterialModel::MetallicRoughness)};
 
 TEST_F(Lobes, aRandomSurfaceOfAnyModelAndLayerIsNeverNaNInfiniteOrNegative) {
     constexpr int kBatch = 1 << 18;
     test::Random random(14);
     for (const unsigned model :
-         {MODEL_LAMBERT, MODEL_BLINN_PHONG, MODEL_MICROFACET, MODEL_MICROFACET_ANISOTROPIC, MODEL_METALLIC_ROUGHNESS}) {
+         {unsigned(scenes::MaterialModel::Lambert), unsigned(scenes::MaterialModel::BlinnPhong),
+          unsigned(scenes::MaterialModel::Microfacet), unsigned(scenes::MaterialModel::MicrofacetAnisotropic),
+          unsigned(scenes::MaterialModel::MetallicRoughness)}) {
         for (int batch = 0; batch < 4; ++batch) {
             std::vector<LobeCase> cases;
             cases.reserve(kBatch);
@@ -45,7 +48,8 @@ TEST_F(Lobes, specularAloneIsAlwaysReciprocalWithAndWithoutADirection) {
     test::Random random(15);
     std::vector<LobeCase> cases;
     for (int i = 0; i < 100000; ++i) {
-        LobeCase c = randomCase(random, i % 2 == 0 ? MODEL_MICROFACET_ANISOTROPIC : MODEL_METALLIC_ROUGHNESS);
+        LobeCase c = randomCase(random, i % 2 == 0 ? unsigned(scenes::MaterialModel::MicrofacetAnisotropic)
+                                                   : unsigned(scenes::MaterialModel::MetallicRoughness));
         c.iorOrF90 = i % 2 == 0 ? float(random.between(1.1, 3.0)) : 1.0f;
         c.alpha = float(random.logarithmic(0.01, 1.0));
         c.alphaBitangent = float(random.logarithmic(0.01, 1.0));
@@ -117,7 +121,7 @@ TEST_F(Lobes, anyCosineToThePowerOfZeroIsExactlyOne) {
 
 TEST_F(Lobes, blinnPhongIsExactlyItsDiffuseAndSpecularPartsByHand) {
     LobeCase c;
-    c.model = MODEL_BLINN_PHONG;
+    c.model = unsigned(scenes::MaterialModel::BlinnPhong);
     c.albedo = {0.5f, 0.25f, 0.0f};
     c.specular = {0.25f, 0.5f, 1.0f};
     c.exponent = 2.0f;
@@ -140,7 +144,7 @@ TEST_F(Lobes, theHalfVectorMaskingIsAlwaysThatOfTheHandout) {
     std::vector<LobeCase> cases;
     for (int i = 0; i < 20000; ++i) {
         LobeCase c;
-        c.model = MODEL_MICROFACET;
+        c.model = unsigned(scenes::MaterialModel::Microfacet);
         c.masking = MASKING_HALF_VECTOR;
         c.iorOrF90 = 1.5f;
         c.alpha = float(random.logarithmic(0.05, 1.0));

@@ -13,7 +13,7 @@ void main()
     Surface surface;
     surface.model = uint(before.x);
     surface.albedo = surface.specular = surface.emission = surface.normalLS = surface.normalTexel = before;
-    surface.metallic = surface.alpha = surface.iorOrF90 = surface.exponent = before.x;
+    surface.metallic = surface.alpha = surface.iorOrF90 = surface.parameter = before.x;
     surface.masking = uint(before.x);
     surface.tangentLS = surface.sheenColor = before;
     surface.coatNormalCode = before.xy;
@@ -23,7 +23,7 @@ void main()
     outputs[i * 8u + 1u] = vec4(surface.normalLS, surface.alpha);
     outputs[i * 8u + 2u] = vec4(surface.specular, surface.iorOrF90);
     outputs[i * 8u + 3u] = vec4(surface.emission, float(surface.model));
-    outputs[i * 8u + 4u] = vec4(surface.normalTexel, surface.exponent);
+    outputs[i * 8u + 4u] = vec4(surface.normalTexel, surface.parameter);
     outputs[i * 8u + 5u] = vec4(surface.tangentLS, surface.alphaBitangent);
     outputs[i * 8u + 6u] = vec4(surface.coatNormalCode, surface.coatFactor, surface.coatAlpha);
     outputs[i * 8u + 7u] = vec4(surface.sheenColor, surface.sheenAlpha);

@@ -22,7 +22,7 @@ TEST_F(NeutralSurface, itEmitsAndReflectsNothingWhateverItWasBefore) {
         EXPECT_EQ(of[0], glm::vec4(0.0f)) << "albedo, metallic";
         EXPECT_EQ(of[1], glm::vec4(0, 0, 1, 1)) << "a unit normal, alpha 1";
         EXPECT_EQ(of[2], glm::vec4(0, 0, 0, 1)) << "no specular; F90 of 1, as glTF has it";
-        EXPECT_EQ(of[3], glm::vec4(0, 0, 0, float(MODEL_SINGLE_COLOR))) << "emission, model";
+        EXPECT_EQ(of[3], glm::vec4(0, 0, 0, float(scenes::MaterialModel::SingleColor))) << "emission, model";
         EXPECT_EQ(of[4], glm::vec4(0.5f, 0.5f, 1.0f, 0.0f)) << "a flat normal map, exponent";
         EXPECT_NEAR(glm::length(glm::vec3(of[5])), 1.0f, 1e-6f) << "the tangent";
         EXPECT_EQ(of[6].z, 0.0f) << "no coat";

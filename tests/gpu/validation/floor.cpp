@@ -172,7 +172,9 @@ TEST_F(FloorTest, neighbouringPixelsNeverShareAPropertyOfTheSurface) {
             const std::vector<glm::vec4> values = microsurface.downloadAs<glm::vec4>();
             for (std::size_t i = 1; i < values.size(); ++i) {
                 const auto model = unsigned(values[i].y);
-                if (model == MODEL_MICROFACET || model == MODEL_MICROFACET_ANISOTROPIC) continue;
+                if (model == unsigned(scenes::MaterialModel::Microfacet) ||
+                    model == unsigned(scenes::MaterialModel::MicrofacetAnisotropic))
+                    continue;
                 ASSERT_NE(values[i].w, values[i - 1].w) << "metallic of pixel " << i;
             }
         };

@@ -40,11 +40,11 @@ std::vector<Change> changes() {
     const auto model = [&](MaterialModel value) { return material([value](Material& m) { m.model = value; }); };
     const auto texture = [&](TextureSlot slot) { return material([slot](Material& m) { addTexture(m, slot); }); };
     return {
-        {Feature::SingleColor, model(MaterialModel::SingleColor)},
-        {Feature::BlinnPhong, model(MaterialModel::BlinnPhong)},
-        {Feature::Microfacet, model(MaterialModel::Microfacet)},
-        {Feature::MicrofacetAnisotropic, model(MaterialModel::MicrofacetAnisotropic)},
-        {Feature::MetallicRoughness, model(MaterialModel::MetallicRoughness)},
+        {featureOf(MaterialModel::SingleColor), model(MaterialModel::SingleColor)},
+        {featureOf(MaterialModel::BlinnPhong), model(MaterialModel::BlinnPhong)},
+        {featureOf(MaterialModel::Microfacet), model(MaterialModel::Microfacet)},
+        {featureOf(MaterialModel::MicrofacetAnisotropic), model(MaterialModel::MicrofacetAnisotropic)},
+        {featureOf(MaterialModel::MetallicRoughness), model(MaterialModel::MetallicRoughness)},
         {Feature::BaseColorTexture, texture(TextureSlot::BaseColor)},
         {Feature::NormalTexture, texture(TextureSlot::Normal)},
         {Feature::MetallicRoughnessTexture, texture(TextureSlot::MetallicRoughness)},
@@ -107,7 +107,7 @@ std::vector<Change> changes() {
 }
 
 TEST(Features, aFeatureIsInTheSetExactlyWhenAMaterialInUseNeedsIt) {
-    EXPECT_TRUE(materialFeatures(plainScene())[Feature::Lambert]);
+    EXPECT_TRUE(materialFeatures(plainScene())[featureOf(MaterialModel::Lambert)]);
     EXPECT_EQ(materialFeatures(plainScene()).has.count(), 1u);
     for (const Change& change : changes()) {
         scenes::Scene scene = plainScene();
@@ -118,10 +118,10 @@ TEST(Features, aFeatureIsInTheSetExactlyWhenAMaterialInUseNeedsIt) {
 }
 
 TEST(Features, everyFeatureOfMaterialsAlwaysHasASceneWithItAndOneWithout) {
-    std::set<Feature> tested{Feature::Lambert,           Feature::DirectionalLights,
-                             Feature::PointLights,       Feature::SpotLights,
-                             Feature::AttenuationLights, // the lights' are packLights' business
-                             Feature::OrthographicCamera};
+    std::set<Feature> tested{
+        featureOf(MaterialModel::Lambert), Feature::DirectionalLights, Feature::PointLights, Feature::SpotLights,
+        Feature::AttenuationLights, // the lights' are packLights' business
+        Feature::OrthographicCamera};
     for (const Change& change : changes()) tested.insert(change.feature);
     EXPECT_EQ(tested.size(), kFeatureCount);
 }
@@ -212,7 +212,8 @@ TEST(Features, tangentsAreNeededExactlyByMapsInTangentSpaceAndByAnisotropy) {
     for (const FeatureInfo& info : featureTable()) {
         FeatureSet set;
         set.add(info.feature);
-        const bool frame = info.feature == Feature::MicrofacetAnisotropic || info.feature == Feature::Anisotropy;
+        const bool frame =
+            info.feature == featureOf(MaterialModel::MicrofacetAnisotropic) || info.feature == Feature::Anisotropy;
         const bool map =
             info.feature == Feature::TangentSpaceNormals || info.feature == Feature::ClearcoatNormalTexture;
         EXPECT_EQ(set.tangentFrame(), frame) << info.define;
@@ -249,20 +250,42 @@ TEST(Features, materialsThatNothingDrawsNeverCount) {
 
 TEST(Features, everyFeatureAlwaysBecomesADefineOfZeroOrOne) {
     const Defines none = featureDefines(FeatureSet{}), all = featureDefines(allFeatures());
-    EXPECT_EQ(all.size(), kFeatureCount + 2);
+    EXPECT_EQ(none.size(), all.size());
     for (const FeatureInfo& info : featureTable()) {
-        EXPECT_THAT(none, Contains(Pair("HAS_" + std::string(info.define), "0")));
-        EXPECT_THAT(all, Contains(Pair("HAS_" + std::string(info.define), "1")));
+        EXPECT_THAT(none, Contains(Pair("HAS_" + info.define, "0")));
+        EXPECT_THAT(all, Contains(Pair("HAS_" + info.define, "1")));
         EXPECT_EQ(&info, &featureTable()[std::size_t(info.feature)]) << "the table follows the enumeration";
         EXPECT_FALSE(info.what.empty() || info.absent.empty());
     }
-    for (const char* sum : {"HAS_LIT_MODELS", "HAS_TEXTURES"}) {
+    for (const char* sum : {"HAS_LIT_MODELS", "HAS_GLOSSY_MODELS", "HAS_MICROSURFACES", "HAS_TANGENT_FRAME",
+                            "HAS_TANGENTS", "HAS_TEXTURES"}) {
         EXPECT_THAT(none, Contains(Pair(sum, "0")));
         EXPECT_THAT(all, Contains(Pair(sum, "1")));
     }
     FeatureSet sole;
     sole.soleModel = MaterialModel::Microfacet;
     EXPECT_THAT(featureDefines(sole), Contains(Pair("SOLE_MODEL", "3u")));
+}
+
+TEST(Features, shadersAlwaysGetEveryModelsNumberAndWhatTheModelsOfTheSceneAre) {
+    const Defines none = featureDefines(FeatureSet{}), all = featureDefines(allFeatures());
+    for (const Defines& defines : {none, all}) {
+        EXPECT_THAT(defines, Contains(Pair("MODEL_COUNT", std::to_string(scenes::kMaterialModelCount) + "u")));
+        EXPECT_THAT(defines, Contains(Pair("MODEL_SINGLE_COLOR", "0u")));
+        EXPECT_THAT(defines, Contains(Pair("MODEL_METALLIC_ROUGHNESS", "5u")));
+        EXPECT_THAT(defines, Contains(Pair("MODEL_FIRST_MICROFACET", "3u")));
+    }
+    EXPECT_THAT(none, Contains(Pair("LIT_MODELS", "")));
+    EXPECT_THAT(none, Contains(Pair("IS_UNLIT(model)", "(false)")));
+    EXPECT_THAT(all, Contains(Pair("LIT_MODELS", "1u, 2u, 3u, 4u, 5u")));
+    EXPECT_THAT(all, Contains(Pair("IS_UNLIT(model)", "((model) == 0u)")));
+    EXPECT_THAT(
+        all, Contains(Pair("IS_GLOSSY(model)", "((model) == 2u || (model) == 3u || (model) == 4u || (model) == 5u)")));
+    EXPECT_THAT(all, Contains(Pair("HAS_PARAMETER(model)", "((model) == 2u)")));
+    EXPECT_THAT(all, Contains(Pair("IS_MICROFACET(model)", "((model) == 3u || (model) == 4u)")));
+    FeatureSet one;
+    one.add(featureOf(MaterialModel::Microfacet));
+    EXPECT_THAT(featureDefines(one), Contains(Pair("IS_MICROFACET(model)", "((model) == 3u)")));
 }
 
 } // namespace

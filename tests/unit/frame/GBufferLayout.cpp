@@ -15,8 +15,11 @@ namespace tessera::frame {
 namespace {
 
 using scenes::MaterialModel;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::IsEmpty;
+using testing::Pair;
+using testing::StartsWith;
 
 FeatureSet featuresOf(
     MaterialModel model, const std::function<void(scenes::Material&)>& change = [](scenes::Material&) {}) {
@@ -121,7 +124,7 @@ TEST(GBufferLayout, channelsAreAllocatedExactlyWhenASurfaceNeedsThem) {
     EXPECT_EQ(channels(allFeatures()).size(), kChannelCount - 1);
 
     FeatureSet mixed = featuresOf(MaterialModel::Lambert); // with unlit surfaces, so that a pixel must say which it is
-    mixed.add(Feature::SingleColor);
+    mixed.add(featureOf(MaterialModel::SingleColor));
     mixed.soleModel.reset();
     EXPECT_THAT(channels(mixed), ElementsAre(Channel::Albedo, Channel::Normal, Channel::Microsurface));
 }
@@ -152,7 +155,7 @@ Bytes bytesOf(const FeatureSet& features) {
 FeatureSet allIsotropicFeatures() {
     FeatureSet all = allFeatures();
     for (const Feature layer :
-         {Feature::MicrofacetAnisotropic, Feature::Anisotropy, Feature::Clearcoat, Feature::Sheen})
+         {featureOf(MaterialModel::MicrofacetAnisotropic), Feature::Anisotropy, Feature::Clearcoat, Feature::Sheen})
         all.has.reset(std::size_t(layer));
     return all;
 }
@@ -220,17 +223,20 @@ TEST(GBufferLayout, definesAlwaysGiveAttachmentsOfExactChannelsAndBitsOfTheOther
     GBufferLayout layout = namedLayout("packed");
     layout.encoding[std::size_t(Channel::Emission)] = Encoding::Exact;
     const std::vector<Channel> channels{Channel::Normal, Channel::Specular, Channel::Emission};
-    EXPECT_EQ(channelDefines(layout, channels), (Defines{{"GBUFFER_NORMAL", "0"},
-                                                         {"GBUFFER_NORMAL_PACKED", "1"},
-                                                         {"GBUFFER_NORMAL_WIDTHS", "15, 15, 0, 0"},
-                                                         {"GBUFFER_SPECULAR", "30"},
-                                                         {"GBUFFER_SPECULAR_PACKED", "1"},
-                                                         {"GBUFFER_SPECULAR_WIDTHS", "6, 6, 6, 0"},
-                                                         {"GBUFFER_EMISSION", "0"},
-                                                         {"GBUFFER_EMISSION_PACKED", "0"},
-                                                         {"GBUFFER_EXACT_CHANNELS", "1"},
-                                                         {"GBUFFER_WORDS", "2"},
-                                                         {"GBUFFER_WORD_TEXTURE", "1"}}));
+    EXPECT_EQ(channelDefines(layout, channels),
+              (Defines{{"GBUFFER_NORMAL", "0"},
+                       {"GBUFFER_NORMAL_WIDTHS", "15, 15, 0, 0"},
+                       {"GBUFFER_SPECULAR", "30"},
+                       {"GBUFFER_SPECULAR_WIDTHS", "6, 6, 6, 0"},
+                       {"GBUFFER_EMISSION", "0"},
+                       {"GBUFFER_CHANNELS", "PACKED_CHANNEL(putNormal, takeNormal, 0, ivec4(15, 15, 0, 0)) "
+                                            "PACKED_CHANNEL(putSpecular, takeSpecular, 30, ivec4(6, 6, 6, 0)) "
+                                            "EXACT_CHANNEL(putEmission, takeEmission, 0)"},
+                       {"GBUFFER_EXACT_CHANNELS", "1"},
+                       {"GBUFFER_WORDS", "2"},
+                       {"GBUFFER_WORD_TEXTURE", "1"}}));
+    EXPECT_THAT(channelDefines(layout, std::vector{Channel::NormalTexel}),
+                Contains(Pair("GBUFFER_CHANNELS", StartsWith("PACKED_CHANNEL(putNormalTexel, takeNormalTexel, "))));
     EXPECT_THAT(channelDefines(layout, {}), IsEmpty());
 }
 

@@ -60,7 +60,7 @@ TEST(StressModels, everyLitModelOfTheReferenceAlwaysHasExactlyOneRow) {
     for (const reference::Model& model : reference::modelTable()) {
         const auto rows = std::count_if(stressModels().begin(), stressModels().end(),
                                         [&](const StressModel& candidate) { return candidate.model == model.model; });
-        EXPECT_EQ(rows, model.isUnlit ? 0 : 1) << "model " << int(model.model);
+        EXPECT_EQ(rows, scenes::infoOf(model.model).isLit ? 1 : 0) << "model " << int(model.model);
     }
 }
 
@@ -68,7 +68,7 @@ TEST(StressModels, randomMaterialsAreAlwaysOnesThatScenesMayHave) {
     StressRandom random(1);
     for (const StressModel& model : stressModels()) {
         scenes::Scene scene;
-        scene.name = model.name;
+        scene.name = scenes::infoOf(model.model).name;
         for (int i = 0; i < 200; ++i) {
             scenes::Material material;
             material.model = model.model;

@@ -35,13 +35,15 @@ scenes::Material materialAtBounds(bool isMost) {
     scenes::Material material;
     material.baseColor = glm::vec4(share);
     material.specularColor = material.sheenColor = glm::vec3(share);
-    material.metallic = material.perceptualRoughness = material.specularFactor = share;
     material.anisotropyStrength = material.clearcoat = share;
     material.clearcoatPerceptualRoughness = material.sheenPerceptualRoughness = material.alphaCutoff = share;
     material.emissive = glm::vec3(isMost ? kMostRadiance : 0.0f);
-    material.alpha = material.alphaY = isMost ? kMostAlpha : kLeastAlpha;
-    material.ior = isMost ? kMostIor : kLeastIor;
-    material.exponent = isMost ? kMostExponent : kLeastExponent;
+    for (const scenes::MaterialModelInfo& model : scenes::materialModels()) {
+        for (const scenes::MaterialParameter& parameter : model.parameters) {
+            if (const auto* const number = std::get_if<float scenes::Material::*>(&parameter.member))
+                material.** number = isMost ? parameter.mostShown : parameter.leastShown;
+        }
+    }
     material.normalScale = isMost ? kMostNormalScale : 0.0f;
     return material;
 }

@@ -57,7 +57,7 @@ State unusualScene() {
     attenuated.attenuation = glm::vec3(1e8f, 0.1f, 0.0f);
     attenuated.animation.emplace().amplitudeMetres = {1.0, 0.0, 0.0};
     scene.lights.emplace_back().type = scenes::LightType::Directional;
-    for (int model = 0; model < 6; ++model) {
+    for (std::size_t model = 0; model < scenes::kMaterialModelCount; ++model) {
         scenes::Material& material = scene.materials.emplace_back();
         material.model = scenes::MaterialModel(model);
         material.baseColor = {2.0f, 0.1f, 0.3f, 0.7f};

@@ -47,6 +47,31 @@ TEST(SceneFormat, everyDocumentedExampleAlwaysLoads) {
     EXPECT_GE(examples, 5);
 }
 
+TEST(SceneFormat, theSchemaAlwaysTakesEveryModelWithTheParametersOfItsRowAlsoInOverrides) {
+    const auto valueOf = [](const MaterialParameter& parameter) {
+        switch (parameter.kind) {
+        case MaterialParameter::Kind::Color:
+            return "[0.5, 0.5, 0.5]";
+        case MaterialParameter::Kind::Masking:
+            return R"("walter")";
+        default:
+            return "1";
+        }
+    };
+    const test::SceneFolder folder;
+    for (const MaterialModelInfo& model : materialModels()) {
+        SCOPED_TRACE(model.name);
+        std::string keys = fmt::format(R"("model": "{}", "{}": [0.5, 0.5, 0.5])", model.name, model.colorKey);
+        for (const MaterialParameter& parameter : model.parameters)
+            keys += fmt::format(R"(, "{}": {})", parameter.key, valueOf(parameter));
+        const std::string owned = R"({"tessera": 1, "materials": [{"name": "m", )" + keys + "}]}";
+        EXPECT_TRUE(test::schemaAccepts(owned)) << owned;
+        EXPECT_EQ(folder.import(owned).materials[0].model, model.model);
+        const std::string overridden = R"({"tessera": 1, "overrides": [{"material": "m", )" + keys + "}]}";
+        EXPECT_TRUE(test::schemaAccepts(overridden)) << overridden;
+    }
+}
+
 TEST(SceneFormat, everyShippedSceneAlwaysPassesTheSchema) {
     int scenes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(kRepository / "scenes" / "files")) {

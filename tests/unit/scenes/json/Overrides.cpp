@@ -120,7 +120,7 @@ TEST(SceneJsonOverrides, anOverrideThatMatchesNothingIsAlwaysRefusedWithTheNeare
               "/overrides/0/material: there is no included material 'gold'; valid are default, brass");
     EXPECT_EQ(errorOf(R"("overrides": [{"material": "brass", "k_d": [1, 1, 1]}])"),
               "/overrides/0: a metallic_roughness material has no key 'k_d'; valid are material, model, baseColor, "
-              "metallic, perceptualRoughness, metallicRoughnessTexture, ior, specularFactor, specularColor, emissive, "
+              "metallic, perceptualRoughness, ior, specularFactor, specularColor, metallicRoughnessTexture, emissive, "
               "emissiveStrength, anisotropyStrength, anisotropyRotationDegrees, anisotropyTexture, clearcoat, "
               "clearcoatPerceptualRoughness, clearcoatNormalMap, sheenColor, sheenPerceptualRoughness, normalMap, "
               "tangents, alphaMode, alphaCutoff, doubleSided, fields");

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <set>
 
+#include "scenes/import/SceneJsonNames.h"
 #include "scenes/write/ElementJson.h"
 #include "tests/unit/scenes/gltf/GltfBuilder.h"
 #include "tests/unit/scenes/json/SceneFiles.h"
@@ -33,8 +34,8 @@ Scene saved(const Scene& scene, const SceneOrigin& origin, const std::filesystem
 void edit(Scene& scene) {
     Edits edits(7);
     for (std::size_t i = 0; i < scene.materials.size(); i += 2) {
-        scene.materials[i] =
-            edits.material(static_cast<MaterialModel>(i / 2 % 6), std::max(1, static_cast<int>(scene.images.size())));
+        scene.materials[i] = edits.material(static_cast<MaterialModel>(i / 2 % kMaterialModelCount),
+                                            std::max(1, static_cast<int>(scene.images.size())));
         if (scene.images.empty()) scene.materials[i].textures = {};
     }
     if (!scene.lights.empty()) scene.lights.erase(scene.lights.begin());
@@ -135,9 +136,7 @@ TEST(SceneText, everyLightIsAlwaysLoadedBackIdenticallyWithWhatItsTypeDoesNotUse
 TEST(SceneText, everyMaterialIsAlwaysLoadedBackIdenticallyWithEveryTexture) {
     Bust bust;
     Edits edits(2);
-    for (const MaterialModel model :
-         {MaterialModel::SingleColor, MaterialModel::Lambert, MaterialModel::BlinnPhong, MaterialModel::Microfacet,
-          MaterialModel::MicrofacetAnisotropic, MaterialModel::MetallicRoughness})
+    for (const auto& [name, model] : scenejson::kModels)
         for (const Masking masking : {Masking::Walter, Masking::Directional, Masking::HalfVector})
             for (const NormalMapSpace space : {NormalMapSpace::Tangent, NormalMapSpace::Object}) {
                 if (masking == Masking::Directional && model != MaterialModel::MicrofacetAnisotropic) continue;
@@ -146,7 +145,7 @@ TEST(SceneText, everyMaterialIsAlwaysLoadedBackIdenticallyWithEveryTexture) {
                 material.normalMapSpace = space;
                 material.tangents =
                     space == NormalMapSpace::Object ? TangentMethod::MikkTSpace : TangentMethod::Lengyel;
-                EXPECT_TRUE(bust.savedScene().materials == bust.scene.materials);
+                EXPECT_TRUE(bust.savedScene().materials == bust.scene.materials) << name;
                 material.textures = {};
                 EXPECT_TRUE(bust.savedScene().materials == bust.scene.materials);
             }

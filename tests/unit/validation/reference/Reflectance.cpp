@@ -38,6 +38,7 @@ glm::dvec3 tangentOf(const glm::dvec3& normal) {
 
 SurfacePoint pointOf(const Material& material, const glm::dvec3& normal) {
     SurfacePoint point;
+    const scenes::MaterialModelInfo& model = scenes::infoOf(material.model);
     point.model = material.model;
     point.color = glm::dvec3(material.baseColor);
     point.metallic = material.metallic;
@@ -49,7 +50,7 @@ SurfacePoint pointOf(const Material& material, const glm::dvec3& normal) {
     point.specularFactor = material.specularFactor;
     point.specularColor = glm::dvec3(material.specularColor);
     point.normal = normal;
-    point.exponent = material.exponent;
+    if (model.roughness) point.roughness = double(material.*model.roughness);
     point.masking = material.masking;
     point.alphaAcross = point.alpha;
     if (material.model == MaterialModel::MicrofacetAnisotropic) {

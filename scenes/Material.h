@@ -1,0 +1,283 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <variant>
+
+#include <glm/glm.hpp>
+
+#include "scenes/Texture.h"
+
+/// Materials as plain data, their members as a table, and their models as a table. Everything that names a model or one
+/// of its parameters follows the two: scene files, checks, fingerprints, the viewer, the shaders' defines, the
+/// G-buffer's channels.
+namespace tessera::scenes {
+
+/// The models of the shading specification; materialModels() says what each of them has.
+enum class MaterialModel : std::uint8_t {
+    SingleColor,           ///< the colour itself, unlit
+    Lambert,               ///< k_d max(0, n.l), no 1/pi
+    BlinnPhong,            ///< k_d max(0, n.l) + k_s (n.h)^p
+    Microfacet,            ///< k_d plus k_s F D G / 4, exact dielectric Fresnel
+    MicrofacetAnisotropic, ///< the same with alpha_x along the tangent and alpha_y along the bitangent
+    MetallicRoughness,     ///< glTF 2.0 appendix B
+    Count
+};
+
+/// How the microfacet models let microfacets hide each other.
+enum class Masking : std::uint8_t {
+    Walter,      ///< by the angle to the normal; alpha along the microfacet normal where anisotropic (Walter 2007)
+    Directional, ///< microfacet_anisotropic: alpha along the direction itself (Heitz 2014)
+    HalfVector,  ///< by the angle to the half vector; gains energy
+    Count
+};
+
+enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
+enum class NormalMapSpace : std::uint8_t { Tangent, Object };
+
+/// How tangents are derived for meshes that bring none.
+enum class TangentMethod : std::uint8_t {
+    MikkTSpace, ///< as bakers do and glTF recommends: weighted by angle, split where the texture is mirrored
+    Lengyel     ///< summed over each vertex's triangles, as course notes teach it (Lengyel 2001)
+};
+
+struct Material {
+    std::string name;
+    MaterialModel model = MaterialModel::MetallicRoughness;
+    glm::vec4 baseColor{1.0f};         ///< base colour, k_d or the colour itself, linear; w is opacity
+    glm::vec3 emissive{0.0f};          ///< radiance, linear, emissive strength multiplied in
+    float metallic = 1.0f;             ///< 0..1, metallic_roughness only
+    float perceptualRoughness = 1.0f;  ///< 0..1, metallic_roughness only; alpha is its square
+    float alpha = 0.5f;                ///< GGX alpha of microfacet, alpha_x of microfacet_anisotropic, used as it is
+    float alphaY = 0.5f;               ///< GGX alpha along the bitangent, microfacet_anisotropic only
+    Masking masking = Masking::Walter; ///< microfacet models only
+    float exponent = 32.0f;            ///< p of blinn_phong
+    float ior = 1.5f;                  ///< index of refraction n2/n1
+    float specularFactor = 1.0f;       ///< strength of the dielectric specular lobe (KHR_materials_specular)
+    glm::vec3 specularColor{1.0f};     ///< k_s, or the tint of the dielectric F0 (KHR_materials_specular)
+    /// KHR_materials_anisotropy, _clearcoat and _sheen, metallic_roughness only.
+    float anisotropyStrength = 0.0f;           ///< 0..1
+    float anisotropyRotationRadians = 0.0f;    ///< counter-clockwise from the tangent
+    float clearcoat = 0.0f;                    ///< 0..1, share of the coat
+    float clearcoatPerceptualRoughness = 0.0f; ///< 0..1
+    float clearcoatNormalScale = 1.0f;
+    glm::vec3 sheenColor{0.0f};            ///< 0..1
+    float sheenPerceptualRoughness = 0.0f; ///< 0..1
+    float normalScale = 1.0f;              ///< scales x and y of a tangent-space normal texel
+    NormalMapSpace normalMapSpace = NormalMapSpace::Tangent;
+    TangentMethod tangents = TangentMethod::MikkTSpace;
+    AlphaMode alphaMode = AlphaMode::Opaque;
+    float alphaCutoff = 0.5f; ///< Mask: a fragment stays when opacity >= cutoff
+    bool doubleSided = false;
+    std::array<TextureUse, kTextureSlotCount> textures;
+
+    TextureUse& texture(TextureSlot slot) { return textures[static_cast<std::size_t>(slot)]; }
+    const TextureUse& texture(TextureSlot slot) const { return textures[static_cast<std::size_t>(slot)]; }
+    bool operator==(const Material&) const = default;
+};
+
+// ---- Members -------------------------------------------------------------------------------------------------------
+
+/// A member of Material: its name, and of numbers what messages call them and between what they must lie (checkScene).
+template <typename Member>
+struct MaterialField {
+    const char* name;
+    Member Material::*member;
+    const char* what = nullptr; ///< null: any value will do
+    double least = 0.0;         ///< of each component
+    double most = 0.0;
+};
+template <typename Member>
+MaterialField(const char*, Member Material::*) -> MaterialField<Member>;
+template <typename Member>
+MaterialField(const char*, Member Material::*, const char*, double, double) -> MaterialField<Member>;
+
+inline constexpr double kAnyNumber = std::numeric_limits<float>::max(); ///< as a bound: any finite number
+// Beyond any surface, and low enough that no product in a shader leaves fp32.
+inline constexpr double kMostColor = 1e6;
+inline constexpr double kMostEmission = 1e30;
+inline constexpr double kMostRoughness = 1e6;
+inline constexpr double kMostIor = 1e6;
+
+/// All members but `textures`, in order.
+inline constexpr std::tuple kMaterialFields{
+    MaterialField{"name", &Material::name},
+    MaterialField{"model", &Material::model},
+    MaterialField{"baseColor", &Material::baseColor, "the base colour", 0.0, kMostColor},
+    MaterialField{"emissive", &Material::emissive, "the emission", 0.0, kMostEmission},
+    MaterialField{"metallic", &Material::metallic, "metalness", 0.0, 1.0},
+    MaterialField{"perceptualRoughness", &Material::perceptualRoughness, "roughness", 0.0, 1.0},
+    MaterialField{"alpha", &Material::alpha, "alpha", 0.0, kMostRoughness},
+    MaterialField{"alphaY", &Material::alphaY, "alphaY", 0.0, kMostRoughness},
+    MaterialField{"masking", &Material::masking},
+    MaterialField{"exponent", &Material::exponent, "the exponent", 0.0, kAnyNumber},
+    MaterialField{"ior", &Material::ior, "the index of refraction", 0.0, kMostIor},
+    MaterialField{"specularFactor", &Material::specularFactor, "the specular factor", 0.0, 1.0},
+    MaterialField{"specularColor", &Material::specularColor, "the specular colour", 0.0, kMostColor},
+    MaterialField{"anisotropyStrength", &Material::anisotropyStrength, "the anisotropy", 0.0, 1.0},
+    MaterialField{"anisotropyRotationRadians", &Material::anisotropyRotationRadians, "the anisotropy's rotation",
+                  -kAnyNumber, kAnyNumber},
+    MaterialField{"clearcoat", &Material::clearcoat, "the clearcoat", 0.0, 1.0},
+    MaterialField{"clearcoatPerceptualRoughness", &Material::clearcoatPerceptualRoughness, "the clearcoat's roughness",
+                  0.0, 1.0},
+    MaterialField{"clearcoatNormalScale", &Material::clearcoatNormalScale, "the clearcoat normal map's scale",
+                  -kAnyNumber, kAnyNumber},
+    MaterialField{"sheenColor", &Material::sheenColor, "the sheen's colour", 0.0, 1.0},
+    MaterialField{"sheenPerceptualRoughness", &Material::sheenPerceptualRoughness, "the sheen's roughness", 0.0, 1.0},
+    MaterialField{"normalScale", &Material::normalScale, "the normal map's scale", -kAnyNumber, kAnyNumber},
+    MaterialField{"normalMapSpace", &Material::normalMapSpace},
+    MaterialField{"tangents", &Material::tangents},
+    MaterialField{"alphaMode", &Material::alphaMode},
+    MaterialField{"alphaCutoff", &Material::alphaCutoff, "the alpha cutoff", -kAnyNumber, kAnyNumber},
+    MaterialField{"doubleSided", &Material::doubleSided},
+};
+
+/// Calls `visit` with every row of kMaterialFields.
+template <typename Visitor>
+constexpr void visitMaterialFields(Visitor&& visit) {
+    std::apply([&](const auto&... field) { (visit(field), ...); }, kMaterialFields);
+}
+
+/// The row of a member.
+template <typename Member>
+constexpr MaterialField<Member> materialField(Member Material::*member) {
+    MaterialField<Member> found{"", member};
+    visitMaterialFields([&](const auto& field) {
+        if constexpr (std::is_same_v<decltype(field.member), Member Material::*>) {
+            if (field.member == member) found = field;
+        }
+    });
+    return found;
+}
+
+namespace detail {
+struct AnyValue {
+    template <typename Type>
+    operator Type() const;
+};
+/// How many members a struct has: how many values it can be made of.
+template <typename Struct, typename... Values>
+consteval std::size_t memberCount() {
+    if constexpr (requires { Struct{Values{}..., AnyValue{}}; })
+        return memberCount<Struct, Values..., AnyValue>();
+    else
+        return sizeof...(Values);
+}
+} // namespace detail
+static_assert(std::tuple_size_v<decltype(kMaterialFields)> + 1 == detail::memberCount<Material>(),
+              "kMaterialFields lacks a member of Material");
+
+// ---- Models --------------------------------------------------------------------------------------------------------
+
+/// A parameter of a model beside its colour.
+struct MaterialParameter {
+    enum class Kind : std::uint8_t {
+        Number,
+        Ior,          ///< above 0
+        IorOrPerfect, ///< at least 1, or 0, which reflects everything (KHR_materials_ior)
+        Color,
+        Masking
+    };
+    Kind kind;
+    const char* key;   ///< of scene files
+    const char* label; ///< in the viewer
+    std::variant<float Material::*, glm::vec3 Material::*, Masking Material::*> member;
+    TextureSlot slot = TextureSlot::Count; ///< of the texture that scales it; Count: none
+    /// Between what the viewer's slider moves a number, and how it is shown.
+    float leastShown = 0.0f;
+    float mostShown = 1.0f;
+    const char* format = "%.3f";
+};
+
+/// Which colour a model's highlight has.
+enum class Highlight : std::uint8_t {
+    None,
+    Tinted,    ///< k_s
+    Dielectric ///< F0 of the index of refraction, tinted and scaled (KHR_materials_specular)
+};
+
+/// What the G-buffer's channel microsurface holds of a model beside its number. Another kind than these needs code
+/// where that channel is written and read (shaders/lib/gbuffer_channels.glsl); another model of a kind does not.
+enum class Microsurface : std::uint8_t {
+    None,
+    Parameter,        ///< the one number >= 0 that the model has, by MaterialModelInfo::roughness
+    Dielectric,       ///< GGX alpha, index of refraction and masking
+    MetallicRoughness ///< GGX alpha, F90 and metallic
+};
+
+struct MaterialModelInfo {
+    MaterialModel model;
+    std::string_view
+        name; ///< of scene files; in capitals that of shaders: MODEL_<NAME> is its number, HAS_<NAME> 0 or 1
+    bool isLit;
+    const char* colorKey; ///< of scene files: what they call Material::baseColor
+    Highlight highlight = Highlight::None;
+    Microsurface microsurface = Microsurface::None;
+    float Material::*roughness = nullptr; ///< what the G of TextureSlot::MetallicRoughness scales
+    std::span<const MaterialParameter> parameters{};
+    bool hasLayers = false; ///< emission, anisotropy, clearcoat and sheen, which scene files and the viewer spell out
+};
+
+namespace detail {
+using Kind = MaterialParameter::Kind;
+inline constexpr MaterialParameter kSpecularColor{Kind::Color, "k_s", "k_s", &Material::specularColor,
+                                                  TextureSlot::SpecularColor};
+inline constexpr MaterialParameter kIor{Kind::Ior, "ior", "Index n", &Material::ior, TextureSlot::Ior, 1.0f, 4.0f};
+inline constexpr MaterialParameter kMasking{Kind::Masking, "masking", "Masking", &Material::masking};
+constexpr MaterialParameter alpha(const char* key, const char* label, float Material::*member, TextureSlot slot) {
+    return {Kind::Number, key, label, member, slot, 1e-3f, 1.0f, "%.4f"}; // 1e-3: the shading formulas' own bound
+}
+
+inline constexpr MaterialParameter kBlinnPhong[] = {
+    kSpecularColor,
+    {Kind::Number, "exponent", "Exponent", &Material::exponent, TextureSlot::MetallicRoughness, 1.0f, 1000.0f, "%.1f"}};
+inline constexpr MaterialParameter kMicrofacet[] = {
+    kSpecularColor, alpha("alpha", "Alpha", &Material::alpha, TextureSlot::MetallicRoughness), kIor, kMasking};
+inline constexpr MaterialParameter kMicrofacetAnisotropic[] = {
+    kSpecularColor, alpha("alphaX", "Alpha x", &Material::alpha, TextureSlot::MetallicRoughness),
+    alpha("alphaY", "Alpha y", &Material::alphaY, TextureSlot::Anisotropy), kIor, kMasking};
+inline constexpr MaterialParameter kMetallicRoughness[] = {
+    {Kind::Number, "metallic", "Metallic", &Material::metallic},
+    {Kind::Number, "perceptualRoughness", "Roughness", &Material::perceptualRoughness},
+    {Kind::IorOrPerfect, "ior", "Index n", &Material::ior, TextureSlot::Ior, 1.0f, 4.0f},
+    {Kind::Number, "specularFactor", "Specular", &Material::specularFactor, TextureSlot::SpecularFactor},
+    {Kind::Color, "specularColor", "F0 tint", &Material::specularColor, TextureSlot::SpecularColor}};
+
+using Info = MaterialModelInfo;
+inline constexpr std::array kMaterialModels{
+    Info{MaterialModel::SingleColor, "single_color", false, "color"},
+    Info{MaterialModel::Lambert, "lambert", true, "k_d"},
+    Info{MaterialModel::BlinnPhong, "blinn_phong", true, "k_d", Highlight::Tinted, Microsurface::Parameter,
+         &Material::exponent, kBlinnPhong},
+    Info{MaterialModel::Microfacet, "microfacet", true, "k_d", Highlight::Tinted, Microsurface::Dielectric,
+         &Material::alpha, kMicrofacet},
+    Info{MaterialModel::MicrofacetAnisotropic, "microfacet_anisotropic", true, "k_d", Highlight::Tinted,
+         Microsurface::Dielectric, &Material::alpha, kMicrofacetAnisotropic},
+    Info{MaterialModel::MetallicRoughness, "metallic_roughness", true, "baseColor", Highlight::Dielectric,
+         Microsurface::MetallicRoughness, &Material::perceptualRoughness, kMetallicRoughness, true},
+};
+consteval bool isInOrder() {
+    for (std::size_t i = 0; i < kMaterialModels.size(); ++i)
+        if (kMaterialModels[i].model != MaterialModel(i)) return false;
+    return kMaterialModels.size() == std::size_t(MaterialModel::Count);
+}
+static_assert(isInOrder(), "the table of models follows the enumeration");
+} // namespace detail
+
+inline constexpr std::size_t kMaterialModelCount = detail::kMaterialModels.size();
+
+/// The only list of models; row i is that of model i.
+constexpr std::span<const MaterialModelInfo> materialModels() {
+    return detail::kMaterialModels;
+}
+constexpr const MaterialModelInfo& infoOf(MaterialModel model) {
+    return detail::kMaterialModels[std::size_t(model)];
+}
+
+} // namespace tessera::scenes
