@@ -30,9 +30,8 @@ const Camera& viewedCamera(const Scene& scene) {
 /// and are black elsewhere without light.
 bool isAllUnlit(const Scene& scene) {
     const std::vector<const Material*> materials = materialsInUse(scene);
-    return !materials.empty() && std::all_of(materials.begin(), materials.end(), [](const Material* material) {
-        return !infoOf(material->model).isLit;
-    });
+    return !materials.empty() && std::all_of(materials.begin(), materials.end(),
+                                             [](const Material* material) { return !infoOf(material->model).isLit; });
 }
 
 } // namespace

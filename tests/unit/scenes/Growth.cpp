@@ -17,8 +17,8 @@ using test::listOf;
 using test::TempFolder;
 using testing::HasSubstr;
 
-/// Linear loading takes about a second of each file here; quadratic loading took minutes. The rest is room for a machine
-/// that has other work.
+/// Linear loading takes about a second of each file here; quadratic loading took minutes. The rest is room for a
+/// machine that has other work.
 #ifdef __SANITIZE_ADDRESS__
 constexpr double kSeconds = 100.0; // sanitizers take several times as long
 #else
