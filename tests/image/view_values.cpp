@@ -244,10 +244,10 @@ TEST_F(ViewValues, storedChannelsAreNeverShownWhereThereAreNone) {
         return "no error";
     };
     EXPECT_EQ(message(Technique::ForwardPlus, frame::Channel::Albedo),
-              "technique forward_plus has no G-buffer for --view gbuffer.albedo to show; deferred, deferred_volumes, "
-              "tiled_deferred, clustered_deferred have one");
+              "technique forward_plus does not take view gbuffer.albedo, since it has no G-buffer; deferred, "
+              "deferred_volumes, tiled_deferred, clustered_deferred do");
     EXPECT_EQ(message(Technique::Deferred, frame::Channel::Sheen),
-              "--view gbuffer.sheen: this frame's G-buffer has no such channel, which is for scenes with cloth; it has "
+              "view gbuffer.sheen: this frame's G-buffer has no such channel, which is for scenes with cloth; it has "
               "albedo, normal");
     EXPECT_EQ(message(Technique::Deferred, frame::Channel::NormalTexel), "no error") << "stored when it is shown";
 }
