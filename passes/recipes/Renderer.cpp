@@ -58,6 +58,7 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
 }
 
 void Renderer::draw(std::span<const FrameRequest> views) {
+    if (views.empty()) throw std::logic_error("a frame without a view was to be drawn");
     auto drawn = std::make_unique<Drawn>();
     for (const FrameRequest& view : views) {
         frame::DrawnView& added = drawn->views.emplace_back();

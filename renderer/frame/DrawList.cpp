@@ -76,20 +76,24 @@ DrawList makeDrawList(const scenes::Scene& scene) {
 
 namespace {
 
-/// Of vertices in fp32, far beyond their rounding, of the distances that go into their places.
-constexpr double kRoundingShare = 1e-4;
+/// What rounding to fp32 may move a vertex, as a share of the distances that its place is the sum of: from its object's
+/// origin, and from there to the origin of lighting space. Some 2^-24 each; this is far more.
+constexpr double kRoundingShare = 1e-5;
 
-/// Whether some plane of the view's frustum has all of the box behind it.
-bool isOutside(const scenes::Box3& boxWS, const CameraView& view) {
+/// Whether some plane of the view's frustum has all of a draw's box behind it.
+bool isOutside(const scenes::Box3& boxWS, const glm::dvec3& objectWS, const CameraView& view) {
     if (boxWS.empty()) return false;
+    const auto farthest = [&](const glm::dvec3& fromWS) {
+        return glm::length(glm::max(glm::abs(boxWS.min - fromWS), glm::abs(boxWS.max - fromWS)));
+    };
     const glm::dvec3 low = boxWS.min - view.originWS, high = boxWS.max - view.originWS;
-    const double reachMetres = glm::length(glm::max(glm::abs(low), glm::abs(high)));
+    const double summedMetres = farthest(view.originWS) + farthest(objectWS) + glm::distance(objectWS, view.originWS);
     return std::any_of(view.frustumPlanesLS.begin(), view.frustumPlanesLS.end(), [&](const glm::dvec4& plane) {
         const glm::dvec3 normal = glm::dvec3(plane) * view.lsFromWorld; // by the transpose, into world axes
         const glm::dvec3 innermost(normal.x > 0.0 ? high.x : low.x, normal.y > 0.0 ? high.y : low.y,
                                    normal.z > 0.0 ? high.z : low.z);
         const double insideMetres = glm::dot(normal, innermost) + plane.w;
-        return insideMetres < -kRoundingShare * (reachMetres + std::abs(plane.w));
+        return insideMetres < -kRoundingShare * (summedMetres + std::abs(plane.w));
     });
 }
 
@@ -119,10 +123,11 @@ ViewDraws makeViewDraws(const DrawList& list, const CameraView& view, bool culls
     std::vector<double> depths; ///< parallel to seen
     for (int i = 0; i < int(list.draws.size()); ++i) {
         const Draw& draw = list.draws[std::size_t(i)];
-        if (culls && isOutside(draw.boxWS, view)) continue;
+        const glm::dmat4& worldFromObject = list.worldFromObject[std::size_t(draw.node)];
+        if (culls && isOutside(draw.boxWS, glm::dvec3(worldFromObject[3]), view)) continue;
         const int place = int(result.seen.size());
         result.seen.push_back(i);
-        result.rows.push_back(rowsOf(draw, list.worldFromObject[std::size_t(draw.node)], view));
+        result.rows.push_back(rowsOf(draw, worldFromObject, view));
         depths.push_back(glm::dot(view.forwardLS, view.lsFromWorld * (draw.centerWS - view.eyeWS)));
         if (i >= list.firstTransparent) {
             result.transparent.push_back({place, 1, draw.material, draw.mirrored});

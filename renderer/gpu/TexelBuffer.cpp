@@ -1,5 +1,6 @@
 #include "renderer/gpu/TexelBuffer.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -11,16 +12,13 @@
 
 namespace tessera::gpu {
 
+// OpenGL 4.5 core, section 8.9: of more texels than a driver can address the first ones are seen.
 TexelBuffer::TexelBuffer(std::string label, graph::Format format, const Buffer& buffer)
-    : texels_(buffer.bytes() / std::size_t(graph::formatInfo(format).bytes)) {
+    : texels_(std::min(buffer.bytes() / std::size_t(graph::formatInfo(format).bytes),
+                       std::size_t(Context::current()->capabilities().maxTextureBufferTexels))) {
     if (!glFormat(format).inTexelBuffers)
         throw std::runtime_error(
             fmt::format("texel buffer '{}': buffer textures cannot be {}", label, graph::formatInfo(format).name));
-    const std::size_t most = Context::current()->capabilities().maxTextureBufferTexels;
-    if (texels_ > most)
-        throw std::runtime_error(fmt::format("texel buffer '{}' has {} texels; this driver reads {} at most; use fewer "
-                                             "lights or smaller tiles",
-                                             label, texels_, most));
     std::uint32_t id = 0;
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &id);
     glTextureBuffer(id, glFormat(format).internalFormat, buffer.id());

@@ -9,11 +9,10 @@
 namespace tessera::gpu {
 
 /// A buffer seen as a one-dimensional texture (samplerBuffer), the fastest way to read lights on most rasterisers. The
-/// buffer must outlive it; texels beyond the buffer's last whole one cannot be read.
+/// buffer must outlive it. Texels beyond the buffer's last whole one, or the driver's limit, cannot be read.
 class TexelBuffer {
 public:
-    /// Throws std::runtime_error when the buffer holds more texels than the driver can address, or the format is depth,
-    /// sRGB or signed-normalised, which buffer textures lack.
+    /// Throws std::runtime_error when the format is depth, sRGB or signed-normalised, which buffer textures lack.
     TexelBuffer(std::string label, graph::Format format, const Buffer& buffer);
     ~TexelBuffer();
     TexelBuffer(TexelBuffer&&) noexcept = default;

@@ -121,12 +121,22 @@ private:
     const Graph::Pass& pass_;
 };
 
+namespace {
+
+bool isOutput(const Graph& graph, std::uint32_t resource) {
+    return std::any_of(graph.outputs().begin(), graph.outputs().end(),
+                       [&](const Graph::Use& output) { return output.resource == resource; });
+}
+
+} // namespace
+
 Execution::Execution(const Graph& graph, const CompiledGraph& compiled, Backend& backend, ProgramSource* programs)
     : graph_(graph), compiled_(compiled), backend_(backend), programs_(programs), places_(graph.resources().size()) {
     for (std::size_t i = 0; i < graph.resources().size(); ++i) {
         const Graph::Resource& resource = graph.resources()[i];
         Place& place = places_[i];
-        if (!resource.imported || compiled.resources[i].first < 0) continue;
+        const bool isUsed = compiled.resources[i].first >= 0 || isOutput(graph, std::uint32_t(i));
+        if (!resource.imported || !isUsed) continue;
         const bool isTexture = std::holds_alternative<TextureDesc>(resource.desc);
         if (resource.revision && isTexture)
             place.texture = &backend.persistentTexture(resource.name, std::get<TextureDesc>(resource.desc));
@@ -228,7 +238,9 @@ void Execution::requireKept(std::uint32_t resource, std::uint32_t version, bool 
         throw std::logic_error(fmt::format("an execution was asked for an invalid {} handle", kind));
     const std::string& name = graph_.resources()[resource].name;
     if (!hasRun_) throw std::logic_error(fmt::format("an execution was asked for '{}' before run()", name));
-    if (graph_.resources()[resource].imported && compiled_.resources[resource].first >= 0) return;
+    if (places_[resource].texture != nullptr ||
+        (places_[resource].buffer != nullptr && graph_.resources()[resource].imported))
+        return;
     for (const Graph::Use& output : graph_.outputs())
         if (output.resource == resource && output.version == version && compiled_.resources[resource].first >= 0)
             return;

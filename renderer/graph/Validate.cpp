@@ -14,7 +14,10 @@ public:
     Validator(const Graph& graph, const Flow& flow) : graph_(graph), flow_(flow) {}
 
     std::vector<std::string> run() {
-        for (std::uint32_t resource = 0; resource < graph_.resources().size(); ++resource) checkShape(resource);
+        for (std::uint32_t resource = 0; resource < graph_.resources().size(); ++resource) {
+            checkShape(resource);
+            checkKept(resource);
+        }
         for (const Graph::Pass& pass : graph_.passes()) {
             const std::string subject = fmt::format("pass '{}'", pass.name);
             for (const Graph::Use& use : pass.uses) {
@@ -56,6 +59,18 @@ private:
         const auto* buffer = std::get_if<BufferDesc>(&made.desc);
         if (buffer && !made.imported && buffer->bytes == 0 && !buffer->grows)
             report(fmt::format("buffer '{}', {}, is empty: it must have at least 1 byte, or grow", made.name, origin));
+    }
+
+    /// Memory outside the frame is its owner's; what lives across frames is known by its name.
+    void checkKept(std::uint32_t index) {
+        const Graph::Resource& kept = resource(index);
+        const auto* buffer = std::get_if<BufferDesc>(&kept.desc);
+        if (buffer && buffer->grows && kept.imported)
+            report(fmt::format("buffer '{}', imported, cannot grow: only a buffer that the frame creates does",
+                               kept.name));
+        for (std::uint32_t other = 0; kept.revision && other < index; ++other)
+            if (resource(other).revision && resource(other).name == kept.name)
+                report(fmt::format("two resources that live across frames are named '{}'", kept.name));
     }
 
     static std::string faultOfShape(const TextureDesc& desc) {
@@ -167,9 +182,9 @@ private:
                 report(fmt::format("{} attaches '{}' ({}) and '{}' ({}), which must be equal in size and samples",
                                    subject, nameOf(*first), describeSize(reference), nameOf(use), describeSize(desc)));
             if (use.access != Access::ColorAttachment) {
-                if (depth && depth->resource != use.resource)
-                    report(fmt::format("{} attaches two depth textures, '{}' and '{}'", subject, nameOf(*depth),
-                                       nameOf(use)));
+                if (depth && (depth->resource != use.resource || depth->part != use.part))
+                    report(fmt::format("{} attaches two depth textures or parts, of '{}' and '{}'", subject,
+                                       nameOf(*depth), nameOf(use)));
                 depth = &use;
             }
             if (use.isWrite) checkAlone(subject, pass, use);

@@ -127,6 +127,19 @@ bool someOfItIsInside(const scenes::Box3& box, const CameraView& view) {
     return false;
 }
 
+TEST(ViewDraws, whatRoundingMayMoveIntoTheViewIsNeverLeftOut) {
+    // Vertices a thousand kilometres from their object's origin, which single precision moves by centimetres: beside
+    // the frustum of 45 degrees by 2 cm, and by 200 m.
+    scenes::Scene scene = scenes::tinyScene();
+    for (glm::vec3& position : scene.meshes[0].positionsOS) position = glm::vec3(1e6f, 0.0f, 0.0f) + 0.01f * position;
+    const CameraView view = makeCameraView(scenes::Camera{}, {64, 64}, LightingSpace::World, glm::vec3(0.0f));
+    for (const auto& [besideMetres, seen] : {std::pair(0.02, 1u), std::pair(200.0, 0u)}) {
+        const double edgeMetres = 10.0 * std::tan(0.5 * scenes::Camera{}.fovYRadians);
+        scene.nodes[0].parentFromNode = glm::translate(glm::dmat4(1.0), {edgeMetres + besideMetres - 1e6, 0.0, -10.0});
+        EXPECT_EQ(makeViewDraws(makeDrawList(scene), view, true).seen.size(), seen) << besideMetres;
+    }
+}
+
 TEST(ViewDraws, whatMayBeSeenKeepsItsOrderAndItsRowsAndTheRestIsLeftOut) {
     test::Random random(5);
     std::size_t left = 0, all = 0;

@@ -462,6 +462,17 @@ TEST(Execution, whatLivesAcrossFramesHoldsItsRevisionOnlyOnceTheFrameHasEnded) {
     EXPECT_THAT(backend.calls, testing::Not(testing::Contains("shadows holds 7")));
 }
 
+TEST(Execution, anOutputThatIsHeldIsThereThoughNoPassTouchesIt) {
+    Recorder backend;
+    Graph graph;
+    const TextureHandle shadows = graph.persist("shadows", kDepth, 7, true);
+    graph.output(shadows);
+    const CompiledGraph compiled = compile(graph);
+    Execution execution(graph, compiled, backend);
+    execution.run();
+    EXPECT_EQ(&execution.texture(shadows), &standIn<gpu::Texture>(backend.places.back()));
+}
+
 TEST(Execution, whatIsNotHeldYetIsNeverReadUnwritten) {
     Graph graph;
     const TextureHandle shadows = graph.persist("shadows", kDepth, 7, false);

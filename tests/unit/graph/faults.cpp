@@ -179,8 +179,32 @@ TEST(Faults, twoDepthTexturesOrOneAttachedTwiceAreAlwaysReported) {
         const TextureHandle color = builder.create("color", kColor);
         builder.write(color);
     });
-    EXPECT_THAT(faultsOf(graph), ElementsAre("pass 'shade' attaches two depth textures, 'depth' and 'other depth'",
-                                             "pass 'shade' attaches 'color' twice"));
+    EXPECT_THAT(faultsOf(graph),
+                ElementsAre("pass 'shade' attaches two depth textures or parts, of 'depth' and 'other depth'",
+                            "pass 'shade' attaches 'color' twice"));
+}
+
+TEST(Faults, twoLayersOfOneDepthArrayInAPassAreReported) {
+    Graph graph;
+    declare(graph, "cascades", [&](PassBuilder& builder) {
+        TextureDesc desc = kDepth;
+        desc.shape = Shape::Array;
+        desc.layers = 2;
+        const TextureHandle first = builder.create("shadows", desc, Access::DepthAttachment, {0, 0});
+        builder.write(first, Access::DepthAttachment, {0, 1});
+    });
+    EXPECT_THAT(faultsOf(graph),
+                ElementsAre("pass 'cascades' attaches two depth textures or parts, of 'shadows' and 'shadows'"));
+}
+
+TEST(Faults, whatLivesOutsideTheFrameHasANameOfItsOwnAndNeverGrows) {
+    Graph graph;
+    graph.import("lights", BufferDesc{16, true});
+    graph.persist("history", kColor, 1, true);
+    graph.persist("history", kDepth, 1, true);
+    EXPECT_THAT(faultsOf(graph),
+                ElementsAre("buffer 'lights', imported, cannot grow: only a buffer that the frame creates does",
+                            "two resources that live across frames are named 'history'"));
 }
 
 constexpr TextureDesc kAtlas{
