@@ -45,7 +45,7 @@ struct DeclaredView {
     graph::TextureHandle radiance;                ///< RGBA32F, linear
     graph::TextureHandle depth;                   ///< D32F of opaque surfaces, reverse-Z
     graph::TextureHandle display;                 ///< RGBA8, display code values
-    std::optional<frame::LightListHandles> lists; ///< absent where every pixel visits every light
+    std::optional<frame::LightListHandles> lists; ///< absent where none were built
 };
 
 /// Declares a technique's passes for a view of the frame; a frame may have several views. `drawn` is null where the
