@@ -128,17 +128,17 @@ private:
 
     /// Pairs the sides of triangles that run between the same vertices in opposite directions, first come first served.
     void findNeighbours() {
-        struct Side {
+        struct DirectedSide {
             std::uint32_t low, high;
             Corner corner; ///< the side runs from here to the next
         };
-        std::vector<Side> sides;
+        std::vector<DirectedSide> sides;
         for (Corner corner = 0; corner < 3 * faces_.size(); ++corner) {
             if (faces_[corner / 3].hasNoArea) continue;
             const auto [low, high] = std::minmax({vertex(corner), vertex(turned(corner, 1))});
             sides.push_back({low, high, corner});
         }
-        std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+        std::sort(sides.begin(), sides.end(), [](const DirectedSide& a, const DirectedSide& b) {
             return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
         });
         std::size_t oldest = 0; // of those that wait for a partner, all of which run in one direction

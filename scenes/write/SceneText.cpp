@@ -72,9 +72,9 @@ Json wishJson(double value) {
     return isWhole ? Json(static_cast<std::uint64_t>(value)) : write::number(value);
 }
 Json wishJson(const std::vector<double>& list) {
-    Json json = Json::array();
-    for (const double value : list) json.push_back(wishJson(value));
-    return json;
+    Json array = Json::array();
+    for (const double value : list) array.push_back(wishJson(value));
+    return array;
 }
 template <typename Value>
 Json wishJson(const Value& value) {
@@ -83,13 +83,13 @@ Json wishJson(const Value& value) {
 
 Json optionsJson(const Scene& scene) {
     const SceneOptions& options = scene.options;
-    Json json = Json::object();
+    Json object = Json::object();
     for (const auto& [key, wish] : options.wishes)
-        json[key] = std::visit([](const auto& value) { return wishJson(value); }, wish);
-    if (options.camera) json["camera"] = *options.camera;
+        object[key] = std::visit([](const auto& value) { return wishJson(value); }, wish);
+    if (options.camera) object["camera"] = *options.camera;
     // Who deletes the last light wants the dark.
-    if (options.defaultLight || scene.lights.empty()) json["defaultLight"] = options.defaultLight.value_or(false);
-    return json;
+    if (options.defaultLight || scene.lights.empty()) object["defaultLight"] = options.defaultLight.value_or(false);
+    return object;
 }
 
 /// An element a line: a scene of many lights is still read, compared and edited line by line.

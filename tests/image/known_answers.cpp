@@ -15,7 +15,7 @@ using scenes::Light;
 using scenes::Material;
 using scenes::MaterialModel;
 
-constexpr int kSide = 96;
+constexpr int kAnswerSidePixels = 96;
 /// The specification's bar for the sharpest highlight it names, alpha = 0.002: rounding multiplied by 1/alpha.
 constexpr double kAnyDriver = 3e-4;
 
@@ -32,7 +32,7 @@ protected:
         scene.lights = {light};
         const scenes::Camera& camera = scene.cameras[0];
         frame::FrameSettings settings;
-        settings.sizePixels = {kSide, kSide};
+        settings.sizePixels = {kAnswerSidePixels, kAnswerSidePixels};
         recipes::Renderer renderer(context(), scene);
         const validation::Picture picture = validation::toPicture(renderer.render(technique, settings));
 
@@ -40,10 +40,10 @@ protected:
         const double half = eyeWS.z * std::tan(0.5 * camera.fovYRadians);
         std::vector<glm::dvec3> truths;
         std::vector<double> channels;
-        for (int y = 0; y < kSide; ++y) {
-            for (int x = 0; x < kSide; ++x) {
-                const glm::dvec3 positionWS((2.0 * (x + 0.5) / kSide - 1.0) * half,
-                                            (1.0 - 2.0 * (y + 0.5) / kSide) * half, 0.0);
+        for (int y = 0; y < kAnswerSidePixels; ++y) {
+            for (int x = 0; x < kAnswerSidePixels; ++x) {
+                const glm::dvec3 positionWS((2.0 * (x + 0.5) / kAnswerSidePixels - 1.0) * half,
+                                            (1.0 - 2.0 * (y + 0.5) / kAnswerSidePixels) * half, 0.0);
                 glm::dvec3 toLightWS;
                 const glm::dvec3 intensity = test::textbook::incident(light, positionWS, toLightWS);
                 const glm::dvec3 share =
@@ -265,11 +265,12 @@ TEST_F(KnownAnswers, emissionIsAlwaysDimmedByItsCoat) {
     scenes::Scene scene = test::quadScene(material);
     scene.lights = {};
     frame::FrameSettings settings;
-    settings.sizePixels = {kSide, kSide};
+    settings.sizePixels = {kAnswerSidePixels, kAnswerSidePixels};
     recipes::Renderer renderer(context(), scene);
     for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
         const validation::Picture picture = validation::toPicture(renderer.render(technique.technique, settings));
-        const float* centre = picture.pixel(std::size_t(kSide * kSide / 2 + kSide / 2));
+        const float* centre =
+            picture.pixel(std::size_t(kAnswerSidePixels * kAnswerSidePixels / 2 + kAnswerSidePixels / 2));
         // Head on the coat takes 4 %; half a pixel off the axis changes that by 1e-9.
         EXPECT_NEAR(centre[0], 0.96, 1e-6) << technique.name;
         EXPECT_NEAR(centre[2], 0.24, 1e-6) << technique.name;

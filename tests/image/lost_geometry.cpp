@@ -105,12 +105,12 @@ TEST_F(LostGeometryTest, compareNeverHoldsWhereAnInstanceOfTheHallIsDropped) {
 
 /// The stress floor, seen straight from above, with a mesh 10 cm above it. Metres are pixels / (height / 2).
 scenes::Scene floorWith(scenes::Mesh above) {
-    using namespace scenes::builtin;
+    namespace builtin = scenes::builtin;
     scenes::Scene scene = validation::stressFloor();
     scene.lights = {validation::stressLight({0.3, 1.0, 0.2}, 1.0f)};
-    scene.materials.push_back(lambert("dark", glm::vec3(0.2f)));
+    scene.materials.push_back(builtin::lambert("dark", glm::vec3(0.2f)));
     scene.materials.back().doubleSided = true;
-    addNode(scene, "speck", glm::dmat4(1.0), {{addMesh(scene, "square", std::move(above)), 1}});
+    builtin::addNode(scene, "speck", glm::dmat4(1.0), {{builtin::addMesh(scene, "square", std::move(above)), 1}});
     return scene;
 }
 

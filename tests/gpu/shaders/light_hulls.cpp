@@ -46,16 +46,17 @@ protected:
             inputs.insert(inputs.end(), {{spot.apex, spot.reach}, {spot.axis, spot.cosOuter}, {spot.margin, 0, 0, 0}});
         const gpu::Buffer constants = gpu::Buffer::of("view", std::span(&view_, 1));
         gpu::bindUniformBuffer(UNIFORM_VIEW, constants);
-        constexpr std::size_t kOutputs = LIGHT_VOLUME_CONE_VERTICES + 1;
-        const std::vector<glm::vec4> out = bench_.run(
-            "test/light_hulls.comp", frame::featureDefines(frame::allFeatures()), inputs, spots.size(), kOutputs);
+        constexpr std::size_t kOutputsPerSpot = LIGHT_VOLUME_CONE_VERTICES + 1;
+        const std::vector<glm::vec4> out =
+            bench_.run("test/light_hulls.comp", frame::featureDefines(frame::allFeatures()), inputs, spots.size(),
+                       kOutputsPerSpot);
         std::vector<Volume> result;
         for (std::size_t i = 0; i < spots.size(); ++i) {
-            const glm::vec4* of = &out[i * kOutputs];
+            const glm::vec4* of = &out[i * kOutputsPerSpot];
             Volume& volume = result.emplace_back();
             for (int c = 0; c < LIGHT_VOLUME_CONE_VERTICES; ++c) volume.corners.emplace_back(of[c].x, of[c].y, of[c].w);
-            volume.margin = of[kOutputs - 1].x;
-            volume.vast = of[kOutputs - 1].y != 0.0f;
+            volume.margin = of[kOutputsPerSpot - 1].x;
+            volume.vast = of[kOutputsPerSpot - 1].y != 0.0f;
         }
         return result;
     }
