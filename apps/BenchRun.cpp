@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/Progress.h"
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/Fingerprint.h"
 
 namespace tessera::app {
@@ -49,7 +49,7 @@ validation::BenchRecord runBench(gpu::Context& context, const validation::BenchS
     for (std::size_t i = 0; i < groups.size(); ++i) {
         if (!store.isOfShard(i) || states[i].isDone) continue;
         run.options.keep = [&](const GroupState& state) { store.keep(i, state); };
-        run.options.keepPicture = [&](const std::string& name, const validation::DisplayImage& image) {
+        run.options.keepPicture = [&](const std::string& name, const DisplayImage& image) {
             return store.keepPicture(i, name, image);
         };
         validation::measureGroup(context, loadAsPlanned(run, groups[i]), groups[i], run.options, states[i]);

@@ -8,12 +8,13 @@
 #include "apps/OutputFolder.h"
 #include "apps/Outputs.h"
 #include "apps/Progress.h"
+#include "base/Error.h"
+#include "base/Names.h"
+#include "base/OneLine.h"
+#include "base/PictureFile.h"
 #include "passes/recipes/Renderer.h"
-#include "scenes/Error.h"
-#include "scenes/Names.h"
-#include "scenes/OneLine.h"
 #include "validation/HeatMap.h"
-#include "validation/PictureFile.h"
+#include "validation/ReadPicture.h"
 #include "validation/ReferencePicture.h"
 #include "validation/TechniqueCompare.h"
 
@@ -56,7 +57,7 @@ validation::Truth truthNamed(const std::string& name) {
 }
 
 /// What the scene holds is in use already: one limit for all that a command reads.
-validation::Picture readBeside(const scenes::Scene& scene, const std::string& path, const FrameOptions& options) {
+Picture readBeside(const scenes::Scene& scene, const std::string& path, const FrameOptions& options) {
     scenes::LoadLedger ledger(loadOptionsOf(options).memoryLimitBytes);
     ledger.charge(scenes::bytesOf(scene), [&] { return options.scene; });
     return validation::readPicture(path, ledger);
@@ -102,11 +103,11 @@ void writeHeatMaps(const CompareOptions& options, const validation::CompareResul
         const validation::NamedPicture& picture = result.pictures[i];
         const validation::PairTruth& truth = result.truths[i];
         const std::string title = picture.name + " vs " + std::filesystem::path(result.truth.name).filename().string();
-        validation::writePng(outputs.at(mapFile(options, picture.name, kMapExtensions[0])),
-                             validation::errorHeatMap(picture.picture, truth.picture, title, truth.excluded));
+        writePng(outputs.at(mapFile(options, picture.name, kMapExtensions[0])),
+                 validation::errorHeatMap(picture.picture, truth.picture, title, truth.excluded));
         if (picture.display.isConsistent() && result.truth.display.isConsistent()) {
-            validation::writePng(outputs.at(mapFile(options, picture.name, kMapExtensions[1])),
-                                 validation::flipHeatMap(picture.display, result.truth.display, "FLIP  " + title));
+            writePng(outputs.at(mapFile(options, picture.name, kMapExtensions[1])),
+                     validation::flipHeatMap(picture.display, result.truth.display, "FLIP  " + title));
         }
     }
 }

@@ -9,12 +9,12 @@
 #include "apps/OutputFolder.h"
 #include "apps/Outputs.h"
 #include "apps/Progress.h"
+#include "base/PictureFile.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/Renderer.h"
 #include "renderer/graph/Plan.h"
 #include "validation/HeatMap.h"
 #include "validation/Measure.h"
-#include "validation/PictureFile.h"
 #include "validation/Report.h"
 #include "validation/TechniqueCompare.h"
 #include "validation/bench/BenchHtml.h"
@@ -149,10 +149,10 @@ Outputs outputsOf(const DemoFiles& files, const Request& request, const std::vec
 void writePictures(const DemoFiles& files, const Outputs& outputs, const Request& request,
                    const CompareResult& result) {
     makeFolder(files.folder.string());
-    validation::writeExr(outputs.at(files.radiance(request)), result.truth.picture);
-    validation::writePng(outputs.at(files.picture(result.truth.name)), result.truth.display);
+    writeExr(outputs.at(files.radiance(request)), result.truth.picture);
+    writePng(outputs.at(files.picture(result.truth.name)), result.truth.display);
     for (const validation::NamedPicture& picture : result.pictures)
-        validation::writePng(outputs.at(files.picture(picture.name)), picture.display);
+        writePng(outputs.at(files.picture(picture.name)), picture.display);
 }
 
 CompareResult compared(recipes::Renderer& renderer, const gpu::Capabilities& gl, const Request& request,

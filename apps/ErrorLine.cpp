@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <string>
 
-#include "scenes/OneLine.h"
+#include "base/OneLine.h"
 
 namespace tessera::app {
 

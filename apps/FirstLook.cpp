@@ -2,7 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 
 namespace tessera::app {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <csignal>
 
-#include "validation/AtomicFile.h"
+#include "base/AtomicFile.h"
 
 namespace tessera::app {
 
@@ -11,7 +11,7 @@ namespace {
 /// Makes only async-signal-safe calls. SA_RESETHAND has put the signal's own action back; the raised signal waits for
 /// the return, then ends the program.
 void cleanUpAndEnd(int signal) {
-    validation::removeTemporaries();
+    removeTemporaries();
     std::raise(signal);
 }
 
@@ -35,7 +35,7 @@ void cleanUpWhenInterrupted() {
 }
 
 void endAsByClosedPipe() {
-    validation::removeTemporaries();
+    removeTemporaries();
     std::signal(SIGPIPE, SIG_DFL);
     std::raise(SIGPIPE);
 }

@@ -7,10 +7,10 @@
 #include <spdlog/spdlog.h>
 
 #include "apps/Numbers.h"
+#include "base/Error.h"
+#include "base/Names.h"
+#include "base/OneLine.h"
 #include "scenes/Defaults.h"
-#include "scenes/Error.h"
-#include "scenes/Names.h"
-#include "scenes/OneLine.h"
 
 namespace tessera::app {
 

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "scenes/Utf8.h"
-#include "validation/AtomicFile.h"
+#include "base/AtomicFile.h"
+#include "base/Utf8.h"
 
 namespace tessera::app {
 
@@ -30,7 +30,7 @@ void requireFolderPlace(const std::string& folder) {
         existing = existing.parent_path();
     if (!fs::is_directory(existing, ignored)) fail(folder, existing.string() + " is not a folder");
     try {
-        validation::requireWritable((existing / "index.html").string());
+        requireWritable((existing / "index.html").string());
     } catch (const std::runtime_error&) {
         fail(folder, existing.string() + " cannot be written to");
     }

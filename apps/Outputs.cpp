@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "scenes/Error.h"
-#include "validation/AtomicFile.h"
+#include "base/AtomicFile.h"
+#include "base/Error.h"
 
 namespace tessera::app {
 namespace {
@@ -31,7 +31,7 @@ bool isStandardOutput(const std::string& path) {
 }
 
 void requireOutput(const std::string& path) {
-    if (!isStandardOutput(path)) validation::requireWritable(path);
+    if (!isStandardOutput(path)) requireWritable(path);
 }
 
 /// A file that is not there yet has the name of its folder before its own: for a sequence of pictures the folder is
@@ -99,7 +99,7 @@ void Outputs::write(const std::string& path, std::string_view text) const {
     if (isStandardOutput(path))
         fmt::print("{}", text);
     else
-        validation::writeFileAtomically(at(path), text);
+        writeFileAtomically(at(path), text);
 }
 
 } // namespace tessera::app

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/Names.h"
+#include "base/Names.h"
 
 namespace tessera::app {
 

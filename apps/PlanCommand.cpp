@@ -2,9 +2,9 @@
 
 #include "apps/Commands.h"
 #include "apps/Outputs.h"
+#include "base/Error.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/Renderer.h"
-#include "scenes/Error.h"
 #include "validation/Measure.h"
 
 namespace tessera::app {

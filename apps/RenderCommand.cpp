@@ -11,12 +11,12 @@
 #include "apps/Numbers.h"
 #include "apps/Outputs.h"
 #include "apps/Progress.h"
+#include "base/AtomicFile.h"
+#include "base/Error.h"
+#include "base/Extension.h"
+#include "base/OneLine.h"
+#include "base/PictureFile.h"
 #include "passes/recipes/Renderer.h"
-#include "scenes/Error.h"
-#include "scenes/Extension.h"
-#include "scenes/OneLine.h"
-#include "validation/AtomicFile.h"
-#include "validation/PictureFile.h"
 #include "validation/ReferencePicture.h"
 #include "validation/Rendering.h"
 #include "validation/ShownPicture.h"
@@ -38,10 +38,9 @@ struct RenderOptions {
 /// `path` is one of the outputs.
 void writePicture(const std::string& path, const Request& request, const recipes::RenderedFrame& frame) {
     if (extensionOf(path) == ".exr") {
-        validation::writeExr(path, validation::toPicture(frame));
+        writeExr(path, validation::toPicture(frame));
     } else {
-        validation::writePng(
-            path, validation::shownPicture(frame, request.scene.name, request.technique, request.settings.view));
+        writePng(path, validation::shownPicture(frame, request.scene.name, request.technique, request.settings.view));
     }
 }
 
@@ -105,13 +104,13 @@ void renderReference(const RenderOptions& options, const Outputs& outputs, const
                       global.quiet);
     bool hasWarned = false;
     makePictures(options, outputs, settings, [&](const std::string& path, const frame::FrameSettings& one) {
-        validation::Picture picture = validation::referencePicture(
-                                          request.scene, one, [&progress] { progress.advance(); }, false)
-                                          .picture;
+        Picture picture = validation::referencePicture(
+                              request.scene, one, [&progress] { progress.advance(); }, false)
+                              .picture;
         warnWhereEmpty(path, request.scene, picture.rgba, hasWarned);
-        if (isLinear) return validation::writeExr(path, picture);
+        if (isLinear) return writeExr(path, picture);
         for (float& value : picture.rgba) value *= std::exp2(settings.exposureEV);
-        validation::writePng(path, validation::toDisplayImage(picture));
+        writePng(path, toDisplayImage(picture));
     });
 }
 
@@ -130,7 +129,7 @@ void check(const RenderOptions& options) {
                                      *options.frames, kMostFrames));
     if (options.framesPerSecond && !(*options.framesPerSecond > 0.0))
         throw InputError(fmt::format("--fps {} must be more than 0", *options.framesPerSecond));
-    validation::requireWritable(options.frames ? FramePattern(options.output).path(0) : options.output);
+    requireWritable(options.frames ? FramePattern(options.output).path(0) : options.output);
 }
 
 int render(const RenderOptions& options, const GlobalOptions& global) {

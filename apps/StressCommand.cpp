@@ -5,7 +5,7 @@
 #include "apps/Commands.h"
 #include "apps/Outputs.h"
 #include "apps/Progress.h"
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "validation/stress/StressRecord.h"
 
 namespace tessera::app {

@@ -2,8 +2,8 @@
 
 #include "apps/Commands.h"
 #include "apps/FirstLook.h"
-#include "scenes/Error.h"
-#include "scenes/OneLine.h"
+#include "base/Error.h"
+#include "base/OneLine.h"
 #include "viewer/Viewer.h"
 
 namespace tessera::app {

@@ -22,7 +22,7 @@
 #include "apps/HelpFormat.h"
 #include "apps/Interrupt.h"
 #include "apps/ParseMessage.h"
-#include "scenes/Error.h"
+#include "base/Error.h"
 
 namespace {
 

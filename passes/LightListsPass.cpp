@@ -2,9 +2,9 @@
 
 #include <new>
 
+#include "base/Error.h"
 #include "passes/TexelRoom.h"
 #include "renderer/gpu/Texture.h"
-#include "scenes/Error.h"
 
 namespace tessera::passes {
 

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "base/Error.h"
 #include "renderer/gpu/Context.h"
-#include "scenes/Error.h"
 
 namespace tessera::passes {
 

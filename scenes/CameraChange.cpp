@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 
+#include "base/Error.h"
 #include "scenes/Direction.h"
-#include "scenes/Error.h"
 #include "scenes/Limits.h"
 #include "scenes/LookAt.h"
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/Limits.h"
 #include "scenes/Scene.h"
 

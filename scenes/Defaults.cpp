@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/InUse.h"
 #include "scenes/LookAt.h"
 

@@ -8,12 +8,12 @@
 
 #include <fmt/format.h>
 
+#include "base/Error.h"
+#include "base/Extension.h"
+#include "base/Names.h"
 #include "scenes/Defaults.h"
-#include "scenes/Error.h"
-#include "scenes/Extension.h"
 #include "scenes/Limits.h"
 #include "scenes/LoadLedger.h"
-#include "scenes/Names.h"
 #include "scenes/import/Importers.h"
 
 namespace tessera::scenes {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 
 namespace tessera::scenes {
 namespace {

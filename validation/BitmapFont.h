@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "validation/Picture.h"
+#include "base/Picture.h"
 
 namespace tessera::validation {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "validation/Picture.h"
+#include "base/Picture.h"
 #include "validation/PixelErrors.h"
 
 namespace tessera::validation {

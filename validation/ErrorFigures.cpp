@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "validation/Percentile.h"
 #include "validation/PixelErrors.h"
 #include "validation/Rendering.h"

@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
+#include "base/Picture.h"
 #include "validation/DisplayFigures.h"
-#include "validation/Picture.h"
 
 namespace tessera::validation {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/Srgb.h"
 #include "validation/FlipColour.h"
 #include "validation/FlipFilters.h"
-#include "validation/Srgb.h"
 
 namespace tessera::validation {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "validation/Picture.h"
+#include "base/Picture.h"
 
 namespace tessera::validation {
 

@@ -1,8 +1,8 @@
 #include "validation/Html.h"
 
-#include "scenes/Utf8.h"
+#include "base/PictureFile.h"
+#include "base/Utf8.h"
 #include "validation/Base64.h"
-#include "validation/PictureFile.h"
 
 namespace tessera::validation {
 std::string escapedHtml(std::string_view text) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "validation/Picture.h"
+#include "base/Picture.h"
 
 namespace tessera::validation {
 

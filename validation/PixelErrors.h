@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "validation/Picture.h"
+#include "base/Picture.h"
 
 namespace tessera::validation {
 

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "base/Error.h"
 #include "passes/recipes/PrepareView.h"
-#include "scenes/Error.h"
 
 namespace tessera::validation {
 

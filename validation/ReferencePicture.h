@@ -2,8 +2,8 @@
 #include <functional>
 #include <vector>
 
+#include "base/Picture.h"
 #include "passes/recipes/Renderer.h"
-#include "validation/Picture.h"
 #include "validation/Tolerance.h"
 #include "validation/reference/Render.h"
 

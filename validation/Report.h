@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "base/Picture.h"
 #include "validation/CompareRecord.h"
-#include "validation/Picture.h"
 
 namespace tessera::validation {
 

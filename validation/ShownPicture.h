@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
+#include "base/Picture.h"
 #include "passes/recipes/Renderer.h"
-#include "validation/Picture.h"
 
 namespace tessera::validation {
 

@@ -4,9 +4,9 @@
 #include <variant>
 #include <vector>
 
+#include "base/Picture.h"
 #include "passes/recipes/Renderer.h"
 #include "validation/CompareRecord.h"
-#include "validation/Picture.h"
 
 namespace tessera::validation {
 

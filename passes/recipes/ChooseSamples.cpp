@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 
 namespace tessera::recipes {
 

@@ -4,13 +4,13 @@
 
 #include <fmt/format.h>
 
+#include "base/Error.h"
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseLighting.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/ChooseView.h"
 #include "passes/recipes/Settings.h"
 #include "renderer/culling/TileGrid.h"
-#include "scenes/Error.h"
 #include "scenes/Limits.h"
 
 namespace tessera::recipes {

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "base/Error.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/PrepareView.h"
 #include "renderer/graph/Execute.h"
-#include "scenes/Error.h"
 
 namespace tessera::recipes {
 

@@ -10,12 +10,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/Error.h"
+#include "base/Names.h"
 #include "passes/recipes/ChooseCulling.h"
 #include "passes/recipes/ChooseLighting.h"
 #include "passes/recipes/ChooseSamples.h"
 #include "passes/recipes/ChooseView.h"
-#include "scenes/Error.h"
-#include "scenes/Names.h"
 
 namespace tessera::recipes {
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <iterator>
 
+#include "base/EnumTable.h"
 #include "passes/DeferredLightingPass.h"
 #include "passes/DepthPrepass.h"
 #include "passes/DisplayPass.h"
@@ -18,7 +19,6 @@
 #include "passes/StoredChannelPass.h"
 #include "passes/TransparentDepthPass.h"
 #include "passes/UploadPass.h"
-#include "renderer/graph/EnumTable.h"
 
 namespace tessera::recipes {
 
@@ -156,7 +156,7 @@ constexpr auto kTechniques = [] {
     std::ranges::transform(kRows, infos.begin(), &Row::info);
     return infos;
 }();
-static_assert(graph::isInOrder(kTechniques, &TechniqueInfo::technique, kTechniques.size()));
+static_assert(isInOrder(kTechniques, &TechniqueInfo::technique, kTechniques.size()));
 
 /// A picture that a view shows, and the depth of opaque surfaces.
 struct Shown {

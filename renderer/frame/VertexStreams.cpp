@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "base/Error.h"
 #include "renderer/frame/Tangents.h"
-#include "scenes/Error.h"
 #include "scenes/InUse.h"
 
 namespace tessera::frame {

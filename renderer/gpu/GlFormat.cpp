@@ -6,7 +6,7 @@
 
 #include <glad/gl.h>
 
-#include "renderer/graph/EnumTable.h"
+#include "base/EnumTable.h"
 
 namespace tessera::gpu {
 namespace {
@@ -31,7 +31,7 @@ constexpr std::array kFormats{
     GlFormat{Format::Depth32Float, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, false, false},
 };
 
-static_assert(graph::isInOrder(kFormats, &GlFormat::format, std::size_t(Format::Count)));
+static_assert(isInOrder(kFormats, &GlFormat::format, std::size_t(Format::Count)));
 
 } // namespace
 

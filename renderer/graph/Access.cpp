@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "renderer/graph/EnumTable.h"
+#include "base/EnumTable.h"
 
 namespace tessera::graph {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "base/Error.h"
 #include "renderer/graph/Access.h"
-#include "scenes/Error.h"
 
 namespace tessera::graph {
 namespace {

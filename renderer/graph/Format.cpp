@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cstddef>
 
-#include "renderer/graph/EnumTable.h"
+#include "base/EnumTable.h"
 
 namespace tessera::graph {
 namespace {

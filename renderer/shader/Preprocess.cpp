@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "base/Error.h"
 #include "renderer/shader/Conditionals.h"
 #include "renderer/shader/LineScanner.h"
 #include "renderer/shader/ShaderPath.h"
-#include "scenes/Error.h"
 
 namespace tessera::shader {
 namespace {

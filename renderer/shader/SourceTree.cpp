@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "shaders/Embedded.h"
 
 namespace tessera::shader {

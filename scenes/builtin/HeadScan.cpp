@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <system_error>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/builtin/Author.h"
 #include "scenes/import/Importers.h"
 

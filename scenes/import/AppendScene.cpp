@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "base/Error.h"
 #include "scenes/Direction.h"
-#include "scenes/Error.h"
 
 namespace tessera::scenes {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/import/FileBytes.h"
 #include "scenes/import/GltfMeshopt.h"
 #include "scenes/import/GltfUri.h"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/import/GltfContainer.h"
 #include "scenes/import/GltfHierarchy.h"
 #include "scenes/import/GltfShape.h"

@@ -11,7 +11,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/import/GltfSchema.h"
 
 namespace tessera::scenes::gltf {

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "scenes/Error.h"
-#include "scenes/Extension.h"
+#include "base/Error.h"
+#include "base/Extension.h"
 #include "scenes/import/FileBytes.h"
 #include "scenes/import/PictureCodecs.h"
 

@@ -6,8 +6,8 @@
 #include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
-#include "scenes/Error.h"
-#include "scenes/OneLine.h"
+#include "base/Error.h"
+#include "base/OneLine.h"
 #include "scenes/import/PictureCodecs.h"
 
 namespace tessera::scenes {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <png.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 
 namespace tessera::scenes {
 namespace {

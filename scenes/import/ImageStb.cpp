@@ -13,7 +13,7 @@
 #define STB_IMAGE_IMPLEMENTATION
 #include <stb_image.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/import/PictureCodecs.h"
 
 namespace tessera::scenes {

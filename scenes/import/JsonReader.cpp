@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/Error.h"
-#include "scenes/Names.h"
+#include "base/Error.h"
+#include "base/Names.h"
 #include "scenes/import/JsonText.h"
 
 namespace tessera::scenes {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/import/Importers.h"
 #include "scenes/import/ObjLines.h"
 #include "scenes/import/ObjMaterials.h"

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/import/FileBytes.h"
 
 namespace tessera::scenes::obj {

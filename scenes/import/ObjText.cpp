@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/import/MtlLibrary.h"
 #include "scenes/import/ObjLines.h"
 #include "scenes/import/ObjPolygon.h"

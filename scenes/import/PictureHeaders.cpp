@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/import/PictureCodecs.h"
 
 namespace tessera::scenes {

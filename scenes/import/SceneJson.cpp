@@ -3,8 +3,8 @@
 #include <system_error>
 #include <unordered_map>
 
-#include "scenes/Error.h"
-#include "scenes/Extension.h"
+#include "base/Error.h"
+#include "base/Extension.h"
 #include "scenes/Limits.h"
 #include "scenes/Load.h"
 #include "scenes/import/AppendScene.h"

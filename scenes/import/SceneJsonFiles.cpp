@@ -5,7 +5,7 @@
 
 #include <glm/trigonometric.hpp>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/import/Importers.h"
 #include "scenes/import/SceneJsonNames.h"
 

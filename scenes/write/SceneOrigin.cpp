@@ -4,7 +4,7 @@
 #include <array>
 #include <set>
 
-#include "scenes/Extension.h"
+#include "base/Extension.h"
 #include "scenes/import/FileBytes.h"
 #include "scenes/import/JsonText.h"
 #include "scenes/import/SceneJsonFiles.h"

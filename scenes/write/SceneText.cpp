@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/write/ElementJson.h"
 
 namespace tessera::scenes {

@@ -1,5 +1,5 @@
 #pragma once
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/import/JsonReader.h"
 #include "scenes/write/JsonFields.h"
 

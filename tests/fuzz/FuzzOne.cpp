@@ -7,7 +7,7 @@
 
 #include <unistd.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "tests/fuzz/Targets.h"
 
 /// libFuzzer's entry: one program a target, TESSERA_FUZZ_TARGET. Readers take files, so each input is written to one,

@@ -1,6 +1,6 @@
 """check_floors.py ROOT: no file includes a floor above its own.
 
-The floors, top to bottom: apps, viewer, validation, passes/recipes, passes, renderer, shaders; scenes stands beside
+The floors, top to bottom: apps, viewer, validation, passes/recipes, passes, renderer, shaders, base; scenes stands beside
 renderer and knows nothing of it. Passes know nothing of each other: recipes wire them. OpenGL stays inside renderer/gpu, and a render
 graph knows nothing of it. Tests and the command line may include everything.
 """
@@ -13,23 +13,22 @@ from sources import sourcesOf
 
 # What each room may include, besides itself. The most specific room that holds a file counts.
 ROOMS = {
+    "base": (),
     "shaders": (),
-    "scenes": (),
-    "renderer/graph": (),
-    "renderer/gpu": ("renderer/graph", "shaders"),
-    "renderer/shader": ("renderer/gpu", "renderer/graph", "shaders"),
-    "renderer/culling": ("shaders",),
-    "renderer/frame": ("renderer/culling", "renderer/gpu", "renderer/graph", "renderer/shader", "scenes", "shaders"),
-    "passes": ("renderer", "scenes", "shaders"),
-    "passes/recipes": ("passes", "renderer", "scenes", "shaders"),
+    "scenes": ("base",),
+    "renderer/graph": ("base",),
+    "renderer/gpu": ("renderer/graph", "shaders", "base"),
+    "renderer/shader": ("renderer/gpu", "renderer/graph", "shaders", "base"),
+    "renderer/culling": ("shaders", "base"),
+    "renderer/frame": ("renderer/culling", "renderer/gpu", "renderer/graph", "renderer/shader", "scenes", "shaders", "base"),
+    "passes": ("renderer", "scenes", "shaders", "base"),
+    "passes/recipes": ("passes", "renderer", "scenes", "shaders", "base"),
     # The reference computes everything a second time: it shares the plain scene, and nothing else.
     "validation/reference": ("scenes",),
-    "validation": ("validation/reference", "passes", "renderer", "scenes", "shaders"),
-    "viewer": ("validation", "passes", "renderer", "scenes", "shaders"),
-    "apps": ("viewer", "validation", "passes", "renderer", "scenes", "shaders"),
+    "validation": ("validation/reference", "passes", "renderer", "scenes", "shaders", "base"),
+    "viewer": ("validation", "passes", "renderer", "scenes", "shaders", "base"),
+    "apps": ("viewer", "validation", "passes", "renderer", "scenes", "shaders", "base"),
 }
-# The headers every floor may include: errors caused by input, and lists of names for them.
-COMMON = ("scenes/Error.h", "scenes/Names.h")
 # Single includes that go past the table, with the reason.
 EXCEPTIONS = {
     ("renderer/gpu/Sampler.h", "scenes/Scene.h"): "the scene's own struct says how a texture is sampled",
@@ -61,7 +60,7 @@ def faultOf(path, quoted, included):
     if not quoted:
         return None
     target = roomOf(included)
-    if target is None or included in COMMON or (path, included) in EXCEPTIONS:
+    if target is None or (path, included) in EXCEPTIONS:
         return None
     if room == "passes" and target == "passes":
         other = PASS.search(included) and pathlib.PurePath(path).with_suffix(".h").as_posix() != included

@@ -3,7 +3,7 @@
 import pathlib
 import subprocess
 
-FOLDERS = ("apps", "passes", "renderer", "scenes", "shaders", "tests", "validation", "viewer")
+FOLDERS = ("apps", "base", "passes", "renderer", "scenes", "shaders", "tests", "validation", "viewer")
 
 
 def sourcesOf(root, suffixes=(".h", ".cpp")):

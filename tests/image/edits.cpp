@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
 #include "validation/Rendering.h"

@@ -37,7 +37,7 @@ protected:
         settings.sizePixels = {160, 90};
         return settings;
     }
-    static std::size_t changedPixels(const validation::Picture& a, const validation::Picture& b) {
+    static std::size_t changedPixels(const Picture& a, const Picture& b) {
         std::size_t count = 0;
         for (std::size_t i = 0; i < a.pixelCount(); ++i) count += !std::equal(a.pixel(i), a.pixel(i) + 3, b.pixel(i));
         return count;
@@ -45,16 +45,16 @@ protected:
     void expectEachShows(const std::vector<Change>& changes) {
         const Scene base = test::everythingScene();
         recipes::Renderer baseRenderer(context(), base);
-        const validation::Picture before = validation::toPicture(baseRenderer.render(Technique::Deferred, small()));
+        const Picture before = validation::toPicture(baseRenderer.render(Technique::Deferred, small()));
         for (const Change& change : changes) {
             SCOPED_TRACE(change.what);
             Scene scene = base;
             change.apply(scene);
             ASSERT_NO_THROW(scenes::checkScene(scene));
             recipes::Renderer renderer(context(), scene);
-            const validation::Picture deferred = validation::toPicture(renderer.render(Technique::Deferred, small()));
+            const Picture deferred = validation::toPicture(renderer.render(Technique::Deferred, small()));
             EXPECT_GT(changedPixels(before, deferred), 10u) << "the picture did not change";
-            const validation::Picture forward = validation::toPicture(renderer.render(Technique::Forward, small()));
+            const Picture forward = validation::toPicture(renderer.render(Technique::Forward, small()));
             EXPECT_EQ(forward.rgba, deferred.rgba) << "forward and deferred do not agree on it";
             const validation::ErrorFigures figures = validation::errorFigures(deferred, forward);
             EXPECT_EQ(figures.bad.sum() + figures.badOutside.sum(), 0u);

@@ -20,8 +20,8 @@ protected:
         settings.sizePixels = {320, 181};
         return settings;
     }
-    validation::Picture picture(const scenes::Scene& scene, const frame::FrameSettings& settings,
-                                Technique technique = Technique::Deferred) {
+    Picture picture(const scenes::Scene& scene, const frame::FrameSettings& settings,
+                    Technique technique = Technique::Deferred) {
         recipes::Renderer renderer(context(), scene);
         return validation::toPicture(renderer.render(technique, settings));
     }
@@ -39,9 +39,9 @@ TEST_F(Invariance, pruningNeverChangesABitOfAnyBuiltinScene) {
                 SCOPED_TRACE(fmt::format("{} {} {}", builtin.name, technique.name, layout.name));
                 frame::FrameSettings settings = small();
                 settings.layout = layout.layout;
-                const validation::Picture pruned = drawn(technique, settings);
+                const Picture pruned = drawn(technique, settings);
                 settings.prune = false;
-                const validation::Picture whole = drawn(technique, settings);
+                const Picture whole = drawn(technique, settings);
                 EXPECT_EQ(pruned.rgba, whole.rgba);
                 EXPECT_GT(validation::errorFigures(whole, pruned).litShare, 0.1);
             }
@@ -61,7 +61,7 @@ TEST_F(Invariance, pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe) {
                 frame::FrameSettings settings = small();
                 settings.sizePixels = {160, 91};
                 settings.layout = layout.layout;
-                const validation::Picture pruned = picture(scene, settings, technique);
+                const Picture pruned = picture(scene, settings, technique);
                 settings.prune = false;
                 EXPECT_EQ(pruned.rgba, picture(scene, settings, technique).rgba);
             }
@@ -158,8 +158,8 @@ TEST_F(Invariance, plansAlwaysNameWhatThreeDifferentScenesLeaveOut) {
 TEST_F(Invariance, picturesAreAlwaysBitIdenticalFromRunToRun) {
     const scenes::Scene scene = scenes::loadScene("hall");
     for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
-        const validation::Picture first = picture(scene, small(), technique.technique);
-        const validation::Picture second = picture(scenes::loadScene("hall"), small(), technique.technique);
+        const Picture first = picture(scene, small(), technique.technique);
+        const Picture second = picture(scenes::loadScene("hall"), small(), technique.technique);
         EXPECT_EQ(first.rgba, second.rgba) << technique.name;
     }
 }
@@ -177,9 +177,9 @@ TEST_F(Invariance, worldAndViewSpaceLightingAlwaysAgree) {
         for (const Technique technique : {Technique::Forward, Technique::Deferred, Technique::DeferredVolumes,
                                           Technique::TiledDeferred, Technique::ClusteredForward}) {
             frame::FrameSettings settings = small();
-            const validation::Picture world = validation::toPicture(renderer.render(technique, settings));
+            const Picture world = validation::toPicture(renderer.render(technique, settings));
             settings.space = frame::LightingSpace::View;
-            const validation::Picture view = validation::toPicture(renderer.render(technique, settings));
+            const Picture view = validation::toPicture(renderer.render(technique, settings));
             const validation::ErrorFigures figures = validation::errorFigures(view, world);
             SCOPED_TRACE(fmt::format("{}, {}: relMse {:.1e}", scene.name, int(technique), figures.relMse));
             // Rotating positions and normals costs one fp32 rounding each; a sharp highlight multiplies it by up to
@@ -205,7 +205,7 @@ TEST_F(Invariance, aSceneFarFromTheOriginAlwaysLooksAsAtTheOrigin) {
 
 TEST_F(Invariance, aLightThatIsOffDarkOrOutOfReachNeverChangesABit) {
     const scenes::Scene scene = test::everythingScene();
-    const validation::Picture before = picture(scene, small());
+    const Picture before = picture(scene, small());
     scenes::Scene more = scene;
     scenes::Light off = test::pointLight({0, 1, 1}, 100.0f);
     off.enabled = false;

@@ -34,7 +34,7 @@ protected:
         frame::FrameSettings settings;
         settings.sizePixels = {kAnswerSidePixels, kAnswerSidePixels};
         recipes::Renderer renderer(context(), scene);
-        const validation::Picture picture = validation::toPicture(renderer.render(technique, settings));
+        const Picture picture = validation::toPicture(renderer.render(technique, settings));
 
         const glm::dvec3 eyeWS(camera.worldFromCamera[3]);
         const double half = eyeWS.z * std::tan(0.5 * camera.fovYRadians);
@@ -268,7 +268,7 @@ TEST_F(KnownAnswers, emissionIsAlwaysDimmedByItsCoat) {
     settings.sizePixels = {kAnswerSidePixels, kAnswerSidePixels};
     recipes::Renderer renderer(context(), scene);
     for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
-        const validation::Picture picture = validation::toPicture(renderer.render(technique.technique, settings));
+        const Picture picture = validation::toPicture(renderer.render(technique.technique, settings));
         const float* centre =
             picture.pixel(std::size_t(kAnswerSidePixels * kAnswerSidePixels / 2 + kAnswerSidePixels / 2));
         // Head on the coat takes 4 %; half a pixel off the axis changes that by 1e-9.

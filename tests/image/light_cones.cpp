@@ -51,7 +51,7 @@ protected:
         settings.sizePixels = {160, 160};
         settings.filter = frame::TextureFilter::Exact;
         recipes::Renderer renderer(context(), scene);
-        const validation::Picture truth = validation::referencePicture(scene, settings).picture;
+        const Picture truth = validation::referencePicture(scene, settings).picture;
         for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
             const validation::ErrorFigures figures =
                 validation::errorFigures(validation::toPicture(renderer.render(technique.technique, settings)), truth);

@@ -194,14 +194,14 @@ TEST_F(LightCulling, noLightIsEverMissingWhereAScenesEyeIsFarAwayAndNoPixelDiffe
 void LightCulling::expectForwardsPicture(const scenes::Scene& scene, glm::ivec2 sizePixels,
                                          std::span<const int> tiles) {
     recipes::Renderer renderer(context(), scene);
-    const validation::Picture truth = validation::toPicture(renderer.render(Technique::Forward, settings(sizePixels)));
+    const Picture truth = validation::toPicture(renderer.render(Technique::Forward, settings(sizePixels)));
     for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
         for (const Method method : technique.methods) {
             if (method == Method::None) continue;
             for (const int tile : tiles) {
                 SCOPED_TRACE(fmt::format("{}, {} lights, {}, {} {}, {}x{}", scene.name, scene.lights.size(),
                                          technique.name, infoOf(method).name, tile, sizePixels.x, sizePixels.y));
-                const validation::Picture picture =
+                const Picture picture =
                     validation::toPicture(renderer.render(technique.technique, settings(sizePixels, method, tile)));
                 const validation::ErrorFigures figures = validation::errorFigures(picture, truth);
                 EXPECT_EQ(figures.bitEqual, 1.0);
@@ -345,12 +345,11 @@ TEST_F(LightCulling, theOrderOfTheLightsNeverMattersBeyondRoundingOfTheSum) {
     scenes::Scene scene = lattice(256);
     recipes::Renderer renderer(context(), scene);
     const frame::FrameSettings asked = settings({320, 181}, Method::Cluster);
-    const validation::Picture ordered = validation::toPicture(renderer.render(Technique::ClusteredDeferred, asked));
+    const Picture ordered = validation::toPicture(renderer.render(Technique::ClusteredDeferred, asked));
     scenes::Scene turned = scene;
     std::reverse(turned.lights.begin(), turned.lights.end());
     recipes::Renderer turnedRenderer(context(), turned);
-    const validation::Picture reversed =
-        validation::toPicture(turnedRenderer.render(Technique::ClusteredDeferred, asked));
+    const Picture reversed = validation::toPicture(turnedRenderer.render(Technique::ClusteredDeferred, asked));
     const validation::ErrorFigures figures = validation::errorFigures(reversed, ordered);
     // Terms are positive, so a sum of n terms in any order is off by at most (n - 1) 2^-24 of itself, twice here; no
     // pixel visits more than 64 of these lights.

@@ -65,7 +65,7 @@ TEST_F(LightRange, anEndedLightIsExactlyZeroFromItsRadiusOnAndWindowedBefore) {
     recipes::Renderer renderer(context(), scene);
     for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
         SCOPED_TRACE(technique.name);
-        const validation::Picture picture = validation::toPicture(renderer.render(technique.technique, settings));
+        const Picture picture = validation::toPicture(renderer.render(technique.technique, settings));
         std::size_t beyond = 0, inside = 0;
         for (std::size_t i = 0; i < picture.pixelCount(); ++i) {
             const int x = int(i) % kRangeSide, y = int(i) / kRangeSide;

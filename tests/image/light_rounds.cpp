@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "base/Error.h"
 #include "renderer/frame/LightRounds.h"
-#include "scenes/Error.h"
 #include "scenes/Limits.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"

@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "base/Error.h"
 #include "passes/recipes/ChooseLighting.h"
 #include "passes/recipes/Renderer.h"
-#include "scenes/Error.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/Error.h"
 #include "scenes/Defaults.h"
-#include "scenes/Error.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
 #include "validation/ErrorFigures.h"
@@ -93,7 +93,7 @@ private:
     }
 
     struct Pair {
-        validation::Picture forward, deferred;
+        Picture forward, deferred;
         std::ptrdiff_t covered = 0; ///< pixels
     };
     Pair drawBoth(const scenes::Scene& scene) {

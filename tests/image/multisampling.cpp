@@ -27,8 +27,8 @@ protected:
         settings.samples = samples;
         return settings;
     }
-    validation::Picture picture(const Scene& scene, const frame::FrameSettings& settings,
-                                Technique technique = Technique::Forward) {
+    Picture picture(const Scene& scene, const frame::FrameSettings& settings,
+                    Technique technique = Technique::Forward) {
         recipes::Renderer renderer(context(), scene);
         return validation::toPicture(renderer.render(technique, settings));
     }
@@ -46,7 +46,7 @@ protected:
         for (const validation::ComparePair& pair : record.pairs)
             EXPECT_EQ(pair.figures.bad.sum() + pair.figures.badOutside.sum(), 0u);
     }
-    static std::set<float> alphasOf(const validation::Picture& picture) {
+    static std::set<float> alphasOf(const Picture& picture) {
         std::set<float> alphas;
         for (std::size_t i = 0; i < picture.pixelCount(); ++i) alphas.insert(picture.pixel(i)[3]);
         return alphas;
@@ -163,7 +163,7 @@ TEST_F(Multisampling, aPixelWhoseCentreLiesOnTheHorizonTakesOneTexelOfACornerWit
     scene.materials[0].texture(scenes::TextureSlot::BaseColor).sampler.minification = scenes::Filter::Linear;
     frame::FrameSettings settings = sampled({65, 17});
     settings.filter = frame::TextureFilter::Exact;
-    const validation::Picture shown = picture(scene, settings);
+    const Picture shown = picture(scene, settings);
     for (int x = 0; x < 65; ++x) {
         const float* pixel = shown.pixel(std::size_t(8 * 65 + x));
         EXPECT_GT(pixel[0] + pixel[1], 0.0f) << "no sample of column " << x << " lies below the horizon";
@@ -190,7 +190,7 @@ TEST_F(Multisampling, pruningAndRunningAgainNeverChangeABit) {
         for (const Technique technique : {Technique::Forward, Technique::ForwardPrepass, Technique::ClusteredForward}) {
             SCOPED_TRACE(fmt::format("{} {}", scene.name, infoOf(technique).name));
             frame::FrameSettings settings = sampled({161, 90});
-            const validation::Picture first = picture(scene, settings, technique);
+            const Picture first = picture(scene, settings, technique);
             EXPECT_EQ(picture(scene, settings, technique).rgba, first.rgba);
             settings.prune = false;
             EXPECT_EQ(picture(scene, settings, technique).rgba, first.rgba);
@@ -226,7 +226,7 @@ TEST_F(Multisampling, aPixelIsNeverNaNInfiniteOrNegative) {
         scene.cameras[0].worldFromCamera[2] = {0, std::sin(pitch), std::cos(pitch), 0};
         scene.cameras[0].worldFromCamera[3] = {0, 0.5, 6, 1};
         for (const Technique technique : {Technique::Forward, Technique::ForwardPrepass, Technique::ClusteredForward}) {
-            const validation::Picture shown = picture(scene, sampled({321, 179}), technique);
+            const Picture shown = picture(scene, sampled({321, 179}), technique);
             const validation::ErrorFigures figures = validation::errorFigures(shown, shown);
             EXPECT_EQ(figures.bad.nan + figures.badOutside.nan, 0u) << pitch;
             EXPECT_EQ(figures.bad.infinite + figures.badOutside.infinite, 0u) << pitch;
@@ -254,7 +254,7 @@ TEST_F(Multisampling, verticesBrighterThanOneAreNotHeldToIt) {
     scene.cameras[0].projection = scenes::Projection::Orthographic;
     scene.cameras[0].halfHeightMetres = 1.0;
     scene.meshes[0].colors.assign(4, {4.0f, 2.0f, 0.5f, 1.0f});
-    const validation::Picture shown = picture(scene, sampled({8, 8}));
+    const Picture shown = picture(scene, sampled({8, 8}));
     for (std::size_t i = 0; i < shown.pixelCount(); ++i) {
         const float wanted[] = {4.0f, 2.0f, 0.5f};
         // Interpolating equal values rounds three times.
@@ -339,7 +339,7 @@ TEST_F(Multisampling, aStraightEdgeAlwaysCoversTheSamplesOnItsSide) {
             scene.nodes[0].parentFromNode = glm::dmat4(2.0);
             scene.nodes[0].parentFromNode[3] = glm::dvec4(0, 0, 0, 1);
             scene.nodes[0].parentFromNode[3][axis] = edge - 2.0;
-            const validation::Picture shown = picture(scene, settings);
+            const Picture shown = picture(scene, settings);
             const auto inside = std::count_if(samples.begin(), samples.end(),
                                               [&](const glm::vec2& sample) { return sample[axis] < float(within); });
             const float share = float(inside) / float(samples.size());

@@ -58,10 +58,10 @@ TEST_F(OnePaint, aBallIsAlwaysAsBrightInACoarseLayoutAsInFp32) {
         recipes::Renderer renderer(context(), scene);
         frame::FrameSettings settings;
         settings.sizePixels = {320, 320};
-        const validation::Picture exact = validation::toPicture(renderer.render(Technique::Deferred, settings));
+        const Picture exact = validation::toPicture(renderer.render(Technique::Deferred, settings));
         for (const frame::LayoutInfo& layout : frame::layoutTable().subspan(1)) {
             settings.layout = layout.layout;
-            const validation::Picture coarse = validation::toPicture(renderer.render(Technique::Deferred, settings));
+            const Picture coarse = validation::toPicture(renderer.render(Technique::Deferred, settings));
             const validation::ErrorFigures figures = validation::errorFigures(coarse, exact);
             SCOPED_TRACE(fmt::format("paint {} {}", i, layout.name));
             fmt::print("paint {}{} {}: bias {:.2e}, relMse {:.2e}, p99.9 {:.2e}\n", i, varies ? " varying" : "",

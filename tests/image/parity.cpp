@@ -134,16 +134,15 @@ TEST_F(Parity, aFarPlaneNeverChangesWhatLiesBeforeIt) {
     scenes::Scene scene = test::everythingScene();
     frame::FrameSettings settings;
     settings.sizePixels = {161, 90};
-    const validation::Picture endless = [&] {
+    const Picture endless = [&] {
         recipes::Renderer renderer(context(), scene);
         const recipes::RenderedFrame frame = renderer.render(Technique::Deferred, settings);
-        return validation::Picture{frame.width, frame.height, frame.radiance, std::vector<std::uint8_t>(161 * 90, 1)};
+        return Picture{frame.width, frame.height, frame.radiance, std::vector<std::uint8_t>(161 * 90, 1)};
     }();
     scene.cameras[0].farMetres = 60.0;
     recipes::Renderer renderer(context(), scene);
     const recipes::RenderedFrame frame = renderer.render(Technique::Deferred, settings);
-    const validation::Picture bounded{frame.width, frame.height, frame.radiance,
-                                      std::vector<std::uint8_t>(161 * 90, 1)};
+    const Picture bounded{frame.width, frame.height, frame.radiance, std::vector<std::uint8_t>(161 * 90, 1)};
     // Depth is stored on another scale, so positions move by its rounding: 1e-7 of the distance, and highlights with
     // them.
     EXPECT_LE(validation::errorFigures(bounded, endless).relMse, 1e-8);

@@ -165,7 +165,7 @@ TEST_F(Reference, aLightThatDiffersByOnePercentNeverPasses) {
     const validation::ReferencePicture truth = validation::referencePicture(scene, settings);
     scene.lights[0].intensity *= 1.01f;
     recipes::Renderer renderer(context(), scene);
-    const validation::Picture picture = validation::toPicture(renderer.render(Technique::Forward, settings));
+    const Picture picture = validation::toPicture(renderer.render(Technique::Forward, settings));
     const validation::ErrorFigures figures = validation::errorFigures(
         picture, truth.picture, validation::shownTriangles(renderer, settings, truth.ids).excluded);
     EXPECT_FALSE(validation::checkTolerance(figures, validation::referenceTolerance(scene, settings.filter)).ok);
@@ -194,7 +194,7 @@ TEST_F(Reference, aTextureWithoutItsSmallerLevelsNeverPassesAsHardwareFiltering)
     shaders.replace("lib/texture_filter.glsl", "texture(image, uv)", "textureLod(image, uv, 0.0)");
     recipes::Renderer renderer(context(), scene, shaders.tree());
     const frame::FrameSettings settings = ofSize(96, 54);
-    const validation::Picture shown = validation::toPicture(renderer.render(Technique::Forward, settings));
+    const Picture shown = validation::toPicture(renderer.render(Technique::Forward, settings));
     const validation::ReferencePicture truth = validation::referencePicture(scene, settings);
     const validation::ErrorFigures figures = validation::errorFigures(
         shown, truth.nearestTo(shown), validation::shownTriangles(renderer, settings, truth.ids).excluded);

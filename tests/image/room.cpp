@@ -48,7 +48,7 @@ TEST_F(Room, everyPixelIsAlwaysTheClosedFormWithEveryTechnique) {
         const scenes::Camera& camera = scene.cameras[std::size_t(settings.camera)];
         for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
             SCOPED_TRACE(fmt::format("{} {}", camera.name, technique.name));
-            const validation::Picture picture = validation::toPicture(renderer.render(technique.technique, settings));
+            const Picture picture = validation::toPicture(renderer.render(technique.technique, settings));
             std::size_t checked = 0;
             std::size_t dark = 0;
             double worst = 0.0;

@@ -127,7 +127,7 @@ protected:
         settings.sizePixels = {kColumns * kTilePixels, kRows * kTilePixels};
         settings.filter = filter;
         recipes::Renderer renderer(context(), scene, shaders);
-        const validation::Picture shown = validation::toPicture(renderer.render(Technique::Forward, settings));
+        const Picture shown = validation::toPicture(renderer.render(Technique::Forward, settings));
         const validation::ReferencePicture truth = validation::referencePicture(scene, settings);
         Judged result;
         result.plainBias = validation::errorFigures(shown, truth.picture).bias;

@@ -4,8 +4,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/Error.h"
 #include "passes/recipes/PrepareView.h"
-#include "scenes/Error.h"
 #include "scenes/Load.h"
 #include "shaders/shared/faults.h"
 #include "tests/image/FlatTest.h"

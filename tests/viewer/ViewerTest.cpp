@@ -5,8 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "base/PictureFile.h"
 #include "tests/support/UnderLedger.h"
-#include "validation/PictureFile.h"
+#include "validation/ReadPicture.h"
 
 namespace tessera::test {
 namespace {
@@ -71,7 +72,7 @@ Shot ViewerTest::rendered(const std::string& arguments, glm::ivec2 sizePixels) c
     return readShot(folder_.path() / "rendered.png");
 }
 
-validation::Picture ViewerTest::exr(const std::string& name) const {
+Picture ViewerTest::exr(const std::string& name) const {
     return underLedger(validation::readPicture, (folder_.path() / name).string());
 }
 

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "base/Picture.h"
 #include "tests/support/Process.h"
 #include "tests/support/TempFolder.h"
 #include "tests/viewer/DrivenViewer.h"
-#include "validation/Picture.h"
 
 namespace tessera::test {
 
@@ -75,7 +75,7 @@ protected:
     Shot rendered(const std::string& arguments, glm::ivec2 sizePixels) const;
     /// The name after "saved " in a line of the log.
     static std::string savedFile(const std::string& line) { return line.substr(line.find(' ') + 1); }
-    validation::Picture exr(const std::string& name) const;
+    Picture exr(const std::string& name) const;
 
     TempFolder folder_;
     static inline std::unique_ptr<Desktop> desktop_;

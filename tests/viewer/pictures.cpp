@@ -54,7 +54,7 @@ TEST_F(ViewerPictures, theCommandToPasteAlwaysRendersTheSavedPictureToTheLastBit
     EXPECT_TRUE(command.starts_with("tessera render models ")) << command;
     // The command names its own file; the last option counts.
     shell(command.substr(0, command.rfind(" -o ")) + " -o pasted.exr");
-    const validation::Picture a = exr(saved), b = exr("pasted.exr");
+    const Picture a = exr(saved), b = exr("pasted.exr");
     ASSERT_EQ(a.width, b.width);
     EXPECT_TRUE(a.rgba == b.rgba) << command;
     mark = viewer.mark();

@@ -10,9 +10,9 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
+#include "base/Names.h"
 #include "scenes/Limits.h"
-#include "scenes/Names.h"
 #include "scenes/import/JsonText.h"
 
 namespace tessera::validation {

@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "scenes/Error.h"
-#include "validation/AtomicFile.h"
-#include "validation/PictureFile.h"
+#include "base/AtomicFile.h"
+#include "base/Error.h"
+#include "base/PictureFile.h"
 #include "validation/bench/BenchJson.h"
 #include "validation/bench/BenchJsonTerms.h"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/Picture.h"
 #include "passes/recipes/Renderer.h"
-#include "validation/Picture.h"
 #include "validation/ReferencePicture.h"
 #include "validation/bench/BenchResult.h"
 

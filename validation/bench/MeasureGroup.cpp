@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "validation/HeatMap.h"
 #include "validation/Rendering.h"
 #include "validation/bench/Attribution.h"

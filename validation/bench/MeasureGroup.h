@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "base/Picture.h"
 #include "renderer/gpu/Context.h"
-#include "validation/Picture.h"
 #include "validation/bench/BenchPlan.h"
 #include "validation/bench/GroupTruth.h"
 

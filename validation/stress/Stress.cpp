@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "base/Error.h"
+#include "base/Names.h"
 #include "passes/recipes/Renderer.h"
-#include "scenes/Error.h"
-#include "scenes/Names.h"
 #include "validation/ReferencePicture.h"
 #include "validation/Rendering.h"
 #include "validation/ShownTriangles.h"

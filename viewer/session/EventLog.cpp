@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/OneLine.h"
+#include "base/OneLine.h"
 
 namespace tessera::viewer {
 void EventLog::line(const std::string& text) const {

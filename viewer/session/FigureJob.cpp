@@ -5,7 +5,7 @@
 
 namespace tessera::viewer {
 
-void FigureJob::start(validation::Picture a, validation::Picture b) {
+void FigureJob::start(Picture a, Picture b) {
     assert(!busy_);
     busy_ = true;
     thread_ = std::jthread([this, a = std::move(a), b = std::move(b)] {

@@ -21,7 +21,7 @@ public:
     /// Whether a pair can be taken; a measurement cannot be given up, so the next pair waits for its end.
     bool isBusy() const { return busy_; }
     /// Picture a against the truth b, of one size.
-    void start(validation::Picture a, validation::Picture b);
+    void start(Picture a, Picture b);
     bool hasResult() const;
     /// The latest figures, once. Throws what measuring them threw, such as std::bad_alloc.
     std::optional<validation::ErrorFigures> take();

@@ -12,9 +12,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/AtomicFile.h"
+#include "base/Error.h"
 #include "passes/recipes/Settings.h"
-#include "scenes/Error.h"
-#include "validation/AtomicFile.h"
 
 namespace tessera::viewer {
 namespace {
@@ -159,7 +159,7 @@ void writePreferences(const Preferences& preferences, const std::filesystem::pat
     if (error)
         throw std::runtime_error(fmt::format("cannot make the folder {}: {}; check the permissions above it",
                                              file.parent_path().string(), error.message()));
-    validation::writeFileAtomically(file.string(), document.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
+    writeFileAtomically(file.string(), document.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
 } // namespace tessera::viewer

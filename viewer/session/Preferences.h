@@ -35,7 +35,7 @@ std::optional<std::filesystem::path> preferencesFile();
 /// Throws InputError where the file cannot be read or is no JSON.
 Preferences readPreferences(const std::filesystem::path& file);
 
-/// Makes the folder where it lacks. Throws std::runtime_error as validation::writeFileAtomically() does.
+/// Makes the folder where it lacks. Throws std::runtime_error as writeFileAtomically() does.
 void writePreferences(const Preferences& preferences, const std::filesystem::path& file);
 
 } // namespace tessera::viewer

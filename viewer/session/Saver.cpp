@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "validation/AtomicFile.h"
-#include "validation/PictureFile.h"
+#include "base/AtomicFile.h"
+#include "base/PictureFile.h"
 #include "validation/Rendering.h"
 #include "validation/ShownPicture.h"
 #include "viewer/save/ChromeTrace.h"
@@ -52,10 +52,9 @@ void Saver::picture(glm::ivec2 sizePixels, const char* ending) {
     const recipes::RenderedFrame frame = screen_.renderer()->render(look.technique, look.settings);
     const std::string path = freePath(stem(), ending).string();
     if (look.settings.display) {
-        validation::writePng(
-            path, validation::shownPicture(frame, state_.open->scene().name, look.technique, look.settings.view));
+        writePng(path, validation::shownPicture(frame, state_.open->scene().name, look.technique, look.settings.view));
     } else {
-        validation::writeExr(path, validation::toPicture(frame));
+        writeExr(path, validation::toPicture(frame));
     }
     tell(path);
 }
@@ -90,7 +89,7 @@ void Saver::trace() {
     std::vector<TraceFrame> frames;
     for (const FrameTimes& frame : state_.timings.frames()) frames.push_back(traced(frame));
     const std::string path = freePath(stem(), ".trace.json").string();
-    validation::writeFileAtomically(path, chromeTrace(frames, screen_.capabilities().renderer));
+    writeFileAtomically(path, chromeTrace(frames, screen_.capabilities().renderer));
     tell(path);
 }
 

@@ -3,7 +3,7 @@
 
 #include "renderer/gpu/Buffer.h"
 #include "renderer/shader/ProgramLibrary.h"
-#include "viewer/show/Picture.h"
+#include "viewer/show/DrawnPicture.h"
 
 namespace tessera::viewer {
 

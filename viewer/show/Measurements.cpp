@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/Error.h"
 #include "passes/recipes/ChooseSamples.h"
-#include "scenes/Error.h"
 #include "validation/Rendering.h"
 
 namespace tessera::viewer {
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kJudgedShare = 4; ///< of the picture's sides: the oracle tries every light at every pixel
 
-validation::Picture radianceOf(const Picture& picture) {
+Picture radianceOf(const DrawnPicture& picture) {
     return validation::toPicture(recipes::readBack(picture.radiance()->texture(), nullptr));
 }
 
@@ -48,8 +48,8 @@ bool Measurements::updatePlan(Facts& facts, const State& state, const Screen& sc
 
 bool Measurements::updateFigures(Facts& facts, const Screen& screen, const Screen::Wanted& wanted) {
     if (measured_ == wanted || figureJob_.isBusy()) return false;
-    const Picture& a = screen.picture(0);
-    const Picture& b = screen.picture(1);
+    const DrawnPicture& a = screen.picture(0);
+    const DrawnPicture& b = screen.picture(1);
     if (!a.isThere() || !b.isThere() || a.radiance() == nullptr || b.radiance() == nullptr) return false;
     if (a.radiance()->sizePixels() != b.radiance()->sizePixels()) return false;
     measured_ = wanted;

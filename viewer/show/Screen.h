@@ -7,7 +7,7 @@
 #include "renderer/gpu/Commands.h"
 #include "viewer/session/State.h"
 #include "viewer/show/Difference.h"
-#include "viewer/show/Picture.h"
+#include "viewer/show/DrawnPicture.h"
 #include "viewer/show/ResolutionScale.h"
 
 namespace tessera::viewer {
@@ -73,7 +73,7 @@ public:
     /// Shows the pictures in a part of the window, whose framebuffer stays bound; the rest of it is cleared.
     void show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare compare, float divider);
     const gpu::Capabilities& capabilities() const { return context_.capabilities(); }
-    const Picture& picture(int side) const { return pictures_[std::size_t(side)]; }
+    const DrawnPicture& picture(int side) const { return pictures_[std::size_t(side)]; }
 
 private:
     static constexpr double kSlowMs = 250.0;
@@ -82,7 +82,7 @@ private:
     const OpenScene* scene_ = nullptr;
     std::unique_ptr<recipes::Renderer> renderer_;
     std::uint64_t materialRevision_ = 0;
-    std::array<Picture, 2> pictures_;
+    std::array<DrawnPicture, 2> pictures_;
     Difference difference_;
     bool differenceIsStale_ = true;
     float differenceFactor_ = 0.0f;

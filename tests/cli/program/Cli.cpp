@@ -7,8 +7,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/PictureFile.h"
 #include "tests/support/UnderLedger.h"
-#include "validation/PictureFile.h"
+#include "validation/ReadPicture.h"
 
 namespace tessera::test {
 
@@ -47,7 +48,7 @@ std::string Cli::text(const std::string& name) const {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-validation::Picture Cli::picture(const std::string& name) const {
+Picture Cli::picture(const std::string& name) const {
     return underLedger(validation::readPicture, path(name));
 }
 

@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "base/Picture.h"
 #include "tests/support/Process.h"
 #include "tests/support/TempFolder.h"
-#include "validation/Picture.h"
 
 namespace tessera::test {
 
@@ -34,7 +34,7 @@ protected:
     std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
     std::string text(const std::string& name) const;
     nlohmann::json json(const std::string& name) const { return nlohmann::json::parse(text(name)); }
-    validation::Picture picture(const std::string& name) const;
+    Picture picture(const std::string& name) const;
     std::map<std::string, std::string> files() const; ///< contents by name, folders and devices without
 
     /// "quad.json": a square that fills the picture, turned a little from the camera, in the material given as JSON

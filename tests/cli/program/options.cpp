@@ -3,14 +3,14 @@
 
 #include <fmt/format.h>
 
+#include "base/PictureFile.h"
 #include "tests/cli/program/Cli.h"
 #include "validation/ErrorFigures.h"
-#include "validation/PictureFile.h"
 
 namespace tessera::test {
 namespace {
 
-using validation::Picture;
+using Picture;
 
 constexpr const char* kGlossy =
     R"({"name": "paint", "model": "metallic_roughness", "baseColor": [0.6, 0.3, 0.1], "metallic": 0.5,
@@ -186,8 +186,8 @@ TEST_F(FrameOptions, noDefaultLightAlwaysLeavesASceneWithoutLightsDark) {
 }
 
 TEST_F(FrameOptions, filterExactAlwaysInterpolatesInSinglePrecision) {
-    validation::DisplayImage texture{2, 2, {0, 0, 0, 255, 255, 255, 255, 255, 255, 0, 0, 0}};
-    validation::writePng(path("t.png"), texture);
+    DisplayImage texture{2, 2, {0, 0, 0, 255, 255, 255, 255, 255, 255, 0, 0, 0}};
+    writePng(path("t.png"), texture);
     writeQuad(R"({"name": "paint", "model": "single_color", "color": {"texture": "t.png"}})", "[]");
     const Picture exact = pictureOf({"--filter", "exact"}), hardware = pictureOf({"--filter", "hardware"});
     EXPECT_TRUE(hardware.rgba == pictureOf({}).rgba) << "hardware is the default";

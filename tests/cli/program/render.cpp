@@ -6,7 +6,7 @@
 namespace tessera::test {
 namespace {
 
-using validation::Picture;
+using Picture;
 
 class Render : public Cli {
 protected:

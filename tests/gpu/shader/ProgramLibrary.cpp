@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include "base/Error.h"
 #include "renderer/gpu/Buffer.h"
 #include "renderer/gpu/Commands.h"
-#include "scenes/Error.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TempFolder.h"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 
 namespace tessera::app {
 namespace {

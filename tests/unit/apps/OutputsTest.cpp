@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "tests/support/TempFolder.h"
 
 namespace tessera::app {

@@ -5,8 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include "base/Error.h"
 #include "renderer/frame/Tangents.h"
-#include "scenes/Error.h"
 #include "tests/unit/scenes/TinyScene.h"
 
 namespace tessera::frame {

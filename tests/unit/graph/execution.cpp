@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "Frames.h"
+#include "base/Error.h"
 #include "renderer/graph/Execute.h"
-#include "scenes/Error.h"
 
 namespace tessera::graph::test {
 namespace {

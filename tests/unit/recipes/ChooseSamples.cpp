@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include "base/Error.h"
 #include "passes/recipes/Renderer.h"
 #include "passes/recipes/Settings.h"
-#include "scenes/Error.h"
 #include "scenes/Load.h"
 
 namespace tessera::recipes {

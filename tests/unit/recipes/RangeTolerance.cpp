@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/Error.h"
 #include "passes/recipes/PrepareView.h"
 #include "passes/recipes/Renderer.h"
-#include "scenes/Error.h"
 
 namespace tessera::recipes {
 namespace {

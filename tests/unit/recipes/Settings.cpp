@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/Fingerprint.h"
 #include "scenes/Load.h"
 #include "scenes/write/SceneText.h"

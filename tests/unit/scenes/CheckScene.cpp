@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "tests/unit/scenes/TinyScene.h"
 
 namespace tessera::scenes {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/Limits.h"
 #include "tests/unit/scenes/TempFolder.h"
 

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/Error.h"
 #include "renderer/shader/Preprocess.h"
-#include "scenes/Error.h"
 #include "tests/support/TempFolder.h"
 
 namespace tessera::shader {

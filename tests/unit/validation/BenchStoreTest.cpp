@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "tests/support/TempFolder.h"
 #include "tests/unit/validation/Benches.h"
 

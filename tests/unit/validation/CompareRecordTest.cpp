@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "tests/unit/validation/Samples.h"
 #include "validation/FigureText.h"
 

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "tests/unit/validation/Samples.h"
 #include "validation/Percentile.h"
 #include "validation/PixelErrors.h"

@@ -1,4 +1,4 @@
-#include "validation/PictureFile.h"
+#include "base/PictureFile.h"
 
 #include <bit>
 #include <cmath>
@@ -8,9 +8,10 @@
 #include <fmt/chrono.h>
 #include <gmock/gmock.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "tests/support/UnderLedger.h"
 #include "tests/unit/validation/Samples.h"
+#include "validation/ReadPicture.h"
 
 namespace tessera::validation {
 namespace {

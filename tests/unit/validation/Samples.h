@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "validation/Picture.h"
+#include "base/Picture.h"
 
 namespace tessera::validation {
 

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "tests/unit/validation/Samples.h"
 #include "validation/reference/Reflectance.h"
 #include "validation/stress/StressDirections.h"

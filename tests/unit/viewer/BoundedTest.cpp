@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/Scene.h"
 #include "viewer/edit/Bounded.h"
 #include "viewer/edit/MaterialModel.h"

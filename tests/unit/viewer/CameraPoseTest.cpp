@@ -1,6 +1,6 @@
 #include <numbers>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/Limits.h"
 #include "tests/unit/viewer/CameraTest.h"
 #include "viewer/camera/FlyCamera.h"

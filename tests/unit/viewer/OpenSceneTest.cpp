@@ -1,6 +1,6 @@
 #include "viewer/session/OpenScene.h"
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "tests/unit/viewer/CameraTest.h"
 
 namespace tessera::viewer {

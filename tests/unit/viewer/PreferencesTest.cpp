@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "tests/support/TempFolder.h"
 #include "viewer/session/Preferences.h"
 

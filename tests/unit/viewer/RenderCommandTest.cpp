@@ -6,7 +6,7 @@
 
 #include "apps/FrameOptionText.h"
 #include "apps/Options.h"
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "tests/support/SettingTexts.h"
 #include "tests/support/TempFolder.h"
 

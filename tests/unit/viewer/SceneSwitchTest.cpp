@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "tests/support/TempFolder.h"
 #include "tests/unit/viewer/CameraTest.h"
 #include "viewer/save/SaveScene.h"

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
 #include "scenes/import/Importers.h"
 #include "tests/support/UnderLedger.h"
 

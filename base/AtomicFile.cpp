@@ -1,4 +1,4 @@
-#include "validation/AtomicFile.h"
+#include "base/AtomicFile.h"
 
 #include <array>
 #include <atomic>
@@ -14,7 +14,7 @@
 #include <unistd.h>
 #endif
 
-namespace tessera::validation {
+namespace tessera {
 namespace {
 
 namespace fs = std::filesystem;
@@ -189,4 +189,4 @@ void removeTemporaries() noexcept {
     }
 }
 
-} // namespace tessera::validation
+} // namespace tessera

@@ -1,8 +1,8 @@
-#include "scenes/Utf8.h"
+#include "base/Utf8.h"
 
 #include <gtest/gtest.h>
 
-#include "scenes/OneLine.h"
+#include "base/OneLine.h"
 
 namespace tessera {
 namespace {

@@ -1,10 +1,10 @@
-#include "scenes/OneLine.h"
+#include "base/OneLine.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "scenes/Utf8.h"
+#include "base/Utf8.h"
 
 namespace tessera {
 

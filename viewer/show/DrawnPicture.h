@@ -24,7 +24,7 @@ private:
 };
 
 /// The latest complete picture of one side of the window. It stays what it is while the next one is drawn, or fails.
-class Picture {
+class DrawnPicture {
 public:
     /// Copies what the renderer drew last; its radiance where asked for.
     void take(const recipes::Renderer& renderer, const Look& look, bool radiance);

@@ -1,4 +1,4 @@
-#include "scenes/OneLine.h"
+#include "base/OneLine.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "viewer/show/Picture.h"
+#include "viewer/show/DrawnPicture.h"
 
 #include "renderer/gpu/Commands.h"
 
@@ -21,14 +21,14 @@ void Target::copyFrom(const gpu::Texture& source) {
     gpu::blit(gpu::Framebuffer(gpu::Attachments{{&source}}), framebuffer_, true, false);
 }
 
-void Picture::take(const recipes::Renderer& renderer, const Look& look, bool radiance) {
+void DrawnPicture::take(const recipes::Renderer& renderer, const Look& look, bool radiance) {
     look_ = look;
     copyInto(display_, "shown display", renderer.displayTexture());
     hasRadiance_ = radiance;
     if (radiance) copyInto(radiance_, "shown radiance", renderer.radianceTexture());
 }
 
-void Picture::clear() {
+void DrawnPicture::clear() {
     display_.reset();
     radiance_.reset();
     hasRadiance_ = false;

@@ -1,7 +1,7 @@
 #pragma once
 #include <cstddef>
 
-namespace tessera::graph {
+namespace tessera {
 
 /// Whether row i of a table is that of value i of an enumeration with `count` values: then the table is looked up by
 /// index. To be asserted where the table stands.
@@ -13,4 +13,4 @@ constexpr bool isInOrder(const Table& table, Enum Row::*key, std::size_t count) 
     return row == count;
 }
 
-} // namespace tessera::graph
+} // namespace tessera

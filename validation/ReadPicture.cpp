@@ -1,40 +1,18 @@
-#include "validation/PictureFile.h"
+#include "validation/ReadPicture.h"
 
 #include <algorithm>
-#include <cassert>
+#include <cstdint>
 #include <cstring>
-#include <memory>
-#include <stdexcept>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
-#include "scenes/Error.h"
+#include "base/Error.h"
+#include "base/PictureFile.h"
+#include "base/Srgb.h"
 #include "scenes/import/Importers.h"
-#include "validation/AtomicFile.h"
-#include "validation/Srgb.h"
 
 namespace tessera::validation {
 namespace {
-
-constexpr const char* kSoftware = "tessera";
-
-std::string firstLine(const std::string& text) {
-    return text.substr(0, text.find_first_of("\r\n"));
-}
-
-std::vector<std::uint8_t> encode(const char* format, const OIIO::ImageSpec& spec, const void* pixels) {
-    std::vector<std::uint8_t> bytes;
-    OIIO::Filesystem::IOVecOutput proxy(bytes);
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format, &proxy);
-    if (!output)
-        throw std::runtime_error(
-            fmt::format("this OpenImageIO cannot write {}: {}", format, firstLine(OIIO::geterror())));
-    if (!output->open(format, spec) || !output->write_image(spec.format, pixels) || !output->close())
-        throw std::runtime_error(fmt::format("cannot encode {}: {}", format, firstLine(output->geterror())));
-    return bytes;
-}
 
 void refuseWhatCannotBeCompared(const std::string& path, const scenes::PictureTags& tags) {
     if (tags.isCropped)
@@ -63,34 +41,6 @@ glm::vec4 texelAt(const scenes::Image& image, std::size_t index) {
 
 } // namespace
 
-void writeExr(const std::string& path, const Picture& picture) {
-    assert(picture.isConsistent());
-    std::vector<float> values = picture.rgba;
-    for (std::size_t i = 0; i < picture.pixelCount(); ++i) values[4 * i + 3] = picture.covered[i] ? 1.f : 0.f;
-
-    OIIO::ImageSpec spec(picture.width, picture.height, 4, OIIO::TypeDesc::FLOAT);
-    // ITU-R BT.709 red, green, blue and the D65 white, as x y pairs.
-    const float chromaticities[8] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
-    spec.attribute("compression", "zip");
-    spec.attribute("oiio:ColorSpace", "Linear");
-    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), chromaticities);
-    spec.attribute("Software", kSoftware);
-    spec.attribute("DateTime", ""); // left unset, the time of writing is added, and equal pictures give unequal files
-    writeFileAtomically(path, encode("exr", spec, values.data()));
-}
-
-std::vector<std::uint8_t> encodePng(const DisplayImage& image) {
-    assert(image.isConsistent());
-    OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("Software", kSoftware);
-    return encode("png", spec, image.rgb.data());
-}
-
-void writePng(const std::string& path, const DisplayImage& image) {
-    writeFileAtomically(path, encodePng(image));
-}
-
 Picture readPicture(const std::string& path, scenes::LoadLedger& ledger) {
     const std::uint64_t mark = ledger.usedBytes();
     const scenes::DecodedPicture decoded = scenes::readPicture(path, ledger);
@@ -111,7 +61,7 @@ Picture readPicture(const std::string& path, scenes::LoadLedger& ledger) {
             picture.rgba[4 * i + std::size_t(c)] =
                 decoded.tags.isLinear ? texel[c] : float(linearFromSrgb(double(texel[c])));
     }
-    const bool isOurs = decoded.tags.software == kSoftware;
+    const bool isOurs = decoded.tags.software == kPictureSoftware;
     if (!isOurs && std::ranges::find(picture.covered, 1) == picture.covered.end())
         std::ranges::fill(picture.covered, std::uint8_t{1});
     for (std::size_t i = 0; i < picture.pixelCount(); ++i) picture.rgba[4 * i + 3] = picture.covered[i] ? 1.f : 0.f;

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace tessera::validation {
+namespace tessera {
 
 /// Writes a whole file or nothing: the bytes go to a temporary file in the same folder, which then takes the name of
 /// `path`. When anything fails the temporary is removed, an earlier file of that name stays as it was, and
@@ -20,4 +20,4 @@ void requireWritable(const std::string& path);
 /// end the program; the writes themselves must not go on afterwards.
 void removeTemporaries() noexcept;
 
-} // namespace tessera::validation
+} // namespace tessera

@@ -1,4 +1,4 @@
-#include "validation/AtomicFile.h"
+#include "base/AtomicFile.h"
 
 #include <csignal>
 #include <fcntl.h>
@@ -11,11 +11,14 @@
 
 #include "tests/unit/validation/Samples.h"
 
-namespace tessera::validation {
+namespace tessera {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::StartsWith;
+using validation::errorOf;
+using validation::readText;
+using validation::TemporaryFolder;
 
 /// Makes every write beyond `bytes` of a file fail, as a full disk does, while it lives.
 class FileSizeLimit {
@@ -118,4 +121,4 @@ TEST(AtomicFile, permissionsOfTheOldFileAreAlwaysKept) {
 }
 
 } // namespace
-} // namespace tessera::validation
+} // namespace tessera

@@ -1,8 +1,8 @@
-#include "validation/Srgb.h"
+#include "base/Srgb.h"
 
 #include <cmath>
 
-namespace tessera::validation {
+namespace tessera {
 
 // The constants are those of IEC 61966-2-1:1999; below the threshold the curve is a straight line.
 double srgbFromLinear(double linear) {
@@ -13,4 +13,4 @@ double linearFromSrgb(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-} // namespace tessera::validation
+} // namespace tessera

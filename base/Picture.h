@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace tessera::validation {
+namespace tessera {
 
 /// What is compared: linear radiance, and where geometry was drawn.
 struct Picture {
@@ -31,4 +31,7 @@ struct DisplayImage {
     bool isConsistent() const { return width > 0 && height > 0 && rgb.size() == 3 * pixelCount(); }
 };
 
-} // namespace tessera::validation
+/// A linear picture as a display shows it without tone map: clamped, sRGB, 8 bits; for pictures that come from a file.
+DisplayImage toDisplayImage(const Picture& picture);
+
+} // namespace tessera

@@ -3,10 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "scenes/LoadLedger.h"
-#include "validation/Picture.h"
+#include "base/Picture.h"
 
-namespace tessera::validation {
+namespace tessera {
+
+/// What the Software field of written files says.
+inline constexpr const char* kPictureSoftware = "tessera";
 
 /// Writes a linear picture as OpenEXR: channels R, G, B, A in fp32, losslessly compressed, Rec.709 primaries, no
 /// transfer function; A holds the coverage (1 or 0) and is no premultiplication. Every bit of R, G and B survives, NaN,
@@ -20,11 +22,4 @@ void writePng(const std::string& path, const DisplayImage& image);
 /// The bytes of that PNG. Throws std::runtime_error when they cannot be made.
 std::vector<std::uint8_t> encodePng(const DisplayImage& image);
 
-/// Reads a picture of any format that textures may have (scenes/import/Importers.h) as linear radiance. Floating-point
-/// pixels are taken as they are; integer pixels are decoded from sRGB, unless the file declares itself linear. One
-/// channel is read as grey. Covered is where alpha > 0; everywhere when the file has no alpha, or when a file not
-/// written by Tessera has alpha 0 throughout. The ledger is charged for it. Throws InputError naming the file and what
-/// is wrong with it.
-Picture readPicture(const std::string& path, scenes::LoadLedger& ledger);
-
-} // namespace tessera::validation
+} // namespace tessera

@@ -1,4 +1,4 @@
-#include "scenes/Names.h"
+#include "base/Names.h"
 
 #include <array>
 
