@@ -14,7 +14,7 @@
 #include "apps/Version.h"
 #include "base/Error.h"
 #include "base/Names.h"
-#include "passes/recipes/ChooseSamples.h"
+#include "engine/ChooseSamples.h"
 #include "validation/ReferencePicture.h"
 #include "validation/bench/BenchReport.h"
 #include "validation/bench/MachineName.h"
@@ -175,7 +175,7 @@ int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     for (validation::PlannedGroup& group : run.plan.groups)
         for (validation::BenchPoint& point : group.points)
-            point.settings = recipes::settingsOn(context->capabilities(), point.settings);
+            point.settings = engine::settingsOn(context->capabilities(), point.settings);
     const validation::RunIdentity identity{validation::machineName(),
                                            context->capabilities().renderer,
                                            kCommit,

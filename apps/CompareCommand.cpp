@@ -12,7 +12,7 @@
 #include "base/Names.h"
 #include "base/OneLine.h"
 #include "base/PictureFile.h"
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 #include "validation/HeatMap.h"
 #include "validation/ReadPicture.h"
 #include "validation/ReferencePicture.h"
@@ -47,7 +47,7 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
 validation::Truth truthNamed(const std::string& name) {
     if (name == kReferenceName) return validation::Reference{};
     std::vector<std::string_view> names{kReferenceName};
-    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+    for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         if (info.name == name) return info.technique;
         names.push_back(info.name);
     }
@@ -64,20 +64,20 @@ Picture readBeside(const scenes::Scene& scene, const std::string& path, const Fr
 }
 
 /// Those asked for; else all but the truth that take the settings, the others to `leftOut`.
-std::vector<recipes::Technique> techniquesOf(const CompareOptions& options, const validation::Truth& against,
-                                             const frame::FrameSettings& settings,
-                                             std::vector<validation::LeftOutTechnique>& leftOut) {
-    const auto* truth = std::get_if<recipes::Technique>(&against);
-    if (truth) recipes::requireTaken({*truth, validation::settingsTakenBy(*truth, settings)});
-    std::vector<recipes::Technique> techniques;
+std::vector<engine::Technique> techniquesOf(const CompareOptions& options, const validation::Truth& against,
+                                            const frame::FrameSettings& settings,
+                                            std::vector<validation::LeftOutTechnique>& leftOut) {
+    const auto* truth = std::get_if<engine::Technique>(&against);
+    if (truth) engine::requireTaken({*truth, validation::settingsTakenBy(*truth, settings)});
+    std::vector<engine::Technique> techniques;
     const std::string asked =
         options.techniques.empty() ? options.frame.said("technique").value_or("") : options.techniques;
     if (!asked.empty()) {
         for (const std::string& name : splitAtCommas(asked)) {
-            const recipes::Technique technique = techniqueNamed(name);
+            const engine::Technique technique = techniqueNamed(name);
             if (std::find(techniques.begin(), techniques.end(), technique) != techniques.end())
                 throw InputError(fmt::format("--techniques {} names {} twice", options.techniques, name));
-            recipes::requireTaken({technique, validation::settingsHeededBy(technique, settings)});
+            engine::requireTaken({technique, validation::settingsHeededBy(technique, settings)});
             techniques.push_back(technique);
         }
         return techniques;
@@ -147,7 +147,7 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
     }
     if (!options.heatMaps.empty()) addHeatMaps(options, validation::pictureNames(request.scene, comparison), outputs);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
-    recipes::Renderer renderer(*context, request.scene);
+    engine::Renderer renderer(*context, request.scene);
     Progress progress("comparing", validation::stepCount(request.scene, comparison), global.quiet);
     comparison.renderedOne = [&progress] { progress.advance(); };
     validation::CompareResult result = validation::compareTechniques(renderer, context->capabilities(), comparison);

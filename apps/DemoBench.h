@@ -11,7 +11,7 @@ namespace tessera::app {
 struct DemoBenchRequest {
     const FrameOptions& options;
     const Request& request;
-    std::vector<recipes::Technique> techniques;
+    std::vector<engine::Technique> techniques;
     std::string folder; ///< of the demonstration
     const Outputs& outputs;
     bool quiet = false;

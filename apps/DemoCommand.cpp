@@ -10,8 +10,8 @@
 #include "apps/Outputs.h"
 #include "apps/Progress.h"
 #include "base/PictureFile.h"
-#include "passes/recipes/ChooseSamples.h"
-#include "passes/recipes/Renderer.h"
+#include "engine/ChooseSamples.h"
+#include "engine/Renderer.h"
 #include "renderer/graph/Plan.h"
 #include "validation/HeatMap.h"
 #include "validation/Measure.h"
@@ -26,7 +26,7 @@ namespace tessera::app {
 namespace {
 
 namespace fs = std::filesystem;
-using recipes::Technique;
+using engine::Technique;
 using validation::CompareResult;
 
 constexpr int kTimedFrames = 3;
@@ -108,8 +108,8 @@ validation::Report makeReport(const std::string& source, const Request& request,
     for (const Technique technique : result.techniques) {
         report.plans.push_back(
             {std::string(infoOf(technique).name),
-             graph::planText(recipes::planFrame(request.scene, technique,
-                                                validation::settingsTakenBy(technique, request.settings)))});
+             graph::planText(engine::planFrame(request.scene, technique,
+                                               validation::settingsTakenBy(technique, request.settings)))});
     }
     const validation::NamedPicture& truth = comparison.truth;
     report.pictures.push_back({truth.name, "the truth of every pair", truth.display});
@@ -155,7 +155,7 @@ void writePictures(const DemoFiles& files, const Outputs& outputs, const Request
         writePng(outputs.at(files.picture(picture.name)), picture.display);
 }
 
-CompareResult compared(recipes::Renderer& renderer, const gpu::Capabilities& gl, const Request& request,
+CompareResult compared(engine::Renderer& renderer, const gpu::Capabilities& gl, const Request& request,
                        const std::vector<Technique>& techniques, bool quiet) {
     validation::CompareRequest exact;
     exact.techniques.assign(techniques.begin() + 1, techniques.end());
@@ -180,7 +180,7 @@ int demo(const DemoOptions& options, const GlobalOptions& global) {
     requireFolderPlace(options.folder);
     Request request = resolve(options.frame);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
-    request.settings = recipes::settingsOn(context->capabilities(), request.settings);
+    request.settings = engine::settingsOn(context->capabilities(), request.settings);
     std::vector<validation::LeftOutTechnique> leftOut;
     DemoResult result;
     frame::FrameSettings sampled;
@@ -190,7 +190,7 @@ int demo(const DemoOptions& options, const GlobalOptions& global) {
     const DemoFiles files{options.folder};
     const Outputs outputs = outputsOf(files, request, result.techniques);
     {
-        recipes::Renderer renderer(*context, request.scene);
+        engine::Renderer renderer(*context, request.scene);
         result.comparison = compared(renderer, context->capabilities(), request, result.techniques, global.quiet);
         if (request.settings.samples > 1)
             result.ms = validation::frameMs(renderer, result.techniques, request.settings, kTimedFrames);

@@ -8,17 +8,17 @@ namespace tessera::app {
 namespace {
 
 /// Tiles and clusters answer input several times sooner than looping over all lights does.
-constexpr recipes::Technique kFirstTechnique = recipes::Technique::ClusteredDeferred;
+constexpr engine::Technique kFirstTechnique = engine::Technique::ClusteredDeferred;
 
 /// The options, with what is remembered where neither they nor the scene say anything.
 FrameOptions withRemembered(FrameOptions options, const viewer::Preferences& remembered,
                             const scenes::SceneOptions& wish) {
-    for (const recipes::Setting& setting : recipes::settingTable()) {
+    for (const engine::Setting& setting : engine::settingTable()) {
         const auto known = remembered.settings.find(setting.key);
         const bool isAsked = options.said(setting.key) || wish.wishes.contains(setting.key);
         if (!setting.isRemembered || isAsked || known == remembered.settings.end()) continue;
         try {
-            recipes::FrameRequest tried;
+            engine::FrameRequest tried;
             setting.read(tried, known->second);
             options.settings.insert(*known);
         } catch (const InputError& error) {
@@ -45,7 +45,7 @@ viewer::FirstLook firstLook(const FrameOptions& said, const viewer::Preferences&
 }
 
 FrameOptions forAnyScene(FrameOptions said) {
-    for (const recipes::Setting& setting : recipes::settingTable())
+    for (const engine::Setting& setting : engine::settingTable())
         if (setting.isOfScene) said.settings.erase(std::string(setting.key));
     said.pose = {};
     said.lights.reset();

@@ -6,10 +6,10 @@ namespace tessera::app {
 
 std::string frameOptionText(const FrameOptions& options) {
     std::string text;
-    for (const recipes::Setting& setting : recipes::settingTable()) {
+    for (const engine::Setting& setting : engine::settingTable()) {
         const auto said = options.said(setting.key);
         if (!said) continue;
-        recipes::FrameRequest request;
+        engine::FrameRequest request;
         if (!setting.isOfScene) setting.read(request, *said); // so that 1.0 and 1 are the same command
         text += fmt::format(" {} {}", setting.flag, shellWord(setting.isOfScene ? *said : setting.text(request)));
     }

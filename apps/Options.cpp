@@ -54,15 +54,15 @@ std::uint64_t bytesNamed(const std::string& text) {
 }
 
 /// As the command line calls a setting.
-recipes::TextSource fromCommandLine(const recipes::Setting& setting, const scenes::Scene* scene = nullptr) {
+engine::TextSource fromCommandLine(const engine::Setting& setting, const scenes::Scene* scene = nullptr) {
     return {setting.flag, scene};
 }
 
 void addSettings(CLI::App& command, FrameOptions& options, std::string_view group) {
-    for (const recipes::Setting& setting : recipes::settingTable()) {
+    for (const engine::Setting& setting : engine::settingTable()) {
         if (setting.group != group) continue;
         const std::string byItself =
-            setting.byItself.empty() ? setting.text(recipes::FrameRequest()) : std::string(setting.byItself);
+            setting.byItself.empty() ? setting.text(engine::FrameRequest()) : std::string(setting.byItself);
         const auto say = [&options, &setting](const std::string& text) {
             options.settings.insert_or_assign(std::string(setting.key), text);
         };
@@ -165,8 +165,8 @@ void placeCamera(const FrameOptions& options, scenes::Scene& scene) {
     const std::optional<std::string> said = options.said("camera");
     if (!said && options.pose == scenes::CameraChange()) return;
     const std::optional<std::string>& name = said ? said : scene.options.camera;
-    recipes::FrameRequest request;
-    if (name) recipes::settingOf("camera").read(request, *name, {{}, &scene});
+    engine::FrameRequest request;
+    if (name) engine::settingOf("camera").read(request, *name, {{}, &scene});
     scenes::Camera& camera = scene.cameras[std::size_t(request.settings.camera)];
     camera = scenes::changedCamera(camera, options.pose);
     scenes::aimDefaultLight(scene, camera);
@@ -174,16 +174,16 @@ void placeCamera(const FrameOptions& options, scenes::Scene& scene) {
 
 Request resolveWithoutScene(const FrameOptions& options) {
     Request request;
-    for (const recipes::Setting& setting : recipes::settingTable())
+    for (const engine::Setting& setting : engine::settingTable())
         if (const auto text = options.said(setting.key)) setting.read(request, *text, fromCommandLine(setting));
     if (options.memoryLimit) bytesNamed(*options.memoryLimit);
     return request;
 }
 
 void resolveForScene(const FrameOptions& options, Request& request) {
-    const auto isSaid = [&](const recipes::Setting& setting) { return options.said(setting.key).has_value(); };
-    recipes::takeWishes(request.scene, options.scene, request, isSaid);
-    for (const recipes::Setting& setting : recipes::settingTable())
+    const auto isSaid = [&](const engine::Setting& setting) { return options.said(setting.key).has_value(); };
+    engine::takeWishes(request.scene, options.scene, request, isSaid);
+    for (const engine::Setting& setting : engine::settingTable())
         if (const auto text = setting.isOfScene ? options.said(setting.key) : std::nullopt)
             setting.read(request, *text, fromCommandLine(setting, &request.scene));
 }
@@ -197,15 +197,15 @@ Request resolve(const FrameOptions& options) {
     return request;
 }
 
-recipes::Technique techniqueNamed(const std::string& name) {
-    recipes::FrameRequest request;
-    recipes::settingOf("technique").read(request, name);
+engine::Technique techniqueNamed(const std::string& name) {
+    engine::FrameRequest request;
+    engine::settingOf("technique").read(request, name);
     return request.technique;
 }
 
 glm::ivec2 sizeNamed(const std::string& flag, const std::string& text) {
-    recipes::FrameRequest request;
-    recipes::settingOf("size").read(request, text, {flag, nullptr});
+    engine::FrameRequest request;
+    engine::settingOf("size").read(request, text, {flag, nullptr});
     return request.settings.sizePixels;
 }
 

@@ -8,7 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "passes/recipes/Settings.h"
+#include "engine/Settings.h"
 #include "renderer/gpu/Context.h"
 #include "scenes/CameraChange.h"
 #include "scenes/Load.h"
@@ -45,7 +45,7 @@ void addFrameSettings(CLI::App& command, FrameOptions& options);
 void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string& defaultScene);
 
 /// A scene and how to look at it.
-struct Request : recipes::FrameRequest {
+struct Request : engine::FrameRequest {
     scenes::Scene scene;
     std::vector<std::string> files; ///< that the scene was read from
 };
@@ -65,7 +65,7 @@ Request resolve(const FrameOptions& options);
 /// How loadScene() is asked for the scene. Throws InputError.
 scenes::LoadOptions loadOptionsOf(const FrameOptions& options);
 
-recipes::Technique techniqueNamed(const std::string& name);
+engine::Technique techniqueNamed(const std::string& name);
 glm::ivec2 sizeNamed(const std::string& flag, const std::string& text);
 
 } // namespace tessera::app

@@ -3,8 +3,8 @@
 #include "apps/Commands.h"
 #include "apps/Outputs.h"
 #include "base/Error.h"
-#include "passes/recipes/ChooseSamples.h"
-#include "passes/recipes/Renderer.h"
+#include "engine/ChooseSamples.h"
+#include "engine/Renderer.h"
 #include "validation/Measure.h"
 
 namespace tessera::app {
@@ -29,15 +29,15 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
     Outputs outputs({options.json, options.dot});
     Request request = resolve(options.frame);
     outputs.reads(request.files);
-    recipes::requireTaken(request);
+    engine::requireTaken(request);
     std::unique_ptr<gpu::Context> context;
     if (options.measure) {
         context = makeContext(global);
-        request.settings = recipes::settingsOn(context->capabilities(), request.settings);
+        request.settings = engine::settingsOn(context->capabilities(), request.settings);
     }
-    graph::Plan plan = recipes::planFrame(request.scene, request.technique, request.settings);
+    graph::Plan plan = engine::planFrame(request.scene, request.technique, request.settings);
     if (context) {
-        recipes::Renderer renderer(*context, request.scene);
+        engine::Renderer renderer(*context, request.scene);
         validation::measurePlan(plan, renderer, request.technique, request.settings);
     }
     if (!options.json.empty()) outputs.write(options.json, graph::planJson(plan));

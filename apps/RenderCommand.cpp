@@ -16,9 +16,9 @@
 #include "base/Extension.h"
 #include "base/OneLine.h"
 #include "base/PictureFile.h"
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
+#include "engine/Rendering.h"
 #include "validation/ReferencePicture.h"
-#include "validation/Rendering.h"
 #include "validation/ShownPicture.h"
 
 namespace tessera::app {
@@ -36,9 +36,9 @@ struct RenderOptions {
 };
 
 /// `path` is one of the outputs.
-void writePicture(const std::string& path, const Request& request, const recipes::RenderedFrame& frame) {
+void writePicture(const std::string& path, const Request& request, const engine::RenderedFrame& frame) {
     if (extensionOf(path) == ".exr") {
-        writeExr(path, validation::toPicture(frame));
+        writeExr(path, engine::toPicture(frame));
     } else {
         writePng(path, validation::shownPicture(frame, request.scene.name, request.technique, request.settings.view));
     }
@@ -144,15 +144,15 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
         renderReference(options, outputs, request, global);
         return kGood;
     }
-    recipes::requireTaken(request);
+    engine::requireTaken(request);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
-    recipes::Renderer renderer(*context, request.scene);
+    engine::Renderer renderer(*context, request.scene);
     request.settings.display = extensionOf(options.output) != ".exr";
     // One picture is soon made.
     Progress progress("rendering", std::size_t(options.frames.value_or(1)), global.quiet || !options.frames);
     bool hasWarned = false;
     makePictures(options, outputs, request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
-        const recipes::RenderedFrame picture = renderer.render(request.technique, one);
+        const engine::RenderedFrame picture = renderer.render(request.technique, one);
         warnWhereEmpty(path, request.scene, picture.radiance, hasWarned);
         writePicture(path, request, picture);
         progress.advance();

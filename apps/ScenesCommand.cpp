@@ -23,9 +23,9 @@ int listScenes() {
 
 using Json = nlohmann::ordered_json;
 
-Json schemaOf(const recipes::ChoiceKind& kind) {
+Json schemaOf(const engine::ChoiceKind& kind) {
     Json names = Json::array();
-    for (const recipes::ChoiceKind::Entry& entry : kind.entries) {
+    for (const engine::ChoiceKind::Entry& entry : kind.entries) {
         if (kind.ofNumbers)
             names.push_back(std::stoi(entry.name));
         else
@@ -34,23 +34,23 @@ Json schemaOf(const recipes::ChoiceKind& kind) {
     return {{"enum", std::move(names)}};
 }
 
-Json schemaOf(const recipes::NumberKind& kind) {
+Json schemaOf(const engine::NumberKind& kind) {
     Json schema{{"type", kind.isWhole ? "integer" : "number"}};
     if (std::isfinite(kind.least)) schema["minimum"] = kind.least;
     if (std::isfinite(kind.most)) schema["maximum"] = kind.most;
     return schema;
 }
 
-Json schemaOf(const recipes::SwitchKind&) {
+Json schemaOf(const engine::SwitchKind&) {
     return {{"type", "boolean"}};
 }
 
-Json schemaOf(const recipes::SizeKind&) {
+Json schemaOf(const engine::SizeKind&) {
     const Json side{{"type", "integer"}, {"minimum", 1}, {"maximum", frame::kLargestSidePixels}};
     return {{"type", "array"}, {"items", side}, {"minItems", 2}, {"maxItems", 2}};
 }
 
-Json schemaOf(const recipes::CameraKind&) {
+Json schemaOf(const engine::CameraKind&) {
     return {{"$ref", "#/definitions/name"}};
 }
 
@@ -58,7 +58,7 @@ Json schemaOf(const recipes::CameraKind&) {
 int printSchema() {
     Json schema = Json::parse(scenes::sceneSchema());
     Json& options = schema["definitions"]["options"];
-    for (const recipes::Setting& setting : recipes::settingTable()) {
+    for (const engine::Setting& setting : engine::settingTable()) {
         if (!setting.isWishable) continue;
         Json own = std::visit([](const auto& kind) { return schemaOf(kind); }, setting.value.kind);
         if (!setting.value.open.empty()) own = {{"anyOf", {std::move(own), {{"const", setting.value.open}}}}};

@@ -30,10 +30,10 @@ std::vector<const validation::StressCase*> casesOf(const StressOptions& options)
     return cases;
 }
 
-std::vector<recipes::Technique> techniquesOf(const StressOptions& options) {
-    std::vector<recipes::Technique> techniques;
+std::vector<engine::Technique> techniquesOf(const StressOptions& options) {
+    std::vector<engine::Technique> techniques;
     if (options.techniques.empty())
-        for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) techniques.push_back(info.technique);
+        for (const engine::TechniqueInfo& info : engine::techniqueTable()) techniques.push_back(info.technique);
     std::string names = options.techniques;
     while (!names.empty()) {
         const std::size_t end = std::min(names.find(','), names.size());

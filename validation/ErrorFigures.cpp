@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
+#include "engine/Rendering.h"
 #include "validation/Percentile.h"
 #include "validation/PixelErrors.h"
-#include "validation/Rendering.h"
 
 namespace tessera::validation {
 namespace {

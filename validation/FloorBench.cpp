@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "passes/recipes/PrepareView.h"
+#include "engine/PrepareView.h"
 #include "validation/FloorLights.h"
 #include "validation/TimeSamples.h"
 
@@ -22,13 +22,13 @@ std::optional<double> FloorFigures::floorMs(double evaluations) const {
     return geometryMs + evaluations * store->nsPerPair * 1e-6;
 }
 
-FloorBench::FloorBench(recipes::Renderer& renderer, const frame::FrameSettings& settings)
+FloorBench::FloorBench(engine::Renderer& renderer, const frame::FrameSettings& settings)
     : sizePixels_(settings.sizePixels), stores_(lightStores(gpu::Context::current()->capabilities())),
       geometry_(renderer, settings) {
     frame::FrameSettings lit = settings;
     lit.culling = {};
     lit.view = frame::View::Final;
-    const frame::PreparedView frame = recipes::prepareView(renderer.scene(), recipes::Technique::Forward, lit);
+    const frame::PreparedView frame = engine::prepareView(renderer.scene(), engine::Technique::Forward, lit);
     if (!frame.spec.features.litModels() || frame.lights.texels.empty()) return;
     lighting_.emplace(renderer.programs(), frame.spec);
     few_ = floorLights(frame.lights, kFewLights);

@@ -45,7 +45,7 @@ public:
     static constexpr int kLeastRounds = 5;
 
     /// The renderer must outlive the object. Throws InputError as Renderer::draw does.
-    FloorBench(recipes::Renderer& renderer, const frame::FrameSettings& settings);
+    FloorBench(engine::Renderer& renderer, const frame::FrameSettings& settings);
 
     /// How many kinds of frame the floor of a lit scene takes: the geometry, and two numbers of lights in each store.
     static std::size_t kindsOf(std::span<const LightStoreInfo> stores);

@@ -1,6 +1,6 @@
 #include "validation/FloorGeometry.h"
 
-#include "passes/recipes/PrepareView.h"
+#include "engine/PrepareView.h"
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/slots.h"
 
@@ -8,9 +8,9 @@ namespace tessera::validation {
 
 namespace {
 
-frame::FrameSpec specOf(const recipes::Renderer& renderer, frame::FrameSettings settings) {
+frame::FrameSpec specOf(const engine::Renderer& renderer, frame::FrameSettings settings) {
     settings.culling = {}; // nothing is lit, and Forward takes no lists
-    return recipes::prepareView(renderer.scene(), recipes::Technique::Forward, settings).spec;
+    return engine::prepareView(renderer.scene(), engine::Technique::Forward, settings).spec;
 }
 
 /// Uploads values into a buffer that is made anew only where they do not fit.
@@ -27,7 +27,7 @@ shader::ProgramDesc FloorGeometry::program(const frame::FrameSpec& spec) {
     return frame::frameProgram(spec, "constant", "passes/geometry.vert", "passes/constant.frag", {{"DEPTH_ONLY", "1"}});
 }
 
-FloorGeometry::FloorGeometry(recipes::Renderer& renderer, const frame::FrameSettings& settings)
+FloorGeometry::FloorGeometry(engine::Renderer& renderer, const frame::FrameSettings& settings)
     : renderer_(renderer), spec_(specOf(renderer, settings)),
       constants_("floor view", sizeof(shared::ViewConstants), gpu::BufferUse::Dynamic),
       value_("floor value", spec_.texture(graph::Format::Rgba32Float)),
@@ -37,7 +37,7 @@ void FloorGeometry::draw(const glm::dvec3& eyeOffsetWS) {
     frame::FrameSettings settings = spec_.settings;
     settings.eyeOffsetWS += eyeOffsetWS;
     const frame::CameraView view =
-        frame::makeCameraView(recipes::frameCamera(renderer_.scene(), settings), settings.sizePixels, settings.space,
+        frame::makeCameraView(engine::frameCamera(renderer_.scene(), settings), settings.sizePixels, settings.space,
                               glm::vec3(0.0f), renderer_.bounds());
     const frame::SceneGpu& scene = renderer_.sceneGpu(spec_);
     const frame::ViewDraws draws = frame::makeViewDraws(scene.drawList(), view, spec_.settings.prune);

@@ -1,5 +1,5 @@
 #pragma once
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 #include "renderer/gpu/Framebuffer.h"
 
 namespace tessera::validation {
@@ -11,7 +11,7 @@ namespace tessera::validation {
 class FloorGeometry {
 public:
     /// The renderer must outlive the object. Throws InputError as Renderer::draw does.
-    FloorGeometry(recipes::Renderer& renderer, const frame::FrameSettings& settings);
+    FloorGeometry(engine::Renderer& renderer, const frame::FrameSettings& settings);
 
     /// The view's constants and draws are uploaded anew for every frame.
     void draw(const glm::dvec3& eyeOffsetWS);
@@ -21,7 +21,7 @@ public:
     static shader::ProgramDesc program(const frame::FrameSpec& spec);
 
 private:
-    recipes::Renderer& renderer_;
+    engine::Renderer& renderer_;
     frame::FrameSpec spec_;
     gpu::Buffer constants_;
     std::optional<gpu::Buffer> rows_, commands_; ///< of the latest frame's draws

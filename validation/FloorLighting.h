@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 #include "renderer/gpu/Capabilities.h"
 #include "renderer/gpu/Framebuffer.h"
 #include "shaders/shared/light.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 #include "validation/Interleave.h"
 #include "validation/TimeSamples.h"
 
@@ -13,8 +13,8 @@ namespace tessera::validation {
 
 /// One frame to time. Points of several scenes have a renderer each, all on one context.
 struct TimedPoint {
-    recipes::Renderer* renderer = nullptr;
-    recipes::Technique technique = recipes::Technique::Forward;
+    engine::Renderer* renderer = nullptr;
+    engine::Technique technique = engine::Technique::Forward;
     frame::FrameSettings settings;
 };
 

@@ -237,8 +237,8 @@ std::vector<std::uint8_t> litPixels(const scenes::Scene& scene, const frame::Fra
     counted.culling = {};
     counted.lightOn.reset();
     counted.soloLight.reset();
-    recipes::Renderer renderer(*gpu::Context::current(), opaque);
-    const recipes::RenderedFrame frame = renderer.render(recipes::Technique::Forward, counted);
+    engine::Renderer renderer(*gpu::Context::current(), opaque);
+    const engine::RenderedFrame frame = renderer.render(engine::Technique::Forward, counted);
     const std::vector<float> counts = flippedRows(frame.radiance, frame.width, frame.height);
     std::vector<std::uint8_t> lit(counts.size() / 4);
     for (std::size_t i = 0; i < lit.size(); ++i) lit[i] = counts[4 * i] > 0.0f ? 1 : 0;
@@ -275,15 +275,15 @@ LightOracleFigures judgeLights(const OracleInput& input) {
     return sum.figures;
 }
 
-LightOracleFigures judgeLights(recipes::Renderer& renderer, recipes::Technique technique,
+LightOracleFigures judgeLights(engine::Renderer& renderer, engine::Technique technique,
                                const frame::FrameSettings& settings) {
     renderer.draw(technique, settings);
-    const recipes::DrawnLists drawn = renderer.downloadLists();
+    const engine::DrawnLists drawn = renderer.downloadLists();
     const std::vector<float> depth = renderer.downloadDepth();
     frame::FrameSettings normals = settings;
     normals.view = frame::View::Normal;
     normals.culling = {};
-    const recipes::RenderedFrame frame = renderer.render(recipes::Technique::Deferred, normals);
+    const engine::RenderedFrame frame = renderer.render(engine::Technique::Deferred, normals);
     const std::vector<float> normalWS = flippedRows(frame.radiance, frame.width, frame.height);
     const std::vector<std::uint8_t> lit = litPixels(renderer.scene(), settings);
     return judgeLights({renderer.scene(), settings, drawn, depth, normalWS, SurfaceLayer::Opaque, lit});

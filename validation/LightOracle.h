@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 #include "validation/CellLights.h"
 
 /// The judge of light culling: which lights each pixel needs, found by trying all of them, and which it visited. In
@@ -41,7 +41,7 @@ struct LightOracleFigures {
 struct OracleInput {
     const scenes::Scene& scene;
     frame::FrameSettings settings;
-    const recipes::DrawnLists& drawn;
+    const engine::DrawnLists& drawn;
     std::span<const float> depth;                  ///< of the surfaces to judge, reverse-Z, one a pixel; 0: no surface
     std::span<const float> normalWS;               ///< RGBA a pixel; empty: neededLit is not counted
     SurfaceLayer layer = SurfaceLayer::Opaque;     ///< that the surfaces belong to
@@ -51,7 +51,7 @@ LightOracleFigures judgeLights(const OracleInput& input);
 
 /// Draws the frame and judges its opaque surfaces. Works on all cores; a million pixels and a thousand lights take some
 /// seconds.
-LightOracleFigures judgeLights(recipes::Renderer& renderer, recipes::Technique technique,
+LightOracleFigures judgeLights(engine::Renderer& renderer, engine::Technique technique,
                                const frame::FrameSettings& settings);
 
 } // namespace tessera::validation

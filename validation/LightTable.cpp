@@ -10,11 +10,11 @@ namespace tessera::validation {
 namespace {
 
 using culling::Method;
-using recipes::Technique;
+using engine::Technique;
 
 /// The deferred technique that takes a method.
 Technique deferredTechnique(Method method) {
-    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+    for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
         const bool takes = std::ranges::find(technique.methods, method) != technique.methods.end();
         if (technique.usesGBuffer() && takes) return technique.technique;
     }
@@ -39,7 +39,7 @@ std::string rowText(const LightTableRow& row) {
 
 } // namespace
 
-std::vector<LightTableRow> judgeCulling(recipes::Renderer& renderer, const frame::FrameSettings& settings,
+std::vector<LightTableRow> judgeCulling(engine::Renderer& renderer, const frame::FrameSettings& settings,
                                         std::span<const int> tileSides) {
     std::vector<LightTableRow> rows;
     frame::FrameSettings asked = settings;

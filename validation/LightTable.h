@@ -16,7 +16,7 @@ struct LightTableRow {
 
 /// Judges every method at every tile side, and first `none`, all with deferred techniques. Of `settings`, only those of
 /// culling are not used. Throws what drawing throws.
-std::vector<LightTableRow> judgeCulling(recipes::Renderer& renderer, const frame::FrameSettings& settings,
+std::vector<LightTableRow> judgeCulling(engine::Renderer& renderer, const frame::FrameSettings& settings,
                                         std::span<const int> tileSides = culling::kTileSides);
 
 /// The rows as a table of ASCII characters under a line that says what the frame needs, each line ending in a newline.

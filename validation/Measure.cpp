@@ -20,7 +20,7 @@ struct ProfiledTimes {
     std::map<std::string, std::vector<double>> passMs;
 };
 
-void drawProfiled(recipes::Renderer& renderer, recipes::Technique technique, const frame::FrameSettings& settings,
+void drawProfiled(engine::Renderer& renderer, engine::Technique technique, const frame::FrameSettings& settings,
                   ProfiledTimes* times) {
     renderer.draw(technique, settings);
     if (!times) return;
@@ -34,10 +34,10 @@ void drawProfiled(recipes::Renderer& renderer, recipes::Technique technique, con
 }
 
 /// What the light lists of the frame as planned took.
-void fillInLists(graph::Plan& plan, recipes::Renderer& renderer, recipes::Technique technique,
+void fillInLists(graph::Plan& plan, engine::Renderer& renderer, engine::Technique technique,
                  const frame::FrameSettings& settings) {
     renderer.draw(technique, settings);
-    const recipes::DrawnLists drawn = renderer.downloadLists();
+    const engine::DrawnLists drawn = renderer.downloadLists();
     if (drawn.culling.method == culling::Method::None) return;
     const auto bytesOf = [](const auto& values) { return values.size() * sizeof(values[0]); };
     for (graph::Plan::Resource& resource : plan.resources) {
@@ -50,7 +50,7 @@ void fillInLists(graph::Plan& plan, recipes::Renderer& renderer, recipes::Techni
 
 } // namespace
 
-void measurePlan(graph::Plan& plan, recipes::Renderer& renderer, recipes::Technique technique,
+void measurePlan(graph::Plan& plan, engine::Renderer& renderer, engine::Technique technique,
                  const frame::FrameSettings& settings) {
     frame::FrameSettings whole = settings;
     whole.prune = false;
@@ -72,16 +72,16 @@ void measurePlan(graph::Plan& plan, recipes::Renderer& renderer, recipes::Techni
                                 truncation.technique + " measured against itself without a tolerance"});
     }
     if (!settings.prune || plan.leftOut.empty()) return;
-    const std::size_t wholeBytes = recipes::planFrame(renderer.scene(), technique, whole).bytes;
+    const std::size_t wholeBytes = engine::planFrame(renderer.scene(), technique, whole).bytes;
     plan.leftOut.push_back({"all of these together", "measured against prune = off",
                             wholeBytes - std::min(wholeBytes, plan.bytes),
                             spreadOf(unpruned.totalMs).median - spreadOf(asPlanned.totalMs).median});
 }
 
-std::vector<double> frameMs(recipes::Renderer& renderer, const std::vector<recipes::Technique>& techniques,
+std::vector<double> frameMs(engine::Renderer& renderer, const std::vector<engine::Technique>& techniques,
                             const frame::FrameSettings& settings, int frames) {
     std::vector<TimedFrame> kinds;
-    for (const recipes::Technique technique : techniques) {
+    for (const engine::Technique technique : techniques) {
         kinds.emplace_back([&renderer, &settings, technique](const glm::dvec3& eyeOffsetWS) {
             frame::FrameSettings moved = settings;
             moved.eyeOffsetWS += eyeOffsetWS;

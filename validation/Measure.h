@@ -1,5 +1,5 @@
 #pragma once
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 #include "renderer/graph/Plan.h"
 
 namespace tessera::validation {
@@ -8,12 +8,12 @@ namespace tessera::validation {
 /// have cost, the difference to frames with prune = off, drawn in turn with them. The bytes of light
 /// lists, which are counted while a frame runs, are filled in too, and their entries become a counter. With a range
 /// tolerance also adds what light it drops, as a choice.
-void measurePlan(graph::Plan& plan, recipes::Renderer& renderer, recipes::Technique technique,
+void measurePlan(graph::Plan& plan, engine::Renderer& renderer, engine::Technique technique,
                  const frame::FrameSettings& settings);
 
 /// Median wall time in milliseconds of a whole frame by each technique, from its first call to the return of glFinish.
 /// The techniques take turns, so that a machine that changes its pace treats all alike.
-std::vector<double> frameMs(recipes::Renderer& renderer, const std::vector<recipes::Technique>& techniques,
+std::vector<double> frameMs(engine::Renderer& renderer, const std::vector<engine::Technique>& techniques,
                             const frame::FrameSettings& settings, int frames);
 
 } // namespace tessera::validation

@@ -1,10 +1,10 @@
 #include "validation/RangeTruncation.h"
 
-#include "validation/Rendering.h"
+#include "engine/Rendering.h"
 
 namespace tessera::validation {
 
-RangeTruncation rangeTruncation(recipes::Renderer& renderer, recipes::Technique technique,
+RangeTruncation rangeTruncation(engine::Renderer& renderer, engine::Technique technique,
                                 frame::FrameSettings settings) {
     settings.view = frame::View::Final;
     const double tolerance = settings.rangeTolerance;

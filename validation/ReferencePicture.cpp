@@ -5,14 +5,14 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
-#include "passes/recipes/PrepareView.h"
+#include "engine/PrepareView.h"
 
 namespace tessera::validation {
 
 reference::Settings referenceSettings(const scenes::Scene& scene, const frame::FrameSettings& settings) {
     reference::Settings result;
     result.sizePixels = settings.sizePixels;
-    result.camera = recipes::frameCamera(scene, settings);
+    result.camera = engine::frameCamera(scene, settings);
     result.timeSeconds = settings.timeSeconds;
     result.soloLight = settings.soloLight;
     result.specular = settings.specular;
@@ -35,7 +35,7 @@ void requireReferenceTakes(const frame::FrameSettings& settings) {
 ReferencePicture referencePicture(const scenes::Scene& scene, const frame::FrameSettings& settings,
                                   const std::function<void()>& rowDone, bool leeway) {
     requireReferenceTakes(settings);
-    recipes::prepareView(scene, recipes::Technique::Forward, settings); // names what the scene lacks
+    engine::prepareView(scene, engine::Technique::Forward, settings); // names what the scene lacks
     reference::Settings wanted = referenceSettings(scene, settings);
     wanted.leeway = leeway;
     reference::Rendered rendered = reference::render(scene, wanted, rowDone);

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/Picture.h"
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 #include "validation/Tolerance.h"
 #include "validation/reference/Render.h"
 

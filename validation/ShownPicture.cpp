@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/Rendering.h"
 #include "validation/HeatMap.h"
-#include "validation/Rendering.h"
 
 namespace tessera::validation {
 namespace {
@@ -25,8 +25,8 @@ std::string countTitle(const std::string& counted, const std::string& of, const 
 
 } // namespace
 
-DisplayImage shownPicture(const recipes::RenderedFrame& frame, const std::string& sceneName,
-                          recipes::Technique technique, frame::View view) {
+DisplayImage shownPicture(const engine::RenderedFrame& frame, const std::string& sceneName, engine::Technique technique,
+                          frame::View view) {
     const std::string of = fmt::format("{}, {}", sceneName, infoOf(technique).name);
     const Picture picture = toPicture(frame);
     switch (view) {

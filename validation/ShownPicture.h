@@ -2,13 +2,13 @@
 #include <string>
 
 #include "base/Picture.h"
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 
 namespace tessera::validation {
 
 /// A rendered frame as it is saved to be looked at: what its display pass made of it, and of views that need one a
 /// picture with a title and a legend.
-DisplayImage shownPicture(const recipes::RenderedFrame& frame, const std::string& sceneName,
-                          recipes::Technique technique, frame::View view);
+DisplayImage shownPicture(const engine::RenderedFrame& frame, const std::string& sceneName, engine::Technique technique,
+                          frame::View view);
 
 } // namespace tessera::validation

@@ -150,13 +150,13 @@ std::vector<Loss> lossesAt(const Ids& shown, const Layers& truth) {
     return losses;
 }
 
-std::vector<Ids> drawnIds(recipes::Renderer& renderer, const frame::FrameSettings& settings) {
+std::vector<Ids> drawnIds(engine::Renderer& renderer, const frame::FrameSettings& settings) {
     frame::FrameSettings view = settings;
     view.view = frame::View::Ids;
     view.display = false;
     view.culling = {};
     view.lightOn.reset();
-    const std::vector<float> drawn = renderer.render(recipes::Technique::Forward, view).radiance;
+    const std::vector<float> drawn = renderer.render(engine::Technique::Forward, view).radiance;
     std::vector<Ids> ids(drawn.size() / 4);
     for (std::size_t i = 0; i < ids.size(); ++i)
         ids[i] = {drawnId(drawn[4 * i]), drawnId(drawn[4 * i + 1]), drawnId(drawn[4 * i + 2])};
@@ -165,7 +165,7 @@ std::vector<Ids> drawnIds(recipes::Renderer& renderer, const frame::FrameSetting
 
 } // namespace
 
-ShownTriangles shownTriangles(recipes::Renderer& renderer, const frame::FrameSettings& settings,
+ShownTriangles shownTriangles(engine::Renderer& renderer, const frame::FrameSettings& settings,
                               const std::vector<Ids>& ids) {
     const std::vector<Ids> shown = drawnIds(renderer, settings);
     std::vector<Ids> truth(ids.size());

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 #include "validation/LostGeometry.h"
 #include "validation/reference/Render.h"
 
@@ -29,7 +29,7 @@ inline constexpr double kEdgeShiftPixels = 1.0 / 128.0;
 /// texture, the surface with the hole and without it both count as met. Of several triangles in one place any may be
 /// shown: the reference has the radiance of each, and the pixel is compared.
 /// Draws the view `ids`, which is the same for every technique. `ids`: of the reference's picture of these settings.
-ShownTriangles shownTriangles(recipes::Renderer& renderer, const frame::FrameSettings& settings,
+ShownTriangles shownTriangles(engine::Renderer& renderer, const frame::FrameSettings& settings,
                               const std::vector<reference::Ids>& ids);
 
 } // namespace tessera::validation

@@ -6,21 +6,21 @@
 
 #include <fmt/format.h>
 
-#include "passes/recipes/ChooseSamples.h"
-#include "passes/recipes/Settings.h"
+#include "engine/ChooseSamples.h"
+#include "engine/Rendering.h"
+#include "engine/Settings.h"
 #include "validation/RangeTruncation.h"
 #include "validation/ReferencePicture.h"
-#include "validation/Rendering.h"
 #include "validation/ShownTriangles.h"
 
 namespace tessera::validation {
 
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
-NamedPicture rendered(recipes::Renderer& renderer, Technique technique, const frame::FrameSettings& settings) {
-    const recipes::RenderedFrame frame = renderer.render(technique, settingsTakenBy(technique, settings));
+NamedPicture rendered(engine::Renderer& renderer, Technique technique, const frame::FrameSettings& settings) {
+    const engine::RenderedFrame frame = renderer.render(technique, settingsTakenBy(technique, settings));
     return {std::string(infoOf(technique).name), toPicture(frame), toDisplayImage(frame)};
 }
 
@@ -43,7 +43,7 @@ struct TruthPicture {
     }
 };
 
-TruthPicture referenceTruth(recipes::Renderer& renderer, const frame::FrameSettings& settings,
+TruthPicture referenceTruth(engine::Renderer& renderer, const frame::FrameSettings& settings,
                             const std::function<void()>& rowDone) {
     TruthPicture truth;
     truth.reference = referencePicture(renderer.scene(), settings, rowDone);
@@ -52,7 +52,7 @@ TruthPicture referenceTruth(recipes::Renderer& renderer, const frame::FrameSetti
     return truth;
 }
 
-TruthPicture truthPicture(recipes::Renderer& renderer, const CompareRequest& request) {
+TruthPicture truthPicture(engine::Renderer& renderer, const CompareRequest& request) {
     if (isReference(request)) return referenceTruth(renderer, request.settings, request.renderedOne);
     if (const auto* technique = std::get_if<Technique>(&request.against)) {
         TruthPicture truth{rendered(renderer, *technique, request.settings), {}, {}};
@@ -70,14 +70,14 @@ bool measuresTruncation(const CompareRequest& request) {
            (std::holds_alternative<Technique>(request.against) || !request.techniques.empty());
 }
 
-RangeTruncation truncationOf(recipes::Renderer& renderer, const CompareRequest& request) {
+RangeTruncation truncationOf(engine::Renderer& renderer, const CompareRequest& request) {
     const auto* truth = std::get_if<Technique>(&request.against);
     const Technique technique = truth ? *truth : request.techniques.front();
     return rangeTruncation(renderer, technique, settingsTakenBy(technique, request.settings));
 }
 
 /// How the frame just drawn found its lights.
-std::string cullingText(const recipes::Renderer& renderer) {
+std::string cullingText(const engine::Renderer& renderer) {
     const culling::Choice choice = renderer.downloadLists().culling;
     if (choice.method == culling::Method::None) return {};
     return fmt::format("{}, tile {}, lists built by {}", infoOf(choice.method).name, choice.tilePixels,
@@ -97,7 +97,7 @@ std::optional<std::size_t> equalPicture(const CompareResult& result, const Compa
 }
 
 /// The error that each stored channel causes: what is left of the pair's relMse when that channel alone is fp32.
-std::vector<ChannelShare> channelShares(recipes::Renderer& renderer, const CompareRequest& request, Technique technique,
+std::vector<ChannelShare> channelShares(engine::Renderer& renderer, const CompareRequest& request, Technique technique,
                                         const TruthPicture& truth, double relMse) {
     std::vector<ChannelShare> shares;
     const frame::FeatureSet features =
@@ -113,7 +113,7 @@ std::vector<ChannelShare> channelShares(recipes::Renderer& renderer, const Compa
 }
 
 /// What a technique is held to, with a layout, against what the request asks for.
-Tolerance toleranceOf(const recipes::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
+Tolerance toleranceOf(const engine::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
                       Technique technique, const frame::GBufferLayout& layout) {
     const bool quantises = infoOf(technique).usesGBuffer() && isPacked(layout);
     if (isReference(request) && !quantises) return referenceTolerance(renderer.scene(), request.settings.filter);
@@ -129,7 +129,7 @@ bool showsSigned(const CompareRequest& request) {
 
 /// A packed layout's tolerance is wide enough to hide a faint light that was skipped. So the same picture with every
 /// channel in fp32 must hold what the exact layout is held to: then quantisation is all that differs.
-void checkWithoutPacking(recipes::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
+void checkWithoutPacking(engine::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
                          Technique technique, const TruthPicture& truth, Verdict& verdict) {
     frame::FrameSettings settings = request.settings;
     settings.layout = frame::layoutTable()[0].layout;
@@ -153,7 +153,7 @@ bool showsHardwareFilter(const scenes::Scene& scene, const CompareRequest& reque
            request.settings.filter == frame::TextureFilter::Exact && frame::materialFeatures(scene).textures();
 }
 
-void addHardwareFilter(recipes::Renderer& renderer, const CompareRequest& request, CompareResult& result) {
+void addHardwareFilter(engine::Renderer& renderer, const CompareRequest& request, CompareResult& result) {
     frame::FrameSettings settings = request.settings;
     settings.filter = frame::TextureFilter::Hardware;
     settings.layout = frame::layoutTable()[0].layout;
@@ -175,22 +175,22 @@ void addHardwareFilter(recipes::Renderer& renderer, const CompareRequest& reques
 
 template <typename Drops>
 frame::FrameSettings resetWhere(Technique technique, const frame::FrameSettings& settings, const Drops& drops) {
-    recipes::FrameRequest request{technique, settings};
-    for (const recipes::Setting& setting : recipes::settingTable())
+    engine::FrameRequest request{technique, settings};
+    for (const engine::Setting& setting : engine::settingTable())
         if (drops(setting, request)) setting.reset(request);
     return request.settings;
 }
 
 } // namespace
 
-frame::FrameSettings settingsTakenBy(recipes::Technique technique, const frame::FrameSettings& settings) {
-    return resetWhere(technique, settings, [](const recipes::Setting& setting, const recipes::FrameRequest& request) {
+frame::FrameSettings settingsTakenBy(engine::Technique technique, const frame::FrameSettings& settings) {
+    return resetWhere(technique, settings, [](const engine::Setting& setting, const engine::FrameRequest& request) {
         return setting.samePicture && !setting.isTaken(request);
     });
 }
 
-frame::FrameSettings settingsHeededBy(recipes::Technique technique, const frame::FrameSettings& settings) {
-    return resetWhere(technique, settings, [](const recipes::Setting& setting, const recipes::FrameRequest& request) {
+frame::FrameSettings settingsHeededBy(engine::Technique technique, const frame::FrameSettings& settings) {
+    return resetWhere(technique, settings, [](const engine::Setting& setting, const engine::FrameRequest& request) {
         return setting.samePicture && !setting.isHeededBy(request.technique);
     });
 }
@@ -216,11 +216,11 @@ std::vector<std::string> pictureNames(const scenes::Scene& scene, const CompareR
 
 std::vector<Technique> techniquesTaking(const frame::FrameSettings& settings, std::vector<LeftOutTechnique>& leftOut) {
     std::vector<Technique> techniques;
-    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
-        const recipes::FrameRequest request{info.technique, settingsHeededBy(info.technique, settings)};
-        const auto table = recipes::settingTable();
+    for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
+        const engine::FrameRequest request{info.technique, settingsHeededBy(info.technique, settings)};
+        const auto table = engine::settingTable();
         const auto refused =
-            std::ranges::find_if(table, [&](const recipes::Setting& setting) { return !setting.isTaken(request); });
+            std::ranges::find_if(table, [&](const engine::Setting& setting) { return !setting.isTaken(request); });
         if (refused == table.end())
             techniques.push_back(info.technique);
         else
@@ -260,7 +260,7 @@ Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout,
     return tolerance;
 }
 
-CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabilities& gl,
+CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilities& gl,
                                 const CompareRequest& request) {
     CompareResult result;
     const TruthPicture truth = truthPicture(renderer, request);
@@ -270,7 +270,7 @@ CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabili
     result.record.scene = renderer.scene().name;
     result.record.width = request.settings.sizePixels.x;
     result.record.height = request.settings.sizePixels.y;
-    result.record.samples = recipes::settingsOn(gl, request.settings).samplesGiven.value_or(1);
+    result.record.samples = engine::settingsOn(gl, request.settings).samplesGiven.value_or(1);
     result.record.renderer = gl.renderer;
     for (const Technique technique : request.techniques) {
         NamedPicture picture = rendered(renderer, technique, request.settings);

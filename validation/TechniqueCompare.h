@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/Picture.h"
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 #include "validation/CompareRecord.h"
 
 namespace tessera::validation {
@@ -18,12 +18,12 @@ struct PictureTruth {
     Picture picture;
 };
 /// A technique, a picture, or the reference.
-using Truth = std::variant<recipes::Technique, PictureTruth, Reference>;
+using Truth = std::variant<engine::Technique, PictureTruth, Reference>;
 
 /// What to compare with what.
 struct CompareRequest {
-    std::vector<recipes::Technique> techniques;
-    Truth against = recipes::Technique::Forward;
+    std::vector<engine::Technique> techniques;
+    Truth against = engine::Technique::Forward;
     frame::FrameSettings settings;
     bool rangeTruncation = true;               ///< whether to measure what settings.rangeTolerance drops
     bool hardwareFilter = true;                ///< whether to measure hardware filtering beside the exact one
@@ -52,11 +52,11 @@ struct CompareResult {
     std::vector<PairTruth> truths;      ///< parallel to record.pairs: what each was measured against
 };
 
-/// What was asked for of who makes a picture and how (recipes::Setting::samePicture) goes to the techniques that take
+/// What was asked for of who makes a picture and how (engine::Setting::samePicture) goes to the techniques that take
 /// it; the others keep their own.
-frame::FrameSettings settingsTakenBy(recipes::Technique technique, const frame::FrameSettings& settings);
+frame::FrameSettings settingsTakenBy(engine::Technique technique, const frame::FrameSettings& settings);
 /// The same for techniques that do not heed it at all: what one heeds and does not take stays.
-frame::FrameSettings settingsHeededBy(recipes::Technique technique, const frame::FrameSettings& settings);
+frame::FrameSettings settingsHeededBy(engine::Technique technique, const frame::FrameSettings& settings);
 
 /// Steps of compareTechniques(), for progress: pictures, each row of the reference's, and what a range tolerance drops.
 std::size_t stepCount(const scenes::Scene& scene, const CompareRequest& request);
@@ -71,18 +71,17 @@ std::vector<std::string> pictureNames(const scenes::Scene& scene, const CompareR
 /// layout's tolerance. What a range tolerance drops is measured on the technique that is the truth, or the first one
 /// where that is none. Against the reference, pixels that show other triangles are excluded; textures filtered by
 /// hardware are one pair of their own there (hardwareFilterName()), against the reference's picture with that filter.
-CompareResult compareTechniques(recipes::Renderer& renderer, const gpu::Capabilities& gl,
-                                const CompareRequest& request);
+CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request);
 
 /// What the pair that shows hardware filtering beside the exact one calls a technique.
 std::string hardwareFilterName(const std::string& technique);
 
 /// The techniques that take the settings which they heed. The others go to `leftOut` with the reason.
-std::vector<recipes::Technique> techniquesTaking(const frame::FrameSettings& settings,
-                                                 std::vector<LeftOutTechnique>& leftOut);
+std::vector<engine::Technique> techniquesTaking(const frame::FrameSettings& settings,
+                                                std::vector<LeftOutTechnique>& leftOut);
 
 /// What a technique is held to against another in a scene of so many lights, with the reason in Tolerance::reason.
-Tolerance pairTolerance(recipes::Technique technique, const frame::GBufferLayout& layout, bool isSoftware,
+Tolerance pairTolerance(engine::Technique technique, const frame::GBufferLayout& layout, bool isSoftware,
                         std::size_t lightCount);
 
 } // namespace tessera::validation

@@ -10,7 +10,7 @@ namespace {
 using culling::Method;
 
 /// Position of a depth among the slices that a tile's second word describes.
-std::uint32_t sliceAt(const recipes::DrawnLists& drawn, float depth, std::uint32_t slicing) {
+std::uint32_t sliceAt(const engine::DrawnLists& drawn, float depth, std::uint32_t slicing) {
     const std::uint32_t key = std::bit_cast<std::uint32_t>(drawn.view.depthKey.x + depth);
     const std::uint32_t shift = slicing % 32;
     return (key - (slicing - shift)) >> shift;
@@ -18,7 +18,7 @@ std::uint32_t sliceAt(const recipes::DrawnLists& drawn, float depth, std::uint32
 
 } // namespace
 
-VisitedLights::VisitedLights(const recipes::DrawnLists& drawn) : drawn_(drawn) {}
+VisitedLights::VisitedLights(const engine::DrawnLists& drawn) : drawn_(drawn) {}
 
 VisitedCell VisitedLights::cellAt(int column, int row, float depth, SurfaceLayer layer) const {
     if (drawn_.culling.method == Method::None) return {};

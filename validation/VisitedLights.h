@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 
 namespace tessera::validation {
 
@@ -21,7 +21,7 @@ enum class SurfaceLayer { Opaque, Transparent };
 class VisitedLights {
 public:
     /// `drawn` must outlive the object.
-    explicit VisitedLights(const recipes::DrawnLists& drawn);
+    explicit VisitedLights(const engine::DrawnLists& drawn);
 
     /// The cell that a surface lies in. `row` counts from the bottom; `depth` is the surface's in the depth buffer.
     VisitedCell cellAt(int column, int row, float depth, SurfaceLayer layer = SurfaceLayer::Opaque) const;
@@ -33,7 +33,7 @@ private:
     void ofList(const VisitedCell& visited, std::vector<int>& sceneLights) const;
     void ofMasks(const VisitedCell& visited, std::vector<int>& sceneLights) const;
 
-    const recipes::DrawnLists& drawn_;
+    const engine::DrawnLists& drawn_;
 };
 
 } // namespace tessera::validation

@@ -11,7 +11,7 @@
 #include "renderer/frame/LightingStage.h"
 #include "renderer/frame/Views.h"
 
-/// What a user may ask of a frame besides its technique, by rows of passes/recipes/Settings.cpp. Names are those of the
+/// What a user may ask of a frame besides its technique, by rows of engine/Settings.cpp. Names are those of the
 /// command line; the tables are the only lists.
 namespace tessera::frame {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "renderer/gpu/Id.h"
-#include "scenes/Scene.h"
+#include "scenes/Texture.h"
 
 namespace tessera::gpu {
 

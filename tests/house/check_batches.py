@@ -12,7 +12,7 @@ import sys
 from sources import sourcesOf
 
 # Folders whose sources are one target each; the longest that holds a file counts.
-TARGETS = ("apps", "base", "passes", "renderer", "scenes", "shaders", "validation", "viewer", "tests/unit", "tests/gpu", "tests/image",
+TARGETS = ("apps", "base", "engine", "passes", "renderer", "scenes", "shaders", "validation", "viewer", "tests/unit", "tests/gpu", "tests/image",
            "tests/cli/program", "tests/viewer")
 # Sources of other folders that tests/CMakeLists.txt compiles into a target too.
 GUESTS = {

@@ -69,9 +69,9 @@ class Floors(unittest.TestCase):
         self.assertEqual(
             self.messages({"passes/ForwardPass.cpp": '#include "passes/ForwardPass.h"\n#include "passes/DepthPrepass.h"\n'}),
             ["passes/ForwardPass.cpp:2: includes passes/DepthPrepass.h: "
-             "a pass does not know another pass; let a recipe wire them"])
-        self.assertEqual(len(self.messages({"passes/ForwardPass.h": '#include "passes/recipes/Renderer.h"\n'})), 1)
-        self.assertEqual(self.messages({"passes/recipes/R.cpp": '#include "passes/ForwardPass.h"\n'}), [])
+             "a pass does not know another pass; let the engine wire them"])
+        self.assertEqual(len(self.messages({"passes/ForwardPass.h": '#include "engine/Renderer.h"\n'})), 1)
+        self.assertEqual(self.messages({"engine/R.cpp": '#include "passes/ForwardPass.h"\n'}), [])
 
     def testOpenGlIsAlwaysKeptInTheSourcesOfRendererGpu(self):
         line = "#include <glad/gl.h>\n"
@@ -81,6 +81,31 @@ class Floors(unittest.TestCase):
             ["renderer/gpu/Buffer.h:1: includes glad/gl.h: "
              "OpenGL stays inside the sources of renderer/gpu; use its wrapper"])
         self.assertEqual(len(self.messages({"passes/A.cpp": line, "validation/B.cpp": line, "apps/C.cpp": line})), 3)
+
+    def cycles(self, files):
+        """What check_floors says of the folders of a repository holding `files` (path: text)."""
+        with tempfile.TemporaryDirectory() as name:
+            root = pathlib.Path(name)
+            for path, text in files.items():
+                (root / path).parent.mkdir(parents=True, exist_ok=True)
+                (root / path).write_text(text)
+            return check_floors.cyclesOf(root, [root / path for path in files])
+
+    def testFoldersOfOneFloorThatIncludeEachOtherAreAlwaysNamed(self):
+        self.assertEqual(
+            self.cycles({"viewer/a/A.h": '#include "viewer/b/B.h"\n', "viewer/b/B.h": "", "viewer/b/C.cpp": '#include "viewer/a/A.h"\n'}),
+            ["viewer/b/C.cpp:1: includes viewer/a/A.h: folders include each other: viewer/a -> viewer/b -> viewer/a"])
+        self.assertEqual(
+            self.cycles({"shaders/lib/a/x.glsl": '#include "lib/b/y.glsl"\n', "shaders/lib/b/y.glsl": '#include "lib/c/z.glsl"\n',
+                         "shaders/lib/c/z.glsl": '#include "lib/a/x.glsl"\n'}),
+            ["shaders/lib/c/z.glsl:1: includes shaders/lib/a/x.glsl: folders include each other: "
+             "shaders/lib/a -> shaders/lib/b -> shaders/lib/c -> shaders/lib/a"])
+
+    def testFoldersThatLeadToOthersOneWayAndAFolderWithItsOwnAreNoFault(self):
+        self.assertEqual(self.cycles({"viewer/a/A.h": '#include "viewer/b/B.h"\n', "viewer/b/B.h": '#include "viewer/c/C.h"\n',
+                                      "viewer/a/D.h": '#include "viewer/c/C.h"\n', "viewer/c/C.h": ""}), [])
+        self.assertEqual(self.cycles({"scenes/Load.cpp": '#include "scenes/import/I.h"\n', "scenes/import/I.h": '#include "scenes/S.h"\n',
+                                      "scenes/S.h": ""}), [])
 
     def testTheGraphNeverIncludesTheGpu(self):
         self.assertEqual(len(self.messages({"renderer/graph/A.cpp": '#include "renderer/gpu/Buffer.h"\n'})), 1)

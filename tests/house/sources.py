@@ -3,7 +3,7 @@
 import pathlib
 import subprocess
 
-FOLDERS = ("apps", "base", "passes", "renderer", "scenes", "shaders", "tests", "validation", "viewer")
+FOLDERS = ("apps", "base", "engine", "passes", "renderer", "scenes", "shaders", "tests", "validation", "viewer")
 
 
 def sourcesOf(root, suffixes=(".h", ".cpp")):

@@ -1,9 +1,9 @@
 #pragma once
 #include <array>
 
+#include "engine/Rendering.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
-#include "validation/Rendering.h"
 
 namespace tessera::test {
 
@@ -27,16 +27,16 @@ protected:
         scene.lights = {sun};
         return scene;
     }
-    recipes::RenderedFrame frame(const scenes::Scene& scene, frame::FrameSettings settings = {}) {
+    engine::RenderedFrame frame(const scenes::Scene& scene, frame::FrameSettings settings = {}) {
         settings.sizePixels = {kSide, kSide};
-        recipes::Renderer renderer(context(), scene);
-        const recipes::RenderedFrame forward = renderer.render(recipes::Technique::Forward, settings);
-        const recipes::RenderedFrame deferred = renderer.render(recipes::Technique::Deferred, settings);
+        engine::Renderer renderer(context(), scene);
+        const engine::RenderedFrame forward = renderer.render(engine::Technique::Forward, settings);
+        const engine::RenderedFrame deferred = renderer.render(engine::Technique::Deferred, settings);
         EXPECT_EQ(forward.radiance, deferred.radiance);
         EXPECT_EQ(forward.display, deferred.display);
         return deferred;
     }
-    static glm::vec4 pixel(const recipes::RenderedFrame& frame, int x, int y) {
+    static glm::vec4 pixel(const engine::RenderedFrame& frame, int x, int y) {
         const float* p = &frame.radiance[std::size_t(4 * (y * kSide + x))];
         return {p[0], p[1], p[2], p[3]};
     }

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
+#include "engine/Rendering.h"
 #include "renderer/gpu/Bands.h"
 #include "renderer/graph/Execute.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
-#include "validation/Rendering.h"
 
 namespace tessera {
 namespace {
@@ -21,16 +21,16 @@ protected:
 
 TEST_F(Bands, aPictureDrawnInBandsIsExactlyTheSameWithEveryTechnique) {
     const scenes::Scene scene = test::everythingScene();
-    recipes::Renderer renderer(context(), scene);
-    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+    engine::Renderer renderer(context(), scene);
+    for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         SCOPED_TRACE(info.name);
-        const recipes::RenderedFrame whole = renderer.render(info.technique, small());
+        const engine::RenderedFrame whole = renderer.render(info.technique, small());
         int asked = 0;
         const gpu::BandedDrawing banded([&asked] {
             ++asked;
             return false;
         });
-        const recipes::RenderedFrame pieces = renderer.render(info.technique, small());
+        const engine::RenderedFrame pieces = renderer.render(info.technique, small());
         EXPECT_EQ(pieces.radiance, whole.radiance);
         EXPECT_EQ(pieces.display, whole.display);
         EXPECT_GT(asked, 4); // after every pass, and between bands
@@ -39,19 +39,19 @@ TEST_F(Bands, aPictureDrawnInBandsIsExactlyTheSameWithEveryTechnique) {
 
 TEST_F(Bands, aPictureDrawnInTheSmallestPiecesIsExactlyTheSame) {
     const scenes::Scene scene = test::everythingScene();
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings;
     settings.sizePixels = {75, 51}; // pieces of 16 pixels, the last of them cut
-    for (const recipes::Technique technique : {recipes::Technique::Forward, recipes::Technique::TiledDeferred}) {
+    for (const engine::Technique technique : {engine::Technique::Forward, engine::Technique::TiledDeferred}) {
         SCOPED_TRACE(infoOf(technique).name);
-        const recipes::RenderedFrame whole = renderer.render(technique, settings);
+        const engine::RenderedFrame whole = renderer.render(technique, settings);
         int asked = 0;
         const auto ask = [&asked] {
             ++asked;
             return false;
         };
         const gpu::BandedDrawing banded(ask, {.beginsSlow = true, .longestMs = 0.0});
-        const recipes::RenderedFrame pieces = renderer.render(technique, settings);
+        const engine::RenderedFrame pieces = renderer.render(technique, settings);
         EXPECT_EQ(pieces.radiance, whole.radiance);
         EXPECT_EQ(pieces.display, whole.display);
         EXPECT_GT(asked, 20) << "the pieces are not small";
@@ -60,27 +60,27 @@ TEST_F(Bands, aPictureDrawnInTheSmallestPiecesIsExactlyTheSame) {
 
 TEST_F(Bands, aFrameIsAlwaysGivenUpWhereverItIsAsked) {
     const scenes::Scene scene = scenes::loadScene("lattice");
-    recipes::Renderer renderer(context(), scene);
-    const recipes::RenderedFrame before = renderer.render(recipes::Technique::TiledDeferred, small());
+    engine::Renderer renderer(context(), scene);
+    const engine::RenderedFrame before = renderer.render(engine::Technique::TiledDeferred, small());
     bool ended = false;
     for (int last = 0; !ended; ++last) {
         ASSERT_LT(last, 1000) << "the frame asks for ever";
         int asked = 0;
         const gpu::BandedDrawing banded([&] { return asked++ == last; });
         try {
-            renderer.draw(recipes::Technique::TiledDeferred, small());
+            renderer.draw(engine::Technique::TiledDeferred, small());
             ended = true;
         } catch (const graph::Interrupted&) {
             EXPECT_EQ(asked, last + 1);
         }
     }
     // Nothing of the frames that were given up is left behind.
-    EXPECT_EQ(renderer.render(recipes::Technique::TiledDeferred, small()).radiance, before.radiance);
+    EXPECT_EQ(renderer.render(engine::Technique::TiledDeferred, small()).radiance, before.radiance);
 }
 
 TEST_F(Bands, withoutBandedDrawingNothingIsEverAsked) {
     const scenes::Scene scene = scenes::loadScene("lattice");
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     int asked = 0;
     {
         const gpu::BandedDrawing banded([&asked] {
@@ -88,7 +88,7 @@ TEST_F(Bands, withoutBandedDrawingNothingIsEverAsked) {
             return false;
         });
     }
-    renderer.draw(recipes::Technique::Deferred, small());
+    renderer.draw(engine::Technique::Deferred, small());
     EXPECT_EQ(asked, 0);
 }
 

@@ -17,7 +17,7 @@ protected:
     int code(float grey, const frame::FrameSettings& settings) {
         Material material = unlit();
         material.baseColor = {grey, grey, grey, 1.0f};
-        const recipes::RenderedFrame shown = frame(flatScene(material), settings);
+        const engine::RenderedFrame shown = frame(flatScene(material), settings);
         EXPECT_EQ(shown.display[0], shown.display[1]);
         EXPECT_EQ(shown.display[3], 255);
         return shown.display[0];
@@ -78,7 +78,7 @@ TEST_F(DisplayValues, theNormalViewIsAlwaysHalfTheNormalPlusAHalf) {
     Scene scene = flatScene(material);
     for (const double turn : {0.0, 0.6, -0.9}) {
         scene.nodes[0].parentFromNode = glm::rotate(glm::dmat4(1.0), turn, glm::dvec3(0, 1, 0));
-        const recipes::RenderedFrame shown = frame(scene, settings);
+        const engine::RenderedFrame shown = frame(scene, settings);
         const std::size_t middle = 4 * std::size_t(kSide / 2 * kSide + kSide / 2);
         const glm::dvec3 normalWS(std::sin(turn), 0.0, std::cos(turn));
         for (int c = 0; c < 3; ++c) {

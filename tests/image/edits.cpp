@@ -2,14 +2,14 @@
 #include <functional>
 
 #include "base/Error.h"
+#include "engine/Rendering.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
-#include "validation/Rendering.h"
 
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 /// Edits of a scene that a renderer already draws.
 class Edits : public test::GlTest {
@@ -22,14 +22,14 @@ protected:
     /// Holds what a renderer draws after an edit to what a new one draws.
     void expectSameAsNew(const std::function<void(scenes::Scene&)>& edit, bool ofMaterials,
                          scenes::Scene scene = test::everythingScene()) {
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
             const std::vector<float> before = renderer.render(technique, small()).radiance;
             edit(scene);
             if (ofMaterials) renderer.materialsChanged();
             const std::vector<float> after = renderer.render(technique, small()).radiance;
             EXPECT_NE(after, before) << "the edit changes nothing";
-            recipes::Renderer anew(context(), scene);
+            engine::Renderer anew(context(), scene);
             EXPECT_EQ(after, anew.render(technique, small()).radiance);
         }
     }
@@ -100,7 +100,7 @@ TEST_F(Edits, anEditThatCannotBeDrawnIsNeverForgottenAndLeavesNoTrace) {
     scene.meshes.push_back(std::move(mesh));
     scene.nodes.push_back(std::move(node));
 
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     renderer.draw(Technique::Forward, small());
     frame::FrameSettings exact = small();
     exact.filter = frame::TextureFilter::Exact;
@@ -112,7 +112,7 @@ TEST_F(Edits, anEditThatCannotBeDrawnIsNeverForgottenAndLeavesNoTrace) {
         EXPECT_THROW(renderer.draw(Technique::Forward, settings), InputError);
     for (std::size_t i = 0; i < kMaterials; ++i) normalMap(scene.materials[first + i]).transform = before;
     const std::vector<float> after = renderer.render(Technique::Forward, small()).radiance;
-    EXPECT_EQ(after, recipes::Renderer(context(), scene).render(Technique::Forward, small()).radiance);
+    EXPECT_EQ(after, engine::Renderer(context(), scene).render(Technique::Forward, small()).radiance);
 }
 
 TEST_F(Edits, surfacesThatBecomeTransparentAreAlwaysDrawnAsByANewRenderer) {

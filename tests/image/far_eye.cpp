@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "engine/Rendering.h"
 #include "scenes/Limits.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
 #include "validation/ErrorFigures.h"
 #include "validation/ReferencePicture.h"
-#include "validation/Rendering.h"
 #include "validation/ShownTriangles.h"
 #include "validation/Tolerance.h"
 #include "validation/stress/StressScene.h"
@@ -17,7 +17,7 @@
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 constexpr Technique kTechniques[] = {Technique::Forward, Technique::Deferred, Technique::ClusteredDeferred,
                                      Technique::DeferredVolumes};
@@ -27,14 +27,14 @@ protected:
     /// 99.9 % of the pixels of every technique lie within `p999Rel` of the reference, and all techniques agree.
     void expectAgreement(const std::string& what, const scenes::Scene& scene, double p999Rel) {
         SCOPED_TRACE(what);
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         const validation::ReferencePicture truth = validation::referencePicture(scene, settings_);
         const std::vector<std::uint8_t> excluded = validation::shownTriangles(renderer, settings_, truth.ids).excluded;
         std::vector<float> first;
         for (const Technique technique : kTechniques) {
-            const recipes::RenderedFrame frame = renderer.render(technique, settings_);
+            const engine::RenderedFrame frame = renderer.render(technique, settings_);
             const validation::ErrorFigures figures =
-                validation::errorFigures(validation::toPicture(frame), truth.picture, excluded);
+                validation::errorFigures(engine::toPicture(frame), truth.picture, excluded);
             if (first.empty()) {
                 first = frame.radiance;
                 fmt::print("{:<28} p99.9 {:.1e}  relMse {:.1e}  max {:.1e}  excluded {:.2f} %\n", what, figures.p999Rel,
@@ -136,12 +136,12 @@ TEST_F(FarEye, techniquesAlwaysAgreeAtTheEndsOfWhatLengthsMayBe) {
     for (const scenes::Scene& scene : {near, vast, both}) {
         SCOPED_TRACE(scene.cameras[0].nearMetres);
         scenes::checkScene(scene);
-        recipes::Renderer renderer(context(), scene);
-        const recipes::RenderedFrame truth = renderer.render(Technique::Forward, settings_);
+        engine::Renderer renderer(context(), scene);
+        const engine::RenderedFrame truth = renderer.render(Technique::Forward, settings_);
         int lit = 0;
         for (std::size_t i = 0; i < truth.radiance.size(); i += 4) lit += truth.radiance[i] > 0.0f;
         EXPECT_GT(lit, 160 * 90 / 4);
-        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable())
+        for (const engine::TechniqueInfo& technique : engine::techniqueTable())
             EXPECT_TRUE(renderer.render(technique.technique, settings_).radiance == truth.radiance) << technique.name;
     }
 }

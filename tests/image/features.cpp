@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "engine/Rendering.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
 #include "validation/ErrorFigures.h"
-#include "validation/Rendering.h"
 
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 using scenes::Light;
 using scenes::Material;
 using scenes::MaterialModel;
@@ -44,17 +44,17 @@ protected:
     }
     void expectEachShows(const std::vector<Change>& changes) {
         const Scene base = test::everythingScene();
-        recipes::Renderer baseRenderer(context(), base);
-        const Picture before = validation::toPicture(baseRenderer.render(Technique::Deferred, small()));
+        engine::Renderer baseRenderer(context(), base);
+        const Picture before = engine::toPicture(baseRenderer.render(Technique::Deferred, small()));
         for (const Change& change : changes) {
             SCOPED_TRACE(change.what);
             Scene scene = base;
             change.apply(scene);
             ASSERT_NO_THROW(scenes::checkScene(scene));
-            recipes::Renderer renderer(context(), scene);
-            const Picture deferred = validation::toPicture(renderer.render(Technique::Deferred, small()));
+            engine::Renderer renderer(context(), scene);
+            const Picture deferred = engine::toPicture(renderer.render(Technique::Deferred, small()));
             EXPECT_GT(changedPixels(before, deferred), 10u) << "the picture did not change";
-            const Picture forward = validation::toPicture(renderer.render(Technique::Forward, small()));
+            const Picture forward = engine::toPicture(renderer.render(Technique::Forward, small()));
             EXPECT_EQ(forward.rgba, deferred.rgba) << "forward and deferred do not agree on it";
             const validation::ErrorFigures figures = validation::errorFigures(deferred, forward);
             EXPECT_EQ(figures.bad.sum() + figures.badOutside.sum(), 0u);
@@ -291,21 +291,21 @@ TEST_F(Features, everyCameraParameterAlwaysChangesThePicture) {
 
 TEST_F(Features, anAnimatedLightAlwaysMovesWithTimeAndOthersNever) {
     Scene scene = test::everythingScene();
-    recipes::Renderer still(context(), scene);
+    engine::Renderer still(context(), scene);
     frame::FrameSettings settings = small();
     const std::vector<float> atStart = still.render(Technique::Deferred, settings).radiance;
     settings.timeSeconds = 0.25;
     EXPECT_EQ(still.render(Technique::Deferred, settings).radiance, atStart);
     scene.lights[kPoint].animation.emplace();
     scene.lights[kPoint].animation->centerWS = {0, 2, 0};
-    recipes::Renderer moving(context(), scene);
+    engine::Renderer moving(context(), scene);
     EXPECT_NE(moving.render(Technique::Deferred, settings).radiance, atStart);
 }
 
 TEST_F(Features, everyFrameSettingChangesExactlyWhatItIsAbout) {
     const Scene scene = test::everythingScene();
-    recipes::Renderer renderer(context(), scene);
-    const recipes::RenderedFrame base = renderer.render(Technique::Deferred, small());
+    engine::Renderer renderer(context(), scene);
+    const engine::RenderedFrame base = renderer.render(Technique::Deferred, small());
     struct Setting {
         const char* what;
         bool radiance; ///< whether radiance changes; the display picture always does
@@ -325,7 +325,7 @@ TEST_F(Features, everyFrameSettingChangesExactlyWhatItIsAbout) {
         SCOPED_TRACE(setting.what);
         frame::FrameSettings changed = small();
         setting.apply(changed);
-        const recipes::RenderedFrame frame = renderer.render(Technique::Deferred, changed);
+        const engine::RenderedFrame frame = renderer.render(Technique::Deferred, changed);
         EXPECT_NE(frame.display, base.display);
         EXPECT_EQ(frame.radiance != base.radiance, setting.radiance);
     }

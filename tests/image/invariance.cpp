@@ -1,17 +1,17 @@
 #include <fmt/format.h>
 
-#include "passes/recipes/PrepareView.h"
+#include "engine/PrepareView.h"
+#include "engine/Rendering.h"
 #include "renderer/graph/Plan.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
-#include "validation/Rendering.h"
 #include "validation/TechniqueCompare.h"
 
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 class Invariance : public test::GlTest {
 protected:
@@ -22,19 +22,19 @@ protected:
     }
     Picture picture(const scenes::Scene& scene, const frame::FrameSettings& settings,
                     Technique technique = Technique::Deferred) {
-        recipes::Renderer renderer(context(), scene);
-        return validation::toPicture(renderer.render(technique, settings));
+        engine::Renderer renderer(context(), scene);
+        return engine::toPicture(renderer.render(technique, settings));
     }
 };
 
 TEST_F(Invariance, pruningNeverChangesABitOfAnyBuiltinScene) {
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
         const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
-        recipes::Renderer renderer(context(), scene);
-        const auto drawn = [&](const recipes::TechniqueInfo& technique, const frame::FrameSettings& settings) {
-            return validation::toPicture(renderer.render(technique.technique, settings));
+        engine::Renderer renderer(context(), scene);
+        const auto drawn = [&](const engine::TechniqueInfo& technique, const frame::FrameSettings& settings) {
+            return engine::toPicture(renderer.render(technique.technique, settings));
         };
-        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+        for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
             for (const frame::LayoutInfo& layout : frame::layoutTable()) {
                 SCOPED_TRACE(fmt::format("{} {} {}", builtin.name, technique.name, layout.name));
                 frame::FrameSettings settings = small();
@@ -74,14 +74,14 @@ TEST_F(Invariance, whatNothingDrawsNeverChangesABitOrThePlanOfAnyBuiltinScene) {
         const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
         scenes::Scene more = test::withUnusedOfEverything(scene);
         checkScene(more);
-        recipes::Renderer renderer(context(), scene), rendererOfMore(context(), more);
+        engine::Renderer renderer(context(), scene), rendererOfMore(context(), more);
         for (const frame::LayoutInfo& layout : frame::layoutTable()) {
             for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
                 SCOPED_TRACE(fmt::format("{} {} {}", builtin.name, int(technique), layout.name));
                 frame::FrameSettings settings = small();
                 settings.layout = layout.layout;
-                EXPECT_EQ(graph::planText(recipes::planFrame(more, technique, settings)),
-                          graph::planText(recipes::planFrame(scene, technique, settings)));
+                EXPECT_EQ(graph::planText(engine::planFrame(more, technique, settings)),
+                          graph::planText(engine::planFrame(scene, technique, settings)));
                 EXPECT_EQ(rendererOfMore.render(technique, settings).radiance,
                           renderer.render(technique, settings).radiance);
             }
@@ -89,7 +89,7 @@ TEST_F(Invariance, whatNothingDrawsNeverChangesABitOrThePlanOfAnyBuiltinScene) {
         // Lights that are off or dark are named in plans, as what is left out.
         more.lights.emplace_back(test::pointLight({0.0, 1.0, 0.0}, 10.0f)).enabled = false;
         more.lights.push_back(test::pointLight({0.0, 1.0, 0.0}, 0.0f));
-        recipes::Renderer rendererOfLights(context(), more);
+        engine::Renderer rendererOfLights(context(), more);
         EXPECT_EQ(rendererOfLights.render(Technique::Deferred, small()).radiance,
                   renderer.render(Technique::Deferred, small()).radiance);
     }
@@ -98,7 +98,7 @@ TEST_F(Invariance, whatNothingDrawsNeverChangesABitOrThePlanOfAnyBuiltinScene) {
 /// Pixels that hold the number of their material instead of its values.
 TEST_F(Invariance, materialsReadByTheirNumberAlwaysGiveEveryBitOfStoredOnesAndOfForward) {
     const scenes::Scene scene = test::evenScene();
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
         for (const frame::View view : {frame::View::Final, frame::View::Diffuse, frame::View::Distribution}) {
             frame::FrameSettings settings = small();
@@ -106,7 +106,7 @@ TEST_F(Invariance, materialsReadByTheirNumberAlwaysGiveEveryBitOfStoredOnesAndOf
             settings.filter = filter;
             settings.view = view;
             const std::vector<float> forward = renderer.render(Technique::Forward, settings).radiance;
-            for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+            for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
                 // Blending adds light by light with the rounding of each sum; what it must equal is itself.
                 const bool blends = technique.technique == Technique::DeferredVolumes;
                 SCOPED_TRACE(fmt::format("{} {} {}", technique.name, int(filter), int(view)));
@@ -124,7 +124,7 @@ TEST_F(Invariance, materialsReadByTheirNumberAlwaysGiveEveryBitOfStoredOnesAndOf
     const auto bytes = [&](bool prune) {
         frame::FrameSettings settings = small();
         settings.prune = prune;
-        const frame::FrameSpec spec = recipes::prepareView(scene, Technique::Deferred, settings).spec;
+        const frame::FrameSpec spec = engine::prepareView(scene, Technique::Deferred, settings).spec;
         return std::pair(frame::holdMaterialNumber(spec.settings.layout, spec.channels),
                          frame::bytesPerPixel(spec.settings.layout, spec.channels));
     };
@@ -136,7 +136,7 @@ TEST_F(Invariance, plansAlwaysNameWhatThreeDifferentScenesLeaveOut) {
     const auto left = [](const char* name) {
         const scenes::Scene scene = scenes::loadScene(name);
         std::string all = "\n"; // so that a whole line can be looked for
-        for (const graph::Plan::LeftOut& item : recipes::planFrame(scene, Technique::Deferred, small()).leftOut) {
+        for (const graph::Plan::LeftOut& item : engine::planFrame(scene, Technique::Deferred, small()).leftOut) {
             EXPECT_FALSE(item.why.empty());
             all += item.what + " (" + item.why + ")\n";
         }
@@ -157,7 +157,7 @@ TEST_F(Invariance, plansAlwaysNameWhatThreeDifferentScenesLeaveOut) {
 
 TEST_F(Invariance, picturesAreAlwaysBitIdenticalFromRunToRun) {
     const scenes::Scene scene = scenes::loadScene("hall");
-    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+    for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
         const Picture first = picture(scene, small(), technique.technique);
         const Picture second = picture(scenes::loadScene("hall"), small(), technique.technique);
         EXPECT_EQ(first.rgba, second.rgba) << technique.name;
@@ -173,13 +173,13 @@ TEST_F(Invariance, worldAndViewSpaceLightingAlwaysAgree) {
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes())
         all.push_back(scenes::loadScene(std::string(builtin.name), options));
     for (const scenes::Scene& scene : all) {
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         for (const Technique technique : {Technique::Forward, Technique::Deferred, Technique::DeferredVolumes,
                                           Technique::TiledDeferred, Technique::ClusteredForward}) {
             frame::FrameSettings settings = small();
-            const Picture world = validation::toPicture(renderer.render(technique, settings));
+            const Picture world = engine::toPicture(renderer.render(technique, settings));
             settings.space = frame::LightingSpace::View;
-            const Picture view = validation::toPicture(renderer.render(technique, settings));
+            const Picture view = engine::toPicture(renderer.render(technique, settings));
             const validation::ErrorFigures figures = validation::errorFigures(view, world);
             SCOPED_TRACE(fmt::format("{}, {}: relMse {:.1e}", scene.name, int(technique), figures.relMse));
             // Rotating positions and normals costs one fp32 rounding each; a sharp highlight multiplies it by up to

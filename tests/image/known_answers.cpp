@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "engine/Rendering.h"
 #include "tests/image/Textbook.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
-#include "validation/Rendering.h"
 
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 using scenes::Light;
 using scenes::Material;
 using scenes::MaterialModel;
@@ -33,8 +33,8 @@ protected:
         const scenes::Camera& camera = scene.cameras[0];
         frame::FrameSettings settings;
         settings.sizePixels = {kAnswerSidePixels, kAnswerSidePixels};
-        recipes::Renderer renderer(context(), scene);
-        const Picture picture = validation::toPicture(renderer.render(technique, settings));
+        engine::Renderer renderer(context(), scene);
+        const Picture picture = engine::toPicture(renderer.render(technique, settings));
 
         const glm::dvec3 eyeWS(camera.worldFromCamera[3]);
         const double half = eyeWS.z * std::tan(0.5 * camera.fovYRadians);
@@ -75,7 +75,7 @@ protected:
     /// division and more to a square root (4.7.1), so others have the specification's bar.
     void expectAnswer(const char* what, const Material& material, const Light& light, double tolerance) {
         if (!context().capabilities().isSoftware) tolerance = std::max(tolerance, kAnyDriver);
-        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+        for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
             SCOPED_TRACE(fmt::format("{} {}", what, technique.name));
             const Errors found = errors(material, light, technique.technique);
             EXPECT_GT(found.brightest, 1e-3) << "the light does not reach the quad";
@@ -266,9 +266,9 @@ TEST_F(KnownAnswers, emissionIsAlwaysDimmedByItsCoat) {
     scene.lights = {};
     frame::FrameSettings settings;
     settings.sizePixels = {kAnswerSidePixels, kAnswerSidePixels};
-    recipes::Renderer renderer(context(), scene);
-    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
-        const Picture picture = validation::toPicture(renderer.render(technique.technique, settings));
+    engine::Renderer renderer(context(), scene);
+    for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
+        const Picture picture = engine::toPicture(renderer.render(technique.technique, settings));
         const float* centre =
             picture.pixel(std::size_t(kAnswerSidePixels * kAnswerSidePixels / 2 + kAnswerSidePixels / 2));
         // Head on the coat takes 4 %; half a pixel off the axis changes that by 1e-9.

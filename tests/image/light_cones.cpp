@@ -6,16 +6,16 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "engine/Rendering.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
 #include "validation/ErrorFigures.h"
 #include "validation/ReferencePicture.h"
-#include "validation/Rendering.h"
 
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 struct Cone {
     double innerDegrees, outerDegrees;
@@ -50,11 +50,11 @@ protected:
         frame::FrameSettings settings;
         settings.sizePixels = {160, 160};
         settings.filter = frame::TextureFilter::Exact;
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         const Picture truth = validation::referencePicture(scene, settings).picture;
-        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+        for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
             const validation::ErrorFigures figures =
-                validation::errorFigures(validation::toPicture(renderer.render(technique.technique, settings)), truth);
+                validation::errorFigures(engine::toPicture(renderer.render(technique.technique, settings)), truth);
             fmt::print("{} to {} degrees, {}: p99.9 {:.1e}, relMse {:.1e}, largest {:.1e}\n", cone.innerDegrees,
                        cone.outerDegrees, technique.name, figures.p999Rel, figures.relMse, figures.maxRel);
             EXPECT_EQ(figures.compared, 160u * 160u);

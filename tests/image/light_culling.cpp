@@ -6,20 +6,20 @@
 
 #include <fmt/format.h>
 
+#include "engine/Rendering.h"
 #include "scenes/Load.h"
 #include "tests/support/CullingScenes.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/Random.h"
 #include "tests/support/TestScenes.h"
 #include "validation/LightOracle.h"
-#include "validation/Rendering.h"
 #include "validation/TechniqueCompare.h"
 
 namespace tessera {
 namespace {
 
 using culling::Method;
-using recipes::Technique;
+using engine::Technique;
 using validation::LightOracleFigures;
 
 constexpr Method kMethods[] = {Method::TileMinmax, Method::Tile25d, Method::Cluster, Method::Zbin};
@@ -57,7 +57,7 @@ protected:
             << figures.firstMissing.value_or(LightOracleFigures::Pair{}).light;
     }
 
-    LightOracleFigures judge(recipes::Renderer& renderer, Method method, int tilePixels, glm::ivec2 sizePixels) {
+    LightOracleFigures judge(engine::Renderer& renderer, Method method, int tilePixels, glm::ivec2 sizePixels) {
         const LightOracleFigures figures =
             validation::judgeLights(renderer, deferredWith(method), settings(sizePixels, method, tilePixels));
         expectSound(figures);
@@ -86,7 +86,7 @@ protected:
 
 TEST_F(LightCulling, theOracleCountsTheLatticeExactlyAsAnIndependentAnalyticCountDoes) {
     const scenes::Scene scene = lattice(1024);
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     const LightOracleFigures figures = judge(renderer, Method::Cluster, 16, {1280, 720});
     // Half a percent: silhouettes of tessellated spheres differ from those of true ones.
     EXPECT_NEAR(double(figures.covered) / (1280.0 * 720.0), 0.816, 0.005 * 0.816);
@@ -97,7 +97,7 @@ TEST_F(LightCulling, theOracleCountsTheLatticeExactlyAsAnIndependentAnalyticCoun
 
 TEST_F(LightCulling, listsAreAlwaysTightOnTheLattice) {
     const scenes::Scene scene = lattice(1024);
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     EXPECT_LE(*judge(renderer, Method::TileMinmax, 16, {1280, 720}).tightness(), 1.40);
     EXPECT_LE(*judge(renderer, Method::Cluster, 8, {1280, 720}).tightness(), 1.15);
     judge(renderer, Method::Tile25d, 16, {1280, 720});
@@ -106,22 +106,22 @@ TEST_F(LightCulling, listsAreAlwaysTightOnTheLattice) {
 
 TEST_F(LightCulling, depthSlicesAlwaysPayWhereDepthHasDeepGaps) {
     const scenes::Scene scene = test::columnsBeforeWall(1500);
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     const auto evaluated = [&](Method method) { return double(judge(renderer, method, 16, {640, 360}).evaluated); };
     const double minmax = evaluated(Method::TileMinmax);
     EXPECT_GE(minmax / evaluated(Method::Tile25d), 1.5);
     EXPECT_GE(minmax / evaluated(Method::Cluster), 1.5);
     const scenes::Scene hall = scenes::loadScene("hall");
-    recipes::Renderer hallRenderer(context(), hall);
+    engine::Renderer hallRenderer(context(), hall);
     for (const Method method : kMethods) judge(hallRenderer, method, 16, {640, 360});
 }
 
 TEST_F(LightCulling, theOracleAlwaysNoticesALightThatAListLacksOrHasTooMuch) {
     const scenes::Scene scene = lattice(64);
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     const frame::FrameSettings asked = settings({160, 90}, Method::TileMinmax);
     renderer.draw(Technique::TiledDeferred, asked);
-    recipes::DrawnLists drawn = renderer.downloadLists();
+    engine::DrawnLists drawn = renderer.downloadLists();
     const std::vector<float> depth = renderer.downloadDepth();
     const auto judged = [&] { return validation::judgeLights({scene, asked, drawn, depth, {}}); };
     const LightOracleFigures good = judged();
@@ -143,7 +143,7 @@ LightCulling::Seen LightCulling::expectSoundScene(const scenes::Scene& scene, st
     constexpr glm::ivec2 kSizes[] = {{97, 61}, {33, 17}, {1, 1}, {8, 3}, {64, 64}, {130, 5}};
     Seen seen;
     test::Random random(seed + 1000);
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     const glm::ivec2 size = kSizes[random.index(int(std::size(kSizes)))];
     frame::FrameSettings truthSettings = settings(size);
     truthSettings.prune = seed % 4 == 0; // without pruning all scenes share their programs
@@ -156,7 +156,7 @@ LightCulling::Seen LightCulling::expectSoundScene(const scenes::Scene& scene, st
         asked.culling.builder = culling::builderTable()[std::size_t(random.index(3))].builder;
         const Technique technique = random.unit() < 0.5 ? deferredWith(method) : forwardWith(method);
         EXPECT_EQ(renderer.render(technique, asked).radiance, truth);
-        const recipes::DrawnLists drawn = renderer.downloadLists();
+        const engine::DrawnLists drawn = renderer.downloadLists();
         const std::vector<float> depth = renderer.downloadDepth();
         const LightOracleFigures figures = validation::judgeLights({scene, asked, drawn, depth, {}});
         expectSound(figures);
@@ -193,16 +193,16 @@ TEST_F(LightCulling, noLightIsEverMissingWhereAScenesEyeIsFarAwayAndNoPixelDiffe
 /// Every method of every technique, with every tile of `tiles`.
 void LightCulling::expectForwardsPicture(const scenes::Scene& scene, glm::ivec2 sizePixels,
                                          std::span<const int> tiles) {
-    recipes::Renderer renderer(context(), scene);
-    const Picture truth = validation::toPicture(renderer.render(Technique::Forward, settings(sizePixels)));
-    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+    engine::Renderer renderer(context(), scene);
+    const Picture truth = engine::toPicture(renderer.render(Technique::Forward, settings(sizePixels)));
+    for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
         for (const Method method : technique.methods) {
             if (method == Method::None) continue;
             for (const int tile : tiles) {
                 SCOPED_TRACE(fmt::format("{}, {} lights, {}, {} {}, {}x{}", scene.name, scene.lights.size(),
                                          technique.name, infoOf(method).name, tile, sizePixels.x, sizePixels.y));
                 const Picture picture =
-                    validation::toPicture(renderer.render(technique.technique, settings(sizePixels, method, tile)));
+                    engine::toPicture(renderer.render(technique.technique, settings(sizePixels, method, tile)));
                 const validation::ErrorFigures figures = validation::errorFigures(picture, truth);
                 EXPECT_EQ(figures.bitEqual, 1.0);
                 EXPECT_EQ(figures.bad.sum() + figures.badOutside.sum(), 0u);
@@ -270,14 +270,14 @@ TEST_F(LightCulling, noLightIsEverMissingFromTheListsOfTransparentSurfaces) {
     std::uint64_t needed = 0, transparent = 0;
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         const scenes::Scene scene = test::randomLitScene(seed);
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         frame::FrameSettings plain = settings({97, 61});
         plain.prune = false; // all scenes share their programs
         renderer.draw(Technique::Deferred, plain);
         const std::vector<float> opaque = renderer.downloadDepth();
         std::vector<std::vector<float>> depths; // of each transparent instance, where it shows
         while (const auto twin = withOneTransparentMadeOpaque(scene, int(depths.size()))) {
-            recipes::Renderer twinRenderer(context(), *twin);
+            engine::Renderer twinRenderer(context(), *twin);
             twinRenderer.draw(Technique::Deferred, plain);
             depths.push_back(twinRenderer.downloadDepth());
             for (std::size_t i = 0; i < opaque.size(); ++i)
@@ -288,7 +288,7 @@ TEST_F(LightCulling, noLightIsEverMissingFromTheListsOfTransparentSurfaces) {
                 frame::FrameSettings asked = settings({97, 61}, method, tile);
                 asked.prune = false;
                 renderer.draw(deferredWith(method), asked);
-                const recipes::DrawnLists drawn = renderer.downloadLists();
+                const engine::DrawnLists drawn = renderer.downloadLists();
                 for (const std::vector<float>& depth : depths) {
                     SCOPED_TRACE(fmt::format("seed {} {} tile {}", seed, infoOf(method).name, tile));
                     const LightOracleFigures figures = validation::judgeLights(
@@ -313,7 +313,7 @@ TEST_F(LightCulling, theCountOfLightsAlwaysAddsUpOverLayersWhateverTheirOpacity)
     scene.nodes.push_back(scene.nodes[0]);
     scene.nodes[1].parentFromNode[3].z = 0.5;
     for (int i = 0; i < 5; ++i) scene.lights.push_back(test::pointLight({0.0, 0.0, 1.0}, 1.0f));
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     frame::FrameSettings counted = settings({16, 16});
     counted.view = frame::View::Lights;
     for (const Technique technique : {Technique::Forward, Technique::Deferred, Technique::ForwardPlus}) {
@@ -329,7 +329,7 @@ TEST_F(LightCulling, sixtyFiveThousandLightsInOneTileAreAlwaysAllVisited) {
         light.rangeMetres = 5.0f;
         scene.lights.push_back(light);
     }
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     const std::vector<float> truth = renderer.render(Technique::Forward, settings({16, 16})).radiance;
     for (const Method method : kMethods) {
         SCOPED_TRACE(infoOf(method).name);
@@ -343,13 +343,13 @@ TEST_F(LightCulling, sixtyFiveThousandLightsInOneTileAreAlwaysAllVisited) {
 
 TEST_F(LightCulling, theOrderOfTheLightsNeverMattersBeyondRoundingOfTheSum) {
     scenes::Scene scene = lattice(256);
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     const frame::FrameSettings asked = settings({320, 181}, Method::Cluster);
-    const Picture ordered = validation::toPicture(renderer.render(Technique::ClusteredDeferred, asked));
+    const Picture ordered = engine::toPicture(renderer.render(Technique::ClusteredDeferred, asked));
     scenes::Scene turned = scene;
     std::reverse(turned.lights.begin(), turned.lights.end());
-    recipes::Renderer turnedRenderer(context(), turned);
-    const Picture reversed = validation::toPicture(turnedRenderer.render(Technique::ClusteredDeferred, asked));
+    engine::Renderer turnedRenderer(context(), turned);
+    const Picture reversed = engine::toPicture(turnedRenderer.render(Technique::ClusteredDeferred, asked));
     const validation::ErrorFigures figures = validation::errorFigures(reversed, ordered);
     // Terms are positive, so a sum of n terms in any order is off by at most (n - 1) 2^-24 of itself, twice here; no
     // pixel visits more than 64 of these lights.
@@ -364,9 +364,9 @@ TEST_F(LightCulling, lightsThatCannotChangeAPixelAreNeverEvaluated) {
         if (i % 3 == 1) scene.lights[i].intensity = 0.0f;
         if (i % 3 == 2) scene.lights[i].positionWS = {0.0, 0.0, 500.0}; // behind the camera, out of range
     }
-    recipes::Renderer renderer(context(), scene);
-    const recipes::RenderedFrame none = renderer.render(Technique::Forward, settings({64, 36}));
-    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+    engine::Renderer renderer(context(), scene);
+    const engine::RenderedFrame none = renderer.render(Technique::Forward, settings({64, 36}));
+    for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
         frame::FrameSettings asked = settings({64, 36});
         EXPECT_EQ(renderer.render(technique.technique, asked).radiance, none.radiance);
         const LightOracleFigures figures = validation::judgeLights(renderer, technique.technique, asked);

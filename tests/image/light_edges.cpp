@@ -15,7 +15,7 @@ namespace tessera {
 namespace {
 
 using culling::Method;
-using recipes::Technique;
+using engine::Technique;
 
 /// A technique of each method, a deferred one and one that shades as it rasterises.
 struct Methods {
@@ -85,7 +85,7 @@ void LightEdges::expectSound(std::uint64_t seeds, const std::function<double(std
         scenes::Scene scene = test::randomLitScene(seed);
         scene.cameras[0] = test::seenFromAfar(scene.cameras[0], times(seed));
         test::Random random(seed + 5000);
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings;
         settings.sizePixels = kSizes[random.index(int(std::size(kSizes)))];
         settings.prune = false; // all scenes share their programs
@@ -104,7 +104,7 @@ void LightEdges::expectSound(std::uint64_t seeds, const std::function<double(std
             SCOPED_TRACE(fmt::format("seed {}, {}, tile {}, {}x{}", seed, infoOf(method.method).name,
                                      *asked.culling.tilePixels, asked.sizePixels.x, asked.sizePixels.y));
             EXPECT_TRUE(renderer.render(method.techniques[random.index(2)], asked).radiance == truth);
-            const recipes::DrawnLists drawn = renderer.downloadLists();
+            const engine::DrawnLists drawn = renderer.downloadLists();
             const std::vector<float> depth = renderer.downloadDepth();
             const validation::LightOracleFigures figures = validation::judgeLights({scene, asked, drawn, depth, {}});
             const validation::LightOracleFigures::Pair first =

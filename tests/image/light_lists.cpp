@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "passes/recipes/ChooseSamples.h"
-#include "passes/recipes/Renderer.h"
+#include "engine/ChooseSamples.h"
+#include "engine/Renderer.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
@@ -12,7 +12,7 @@ namespace tessera {
 namespace {
 
 using culling::Builder;
-using recipes::Technique;
+using engine::Technique;
 
 /// Builders on the GPU, with the lanes that build a tile together.
 struct GpuBuilder {
@@ -39,9 +39,9 @@ protected:
         return settings;
     }
 
-    culling::LightLists lists(recipes::Renderer& renderer, const frame::FrameSettings& settings) {
+    culling::LightLists lists(engine::Renderer& renderer, const frame::FrameSettings& settings) {
         renderer.draw(techniqueOf(settings), settings);
-        recipes::DrawnLists drawn = renderer.downloadLists();
+        engine::DrawnLists drawn = renderer.downloadLists();
         EXPECT_EQ(drawn.culling.method, *settings.culling.method);
         return std::move(drawn.lists);
     }
@@ -56,7 +56,7 @@ protected:
     }
 
     void expectSameLists(const scenes::Scene& scene, frame::FrameSettings settings, std::span<const int> tiles) {
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         for (const culling::MethodInfo& method : culling::methodTable()) {
             if (method.method == culling::Method::None) continue;
             settings.culling.method = method.method;
@@ -75,10 +75,10 @@ protected:
     }
 
     void expectForwardsPicture(const scenes::Scene& scene, frame::FrameSettings settings) {
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
-        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
-            if (!recipes::takesSamples(technique, settings.samples)) continue;
+        for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
+            if (!engine::takesSamples(technique, settings.samples)) continue;
             for (const culling::Method method : technique.methods) {
                 if (method == culling::Method::None) continue;
                 settings.culling.method = method;
@@ -147,7 +147,7 @@ TEST_F(LightLists, listsOfMultisampledPicturesAreExactlyTheSameOnTheGpuAndLightT
         frame::FrameSettings settings;
         settings.sizePixels = {161, 91};
         settings.samples = samples;
-        settings = recipes::settingsOn(context().capabilities(), settings);
+        settings = engine::settingsOn(context().capabilities(), settings);
         expectSameLists(test::everythingScene(), settings, std::array{8, 64});
         expectForwardsPicture(test::everythingScene(), settings);
     }
@@ -174,7 +174,7 @@ TEST_F(LightLists, theMostLightsOfASceneAreNeverTooManyForTheGpu) {
     settings.sizePixels = {33, 17};
     const scenes::Scene scene = latticeOf(65536);
     expectSameLists(scene, settings, std::array{32});
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
     for (const GpuBuilder& gpu : kGpuBuilders) {
         SCOPED_TRACE(gpu.name);

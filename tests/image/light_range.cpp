@@ -3,20 +3,20 @@
 
 #include <fmt/format.h>
 
-#include "passes/recipes/ChooseCulling.h"
-#include "passes/recipes/PrepareView.h"
+#include "engine/ChooseCulling.h"
+#include "engine/PrepareView.h"
+#include "engine/Rendering.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/Random.h"
 #include "tests/support/TestScenes.h"
 #include "validation/LightOracle.h"
 #include "validation/RangeTruncation.h"
-#include "validation/Rendering.h"
 #include "validation/TechniqueCompare.h"
 
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 constexpr int kRangeSide = 64;
 
@@ -62,10 +62,10 @@ TEST_F(LightRange, anEndedLightIsExactlyZeroFromItsRadiusOnAndWindowedBefore) {
     settings.rangeTolerance = 1.0;
     const double left = intensity / settings.rangeTolerance - a;
     const double radius = (-b + std::sqrt(b * b + 4.0 * c * left)) / (2.0 * c);
-    recipes::Renderer renderer(context(), scene);
-    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+    engine::Renderer renderer(context(), scene);
+    for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
         SCOPED_TRACE(technique.name);
-        const Picture picture = validation::toPicture(renderer.render(technique.technique, settings));
+        const Picture picture = engine::toPicture(renderer.render(technique.technique, settings));
         std::size_t beyond = 0, inside = 0;
         for (std::size_t i = 0; i < picture.pixelCount(); ++i) {
             const int x = int(i) % kRangeSide, y = int(i) / kRangeSide;
@@ -88,7 +88,7 @@ TEST_F(LightRange, anEndedLightIsExactlyZeroFromItsRadiusOnAndWindowedBefore) {
 
 TEST_F(LightRange, theBiasIsAlwaysBelowZeroAndVanishesWithTheTolerance) {
     const scenes::Scene scene = manyAttenuatedLights();
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings;
     settings.sizePixels = {160, 90};
     double lastBias = -1.0, lastRelMse = 1.0;
@@ -115,7 +115,7 @@ TEST_F(LightRange, theBiasIsAlwaysBelowZeroAndVanishesWithTheTolerance) {
 
 TEST_F(LightRange, anEndedLightIsExactlyTheSameWithEveryTechniqueAndCullingMethod) {
     const scenes::Scene scene = manyAttenuatedLights();
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings;
     settings.sizePixels = {321, 179};
     settings.rangeTolerance = 0.1;
@@ -127,10 +127,10 @@ TEST_F(LightRange, anEndedLightIsExactlyTheSameWithEveryTechniqueAndCullingMetho
         request.settings = settings;
         request.settings.culling.method = method.method;
         request.rangeTruncation = false;
-        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
-            if (!recipes::takesMethod(technique.technique, method.method)) continue;
+        for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
+            if (!engine::takesMethod(technique.technique, method.method)) continue;
             request.techniques.push_back(technique.technique);
-            if (recipes::prepareView(scene, technique.technique, request.settings).spec.culling.method !=
+            if (engine::prepareView(scene, technique.technique, request.settings).spec.culling.method !=
                 culling::Method::None)
                 ++listed;
         }
@@ -148,11 +148,11 @@ TEST_F(LightRange, anEndedLightIsExactlyTheSameWithEveryTechniqueAndCullingMetho
 
 TEST_F(LightRange, anEndedLightIsNeverMissingFromAListThatNeedsIt) {
     const scenes::Scene scene = manyAttenuatedLights();
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings;
     settings.sizePixels = {321, 179};
     settings.rangeTolerance = 0.1;
-    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+    for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
         for (const culling::Method method : technique.methods) {
             if (method == culling::Method::None) continue;
             settings.culling.method = method;

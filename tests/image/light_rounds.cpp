@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
+#include "engine/Rendering.h"
 #include "renderer/frame/LightRounds.h"
 #include "scenes/Limits.h"
 #include "scenes/Load.h"
@@ -12,14 +13,13 @@
 #include "tests/support/TestScenes.h"
 #include "validation/ErrorFigures.h"
 #include "validation/ReferencePicture.h"
-#include "validation/Rendering.h"
 
 namespace tessera {
 namespace {
 
 using culling::Builder;
 using culling::Method;
-using recipes::Technique;
+using engine::Technique;
 
 constexpr int kSidePixels = 8;
 
@@ -68,14 +68,14 @@ protected:
 void LightRounds::expectEveryLight(int count) {
     SCOPED_TRACE(fmt::format("{} lights, {} a round", count, frame::lightsPerRound(std::size_t(count))));
     const scenes::Scene scene = wallOf(count);
-    recipes::Renderer renderer(context(), scene);
-    const recipes::RenderedFrame forward = renderer.render(Technique::Forward, settings());
-    const validation::ErrorFigures figures = validation::errorFigures(
-        validation::toPicture(forward), validation::referencePicture(scene, settings()).picture);
+    engine::Renderer renderer(context(), scene);
+    const engine::RenderedFrame forward = renderer.render(Technique::Forward, settings());
+    const validation::ErrorFigures figures =
+        validation::errorFigures(engine::toPicture(forward), validation::referencePicture(scene, settings()).picture);
     EXPECT_EQ(figures.compared, std::size_t(kSidePixels * kSidePixels));
     // A sum of N terms in fp32 is off by N 2^-24 of itself at most. The last light of a run is a fifth of its pixel.
     EXPECT_LE(figures.maxRel, std::max(1e-4, count * 0x1p-24));
-    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+    for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
         frame::FrameSettings asked = settings();
         if (technique.methods.empty()) {
             EXPECT_TRUE(renderer.render(technique.technique, asked).radiance == forward.radiance) << technique.name;
@@ -101,7 +101,7 @@ TEST_F(LightRounds, oneLightMoreThanASceneCanHaveIsAlwaysRefused) {
     scenes::Scene scene = wallOf(64);
     scene.name = "wall";
     scene.lights.resize(std::size_t(scenes::kMostLights) + 1, scene.lights[0]);
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     try {
         renderer.draw(Technique::Forward, settings());
         ADD_FAILURE() << "it was drawn";
@@ -115,7 +115,7 @@ TEST_F(LightRounds, oneLightMoreThanASceneCanHaveIsAlwaysRefused) {
 /// What builds lists in shaders loops over lights too.
 TEST_F(LightRounds, listsBuiltOnTheGpuNeverLackALight) {
     const scenes::Scene scene = wallOf(scenes::kMostLights);
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     const std::vector<float> forward = renderer.render(Technique::Forward, settings()).radiance;
     for (const Method method : {Method::TileMinmax, Method::Tile25d, Method::Cluster, Method::Zbin}) {
         const bool tiled = method == Method::TileMinmax || method == Method::Tile25d;
@@ -140,7 +140,7 @@ void LightRounds::expectOnePicture(const scenes::Scene& scene) {
         const test::ShaderMutant shaders;
         for (const char* file : {"lib/lighting.glsl", "lib/light_cursor.glsl"})
             shaders.replace(file, "LIGHTS_PER_ROUND", std::to_string(perRound));
-        recipes::Renderer renderer(context(), scene, shaders.tree());
+        engine::Renderer renderer(context(), scene, shaders.tree());
         for (const auto& [technique, method] :
              {std::pair(Technique::Forward, Method::None), std::pair(Technique::ClusteredForward, Method::Cluster),
               std::pair(Technique::ClusteredDeferred, Method::Zbin)}) {

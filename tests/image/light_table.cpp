@@ -23,7 +23,7 @@ protected:
         frame::FrameSettings settings;
         settings.sizePixels =
             std::getenv("TESSERA_TABLE_FULL") != nullptr ? glm::ivec2(1280, 720) : glm::ivec2(321, 179);
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         const std::vector<validation::LightTableRow> rows = validation::judgeCulling(renderer, settings);
         fmt::print("{}, {} lights, {}x{}: {}\n", scene.name, scene.lights.size(), settings.sizePixels.x,
                    settings.sizePixels.y, validation::lightTable(rows));

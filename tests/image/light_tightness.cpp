@@ -13,7 +13,7 @@ namespace tessera {
 namespace {
 
 using culling::Method;
-using recipes::Technique;
+using engine::Technique;
 
 scenes::Scene lattice() {
     scenes::LoadOptions options;
@@ -65,7 +65,7 @@ constexpr LooseTest kLooseTests[] = {
 
 class LightTightness : public test::GlTest {
 protected:
-    double tightness(recipes::Renderer& renderer, Method method, culling::Builder builder) {
+    double tightness(engine::Renderer& renderer, Method method, culling::Builder builder) {
         frame::FrameSettings settings;
         settings.sizePixels = {640, 360};
         settings.culling.method = method;
@@ -82,7 +82,7 @@ protected:
 TEST_F(LightTightness, noMethodIsEverLooserThanItsBar) {
     for (const bool ofSpots : {false, true}) {
         const scenes::Scene scene = ofSpots ? latticeOfSpots() : lattice();
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         for (const Bar& bar : kBars) {
             const double found = tightness(renderer, bar.method, culling::Builder::Cpu);
             const double most = ofSpots ? bar.spots : bar.lattice;
@@ -100,7 +100,7 @@ TEST_F(LightTightness, aTestThatSaysYesTooOftenIsAlwaysSeenByABar) {
         const test::ShaderMutant shaders;
         shaders.replace(loose.file, loose.from, loose.to);
         const scenes::Scene scene = loose.ofSpots ? latticeOfSpots() : lattice();
-        recipes::Renderer renderer(context(), scene, shaders.tree());
+        engine::Renderer renderer(context(), scene, shaders.tree());
         const double found = tightness(renderer, loose.method, culling::Builder::Compute);
         for (const Bar& bar : kBars) {
             if (bar.method != loose.method) continue;

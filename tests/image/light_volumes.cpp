@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 #include "tests/support/CullingScenes.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/Random.h"
@@ -15,7 +15,7 @@
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 using test::pi;
 using test::Random;
 
@@ -80,7 +80,7 @@ class LightVolumes : public test::GlTest {
 protected:
     /// Whether the lights change the picture; fails where the two techniques differ. The renderer reads the lights and
     /// cameras of the scene anew at each frame, so one renderer, and its programs, serve all of them.
-    bool expectEqual(recipes::Renderer& renderer, const frame::FrameSettings& settings) {
+    bool expectEqual(engine::Renderer& renderer, const frame::FrameSettings& settings) {
         const std::vector<float> deferred = renderer.render(Technique::Deferred, settings).radiance;
         const std::vector<float> volumes = renderer.render(Technique::DeferredVolumes, settings).radiance;
         std::size_t different = 0;
@@ -100,10 +100,10 @@ protected:
     }
 
     /// The scene's picture when all its lights are off.
-    std::vector<float> unlit(recipes::Renderer& renderer, frame::FrameSettings settings) {
+    std::vector<float> unlit(engine::Renderer& renderer, frame::FrameSettings settings) {
         scenes::Scene dark = renderer.scene();
         for (scenes::Light& light : dark.lights) light.enabled = false;
-        return recipes::Renderer(context(), dark).render(Technique::Deferred, settings).radiance;
+        return engine::Renderer(context(), dark).render(Technique::Deferred, settings).radiance;
     }
     static double sumOf(const std::vector<float>& values) {
         double sum = 0.0;
@@ -123,7 +123,7 @@ protected:
         int visited = 0;
     };
     Share shareOf(const scenes::Scene& scene) {
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings = sized(240, 160);
         const std::vector<float> picture = renderer.render(Technique::Deferred, settings).radiance;
         settings.view = frame::View::Lights;
@@ -186,7 +186,7 @@ std::vector<Case> cases() {
 TEST_F(LightVolumes, everyPlaceOfALightIsExactlyAsInDeferred) {
     const scenes::Scene before = test::everythingScene();
     scenes::Scene scene = before;
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     for (const Case& example : cases()) {
         scene.cameras = before.cameras;
         example.arrange(scene.cameras[0]);
@@ -201,7 +201,7 @@ TEST_F(LightVolumes, everyPlaceOfALightIsExactlyAsInDeferred) {
 
 TEST_F(LightVolumes, randomScenesAreAlwaysExactlyAsInDeferred) {
     scenes::Scene scene = test::everythingScene();
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     int lit = 0;
     constexpr int kScenes = 72;
     for (int seed = 1; seed <= kScenes; ++seed) {
@@ -229,7 +229,7 @@ TEST_F(LightVolumes, thousandsOfSmallLightsAreAlwaysExactlyAsInDeferred) {
         const glm::dvec3 positionWS(random.between(-1.0, 1.0), random.between(-0.6, 0.6), random.between(0.0, 0.01));
         scene.lights.push_back(rangedLight(positionWS, float(random.between(0.02, 0.08))));
     }
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     EXPECT_TRUE(expectEqual(renderer, sized(97, 61)));
 }
 
@@ -243,7 +243,7 @@ TEST_F(LightVolumes, spotsAlongAWallAreAlwaysExactlyAsInDeferred) {
         scenes::Scene scene = upright;
         scene.nodes[0].parentFromNode = turned * scene.nodes[0].parentFromNode;
         scene.cameras[0].worldFromCamera = turned * scene.cameras[0].worldFromCamera;
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         for (const double degrees : {3.0, 10.0, 20.0, 30.0, 45.0, 60.0, 75.0, 84.0}) {
             SCOPED_TRACE(fmt::format("{} degrees, turn {}", degrees, turn));
             scene.lights = {spotLight(glm::dvec3(turned * glm::dvec4(0.0, -0.6, 0.01, 1.0)),
@@ -257,7 +257,7 @@ TEST_F(LightVolumes, spotsAlongAWallAreAlwaysExactlyAsInDeferred) {
 TEST_F(LightVolumes, mirroredNodesAreAlwaysExactlyAsInDeferred) {
     scenes::Scene scene = test::everythingScene();
     for (scenes::Node& node : scene.nodes) node.parentFromNode = glm::scale(node.parentFromNode, glm::dvec3(-1, 1, 1));
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     EXPECT_TRUE(expectEqual(renderer, sized(193, 121)));
 }
 
@@ -324,7 +324,7 @@ TEST_F(LightVolumes, uncoveredPixelsAlwaysKeepTheBackground) {
     scenes::Light sun = test::pointLight({}, 3.0f);
     sun.type = scenes::LightType::Directional;
     scene.lights = {sun, test::pointLight({0.0, 0.0, 1.0}, 2.0f), rangedLight({0.0, 0.0, 3.0}, 50.0f)};
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     const std::vector<float> picture = renderer.render(Technique::DeferredVolumes, sized(97, 61)).radiance;
     int uncovered = 0;
     for (std::size_t i = 0; i < picture.size(); i += 4) {

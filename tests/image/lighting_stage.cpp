@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
-#include "passes/recipes/ChooseLighting.h"
-#include "passes/recipes/Renderer.h"
+#include "engine/ChooseLighting.h"
+#include "engine/Renderer.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
@@ -12,16 +12,16 @@
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 class LightingInCompute : public test::GlTest {
 protected:
     void expectForwardsPicture(const scenes::Scene& scene, frame::FrameSettings settings) {
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
         settings.lightOn = frame::LightingStage::Compute;
-        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
-            if (!recipes::infoOf(technique.technique).choosesStage) continue;
+        for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
+            if (!engine::infoOf(technique.technique).choosesStage) continue;
             SCOPED_TRACE(technique.name);
             EXPECT_TRUE(renderer.render(technique.technique, settings).radiance == truth);
         }
@@ -54,7 +54,7 @@ TEST_F(LightingInCompute, aSceneOfEveryFeatureIsAlwaysThePictureOfForward) {
 
 TEST_F(LightingInCompute, everyViewAndLayoutIsExactlyThatOfFragmentShaders) {
     const scenes::Scene scene = test::everythingScene();
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     for (const frame::LayoutInfo& layout : frame::layoutTable()) {
         for (const frame::ViewInfo& view : frame::viewTable()) {
             SCOPED_TRACE(fmt::format("{} {}", layout.name, view.name));
@@ -74,9 +74,9 @@ TEST_F(LightingInCompute, techniquesWithoutALightingPassAlwaysRefuseIt) {
     const scenes::Scene scene = scenes::loadScene("room");
     frame::FrameSettings settings;
     settings.lightOn = frame::LightingStage::Compute;
-    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
-        if (recipes::infoOf(technique.technique).choosesStage) continue;
-        EXPECT_THROW(recipes::planFrame(scene, technique.technique, settings), InputError) << technique.name;
+    for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
+        if (engine::infoOf(technique.technique).choosesStage) continue;
+        EXPECT_THROW(engine::planFrame(scene, technique.technique, settings), InputError) << technique.name;
     }
 }
 

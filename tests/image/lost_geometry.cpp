@@ -43,7 +43,7 @@ class LostGeometryTest : public test::GlTest {
 protected:
     ShownTriangles shown(const scenes::Scene& scene, const frame::FrameSettings& settings,
                          const std::vector<reference::Ids>& ids, const shader::SourceTree& shaders = {}) {
-        recipes::Renderer renderer(context(), scene, shaders);
+        engine::Renderer renderer(context(), scene, shaders);
         return validation::shownTriangles(renderer, settings, ids);
     }
 
@@ -218,11 +218,11 @@ TEST_F(LostGeometryTest, trianglesInOnePlaceAreComparedWithTheOneThatIsShown) {
         scene.nodes.push_back(twin);
         if (swapped) std::swap(scene.nodes[1], scene.nodes[2]);
         frame::FrameSettings settings = exactOfSize(64, 64);
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         for (const frame::TextureFilter filter : {frame::TextureFilter::Exact, frame::TextureFilter::Hardware}) {
             settings.filter = filter;
             validation::CompareRequest request;
-            request.techniques = {recipes::Technique::Deferred};
+            request.techniques = {engine::Technique::Deferred};
             request.against = validation::Reference{};
             request.settings = settings;
             const validation::CompareRecord record =

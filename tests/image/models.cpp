@@ -7,16 +7,16 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/Error.h"
+#include "engine/Rendering.h"
 #include "scenes/Defaults.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
 #include "validation/ErrorFigures.h"
-#include "validation/Rendering.h"
 
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 std::vector<std::filesystem::path> modelsBelow(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> models;
@@ -99,10 +99,10 @@ private:
     Pair drawBoth(const scenes::Scene& scene) {
         frame::FrameSettings settings;
         settings.sizePixels = {160, 90};
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         Pair pair;
-        pair.forward = validation::toPicture(renderer.render(Technique::Forward, settings));
-        pair.deferred = validation::toPicture(renderer.render(Technique::Deferred, settings));
+        pair.forward = engine::toPicture(renderer.render(Technique::Forward, settings));
+        pair.deferred = engine::toPicture(renderer.render(Technique::Deferred, settings));
         pair.covered = std::ranges::count(pair.forward.covered, 1);
         return pair;
     }

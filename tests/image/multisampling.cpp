@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "passes/recipes/ChooseSamples.h"
+#include "engine/ChooseSamples.h"
+#include "engine/Rendering.h"
 #include "renderer/gpu/Framebuffer.h"
 #include "renderer/graph/Plan.h"
 #include "scenes/Load.h"
@@ -10,13 +11,12 @@
 #include "tests/support/CullingScenes.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
-#include "validation/Rendering.h"
 #include "validation/TechniqueCompare.h"
 
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 using scenes::Scene;
 
 class Multisampling : public test::GlTest {
@@ -29,11 +29,11 @@ protected:
     }
     Picture picture(const Scene& scene, const frame::FrameSettings& settings,
                     Technique technique = Technique::Forward) {
-        recipes::Renderer renderer(context(), scene);
-        return validation::toPicture(renderer.render(technique, settings));
+        engine::Renderer renderer(context(), scene);
+        return engine::toPicture(renderer.render(technique, settings));
     }
     /// Programs are compiled once for a renderer, whatever the size.
-    void expectAgreement(recipes::Renderer& renderer, const frame::FrameSettings& settings) {
+    void expectAgreement(engine::Renderer& renderer, const frame::FrameSettings& settings) {
         validation::CompareRequest request;
         std::vector<validation::LeftOutTechnique> leftOut;
         request.techniques = validation::techniquesTaking(settings, leftOut);
@@ -55,13 +55,13 @@ protected:
 
 TEST_F(Multisampling, hallIsExactlyTheSameInTheForwardFamily) {
     const Scene scene = scenes::loadScene("hall");
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     for (const glm::ivec2 size : {glm::ivec2(208, 116), glm::ivec2(209, 117)}) expectAgreement(renderer, sampled(size));
 }
 
 TEST_F(Multisampling, aSceneOfEveryFeatureIsExactlyTheSameInTheForwardFamily) {
     const Scene scene = test::everythingScene();
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     for (const glm::ivec2 size : {glm::ivec2(320, 180), glm::ivec2(321, 179)}) {
         frame::FrameSettings settings = sampled(size);
         expectAgreement(renderer, settings);
@@ -76,7 +76,7 @@ TEST_F(Multisampling, aSceneOfEveryFeatureIsExactlyTheSameInTheForwardFamily) {
     flat.cameras[0].projection = scenes::Projection::Orthographic;
     flat.cameras[0].halfHeightMetres = 2.5;
     flat.cameras[0].farMetres = 20.0;
-    recipes::Renderer flatRenderer(context(), flat);
+    engine::Renderer flatRenderer(context(), flat);
     expectAgreement(flatRenderer, sampled({321, 179}));
 }
 
@@ -84,13 +84,13 @@ TEST_F(Multisampling, everyCullingMethodAndTileGivesExactlyForwardsPicture) {
     std::vector<Scene> lit{test::everythingScene(), test::columnsBeforeWall(200)};
     for (std::uint64_t seed = 1; seed <= 24; ++seed) lit.push_back(test::randomLitScene(seed));
     for (std::size_t i = 0; i < lit.size(); ++i) {
-        recipes::Renderer renderer(context(), lit[i]);
+        engine::Renderer renderer(context(), lit[i]);
         frame::FrameSettings settings = sampled(i < 2 ? glm::ivec2(201, 115) : glm::ivec2(97, 61), i % 2 == 0 ? 4 : 2);
-        settings = recipes::settingsOn(context().capabilities(), settings);
+        settings = engine::settingsOn(context().capabilities(), settings);
         settings.prune = i % 4 == 0; // without pruning all scenes share their programs
         const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
-        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
-            if (!recipes::takesSamples(technique, settings.samples)) continue;
+        for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
+            if (!engine::takesSamples(technique, settings.samples)) continue;
             for (const culling::Method method : technique.methods) {
                 settings.culling.method = method;
                 for (const int tile : culling::kTileSides) {
@@ -132,8 +132,8 @@ TEST_F(Multisampling, aSurfaceWhosePixelCentreLiesBeyondTheHorizonAlwaysHasItsLi
             scene.cameras[0].worldFromCamera[2] = {0, std::sin(pitch), std::cos(pitch), 0};
             // A tile of one row of pixels, those that the horizon crosses, has nothing but them to list lights for.
             for (const glm::ivec2 size : {glm::ivec2(65, 17), glm::ivec2(65, 1)}) {
-                recipes::Renderer renderer(context(), scene);
-                frame::FrameSettings settings = recipes::settingsOn(context().capabilities(), sampled(size));
+                engine::Renderer renderer(context(), scene);
+                frame::FrameSettings settings = engine::settingsOn(context().capabilities(), sampled(size));
                 const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
                 EXPECT_GT(*std::max_element(truth.begin(), truth.end()), 0.0f);
                 for (const culling::Method method : {culling::Method::TileMinmax, culling::Method::Tile25d,
@@ -173,7 +173,7 @@ TEST_F(Multisampling, aPixelWhoseCentreLiesOnTheHorizonTakesOneTexelOfACornerWit
 
 TEST_F(Multisampling, everyViewIsExactlyTheSameInTheForwardFamily) {
     const Scene scene = test::everythingScene();
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     for (const frame::ViewInfo& view : frame::viewTable()) {
         SCOPED_TRACE(view.name);
         frame::FrameSettings settings = sampled({161, 90});
@@ -238,7 +238,7 @@ TEST_F(Multisampling, aPixelIsNeverNaNInfiniteOrNegative) {
 
 TEST_F(Multisampling, oneSampleIsAlwaysDrawnAsWithoutThem) {
     const Scene scene = scenes::loadScene("room");
-    const graph::Plan plan = recipes::planFrame(scene, Technique::ForwardPrepass, sampled({64, 36}, 1));
+    const graph::Plan plan = engine::planFrame(scene, Technique::ForwardPrepass, sampled({64, 36}, 1));
     for (const graph::Plan::Pass& pass : plan.passes) EXPECT_NE(pass.name, "resolve");
     for (const graph::Plan::Resource& resource : plan.resources) EXPECT_EQ(resource.samples, 1) << resource.name;
     for (const graph::Plan::Choice& choice : plan.choices) EXPECT_NE(choice.what, "samples");
@@ -286,10 +286,10 @@ TEST_F(Multisampling, aMaskedEdgeAlwaysCoversAsManySamplesAsItsAlphaSays) {
             SCOPED_TRACE(share);
             // Alpha is (x + 1/2) / 8 at the centre of column x, so the sharpened alpha is x + 1 - 8 cutoff.
             const Scene scene = rampScene(float((kEdge + 1 - share) / kSide));
-            recipes::Renderer renderer(context(), scene);
-            const recipes::RenderedFrame frame = renderer.render(technique, sampled({kSide, kSide}));
+            engine::Renderer renderer(context(), scene);
+            const engine::RenderedFrame frame = renderer.render(technique, sampled({kSide, kSide}));
             const int given =
-                recipes::settingsOn(context().capabilities(), sampled({kSide, kSide})).samplesGiven.value();
+                engine::settingsOn(context().capabilities(), sampled({kSide, kSide})).samplesGiven.value();
             for (int i = 0; i < kSide * kSide; ++i) {
                 const int x = i % kSide;
                 const float part = x < kEdge ? 0.0f : x > kEdge ? 1.0f : float(std::floor(share * given + 0.5) / given);
@@ -319,7 +319,7 @@ TEST_F(Multisampling, aStraightEdgeAlwaysCoversTheSamplesOnItsSide) {
     constexpr int kSide = 8, kEdge = 4;
     const std::vector<int>& counts = context().capabilities().renderTargetSamples;
     if (counts.back() == 1) GTEST_SKIP() << "this driver has no multisampled render targets";
-    const frame::FrameSettings settings = recipes::settingsOn(context().capabilities(), sampled({kSide, kSide}));
+    const frame::FrameSettings settings = engine::settingsOn(context().capabilities(), sampled({kSide, kSide}));
     const gpu::Texture target("target", {graph::Format::Rgba32Float, kSide, kSide, *settings.samplesGiven});
     const std::vector<glm::vec2> samples = gpu::Framebuffer({{&target}, nullptr}).samplePositions();
     ASSERT_EQ(samples.size(), std::size_t(*settings.samplesGiven));

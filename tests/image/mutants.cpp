@@ -11,7 +11,7 @@
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 struct Mutant {
     const char* fault;
@@ -148,10 +148,10 @@ TEST_F(Mutants, techniquesAlwaysAgreeOnAFaultTheyShare) {
     const test::ShaderMutant shaders;
     shaders.replace("lib/math.glsl", "kPi = 3.14159265358979323846", "kPi = 3.17300858");
     const scenes::Scene scene = validation::stressScene();
-    recipes::Renderer renderer(context(), scene, shaders.tree());
+    engine::Renderer renderer(context(), scene, shaders.tree());
     validation::CompareRequest request;
     request.settings.sizePixels = {64, 45};
-    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) request.techniques.push_back(info.technique);
+    for (const engine::TechniqueInfo& info : engine::techniqueTable()) request.techniques.push_back(info.technique);
     EXPECT_TRUE(validation::compareTechniques(renderer, context().capabilities(), request).record.ok());
 }
 

@@ -4,16 +4,16 @@
 
 #include <fmt/format.h>
 
+#include "engine/Rendering.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/Random.h"
 #include "tests/support/TestScenes.h"
 #include "validation/ErrorFigures.h"
-#include "validation/Rendering.h"
 
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 scenes::Material randomPaint(test::Random& random) {
     scenes::Material paint;
@@ -55,13 +55,13 @@ TEST_F(OnePaint, aBallIsAlwaysAsBrightInACoarseLayoutAsInFp32) {
         scenes::Scene scene = ballOf(randomPaint(random));
         const bool varies = i % 2 == 1;
         if (varies) vary(scene, random);
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings;
         settings.sizePixels = {320, 320};
-        const Picture exact = validation::toPicture(renderer.render(Technique::Deferred, settings));
+        const Picture exact = engine::toPicture(renderer.render(Technique::Deferred, settings));
         for (const frame::LayoutInfo& layout : frame::layoutTable().subspan(1)) {
             settings.layout = layout.layout;
-            const Picture coarse = validation::toPicture(renderer.render(Technique::Deferred, settings));
+            const Picture coarse = engine::toPicture(renderer.render(Technique::Deferred, settings));
             const validation::ErrorFigures figures = validation::errorFigures(coarse, exact);
             SCOPED_TRACE(fmt::format("paint {} {}", i, layout.name));
             fmt::print("paint {}{} {}: bias {:.2e}, relMse {:.2e}, p99.9 {:.2e}\n", i, varies ? " varying" : "",

@@ -8,21 +8,21 @@
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 class Parity : public test::GlTest {
 protected:
     /// Programs are compiled once for a renderer, whatever the size.
-    validation::CompareRecord compare(recipes::Renderer& renderer, const frame::FrameSettings& settings) {
+    validation::CompareRecord compare(engine::Renderer& renderer, const frame::FrameSettings& settings) {
         validation::CompareRequest request;
-        for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+        for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
             if (info.technique != Technique::Forward) request.techniques.push_back(info.technique);
         }
         request.settings = settings;
         return validation::compareTechniques(renderer, context().capabilities(), request).record;
     }
 
-    void expectAgreement(recipes::Renderer& renderer, const frame::FrameSettings& settings) {
+    void expectAgreement(engine::Renderer& renderer, const frame::FrameSettings& settings) {
         const validation::CompareRecord record = compare(renderer, settings);
         EXPECT_TRUE(record.ok()) << validation::compareTable(record);
         for (const validation::ComparePair& pair : record.pairs) {
@@ -33,7 +33,7 @@ protected:
 };
 
 bool usesGBuffer(const std::string& technique) {
-    for (const recipes::TechniqueInfo& info : recipes::techniqueTable())
+    for (const engine::TechniqueInfo& info : engine::techniqueTable())
         if (info.name == technique) return info.usesGBuffer();
     return false;
 }
@@ -44,7 +44,7 @@ constexpr glm::ivec2 kSizes[] = {{640, 360}, {641, 359}};
 TEST_F(Parity, everyBuiltinSceneIsExactlyTheSameWithEveryTechnique) {
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
         const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         for (const glm::ivec2 size : kSizes) {
             SCOPED_TRACE(fmt::format("{} {}x{}", builtin.name, size.x, size.y));
             frame::FrameSettings settings;
@@ -57,7 +57,7 @@ TEST_F(Parity, everyBuiltinSceneIsExactlyTheSameWithEveryTechnique) {
 TEST_F(Parity, everyCoarseLayoutAlwaysKeepsItsPromiseAndAttributesItsError) {
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
         const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         for (const frame::LayoutInfo& layout : frame::layoutTable().subspan(1)) {
             SCOPED_TRACE(fmt::format("{} {}", builtin.name, layout.name));
             frame::FrameSettings settings;
@@ -84,7 +84,7 @@ TEST_F(Parity, everyCoarseLayoutAlwaysKeepsItsPromiseAndAttributesItsError) {
 
 TEST_F(Parity, aSceneOfEveryFeatureIsExactlyTheSameWithEveryTechniqueAndOption) {
     const scenes::Scene scene = test::everythingScene();
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     for (const glm::ivec2 size : {glm::ivec2(320, 180), glm::ivec2(321, 179)}) {
         frame::FrameSettings settings;
         settings.sizePixels = size;
@@ -102,7 +102,7 @@ TEST_F(Parity, aSceneOfEveryFeatureIsExactlyTheSameWithEveryTechniqueAndOption) 
 
 TEST_F(Parity, everyViewIsExactlyTheSameInForwardAndDeferred) {
     scenes::Scene scene = test::everythingScene();
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     for (const frame::ViewInfo& view : frame::viewTable()) {
         SCOPED_TRACE(view.name);
         if (view.ofTechnique) continue; // what it shows is what techniques differ in
@@ -122,11 +122,11 @@ TEST_F(Parity, anOrthographicCameraIsExactlyTheSameWithEveryTechnique) {
     scene.cameras[0].halfHeightMetres = 2.5;
     frame::FrameSettings settings;
     settings.sizePixels = {321, 179};
-    recipes::Renderer endless(context(), scene);
+    engine::Renderer endless(context(), scene);
     expectAgreement(endless, settings);
     scenes::Scene ending = scene;
     ending.cameras[0].farMetres = 20.0;
-    recipes::Renderer ended(context(), ending);
+    engine::Renderer ended(context(), ending);
     expectAgreement(ended, settings);
 }
 
@@ -135,13 +135,13 @@ TEST_F(Parity, aFarPlaneNeverChangesWhatLiesBeforeIt) {
     frame::FrameSettings settings;
     settings.sizePixels = {161, 90};
     const Picture endless = [&] {
-        recipes::Renderer renderer(context(), scene);
-        const recipes::RenderedFrame frame = renderer.render(Technique::Deferred, settings);
+        engine::Renderer renderer(context(), scene);
+        const engine::RenderedFrame frame = renderer.render(Technique::Deferred, settings);
         return Picture{frame.width, frame.height, frame.radiance, std::vector<std::uint8_t>(161 * 90, 1)};
     }();
     scene.cameras[0].farMetres = 60.0;
-    recipes::Renderer renderer(context(), scene);
-    const recipes::RenderedFrame frame = renderer.render(Technique::Deferred, settings);
+    engine::Renderer renderer(context(), scene);
+    const engine::RenderedFrame frame = renderer.render(Technique::Deferred, settings);
     const Picture bounded{frame.width, frame.height, frame.radiance, std::vector<std::uint8_t>(161 * 90, 1)};
     // Depth is stored on another scale, so positions move by its rounding: 1e-7 of the distance, and highlights with
     // them.

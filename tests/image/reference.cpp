@@ -16,7 +16,7 @@
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 using scenes::TextureSlot;
 
 frame::FrameSettings ofSize(int width, int height) {
@@ -52,7 +52,7 @@ protected:
     std::vector<validation::ComparePair> compared(const scenes::Scene& scene, frame::FrameSettings settings,
                                                   bool hardware) {
         settings.filter = frame::TextureFilter::Exact;
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         validation::CompareRequest request;
         request.techniques = {Technique::Forward};
         request.against = validation::Reference{};
@@ -164,8 +164,8 @@ TEST_F(Reference, aLightThatDiffersByOnePercentNeverPasses) {
     frame::FrameSettings settings = ofSize(96, 54);
     const validation::ReferencePicture truth = validation::referencePicture(scene, settings);
     scene.lights[0].intensity *= 1.01f;
-    recipes::Renderer renderer(context(), scene);
-    const Picture picture = validation::toPicture(renderer.render(Technique::Forward, settings));
+    engine::Renderer renderer(context(), scene);
+    const Picture picture = engine::toPicture(renderer.render(Technique::Forward, settings));
     const validation::ErrorFigures figures = validation::errorFigures(
         picture, truth.picture, validation::shownTriangles(renderer, settings, truth.ids).excluded);
     EXPECT_FALSE(validation::checkTolerance(figures, validation::referenceTolerance(scene, settings.filter)).ok);
@@ -173,7 +173,7 @@ TEST_F(Reference, aLightThatDiffersByOnePercentNeverPasses) {
 
 TEST_F(Reference, hardwareFilteringIsAlwaysAPairOfItsOwnAndHolds) {
     const scenes::Scene scene = test::everythingScene();
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     validation::CompareRequest request;
     request.techniques = {Technique::Deferred, Technique::Forward};
     request.against = validation::Reference{};
@@ -192,9 +192,9 @@ TEST_F(Reference, aTextureWithoutItsSmallerLevelsNeverPassesAsHardwareFiltering)
     const scenes::Scene scene = test::everythingScene();
     const test::ShaderMutant shaders;
     shaders.replace("lib/texture_filter.glsl", "texture(image, uv)", "textureLod(image, uv, 0.0)");
-    recipes::Renderer renderer(context(), scene, shaders.tree());
+    engine::Renderer renderer(context(), scene, shaders.tree());
     const frame::FrameSettings settings = ofSize(96, 54);
-    const Picture shown = validation::toPicture(renderer.render(Technique::Forward, settings));
+    const Picture shown = engine::toPicture(renderer.render(Technique::Forward, settings));
     const validation::ReferencePicture truth = validation::referencePicture(scene, settings);
     const validation::ErrorFigures figures = validation::errorFigures(
         shown, truth.nearestTo(shown), validation::shownTriangles(renderer, settings, truth.ids).excluded);
@@ -211,7 +211,7 @@ TEST_F(SrgbDecoding, everyCodeValueIsAlwaysDecodedToRounding) {
         const scenes::Image image = test::image8([&](int x, int y) {
             return std::array<int, 4>{code(x, y), code(x, y), 0, 255};
         });
-        const recipes::RenderedFrame shown =
+        const engine::RenderedFrame shown =
             frame(test::texturedScene(flatScene(test::unlit()), TextureSlot::BaseColor, image), settings);
         for (int y = 0; y < test::kSide; ++y) {
             for (int x = 0; x < test::kSide; ++x) {

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "engine/Rendering.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
-#include "validation/Rendering.h"
 
 namespace tessera {
 namespace {
@@ -41,14 +41,14 @@ std::optional<room::RoomPoint> insideOneSurface(const scenes::Camera& camera, gl
 
 TEST_F(Room, everyPixelIsAlwaysTheClosedFormWithEveryTechnique) {
     const scenes::Scene scene = scenes::loadScene("room");
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings;
     settings.sizePixels = {320, 181};
     for (settings.camera = 0; settings.camera < int(scene.cameras.size()); ++settings.camera) {
         const scenes::Camera& camera = scene.cameras[std::size_t(settings.camera)];
-        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
+        for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
             SCOPED_TRACE(fmt::format("{} {}", camera.name, technique.name));
-            const Picture picture = validation::toPicture(renderer.render(technique.technique, settings));
+            const Picture picture = engine::toPicture(renderer.render(technique.technique, settings));
             std::size_t checked = 0;
             std::size_t dark = 0;
             double worst = 0.0;

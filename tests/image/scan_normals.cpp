@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "engine/Rendering.h"
 #include "scenes/Load.h"
 #include "scenes/import/Importers.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/UnderLedger.h"
-#include "validation/Rendering.h"
 
 namespace tessera {
 namespace {
@@ -42,8 +42,8 @@ protected:
         frame::FrameSettings settings;
         settings.sizePixels = {400, 400};
         settings.view = frame::View::Normal;
-        recipes::Renderer renderer(context(), scene);
-        return renderer.render(recipes::Technique::Deferred, settings).radiance;
+        engine::Renderer renderer(context(), scene);
+        return renderer.render(engine::Technique::Deferred, settings).radiance;
     }
     static double medianDegrees(const std::vector<float>& a, const std::vector<float>& b) {
         std::vector<double> angles;

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
@@ -13,8 +13,8 @@
 namespace tessera {
 namespace {
 
-using View = recipes::FrameRequest;
-using recipes::Technique;
+using View = engine::FrameRequest;
+using engine::Technique;
 
 class SeveralViews : public test::GlTest {
 protected:
@@ -38,12 +38,12 @@ protected:
 
     /// Draws the views in one frame, then each in a frame of its own.
     void expectEqual(const scenes::Scene& scene, const std::vector<View>& views) {
-        recipes::Renderer together(context(), scene), alone(context(), scene);
+        engine::Renderer together(context(), scene), alone(context(), scene);
         together.draw(views);
         for (std::size_t i = 0; i < views.size(); ++i) {
-            SCOPED_TRACE(fmt::format("view {}, {}", i, recipes::infoOf(views[i].technique).name));
-            const recipes::RenderedFrame truth = alone.render(views[i].technique, views[i].settings);
-            const recipes::RenderedFrame drawn = together.download(i);
+            SCOPED_TRACE(fmt::format("view {}, {}", i, engine::infoOf(views[i].technique).name));
+            const engine::RenderedFrame truth = alone.render(views[i].technique, views[i].settings);
+            const engine::RenderedFrame drawn = together.download(i);
             EXPECT_EQ(drawn.width, views[i].settings.sizePixels.x);
             EXPECT_TRUE(drawn.radiance == truth.radiance);
             EXPECT_TRUE(drawn.display == truth.display);
@@ -60,7 +60,7 @@ protected:
 
 TEST_F(SeveralViews, twoCamerasInOneFrameAreTwoFramesToTheLastBit) {
     const scenes::Scene scene = withTwoCameras(test::everythingScene());
-    for (const recipes::TechniqueInfo& info : recipes::techniqueTable())
+    for (const engine::TechniqueInfo& info : engine::techniqueTable())
         expectEqual(scene, {view(info.technique, 0, {97, 55}), view(info.technique, 1, {97, 55})});
 }
 
@@ -82,22 +82,22 @@ TEST_F(SeveralViews, sharedMemoryChangesNoBit) {
     // Without pruning no memory is shared within a frame, and nothing is left out.
     const scenes::Scene scene = withTwoCameras(scenes::loadScene("hall"));
     std::vector<View> views{view(Technique::Deferred, 0, {96, 54}), view(Technique::TiledDeferred, 1, {96, 54})};
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     renderer.draw(views);
-    const std::size_t bytes = recipes::planViews(scene, views).bytes;
+    const std::size_t bytes = engine::planViews(scene, views).bytes;
     const std::vector<float> first = renderer.download(0).radiance, second = renderer.download(1).radiance;
     for (View& each : views) each.settings.prune = false;
     renderer.draw(views);
     EXPECT_TRUE(renderer.download(0).radiance == first);
     EXPECT_TRUE(renderer.download(1).radiance == second);
-    EXPECT_LT(bytes, recipes::planViews(scene, views).bytes);
+    EXPECT_LT(bytes, engine::planViews(scene, views).bytes);
 }
 
 TEST_F(SeveralViews, viewsThatNeedTheSceneInTwoWaysAreRefused) {
     const scenes::Scene scene = withTwoCameras(test::everythingScene());
     std::vector<View> views{view(Technique::Deferred, 0, {8, 8}), view(Technique::Deferred, 1, {8, 8})};
     views[1].settings.filter = frame::TextureFilter::Exact;
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     EXPECT_THROW(renderer.draw(views), InputError);
 }
 

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/ChooseSamples.h"
+#include "engine/PrepareView.h"
+#include "engine/Renderer.h"
 #include "passes/DepthPrepass.h"
 #include "passes/UploadPass.h"
-#include "passes/recipes/ChooseSamples.h"
-#include "passes/recipes/PrepareView.h"
-#include "passes/recipes/Renderer.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/GraphBackend.h"
 #include "renderer/graph/Execute.h"
@@ -15,7 +15,7 @@
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 constexpr int kWidth = 65, kHeight = 37;
 
@@ -33,12 +33,12 @@ protected:
         frame::FrameSettings asked;
         asked.sizePixels = {kWidth, kHeight};
         asked.samples = samples;
-        return recipes::settingsOn(context().capabilities(), asked);
+        return engine::settingsOn(context().capabilities(), asked);
     }
 
     /// Pixels in GL's order, rows from below.
     std::vector<Pixel> prepassed(const scenes::Scene& scene, const frame::FrameSettings& settings) {
-        const frame::PreparedView prepared = recipes::prepareView(scene, Technique::ForwardPrepass, settings);
+        const frame::PreparedView prepared = engine::prepareView(scene, Technique::ForwardPrepass, settings);
         const frame::FrameSpec& spec = prepared.spec;
         const frame::SceneGpu sceneGpu(scene, spec.features);
         const frame::DrawnView view{prepared, &sceneGpu,
@@ -146,8 +146,8 @@ TEST_F(ShadingDepth, aPixelIsAlwaysLitAtTheDepthThatThePrepassSays) {
     const scenes::Scene scene = endlessFloor();
     const std::vector<Pixel> pixels = prepassed(scene, four);
     four.view = frame::View::Depth;
-    recipes::Renderer renderer(context(), scene);
-    const recipes::RenderedFrame shown = renderer.render(Technique::ForwardPrepass, four);
+    engine::Renderer renderer(context(), scene);
+    const engine::RenderedFrame shown = renderer.render(Technique::ForwardPrepass, four);
     const double nearMetres = scene.cameras[0].nearMetres;
     for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < kWidth; ++x) {

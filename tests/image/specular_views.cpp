@@ -1,14 +1,14 @@
 #include <fmt/format.h>
 
+#include "engine/Rendering.h"
 #include "scenes/Load.h"
 #include "tests/image/Textbook.h"
 #include "tests/support/GlContext.h"
-#include "validation/Rendering.h"
 
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 using scenes::Material;
 using scenes::MaterialModel;
 
@@ -23,7 +23,7 @@ protected:
         options.useAssets = false; // the generated bust, whose alpha and ior no texture changes
         scene_ = scenes::loadScene("head", options);
     }
-    std::vector<float> show(recipes::Renderer& renderer, frame::View view, Technique technique, int light) {
+    std::vector<float> show(engine::Renderer& renderer, frame::View view, Technique technique, int light) {
         frame::FrameSettings settings;
         settings.sizePixels = kSize;
         settings.view = view;
@@ -78,7 +78,7 @@ Terms textbookTerms(const Material& m, const glm::dvec3& n, const glm::dvec3& l,
 }
 
 TEST_F(SpecularViews, dGAndFOfHeadAlwaysEqualTheirFormulasAndFIsExactlyZeroWhereTheLightIsNotSeen) {
-    recipes::Renderer renderer(context(), scene_);
+    engine::Renderer renderer(context(), scene_);
     const scenes::Camera& camera = scene_.cameras[0];
     for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
         for (int light = 0; light < int(scene_.lights.size()); ++light) {

@@ -12,8 +12,7 @@ protected:
     validation::StressRecord run(validation::StressEffort effort) {
         validation::StressRequest request;
         for (const validation::StressCase& row : validation::stressCases()) request.cases.push_back(&row);
-        for (const recipes::TechniqueInfo& info : recipes::techniqueTable())
-            request.techniques.push_back(info.technique);
+        for (const engine::TechniqueInfo& info : engine::techniqueTable()) request.techniques.push_back(info.technique);
         request.effort = effort;
         double last = 0.0;
         request.progress = [&last](double share) {

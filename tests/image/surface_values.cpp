@@ -23,7 +23,7 @@ TEST_F(SurfaceValues, alphaMaskAlwaysKeepsWhatReachesTheCutoff) {
     scene.materials[0].alphaMode = scenes::AlphaMode::Mask;
     for (const float cutoff : {0.0f, 0.3f, 0.5f, 1.0f}) {
         scene.materials[0].alphaCutoff = cutoff;
-        const recipes::RenderedFrame shown = frame(scene);
+        const engine::RenderedFrame shown = frame(scene);
         for (int x = 0; x < kSide; ++x)
             EXPECT_EQ(pixel(shown, x, 3).a, float(32 * x) / 255.0f >= cutoff ? 1.0f : 0.0f) << x;
     }
@@ -64,11 +64,10 @@ TEST_F(SurfaceValues, coloursAboveOneAlwaysKeepTheirLightInEveryLayout) {
         frame::FrameSettings settings;
         settings.sizePixels = {kSide, kSide};
         const glm::vec4 exact = center(scene);
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         for (const frame::LayoutInfo& layout : frame::layoutTable()) {
             settings.layout = layout.layout;
-            const glm::vec4 found =
-                pixel(renderer.render(recipes::Technique::Deferred, settings), kSide / 2, kSide / 2);
+            const glm::vec4 found = pixel(renderer.render(engine::Technique::Deferred, settings), kSide / 2, kSide / 2);
             // The other channels' steps: half a percent covers slim's.
             EXPECT_LE(glm::distance(found, exact), 0.005f * glm::length(exact)) << layout.name << " " << int(model);
         }
@@ -95,9 +94,9 @@ TEST_F(SurfaceValues, aMirroredNodeIsAlwaysDrawnMirroredWithTheSameLighting) {
     material.model = MaterialModel::Lambert;
     Scene scene = texturedScene(flatScene(material), TextureSlot::BaseColor, mapImage());
     scene.lights = {test::pointLight({0.0, 0.2, 1.0}, 1.0f)};
-    const recipes::RenderedFrame straight = frame(scene);
+    const engine::RenderedFrame straight = frame(scene);
     scene.nodes[0].parentFromNode = glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1));
-    const recipes::RenderedFrame mirrored = frame(scene);
+    const engine::RenderedFrame mirrored = frame(scene);
     for (int x = 0; x < kSide; ++x) {
         EXPECT_NEAR(glm::distance(pixel(mirrored, x, 5), pixel(straight, kSide - 1 - x, 5)), 0.0f, 1e-6f) << x;
     }
@@ -176,7 +175,7 @@ TEST_F(SurfaceValues, aTangentSpaceMapAlwaysTiltsAlongItsTextureWhereverTheMirro
                 }
                 const float along = mirroredTexture != mirroredNode ? -1.0f : 1.0f; // u, on the object's x axis
                 if (authored) mesh.tangentsOS.assign(4, {along, 0.0f, 0.0f, along});
-                const recipes::RenderedFrame shown = frame(scene);
+                const engine::RenderedFrame shown = frame(scene);
                 for (int y = 0; y < kSide; ++y) {
                     for (int x = 0; x < kSide; ++x) {
                         const glm::dvec3 positionWS(2.0 * (x + 0.5) / kSide - 1.0, 1.0 - 2.0 * (y + 0.5) / kSide, 0.0);

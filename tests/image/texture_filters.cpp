@@ -12,8 +12,8 @@
 namespace tessera {
 namespace {
 
+using engine::Technique;
 using frame::TextureFilter;
-using recipes::Technique;
 using scenes::Filter;
 using scenes::Wrap;
 
@@ -126,8 +126,8 @@ protected:
         frame::FrameSettings settings;
         settings.sizePixels = {kColumns * kTilePixels, kRows * kTilePixels};
         settings.filter = filter;
-        recipes::Renderer renderer(context(), scene, shaders);
-        const Picture shown = validation::toPicture(renderer.render(Technique::Forward, settings));
+        engine::Renderer renderer(context(), scene, shaders);
+        const Picture shown = engine::toPicture(renderer.render(Technique::Forward, settings));
         const validation::ReferencePicture truth = validation::referencePicture(scene, settings);
         Judged result;
         result.plainBias = validation::errorFigures(shown, truth.picture).bias;

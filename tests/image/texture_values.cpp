@@ -69,7 +69,7 @@ struct Place {
 };
 
 /// Where pixel (x, y) finds its texel.
-void expectTexels(const recipes::RenderedFrame& frame, const std::function<Place(int, int)>& texelOf) {
+void expectTexels(const engine::RenderedFrame& frame, const std::function<Place(int, int)>& texelOf) {
     for (int y = 0; y < kSide; ++y) {
         for (int x = 0; x < kSide; ++x) {
             const Place texel = texelOf(x, y);
@@ -82,7 +82,7 @@ void expectTexels(const recipes::RenderedFrame& frame, const std::function<Place
 
 class Transforms : public FlatTest {
 protected:
-    recipes::RenderedFrame moved(scenes::TextureTransform transform, scenes::Wrap wrap = scenes::Wrap::Repeat) {
+    engine::RenderedFrame moved(scenes::TextureTransform transform, scenes::Wrap wrap = scenes::Wrap::Repeat) {
         Scene scene = texturedScene(flatScene(unlit()), TextureSlot::BaseColor, mapImage());
         scenes::TextureUse& use = scene.materials[0].texture(TextureSlot::BaseColor);
         use.transform = transform;
@@ -136,7 +136,7 @@ TEST_F(TextureValues, linearMagnificationAlwaysBlendsAndNearestNeverDoes) {
     scenes::TextureUse& use = scene.materials[0].texture(TextureSlot::BaseColor);
     use.transform = {{0.25f, 0.0f}, {0.5f, 1.0f}, 0.0f}; // two pixels a texel
     const auto shades = [&] {
-        const recipes::RenderedFrame shown = frame(scene);
+        const engine::RenderedFrame shown = frame(scene);
         return std::ranges::count_if(shown.radiance, [](float v) { return v > 0.01f && v < 0.99f; });
     };
     EXPECT_EQ(shades(), 0);
@@ -211,7 +211,7 @@ TEST_F(ExactFilter, everyPairOfWrapModesAlwaysFindsAndBlendsItsOwnTexels) {
                 SCOPED_TRACE(testing::Message() << "u " << int(wrapU) << ", v " << int(wrapV) << ", start " << start.x);
                 use.sampler.wrapU = wrapU;
                 use.sampler.wrapV = wrapV;
-                const recipes::RenderedFrame shown = frame(scene, settings);
+                const engine::RenderedFrame shown = frame(scene, settings);
                 for (int y = 0; y < kSide; ++y) {
                     for (int x = 0; x < kSide; ++x) {
                         const glm::dvec2 place = step * glm::dvec2(x, y) + start;
@@ -241,7 +241,7 @@ TEST_F(ExactFilter, theSecondSetOfCoordinatesAlsoSaysWhetherTexelsAreTakenSingly
     const glm::dvec2 step(5.0, 3.0), size(kWidth, kHeight), start(-17.25, -11.625);
     use.transform.scale = double(kSide) * step / size;
     use.transform.offset = (start + 0.5 - 0.5 * step) / size;
-    const recipes::RenderedFrame shown = frame(scene, settings);
+    const engine::RenderedFrame shown = frame(scene, settings);
     for (int y = 0; y < kSide; ++y) {
         for (int x = 0; x < kSide; ++x) {
             const glm::dvec2 texel = glm::floor(step * glm::dvec2(x, y) + start + 0.5);

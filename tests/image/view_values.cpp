@@ -5,7 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/Error.h"
-#include "passes/recipes/PrepareView.h"
+#include "engine/PrepareView.h"
 #include "scenes/Load.h"
 #include "shaders/shared/faults.h"
 #include "tests/image/FlatTest.h"
@@ -14,7 +14,7 @@ namespace tessera {
 namespace {
 
 using namespace test;
-using recipes::Technique;
+using engine::Technique;
 using scenes::Material;
 using scenes::MaterialModel;
 using scenes::Scene;
@@ -22,11 +22,11 @@ using scenes::TextureSlot;
 
 class ViewValues : public FlatTest {
 protected:
-    recipes::RenderedFrame shown(const Scene& scene, frame::View view, Technique technique,
-                                 frame::FrameSettings settings = {}) {
+    engine::RenderedFrame shown(const Scene& scene, frame::View view, Technique technique,
+                                frame::FrameSettings settings = {}) {
         settings.sizePixels = {kSide, kSide};
         settings.view = view;
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         return renderer.render(technique, settings);
     }
 };
@@ -45,7 +45,7 @@ TEST_F(ViewValues, theTexelViewIsExactlyTheMapInBothSpaces) {
         Material material;
         material.normalMapSpace = space;
         const Scene scene = texturedScene(flatScene(material), TextureSlot::Normal, map);
-        const recipes::RenderedFrame view = frame(scene, viewSettings(frame::View::NormalTexel));
+        const engine::RenderedFrame view = frame(scene, viewSettings(frame::View::NormalTexel));
         for (std::size_t i = 0; i < std::size_t(kSide * kSide); ++i) {
             for (std::size_t c = 0; c < 3; ++c) {
                 EXPECT_NEAR(view.radiance[4 * i + c], int(map.texels[4 * i + c]) / 255.0, 1.2e-7)
@@ -64,7 +64,7 @@ TEST_F(ViewValues, theDiffuseViewIsExactlyTheBaseColourOfEveryModel) {
         Material material;
         material.model = model;
         material.baseColor = {0.75f, 0.5f, 0.125f, 1.0f};
-        const recipes::RenderedFrame view = frame(flatScene(material), viewSettings(frame::View::Diffuse));
+        const engine::RenderedFrame view = frame(flatScene(material), viewSettings(frame::View::Diffuse));
         EXPECT_EQ(pixel(view, 3, 4), material.baseColor);
     }
 }
@@ -123,11 +123,11 @@ Scene layers(const Material& material) {
 }
 
 TEST_F(ViewValues, overdrawIsExactlyTheSurfacesThatEachTechniqueShades) {
-    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+    for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         SCOPED_TRACE(info.name);
-        const bool prepass = info.geometry == recipes::Geometry::DepthFirst;
+        const bool prepass = info.geometry == engine::Geometry::DepthFirst;
         const Scene opaque = layers(Material{});
-        const recipes::RenderedFrame drawn = shown(opaque, frame::View::Overdraw, info.technique);
+        const engine::RenderedFrame drawn = shown(opaque, frame::View::Overdraw, info.technique);
         EXPECT_EQ(pixel(drawn, 4, 4), prepass ? glm::vec4(1.0f) : glm::vec4(3, 3, 3, 1));
         Scene mixed = opaque; // a pane of glass before them, another behind
         Material glass;
@@ -138,7 +138,7 @@ TEST_F(ViewValues, overdrawIsExactlyTheSurfacesThatEachTechniqueShades) {
             mixed.nodes.back().instances[0].material = 1;
             mixed.nodes.back().parentFromNode[3].z = z;
         }
-        const recipes::RenderedFrame behindGlass = shown(mixed, frame::View::Overdraw, info.technique);
+        const engine::RenderedFrame behindGlass = shown(mixed, frame::View::Overdraw, info.technique);
         EXPECT_EQ(pixel(behindGlass, 4, 4), prepass ? glm::vec4(2, 2, 2, 1) : glm::vec4(4, 4, 4, 1));
     }
 }
@@ -159,7 +159,7 @@ TEST_F(ViewValues, faultsAreAlwaysPaintedAndNothingElseIs) {
         material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
         material.emissive = emission;
         for (const Technique technique : {Technique::Forward, Technique::Deferred, Technique::DeferredVolumes}) {
-            const recipes::RenderedFrame view = shown(flatScene(material), frame::View::Faults, technique);
+            const engine::RenderedFrame view = shown(flatScene(material), frame::View::Faults, technique);
             const std::size_t middle = 4 * std::size_t(kSide / 2 * kSide + kSide / 2);
             for (std::size_t c = 0; c < 3; ++c)
                 EXPECT_NEAR(view.display[middle + c], painted[c], painted[0] == 188 ? 1 : 0) << emission.x; // rounding
@@ -237,7 +237,7 @@ TEST_F(ViewValues, storedChannelsAreNeverShownWhereThereAreNone) {
     const auto message = [&](Technique technique, frame::Channel channel) -> std::string {
         frame::FrameSettings settings = viewSettings(frame::storedView({channel, false}));
         try {
-            recipes::prepareView(scene, technique, settings);
+            engine::prepareView(scene, technique, settings);
         } catch (const InputError& error) {
             return error.what();
         }
@@ -260,7 +260,7 @@ TEST_F(ViewValues, theDepthViewIsAlwaysTheDistanceAheadOfTheEyeHoweverFar) {
         scene.nodes[1].parentFromNode[3] = {0, 0, -1, 1};
         scene.cameras[0].worldFromCamera[3].z = metres;
         scene.cameras[0].fovYRadians = 2.0 * std::atan(1.4 / metres); // 1.4 m up and down at the quad
-        const recipes::RenderedFrame view = frame(scene, viewSettings(frame::View::Depth));
+        const engine::RenderedFrame view = frame(scene, viewSettings(frame::View::Depth));
         // Some four roundings of 2^-24 each.
         EXPECT_NEAR(pixel(view, kSide / 2, kSide / 2).r, metres, 3e-7 * metres);
         EXPECT_NEAR(pixel(view, 0, 0).r, metres + 1.0, 3e-7 * (metres + 1.0));
@@ -272,7 +272,7 @@ TEST_F(ViewValues, aLightThatIsDarkHasNoHighlightToShowAndAnotherNeverStandsInFo
     material.model = MaterialModel::Microfacet;
     Scene scene = flatScene(material);
     scene.lights = {pointLight({0.0, 0.0, 1.0}, 1.0f), pointLight({0.5, 0.5, 1.0}, 1.0f)};
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings = viewSettings(frame::View::Distribution);
     settings.sizePixels = {kSide, kSide};
     const auto brightest = [&](Technique technique) {
@@ -300,7 +300,7 @@ TEST_F(ViewValues, distributionsOfAnySizeAlwaysFitTheDisplay) {
     int last = 0;
     for (const float alpha : {1.0f, 0.5f, 0.25f, 0.1f}) { // D = 1 / (pi alpha^2): 0.3 to 32
         scene.materials[0].alpha = alpha;
-        const recipes::RenderedFrame view = frame(scene, viewSettings(frame::View::Distribution));
+        const engine::RenderedFrame view = frame(scene, viewSettings(frame::View::Distribution));
         const double d = 1.0 / (std::numbers::pi * alpha * alpha);
         EXPECT_NEAR(view.radiance[0], d, 1e-5 * d);
         EXPECT_GT(view.display[0], last);

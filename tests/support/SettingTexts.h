@@ -5,27 +5,27 @@
 
 #include <fmt/format.h>
 
-#include "passes/recipes/Settings.h"
+#include "engine/Settings.h"
 
 namespace tessera::test {
 
 /// Values that a setting takes, as texts, its default and the open one among them; all names of a choice. Those of the
 /// scene are of one with two cameras and a light.
-inline std::vector<std::string> textsOf(const recipes::Setting& setting) {
-    std::vector<std::string> texts{setting.text(recipes::FrameRequest())};
+inline std::vector<std::string> textsOf(const engine::Setting& setting) {
+    std::vector<std::string> texts{setting.text(engine::FrameRequest())};
     if (!setting.value.open.empty()) texts.emplace_back(setting.value.open);
-    const recipes::SettingKind& kind = setting.value.kind;
-    if (const auto* choice = std::get_if<recipes::ChoiceKind>(&kind)) {
-        for (const recipes::ChoiceKind::Entry& entry : choice->entries) texts.push_back(entry.name);
-    } else if (const auto* number = std::get_if<recipes::NumberKind>(&kind)) {
+    const engine::SettingKind& kind = setting.value.kind;
+    if (const auto* choice = std::get_if<engine::ChoiceKind>(&kind)) {
+        for (const engine::ChoiceKind::Entry& entry : choice->entries) texts.push_back(entry.name);
+    } else if (const auto* number = std::get_if<engine::NumberKind>(&kind)) {
         const double least = std::isfinite(number->least) ? number->least : -1e7;
         const double most = std::isfinite(number->most) ? number->most : 1e7;
         texts.push_back(fmt::format("{}", least));
         if (!setting.isOfScene) texts.push_back(fmt::format("{}", most));
         if (!number->isWhole) texts.push_back(fmt::format("{}", least + (most - least) / 3.0));
-    } else if (std::holds_alternative<recipes::SwitchKind>(kind)) {
+    } else if (std::holds_alternative<engine::SwitchKind>(kind)) {
         texts.insert(texts.end(), {"on", "off"});
-    } else if (std::holds_alternative<recipes::SizeKind>(kind)) {
+    } else if (std::holds_alternative<engine::SizeKind>(kind)) {
         texts.insert(texts.end(), {"641x359", "1x16384"});
     } else {
         texts.emplace_back("1");
@@ -34,8 +34,8 @@ inline std::vector<std::string> textsOf(const recipes::Setting& setting) {
 }
 
 /// A request that differs from the default in this setting.
-inline recipes::FrameRequest changedIn(const recipes::Setting& setting, const scenes::Scene& scene) {
-    recipes::FrameRequest request;
+inline engine::FrameRequest changedIn(const engine::Setting& setting, const scenes::Scene& scene) {
+    engine::FrameRequest request;
     for (const std::string& text : textsOf(setting)) {
         setting.read(request, text, {{}, &scene});
         if (!setting.isDefault(request)) return request;

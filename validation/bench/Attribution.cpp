@@ -14,7 +14,7 @@ namespace tessera::validation {
 
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 std::optional<double> finite(double value) {
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
@@ -35,7 +35,7 @@ void addFilter(const GroupTruth& truth, const std::string& truthName, const Benc
         !frame::materialFeatures(truth.renderer().scene()).textures())
         return;
     frame::FrameSettings hardware = exactSettings(any.settings, frame::TextureFilter::Hardware);
-    const recipes::RenderedFrame frame = truth.renderer().render(Technique::Forward, hardware);
+    const engine::RenderedFrame frame = truth.renderer().render(Technique::Forward, hardware);
     Picture filtered = exact; // the same pixels are covered
     filtered.rgba = frame.radiance;
     lines.push_back(lineOf(kFilterCause, "smaller texture levels, hardware filter", "level 0 alone, exact filter",

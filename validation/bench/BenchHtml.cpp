@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "passes/recipes/Techniques.h"
+#include "engine/Techniques.h"
 #include "validation/FigureHtml.h"
 #include "validation/Html.h"
 #include "validation/bench/BenchJsonTerms.h"
@@ -42,7 +42,7 @@ std::string growthText(const ScalingCurve& curve) {
 /// What bench.js draws.
 Json plotData(const BenchRecord& record) {
     Json data = {{"techniques", Json::array()}, {"groups", Json::array()}, {"curves", Json::array()}};
-    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) data["techniques"].push_back(info.name);
+    for (const engine::TechniqueInfo& info : engine::techniqueTable()) data["techniques"].push_back(info.name);
     for (const BenchGroup& group : record.groups) {
         const std::vector<std::optional<bool>> pareto = paretoFront(group);
         const std::optional<Recommendation> choice = recommendFor(group);

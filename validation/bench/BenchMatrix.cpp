@@ -21,7 +21,7 @@ namespace {
 
 using ParsedJson = nlohmann::json;
 using culling::Method;
-using recipes::Technique;
+using engine::Technique;
 
 constexpr const char* kNoShadows = "this version draws no shadows, so there is nothing to vary; leave the key out";
 constexpr const char* kNoSubsurface =
@@ -67,7 +67,7 @@ const std::vector<Key>& keys() {
     static const std::vector<Key> table{
         {"technique",
          [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
-             m.techniques.push_back(rowNamed(recipes::techniqueTable(), v, s, "technique").technique);
+             m.techniques.push_back(rowNamed(engine::techniqueTable(), v, s, "technique").technique);
          }},
         {"culling",
          [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "passes/recipes/Techniques.h"
+#include "engine/Techniques.h"
 #include "renderer/frame/FrameSettings.h"
 #include "scenes/LoadLedger.h"
 
@@ -12,9 +12,9 @@ namespace tessera::validation {
 /// What `tessera bench` runs through: the Cartesian product of these lists. An empty list stands for one entry, what
 /// the settings of the command line say.
 struct BenchMatrix {
-    std::vector<recipes::Technique> techniques; ///< empty: all
-    std::vector<culling::Method> methods;       ///< empty: every method that the technique takes
-    bool preferredMethodsOnly = false;          ///< without methods: the one alone that the technique prefers
+    std::vector<engine::Technique> techniques; ///< empty: all
+    std::vector<culling::Method> methods;      ///< empty: every method that the technique takes
+    bool preferredMethodsOnly = false;         ///< without methods: the one alone that the technique prefers
     std::vector<int> tilesPixels;
     std::vector<frame::LayoutInfo> layouts;
     std::vector<int> lights;

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "passes/recipes/ChooseCulling.h"
-#include "passes/recipes/PrepareView.h"
+#include "engine/ChooseCulling.h"
+#include "engine/PrepareView.h"
 #include "scenes/Fingerprint.h"
 
 namespace tessera::validation {
@@ -13,7 +13,7 @@ namespace tessera::validation {
 namespace {
 
 using culling::Method;
-using recipes::Technique;
+using engine::Technique;
 
 /// The list, or one entry that says nothing.
 template <typename T>
@@ -67,14 +67,14 @@ public:
 private:
     std::vector<Method> methods() {
         if (matrix_.methods.empty()) {
-            if (settings_.culling.method && recipes::takesMethod(technique_, *settings_.culling.method))
+            if (settings_.culling.method && engine::takesMethod(technique_, *settings_.culling.method))
                 return {*settings_.culling.method};
             if (matrix_.preferredMethodsOnly) return {info_.methods.front()};
             return {info_.methods.begin(), info_.methods.end()};
         }
         std::vector<Method> methods;
         for (const Method method : matrix_.methods) {
-            if (recipes::takesMethod(technique_, method))
+            if (engine::takesMethod(technique_, method))
                 methods.push_back(method);
             else
                 skip(plan_, fmt::format("{}, {}", info_.name, infoOf(method).name),
@@ -100,13 +100,13 @@ private:
         point.settings = settings_;
         point.settings.culling.method = method;
         if (method == Method::None) point.settings.culling.tilePixels.reset();
-        if (!recipes::hasLightLists(technique_)) point.settings.culling.builder.reset();
+        if (!engine::hasLightLists(technique_)) point.settings.culling.builder.reset();
         if (tile) point.settings.culling.tilePixels = *tile;
         if (layout) point.settings.layout = layout->layout;
         if (range) point.settings.rangeTolerance = *range;
         if (!rangesMatter(scene_)) point.settings.rangeTolerance = 0.0;
         const culling::Choice choice =
-            recipes::prepareView(scene_, technique_, point.settings).spec.culling; // what is left of it in this scene
+            engine::prepareView(scene_, technique_, point.settings).spec.culling; // what is left of it in this scene
         point.key = {std::string(info_.name),
                      std::string(infoOf(choice.method).name),
                      {},
@@ -129,7 +129,7 @@ private:
     const scenes::Scene& scene_;
     const frame::FrameSettings& settings_;
     Technique technique_;
-    const recipes::TechniqueInfo& info_;
+    const engine::TechniqueInfo& info_;
 };
 
 double workOf(const PlannedGroup& group) {
@@ -152,7 +152,7 @@ void addToPlan(BenchPlan& plan, const BenchMatrix& matrix, const std::string& sc
                const frame::FrameSettings& settings, const SceneLoader& load) {
     std::vector<Technique> techniques = matrix.techniques;
     if (techniques.empty())
-        for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) techniques.push_back(info.technique);
+        for (const engine::TechniqueInfo& info : engine::techniqueTable()) techniques.push_back(info.technique);
     for (const std::optional<int>& count : orDefault(matrix.lights)) {
         const std::optional<int> lightsToLoad = count ? count : lights;
         const scenes::Scene scene = load(lightsToLoad);

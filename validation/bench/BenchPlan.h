@@ -14,7 +14,7 @@ namespace tessera::validation {
 /// One frame to measure.
 struct BenchPoint {
     PointKey key;
-    recipes::Technique technique = recipes::Technique::Forward;
+    engine::Technique technique = engine::Technique::Forward;
     frame::FrameSettings settings;
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "passes/recipes/PrepareView.h"
+#include "engine/PrepareView.h"
 #include "renderer/gpu/SampleCounter.h"
 #include "validation/FloorGeometry.h"
 #include "validation/LightOracle.h"
@@ -12,10 +12,10 @@ namespace tessera::validation {
 
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 /// Fragments that pass the depth test in the order in which forward shades them.
-std::uint64_t forwardFragments(recipes::Renderer& renderer, const frame::FrameSettings& settings) {
+std::uint64_t forwardFragments(engine::Renderer& renderer, const frame::FrameSettings& settings) {
     FloorGeometry geometry(renderer, settings);
     gpu::SampleCounter counter;
     counter.begin();
@@ -25,10 +25,10 @@ std::uint64_t forwardFragments(recipes::Renderer& renderer, const frame::FrameSe
 }
 
 /// How many lights each covered pixel visits by the view that counts them, ascending.
-std::vector<std::uint64_t> visitedByPixel(recipes::Renderer& renderer, const BenchPoint& point) {
+std::vector<std::uint64_t> visitedByPixel(engine::Renderer& renderer, const BenchPoint& point) {
     frame::FrameSettings settings = point.settings;
     settings.view = frame::View::Lights;
-    const recipes::RenderedFrame counts = renderer.render(point.technique, settings);
+    const engine::RenderedFrame counts = renderer.render(point.technique, settings);
     std::vector<std::uint64_t> visited;
     for (std::size_t i = 0; i < counts.radiance.size(); i += 4) {
         if (counts.radiance[i + 3] > 0.0f) visited.push_back(std::uint64_t(counts.radiance[i]));
@@ -51,10 +51,10 @@ void forgetCounts(BenchResult& result) {
 
 } // namespace
 
-void countPoint(recipes::Renderer& renderer, const BenchPoint& point, BenchResult& result) {
+void countPoint(engine::Renderer& renderer, const BenchPoint& point, BenchResult& result) {
     LightOracleFigures oracle = judgeLights(renderer, point.technique, point.settings);
-    const frame::PreparedView prepared = recipes::prepareView(renderer.scene(), point.technique, point.settings);
-    const graph::Plan plan = recipes::planFrame(renderer.scene(), point.technique, point.settings);
+    const frame::PreparedView prepared = engine::prepareView(renderer.scene(), point.technique, point.settings);
+    const graph::Plan plan = engine::planFrame(renderer.scene(), point.technique, point.settings);
     if (prepared.spec.culling.method != culling::Method::None)
         result.builder = infoOf(prepared.spec.culling.builder).name;
 

@@ -1,11 +1,11 @@
 #pragma once
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 #include "validation/bench/BenchPlan.h"
 #include "validation/bench/BenchResult.h"
 
 namespace tessera::validation {
 
 /// Fills the counters and the builder of a point's result, by the oracle and by drawing. Throws what drawing throws.
-void countPoint(recipes::Renderer& renderer, const BenchPoint& point, BenchResult& result);
+void countPoint(engine::Renderer& renderer, const BenchPoint& point, BenchResult& result);
 
 } // namespace tessera::validation

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/Rendering.h"
 #include "validation/ErrorFigures.h"
-#include "validation/Rendering.h"
 #include "validation/ShownTriangles.h"
 
 namespace tessera::validation {
@@ -38,12 +38,12 @@ BenchTruth chooseTruth(std::optional<BenchTruth> asked, const frame::FrameSettin
     return why.empty() ? BenchTruth::Reference : BenchTruth::Forward;
 }
 
-GroupTruth::GroupTruth(recipes::Renderer& renderer, BenchTruth truth, const frame::FrameSettings& settings,
+GroupTruth::GroupTruth(engine::Renderer& renderer, BenchTruth truth, const frame::FrameSettings& settings,
                        frame::TextureFilter filter, const std::function<void()>& rowDone)
     : renderer_(renderer), filter_(filter) {
     const frame::FrameSettings exact = exactSettings(settings, filter);
     if (truth == BenchTruth::Forward) {
-        picture_ = toPicture(renderer.render(recipes::Technique::Forward, exact));
+        picture_ = toPicture(renderer.render(engine::Technique::Forward, exact));
         return;
     }
     reference_ = referencePicture(renderer.scene(), exact, rowDone);
@@ -55,7 +55,7 @@ Picture GroupTruth::pictureFor(const Picture& shown) const {
     return reference_ ? reference_->nearestTo(shown) : picture_;
 }
 
-Picture GroupTruth::pictureOf(recipes::Technique technique, const frame::FrameSettings& settings) const {
+Picture GroupTruth::pictureOf(engine::Technique technique, const frame::FrameSettings& settings) const {
     frame::FrameSettings compared = settings;
     compared.filter = filter_;
     compared.display = false;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/Picture.h"
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 #include "validation/ReferencePicture.h"
 #include "validation/bench/BenchResult.h"
 
@@ -32,11 +32,11 @@ frame::FrameSettings exactSettings(frame::FrameSettings settings, frame::Texture
 class GroupTruth {
 public:
     /// Errors are of frames with `filter`, the reference's picture too. `rowDone` as referencePicture().
-    GroupTruth(recipes::Renderer& renderer, BenchTruth truth, const frame::FrameSettings& settings,
+    GroupTruth(engine::Renderer& renderer, BenchTruth truth, const frame::FrameSettings& settings,
                frame::TextureFilter filter, const std::function<void()>& rowDone);
 
     /// The point's picture, as it is compared.
-    Picture pictureOf(recipes::Technique technique, const frame::FrameSettings& settings) const;
+    Picture pictureOf(engine::Technique technique, const frame::FrameSettings& settings) const;
     /// Its error; what could not be measured is none with the reason in `why` under "error.<figure>".
     BenchError errorOf(const Picture& picture, std::map<std::string, std::string>& why) const;
 
@@ -45,10 +45,10 @@ public:
     Picture pictureFor(const Picture& shown) const;
     const std::vector<std::uint8_t>& excluded() const { return excluded_; }
     frame::TextureFilter filter() const { return filter_; }
-    recipes::Renderer& renderer() const { return renderer_; }
+    engine::Renderer& renderer() const { return renderer_; }
 
 private:
-    recipes::Renderer& renderer_;
+    engine::Renderer& renderer_;
     frame::TextureFilter filter_;
     Picture picture_;
     std::optional<ReferencePicture> reference_;

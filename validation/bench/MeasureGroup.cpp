@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
+#include "engine/Rendering.h"
 #include "validation/HeatMap.h"
-#include "validation/Rendering.h"
 #include "validation/bench/Attribution.h"
 #include "validation/bench/CountPoint.h"
 
@@ -157,7 +157,7 @@ private:
     const BenchOptions& options_;
     GroupState& state_;
     BenchGroup& group_;
-    recipes::Renderer renderer_;
+    engine::Renderer renderer_;
     FloorBench floor_;
     std::vector<TimedPoint> timed_;
     std::vector<std::vector<double>> timesMs_; ///< by kind of frame

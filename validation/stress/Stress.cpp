@@ -6,16 +6,16 @@
 
 #include "base/Error.h"
 #include "base/Names.h"
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
+#include "engine/Rendering.h"
 #include "validation/ReferencePicture.h"
-#include "validation/Rendering.h"
 #include "validation/ShownTriangles.h"
 
 namespace tessera::validation {
 
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 StressResult resultOf(const StressCase& row, std::optional<Technique> technique) {
     return {row.name, technique, {}, row.bound, row.tolerance, row.reason};
@@ -42,7 +42,7 @@ private:
     void compare(std::size_t index) {
         const StressPicture& picture = pictures_[index];
         checkScene(picture.scene);
-        recipes::Renderer renderer(context_, picture.scene, request_.shaders);
+        engine::Renderer renderer(context_, picture.scene, request_.shaders);
         std::optional<ReferencePicture> truth;
         ShownTriangles triangles;
         if (!picture.sameAs) {

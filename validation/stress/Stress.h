@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "passes/recipes/Techniques.h"
+#include "engine/Techniques.h"
 #include "validation/stress/StressCase.h"
 
 namespace tessera::validation {
@@ -11,7 +11,7 @@ namespace tessera::validation {
 /// One case, by one technique where pictures are drawn.
 struct StressResult {
     std::string name;
-    std::optional<recipes::Technique> technique; ///< none: shader functions alone, which all techniques share
+    std::optional<engine::Technique> technique; ///< none: shader functions alone, which all techniques share
     StressFigures figures;
     StressBound bound = StressBound::WorstRel;
     double tolerance = 0.0;
@@ -26,7 +26,7 @@ struct StressResult {
 
 struct StressRequest {
     std::vector<const StressCase*> cases;
-    std::vector<recipes::Technique> techniques;
+    std::vector<engine::Technique> techniques;
     StressEffort effort = StressEffort::Full;
     shader::SourceTree shaders; ///< under test
     /// All that is measured is multiplied by it before it is compared: every case must miss when it is halved.

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "passes/recipes/Techniques.h"
+#include "engine/Techniques.h"
 #include "renderer/frame/FrameSettings.h"
 #include "scenes/Scene.h"
 #include "validation/stress/StressBench.h"

@@ -13,17 +13,17 @@
 namespace tessera::viewer {
 namespace {
 
-using recipes::Setting;
+using engine::Setting;
 
 /// A list to choose from; "automatic" stands in front where the setting may be left open.
-bool show(const Setting& setting, const recipes::ChoiceKind& kind, Look& look) {
-    using Entry = recipes::ChoiceKind::Entry;
+bool show(const Setting& setting, const engine::ChoiceKind& kind, Look& look) {
+    using Entry = engine::ChoiceKind::Entry;
     std::vector<Entry> entries = kind.entries;
     const std::string open(setting.value.open);
     if (!open.empty()) entries.insert(entries.begin(), {open, open, setting.byItself});
     std::vector<Choice> choices;
     for (const Entry& entry : entries) {
-        recipes::FrameRequest tried = look;
+        engine::FrameRequest tried = look;
         setting.read(tried, entry.name);
         choices.push_back({entry.label, entry.meaning, setting.isTaken(tried)});
     }
@@ -35,7 +35,7 @@ bool show(const Setting& setting, const recipes::ChoiceKind& kind, Look& look) {
     return picked.has_value();
 }
 
-bool show(const Setting& setting, const recipes::NumberKind& kind, Look& look) {
+bool show(const Setting& setting, const engine::NumberKind& kind, Look& look) {
     const std::string id = "##" + setting.panelLabel(), text = setting.text(look);
     double value = 0.0;
     std::from_chars(text.data(), text.data() + text.size(), value);
@@ -69,7 +69,7 @@ bool show(const Setting& setting, const recipes::NumberKind& kind, Look& look) {
     return isEdited;
 }
 
-bool show(const Setting& setting, const recipes::SwitchKind&, Look& look) {
+bool show(const Setting& setting, const engine::SwitchKind&, Look& look) {
     bool isOn = setting.text(look) == "on";
     row(setting.panelLabel().c_str());
     const bool isEdited = ImGui::Checkbox(("##" + setting.panelLabel()).c_str(), &isOn);
@@ -79,15 +79,15 @@ bool show(const Setting& setting, const recipes::SwitchKind&, Look& look) {
 }
 
 /// Sizes are the window's, and cameras have a panel of their own.
-bool show(const Setting&, const recipes::SizeKind&, Look&) {
+bool show(const Setting&, const engine::SizeKind&, Look&) {
     return false;
 }
-bool show(const Setting&, const recipes::CameraKind&, Look&) {
+bool show(const Setting&, const engine::CameraKind&, Look&) {
     return false;
 }
 
-void settingRows(Look& look, recipes::SettingPanel panel) {
-    for (const Setting& setting : recipes::settingTable()) {
+void settingRows(Look& look, engine::SettingPanel panel) {
+    for (const Setting& setting : engine::settingTable()) {
         if (setting.panel != panel || !setting.isHeededBy(look.technique)) continue;
         const bool isChosen =
             std::visit([&](const auto& kind) { return show(setting, kind, look); }, setting.value.kind);
@@ -108,11 +108,11 @@ void scaleRows(State& state) {
 } // namespace
 
 void framePanel(State& state) {
-    settingRows(state.active(), recipes::SettingPanel::Frame);
+    settingRows(state.active(), engine::SettingPanel::Frame);
 }
 
 void viewPanel(State& state) {
-    settingRows(state.active(), recipes::SettingPanel::View);
+    settingRows(state.active(), engine::SettingPanel::View);
     scaleRows(state);
 }
 

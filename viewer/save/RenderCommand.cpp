@@ -10,9 +10,9 @@ namespace {
 /// What is neither what the program does by itself nor what the scene asks for.
 std::string options(const RenderRequest& request, const scenes::Scene& scene) {
     std::string text;
-    recipes::FrameRequest byItself;
-    recipes::takeWishes(scene, request.source, byItself);
-    for (const recipes::Setting& setting : recipes::settingTable())
+    engine::FrameRequest byItself;
+    engine::takeWishes(scene, request.source, byItself);
+    for (const engine::Setting& setting : engine::settingTable())
         if (!setting.value.equal(request, byItself))
             text += fmt::format(" {} {}", setting.flag, shellWord(setting.text(request, &scene)));
     if (request.lights) text += fmt::format(" --lights {}", *request.lights);

@@ -2,13 +2,13 @@
 #include <optional>
 #include <string>
 
-#include "passes/recipes/Settings.h"
+#include "engine/Settings.h"
 #include "scenes/CameraChange.h"
 
 namespace tessera::viewer {
 
 /// What `tessera render` is asked for: a scene and how it is rendered.
-struct RenderRequest : recipes::FrameRequest {
+struct RenderRequest : engine::FrameRequest {
     std::string source;        ///< the scene's file or name
     std::optional<int> lights; ///< that were asked of the load
     bool defaultLight = true;  ///< the same

@@ -5,7 +5,7 @@
 
 #include <GLFW/glfw3.h>
 
-#include "passes/recipes/ChooseView.h"
+#include "engine/ChooseView.h"
 #include "renderer/frame/Views.h"
 #include "viewer/session/LightEdits.h"
 
@@ -22,9 +22,9 @@ void showNumbered(State& state, int number) {
 
 /// The technique `step` places on in the table, around its end.
 void stepTechnique(State& state, int step) {
-    const int count = int(recipes::techniqueTable().size());
+    const int count = int(engine::techniqueTable().size());
     Look& look = state.active();
-    look.technique = recipes::techniqueTable()[std::size_t((int(look.technique) + step + count) % count)].technique;
+    look.technique = engine::techniqueTable()[std::size_t((int(look.technique) + step + count) % count)].technique;
     look = possible(look);
 }
 

@@ -3,14 +3,14 @@
 namespace tessera::viewer {
 
 Look possible(Look look) {
-    for (const recipes::Setting& setting : recipes::settingTable()) {
+    for (const engine::Setting& setting : engine::settingTable()) {
         if (!setting.isTaken(look)) {
             if (setting.comesBack) look.aside.insert_or_assign(std::string(setting.key), setting.text(look));
             setting.reset(look);
         }
         const auto aside = look.aside.find(setting.key);
         if (aside == look.aside.end() || !setting.isDefault(look)) continue;
-        recipes::FrameRequest tried = look;
+        engine::FrameRequest tried = look;
         setting.read(tried, aside->second);
         if (!setting.isTaken(tried)) continue;
         setting.value.copy(look, tried);
@@ -20,7 +20,7 @@ Look possible(Look look) {
 }
 
 Look asked(Look look) {
-    for (const recipes::Setting& setting : recipes::settingTable()) {
+    for (const engine::Setting& setting : engine::settingTable()) {
         const auto aside = look.aside.find(setting.key);
         if (aside != look.aside.end() && setting.isDefault(look)) setting.read(look, aside->second);
     }
@@ -31,7 +31,7 @@ Look asked(Look look) {
 Look rebased(const Look& now, const Look& before, const Look& base) {
     const Look chosen = asked(now), begun = asked(before);
     Look result = asked(base);
-    for (const recipes::Setting& setting : recipes::settingTable())
+    for (const engine::Setting& setting : engine::settingTable())
         if (!setting.isOfScene && !setting.value.equal(chosen, begun)) setting.value.copy(result, chosen);
     return possible(result);
 }

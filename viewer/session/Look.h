@@ -3,12 +3,12 @@
 #include <map>
 #include <string>
 
-#include "passes/recipes/Settings.h"
+#include "engine/Settings.h"
 
 namespace tessera::viewer {
 
 /// How a scene is looked at: the technique and all that a command line can ask of a frame.
-struct Look : recipes::FrameRequest {
+struct Look : engine::FrameRequest {
     /// What was asked for and the technique cannot do, until another one can: texts, by the settings' keys.
     std::map<std::string, std::string, std::less<>> aside;
     bool operator==(const Look&) const = default;

@@ -14,7 +14,7 @@
 
 #include "base/AtomicFile.h"
 #include "base/Error.h"
-#include "passes/recipes/Settings.h"
+#include "engine/Settings.h"
 
 namespace tessera::viewer {
 namespace {
@@ -77,11 +77,11 @@ void readInto(const json& entry, std::optional<glm::ivec2>& size) {
 }
 
 /// The text of a remembered setting; none for a value that it does not take, as of another version.
-std::optional<std::string> settingText(const recipes::Setting& setting, const json& entry) {
+std::optional<std::string> settingText(const engine::Setting& setting, const json& entry) {
     if (!entry.is_string() && !entry.is_number()) return std::nullopt;
     const std::string text = entry.is_string() ? entry.get<std::string>() : entry.dump();
     try {
-        recipes::FrameRequest request;
+        engine::FrameRequest request;
         setting.read(request, text);
         return text;
     } catch (const InputError&) {
@@ -138,7 +138,7 @@ Preferences readPreferences(const std::filesystem::path& file) {
         } catch (const json::exception&) { // of another version: the usual value stays
         }
     });
-    for (const recipes::Setting& setting : recipes::settingTable()) {
+    for (const engine::Setting& setting : engine::settingTable()) {
         const auto entry = document.find(setting.key);
         if (!setting.isRemembered || entry == document.end()) continue;
         if (auto known = settingText(setting, *entry)) preferences.settings.emplace(setting.key, *std::move(known));

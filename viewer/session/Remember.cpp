@@ -12,7 +12,7 @@ void recall(const Preferences& preferences, State& state) {
 
 void rememberLook(Preferences& preferences, const Look& look, const Look& begun) {
     const Look now = asked(look), before = asked(begun);
-    for (const recipes::Setting& setting : recipes::settingTable()) {
+    for (const engine::Setting& setting : engine::settingTable()) {
         if (!setting.isRemembered || setting.value.equal(now, before)) continue;
         const std::string key(setting.key), text = setting.text(now);
         // What was left open is nothing to remember, and what the command line has no name for cannot be.

@@ -46,8 +46,8 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     for (Look& look : state_.looks) look = hadScene_ ? rebased(look, base_, first.look) : first.look;
     // The other side of a comparison begins as what shades the other way, and as fast with many lights.
     if (!hadScene_)
-        state_.looks[1].technique = infoOf(first.look.technique).usesGBuffer() ? recipes::Technique::ClusteredForward
-                                                                               : recipes::Technique::ClusteredDeferred;
+        state_.looks[1].technique = infoOf(first.look.technique).usesGBuffer() ? engine::Technique::ClusteredForward
+                                                                               : engine::Technique::ClusteredDeferred;
     state_.looks[1] = possible(state_.looks[1]);
     base_ = first.look;
     hadScene_ = true;

@@ -5,7 +5,7 @@ namespace tessera::viewer {
 void State::shareSettings() {
     if (compare == Compare::Off) activeSide = 0;
     for (Look& look : looks)
-        for (const recipes::Setting& setting : recipes::settingTable())
+        for (const engine::Setting& setting : engine::settingTable())
             if (setting.isShared && &look != &active()) setting.value.copy(look, active());
 }
 

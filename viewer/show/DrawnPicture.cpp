@@ -21,7 +21,7 @@ void Target::copyFrom(const gpu::Texture& source) {
     gpu::blit(gpu::Framebuffer(gpu::Attachments{{&source}}), framebuffer_, true, false);
 }
 
-void DrawnPicture::take(const recipes::Renderer& renderer, const Look& look, bool radiance) {
+void DrawnPicture::take(const engine::Renderer& renderer, const Look& look, bool radiance) {
     look_ = look;
     copyInto(display_, "shown display", renderer.displayTexture());
     hasRadiance_ = radiance;

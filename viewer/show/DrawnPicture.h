@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 #include "renderer/gpu/Framebuffer.h"
 #include "viewer/session/Look.h"
 
@@ -27,7 +27,7 @@ private:
 class DrawnPicture {
 public:
     /// Copies what the renderer drew last; its radiance where asked for.
-    void take(const recipes::Renderer& renderer, const Look& look, bool radiance);
+    void take(const engine::Renderer& renderer, const Look& look, bool radiance);
     void clear();
 
     bool isThere() const { return display_ != nullptr; }

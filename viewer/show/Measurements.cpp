@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
-#include "passes/recipes/ChooseSamples.h"
-#include "validation/Rendering.h"
+#include "engine/ChooseSamples.h"
+#include "engine/Rendering.h"
 
 namespace tessera::viewer {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 constexpr int kJudgedShare = 4; ///< of the picture's sides: the oracle tries every light at every pixel
 
 Picture radianceOf(const DrawnPicture& picture) {
-    return validation::toPicture(recipes::readBack(picture.radiance()->texture(), nullptr));
+    return engine::toPicture(engine::readBack(picture.radiance()->texture(), nullptr));
 }
 
 } // namespace
@@ -33,13 +33,13 @@ bool Measurements::update(Facts& facts, const State& state, const Screen& screen
 }
 
 bool Measurements::updatePlan(Facts& facts, const State& state, const Screen& screen, const Screen::Wanted& wanted) {
-    const recipes::Renderer& renderer = *screen.renderer();
+    const engine::Renderer& renderer = *screen.renderer();
     const Planned now{wanted.looks[std::size_t(state.activeSide)], wanted.sceneRevision};
     if (planned_ == now) return false;
     planned_ = now;
     try {
-        facts.plan = recipes::planFrame(renderer.scene(), now.look.technique,
-                                        recipes::settingsOn(screen.capabilities(), now.look.settings));
+        facts.plan = engine::planFrame(renderer.scene(), now.look.technique,
+                                       engine::settingsOn(screen.capabilities(), now.look.settings));
     } catch (const InputError&) { // the frame itself could not be drawn, and the window says why
         facts.plan.reset();
     }

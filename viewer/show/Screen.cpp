@@ -22,7 +22,7 @@ constexpr glm::vec4 kBehindPicture{0.05f, 0.05f, 0.055f, 1.0f};
 /// Whether a pixel of b costs about what one of a does.
 bool isOfKind(const Look& a, const Look& b) {
     Look like = a;
-    for (const recipes::Setting& setting : recipes::settingTable())
+    for (const engine::Setting& setting : engine::settingTable())
         if (setting.sameCost) setting.value.copy(like, b);
     return like == b;
 }
@@ -36,7 +36,7 @@ glm::ivec2 scaled(glm::ivec2 size, double scale) {
 Screen::Screen(gpu::Context& context) : context_(context), resolution_(kMovingMs) {}
 
 void Screen::open(const OpenScene& scene) {
-    renderer_ = std::make_unique<recipes::Renderer>(context_, scene.scene());
+    renderer_ = std::make_unique<engine::Renderer>(context_, scene.scene());
     scene_ = &scene;
     // Without it a software rasteriser's passes have no times (GraphBackend.h).
     renderer_->backend().setProfiling(context_.capabilities().isSoftware);

@@ -40,7 +40,7 @@ public:
     void open(const OpenScene& scene);
     /// Hands edits of materials to the renderer.
     void takeEdits();
-    recipes::Renderer* renderer() const { return renderer_.get(); }
+    engine::Renderer* renderer() const { return renderer_.get(); }
 
     /// Whether what is wanted is what was drawn, and at which scale: 0 where it was not. What could not be drawn counts
     /// as whole: it would fail again.
@@ -80,7 +80,7 @@ private:
 
     gpu::Context& context_;
     const OpenScene* scene_ = nullptr;
-    std::unique_ptr<recipes::Renderer> renderer_;
+    std::unique_ptr<engine::Renderer> renderer_;
     std::uint64_t materialRevision_ = 0;
     std::array<DrawnPicture, 2> pictures_;
     Difference difference_;

@@ -3,7 +3,7 @@
 #include <exception>
 #include <memory>
 
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 #include "renderer/gpu/Context.h"
 #include "scenes/Load.h"
 
@@ -13,10 +13,10 @@ using namespace tessera;
 int main() try {
     const scenes::Scene scene = scenes::loadScene("lattice", {.lights = 4});
     const std::unique_ptr<gpu::Context> context = gpu::Context::create();
-    recipes::Renderer renderer(*context, scene);
+    engine::Renderer renderer(*context, scene);
     frame::FrameSettings settings;
     settings.sizePixels = {64, 36};
-    const recipes::RenderedFrame frame = renderer.render(recipes::Technique::Deferred, settings);
+    const engine::RenderedFrame frame = renderer.render(engine::Technique::Deferred, settings);
     std::size_t covered = 0;
     for (std::size_t pixel = 0; pixel < frame.radiance.size() / 4; ++pixel)
         covered += frame.radiance[pixel * 4 + 3] > 0;

@@ -1,7 +1,7 @@
 #include <filesystem>
 #include <set>
 
-#include "passes/recipes/Techniques.h"
+#include "engine/Techniques.h"
 #include "tests/cli/program/Cli.h"
 
 namespace tessera::test {
@@ -17,7 +17,7 @@ std::set<std::string> keysOf(const Json& object) {
 }
 
 bool usesGBuffer(const std::string& technique) {
-    for (const recipes::TechniqueInfo& info : recipes::techniqueTable())
+    for (const engine::TechniqueInfo& info : engine::techniqueTable())
         if (info.name == technique) return info.usesGBuffer();
     return false;
 }
@@ -47,7 +47,7 @@ TEST_F(Compare, theJsonHasExactlyTheDocumentedFields) {
         "p99Rel", "p999Rel",  "bias",     "bitEqual", "flip",       "psnr",          "nan",
         "inf",    "negative", "excluded", "litShare", "litCovered", "meanLuminance", "tolerance",
         "ok",     "missed",   "why",      "culling",  "biasNoise"};
-    ASSERT_EQ(record["pairs"].size(), recipes::techniqueTable().size() - 1);
+    ASSERT_EQ(record["pairs"].size(), engine::techniqueTable().size() - 1);
     for (const Json& pair : record["pairs"]) {
         std::set<std::string> keys = keysOf(pair);
         EXPECT_EQ(keys.erase("channels"), usesGBuffer(pair["a"]) ? 1u : 0u);
@@ -139,7 +139,7 @@ TEST_F(Compare, aPictureThatRenderWroteAlwaysEqualsEveryTechniqueBitForBit) {
     runGood({"render", "lattice", "--lights", "8", "--size", "160x90", "-o", "truth.exr"});
     runGood(lattice({"--against", "truth.exr", "--json", "c.json"}));
     const Json pairs = json("c.json")["pairs"];
-    ASSERT_EQ(pairs.size(), recipes::techniqueTable().size());
+    ASSERT_EQ(pairs.size(), engine::techniqueTable().size());
     for (const Json& pair : pairs) {
         EXPECT_EQ(pair["bitEqual"], 1.0) << pair["a"];
         EXPECT_EQ(pair["b"], "truth.exr");

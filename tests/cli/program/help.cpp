@@ -1,7 +1,7 @@
 #include <set>
 #include <sstream>
 
-#include "passes/recipes/Settings.h"
+#include "engine/Settings.h"
 #include "tests/cli/program/Cli.h"
 
 namespace tessera::test {
@@ -74,7 +74,7 @@ TEST_F(Help, versionIsAlwaysOneLineAndVerboseAlwaysAddsWhatOpenGLSays) {
 TEST_F(Help, theSchemaOfScenesAlwaysHoldsEverySettingAndNoOther) {
     const Json options = Json::parse(runGood({"scenes", "--schema"}))["definitions"]["options"];
     std::set<std::string> keys{"defaultLight"};
-    for (const recipes::Setting& setting : recipes::settingTable())
+    for (const engine::Setting& setting : engine::settingTable())
         if (setting.isWishable) keys.emplace(setting.key);
     for (const auto& [key, schema] : options["properties"].items()) EXPECT_EQ(keys.erase(key), 1u) << key;
     EXPECT_EQ(keys, std::set<std::string>());

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "engine/PrepareView.h"
 #include "passes/DeferredLightingPass.h"
-#include "passes/recipes/PrepareView.h"
 #include "scenes/Load.h"
 #include "shaders/shared/models.h"
 #include "tests/gpu/shaders/ShaderBench.h"
@@ -53,7 +53,7 @@ protected:
     /// A scene of one model and one kind of light; and one of everything, whose models and kinds take turns.
     static std::vector<frame::FrameSpec> specs() {
         const scenes::Scene scene = lattice(16);
-        std::vector<frame::FrameSpec> result{recipes::prepareView(scene, recipes::Technique::Forward, settings()).spec};
+        std::vector<frame::FrameSpec> result{engine::prepareView(scene, engine::Technique::Forward, settings()).spec};
         // Of the floor's surface every pixel is another material.
         result[0].features.add(frame::Feature::VaryingMaterials);
         result[0].channels = frame::neededChannels(result[0].features, settings().layout, false);
@@ -212,11 +212,11 @@ TEST_F(FloorTest, neighbouringPixelsNeverShareAPropertyOfTheSurface) {
 TEST_F(FloorTest, itsGeometryCoversExactlyThePixelsOfTheProduct) {
     for (const char* name : {"lattice", "hall"}) {
         const scenes::Scene scene = scenes::loadScene(name);
-        recipes::Renderer renderer(context(), scene);
+        engine::Renderer renderer(context(), scene);
         validation::FloorGeometry geometry(renderer, settings());
         geometry.draw(glm::dvec3(0.0));
         const std::vector<float> drawn = geometry.download();
-        const recipes::RenderedFrame frame = renderer.render(recipes::Technique::Forward, settings());
+        const engine::RenderedFrame frame = renderer.render(engine::Technique::Forward, settings());
         std::size_t covered = 0;
         for (int y = 0; y < kSize.y; ++y) {
             for (int x = 0; x < kSize.x; ++x) {
@@ -232,7 +232,7 @@ TEST_F(FloorTest, itsGeometryCoversExactlyThePixelsOfTheProduct) {
 
 TEST_F(FloorTest, geometryAndEveryLightStoreAlwaysCostSomething) {
     const scenes::Scene scene = lattice(256);
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     frame::FrameSettings large = settings();
     large.sizePixels = {320, 180};
     validation::FloorBench floor(renderer, large);
@@ -249,7 +249,7 @@ TEST_F(FloorTest, geometryAndEveryLightStoreAlwaysCostSomething) {
 
 TEST_F(FloorTest, aSceneWithoutLightNeverHasAPriceForIt) {
     const scenes::Scene scene = lattice(0);
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     validation::FloorBench floor(renderer, settings());
     const validation::FloorFigures figures = floor.measure({.rounds = 1});
     EXPECT_TRUE(figures.stores.empty());

@@ -14,7 +14,7 @@
 namespace tessera {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 class FrameTimerTest : public test::GlTest {
 protected:
@@ -32,9 +32,9 @@ protected:
 
 TEST_F(FrameTimerTest, everyPointAndEveryPassAlwaysHasATimeOrAReason) {
     const scenes::Scene few = lattice(16), many = lattice(256);
-    recipes::Renderer fewRenderer(context(), few), manyRenderer(context(), many);
+    engine::Renderer fewRenderer(context(), few), manyRenderer(context(), many);
     std::vector<validation::TimedPoint> points;
-    for (recipes::Renderer* renderer : {&fewRenderer, &manyRenderer})
+    for (engine::Renderer* renderer : {&fewRenderer, &manyRenderer})
         for (const Technique technique : {Technique::Forward, Technique::TiledDeferred})
             points.push_back({renderer, technique, settings()});
     validation::FrameTimerOptions options;
@@ -47,7 +47,7 @@ TEST_F(FrameTimerTest, everyPointAndEveryPassAlwaysHasATimeOrAReason) {
         EXPECT_GT(point.cpuMs.median, 0.0);
         EXPECT_GE(point.cpuMs.p95, point.cpuMs.median);
         const std::vector<graph::Plan::Pass> planned =
-            recipes::planFrame(points[i].renderer->scene(), points[i].technique, settings()).passes;
+            engine::planFrame(points[i].renderer->scene(), points[i].technique, settings()).passes;
         ASSERT_EQ(point.passes.size(), planned.size());
         for (std::size_t p = 0; p < planned.size(); ++p) {
             EXPECT_EQ(point.passes[p].name, planned[p].name);
@@ -59,7 +59,7 @@ TEST_F(FrameTimerTest, everyPointAndEveryPassAlwaysHasATimeOrAReason) {
 
 TEST_F(FrameTimerTest, kindsOfFramesAlwaysTakeTurnsWhileTheEyeMovesAMillimetre) {
     const scenes::Scene scene = lattice(4);
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     std::string order;
     std::vector<double> places;
     const auto noting = [&](char name) {
@@ -111,14 +111,14 @@ TEST_F(FrameTimerTest, theWarmUpAlwaysSeesEveryPlaceOfTheEye) {
 
 TEST_F(FrameTimerTest, programsAreNeverCompiledInFramesThatAreTimed) {
     const scenes::Scene scene = lattice(16);
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     std::vector<validation::TimedPoint> points;
     const auto add = [&](Technique technique, std::optional<culling::Builder> builder) {
         points.push_back({&renderer, technique, settings()});
         points.back().settings.sizePixels = {64, 36};
         points.back().settings.culling.builder = builder;
     };
-    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) add(technique.technique, {});
+    for (const engine::TechniqueInfo& technique : engine::techniqueTable()) add(technique.technique, {});
     for (const culling::BuilderInfo& builder : culling::builderTable())
         add(Technique::ClusteredDeferred, builder.builder);
     std::vector<std::size_t> programsByRound{renderer.programs().size()};
@@ -134,7 +134,7 @@ TEST_F(FrameTimerTest, programsAreNeverCompiledInFramesThatAreTimed) {
 
 TEST_F(FrameTimerTest, theBackendIsAlwaysLeftAsItWas) {
     const scenes::Scene scene = lattice(4);
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     renderer.backend().setProfiling(true);
     const int idle = renderer.backend().mostIdleFrames();
     validation::FrameTimerOptions options;
@@ -153,7 +153,7 @@ TEST_F(FrameTimerTest, anEyeMovedByASettingSeesExactlyWhatAMovedCameraSees) {
     scenes::Scene scene = lattice(16);
     frame::FrameSettings moved = settings();
     moved.eyeOffsetWS = {0.25, -0.5, 0.125};
-    recipes::Renderer renderer(context(), scene);
+    engine::Renderer renderer(context(), scene);
     const std::vector<float> still = renderer.render(Technique::Forward, settings()).radiance;
     const std::vector<float> bySetting = renderer.render(Technique::Forward, moved).radiance;
     scene.cameras[0].worldFromCamera[3] += glm::dvec4(moved.eyeOffsetWS, 0.0);

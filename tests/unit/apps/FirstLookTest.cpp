@@ -8,7 +8,7 @@
 namespace tessera::app {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 scenes::Scene wishing(const scenes::SceneOptions& options) {
     scenes::Scene scene;

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "passes/recipes/Settings.h"
+#include "engine/Settings.h"
 #include "renderer/frame/GBufferBounds.h"
 
 namespace tessera {
@@ -67,7 +67,7 @@ TEST(Documentation, theBoundsOfTheGBuffersErrorsAreExactlyThoseOfTheProgram) {
 
 TEST(Documentation, theTechniquesAreExactlyThoseOfTheProgram) {
     Rows rows;
-    for (const recipes::TechniqueInfo& info : recipes::techniqueTable())
+    for (const engine::TechniqueInfo& info : engine::techniqueTable())
         rows.push_back({code(info.name), std::string(describe(info.geometry)), std::string(info.lighting)});
     expectTable("README.md", {"technique", "geometry", "lighting"}, rows);
 }
@@ -89,7 +89,7 @@ std::string namesIn(const Table& table) {
 
 TEST(Documentation, everySettingAlwaysHasARow) {
     const std::string text = test::textOf(test::kRepository / "docs" / "command-line.md");
-    for (const recipes::Setting& setting : recipes::settingTable())
+    for (const engine::Setting& setting : engine::settingTable())
         EXPECT_TRUE(text.find(fmt::format("| `{}` |", setting.flag)) != text.npos ||
                     text.find(fmt::format("| `{} ", setting.flag)) != text.npos)
             << "docs/command-line.md should have a row of " << setting.flag;
@@ -97,7 +97,7 @@ TEST(Documentation, everySettingAlwaysHasARow) {
 
 TEST(Documentation, theNamesThatOptionsTakeAreExactlyThoseOfTheProgram) {
     const std::string text = test::textOf(test::kRepository / "docs" / "command-line.md");
-    for (const std::string& row : {"| `--technique` | " + namesIn(recipes::techniqueTable()) + " (",
+    for (const std::string& row : {"| `--technique` | " + namesIn(engine::techniqueTable()) + " (",
                                    "| `--culling` | " + namesIn(culling::methodTable()) + " (",
                                    "| `--cull-on` | " + namesIn(culling::builderTable()) + " (",
                                    "| `--light-on` | " + namesIn(frame::lightingStageTable()) + " (",

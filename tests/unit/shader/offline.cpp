@@ -9,11 +9,11 @@
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
-#include "passes/recipes/ChooseLighting.h"
-#include "passes/recipes/ChooseSamples.h"
-#include "passes/recipes/ChooseView.h"
-#include "passes/recipes/PrepareView.h"
-#include "passes/recipes/Renderer.h"
+#include "engine/ChooseLighting.h"
+#include "engine/ChooseSamples.h"
+#include "engine/ChooseView.h"
+#include "engine/PrepareView.h"
+#include "engine/Renderer.h"
 #include "renderer/shader/ProgramDesc.h"
 #include "scenes/Load.h"
 #include "tests/support/TestScenes.h"
@@ -69,16 +69,16 @@ void addFloorPrograms(std::map<std::string, shader::ProgramDesc>& programs, cons
 }
 
 /// Those of light culling by every method and builder, and of lighting in compute shaders.
-std::vector<std::pair<recipes::Technique, frame::FrameSettings>> listBuildersAndStages() {
+std::vector<std::pair<engine::Technique, frame::FrameSettings>> listBuildersAndStages() {
     struct Lanes {
         culling::Builder builder;
         int lanes;
     };
-    std::vector<std::pair<recipes::Technique, frame::FrameSettings>> all;
+    std::vector<std::pair<engine::Technique, frame::FrameSettings>> all;
     frame::FrameSettings settings;
     settings.sizePixels = {64, 36};
-    for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
-        if (recipes::infoOf(technique.technique).choosesStage) settings.lightOn = frame::LightingStage::Compute;
+    for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
+        if (engine::infoOf(technique.technique).choosesStage) settings.lightOn = frame::LightingStage::Compute;
         for (const culling::Method method : technique.methods) {
             settings.culling.method = method;
             for (const Lanes lanes : {Lanes{culling::Builder::Compute, 64}, Lanes{culling::Builder::Compute, 1},
@@ -97,16 +97,16 @@ std::vector<std::pair<recipes::Technique, frame::FrameSettings>> listBuildersAnd
 void addPrograms(std::map<std::string, shader::ProgramDesc>& programs, const scenes::Scene& scene) {
     for (const frame::FrameSettings& settings : settingsThatMatter()) {
         if (settings.view == frame::View::Final && settings.samples == 1)
-            addFloorPrograms(programs, recipes::prepareView(scene, recipes::Technique::Forward, settings).spec);
-        for (const recipes::TechniqueInfo& technique : recipes::techniqueTable()) {
-            if (!recipes::takesSamples(technique, settings.samples)) continue;
-            if (!recipes::takesView(technique, settings.view)) continue;
-            for (const shader::ProgramDesc& desc : recipes::framePrograms(scene, technique.technique, settings))
+            addFloorPrograms(programs, engine::prepareView(scene, engine::Technique::Forward, settings).spec);
+        for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
+            if (!engine::takesSamples(technique, settings.samples)) continue;
+            if (!engine::takesView(technique, settings.view)) continue;
+            for (const shader::ProgramDesc& desc : engine::framePrograms(scene, technique.technique, settings))
                 programs.emplace(desc.key(), desc);
         }
     }
     for (const auto& [technique, settings] : listBuildersAndStages())
-        for (const shader::ProgramDesc& desc : recipes::framePrograms(scene, technique, settings))
+        for (const shader::ProgramDesc& desc : engine::framePrograms(scene, technique, settings))
             programs.emplace(desc.key(), desc);
 }
 

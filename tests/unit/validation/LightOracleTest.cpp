@@ -56,7 +56,7 @@ protected:
 
     scenes::Scene scene_;
     frame::FrameSettings settings_;
-    recipes::DrawnLists drawn_;
+    engine::DrawnLists drawn_;
     std::vector<float> depth_{0.5f}; // halfway from near to far
     std::vector<float> normalWS_{0.0f, 0.0f, 1.0f, 1.0f};
 };

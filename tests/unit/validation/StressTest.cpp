@@ -150,7 +150,7 @@ TEST(StressNames, aGroupIsAlwaysAllItsCasesAndAnUnknownNameAlwaysNamesTheNearest
 
 TEST(StressRecord, jsonAlwaysHasTheAgreedFieldsAndAReasonForEachNull) {
     StressRecord record{"llvmpipe", StressEffort::Quick, {goodResult(), goodResult()}};
-    record.results[1].technique = recipes::Technique::Deferred;
+    record.results[1].technique = engine::Technique::Deferred;
     record.results[1].figures.worstRel = INFINITY;
     const Json json = Json::parse(stressJson(record));
     EXPECT_EQ(json["schema"], 1);

@@ -5,12 +5,12 @@
 namespace tessera::validation {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 const frame::GBufferLayout kExact = frame::layoutTable()[0].layout;
 
 TEST(TechniqueCompare, pairsOnSoftwareAreAlwaysHeldToEveryBit) {
-    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+    for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         const Tolerance tolerance = pairTolerance(info.technique, kExact, true, 65536);
         EXPECT_EQ(tolerance.bitEqual, 1.0) << info.name;
         EXPECT_EQ(tolerance.maxRel, 0.0) << info.name;

@@ -19,8 +19,8 @@ constexpr std::uint32_t kHalfShift = 22;
 
 /// Lists of a picture of 8 x 16 pixels in two tiles of 8 x 8, written by hand. Five lights, of which the GPU has all
 /// but the scene's light 1.
-recipes::DrawnLists listsByHand(Method method) {
-    recipes::DrawnLists drawn;
+engine::DrawnLists listsByHand(Method method) {
+    engine::DrawnLists drawn;
     drawn.culling.method = method;
     drawn.lighting.tileGrid = {1, 2, 16, 3};
     drawn.view.depthKey.x = 1.0f;
@@ -30,8 +30,8 @@ recipes::DrawnLists listsByHand(Method method) {
 
 /// The upper tile has one cell, with lights 0 and 2 of the lists; the lower one has depth slices, of which two hold a
 /// surface: that of depth 1/2 with light 1, and that of depth 1 with lights 0 and 1.
-recipes::DrawnLists runsByHand() {
-    recipes::DrawnLists drawn = listsByHand(Method::Tile25d);
+engine::DrawnLists runsByHand() {
+    engine::DrawnLists drawn = listsByHand(Method::Tile25d);
     const std::uint32_t first = std::bit_cast<std::uint32_t>(1.5f) - (1u << kHalfShift);
     drawn.lists.tiles.resize(2);
     drawn.lists.tiles[0].words = {0, shared::packSlices(0, 31), 1, 0};
@@ -41,7 +41,7 @@ recipes::DrawnLists runsByHand() {
     return drawn;
 }
 
-std::vector<int> visited(const recipes::DrawnLists& drawn, int row, float depth) {
+std::vector<int> visited(const engine::DrawnLists& drawn, int row, float depth) {
     const VisitedLights lights(drawn);
     std::vector<int> sceneLights;
     lights.at(lights.cellAt(3, row, depth), sceneLights);
@@ -51,7 +51,7 @@ std::vector<int> visited(const recipes::DrawnLists& drawn, int row, float depth)
 using Lights = std::vector<int>;
 
 TEST(VisitedLights, aPixelAlwaysVisitsTheRunOfItsTileAndSlice) {
-    const recipes::DrawnLists drawn = runsByHand();
+    const engine::DrawnLists drawn = runsByHand();
     EXPECT_EQ(visited(drawn, 15, 0.5f), (Lights{0, 3})) << "tile rows count from the top, pixel rows from the bottom";
     EXPECT_EQ(visited(drawn, 8, 1.0f), (Lights{0, 3}));
     EXPECT_EQ(visited(drawn, 7, 0.5f), (Lights{2}));
@@ -59,7 +59,7 @@ TEST(VisitedLights, aPixelAlwaysVisitsTheRunOfItsTileAndSlice) {
 }
 
 TEST(VisitedLights, aSliceOfTheUpperWordAlwaysFindsItsCell) {
-    recipes::DrawnLists drawn = runsByHand();
+    engine::DrawnLists drawn = runsByHand();
     // Depth 1 falls in slice 40; slices 0, 31 and 32 are occupied too.
     const std::uint32_t high = std::bit_cast<std::uint32_t>(2.0f);
     drawn.lists.tiles[1].words = {1, shared::packSlices(high - (40u << kHalfShift), kHalfShift), 0x80000001u, 0x101u};
@@ -68,7 +68,7 @@ TEST(VisitedLights, aSliceOfTheUpperWordAlwaysFindsItsCell) {
 }
 
 TEST(VisitedLights, lightsThatReachEverywhereAreAlwaysMergedInOrder) {
-    recipes::DrawnLists drawn = runsByHand();
+    engine::DrawnLists drawn = runsByHand();
     drawn.everywhere = {1, 3};
     drawn.lists.entries = {1, 3, 0, 2, 2};
     drawn.lists.cells = {{2, 2}, {4, 1}, {4, 0}};
@@ -77,7 +77,7 @@ TEST(VisitedLights, lightsThatReachEverywhereAreAlwaysMergedInOrder) {
 }
 
 TEST(VisitedLights, aPixelAlwaysVisitsTheBitsThatItsTileAndBinShare) {
-    recipes::DrawnLists drawn = listsByHand(Method::Zbin);
+    engine::DrawnLists drawn = listsByHand(Method::Zbin);
     drawn.sceneIndex.clear();
     for (int light = 0; light < 70; ++light) drawn.sceneIndex.push_back(light);
     drawn.lighting.lights.w = 3; // words of 32 lights
@@ -124,7 +124,7 @@ protected:
 
     scenes::Scene scene_;
     frame::FrameSettings settings_;
-    recipes::DrawnLists drawn_;
+    engine::DrawnLists drawn_;
     std::vector<float> depth_;
 };
 

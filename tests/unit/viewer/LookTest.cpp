@@ -6,11 +6,11 @@
 namespace tessera::viewer {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 TEST(Look, whatIsLeftOfALookIsAlwaysWhatItsTechniqueTakes) {
-    for (const recipes::TechniqueInfo& from : recipes::techniqueTable()) {
-        for (const recipes::TechniqueInfo& to : recipes::techniqueTable()) {
+    for (const engine::TechniqueInfo& from : engine::techniqueTable()) {
+        for (const engine::TechniqueInfo& to : engine::techniqueTable()) {
             for (const frame::ViewInfo& view : frame::viewTable()) {
                 Look look;
                 look.technique = to.technique;
@@ -21,7 +21,7 @@ TEST(Look, whatIsLeftOfALookIsAlwaysWhatItsTechniqueTakes) {
                 look.settings.samples = 4;
                 look.settings.view = view.view;
                 const Look result = possible(look);
-                EXPECT_NO_THROW(recipes::requireTaken(result));
+                EXPECT_NO_THROW(engine::requireTaken(result));
                 EXPECT_TRUE(result.settings.samples == 1 || to.multisamples());
                 EXPECT_EQ(possible(result), result);
             }
@@ -37,7 +37,7 @@ TEST(Look, whatATechniqueCannotDoAlwaysComesBackWithOneThatCan) {
     look.settings.culling.builder = culling::Builder::Compute;
     look.settings.samples = 4;
     Look now = look;
-    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+    for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         now.technique = info.technique;
         now = possible(now);
         Look wanted = look;
@@ -93,7 +93,7 @@ TEST(Look, whatTheUserChoseAlwaysOutlivesWhatTheNextSceneWishes) {
 
 TEST(Look, everySettingThatNamesNothingOfAnotherSceneAlwaysOutlivesIt) {
     const scenes::Scene scene = tessera::test::sceneOfTwoCameras();
-    for (const recipes::Setting& setting : recipes::settingTable()) {
+    for (const engine::Setting& setting : engine::settingTable()) {
         Look before, now;
         before.technique = now.technique = Technique::ClusteredDeferred;
         setting.value.copy(now, tessera::test::changedIn(setting, scene));
@@ -104,7 +104,7 @@ TEST(Look, everySettingThatNamesNothingOfAnotherSceneAlwaysOutlivesIt) {
 
 TEST(Look, theSidesOfAComparisonAlwaysShareWhatTheTableSaysAndNothingElse) {
     const scenes::Scene scene = tessera::test::sceneOfTwoCameras();
-    for (const recipes::Setting& setting : recipes::settingTable()) {
+    for (const engine::Setting& setting : engine::settingTable()) {
         State state;
         state.compare = Compare::Split;
         state.activeSide = 1;
@@ -113,7 +113,7 @@ TEST(Look, theSidesOfAComparisonAlwaysShareWhatTheTableSaysAndNothingElse) {
         EXPECT_FALSE(setting.isDefault(state.looks[1])) << setting.name;
         EXPECT_EQ(setting.isDefault(state.looks[0]), !setting.isShared) << setting.name;
     }
-    const auto isShared = [](const char* key) { return recipes::settingOf(key).isShared; };
+    const auto isShared = [](const char* key) { return engine::settingOf(key).isShared; };
     for (const char* key : {"camera", "time", "solo", "exposureEV", "toneMap"}) EXPECT_TRUE(isShared(key)) << key;
     for (const char* key : {"technique", "layout", "culling", "view", "filter"}) EXPECT_FALSE(isShared(key)) << key;
 }

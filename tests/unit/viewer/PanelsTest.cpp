@@ -98,7 +98,7 @@ TEST_F(Panels, whatIsOnlyLookedAtNeverChanges) {
 }
 
 TEST_F(Panels, everySettingOfAPanelAlwaysHasARowWhereTheTechniqueHeedsIt) {
-    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+    for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         State state;
         state.looks[0].technique = info.technique;
         std::array<std::string, 2> texts; // of the panels, as the window could copy them
@@ -111,9 +111,9 @@ TEST_F(Panels, everySettingOfAPanelAlwaysHasARowWhereTheTechniqueHeedsIt) {
             };
             texts = {panelText([&] { framePanel(state); }), panelText([&] { viewPanel(state); })};
         });
-        for (const recipes::Setting& setting : recipes::settingTable()) {
-            const bool isShown[] = {setting.panel == recipes::SettingPanel::Frame,
-                                    setting.panel == recipes::SettingPanel::View};
+        for (const engine::Setting& setting : engine::settingTable()) {
+            const bool isShown[] = {setting.panel == engine::SettingPanel::Frame,
+                                    setting.panel == engine::SettingPanel::View};
             for (const int panel : {0, 1}) {
                 const bool hasRow =
                     texts[std::size_t(panel)].find(fmt::format("\n{}", setting.panelLabel())) != std::string::npos;

@@ -5,7 +5,7 @@
 namespace tessera::viewer {
 namespace {
 
-using recipes::Technique;
+using engine::Technique;
 
 constexpr glm::ivec2 kWindow(900, 700);
 
@@ -102,7 +102,7 @@ TEST(Remember, whatWasSaidOnTheCommandLineNeverBecomesWhatIsRemembered) {
 }
 
 TEST(Remember, whatATechniqueCannotDoNeverLeavesWhatIsRemembered) {
-    for (const recipes::TechniqueInfo& info : recipes::techniqueTable()) {
+    for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         Preferences preferences = remembered();
         const Look begun = possible(ofItsOwn());
         Look now = begun;

@@ -94,7 +94,7 @@ TEST(RenderCommand, everyValueOfEverySettingIsAlwaysReadAsItselfAndSaidByItsOwnO
     const tessera::test::TempFolder folder;
     const std::string file = sceneFile(folder);
     const scenes::Scene scene = scenes::loadScene(file);
-    for (const recipes::Setting& setting : recipes::settingTable()) {
+    for (const engine::Setting& setting : engine::settingTable()) {
         for (const std::string& text : tessera::test::textsOf(setting)) {
             RenderRequest request = requestOf(file);
             setting.read(request, text, {{}, &scene});
@@ -111,7 +111,7 @@ RenderRequest everythingSaid(const std::string& file) {
     RenderRequest request = requestOf(file);
     request.lights = 1;
     request.defaultLight = false;
-    for (const recipes::Setting& setting : recipes::settingTable())
+    for (const engine::Setting& setting : engine::settingTable())
         setting.value.copy(request, tessera::test::changedIn(setting, tessera::test::sceneOfTwoCameras()));
     request.settings.timeSeconds = 1.0 / 3.0;
     request.settings.rangeTolerance = 1e-7;
@@ -161,7 +161,7 @@ TEST(RenderCommand, whatTheSceneAsksForIsNeverSaidAndTheProgramsOwnChoiceThenAlw
         sceneFile(folder, R"({"technique": "forward", "layout": "packed", "camera": "plan of $HOME", "toneMap": "aces",
                               "exposureEV": 1.5, "size": [320, 200]})");
     RenderRequest wished = requestOf(file);
-    wished.technique = recipes::Technique::Forward;
+    wished.technique = engine::Technique::Forward;
     wished.settings.layout = frame::layoutTable()[1].layout;
     wished.settings.camera = 1;
     wished.settings.toneMap = frame::ToneMap::Aces;

@@ -86,7 +86,7 @@ TEST_F(SceneSwitchTest, whatWasSaidOfTheFirstSceneNeverCountsForAnotherAlsoWhere
     EXPECT_EQ(failure_, "no such camera");
     EXPECT_TRUE(open("room"));
     EXPECT_EQ(firsts_, (std::vector<bool>{true, false}));
-    EXPECT_EQ(state_.looks[1].technique, recipes::Technique::ClusteredForward) << "as with the first that is shown";
+    EXPECT_EQ(state_.looks[1].technique, engine::Technique::ClusteredForward) << "as with the first that is shown";
 }
 
 TEST_F(SceneSwitchTest, aMissingFirstFileNeverPlacesTheCameraOfTheNext) {
@@ -169,10 +169,10 @@ TEST_F(SceneSwitchTest, aSceneThatCannotBeShownNeverChangesWhatTheOpenOneLooksLi
 TEST_F(SceneSwitchTest, whatWasChosenIsAlwaysRememberedThoughTheNextSceneWishesTheSame) {
     options_.preferencesFile = folder_.path() / "viewer.json";
     ASSERT_TRUE(open("room"));
-    for (Look& look : state_.looks) look.technique = recipes::Technique::Forward;
+    for (Look& look : state_.looks) look.technique = engine::Technique::Forward;
     options_.lookOf = [](const scenes::Scene&, const std::string&, bool) {
         FirstLook look;
-        look.look.technique = recipes::Technique::Forward;
+        look.look.technique = engine::Technique::Forward;
         return look;
     };
     ASSERT_TRUE(open("spheres"));

@@ -1,19 +1,19 @@
-#include "passes/recipes/PrepareView.h"
+#include "engine/PrepareView.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "base/Error.h"
-#include "passes/recipes/ChooseCulling.h"
-#include "passes/recipes/ChooseLighting.h"
-#include "passes/recipes/ChooseSamples.h"
-#include "passes/recipes/ChooseView.h"
-#include "passes/recipes/Settings.h"
+#include "engine/ChooseCulling.h"
+#include "engine/ChooseLighting.h"
+#include "engine/ChooseSamples.h"
+#include "engine/ChooseView.h"
+#include "engine/Settings.h"
 #include "renderer/culling/TileGrid.h"
 #include "scenes/Limits.h"
 
-namespace tessera::recipes {
+namespace tessera::engine {
 
 scenes::Camera frameCamera(const scenes::Scene& scene, const frame::FrameSettings& settings) {
     scenes::Camera camera = scene.cameras[std::size_t(settings.camera)];
@@ -67,4 +67,4 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
     return prepared;
 }
 
-} // namespace tessera::recipes
+} // namespace tessera::engine

@@ -1,12 +1,12 @@
 #pragma once
 #include <vector>
 
-#include "passes/recipes/Techniques.h"
+#include "engine/Techniques.h"
 #include "renderer/frame/FrameSettings.h"
 #include "renderer/frame/PackedLights.h"
 #include "renderer/graph/Plan.h"
 
-namespace tessera::recipes {
+namespace tessera::engine {
 
 bool takesMethod(Technique technique, culling::Method method);
 
@@ -22,4 +22,4 @@ culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& s
 std::vector<graph::Plan::Choice> cullingChoices(Technique technique, const frame::FrameSettings& settings,
                                                 const culling::Choice& choice);
 
-} // namespace tessera::recipes
+} // namespace tessera::engine

@@ -7,14 +7,14 @@
 #include <variant>
 #include <vector>
 
-#include "passes/recipes/Techniques.h"
+#include "engine/Techniques.h"
 #include "renderer/frame/FrameSettings.h"
 #include "scenes/Scene.h"
 
 /// Settings: all that a user can ask of a frame, a row each. The command line with its help and messages, the options
 /// of scene files and their schema, the commands that are printed and copied, and what the viewer shows, shares,
 /// carries over and remembers follow from the rows (docs/add-a-setting.md).
-namespace tessera::recipes {
+namespace tessera::engine {
 
 /// A view of a scene as it is asked for: a technique, and what is asked of its pictures.
 struct FrameRequest {
@@ -120,4 +120,4 @@ void takeWishes(
     const scenes::Scene& scene, const std::string& file, FrameRequest& request,
     const std::function<bool(const Setting& setting)>& isSaid = [](const Setting&) { return false; });
 
-} // namespace tessera::recipes
+} // namespace tessera::engine

@@ -1,13 +1,13 @@
-#include "passes/recipes/ChooseSamples.h"
+#include "engine/ChooseSamples.h"
 
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
-#include "passes/recipes/Renderer.h"
-#include "passes/recipes/Settings.h"
+#include "engine/Renderer.h"
+#include "engine/Settings.h"
 #include "scenes/Load.h"
 
-namespace tessera::recipes {
+namespace tessera::engine {
 namespace {
 
 using testing::HasSubstr;
@@ -85,4 +85,4 @@ TEST(ChooseSamples, aDriverAlwaysGivesItsNextLargerNumberAndThePlanSaysBoth) {
 }
 
 } // namespace
-} // namespace tessera::recipes
+} // namespace tessera::engine

@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 #include "renderer/frame/RefineLayout.h"
 #include "scenes/Load.h"
 
-namespace tessera::recipes {
+namespace tessera::engine {
 namespace {
 
 /// What the plan says of channels that are not stored as the layout says.
@@ -85,4 +85,4 @@ TEST(PlanFrame, twoViewsOfAFrameShareTheMemoryOfWhatIsNeededNoMore) {
 }
 
 } // namespace
-} // namespace tessera::recipes
+} // namespace tessera::engine

@@ -2,12 +2,12 @@
 #include <string>
 #include <vector>
 
-#include "passes/recipes/Techniques.h"
+#include "engine/Techniques.h"
 #include "renderer/gpu/Capabilities.h"
 #include "renderer/graph/Plan.h"
 
 /// How many samples a pixel has: what was asked for, what the technique takes and what the driver gives.
-namespace tessera::recipes {
+namespace tessera::engine {
 
 bool takesSamples(const TechniqueInfo& info, int samples);
 
@@ -21,4 +21,4 @@ int chooseSamples(const frame::FrameSettings& settings);
 /// The same in words, for a plan; empty for one sample a pixel.
 std::vector<graph::Plan::Choice> sampleChoices(const frame::FrameSettings& settings);
 
-} // namespace tessera::recipes
+} // namespace tessera::engine

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 #include "scenes/Load.h"
 
 namespace tessera {
@@ -11,7 +11,7 @@ namespace {
 bool drawsVolumes(const scenes::Scene& scene, frame::View view) {
     frame::FrameSettings settings;
     settings.view = view;
-    const auto programs = recipes::framePrograms(scene, recipes::Technique::DeferredVolumes, settings);
+    const auto programs = engine::framePrograms(scene, engine::Technique::DeferredVolumes, settings);
     return std::any_of(programs.begin(), programs.end(),
                        [](const auto& program) { return program.name == "light_volumes"; });
 }

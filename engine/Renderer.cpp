@@ -1,4 +1,4 @@
-#include "passes/recipes/Renderer.h"
+#include "engine/Renderer.h"
 
 #include <algorithm>
 #include <utility>
@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
-#include "passes/recipes/ChooseSamples.h"
-#include "passes/recipes/PrepareView.h"
+#include "engine/ChooseSamples.h"
+#include "engine/PrepareView.h"
 #include "renderer/graph/Execute.h"
 
-namespace tessera::recipes {
+namespace tessera::engine {
 
 namespace {
 
@@ -134,4 +134,4 @@ DrawnLists Renderer::downloadLists(std::size_t view) const {
     return drawn;
 }
 
-} // namespace tessera::recipes
+} // namespace tessera::engine

@@ -1,4 +1,4 @@
-#include "passes/recipes/Techniques.h"
+#include "engine/Techniques.h"
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@
 #include "passes/TransparentDepthPass.h"
 #include "passes/UploadPass.h"
 
-namespace tessera::recipes {
+namespace tessera::engine {
 
 namespace {
 
@@ -238,4 +238,4 @@ DeclaredView declareView(graph::Graph& graph, Technique technique, const frame::
     return view;
 }
 
-} // namespace tessera::recipes
+} // namespace tessera::engine

@@ -8,7 +8,7 @@
 
 /// The techniques: how passes are wired into a frame. Passes know nothing of each other; here is the only place that
 /// connects them.
-namespace tessera::recipes {
+namespace tessera::engine {
 
 enum class Technique : std::uint8_t {
     Forward,
@@ -53,4 +53,4 @@ struct DeclaredView {
 DeclaredView declareView(graph::Graph& graph, Technique technique, const frame::FrameSpec& spec,
                          const frame::DrawnView* drawn);
 
-} // namespace tessera::recipes
+} // namespace tessera::engine

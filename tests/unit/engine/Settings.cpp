@@ -1,4 +1,4 @@
-#include "passes/recipes/Settings.h"
+#include "engine/Settings.h"
 
 #include <set>
 
@@ -11,7 +11,7 @@
 #include "tests/support/SettingTexts.h"
 #include "tests/support/TempFolder.h"
 
-namespace tessera::recipes {
+namespace tessera::engine {
 namespace {
 
 using test::changedIn;
@@ -233,4 +233,4 @@ TEST(Settings, aWishThatCannotBeIsAlwaysNamedByFileAndKey) {
 }
 
 } // namespace
-} // namespace tessera::recipes
+} // namespace tessera::engine

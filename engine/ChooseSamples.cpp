@@ -1,4 +1,4 @@
-#include "passes/recipes/ChooseSamples.h"
+#include "engine/ChooseSamples.h"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 
 #include "base/Error.h"
 
-namespace tessera::recipes {
+namespace tessera::engine {
 
 bool takesSamples(const TechniqueInfo& info, int samples) {
     return samples == 1 || info.multisamples();
@@ -47,4 +47,4 @@ std::vector<graph::Plan::Choice> sampleChoices(const frame::FrameSettings& setti
                                                                     : "the driver's next larger number")}};
 }
 
-} // namespace tessera::recipes
+} // namespace tessera::engine

@@ -1,13 +1,13 @@
 #pragma once
-#include "passes/recipes/Techniques.h"
+#include "engine/Techniques.h"
 #include "renderer/frame/FrameSpec.h"
 
 /// Which technique can show which view.
-namespace tessera::recipes {
+namespace tessera::engine {
 
 bool takesView(const TechniqueInfo& info, frame::View view);
 
 /// Throws InputError naming the channels that there are where the view shows one that the frame does not store.
 void requireStoredChannel(const frame::FrameSpec& spec);
 
-} // namespace tessera::recipes
+} // namespace tessera::engine

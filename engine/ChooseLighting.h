@@ -1,11 +1,11 @@
 #pragma once
 #include <optional>
 
-#include "passes/recipes/Techniques.h"
+#include "engine/Techniques.h"
 #include "renderer/frame/FrameSettings.h"
 #include "renderer/graph/Plan.h"
 
-namespace tessera::recipes {
+namespace tessera::engine {
 
 /// The shaders that light: what was asked for, which the technique must take, else fragment shaders.
 frame::LightingStage chooseLighting(const frame::FrameSettings& settings);
@@ -13,4 +13,4 @@ frame::LightingStage chooseLighting(const frame::FrameSettings& settings);
 /// The same in words, for a plan; none for techniques without the choice.
 std::optional<graph::Plan::Choice> lightingChoice(Technique technique, const frame::FrameSettings& settings);
 
-} // namespace tessera::recipes
+} // namespace tessera::engine

@@ -1,10 +1,10 @@
-#include "passes/recipes/ChooseCulling.h"
+#include "engine/ChooseCulling.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-namespace tessera::recipes {
+namespace tessera::engine {
 
 namespace {
 
@@ -68,4 +68,4 @@ std::vector<graph::Plan::Choice> cullingChoices(Technique technique, const frame
     return choices;
 }
 
-} // namespace tessera::recipes
+} // namespace tessera::engine

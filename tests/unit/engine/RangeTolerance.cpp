@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "base/Error.h"
-#include "passes/recipes/PrepareView.h"
-#include "passes/recipes/Renderer.h"
+#include "engine/PrepareView.h"
+#include "engine/Renderer.h"
 
-namespace tessera::recipes {
+namespace tessera::engine {
 namespace {
 
 scenes::Light attenuated(float intensity, const glm::vec3& abc) {
@@ -56,4 +56,4 @@ TEST(RangeTolerance, whatIsNegativeOrNotFiniteIsAlwaysRefused) {
 }
 
 } // namespace
-} // namespace tessera::recipes
+} // namespace tessera::engine

@@ -1,4 +1,4 @@
-#include "passes/recipes/ChooseView.h"
+#include "engine/ChooseView.h"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 
 #include "base/Error.h"
 
-namespace tessera::recipes {
+namespace tessera::engine {
 
 bool takesView(const TechniqueInfo& info, frame::View view) {
     return info.usesGBuffer() || !frame::viewInfo(view).needsGBuffer;
@@ -26,4 +26,4 @@ void requireStoredChannel(const frame::FrameSpec& spec) {
                                  stored.empty() ? "none" : fmt::format("{}", fmt::join(stored, ", "))));
 }
 
-} // namespace tessera::recipes
+} // namespace tessera::engine

@@ -1,6 +1,6 @@
-#include "passes/recipes/ChooseLighting.h"
+#include "engine/ChooseLighting.h"
 
-namespace tessera::recipes {
+namespace tessera::engine {
 
 frame::LightingStage chooseLighting(const frame::FrameSettings& settings) {
     return settings.lightOn.value_or(frame::LightingStage::Fragment);
@@ -15,4 +15,4 @@ std::optional<graph::Plan::Choice> lightingChoice(Technique technique, const fra
     return graph::Plan::Choice{"lighting in", std::string(infoOf(chooseLighting(settings)).name) + " shaders", why};
 }
 
-} // namespace tessera::recipes
+} // namespace tessera::engine

@@ -1,4 +1,4 @@
-#include "viewer/session/Saver.h"
+#include "viewer/save/Saver.h"
 
 #include <filesystem>
 #include <string_view>
@@ -6,7 +6,7 @@
 
 #include "base/AtomicFile.h"
 #include "base/PictureFile.h"
-#include "validation/Rendering.h"
+#include "engine/Rendering.h"
 #include "validation/ShownPicture.h"
 #include "viewer/save/ChromeTrace.h"
 #include "viewer/save/RenderCommand.h"
@@ -49,12 +49,12 @@ void Saver::picture(glm::ivec2 sizePixels, const char* ending) {
     Look look = state_.active();
     look.settings.sizePixels = sizePixels;
     look.settings.display = std::string_view(ending) != ".exr";
-    const recipes::RenderedFrame frame = screen_.renderer()->render(look.technique, look.settings);
+    const engine::RenderedFrame frame = screen_.renderer()->render(look.technique, look.settings);
     const std::string path = freePath(stem(), ending).string();
     if (look.settings.display) {
         writePng(path, validation::shownPicture(frame, state_.open->scene().name, look.technique, look.settings.view));
     } else {
-        writeExr(path, validation::toPicture(frame));
+        writeExr(path, engine::toPicture(frame));
     }
     tell(path);
 }

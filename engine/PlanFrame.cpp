@@ -2,15 +2,16 @@
 
 #include <fmt/format.h>
 
-#include "passes/recipes/ChooseCulling.h"
-#include "passes/recipes/ChooseLighting.h"
-#include "passes/recipes/ChooseSamples.h"
-#include "passes/recipes/PrepareView.h"
-#include "passes/recipes/Renderer.h"
+#include "engine/ChooseCulling.h"
+#include "engine/ChooseLighting.h"
+#include "engine/ChooseSamples.h"
+#include "engine/PrepareView.h"
+#include "engine/Renderer.h"
+#include "renderer/frame/LightBuffers.h"
 #include "renderer/frame/RefineLayout.h"
 #include "scenes/InUse.h"
 
-namespace tessera::recipes {
+namespace tessera::engine {
 
 namespace {
 
@@ -123,4 +124,4 @@ std::vector<shader::ProgramDesc> framePrograms(const scenes::Scene& scene, Techn
     return graph::compile(graph, {.cull = false}).programs;
 }
 
-} // namespace tessera::recipes
+} // namespace tessera::engine

@@ -1,4 +1,4 @@
-#include "passes/recipes/Settings.h"
+#include "engine/Settings.h"
 
 #include <algorithm>
 #include <cassert>
@@ -12,12 +12,12 @@
 
 #include "base/Error.h"
 #include "base/Names.h"
-#include "passes/recipes/ChooseCulling.h"
-#include "passes/recipes/ChooseLighting.h"
-#include "passes/recipes/ChooseSamples.h"
-#include "passes/recipes/ChooseView.h"
+#include "engine/ChooseCulling.h"
+#include "engine/ChooseLighting.h"
+#include "engine/ChooseSamples.h"
+#include "engine/ChooseView.h"
 
-namespace tessera::recipes {
+namespace tessera::engine {
 
 namespace {
 
@@ -593,4 +593,4 @@ void takeWishes(const scenes::Scene& scene, const std::string& file, FrameReques
     }
 }
 
-} // namespace tessera::recipes
+} // namespace tessera::engine

@@ -1,8 +1,8 @@
-#include "validation/Rendering.h"
+#include "engine/Rendering.h"
 
-namespace tessera::validation {
+namespace tessera::engine {
 
-Picture toPicture(const recipes::RenderedFrame& frame) {
+Picture toPicture(const RenderedFrame& frame) {
     Picture picture;
     picture.width = frame.width;
     picture.height = frame.height;
@@ -13,7 +13,7 @@ Picture toPicture(const recipes::RenderedFrame& frame) {
     return picture;
 }
 
-DisplayImage toDisplayImage(const recipes::RenderedFrame& frame) {
+DisplayImage toDisplayImage(const RenderedFrame& frame) {
     DisplayImage image;
     image.width = frame.width;
     image.height = frame.height;
@@ -24,4 +24,4 @@ DisplayImage toDisplayImage(const recipes::RenderedFrame& frame) {
     return image;
 }
 
-} // namespace tessera::validation
+} // namespace tessera::engine

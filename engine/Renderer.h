@@ -4,14 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "passes/recipes/Settings.h"
-#include "passes/recipes/Techniques.h"
+#include "engine/Settings.h"
+#include "engine/Techniques.h"
 #include "renderer/frame/DepthInterval.h"
 #include "renderer/gpu/Context.h"
 #include "renderer/gpu/GraphBackend.h"
 #include "renderer/shader/ProgramLibrary.h"
 
-namespace tessera::recipes {
+namespace tessera::engine {
 
 /// A picture read back from the GPU. Rows run from the top.
 struct RenderedFrame {
@@ -106,4 +106,4 @@ graph::Plan planViews(const scenes::Scene& scene, std::span<const FrameRequest> 
 std::vector<shader::ProgramDesc> framePrograms(const scenes::Scene& scene, Technique technique,
                                                const frame::FrameSettings& settings);
 
-} // namespace tessera::recipes
+} // namespace tessera::engine

@@ -1,8 +1,8 @@
 #pragma once
-#include "passes/recipes/Techniques.h"
+#include "engine/Techniques.h"
 #include "renderer/frame/PreparedView.h"
 
-namespace tessera::recipes {
+namespace tessera::engine {
 
 /// Throws InputError when the settings name a camera or light that the scene lacks, a size or number of samples that no
 /// picture has, a range tolerance that is negative or not finite, or a setting that the technique cannot draw. Whoever
@@ -13,4 +13,4 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
 /// The camera that the settings ask for, where they put it.
 scenes::Camera frameCamera(const scenes::Scene& scene, const frame::FrameSettings& settings);
 
-} // namespace tessera::recipes
+} // namespace tessera::engine
