@@ -15,7 +15,7 @@
 #include "base/Error.h"
 #include "base/Names.h"
 #include "engine/ChooseSamples.h"
-#include "validation/ReferencePicture.h"
+#include "validation/compare/ReferencePicture.h"
 #include "validation/bench/BenchReport.h"
 #include "validation/bench/MachineName.h"
 

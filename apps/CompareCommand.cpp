@@ -13,10 +13,10 @@
 #include "base/OneLine.h"
 #include "base/PictureFile.h"
 #include "engine/Renderer.h"
-#include "validation/HeatMap.h"
-#include "validation/ReadPicture.h"
-#include "validation/ReferencePicture.h"
-#include "validation/TechniqueCompare.h"
+#include "validation/pictures/HeatMap.h"
+#include "validation/pictures/ReadPicture.h"
+#include "validation/compare/ReferencePicture.h"
+#include "validation/compare/TechniqueCompare.h"
 
 namespace tessera::app {
 

@@ -5,7 +5,7 @@
 #include "base/Error.h"
 #include "engine/ChooseSamples.h"
 #include "engine/Renderer.h"
-#include "validation/Measure.h"
+#include "validation/compare/Measure.h"
 
 namespace tessera::app {
 

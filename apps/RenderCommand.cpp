@@ -18,8 +18,8 @@
 #include "base/PictureFile.h"
 #include "engine/Renderer.h"
 #include "engine/Rendering.h"
-#include "validation/ReferencePicture.h"
-#include "validation/ShownPicture.h"
+#include "validation/compare/ReferencePicture.h"
+#include "validation/pictures/ShownPicture.h"
 
 namespace tessera::app {
 

@@ -1,4 +1,4 @@
-// The surface that the measured floor lights (validation/FloorLighting.h): made from the pixel's place alone, of the
+// The surface that the measured floor lights (validation/floor/FloorLighting.h): made from the pixel's place alone, of the
 // models that the scene uses, and different at every pixel, so that no compiler lifts anything out of the light loop.
 #pragma once
 #include "lib/camera.glsl"

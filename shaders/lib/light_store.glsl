@@ -1,5 +1,5 @@
 // Where the texels of lights are read from. Every pass of a frame reads a buffer texture; the other stores are what the
-// measured floor compares it with (validation/FloorLighting.h).
+// measured floor compares it with (validation/floor/FloorLighting.h).
 #pragma once
 #include "shared/slots.h"
 #include "shared/light.h"

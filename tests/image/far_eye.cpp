@@ -8,10 +8,10 @@
 #include "scenes/Limits.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
-#include "validation/ErrorFigures.h"
-#include "validation/ReferencePicture.h"
-#include "validation/ShownTriangles.h"
-#include "validation/Tolerance.h"
+#include "validation/figures/ErrorFigures.h"
+#include "validation/compare/ReferencePicture.h"
+#include "validation/compare/ShownTriangles.h"
+#include "validation/figures/Tolerance.h"
 #include "validation/stress/StressScene.h"
 
 namespace tessera {

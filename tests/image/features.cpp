@@ -6,7 +6,7 @@
 #include "engine/Rendering.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
-#include "validation/ErrorFigures.h"
+#include "validation/figures/ErrorFigures.h"
 
 namespace tessera {
 namespace {

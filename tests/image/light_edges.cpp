@@ -8,8 +8,8 @@
 #include "tests/support/CullingScenes.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/Random.h"
-#include "validation/LightOracle.h"
-#include "validation/PixelPositions.h"
+#include "validation/culling/LightOracle.h"
+#include "validation/culling/PixelPositions.h"
 
 namespace tessera {
 namespace {

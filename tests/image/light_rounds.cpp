@@ -11,8 +11,8 @@
 #include "tests/support/GlContext.h"
 #include "tests/support/ShaderMutant.h"
 #include "tests/support/TestScenes.h"
-#include "validation/ErrorFigures.h"
-#include "validation/ReferencePicture.h"
+#include "validation/figures/ErrorFigures.h"
+#include "validation/compare/ReferencePicture.h"
 
 namespace tessera {
 namespace {

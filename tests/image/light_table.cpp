@@ -8,7 +8,7 @@
 #include "scenes/Load.h"
 #include "tests/support/CullingScenes.h"
 #include "tests/support/GlContext.h"
-#include "validation/LightTable.h"
+#include "validation/culling/LightTable.h"
 
 namespace tessera {
 namespace {

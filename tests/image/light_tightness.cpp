@@ -7,7 +7,7 @@
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/ShaderMutant.h"
-#include "validation/LightOracle.h"
+#include "validation/culling/LightOracle.h"
 
 namespace tessera {
 namespace {

@@ -11,9 +11,9 @@
 #include "tests/support/Random.h"
 #include "tests/support/ShaderMutant.h"
 #include "tests/support/TestScenes.h"
-#include "validation/ReferencePicture.h"
-#include "validation/ShownTriangles.h"
-#include "validation/TechniqueCompare.h"
+#include "validation/compare/ReferencePicture.h"
+#include "validation/compare/ShownTriangles.h"
+#include "validation/compare/TechniqueCompare.h"
 #include "validation/stress/StressScene.h"
 
 namespace tessera {

@@ -11,7 +11,7 @@
 #include "scenes/Defaults.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
-#include "validation/ErrorFigures.h"
+#include "validation/figures/ErrorFigures.h"
 
 namespace tessera {
 namespace {

@@ -11,7 +11,7 @@
 #include "tests/support/CullingScenes.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
-#include "validation/TechniqueCompare.h"
+#include "validation/compare/TechniqueCompare.h"
 
 namespace tessera {
 namespace {

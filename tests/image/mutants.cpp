@@ -4,7 +4,7 @@
 
 #include "tests/support/GlContext.h"
 #include "tests/support/ShaderMutant.h"
-#include "validation/TechniqueCompare.h"
+#include "validation/compare/TechniqueCompare.h"
 #include "validation/stress/Stress.h"
 #include "validation/stress/StressScene.h"
 

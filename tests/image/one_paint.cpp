@@ -8,7 +8,7 @@
 #include "tests/support/GlContext.h"
 #include "tests/support/Random.h"
 #include "tests/support/TestScenes.h"
-#include "validation/ErrorFigures.h"
+#include "validation/figures/ErrorFigures.h"
 
 namespace tessera {
 namespace {

@@ -3,7 +3,7 @@
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
-#include "validation/TechniqueCompare.h"
+#include "validation/compare/TechniqueCompare.h"
 
 namespace tessera {
 namespace {

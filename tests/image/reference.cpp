@@ -7,10 +7,10 @@
 #include "scenes/Load.h"
 #include "tests/image/FlatTest.h"
 #include "tests/support/ShaderMutant.h"
-#include "validation/ErrorFigures.h"
-#include "validation/ReferencePicture.h"
-#include "validation/ShownTriangles.h"
-#include "validation/TechniqueCompare.h"
+#include "validation/figures/ErrorFigures.h"
+#include "validation/compare/ReferencePicture.h"
+#include "validation/compare/ShownTriangles.h"
+#include "validation/compare/TechniqueCompare.h"
 #include "validation/reference/Texels.h"
 
 namespace tessera {

@@ -5,9 +5,9 @@
 
 #include "tests/image/FlatTest.h"
 #include "tests/support/ShaderMutant.h"
-#include "validation/ErrorFigures.h"
-#include "validation/ReferencePicture.h"
-#include "validation/ShownTriangles.h"
+#include "validation/figures/ErrorFigures.h"
+#include "validation/compare/ReferencePicture.h"
+#include "validation/compare/ShownTriangles.h"
 
 namespace tessera {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "base/PictureFile.h"
 #include "tests/support/UnderLedger.h"
-#include "validation/ReadPicture.h"
+#include "validation/pictures/ReadPicture.h"
 
 namespace tessera::test {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "validation/ErrorFigures.h"
-#include "validation/RangeTruncation.h"
-#include "validation/TechniqueCompare.h"
+#include "validation/figures/ErrorFigures.h"
+#include "validation/compare/RangeTruncation.h"
+#include "validation/compare/TechniqueCompare.h"
 
 namespace tessera::validation {
 

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "engine/Techniques.h"
-#include "validation/FigureHtml.h"
-#include "validation/Html.h"
+#include "validation/report/FigureHtml.h"
+#include "validation/report/Html.h"
 #include "validation/bench/BenchJsonTerms.h"
 #include "validation/bench/BenchTables.h"
 #include "validation/bench/Pareto.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/Report.h"
+#include "validation/report/Report.h"
 #include "validation/bench/BenchRecord.h"
 
 namespace tessera::validation {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "renderer/graph/Table.h"
-#include "validation/FigureText.h"
+#include "validation/figures/FigureText.h"
 #include "validation/bench/BenchJson.h"
 #include "validation/bench/BenchJsonTerms.h"
 #include "validation/bench/Pareto.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "validation/Report.h"
+#include "validation/report/Report.h"
 #include "validation/bench/BenchRecord.h"
 
 namespace tessera::validation {

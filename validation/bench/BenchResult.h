@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "validation/FloorBench.h"
-#include "validation/FrameTimer.h"
+#include "validation/floor/FloorBench.h"
+#include "validation/timing/FrameTimer.h"
 
 /// What a benchmark knows of its points: plain values, as they are measured, kept in files and shown.
 namespace tessera::validation {

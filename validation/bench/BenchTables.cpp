@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "validation/FigureHtml.h"
-#include "validation/Html.h"
+#include "validation/report/FigureHtml.h"
+#include "validation/report/Html.h"
 #include "validation/bench/Pareto.h"
 #include "validation/bench/Recommend.h"
 #include "validation/bench/ScalingFit.h"

@@ -6,7 +6,7 @@
 
 #include "base/Picture.h"
 #include "engine/Renderer.h"
-#include "validation/ReferencePicture.h"
+#include "validation/compare/ReferencePicture.h"
 #include "validation/bench/BenchResult.h"
 
 namespace tessera::validation {

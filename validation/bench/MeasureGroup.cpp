@@ -8,7 +8,7 @@
 
 #include "base/Error.h"
 #include "engine/Rendering.h"
-#include "validation/HeatMap.h"
+#include "validation/pictures/HeatMap.h"
 #include "validation/bench/Attribution.h"
 #include "validation/bench/CountPoint.h"
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "validation/FigureText.h"
+#include "validation/figures/FigureText.h"
 #include "validation/bench/Pareto.h"
 
 namespace tessera::validation {

@@ -8,8 +8,8 @@
 #include "base/Names.h"
 #include "engine/Renderer.h"
 #include "engine/Rendering.h"
-#include "validation/ReferencePicture.h"
-#include "validation/ShownTriangles.h"
+#include "validation/compare/ReferencePicture.h"
+#include "validation/compare/ShownTriangles.h"
 
 namespace tessera::validation {
 

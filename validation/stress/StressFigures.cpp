@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "validation/Tolerance.h"
+#include "validation/figures/Tolerance.h"
 
 namespace tessera::validation {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "validation/ErrorFigures.h"
-#include "validation/LostGeometry.h"
+#include "validation/figures/ErrorFigures.h"
+#include "validation/figures/LostGeometry.h"
 
 namespace tessera::validation {
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "validation/FigureText.h"
+#include "validation/figures/FigureText.h"
 
 namespace tessera::validation {
 

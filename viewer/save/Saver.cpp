@@ -7,7 +7,7 @@
 #include "base/AtomicFile.h"
 #include "base/PictureFile.h"
 #include "engine/Rendering.h"
-#include "validation/ShownPicture.h"
+#include "validation/pictures/ShownPicture.h"
 #include "viewer/save/ChromeTrace.h"
 #include "viewer/save/RenderCommand.h"
 #include "viewer/save/SaveScene.h"

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "renderer/graph/Plan.h"
-#include "validation/ErrorFigures.h"
-#include "validation/LightOracle.h"
+#include "validation/figures/ErrorFigures.h"
+#include "validation/culling/LightOracle.h"
 
 namespace tessera::viewer {
 

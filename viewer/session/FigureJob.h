@@ -6,7 +6,7 @@
 #include <optional>
 #include <thread>
 
-#include "validation/ErrorFigures.h"
+#include "validation/figures/ErrorFigures.h"
 
 namespace tessera::viewer {
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "tests/cli/program/Cli.h"
-#include "validation/ErrorFigures.h"
+#include "validation/figures/ErrorFigures.h"
 
 namespace tessera::test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/PictureFile.h"
 #include "tests/cli/program/Cli.h"
-#include "validation/ErrorFigures.h"
+#include "validation/figures/ErrorFigures.h"
 
 namespace tessera::test {
 namespace {

@@ -10,8 +10,8 @@
 #include "scenes/Load.h"
 #include "shaders/shared/models.h"
 #include "tests/gpu/shaders/ShaderBench.h"
-#include "validation/FloorBench.h"
-#include "validation/FloorLights.h"
+#include "validation/floor/FloorBench.h"
+#include "validation/floor/FloorLights.h"
 
 namespace tessera {
 namespace {

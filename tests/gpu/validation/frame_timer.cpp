@@ -9,7 +9,7 @@
 
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
-#include "validation/FrameTimer.h"
+#include "validation/timing/FrameTimer.h"
 
 namespace tessera {
 namespace {

@@ -17,8 +17,8 @@
 #include "renderer/shader/ProgramDesc.h"
 #include "scenes/Load.h"
 #include "tests/support/TestScenes.h"
-#include "validation/FloorGeometry.h"
-#include "validation/FloorLighting.h"
+#include "validation/floor/FloorGeometry.h"
+#include "validation/floor/FloorLighting.h"
 
 namespace tessera {
 namespace {

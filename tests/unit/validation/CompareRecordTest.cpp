@@ -1,4 +1,4 @@
-#include "validation/CompareRecord.h"
+#include "validation/compare/CompareRecord.h"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 
 #include "base/Error.h"
 #include "tests/unit/validation/Samples.h"
-#include "validation/FigureText.h"
+#include "validation/figures/FigureText.h"
 
 namespace tessera::validation {
 namespace {

@@ -1,4 +1,4 @@
-#include "validation/ErrorFigures.h"
+#include "validation/figures/ErrorFigures.h"
 
 #include <cmath>
 #include <limits>
@@ -8,8 +8,8 @@
 
 #include "base/Error.h"
 #include "tests/unit/validation/Samples.h"
-#include "validation/Percentile.h"
-#include "validation/PixelErrors.h"
+#include "validation/figures/Percentile.h"
+#include "validation/figures/PixelErrors.h"
 
 namespace tessera::validation {
 namespace {

@@ -1,4 +1,4 @@
-#include "validation/Flip.h"
+#include "validation/figures/Flip.h"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/Random.h"
-#include "validation/FlipColour.h"
-#include "validation/FlipFilters.h"
+#include "validation/figures/FlipColour.h"
+#include "validation/figures/FlipFilters.h"
 
 namespace tessera::validation {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "validation/FloorBench.h"
-#include "validation/FloorLights.h"
+#include "validation/floor/FloorBench.h"
+#include "validation/floor/FloorLights.h"
 
 namespace tessera::validation {
 namespace {

@@ -1,4 +1,4 @@
-#include "validation/HeatMap.h"
+#include "validation/pictures/HeatMap.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 
 #include "tests/unit/validation/Samples.h"
-#include "validation/ErrorScale.h"
-#include "validation/Flip.h"
-#include "validation/PixelErrors.h"
+#include "validation/pictures/ErrorScale.h"
+#include "validation/figures/Flip.h"
+#include "validation/figures/PixelErrors.h"
 
 namespace tessera::validation {
 namespace {

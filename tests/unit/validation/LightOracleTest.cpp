@@ -1,4 +1,4 @@
-#include "validation/LightOracle.h"
+#include "validation/culling/LightOracle.h"
 
 #include <cmath>
 #include <numbers>

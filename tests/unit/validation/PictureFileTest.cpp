@@ -11,7 +11,7 @@
 #include "base/Error.h"
 #include "tests/support/UnderLedger.h"
 #include "tests/unit/validation/Samples.h"
-#include "validation/ReadPicture.h"
+#include "validation/pictures/ReadPicture.h"
 
 namespace tessera::validation {
 namespace {

@@ -1,4 +1,4 @@
-#include "validation/Report.h"
+#include "validation/report/Report.h"
 
 #include <cctype>
 #include <regex>
@@ -7,10 +7,10 @@
 
 #include "tests/unit/validation/Benches.h"
 #include "tests/unit/validation/Samples.h"
-#include "validation/Base64.h"
-#include "validation/FigureHtml.h"
-#include "validation/HeatMap.h"
-#include "validation/Html.h"
+#include "validation/report/Base64.h"
+#include "validation/report/FigureHtml.h"
+#include "validation/pictures/HeatMap.h"
+#include "validation/report/Html.h"
 #include "validation/bench/BenchHtml.h"
 #include "validation/bench/BenchTables.h"
 

@@ -1,4 +1,4 @@
-#include "validation/TechniqueCompare.h"
+#include "validation/compare/TechniqueCompare.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "validation/TimeSamples.h"
+#include "validation/timing/TimeSamples.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "validation/FrameTimer.h"
+#include "validation/timing/FrameTimer.h"
 
 namespace tessera::validation {
 namespace {

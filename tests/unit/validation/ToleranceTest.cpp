@@ -1,4 +1,4 @@
-#include "validation/Tolerance.h"
+#include "validation/figures/Tolerance.h"
 
 #include <cmath>
 #include <limits>
@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/unit/validation/Samples.h"
-#include "validation/CompareRecord.h"
+#include "validation/compare/CompareRecord.h"
 
 namespace tessera::validation {
 namespace {

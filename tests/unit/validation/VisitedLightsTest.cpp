@@ -1,12 +1,12 @@
-#include "validation/VisitedLights.h"
+#include "validation/culling/VisitedLights.h"
 
 #include <bit>
 
 #include <gtest/gtest.h>
 
-#include "validation/CellLights.h"
-#include "validation/LightOracle.h"
-#include "validation/LightTable.h"
+#include "validation/culling/CellLights.h"
+#include "validation/culling/LightOracle.h"
+#include "validation/culling/LightTable.h"
 
 namespace tessera::validation {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "scenes/LookAt.h"
 #include "tests/unit/scenes/TinyScene.h"
-#include "validation/PixelPositions.h"
+#include "validation/culling/PixelPositions.h"
 
 namespace tessera::reference {
 namespace {

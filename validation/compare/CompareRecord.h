@@ -1,0 +1,77 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "validation/figures/ErrorFigures.h"
+#include "validation/figures/LostGeometry.h"
+#include "validation/figures/Tolerance.h"
+
+namespace tessera::validation {
+
+/// What one G-buffer channel's encoding adds to a pair's error.
+struct ChannelShare {
+    std::string channel;
+    double relMseWithout; ///< the pair's relMse when this channel alone is stored in fp32
+    double share;         ///< the pair's relMse minus that
+};
+
+/// One comparison: picture a against the truth b.
+struct ComparePair {
+    std::string a, b; ///< technique names, "reference", or a picture's file name
+    ErrorFigures figures;
+    Tolerance tolerance;
+    Verdict verdict;
+    std::vector<ChannelShare> channels = {}; ///< empty where no channel is packed
+    std::string culling = {};                ///< how a found its lights; empty where it visits all
+};
+
+/// A technique that was not compared.
+struct LeftOutTechnique {
+    std::string technique;
+    std::string why;
+};
+
+/// The light that a range tolerance drops: a technique's picture with it against the same without.
+struct RangeTruncation {
+    double tolerance; ///< FrameSettings::rangeTolerance
+    std::string technique;
+    ErrorFigures figures; ///< of the final view, whatever view is compared
+};
+
+/// What `tessera compare` found.
+struct CompareRecord {
+    std::string scene;
+    int width = 0, height = 0;
+    std::string renderer; ///< as GL reports it
+    std::vector<ComparePair> pairs;
+    int samples = 1;                     ///< of a pixel, as the driver gives them
+    bool excludesPixels = false;         ///< those that show different triangles were left out
+    std::vector<LostGeometry> lost = {}; ///< what no rounding explains of that, by either filter
+    std::vector<LeftOutTechnique> leftOut = {};
+    std::optional<RangeTruncation> rangeTruncation = {}; ///< where a tolerance is set
+
+    /// There is a pair, and each holds.
+    bool ok() const;
+};
+
+/// Measures and judges one pair. `excluded` and `shown` are as errorFigures() takes them.
+ComparePair comparePair(std::string nameA, const Picture& a, std::string nameB, const Picture& b, Tolerance tolerance,
+                        std::span<const std::uint8_t> excluded = {}, const ShownPair& shown = {});
+
+/// Lets a verdict miss when geometry was lost, and say what.
+void missLostGeometry(Verdict& verdict, std::span<const LostGeometry> lost);
+
+/// The record as JSON, schema 1, indented and ending in a newline. Figures that could not be measured or are infinite
+/// are null, with the reason under `why`; `missed` says in words what a pair did not hold.
+std::string compareJson(const CompareRecord& record);
+
+/// The record for a terminal: a table of ASCII characters, then what was missed and what was dropped, each line ending
+/// in a newline.
+std::string compareTable(const CompareRecord& record);
+
+/// What was dropped, in one line: "bias -1.2e-03, relMSE 3.4e-05, p99 rel 2.0e-02".
+std::string droppedText(const ErrorFigures& figures);
+
+} // namespace tessera::validation

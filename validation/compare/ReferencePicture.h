@@ -1,0 +1,39 @@
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "base/Picture.h"
+#include "engine/Renderer.h"
+#include "validation/figures/Tolerance.h"
+#include "validation/reference/Render.h"
+
+/// The reference renderer (validation/reference) beside the product: the same frame, and what a technique is held to
+/// there.
+namespace tessera::validation {
+
+/// Throws InputError unless the reference renders frames of these settings: the final view, one sample a pixel.
+void requireReferenceTakes(const frame::FrameSettings& settings);
+
+/// A frame's settings as the reference takes them.
+reference::Settings referenceSettings(const scenes::Scene& scene, const frame::FrameSettings& settings);
+
+struct ReferencePicture {
+    Picture picture; ///< rounded to single precision
+    std::vector<reference::Ids> ids;
+    std::vector<std::vector<reference::Span>> alternatives; ///< as in reference::Rendered
+
+    /// Of the pictures that the definition allows the one nearest to `shown`, which is of the same size.
+    Picture nearestTo(const Picture& shown) const;
+};
+
+/// What a frame shows by definition, with the filter of the settings. `rowDone` is called once a row, from any thread.
+/// Without `leeway` there are no alternatives, which take up to fifteen times as long. Throws InputError when
+/// the settings name what the scene lacks or requireReferenceTakes() does.
+ReferencePicture referencePicture(
+    const scenes::Scene& scene, const frame::FrameSettings& settings, const std::function<void()>& rowDone = [] {},
+    bool leeway = true);
+
+/// What a technique with every G-buffer channel in fp32 is held to against the reference, with the reason.
+Tolerance referenceTolerance(const scenes::Scene& scene, frame::TextureFilter filter);
+
+} // namespace tessera::validation

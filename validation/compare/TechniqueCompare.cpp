@@ -1,0 +1,310 @@
+#include "validation/compare/TechniqueCompare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "engine/ChooseSamples.h"
+#include "engine/Rendering.h"
+#include "engine/Settings.h"
+#include "validation/compare/RangeTruncation.h"
+#include "validation/compare/ReferencePicture.h"
+#include "validation/compare/ShownTriangles.h"
+
+namespace tessera::validation {
+
+namespace {
+
+using engine::Technique;
+
+NamedPicture rendered(engine::Renderer& renderer, Technique technique, const frame::FrameSettings& settings) {
+    const engine::RenderedFrame frame = renderer.render(technique, settingsTakenBy(technique, settings));
+    return {std::string(infoOf(technique).name), toPicture(frame), toDisplayImage(frame)};
+}
+
+bool isReference(const CompareRequest& request) {
+    return std::holds_alternative<Reference>(request.against);
+}
+
+/// What pictures are measured against.
+struct TruthPicture {
+    NamedPicture own;
+    std::optional<ReferencePicture> reference;
+    ShownTriangles triangles; ///< where the reference shows other surfaces than the GPU
+
+    PairTruth of(const Picture& shown) const {
+        return {reference ? reference->nearestTo(shown) : own.picture, triangles.excluded};
+    }
+    ErrorFigures figuresOf(const Picture& shown) const {
+        const PairTruth truth = of(shown);
+        return errorFigures(shown, truth.picture, truth.excluded);
+    }
+};
+
+TruthPicture referenceTruth(engine::Renderer& renderer, const frame::FrameSettings& settings,
+                            const std::function<void()>& rowDone) {
+    TruthPicture truth;
+    truth.reference = referencePicture(renderer.scene(), settings, rowDone);
+    truth.triangles = shownTriangles(renderer, settings, truth.reference->ids);
+    truth.own = {"reference", truth.reference->picture, toDisplayImage(truth.reference->picture)};
+    return truth;
+}
+
+TruthPicture truthPicture(engine::Renderer& renderer, const CompareRequest& request) {
+    if (isReference(request)) return referenceTruth(renderer, request.settings, request.renderedOne);
+    if (const auto* technique = std::get_if<Technique>(&request.against)) {
+        TruthPicture truth{rendered(renderer, *technique, request.settings), {}, {}};
+        request.renderedOne();
+        return truth;
+    }
+    const auto& [path, picture] = std::get<PictureTruth>(request.against);
+    TruthPicture truth{{path, picture, {}}, {}, {}};
+    truth.own.display = toDisplayImage(truth.own.picture);
+    return truth;
+}
+
+bool measuresTruncation(const CompareRequest& request) {
+    return request.rangeTruncation && request.settings.rangeTolerance > 0.0 &&
+           (std::holds_alternative<Technique>(request.against) || !request.techniques.empty());
+}
+
+RangeTruncation truncationOf(engine::Renderer& renderer, const CompareRequest& request) {
+    const auto* truth = std::get_if<Technique>(&request.against);
+    const Technique technique = truth ? *truth : request.techniques.front();
+    return rangeTruncation(renderer, technique, settingsTakenBy(technique, request.settings));
+}
+
+/// How the frame just drawn found its lights.
+std::string cullingText(const engine::Renderer& renderer) {
+    const culling::Choice choice = renderer.downloadLists().culling;
+    if (choice.method == culling::Method::None) return {};
+    return fmt::format("{}, tile {}, lists built by {}", infoOf(choice.method).name, choice.tilePixels,
+                       infoOf(choice.builder).name);
+}
+
+bool isPacked(const frame::GBufferLayout& layout) {
+    return !(layout == frame::layoutTable()[0].layout);
+}
+
+/// The place among the pictures made so far of one from a G-buffer that equals `picture` in every bit.
+std::optional<std::size_t> equalPicture(const CompareResult& result, const CompareRequest& request,
+                                        const Picture& picture) {
+    for (std::size_t i = 0; i < result.pictures.size(); ++i)
+        if (infoOf(request.techniques[i]).usesGBuffer() && result.pictures[i].picture.rgba == picture.rgba) return i;
+    return {};
+}
+
+/// The error that each stored channel causes: what is left of the pair's relMse when that channel alone is fp32.
+std::vector<ChannelShare> channelShares(engine::Renderer& renderer, const CompareRequest& request, Technique technique,
+                                        const TruthPicture& truth, double relMse) {
+    std::vector<ChannelShare> shares;
+    const frame::FeatureSet features =
+        request.settings.prune ? frame::materialFeatures(renderer.scene()) : frame::allFeatures();
+    for (const frame::Channel channel : frame::neededChannels(features, request.settings.layout, false)) {
+        frame::FrameSettings settings = request.settings;
+        settings.layout.encoding[std::size_t(channel)] = frame::Encoding::Exact;
+        const Picture picture = toPicture(renderer.render(technique, settingsTakenBy(technique, settings)));
+        const double without = truth.figuresOf(picture).relMse;
+        shares.push_back({std::string(frame::channelTable()[std::size_t(channel)].name), without, relMse - without});
+    }
+    return shares;
+}
+
+/// What a technique is held to, with a layout, against what the request asks for.
+Tolerance toleranceOf(const engine::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
+                      Technique technique, const frame::GBufferLayout& layout) {
+    const bool quantises = infoOf(technique).usesGBuffer() && isPacked(layout);
+    if (isReference(request) && !quantises) return referenceTolerance(renderer.scene(), request.settings.filter);
+    const std::vector<scenes::Light>& lights = renderer.scene().lights;
+    const auto on =
+        std::count_if(lights.begin(), lights.end(), [](const scenes::Light& light) { return light.enabled; });
+    return pairTolerance(technique, layout, gl.isSoftware, std::size_t(on));
+}
+
+bool showsSigned(const CompareRequest& request) {
+    return frame::displayMapping(request.settings.view, request.settings.layout) == frame::DisplayMapping::Signed;
+}
+
+/// A packed layout's tolerance is wide enough to hide a faint light that was skipped. So the same picture with every
+/// channel in fp32 must hold what the exact layout is held to: then quantisation is all that differs.
+void checkWithoutPacking(engine::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
+                         Technique technique, const TruthPicture& truth, Verdict& verdict) {
+    frame::FrameSettings settings = request.settings;
+    settings.layout = frame::layoutTable()[0].layout;
+    const Picture picture = toPicture(renderer.render(technique, settingsTakenBy(technique, settings)));
+    Tolerance tolerance = toleranceOf(renderer, gl, request, technique, settings.layout);
+    tolerance.isSigned = showsSigned(request);
+    for (const std::string& missed : checkTolerance(truth.figuresOf(picture), tolerance).missed)
+        verdict.missed.push_back("with every channel in fp32: " + missed);
+    verdict.ok = verdict.missed.empty();
+}
+
+/// As the user sees the pair. Exposure and tone map are the renderer's: files and the reference have none.
+ShownPair shownPair(const CompareRequest& request, const NamedPicture& a, const NamedPicture& truth) {
+    const bool haveDisplay = std::holds_alternative<Technique>(request.against) && request.settings.display;
+    return haveDisplay ? ShownPair{&a.display, &truth.display} : ShownPair{};
+}
+
+/// Hardware filtering beside the exact one, which all other pairs use.
+bool showsHardwareFilter(const scenes::Scene& scene, const CompareRequest& request) {
+    return isReference(request) && request.hardwareFilter && !request.techniques.empty() &&
+           request.settings.filter == frame::TextureFilter::Exact && frame::materialFeatures(scene).textures();
+}
+
+void addHardwareFilter(engine::Renderer& renderer, const CompareRequest& request, CompareResult& result) {
+    frame::FrameSettings settings = request.settings;
+    settings.filter = frame::TextureFilter::Hardware;
+    settings.layout = frame::layoutTable()[0].layout;
+    NamedPicture picture = rendered(renderer, request.techniques.front(), settings);
+    picture.name = hardwareFilterName(picture.name);
+    const TruthPicture reference = referenceTruth(renderer, settings, request.renderedOne);
+    PairTruth truth = reference.of(picture.picture);
+    result.record.pairs.push_back(comparePair(picture.name, picture.picture, result.truth.name, truth.picture,
+                                              referenceTolerance(renderer.scene(), settings.filter), truth.excluded));
+    missLostGeometry(result.record.pairs.back().verdict, reference.triangles.lost);
+    result.record.excludesPixels |= !reference.triangles.excluded.empty();
+    std::vector<LostGeometry>& all = result.record.lost;
+    for (const LostGeometry& lost : reference.triangles.lost)
+        if (std::ranges::none_of(all, [&](const LostGeometry& known) { return known.isOfSame(lost); }))
+            all.push_back(lost);
+    result.pictures.push_back(std::move(picture));
+    result.truths.push_back(std::move(truth));
+}
+
+template <typename Drops>
+frame::FrameSettings resetWhere(Technique technique, const frame::FrameSettings& settings, const Drops& drops) {
+    engine::FrameRequest request{technique, settings};
+    for (const engine::Setting& setting : engine::settingTable())
+        if (drops(setting, request)) setting.reset(request);
+    return request.settings;
+}
+
+} // namespace
+
+frame::FrameSettings settingsTakenBy(engine::Technique technique, const frame::FrameSettings& settings) {
+    return resetWhere(technique, settings, [](const engine::Setting& setting, const engine::FrameRequest& request) {
+        return setting.samePicture && !setting.isTaken(request);
+    });
+}
+
+frame::FrameSettings settingsHeededBy(engine::Technique technique, const frame::FrameSettings& settings) {
+    return resetWhere(technique, settings, [](const engine::Setting& setting, const engine::FrameRequest& request) {
+        return setting.samePicture && !setting.isHeededBy(request.technique);
+    });
+}
+
+std::string hardwareFilterName(const std::string& technique) {
+    return technique + " (hardware filter)";
+}
+
+std::size_t stepCount(const scenes::Scene& scene, const CompareRequest& request) {
+    const std::size_t references = showsHardwareFilter(scene, request) ? 2 : 1;
+    const std::size_t truth = isReference(request) ? references * std::size_t(request.settings.sizePixels.y)
+                              : std::holds_alternative<Technique>(request.against) ? 1
+                                                                                   : 0;
+    return request.techniques.size() + truth + (measuresTruncation(request) ? 1 : 0);
+}
+
+std::vector<std::string> pictureNames(const scenes::Scene& scene, const CompareRequest& request) {
+    std::vector<std::string> names;
+    for (const Technique technique : request.techniques) names.emplace_back(infoOf(technique).name);
+    if (showsHardwareFilter(scene, request)) names.push_back(hardwareFilterName(names.front()));
+    return names;
+}
+
+std::vector<Technique> techniquesTaking(const frame::FrameSettings& settings, std::vector<LeftOutTechnique>& leftOut) {
+    std::vector<Technique> techniques;
+    for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
+        const engine::FrameRequest request{info.technique, settingsHeededBy(info.technique, settings)};
+        const auto table = engine::settingTable();
+        const auto refused =
+            std::ranges::find_if(table, [&](const engine::Setting& setting) { return !setting.isTaken(request); });
+        if (refused == table.end())
+            techniques.push_back(info.technique);
+        else
+            leftOut.push_back(
+                {std::string(info.name), fmt::format("it does not take {} {}", refused->name, refused->text(request))});
+    }
+    return techniques;
+}
+
+Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout, bool isSoftware,
+                        std::size_t lightCount) {
+    Tolerance tolerance;
+    if (infoOf(technique).usesGBuffer() && isPacked(layout)) {
+        const frame::LayoutPromise& promise = frame::promiseOf(layout);
+        tolerance.relMse = promise.relMse;
+        tolerance.p999Rel = promise.p999Rel;
+        tolerance.bias = promise.bias;
+        tolerance.biasNoises = kBiasNoises;
+        tolerance.reason =
+            fmt::format("the layout's promise: rms error at most {:.1f} %, 99.9 % of the pixels within about a step of "
+                        "k_s, and dithering keeps the mean",
+                        100.0 * std::sqrt(promise.relMse));
+    } else if (isSoftware) {
+        tolerance.bitEqual = 1.0;
+        tolerance.maxRel = 0.0;
+        tolerance.reason =
+            "one lighting source, fp32 throughout and no contraction: software rasterisers agree to the last bit";
+    } else {
+        tolerance.maxRel = 1e-5;
+        tolerance.reason = "a hardware compiler may contract two programs differently: some 100 roundings of 2^-24";
+        const double sumBound = double(lightCount) * 0x1p-24;
+        if (technique == Technique::DeferredVolumes && sumBound > tolerance.maxRel) {
+            tolerance.maxRel = sumBound;
+            tolerance.reason = "lights are summed by blending: N positive terms in fp32 differ by up to N 2^-24";
+        }
+    }
+    return tolerance;
+}
+
+CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilities& gl,
+                                const CompareRequest& request) {
+    CompareResult result;
+    const TruthPicture truth = truthPicture(renderer, request);
+    result.truth = truth.own;
+    result.record.lost = truth.triangles.lost;
+    result.record.excludesPixels = !truth.triangles.excluded.empty();
+    result.record.scene = renderer.scene().name;
+    result.record.width = request.settings.sizePixels.x;
+    result.record.height = request.settings.sizePixels.y;
+    result.record.samples = engine::settingsOn(gl, request.settings).samplesGiven.value_or(1);
+    result.record.renderer = gl.renderer;
+    for (const Technique technique : request.techniques) {
+        NamedPicture picture = rendered(renderer, technique, request.settings);
+        const std::string culling = cullingText(renderer);
+        requireSameSize(picture.picture, picture.name, result.truth.picture, result.truth.name);
+        Tolerance tolerance = request.tolerance
+                                  ? *request.tolerance
+                                  : toleranceOf(renderer, gl, request, technique, request.settings.layout);
+        tolerance.isSigned = showsSigned(request);
+        PairTruth own = truth.of(picture.picture);
+        ComparePair pair = comparePair(picture.name, picture.picture, truth.own.name, own.picture, tolerance,
+                                       own.excluded, shownPair(request, picture, truth.own));
+        pair.culling = culling;
+        if (infoOf(technique).usesGBuffer() && isPacked(request.settings.layout)) {
+            // One G-buffer, one picture: the channels' shares are the same.
+            const std::optional<std::size_t> equal = equalPicture(result, request, picture.picture);
+            pair.channels = equal ? result.record.pairs[*equal].channels
+                                  : channelShares(renderer, request, technique, truth, pair.figures.relMse);
+            // Against a picture file the tolerance is about that picture, which need not come from this renderer.
+            if (!request.tolerance && !std::holds_alternative<PictureTruth>(request.against))
+                checkWithoutPacking(renderer, gl, request, technique, truth, pair.verdict);
+        }
+        result.record.pairs.push_back(std::move(pair));
+        result.pictures.push_back(std::move(picture));
+        result.truths.push_back(std::move(own));
+        request.renderedOne();
+    }
+    for (ComparePair& pair : result.record.pairs) missLostGeometry(pair.verdict, result.record.lost);
+    if (showsHardwareFilter(renderer.scene(), request)) addHardwareFilter(renderer, request, result);
+    if (measuresTruncation(request)) {
+        result.record.rangeTruncation = truncationOf(renderer, request);
+        request.renderedOne();
+    }
+    return result;
+}
+
+} // namespace tessera::validation

@@ -1,0 +1,292 @@
+#include "validation/culling/LightOracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "renderer/gpu/Context.h"
+#include "validation/culling/PixelPositions.h"
+#include "validation/culling/VisitedLights.h"
+
+namespace tessera::validation {
+
+namespace {
+
+/// A light as plain numbers; only those that are on and not dark.
+struct TrueLight {
+    int sceneLight = 0;
+    glm::dvec3 positionWS{0.0};
+    double squaredRange = scenes::kInfinity; ///< of falloff inverse_square
+    bool fallsOffByABC = false;
+    glm::dvec3 attenuation{0.0}; ///< A B C, times the tolerance
+    double brightest = 0.0;      ///< channel of colour x intensity
+    bool isSpot = false;
+    glm::dvec3 directionWS{0.0};
+    double cosOuter = -1.0;
+};
+
+/// A light that reaches everywhere.
+struct EndlessLight {
+    int sceneLight = 0;
+    glm::dvec4 placeWS{0.0}; ///< homogeneous: its position, or with w = 0 the direction that it comes from
+    bool isSpot = false;
+    glm::dvec3 directionWS{0.0};
+    double cosOuter = -1.0;
+};
+
+struct TrueLights {
+    std::vector<TrueLight> finite;
+    std::vector<EndlessLight> everywhere;
+};
+
+/// Directional lights, and those whose falloff never ends: without a range, or of A B C where no tolerance ends it or
+/// only A is not 0.
+bool reachesEverywhere(const scenes::Light& light, double rangeTolerance) {
+    if (light.type == scenes::LightType::Directional) return true;
+    if (light.falloff == scenes::Falloff::InverseSquare) return std::isinf(light.rangeMetres);
+    return rangeTolerance == 0.0 || (light.attenuation.y == 0.0f && light.attenuation.z == 0.0f);
+}
+
+TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& settings) {
+    TrueLights lights;
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const scenes::Light light = scenes::lightAtTime(scene.lights[i], settings.timeSeconds);
+        if (!light.enabled || (settings.soloLight && *settings.soloLight != int(i))) continue;
+        if (glm::dvec3(light.color) * double(light.intensity) == glm::dvec3(0.0)) continue;
+        const bool isSpot = light.type == scenes::LightType::Spot;
+        if (isSpot && !(light.outerConeRadians > 0.0f)) continue;
+        if (reachesEverywhere(light, settings.rangeTolerance)) {
+            const bool isFar = light.type == scenes::LightType::Directional;
+            lights.everywhere.push_back(
+                {int(i), isFar ? glm::dvec4(-light.directionWS, 0.0) : glm::dvec4(light.positionWS, 1.0), isSpot,
+                 light.directionWS, std::cos(double(light.outerConeRadians))});
+            continue;
+        }
+        TrueLight plain;
+        plain.sceneLight = int(i);
+        plain.positionWS = light.positionWS;
+        plain.fallsOffByABC = light.falloff == scenes::Falloff::Attenuation;
+        if (plain.fallsOffByABC)
+            plain.attenuation = glm::dvec3(light.attenuation) * settings.rangeTolerance;
+        else
+            plain.squaredRange = double(light.rangeMetres) * double(light.rangeMetres);
+        const glm::dvec3 color = glm::dvec3(light.color) * double(light.intensity);
+        // Colours are held to 1e30 (docs/numerics.md).
+        plain.brightest = std::min(std::max({color.r, color.g, color.b}), 1e30);
+        plain.isSpot = isSpot;
+        plain.directionWS = light.directionWS;
+        plain.cosOuter = std::cos(double(light.outerConeRadians));
+        lights.finite.push_back(plain);
+    }
+    return lights;
+}
+
+/// Whether a point lies in a light's cone; everywhere where it has none. `toLight` is of any length.
+template <class Light>
+bool isInCone(const Light& light, const glm::dvec3& toLight) {
+    return !light.isSpot || glm::dot(-toLight, light.directionWS) > light.cosOuter * glm::length(toLight);
+}
+
+bool reaches(const TrueLight& light, const glm::dvec3& positionWS, double squaredDistance) {
+    // The falloff itself, not the radius that solves it, is held against the tolerance.
+    const double distance = std::sqrt(squaredDistance);
+    if (light.fallsOffByABC ? !(light.brightest > light.attenuation.x + light.attenuation.y * distance +
+                                                      light.attenuation.z * squaredDistance)
+                            : !(squaredDistance < light.squaredRange))
+        return false;
+    return isInCone(light, light.positionWS - positionWS);
+}
+
+/// The counts of some rows of pixels.
+struct RowCounts {
+    LightOracleFigures figures;
+    std::vector<std::uint64_t> pixelsByVisited; ///< how many pixels visit i lights
+    CellLights cells;
+};
+
+class Judge {
+public:
+    explicit Judge(const OracleInput& input)
+        : input_(input), lights_(trueLights(input.scene, input.settings)), visited_(input.drawn),
+          positions_(input.scene.cameras[std::size_t(input.settings.camera)], input.settings, input.drawn.depths) {}
+
+    void row(int row, RowCounts& counts) const {
+        std::vector<int> visited;
+        std::optional<VisitedCell> cell; // that `visited` is of
+        for (int column = 0; column < input_.settings.sizePixels.x; ++column) {
+            const std::size_t pixel =
+                std::size_t(row) * std::size_t(input_.settings.sizePixels.x) + std::size_t(column);
+            if (!(input_.depth[pixel] > 0.0f)) continue;
+            ++counts.figures.covered;
+            if (!input_.takesLight.empty() && input_.takesLight[pixel] == 0) {
+                if (counts.pixelsByVisited.empty()) counts.pixelsByVisited.resize(1);
+                ++counts.pixelsByVisited[0];
+                continue;
+            }
+            const VisitedCell own = visited_.cellAt(column, row, input_.depth[pixel], input_.layer);
+            if (cell != own) {
+                cell = own;
+                visited_.at(own, visited);
+                counts.cells.add(own, visited.size());
+            }
+            if (counts.pixelsByVisited.size() <= visited.size()) counts.pixelsByVisited.resize(visited.size() + 1);
+            ++counts.pixelsByVisited[visited.size()];
+            const bool hasNormal = !input_.normalWS.empty();
+            const glm::dvec3 normal = hasNormal ? glm::dvec3(input_.normalWS[4 * pixel], input_.normalWS[4 * pixel + 1],
+                                                             input_.normalWS[4 * pixel + 2])
+                                                : glm::dvec3(0.0);
+            judgePixel(positions_.positionWS(column, row, input_.depth[pixel]), normal, visited, {column, row},
+                       counts.figures);
+        }
+    }
+
+private:
+    void judgePixel(const glm::dvec3& positionWS, const glm::dvec3& normal, const std::vector<int>& visited,
+                    glm::ivec2 pixel, LightOracleFigures& figures) const {
+        auto next = visited.begin();
+        for (const TrueLight& light : lights_.finite) {
+            const glm::dvec3 toLight = light.positionWS - positionWS;
+            const double squaredDistance = glm::dot(toLight, toLight);
+            if (!reaches(light, positionWS, squaredDistance)) continue;
+            ++figures.needed;
+            if (glm::dot(normal, toLight) > 0.0) ++figures.neededLit;
+            next = std::lower_bound(next, visited.end(), light.sceneLight);
+            if (next == visited.end() || *next != light.sceneLight) miss(light.sceneLight, pixel, figures);
+        }
+        std::uint64_t everywhere = 0;
+        for (const EndlessLight& light : lights_.everywhere) {
+            const glm::dvec3 toLight = glm::dvec3(light.placeWS) - light.placeWS.w * positionWS;
+            if (glm::dot(normal, toLight) > 0.0 && isInCone(light, toLight)) ++figures.everywhereLit;
+            if (std::binary_search(visited.begin(), visited.end(), light.sceneLight))
+                ++everywhere;
+            else
+                miss(light.sceneLight, pixel, figures);
+        }
+        figures.everywhere += everywhere;
+        figures.evaluated += visited.size() - everywhere;
+    }
+
+    void miss(int light, glm::ivec2 pixel, LightOracleFigures& figures) const {
+        ++figures.falseNegatives;
+        if (!figures.firstMissing) figures.firstMissing = {pixel.x, input_.settings.sizePixels.y - 1 - pixel.y, light};
+    }
+
+    const OracleInput& input_;
+    TrueLights lights_;
+    VisitedLights visited_;
+    PixelPositions positions_;
+};
+
+void add(RowCounts& sum, const RowCounts& rows) {
+    sum.figures.covered += rows.figures.covered;
+    sum.figures.needed += rows.figures.needed;
+    sum.figures.neededLit += rows.figures.neededLit;
+    sum.figures.evaluated += rows.figures.evaluated;
+    sum.figures.everywhere += rows.figures.everywhere;
+    sum.figures.everywhereLit += rows.figures.everywhereLit;
+    sum.figures.falseNegatives += rows.figures.falseNegatives;
+    if (!sum.figures.firstMissing) sum.figures.firstMissing = rows.figures.firstMissing;
+    if (sum.pixelsByVisited.size() < rows.pixelsByVisited.size())
+        sum.pixelsByVisited.resize(rows.pixelsByVisited.size());
+    sum.cells.add(rows.cells);
+    for (std::size_t i = 0; i < rows.pixelsByVisited.size(); ++i) sum.pixelsByVisited[i] += rows.pixelsByVisited[i];
+}
+
+/// The number of lights that 99 % of the covered pixels do not exceed (nearest rank).
+std::uint64_t p99Of(const std::vector<std::uint64_t>& pixelsByVisited, std::uint64_t covered) {
+    const std::uint64_t rank = (covered * 99 + 99) / 100;
+    std::uint64_t seen = 0;
+    for (std::size_t i = 0; i < pixelsByVisited.size(); ++i) {
+        seen += pixelsByVisited[i];
+        if (seen >= rank) return i;
+    }
+    return 0;
+}
+
+std::optional<double> ratio(std::uint64_t a, std::uint64_t b) {
+    if (b == 0) return {};
+    return double(a) / double(b);
+}
+
+/// Rows from the top to rows from the bottom.
+std::vector<float> flippedRows(const std::vector<float>& rgba, int width, int height) {
+    std::vector<float> flipped(rgba.size());
+    const auto pitch = std::ptrdiff_t(width) * 4;
+    for (int row = 0; row < height; ++row)
+        std::copy_n(rgba.begin() + row * pitch, pitch, flipped.begin() + (height - 1 - row) * pitch);
+    return flipped;
+}
+
+/// 1 where the opaque surface that shows takes light; empty where no material is unlit, so that all do.
+std::vector<std::uint8_t> litPixels(const scenes::Scene& scene, const frame::FrameSettings& settings) {
+    if (!frame::materialFeatures(scene)[scenes::MaterialModel::SingleColor]) return {};
+    scenes::Scene opaque = scene;
+    for (scenes::Node& node : opaque.nodes) {
+        std::erase_if(node.instances, [&](const scenes::MeshInstance& instance) {
+            return scene.materials[std::size_t(instance.material)].alphaMode == scenes::AlphaMode::Blend;
+        });
+    }
+    scenes::Light everywhere;
+    everywhere.type = scenes::LightType::Directional;
+    opaque.lights = {everywhere};
+    frame::FrameSettings counted = settings;
+    counted.view = frame::View::Lights;
+    counted.culling = {};
+    counted.lightOn.reset();
+    counted.soloLight.reset();
+    engine::Renderer renderer(*gpu::Context::current(), opaque);
+    const engine::RenderedFrame frame = renderer.render(engine::Technique::Forward, counted);
+    const std::vector<float> counts = flippedRows(frame.radiance, frame.width, frame.height);
+    std::vector<std::uint8_t> lit(counts.size() / 4);
+    for (std::size_t i = 0; i < lit.size(); ++i) lit[i] = counts[4 * i] > 0.0f ? 1 : 0;
+    return lit;
+}
+
+} // namespace
+
+std::optional<double> LightOracleFigures::tightness() const {
+    return ratio(evaluated, needed);
+}
+
+std::optional<double> LightOracleFigures::litTightness() const {
+    return ratio(evaluated, neededLit);
+}
+
+LightOracleFigures judgeLights(const OracleInput& input) {
+    const Judge judge(input);
+    RowCounts sum;
+    std::mutex mutex;
+    tbb::parallel_for(tbb::blocked_range<int>(0, input.settings.sizePixels.y),
+                      [&](const tbb::blocked_range<int>& rows) {
+                          RowCounts counts;
+                          for (int row = rows.begin(); row < rows.end(); ++row) judge.row(row, counts);
+                          const std::scoped_lock lock(mutex);
+                          add(sum, counts);
+                      });
+    sum.figures.evaluatedP99 = p99Of(sum.pixelsByVisited, sum.figures.covered);
+    sum.figures.evaluatedMax = sum.pixelsByVisited.empty() ? 0 : sum.pixelsByVisited.size() - 1;
+    sum.figures.occupied = sum.cells.figures();
+    sum.figures.entries = input.drawn.lists.entries.size();
+    sum.figures.cells = input.drawn.lists.cells.size();
+    sum.figures.listBytes = input.drawn.lists.bytes();
+    return sum.figures;
+}
+
+LightOracleFigures judgeLights(engine::Renderer& renderer, engine::Technique technique,
+                               const frame::FrameSettings& settings) {
+    renderer.draw(technique, settings);
+    const engine::DrawnLists drawn = renderer.downloadLists();
+    const std::vector<float> depth = renderer.downloadDepth();
+    frame::FrameSettings normals = settings;
+    normals.view = frame::View::Normal;
+    normals.culling = {};
+    const engine::RenderedFrame frame = renderer.render(engine::Technique::Deferred, normals);
+    const std::vector<float> normalWS = flippedRows(frame.radiance, frame.width, frame.height);
+    const std::vector<std::uint8_t> lit = litPixels(renderer.scene(), settings);
+    return judgeLights({renderer.scene(), settings, drawn, depth, normalWS, SurfaceLayer::Opaque, lit});
+}
+
+} // namespace tessera::validation

@@ -1,0 +1,70 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "validation/floor/FloorGeometry.h"
+#include "validation/floor/FloorLighting.h"
+#include "validation/timing/Interleave.h"
+
+namespace tessera::validation {
+
+/// What a frame of a scene cannot cost less than, measured: floorMs = R + E r.
+struct FloorFigures {
+    struct Store {
+        std::string_view name;
+        double nsPerPair = 0.0;    ///< nanoseconds a light costs a pixel that it reaches, median over rounds
+        double nsPerPairP95 = 0.0; ///< the same, 95th percentile
+    };
+    double geometryMs = 0.0;   ///< R: all geometry, depth-tested, into one constant target, median over rounds
+    std::vector<Store> stores; ///< r by light store; empty where the scene lights nothing, or it could not be told
+    std::string whyNoStores;
+    double geometryMsP95 = 0.0;
+    int rounds = 0; ///< that the medians are of
+
+    /// r, the store with the smallest; none where there is none.
+    std::optional<Store> fastestStore() const;
+    /// `evaluations`: pairs of a covered pixel and a light that reaches it (E), or of those the ones whose light lies
+    /// in front of the surface. None where these cannot be priced.
+    std::optional<double> floorMs(double evaluations) const;
+};
+
+/// Measures the floor of a scene with a renderer's settings: camera, size, filter, specular and pruning as asked for,
+/// whatever is asked of culling and views. Its frames take turns with others that are compared with it (timeFrames).
+///
+/// r is the slope of the time between 32 and 96 lights a pixel, so that what the shader costs besides lights drops out:
+/// rounds of both follow each other.
+class FloorBench {
+public:
+    static constexpr int kFewLights = 32;
+    static constexpr int kManyLights = 96;
+    /// Rounds that a floor's medians are at least of, however few frames of the points are asked for.
+    static constexpr int kLeastRounds = 5;
+
+    /// The renderer must outlive the object. Throws InputError as Renderer::draw does.
+    FloorBench(engine::Renderer& renderer, const frame::FrameSettings& settings);
+
+    /// How many kinds of frame the floor of a lit scene takes: the geometry, and two numbers of lights in each store.
+    static std::size_t kindsOf(std::span<const LightStoreInfo> stores);
+
+    /// The frames to time; they refer to the object.
+    std::vector<TimedFrame> frames();
+    /// `timesMs`: one time a round of each of frames(). With fewer than kLeastRounds of them, the others are timed now.
+    FloorFigures figuresOf(std::vector<std::vector<double>> timesMs);
+    /// The same of the times alone.
+    FloorFigures figures(std::span<const std::vector<double>> timesMs) const;
+
+    FloorFigures measure(const InterleaveOptions& options = {});
+
+private:
+    glm::ivec2 sizePixels_;
+    std::span<const LightStoreInfo> stores_;
+    FloorGeometry geometry_;
+    std::optional<FloorLighting> lighting_; ///< where anything is lit
+    frame::PackedLights few_, many_;
+};
+
+} // namespace tessera::validation

@@ -1,0 +1,61 @@
+#include "validation/floor/FloorGeometry.h"
+
+#include "engine/PrepareView.h"
+#include "renderer/gpu/Commands.h"
+#include "shaders/shared/slots.h"
+
+namespace tessera::validation {
+
+namespace {
+
+frame::FrameSpec specOf(const engine::Renderer& renderer, frame::FrameSettings settings) {
+    settings.culling = {}; // nothing is lit, and Forward takes no lists
+    return engine::prepareView(renderer.scene(), engine::Technique::Forward, settings).spec;
+}
+
+/// Uploads values into a buffer that is made anew only where they do not fit.
+template <typename Value>
+void fill(std::optional<gpu::Buffer>& buffer, const char* label, const std::vector<Value>& values) {
+    const std::size_t bytes = values.size() * sizeof(Value);
+    if (!buffer || buffer->bytes() < bytes) buffer.emplace(label, bytes, gpu::BufferUse::Dynamic);
+    buffer->upload(values);
+}
+
+} // namespace
+
+shader::ProgramDesc FloorGeometry::program(const frame::FrameSpec& spec) {
+    return frame::frameProgram(spec, "constant", "passes/geometry.vert", "passes/constant.frag", {{"DEPTH_ONLY", "1"}});
+}
+
+FloorGeometry::FloorGeometry(engine::Renderer& renderer, const frame::FrameSettings& settings)
+    : renderer_(renderer), spec_(specOf(renderer, settings)),
+      constants_("floor view", sizeof(shared::ViewConstants), gpu::BufferUse::Dynamic),
+      value_("floor value", spec_.texture(graph::Format::Rgba32Float)),
+      depth_("floor depth", spec_.texture(graph::Format::Depth32Float)), framebuffer_({{&value_}, &depth_}) {}
+
+void FloorGeometry::draw(const glm::dvec3& eyeOffsetWS) {
+    frame::FrameSettings settings = spec_.settings;
+    settings.eyeOffsetWS += eyeOffsetWS;
+    const frame::CameraView view =
+        frame::makeCameraView(engine::frameCamera(renderer_.scene(), settings), settings.sizePixels, settings.space,
+                              glm::vec3(0.0f), renderer_.bounds());
+    const frame::SceneGpu& scene = renderer_.sceneGpu(spec_);
+    const frame::ViewDraws draws = frame::makeViewDraws(scene.drawList(), view, spec_.settings.prune);
+    fill(rows_, "floor draw rows", draws.rows);
+    fill(commands_, "floor draw commands", scene.commandsOf(draws));
+    constants_.uploadValue(view.constants);
+
+    gpu::bindFramebuffer(framebuffer_);
+    gpu::clearColor(0, glm::vec4(0.0f));
+    gpu::clearDepth(0.0f);
+    gpu::useProgram(renderer_.programs().get(program(spec_)));
+    gpu::bindUniformBuffer(UNIFORM_VIEW, constants_);
+    gpu::PipelineState state;
+    state.depthTest = gpu::DepthTest::GreaterEqual;
+    state.depthWrite = true;
+    scene.draw({*rows_, *commands_}, draws.opaque, state);
+    state.depthWrite = false;
+    scene.draw({*rows_, *commands_}, draws.transparent, state);
+}
+
+} // namespace tessera::validation

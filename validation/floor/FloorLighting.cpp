@@ -1,0 +1,87 @@
+#include "validation/floor/FloorLighting.h"
+
+#include <cassert>
+
+#include "renderer/frame/CameraView.h"
+#include "renderer/gpu/Commands.h"
+#include "shaders/shared/slots.h"
+
+namespace tessera::validation {
+
+namespace {
+
+constexpr LightStoreInfo kStores[] = {
+    {LIGHT_STORE_TEXEL, "texel buffer", "LIGHT_STORE_TEXEL"},
+    {LIGHT_STORE_STORAGE, "storage buffer", "LIGHT_STORE_STORAGE"},
+    {LIGHT_STORE_UNIFORM, "uniform buffer", "LIGHT_STORE_UNIFORM"},
+};
+
+} // namespace
+
+std::span<const LightStoreInfo> lightStoreTable() {
+    return kStores;
+}
+
+std::span<const LightStoreInfo> lightStores(const gpu::Capabilities& gl) {
+    static_assert(std::rbegin(kStores)->store == LIGHT_STORE_UNIFORM);
+    return std::span(kStores).first(std::size(kStores) - (gl.indexesUniformBlocks ? 0 : 1));
+}
+
+shader::ProgramDesc FloorLighting::program(const frame::FrameSpec& spec, const LightStoreInfo& store) {
+    return frame::frameProgram(spec, "floor_lighting", "passes/fullscreen.vert", "passes/floor_lighting.frag",
+                               {{"LIGHT_CURSOR", "LIGHT_CURSOR_ALL"}, {"LIGHT_STORE", std::string(store.define)}});
+}
+
+FloorLighting::FloorLighting(shader::ProgramLibrary& programs, const frame::FrameSpec& spec)
+    : programs_(programs), spec_(spec), view_("floor view", sizeof(shared::ViewConstants)),
+      constants_("floor lighting", sizeof(shared::LightingConstants), gpu::BufferUse::Dynamic),
+      lights_("floor lights", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightTexels), gpu::BufferUse::Dynamic),
+      shapes_("floor light shapes", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightShapeTexels), gpu::BufferUse::Dynamic),
+      radiance_("floor radiance", spec.texture(graph::Format::Rgba32Float)), framebuffer_({{&radiance_}, nullptr}) {
+    assert(spec.features.litModels());
+    view_.uploadValue(
+        frame::makeCameraView(scenes::Camera{}, spec.settings.sizePixels, frame::LightingSpace::World, glm::vec3(0.0f))
+            .constants);
+    setLights({});
+}
+
+void FloorLighting::setLights(const frame::PackedLights& lights) {
+    assert(lights.texels.size() <= LIGHT_UNIFORM_LIGHTS && lights.shapes.size() == lights.texels.size());
+    shared::LightingConstants constants{};
+    constants.lights.x = unsigned(lights.texels.size());
+    constants_.uploadValue(constants);
+    lights_.upload(lights.texels);
+    shapes_.upload(lights.shapes);
+}
+
+void FloorLighting::bindConstants() const {
+    gpu::bindUniformBuffer(UNIFORM_VIEW, view_);
+    gpu::bindUniformBuffer(UNIFORM_LIGHTING, constants_);
+}
+
+void FloorLighting::bindLights(const LightStoreInfo& store) const {
+    switch (store.store) {
+    case LIGHT_STORE_UNIFORM:
+        gpu::bindUniformBuffer(UNIFORM_LIGHTS, lights_);
+        gpu::bindUniformBuffer(UNIFORM_LIGHT_SHAPES, shapes_);
+        break;
+    case LIGHT_STORE_STORAGE:
+        gpu::bindStorageBuffer(STORAGE_LIGHTS, lights_);
+        gpu::bindStorageBuffer(STORAGE_LIGHT_SHAPES, shapes_);
+        break;
+    default:
+        gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, lights_.texels(graph::Format::Rgba32Float));
+        gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHT_SHAPES, shapes_.texels(graph::Format::Rgba32Float));
+    }
+}
+
+void FloorLighting::draw(const LightStoreInfo& store) const {
+    gpu::bindFramebuffer(framebuffer_);
+    gpu::setState({});
+    gpu::useProgram(programs_.get(program(spec_, store)));
+    bindConstants();
+    bindLights(store);
+    gpu::drawFullscreenTriangle();
+}
+
+} // namespace tessera::validation

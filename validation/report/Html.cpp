@@ -1,0 +1,43 @@
+#include "validation/report/Html.h"
+
+#include "base/PictureFile.h"
+#include "base/Utf8.h"
+#include "validation/report/Base64.h"
+
+namespace tessera::validation {
+std::string escapedHtml(std::string_view text) {
+    constexpr std::string_view kReplacement = "\xef\xbf\xbd"; // U+FFFD
+    std::string html;
+    html.reserve(text.size());
+    while (!text.empty()) {
+        const std::size_t length = letterBytes(text);
+        const char first = text.front();
+        const bool isControl = (first >= 0 && first < 0x20 && first != '\n' && first != '\t') || first == 0x7f;
+        if (length == 0 || isControl)
+            html += kReplacement;
+        else if (first == '&')
+            html += "&amp;";
+        else if (first == '<')
+            html += "&lt;";
+        else if (first == '>')
+            html += "&gt;";
+        else if (first == '"')
+            html += "&quot;";
+        else if (first == '\'')
+            html += "&#39;";
+        else
+            html += text.substr(0, length);
+        text.remove_prefix(length == 0 ? 1 : length);
+    }
+    return html;
+}
+
+std::string dataUri(const DisplayImage& image) {
+    return pngDataUri(encodePng(image));
+}
+
+std::string pngDataUri(std::span<const std::uint8_t> bytes) {
+    return "data:image/png;base64," + base64(bytes);
+}
+
+} // namespace tessera::validation
