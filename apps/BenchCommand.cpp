@@ -15,9 +15,9 @@
 #include "base/Error.h"
 #include "base/Names.h"
 #include "engine/ChooseSamples.h"
-#include "validation/compare/ReferencePicture.h"
 #include "validation/bench/BenchReport.h"
 #include "validation/bench/MachineName.h"
+#include "validation/compare/ReferencePicture.h"
 
 namespace tessera::app {
 

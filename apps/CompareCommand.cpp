@@ -13,10 +13,10 @@
 #include "base/OneLine.h"
 #include "base/PictureFile.h"
 #include "engine/Renderer.h"
-#include "validation/pictures/HeatMap.h"
-#include "validation/pictures/ReadPicture.h"
 #include "validation/compare/ReferencePicture.h"
 #include "validation/compare/TechniqueCompare.h"
+#include "validation/pictures/HeatMap.h"
+#include "validation/pictures/ReadPicture.h"
 
 namespace tessera::app {
 

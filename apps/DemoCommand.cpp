@@ -13,13 +13,13 @@
 #include "engine/ChooseSamples.h"
 #include "engine/Renderer.h"
 #include "renderer/graph/Plan.h"
-#include "validation/pictures/HeatMap.h"
-#include "validation/compare/Measure.h"
-#include "validation/report/Report.h"
-#include "validation/compare/TechniqueCompare.h"
 #include "validation/bench/BenchHtml.h"
 #include "validation/bench/BenchReport.h"
 #include "validation/bench/Recommend.h"
+#include "validation/compare/Measure.h"
+#include "validation/compare/TechniqueCompare.h"
+#include "validation/pictures/HeatMap.h"
+#include "validation/report/Report.h"
 
 namespace tessera::app {
 

@@ -8,7 +8,7 @@ namespace tessera::passes {
 /// Reads   G-buffer channels, the scene's materials, depth D32F, the frame's lights and light lists
 /// Writes  radiance RGBA32F, linear, before exposure; the background where nothing is drawn
 /// Space   lighting space
-/// Source  Walter 2007; Heitz 2014 (shaders/lib/brdf.glsl)
+/// Source  Walter 2007; Heitz 2014 (shaders/lib/reflectance/brdf.glsl)
 struct DeferredLightingPass {
     struct Params {
         bool visitsLights = true; ///< false: emission alone, for passes that add lights to it

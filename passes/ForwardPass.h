@@ -11,7 +11,7 @@ namespace tessera::passes {
 /// Writes  radiance RGBA32F, linear, before exposure; depth D32F when it comes first. All are of FrameSpec::samples; a
 ///         pixel's covered samples share one shading
 /// Space   lighting space
-/// Source  Walter 2007; Heitz 2014 (shaders/lib/brdf.glsl)
+/// Source  Walter 2007; Heitz 2014 (shaders/lib/reflectance/brdf.glsl)
 struct ForwardPass {
     using Surfaces = frame::SurfaceHandles::Kind;
     struct Params {

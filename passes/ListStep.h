@@ -7,7 +7,7 @@
 namespace tessera::passes {
 
 /// One step of building light lists on the GPU: shaders/passes/light_<name>, spread over a grid of items by compute or
-/// by fragment shaders, as FrameSpec::culling says (shaders/lib/list_items.glsl).
+/// by fragment shaders, as FrameSpec::culling says (shaders/lib/lists/list_items.glsl).
 class ListStep {
 public:
     /// What works on an item in compute shaders: a whole workgroup, as many lanes as FrameSpec::culling says, or one.

@@ -203,7 +203,8 @@ enum class Highlight : std::uint8_t {
 };
 
 /// What the G-buffer's channel microsurface holds of a model beside its number. Another kind than these needs code
-/// where that channel is written and read (shaders/lib/gbuffer_channels.glsl); another model of a kind does not.
+/// where that channel is written and read (shaders/lib/gbuffer/gbuffer_channels.glsl); another model of a kind does
+/// not.
 enum class Microsurface : std::uint8_t {
     None,
     Parameter,        ///< the one number >= 0 that the model has, by MaterialModelInfo::roughness

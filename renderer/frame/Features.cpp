@@ -146,7 +146,7 @@ constexpr scenes::MaterialModel kFirstMicrofacet = std::ranges::find_if(scenes::
 static_assert(std::ranges::is_partitioned(scenes::materialModels().subspan(std::size_t(kFirstMicrofacet)),
                                           isMicrofacet));
 
-// What a surface is of which nothing is known (shaders/lib/surface.glsl).
+// What a surface is of which nothing is known (shaders/lib/surface/surface.glsl).
 static_assert(!scenes::materialModels().front().isLit);
 
 /// The number of a model in a shader.

@@ -101,7 +101,7 @@ std::vector<FieldBound> fieldBounds(Encoding encoding) {
 RadianceRange radianceRange(Encoding encoding) {
     assert(encoding != Encoding::Exact);
     const FieldWidths& widths = widthsIn(encoding, Channel::Emission);
-    const int top = (1 << (widths[0] - 1)) + 4; // as topExponent() of shaders/lib/gbuffer_encodings.glsl
+    const int top = (1 << (widths[0] - 1)) + 4; // as topExponent() of shaders/lib/gbuffer/gbuffer_encodings.glsl
     return {std::ldexp(1.0, top - largestCode(widths[0]) - 1), std::ldexp(1.0 - std::ldexp(1.0, -widths[1]), top)};
 }
 

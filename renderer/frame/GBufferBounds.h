@@ -5,7 +5,7 @@
 #include "renderer/frame/GBufferLayout.h"
 
 /// How far a stored value may lie from the surface's, derived from the widths of its field: one step, since which of
-/// the two nearest steps a pixel takes is dithered (shaders/lib/gbuffer_dither.glsl); half of one for
+/// the two nearest steps a pixel takes is dithered (shaders/lib/gbuffer/gbuffer_dither.glsl); half of one for
 /// the directions of tangents and coats, which are rounded. The derivations stand in docs/numerics.md. Rounding of the
 /// fp32 arithmetic before a step is taken, some 1e-6, comes on top.
 namespace tessera::frame {

@@ -108,7 +108,7 @@ static_assert(std::ranges::all_of(kChannels, [](const ChannelInfo& row) {
 }));
 
 // The field of model and masking holds the models, then each of those that mask once more for each other masking
-// (shaders/lib/gbuffer_encodings.glsl).
+// (shaders/lib/gbuffer/gbuffer_encodings.glsl).
 constexpr std::size_t kKindCodes = [] {
     std::size_t codes = scenes::kMaterialModelCount;
     for (const scenes::MaterialModelInfo& model : scenes::materialModels())

@@ -10,7 +10,7 @@
 #include "renderer/graph/Format.h"
 
 /// The G-buffer as a table of channels. The table drives textures, shader defines (a `put` and a `take` a channel in
-/// shaders/lib/gbuffer_channels.glsl), plans, the derived error bounds and the error attribution.
+/// shaders/lib/gbuffer/gbuffer_channels.glsl), plans, the derived error bounds and the error attribution.
 namespace tessera::frame {
 
 /// A frame needs at most eight of them, which is what OpenGL guarantees to draw into at once.
@@ -99,8 +99,8 @@ struct GBufferTexture {
 std::vector<GBufferTexture> gbufferTextures(const GBufferLayout& layout, std::span<const Channel> channels);
 int bytesPerPixel(const GBufferLayout& layout, std::span<const Channel> channels); ///< without depth
 
-/// GBUFFER_CHANNELS lists the channels for shaders/lib/gbuffer_channels.glsl, each with its two functions and its
-/// place. Of an exact one GBUFFER_<NAME> is its attachment, of others the bit where its fields begin and
+/// GBUFFER_CHANNELS lists the channels for shaders/lib/gbuffer/gbuffer_channels.glsl, each with its two functions and
+/// its place. Of an exact one GBUFFER_<NAME> is its attachment, of others the bit where its fields begin and
 /// GBUFFER_<NAME>_WIDTHS their widths. GBUFFER_EXACT_CHANNELS is the number of exact ones, GBUFFER_WORDS of words and
 /// GBUFFER_WORD_TEXTURE the attachment of the first. GBUFFER_SPARE_COMPONENTS where alpha and metallic lie in the
 /// fourth components of others, GBUFFER_MATERIAL_NUMBER where the material's number lies in the normal's.

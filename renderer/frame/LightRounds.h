@@ -14,7 +14,7 @@ inline constexpr std::size_t kMostLanesTogether = 16;
 /// What loops other than those over lights may make: texture filters, the cells of a tile.
 inline constexpr std::size_t kOtherLoopIterations = 2048;
 
-/// Lights that a round of lib/lighting.glsl's loop visits at most: it spells out that many.
+/// Lights that a round of lib/lighting/lighting.glsl's loop visits at most: it spells out that many.
 inline constexpr std::size_t kMostLightsPerRound = 8;
 
 /// The most iterations that lighting a surface takes with so many lights a round. Bitmasks (zbin) take more than lists:
@@ -22,7 +22,7 @@ inline constexpr std::size_t kMostLightsPerRound = 8;
 /// run together may take one after the other.
 constexpr std::size_t loopIterations(std::size_t lights, std::size_t lightsPerRound) {
     const std::size_t words = (lights + 31) / 32;
-    const std::size_t wordsAStep = lightsPerRound == 1 ? 1 : 2 * lightsPerRound; // lib/light_cursor.glsl
+    const std::size_t wordsAStep = lightsPerRound == 1 ? 1 : 2 * lightsPerRound; // lib/light/light_cursor.glsl
     return words * (32 / lightsPerRound + 2) + kMostLanesTogether * (words / wordsAStep + 1);
 }
 

@@ -47,8 +47,8 @@ public:
     std::span<const gpu::Buffer* const> vertices() const { return geometry_.streams; }
     const gpu::Buffer& indices() const { return *geometry_.indices; }
     const gpu::Buffer& materials() const { return *materials_.constants; }
-    /// The constants of all materials by their numbers (shaders/lib/material_table.glsl); null where frames of the
-    /// features do not need them.
+    /// The constants of all materials by their numbers (shaders/lib/material/material_table.glsl); null where frames of
+    /// the features do not need them.
     const gpu::Buffer* materialTable() const { return materials_.tabled.get(); }
 
 private:

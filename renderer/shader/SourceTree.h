@@ -6,7 +6,8 @@
 
 namespace tessera::shader {
 
-/// The shader files by their path below shaders/, e.g. "lib/brdf.glsl": those compiled into the library, or a folder's.
+/// The shader files by their path below shaders/, e.g. "lib/reflectance/brdf.glsl": those compiled into the library, or
+/// a folder's.
 class SourceTree {
 public:
     /// The folder named by the environment variable TESSERA_SHADERS if that is set, else the embedded files.

@@ -1,9 +1,9 @@
 // The surface that the measured floor lights (validation/floor/FloorLighting.h): made from the pixel's place alone, of the
 // models that the scene uses, and different at every pixel, so that no compiler lifts anything out of the light loop.
 #pragma once
-#include "lib/camera.glsl"
-#include "lib/octahedral.glsl"
-#include "lib/surface.glsl"
+#include "lib/surface/camera.glsl"
+#include "lib/maths/octahedral.glsl"
+#include "lib/surface/surface.glsl"
 #include "shared/floor.h"
 
 // 0 to 1; neighbouring pixels differ.

@@ -1,6 +1,6 @@
 // One value wherever there is geometry; only alpha-masked materials have anything to decide.
 #if HAS_ALPHA_MASK
-#include "lib/rasterised.glsl"
+#include "lib/raster/rasterised.glsl"
 #endif
 
 layout(location = 0) out vec4 value;

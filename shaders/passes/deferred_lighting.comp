@@ -1,5 +1,5 @@
-// Compute entry of lib/deferred_lighting.glsl: a pixel an invocation.
-#include "lib/deferred_lighting.glsl"
+// Compute entry of lib/lighting/deferred_lighting.glsl: a pixel an invocation.
+#include "lib/lighting/deferred_lighting.glsl"
 
 layout(local_size_x = LIGHTING_GROUP_SIDE, local_size_y = LIGHTING_GROUP_SIDE) in;
 layout(binding = IMAGE_UNIT_RADIANCE, rgba32f) writeonly uniform image2D radianceImage;

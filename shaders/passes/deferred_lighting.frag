@@ -1,5 +1,5 @@
-// Fragment entry of lib/deferred_lighting.glsl.
-#include "lib/deferred_lighting.glsl"
+// Fragment entry of lib/lighting/deferred_lighting.glsl.
+#include "lib/lighting/deferred_lighting.glsl"
 
 layout(location = 0) out vec4 radiance;
 

@@ -1,10 +1,10 @@
 // Depth alone; only alpha-masked materials have anything to decide. With SHADING_DEPTH also the depth at which each
 // sample will be lit, which with several samples a pixel is not the sample's own, and the same negated, so that the
 // largest of each over a pixel is its range.
-#include "lib/shading_depth.glsl"
+#include "lib/raster/shading_depth.glsl"
 #if HAS_ALPHA_MASK
-#include "lib/rasterised.glsl"
-#include "lib/coverage.glsl"
+#include "lib/raster/rasterised.glsl"
+#include "lib/raster/coverage.glsl"
 #endif
 
 #if SHADING_DEPTH

@@ -1,8 +1,8 @@
 // Shades surfaces as they are rasterised.
-#include "lib/rasterised.glsl"
-#include "lib/coverage.glsl"
-#include "lib/shading_depth.glsl"
-#include "lib/views.glsl"
+#include "lib/raster/rasterised.glsl"
+#include "lib/raster/coverage.glsl"
+#include "lib/raster/shading_depth.glsl"
+#include "lib/lighting/views.glsl"
 
 layout(location = 0) out vec4 radiance;
 

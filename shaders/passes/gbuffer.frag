@@ -1,7 +1,7 @@
 // Stores the surface seen through each pixel.
 #define GBUFFER_WRITE
-#include "lib/rasterised.glsl"
-#include "lib/gbuffer.glsl"
+#include "lib/raster/rasterised.glsl"
+#include "lib/gbuffer/gbuffer.glsl"
 
 void main()
 {

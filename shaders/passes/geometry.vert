@@ -1,7 +1,7 @@
 // The one vertex function: every rasterising pass uses it, so a surface has the same depth to the last bit in all of them.
 #include "shared/slots.h"
 #include "shared/views.h"
-#include "lib/camera.glsl"
+#include "lib/surface/camera.glsl"
 
 layout(location = ATTRIBUTE_POSITION) in vec3 positionOS;
 layout(location = ATTRIBUTE_NORMAL) in vec3 normalOS;

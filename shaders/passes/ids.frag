@@ -1,7 +1,7 @@
 // Which triangle a fragment is of: object and triangle for opaque surfaces; a number made of both for transparent ones,
 // which blending adds up. The picture is exact while numbers stay below 2^24, where fp32 holds every integer.
-#include "lib/rasterised.glsl"
-#include "lib/coverage.glsl"
+#include "lib/raster/rasterised.glsl"
+#include "lib/raster/coverage.glsl"
 
 layout(location = 9) flat in float drawnObject; // 1 + the mesh instance's place in the scene
 layout(location = 0) out vec4 ids;

@@ -1,6 +1,6 @@
-// Compute entry of lib/list_masks.glsl.
+// Compute entry of lib/lists/list_masks.glsl.
 #define LIST_IN_COMPUTE 1
-#include "lib/list_masks.glsl"
+#include "lib/lists/list_masks.glsl"
 
 void main()
 {

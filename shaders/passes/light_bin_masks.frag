@@ -1,6 +1,6 @@
-// Fragment entry of lib/list_masks.glsl.
+// Fragment entry of lib/lists/list_masks.glsl.
 #define LIST_IN_COMPUTE 0
-#include "lib/list_masks.glsl"
+#include "lib/lists/list_masks.glsl"
 
 void main()
 {

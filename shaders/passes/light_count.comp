@@ -1,6 +1,6 @@
-// Compute entry of lib/list_count.glsl.
+// Compute entry of lib/lists/list_count.glsl.
 #define LIST_IN_COMPUTE 1
-#include "lib/list_count.glsl"
+#include "lib/lists/list_count.glsl"
 
 void main()
 {

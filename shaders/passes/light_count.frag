@@ -1,6 +1,6 @@
-// Fragment entry of lib/list_count.glsl.
+// Fragment entry of lib/lists/list_count.glsl.
 #define LIST_IN_COMPUTE 0
-#include "lib/list_count.glsl"
+#include "lib/lists/list_count.glsl"
 
 void main()
 {

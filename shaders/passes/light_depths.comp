@@ -1,6 +1,6 @@
-// Compute entry of lib/list_depths.glsl.
+// Compute entry of lib/lists/list_depths.glsl.
 #define LIST_IN_COMPUTE 1
-#include "lib/list_depths.glsl"
+#include "lib/lists/list_depths.glsl"
 
 void main()
 {

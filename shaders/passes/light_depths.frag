@@ -1,6 +1,6 @@
-// Fragment entry of lib/list_depths.glsl.
+// Fragment entry of lib/lists/list_depths.glsl.
 #define LIST_IN_COMPUTE 0
-#include "lib/list_depths.glsl"
+#include "lib/lists/list_depths.glsl"
 
 void main()
 {

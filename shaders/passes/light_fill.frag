@@ -1,6 +1,6 @@
-// Fragment entry of lib/list_fill.glsl.
+// Fragment entry of lib/lists/list_fill.glsl.
 #define LIST_IN_COMPUTE 0
-#include "lib/list_fill.glsl"
+#include "lib/lists/list_fill.glsl"
 
 void main()
 {

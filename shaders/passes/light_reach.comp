@@ -1,6 +1,6 @@
-// Compute entry of lib/list_reach.glsl.
+// Compute entry of lib/lists/list_reach.glsl.
 #define LIST_IN_COMPUTE 1
-#include "lib/list_reach.glsl"
+#include "lib/lists/list_reach.glsl"
 
 void main()
 {

@@ -1,6 +1,6 @@
-// Fragment entry of lib/list_reach.glsl.
+// Fragment entry of lib/lists/list_reach.glsl.
 #define LIST_IN_COMPUTE 0
-#include "lib/list_reach.glsl"
+#include "lib/lists/list_reach.glsl"
 
 void main()
 {

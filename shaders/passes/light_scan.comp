@@ -1,6 +1,6 @@
-// Compute entry of lib/list_scan.glsl.
+// Compute entry of lib/lists/list_scan.glsl.
 #define LIST_IN_COMPUTE 1
-#include "lib/list_scan.glsl"
+#include "lib/lists/list_scan.glsl"
 
 void main()
 {

@@ -1,6 +1,6 @@
-// Compute entry of lib/list_fill.glsl, before its rounds.
+// Compute entry of lib/lists/list_fill.glsl, before its rounds.
 #define LIST_IN_COMPUTE 1
-#include "lib/list_fill.glsl"
+#include "lib/lists/list_fill.glsl"
 
 void main()
 {

@@ -1,7 +1,7 @@
 // What one light adds to the pixel, to be blended onto the others. Alpha stays: the pixel is covered already.
 #include "shared/slots.h"
-#include "lib/gbuffer.glsl"
-#include "lib/views.glsl"
+#include "lib/gbuffer/gbuffer.glsl"
+#include "lib/lighting/views.glsl"
 
 layout(binding = TEXTURE_UNIT_DEPTH) uniform sampler2D depthChannel;
 layout(location = 0) flat in int light;

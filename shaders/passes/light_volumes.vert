@@ -1,5 +1,5 @@
 // One light an instance: the triangles of its volume.
-#include "lib/light_volume.glsl"
+#include "lib/light/light_volume.glsl"
 
 layout(location = 0) flat out int light;
 

@@ -1,6 +1,6 @@
 // Counts what a pass would shade or store at a pixel: blending adds the fragments up.
-#include "lib/rasterised.glsl"
-#include "lib/coverage.glsl"
+#include "lib/raster/rasterised.glsl"
+#include "lib/raster/coverage.glsl"
 
 layout(location = 0) out vec4 surfaces;
 

@@ -1,6 +1,6 @@
 // Shows a channel of the G-buffer as it is stored: the components of a channel in fp32 (STORED_PACKED 0), or the fields of a
 // packed one, each as a share of its largest code; fp32 tells all codes apart. Fields that a channel lacks are 0.
-#include "lib/gbuffer.glsl"
+#include "lib/gbuffer/gbuffer.glsl"
 
 layout(binding = TEXTURE_UNIT_DEPTH) uniform sampler2D depthChannel;
 #if !STORED_PACKED

@@ -1,5 +1,5 @@
 // Nearest depth at which a transparent surface is lit, and farthest negated; the target keeps the larger of each.
-#include "lib/shading_depth.glsl"
+#include "lib/raster/shading_depth.glsl"
 
 layout(location = 0) out vec2 depths;
 

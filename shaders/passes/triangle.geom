@@ -1,4 +1,4 @@
-// Hands every fragment its whole triangle, for --filter exact (lib/triangle.glsl); the rest goes through as it is.
+// Hands every fragment its whole triangle, for --filter exact (lib/surface/triangle.glsl); the rest goes through as it is.
 #include "shared/slots.h"
 #include "shared/views.h"
 

@@ -12,8 +12,8 @@
 #define CULL_BLOCK_COLUMNS 8u
 
 // A spot's angle, and the outer angle it is compared with, are off by 4e-7 in their cosines at most: some roundings of
-// 2^-24, of the directions and of the squares (lib/light.glsl, shared/light.h). A cone wider by this in its cosine
-// encloses whatever is lit.
+// 2^-24, of the directions and of the squares (lib/light/light.glsl, shared/light.h). A cone wider by this in its
+// cosine encloses whatever is lit.
 #define CONE_COSINE_MARGIN 1e-6
 
 SHARED_BEGIN

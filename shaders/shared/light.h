@@ -14,7 +14,7 @@
 #define LIGHT_TEXELS 2
 #define LIGHT_SHAPE_TEXELS 2
 
-// Where a shader reads lights from (lib/light_store.glsl).
+// Where a shader reads lights from (lib/light/light_store.glsl).
 #define LIGHT_STORE_TEXEL 0 // what every pass of a frame uses
 #define LIGHT_STORE_UNIFORM 1
 #define LIGHT_STORE_STORAGE 2

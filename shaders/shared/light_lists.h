@@ -1,7 +1,7 @@
 #pragma once
 // Light lists: which lights a pixel visits. Every culling method builds this one structure, and the light cursor
-// (lib/light_cursor.glsl) reads it. The picture is divided into square tiles, tile (0, 0) at its top left; a tile's
-// depth range into at most 64 slices, of which those that hold a surface have a cell each; a cell names a run of
+// (lib/light/light_cursor.glsl) reads it. The picture is divided into square tiles, tile (0, 0) at its top left; a
+// tile's depth range into at most 64 slices, of which those that hold a surface have a cell each; a cell names a run of
 // entries.
 //
 //   tiles    RGBA32UI, a LightTile each: first all tiles for opaque surfaces, then all tiles for transparent ones
@@ -22,7 +22,7 @@
 #define LIGHT_TILE_SLICES 64u
 #define ZBIN_COUNT 256u
 
-// Lights whose bits a shader that builds masks finds an iteration (lib/list_masks.glsl spells out as many).
+// Lights whose bits a shader that builds masks finds an iteration (lib/lists/list_masks.glsl spells out as many).
 #define MASK_LIGHTS_AN_ITERATION 8u
 
 // The slicing of a tile with one cell: every depth lies in slice 0.

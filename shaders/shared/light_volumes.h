@@ -1,5 +1,5 @@
 #pragma once
-// What LightVolumesPass draws of each light (lib/light_volume.glsl): triangles by vertex number alone.
+// What LightVolumesPass draws of each light (lib/light/light_volume.glsl): triangles by vertex number alone.
 
 // Corners of the outlines that stand in for circles: an octagon around a circle has 1.055 times its area.
 #define LIGHT_VOLUME_SIDES 8

@@ -1,7 +1,7 @@
 // What lights send to points. In: (position, index of the light). Out: (intensity, 1 when the light reaches),
 // (direction, 0).
 #include "records.glsl"
-#include "lib/light.glsl"
+#include "lib/light/light.glsl"
 
 void main()
 {

@@ -1,7 +1,7 @@
 // The microfacet terms for given directions and cosines. In: (n, alpha), (h, n.l), (n.v, ior, cosine of Fresnel, f0).
 // Out: (D, separable V, correlated V, dielectric F), (Schlick F with F90 = 1, 0, 0, 0).
 #include "records.glsl"
-#include "lib/brdf.glsl"
+#include "lib/reflectance/brdf.glsl"
 
 void main()
 {

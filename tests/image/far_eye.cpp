@@ -8,9 +8,9 @@
 #include "scenes/Limits.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
-#include "validation/figures/ErrorFigures.h"
 #include "validation/compare/ReferencePicture.h"
 #include "validation/compare/ShownTriangles.h"
+#include "validation/figures/ErrorFigures.h"
 #include "validation/figures/Tolerance.h"
 #include "validation/stress/StressScene.h"
 

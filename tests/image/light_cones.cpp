@@ -9,8 +9,8 @@
 #include "engine/Rendering.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
-#include "validation/figures/ErrorFigures.h"
 #include "validation/compare/ReferencePicture.h"
+#include "validation/figures/ErrorFigures.h"
 
 namespace tessera {
 namespace {

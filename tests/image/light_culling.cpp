@@ -12,8 +12,8 @@
 #include "tests/support/GlContext.h"
 #include "tests/support/Random.h"
 #include "tests/support/TestScenes.h"
-#include "validation/culling/LightOracle.h"
 #include "validation/compare/TechniqueCompare.h"
+#include "validation/culling/LightOracle.h"
 
 namespace tessera {
 namespace {

@@ -9,9 +9,9 @@
 #include "tests/support/GlContext.h"
 #include "tests/support/Random.h"
 #include "tests/support/TestScenes.h"
-#include "validation/culling/LightOracle.h"
 #include "validation/compare/RangeTruncation.h"
 #include "validation/compare/TechniqueCompare.h"
+#include "validation/culling/LightOracle.h"
 
 namespace tessera {
 namespace {

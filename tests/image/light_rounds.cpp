@@ -11,8 +11,8 @@
 #include "tests/support/GlContext.h"
 #include "tests/support/ShaderMutant.h"
 #include "tests/support/TestScenes.h"
-#include "validation/figures/ErrorFigures.h"
 #include "validation/compare/ReferencePicture.h"
+#include "validation/figures/ErrorFigures.h"
 
 namespace tessera {
 namespace {
@@ -138,7 +138,7 @@ void LightRounds::expectOnePicture(const scenes::Scene& scene) {
     std::vector<float> first;
     for (std::size_t perRound = 1; perRound <= frame::kMostLightsPerRound; perRound *= 2) {
         const test::ShaderMutant shaders;
-        for (const char* file : {"lib/lighting.glsl", "lib/light_cursor.glsl"})
+        for (const char* file : {"lib/lighting/lighting.glsl", "lib/light/light_cursor.glsl"})
             shaders.replace(file, "LIGHTS_PER_ROUND", std::to_string(perRound));
         engine::Renderer renderer(context(), scene, shaders.tree());
         for (const auto& [technique, method] :

@@ -58,9 +58,9 @@ struct LooseTest {
 };
 constexpr LooseTest kLooseTests[] = {
     {"cones are not tested", "shared/culling.h", "return beyond <= radius;", "return true;", true, Method::Cluster},
-    {"slices of depth twice as deep", "lib/list_depths.glsl", "lighting.slices.x, LIGHT_TILE_SLICES",
+    {"slices of depth twice as deep", "lib/lists/list_depths.glsl", "lighting.slices.x, LIGHT_TILE_SLICES",
      "lighting.slices.x + 1u, LIGHT_TILE_SLICES", false, Method::Cluster},
-    {"16 bins of depth", "lib/list_scan.glsl", "ZBIN_COUNT)", "16u)", false, Method::Zbin},
+    {"16 bins of depth", "lib/lists/list_scan.glsl", "ZBIN_COUNT)", "16u)", false, Method::Zbin},
 };
 
 class LightTightness : public test::GlTest {

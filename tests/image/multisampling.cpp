@@ -151,7 +151,7 @@ TEST_F(Multisampling, aSurfaceWhosePixelCentreLiesBeyondTheHorizonAlwaysHasItsLi
 }
 
 /// The ray through such a pixel's centre runs along the floor and never meets it, so the coordinates of a corner stand
-/// in, which do not change from pixel to pixel (lib/triangle.glsl).
+/// in, which do not change from pixel to pixel (lib/surface/triangle.glsl).
 TEST_F(Multisampling, aPixelWhoseCentreLiesOnTheHorizonTakesOneTexelOfACornerWithTheExactFilter) {
     Scene scene = endlessFloor(scenes::AlphaMode::Opaque);
     scene.lights.clear();

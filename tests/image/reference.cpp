@@ -7,10 +7,10 @@
 #include "scenes/Load.h"
 #include "tests/image/FlatTest.h"
 #include "tests/support/ShaderMutant.h"
-#include "validation/figures/ErrorFigures.h"
 #include "validation/compare/ReferencePicture.h"
 #include "validation/compare/ShownTriangles.h"
 #include "validation/compare/TechniqueCompare.h"
+#include "validation/figures/ErrorFigures.h"
 #include "validation/reference/Texels.h"
 
 namespace tessera {
@@ -191,7 +191,7 @@ TEST_F(Reference, hardwareFilteringIsAlwaysAPairOfItsOwnAndHolds) {
 TEST_F(Reference, aTextureWithoutItsSmallerLevelsNeverPassesAsHardwareFiltering) {
     const scenes::Scene scene = test::everythingScene();
     const test::ShaderMutant shaders;
-    shaders.replace("lib/texture_filter.glsl", "texture(image, uv)", "textureLod(image, uv, 0.0)");
+    shaders.replace("lib/material/texture_filter.glsl", "texture(image, uv)", "textureLod(image, uv, 0.0)");
     engine::Renderer renderer(context(), scene, shaders.tree());
     const frame::FrameSettings settings = ofSize(96, 54);
     const Picture shown = engine::toPicture(renderer.render(Technique::Forward, settings));

@@ -5,9 +5,9 @@
 
 #include "tests/image/FlatTest.h"
 #include "tests/support/ShaderMutant.h"
-#include "validation/figures/ErrorFigures.h"
 #include "validation/compare/ReferencePicture.h"
 #include "validation/compare/ShownTriangles.h"
+#include "validation/figures/ErrorFigures.h"
 
 namespace tessera {
 namespace {
@@ -182,19 +182,19 @@ struct Fault {
 };
 
 constexpr Fault kFaults[] = {
-    {"no smaller levels", TextureFilter::Hardware, "lib/texture_filter.glsl", "texture(image, uv)",
+    {"no smaller levels", TextureFilter::Hardware, "lib/material/texture_filter.glsl", "texture(image, uv)",
      "textureLod(image, uv, 0.0)"},
-    {"a hundredth too bright", TextureFilter::Hardware, "lib/texture_filter.glsl", "texture(image, uv)",
+    {"a hundredth too bright", TextureFilter::Hardware, "lib/material/texture_filter.glsl", "texture(image, uv)",
      "(1.01 * texture(image, uv))"},
-    {"half a level too coarse", TextureFilter::Hardware, "lib/texture_filter.glsl", "texture(image, uv)",
+    {"half a level too coarse", TextureFilter::Hardware, "lib/material/texture_filter.glsl", "texture(image, uv)",
      "texture(image, uv, 0.5)"},
-    {"half a level too fine", TextureFilter::Hardware, "lib/texture_filter.glsl", "texture(image, uv)",
+    {"half a level too fine", TextureFilter::Hardware, "lib/material/texture_filter.glsl", "texture(image, uv)",
      "texture(image, uv, -0.5)"},
-    {"nearest filters blend", TextureFilter::Exact, "lib/material_values.glsl",
+    {"nearest filters blend", TextureFilter::Exact, "lib/material/material_values.glsl",
      "slotTakesNearest(image, slot, fragment, modes)", "false"},
-    {"the magnifying filter everywhere", TextureFilter::Exact, "lib/texture_filter.glsl",
+    {"the magnifying filter everywhere", TextureFilter::Exact, "lib/material/texture_filter.glsl",
      "magnified ? TEXTURE_MODE_MAGNIFIES_NEAREST : TEXTURE_MODE_MINIFIES_NEAREST", "TEXTURE_MODE_MAGNIFIES_NEAREST"},
-    {"magnified up to level 0 only", TextureFilter::Exact, "lib/texture_filter.glsl", "!= 0 ? 2.0 : 1.0",
+    {"magnified up to level 0 only", TextureFilter::Exact, "lib/material/texture_filter.glsl", "!= 0 ? 2.0 : 1.0",
      "!= 0 ? 1.0 : 1.0"},
 };
 

@@ -298,7 +298,7 @@ def main():
     parser.add_argument("root", type=pathlib.Path, help=argparse.SUPPRESS)
     parser.add_argument("count", type=int, nargs="?", default=300, help="how many faults (300)")
     parser.add_argument("--seed", type=int, default=1, help="which ones (1)")
-    parser.add_argument("--only", default="*", metavar="GLOB", help="files to change, for example 'shaders/lib/light*'")
+    parser.add_argument("--only", default="*", metavar="GLOB", help="files to change, for example 'shaders/lib/light/*'")
     parser.add_argument("--part", default="*", metavar="GLOB", help="of the chosen faults, judge those in these files")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="how many at a time (one a processor)")
     parser.add_argument("--resume", action="store_true", help="keep what earlier runs found of the same sources and tests")

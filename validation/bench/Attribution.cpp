@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "validation/figures/ErrorFigures.h"
 #include "validation/compare/RangeTruncation.h"
 #include "validation/compare/TechniqueCompare.h"
+#include "validation/figures/ErrorFigures.h"
 
 namespace tessera::validation {
 

@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 
 #include "engine/Techniques.h"
-#include "validation/report/FigureHtml.h"
-#include "validation/report/Html.h"
 #include "validation/bench/BenchJsonTerms.h"
 #include "validation/bench/BenchTables.h"
 #include "validation/bench/Pareto.h"
 #include "validation/bench/Recommend.h"
 #include "validation/bench/ScalingFit.h"
+#include "validation/report/FigureHtml.h"
+#include "validation/report/Html.h"
 
 namespace tessera::validation {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "validation/report/Report.h"
 #include "validation/bench/BenchRecord.h"
+#include "validation/report/Report.h"
 
 namespace tessera::validation {
 

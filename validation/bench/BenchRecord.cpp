@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include "renderer/graph/Table.h"
-#include "validation/figures/FigureText.h"
 #include "validation/bench/BenchJson.h"
 #include "validation/bench/BenchJsonTerms.h"
 #include "validation/bench/Pareto.h"
 #include "validation/bench/Recommend.h"
 #include "validation/bench/ScalingFit.h"
+#include "validation/figures/FigureText.h"
 
 namespace tessera::validation {
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "validation/report/Report.h"
 #include "validation/bench/BenchRecord.h"
+#include "validation/report/Report.h"
 
 namespace tessera::validation {
 

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "validation/report/FigureHtml.h"
-#include "validation/report/Html.h"
 #include "validation/bench/Pareto.h"
 #include "validation/bench/Recommend.h"
 #include "validation/bench/ScalingFit.h"
+#include "validation/report/FigureHtml.h"
+#include "validation/report/Html.h"
 
 namespace tessera::validation {
 

@@ -5,8 +5,8 @@
 
 #include "engine/PrepareView.h"
 #include "renderer/gpu/SampleCounter.h"
-#include "validation/floor/FloorGeometry.h"
 #include "validation/culling/LightOracle.h"
+#include "validation/floor/FloorGeometry.h"
 
 namespace tessera::validation {
 

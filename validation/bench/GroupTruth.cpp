@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "engine/Rendering.h"
-#include "validation/figures/ErrorFigures.h"
 #include "validation/compare/ShownTriangles.h"
+#include "validation/figures/ErrorFigures.h"
 
 namespace tessera::validation {
 

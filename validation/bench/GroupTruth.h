@@ -6,8 +6,8 @@
 
 #include "base/Picture.h"
 #include "engine/Renderer.h"
-#include "validation/compare/ReferencePicture.h"
 #include "validation/bench/BenchResult.h"
+#include "validation/compare/ReferencePicture.h"
 
 namespace tessera::validation {
 

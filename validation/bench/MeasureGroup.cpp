@@ -8,9 +8,9 @@
 
 #include "base/Error.h"
 #include "engine/Rendering.h"
-#include "validation/pictures/HeatMap.h"
 #include "validation/bench/Attribution.h"
 #include "validation/bench/CountPoint.h"
+#include "validation/pictures/HeatMap.h"
 
 namespace tessera::validation {
 

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "validation/figures/FigureText.h"
 #include "validation/bench/Pareto.h"
+#include "validation/figures/FigureText.h"
 
 namespace tessera::validation {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <map>
 
-#include "validation/timing/Interleave.h"
 #include "validation/compare/RangeTruncation.h"
 #include "validation/compare/TechniqueCompare.h"
+#include "validation/timing/Interleave.h"
 #include "validation/timing/TimeSamples.h"
 
 namespace tessera::validation {

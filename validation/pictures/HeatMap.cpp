@@ -10,9 +10,9 @@
 
 #include "shaders/shared/faults.h"
 #include "shaders/shared/heat.h"
-#include "validation/pictures/ErrorScale.h"
 #include "validation/figures/Flip.h"
 #include "validation/figures/PixelErrors.h"
+#include "validation/pictures/ErrorScale.h"
 
 namespace tessera::validation {
 namespace {

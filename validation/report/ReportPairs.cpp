@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "validation/report/FigureHtml.h"
 #include "validation/figures/FigureText.h"
+#include "validation/report/FigureHtml.h"
 #include "validation/report/Html.h"
 
 namespace tessera::validation {

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "renderer/graph/Plan.h"
-#include "validation/figures/ErrorFigures.h"
 #include "validation/culling/LightOracle.h"
+#include "validation/figures/ErrorFigures.h"
 
 namespace tessera::viewer {
 

@@ -254,11 +254,11 @@ TEST_F(Sabotage, anUntouchedCopyOfTheShadersAlwaysPasses) {
 }
 
 TEST_F(Sabotage, swappedChannelsAlwaysMissTheTolerance) {
-    replace("lib/gbuffer_channels.glsl", "surface.albedo = texel.rgb;", "surface.albedo = texel.bgr;");
-    replace("lib/gbuffer_channels.glsl", "surface.albedo = takeRoots(encoding.widths);",
+    replace("lib/gbuffer/gbuffer_channels.glsl", "surface.albedo = texel.rgb;", "surface.albedo = texel.bgr;");
+    replace("lib/gbuffer/gbuffer_channels.glsl", "surface.albedo = takeRoots(encoding.widths);",
             "surface.albedo = takeRoots(encoding.widths).bgr;");
     // Of lattice no material varies, so on exact its pixels hold their numbers.
-    replace("lib/material_table.glsl", "material.baseColor = tabledConstants(number, 0);",
+    replace("lib/material/material_table.glsl", "material.baseColor = tabledConstants(number, 0);",
             "material.baseColor = tabledConstants(number, 0).bgra;");
     expectExitCode(kToleranceMissed);
 }
@@ -266,14 +266,14 @@ TEST_F(Sabotage, swappedChannelsAlwaysMissTheTolerance) {
 TEST_F(Sabotage, oneSkippedLightAlwaysMissesTheTolerance) {
     // GBUFFER_NORMAL without GBUFFER_WRITE: the pass that reads the G-buffer.
     replace(
-        "lib/light_cursor.glsl", "    return LightCursor(0, int(lighting.lights.x));",
+        "lib/light/light_cursor.glsl", "    return LightCursor(0, int(lighting.lights.x));",
         "#if !defined(GBUFFER_WRITE) && defined(GBUFFER_NORMAL)\n    return LightCursor(1, int(lighting.lights.x));\n"
         "#else\n    return LightCursor(0, int(lighting.lights.x));\n#endif");
     expectExitCode(kToleranceMissed);
 }
 
 TEST_F(Sabotage, aFaultThatAllTechniquesShareAlwaysMissesTheReference) {
-    replace("lib/math.glsl", "kPi = 3.14159265358979323846", "kPi = 3.17300858");
+    replace("lib/maths/math.glsl", "kPi = 3.14159265358979323846", "kPi = 3.17300858");
     expectExitCode(kGood);
     const ProcessResult result =
         run({"compare", "lattice", "--size", "160x90", "--techniques", "deferred", "--against", "reference"},
@@ -289,14 +289,15 @@ TEST_F(Sabotage, aFaultOfOneLobeAlwaysMissesTheReference) {
         const char* to;
     };
     constexpr Fault kFaults[] = {
-        {"lib/reflectance.glsl", "surface.specular * highlight;", "surface.specular * highlight * directions.nl;"},
-        {"lib/reflectance.glsl", "visibilityHalfVector(alpha, directions.nl, directions.nv, directions.lh)",
+        {"lib/reflectance/reflectance.glsl", "surface.specular * highlight;",
+         "surface.specular * highlight * directions.nl;"},
+        {"lib/reflectance/reflectance.glsl", "visibilityHalfVector(alpha, directions.nl, directions.nv, directions.lh)",
          "visibilitySeparable(alpha, directions.nl, directions.nv)"},
-        {"lib/reflectance.glsl", "if (surface.masking == MASKING_DIRECTIONAL)", "if (false)"},
-        {"lib/reflectance.glsl", "fresnelSchlick(vec3(0.04), 1.0", "fresnelSchlick(vec3(0.05), 1.0"},
-        {"lib/material_lobes.glsl", "(strength * strength)", "strength"},
-        {"lib/material_frame.glsl", "* fragment.tangentLS.w;", "* -fragment.tangentLS.w;"},
-        {"lib/sheen.glsl", "(2.0 + inverse)", "(1.0 + inverse)"},
+        {"lib/reflectance/reflectance.glsl", "if (surface.masking == MASKING_DIRECTIONAL)", "if (false)"},
+        {"lib/reflectance/reflectance.glsl", "fresnelSchlick(vec3(0.04), 1.0", "fresnelSchlick(vec3(0.05), 1.0"},
+        {"lib/material/material_lobes.glsl", "(strength * strength)", "strength"},
+        {"lib/material/material_frame.glsl", "* fragment.tangentLS.w;", "* -fragment.tangentLS.w;"},
+        {"lib/reflectance/sheen.glsl", "(2.0 + inverse)", "(1.0 + inverse)"},
     };
     for (const Fault& fault : kFaults) {
         SCOPED_TRACE(fault.from);
@@ -346,11 +347,12 @@ TEST_F(Compare, aSmallModelAlwaysHoldsAgainstItself) {
 }
 
 TEST_F(Sabotage, aShaderThatDoesNotCompileIsAlwaysNamedInOneLine) {
-    replace("lib/light_cursor.glsl", "    light = cursor.next;", "    light = cursor.nix;\n    light = cursor.nox;");
+    replace("lib/light/light_cursor.glsl", "    light = cursor.next;",
+            "    light = cursor.nix;\n    light = cursor.nox;");
     const ProcessResult result = run({"render", "room", "-o", "a.png"}, {{"TESSERA_SHADERS", path("shaders")}});
     EXPECT_EQ(result.exitCode, 1);
     EXPECT_THAT(result.err, testing::StartsWith("tessera: error: "));
-    EXPECT_THAT(result.err, testing::HasSubstr("lib/light_cursor.glsl:"));
+    EXPECT_THAT(result.err, testing::HasSubstr("lib/light/light_cursor.glsl:"));
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
     EXPECT_FALSE(fs::exists(path("a.png")));
     expectError(kBadInput, {"render", "room", "-o", "a.png"}, {"nix", "TESSERA_SHADERS"}, {{"TESSERA_SHADERS", "nix"}});

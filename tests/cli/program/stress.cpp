@@ -39,10 +39,10 @@ TEST_F(StressCommand, theListAlwaysShowsEveryGroupAndRunsNothing) {
 TEST_F(StressCommand, aShaderWithAFaultAlwaysEndsWithExitCodeThree) {
     std::filesystem::copy(std::filesystem::path(TESSERA_SOURCE_DIR) / "shaders", folder_.path() / "shaders",
                           std::filesystem::copy_options::recursive);
-    std::string source = text("shaders/lib/math.glsl");
+    std::string source = text("shaders/lib/maths/math.glsl");
     const std::string right = "kPi = 3.14159265358979323846";
     ASSERT_NE(source.find(right), std::string::npos);
-    folder_.write("shaders/lib/math.glsl", source.replace(source.find(right), right.size(), "kPi = 3.17300858"));
+    folder_.write("shaders/lib/maths/math.glsl", source.replace(source.find(right), right.size(), "kPi = 3.17300858"));
     const ProcessResult result =
         run({"stress", "--quick", "--case", "terms", "--json", "s.json"}, {{"TESSERA_SHADERS", path("shaders")}});
     EXPECT_EQ(result.exitCode, kToleranceMissed);

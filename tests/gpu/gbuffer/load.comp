@@ -1,5 +1,5 @@
 // Reads the surfaces back from the G-buffer, in the form that store.frag takes them.
-#include "lib/gbuffer.glsl"
+#include "lib/gbuffer/gbuffer.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 1) writeonly buffer Outputs { vec4 outputs[]; };

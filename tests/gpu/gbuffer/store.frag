@@ -1,6 +1,6 @@
 // Stores one surface a pixel, taken from a list.
 #define GBUFFER_WRITE
-#include "lib/gbuffer.glsl"
+#include "lib/gbuffer/gbuffer.glsl"
 
 // Nine vec4 a surface: (albedo, metallic), (normal, alpha), (specular, ior or F90), (emission, model), (normal texel, exponent),
 // (tangent, alpha along the bitangent), (octahedral normal of the coat, factor, alpha), (sheen colour, alpha), (masking, 0, 0, 0).

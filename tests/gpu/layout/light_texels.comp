@@ -1,5 +1,5 @@
 // The light texels as they are fetched, four vec4 a light as C++ has them.
-#include "lib/light.glsl"
+#include "lib/light/light.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 1) writeonly buffer Outputs { vec4 outputs[]; };

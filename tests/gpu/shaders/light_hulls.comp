@@ -1,6 +1,6 @@
 // The hulls of spot lights. In: (apex, reach), (axis, cosine of the outer angle), (margin, -). Out: the clip coordinates of all
 // corners, then (how much larger a light of this place and reach is drawn, 1 where it is vast in the picture, -).
-#include "lib/light_volume.glsl"
+#include "lib/light/light_volume.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };

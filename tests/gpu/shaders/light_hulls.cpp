@@ -148,7 +148,7 @@ TEST_F(LightHulls, theHullOfASpotAlwaysHoldsItsLightAndTheMarginAroundIt) {
     EXPECT_LE(tightest, 1.001) << "no face touches what it encloses";
 }
 
-/// The figures of lib/light_volume.glsl.
+/// The figures of lib/light/light_volume.glsl.
 TEST_F(LightHulls, theHullOfASpotIsNeverMuchLargerThanItsLight) {
     std::vector<Spot> spots;
     for (const double degrees : {1.0, 10.0, 30.0, 60.0, 75.0, 84.0}) {

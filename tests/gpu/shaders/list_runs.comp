@@ -1,7 +1,7 @@
 // The boxes of tiles whose depth is cut into slices (method tile_2.5d). In: slicing, the tile's occupied slices, -.
 // Whole groups of 64 inputs. Out: for each box the metres ahead at which it begins and ends, -1 where there is none.
 #define LIST_IN_COMPUTE 1
-#include "lib/list_cells.glsl"
+#include "lib/lists/list_cells.glsl"
 
 layout(std430, binding = 1) readonly buffer Inputs { uvec4 inputs[]; };
 layout(std430, binding = 2) writeonly buffer Outputs { vec2 outputs[]; };

@@ -2,7 +2,7 @@
 // (h, alpha along the bitangent), (tangent, exponent), (direction, cosine).
 // Out: (anisotropic D, isotropic D, Smith length of the direction, alpha along h),
 // (Blinn-Phong's highlight, Charlie's D, Charlie's V for n.l = n.v = cosine, albedo of a white sheen at the cosine).
-#include "lib/sheen.glsl"
+#include "lib/reflectance/sheen.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };

@@ -2,7 +2,7 @@
 // (l, model), (v, exponent), (tangent, alpha along the bitangent), (coat normal, factor), (sheen colour, alpha),
 // (coat alpha, masking, 0, 0).
 // Out: (reflected share, n.l), (d, v, F.g, 0).
-#include "lib/reflectance.glsl"
+#include "lib/reflectance/reflectance.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };

@@ -1,5 +1,5 @@
 // A surface of which nothing is known, set where every member was something else before. In: what they were. Out: eight vec4.
-#include "lib/surface.glsl"
+#include "lib/surface/surface.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };

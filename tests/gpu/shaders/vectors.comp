@@ -1,6 +1,6 @@
 // Small numerics of vectors. In: (v, -), (unit vector n, -).
 // Out: (v normalised, or (7, 7, 7) where it has no direction, -), (a vector at right angles to n, -).
-#include "lib/math.glsl"
+#include "lib/maths/math.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };

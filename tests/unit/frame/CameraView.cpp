@@ -40,7 +40,7 @@ Projected project(const CameraView& view, const glm::dvec3& positionLS) {
     return {glm::vec2((glm::dvec2(ndc) * 0.5 + 0.5) * glm::dvec2(kSize)), float(ndc.z)};
 }
 
-/// viewpointFromDepth of shaders/lib/camera.glsl, in fp32 as it runs there.
+/// viewpointFromDepth of shaders/lib/surface/camera.glsl, in fp32 as it runs there.
 glm::vec3 rebuilt(const shared::ViewConstants& c, const Projected& p) {
     const float ahead =
         (c.aheadFromDepth.x + c.aheadFromDepth.y * p.depth) / (c.aheadFromDepth.z + c.aheadFromDepth.w * p.depth);

@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 
 #include "tests/unit/validation/Samples.h"
-#include "validation/pictures/ErrorScale.h"
 #include "validation/figures/Flip.h"
 #include "validation/figures/PixelErrors.h"
+#include "validation/pictures/ErrorScale.h"
 
 namespace tessera::validation {
 namespace {

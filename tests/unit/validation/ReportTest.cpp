@@ -7,12 +7,12 @@
 
 #include "tests/unit/validation/Benches.h"
 #include "tests/unit/validation/Samples.h"
-#include "validation/report/Base64.h"
-#include "validation/report/FigureHtml.h"
-#include "validation/pictures/HeatMap.h"
-#include "validation/report/Html.h"
 #include "validation/bench/BenchHtml.h"
 #include "validation/bench/BenchTables.h"
+#include "validation/pictures/HeatMap.h"
+#include "validation/report/Base64.h"
+#include "validation/report/FigureHtml.h"
+#include "validation/report/Html.h"
 
 namespace tessera::validation {
 namespace {

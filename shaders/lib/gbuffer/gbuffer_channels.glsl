@@ -1,0 +1,253 @@
+// The channels of the G-buffer one by one: how each is put there and taken back, in both encodings. channelDefines()
+// (renderer/frame/GBufferLayout.h) says which of them exist, and where, as the list GBUFFER_CHANNELS of
+//   EXACT_CHANNEL(put, take, attachment)
+//   PACKED_CHANNEL(put, take, first bit, widths of its fields)
+#pragma once
+#include "lib/gbuffer/gbuffer_encodings.glsl"
+
+// How a channel is stored: as a texel of its own in fp32, or in the next fields of the words. The texel is an argument, not an
+// array of them, which compilers take long to take apart.
+struct Encoding {
+    bool isPacked;
+    ivec4 widths;
+};
+const Encoding kExact = Encoding(false, ivec4(0));
+
+// In fp32 the fourth component is metallic, which counts where there are GBUFFER_SPARE_COMPONENTS.
+void putAlbedo(Encoding encoding, Surface surface, inout vec4 texel)
+{
+    if (encoding.isPacked)
+        putRoots(surface.albedo, encoding.widths, DITHER_ALBEDO);
+    else
+        texel = vec4(surface.albedo, surface.metallic);
+}
+
+void takeAlbedo(Encoding encoding, vec4 texel, inout Surface surface)
+{
+    if (encoding.isPacked) {
+        surface.albedo = takeRoots(encoding.widths);
+        return;
+    }
+    surface.albedo = texel.rgb;
+#ifdef GBUFFER_SPARE_COMPONENTS
+    surface.metallic = texel.a;
+#endif
+}
+
+// In fp32 the fourth component is the number of the material or alpha.
+void putNormal(Encoding encoding, Surface surface, inout vec4 texel)
+{
+#ifdef GBUFFER_MATERIAL_NUMBER
+    float fourth = float(surface.material);
+#else
+    float fourth = surface.alpha;
+#endif
+    if (encoding.isPacked)
+        putOctahedral(encodeOctahedral(surface.normalLS), encoding.widths, DITHER_NORMAL);
+    else
+        texel = vec4(surface.normalLS, fourth);
+}
+
+void takeNormal(Encoding encoding, vec4 texel, inout Surface surface)
+{
+    if (encoding.isPacked) {
+        surface.normalLS = decodeOctahedral(takeOctahedral(encoding.widths));
+        return;
+    }
+    surface.normalLS = texel.xyz;
+#ifdef GBUFFER_MATERIAL_NUMBER
+    surface.material = uint(texel.w);
+#endif
+#ifdef GBUFFER_SPARE_COMPONENTS
+    surface.alpha = texel.w;
+#endif
+}
+
+// In fp32: alpha, model, ior or F90, metallic; the one parameter of a model stands for its ior, a microfacet model's masking
+// for its metallic. Packed: model and masking, then alpha and F90 and metallic; a microfacet model has its ior in the last two
+// fields, and the one parameter of a model takes all three.
+void putMicrosurface(Encoding encoding, Surface surface, inout vec4 texel)
+{
+    bool hasParameter = HAS_PARAMETER(surface.model), isMicrofacet = IS_MICROFACET(surface.model);
+    if (!encoding.isPacked) {
+        float third = hasParameter ? surface.parameter : surface.iorOrF90, fourth = surface.metallic;
+#if HAS_MASKING_OPTIONS
+        if (isMicrofacet) fourth = float(surface.masking);
+#endif
+        texel = vec4(surface.alpha, float(surface.model), third, fourth);
+        return;
+    }
+    ivec4 widths = encoding.widths;
+    int tail = widths.z + widths.w;
+    putField(encodeKind(surface), widths.x);
+    if (hasParameter) {
+        putField(encodeFloat(surface.parameter, widths.y + tail, DITHER_ALPHA), widths.y + tail);
+        return;
+    }
+    putField(encodeAlpha(surface.alpha, widths.y, DITHER_ALPHA), widths.y);
+    uint code;
+    if (isMicrofacet) {
+        code = encodeIor(surface.iorOrF90, tail, DITHER_F90);
+    } else {
+        code = encodeShare(surface.iorOrF90, largestCode(widths.z), DITHER_F90) |
+               (encodeShare(surface.metallic, largestCode(widths.w), DITHER_METALLIC) << widths.z);
+    }
+    putField(code, tail);
+}
+
+void takeExactMicrosurface(vec4 texel, inout Surface surface)
+{
+    surface.alpha = texel.x;
+    surface.model = surfaceModel(uint(texel.y));
+    surface.iorOrF90 = texel.z;
+    surface.metallic = texel.w;
+    if (HAS_PARAMETER(surface.model)) {
+        surface.parameter = texel.z;
+        surface.iorOrF90 = 1.0;
+    }
+#if HAS_MASKING_OPTIONS
+    if (IS_MICROFACET(surface.model)) {
+        surface.masking = uint(texel.w);
+        surface.metallic = 0.0;
+    }
+#endif
+}
+
+void takePackedMicrosurface(ivec4 widths, inout Surface surface)
+{
+    decodeKind(takeField(widths.x), surface);
+    int tail = widths.z + widths.w;
+    uint code = takeField(widths.y + tail);
+    if (HAS_PARAMETER(surface.model)) {
+        surface.parameter = decodeFloat(code, widths.y + tail);
+        return;
+    }
+    surface.alpha = decodeAlpha(code & largestCode(widths.y), widths.y);
+    code >>= widths.y;
+    if (IS_MICROFACET(surface.model)) {
+        surface.iorOrF90 = decodeIor(code, tail);
+    } else {
+        surface.iorOrF90 = decodeShare(code & largestCode(widths.z), largestCode(widths.z));
+        surface.metallic = decodeShare(code >> widths.z, largestCode(widths.w));
+    }
+}
+
+void takeMicrosurface(Encoding encoding, vec4 texel, inout Surface surface)
+{
+    if (encoding.isPacked)
+        takePackedMicrosurface(encoding.widths, surface);
+    else
+        takeExactMicrosurface(texel, surface);
+    surface.specular = defaultSpecular(surface.model); // where no channel has it
+}
+
+void putSpecular(Encoding encoding, Surface surface, inout vec4 texel)
+{
+    if (encoding.isPacked)
+        putRoots(surface.specular, encoding.widths, DITHER_SPECULAR);
+    else
+        texel = vec4(surface.specular, 0.0);
+}
+
+void takeSpecular(Encoding encoding, vec4 texel, inout Surface surface)
+{
+    surface.specular = encoding.isPacked ? takeRoots(encoding.widths) : texel.rgb;
+}
+
+void putEmission(Encoding encoding, Surface surface, inout vec4 texel)
+{
+    if (encoding.isPacked)
+        putRadiance(surface.emission, encoding.widths);
+    else
+        texel = vec4(surface.emission, 0.0);
+}
+
+void takeEmission(Encoding encoding, vec4 texel, inout Surface surface)
+{
+    surface.emission = encoding.isPacked ? takeRadiance(encoding.widths) : texel.rgb;
+}
+
+void putNormalTexel(Encoding encoding, Surface surface, inout vec4 texel)
+{
+    if (encoding.isPacked)
+        putTexel(surface.normalTexel, encoding.widths);
+    else
+        texel = vec4(surface.normalTexel, 0.0);
+}
+
+void takeNormalTexel(Encoding encoding, vec4 texel, inout Surface surface)
+{
+    surface.normalTexel = encoding.isPacked ? takeTexel(encoding.widths) : texel.rgb;
+}
+
+#if HAS_TANGENT_FRAME
+void putTangent(Encoding encoding, Surface surface, inout vec4 texel)
+{
+    if (!encoding.isPacked) {
+        texel = vec4(surface.tangentLS, surface.alphaBitangent);
+        return;
+    }
+    putDirectionAcross(surface.normalLS, surface.tangentLS, encoding.widths);
+    putField(encodeAlpha(surface.alphaBitangent, encoding.widths.z, DITHER_ALPHA), encoding.widths.z);
+}
+
+void takeTangent(Encoding encoding, vec4 texel, inout Surface surface)
+{
+    if (!encoding.isPacked) {
+        surface.tangentLS = texel.xyz;
+        surface.alphaBitangent = texel.w;
+        return;
+    }
+    surface.tangentLS = takeDirectionAcross(surface.normalLS, encoding.widths);
+    surface.alphaBitangent = decodeAlpha(takeField(encoding.widths.z), encoding.widths.z);
+}
+#endif
+
+#if HAS_CLEARCOAT
+void putClearcoat(Encoding encoding, Surface surface, inout vec4 texel)
+{
+    if (!encoding.isPacked) {
+        texel = vec4(surface.coatNormalCode, surface.coatFactor, surface.coatAlpha);
+        return;
+    }
+    putOctahedral(surface.coatNormalCode, encoding.widths, DITHER_NOT);
+    putField(encodeShare(surface.coatFactor, largestCode(encoding.widths.z), DITHER_COAT), encoding.widths.z);
+    putField(encodeAlpha(surface.coatAlpha, encoding.widths.w, DITHER_COAT_ALPHA), encoding.widths.w);
+}
+
+void takeClearcoat(Encoding encoding, vec4 texel, inout Surface surface)
+{
+    if (!encoding.isPacked) {
+        surface.coatNormalCode = texel.xy;
+        surface.coatFactor = texel.z;
+        surface.coatAlpha = texel.w;
+        return;
+    }
+    surface.coatNormalCode = takeOctahedral(encoding.widths);
+    surface.coatFactor = decodeShare(takeField(encoding.widths.z), largestCode(encoding.widths.z));
+    surface.coatAlpha = decodeAlpha(takeField(encoding.widths.w), encoding.widths.w);
+}
+#endif
+
+#if HAS_SHEEN
+void putSheen(Encoding encoding, Surface surface, inout vec4 texel)
+{
+    if (!encoding.isPacked) {
+        texel = vec4(surface.sheenColor, surface.sheenAlpha);
+        return;
+    }
+    putRoots(surface.sheenColor, encoding.widths, DITHER_SHEEN);
+    putField(encodeAlpha(surface.sheenAlpha, encoding.widths.w, DITHER_SHEEN_ALPHA), encoding.widths.w);
+}
+
+void takeSheen(Encoding encoding, vec4 texel, inout Surface surface)
+{
+    if (!encoding.isPacked) {
+        surface.sheenColor = texel.rgb;
+        surface.sheenAlpha = texel.a;
+        return;
+    }
+    surface.sheenColor = takeRoots(encoding.widths);
+    surface.sheenAlpha = decodeAlpha(takeField(encoding.widths.w), encoding.widths.w);
+}
+#endif

@@ -1,0 +1,70 @@
+// The words in which the fields of packed channels lie end to end, and what an integer field of so many bits can say. A word and
+// not a normalised format, because OpenGL lets a driver round those either way (4.5 core, section 2.3.5.2) and llvmpipe is up to
+// a whole step off.
+#pragma once
+#include "lib/gbuffer/gbuffer_dither.glsl"
+
+uint gbufferWords[GBUFFER_WORDS > 0 ? GBUFFER_WORDS : 1];
+int gbufferBit; // where the next field begins
+
+void putField(uint value, int width)
+{
+    int word = gbufferBit >> 5, bit = gbufferBit & 31;
+    gbufferWords[word] |= value << bit;
+    if (bit + width > 32) gbufferWords[word + 1] |= value >> (32 - bit);
+    gbufferBit += width;
+}
+
+uint takeField(int width)
+{
+    int word = gbufferBit >> 5, bit = gbufferBit & 31;
+    uint value = gbufferWords[word] >> bit;
+    if (bit + width > 32) value |= gbufferWords[word + 1] << (32 - bit);
+    gbufferBit += width;
+    return value & ((1u << width) - 1u);
+}
+
+uint largestCode(int width)
+{
+    return (1u << width) - 1u;
+}
+
+// 0..1 in equal steps, both ends exactly. Encoders take the number of their field, DITHER_*.
+uint encodeShare(float x, uint steps, int field)
+{
+    precise float position = clamp(x, 0.0, 1.0) * float(steps);
+    uint below = min(uint(position), steps - 1u);
+    return below + ditheredUp(position - float(below), field, steps);
+}
+
+float decodeShare(uint code, uint steps)
+{
+    precise float x = float(code) / float(steps);
+    return x;
+}
+
+// -1..1 in equal steps, 0 and both ends exactly.
+uint encodeSigned(float x, int width, int field)
+{
+    return encodeShare(0.5 * x + 0.5, largestCode(width) - 1u, field);
+}
+
+float decodeSigned(uint code, int width)
+{
+    int middle = int(largestCode(width) >> 1);
+    precise float x = float(int(code) - middle) / float(middle);
+    return x;
+}
+
+// A float >= 0 by the topmost bits below its sign: 8 of exponent, then mantissa.
+uint encodeFloat(float x, int width, int field)
+{
+    int dropped = 31 - width;
+    uint threshold = uint(ditherThreshold(field) * float(1u << dropped));
+    return (floatBitsToUint(clamp(x, 0.0, 1e38)) + threshold) >> dropped;
+}
+
+float decodeFloat(uint code, int width)
+{
+    return uintBitsToFloat(code << (31 - width));
+}

@@ -1,0 +1,207 @@
+// Which lights a pixel visits, always in ascending index order, so that every technique adds the same terms in the same
+// order. LIGHT_CURSOR says how: ALL lights of the frame; the LIST of the pixel's cell, merged with the lights that reach
+// everywhere; the BITS that the pixel's tile and depth bin have in common (shared/light_lists.h); or NONE, where lights are
+// added by other passes.
+#pragma once
+#include "lib/surface/camera.glsl"
+#include "shared/light_lists.h"
+
+#define LIGHT_CURSOR_ALL 0
+#define LIGHT_CURSOR_LIST 1
+#define LIGHT_CURSOR_BITS 2
+#define LIGHT_CURSOR_NONE 3
+#ifndef LIGHT_CURSOR
+#define LIGHT_CURSOR LIGHT_CURSOR_ALL
+#endif
+
+#if LIGHT_CURSOR == LIGHT_CURSOR_LIST || LIGHT_CURSOR == LIGHT_CURSOR_BITS
+layout(binding = TEXTURE_UNIT_LIGHT_TILES) uniform usamplerBuffer lightTiles;
+layout(binding = TEXTURE_UNIT_LIGHT_CELLS) uniform usamplerBuffer lightCells;
+layout(binding = TEXTURE_UNIT_LIGHT_ENTRIES) uniform usamplerBuffer lightEntries;
+
+uvec4 lightTile(vec2 pixel)
+{
+    uvec2 tile = uvec2(uint(pixel.x), lighting.tileGrid.z - 1u - uint(pixel.y)) >> lighting.tileGrid.w;
+    uint index = tile.y * lighting.tileGrid.x + tile.x;
+#if LIGHT_LAYER == LIGHT_LAYER_TRANSPARENT
+    index += lighting.tileGrid.x * lighting.tileGrid.y;
+#endif
+    return texelFetch(lightTiles, int(index));
+}
+
+uint depthSlice(float depth, uint slices)
+{
+    precise float sum = view.depthKey.x + depth;
+    return sliceOfKey(floatBitsToUint(sum), slices);
+}
+#endif
+
+#if LIGHT_CURSOR == LIGHT_CURSOR_ALL || LIGHT_CURSOR == LIGHT_CURSOR_NONE
+
+struct LightCursor {
+    int next;
+    int end;
+};
+
+LightCursor lightCursor(vec2 pixel, float depth)
+{
+#if LIGHT_CURSOR == LIGHT_CURSOR_NONE
+    return LightCursor(0, 0);
+#else
+    return LightCursor(0, int(lighting.lights.x));
+#endif
+}
+
+bool nextLight(inout LightCursor cursor, out int light)
+{
+    light = cursor.next;
+    cursor.next += 1;
+    return light < cursor.end;
+}
+
+bool nextBatch(inout LightCursor cursor, out int light)
+{
+    light = 0;
+    return false;
+}
+
+#elif LIGHT_CURSOR == LIGHT_CURSOR_LIST
+
+#if HAS_LIGHTS_EVERYWHERE
+// Two ascending runs merged; the heads are what either offers next.
+struct LightCursor {
+    int next;
+    int end;
+    int nextEverywhere;
+    int headOfList;
+    int headEverywhere;
+};
+const int kNoLight = 0x7fffffff;
+#else
+struct LightCursor {
+    int next;
+    int end;
+    int head;
+};
+#endif
+
+LightCursor lightCursor(vec2 pixel, float depth)
+{
+    uvec4 tile = lightTile(pixel);
+    uint slice = depthSlice(depth, tile.y);
+    // The cells of a tile are those of its occupied slices, so a slice's rank among them finds its cell.
+    uint below = slice < 32u ? tile.z & ((1u << slice) - 1u) : tile.z;
+    uint belowHigh = slice < 32u ? 0u : tile.w & ((1u << (slice & 31u)) - 1u);
+    uvec2 cell = texelFetch(lightCells, int(tile.x) + bitCount(below) + bitCount(belowHigh)).xy;
+#if HAS_LIGHTS_EVERYWHERE
+    LightCursor cursor = LightCursor(int(cell.x), int(cell.x + cell.y), 0, kNoLight, kNoLight);
+    if (cell.y > 0u) cursor.headOfList = int(texelFetch(lightEntries, cursor.next).x);
+    if (lighting.lights.z > 0u) cursor.headEverywhere = int(texelFetch(lightEntries, 0).x);
+    return cursor;
+#else
+    return LightCursor(int(cell.x), int(cell.x + cell.y), int(texelFetch(lightEntries, int(cell.x)).x));
+#endif
+}
+
+bool nextLight(inout LightCursor cursor, out int light)
+{
+#if HAS_LIGHTS_EVERYWHERE
+    bool fromList = cursor.headOfList < cursor.headEverywhere;
+    light = fromList ? cursor.headOfList : cursor.headEverywhere;
+    if (fromList) {
+        cursor.next += 1;
+    } else {
+        cursor.nextEverywhere += 1;
+    }
+    int at = fromList ? cursor.next : cursor.nextEverywhere;
+    int end = fromList ? cursor.end : int(lighting.lights.z);
+    int head = at < end ? int(texelFetch(lightEntries, at).x) : kNoLight;
+    if (fromList) {
+        cursor.headOfList = head;
+    } else {
+        cursor.headEverywhere = head;
+    }
+    return light != kNoLight;
+#else
+    if (cursor.next >= cursor.end) return false;
+    light = cursor.head;
+    cursor.next += 1;
+    cursor.head = int(texelFetch(lightEntries, cursor.next).x);
+    return true;
+#endif
+}
+
+bool nextBatch(inout LightCursor cursor, out int light)
+{
+    light = 0;
+    return false;
+}
+
+#else
+
+struct LightCursor {
+    int tileWords; // index of the tile's mask among the entries
+    int binWords;
+    int word;
+    int end;
+    uint bits; // not yet visited of the current word
+};
+
+LightCursor lightCursor(vec2 pixel, float depth)
+{
+    uvec4 tile = lightTile(pixel);
+    uint bin = depthSlice(depth, tile.y);
+    uvec2 words = texelFetch(lightCells, int(bin)).xy;
+    return LightCursor(int(tile.x), int(bin * lighting.lights.w), int(words.x) - 1, int(words.y), 0u);
+}
+
+bool nextLight(inout LightCursor cursor, out int light)
+{
+    light = cursor.word * 32 + findLSB(cursor.bits);
+    bool found = cursor.bits != 0u;
+    cursor.bits &= cursor.bits - 1u;
+    return found;
+}
+
+// Goes on to the next word if there is one and this one is empty.
+void skipEmptyWord(inout LightCursor cursor)
+{
+    if (cursor.bits != 0u || cursor.word >= cursor.end) return;
+    cursor.word += 1;
+    if (cursor.word >= cursor.end) return;
+    cursor.bits = texelFetch(lightEntries, cursor.tileWords + cursor.word).x
+                  & texelFetch(lightEntries, cursor.binWords + cursor.word).x;
+}
+
+void leaveTwoEmptyWords(inout LightCursor cursor)
+{
+    skipEmptyWord(cursor);
+    skipEmptyWord(cursor);
+}
+
+// A batch is what a word holds. Where lights are so many that iterations are short, a step leaves twice as many words as a
+// round visits lights (renderer/frame/LightRounds.h).
+bool nextBatch(inout LightCursor cursor, out int light)
+{
+    do {
+#if LIGHTS_PER_ROUND == 1
+        skipEmptyWord(cursor);
+#else
+        leaveTwoEmptyWords(cursor);
+        leaveTwoEmptyWords(cursor);
+#endif
+#if LIGHTS_PER_ROUND > 2
+        leaveTwoEmptyWords(cursor);
+        leaveTwoEmptyWords(cursor);
+#endif
+#if LIGHTS_PER_ROUND > 4
+        leaveTwoEmptyWords(cursor);
+        leaveTwoEmptyWords(cursor);
+        leaveTwoEmptyWords(cursor);
+        leaveTwoEmptyWords(cursor);
+#endif
+    } while (cursor.bits == 0u && cursor.word < cursor.end);
+    return nextLight(cursor, light);
+}
+
+#endif

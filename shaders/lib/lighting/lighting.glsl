@@ -1,0 +1,69 @@
+// Lighting, once for all techniques: what one light gives to a surface, and the loop over them. Which of
+// them a pixel visits the light cursor's (lib/light/light_cursor.glsl).
+#pragma once
+#include "lib/reflectance/reflectance.glsl"
+#include "lib/light/light.glsl"
+#include "lib/light/light_cursor.glsl"
+
+// 1 where lights are counted instead of added (lib/lighting/views.glsl).
+#ifndef VISIT_COUNTS
+#define VISIT_COUNTS 0
+#endif
+
+// Whether any light changes the surface.
+bool takesLight(Surface surface)
+{
+    return !IS_UNLIT(surface.model);
+}
+
+// What one light gives to a surface that takes light: radiance towards the viewer; where visits are counted, 1. All that any
+// pass knows of a light. A light without one direction, or what stands before it, is this function's business and no loop's;
+// what that needs of the surface beside its shading normal becomes a member of Surface.
+vec3 lightOnSurface(int light, Surface surface, Viewpoint viewpoint)
+{
+#if VISIT_COUNTS
+    return vec3(1.0);
+#else
+    Incident incident;
+    if (!incidentLight(light, viewpoint.positionLS, incident)) return vec3(0.0);
+    precise vec3 given = reflectedShare(surface, incident.toLightLS, viewpoint.toViewerLS) * incident.intensity;
+    return given;
+#endif
+}
+
+// Adds every light that the surface's cursor visits, in ascending order.
+vec3 lightsOnSurface(vec3 before, Surface surface, Viewpoint viewpoint, vec2 pixel)
+{
+    precise vec3 radiance = before;
+#if HAS_LIT_MODELS
+    if (!takesLight(surface)) return radiance;
+    LightCursor cursor = lightCursor(pixel, viewpoint.depth);
+    int light;
+    if (!nextLight(cursor, light) && !nextBatch(cursor, light)) return radiance;
+    // Tested at the end: rasterisers that mask lanes instead of branching would run a loop's body once more than its lights.
+    // LIGHTS_PER_ROUND (renderer/frame/LightRounds.h) is spelt out: an inner loop would count towards the same limit.
+#define ADD_LIGHT radiance += lightOnSurface(light, surface, viewpoint);
+#define ADD_NEXT_LIGHT if (nextLight(cursor, light)) ADD_LIGHT
+    do {
+        do {
+            ADD_LIGHT
+#if LIGHTS_PER_ROUND > 1
+            ADD_NEXT_LIGHT
+#endif
+#if LIGHTS_PER_ROUND > 2
+            ADD_NEXT_LIGHT ADD_NEXT_LIGHT
+#endif
+#if LIGHTS_PER_ROUND > 4
+            ADD_NEXT_LIGHT ADD_NEXT_LIGHT ADD_NEXT_LIGHT ADD_NEXT_LIGHT
+#endif
+        } while (nextLight(cursor, light));
+    } while (nextBatch(cursor, light));
+#endif
+    return radiance;
+}
+
+// Radiance of the surface towards the viewer: its emission and its lights.
+vec3 shadeSurface(Surface surface, Viewpoint viewpoint, vec2 pixel)
+{
+    return lightsOnSurface(emittedRadiance(surface, viewpoint.toViewerLS), surface, viewpoint, pixel);
+}

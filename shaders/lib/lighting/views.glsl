@@ -1,0 +1,60 @@
+// What a pixel shows: the lit surface, or one of the debug views of the table kViews (renderer/frame/Views.h), which gives
+// VIEW its number. Both families of techniques end here, so a view exists in each of them.
+#pragma once
+#include "shared/views.h"
+
+#if VIEW == VIEW_LIGHTS
+#define VISIT_COUNTS 1
+#endif
+#include "lib/lighting/lighting.glsl"
+
+// D, G or F of the one light that lighting.lights.y names, as rgb; 0 where the light is not visible from the point. Of
+// blinn_phong D is the highlight, and the others are 0; of layered materials they are those of the lowest lobe.
+vec3 specularFactorView(Surface surface, Viewpoint viewpoint)
+{
+    vec3 shown = vec3(0.0);
+#if HAS_GLOSSY_MODELS
+    Incident incident;
+    if (!IS_GLOSSY(surface.model)) return shown;
+    if (int(lighting.lights.y) >= int(lighting.lights.x)) return shown;
+    if (!incidentLight(int(lighting.lights.y), viewpoint.positionLS, incident)) return shown;
+    precise float nl = dot(surface.normalLS, incident.toLightLS);
+    if (!(nl > 0.0)) return shown;
+    SpecularTerms terms = reflection(surface, directionsOn(surface, incident.toLightLS, viewpoint.toViewerLS, nl)).terms;
+#if VIEW == VIEW_DISTRIBUTION
+    shown = vec3(terms.d);
+#elif VIEW == VIEW_GEOMETRY
+    precise float nv = dot(surface.normalLS, viewpoint.toViewerLS);
+    precise float g = terms.v * (4.0 * nl * nv);
+    shown = vec3(g);
+#else
+    shown = terms.f;
+#endif
+#endif
+    return shown;
+}
+
+vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
+{
+#if VIEW == VIEW_FINAL
+    return shadeSurface(surface, viewpoint, pixel);
+#elif VIEW == VIEW_DIFFUSE
+    return IS_UNLIT(surface.model) ? surface.emission : surface.albedo;
+#elif VIEW == VIEW_NORMAL_TEXEL
+    return surface.normalTexel;
+#elif VIEW == VIEW_NORMAL
+    return mat3(view.worldFromLS) * surface.normalLS;
+#elif VIEW == VIEW_NORMAL_VIEW
+    // Rays step along the view's x and y axes from pixel to pixel.
+    return vec3(dot(surface.normalLS, normalize(view.rayDxLS.xyz)), dot(surface.normalLS, normalize(view.rayDyLS.xyz)),
+                -dot(surface.normalLS, view.forwardLS.xyz));
+#elif VIEW == VIEW_NORMAL_OBJECT
+    return surface.normalTexel * 2.0 - 1.0; // put there as it was rasterised (lib/material/material.glsl)
+#elif VIEW == VIEW_LIGHTS
+    return lightsOnSurface(vec3(0.0), surface, viewpoint, pixel); // counted
+#elif VIEW == VIEW_DEPTH
+    return vec3(view.eyeLS.w + dot(viewpoint.positionLS, view.forwardLS.xyz));
+#else
+    return specularFactorView(surface, viewpoint);
+#endif
+}

@@ -1,0 +1,57 @@
+// The lights as culling sees them, and the rows and columns of tiles that each may touch.
+#pragma once
+#include "lib/surface/camera.glsl"
+#include "shared/culling.h"
+#include "shared/light_lists.h"
+
+layout(binding = TEXTURE_UNIT_CULL_LIGHTS) uniform samplerBuffer cullLightTexels;
+
+#define CULL_LIGHT_TEXELS 3
+
+vec4 cullSphere(uint light)
+{
+    return texelFetch(cullLightTexels, int(light) * CULL_LIGHT_TEXELS);
+}
+
+CullLight cullLight(uint light)
+{
+    int at = int(light) * CULL_LIGHT_TEXELS;
+    CullLight cull;
+    cull.sphere = texelFetch(cullLightTexels, at);
+    cull.apex = texelFetch(cullLightTexels, at + 1);
+    cull.axis = texelFetch(cullLightTexels, at + 2);
+    return cull;
+}
+
+uint lightCount()
+{
+    return lighting.lights.x;
+}
+
+// The lights that this round is about, x the first, y one beyond the last. Where one round takes them all it is the only.
+layout(std140, binding = UNIFORM_LIST_ROUND) uniform ListRound
+{
+    uvec4 listRound;
+};
+
+bool isFirstRound()
+{
+    return listRound.x == 0u;
+}
+
+bool isLastRound()
+{
+    return listRound.y == lightCount();
+}
+
+// Rays of the tile in this column and row.
+vec4 raysOfTile(uint column, uint row)
+{
+    return tileRays(view.lensVS, column, row, 1u << lighting.tileGrid.w, view.sizePixels.xy);
+}
+
+// Whether a run of columns or rows, first | last << 16, has any of first..last.
+bool reaches(uint run, uint first, uint last)
+{
+    return (run & 0xffffu) <= last && (run >> 16) >= first;
+}

@@ -1,0 +1,108 @@
+// A surface from a material, as it is rasterised; and where pixels hold only the number of their material, what it has everywhere.
+#pragma once
+#include "lib/material/material_frame.glsl"
+#include "lib/material/material_lobes.glsl"
+#include "lib/surface/surface.glsl"
+
+// All of a surface that has nothing to do with directions on it: what is one for all its pixels where the scene has no varying
+// materials.
+void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
+{
+    surface.model = surfaceModel(material.kind.x);
+#if !HAS_VARYING_MATERIALS
+    surface.material = material.kind.w;
+#endif
+    surface.albedo = baseColor.rgb;
+#if HAS_MICROSURFACES
+    precise vec2 roughnessMetallic = material.microsurface.yx;
+#if HAS_METALLIC_ROUGHNESS_TEXTURE
+    roughnessMetallic *= sampleSlot(metallicRoughnessTexture, TEXTURE_SLOT_METALLIC_ROUGHNESS, fragment).gb;
+#endif
+    precise float specularFactor = material.specular.a;
+    precise vec3 specularColor = material.specular.rgb;
+#if HAS_SPECULAR_FACTOR_TEXTURE
+    specularFactor *= sampleSlot(specularFactorTexture, TEXTURE_SLOT_SPECULAR_FACTOR, fragment).a;
+#endif
+#if HAS_SPECULAR_COLOR_TEXTURE
+    specularColor *= sampleSlot(specularColorTexture, TEXTURE_SLOT_SPECULAR_COLOR, fragment).rgb;
+#endif
+    precise float ior = material.microsurface.z;
+#if HAS_IOR_TEXTURE
+    ior *= sampleSlot(iorTexture, TEXTURE_SLOT_IOR, fragment).r;
+#endif
+    surface.specular = defaultSpecular(surface.model);
+#if HAS_METALLIC_ROUGHNESS
+    if (surface.model == MODEL_METALLIC_ROUGHNESS) {
+        precise float alpha = max(roughnessMetallic.x * roughnessMetallic.x, ALPHA_MIN);
+        surface.alpha = alpha;
+        surface.metallic = roughnessMetallic.y;
+        surface.iorOrF90 = specularFactor;
+#if HAS_SPECULAR
+        precise float reflectance = material.dielectric.x;
+#if HAS_IOR_TEXTURE
+        if ((material.kind.y & MATERIAL_FLAG_IOR_TEXTURE) != 0u) {
+            precise float contrast = (ior - 1.0) / (ior + 1.0);
+            reflectance = contrast * contrast;
+        }
+#endif
+        // KHR_materials_specular: the dielectric F0 is tinted, held to 1, then scaled.
+        precise vec3 f0 = min(specularColor * reflectance, vec3(1.0)) * specularFactor;
+        surface.specular = f0;
+#endif
+    }
+#endif
+    if (IS_MICROFACET(surface.model)) {
+        surface.alpha = max(roughnessMetallic.x, ALPHA_MIN);
+        surface.iorOrF90 = ior;
+#if HAS_SPECULAR
+        surface.specular = specularColor;
+#endif
+#if HAS_MASKING_OPTIONS
+        surface.masking = material.kind.z;
+#endif
+    }
+    if (HAS_PARAMETER(surface.model)) {
+        surface.parameter = max(roughnessMetallic.x, 0.0);
+#if HAS_SPECULAR
+        surface.specular = specularColor;
+#endif
+    }
+#if HAS_SHEEN
+    setSheen(fragment, surface);
+#endif
+#else
+    surface.specular = vec3(0.0);
+#endif
+
+#if HAS_EMISSION
+    precise vec3 emission = material.emissive.rgb;
+#if HAS_EMISSIVE_TEXTURE
+    emission *= sampleSlot(emissiveTexture, TEXTURE_SLOT_EMISSIVE, fragment).rgb;
+#endif
+    if (IS_UNLIT(surface.model)) emission += baseColor.rgb;
+    surface.emission = emission;
+#endif
+}
+
+Surface surfaceFromMaterial(Fragment fragment, vec4 baseColor)
+{
+    Surface surface;
+    setNeutralValues(surface);
+    setMaterialValues(fragment, baseColor, surface);
+
+#if HAS_NORMAL_TEXTURE
+    vec3 normalTexel = sampleSlot(normalTexture, TEXTURE_SLOT_NORMAL, fragment).rgb;
+    if ((material.kind.y & MATERIAL_FLAG_NORMAL_MAP) != 0u) surface.normalTexel = normalTexel;
+#endif
+    surface.normalLS = materialNormal(fragment, surface.normalTexel);
+#if VIEW == VIEW_NORMAL_OBJECT
+    surface.normalTexel = objectNormal(fragment, surface.normalLS) * 0.5 + 0.5;
+#endif
+#if HAS_TANGENT_FRAME
+    setAnisotropy(fragment, surface);
+#endif
+#if HAS_CLEARCOAT
+    setClearcoat(fragment, surface);
+#endif
+    return surface;
+}

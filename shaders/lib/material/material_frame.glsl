@@ -1,0 +1,81 @@
+// Normals and tangents of a material at a fragment.
+#pragma once
+#include "lib/material/material_values.glsl"
+#include "lib/maths/math.glsl"
+
+bool materialFlag(uint flag)
+{
+    return (material.kind.y & flag) != 0u;
+}
+
+// Turned to the side that is seen where the material has two.
+vec3 facing(Fragment fragment, vec3 normal)
+{
+#if HAS_DOUBLE_SIDED
+    if (materialFlag(MATERIAL_FLAG_DOUBLE_SIDED) && !fragment.frontFacing) normal = -normal;
+#endif
+    return normal;
+}
+
+#if HAS_TANGENTS
+// A direction given by its components along tangent, bitangent and normal.
+vec3 fromTangentSpace(Fragment fragment, vec3 vertexNormal, vec3 direction)
+{
+    vec3 tangent = safeNormalize(fragment.tangentLS.xyz, vec3(0.0));
+    precise vec3 bitangent = cross(vertexNormal, tangent) * fragment.tangentLS.w;
+    precise vec3 turned = direction.x * tangent + direction.y * bitangent + direction.z * vertexNormal;
+    return turned;
+}
+
+// A texture's vector along tangent and bitangent, whose own transform turns it against the texture that they follow.
+// `turn` is as MaterialConstants has it.
+vec2 turnedTexel(vec2 texel, vec3 turn)
+{
+    precise float across = texel.y * turn.z;
+    precise vec2 turned = vec2(turn.x * texel.x - turn.y * across, turn.y * texel.x + turn.x * across);
+    return turned;
+}
+
+vec3 tangentSpaceNormal(Fragment fragment, vec3 vertexNormal, vec3 texel, float scale, vec3 turn)
+{
+    precise vec3 mapped = texel * 2.0 - 1.0;
+    precise vec2 scaled = mapped.xy * scale;
+    vec3 direction = vec3(turnedTexel(scaled, turn), mapped.z);
+    return safeNormalize(fromTangentSpace(fragment, vertexNormal, direction), vertexNormal);
+}
+#endif
+
+vec3 materialNormal(Fragment fragment, vec3 texel)
+{
+    vec3 vertexNormal = safeNormalize(fragment.normalLS, vec3(0.0, 0.0, 1.0));
+    vec3 normal = vertexNormal;
+#if HAS_NORMAL_TEXTURE
+    if (materialFlag(MATERIAL_FLAG_NORMAL_MAP)) {
+        if (materialFlag(MATERIAL_FLAG_OBJECT_SPACE_NORMAL)) {
+#if HAS_OBJECT_SPACE_NORMALS
+            precise vec3 mapped = texel * 2.0 - 1.0;
+            precise vec3 turned = fragment.normalFromObject * mapped;
+            normal = safeNormalize(turned, vertexNormal);
+#endif
+        } else {
+#if HAS_TANGENT_SPACE_NORMALS
+            normal = tangentSpaceNormal(fragment, vertexNormal, texel, material.microsurface.w, vec3(1.0, 0.0, 1.0));
+#endif
+        }
+    }
+#endif
+    return facing(fragment, normal);
+}
+
+#if VIEW == VIEW_NORMAL_OBJECT
+// The lit normal in the object's own space, 0 where the node flattens what it points along: normals go to lighting space by
+// the cofactor matrix times the sign of the determinant, which the transposed matrix takes back up to a factor > 0.
+vec3 objectNormal(Fragment fragment, vec3 normal)
+{
+    mat3 m = fragment.objectFromNormal;
+    vec3 back = m * normal;
+    vec3 largest = max(max(abs(m[0]), abs(m[1])), abs(m[2]));
+    float rounding = 1e-6 * max(max(largest.x, largest.y), largest.z);
+    return dot(back, back) > rounding * rounding ? safeNormalize(back, vec3(0.0)) : vec3(0.0);
+}
+#endif

@@ -1,0 +1,91 @@
+// What only some materials have beside normal, roughness and colours: an anisotropic lobe, a coat, a sheen.
+#pragma once
+#include "lib/material/material_frame.glsl"
+#include "lib/maths/octahedral.glsl"
+#include "lib/surface/surface.glsl"
+
+#if HAS_TANGENT_FRAME
+// `direction` lies in tangent space, of any length.
+vec3 surfaceTangent(Fragment fragment, vec3 normalLS, vec2 direction)
+{
+    vec3 vertexNormal = safeNormalize(fragment.normalLS, vec3(0.0, 0.0, 1.0));
+    vec3 turned = fromTangentSpace(fragment, vertexNormal, vec3(direction, 0.0));
+    precise vec3 across = turned - normalLS * dot(normalLS, turned);
+    // Along the normal only rounding would be left of it.
+    vec3 tangent = safeNormalize(dot(across, across) > 1e-8 * dot(turned, turned) ? across : vec3(0.0), anyPerpendicular(normalLS));
+    return tangent;
+}
+
+// Source: KHR_materials_anisotropy.
+void setAnisotropy(Fragment fragment, inout Surface surface)
+{
+    vec4 texel = vec4(1.0);
+#if HAS_ANISOTROPY_TEXTURE
+    texel = sampleSlot(anisotropyTexture, TEXTURE_SLOT_ANISOTROPY, fragment);
+#endif
+    vec2 direction = vec2(1.0, 0.0);
+    surface.alphaBitangent = surface.alpha;
+#if HAS_MICROFACET_ANISOTROPIC
+    if (surface.model == MODEL_MICROFACET_ANISOTROPIC) {
+        precise float alpha = max(material.anisotropy.x * texel.r, ALPHA_MIN);
+        surface.alphaBitangent = alpha;
+    }
+#endif
+#if HAS_ANISOTROPY
+    if (surface.model == MODEL_METALLIC_ROUGHNESS) {
+        if (materialFlag(MATERIAL_FLAG_ANISOTROPY_TEXTURE)) {
+            precise vec2 mapped = texel.rg * 2.0 - 1.0;
+            // A texel of 8 bits cannot say 0; less than its step has no direction.
+            if (dot(mapped, mapped) > 1e-4) direction = mapped;
+        }
+        precise float strength = material.anisotropy.x * texel.b;
+        precise float along = surface.alpha + (1.0 - surface.alpha) * (strength * strength);
+        surface.alpha = along;
+    }
+#endif
+    surface.tangentLS = surfaceTangent(fragment, surface.normalLS, turnedTexel(direction, material.anisotropy.yzw));
+}
+#endif
+
+#if HAS_CLEARCOAT
+// Source: KHR_materials_clearcoat. Without a map of its own the coat is as smooth as the mesh, whatever lies below it.
+void setClearcoat(Fragment fragment, inout Surface surface)
+{
+    precise float factor = material.clearcoat.x;
+    precise float roughness = material.clearcoat.y;
+    vec3 normalLS = safeNormalize(fragment.normalLS, vec3(0.0, 0.0, 1.0));
+#if HAS_CLEARCOAT_TEXTURE
+    factor *= sampleSlot(clearcoatTexture, TEXTURE_SLOT_CLEARCOAT, fragment).r;
+#endif
+#if HAS_CLEARCOAT_ROUGHNESS_TEXTURE
+    roughness *= sampleSlot(clearcoatRoughnessTexture, TEXTURE_SLOT_CLEARCOAT_ROUGHNESS, fragment).g;
+#endif
+#if HAS_CLEARCOAT_NORMAL_TEXTURE
+    vec3 texel = sampleSlot(clearcoatNormalTexture, TEXTURE_SLOT_CLEARCOAT_NORMAL, fragment).rgb;
+    if (materialFlag(MATERIAL_FLAG_CLEARCOAT_NORMAL_MAP))
+        normalLS = tangentSpaceNormal(fragment, normalLS, texel, material.clearcoat.z, material.clearcoatTurn.xyz);
+#endif
+    surface.coatNormalCode = encodeOctahedral(facing(fragment, normalLS));
+    surface.coatFactor = surface.model == MODEL_METALLIC_ROUGHNESS ? factor : 0.0;
+    precise float alpha = max(roughness * roughness, ALPHA_MIN);
+    surface.coatAlpha = alpha;
+}
+#endif
+
+#if HAS_SHEEN
+// Source: KHR_materials_sheen.
+void setSheen(Fragment fragment, inout Surface surface)
+{
+    precise vec3 color = material.sheen.rgb;
+    precise float roughness = material.sheen.a;
+#if HAS_SHEEN_COLOR_TEXTURE
+    color *= sampleSlot(sheenColorTexture, TEXTURE_SLOT_SHEEN_COLOR, fragment).rgb;
+#endif
+#if HAS_SHEEN_ROUGHNESS_TEXTURE
+    roughness *= sampleSlot(sheenRoughnessTexture, TEXTURE_SLOT_SHEEN_ROUGHNESS, fragment).a;
+#endif
+    surface.sheenColor = surface.model == MODEL_METALLIC_ROUGHNESS ? color : vec3(0.0);
+    precise float alpha = max(roughness * roughness, ALPHA_MIN);
+    surface.sheenAlpha = alpha;
+}
+#endif

@@ -1,0 +1,28 @@
+// The values of a surface whose pixels hold only the number of their material: those that it was rasterised with, by the same
+// functions from the same constants.
+#pragma once
+#define MATERIAL_FROM_TABLE 1
+#include "lib/material/material.glsl"
+
+// MATERIAL_TEXELS a material, in its order. As integers, since some of them are, and those that are floats keep their bits.
+layout(binding = TEXTURE_UNIT_MATERIALS) uniform usamplerBuffer materialTable;
+
+vec4 tabledConstants(int number, int texel)
+{
+    return uintBitsToFloat(texelFetch(materialTable, number * MATERIAL_TEXELS + texel));
+}
+
+void setTabledValues(int number, inout Surface surface)
+{
+    material.baseColor = tabledConstants(number, 0);
+    material.emissive = tabledConstants(number, 1);
+    material.microsurface = tabledConstants(number, 2);
+    material.specular = tabledConstants(number, 3);
+    material.dielectric = tabledConstants(number, 4);
+    material.anisotropy = tabledConstants(number, 5);
+    material.clearcoat = tabledConstants(number, 6);
+    material.sheen = tabledConstants(number, 7);
+    material.kind = texelFetch(materialTable, number * MATERIAL_TEXELS + 8);
+    Fragment fragment = plainFragment();
+    setMaterialValues(fragment, materialBaseColor(fragment), surface);
+}

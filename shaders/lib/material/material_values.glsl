@@ -1,0 +1,130 @@
+// A material's constants and textures at a fragment. Every value is factor x texel; an empty slot samples white, and factor x
+// 1 is the factor to the last bit. Textures are fetched outside any branch on per-pixel values, with implicit derivatives, by
+// the same call in every pass: explicit gradients would give other texels.
+#pragma once
+#include "shared/slots.h"
+#include "shared/material.h"
+#include "shared/views.h"
+#include "lib/material/texture_filter.glsl"
+
+#if MATERIAL_FROM_TABLE
+MaterialConstants material; // lib/material/material_table.glsl reads it
+#else
+layout(std140, binding = UNIFORM_MATERIAL) uniform MaterialBlock
+{
+    MaterialConstants material;
+};
+#endif
+
+layout(binding = TEXTURE_SLOT_BASE_COLOR) uniform sampler2D baseColorTexture;
+layout(binding = TEXTURE_SLOT_NORMAL) uniform sampler2D normalTexture;
+layout(binding = TEXTURE_SLOT_METALLIC_ROUGHNESS) uniform sampler2D metallicRoughnessTexture;
+layout(binding = TEXTURE_SLOT_EMISSIVE) uniform sampler2D emissiveTexture;
+layout(binding = TEXTURE_SLOT_SPECULAR_FACTOR) uniform sampler2D specularFactorTexture;
+layout(binding = TEXTURE_SLOT_SPECULAR_COLOR) uniform sampler2D specularColorTexture;
+layout(binding = TEXTURE_SLOT_IOR) uniform sampler2D iorTexture;
+layout(binding = TEXTURE_SLOT_ANISOTROPY) uniform sampler2D anisotropyTexture;
+layout(binding = TEXTURE_SLOT_CLEARCOAT) uniform sampler2D clearcoatTexture;
+layout(binding = TEXTURE_SLOT_CLEARCOAT_ROUGHNESS) uniform sampler2D clearcoatRoughnessTexture;
+layout(binding = TEXTURE_SLOT_CLEARCOAT_NORMAL) uniform sampler2D clearcoatNormalTexture;
+layout(binding = TEXTURE_SLOT_SHEEN_COLOR) uniform sampler2D sheenColorTexture;
+layout(binding = TEXTURE_SLOT_SHEEN_ROUGHNESS) uniform sampler2D sheenRoughnessTexture;
+
+// What the rasteriser interpolates over a triangle.
+struct Fragment {
+    vec3 normalLS;      // not unit
+    vec4 tangentLS;     // xyz not unit, w handedness with the node's mirroring
+    TexCoord texCoord[2];
+#if FILTER_EXACT && HAS_MIXED_FILTERS
+    dmat2 texCoordChange[2]; // to the next pixel: a column to the right, a column up
+#endif
+    vec4 color;
+    mat3 normalFromObject; // cofactor matrix of the node, with its mirroring
+    bool frontFacing;
+#if VIEW == VIEW_NORMAL_OBJECT
+    mat3 objectFromNormal; // transposed LS-from-object: takes normals back, up to their length
+#endif
+};
+
+// Where nothing is interpolated.
+Fragment plainFragment()
+{
+    Fragment fragment;
+    fragment.normalLS = vec3(0.0, 0.0, 1.0);
+    fragment.tangentLS = vec4(0.0);
+    fragment.texCoord[0] = TexCoord(0.0);
+    fragment.texCoord[1] = TexCoord(0.0);
+#if FILTER_EXACT && HAS_MIXED_FILTERS
+    fragment.texCoordChange[0] = dmat2(0.0);
+    fragment.texCoordChange[1] = dmat2(0.0);
+#endif
+    fragment.color = vec4(1.0);
+    fragment.normalFromObject = mat3(1.0);
+    fragment.frontFacing = true;
+#if VIEW == VIEW_NORMAL_OBJECT
+    fragment.objectFromNormal = mat3(1.0);
+#endif
+    return fragment;
+}
+
+TexCoord slotCoordinate(Fragment fragment, int slot)
+{
+    vec4 row0 = material.uvRow0[slot];
+    vec4 row1 = material.uvRow1[slot];
+    TexCoord uv = fragment.texCoord[0];
+#if HAS_TEXCOORD1
+    if (row0.w > 0.5) uv = fragment.texCoord[1];
+#endif
+#if HAS_TEXTURE_TRANSFORM
+    precise TexCoord moved = TexCoord(row0.x * uv.x + row0.y * uv.y + row0.z, row1.x * uv.x + row1.y * uv.y + row1.z);
+    uv = moved;
+#endif
+    return uv;
+}
+
+// Whether the slot's sampler takes single texels here.
+bool slotTakesNearest(sampler2D image, int slot, Fragment fragment, int modes)
+{
+#if FILTER_EXACT && HAS_MIXED_FILTERS
+    dmat2 change = fragment.texCoordChange[0];
+#if HAS_TEXCOORD1
+    if (material.uvRow0[slot].w > 0.5) change = fragment.texCoordChange[1];
+#endif
+#if HAS_TEXTURE_TRANSFORM
+    dmat2 moved = dmat2(material.uvRow0[slot].x, material.uvRow1[slot].x, material.uvRow0[slot].y, material.uvRow1[slot].y);
+    change = moved * change;
+#endif
+    return takesNearest(image, change, modes);
+#else
+    return (modes & TEXTURE_MODE_MAGNIFIES_NEAREST) != 0;
+#endif
+}
+
+vec4 sampleSlot(sampler2D image, int slot, Fragment fragment)
+{
+    int modes = int(material.uvRow1[slot].w);
+    return sampleFiltered(image, slotCoordinate(fragment, slot), modes, slotTakesNearest(image, slot, fragment, modes));
+}
+
+// rgb colour, a opacity.
+vec4 materialBaseColor(Fragment fragment)
+{
+    precise vec4 color = material.baseColor;
+#if HAS_BASE_COLOR_TEXTURE
+    color *= sampleSlot(baseColorTexture, TEXTURE_SLOT_BASE_COLOR, fragment);
+#endif
+#if HAS_VERTEX_COLOR
+    color *= fragment.color;
+#endif
+    return color;
+}
+
+// True where an alpha-masked material has a hole.
+bool materialCutOut(vec4 baseColor)
+{
+#if HAS_ALPHA_MASK
+    return (material.kind.y & MATERIAL_FLAG_ALPHA_MASK) != 0u && baseColor.a < material.emissive.a;
+#else
+    return false;
+#endif
+}

@@ -1,0 +1,34 @@
+// Which samples an alpha-masked material covers. One function for the prepass and for shading, so that both keep the
+// same.
+// Source: B. Golus 2017, "Anti-aliased Alpha Test: The Esoteric Alpha To Coverage".
+#pragma once
+#include "lib/material/material.glsl"
+
+#if HAS_ALPHA_MASK && SAMPLES > 1
+// Alpha is sharpened around the cutoff until its edge is one pixel wide, whatever the texture's magnification; then it
+// is the share of the pixel that is covered, rounded to whole samples. The lowest bits are set, rather than leaving their
+// choice to the driver's alpha-to-coverage. To be called in uniform control flow, because of the derivative.
+int maskedSamples(vec4 baseColor)
+{
+    precise float cutoff = material.emissive.a;
+    precise float above = baseColor.a - cutoff;
+    precise float width = fwidth(baseColor.a);
+    precise float share = width > 0.0 ? clamp(above / width + 0.5, 0.0, 1.0) : (above >= 0.0 ? 1.0 : 0.0);
+    precise float samples = floor(share * float(SAMPLES) + 0.5);
+    bool whole = (material.kind.y & MATERIAL_FLAG_ALPHA_MASK) == 0u || cutoff <= 0.0;
+    return whole ? ~0 : (1 << int(samples)) - 1;
+}
+
+// True where nothing of the fragment is left; else gl_SampleMask holds what is.
+bool coversNothing(vec4 baseColor)
+{
+    int samples = maskedSamples(baseColor);
+    gl_SampleMask[0] = samples;
+    return samples == 0;
+}
+#else
+bool coversNothing(vec4 baseColor)
+{
+    return materialCutOut(baseColor);
+}
+#endif

@@ -1,0 +1,92 @@
+// The fragment side of rasterised geometry: what geometry.vert interpolates, gathered for lib/material/material.glsl.
+#pragma once
+#include "lib/surface/camera.glsl"
+#include "lib/material/material.glsl"
+#if FILTER_EXACT
+#include "lib/surface/triangle.glsl"
+#endif
+
+#if !DEPTH_ONLY
+#if !FILTER_EXACT
+layout(location = 0) in vec3 normalLS;
+#endif
+#if HAS_TANGENTS
+layout(location = 1) in vec4 tangentLS;
+#endif
+#if HAS_OBJECT_SPACE_NORMALS
+layout(location = 5) flat in vec3 normalFromObject0;
+layout(location = 6) flat in vec3 normalFromObject1;
+layout(location = 7) flat in vec3 normalFromObject2;
+#endif
+#if VIEW == VIEW_NORMAL_OBJECT
+#if FILTER_EXACT
+#define OBJECT_ROWS 20 // passes/triangle.geom hands on more than a vertex may
+#else
+#define OBJECT_ROWS 11
+#endif
+layout(location = OBJECT_ROWS) flat in vec3 objectRow0;
+layout(location = OBJECT_ROWS + 1) flat in vec3 objectRow1;
+layout(location = OBJECT_ROWS + 2) flat in vec3 objectRow2;
+#endif
+#endif
+#if HAS_TEXTURES && !FILTER_EXACT
+layout(location = 2) in vec2 texCoord0;
+#if HAS_TEXCOORD1
+layout(location = 3) in vec2 texCoord1;
+#endif
+#endif
+#if HAS_VERTEX_COLOR
+layout(location = 4) in vec4 vertexColor;
+layout(location = 8) flat in float largestColor; // 0 without vertex colours
+#endif
+
+Fragment rasterisedFragment()
+{
+    Fragment fragment = plainFragment();
+#if FILTER_EXACT
+    dvec3 weights = triangleWeights(gl_FragCoord.xy);
+#endif
+#if !DEPTH_ONLY
+#if FILTER_EXACT
+    fragment.normalLS = triangleNormal(weights);
+#else
+    fragment.normalLS = normalLS;
+#endif
+#if HAS_TANGENTS
+    fragment.tangentLS = tangentLS;
+#endif
+#if HAS_OBJECT_SPACE_NORMALS
+    // The vertex stage has the rows of the matrix.
+    fragment.normalFromObject = transpose(mat3(normalFromObject0, normalFromObject1, normalFromObject2));
+#endif
+#if VIEW == VIEW_NORMAL_OBJECT
+    fragment.objectFromNormal = mat3(objectRow0, objectRow1, objectRow2) * mat3(view.worldFromLS);
+#endif
+#endif
+#if HAS_TEXTURES && FILTER_EXACT
+    dvec4 texCoord = triangleTexCoord(weights);
+    fragment.texCoord[0] = texCoord.xy;
+    fragment.texCoord[1] = texCoord.zw;
+#if HAS_MIXED_FILTERS
+    dvec4 texCoordDx = triangleTexCoord(triangleWeightsChange(gl_FragCoord.xy, weights, dvec3(view.rayDxLS.xyz)));
+    dvec4 texCoordDy = triangleTexCoord(triangleWeightsChange(gl_FragCoord.xy, weights, dvec3(view.rayDyLS.xyz)));
+    fragment.texCoordChange[0] = dmat2(texCoordDx.xy, texCoordDy.xy);
+    fragment.texCoordChange[1] = dmat2(texCoordDx.zw, texCoordDy.zw);
+#endif
+#elif HAS_TEXTURES
+    fragment.texCoord[0] = texCoord0;
+#if HAS_TEXCOORD1
+    fragment.texCoord[1] = texCoord1;
+#endif
+#endif
+#if HAS_VERTEX_COLOR
+    if (largestColor != 0.0) fragment.color = vertexColor;
+#if SAMPLES > 1
+    // A pixel's centre may lie outside the triangle, where colours go on beyond those of the vertices. Not
+    // `centroid`, whose point may depend on what the depth test leaves, and so on whether there was a prepass.
+    fragment.color = clamp(fragment.color, 0.0, max(largestColor, 1.0));
+#endif
+#endif
+    fragment.frontFacing = gl_FrontFacing;
+    return fragment;
+}

@@ -1,0 +1,172 @@
+// The microfacet terms, each in the form that keeps its digits in fp32 (stated and bounded in docs/numerics.md).
+// Everything is `precise`, so that no compiler contracts one technique's copy differently from another's.
+#pragma once
+#include "lib/maths/math.glsl"
+
+// GGX distribution of normals. Source: Walter 2007, "Microfacet Models for Refraction through Rough Surfaces", eq. 33,
+// rewritten as alpha^2 / (pi t^2) with t = alpha^2 (n.h)^2 + |n x h|^2: 1 - (n.h)^2 would cancel near the peak.
+float distributionGgx(float alpha, vec3 n, vec3 h)
+{
+    precise float cosine = dot(n, h);
+    if (!(cosine > 0.0)) return 0.0;
+    precise vec3 across = cross(n, h);
+    precise float alpha2 = alpha * alpha;
+    precise float t = alpha2 * (cosine * cosine) + dot(across, across);
+    precise float d = alpha2 / (kPi * (t * t));
+    return d;
+}
+
+// The same with alpha x along the unit tangent and alpha y along the bitangent. Source: Burley 2012, "Physically-Based
+// Shading at Disney", appendix B.1; Heitz 2014, eq. 84. The components of h across n are taken from n x h, which has the
+// digits that t.h and b.h would lose near the peak, so that equal alphas give distributionGgx to rounding.
+float distributionGgxAnisotropic(vec2 alpha, vec3 n, vec3 tangent, vec3 h)
+{
+    precise float cosine = dot(n, h);
+    if (!(cosine > 0.0)) return 0.0;
+    precise vec3 across = cross(n, h);
+    precise vec2 slope = vec2(dot(across, cross(n, tangent)), dot(across, tangent)) / alpha;
+    precise float t = cosine * cosine + dot(slope, slope);
+    precise float d = 1.0 / (kPi * (alpha.x * alpha.y) * (t * t));
+    return d;
+}
+
+// sqrt(alpha^2 + (1 - alpha^2) c^2), the length that Smith's masking compares with the cosine c.
+float smithLength(float alpha, float cosine)
+{
+    precise float alpha2 = alpha * alpha;
+    precise float q = sqrt(alpha2 + (1.0 - alpha2) * (cosine * cosine));
+    return q;
+}
+
+// The same for a direction whose alpha is that along its own projection on the surface: its components t and b along tangent
+// and bitangent give alpha^2 (1 - c^2) = (alpha x t)^2 + (alpha y b)^2, without a division. Source: Heitz 2014, eq. 80.
+float smithLengthAnisotropic(vec2 alpha, vec3 n, vec3 tangent, vec3 direction)
+{
+    precise float cosine = dot(n, direction);
+    precise vec2 stretched = alpha * vec2(dot(tangent, direction), dot(cross(n, tangent), direction));
+    precise float q = sqrt(cosine * cosine + dot(stretched, stretched));
+    return q;
+}
+
+// alpha along the projection of the microfacet normal h, which Walter's masking takes for the anisotropic lobe. Where h = n
+// no direction is distinguished, and the mean of the squares stands for all.
+float alphaAlong(vec2 alpha, vec3 n, vec3 tangent, vec3 h)
+{
+    // An angle of 1e-15 is far below the rounding of h, and its square still far above the least number of fp32.
+    const float kNoDirection = 1e-30;
+    precise vec3 across = cross(n, h);
+    precise vec2 parts = vec2(dot(across, cross(n, tangent)), dot(across, tangent));
+    precise float length2 = dot(parts, parts);
+    precise vec2 share = length2 > kNoDirection ? (parts * parts) / length2 : vec2(0.5);
+    precise float along = sqrt(dot(alpha * alpha, share));
+    return along;
+}
+
+// G / (4 n.l n.v) for separable Smith masking, G = G1(l) G1(v), from the lengths of both directions. Source: Walter 2007, eq. 23
+// and 34; the cosines of G1's numerator cancel against the denominator, so grazing directions divide by nothing small. Needs
+// both cosines > 0.
+float visibilitySeparableOfLengths(float cosineLight, float lengthLight, float cosineView, float lengthView)
+{
+    precise float v = 1.0 / ((cosineLight + lengthLight) * (cosineView + lengthView));
+    return v;
+}
+
+// The same of one alpha.
+float visibilitySeparable(float alpha, float cosineLight, float cosineView)
+{
+    return visibilitySeparableOfLengths(cosineLight, smithLength(alpha, cosineLight), cosineView, smithLength(alpha, cosineView));
+}
+
+// G / (4 n.l n.v) where G1 depends on the angle to the half vector instead of the normal, as one well-known course handout has
+// it. Gains energy at grazing angles. Nothing cancels the cosines here; n.v is held to 1e-6 as in the handout, n.l to a value
+// that only keeps D G / (4 n.l n.v) finite. cosineHalf is l.h = v.h.
+float visibilityHalfVector(float alpha, float cosineLight, float cosineView, float cosineHalf)
+{
+    if (!(cosineHalf > 0.0)) return 0.0;
+    precise float g1 = 2.0 * cosineHalf / (cosineHalf + smithLength(alpha, cosineHalf));
+    precise float v = g1 * g1 / (4.0 * max(cosineLight, 1e-20) * max(cosineView, 1e-6));
+    return v;
+}
+
+// As visibilitySeparableOfLengths, for height-correlated Smith masking. Source: Heitz 2014, "Understanding the
+// Masking-Shadowing Function in Microfacet-Based BRDFs", eq. 99. Needs both cosines > 0.
+float visibilityCorrelatedOfLengths(float cosineLight, float lengthLight, float cosineView, float lengthView)
+{
+    precise float v = 0.5 / (cosineLight * lengthView + cosineView * lengthLight);
+    return v;
+}
+
+// The same of one alpha.
+float visibilityCorrelated(float alpha, float cosineLight, float cosineView)
+{
+    return visibilityCorrelatedOfLengths(cosineLight, smithLength(alpha, cosineLight), cosineView, smithLength(alpha, cosineView));
+}
+
+// What x * x loses to rounding, exactly. Source: Dekker 1971, "A Floating-Point Technique for Extending the Available Precision"
+// (with Veltkamp's splitting: 4097 = 2^12 + 1). No fma(), which drivers may round twice.
+float squareRemainder(float x, float square)
+{
+    precise float t = 4097.0 * x;
+    precise float high = t - (t - x);
+    precise float low = x - high;
+    precise float remainder = ((high * high - square) + 2.0 * high * low) + low * low;
+    return remainder;
+}
+
+// Fresnel reflectance of a smooth dielectric for unpolarised light; ior is n2/n1, cosine the one between light and half
+// vector. Source: Cook and Torrance 1982; g - c is taken as (ior - 1)(ior + 1) / (g + c), which keeps its digits near ior = 1.
+// Into a thinner medium g^2 = c^2 + ior^2 - 1 cancels at the critical angle, and F falls there like the root of it.
+float fresnelDielectric(float ior, float cosine)
+{
+    precise float c = abs(cosine);
+    precise float contrast = (ior - 1.0) * (ior + 1.0);
+    if (contrast == 0.0) return 0.0;
+    precise float c2 = c * c;
+    precise float g2 = contrast + c2;
+    if (ior < 1.0) {
+        precise float ior2 = ior * ior;
+        // Near the critical angle the larger is at least a half, so both differences are exact.
+        precise float rounded = (max(c2, ior2) - 1.0) + min(c2, ior2);
+        g2 = rounded + (squareRemainder(c, c2) + squareRemainder(ior, ior2));
+    }
+    if (g2 < 0.0) return 1.0; // total internal reflection
+    precise float sum = sqrt(g2) + c;
+    precise float difference = contrast / sum;
+    precise float a = difference / sum;
+    precise float b = (c * sum - 1.0) / (c * difference + 1.0);
+    precise float f = 0.5 * (a * a) * (1.0 + b * b);
+    return f;
+}
+
+// Schlick's approximation between f0 and f90. Source: Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering".
+vec3 fresnelSchlick(vec3 f0, float f90, float cosine)
+{
+    precise float m = clamp(1.0 - cosine, 0.0, 1.0);
+    precise float m2 = m * m;
+    precise float m5 = m2 * m2 * m;
+    precise vec3 f = f0 + (vec3(f90) - f0) * m5;
+    return f;
+}
+
+// x^exponent for x in 0..1, of which 1 - x^2 is known with more digits than x: ln x = -atanh(r) with r = (1 - x^2)/(1 + x^2),
+// whose series needs five terms where x is near 1 (the next one is below 1e-9 of the sum). 0^0 = 1.
+float powerNearOne(float x, float oneMinusX2, float exponent)
+{
+    if (!(exponent > 0.0)) return 1.0;
+    if (!(x > 0.0)) return 0.0;
+    precise float r = oneMinusX2 / (2.0 - oneMinusX2);
+    precise float r2 = r * r;
+    precise float series = r * (1.0 + r2 * (1.0 / 3.0 + r2 * (1.0 / 5.0 + r2 * (1.0 / 7.0 + r2 * (1.0 / 9.0)))));
+    precise float logarithm = oneMinusX2 < 0.25 ? -series : log(x);
+    precise float power = exp(exponent * logarithm);
+    return power;
+}
+
+// The highlight of Blinn-Phong, (n.h)^p. Source: Blinn 1977, "Models of Light Reflection for Computer Synthesized Pictures".
+// 1 - (n.h)^2 = |n x h|^2 keeps the digits that a large exponent multiplies.
+float blinnPhongLobe(float exponent, vec3 n, vec3 h)
+{
+    precise vec3 across = cross(n, h);
+    precise float lobe = powerNearOne(clamp(dot(n, h), 0.0, 1.0), min(dot(across, across), 1.0), exponent);
+    return lobe;
+}

@@ -1,0 +1,68 @@
+// The constants of the view and of its lights, and the one way from a pixel and its depth back to a position. Forward uses it with gl_FragCoord.z
+// and deferred with the stored depth, which are the same number, so both light the very same point.
+#pragma once
+#include "shared/slots.h"
+#include "shared/frame.h"
+#include "lib/surface/surface.glsl"
+
+layout(std140, binding = UNIFORM_VIEW) uniform ViewBlock
+{
+    ViewConstants view;
+};
+
+layout(std140, binding = UNIFORM_LIGHTING) uniform LightingBlock
+{
+    LightingConstants lighting;
+};
+
+// The depth-buffer value at a distance ahead of the origin of lighting space.
+float depthFromAhead(float ahead)
+{
+    vec4 lens = view.aheadFromDepth;
+    precise float depth = (lens.x - ahead * lens.z) / (ahead * lens.w - lens.y);
+    return depth;
+}
+
+// Where a pixel looks, across the view axis: a metre ahead of the eye, or (orthographic) anywhere.
+vec3 acrossOfPixel(vec2 pixel)
+{
+    precise vec2 place = pixel - view.lensVS.zw;
+    precise vec3 across = place.x * view.rayDxLS.xyz + place.y * view.rayDyLS.xyz;
+    return across;
+}
+
+// How wide the rays of pixels lie apart s metres ahead of the origin of lighting space: x + y s times as wide as lensVS.
+vec2 raySpread()
+{
+    return view.forwardLS.w != 0.0 ? vec2(1.0, 0.0) : vec2(view.eyeLS.w, 1.0);
+}
+
+Viewpoint viewpointFromDepth(vec2 pixel, float depth)
+{
+#if HAS_ORTHOGRAPHIC_CAMERA
+    precise float ahead = (view.aheadFromDepth.x + view.aheadFromDepth.y * depth)
+                          / (view.aheadFromDepth.z + view.aheadFromDepth.w * depth);
+#else
+    // w is 1 for a perspective camera.
+    precise float ahead = (view.aheadFromDepth.x + view.aheadFromDepth.y * depth) / (view.aheadFromDepth.z + depth);
+#endif
+    precise vec3 across = acrossOfPixel(pixel);
+    Viewpoint viewpoint;
+    viewpoint.depth = depth;
+#if HAS_ORTHOGRAPHIC_CAMERA
+    if (view.forwardLS.w != 0.0) {
+        precise vec3 position = across + ahead * view.forwardLS.xyz;
+        viewpoint.positionLS = position;
+        viewpoint.toViewerLS = -view.forwardLS.xyz;
+        return viewpoint;
+    }
+#endif
+    // Along the axis and across it: each part is as small as what is seen, however far the eye is.
+    precise float viewDepth = view.eyeLS.w + ahead;
+    precise vec3 position = viewDepth * across + ahead * view.forwardLS.xyz;
+    precise vec3 ray = across + view.forwardLS.xyz;
+    precise vec3 toViewer = -ray / sqrt(dot(ray, ray));
+    viewpoint.positionLS = position;
+    viewpoint.toViewerLS = toViewer;
+    return viewpoint;
+}

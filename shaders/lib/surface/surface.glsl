@@ -1,0 +1,103 @@
+// What lighting needs to know of a point, wherever it comes from: a material as it is rasterised (lib/material/material.glsl) or the
+// G-buffer (lib/gbuffer/gbuffer.glsl).
+#pragma once
+#include "shared/models.h"
+
+struct Surface {
+    uint model;        // MODEL_*
+#if !HAS_VARYING_MATERIALS
+    uint material;     // its number
+#endif
+    vec3 albedo;       // k_d, or base colour of metallic_roughness
+    float metallic;    // metallic_roughness
+    float alpha;       // GGX alpha, >= ALPHA_MIN; along the tangent where the lobe is anisotropic
+    vec3 specular;     // k_s, or the dielectric F0 of metallic_roughness
+    float iorOrF90;    // index of refraction of microfacet, or the dielectric F90 of metallic_roughness
+    vec3 emission;     // radiance that needs no light; all of single_color
+    vec3 normalLS;     // unit
+    vec3 normalTexel;  // the normal map's texel as stored, for the view that shows it; for the view
+                       // normal_object that normal, coded the same way
+    float parameter;   // the one of models that HAS_PARAMETER, >= 0: p of blinn_phong
+#if HAS_MASKING_OPTIONS
+    uint masking;      // MASKING_*, of the microfacet models
+#endif
+#if HAS_TANGENT_FRAME
+    vec3 tangentLS;         // unit, at right angles to the normal; its sign does not matter
+    float alphaBitangent;   // GGX alpha along cross(normal, tangent), >= ALPHA_MIN
+#endif
+#if HAS_CLEARCOAT
+    vec2 coatNormalCode; // the coat's own normal in lighting space, octahedral: what is stored is what all techniques decode
+    float coatFactor;    // 0 where there is no coat
+    float coatAlpha;     // GGX alpha, >= ALPHA_MIN
+#endif
+#if HAS_SHEEN
+    vec3 sheenColor;   // black where there is no sheen
+    float sheenAlpha;  // alpha of the Charlie distribution, >= ALPHA_MIN
+#endif
+};
+
+// Where the surface is; never stored, always rebuilt from depth (lib/surface/camera.glsl).
+struct Viewpoint {
+    vec3 positionLS;
+    vec3 toViewerLS; // unit
+    float depth;     // as stored in the depth buffer
+};
+
+// The model of every surface when the scene uses only one, else the stored one.
+uint surfaceModel(uint stored)
+{
+#ifdef SOLE_MODEL
+    return SOLE_MODEL;
+#else
+    return stored;
+#endif
+}
+
+// The dielectric lobe where no material changes it: k_s = 1, or F0 of ior 1.5.
+vec3 defaultSpecular(uint model)
+{
+#if HAS_METALLIC_ROUGHNESS
+    if (model == MODEL_METALLIC_ROUGHNESS) return vec3(0.04);
+#endif
+    return vec3(1.0);
+}
+
+// Members that only some scenes have, where nothing sets them.
+void setNeutralLobes(inout Surface surface)
+{
+#if !HAS_VARYING_MATERIALS
+    surface.material = 0u;
+#endif
+#if HAS_MASKING_OPTIONS
+    surface.masking = MASKING_WALTER;
+#endif
+#if HAS_TANGENT_FRAME
+    surface.tangentLS = vec3(1.0, 0.0, 0.0);
+    surface.alphaBitangent = 1.0;
+#endif
+#if HAS_CLEARCOAT
+    surface.coatNormalCode = vec2(0.0);
+    surface.coatFactor = 0.0;
+    surface.coatAlpha = 1.0;
+#endif
+#if HAS_SHEEN
+    surface.sheenColor = vec3(0.0);
+    surface.sheenAlpha = 1.0;
+#endif
+}
+
+// A surface of which nothing is known; the first model is unlit.
+void setNeutralValues(inout Surface surface)
+{
+    surface.specular = vec3(0.0);
+    surface.model = surfaceModel(0u);
+    surface.albedo = vec3(0.0);
+    surface.metallic = 0.0;
+    surface.alpha = 1.0;
+    surface.iorOrF90 = 1.0;
+    surface.parameter = 0.0;
+    surface.emission = vec3(0.0);
+    surface.normalLS = vec3(0.0, 0.0, 1.0);
+    surface.normalTexel = vec3(0.5, 0.5, 1.0);
+    setNeutralLobes(surface);
+}
