@@ -39,7 +39,7 @@ std::vector<graph::Plan::Choice> sampleChoices(const frame::FrameSettings& setti
     if (settings.samples == 1) return {};
     if (!settings.samplesGiven) {
         return {{"samples", std::to_string(settings.samples),
-                 "asked for; a driver may give more, and none was asked (--measure does)"}};
+                 "asked for; a driver may give more, and none was asked: measuring does"}};
     }
     return {{"samples", std::to_string(*settings.samplesGiven),
              fmt::format("{} asked for; {}", settings.samples,

@@ -39,9 +39,8 @@ void build(const frame::FrameSpec& spec, const frame::DrawnView& drawn, const Li
         upload(context, out.lists.cells, "light cells", graph::Format::Rg32Uint, lists.cells);
         upload(context, out.lists.entries, "light entries", graph::Format::R32Uint, lists.entries);
     } catch (const std::bad_alloc&) {
-        throw InputError(
-            "light lists do not fit into this machine's memory: larger tiles (--tile 64), another --culling "
-            "method or fewer lights (--lights N) need less");
+        throw InputError("light lists do not fit into this machine's memory: larger tiles, another culling method or "
+                         "fewer lights need less");
     }
 }
 

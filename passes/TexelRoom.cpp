@@ -12,8 +12,7 @@ namespace tessera::passes {
 const gpu::Buffer& makeRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
                             std::size_t texels, graph::Format format) {
     const std::size_t most = gpu::Context::current()->capabilities().maxTextureBufferTexels;
-    const char* const remedy =
-        "larger tiles (--tile 64), another --culling method or fewer lights (--lights N) need less";
+    const char* const remedy = "larger tiles, another culling method or fewer lights need less";
     if (texels > most)
         throw InputError(
             fmt::format("{} would take {} entries, and this driver reads {}: {}", what, texels, most, remedy));
@@ -30,8 +29,8 @@ void requireWritable(const char* what, std::size_t bytes) {
     const std::size_t most = gpu::Context::current()->capabilities().maxStorageBlockBytes;
     if (bytes <= most) return;
     throw InputError(
-        fmt::format("{} would take {} bytes, and shaders of this driver write {} at most: build them on the CPU "
-                    "(--cull-on cpu), or use larger tiles (--tile 64) or fewer lights (--lights N)",
+        fmt::format("{} would take {} bytes, and shaders of this driver write {} at most: build them on the CPU, "
+                    "or use larger tiles or fewer lights",
                     what, bytes, most));
 }
 

@@ -8,10 +8,9 @@ namespace tessera::scenes {
 
 void requireDrawableLights(const std::string& source, std::size_t lights) {
     if (lights <= std::size_t(kMostLights)) return;
-    throw InputError(
-        fmt::format("{}: has {} lights, and {} at most can be drawn; keep fewer of them, or the first N with "
-                    "--lights N",
-                    source, lights, kMostLights));
+    throw InputError(fmt::format("{}: has {} lights, and {} at most can be drawn; keep fewer of them, or load "
+                                 "only the first",
+                                 source, lights, kMostLights));
 }
 
 std::string limitProblem(const Camera& camera) {

@@ -74,7 +74,7 @@ LoadLedger::LoadLedger(std::optional<std::uint64_t> limitBytes)
 void LoadLedger::refuse(const std::string& who, std::uint64_t bytes) const {
     throw InputError(
         fmt::format("{}: asks for {} of memory, and {} are in use; a load may take {}; use a smaller file, or raise "
-                    "--memory-limit",
+                    "the memory limit",
                     who, sizeText(bytes), sizeText(usedBytes_), sizeText(limitBytes_)));
 }
 

@@ -107,8 +107,8 @@ TEST_F(LightRounds, oneLightMoreThanASceneCanHaveIsAlwaysRefused) {
         ADD_FAILURE() << "it was drawn";
     } catch (const InputError& error) {
         EXPECT_STREQ(error.what(),
-                     "wall: has 262145 lights, and 262144 at most can be drawn; keep fewer of them, or the "
-                     "first N with --lights N");
+                     "wall: has 262145 lights, and 262144 at most can be drawn; keep fewer of them, or load "
+                     "only the first");
     }
 }
 

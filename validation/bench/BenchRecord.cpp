@@ -145,8 +145,7 @@ std::string unfinishedText(const BenchRecord& record) {
     for (const BenchGroup& group : record.groups) measured += group.results.size();
     return fmt::format(
         "Unfinished: {} of {} points are measured, and what is said here may change with the others. {}.", measured,
-        record.plannedPoints,
-        record.shards > 1 ? "Finish every shard and put them together with --merge" : "Go on with --resume");
+        record.plannedPoints, record.shards > 1 ? "Finish every shard and merge them" : "Resume it");
 }
 
 std::string benchTable(const BenchRecord& record) {

@@ -165,7 +165,7 @@ bool isOfShard(std::size_t group, int shard, int shards) {
 GroupState stateIn(const std::string& folder, std::size_t group) {
     const fs::path file = groupFile(folder, group);
     if (!fs::exists(file)) return {};
-    return readJson(file, "remove it and go on with --resume", [](const Json& json) {
+    return readJson(file, "remove it and resume the bench", [](const Json& json) {
         GroupState state;
         state.isDone = json.at("done").get<bool>();
         state.roundsMs = json.at("roundsMs").get<std::vector<std::vector<double>>>();
@@ -186,8 +186,8 @@ bool isFinished(const std::string& folder, const Json& run) {
 
 void requireNoUnfinishedRun(const std::string& folder) {
     if (!fs::exists(runFile(folder)) || isFinished(folder, runIn(folder))) return;
-    throw InputError(fmt::format("{} holds an unfinished bench; go on with --resume, or remove {}", folder,
-                                 partsOf(folder).string()));
+    throw InputError(
+        fmt::format("{} holds an unfinished bench; resume it, or remove {}", folder, partsOf(folder).string()));
 }
 
 /// An empty folder for a new run. What it replaces is finished, and bench.json still has it.
@@ -279,8 +279,7 @@ FolderLock mergeRuns(const std::vector<std::string>& shards, const std::string& 
         std::string& place = folderOf.at(std::size_t(run.at("shard").at(0).get<int>() - 1));
         if (!place.empty())
             throw InputError(fmt::format("{} and {} are both shard {}; leave one out", place, shard, shardText(run)));
-        if (!isFinished(shard, run))
-            throw InputError(fmt::format("{} is not finished; go on with --resume there first", shard));
+        if (!isFinished(shard, run)) throw InputError(fmt::format("{} is not finished; resume it first", shard));
         place = shard;
     }
     for (std::size_t i = 0; i < folderOf.size(); ++i) {

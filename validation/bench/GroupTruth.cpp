@@ -25,15 +25,15 @@ BenchTruth chooseTruth(std::optional<BenchTruth> asked, const frame::FrameSettin
     why.clear();
     if (asked) {
         if (*asked == BenchTruth::Reference) requireReferenceTakes(settings);
-        if (*asked == BenchTruth::Forward) why = "--against forward asks for it";
+        if (*asked == BenchTruth::Forward) why = "forward was asked for";
         return *asked;
     }
     const double pairs = double(settings.sizePixels.x) * double(settings.sizePixels.y) * double(lights);
     if (settings.view != frame::View::Final)
         why = "the reference renders the view final only";
     else if (pairs > kAffordablePairs)
-        why = fmt::format("the reference would try {:.1e} pairs of a pixel and a light, which takes minutes; --against "
-                          "reference asks for it all the same",
+        why = fmt::format("the reference would try {:.1e} pairs of a pixel and a light, which takes minutes; it "
+                          "does where it is asked for",
                           pairs);
     return why.empty() ? BenchTruth::Reference : BenchTruth::Forward;
 }

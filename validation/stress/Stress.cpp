@@ -133,7 +133,7 @@ std::vector<const StressCase*> stressCasesNamed(const std::string& name) {
         names.push_back(row.name);
     }
     if (found.empty())
-        throw InputError(fmt::format("--case '{}': no case is called that; {}", name, suggestNames(name, names)));
+        throw InputError(fmt::format("case '{}': no case is called that; {}", name, suggestNames(name, names)));
     return found;
 }
 

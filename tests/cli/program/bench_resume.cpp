@@ -96,7 +96,7 @@ TEST_F(BenchRuns, whatCannotBePutTogetherIsAlwaysRefusedInOneLine) {
     expectError(2, command("one", {"--shard", "x"}), {"--shard x"});
     expectError(2, command("one", {"--against", "referense"}), {"did you mean 'reference'"});
     std::filesystem::remove(folder_.path() / "one/parts/group-000.json");
-    expectError(2, command("one"), {"unfinished", "--resume"});
+    expectError(2, command("one"), {"unfinished", "resume it"});
     folder_.write("one/parts/group-000.json", "{}");
     expectError(2, command("one", {"--shard", "1/2", "--resume"}), {"group-000.json", "is damaged", "remove it"});
 }

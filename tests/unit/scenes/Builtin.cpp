@@ -143,7 +143,7 @@ TEST_P(BuiltinScenes, areAlwaysChargedBeforeTheyAreMadeAndForNoLessThanTheyTake)
     EXPECT_EQ(
         test::inputErrorOf([&] { loadScene(std::string(builtin.name), options); }),
         fmt::format("{}: asks for {} of memory, and 0 B are in use; a load may take {}; use a smaller file, or raise "
-                    "--memory-limit",
+                    "the memory limit",
                     builtin.name, sizeText(builtin.bytes), sizeText(builtin.bytes - 1)));
 }
 

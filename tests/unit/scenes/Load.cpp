@@ -69,8 +69,8 @@ TEST(LoadScene, aFileOfMoreLightsThanCanBeDrawnIsAlwaysRefusedUnlessItsFirstAreA
     folder.write("many.json", text + "]}");
     const std::string file = (folder.path() / "many.json").string();
     EXPECT_EQ(complaint(file), file +
-                                   ": has 262145 lights, and 262144 at most can be drawn; keep fewer of them, or the "
-                                   "first N with --lights N");
+                                   ": has 262145 lights, and 262144 at most can be drawn; keep fewer of them, or load "
+                                   "only the first");
     LoadOptions options;
     options.lights = kMostLights;
     EXPECT_EQ(loadScene(file, options).lights.size(), std::size_t(kMostLights));
