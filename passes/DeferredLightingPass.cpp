@@ -35,13 +35,13 @@ shader::ProgramDesc DeferredLightingPass::program(const frame::FrameSpec& spec, 
     } else {
         defines.emplace_back("LIGHT_CURSOR", "LIGHT_CURSOR_NONE");
     }
-    if (!inCompute(spec)) {
-        return frame::frameProgram(spec, "deferred_lighting", "passes/fullscreen.vert", "passes/deferred_lighting.frag",
-                                   defines);
-    }
+    constexpr const char* kSource = "passes/deferred_lighting.glsl";
+    defines.emplace_back("LIGHTING_IN_COMPUTE", inCompute(spec) ? "1" : "0");
+    if (!inCompute(spec))
+        return frame::frameProgram(spec, "deferred_lighting", "passes/fullscreen.vert", kSource, defines);
     defines.emplace_back("LIGHTING_GROUP_SIDE", std::to_string(kGroupSidePixels));
     shader::ProgramDesc program = frame::frameProgram(spec, "deferred_lighting", "", "", defines);
-    program.compute = "passes/deferred_lighting.comp";
+    program.compute = kSource;
     return program;
 }
 

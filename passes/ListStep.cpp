@@ -57,15 +57,16 @@ ListStep::ListStep(const frame::FrameSpec& spec, std::string name, Lanes lanes) 
     const int itemLanes = compute && lanes != Lanes::One ? many : 1;
     const int group = itemLanes > 1 ? itemLanes : spec.settings.softwareBackend ? kSoftwareGroup : kGroup;
     itemsAGroup_ = compute ? std::uint32_t(group / itemLanes) : 0;
-    const std::string path = "passes/light_" + name;
+    const std::string path = "passes/light_" + name + ".glsl";
     program_.name = "light_" + std::move(name);
     if (compute) {
-        program_.compute = path + ".comp";
+        program_.compute = path;
     } else {
         program_.vertex = "passes/fullscreen.vert";
-        program_.fragment = path + ".frag";
+        program_.fragment = path;
     }
-    program_.defines = {{"LIST_METHOD", methodDefine(spec.culling.method)},
+    program_.defines = {{"LIST_IN_COMPUTE", compute ? "1" : "0"},
+                        {"LIST_METHOD", methodDefine(spec.culling.method)},
                         {"LIST_IN_ROUNDS", spec.lights > lightsARound(spec) ? "1" : "0"},
                         {"LIST_THREADS", std::to_string(itemLanes)},
                         {"LIST_LIGHTS_A_ROW", std::to_string(kLightsARow)},

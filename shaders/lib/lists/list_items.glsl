@@ -1,7 +1,8 @@
-// How the steps that build light lists are spread over a GPU. One source serves compute and fragment shaders: an item (a
-// tile, a light, a depth bin) belongs to the LIST_THREADS lanes of a workgroup together, or to a lane of its own, or to a
-// fragment of a target that has a pixel an item. Items lie in a grid, since a grid's side may not exceed 65535. Where a group
-// holds several items, the last of a row may lie beyond the grid; rows never do (passes/ListStep.cpp).
+// How the steps that build light lists are spread over a GPU. One source serves compute shaders (LIST_IN_COMPUTE 1) and
+// fragment shaders: an item (a tile, a light, a depth bin) belongs to the LIST_THREADS lanes of a workgroup together, or to a
+// lane of its own, or to a fragment of a target that has a pixel an item. Items lie in a grid, since a grid's side may not
+// exceed 65535. Where a group holds several items, the last of a row may lie beyond the grid; rows never do
+// (passes/ListStep.cpp).
 #pragma once
 
 // What lists are built by (culling::Method).

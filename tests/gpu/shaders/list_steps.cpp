@@ -25,16 +25,17 @@ protected:
     }
 
     static shader::Defines definesOf(const char* method, int lanes) {
-        return {{"LIST_METHOD", method},       {"LIST_IN_ROUNDS", "0"},    {"LIST_THREADS", std::to_string(lanes)},
-                {"LIST_GROUP", "64"},          {"LIST_LIGHTS_A_ROW", "1"}, {"SAMPLES", "1"},
-                {"HAS_TRANSPARENT_LAYER", "0"}};
+        return {{"LIST_IN_COMPUTE", "1"}, {"LIST_METHOD", method},
+                {"LIST_IN_ROUNDS", "0"},  {"LIST_THREADS", std::to_string(lanes)},
+                {"LIST_GROUP", "64"},     {"LIST_LIGHTS_A_ROW", "1"},
+                {"SAMPLES", "1"},         {"HAS_TRANSPARENT_LAYER", "0"}};
     }
 
     /// What the scan writes as its totals, of a row of tiles; 64 lanes share them.
     glm::uvec4 scanned(const char* method, std::uint32_t storage, const gpu::Buffer& ofTiles, std::size_t tiles) {
         lighting_.tileGrid = {std::uint32_t(tiles), 1u, 0u, 0u};
         const gpu::Program& program =
-            bench_.programs().get({"scan", "", "", "passes/light_scan.comp", definesOf(method, 64)});
+            bench_.programs().get({"scan", "", "", "passes/light_scan.glsl", definesOf(method, 64)});
         const gpu::Buffer view = gpu::Buffer::of("view", std::span(&view_, 1));
         const gpu::Buffer lighting = gpu::Buffer::of("lighting", std::span(&lighting_, 1));
         const gpu::Buffer totals("totals", sizeof(glm::uvec4), gpu::BufferUse::Readback);

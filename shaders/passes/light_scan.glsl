@@ -1,5 +1,4 @@
-// Compute entry of lib/lists/list_scan.glsl.
-#define LIST_IN_COMPUTE 1
+// Entry of lib/lists/list_scan.glsl.
 #include "lib/lists/list_scan.glsl"
 
 void main()

@@ -1,5 +1,4 @@
-// Fragment entry of lib/lists/list_depths.glsl.
-#define LIST_IN_COMPUTE 0
+// Entry of lib/lists/list_depths.glsl.
 #include "lib/lists/list_depths.glsl"
 
 void main()

@@ -1,5 +1,4 @@
-// Compute entry of lib/lists/list_masks.glsl.
-#define LIST_IN_COMPUTE 1
+// Entry of lib/lists/list_masks.glsl.
 #include "lib/lists/list_masks.glsl"
 
 void main()

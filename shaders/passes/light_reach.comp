@@ -1,8 +1,0 @@
-// Compute entry of lib/lists/list_reach.glsl.
-#define LIST_IN_COMPUTE 1
-#include "lib/lists/list_reach.glsl"
-
-void main()
-{
-    findReach(listItem());
-}

@@ -1,8 +1,0 @@
-// Compute entry of lib/lists/list_fill.glsl, before its rounds.
-#define LIST_IN_COMPUTE 1
-#include "lib/lists/list_fill.glsl"
-
-void main()
-{
-    sizeTile(listItem());
-}

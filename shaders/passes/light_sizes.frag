@@ -1,8 +1,0 @@
-// Fragment entry of lib/lists/list_fill.glsl, before its rounds.
-#define LIST_IN_COMPUTE 0
-#include "lib/lists/list_fill.glsl"
-
-void main()
-{
-    sizeTile(listItem());
-}
