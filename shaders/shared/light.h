@@ -14,14 +14,6 @@
 #define LIGHT_TEXELS 2
 #define LIGHT_SHAPE_TEXELS 2
 
-// Where a shader reads lights from (lib/light/light_store.glsl).
-#define LIGHT_STORE_TEXEL 0 // what every pass of a frame uses
-#define LIGHT_STORE_UNIFORM 1
-#define LIGHT_STORE_STORAGE 2
-
-// Lights of a uniform block, which stays below the 16 KiB that OpenGL 4.5 guarantees.
-#define LIGHT_UNIFORM_LIGHTS 256
-
 SHARED_BEGIN
 
 // What every kind of light has. Kept apart from what few have, so that twice as many lights fit a cache.

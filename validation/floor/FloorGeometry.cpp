@@ -24,7 +24,7 @@ void fill(std::optional<gpu::Buffer>& buffer, const char* label, const std::vect
 } // namespace
 
 shader::ProgramDesc FloorGeometry::program(const frame::FrameSpec& spec) {
-    return frame::frameProgram(spec, "constant", "passes/geometry.vert", "passes/constant.frag", {{"DEPTH_ONLY", "1"}});
+    return frame::frameProgram(spec, "constant", "passes/geometry.vert", "bench/constant.frag", {{"DEPTH_ONLY", "1"}});
 }
 
 FloorGeometry::FloorGeometry(engine::Renderer& renderer, const frame::FrameSettings& settings)

@@ -28,7 +28,7 @@ std::span<const LightStoreInfo> lightStores(const gpu::Capabilities& gl) {
 }
 
 shader::ProgramDesc FloorLighting::program(const frame::FrameSpec& spec, const LightStoreInfo& store) {
-    return frame::frameProgram(spec, "floor_lighting", "passes/fullscreen.vert", "passes/floor_lighting.frag",
+    return frame::frameProgram(spec, "floor_lighting", "passes/fullscreen.vert", "bench/floor_lighting.frag",
                                {{"LIGHT_CURSOR", "LIGHT_CURSOR_ALL"}, {"LIGHT_STORE", std::string(store.define)}});
 }
 

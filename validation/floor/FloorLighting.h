@@ -6,13 +6,14 @@
 #include "engine/Renderer.h"
 #include "renderer/gpu/Capabilities.h"
 #include "renderer/gpu/Framebuffer.h"
+#include "shaders/bench/floor.h"
 #include "shaders/shared/light.h"
 
 namespace tessera::validation {
 
 /// Where the floor's shader reads lights from.
 struct LightStoreInfo {
-    int store; ///< LIGHT_STORE_* of shaders/shared/light.h
+    int store; ///< LIGHT_STORE_* of shaders/bench/floor.h
     std::string_view name;
     std::string_view define;
 };

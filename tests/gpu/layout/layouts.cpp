@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "renderer/frame/LightBuffers.h"
+#include "shaders/bench/floor.h"
 #include "shaders/shared/display.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/light.h"

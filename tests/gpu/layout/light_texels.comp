@@ -1,4 +1,5 @@
 // The light texels as they are fetched, four vec4 a light as C++ has them.
+#include "bench/light_store.glsl"
 #include "lib/light/light.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,6 +1,6 @@
 // Stores the measured floor's surface in a G-buffer, where the product's passes find it.
 #define GBUFFER_WRITE
-#include "lib/floor_surface.glsl"
+#include "bench/floor_surface.glsl"
 #include "lib/gbuffer/gbuffer.glsl"
 
 void main()

@@ -4,7 +4,7 @@
 #include "lib/surface/camera.glsl"
 #include "lib/maths/octahedral.glsl"
 #include "lib/surface/surface.glsl"
-#include "shared/floor.h"
+#include "bench/floor.h"
 
 // 0 to 1; neighbouring pixels differ.
 float floorShare(vec2 pixel, vec2 steps)
@@ -13,7 +13,7 @@ float floorShare(vec2 pixel, vec2 steps)
     return share;
 }
 
-// Between the two distances of shared/floor.h.
+// Between the two distances of bench/floor.h.
 float floorDepth(vec2 pixel)
 {
     precise float viewDepth = FLOOR_NEAREST_METRES

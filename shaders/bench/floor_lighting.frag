@@ -1,5 +1,6 @@
 // Lights a surface that is computed, not stored, at every pixel, by the product's own loop over all lights.
-#include "lib/floor_surface.glsl"
+#include "bench/light_store.glsl"
+#include "bench/floor_surface.glsl"
 #include "lib/lighting/lighting.glsl"
 
 layout(location = 0) out vec4 radiance;

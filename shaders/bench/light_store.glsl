@@ -1,0 +1,42 @@
+// The stores of lights that the measured floor compares with the product's (validation/floor/FloorLighting.h); to be included
+// before what reads lights. LIGHT_STORE_TEXEL leaves the product's own.
+#pragma once
+#include "bench/floor.h"
+#include "shared/slots.h"
+#include "shared/light.h"
+
+#if LIGHT_STORE != LIGHT_STORE_TEXEL
+#define HAS_OTHER_LIGHT_STORE
+
+#if LIGHT_STORE == LIGHT_STORE_UNIFORM
+layout(std140, binding = UNIFORM_LIGHTS) uniform LightBlock
+{
+    vec4 lightTexels[LIGHT_UNIFORM_LIGHTS * LIGHT_TEXELS];
+};
+layout(std140, binding = UNIFORM_LIGHT_SHAPES) uniform LightShapeBlock
+{
+    vec4 lightShapeTexels[LIGHT_UNIFORM_LIGHTS * LIGHT_SHAPE_TEXELS];
+};
+#else
+layout(std430, binding = STORAGE_LIGHTS) readonly buffer LightBlock
+{
+    vec4 lightTexels[];
+};
+layout(std430, binding = STORAGE_LIGHT_SHAPES) readonly buffer LightShapeBlock
+{
+    vec4 lightShapeTexels[];
+};
+#endif
+
+// A texel of a light, in the order of LightTexels.
+vec4 lightTexel(int index, int texel)
+{
+    return lightTexels[index * LIGHT_TEXELS + texel];
+}
+
+// The same in the order of LightShapeTexels.
+vec4 lightShapeTexel(int index, int texel)
+{
+    return lightShapeTexels[index * LIGHT_SHAPE_TEXELS + texel];
+}
+#endif
