@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "engine/Renderer.h"
-#include "validation/culling/CellLights.h"
+#include "validation/culling/VisitedLights.h"
 
 /// The judge of light culling: which lights each pixel needs, found by trying all of them, and which it visited. In
 /// double precision, from the plain scene and the depth buffer, by tests of its own; with the culling code it shares

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
+
+#include "validation/figures/Percentile.h"
 
 namespace tessera::validation {
-
 namespace {
 
 using culling::Method;
@@ -65,6 +67,22 @@ void VisitedLights::ofMasks(const VisitedCell& visited, std::vector<int>& sceneL
         for (; bits != 0; bits &= bits - 1)
             sceneLights.push_back(drawn_.sceneIndex.at(word * 32 + std::uint32_t(std::countr_zero(bits))));
     }
+}
+
+CellFigures CellLights::figures() const {
+    std::vector<Cell> once = cells_;
+    std::ranges::sort(once);
+    const auto repeated = std::ranges::unique(once);
+    once.erase(repeated.begin(), repeated.end());
+    if (once.empty()) return {};
+    std::vector<double> lights;
+    for (const Cell& cell : once) lights.push_back(double(cell.lights));
+    CellFigures figures;
+    figures.count = lights.size();
+    figures.mean = std::accumulate(lights.begin(), lights.end(), 0.0) / double(lights.size());
+    figures.max = std::uint64_t(std::ranges::max(lights));
+    figures.p99 = std::uint64_t(nearestRank(lights, 990));
+    return figures;
 }
 
 } // namespace tessera::validation

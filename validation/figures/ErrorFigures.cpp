@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -10,6 +11,7 @@
 
 #include "base/Error.h"
 #include "engine/Rendering.h"
+#include "validation/figures/Flip.h"
 #include "validation/figures/Percentile.h"
 #include "validation/figures/PixelErrors.h"
 
@@ -154,6 +156,32 @@ void requireSameSize(const Picture& a, const std::string& nameA, const Picture& 
     if (a.width == b.width && a.height == b.height) return;
     throw InputError(fmt::format("{} is {}x{} but {} is {}x{}; pictures that are compared must be of one size", nameA,
                                  a.width, a.height, nameB, b.width, b.height));
+}
+
+DisplayFigures displayFigures(const DisplayImage& a, const DisplayImage& b, std::span<const PixelState> state) {
+    assert(state.size() == a.pixelCount() && state.size() == b.pixelCount());
+    DisplayFigures figures;
+    const auto compared = double(std::count(state.begin(), state.end(), PixelState::Compared));
+    if (compared == 0.0) {
+        figures.psnrReason = figures.flipReason = "no pixel could be compared";
+        return figures;
+    }
+    const std::vector<float> errors = flipErrors(a, b);
+    double squares = 0.0, flip = 0.0;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        if (state[i] != PixelState::Compared) continue;
+        flip += double(errors[i]);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double difference = double(a.rgb[3 * i + c]) - double(b.rgb[3 * i + c]);
+            squares += difference * difference;
+        }
+    }
+    figures.flip = flip / compared;
+    if (squares == 0.0)
+        figures.psnrReason = "infinite: the pictures are identical on an 8 bit display";
+    else
+        figures.psnr = 10.0 * std::log10(255.0 * 255.0 / (squares / (3.0 * compared)));
+    return figures;
 }
 
 } // namespace tessera::validation

@@ -12,10 +12,13 @@
 #include "shaders/shared/heat.h"
 #include "validation/figures/Flip.h"
 #include "validation/figures/PixelErrors.h"
-#include "validation/pictures/ErrorScale.h"
 
 namespace tessera::validation {
 namespace {
+
+std::uint8_t codeValue(float value) {
+    return std::uint8_t(std::lround(255.0f * value));
+}
 
 constexpr int kTextScale = 2;
 constexpr int kTextHeight = kTextScale * kGlyphHeight;
@@ -131,6 +134,16 @@ void drawSwatches(DisplayImage& image, const HeatMapLayout& layout, std::span<co
 }
 
 } // namespace
+
+Rgb8 scaleColour(double position) {
+    const glm::vec3 color = shared::heatColor(float(position));
+    return {codeValue(color.r), codeValue(color.g), codeValue(color.b)};
+}
+
+double scalePosition(double rel) {
+    if (!(rel > 0.0)) return 0.0;
+    return std::clamp(1.0 - std::log10(rel) / double(kErrorScaleLowExponent), 0.0, 1.0);
+}
 
 HeatMapLayout heatMapLayout(int pictureWidth, int pictureHeight) {
     HeatMapLayout layout;

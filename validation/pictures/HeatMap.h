@@ -4,8 +4,20 @@
 #include <string>
 
 #include "base/Picture.h"
+#include "validation/pictures/BitmapFont.h"
 
 namespace tessera::validation {
+
+constexpr int kErrorScaleLowExponent = -7; ///< the scale runs from 1e-7 (half an fp32 step) to 1, in decades
+constexpr Rgb8 kColourNotFinite = {255, 0, 255};
+constexpr Rgb8 kColourUncovered = {56, 56, 58};
+constexpr Rgb8 kColourExcluded = {78, 106, 124};
+
+/// Colour of the scale at 0..1 (clamped): heatColor() of shaders/shared/heat.h.
+Rgb8 scaleColour(double position);
+
+/// Where a relative error lies on the scale: 0 at 1e-7 and below (0 included), 1 at 1 and above, logarithmic between.
+double scalePosition(double rel);
 
 /// Where the picture sits in a heat map, which is enlarged by whole numbers when it is small.
 struct HeatMapLayout {
@@ -20,7 +32,7 @@ HeatMapLayout heatMapLayout(int pictureWidth, int pictureHeight);
 
 /// The relative error (PixelErrors::rel) of picture a against the truth b as colours on a logarithmic scale from 1e-7
 /// to 1, with the title above and the legend below. Pixels that are not finite are magenta, uncovered ones dark grey,
-/// excluded ones grey-blue (ErrorScale.h). `excluded` is as errorFigures() takes it.
+/// excluded ones grey-blue. `excluded` is as errorFigures() takes it.
 DisplayImage errorHeatMap(const Picture& a, const Picture& b, const std::string& title,
                           std::span<const std::uint8_t> excluded = {});
 

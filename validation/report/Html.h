@@ -12,6 +12,9 @@ namespace tessera::validation {
 /// that HTML does not allow, become U+FFFD.
 std::string escapedHtml(std::string_view text);
 
+/// Base64 with padding (RFC 4648 section 4), on one line.
+std::string base64(std::span<const std::uint8_t> bytes);
+
 /// The image as a PNG data URI. Throws std::runtime_error when it cannot be encoded.
 std::string dataUri(const DisplayImage& image);
 /// The bytes of a PNG as a data URI.

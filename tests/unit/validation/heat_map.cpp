@@ -9,7 +9,6 @@
 #include "tests/unit/validation/Samples.h"
 #include "validation/figures/Flip.h"
 #include "validation/figures/PixelErrors.h"
-#include "validation/pictures/ErrorScale.h"
 
 namespace tessera::validation {
 namespace {

@@ -10,7 +10,6 @@
 #include "validation/bench/BenchHtml.h"
 #include "validation/bench/BenchTables.h"
 #include "validation/pictures/HeatMap.h"
-#include "validation/report/Base64.h"
 #include "validation/report/FigureHtml.h"
 #include "validation/report/Html.h"
 

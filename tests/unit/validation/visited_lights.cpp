@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "validation/culling/CellLights.h"
 #include "validation/culling/LightOracle.h"
 #include "validation/culling/LightTable.h"
 
