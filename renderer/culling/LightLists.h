@@ -15,7 +15,7 @@ namespace tessera::culling {
 /// two when a pixel shades several surfaces (transparent ones, samples). Reverse-Z; a pixel whose nearest depth is 0
 /// has no surface.
 struct DepthPicture {
-    std::span<const float> depth; ///< one a pixel; or two: the nearest, and the farthest negated
+    std::span<const float> depth; ///< one per pixel; or two: the nearest, and the farthest negated
     bool isRange = false;
 };
 

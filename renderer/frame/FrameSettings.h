@@ -65,8 +65,8 @@ struct FrameSettings {
     std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
     culling::Settings culling;
     std::optional<LightingStage> lightOn; ///< of the techniques that light in a pass of its own; open: by backend
-    bool softwareBackend = true;          ///< what open choices are made for; the renderer says what it runs on
-    bool display = true; ///< false: nobody looks at display code values, and the display pass is left out
+    bool softwareBackend = true;          ///< decides the choices left open; the renderer sets it to its own backend
+    bool display = true; ///< false: display code values are not needed, and the display pass is left out
     float exposureEV = 0.0f;
     ToneMap toneMap = ToneMap::None;
 
