@@ -19,7 +19,7 @@ int maskedSamples(vec4 baseColor)
     return whole ? ~0 : (1 << int(samples)) - 1;
 }
 
-// True where nothing of the fragment is left; else gl_SampleMask holds what is.
+// True if the fragment covers no sample; otherwise gl_SampleMask holds the covered samples.
 bool coversNothing(vec4 baseColor)
 {
     int samples = maskedSamples(baseColor);

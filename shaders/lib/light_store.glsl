@@ -1,5 +1,5 @@
-// Where the texels of lights are read from. Every pass of a frame reads a buffer texture; the other stores are what the
-// measured floor compares it with (validation/FloorLighting.h).
+// Where the texels of lights are read from. Every pass of a frame reads a buffer texture; the measured lower bound
+// compares it with the other stores (validation/FloorLighting.h).
 #pragma once
 #include "shared/slots.h"
 #include "shared/light.h"

@@ -1,5 +1,6 @@
 #pragma once
-// The measured floor's surface (lib/floor_surface.glsl) lies between these distances ahead of its eye, in metres.
+// The surface of the measured lower bound (lib/floor_surface.glsl) lies between these distances ahead of its eye, in
+// metres.
 #include "interop.h"
 
 #define FLOOR_NEAREST_METRES 4.0
