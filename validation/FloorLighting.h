@@ -10,7 +10,7 @@
 
 namespace tessera::validation {
 
-/// Where the floor's shader reads lights from.
+/// Where the bound's shader reads lights from.
 struct LightStoreInfo {
     int store; ///< LIGHT_STORE_* of shaders/shared/light.h
     std::string_view name;

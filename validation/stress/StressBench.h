@@ -40,7 +40,7 @@ private:
     StressEffort effort_;
     std::function<void(double)> progress_;
     shader::ProgramLibrary programs_;
-    float measuredTimes_; ///< what run() multiplies all outputs by
+    float measuredTimes_; ///< factor of run() on all outputs
 };
 
 } // namespace tessera::validation

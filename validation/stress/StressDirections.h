@@ -17,7 +17,7 @@ struct StressDirection {
     /// `alpha` tells how narrow the lobe is that there is to meet.
     void (*place)(StressView& view, double alpha, StressRandom& random);
 };
-/// The first is random; the others are what breaks naive code.
+/// The first is random; the others break naive code.
 std::span<const StressDirection> stressDirections();
 
 /// A random frame with light and viewer placed.
