@@ -16,8 +16,8 @@ struct RenderRequest : recipes::FrameRequest {
 };
 
 /// The command line that asks for this and writes the picture to `output`, to paste into a shell: "tessera render hall
-/// --size 640x360 -o picture.exr". It says only what is neither the program's default nor what the scene itself asks
-/// for.
+/// --size 640x360 -o picture.exr". It names only settings that are neither the program's default nor what the scene
+/// itself asks for.
 std::string renderCommand(const RenderRequest& request, const scenes::Scene& scene, const std::string& output);
 
 } // namespace tessera::viewer

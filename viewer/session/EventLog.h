@@ -7,7 +7,7 @@ namespace tessera::viewer {
 class EventLog {
 public:
     explicit EventLog(bool on) : on_(on) {}
-    /// What has several lines, such as what a shader compiler says, becomes one.
+    /// A text of several lines, such as a shader compiler's log, becomes one line.
     void line(const std::string& text) const;
 
 private:

@@ -19,7 +19,7 @@ struct Look : recipes::FrameRequest {
 /// as it is.
 Look possible(Look look);
 
-/// The look with nothing put aside: what was asked for, whether its technique can do it or not.
+/// The look as requested, with values that its technique does not take.
 Look asked(Look look);
 
 /// What was changed between `before` and `now`, made to `base`: choices of the user outlive a scene that wishes
