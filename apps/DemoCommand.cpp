@@ -124,7 +124,7 @@ validation::Report makeReport(const std::string& source, const Request& request,
     return report;
 }
 
-/// Paths of what the demonstration writes.
+/// Paths of the demonstration's outputs.
 struct DemoFiles {
     fs::path folder;
 

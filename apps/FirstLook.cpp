@@ -10,7 +10,7 @@ namespace {
 /// Tiles and clusters answer input several times sooner than looping over all lights does.
 constexpr recipes::Technique kFirstTechnique = recipes::Technique::ClusteredDeferred;
 
-/// The options, with what is remembered where neither they nor the scene say anything.
+/// The options, with remembered values where neither they nor the scene set one.
 FrameOptions withRemembered(FrameOptions options, const viewer::Preferences& remembered,
                             const scenes::SceneOptions& wish) {
     for (const recipes::Setting& setting : recipes::settingTable()) {

@@ -14,7 +14,7 @@
 #include "scenes/Load.h"
 
 /// What the command line says, and its translation into the library's terms. Every name is looked up in the library's
-/// tables, so an error can list what there is.
+/// tables, so an error can list the valid names.
 namespace tessera::app {
 
 /// Options of the program itself, before or after the command.
@@ -27,7 +27,8 @@ void addGlobalOptions(CLI::App& app, GlobalOptions& options);
 gpu::ContextKind contextKind(const std::string& name);
 std::unique_ptr<gpu::Context> makeContext(const GlobalOptions& options);
 
-/// Options that every command that looks at a frame shares. Unset ones take what the scene asks for, else the default.
+/// The options of a frame, common to all commands that draw or plan one. Unset ones take the scene's value, else the
+/// default.
 struct FrameOptions {
     std::string scene;
     std::map<std::string, std::string, std::less<>> settings; ///< texts, by the settings' keys
