@@ -123,7 +123,7 @@ inline glm::dvec3 blinnPhong(const scenes::Material& m, double nl, double nv, do
     return glm::dvec3(m.baseColor) * nl + glm::dvec3(m.specularColor) * highlight;
 }
 
-/// KHR_materials_clearcoat: what the coat takes from what lies below it.
+/// KHR_materials_clearcoat: the coat's attenuation of the layers below.
 inline double coatShare(const scenes::Material& m, double nv) {
     return double(m.clearcoat) * (0.04 + 0.96 * std::pow(1.0 - std::abs(nv), 5));
 }

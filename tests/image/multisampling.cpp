@@ -32,7 +32,7 @@ protected:
         recipes::Renderer renderer(context(), scene);
         return validation::toPicture(renderer.render(technique, settings));
     }
-    /// Programs are compiled once for a renderer, whatever the size.
+    /// Programs are compiled once per renderer, for all sizes.
     void expectAgreement(recipes::Renderer& renderer, const frame::FrameSettings& settings) {
         validation::CompareRequest request;
         std::vector<validation::LeftOutTechnique> leftOut;

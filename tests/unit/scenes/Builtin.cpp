@@ -91,7 +91,7 @@ void expectCamerasWithinReach(const Scene& scene) {
     }
 }
 
-/// Nothing is stored that no instance refers to, and whatever is textured has the coordinates for it.
+/// Everything stored is used by an instance, and textured meshes have the coordinates for it.
 void expectAllUsed(const Scene& scene) {
     std::vector<bool> meshUsed(scene.meshes.size());
     std::vector<bool> materialUsed(scene.materials.size());
