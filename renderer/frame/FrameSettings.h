@@ -40,10 +40,10 @@ std::span<const LightingSpaceInfo> lightingSpaceTable();
 /// 2^EV must be a number that a picture can be multiplied by: fp32 spans 2^-126 to 2^128.
 inline constexpr float kMostExposureEV = 120.0f; ///< either way
 
-/// Samples of a pixel that can be asked for; a driver may give more.
+/// Valid sample counts per pixel; a driver may use more.
 inline constexpr int kSampleCounts[] = {1, 2, 4};
 
-/// Pixels along a side of a picture that can be asked for.
+/// Largest valid side of a picture, in pixels.
 inline constexpr int kLargestSidePixels = 16384;
 /// The size that a text such as "1280x720" names; nothing where it names none, or one with a side that cannot be.
 std::optional<glm::ivec2> sizeIn(std::string_view text);

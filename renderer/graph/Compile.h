@@ -7,7 +7,7 @@
 
 namespace tessera::graph {
 
-/// What GL must be told before a pass because an earlier one wrote through an image or a storage buffer; a bit set that
+/// The memory barrier before a pass, because an earlier one wrote through an image or a storage buffer; a bit set that
 /// the backend turns into glMemoryBarrier bits (the rule: Barriers.h).
 enum class Barrier : std::uint32_t {
     None = 0,

@@ -68,7 +68,7 @@ private:
     std::uint32_t pass_;
 };
 
-/// Resolves handles and programs while a pass executes. Only what the pass declared may be asked for.
+/// Resolves handles and programs while a pass executes. Only declared handles and programs are available.
 class PassContext {
 public:
     virtual ~PassContext() = default;
@@ -77,7 +77,7 @@ public:
     /// Makes room in a buffer that grows and was created with 0 bytes, once a frame and before anything else is asked
     /// of it. So a buffer that was resolved is never replaced while the frame runs. Its memory may hold more.
     virtual const gpu::Buffer& allocate(BufferHandle handle, std::size_t bytes) const = 0;
-    /// What a buffer holds: the bytes of its description, or those that allocate() was told.
+    /// The size of a buffer in bytes: that of its description, or that of allocate().
     virtual std::size_t bytes(BufferHandle handle) const = 0;
     /// The pass's program of this number, in the order in which it declared them.
     virtual const gpu::Program& program(std::size_t number) const = 0;
