@@ -6,7 +6,7 @@
 
 #if HAS_ALPHA_MASK && SAMPLES > 1
 // Alpha is sharpened around the cutoff until its edge is one pixel wide, whatever the texture's magnification; then it
-// is the share of the pixel that is covered, rounded to whole samples. The lowest bits are set, rather than leaving their
+// is the covered fraction of the pixel, rounded to whole samples. The lowest bits are set, rather than leaving their
 // choice to the driver's alpha-to-coverage. To be called in uniform control flow, because of the derivative.
 int maskedSamples(vec4 baseColor)
 {

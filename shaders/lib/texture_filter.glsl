@@ -5,7 +5,7 @@
 #pragma once
 #include "shared/material.h"
 
-// Texture coordinates; in double, a coordinate of 30 still tells a millionth of a texel.
+// Texture coordinates; in double, a coordinate of 30 still resolves a millionth of a texel.
 #if FILTER_EXACT
 #define TexCoord dvec2
 #else

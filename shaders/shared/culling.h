@@ -8,7 +8,7 @@
 // to count lights and one to list them, get the same answer.
 #include "interop.h"
 
-// Columns of tiles whose lights are told apart by the planes between columns together; their boxes tell the rest.
+// Tile columns that are tested together against the planes between columns; box tests follow.
 #define CULL_BLOCK_COLUMNS 8u
 
 // A spot's angle, and the outer angle it is compared with, are off by 4e-7 in their cosines at most: some roundings of
