@@ -89,7 +89,7 @@ enum class LightAnimationKind : std::uint8_t {
     Keyframes ///< linear between (times, points), clamped at the ends
 };
 
-/// Moves a light's position (point, spot) as a closed function of time, so that any time can be asked for directly.
+/// Moves a light's position (point, spot) as a closed function of time, so that it can be evaluated at any time.
 struct LightAnimation {
     LightAnimationKind kind = LightAnimationKind::Orbit;
     double periodSeconds = 1.0;

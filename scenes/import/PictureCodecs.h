@@ -31,7 +31,7 @@ struct PictureSignature {
 /// what is no picture at all; none of them is ever asked.
 struct PictureFormat {
     std::string_view name;          ///< in messages, and OpenImageIO's
-    PictureSignature signatures[2]; ///< either tells the format; none: its extension does
+    PictureSignature signatures[2]; ///< either identifies the format; none: its extension does
     std::string_view extensions[2]; ///< lower case
     DecodePicture* decode;          ///< null: known by its first bytes and refused by name
     /// Texels that a byte of a file may hold at most: a header that claims more is refused before memory is reserved
