@@ -16,7 +16,7 @@ struct DisplayFigures {
     std::string psnrReason, flipReason;
 };
 
-/// `state` has one entry a pixel. The pictures must be of one size.
+/// `state` has one entry per pixel. The pictures must be of one size.
 DisplayFigures displayFigures(const DisplayImage& a, const DisplayImage& b, std::span<const PixelState> state);
 
 } // namespace tessera::validation

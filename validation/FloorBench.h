@@ -20,7 +20,7 @@ struct FloorFigures {
         double nsPerPairP95 = 0.0; ///< the same, 95th percentile
     };
     double geometryMs = 0.0;   ///< R: all geometry, depth-tested, into one constant target, median over rounds
-    std::vector<Store> stores; ///< r by light store; empty where the scene lights nothing, or it could not be told
+    std::vector<Store> stores; ///< r by light store; empty if the scene lights nothing, or if it could not be measured
     std::string whyNoStores;
     double geometryMsP95 = 0.0;
     int rounds = 0; ///< that the medians are of
@@ -53,7 +53,8 @@ public:
 
     /// The frames to time; they refer to the object.
     std::vector<TimedFrame> frames();
-    /// `timesMs`: one time a round of each of frames(). With fewer than kLeastRounds of them, the others are timed now.
+    /// `timesMs`: one time per round of each of frames(). With fewer than kLeastRounds of them, the others are timed
+    /// now.
     FloorFigures figuresOf(std::vector<std::vector<double>> timesMs);
     /// The same of the times alone.
     FloorFigures figures(std::span<const std::vector<double>> timesMs) const;

@@ -36,8 +36,8 @@ struct FrameTimerOptions {
 };
 
 struct FrameTimes {
-    std::vector<PointTimes> points;            ///< parallel to the points asked for
-    std::vector<std::vector<double>> othersMs; ///< parallel to the other frames asked for, one time a round
+    std::vector<PointTimes> points;            ///< parallel to the requested points
+    std::vector<std::vector<double>> othersMs; ///< parallel to the other requested frames, one time per round
 };
 
 /// Wall times of whole frames in turn (timeInterleaved): of the points, then of `others`.

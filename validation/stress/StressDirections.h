@@ -14,7 +14,7 @@ struct StressView {
 struct StressDirection {
     const char* name; ///< as part of a case's name
     const char* holds;
-    /// `alpha` tells how narrow the lobe is that there is to meet.
+    /// `alpha` is that of the lobe to hit.
     void (*place)(StressView& view, double alpha, StressRandom& random);
 };
 /// The first is random; the others break naive code.
