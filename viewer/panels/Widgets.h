@@ -24,7 +24,7 @@ void row(const char* label);
 /// A list that drops down, in a row of its own. Returns the new choice.
 std::optional<std::size_t> choose(const char* label, std::string_view shown, std::span<const Choice> choices,
                                   std::size_t chosen);
-/// The same of any number of entries, of which only those in view are asked for; each is used up before the next.
+/// The same of any number of entries, of which only visible ones are requested; each is used up before the next.
 std::optional<std::size_t> choose(const char* label, std::string_view shown, std::size_t count,
                                   const std::function<Choice(std::size_t)>& choiceAt, std::size_t chosen);
 

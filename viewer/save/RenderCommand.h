@@ -7,10 +7,10 @@
 
 namespace tessera::viewer {
 
-/// What `tessera render` is asked for: a scene and how it is rendered.
+/// The arguments of `tessera render`: a scene and its frame options.
 struct RenderRequest : recipes::FrameRequest {
     std::string source;        ///< the scene's file or name
-    std::optional<int> lights; ///< that were asked of the load
+    std::optional<int> lights; ///< number requested of the load
     bool defaultLight = true;  ///< the same
     scenes::CameraChange pose; ///< of the camera that the settings choose
 };

@@ -3,7 +3,7 @@
 
 namespace tessera::viewer {
 
-/// What the viewer does, a line an event on stdout, for programs that drive it; silent unless asked for.
+/// The viewer's events, a line each on stdout, for programs that drive it; silent by default.
 class EventLog {
 public:
     explicit EventLog(bool on) : on_(on) {}

@@ -9,7 +9,7 @@ namespace tessera::viewer {
 
 /// How a scene is looked at: the technique and all that a command line can ask of a frame.
 struct Look : recipes::FrameRequest {
-    /// What was asked for and the technique cannot do, until another one can: texts, by the settings' keys.
+    /// Requested values that the technique does not take, kept for another one that does: texts, by the settings' keys.
     std::map<std::string, std::string, std::less<>> aside;
     bool operator==(const Look&) const = default;
 };

@@ -62,7 +62,7 @@ struct State {
 
     bool showsMarkers = false; ///< where lights are
     bool wantsPlan = false;    ///< a panel shows the plan of the active side's frame
-    std::string command;       ///< that renders the picture, where it was asked for
+    std::string command;       ///< that renders the picture, on request
     Timings timings;
 
     Notice notice;
