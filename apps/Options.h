@@ -55,7 +55,7 @@ struct Request : recipes::FrameRequest {
 scenes::Scene loadFor(const FrameOptions& options, std::vector<std::string>* files = nullptr);
 /// What can be read without the scene: a mistake in it is found before a large scene is read for nothing.
 Request resolveWithoutScene(const FrameOptions& options);
-/// What names things of the request's scene, and what the scene wishes where the options say nothing.
+/// Options that name things of the request's scene, and the scene's own options where the command line sets none.
 void resolveForScene(const FrameOptions& options, Request& request);
 /// Places the camera that the options, else the scene choose, and turns the light along it that the scene was given
 /// for want of its own. Throws InputError for what no camera can have.

@@ -11,7 +11,7 @@ namespace tessera::app {
 /// Whether a name given for a file stands for the standard output: "-". What else a command prints is then left out.
 bool isStandardOutput(const std::string& path);
 
-/// Throws std::runtime_error where no file of that name can be written: before work that would be in vain.
+/// Throws std::runtime_error where no file of that name can be written, before the work is done in vain.
 void requireOutput(const std::string& path);
 
 /// The files that a command writes. An output is never a file that the command reads, and two outputs are never one
