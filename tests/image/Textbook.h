@@ -7,8 +7,8 @@
 
 #include "scenes/Scene.h"
 
-/// What a surface sends to the eye, in double precision and in the form the books print it: angles and tangents, no
-/// cancellation-free rewriting, no code shared with the engine.
+/// The radiance that a surface reflects to the eye, in double precision and in the textbooks' form: angles and
+/// tangents, no cancellation-free rewriting, no code shared with the engine.
 namespace tessera::test::textbook {
 
 inline double chi(double x) {
