@@ -142,7 +142,7 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
     comparison.techniques = techniquesOf(options, comparison.against, request.settings, leftOut);
     if (std::holds_alternative<validation::Reference>(comparison.against)) {
         validation::requireReferenceTakes(comparison.settings);
-        // Hardware filtering would hide what is compared; it gets a pair of its own.
+        // Hardware filtering would hide the compared differences; it gets a pair of its own.
         if (!options.frame.said("filter")) comparison.settings.filter = frame::TextureFilter::Exact;
     }
     if (!options.heatMaps.empty()) addHeatMaps(options, validation::pictureNames(request.scene, comparison), outputs);

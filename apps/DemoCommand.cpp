@@ -56,7 +56,7 @@ void joinPacked(CompareResult& result, CompareResult&& packed) {
 struct DemoResult {
     CompareResult comparison;
     std::vector<Technique> techniques;
-    std::optional<validation::BenchRecord> bench; ///< of frames with one sample a pixel
+    std::optional<validation::BenchRecord> bench; ///< of frames with one sample per pixel
     std::vector<double> ms;                       ///< by technique, where there is no bench
     std::string choice;
 };
@@ -124,7 +124,7 @@ validation::Report makeReport(const std::string& source, const Request& request,
     return report;
 }
 
-/// Paths of what the demonstration writes.
+/// Paths of the demonstration's outputs.
 struct DemoFiles {
     fs::path folder;
 
@@ -164,7 +164,7 @@ CompareResult compared(engine::Renderer& renderer, const gpu::Capabilities& gl, 
     packed.techniques = {Technique::Deferred};
     packed.rangeTruncation = false; // measured with the exact layout
     packed.settings.layout = frame::layoutTable()[1].layout;
-    // A G-buffer, and with it a layout to compare, there is only with one sample a pixel.
+    // A G-buffer, and with it a layout to compare, there is only with one sample per pixel.
     const bool comparesPacked = request.settings.samples == 1;
     Progress progress("rendering",
                       validation::stepCount(request.scene, exact) +

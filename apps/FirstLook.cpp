@@ -10,7 +10,7 @@ namespace {
 /// Tiles and clusters answer input several times sooner than looping over all lights does.
 constexpr engine::Technique kFirstTechnique = engine::Technique::ClusteredDeferred;
 
-/// The options, with what is remembered where neither they nor the scene say anything.
+/// The options, with remembered values where neither they nor the scene set one.
 FrameOptions withRemembered(FrameOptions options, const viewer::Preferences& remembered,
                             const scenes::SceneOptions& wish) {
     for (const engine::Setting& setting : engine::settingTable()) {

@@ -5,9 +5,9 @@
 namespace tessera::app {
 
 /// How the viewer looks at a scene to begin with: as the options say, else as the scene wishes, else as it is
-/// remembered, else as the defaults have it. A remembered name that there is no more counts for nothing, and what the
-/// technique cannot do is put aside. `source` is what loadScene() made the scene of. Throws InputError where the scene
-/// lacks what was said, and where it wishes for what there is not.
+/// remembered, else as the defaults have it. A remembered name that no longer exists is ignored, and so are values that
+/// the technique does not take. `source` is what loadScene() made the scene of. Throws InputError if an option names a
+/// thing that the scene lacks, or the scene's own options are invalid.
 viewer::FirstLook firstLook(const FrameOptions& said, const viewer::Preferences& remembered, const scenes::Scene& scene,
                             const std::string& source);
 

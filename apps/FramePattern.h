@@ -9,7 +9,7 @@ class FramePattern {
 public:
     /// Throws InputError when the pattern has no such place, or more than one.
     explicit FramePattern(const std::string& pattern);
-    /// Whether the name of a file has what can hardly be anything but such a place.
+    /// Whether the name of a file has a part that can hardly be anything else.
     static bool hasPlace(const std::filesystem::path& file);
     std::string path(int frame) const;
 

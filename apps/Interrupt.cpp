@@ -20,7 +20,7 @@ void cleanUpAndEnd(int signal) {
 void cleanUpWhenInterrupted() {
     // A file that outgrows its limit fails the write, as a full disk does, instead of ending the program.
     std::signal(SIGXFSZ, SIG_IGN);
-    // Messages that nobody reads must not cost the picture. endAsByClosedPipe() ends who writes the output itself.
+    // A closed stderr must not lose the picture. endAsByClosedPipe() handles a closed stdout.
     std::signal(SIGPIPE, SIG_IGN);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
         struct sigaction old {};

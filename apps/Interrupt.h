@@ -6,7 +6,7 @@ namespace tessera::app {
 /// written whole. The program then ends by that signal, so that a shell sees why.
 void cleanUpWhenInterrupted();
 
-/// Ends the program by SIGPIPE, as a program whose output nobody reads any more does. cleanUpWhenInterrupted() keeps
+/// Ends the program by SIGPIPE, like a program whose output pipe was closed. cleanUpWhenInterrupted() keeps
 /// that signal from ending it elsewhere.
 void endAsByClosedPipe();
 

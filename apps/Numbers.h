@@ -7,8 +7,8 @@
 
 namespace tessera::app {
 
-/// Options that take a number. Their value is read strictly: what is no number, not finite or not whole throws an
-/// InputError that names the option and the value.
+/// Options that take a number. Their value is read strictly: a text that is no number, or a number that is not finite
+/// or not whole, throws an InputError that names the option and the value.
 CLI::Option* addNumber(CLI::App& command, const std::string& flag, std::optional<double>& target,
                        const std::string& help, const std::string& type);
 CLI::Option* addWholeNumber(CLI::App& command, const std::string& flag, std::optional<int>& target,

@@ -71,7 +71,7 @@ void addSettings(CLI::App& command, FrameOptions& options, std::string_view grou
                                               fmt::format("{} [{}]", setting.help, byItself))
             ->type_name(std::string(setting.type))
             ->group(std::string(group));
-        if (setting.key == "time") // beside what else says which lights there are, and where
+        if (setting.key == "time") // beside the other options of lights
             addWholeNumber(command, "--lights", options.lights,
                            "Built-in scenes make this many lights, files keep their first N", "N")
                 ->group(std::string(group));

@@ -14,7 +14,7 @@
 #include "scenes/Load.h"
 
 /// What the command line says, and its translation into the library's terms. Every name is looked up in the library's
-/// tables, so an error can list what there is.
+/// tables, so an error can list the valid names.
 namespace tessera::app {
 
 /// Options of the program itself, before or after the command.
@@ -27,7 +27,8 @@ void addGlobalOptions(CLI::App& app, GlobalOptions& options);
 gpu::ContextKind contextKind(const std::string& name);
 std::unique_ptr<gpu::Context> makeContext(const GlobalOptions& options);
 
-/// Options that every command that looks at a frame shares. Unset ones take what the scene asks for, else the default.
+/// The options of a frame, common to all commands that draw or plan one. Unset ones take the scene's value, else the
+/// default.
 struct FrameOptions {
     std::string scene;
     std::map<std::string, std::string, std::less<>> settings; ///< texts, by the settings' keys
@@ -54,7 +55,7 @@ struct Request : engine::FrameRequest {
 scenes::Scene loadFor(const FrameOptions& options, std::vector<std::string>* files = nullptr);
 /// What can be read without the scene: a mistake in it is found before a large scene is read for nothing.
 Request resolveWithoutScene(const FrameOptions& options);
-/// What names things of the request's scene, and what the scene wishes where the options say nothing.
+/// Options that name things of the request's scene, and the scene's own options where the command line sets none.
 void resolveForScene(const FrameOptions& options, Request& request);
 /// Places the camera that the options, else the scene choose, and turns the light along it that the scene was given
 /// for want of its own. Throws InputError for what no camera can have.

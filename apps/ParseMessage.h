@@ -5,7 +5,7 @@
 
 namespace tessera::app {
 
-/// One line for what the parser objects to: it names the word, the nearest valid ones and where to read more.
+/// One line for an error of the parser: it names the word, the nearest valid ones and where to read more.
 std::string parseMessage(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv);
 
 } // namespace tessera::app

@@ -10,12 +10,12 @@
 
 namespace tessera::app {
 
-/// Where and when a progress bar is drawn; the defaults are what programs want.
+/// Where and when a progress bar is drawn; the defaults suit programs.
 struct ProgressOutput {
     std::FILE* stream = stderr;
     bool isTerminal = streamIsTerminal(stream); ///< nothing at all is written when it is not
     int columns = 0;                            ///< width of the terminal; 0: ask it
-    double delaySeconds = 2.0;                  ///< what is over before then shows no bar
+    double delaySeconds = 2.0;                  ///< shorter work shows no bar
     double intervalSeconds = 0.2;               ///< between two drawings
 
     static bool streamIsTerminal(std::FILE* stream);
@@ -32,7 +32,7 @@ public:
 
     /// Counts finished steps; from any thread.
     void advance(std::size_t steps = 1) { done_ += steps; }
-    /// Removes the bar; what follows on stderr starts on a clean line.
+    /// Removes the bar, so that later output on stderr starts on a clean line.
     void finish();
 
 private:

@@ -90,11 +90,11 @@ void makePictures(const RenderOptions& options, const Outputs& outputs, frame::F
     }
 }
 
-/// Without a context: what a display shows is exposure and sRGB alone.
+/// Without a context: the display picture has exposure and sRGB alone.
 void renderReference(const RenderOptions& options, const Outputs& outputs, const Request& request,
                      const GlobalOptions& global) {
     frame::FrameSettings settings = request.settings;
-    // As compare does; hardware filtering is there for whoever asks for it.
+    // As compare does; hardware filtering is available on request.
     if (!options.frame.said("filter")) settings.filter = frame::TextureFilter::Exact;
     validation::requireReferenceTakes(settings);
     const bool isLinear = extensionOf(options.output) == ".exr";

@@ -42,7 +42,7 @@ Exit codes: 0 good, 1 failure while running or writing, 2 unusable input, 3 a to
 void keepFreedMemory() {
 #ifdef __GLIBC__
     constexpr int kKeptBytes = 256 << 20;
-    constexpr int kOwnMappingBytes = 32 << 20; // what is larger is mapped by itself, and given back
+    constexpr int kOwnMappingBytes = 32 << 20; // larger allocations are mapped by themselves, and returned
     mallopt(M_TRIM_THRESHOLD, kKeptBytes);
     mallopt(M_MMAP_THRESHOLD, kOwnMappingBytes);
 #endif
@@ -77,7 +77,7 @@ int printVersion(const GlobalOptions& options) {
     return kGood;
 }
 
-/// An error is one line, whatever its origin: a shader compiler's log has many.
+/// An error is one line, although some texts, such as a shader compiler's log, have many.
 int fail(const std::string& text, int code) {
     printProblem("error: " + text);
     return code;

@@ -13,7 +13,7 @@ namespace tessera {
 void writeFileAtomically(const std::string& path, std::string_view text);
 void writeFileAtomically(const std::string& path, std::span<const std::uint8_t> bytes);
 
-/// Throws what writeFileAtomically() would throw for a place where no file can be: before work that would be in vain.
+/// Throws writeFileAtomically()'s exception for a path where no file can be written, before the work is done in vain.
 void requireWritable(const std::string& path);
 
 /// Removes the temporaries of the writes under way in any thread. Async-signal-safe, for the handlers of signals that

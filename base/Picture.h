@@ -10,7 +10,7 @@ struct Picture {
     int width = 0;
     int height = 0;
     std::vector<float> rgba; ///< 4 floats a pixel, rows from the top, linear Rec.709 radiance; alpha is not used
-    std::vector<std::uint8_t> covered; ///< 1 where geometry was drawn, one a pixel in the same order
+    std::vector<std::uint8_t> covered; ///< 1 where geometry was drawn, one per pixel in the same order
     bool isInteger = false;            ///< read from a file of integers: cut off at 1, and in steps
 
     std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
@@ -25,7 +25,7 @@ struct Picture {
 struct DisplayImage {
     int width = 0;
     int height = 0;
-    std::vector<std::uint8_t> rgb; ///< 3 bytes a pixel, rows from the top
+    std::vector<std::uint8_t> rgb; ///< 3 bytes per pixel, rows from the top
 
     std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
     bool isConsistent() const { return width > 0 && height > 0 && rgb.size() == 3 * pixelCount(); }

@@ -16,7 +16,7 @@ inline constexpr const char* kPictureSoftware = "tessera";
 /// reason.
 void writeExr(const std::string& path, const Picture& picture);
 
-/// Writes a display image as PNG of 8 bits a channel. Written whole or not at all; throws as writeExr does.
+/// Writes a display image as PNG of 8 bits per channel. Written whole or not at all; throws as writeExr does.
 void writePng(const std::string& path, const DisplayImage& image);
 
 /// The bytes of that PNG. Throws std::runtime_error when they cannot be made.

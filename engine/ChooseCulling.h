@@ -13,8 +13,8 @@ bool takesMethod(Technique technique, culling::Method method);
 /// Whether a technique lights from light lists at all.
 bool hasLightLists(Technique technique);
 
-/// What a frame does to cull lights: what was asked for, which the technique must take, else what is measured to be
-/// fastest on the backend, and nothing where nothing can be culled (settings.prune).
+/// How a frame culls lights: the requested method, which the technique must take, else the fastest one measured on the
+/// backend; none where nothing can be culled (settings.prune).
 culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& settings,
                               const frame::FeatureSet& features, const frame::PackedLights& lights);
 

@@ -7,7 +7,7 @@
 
 namespace tessera::engine {
 
-/// The shaders that light: what was asked for, which the technique must take, else fragment shaders.
+/// The stage of the lighting shaders: the requested one, which the technique must take, else fragment shaders.
 frame::LightingStage chooseLighting(const frame::FrameSettings& settings);
 
 /// The same in words, for a plan; none for techniques without the choice.

@@ -6,7 +6,7 @@
 #include "renderer/gpu/Capabilities.h"
 #include "renderer/graph/Plan.h"
 
-/// How many samples a pixel has: what was asked for, what the technique takes and what the driver gives.
+/// The samples per pixel: the requested number, limited by the technique and rounded up to a count of the driver.
 namespace tessera::engine {
 
 bool takesSamples(const TechniqueInfo& info, int samples);
@@ -18,7 +18,7 @@ frame::FrameSettings settingsOn(const gpu::Capabilities& capabilities, frame::Fr
 /// The samples of a frame's render targets. Throws InputError unless those asked for are one of frame::kSampleCounts.
 int chooseSamples(const frame::FrameSettings& settings);
 
-/// The same in words, for a plan; empty for one sample a pixel.
+/// The same in words, for a plan; empty for one sample per pixel.
 std::vector<graph::Plan::Choice> sampleChoices(const frame::FrameSettings& settings);
 
 } // namespace tessera::engine

@@ -30,7 +30,7 @@ struct DrawnLists {
     culling::LightLists lists;    ///< empty where every pixel visits every light
     shared::ViewConstants view{}; ///< with lighting, how a pixel finds its tile, slice and cell
     shared::LightingConstants lighting{};
-    frame::DepthInterval depths;           ///< what the depth buffer stands for
+    frame::DepthInterval depths;           ///< the view depths of depth values
     std::vector<int> sceneIndex;           ///< by light of the lists: index into Scene::lights
     std::vector<std::uint32_t> everywhere; ///< lights of the lists that reach everywhere, ascending
 };
@@ -43,9 +43,9 @@ public:
     Renderer(gpu::Context& context, const scenes::Scene& scene, shader::SourceTree shaders = shader::SourceTree());
     ~Renderer();
 
-    /// Draws one frame of one or more views and waits for nothing; download() reads it, passTimings() times it. The
-    /// views share what is on the GPU of the scene, so they have one filter and one answer to pruning. Throws
-    /// InputError where that is not so, or settings name what the scene lacks; std::runtime_error when GL fails.
+    /// Draws one frame of one or more views and does not wait; download() reads it, passTimings() times it. The views
+    /// share the scene's data on the GPU, so their settings of filter and pruning must be equal. Throws InputError if
+    /// they are not, or if settings name things that the scene lacks; std::runtime_error when GL fails.
     void draw(std::span<const FrameRequest> views);
     void draw(Technique technique, const frame::FrameSettings& settings) {
         const FrameRequest view{technique, settings};
@@ -91,7 +91,7 @@ private:
     gpu::GraphBackend backend_;
     frame::LightListMemory listMemory_;
     std::unique_ptr<frame::SceneGpu> sceneGpu_;
-    frame::FeatureSet sceneFeatures_;                                   ///< what sceneGpu_ was made with
+    frame::FeatureSet sceneFeatures_;                                   ///< features that sceneGpu_ was made with
     frame::TextureFilter sceneFilter_ = frame::TextureFilter::Hardware; ///< the same
     bool materialsChanged_ = false;
     std::unique_ptr<Drawn> drawn_; ///< the latest frame

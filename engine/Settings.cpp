@@ -492,7 +492,7 @@ bool isDrawable(const Setting& setting, const FrameRequest& request) {
     return setting.isDefault(request) || setting.takes == nullptr || setting.takes(request);
 }
 
-/// Why the request's technique does not take what is asked of a setting, and which techniques do.
+/// Why the request's technique does not take the setting's requested value, and which techniques do.
 std::string refusalOf(const Setting& setting, const FrameRequest& request) {
     std::vector<std::string_view> able;
     FrameRequest other = request;

@@ -11,12 +11,12 @@
 #include "renderer/frame/FrameSettings.h"
 #include "scenes/Scene.h"
 
-/// Settings: all that a user can ask of a frame, a row each. The command line with its help and messages, the options
-/// of scene files and their schema, the commands that are printed and copied, and what the viewer shows, shares,
-/// carries over and remembers follow from the rows (docs/add-a-setting.md).
+/// Settings: the options of a frame, a row each. These follow from the rows: the command line with its help and
+/// messages, the options of scene files and their schema, printed and copied commands, and the viewer's widgets,
+/// comparisons and preferences (docs/add-a-setting.md).
 namespace tessera::engine {
 
-/// A view of a scene as it is asked for: a technique, and what is asked of its pictures.
+/// A request for a view of a scene: a technique, and the settings of its pictures.
 struct FrameRequest {
     Technique technique = Technique::Deferred;
     frame::FrameSettings settings;
@@ -46,12 +46,13 @@ using SettingKind = std::variant<ChoiceKind, NumberKind, SwitchKind, SizeKind, C
 
 /// Where a text comes from.
 struct TextSource {
-    std::string_view called{};            ///< the setting, by whom wrote the text: "--exposure"; empty: by its name
-    const scenes::Scene* scene = nullptr; ///< whose things a text may name; null: they are not looked up yet
+    std::string_view called{}; ///< the setting's name in messages, such as "--exposure"; empty: Setting::name
+    const scenes::Scene* scene =
+        nullptr; ///< the scene whose cameras and lights a text may name; null: not looked up yet
 };
 
-/// A setting's value in a request, whatever its type. Texts are those of the command line: what text() gives, read()
-/// takes for the same value, to the last bit.
+/// A setting's value in a request, whatever its type. Texts are those of the command line: read() restores the value
+/// from text(), to the last bit.
 struct SettingValue {
     SettingKind kind;
     std::string_view open{}; ///< the text that leaves it open; empty: it is never open
@@ -67,7 +68,7 @@ enum class SettingPanel : std::uint8_t { None, Frame, View };
 struct Setting {
     std::string_view name{};          ///< of messages: "range tolerance"
     std::string_view flag{};          ///< of the command line: "--range-tolerance"
-    std::string_view key{};           ///< of scene files and of what the viewer remembers: "rangeTolerance"
+    std::string_view key{};           ///< of scene files and of the viewer's preferences: "rangeTolerance"
     std::string_view type{};          ///< behind the flag in --help: "METRES"
     std::string help{};               ///< its line in --help, without the default
     std::string_view byItself{};      ///< the default in words, where its text says too little
@@ -77,15 +78,16 @@ struct Setting {
     std::string_view label{};                 ///< there; empty: the name
 
     bool (*heeds)(Technique technique) = nullptr; ///< whether it changes anything of that technique's frames; null: all
-    /// Why users may not ask it of the others: "it has no light lists"; empty: they may, in vain.
+    /// Why the other techniques refuse it: "it has no light lists"; empty: they ignore it.
     std::string_view refusal{};
     bool (*takes)(const FrameRequest& request) = nullptr; ///< whether the technique can draw it; null: always
 
-    bool samePicture = false;  ///< only who makes the picture, and how fast: comparisons drop what a technique refuses
-    bool sameCost = false;     ///< a pixel costs about the same whatever it is
-    bool isOfScene = false;    ///< names things of one scene
-    bool isWishable = true;    ///< scene files may ask for it
-    bool isShared = false;     ///< by the two sides of the viewer's comparisons
+    bool samePicture = false; ///< changes how a picture is made and how fast, not the picture: comparisons drop a value
+                              ///< that a technique refuses
+    bool sameCost = false;    ///< a pixel costs about the same for every value
+    bool isOfScene = false;   ///< names things of one scene
+    bool isWishable = true;   ///< scene files may ask for it
+    bool isShared = false;    ///< by the two sides of the viewer's comparisons
     bool isRemembered = false; ///< by the viewer from one run to the next
     bool comesBack = true;     ///< in the viewer, with a technique that takes it, after one that did not
 
@@ -94,13 +96,13 @@ struct Setting {
     std::string text(const FrameRequest& request, const scenes::Scene* scene = nullptr) const {
         return value.text(request, scene);
     }
-    /// Throws InputError that names the setting and what it takes.
+    /// Throws InputError that names the setting and its valid values.
     void read(FrameRequest& request, const std::string& text, const TextSource& source = {}) const;
     std::string panelLabel() const;
     bool isDefault(const FrameRequest& request) const { return value.equal(request, FrameRequest()); }
     void reset(FrameRequest& request) const { value.copy(request, FrameRequest()); }
     bool isHeededBy(Technique technique) const { return heeds == nullptr || heeds(technique); }
-    /// Whether the request's technique takes what the request asks of this setting.
+    /// Whether the request's technique takes the requested value of this setting.
     bool isTaken(const FrameRequest& request) const;
 };
 
@@ -111,11 +113,11 @@ const Setting& settingOf(std::string_view key);
 
 /// Throws InputError for the first setting that the request's technique does not take, with those that do.
 void requireTaken(const FrameRequest& request);
-/// The same for what it cannot draw; what it does not heed changes nothing.
+/// The same for values that it cannot draw; settings that it ignores change nothing.
 void requireDrawable(const FrameRequest& request);
 
-/// What the scene itself asks for, where `isSaid` does not say that the user asked for something else. Throws
-/// InputError "FILE:/options/KEY: what"; `file` is what the scene was read from.
+/// Applies the options of the scene itself, except settings that the user gave (`isSaid`). Throws InputError
+/// "FILE:/options/KEY: what"; `file` is the scene's file.
 void takeWishes(
     const scenes::Scene& scene, const std::string& file, FrameRequest& request,
     const std::function<bool(const Setting& setting)>& isSaid = [](const Setting&) { return false; });

@@ -57,12 +57,12 @@ struct Recipe {
 
     bool hasLightLists() const { return spec.culling.method != Method::None; }
     bool blends() const { return spec.features[frame::Feature::Blend]; }
-    /// One sample a pixel of what was drawn with several.
+    /// Reduces a multisampled texture to one sample per pixel.
     TextureHandle resolve(TextureHandle samples, ResolvePass::Kind kind) {
         if (spec.samples == 1) return samples;
         return ResolvePass::add(graph, spec, {kind}, {samples}).resolved;
     }
-    /// The depths at which what shows is lit: opaque surfaces at `opaque`, transparent ones in front of `depth`.
+    /// The depths at which visible surfaces are lit: opaque ones at `opaque`, transparent ones in front of `depth`.
     frame::LitDepths litDepths(TextureHandle depth, TextureHandle opaque) {
         frame::LitDepths depths{resolve(opaque, ResolvePass::Kind::Depths), {}};
         if (!blends()) return depths;
@@ -70,7 +70,7 @@ struct Recipe {
         depths.transparent = resolve(transparent, ResolvePass::Kind::TransparentDepths);
         return depths;
     }
-    /// Light lists for what shows, where the frame culls lights.
+    /// Light lists for the visible surfaces, if the frame culls lights.
     void addLightLists(TextureHandle depth, TextureHandle opaque) {
         if (!hasLightLists()) return;
         const frame::LitDepths depths = litDepths(depth, opaque);
@@ -167,7 +167,7 @@ struct Shown {
 /// The lit picture, transparent surfaces included.
 Shown addLitPicture(Technique technique, Recipe& recipe) {
     const OpaquePicture opaque = kRows[std::size_t(technique)].drawOpaque(recipe);
-    // Here is the place of passes that need what is opaque and that transparent surfaces lie over.
+    // Add passes here that read the opaque picture and draw below transparent surfaces.
     if (!recipe.blends()) return {opaque.radiance, opaque.depth};
     const ForwardPass::Params params{ForwardPass::Surfaces::Transparent};
     const ForwardPass::Inputs inputs{recipe.surfaces, recipe.lighting, opaque.depth, opaque.radiance};

@@ -33,14 +33,14 @@ struct TechniqueInfo {
     bool choosesStage = false; ///< lights in a pass of its own, which may be of fragment or of compute shaders
 
     bool usesGBuffer() const { return geometry == Geometry::GBuffer; }
-    bool multisamples() const { return geometry != Geometry::GBuffer; } ///< takes more than one sample a pixel
+    bool multisamples() const { return geometry != Geometry::GBuffer; } ///< takes more than one sample per pixel
 };
 /// In the order of Technique.
 std::span<const TechniqueInfo> techniqueTable();
 const TechniqueInfo& infoOf(Technique technique);
 
-/// What a frame makes of a view. The graph's outputs are radiance, depth, light lists and, where the settings ask for
-/// it, display; both pictures of one sample a pixel. Alpha of radiance is the covered share of the pixel.
+/// The results of a view. The graph's outputs are radiance, depth, light lists and, where the settings ask for
+/// it, display; both pictures have one sample per pixel. Alpha of radiance is the covered fraction of the pixel.
 struct DeclaredView {
     graph::TextureHandle radiance;                ///< RGBA32F, linear
     graph::TextureHandle depth;                   ///< D32F of opaque surfaces, reverse-Z

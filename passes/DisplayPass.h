@@ -4,7 +4,7 @@
 
 namespace tessera::passes {
 
-/// Turns radiance into what a display shows: exposure, tone map, sRGB transfer function.
+/// Turns radiance into display code values: exposure, tone map, sRGB transfer function.
 /// Reads   radiance RGBA32F, linear
 /// Writes  display RGBA8, sRGB code values
 /// Source  shaders/lib/tonemap.glsl names that of each curve

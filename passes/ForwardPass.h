@@ -20,7 +20,7 @@ struct ForwardPass {
     struct Inputs {
         frame::SurfaceHandles surfaces;
         frame::LightingInputs lighting;
-        std::optional<graph::TextureHandle> depth;    ///< of a prepass, or of what lies under transparent surfaces
+        std::optional<graph::TextureHandle> depth; ///< of a prepass, or of the opaque surfaces under transparent ones
         std::optional<graph::TextureHandle> radiance; ///< the picture to draw transparent surfaces on
     };
     struct Outputs {

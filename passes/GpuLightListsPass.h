@@ -3,7 +3,7 @@
 
 namespace tessera::passes {
 
-/// Builds on the GPU, by compute or by fragment shaders, what LightListsPass builds on the CPU, entry for entry. The
+/// Builds light lists on the GPU, by compute or fragment shaders, equal to those of LightListsPass entry for entry. The
 /// lists are counted, then allocated, then filled, so they never overflow: only their size travels to the CPU. Several
 /// passes of the graph: light_reach, light_depths, light_count (not for zbin), light_scan, light_room, light_lists; of
 /// many lights light_count, light_sizes and light_lists once for each round over them.

@@ -3,7 +3,7 @@
 
 namespace tessera::passes {
 
-/// Builds the light lists of FrameSpec::culling from the depths of what will be lit.
+/// Builds the light lists of FrameSpec::culling on the CPU from the depths at which surfaces will be lit.
 /// Reads   the depths at which opaque and transparent surfaces are lit (frame::LitDepths)
 /// Writes  light tiles, cells and entries (shaders/shared/light_lists.h)
 /// Space   view space

@@ -12,7 +12,7 @@ namespace tessera::passes {
 
 namespace {
 
-/// Invocations of a workgroup whose items have one lane each: what the widest hardware runs together.
+/// Invocations of a workgroup whose items have one lane each: the widest subgroup of any hardware.
 constexpr int kGroup = 64;
 /// The same on software rasterisers, which run 4 to 16 together; there a row of tiles is seldom a multiple of 64.
 constexpr int kSoftwareGroup = 8;

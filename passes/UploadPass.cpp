@@ -16,7 +16,7 @@ void upload(const graph::PassContext& context, graph::BufferHandle handle, const
     context.allocate(handle, values.size() * sizeof(Value)).upload(values);
 }
 
-/// A buffer of so many values, whose number changes with what the view sees.
+/// A buffer of so many values; the number changes with the view's visible draws.
 template <typename Value>
 graph::BufferDesc growing(std::size_t count) {
     return {std::max<std::size_t>(count, 1) * sizeof(Value), true};

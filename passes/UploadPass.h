@@ -3,7 +3,7 @@
 
 namespace tessera::passes {
 
-/// Puts a view's camera, and what it draws, on the GPU.
+/// Uploads a view's camera and its draws.
 /// Writes  the view's constants; rows and commands of the draws that it may see
 struct UploadViewPass {
     struct Outputs {

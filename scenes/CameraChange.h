@@ -16,9 +16,9 @@ struct CameraChange {
     bool operator==(const CameraChange&) const = default;
 };
 
-/// The camera with the change: an eye alone moves it, a target alone turns it, and what is not said stays. One change
+/// The camera with the change: an eye alone moves it, a target alone turns it, and absent values stay. One change
 /// of one camera is the same to the last bit wherever it is made. Throws InputError, naming the camera and the number,
-/// for what no camera can have.
+/// for values that no camera can have.
 Camera changedCamera(Camera camera, const CameraChange& change);
 
 } // namespace tessera::scenes

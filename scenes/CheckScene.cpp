@@ -14,8 +14,8 @@
 namespace tessera::scenes {
 namespace {
 
-/// How far the length of a unit vector, or a rotation's columns, may be off: what single precision and files with a few
-/// decimals lose, far below what would be seen.
+/// How far the length of a unit vector, or a rotation's columns, may be off: the rounding of single precision and of
+/// files with a few decimals, far below the visible.
 constexpr double kUnitTolerance = 1e-3;
 
 template <typename Vector>

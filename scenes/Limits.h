@@ -26,7 +26,7 @@ inline bool isNearEnough(const glm::dvec3& positionWS) {
     return isWithin(positionWS.x) && isWithin(positionWS.y) && isWithin(positionWS.z);
 }
 
-/// What of a camera, of finite numbers, lies beyond the limits, and what to do; empty where nothing does.
+/// A message on the value of a camera, of finite numbers, that exceeds the limits, with the remedy; empty if none does.
 std::string limitProblem(const Camera& camera);
 
 } // namespace tessera::scenes

@@ -63,7 +63,7 @@ Scene importFile(const std::string& path, LoadLedger& ledger) {
     return format->import(file, ledger);
 }
 
-/// A file may give cause for a warning in every line; nobody reads thousands.
+/// A file may cause a warning in every line, and nobody reads thousands.
 void keepFirstWarnings(std::vector<std::string>& warnings) {
     constexpr std::size_t kMostWarnings = 100;
     if (warnings.size() <= kMostWarnings) return;

@@ -36,21 +36,21 @@ public:
 
 /// Loads `nameOrPath`: a built-in scene's name or a .gltf, .glb, .obj or .json file. The result has passed checkScene()
 /// and has at least one camera; a supplied default camera or light is named "default" and reported in `warnings`.
-/// Throws InputError, naming the file and what is wrong, or the nearest names when nothing is called that.
+/// Throws InputError that names the file and its fault, or the nearest names if the name is unknown.
 Scene loadScene(const std::string& nameOrPath, const LoadOptions& options = {});
 
-/// A built-in scene: what `tessera scenes` lists.
+/// A built-in scene, a line of `tessera scenes`.
 struct BuiltinScene {
     std::string_view name;
     std::string_view purpose; ///< one line: what it is for
     Scene (*make)(const LoadOptions&, LoadLedger&);
-    /// At most what making it takes with as many lights as it has by itself and no assets. A test holds it.
+    /// Upper bound of the memory to make it with its default number of lights and without assets. A test checks it.
     std::uint64_t bytes;
 };
 std::span<const BuiltinScene> builtinScenes();
 /// The built-in scene of a name, which goes before a file of that name; null where there is none.
 const BuiltinScene* builtinScene(std::string_view name);
-/// Makes it. The ledger is charged before; `who` is what asks for it, for the error.
+/// Makes it. The ledger is charged before; `who` names the requester in errors.
 Scene makeBuiltin(const BuiltinScene& builtin, const LoadOptions& options, LoadLedger& ledger, const std::string& who);
 
 } // namespace tessera::scenes

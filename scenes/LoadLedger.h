@@ -21,10 +21,10 @@ std::optional<std::uint64_t> groupLimitBytes(const std::filesystem::path& member
 /// "512 B", "1.5 KiB", "2.0 GiB".
 std::string sizeText(std::uint64_t bytes);
 
-/// What one load has read, and the memory it may take. Importers charge what they are about to reserve, so that a small
-/// file that asks for much is refused before the memory is gone. One load has one ledger: it cannot be copied, and no
-/// importer makes one of its own. What a command reads beside a loaded scene has a ledger that begins with what that
-/// scene takes.
+/// The files that one load has read, and the memory it may take. Importers charge memory before they reserve it, so
+/// that a small file that asks for much is refused before the memory is gone. One load has one ledger: it cannot be
+/// copied, and no importer makes one of its own. What a command reads beside a loaded scene has a ledger that begins
+/// with what that scene takes.
 class LoadLedger {
 public:
     /// Without a limit: defaultMemoryLimitBytes().
@@ -32,7 +32,8 @@ public:
     LoadLedger(const LoadLedger&) = delete;
     LoadLedger& operator=(const LoadLedger&) = delete;
 
-    /// Throws InputError when `bytes` more would exceed the limit; `who` is called for "file: place" of what asks.
+    /// Throws InputError when `bytes` more would exceed the limit; `who` is called for the "file: place" of the
+    /// request.
     template <typename Who>
     void charge(std::uint64_t bytes, Who&& who) {
         if (bytes > limitBytes_ - usedBytes_) refuse(who(), bytes);

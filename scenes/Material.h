@@ -19,7 +19,7 @@
 /// G-buffer's channels.
 namespace tessera::scenes {
 
-/// The models of the shading specification; materialModels() says what each of them has.
+/// The models of the shading specification; materialModels() lists their parameters.
 enum class MaterialModel : std::uint8_t {
     SingleColor,           ///< the colour itself, unlit
     Lambert,               ///< k_d max(0, n.l), no 1/pi
@@ -30,7 +30,7 @@ enum class MaterialModel : std::uint8_t {
     Count
 };
 
-/// How the microfacet models let microfacets hide each other.
+/// The masking-shadowing term G of the microfacet models.
 enum class Masking : std::uint8_t {
     Walter,      ///< by the angle to the normal; alpha along the microfacet normal where anisotropic (Walter 2007)
     Directional, ///< microfacet_anisotropic: alpha along the direction itself (Heitz 2014)
@@ -64,7 +64,7 @@ struct Material {
     /// KHR_materials_anisotropy, _clearcoat and _sheen, metallic_roughness only.
     float anisotropyStrength = 0.0f;           ///< 0..1
     float anisotropyRotationRadians = 0.0f;    ///< counter-clockwise from the tangent
-    float clearcoat = 0.0f;                    ///< 0..1, share of the coat
+    float clearcoat = 0.0f;                    ///< 0..1, the coat's factor
     float clearcoatPerceptualRoughness = 0.0f; ///< 0..1
     float clearcoatNormalScale = 1.0f;
     glm::vec3 sheenColor{0.0f};            ///< 0..1
@@ -84,7 +84,7 @@ struct Material {
 
 // ---- Members -------------------------------------------------------------------------------------------------------
 
-/// A member of Material: its name, and of numbers what messages call them and between what they must lie (checkScene).
+/// A member of Material: its name, and for numbers their name in messages and their bounds (checkScene).
 template <typename Member>
 struct MaterialField {
     const char* name;
@@ -189,7 +189,7 @@ struct MaterialParameter {
     const char* label; ///< in the viewer
     std::variant<float Material::*, glm::vec3 Material::*, Masking Material::*> member;
     TextureSlot slot = TextureSlot::Count; ///< of the texture that scales it; Count: none
-    /// Between what the viewer's slider moves a number, and how it is shown.
+    /// The bounds of the viewer's slider for a number, and the number's format.
     float leastShown = 0.0f;
     float mostShown = 1.0f;
     const char* format = "%.3f";
@@ -208,7 +208,7 @@ enum class Highlight : std::uint8_t {
 enum class Microsurface : std::uint8_t {
     None,
     Parameter,        ///< the one number >= 0 that the model has, by MaterialModelInfo::roughness
-    Dielectric,       ///< GGX alpha, index of refraction and masking
+    Dielectric,       ///< GGX alpha, index of refraction and masking-shadowing option
     MetallicRoughness ///< GGX alpha, F90 and metallic
 };
 
@@ -217,10 +217,10 @@ struct MaterialModelInfo {
     std::string_view
         name; ///< of scene files; in capitals that of shaders: MODEL_<NAME> is its number, HAS_<NAME> 0 or 1
     bool isLit;
-    const char* colorKey; ///< of scene files: what they call Material::baseColor
+    const char* colorKey; ///< the key of Material::baseColor in scene files
     Highlight highlight = Highlight::None;
     Microsurface microsurface = Microsurface::None;
-    float Material::*roughness = nullptr; ///< what the G of TextureSlot::MetallicRoughness scales
+    float Material::*roughness = nullptr; ///< the member that the G of TextureSlot::MetallicRoughness scales
     std::span<const MaterialParameter> parameters{};
     bool hasLayers = false; ///< emission, anisotropy, clearcoat and sheen, which scene files and the viewer spell out
 };

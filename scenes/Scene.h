@@ -89,7 +89,7 @@ enum class LightAnimationKind : std::uint8_t {
     Keyframes ///< linear between (times, points), clamped at the ends
 };
 
-/// Moves a light's position (point, spot) as a closed function of time, so that any time can be asked for directly.
+/// Moves a light's position (point, spot) as a closed function of time, so that it can be evaluated at any time.
 struct LightAnimation {
     LightAnimationKind kind = LightAnimationKind::Orbit;
     double periodSeconds = 1.0;
@@ -107,7 +107,8 @@ struct Light {
     LightType type = LightType::Point;
     bool enabled = true;
     glm::vec3 color{1.0f};  ///< linear RGB
-    float intensity = 1.0f; ///< candela (point, spot) or lux (directional); a plain factor with Falloff::Attenuation
+    float intensity = 1.0f; ///< luminous intensity in candela (point, spot) or illuminance at normal incidence in lux
+                            ///< (directional); a plain factor with Falloff::Attenuation
     glm::dvec3 positionWS{0.0};
     glm::dvec3 directionWS{0.0, 0.0, -1.0}; ///< unit, the way the light travels
     Falloff falloff = Falloff::InverseSquare;
@@ -144,7 +145,7 @@ using Wish = std::variant<bool, double, std::string, std::vector<double>>;
 struct SceneOptions {
     std::optional<std::string> camera;
     std::optional<bool> defaultLight;                ///< false: where there is no light, none is supplied
-    std::map<std::string, Wish, std::less<>> wishes; ///< by the settings' keys, which whoever draws the scene knows
+    std::map<std::string, Wish, std::less<>> wishes; ///< by the settings' keys (engine::settingTable())
     bool operator==(const SceneOptions&) const = default;
 };
 

@@ -74,7 +74,7 @@ private:
     bool isWhole() const { return !state_.open || screen_.scaleOf(wanted_) >= restScale(); }
     double restScale() const { return state_.automaticScale ? 1.0 : double(state_.fixedScale); }
     double movingScale() const { return state_.automaticScale ? screen_.movingScale() : double(state_.fixedScale); }
-    /// A window that is minimised shows nothing; what there is to show waits.
+    /// A minimised window shows nothing; a pending picture waits.
     bool isVisible() const {
         const glm::ivec2 pixels = window_.sizePixels();
         return !window_.isMinimised() && pixels.x > 0 && pixels.y > 0;
@@ -105,7 +105,7 @@ private:
         return false;
     }
 
-    /// Edits that were not saved are left behind only by who asks twice for the same.
+    /// Unsaved edits are discarded only when the same action is requested twice.
     bool mayLeave(const std::string& order) {
         if (!state_.open || !state_.open->isEdited()) return true;
         const Warned warned{order, state_.open->edits()};
@@ -129,7 +129,7 @@ private:
     static std::string orderToOpen(const std::string& source) { return "open " + source; }
 
     void adoptLoaded() {
-        // Of edits that were made while it was loaded nobody was asked.
+        // The user was not asked about edits made during the load.
         const bool hasNewEdits = state_.open && state_.open->edits() != editsLeft_;
         if (scenes_.hasScene() && hasNewEdits && !mayLeave(orderToOpen(state_.loading))) return scenes_.discard();
         std::unique_ptr<OpenScene> scene = scenes_.take([this](const OpenScene& loaded) { screen_.open(loaded); });
@@ -208,7 +208,7 @@ private:
         nameWindow();
         advance(started);
         expireNotice();
-        // More input waits: what it leads to is worth a picture, each step of it only now and then.
+        // More input waits: its result gets a picture, its single steps only now and then.
         if (!window_.input().empty() && started - shownAt_ < kHurrySeconds) return;
         const int givenUp = givenUp_;
         const bool drew = drawPictures();
@@ -282,7 +282,7 @@ private:
         log_.line(fmt::format("picked {}", picked ? scene.materials[std::size_t(picked->material)].name : "nothing"));
     }
 
-    /// Moves what moves by itself.
+    /// Advances animations and damped movements.
     void advance(double started) {
         const double step = std::clamp(started - lastFrame_, 0.0, kLongestStepSeconds);
         lastFrame_ = started;
@@ -295,7 +295,7 @@ private:
         state_.shareSettings();
     }
 
-    /// What was done is said for a while; what went wrong until it is read.
+    /// Messages disappear after a while, errors when they are dismissed.
     void expireNotice() {
         if (state_.notice.text != said_) {
             said_ = state_.notice.text;
@@ -308,7 +308,8 @@ private:
     }
     bool isNoticeOver() const { return !state_.notice.text.empty() && !state_.notice.isError && now() >= saidUntil_; }
 
-    /// Draws what changed: quickly while something moves, whole when it rests. Whether it drew.
+    /// Draws changed pictures: at reduced resolution while something moves, at full resolution at rest. Returns whether
+    /// it drew.
     bool drawPictures() {
         const gpu::Rectangle place = areaPixels();
         if (!std::exchange(facts_.isPreparing, false)) announcements_ = 0;
@@ -328,7 +329,7 @@ private:
         return drawAt(isAtRest ? restScale() : movingScale(), isAtRest);
     }
 
-    /// Before the first picture of a kind the window says for a frame what it is about to wait for.
+    /// Before the first picture of a kind the window shows for one frame why it will wait.
     bool isToBeAnnounced() {
         constexpr int kFrames = 2; // the interface of this frame is laid out already
         facts_.isPreparing = screen_.isNewKind(wanted_) && announcements_ < kFrames;
@@ -391,7 +392,7 @@ private:
         screen_.show(pixels, areaPixels(), state_.compare, state_.divider);
         gui_.draw();
         gpu::throwIfFailed("while the window was drawn");
-        window_.context().debugLog().takeWarnings(); // advice on performance, of which nobody here takes note
+        window_.context().debugLog().takeWarnings(); // advice on performance, ignored here
         window_.context().swapBuffers();
         shownAt_ = now();
     }

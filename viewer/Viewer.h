@@ -5,7 +5,7 @@
 namespace tessera::viewer {
 
 /// Opens the window and returns when it is closed. Throws std::runtime_error where there is no display or no OpenGL
-/// 4.5; what goes wrong later is shown in the window.
+/// 4.5; later errors are shown in the window.
 void runViewer(const ViewerOptions& options);
 
 } // namespace tessera::viewer

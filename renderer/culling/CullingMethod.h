@@ -29,7 +29,7 @@ const BuilderInfo& infoOf(Builder builder);
 /// Tile sides, in pixels.
 inline constexpr int kTileSides[] = {8, 16, 32, 64};
 
-/// What was asked of light culling; what is left open is chosen by the technique and the backend (chooseCulling).
+/// The requested light culling; values left open follow from technique and backend (chooseCulling).
 struct Settings {
     std::optional<Method> method;
     std::optional<int> tilePixels; ///< one of kTileSides

@@ -44,7 +44,7 @@ struct Build {
         return shared::cellBox(rays, run.nearMetres, run.farMetres, grid.spread);
     }
 
-    /// Boxes around a tile's occupied slices: one a slice for clusters, else one a run of neighbours.
+    /// Boxes around a tile's occupied slices: one per slice for clusters, else one per run of neighbours.
     std::size_t occupiedBoxes(const glm::vec4& rays, const TileDepths& depths, Boxes& boxes) const {
         std::size_t count = 0;
         for (std::uint64_t rest = depths.slices; rest != 0;) {

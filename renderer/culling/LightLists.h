@@ -11,11 +11,11 @@
 
 namespace tessera::culling {
 
-/// The depths at which a picture's pixels are shaded, rows from the bottom as OpenGL reads them: one value a pixel, or
-/// two when a pixel shades several surfaces (transparent ones, samples). Reverse-Z; a pixel whose nearest depth is 0
+/// The depths at which a picture's pixels are shaded, rows from the bottom as OpenGL reads them: one value per pixel,
+/// or two when a pixel shades several surfaces (transparent ones, samples). Reverse-Z; a pixel whose nearest depth is 0
 /// has no surface.
 struct DepthPicture {
-    std::span<const float> depth; ///< one a pixel; or two: the nearest, and the farthest negated
+    std::span<const float> depth; ///< one per pixel; or two: the nearest, and the farthest negated
     bool isRange = false;
 };
 

@@ -70,7 +70,8 @@ Polygon clipped(const Polygon& polygon, const Side& side) {
     return within;
 }
 
-/// Of a box the camera sees what its sides leave of the box's faces, and the eye itself where it stands in the box.
+/// Adds the visible part of a box: its faces clipped by the sides of the view, and the eye itself if it is inside the
+/// box.
 void addBox(Seen& seen, const SurfaceBounds& bounds, const scenes::Camera& camera, const glm::dvec2& halfExtent) {
     const glm::dmat3 viewFromWorld = glm::inverse(glm::dmat3(camera.worldFromCamera));
     const glm::dvec3 eyeWS(camera.worldFromCamera[3]);
@@ -155,8 +156,8 @@ DepthInterval depthInterval(const scenes::Camera& camera, const glm::dvec2& half
     }
     if (!(seen.nearest <= seen.farthest)) return interval;
 
-    // Room for what rounds: positions relative to the middle, and vertices relative to their nodes. With several
-    // samples a pixel a surface is also lit a little beyond its edges, at the depth that it would have there.
+    // Margin for rounding of positions relative to the middle, and of vertices relative to their nodes. With several
+    // samples per pixel a surface is also lit a little beyond its edges, at its extrapolated depth.
     const double span = seen.farthest - seen.nearest;
     const double room = span / 8.0 + 1e-3 * (span + seen.across) + 1e-6 * seen.reach;
     const double nearMetres = std::max(camera.nearMetres, seen.nearest - room);

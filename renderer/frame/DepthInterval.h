@@ -14,7 +14,7 @@ struct SurfaceBounds {
     double reachMetres = 0.0; ///< of the box's farthest corner from the node's origin
 };
 
-/// Bounds of everything drawn, one a mesh instance with triangles.
+/// Bounds of everything drawn, one per mesh instance with triangles.
 std::vector<SurfaceBounds> surfaceBounds(const scenes::Scene& scene);
 
 /// The view depths that depth values stand for, 1 at the near end and 0 at the far one, and where on the view axis

@@ -51,7 +51,7 @@ struct ViewDraws {
     std::vector<DrawRows> rows; ///< parallel to seen
     std::vector<Batch> opaque;
     std::vector<Batch>
-        transparent; ///< one a draw, far to near by the view depth of their boxes' centres, ties by index
+        transparent; ///< one per draw, far to near by the view depth of their boxes' centres, ties by index
 };
 /// With `culls` draws whose boxes lie outside the view are left out.
 ViewDraws makeViewDraws(const DrawList& list, const CameraView& view, bool culls);

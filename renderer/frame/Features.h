@@ -9,7 +9,7 @@
 #include "scenes/Scene.h"
 
 /// What a scene uses, derived once from the scene. The set decides shader defines, G-buffer channels and vertex
-/// streams; what is not in it is left out, and the picture stays the same to the last bit.
+/// streams; other features are left out, and the picture stays the same to the last bit.
 namespace tessera::frame {
 
 enum class Feature : std::uint8_t {
@@ -92,16 +92,15 @@ private:
 /// Whether its model has options of masking.
 bool canMask(const scenes::Material& material);
 
-/// The set of what materials in use need; lights are added by packLights, which knows which of them can be seen, and
-/// the camera by makeFrameSpec.
+/// The features of the materials in use. packLights adds those of visible lights, makeFrameSpec those of the camera.
 FeatureSet materialFeatures(const scenes::Scene& scene);
 
 /// Everything there is (prune = off).
 FeatureSet allFeatures();
 
-/// What shaders know of the scene: HAS_* of every feature as 0 or 1, and of what several have in common (litModels(),
-/// glossyModels() and so on); of each model its number MODEL_<NAME>, and MODEL_COUNT; SOLE_MODEL where there is one. Of
-/// the scene's models LIT_MODELS lists the numbers of the lit ones, and macros say what a model is: IS_UNLIT(model),
+/// The defines of shaders: HAS_* of every feature as 0 or 1, and of groups of features (litModels(), glossyModels() and
+/// so on); the number MODEL_<NAME> of each model, and MODEL_COUNT; SOLE_MODEL if the scene has one model only.
+/// LIT_MODELS lists the numbers of the scene's lit models, and macros classify a model: IS_UNLIT(model),
 /// IS_GLOSSY(model) and so on.
 Defines featureDefines(const FeatureSet& features);
 

@@ -8,8 +8,8 @@
 #include "renderer/frame/SceneGpu.h"
 #include "renderer/graph/Graph.h"
 
-/// What passes take in, as typed handles. Each says in a pass's setup what the pass reads (`read`), and binds it while
-/// the pass runs (`bind`); whoever makes one fills it in.
+/// Inputs that several passes have in common, as typed handles. `read` declares in a pass's setup that the pass reads
+/// them, `bind` binds them while the pass runs. Their creator sets every member.
 namespace tessera::frame {
 
 /// Memory that light lists are built in on the CPU, kept from frame to frame.
@@ -18,8 +18,8 @@ struct LightListMemory {
     std::vector<float> depth, transparentDepth;
 };
 
-/// A view of a scene while its frame runs: what the CPU knows of it. Passes get a pointer to it, which is null where
-/// the frame is only planned.
+/// The CPU's data of a view while its frame runs. Passes get a pointer to it, which is null if the frame is only
+/// planned.
 struct DrawnView {
     PreparedView prepared;
     const SceneGpu* scene = nullptr;
@@ -91,8 +91,8 @@ struct GBufferHandles {
 
 /// What light lists are built from.
 struct LitDepths {
-    /// Of opaque surfaces: the depth buffer, D32F; with several samples a pixel the range in which each is lit, RG32F:
-    /// x nearest depth, y farthest depth negated, x 0 where there is no surface.
+    /// Of opaque surfaces: the depth buffer, D32F; with several samples per pixel the range in which each is lit,
+    /// RG32F: x nearest depth, y farthest depth negated, x 0 where there is no surface.
     graph::TextureHandle opaque;
     std::optional<graph::TextureHandle> transparent; ///< RG32F, as that range
 

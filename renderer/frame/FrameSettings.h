@@ -40,10 +40,10 @@ std::span<const LightingSpaceInfo> lightingSpaceTable();
 /// 2^EV must be a number that a picture can be multiplied by: fp32 spans 2^-126 to 2^128.
 inline constexpr float kMostExposureEV = 120.0f; ///< either way
 
-/// Samples of a pixel that can be asked for; a driver may give more.
+/// Valid sample counts per pixel; a driver may use more.
 inline constexpr int kSampleCounts[] = {1, 2, 4};
 
-/// Pixels along a side of a picture that can be asked for.
+/// Largest valid side of a picture, in pixels.
 inline constexpr int kLargestSidePixels = 16384;
 /// The size that a text such as "1280x720" names; nothing where it names none, or one with a side that cannot be.
 std::optional<glm::ivec2> sizeIn(std::string_view text);
@@ -65,8 +65,8 @@ struct FrameSettings {
     std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
     culling::Settings culling;
     std::optional<LightingStage> lightOn; ///< of the techniques that light in a pass of its own; open: by backend
-    bool softwareBackend = true;          ///< what open choices are made for; the renderer says what it runs on
-    bool display = true; ///< false: nobody looks at display code values, and the display pass is left out
+    bool softwareBackend = true;          ///< decides the choices left open; the renderer sets it to its own backend
+    bool display = true; ///< false: display code values are not needed, and the display pass is left out
     float exposureEV = 0.0f;
     ToneMap toneMap = ToneMap::None;
 

@@ -42,7 +42,7 @@ struct ChannelInfo {
     FieldWidths packed;
     FieldWidths slim;
     std::string_view needed; ///< which scenes need it
-    bool ofMaterial;         ///< holds what a material has everywhere, unless it varies over the surface
+    bool ofMaterial;         ///< is constant over a surface unless its material varies
 };
 std::span<const ChannelInfo> channelTable();
 

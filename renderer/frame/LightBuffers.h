@@ -11,7 +11,7 @@ std::size_t lightBytes(const FeatureSet& features, std::size_t count);
 /// Whether any light has a shape, which shaders read besides its texels.
 bool hasShapes(const FeatureSet& features);
 
-/// Lights on the GPU, as shaders/lib/light/light.glsl reads them, for whoever lights without a render graph.
+/// Lights on the GPU, as shaders/lib/light/light.glsl reads them, for lighting without a render graph.
 class LightBuffers {
 public:
     explicit LightBuffers(const PackedLights& lights);

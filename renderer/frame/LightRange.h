@@ -5,7 +5,7 @@
 
 #include "scenes/Scene.h"
 
-/// How far a light reaches, which decides what is packed, what is left out and what light lists hold.
+/// The reach of a light, which decides whether the light is packed and which light lists contain it.
 namespace tessera::frame {
 
 /// colour x intensity, held inside fp32 so that an extreme light is very bright rather than infinite.
@@ -24,7 +24,7 @@ struct TruncatedLights {
     double shortestMetres = 0.0;
     double longestMetres = 0.0;
 
-    /// Counts a light; those of other kinds, and black ones, are none of this.
+    /// Counts a light; ignores black lights and lights of other falloffs.
     void add(const scenes::Light& light, double rangeTolerance);
     std::size_t sum() const { return ended + endless + belowAlready; }
 };

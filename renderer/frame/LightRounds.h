@@ -17,9 +17,9 @@ inline constexpr std::size_t kOtherLoopIterations = 2048;
 /// Lights that a round of lib/lighting/lighting.glsl's loop visits at most: it spells out that many.
 inline constexpr std::size_t kMostLightsPerRound = 8;
 
-/// The most iterations that lighting a surface takes with so many lights a round. Bitmasks (zbin) take more than lists:
-/// a round of its own for what is left of each word of 32 lights, and steps over words without any, which lanes that
-/// run together may take one after the other.
+/// The most iterations that lighting a surface takes with so many lights per round. Bitmasks (zbin) take more than
+/// lists: a round of its own for what is left of each word of 32 lights, and steps over words without any, which lanes
+/// that run together may take one after the other.
 constexpr std::size_t loopIterations(std::size_t lights, std::size_t lightsPerRound) {
     const std::size_t words = (lights + 31) / 32;
     const std::size_t wordsAStep = lightsPerRound == 1 ? 1 : 2 * lightsPerRound; // lib/light/light_cursor.glsl

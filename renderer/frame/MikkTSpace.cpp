@@ -16,7 +16,7 @@ namespace {
 using Corner = std::size_t; ///< place among the mesh's indices: three a triangle
 constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
 
-/// Below this share of what it is the difference of, a direction is rounding noise.
+/// A direction is rounding noise if it is below this fraction of the vectors that it is the difference of.
 constexpr double kSmallestShare = 1e-12;
 
 /// Slivers whose angles add up to less, in radians, count alike: rounding makes up most of them.

@@ -17,7 +17,7 @@ bool isDark(const scenes::Light& light, double reach) {
 bool isUnseen(const scenes::Light& light, double reach, const CameraView& view) {
     if (std::isinf(reach)) return false;
     const glm::dvec4 position(view.positionLS(light.positionWS), 1.0);
-    // The margin covers what rounding the packed position and the rebuilt surface positions to fp32 can move.
+    // The margin covers the rounding of the packed position and of rebuilt surface positions to fp32.
     const double farthestMetres = reach + glm::length(glm::dvec3(position));
     const double margin = double(shared::roundingMargin(float(farthestMetres), view.constants.depthKey));
     return std::any_of(view.frustumPlanesLS.begin(), view.frustumPlanesLS.end(),

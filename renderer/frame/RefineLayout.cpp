@@ -37,7 +37,7 @@ bool anyMaterial(const scenes::Scene& scene, Predicate&& isSo) {
 
 bool hasBrightAlbedo(const scenes::Scene& scene) {
     const auto isBright = [&](const Material& material) {
-        // The colour of what is unlit is radiance, and goes to another channel.
+        // The colour of an unlit surface is radiance, and goes to another channel.
         return scenes::infoOf(material.model).isLit &&
                exceedsOne(scene, glm::vec3(material.baseColor), material.texture(TextureSlot::BaseColor));
     };

@@ -14,10 +14,11 @@ struct Refinement {
     std::string_view why; ///< for plans
 };
 
-/// What the layout needs to hold what is drawn of this scene within its promise:
+/// The changes that the layout needs to keep its error bounds for this scene:
 /// - albedo is exact where base colour times texture and vertex colour may exceed 1, specular where k_s may: their
 ///   packed fields are roots of 0 to 1. Pictures of floats count as brighter than 1.
-/// - The normal of `slim` has the bits of `packed` where a material masks by the half vector, which divides by n·v.
+/// - The normal of `slim` has the bits of `packed` if a material has masking-shadowing by the half vector, which
+/// divides by n·v.
 std::vector<Refinement> refinements(const GBufferLayout& layout, const scenes::Scene& scene);
 
 /// The layout with its refinements.

@@ -26,9 +26,9 @@ class SceneGpu {
 public:
     SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter = TextureFilter::Hardware);
 
-    /// Takes the scene's materials as they are now; their textures, and what they are drawn with, must be the same.
-    /// Derives tangents anew where a material follows others than before. Throws as makeVertexStreams() does, and
-    /// std::runtime_error when memory runs out; then all is as it was.
+    /// Uploads the scene's current materials; their textures and features must be unchanged. Derives tangents anew
+    /// where a material follows others than before. Throws as makeVertexStreams() does, and std::runtime_error when
+    /// memory runs out; then all is as it was.
     void updateMaterials();
 
     const DrawList& drawList() const { return draws_.list; }

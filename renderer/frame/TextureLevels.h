@@ -22,7 +22,7 @@ std::vector<float> decodedTexels(const scenes::Image& image);
 bool hasOddLevel(int width, int height);
 
 /// Levels 1 and up, from the largest to one texel, as storedFormat() has them. A level has half the size of the one
-/// before, rounded down, and its texels are the means of what they cover there, by area, in linear light.
+/// before, rounded down, and its texels are the means of the texels that they cover there, by area, in linear light.
 std::vector<std::vector<std::byte>> smallerLevels(const scenes::Image& image, bool srgb);
 
 } // namespace tessera::frame

@@ -6,7 +6,8 @@
 
 #include "renderer/frame/GBufferLayout.h"
 
-/// What a frame can show besides the lit picture: one table for the command line, the viewer and the documentation.
+/// The debug views: quantities that a frame can show in place of the lit picture. One table for the command line, the
+/// viewer and the documentation. A view as a camera with a picture is ViewConstants (shaders/shared/frame.h).
 namespace tessera::frame {
 
 /// Up to Faults the value is VIEW_* of shaders/shared/views.h. From Stored on a view shows a channel of the G-buffer as
@@ -37,7 +38,7 @@ enum class DisplayMapping : std::uint8_t {
     Distance,   ///< 1 at the eye, 1/2 at 10 m, 0 at infinity
     Count,      ///< the heat colours of shaders/shared/heat.h, logarithmic
     Ids,        ///< a colour of its own for every triangle
-    Compressed, ///< x / (1 + x), then sRGB: for what has no upper bound
+    Compressed, ///< x / (1 + x), then sRGB: for values without an upper bound
     Faults      ///< the luminance so compressed, in grey; NaN, infinite and negative painted (shaders/shared/faults.h)
 };
 
@@ -72,7 +73,7 @@ constexpr bool showsLitPicture(View view) {
 constexpr bool sumsOverLights(View view) {
     return showsLitPicture(view) || view == View::Lights;
 }
-/// Needs the channel normal_texel, which holds what no lighting needs.
+/// Needs the channel normal_texel, which lighting does not read.
 bool needsNormalTexel(View view);
 /// VIEW of the shaders that shade or store surfaces: views that another pass makes of their output take the lit
 /// picture's programs.

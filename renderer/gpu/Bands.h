@@ -9,13 +9,12 @@ namespace tessera::gpu {
 struct BandPace {
     bool beginsSlow =
         false; ///< pixels are known to take long: even geometry is drawn in small pieces from the first on
-    /// A piece that takes longer is too long for a person who waits, whatever smaller ones cost together.
+    /// A longer piece delays the answer to input too much, even if smaller pieces cost more in total.
     double longestMs = 100.0;
 };
 
-/// While one lives, drawInBands() draws band by band, waits for each, and asks `givesUp`; where that says yes,
-/// graph::Interrupted is thrown. Which pixels are written, and with what, does not depend on it. At most one lives on a
-/// thread.
+/// While one lives, drawInBands() draws band by band, waits for each, and calls `givesUp`; if that returns true, it
+/// throws graph::Interrupted. The pixels of a complete frame do not depend on it. At most one lives on a thread.
 class BandedDrawing {
 public:
     explicit BandedDrawing(std::function<bool()> givesUp, BandPace pace = {});
@@ -24,20 +23,21 @@ public:
     BandedDrawing& operator=(const BandedDrawing&) = delete;
 };
 
-/// What a draw mostly costs besides its pixels.
+/// The main cost of a draw besides its pixels.
 enum class BandCost {
     Nothing, ///< as narrow bands as are needed
     Geometry ///< each band repeats it: a few bands, as long as they are not slow
 };
 
-/// Issues `draw` once; under BandedDrawing once a band of the bound framebuffer's rows, scissored to it. The draw must
-/// write pixels only, and each on its own. Where setScissor() holds it is issued once.
+/// Issues `draw` once, or under BandedDrawing once per band of the bound framebuffer's rows, scissored to the band. The
+/// draw must write pixels only, and each on its own. Where setScissor() holds it is issued once.
 void drawInBands(const std::function<void()>& draw, BandCost cost = BandCost::Nothing);
 
-/// Under BandedDrawing: waits for what was drawn and asks. Done after every pass.
+/// Under BandedDrawing: waits for the issued draws and calls `givesUp`. Called after every pass.
 void askToGoOn();
 
-/// The size of what is drawn into, for drawInBands(); 0 keeps it from scissoring. Called by whoever binds framebuffers.
+/// The size of the bound framebuffer, for drawInBands(); 0 disables scissoring. Called with every binding of a
+/// framebuffer.
 void setBandedTarget(int width, int height);
 
 } // namespace tessera::gpu

@@ -58,7 +58,7 @@ public:
         return values;
     }
 
-    /// The buffer as texels of a format, made when it is first asked for: as many whole ones as the driver can read.
+    /// The buffer as texels of a format, made on first use: as many whole texels as the driver can read.
     /// Throws as TexelBuffer.
     const TexelBuffer& texels(graph::Format format) const;
 

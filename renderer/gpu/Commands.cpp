@@ -113,7 +113,7 @@ void bindWindowFramebuffer(int width, int height) {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, width, height);
     glDisable(GL_SCISSOR_TEST);
-    // Some windows are sRGB-capable though nobody asked; what comes here is encoded already.
+    // Some windows are sRGB-capable without a request; the values written here are already encoded.
     glDisable(GL_FRAMEBUFFER_SRGB);
 }
 

@@ -92,7 +92,7 @@ struct DrawIndexedCommand {
 void drawIndexedIndirect(const Buffer& commands, std::uint32_t first, std::uint32_t count);
 
 void dispatch(std::uint32_t groupsX, std::uint32_t groupsY = 1, std::uint32_t groupsZ = 1);
-/// Tells GL what earlier image and storage writes must be seen by; the graph does it between passes.
+/// Names the accesses that must see earlier image and storage writes; the graph calls it between passes.
 void memoryBarrier(graph::Barrier barrier);
 /// Blocks until the GPU is done.
 void finish();

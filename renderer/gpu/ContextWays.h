@@ -21,8 +21,8 @@ struct Answers {
     void add(const std::string& way, const std::runtime_error& error);
 };
 
-/// The ways to a context that Context::create() tries. Each returns null after adding to `answers` what it tried and
-/// what it was told.
+/// The ways to a context that Context::create() tries. On failure each returns null and adds its attempt and the answer
+/// to `answers`.
 
 /// Without a display: Mesa's surfaceless platform, every EGL device, EGL's default display. A hardware device is
 /// preferred to a software rasteriser, wherever in this order it comes.

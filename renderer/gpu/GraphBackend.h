@@ -37,12 +37,12 @@ public:
     void setProfiling(bool on) { profiling_ = on; }
     bool profiling() const { return profiling_; }
 
-    /// Frames after which an allocation that nobody asks for any more is given back. Frames that take turns keep theirs
-    /// when it is at least their number.
+    /// Frames after which an unused allocation is freed. Frames that run in turn keep theirs if this is at least their
+    /// number.
     void setMostIdleFrames(int frames) { mostIdleFrames_ = frames; }
     int mostIdleFrames() const { return mostIdleFrames_; }
 
-    /// Begins a frame: what the previous frame's allocations held may be overwritten from now on.
+    /// Begins a frame: the contents of the previous frame's allocations may be overwritten from now on.
     void allocate(std::span<const graph::ResourceDesc> allocations) override;
     const Texture& texture(int physical) override;
     const Buffer& buffer(int physical) override;
@@ -52,7 +52,7 @@ public:
     void setRevision(const std::string& name, std::optional<std::uint64_t> revision) override;
     /// Whether a frame that ended well has left this revision under the name, in that shape.
     bool holds(const std::string& name, const graph::ResourceDesc& desc, std::uint64_t revision) const;
-    /// Gives back what lives across frames under a name.
+    /// Frees the persistent resource of a name.
     void forget(const std::string& name);
     void bindTargets(std::span<const graph::Target> colors, const graph::Target& depth, int width, int height) override;
     void bindConstants(std::uint32_t slot, std::span<const std::byte> bytes,

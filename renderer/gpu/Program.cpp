@@ -142,8 +142,8 @@ std::size_t Program::uniformBlockBytes(std::uint32_t slot) const {
 Program::~Program() {
     const std::uint32_t id = id_.value();
     if (id == 0) return;
-    // A deleted program that is current lives on until another one is; whoever puts back then what was current before,
-    // as Dear ImGui does, would name a program that is no more.
+    // A deleted program that is current lives on until another one is; code that restores the program that was current
+    // before, as Dear ImGui does, would name a program that is no more.
     GLint current = 0;
     glGetIntegerv(GL_CURRENT_PROGRAM, &current);
     if (std::uint32_t(current) == id) glUseProgram(0);

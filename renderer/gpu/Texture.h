@@ -15,7 +15,7 @@
 namespace tessera::gpu {
 
 /// A texture of immutable storage: flat, an array or a cube; samples > 1 makes it multisampled (flat, one level, no
-/// upload, no download). Made with nearest filtering and clamped edges, which is what texelFetch and the G-buffer need;
+/// upload, no download). Made with nearest filtering and clamped edges, as texelFetch and the G-buffer need;
 /// a Sampler overrides both.
 class Texture {
 public:

@@ -14,7 +14,7 @@ namespace tessera::graph {
 /// Memory, not the resource, is what counts: the tenants of one allocation share their hazards. A bit covers every
 /// store before it, so once issued it is not repeated until the next store. Allocations and imported resources come
 /// from an earlier frame that may have read them, so the first store to each is held back too; stores of this frame are
-/// made visible to the next one, and to whoever reads the outputs, by `after`.
+/// made visible to the next one, and to readers of the outputs, by `after`.
 void placeBarriers(const Graph& graph, CompiledGraph& compiled);
 
 } // namespace tessera::graph

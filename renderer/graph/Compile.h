@@ -7,7 +7,7 @@
 
 namespace tessera::graph {
 
-/// What GL must be told before a pass because an earlier one wrote through an image or a storage buffer; a bit set that
+/// The memory barrier before a pass, because an earlier one wrote through an image or a storage buffer; a bit set that
 /// the backend turns into glMemoryBarrier bits (the rule: Barriers.h).
 enum class Barrier : std::uint32_t {
     None = 0,
@@ -44,15 +44,15 @@ struct CompiledResource {
 
 struct Culled {
     std::uint32_t pass;
-    std::string why;          ///< plain words, naming the outputs that nobody needs
+    std::string why;          ///< plain words, naming the outputs that nothing reads
     std::uint32_t before = 0; ///< position in CompiledGraph::order of the pass it would have run before
 };
 
 struct CompiledGraph {
     std::vector<CompiledPass> order;
-    Barrier after = Barrier::None;     ///< once all have run, for whoever uses outputs, imports or the allocations next
-    std::vector<ProgramDesc> programs; ///< of the passes that run, in their order
-    std::vector<Culled> culled;        ///< in the order in which they would have run
+    Barrier after = Barrier::None;           ///< after all passes, for the next use of outputs, imports or allocations
+    std::vector<ProgramDesc> programs;       ///< of the passes that run, in their order
+    std::vector<Culled> culled;              ///< in the order in which they would have run
     std::vector<CompiledResource> resources; ///< parallel to Graph::resources()
     std::vector<ResourceDesc> allocations;   ///< what a backend must provide, by CompiledResource::physical
     std::size_t bytes = 0;                   ///< with aliasing, imported resources left out

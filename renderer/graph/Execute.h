@@ -19,11 +19,11 @@ public:
     virtual const gpu::Buffer& buffer(int physical) = 0;
     /// What lives across frames under a name, made where there is none of that shape.
     virtual const gpu::Texture& persistentTexture(const std::string& name, const TextureDesc& desc) = 0;
-    /// The buffer of a name that grows, made larger where it is smaller than so many bytes. Several of one name in a
-    /// frame are told apart by a number.
+    /// The growing buffer of a name, enlarged to at least `bytes`. `number` distinguishes buffers of the same name in a
+    /// frame.
     virtual const gpu::Buffer& growingBuffer(const std::string& name, int number, std::size_t bytes) = 0;
     virtual const gpu::Buffer& persistentBuffer(const std::string& name, const BufferDesc& desc) = 0;
-    /// Notes what a persistent resource holds from now on; none: nothing that can be relied on.
+    /// Records the revision of a persistent resource's contents; none: its contents are undefined.
     virtual void setRevision(const std::string& name, std::optional<std::uint64_t> revision) = 0;
     /// Binds a framebuffer of these textures, or of so many pixels where there are none.
     virtual void bindTargets(std::span<const Target> colors, const Target& depth, int width, int height) = 0;
@@ -47,7 +47,7 @@ public:
     virtual const gpu::Program& get(const ProgramDesc& desc) = 0;
 };
 
-/// Thrown through a frame that whoever asked for it gives up; no failure, so no pass's name is put in front.
+/// Thrown to abandon a frame when its caller no longer wants it. It is no failure, so no pass name is added to it.
 class Interrupted : public std::exception {
 public:
     const char* what() const noexcept override { return "the frame was given up"; }

@@ -50,15 +50,15 @@ public:
     TextureHandle write(TextureHandle handle, Access access = Access::ColorAttachment, const Part& part = {});
     BufferHandle write(BufferHandle handle, Access access = Access::StorageWrite);
 
-    /// States what this pass needs of a texture it uses; a difference is a fault of compile(). A width, height or
-    /// sample count of 0 stands for any.
+    /// States the format and size that this pass needs of a texture; a difference is a fault of compile(). A width,
+    /// height or sample count of 0 stands for any.
     void expect(TextureHandle handle, const TextureDesc& desc);
 
     /// States a program that this pass runs; PassContext::program() counts them from 0. So the programs of a frame
     /// follow from its passes.
     void program(ProgramDesc desc);
 
-    /// Keeps the pass though nobody needs its outputs (it reports, downloads, presents).
+    /// Keeps the pass although nothing reads its outputs (it reports, downloads, presents).
     void keep();
 
 private:
@@ -68,7 +68,7 @@ private:
     std::uint32_t pass_;
 };
 
-/// Resolves handles and programs while a pass executes. Only what the pass declared may be asked for.
+/// Resolves handles and programs while a pass executes. Only declared handles and programs are available.
 class PassContext {
 public:
     virtual ~PassContext() = default;
@@ -77,12 +77,12 @@ public:
     /// Makes room in a buffer that grows and was created with 0 bytes, once a frame and before anything else is asked
     /// of it. So a buffer that was resolved is never replaced while the frame runs. Its memory may hold more.
     virtual const gpu::Buffer& allocate(BufferHandle handle, std::size_t bytes) const = 0;
-    /// What a buffer holds: the bytes of its description, or those that allocate() was told.
+    /// The size of a buffer in bytes: that of its description, or that of allocate().
     virtual std::size_t bytes(BufferHandle handle) const = 0;
     /// The pass's program of this number, in the order in which it declared them.
     virtual const gpu::Program& program(std::size_t number) const = 0;
     const gpu::Program& program() const { return program(0); }
-    /// Binds what the pass declared to rasterise into, colours in the order of their declaration.
+    /// Binds the render targets that the pass declared, colours in the order of their declaration.
     virtual void bindTargets() const = 0;
     /// The same of so many pixels, for a pass that rasterises into nothing because its shaders write buffers.
     virtual void bindNoTargets(int width, int height) const = 0;
@@ -157,13 +157,13 @@ public:
     TextureHandle import(std::string name, const TextureDesc& desc, const gpu::Texture* texture = nullptr);
     BufferHandle import(std::string name, const BufferDesc& desc, const gpu::Buffer* buffer = nullptr);
 
-    /// A resource that the backend keeps from frame to frame under its name: a cache, a history. The revision says of
-    /// what its contents are made; `holds` whether they are there already (Backend::holds()). Where not, a pass of the
-    /// frame must write it before another reads it.
+    /// A resource that the backend keeps from frame to frame under its name: a cache, a history. `revision` identifies
+    /// the input that its contents are computed from; `holds` says whether they exist already (Backend::holds()). If
+    /// not, a pass of the frame must write it before another reads it.
     TextureHandle persist(std::string name, const TextureDesc& desc, std::uint64_t revision, bool holds);
     BufferHandle persist(std::string name, const BufferDesc& desc, std::uint64_t revision, bool holds);
 
-    /// Declares what the frame is for: passes that do not lead here are culled.
+    /// Declares a result of the frame: passes that contribute to no result are culled.
     void output(TextureHandle handle);
     void output(BufferHandle handle);
 

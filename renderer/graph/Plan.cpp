@@ -22,7 +22,7 @@ std::vector<std::string> uniqueNames(const Graph& graph) {
     return names;
 }
 
-/// What a pass takes in; what it only reads back from itself is no input.
+/// The inputs of a pass; a resource that it only reads back from itself is no input.
 std::vector<std::string> readsOf(const Graph::Pass& pass, const std::vector<std::string>& names) {
     std::vector<std::string> reads;
     for (const Graph::Use& use : pass.uses) {

@@ -8,8 +8,8 @@
 
 namespace tessera::graph {
 
-/// What `tessera plan` tells of a frame: what runs, what was left out and why, and what it costs in bytes. The JSON is
-/// the `plan` record of the command line's documentation (schema kPlanSchema).
+/// The content of `tessera plan`: the passes of a frame, the omitted parts with their reasons, and their bytes. The
+/// JSON is the `plan` record of the command line's documentation (schema kPlanSchema).
 struct Plan {
     struct Pass {
         std::string name;

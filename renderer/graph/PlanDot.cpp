@@ -116,7 +116,7 @@ private:
         text_ += fmt::format("  {} -> {}{};\n", from, to, isLeftOut ? R"( [style=dashed, color="#b4bcc2"])" : "");
     }
 
-    /// The ellipse of what a resource holds at this point of the frame; empty for a resource that holds nothing yet.
+    /// The ellipse of a resource's version at this point of the frame; empty for a resource without contents yet.
     std::string newestVersion(const std::string& name, bool isLeftOut) {
         if (const auto leftOut = leftOutVersions_.find(name); isLeftOut && leftOut != leftOutVersions_.end())
             return leftOut->second;

@@ -9,7 +9,7 @@
 namespace tessera::shader {
 namespace {
 
-/// How a compiler writes a place, and what of the match follows it in the house's form.
+/// How a compiler writes a source position, and the part of the match to keep after the position in our own form.
 struct Dialect {
     std::regex pattern;
     std::size_t file, line; ///< groups of the source string's number and the line

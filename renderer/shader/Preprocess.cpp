@@ -125,8 +125,8 @@ private:
             fail(place, fmt::format("the #include of '{}' closes a cycle: {}; move what both need to a third file",
                                     files_[*found].path, chain(at, *found)));
         if (!files_[*found].once) return emit(*found, conditional);
-        // Where it counts already whatever the conditionals say, it is left out. Where only the driver can tell whether
-        // an earlier copy counts, the driver decides by a guard.
+        // The file is omitted if an earlier copy is active under all conditionals. If only the driver can evaluate the
+        // conditionals around that copy, a guard lets the driver decide.
         if (certain_.contains(*found)) return;
         const bool guarded = conditional || possible_.contains(*found);
         if (guarded) result_.text += fmt::format("#ifndef TESSERA_ONCE_{0}\n#define TESSERA_ONCE_{0}\n", *found);

@@ -32,7 +32,7 @@ bool sameText(const std::vector<ExpandedStage>& a, const std::vector<ExpandedSta
     });
 }
 
-/// A build under way, with what it takes to name the places of its faults.
+/// A build under way, with the data that maps its errors to source lines.
 struct Build {
     ProgramDesc desc;
     std::vector<ExpandedStage> stages;

@@ -13,7 +13,7 @@
 
 namespace tessera::shader {
 
-/// Every program of the process, compiled once a distinct variant, on the context that is current when it is asked for.
+/// Every program of the process, compiled once per distinct variant, on the context that is current at its first use.
 class ProgramLibrary : public graph::ProgramSource {
 public:
     explicit ProgramLibrary(SourceTree tree = SourceTree());

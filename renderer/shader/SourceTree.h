@@ -14,7 +14,7 @@ public:
     SourceTree();
     /// A folder's files. Throws InputError when it is no folder.
     explicit SourceTree(std::filesystem::path folder);
-    /// The embedded files, whatever the environment says.
+    /// The embedded files, regardless of the environment.
     static SourceTree embedded();
 
     /// A file as it is now (folders are read anew each time, so edits show); none when there is no such file. Throws

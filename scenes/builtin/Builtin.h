@@ -14,7 +14,8 @@ Scene makeSpheres(const LoadOptions& options, LoadLedger& ledger);
 Scene makeModels(const LoadOptions& options, LoadLedger& ledger);
 /// The benchmark scene: 256 spheres and boxes, `lights` point lights (256 by default), every number of it specified.
 Scene makeLattice(const LoadOptions& options, LoadLedger& ledger);
-/// A closed room whose radiance is known in closed form (Room.h); `lights` share the one lamp's place and intensity.
+/// A closed room whose radiance is known in closed form (Room.h); `lights` lights share the position and intensity of
+/// the one lamp.
 Scene makeRoom(const LoadOptions& options, LoadLedger& ledger);
 /// A bust with an object-space normal map; a scanned head where TESSERA_ASSETS holds one and `useAssets` is set.
 Scene makeHead(const LoadOptions& options, LoadLedger& ledger);

@@ -8,7 +8,7 @@
 namespace tessera::scenes {
 
 /// The whole contents of a regular file. Throws InputError, naming it, when it is missing, not a regular file or
-/// unreadable. The ledger is charged for it, and told of it.
+/// unreadable. The ledger is charged for it, and records it.
 std::vector<std::byte> readFileBytes(const std::filesystem::path& file, LoadLedger& ledger);
 
 } // namespace tessera::scenes

@@ -41,7 +41,7 @@ private:
     std::map<int, std::vector<MeshInstance>> imported_;
 };
 
-/// What is drawn in the place of what an extension asks for, where its name does not say it.
+/// The replacement that is drawn for an unsupported extension, where the extension's name does not imply it.
 std::string_view drawnInstead(std::string_view extension) {
     const bool isTransparency = extension == "KHR_materials_transmission" || extension == "KHR_materials_volume" ||
                                 extension == "KHR_materials_diffuse_transmission";

@@ -99,7 +99,7 @@ std::vector<Value> Accessors::read(int index, Convert convert) {
     const auto width = static_cast<std::size_t>(components);
     std::vector<Value> values;
 
-    // Once here, once as what the caller makes of them.
+    // Once here, once for the caller's copy.
     const auto reserve = [&] {
         document_.charge(2 * accessor.count * width * sizeof(Value), "accessors", index);
         values.resize(accessor.count * width);

@@ -12,7 +12,7 @@ struct Elements {
     std::size_t count = 0;
     int components = 0; ///< 1..4 an element, 16 at most
     bool normalized = false;
-    int componentType = 0; ///< as in the file, for those who must tell integers from floats
+    int componentType = 0; ///< as in the file, for callers that distinguish integers from floats
     std::vector<float> values;
 };
 

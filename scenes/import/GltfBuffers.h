@@ -9,7 +9,7 @@
 
 namespace tessera::scenes::gltf {
 
-/// The bytes behind buffer views: buffers are read, and compressed views decoded, the first time they are asked for.
+/// The bytes behind buffer views: buffers are read, and compressed views decoded, on first use.
 class Buffers {
 public:
     explicit Buffers(const Document& document) : document_(document) {}

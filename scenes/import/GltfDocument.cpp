@@ -48,7 +48,7 @@ Json parseDocument(const std::string& text, const std::string& file) {
     }
 }
 
-/// Refuses what the rest cannot read before the shape is looked at, as another version has another shape.
+/// Refuses unreadable versions before the shape is checked, because another version has another shape.
 void checkVersion(const Json& json, const std::string& file) {
     const auto asset = json.is_object() ? json.find("asset") : json.end();
     if (!json.is_object() || asset == json.end() || !asset->is_object())

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kFirstTriangleMode = TINYGLTF_MODE_TRIANGLES; ///< points and lines come before it
 
-/// One attribute's accessor, read and checked against what the specification allows for it.
+/// One attribute's accessor, read and checked against the specification.
 class PrimitiveReader {
 public:
     PrimitiveReader(Context& context, const tinygltf::Primitive& primitive, std::string place, std::string meshName)

@@ -37,8 +37,8 @@ std::string decodedNames() {
     return names + " or " + std::string(last);
 }
 
-/// By the first bytes, whatever the name says; where no format has a signature, by the extension. Throws InputError for
-/// what is not decoded.
+/// By the first bytes, regardless of the name; by the extension if no signature matches. Throws InputError for other
+/// formats.
 const PictureFormat& formatOf(std::span<const std::byte> bytes, const std::string& name) {
     const auto refusal = [&](const std::string& what) {
         return InputError(fmt::format("{}: {}; convert the picture to {}", name, what, decodedNames()));

@@ -19,7 +19,7 @@ Scene importObj(const std::filesystem::path& file, LoadLedger& ledger);
 /// Tessera's own .json, see docs/scene-format.md
 Scene importSceneJson(const std::filesystem::path& file, LoadLedger& ledger);
 
-/// What a picture's file says beside its texels, for those who show the picture itself; of a texture the scene says
+/// A picture file's data besides its texels, for callers that show the picture itself; for a texture the scene says
 /// how it is meant.
 struct PictureTags {
     std::string software;   ///< that wrote it; empty where the format's decoder does not tell
@@ -33,7 +33,7 @@ struct DecodedPicture {
 };
 
 /// Decodes a picture file, or bytes of one (`name` then serves error messages). Which format it is in follows from its
-/// first bytes, whatever the name says; TGA, which has no signature, is told by the name's extension .tga. No format is
+/// first bytes, regardless of the name; TGA, which has no signature, is recognised by the extension .tga. No format is
 /// read but those of pictureFormats() (PictureCodecs.h).
 DecodedPicture readPicture(const std::filesystem::path& file, LoadLedger& ledger);
 Image readImage(const std::filesystem::path& file, LoadLedger& ledger);

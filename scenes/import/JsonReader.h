@@ -16,8 +16,8 @@ namespace tessera::scenes {
 
 class JsonObject;
 
-/// A value of a JSON document that knows where it stands. Every function throws InputError "file:/json/pointer: what"
-/// unless the value is what the function says. The document and its path must outlive it.
+/// A value of a JSON document with its position. Every function throws InputError "file:/json/pointer: what" unless the
+/// value has the function's type. The document and its path must outlive it.
 class JsonValue {
 public:
     JsonValue(const nlohmann::json& value, const std::filesystem::path& file, std::string pointer = {})
@@ -77,7 +77,7 @@ private:
     std::string pointer_;
 };
 
-/// An object whose keys are read one by one; done() refuses those that nobody asked for.
+/// An object whose keys are read one by one; done() refuses keys that were not read.
 class JsonObject {
 public:
     explicit JsonObject(JsonValue value);

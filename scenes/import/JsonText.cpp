@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Reads past a document's values and looks at what a parsed one does not tell any more.
+/// Scans a document's text for faults that a parsed document no longer shows.
 class Checker : public nlohmann::json_sax<json> {
 public:
     Checker(std::string_view text, const std::filesystem::path& file) : text_(text), file_(file) {}

@@ -22,7 +22,7 @@ inline constexpr int kMaxJsonDepth = 64;
 /// for each value, looks through all of an array for every element.
 void requireJsonDepth(std::string_view text, const std::filesystem::path& file);
 
-/// At most what a parsed document of this text takes.
+/// Upper bound of the memory of a parsed document of this text.
 std::uint64_t parsedJsonBytes(std::string_view text);
 
 /// `pointer` with one more step. Source: RFC 6901, "JSON Pointer".

@@ -21,7 +21,7 @@ std::vector<std::string> fileNamesOf(const std::string& statement, const std::fi
     if (isFile(folder / statement)) return {statement};
     std::vector<std::string> names;
     forEachLine("mtllib " + statement, [&](const Line& line) { names.assign(line.words.begin(), line.words.end()); });
-    // When nothing of that name is there, the statement as a whole is what a message should show.
+    // If there is no file of that name, a message should show the whole statement.
     const bool someExist = std::ranges::any_of(names, [&](const std::string& name) { return isFile(folder / name); });
     return someExist ? names : std::vector<std::string>{statement};
 }

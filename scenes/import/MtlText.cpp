@@ -82,7 +82,7 @@ private:
     void readLine(const Line& line) {
         if (line.keyword == "newmtl") {
             if (line.rest.empty()) failAt(file_, line.number, "'newmtl' gives no name");
-            // The number keeps names with spaces, and equal ones, apart from what the parser makes of them.
+            // The number distinguishes names with spaces and equal names, which the parser would merge.
             fmt::format_to(std::back_inserter(text_), "newmtl {}\n", materials_.size());
             // In the file's list, grown; in the parser's; and as those that are used.
             constexpr std::size_t kCopies = 4;

@@ -138,7 +138,7 @@ public:
     }
 
 private:
-    /// A shape is what stands between two 'g' or 'o' statements: one node, with a mesh a material.
+    /// A shape is the part between two 'g' or 'o' statements: one node, with a mesh per material.
     void addShape(const tinyobj::shape_t& shape) {
         std::vector<std::pair<int, MeshBuilder>> builders; // in the order the materials are first used
         std::map<int, std::size_t> builderOfMaterial;

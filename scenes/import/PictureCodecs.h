@@ -31,14 +31,14 @@ struct PictureSignature {
 /// what is no picture at all; none of them is ever asked.
 struct PictureFormat {
     std::string_view name;          ///< in messages, and OpenImageIO's
-    PictureSignature signatures[2]; ///< either tells the format; none: its extension does
+    PictureSignature signatures[2]; ///< either identifies the format; none: its extension does
     std::string_view extensions[2]; ///< lower case
     DecodePicture* decode;          ///< null: known by its first bytes and refused by name
     /// Texels that a byte of a file may hold at most: a header that claims more is refused before memory is reserved
     /// for them. 0 where a codec packs one colour without a bound, and the ledger alone counts.
     std::int64_t maxTexelsAByte = 0;
-    /// Where the reader reserves memory, or takes seconds, as soon as it sees the header: what that claims. Throws
-    /// std::runtime_error for claims that cannot be true.
+    /// The size that the header claims, for readers that reserve memory, or take seconds, as soon as they see it.
+    /// Throws std::runtime_error for claims that cannot be true.
     PictureSize (*claimedSize)(std::span<const std::byte> bytes) = nullptr;
     /// Takes descriptions, profiles and the like, which the reader would keep or crash on, out of a copy of the file.
     /// Comes before claimedSize, and throws like it.

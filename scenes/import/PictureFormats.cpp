@@ -6,7 +6,7 @@ namespace tessera::scenes {
 
 namespace {
 
-/// Deflate reaches 1032 bytes a byte, and a grey texel may have one bit; Huffman codes of a JPEG's blocks and runs of
+/// Deflate reaches 1032 bytes per byte, and a grey texel may have one bit; Huffman codes of a JPEG's blocks and runs of
 /// the others stay below.
 constexpr std::int64_t kMaxTexelsAByte = 16384;
 

@@ -281,7 +281,7 @@ private:
                 if (std::ranges::find(names, *options.camera) == names.end())
                     option.failUnknown("camera", *options.camera, names);
             } else {
-                options.wishes[key] = readWish(option); // which settings there are is not this floor's business
+                options.wishes[key] = readWish(option); // the floors above know the settings
             }
         }
     }

@@ -4,8 +4,8 @@
 #include "scenes/Scene.h"
 #include "scenes/import/JsonReader.h"
 
-/// The members of Scene.h's structs by name: what "fields" of a light, a camera or a material may set one by one,
-/// whatever its type or model. A visitor is called with a member's name and that member of each of the objects.
+/// The members of Scene.h's structs by name: "fields" of a light, a camera or a material may set each of them, for any
+/// type or model. A visitor is called with a member's name and that member of each of the objects.
 namespace tessera::scenes::scenejson {
 
 template <typename Visitor, typename... Animations>

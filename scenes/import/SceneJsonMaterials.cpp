@@ -193,7 +193,7 @@ Material readMaterial(const JsonValue& value, Images& images) {
 void changeMaterial(JsonObject& object, Material& material, Images& images) {
     if (const auto model = object.find("model")) {
         material.model = model->oneOf<MaterialModel>("material model", kModels);
-        // Overrides may change the model, and only one of them has every masking.
+        // Overrides may change the model, and only one model has every masking-shadowing option.
         if (material.model != MaterialModel::MicrofacetAnisotropic && material.masking == Masking::Directional)
             material.masking = Masking::Walter;
     }

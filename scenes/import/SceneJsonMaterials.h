@@ -3,7 +3,8 @@
 
 namespace tessera::scenes::scenejson {
 
-/// A new material: its name, its model and the model's parameters. Throws InputError for what the model does not have.
+/// A new material: its name, its model and the model's parameters. Throws InputError for parameters that the model does
+/// not have.
 Material readMaterial(const JsonValue& value, Images& images);
 
 /// Changes the parameters an override gives, and no others; "model" changes the model first. The caller reads the key

@@ -76,7 +76,7 @@ Json fieldOf(const LightAnimation& animation) {
 
 Json fieldOf(const TextureUse& use) {
     Json json = Json::object();
-    // All of them: what is there is changed, not made anew.
+    // All members: the existing object is changed, not recreated.
     scenejson::visitTextureUse([&json](const char* key, const auto& member) { json[key] = fieldOf(member); }, use);
     return json;
 }

@@ -33,7 +33,7 @@ bool namesAFile(const nlohmann::json& value) {
     return value.is_structured() && std::ranges::any_of(value, namesAFile);
 }
 
-/// True when a document only says what of its base was edited, so that a new one can say it in its place.
+/// True if a document holds only edits of its base, so that a new document can replace it.
 bool onlyEdits(const nlohmann::json& document) {
     constexpr std::array kEdits = {"$schema", "tessera", "base",    "name",       "materials",
                                    "lights",  "cameras", "options", "environment"};

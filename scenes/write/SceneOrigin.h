@@ -6,7 +6,7 @@
 
 namespace tessera::scenes {
 
-/// Where a scene came from and what it was then: what a file that says only what was edited since refers to.
+/// The file of a scene and its original contents, to which a file that holds only later edits refers.
 struct SceneOrigin {
     std::string base;          ///< absolute path of a scene file, or builtin:NAME
     std::optional<int> lights; ///< that a built-in scene was asked to make

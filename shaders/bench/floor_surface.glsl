@@ -1,5 +1,5 @@
-// The surface that the measured floor lights (validation/floor/FloorLighting.h): made from the pixel's place alone, of the
-// models that the scene uses, and different at every pixel, so that no compiler lifts anything out of the light loop.
+// The surface that the measured lower bound lights (validation/floor/FloorLighting.h). It has the scene's models, is computed
+// from the pixel coordinates alone and differs at every pixel, so that no compiler moves work out of the light loop.
 #pragma once
 #include "lib/surface/camera.glsl"
 #include "lib/maths/octahedral.glsl"
@@ -47,7 +47,7 @@ void setFloorLobes(vec2 pixel, inout Surface surface)
 #endif
 #if HAS_TANGENT_FRAME
     precise vec3 across = vec3(1.0, 0.0, 0.0) - surface.normalLS * surface.normalLS.x;
-    precise vec3 tangent = across / sqrt(dot(across, across)); // the floor's normals lie around the z axis
+    precise vec3 tangent = across / sqrt(dot(across, across)); // the surface's normals lie around the z axis
     surface.tangentLS = tangent;
     precise float alphaBitangent = 0.1 + 0.8 * floorShare(pixel, vec2(0.0247, 0.0073));
     surface.alphaBitangent = alphaBitangent;

@@ -1,6 +1,6 @@
 // Depth alone; only alpha-masked materials have anything to decide. With SHADING_DEPTH also the depth at which each
-// sample will be lit, which with several samples a pixel is not the sample's own, and the same negated, so that the
-// largest of each over a pixel is its range.
+// sample will be lit, which with several samples per pixel is not the sample's own depth, and the same negated, so that
+// the largest of each over a pixel is its range.
 #include "lib/raster/shading_depth.glsl"
 #if HAS_ALPHA_MASK
 #include "lib/raster/rasterised.glsl"

@@ -1,4 +1,4 @@
-// Counts what a pass would shade or store at a pixel: blending adds the fragments up.
+// Counts the fragments that a pass would shade or store at a pixel: blending adds them up.
 #include "lib/raster/rasterised.glsl"
 #include "lib/raster/coverage.glsl"
 

@@ -1,36 +1,38 @@
 #pragma once
 // The test of light culling, for C++ and GLSL: may a light reach a cell, the part of the view that a tile sees between
-// two depths? It never says no where the light changes a pixel (sound); where it says yes too often is counted by the
-// oracle. View space (VS) here is metres to the right of, above and ahead of the origin of lighting space (frame.h).
-// Rays of pixels spread: s metres ahead they lie (spread.x + spread.y s) times as far to the side as ViewConstants'
-// lensVS says, (view depth of the origin, 1) for a perspective camera and (1, 0) for an orthographic one. Everything is
-// precise, so that two shaders that ask the same question, one to count lights and one to list them, get the same
-// answer.
+// two depths? It is sound: it never says no if the light changes a pixel; the oracle counts needless answers of yes.
+// Culling space: x metres to the right, y up and z ahead of the origin of lighting space (frame.h). Unlike in view
+// space, which looks along -Z, z is positive in front. Rays of pixels spread: s metres ahead they lie (spread.x +
+// spread.y s) times as far to the side as ViewConstants' lensVS says, (view depth of the origin, 1) for a perspective
+// camera and (1, 0) for an orthographic one. Everything is precise, so that two shaders that ask the same question, one
+// to count lights and one to list them, get the same answer.
 #include "interop.h"
 
-// Columns of tiles whose lights are told apart by the planes between columns together; their boxes tell the rest.
+// Tile columns that are tested together against the planes between columns; box tests follow.
 #define CULL_BLOCK_COLUMNS 8u
 
 // A spot's angle, and the outer angle it is compared with, are off by 4e-7 in their cosines at most: some roundings of
 // 2^-24, of the directions and of the squares (lib/light/light.glsl, shared/light.h). A cone wider by this in its
-// cosine encloses whatever is lit.
+// cosine encloses every lit point.
 #define CONE_COSINE_MARGIN 1e-6
 
 SHARED_BEGIN
 
-// What rounding to fp32 can move of a light and the surfaces it reaches, in metres: 1e-5 of the farthest of it from the
-// origin (24 bits keep 6e-8 of each distance, and a handful of roundings follow one another), and the steps of even
-// depths, however near a surface is: two rounded coefficients, a product, a sum, and the sum in the depth key are off
-// by 2^-24 of the distance from depth 0 to 1 each, which is ViewConstants::depthKey.y. Eight of them.
+// The largest error of positions of a light and of the surfaces it reaches from rounding to fp32, in metres: 1e-5 of
+// the farthest of it from the origin (24 bits keep 6e-8 of each distance, and a handful of roundings follow one
+// another), and the steps of even depths, however near a surface is: two rounded coefficients, a product, a sum, and
+// the sum in the depth key are off by 2^-24 of the distance from depth 0 to 1 each, which is ViewConstants::depthKey.y.
+// Eight of them.
 SHARED_FUNCTION float roundingMargin(float farthestMetres, vec4 depthKey) {
     return 1e-5f * farthestMetres + 4.76837158e-7f * depthKey.y;
 }
 
-// Where a light is not exactly 0. Every length is enlarged by what rounding of positions to fp32 can move.
+// Where a light is not exactly 0. Every length is enlarged by the rounding error of positions in fp32. Positions are in
+// culling space.
 struct CullLight {
-    vec4 sphere; // xyz centre VS, w radius: encloses all of it; w < 0: reaches everywhere
-    vec4 apex;   // spot: xyz position VS, w sine of the outer angle
-    vec4 axis;   // spot: xyz unit direction of travel VS, w cosine of the outer angle; else w is -2
+    vec4 sphere; // xyz centre, w radius: encloses all of it; w < 0: reaches everywhere
+    vec4 apex;   // spot: xyz position, w sine of the outer angle
+    vec4 axis;   // spot: xyz unit direction of travel, w cosine of the outer angle; else w is -2
 };
 
 struct CellBox {
@@ -38,8 +40,9 @@ struct CellBox {
     vec4 high; // xyz VS
 };
 
-// What the centres of tile (column, row)'s pixels see: x, y least and most to the right, z, w least and most up, in the
-// units of lensVS. Centres, since nothing else of a pixel is shaded. `size` is the picture's, in pixels.
+// The bounds of the rays through the pixel centres of tile (column, row): x, y least and most to the right, z, w least
+// and most up, in the units of lensVS. Centres suffice, since pixels are shaded there only. `size` is the picture's, in
+// pixels.
 SHARED_FUNCTION vec4 tileRays(vec4 lensVS, uint column, uint row, uint side, uvec2 size) {
     float left = float(column * side) + 0.5f;
     float right = float(min((column + 1u) * side, size.x)) - 0.5f;
@@ -65,7 +68,7 @@ SHARED_FUNCTION bool sphereTouchesSlab(float across, float ahead, float radius, 
     return lowGap >= lowReach && highGap <= highReach;
 }
 
-// The box around what a tile sees between two distances ahead in metres, near < far.
+// The box around a tile's frustum between two distances ahead in metres, near < far.
 SHARED_FUNCTION CellBox cellBox(vec4 rays, float nearMetres, float farMetres, vec2 spread) {
     SHARED_PRECISE float n = nearMetres - 1e-5f * abs(nearMetres);
     SHARED_PRECISE float f = farMetres + 1e-5f * abs(farMetres);

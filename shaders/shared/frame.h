@@ -1,11 +1,11 @@
 #pragma once
-// What passes know of a view, which is a camera that looks into a picture of some size, and of its lights. Positions
+// The constants of a view, which is a camera with a picture of some size, and of its lights. Positions
 // are in lighting space (LS). Lighting space has the axes of the world or of the view, as FrameSettings::space says,
-// and its origin on the view axis: at the eye, or in the middle of what is seen where all of it is far away, so that
-// fp32 keeps the digits of positions. The CPU puts normals, lights and rays into it in double precision, and shaders do
-// not know which it is. Vertices pass through world axes at that origin, which is rasterising space (RS), whatever
-// lighting space is: rounded in another space they would lie elsewhere by a bit, and pixels at edges would show another
-// triangle.
+// and its origin on the view axis: at the eye, or in the middle of the visible surfaces where all of them are far away,
+// so that fp32 keeps the digits of positions. The CPU transforms normals, lights and rays to it in double precision,
+// and shaders do not depend on its axes. Vertices pass through relative world space (RS), the world's axes at that
+// origin, with either lighting space: rounding in another space would move them by a bit, and pixels at edges would
+// show another triangle.
 #include "interop.h"
 
 SHARED_BEGIN
@@ -13,11 +13,12 @@ SHARED_BEGIN
 struct ViewConstants {
     mat4 clipFromLS;
     mat4 clipFromRS;
-    mat4 worldFromLS; // rotation only, of world axes, so also RS from LS; the unit matrix where LS is RS
-    vec4 eyeLS;       // xyz the eye; w the view depth of the origin of lighting space, in metres
-    vec4 rayDxLS;   // what a pixel's step to the right and up is across the view axis: in metres, a metre ahead of the
-    vec4 rayDyLS;   // eye, or (orthographic) anywhere
-    vec4 forwardLS; // unit; w is 1 for an orthographic camera, else 0
+    mat4 worldFromLS;    // rotation only, of world axes, so also RS from LS; the unit matrix where LS is RS
+    vec4 eyeLS;          // xyz the eye; w the view depth of the origin of lighting space, in metres
+    vec4 rayDxLS;        // step of one pixel to the right across the view axis, in metres: a metre ahead of the eye, or
+                         // (orthographic) anywhere
+    vec4 rayDyLS;        // the same upwards
+    vec4 forwardLS;      // unit; w is 1 for an orthographic camera, else 0
     vec4 aheadFromDepth; // metres ahead of the origin of lighting space = (x + y depth) / (z + w depth)
     vec4 background;     // radiance where nothing is drawn; a is 0, the coverage
     vec4 lensVS; // a pixel p sees x (p.x - z) to the right and y (p.y - w) up, in metres: a metre ahead of the eye, or

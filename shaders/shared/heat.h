@@ -2,7 +2,7 @@
 // Colours of heat maps, for C++ and GLSL alike.
 #include "interop.h"
 
-// Where the scale of counts ends when nobody has looked for the largest, as a power of two.
+// The end of the scale of counts if the largest count is unknown, as a power of two.
 #define HEAT_COUNT_LOG2 9.0f
 
 SHARED_BEGIN

@@ -1,7 +1,7 @@
 #pragma once
 // A light as RGBA32F texels of two buffer textures. Buffer textures, because they are the fastest store
-// measured on software rasterisers (2 to 3 times faster a light-pixel pair than a storage buffer) and have no 64 KiB
-// limit.
+// measured on software rasterisers (2 to 3 times faster per pair of light and pixel than a storage buffer) and have no
+// 64 KiB limit.
 #include "interop.h"
 
 // Kinds, stored as plain numbers: small integers stored as float bits would be denormals, which hardware may flush.
@@ -16,13 +16,13 @@
 
 SHARED_BEGIN
 
-// What every kind of light has. Kept apart from what few have, so that twice as many lights fit a cache.
+// The data of every kind of light. Kept apart from data of few kinds, so that twice as many lights fit a cache.
 struct LightTexels {
     vec4 position; // xyz position LS in metres (directional: unit direction to the light); w 1/range^2, 0 when infinite
     vec4 color;    // rgb colour x intensity; w kind
 };
 
-// What spot lights and the falloff by A B C need besides. With l the unit direction to the light, a spot's cone is
+// Further data of spot lights and of the falloff by A B C. With l the unit direction to the light, a spot's cone is
 //   clamp(offset - weight |l + axis|^2, 0, 1), or clamp(offset - weight l.axis, 0, 1) where the kind has LIGHT_BROAD.
 // Both are (cos angle - cos outer) x scale, scale = 1/max(0.001, cos inner - cos outer): with a the unit direction in
 // which the light travels, |l + a|^2 / 2 = 1 - cos angle. Cosines of small angles share their leading digits; this

@@ -22,7 +22,7 @@
 #define LIGHT_TILE_SLICES 64u
 #define ZBIN_COUNT 256u
 
-// Lights whose bits a shader that builds masks finds an iteration (lib/lists/list_masks.glsl spells out as many).
+// Lights per loop iteration of a shader that builds masks (lib/lists/list_masks.glsl spells out as many).
 #define MASK_LIGHTS_AN_ITERATION 8u
 
 // The slicing of a tile with one cell: every depth lies in slice 0.

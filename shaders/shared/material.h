@@ -32,11 +32,12 @@ struct MaterialConstants {
                        // exponent), z ior, w normal-map scale
     vec4 specular;     // rgb k_s, or the tint of the dielectric F0; a specular factor
     vec4 dielectric;   // x F0 of the ior, computed in double so that ior 1.5 gives 0.04 to the last bit
-    vec4 anisotropy;   // x strength, or alpha along the bitangent (microfacet_anisotropic); y z what it turns the x of
-                       // its texture to, along tangent and bitangent; w -1 where it mirrors y against that, else 1
-    vec4 clearcoat;    // x factor, y perceptual roughness, z normal-map scale
-    vec4 sheen;        // rgb colour, a perceptual roughness
-    uvec4 kind;        // x model, y flags, z masking, w number of the material
+    vec4 anisotropy;   // x strength, or alpha along the bitangent (microfacet_anisotropic); y z
+                     // direction of its texture's x axis, along tangent and bitangent; w -1 where it mirrors y against
+                     // that, else 1
+    vec4 clearcoat;                  // x factor, y perceptual roughness, z normal-map scale
+    vec4 sheen;                      // rgb colour, a perceptual roughness
+    uvec4 kind;                      // x model, y flags, z masking, w number of the material
     vec4 uvRow0[TEXTURE_SLOT_COUNT]; // x y z: u' = x u + y v + z; w texture-coordinate set
     vec4 uvRow1[TEXTURE_SLOT_COUNT]; // x y z: v' = x u + y v + z; w for --filter exact: wrap modes, u + 4 v,
                                      // and TEXTURE_MODE_*

@@ -9,6 +9,6 @@
 #define MASKING_HALF_VECTOR 2u
 #define MASKING_COUNT 3u
 
-// The floor of GGX alpha on every path, the reference included: below it D's denominator leaves fp32's range at the
+// The minimum of GGX alpha on every path, the reference included: below it D's denominator leaves fp32's range at the
 // peak.
 #define ALPHA_MIN 1e-3

@@ -23,7 +23,7 @@ SHARED_BEGIN
 #define UNIFORM_LIST_ROUND 5
 #define UNIFORM_LIGHTING 6
 
-// Storage blocks. OpenGL 4.5 guarantees 0 to 7; what builds light lists never reads lights from storage blocks.
+// Storage blocks. OpenGL 4.5 guarantees 0 to 7; shaders that build light lists never read lights from storage blocks.
 #define STORAGE_LIGHT_TILES 0
 #define STORAGE_LIGHT_CELLS 1
 #define STORAGE_LIGHT_ENTRIES 2

@@ -16,4 +16,4 @@
 #define VIEW_NORMAL_OBJECT 11
 #define VIEW_OVERDRAW 12
 #define VIEW_FAULTS 13
-#define VIEW_STORED 14 // the first of those that show what the G-buffer holds
+#define VIEW_STORED 14 // the first of the debug views of stored G-buffer channels

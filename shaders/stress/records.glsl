@@ -1,4 +1,4 @@
-// Records of a stability test: numbers in, numbers out, one invocation a record.
+// Records of a stability test: numbers in, numbers out, one invocation per record.
 #pragma once
 #include "shared/stress.h"
 

@@ -13,7 +13,7 @@ inline constexpr std::size_t kMemoryLimitBytes = std::size_t{256} << 20;
 struct Target {
     std::string_view name;     ///< also of its folder of seeds, tests/fuzz/corpus/NAME
     std::string_view fileName; ///< of the input, in a folder of its own
-    /// Reads the file. Returns, or throws InputError; whatever else happens is a finding.
+    /// Reads the file. Returns, or throws InputError; anything else is a finding.
     void (*read)(const std::filesystem::path& file);
 };
 

@@ -69,7 +69,7 @@ inline scenes::Image floatImage(const glm::vec4& texel) {
     image.texels.assign(bytes, bytes + sizeof(texel));
     return image;
 }
-/// Every texel has its own colour: red tells its column, green its row.
+/// Every texel has its own colour: red encodes its column, green its row.
 inline scenes::Image mapImage() {
     return image8([](int x, int y) { return std::array<int, 4>{30 * x, 30 * y, 0, 255}; });
 }

@@ -7,8 +7,8 @@
 
 #include "scenes/Scene.h"
 
-/// What a surface sends to the eye, in double precision and in the form the books print it: angles and tangents, no
-/// cancellation-free rewriting, no code shared with the engine.
+/// The radiance that a surface reflects to the eye, in double precision and in the textbooks' form: angles and
+/// tangents, no cancellation-free rewriting, no code shared with the engine.
 namespace tessera::test::textbook {
 
 inline double chi(double x) {
@@ -123,7 +123,7 @@ inline glm::dvec3 blinnPhong(const scenes::Material& m, double nl, double nv, do
     return glm::dvec3(m.baseColor) * nl + glm::dvec3(m.specularColor) * highlight;
 }
 
-/// KHR_materials_clearcoat: what the coat takes from what lies below it.
+/// KHR_materials_clearcoat: the coat's attenuation of the layers below.
 inline double coatShare(const scenes::Material& m, double nv) {
     return double(m.clearcoat) * (0.04 + 0.96 * std::pow(1.0 - std::abs(nv), 5));
 }

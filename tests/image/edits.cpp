@@ -19,7 +19,7 @@ protected:
         settings.sizePixels = {160, 91};
         return settings;
     }
-    /// Holds what a renderer draws after an edit to what a new one draws.
+    /// Compares a renderer's picture after an edit with a new renderer's.
     void expectSameAsNew(const std::function<void(scenes::Scene&)>& edit, bool ofMaterials,
                          scenes::Scene scene = test::everythingScene()) {
         engine::Renderer renderer(context(), scene);

@@ -42,7 +42,7 @@ protected:
             }
             EXPECT_TRUE(frame.radiance == first) << infoOf(technique).name;
             EXPECT_LE(figures.p999Rel, p999Rel) << infoOf(technique).name;
-            EXPECT_GE(figures.litShare, 0.3); // what there is to see fills a third of the picture or more
+            EXPECT_GE(figures.litShare, 0.3); // the visible surfaces fill a third of the picture or more
             EXPECT_LT(figures.excluded, 0.02);
         }
     }
@@ -74,7 +74,7 @@ TEST_F(FarEye, aFloorUnderALampAlwaysLooksAsInTheReferenceFromAnyDistance) {
     }
 }
 
-/// Of a plain that goes on far beyond the picture only what the picture shows counts for the depths. Its corners are
+/// Only the visible part of a plain that extends far beyond the picture counts for the depths. Its corners are
 /// rounded to 2^-24 of its width, and with them the lamp's distance, the square of which the light falls with.
 TEST_F(FarEye, aFloorInAWidePlainLooksAsInTheReferenceFromAnyDistance) {
     for (const double eyeMetres : {1e3, 1e4}) {

@@ -225,7 +225,7 @@ TEST_F(Features, everyVertexAttributeAndTransformAlwaysChangesThePicture) {
          }},
         {"authored tangents",
          [](Scene& s) {
-             // Not what the texture coordinates would give: turned by half a right angle, and mirrored.
+             // Unlike the texture coordinates' own: turned by half a right angle, and mirrored.
              for (const glm::vec3& n : s.meshes[kSphereMesh].normalsOS) {
                  const glm::vec3 other = std::abs(n.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
                  s.meshes[kSphereMesh].tangentsOS.emplace_back(

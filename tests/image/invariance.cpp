@@ -86,7 +86,7 @@ TEST_F(Invariance, whatNothingDrawsNeverChangesABitOrThePlanOfAnyBuiltinScene) {
                           renderer.render(technique, settings).radiance);
             }
         }
-        // Lights that are off or dark are named in plans, as what is left out.
+        // Plans name lights that are off or dark among the omitted parts.
         more.lights.emplace_back(test::pointLight({0.0, 1.0, 0.0}, 10.0f)).enabled = false;
         more.lights.push_back(test::pointLight({0.0, 1.0, 0.0}, 0.0f));
         engine::Renderer rendererOfLights(context(), more);
@@ -107,7 +107,7 @@ TEST_F(Invariance, materialsReadByTheirNumberAlwaysGiveEveryBitOfStoredOnesAndOf
             settings.view = view;
             const std::vector<float> forward = renderer.render(Technique::Forward, settings).radiance;
             for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
-                // Blending adds light by light with the rounding of each sum; what it must equal is itself.
+                // Blending rounds the sum after each light, so this technique is compared with itself.
                 const bool blends = technique.technique == Technique::DeferredVolumes;
                 SCOPED_TRACE(fmt::format("{} {} {}", technique.name, int(filter), int(view)));
                 const std::vector<float> pruned = renderer.render(technique.technique, settings).radiance;
@@ -199,7 +199,7 @@ TEST_F(Invariance, aSceneFarFromTheOriginAlwaysLooksAsAtTheOrigin) {
     for (scenes::Light& light : far.lights) light.positionWS += offset;
     for (scenes::Camera& camera : far.cameras) camera.worldFromCamera[3] += glm::dvec4(offset, 0.0);
     const validation::ErrorFigures figures = validation::errorFigures(picture(far, small()), picture(near, small()));
-    // Doubles keep 2e-10 m at this distance; what remains is how that rounds into fp32.
+    // Doubles keep 2e-10 m at this distance; the rest is its rounding to fp32.
     EXPECT_LE(figures.relMse, 1e-8);
 }
 

@@ -64,7 +64,7 @@ protected:
     }
 };
 
-constexpr double kEveryPicture = 3e-4; // what the 99.9th percentile is held to (docs/reference.md)
+constexpr double kEveryPicture = 3e-4; // tolerance of the 99.9th percentile (docs/reference.md)
 
 TEST_F(LightCones, aNarrowOrHardConeIsThatOfTheReference) {
     for (const Cone cone : {Cone{0.0, 0.1}, Cone{0.0, 0.5}, Cone{0.0, 1.0}, Cone{0.0, 5.0}, Cone{9.9, 10.0},
@@ -72,7 +72,7 @@ TEST_F(LightCones, aNarrowOrHardConeIsThatOfTheReference) {
         expectTheReferences(cone, glm::dmat4(1.0), kEveryPicture);
 }
 
-/// The angle from the axis is off by what fp32 rounds from ray and axis, 2e-7 rad, wherever it points.
+/// The angle from the axis is off by the rounding of ray and axis to fp32, 2e-7 rad, in any direction.
 TEST_F(LightCones, anObliqueNarrowConeKeepsTheDigitsThatItsRayHas) {
     const glm::dmat4 oblique = glm::rotate(glm::dmat4(1.0), 2.1, glm::normalize(glm::dvec3(0.36, 0.48, 0.8)));
     for (const double outerDegrees : {0.1, 0.5, 1.0, 5.0, 20.0})

@@ -186,7 +186,7 @@ TEST_F(LightCulling, noLightIsEverMissingWhereAScenesEyeIsFarAwayAndNoPixelDiffe
     }
     fmt::print("80 scenes: {} covered pixels, {} pairs needed, {} visited\n", all.covered, all.needed, all.evaluated);
     EXPECT_GT(all.needed, 30000u) << "scenes that need nothing prove nothing";
-    // From nearby the same kind of scene visits 1.9 times what it needs.
+    // From nearby the same kind of scene visits 1.9 times the needed lights.
     EXPECT_LT(double(all.evaluated), 3.0 * double(all.needed)) << "margins that grow with the eye's distance";
 }
 

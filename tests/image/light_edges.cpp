@@ -34,7 +34,8 @@ scenes::Light lightThatJustReaches(const glm::dvec3& surfaceWS, test::Random& ra
     const glm::dvec3 toSurfaceWS = random.direction();
     const double metres = random.logarithmic(0.05, 50.0);
     light.positionWS = surfaceWS - metres * toSurfaceWS;
-    // From what fp32 tells apart after some roundings to what a bound by a hundredth too small would cut.
+    // From the least distance that fp32 resolves after some roundings to the distance that a bound too small by a
+    // hundredth would cut off.
     const double hair = random.logarithmic(1e-6, 1e-2);
     light.rangeMetres = float(metres * (1.0 + hair));
     if (random.unit() < 0.3) {

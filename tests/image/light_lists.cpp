@@ -1,4 +1,4 @@
-// Light lists are the same whoever builds them, and so are the pictures.
+// Light lists are the same with every builder, and so are the pictures.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -61,7 +61,7 @@ protected:
     }
     /// Forward against the reference, and every other technique and method against forward, bit by bit.
     void expectEveryLight(int count);
-    /// The same bits with every number of lights a round.
+    /// The same bits with every number of lights per round.
     void expectOnePicture(const scenes::Scene& scene);
 };
 

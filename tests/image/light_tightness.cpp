@@ -41,7 +41,7 @@ scenes::Scene latticeOfSpots() {
 /// Visited over needed pairs, at 640x360 with tiles of 16 pixels.
 struct Bar {
     Method method;
-    double lattice, spots; ///< at most: what is measured (Mesa 22.3.6) and 2 %
+    double lattice, spots; ///< at most: the measured value (Mesa 22.3.6) plus 2 %
 };
 constexpr Bar kBars[] = {{Method::TileMinmax, 1.719 * 1.02, 5.377 * 1.02},
                          {Method::Tile25d, 1.653 * 1.02, 4.209 * 1.02},

@@ -233,7 +233,7 @@ TEST_F(LightVolumes, thousandsOfSmallLightsAreAlwaysExactlyAsInDeferred) {
     EXPECT_TRUE(expectEqual(renderer, sized(97, 61)));
 }
 
-// Seen from the side, so that what is lit ends where the hull's outline does; and the whole scene turned at random,
+// Seen from the side, so that the lit part ends at the hull's outline; and the whole scene turned at random,
 // since the corners of an octagon stand out by 8 % and hide a hull that is too narrow.
 TEST_F(LightVolumes, spotsAlongAWallAreAlwaysExactlyAsInDeferred) {
     const scenes::Scene upright = wall();

@@ -1,4 +1,4 @@
-// Which texel means what for exponents, anisotropy, coats and sheens: pictures with a texture against the textbook's
+// The meaning of texels for exponents, anisotropy, coats and sheens: pictures with a texture against the textbook's
 // value of the material that the texel stands for.
 #include <functional>
 

@@ -164,7 +164,7 @@ TEST_F(LostGeometryTest, aMeshThatFillsThePictureAndIsDroppedIsAlwaysNamed) {
     EXPECT_EQ(std::count(found.excluded.begin(), found.excluded.end(), 1), 0);
 }
 
-/// Wires from a pixel down to 1/500 of one: what only one of the two shows is rounding, whatever lies behind it.
+/// Wires from a pixel down to 1/500 of one: a wire that only one of the two shows is rounding, with any background.
 TEST_F(LostGeometryTest, sliversThatOnlyOneOfTheTwoShowsNeverCountAsLost) {
     constexpr int kSide = 256;
     constexpr double kPixel = 2.0 / kSide;

@@ -29,7 +29,7 @@ protected:
     }
 };
 
-/// No diffuse share, and the widest lobe: what is seen is F0 / (4 pi).
+/// No diffuse part, and the widest lobe: the radiance is F0 / (4 pi).
 Material blackDielectric() {
     Material material;
     material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};

@@ -32,7 +32,7 @@ protected:
         engine::Renderer renderer(context(), scene);
         return engine::toPicture(renderer.render(technique, settings));
     }
-    /// Programs are compiled once for a renderer, whatever the size.
+    /// Programs are compiled once per renderer, for all sizes.
     void expectAgreement(engine::Renderer& renderer, const frame::FrameSettings& settings) {
         validation::CompareRequest request;
         std::vector<validation::LeftOutTechnique> leftOut;

@@ -1,4 +1,4 @@
-// A ball of one paint in the coarse layouts: whatever its colour, it is as bright as in fp32. Rough enough that what is
+// A ball of one paint in the coarse layouts: in any colour it is as bright as in fp32. Rough enough that what is
 // of second order in alpha's step stays below: 0.5 in perceptual roughness, half of that where a texture varies it.
 #include <cmath>
 

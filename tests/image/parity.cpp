@@ -12,7 +12,7 @@ using engine::Technique;
 
 class Parity : public test::GlTest {
 protected:
-    /// Programs are compiled once for a renderer, whatever the size.
+    /// Programs are compiled once per renderer, for all sizes.
     validation::CompareRecord compare(engine::Renderer& renderer, const frame::FrameSettings& settings) {
         validation::CompareRequest request;
         for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
@@ -105,7 +105,7 @@ TEST_F(Parity, everyViewIsExactlyTheSameInForwardAndDeferred) {
     engine::Renderer renderer(context(), scene);
     for (const frame::ViewInfo& view : frame::viewTable()) {
         SCOPED_TRACE(view.name);
-        if (view.ofTechnique) continue; // what it shows is what techniques differ in
+        if (view.ofTechnique) continue; // it shows the differences of techniques
         frame::FrameSettings settings;
         settings.sizePixels = {161, 90};
         settings.view = view.view;

@@ -25,7 +25,7 @@ frame::FrameSettings ofSize(int width, int height) {
     return settings;
 }
 
-/// What a built-in scene is held to on software rasterisers, at most ten times what is measured there
+/// The tolerances of a built-in scene on software rasterisers, at most ten times the measured figures
 /// (docs/reference.md has the figures): two to five times, for compilers that order operations otherwise. Each scene's
 /// own surfaces say why it is where it is: normal maps far away in hall, edge-on triangles in lattice, one model in
 /// every pixel of room.
@@ -79,7 +79,7 @@ protected:
         return pairs.front().figures;
     }
 
-    /// A built-in scene held to what the software rasteriser really reaches. Other drivers may round divisions and
+    /// A built-in scene against the tolerances of the software rasteriser. Other drivers may round divisions and
     /// roots otherwise, and have the bars of referenceTolerance() alone.
     void expectAsGoodAsMeasured(const SceneBars& bars) {
         const validation::ErrorFigures figures =
@@ -90,7 +90,7 @@ protected:
         EXPECT_LE(figures.relMse, bars.relMse);
         EXPECT_LE(std::abs(figures.bias), bars.bias);
         EXPECT_LE(figures.excluded, bars.excluded);
-        // A bar that has become this wide no longer says what is reached: lower it. Sums of errors with signs and
+        // A tolerance this far above the measured figure is too wide: lower it. Sums of errors with signs and
         // counts of single pixels may be small by chance, and over a million pixels a single one may decide relMse.
         if (bars.width > 160) return;
         EXPECT_GE(figures.p999Rel, 0.1 * bars.p999Rel);
@@ -184,7 +184,7 @@ TEST_F(Reference, hardwareFilteringIsAlwaysAPairOfItsOwnAndHolds) {
     EXPECT_EQ(pairs[2].a, validation::hardwareFilterName("deferred"));
     EXPECT_TRUE(pairs[2].tolerance.p999Rel && pairs[2].tolerance.relMse && pairs[2].tolerance.bias);
     EXPECT_TRUE(pairs[2].verdict.ok) << testing::PrintToString(pairs[2].verdict.missed);
-    EXPECT_EQ(pairs[0].figures.relMse, pairs[1].figures.relMse); // one picture, whoever draws it
+    EXPECT_EQ(pairs[0].figures.relMse, pairs[1].figures.relMse); // the same picture from both
 }
 
 /// In whole scenes too, where little is minified and most of a pixel is not its texture.

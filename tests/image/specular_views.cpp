@@ -14,8 +14,8 @@ using scenes::MaterialModel;
 
 constexpr glm::ivec2 kSize = {192, 128};
 
-/// The views D, G and F of `head`, and what an independent evaluation needs at each pixel: which material is seen
-/// there, the normal that is lit and the distance, as the engine shows them.
+/// The debug views D, G and F of `head`, and the input of an independent evaluation at each pixel: which material is
+/// seen there, the normal that is lit and the distance, as the engine shows them.
 class SpecularViews : public test::GlTest {
 protected:
     SpecularViews() {

@@ -135,7 +135,7 @@ TEST_F(SurfaceValues, anObjectSpaceMapAlwaysTurnsWithItsObjectAndATangentSpaceMa
         scene.nodes[0].parentFromNode = glm::rotate(glm::dmat4(1.0), std::numbers::pi, glm::dvec3(0, 0, 1));
         EXPECT_LT(center(scene).r, 0.5f * upright); // upside down: leans away from the light
     }
-    // A picture turned upside down on the same quad: only what the texture carries turns.
+    // A picture turned upside down on the same quad: only the texture's content turns.
     scene.nodes[0].parentFromNode = glm::dmat4(1.0);
     scene.materials[0].normalMapSpace = scenes::NormalMapSpace::Object;
     const float objectSpace = center(scene).r;

@@ -111,8 +111,8 @@ scenes::Scene wall(const Layout& layout) {
     return scene;
 }
 
-/// The span of what drivers may show takes in a texel's code value, which is up to 2 % of its light; over all pixels
-/// such roundings cancel but for those of the smallest levels.
+/// The range of values that drivers may show includes a texel's code value, which is up to 2 % of its light; over all
+/// pixels such roundings cancel but for those of the smallest levels.
 constexpr double kPlainBias = 8e-3;
 
 class TextureFilters : public test::GlTest {
@@ -120,7 +120,7 @@ protected:
     struct Judged {
         validation::ErrorFigures figures;
         validation::Verdict verdict;
-        double plainBias = 0.0; ///< against the reference's own value, not the nearest of what a driver may show
+        double plainBias = 0.0; ///< against the reference's own value, not the nearest that a driver may show
     };
     Judged judged(const scenes::Scene& scene, TextureFilter filter, const shader::SourceTree& shaders = {}) {
         frame::FrameSettings settings;

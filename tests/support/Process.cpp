@@ -16,7 +16,7 @@
 namespace tessera::test {
 namespace {
 
-constexpr int kCannotStart = 127; // what shells exit with then
+constexpr int kCannotStart = 127; // the exit code of shells then
 
 [[noreturn]] void fail(const std::string& call) {
     throw std::runtime_error(call + " failed: " + std::strerror(errno));
@@ -33,7 +33,7 @@ Pipe makePipe() {
     return {ends[0], ends[1]};
 }
 
-/// In the child; only what is safe between fork and exec.
+/// In the child; calls only functions that are safe between fork and exec.
 [[noreturn]] void becomeProgram(char* const* words, const char* folder, char* const* environment, int out, int err) {
     const int empty = ::open("/dev/null", O_RDONLY);
     ::dup2(empty, STDIN_FILENO);

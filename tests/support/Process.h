@@ -26,7 +26,7 @@ struct ProcessResult {
 class Process {
 public:
     explicit Process(const std::vector<std::string>& command, ProcessOptions options = {});
-    ~Process(); ///< kills what is still running
+    ~Process(); ///< kills a process that is still running
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;
 

@@ -9,8 +9,8 @@ namespace tessera::test {
 /// floor.
 scenes::Scene everythingScene();
 
-/// The same without what changes a material over a surface: of its textures it keeps normal maps, and no vertex colours
-/// and no anisotropy.
+/// The same with materials that are constant over a surface: of its textures it keeps normal maps, and no vertex
+/// colours and no anisotropy.
 scenes::Scene evenScene();
 
 /// The scene with one of everything that nothing draws: materials, pictures and meshes of everythingScene(), colours

@@ -14,7 +14,7 @@
 
 namespace tessera::test {
 
-/// What a screen shows: 8 bits a channel, rows from the top.
+/// What a screen shows: 8 bits per channel, rows from the top.
 struct Shot {
     glm::ivec2 sizePixels{0};
     std::vector<std::uint8_t> rgb;

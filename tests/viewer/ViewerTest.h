@@ -12,8 +12,8 @@
 namespace tessera::test {
 
 /// A viewer in a window that fills a screen of 1280 x 800 pixels, and the program beside it to compare with. Nothing
-/// here calls the viewer's code: it is driven by X11 events, and judged by what the screen shows, what it saves and
-/// what it says it did.
+/// here calls the viewer's code: it is driven by X11 events, and judged by the screen, its saved files and its event
+/// log.
 class ViewerTest : public testing::Test {
 protected:
     /// Of the panels, from the top.

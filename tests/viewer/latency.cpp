@@ -62,7 +62,7 @@ TEST_F(ViewerLatencySlow, inputOnHallIsAlwaysAnsweredWithinATenthOfASecond) {
         viewer.moveTo(kMiddle);
         press(true);
         const std::size_t mark = viewer.mark();
-        // The first of all also learns what this scene costs.
+        // The very first also measures this scene's cost.
         const double ms = answerMs(viewer, pointer, place(i));
         if (i > 0) first.push_back(ms);
         press(false);

@@ -1,4 +1,4 @@
-// What the window shows is what `tessera render` writes.
+// The window's picture equals the file that `tessera render` writes.
 #include "tests/viewer/ViewerTest.h"
 
 namespace tessera::test {

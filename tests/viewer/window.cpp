@@ -1,4 +1,4 @@
-// Sizes, minimising, closing, and what is remembered.
+// Sizes, minimising, closing, and preferences.
 #include "tests/viewer/ViewerTest.h"
 
 namespace tessera::test {

@@ -55,7 +55,7 @@ void addRanges(const GroupTruth& truth, std::span<const BenchPoint> points, std:
     }
 }
 
-/// What each channel of a layout adds is what `tessera compare` says of it.
+/// The error of each channel of a layout is that of `tessera compare`.
 void addLayouts(const gpu::Capabilities& gl, const GroupTruth& truth, std::span<const BenchPoint> points,
                 std::vector<AttributionLine>& lines) {
     std::set<std::string> done;

@@ -8,9 +8,8 @@
 
 namespace tessera::validation {
 
-/// Where a group's points lose energy, cause by cause: fp32 arithmetic of an exact layout, filtering by hardware, what
-/// each range tolerance drops, and each channel of each packed layout. Draws some frames a cause. Throws what drawing
-/// throws.
+/// The causes of error in a group's points: fp32 arithmetic of an exact layout, filtering by hardware, each range
+/// tolerance, and each channel of each packed layout. Draws some frames per cause. Throws what drawing throws.
 std::vector<AttributionLine> attributeErrors(const gpu::Capabilities& gl, const GroupTruth& truth,
                                              const std::string& truthName, std::span<const BenchPoint> points);
 

@@ -9,7 +9,7 @@ namespace tessera::validation {
 
 namespace {
 
-/// RFC 4180: quotes around what holds a separator, quotes doubled.
+/// RFC 4180: quotes around fields with a separator, quotes in them doubled.
 std::string quoted(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::string result(1, '"');

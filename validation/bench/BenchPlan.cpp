@@ -83,7 +83,7 @@ private:
         return methods;
     }
 
-    /// A technique without a G-buffer is measured once, whatever the layouts, for others to be held against.
+    /// A technique without a G-buffer is measured once for all layouts, for comparison with the others.
     std::vector<std::optional<frame::LayoutInfo>> layoutsTaken() {
         if (info_.usesGBuffer()) return orDefault(matrix_.layouts);
         for (const frame::LayoutInfo& layout : matrix_.layouts) {
@@ -106,7 +106,7 @@ private:
         if (range) point.settings.rangeTolerance = *range;
         if (!rangesMatter(scene_)) point.settings.rangeTolerance = 0.0;
         const culling::Choice choice =
-            engine::prepareView(scene_, technique_, point.settings).spec.culling; // what is left of it in this scene
+            engine::prepareView(scene_, technique_, point.settings).spec.culling; // the culling that this scene needs
         point.key = {std::string(info_.name),
                      std::string(infoOf(choice.method).name),
                      {},

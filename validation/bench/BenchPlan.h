@@ -21,7 +21,7 @@ struct BenchPoint {
 /// Points of one scene, light count and size: measured in turn, in one run.
 struct PlannedGroup {
     std::string scene;               ///< name or path
-    std::optional<int> lightsToLoad; ///< what the scene is loaded with
+    std::optional<int> lightsToLoad; ///< the scene's number of lights
     int lights = 0;                  ///< that it then has
     std::size_t triangles = 0;
     std::uint64_t fingerprint = 0; ///< of the scene so loaded (scenes/Fingerprint.h)

@@ -24,7 +24,7 @@ struct BenchRecord {
 inline constexpr int kBenchSchema = 3;
 
 std::string benchJson(const BenchRecord& record);  ///< the `bench` record of the command line's documentation
-std::string benchCsv(const BenchRecord& record);   ///< its points, one a line; RFC 4180
+std::string benchCsv(const BenchRecord& record);   ///< its points, one per line; RFC 4180
 std::string benchTable(const BenchRecord& record); ///< for people
 
 /// How much is still to be measured and how to go on, in one sentence or two; empty for a complete record.

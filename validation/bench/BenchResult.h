@@ -24,7 +24,7 @@ struct PointKey {
 /// "tiled_deferred, tile_2.5d 16, packed", with ", range 0.01" behind it where lights are ended.
 std::string pointName(const PointKey& key);
 
-/// What a frame does, counted, beside what it costs. A figure that could not be had is none, and `why` says why.
+/// Counters of a frame's work, beside its times. A figure that could not be measured is none, and `why` says why.
 struct BenchCounters {
     std::optional<std::uint64_t> lightEvaluations;     ///< lights visited, summed over the shaded pixels
     std::optional<std::uint64_t> neededEvaluations;    ///< pairs of a covered pixel and a light that reaches it
@@ -58,7 +58,7 @@ struct BenchResult {
     std::map<std::string, std::string> why; ///< of figures that are none
 };
 
-/// AttributionLine::cause of what is no error.
+/// AttributionLine::cause of a difference that is no error.
 inline constexpr const char* kFilterCause = "filter";
 
 /// How much one cause adds to the error, with all others absent. "filter" is no error but a choice: how far a picture
@@ -78,7 +78,7 @@ struct BenchPicture {
     std::uint64_t hash = 0;          ///< of its radiance
 };
 
-/// Points of one scene, light count and size, measured in turn with the floor.
+/// Points of one scene, light count and size, measured in turn with the lower bound.
 struct BenchGroup {
     std::string scene;
     int lights = 0;

@@ -101,7 +101,7 @@ std::string shardText(const Json& run) {
     return fmt::format("{}/{}", run.at("shard").at(0).get<int>(), run.at("shard").at(1).get<int>());
 }
 
-/// Throws what reading JSON throws where a field lacks that is read later, or InputError.
+/// Throws the JSON reader's exception if a field that is read later is missing, or InputError.
 void requireRunFields(const Json& run) {
     for (const char* name : {"machine", "renderer", "commit", "settings", "against", "command"})
         static_cast<void>(run.at(name).get_ref<const std::string&>());
@@ -131,7 +131,7 @@ Json runIn(const std::string& folder) {
     return run;
 }
 
-/// Two runs that are to become one, and what to do where they cannot.
+/// Two runs to merge, and the remedy if they cannot be merged.
 struct RunPair {
     const Json &a, &b;
     std::string nameA, nameB;
@@ -142,7 +142,7 @@ struct RunPair {
     throw InputError(fmt::format("{} and {} cannot be put together: {}; {}", runs.nameA, runs.nameB, why, runs.remedy));
 }
 
-/// Throws InputError that says in what two runs differ.
+/// Throws InputError that names the difference of two runs.
 void requireSameRun(const RunPair& runs) {
     for (const char* name : {"machine", "renderer", "commit", "settings", "against", "frames"}) {
         if (runs.a.at(name) != runs.b.at(name))

@@ -13,8 +13,8 @@ namespace tessera::validation {
 /// What a run is. Points may be put beside each other only where all of this but the shard and the command is the same.
 struct RunIdentity {
     std::string machine, renderer, commit;
-    std::string settings; ///< the options that the frames were asked for with
-    std::string against;  ///< of the errors, as asked for
+    std::string settings; ///< the options of the frames
+    std::string against;  ///< the requested truth of the errors
     int frames = 0;
     int shard = 1,
         shards = 1; ///< which part of the groups is measured here: those whose number is shard - 1 modulo shards

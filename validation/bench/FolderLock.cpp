@@ -82,7 +82,7 @@ FolderLock::FolderLock(const std::string& folder)
 
 FolderLock::~FolderLock() {
     if (descriptor_ < 0) return;
-    ::unlink(file_.c_str()); // first, so that nobody can have the lock on a file that is about to go
+    ::unlink(file_.c_str()); // first, so that no process can lock a file that is about to be deleted
     ::close(descriptor_);
 }
 

@@ -4,7 +4,7 @@
 namespace tessera::validation {
 
 /// Holds a folder against other processes as long as it lives: an exclusive flock() on the file bench.lock in it, which
-/// says who holds it. The kernel lets go when the process ends, however it ends, so that a file left behind by a killed
+/// says who holds it. The kernel releases the lock however the process ends, so that a file left behind by a killed
 /// one holds nothing. Where there is no flock() nothing is held.
 class FolderLock {
 public:

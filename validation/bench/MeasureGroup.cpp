@@ -94,7 +94,7 @@ private:
         };
         interleave.progress = [&](int, int) { options_.progress(kinds); };
         timesMs_ = timeInTurn(timed_, floorFrames, interleave);
-        // Points that are done were held against the floor that is kept with them.
+        // Finished points keep the lower bound that they were compared with.
         if (group_.results.empty())
             group_.floor = floor_.figuresOf({timesMs_.begin() + std::ptrdiff_t(timed_.size()), timesMs_.end()});
     }

@@ -14,7 +14,7 @@ namespace tessera::validation {
 /// How far a group is. What is kept of it survives the end of the program: rounds of timed frames, then points one by
 /// one. A round is the least that can be measured, since all points take a turn in it.
 struct GroupState {
-    std::vector<std::vector<double>> roundsMs; ///< by round and kind of frame: the points', then the floor's
+    std::vector<std::vector<double>> roundsMs; ///< by round and kind of frame: the points', then the lower bound's
     BenchGroup group;                          ///< with the results of the finished points, in order
     bool isDone = false;
 };

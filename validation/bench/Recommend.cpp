@@ -30,7 +30,7 @@ const BenchResult* fastest(const BenchGroup& group, Condition&& holds) {
     return best;
 }
 
-/// Forward as it is, else with whatever range tolerance it was measured with.
+/// Forward without a range tolerance, else with the one that it was measured with.
 const BenchResult* forwardOf(const BenchGroup& group) {
     const BenchResult* found = nullptr;
     for (const BenchResult& result : group.results) {

@@ -26,7 +26,8 @@ struct Recommendation {
     std::optional<double> exactSpeedup; ///< of exact over forward
 };
 
-/// Whether two times cannot be told apart: each median lies within the other's spread, the distance from median to p95.
+/// Whether two times are indistinguishable: each median lies within the other's spread, the distance from median to
+/// p95.
 bool isAsFast(const TimeSpread& a, const TimeSpread& b);
 
 /// None for a group without results. Pointers into the group.
@@ -35,7 +36,7 @@ std::optional<Recommendation> recommendFor(const BenchGroup& group);
 /// "3.1x faster than forward", "as fast as forward", "1.4x slower than forward".
 std::string speedText(double speedup);
 
-/// The recommendation in plain words, one sentence or two a group: which of the points to take on this machine, how
+/// The recommendation in plain words, one sentence or two per group: which of the points to take on this machine, how
 /// much faster it is than forward, at what error.
 std::string recommendationText(const BenchGroup& group);
 std::string recommendationText(std::span<const BenchGroup> groups);

@@ -12,7 +12,7 @@ namespace tessera::validation {
 
 namespace {
 
-/// What a curve is drawn against: the x of a point, and what must be equal along a curve.
+/// The axis of a curve: the x of a point, and the key that is equal along a curve.
 struct Quantity {
     const char* name;
     std::function<std::optional<double>(const BenchGroup&, const BenchResult&)> x;

@@ -8,7 +8,7 @@
 
 namespace tessera::validation {
 
-/// From this R^2 on an exponent is worth telling: the line then explains nine tenths of what log y varies by. Below,
+/// From this R^2 on an exponent is reported: the line then explains nine tenths of the variance of log y. Below,
 /// noise or another law decides the slope.
 inline constexpr double kTrendR2 = 0.9;
 

@@ -48,7 +48,7 @@ struct CompareRecord {
     std::vector<ComparePair> pairs;
     int samples = 1;                     ///< of a pixel, as the driver gives them
     bool excludesPixels = false;         ///< those that show different triangles were left out
-    std::vector<LostGeometry> lost = {}; ///< what no rounding explains of that, by either filter
+    std::vector<LostGeometry> lost = {}; ///< the part of it that rounding does not explain, by either filter
     std::vector<LeftOutTechnique> leftOut = {};
     std::optional<RangeTruncation> rangeTruncation = {}; ///< where a tolerance is set
 
@@ -60,11 +60,11 @@ struct CompareRecord {
 ComparePair comparePair(std::string nameA, const Picture& a, std::string nameB, const Picture& b, Tolerance tolerance,
                         std::span<const std::uint8_t> excluded = {}, const ShownPair& shown = {});
 
-/// Lets a verdict miss when geometry was lost, and say what.
+/// Makes a verdict fail if geometry was lost, and names it.
 void missLostGeometry(Verdict& verdict, std::span<const LostGeometry> lost);
 
 /// The record as JSON, schema 1, indented and ending in a newline. Figures that could not be measured or are infinite
-/// are null, with the reason under `why`; `missed` says in words what a pair did not hold.
+/// are null, with the reason under `why`; `missed` names in words the tolerances that a pair missed.
 std::string compareJson(const CompareRecord& record);
 
 /// The record for a terminal: a table of ASCII characters, then what was missed and what was dropped, each line ending

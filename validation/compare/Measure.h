@@ -7,7 +7,7 @@ namespace tessera::validation {
 /// Fills in a plan's milliseconds: each pass as the median of profiled frames, and what all that was left out would
 /// have cost, the difference to frames with prune = off, drawn in turn with them. The bytes of light
 /// lists, which are counted while a frame runs, are filled in too, and their entries become a counter. With a range
-/// tolerance also adds what light it drops, as a choice.
+/// tolerance also adds the dropped light, as a choice.
 void measurePlan(graph::Plan& plan, engine::Renderer& renderer, engine::Technique technique,
                  const frame::FrameSettings& settings);
 

@@ -5,7 +5,7 @@
 namespace tessera::validation {
 
 /// Measures the light that settings.rangeTolerance drops: renders the final view with it and without, the latter being
-/// the truth. The bias is never positive, since an ended light sends nowhere more than it did.
+/// the truth. The bias is never positive, since ending a light adds irradiance nowhere.
 RangeTruncation rangeTruncation(engine::Renderer& renderer, engine::Technique technique, frame::FrameSettings settings);
 
 } // namespace tessera::validation

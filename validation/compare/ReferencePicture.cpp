@@ -35,7 +35,7 @@ void requireReferenceTakes(const frame::FrameSettings& settings) {
 ReferencePicture referencePicture(const scenes::Scene& scene, const frame::FrameSettings& settings,
                                   const std::function<void()>& rowDone, bool leeway) {
     requireReferenceTakes(settings);
-    engine::prepareView(scene, engine::Technique::Forward, settings); // names what the scene lacks
+    engine::prepareView(scene, engine::Technique::Forward, settings); // throws for names that the scene lacks
     reference::Settings wanted = referenceSettings(scene, settings);
     wanted.leeway = leeway;
     reference::Rendered rendered = reference::render(scene, wanted, rowDone);

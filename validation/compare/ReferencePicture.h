@@ -11,7 +11,7 @@
 /// there.
 namespace tessera::validation {
 
-/// Throws InputError unless the reference renders frames of these settings: the final view, one sample a pixel.
+/// Throws InputError unless the reference renders frames of these settings: the final view, one sample per pixel.
 void requireReferenceTakes(const frame::FrameSettings& settings);
 
 /// A frame's settings as the reference takes them.

@@ -96,7 +96,7 @@ std::optional<std::size_t> equalPicture(const CompareResult& result, const Compa
     return {};
 }
 
-/// The error that each stored channel causes: what is left of the pair's relMse when that channel alone is fp32.
+/// The error that each stored channel causes, from the pair's relMse with that channel alone in fp32.
 std::vector<ChannelShare> channelShares(engine::Renderer& renderer, const CompareRequest& request, Technique technique,
                                         const TruthPicture& truth, double relMse) {
     std::vector<ChannelShare> shares;
@@ -112,7 +112,7 @@ std::vector<ChannelShare> channelShares(engine::Renderer& renderer, const Compar
     return shares;
 }
 
-/// What a technique is held to, with a layout, against what the request asks for.
+/// The tolerance of a technique with a layout against the requested truth.
 Tolerance toleranceOf(const engine::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
                       Technique technique, const frame::GBufferLayout& layout) {
     const bool quantises = infoOf(technique).usesGBuffer() && isPacked(layout);

@@ -20,12 +20,12 @@ struct PictureTruth {
 /// A technique, a picture, or the reference.
 using Truth = std::variant<engine::Technique, PictureTruth, Reference>;
 
-/// What to compare with what.
+/// The pictures to compare.
 struct CompareRequest {
     std::vector<engine::Technique> techniques;
     Truth against = engine::Technique::Forward;
     frame::FrameSettings settings;
-    bool rangeTruncation = true;               ///< whether to measure what settings.rangeTolerance drops
+    bool rangeTruncation = true;               ///< whether to measure the light that settings.rangeTolerance drops
     bool hardwareFilter = true;                ///< whether to measure hardware filtering beside the exact one
     std::optional<Tolerance> tolerance;        ///< instead of the one each pair is held to by itself
     std::function<void()> renderedOne = [] {}; ///< called stepCount() times from any thread, for progress
@@ -49,10 +49,10 @@ struct CompareResult {
     CompareRecord record;
     NamedPicture truth;
     std::vector<NamedPicture> pictures; ///< parallel to record.pairs
-    std::vector<PairTruth> truths;      ///< parallel to record.pairs: what each was measured against
+    std::vector<PairTruth> truths;      ///< parallel to record.pairs: the truth of each
 };
 
-/// What was asked for of who makes a picture and how (engine::Setting::samePicture) goes to the techniques that take
+/// Requested settings of how a picture is made (engine::Setting::samePicture) go to the techniques that take
 /// it; the others keep their own.
 frame::FrameSettings settingsTakenBy(engine::Technique technique, const frame::FrameSettings& settings);
 /// The same for techniques that do not heed it at all: what one heeds and does not take stays.

@@ -42,9 +42,9 @@ struct OracleInput {
     const scenes::Scene& scene;
     frame::FrameSettings settings;
     const engine::DrawnLists& drawn;
-    std::span<const float> depth;                  ///< of the surfaces to judge, reverse-Z, one a pixel; 0: no surface
-    std::span<const float> normalWS;               ///< RGBA a pixel; empty: neededLit is not counted
-    SurfaceLayer layer = SurfaceLayer::Opaque;     ///< that the surfaces belong to
+    std::span<const float> depth;              ///< of the surfaces to judge, reverse-Z, one per pixel; 0: no surface
+    std::span<const float> normalWS;           ///< RGBA a pixel; empty: neededLit is not counted
+    SurfaceLayer layer = SurfaceLayer::Opaque; ///< that the surfaces belong to
     std::span<const std::uint8_t> takesLight = {}; ///< 0 a pixel whose surface is unlit; empty: all are lit
 };
 LightOracleFigures judgeLights(const OracleInput& input);

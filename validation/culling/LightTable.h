@@ -19,8 +19,8 @@ struct LightTableRow {
 std::vector<LightTableRow> judgeCulling(engine::Renderer& renderer, const frame::FrameSettings& settings,
                                         std::span<const int> tileSides = culling::kTileSides);
 
-/// The rows as a table of ASCII characters under a line that says what the frame needs, each line ending in a newline.
-/// Visited lights, mean, p99 and max, include those that reach everywhere; the ratios leave them out.
+/// The rows as a table of ASCII characters under a line on the lights that the frame needs, each line ending in a
+/// newline. Visited lights, mean, p99 and max, include those that reach everywhere; the ratios leave them out.
 std::string lightTable(std::span<const LightTableRow> rows);
 
 } // namespace tessera::validation

@@ -9,7 +9,7 @@ namespace tessera::validation {
 /// the renderer's matrices.
 class PixelPositions {
 public:
-    /// `depths` is what the depth buffer stands for.
+    /// `depths` are the view depths of depth values.
     PixelPositions(const scenes::Camera& camera, const frame::FrameSettings& settings,
                    const frame::DepthInterval& depths);
 

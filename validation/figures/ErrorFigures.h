@@ -73,7 +73,7 @@ struct ShownPair {
     const DisplayImage* b = nullptr;
 };
 
-/// `excluded` is empty or one entry a pixel, 1 where the pixel is left out. The pictures must be of one size (see
+/// `excluded` is empty or one entry per pixel, 1 where the pixel is left out. The pictures must be of one size (see
 /// requireSameSize).
 ErrorFigures errorFigures(const Picture& a, const Picture& b, std::span<const std::uint8_t> excluded = {},
                           const ShownPair& shown = {});

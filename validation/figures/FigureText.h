@@ -14,7 +14,7 @@ std::string figureText(double value);
 std::string shareText(double share);
 /// Decibels, or "-".
 std::string decibelText(std::optional<double> decibel);
-/// null for what is absent, and for what is not finite: JSON has no number for it.
+/// null for absent and for non-finite values: JSON has no number for them.
 nlohmann::ordered_json figureJson(std::optional<double> value);
 
 /// Rows of equally many cells in aligned columns, the first `leftColumns` and the last one to the left.

@@ -5,7 +5,7 @@
 /// one for the columns and one for the rows, or sums of two such products.
 namespace tessera::validation {
 
-/// One number a pixel, rows from the top.
+/// One number per pixel, rows from the top.
 struct Plane {
     int width = 0, height = 0;
     std::vector<float> values;

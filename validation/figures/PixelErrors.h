@@ -26,7 +26,7 @@ struct PixelErrors {
     double typicalLuminance;
 };
 
-/// `excluded` is empty or holds one entry a pixel, 1 where the pixel is left out. The pictures must be of one size.
+/// `excluded` is empty or holds one entry per pixel, 1 where the pixel is left out. The pictures must be of one size.
 PixelErrors pixelErrors(const Picture& a, const Picture& b, std::span<const std::uint8_t> excluded = {});
 
 /// Luminance of linear Rec.709 R, G, B (ITU-R BT.709-6).

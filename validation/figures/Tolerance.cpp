@@ -10,7 +10,7 @@ namespace {
 constexpr double kLeastLitShare = 0.10;     // of the covered pixels; below it a picture proves too little
 constexpr double kMostExcludedShare = 0.05; // silhouettes alone stay well under 2 %
 
-/// Pictures that are equal to the last bit prove themselves by any light; that others show much is what keeps a few lit
+/// Pictures that are equal to the last bit need no minimum of lit pixels; for others the minimum keeps a few lit
 /// pixels from hiding behind the percentiles of many dark ones.
 void checkSignal(std::vector<std::string>& missed, const char* name, double meanLuminance, std::size_t lit,
                  const ErrorFigures& figures) {

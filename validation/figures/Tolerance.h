@@ -11,7 +11,7 @@ namespace tessera::validation {
 /// its standard error, by four of them in one picture of 16,000.
 inline constexpr double kBiasNoises = 4.0;
 
-/// What a pair must hold; what is not set is not checked.
+/// The tolerances of a pair; unset ones are not checked.
 struct Tolerance {
     std::optional<double> maxRel = {};   ///< at most
     std::optional<double> bitEqual = {}; ///< at least

@@ -67,7 +67,7 @@ FloorFigures FloorBench::figures(std::span<const std::vector<double>> timesMs) c
     const double pairs = double(sizePixels_.x) * double(sizePixels_.y) * double(kManyLights - kFewLights);
     for (std::size_t i = 0; i < stores_.size(); ++i) {
         const TimeSpread msPerPair = slopeSpread(timesMs[1 + 2 * i], timesMs[2 + 2 * i], pairs);
-        // Where the machine's unrest is larger than what the lights cost, the slope says nothing.
+        // If the machine's noise is larger than the cost of the lights, the slope is meaningless.
         if (msPerPair.median > 0.0)
             figures.stores.push_back({stores_[i].name, msPerPair.median * 1e6, msPerPair.p95 * 1e6});
     }

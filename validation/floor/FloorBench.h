@@ -12,15 +12,15 @@
 
 namespace tessera::validation {
 
-/// What a frame of a scene cannot cost less than, measured: floorMs = R + E r.
+/// A measured lower bound of the time of a scene's frame: floorMs = R + E r.
 struct FloorFigures {
     struct Store {
         std::string_view name;
-        double nsPerPair = 0.0;    ///< nanoseconds a light costs a pixel that it reaches, median over rounds
+        double nsPerPair = 0.0;    ///< nanoseconds per pair of a pixel and a light that reaches it, median over rounds
         double nsPerPairP95 = 0.0; ///< the same, 95th percentile
     };
     double geometryMs = 0.0;   ///< R: all geometry, depth-tested, into one constant target, median over rounds
-    std::vector<Store> stores; ///< r by light store; empty where the scene lights nothing, or it could not be told
+    std::vector<Store> stores; ///< r by light store; empty if the scene lights nothing, or if it could not be measured
     std::string whyNoStores;
     double geometryMsP95 = 0.0;
     int rounds = 0; ///< that the medians are of
@@ -32,27 +32,29 @@ struct FloorFigures {
     std::optional<double> floorMs(double evaluations) const;
 };
 
-/// Measures the floor of a scene with a renderer's settings: camera, size, filter, specular and pruning as asked for,
-/// whatever is asked of culling and views. Its frames take turns with others that are compared with it (timeFrames).
+/// Measures the lower bound for a scene with a renderer's settings of camera, size, filter, specular and pruning,
+/// regardless of culling and debug view. Its frames run in turn with the frames that are compared with it (timeFrames).
 ///
-/// r is the slope of the time between 32 and 96 lights a pixel, so that what the shader costs besides lights drops out:
+/// r is the slope of the time between 32 and 96 lights per pixel, so that the rest of the shader's cost cancels:
 /// rounds of both follow each other.
 class FloorBench {
 public:
     static constexpr int kFewLights = 32;
     static constexpr int kManyLights = 96;
-    /// Rounds that a floor's medians are at least of, however few frames of the points are asked for.
+    /// The least number of rounds for a bound's medians, even if fewer frames of the points are requested.
     static constexpr int kLeastRounds = 5;
 
     /// The renderer must outlive the object. Throws InputError as Renderer::draw does.
     FloorBench(engine::Renderer& renderer, const frame::FrameSettings& settings);
 
-    /// How many kinds of frame the floor of a lit scene takes: the geometry, and two numbers of lights in each store.
+    /// The number of kinds of frame for the bound of a lit scene: the geometry, and two numbers of lights in each
+    /// store.
     static std::size_t kindsOf(std::span<const LightStoreInfo> stores);
 
     /// The frames to time; they refer to the object.
     std::vector<TimedFrame> frames();
-    /// `timesMs`: one time a round of each of frames(). With fewer than kLeastRounds of them, the others are timed now.
+    /// `timesMs`: one time per round of each of frames(). With fewer than kLeastRounds of them, the others are timed
+    /// now.
     FloorFigures figuresOf(std::vector<std::vector<double>> timesMs);
     /// The same of the times alone.
     FloorFigures figures(std::span<const std::vector<double>> timesMs) const;

@@ -4,7 +4,7 @@
 
 namespace tessera::validation {
 
-/// Draws all of a scene's geometry with a depth test and one constant value: what no technique can do without.
+/// Draws all of a scene's geometry with a depth test and one constant value: the least work of any technique.
 /// Reads   the scene
 /// Writes  one RGBA32F target, 1 where there is geometry; depth D32F
 /// Space   lighting space, through the vertex function that every pass shares

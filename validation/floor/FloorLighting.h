@@ -11,7 +11,7 @@
 
 namespace tessera::validation {
 
-/// Where the floor's shader reads lights from.
+/// Where the bound's shader reads lights from.
 struct LightStoreInfo {
     int store; ///< LIGHT_STORE_* of shaders/bench/floor.h
     std::string_view name;

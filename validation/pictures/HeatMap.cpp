@@ -23,7 +23,7 @@ std::uint8_t codeValue(float value) {
 constexpr int kTextScale = 2;
 constexpr int kTextHeight = kTextScale * kGlyphHeight;
 constexpr int kMargin = 12;
-constexpr int kLeastWidth = 640; // what the swatches take with their words, and labels apart from each other
+constexpr int kLeastWidth = 640; // the width of the swatches with their words, and of labels that do not overlap
 constexpr int kBarHeight = 16;
 constexpr int kTickHeight = 5;
 constexpr int kSwatch = 14;
@@ -45,14 +45,14 @@ Rgb8 colourOf(PixelState state, double rel) {
     return scaleColour(scalePosition(rel));
 }
 
-/// Shortens text to what fits, its end cut off with dots.
+/// Shortens text to the available width, its end replaced by dots.
 std::string fitted(const std::string& text, int width) {
     const std::size_t fits = std::size_t(std::max(width, 0) / (kTextScale * kGlyphAdvance));
     if (text.size() <= fits) return text;
     return fits < 3 ? std::string() : text.substr(0, fits - 2) + "..";
 }
 
-/// A place on the scale, 0..1, and what stands there.
+/// A position on the scale, 0..1, and its label.
 struct Tick {
     double position;
     std::string label;

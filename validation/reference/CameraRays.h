@@ -37,7 +37,7 @@ public:
     glm::dvec2 halfExtent() const { return halfHeight_ * glm::dvec2(sizePixels_.x / sizePixels_.y, 1.0); }
     bool isPerspective() const { return isPerspective_; }
 
-    /// Unit direction from a point to whoever looks at it.
+    /// Unit direction from a point to the viewer.
     glm::dvec3 toViewer(const glm::dvec3& positionRel) const;
 
 private:

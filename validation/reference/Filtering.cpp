@@ -34,7 +34,7 @@ glm::dvec4 bilinear(const Pyramid& pyramid, int level, const scenes::Sampler& sa
     const auto texel = [&](int column, int row) {
         return wrappedTexel(pyramid, level, sampler, corner.x + column, corner.y + row);
     };
-    // a + (b - a) w: equal texels stay what they are to the last bit, so that a normal of no length gains none.
+    // a + (b - a) w: equal texels keep their value to the last bit, so that a normal of length zero stays zero.
     const auto between = [](const glm::dvec4& a, const glm::dvec4& b, double w) { return a + (b - a) * w; };
     return between(between(texel(0, 0), texel(1, 0), weight.x), between(texel(0, 1), texel(1, 1), weight.x), weight.y);
 }

@@ -25,7 +25,7 @@ struct Hit {
     bool frontFacing = true;    ///< seen from its counter-clockwise side; a mirroring transform turns no side round
     /// Change of `weights` from the pixel to the next to the right, and to the one above.
     glm::dvec3 weightsDx{0.0}, weightsDy{0.0};
-    double perspective = 0.0;    ///< share by which those changes differ one pixel on
+    double perspective = 0.0;    ///< relative difference of those changes one pixel further
     double roundingMetres = 0.0; ///< by how much rounding to fp32 may move the triangle here
     double roundingPixels = 0.0; ///< by how much it may move the point over the picture
     double roundingLevels = 0.0; ///< and by how much turn or stretch the triangle, in levels of detail

@@ -11,13 +11,13 @@ namespace {
 /// A coordinate comes from two products and two sums of numbers that were rounded to single precision.
 constexpr double kCoordinateRounding = 4.0 * 0x1p-24;
 
-/// Corners snapped to a grid of 1/256 of a pixel, which is what rasterisers have, move what lies between them.
+/// Rasterisers snap corners to a grid of 1/256 of a pixel, which moves the points between them.
 constexpr double kSnappedPixels = 1.0 / 256.0;
 
 /// Eight bits of a weight between two texels.
 constexpr double kWeightTexels = 1.0 / 256.0;
 
-/// One code value: what a level stores is rounded, and every level once more; so are weights, and sRGB is decoded by
+/// One code value: each level rounds its stored texels once more; weights are rounded too, and sRGB is decoded by
 /// less than half of that. OpenGL has no 16-bit sRGB; such pictures are stored as floats.
 double codesOf(const Pyramid& pyramid) {
     switch (pyramid.image().format) {

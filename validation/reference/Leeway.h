@@ -7,7 +7,7 @@ namespace tessera::reference {
 
 /// How far a program that keeps the definition may stray from it in looking up a texture.
 ///
-/// By the exact definition: what rounding to fp32 does to a triangle's corners, the pixel's ray and the texture's
+/// By the exact definition: the rounding to fp32 of a triangle's corners, the pixel's ray and the texture's
 /// transform. By hardware: that OpenGL leaves to the driver how it interpolates coordinates, the digits of its weights,
 /// and the level of detail between finestLevelOf() and the sum of both changes; the sum is not granted, or a wrong
 /// level would pass. Drivers magnify up to level 0 also where OpenGL says 1/2.

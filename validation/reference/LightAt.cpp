@@ -12,7 +12,8 @@ using scenes::Falloff;
 using scenes::LightType;
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
-// The product's definition of its lights (docs/numerics.md): what keeps them finite at d = 0 and for any intensity.
+// The clamps of the product's definition of lights (docs/numerics.md), which keep them finite at d = 0 and for any
+// intensity.
 constexpr double kSmallestSquaredDistance = 1e-4; // m^2, and the smallest A + B d + C d^2
 constexpr double kBrightest = 1e30;
 

@@ -17,12 +17,12 @@ struct ShiningLight {
 /// Light as it arrives at a point.
 struct Incident {
     glm::dvec3 toLight{0.0};   ///< unit; zero at the light itself, where no direction is better than another
-    glm::dvec3 intensity{0.0}; ///< 0 where the light does not reach
+    glm::dvec3 intensity{0.0}; ///< irradiance at normal incidence; 0 where the light does not reach
 };
 
 std::vector<ShiningLight> shiningLights(const scenes::Scene& scene, const Settings& settings, const glm::dvec3& eyeWS);
 
-/// What a light sends to a point: by its falloff, range window and cone.
+/// The irradiance of a light at a point, by its falloff, range window and cone.
 Incident incidentAt(const ShiningLight& shining, const glm::dvec3& positionRel);
 
 /// Where a light ends. With Falloff::Attenuation a tolerance above 0 ends it where its brightest channel has fallen to

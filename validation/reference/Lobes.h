@@ -19,7 +19,8 @@ double distributionCharlie(double alpha, double cosNormalHalf);
 /// G / (4 n.l n.v) of the same source. Both cosines are at least 1e-6, by the product's definition.
 double visibilityCharlie(double alpha, double cosLight, double cosView);
 
-/// The albedo of a white sheen that scales what lies below it: the product's definition, a fit of the integral.
+/// The directional albedo of a white sheen, which scales the layers below it: the product's definition, a fit of the
+/// integral.
 double sheenAlbedo(double alpha, double cosine);
 
 } // namespace tessera::reference

@@ -13,7 +13,7 @@ glm::dvec3 unitOr(const glm::dvec3& vector, const glm::dvec3& fallback) {
 }
 
 /// The texel's direction in the frame of tangent, bitangent and normal. What the vertices hold is interpolated as it
-/// is; only the sums are made unit, and the bitangent is perpendicular to both whatever the angle between them.
+/// is; only the sums are normalised, and the bitangent is perpendicular to both for any angle between them.
 glm::dvec3 fromTangentSpace(const Hit& hit, const glm::dvec3& texel, const glm::dvec3& vertexNormal) {
     const glm::dvec4 tangentOS = hit.atCorners(*hit.object->tangentsOS);
     const glm::dvec3 tangent = unitOr(glm::dmat3(hit.object->relFromObject) * glm::dvec3(tangentOS), glm::dvec3(0.0));

@@ -93,7 +93,7 @@ Anchor parallelAnchor(const std::vector<Bounds>& all, const CameraRays& rays) {
     double nodeMetres = 0.0;
     glm::dvec2 largestHalf(0.0);
     for (const Bounds& bounds : all) {
-        // Rounding may move into the picture what lies just outside it.
+        // Rounding may move points from just outside the picture into it.
         const double farthest = glm::length(glm::max(glm::abs(bounds.boxRel.min), glm::abs(bounds.boxRel.max)));
         const glm::dvec2 half = 1.001 * rays.halfExtent() + 2e-6 * farthest;
         const std::optional<Range> depths = depthsInPicture(bounds.boxRel, half, rays);

@@ -19,7 +19,7 @@ struct Cover {
         first = int(std::floor(begin));
         last = std::min(int(std::ceil(end)), sizeBefore) - 1;
     }
-    /// The share of the whole that one of the texels makes up.
+    /// The fraction of the whole that one texel makes up.
     double share(int texel) const {
         return (std::min(end, texel + 1.0) - std::max(begin, double(texel))) / (end - begin);
     }

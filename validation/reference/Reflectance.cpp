@@ -37,12 +37,12 @@ glm::dvec3 local(const SurfacePoint& point, const glm::dvec3& direction) {
     return {glm::dot(point.tangent, direction), glm::dot(glm::cross(point.normal, point.tangent), direction), cosine};
 }
 
-/// D G / (4 n.l n.v) by the point's masking; `alpha` along tangent and bitangent.
+/// D G / (4 n.l n.v) by the point's masking-shadowing option; `alpha` along tangent and bitangent.
 double microfacetLobe(const SurfacePoint& point, const Directions& directions, const glm::dvec2& alpha) {
     const glm::dvec3 half = local(point, directions.half);
     const double d = alpha.x == alpha.y ? distributionGgx(alpha.x, directions.cosHalf) : distributionGgx(alpha, half);
     const double along = alphaAlong(alpha, half);
-    // The handout's n.v is at least 1e-6.
+    // n.v is at least 1e-6, as in the source of this option, a course handout.
     if (point.masking == scenes::Masking::HalfVector) {
         const double g1 = maskingSmith(along, directions.cosIncidence);
         return d * g1 * g1 / (4.0 * directions.cosLight * std::max(directions.cosView, 1e-6));
@@ -100,7 +100,7 @@ glm::dvec3 underSheen(const SurfacePoint& point, const Directions& directions, c
                                        visibilityCharlie(point.sheenAlpha, directions.cosLight, directions.cosView));
 }
 
-/// KHR_materials_clearcoat: the share of what is below that the coat reflects instead.
+/// KHR_materials_clearcoat: the weight of the coat's lobe; the layers below have the rest.
 double coatShare(const SurfacePoint& point, const glm::dvec3& toViewer) {
     return point.coat * fresnelSchlick(0.04, 1.0, std::abs(glm::dot(point.coatNormal, toViewer)));
 }

@@ -16,7 +16,7 @@ struct Directions {
     bool hasLobe() const { return cosLight > 0.0 && cosView > 0.0 && half != glm::dvec3(0.0); }
 };
 
-/// How a material model scatters light. The table is the only list of models.
+/// How a material model reflects light. The table is the only list of models.
 struct Model {
     scenes::MaterialModel model;
     /// BRDF times max(0, n.l) for a light above the horizon; `specular` false leaves the specular lobe out.
@@ -27,10 +27,11 @@ std::span<const Model> modelTable();
 /// The table's row. Throws std::logic_error when there is none.
 const Model& modelOf(scenes::MaterialModel model);
 
-/// Radiance towards the viewer for one unit of incident intensity; 0 for light from below the horizon of what it meets.
+/// BRDF times cosine: radiance towards the viewer per irradiance at normal incidence; 0 for light from below the
+/// horizon of each layer.
 glm::dvec3 reflected(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer, bool specular);
 
-/// Radiance towards the viewer without any light; a coat takes its share.
+/// Emitted radiance towards the viewer, attenuated by the coat.
 glm::dvec3 emitted(const SurfacePoint& point, const glm::dvec3& toViewer);
 
 } // namespace tessera::reference

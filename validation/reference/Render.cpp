@@ -53,7 +53,7 @@ private:
         return std::abs(a.depthMetres - b.depthMetres) <= a.roundingMetres + b.roundingMetres;
     }
 
-    /// The surfaces that may be the nearest: up to the first that has no hole there whatever its texture's leeway.
+    /// The surfaces that may be the nearest: up to the first that has no hole there within its texture's leeway.
     std::vector<Hit> candidates(const Ray& ray) const {
         std::vector<Hit> found;
         std::optional<Hit> solid;

@@ -7,7 +7,7 @@
 #include "scenes/Scene.h"
 #include "validation/reference/Settings.h"
 
-/// The reference renderer: what a picture is by definition, in double precision on the CPU, by the formulas of the
+/// The reference renderer: the definition of a picture, in double precision on the CPU, by the formulas of the
 /// textbooks. It shares the plain scene with the product and nothing else.
 namespace tessera::reference {
 

@@ -18,7 +18,7 @@ struct Settings {
     std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
     bool specular = true;         ///< false leaves the specular lobe out
     Filtering filtering = Filtering::Exact;
-    bool leeway = true;          ///< whether to find what else the definition allows (Rendered::alternatives)
+    bool leeway = true;          ///< whether to find other values that the definition allows (Rendered::alternatives)
     double rangeTolerance = 0.0; ///< unit of colour x intensity: A B C lights end where they fall to it; 0: nowhere
 };
 

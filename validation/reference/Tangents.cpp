@@ -19,7 +19,7 @@ struct Growth {
     double area = 0.0; ///< of the triangle in the texture, of either sign
 };
 
-/// Shares of a direction below this are what rounding leaves of one along the normal.
+/// A direction whose tangential fraction is below this lies along the normal, up to rounding.
 constexpr double kSmallestShare = 1e-12;
 
 /// Radians round a vertex that rounding makes of slivers.
@@ -121,7 +121,7 @@ private:
     }
     int vertexOf(const Corner& corner) const { return vertices_[corner.index()]; }
 
-    /// Numbers what is equal alike.
+    /// Gives equal elements the same number.
     void weld(const Texture& texture) {
         std::map<std::array<double, 8>, int> known;
         std::vector<int> numbers;

@@ -7,7 +7,7 @@
 
 namespace tessera::reference {
 
-/// The pictures that the materials of what is drawn use, ready to be looked up.
+/// The textures of the drawn materials, ready for lookups.
 class Textures {
 public:
     /// For materials without any.

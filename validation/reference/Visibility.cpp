@@ -39,7 +39,7 @@ double startOf(const Ray& ray, const Anchor& anchor) {
     return std::max(0.0, nearest - 1.01 * anchor.radiusMetres / length);
 }
 
-/// What a candidate must be to count, and what has been found of a ray.
+/// The conditions for a hit to count, and the hits found along a ray.
 struct Query : RTCIntersectContext {
     const Ray* ray = nullptr;
     const Textures* textures = nullptr;
@@ -104,7 +104,7 @@ Tree makeTree(RTCDevice device, const std::vector<Object>& objects, const Anchor
     return tree;
 }
 
-/// Embree's single precision may place a hit this share of its depth off, besides what it rounds of positions; the
+/// Relative error in depth of a hit by Embree's single precision, besides the rounding of positions; the
 /// double one decides.
 constexpr double kDepthSlack = 1e-4;
 

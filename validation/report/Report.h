@@ -35,7 +35,7 @@ struct ReportBench {
     std::string sections; ///< plots and tables
 };
 
-/// All that a report says. Texts are plain: what means something to HTML is escaped.
+/// The contents of a report. Texts are plain: characters with a meaning in HTML are escaped.
 struct Report {
     std::string title;    ///< such as "hall, rendered four ways"
     CompareRecord record; ///< scene, size, renderer and the pairs, of which there may be none beside a bench

@@ -1,4 +1,5 @@
-// Materials: what a surface sends to a viewer, by the product's own shader on the GPU against the reference in double.
+// Materials: the radiance that a surface reflects to a viewer, by the product's own shader on the GPU against the
+// reference in double.
 #include <algorithm>
 #include <cmath>
 
@@ -70,7 +71,7 @@ double azimuthWeight(const scenes::Material& material, const reference::Directio
     return change > 0.1 ? -1.0 : std::min(1.0, kTolerance / change);
 }
 
-/// What a relative error is multiplied by: the share of single precision's digits that the directions leave. Negative
+/// The weight of a relative error: the fraction of single precision's digits that the directions leave. Negative
 /// where the answer hangs on the sign of a rounding error.
 double weightOf(const scenes::Material& material, double sharpness, const reference::Directions& directions) {
     constexpr double kUndecided = 3e-7; // five roundings of a unit vector's dot product
@@ -101,8 +102,8 @@ Compared compared(const glm::vec4& shown, const reference::SurfacePoint& point, 
     const double weight = weightOf(material, sharpness, reference::Directions(point.normal, toLight, toViewer));
     if (weight < 0.0) return {0.0, true};
     const glm::dvec3 truth = reference::reflected(point, toLight, toViewer, true);
-    // A channel counts against the surface's brightest: k_d near 0 does not make a share of 1e-9 matter. Nor does
-    // what is lost below the least normal number, 1.2e-38: it counts 1e-4 at most.
+    // A channel's error is relative to the surface's brightest channel, so a fraction of 1e-9 beside k_d near 0 does
+    // not matter. Loss below the least normal number, 1.2e-38, counts 1e-4 at most.
     const double brightest = std::max({truth.r, truth.g, truth.b, 1.2e-34});
     const glm::dvec3 difference = glm::abs(glm::dvec3(shown) - truth);
     return {weight * std::max({difference.r, difference.g, difference.b}) / brightest, false};
@@ -121,7 +122,7 @@ shader::Defines definesOf(scenes::MaterialModel model) {
     material.sheenColor = glm::vec3(0.5f);
     scene.materials = {material};
     scene.meshes.resize(1);
-    scene.meshes[0].indices = {0, 0, 0}; // what draws nothing has no features
+    scene.meshes[0].indices = {0, 0, 0}; // a mesh without triangles would have no features
     scene.nodes.resize(1);
     scene.nodes[0].instances = {{0, 0}};
     shader::Defines defines = frame::featureDefines(frame::materialFeatures(scene));
@@ -215,7 +216,7 @@ void sweepDirection(StressBench& bench, const StressDirection& direction, Stress
     }
 }
 
-/// Roughness from 0 in steps of 1e-4 to 0.03, where models meet their floor, then in steps of 0.01 to 1.
+/// Roughness from 0 in steps of 1e-4 to 0.03, where models clamp alpha to its minimum, then in steps of 0.01 to 1.
 void sweepRoughness(StressBench& bench, const StressModel& model, StressFigures& figures) {
     StressRandom random(31);
     Reflection reflection(bench, model);

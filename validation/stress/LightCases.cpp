@@ -38,7 +38,7 @@ reference::Incident truthAt(const Light& light, const glm::dvec3& positionWS) {
 
 /// The cone's factor, and how much it changes at most when what decides it is off by four roundings of fp32: the angle
 /// at the light, since the ray is rounded when it is subtracted and when it is made unit, and the axis when it is
-/// packed, and each of the two cosines' distances from 1 (of a wide cone, -1), by its share.
+/// packed, and each of the two cosines' distances from 1 (of a wide cone, -1), relative to it.
 struct Cone {
     double factor = 1.0;
     double condition = 0.0;
@@ -61,8 +61,8 @@ Cone coneOf(const Light& light, const glm::dvec3& positionWS) {
     return {factor, std::max(squared(open + move) - factor, factor - squared(open - move))};
 }
 
-/// What an error is taken relative to: the light without range, by the cone's factor and the share of its condition
-/// that is worth the tolerance. 0 where the light is certain to be 0.
+/// The scale of relative errors: the light without range, times the sum of the cone's factor and its condition over the
+/// tolerance. 0 where the light is certain to be 0.
 double scaleOf(const Light& light, const glm::dvec3& positionWS) {
     Light open = light;
     open.rangeMetres = scenes::kInfinity;
@@ -104,7 +104,7 @@ void measure(StressBench& bench, const std::vector<Light>& lights, const std::ve
         bad.count({&direction.x, 3});
         figures.nan += bad.nan;
         figures.infinite += bad.infinite;
-        // At the light itself there is no direction, and so no reflected light whatever the intensity.
+        // At the light itself there is no direction, and so no reflected light for any intensity.
         if (light.type != LightType::Directional && light.positionWS == positionWS) {
             ++figures.undecided;
             continue;

@@ -24,7 +24,7 @@ public:
         : context_(context), shaders_(shaders), effort_(effort), progress_(std::move(progress)), programs_(shaders),
           measuredTimes_(measuredTimes) {}
 
-    /// Runs a compute shader of shaders/stress, one invocation a record. It reads vec4 inputs[] and writes vec4
+    /// Runs a compute shader of shaders/stress, one invocation per record. It reads vec4 inputs[] and writes vec4
     /// outputs[] (shaders/shared/slots.h), as many of each a record as it says. Other bindings are the caller's.
     std::vector<glm::vec4> run(const std::string& shader, const shader::Defines& defines,
                                const std::vector<glm::vec4>& inputs, std::size_t records, std::size_t outputsPerRecord);
@@ -40,7 +40,7 @@ private:
     StressEffort effort_;
     std::function<void(double)> progress_;
     shader::ProgramLibrary programs_;
-    float measuredTimes_; ///< what run() multiplies all outputs by
+    float measuredTimes_; ///< factor of run() on all outputs
 };
 
 } // namespace tessera::validation

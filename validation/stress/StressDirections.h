@@ -14,10 +14,10 @@ struct StressView {
 struct StressDirection {
     const char* name; ///< as part of a case's name
     const char* holds;
-    /// `alpha` tells how narrow the lobe is that there is to meet.
+    /// `alpha` is that of the lobe to hit.
     void (*place)(StressView& view, double alpha, StressRandom& random);
 };
-/// The first is random; the others are what breaks naive code.
+/// The first is random; the others break naive code.
 std::span<const StressDirection> stressDirections();
 
 /// A random frame with light and viewer placed.

@@ -47,7 +47,7 @@ void StressFigures::addPicture(const ErrorFigures& picture, const std::string& w
         worstRelMse = std::isnan(relMse) ? std::numeric_limits<double>::infinity() : relMse;
         whereRelMse = what;
     }
-    // No tolerance: what is left is that there is light, and that enough of the picture was compared.
+    // Without a tolerance: the picture has light, and enough of it was compared.
     const Verdict signal = checkTolerance(picture, {});
     if (fault.empty() && !signal.ok) fault = fmt::format("{}: {}", what, signal.missed.front());
 }

@@ -20,7 +20,7 @@ struct StressFigures {
     std::string where;        ///< where it is
     double worstRelMse = 0.0; ///< largest relMse of a picture (ErrorFigures.h); 0 for cases without pictures
     std::string whereRelMse;
-    std::string fault; ///< what else was wrong, such as a picture without any light; empty: nothing
+    std::string fault; ///< another fault, such as a picture without any light; empty: none
 
     /// Counts a sample of several values once a kind.
     void count(std::span<const float> values);

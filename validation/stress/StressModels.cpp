@@ -13,7 +13,7 @@ namespace {
 using scenes::Material;
 using scenes::MaterialModel;
 
-/// Often at the floor of alpha and at its end 1, else of any order of magnitude.
+/// Often at the minimum of alpha and at 1, else of any order of magnitude.
 float randomAlpha(StressRandom& random) {
     switch (random.index(8)) {
     case 0:
@@ -25,7 +25,7 @@ float randomAlpha(StressRandom& random) {
     }
 }
 
-/// 0 and 1 as often as what lies between.
+/// 0 and 1 as often as values between them.
 float randomShare(StressRandom& random) {
     return random.index(3) == 0 ? float(random.index(2)) : float(random.unit());
 }

@@ -14,7 +14,7 @@ struct StressModel {
     void (*randomise)(scenes::Material& material, StressRandom& random);
     /// Sets the roughness, 0 (smoothest) to 1; null where the model has none.
     void (*setRoughness)(scenes::Material& material, double roughness);
-    /// The smallest GGX alpha that the material has, after the product's floor; 1 where the model has no lobe. Rounding
+    /// The smallest GGX alpha that the material has, after the product's clamp; 1 where the model has no lobe. Rounding
     /// of a direction moves a lobe by 1/alpha of its width.
     double (*sharpness)(const scenes::Material& material);
 };

@@ -20,10 +20,10 @@ struct StressRecord {
 /// `why`.
 std::string stressJson(const StressRecord& record);
 
-/// The record for a terminal: a table of ASCII characters, one row a case and technique, then what was missed.
+/// The record for a terminal: a table of ASCII characters, one row per case and technique, then the missed tolerances.
 std::string stressTable(const StressRecord& record);
 
-/// All cases with what each holds, for a terminal.
+/// All cases with their contracts, for a terminal.
 std::string stressList();
 
 } // namespace tessera::validation

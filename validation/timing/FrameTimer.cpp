@@ -14,8 +14,8 @@ namespace tessera::validation {
 
 namespace {
 
-/// How far the sum of a frame's passes may be from the frame, as a share: preparing a frame and waiting between passes
-/// belong to none of them. The project's definition of a pass's time asks for it.
+/// Largest relative difference of the sum of a frame's passes from the frame: preparing a frame and waiting between
+/// passes belong to none of them. The project's definition of a pass's time asks for it.
 constexpr double kMostUnexplained = 0.15;
 
 /// What profiling changes in a renderer's backend, put back in the end.

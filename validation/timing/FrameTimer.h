@@ -36,8 +36,8 @@ struct FrameTimerOptions {
 };
 
 struct FrameTimes {
-    std::vector<PointTimes> points;            ///< parallel to the points asked for
-    std::vector<std::vector<double>> othersMs; ///< parallel to the other frames asked for, one time a round
+    std::vector<PointTimes> points;            ///< parallel to the requested points
+    std::vector<std::vector<double>> othersMs; ///< parallel to the other requested frames, one time per round
 };
 
 /// Wall times of whole frames in turn (timeInterleaved): of the points, then of `others`.
@@ -47,8 +47,8 @@ std::vector<std::vector<double>> timeInTurn(std::span<const TimedPoint> points, 
 /// Fills the times of passes from frames drawn for nothing else.
 void profilePoint(PointTimes& times, const TimedPoint& point, int frames = FrameTimerOptions{}.profiledFrames);
 
-/// Times frames in turn (timeInterleaved); `others` take part, for what must be measured in the same run, such as the
-/// floor. Each pass's time comes from separate frames: from GPU timers; or, on software rasterisers, where these mean
+/// Times frames in turn (timeInterleaved); `others` are further frames of the same run, such as those of the lower
+/// bound. Each pass's time comes from separate frames: from GPU timers; or, on software rasterisers, where these mean
 /// nothing, from glFinish and the CPU clock on both sides of the pass, and then only where the passes sum to within 15
 /// % of the frame. Nothing is read back. Throws what drawing throws.
 FrameTimes timeFrames(std::span<const TimedPoint> points, std::span<const TimedFrame> others = {},

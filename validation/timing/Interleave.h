@@ -19,13 +19,13 @@ struct InterleaveOptions {
     int rounds = 20;
     /// Rounds that were measured before, of the same kinds: they count, and only the rest is measured.
     std::vector<std::vector<double>> earlierMs{};
-    /// Called after every timed round with its times, one a kind.
+    /// Called after every timed round with its times, one per kind.
     std::function<void(std::span<const double> roundMs)> measured{};
     /// Called after every round, warm-up included; what it throws ends the measurement.
     std::function<void(int done, int total)> progress{};
 };
 
-/// Wall time of each kind of frame in milliseconds, one a round, from its first call to the return of glFinish. Kinds
+/// Wall time of each kind of frame in milliseconds, one per round, from its first call to the return of glFinish. Kinds
 /// take turns, A B C A B C, so that a machine that changes its pace treats all alike. Earlier rounds come first.
 std::vector<std::vector<double>> timeInterleaved(std::span<const TimedFrame> kinds, const InterleaveOptions& options);
 

@@ -4,11 +4,11 @@
 
 namespace tessera::viewer {
 
-/// Where a camera stands, which way it looks and how much it sees: what orbiting and flying hand to each other.
+/// Position, direction and field of view of a camera, which orbiting and flying pass to each other.
 struct CameraPose {
     glm::dvec3 eyeWS{0.0};
     Heading heading;
-    double focusMetres = 1.0;      ///< ahead of the eye: what orbiting turns about, > 0
+    double focusMetres = 1.0;      ///< distance ahead of the eye of the point that orbiting turns about, > 0
     double halfHeightMetres = 1.0; ///< of the picture, orthographic cameras
     double nearMetres = 0.1;       ///< at nearFocusMetres and beyond
     double nearFocusMetres = 1.0;  ///< a focus nearer than this takes the near plane along, perspective cameras; > 0
@@ -22,8 +22,8 @@ CameraPose poseOf(const scenes::Camera& camera, const scenes::Box3& boundsWS);
 /// The same with the focus that many metres ahead, > 0.
 CameraPose poseOf(const scenes::Camera& camera, double focusMetres);
 
-/// How a command line says the pose of a camera that started as `start`: eye, target and what else differs. What
-/// changedCamera() makes of it is what the viewer draws, so that both are the same to the last bit.
+/// The command line's form of the pose of a camera that started as `start`: eye, target and other differences. The
+/// viewer draws the result of changedCamera() on it, so that both are the same to the last bit.
 scenes::CameraChange changeOf(const CameraPose& pose, const scenes::Camera& start);
 
 /// `start` in this pose: changedCamera(start, changeOf(pose, start)).

@@ -7,12 +7,11 @@ namespace tessera::viewer {
 /// smooth the steps of a mouse.
 inline constexpr double kDampingSeconds = 0.08;
 
-/// What differs by less than this share of a pixel is the same picture to the eye, so a movement ends there and
-/// redrawing with it.
+/// Differences below this fraction of a pixel are invisible, so a movement ends there and redrawing with it.
 inline constexpr double kRestPixels = 0.25;
 
-/// The share of the way that an exponential approach covers in a step: x += (goal - x) * share. Exact, so that two half
-/// steps are one step and the movement is the same at every frame rate.
+/// The fraction of the remaining way that an exponential approach covers in a step: x += (goal - x) * share. Exact, so
+/// that two half steps are one step and the movement is the same at every frame rate.
 inline double dampingShare(double stepSeconds, double dampingSeconds = kDampingSeconds) {
     return -std::expm1(-stepSeconds / dampingSeconds);
 }

@@ -35,7 +35,7 @@ glm::dvec3 FlyCamera::velocityWS() const {
                                    axis(keys_.right, keys_.left) * goal_.heading.rightWS() +
                                    axis(keys_.up, keys_.down) * glm::dvec3(0.0, 1.0, 0.0);
     const double length = glm::length(directionWS);
-    // Looking straight down, forward and up may cancel to what rounding leaves.
+    // Looking straight down, forward and up may cancel up to rounding.
     constexpr double kLeastLength = 1e-6;
     if (length < kLeastLength) return glm::dvec3(0.0);
     return directionWS / length * metresPerSecond_ * (keys_.fast ? kFastFactor : 1.0);

@@ -14,7 +14,8 @@ struct FlyKeys {
 /// Walks through the air by keys and looks by mouse, all damped.
 class FlyCamera {
 public:
-    /// Speeds go with the size of what is drawn: a box is crossed in the same time, be it a ring or a cathedral.
+    /// Speeds are proportional to the size of the scene: a box is crossed in the same time, be it a ring or a
+    /// cathedral.
     FlyCamera(const CameraPose& pose, const scenes::Camera& lens, const scenes::Box3& boundsWS);
 
     /// Mouse look: the view turns the way the mouse goes, as many pixels in the picture's middle as it went.

@@ -23,7 +23,7 @@ inline constexpr double kMostPitchRadians = 1.5620696805349397;
 /// roll is 0.
 Heading headingOf(const glm::dmat3& worldFromCamera);
 
-/// Turns by small angles in the picture: to the left and up on it, whatever its roll and pitch, so that what is in its
+/// Turns by small angles in the picture: to the left and up on it, for any roll and pitch, so that what is in its
 /// middle moves by these angles; on the steepest headings by less, lest the yaw spin. The pitch ends at
 /// kMostPitchRadians; one that is steeper already, as a scene's camera may have it, becomes no steeper.
 Heading turned(const Heading& heading, double leftRadians, double upRadians);

@@ -10,7 +10,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// Zooming ends where distances would leave what double and the single precision of the GPU hold well.
+/// Zooming ends before distances exceed the precision of double and of the GPU's single precision.
 constexpr double kNearestMetres = 1e-6;
 constexpr double kFarthestMetres = 1e9;
 
@@ -81,7 +81,7 @@ void OrbitCamera::jumpTo(const CameraPose& pose) {
     shown_ = goal_ = stateOf(pose);
 }
 
-/// How far the picture is from the goal's, as an upper bound of what moves at the pivot's depth.
+/// How far the picture is from the goal's, as an upper bound of movement at the pivot's depth.
 double OrbitCamera::pixelsToGoal(double heightPixels) const {
     const CameraPose& from = shown_.pose;
     const CameraPose& to = goal_.pose;

@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-/// Edits stay where a scene can be saved (scenes::checkScene) and drawn, whatever is typed.
+/// Clamps typed values to those that can be saved (scenes::checkScene) and drawn.
 namespace tessera::viewer {
 
 inline constexpr double kMostMetres = 1e9;  ///< of a place, either way: its square is finite in single precision

@@ -23,7 +23,7 @@ scenes::Light lightBeforeFocus(const CameraPose& pose);
 /// Adds a copy of a light at the end, the number behind its name counted on ("lamp 2"). Returns the copy's index.
 std::size_t duplicateLight(Lights& lights, std::size_t index);
 
-/// Deletes a light; what `solo` names stays the same light, or is none when it was this one.
+/// Deletes a light; `solo` keeps naming the same light, or none if it was this one.
 void deleteLight(Lights& lights, std::size_t index, std::optional<int>& solo);
 
 /// Solo of a light: on, or off where it was on already.

@@ -3,8 +3,8 @@
 
 namespace tessera::viewer {
 
-/// Changes a material's model, and with it what the model cannot have: masking by direction, unless anisotropic,
-/// becomes masking by the angle to the normal.
+/// Changes a material's model, and resets values that the new model cannot have: masking-shadowing by direction, unless
+/// anisotropic, becomes masking by the angle to the normal.
 inline void changeModel(scenes::Material& material, scenes::MaterialModel model) {
     material.model = model;
     if (model == scenes::MaterialModel::Microfacet && material.masking == scenes::Masking::Directional)

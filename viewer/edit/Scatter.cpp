@@ -22,7 +22,7 @@ constexpr double kReachedShare = 1.0 - (kLowest * kLowest + kLowest * kHighest +
 /// Mean over the disc of the range of cos / d^2 times the falloff's window, for height 0.3 and in units of the range:
 /// 2 h times the integral of (1 - d^4)^2 / d^2 from h to 1.
 constexpr double kMeanIrradiance = 1.0965;
-/// Of the way to what is above, so that lamps stay below a ceiling.
+/// As a fraction of the distance to the surface above, so that lamps stay below a ceiling.
 constexpr double kClearShare = 0.8;
 
 /// std::mt19937_64 is the same everywhere, the distributions of <random> are not.
@@ -35,7 +35,7 @@ private:
     std::mt19937_64 engine_;
 };
 
-/// How far it is from a place to what faces it. The eye of its rays is the middle of the bounds.
+/// The distance from a place to the surface that faces it. The eye of its rays is the middle of the bounds.
 class Clearance {
 public:
     Clearance(const scenes::Scene& scene, const scenes::Box3& boundsWS)

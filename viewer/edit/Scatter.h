@@ -12,7 +12,7 @@ struct Scatter {
     int count = 1024; ///< 0 to kMostScattered
     std::uint64_t seed = 1;
     double lightsPerPoint = 8.0; ///< that reach a point of a surface, on average; decides their range
-    double lux = 3.0;            ///< what they add up to on surfaces, on average
+    double lux = 3.0;            ///< mean illuminance of all of them on surfaces
 };
 
 /// Point lights above the surfaces of a scene and inside its bounds, as dense on one surface as on another, the same

@@ -10,7 +10,7 @@ PictureArea pictureArea(const State& state, glm::vec2 windowSize, float scale);
 /// The window that leaves a picture of this size.
 glm::ivec2 windowSizeFor(glm::ivec2 pictureSize, bool showsPanel);
 
-/// All panels around the picture, the line below it, and what lies over it.
+/// All panels around the picture, the line below it, and its overlays.
 void drawInterface(State& state, const Facts& facts, const PictureArea& area, float scale);
 
 } // namespace tessera::viewer

@@ -2,7 +2,7 @@
 #include "viewer/session/Facts.h"
 #include "viewer/session/State.h"
 
-/// The viewer's panels, a function each. They show the state and change it; what takes more than that they ask for
+/// The viewer's panels, a function each. They show the state and change it; they request longer actions
 /// (State::requests).
 namespace tessera::viewer {
 

@@ -18,17 +18,17 @@ struct Choice {
     bool isPossible = true;   ///< others are shown, but cannot be chosen
 };
 
-/// A row of a panel: the label on the left, and what is drawn next takes the rest of its width.
+/// A row of a panel: the label on the left; the next widget takes the rest of the width.
 void row(const char* label);
 
-/// A list that drops down, in a row of its own. Returns what was chosen now.
+/// A list that drops down, in a row of its own. Returns the new choice.
 std::optional<std::size_t> choose(const char* label, std::string_view shown, std::span<const Choice> choices,
                                   std::size_t chosen);
-/// The same of any number of entries, of which only those in view are asked for; each is used up before the next.
+/// The same of any number of entries, of which only visible ones are requested; each is used up before the next.
 std::optional<std::size_t> choose(const char* label, std::string_view shown, std::size_t count,
                                   const std::function<Choice(std::size_t)>& choiceAt, std::size_t chosen);
 
-/// Shows a widget of a value and takes what it made of it inside the bounds (bounded()). Whether that changed it.
+/// Shows a widget of a value and clamps the new value (bounded()). Returns whether it changed.
 template <typename Value, typename Number, typename Widget>
 bool edit(Value& value, Number least, Number most, const Widget& widget) {
     Value edited = value;
@@ -41,7 +41,7 @@ bool edit(Value& value, Number least, Number most, const Widget& widget) {
 bool slider(const char* label, float& value, float least, float most, const char* format = "%.3f");
 /// The same of an angle, which is shown in degrees.
 bool angleSlider(const char* label, float& radians, float leastDegrees, float mostDegrees);
-/// The channels of a linear colour from 0 to `most`, in a row of its own; above 1 for what shines.
+/// The channels of a linear colour from 0 to `most`, in a row of its own; above 1 for emitters.
 bool colorRow(const char* label, glm::vec3& color, float most = 1.0f);
 
 /// Lets Esc close the list that is being drawn.

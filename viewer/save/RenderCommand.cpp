@@ -7,7 +7,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// What is neither what the program does by itself nor what the scene asks for.
+/// The settings that differ from the program's defaults and from the scene's options.
 std::string options(const RenderRequest& request, const scenes::Scene& scene) {
     std::string text;
     engine::FrameRequest byItself;

@@ -7,17 +7,17 @@
 
 namespace tessera::viewer {
 
-/// What `tessera render` is asked for: a scene and how it is rendered.
+/// The arguments of `tessera render`: a scene and its frame options.
 struct RenderRequest : engine::FrameRequest {
     std::string source;        ///< the scene's file or name
-    std::optional<int> lights; ///< that were asked of the load
+    std::optional<int> lights; ///< number requested of the load
     bool defaultLight = true;  ///< the same
     scenes::CameraChange pose; ///< of the camera that the settings choose
 };
 
 /// The command line that asks for this and writes the picture to `output`, to paste into a shell: "tessera render hall
-/// --size 640x360 -o picture.exr". It says only what is neither the program's default nor what the scene itself asks
-/// for.
+/// --size 640x360 -o picture.exr". It names only settings that are neither the program's default nor what the scene
+/// itself asks for.
 std::string renderCommand(const RenderRequest& request, const scenes::Scene& scene, const std::string& output);
 
 } // namespace tessera::viewer

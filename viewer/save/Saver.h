@@ -5,15 +5,15 @@
 
 namespace tessera::viewer {
 
-/// Writes what the window shows to files of the present folder (freePath). Throws what drawing and writing throw.
+/// Writes the window's contents to files of the current folder (freePath). Throws exceptions of drawing and writing.
 class Saver {
 public:
     Saver(State& state, Screen& screen, const EventLog& log) : state_(state), screen_(screen), log_(log) {}
 
-    /// The active side's picture, drawn whole: what `tessera render` writes.
+    /// The active side's picture at full resolution, as `tessera render` writes it.
     void picture(glm::ivec2 sizePixels, const char* ending);
-    /// The scene with its edits and the camera where it is. From then on that file is what is open, and
-    /// the first of the recent ones.
+    /// The scene with its edits and current camera. From then on that file is the open scene, and the first of the
+    /// recent ones.
     void scene();
     /// The command line that renders the active side's picture. A scene that was edited is saved first.
     std::string command(glm::ivec2 sizePixels);

@@ -17,7 +17,7 @@ public:
     Mode mode() const { return mode_; }
     void setMode(Mode mode);
 
-    /// Drags and wheel of the mouse; the modes take what is theirs. `heightPixels` is the picture's.
+    /// Drags and wheel of the mouse; each mode takes its own. `heightPixels` is the picture's.
     void rotate(const glm::dvec2& dragPixels, double heightPixels);
     void pan(const glm::dvec2& dragPixels, double heightPixels);
     void zoom(double factor, const glm::dvec2& cursorFromCenterPixels, double heightPixels);
@@ -32,14 +32,14 @@ public:
     void jumpTo(const CameraPose& pose);
     void advance(double stepSeconds, double heightPixels);
     bool isAtRest() const;
-    /// It starts here from now on, as `here`, which is the camera that it shows. Nothing moves, and no movement ends.
+    /// Makes the current camera, `here`, the start that goHome() returns to. Movements in progress continue.
     void startHere(const scenes::Camera& here);
 
     const CameraPose& pose() const;
     const scenes::Camera& start() const { return start_; }
     /// Whether it is elsewhere than where it started.
     bool isMoved() const { return pose() != home_; }
-    /// What is drawn: the camera that it started as, to the last bit, while nothing moved it.
+    /// The camera to draw: the start camera, to the last bit, while nothing moved it.
     scenes::Camera camera() const { return isMoved() ? cameraAt(pose(), start_) : start_; }
 
 private:

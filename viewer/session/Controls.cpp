@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kDividerReach = 6.0f;   ///< screen coordinates to either side that grab it
 constexpr float kMarkerReach = 9.0f;    ///< the same around a light's marker
-constexpr float kClickReach = 3.0f;     ///< what a hand moves while it clicks
+constexpr float kClickReach = 3.0f;     ///< movement of a hand during a click
 constexpr double kZoomPerStep = 0.88;   ///< of the distance, a step of the wheel
 constexpr double kZoomPerHeight = 0.05; ///< of the distance, a drag of the picture's height upwards
 

@@ -17,10 +17,10 @@ struct PictureArea {
     bool contains(const glm::vec2& point) const;
 };
 
-/// Turns what the user does to the picture into movements of the camera and changes of the state.
+/// Turns the user's input on the picture into movements of the camera and changes of the state.
 class Controls {
 public:
-    /// Whom the events belong to besides the picture.
+    /// Input that belongs to widgets and not to the picture.
     struct Claims {
         bool mouse = false;    ///< the pointer is at a panel
         bool keyboard = false; ///< text is typed

@@ -10,7 +10,7 @@ namespace tessera::viewer {
 void EventLog::line(const std::string& text) const {
     if (!on_) return;
     fmt::print("{}\n", oneLine(text, text.max_size())); // whole: it holds commands to be run
-    std::fflush(stdout);                                // whoever reads acts on it now
+    std::fflush(stdout);                                // a program that drives the viewer acts on each line
 }
 
 } // namespace tessera::viewer

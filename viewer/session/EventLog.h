@@ -3,11 +3,11 @@
 
 namespace tessera::viewer {
 
-/// What the viewer does, a line an event on stdout, for programs that drive it; silent unless asked for.
+/// The viewer's events, a line each on stdout, for programs that drive it; silent by default.
 class EventLog {
 public:
     explicit EventLog(bool on) : on_(on) {}
-    /// What has several lines, such as what a shader compiler says, becomes one.
+    /// A text of several lines, such as a shader compiler's log, becomes one line.
     void line(const std::string& text) const;
 
 private:

@@ -15,9 +15,9 @@ struct Facts {
     double scale = 0.0;       ///< its sides' share of the window's pixels
     glm::ivec2 sizePixels{0};
     std::string renderer;        ///< as the driver calls itself
-    std::size_t targetBytes = 0; ///< of what frames draw into
+    std::size_t targetBytes = 0; ///< of the frames' render targets
     std::optional<graph::Plan> plan;
-    std::optional<validation::LightOracleFigures> lights; ///< measured when they were asked for,
+    std::optional<validation::LightOracleFigures> lights; ///< measured on request,
     std::string lightsOf;                                 ///< of this technique at this size
     std::optional<validation::ErrorFigures> figures;      ///< of the left picture against the right
     bool figuresAreOld = false;                           ///< newer ones are on their way

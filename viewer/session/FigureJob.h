@@ -23,7 +23,7 @@ public:
     /// Picture a against the truth b, of one size.
     void start(Picture a, Picture b);
     bool hasResult() const;
-    /// The latest figures, once. Throws what measuring them threw, such as std::bad_alloc.
+    /// The latest figures, once. Rethrows an exception of the measurement, such as std::bad_alloc.
     std::optional<validation::ErrorFigures> take();
 
 private:

@@ -22,7 +22,7 @@ struct GestureHelp {
 };
 std::span<const GestureHelp> gestureHelp();
 
-/// Does what a key stands for; false where it stands for nothing.
+/// Runs the action of a key; false if it has none.
 bool pressKey(State& state, int key, int modifiers);
 
 } // namespace tessera::viewer

@@ -9,7 +9,7 @@ namespace tessera::viewer {
 
 /// How a scene is looked at: the technique and all that a command line can ask of a frame.
 struct Look : engine::FrameRequest {
-    /// What was asked for and the technique cannot do, until another one can: texts, by the settings' keys.
+    /// Requested values that the technique does not take, kept for another one that does: texts, by the settings' keys.
     std::map<std::string, std::string, std::less<>> aside;
     bool operator==(const Look&) const = default;
 };
@@ -19,7 +19,7 @@ struct Look : engine::FrameRequest {
 /// as it is.
 Look possible(Look look);
 
-/// The look with nothing put aside: what was asked for, whether its technique can do it or not.
+/// The look as requested, with values that its technique does not take.
 Look asked(Look look);
 
 /// What was changed between `before` and `now`, made to `base`: choices of the user outlive a scene that wishes

@@ -36,7 +36,7 @@ void OpenScene::place(const scenes::CameraChange& change) {
 
 scenes::CameraChange OpenScene::cameraChange() const {
     if (!rig_.isMoved()) return placed_;
-    // Eye and target are said, so nothing of the place that was said before remains; what else was, does.
+    // The change has eye and target, so it replaces an earlier position; other earlier changes remain.
     scenes::CameraChange change = changeOf(rig_.pose(), rig_.start());
     change.fovYDegrees = placed_.fovYDegrees;
     if (!change.halfHeightMetres) change.halfHeightMetres = placed_.halfHeightMetres;

@@ -7,7 +7,7 @@
 
 namespace tessera::viewer {
 
-/// A scene that is open: as it was loaded, with what was edited since. Its address is fixed, since a renderer draws it.
+/// An open scene, as loaded and with later edits. Its address is fixed, since a renderer draws it.
 class OpenScene {
 public:
     OpenScene(std::string source, const scenes::LoadOptions& load, scenes::Scene loaded, scenes::SceneOrigin origin);
@@ -35,12 +35,12 @@ public:
         countEdit();
         ++materialRevision_;
     }
-    /// Counts whatever changes the picture: edits, and movements of the camera.
+    /// Counts changes of the picture: edits, and movements of the camera.
     std::uint64_t revision() const { return revision_; }
     std::uint64_t materialRevision() const { return materialRevision_; }
 
     const scenes::Box3& boundsWS() const { return boundsWS_; }
-    /// The cameras as the scene has them, whatever was moved since.
+    /// The cameras of the scene, without later movements.
     const std::vector<scenes::Camera>& cameras() const { return cameras_; }
     int camera() const { return camera_; }
     CameraRig& rig() { return rig_; }
@@ -48,7 +48,7 @@ public:
     /// Looks through another of the scene's cameras.
     void useCamera(int camera);
     /// Begins with the change of the scene's camera: what changedCamera() makes of it, to the last bit. Orbiting turns
-    /// about the target that it says. Throws InputError for what no camera can have, and then does nothing.
+    /// about the target that it says. Throws InputError for values that no camera can have, and then does nothing.
     void place(const scenes::CameraChange& change);
     /// What place() put last; empty where the scene's camera is its own.
     const scenes::CameraChange& placed() const { return placed_; }

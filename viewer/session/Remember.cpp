@@ -15,7 +15,7 @@ void rememberLook(Preferences& preferences, const Look& look, const Look& begun)
     for (const engine::Setting& setting : engine::settingTable()) {
         if (!setting.isRemembered || setting.value.equal(now, before)) continue;
         const std::string key(setting.key), text = setting.text(now);
-        // What was left open is nothing to remember, and what the command line has no name for cannot be.
+        // Values left open are not saved, and values without a command-line name cannot be saved.
         if (text.empty() || text == setting.value.open)
             preferences.settings.erase(key);
         else
@@ -26,7 +26,7 @@ void rememberLook(Preferences& preferences, const Look& look, const Look& begun)
 void remember(Preferences& preferences, const State& state, const Look& begun, glm::ivec2 windowSize) {
     rememberLook(preferences, state.looks[0], begun);
     if (windowSize != state.firstWindowSize) preferences.windowSize = windowSize;
-    // No command line and no scene says these: they began as what was remembered.
+    // Neither the command line nor scenes set these, so they began with their saved values.
     preferences.recent = state.recent;
     preferences.automaticScale = state.automaticScale;
     preferences.fixedScale = state.fixedScale;

@@ -4,15 +4,15 @@
 
 namespace tessera::viewer {
 
-/// Begins with what is remembered of the window's own state. Looks begin with theirs (ViewerOptions::lookOf).
+/// Restores the window's own state from the preferences. ViewerOptions::lookOf restores looks.
 void recall(const Preferences& preferences, State& state);
 
-/// Takes into the preferences what was chosen of a look that began as `begun`, in so far as that is remembered.
+/// Saves the remembered settings of a look that the user changed since it began as `begun`.
 void rememberLook(Preferences& preferences, const Look& look, const Look& begun);
 
-/// Takes into the preferences what the state holds that is worth keeping, where it is something else than the window
-/// began with: what was said on the command line once, what a scene wishes and what the latest technique cannot do
-/// leave in peace what was remembered. `begun` is the look that the open scene began with.
+/// Saves the remembered values of the state that differ from those the window began with. So values from the command
+/// line, from a scene's options or adapted to the latest technique do not overwrite the saved ones. `begun` is the look
+/// that the open scene began with.
 void remember(Preferences& preferences, const State& state, const Look& begun, glm::ivec2 windowSize);
 
 } // namespace tessera::viewer

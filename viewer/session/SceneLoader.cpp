@@ -39,7 +39,7 @@ SceneLoader::~SceneLoader() {
 
 void SceneLoader::start(const std::string& source, const scenes::LoadOptions& options) {
     const std::lock_guard lock(mutex_);
-    // Waiting here until what is given up has ended would keep the window from answering.
+    // Waiting here for the end of an abandoned load would block the window.
     stop_.request_stop();
     result_.reset();
     waiting_ = {source, options};

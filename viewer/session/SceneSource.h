@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-/// Sources are what loadScene() takes and the user says: a built-in scene's name, or a path of any form.
+/// A source is an argument of loadScene() from the user: a built-in scene's name, or a path of any form.
 namespace tessera::viewer {
 
 /// What two sources of one scene have in common: the built-in scene's name, or the file's absolute path without

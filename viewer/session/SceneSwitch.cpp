@@ -44,7 +44,8 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     // From here on nothing fails.
     if (hadScene_) rememberLook(preferences_, state_.looks[0], base_);
     for (Look& look : state_.looks) look = hadScene_ ? rebased(look, base_, first.look) : first.look;
-    // The other side of a comparison begins as what shades the other way, and as fast with many lights.
+    // The other side of a comparison begins with a technique that shades the other way, and is as fast with many
+    // lights.
     if (!hadScene_)
         state_.looks[1].technique = infoOf(first.look.technique).usesGBuffer() ? engine::Technique::ClusteredForward
                                                                                : engine::Technique::ClusteredDeferred;

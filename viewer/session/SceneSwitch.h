@@ -9,8 +9,7 @@
 
 namespace tessera::viewer {
 
-/// Opens scenes in the place of the one that is open: what the user chose stays, and what is remembered from run to run
-/// is kept up to date.
+/// Replaces the open scene by another: the user's choices stay, and the preferences are kept up to date.
 class SceneSwitch {
 public:
     /// `done` is called on another thread when a scene waits.
@@ -20,15 +19,15 @@ public:
     /// whatever becomes of it; what it was told of any scene, for all.
     void open(const std::string& source, const scenes::LoadOptions& load = {});
     bool hasResult() const { return loader_.hasResult(); }
-    /// Whether that is a scene, and not a failure.
+    /// Whether the load gave a scene and did not fail.
     bool hasScene() const { return loader_.hasScene(); }
     /// The scene that was loaded, once; null where there is none. `show` gets it first; then the looks of the state
     /// become its, and it still has to be put there. Throws where it could not be loaded, and what `show` throws; then
     /// nothing has changed but that no scene waits.
     std::unique_ptr<OpenScene> take(const std::function<void(const OpenScene& scene)>& show);
-    /// Leaves the result aside.
+    /// Discards the result.
     void discard();
-    /// Writes what is remembered, when the window is closed. What goes wrong is told as a warning.
+    /// Writes the preferences when the window is closed. Failures are warnings.
     void remember(glm::ivec2 windowSize);
 
 private:
@@ -46,11 +45,11 @@ private:
     const ViewerOptions& options_;
     State& state_;
     const EventLog& log_;
-    Preferences preferences_;          ///< of the runs before, and what was chosen since
-    Look base_;                        ///< what the open scene began with
+    Preferences preferences_;          ///< of earlier runs, with later choices
+    Look base_;                        ///< initial look of the open scene
     bool hadScene_ = false;            ///< the looks of the state and `base_` are a scene's
     bool wasAsked_ = false;            ///< to open a scene
-    bool isFirstLoad_ = false;         ///< the latest load is what the program began with
+    bool isFirstLoad_ = false;         ///< the latest load is that of the program's start
     std::map<std::string, Left> left_; ///< by identityOf()
     SceneLoader loader_;
 };

@@ -15,7 +15,7 @@ namespace tessera::viewer {
 /// One picture; two looks side by side with a divider; or how much they differ.
 enum class Compare : std::uint8_t { Off, Split, Difference };
 
-/// A line for the user: what was done, or what went wrong and what to do.
+/// A line for the user: a finished action, or an error with its remedy.
 struct Notice {
     std::string text;
     bool isError = false;
@@ -55,14 +55,14 @@ struct State {
     bool showsHelp = false;
     int selectedLight = scenes::kNone;
     int selectedMaterial = scenes::kNone;
-    Scatter scatter; ///< what to scatter next
+    Scatter scatter; ///< settings of the next scattering
 
     double pictureAspect = 1.0;                ///< width over height of where the picture is
     std::optional<glm::ivec2> firstWindowSize; ///< screen coordinates, as the window opened
 
     bool showsMarkers = false; ///< where lights are
     bool wantsPlan = false;    ///< a panel shows the plan of the active side's frame
-    std::string command;       ///< that renders the picture, where it was asked for
+    std::string command;       ///< that renders the picture, on request
     Timings timings;
 
     Notice notice;

@@ -20,7 +20,7 @@ struct FirstLook {
 struct ViewerOptions {
     std::string scene;        ///< opened first
     scenes::LoadOptions load; ///< of the first scene
-    /// What the user said on the command line, else what the scene wishes, else what is remembered, else the defaults;
+    /// The settings of the command line, else of the scene's options, else of the preferences, else the defaults;
     /// on scenes after the first without what names things of that one. Throws InputError where the scene lacks what
     /// was said.
     std::function<FirstLook(const scenes::Scene& scene, const std::string& source, bool first)> lookOf;
@@ -28,8 +28,8 @@ struct ViewerOptions {
     std::optional<glm::ivec2> pictureSize; ///< instead, on a display of usual density: what the panels leave
     Preferences preferences;               ///< of the runs before
     std::optional<std::filesystem::path> preferencesFile; ///< where they are kept; none: nowhere
-    bool log = false;                                     ///< a line on stdout for whatever happens
-    /// Told of what goes wrong when no window shows it any more.
+    bool log = false;                                     ///< a line on stdout per event
+    /// Receives errors after the window has closed.
     std::function<void(const std::string& text)> warn = [](const std::string&) {};
 };
 

@@ -23,10 +23,10 @@ private:
     gpu::Framebuffer framebuffer_;
 };
 
-/// The latest complete picture of one side of the window. It stays what it is while the next one is drawn, or fails.
+/// The latest complete picture of one side of the window. It stays unchanged while the next one is drawn, or fails.
 class DrawnPicture {
 public:
-    /// Copies what the renderer drew last; its radiance where asked for.
+    /// Copies the renderer's latest picture, on request with its radiance.
     void take(const engine::Renderer& renderer, const Look& look, bool radiance);
     void clear();
 

@@ -12,7 +12,8 @@ constexpr double kFreshShare = 0.5;
 constexpr double kRoom = 0.85;
 /// What smaller pictures must save for it to be worth their being smaller.
 constexpr double kWorthwhile = 1.15;
-/// Pictures after which what one of another scale took is forgotten: the scene, and the machine's load, have changed.
+/// Pictures after which the time of a picture at another scale is forgotten, because the scene and the machine's load
+/// change.
 constexpr int kOldest = 30;
 
 std::size_t stepOf(double scale) {
@@ -27,7 +28,7 @@ double pixelsOf(std::size_t step) {
 
 } // namespace
 
-/// The line of least relative error through what was taken; neither of its parts is negative.
+/// The line of least relative error through the measured times; neither of its coefficients is negative.
 ResolutionScale::Cost ResolutionScale::cost() const {
     double weights = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
     for (std::size_t step = 0; step < kScales.size(); ++step) {

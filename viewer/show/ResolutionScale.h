@@ -9,8 +9,8 @@ namespace tessera::viewer {
 inline constexpr std::array kScales{1.0, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125};
 
 /// Chooses how many pixels pictures have while something moves, so that each is drawn within a target time; at rest the
-/// picture is drawn whole. From what pictures took it learns what a frame costs by itself, for geometry and the like,
-/// and what a pixel costs.
+/// picture is drawn whole. It estimates the fixed cost of a frame (geometry and the like) and the cost of a pixel from
+/// the times of pictures.
 class ResolutionScale {
 public:
     explicit ResolutionScale(double targetMs) : targetMs_(targetMs) {}

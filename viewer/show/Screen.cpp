@@ -19,7 +19,7 @@ constexpr double kSoftwareGuess = 0.25;
 
 constexpr glm::vec4 kBehindPicture{0.05f, 0.05f, 0.055f, 1.0f};
 
-/// Whether a pixel of b costs about what one of a does.
+/// Whether a pixel of b costs about as much as one of a.
 bool isOfKind(const Look& a, const Look& b) {
     Look like = a;
     for (const engine::Setting& setting : engine::settingTable())

@@ -47,7 +47,7 @@ public:
     double scaleOf(const Wanted& wanted) const {
         return drawn_ == wanted ? drawnScale_ : failed_ == wanted ? 1.0 : 0.0;
     }
-    /// Whether the pictures are those of what is wanted.
+    /// Whether the pictures are the wanted ones.
     bool shows(const Wanted& wanted) const { return drawn_ == wanted; }
     /// A picture that is worth drawing at once while things move.
     double movingScale() const { return resolution_.next(); }
@@ -57,10 +57,10 @@ public:
     /// Whether it may take so long that it must be given up where somebody waits: it is the first of its kind, or even
     /// the latest picture of moving things took that long.
     bool isSlow(const Wanted& wanted) const { return isNewKind(wanted) || latestMs_ > kSlowMs; }
-    /// Draws what is wanted at a scale. `givesUp` may be null; where it ends the frame, or the frame fails, the
+    /// Draws the wanted pictures at a scale. `givesUp` may be null; where it ends the frame, or the frame fails, the
     /// pictures not yet drawn stay as they were. Throws as Renderer::draw does.
     Drawn draw(const Wanted& wanted, double scale, const std::function<bool()>& givesUp);
-    /// Draws again what is there, though nothing asked for it has changed: shaders have.
+    /// Redraws the current pictures after a change of shaders.
     void forget() {
         drawn_.reset();
         failed_.reset();
@@ -87,7 +87,7 @@ private:
     bool differenceIsStale_ = true;
     float differenceFactor_ = 0.0f;
     ResolutionScale resolution_;
-    std::optional<std::array<Look, 2>> kinds_; ///< what was drawn last of this scene
+    std::optional<std::array<Look, 2>> kinds_; ///< kind of the pictures drawn last of this scene
     std::optional<Wanted> drawn_, failed_;
     double drawnScale_ = 0.0;
     double latestMs_ = 0.0; ///< of the latest picture while something moved, without what was spent on compiling

@@ -6,7 +6,7 @@
 
 namespace tessera::viewer {
 
-/// Dear ImGui on a window: what it is told, and how it looks. It keeps no file of its own; sizes below are of a display
+/// Dear ImGui on a window: its input and its style. It keeps no file of its own; sizes below are of a display
 /// of usual density and scale with the window's.
 class Gui {
 public:

@@ -33,12 +33,12 @@ public:
     void setClipboard(const std::string& text);
     void setTitle(const std::string& title);
     glm::ivec2 sizeScreen() const; ///< screen coordinates, those of the pointer
-    glm::ivec2 sizePixels() const; ///< of what is drawn into; 0 where the window is minimised
+    glm::ivec2 sizePixels() const; ///< of the framebuffer; 0 while the window is minimised
     float contentScale() const;    ///< how much larger than usual things should be drawn
     bool isMinimised() const;
 
     bool isButtonHeld() const; ///< of the mouse, as heard last
-    /// Takes what the window system has to tell into the queue, without waiting.
+    /// Moves pending events of the window system into the queue, without waiting.
     void poll();
     /// The same, after waiting for something to happen, for wake(), or for this long; forever where negative.
     void wait(double timeoutSeconds);

@@ -158,7 +158,7 @@ glm::dvec3 towardsAll(glm::dvec3 normal, const std::vector<glm::dvec3>& faces) {
 }
 
 /// The skin's mesh, of every `stride`th point. Its normals are the mean of the faces around each vertex, weighted by
-/// their areas: what the sculpture has between the vertices is the normal map's to tell.
+/// their areas: the normal map holds the relief between the vertices.
 Mesh meshOf(const Skin& skin, int stride, double heightMetres) {
     const double metresPerUnit = heightMetres / (kBustTopY - kBustBottomY);
     const glm::dvec3 footBU(0.0, kBustBottomY, kFootZ);

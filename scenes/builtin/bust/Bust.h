@@ -7,7 +7,7 @@ namespace tessera::scenes::builtin {
 
 struct Bust {
     Mesh mesh;       ///< smooth: vertex normals without the fine relief
-    Image normalMap; ///< object-space normals (2 texel - 1) with the fine relief, 16 bits a channel
+    Image normalMap; ///< object-space normals (2 texel - 1) with the fine relief, 16 bits per channel
     Image albedoMap; ///< weathered marble, sRGB
 };
 

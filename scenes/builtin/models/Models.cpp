@@ -38,8 +38,8 @@ Mesh discMesh() {
     return mesh;
 }
 
-/// The cap of a sphere, facing +z, all of which is visible from in front. It is for the material whose masking is
-/// divided by n.v: at a sphere's silhouette single precision does not know that.
+/// The cap of a sphere, facing +z, all of which is visible from in front. It is for the material whose
+/// masking-shadowing is divided by n.v: at a sphere's silhouette single precision does not know that.
 Mesh capMesh() {
     constexpr double kHalfAngleRadians = 0.75;
     const double sphereRadiusMetres = kPieceRadiusMetres / std::sin(kHalfAngleRadians);

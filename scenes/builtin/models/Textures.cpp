@@ -21,7 +21,7 @@ double tiling(const glm::dvec2& p, int frequency, int octaves, std::uint32_t see
     return fractalNoise({frequency * p.x, frequency * p.y, 0.0}, octaves, seed, glm::ivec2(frequency));
 }
 
-/// The nearest of points scattered one a cell, `cells` a side.
+/// The nearest of points scattered one per cell, with `cells` cells per side.
 struct Nearest {
     glm::ivec2 cell{0};
     double distance = 2.0; ///< in cells

@@ -1,13 +1,12 @@
 // The G-buffer: how a surface is stored in its channels and read back.
 // Which channels exist, where and in which encoding comes from the table channelTable() (renderer/frame/GBufferLayout.h) as
-// defines; what each of them holds is lib/gbuffer/gbuffer_channels.glsl's business. A channel in fp32 has the attachment
-// GBUFFER_<NAME>, one of GBUFFER_EXACT_CHANNELS. The fields of the others lie end to end in GBUFFER_WORDS words, from the bit
-// GBUFFER_<NAME> on, GBUFFER_<NAME>_WIDTHS bits wide; the words are in attachments from GBUFFER_WORD_TEXTURE on, four, then two,
-// then one of them in each.
-// GBUFFER_SPARE_COMPONENTS: metallic and alpha are the fourth components of albedo and normal.
-// GBUFFER_MATERIAL_NUMBER: the fourth component of the normal is the number of the material, whose values are read from the table
-// of all materials.
-// GBUFFER_WRITE declares the channels as outputs, otherwise they are textures.
+// defines; lib/gbuffer/gbuffer_channels.glsl defines their contents. A channel in fp32 has the attachment GBUFFER_<NAME>, one
+// of GBUFFER_EXACT_CHANNELS. The fields of the others lie end to end in GBUFFER_WORDS words, from the bit
+// GBUFFER_<NAME> on, GBUFFER_<NAME>_WIDTHS bits wide; the words are in attachments from GBUFFER_WORD_TEXTURE on, four,
+// then two, then one of them in each. GBUFFER_SPARE_COMPONENTS: metallic and alpha are the fourth components of albedo
+// and normal. GBUFFER_MATERIAL_NUMBER: the fourth component of the normal is the number of the material, whose values
+// are read from the table of all materials. GBUFFER_WRITE declares the channels as outputs, otherwise they are
+// textures.
 #pragma once
 #include "shared/slots.h"
 #include "lib/surface/surface.glsl"

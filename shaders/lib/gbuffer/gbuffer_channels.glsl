@@ -63,9 +63,9 @@ void takeNormal(Encoding encoding, vec4 texel, inout Surface surface)
 #endif
 }
 
-// In fp32: alpha, model, ior or F90, metallic; the one parameter of a model stands for its ior, a microfacet model's masking
-// for its metallic. Packed: model and masking, then alpha and F90 and metallic; a microfacet model has its ior in the last two
-// fields, and the one parameter of a model takes all three.
+// In fp32: alpha, model, ior or F90, metallic. A model with one parameter stores it as ior; a microfacet model stores
+// its masking-shadowing option as metallic. Packed: model and masking-shadowing option, then alpha, F90 and metallic. A
+// microfacet model has its ior in the last two fields; a model with one parameter has it in all three.
 void putMicrosurface(Encoding encoding, Surface surface, inout vec4 texel)
 {
     bool hasParameter = HAS_PARAMETER(surface.model), isMicrofacet = IS_MICROFACET(surface.model);

@@ -5,7 +5,7 @@
 // apart: |v|^2 times the distance of v . (sqrt(p), sqrt(q)) from an integer is above 0.17 for all v up to 32 pixels.
 #pragma once
 
-// Rounded to the nearest code: what only turns a highlight, which noise would tear apart.
+// Rounded to the nearest code, for directions: their error only rotates a highlight, and noise would break it up.
 #define DITHER_NOT -1
 #define DITHER_ALBEDO 0 // three
 #define DITHER_NORMAL 3 // two

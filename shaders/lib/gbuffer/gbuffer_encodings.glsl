@@ -77,8 +77,8 @@ uint encodeAlpha(float alpha, int width, int field)
     return below + ditheredUp(share, field, steps);
 }
 
-// Model and masking: the models, then each microfacet model with every masking but the first. That the field holds all of them
-// is asserted beside its width.
+// Model and masking-shadowing option: the models, then each microfacet model with every option but the first. An
+// assertion beside the field's width checks that all fit.
 #define OTHER_MASKINGS (MASKING_COUNT - 1u)
 
 uint encodeKind(Surface surface)

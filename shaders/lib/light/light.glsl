@@ -1,15 +1,15 @@
-// One light: reading it, and what it sends to a point. The windows (range, cone) belong to the light and are the same in
-// every technique, also where nothing is culled.
+// One light: reading it, and its irradiance at a point. The windows (range, cone) belong to the light and are the same
+// in every technique, also where nothing is culled.
 #pragma once
 #include "lib/light/light_store.glsl"
 
 // Light as it arrives at a point.
 struct Incident {
     vec3 toLightLS; // unit
-    vec3 intensity; // L of the shading formulas; 0 where the light does not reach
+    vec3 intensity; // irradiance at normal incidence, L of the shading formulas; 0 where the light does not reach
 };
 
-// What light `index` sends to positionLS. False where it sends exactly nothing, by range or cone.
+// The light that arrives at positionLS from light `index`. False where its range or cone makes it exactly 0.
 bool incidentLight(int index, vec3 positionLS, out Incident incident)
 {
     vec4 place = lightTexel(index, 0);

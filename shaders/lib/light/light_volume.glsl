@@ -1,8 +1,8 @@
 // The part of the picture that one light can change, as triangles: outside of it the light is exactly 0.
 //
 // Every triangle is wound as a back face and lies at one depth, that of the farthest point the light reaches, so a test
-// that passes where the stored depth is nearer keeps what lies in front of it.
-//   sphere   the pyramid of sight around it: an octagon around the circle that the eye sees, 1.055 times its area
+// that passes where the stored depth is nearer keeps the surfaces in front of it.
+//   sphere   a pyramid around its cone of view from the eye: an octagon around the visible circle, 1.055 times its area
 //   cone     for spot lights up to 84 degrees: a hull around cone and spherical cap, 1.055 (narrow) to 1.39 (84 degrees)
 //            times their volume; of it the back faces are seen, also from inside
 //   screen   directional lights, lights without range, spheres that the eye is in, and what is vast beside the picture of
@@ -16,9 +16,9 @@
 // Cones wider than this are drawn as their spheres.
 const float kWidestConeCosine = 0.1;
 
-// How much larger, in metres, than the light a volume is drawn, so that no rounding loses a pixel: what positions and depths
-// lose, and an eighth of a pixel (vertices snap to at least 1/16, OpenGL 4.5, table 23.65).
-// At an outline seen edge-on, snapping may turn a face over; there the light is 0 already, so that changes nothing.
+// The margin in metres by which a volume is larger than its light, so that no rounding loses a pixel: the rounding of
+// positions and depths, and an eighth of a pixel (vertices snap to at least 1/16, OpenGL 4.5, table 23.65). At an
+// outline seen edge-on, snapping may turn a face over; there the light is 0 already, so that changes nothing.
 float volumeMargin(vec3 positionLS, float reachMetres)
 {
     bool orthographic = view.forwardLS.w != 0.0;
@@ -27,7 +27,7 @@ float volumeMargin(vec3 positionLS, float reachMetres)
     return roundingMargin(length(positionLS) + reachMetres, view.depthKey) + 0.125 * pixel;
 }
 
-// The depth that would be stored at a distance ahead. What lies behind the eye is in front of it all.
+// The depth that would be stored at a distance ahead. Points behind the eye count as nearest.
 float depthAt(float ahead)
 {
     if (view.forwardLS.w == 0.0 && !(view.eyeLS.w + ahead > 0.0)) return 1.0;
@@ -136,7 +136,7 @@ bool isVastInPicture(float reach)
     return view.forwardLS.w != 0.0 && reach * clipPerMetre > 256.0;
 }
 
-// Corner `vertex` of what is drawn of light `index`.
+// Corner `vertex` of the volume of light `index`.
 vec4 lightVolumeVertex(int index, int vertex)
 {
     vec4 place = lightTexel(index, 0);

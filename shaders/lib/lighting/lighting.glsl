@@ -1,5 +1,5 @@
-// Lighting, once for all techniques: what one light gives to a surface, and the loop over them. Which of
-// them a pixel visits the light cursor's (lib/light/light_cursor.glsl).
+// Lighting, once for all techniques: the radiance that a surface reflects of one light, and the loop over lights. The
+// light cursor (lib/light/light_cursor.glsl) chooses the lights that a pixel visits.
 #pragma once
 #include "lib/reflectance/reflectance.glsl"
 #include "lib/light/light.glsl"
@@ -16,9 +16,9 @@ bool takesLight(Surface surface)
     return !IS_UNLIT(surface.model);
 }
 
-// What one light gives to a surface that takes light: radiance towards the viewer; where visits are counted, 1. All that any
-// pass knows of a light. A light without one direction, or what stands before it, is this function's business and no loop's;
-// what that needs of the surface beside its shading normal becomes a member of Surface.
+// Radiance towards the viewer that a lit surface reflects of one light; where visits are counted, 1. Passes evaluate
+// lights by this function only. Area lights and shadows belong here and not in a loop; data of the surface that they
+// need besides the shading normal become members of Surface.
 vec3 lightOnSurface(int light, Surface surface, Viewpoint viewpoint)
 {
 #if VISIT_COUNTS

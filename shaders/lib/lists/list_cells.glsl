@@ -1,4 +1,4 @@
-// The cells of a tile and which of them a light may touch; what counting and filling have in common.
+// The cells of a tile and which of them a light may touch; used by counting and by filling.
 #pragma once
 #include "lib/lists/list_lights.glsl"
 #include "lib/lists/list_tiles.glsl"
@@ -63,7 +63,7 @@ vec2 runOfSlices(ListedTile tile, uint first, uint last)
     return runBetween(min(tile.depths.x, depths.y), max(tile.depths.y, depths.x));
 }
 
-// Fills in boxRuns: one run a slice for clusters, else one a run of neighbours.
+// Fills in boxRuns: one run per slice for clusters, else one per run of neighbours.
 void findBoxRuns(ListedTile tile)
 {
 #if LIST_METHOD == LIST_METHOD_SLICES

@@ -1,8 +1,9 @@
-// Second step: the nearest and farthest depth of what each tile shows, and which slices of that range hold a surface.
+// Second step: the nearest and farthest depth of the surfaces in each tile, and the slices of that range that hold a
+// surface.
 #pragma once
 #include "lib/lists/list_tiles.glsl"
 
-layout(binding = TEXTURE_UNIT_DEPTH) uniform sampler2D opaqueDepth; // with several samples a range, as below
+layout(binding = TEXTURE_UNIT_DEPTH) uniform sampler2D opaqueDepth; // a range if there are several samples, as below
 #if HAS_TRANSPARENT_LAYER
 layout(binding = TEXTURE_UNIT_TRANSPARENT_DEPTH) uniform sampler2D transparentDepth; // x nearest, y farthest negated
 #endif

@@ -44,8 +44,8 @@ void listSync()
 }
 #endif
 
-// A lane's share of `count` things: x the first, y one beyond the last. Contiguous, so that what lanes append one after the
-// other is in order.
+// A lane's share of `count` things: x the first, y one beyond the last. Contiguous, so that the lanes' results are in
+// order when appended one after the other.
 uvec2 laneShare(uint count)
 {
     uint share = (count + uint(LIST_THREADS) - 1u) / uint(LIST_THREADS);

@@ -1,10 +1,11 @@
-// A surface from a material, as it is rasterised; and where pixels hold only the number of their material, what it has everywhere.
+// A surface from a material, as it is rasterised; and from the material's constants alone, where pixels hold its
+// number.
 #pragma once
 #include "lib/material/material_frame.glsl"
 #include "lib/material/material_lobes.glsl"
 #include "lib/surface/surface.glsl"
 
-// All of a surface that has nothing to do with directions on it: what is one for all its pixels where the scene has no varying
+// All of a surface except directions on it: values that are constant over the surface if the scene has no varying
 // materials.
 void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
 {

@@ -68,8 +68,9 @@ vec3 materialNormal(Fragment fragment, vec3 texel)
 }
 
 #if VIEW == VIEW_NORMAL_OBJECT
-// The lit normal in the object's own space, 0 where the node flattens what it points along: normals go to lighting space by
-// the cofactor matrix times the sign of the determinant, which the transposed matrix takes back up to a factor > 0.
+// The lit normal in the object's own space, 0 where the node's transform flattens its direction: normals go to lighting
+// space by the cofactor matrix times the sign of the determinant, which the transposed matrix takes back up to a factor
+// > 0.
 vec3 objectNormal(Fragment fragment, vec3 normal)
 {
     mat3 m = fragment.objectFromNormal;

@@ -48,7 +48,8 @@ void setAnisotropy(Fragment fragment, inout Surface surface)
 #endif
 
 #if HAS_CLEARCOAT
-// Source: KHR_materials_clearcoat. Without a map of its own the coat is as smooth as the mesh, whatever lies below it.
+// Source: KHR_materials_clearcoat. Without a map of its own the coat has the mesh's normal, independent of the normal
+// map below it.
 void setClearcoat(Fragment fragment, inout Surface surface)
 {
     precise float factor = material.clearcoat.x;

@@ -1,11 +1,11 @@
-// How a material texture is read. `hardware` is what the sampler says, by the driver. `exact` is what OpenGL says of a
+// How a material texture is read. `hardware`: by the driver and the sampler. `exact`: by OpenGL's definition for a
 // texture of one level, computed in fp32 from fetched texels, the definition that the double-precision reference shares:
 // hardware bilinear of 8-bit textures may be off by 3.5e-3, and the choice of level is the implementation's. For the same
 // reason `exact` decodes sRGB colours itself, from textures that hold their code values.
 #pragma once
 #include "shared/material.h"
 
-// Texture coordinates; in double, a coordinate of 30 still tells a millionth of a texel.
+// Texture coordinates; in double, a coordinate of 30 still resolves a millionth of a texel.
 #if FILTER_EXACT
 #define TexCoord dvec2
 #else

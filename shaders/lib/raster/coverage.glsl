@@ -6,7 +6,7 @@
 
 #if HAS_ALPHA_MASK && SAMPLES > 1
 // Alpha is sharpened around the cutoff until its edge is one pixel wide, whatever the texture's magnification; then it
-// is the share of the pixel that is covered, rounded to whole samples. The lowest bits are set, rather than leaving their
+// is the covered fraction of the pixel, rounded to whole samples. The lowest bits are set, rather than leaving their
 // choice to the driver's alpha-to-coverage. To be called in uniform control flow, because of the derivative.
 int maskedSamples(vec4 baseColor)
 {
@@ -19,7 +19,7 @@ int maskedSamples(vec4 baseColor)
     return whole ? ~0 : (1 << int(samples)) - 1;
 }
 
-// True where nothing of the fragment is left; else gl_SampleMask holds what is.
+// True if the fragment covers no sample; otherwise gl_SampleMask holds the covered samples.
 bool coversNothing(vec4 baseColor)
 {
     int samples = maskedSamples(baseColor);

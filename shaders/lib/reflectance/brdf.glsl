@@ -30,7 +30,7 @@ float distributionGgxAnisotropic(vec2 alpha, vec3 n, vec3 tangent, vec3 h)
     return d;
 }
 
-// sqrt(alpha^2 + (1 - alpha^2) c^2), the length that Smith's masking compares with the cosine c.
+// sqrt(alpha^2 + (1 - alpha^2) c^2), the length that Smith's masking-shadowing compares with the cosine c.
 float smithLength(float alpha, float cosine)
 {
     precise float alpha2 = alpha * alpha;
@@ -48,8 +48,8 @@ float smithLengthAnisotropic(vec2 alpha, vec3 n, vec3 tangent, vec3 direction)
     return q;
 }
 
-// alpha along the projection of the microfacet normal h, which Walter's masking takes for the anisotropic lobe. Where h = n
-// no direction is distinguished, and the mean of the squares stands for all.
+// alpha along the projection of the microfacet normal h, as Walter's masking-shadowing uses for the anisotropic lobe.
+// Where h = n the projection has no direction, and the result is the root of the mean of both squares.
 float alphaAlong(vec2 alpha, vec3 n, vec3 tangent, vec3 h)
 {
     // An angle of 1e-15 is far below the rounding of h, and its square still far above the least number of fp32.
@@ -62,9 +62,9 @@ float alphaAlong(vec2 alpha, vec3 n, vec3 tangent, vec3 h)
     return along;
 }
 
-// G / (4 n.l n.v) for separable Smith masking, G = G1(l) G1(v), from the lengths of both directions. Source: Walter 2007, eq. 23
-// and 34; the cosines of G1's numerator cancel against the denominator, so grazing directions divide by nothing small. Needs
-// both cosines > 0.
+// G / (4 n.l n.v) for separable Smith masking-shadowing, G = G1(l) G1(v), from the lengths of both directions. Source:
+// Walter 2007, eq. 23 and 34; the cosines of G1's numerator cancel against the denominator, so grazing directions
+// divide by nothing small. Needs both cosines > 0.
 float visibilitySeparableOfLengths(float cosineLight, float lengthLight, float cosineView, float lengthView)
 {
     precise float v = 1.0 / ((cosineLight + lengthLight) * (cosineView + lengthView));
@@ -88,8 +88,8 @@ float visibilityHalfVector(float alpha, float cosineLight, float cosineView, flo
     return v;
 }
 
-// As visibilitySeparableOfLengths, for height-correlated Smith masking. Source: Heitz 2014, "Understanding the
-// Masking-Shadowing Function in Microfacet-Based BRDFs", eq. 99. Needs both cosines > 0.
+// As visibilitySeparableOfLengths, for height-correlated Smith masking-shadowing. Source: Heitz 2014, "Understanding
+// the Masking-Shadowing Function in Microfacet-Based BRDFs", eq. 99. Needs both cosines > 0.
 float visibilityCorrelatedOfLengths(float cosineLight, float lengthLight, float cosineView, float lengthView)
 {
     precise float v = 0.5 / (cosineLight * lengthView + cosineView * lengthLight);
@@ -102,8 +102,8 @@ float visibilityCorrelated(float alpha, float cosineLight, float cosineView)
     return visibilityCorrelatedOfLengths(cosineLight, smithLength(alpha, cosineLight), cosineView, smithLength(alpha, cosineView));
 }
 
-// What x * x loses to rounding, exactly. Source: Dekker 1971, "A Floating-Point Technique for Extending the Available Precision"
-// (with Veltkamp's splitting: 4097 = 2^12 + 1). No fma(), which drivers may round twice.
+// The rounding error of x * x, exactly. Source: Dekker 1971, "A Floating-Point Technique for Extending the Available
+// Precision" (with Veltkamp's splitting: 4097 = 2^12 + 1). No fma(), which drivers may round twice.
 float squareRemainder(float x, float square)
 {
     precise float t = 4097.0 * x;

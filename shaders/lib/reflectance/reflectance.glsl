@@ -1,5 +1,5 @@
-// What one light direction gives on one surface: a function a model, which reflection() chooses among, and the layers over
-// them, once for all techniques.
+// The BRDF times cosine of a surface for one light direction: a function per model, chosen by reflection(), and the
+// layers over the models, once for all techniques.
 #pragma once
 #include "lib/reflectance/brdf.glsl"
 #include "lib/maths/octahedral.glsl"
@@ -35,7 +35,7 @@ struct Directions {
     vec3 h;       // halfway between them; 0 where they are opposite
     float nl;     // cosines
     float nv;
-    float lh;     // goes on to its grazing value where l = -v, so that the diffuse share 1 - F stays continuous
+    float lh;     // takes its grazing value where l = -v, so that the diffuse weight 1 - F stays continuous
     bool hasLobe; // both above the horizon, and not opposite
 };
 
@@ -87,7 +87,7 @@ float visibilityOfMetallicRoughness(Surface surface, Directions directions)
     return visibilityCorrelated(surface.alpha, directions.nl, directions.nv);
 }
 
-// Of the teaching models: separable, by the surface's masking option.
+// Of the teaching models: separable, by the surface's masking-shadowing option.
 float visibilityOfMicrofacet(Surface surface, Directions directions)
 {
     precise float alpha = surface.alpha;
@@ -112,8 +112,8 @@ float visibilityOfMicrofacet(Surface surface, Directions directions)
 }
 
 #if HAS_SHEEN
-// The sheen over the rest of the material, which it darkens by what a white sheen of its brightest colour would reflect.
-// Source: KHR_materials_sheen, "Albedo-scaling technique".
+// Puts the sheen over the layers below, and scales these by 1 minus the directional albedo of a white sheen times the
+// sheen's brightest channel. Source: KHR_materials_sheen, "Albedo-scaling technique".
 vec3 underSheen(Surface surface, vec3 share, Directions directions)
 {
     precise float strongest = max(max(surface.sheenColor.r, surface.sheenColor.g), surface.sheenColor.b);
@@ -132,9 +132,9 @@ vec3 underSheen(Surface surface, vec3 share, Directions directions)
 }
 #endif
 
-// What a model does with light from above the horizon.
+// The reflection of light from above the horizon by a model.
 struct Reflection {
-    vec3 share;          // its BRDF times n.l
+    vec3 share;          // BRDF times cosine, 1/sr: reflected radiance per irradiance at normal incidence
     SpecularTerms terms; // 0 where it has no lobe there
 };
 
@@ -202,7 +202,7 @@ Reflection reflection(Surface surface, Directions directions)
     return lambert(surface, directions);
 }
 
-// Radiance towards the viewer for one unit of incident intensity, below the coat.
+// BRDF times cosine of the layers below the coat.
 vec3 baseShare(Surface surface, vec3 toLight, vec3 toViewer)
 {
     precise float nl = dot(surface.normalLS, toLight);
@@ -211,7 +211,7 @@ vec3 baseShare(Surface surface, vec3 toLight, vec3 toViewer)
 }
 
 #if HAS_CLEARCOAT
-// The share of the view that the coat reflects instead of the material below. Source: KHR_materials_clearcoat, "Layering": by
+// The weight of the coat's lobe; the layers below have the rest. Source: KHR_materials_clearcoat, "Layering": by
 // the angle to the coat's normal, not to the half vector.
 float coatWeight(Surface surface, vec3 coatNormalLS, vec3 toViewer)
 {
@@ -239,7 +239,7 @@ vec3 underCoat(Surface surface, vec3 base, vec3 toLight, vec3 toViewer)
 }
 #endif
 
-// Radiance towards the viewer for one unit of incident intensity.
+// BRDF times cosine of all layers: radiance towards the viewer per irradiance at normal incidence.
 vec3 reflectedShare(Surface surface, vec3 toLight, vec3 toViewer)
 {
     precise vec3 share = baseShare(surface, toLight, toViewer);

@@ -1,5 +1,6 @@
 // The sheen of cloth, as KHR_materials_sheen has it. Source: Conty Estevez and Kulla 2017, "Production Friendly Microfacet
-// Sheen BRDF": the distribution "Charlie" and fits of its masking. alpha is the square of the perceptual roughness.
+// Sheen BRDF": the distribution "Charlie" and fits of its masking-shadowing. alpha is the square of the perceptual
+// roughness.
 #pragma once
 #include "lib/reflectance/brdf.glsl"
 
@@ -44,9 +45,9 @@ float visibilityCharlie(float alpha, float cosineLight, float cosineView)
     return v;
 }
 
-// The share of light from a direction that a white sheen reflects, at most 1: a fit of the integral of the two functions
-// above, made for this engine. ln E is a polynomial in x = n.l / r and r, the perceptual roughness; wrong by at most 0.035
-// for r from 0.05 on (Sheen.theFittedAlbedoIsAlwaysNearTheIntegral).
+// The directional albedo of a white sheen, at most 1: a fit of the integral of the two functions above, made for this
+// engine. ln E is a polynomial in x = n.l / r and r, the perceptual roughness; wrong by at most 0.035 for r from 0.05
+// on (Sheen.theFittedAlbedoIsAlwaysNearTheIntegral).
 float sheenAlbedo(float alpha, float cosine)
 {
     precise float r = max(sqrt(alpha), 0.05);

@@ -23,7 +23,7 @@ float depthFromAhead(float ahead)
     return depth;
 }
 
-// Where a pixel looks, across the view axis: a metre ahead of the eye, or (orthographic) anywhere.
+// The component of a pixel's ray across the view axis, in metres: a metre ahead of the eye, or (orthographic) anywhere.
 vec3 acrossOfPixel(vec2 pixel)
 {
     precise vec2 place = pixel - view.lensVS.zw;
@@ -57,7 +57,7 @@ Viewpoint viewpointFromDepth(vec2 pixel, float depth)
         return viewpoint;
     }
 #endif
-    // Along the axis and across it: each part is as small as what is seen, however far the eye is.
+    // Along the axis and across it: each part is as small as the visible part of the scene, at any distance of the eye.
     precise float viewDepth = view.eyeLS.w + ahead;
     precise vec3 position = viewDepth * across + ahead * view.forwardLS.xyz;
     precise vec3 ray = across + view.forwardLS.xyz;

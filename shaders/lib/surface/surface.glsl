@@ -1,4 +1,4 @@
-// What lighting needs to know of a point, wherever it comes from: a material as it is rasterised (lib/material/material.glsl) or the
+// The surface properties that lighting needs at a point, from a rasterised material (lib/material/material.glsl) or from the
 // G-buffer (lib/gbuffer/gbuffer.glsl).
 #pragma once
 #include "shared/models.h"
@@ -26,7 +26,7 @@ struct Surface {
     float alphaBitangent;   // GGX alpha along cross(normal, tangent), >= ALPHA_MIN
 #endif
 #if HAS_CLEARCOAT
-    vec2 coatNormalCode; // the coat's own normal in lighting space, octahedral: what is stored is what all techniques decode
+    vec2 coatNormalCode; // the coat's own normal in lighting space, octahedral: all techniques decode the stored code
     float coatFactor;    // 0 where there is no coat
     float coatAlpha;     // GGX alpha, >= ALPHA_MIN
 #endif

@@ -9,8 +9,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// Writes into the page's title what only a browser knows: painted pixels of each plot, sliders, and whether the page
-/// is wider than its window.
+/// Writes into the page's title the facts that only a browser knows: painted pixels of each plot, sliders, and whether
+/// the page is wider than its window.
 constexpr const char* kProbe = R"(<script>
 addEventListener("load", () => {
     const painted = (id) => {

@@ -28,7 +28,7 @@ protected:
         return words;
     }
 
-    /// The record without what a clock decides.
+    /// The record without times.
     Json withoutTimes(const std::string& name) const {
         Json record = json(name);
         for (const char* field : {"floors", "scaling", "recommendation", "recommendations", "command"})

@@ -219,7 +219,7 @@ TEST_F(Compare, aViewOfDirectionsNeverMissesForItsSigns) {
     }
 }
 
-/// Shaders that are wrong in one place, in deferred only: what compare is there to find.
+/// Shaders with one fault in deferred only, which compare must find.
 class Sabotage : public Cli {
 protected:
     void SetUp() override {

@@ -19,7 +19,7 @@ protected:
         std::istringstream lines(text);
         int blank = 0;
         for (std::string line; std::getline(lines, line);) {
-            EXPECT_LE(line.size(), 100u) << line; // what two windows beside each other show
+            EXPECT_LE(line.size(), 100u) << line; // the width of two windows beside each other
             blank = line.empty() ? blank + 1 : 0;
             EXPECT_LE(blank, 1) << "two blank lines in a row";
         }

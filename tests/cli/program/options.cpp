@@ -209,7 +209,7 @@ TEST_F(FrameOptions, samplesAlwaysSoftenEdgesAndOneChangesNothing) {
     const Picture one = pictureOf(lattice, "lattice"), four = latticeWith("4");
     EXPECT_TRUE(latticeWith("1").rgba == one.rgba);
     EXPECT_GT(validation::errorFigures(four, one).rmse, 0.0);
-    // Edges hold a mean of what lies beside them. Of the 1296 pixels nearly all lie on one, each wrong by half its
+    // Edges hold a mean of their neighbours. Of the 1296 pixels nearly all lie on one, each wrong by half its
     // contrast of about 1 with one sample: 0.5 / sqrt(1296) is 1.4 %, and three times that is rare.
     EXPECT_NEAR(mean(four), mean(one), 0.042 * mean(one));
     // What is only touched by a surface is covered too.

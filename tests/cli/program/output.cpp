@@ -74,7 +74,7 @@ TEST_F(Output, aReaderWhoLeftCostsNoFile) {
 }
 
 TEST_F(Output, anInterruptedRunAlwaysEndsByItsSignalAndNeverLeavesTemporaries) {
-    std::signal(SIGINT, SIG_DFL); // what a shell starts in the background ignores it, and so would the program
+    std::signal(SIGINT, SIG_DFL); // a background process of a shell ignores it, and the program would inherit that
     // Most of the time of these small pictures goes into writing them, so some of the signals come in the midst of it.
     int midWrites = 0;
     for (int attempt = 0; attempt < 12; ++attempt) {

@@ -134,7 +134,7 @@ TEST_F(GBufferTest, errorsNeverExceedTheBoundDerivedFromTheirFieldAndAlwaysComeN
     }
 }
 
-/// What lighting is linear in, or nearly: the mean of these over pixels is what a flat paint shows. Tangents and the
+/// The quantities in which lighting is linear, or nearly: a flat paint shows their mean over pixels. Tangents and the
 /// coat's normal are not dithered.
 std::vector<double> linearValues(const StoredSurface& s) {
     std::vector<double> values;

@@ -104,7 +104,7 @@ protected:
         return c;
     }
 
-    /// Any surface of the model, with directions at the edges of what they can be now and then.
+    /// A random surface of the model, sometimes with directions at the edges of their domain.
     static LobeCase randomCase(Random& random, unsigned model) {
         LobeCase c;
         c.model = model;

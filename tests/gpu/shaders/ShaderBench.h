@@ -26,8 +26,8 @@ public:
     explicit ShaderBench(const std::function<void(const std::filesystem::path&)>& edit)
         : library_(shader::SourceTree(sources(edit))) {}
 
-    /// One invocation a record. A shader reads vec4 inputs[] (binding 0) and writes vec4 outputs[] (binding 1), a fixed
-    /// number of each a record, which the shader knows.
+    /// One invocation per record. A shader reads vec4 inputs[] (binding 0) and writes vec4 outputs[] (binding 1), a
+    /// fixed number of each a record, which the shader knows.
     std::vector<glm::vec4> run(const std::string& file, const shader::Defines& defines,
                                const std::vector<glm::vec4>& inputs, std::size_t records,
                                std::size_t outputsPerRecord) {

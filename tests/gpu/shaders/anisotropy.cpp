@@ -1,4 +1,4 @@
-// The lobe with two alphas: the shader's own terms at fp32 against double, and what theory says of them.
+// The lobe with two alphas: the shader's own terms at fp32 against double, and against theory.
 #include <gtest/gtest.h>
 
 #include "tests/gpu/shaders/LobeBench.h"

@@ -100,8 +100,8 @@ TEST_F(FurnaceTest, correlatedEnergyIsExactlyTheTabulatedOne) {
     }
 }
 
-/// Both sums of the split-sum approximation: A weighs F0, B is what Schlick adds. F is the shader's too, with F0 = 0:
-/// what it gives is (1 - v.h)^5.
+/// Both sums of the split-sum approximation: A weighs F0, B is Schlick's second term. F is the shader's too; with F0 =
+/// 0 it is (1 - v.h)^5.
 TEST_F(FurnaceTest, splitSumsAreExactlyThoseOfTheTable) {
     constexpr double kMu[] = {0.1, 0.5, 1.0};
     constexpr double kRoughness[] = {0.25, 0.5, 0.75, 1.0};

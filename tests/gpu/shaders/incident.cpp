@@ -78,7 +78,7 @@ double expectedIntensity(const Light& light, const glm::dvec3& position) {
 }
 
 /// What expectedIntensity() may be off by: 3e-6, twenty roundings, of the light without its range, which subtracts from
-/// one; and what its cone changes by when the angle at the light is off by four roundings of fp32 (the ray to the light
+/// one; and the change of its cone when the angle at the light is off by four roundings of fp32 (the ray to the light
 /// is rounded twice, the packed axis once, and each in three components), and the distances of the two cosines from 1,
 /// or of a wide cone from -1, by four of their own.
 double allowedError(Light light, const glm::dvec3& position) {

@@ -112,7 +112,7 @@ TEST_F(Sheen, theFittedAlbedoIsAlwaysNearTheIntegral) {
             // Where the lobe gains energy, as it does at grazing angles for small alpha, all below it goes.
             const double integral = std::min(1.0, sheenEnergy(mu, alpha, 256));
             const double error = std::abs(double(terms({c}).front().sheenAlbedo) - integral);
-            EXPECT_LE(error, 0.035) << "roughness " << roughness << " mu " << mu; // what the fit leaves, measured
+            EXPECT_LE(error, 0.035) << "roughness " << roughness << " mu " << mu; // the fit's error, measured
             worst = std::max(worst, error);
         }
     }
@@ -140,7 +140,7 @@ TEST_F(Sheen, clothNeverReflectsMoreThanArrivesUnlessItsHairsAreNearlyUpright) {
             const std::vector<LobeResult> results = run(cases);
             glm::dvec3 energy(0.0);
             for (std::size_t i = 0; i < weight.size(); ++i) energy += glm::dvec3(results[i].share) * weight[i];
-            // The fit's error, with which what lies below is scaled.
+            // The fit's error, by which the layers below are scaled.
             EXPECT_LE(energy.x, 1.0 + 0.035) << "roughness " << roughness << " mu " << mu;
             EXPECT_LT(energy.z, energy.x);
             EXPECT_LT(energy.z, energy.y) << "less sheen, less light: what lies below is darkened for all alike";

@@ -1,4 +1,4 @@
-// Steps that build light lists on the GPU, on numbers of the tests' choice: what no picture of a test is large or deep
+// Steps that build light lists on the GPU, on chosen numbers: cases for which no picture of a test is large or deep
 // enough for.
 #include <bit>
 

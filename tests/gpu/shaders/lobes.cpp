@@ -1,5 +1,5 @@
-// The lobes that have a direction, an exponent or hairs, and the layers: edges of their domain, and what all models
-// promise.
+// The lobes that have a direction, an exponent or fibres, and the layers: edges of their domain, and properties that
+// all models promise.
 #include <gtest/gtest.h>
 
 #include "tests/gpu/shaders/LobeBench.h"
@@ -132,7 +132,7 @@ TEST_F(Lobes, blinnPhongIsExactlyItsDiffuseAndSpecularPartsByHand) {
     EXPECT_NEAR(peak.x, 0.5 * 0.8 + 0.25, 1e-6);
     EXPECT_NEAR(peak.y, 0.25 * 0.8 + 0.5, 1e-6);
     EXPECT_NEAR(peak.z, 1.0, 1e-6);
-    c.v = {0.6f, 0.0f, -0.8f}; // seen from below there is only what needs no viewer
+    c.v = {0.6f, 0.0f, -0.8f}; // seen from below only the diffuse part remains
     EXPECT_NEAR(run(c).share.x, 0.5 * 0.8, 1e-6);
     EXPECT_EQ(run(c).share.z, 0.0f);
     c.l = {0.6f, 0.0f, -0.8f};

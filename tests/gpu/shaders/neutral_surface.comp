@@ -1,4 +1,4 @@
-// A surface of which nothing is known, set where every member was something else before. In: what they were. Out: eight vec4.
+// The neutral surface, written over other values of every member. In: those values. Out: eight vec4.
 #include "lib/surface/surface.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,4 +1,4 @@
-// What a surface is where nothing says otherwise: what channels that the G-buffer lacks stand for.
+// The neutral surface: the values of channels that the G-buffer lacks.
 #include <gtest/gtest.h>
 
 #include "shaders/shared/models.h"

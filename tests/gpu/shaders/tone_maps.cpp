@@ -1,4 +1,4 @@
-// Tone maps of saturated colours against what their authors published, in double precision and in other forms: the ACES
+// Tone maps of saturated colours against their authors' publications, in double precision and in other forms: the ACES
 // matrices follow from primaries, white points and desaturation, AgX's way back is the published inverse, Khronos's toe
 // and shoulder are those of its text.
 #include <algorithm>
@@ -143,7 +143,7 @@ constexpr std::uint32_t kCurves[] = {TONEMAP_NONE, TONEMAP_KHRONOS_NEUTRAL, TONE
 
 class ToneMaps : public test::GlTest {
 protected:
-    /// The largest error of any channel of any colour, in units of what it may be.
+    /// The largest error of any channel of any colour, in units of the tolerance.
     static double worst(test::ShaderBench& bench) {
         const std::vector<dvec3> all = colours();
         double worst = 0.0;

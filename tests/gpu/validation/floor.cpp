@@ -1,4 +1,4 @@
-// The measured floor: its shaders do what the product does, and its figures are there.
+// The measured lower bound: its shaders compute the product's lighting, and its figures are present.
 #include <algorithm>
 #include <memory>
 

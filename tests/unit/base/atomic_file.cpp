@@ -95,7 +95,7 @@ TEST(AtomicFile, aFileGivenAsADeviceIsNeverReplaced) {
     const TemporaryFolder folder;
     const int file = ::open(folder.file("out").c_str(), O_RDWR | O_CREAT, 0600);
     ASSERT_GE(file, 0);
-    // As when standard output is redirected to a file: what is written later through it must reach that same file.
+    // As when standard output is redirected to a file: later writes through it must reach that same file.
     writeFileAtomically(fmt::format("/dev/fd/{}", file), "text");
     char bytes[8] = {};
     EXPECT_EQ(::read(file, bytes, sizeof(bytes)), 4);

@@ -105,7 +105,7 @@ TEST(DrawList, anEmptySceneAlwaysDrawsNothing) {
     EXPECT_TRUE(view.opaque.empty() && view.transparent.empty());
 }
 
-/// What of a view's draws tells apart what is drawn: the draw and the rows it is drawn with.
+/// The identity of a draw in a view: the draw and the rows it is drawn with.
 std::vector<std::pair<int, float>> drawn(const ViewDraws& view, const std::vector<Batch>& batches) {
     std::vector<std::pair<int, float>> result;
     for (const Batch& batch : batches)

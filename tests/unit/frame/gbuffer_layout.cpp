@@ -88,7 +88,7 @@ TEST(GBufferLayout, pixelsAlwaysHoldTheNumberOfTheirMaterialWhereNoneVariesAndNo
     EXPECT_FALSE(holdMaterialNumber(exact, neededChannels(featuresOf(MaterialModel::SingleColor), exact, false)));
     for (const Channel packed : {Channel::Albedo, Channel::Normal, Channel::Microsurface, Channel::Specular,
                                  Channel::Emission, Channel::Sheen}) {
-        // A channel of another encoding must give the picture of that encoding, whatever else the scene has.
+        // A channel of another encoding must give the picture of that encoding, with any other channels.
         GBufferLayout mixed = exact;
         mixed.encoding[std::size_t(packed)] = Encoding::Packed;
         EXPECT_FALSE(holdMaterialNumber(mixed, neededChannels(features, mixed, false))) << int(packed);
@@ -161,7 +161,7 @@ FeatureSet allIsotropicFeatures() {
 }
 
 TEST(GBufferLayout, isotropicSurfacesNeverTakeMoreThanSixteenBytesPackedAndTwelveSlim) {
-    // Whatever else they are: every subset of what asks for a channel is at most all of it.
+    // All isotropic features together: a subset of them needs no more channels.
     EXPECT_EQ(bytesOf(allIsotropicFeatures()), (Bytes{80, 16, 12}));
 }
 

@@ -99,7 +99,7 @@ TEST_P(TangentMethods, coordinatesWithoutAreaAlwaysGiveAStableFrame) {
 
 TEST_P(TangentMethods, aTangentAlongTheNormalNeverGivesNaN) {
     scenes::Mesh mesh = quad();
-    mesh.normalsOS.assign(4, {1, 0, 0}); // along u: what is left after Gram-Schmidt has no direction
+    mesh.normalsOS.assign(4, {1, 0, 0}); // along u: the remainder after Gram-Schmidt has no direction
     for (const glm::vec4& tangent : tangents(mesh)) {
         EXPECT_NEAR(glm::length(glm::vec3(tangent)), 1.0f, 3e-7f);
         EXPECT_NEAR(tangent.x, 0.0f, 3e-7f);
@@ -180,7 +180,7 @@ TEST(Tangents, trianglesWithoutAreaInSpaceAlwaysTakeTheTangentOfTheFirstOtherAtT
     for (const glm::vec4& tangent : cornerTangents(mesh, {})) EXPECT_EQ(tangent, glm::vec4(1, 0, 0, 1));
 }
 
-/// Transforms of the coordinates, KHR_texture_transform's, with what the tangents are to be for a quad.
+/// Transforms of the coordinates, KHR_texture_transform's, with the expected tangents of a quad.
 TEST(Tangents, theTexturesTransformIsAlwaysAppliedFirst) {
     const auto material = [](glm::vec2 scale, float rotationRadians) {
         scenes::Material result;

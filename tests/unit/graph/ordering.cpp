@@ -110,7 +110,7 @@ TEST(Ordering, eachKnotIsAlwaysReportedOnce) {
                             "'three' reads 'd' from 'four'"));
 }
 
-/// Plays the order back on memory that only holds the newest version: whoever reads must find the version it asked for.
+/// Plays the order back on memory that only holds the newest version: each reader must find the version it asked for.
 TEST(Ordering, randomFramesAlwaysReadTheVersionTheyAskedFor) {
     int compiledFrames = 0;
     for (unsigned seed = 0; seed < 300; ++seed) {

@@ -24,7 +24,7 @@ public:
         bytes[2] = 2; // uncompressed true colour
         bytes[12] = static_cast<char>(width);
         bytes[14] = static_cast<char>(height);
-        bytes[16] = 32;   // bits a texel
+        bytes[16] = 32;   // bits per texel
         bytes[17] = 0x28; // 8 bits of alpha, first row on top
         for (const auto& [r, g, b, a] : texels)
             for (const std::uint8_t value : {b, g, r, a}) bytes += static_cast<char>(value);

@@ -91,7 +91,7 @@ void expectCamerasWithinReach(const Scene& scene) {
     }
 }
 
-/// Nothing is stored that no instance refers to, and whatever is textured has the coordinates for it.
+/// Everything stored is used by an instance, and textured meshes have the coordinates for it.
 void expectAllUsed(const Scene& scene) {
     std::vector<bool> meshUsed(scene.meshes.size());
     std::vector<bool> materialUsed(scene.materials.size());
@@ -283,7 +283,7 @@ TEST(Head, objectSpaceNormalsAlwaysAgreeWithTheMeshTheyRefine) {
         std::uint16_t texel[4];
         std::memcpy(texel, map->texels.data() + 8 * (y * map->width + x), sizeof(texel));
         const glm::dvec3 n = glm::dvec3(texel[0], texel[1], texel[2]) / 65535.0 * 2.0 - 1.0;
-        EXPECT_NEAR(glm::length(n), 1.0, 1e-4); // 16 bits a component
+        EXPECT_NEAR(glm::length(n), 1.0, 1e-4); // 16 bits per component
         agreement += glm::dot(n, glm::dvec3(bust->normalsOS[i]));
     }
     agreement /= static_cast<double>(bust->positionsOS.size());

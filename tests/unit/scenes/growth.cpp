@@ -8,7 +8,7 @@
 #include "tests/support/UnderLedger.h"
 #include "tests/unit/scenes/json/SceneFiles.h"
 
-/// The time that loading takes grows with what is loaded, and no faster.
+/// The time of loading grows with the size of the file, and no faster.
 namespace tessera::scenes {
 namespace {
 

@@ -159,7 +159,7 @@ TEST(Memory, aValueOfAnExrHeaderIsNeverReservedUnlessTheFileHoldsIt) {
               "(its attribute 'owner' of type none of its own claims 2147483647 bytes where 4 are left)");
     EXPECT_EQ(refusalOfExr("stringvector", eight + twoGiB + "abcd"),
               "(its attribute 'owner' of type stringvector claims 2147483647 bytes where 4 are left)");
-    // What the reader takes without a look at the size would hide what follows.
+    // Allocations that the reader makes without checking the size would hide the later ones.
     EXPECT_EQ(refusalOfExr("box2i", eight + "abcdefgh"),
               "(its attribute 'owner' of type box2i claims 8 bytes and has 16)");
     EXPECT_EQ(refusalOfExr("chlist", std::string("\x02\0\0\0\0abcdefgh", 13)),

@@ -180,7 +180,7 @@ TEST(Offline, everyProgramOfEveryBuiltinSceneAlwaysSatisfiesTheReferenceCompiler
 
 TEST(Offline, aFaultyProgramIsAlwaysSeenByTheReferenceCompiler) {
     const ReferenceCompiler compiler;
-    // Without the defines of a frame, material code refers to what was never declared.
+    // Without the defines of a frame, material code refers to undeclared names.
     const shader::ProgramDesc broken{
         "broken", "passes/geometry.vert", "passes/gbuffer.frag", "", {{"GBUFFER_ALBEDO", "x"}}};
     EXPECT_NE(compiler.faultsOf(broken), "");

@@ -50,7 +50,7 @@ std::size_t occurrences(const std::string& text, const std::string& part) {
     return count;
 }
 
-/// What is wrong with the nesting of tags and the quoting of attributes, or an empty string. Knows what reportHtml()
+/// A fault in the nesting of tags or the quoting of attributes, or an empty string. Knows what reportHtml()
 /// may use: every element is closed, elements without content close themselves, style and script hold raw text.
 std::string faultOf(const std::string& html) {
     std::vector<std::string> open;

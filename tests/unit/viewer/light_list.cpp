@@ -102,7 +102,7 @@ TEST(LightList, aLightIsAlwaysPutExactlyWhereItIsSaidAtThatTime) {
         const glm::dvec3 wantedWS(-4.1, 0.3, 7.7);
         placeLight(light, 0.4, wantedWS);
         EXPECT_LT(glm::distance(scenes::lightAtTime(light, 0.4).positionWS, wantedWS), 1e-12) << kind;
-        // What it does from there on is what it did.
+        // From there on it moves as before, displaced by a constant.
         const glm::dvec3 stepWS = wantedWS - scenes::lightAtTime(before, 0.4).positionWS;
         EXPECT_LT(glm::distance(scenes::lightAtTime(light, 0.9).positionWS,
                                 scenes::lightAtTime(before, 0.9).positionWS + stepWS),

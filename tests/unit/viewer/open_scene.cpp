@@ -18,7 +18,7 @@ struct Opened {
         return scene;
     }
     const scenes::Camera& shown() const { return open.scene().cameras[std::size_t(open.camera())]; }
-    /// What `tessera render` draws when it is told what the copied command says.
+    /// The picture of `tessera render` with the copied command.
     scenes::Camera said() const {
         return scenes::changedCamera(made().cameras[std::size_t(open.camera())], open.cameraChange());
     }

@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A scene of two lights and three cameras, the last of the first one's name; `options` are what it asks for.
+/// A scene of two lights and three cameras, the last of the first one's name; `options` are its own options.
 std::string sceneFile(const tessera::test::TempFolder& folder, const std::string& options = "{}") {
     return folder
         .write("a scene's file.json", R"({"tessera": 1, "base": {"file": "builtin:room"},
@@ -106,7 +106,7 @@ TEST(RenderCommand, everyValueOfEverySettingIsAlwaysReadAsItselfAndSaidByItsOwnO
     }
 }
 
-/// Every setting is not what it is by itself.
+/// No setting has its default.
 RenderRequest everythingSaid(const std::string& file) {
     RenderRequest request = requestOf(file);
     request.lights = 1;

@@ -135,7 +135,7 @@ TEST(GltfDocument, integersWithADecimalPointAreReadExactly) {
 }
 
 struct Fault {
-    const char* pointer; ///< what is replaced
+    const char* pointer; ///< the replaced value
     const char* value;
     const char* error; ///< part of the text
 };

@@ -9,7 +9,7 @@
 namespace tessera::scenes::gltf::test {
 namespace {
 
-/// A document that uses most of what the importer reads.
+/// A document that uses most features of the importer.
 Json richDocument() {
     Builder builder;
     builder.material().merge_patch(Json::parse(R"({"alphaMode": "MASK", "normalTexture": {"index": 0, "scale": 0.5},

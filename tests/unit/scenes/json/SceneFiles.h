@@ -10,9 +10,9 @@ namespace tessera::scenes::test {
 /// True when the shipped JSON Schema accepts the document.
 bool schemaAccepts(std::string_view document);
 
-/// A folder with what the tests' scenes refer to: models/bust.obj (node "bust", material "default"), parts/lamps.json
-/// (a light, a camera, a node "lamp") and pictures of one texel: albedo 10 20 30, specular 40 50 60, normal 128 128
-/// 255.
+/// A folder with the files that the tests' scenes refer to: models/bust.obj (node "bust", material "default"),
+/// parts/lamps.json (a light, a camera, a node "lamp") and pictures of one texel: albedo 10 20 30, specular 40 50 60,
+/// normal 128 128 255.
 class SceneFolder : public TempFolder {
 public:
     SceneFolder();
@@ -25,7 +25,7 @@ public:
     /// The error of importing the text, after "...scene.json:"; the schema must refuse it too.
     std::string errorOf(std::string_view text) const;
     std::string errorOfMembers(const std::string& members) const;
-    /// The same for what no schema can tell: the schema must accept it.
+    /// The same for faults that a schema cannot find: the schema must accept them.
     std::string errorBeyondSchemaOf(std::string_view text) const;
     std::string errorBeyondSchemaOfMembers(const std::string& members) const;
 
@@ -33,7 +33,7 @@ private:
     std::string importError(std::string_view text) const;
 };
 
-/// `count` times what `element` makes of 0, 1, 2 ..., with commas between.
+/// The results of `element` for 0, 1, 2 ... below `count`, with commas between.
 template <typename Element>
 std::string listOf(int count, Element element) {
     std::string list;
