@@ -61,14 +61,14 @@ def exceptionOf(command):
 
 
 def prepare(folder, root, program):
-    """The repository as a reader sees it, with the built program behind ./run."""
+    """The repository as a reader sees it, with the built program behind ./run; the demonstration in a small size."""
     for entry in root.iterdir():
         if entry.is_dir() and entry.name not in ("build", "out") and not entry.name.startswith("."):
             (folder / entry.name).symlink_to(entry)
     (folder / ".bin").mkdir()
     (folder / ".bin" / "tessera").symlink_to(program)
     run = folder / "run"
-    run.write_text(f'#!/bin/sh\n[ $# -gt 0 ] || set -- demo -o out\nexec "{program}" "$@"\n')
+    run.write_text(f'#!/bin/sh\n[ $# -gt 0 ] || set -- demo -o out --size 320x180\nexec "{program}" "$@"\n')
     run.chmod(0o755)
 
 

@@ -173,7 +173,7 @@ TEST_F(LightLists, theMostLightsOfASceneAreNeverTooManyForTheGpu) {
     frame::FrameSettings settings;
     settings.sizePixels = {33, 17};
     const scenes::Scene scene = latticeOf(65536);
-    expectSameLists(scene, settings, std::array{32});
+    expectSameLists(scene, settings, std::array{64});
     engine::Renderer renderer(context(), scene);
     const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
     for (const GpuBuilder& gpu : kGpuBuilders) {
