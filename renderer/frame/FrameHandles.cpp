@@ -50,13 +50,13 @@ void SurfaceHandles::draw(const graph::PassContext& context, Kind kind, const gp
 }
 
 LightListHandles LightListHandles::read(graph::PassBuilder& pass) const {
-    return {pass.read(tiles, Access::TexelRead), pass.read(cells, Access::TexelRead),
+    return {pass.read(tiles, Access::StorageRead), pass.read(cells, Access::StorageRead),
             pass.read(entries, Access::TexelRead)};
 }
 
 void LightListHandles::bind(const graph::PassContext& context) const {
-    bindTexels(context, TEXTURE_UNIT_LIGHT_TILES, tiles, Format::Rgba32Uint);
-    bindTexels(context, TEXTURE_UNIT_LIGHT_CELLS, cells, Format::Rg32Uint);
+    gpu::bindStorageBuffer(STORAGE_LIGHT_TILES, context.buffer(tiles));
+    gpu::bindStorageBuffer(STORAGE_LIGHT_CELLS, context.buffer(cells));
     bindTexels(context, TEXTURE_UNIT_LIGHT_ENTRIES, entries, Format::R32Uint);
 }
 
