@@ -30,16 +30,39 @@ void ViewHandles::bind(const graph::PassContext& context) const {
     gpu::bindUniformBuffer(UNIFORM_VIEW, context.buffer(constants), 0, sizeof(shared::ViewConstants));
 }
 
-SurfaceHandles SurfaceHandles::read(graph::PassBuilder& pass) const {
+SurfaceHandles SurfaceHandles::readGeometry(graph::PassBuilder& pass) const {
     SurfaceHandles result{drawn,
                           view.read(pass),
                           pass.read(rows, Access::VertexRead),
                           pass.read(commands, Access::IndirectRead),
                           {},
                           pass.read(indices, Access::IndexRead),
-                          pass.read(materials, Access::UniformRead)};
+                          materials};
     for (const graph::BufferHandle& stream : vertices) result.vertices.push_back(pass.read(stream, Access::VertexRead));
     return result;
+}
+
+SurfaceHandles SurfaceHandles::read(graph::PassBuilder& pass) const {
+    SurfaceHandles result = readGeometry(pass);
+    result.materials = pass.read(materials, Access::UniformRead);
+    return result;
+}
+
+SurfaceHandles SurfaceHandles::readDepth(graph::PassBuilder& pass,
+                                         const std::vector<shader::ProgramDesc>& programs) const {
+    for (const shader::ProgramDesc& program : programs) pass.program(program);
+    SurfaceHandles result = readGeometry(pass);
+    result.hasMasks = programs.size() > 1;
+    if (result.hasMasks) result.materials = pass.read(materials, Access::UniformRead);
+    return result;
+}
+
+void SurfaceHandles::drawDepth(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const {
+    view.bind(context);
+    const ViewDraws& draws = drawn->draws;
+    drawn->scene->drawDepth({context.buffer(rows), context.buffer(commands)},
+                            kind == Kind::Opaque ? draws.opaque : draws.transparent, state,
+                            {context.program(0), hasMasks ? &context.program(1) : nullptr});
 }
 
 void SurfaceHandles::draw(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const {
