@@ -13,6 +13,7 @@ namespace {
 
 struct PlanOptions {
     FrameOptions frame;
+    std::vector<std::string> also; ///< cameras of further views
     std::string json, dot;
     bool measure = false;
 };
@@ -21,6 +22,8 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
     const bool printsJson = isStandardOutput(options.json), printsDot = isStandardOutput(options.dot);
     if (printsJson && printsDot)
         throw InputError("--json - and --dot - both ask for the standard output; name a file for one of them");
+    if (options.measure && !options.also.empty())
+        throw InputError("--measure times a frame of one view; leave --also out");
     if (options.frame.said("technique") == kReferenceName)
         throw InputError("the reference has no plan: it follows a ray a pixel in double precision, without passes and "
                          "without OpenGL; give another technique");
@@ -30,12 +33,18 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
     Request request = resolve(options.frame);
     outputs.reads(request.files);
     engine::requireTaken(request);
+    std::vector<engine::FrameRequest> views{request};
+    for (const std::string& camera : options.also) {
+        views.push_back(request);
+        engine::settingOf("camera").read(views.back(), camera, {"--also", &request.scene});
+    }
     std::unique_ptr<gpu::Context> context;
     if (options.measure) {
         context = makeContext(global);
         request.settings = engine::settingsOn(context->capabilities(), request.settings);
     }
-    graph::Plan plan = engine::planFrame(request.scene, request.technique, request.settings);
+    graph::Plan plan = views.size() > 1 ? engine::planViews(request.scene, views)
+                                        : engine::planFrame(request.scene, request.technique, request.settings);
     if (context) {
         engine::Renderer renderer(*context, request.scene);
         validation::measurePlan(plan, renderer, request.technique, request.settings);
@@ -56,10 +65,17 @@ void addPlanCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     command->add_option("--json", options->json, "Writes the plan as JSON; - prints it alone")->type_name("FILE");
     command->add_option("--dot", options->dot, "Writes the graph for Graphviz (dot -Tsvg FILE); - prints it alone")
         ->type_name("FILE");
+    command
+        ->add_option("--also", options->also,
+                     "Plans a frame of several views: one more, from that camera of the scene; may be repeated")
+        ->type_name("CAMERA")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_flag("--measure", options->measure, "Draws frames to fill in milliseconds");
     command->footer(R"(Examples
   tessera plan hall                                     passes, what is left out and why, memory
   tessera plan hall --technique forward --measure       with milliseconds
+  tessera plan hall --also 0                            the passes and memory of a frame of two views
   tessera plan hall --dot hall.dot; dot -Tsvg -O hall.dot)");
     command->callback([options, &global, &run] { run = [options, &global] { return plan(*options, global); }; });
 }

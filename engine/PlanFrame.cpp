@@ -109,12 +109,16 @@ graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const fra
 }
 
 graph::Plan planViews(const scenes::Scene& scene, std::span<const FrameRequest> views) {
+    requireOneFrame(views);
     graph::Graph graph;
     for (const FrameRequest& view : views)
         declareView(graph, view.technique, prepareView(scene, view.technique, view.settings).spec, nullptr);
-    const bool prune =
-        std::all_of(views.begin(), views.end(), [](const FrameRequest& view) { return view.settings.prune; });
-    return graph::makePlan(graph, graph::compile(graph, {.cull = prune, .alias = prune}));
+    const bool prune = views.front().settings.prune;
+    graph::Plan plan = graph::makePlan(graph, graph::compile(graph, {.cull = prune, .alias = prune}));
+    plan.scene = scene.name;
+    for (const FrameRequest& view : views)
+        plan.technique += (plan.technique.empty() ? "" : ", ") + std::string(infoOf(view.technique).name);
+    return plan;
 }
 
 std::vector<shader::ProgramDesc> framePrograms(const scenes::Scene& scene, Technique technique,

@@ -1,6 +1,7 @@
 #include "engine/PrepareView.h"
 
 #include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -19,6 +20,15 @@ scenes::Camera frameCamera(const scenes::Scene& scene, const frame::FrameSetting
     scenes::Camera camera = scene.cameras[std::size_t(settings.camera)];
     camera.worldFromCamera[3] += glm::dvec4(settings.eyeOffsetWS, 0.0);
     return camera;
+}
+
+void requireOneFrame(std::span<const FrameRequest> views) {
+    if (views.empty()) throw std::logic_error("a frame needs a view");
+    const frame::FrameSettings& first = views.front().settings;
+    for (const FrameRequest& view : views) {
+        if (view.settings.prune != first.prune || view.settings.filter != first.filter)
+            throw InputError("the views of a frame need one filter, and are pruned or not together");
+    }
 }
 
 frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings,

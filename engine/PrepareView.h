@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/Settings.h"
 #include "engine/Techniques.h"
 #include "renderer/frame/PreparedView.h"
 
@@ -9,6 +10,10 @@ namespace tessera::engine {
 /// draws the view hands over the scene's bounds.
 frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings,
                                 std::span<const frame::SurfaceBounds> bounds = {});
+
+/// Throws InputError where views cannot be one frame: they share what is on the GPU of the scene, so they have one
+/// filter and one answer to pruning. std::logic_error where there is none.
+void requireOneFrame(std::span<const FrameRequest> views);
 
 /// The camera that the settings ask for, where they put it.
 scenes::Camera frameCamera(const scenes::Scene& scene, const frame::FrameSettings& settings);

@@ -58,15 +58,12 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
 }
 
 void Renderer::draw(std::span<const FrameRequest> views) {
-    if (views.empty()) throw std::logic_error("a frame without a view was to be drawn");
+    requireOneFrame(views);
     auto drawn = std::make_unique<Drawn>();
     for (const FrameRequest& view : views) {
         frame::DrawnView& added = drawn->views.emplace_back();
         const frame::FrameSettings settings = settingsOn(context_.capabilities(), view.settings);
         added.prepared = prepareView(scene_, view.technique, settings, bounds_);
-        const frame::FrameSettings& first = drawn->views.front().prepared.spec.settings;
-        if (settings.prune != first.prune || settings.filter != first.filter)
-            throw InputError("the views of a frame need one filter, and are pruned or not together");
     }
     for (std::size_t i = 0; i < views.size(); ++i) {
         frame::DrawnView& view = drawn->views[i];

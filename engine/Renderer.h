@@ -99,7 +99,7 @@ private:
 
 /// What a frame of one view would run, leave out and need, without a context.
 graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings);
-/// The passes and resources of a frame of several views.
+/// The passes and resources of a frame of several views. Throws InputError as Renderer::draw() does.
 graph::Plan planViews(const scenes::Scene& scene, std::span<const FrameRequest> views);
 
 /// The programs a frame would use, without a context.

@@ -70,6 +70,13 @@ struct Recipe {
         depths.transparent = resolve(transparent, ResolvePass::Kind::TransparentDepths);
         return depths;
     }
+    /// The surfaces that a forward technique has lit at `depth`, stored as a deferred one would. Depths of several
+    /// samples a pixel tell nothing of its centre, so there the G-buffer gets its own.
+    frame::GBufferHandles storeSurfaces(TextureHandle depth) {
+        GBufferPass::Inputs inputs{surfaces};
+        if (spec.samples == 1) inputs.depth = depth;
+        return GBufferPass::add(graph, spec, inputs).gbuffer;
+    }
     /// Light lists for the visible surfaces, if the frame culls lights.
     void addLightLists(TextureHandle depth, TextureHandle opaque) {
         if (!hasLightLists()) return;
@@ -81,17 +88,10 @@ struct Recipe {
     }
 };
 
-/// What opaque geometry leaves for the passes after it.
-struct OpaquePicture {
-    TextureHandle radiance;
-    TextureHandle depth;
-    std::optional<frame::GBufferHandles> gbuffer; ///< where the technique has stored surfaces
-};
-
 OpaquePicture opaqueForward(Recipe& recipe) {
     const ForwardPass::Inputs inputs{recipe.surfaces, recipe.lighting, {}, {}};
     const ForwardPass::Outputs lit = ForwardPass::add(recipe.graph, recipe.spec, {}, inputs);
-    return {lit.radiance, lit.depth, {}};
+    return {lit.radiance, lit.depth};
 }
 
 OpaquePicture opaqueForwardPrepass(Recipe& recipe) {
@@ -99,7 +99,7 @@ OpaquePicture opaqueForwardPrepass(Recipe& recipe) {
     const DepthPrepass::Outputs drawn = DepthPrepass::add(recipe.graph, recipe.spec, params, {recipe.surfaces});
     recipe.addLightLists(drawn.depth, drawn.shadingDepth.value_or(drawn.depth));
     const ForwardPass::Inputs inputs{recipe.surfaces, recipe.lighting, drawn.depth, {}};
-    return {ForwardPass::add(recipe.graph, recipe.spec, {}, inputs).radiance, drawn.depth, {}};
+    return {ForwardPass::add(recipe.graph, recipe.spec, {}, inputs).radiance, drawn.depth};
 }
 
 OpaquePicture opaqueDeferred(Recipe& recipe) {
@@ -165,9 +165,11 @@ struct Shown {
 };
 
 /// The lit picture, transparent surfaces included.
-Shown addLitPicture(Technique technique, Recipe& recipe) {
-    const OpaquePicture opaque = kRows[std::size_t(technique)].drawOpaque(recipe);
+Shown addLitPicture(Technique technique, Recipe& recipe, const AfterOpaque& after) {
+    OpaquePicture opaque = kRows[std::size_t(technique)].drawOpaque(recipe);
     // Add passes here that read the opaque picture and draw below transparent surfaces.
+    if (after.readsSurfaces && !opaque.gbuffer) opaque.gbuffer = recipe.storeSurfaces(opaque.depth);
+    if (after.add) opaque.radiance = after.add(recipe.graph, recipe.spec, opaque);
     if (!recipe.blends()) return {opaque.radiance, opaque.depth};
     const ForwardPass::Params params{ForwardPass::Surfaces::Transparent};
     const ForwardPass::Inputs inputs{recipe.surfaces, recipe.lighting, opaque.depth, opaque.radiance};
@@ -218,10 +220,10 @@ const TechniqueInfo& infoOf(Technique technique) {
 }
 
 DeclaredView declareView(graph::Graph& graph, Technique technique, const frame::FrameSpec& spec,
-                         const frame::DrawnView* drawn) {
+                         const frame::DrawnView* drawn, const AfterOpaque& after) {
     Recipe recipe(graph, spec, drawn);
     std::optional<Shown> shown = addDebugView(technique, recipe);
-    if (!shown) shown = addLitPicture(technique, recipe);
+    if (!shown) shown = addLitPicture(technique, recipe, after);
     DeclaredView view;
     view.radiance = recipe.resolve(shown->radiance, ResolvePass::Kind::Radiance);
     view.depth = shown->depth;

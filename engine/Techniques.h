@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -48,9 +49,26 @@ struct DeclaredView {
     std::optional<frame::LightListHandles> lists; ///< absent where none were built
 };
 
+/// What opaque geometry leaves for the passes after it.
+struct OpaquePicture {
+    graph::TextureHandle radiance; ///< RGBA32F, of FrameSpec::samples
+    graph::TextureHandle depth;    ///< D32F, of the same
+    /// Where the technique stores surfaces, or somebody asks for them: normals and materials, with depths of one sample
+    /// a pixel.
+    std::optional<frame::GBufferHandles> gbuffer = {};
+};
+
+/// Passes between opaque and transparent surfaces: reflections, say, or what an application adds.
+struct AfterOpaque {
+    bool readsSurfaces = false; ///< OpaquePicture::gbuffer is there whatever the technique
+    /// Declares them. Returns the radiance, of FrameSpec::samples, that transparent surfaces are drawn over.
+    std::function<graph::TextureHandle(graph::Graph& graph, const frame::FrameSpec& spec, const OpaquePicture& opaque)>
+        add;
+};
+
 /// Declares a technique's passes for a view of the frame; a frame may have several views. `drawn` is null where the
 /// frame is only planned; else it must live while the graph runs.
 DeclaredView declareView(graph::Graph& graph, Technique technique, const frame::FrameSpec& spec,
-                         const frame::DrawnView* drawn);
+                         const frame::DrawnView* drawn, const AfterOpaque& after = {});
 
 } // namespace tessera::engine

@@ -24,7 +24,7 @@ struct DepthPrepass {
         graph::TextureHandle depth;
         std::optional<graph::TextureHandle> shadingDepth; ///< where Params ask for it
     };
-    static shader::ProgramDesc program(const frame::FrameSpec& spec, const Params& params);
+    static std::vector<shader::ProgramDesc> programs(const frame::FrameSpec& spec, const Params& params);
     static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params, const Inputs& inputs);
 };
 

@@ -12,6 +12,7 @@ shader::ProgramDesc GBufferPass::program(const frame::FrameSpec& spec) {
 }
 
 GBufferPass::Outputs GBufferPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs) {
+    const bool hasDepth = inputs.depth.has_value();
     return graph.addPass<Outputs>(
         "gbuffer",
         [&](graph::PassBuilder& pass, Outputs& out) {
@@ -19,17 +20,19 @@ GBufferPass::Outputs GBufferPass::add(graph::Graph& graph, const frame::FrameSpe
             out.read.surfaces = inputs.surfaces.read(pass);
             for (const frame::GBufferTexture& texture : spec.gbufferTextures())
                 out.gbuffer.textures.push_back(pass.create("gbuffer." + texture.name, spec.texture(texture.format)));
-            out.gbuffer.depth =
-                pass.create("depth", spec.texture(graph::Format::Depth32Float), graph::Access::DepthAttachment);
+            const graph::TextureDesc depth = spec.texture(graph::Format::Depth32Float);
+            if (hasDepth) pass.expect(*inputs.depth, depth);
+            out.gbuffer.depth = hasDepth ? pass.read(*inputs.depth, graph::Access::DepthTest)
+                                         : pass.create("depth", depth, graph::Access::DepthAttachment);
         },
-        [](const Outputs& out, const graph::PassContext& context) {
+        [hasDepth](const Outputs& out, const graph::PassContext& context) {
             context.bindTargets();
             // Channels of uncovered pixels are never read: depth 0 says that nothing is there.
-            gpu::clearDepth(0.0f);
+            if (!hasDepth) gpu::clearDepth(0.0f);
             gpu::useProgram(context.program());
             gpu::PipelineState state;
-            state.depthTest = gpu::DepthTest::GreaterEqual;
-            state.depthWrite = true;
+            state.depthTest = hasDepth ? gpu::DepthTest::Equal : gpu::DepthTest::GreaterEqual;
+            state.depthWrite = !hasDepth;
             gpu::drawInBands([&] { out.read.surfaces.draw(context, frame::SurfaceHandles::Kind::Opaque, state); },
                              gpu::BandCost::Geometry);
         });

@@ -1,16 +1,19 @@
 #pragma once
+#include <optional>
+
 #include "renderer/frame/FrameHandles.h"
 
 namespace tessera::passes {
 
 /// Stores the nearest opaque or alpha-masked surface of each pixel.
-/// Reads   the scene
+/// Reads   the scene; depth D32F where another pass has drawn it, of one sample a pixel
 /// Writes  the channels of FrameSpec::channels in the layout's textures (renderer/frame/GBufferLayout.h), depth D32F
-///         reverse-Z
+///         reverse-Z where it comes first
 /// Space   lighting space
 struct GBufferPass {
     struct Inputs {
         frame::SurfaceHandles surfaces;
+        std::optional<graph::TextureHandle> depth = {}; ///< of the same surfaces, where it is drawn already
     };
     struct Outputs {
         Inputs read;

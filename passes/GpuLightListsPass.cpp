@@ -226,10 +226,9 @@ void Builder::makeListRoom() {
             const frame::PreparedView& view = used->prepared;
             const glm::uvec4 scanned = context.buffer(out.totals).downloadAs<glm::uvec4>(1).front();
             const Totals totals = totalsOf(frame, scanned, view.lighting);
-            requireWritable("cells", totals.cells * sizeof(glm::uvec2));
             requireWritable("entries", totals.entries * sizeof(std::uint32_t));
             const gpu::Buffer& cells =
-                makeRoom(context, out.lists.cells, "light cells", totals.cells, graph::Format::Rg32Uint);
+                makeBlockRoom(context, out.lists.cells, "light cells", totals.cells * sizeof(glm::uvec2));
             const gpu::Buffer& entries =
                 makeRoom(context, out.lists.entries, "light entries", totals.entries, graph::Format::R32Uint);
             if (zbin) return;

@@ -18,10 +18,11 @@ culling::DepthPicture download(const gpu::Texture& texture, std::vector<float>& 
     return {memory, isRange};
 }
 
+/// For shaders that read a storage block.
 template <typename Value>
-void upload(const graph::PassContext& context, graph::BufferHandle handle, const char* what, graph::Format format,
+void upload(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
             const std::vector<Value>& values) {
-    makeRoom(context, handle, what, values.size(), format).upload(values);
+    makeBlockRoom(context, handle, what, values.size() * sizeof(Value)).upload(values);
 }
 
 void build(const frame::FrameSpec& spec, const frame::DrawnView& drawn, const LightListsPass::Outputs& out,
@@ -35,9 +36,10 @@ void build(const frame::FrameSpec& spec, const frame::DrawnView& drawn, const Li
         const culling::LightLists& lists =
             memory.builder.build({drawn.prepared.constants(), drawn.prepared.cullLights, spec.culling.method, opaque,
                                   hasTransparent ? &transparent : nullptr});
-        upload(context, out.lists.tiles, "light tiles", graph::Format::Rgba32Uint, lists.tiles);
-        upload(context, out.lists.cells, "light cells", graph::Format::Rg32Uint, lists.cells);
-        upload(context, out.lists.entries, "light entries", graph::Format::R32Uint, lists.entries);
+        upload(context, out.lists.tiles, "light tiles", lists.tiles);
+        upload(context, out.lists.cells, "light cells", lists.cells);
+        makeRoom(context, out.lists.entries, "light entries", lists.entries.size(), graph::Format::R32Uint)
+            .upload(lists.entries);
     } catch (const std::bad_alloc&) {
         throw InputError("light lists do not fit into this machine's memory: larger tiles, another culling method or "
                          "fewer lights need less");

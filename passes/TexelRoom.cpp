@@ -9,20 +9,38 @@
 
 namespace tessera::passes {
 
-const gpu::Buffer& makeRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
-                            std::size_t texels, graph::Format format) {
-    const std::size_t most = gpu::Context::current()->capabilities().maxTextureBufferTexels;
-    const char* const remedy = "larger tiles, another culling method or fewer lights need less";
-    if (texels > most)
-        throw InputError(
-            fmt::format("{} would take {} entries, and this driver reads {}: {}", what, texels, most, remedy));
+namespace {
+
+constexpr const char* kRemedy = "larger tiles, another culling method or fewer lights need less";
+
+const gpu::Buffer& allocate(const graph::PassContext& context, graph::BufferHandle handle, std::size_t bytes) {
     try {
-        return context.allocate(handle, texels * std::size_t(graph::formatInfo(format).bytes));
+        return context.allocate(handle, bytes);
     } catch (const std::logic_error&) {
         throw;
     } catch (const std::runtime_error& error) {
-        throw std::runtime_error(fmt::format("{}; {}", error.what(), remedy));
+        throw std::runtime_error(fmt::format("{}; {}", error.what(), kRemedy));
     }
+}
+
+} // namespace
+
+const gpu::Buffer& makeRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
+                            std::size_t texels, graph::Format format) {
+    const std::size_t most = gpu::Context::current()->capabilities().maxTextureBufferTexels;
+    if (texels > most)
+        throw InputError(
+            fmt::format("{} would take {} entries, and this driver reads {}: {}", what, texels, most, kRemedy));
+    return allocate(context, handle, texels * std::size_t(graph::formatInfo(format).bytes));
+}
+
+const gpu::Buffer& makeBlockRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
+                                 std::size_t bytes) {
+    const std::size_t most = gpu::Context::current()->capabilities().maxStorageBlockBytes;
+    if (bytes > most)
+        throw InputError(
+            fmt::format("{} would take {} bytes, and this driver reads {}: {}", what, bytes, most, kRemedy));
+    return allocate(context, handle, bytes);
 }
 
 void requireWritable(const char* what, std::size_t bytes) {

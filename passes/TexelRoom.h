@@ -11,6 +11,10 @@ inline constexpr graph::BufferDesc kGrowing{0, true};
 const gpu::Buffer& makeRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
                             std::size_t texels, graph::Format format);
 
+/// The same for what shaders will read as a storage block.
+const gpu::Buffer& makeBlockRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
+                                 std::size_t bytes);
+
 /// Throws InputError with the remedy where shaders of this driver cannot write as many bytes.
 void requireWritable(const char* what, std::size_t bytes);
 

@@ -4,9 +4,8 @@
 
 namespace tessera::passes {
 
-shader::ProgramDesc TransparentDepthPass::program(const frame::FrameSpec& spec) {
-    return frame::frameProgram(spec, "transparent_depth", "passes/geometry.vert", "passes/transparent_depth.frag",
-                               {{"DEPTH_ONLY", "1"}});
+std::vector<shader::ProgramDesc> TransparentDepthPass::programs(const frame::FrameSpec& spec) {
+    return frame::depthPrograms(spec, "transparent_depth", "passes/transparent_depth.frag", false, {});
 }
 
 TransparentDepthPass::Outputs TransparentDepthPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
@@ -14,8 +13,7 @@ TransparentDepthPass::Outputs TransparentDepthPass::add(graph::Graph& graph, con
     return graph.addPass<Outputs>(
         "transparent_depth",
         [&](graph::PassBuilder& pass, Outputs& out) {
-            pass.program(program(spec));
-            out.read.surfaces = inputs.surfaces.read(pass);
+            out.read.surfaces = inputs.surfaces.readDepth(pass, programs(spec));
             pass.expect(inputs.depth, spec.renderTarget(graph::Format::Depth32Float));
             out.read.depth = pass.read(inputs.depth, graph::Access::DepthTest);
             out.transparentDepth = pass.create("transparent_depth", spec.renderTarget(graph::Format::Rg32Float));
@@ -23,11 +21,10 @@ TransparentDepthPass::Outputs TransparentDepthPass::add(graph::Graph& graph, con
         [](const Outputs& out, const graph::PassContext& context) {
             context.bindTargets();
             gpu::clearColor(0, glm::vec4(0.0f, -2.0f, 0.0f, 0.0f));
-            gpu::useProgram(context.program());
             gpu::PipelineState state;
             state.depthTest = gpu::DepthTest::GreaterEqual;
             state.blend = gpu::Blend::Max;
-            out.read.surfaces.draw(context, frame::SurfaceHandles::Kind::Transparent, state);
+            out.read.surfaces.drawDepth(context, frame::SurfaceHandles::Kind::Transparent, state);
         });
 }
 

@@ -18,7 +18,7 @@ struct TransparentDepthPass {
         Inputs read;
         graph::TextureHandle transparentDepth;
     };
-    static shader::ProgramDesc program(const frame::FrameSpec& spec);
+    static std::vector<shader::ProgramDesc> programs(const frame::FrameSpec& spec);
     static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs);
 };
 

@@ -118,6 +118,24 @@ DrawRows rowsOf(const Draw& draw, const glm::dmat4& worldFromObject, const Camer
 
 } // namespace
 
+std::vector<DepthBatch> depthBatches(const scenes::Scene& scene, std::span<const Batch> batches) {
+    std::vector<DepthBatch> result;
+    for (const Batch& batch : batches) {
+        const scenes::Material& material = scene.materials[std::size_t(batch.material)];
+        const bool isMasked = material.alphaMode == scenes::AlphaMode::Mask;
+        const DepthBatch own{batch.first, batch.count, batch.mirrored, material.doubleSided,
+                             isMasked ? std::optional<int>(batch.material) : std::nullopt};
+        const bool goesOn = !result.empty() && !isMasked && !result.back().maskedBy &&
+                            result.back().first + result.back().count == own.first &&
+                            result.back().mirrored == own.mirrored && result.back().doubleSided == own.doubleSided;
+        if (goesOn)
+            result.back().count += own.count;
+        else
+            result.push_back(own);
+    }
+    return result;
+}
+
 ViewDraws makeViewDraws(const DrawList& list, const CameraView& view, bool culls) {
     ViewDraws result;
     std::vector<double> depths; ///< parallel to seen

@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "renderer/frame/CameraView.h"
@@ -25,6 +27,17 @@ struct Batch {
     int material = 0;
     bool mirrored = false;
 };
+
+/// Draws [first, first + count) of a view of which passes want the depth alone.
+struct DepthBatch {
+    int first = 0;
+    int count = 0;
+    bool mirrored = false;
+    bool doubleSided = false;
+    std::optional<int> maskedBy; ///< the material whose holes the depth has; none: all of the triangles leave theirs
+};
+/// What batches are drawn as then, in their order: one where neighbours differ in nothing but a material without holes.
+std::vector<DepthBatch> depthBatches(const scenes::Scene& scene, std::span<const Batch> batches);
 
 /// Everything the scene draws. Opaque and masked draws come first, gathered by material so that binds are few; the
 /// transparent ones follow in document order. Every technique draws in this order.

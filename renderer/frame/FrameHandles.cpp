@@ -30,16 +30,39 @@ void ViewHandles::bind(const graph::PassContext& context) const {
     gpu::bindUniformBuffer(UNIFORM_VIEW, context.buffer(constants), 0, sizeof(shared::ViewConstants));
 }
 
-SurfaceHandles SurfaceHandles::read(graph::PassBuilder& pass) const {
+SurfaceHandles SurfaceHandles::readGeometry(graph::PassBuilder& pass) const {
     SurfaceHandles result{drawn,
                           view.read(pass),
                           pass.read(rows, Access::VertexRead),
                           pass.read(commands, Access::IndirectRead),
                           {},
                           pass.read(indices, Access::IndexRead),
-                          pass.read(materials, Access::UniformRead)};
+                          materials};
     for (const graph::BufferHandle& stream : vertices) result.vertices.push_back(pass.read(stream, Access::VertexRead));
     return result;
+}
+
+SurfaceHandles SurfaceHandles::read(graph::PassBuilder& pass) const {
+    SurfaceHandles result = readGeometry(pass);
+    result.materials = pass.read(materials, Access::UniformRead);
+    return result;
+}
+
+SurfaceHandles SurfaceHandles::readDepth(graph::PassBuilder& pass,
+                                         const std::vector<shader::ProgramDesc>& programs) const {
+    for (const shader::ProgramDesc& program : programs) pass.program(program);
+    SurfaceHandles result = readGeometry(pass);
+    result.hasMasks = programs.size() > 1;
+    if (result.hasMasks) result.materials = pass.read(materials, Access::UniformRead);
+    return result;
+}
+
+void SurfaceHandles::drawDepth(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const {
+    view.bind(context);
+    const ViewDraws& draws = drawn->draws;
+    drawn->scene->drawDepth({context.buffer(rows), context.buffer(commands)},
+                            kind == Kind::Opaque ? draws.opaque : draws.transparent, state,
+                            {context.program(0), hasMasks ? &context.program(1) : nullptr});
 }
 
 void SurfaceHandles::draw(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const {
@@ -50,13 +73,13 @@ void SurfaceHandles::draw(const graph::PassContext& context, Kind kind, const gp
 }
 
 LightListHandles LightListHandles::read(graph::PassBuilder& pass) const {
-    return {pass.read(tiles, Access::TexelRead), pass.read(cells, Access::TexelRead),
+    return {pass.read(tiles, Access::StorageRead), pass.read(cells, Access::StorageRead),
             pass.read(entries, Access::TexelRead)};
 }
 
 void LightListHandles::bind(const graph::PassContext& context) const {
-    bindTexels(context, TEXTURE_UNIT_LIGHT_TILES, tiles, Format::Rgba32Uint);
-    bindTexels(context, TEXTURE_UNIT_LIGHT_CELLS, cells, Format::Rg32Uint);
+    gpu::bindStorageBuffer(STORAGE_LIGHT_TILES, context.buffer(tiles));
+    gpu::bindStorageBuffer(STORAGE_LIGHT_CELLS, context.buffer(cells));
     bindTexels(context, TEXTURE_UNIT_LIGHT_ENTRIES, entries, Format::R32Uint);
 }
 

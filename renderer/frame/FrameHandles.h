@@ -44,12 +44,21 @@ struct SurfaceHandles {
     std::vector<graph::BufferHandle> vertices; ///< a stream each
     graph::BufferHandle indices;
     graph::BufferHandle materials; ///< shared::MaterialConstants of each
+    bool hasMasks = false;         ///< of readDepth(): whether there is a program for materials with holes
 
     enum class Kind { Opaque, Transparent };
 
     SurfaceHandles read(graph::PassBuilder& pass) const;
     /// Draws the surfaces of a kind with the program in use. Of `state` culling and winding are each batch's own.
     void draw(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const;
+
+    /// The same for a pass that wants depth alone and has the programs of depthPrograms(). Materials are read only
+    /// where some have holes.
+    SurfaceHandles readDepth(graph::PassBuilder& pass, const std::vector<shader::ProgramDesc>& programs) const;
+    void drawDepth(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const;
+
+private:
+    SurfaceHandles readGeometry(graph::PassBuilder& pass) const;
 };
 
 /// Light lists (shaders/shared/light_lists.h), where a pass finds the lights of a pixel in them.

@@ -103,6 +103,18 @@ shader::ProgramDesc frameProgram(const FrameSpec& spec, std::string name, std::s
     return program;
 }
 
+std::vector<shader::ProgramDesc> depthPrograms(const FrameSpec& spec, const std::string& name,
+                                               const std::string& fragment, bool masks, Defines extra) {
+    extra.emplace_back("DEPTH_ONLY", "1");
+    FrameSpec bare = spec;
+    bare.features = {};
+    bare.features.add(Feature::OrthographicCamera, spec.features[Feature::OrthographicCamera]);
+    std::vector<shader::ProgramDesc> programs{frameProgram(bare, name, "passes/geometry.vert", fragment, extra)};
+    if (masks && spec.features[Feature::AlphaMask])
+        programs.push_back(frameProgram(spec, name + "_masked", "passes/geometry.vert", fragment, extra));
+    return programs;
+}
+
 std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const FrameSpec& spec, const PackedLights& lights,
                                           bool gbuffer) {
     std::vector<graph::Plan::LeftOut> out;

@@ -50,6 +50,11 @@ std::size_t lightTileCount(const FrameSpec& spec);
 shader::ProgramDesc frameProgram(const FrameSpec& spec, std::string name, std::string vertex, std::string fragment,
                                  const Defines& extra);
 
+/// Those of a pass that draws depth alone. The first samples nothing and takes no material; a second one, where `masks`
+/// and the frame has them, is for materials with holes.
+std::vector<shader::ProgramDesc> depthPrograms(const FrameSpec& spec, const std::string& name,
+                                               const std::string& fragment, bool masks, Defines extra);
+
 /// What the spec leaves out and why, for a plan; bytes are those of G-buffer channels (where the technique has a
 /// G-buffer), vertex streams and lights saved.
 std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const FrameSpec& spec, const PackedLights& lights,

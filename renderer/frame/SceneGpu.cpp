@@ -1,6 +1,7 @@
 #include "renderer/frame/SceneGpu.h"
 
 #include <array>
+#include <cassert>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -63,6 +64,12 @@ const std::array<gpu::VertexAttribute, 6>& drawAttributes() {
         return result;
     }();
     return attributes;
+}
+
+gpu::PipelineState stateOf(gpu::PipelineState state, bool doubleSided, bool mirrored) {
+    state.cullFace = doubleSided ? gpu::CullFace::None : gpu::CullFace::Back;
+    state.frontFaceClockwise = mirrored;
+    return state;
 }
 
 } // namespace
@@ -215,18 +222,30 @@ void SceneGpu::bindMaterial(int material) const {
     }
 }
 
-void SceneGpu::draw(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state) const {
+void SceneGpu::bindVertices(const ViewBuffers& view) const {
     for (const gpu::VertexAttribute& ofDraw : drawAttributes()) geometry_.array->setBuffer(ofDraw, view.rows);
     gpu::bindVertexArray(*geometry_.array);
+}
+
+void SceneGpu::draw(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state) const {
+    bindVertices(view);
     int boundMaterial = -1;
     for (const Batch& batch : batches) {
-        gpu::PipelineState batchState = state;
-        const bool doubleSided = scene_.materials[std::size_t(batch.material)].doubleSided;
-        batchState.cullFace = doubleSided ? gpu::CullFace::None : gpu::CullFace::Back;
-        batchState.frontFaceClockwise = batch.mirrored;
-        gpu::setState(batchState);
+        gpu::setState(stateOf(state, scene_.materials[std::size_t(batch.material)].doubleSided, batch.mirrored));
         if (batch.material != boundMaterial) bindMaterial(batch.material);
         boundMaterial = batch.material;
+        gpu::drawIndexedIndirect(view.commands, std::uint32_t(batch.first), std::uint32_t(batch.count));
+    }
+}
+
+void SceneGpu::drawDepth(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state,
+                         const DepthPrograms& programs) const {
+    bindVertices(view);
+    for (const DepthBatch& batch : depthBatches(scene_, batches)) {
+        gpu::setState(stateOf(state, batch.doubleSided, batch.mirrored));
+        assert((!batch.maskedBy || programs.masked) && "the pass has no program for materials with holes");
+        gpu::useProgram(batch.maskedBy ? *programs.masked : programs.bare);
+        if (batch.maskedBy) bindMaterial(*batch.maskedBy);
         gpu::drawIndexedIndirect(view.commands, std::uint32_t(batch.first), std::uint32_t(batch.count));
     }
 }

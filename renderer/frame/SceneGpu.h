@@ -43,6 +43,14 @@ public:
     /// Binds the vertex streams; then each batch of `batches` with its material, textures, winding and cull state.
     /// `state` is the pass's pipeline state, of which culling and winding are the batch's.
     void draw(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state) const;
+    /// What depth alone is drawn with.
+    struct DepthPrograms {
+        const gpu::Program& bare;             ///< samples nothing and takes no material
+        const gpu::Program* masked = nullptr; ///< of materials with holes; null where there are none
+    };
+    /// The same for passes that want depth alone: materials are bound only where they have holes.
+    void drawDepth(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state,
+                   const DepthPrograms& programs) const;
 
     std::span<const gpu::Buffer* const> vertices() const { return geometry_.streams; }
     const gpu::Buffer& indices() const { return *geometry_.indices; }
@@ -77,6 +85,7 @@ private:
     Draws makeDraws(const VertexStreams::Ranges& ranges) const;
     Materials makeMaterials() const;
     void uploadTextures();
+    void bindVertices(const ViewBuffers& view) const;
     void bindMaterial(int material) const;
     const gpu::Texture* uploadImage(int image, bool srgb);
     const gpu::Sampler* sampler(const scenes::Sampler& sampler);

@@ -8,6 +8,7 @@
 #include <glad/gl.h>
 
 #include "renderer/gpu/Debug.h"
+#include "shaders/shared/slots.h"
 
 namespace tessera::gpu {
 namespace {
@@ -116,7 +117,15 @@ Program PendingProgram::finish() {
     if (!linked) throw ShaderError(label_, {}, linkLog(id_.value()));
     for (const PendingShader& shader : shaders_) glDetachShader(id_.value(), shader.id.value());
     throwIfFailed(fmt::format("building '{}'", label_));
-    return Program(label_, std::move(id_));
+    Program program(label_, std::move(id_));
+    for (const PendingShader& shader : shaders_) {
+        const int sampled = program.sampledTextures(shader.stage);
+        if (sampled <= TEXTURE_UNITS_A_STAGE) continue;
+        throw ShaderError(label_, {},
+                          fmt::format("its {} shader samples {} textures, and OpenGL 4.5 guarantees {}",
+                                      stageName(shader.stage), sampled, TEXTURE_UNITS_A_STAGE));
+    }
+    return program;
 }
 
 Program::Program(std::string label, std::span<const StageSource> stages)

@@ -51,7 +51,8 @@ struct BlockMember {
 
 class Program {
 public:
-    /// Compiles and links. Throws ShaderError with the driver's logs.
+    /// Compiles and links. Throws ShaderError with the driver's logs, or where a stage samples more textures than
+    /// every driver offers one (TEXTURE_UNITS_A_STAGE of shaders/shared/slots.h).
     Program(std::string label, std::span<const StageSource> stages);
     ~Program();
     Program(Program&&) noexcept = default;
@@ -64,6 +65,8 @@ public:
     /// Binding slot of a block or of a sampler or image uniform; -1 when it is not active.
     int blockSlot(std::string_view block, BlockKind kind) const;
     int samplerUnit(std::string_view uniform) const;
+    /// Textures and buffer textures that a stage samples; each element of an array is one.
+    int sampledTextures(Stage stage) const;
     /// GL_BUFFER_DATA_SIZE of the active uniform block at a slot, bytes; 0 when there is none.
     std::size_t uniformBlockBytes(std::uint32_t slot) const;
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cassert>
 
 #include <glad/gl.h>
 
@@ -23,6 +24,46 @@ GLint property(std::uint32_t program, GLenum programInterface, GLuint index, GLe
     GLint value = 0;
     glGetProgramResourceiv(program, programInterface, index, 1, &name, 1, nullptr, &value);
     return value;
+}
+
+bool isSampler(GLenum type) {
+    switch (type) {
+    case GL_SAMPLER_2D:
+    case GL_SAMPLER_2D_SHADOW:
+    case GL_SAMPLER_2D_ARRAY:
+    case GL_SAMPLER_2D_ARRAY_SHADOW:
+    case GL_SAMPLER_2D_MULTISAMPLE:
+    case GL_SAMPLER_CUBE:
+    case GL_SAMPLER_CUBE_SHADOW:
+    case GL_SAMPLER_CUBE_MAP_ARRAY:
+    case GL_SAMPLER_CUBE_MAP_ARRAY_SHADOW:
+    case GL_SAMPLER_3D:
+    case GL_SAMPLER_BUFFER:
+    case GL_INT_SAMPLER_2D:
+    case GL_INT_SAMPLER_BUFFER:
+    case GL_UNSIGNED_INT_SAMPLER_2D:
+    case GL_UNSIGNED_INT_SAMPLER_2D_ARRAY:
+    case GL_UNSIGNED_INT_SAMPLER_3D:
+    case GL_UNSIGNED_INT_SAMPLER_BUFFER:
+        return true;
+    default:
+        return false;
+    }
+}
+
+GLenum referencedBy(Stage stage) {
+    switch (stage) {
+    case Stage::Vertex:
+        return GL_REFERENCED_BY_VERTEX_SHADER;
+    case Stage::Geometry:
+        return GL_REFERENCED_BY_GEOMETRY_SHADER;
+    case Stage::Fragment:
+        return GL_REFERENCED_BY_FRAGMENT_SHADER;
+    case Stage::Compute:
+        return GL_REFERENCED_BY_COMPUTE_SHADER;
+    }
+    assert(false);
+    return GL_NONE;
 }
 
 /// GL answers -1 for properties that do not apply.
@@ -76,6 +117,20 @@ int Program::samplerUnit(std::string_view uniform) const {
     GLint unit = -1;
     glGetUniformiv(id(), location, &unit);
     return unit;
+}
+
+int Program::sampledTextures(Stage stage) const {
+    GLint uniforms = 0;
+    glGetProgramInterfaceiv(id(), GL_UNIFORM, GL_ACTIVE_RESOURCES, &uniforms);
+    int sampled = 0;
+    for (GLint uniform = 0; uniform < uniforms; ++uniform) {
+        const std::array<GLenum, 3> asked{GL_TYPE, GL_ARRAY_SIZE, referencedBy(stage)};
+        std::array<GLint, 3> values{};
+        glGetProgramResourceiv(id(), GL_UNIFORM, GLuint(uniform), GLsizei(asked.size()), asked.data(),
+                               GLsizei(values.size()), nullptr, values.data());
+        if (isSampler(GLenum(values[0])) && values[2] != 0) sampled += values[1];
+    }
+    return sampled;
 }
 
 } // namespace tessera::gpu

@@ -4,10 +4,11 @@
 // tile's depth range into at most 64 slices, of which those that hold a surface have a cell each; a cell names a run of
 // entries.
 //
-//   tiles    RGBA32UI, a LightTile each: first all tiles for opaque surfaces, then all tiles for transparent ones
-//   cells    RG32UI, x index of the first entry, y number of entries
+//   tiles    storage block, a LightTile each: first all tiles for opaque surfaces, then all tiles for transparent ones
+//   cells    storage block, uvec2 each: x index of the first entry, y number of entries
 //            (zbin: x first word with a bit, y one past the last)
-//   entries  R32UI, indices of lights in ascending order; in front of all runs those of the lights that reach
+//   entries  buffer texture R32UI, indices of lights in ascending order; in front of all runs those of the lights that
+//   reach
 //            everywhere
 //
 // zbin keeps bitmasks over the lights instead of runs: a tile names its own mask among the entries, all tiles share one

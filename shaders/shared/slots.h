@@ -23,7 +23,8 @@ SHARED_BEGIN
 #define UNIFORM_LIST_ROUND 5
 #define UNIFORM_LIGHTING 6
 
-// Storage blocks. OpenGL 4.5 guarantees 0 to 7; shaders that build light lists never read lights from storage blocks.
+// Storage blocks. OpenGL 4.5 guarantees 0 to 7 to fragment and compute shaders; shaders that build light
+// lists never read lights from storage blocks.
 #define STORAGE_LIGHT_TILES 0
 #define STORAGE_LIGHT_CELLS 1
 #define STORAGE_LIGHT_ENTRIES 2
@@ -34,9 +35,17 @@ SHARED_BEGIN
 #define STORAGE_LIGHT_SHAPES 6
 #define STORAGE_LIGHTS 7
 
-// Texture units: the slots of scenes::TextureSlot in that order, then what passes read. OpenGL 4.5 guarantees 96 units,
-// of which one stage may use 16; a material that fills every slot, lit from light lists, needs 18, and drivers
-// offer 32.
+// Texture units. OpenGL 4.5 guarantees a stage 16 of them, so all are numbered below that, and programs that never
+// sample both share a number: renderer/gpu/Program.h refuses one that samples more.
+#define TEXTURE_UNITS_A_STAGE 16
+
+// What lights, in forward and deferred alike. Tiles and cells of light lists are storage blocks: a pixel reads one of
+// each, where it reads lights and entries in its loop.
+#define TEXTURE_UNIT_LIGHTS 13
+#define TEXTURE_UNIT_LIGHT_SHAPES 14
+#define TEXTURE_UNIT_LIGHT_ENTRIES 15
+
+// What draws surfaces: the slots of scenes::TextureSlot in that order.
 #define TEXTURE_SLOT_BASE_COLOR 0
 #define TEXTURE_SLOT_NORMAL 1
 #define TEXTURE_SLOT_METALLIC_ROUGHNESS 2
@@ -51,21 +60,27 @@ SHARED_BEGIN
 #define TEXTURE_SLOT_SHEEN_COLOR 11
 #define TEXTURE_SLOT_SHEEN_ROUGHNESS 12
 #define TEXTURE_SLOT_COUNT 13
-#define TEXTURE_UNIT_GBUFFER 24 // to 31
-#define TEXTURE_UNIT_DEPTH 13
-#define TEXTURE_UNIT_LIGHTS 14
-#define TEXTURE_UNIT_RADIANCE 15
-#define TEXTURE_UNIT_LIGHT_SHAPES 19
-#define TEXTURE_UNIT_LIGHT_TILES 16
-#define TEXTURE_UNIT_LIGHT_CELLS 17
-#define TEXTURE_UNIT_LIGHT_ENTRIES 18
-#define TEXTURE_UNIT_TRANSPARENT_DEPTH 20
-#define TEXTURE_UNIT_CULL_LIGHTS 21
-#define TEXTURE_UNIT_LIGHT_REACH 22
-#define TEXTURE_UNIT_MATERIALS 23
-#define TEXTURE_UNIT_SAMPLES 15 // no pass reads samples and radiance
+
+// What reads stored surfaces and pictures.
+#define TEXTURE_UNIT_GBUFFER 0 // to 7
+#define TEXTURE_UNIT_DEPTH 8
+#define TEXTURE_UNIT_MATERIALS 9
+#define TEXTURE_UNIT_RADIANCE 10
+#define TEXTURE_UNIT_SAMPLES 11
+
+// What builds light lists, beside the depths.
+#define TEXTURE_UNIT_TRANSPARENT_DEPTH 9
+#define TEXTURE_UNIT_CULL_LIGHTS 10
+#define TEXTURE_UNIT_LIGHT_REACH 11
 
 // Image units.
 #define IMAGE_UNIT_RADIANCE 0
+
+#ifdef __cplusplus
+static_assert(TEXTURE_SLOT_COUNT <= TEXTURE_UNIT_LIGHTS, "lights would hide a material's texture");
+static_assert(TEXTURE_UNIT_GBUFFER + 8 <= TEXTURE_UNIT_DEPTH && TEXTURE_UNIT_SAMPLES < TEXTURE_UNIT_LIGHTS,
+              "a pass that lights stored surfaces samples them and lights");
+static_assert(TEXTURE_UNIT_LIGHT_ENTRIES < TEXTURE_UNITS_A_STAGE, "more units than OpenGL 4.5 guarantees a stage");
+#endif
 
 SHARED_END

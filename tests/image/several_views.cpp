@@ -5,7 +5,12 @@
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
+#include "engine/ChooseSamples.h"
+#include "engine/PrepareView.h"
 #include "engine/Renderer.h"
+#include "passes/StoredChannelPass.h"
+#include "renderer/graph/Compile.h"
+#include "renderer/graph/Execute.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
@@ -91,6 +96,49 @@ TEST_F(SeveralViews, sharedMemoryChangesNoBit) {
     EXPECT_TRUE(renderer.download(0).radiance == first);
     EXPECT_TRUE(renderer.download(1).radiance == second);
     EXPECT_LT(bytes, engine::planViews(scene, views).bytes);
+}
+
+/// The normals that a pass between opaque and transparent surfaces finds in the G-buffer.
+class BetweenOpaqueAndTransparent : public test::GlTest {
+protected:
+    std::vector<float> normals(const scenes::Scene& scene, Technique technique, int samples) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {97, 55};
+        settings.samples = samples;
+        engine::Renderer renderer(context(), scene);
+        frame::DrawnView view;
+        view.prepared = engine::prepareView(scene, technique, engine::settingsOn(context().capabilities(), settings));
+        const frame::FrameSpec& spec = view.prepared.spec;
+        view.scene = &renderer.sceneGpu(spec);
+        view.draws = frame::makeViewDraws(view.scene->drawList(), view.prepared.camera, true);
+        frame::LightListMemory memory;
+        view.listMemory = &memory;
+        graph::Graph graph;
+        graph::TextureHandle shown;
+        const auto show = [&](graph::Graph& in, const frame::FrameSpec& of, const engine::OpaquePicture& opaque) {
+            const frame::StoredComponents normal{frame::Channel::Normal, false};
+            shown = passes::StoredChannelPass::add(in, of, {normal}, {opaque.gbuffer.value()}).radiance;
+            in.output(shown);
+            return opaque.radiance;
+        };
+        engine::declareView(graph, technique, spec, &view, {true, show});
+        const graph::CompiledGraph compiled = graph::compile(graph);
+        graph::Execution execution(graph, compiled, renderer.backend(), &renderer.programs());
+        execution.run();
+        return execution.texture(shown).downloadAs<float>();
+    }
+};
+
+TEST_F(BetweenOpaqueAndTransparent, everyTechniqueHandsOnTheSameNormalsToTheLastBit) {
+    const scenes::Scene scene = test::everythingScene();
+    const std::vector<float> truth = normals(scene, Technique::Deferred, 1);
+    EXPECT_GT(std::ranges::count_if(truth, [](float v) { return v != 0.0f; }), std::ptrdiff_t(truth.size() / 2));
+    for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
+        EXPECT_TRUE(normals(scene, info.technique, 1) == truth) << info.name;
+        if (info.multisamples()) {
+            EXPECT_TRUE(normals(scene, info.technique, 4) == truth) << info.name << ", 4 samples";
+        }
+    }
 }
 
 TEST_F(SeveralViews, viewsThatNeedTheSceneInTwoWaysAreRefused) {

@@ -15,8 +15,14 @@
 #endif
 
 #if LIGHT_CURSOR == LIGHT_CURSOR_LIST || LIGHT_CURSOR == LIGHT_CURSOR_BITS
-layout(binding = TEXTURE_UNIT_LIGHT_TILES) uniform usamplerBuffer lightTiles;
-layout(binding = TEXTURE_UNIT_LIGHT_CELLS) uniform usamplerBuffer lightCells;
+layout(std430, binding = STORAGE_LIGHT_TILES) readonly buffer LightTiles
+{
+    LightTile lightTiles[];
+};
+layout(std430, binding = STORAGE_LIGHT_CELLS) readonly buffer LightCells
+{
+    uvec2 lightCells[];
+};
 layout(binding = TEXTURE_UNIT_LIGHT_ENTRIES) uniform usamplerBuffer lightEntries;
 
 uvec4 lightTile(vec2 pixel)
@@ -26,7 +32,7 @@ uvec4 lightTile(vec2 pixel)
 #if LIGHT_LAYER == LIGHT_LAYER_TRANSPARENT
     index += lighting.tileGrid.x * lighting.tileGrid.y;
 #endif
-    return texelFetch(lightTiles, int(index));
+    return lightTiles[index].words;
 }
 
 uint depthSlice(float depth, uint slices)
@@ -92,7 +98,7 @@ LightCursor lightCursor(vec2 pixel, float depth)
     // The cells of a tile are those of its occupied slices, so a slice's rank among them finds its cell.
     uint below = slice < 32u ? tile.z & ((1u << slice) - 1u) : tile.z;
     uint belowHigh = slice < 32u ? 0u : tile.w & ((1u << (slice & 31u)) - 1u);
-    uvec2 cell = texelFetch(lightCells, int(tile.x) + bitCount(below) + bitCount(belowHigh)).xy;
+    uvec2 cell = lightCells[int(tile.x) + bitCount(below) + bitCount(belowHigh)];
 #if HAS_LIGHTS_EVERYWHERE
     LightCursor cursor = LightCursor(int(cell.x), int(cell.x + cell.y), 0, kNoLight, kNoLight);
     if (cell.y > 0u) cursor.headOfList = int(texelFetch(lightEntries, cursor.next).x);
@@ -151,7 +157,7 @@ LightCursor lightCursor(vec2 pixel, float depth)
 {
     uvec4 tile = lightTile(pixel);
     uint bin = depthSlice(depth, tile.y);
-    uvec2 words = texelFetch(lightCells, int(bin)).xy;
+    uvec2 words = lightCells[bin];
     return LightCursor(int(tile.x), int(bin * lighting.lights.w), int(words.x) - 1, int(words.y), 0u);
 }
 

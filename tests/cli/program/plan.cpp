@@ -94,6 +94,20 @@ TEST_F(Plan, pruneOffNeverLeavesAnythingOutOfThePlan) {
     EXPECT_LT(json("on.json")["bytes"], json("off.json")["bytes"]);
 }
 
+TEST_F(Plan, furtherCamerasAreAlwaysViewsOfTheSameFrame) {
+    runGood({"plan", "hall", "--json", "one.json"});
+    const std::string said = runGood({"plan", "hall", "--also", "0", "--also", "0"});
+    EXPECT_THAT(said, HasSubstr("hall, deferred, deferred, deferred: "));
+    EXPECT_THAT(said, HasSubstr("radiance (3)"));
+    runGood({"plan", "hall", "--also", "0", "--json", "two.json"});
+    const Json one = json("one.json"), two = json("two.json");
+    EXPECT_EQ(two["passes"].size(), 2 * one["passes"].size());
+    EXPECT_LT(two["bytes"], two["bytesWithoutAliasing"]);
+    EXPECT_EQ(two["bytesWithoutAliasing"], 2 * one["bytesWithoutAliasing"].get<std::size_t>());
+    expectError(2, {"plan", "hall", "--also", "nowhere"}, {"unknown camera 'nowhere'"});
+    expectError(2, {"plan", "hall", "--also", "0", "--measure"}, {"--measure", "one view", "--also"});
+}
+
 TEST_F(Plan, neverNeedsGraphicsButWhatDoesAlwaysSaysWhatToInstall) {
     EXPECT_THAT(runGood({"plan", "room"}, kNoGraphics), HasSubstr("deferred_lighting"));
     EXPECT_THAT(runGood({"scenes"}, kNoGraphics), HasSubstr("room"));

@@ -1,5 +1,6 @@
 #include "renderer/gpu/Program.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "tests/support/GlContext.h"
@@ -42,6 +43,24 @@ TEST_F(ProgramTest, aProgramThatDoesNotLinkIsAlwaysNamed) {
         EXPECT_TRUE(error.stageLogs().empty());
         EXPECT_THAT(error.what(), HasSubstr("a shader program cannot be linked:\n"));
         EXPECT_THAT(error.what(), EndsWith("\nIt is program 'unlinked'."));
+    }
+}
+
+TEST_F(ProgramTest, aStageThatSamplesMoreTexturesThanEveryDriverOffersIsAlwaysRefused) {
+    const auto stage = [](int textures) {
+        return computeStage(fmt::format("layout(binding = 0) uniform sampler2D some[{0}];\n"
+                                        "layout(binding = 0, std430) buffer Sum {{ vec4 sum; }};\n"
+                                        "void main() {{ for (int i = 0; i < {0}; ++i) "
+                                        "sum += texelFetch(some[i], ivec2(0), 0); }}",
+                                        textures));
+    };
+    EXPECT_EQ(Program("full", stage(16)).sampledTextures(Stage::Compute), 16);
+    try {
+        const Program program("greedy", stage(17));
+        FAIL() << "expected a ShaderError";
+    } catch (const ShaderError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("its compute shader samples 17 textures, and OpenGL 4.5 guarantees 16"));
+        EXPECT_THAT(error.what(), EndsWith("\nIt is program 'greedy'."));
     }
 }
 

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
+#include "base/Error.h"
 #include "engine/Renderer.h"
 #include "renderer/frame/RefineLayout.h"
 #include "scenes/Load.h"
@@ -82,6 +84,38 @@ TEST(PlanFrame, twoViewsOfAFrameShareTheMemoryOfWhatIsNeededNoMore) {
         two.resources, [](const graph::Plan::Resource& resource) { return resource.name == "gbuffer.albedo (2)"; });
     ASSERT_NE(sharing, two.resources.end());
     EXPECT_TRUE(sharing->aliasOf.starts_with("gbuffer.")) << sharing->aliasOf;
+}
+
+TEST(PlanFrame, viewsThatCannotBeOneFrameAreAlwaysRefused) {
+    const scenes::Scene scene = scenes::loadScene("room");
+    std::vector<FrameRequest> views(2);
+    views[1].settings.prune = false;
+    EXPECT_THROW(planViews(scene, views), InputError);
+    views[1] = views[0];
+    views[1].settings.filter = frame::TextureFilter::Exact;
+    EXPECT_THROW(planViews(scene, views), InputError);
+    EXPECT_THROW(planViews(scene, {}), std::logic_error);
+}
+
+TEST(PlanFrame, aDepthPrepassNeverReadsMaterialsButThoseWithHoles) {
+    scenes::Scene scene = scenes::loadScene("room");
+    const auto reads = [&] {
+        const graph::Plan plan = planFrame(scene, Technique::ForwardPrepass, {});
+        const auto pass = std::ranges::find(plan.passes, "depth_prepass", &graph::Plan::Pass::name);
+        return pass->reads;
+    };
+    EXPECT_THAT(reads(), testing::Not(testing::Contains("materials")));
+    scene.materials.front().alphaMode = scenes::AlphaMode::Mask;
+    EXPECT_THAT(reads(), testing::Contains("materials"));
+}
+
+TEST(PlanFrame, surfacesAreStoredInForwardTechniquesOnlyOnDemand) {
+    const scenes::Scene scene = scenes::loadScene("room");
+    for (const TechniqueInfo& info : techniqueTable()) {
+        const graph::Plan plan = planFrame(scene, info.technique, {});
+        const auto stored = std::ranges::count(plan.passes, "gbuffer", &graph::Plan::Pass::name);
+        EXPECT_EQ(stored, info.usesGBuffer() ? 1 : 0) << info.name;
+    }
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "renderer/frame/DrawList.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gmock/gmock.h>
@@ -37,6 +38,20 @@ scenes::Scene mixedScene() {
         node.instances = {{i % 2, (3 * i) % 4}, {2, 0}, {0, 2}};
     }
     return scene;
+}
+
+TEST(DrawList, depthIsAlwaysDrawnInOrderAndSplitOnlyWhereHolesOrThePipelineStateAsk) {
+    scenes::Scene scene = mixedScene(); // material 1 is masked
+    scene.materials[3].doubleSided = true;
+    const std::vector<Batch> batches{{0, 2, 0, false}, {2, 3, 2, false}, {5, 1, 2, true},  {6, 2, 1, true},
+                                     {8, 1, 1, false}, {9, 1, 3, false}, {11, 1, 3, false}};
+    std::vector<std::tuple<int, int, bool, bool, int>> drawn;
+    for (const DepthBatch& batch : depthBatches(scene, batches))
+        drawn.emplace_back(batch.first, batch.count, batch.mirrored, batch.doubleSided, batch.maskedBy.value_or(-1));
+    using Drawn = std::tuple<int, int, bool, bool, int>;
+    EXPECT_THAT(drawn,
+                ElementsAre(Drawn(0, 5, false, false, -1), Drawn(5, 1, true, false, -1), Drawn(6, 2, true, false, 1),
+                            Drawn(8, 1, false, false, 1), Drawn(9, 1, false, true, -1), Drawn(11, 1, false, true, -1)));
 }
 
 TEST(DrawList, batchesAlwaysCoverEveryDrawExactlyOnce) {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <glslang/Include/Types.h>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <gtest/gtest.h>
@@ -16,6 +17,7 @@
 #include "engine/Renderer.h"
 #include "renderer/shader/ProgramDesc.h"
 #include "scenes/Load.h"
+#include "shaders/shared/slots.h"
 #include "tests/support/TestScenes.h"
 #include "validation/floor/FloorGeometry.h"
 #include "validation/floor/FloorLighting.h"
@@ -129,8 +131,12 @@ public:
     ReferenceCompiler(const ReferenceCompiler&) = delete;
     ReferenceCompiler& operator=(const ReferenceCompiler&) = delete;
 
-    /// Compiles a program's stages and links them together. Empty when all is well. For any thread.
-    std::string faultsOf(const shader::ProgramDesc& desc) const {
+    struct Verdict {
+        std::string faults;      ///< empty when all is well
+        int sampledTextures = 0; ///< as gpu::Program::sampledTextures(), of the stage that samples most
+    };
+    /// Compiles a program's stages and links them together. For any thread.
+    Verdict judge(const shader::ProgramDesc& desc) const {
         std::vector<std::unique_ptr<glslang::TShader>> stages;
         glslang::TProgram program; // destroyed before the shaders
         for (const shader::ExpandedStage& stage : shader::expandStages(tree_, desc)) {
@@ -138,14 +144,30 @@ public:
             stages.push_back(std::make_unique<glslang::TShader>(languageOf(stage.stage)));
             stages.back()->setStrings(&text, 1);
             if (!stages.back()->parse(GetDefaultResources(), kVersion, false, EShMsgDefault))
-                return desc.key() + "\n" + stages.back()->getInfoLog();
+                return {desc.key() + "\n" + stages.back()->getInfoLog()};
             program.addShader(stages.back().get());
         }
-        return program.link(EShMsgDefault) ? std::string() : desc.key() + "\n" + program.getInfoLog();
+        if (!program.link(EShMsgDefault)) return {desc.key() + "\n" + program.getInfoLog()};
+        program.buildReflection(EShReflectionDefault);
+        Verdict verdict;
+        for (const std::unique_ptr<glslang::TShader>& stage : stages)
+            verdict.sampledTextures = std::max(verdict.sampledTextures, sampledTextures(program, stage->getStage()));
+        return verdict;
     }
 
 private:
     static constexpr int kVersion = 110; ///< of sources that name none; all of them do
+
+    static int sampledTextures(glslang::TProgram& program, EShLanguage stage) {
+        int sampled = 0;
+        for (int i = 0; i < program.getNumUniformVariables(); ++i) {
+            const glslang::TObjectReflection& uniform = program.getUniform(i);
+            const glslang::TType& type = *uniform.getType();
+            const bool isTexture = type.getBasicType() == glslang::EbtSampler && !type.isImage();
+            if (isTexture && (uniform.stages & (1 << stage)) != 0) sampled += std::max(uniform.size, 1);
+        }
+        return sampled;
+    }
 
     static EShLanguage languageOf(gpu::Stage stage) {
         switch (stage) {
@@ -164,7 +186,7 @@ private:
     shader::SourceTree tree_ = shader::SourceTree::embedded();
 };
 
-TEST(Offline, everyProgramOfEveryBuiltinSceneAlwaysSatisfiesTheReferenceCompiler) {
+TEST(Offline, everyProgramOfEveryBuiltinSceneAlwaysSatisfiesTheReferenceCompilerAndSamplesNoMoreThanAStageMay) {
     const std::map<std::string, shader::ProgramDesc> programs = requestedPrograms();
     ASSERT_FALSE(programs.empty());
     RecordProperty("variants", int(programs.size()));
@@ -172,10 +194,17 @@ TEST(Offline, everyProgramOfEveryBuiltinSceneAlwaysSatisfiesTheReferenceCompiler
 
     std::vector<const shader::ProgramDesc*> work;
     for (const auto& [key, desc] : programs) work.push_back(&desc);
-    std::vector<std::string> faults(work.size());
+    std::vector<ReferenceCompiler::Verdict> verdicts(work.size());
     const ReferenceCompiler compiler;
-    tbb::parallel_for(std::size_t(0), work.size(), [&](std::size_t i) { faults[i] = compiler.faultsOf(*work[i]); });
-    for (const std::string& fault : faults) EXPECT_EQ(fault, "");
+    tbb::parallel_for(std::size_t(0), work.size(), [&](std::size_t i) { verdicts[i] = compiler.judge(*work[i]); });
+    int mostSampled = 0;
+    for (std::size_t i = 0; i < work.size(); ++i) {
+        EXPECT_EQ(verdicts[i].faults, "");
+        EXPECT_LE(verdicts[i].sampledTextures, TEXTURE_UNITS_A_STAGE) << work[i]->key();
+        mostSampled = std::max(mostSampled, verdicts[i].sampledTextures);
+    }
+    // Every texture of a material, lights, their shapes and the entries of light lists are in one of them.
+    EXPECT_EQ(mostSampled, TEXTURE_SLOT_COUNT + 3);
 }
 
 TEST(Offline, aFaultyProgramIsAlwaysSeenByTheReferenceCompiler) {
@@ -183,7 +212,7 @@ TEST(Offline, aFaultyProgramIsAlwaysSeenByTheReferenceCompiler) {
     // Without the defines of a frame, material code refers to undeclared names.
     const shader::ProgramDesc broken{
         "broken", "passes/geometry.vert", "passes/gbuffer.frag", "", {{"GBUFFER_ALBEDO", "x"}}};
-    EXPECT_NE(compiler.faultsOf(broken), "");
+    EXPECT_NE(compiler.judge(broken).faults, "");
 }
 
 } // namespace
