@@ -77,7 +77,7 @@ TEST_F(BenchStoring, anUnfinishedRunIsNeverWrittenOverUnasked) {
     const std::string out = folder("out");
     { const BenchStore store(out, madeUpIdentity(), madeUpPlan(2), EarlierRun::Keep); }
     EXPECT_THAT(refusal([&] { BenchStore(out, madeUpIdentity(), madeUpPlan(2), EarlierRun::Keep); }),
-                testing::AllOf(HasSubstr("--resume"), HasSubstr("parts")));
+                testing::AllOf(HasSubstr("resume it"), HasSubstr("parts")));
     finishedShard("done", 1, 1, 2);
     EXPECT_NO_THROW(BenchStore(folder("done"), madeUpIdentity(), madeUpPlan(2), EarlierRun::Keep));
 }
@@ -182,7 +182,7 @@ TEST_F(BenchStoring, damagedFilesAreAlwaysNamedWithARemedyInWordsOfOurOwn) {
     for (const char* text : {"", "{\"done\": tr", "[1]]"}) EXPECT_THAT(read("group-000.json", text), whole) << text;
     for (const char* text : {"{\"done\": true, \"roundsMs\": []}", "[]", "{\"done\": 1}"})
         EXPECT_THAT(read("group-000.json", text), field) << text;
-    EXPECT_THAT(read("group-000.json", "{}"), HasSubstr("--resume"));
+    EXPECT_THAT(read("group-000.json", "{}"), HasSubstr("resume the bench"));
     std::ifstream kept(out + "/parts/run.json");
     const std::string run{std::istreambuf_iterator<char>(kept), std::istreambuf_iterator<char>()};
     const auto changed = [&](const std::string& from, const std::string& to) {
