@@ -22,7 +22,7 @@ struct Incident {
 
 std::vector<ShiningLight> shiningLights(const scenes::Scene& scene, const Settings& settings, const glm::dvec3& eyeWS);
 
-/// What a light sends to a point: by its falloff, range window and cone.
+/// What a light sends to a point: by its type, falloff and range window.
 Incident incidentAt(const ShiningLight& shining, const glm::dvec3& positionRel);
 
 /// Where a light ends. With Falloff::Attenuation a tolerance above 0 ends it where its brightest channel has fallen to
