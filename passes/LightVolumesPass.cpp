@@ -9,9 +9,7 @@ namespace tessera::passes {
 using frame::Feature;
 
 bool LightVolumesPass::isNeeded(const frame::FrameSpec& spec) {
-    const bool anyLight = spec.features[Feature::DirectionalLights] || spec.features[Feature::PointLights] ||
-                          spec.features[Feature::SpotLights];
-    return frame::sumsOverLights(spec.settings.view) && anyLight && spec.features.litModels();
+    return frame::sumsOverLights(spec.settings.view) && spec.features.anyLights() && spec.features.litModels();
 }
 
 shader::ProgramDesc LightVolumesPass::program(const frame::FrameSpec& spec) {
@@ -23,7 +21,7 @@ shader::ProgramDesc LightVolumesPass::program(const frame::FrameSpec& spec) {
 
 LightVolumesPass::Outputs LightVolumesPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
                                                 const Inputs& inputs) {
-    const int vertices = spec.features[Feature::SpotLights] ? LIGHT_VOLUME_CONE_VERTICES : LIGHT_VOLUME_SPHERE_VERTICES;
+    const int vertices = spec.features.coneLights() ? LIGHT_VOLUME_CONE_VERTICES : LIGHT_VOLUME_SPHERE_VERTICES;
     return graph.addPass<Outputs>(
         "light_volumes",
         [&](graph::PassBuilder& pass, Outputs& out) {

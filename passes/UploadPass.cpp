@@ -46,7 +46,7 @@ UploadLightsPass::Outputs UploadLightsPass::add(graph::Graph& graph, const frame
         [&](graph::PassBuilder& pass, Outputs& out) {
             out.constants = pass.create("lighting", {sizeof(shared::LightingConstants)}, Access::Upload);
             out.lights = pass.create("lights", growing<shared::LightTexels>(spec.lights), Access::Upload);
-            if (frame::hasShapes(spec.features))
+            if (spec.features.lightShapes())
                 out.shapes =
                     pass.create("light_shapes", growing<shared::LightShapeTexels>(spec.lights), Access::Upload);
         },

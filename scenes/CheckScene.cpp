@@ -100,15 +100,16 @@ std::string boundsText(double least, double most) {
 }
 
 /// Whether a number, or each component of a vector, lies between the bounds of its field. Nothing else has bounds.
-template <typename Value>
-bool isWithin(const Value&, const MaterialField<Value>&) {
+template <typename Value, typename Field>
+bool isWithin(const Value&, const Field&) {
     return true;
 }
-bool isWithin(float value, const MaterialField<float>& field) {
+template <typename Field>
+bool isWithin(float value, const Field& field) {
     return between(double(value), field.least, field.most);
 }
-template <glm::length_t Length>
-bool isWithin(const glm::vec<Length, float>& vector, const MaterialField<glm::vec<Length, float>>& field) {
+template <glm::length_t Length, typename Field>
+bool isWithin(const glm::vec<Length, float>& vector, const Field& field) {
     return allBetween(vector, field.least, field.most);
 }
 
@@ -230,21 +231,18 @@ void checkAnimation(const Element& element, const LightAnimation& animation) {
 }
 
 void checkLight(const Element& element, const Light& light) {
-    element.require(allFiniteAndNotNegative(light.color), "its colour must be finite and not negative");
-    element.require(std::isfinite(light.intensity) && light.intensity >= 0.0f,
-                    "its intensity must be finite and not negative");
+    visitLightFields([&](const auto& field) {
+        if (field.what != nullptr && !isWithin(light.*field.member, field))
+            element.require(false, fmt::format("{} must be {}", field.what, boundsText(field.least, field.most)));
+    });
     element.require(allFinite(light.positionWS), "its position is not finite");
     element.require(isNearEnough(light.positionWS),
                     fmt::format("it lies more than {:g} m from the origin; move it nearer", kFarthestMetres));
     element.require(isUnit(light.directionWS), "its direction must be of unit length");
     element.require(light.rangeMetres >= 0.0f, "its range must not be negative");
-    element.require(allFiniteAndNotNegative(light.attenuation),
-                    "the attenuation coefficients A, B, C must be finite and not negative");
     element.require(light.falloff != Falloff::Attenuation || light.attenuation != glm::vec3(0.0f),
                     "the attenuation coefficients A, B, C are all 0; give at least one");
-    element.require(between(light.outerConeRadians, 0.0, std::numbers::pi_v<float>) &&
-                        between(light.innerConeRadians, 0.0, light.outerConeRadians),
-                    "its cones must be 0 <= inner <= outer <= pi");
+    element.require(light.innerConeRadians <= light.outerConeRadians, "its inner cone is wider than the outer one");
     if (light.animation) checkAnimation(element, *light.animation);
 }
 

@@ -7,7 +7,7 @@ namespace tessera::scenes {
 namespace {
 
 /// Takes fields one by one. Every struct is taken apart by a structured binding, so that one with a new field does not
-/// compile until the field is here; kMaterialFields is held to Material in the same way.
+/// compile until the field is here; kMaterialFields and kLightFields are held to theirs in the same way.
 class Hash {
 public:
     std::uint64_t value() const { return hash_; }
@@ -89,10 +89,7 @@ public:
         addAll(kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, timesSeconds, pointsWS);
     }
     void add(const Light& light) {
-        const auto& [name, type, enabled, color, intensity, positionWS, directionWS, falloff, rangeMetres, attenuation,
-                     innerConeRadians, outerConeRadians, animation] = light;
-        addAll(name, type, enabled, color, intensity, positionWS, directionWS, falloff, rangeMetres, attenuation,
-               innerConeRadians, outerConeRadians, animation);
+        visitLightFields([&](const auto& field) { add(light.*field.member); });
     }
     void add(const Camera& camera) {
         const auto& [name, projection, worldFromCamera, fovYRadians, halfHeightMetres, nearMetres, farMetres] = camera;

@@ -52,7 +52,7 @@ glm::dvec3 betweenKeyframes(const LightAnimation& animation, double timeSeconds)
 
 Light lightAtTime(const Light& light, double timeSeconds) {
     assert(std::isfinite(timeSeconds));
-    if (!light.animation || light.type == LightType::Directional) return light;
+    if (!light.animation || !infoOf(light.type).hasPosition()) return light;
     const LightAnimation& animation = *light.animation;
     Light moved = light;
     switch (animation.kind) {

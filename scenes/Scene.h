@@ -11,14 +11,13 @@
 
 #include <glm/glm.hpp>
 
+#include "scenes/Light.h"
 #include "scenes/Material.h"
 
 /// A scene as plain data, as its author wrote it: nothing here is packed for a GPU and nothing is derived that a
 /// renderer could derive (tangents, culling radii, cone scales). World space is right-handed, Y up, metres; colours are
 /// linear unless a texture slot says otherwise. Indices are -1 where something is absent.
 namespace tessera::scenes {
-
-inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // ---- Images --------------------------------------------------------------------------------------------------------
 
@@ -75,50 +74,6 @@ struct Node {
 };
 
 // ---- Lights --------------------------------------------------------------------------------------------------------
-
-enum class LightType : std::uint8_t { Directional, Point, Spot };
-enum class Falloff : std::uint8_t {
-    InverseSquare, ///< candela x clamp(1 - (d/range)^4, 0, 1)^2 / max(d^2, 1e-4 m^2)
-    Attenuation    ///< colour / max(A + B d + C d^2, 1e-4)
-};
-
-enum class LightAnimationKind : std::uint8_t {
-    Orbit,    ///< circles `axis` through `center` once in `periodSeconds`
-    Wobble,   ///< position + amplitude * sin(2 pi (t / period + phase)), each axis
-    Path,     ///< runs along the closed polyline `points` at constant speed once in `periodSeconds`
-    Keyframes ///< linear between (times, points), clamped at the ends
-};
-
-/// Moves a light's position (point, spot) as a closed function of time, so that it can be evaluated at any time.
-struct LightAnimation {
-    LightAnimationKind kind = LightAnimationKind::Orbit;
-    double periodSeconds = 1.0;
-    double phase = 0.0; ///< share of the period, 0..1
-    glm::dvec3 centerWS{0.0};
-    glm::dvec3 axisWS{0.0, 1.0, 0.0};
-    glm::dvec3 amplitudeMetres{0.0};
-    std::vector<double> timesSeconds;
-    std::vector<glm::dvec3> pointsWS;
-    bool operator==(const LightAnimation&) const = default;
-};
-
-struct Light {
-    std::string name;
-    LightType type = LightType::Point;
-    bool enabled = true;
-    glm::vec3 color{1.0f};  ///< linear RGB
-    float intensity = 1.0f; ///< luminous intensity in candela (point, spot) or illuminance at normal incidence in lux
-                            ///< (directional); a plain factor with Falloff::Attenuation
-    glm::dvec3 positionWS{0.0};
-    glm::dvec3 directionWS{0.0, 0.0, -1.0}; ///< unit, the way the light travels
-    Falloff falloff = Falloff::InverseSquare;
-    float rangeMetres = kInfinity;           ///< InverseSquare: the light is exactly 0 from here on
-    glm::vec3 attenuation{1.0f, 0.0f, 0.0f}; ///< A, B (1/m), C (1/m^2) of Falloff::Attenuation, >= 0, not all 0
-    float innerConeRadians = 0.0f;           ///< Spot: half angle of full intensity
-    float outerConeRadians = 0.7853981634f;  ///< Spot: half angle beyond which there is no light
-    std::optional<LightAnimation> animation;
-    bool operator==(const Light&) const = default;
-};
 
 /// The light as it is at `timeSeconds`: its animation applied to its position.
 Light lightAtTime(const Light& light, double timeSeconds);

@@ -27,16 +27,16 @@ shared::CullLight cullLight(const shared::LightTexels& light, const shared::Ligh
     cull.axis.w = -2.0f;
     cull.sphere.w = -1.0f;
     const int kind = int(light.color.w);
-    if (kind == LIGHT_DIRECTIONAL || light.position.w == 0.0f) return cull;
+    if (light.position.w == 0.0f) return cull; // reaches everywhere
 
     const glm::dvec3 position = cameraFromLS * glm::dvec3(light.position);
     const double reach = 1.0 / std::sqrt(double(light.position.w));
     const glm::vec4& depthKey = view.constants.depthKey;
     const double margin = double(shared::roundingMargin(float(reach + glm::length(position)), depthKey));
     Sphere sphere{position, reach};
-    if ((kind & LIGHT_SPOT) != 0) {
-        const double cosOuter = std::clamp(double(shared::spotCosOuter(kind, shape)) - CONE_COSINE_MARGIN, -1.0, 1.0);
-        const glm::dvec3 axis = glm::normalize(cameraFromLS * glm::dvec3(shared::spotTravel(shape)));
+    if (scenes::infoOf(typeOf(light)).reach == scenes::LightReach::Cone) {
+        const double cosOuter = std::clamp(double(shared::coneCosOuter(kind, shape)) - CONE_COSINE_MARGIN, -1.0, 1.0);
+        const glm::dvec3 axis = glm::normalize(cameraFromLS * glm::dvec3(shared::coneTravel(shape)));
         sphere = sphereAroundCone(position, axis, cosOuter, reach);
         // A cone whose apex stands back by m / sin(outer) encloses all that lies within m of it. What is a share of the
         // distance coneTouchesBox() adds.

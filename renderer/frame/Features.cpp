@@ -27,12 +27,13 @@ std::vector<FeatureInfo> makeTable() {
                          model.isLit ? fmt::format("model {}", model.name) : "unlit surfaces",
                          fmt::format("no material is {}", model.name)});
     }
+    for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
+        table.push_back({featureOf(type.type), inCapitals(type.name) + "_LIGHTS", fmt::format("{} lights", type.name),
+                         fmt::format("no {} light is on{}", type.name, type.hasPosition() ? " and in view" : "")});
+    }
     table.insert(
         table.end(),
         {
-            {Feature::DirectionalLights, "DIRECTIONAL_LIGHTS", "directional lights", "no directional light is on"},
-            {Feature::PointLights, "POINT_LIGHTS", "point lights", "no point light is on and in view"},
-            {Feature::SpotLights, "SPOT_LIGHTS", "spot lights", "no spot light is on and in view"},
             {Feature::AttenuationLights, "ATTENUATION_LIGHTS", "A B C falloff",
              "no light falls off by A + B d + C d^2"},
             {Feature::BaseColorTexture, "BASE_COLOR_TEXTURE", "base-colour texture", "no material has one"},
@@ -184,6 +185,18 @@ void addModels(const FeatureSet& features, Defines& defines) {
     addQuestion("IS_MICROFACET(model)", isMicrofacet);
 }
 
+void addLightTypes(const FeatureSet& features, Defines& defines) {
+    std::vector<std::string> cones;
+    for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
+        defines.emplace_back("LIGHT_" + inCapitals(type.name), fmt::format("{}", int(type.type)));
+        if (features[type.type] && type.reach == scenes::LightReach::Cone)
+            cones.push_back(fmt::format("(type) == {}", int(type.type)));
+    }
+    // Whether a light's type is one of those.
+    defines.emplace_back("IS_CONE_LIGHT(type)",
+                         cones.empty() ? "(false)" : fmt::format("({})", fmt::join(cones, " || ")));
+}
+
 } // namespace
 
 std::span<const FeatureInfo> featureTable() {
@@ -195,6 +208,12 @@ bool FeatureSet::any(bool (*isOne)(const scenes::MaterialModelInfo&)) const {
     const std::span<const scenes::MaterialModelInfo> models = scenes::materialModels();
     return std::any_of(models.begin(), models.end(),
                        [&](const scenes::MaterialModelInfo& model) { return (*this)[model.model] && isOne(model); });
+}
+
+bool FeatureSet::any(bool (*isOne)(const scenes::LightTypeInfo&)) const {
+    const std::span<const scenes::LightTypeInfo> types = scenes::lightTypes();
+    return std::any_of(types.begin(), types.end(),
+                       [&](const scenes::LightTypeInfo& type) { return (*this)[type.type] && isOne(type); });
 }
 
 bool FeatureSet::litModels() const {
@@ -222,6 +241,23 @@ bool FeatureSet::textures() const {
         if ((*this)[textureFeature(slot)]) return true;
     }
     return false;
+}
+
+bool FeatureSet::anyLights() const {
+    return any([](const scenes::LightTypeInfo&) { return true; });
+}
+
+bool FeatureSet::placedLights() const {
+    return any([](const scenes::LightTypeInfo& type) { return type.hasPosition(); });
+}
+
+bool FeatureSet::coneLights() const {
+    return any([](const scenes::LightTypeInfo& type) { return type.reach == scenes::LightReach::Cone; });
+}
+
+bool FeatureSet::lightShapes() const {
+    return (*this)[Feature::AttenuationLights] ||
+           any([](const scenes::LightTypeInfo& type) { return type.hasShape(); });
 }
 
 bool canMask(const scenes::Material& material) {
@@ -261,6 +297,10 @@ Defines featureDefines(const FeatureSet& features) {
     addFlag("HAS_TANGENT_FRAME", features.tangentFrame());
     addFlag("HAS_TANGENTS", features.tangents());
     addFlag("HAS_TEXTURES", features.textures());
+    addFlag("HAS_PLACED_LIGHTS", features.placedLights());
+    addFlag("HAS_CONE_LIGHTS", features.coneLights());
+    addFlag("HAS_LIGHT_SHAPES", features.lightShapes());
+    addLightTypes(features, defines);
     addModels(features, defines);
     return defines;
 }

@@ -15,9 +15,8 @@ namespace tessera::frame {
 enum class Feature : std::uint8_t {
     FirstModel, // the features of models follow scenes::MaterialModel
     LastModel = FirstModel + scenes::kMaterialModelCount - 1,
-    DirectionalLights,
-    PointLights,
-    SpotLights,
+    FirstLightType, // those of light types follow scenes::LightType
+    LastLightType = FirstLightType + scenes::kLightTypeCount - 1,
     AttenuationLights,
     BaseColorTexture, // the texture features follow scenes::TextureSlot
     NormalTexture,
@@ -58,6 +57,11 @@ constexpr Feature featureOf(scenes::MaterialModel model) {
     return static_cast<Feature>(static_cast<std::size_t>(Feature::FirstModel) + static_cast<std::size_t>(model));
 }
 
+/// That some light of the type is on and may be in view.
+constexpr Feature featureOf(scenes::LightType type) {
+    return static_cast<Feature>(static_cast<std::size_t>(Feature::FirstLightType) + static_cast<std::size_t>(type));
+}
+
 struct FeatureInfo {
     Feature feature;
     std::string define; ///< HAS_<define> is 0 or 1 in every shader
@@ -74,6 +78,7 @@ struct FeatureSet {
 
     bool operator[](Feature feature) const { return has[static_cast<std::size_t>(feature)]; }
     bool operator[](scenes::MaterialModel model) const { return (*this)[featureOf(model)]; }
+    bool operator[](scenes::LightType type) const { return (*this)[featureOf(type)]; }
     void add(Feature feature, bool present = true) {
         if (present) has.set(static_cast<std::size_t>(feature));
     }
@@ -83,10 +88,15 @@ struct FeatureSet {
     bool tangentFrame() const;  ///< surfaces keep a tangent
     bool tangents() const;      ///< meshes bring tangents
     bool textures() const;
+    bool anyLights() const;
+    bool placedLights() const; ///< lights with a position
+    bool coneLights() const;   ///< lights of LightReach::Cone
+    bool lightShapes() const;  ///< lights of which shaders read LightShapeTexels
     bool operator==(const FeatureSet&) const = default;
 
 private:
     bool any(bool (*isOne)(const scenes::MaterialModelInfo&)) const; ///< whether one of the set's models is so
+    bool any(bool (*isOne)(const scenes::LightTypeInfo&)) const;     ///< whether one of the set's light types is so
 };
 
 /// Whether its model has options of masking.

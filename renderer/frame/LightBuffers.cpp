@@ -5,12 +5,8 @@
 
 namespace tessera::frame {
 
-bool hasShapes(const FeatureSet& features) {
-    return features[Feature::SpotLights] || features[Feature::AttenuationLights];
-}
-
 std::size_t lightBytes(const FeatureSet& features, std::size_t count) {
-    return count * (sizeof(shared::LightTexels) + (hasShapes(features) ? sizeof(shared::LightShapeTexels) : 0));
+    return count * (sizeof(shared::LightTexels) + (features.lightShapes() ? sizeof(shared::LightShapeTexels) : 0));
 }
 
 LightBuffers::LightBuffers(const PackedLights& lights)

@@ -8,8 +8,6 @@ namespace tessera::frame {
 
 /// Bytes that `count` lights of these kinds take.
 std::size_t lightBytes(const FeatureSet& features, std::size_t count);
-/// Whether any light has a shape, which shaders read besides its texels.
-bool hasShapes(const FeatureSet& features);
 
 /// Lights on the GPU, as shaders/lib/light/light.glsl reads them, for lighting without a render graph.
 class LightBuffers {

@@ -8,7 +8,7 @@ namespace tessera::frame {
 namespace {
 
 bool fallsOffByABC(const scenes::Light& light) {
-    return light.type != scenes::LightType::Directional && light.falloff == scenes::Falloff::Attenuation;
+    return scenes::infoOf(light.type).hasPosition() && light.falloff == scenes::Falloff::Attenuation;
 }
 
 /// The positive root of c + b r + a r^2, where brightest / (A + B r + C r^2) is the tolerance: a = C, b = B,
@@ -32,7 +32,7 @@ glm::dvec3 lightColor(const scenes::Light& light) {
 }
 
 double reachMetres(const scenes::Light& light, double rangeTolerance) {
-    if (light.type == scenes::LightType::Directional) return scenes::kInfinity;
+    if (!scenes::infoOf(light.type).hasPosition()) return scenes::kInfinity;
     if (light.falloff == scenes::Falloff::InverseSquare) return light.rangeMetres;
     if (rangeTolerance == 0.0) return scenes::kInfinity;
     const glm::dvec3 color = lightColor(light);

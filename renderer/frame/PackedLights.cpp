@@ -11,7 +11,7 @@ namespace {
 
 bool isDark(const scenes::Light& light, double reach) {
     if (glm::vec3(lightColor(light)) == glm::vec3(0.0f) || reach == 0.0) return true;
-    return light.type == scenes::LightType::Spot && !(light.outerConeRadians > 0.0f);
+    return scenes::infoOf(light.type).reach == scenes::LightReach::Cone && !(light.outerConeRadians > 0.0f);
 }
 
 bool isUnseen(const scenes::Light& light, double reach, const CameraView& view) {
@@ -38,8 +38,9 @@ struct PackedLight {
     shared::LightShapeTexels shape{};
 };
 
-/// KHR_lights_punctual's cone: clamp((cos angle - cos outer) / max(0.001, cos inner - cos outer), 0, 1), squared by the
-/// shader, in the form that keeps its digits (shared/light.h). Returns LIGHT_BROAD or 0.
+/// The cone of a type of LightReach::Cone, which is KHR_lights_punctual's: clamp((cos angle - cos outer) / max(0.001,
+/// cos inner - cos outer), 0, 1), squared by the shader, in the form that keeps its digits (shared/light.h). Returns
+/// LIGHT_BROAD or 0.
 int packCone(const scenes::Light& light, const glm::dvec3& travelLS, shared::LightShapeTexels& shape) {
     const double outer = double(light.outerConeRadians), cosOuter = std::cos(outer);
     const double scale = 1.0 / std::max(0.001, std::cos(double(light.innerConeRadians)) - cosOuter);
@@ -56,37 +57,55 @@ int packCone(const scenes::Light& light, const glm::dvec3& travelLS, shared::Lig
     return 0;
 }
 
+/// The direction, if it is not the position already, and up to two parameters.
+void packParameters(const scenes::Light& light, const glm::dvec3& travelLS, shared::LightShapeTexels& shape) {
+    const std::span<const scenes::LightParameter> parameters = scenes::infoOf(light.type).parameters;
+    const auto valueOf = [&](std::size_t i) { return i < parameters.size() ? light.*parameters[i].member : 0.0f; };
+    shape.axis = glm::vec4(glm::vec3(travelLS), valueOf(0));
+    shape.attenuation.w = valueOf(1);
+}
+static_assert(std::ranges::all_of(scenes::lightTypes(),
+                                  [](const scenes::LightTypeInfo& info) {
+                                      return info.reach == scenes::LightReach::Cone || info.parameters.size() <= 2;
+                                  }),
+              "more parameters need room in LightShapeTexels (shaders/shared/light.h)");
+
 PackedLight packLight(const scenes::Light& light, double reach, const CameraView& view) {
     PackedLight result;
     shared::LightTexels& packed = result.texels;
     const glm::dvec3 travelLS = view.lsFromWorld * light.directionWS;
-    int kind = LIGHT_DIRECTIONAL;
-    if (light.type == scenes::LightType::Directional) {
+    const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
+    int kind = int(light.type);
+    if (!info.hasPosition()) {
         packed.position = glm::vec4(glm::vec3(-travelLS), 0.0f);
     } else {
         packed.position = glm::vec4(glm::vec3(view.positionLS(light.positionWS)), inverseSquaredRange(reach));
-        kind = light.type == scenes::LightType::Spot ? LIGHT_SPOT : LIGHT_POINT;
         if (light.falloff == scenes::Falloff::Attenuation) {
             kind |= LIGHT_ATTENUATION;
             result.shape.attenuation = glm::vec4(light.attenuation, 0.0f);
         }
     }
-    if (light.type == scenes::LightType::Spot) {
+    if (info.reach == scenes::LightReach::Cone)
         kind |= packCone(light, travelLS, result.shape);
-    }
+    else if (info.hasShape())
+        packParameters(light, travelLS, result.shape);
     packed.color = glm::vec4(isDark(light, reach) ? glm::vec3(0.0f) : glm::vec3(lightColor(light)), float(kind));
     return result;
 }
 
 void addFeatures(FeatureSet& features, const scenes::Light& light) {
-    features.add(Feature::DirectionalLights, light.type == scenes::LightType::Directional);
-    features.add(Feature::PointLights, light.type == scenes::LightType::Point);
-    features.add(Feature::SpotLights, light.type == scenes::LightType::Spot);
+    features.add(featureOf(light.type));
     features.add(Feature::AttenuationLights,
-                 light.type != scenes::LightType::Directional && light.falloff == scenes::Falloff::Attenuation);
+                 scenes::infoOf(light.type).hasPosition() && light.falloff == scenes::Falloff::Attenuation);
 }
 
 } // namespace
+
+static_assert(scenes::kLightTypeCount <= LIGHT_TYPE_MASK + 1);
+
+scenes::LightType typeOf(const shared::LightTexels& light) {
+    return scenes::LightType(int(light.color.w) & LIGHT_TYPE_MASK);
+}
 
 PackedLights packLights(const scenes::Scene& scene, const CameraView& view, const FrameSettings& settings) {
     PackedLights lights;

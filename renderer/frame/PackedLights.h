@@ -10,6 +10,9 @@
 
 namespace tessera::frame {
 
+/// The type of a packed light.
+scenes::LightType typeOf(const shared::LightTexels& light);
+
 /// The lights of one frame as the GPU reads them, in document order. Lights that cannot change the picture are left
 /// out.
 struct PackedLights {

@@ -1,5 +1,6 @@
 #include "scenes/import/GltfLights.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -8,9 +9,10 @@
 namespace tessera::scenes::gltf {
 namespace {
 
+/// Those of KHR_lights_punctual, which alone the file's check lets through, are called as the table calls them.
 LightType typeOf(const std::string& name) {
-    if (name == "directional") return LightType::Directional;
-    return name == "spot" ? LightType::Spot : LightType::Point;
+    const std::span<const LightTypeInfo> types = lightTypes();
+    return std::ranges::find(types, name, &LightTypeInfo::name)->type;
 }
 
 void setCones(Context& context, const tinygltf::Light& stored, const std::string& place, Light& light) {
@@ -48,13 +50,13 @@ void importLight(Context& context, int nodeIndex, const glm::dmat4& worldFromNod
     const double length = glm::length(backwardsWS);
     if (length > 0.0)
         light.directionWS = -backwardsWS / length;
-    else if (light.type != LightType::Point)
+    else if (infoOf(light.type).hasDirection)
         context.warn(fmt::format("/nodes/{}: its scale of zero leaves light '{}' no direction; -Z is used", nodeIndex,
                                  light.name));
 
     const nlohmann::json& written =
         context.document.json["extensions"]["KHR_lights_punctual"]["lights"][static_cast<std::size_t>(index)];
-    if (written.contains("range") && light.type != LightType::Directional) {
+    if (written.contains("range") && infoOf(light.type).hasPosition()) {
         light.rangeMetres = static_cast<float>(stored.range);
         if (!(light.rangeMetres > 0.0f))
             context.document.fail(place + "/range", "must be greater than 0; leave it out for infinite");

@@ -22,19 +22,7 @@ void visitAnimation(Visitor&& visit, Animations&... animation) {
 
 template <typename Visitor, typename... Lights>
 void visitLight(Visitor&& visit, Lights&... light) {
-    visit("name", light.name...);
-    visit("type", light.type...);
-    visit("enabled", light.enabled...);
-    visit("color", light.color...);
-    visit("intensity", light.intensity...);
-    visit("positionWS", light.positionWS...);
-    visit("directionWS", light.directionWS...);
-    visit("falloff", light.falloff...);
-    visit("rangeMetres", light.rangeMetres...);
-    visit("attenuation", light.attenuation...);
-    visit("innerConeRadians", light.innerConeRadians...);
-    visit("outerConeRadians", light.outerConeRadians...);
-    visit("animation", light.animation...);
+    visitLightFields([&](const auto& field) { visit(field.name, light.*field.member...); });
 }
 
 template <typename Visitor, typename... Cameras>

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <ranges>
 
+#include <fmt/ranges.h>
 #include <glm/trigonometric.hpp>
 
 #include "scenes/import/SceneJsonFields.h"
@@ -15,7 +17,8 @@ constexpr std::array<std::string_view, 2> kNotShadedYet = {"area", "environment"
 
 LightType readType(const JsonValue& value) {
     if (const std::string name = value.text(); std::ranges::find(kNotShadedYet, name) != kNotShadedYet.end())
-        value.fail(fmt::format("lights of type '{}' are not shaded yet; shaded are directional, point, spot", name));
+        value.fail(fmt::format("lights of type '{}' are not shaded yet; shaded are {}", name,
+                               fmt::join(kLightTypes | std::views::keys, ", ")));
     return value.oneOf<LightType>("light type", kLightTypes);
 }
 
@@ -88,7 +91,7 @@ LightAnimation readAnimation(const JsonValue& value) {
 
 void readDirection(JsonObject& object, Light& light) {
     const std::optional<JsonValue> direction = object.find("direction");
-    const std::optional<JsonValue> target = light.type == LightType::Spot ? object.find("target") : std::nullopt;
+    const std::optional<JsonValue> target = infoOf(light.type).hasPosition() ? object.find("target") : std::nullopt;
     if (direction && target) target->fail("is given beside 'direction'; keep one");
     if (target) {
         const glm::dvec3 toTargetWS = target->vector3() - light.positionWS;
@@ -99,14 +102,19 @@ void readDirection(JsonObject& object, Light& light) {
     }
 }
 
-void readCones(JsonObject& object, Light& light) {
-    // 90 degrees is KHR_lights_punctual's limit.
-    if (const auto outer = object.find("outerDegrees")) light.outerConeRadians = glm::radians(outer->single(0.0, 90.0));
-    if (const auto inner = object.find("innerDegrees")) {
-        light.innerConeRadians = glm::radians(inner->single(0.0, 90.0));
-        if (light.innerConeRadians > light.outerConeRadians)
-            inner->fail(fmt::format("is {}, wider than the outer cone of {} degrees; make it narrower", inner->number(),
-                                    glm::degrees(light.outerConeRadians)));
+void readParameters(JsonObject& object, Light& light) {
+    const std::span<const LightParameter> parameters = infoOf(light.type).parameters;
+    for (const LightParameter& parameter : parameters) {
+        const auto value = object.find(parameter.key);
+        if (!value) continue;
+        const float number = value->single(parameter.least, parameter.most);
+        light.*parameter.member = parameter.kind == LightParameter::Kind::Angle ? glm::radians(number) : number;
+    }
+    for (const LightParameter& parameter : parameters) {
+        if (parameter.within == nullptr || !(light.*parameter.member > light.*parameter.within)) continue;
+        if (const auto value = object.find(parameter.key))
+            value->fail(fmt::format("is {}, wider than {} of {} degrees; make it narrower", value->number(),
+                                    lightField(parameter.within).what, glm::degrees(light.*parameter.within)));
     }
 }
 
@@ -122,13 +130,13 @@ Light readLight(const JsonValue& value, std::size_t index) {
     if (const auto enabled = object.find("enabled")) light.enabled = enabled->boolean();
     if (const auto color = object.find("color")) light.color = color->color();
     if (const auto intensity = object.find("intensity")) light.intensity = intensity->single(0.0);
-    if (light.type != LightType::Directional) {
+    if (infoOf(light.type).hasPosition()) {
         light.positionWS = object.require("position").vector3();
         if (const auto falloff = object.find("falloff")) readFalloff(*falloff, light);
         if (const auto animation = object.find("animation")) light.animation = readAnimation(*animation);
     }
-    if (light.type != LightType::Point) readDirection(object, light);
-    if (light.type == LightType::Spot) readCones(object, light);
+    if (infoOf(light.type).hasDirection) readDirection(object, light);
+    readParameters(object, light);
     readFields(object, light);
     object.done(fmt::format("a {} light", type.text()));
     return light;

@@ -4,8 +4,8 @@
 
 namespace tessera::scenes::scenejson {
 
-/// A directional, point or spot light, with its falloff and animation; `index` names a nameless one. Throws InputError;
-/// the types that no shader evaluates yet are refused by name.
+/// A light of any type of lightTypes(), with its falloff and animation; `index` names a nameless one. Throws
+/// InputError; the types that no shader evaluates yet are refused by name.
 Light readLight(const JsonValue& value, std::size_t index);
 
 /// A perspective or orthographic camera, placed by position and target or direction, or by a matrix.

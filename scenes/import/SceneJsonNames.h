@@ -38,9 +38,11 @@ inline constexpr std::array kNormalMapSpaces = {Named<NormalMapSpace>{"tangent",
                                                 Named<NormalMapSpace>{"object", NormalMapSpace::Object}};
 inline constexpr std::array kTangentMethods = {Named<TangentMethod>{"mikktspace", TangentMethod::MikkTSpace},
                                                Named<TangentMethod>{"lengyel", TangentMethod::Lengyel}};
-inline constexpr std::array kLightTypes = {Named<LightType>{"directional", LightType::Directional},
-                                           Named<LightType>{"point", LightType::Point},
-                                           Named<LightType>{"spot", LightType::Spot}};
+inline constexpr auto kLightTypes = [] {
+    std::array<Named<LightType>, kLightTypeCount> names;
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = {lightTypes()[i].name, lightTypes()[i].type};
+    return names;
+}();
 inline constexpr std::array kFalloffs = {Named<Falloff>{"inverse_square", Falloff::InverseSquare},
                                          Named<Falloff>{"attenuation", Falloff::Attenuation}};
 inline constexpr std::array kAnimations = {Named<LightAnimationKind>{"orbit", LightAnimationKind::Orbit},

@@ -58,16 +58,17 @@ Json byKeys(const Light& light) {
     if (!light.enabled) json["enabled"] = false;
     json["color"] = numbers(light.color);
     json["intensity"] = number(light.intensity);
-    if (light.type != LightType::Directional) {
+    const LightTypeInfo& info = infoOf(light.type);
+    if (info.hasPosition()) {
         json["position"] = numbers(light.positionWS);
         const bool isDefault = light.falloff == Falloff::InverseSquare && std::isinf(light.rangeMetres);
         if (!isDefault) json["falloff"] = falloffJson(light);
         if (light.animation) json["animation"] = animationJson(*light.animation);
     }
-    if (light.type != LightType::Point) json["direction"] = numbers(light.directionWS);
-    if (light.type == LightType::Spot) {
-        json["innerDegrees"] = degreesOf(light.innerConeRadians);
-        json["outerDegrees"] = degreesOf(light.outerConeRadians);
+    if (info.hasDirection) json["direction"] = numbers(light.directionWS);
+    for (const LightParameter& parameter : info.parameters) {
+        const float value = light.*parameter.member;
+        json[parameter.key] = parameter.kind == LightParameter::Kind::Angle ? degreesOf(value) : number(value);
     }
     return json;
 }

@@ -4,12 +4,11 @@
 // 64 KiB limit.
 #include "interop.h"
 
-// Kinds, stored as plain numbers: small integers stored as float bits would be denormals, which hardware may flush.
-#define LIGHT_POINT 0
-#define LIGHT_DIRECTIONAL 1
-#define LIGHT_SPOT 2
-#define LIGHT_ATTENUATION 4 // added to point or spot: falloff by A + B d + C d^2
-#define LIGHT_BROAD 8       // added to spot: the outer angle is between 60 and 120 degrees
+// Kinds, stored as plain numbers: small integers stored as float bits would be denormals, which hardware may flush. The
+// type is that of scenes::LightType, in shaders LIGHT_<NAME> (scenes/Light.h).
+#define LIGHT_TYPE_MASK 15
+#define LIGHT_ATTENUATION 16 // added where there is a position: falloff by A + B d + C d^2
+#define LIGHT_BROAD 32       // added to a cone: the outer angle is between 60 and 120 degrees
 
 #define LIGHT_TEXELS 2
 #define LIGHT_SHAPE_TEXELS 2
@@ -18,28 +17,31 @@ SHARED_BEGIN
 
 // The data of every kind of light. Kept apart from data of few kinds, so that twice as many lights fit a cache.
 struct LightTexels {
-    vec4 position; // xyz position LS in metres (directional: unit direction to the light); w 1/range^2, 0 when infinite
+    vec4 position; // xyz position LS in metres (types without one: unit direction to the light); w 1/range^2, 0 when
+                   // infinite
     vec4 color;    // rgb colour x intensity; w kind
 };
 
-// Further data of spot lights and of the falloff by A B C. With l the unit direction to the light, a spot's cone is
+// What types with a shape (LightTypeInfo::hasShape) and the falloff by A B C need besides: the direction in which the
+// light travels and two parameters, or a cone. With l the unit direction to the light, a cone is
 //   clamp(offset - weight |l + axis|^2, 0, 1), or clamp(offset - weight l.axis, 0, 1) where the kind has LIGHT_BROAD.
 // Both are (cos angle - cos outer) x scale, scale = 1/max(0.001, cos inner - cos outer): with a the unit direction in
 // which the light travels, |l + a|^2 / 2 = 1 - cos angle. Cosines of small angles share their leading digits; this
 // difference keeps its own.
 struct LightShapeTexels {
-    vec4 axis;        // spot: xyz a LS, or -a where cos outer <= -0.5; w weight: scale/2, -scale/2, broad: scale
-    vec4 attenuation; // xyz A, B, C; w offset: (1 - cos outer) x scale, -(1 + cos outer) x scale, broad: -cos outer x
-                      // scale
+    vec4 axis;        // xyz a LS, w first parameter; cone: -a where cos outer <= -0.5, w weight: scale/2, -scale/2,
+                      // broad: scale
+    vec4 attenuation; // xyz A, B, C; w second parameter; cone: offset: (1 - cos outer) x scale, -(1 + cos outer) x
+                      // scale, broad: -cos outer x scale
 };
 
-// The unit direction in which a spot light travels.
-SHARED_FUNCTION vec3 spotTravel(LightShapeTexels shape) {
+// The unit direction in which the light of a cone travels.
+SHARED_FUNCTION vec3 coneTravel(LightShapeTexels shape) {
     return vec3(shape.axis) * (shape.axis.w > 0.0f ? 1.0f : -1.0f);
 }
 
-// The cosine of a spot's outer angle, to some roundings of one.
-SHARED_FUNCTION float spotCosOuter(int kind, LightShapeTexels shape) {
+// The cosine of a cone's outer angle, to some roundings of one.
+SHARED_FUNCTION float coneCosOuter(int kind, LightShapeTexels shape) {
     float share = shape.attenuation.w / shape.axis.w;
     if ((kind & LIGHT_BROAD) != 0) return -share;
     return shape.axis.w > 0.0f ? 1.0f - 0.5f * share : 0.5f * share - 1.0f;

@@ -23,7 +23,7 @@ struct TrueLight {
     bool fallsOffByABC = false;
     glm::dvec3 attenuation{0.0}; ///< A B C, times the tolerance
     double brightest = 0.0;      ///< channel of colour x intensity
-    bool isSpot = false;
+    bool isCone = false;
     glm::dvec3 directionWS{0.0};
     double cosOuter = -1.0;
 };
@@ -32,7 +32,7 @@ struct TrueLight {
 struct EndlessLight {
     int sceneLight = 0;
     glm::dvec4 placeWS{0.0}; ///< homogeneous: its position, or with w = 0 the direction that it comes from
-    bool isSpot = false;
+    bool isCone = false;
     glm::dvec3 directionWS{0.0};
     double cosOuter = -1.0;
 };
@@ -42,10 +42,10 @@ struct TrueLights {
     std::vector<EndlessLight> everywhere;
 };
 
-/// Directional lights, and those whose falloff never ends: without a range, or of A B C where no tolerance ends it or
-/// only A is not 0.
+/// Lights without a position, and those whose falloff never ends: without a range, or of A B C where no tolerance ends
+/// it or only A is not 0.
 bool reachesEverywhere(const scenes::Light& light, double rangeTolerance) {
-    if (light.type == scenes::LightType::Directional) return true;
+    if (!scenes::infoOf(light.type).hasPosition()) return true;
     if (light.falloff == scenes::Falloff::InverseSquare) return std::isinf(light.rangeMetres);
     return rangeTolerance == 0.0 || (light.attenuation.y == 0.0f && light.attenuation.z == 0.0f);
 }
@@ -56,12 +56,13 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
         const scenes::Light light = scenes::lightAtTime(scene.lights[i], settings.timeSeconds);
         if (!light.enabled || (settings.soloLight && *settings.soloLight != int(i))) continue;
         if (glm::dvec3(light.color) * double(light.intensity) == glm::dvec3(0.0)) continue;
-        const bool isSpot = light.type == scenes::LightType::Spot;
-        if (isSpot && !(light.outerConeRadians > 0.0f)) continue;
+        const scenes::LightReach reach = scenes::infoOf(light.type).reach;
+        const bool isCone = reach == scenes::LightReach::Cone;
+        if (isCone && !(light.outerConeRadians > 0.0f)) continue;
         if (reachesEverywhere(light, settings.rangeTolerance)) {
-            const bool isFar = light.type == scenes::LightType::Directional;
+            const bool isFar = reach == scenes::LightReach::Everywhere;
             lights.everywhere.push_back(
-                {int(i), isFar ? glm::dvec4(-light.directionWS, 0.0) : glm::dvec4(light.positionWS, 1.0), isSpot,
+                {int(i), isFar ? glm::dvec4(-light.directionWS, 0.0) : glm::dvec4(light.positionWS, 1.0), isCone,
                  light.directionWS, std::cos(double(light.outerConeRadians))});
             continue;
         }
@@ -76,7 +77,7 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
         const glm::dvec3 color = glm::dvec3(light.color) * double(light.intensity);
         // Colours are held to 1e30 (docs/numerics.md).
         plain.brightest = std::min(std::max({color.r, color.g, color.b}), 1e30);
-        plain.isSpot = isSpot;
+        plain.isCone = isCone;
         plain.directionWS = light.directionWS;
         plain.cosOuter = std::cos(double(light.outerConeRadians));
         lights.finite.push_back(plain);
@@ -87,7 +88,7 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
 /// Whether a point lies in a light's cone; everywhere where it has none. `toLight` is of any length.
 template <class Light>
 bool isInCone(const Light& light, const glm::dvec3& toLight) {
-    return !light.isSpot || glm::dot(-toLight, light.directionWS) > light.cosOuter * glm::length(toLight);
+    return !light.isCone || glm::dot(-toLight, light.directionWS) > light.cosOuter * glm::length(toLight);
 }
 
 bool reaches(const TrueLight& light, const glm::dvec3& positionWS, double squaredDistance) {

@@ -20,18 +20,20 @@ shared::LightTexels floorLight(int kind, int index, int count) {
     const glm::dvec3 position(radius * std::cos(angle), radius * std::sin(angle), 0.0);
     shared::LightTexels light{};
     light.position = glm::vec4(glm::vec3(position), float(1.0 / (kRangeMetres * kRangeMetres)));
-    // The eye looks along -z.
-    if (kind == LIGHT_DIRECTIONAL)
-        light.position = glm::vec4(glm::vec3(glm::normalize(position + glm::dvec3(0.0, 0.0, 5.0))), 0.0f);
     light.color = glm::vec4(1.0f, 0.8f, 0.6f, float(kind));
+    // The eye looks along -z.
+    if (!scenes::infoOf(frame::typeOf(light)).hasPosition())
+        light.position = glm::vec4(glm::vec3(glm::normalize(position + glm::dvec3(0.0, 0.0, 5.0))), 0.0f);
     return light;
 }
 
-/// A cone of full intensity everywhere ahead (cos inner 0, cos outer -1), and a mild falloff.
-shared::LightShapeTexels floorLightShape() {
+/// A cone of full intensity everywhere ahead (cos inner 0, cos outer -1), or parameters of 1 in that direction; and a
+/// mild falloff.
+shared::LightShapeTexels floorLightShape(scenes::LightType type) {
+    const bool isCone = scenes::infoOf(type).reach == scenes::LightReach::Cone;
     shared::LightShapeTexels shape{};
-    shape.axis = glm::vec4(0.0f, 0.0f, 1.0f, -0.5f);
-    shape.attenuation = glm::vec4(1.0f, 0.1f, 0.01f, 0.0f);
+    shape.axis = isCone ? glm::vec4(0.0f, 0.0f, 1.0f, -0.5f) : glm::vec4(0.0f, 0.0f, -1.0f, 1.0f);
+    shape.attenuation = glm::vec4(1.0f, 0.1f, 0.01f, isCone ? 0.0f : 1.0f);
     return shape;
 }
 
@@ -41,14 +43,14 @@ frame::PackedLights floorLights(const frame::PackedLights& like, int count) {
     frame::PackedLights lights;
     lights.features = like.features;
     const std::size_t known = like.texels.size();
-    if (known == 0) lights.features.add(frame::Feature::PointLights);
+    if (known == 0) lights.features.add(frame::featureOf(scenes::LightType::Point));
     for (int i = 0; i < count; ++i) {
         // When there are fewer than `count`, the same ones in turn; else evenly spaced ones.
         const std::size_t chosen = known < std::size_t(count) ? std::size_t(i) % std::max<std::size_t>(known, 1)
                                                               : std::size_t(i) * known / std::size_t(count);
-        const int kind = known == 0 ? LIGHT_POINT : int(like.texels[chosen].color.w) & ~LIGHT_BROAD;
+        const int kind = known == 0 ? int(scenes::LightType::Point) : int(like.texels[chosen].color.w) & ~LIGHT_BROAD;
         lights.texels.push_back(floorLight(kind, i, count));
-        lights.shapes.push_back(floorLightShape());
+        lights.shapes.push_back(floorLightShape(frame::typeOf(lights.texels.back())));
     }
     return lights;
 }

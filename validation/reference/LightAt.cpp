@@ -1,6 +1,7 @@
 #include "validation/reference/LightAt.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -39,10 +40,46 @@ double coneWindow(const scenes::Light& light, double cosAngle) {
     return open * open;
 }
 
+// ---- Types ---------------------------------------------------------------------------------------------------------
+
+Incident directional(const ShiningLight& shining, const glm::dvec3&) {
+    return {-shining.light.directionWS, shining.color};
+}
+
+/// What one with a position sends by its falloff and range, in any direction.
+Incident point(const ShiningLight& shining, const glm::dvec3& positionRel) {
+    const scenes::Light& light = shining.light;
+    const glm::dvec3 toLight = shining.positionRel - positionRel;
+    const double distance = glm::length(toLight);
+    const double window = rangeWindow(distance, shining.rangeMetres);
+    if (window == 0.0 || distance == 0.0) return {};
+    const double fading = light.falloff == Falloff::Attenuation ? attenuationAt(light, distance) : distance * distance;
+    return {toLight / distance, shining.color * (window / std::max(fading, kSmallestSquaredDistance))};
+}
+
+Incident spot(const ShiningLight& shining, const glm::dvec3& positionRel) {
+    Incident incident = point(shining, positionRel);
+    incident.intensity *= coneWindow(shining.light, -glm::dot(incident.toLight, shining.light.directionWS));
+    return incident;
+}
+
+struct Type {
+    LightType type;
+    Incident (*at)(const ShiningLight& shining, const glm::dvec3& positionRel);
+};
+constexpr std::array kTypes{Type{LightType::Directional, directional}, Type{LightType::Point, point},
+                            Type{LightType::Spot, spot}};
+consteval bool isInOrder() {
+    for (std::size_t i = 0; i < kTypes.size(); ++i)
+        if (kTypes[i].type != LightType(i)) return false;
+    return kTypes.size() == scenes::kLightTypeCount;
+}
+static_assert(isInOrder(), "a function for every light type, in their order");
+
 } // namespace
 
 double rangeOf(const scenes::Light& light, double brightest, double rangeTolerance) {
-    if (light.type == LightType::Directional) return kEndless;
+    if (!scenes::infoOf(light.type).hasPosition()) return kEndless;
     if (light.falloff == Falloff::InverseSquare) return double(light.rangeMetres);
     if (rangeTolerance == 0.0 || (light.attenuation.y == 0.0f && light.attenuation.z == 0.0f)) return kEndless;
     const auto isAbove = [&](double metres) { return brightest > rangeTolerance * attenuationAt(light, metres); };
@@ -76,17 +113,7 @@ std::vector<ShiningLight> shiningLights(const scenes::Scene& scene, const Settin
 }
 
 Incident incidentAt(const ShiningLight& shining, const glm::dvec3& positionRel) {
-    const scenes::Light& light = shining.light;
-    if (light.type == LightType::Directional) return {-light.directionWS, shining.color};
-    const glm::dvec3 toLight = shining.positionRel - positionRel;
-    const double distance = glm::length(toLight);
-    const double window = rangeWindow(distance, shining.rangeMetres);
-    if (window == 0.0 || distance == 0.0) return {};
-    const double fading = light.falloff == Falloff::Attenuation ? attenuationAt(light, distance) : distance * distance;
-    Incident incident{toLight / distance, shining.color * (window / std::max(fading, kSmallestSquaredDistance))};
-    if (light.type == LightType::Spot)
-        incident.intensity *= coneWindow(light, -glm::dot(incident.toLight, light.directionWS));
-    return incident;
+    return kTypes[std::size_t(shining.light.type)].at(shining, positionRel);
 }
 
 } // namespace tessera::reference

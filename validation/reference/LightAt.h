@@ -22,7 +22,7 @@ struct Incident {
 
 std::vector<ShiningLight> shiningLights(const scenes::Scene& scene, const Settings& settings, const glm::dvec3& eyeWS);
 
-/// The irradiance of a light at a point, by its falloff, range window and cone.
+/// The irradiance of a light at a point, by its type, falloff and range window.
 Incident incidentAt(const ShiningLight& shining, const glm::dvec3& positionRel);
 
 /// Where a light ends. With Falloff::Attenuation a tolerance above 0 ends it where its brightest channel has fallen to

@@ -45,7 +45,7 @@ struct Cone {
 };
 
 Cone coneOf(const Light& light, const glm::dvec3& positionWS) {
-    if (light.type != LightType::Spot) return {};
+    if (scenes::infoOf(light.type).reach != scenes::LightReach::Cone) return {};
     constexpr double kRounding = 4.0 * 0x1p-24;
     const glm::dvec3 ray = glm::normalize(positionWS - light.positionWS);
     const double cosAngle = glm::dot(ray, light.directionWS),
@@ -66,15 +66,14 @@ Cone coneOf(const Light& light, const glm::dvec3& positionWS) {
 double scaleOf(const Light& light, const glm::dvec3& positionWS) {
     Light open = light;
     open.rangeMetres = scenes::kInfinity;
-    if (open.type == LightType::Spot) open.type = LightType::Point;
+    if (scenes::infoOf(open.type).hasPosition()) open.type = LightType::Point;
     const Cone cone = coneOf(light, positionWS);
     return (cone.factor + cone.condition / kLightTolerance) * truthAt(open, positionWS).intensity.x;
 }
 
 std::string describe(const Light& light, const glm::vec3& positionWS) {
-    constexpr const char* kTypes[] = {"directional", "point", "spot"};
     return fmt::format("{}, intensity {:g}, range {:g}, cone {:g} to {:g}, A B C {:g} {:g} {:g}, {:g} m away",
-                       kTypes[std::size_t(light.type)], light.intensity, light.rangeMetres, light.innerConeRadians,
+                       scenes::infoOf(light.type).name, light.intensity, light.rangeMetres, light.innerConeRadians,
                        light.outerConeRadians, light.attenuation.x, light.attenuation.y, light.attenuation.z,
                        glm::length(light.positionWS - glm::dvec3(positionWS)));
 }
@@ -105,7 +104,7 @@ void measure(StressBench& bench, const std::vector<Light>& lights, const std::ve
         figures.nan += bad.nan;
         figures.infinite += bad.infinite;
         // At the light itself there is no direction, and so no reflected light for any intensity.
-        if (light.type != LightType::Directional && light.positionWS == positionWS) {
+        if (scenes::infoOf(light.type).hasPosition() && light.positionWS == positionWS) {
             ++figures.undecided;
             continue;
         }
@@ -156,9 +155,9 @@ void measureDistances(StressBench& bench, StressFigures& figures) {
 void measureIntensities(StressBench& bench, StressFigures& figures) {
     std::vector<Light> lights;
     for (int exponent = -20; exponent <= 20; ++exponent) {
-        for (const LightType type : {LightType::Directional, LightType::Point, LightType::Spot}) {
+        for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
             lights.push_back(pointLight(float(std::pow(10.0, exponent))));
-            lights.back().type = type;
+            lights.back().type = type.type;
         }
     }
     everyLightAtEveryPoint(bench, lights, 12, figures);
@@ -205,6 +204,15 @@ void measureCones(StressBench& bench, StressFigures& figures) {
     measure(bench, lights, probes, figures);
 }
 
+/// Those of the light's type beside its cone, between their bounds.
+void drawOtherParameters(StressRandom& random, Light& light) {
+    for (const scenes::LightParameter& parameter : scenes::infoOf(light.type).parameters) {
+        if (parameter.member == &Light::innerConeRadians || parameter.member == &Light::outerConeRadians) continue;
+        const auto value = float(random.between(double(parameter.least), double(parameter.most)));
+        light.*parameter.member = parameter.kind == scenes::LightParameter::Kind::Angle ? glm::radians(value) : value;
+    }
+}
+
 void measureRandomLights(StressBench& bench, StressFigures& figures) {
     StressRandom random(15);
     std::vector<Light> lights;
@@ -212,7 +220,7 @@ void measureRandomLights(StressBench& bench, StressFigures& figures) {
     const std::size_t count = bench.effort() == StressEffort::Full ? 200000 : 20000;
     for (std::size_t i = 0; i < count; ++i) {
         Light light = pointLight(float(random.logarithmic(1e-20, 1e20)));
-        light.type = LightType(random.index(3));
+        light.type = LightType(random.index(int(scenes::kLightTypeCount)));
         light.falloff = Falloff(random.index(2));
         // Exact in fp32, so that both sides see one position.
         light.positionWS = glm::dvec3(glm::vec3(random.direction() * random.logarithmic(1e-3, 1e3)));
@@ -221,6 +229,7 @@ void measureRandomLights(StressBench& bench, StressFigures& figures) {
         light.attenuation = random.color() + glm::vec3(1e-3f);
         light.outerConeRadians = float(random.between(0.0, std::numbers::pi_v<float>));
         light.innerConeRadians = float(random.unit()) * light.outerConeRadians;
+        drawOtherParameters(random, light);
         lights.push_back(light);
         probes.push_back({glm::vec3(random.direction() * random.logarithmic(1e-3, 1e3)), i});
     }

@@ -9,14 +9,13 @@ namespace tessera::viewer {
 inline constexpr double kMostMetres = 1e9;  ///< of a place, either way: its square is finite in single precision
 inline constexpr double kMostSeconds = 1e9; ///< of time, either way: thirty years
 
-// Lights.
+// Lights; those of a type's parameters stand in scenes::lightTypes().
 inline constexpr float kMostLightColor = 1e6f;
 inline constexpr float kMostIntensity = 1e9f;   ///< in the light's own unit
 inline constexpr float kMostAttenuation = 1e6f; ///< of A, B and C
 inline constexpr float kLeastRangeMetres = 1e-3f;
 inline constexpr float kMostRangeMetres = 1e6f;
-inline constexpr float kMostConeDegrees = 90.0f; ///< from a cone's axis
-inline constexpr double kMostDirection = 1e9;    ///< of its components, either way, before it has unit length
+inline constexpr double kMostDirection = 1e9; ///< of its components, either way, before it has unit length
 
 // Materials; those of a model's parameters stand in scenes::materialModels().
 /// Of an emission. scenes::checkScene takes up to 1e30, but the float nearest to that lies above it; a tenth of it is

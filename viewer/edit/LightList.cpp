@@ -82,7 +82,7 @@ void placeLight(scenes::Light& light, double timeSeconds, const glm::dvec3& posi
 
 void moveLight(scenes::Light& light, double timeSeconds, const CameraPose& pose, const scenes::Camera& lens,
                const glm::dvec2& dragPixels, double heightPixels) {
-    if (light.type == scenes::LightType::Directional) return;
+    if (!scenes::infoOf(light.type).hasPosition()) return;
     const glm::dvec3 shownWS = scenes::lightAtTime(light, timeSeconds).positionWS;
     const double depthMetres = glm::dot(shownWS - pose.eyeWS, pose.heading.forwardWS());
     const double metres =
@@ -92,7 +92,7 @@ void moveLight(scenes::Light& light, double timeSeconds, const CameraPose& pose,
 }
 
 void orbitLight(scenes::Light& light, double radiusMetres, double periodSeconds, double timeSeconds) {
-    if (light.type == scenes::LightType::Directional) return;
+    if (!scenes::infoOf(light.type).hasPosition()) return;
     assert(radiusMetres > 0.0 && periodSeconds > 0.0);
     const double turns = timeSeconds / periodSeconds;
     scenes::LightAnimation animation;

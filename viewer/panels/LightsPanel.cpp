@@ -66,11 +66,13 @@ bool lightList(State& state, scenes::Scene& scene) {
 
 bool brightnessRows(scenes::Light& light) {
     bool changed = colorRow("Colour", light.color, kMostLightColor);
-    const char* unit = light.type == scenes::LightType::Directional ? "%.4g lx" : "%.4g cd";
+    const std::string format = light.falloff == scenes::Falloff::Attenuation
+                                   ? "%.4g"
+                                   : fmt::format("%.4g {}", scenes::infoOf(light.type).unit);
     row("Intensity");
     changed |= edit(light.intensity, 0.0f, kMostIntensity, [&](float& intensity) {
         return ImGui::DragFloat("##Intensity", &intensity, 0.01f * std::max(intensity, 0.01f), 0.0f, kMostIntensity,
-                                light.falloff == scenes::Falloff::Attenuation ? "%.4g" : unit);
+                                format.c_str());
     });
     return changed;
 }
@@ -106,11 +108,20 @@ bool rangeRow(scenes::Light& light) {
     return changed;
 }
 
-bool coneRows(scenes::Light& light) {
-    bool changed = angleSlider("Inner cone", light.innerConeRadians, 0.0f, kMostConeDegrees);
-    changed |= angleSlider("Outer cone", light.outerConeRadians, 0.0f, kMostConeDegrees);
-    if (changed) light.innerConeRadians = std::min(light.innerConeRadians, light.outerConeRadians);
-    return changed;
+bool parameterRows(scenes::Light& light) {
+    const std::span<const scenes::LightParameter> parameters = scenes::infoOf(light.type).parameters;
+    bool changed = false;
+    for (const scenes::LightParameter& parameter : parameters) {
+        float& value = light.*parameter.member;
+        changed |= parameter.kind == scenes::LightParameter::Kind::Angle
+                       ? angleSlider(parameter.label, value, parameter.least, parameter.most)
+                       : slider(parameter.label, value, parameter.least, parameter.most);
+    }
+    if (!changed) return false;
+    for (const scenes::LightParameter& parameter : parameters)
+        if (parameter.within != nullptr)
+            light.*parameter.member = std::min(light.*parameter.member, light.*parameter.within);
+    return true;
 }
 
 bool dragVector(const char* label, glm::dvec3& value, float speed, double most) {
@@ -123,14 +134,14 @@ bool dragVector(const char* label, glm::dvec3& value, float speed, double most) 
 
 bool placeRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres) {
     bool changed = false;
-    if (light.type != scenes::LightType::Directional) {
+    if (scenes::infoOf(light.type).hasPosition()) {
         glm::dvec3 positionWS = scenes::lightAtTime(light, timeSeconds).positionWS;
         if (dragVector("Position", positionWS, float(0.001 * sceneSizeMetres), kMostMetres)) {
             placeLight(light, timeSeconds, positionWS);
             changed = true;
         }
     }
-    if (light.type != scenes::LightType::Point) {
+    if (scenes::infoOf(light.type).hasDirection) {
         glm::dvec3 directionWS = light.directionWS;
         if (dragVector("Direction", directionWS, 0.01f, kMostDirection) && glm::length(directionWS) > 1e-3) {
             light.directionWS = glm::normalize(directionWS);
@@ -144,8 +155,8 @@ bool lightRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres)
     bool changed = chooseNamed("Type", light.type);
     changed |= brightnessRows(light);
     const bool isAttenuated = light.falloff == scenes::Falloff::Attenuation;
-    if (light.type != scenes::LightType::Directional) changed |= isAttenuated ? attenuationRow(light) : rangeRow(light);
-    if (light.type == scenes::LightType::Spot) changed |= coneRows(light);
+    if (scenes::infoOf(light.type).hasPosition()) changed |= isAttenuated ? attenuationRow(light) : rangeRow(light);
+    changed |= parameterRows(light);
     changed |= placeRows(light, timeSeconds, sceneSizeMetres);
     return changed;
 }
@@ -189,7 +200,7 @@ void timeRow(double& timeSeconds) {
 }
 
 bool animationRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres) {
-    if (light.type == scenes::LightType::Directional) return false;
+    if (!scenes::infoOf(light.type).hasPosition()) return false;
     row("Moves");
     bool moves = light.animation.has_value();
     if (!ImGui::Checkbox("by itself", &moves)) return false;

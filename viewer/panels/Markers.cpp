@@ -28,7 +28,7 @@ void drawMarkers(const State& state, const PictureArea& area, float scale) {
     list.PushClipRect({area.corner.x, area.corner.y}, {area.corner.x + area.size.x, area.corner.y + area.size.y});
     const auto mark = [&](std::size_t index, bool isSelected) {
         const scenes::Light light = scenes::lightAtTime(scene.lights[index], state.looks[0].settings.timeSeconds);
-        if (light.type == scenes::LightType::Directional) return;
+        if (!scenes::infoOf(light.type).hasPosition()) return;
         const auto place = projected(camera, state.pictureAspect, light.positionWS);
         if (!place) return;
         const glm::vec2 point = area.corner + glm::vec2(*place) * area.size;

@@ -29,7 +29,7 @@ int markedLight(const State& state, const PictureArea& area, const glm::vec2& po
     const auto isUnder = [&](int index) {
         const scenes::Light light =
             scenes::lightAtTime(scene.lights[std::size_t(index)], state.looks[0].settings.timeSeconds);
-        if (light.type == scenes::LightType::Directional) return false;
+        if (!scenes::infoOf(light.type).hasPosition()) return false;
         const auto place =
             projected(scene.cameras[std::size_t(state.open->camera())], state.pictureAspect, light.positionWS);
         return place && glm::distance(area.corner + glm::vec2(*place) * area.size, point) <= kMarkerReach;

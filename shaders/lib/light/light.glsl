@@ -9,7 +9,35 @@ struct Incident {
     vec3 intensity; // irradiance at normal incidence, L of the shading formulas; 0 where the light does not reach
 };
 
-// The light that arrives at positionLS from light `index`. False where its range or cone makes it exactly 0.
+// ---- Types: what share of the light of one with a position leaves in a direction, a function each. 0: exactly nothing.
+
+#if HAS_SPOT_LIGHTS
+// The cone of KHR_lights_punctual, in the form of LightShapeTexels.
+float spotShare(int kind, vec3 toLightLS, LightShapeTexels shape)
+{
+    precise vec3 beside = toLightLS + shape.axis.xyz;
+    precise float apart = (kind & LIGHT_BROAD) != 0 ? dot(toLightLS, shape.axis.xyz) : dot(beside, beside);
+    precise float cone = clamp(shape.attenuation.w - shape.axis.w * apart, 0.0, 1.0);
+    precise float share = cone * cone;
+    return share;
+}
+#endif
+
+#if HAS_LIGHT_SHAPES
+// By the light's type. A point light sends the same in every direction.
+float shareTowards(int index, int kind, vec3 toLightLS, vec4 attenuation)
+{
+    int type = kind & LIGHT_TYPE_MASK;
+#if HAS_SPOT_LIGHTS
+    if (type == LIGHT_SPOT) return spotShare(kind, toLightLS, LightShapeTexels(lightShapeTexel(index, 0), attenuation));
+#endif
+    return 1.0;
+}
+#endif
+
+// ---- What a light gives: one without a position the same everywhere; one with a position by falloff, range and its type.
+
+// The light that arrives at positionLS from light `index`. False where its range or type makes it exactly 0.
 bool incidentLight(int index, vec3 positionLS, out Incident incident)
 {
     vec4 place = lightTexel(index, 0);
@@ -18,16 +46,16 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
     incident.toLightLS = place.xyz;
     incident.intensity = color.rgb;
 #if HAS_DIRECTIONAL_LIGHTS
-    if (kind == LIGHT_DIRECTIONAL) return true;
+    if ((kind & LIGHT_TYPE_MASK) == LIGHT_DIRECTIONAL) return true;
 #endif
-#if HAS_POINT_LIGHTS || HAS_SPOT_LIGHTS
+#if HAS_PLACED_LIGHTS
     precise vec3 toLight = place.xyz - positionLS;
     precise float distance2 = dot(toLight, toLight);
     precise float reach = distance2 * place.w;
     if (!(reach < 1.0)) return false;
     precise float window = 1.0 - reach * reach;
     precise float falloff = (window * window) / max(distance2, 1e-4);
-#if HAS_ATTENUATION_LIGHTS || HAS_SPOT_LIGHTS
+#if HAS_LIGHT_SHAPES
     vec4 attenuation = vec4(0.0);
     if (kind != LIGHT_POINT) attenuation = lightShapeTexel(index, 1);
 #endif
@@ -40,15 +68,10 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
 #endif
     // At the light itself no direction is better than another; this one gives no NaN.
     precise vec3 direction = distance2 > 0.0 ? toLight / sqrt(distance2) : vec3(0.0);
-#if HAS_SPOT_LIGHTS
-    if ((kind & LIGHT_SPOT) != 0) {
-        vec4 axis = lightShapeTexel(index, 0);
-        precise vec3 beside = direction + axis.xyz;
-        precise float apart = (kind & LIGHT_BROAD) != 0 ? dot(direction, axis.xyz) : dot(beside, beside);
-        precise float cone = clamp(attenuation.w - axis.w * apart, 0.0, 1.0);
-        if (!(cone > 0.0)) return false;
-        falloff *= cone * cone;
-    }
+#if HAS_LIGHT_SHAPES
+    precise float share = shareTowards(index, kind, direction, attenuation);
+    if (!(share > 0.0)) return false;
+    falloff *= share;
 #endif
     precise vec3 intensity = color.rgb * falloff;
     incident.toLightLS = direction;

@@ -4,8 +4,6 @@
 #include "shared/slots.h"
 #include "shared/light.h"
 
-#define HAS_LIGHT_SHAPES (HAS_SPOT_LIGHTS || HAS_ATTENUATION_LIGHTS)
-
 #ifndef HAS_OTHER_LIGHT_STORE
 layout(binding = TEXTURE_UNIT_LIGHTS) uniform samplerBuffer lightTexels;
 

@@ -3,9 +3,9 @@
 // Every triangle is wound as a back face and lies at one depth, that of the farthest point the light reaches, so a test
 // that passes where the stored depth is nearer keeps the surfaces in front of it.
 //   sphere   a pyramid around its cone of view from the eye: an octagon around the visible circle, 1.055 times its area
-//   cone     for spot lights up to 84 degrees: a hull around cone and spherical cap, 1.055 (narrow) to 1.39 (84 degrees)
+//   cone     for cones up to 84 degrees: a hull around cone and spherical cap, 1.055 (narrow) to 1.39 (84 degrees)
 //            times their volume; of it the back faces are seen, also from inside
-//   screen   directional lights, lights without range, spheres that the eye is in, and what is vast beside the picture of
+//   screen   lights without position or range, spheres that the eye is in, and what is vast beside the picture of
 //            an orthographic camera
 #pragma once
 #include "lib/surface/camera.glsl"
@@ -78,7 +78,7 @@ vec4 sphereVertex(int vertex, vec3 centerLS, float radius)
     return vertexAtDepth(centerLS - toCenter * (sine * sine) + cornerAround(sight, side, radius * sqrt(cosine2)), depth);
 }
 
-#if HAS_SPOT_LIGHTS
+#if HAS_CONE_LIGHTS
 // A hull of revolution around a cone of half-angle a and reach r, and everything within `margin` of it. Its profile has a
 // ring behind the apex, one where the cone's side meets the plane that touches the cap at a / 2, and one where that plane
 // meets the plane that touches the cap at its pole.
@@ -144,13 +144,13 @@ vec4 lightVolumeVertex(int index, int vertex)
     float reach = inversesqrt(place.w);
     float margin = volumeMargin(place.xyz, reach);
     if (isVastInPicture(reach + margin)) return screenVertex(vertex, 0.0);
-#if HAS_SPOT_LIGHTS
+#if HAS_CONE_LIGHTS
     int kind = int(lightTexel(index, 1).w);
-    if ((kind & LIGHT_SPOT) != 0) {
+    if (IS_CONE_LIGHT(kind & LIGHT_TYPE_MASK)) {
         LightShapeTexels shape = LightShapeTexels(lightShapeTexel(index, 0), lightShapeTexel(index, 1));
-        float cosOuter = spotCosOuter(kind, shape) - CONE_COSINE_MARGIN;
+        float cosOuter = coneCosOuter(kind, shape) - CONE_COSINE_MARGIN;
         if (cosOuter > kWidestConeCosine)
-            return coneVertex(vertex, place.xyz, spotTravel(shape), cosOuter, reach, margin);
+            return coneVertex(vertex, place.xyz, coneTravel(shape), cosOuter, reach, margin);
     }
 #endif
     return sphereVertex(vertex, place.xyz, reach + margin);

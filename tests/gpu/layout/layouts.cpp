@@ -144,7 +144,7 @@ TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexelOfEveryStore) {
         for (glm::vec4* member : {&lights.texels[i].position, &lights.texels[i].color, &lights.shapes[i].axis,
                                   &lights.shapes[i].attenuation})
             for (int k = 0; k < 4; ++k) (*member)[k] = next++;
-    lights.features.add(frame::Feature::SpotLights);
+    lights.features.add(frame::featureOf(scenes::LightType::Spot));
     const frame::LightBuffers buffers(lights);
     buffers.bind();
     const gpu::Buffer texels = gpu::Buffer::of("lights", lights.texels);
@@ -155,13 +155,9 @@ TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexelOfEveryStore) {
     gpu::bindStorageBuffer(STORAGE_LIGHT_SHAPES, shapes);
     for (const char* store : {"LIGHT_STORE_TEXEL", "LIGHT_STORE_UNIFORM", "LIGHT_STORE_STORAGE"}) {
         SCOPED_TRACE(store);
-        const shader::Defines spots{{"HAS_DIRECTIONAL_LIGHTS", "0"},
-                                    {"HAS_POINT_LIGHTS", "0"},
-                                    {"HAS_SPOT_LIGHTS", "1"},
-                                    {"HAS_ATTENUATION_LIGHTS", "0"},
-                                    {"LIGHT_STORE", store}};
+        const shader::Defines defines{{"HAS_LIGHT_SHAPES", "1"}, {"LIGHT_STORE", store}};
         const std::vector<glm::vec4> out =
-            bench.run("test/light_texels.comp", spots, {glm::vec4(0.0f)}, lights.texels.size(), 4);
+            bench.run("test/light_texels.comp", defines, {glm::vec4(0.0f)}, lights.texels.size(), 4);
         for (std::size_t i = 0; i < lights.texels.size(); ++i) {
             EXPECT_EQ(out[4 * i], lights.texels[i].position);
             EXPECT_EQ(out[4 * i + 1], lights.texels[i].color);

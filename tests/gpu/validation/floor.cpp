@@ -21,9 +21,10 @@ using validation::FloorLighting;
 /// One light of every kind.
 frame::PackedLights everyKind() {
     frame::PackedLights lights;
-    for (const int kind :
-         {LIGHT_POINT, LIGHT_DIRECTIONAL, LIGHT_SPOT, LIGHT_POINT | LIGHT_ATTENUATION, LIGHT_SPOT | LIGHT_ATTENUATION})
-        lights.texels.emplace_back().color.w = float(kind);
+    for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
+        lights.texels.emplace_back().color.w = float(int(type.type));
+        if (type.hasPosition()) lights.texels.emplace_back().color.w = float(int(type.type) | LIGHT_ATTENUATION);
+    }
     return lights;
 }
 
@@ -63,7 +64,8 @@ protected:
         return result;
     }
     static frame::PackedLights lightsOf(const frame::FrameSpec& spec, int count) {
-        if (spec.features[frame::Feature::SpotLights]) return validation::floorLights(everyKind(), count);
+        if (spec.features[frame::featureOf(scenes::LightType::Spot)])
+            return validation::floorLights(everyKind(), count);
         return validation::floorLights({}, count);
     }
     static std::vector<float> draw(FloorLighting& lighting, const validation::LightStoreInfo& store) {

@@ -118,10 +118,10 @@ TEST(Features, aFeatureIsInTheSetExactlyWhenAMaterialInUseNeedsIt) {
 }
 
 TEST(Features, everyFeatureOfMaterialsAlwaysHasASceneWithItAndOneWithout) {
-    std::set<Feature> tested{
-        featureOf(MaterialModel::Lambert), Feature::DirectionalLights, Feature::PointLights, Feature::SpotLights,
-        Feature::AttenuationLights, // the lights' are packLights' business
-        Feature::OrthographicCamera};
+    std::set<Feature> tested{featureOf(MaterialModel::Lambert),
+                             Feature::AttenuationLights, // the lights' are packLights' business
+                             Feature::OrthographicCamera};
+    for (const scenes::LightTypeInfo& type : scenes::lightTypes()) tested.insert(featureOf(type.type));
     for (const Change& change : changes()) tested.insert(change.feature);
     EXPECT_EQ(tested.size(), kFeatureCount);
 }

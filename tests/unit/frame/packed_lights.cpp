@@ -41,15 +41,15 @@ TEST(PackedLights, everyKindIsAlwaysPackedAsItsShaderReadsIt) {
     ASSERT_EQ(packed.texels.size(), 5u);
     EXPECT_THAT(packed.sceneIndex, ElementsAre(0, 1, 2, 3, 4));
     EXPECT_EQ(packed.texels[0].position, glm::vec4(0, 0, 1, 0)); // towards the light, which travels along -z
-    EXPECT_EQ(packed.texels[0].color.w, float(LIGHT_DIRECTIONAL));
+    EXPECT_EQ(packed.texels[0].color.w, float(int(LightType::Directional)));
     EXPECT_EQ(packed.texels[1].position, glm::vec4(0, 0, -5, 0)); // no range: 1/range^2 is 0
-    EXPECT_EQ(packed.texels[1].color.w, float(LIGHT_POINT));
+    EXPECT_EQ(packed.texels[1].color.w, float(int(LightType::Point)));
     EXPECT_NEAR(packed.texels[2].position.w, 1.0f / 16.0f, 1e-6f); // rounded up by up to 1e-6 of itself
     EXPECT_GE(packed.texels[2].position.w, 1.0f / 16.0f);
     EXPECT_EQ(glm::vec3(packed.texels[2].color), glm::vec3(8.0f, 4.0f, 2.0f));
-    EXPECT_EQ(packed.texels[3].color.w, float(LIGHT_SPOT));
+    EXPECT_EQ(packed.texels[3].color.w, float(int(LightType::Spot)));
     EXPECT_EQ(glm::vec3(packed.shapes[3].axis), glm::vec3(0, 0, -1));
-    EXPECT_EQ(packed.texels[4].color.w, float(LIGHT_SPOT | LIGHT_ATTENUATION));
+    EXPECT_EQ(packed.texels[4].color.w, float(int(LightType::Spot) | LIGHT_ATTENUATION));
     EXPECT_EQ(glm::vec3(packed.shapes[4].attenuation), glm::vec3(1, 2, 3));
     EXPECT_EQ(packed.texels[4].position.w, 0.0f);
 }
@@ -65,8 +65,8 @@ TEST(PackedLights, theConeIsAlwaysScaledFromOneInsideToZeroOutside) {
             (kind & LIGHT_BROAD) != 0 ? glm::dot(toLight, axis) : glm::dot(toLight + axis, toLight + axis);
         return double(shape.attenuation.w) - double(shape.axis.w) * apart;
     };
-    EXPECT_NEAR(cone(LIGHT_SPOT, packed, 0.3), 1.0, 1e-6); // fp32 weight and offset of order one
-    EXPECT_NEAR(cone(LIGHT_SPOT, packed, 0.9), 0.0, 1e-6);
+    EXPECT_NEAR(cone(int(LightType::Spot), packed, 0.3), 1.0, 1e-6); // fp32 weight and offset of order one
+    EXPECT_NEAR(cone(int(LightType::Spot), packed, 0.9), 0.0, 1e-6);
     spot.innerConeRadians = spot.outerConeRadians; // a hard edge is held at KHR_lights_punctual's least width
     EXPECT_EQ(pack({spot}).shapes.at(0).axis.w, 500.0f);
     // From a laser's to all but a ray, each to the digits of its difference, not of cosines near one.
@@ -80,8 +80,8 @@ TEST(PackedLights, theConeIsAlwaysScaledFromOneInsideToZeroOutside) {
         const double angle = double(spot.outerConeRadians), cosine = std::cos(angle);
         const double fromPole = std::min(1.0 - cosine, 1.0 + cosine);
         EXPECT_NEAR(cone(kind, one, angle), 0.0, 3e-7 * fromPole * 2.0 * std::abs(double(one.axis.w)) + 1e-12);
-        EXPECT_NEAR(shared::spotCosOuter(kind, one), cosine, 2e-7);
-        EXPECT_EQ(shared::spotTravel(one), glm::vec3(0, 0, -1));
+        EXPECT_NEAR(shared::coneCosOuter(kind, one), cosine, 2e-7);
+        EXPECT_EQ(shared::coneTravel(one), glm::vec3(0, 0, -1));
     }
 }
 
@@ -98,10 +98,10 @@ TEST(PackedLights, theSetAlwaysHoldsExactlyTheKindsThatWerePacked) {
     };
     EXPECT_EQ(features({}), only({}));
     EXPECT_EQ(features({off}), only({}));
-    EXPECT_EQ(features({light(LightType::Directional)}), only({Feature::DirectionalLights}));
-    EXPECT_EQ(features({light(LightType::Point)}), only({Feature::PointLights}));
-    EXPECT_EQ(features({light(LightType::Spot)}), only({Feature::SpotLights}));
-    EXPECT_EQ(features({attenuated}), only({Feature::PointLights, Feature::AttenuationLights}));
+    EXPECT_EQ(features({light(LightType::Directional)}), only({featureOf(LightType::Directional)}));
+    EXPECT_EQ(features({light(LightType::Point)}), only({featureOf(LightType::Point)}));
+    EXPECT_EQ(features({light(LightType::Spot)}), only({featureOf(LightType::Spot)}));
+    EXPECT_EQ(features({attenuated}), only({featureOf(LightType::Point), Feature::AttenuationLights}));
 }
 
 TEST(PackedLights, offDarkAndUnseenLightsAreLeftOutExactlyWhenPruning) {

@@ -135,9 +135,9 @@ TEST(CheckScene, eachBrokenRuleIsAlwaysReported) {
          [](Scene& s) {
              s.lights[0].attenuation = {1.0f, -1.0f, 0.0f};
          }},
-        {"cones", [](Scene& s) { s.lights[0].innerConeRadians = 1.0f; }},
-        {"cones", [](Scene& s) { s.lights[0].outerConeRadians = 3.2f; }},
-        {"cones", [](Scene& s) { s.lights[0].innerConeRadians = -0.1f; }},
+        {"inner cone is wider than the outer", [](Scene& s) { s.lights[0].innerConeRadians = 1.0f; }},
+        {"outer cone must be between 0", [](Scene& s) { s.lights[0].outerConeRadians = 3.2f; }},
+        {"inner cone must be between 0", [](Scene& s) { s.lights[0].innerConeRadians = -0.1f; }},
         {"period", [](Scene& s) { s.lights[0].animation.emplace().periodSeconds = 0.0; }},
         {"axis of its orbit", [](Scene& s) { s.lights[0].animation.emplace().axisWS = glm::dvec3(0.0); }},
         {"two points", [](Scene& s) { s.lights[0].animation.emplace().kind = LightAnimationKind::Path; }},

@@ -8,6 +8,9 @@
 namespace tessera::validation {
 namespace {
 
+constexpr int kPoint = int(scenes::LightType::Point), kSpot = int(scenes::LightType::Spot),
+              kDirectional = int(scenes::LightType::Directional);
+
 frame::PackedLights ofKinds(std::initializer_list<int> kinds) {
     frame::PackedLights lights;
     for (const int kind : kinds) lights.texels.emplace_back().color.w = float(kind);
@@ -22,19 +25,19 @@ std::map<int, int> countsOf(const frame::PackedLights& lights) {
 
 TEST(FloorLights, kindsAlwaysComeInTheSharesOfTheScene) {
     using Counts = std::map<int, int>;
-    EXPECT_EQ(countsOf(floorLights({}, 96)), (Counts{{LIGHT_POINT, 96}}));
-    EXPECT_EQ(countsOf(floorLights(ofKinds({LIGHT_SPOT, LIGHT_POINT, LIGHT_DIRECTIONAL, LIGHT_POINT}), 96)),
-              (Counts{{LIGHT_POINT, 48}, {LIGHT_SPOT, 24}, {LIGHT_DIRECTIONAL, 24}}));
+    EXPECT_EQ(countsOf(floorLights({}, 96)), (Counts{{kPoint, 96}}));
+    EXPECT_EQ(countsOf(floorLights(ofKinds({kSpot, kPoint, kDirectional, kPoint}), 96)),
+              (Counts{{kPoint, 48}, {kSpot, 24}, {kDirectional, 24}}));
     // Three quarters of a long list.
     frame::PackedLights many;
     many.texels.resize(1000);
-    for (std::size_t i = 0; i < 750; ++i) many.texels[i].color.w = float(LIGHT_SPOT);
-    EXPECT_EQ(countsOf(floorLights(many, 32)), (Counts{{LIGHT_SPOT, 24}, {LIGHT_POINT, 8}}));
+    for (std::size_t i = 0; i < 1000; ++i) many.texels[i].color.w = float(i < 750 ? kSpot : kPoint);
+    EXPECT_EQ(countsOf(floorLights(many, 32)), (Counts{{kSpot, 24}, {kPoint, 8}}));
 }
 
 TEST(FloorLights, aListIsNeverLongerOrShorterThanAskedFor) {
     for (const int count : {0, 1, 31, 256})
-        EXPECT_EQ(floorLights(ofKinds({LIGHT_SPOT}), count).texels.size(), std::size_t(count));
+        EXPECT_EQ(floorLights(ofKinds({kSpot}), count).texels.size(), std::size_t(count));
 }
 
 TEST(FloorFigures, theFloorIsExactlyGeometryPlusEvaluationsOfTheFastestStore) {

@@ -57,7 +57,13 @@ scenes::Light lightAtBounds(bool isMost) {
     light.directionWS = glm::normalize(glm::dvec3(isMost ? kMostDirection : -kMostDirection));
     light.rangeMetres = isMost ? kMostRangeMetres : kLeastRangeMetres;
     light.attenuation = isMost ? glm::vec3(kMostAttenuation) : glm::vec3(1.0f, 0.0f, 0.0f); // never all 0
-    light.innerConeRadians = light.outerConeRadians = isMost ? glm::radians(kMostConeDegrees) : 0.0f;
+    for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
+        for (const scenes::LightParameter& parameter : type.parameters) {
+            const float bound = isMost ? parameter.most : parameter.least;
+            light.*parameter.member =
+                parameter.kind == scenes::LightParameter::Kind::Angle ? glm::radians(bound) : bound;
+        }
+    }
     return light;
 }
 

@@ -39,9 +39,9 @@ void edit(Scene& scene) {
         if (scene.images.empty()) scene.materials[i].textures = {};
     }
     if (!scene.lights.empty()) scene.lights.erase(scene.lights.begin());
-    for (const LightType type : {LightType::Directional, LightType::Point, LightType::Spot})
+    for (const LightTypeInfo& type : lightTypes())
         for (const Falloff falloff : {Falloff::InverseSquare, Falloff::Attenuation})
-            scene.lights.push_back(edits.light(type, falloff));
+            scene.lights.push_back(edits.light(type.type, falloff));
     scene.cameras.front().worldFromCamera[3] = glm::dvec4(edits.point(), 1.0);
     Camera plan = scene.cameras.front();
     plan.projection = Projection::Orthographic;
@@ -118,12 +118,12 @@ TEST(SceneText, everyLightIsAlwaysLoadedBackIdenticallyWithWhatItsTypeDoesNotUse
     Bust bust;
     Edits edits(1);
     bust.scene.lights.clear();
-    for (const LightType type : {LightType::Directional, LightType::Point, LightType::Spot})
+    for (const LightTypeInfo& type : lightTypes())
         for (const Falloff falloff : {Falloff::InverseSquare, Falloff::Attenuation}) {
-            bust.scene.lights.push_back(edits.light(type, falloff));
+            bust.scene.lights.push_back(edits.light(type.type, falloff));
             for (const LightAnimationKind kind : {LightAnimationKind::Orbit, LightAnimationKind::Wobble,
                                                   LightAnimationKind::Path, LightAnimationKind::Keyframes})
-                bust.scene.lights.emplace_back(edits.light(type, falloff)).animation = edits.animation(kind);
+                bust.scene.lights.emplace_back(edits.light(type.type, falloff)).animation = edits.animation(kind);
         }
     Light wide = edits.light(LightType::Spot, Falloff::InverseSquare);
     wide.outerConeRadians = 3.0f; // the keys end at a right angle
@@ -260,7 +260,7 @@ TEST(SceneText, whatCannotBeWrittenAlwaysSaysWhy) {
     bust.scene.lights.front().name = "lamp";
     bust.scene.lights.front().intensity = -1.0f;
     EXPECT_EQ(inputErrorOf([&] { sceneText(bust.scene, bust.origin, "a.json"); }),
-              "scene 'bust': light 0 'lamp': its intensity must be finite and not negative");
+              "scene 'bust': light 0 'lamp': the intensity must be finite and not negative");
 }
 
 TEST(SceneTextNumber, everyFloatIsAlwaysReadBackToTheLastBitFromFewDigits) {

@@ -1,0 +1,202 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scenes/Material.h"
+
+/// Lights as plain data, their members as a table, and their types as a table. Everything that names a type or one of
+/// its parameters follows the two: scene files, checks, fingerprints, the viewer, the shaders' defines, packing,
+/// culling.
+namespace tessera::scenes {
+
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// lightTypes() says what each of them has.
+enum class LightType : std::uint8_t {
+    Directional, ///< from far away, everywhere along its direction
+    Point,       ///< from its position, alike in all directions
+    Spot,        ///< from its position, into a cone around its direction
+    Count
+};
+
+enum class Falloff : std::uint8_t {
+    InverseSquare, ///< candela x clamp(1 - (d/range)^4, 0, 1)^2 / max(d^2, 1e-4 m^2)
+    Attenuation    ///< colour / max(A + B d + C d^2, 1e-4)
+};
+
+enum class LightAnimationKind : std::uint8_t {
+    Orbit,    ///< circles `axis` through `center` once in `periodSeconds`
+    Wobble,   ///< position + amplitude * sin(2 pi (t / period + phase)), each axis
+    Path,     ///< runs along the closed polyline `points` at constant speed once in `periodSeconds`
+    Keyframes ///< linear between (times, points), clamped at the ends
+};
+
+/// Moves the position of a light that has one, as a closed function of time, so that any time can be asked for
+/// directly.
+struct LightAnimation {
+    LightAnimationKind kind = LightAnimationKind::Orbit;
+    double periodSeconds = 1.0;
+    double phase = 0.0; ///< share of the period, 0..1
+    glm::dvec3 centerWS{0.0};
+    glm::dvec3 axisWS{0.0, 1.0, 0.0};
+    glm::dvec3 amplitudeMetres{0.0};
+    std::vector<double> timesSeconds;
+    std::vector<glm::dvec3> pointsWS;
+    bool operator==(const LightAnimation&) const = default;
+};
+
+struct Light {
+    std::string name;
+    LightType type = LightType::Point;
+    bool enabled = true;
+    glm::vec3 color{1.0f};  ///< linear RGB
+    float intensity = 1.0f; ///< in the unit of its type; a plain factor with Falloff::Attenuation
+    glm::dvec3 positionWS{0.0};
+    glm::dvec3 directionWS{0.0, 0.0, -1.0}; ///< unit, the way the light travels
+    Falloff falloff = Falloff::InverseSquare;
+    float rangeMetres = kInfinity;           ///< InverseSquare: the light is exactly 0 from here on
+    glm::vec3 attenuation{1.0f, 0.0f, 0.0f}; ///< A, B (1/m), C (1/m^2) of Falloff::Attenuation, >= 0, not all 0
+    float innerConeRadians = 0.0f;           ///< Spot: half angle of full intensity
+    float outerConeRadians = 0.7853981634f;  ///< Spot: half angle beyond which there is no light
+    std::optional<LightAnimation> animation;
+    bool operator==(const Light&) const = default;
+};
+
+// ---- Members -------------------------------------------------------------------------------------------------------
+
+/// A member of Light: its name, and of numbers what messages call them and between what they must lie (checkScene).
+template <typename Member>
+struct LightField {
+    const char* name;
+    Member Light::*member;
+    const char* what = nullptr; ///< null: no bounds, or others than these
+    double least = 0.0;         ///< of each component
+    double most = 0.0;
+};
+template <typename Member>
+LightField(const char*, Member Light::*) -> LightField<Member>;
+template <typename Member>
+LightField(const char*, Member Light::*, const char*, double, double) -> LightField<Member>;
+
+/// All members, in order.
+inline constexpr std::tuple kLightFields{
+    LightField{"name", &Light::name},
+    LightField{"type", &Light::type},
+    LightField{"enabled", &Light::enabled},
+    LightField{"color", &Light::color, "the colour", 0.0, kAnyNumber},
+    LightField{"intensity", &Light::intensity, "the intensity", 0.0, kAnyNumber},
+    LightField{"positionWS", &Light::positionWS},
+    LightField{"directionWS", &Light::directionWS},
+    LightField{"falloff", &Light::falloff},
+    LightField{"rangeMetres", &Light::rangeMetres},
+    LightField{"attenuation", &Light::attenuation, "the attenuation coefficients A, B, C", 0.0, kAnyNumber},
+    LightField{"innerConeRadians", &Light::innerConeRadians, "the inner cone", 0.0, std::numbers::pi_v<float>},
+    LightField{"outerConeRadians", &Light::outerConeRadians, "the outer cone", 0.0, std::numbers::pi_v<float>},
+    LightField{"animation", &Light::animation},
+};
+static_assert(std::tuple_size_v<decltype(kLightFields)> == detail::memberCount<Light>(),
+              "kLightFields lacks a member of Light");
+
+/// Calls `visit` with every row of kLightFields.
+template <typename Visitor>
+constexpr void visitLightFields(Visitor&& visit) {
+    std::apply([&](const auto&... field) { (visit(field), ...); }, kLightFields);
+}
+
+/// The row of a member.
+template <typename Member>
+constexpr LightField<Member> lightField(Member Light::*member) {
+    LightField<Member> found{"", member};
+    visitLightFields([&](const auto& field) {
+        if constexpr (std::is_same_v<decltype(field.member), Member Light::*>) {
+            if (field.member == member) found = field;
+        }
+    });
+    return found;
+}
+
+// ---- Types ---------------------------------------------------------------------------------------------------------
+
+/// A parameter of a type beside position, direction and falloff.
+struct LightParameter {
+    enum class Kind : std::uint8_t {
+        Number,
+        Angle ///< radians in its member, degrees in scene files and the viewer
+    };
+    Kind kind;
+    const char* key;   ///< of scene files
+    const char* label; ///< in the viewer
+    float Light::*member;
+    float least = 0.0f; ///< in scene files and of the viewer's slider; degrees of an angle
+    float most = 1.0f;
+    float Light::*within = nullptr; ///< another angle of the type, which this one is never wider than
+};
+
+/// Where a light can shine, which culling, light volumes and the culling oracle follow.
+enum class LightReach : std::uint8_t {
+    Everywhere, ///< it has no position
+    Sphere,     ///< around its position, as far as its falloff reaches
+    Cone        ///< the part of that sphere within outerConeRadians of its direction
+};
+
+struct LightTypeInfo {
+    LightType type;
+    std::string_view name; ///< of scene files; in capitals that of shaders: LIGHT_<NAME> is its number,
+                           ///< HAS_<NAME>_LIGHTS 0 or 1
+    const char* unit;      ///< of its intensity
+    LightReach reach;
+    bool hasDirection;
+    std::span<const LightParameter> parameters{};
+
+    /// A position, and with it a falloff, perhaps a range, and perhaps an animation.
+    constexpr bool hasPosition() const { return reach != LightReach::Everywhere; }
+    /// More on the GPU than a colour and a position, or else a direction (shaders/shared/light.h).
+    constexpr bool hasShape() const { return (hasPosition() && hasDirection) || !parameters.empty(); }
+};
+
+namespace detail {
+inline constexpr LightParameter kCones[] = {
+    {LightParameter::Kind::Angle, "innerDegrees", "Inner cone", &Light::innerConeRadians, 0.0f, 90.0f,
+     &Light::outerConeRadians},
+    // 90 degrees is KHR_lights_punctual's limit.
+    {LightParameter::Kind::Angle, "outerDegrees", "Outer cone", &Light::outerConeRadians, 0.0f, 90.0f}};
+
+inline constexpr std::array kLightTypes{
+    LightTypeInfo{LightType::Directional, "directional", "lx", LightReach::Everywhere, true},
+    LightTypeInfo{LightType::Point, "point", "cd", LightReach::Sphere, false},
+    LightTypeInfo{LightType::Spot, "spot", "cd", LightReach::Cone, true, kCones},
+};
+consteval bool areLightTypesSound() {
+    for (std::size_t i = 0; i < kLightTypes.size(); ++i) {
+        const LightTypeInfo& info = kLightTypes[i];
+        if (info.type != LightType(i)) return false;
+        if (info.reach == LightReach::Cone && !info.hasDirection) return false;
+    }
+    return kLightTypes.size() == std::size_t(LightType::Count);
+}
+static_assert(areLightTypesSound(), "the table of light types follows the enumeration, and a cone has a direction");
+} // namespace detail
+
+inline constexpr std::size_t kLightTypeCount = detail::kLightTypes.size();
+
+/// The only list of types; row i is that of type i.
+constexpr std::span<const LightTypeInfo> lightTypes() {
+    return detail::kLightTypes;
+}
+constexpr const LightTypeInfo& infoOf(LightType type) {
+    return detail::kLightTypes[std::size_t(type)];
+}
+
+} // namespace tessera::scenes
