@@ -10,8 +10,6 @@
 namespace tessera::test {
 namespace {
 
-using Picture;
-
 constexpr const char* kGlossy =
     R"({"name": "paint", "model": "metallic_roughness", "baseColor": [0.6, 0.3, 0.1], "metallic": 0.5,
         "perceptualRoughness": 0.4})";

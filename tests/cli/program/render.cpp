@@ -6,8 +6,6 @@
 namespace tessera::test {
 namespace {
 
-using Picture;
-
 class Render : public Cli {
 protected:
     OIIO::ImageSpec specOf(const std::string& name) const {
