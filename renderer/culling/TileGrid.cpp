@@ -12,7 +12,7 @@ TileGrid tileGrid(const FrameConstants& frame) {
     grid.rows = frame.lighting.tileGrid.y;
     grid.sidePixels = 1u << frame.lighting.tileGrid.w;
     grid.sizePixels = glm::uvec2(frame.view.sizePixels);
-    grid.lensVS = frame.view.lensVS;
+    grid.rayFromPixel = frame.view.rayFromPixel;
     grid.spread = frame.view.forwardLS.w != 0.0f ? glm::vec2(1.0f, 0.0f) : glm::vec2(frame.view.eyeLS.w, 1.0f);
     return grid;
 }
@@ -23,7 +23,7 @@ void setTileGrid(shared::LightingConstants& lighting, const shared::ViewConstant
     lighting.tileGrid = glm::uvec4((size.x + side - 1) / side, (size.y + side - 1) / side, size.y,
                                    std::uint32_t(std::countr_zero(side)));
     // A key's 2^k steps cover a factor of two in distance, or all of an even depth range.
-    const double tileWidth = double(tilePixels) * double(view.lensVS.y);
+    const double tileWidth = double(tilePixels) * double(view.rayFromPixel.y);
     const double tileWidthThere = tileWidth * (view.forwardLS.w != 0.0f ? 1.0 : double(view.eyeLS.w));
     const bool isEven = view.depthKey.y > 0.0f;
     const double slices = isEven ? double(view.depthKey.y) / tileWidthThere : 1.0 / tileWidth;

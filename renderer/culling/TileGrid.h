@@ -17,11 +17,11 @@ struct TileGrid {
     std::uint32_t columns = 0, rows = 0;
     std::uint32_t sidePixels = 0;
     glm::uvec2 sizePixels{0u};
-    glm::vec4 lensVS{0.0f};
+    glm::vec4 rayFromPixel{0.0f};
     glm::vec2 spread{0.0f}; ///< of rays, as shaders/shared/culling.h has it
 
     glm::vec4 rays(std::uint32_t column, std::uint32_t row) const {
-        return shared::tileRays(lensVS, column, row, sidePixels, sizePixels);
+        return shared::tileRays(rayFromPixel, column, row, sidePixels, sizePixels);
     }
 };
 TileGrid tileGrid(const FrameConstants& frame);

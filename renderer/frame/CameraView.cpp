@@ -88,7 +88,7 @@ CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, L
     const glm::dvec2 pixelStep = 2.0 * lens.halfExtent / glm::dvec2(sizePixels);
     shared::ViewConstants& c = view.constants;
     c.clipFromLS = glm::mat4(view.clipFromLS);
-    c.clipFromRS = glm::mat4(clipFromOrigin * glm::dmat4(glm::transpose(worldFromView)));
+    c.clipFromRWS = glm::mat4(clipFromOrigin * glm::dmat4(glm::transpose(worldFromView)));
     c.worldFromLS = glm::mat4(glm::dmat4(glm::transpose(view.lsFromWorld)));
     c.eyeLS = glm::vec4(glm::vec3(-origin * view.forwardLS), float(origin));
     c.rayDxLS = glm::vec4(lsFromView * glm::dvec3(pixelStep.x, 0.0, 0.0), 0.0f);
@@ -96,7 +96,7 @@ CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, L
     c.forwardLS = glm::vec4(view.forwardLS, orthographic ? 1.0f : 0.0f);
     c.aheadFromDepth = glm::vec4(coding.aheadFromDepth);
     c.background = glm::vec4(background, 0.0f);
-    c.lensVS = glm::vec4(pixelStep, 0.5 * glm::dvec2(sizePixels));
+    c.rayFromPixel = glm::vec4(pixelStep, 0.5 * glm::dvec2(sizePixels));
     c.sizePixels = glm::uvec4(sizePixels, 0u, 0u);
     // a (f - z) / z is the depth of a perspective camera; adding a makes the key's sum a f / z.
     const double span = view.depths.isEven ? view.depths.farMetres - view.depths.nearMetres : 0.0;

@@ -99,7 +99,7 @@ bool isOutside(const scenes::Box3& boxWS, const glm::dvec3& objectWS, const Came
 
 DrawRows rowsOf(const Draw& draw, const glm::dmat4& worldFromObject, const CameraView& view) {
     const glm::dmat3 linear(worldFromObject);
-    const glm::dvec3 originRS = glm::dvec3(worldFromObject[3]) - view.originWS;
+    const glm::dvec3 originRWS = glm::dvec3(worldFromObject[3]) - view.originWS;
     const double sign = draw.mirrored ? -1.0 : 1.0;
     glm::dmat3 normal = cofactor(view.lsFromWorld * linear) * sign;
     // Scaled to order one: the cofactors of a node scaled by 1e-20 would leave fp32's range.
@@ -110,7 +110,7 @@ DrawRows rowsOf(const Draw& draw, const glm::dmat4& worldFromObject, const Camer
     const double extra[3] = {sign, double(draw.largestColor), 1.0 + draw.instance};
     DrawRows rows;
     for (int r = 0; r < 3; ++r) {
-        rows.position[r] = glm::vec4(linear[0][r], linear[1][r], linear[2][r], originRS[r]);
+        rows.position[r] = glm::vec4(linear[0][r], linear[1][r], linear[2][r], originRWS[r]);
         rows.normal[r] = glm::vec4(normal[0][r], normal[1][r], normal[2][r], extra[r]);
     }
     return rows;

@@ -48,7 +48,7 @@ struct DrawList {
 };
 DrawList makeDrawList(const scenes::Scene& scene);
 
-/// Per-draw vertex attributes (shaders/passes/geometry.vert): rows of RS-from-object (world axes at the origin of
+/// Per-draw vertex attributes (shaders/passes/geometry.vert): rows of RWS-from-object (world axes at the origin of
 /// lighting space, as shaders/shared/frame.h says) and of the cofactor matrix of LS-from-object, which carries normals
 /// through any transform, singular ones too; times the determinant's sign, which row 0's w holds. Row 1's w is
 /// Draw::largestColor. It also tells meshes without vertex colours: white would not do, since interpolating 1 in

@@ -1,7 +1,7 @@
-// The stores of lights that the measured floor compares with the product's (validation/floor/FloorLighting.h); to be included
+// The stores of lights that the measured floor compares with the product's (validation/lower_bound/LowerBoundLighting.h); to be included
 // before what reads lights. LIGHT_STORE_TEXEL leaves the product's own.
 #pragma once
-#include "bench/floor.h"
+#include "bench/lower_bound.h"
 #include "shared/slots.h"
 #include "shared/light.h"
 

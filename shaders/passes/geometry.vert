@@ -10,7 +10,7 @@ layout(location = ATTRIBUTE_TEXCOORD0) in vec2 inTexCoord0;
 layout(location = ATTRIBUTE_TEXCOORD1) in vec2 inTexCoord1;
 layout(location = ATTRIBUTE_COLOR) in vec4 inColor;
 
-// Per draw: rows of RS-from-object, and of the cofactors of LS-from-object times the sign of its determinant (xyz; w of the first row is
+// Per draw: rows of RWS-from-object, and of the cofactors of LS-from-object times the sign of its determinant (xyz; w of the first row is
 // that sign, w of the second the largest of the mesh's vertex colours, 0 when it has none; w of the third 1 + the place of
 // the mesh instance in the scene).
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0) in vec4 drawRow0;
@@ -56,9 +56,9 @@ layout(location = 9) flat out float drawnObject;
 
 #if FILTER_EXACT || HAS_TANGENTS
 // Turned by the transpose; exact where both are one space.
-vec3 lsFromRS(vec3 directionRS)
+vec3 lsFromRWS(vec3 directionRWS)
 {
-    precise vec3 directionLS = directionRS * mat3(view.worldFromLS);
+    precise vec3 directionLS = directionRWS * mat3(view.worldFromLS);
     return directionLS;
 }
 #endif
@@ -66,17 +66,17 @@ vec3 lsFromRS(vec3 directionRS)
 void main()
 {
     precise vec4 object = vec4(positionOS, 1.0);
-    precise vec3 positionRS = vec3(dot(drawRow0, object), dot(drawRow1, object), dot(drawRow2, object));
-    precise vec4 clip = view.clipFromRS * vec4(positionRS, 1.0);
+    precise vec3 positionRWS = vec3(dot(drawRow0, object), dot(drawRow1, object), dot(drawRow2, object));
+    precise vec4 clip = view.clipFromRWS * vec4(positionRWS, 1.0);
     gl_Position = clip;
 #if FILTER_EXACT
-    vertexLS = lsFromRS(positionRS);
+    vertexLS = lsFromRWS(positionRWS);
 #endif
 #if !DEPTH_ONLY
     normalLS = vec3(dot(drawNormal0.xyz, normalOS), dot(drawNormal1.xyz, normalOS), dot(drawNormal2.xyz, normalOS));
 #if HAS_TANGENTS
-    vec3 tangentRS = vec3(dot(drawRow0.xyz, tangentOS.xyz), dot(drawRow1.xyz, tangentOS.xyz), dot(drawRow2.xyz, tangentOS.xyz));
-    tangentLS = vec4(lsFromRS(tangentRS), tangentOS.w * drawNormal0.w);
+    vec3 tangentRWS = vec3(dot(drawRow0.xyz, tangentOS.xyz), dot(drawRow1.xyz, tangentOS.xyz), dot(drawRow2.xyz, tangentOS.xyz));
+    tangentLS = vec4(lsFromRWS(tangentRWS), tangentOS.w * drawNormal0.w);
 #endif
 #if HAS_OBJECT_SPACE_NORMALS
     normalFromObject0 = drawNormal0.xyz;

@@ -3,9 +3,9 @@
 // two depths? It is sound: it never says no if the light changes a pixel; the oracle counts needless answers of yes.
 // Culling space: x metres to the right, y up and z ahead of the origin of lighting space (frame.h). Unlike in view
 // space, which looks along -Z, z is positive in front. Rays of pixels spread: s metres ahead they lie (spread.x +
-// spread.y s) times as far to the side as ViewConstants' lensVS says, (view depth of the origin, 1) for a perspective
-// camera and (1, 0) for an orthographic one. Everything is precise, so that two shaders that ask the same question, one
-// to count lights and one to list them, get the same answer.
+// spread.y s) times as far to the side as ViewConstants' rayFromPixel says, (view depth of the origin, 1) for a
+// perspective camera and (1, 0) for an orthographic one. Everything is precise, so that two shaders that ask the same
+// question, one to count lights and one to list them, get the same answer.
 #include "interop.h"
 
 // Tile columns that are tested together against the planes between columns; box tests follow.
@@ -41,15 +41,16 @@ struct CellBox {
 };
 
 // The bounds of the rays through the pixel centres of tile (column, row): x, y least and most to the right, z, w least
-// and most up, in the units of lensVS. Centres suffice, since pixels are shaded there only. `size` is the picture's, in
-// pixels.
-SHARED_FUNCTION vec4 tileRays(vec4 lensVS, uint column, uint row, uint side, uvec2 size) {
+// and most up, in the units of rayFromPixel. Centres suffice, since pixels are shaded there only. `size` is the
+// picture's, in pixels.
+SHARED_FUNCTION vec4 tileRays(vec4 rayFromPixel, uint column, uint row, uint side, uvec2 size) {
     float left = float(column * side) + 0.5f;
     float right = float(min((column + 1u) * side, size.x)) - 0.5f;
     float top = float(size.y - row * side) - 0.5f;
     float bottom = float(size.y - min((row + 1u) * side, size.y)) + 0.5f;
-    SHARED_PRECISE vec4 rays = vec4(lensVS.x * (left - lensVS.z), lensVS.x * (right - lensVS.z),
-                                    lensVS.y * (bottom - lensVS.w), lensVS.y * (top - lensVS.w));
+    SHARED_PRECISE vec4 rays =
+        vec4(rayFromPixel.x * (left - rayFromPixel.z), rayFromPixel.x * (right - rayFromPixel.z),
+             rayFromPixel.y * (bottom - rayFromPixel.w), rayFromPixel.y * (top - rayFromPixel.w));
     return rays;
 }
 

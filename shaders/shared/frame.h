@@ -3,7 +3,7 @@
 // are in lighting space (LS). Lighting space has the axes of the world or of the view, as FrameSettings::space says,
 // and its origin on the view axis: at the eye, or in the middle of the visible surfaces where all of them are far away,
 // so that fp32 keeps the digits of positions. The CPU transforms normals, lights and rays to it in double precision,
-// and shaders do not depend on its axes. Vertices pass through relative world space (RS), the world's axes at that
+// and shaders do not depend on its axes. Vertices pass through relative world space (RWS), the world's axes at that
 // origin, with either lighting space: rounding in another space would move them by a bit, and pixels at edges would
 // show another triangle.
 #include "interop.h"
@@ -12,8 +12,8 @@ SHARED_BEGIN
 
 struct ViewConstants {
     mat4 clipFromLS;
-    mat4 clipFromRS;
-    mat4 worldFromLS;    // rotation only, of world axes, so also RS from LS; the unit matrix where LS is RS
+    mat4 clipFromRWS;
+    mat4 worldFromLS;    // rotation only, of world axes, so also RWS from LS; the unit matrix where LS is RWS
     vec4 eyeLS;          // xyz the eye; w the view depth of the origin of lighting space, in metres
     vec4 rayDxLS;        // step of one pixel to the right across the view axis, in metres: a metre ahead of the eye, or
                          // (orthographic) anywhere
@@ -21,11 +21,11 @@ struct ViewConstants {
     vec4 forwardLS;      // unit; w is 1 for an orthographic camera, else 0
     vec4 aheadFromDepth; // metres ahead of the origin of lighting space = (x + y depth) / (z + w depth)
     vec4 background;     // radiance where nothing is drawn; a is 0, the coverage
-    vec4 lensVS; // a pixel p sees x (p.x - z) to the right and y (p.y - w) up, in metres: a metre ahead of the eye, or
-                 // (orthographic) anywhere; window coordinates, lower-left origin
-    vec4 depthKey;    // x bias of depth keys (light_lists.h); y metres from depth 0 to 1 where depth is even in the
-                      // distance or nearly so, else 0
-    uvec4 sizePixels; // x width, y height of the picture
+    vec4 rayFromPixel;   // a pixel p sees x (p.x - z) to the right and y (p.y - w) up, in metres: a metre ahead of the
+                         // eye, or (orthographic) anywhere; window coordinates, lower-left origin
+    vec4 depthKey;       // x bias of depth keys (light_lists.h); y metres from depth 0 to 1 where depth is even in the
+                         // distance or nearly so, else 0
+    uvec4 sizePixels;    // x width, y height of the picture
 };
 
 struct LightingConstants {

@@ -9,6 +9,6 @@ void main()
     if (record < 0) return;
     Incident incident;
     bool reaches = incidentLight(int(inputs[record].w), inputs[record].xyz, incident);
-    outputs[record * 2] = reaches ? vec4(incident.intensity, 1.0) : vec4(0.0);
+    outputs[record * 2] = reaches ? vec4(incident.irradiance, 1.0) : vec4(0.0);
     outputs[record * 2 + 1] = vec4(reaches ? incident.toLightLS : vec3(0.0), 0.0);
 }

@@ -124,7 +124,7 @@ inline glm::dvec3 blinnPhong(const scenes::Material& m, double nl, double nv, do
 }
 
 /// KHR_materials_clearcoat: the coat's attenuation of the layers below.
-inline double coatShare(const scenes::Material& m, double nv) {
+inline double coatWeight(const scenes::Material& m, double nv) {
     return double(m.clearcoat) * (0.04 + 0.96 * std::pow(1.0 - std::abs(nv), 5));
 }
 
@@ -185,7 +185,7 @@ inline glm::dvec3 reflected(const scenes::Material& m, const glm::dvec3& n, cons
     const double coatAlpha = std::max(squared(m.clearcoatPerceptualRoughness), 1e-3);
     const double coat =
         nv > 0.0 ? distribution(coatAlpha, nh) * correlatedMasking(coatAlpha, nl, nv) / (4.0 * nl * nv) : 0.0;
-    return glm::mix(share, glm::dvec3(coat), coatShare(m, nv)) * nl;
+    return glm::mix(share, glm::dvec3(coat), coatWeight(m, nv)) * nl;
 }
 
 /// The light's intensity at a point, and the unit direction to it.

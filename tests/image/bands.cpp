@@ -58,7 +58,7 @@ TEST_F(Bands, aPictureDrawnInTheSmallestPiecesIsExactlyTheSame) {
     }
 }
 
-TEST_F(Bands, aFrameIsAlwaysGivenUpWhereverItIsAsked) {
+TEST_F(Bands, aFrameCanBeAbandonedAtEveryBand) {
     const scenes::Scene scene = scenes::loadScene("lattice");
     engine::Renderer renderer(context(), scene);
     const engine::RenderedFrame before = renderer.render(engine::Technique::TiledDeferred, small());
@@ -78,7 +78,7 @@ TEST_F(Bands, aFrameIsAlwaysGivenUpWhereverItIsAsked) {
     EXPECT_EQ(renderer.render(engine::Technique::TiledDeferred, small()).radiance, before.radiance);
 }
 
-TEST_F(Bands, withoutBandedDrawingNothingIsEverAsked) {
+TEST_F(Bands, withoutBandedDrawingTheCallbackIsNotCalled) {
     const scenes::Scene scene = scenes::loadScene("lattice");
     engine::Renderer renderer(context(), scene);
     int asked = 0;

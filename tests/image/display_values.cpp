@@ -29,7 +29,7 @@ int srgbCode(double linear) {
     return int(std::lround(255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055)));
 }
 
-TEST_F(DisplayValues, sRgbCodesAreAlwaysThePublishedOnes) {
+TEST_F(DisplayValues, sRgbCodesAreThePublishedOnes) {
     EXPECT_EQ(code(0.5f, {}), 188);
     EXPECT_EQ(code(0.0f, {}), 0);
     EXPECT_EQ(code(1.0f, {}), 255);
@@ -37,7 +37,7 @@ TEST_F(DisplayValues, sRgbCodesAreAlwaysThePublishedOnes) {
     for (const float grey : {0.002f, 0.01f, 0.18f, 0.73f}) EXPECT_EQ(code(grey, {}), srgbCode(grey));
 }
 
-TEST_F(DisplayValues, exposureIsAlwaysAPowerOfTwo) {
+TEST_F(DisplayValues, exposureIsAPowerOfTwo) {
     frame::FrameSettings settings;
     settings.exposureEV = 1.0f;
     EXPECT_EQ(code(0.25f, settings), 188);
@@ -45,7 +45,7 @@ TEST_F(DisplayValues, exposureIsAlwaysAPowerOfTwo) {
     EXPECT_EQ(code(2.0f, settings), 188);
 }
 
-TEST_F(DisplayValues, khronosNeutralAlwaysKeepsColoursBelowItsShoulder) {
+TEST_F(DisplayValues, khronosNeutralKeepsColoursBelowItsShoulder) {
     frame::FrameSettings settings;
     settings.toneMap = frame::ToneMap::KhronosNeutral;
     for (const float grey : {0.1f, 0.3f, 0.5f, 0.79f})
@@ -55,7 +55,7 @@ TEST_F(DisplayValues, khronosNeutralAlwaysKeepsColoursBelowItsShoulder) {
     EXPECT_GT(code(4.0f, settings), code(1.0f, settings));
 }
 
-TEST_F(DisplayValues, acesAndAgxAlwaysRiseFromBlackToWhite) {
+TEST_F(DisplayValues, acesAndAgxRiseFromBlackToWhite) {
     for (const frame::ToneMap toneMap : {frame::ToneMap::Aces, frame::ToneMap::Agx}) {
         frame::FrameSettings settings;
         settings.toneMap = toneMap;
@@ -70,7 +70,7 @@ TEST_F(DisplayValues, acesAndAgxAlwaysRiseFromBlackToWhite) {
     }
 }
 
-TEST_F(DisplayValues, theNormalViewIsAlwaysHalfTheNormalPlusAHalf) {
+TEST_F(DisplayValues, theNormalViewIsHalfTheNormalPlusAHalf) {
     frame::FrameSettings settings;
     settings.view = frame::View::Normal;
     Material material;

@@ -35,7 +35,7 @@ protected:
     }
 };
 
-TEST_F(Edits, factorsOfMaterialsAreAlwaysDrawnAsByANewRenderer) {
+TEST_F(Edits, factorsOfMaterialsAreDrawnAsByANewRenderer) {
     // The first keeps materials in its pixels, the second their numbers.
     for (const scenes::Scene& scene : {test::everythingScene(), test::evenScene()}) {
         float step = 0.0f;
@@ -71,7 +71,7 @@ TEST_F(Edits, tangentsAreDerivedAnewWhereAMaterialFollowsOthersThanBefore) {
         true);
 }
 
-TEST_F(Edits, anEditThatCannotBeDrawnIsNeverForgottenAndLeavesNoTrace) {
+TEST_F(Edits, anEditThatCannotBeDrawnIsNotForgottenAndLeavesNoTrace) {
     scenes::Scene scene = test::everythingScene();
     const auto normalMap = [](scenes::Material& material) -> scenes::TextureUse& {
         return material.texture(scenes::TextureSlot::Normal);
@@ -115,7 +115,7 @@ TEST_F(Edits, anEditThatCannotBeDrawnIsNeverForgottenAndLeavesNoTrace) {
     EXPECT_EQ(after, engine::Renderer(context(), scene).render(Technique::Forward, small()).radiance);
 }
 
-TEST_F(Edits, surfacesThatBecomeTransparentAreAlwaysDrawnAsByANewRenderer) {
+TEST_F(Edits, surfacesThatBecomeTransparentAreDrawnAsByANewRenderer) {
     std::size_t next = 0;
     expectSameAsNew(
         [&next](scenes::Scene& scene) {
@@ -127,7 +127,7 @@ TEST_F(Edits, surfacesThatBecomeTransparentAreAlwaysDrawnAsByANewRenderer) {
         true);
 }
 
-TEST_F(Edits, aModelThatNoMaterialHadIsAlwaysDrawnAsByANewRenderer) {
+TEST_F(Edits, aModelThatNoMaterialHadIsDrawnAsByANewRenderer) {
     std::size_t next = 0;
     expectSameAsNew(
         [&next](scenes::Scene& scene) {
@@ -138,7 +138,7 @@ TEST_F(Edits, aModelThatNoMaterialHadIsAlwaysDrawnAsByANewRenderer) {
         true);
 }
 
-TEST_F(Edits, lightsAndCamerasAreAlwaysDrawnAsTheyAre) {
+TEST_F(Edits, lightsAndCamerasAreDrawnAsTheyAre) {
     expectSameAsNew(
         [](scenes::Scene& scene) {
             scene.lights.front().intensity *= 2.0f;

@@ -65,7 +65,7 @@ protected:
 /// The bar of pictures without textures (docs/reference.md).
 constexpr double kBar = 3e-4;
 
-TEST_F(FarEye, aFloorUnderALampAlwaysLooksAsInTheReferenceFromAnyDistance) {
+TEST_F(FarEye, aFloorUnderALampLooksAsInTheReferenceFromAnyDistance) {
     for (const double eyeMetres : {10.0, 1e3, 1e4, 1e5}) {
         for (const frame::LightingSpace space : {frame::LightingSpace::World, frame::LightingSpace::View}) {
             settings_.space = space;
@@ -89,11 +89,11 @@ TEST_F(FarEye, aFloorInAWidePlainLooksAsInTheReferenceFromAnyDistance) {
     }
 }
 
-TEST_F(FarEye, aBallWithThreeHundredLightsAlwaysLooksAsInTheReferenceFromAKilometre) {
+TEST_F(FarEye, aBallWithThreeHundredLightsLooksAsInTheReferenceFromAKilometre) {
     expectAgreement("a ball, 300 lights", validation::stressFarBall(1e3, 300), kBar);
 }
 
-TEST_F(FarEye, aLightAMillimetreAboveAFloorAlwaysLooksAsInTheReference) {
+TEST_F(FarEye, aLightAMillimetreAboveAFloorLooksAsInTheReference) {
     expectAgreement("a light 1 mm above, 10 m", floorUnderLamp(10.0, 1e-3), kBar);
     expectAgreement("a light 1 mm above, 1 km", floorUnderLamp(1e3, 1e-3), kBar);
 }
@@ -106,7 +106,7 @@ TEST_F(FarEye, aLightAMillimetreAboveAWideFloorKeepsTheDigitsThatDepthHas) {
     expectAgreement("a light 1 mm above 30 m", scene, 2.0 * 4.0 * 0x1p-24 * 10.0 / 1e-3);
 }
 
-TEST_F(FarEye, parallelRaysAlwaysSeeAFloorAsInTheReferenceFromAnyDistance) {
+TEST_F(FarEye, parallelRaysSeeAFloorAsInTheReferenceFromAnyDistance) {
     for (const double eyeMetres : {10.0, 1e4}) {
         scenes::Scene scene = floorUnderLamp(eyeMetres, 0.2);
         scene.cameras[0].projection = scenes::Projection::Orthographic;
@@ -116,7 +116,7 @@ TEST_F(FarEye, parallelRaysAlwaysSeeAFloorAsInTheReferenceFromAnyDistance) {
 }
 
 /// The ends of scenes/Limits.h.
-TEST_F(FarEye, techniquesAlwaysAgreeAtTheEndsOfWhatLengthsMayBe) {
+TEST_F(FarEye, techniquesAgreeAtTheLimitsOfLengths) {
     scenes::Scene near = test::everythingScene();
     near.cameras[0].nearMetres = scenes::kNearestPlaneMetres;
     scenes::Scene vast = test::everythingScene();

@@ -115,7 +115,7 @@ void Invariance::expectUnusedInvisible() {
     }
 }
 
-TEST_F(Invariance, whatNothingDrawsNeverChangesABitOrThePlanOfAnyBuiltinScene) {
+TEST_F(Invariance, unusedElementsChangeNeitherPictureNorPlan) {
     expectUnusedInvisible();
 }
 TEST_F(InvarianceSlow, whatNothingDrawsNeverChangesABitOrThePlanOfAnyBuiltinSceneWithAnyLayout) {
@@ -123,7 +123,7 @@ TEST_F(InvarianceSlow, whatNothingDrawsNeverChangesABitOrThePlanOfAnyBuiltinScen
 }
 
 /// Pixels that hold the number of their material instead of its values.
-TEST_F(Invariance, materialsReadByTheirNumberAlwaysGiveEveryBitOfStoredOnesAndOfForward) {
+TEST_F(Invariance, materialsReadByTheirNumberGiveEveryBitOfStoredOnesAndOfForward) {
     const scenes::Scene scene = test::evenScene();
     engine::Renderer renderer(context(), scene);
     for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
@@ -159,7 +159,7 @@ TEST_F(Invariance, materialsReadByTheirNumberAlwaysGiveEveryBitOfStoredOnesAndOf
     EXPECT_EQ(bytes(false), std::pair(false, 128));
 }
 
-TEST_F(Invariance, plansAlwaysNameWhatThreeDifferentScenesLeaveOut) {
+TEST_F(Invariance, plansNameWhatThreeDifferentScenesLeaveOut) {
     const auto left = [](const char* name) {
         const scenes::Scene scene = scenes::loadScene(name);
         std::string all = "\n"; // so that a whole line can be looked for
@@ -182,7 +182,7 @@ TEST_F(Invariance, plansAlwaysNameWhatThreeDifferentScenesLeaveOut) {
     EXPECT_NE(room, head);
 }
 
-TEST_F(Invariance, picturesAreAlwaysBitIdenticalFromRunToRun) {
+TEST_F(Invariance, picturesAreBitIdenticalFromRunToRun) {
     const scenes::Scene scene = scenes::loadScene("hall");
     for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
         const Picture first = picture(scene, small(), technique.technique);
@@ -191,7 +191,7 @@ TEST_F(Invariance, picturesAreAlwaysBitIdenticalFromRunToRun) {
     }
 }
 
-TEST_F(Invariance, worldAndViewSpaceLightingAlwaysAgree) {
+TEST_F(Invariance, worldAndViewSpaceLightingAgree) {
     std::vector<scenes::Scene> all{test::everythingScene()};
     // Not the scanned head: where hardware filtering changes from one level of its fine maps to the next is up to the
     // last bit of the positions.
@@ -217,7 +217,7 @@ TEST_F(Invariance, worldAndViewSpaceLightingAlwaysAgree) {
     }
 }
 
-TEST_F(Invariance, aSceneFarFromTheOriginAlwaysLooksAsAtTheOrigin) {
+TEST_F(Invariance, aSceneFarFromTheOriginLooksAsAtTheOrigin) {
     const scenes::Scene near = test::everythingScene();
     scenes::Scene far = near;
     // 2^20 m along each axis: nodes, lights and camera move; meshes stay relative to their nodes.

@@ -101,7 +101,7 @@ TEST_F(LightCulling, theOracleCountsTheLatticeExactlyAsAnIndependentAnalyticCoun
     EXPECT_LE(*figures.tightness(), 1.25);
 }
 
-TEST_F(LightCulling, listsAreAlwaysTightOnTheLattice) {
+TEST_F(LightCulling, listsAreTightOnTheLattice) {
     const scenes::Scene scene = lattice(1024);
     engine::Renderer renderer(context(), scene);
     EXPECT_LE(*judge(renderer, Method::TileMinmax, 16, {1280, 720}).tightness(), 1.40);
@@ -110,7 +110,7 @@ TEST_F(LightCulling, listsAreAlwaysTightOnTheLattice) {
     judge(renderer, Method::Zbin, 16, {1280, 720});
 }
 
-TEST_F(LightCulling, depthSlicesAlwaysPayWhereDepthHasDeepGaps) {
+TEST_F(LightCulling, depthSlicesPayWhereDepthHasDeepGaps) {
     const scenes::Scene scene = test::columnsBeforeWall(1500);
     engine::Renderer renderer(context(), scene);
     const auto evaluated = [&](Method method) { return double(judge(renderer, method, 16, {640, 360}).evaluated); };
@@ -122,7 +122,7 @@ TEST_F(LightCulling, depthSlicesAlwaysPayWhereDepthHasDeepGaps) {
     for (const Method method : kMethods) judge(hallRenderer, method, 16, {640, 360});
 }
 
-TEST_F(LightCulling, theOracleAlwaysNoticesALightThatAListLacksOrHasTooMuch) {
+TEST_F(LightCulling, theOracleNoticesALightThatAListLacksOrHasTooMuch) {
     const scenes::Scene scene = lattice(64);
     engine::Renderer renderer(context(), scene);
     const frame::FrameSettings asked = settings({160, 90}, Method::TileMinmax);
@@ -186,7 +186,7 @@ void LightCulling::expectSoundRandomScenes() {
 TEST_F(LightCulling, noLightIsEverMissingFromRandomScenesAndNoPixelDiffers) {
     expectSoundRandomScenes();
 }
-TEST_F(LightCullingSlow, noLightIsEverMissingFromTwoHundredRandomScenesAndNoPixelDiffers) {
+TEST_F(LightCullingSlow, noLightIsMissingFromTwoHundredRandomScenesAndNoPixelDiffers) {
     expectSoundRandomScenes();
 }
 
@@ -207,10 +207,10 @@ void LightCulling::expectSoundFarAway() {
     EXPECT_LT(double(all.evaluated), 3.0 * double(all.needed)) << "margins that grow with the eye's distance";
 }
 
-TEST_F(LightCulling, noLightIsEverMissingWhereAScenesEyeIsFarAwayAndNoPixelDiffers) {
+TEST_F(LightCulling, noLightIsMissingWhereAScenesEyeIsFarAwayAndNoPixelDiffers) {
     expectSoundFarAway();
 }
-TEST_F(LightCullingSlow, noLightIsEverMissingWhereAScenesEyeIsFarAwayAndNoPixelDiffers) {
+TEST_F(LightCullingSlow, noLightIsMissingWhereAScenesEyeIsFarAwayAndNoPixelDiffers) {
     expectSoundFarAway();
 }
 
@@ -329,14 +329,14 @@ void LightCulling::expectSoundTransparent() {
     EXPECT_GT(needed, 30000u) << "scenes that need nothing prove nothing";
 }
 
-TEST_F(LightCulling, noLightIsEverMissingFromTheListsOfTransparentSurfaces) {
+TEST_F(LightCulling, noLightIsMissingFromTheListsOfTransparentSurfaces) {
     expectSoundTransparent();
 }
-TEST_F(LightCullingSlow, noLightIsEverMissingFromTheListsOfTransparentSurfaces) {
+TEST_F(LightCullingSlow, noLightIsMissingFromTheListsOfTransparentSurfaces) {
     expectSoundTransparent();
 }
 
-TEST_F(LightCulling, theCountOfLightsAlwaysAddsUpOverLayersWhateverTheirOpacity) {
+TEST_F(LightCulling, theCountOfLightsAddsUpOverLayersWhateverTheirOpacity) {
     scenes::Material glass;
     glass.alphaMode = scenes::AlphaMode::Blend;
     glass.baseColor.a = 0.25f;
@@ -353,7 +353,7 @@ TEST_F(LightCulling, theCountOfLightsAlwaysAddsUpOverLayersWhateverTheirOpacity)
     }
 }
 
-TEST_F(LightCulling, sixtyFiveThousandLightsInOneTileAreAlwaysAllVisited) {
+TEST_F(LightCulling, sixtyFiveThousandLightsInOneTileAreAllVisited) {
     scenes::Scene scene = test::quadScene({});
     for (int i = 0; i < 65536; ++i) {
         scenes::Light light = test::pointLight({0.0, 0.0, 0.5}, 1e-4f);
@@ -388,7 +388,7 @@ TEST_F(LightCulling, theOrderOfTheLightsNeverMattersBeyondRoundingOfTheSum) {
     EXPECT_LT(figures.bitEqual, 1.0) << "the order did not change, so nothing was tried";
 }
 
-TEST_F(LightCulling, lightsThatCannotChangeAPixelAreNeverEvaluated) {
+TEST_F(LightCulling, lightsThatCannotChangeAPixelAreNotEvaluated) {
     scenes::Scene scene = lattice(64);
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         if (i % 3 == 0) scene.lights[i].enabled = false;

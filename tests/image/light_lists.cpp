@@ -133,7 +133,7 @@ TEST_F(LightLists, listsOfSurfacesFarBeyondTheNearPlaneAreExactlyTheSameOnTheGpu
     expectSameLists(scene, settings, std::array{16});
 }
 
-TEST_F(LightLists, picturesLitFromListsOfTheGpuAreAlwaysThoseOfForward) {
+TEST_F(LightLists, picturesLitFromListsOfTheGpuAreThoseOfForward) {
     frame::FrameSettings settings;
     settings.sizePixels = {161, 91};
     expectForwardsPicture(test::everythingScene(), settings);
@@ -153,7 +153,7 @@ TEST_F(LightLists, listsOfMultisampledPicturesAreExactlyTheSameOnTheGpuAndLightT
     }
 }
 
-TEST_F(LightLists, anyCountOfLightsAlwaysGivesTheSameLists) {
+TEST_F(LightLists, anyCountOfLightsGivesTheSameLists) {
     frame::FrameSettings settings;
     settings.sizePixels = {65, 49};
     settings.prune = false; // the lattice's first light is out of view
@@ -163,13 +163,13 @@ TEST_F(LightLists, anyCountOfLightsAlwaysGivesTheSameLists) {
     }
 }
 
-TEST_F(LightLists, manyLightsAlwaysGiveThePictureOfForward) {
+TEST_F(LightLists, manyLightsGiveThePictureOfForward) {
     frame::FrameSettings settings;
     settings.sizePixels = {65, 49};
     expectForwardsPicture(latticeOf(4097), settings);
 }
 
-TEST_F(LightLists, theMostLightsOfASceneAreNeverTooManyForTheGpu) {
+TEST_F(LightLists, theMostLightsOfASceneAreNotTooManyForTheGpu) {
     frame::FrameSettings settings;
     settings.sizePixels = {33, 17};
     const scenes::Scene scene = latticeOf(65536);

@@ -86,7 +86,7 @@ TEST_F(LightRange, anEndedLightIsExactlyZeroFromItsRadiusOnAndWindowedBefore) {
     }
 }
 
-TEST_F(LightRange, theBiasIsAlwaysBelowZeroAndVanishesWithTheTolerance) {
+TEST_F(LightRange, theBiasIsBelowZeroAndVanishesWithTheTolerance) {
     const scenes::Scene scene = manyAttenuatedLights();
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings;
@@ -146,7 +146,7 @@ TEST_F(LightRange, anEndedLightIsExactlyTheSameWithEveryTechniqueAndCullingMetho
     EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, forward);
 }
 
-TEST_F(LightRange, anEndedLightIsNeverMissingFromAListThatNeedsIt) {
+TEST_F(LightRange, anEndedLightIsNotMissingFromAListThatNeedsIt) {
     const scenes::Scene scene = manyAttenuatedLights();
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings;

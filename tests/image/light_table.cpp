@@ -43,17 +43,17 @@ protected:
     }
 };
 
-TEST_F(LightTable, everyMethodAndTileIsAlwaysSoundOnTheLattice) {
+TEST_F(LightTable, everyMethodAndTileIsSoundOnTheLattice) {
     scenes::LoadOptions options;
     options.lights = 1024;
     judge(scenes::loadScene("lattice", options));
 }
 
-TEST_F(LightTable, everyMethodAndTileIsAlwaysSoundInTheHall) {
+TEST_F(LightTable, everyMethodAndTileIsSoundInTheHall) {
     judge(scenes::loadScene("hall"));
 }
 
-TEST_F(LightTable, everyMethodAndTileIsAlwaysSoundInSponza) {
+TEST_F(LightTable, everyMethodAndTileIsSoundInSponza) {
     const char* folder = std::getenv("TESSERA_ASSETS");
     const std::filesystem::path model = std::filesystem::path(folder == nullptr ? "" : folder) / "Sponza/Sponza.gltf";
     if (!std::filesystem::exists(model)) GTEST_SKIP() << "TESSERA_ASSETS has no Sponza/Sponza.gltf";
@@ -62,7 +62,7 @@ TEST_F(LightTable, everyMethodAndTileIsAlwaysSoundInSponza) {
         << "a view without depth judges nothing";
 }
 
-TEST_F(LightTable, depthSlicesAlwaysPayAtEveryTileSideWhereDepthHasDeepGaps) {
+TEST_F(LightTable, depthSlicesPayAtEveryTileSideWhereDepthHasDeepGaps) {
     Evaluated evaluated = judge(test::columnsBeforeWall(1500));
     for (const int tile : culling::kTileSides) {
         SCOPED_TRACE(tile);

@@ -79,7 +79,7 @@ protected:
     }
 };
 
-TEST_F(LightTightness, noMethodIsEverLooserThanItsBar) {
+TEST_F(LightTightness, noMethodIsLooserThanItsBar) {
     for (const bool ofSpots : {false, true}) {
         const scenes::Scene scene = ofSpots ? latticeOfSpots() : lattice();
         engine::Renderer renderer(context(), scene);
@@ -94,7 +94,7 @@ TEST_F(LightTightness, noMethodIsEverLooserThanItsBar) {
 }
 
 /// Shaders that build lists with one fault each, all of them sound.
-TEST_F(LightTightness, aTestThatSaysYesTooOftenIsAlwaysSeenByABar) {
+TEST_F(LightTightness, aTooLooseTestMissesATightnessTolerance) {
     for (const LooseTest& loose : kLooseTests) {
         SCOPED_TRACE(loose.fault);
         const test::ShaderMutant shaders;

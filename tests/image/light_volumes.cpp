@@ -225,15 +225,15 @@ void LightVolumes::expectRandomScenesEqual() {
     EXPECT_GE(lit, scenes * 3 / 4) << "too many pictures without light to say anything";
 }
 
-TEST_F(LightVolumes, randomScenesAreAlwaysExactlyAsInDeferred) {
+TEST_F(LightVolumes, randomScenesAreExactlyAsInDeferred) {
     expectRandomScenesEqual();
 }
-TEST_F(LightVolumesSlow, randomScenesAreAlwaysExactlyAsInDeferred) {
+TEST_F(LightVolumesSlow, randomScenesAreExactlyAsInDeferred) {
     expectRandomScenesEqual();
 }
 
 // Outlines of a few pixels, so many that some pixel centres fall within a vertex's snapping of them.
-TEST_F(LightVolumes, thousandsOfSmallLightsAreAlwaysExactlyAsInDeferred) {
+TEST_F(LightVolumes, thousandsOfSmallLightsAreExactlyAsInDeferred) {
     scenes::Scene scene = wall();
     Random random(7);
     for (int i = 0; i < 6000; ++i) {
@@ -246,7 +246,7 @@ TEST_F(LightVolumes, thousandsOfSmallLightsAreAlwaysExactlyAsInDeferred) {
 
 // Seen from the side, so that the lit part ends at the hull's outline; and the whole scene turned at random,
 // since the corners of an octagon stand out by 8 % and hide a hull that is too narrow.
-TEST_F(LightVolumes, spotsAlongAWallAreAlwaysExactlyAsInDeferred) {
+TEST_F(LightVolumes, spotsAlongAWallAreExactlyAsInDeferred) {
     const scenes::Scene upright = wall();
     Random random(11);
     for (int turn = 0; turn < 24; ++turn) {
@@ -265,7 +265,7 @@ TEST_F(LightVolumes, spotsAlongAWallAreAlwaysExactlyAsInDeferred) {
     }
 }
 
-TEST_F(LightVolumes, mirroredNodesAreAlwaysExactlyAsInDeferred) {
+TEST_F(LightVolumes, mirroredNodesAreExactlyAsInDeferred) {
     scenes::Scene scene = test::everythingScene();
     for (scenes::Node& node : scene.nodes) node.parentFromNode = glm::scale(node.parentFromNode, glm::dvec3(-1, 1, 1));
     engine::Renderer renderer(context(), scene);
@@ -311,7 +311,7 @@ TEST_F(LightVolumes, aSphereThatAlmostHoldsTheEyeNeverVisitsTheWholePicture) {
     EXPECT_LE(share.visited, 0.6 * 240 * 160) << share.visited << " " << share.lit;
 }
 
-TEST_F(LightVolumes, aLightThatFloatsBeforeAllSurfacesIsNeverVisited) {
+TEST_F(LightVolumes, aLightThatFloatsBeforeAllSurfacesIsNotVisited) {
     scenes::Scene scene = wall();
     scene.lights = {rangedLight({0.0, 0.0, 1.0}, 0.9f), spotLight({0.3, 0.0, 2.0}, {0.0, 1.0, 0.0}, 0.5),
                     spotLight({0.0, 0.0, 1.5}, {0.0, 0.0, -1.0}, 0.2)};
@@ -328,7 +328,7 @@ TEST_F(LightVolumes, aLightWithoutEndVisitsEveryPixelOnce) {
     EXPECT_EQ(shareOf(scene).visited, 240 * 160);
 }
 
-TEST_F(LightVolumes, uncoveredPixelsAlwaysKeepTheBackground) {
+TEST_F(LightVolumes, uncoveredPixelsKeepTheBackground) {
     scenes::Scene scene = wall();
     scene.cameras[0].fovYRadians = 2.0;
     scene.background = {0.25f, 0.5f, 0.75f};

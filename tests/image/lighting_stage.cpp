@@ -32,7 +32,7 @@ protected:
 };
 using LightingInComputeSlow = LightingInCompute;
 
-TEST_F(LightingInCompute, picturesAreAlwaysThoseOfForward) {
+TEST_F(LightingInCompute, picturesAreThoseOfForward) {
     for (const char* name : {"hall", "lattice"}) {
         SCOPED_TRACE(name);
         frame::FrameSettings settings;
@@ -41,7 +41,7 @@ TEST_F(LightingInCompute, picturesAreAlwaysThoseOfForward) {
     }
 }
 
-TEST_F(LightingInCompute, aSceneOfEveryFeatureIsAlwaysThePictureOfForward) {
+TEST_F(LightingInCompute, aSceneOfEveryFeatureIsThePictureOfForward) {
     const scenes::Scene scene = test::everythingScene();
     frame::FrameSettings settings;
     settings.sizePixels = {160, 88};
@@ -84,7 +84,7 @@ TEST_F(LightingInComputeSlow, everyViewAndLayoutIsExactlyThatOfFragmentShaders) 
     expectEveryView();
 }
 
-TEST_F(LightingInCompute, techniquesWithoutALightingPassAlwaysRefuseIt) {
+TEST_F(LightingInCompute, techniquesWithoutALightingPassRefuseIt) {
     const scenes::Scene scene = scenes::loadScene("room");
     frame::FrameSettings settings;
     settings.lightOn = frame::LightingStage::Compute;

@@ -42,7 +42,7 @@ Material changed(Material material, const std::function<void(Material&)>& change
     return material;
 }
 
-TEST_F(LobeValues, theExponentIsAlwaysMultipliedByGreen) {
+TEST_F(LobeValues, theExponentIsMultipliedByGreen) {
     Material material;
     material.model = MaterialModel::BlinnPhong;
     material.exponent = 40.0f;
@@ -50,7 +50,7 @@ TEST_F(LobeValues, theExponentIsAlwaysMultipliedByGreen) {
                 changed(material, [](Material& m) { m.exponent *= 0.6f; }));
 }
 
-TEST_F(LobeValues, theTwoAlphasAreAlwaysMultipliedByGreenAndRed) {
+TEST_F(LobeValues, theTwoAlphasAreMultipliedByGreenAndRed) {
     Material material;
     material.model = MaterialModel::MicrofacetAnisotropic;
     material.alpha = 0.5f;
@@ -69,7 +69,7 @@ Material brushedSteel() {
     return material;
 }
 
-TEST_F(LobeValues, theAnisotropyTextureAlwaysTurnsByRedAndGreenAndWeakensByBlue) {
+TEST_F(LobeValues, theAnisotropyTextureTurnsByRedAndGreenAndWeakensByBlue) {
     const Material material = brushedSteel();
     const float angle = 0.5f;
     // Not of unit length: only its direction counts.
@@ -82,7 +82,7 @@ TEST_F(LobeValues, theAnisotropyTextureAlwaysTurnsByRedAndGreenAndWeakensByBlue)
     expectTexel(material, TextureSlot::Anisotropy, none, material);
 }
 
-TEST_F(LobeValues, theDirectionAlwaysTurnsWithItsNodeAndIsMirroredWithIt) {
+TEST_F(LobeValues, theDirectionTurnsWithItsNodeAndIsMirroredWithIt) {
     const Material material = brushedSteel();
     Scene scene = underTheSun(material);
     const double turn = 0.7;
@@ -107,14 +107,14 @@ Material lacquer() {
     return material;
 }
 
-TEST_F(LobeValues, theCoatIsAlwaysMultipliedByRedAndItsRoughnessByGreen) {
+TEST_F(LobeValues, theCoatIsMultipliedByRedAndItsRoughnessByGreen) {
     const Material material = lacquer();
     expectTexel(material, TextureSlot::Clearcoat, kTexel, changed(material, [](Material& m) { m.clearcoat *= 0.8f; }));
     expectTexel(material, TextureSlot::ClearcoatRoughness, kTexel,
                 changed(material, [](Material& m) { m.clearcoatPerceptualRoughness *= 0.6f; }));
 }
 
-TEST_F(LobeValues, theCoatAlwaysFollowsItsOwnNormalMapAndNeverThatBelow) {
+TEST_F(LobeValues, theCoatFollowsItsOwnNormalMapAndNeverThatBelow) {
     Material material = lacquer();
     const glm::dvec3 plain = textbook::reflected(material, {0, 0, 1}, kToSun, {0, 0, 1});
     const glm::dvec3 tilted = glm::normalize(glm::dvec3(0.3, -0.2, 1.0));
@@ -130,7 +130,7 @@ TEST_F(LobeValues, theCoatAlwaysFollowsItsOwnNormalMapAndNeverThatBelow) {
 }
 
 /// Each map with vectors is turned by its own transform, whichever of them the tangents follow.
-TEST_F(LobeValues, aTransformOfOneMapNeverTurnsWhatAnotherHolds) {
+TEST_F(LobeValues, aTransformOfOneMapDoesNotRotateAnother) {
     const scenes::TextureTransform mirrored{{}, {1, -1}, 0.0f}, quarter{{}, {1, 1}, glm::radians(90.0f)};
     const glm::dvec3 tilted = glm::normalize(glm::dvec3(0.3, -0.2, 1.0));
     const glm::vec4 texel(glm::vec3(tilted * 0.5 + 0.5), 1.0f);
@@ -156,7 +156,7 @@ TEST_F(LobeValues, aTransformOfOneMapNeverTurnsWhatAnotherHolds) {
     }
 }
 
-TEST_F(LobeValues, theSheenIsAlwaysMultipliedByRedGreenAndBlueAndItsRoughnessByAlpha) {
+TEST_F(LobeValues, theSheenIsMultipliedByRedGreenAndBlueAndItsRoughnessByAlpha) {
     Material material;
     material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
     material.metallic = 0.0f;

@@ -73,12 +73,12 @@ protected:
     }
 };
 
-TEST_F(LostGeometryTest, everyInstanceOfModelsThatIsDroppedIsAlwaysNamed) {
+TEST_F(LostGeometryTest, everyInstanceOfModelsThatIsDroppedIsNamed) {
     expectEveryInstanceNamed(scenes::loadScene("models"), exactOfSize(160, 90));
 }
 
 /// With glass, masks, mirrored nodes.
-TEST_F(LostGeometryTest, everyInstanceOfTheSceneOfEveryFeatureThatIsDroppedIsAlwaysNamed) {
+TEST_F(LostGeometryTest, everyInstanceOfTheSceneOfEveryFeatureThatIsDroppedIsNamed) {
     expectEveryInstanceNamed(test::everythingScene(), exactOfSize(96, 54));
 }
 
@@ -114,7 +114,7 @@ scenes::Scene floorWith(scenes::Mesh above) {
     return scene;
 }
 
-TEST_F(LostGeometryTest, anInstanceOfOnePixelThatIsDroppedIsAlwaysNamed) {
+TEST_F(LostGeometryTest, anInstanceOfOnePixelThatIsDroppedIsNamed) {
     scenes::Mesh square;
     scenes::builtin::appendFloor(square, {0.0, 0.1, 0.0}, glm::dvec2(2.0 / 33.0), {1, 1}); // the pixel 16,16 of 33
     const scenes::Scene scene = floorWith(std::move(square));
@@ -135,7 +135,7 @@ TEST_F(LostGeometryTest, anInstanceOfOnePixelThatIsDroppedIsAlwaysNamed) {
     EXPECT_EQ(grown.lost.front().pixels, 8u);
 }
 
-TEST_F(LostGeometryTest, whatCoversTheBackgroundAloneIsAlwaysNamedAsTooMuch) {
+TEST_F(LostGeometryTest, geometryThatCoversOnlyBackgroundIsReportedAsExtra) {
     scenes::Mesh square;
     scenes::builtin::appendFloor(square, {0.0, 0.1, 0.0}, glm::dvec2(2.0 / 33.0), {1, 1});
     scenes::Scene scene = floorWith(std::move(square));
@@ -151,7 +151,7 @@ TEST_F(LostGeometryTest, whatCoversTheBackgroundAloneIsAlwaysNamedAsTooMuch) {
     EXPECT_EQ(grown.lost.front().pixels, 8u);
 }
 
-TEST_F(LostGeometryTest, aMeshThatFillsThePictureAndIsDroppedIsAlwaysNamed) {
+TEST_F(LostGeometryTest, aMeshThatFillsThePictureAndIsDroppedIsNamed) {
     scenes::Mesh square;
     scenes::builtin::appendFloor(square, {0.013, 0.1, 0.0}, {2.2, 2.2}, {1, 1});
     const scenes::Scene scene = floorWith(std::move(square));

@@ -44,7 +44,7 @@ Material blackMicrofacet() {
     return material;
 }
 
-TEST_F(MaterialValues, aMirrorAlwaysHasTheLeastAlpha) {
+TEST_F(MaterialValues, aMirrorHasTheLeastAlpha) {
     constexpr double kLeastAlpha = 1e-3; // the shading formulas' own bound
     const double peak = 1.0 / (4.0 * pi * kLeastAlpha * kLeastAlpha);
     Material glossy = blackMicrofacet();
@@ -56,7 +56,7 @@ TEST_F(MaterialValues, aMirrorAlwaysHasTheLeastAlpha) {
     expectColor(underTheSun(metal), glm::dvec3(1.0, 0.5, 0.25) * peak);
 }
 
-TEST_F(MaterialValues, theTintedDielectricReflectanceIsAlwaysHeldToOneAndThenScaled) {
+TEST_F(MaterialValues, theTintedDielectricReflectanceIsHeldToOneAndThenScaled) {
     Material material = blackDielectric();
     material.specularColor = {40.0f, 2.0f, 1.0f};
     material.specularFactor = 0.5f;
@@ -81,7 +81,7 @@ TEST_F(MaterialValues, aDielectricReflectsItsF90TheMoreTheLowerTheSunStands) {
     }
 }
 
-TEST_F(MaterialValues, anIorTextureAlwaysMultipliesTheIorByItsRed) {
+TEST_F(MaterialValues, anIorTextureMultipliesTheIorByItsRed) {
     for (Material material : {blackDielectric(), blackMicrofacet()}) {
         SCOPED_TRACE(material.model == MaterialModel::Microfacet ? "microfacet" : "metallic_roughness");
         material.ior = 1.25f;
@@ -91,7 +91,7 @@ TEST_F(MaterialValues, anIorTextureAlwaysMultipliesTheIorByItsRed) {
     }
 }
 
-TEST_F(MaterialValues, aSpecularFactorTextureAlwaysCountsByItsAlpha) {
+TEST_F(MaterialValues, aSpecularFactorTextureCountsByItsAlpha) {
     Material material = blackDielectric();
     material.specularFactor = 0.5f;
     const Scene scene =
@@ -99,14 +99,14 @@ TEST_F(MaterialValues, aSpecularFactorTextureAlwaysCountsByItsAlpha) {
     expectColor(scene, glm::dvec3(0.04 * 0.125 / (4.0 * pi)));
 }
 
-TEST_F(MaterialValues, anUnlitSurfaceThatEmitsAlwaysShowsBoth) {
+TEST_F(MaterialValues, anUnlitSurfaceThatEmitsShowsBoth) {
     Material material = unlit();
     material.baseColor = {0.5f, 0.25f, 0.125f, 1.0f};
     material.emissive = {0.25f, 0.5f, 1.0f};
     EXPECT_EQ(glm::vec3(center(flatScene(material))), glm::vec3(0.75f, 0.75f, 1.125f));
 }
 
-TEST_F(MaterialValues, theNormalViewIsAlwaysInWorldSpace) {
+TEST_F(MaterialValues, theNormalViewIsInWorldSpace) {
     const glm::dmat4 turn = glm::rotate(glm::rotate(glm::dmat4(1.0), 0.7, {0, 1, 0}), 0.4, {1, 0, 0});
     Scene scene = flatScene({});
     scene.nodes[0].parentFromNode = turn * scene.nodes[0].parentFromNode;
@@ -121,7 +121,7 @@ TEST_F(MaterialValues, theNormalViewIsAlwaysInWorldSpace) {
     }
 }
 
-TEST_F(MaterialValues, opacityBeyondZeroAndOneIsAlwaysHeldToThem) {
+TEST_F(MaterialValues, opacityBeyondZeroAndOneIsHeldToThem) {
     Material material = unlit();
     material.alphaMode = scenes::AlphaMode::Blend;
     Scene scene = flatScene(material);
@@ -141,7 +141,7 @@ scenes::Image tiltedImage() {
 }
 const glm::dvec3 kSlantedWS = glm::normalize(glm::dvec3(-0.3, -0.8, -1.0));
 
-TEST_F(MaterialValues, anObjectSpaceNormalAlwaysTurnsAndStretchesWithItsNode) {
+TEST_F(MaterialValues, anObjectSpaceNormalTurnsAndStretchesWithItsNode) {
     Material material;
     material.model = MaterialModel::Lambert;
     material.normalMapSpace = scenes::NormalMapSpace::Object;
@@ -153,7 +153,7 @@ TEST_F(MaterialValues, anObjectSpaceNormalAlwaysTurnsAndStretchesWithItsNode) {
     expectColor(scene, glm::dvec3(-glm::dot(normalWS, kSlantedWS)));
 }
 
-TEST_F(MaterialValues, theNormalScaleAlwaysScalesBothTiltsAndNeverTheHeight) {
+TEST_F(MaterialValues, theNormalScaleScalesBothTiltsAndNeverTheHeight) {
     Material material;
     material.model = MaterialModel::Lambert;
     material.normalScale = 0.5f;
@@ -162,7 +162,7 @@ TEST_F(MaterialValues, theNormalScaleAlwaysScalesBothTiltsAndNeverTheHeight) {
     expectColor(scene, glm::dvec3(-glm::dot(normalWS, kSlantedWS)));
 }
 
-TEST_F(MaterialValues, aLightNearerThanACentimetreAlwaysShinesAsFromACentimetre) {
+TEST_F(MaterialValues, aLightNearerThanACentimetreShinesAsFromACentimetre) {
     Material material;
     material.model = MaterialModel::Lambert;
     Scene scene = flatScene(material);

@@ -92,7 +92,7 @@ protected:
     }
 };
 
-TEST_F(Mutants, everyFaultIsAlwaysSeenByTheCaseThatIsThereForIt) {
+TEST_F(Mutants, everyFaultIsDetectedByItsCase) {
     ASSERT_GE(std::size(kMutants), 12u);
     for (const Mutant& mutant : kMutants) {
         SCOPED_TRACE(mutant.fault);
@@ -109,7 +109,7 @@ TEST_F(Mutants, everyFaultIsAlwaysSeenByTheCaseThatIsThereForIt) {
 
 /// A tolerance, a weight or a scale so wide that nothing can fail shows here: no case holds with half the signal, and
 /// of pictures none does.
-TEST_F(Mutants, noCaseAndNoPictureEverHoldsWhereWhatItMeasuresIsHalved) {
+TEST_F(Mutants, everyCaseFailsWhereItsMeasuredQuantityIsHalved) {
     validation::StressRequest request;
     request.techniques = {Technique::Forward};
     request.effort = validation::StressEffort::Quick;
@@ -142,7 +142,7 @@ TEST_F(Mutants, noCaseAndNoPictureEverHoldsWhereWhatItMeasuresIsHalved) {
 }
 
 /// Else a case that never holds would see every fault.
-TEST_F(Mutants, shadersWithoutAFaultAlwaysHoldEachOfTheirCases) {
+TEST_F(Mutants, shadersWithoutAFaultHoldEachOfTheirCases) {
     std::vector<std::string> cases;
     for (const Mutant& mutant : kMutants) cases.emplace_back(mutant.seenBy);
     std::sort(cases.begin(), cases.end());
@@ -152,7 +152,7 @@ TEST_F(Mutants, shadersWithoutAFaultAlwaysHoldEachOfTheirCases) {
 }
 
 /// Why the suite is needed: techniques that share a fault agree.
-TEST_F(Mutants, techniquesAlwaysAgreeOnAFaultTheyShare) {
+TEST_F(Mutants, techniquesAgreeOnAFaultTheyShare) {
     const test::ShaderMutant shaders;
     shaders.replace("lib/maths/math.glsl", "kPi = 3.14159265358979323846", "kPi = 3.17300858");
     const scenes::Scene scene = validation::stressScene();

@@ -91,7 +91,7 @@ void Parity::expectPromisesKept() {
     }
 }
 
-TEST_F(Parity, everyCoarseLayoutAlwaysKeepsItsPromiseAndAttributesItsError) {
+TEST_F(Parity, everyCoarseLayoutKeepsItsPromiseAndAttributesItsError) {
     expectPromisesKept();
 }
 TEST_F(ParitySlow, everyCoarseLayoutAlwaysKeepsItsPromiseWithEveryTechnique) {
@@ -146,7 +146,7 @@ TEST_F(Parity, anOrthographicCameraIsExactlyTheSameWithEveryTechnique) {
     expectAgreement(ended, settings);
 }
 
-TEST_F(Parity, aFarPlaneNeverChangesWhatLiesBeforeIt) {
+TEST_F(Parity, aFarPlaneDoesNotChangeNearerSurfaces) {
     scenes::Scene scene = test::everythingScene();
     frame::FrameSettings settings;
     settings.sizePixels = {161, 90};

@@ -103,18 +103,18 @@ protected:
     }
 };
 
-TEST_F(Reference, everyBuiltinSceneAlwaysAgreesWithIt) {
+TEST_F(Reference, everyBuiltinSceneAgreesWithIt) {
     expectEverySceneAsGoodAsMeasured(kSmallBars);
 }
 
 using ReferenceSlow = Reference;
 
 /// At the size at which the programs render by themselves: single pixels that miss by much are rare.
-TEST_F(ReferenceSlow, everyBuiltinSceneAlwaysAgreesWithItAtTheDefaultSize) {
+TEST_F(ReferenceSlow, everyBuiltinSceneAgreesWithItAtTheDefaultSize) {
     expectEverySceneAsGoodAsMeasured(kDefaultBars);
 }
 
-TEST_F(Reference, aSceneOfEveryFeatureAlwaysAgreesWithIt) {
+TEST_F(Reference, aSceneOfEveryFeatureAgreesWithIt) {
     scenes::Scene scene = test::everythingScene();
     expectAgreement("everything", scene, ofSize(161, 89));
     frame::FrameSettings settings = ofSize(160, 90);
@@ -135,7 +135,7 @@ TEST_F(Reference, aSceneOfEveryFeatureAlwaysAgreesWithIt) {
     expectAgreement("the same, far plane", scene, ofSize(161, 90));
 }
 
-TEST_F(Reference, aSceneFarFromTheOriginAlwaysAgreesWithIt) {
+TEST_F(Reference, aSceneFarFromTheOriginAgreesWithIt) {
     scenes::Scene scene = test::everythingScene();
     const glm::dvec3 away(0x1p20, 0.0, -0x1p20);
     for (scenes::Node& node : scene.nodes) node.parentFromNode[3] += glm::dvec4(away, 0.0);
@@ -145,7 +145,7 @@ TEST_F(Reference, aSceneFarFromTheOriginAlwaysAgreesWithIt) {
 }
 
 /// Glass before glass before an opaque ball: each layer counts with its own weight.
-TEST_F(Reference, transparentSurfacesOnTopOfEachOtherAlwaysAgreeWithIt) {
+TEST_F(Reference, transparentSurfacesOnTopOfEachOtherAgreeWithIt) {
     scenes::Scene scene = test::everythingScene();
     const scenes::Material glass = scene.materials[std::size_t(scene.nodes.back().instances.front().material)];
     for (const double z : {0.5, 3.0, 1.25}) {
@@ -171,7 +171,7 @@ TEST_F(Reference, aLightThatDiffersByOnePercentNeverPasses) {
     EXPECT_FALSE(validation::checkTolerance(figures, validation::referenceTolerance(scene, settings.filter)).ok);
 }
 
-TEST_F(Reference, hardwareFilteringIsAlwaysAPairOfItsOwnAndHolds) {
+TEST_F(Reference, hardwareFilteringIsAPairOfItsOwnAndHolds) {
     const scenes::Scene scene = test::everythingScene();
     engine::Renderer renderer(context(), scene);
     validation::CompareRequest request;
@@ -203,7 +203,7 @@ TEST_F(Reference, aTextureWithoutItsSmallerLevelsNeverPassesAsHardwareFiltering)
 
 class SrgbDecoding : public test::FlatTest {};
 
-TEST_F(SrgbDecoding, everyCodeValueIsAlwaysDecodedToRounding) {
+TEST_F(SrgbDecoding, everyCodeValueIsDecodedToRounding) {
     frame::FrameSettings settings;
     settings.filter = frame::TextureFilter::Exact;
     for (int first = 0; first < 256; first += test::kSide * test::kSide) {

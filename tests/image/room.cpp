@@ -39,7 +39,7 @@ std::optional<room::RoomPoint> insideOneSurface(const scenes::Camera& camera, gl
     return center;
 }
 
-TEST_F(Room, everyPixelIsAlwaysTheClosedFormWithEveryTechnique) {
+TEST_F(Room, everyPixelIsTheClosedFormWithEveryTechnique) {
     const scenes::Scene scene = scenes::loadScene("room");
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings;

@@ -59,7 +59,7 @@ protected:
     std::filesystem::path folder_;
 };
 
-TEST_F(ScanNormals, bothBakesOfOneScanAlwaysGiveNearlyTheSameNormalsUnlessAGreenIsFlipped) {
+TEST_F(ScanNormals, bothBakesOfOneScanGiveNearlyTheSameNormalsUnlessAGreenIsFlipped) {
     const std::vector<float> object = normals(NormalMapSpace::Object, false);
     const std::vector<float> tangent = normals(NormalMapSpace::Tangent, false);
     const double agreed = medianDegrees(object, tangent);

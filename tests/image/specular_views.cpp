@@ -77,7 +77,7 @@ Terms textbookTerms(const Material& m, const glm::dvec3& n, const glm::dvec3& l,
     return terms;
 }
 
-TEST_F(SpecularViews, dGAndFOfHeadAlwaysEqualTheirFormulasAndFIsExactlyZeroWhereTheLightIsNotSeen) {
+TEST_F(SpecularViews, dGAndFOfHeadEqualTheirFormulasAndFIsExactlyZeroWhereTheLightIsNotSeen) {
     engine::Renderer renderer(context(), scene_);
     const scenes::Camera& camera = scene_.cameras[0];
     for (const Technique technique : {Technique::Forward, Technique::Deferred}) {

@@ -36,13 +36,13 @@ protected:
     }
 };
 
-TEST_F(Stress, everyCaseAlwaysHoldsInItsShortForm) {
+TEST_F(Stress, everyCaseHoldsInItsShortForm) {
     run(validation::StressEffort::Quick);
 }
 
 class StressSlow : public Stress {};
 
-TEST_F(StressSlow, everyCaseAlwaysHoldsOverTenMillionSamplesOfMaterials) {
+TEST_F(StressSlow, everyCaseHoldsOverTenMillionSamplesOfMaterials) {
     const validation::StressRecord record = run(validation::StressEffort::Full);
     EXPECT_GE(brdfSamples(record), 10'000'000u);
     fmt::print("{}", validation::stressTable(record));

@@ -16,7 +16,7 @@ using scenes::TextureSlot;
 
 class SurfaceValues : public FlatTest {};
 
-TEST_F(SurfaceValues, alphaMaskAlwaysKeepsWhatReachesTheCutoff) {
+TEST_F(SurfaceValues, alphaMaskKeepsTexelsThatReachTheCutoff) {
     Scene scene = texturedScene(flatScene(unlit()), TextureSlot::BaseColor, image8([](int x, int) {
                                     return std::array<int, 4>{255, 255, 255, 32 * x};
                                 }));
@@ -29,7 +29,7 @@ TEST_F(SurfaceValues, alphaMaskAlwaysKeepsWhatReachesTheCutoff) {
     }
 }
 
-TEST_F(SurfaceValues, blendingAlwaysWeighsTheSurfaceByItsOpacity) {
+TEST_F(SurfaceValues, blendingWeighsTheSurfaceByItsOpacity) {
     Scene scene = flatScene(unlit());
     scene.background = {0.2f, 0.4f, 0.8f};
     scene.materials[0].baseColor = {1.0f, 0.5f, 0.25f, 0.25f};
@@ -40,7 +40,7 @@ TEST_F(SurfaceValues, blendingAlwaysWeighsTheSurfaceByItsOpacity) {
     EXPECT_EQ(glm::vec3(center(scene)), glm::vec3(1.0f, 0.5f, 0.25f));
 }
 
-TEST_F(SurfaceValues, aBackFaceIsAlwaysLitAsAFrontWhenDoubleSidedAndNeverDrawnOtherwise) {
+TEST_F(SurfaceValues, aBackFaceIsLitAsAFrontWhenDoubleSidedAndNeverDrawnOtherwise) {
     Material material;
     material.model = MaterialModel::Lambert;
     Scene scene = flatScene(material);
@@ -53,7 +53,7 @@ TEST_F(SurfaceValues, aBackFaceIsAlwaysLitAsAFrontWhenDoubleSidedAndNeverDrawnOt
     EXPECT_NEAR(center(scene).r, front.r, 1e-6f * front.r);
 }
 
-TEST_F(SurfaceValues, coloursAboveOneAlwaysKeepTheirLightInEveryLayout) {
+TEST_F(SurfaceValues, coloursAboveOneKeepTheirLightInEveryLayout) {
     for (const MaterialModel model : {MaterialModel::Lambert, MaterialModel::Microfacet}) {
         Material material;
         material.model = model;
@@ -74,7 +74,7 @@ TEST_F(SurfaceValues, coloursAboveOneAlwaysKeepTheirLightInEveryLayout) {
     }
 }
 
-TEST_F(SurfaceValues, aCoatOnABackFaceIsAlwaysLitAsOnAFront) {
+TEST_F(SurfaceValues, aCoatOnABackFaceIsLitAsOnAFront) {
     Material material; // black below the coat, so that the coat alone is seen
     material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
     material.specularFactor = 0.0f;
@@ -89,7 +89,7 @@ TEST_F(SurfaceValues, aCoatOnABackFaceIsAlwaysLitAsOnAFront) {
     EXPECT_NEAR(center(scene).r, front.r, 1e-5f * front.r); // the turned normal is off by 6e-8, times the lobe's slope
 }
 
-TEST_F(SurfaceValues, aMirroredNodeIsAlwaysDrawnMirroredWithTheSameLighting) {
+TEST_F(SurfaceValues, aMirroredNodeIsDrawnMirroredWithTheSameLighting) {
     Material material;
     material.model = MaterialModel::Lambert;
     Scene scene = texturedScene(flatScene(material), TextureSlot::BaseColor, mapImage());
@@ -107,7 +107,7 @@ TEST_F(SurfaceValues, aMirroredNodeIsAlwaysDrawnMirroredWithTheSameLighting) {
 constexpr std::array<int, 4> kLeaning = {128, 192, 238, 255};
 constexpr std::array<int, 4> kFlipped = {128, 63, 238, 255};
 
-TEST_F(SurfaceValues, theGreenOfANormalMapAlwaysPointsUpInBothSpaces) {
+TEST_F(SurfaceValues, theGreenOfANormalMapPointsUpInBothSpaces) {
     for (const scenes::NormalMapSpace space : {scenes::NormalMapSpace::Tangent, scenes::NormalMapSpace::Object}) {
         SCOPED_TRACE(space == scenes::NormalMapSpace::Tangent ? "tangent" : "object");
         Material material;
@@ -123,7 +123,7 @@ TEST_F(SurfaceValues, theGreenOfANormalMapAlwaysPointsUpInBothSpaces) {
     }
 }
 
-TEST_F(SurfaceValues, anObjectSpaceMapAlwaysTurnsWithItsObjectAndATangentSpaceMapWithItsTexture) {
+TEST_F(SurfaceValues, anObjectSpaceMapTurnsWithItsObjectAndATangentSpaceMapWithItsTexture) {
     Material material;
     material.model = MaterialModel::Lambert;
     Scene scene = texturedScene(flatScene(material), TextureSlot::Normal, uniformImage(kLeaning));
@@ -148,7 +148,7 @@ TEST_F(SurfaceValues, anObjectSpaceMapAlwaysTurnsWithItsObjectAndATangentSpaceMa
 /// A normal that leans to the right and, more, upwards.
 constexpr std::array<int, 4> kTiltedTexel = {176, 208, 216, 255};
 
-TEST_F(SurfaceValues, aTangentSpaceMapAlwaysTiltsAlongItsTextureWhereverTheMirroringIs) {
+TEST_F(SurfaceValues, aTangentSpaceMapTiltsAlongItsTextureWhereverTheMirroringIs) {
     Material material;
     material.model = MaterialModel::Lambert;
     const glm::dvec3 lightWS(0.8, 1.1, 1.0);
@@ -193,7 +193,7 @@ TEST_F(SurfaceValues, aTangentSpaceMapAlwaysTiltsAlongItsTextureWhereverTheMirro
 
 /// KHR_texture_transform. Where u and -v point then, found by hand: coordinates that turn counter-clockwise turn the
 /// picture clockwise.
-TEST_F(SurfaceValues, aTransformOfANormalMapAlwaysTurnsAndMirrorsItsNormals) {
+TEST_F(SurfaceValues, aTransformOfANormalMapTurnsAndMirrorsItsNormals) {
     struct Case {
         glm::vec2 scale;
         float degrees;
@@ -224,7 +224,7 @@ TEST_F(SurfaceValues, aTransformOfANormalMapAlwaysTurnsAndMirrorsItsNormals) {
     }
 }
 
-TEST_F(SurfaceValues, aNormalScaleOfZeroIsAlwaysTheFlatSurface) {
+TEST_F(SurfaceValues, aNormalScaleOfZeroIsTheFlatSurface) {
     Material material;
     material.model = MaterialModel::Lambert;
     Scene scene = flatScene(material);
@@ -235,7 +235,7 @@ TEST_F(SurfaceValues, aNormalScaleOfZeroIsAlwaysTheFlatSurface) {
     EXPECT_NEAR(center(mapped).r, flat.r, 1e-6f * flat.r);
 }
 
-TEST_F(SurfaceValues, emissionIsAlwaysAddedToWhatLightsGive) {
+TEST_F(SurfaceValues, emissionIsAddedToReflectedLight) {
     Material material;
     material.metallic = 0.0f;
     Scene scene = flatScene(material);

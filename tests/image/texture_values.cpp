@@ -24,7 +24,7 @@ double linearFromSrgb(double code) {
     return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
 }
 
-TEST_F(TextureValues, baseColourTexelsAreAlwaysSrgbAndRoughnessTexelsLinear) {
+TEST_F(TextureValues, baseColourTexelsAreSrgbAndRoughnessTexelsLinear) {
     Scene colored = texturedScene(flatScene(unlit()), TextureSlot::BaseColor, uniformImage({128, 64, 255, 255}));
     const glm::vec4 color = center(colored);
     EXPECT_NEAR(color.r, 0.2158605, kDecoding);
@@ -43,7 +43,7 @@ TEST_F(TextureValues, baseColourTexelsAreAlwaysSrgbAndRoughnessTexelsLinear) {
     EXPECT_NEAR(found.r, wanted.r, 1e-6f * wanted.r); // 0.50196 either way, to a rounding
 }
 
-TEST_F(TextureValues, sixteenBitAndFloatTexelsAreAlwaysReadInFull) {
+TEST_F(TextureValues, sixteenBitAndFloatTexelsAreReadInFull) {
     scenes::Image image;
     image.width = image.height = 1;
     image.format = scenes::TexelFormat::Rgba16Unorm;
@@ -91,29 +91,29 @@ protected:
     }
 };
 
-TEST_F(Transforms, anUntransformedPictureIsAlwaysShownTexelForPixel) {
+TEST_F(Transforms, anUntransformedPictureIsShownTexelForPixel) {
     expectTexels(moved({}), [](int x, int y) { return Place{x, y}; });
 }
 
-TEST_F(Transforms, anOffsetAlwaysMovesThePictureAgainstIt) {
+TEST_F(Transforms, anOffsetMovesThePictureAgainstIt) {
     expectTexels(moved({{0.25f, 0.5f}, {1, 1}, 0}), [](int x, int y) { return Place{(x + 2) % 8, (y + 4) % 8}; });
 }
 
-TEST_F(Transforms, aScaleAlwaysRepeatsThePictureThatOften) {
+TEST_F(Transforms, aScaleRepeatsThePictureThatOften) {
     // Texel 2x + 1/2 of pixel x's centre lies on an edge; a shift of a quarter takes it inside.
     expectTexels(moved({{0.03125f, 0.03125f}, {2, 2}, 0}), [](int x, int y) {
         return Place{(2 * x + 1) % 8, (2 * y + 1) % 8};
     });
 }
 
-TEST_F(Transforms, aQuarterTurnAlwaysTurnsThePictureClockwise) {
+TEST_F(Transforms, aQuarterTurnTurnsThePictureClockwise) {
     // KHR_texture_transform: coordinates turn counter-clockwise about the top-left corner, the picture clockwise; the
     // offset brings it back. The picture's top-left texel ends up at the top right.
     const float quarter = float(std::numbers::pi / 2.0);
     expectTexels(moved({{0.0f, 1.0f}, {1, 1}, quarter}), [](int x, int y) { return Place{y, 7 - x}; });
 }
 
-TEST_F(Transforms, wrapModesAlwaysContinueThePictureTheirWay) {
+TEST_F(Transforms, wrapModesContinueThePictureTheirWay) {
     // Two picture widths side by side, shifted so that a whole period shows on both sides of the edge.
     const scenes::TextureTransform wide{{-0.46875f, -0.46875f}, {2, 2}, 0};
     const auto column = [](int x) { return 2 * x + 1 - 4; }; // texel column of pixel x, before wrapping
@@ -129,7 +129,7 @@ TEST_F(Transforms, wrapModesAlwaysContinueThePictureTheirWay) {
     });
 }
 
-TEST_F(TextureValues, linearMagnificationAlwaysBlendsAndNearestNeverDoes) {
+TEST_F(TextureValues, linearMagnificationBlendsAndNearestNeverDoes) {
     Scene scene = texturedScene(flatScene(unlit()), TextureSlot::BaseColor, image8([](int x, int) {
                                     return std::array<int, 4>{x < 4 ? 0 : 255, 0, 0, 255};
                                 }));
@@ -144,7 +144,7 @@ TEST_F(TextureValues, linearMagnificationAlwaysBlendsAndNearestNeverDoes) {
     EXPECT_EQ(shades(), 2 * kSide); // the two columns beside the step
 }
 
-TEST_F(TextureValues, secondUvSetAndVertexColoursAlwaysCountExactly) {
+TEST_F(TextureValues, secondUvSetAndVertexColoursCountExactly) {
     Scene scene = texturedScene(flatScene(unlit()), TextureSlot::BaseColor, mapImage());
     scene.materials[0].texture(TextureSlot::BaseColor).texCoordSet = 1;
     scene.meshes[0].texCoords[1] = {{1, 1}, {0, 1}, {0, 0}, {1, 0}}; // the first set, mirrored in u
@@ -194,7 +194,7 @@ protected:
     }
 };
 
-TEST_F(ExactFilter, everyPairOfWrapModesAlwaysFindsAndBlendsItsOwnTexels) {
+TEST_F(ExactFilter, everyPairOfWrapModesFindsAndBlendsItsOwnTexels) {
     frame::FrameSettings settings;
     settings.filter = frame::TextureFilter::Exact;
     Scene scene = texturedScene(flatScene(unlit()), TextureSlot::BaseColor, placeImage());

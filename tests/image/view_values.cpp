@@ -70,7 +70,7 @@ TEST_F(ViewValues, theDiffuseViewIsExactlyTheBaseColourOfEveryModel) {
 }
 
 /// Where the quad of these tests faces, tilted by a map, in the three spaces.
-TEST_F(ViewValues, oneNormalIsAlwaysShownInWorldViewAndObjectSpace) {
+TEST_F(ViewValues, oneNormalIsShownInWorldViewAndObjectSpace) {
     Material material;
     material.normalMapSpace = scenes::NormalMapSpace::Object;
     Scene scene = texturedScene(flatScene(material), TextureSlot::Normal, uniformImage({176, 208, 216, 255}));
@@ -103,7 +103,7 @@ TEST_F(ViewValues, oneNormalIsAlwaysShownInWorldViewAndObjectSpace) {
     }
 }
 
-TEST_F(ViewValues, anObjectSpaceNormalIsAlwaysFiniteAndThatOfThePlaneWhereTheNodeFlattensIt) {
+TEST_F(ViewValues, anObjectSpaceNormalIsFiniteAndThatOfThePlaneWhereTheNodeFlattensIt) {
     Material material;
     material.normalMapSpace = scenes::NormalMapSpace::Object;
     Scene scene = texturedScene(flatScene(material), TextureSlot::Normal, uniformImage({176, 208, 216, 255}));
@@ -143,7 +143,7 @@ TEST_F(ViewValues, overdrawIsExactlyTheSurfacesThatEachTechniqueShades) {
     }
 }
 
-TEST_F(ViewValues, faultsAreAlwaysPaintedAndNothingElseIs) {
+TEST_F(ViewValues, faultsArePaintedAndNothingElseIs) {
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
     constexpr float kInfinite = std::numeric_limits<float>::infinity();
     const struct {
@@ -167,7 +167,7 @@ TEST_F(ViewValues, faultsAreAlwaysPaintedAndNothingElseIs) {
     }
 }
 
-TEST_F(ViewValues, storedChannelsAreExactlyWhatIsInTheGBuffer) {
+TEST_F(ViewValues, storedChannelsShowTheGBufferBitForBit) {
     Material material;
     material.baseColor = {0.25f, 0.5f, 1.0f, 1.0f};
     material.metallic = 0.375f;
@@ -207,7 +207,7 @@ TEST_F(ViewValues, storedChannelsAreExactlyWhatIsInTheGBuffer) {
 }
 
 /// There the frame that turns the tangent is off least where the stored normal is (docs/numerics.md).
-TEST_F(ViewValues, aTangentIsAlwaysStoredBesideTheAxisFarthestFromItsNormal) {
+TEST_F(ViewValues, aTangentIsStoredBesideTheAxisFarthestFromItsNormal) {
     Material material;
     material.model = MaterialModel::MicrofacetAnisotropic;
     const Scene upright = flatScene(material);
@@ -232,7 +232,7 @@ TEST_F(ViewValues, aTangentIsAlwaysStoredBesideTheAxisFarthestFromItsNormal) {
     } while (std::ranges::next_permutation(order).found);
 }
 
-TEST_F(ViewValues, storedChannelsAreNeverShownWhereThereAreNone) {
+TEST_F(ViewValues, storedChannelsAreNotShownWhereThereAreNone) {
     const Scene scene = flatScene(Material{});
     const auto message = [&](Technique technique, frame::Channel channel) -> std::string {
         frame::FrameSettings settings = viewSettings(frame::storedView({channel, false}));
@@ -252,7 +252,7 @@ TEST_F(ViewValues, storedChannelsAreNeverShownWhereThereAreNone) {
     EXPECT_EQ(message(Technique::Deferred, frame::Channel::NormalTexel), "no error") << "stored when it is shown";
 }
 
-TEST_F(ViewValues, theDepthViewIsAlwaysTheDistanceAheadOfTheEyeHoweverFar) {
+TEST_F(ViewValues, theDepthViewIsTheDistanceAheadOfTheEyeHoweverFar) {
     for (const double metres : {3.0, 1e3, 1e6}) {
         Scene scene = quadScene(unlit());
         scene.nodes.push_back(scene.nodes[0]); // twice as large, a metre behind
@@ -289,7 +289,7 @@ TEST_F(ViewValues, aLightThatIsDarkHasNoHighlightToShowAndAnotherNeverStandsInFo
     }
 }
 
-TEST_F(ViewValues, distributionsOfAnySizeAlwaysFitTheDisplay) {
+TEST_F(ViewValues, distributionsOfAnySizeFitTheDisplay) {
     Material material;
     material.model = MaterialModel::Microfacet;
     Scene scene = flatScene(material);

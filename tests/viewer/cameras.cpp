@@ -6,7 +6,7 @@ namespace {
 
 using ViewerCameras = ViewerTest;
 
-TEST_F(ViewerCameras, everyGestureAlwaysMovesThePictureAndHomeBringsItBackExactly) {
+TEST_F(ViewerCameras, everyGestureMovesThePictureAndHomeBringsItBackExactly) {
     DrivenViewer viewer = open({"spheres"});
     const Shot home = pictureIn(viewer, viewer.waitForWhole(0));
     const glm::ivec2 there = kMiddle + glm::ivec2(150, 60);
@@ -34,7 +34,7 @@ TEST_F(ViewerCameras, everyGestureAlwaysMovesThePictureAndHomeBringsItBackExactl
                 }));
 }
 
-TEST_F(ViewerCameras, aPictureAtRestIsNeverDrawnAgain) {
+TEST_F(ViewerCameras, aPictureAtRestIsNotDrawnAgain) {
     DrivenViewer viewer = open({"room"});
     viewer.waitForWhole(0);
     const std::size_t mark = viewer.mark();

@@ -64,7 +64,7 @@ TEST_F(ViewerEdits, aLightSwitchedOffIsSavedAndOnAgainBringsThePictureBackExactl
     EXPECT_TRUE(pictureIn(again, again.waitForWhole(0)) == dark) << "the saved scene does not load back identically";
 }
 
-TEST_F(ViewerEdits, whatIsEditedWhileAnotherSceneLoadsIsNeverLeftBehindUnasked) {
+TEST_F(ViewerEdits, editsDuringALoadAreNotDiscardedWithoutRequest) {
     const std::string room = R"({"tessera": 1, "base": {"file": "builtin:room"}})";
     folder_.write("slow.json", room);
     DrivenViewer viewer = open({"slow.json"});
@@ -86,7 +86,7 @@ TEST_F(ViewerEdits, whatIsEditedWhileAnotherSceneLoadsIsNeverLeftBehindUnasked) 
     viewer.waitFor("opened ", mark);
 }
 
-TEST_F(ViewerEdits, aLightAddedAndDraggedAlwaysGoesWithThePointer) {
+TEST_F(ViewerEdits, aLightAddedAndDraggedGoesWithThePointer) {
     DrivenViewer viewer = open({"room"});
     const Shot before = pictureIn(viewer, viewer.waitForWhole(0));
     toggle(viewer, Section::Lights);
@@ -115,7 +115,7 @@ TEST_F(ViewerEdits, aLightAddedAndDraggedAlwaysGoesWithThePointer) {
     EXPECT_LT(glm::distance(sum / count, glm::dvec2(there - kPictureCorner)), 4.0);
 }
 
-TEST_F(ViewerEdits, aMaterialPickedByAClickAndEditedIsAlwaysSaved) {
+TEST_F(ViewerEdits, aMaterialPickedByAClickAndEditedIsSaved) {
     DrivenViewer viewer = open({"spheres"});
     const Shot before = pictureIn(viewer, viewer.waitForWhole(0));
     std::size_t mark = viewer.mark();
@@ -135,7 +135,7 @@ TEST_F(ViewerEdits, aMaterialPickedByAClickAndEditedIsAlwaysSaved) {
     EXPECT_NE(readJson(saved).dump().find("\"metallic\":1"), std::string::npos) << readJson(saved);
 }
 
-TEST_F(ViewerEdits, aSceneChosenFromTheListAlwaysOpensAndKeepsTheTechnique) {
+TEST_F(ViewerEdits, aSceneChosenFromTheListOpensAndKeepsTheTechnique) {
     DrivenViewer viewer = open({"room", "--technique", "forward_plus"});
     viewer.waitForWhole(0);
     const Shot spheres = change(viewer, "spheres");
@@ -169,7 +169,7 @@ TEST_F(ViewerEdits, aSceneThatCannotBeReadNeverTakesTheOneThatIsOpen) {
               0.2);
 }
 
-TEST_F(ViewerEdits, aTraceIsAlwaysJsonThatHoldsThePassesOfTheFrames) {
+TEST_F(ViewerEdits, aTraceIsJsonThatHoldsThePassesOfTheFrames) {
     DrivenViewer viewer = open({"room", "--technique", "deferred"});
     viewer.waitForWhole(0);
     toggle(viewer, Section::View);

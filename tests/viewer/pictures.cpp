@@ -6,7 +6,7 @@ namespace {
 
 using ViewerPictures = ViewerTest;
 
-TEST_F(ViewerPictures, theWindowAlwaysShowsExactlyWhatRenderWrites) {
+TEST_F(ViewerPictures, theWindowShowsThePictureOfRenderBitForBit) {
     DrivenViewer viewer = open({"hall", "--technique", "clustered_deferred"});
     const glm::ivec2 size = viewer.waitForWhole(0);
     EXPECT_EQ(size.x, 1280 - kPanelPixels);
@@ -37,7 +37,7 @@ TEST_F(ViewerPictures, theWindowAlwaysShowsExactlyWhatRenderWrites) {
     EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
 }
 
-TEST_F(ViewerPictures, theCommandToPasteAlwaysRendersTheSavedPictureToTheLastBit) {
+TEST_F(ViewerPictures, theCommandToPasteRendersTheSavedPictureToTheLastBit) {
     DrivenViewer viewer = open({"models"});
     viewer.waitForWhole(0);
     std::size_t mark = viewer.mark();
@@ -66,7 +66,7 @@ TEST_F(ViewerPictures, theCommandToPasteAlwaysRendersTheSavedPictureToTheLastBit
     EXPECT_TRUE(pictureIn(viewer, file.sizePixels) == file) << "the screenshot is not what the window shows";
 }
 
-TEST_F(ViewerPictures, differentTechniquesSideBySideAlwaysDifferInNothing) {
+TEST_F(ViewerPictures, differentTechniquesSideBySideDifferInNothing) {
     DrivenViewer viewer = open({"lattice", "--technique", "forward"});
     const glm::ivec2 size = viewer.waitForWhole(0);
     const Shot alone = pictureIn(viewer, size);

@@ -6,7 +6,7 @@ namespace {
 
 using ViewerWindow = ViewerTest;
 
-TEST_F(ViewerWindow, anySizeDownToOnePixelAlwaysSurvivesAndComesBackWhole) {
+TEST_F(ViewerWindow, anySizeDownToOnePixelSurvivesAndComesBackWhole) {
     DrivenViewer viewer = open({"room"});
     const Shot first = pictureIn(viewer, viewer.waitForWhole(0));
     for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(301, 30), glm::ivec2(800, 600), glm::ivec2(2, 700)}) {
@@ -26,7 +26,7 @@ TEST_F(ViewerWindow, anySizeDownToOnePixelAlwaysSurvivesAndComesBackWhole) {
     EXPECT_EQ(viewer.errors(), "");
 }
 
-TEST_F(ViewerWindow, closingDuringALoadIsAlwaysClean) {
+TEST_F(ViewerWindow, closingDuringALoadIsClean) {
     DrivenViewer viewer = open({"head"});
     viewer.close();
     EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
@@ -35,7 +35,7 @@ TEST_F(ViewerWindow, closingDuringALoadIsAlwaysClean) {
     EXPECT_EQ(lines, (std::vector<std::string>{"loading head", "closed"})) << "it was closed too late";
 }
 
-TEST_F(ViewerWindow, settingsAreAlwaysRememberedFromRunToRun) {
+TEST_F(ViewerWindow, settingsAreRememberedFromRunToRun) {
     {
         DrivenViewer viewer = open({"room"});
         EXPECT_EQ(viewer.waitForWhole(0).x, 1280 - kPanelPixels);
@@ -51,7 +51,7 @@ TEST_F(ViewerWindow, settingsAreAlwaysRememberedFromRunToRun) {
     EXPECT_NE(viewer.waitFor("drawn", 0).find("technique clustered_forward"), std::string::npos);
 }
 
-TEST_F(ViewerWindow, whyASceneCannotBeLoadedIsAlwaysShown) {
+TEST_F(ViewerWindow, theReasonOfAFailedLoadIsShown) {
     folder_.write("broken.json", "{\"tessera\": 1, \"materials\": [{\"name\": 3}]}");
     DrivenViewer viewer = open({"broken.json"});
     const std::string said = viewer.waitFor("error ", 0);

@@ -117,24 +117,24 @@ BenchResult resultFrom(const Json& json) {
     return result;
 }
 
-FloorFigures floorFrom(const Json& json) {
-    FloorFigures floor;
-    read(json, "geometryMs", floor.geometryMs);
-    read(json, "geometryMsP95", floor.geometryMsP95);
-    read(json, "rounds", floor.rounds);
-    read(json, "why", floor.whyNoStores);
+LowerBoundFigures lowerBoundFrom(const Json& json) {
+    LowerBoundFigures lowerBound;
+    read(json, "geometryMs", lowerBound.geometryMs);
+    read(json, "geometryMsP95", lowerBound.geometryMsP95);
+    read(json, "rounds", lowerBound.rounds);
+    read(json, "why", lowerBound.whyNoStores);
     for (const Json& store : json.at("stores")) {
         const std::string name = store.at("store").get<std::string>();
         bool isKnown = false;
         for (const LightStoreInfo& info : lightStoreTable()) {
             if (info.name != name) continue;
-            floor.stores.push_back(
+            lowerBound.stores.push_back(
                 {info.name, store.at("nsPerPair").get<double>(), store.at("nsPerPairP95").get<double>()});
             isKnown = true;
         }
         if (!isKnown) throw InputError(fmt::format("unknown light store '{}'", name));
     }
-    return floor;
+    return lowerBound;
 }
 
 Json picturesJson(const BenchGroup& group) {
@@ -181,21 +181,21 @@ Json pointJson(const BenchGroup& group, const BenchResult& result, std::optional
             {"why", why}};
 }
 
-Json floorJson(const BenchGroup& group) {
+Json lowerBoundJson(const BenchGroup& group) {
     Json stores = Json::array();
-    for (const FloorFigures::Store& store : group.floor.stores)
+    for (const LowerBoundFigures::Store& store : group.lowerBound.stores)
         stores.push_back({{"store", store.name}, {"nsPerPair", store.nsPerPair}, {"nsPerPairP95", store.nsPerPairP95}});
-    const std::optional<FloorFigures::Store> fastest = group.floor.fastestStore();
+    const std::optional<LowerBoundFigures::Store> fastest = group.lowerBound.fastestStore();
     return {{"scene", group.scene},
             {"lights", group.lights},
             {"size", {group.sizePixels.x, group.sizePixels.y}},
-            {"rounds", group.floor.rounds},
-            {"geometryMs", group.floor.geometryMs},
-            {"geometryMsP95", group.floor.geometryMsP95},
+            {"rounds", group.lowerBound.rounds},
+            {"geometryMs", group.lowerBound.geometryMs},
+            {"geometryMsP95", group.lowerBound.geometryMsP95},
             {"nsPerPair", fastest ? Json(fastest->nsPerPair) : Json(nullptr)},
             {"nsPerPairP95", fastest ? Json(fastest->nsPerPairP95) : Json(nullptr)},
             {"stores", stores},
-            {"why", group.floor.whyNoStores}};
+            {"why", group.lowerBound.whyNoStores}};
 }
 
 Json attributionJson(const BenchGroup& group) {
@@ -221,7 +221,7 @@ Json groupJson(const BenchGroup& group) {
     return {
         {"scene", group.scene},           {"lights", group.lights}, {"size", {group.sizePixels.x, group.sizePixels.y}},
         {"triangles", group.triangles},   {"truth", group.truth},   {"whyTruth", group.whyTruth},
-        {"floor", floorJson(group)},      {"points", points},       {"attribution", attributionJson(group)},
+        {"floor", lowerBoundJson(group)}, {"points", points},       {"attribution", attributionJson(group)},
         {"pictures", picturesJson(group)}};
 }
 
@@ -233,7 +233,7 @@ BenchGroup groupFromJson(const Json& json) {
     read(json, "triangles", group.triangles);
     read(json, "truth", group.truth);
     read(json, "whyTruth", group.whyTruth);
-    group.floor = floorFrom(json.at("floor"));
+    group.lowerBound = lowerBoundFrom(json.at("floor"));
     for (const Json& point : json.at("points")) group.results.push_back(resultFrom(point));
     for (const Json& line : json.at("attribution")) {
         AttributionLine& cause = group.attribution.emplace_back();

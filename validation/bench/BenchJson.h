@@ -10,7 +10,7 @@ namespace tessera::validation {
 
 /// `pareto`: whether the point is on its group's front; none where the error is not known.
 nlohmann::ordered_json pointJson(const BenchGroup& group, const BenchResult& result, std::optional<bool> pareto);
-nlohmann::ordered_json floorJson(const BenchGroup& group);
+nlohmann::ordered_json lowerBoundJson(const BenchGroup& group);
 nlohmann::ordered_json attributionJson(const BenchGroup& group);
 
 /// The group whole, with the names of its pictures.

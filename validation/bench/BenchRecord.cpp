@@ -69,10 +69,10 @@ Json recommendationsJson(std::span<const BenchGroup> groups) {
 
 std::string groupTable(const BenchGroup& group) {
     using graph::Table;
-    const std::optional<FloorFigures::Store> store = group.floor.fastestStore();
+    const std::optional<LowerBoundFigures::Store> store = group.lowerBound.fastestStore();
     std::string text =
         fmt::format("{}; errors against {}; floor, median of {}: {:.1f} ms for the geometry{}\n", groupName(group),
-                    group.truth, group.floor.rounds, group.floor.geometryMs,
+                    group.truth, group.lowerBound.rounds, group.lowerBound.geometryMs,
                     store ? fmt::format(", {:.2f} ns a light and pixel ({})", store->nsPerPair, store->name) : "");
     Table table(kTableWidth);
     table.addColumn("technique");
@@ -115,7 +115,7 @@ std::string groupTable(const BenchGroup& group) {
 std::string benchJson(const BenchRecord& record) {
     Json points = Json::array(), floors = Json::array(), skipped = Json::array(), attribution = Json::array();
     for (const BenchGroup& group : record.groups) {
-        floors.push_back(floorJson(group));
+        floors.push_back(lowerBoundJson(group));
         const std::vector<std::optional<bool>> pareto = paretoFront(group);
         for (std::size_t i = 0; i < group.results.size(); ++i)
             points.push_back(pointJson(group, group.results[i], pareto[i]));

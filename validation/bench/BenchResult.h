@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/floor/FloorBench.h"
+#include "validation/lower_bound/LowerBoundBench.h"
 #include "validation/timing/FrameTimer.h"
 
 /// What a benchmark knows of its points: plain values, as they are measured, kept in files and shown.
@@ -85,7 +85,7 @@ struct BenchGroup {
     glm::ivec2 sizePixels{0};
     std::size_t triangles = 0;
     std::string truth, whyTruth; ///< what the errors are against, and why that
-    FloorFigures floor;
+    LowerBoundFigures lowerBound;
     std::vector<BenchResult> results;
     std::vector<AttributionLine> attribution;
     std::vector<BenchPicture> pictures;

@@ -6,7 +6,7 @@
 #include "engine/PrepareView.h"
 #include "renderer/gpu/SampleCounter.h"
 #include "validation/culling/LightOracle.h"
-#include "validation/floor/FloorGeometry.h"
+#include "validation/lower_bound/LowerBoundGeometry.h"
 
 namespace tessera::validation {
 
@@ -16,7 +16,7 @@ using engine::Technique;
 
 /// Fragments that pass the depth test in the order in which forward shades them.
 std::uint64_t forwardFragments(engine::Renderer& renderer, const frame::FrameSettings& settings) {
-    FloorGeometry geometry(renderer, settings);
+    LowerBoundGeometry geometry(renderer, settings);
     gpu::SampleCounter counter;
     counter.begin();
     geometry.draw(glm::dvec3(0.0));

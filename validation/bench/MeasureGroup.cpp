@@ -48,7 +48,7 @@ public:
     Measurement(gpu::Context& context, const scenes::Scene& scene, const PlannedGroup& planned,
                 const BenchOptions& options, GroupState& state)
         : context_(context), planned_(planned), options_(options), state_(state), group_(state.group),
-          renderer_(context, scene), floor_(renderer_, planned.points.front().settings) {
+          renderer_(context, scene), lowerBound_(renderer_, planned.points.front().settings) {
         group_.scene = planned.scene;
         group_.lights = planned.lights;
         group_.sizePixels = planned.sizePixels;
@@ -80,8 +80,8 @@ public:
 
 private:
     void timeRounds() {
-        const std::vector<TimedFrame> floorFrames = floor_.frames();
-        const std::size_t kinds = timed_.size() + floorFrames.size();
+        const std::vector<TimedFrame> lowerBoundFrames = lowerBound_.frames();
+        const std::size_t kinds = timed_.size() + lowerBoundFrames.size();
         InterleaveOptions interleave;
         interleave.rounds = options_.frames;
         if (!state_.roundsMs.empty() && state_.roundsMs.front().size() != kinds)
@@ -93,10 +93,11 @@ private:
             options_.keep(state_);
         };
         interleave.progress = [&](int, int) { options_.progress(kinds); };
-        timesMs_ = timeInTurn(timed_, floorFrames, interleave);
+        timesMs_ = timeInTurn(timed_, lowerBoundFrames, interleave);
         // Finished points keep the lower bound that they were compared with.
         if (group_.results.empty())
-            group_.floor = floor_.figuresOf({timesMs_.begin() + std::ptrdiff_t(timed_.size()), timesMs_.end()});
+            group_.lowerBound =
+                lowerBound_.figuresOf({timesMs_.begin() + std::ptrdiff_t(timed_.size()), timesMs_.end()});
     }
 
     BenchResult resultOf(std::size_t index, const GroupTruth& truth) {
@@ -106,7 +107,7 @@ private:
         result.times.cpuMs = spreadOf(timesMs_[index]);
         profilePoint(result.times, timed_[index]);
         countPoint(renderer_, point, result);
-        compareWithFloor(result);
+        compareWithLowerBound(result);
         result.why.insert(result.times.why.begin(), result.times.why.end());
         const Picture picture = truth.pictureOf(point.technique, point.settings);
         result.error = truth.errorOf(picture, result.why);
@@ -114,16 +115,16 @@ private:
         return result;
     }
 
-    void compareWithFloor(BenchResult& result) const {
+    void compareWithLowerBound(BenchResult& result) const {
         const auto compare = [&](std::optional<std::uint64_t> evaluations, const char* evaluationsName,
-                                 std::optional<double>& floorMs, const char* floorName, std::optional<double>& ratio,
-                                 const char* ratioName) {
-            if (evaluations) floorMs = group_.floor.floorMs(double(*evaluations));
+                                 std::optional<double>& floorMs, const char* lowerBoundName,
+                                 std::optional<double>& ratio, const char* ratioName) {
+            if (evaluations) floorMs = group_.lowerBound.floorMs(double(*evaluations));
             if (floorMs)
                 ratio = result.times.cpuMs.median / *floorMs;
             else
-                result.why[floorName] = result.why[ratioName] =
-                    evaluations ? group_.floor.whyNoStores : result.why[evaluationsName];
+                result.why[lowerBoundName] = result.why[ratioName] =
+                    evaluations ? group_.lowerBound.whyNoStores : result.why[evaluationsName];
         };
         compare(result.counters.neededEvaluations, "neededEvaluations", result.floorMs, "floorMs", result.ratioToFloor,
                 "ratioToFloor");
@@ -158,7 +159,7 @@ private:
     GroupState& state_;
     BenchGroup& group_;
     engine::Renderer renderer_;
-    FloorBench floor_;
+    LowerBoundBench lowerBound_;
     std::vector<TimedPoint> timed_;
     std::vector<std::vector<double>> timesMs_; ///< by kind of frame
 };
@@ -168,7 +169,7 @@ private:
 std::size_t stepsOf(const gpu::Capabilities& gl, const PlannedGroup& group, const GroupState& state,
                     const BenchOptions& options) {
     if (state.isDone) return 0;
-    const std::size_t kinds = group.points.size() + FloorBench::kindsOf(lightStores(gl));
+    const std::size_t kinds = group.points.size() + LowerBoundBench::kindsOf(lightStores(gl));
     const int left = options.frames - int(state.roundsMs.size());
     const std::size_t rounds = left > 0 ? std::size_t(left + InterleaveOptions{}.warmUpRounds) : 0;
     return rounds * kinds + kStepsOfTheTruth + kStepsOfTheCauses +

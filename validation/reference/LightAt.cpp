@@ -59,7 +59,7 @@ Incident point(const ShiningLight& shining, const glm::dvec3& positionRel) {
 
 Incident spot(const ShiningLight& shining, const glm::dvec3& positionRel) {
     Incident incident = point(shining, positionRel);
-    incident.intensity *= coneWindow(shining.light, -glm::dot(incident.toLight, shining.light.directionWS));
+    incident.irradiance *= coneWindow(shining.light, -glm::dot(incident.toLight, shining.light.directionWS));
     return incident;
 }
 

@@ -16,8 +16,8 @@ struct ShiningLight {
 
 /// Light as it arrives at a point.
 struct Incident {
-    glm::dvec3 toLight{0.0};   ///< unit; zero at the light itself, where no direction is better than another
-    glm::dvec3 intensity{0.0}; ///< irradiance at normal incidence; 0 where the light does not reach
+    glm::dvec3 toLight{0.0};    ///< unit; zero at the light itself, where no direction is better than another
+    glm::dvec3 irradiance{0.0}; ///< irradiance at normal incidence; 0 where the light does not reach
 };
 
 std::vector<ShiningLight> shiningLights(const scenes::Scene& scene, const Settings& settings, const glm::dvec3& eyeWS);

@@ -25,9 +25,10 @@ glm::dvec3 lambert(const SurfacePoint& point, const Directions& directions, bool
 
 /// k_d n.l + k_s (n.h)^p. Source: Blinn 1977, "Models of Light Reflection for Computer Synthesized Pictures".
 glm::dvec3 blinnPhong(const SurfacePoint& point, const Directions& directions, bool specular) {
-    glm::dvec3 share = point.color * directions.cosLight;
-    if (specular && directions.hasLobe()) share += point.specularColor * std::pow(directions.cosHalf, point.roughness);
-    return share;
+    glm::dvec3 brdfCosine = point.color * directions.cosLight;
+    if (specular && directions.hasLobe())
+        brdfCosine += point.specularColor * std::pow(directions.cosHalf, point.roughness);
+    return brdfCosine;
 }
 
 /// In the frame of tangent, bitangent and normal. Where the lobe has no direction any frame will do.
@@ -56,22 +57,22 @@ double microfacetLobe(const SurfacePoint& point, const Directions& directions, c
 
 /// (k_d + k_s F D G / (4 n.l n.v)) n.l. Source: Cook and Torrance 1982 with the D, G and F of Walter et al. 2007.
 glm::dvec3 microfacet(const SurfacePoint& point, const Directions& directions, bool specular) {
-    glm::dvec3 share = point.color;
+    glm::dvec3 brdf = point.color;
     if (specular && directions.hasLobe()) {
         const double f = fresnelDielectric(point.ior, directions.cosIncidence);
-        share += point.specularColor * (f * microfacetLobe(point, directions, glm::dvec2(point.alpha)));
+        brdf += point.specularColor * (f * microfacetLobe(point, directions, glm::dvec2(point.alpha)));
     }
-    return share * directions.cosLight;
+    return brdf * directions.cosLight;
 }
 
 /// The same with a lobe of two alphas.
 glm::dvec3 microfacetAnisotropic(const SurfacePoint& point, const Directions& directions, bool specular) {
-    glm::dvec3 share = point.color;
+    glm::dvec3 brdf = point.color;
     if (specular && directions.hasLobe()) {
         const double f = fresnelDielectric(point.ior, directions.cosIncidence);
-        share += point.specularColor * (f * microfacetLobe(point, directions, {point.alpha, point.alphaAcross}));
+        brdf += point.specularColor * (f * microfacetLobe(point, directions, {point.alpha, point.alphaAcross}));
     }
-    return share * directions.cosLight;
+    return brdf * directions.cosLight;
 }
 
 /// D G / (4 n.l n.v) of metallic_roughness, by KHR_materials_anisotropy where the lobe has a direction.
@@ -94,28 +95,28 @@ glm::dvec3 underSheen(const SurfacePoint& point, const Directions& directions, c
     if (!(strongest > 0.0)) return below;
     const double albedo = std::max(sheenAlbedo(point.sheenAlpha, directions.cosLight),
                                    sheenAlbedo(point.sheenAlpha, std::max(directions.cosView, 0.0)));
-    const glm::dvec3 share = below * std::max(1.0 - strongest * albedo, 0.0);
-    if (!specular || !directions.hasLobe()) return share;
-    return share + point.sheenColor * (distributionCharlie(point.sheenAlpha, directions.cosHalf) *
-                                       visibilityCharlie(point.sheenAlpha, directions.cosLight, directions.cosView));
+    const glm::dvec3 brdf = below * std::max(1.0 - strongest * albedo, 0.0);
+    if (!specular || !directions.hasLobe()) return brdf;
+    return brdf + point.sheenColor * (distributionCharlie(point.sheenAlpha, directions.cosHalf) *
+                                      visibilityCharlie(point.sheenAlpha, directions.cosLight, directions.cosView));
 }
 
 /// KHR_materials_clearcoat: the weight of the coat's lobe; the layers below have the rest.
-double coatShare(const SurfacePoint& point, const glm::dvec3& toViewer) {
+double coatWeight(const SurfacePoint& point, const glm::dvec3& toViewer) {
     return point.coat * fresnelSchlick(0.04, 1.0, std::abs(glm::dot(point.coatNormal, toViewer)));
 }
 
 glm::dvec3 underCoat(const SurfacePoint& point, const glm::dvec3& below, const glm::dvec3& toLight,
                      const glm::dvec3& toViewer, bool specular) {
     const Directions directions(point.coatNormal, toLight, toViewer);
-    const double share = coatShare(point, toViewer);
+    const double weight = coatWeight(point, toViewer);
     double lobe = 0.0;
     if (specular && directions.hasLobe()) {
         lobe = distributionGgx(point.coatAlpha, directions.cosHalf) *
                maskingCorrelated(point.coatAlpha, directions.cosLight, directions.cosView) /
                (4.0 * directions.cosView); // n.l cancels
     }
-    return below * (1.0 - share) + glm::dvec3(share * lobe);
+    return below * (1.0 - weight) + glm::dvec3(weight * lobe);
 }
 
 /// glTF 2.0 appendix B, with the reflectances of KHR_materials_ior and KHR_materials_specular. The Fresnel factor needs
@@ -124,14 +125,14 @@ glm::dvec3 metallicRoughness(const SurfacePoint& point, const Directions& direct
     const double contrast = (point.ior - 1.0) / (point.ior + 1.0);
     const double grazing = point.specularFactor + (1.0 - point.specularFactor) * point.metallic;
     const double lobe = specular && directions.hasLobe() ? glossyLobe(point, directions) : 0.0;
-    glm::dvec3 share(0.0);
+    glm::dvec3 brdf(0.0);
     for (int c = 0; c < 3; ++c) {
         const double dielectric = std::min(contrast * contrast * point.specularColor[c], 1.0) * point.specularFactor;
         const double normalIncidence = dielectric + (point.color[c] - dielectric) * point.metallic;
         const double f = fresnelSchlick(normalIncidence, grazing, directions.cosIncidence);
-        share[c] = (1.0 - f) * (1.0 - point.metallic) * point.color[c] / std::numbers::pi + f * lobe;
+        brdf[c] = (1.0 - f) * (1.0 - point.metallic) * point.color[c] / std::numbers::pi + f * lobe;
     }
-    return underSheen(point, directions, share, specular) * directions.cosLight;
+    return underSheen(point, directions, brdf, specular) * directions.cosLight;
 }
 
 constexpr Model kModels[] = {
@@ -167,13 +168,13 @@ const Model& modelOf(MaterialModel model) {
 
 glm::dvec3 reflected(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer, bool specular) {
     const Directions directions(point.normal, toLight, toViewer);
-    glm::dvec3 share(0.0);
-    if (directions.cosLight > 0.0) share = modelOf(point.model).reflected(point, directions, specular);
-    return point.coat > 0.0 ? underCoat(point, share, toLight, toViewer, specular) : share;
+    glm::dvec3 brdfCosine(0.0);
+    if (directions.cosLight > 0.0) brdfCosine = modelOf(point.model).reflected(point, directions, specular);
+    return point.coat > 0.0 ? underCoat(point, brdfCosine, toLight, toViewer, specular) : brdfCosine;
 }
 
 glm::dvec3 emitted(const SurfacePoint& point, const glm::dvec3& toViewer) {
-    return point.coat > 0.0 ? point.emission * (1.0 - coatShare(point, toViewer)) : point.emission;
+    return point.coat > 0.0 ? point.emission * (1.0 - coatWeight(point, toViewer)) : point.emission;
 }
 
 } // namespace tessera::reference

@@ -206,8 +206,8 @@ private:
     glm::dvec3 lightOn(const SurfacePoint& point, const ShiningLight& light, const glm::dvec3& positionRel,
                        const glm::dvec3& toViewer) const {
         const Incident incident = incidentAt(light, positionRel);
-        if (incident.intensity == glm::dvec3(0.0)) return glm::dvec3(0.0);
-        return reflected(point, incident.toLight, toViewer, settings_.specular) * incident.intensity;
+        if (incident.irradiance == glm::dvec3(0.0)) return glm::dvec3(0.0);
+        return reflected(point, incident.toLight, toViewer, settings_.specular) * incident.irradiance;
     }
 
     const scenes::Scene& scene_;

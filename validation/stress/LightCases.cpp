@@ -68,7 +68,7 @@ double scaleOf(const Light& light, const glm::dvec3& positionWS) {
     open.rangeMetres = scenes::kInfinity;
     if (scenes::infoOf(open.type).hasPosition()) open.type = LightType::Point;
     const Cone cone = coneOf(light, positionWS);
-    return (cone.factor + cone.condition / kLightTolerance) * truthAt(open, positionWS).intensity.x;
+    return (cone.factor + cone.condition / kLightTolerance) * truthAt(open, positionWS).irradiance.x;
 }
 
 std::string describe(const Light& light, const glm::vec3& positionWS) {
@@ -110,7 +110,7 @@ void measure(StressBench& bench, const std::vector<Light>& lights, const std::ve
         }
         const reference::Incident truth = truthAt(light, positionWS);
         const double scale = std::max(scaleOf(light, positionWS), 1e-37); // below is no normal number in fp32
-        figures.error(std::abs(double(out[2 * i].x) - truth.intensity.x) / scale,
+        figures.error(std::abs(double(out[2 * i].x) - truth.irradiance.x) / scale,
                       [&] { return describe(light, probes[i].positionWS); });
     }
 }

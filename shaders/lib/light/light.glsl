@@ -6,7 +6,7 @@
 // Light as it arrives at a point.
 struct Incident {
     vec3 toLightLS; // unit
-    vec3 intensity; // irradiance at normal incidence, L of the shading formulas; 0 where the light does not reach
+    vec3 irradiance; // irradiance at normal incidence, L of the shading formulas; 0 where the light does not reach
 };
 
 // ---- Types: what share of the light of one with a position leaves in a direction, a function each. 0: exactly nothing.
@@ -44,7 +44,7 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
     vec4 color = lightTexel(index, 1);
     int kind = int(color.w);
     incident.toLightLS = place.xyz;
-    incident.intensity = color.rgb;
+    incident.irradiance = color.rgb;
 #if HAS_DIRECTIONAL_LIGHTS
     if ((kind & LIGHT_TYPE_MASK) == LIGHT_DIRECTIONAL) return true;
 #endif
@@ -73,9 +73,9 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
     if (!(share > 0.0)) return false;
     falloff *= share;
 #endif
-    precise vec3 intensity = color.rgb * falloff;
+    precise vec3 irradiance = color.rgb * falloff;
     incident.toLightLS = direction;
-    incident.intensity = intensity;
+    incident.irradiance = irradiance;
     return true;
 #else
     return false;

@@ -23,7 +23,7 @@ float volumeMargin(vec3 positionLS, float reachMetres)
 {
     bool orthographic = view.forwardLS.w != 0.0;
     float farthestFromEye = length(positionLS - view.eyeLS.xyz) + reachMetres;
-    float pixel = max(view.lensVS.x, view.lensVS.y) * (orthographic ? 1.0 : farthestFromEye);
+    float pixel = max(view.rayFromPixel.x, view.rayFromPixel.y) * (orthographic ? 1.0 : farthestFromEye);
     return roundingMargin(length(positionLS) + reachMetres, view.depthKey) + 0.125 * pixel;
 }
 

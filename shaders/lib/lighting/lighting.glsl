@@ -26,7 +26,7 @@ vec3 lightOnSurface(int light, Surface surface, Viewpoint viewpoint)
 #else
     Incident incident;
     if (!incidentLight(light, viewpoint.positionLS, incident)) return vec3(0.0);
-    precise vec3 given = reflectedShare(surface, incident.toLightLS, viewpoint.toViewerLS) * incident.intensity;
+    precise vec3 given = layeredBrdfCosine(surface, incident.toLightLS, viewpoint.toViewerLS) * incident.irradiance;
     return given;
 #endif
 }

@@ -7,13 +7,13 @@
 // as 1/distance, behind the eye (0 or less), or passes before the near end (more than 1). The samples it does cover lie
 // within half a pixel, so within `reach` of the centre's depth: where the plane could end within the pixel, the nearest
 // depth a sample can have stands in. The result is finite, never before the near end, and with depth as 1/distance at
-// most twice as far away as a covered sample. The minimum kFloor matters only where a triangle seen edge-on is so steep
+// most twice as far away as a covered sample. The minimum kLeastDepth matters only where a triangle seen edge-on is so steep
 // that the sum loses its digits.
 float shadingDepth()
 {
-    const float kFloor = 1e-6;
+    const float kLeastDepth = 1e-6;
     precise float reach = 0.5 * (abs(dFdx(gl_FragCoord.z)) + abs(dFdy(gl_FragCoord.z)));
-    precise float nearest = max(gl_FragCoord.z + reach, kFloor);
+    precise float nearest = max(gl_FragCoord.z + reach, kLeastDepth);
     precise float depth = min(gl_FragCoord.z > reach ? gl_FragCoord.z : nearest, 1.0);
     return depth;
 }

@@ -114,13 +114,13 @@ float visibilityOfMicrofacet(Surface surface, Directions directions)
 #if HAS_SHEEN
 // Puts the sheen over the layers below, and scales these by 1 minus the directional albedo of a white sheen times the
 // sheen's brightest channel. Source: KHR_materials_sheen, "Albedo-scaling technique".
-vec3 underSheen(Surface surface, vec3 share, Directions directions)
+vec3 underSheen(Surface surface, vec3 brdf, Directions directions)
 {
     precise float strongest = max(max(surface.sheenColor.r, surface.sheenColor.g), surface.sheenColor.b);
-    if (!(strongest > 0.0)) return share;
+    if (!(strongest > 0.0)) return brdf;
     precise float albedo =
         max(sheenAlbedo(surface.sheenAlpha, directions.nl), sheenAlbedo(surface.sheenAlpha, max(directions.nv, 0.0)));
-    precise vec3 layered = share * max(1.0 - strongest * albedo, 0.0);
+    precise vec3 layered = brdf * max(1.0 - strongest * albedo, 0.0);
 #if !SPECULAR_OFF
     if (directions.hasLobe) {
         precise float lobe = distributionCharlie(surface.sheenAlpha, surface.normalLS, directions.h)
@@ -134,15 +134,15 @@ vec3 underSheen(Surface surface, vec3 share, Directions directions)
 
 // The reflection of light from above the horizon by a model.
 struct Reflection {
-    vec3 share;          // BRDF times cosine, 1/sr: reflected radiance per irradiance at normal incidence
+    vec3 brdfCosine;     // BRDF times cosine, 1/sr: reflected radiance per irradiance at normal incidence
     SpecularTerms terms; // 0 where it has no lobe there
 };
 
 // Source: Lambert 1760, "Photometria". k_d without 1/pi, as the teaching models have it.
 Reflection lambert(Surface surface, Directions directions)
 {
-    precise vec3 share = surface.albedo * directions.nl;
-    return Reflection(share, kNoTerms);
+    precise vec3 brdfCosine = surface.albedo * directions.nl;
+    return Reflection(brdfCosine, kNoTerms);
 }
 
 // Source: Blinn 1977, "Models of Light Reflection for Computer Synthesized Pictures".
@@ -151,8 +151,8 @@ Reflection blinnPhong(Surface surface, Directions directions)
     SpecularTerms terms = kNoTerms;
     if (directions.hasLobe) terms.d = blinnPhongLobe(surface.parameter, surface.normalLS, directions.h);
     precise float highlight = SPECULAR_OFF != 0 ? 0.0 : terms.d;
-    precise vec3 share = surface.albedo * directions.nl + surface.specular * highlight; // which takes no cosine
-    return Reflection(share, terms);
+    precise vec3 brdfCosine = surface.albedo * directions.nl + surface.specular * highlight; // which takes no cosine
+    return Reflection(brdfCosine, terms);
 }
 
 // microfacet and microfacet_anisotropic; `d` is lobeDistribution(). Source: Cook and Torrance 1982 with the D, G and F of
@@ -162,8 +162,8 @@ Reflection microfacet(Surface surface, Directions directions, float d)
     SpecularTerms terms = SpecularTerms(d, 0.0, vec3(fresnelDielectric(surface.iorOrF90, directions.lh)));
     if (directions.hasLobe) terms.v = visibilityOfMicrofacet(surface, directions);
     precise float dv = SPECULAR_OFF != 0 ? 0.0 : terms.d * terms.v;
-    precise vec3 share = (surface.albedo + surface.specular * (terms.f * dv)) * directions.nl;
-    return Reflection(share, terms);
+    precise vec3 brdfCosine = (surface.albedo + surface.specular * (terms.f * dv)) * directions.nl;
+    return Reflection(brdfCosine, terms);
 }
 
 // Source: glTF 2.0, appendix B, with KHR_materials_ior, _specular, _anisotropy and _sheen.
@@ -176,11 +176,11 @@ Reflection metallicRoughness(Surface surface, Directions directions, float d)
     precise float dv = SPECULAR_OFF != 0 ? 0.0 : terms.d * terms.v;
     precise vec3 transmitted = vec3(1.0) - terms.f;
     precise vec3 diffuse = transmitted * ((1.0 - surface.metallic) / kPi) * surface.albedo;
-    precise vec3 share = diffuse + terms.f * dv;
+    precise vec3 brdf = diffuse + terms.f * dv;
 #if HAS_SHEEN
-    share = underSheen(surface, share, directions);
+    brdf = underSheen(surface, brdf, directions);
 #endif
-    precise vec3 reflected = share * directions.nl;
+    precise vec3 reflected = brdf * directions.nl;
     return Reflection(reflected, terms);
 }
 
@@ -203,11 +203,11 @@ Reflection reflection(Surface surface, Directions directions)
 }
 
 // BRDF times cosine of the layers below the coat.
-vec3 baseShare(Surface surface, vec3 toLight, vec3 toViewer)
+vec3 baseBrdfCosine(Surface surface, vec3 toLight, vec3 toViewer)
 {
     precise float nl = dot(surface.normalLS, toLight);
     if (!(nl > 0.0)) return vec3(0.0);
-    return reflection(surface, directionsOn(surface, toLight, toViewer, nl)).share;
+    return reflection(surface, directionsOn(surface, toLight, toViewer, nl)).brdfCosine;
 }
 
 #if HAS_CLEARCOAT
@@ -240,13 +240,13 @@ vec3 underCoat(Surface surface, vec3 base, vec3 toLight, vec3 toViewer)
 #endif
 
 // BRDF times cosine of all layers: radiance towards the viewer per irradiance at normal incidence.
-vec3 reflectedShare(Surface surface, vec3 toLight, vec3 toViewer)
+vec3 layeredBrdfCosine(Surface surface, vec3 toLight, vec3 toViewer)
 {
-    precise vec3 share = baseShare(surface, toLight, toViewer);
+    precise vec3 brdfCosine = baseBrdfCosine(surface, toLight, toViewer);
 #if HAS_CLEARCOAT
-    share = underCoat(surface, share, toLight, toViewer);
+    brdfCosine = underCoat(surface, brdfCosine, toLight, toViewer);
 #endif
-    return share;
+    return brdfCosine;
 }
 
 // Radiance towards the viewer without any light. Source: KHR_materials_clearcoat, "Emission": it lies below the coat.

@@ -47,7 +47,7 @@ float visibilityCharlie(float alpha, float cosineLight, float cosineView)
 
 // The directional albedo of a white sheen, at most 1: a fit of the integral of the two functions above, made for this
 // engine. ln E is a polynomial in x = n.l / r and r, the perceptual roughness; wrong by at most 0.035 for r from 0.05
-// on (Sheen.theFittedAlbedoIsAlwaysNearTheIntegral).
+// on (Sheen.theFittedAlbedoIsNearTheIntegral).
 float sheenAlbedo(float alpha, float cosine)
 {
     precise float r = max(sqrt(alpha), 0.05);

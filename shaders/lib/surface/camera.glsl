@@ -26,12 +26,12 @@ float depthFromAhead(float ahead)
 // The component of a pixel's ray across the view axis, in metres: a metre ahead of the eye, or (orthographic) anywhere.
 vec3 acrossOfPixel(vec2 pixel)
 {
-    precise vec2 place = pixel - view.lensVS.zw;
+    precise vec2 place = pixel - view.rayFromPixel.zw;
     precise vec3 across = place.x * view.rayDxLS.xyz + place.y * view.rayDyLS.xyz;
     return across;
 }
 
-// How wide the rays of pixels lie apart s metres ahead of the origin of lighting space: x + y s times as wide as lensVS.
+// How wide the rays of pixels lie apart s metres ahead of the origin of lighting space: x + y s times as wide as rayFromPixel.
 vec2 raySpread()
 {
     return view.forwardLS.w != 0.0 ? vec2(1.0, 0.0) : vec2(view.eyeLS.w, 1.0);

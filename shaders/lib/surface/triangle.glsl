@@ -21,8 +21,8 @@ struct PixelRay {
 
 PixelRay pixelRay(vec2 pixel)
 {
-    dvec3 across = double(pixel.x - view.lensVS.z) * dvec3(view.rayDxLS.xyz)
-                   + double(pixel.y - view.lensVS.w) * dvec3(view.rayDyLS.xyz);
+    dvec3 across = double(pixel.x - view.rayFromPixel.z) * dvec3(view.rayDxLS.xyz)
+                   + double(pixel.y - view.rayFromPixel.w) * dvec3(view.rayDyLS.xyz);
     dvec2 spread = dvec2(raySpread());
     return PixelRay(spread.x * across, dvec3(view.forwardLS.xyz) + spread.y * across);
 }

@@ -15,7 +15,7 @@ protected:
     }
 };
 
-TEST_F(BadOptions, unknownNamesAreAlwaysAnsweredWithTheNearest) {
+TEST_F(BadOptions, unknownNamesAreAnsweredWithTheNearest) {
     expectError(kBadInput, {"rendr"}, {"unknown command 'rendr'", "did you mean 'render'?"});
     expectError(kBadInput, {"--context", "egl", "plann", "room"}, {"unknown command 'plann'", "did you mean 'plan'?"});
     expectError(kBadInput, {"render", "romm", "-o", "a.png"}, {"'romm'", "did you mean 'room'?"});
@@ -38,7 +38,7 @@ TEST_F(BadOptions, unknownNamesAreAlwaysAnsweredWithTheNearest) {
     expectError(kBadInput, {"compare", "room", "--against", "forwad"}, {"'forwad'", "'forward'"});
 }
 
-TEST_F(BadOptions, unknownOptionsAndStrayWordsAreAlwaysNamed) {
+TEST_F(BadOptions, unknownOptionsAndStrayWordsAreNamed) {
     expectRefused({"--techniqe", "deferred"}, {"unknown option '--techniqe'", "did you mean '--technique'?"});
     expectRefused({"--sise=4x4"}, {"unknown option '--sise'", "did you mean '--size'?"});
     expectRefused({"--qiet"}, {"unknown option '--qiet'", "did you mean '--quiet'?"});
@@ -52,19 +52,19 @@ TEST_F(BadOptions, unknownOptionsAndStrayWordsAreAlwaysNamed) {
     expectError(kBadInput, {"render", "room"}, {"--output is required"});
 }
 
-TEST_F(BadOptions, lightingShadersOfATechniqueWithoutALightingPassAreAlwaysRefused) {
+TEST_F(BadOptions, lightingShadersOfATechniqueWithoutALightingPassAreRefused) {
     for (const char* technique : {"forward", "forward_prepass", "forward_plus", "clustered_forward"})
         for (const char* stage : {"fragment", "compute"})
             expectRefused({"--technique", technique, "--light-on", stage},
                           {std::string("technique ") + technique, std::string("light-on ") + stage, "deferred"});
 }
 
-TEST_F(BadOptions, sizesThatNoPictureHasAreAlwaysRefused) {
+TEST_F(BadOptions, sizesThatNoPictureHasAreRefused) {
     for (const char* size : {"0x0", "-1x5", "16385x9", "9x999999999999", "12", "16x", "16x9x3", "+16x9", ""})
         expectRefused({"--size", size}, {std::string("--size '") + size + "'", "1 to 16384"});
 }
 
-TEST_F(BadOptions, samplesThatCannotBeDrawnAreAlwaysRefused) {
+TEST_F(BadOptions, samplesThatCannotBeDrawnAreRefused) {
     for (const char* samples : {"0", "-1", "3", "8"})
         expectRefused({"--samples", samples, "--technique", "forward"},
                       {std::string("--samples ") + samples, "give one of 1, 2, 4"});
@@ -76,7 +76,7 @@ TEST_F(BadOptions, samplesThatCannotBeDrawnAreAlwaysRefused) {
     expectError(kBadInput, {"compare", "room", "--samples", "4", "--against", "deferred"}, parts);
 }
 
-TEST_F(BadOptions, numbersThatAreNoneAreAlwaysRefused) {
+TEST_F(BadOptions, malformedNumbersAreRefused) {
     for (const char* option : {"--exposure", "--time", "--range-tolerance"})
         for (const char* value : {"nan", "-inf", "1e999", "1,5", ""})
             expectRefused({option, value}, {std::string(option) + " '" + value + "' is not a finite number"});
@@ -87,7 +87,7 @@ TEST_F(BadOptions, numbersThatAreNoneAreAlwaysRefused) {
             expectRefused({option, value}, {std::string(option) + " '" + value + "' is not a whole number"});
 }
 
-TEST_F(BadOptions, lengthsBeyondThoseOfSinglePrecisionAreAlwaysRefused) {
+TEST_F(BadOptions, lengthsBeyondThoseOfSinglePrecisionAreRefused) {
     expectRefused({"--near", "1e-30"}, {"near plane at 1e-30 m", "1e-09 to 1e+15 m"});
     expectRefused({"--eye", "1e30,0,0"}, {"more than 1e+15 m from the origin"});
     folder_.write("vast.json",
@@ -96,7 +96,7 @@ TEST_F(BadOptions, lengthsBeyondThoseOfSinglePrecisionAreAlwaysRefused) {
                 {"scene 'vast'", "more than 1e+15 m from the origin"});
 }
 
-TEST_F(BadOptions, lightsThatASceneCannotHaveAreAlwaysRefused) {
+TEST_F(BadOptions, lightsThatASceneCannotHaveAreRefused) {
     expectRefused({"--lights", "-1"}, {"-1 lights", "0 to 262144"});
     expectRefused({"--lights", "262145"}, {"262145 lights", "0 to 262144"});
     expectRefused({"--solo", "1"}, {"--solo 1: room has 1 light, counted from 0"});
@@ -105,7 +105,7 @@ TEST_F(BadOptions, lightsThatASceneCannotHaveAreAlwaysRefused) {
                 {"lattice has 0 lights"});
 }
 
-TEST_F(BadOptions, sequencesThatCannotBeNumberedAreAlwaysRefused) {
+TEST_F(BadOptions, sequencesThatCannotBeNumberedAreRefused) {
     const auto expectSequenceRefused = [&](const Words& more, const Words& parts) {
         Words arguments{"render", "room"};
         arguments.insert(arguments.end(), more.begin(), more.end());
@@ -124,28 +124,28 @@ TEST_F(BadOptions, sequencesThatCannotBeNumberedAreAlwaysRefused) {
     expectSequenceRefused({"--fps", "25", "-o", "a.png"}, {"--fps needs --frames"});
 }
 
-TEST_F(BadOptions, aNameForASequenceIsAlwaysRefusedForOnePicture) {
+TEST_F(BadOptions, aNameForASequenceIsRefusedForOnePicture) {
     for (const char* name : {"x_%04d.png", "x_%d.exr"})
         expectError(kBadInput, {"render", "room", "-o", name}, {name, "place for a frame number", "--frames"});
 }
 
-TEST_F(BadOptions, aPlanOfTheReferenceIsAlwaysRefusedWithTheReason) {
+TEST_F(BadOptions, aPlanOfTheReferenceIsRefusedWithTheReason) {
     expectError(kBadInput, {"plan", "room", "--technique", "reference"},
                 {"the reference has no plan", "without passes"});
 }
 
-TEST_F(BadOptions, aViewerWithoutADisplayAlwaysSaysThatItIsMissing) {
+TEST_F(BadOptions, aViewerWithoutADisplaySaysThatItIsMissing) {
     const ProcessResult result = run({"view"}, {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}});
     EXPECT_EQ(result.exitCode, 1);
     EXPECT_THAT(result.err, testing::StartsWith("tessera: error: there is no display for the viewer's window"));
 }
 
-TEST_F(BadOptions, picturesOfOtherKindsAreAlwaysRefused) {
+TEST_F(BadOptions, picturesOfOtherKindsAreRefused) {
     for (const char* name : {"b.jpg", "b", ".png", ""})
         expectError(kBadInput, {"render", "room", "-o", name}, {".exr", ".png"});
 }
 
-TEST_F(BadOptions, comparisonsThatCannotBeMadeAreAlwaysRefused) {
+TEST_F(BadOptions, comparisonsThatCannotBeMadeAreRefused) {
     expectError(kBadInput, {"compare", "room", "--techniques", "forward,forward"}, {"forward twice"});
     expectError(kBadInput, {"compare", "room", "--techniques", "forward", "--technique", "deferred"},
                 {"--technique and --techniques", "give --techniques alone"});
@@ -167,7 +167,7 @@ TEST_F(BadOptions, comparisonsThatCannotBeMadeAreAlwaysRefused) {
     expectError(kBadInput, {"compare", "room", "--size", "16x9", "--against", "empty.exr"}, {"empty.exr", "empty"});
 }
 
-TEST_F(BadOptions, memoryThatIsNoSizeIsAlwaysRefused) {
+TEST_F(BadOptions, aMalformedMemoryLimitIsRefused) {
     for (const char* size : {"0", "-1", "4T", "4 G", "G", "1e9", "99999999999999999999", "17179869184G", ""})
         expectRefused({"--memory-limit", size}, {std::string("--memory-limit '") + size + "' is no size", "as in 4G"});
     folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -176,7 +176,7 @@ TEST_F(BadOptions, memoryThatIsNoSizeIsAlwaysRefused) {
     EXPECT_EQ(run({"plan", "m.obj", "--memory-limit", "1M"}).exitCode, 0);
 }
 
-TEST_F(BadOptions, whatIsReadIsNeverWrittenOver) {
+TEST_F(BadOptions, outputsDoNotOverwriteInputs) {
     folder_.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n");
     folder_.write("m.mtl", "newmtl m\nmap_Kd paint.png\n");
     ASSERT_EQ(run({"render", "room", "--size", "16x9", "-o", "paint.png"}).exitCode, 0);
@@ -191,7 +191,7 @@ TEST_F(BadOptions, whatIsReadIsNeverWrittenOver) {
                 {"paint.png", written});
 }
 
-TEST_F(BadOptions, whatABenchmarkReadsIsNeverWrittenOver) {
+TEST_F(BadOptions, aBenchmarkDoesNotOverwriteItsInputs) {
     const std::string quad = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     const std::string including = R"({"tessera": 1, "include": [{"file": "../m.obj"}]})";
     folder_.write("m.obj", quad);
@@ -208,7 +208,7 @@ TEST_F(BadOptions, whatABenchmarkReadsIsNeverWrittenOver) {
                 {"out/report.html", written});
 }
 
-TEST_F(BadOptions, whatADemonstrationReadsIsNeverWrittenOver) {
+TEST_F(BadOptions, aDemonstrationDoesNotOverwriteItsInputs) {
     folder_.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n");
     folder_.write("m.mtl", "newmtl m\nmap_Kd deferred.png\n");
     folder_.write("bench/bench.json", R"({"tessera": 1, "include": [{"file": "../m.obj"}]})");
@@ -220,7 +220,7 @@ TEST_F(BadOptions, whatADemonstrationReadsIsNeverWrittenOver) {
     expectError(kBadInput, {"--quiet", "demo", "bench/bench.json", "-o", "."}, {"bench/bench.json", written});
 }
 
-TEST_F(BadOptions, heatMapsAreNeverWhatIsReadNorAnotherOutput) {
+TEST_F(BadOptions, heatMapsDoNotOverwriteInputsOrOtherOutputs) {
     ASSERT_EQ(run({"render", "room", "--size", "16x9", "-o", "deferred_flip.png"}).exitCode, 0);
     std::filesystem::create_directory(path("maps"));
     const Words compare{"compare", "room", "--size", "16x9", "--heatmap"};
@@ -231,12 +231,12 @@ TEST_F(BadOptions, heatMapsAreNeverWhatIsReadNorAnotherOutput) {
     expectError(kBadInput, json, {"maps/deferred.png", "two outputs have this name"});
 }
 
-TEST_F(BadOptions, controlCharactersOfAMessageAreAlwaysEscaped) {
+TEST_F(BadOptions, controlCharactersOfAMessageAreEscaped) {
     expectError(kBadInput, {"plan", "a\x1b[31m.obj"}, {"a\\x1b[31m.obj"});
     expectError(kBadInput, {"plan", "room", "--technique", "de\nf"}, {"de; f"});
 }
 
-TEST_F(BadOptions, anErrorThatCannotBeSaidKeepsItsExitCode) {
+TEST_F(BadOptions, anErrorThatCannotBePrintedKeepsItsExitCode) {
     for (const char* closed : {"2>/dev/full", "2>&-"}) {
         const ProcessResult result = runShell(std::string(kProgram) + " plan nix.obj " + closed, folder_.path());
         EXPECT_EQ(result.exitCode, kBadInput) << closed;
@@ -247,7 +247,7 @@ TEST_F(BadOptions, anErrorThatCannotBeSaidKeepsItsExitCode) {
     EXPECT_EQ(json("p.json").at("scene"), "m");
 }
 
-TEST_F(BadOptions, aDriverWithoutOpenGl45IsAlwaysNamedWithWhatItOffers) {
+TEST_F(BadOptions, aDriverWithoutOpenGl45IsNamedWithWhatItOffers) {
     expectError(1, {"render", "room", "-o", "a.png", "--context", "egl"},
                 {"no OpenGL 4.5 context", "the driver 'softpipe' offers OpenGL", "use another driver"},
                 {{"GALLIUM_DRIVER", "softpipe"}, {"LIBGL_ALWAYS_SOFTWARE", "1"}});

@@ -10,7 +10,7 @@ using testing::HasSubstr;
 
 class Bench : public Cli {};
 
-TEST_F(Bench, everyPointIsAlwaysMeasuredCountedAndHeldAgainstTheFloor) {
+TEST_F(Bench, everyPointIsMeasuredCountedAndHeldAgainstTheFloor) {
     folder_.write("matrix.json", R"({"technique": ["forward", "tiled_deferred", "clustered_deferred"],
                                      "culling": ["none", "tile_minmax", "cluster"], "tile": [16, 32], "lights": [0, 40]})");
     const std::string said = runGood(
@@ -60,7 +60,7 @@ TEST_F(Bench, everyPointIsAlwaysMeasuredCountedAndHeldAgainstTheFloor) {
     }
 }
 
-TEST_F(Bench, everyCauseOfErrorIsAlwaysTold) {
+TEST_F(Bench, everyCauseOfErrorIsReported) {
     folder_.write("m.json", R"({"technique": ["deferred"], "layout": ["exact", "packed"], "range": [0, 0.05]})");
     runGood({"bench", "room", "--size", "64x36", "--frames", "1", "--matrix", "m.json", "--against", "forward", "-o",
              "out"});
@@ -81,7 +81,7 @@ TEST_F(Bench, everyCauseOfErrorIsAlwaysTold) {
     EXPECT_THAT(ended["attribution"].dump(), HasSubstr("range tolerance 0.05"));
 }
 
-TEST_F(Bench, unlitAndTransparentSurfacesNeverCountAsWhatTheyAreNot) {
+TEST_F(Bench, unlitAndTransparentSurfacesAreCountedAsSuch) {
     folder_.write("m.json", R"({"technique": ["deferred_volumes", "tiled_deferred"]})");
     const auto counters = [&](const std::string& material) {
         writeQuad(material,
@@ -107,7 +107,7 @@ TEST_F(Bench, unlitAndTransparentSurfacesNeverCountAsWhatTheyAreNot) {
     expectError(2, {"bench", "room", "-o", "none", "--technique", "forward", "--samples", "4"}, {"--samples"});
 }
 
-TEST_F(Bench, aBadMatrixIsAlwaysRefusedInOneLineThatNamesIt) {
+TEST_F(Bench, aBadMatrixIsRefusedInOneLineThatNamesIt) {
     const auto refused = [&](const std::string& matrix) {
         folder_.write("m.json", matrix);
         const ProcessResult result = run({"bench", "lattice", "--size", "32x18", "--matrix", "m.json", "-o", "out"});
@@ -131,7 +131,7 @@ TEST_F(Bench, aBadMatrixIsAlwaysRefusedInOneLineThatNamesIt) {
     EXPECT_THAT(refused(R"({"subsurface": ["blur"]})"), HasSubstr("no subsurface scattering"));
 }
 
-TEST_F(Bench, aViewIsNeverTakenForTheLitPicture) {
+TEST_F(Bench, aViewIsNotTakenForTheLitPicture) {
     for (const char* view : {"normal", "lights", "gbuffer.albedo"})
         expectError(2, {"bench", "room", "-o", "out", "--view", view},
                     {std::string("--view ") + view, "leave --view out", "tessera render"});

@@ -49,7 +49,7 @@ protected:
     }
 };
 
-TEST_F(BenchPage, everyPlotAlwaysShowsItsPointsInABrowserWithoutAComplaint) {
+TEST_F(BenchPage, everyPlotShowsItsPointsInABrowserWithoutAComplaint) {
     folder_.write("m.json", R"({"technique": ["forward", "deferred"], "layout": ["exact", "packed"],
                                 "lights": [4, 17, 1025]})");
     runGood({"bench", "lattice", "--size", "64x36", "--frames", "2", "--matrix", "m.json", "-o", "out"});
@@ -76,7 +76,7 @@ TEST_F(BenchPage, everyPlotAlwaysShowsItsPointsInABrowserWithoutAComplaint) {
     }
 }
 
-TEST_F(BenchPage, theBrowserOfThisTestAlwaysReportsABrokenScript) {
+TEST_F(BenchPage, theBrowserOfThisTestReportsABrokenScript) {
     folder_.write("broken.html", "<!DOCTYPE html><title>x</title><script>nothing.at.all()</script>");
     EXPECT_THAT(browse("broken.html", "800,600").err, HasSubstr("CONSOLE"));
 }

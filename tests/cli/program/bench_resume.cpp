@@ -43,7 +43,7 @@ protected:
     }
 };
 
-TEST_F(BenchRuns, aRunThatIsKilledAnywhereAndResumedAlwaysGivesTheSamePoints) {
+TEST_F(BenchRuns, aRunThatIsKilledAnywhereAndResumedGivesTheSamePoints) {
     runGood(command("whole"));
     int kills = 0;
     bool isDone = false;
@@ -74,7 +74,7 @@ TEST_F(BenchRuns, aRunThatIsKilledAnywhereAndResumedAlwaysGivesTheSamePoints) {
     EXPECT_EQ(text("killed/bench.json"), before);
 }
 
-TEST_F(BenchRuns, twoShardsMergedAlwaysEqualOneRun) {
+TEST_F(BenchRuns, twoShardsMergedEqualOneRun) {
     runGood(command("whole"));
     runGood(command("one", {"--shard", "1/2"}));
     EXPECT_EQ(json("one/bench.json")["complete"], false);
@@ -84,7 +84,7 @@ TEST_F(BenchRuns, twoShardsMergedAlwaysEqualOneRun) {
     EXPECT_THAT(text("all/report.html"), HasSubstr("Error against run time"));
 }
 
-TEST_F(BenchRuns, whatCannotBePutTogetherIsAlwaysRefusedInOneLine) {
+TEST_F(BenchRuns, shardsThatCannotBeMergedAreRefusedInOneLine) {
     runGood(command("one", {"--shard", "1/2"}));
     expectError(2, command("one", {"--shard", "2/2", "--resume"}), {"holds shard 1/2, not 2/2"});
     expectError(2, command("one", {"--shard", "1/2", "--resume", "--against", "forward"}), {"against differs"});
@@ -101,7 +101,7 @@ TEST_F(BenchRuns, whatCannotBePutTogetherIsAlwaysRefusedInOneLine) {
     expectError(2, command("one", {"--shard", "1/2", "--resume"}), {"group-000.json", "is damaged", "remove it"});
 }
 
-TEST_F(BenchRuns, aSceneThatIsEditedBetweenTwoPartsOfARunIsAlwaysRefused) {
+TEST_F(BenchRuns, aSceneThatIsEditedBetweenTwoPartsOfARunIsRefused) {
     const auto paint = [&](const char* colour) {
         writeQuad(fmt::format(R"({{"name": "paint", "model": "lambert", "k_d": {}}})", colour),
                   R"([{"type": "point", "position": [0, 0, 1]}])");
@@ -134,7 +134,7 @@ TEST_F(BenchRuns, aSceneThatIsEditedBetweenTwoPartsOfARunIsAlwaysRefused) {
     EXPECT_THAT(text("killed/report.html"), testing::Not(HasSubstr("Unfinished")));
 }
 
-TEST_F(BenchRuns, aFolderInUseIsAlwaysRefusedAndItsHolderNamed) {
+TEST_F(BenchRuns, aFolderInUseIsRefusedAndItsHolderNamed) {
     runGood(command("out"));
     const validation::FolderLock held(path("out"));
     const Words parts{"out is in use", fmt::format("process {}", ::getpid()), "name another folder"};

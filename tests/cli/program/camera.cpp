@@ -38,7 +38,7 @@ TEST_F(CameraOptions, aPlacedCameraIsExactlyTheOneOfASceneFileOfTheSameNumbers) 
     EXPECT_FALSE(picture == rendered({})) << "the scene's own camera";
 }
 
-TEST_F(CameraOptions, everyCommandThatLooksAtAFrameAlwaysTakesThem) {
+TEST_F(CameraOptions, everyCommandThatLooksAtAFrameTakesThem) {
     const char* const kNoneInView = "no point light is on and in view";
     EXPECT_THAT(runGood({"plan", "lattice", "--eye", "0,900,0", "--target", "0,1000,0"}),
                 testing::HasSubstr(kNoneInView));
@@ -46,7 +46,7 @@ TEST_F(CameraOptions, everyCommandThatLooksAtAFrameAlwaysTakesThem) {
     runGood({"compare", "spheres", "--techniques", "forward", "--size", "48x27", "--eye", "3,2,-4"});
 }
 
-TEST_F(CameraOptions, theDefaultLightAlwaysShinesAlongTheViewThatTheOptionsGive) {
+TEST_F(CameraOptions, theDefaultLightShinesAlongTheViewThatTheOptionsGive) {
     // A cube, which looks the same from opposite sides.
     folder_.write("cube.obj", "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
                               "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n");
@@ -72,7 +72,7 @@ TEST_F(CameraOptions, theDefaultLightAlwaysShinesAlongTheViewThatTheOptionsGive)
     runGood(compare);
 }
 
-TEST_F(CameraOptions, whatNoCameraCanHaveIsAlwaysRefusedInOneLine) {
+TEST_F(CameraOptions, invalidCameraValuesAreRefusedInOneLine) {
     const Words render{"render", "spheres", "-o", "a.exr"};
     const auto expectRefused = [&](const Words& more, const std::string& part) {
         Words words = render;

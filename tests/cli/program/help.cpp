@@ -26,7 +26,7 @@ protected:
     }
 };
 
-TEST_F(Help, everyCommandAlwaysExplainsItselfWithExamples) {
+TEST_F(Help, everyCommandExplainsItselfWithExamples) {
     for (const char* command : {"render", "compare", "plan", "demo"}) {
         SCOPED_TRACE(command);
         const std::string text = runGood({command, "--help"});
@@ -44,7 +44,7 @@ TEST_F(Help, everyCommandAlwaysExplainsItselfWithExamples) {
     EXPECT_THAT(runGood({"scenes", "--help"}), HasSubstr("Usage: tessera scenes"));
 }
 
-TEST_F(Help, noArgumentAlwaysPrintsTheHelp) {
+TEST_F(Help, noArgumentPrintsTheHelp) {
     const std::string text = runGood({});
     expectReadable(text);
     EXPECT_EQ(text, runGood({"--help"}));
@@ -52,17 +52,17 @@ TEST_F(Help, noArgumentAlwaysPrintsTheHelp) {
         EXPECT_THAT(text, HasSubstr(command));
 }
 
-TEST_F(Help, theWordHelpIsAlwaysTheOption) {
+TEST_F(Help, theWordHelpIsTheOption) {
     EXPECT_EQ(runGood({"help"}), runGood({"--help"}));
     EXPECT_EQ(runGood({"help", "render"}), runGood({"render", "--help"}));
 }
 
-TEST_F(Help, whatIsTakenSeveralTimesIsAlwaysShownSo) {
+TEST_F(Help, repeatableOptionsAreMarked) {
     EXPECT_THAT(runGood({"bench", "--help"}), HasSubstr("Usage: tessera bench [SCENE...] -o DIR [options]"));
     EXPECT_THAT(runGood({"demo", "--help"}), HasSubstr("Usage: tessera demo [SCENE] [options]"));
 }
 
-TEST_F(Help, versionIsAlwaysOneLineAndVerboseAlwaysAddsWhatOpenGLSays) {
+TEST_F(Help, versionIsOneLineAndVerboseAddsTheOpenGLStrings) {
     EXPECT_THAT(runGood({"--version"}), testing::MatchesRegex("tessera [0-9]+\\.[0-9]+\\.[0-9]+\n"));
     const ProcessResult verbose = run({"--version", "--verbose"});
     EXPECT_EQ(verbose.exitCode, 0);
@@ -71,7 +71,7 @@ TEST_F(Help, versionIsAlwaysOneLineAndVerboseAlwaysAddsWhatOpenGLSays) {
                                    ContainsRegex("\nGLSL +4"), ContainsRegex("\ncontext +[^ ]")));
 }
 
-TEST_F(Help, theSchemaOfScenesAlwaysHoldsEverySettingAndNoOther) {
+TEST_F(Help, theSchemaOfScenesHoldsEverySettingAndNoOther) {
     const Json options = Json::parse(runGood({"scenes", "--schema"}))["definitions"]["options"];
     std::set<std::string> keys{"defaultLight"};
     for (const engine::Setting& setting : engine::settingTable())
@@ -83,7 +83,7 @@ TEST_F(Help, theSchemaOfScenesAlwaysHoldsEverySettingAndNoOther) {
     EXPECT_EQ(options["properties"]["layout"]["enum"], Json({"exact", "packed", "slim"}));
 }
 
-TEST_F(Help, scenesAlwaysListsTheSixBuiltinOnes) {
+TEST_F(Help, scenesListsTheSixBuiltinOnes) {
     const std::string list = runGood({"scenes"});
     for (const char* row : {"\nhall +[0-9]+ +257 +[0-9]+  [a-z]", "\nspheres +[0-9]+", "\nlattice +192000 +256 +9  ",
                             "\nroom +30 +1 +10  ", "\nhead +[0-9]+"})

@@ -44,7 +44,7 @@ private:
     int made_ = 0;
 };
 
-TEST_F(FrameOptions, exposureAlwaysMultipliesTheDisplayPictureByTwoToItsPower) {
+TEST_F(FrameOptions, exposureMultipliesTheDisplayPictureByTwoToItsPower) {
     writeQuad(R"({"name": "paint", "model": "single_color", "color": [0.25, 0.125, 0.03125]})", "[]");
     const auto red = [&](const char* exposureEV) {
         return picture(rendered({"--exposure", exposureEV}, ".png")).pixel(0)[0];
@@ -62,7 +62,7 @@ constexpr const char* kTwoAttenuated = R"([
     {"type": "point", "position": [1, 0, 1], "intensity": 8, "falloff": {"type": "attenuation", "C": 0.5, "A": 8}},
     {"type": "point", "position": [-1, 0.5, 1], "intensity": 2, "falloff": {"type": "attenuation", "C": 1}}])";
 
-TEST_F(FrameOptions, aRangeToleranceAlwaysDropsLightAndPlanAndCompareTellHowMuch) {
+TEST_F(FrameOptions, aRangeToleranceDropsLightAndPlanAndCompareTellHowMuch) {
     writeQuad(kGlossy, kTwoAttenuated);
     const Picture whole = pictureOf({}), cut = pictureOf({"--range-tolerance", "0.5"});
     EXPECT_LT(mean(cut), mean(whole));
@@ -106,7 +106,7 @@ TEST_F(FrameOptions, aRangeToleranceAlwaysDropsLightAndPlanAndCompareTellHowMuch
     EXPECT_EQ(json("c.json")["rangeTruncation"]["technique"], "deferred") << "a picture has no other tolerance";
 }
 
-TEST_F(FrameOptions, everyToneMapAlwaysShowsTheSceneItsOwnWay) {
+TEST_F(FrameOptions, everyToneMapShowsTheSceneItsOwnWay) {
     std::set<std::string> shown;
     for (const char* name : {"none", "khronos_neutral", "aces", "agx"})
         shown.insert(pngOf({"--exposure", "1", "--tonemap", name}));
@@ -141,12 +141,12 @@ TEST_F(FrameOptions, everyTechniqueIsExactlyTheSameWithTheExactLayoutAndNearWith
     EXPECT_LE(validation::errorFigures(picture(packed), pictureOf({})).relMse, 1e-4) << "the layout's promise";
 }
 
-TEST_F(FrameOptions, lightingInViewSpaceAlwaysGivesThePictureOfWorldSpace) {
+TEST_F(FrameOptions, lightingInViewSpaceGivesThePictureOfWorldSpace) {
     // Other roundings of the same lighting: fp32 against double is at 1e-10 already.
     EXPECT_LE(validation::errorFigures(pictureOf({"--space", "view"}), pictureOf({"--space", "world"})).relMse, 1e-9);
 }
 
-TEST_F(FrameOptions, specularOffAlwaysLeavesOnlyTheDiffuseLobe) {
+TEST_F(FrameOptions, specularOffLeavesOnlyTheDiffuseLobe) {
     const double with = mean(pictureOf({})), without = mean(pictureOf({"--specular", "off"}));
     EXPECT_LT(without, 0.95 * with);
     EXPECT_GT(without, 0.0);
@@ -155,7 +155,7 @@ TEST_F(FrameOptions, specularOffAlwaysLeavesOnlyTheDiffuseLobe) {
     EXPECT_TRUE(text(rendered({"--specular", "off"})) == text(rendered({"--specular", "on"})));
 }
 
-TEST_F(FrameOptions, theLightsAloneAlwaysAddUpToTheWhole) {
+TEST_F(FrameOptions, theLightsAloneAddUpToTheWhole) {
     const Picture first = pictureOf({"--solo", "0"}), second = pictureOf({"--solo", "1"}), both = pictureOf({});
     for (std::size_t i = 0; i < both.pixelCount(); ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
@@ -166,14 +166,14 @@ TEST_F(FrameOptions, theLightsAloneAlwaysAddUpToTheWhole) {
     }
 }
 
-TEST_F(FrameOptions, lightsAlwaysKeepsTheFirstOfAFileAndCountsThoseOfABuiltinScene) {
+TEST_F(FrameOptions, lightsKeepsTheFirstOfAFileAndCountsThoseOfABuiltinScene) {
     EXPECT_TRUE(text(rendered({"--lights", "1"})) == text(rendered({"--solo", "0"})));
     EXPECT_EQ(mean(pictureOf({"--lights", "0"})), 0.0);
     runGood({"plan", "lattice", "--lights", "37", "--json", "p.json"});
     EXPECT_EQ(json("p.json")["counters"]["lights"], 37);
 }
 
-TEST_F(FrameOptions, noDefaultLightAlwaysLeavesASceneWithoutLightsDark) {
+TEST_F(FrameOptions, noDefaultLightLeavesASceneWithoutLightsDark) {
     writeQuad(kGlossy, "[]");
     const Words render{"render", "quad.json", "--size", "48x27", "-o", "lit.exr"};
     const ProcessResult lit = run(render);
@@ -183,7 +183,7 @@ TEST_F(FrameOptions, noDefaultLightAlwaysLeavesASceneWithoutLightsDark) {
     EXPECT_EQ(mean(pictureOf({"--no-default-light"})), 0.0);
 }
 
-TEST_F(FrameOptions, filterExactAlwaysInterpolatesInSinglePrecision) {
+TEST_F(FrameOptions, filterExactInterpolatesInSinglePrecision) {
     DisplayImage texture{2, 2, {0, 0, 0, 255, 255, 255, 255, 255, 255, 0, 0, 0}};
     writePng(path("t.png"), texture);
     writeQuad(R"({"name": "paint", "model": "single_color", "color": {"texture": "t.png"}})", "[]");
@@ -197,7 +197,7 @@ TEST_F(FrameOptions, filterExactAlwaysInterpolatesInSinglePrecision) {
     EXPECT_LT(largest, 4.0 / 256.0);
 }
 
-TEST_F(FrameOptions, samplesAlwaysSoftenEdgesAndOneChangesNothing) {
+TEST_F(FrameOptions, samplesSoftenEdgesAndOneChangesNothing) {
     const Words lattice{"--technique", "forward", "--lights", "4", "--view", "diffuse"};
     const auto latticeWith = [&](const char* samples) {
         Words words = lattice;
@@ -215,7 +215,7 @@ TEST_F(FrameOptions, samplesAlwaysSoftenEdgesAndOneChangesNothing) {
               std::count(one.covered.begin(), one.covered.end(), 1));
 }
 
-TEST_F(FrameOptions, cameraAlwaysChoosesTheView) {
+TEST_F(FrameOptions, cameraChoosesTheView) {
     EXPECT_TRUE(text(rendered({"--camera", "corner"}, ".exr", "room")) == text(rendered({}, ".exr", "room")));
     EXPECT_FALSE(text(rendered({"--camera", "back"}, ".exr", "room")) == text(rendered({}, ".exr", "room")));
 }

@@ -20,7 +20,7 @@ protected:
     }
 };
 
-TEST_F(Output, placesWhereNothingCanBeWrittenAreAlwaysNamedAndNeverTouched) {
+TEST_F(Output, placesWhereNothingCanBeWrittenAreNamedAndNeverTouched) {
     fs::create_directory(folder_.path() / "folder.png");
     folder_.write("file", "no folder");
     expectError(kFailed, {"render", "room", "-o", "nix/a.png"}, {"nix/a.png", "there is no folder nix"});
@@ -37,7 +37,7 @@ TEST_F(Output, placesWhereNothingCanBeWrittenAreAlwaysNamedAndNeverTouched) {
     expectError(kFailed, {"demo", "room", "-o", "file/report"}, {"file/report", "not a folder"});
 }
 
-TEST_F(Output, aFullDiskIsAlwaysAnErrorThatKeepsTheOlderPicture) {
+TEST_F(Output, aFullDiskIsAnErrorThatKeepsTheOlderPicture) {
     fs::create_symlink("/dev/full", folder_.path() / "full.exr");
     expectError(kFailed, {"render", "room", "--size", "16x9", "-o", "full.exr"},
                 {"full.exr", "No space left", "free some space"});
@@ -54,7 +54,7 @@ TEST_F(Output, aFullDiskIsAlwaysAnErrorThatKeepsTheOlderPicture) {
     EXPECT_TRUE(files() == before);
 }
 
-TEST_F(Output, whatCannotBePrintedIsAlwaysAnError) {
+TEST_F(Output, failedPrintingIsAnError) {
     const ProcessResult result = runShell(std::string(kProgram) + " --help > /dev/full", folder_.path());
     EXPECT_EQ(result.exitCode, kFailed);
     EXPECT_THAT(result.err, testing::HasSubstr("tessera: error: cannot write the output: No space left on device"));
@@ -73,7 +73,7 @@ TEST_F(Output, aReaderWhoLeftCostsNoFile) {
     EXPECT_THAT(ended.err, testing::Not(testing::HasSubstr("error")));
 }
 
-TEST_F(Output, anInterruptedRunAlwaysEndsByItsSignalAndNeverLeavesTemporaries) {
+TEST_F(Output, anInterruptedRunEndsByItsSignalAndNeverLeavesTemporaries) {
     std::signal(SIGINT, SIG_DFL); // a background process of a shell ignores it, and the program would inherit that
     // Most of the time of these small pictures goes into writing them, so some of the signals come in the midst of it.
     int midWrites = 0;

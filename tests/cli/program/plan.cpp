@@ -19,7 +19,7 @@ protected:
     }
 };
 
-TEST_F(Plan, theJsonAlwaysHasTheDocumentedFields) {
+TEST_F(Plan, theJsonHasTheDocumentedFields) {
     const std::string said = runGood({"plan", "lattice", "--lights", "8", "--json", "p.json", "--dot", "p.dot"});
     EXPECT_THAT(said, testing::StartsWith("lattice, deferred: 5 passes run, "));
     const Json plan = json("p.json");
@@ -40,7 +40,7 @@ TEST_F(Plan, theJsonAlwaysHasTheDocumentedFields) {
     EXPECT_THAT(text("p.dot"), HasSubstr("deferred_lighting"));
 }
 
-TEST_F(Plan, aHyphenAlwaysMeansTheStandardOutputAlone) {
+TEST_F(Plan, aHyphenMeansTheStandardOutputAlone) {
     const Words plan{"plan", "lattice", "--lights", "8"};
     const auto with = [&](const Words& more) {
         Words words = plan;
@@ -59,7 +59,7 @@ TEST_F(Plan, aHyphenAlwaysMeansTheStandardOutputAlone) {
     EXPECT_FALSE(files().contains("-"));
 }
 
-TEST_F(Plan, measureAlwaysFillsInMilliseconds) {
+TEST_F(Plan, measureFillsInMilliseconds) {
     runGood({"plan", "room", "--size", "160x90", "--measure", "--json", "p.json"});
     const Json plan = json("p.json");
     for (const Json& pass : plan["passes"]) EXPECT_GT(pass["ms"], 0.0) << pass;
@@ -68,7 +68,7 @@ TEST_F(Plan, measureAlwaysFillsInMilliseconds) {
     EXPECT_TRUE(isMeasured);
 }
 
-TEST_F(Plan, theMemoryOfLightListsIsNeverGuessedAndAlwaysMeasured) {
+TEST_F(Plan, theMemoryOfLightListsIsNotGuessedAndMeasured) {
     const auto entriesOf = [&](const std::vector<std::string>& more) {
         std::vector<std::string> arguments{"plan",   "lattice",     "--lights",       "64",     "--size",
                                            "160x90", "--technique", "tiled_deferred", "--json", "p.json"};
@@ -108,7 +108,7 @@ TEST_F(Plan, furtherCamerasAreAlwaysViewsOfTheSameFrame) {
     expectError(2, {"plan", "hall", "--also", "0", "--measure"}, {"--measure", "one view", "--also"});
 }
 
-TEST_F(Plan, neverNeedsGraphicsButWhatDoesAlwaysSaysWhatToInstall) {
+TEST_F(Plan, plansNeedNoGraphicsAndOtherCommandsNameTheMissingPackage) {
     EXPECT_THAT(runGood({"plan", "room"}, kNoGraphics), HasSubstr("deferred_lighting"));
     EXPECT_THAT(runGood({"scenes"}, kNoGraphics), HasSubstr("room"));
     const Words remedy{"no OpenGL 4.5 context can be made", "EGL surfaceless", "install", "libegl1 libgl1-mesa-dri"};

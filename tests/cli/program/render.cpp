@@ -15,7 +15,7 @@ protected:
     }
 };
 
-TEST_F(Render, picturesAlwaysHaveTheSizeAndFormatThatWasAskedFor) {
+TEST_F(Render, picturesHaveTheRequestedSizeAndFormat) {
     EXPECT_EQ(runGood({"render", "lattice", "--lights", "8", "--size", "161x91", "-o", "a.exr"}), "");
     EXPECT_EQ(runGood({"render", "lattice", "--lights", "8", "--size", "161x91", "-o", "a.png"}), "");
     const OIIO::ImageSpec exr = specOf("a.exr"), png = specOf("a.png");
@@ -31,7 +31,7 @@ TEST_F(Render, picturesAlwaysHaveTheSizeAndFormatThatWasAskedFor) {
     EXPECT_EQ(files().size(), 2u);
 }
 
-TEST_F(Render, exrIsAlwaysTheLinearPictureThatPngShows) {
+TEST_F(Render, exrIsTheLinearPictureThatPngShows) {
     // Unlit colour c is radiance c exactly, and shown as sRGB of c.
     writeQuad(R"({"name": "paint", "model": "single_color", "color": [0.5, 0.25, 4]})", "[]");
     runGood({"render", "quad.json", "--size", "16x9", "-o", "a.exr"});
@@ -48,7 +48,7 @@ TEST_F(Render, exrIsAlwaysTheLinearPictureThatPngShows) {
     }
 }
 
-TEST_F(Render, theReferenceAlwaysShowsThePictureOfEveryTechniqueAndWritesSequencesToo) {
+TEST_F(Render, theReferenceShowsThePictureOfEveryTechniqueAndWritesSequencesToo) {
     const Words frame{"render", "room", "--size", "64x36", "--exposure", "1"};
     const auto with = [&](Words more) {
         more.insert(more.begin(), frame.begin(), frame.end());
@@ -69,7 +69,7 @@ TEST_F(Render, theReferenceAlwaysShowsThePictureOfEveryTechniqueAndWritesSequenc
     expectError(2, with({"--technique", "reference", "--view", "depth", "-o", "b.png"}), {"reference", "depth"});
 }
 
-TEST_F(Render, runToRunPicturesAreAlwaysTheSameAndReplaceOlderOnes) {
+TEST_F(Render, runToRunPicturesAreTheSameAndReplaceOlderOnes) {
     folder_.write("a.exr", "an older picture");
     const Words words{"render", "lattice", "--lights", "8", "--size", "160x90", "-o", "a.exr"};
     runGood(words);
@@ -80,7 +80,7 @@ TEST_F(Render, runToRunPicturesAreAlwaysTheSameAndReplaceOlderOnes) {
     EXPECT_EQ(files().size(), 1u);
 }
 
-TEST_F(Render, frameKOfASequenceIsAlwaysThePictureAtItsTime) {
+TEST_F(Render, frameKOfASequenceIsThePictureAtItsTime) {
     writeQuad(R"({"name": "paint", "model": "lambert"})",
               R"([{"type": "point", "position": [2, 0, 1], "intensity": 3,
                    "animation": {"type": "orbit", "center": [0, 0, 1], "axis": [0, 0, 1], "periodSeconds": 4}}])");
@@ -103,7 +103,7 @@ TEST_F(Render, frameKOfASequenceIsAlwaysThePictureAtItsTime) {
     EXPECT_TRUE(text("g0.exr") == made["f_0001.exr"]) << "--time is where a sequence starts";
 }
 
-TEST_F(Render, quietAlwaysSilencesWarningsAndNothingElse) {
+TEST_F(Render, quietSilencesWarningsAndNothingElse) {
     folder_.write("tri.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
     const ProcessResult loud = run({"render", "tri.obj", "--size", "16x9", "-o", "a.png"});
     EXPECT_EQ(loud.exitCode, 0);
@@ -115,7 +115,7 @@ TEST_F(Render, quietAlwaysSilencesWarningsAndNothingElse) {
     expectError(2, {"--quiet", "render", "nix.obj", "-o", "a.png"}, {"nix.obj"});
 }
 
-TEST_F(Render, aPictureOfNothingAlwaysSaysWhy) {
+TEST_F(Render, aPictureOfNothingSaysWhy) {
     folder_.write("tri.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
     folder_.write("none.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{}]})");
     for (const char* technique : {"forward", "reference"}) {
@@ -140,7 +140,7 @@ TEST_F(Render, warningsNeverComeBeforeAnError) {
     expectError(2, {"render", "tri.obj", "--solo", "7", "-o", "a.png"}, {"--solo 7"});
 }
 
-TEST_F(Render, namesAndSizesAlwaysMeanTheSameInCapitals) {
+TEST_F(Render, namesAndSizesMeanTheSameInCapitals) {
     folder_.write("M.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     for (const auto& [name, size] :
          {std::pair{"a.png", "16x9"}, {"A.PNG", "16X9"}, {"a.exr", "16x9"}, {"A.EXR", "16X9"}})

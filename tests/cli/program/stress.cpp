@@ -11,7 +11,7 @@ using app::kToleranceMissed;
 
 class StressCommand : public Cli {};
 
-TEST_F(StressCommand, aCaseAlwaysTellsItsFiguresOnTheTerminalAndAsJson) {
+TEST_F(StressCommand, aCaseTellsItsFiguresOnTheTerminalAndAsJson) {
     const std::string table = runGood({"stress", "--quick", "--case", "terms", "--case", "scene/light_place",
                                        "--technique", "forward,deferred", "--json", "s.json"});
     EXPECT_THAT(table, testing::HasSubstr("terms/fresnel"));
@@ -29,14 +29,14 @@ TEST_F(StressCommand, aCaseAlwaysTellsItsFiguresOnTheTerminalAndAsJson) {
     EXPECT_EQ(techniques, (std::set<std::string>{"deferred", "forward"}));
 }
 
-TEST_F(StressCommand, theListAlwaysShowsEveryGroupAndRunsNothing) {
+TEST_F(StressCommand, theListShowsEveryGroupAndRunsNothing) {
     const std::string list = runGood({"stress", "--list"});
     for (const char* group :
          {"brdf/", "directions/", "roughness/", "terms/", "light/", "lights/", "scene/", "geometry/", "target/"})
         EXPECT_THAT(list, testing::HasSubstr(group));
 }
 
-TEST_F(StressCommand, aShaderWithAFaultAlwaysEndsWithExitCodeThree) {
+TEST_F(StressCommand, aShaderWithAFaultEndsWithExitCodeThree) {
     std::filesystem::copy(std::filesystem::path(TESSERA_SOURCE_DIR) / "shaders", folder_.path() / "shaders",
                           std::filesystem::copy_options::recursive);
     std::string source = text("shaders/lib/maths/math.glsl");
@@ -51,7 +51,7 @@ TEST_F(StressCommand, aShaderWithAFaultAlwaysEndsWithExitCodeThree) {
     EXPECT_EQ(json("s.json")["ok"], false);
 }
 
-TEST_F(StressCommand, anUnknownNameIsAlwaysRefusedWithTheNearest) {
+TEST_F(StressCommand, anUnknownNameIsRefusedWithTheNearest) {
     expectError(kBadInput, {"stress", "--case", "terms/fresnal"}, {"terms/fresnal", "terms/fresnel"});
     expectError(kBadInput, {"stress", "--technique", "forwart"}, {"forwart", "forward"});
     expectError(app::kFailed, {"stress", "--quick", "--case", "terms", "--json", "/proc/nix/s.json"}, {"/proc/nix"});

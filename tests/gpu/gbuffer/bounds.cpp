@@ -101,7 +101,7 @@ std::map<Key, Error> errors(frame::Encoding encoding) {
     return all;
 }
 
-TEST_F(GBufferTest, errorsNeverExceedTheBoundDerivedFromTheirFieldAndAlwaysComeNearIt) {
+TEST_F(GBufferTest, errorsNeverExceedTheBoundDerivedFromTheirFieldAndComeNearIt) {
     for (const frame::Encoding encoding : {frame::Encoding::Packed, frame::Encoding::Slim}) {
         std::vector<StoredSurface> surfaces = test::randomSurfaces(200000);
         for (const std::vector<StoredSurface>& more :
@@ -176,7 +176,7 @@ double worstCorrelation(const std::vector<std::vector<double>>& errors) {
     return worst;
 }
 
-TEST_F(GBufferTest, theMeanOfAValueOverPixelsIsAlwaysTheValue) {
+TEST_F(GBufferTest, theMeanOfAValueOverPixelsIsTheValue) {
     for (const frame::Encoding encoding : {frame::Encoding::Packed, frame::Encoding::Slim}) {
         double worst = 0.0, correlation = 0.0;
         std::vector<StoredSurface> random = test::randomSurfaces(6);

@@ -19,14 +19,14 @@ bool isMicrofacetModel(const StoredSurface& surface) {
            surface.model == float(scenes::MaterialModel::MicrofacetAnisotropic);
 }
 
-TEST_F(GBufferTest, theExactLayoutAlwaysKeepsEveryBit) {
+TEST_F(GBufferTest, theExactLayoutKeepsEveryBit) {
     const std::vector<StoredSurface> surfaces = test::randomSurfaces(100000);
     const std::vector<StoredSurface> back = roundTrip(surfaces, frame::Encoding::Exact);
     for (std::size_t i = 0; i < surfaces.size(); ++i)
         ASSERT_EQ(std::memcmp(&surfaces[i], &back[i], sizeof(StoredSurface)), 0) << "surface " << i;
 }
 
-TEST_F(GBufferTest, everyLayoutAlwaysKeepsModelAndMasking) {
+TEST_F(GBufferTest, everyLayoutKeepsModelAndMasking) {
     for (const frame::Encoding encoding : kCoarse) {
         std::vector<StoredSurface> surfaces = test::randomSurfaces(20000);
         for (const scenes::MaterialModelInfo& model : scenes::materialModels()) {
@@ -46,7 +46,7 @@ TEST_F(GBufferTest, everyLayoutAlwaysKeepsModelAndMasking) {
 
 // What a scene without a channel would see in its place must come back from the channel to the last bit, or leaving it
 // out would change the picture: no emission, no coat, no sheen, k_s 1, F0 0.04, F90 1.
-TEST_F(GBufferTest, everyLayoutAlwaysKeepsTheValuesOfAbsentChannelsExactly) {
+TEST_F(GBufferTest, everyLayoutKeepsTheValuesOfAbsentChannelsExactly) {
     for (const frame::Encoding encoding : kCoarse) {
         std::vector<StoredSurface> surfaces(4);
         surfaces[0].specular = glm::vec3(1.0f);
@@ -91,7 +91,7 @@ TEST_F(GBufferTest, anIsotropicLobeNeverBecomesAnisotropic) {
     }
 }
 
-TEST_F(GBufferTest, whatIsNotDitheredGoesToTheNearestCode) {
+TEST_F(GBufferTest, unditheredFieldsTakeTheNearestCode) {
     // The coat's normal in steps of its 12 or 10 bits, of which all but the last code are used; 0.497 of a step is
     // further from the half than fp32 rounds -1..1 at 2^11 steps (1e-4) and than what counts as a whole step (1e-3).
     for (const frame::Encoding encoding : kCoarse) {
@@ -110,7 +110,7 @@ TEST_F(GBufferTest, whatIsNotDitheredGoesToTheNearestCode) {
     }
 }
 
-TEST_F(GBufferTest, decodedDirectionsAreAlwaysUnitAndAtRightAngles) {
+TEST_F(GBufferTest, decodedDirectionsAreUnitAndAtRightAngles) {
     for (const frame::Encoding encoding : kCoarse) {
         std::vector<StoredSurface> surfaces = test::randomSurfaces(50000);
         const std::vector<StoredSurface> ends = test::surfacesAtTheEnds();

@@ -10,7 +10,7 @@ namespace {
 
 class ContextTest : public test::GlTest {};
 
-TEST_F(ContextTest, capabilitiesAlwaysNameTheDriverAndItsLimits) {
+TEST_F(ContextTest, capabilitiesNameTheDriverAndItsLimits) {
     const Capabilities& capabilities = context().capabilities();
     EXPECT_FALSE(capabilities.vendor.empty());
     EXPECT_FALSE(capabilities.renderer.empty());
@@ -28,7 +28,7 @@ TEST_F(ContextTest, capabilitiesAlwaysNameTheDriverAndItsLimits) {
 }
 
 /// Else ./test --driver would test the first driver again where the second cannot be loaded.
-TEST_F(ContextTest, aDriverThatTheEnvironmentAsksForIsAlwaysTheOneInUse) {
+TEST_F(ContextTest, aDriverThatTheEnvironmentAsksForIsTheOneInUse) {
     const char* const driver = std::getenv("MESA_LOADER_DRIVER_OVERRIDE");
     if (!driver) GTEST_SKIP() << "the environment names no driver";
     EXPECT_THAT(context().capabilities().renderer, testing::StartsWith(driver));
@@ -46,7 +46,7 @@ TEST_F(ContextTest, aSecondHeadlessContextNeverDisturbsTheFirst) {
     EXPECT_THAT(buffer.downloadAs<int>(3), testing::ElementsAre(1, 2, 3));
 }
 
-TEST_F(ContextTest, aWindowIsAlwaysAContextOrAReason) {
+TEST_F(ContextTest, aWindowIsAContextOrAReason) {
     try {
         const auto window = Context::create({.kind = ContextKind::Window});
         EXPECT_EQ(window->capabilities().contextWay, "GLFW window");

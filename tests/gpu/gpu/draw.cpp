@@ -37,7 +37,7 @@ protected:
 };
 class FramebufferTest : public test::GlTest {};
 
-TEST_F(DrawTest, aFullscreenTriangleAlwaysCoversEveryPixelFromTheLowerLeft) {
+TEST_F(DrawTest, aFullscreenTriangleCoversEveryPixelFromTheLowerLeft) {
     bindFramebuffer(framebuffers.get(target));
     setState({});
     const Program coordinates = fullscreen("color = vec4(gl_FragCoord.xy, 0.0, 1.0);");
@@ -49,7 +49,7 @@ TEST_F(DrawTest, aFullscreenTriangleAlwaysCoversEveryPixelFromTheLowerLeft) {
             EXPECT_EQ(texels[std::size_t(y * 4 + x)], glm::vec4(float(x) + 0.5f, float(y) + 0.5f, 0.0f, 1.0f));
 }
 
-TEST_F(DrawTest, clipDepthAlwaysRunsFromZeroToOneAndNearerIsGreater) {
+TEST_F(DrawTest, clipDepthRunsFromZeroToOneAndNearerIsGreater) {
     const Framebuffer& framebuffer = framebuffers.get(target, &depth);
     bindFramebuffer(framebuffer);
     clearColor(0, glm::vec4(0.0f));
@@ -65,7 +65,7 @@ TEST_F(DrawTest, clipDepthAlwaysRunsFromZeroToOneAndNearerIsGreater) {
     EXPECT_THAT(depth.downloadAs<float>(), Each(0.5f));
 }
 
-TEST_F(DrawTest, clearsAlwaysWriteWhateverTheStateSaysAndThenKeepIt) {
+TEST_F(DrawTest, clearsIgnoreWriteMasksAndRestoreThem) {
     bindFramebuffer(framebuffers.get(target, &depth));
     clearColor(0, glm::vec4(0.0f));
     clearDepth(0.0f);
@@ -79,7 +79,7 @@ TEST_F(DrawTest, clearsAlwaysWriteWhateverTheStateSaysAndThenKeepIt) {
     EXPECT_THAT(depth.downloadAs<float>(), Each(0.75f));
 }
 
-TEST_F(DrawTest, blendsAlwaysComputeWhatTheirNameSays) {
+TEST_F(DrawTest, blendsComputeTheirFormula) {
     bindFramebuffer(framebuffers.get(target));
     const Program half = fullscreen("color = vec4(2.0, 2.0, 2.0, 0.5);");
     useProgram(half);
@@ -95,7 +95,7 @@ TEST_F(DrawTest, blendsAlwaysComputeWhatTheirNameSays) {
     EXPECT_EQ(result(Blend::AlphaStraight), glm::vec4(3.0f, 3.0f, 3.0f, 1.0f));
 }
 
-TEST_F(DrawTest, srgbTargetsAlwaysEncode) {
+TEST_F(DrawTest, srgbTargetsEncode) {
     const Texture srgb("srgb", {graph::Format::Srgb8Alpha8, 1, 1, 1});
     bindFramebuffer(framebuffers.get(srgb));
     setState({});
@@ -168,7 +168,7 @@ void main() { color = vec4(float(id), colorOfVertex.gba); })"}};
     }
 };
 
-TEST_F(GeometryTest, indexedDrawsAlwaysHonourFirstIndexBaseVertexAndBaseInstance) {
+TEST_F(GeometryTest, indexedDrawsHonourFirstIndexBaseVertexAndBaseInstance) {
     begin();
     drawIndexed(3, 6, 0, 2);
     drawIndexed(3, 6, 4, 3);
@@ -176,7 +176,7 @@ TEST_F(GeometryTest, indexedDrawsAlwaysHonourFirstIndexBaseVertexAndBaseInstance
     EXPECT_EQ(target.downloadAs<glm::vec4>().front(), glm::vec4(20.0f, 1.0f, 0.0f, 1.0f));
 }
 
-TEST_F(GeometryTest, indirectDrawsAlwaysEqualDirectOnes) {
+TEST_F(GeometryTest, indirectDrawsEqualDirectOnes) {
     const Buffer commands =
         Buffer::of("commands", std::vector<DrawIndexedCommand>{{}, {6, 1, 3, 0, 1}, {6, 1, 3, 4, 2}, {}});
     begin();
@@ -184,7 +184,7 @@ TEST_F(GeometryTest, indirectDrawsAlwaysEqualDirectOnes) {
     EXPECT_THAT(firstRowIds(), ElementsAre(10, 10, 20, 20));
 }
 
-TEST_F(GeometryTest, counterClockwiseIsAlwaysTheFrontUnlessMirrored) {
+TEST_F(GeometryTest, counterClockwiseIsTheFrontUnlessMirrored) {
     begin({.cullFace = CullFace::Back, .frontFaceClockwise = true});
     drawIndexed(3, 6);
     EXPECT_THAT(firstRowIds(), Each(-1.0f));
@@ -196,7 +196,7 @@ TEST_F(GeometryTest, counterClockwiseIsAlwaysTheFrontUnlessMirrored) {
     EXPECT_THAT(firstRowIds(), ElementsAre(0, 0, -1, -1));
 }
 
-TEST_F(GeometryTest, theScissorAlwaysHoldsUntilTheNextFramebuffer) {
+TEST_F(GeometryTest, theScissorHoldsUntilTheNextFramebuffer) {
     begin();
     setScissor(1, 0, 2, 2);
     clearColor(0, glm::vec4(5.0f));
@@ -205,7 +205,7 @@ TEST_F(GeometryTest, theScissorAlwaysHoldsUntilTheNextFramebuffer) {
     EXPECT_THAT(firstRowIds(), Each(-1.0f));
 }
 
-TEST_F(DrawTest, aBlitAlwaysResolvesSamples) {
+TEST_F(DrawTest, aBlitResolvesSamples) {
     const Texture many("many", {graph::Format::Rgba32Float, 4, 2, 4});
     const Framebuffer& source = framebuffers.get(many);
     bindFramebuffer(source);
@@ -214,7 +214,7 @@ TEST_F(DrawTest, aBlitAlwaysResolvesSamples) {
     EXPECT_THAT(target.downloadAs<float>(), Each(3.0f));
 }
 
-TEST_F(FramebufferTest, incompleteAttachmentsAreAlwaysNamed) {
+TEST_F(FramebufferTest, incompleteAttachmentsAreNamed) {
     const Texture color("radiance", {graph::Format::Rgba16Float, 4, 4, 1});
     const Texture other("normals", {graph::Format::Rgba8Unorm, 4, 4, 4});
     const Texture small("small", {graph::Format::Rgba8Unorm, 2, 4, 1});
@@ -236,7 +236,7 @@ TEST_F(FramebufferTest, incompleteAttachmentsAreAlwaysNamed) {
     EXPECT_THAT(faultOf({{}, nullptr}), HasSubstr("nothing is attached"));
 }
 
-TEST_F(FramebufferTest, everyPartOfATextureIsAlwaysDrawnIntoAloneAndReadBack) {
+TEST_F(FramebufferTest, everyPartOfATextureIsDrawnIntoAloneAndReadBack) {
     for (const graph::Shape shape : {graph::Shape::Array, graph::Shape::Cube}) {
         const Texture texture(
             "parts",

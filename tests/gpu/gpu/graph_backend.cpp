@@ -77,7 +77,7 @@ protected:
     graph::BufferHandle output;
 };
 
-TEST_F(DebugTest, anErrorIsAlwaysThrownWithItsDebugGroups) {
+TEST_F(DebugTest, anErrorIsThrownWithItsDebugGroups) {
     const Buffer buffer("b", 16);
     const DebugGroup frame("frame");
     {
@@ -93,7 +93,7 @@ TEST_F(DebugTest, anErrorIsAlwaysThrownWithItsDebugGroups) {
     EXPECT_NO_THROW(throwIfFailed()); // told once
 }
 
-TEST_F(DebugTest, anErrorIsAlwaysFoundWithoutDebugOutputToo) {
+TEST_F(DebugTest, anErrorIsFoundWithoutDebugOutputToo) {
     {
         const auto plain = Context::create({.kind = ContextKind::Egl, .debug = false});
         const Buffer buffer("b", 16);
@@ -115,7 +115,7 @@ TEST_F(DebugTest, aDestructionInTheWrongOrderNeverHappensInAMovedFromObject) {
     EXPECT_GT(second.id(), 0u);
 }
 
-TEST_F(TimerTest, aFinishedStretchIsAlwaysReadWithoutWaiting) {
+TEST_F(TimerTest, aFinishedStretchIsReadWithoutWaiting) {
     GpuTimer timer("t");
     EXPECT_FALSE(timer.latestMs());
     for (int i = 0; i < 20; ++i) { // more than the ring holds
@@ -129,12 +129,12 @@ TEST_F(TimerTest, aFinishedStretchIsAlwaysReadWithoutWaiting) {
     EXPECT_LT(*ms, 1000.0); // empty: far below a second on any machine, unless units are mistaken
 }
 
-TEST_F(GraphBackendTest, aGraphOfTwoPassesAlwaysGivesItsResult) {
+TEST_F(GraphBackendTest, aGraphOfTwoPassesGivesItsResult) {
     const graph::Graph graph = twoPasses();
     EXPECT_EQ(run(graph), 1.0f + 4.0f + 9.0f + 16.0f);
 }
 
-TEST_F(GraphBackendTest, aFaultOfThePassIsAlwaysThrownWithItsName) {
+TEST_F(GraphBackendTest, aFaultOfThePassIsThrownWithItsName) {
     const graph::Graph graph = twoPasses([this] { bindStorageBuffer(100000, Buffer("b", 16)); });
     try {
         run(graph);
@@ -146,13 +146,13 @@ TEST_F(GraphBackendTest, aFaultOfThePassIsAlwaysThrownWithItsName) {
     EXPECT_EQ(run(twoPasses()), 30.0f); // the backend is as good as before
 }
 
-TEST_F(GraphBackendTest, aPassThatThrowsIsAlwaysClosed) {
+TEST_F(GraphBackendTest, aPassThatThrowsIsClosed) {
     const graph::Graph graph = twoPasses([] { throw std::runtime_error("no lights"); });
     EXPECT_THROW(run(graph), std::runtime_error);
     EXPECT_EQ(run(twoPasses()), 30.0f);
 }
 
-TEST_F(GraphBackendTest, allocationsAreAlwaysKeptAcrossFramesOfEqualShape) {
+TEST_F(GraphBackendTest, allocationsAreKeptAcrossFramesOfEqualShape) {
     const graph::Graph graph = twoPasses();
     const graph::CompiledGraph compiled = graph::compile(graph);
     backend.allocate(compiled.allocations);
@@ -166,7 +166,7 @@ TEST_F(GraphBackendTest, allocationsAreAlwaysKeptAcrossFramesOfEqualShape) {
     EXPECT_EQ(backend.texture(0).desc().width, 4);
 }
 
-TEST_F(GraphBackendTest, profiledPassesAlwaysHaveATimeThatHoldsTheirWork) {
+TEST_F(GraphBackendTest, profiledPassesHaveATimeThatHoldsTheirWork) {
     backend.setProfiling(true);
     run(twoPasses());
     const std::vector<PassTiming> timings = backend.passTimings();
@@ -187,7 +187,7 @@ TEST_F(GraphBackendTest, unprofiledPassesOfASoftwareRasteriserNeverClaimAGpuTime
         EXPECT_EQ(timing.gpuMs.has_value(), !context().capabilities().isSoftware) << timing.name;
 }
 
-TEST_F(GraphBackendTest, constantsAreAlwaysThoseOfTheirOwnDispatchHoweverManyThereAre) {
+TEST_F(GraphBackendTest, constantsAreThoseOfTheirOwnDispatchHoweverManyThereAre) {
     const Program program{"copy", compute("layout(binding = 3, std140) uniform C { uvec4 value; };\n"
                                           "layout(binding = 0, std430) buffer N { uint n[]; };\n"
                                           "void main() { n[value.x] = value.y; }")};
@@ -206,7 +206,7 @@ TEST_F(GraphBackendTest, constantsAreAlwaysThoseOfTheirOwnDispatchHoweverManyThe
     for (std::uint32_t i = 0; i < kCount; ++i) ASSERT_EQ(found[i], 7 * i + 1);
 }
 
-TEST_F(GraphBackendTest, constantsOfAnotherSizeThanTheProgramsBlockAreAlwaysRefused) {
+TEST_F(GraphBackendTest, constantsOfAnotherSizeThanTheProgramsBlockAreRefused) {
     const Program program{"copy", compute("layout(binding = 3, std140) uniform C { uvec4 value[2]; };\n"
                                           "layout(binding = 0, std430) buffer N { uint n[]; };\n"
                                           "void main() { n[value[0].x] = value[1].y; }")};
@@ -222,7 +222,7 @@ TEST_F(GraphBackendTest, constantsOfAnotherSizeThanTheProgramsBlockAreAlwaysRefu
     }
 }
 
-TEST_F(GraphBackendTest, whatLivesAcrossFramesAlwaysKeepsItsContentsUntilItsShapeChanges) {
+TEST_F(GraphBackendTest, persistentResourcesKeepTheirContentsUntilTheirShapeChanges) {
     graph::TextureDesc desc{graph::Format::Rgba32Float, 4, 4};
     const auto runFrame = [&](std::uint64_t revision) {
         graph::Graph graph;

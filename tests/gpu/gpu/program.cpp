@@ -17,7 +17,7 @@ std::vector<StageSource> computeStage(const std::string& body) {
     return {{Stage::Compute, "#version 450 core\nlayout(local_size_x = 1) in;\n" + body}};
 }
 
-TEST_F(ProgramTest, aFaultyStageIsAlwaysNamedWithTheDriversLog) {
+TEST_F(ProgramTest, aFaultyStageIsNamedWithTheDriversLog) {
     try {
         const Program program("broken", computeStage("void main() { undeclaredName = 1.0; }"));
         FAIL() << "expected a ShaderError";
@@ -32,7 +32,7 @@ TEST_F(ProgramTest, aFaultyStageIsAlwaysNamedWithTheDriversLog) {
     }
 }
 
-TEST_F(ProgramTest, aProgramThatDoesNotLinkIsAlwaysNamed) {
+TEST_F(ProgramTest, aProgramThatDoesNotLinkIsNamed) {
     const std::vector<StageSource> sources{
         {Stage::Vertex, "#version 450 core\nout vec4 a;\nvoid main() { a = vec4(1.0); gl_Position = a; }"},
         {Stage::Fragment, "#version 450 core\nin vec2 a;\nout vec4 c;\nvoid main() { c = a.xyxy; }"}};
@@ -64,7 +64,7 @@ TEST_F(ProgramTest, aStageThatSamplesMoreTexturesThanEveryDriverOffersIsAlwaysRe
     }
 }
 
-TEST_F(ProgramTest, blocksAlwaysTellTheirMembersAndTheirSize) {
+TEST_F(ProgramTest, blocksTellTheirMembersAndTheirSize) {
     const Program program("blocks", computeStage(R"(
 struct Light { vec3 positionVS; float rangeMetres; vec4 weights[2]; };
 layout(binding = 2, std140) uniform View { mat4 clipFromView; float timeSeconds; vec4 planes[3]; };

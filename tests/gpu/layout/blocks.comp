@@ -35,7 +35,7 @@ void main()
     }
     outputs[16 + 2 * TEXTURE_SLOT_COUNT] = display.exposure;
     outputs[17 + 2 * TEXTURE_SLOT_COUNT] = vec4(display.mapping);
-    outputs[18 + 2 * TEXTURE_SLOT_COUNT] = view.lensVS;
+    outputs[18 + 2 * TEXTURE_SLOT_COUNT] = view.rayFromPixel;
     outputs[19 + 2 * TEXTURE_SLOT_COUNT] = vec4(lighting.tileGrid);
     outputs[20 + 2 * TEXTURE_SLOT_COUNT] = view.depthKey;
     outputs[21 + 2 * TEXTURE_SLOT_COUNT] = vec4(view.sizePixels);

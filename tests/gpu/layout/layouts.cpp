@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "renderer/frame/LightBuffers.h"
-#include "shaders/bench/floor.h"
+#include "shaders/bench/lower_bound.h"
 #include "shaders/shared/display.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/light.h"
@@ -39,7 +39,7 @@ TEST_F(LayoutTest, viewConstantsLieExactlyWhereTheDriverReadsThem) {
     EXPECT_EQ(bytes("ViewBlock"), sizeof(ViewConstants));
     EXPECT_THAT(places("ViewBlock"),
                 ElementsAre(Place("view.clipFromLS", offsetof(ViewConstants, clipFromLS), sizeof(glm::vec4)),
-                            Place("view.clipFromRS", offsetof(ViewConstants, clipFromRS), sizeof(glm::vec4)),
+                            Place("view.clipFromRWS", offsetof(ViewConstants, clipFromRWS), sizeof(glm::vec4)),
                             Place("view.worldFromLS", offsetof(ViewConstants, worldFromLS), sizeof(glm::vec4)),
                             Place("view.eyeLS", offsetof(ViewConstants, eyeLS), 0),
                             Place("view.rayDxLS", offsetof(ViewConstants, rayDxLS), 0),
@@ -47,7 +47,7 @@ TEST_F(LayoutTest, viewConstantsLieExactlyWhereTheDriverReadsThem) {
                             Place("view.forwardLS", offsetof(ViewConstants, forwardLS), 0),
                             Place("view.aheadFromDepth", offsetof(ViewConstants, aheadFromDepth), 0),
                             Place("view.background", offsetof(ViewConstants, background), 0),
-                            Place("view.lensVS", offsetof(ViewConstants, lensVS), 0),
+                            Place("view.rayFromPixel", offsetof(ViewConstants, rayFromPixel), 0),
                             Place("view.depthKey", offsetof(ViewConstants, depthKey), 0),
                             Place("view.sizePixels", offsetof(ViewConstants, sizePixels), 0)));
 }
@@ -86,14 +86,14 @@ TEST_F(LayoutTest, displayConstantsLieExactlyWhereTheDriverReadsThem) {
                                                     Place("display.mapping", offsetof(DisplayConstants, mapping), 0)));
 }
 
-TEST_F(LayoutTest, blocksAreAlwaysBoundWhereTheSharedListSays) {
+TEST_F(LayoutTest, blocksAreBoundWhereTheSharedListSays) {
     EXPECT_EQ(program().blockSlot("ViewBlock", gpu::BlockKind::Uniform), UNIFORM_VIEW);
     EXPECT_EQ(program().blockSlot("LightingBlock", gpu::BlockKind::Uniform), UNIFORM_LIGHTING);
     EXPECT_EQ(program().blockSlot("MaterialBlock", gpu::BlockKind::Uniform), UNIFORM_MATERIAL);
     EXPECT_EQ(program().blockSlot("DisplayBlock", gpu::BlockKind::Uniform), UNIFORM_DISPLAY);
 }
 
-TEST_F(LayoutTest, theShaderAlwaysReadsTheValuesThatCppWrote) {
+TEST_F(LayoutTest, theShaderReadsTheValuesThatCppWrote) {
     shared::ViewConstants view{};
     shared::LightingConstants lighting{};
     view.clipFromLS[3] = {1, 2, 3, 4};

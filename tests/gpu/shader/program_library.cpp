@@ -48,7 +48,7 @@ TEST_F(ProgramLibraryTest, everyVariantIsCompiledExactlyOnce) {
     EXPECT_EQ(answer(three), 43.0f);
 }
 
-TEST_F(ProgramLibraryTest, faultsAreAlwaysReportedWithFileAndLine) {
+TEST_F(ProgramLibraryTest, faultsAreReportedWithFileAndLine) {
     writeAnswer("return undeclaredName;");
     ProgramLibrary library{SourceTree(folder.path())};
     try {
@@ -61,7 +61,7 @@ TEST_F(ProgramLibraryTest, faultsAreAlwaysReportedWithFileAndLine) {
     EXPECT_EQ(library.size(), 0u);
 }
 
-TEST_F(ProgramLibraryTest, linesAfterAnIncludeAreAlwaysReportedRight) {
+TEST_F(ProgramLibraryTest, linesAfterAnIncludeAreReportedRight) {
     folder.write("answer.comp",
                  "#include \"lib/answer.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() {\n  wrong = 1;\n}\n");
     ProgramLibrary library{SourceTree(folder.path())};
@@ -73,7 +73,7 @@ TEST_F(ProgramLibraryTest, linesAfterAnIncludeAreAlwaysReportedRight) {
     }
 }
 
-TEST_F(ProgramLibraryTest, warmingAlwaysKeepsTheGoodOnesAndReportsTheFirstFault) {
+TEST_F(ProgramLibraryTest, warmingKeepsTheGoodOnesAndReportsTheFirstFault) {
     folder.write("broken.comp", "void main() { wrong = 1; }\n");
     ProgramLibrary library{SourceTree(folder.path())};
     const std::vector<ProgramDesc> descs{
@@ -84,7 +84,7 @@ TEST_F(ProgramLibraryTest, warmingAlwaysKeepsTheGoodOnesAndReportsTheFirstFault)
     EXPECT_THROW(library.warm(std::vector{descs[2]}), gpu::ShaderError);
 }
 
-TEST_F(ProgramLibraryTest, reloadingAlwaysReplacesTheProgramBehindItsReference) {
+TEST_F(ProgramLibraryTest, reloadingReplacesTheProgramBehindItsReference) {
     ProgramLibrary library{SourceTree(folder.path())};
     const gpu::Program& program = library.get(desc("2"));
     writeAnswer("return 50.0;");
@@ -92,7 +92,7 @@ TEST_F(ProgramLibraryTest, reloadingAlwaysReplacesTheProgramBehindItsReference) 
     EXPECT_EQ(answer(program), 52.0f);
 }
 
-TEST_F(ProgramLibraryTest, aBrokenEditAlwaysKeepsTheLastGoodProgram) {
+TEST_F(ProgramLibraryTest, aBrokenEditKeepsTheLastGoodProgram) {
     ProgramLibrary library{SourceTree(folder.path())};
     const gpu::Program& program = library.get(desc("2"));
     writeAnswer("return 50.0");
@@ -106,7 +106,7 @@ TEST_F(ProgramLibraryTest, aBrokenEditAlwaysKeepsTheLastGoodProgram) {
     EXPECT_EQ(answer(program), 62.0f);
 }
 
-TEST_F(ProgramLibraryTest, aChangeOfAFileIsAlwaysToldExactlyOnce) {
+TEST_F(ProgramLibraryTest, aChangeOfAFileIsReportedOnce) {
     ProgramLibrary library{SourceTree(folder.path())};
     EXPECT_FALSE(library.sourcesChanged());
     const auto file = folder.path() / "answer.comp";

@@ -29,7 +29,7 @@ struct LobeCase {
 };
 
 struct LobeResult {
-    glm::vec3 share;
+    glm::vec3 brdfCosine;
     float nl;
     float d, v, f;
 };

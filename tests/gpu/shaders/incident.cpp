@@ -14,7 +14,7 @@ using scenes::Light;
 using scenes::LightType;
 
 struct Arrival {
-    glm::vec3 intensity;
+    glm::vec3 irradiance;
     glm::vec3 toLight;
     bool reaches;
 };
@@ -55,7 +55,7 @@ bool isFinite(const glm::vec3& v) {
 }
 
 /// shading.md section 2, with the scene's own numbers.
-double expectedIntensity(const Light& light, const glm::dvec3& position) {
+double expectedIrradiance(const Light& light, const glm::dvec3& position) {
     if (light.type == LightType::Directional) return light.intensity;
     const glm::dvec3 toLight = light.positionWS - position;
     const double d = glm::length(toLight);
@@ -77,13 +77,13 @@ double expectedIntensity(const Light& light, const glm::dvec3& position) {
     return double(light.intensity) * falloff * cone * cone;
 }
 
-/// What expectedIntensity() may be off by: 3e-6, twenty roundings, of the light without its range, which subtracts from
-/// one; and the change of its cone when the angle at the light is off by four roundings of fp32 (the ray to the light
-/// is rounded twice, the packed axis once, and each in three components), and the distances of the two cosines from 1,
-/// or of a wide cone from -1, by four of their own.
+/// What expectedIrradiance() may be off by: 3e-6, twenty roundings, of the light without its range, which subtracts
+/// from one; and the change of its cone when the angle at the light is off by four roundings of fp32 (the ray to the
+/// light is rounded twice, the packed axis once, and each in three components), and the distances of the two cosines
+/// from 1, or of a wide cone from -1, by four of their own.
 double allowedError(Light light, const glm::dvec3& position) {
     light.rangeMetres = scenes::kInfinity;
-    const double windowed = expectedIntensity(light, position);
+    const double windowed = expectedIrradiance(light, position);
     if (light.type != LightType::Spot) return 3e-6 * windowed;
     const glm::dvec3 ray = glm::normalize(position - light.positionWS);
     const double outer = double(light.outerConeRadians), side = std::cos(outer) < 0.0 ? -1.0 : 1.0;
@@ -94,7 +94,7 @@ double allowedError(Light light, const glm::dvec3& position) {
     const double cone = (cosine - std::cos(outer)) * scale;
     const double low = std::clamp(cone - moved, 0.0, 1.0), high = std::clamp(cone + moved, 0.0, 1.0);
     light.type = LightType::Point;
-    return 3e-6 * windowed + (high * high - low * low) * expectedIntensity(light, position);
+    return 3e-6 * windowed + (high * high - low * low) * expectedIrradiance(light, position);
 }
 
 Light randomLight(test::Random& random) {
@@ -112,7 +112,7 @@ Light randomLight(test::Random& random) {
     return light;
 }
 
-TEST_F(IncidentTest, everyKindOfLightAlwaysSendsWhatItsFormulaSays) {
+TEST_F(IncidentTest, theIrradianceOfEveryKindOfLightFollowsItsFormula) {
     test::Random random(8);
     std::vector<Light> lights;
     std::vector<Probe> probes;
@@ -124,7 +124,7 @@ TEST_F(IncidentTest, everyKindOfLightAlwaysSendsWhatItsFormulaSays) {
     int reached = 0;
     for (std::size_t i = 0; i < probes.size(); ++i) {
         const glm::dvec3 position(probes[i].position);
-        ASSERT_NEAR(double(arrivals[i].intensity.x), expectedIntensity(lights[i], position),
+        ASSERT_NEAR(double(arrivals[i].irradiance.x), expectedIrradiance(lights[i], position),
                     allowedError(lights[i], position))
             << "light " << i;
         if (!arrivals[i].reaches) continue;
@@ -138,7 +138,7 @@ TEST_F(IncidentTest, everyKindOfLightAlwaysSendsWhatItsFormulaSays) {
 }
 
 /// Of random directions, looked into everywhere from their middles to just outside.
-TEST_F(IncidentTest, aConeHoweverNarrowWideOrHardAlwaysKeepsItsDigits) {
+TEST_F(IncidentTest, aConeHoweverNarrowWideOrHardKeepsItsDigits) {
     test::Random random(12);
     std::vector<Light> lights;
     std::vector<Probe> probes;
@@ -164,7 +164,7 @@ TEST_F(IncidentTest, aConeHoweverNarrowWideOrHardAlwaysKeepsItsDigits) {
     int lit = 0, dark = 0;
     for (std::size_t i = 0; i < probes.size(); ++i) {
         const glm::dvec3 position(probes[i].position);
-        ASSERT_NEAR(double(arrivals[i].intensity.x), expectedIntensity(lights[i], position),
+        ASSERT_NEAR(double(arrivals[i].irradiance.x), expectedIrradiance(lights[i], position),
                     allowedError(lights[i], position))
             << "cone of " << lights[i].innerConeRadians / kDegree << " to " << lights[i].outerConeRadians / kDegree;
         (arrivals[i].reaches ? lit : dark) += 1;
@@ -196,7 +196,7 @@ TEST_F(IncidentTest, atItsRangeAndBeyondALightIsExactlyZero) {
     }
     const std::vector<Arrival> arrivals = run(lights, probes);
     for (std::size_t i = 0; i < probes.size(); ++i)
-        ASSERT_EQ(arrivals[i].intensity, glm::vec3(0.0f)) << "range " << lights[i].rangeMetres << " probe " << i;
+        ASSERT_EQ(arrivals[i].irradiance, glm::vec3(0.0f)) << "range " << lights[i].rangeMetres << " probe " << i;
 }
 
 TEST_F(IncidentTest, aLightThatAToleranceEndsIsExactlyZeroAtItsReachAndBeyond) {
@@ -225,7 +225,7 @@ TEST_F(IncidentTest, aLightThatAToleranceEndsIsExactlyZeroAtItsReachAndBeyond) {
     }
     const std::vector<Arrival> arrivals = run(lights, probes, kTolerance);
     for (std::size_t i = 0; i < probes.size(); ++i)
-        ASSERT_EQ(arrivals[i].intensity.x > 0.0f, i % 3 == 2)
+        ASSERT_EQ(arrivals[i].irradiance.x > 0.0f, i % 3 == 2)
             << "reach " << frame::reachMetres(lights[i], kTolerance) << " probe " << i;
 }
 
@@ -259,12 +259,12 @@ TEST_F(IncidentTest, extremeLightsNeverSendNaNInfiniteOrNegativeLight) {
     for (std::size_t i = 0; i < probes.size(); ++i) {
         const Arrival& a = arrivals[i];
         const Light& light = lights[std::size_t(probes[i].light)];
-        ASSERT_TRUE(isFinite(a.intensity) && isFinite(a.toLight) && a.intensity.x >= 0.0f) << "probe " << i;
+        ASSERT_TRUE(isFinite(a.irradiance) && isFinite(a.toLight) && a.irradiance.x >= 0.0f) << "probe " << i;
         const bool windowed = light.type != LightType::Directional && light.falloff == Falloff::InverseSquare;
         const bool dark = light.intensity == 0.0f || (windowed && light.rangeMetres == 0.0f) ||
                           (light.type == LightType::Spot && light.outerConeRadians == 0.0f);
         if (dark) {
-            ASSERT_EQ(a.intensity.x, 0.0f) << "probe " << i;
+            ASSERT_EQ(a.irradiance.x, 0.0f) << "probe " << i;
         }
     }
 }
@@ -277,7 +277,7 @@ TEST_F(IncidentTest, aSpotOfHalfAnAngleOfPiNeverLeavesADirectionDarkButItsOwnBac
     std::vector<Probe> probes;
     test::Random random(10);
     for (int i = 0; i < 1000; ++i) probes.push_back({glm::vec3(random.around({0, 0, -1}, -0.99, 1.0)), 0});
-    for (const Arrival& a : run({spot}, probes)) ASSERT_GT(a.intensity.x, 0.0f);
+    for (const Arrival& a : run({spot}, probes)) ASSERT_GT(a.irradiance.x, 0.0f);
 }
 
 } // namespace

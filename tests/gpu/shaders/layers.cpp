@@ -55,7 +55,7 @@ double sheenEnergy(double mu, double alpha, int steps) {
 
 using Sheen = test::LobeTest;
 
-TEST_F(Sheen, theDistributionOfHairsAlwaysIntegratesToOne) {
+TEST_F(Sheen, theDistributionOfHairsIntegratesToOne) {
     for (const float alpha : {0.01f, 0.1f, 0.5f, 1.0f}) {
         constexpr int kSteps = 4096;
         std::vector<TermsCase> cases;
@@ -77,7 +77,7 @@ TEST_F(Sheen, theDistributionOfHairsAlwaysIntegratesToOne) {
     }
 }
 
-TEST_F(Sheen, theTermsAlwaysAreTheSources) {
+TEST_F(Sheen, theTermsAreTheSources) {
     test::Random random(31);
     std::vector<TermsCase> cases;
     for (int i = 0; i < 50000; ++i) {
@@ -101,7 +101,7 @@ TEST_F(Sheen, theTermsAlwaysAreTheSources) {
     }
 }
 
-TEST_F(Sheen, theFittedAlbedoIsAlwaysNearTheIntegral) {
+TEST_F(Sheen, theFittedAlbedoIsNearTheIntegral) {
     double worst = 0.0;
     for (const double roughness : {0.07, 0.1, 0.15, 0.25, 0.4, 0.55, 0.7, 0.9, 1.0}) {
         const double alpha = roughness * roughness;
@@ -139,7 +139,7 @@ TEST_F(Sheen, clothNeverReflectsMoreThanArrivesUnlessItsHairsAreNearlyUpright) {
             });
             const std::vector<LobeResult> results = run(cases);
             glm::dvec3 energy(0.0);
-            for (std::size_t i = 0; i < weight.size(); ++i) energy += glm::dvec3(results[i].share) * weight[i];
+            for (std::size_t i = 0; i < weight.size(); ++i) energy += glm::dvec3(results[i].brdfCosine) * weight[i];
             // The fit's error, by which the layers below are scaled.
             EXPECT_LE(energy.x, 1.0 + 0.035) << "roughness " << roughness << " mu " << mu;
             EXPECT_LT(energy.z, energy.x);
@@ -162,12 +162,12 @@ TEST_F(Sheen, aBlackSheenLeavesEveryBitAsItIs) {
         cases.push_back(c);
     }
     const std::vector<LobeResult> results = run(cases);
-    for (std::size_t i = 0; i < cases.size(); i += 2) ASSERT_EQ(results[i].share, results[i + 1].share);
+    for (std::size_t i = 0; i < cases.size(); i += 2) ASSERT_EQ(results[i].brdfCosine, results[i + 1].brdfCosine);
 }
 
 using Clearcoat = test::LobeTest;
 
-TEST_F(Clearcoat, aCoatAlwaysLiesOverTheMaterialAsTheExtensionSays) {
+TEST_F(Clearcoat, aCoatLiesOverTheMaterialAsTheExtensionSays) {
     test::Random random(33);
     std::vector<LobeCase> cases;
     for (int i = 0; i < 20000; ++i) {
@@ -193,23 +193,23 @@ TEST_F(Clearcoat, aCoatAlwaysLiesOverTheMaterialAsTheExtensionSays) {
             lobe = a2 / (test::pi * t * t) * 0.5 / (nl * q(nv) + nv * q(nl)) * nl;
         }
         const double fresnel = 0.04 + 0.96 * std::pow(1.0 - std::abs(nv), 5.0), weight = double(c.coatFactor) * fresnel;
-        const double expected = double(results[i + 1].share.y) * (1.0 - weight) + weight * lobe;
+        const double expected = double(results[i + 1].brdfCosine.y) * (1.0 - weight) + weight * lobe;
         // The coat's normal is stored in fp32 octahedral form, off by 1e-7, which the lobe's slope multiplies by
         // 1/alpha.
-        ASSERT_NEAR(results[i].share.y, expected, 3e-5 * expected + 1e-6) << i;
+        ASSERT_NEAR(results[i].brdfCosine.y, expected, 3e-5 * expected + 1e-6) << i;
     }
 }
 
-TEST_F(Clearcoat, aCoatIsAlwaysLitByItsOwnNormal) {
+TEST_F(Clearcoat, aCoatIsLitByItsOwnNormal) {
     LobeCase c;
     c.coatFactor = 1.0f;
     c.coatAlpha = 0.2f;
     c.l = glm::normalize(glm::vec3(0.9f, 0.0f, -0.1f)); // behind the surface, before its coat
     c.v = glm::normalize(glm::vec3(0.3f, 0.0f, 1.0f));
     c.coatNormal = glm::normalize(c.l + c.v);
-    EXPECT_GT(run(c).share.x, 0.0f);
+    EXPECT_GT(run(c).brdfCosine.x, 0.0f);
     c.coatNormal = {0, 0, 1};
-    EXPECT_EQ(run(c).share, glm::vec3(0.0f));
+    EXPECT_EQ(run(c).brdfCosine, glm::vec3(0.0f));
 }
 
 } // namespace

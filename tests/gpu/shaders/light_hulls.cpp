@@ -37,7 +37,7 @@ protected:
         view_.forwardLS = {0, 0, -1, 1};
         view_.aheadFromDepth = {10, -10, 1, 0};
         view_.depthKey = {1, 0, 0, 0};
-        view_.lensVS = {0.01f, 0.01f, 0, 0};
+        view_.rayFromPixel = {0.01f, 0.01f, 0, 0};
     }
 
     std::vector<Volume> volumes(const std::vector<Spot>& spots) {
@@ -100,7 +100,7 @@ std::vector<glm::dvec3> outline(const Spot& spot) {
     return points;
 }
 
-TEST_F(LightHulls, theHullOfASpotIsAlwaysClosed) {
+TEST_F(LightHulls, theHullOfASpotIsClosed) {
     const std::vector<Spot> spots = randomSpots(50);
     const std::vector<Volume> drawn = volumes(spots);
     for (std::size_t i = 0; i < spots.size(); ++i) {
@@ -121,7 +121,7 @@ TEST_F(LightHulls, theHullOfASpotIsAlwaysClosed) {
     }
 }
 
-TEST_F(LightHulls, theHullOfASpotAlwaysHoldsItsLightAndTheMarginAroundIt) {
+TEST_F(LightHulls, theHullOfASpotHoldsItsLightAndTheMarginAroundIt) {
     const std::vector<Spot> spots = randomSpots(200);
     const std::vector<Volume> drawn = volumes(spots);
     double tightest = 1e30, loosestRounding = 0.0;
@@ -149,7 +149,7 @@ TEST_F(LightHulls, theHullOfASpotAlwaysHoldsItsLightAndTheMarginAroundIt) {
 }
 
 /// The figures of lib/light/light_volume.glsl.
-TEST_F(LightHulls, theHullOfASpotIsNeverMuchLargerThanItsLight) {
+TEST_F(LightHulls, theHullOfASpotIsNotMuchLargerThanItsLight) {
     std::vector<Spot> spots;
     for (const double degrees : {1.0, 10.0, 30.0, 60.0, 75.0, 84.0}) {
         Spot& spot = spots.emplace_back();
@@ -172,8 +172,8 @@ TEST_F(LightHulls, theHullOfASpotIsNeverMuchLargerThanItsLight) {
     EXPECT_LE(last, 1.395);
 }
 
-TEST_F(LightHulls, aVolumeIsAlwaysAnEighthOfAPixelLargerThanItsLight) {
-    view_.lensVS = {0.01f, 0.02f, 0, 0};
+TEST_F(LightHulls, aVolumeIsAnEighthOfAPixelLargerThanItsLight) {
+    view_.rayFromPixel = {0.01f, 0.02f, 0, 0};
     Spot small;
     small.reach = 1e-3f;
     small.cosOuter = 0.9f;

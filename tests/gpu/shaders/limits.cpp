@@ -1,4 +1,4 @@
-// What reflectedShare and specularTerms do at the edges of their domain.
+// What layeredBrdfCosine and specularTerms do at the edges of their domain.
 #include <gtest/gtest.h>
 
 #include "tests/gpu/shaders/LobeBench.h"
@@ -11,7 +11,7 @@ using test::LobeResult;
 
 using LimitsTest = test::LobeTest;
 
-TEST_F(LimitsTest, aBlackMicrofacetSurfaceAlwaysReflectsExactlyItsSpecularTerms) {
+TEST_F(LimitsTest, aBlackMicrofacetSurfaceReflectsExactlyItsSpecularTerms) {
     test::Random random(6);
     std::vector<LobeCase> cases;
     for (int i = 0; i < 20000; ++i) {
@@ -22,7 +22,7 @@ TEST_F(LimitsTest, aBlackMicrofacetSurfaceAlwaysReflectsExactlyItsSpecularTerms)
     const std::vector<LobeResult> results = run(cases);
     for (const LobeResult& r : results) {
         const float expected = r.nl > 0.0f ? r.f * (r.d * r.v) * r.nl : 0.0f;
-        ASSERT_EQ(r.share.x, expected);
+        ASSERT_EQ(r.brdfCosine.x, expected);
     }
 }
 
@@ -48,19 +48,19 @@ TEST_F(LimitsTest, specularIsExactlyZeroWhereItsDirectionsHaveNoLobe) {
             for (std::size_t i = 0; i < results.size(); ++i) {
                 EXPECT_EQ(results[i].d * results[i].v, 0.0f)
                     << "model " << model << " alpha " << alpha << " case " << i;
-                EXPECT_TRUE(isFiniteAndPositive(results[i].share))
+                EXPECT_TRUE(isFiniteAndPositive(results[i].brdfCosine))
                     << "model " << model << " alpha " << alpha << " case " << i;
                 if (!(results[i].nl > 0.0f)) {
-                    EXPECT_EQ(results[i].share, glm::vec3(0.0f));
+                    EXPECT_EQ(results[i].brdfCosine, glm::vec3(0.0f));
                 }
             }
             // Diffuse needs only n.l > 0: straight light seen from the horizon.
-            EXPECT_GT(results[1].share.x, 0.0f);
+            EXPECT_GT(results[1].brdfCosine.x, 0.0f);
         }
     }
 }
 
-TEST_F(LimitsTest, lambertIsAlwaysItsColourTimesTheCosine) {
+TEST_F(LimitsTest, lambertIsItsColourTimesTheCosine) {
     test::Random random(7);
     std::vector<LobeCase> cases;
     for (int i = 0; i < 20000; ++i) cases.push_back(bare(randomCase(random, unsigned(scenes::MaterialModel::Lambert))));
@@ -68,7 +68,7 @@ TEST_F(LimitsTest, lambertIsAlwaysItsColourTimesTheCosine) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const double nl = glm::dot(glm::dvec3(cases[i].n), glm::dvec3(cases[i].l));
         // Five roundings of products of order one: 3e-7 absolute.
-        ASSERT_NEAR(results[i].share.y, double(cases[i].albedo.y) * std::max(nl, 0.0), 3e-7);
+        ASSERT_NEAR(results[i].brdfCosine.y, double(cases[i].albedo.y) * std::max(nl, 0.0), 3e-7);
     }
 }
 

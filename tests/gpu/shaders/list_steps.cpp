@@ -54,7 +54,7 @@ protected:
     test::ShaderBench bench_;
 };
 
-TEST_F(ListSteps, firstsAndTotalsAreAlwaysTheSumsOfTheTilesBeforeBeyondThirtyTwoBits) {
+TEST_F(ListSteps, firstsAndTotalsAreTheSumsOfTheTilesBeforeBeyondThirtyTwoBits) {
     test::Random random(1);
     lighting_.lights.z = 3; // reach everywhere, so their entries come first
     for (const std::size_t tiles : {1, 63, 64, 65, 1000}) {
@@ -77,7 +77,7 @@ TEST_F(ListSteps, firstsAndTotalsAreAlwaysTheSumsOfTheTilesBeforeBeyondThirtyTwo
 }
 
 /// A tile in front of all others and one behind them, each at every place.
-TEST_F(ListSteps, binsAlwaysReachFromTheFarthestToTheNearestTileWhereverTheyAre) {
+TEST_F(ListSteps, binsReachFromTheFarthestToTheNearestTileWhereverTheyAre) {
     constexpr std::size_t kTiles = 130; // three for some lanes, two for the others
     const auto key = [&](float depth) { return std::bit_cast<std::uint32_t>(view_.depthKey.x + depth); };
     const auto bins = [&](float nearest, float farthest) {

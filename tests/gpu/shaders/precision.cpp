@@ -64,7 +64,7 @@ protected:
     test::ShaderBench bench;
 };
 
-TEST_F(PrecisionTest, theDistributionAlwaysKeepsItsDigitsAtSmallAlpha) {
+TEST_F(PrecisionTest, theDistributionKeepsItsDigitsAtSmallAlpha) {
     // shading.md: the cross product keeps what 1 - (n.h)^2 loses. n x h cancels to about alpha, so fp32 leaves 6e-8 /
     // alpha of it.
     EXPECT_LE(distributionError(0.002f, 200000), 1e-4);
@@ -72,7 +72,7 @@ TEST_F(PrecisionTest, theDistributionAlwaysKeepsItsDigitsAtSmallAlpha) {
     EXPECT_LE(distributionError(0.3f, 200000), 2e-6);
 }
 
-TEST_F(PrecisionTest, fresnelAlwaysEqualsTheMeanOfItsPolarisations) {
+TEST_F(PrecisionTest, fresnelEqualsTheMeanOfItsPolarisations) {
     test::Random random(2);
     std::vector<FresnelCase> cases;
     for (int i = 0; i < 200000; ++i)
@@ -97,7 +97,7 @@ double fresnelOfCookTorrance(double ior, double c) {
     return 0.5 * a * a * (1.0 + b * b);
 }
 
-TEST_F(PrecisionTest, bothFormsOfFresnelAlwaysAgree) {
+TEST_F(PrecisionTest, bothFormsOfFresnelAgree) {
     test::Random random(9);
     std::vector<FresnelCase> cases;
     for (int i = 0; i < 100000; ++i)
@@ -111,7 +111,7 @@ TEST_F(PrecisionTest, bothFormsOfFresnelAlwaysAgree) {
     }
 }
 
-TEST_F(PrecisionTest, fresnelBelowOneIsAlwaysRightUpToItsCriticalAngle) {
+TEST_F(PrecisionTest, fresnelBelowOneIsRightUpToItsCriticalAngle) {
     test::Random random(3);
     std::vector<FresnelCase> cases;
     std::vector<double> g2;
@@ -143,7 +143,7 @@ TEST_F(PrecisionTest, fresnelOfEqualMediaIsExactlyZero) {
     for (const double f : fresnel(cases)) EXPECT_EQ(f, 0.0);
 }
 
-TEST_F(PrecisionTest, schlickAlwaysMeetsItsEndPointsExactly) {
+TEST_F(PrecisionTest, schlickMeetsItsEndPointsExactly) {
     std::vector<glm::vec4> inputs;
     const std::vector<float> f0s{0.0f, 0.04f, 0.5f, 1.0f};
     for (const float f0 : f0s)
@@ -170,7 +170,7 @@ TEST_F(PrecisionTest, aVectorOfAnyLengthIsNormalisedAndOnlyThatOfNoLengthIsNot) 
 }
 
 // What a surface without tangents gets in their place.
-TEST_F(PrecisionTest, anyPerpendicularIsAlwaysUnitAndAtRightAngles) {
+TEST_F(PrecisionTest, anyPerpendicularIsUnitAndAtRightAngles) {
     test::Random random(5);
     std::vector<glm::vec4> inputs;
     constexpr std::size_t kCount = 20000;

@@ -30,7 +30,7 @@ protected:
     }
 };
 
-TEST_F(FrameTimerTest, everyPointAndEveryPassAlwaysHasATimeOrAReason) {
+TEST_F(FrameTimerTest, everyPointAndEveryPassHasATimeOrAReason) {
     const scenes::Scene few = lattice(16), many = lattice(256);
     engine::Renderer fewRenderer(context(), few), manyRenderer(context(), many);
     std::vector<validation::TimedPoint> points;
@@ -57,7 +57,7 @@ TEST_F(FrameTimerTest, everyPointAndEveryPassAlwaysHasATimeOrAReason) {
     }
 }
 
-TEST_F(FrameTimerTest, kindsOfFramesAlwaysTakeTurnsWhileTheEyeMovesAMillimetre) {
+TEST_F(FrameTimerTest, kindsOfFramesTakeTurnsWhileTheEyeMovesAMillimetre) {
     const scenes::Scene scene = lattice(4);
     engine::Renderer renderer(context(), scene);
     std::string order;
@@ -86,7 +86,7 @@ TEST_F(FrameTimerTest, kindsOfFramesAlwaysTakeTurnsWhileTheEyeMovesAMillimetre) 
     EXPECT_EQ(times.othersMs[0].size(), 2u);
 }
 
-TEST_F(FrameTimerTest, roundsOfTheWarmUpAreNeverTimed) {
+TEST_F(FrameTimerTest, roundsOfTheWarmUpAreNotTimed) {
     constexpr double kFrameMs = 20.0; // a frame sleeps at least that long, except while warming up
     const validation::InterleaveOptions options{.warmUpRounds = 3, .rounds = 4};
     int drawn = 0;
@@ -99,7 +99,7 @@ TEST_F(FrameTimerTest, roundsOfTheWarmUpAreNeverTimed) {
     for (const double ms : timesMs[0]) EXPECT_GE(ms, kFrameMs);
 }
 
-TEST_F(FrameTimerTest, theWarmUpAlwaysSeesEveryPlaceOfTheEye) {
+TEST_F(FrameTimerTest, theWarmUpSeesEveryPlaceOfTheEye) {
     // What a frame needs, such as the lights in view, may differ from place to place.
     const auto placesOf = [](int rounds) {
         std::set<double> places;
@@ -109,7 +109,7 @@ TEST_F(FrameTimerTest, theWarmUpAlwaysSeesEveryPlaceOfTheEye) {
     EXPECT_EQ(placesOf(validation::InterleaveOptions{}.warmUpRounds), placesOf(100));
 }
 
-TEST_F(FrameTimerTest, programsAreNeverCompiledInFramesThatAreTimed) {
+TEST_F(FrameTimerTest, programsAreNotCompiledInFramesThatAreTimed) {
     const scenes::Scene scene = lattice(16);
     engine::Renderer renderer(context(), scene);
     std::vector<validation::TimedPoint> points;
@@ -132,7 +132,7 @@ TEST_F(FrameTimerTest, programsAreNeverCompiledInFramesThatAreTimed) {
     EXPECT_EQ(renderer.programs().size(), warm) << "frames profiled afterwards are measured too";
 }
 
-TEST_F(FrameTimerTest, theBackendIsAlwaysLeftAsItWas) {
+TEST_F(FrameTimerTest, theBackendIsLeftAsItWas) {
     const scenes::Scene scene = lattice(4);
     engine::Renderer renderer(context(), scene);
     renderer.backend().setProfiling(true);
@@ -149,7 +149,7 @@ TEST_F(FrameTimerTest, theBackendIsAlwaysLeftAsItWas) {
     EXPECT_EQ(renderer.backend().mostIdleFrames(), idle);
 }
 
-TEST_F(FrameTimerTest, anEyeMovedByASettingSeesExactlyWhatAMovedCameraSees) {
+TEST_F(FrameTimerTest, anEyeOffsetEqualsAMovedCamera) {
     scenes::Scene scene = lattice(16);
     frame::FrameSettings moved = settings();
     moved.eyeOffsetWS = {0.25, -0.5, 0.125};

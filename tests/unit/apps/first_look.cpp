@@ -34,7 +34,7 @@ frame::GBufferLayout layoutNamed(std::string_view name) {
     throw InputError("no such layout");
 }
 
-TEST(FirstLook, whatIsRememberedIsAlwaysBegunWithWhereNothingElseIsSaid) {
+TEST(FirstLook, preferencesApplyWithoutOptionsOfUserAndScene) {
     const viewer::Look look = firstLook({}, remembered(), wishing({}), "x.json").look;
     EXPECT_EQ(look.technique, Technique::ForwardPlus);
     EXPECT_EQ(look.settings.layout, layoutNamed("slim"));
@@ -44,7 +44,7 @@ TEST(FirstLook, whatIsRememberedIsAlwaysBegunWithWhereNothingElseIsSaid) {
     EXPECT_EQ(look.settings.samples, 4);
 }
 
-TEST(FirstLook, whatTheSceneWishesAlwaysGoesBeforeWhatIsRemembered) {
+TEST(FirstLook, theScenesOptionsOverridePreferences) {
     scenes::SceneOptions wish;
     wish.wishes["technique"] = "forward";
     wish.wishes["layout"] = "exact";
@@ -58,7 +58,7 @@ TEST(FirstLook, whatTheSceneWishesAlwaysGoesBeforeWhatIsRemembered) {
     EXPECT_EQ(viewer::asked(look).settings.culling.tilePixels, 32);
 }
 
-TEST(FirstLook, whatTheCommandLineSaysAlwaysGoesBeforeAllElse) {
+TEST(FirstLook, theCommandLineOverridesSceneAndPreferences) {
     scenes::SceneOptions wish;
     wish.wishes["technique"] = "forward";
     FrameOptions said;
@@ -72,7 +72,7 @@ TEST(FirstLook, whatTheCommandLineSaysAlwaysGoesBeforeAllElse) {
     EXPECT_EQ(viewer::asked(look).settings.samples, 1);
 }
 
-TEST(FirstLook, aRememberedNameThatThereIsNoMoreIsAlwaysAsIfNothingWere) {
+TEST(FirstLook, aRememberedNameThatThereIsNoMoreIsAsIfNothingWere) {
     viewer::Preferences preferences;
     preferences.settings["technique"] = "raster_of_old";
     preferences.settings["tile"] = "7";
@@ -84,7 +84,7 @@ TEST(FirstLook, aRememberedNameThatThereIsNoMoreIsAlwaysAsIfNothingWere) {
     EXPECT_EQ(look, expected);
 }
 
-TEST(FirstLook, whatNamesThingsOfTheFirstSceneIsNeverAskedOfAnother) {
+TEST(FirstLook, optionsThatNameThingsOfTheFirstSceneDoNotApplyToAnother) {
     FrameOptions said;
     said.settings["camera"] = "side";
     said.settings["solo"] = "3";
@@ -98,7 +98,7 @@ TEST(FirstLook, whatNamesThingsOfTheFirstSceneIsNeverAskedOfAnother) {
     EXPECT_EQ(first.pose, scenes::CameraChange());
 }
 
-TEST(FirstLook, theMostExposureOfTheWindowIsAlwaysExactlyThatOfTheCommandLine) {
+TEST(FirstLook, theMostExposureOfTheWindowIsExactlyThatOfTheCommandLine) {
     FrameOptions options;
     for (const double sign : {-1.0, 1.0}) {
         options.settings["exposureEV"] = fmt::format("{}", sign * double(frame::kMostExposureEV));

@@ -5,13 +5,13 @@
 namespace tessera::app {
 namespace {
 
-TEST(OutputFolder, aPictureIsAlwaysCalledByItsNameWithoutWhatLeadsOutOfTheFolder) {
+TEST(OutputFolder, aPicturesNameCannotLeaveTheFolder) {
     EXPECT_EQ(pictureFile("deferred (packed)", ".png"), "deferred_packed.png");
     EXPECT_EQ(pictureFile("../a/b", ".exr"), "_._a_b.exr");
     EXPECT_EQ(pictureFile("", ".png"), "picture.png");
 }
 
-TEST(OutputFolder, aLongNameIsAlwaysCutToOneThatAFileCanHaveAndThatNoOtherHas) {
+TEST(OutputFolder, aLongNameIsCutToOneThatAFileCanHaveAndThatNoOtherHas) {
     const std::string longest(200, 'a'), longer = longest + "\xc3\xbc";
     EXPECT_EQ(pictureFile(longest, ".png"), longest + ".png");
     const std::string cut = pictureFile(longer, ".png");

@@ -22,7 +22,7 @@ std::string refusal(const std::function<void()>& action) {
     return "";
 }
 
-TEST(Outputs, aFileThatIsReadIsNeverAnOutputWhicheverIsToldFirst) {
+TEST(Outputs, anInputIsNoOutputInEitherOrder) {
     const TempFolder folder;
     const std::string file = folder.write("a.json", "").string(), link = (folder.path() / "b.json").string();
     std::filesystem::create_symlink("a.json", link);
@@ -38,13 +38,13 @@ TEST(Outputs, aFileThatIsReadIsNeverAnOutputWhicheverIsToldFirst) {
     EXPECT_EQ(refusal([&] { third.reads({file}); }), file + why);
 }
 
-TEST(Outputs, twoOutputsAreNeverOneFileUnlessThatIsNone) {
+TEST(Outputs, twoOutputsAreNotOneFileUnlessThatIsNone) {
     Outputs outputs({"a.json", "-", "-", "", "", "/dev/null", "/dev/null"});
     EXPECT_EQ(refusal([&] { outputs.add("none/../a.json"); }),
               "none/../a.json: two outputs have this name; give each its own");
 }
 
-TEST(Outputs, aFileInALinkedFolderIsAlwaysTheOneInTheFolderItself) {
+TEST(Outputs, aFileInALinkedFolderIsTheOneInTheFolderItself) {
     const TempFolder folder;
     const std::string real = (folder.path() / "real/a.json").string(), linked = (folder.path() / "l/a.json").string();
     std::filesystem::create_directory(folder.path() / "real");
@@ -55,7 +55,7 @@ TEST(Outputs, aFileInALinkedFolderIsAlwaysTheOneInTheFolderItself) {
     for (const std::string& name : {linked, real}) EXPECT_EQ(refusal([&] { outputs.at(name); }), "") << name;
 }
 
-TEST(Outputs, nothingIsEverWrittenThatWasNotTold) {
+TEST(Outputs, onlyRegisteredFilesAreWritten) {
     Outputs outputs({"a.json"});
     outputs.addFolder("parts");
     for (const char* told : {"a.json", "./a.json", "-", "", "/dev/null", "parts/b.json"})

@@ -35,14 +35,14 @@ void waitForOutput(std::FILE* file) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-TEST(Progress, theLineAlwaysShowsTheShareTheCountAndTheTimeLeft) {
+TEST(Progress, theLineShowsTheShareTheCountAndTheTimeLeft) {
     EXPECT_EQ(progressLine("rendering", 4, 10, 4.0, 45), "rendering  [######----------]  4/10  6 s left");
     EXPECT_EQ(progressLine("rendering", 0, 10, 4.0, 29), "rendering  [----------]  0/10"); // no rate known yet
     EXPECT_EQ(progressLine("x", 10, 10, 4.0, 35), "x  [#############]  10/10  0 s left");
     EXPECT_EQ(progressLine("x", 0, 0, 4.0, 20), "x  [----------]  0/0");
 }
 
-TEST(Progress, theLineIsNeverLongerThanTheTerminalIsWide) {
+TEST(Progress, theLineIsNotLongerThanTheTerminalIsWide) {
     for (int columns = 0; columns < 120; ++columns)
         EXPECT_LE(progressLine("a rather long label", 12, 345, 6.0, columns).size(), std::size_t(columns));
 }
@@ -51,7 +51,7 @@ TEST(Progress, moreStepsThanPlannedNeverExceedTheTotal) {
     EXPECT_THAT(progressLine("x", 12, 10, 4.0, 60), HasSubstr("10/10  0 s left"));
 }
 
-TEST(Progress, aDurationAlwaysHasAtMostTwoUnits) {
+TEST(Progress, aDurationHasAtMostTwoUnits) {
     EXPECT_EQ(durationText(0.2), "0 s");
     EXPECT_EQ(durationText(59.4), "59 s");
     EXPECT_EQ(durationText(59.6), "1 min 0 s");
@@ -60,7 +60,7 @@ TEST(Progress, aDurationAlwaysHasAtMostTwoUnits) {
     EXPECT_EQ(durationText(1e300), "1000 h 0 min");
 }
 
-TEST(Progress, theBarAlwaysRemovesItselfAtTheEnd) {
+TEST(Progress, theBarRemovesItselfAtTheEnd) {
     const File file(std::tmpfile());
     {
         Progress progress("comparing", 3, false, eager(file.get(), true));
@@ -73,7 +73,7 @@ TEST(Progress, theBarAlwaysRemovesItselfAtTheEnd) {
     EXPECT_THAT(text, EndsWith("\r\x1b[K"));
 }
 
-TEST(Progress, nothingIsEverWrittenWithoutATerminalOrWhenQuietOrBeforeTheDelay) {
+TEST(Progress, nothingIsWrittenWithoutATerminalOrWhenQuietOrBeforeTheDelay) {
     const File file(std::tmpfile());
     ProgressOutput late = eager(file.get(), true);
     late.delaySeconds = 60.0;

@@ -38,7 +38,7 @@ private:
     void (*oldHandler_)(int);
 };
 
-TEST(AtomicFile, theFileAlwaysHoldsExactlyTheBytesGiven) {
+TEST(AtomicFile, theFileHoldsExactlyTheBytesGiven) {
     const TemporaryFolder folder;
     const std::string text("first\0second\r\n", 14);
     writeFileAtomically(folder.file("a.txt"), text);
@@ -51,7 +51,7 @@ TEST(AtomicFile, theFileAlwaysHoldsExactlyTheBytesGiven) {
     EXPECT_EQ(folder.entries(), 1u);
 }
 
-TEST(AtomicFile, aFailedWriteAlwaysKeepsTheOldFileAndNeverLeavesATemporary) {
+TEST(AtomicFile, aFailedWriteKeepsTheOldFileAndNeverLeavesATemporary) {
     const TemporaryFolder folder;
     writeFileAtomically(folder.file("a.txt"), "old");
     const std::string path = folder.file("a.txt");
@@ -65,7 +65,7 @@ TEST(AtomicFile, aFailedWriteAlwaysKeepsTheOldFileAndNeverLeavesATemporary) {
     EXPECT_EQ(folder.entries(), 1u);
 }
 
-TEST(AtomicFile, theMessageAlwaysNamesThePathTheReasonAndTheRemedy) {
+TEST(AtomicFile, theMessageNamesThePathTheReasonAndTheRemedy) {
     const TemporaryFolder folder;
     EXPECT_EQ(errorOf<std::runtime_error>([&] { writeFileAtomically(folder.path(), "x"); }),
               "cannot write " + folder.path() + ": it is a folder; name a file in it");
@@ -77,7 +77,7 @@ TEST(AtomicFile, theMessageAlwaysNamesThePathTheReasonAndTheRemedy) {
     EXPECT_EQ(folder.entries(), 0u);
 }
 
-TEST(AtomicFile, aPipeIsNeverReplacedByAFile) {
+TEST(AtomicFile, aPipeIsNotReplacedByAFile) {
     const TemporaryFolder folder;
     const std::string path = folder.file("pipe");
     ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
@@ -91,7 +91,7 @@ TEST(AtomicFile, aPipeIsNeverReplacedByAFile) {
     ::close(reader);
 }
 
-TEST(AtomicFile, aFileGivenAsADeviceIsNeverReplaced) {
+TEST(AtomicFile, aFileGivenAsADeviceIsNotReplaced) {
     const TemporaryFolder folder;
     const int file = ::open(folder.file("out").c_str(), O_RDWR | O_CREAT, 0600);
     ASSERT_GE(file, 0);
@@ -103,7 +103,7 @@ TEST(AtomicFile, aFileGivenAsADeviceIsNeverReplaced) {
     ::close(file);
 }
 
-TEST(AtomicFile, aLinkAlwaysStaysALinkAndItsTargetIsWritten) {
+TEST(AtomicFile, aLinkStaysALinkAndItsTargetIsWritten) {
     const TemporaryFolder folder;
     writeFileAtomically(folder.file("target"), "old");
     fs::create_symlink("target", folder.file("link"));
@@ -112,7 +112,7 @@ TEST(AtomicFile, aLinkAlwaysStaysALinkAndItsTargetIsWritten) {
     EXPECT_EQ(readText(folder.file("target")), "new");
 }
 
-TEST(AtomicFile, permissionsOfTheOldFileAreAlwaysKept) {
+TEST(AtomicFile, permissionsOfTheOldFileAreKept) {
     const TemporaryFolder folder;
     writeFileAtomically(folder.file("a"), "old");
     fs::permissions(folder.file("a"), fs::perms::owner_read | fs::perms::owner_write);

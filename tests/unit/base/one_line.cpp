@@ -5,7 +5,7 @@
 namespace tessera {
 namespace {
 
-TEST(OneLine, anErrorIsAlwaysOneLineThatNoTerminalObeys) {
+TEST(OneLine, anErrorIsOneLineThatNoTerminalObeys) {
     EXPECT_EQ(oneLine("a.png: broken"), "a.png: broken");
     EXPECT_EQ(oneLine("log:\n\nline 1\r\nline 2\n"), "log:; line 1; line 2");
     EXPECT_EQ(oneLine("a\x1b[2Jb\tc\x7f"), "a\\x1b[2Jb\\x09c\\x7f");
@@ -19,7 +19,7 @@ TEST(OneLine, anErrorIsAlwaysOneLineThatNoTerminalObeys) {
         << "bytes that are no UTF-8";
 }
 
-TEST(OneLine, aLineIsNeverLongerThanTwoThousandBytesAndDotsAndEndsWithAWholeLetter) {
+TEST(OneLine, aLineIsNotLongerThanTwoThousandBytesAndDotsAndEndsWithAWholeLetter) {
     EXPECT_EQ(oneLine(std::string(2000, 'a')), std::string(2000, 'a'));
     EXPECT_EQ(oneLine(std::string(2001, 'a')), std::string(2000, 'a') + "...");
     EXPECT_EQ(oneLine(std::string(1999, 'a') + "\xc3\xbcr"), std::string(1999, 'a') + "...");

@@ -34,7 +34,7 @@ std::set<std::string> anchorsOf(const fs::path& document) {
     return anchors;
 }
 
-TEST(Documentation, everyLinkWithinTheRepositoryAlwaysLeadsSomewhere) {
+TEST(Documentation, everyLinkWithinTheRepositoryLeadsSomewhere) {
     int links = 0;
     for (const fs::path& document : test::documents()) {
         for (const std::string& link : matches(test::textOf(document), std::regex(R"(\]\(([^)\s]+)\))"))) {
@@ -51,7 +51,7 @@ TEST(Documentation, everyLinkWithinTheRepositoryAlwaysLeadsSomewhere) {
     EXPECT_GT(links, 20);
 }
 
-TEST(Documentation, everyTestThatIsNamedAlwaysExists) {
+TEST(Documentation, everyNamedTestExists) {
     std::string sources;
     for (const auto& entry : fs::recursive_directory_iterator(test::kRepository / "tests")) {
         const fs::path& path = entry.path();

@@ -35,7 +35,7 @@ void expectTable(const char* document, const std::vector<std::string>& head, con
         << table;
 }
 
-TEST(Documentation, theChannelsOfTheGBufferAreExactlyThoseOfTheProgram) {
+TEST(Documentation, theChannelsOfTheGBufferAreThoseOfTheProgram) {
     Rows rows;
     for (const frame::ChannelInfo& info : frame::channelTable()) {
         rows.push_back({code(info.name), std::string(info.meaning), std::string(info.fields), bits(info.packed),
@@ -46,7 +46,7 @@ TEST(Documentation, theChannelsOfTheGBufferAreExactlyThoseOfTheProgram) {
                 rows);
 }
 
-TEST(Documentation, theBoundsOfTheGBuffersErrorsAreExactlyThoseOfTheProgram) {
+TEST(Documentation, theErrorBoundsOfTheGBufferAreThoseOfTheProgram) {
     const std::vector<frame::FieldBound> packed = frame::fieldBounds(frame::Encoding::Packed),
                                          slim = frame::fieldBounds(frame::Encoding::Slim);
     const auto name = [](const frame::FieldBound& bound) {
@@ -65,14 +65,14 @@ TEST(Documentation, theBoundsOfTheGBuffersErrorsAreExactlyThoseOfTheProgram) {
     expectTable("docs/numerics.md", {"channel", "error of", "`packed` at most", "`slim` at most"}, rows);
 }
 
-TEST(Documentation, theTechniquesAreExactlyThoseOfTheProgram) {
+TEST(Documentation, theTechniquesAreThoseOfTheProgram) {
     Rows rows;
     for (const engine::TechniqueInfo& info : engine::techniqueTable())
         rows.push_back({code(info.name), std::string(describe(info.geometry)), std::string(info.lighting)});
     expectTable("README.md", {"technique", "geometry", "lighting"}, rows);
 }
 
-TEST(Documentation, theViewsAreExactlyThoseOfTheProgram) {
+TEST(Documentation, theDebugViewsAreThoseOfTheProgram) {
     Rows rows;
     for (const frame::ViewInfo& info : frame::viewTable())
         if (!info.needsGBuffer)
@@ -87,7 +87,7 @@ std::string namesIn(const Table& table) {
     return names;
 }
 
-TEST(Documentation, everySettingAlwaysHasARow) {
+TEST(Documentation, everySettingHasARow) {
     const std::string text = test::textOf(test::kRepository / "docs" / "command-line.md");
     for (const engine::Setting& setting : engine::settingTable())
         EXPECT_TRUE(text.find(fmt::format("| `{}` |", setting.flag)) != text.npos ||
@@ -95,7 +95,7 @@ TEST(Documentation, everySettingAlwaysHasARow) {
             << "docs/command-line.md should have a row of " << setting.flag;
 }
 
-TEST(Documentation, theNamesThatOptionsTakeAreExactlyThoseOfTheProgram) {
+TEST(Documentation, theNamesThatOptionsTakeAreThoseOfTheProgram) {
     const std::string text = test::textOf(test::kRepository / "docs" / "command-line.md");
     for (const std::string& row : {"| `--technique` | " + namesIn(engine::techniqueTable()) + " (",
                                    "| `--culling` | " + namesIn(culling::methodTable()) + " (",

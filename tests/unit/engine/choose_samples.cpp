@@ -34,7 +34,7 @@ gpu::Capabilities giving(std::vector<int> samples) {
     return capabilities;
 }
 
-TEST(ChooseSamples, aTechniqueWithAGBufferIsAlwaysRefusedWithTheNamesOfThoseThatCan) {
+TEST(ChooseSamples, aTechniqueWithAGBufferIsRefusedWithTheNamesOfThoseThatCan) {
     for (const TechniqueInfo& info : techniqueTable()) {
         EXPECT_NO_THROW(requireTaken({info.technique, asking(1)}));
         EXPECT_EQ(faultOf([&] {
@@ -50,7 +50,7 @@ TEST(ChooseSamples, aTechniqueWithAGBufferIsAlwaysRefusedWithTheNamesOfThoseThat
                 HasSubstr("technique deferred does not take samples 2, since it has a G-buffer; forward, "));
 }
 
-TEST(ChooseSamples, numbersThatNobodyMayAskForAreAlwaysRefused) {
+TEST(ChooseSamples, invalidSampleCountsAreRefused) {
     const scenes::Scene room = scenes::loadScene("room");
     for (const int samples : {-1, 0, 3, 8}) {
         EXPECT_EQ(faultOf([&] { planFrame(room, Technique::Forward, asking(samples)); }),
@@ -58,7 +58,7 @@ TEST(ChooseSamples, numbersThatNobodyMayAskForAreAlwaysRefused) {
     }
 }
 
-TEST(ChooseSamples, aDriverAlwaysGivesItsNextLargerNumberAndThePlanSaysBoth) {
+TEST(ChooseSamples, aDriverGivesItsNextLargerNumberAndThePlanSaysBoth) {
     const gpu::Capabilities fours = giving({1, 4});
     EXPECT_EQ(settingsOn(fours, asking(1)).samplesGiven, 1);
     EXPECT_EQ(settingsOn(fours, asking(2)).samplesGiven, 4);

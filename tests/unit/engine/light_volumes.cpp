@@ -25,7 +25,7 @@ TEST(LightVolumesPass, isNeverDeclaredForViewsThatDoNotSumOverLights) {
     }
 }
 
-TEST(LightVolumesPass, isNeverDeclaredWithoutLightsOrWithoutWhatTheyLight) {
+TEST(LightVolumesPass, isNotDeclaredWithoutLightsOrLitSurfaces) {
     scenes::Scene unlit = scenes::loadScene("room");
     scenes::Scene dark = unlit;
     for (scenes::Material& material : unlit.materials) material.model = scenes::MaterialModel::SingleColor;

@@ -23,7 +23,7 @@ std::vector<graph::Plan::Choice> channelChoices(const scenes::Scene& scene, cons
     return found;
 }
 
-TEST(PlanFrame, aChannelThatIsStoredFinerThanTheLayoutIsAlwaysNamedWithItsReasonAndNoOtherIs) {
+TEST(PlanFrame, aChannelThatIsStoredFinerThanTheLayoutIsNamedWithItsReasonAndNoOtherIs) {
     const scenes::Scene scene = scenes::loadScene("models"); // one of its materials masks by the half vector
     const frame::GBufferLayout& packed = frame::layoutTable()[1].layout;
     const frame::GBufferLayout& slim = frame::layoutTable()[2].layout;
@@ -38,7 +38,7 @@ TEST(PlanFrame, aChannelThatIsStoredFinerThanTheLayoutIsAlwaysNamedWithItsReason
     EXPECT_TRUE(channelChoices(scene, packed).empty());
 }
 
-TEST(PlanFrame, aLightThatIsLeftOutAlwaysSavesJustTheBytesThatALightTakes) {
+TEST(PlanFrame, aLightThatIsLeftOutSavesJustTheBytesThatALightTakes) {
     scenes::Scene scene = scenes::loadScene("room");
     scene.lights.assign(3, scenes::Light());
     for (const scenes::LightType type : {scenes::LightType::Point, scenes::LightType::Spot}) {
@@ -73,7 +73,7 @@ TEST(PlanFrame, everyRoundOverTheLightsIsAPassThatWaitsForTheOneBefore) {
     }
 }
 
-TEST(PlanFrame, twoViewsOfAFrameShareTheMemoryOfWhatIsNeededNoMore) {
+TEST(PlanFrame, twoViewsOfAFrameReuseMemory) {
     const scenes::Scene scene = scenes::loadScene("hall");
     const std::vector<FrameRequest> views(2);
     const graph::Plan one = planViews(scene, std::span(views).first(1)), two = planViews(scene, views);

@@ -35,7 +35,7 @@ std::string said(const scenes::Scene& scene, double tolerance) {
     return "";
 }
 
-TEST(RangeTolerance, thePlanAlwaysTellsWhichLightsItEndsAndWhere) {
+TEST(RangeTolerance, thePlanTellsWhichLightsItEndsAndWhere) {
     const scenes::Scene scene = sceneWith({attenuated(8.0f, {0, 0, 1}), attenuated(8.0f, {0, 0, 4}),
                                            attenuated(1.0f, {2, 1, 0}), attenuated(1.0f, {1, 0, 0}), scenes::Light()});
     EXPECT_EQ(said(scene, 0.5), "0.5: 2 lights with falloff by A B C made finite, radii 2 m to 4 m; 1 light nowhere "
@@ -45,7 +45,7 @@ TEST(RangeTolerance, thePlanAlwaysTellsWhichLightsItEndsAndWhere) {
     EXPECT_EQ(said(sceneWith({scenes::Light()}), 0.0), "");
 }
 
-TEST(RangeTolerance, whatIsNegativeOrNotFiniteIsAlwaysRefused) {
+TEST(RangeTolerance, negativeAndNonFiniteValuesAreRefused) {
     const scenes::Scene scene = sceneWith({});
     for (const double tolerance : {-1e-300, -std::numeric_limits<double>::infinity(),
                                    std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {

@@ -55,7 +55,7 @@ Differences differences(const FrameRequest& a, const FrameRequest& b) {
             differ(membersA.second, membersB.second, std::make_index_sequence<Others::value>())};
 }
 
-TEST(Settings, everyMemberThatUsersSetIsAlwaysChangedByExactlyOneRowAndNoOtherMemberIs) {
+TEST(Settings, everyMemberThatUsersSetIsChangedByExactlyOneRowAndNoOtherMemberIs) {
     const FrameRequest standard;
     std::vector<int> changes(differences(standard, standard).ofUsers.size(), 0);
     for (const Setting& setting : settingTable()) {
@@ -67,7 +67,7 @@ TEST(Settings, everyMemberThatUsersSetIsAlwaysChangedByExactlyOneRowAndNoOtherMe
     EXPECT_EQ(changes, std::vector<int>(changes.size(), 1)) << "by member, in the order of differences()";
 }
 
-TEST(Settings, theTextOfAValueIsAlwaysReadAsTheSameOne) {
+TEST(Settings, theTextOfAValueIsReadAsTheSameOne) {
     const scenes::Scene scene = sceneOfTwoCameras();
     for (const Setting& setting : settingTable()) {
         const FrameRequest changed = changedIn(setting, scene);
@@ -83,7 +83,7 @@ TEST(Settings, theTextOfAValueIsAlwaysReadAsTheSameOne) {
     }
 }
 
-TEST(Settings, theDefaultIsAlwaysThatOfTheStructAndIsTakenByEveryTechnique) {
+TEST(Settings, theDefaultIsThatOfTheStructAndIsTakenByEveryTechnique) {
     const scenes::Scene scene = sceneOfTwoCameras();
     for (const Setting& setting : settingTable()) {
         SCOPED_TRACE(setting.name);
@@ -98,7 +98,7 @@ TEST(Settings, theDefaultIsAlwaysThatOfTheStructAndIsTakenByEveryTechnique) {
     }
 }
 
-TEST(Settings, everyRowAlwaysHasNamesOfItsOwnAndWordsForHelp) {
+TEST(Settings, everyRowHasNamesOfItsOwnAndWordsForHelp) {
     std::set<std::string_view> names, flags, keys;
     for (const Setting& setting : settingTable()) {
         EXPECT_TRUE(names.insert(setting.name).second) << setting.name;
@@ -115,7 +115,7 @@ TEST(Settings, everyRowAlwaysHasNamesOfItsOwnAndWordsForHelp) {
     }
 }
 
-TEST(Settings, whatASettingDoesNotTakeIsAlwaysRefusedByTheWordsOfWhoeverAsked) {
+TEST(Settings, invalidValuesAreRefusedByTheNameThatTheUserWrote) {
     for (const Setting& setting : settingTable()) {
         const scenes::Scene scene = sceneOfTwoCameras();
         FrameRequest request;
@@ -145,7 +145,7 @@ TEST(Settings, whatASettingDoesNotTakeIsAlwaysRefusedByTheWordsOfWhoeverAsked) {
               "range tolerance -1 is below 0; give 0 or more");
 }
 
-TEST(Settings, aTechniqueAlwaysRefusesWhatItDoesNotTakeAndNamesThoseThatDo) {
+TEST(Settings, aTechniqueRefusesUnsupportedValuesAndNamesThoseThatSupportThem) {
     FrameRequest request{Technique::Forward, {}};
     request.settings.culling.tilePixels = 32;
     EXPECT_EQ(refusal([&] { requireTaken(request); }),
@@ -177,7 +177,7 @@ FrameRequest wished(const scenes::Scene& scene) {
     return request;
 }
 
-TEST(Settings, whatASceneWishesIsAlwaysTakenAlsoAfterItWasSavedAndFingerprinted) {
+TEST(Settings, optionsOfASceneApplyAlsoAfterSavingAndFingerprinting) {
     const tessera::test::TempFolder folder;
     const std::string base = folder
                                  .write("base.json", R"({"tessera": 1, "base": {"file": "builtin:room"},
@@ -210,7 +210,7 @@ TEST(Settings, whatASceneWishesIsAlwaysTakenAlsoAfterItWasSavedAndFingerprinted)
     }
 }
 
-TEST(Settings, aWishThatCannotBeIsAlwaysNamedByFileAndKey) {
+TEST(Settings, aWishThatCannotBeIsNamedByFileAndKey) {
     const auto refusedWish = [](const char* key, const scenes::Wish& wish) {
         scenes::Scene scene = sceneOfTwoCameras();
         scene.options.wishes[key] = wish;

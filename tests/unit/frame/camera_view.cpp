@@ -44,7 +44,7 @@ Projected project(const CameraView& view, const glm::dvec3& positionLS) {
 glm::vec3 rebuilt(const shared::ViewConstants& c, const Projected& p) {
     const float ahead =
         (c.aheadFromDepth.x + c.aheadFromDepth.y * p.depth) / (c.aheadFromDepth.z + c.aheadFromDepth.w * p.depth);
-    const glm::vec2 place = p.pixel - glm::vec2(c.lensVS.z, c.lensVS.w);
+    const glm::vec2 place = p.pixel - glm::vec2(c.rayFromPixel.z, c.rayFromPixel.w);
     const glm::vec3 across = place.x * glm::vec3(c.rayDxLS) + place.y * glm::vec3(c.rayDyLS);
     const float width = c.forwardLS.w != 0.0f ? 1.0f : c.eyeLS.w + ahead;
     return width * across + ahead * glm::vec3(c.forwardLS);
@@ -83,7 +83,7 @@ TEST(CameraView, depthIsExactlyOneAtTheNearPlaneAndZeroAtTheFarOne) {
     }
 }
 
-TEST(CameraView, aPointIsAlwaysRebuiltFromItsPixelAndDepth) {
+TEST(CameraView, aPointIsRebuiltFromItsPixelAndDepth) {
     test::Random random(1);
     for (const LightingSpace space : {LightingSpace::World, LightingSpace::View}) {
         for (const scenes::Camera& camera :
@@ -106,7 +106,7 @@ TEST(CameraView, aPointIsAlwaysRebuiltFromItsPixelAndDepth) {
     }
 }
 
-TEST(CameraView, bothLightingSpacesAlwaysPutAWorldPointAtTheSamePixelAndDepth) {
+TEST(CameraView, bothLightingSpacesPutAWorldPointAtTheSamePixelAndDepth) {
     test::Random random(2);
     for (const scenes::Camera& camera : {perspective(0.1, kEndless), orthographic(0.1, 100.0)}) {
         const CameraView world = makeCameraView(camera, kSize, LightingSpace::World, glm::vec3(0.0f));
@@ -118,15 +118,15 @@ TEST(CameraView, bothLightingSpacesAlwaysPutAWorldPointAtTheSamePixelAndDepth) {
             ASSERT_LE(glm::distance(a, b), 1e-11); // double rounding of rotations of 20 m
         }
         EXPECT_EQ(world.constants.worldFromLS, glm::mat4(1.0f));
-        EXPECT_EQ(world.constants.clipFromRS, world.constants.clipFromLS);
-        EXPECT_EQ(eye.constants.clipFromRS, world.constants.clipFromRS) << "vertices lie where they lie";
+        EXPECT_EQ(world.constants.clipFromRWS, world.constants.clipFromLS);
+        EXPECT_EQ(eye.constants.clipFromRWS, world.constants.clipFromRWS) << "vertices lie where they lie";
         const glm::vec3 forwardWS = glm::mat3(eye.constants.worldFromLS) * glm::vec3(eye.constants.forwardLS);
         EXPECT_LE(glm::distance(forwardWS, glm::vec3(world.constants.forwardLS)), 1e-6f);
         EXPECT_LE(glm::distance(eye.forwardLS, glm::dvec3(0.0, 0.0, -1.0)), 1e-15); // double rounding of a rotation
     }
 }
 
-TEST(CameraView, frustumPlanesAlwaysHoldExactlyWhatTheCameraSees) {
+TEST(CameraView, frustumPlanesEncloseTheVisiblePoints) {
     test::Random random(3);
     for (const LightingSpace space : {LightingSpace::World, LightingSpace::View}) {
         for (const scenes::Camera& camera : {perspective(0.5, kEndless), orthographic(0.5, 100.0)}) {
@@ -165,7 +165,7 @@ scenes::Camera farCamera(double eyeMetres, scenes::Projection projection = scene
     return camera;
 }
 
-TEST(CameraView, pointsOfAMetreAlwaysKeepTheirDigitsFromAnyDistance) {
+TEST(CameraView, pointsOfAMetreKeepTheirDigitsFromAnyDistance) {
     test::Random random(4);
     const SurfaceBounds bounds = cube();
     for (const auto projection : {scenes::Projection::Perspective, scenes::Projection::Orthographic}) {
@@ -192,7 +192,7 @@ TEST(CameraView, pointsOfAMetreAlwaysKeepTheirDigitsFromAnyDistance) {
     }
 }
 
-TEST(CameraView, anEyeAmongSurfacesAlwaysHasItsOwnDepths) {
+TEST(CameraView, anEyeAmongSurfacesHasItsOwnDepths) {
     const scenes::Camera camera = farCamera(10.0);
     for (const SurfaceBounds& bounds : {cube({}, 20.0), cube({}, 5.0)}) {
         const CameraView fitted = makeCameraView(camera, kSize, LightingSpace::World, glm::vec3(0.0f), {&bounds, 1});
@@ -202,7 +202,7 @@ TEST(CameraView, anEyeAmongSurfacesAlwaysHasItsOwnDepths) {
     }
 }
 
-TEST(CameraView, whatThePictureDoesNotShowNeverChangesItsDepths) {
+TEST(CameraView, invisibleSurfacesDoNotChangeTheDepthInterval) {
     const std::vector<SurfaceBounds> bounds{cube(), cube({40.0, -40.0, 0.0}), cube({600.0, 600.0, 600.0})};
     scenes::Camera camera = farCamera(1e3); // 1039 m before the last of them
     const auto depthsOf = [&](std::size_t count) {
@@ -216,7 +216,7 @@ TEST(CameraView, whatThePictureDoesNotShowNeverChangesItsDepths) {
     EXPECT_EQ(depthsOf(1).farMetres, 1000.1);
 }
 
-TEST(CameraView, theBackgroundIsAlwaysUncovered) {
+TEST(CameraView, theBackgroundIsUncovered) {
     const CameraView view = makeCameraView(perspective(0.1, kEndless), kSize, LightingSpace::World, {1.0f, 2.0f, 3.0f});
     EXPECT_EQ(view.constants.background, glm::vec4(1.0f, 2.0f, 3.0f, 0.0f));
 }

@@ -54,7 +54,7 @@ TEST(DrawList, depthIsAlwaysDrawnInOrderAndSplitOnlyWhereHolesOrThePipelineState
                             Drawn(8, 1, false, false, 1), Drawn(9, 1, false, true, -1), Drawn(11, 1, false, true, -1)));
 }
 
-TEST(DrawList, batchesAlwaysCoverEveryDrawExactlyOnce) {
+TEST(DrawList, batchesCoverEveryDrawExactlyOnce) {
     const scenes::Scene scene = mixedScene();
     const DrawList list = makeDrawList(scene);
     EXPECT_EQ(list.draws.size(), 24u); // 12 nodes x 2 meshes that have triangles
@@ -79,7 +79,7 @@ TEST(DrawList, batchesAlwaysCoverEveryDrawExactlyOnce) {
     EXPECT_THAT(found, testing::UnorderedElementsAreArray(expected));
 }
 
-TEST(DrawList, batchesOfTheSameMaterialAndWindingAreNeverApart) {
+TEST(DrawList, batchesOfTheSameMaterialAndWindingAreNotApart) {
     const ViewDraws view = makeViewDraws(makeDrawList(mixedScene()), defaultView(), false);
     std::vector<std::pair<int, bool>> seen;
     for (const Batch& batch : view.opaque) seen.emplace_back(batch.material, batch.mirrored);
@@ -87,14 +87,14 @@ TEST(DrawList, batchesOfTheSameMaterialAndWindingAreNeverApart) {
     EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end());
 }
 
-TEST(DrawList, blendedMaterialsAreAlwaysLastAndMaskedOnesAreNot) {
+TEST(DrawList, blendedMaterialsAreLastAndMaskedOnesAreNot) {
     const scenes::Scene scene = mixedScene();
     const DrawList list = makeDrawList(scene);
     for (std::size_t i = 0; i < list.draws.size(); ++i)
         EXPECT_EQ(list.draws[i].material == 2, int(i) >= list.firstTransparent);
 }
 
-TEST(DrawList, transparentDrawsAlwaysRunFarToNearWithTiesInDocumentOrder) {
+TEST(DrawList, transparentDrawsRunFarToNearWithTiesInDocumentOrder) {
     scenes::Scene scene = scenes::tinyScene();
     scene.materials[0].alphaMode = scenes::AlphaMode::Blend;
     scene.nodes.clear();
@@ -112,7 +112,7 @@ TEST(DrawList, transparentDrawsAlwaysRunFarToNearWithTiesInDocumentOrder) {
     EXPECT_TRUE(draws.opaque.empty());
 }
 
-TEST(DrawList, anEmptySceneAlwaysDrawsNothing) {
+TEST(DrawList, anEmptySceneDrawsNothing) {
     scenes::Scene scene;
     const DrawList list = makeDrawList(scene);
     const ViewDraws view = makeViewDraws(list, defaultView(), true);
@@ -142,7 +142,7 @@ bool someOfItIsInside(const scenes::Box3& box, const CameraView& view) {
     return false;
 }
 
-TEST(ViewDraws, whatRoundingMayMoveIntoTheViewIsNeverLeftOut) {
+TEST(ViewDraws, drawsThatRoundingMayMoveIntoTheViewAreKept) {
     // Vertices a thousand kilometres from their object's origin, which single precision moves by centimetres: beside
     // the frustum of 45 degrees by 2 cm, and by 200 m.
     scenes::Scene scene = scenes::tinyScene();
@@ -155,7 +155,7 @@ TEST(ViewDraws, whatRoundingMayMoveIntoTheViewIsNeverLeftOut) {
     }
 }
 
-TEST(ViewDraws, whatMayBeSeenKeepsItsOrderAndItsRowsAndTheRestIsLeftOut) {
+TEST(ViewDraws, visibleDrawsKeepOrderAndRowsAndTheRestIsCulled) {
     test::Random random(5);
     std::size_t left = 0, all = 0;
     for (int round = 0; round < 200; ++round) {
@@ -194,7 +194,7 @@ glm::dvec3 apply(const glm::vec4 rows[3], const glm::dvec4& v) {
     return {glm::dot(glm::dvec4(rows[0]), v), glm::dot(glm::dvec4(rows[1]), v), glm::dot(glm::dvec4(rows[2]), v)};
 }
 
-TEST(DrawList, positionRowsAlwaysTakeObjectSpaceToWorldAxesAtTheEyeInBothLightingSpaces) {
+TEST(DrawList, positionRowsTakeObjectSpaceToWorldAxesAtTheEyeInBothLightingSpaces) {
     test::Random random(1);
     for (const LightingSpace space : {LightingSpace::World, LightingSpace::View}) {
         const CameraView view = defaultView(space);
@@ -210,7 +210,7 @@ TEST(DrawList, positionRowsAlwaysTakeObjectSpaceToWorldAxesAtTheEyeInBothLightin
     }
 }
 
-TEST(DrawList, normalRowsAlwaysAgreeWithTheInverseTransposeUpToLength) {
+TEST(DrawList, normalRowsAgreeWithTheInverseTransposeUpToLength) {
     test::Random random(2);
     for (const glm::dvec3& scale : {glm::dvec3(1.0), glm::dvec3(2, 0.1, 5), glm::dvec3(-1, 1, 1),
                                     glm::dvec3(-2, -3, -0.5), glm::dvec3(1e-20), glm::dvec3(1e15, 1e15, -1e14)}) {
@@ -233,7 +233,7 @@ TEST(DrawList, normalRowsAlwaysAgreeWithTheInverseTransposeUpToLength) {
     }
 }
 
-TEST(DrawList, aSingularTransformAlwaysKeepsTheNormalOfItsPlane) {
+TEST(DrawList, aSingularTransformKeepsTheNormalOfItsPlane) {
     const CameraView view = makeCameraView(scenes::Camera{}, {64, 64}, LightingSpace::World, glm::vec3(0.0f));
     const DrawRows flat = rowsOf(glm::scale(glm::dmat4(1.0), {2.0, 3.0, 0.0}), view); // squashed into z = 0
     EXPECT_EQ(apply(flat.normal, {0, 0, 1, 0}), glm::dvec3(0, 0, 1));

@@ -117,7 +117,7 @@ TEST(Features, aFeatureIsInTheSetExactlyWhenAMaterialInUseNeedsIt) {
     }
 }
 
-TEST(Features, everyFeatureOfMaterialsAlwaysHasASceneWithItAndOneWithout) {
+TEST(Features, everyFeatureOfMaterialsHasASceneWithItAndOneWithout) {
     std::set<Feature> tested{featureOf(MaterialModel::Lambert),
                              Feature::AttenuationLights, // the lights' are packLights' business
                              Feature::OrthographicCamera};
@@ -137,7 +137,7 @@ TEST(Features, materialsThatNothingUsesNeverCount) {
     EXPECT_EQ(materialFeatures(scene), materialFeatures(plainScene()));
 }
 
-TEST(Features, everyWayToChangeTheSpecularLobeIsAlwaysSeen) {
+TEST(Features, everyWayToChangeTheSpecularLobeIsSeen) {
     const auto changed = [](MaterialModel model, const std::function<void(Material&)>& change) {
         scenes::Scene scene = plainScene();
         scene.materials[0].model = model;
@@ -166,7 +166,7 @@ TEST(Features, everyWayToChangeTheSpecularLobeIsAlwaysSeen) {
     }
 }
 
-TEST(Features, materialsVaryExactlyByWhatChangesMoreThanNormals) {
+TEST(Features, materialsVaryByEverythingThatChangesMoreThanNormals) {
     const auto varies = [](const std::function<void(scenes::Scene&)>& change) {
         scenes::Scene scene = plainScene();
         change(scene);
@@ -248,7 +248,7 @@ TEST(Features, materialsThatNothingDrawsNeverCount) {
     EXPECT_TRUE(materialFeatures(scene)[Feature::Emission]);
 }
 
-TEST(Features, everyFeatureAlwaysBecomesADefineOfZeroOrOne) {
+TEST(Features, everyFeatureBecomesADefineOfZeroOrOne) {
     const Defines none = featureDefines(FeatureSet{}), all = featureDefines(allFeatures());
     EXPECT_EQ(none.size(), all.size());
     for (const FeatureInfo& info : featureTable()) {
@@ -267,7 +267,7 @@ TEST(Features, everyFeatureAlwaysBecomesADefineOfZeroOrOne) {
     EXPECT_THAT(featureDefines(sole), Contains(Pair("SOLE_MODEL", "3u")));
 }
 
-TEST(Features, shadersAlwaysGetEveryModelsNumberAndWhatTheModelsOfTheSceneAre) {
+TEST(Features, shadersGetTheNumbersAndClassesOfModels) {
     const Defines none = featureDefines(FeatureSet{}), all = featureDefines(allFeatures());
     for (const Defines& defines : {none, all}) {
         EXPECT_THAT(defines, Contains(Pair("MODEL_COUNT", std::to_string(scenes::kMaterialModelCount) + "u")));

@@ -41,19 +41,19 @@ const GBufferLayout& namedLayout(std::string_view name) {
     throw std::runtime_error("no such layout");
 }
 
-TEST(GBufferLayout, theTableAlwaysFollowsTheEnumeration) {
+TEST(GBufferLayout, theTableFollowsTheEnumeration) {
     ASSERT_EQ(channelTable().size(), kChannelCount);
     for (std::size_t i = 0; i < kChannelCount; ++i) EXPECT_EQ(std::size_t(channelTable()[i].channel), i);
     EXPECT_EQ(layoutTable()[0].name, "exact");
 }
 
-TEST(GBufferLayout, theExactLayoutIsAlwaysFp32) {
+TEST(GBufferLayout, theExactLayoutIsFp32) {
     for (const ChannelInfo& info : channelTable())
         EXPECT_EQ(gbufferTextures(namedLayout("exact"), std::array{info.channel}),
                   (std::vector<GBufferTexture>{{std::string(info.name), graph::Format::Rgba32Float}}));
 }
 
-TEST(GBufferLayout, alphaAndMetallicAlwaysFillSpareComponentsWhereNothingElseIsStoredOfTheMicrosurface) {
+TEST(GBufferLayout, alphaAndMetallicFillSpareComponentsWhereNothingElseIsStoredOfTheMicrosurface) {
     const GBufferLayout& exact = namedLayout("exact");
     const FeatureSet plain = varying(featuresOf(MaterialModel::MetallicRoughness));
     const std::vector<Channel> channels = neededChannels(plain, exact, false);
@@ -68,7 +68,7 @@ TEST(GBufferLayout, alphaAndMetallicAlwaysFillSpareComponentsWhereNothingElseIsS
     EXPECT_THAT(neededChannels(plain, mixed, false), testing::Contains(Channel::Microsurface));
 }
 
-TEST(GBufferLayout, pixelsAlwaysHoldTheNumberOfTheirMaterialWhereNoneVariesAndNothingOfItIsPacked) {
+TEST(GBufferLayout, pixelsHoldTheNumberOfTheirMaterialWhereNoneVariesAndNothingOfItIsPacked) {
     const GBufferLayout& exact = namedLayout("exact");
     const auto coated = [](scenes::Material& m) {
         m.clearcoat = 0.5f;
@@ -183,7 +183,7 @@ TEST(GBufferLayout, everyFeatureSetTakesExactlyItsBytes) {
     EXPECT_EQ(bytesOf(allFeatures()), (Bytes{128, 32, 24}));
 }
 
-TEST(GBufferLayout, wordsAlwaysLieFourTwoAndOneInATextureBehindTheExactChannels) {
+TEST(GBufferLayout, wordsLieFourTwoAndOneInATextureBehindTheExactChannels) {
     GBufferLayout layout = namedLayout("packed");
     layout.encoding[std::size_t(Channel::Normal)] = Encoding::Exact;
     using graph::Format;
@@ -194,7 +194,7 @@ TEST(GBufferLayout, wordsAlwaysLieFourTwoAndOneInATextureBehindTheExactChannels)
                                            {"words 6", Format::R32Uint}}));
 }
 
-TEST(GBufferLayout, aMixedLayoutIsAlwaysHeldToThePromiseOfItsCoarsestChannel) {
+TEST(GBufferLayout, aMixedLayoutIsHeldToThePromiseOfItsCoarsestChannel) {
     GBufferLayout layout = namedLayout("exact");
     EXPECT_EQ(promiseOf(layout), LayoutPromise());
     layout.encoding[0] = Encoding::Packed;
@@ -203,7 +203,7 @@ TEST(GBufferLayout, aMixedLayoutIsAlwaysHeldToThePromiseOfItsCoarsestChannel) {
     EXPECT_EQ(promiseOf(layout), layoutTable()[2].promise);
 }
 
-TEST(GBufferLayout, promisesAlwaysFollowFromTheStepsOfTheirFields) {
+TEST(GBufferLayout, promisesFollowFromTheStepsOfTheirFields) {
     for (const Encoding encoding : {Encoding::Packed, Encoding::Slim}) {
         const std::vector<FieldBound> bounds = fieldBounds(encoding);
         const auto stepOf = [&](Channel channel, std::string_view quantity) {
@@ -219,7 +219,7 @@ TEST(GBufferLayout, promisesAlwaysFollowFromTheStepsOfTheirFields) {
     }
 }
 
-TEST(GBufferLayout, definesAlwaysGiveAttachmentsOfExactChannelsAndBitsOfTheOthers) {
+TEST(GBufferLayout, definesGiveAttachmentsOfExactChannelsAndBitsOfTheOthers) {
     GBufferLayout layout = namedLayout("packed");
     layout.encoding[std::size_t(Channel::Emission)] = Encoding::Exact;
     const std::vector<Channel> channels{Channel::Normal, Channel::Specular, Channel::Emission};

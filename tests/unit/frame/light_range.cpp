@@ -77,7 +77,7 @@ std::vector<Case> randomCases() {
     return cases;
 }
 
-TEST(LightReach, alwaysAgreesWithABisectionInExtendedPrecision) {
+TEST(LightReach, agreesWithABisectionInExtendedPrecision) {
     std::size_t finite = 0, dark = 0;
     for (const auto& [light, tolerance] : randomCases()) {
         const long double expected = bisectedReach(light, tolerance);
@@ -93,7 +93,7 @@ TEST(LightReach, alwaysAgreesWithABisectionInExtendedPrecision) {
     EXPECT_GT(dark, 1000u);
 }
 
-TEST(LightReach, thereTheBrightestChannelIsAlwaysTheTolerance) {
+TEST(LightReach, thereTheBrightestChannelIsTheTolerance) {
     for (const auto& [light, tolerance] : randomCases()) {
         const long double reach = reachMetres(light, tolerance);
         if (reach == 0.0L) continue;
@@ -114,7 +114,7 @@ TEST(LightReach, isZeroExactlyWhenTheLightIsNowhereAboveTheTolerance) {
         EXPECT_EQ(reachMetres(random, tolerance) == 0.0, !isAbove(random, 0.0L, tolerance));
 }
 
-TEST(LightReach, isAlwaysInfiniteWithoutAToleranceOrWithoutFalloff) {
+TEST(LightReach, isInfiniteWithoutAToleranceOrWithoutFalloff) {
     EXPECT_EQ(reachMetres(attenuated(1.0f, {1.0f, 2.0f, 3.0f}), 0.0), scenes::kInfinity);
     for (const double tolerance : {1e-300, 0.5, 1e300}) // also where all of it is below the tolerance
         EXPECT_EQ(reachMetres(attenuated(1.0f, {2.0f, 0.0f, 0.0f}), tolerance), scenes::kInfinity) << tolerance;
@@ -136,7 +136,7 @@ TEST(LightReach, aToleranceNeverTouchesALightOfAnotherFalloff) {
     EXPECT_EQ(reachMetres(light, 0.1), scenes::kInfinity);
 }
 
-TEST(LightReach, alwaysShrinksAsTheToleranceGrows) {
+TEST(LightReach, shrinksAsTheToleranceGrows) {
     const Light light = attenuated(10.0f, {0.5f, 0.25f, 2.0f});
     double last = scenes::kInfinity;
     for (double tolerance = 1e-12; tolerance < 10.0; tolerance *= 10.0) {
@@ -147,7 +147,7 @@ TEST(LightReach, alwaysShrinksAsTheToleranceGrows) {
     }
 }
 
-TEST(LightReach, colourTimesIntensityAlwaysStaysInsideFp32) {
+TEST(LightReach, colourTimesIntensityStaysInsideFp32) {
     Light light;
     light.color = {1e20f, 0.5f, 0.0f};
     light.intensity = 1e20f;

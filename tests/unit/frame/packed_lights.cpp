@@ -28,7 +28,7 @@ PackedLights pack(const std::vector<Light>& lights, const FrameSettings& setting
     return packLights(scene, makeCameraView(camera, {640, 360}, settings.space, glm::vec3(0.0f)), settings);
 }
 
-TEST(PackedLights, everyKindIsAlwaysPackedAsItsShaderReadsIt) {
+TEST(PackedLights, everyKindIsPackedAsItsShaderReadsIt) {
     Light attenuated = light(LightType::Spot);
     attenuated.falloff = Falloff::Attenuation;
     attenuated.attenuation = {1.0f, 2.0f, 3.0f};
@@ -54,7 +54,7 @@ TEST(PackedLights, everyKindIsAlwaysPackedAsItsShaderReadsIt) {
     EXPECT_EQ(packed.texels[4].position.w, 0.0f);
 }
 
-TEST(PackedLights, theConeIsAlwaysScaledFromOneInsideToZeroOutside) {
+TEST(PackedLights, theConeIsScaledFromOneInsideToZeroOutside) {
     Light spot = light(LightType::Spot);
     spot.innerConeRadians = 0.3f;
     spot.outerConeRadians = 0.9f;
@@ -85,7 +85,7 @@ TEST(PackedLights, theConeIsAlwaysScaledFromOneInsideToZeroOutside) {
     }
 }
 
-TEST(PackedLights, theSetAlwaysHoldsExactlyTheKindsThatWerePacked) {
+TEST(PackedLights, theSetHoldsExactlyTheKindsThatWerePacked) {
     Light attenuated = light(LightType::Point);
     attenuated.falloff = Falloff::Attenuation;
     Light off = light(LightType::Spot);
@@ -169,7 +169,7 @@ TEST(PackedLights, aLightThatIsLeftOutNeverReachesAPointInTheFrustum) {
     }
 }
 
-TEST(PackedLights, lightsWithoutEndAreNeverLeftOut) {
+TEST(PackedLights, lightsWithoutEndAreNotLeftOut) {
     Light attenuated = light(LightType::Point, {0, 0, 1000});
     attenuated.falloff = Falloff::Attenuation;
     attenuated.rangeMetres = 1.0f; // of the other falloff
@@ -178,7 +178,7 @@ TEST(PackedLights, lightsWithoutEndAreNeverLeftOut) {
               3u);
 }
 
-TEST(PackedLights, aToleranceAlwaysEndsFalloffByABCAndNothingElse) {
+TEST(PackedLights, aToleranceEndsFalloffByABCAndNothingElse) {
     Light ended = light(LightType::Point);
     ended.falloff = Falloff::Attenuation;
     ended.intensity = 8.0f;
@@ -216,7 +216,7 @@ TEST(PackedLights, aToleranceAlwaysEndsFalloffByABCAndNothingElse) {
     EXPECT_EQ(glm::vec3(kept.texels[1].color), glm::vec3(0.0f)) << "dark lights add exactly 0";
 }
 
-TEST(PackedLights, aRangeWhoseSquareLeavesFp32IsAlwaysPackedAsNone) {
+TEST(PackedLights, aRangeWhoseSquareLeavesFp32IsPackedAsNone) {
     Light far = light(LightType::Point);
     far.rangeMetres = 1e17f;
     EXPECT_GT(pack({far}).texels.at(0).position.w, 0.0f);
@@ -225,7 +225,7 @@ TEST(PackedLights, aRangeWhoseSquareLeavesFp32IsAlwaysPackedAsNone) {
     EXPECT_EQ(pack({far}).everywhere, 1u);
 }
 
-TEST(PackedLights, soloAlwaysLeavesExactlyThatLight) {
+TEST(PackedLights, soloLeavesExactlyThatLight) {
     FrameSettings solo;
     solo.soloLight = 1;
     const std::vector<Light> lights{light(LightType::Point), light(LightType::Spot), light(LightType::Directional)};
@@ -235,7 +235,7 @@ TEST(PackedLights, soloAlwaysLeavesExactlyThatLight) {
     EXPECT_EQ(packed.shown, 0);
 }
 
-TEST(PackedLights, theShownLightIsAlwaysTheFirstThatIsOnOrNoneWhenItIsLeftOut) {
+TEST(PackedLights, theShownLightIsTheFirstThatIsOnOrNoneWhenItIsLeftOut) {
     Light off = light(LightType::Point), behind = light(LightType::Point, {0, 0, 10});
     off.enabled = false;
     behind.rangeMetres = 1.0f;
@@ -247,21 +247,21 @@ TEST(PackedLights, theShownLightIsAlwaysTheFirstThatIsOnOrNoneWhenItIsLeftOut) {
     EXPECT_THAT(pack({}).texels, IsEmpty());
 }
 
-TEST(PackedLights, extremeIntensitiesAlwaysStayFinite) {
+TEST(PackedLights, extremeIntensitiesStayFinite) {
     Light bright = light(LightType::Point);
     bright.color = glm::vec3(1e20f);
     bright.intensity = 1e20f;
     EXPECT_EQ(pack({bright}).texels.at(0).color.x, 1e30f);
 }
 
-TEST(PackedLights, positionsAlwaysKeepTheirDigitsFarFromTheOrigin) {
+TEST(PackedLights, positionsKeepTheirDigitsFarFromTheOrigin) {
     scenes::Camera camera;
     camera.worldFromCamera[3] = {1e7, 0, 0, 1};
     const PackedLights packed = pack({light(LightType::Point, {1e7 + 0.125, 0.0, -1.0})}, {}, camera);
     EXPECT_EQ(glm::vec3(packed.texels.at(0).position), glm::vec3(0.125f, 0.0f, -1.0f));
 }
 
-TEST(PackedLights, anAnimatedLightIsAlwaysPackedWhereItIsAtThatTime) {
+TEST(PackedLights, anAnimatedLightIsPackedWhereItIsAtThatTime) {
     Light moving = light(LightType::Point);
     moving.animation = scenes::LightAnimation{};
     moving.animation->kind = scenes::LightAnimationKind::Keyframes;

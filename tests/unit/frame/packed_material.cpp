@@ -28,7 +28,7 @@ TEST(PackedMaterial, theUsualDielectricIsExactlyFourPercent) {
         << "the factor is applied after the textures";
 }
 
-TEST(PackedMaterial, everyMemberIsAlwaysTheMaterialsOwnValue) {
+TEST(PackedMaterial, everyMemberIsTheMaterialsOwnValue) {
     Material material;
     material.model = MaterialModel::Microfacet;
     material.baseColor = {0.1f, 0.2f, 0.3f, 0.4f};
@@ -54,7 +54,7 @@ TEST(PackedMaterial, everyMemberIsAlwaysTheMaterialsOwnValue) {
     EXPECT_EQ(packMaterial(material).microsurface.y, 7.0f);
 }
 
-TEST(PackedMaterial, anisotropyCoatAndSheenAreAlwaysTheMaterialsOwnValues) {
+TEST(PackedMaterial, anisotropyCoatAndSheenAreTheMaterialsOwnValues) {
     Material material;
     material.alpha = 0.3f;
     material.alphaY = 0.7f;
@@ -77,7 +77,7 @@ TEST(PackedMaterial, anisotropyCoatAndSheenAreAlwaysTheMaterialsOwnValues) {
     EXPECT_EQ(packMaterial(material).kind.z, MASKING_DIRECTIONAL);
 }
 
-TEST(PackedMaterial, theTransformsOfTexturesWithVectorsAlwaysTurnWhatTheyHold) {
+TEST(PackedMaterial, transformsOfTexturesWithVectorsRotateTheVectors) {
     Material material;
     material.clearcoat = 1.0f;
     material.anisotropyStrength = 0.5f;
@@ -96,7 +96,7 @@ TEST(PackedMaterial, theTransformsOfTexturesWithVectorsAlwaysTurnWhatTheyHold) {
     expectNear(packed.anisotropy, {0.5, std::cos(0.25), -std::sin(0.25), -1});
 }
 
-TEST(PackedMaterial, flagsAreAlwaysExactlyWhatTheMaterialHas) {
+TEST(PackedMaterial, flagsAreThoseOfTheMaterial) {
     const auto flags = [](const auto& change) {
         Material material;
         change(material);
@@ -115,7 +115,7 @@ TEST(PackedMaterial, flagsAreAlwaysExactlyWhatTheMaterialHas) {
               MATERIAL_FLAG_CLEARCOAT_NORMAL_MAP);
 }
 
-TEST(PackedMaterial, textureCoordinatesAreAlwaysScaledThenTurnedThenMoved) {
+TEST(PackedMaterial, textureCoordinatesAreScaledThenTurnedThenMoved) {
     Material material;
     scenes::TextureUse& use = material.texture(TextureSlot::Emissive);
     use.transform = {.offset = {0.25f, -0.5f}, .scale = {2.0f, 3.0f}, .rotationRadians = 0.7f};
@@ -132,7 +132,7 @@ TEST(PackedMaterial, textureCoordinatesAreAlwaysScaledThenTurnedThenMoved) {
     EXPECT_EQ(glm::vec3(packed.uvRow1[TEXTURE_SLOT_NORMAL]), glm::vec3(0, 1, 0));
 }
 
-TEST(PackedMaterial, setsAndWrapModesAlwaysGoToTheirSlot) {
+TEST(PackedMaterial, setsAndWrapModesGoToTheirSlot) {
     for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
         Material material;
         material.textures[slot].texCoordSet = 1;
@@ -146,7 +146,7 @@ TEST(PackedMaterial, setsAndWrapModesAlwaysGoToTheirSlot) {
     }
 }
 
-TEST(PackedMaterial, filtersAlwaysGoToTheModesOfTheirSlot) {
+TEST(PackedMaterial, filtersGoToTheModesOfTheirSlot) {
     using scenes::Filter;
     const auto modes = [](Filter magnification, Filter minification) {
         Material material;

@@ -30,7 +30,7 @@ protected:
 };
 INSTANTIATE_TEST_SUITE_P(Tangents, TangentMethods, testing::Values(TangentMethod::MikkTSpace, TangentMethod::Lengyel));
 
-TEST_P(TangentMethods, aQuadAlwaysHasTheTangentThatIsFoundByHand) {
+TEST_P(TangentMethods, aQuadHasTheTangentThatIsFoundByHand) {
     for (const glm::vec4& tangent : tangents(quad())) EXPECT_EQ(tangent, glm::vec4(1, 0, 0, 1));
     scenes::Mesh turned = quad(); // the picture turned by a quarter: u grows along y, v (down) along x
     turned.texCoords[0] = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
@@ -107,7 +107,7 @@ TEST_P(TangentMethods, aTangentAlongTheNormalNeverGivesNaN) {
 }
 
 /// The figures have seven decimals; single precision in that program is off by 2e-6 from the formulas.
-TEST(Tangents, theyAreAlwaysThoseOfAnOutsideProgramWithMikkTSpace) {
+TEST(Tangents, theyAreThoseOfAnOutsideProgramWithMikkTSpace) {
     for (const bool isIndexed : {true, false}) {
         std::size_t compared = 0;
         for (const test::MikkTSpaceTruth& truth : test::mikkTSpaceTruth(isIndexed)) {
@@ -158,7 +158,7 @@ TEST(Tangents, mirroredHalvesNeverCancelEachOther) {
 }
 
 /// Two triangles at a corner, the one twice as wide: the mean is by angle, not by area or count.
-TEST(Tangents, anglesAlwaysWeigh) {
+TEST(Tangents, anglesWeigh) {
     scenes::Mesh mesh;
     // 90 and 45 degrees about the origin.
     mesh.positionsOS = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 1, 0}};
@@ -174,14 +174,14 @@ TEST(Tangents, anglesAlwaysWeigh) {
     EXPECT_NEAR(weighed.y, mean.y, 1e-6);
 }
 
-TEST(Tangents, trianglesWithoutAreaInSpaceAlwaysTakeTheTangentOfTheFirstOtherAtTheirVertices) {
+TEST(Tangents, trianglesWithoutAreaInSpaceTakeTheTangentOfTheFirstOtherAtTheirVertices) {
     scenes::Mesh mesh = quad();
     mesh.indices.insert(mesh.indices.begin(), {0, 0, 1});
     for (const glm::vec4& tangent : cornerTangents(mesh, {})) EXPECT_EQ(tangent, glm::vec4(1, 0, 0, 1));
 }
 
 /// Transforms of the coordinates, KHR_texture_transform's, with the expected tangents of a quad.
-TEST(Tangents, theTexturesTransformIsAlwaysAppliedFirst) {
+TEST(Tangents, theTexturesTransformIsAppliedFirst) {
     const auto material = [](glm::vec2 scale, float rotationRadians) {
         scenes::Material result;
         scenes::TextureUse& use = result.texture(scenes::TextureSlot::Normal);
@@ -210,7 +210,7 @@ TEST(Tangents, theTexturesTransformIsAlwaysAppliedFirst) {
     expectTangent({1, -1}, quarter, {0, 1, 0, -1});
 }
 
-TEST(Tangents, aTextureThatIsScaledToNothingAlwaysLeavesAMeshesOwnAndGivesOthersAnyFrame) {
+TEST(Tangents, aTextureThatIsScaledToNothingLeavesAMeshesOwnAndGivesOthersAnyFrame) {
     const TangentBasis nothing{TangentMethod::MikkTSpace, 0, glm::dmat2(0.0)};
     EXPECT_EQ(cornerTangents(quad(), nothing)[0], glm::vec4(1, 0, 0, -1));
     scenes::Mesh own = quad();
@@ -219,7 +219,7 @@ TEST(Tangents, aTextureThatIsScaledToNothingAlwaysLeavesAMeshesOwnAndGivesOthers
 }
 
 /// The same by transforming the coordinates themselves, on a mesh whose texture is stretched and sheared.
-TEST(Tangents, aTransformAlwaysIsWhatTransformedCoordinatesAre) {
+TEST(Tangents, aTransformEqualsTransformedCoordinates) {
     for (const test::MikkTSpaceTruth& truth : test::mikkTSpaceTruth(true)) {
         if (truth.name == "degenerate_uv") continue; // rounding gives its points an area
         scenes::Material material;
@@ -245,7 +245,7 @@ TEST(Tangents, aTransformAlwaysIsWhatTransformedCoordinatesAre) {
     }
 }
 
-TEST(Tangents, texturesAreAlwaysTurnedByTheirTransformsAgainstTheOneThatTangentsFollow) {
+TEST(Tangents, texturesAreTurnedByTheirTransformsAgainstTheOneThatTangentsFollow) {
     using scenes::TextureSlot;
     scenes::Material material;
     material.clearcoat = 1.0f;

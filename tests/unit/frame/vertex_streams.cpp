@@ -28,7 +28,7 @@ scenes::Scene twoMeshes() {
     return scene;
 }
 
-TEST(VertexStreams, meshesAlwaysLieEndToEnd) {
+TEST(VertexStreams, meshesLieEndToEnd) {
     const VertexStreams streams = makeVertexStreams(twoMeshes(), allFeatures());
     ASSERT_EQ(streams.ranges.size(), 2u);
     EXPECT_EQ(streams.ranges.at({0, 0}).firstIndex, 0u);
@@ -40,7 +40,7 @@ TEST(VertexStreams, meshesAlwaysLieEndToEnd) {
     EXPECT_EQ(streams.positionsOS[5], glm::vec3(0, 4, 0));
 }
 
-TEST(VertexStreams, aMeshThatNothingDrawsIsNeverThere) {
+TEST(VertexStreams, aMeshThatNothingDrawsIsNotThere) {
     scenes::Scene scene = twoMeshes();
     scene.nodes[0].instances.erase(scene.nodes[0].instances.begin());
     const VertexStreams streams = makeVertexStreams(scene, allFeatures());
@@ -50,7 +50,7 @@ TEST(VertexStreams, aMeshThatNothingDrawsIsNeverThere) {
     EXPECT_EQ(streams.positionsOS.size(), 3u);
 }
 
-TEST(VertexStreams, missingAttributesAlwaysGetTheirNeutralValue) {
+TEST(VertexStreams, missingAttributesGetTheirNeutralValue) {
     const VertexStreams streams = makeVertexStreams(twoMeshes(), allFeatures());
     const auto expectStream = [](const auto& stream, const auto& neutral, const auto& last) {
         ASSERT_EQ(stream.size(), 6u);
@@ -63,7 +63,7 @@ TEST(VertexStreams, missingAttributesAlwaysGetTheirNeutralValue) {
     expectStream(streams.tangentsOS, glm::vec4(1, 0, 0, 1), glm::vec4(0, 1, 0, -1));
 }
 
-TEST(VertexStreams, streamsThatNothingNeedsAreAlwaysEmpty) {
+TEST(VertexStreams, streamsThatNothingNeedsAreEmpty) {
     const VertexStreams streams = makeVertexStreams(twoMeshes(), FeatureSet{});
     EXPECT_EQ(streams.positionsOS.size(), 6u);
     EXPECT_EQ(streams.normalsOS.size(), 6u);
@@ -93,7 +93,7 @@ TEST(VertexStreams, tangentsAreComputedExactlyForMeshesWithATangentSpaceMapAndNo
     EXPECT_EQ(makeVertexStreams(scene, features).tangentsOS[4], glm::vec4(0, 0, 1, 1)) << "its own come first";
 }
 
-TEST(VertexStreams, tangentsOfAnisotropicAndCoatedMaterialsAlwaysFollowTheirOwnTextureAndFirstTheNormalMaps) {
+TEST(VertexStreams, tangentsOfAnisotropicAndCoatedMaterialsFollowTheirOwnTextureAndFirstTheNormalMaps) {
     scenes::Scene scene = twoMeshes();
     scene.meshes[1].tangentsOS.clear();
     scene.meshes[1].texCoords[1] = {{0, 0}, {0, 1}, {1, 0}};
@@ -130,7 +130,7 @@ TEST(VertexStreams, tangentsOfAnisotropicAndCoatedMaterialsAlwaysFollowTheirOwnT
     EXPECT_EQ(second(brushed), ofSet0);
 }
 
-TEST(VertexStreams, materialsThatWantDifferentTangentsAlwaysGetAMeshOfTheirOwnAndOthersShare) {
+TEST(VertexStreams, materialsThatWantDifferentTangentsGetAMeshOfTheirOwnAndOthersShare) {
     scenes::Scene scene = twoMeshes();
     scene.meshes[1].tangentsOS.clear();
     scene.images.emplace_back();
@@ -157,7 +157,7 @@ TEST(VertexStreams, materialsThatWantDifferentTangentsAlwaysGetAMeshOfTheirOwnAn
     EXPECT_EQ(makeVertexStreams(scene, FeatureSet{}).tangentsOS.size(), 0u);
 }
 
-TEST(VertexStreams, splitVerticesAlwaysKeepAllTheirOtherAttributes) {
+TEST(VertexStreams, splitVerticesKeepAllTheirOtherAttributes) {
     scenes::Scene scene = scenes::tinyScene();
     scenes::Mesh& mesh = scene.meshes[0];
     // A second triangle below the first, whose texture is mirrored.
@@ -212,7 +212,7 @@ TEST(VertexStreams, copiesForManyTransformsOfOneLargeMeshAreRefusedBeforeTheyAre
     }
 }
 
-TEST(VertexStreams, aMeshThatBringsTangentsIsNeverTakenToBeSplit) {
+TEST(VertexStreams, aMeshThatBringsTangentsIsNotTakenToBeSplit) {
     scenes::Scene scene = sceneOfManyTransforms(1000);
     scenes::Mesh& mesh = scene.meshes[0];
     mesh.indices.resize(3 << 20); // 39 times as many corners are too many, vertices not

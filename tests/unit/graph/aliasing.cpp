@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kColorBytes = 64 * 32 * 8;
 
-TEST(Aliasing, equalShapesWithDisjointLivesAlwaysShareMemory) {
+TEST(Aliasing, equalShapesWithDisjointLivesShareMemory) {
     Graph graph;
     const TextureHandle a = draw(graph, "1", "a");
     const TextureHandle b = draw(graph, "2", "b", {a});
@@ -26,7 +26,7 @@ TEST(Aliasing, equalShapesWithDisjointLivesAlwaysShareMemory) {
     EXPECT_EQ(compiled.bytesWithoutAliasing, 3 * kColorBytes);
 }
 
-TEST(Aliasing, lifetimesAlwaysRunFromFirstToLastUse) {
+TEST(Aliasing, lifetimesRunFromFirstToLastUse) {
     Graph graph;
     const TextureHandle a = draw(graph, "0", "a");
     const TextureHandle b = draw(graph, "1", "b", {a});
@@ -40,7 +40,7 @@ TEST(Aliasing, lifetimesAlwaysRunFromFirstToLastUse) {
     EXPECT_EQ(compiled.resources[b.resource].last, 2);
 }
 
-TEST(Aliasing, outputAlwaysLivesToTheEndOfTheFrame) {
+TEST(Aliasing, outputLivesToTheEndOfTheFrame) {
     Graph graph;
     const TextureHandle early = draw(graph, "0", "early");
     const TextureHandle a = draw(graph, "1", "a");
@@ -80,7 +80,7 @@ TEST(Aliasing, importedResourcesNeverTakePart) {
     EXPECT_EQ(compiled.bytesWithoutAliasing, 2 * kColorBytes);
 }
 
-TEST(Aliasing, withoutItEveryTransientAlwaysHasItsOwnMemory) {
+TEST(Aliasing, withoutItEveryTransientHasItsOwnMemory) {
     Graph graph;
     const TextureHandle a = draw(graph, "0", "a");
     const TextureHandle b = draw(graph, "1", "b", {a});

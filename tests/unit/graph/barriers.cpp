@@ -44,7 +44,7 @@ TEST(Barriers, rasterisedFrameNeverNeedsOne) {
     EXPECT_EQ(compiled.after, Barrier::None);
 }
 
-TEST(Barriers, bitIsAlwaysThatOfTheLaterAccessToATexture) {
+TEST(Barriers, bitIsThatOfTheLaterAccessToATexture) {
     const std::vector<std::pair<Access, Barrier>> kCases{
         {Access::Sampled, Barrier::TextureFetch},
         {Access::ImageRead, Barrier::ShaderImage},
@@ -65,7 +65,7 @@ TEST(Barriers, bitIsAlwaysThatOfTheLaterAccessToATexture) {
     }
 }
 
-TEST(Barriers, bitIsAlwaysThatOfTheLaterAccessToABuffer) {
+TEST(Barriers, bitIsThatOfTheLaterAccessToABuffer) {
     for (const auto& [access, expected] : std::vector<std::pair<Access, Barrier>>{
              {Access::UniformRead, Barrier::Uniform},
              {Access::StorageRead, Barrier::ShaderStorage},
@@ -80,7 +80,7 @@ TEST(Barriers, bitIsAlwaysThatOfTheLaterAccessToABuffer) {
     }
 }
 
-TEST(Barriers, bitIsNeverRepeatedUntilTheNextStore) {
+TEST(Barriers, bitIsNotRepeatedUntilTheNextStore) {
     Graph graph;
     const BufferHandle lists = bufferStore(graph, "cull", "lists");
     readKept(graph, lists, Access::StorageRead);
@@ -94,7 +94,7 @@ TEST(Barriers, bitIsNeverRepeatedUntilTheNextStore) {
                             Barrier::ShaderStorage, Barrier::ShaderStorage));
 }
 
-TEST(Barriers, oneBitAlwaysServesEveryStoreBeforeIt) {
+TEST(Barriers, oneBitServesEveryStoreBeforeIt) {
     Graph graph;
     const TextureHandle a = imageStore(graph, "a", "a");
     const TextureHandle b = imageStore(graph, "b", "b");
@@ -104,7 +104,7 @@ TEST(Barriers, oneBitAlwaysServesEveryStoreBeforeIt) {
                 ElementsAre(Barrier::ShaderImage, Barrier::None, Barrier::TextureFetch, Barrier::None));
 }
 
-TEST(Barriers, storeAfterAFetchAlwaysWaitsForIt) {
+TEST(Barriers, storeAfterAFetchWaitsForIt) {
     Graph graph;
     const BufferHandle uploaded = [&] {
         BufferHandle handle;
@@ -117,7 +117,7 @@ TEST(Barriers, storeAfterAFetchAlwaysWaitsForIt) {
     EXPECT_THAT(barriersOf(compile(graph)), ElementsAre(Barrier::None, Barrier::None, Barrier::ShaderStorage));
 }
 
-TEST(Barriers, tenantsOfOneAllocationAlwaysShareTheirHazards) {
+TEST(Barriers, tenantsOfOneAllocationShareTheirHazards) {
     Graph graph;
     const TextureHandle stored = imageStore(graph, "store", "stored");
     readKept(graph, stored, Access::ImageRead);
@@ -132,7 +132,7 @@ TEST(Barriers, tenantsOfOneAllocationAlwaysShareTheirHazards) {
                 ElementsAre(Barrier::ShaderImage, Barrier::ShaderImage, Barrier::None, Barrier::None));
 }
 
-TEST(Barriers, storesAreAlwaysMadeVisibleAfterTheFrame) {
+TEST(Barriers, storesAreMadeVisibleAfterTheFrame) {
     Graph graph;
     const TextureHandle image = imageStore(graph, "store", "image");
     consume(graph, "show", {image});

@@ -8,7 +8,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(Culling, passThatLeadsToAnOutputAlwaysRuns) {
+TEST(Culling, passThatLeadsToAnOutputRuns) {
     Graph graph;
     const TextureHandle gbuffer = draw(graph, "gbuffer", "normal");
     const TextureHandle lit = draw(graph, "lighting", "radiance", {gbuffer});
@@ -18,7 +18,7 @@ TEST(Culling, passThatLeadsToAnOutputAlwaysRuns) {
     EXPECT_THAT(compiled.culled, IsEmpty());
 }
 
-TEST(Culling, passWhoseOutputNobodyNeedsNeverRunsAndSaysWhy) {
+TEST(Culling, aPassWithUnusedOutputsDoesNotRunAndThePlanSaysWhy) {
     Graph graph;
     const TextureHandle gbuffer = draw(graph, "gbuffer", "normal");
     declare(graph, "occlusion", [&](PassBuilder& builder) {
@@ -36,7 +36,7 @@ TEST(Culling, passWhoseOutputNobodyNeedsNeverRunsAndSaysWhy) {
     EXPECT_EQ(compiled.culled[0].before, 1u);
 }
 
-TEST(Culling, chainThatLeadsNowhereIsAlwaysLeftOutWhole) {
+TEST(Culling, chainThatLeadsNowhereIsLeftOutWhole) {
     Graph graph;
     const TextureHandle ao = draw(graph, "occlusion", "ao");
     draw(graph, "blur", "smooth", {ao});
@@ -52,7 +52,7 @@ TEST(Culling, chainThatLeadsNowhereIsAlwaysLeftOutWhole) {
     EXPECT_EQ(compiled.culled[2].before, 1u);
 }
 
-TEST(Culling, mixedReasonsAreAlwaysAllGiven) {
+TEST(Culling, mixedReasonsAreAllGiven) {
     Graph graph;
     TextureHandle a;
     declare(graph, "both", [&](PassBuilder& builder) {
@@ -76,7 +76,7 @@ TEST(Culling, passThatWritesNothingNeverRunsUnlessKept) {
     EXPECT_EQ(compiled.culled[0].why, "it writes nothing and is not kept");
 }
 
-TEST(Culling, writerOfTheVersionAddedToAlwaysRuns) {
+TEST(Culling, writerOfTheVersionAddedToRuns) {
     Graph graph;
     const TextureHandle opaque = draw(graph, "opaque", "image");
     const TextureHandle fog = blend(graph, "fog", opaque);
@@ -85,7 +85,7 @@ TEST(Culling, writerOfTheVersionAddedToAlwaysRuns) {
     EXPECT_THAT(orderOf(graph, compile(graph)), ElementsAre("opaque", "fog"));
 }
 
-TEST(Culling, laterWriterOfWhatIsReadEarlierNeverRunsForThatAlone) {
+TEST(Culling, aLaterWriterDoesNotRunForEarlierReaders) {
     Graph graph;
     const TextureHandle first = draw(graph, "opaque", "image");
     const TextureHandle copy = draw(graph, "copy", "copied", {first});
@@ -94,7 +94,7 @@ TEST(Culling, laterWriterOfWhatIsReadEarlierNeverRunsForThatAlone) {
     EXPECT_THAT(orderOf(graph, compile(graph)), ElementsAre("opaque", "copy"));
 }
 
-TEST(Culling, withoutItEveryPassAlwaysRunsInTheSameOrder) {
+TEST(Culling, withoutItEveryPassRunsInTheSameOrder) {
     Graph graph;
     const TextureHandle ao = draw(graph, "occlusion", "ao");
     const TextureHandle image = draw(graph, "shade", "image");

@@ -84,7 +84,7 @@ std::string errorOfRun(const Graph& graph, Recorder& backend) {
     return "no error";
 }
 
-TEST(Execution, passesAlwaysRunInOrderBetweenBeginAndEnd) {
+TEST(Execution, passesRunInOrderBetweenBeginAndEnd) {
     Recorder backend;
     Graph graph;
     const auto first = graph.addPass<Image>(
@@ -116,7 +116,7 @@ TEST(Execution, frameWithoutStoresNeverEndsInABarrier) {
     EXPECT_THAT(backend.calls, ElementsAre("allocate 1", "begin shade", "end shade"));
 }
 
-TEST(Execution, handlesAlwaysResolveToTheirAllocationOrImport) {
+TEST(Execution, handlesResolveToTheirAllocationOrImport) {
     Recorder backend;
     Graph graph;
     const int windowPlace = 0;
@@ -168,7 +168,7 @@ Grown growing(Graph& graph, std::size_t bytes, const std::function<void(const Gr
         [body](const Grown& data, const PassContext& context) { body(data, context); });
 }
 
-TEST(Execution, aBufferThatGrowsHoldsWhatItsFirstWriterSays) {
+TEST(Execution, aGrowingBufferHasTheSizeOfItsFirstWriter) {
     Recorder backend;
     Graph graph;
     std::vector<std::size_t> held;
@@ -197,7 +197,7 @@ TEST(Execution, aBufferThatGrowsHoldsWhatItsFirstWriterSays) {
                                                       "room for 7 bytes in list 2"}));
 }
 
-TEST(Execution, aBufferThatGrowsIsNeverResolvedBeforeItHasRoomNorGivenRoomTwice) {
+TEST(Execution, aBufferThatGrowsIsNotResolvedBeforeItHasRoomNorGivenRoomTwice) {
     Recorder backend;
     const auto errorOf = [&](std::size_t bytes, const std::function<void(const Grown&, const PassContext&)>& body) {
         Graph graph;
@@ -214,7 +214,7 @@ TEST(Execution, aBufferThatGrowsIsNeverResolvedBeforeItHasRoomNorGivenRoomTwice)
     EXPECT_THAT(errorOf(8, twice), testing::HasSubstr("makes room in 'list', whose bytes are known"));
 }
 
-TEST(Execution, handleThatThePassDidNotDeclareIsNeverResolved) {
+TEST(Execution, handleThatThePassDidNotDeclareIsNotResolved) {
     Recorder backend;
     Graph graph;
     const TextureHandle secret = draw(graph, "other", "secret");
@@ -225,7 +225,7 @@ TEST(Execution, handleThatThePassDidNotDeclareIsNeverResolved) {
         "pass 'broken': asked for version 1 of 'secret', which it did not declare; read or write it in its setup");
 }
 
-TEST(Execution, versionThatThePassDidNotDeclareIsNeverResolved) {
+TEST(Execution, versionThatThePassDidNotDeclareIsNotResolved) {
     Recorder backend;
     Graph graph;
     const TextureHandle v1 = draw(graph, "opaque", "image");
@@ -242,14 +242,14 @@ TEST(Execution, versionThatThePassDidNotDeclareIsNeverResolved) {
               "pass 'peek': asked for version 2 of 'image', which it did not declare; read or write it in its setup");
 }
 
-TEST(Execution, invalidHandleIsNeverResolved) {
+TEST(Execution, invalidHandleIsNotResolved) {
     Recorder backend;
     Graph graph;
     failingPass(graph, [](const PassContext& context) { context.buffer(BufferHandle{}); });
     EXPECT_EQ(errorOfRun<std::logic_error>(graph, backend), "pass 'broken': asked for an invalid buffer handle");
 }
 
-TEST(Execution, failureAlwaysCarriesThePassNameAndKeepsItsKind) {
+TEST(Execution, failureCarriesThePassNameAndKeepsItsKind) {
     Recorder backend;
     Graph input;
     failingPass(input, [](const PassContext&) { throw InputError("wood.png is truncated"); });
@@ -262,7 +262,7 @@ TEST(Execution, failureAlwaysCarriesThePassNameAndKeepsItsKind) {
     EXPECT_EQ(errorOfRun<std::runtime_error>(odd, backend), "pass 'broken': an exception of unknown type");
 }
 
-TEST(Execution, passThatThrowsIsAlwaysEndedAndNothingRunsAfterIt) {
+TEST(Execution, passThatThrowsIsEndedAndNothingRunsAfterIt) {
     Recorder backend;
     Graph graph;
     failingPass(graph, [](const PassContext&) { throw std::runtime_error("no"); });
@@ -271,7 +271,7 @@ TEST(Execution, passThatThrowsIsAlwaysEndedAndNothingRunsAfterIt) {
     EXPECT_THAT(backend.calls, ElementsAre("allocate 0", "begin broken", "end broken"));
 }
 
-TEST(Execution, firstOfTwoFailuresIsAlwaysTheOneReported) {
+TEST(Execution, firstOfTwoFailuresIsTheOneReported) {
     Recorder backend;
     backend.failsAtEnd = true;
     Graph graph;
@@ -282,7 +282,7 @@ TEST(Execution, firstOfTwoFailuresIsAlwaysTheOneReported) {
     EXPECT_EQ(errorOfRun<std::runtime_error>(quiet, backend), "pass 'broken': GL_INVALID_OPERATION");
 }
 
-TEST(Execution, importThatTheFrameUsesIsNeverMissing) {
+TEST(Execution, importThatTheFrameUsesIsNotMissing) {
     Recorder backend;
     const int place = 0;
     const auto errorOf = [&](const gpu::Texture* history, const gpu::Buffer* lights) {
@@ -302,7 +302,7 @@ TEST(Execution, importThatTheFrameUsesIsNeverMissing) {
     EXPECT_EQ(errorOf(&standIn<gpu::Texture>(place), nullptr), "no error") << "the lights are not used";
 }
 
-TEST(Execution, onlyOutputsAreEverHandedOutAfterTheRun) {
+TEST(Execution, onlyOutputsAreHandedOutAfterTheRun) {
     Recorder backend;
     Graph graph;
     const TextureHandle gbuffer = draw(graph, "gbuffer", "normal");
@@ -346,7 +346,7 @@ ProgramDesc programNamed(const std::string& name) {
     return desc;
 }
 
-TEST(Execution, aPassIsAlwaysGivenItsOwnProgramsInTheOrderOfTheirDeclaration) {
+TEST(Execution, aPassIsGivenItsOwnProgramsInTheOrderOfTheirDeclaration) {
     Recorder backend;
     Programs programs;
     Graph graph;
@@ -373,7 +373,7 @@ TEST(Execution, aPassIsAlwaysGivenItsOwnProgramsInTheOrderOfTheirDeclaration) {
     EXPECT_THAT(programs.asked, ElementsAre("transparent", "opaque"));
 }
 
-TEST(Execution, aProgramThatAPassDidNotDeclareIsAlwaysRefused) {
+TEST(Execution, aProgramThatAPassDidNotDeclareIsRefused) {
     Recorder backend;
     Graph undeclared;
     failingPass(undeclared, [](const PassContext& context) { context.program(); });
@@ -390,7 +390,7 @@ TEST(Execution, aProgramThatAPassDidNotDeclareIsAlwaysRefused) {
     EXPECT_EQ(errorOfRun<std::logic_error>(without, backend), "pass 'lost': the execution was given no programs");
 }
 
-TEST(Execution, aPassAlwaysRasterisesIntoExactlyWhatItDeclared) {
+TEST(Execution, aPassRasterisesIntoItsDeclaredTargets) {
     Recorder backend;
     Graph graph;
     const TextureHandle input = draw(graph, "before", "input");
@@ -417,7 +417,7 @@ TEST(Execution, aPassAlwaysRasterisesIntoExactlyWhatItDeclared) {
               "pass 'broken': binds its targets and declared none; create or write an attachment in its setup");
 }
 
-TEST(Execution, constantsAlwaysGoWithTheProgramsOfTheirPass) {
+TEST(Execution, constantsGoWithTheProgramsOfTheirPass) {
     Recorder backend;
     Programs programs;
     Graph graph;
@@ -444,7 +444,7 @@ Graph shadowedFrame(bool holds) {
     return graph;
 }
 
-TEST(Execution, whatLivesAcrossFramesHoldsItsRevisionOnlyOnceTheFrameHasEnded) {
+TEST(Execution, aPersistentResourceGetsItsRevisionAtTheEndOfTheFrame) {
     Recorder backend;
     const Graph first = shadowedFrame(false);
     const CompiledGraph compiled = compile(first);
@@ -462,7 +462,7 @@ TEST(Execution, whatLivesAcrossFramesHoldsItsRevisionOnlyOnceTheFrameHasEnded) {
     EXPECT_THAT(backend.calls, testing::Not(testing::Contains("shadows holds 7")));
 }
 
-TEST(Execution, anOutputThatIsHeldIsThereThoughNoPassTouchesIt) {
+TEST(Execution, aHeldOutputIsAvailableWithoutAWriter) {
     Recorder backend;
     Graph graph;
     const TextureHandle shadows = graph.persist("shadows", kDepth, 7, true);
@@ -473,7 +473,7 @@ TEST(Execution, anOutputThatIsHeldIsThereThoughNoPassTouchesIt) {
     EXPECT_EQ(&execution.texture(shadows), &standIn<gpu::Texture>(backend.places.back()));
 }
 
-TEST(Execution, whatIsNotHeldYetIsNeverReadUnwritten) {
+TEST(Execution, aPersistentResourceIsNotReadBeforeItsFirstWrite) {
     Graph graph;
     const TextureHandle shadows = graph.persist("shadows", kDepth, 7, false);
     graph.output(draw(graph, "shade", "image", {shadows}));

@@ -8,7 +8,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(Faults, staleWriteIsAlwaysNamedWithBothWriters) {
+TEST(Faults, staleWriteIsNamedWithBothWriters) {
     Graph graph;
     const TextureHandle v1 = draw(graph, "opaque", "image");
     const TextureHandle v2 = blend(graph, "fog", v1);
@@ -19,7 +19,7 @@ TEST(Faults, staleWriteIsAlwaysNamedWithBothWriters) {
                             "written it (two writers of one version); write the handle that pass 'bloom' returned"));
 }
 
-TEST(Faults, twoWritersOfAnImportAreAlwaysReported) {
+TEST(Faults, twoWritersOfAnImportAreReported) {
     Graph graph;
     const BufferHandle history = graph.import("history", kBytes);
     for (const char* name : {"a", "b"})
@@ -29,7 +29,7 @@ TEST(Faults, twoWritersOfAnImportAreAlwaysReported) {
                             "(two writers of one version); write the handle that pass 'a' returned"));
 }
 
-TEST(Faults, versionThatNobodyProducesIsAlwaysReported) {
+TEST(Faults, aVersionWithoutAProducerIsReported) {
     Graph graph;
     const TextureHandle image = draw(graph, "opaque", "image");
     consume(graph, "show", {TextureHandle{image.resource, 7}});
@@ -52,7 +52,7 @@ TEST(Faults, importNeverNeedsAProducer) {
     EXPECT_THAT(faultsOf(graph), IsEmpty());
 }
 
-TEST(Faults, invalidHandleIsAlwaysNamedWithItsPass) {
+TEST(Faults, invalidHandleIsNamedWithItsPass) {
     Graph graph;
     declare(graph, "lighting", [](PassBuilder& builder) {
         builder.read(TextureHandle{});
@@ -75,7 +75,7 @@ TEST(Faults, invalidHandleIsAlwaysNamedWithItsPass) {
                     "the frame outputs an invalid buffer handle: it was default-constructed and never filled in"));
 }
 
-TEST(Faults, handleOfAnotherGraphIsAlwaysReported) {
+TEST(Faults, handleOfAnotherGraphIsReported) {
     Graph other;
     draw(other, "a", "a");
     const TextureHandle stranger = draw(other, "b", "b");
@@ -87,7 +87,7 @@ TEST(Faults, handleOfAnotherGraphIsAlwaysReported) {
                             "pass 'show' reads 'lights' by a texture handle, but it is a buffer"));
 }
 
-TEST(Faults, expectationThatIsNotMetIsAlwaysReported) {
+TEST(Faults, expectationThatIsNotMetIsReported) {
     Graph graph;
     const TextureHandle image = draw(graph, "opaque", "image");
     declare(graph, "tonemap", [&](PassBuilder& builder) {
@@ -104,7 +104,7 @@ TEST(Faults, expectationThatIsNotMetIsAlwaysReported) {
                             "pass 'tonemap' expects 'image' to have size any x 31, but it has 64 x 32"));
 }
 
-TEST(Faults, accessThatTheFormatForbidsIsAlwaysReported) {
+TEST(Faults, accessThatTheFormatForbidsIsReported) {
     Graph graph;
     declare(graph, "p", [](PassBuilder& builder) {
         const TextureHandle color = builder.create("color", kColor, Access::DepthAttachment);
@@ -127,7 +127,7 @@ TEST(Faults, accessThatTheFormatForbidsIsAlwaysReported) {
                             "pass 'p' reads 'depth' as ImageRead, but D32F is no image format of OpenGL; use Sampled"));
 }
 
-TEST(Faults, accessOfTheOtherKindIsAlwaysReported) {
+TEST(Faults, accessOfTheOtherKindIsReported) {
     Graph graph;
     declare(graph, "p", [](PassBuilder& builder) {
         const TextureHandle color = builder.create("color", kColor, Access::StorageWrite);
@@ -144,7 +144,7 @@ TEST(Faults, accessOfTheOtherKindIsAlwaysReported) {
                     "pass 'p' reads 'lights' as Sampled, but it is a buffer, and that access is of textures"));
 }
 
-TEST(Faults, accessInTheWrongDirectionIsAlwaysReported) {
+TEST(Faults, accessInTheWrongDirectionIsReported) {
     Graph graph;
     declare(graph, "p", [](PassBuilder& builder) {
         const TextureHandle color = builder.create("color", kColor, Access::Sampled);
@@ -155,7 +155,7 @@ TEST(Faults, accessInTheWrongDirectionIsAlwaysReported) {
                             "pass 'p' reads 'color' as Upload, which is an access for writing; use write()"));
 }
 
-TEST(Faults, attachmentsThatDifferInSizeOrSamplesAreAlwaysReported) {
+TEST(Faults, attachmentsThatDifferInSizeOrSamplesAreReported) {
     Graph graph;
     declare(graph, "gbuffer", [](PassBuilder& builder) {
         builder.create("normal", kColor);
@@ -170,7 +170,7 @@ TEST(Faults, attachmentsThatDifferInSizeOrSamplesAreAlwaysReported) {
                                              "samples), which must be equal in size and samples"));
 }
 
-TEST(Faults, twoDepthTexturesOrOneAttachedTwiceAreAlwaysReported) {
+TEST(Faults, twoDepthTexturesOrOneAttachedTwiceAreReported) {
     Graph graph;
     const TextureHandle first = draw(graph, "prepass", "depth", {}, kDepth);
     declare(graph, "shade", [&](PassBuilder& builder) {
@@ -197,7 +197,7 @@ TEST(Faults, twoLayersOfOneDepthArrayInAPassAreReported) {
                 ElementsAre("pass 'cascades' attaches two depth textures or parts, of 'shadows' and 'shadows'"));
 }
 
-TEST(Faults, whatLivesOutsideTheFrameHasANameOfItsOwnAndNeverGrows) {
+TEST(Faults, resourcesOutsideTheFrameHaveUniqueNamesAndDoNotGrow) {
     Graph graph;
     graph.import("lights", BufferDesc{16, true});
     graph.persist("history", kColor, 1, true);
@@ -210,7 +210,7 @@ TEST(Faults, whatLivesOutsideTheFrameHasANameOfItsOwnAndNeverGrows) {
 constexpr TextureDesc kAtlas{
     .format = Format::Rgba16Float, .width = 64, .height = 32, .levels = 3, .layers = 4, .shape = Shape::Array};
 
-TEST(Faults, partThatATextureLacksIsAlwaysReported) {
+TEST(Faults, partThatATextureLacksIsReported) {
     Graph graph;
     declare(graph, "p", [](PassBuilder& builder) {
         const TextureHandle atlas = builder.create("atlas", kAtlas, Access::ColorAttachment, {3, 0});
@@ -223,7 +223,7 @@ TEST(Faults, partThatATextureLacksIsAlwaysReported) {
                                        "pass 'p' reads level 0, layer 4 of 'atlas', which has 3 and 4"}));
 }
 
-TEST(Faults, layersOfOneTextureMayAlwaysBeAttachedTogether) {
+TEST(Faults, layersOfOneTextureMayBeAttachedTogether) {
     Graph graph;
     declare(graph, "p", [](PassBuilder& builder) {
         const TextureHandle first = builder.create("atlas", kAtlas, Access::ColorAttachment, {1, 0});
@@ -235,7 +235,7 @@ TEST(Faults, layersOfOneTextureMayAlwaysBeAttachedTogether) {
     EXPECT_THAT(faultsOf(graph), ElementsAre("pass 'p' attaches 'atlas' twice"));
 }
 
-TEST(Faults, shapeThatNoTextureCanHaveIsAlwaysReported) {
+TEST(Faults, shapeThatNoTextureCanHaveIsReported) {
     const auto faultOf = [](const TextureDesc& desc) {
         Graph graph;
         graph.import("t", desc);
@@ -254,12 +254,12 @@ TEST(Faults, shapeThatNoTextureCanHaveIsAlwaysReported) {
               "and one layer");
 }
 
-TEST(Faults, bytesOfATextureAreAlwaysThoseOfAllItsLevelsAndLayers) {
+TEST(Faults, bytesOfATextureAreThoseOfAllItsLevelsAndLayers) {
     EXPECT_EQ(descBytes(kAtlas), std::size_t(64 * 32 + 32 * 16 + 16 * 8) * 4 * 8);
     EXPECT_EQ(descBytes(TextureDesc{.format = Format::R8Uint, .width = 5, .height = 1, .levels = 3}), 5u + 2u + 1u);
 }
 
-TEST(Faults, samplingWhatIsDrawnIntoIsAlwaysReported) {
+TEST(Faults, samplingARenderTargetIsReported) {
     Graph graph;
     const TextureHandle image = draw(graph, "opaque", "image");
     declare(graph, "fog", [&](PassBuilder& builder) {
@@ -269,7 +269,7 @@ TEST(Faults, samplingWhatIsDrawnIntoIsAlwaysReported) {
     EXPECT_THAT(faultsOf(graph), ElementsAre("pass 'fog' samples 'image' while it draws into it"));
 }
 
-TEST(Faults, depthThatIsTestedMayAlwaysBeSampledToo) {
+TEST(Faults, depthThatIsTestedMayBeSampledToo) {
     Graph graph;
     const TextureHandle depth = draw(graph, "prepass", "depth", {}, kDepth);
     declare(graph, "fog", [&](PassBuilder& builder) {
@@ -280,7 +280,7 @@ TEST(Faults, depthThatIsTestedMayAlwaysBeSampledToo) {
     EXPECT_THAT(faultsOf(graph), IsEmpty());
 }
 
-TEST(Faults, emptyResourceIsAlwaysNamedWithItsOrigin) {
+TEST(Faults, emptyResourceIsNamedWithItsOrigin) {
     Graph graph;
     graph.import("window", TextureDesc{.format = Format::Rgba8Unorm, .width = 0, .height = 720});
     declare(graph, "cull", [](PassBuilder& builder) {
@@ -295,7 +295,7 @@ TEST(Faults, emptyResourceIsAlwaysNamedWithItsOrigin) {
                             "samples must be at least 1"));
 }
 
-TEST(Faults, staleOutputIsAlwaysReportedAlsoWhenItsWriterWouldBeCulled) {
+TEST(Faults, staleOutputIsReportedAlsoWhenItsWriterWouldBeCulled) {
     Graph graph;
     const TextureHandle image = draw(graph, "opaque", "image");
     blend(graph, "overlay", image);
@@ -304,7 +304,7 @@ TEST(Faults, staleOutputIsAlwaysReportedAlsoWhenItsWriterWouldBeCulled) {
                                              "writes over it"));
 }
 
-TEST(Faults, allOfThemAreAlwaysListedAtOnce) {
+TEST(Faults, allOfThemAreListedAtOnce) {
     Graph graph;
     const TextureHandle image = draw(graph, "opaque", "image");
     const TextureHandle whole = blend(graph, "fog", image);
@@ -320,11 +320,11 @@ TEST(Faults, allOfThemAreAlwaysListedAtOnce) {
     }
 }
 
-TEST(Faults, singleFaultIsAlwaysOneLine) {
+TEST(Faults, singleFaultIsOneLine) {
     EXPECT_STREQ(GraphError({"pass 'a' is odd"}).what(), "the render graph is faulty: pass 'a' is odd");
 }
 
-TEST(Faults, shapeOfAnInvalidHandleIsNeverGuessed) {
+TEST(Faults, shapeOfAnInvalidHandleIsNotGuessed) {
     Graph graph;
     const BufferHandle lights = graph.import("lights", kBytes);
     EXPECT_THROW(graph.desc(TextureHandle{}), std::logic_error);

@@ -66,7 +66,7 @@ Plan examplePlan() {
     return plan;
 }
 
-TEST(Plan, textIsAlwaysExactlyThis) {
+TEST(Plan, textIsExactlyThis) {
     EXPECT_EQ(planText(examplePlan()), R"(lattice, tiled_deferred: 6 passes run, 2 things left out
 44.0 KiB of memory, 60.0 KiB without aliasing
 
@@ -119,13 +119,13 @@ TEST(Plan, textNeverExceedsAHundredColumns) {
     EXPECT_THAT(planText(plan), HasSubstr("12.35"));
 }
 
-TEST(Plan, emptyFrameIsAlwaysTold) {
+TEST(Plan, emptyFrameIsTold) {
     EXPECT_EQ(planText(Plan{}), "0 passes run, 0 things left out\n0 B of memory, 0 B without aliasing\n");
     EXPECT_EQ(json::parse(planJson(Plan{})).at("passes").size(), 0u);
     EXPECT_THAT(planDot(Plan{}), HasSubstr("digraph frame"));
 }
 
-TEST(Plan, jsonAlwaysHasTheFieldsOfTheDocumentation) {
+TEST(Plan, jsonHasTheFieldsOfTheDocumentation) {
     const json plan = json::parse(planJson(examplePlan()));
     const auto sortedKeys = [](const json& object) {
         std::vector<std::string> names;
@@ -164,7 +164,7 @@ TEST(Plan, jsonAlwaysHasTheFieldsOfTheDocumentation) {
     EXPECT_EQ(plan["bytesWithoutAliasing"], 16384 * 3 + 8192 + 4096);
 }
 
-TEST(Plan, jsonAlwaysKeepsItsOrderAndMeasuredTimes) {
+TEST(Plan, jsonKeepsItsOrderAndMeasuredTimes) {
     Plan plan = examplePlan();
     plan.passes[0].ms = 1.5;
     plan.leftOut[0].ms = 0.25;
@@ -182,7 +182,7 @@ TEST(Plan, bytesThatAreNotUtf8NeverBreakTheJson) {
     EXPECT_EQ(json::parse(planJson(plan))["scene"], "caf\xef\xbf\xbd.gltf");
 }
 
-TEST(Plan, namesThatAreTakenAlwaysGetANumber) {
+TEST(Plan, namesThatAreTakenGetANumber) {
     Graph graph;
     const TextureHandle a = draw(graph, "down", "blur");
     graph.output(draw(graph, "up", "blur", {a}));
@@ -191,7 +191,7 @@ TEST(Plan, namesThatAreTakenAlwaysGetANumber) {
     EXPECT_THAT(plan.passes[1].writes, ElementsAre("blur (2)"));
 }
 
-TEST(Plan, whatAPassReadsBackFromItselfIsNeverAnInput) {
+TEST(Plan, aPassesOwnOutputIsNoInput) {
     Graph graph;
     declare(graph, "bin", [](PassBuilder& builder) {
         builder.read(builder.create("counts", kBytes), Access::StorageRead);
@@ -202,7 +202,7 @@ TEST(Plan, whatAPassReadsBackFromItselfIsNeverAnInput) {
     EXPECT_THAT(plan.passes[0].writes, ElementsAre("counts"));
 }
 
-TEST(Plan, drawingAlwaysShowsEachVersionOnceAndNeverRunsBackwards) {
+TEST(Plan, drawingShowsEachVersionOnceAndNeverRunsBackwards) {
     const std::string dot = planDot(examplePlan());
     // The numbers follow the order of drawing: normal, depth, lists, ao, radiance, radiance after fog, bright, window.
     EXPECT_THAT(dot, HasSubstr("pass0 -> resource1;"));
@@ -214,7 +214,7 @@ TEST(Plan, drawingAlwaysShowsEachVersionOnceAndNeverRunsBackwards) {
     EXPECT_THAT(dot, Not(HasSubstr("resource5 -> pass5;")));
 }
 
-TEST(Plan, drawingAlwaysDashesWhatWasLeftOut) {
+TEST(Plan, omittedPassesAreDashed) {
     const std::string dot = planDot(examplePlan());
     EXPECT_THAT(dot, HasSubstr(R"(leftOut0 [label=<<B>pass occlusion</B><BR/><FONT POINT-SIZE="9">nobody needs 'ao')"
                                R"(</FONT>>, shape=box, style=dashed)"));
@@ -223,7 +223,7 @@ TEST(Plan, drawingAlwaysDashesWhatWasLeftOut) {
     EXPECT_THAT(dot, HasSubstr("leftOut1 [label=<<B>channel tangent</B>"));
 }
 
-TEST(Plan, drawingAlwaysShowsTheFlowAmongLeftOutPasses) {
+TEST(Plan, drawingShowsTheFlowAmongLeftOutPasses) {
     Graph graph;
     const TextureHandle image = draw(graph, "shade", "image");
     graph.output(draw(graph, "copy", "shown", {image}));
@@ -239,7 +239,7 @@ TEST(Plan, drawingAlwaysShowsTheFlowAmongLeftOutPasses) {
     EXPECT_THAT(dot, HasSubstr("resource1 -> pass1;"));
 }
 
-TEST(Plan, drawingAlwaysTintsExactlySharedMemory) {
+TEST(Plan, drawingTintsExactlySharedMemory) {
     const std::string dot = planDot(examplePlan());
     const auto tintOf = [&](const std::string& node) {
         const std::size_t at = dot.find("fillcolor=", dot.find("  " + node + " ["));
@@ -250,13 +250,13 @@ TEST(Plan, drawingAlwaysTintsExactlySharedMemory) {
     EXPECT_EQ(tintOf("resource5"), tintOf("resource3"));
 }
 
-TEST(Plan, namesAreAlwaysEscapedInTheDrawing) {
+TEST(Plan, namesAreEscapedInTheDrawing) {
     Plan plan;
     plan.passes.push_back({.name = "a<b> & \"c\"", .reads = {}, .writes = {}, .ms = {}});
     EXPECT_THAT(planDot(plan), HasSubstr("a&lt;b&gt; &amp; &quot;c&quot;"));
 }
 
-TEST(Plan, bytesAreAlwaysReadable) {
+TEST(Plan, bytesAreReadable) {
     EXPECT_EQ(readableBytes(0), "0 B");
     EXPECT_EQ(readableBytes(1023), "1023 B");
     EXPECT_EQ(readableBytes(1024), "1.0 KiB");
@@ -266,7 +266,7 @@ TEST(Plan, bytesAreAlwaysReadable) {
     EXPECT_EQ(readableBytes(std::size_t(5) << 30), "5.0 GiB");
 }
 
-TEST(Table, charactersAreAlwaysCountedAndNeverBytes) {
+TEST(Table, charactersAreCountedAndNeverBytes) {
     Table table(12);
     table.addColumn("a");
     table.addColumn("b", Table::Align::Right);
@@ -275,7 +275,7 @@ TEST(Table, charactersAreAlwaysCountedAndNeverBytes) {
     EXPECT_EQ(table.text(), "  a        b\n  \u00e9\u00e9       1\n  one     22\n  two\n  six\n");
 }
 
-TEST(Table, wordLongerThanALineIsAlwaysCut) {
+TEST(Table, wordLongerThanALineIsCut) {
     EXPECT_THAT(wrapText("ab cdefgh i", 3), ElementsAre("ab", "cde", "fgh", "i"));
     EXPECT_THAT(wrapText("", 3), ElementsAre(""));
 }

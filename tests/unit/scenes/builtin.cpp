@@ -147,7 +147,7 @@ TEST_P(BuiltinScenes, areAlwaysChargedBeforeTheyAreMadeAndForNoLessThanTheyTake)
                     builtin.name, sizeText(builtin.bytes), sizeText(builtin.bytes - 1)));
 }
 
-TEST(BuiltinMemory, lightsThatABuiltinSceneIsAskedForAreAlwaysChargedBeforeTheyAreMade) {
+TEST(BuiltinMemory, lightsThatABuiltinSceneIsAskedForAreChargedBeforeTheyAreMade) {
     LoadOptions options;
     options.lights = kMostLights;
     options.memoryLimitBytes = builtinScene("lattice")->bytes + 1000;
@@ -172,7 +172,7 @@ double power(int count) {
     return sum;
 }
 
-TEST(Hall, alwaysHasWhatItIsKnownFor) {
+TEST(Hall, hasItsStatedSizeAndLights) {
     const Scene scene = underLedger(builtin::makeHall, withoutAssets());
     EXPECT_GE(triangleCount(scene), 200000u);
     EXPECT_GE(scene.materials.size(), 8u);
@@ -202,7 +202,7 @@ TEST(Hall, brightnessNeverDependsOnTheNumberOfLights) {
     EXPECT_NEAR(power(65536), usual, 1e-5 * usual);
 }
 
-TEST(Hall, askedForNumberOfLightsIsAlwaysExactlyMade) {
+TEST(Hall, askedForNumberOfLightsIsExactlyMade) {
     for (const int count : {0, 1, 255, 257, 4097, 65536}) {
         Scene scene;
         builtin::hall::addPointLights(scene, count);
@@ -212,7 +212,7 @@ TEST(Hall, askedForNumberOfLightsIsAlwaysExactlyMade) {
     EXPECT_EQ(underLedger(builtin::makeHall, withLights(3)).lights.size(), 4u) << "and the sky";
 }
 
-TEST(Spheres, alwaysSpanRoughnessAndMetalness) {
+TEST(Spheres, spanRoughnessAndMetalness) {
     const Scene scene = underLedger(builtin::makeSpheres, withoutAssets());
     int spheres = 0;
     for (const Material& material : scene.materials) {
@@ -223,7 +223,7 @@ TEST(Spheres, alwaysSpanRoughnessAndMetalness) {
     EXPECT_EQ(underLedger(builtin::makeSpheres, withLights(2)).lights.size(), 2u);
 }
 
-TEST(Models, alwaysShowEveryModelMaskingAndLayerSomeOfThemTextured) {
+TEST(Models, showEveryModelMaskingAndLayerSomeOfThemTextured) {
     const Scene scene = underLedger(builtin::makeModels, withoutAssets());
     std::set<MaterialModel> models;
     std::set<Masking> maskings;
@@ -249,7 +249,7 @@ TEST(Models, alwaysShowEveryModelMaskingAndLayerSomeOfThemTextured) {
     EXPECT_EQ(underLedger(builtin::makeModels, withLights(2)).lights.size(), 2u);
 }
 
-TEST(Head, generatedBustAlwaysHasObjectSpaceNormals) {
+TEST(Head, generatedBustHasObjectSpaceNormals) {
     const Scene scene = underLedger(builtin::makeHead, withoutAssets());
     const Material* bust = nullptr;
     for (const Material& material : scene.materials) {
@@ -267,7 +267,7 @@ TEST(Head, generatedBustAlwaysHasObjectSpaceNormals) {
     }
 }
 
-TEST(Head, objectSpaceNormalsAlwaysAgreeWithTheMeshTheyRefine) {
+TEST(Head, objectSpaceNormalsAgreeWithTheMeshTheyRefine) {
     const Scene scene = underLedger(builtin::makeHead, withoutAssets());
     const auto bust =
         std::find_if(scene.meshes.begin(), scene.meshes.end(), [](const Mesh& m) { return m.name == "bust"; });

@@ -27,12 +27,12 @@ std::string verdict(const std::function<void(Scene&)>& spoil) {
     return "";
 }
 
-TEST(CheckScene, soundSceneAlwaysPasses) {
+TEST(CheckScene, soundScenePasses) {
     EXPECT_EQ(verdict([](Scene&) {}), "");
     EXPECT_EQ(verdict([](Scene& s) { s = Scene(); }), "");
 }
 
-TEST(CheckScene, messageAlwaysNamesSceneAndElement) {
+TEST(CheckScene, messageNamesSceneAndElement) {
     EXPECT_EQ(verdict([](Scene& s) { s.nodes[0].instances[0].mesh = 7; }),
               "scene 'tiny': node 0 'root': refers to mesh 7, but the scene has 1");
     EXPECT_EQ(verdict([](Scene& s) { s.nodes[0].instances[0].material = kNone; }),
@@ -67,7 +67,7 @@ TEST(CheckScene, aNameThatNoMessageCanShowIsRefused) {
                   "': a scene has a name of 4097 bytes, and at most 4096 can be used; shorten it");
 }
 
-TEST(CheckScene, eachBrokenRuleIsAlwaysReported) {
+TEST(CheckScene, eachBrokenRuleIsReported) {
     using testing::HasSubstr;
     const std::vector<std::pair<const char*, std::function<void(Scene&)>>> cases = {
         {"both must be positive", [](Scene& s) { s.images.emplace_back(); }},
@@ -176,7 +176,7 @@ TEST(CheckScene, eachBrokenRuleIsAlwaysReported) {
     for (const auto& [text, spoil] : cases) EXPECT_THAT(verdict(spoil), HasSubstr(text));
 }
 
-TEST(CheckScene, extremesThatAreAllowedAlwaysPass) {
+TEST(CheckScene, extremesThatAreAllowedPass) {
     EXPECT_EQ(verdict([](Scene& s) {
                   Light& light = s.lights[0];
                   light.type = LightType::Spot;

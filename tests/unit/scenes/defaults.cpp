@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kDefaultsRounding = 1e-12; // a dozen operations in double on numbers near 10
 
-TEST(DefaultCamera, alwaysSeesTheBoundsFromTheSpecifiedPlace) {
+TEST(DefaultCamera, seesTheBoundsFromTheSpecifiedPlace) {
     Scene scene = tinyScene();
     addDefaultCamera(scene);
     ASSERT_EQ(scene.cameras.size(), 1u);
@@ -33,7 +33,7 @@ TEST(DefaultCamera, alwaysSeesTheBoundsFromTheSpecifiedPlace) {
     checkScene(scene);
 }
 
-TEST(DefaultCamera, emptyAndPointSizedScenesAlwaysGetOneToo) {
+TEST(DefaultCamera, emptyAndPointSizedScenesGetOneToo) {
     Scene empty;
     addDefaultCamera(empty);
     ASSERT_EQ(empty.cameras.size(), 1u);
@@ -52,7 +52,7 @@ TEST(DefaultCamera, neverReplacesTheAuthors) {
     EXPECT_TRUE(scene.warnings.empty());
 }
 
-TEST(DefaultLight, alwaysShinesAlongTheViewedCamera) {
+TEST(DefaultLight, shinesAlongTheViewedCamera) {
     Scene scene = tinyScene();
     scene.cameras.emplace_back().name = "front";
     Camera& side = scene.cameras.emplace_back();
@@ -78,7 +78,7 @@ TEST(DefaultLight, alwaysShinesAlongTheViewedCamera) {
     EXPECT_EQ(scene.lights[0].directionWS, glm::dvec3(-1.0, 0.0, 0.0));
 }
 
-TEST(DefaultLight, isAlwaysTurnedAlongTheCameraThatIsDrawnAndAnAuthorsLightNever) {
+TEST(DefaultLight, isTurnedAlongTheCameraThatIsDrawnAndAnAuthorsLightNever) {
     Scene scene = tinyScene();
     scene.cameras.emplace_back();
     Camera side; // looks along -X
@@ -96,7 +96,7 @@ TEST(DefaultLight, isAlwaysTurnedAlongTheCameraThatIsDrawnAndAnAuthorsLightNever
     EXPECT_EQ(lit.lights.at(0).directionWS, glm::dvec3(0.0, -1.0, 0.0));
 }
 
-TEST(DefaultLight, alwaysShinesUnlessThereAreLightsOrEverythingInUseIsUnlit) {
+TEST(DefaultLight, shinesUnlessThereAreLightsOrEverythingInUseIsUnlit) {
     const auto lightsOf = [](Scene scene) {
         scene.cameras.emplace_back();
         addDefaultLight(scene);

@@ -138,7 +138,7 @@ const std::vector<Change>& changes() {
     return table;
 }
 
-TEST(Fingerprint, aChangeOfAnyFieldAlwaysGivesAnotherOne) {
+TEST(Fingerprint, aChangeOfAnyFieldGivesAnotherOne) {
     std::set<std::uint64_t> seen{fingerprint(sceneOfEverything())};
     for (const Change& change : changes()) {
         Scene scene = sceneOfEverything();
@@ -147,7 +147,7 @@ TEST(Fingerprint, aChangeOfAnyFieldAlwaysGivesAnotherOne) {
     }
 }
 
-TEST(Fingerprint, whatMovesFromOneListToTheNextAlwaysGivesAnotherOne) {
+TEST(Fingerprint, anElementMovedToAnotherListChangesTheFingerprint) {
     // Without the lengths between them, both would be the same bytes.
     Scene a = tinyScene(), b = tinyScene();
     a.materials[0].name = std::string("ab");
@@ -157,7 +157,7 @@ TEST(Fingerprint, whatMovesFromOneListToTheNextAlwaysGivesAnotherOne) {
     EXPECT_NE(fingerprint(a), fingerprint(b));
 }
 
-TEST(Fingerprint, equalScenesAndTheirWarningsAlwaysGiveTheSameOne) {
+TEST(Fingerprint, equalScenesAndTheirWarningsGiveTheSameOne) {
     Scene scene = sceneOfEverything();
     scene.warnings.push_back("the file has a feature that is left out");
     EXPECT_EQ(fingerprint(scene), fingerprint(sceneOfEverything()));

@@ -23,7 +23,7 @@ using test::TempFolder;
 using testing::AllOf;
 using testing::HasSubstr;
 
-TEST(Memory, aLimitThatIsNotGivenIsAlwaysHalfOfTheMachinesOrLess) {
+TEST(Memory, aLimitThatIsNotGivenIsHalfOfTheMachinesOrLess) {
     EXPECT_GE(defaultMemoryLimitBytes(), 64 * kMiB);
     const long machineBytes = sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
     EXPECT_LE(defaultMemoryLimitBytes(), static_cast<std::uint64_t>(machineBytes) / 2);
@@ -31,7 +31,7 @@ TEST(Memory, aLimitThatIsNotGivenIsAlwaysHalfOfTheMachinesOrLess) {
     EXPECT_EQ(sizeText(3 * kMiB / 2), "1.5 MiB");
 }
 
-TEST(Memory, theLimitOfAControlGroupIsAlwaysTheLeastOfItsOwnAndThoseAbove) {
+TEST(Memory, theLimitOfAControlGroupIsTheLeastOfItsOwnAndThoseAbove) {
     const TempFolder folder;
     const auto limitOf = [&](const std::string& membership) {
         return groupLimitBytes(folder.write("membership", membership), folder.path() / "groups");
@@ -49,7 +49,7 @@ TEST(Memory, theLimitOfAControlGroupIsAlwaysTheLeastOfItsOwnAndThoseAbove) {
     EXPECT_FALSE(limitOf("5:cpu:/user\nbroken\n"));
 }
 
-TEST(Memory, accessorsThatAreReadAgainAndAgainAreAlwaysCharged) {
+TEST(Memory, accessorsThatAreReadAgainAndAgainAreCharged) {
     // A few hundred bytes: one accessor of a million zeros, drawn by hundreds of primitives.
     Builder builder;
     builder.json["accessors"].push_back({{"componentType", 5126}, {"type", "VEC3"}, {"count", 1'000'000}});
@@ -63,7 +63,7 @@ TEST(Memory, accessorsThatAreReadAgainAndAgainAreAlwaysCharged) {
                              HasSubstr("memory limit")));
 }
 
-TEST(Memory, instancesAreAlwaysCharged) {
+TEST(Memory, instancesAreCharged) {
     Builder builder; // 2000 nodes of a mesh of 2000 primitives: 4 million instances
     for (int i = 0; i < 2000; ++i) builder.json["meshes"][0]["primitives"].push_back(builder.primitive());
     builder.json["nodes"] = gltf::test::Json::array();
@@ -89,14 +89,14 @@ std::string pictureBomb() {
     return png + std::string("\0\0\x10\0IDAT", 8) + std::string(4096, '\0');
 }
 
-TEST(Memory, picturesAreAlwaysChargedFromTheirHeader) {
+TEST(Memory, picturesAreChargedFromTheirHeader) {
     const TempFolder folder;
     const std::filesystem::path file = folder.write("bomb.png", pictureBomb());
     EXPECT_THAT(inputErrorOf([&] { underLedger(readImage, file, 64 * kMiB); }),
                 AllOf(HasSubstr("bomb.png: the picture of 8192x8192 texels"), HasSubstr("asks for 256.0 MiB")));
 }
 
-TEST(Memory, theFilesOfABuiltinSceneAreAlwaysChargedAndRecordedWithTheLoad) {
+TEST(Memory, theFilesOfABuiltinSceneAreChargedAndRecordedWithTheLoad) {
     const TempFolder folder;
     const tessera::test::AssetsFolder assets(folder.path().c_str());
     const std::string scan =
@@ -119,7 +119,7 @@ TEST(Memory, theFilesOfABuiltinSceneAreAlwaysChargedAndRecordedWithTheLoad) {
                 HasSubstr("albedo_2k.jpg: the picture of 8192x8192 texels: asks for 256.0 MiB of memory"));
 }
 
-TEST(Memory, aBuiltinSceneThatIsIncludedIsAlwaysChargedBeforeItIsMade) {
+TEST(Memory, aBuiltinSceneThatIsIncludedIsChargedBeforeItIsMade) {
     const TempFolder folder;
     const std::filesystem::path file =
         folder.write("s.json", R"({"tessera": 1, "include": [{"file": "builtin:hall"}]})");
@@ -128,7 +128,7 @@ TEST(Memory, aBuiltinSceneThatIsIncludedIsAlwaysChargedBeforeItIsMade) {
                       HasSubstr("may take 1.0 MiB")));
 }
 
-TEST(Memory, whatReadersWouldReserveAtOnceIsAlwaysLookedAtBefore) {
+TEST(Memory, claimedSizesAreCheckedBeforeReadersAllocate) {
     const TempFolder folder;
     const std::string gif("GIF89a\x20\x4e\x20\x4e\x80\0\0\0\0\0\0\0\0,\0\0\0\0\x20\x4e\x20\x4e\0\x02\x02\x4c\x01\0;",
                           35);
@@ -151,7 +151,7 @@ std::string refusalOfExr(const std::string& type, const std::string& sizeAndValu
     return error.substr(first, error.find(')') + 1 - first);
 }
 
-TEST(Memory, aValueOfAnExrHeaderIsNeverReservedUnlessTheFileHoldsIt) {
+TEST(Memory, aValueOfAnExrHeaderIsNotReservedUnlessTheFileHoldsIt) {
     const std::string twoGiB("\xff\xff\xff\x7f", 4), eight("\x08\0\0\0", 4);
     EXPECT_EQ(refusalOfExr("string", twoGiB + "abcd"),
               "(its attribute 'owner' of type string claims 2147483647 bytes where 4 are left)");
@@ -173,7 +173,7 @@ TEST(Memory, aValueOfAnExrHeaderIsNeverReservedUnlessTheFileHoldsIt) {
               "(its attribute 'owner' of type floatvector has 6 bytes: a number takes 4)");
 }
 
-TEST(Memory, whatAFileLeavesBehindIsAlwaysWhatItIsChargedFor) {
+TEST(Memory, aFileStaysChargedForItsRemainingMemory) {
     const SceneFolder folder;
     LoadLedger ledger(64 * kMiB);
     for (int i = 0; i < 1000; ++i) { // by far more in all than what one may take
@@ -183,7 +183,7 @@ TEST(Memory, whatAFileLeavesBehindIsAlwaysWhatItIsChargedFor) {
     }
 }
 
-TEST(Memory, copiesOfAnIncludeAreAlwaysChargedAndItsFileReadTwiceAtMost) {
+TEST(Memory, copiesOfAnIncludeAreChargedAndItsFileReadTwiceAtMost) {
     const SceneFolder folder;
     std::string big = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (int i = 0; i < 2000; ++i) big += "f 1 2 3\n";
@@ -198,7 +198,7 @@ TEST(Memory, copiesOfAnIncludeAreAlwaysChargedAndItsFileReadTwiceAtMost) {
                 AllOf(HasSubstr("scene.json: include"), HasSubstr("models/big.obj")));
 }
 
-TEST(Memory, whatIsKeptOfIncludesIsAlwaysChargedWhenTheirDocumentIsRead) {
+TEST(Memory, keptIncludesAreChargedWhenTheirDocumentIsRead) {
     const SceneFolder folder;
     std::string big;
     for (int i = 0; i < 200; ++i) big += fmt::format("v {0} 0 0\nv {0} 1 0\nv {0} 0 1\nf -3 -2 -1\n", i);
@@ -254,7 +254,7 @@ TEST(Memory, aParsedDocumentNeverTakesMoreThanItIsChargedFor) {
     }
 }
 
-TEST(Memory, whatNothingReadsOfAGltfFileIsNeverGivenToItsParser) {
+TEST(Memory, unusedPartsOfAGltfFileAreNotParsed) {
     Builder builder;
     builder.json["nodes"][0]["extras"] = {1, 2, 3};
     builder.json["nodes"][0]["extensions"]["EXT_unknown"] = {1, 2, 3};
@@ -267,7 +267,7 @@ TEST(Memory, whatNothingReadsOfAGltfFileIsNeverGivenToItsParser) {
     EXPECT_EQ(document.model.materials.at(0).pbrMetallicRoughness.extras.Type(), tinygltf::NULL_TYPE);
 }
 
-TEST(Memory, everyValueOfAnExtensionOfAGltfFileIsAlwaysCharged) {
+TEST(Memory, everyValueOfAnExtensionOfAGltfFileIsCharged) {
     Builder builder;
     builder.json["materials"] = gltf::test::Json::parse(R"([{"extensions": {"KHR_materials_ior": {"ior": 1.5}}}])");
     builder.json["materials"][0]["extensions"]["KHR_materials_ior"]["more"] = std::vector<int>(100'000, 0);
@@ -276,7 +276,7 @@ TEST(Memory, everyValueOfAnExtensionOfAGltfFileIsAlwaysCharged) {
                 HasSubstr("m.gltf: its extensions: asks for"));
 }
 
-TEST(Memory, aBufferThatIsTooLargeIsAlwaysNamedOnce) {
+TEST(Memory, aBufferThatIsTooLargeIsNamedOnce) {
     Builder builder;
     builder.json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + std::string(4 * kMiB, 'A');
     const TempFolder folder;
@@ -285,7 +285,7 @@ TEST(Memory, aBufferThatIsTooLargeIsAlwaysNamedOnce) {
                 testing::StartsWith(file.string() + ": /buffers/0: asks for"));
 }
 
-TEST(Memory, everyMeshOfAnObjFileIsAlwaysCharged) {
+TEST(Memory, everyMeshOfAnObjFileIsCharged) {
     const TempFolder folder;
     std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (int i = 0; i < 20'000; ++i) text += "g\nf 1 2 3\n";
@@ -293,7 +293,7 @@ TEST(Memory, everyMeshOfAnObjFileIsAlwaysCharged) {
     EXPECT_THAT(inputErrorOf([&] { underLedger(importObj, file, 32 * kMiB); }), HasSubstr("m.obj:"));
 }
 
-TEST(Memory, jsonAndObjTextsAreAlwaysCharged) {
+TEST(Memory, jsonAndObjTextsAreCharged) {
     const TempFolder folder;
     const std::filesystem::path json = folder.write(
         "s.json", R"({"tessera": 1, "lights": [)" + listOf(300'000, [](int) { return std::string("[]"); }) + "]}");

@@ -37,7 +37,7 @@ TEST(Lattice, hasExactlyTheSpecifiedCountsAndBounds) {
     }
 }
 
-TEST(Lattice, shapesPlacesAndMaterialsAlwaysFollowTheGrid) {
+TEST(Lattice, shapesPlacesAndMaterialsFollowTheGrid) {
     const Scene scene = lattice();
     std::array<std::array<bool, 16>, 16> seen{};
     for (const Node& node : scene.nodes) {
@@ -63,7 +63,7 @@ TEST(Lattice, shapesPlacesAndMaterialsAlwaysFollowTheGrid) {
     EXPECT_EQ(scene.materials[8].perceptualRoughness, 0.6f);
 }
 
-TEST(Lattice, sphereVerticesAlwaysLieOnTheSphereFromItsPole) {
+TEST(Lattice, sphereVerticesLieOnTheSphereFromItsPole) {
     const Scene scene = lattice();
     for (const Mesh& mesh : scene.meshes) {
         if (mesh.name != "sphere") continue;
@@ -76,7 +76,7 @@ TEST(Lattice, sphereVerticesAlwaysLieOnTheSphereFromItsPole) {
     }
 }
 
-TEST(Lattice, lightsAreAlwaysThoseOfTheIntegerGenerator) {
+TEST(Lattice, lightsAreThoseOfTheIntegerGenerator) {
     const Scene scene = lattice(8);
     ASSERT_EQ(scene.lights.size(), 8u);
     std::uint64_t state = 12345;
@@ -104,7 +104,7 @@ TEST(Lattice, lightsAreAlwaysThoseOfTheIntegerGenerator) {
               static_cast<double>(static_cast<float>(-10.0 + 20.0 * 87628868.0 / 4294967296.0)));
 }
 
-TEST(Lattice, moreLightsAlwaysBeginWithTheSameOnes) {
+TEST(Lattice, moreLightsBeginWithTheSameOnes) {
     const Scene few = lattice(16);
     const Scene many = lattice(65536);
     ASSERT_EQ(many.lights.size(), 65536u);

@@ -21,14 +21,14 @@ std::string complaint(const std::string& nameOrPath, const LoadOptions& options 
     return "";
 }
 
-TEST(LoadScene, unknownNamesAlwaysBringTheNearest) {
+TEST(LoadScene, unknownNamesBringTheNearest) {
     EXPECT_EQ(complaint("latice"), "no built-in scene or file is called 'latice'; did you mean 'lattice'?");
     EXPECT_EQ(
         complaint("quetzalcoatl"),
         "no built-in scene or file is called 'quetzalcoatl'; valid are hall, spheres, models, lattice, room, head");
 }
 
-TEST(LoadScene, missingAndForeignFilesAreAlwaysNamed) {
+TEST(LoadScene, missingAndForeignFilesAreNamed) {
     EXPECT_EQ(complaint("nowhere/scene.gltf"), "nowhere/scene.gltf: no such file; check the path");
     EXPECT_EQ(complaint("nowhere.obj"), "nowhere.obj: no such file; check the path");
     const test::TempFolder folder;
@@ -44,7 +44,7 @@ TEST(LoadScene, missingAndForeignFilesAreAlwaysNamed) {
     EXPECT_EQ(complaint(directory), directory + ": is a folder; give a .gltf, .glb, .obj or .json file");
 }
 
-TEST(LoadScene, numberOfLightsIsAlwaysFrom0ToTheMost) {
+TEST(LoadScene, numberOfLightsIsFrom0ToTheMost) {
     LoadOptions options;
     options.lights = -1;
     EXPECT_EQ(complaint("lattice", options), "cannot use -1 lights; give a number from 0 to 262144");
@@ -54,7 +54,7 @@ TEST(LoadScene, numberOfLightsIsAlwaysFrom0ToTheMost) {
     EXPECT_TRUE(loadScene("lattice", options).lights.empty()) << "who asks for none gets no default light either";
 }
 
-TEST(LoadScene, aBuiltinScenesOwnLightsAlwaysCountAmongThoseThatCanBeDrawn) {
+TEST(LoadScene, aBuiltinScenesOwnLightsCountAmongThoseThatCanBeDrawn) {
     LoadOptions options;
     options.lights = kMostLights;
     const Scene hall = loadScene("hall", options);
@@ -62,7 +62,7 @@ TEST(LoadScene, aBuiltinScenesOwnLightsAlwaysCountAmongThoseThatCanBeDrawn) {
     EXPECT_EQ(hall.lights.back().type, LightType::Directional) << "the sky stays";
 }
 
-TEST(LoadScene, aFileOfMoreLightsThanCanBeDrawnIsAlwaysRefusedUnlessItsFirstAreAskedFor) {
+TEST(LoadScene, aFileOfMoreLightsThanCanBeDrawnIsRefusedUnlessItsFirstAreAskedFor) {
     const test::TempFolder folder;
     std::string text = R"({"tessera": 1, "lights": [{"type": "point", "position": [0, 0, 0], "intensity": 1})";
     for (int i = 1; i <= kMostLights; ++i) text += R"(,{"type": "point", "position": [0, 0, 0], "intensity": 1})";
@@ -76,7 +76,7 @@ TEST(LoadScene, aFileOfMoreLightsThanCanBeDrawnIsAlwaysRefusedUnlessItsFirstAreA
     EXPECT_EQ(loadScene(file, options).lights.size(), std::size_t(kMostLights));
 }
 
-TEST(LoadScene, aStopThatWasAskedForIsAlwaysHeardBeforeAFileIsRead) {
+TEST(LoadScene, aRequestedStopTakesEffectBeforeAFileIsRead) {
     std::stop_source source;
     source.request_stop();
     LoadOptions options;
@@ -85,14 +85,14 @@ TEST(LoadScene, aStopThatWasAskedForIsAlwaysHeardBeforeAFileIsRead) {
     EXPECT_THROW(loadScene("room", options), LoadStopped);
 }
 
-TEST(LoadScene, aBuiltinSceneIsAlwaysFoundByItsExactName) {
+TEST(LoadScene, aBuiltinSceneIsFoundByItsExactName) {
     ASSERT_NE(builtinScene("room"), nullptr);
     EXPECT_EQ(builtinScene("room")->name, "room");
     EXPECT_EQ(builtinScene("Room"), nullptr);
     EXPECT_EQ(builtinScene("./room"), nullptr);
 }
 
-TEST(LoadScene, filesWithoutViewOrLightAlwaysGetTheDefaults) {
+TEST(LoadScene, filesWithoutViewOrLightGetTheDefaults) {
     const test::TempFolder folder;
     folder.write("triangle.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const std::string file = (folder.path() / "triangle.OBJ").string();
@@ -108,7 +108,7 @@ TEST(LoadScene, filesWithoutViewOrLightAlwaysGetTheDefaults) {
     EXPECT_TRUE(loadScene(file, options).lights.empty());
 }
 
-TEST(LoadScene, filesAlwaysKeepTheirFirstLights) {
+TEST(LoadScene, filesKeepTheirFirstLights) {
     const test::TempFolder folder;
     folder.write("lamps.json",
                  R"({"tessera": 1, "lights": [{"type": "point", "name": "a", "position": [0, 0, 0]},

@@ -47,7 +47,7 @@ Hit trace(const Scene& scene, const glm::dvec3& originWS, const glm::dvec3& dire
     return hit;
 }
 
-TEST(Room, closedFormAlwaysMatchesTheSceneAlongEveryRay) {
+TEST(Room, closedFormMatchesTheSceneAlongEveryRay) {
     const Scene scene = underLedger(makeRoom, LoadOptions{});
     int seen[kRoomMaterialCount] = {};
     for (const Camera& camera : scene.cameras) {
@@ -70,7 +70,7 @@ TEST(Room, closedFormAlwaysMatchesTheSceneAlongEveryRay) {
     for (std::size_t m = 0; m < kRoomMaterialCount; ++m) EXPECT_GT(seen[m], 0) << kRoomFinishes[m].name;
 }
 
-TEST(Room, radianceIsAlwaysTheInverseSquareTimesTheCosine) {
+TEST(Room, radianceIsTheInverseSquareTimesTheCosine) {
     // Straight below the lamp: d = 1.5 m, cos = 1.
     const glm::dvec3 below = roomRadiance({0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, RoomMaterial::Floor);
     EXPECT_DOUBLE_EQ(below.x, 0.5 * 1.5 / 2.25);
@@ -83,7 +83,7 @@ TEST(Room, radianceIsAlwaysTheInverseSquareTimesTheCosine) {
     EXPECT_EQ(roomRadiance({-0.5, 1.75, -2.99}, {0.0, 0.0, 1.0}, RoomMaterial::Sign), glm::dvec3(0.25, 0.5, 0.75));
 }
 
-TEST(Room, materialsAlwaysCarryTheFinishesNumbers) {
+TEST(Room, materialsCarryTheFinishesNumbers) {
     const Scene scene = underLedger(makeRoom, LoadOptions{});
     ASSERT_EQ(scene.materials.size(), kRoomMaterialCount);
     for (std::size_t i = 0; i < kRoomMaterialCount; ++i) {
@@ -99,7 +99,7 @@ TEST(Room, materialsAlwaysCarryTheFinishesNumbers) {
     EXPECT_EQ(scene.materials[static_cast<std::size_t>(RoomMaterial::Sign)].model, MaterialModel::SingleColor);
 }
 
-TEST(Room, anyNumberOfLightsAlwaysSharesTheOneLamp) {
+TEST(Room, anyNumberOfLightsSharesTheOneLamp) {
     LoadOptions options;
     options.lights = 8;
     const Scene scene = underLedger(makeRoom, options);

@@ -26,13 +26,13 @@ Light animatedLight(LightAnimationKind kind) {
     return light;
 }
 
-TEST(Scene, texelBytesAreAlwaysFourChannelsOfTheFormat) {
+TEST(Scene, texelBytesAreFourChannelsOfTheFormat) {
     EXPECT_EQ(texelBytes(TexelFormat::Rgba8Unorm), 4u);
     EXPECT_EQ(texelBytes(TexelFormat::Rgba16Unorm), 8u);
     EXPECT_EQ(texelBytes(TexelFormat::Rgba32Float), 16u);
 }
 
-TEST(Scene, childTransformsAreAlwaysAppliedBeforeTheirParents) {
+TEST(Scene, childTransformsAreAppliedBeforeTheirParents) {
     Scene scene = tinyScene();
     scene.nodes[0].parentFromNode = glm::scale(glm::dmat4(1.0), glm::dvec3(2.0));
     Node child;
@@ -57,7 +57,7 @@ TEST(Scene, boundsNeverCountVerticesThatNoTriangleUses) {
     EXPECT_TRUE(worldBounds(scene).empty());
 }
 
-TEST(LightAnimation, orbitAlwaysTurnsCounterClockwiseAroundItsAxis) {
+TEST(LightAnimation, orbitTurnsCounterClockwiseAroundItsAxis) {
     Light light = animatedLight(LightAnimationKind::Orbit);
     light.animation->centerWS = {1.0, 0.0, 0.0};
     light.animation->axisWS = {0.0, 5.0, 0.0}; // any length
@@ -69,14 +69,14 @@ TEST(LightAnimation, orbitAlwaysTurnsCounterClockwiseAroundItsAxis) {
     expectNear(lightAtTime(light, 0.0).positionWS, {1.0, 1.0, -2.0}, kRounding);
 }
 
-TEST(LightAnimation, wobbleAlwaysAddsAmplitudeTimesTheSineOfTheTime) {
+TEST(LightAnimation, wobbleAddsAmplitudeTimesTheSineOfTheTime) {
     Light light = animatedLight(LightAnimationKind::Wobble);
     light.animation->amplitudeMetres = {0.5, 1.0, 0.0};
     expectNear(lightAtTime(light, 1.0).positionWS, {3.5, 2.0, 0.0}, kRounding);
     expectNear(lightAtTime(light, 0.5).positionWS, {3.0 + 0.5 * std::sqrt(0.5), 1.0 + std::sqrt(0.5), 0.0}, kRounding);
 }
 
-TEST(LightAnimation, pathAlwaysRunsAtConstantSpeedAndCloses) {
+TEST(LightAnimation, pathRunsAtConstantSpeedAndCloses) {
     Light light = animatedLight(LightAnimationKind::Path);
     // Sides of 3, 4 and 5 m: 3 m a second.
     light.animation->pointsWS = {{0.0, 0.0, 0.0}, {3.0, 0.0, 0.0}, {3.0, 4.0, 0.0}};
@@ -88,7 +88,7 @@ TEST(LightAnimation, pathAlwaysRunsAtConstantSpeedAndCloses) {
     EXPECT_EQ(lightAtTime(light, 1.0).positionWS, glm::dvec3(1.0, 2.0, 3.0));
 }
 
-TEST(LightAnimation, keyframesAreAlwaysClampedAtTheirEnds) {
+TEST(LightAnimation, keyframesAreClampedAtTheirEnds) {
     Light light = animatedLight(LightAnimationKind::Keyframes);
     light.animation->timesSeconds = {1.0, 2.0, 4.0};
     light.animation->pointsWS = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 8.0, 0.0}};
@@ -99,7 +99,7 @@ TEST(LightAnimation, keyframesAreAlwaysClampedAtTheirEnds) {
     EXPECT_EQ(lightAtTime(light, 99.0).positionWS, glm::dvec3(1.0, 8.0, 0.0));
 }
 
-TEST(LightAnimation, anyTimeIsAlwaysTheSameModuloThePeriod) {
+TEST(LightAnimation, anyTimeIsTheSameModuloThePeriod) {
     Light light = animatedLight(LightAnimationKind::Orbit);
     // 2^40 s is a whole number of periods of 4 s, exactly representable with its fraction.
     expectNear(lightAtTime(light, std::ldexp(1.0, 40) + 1.25).positionWS, lightAtTime(light, 1.25).positionWS,

@@ -39,7 +39,7 @@ double volume(const Mesh& mesh) {
     return sum;
 }
 
-TEST(Shapes, boxAlwaysHasItsVolumeAndFacesOutwards) {
+TEST(Shapes, boxHasItsVolumeAndFacesOutwards) {
     Mesh mesh;
     appendBox(mesh, {1.0, -2.0, 0.5}, {2.0, 1.0, 4.5});
     expectMeshRules(mesh);
@@ -47,7 +47,7 @@ TEST(Shapes, boxAlwaysHasItsVolumeAndFacesOutwards) {
     EXPECT_EQ(mesh.indices.size(), 36u);
 }
 
-TEST(Shapes, sphereAlwaysNearsItsVolumeFromBelow) {
+TEST(Shapes, sphereNearsItsVolumeFromBelow) {
     Mesh mesh;
     appendSphere(mesh, {0.0, 1.0, 0.0}, 2.0, 96, 64);
     expectMeshRules(mesh);
@@ -56,14 +56,14 @@ TEST(Shapes, sphereAlwaysNearsItsVolumeFromBelow) {
     EXPECT_GT(volume(mesh), 0.995 * exact); // inscribed: short by about (2 pi / 96)^2 / 3
 }
 
-TEST(Shapes, latheOfAConeAlwaysHasItsVolumeAndOutwardNormals) {
+TEST(Shapes, latheOfAConeHasItsVolumeAndOutwardNormals) {
     Mesh mesh;
     appendLathe(mesh, Profile({0.0, 0.0}).lineTo({1.0, 0.0}).lineTo({0.0, 3.0}), 256);
     expectMeshRules(mesh);
     EXPECT_NEAR(volume(mesh), pi, 1e-3 * pi); // inscribed polygon of 256 sides: 1e-4 short
 }
 
-TEST(Shapes, archAlwaysSweepsTheUpperHalfCircle) {
+TEST(Shapes, archSweepsTheUpperHalfCircle) {
     Mesh mesh; // a band of radius 2, seen from inside, 0.5 m wide
     appendArch(mesh, Profile({2.0, 0.5}).lineTo({2.0, 0.0}), {0.0, 1.0, 0.0}, 256);
     expectMeshRules(mesh);
@@ -76,7 +76,7 @@ TEST(Shapes, archAlwaysSweepsTheUpperHalfCircle) {
     }
 }
 
-TEST(Shapes, mouldingAlwaysRunsAlongZ) {
+TEST(Shapes, mouldingRunsAlongZ) {
     Mesh mesh;
     appendMoulding(mesh, Profile({1.0, 0.0}).lineTo({1.0, 1.0}), -2.0, 3.0);
     expectMeshRules(mesh);
@@ -84,7 +84,7 @@ TEST(Shapes, mouldingAlwaysRunsAlongZ) {
     EXPECT_EQ(mesh.normalsOS[0], glm::vec3(1.0f, 0.0f, 0.0f));
 }
 
-TEST(Shapes, archedWallAlwaysHasTheAreaOfItsFacesAndSoffit) {
+TEST(Shapes, archedWallHasTheAreaOfItsFacesAndSoffit) {
     ArchedWall wall;
     wall.sillY = 1.0;
     wall.archSteps = 256;
@@ -96,7 +96,7 @@ TEST(Shapes, archedWallAlwaysHasTheAreaOfItsFacesAndSoffit) {
     EXPECT_NEAR(area(mesh), 2.0 * face + soffit, 1e-3);
 }
 
-TEST(Shapes, profileArcsAndCurvesAlwaysHaveUnitNormalsToTheRight) {
+TEST(Shapes, profileArcsAndCurvesHaveUnitNormalsToTheRight) {
     // Counter-clockwise about the origin from +X: travelling up, the outside on the right is away from the centre.
     const Profile arc = Profile({1.0, 0.0}).arcAround({0.0, 0.0}, pi / 2.0, 8);
     for (std::size_t i = 0; i < arc.runs()[0].points.size(); ++i) {
@@ -107,7 +107,7 @@ TEST(Shapes, profileArcsAndCurvesAlwaysHaveUnitNormalsToTheRight) {
     EXPECT_EQ(line.runs()[0].points.back(), glm::dvec2(1.0, 3.0));
 }
 
-TEST(Shapes, mirroredAndStretchedPartsAlwaysKeepTheirFrontOutside) {
+TEST(Shapes, mirroredAndStretchedPartsKeepTheirFrontOutside) {
     Mesh ball;
     appendSphere(ball, {0.0, 0.0, 0.0}, 1.0, 24, 16);
     Mesh mesh;
@@ -116,7 +116,7 @@ TEST(Shapes, mirroredAndStretchedPartsAlwaysKeepTheirFrontOutside) {
     EXPECT_NEAR(volume(mesh), volume(ball), 1e-5);
 }
 
-TEST(Noise, alwaysRepeatsWithItsPeriodAndVanishesAtIntegers) {
+TEST(Noise, repeatsWithItsPeriodAndVanishesAtIntegers) {
     for (int i = 0; i < 50; ++i) {
         const glm::dvec3 p(0.37 * i, 0.21 * i, 0.5);
         EXPECT_NEAR(gradientNoise(p, 7, {4, 6}), gradientNoise(p + glm::dvec3(4.0, -6.0, 0.0), 7, {4, 6}), 1e-9);
@@ -126,7 +126,7 @@ TEST(Noise, alwaysRepeatsWithItsPeriodAndVanishesAtIntegers) {
     EXPECT_NE(gradientNoise({3.3, -2.0, 5.0}, 7), gradientNoise({3.3, -2.0, 5.0}, 8));
 }
 
-TEST(Pictures, coloursAreAlwaysStoredWithTheSrgbTransferFunction) {
+TEST(Pictures, coloursAreStoredWithTheSrgbTransferFunction) {
     const Image image = drawColors("ramp", 3, 1, [](int x, int) { return glm::dvec3(x * 0.5, 0.0, 1.0); });
     EXPECT_EQ(image.texels[0], std::byte{0});
     EXPECT_EQ(image.texels[4], std::byte{188}); // 255 (1.055 * 0.5^(1/2.4) - 0.055) = 187.5
@@ -134,7 +134,7 @@ TEST(Pictures, coloursAreAlwaysStoredWithTheSrgbTransferFunction) {
     EXPECT_EQ(image.texels[7], std::byte{255});
 }
 
-TEST(Pictures, normalsOfASlopeAlwaysLeanDownhill) {
+TEST(Pictures, normalsOfASlopeLeanDownhill) {
     // A saw tooth that rises by one texel's width a texel to the right.
     const Image image = normalsFromHeights("slope", 8, 0.01, [](int x, int) { return 0.01 * x; });
     std::uint16_t red = 0;

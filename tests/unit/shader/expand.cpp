@@ -34,13 +34,13 @@ std::size_t count(const std::string& text, std::string_view piece) {
     return found;
 }
 
-TEST_F(Expand, versionAndDefinesAlwaysComeFirst) {
+TEST_F(Expand, versionAndDefinesComeFirst) {
     folder.write("main.frag", "void main() {}\n");
     EXPECT_EQ(expanded("main.frag", {{"TILE", "16"}, {"SHADOWS", ""}}).text,
               "#version 450 core\n#define TILE 16\n#define SHADOWS\n#line 1 0\nvoid main() {}\n");
 }
 
-TEST_F(Expand, anIncludeIsAlwaysFramedByLineDirectives) {
+TEST_F(Expand, anIncludeIsFramedByLineDirectives) {
     folder.write("passes/main.frag", "float a;\n#include \"lib/b.glsl\"\nfloat c;\n");
     folder.write("lib/b.glsl", "float b;\n");
     const ExpandedSource source = expanded("passes/main.frag");
@@ -48,7 +48,7 @@ TEST_F(Expand, anIncludeIsAlwaysFramedByLineDirectives) {
     EXPECT_THAT(source.files, ElementsAre("passes/main.frag", "lib/b.glsl"));
 }
 
-TEST_F(Expand, aFileBesideTheIncludingOneIsAlwaysFound) {
+TEST_F(Expand, aFileBesideTheIncludingOneIsFound) {
     folder.write("main.frag", "#include \"lib/a.glsl\"\n");
     folder.write("lib/a.glsl", "#include \"b.glsl\"\n#include \"../shared/c.h\"\n");
     folder.write("lib/b.glsl", "float b;\n");
@@ -56,13 +56,13 @@ TEST_F(Expand, aFileBesideTheIncludingOneIsAlwaysFound) {
     EXPECT_THAT(expanded("main.frag").files, ElementsAre("main.frag", "lib/a.glsl", "lib/b.glsl", "shared/c.h"));
 }
 
-TEST_F(Expand, aPathAsCppSeesItAlwaysMeansTheSameFile) {
+TEST_F(Expand, aPathAsCppSeesItMeansTheSameFile) {
     folder.write("main.frag", "#include \"shared/a.h\"\n#include \"shaders/shared/a.h\"\n");
     folder.write("shared/a.h", "#pragma once\nfloat a;\n");
     EXPECT_EQ(count(expanded("main.frag").text, "float a;"), 1u);
 }
 
-TEST_F(Expand, aPathOutOfTheTreeIsNeverFollowed) {
+TEST_F(Expand, aPathOutOfTheTreeIsNotFollowed) {
     folder.write("tree/main.frag", "#include \"../secret.glsl\"\n");
     folder.write("secret.glsl", "float secret;\n");
     EXPECT_THROW(expand(SourceTree(folder.path() / "tree"), "main.frag"), InputError);
@@ -75,7 +75,7 @@ TEST_F(Expand, aFileWithPragmaOnceIsExpandedExactlyOnce) {
     EXPECT_EQ(count(expanded("main.frag").text, "float a;"), 1u);
 }
 
-TEST_F(Expand, aFileWithoutPragmaOnceIsAlwaysExpandedAgain) {
+TEST_F(Expand, aFileWithoutPragmaOnceIsExpandedAgain) {
     folder.write("main.frag", "#include \"a.glsl\"\n#include \"a.glsl\"\n");
     folder.write("a.glsl", "X\n");
     EXPECT_EQ(count(expanded("main.frag").text, "X\n"), 2u);
@@ -90,7 +90,7 @@ TEST_F(Expand, anIncludeInAConditionalNeverSwallowsALaterOne) {
     EXPECT_EQ(count(text, "#ifndef TESSERA_ONCE_1\n#define TESSERA_ONCE_1\n"), 2u);
 }
 
-TEST_F(Expand, anIncludeInACommentIsNeverFollowed) {
+TEST_F(Expand, anIncludeInACommentIsNotFollowed) {
     folder.write("main.frag",
                  "// #include \"no.glsl\"\n/* #include \"no.glsl\"\n#include \"no.glsl\"\n*/\n"
                  "// continued \\\n#include \"no.glsl\"\nfloat a; /* b */ // /*\n#include \"a.glsl\" // yes\n");
@@ -100,7 +100,7 @@ TEST_F(Expand, anIncludeInACommentIsNeverFollowed) {
     EXPECT_THAT(source.text, HasSubstr("// #include \"no.glsl\"\n"));
 }
 
-TEST_F(Expand, includesOfTheCppPartOfASharedHeaderAreNeverFollowed) {
+TEST_F(Expand, includesOfTheCppPartOfASharedHeaderAreNotFollowed) {
     folder.write("shared/a.h", "#pragma once\n#ifdef __cplusplus\n#include <glm/glm.hpp>\n#include \"renderer/No.h\"\n"
                                "namespace a {\n#else\n#include \"b.h\"\n#endif\nstruct S { float x; };\n"
                                "#ifndef __cplusplus\n#include \"c.h\"\n#endif\n#if defined( __cplusplus )\n"
@@ -113,7 +113,7 @@ TEST_F(Expand, includesOfTheCppPartOfASharedHeaderAreNeverFollowed) {
     EXPECT_THAT(source.text, Not(HasSubstr("glm")));
 }
 
-TEST_F(Expand, otherPreprocessorLinesAlwaysPassThrough) {
+TEST_F(Expand, otherPreprocessorLinesPassThrough) {
     const std::string lines =
         "#extension GL_ARB_x : enable\n#if A && \\\n    B\n#define F(x) \\\n  (x)\n#elif C\n#endif\n"
         "#pragma optimize(on)\n#undef F\n";
@@ -121,7 +121,7 @@ TEST_F(Expand, otherPreprocessorLinesAlwaysPassThrough) {
     EXPECT_EQ(expanded("main.frag").text, "#version 450 core\n#line 1 0\n" + lines);
 }
 
-TEST_F(Expand, aMissingIncludeIsAlwaysNamedWithItsPlace) {
+TEST_F(Expand, aMissingIncludeIsNamedWithItsPlace) {
     folder.write("main.frag", "\n#include \"lib/a.glsl\"\n");
     folder.write("lib/a.glsl", "float a;\n\n#include \"brfd.glsl\"\n");
     EXPECT_EQ(fault("main.frag"),
@@ -130,11 +130,11 @@ TEST_F(Expand, aMissingIncludeIsAlwaysNamedWithItsPlace) {
                   folder.path().string());
 }
 
-TEST_F(Expand, aMissingEntryIsAlwaysNamed) {
+TEST_F(Expand, aMissingEntryIsNamed) {
     EXPECT_THAT(fault("passes/no.frag"), HasSubstr("shaders/passes/no.frag: "));
 }
 
-TEST_F(Expand, aCycleIsAlwaysNamedWithItsWholeWay) {
+TEST_F(Expand, aCycleIsNamedWithItsWholeWay) {
     folder.write("main.frag", "#include \"a.glsl\"\n");
     folder.write("a.glsl", "#pragma once\n#include \"b.glsl\"\n");
     folder.write("b.glsl", "#pragma once\n\n#include \"a.glsl\"\n");
@@ -143,7 +143,7 @@ TEST_F(Expand, aCycleIsAlwaysNamedWithItsWholeWay) {
               "move what both need to a third file");
 }
 
-TEST_F(Expand, aMalformedIncludeIsAlwaysRefused) {
+TEST_F(Expand, aMalformedIncludeIsRefused) {
     for (const char* line :
          {"#include <a.glsl>", "#include a.glsl", "#include \"a.glsl", "#include \"\"", "#include"}) {
         folder.write("main.frag", std::string(line) + "\n");
@@ -153,7 +153,7 @@ TEST_F(Expand, aMalformedIncludeIsAlwaysRefused) {
     EXPECT_THAT(fault("main.frag"), HasSubstr("must end on its line"));
 }
 
-TEST_F(Expand, anotherVersionIsAlwaysRefused) {
+TEST_F(Expand, anotherVersionIsRefused) {
     folder.write("main.frag", "#version 450 core\nfloat a;\n");
     EXPECT_EQ(expanded("main.frag").text, "#version 450 core\n#line 1 0\n\nfloat a;\n");
     folder.write("main.frag", "#version 330\n");
@@ -167,7 +167,7 @@ TEST_F(Expand, windowsLineEndsNeverReachTheDriver) {
               "#version 450 core\n#line 1 0\n#line 1000001 1\n\nfloat a;\n#line 2 0\nfloat b;\n");
 }
 
-TEST(SourceTree, aMissingFolderIsAlwaysNamed) {
+TEST(SourceTree, aMissingFolderIsNamed) {
     try {
         SourceTree("no/such/folder");
         FAIL() << "expected an InputError";
@@ -176,7 +176,7 @@ TEST(SourceTree, aMissingFolderIsAlwaysNamed) {
     }
 }
 
-TEST(SourceTree, embeddedFilesAreNeverReadFromDisk) {
+TEST(SourceTree, embeddedFilesAreNotReadFromDisk) {
     const SourceTree tree = SourceTree::embedded();
     EXPECT_TRUE(tree.isEmbedded());
     EXPECT_FALSE(tree.newestChange());

@@ -15,7 +15,7 @@ TEST(ProgramDesc, theKeyNeverDependsOnTheOrderOfTheDefines) {
     EXPECT_EQ(a.key(), "light|v|f|||A=1;B=");
 }
 
-TEST(ProgramDesc, differentVariantsAlwaysHaveDifferentKeys) {
+TEST(ProgramDesc, differentVariantsHaveDifferentKeys) {
     const ProgramDesc base{"light", "v", "f", "", {{"A", "1"}}};
     ProgramDesc other = base;
     other.defines = {{"A", "2"}};
@@ -26,7 +26,7 @@ TEST(ProgramDesc, differentVariantsAlwaysHaveDifferentKeys) {
     EXPECT_NE(base, other);
 }
 
-TEST(ProgramDesc, everyStageAlwaysGetsTheDefines) {
+TEST(ProgramDesc, everyStageGetsTheDefines) {
     test::TempFolder folder;
     folder.write("a.vert", "void main() {}\n");
     folder.write("a.frag", "void main() {}\n");
@@ -38,7 +38,7 @@ TEST(ProgramDesc, everyStageAlwaysGetsTheDefines) {
     for (const gpu::StageSource& source : sources) EXPECT_THAT(source.source, testing::HasSubstr("#define A 1\n"));
 }
 
-TEST(ProgramDesc, aSenselessSetOfStagesIsAlwaysRefused) {
+TEST(ProgramDesc, aSenselessSetOfStagesIsRefused) {
     const SourceTree tree = SourceTree::embedded();
     for (const ProgramDesc& desc : {ProgramDesc{"p", "", "", "", {}}, ProgramDesc{"p", "", "f", "", {}},
                                     ProgramDesc{"p", "v", "", "c", {}}, ProgramDesc{"p", "", "f", "c", {}}})

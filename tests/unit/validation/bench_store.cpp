@@ -54,7 +54,7 @@ protected:
     test::TempFolder folder_;
 };
 
-TEST_F(BenchStoring, whatIsKeptAlwaysComesBackAfterTheProgramsEnd) {
+TEST_F(BenchStoring, savedResultsAreReadBackAfterTheProgramsEnd) {
     const std::string out = folder("out");
     GroupState half = finished(1);
     half.isDone = false;
@@ -73,7 +73,7 @@ TEST_F(BenchStoring, whatIsKeptAlwaysComesBackAfterTheProgramsEnd) {
     EXPECT_EQ(recordIn(out).groups.size(), 2u);
 }
 
-TEST_F(BenchStoring, anUnfinishedRunIsNeverWrittenOverUnasked) {
+TEST_F(BenchStoring, anUnfinishedRunIsNotOverwrittenWithoutRequest) {
     const std::string out = folder("out");
     { const BenchStore store(out, madeUpIdentity(), madeUpPlan(2), EarlierRun::Keep); }
     EXPECT_THAT(refusal([&] { BenchStore(out, madeUpIdentity(), madeUpPlan(2), EarlierRun::Keep); }),
@@ -82,7 +82,7 @@ TEST_F(BenchStoring, anUnfinishedRunIsNeverWrittenOverUnasked) {
     EXPECT_NO_THROW(BenchStore(folder("done"), madeUpIdentity(), madeUpPlan(2), EarlierRun::Keep));
 }
 
-TEST_F(BenchStoring, anotherRunIsNeverResumedAndWhatDiffersIsAlwaysNamed) {
+TEST_F(BenchStoring, anotherRunIsNotResumedAndTheDifferenceIsNamed) {
     const std::string out = finishedShard("out", 1, 2, 2);
     const auto resumed = [&](const RunIdentity& identity, const BenchPlan& plan) {
         return refusal([&] { BenchStore(out, identity, plan, EarlierRun::Resume); });
@@ -103,7 +103,7 @@ TEST_F(BenchStoring, anotherRunIsNeverResumedAndWhatDiffersIsAlwaysNamed) {
     EXPECT_EQ(resumed(other, madeUpPlan(2)), "nothing was refused");
 }
 
-TEST_F(BenchStoring, aSceneThatChangedIsNeverMixedWithWhatItWas) {
+TEST_F(BenchStoring, aChangedSceneIsNotMixedWithItsEarlierState) {
     const std::string a = finishedShard("a", 1, 2, 2);
     BenchPlan changed = madeUpPlan(2);
     changed.groups[1].fingerprint ^= 1;
@@ -119,7 +119,7 @@ TEST_F(BenchStoring, aSceneThatChangedIsNeverMixedWithWhatItWas) {
                 testing::AllOf(HasSubstr("the scene hall changed between them"), HasSubstr("measure every shard")));
 }
 
-TEST_F(BenchStoring, aFolderIsNeverGivenToTwoRunsAtOnceAndTheHolderIsAlwaysNamed) {
+TEST_F(BenchStoring, aFolderIsNotGivenToTwoRunsAtOnceAndTheHolderIsNamed) {
     const std::string out = folder("out");
     const auto refused = [&](auto&& begin) -> std::string {
         try {
@@ -143,7 +143,7 @@ TEST_F(BenchStoring, aFolderIsNeverGivenToTwoRunsAtOnceAndTheHolderIsAlwaysNamed
     EXPECT_NO_THROW(BenchStore(out, madeUpIdentity(), madeUpPlan(1), EarlierRun::Resume));
 }
 
-TEST_F(BenchStoring, mergedShardsAlwaysEqualOneRun) {
+TEST_F(BenchStoring, mergedShardsEqualOneRun) {
     finishedShard("whole", 1, 1, 3);
     const std::vector<std::string> shards{finishedShard("b", 2, 2, 3), finishedShard("a", 1, 2, 3)};
     mergeRuns(shards, folder("all"));
@@ -152,7 +152,7 @@ TEST_F(BenchStoring, mergedShardsAlwaysEqualOneRun) {
     EXPECT_TRUE(merged.isComplete);
 }
 
-TEST_F(BenchStoring, shardsThatAreNoWholeRunAreNeverMerged) {
+TEST_F(BenchStoring, shardsThatAreNoWholeRunAreNotMerged) {
     const std::string a = finishedShard("a", 1, 2, 3), b = finishedShard("b", 2, 2, 3);
     const auto merged = [&](const std::vector<std::string>& shards) {
         return refusal([&] { mergeRuns(shards, folder("all")); });
@@ -168,7 +168,7 @@ TEST_F(BenchStoring, shardsThatAreNoWholeRunAreNeverMerged) {
     EXPECT_EQ(merged({a, b}), "nothing was refused");
 }
 
-TEST_F(BenchStoring, damagedFilesAreAlwaysNamedWithARemedyInWordsOfOurOwn) {
+TEST_F(BenchStoring, damagedFilesAreNamedWithARemedyInWordsOfOurOwn) {
     const std::string out = finishedShard("out", 1, 1, 1);
     const auto read = [&](const std::string& file, const std::string& text) {
         std::ofstream(out + "/parts/" + file) << text;

@@ -34,7 +34,7 @@ std::vector<std::string> keys(const Json& object) {
     return names;
 }
 
-TEST(CompareRecord, jsonAlwaysHasExactlyTheAgreedFields) {
+TEST(CompareRecord, jsonHasExactlyTheAgreedFields) {
     const Json json = Json::parse(compareJson(sampleRecord()));
     EXPECT_THAT(keys(json), ElementsAre("schema", "scene", "size", "samples", "renderer", "pairs", "left_out"));
     EXPECT_EQ(json["schema"], 1);
@@ -52,7 +52,7 @@ TEST(CompareRecord, jsonAlwaysHasExactlyTheAgreedFields) {
     }
 }
 
-TEST(CompareRecord, lostGeometryIsAlwaysNamedAndLetsNoPairHold) {
+TEST(CompareRecord, lostGeometryIsNamedAndLetsNoPairHold) {
     CompareRecord record = sampleRecord();
     EXPECT_FALSE(Json::parse(compareJson(record)).contains("lost")) << "nothing was compared with the reference";
     record.excludesPixels = true;
@@ -74,7 +74,7 @@ TEST(CompareRecord, lostGeometryIsAlwaysNamedAndLetsNoPairHold) {
     EXPECT_TRUE(lost[1]["why"].contains("instance"));
 }
 
-TEST(CompareRecord, jsonAlwaysHoldsTheFiguresWithEveryDigit) {
+TEST(CompareRecord, jsonHoldsTheFiguresWithEveryDigit) {
     const CompareRecord record = sampleRecord();
     const Json pair = Json::parse(compareJson(record))["pairs"][1];
     EXPECT_EQ(pair["a"], "packed");
@@ -90,7 +90,7 @@ TEST(CompareRecord, jsonAlwaysHoldsTheFiguresWithEveryDigit) {
     EXPECT_EQ(pair["nan"], 0);
 }
 
-TEST(CompareRecord, everyNullFigureAlwaysHasAReason) {
+TEST(CompareRecord, everyNullFigureHasAReason) {
     CompareRecord record{"x", 2, 1, "r", {}};
     Picture broken = greyPicture(2, 1, std::nanf(""));
     Picture none = greyPicture(2, 1, 1.f);
@@ -128,7 +128,7 @@ TEST(CompareRecord, aRecordIsOkExactlyWhenItHasPairsAndAllHold) {
     EXPECT_FALSE(record.ok());
 }
 
-TEST(CompareRecord, theTableAlwaysShowsEveryPairAndWhatItMissed) {
+TEST(CompareRecord, theTableShowsEveryPairAndItsMissedTolerances) {
     EXPECT_EQ(compareTable(sampleRecord()),
               "hall  4x1  llvmpipe\n"
               "pair                 bit-equal  max rel  p99.9 rel   relMSE     bias  FLIP   PSNR    lit  verdict\n"
@@ -138,7 +138,7 @@ TEST(CompareRecord, theTableAlwaysShowsEveryPairAndWhatItMissed) {
               "missed: packed vs forward: relMse is 0.0206270627, at most 0.0001 was asked\n");
 }
 
-TEST(CompareRecord, theShareOfExcludedPixelsIsAlwaysToldWherePixelsCanBe) {
+TEST(CompareRecord, theFractionOfExcludedPixelsIsReported) {
     const Picture a = greyPicture(4, 1, 2.f);
     const std::vector<std::uint8_t> excluded{0, 1, 0, 0};
     CompareRecord record{"hall", 4, 1, "llvmpipe", {comparePair("forward", a, "reference", a, {}, excluded)}};
@@ -150,7 +150,7 @@ TEST(CompareRecord, theShareOfExcludedPixelsIsAlwaysToldWherePixelsCanBe) {
     EXPECT_THAT(compareTable(record), testing::HasSubstr("excluded: 0 % of"));
 }
 
-TEST(CompareRecord, whatARangeToleranceDropsIsAlwaysToldWhereOneIsSet) {
+TEST(CompareRecord, theErrorOfARangeToleranceIsReportedWhereOneIsSet) {
     const Picture whole = greyPicture(4, 1, 2.f);
     Picture cut = whole;
     setPixel(cut, 2, {1.f, 1.f, 1.f});
@@ -175,7 +175,7 @@ TEST(CompareRecord, whatARangeToleranceDropsIsAlwaysToldWhereOneIsSet) {
     EXPECT_FALSE(nothing["why"]["bias"].get<std::string>().empty());
 }
 
-TEST(CompareRecord, picturesOfTwoSizesAreAlwaysRefused) {
+TEST(CompareRecord, picturesOfTwoSizesAreRefused) {
     EXPECT_THROW(comparePair("a", greyPicture(1, 1, 1), "b", greyPicture(2, 1, 1), {}), InputError);
 }
 

@@ -19,7 +19,7 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 // The figures are double sums of a few terms: only their last digits may differ from the closed form.
 constexpr double kRounding = 1e-12;
 
-TEST(Percentile, nearestRankIsAlwaysTheValueAtTheRoundedUpRank) {
+TEST(Percentile, nearestRankIsTheValueAtTheRoundedUpRank) {
     std::vector<double> thousand(1000);
     std::iota(thousand.rbegin(), thousand.rend(), 1.0);
     EXPECT_EQ(nearestRank(thousand, 500), 500.0);
@@ -65,7 +65,7 @@ TEST(ErrorFigures, everyFigureIsExactlyTheHandComputedOne) {
     EXPECT_EQ(figures.bad.sum() + figures.badOutside.sum(), 0u);
 }
 
-TEST(ErrorFigures, darkTruthIsAlwaysMeasuredAgainstAThousandthOfTheTypicalLuminance) {
+TEST(ErrorFigures, darkTruthIsMeasuredAgainstAThousandthOfTheTypicalLuminance) {
     const Picture b = pictureOf(3, 1, {{0, 0, 0}, {2, 2, 2}, {2, 2, 2}});
     Picture a = b;
     setPixel(a, 0, {0.001f, 0, 0});
@@ -73,7 +73,7 @@ TEST(ErrorFigures, darkTruthIsAlwaysMeasuredAgainstAThousandthOfTheTypicalLumina
     EXPECT_NEAR(figures.maxRel, double(0.001f) / 2e-3, kRounding);
 }
 
-TEST(ErrorFigures, litIsAlwaysAboveATenThousandthOfTheTruthsHighPercentile) {
+TEST(ErrorFigures, litIsAboveATenThousandthOfTheTruthsHighPercentile) {
     const Picture b = pictureOf(4, 1, {{10, 10, 10}, {0.0009f, 0.0009f, 0.0009f}, {0.002f, 0.002f, 0.002f}, {0, 0, 0}});
     EXPECT_EQ(errorFigures(b, b).litShare, 0.5);
     EXPECT_NEAR(pixelErrors(b, b).litThreshold, 1e-3, kRounding);
@@ -81,7 +81,7 @@ TEST(ErrorFigures, litIsAlwaysAboveATenThousandthOfTheTruthsHighPercentile) {
     EXPECT_NEAR(errorFigures(b, b).typicalLuminance, double(0.002f), kRounding);
 }
 
-TEST(ErrorFigures, bitEqualAlwaysTellsApartTheLastBitButNotTheSignOfZero) {
+TEST(ErrorFigures, bitEqualTellsApartTheLastBitButNotTheSignOfZero) {
     Picture b = pictureOf(4, 1, {{1, 1, 1}, {0.f, 1, 1}, {1, 1, 1}, {1, 1, 1}});
     Picture a = b;
     setPixel(a, 1, {-0.f, 1, 1});
@@ -116,7 +116,7 @@ TEST(ErrorFigures, excludedPixelsNeverCountAndTheirShareIsOfTheCoveredOnes) {
     EXPECT_EQ(figures.bitEqual, 1.0);
 }
 
-TEST(ErrorFigures, pixelsThatAreNotFiniteAreAlwaysCountedAndNeverChangeTheOtherFigures) {
+TEST(ErrorFigures, pixelsThatAreNotFiniteAreCountedAndNeverChangeTheOtherFigures) {
     const Picture b = pictureOf(4, 1, {{1, 1, 1}, {2, 2, 2}, {3, 3, 3}, {4, 4, 4}});
     Picture a = b;
     setPixel(a, 0, {1.25f, 1, 1});
@@ -139,7 +139,7 @@ TEST(ErrorFigures, pixelsThatAreNotFiniteAreAlwaysCountedAndNeverChangeTheOtherF
     EXPECT_EQ(figures.psnrReason, "infinite: the pictures are identical on an 8 bit display");
 }
 
-TEST(ErrorFigures, badPixelsOutsideTheCoveredOnesAreAlwaysCountedApart) {
+TEST(ErrorFigures, badPixelsOutsideTheCoveredOnesAreCountedApart) {
     Picture b = greyPicture(4, 1, 1.f);
     b.covered = {1, 1, 1, 0};
     Picture a = b;
@@ -152,7 +152,7 @@ TEST(ErrorFigures, badPixelsOutsideTheCoveredOnesAreAlwaysCountedApart) {
     EXPECT_EQ(figures.badOutside.negative, 1u);
 }
 
-TEST(ErrorFigures, figuresOfNothingAreNeverNumbers) {
+TEST(ErrorFigures, figuresWithoutPixelsAreNotNumbers) {
     Picture none = greyPicture(2, 1, 1.f);
     none.covered = {0, 0};
     const Picture broken = pictureOf(1, 1, {{kNan, kNan, kNan}});
@@ -169,7 +169,7 @@ TEST(ErrorFigures, figuresOfNothingAreNeverNumbers) {
     EXPECT_EQ(errorFigures(broken, broken).bitEqual, 1.0);
 }
 
-TEST(ErrorFigures, percentilesOfRelAreAlwaysThoseOfTheWorstChannel) {
+TEST(ErrorFigures, percentilesOfRelAreThoseOfTheWorstChannel) {
     const Picture b = greyPicture(1000, 1, 1.f);
     Picture a = b;
     for (std::size_t i = 0; i < 1000; ++i) setPixel(a, i, {1.f, 1.f + float(i) / 1024.f, 1.f});
@@ -181,7 +181,7 @@ TEST(ErrorFigures, percentilesOfRelAreAlwaysThoseOfTheWorstChannel) {
     EXPECT_EQ(figures.worstX, 999u);
 }
 
-TEST(ErrorFigures, psnrIsAlwaysOfTheClampedSrgbBytes) {
+TEST(ErrorFigures, psnrIsOfTheClampedSrgbBytes) {
     // 2 and 1 show alike; linear 0 against 1 is a difference of 255 in each channel of half the pixels: 10 log10(2) dB.
     const Picture b = pictureOf(2, 1, {{1, 1, 1}, {1, 1, 1}});
     EXPECT_NEAR(errorFigures(pictureOf(2, 1, {{2, 2, 2}, {0, 0, 0}}), b).psnr.value(), 10.0 * std::log10(2.0),
@@ -192,7 +192,7 @@ TEST(ErrorFigures, psnrIsAlwaysOfTheClampedSrgbBytes) {
     EXPECT_EQ(clamped.flip, 0.0);
 }
 
-TEST(ErrorFigures, flipIsAlwaysTheMeanOverTheComparedPixelsAlone) {
+TEST(ErrorFigures, flipIsTheMeanOverTheComparedPixelsAlone) {
     // Black against white: 0.967379 (FlipTest), wherever nothing is filtered across.
     const Picture b = greyPicture(8, 8, 0.f), a = greyPicture(8, 8, 1.f);
     EXPECT_NEAR(errorFigures(a, b).flip.value(), 0.967379, 1e-4);
@@ -201,7 +201,7 @@ TEST(ErrorFigures, flipIsAlwaysTheMeanOverTheComparedPixelsAlone) {
     EXPECT_NEAR(errorFigures(a, b, excluded).flip.value(), 0.967379, 1e-4);
 }
 
-TEST(ErrorFigures, picturesAsTheyAreShownAlwaysDecideWhatADisplayTells) {
+TEST(ErrorFigures, displayFiguresUseTheDisplayPictures) {
     const Picture b = greyPicture(4, 4, 1.f), a = greyPicture(4, 4, 2.f);
     EXPECT_EQ(errorFigures(a, b).flip, 0.0); // both are white without exposure
     const DisplayImage black{4, 4, std::vector<std::uint8_t>(48, 0)}, white{4, 4, std::vector<std::uint8_t>(48, 255)};
@@ -211,7 +211,7 @@ TEST(ErrorFigures, picturesAsTheyAreShownAlwaysDecideWhatADisplayTells) {
     EXPECT_EQ(shown.maxRel, 1.0);
 }
 
-TEST(ErrorFigures, picturesOfTwoSizesAreAlwaysRefusedByName) {
+TEST(ErrorFigures, picturesOfTwoSizesAreRefusedByName) {
     EXPECT_EQ(
         errorOf<InputError>([] { requireSameSize(greyPicture(2, 1, 1), "forward", greyPicture(1, 2, 1), "x.exr"); }),
         "forward is 2x1 but x.exr is 1x2; pictures that are compared must be of one size");

@@ -34,7 +34,7 @@ double mean(const std::vector<float>& errors) {
     return sum / double(errors.size());
 }
 
-TEST(Flip, equalPicturesAlwaysHaveExactlyNoError) {
+TEST(Flip, equalPicturesHaveExactlyNoError) {
     for (const float error : flipErrors(noise(1), noise(1))) EXPECT_EQ(error, 0.0f);
 }
 
@@ -42,7 +42,7 @@ TEST(Flip, theOrderOfThePicturesNeverMatters) {
     EXPECT_EQ(flipErrors(noise(2), noise(3)), flipErrors(noise(3), noise(2)));
 }
 
-TEST(Flip, everyErrorIsAlwaysBetweenZeroAndOne) {
+TEST(Flip, everyErrorIsBetweenZeroAndOne) {
     DisplayImage checks = uniform({0, 255, 0}), inverse = uniform({0, 0, 255});
     for (std::size_t i = 0; i < checks.rgb.size(); i += 6) std::swap(checks.rgb[i + 1], inverse.rgb[i + 1]);
     for (const auto& [a, b] : {std::pair(noise(4), noise(5)), std::pair(checks, inverse)}) {
@@ -55,7 +55,7 @@ TEST(Flip, everyErrorIsAlwaysBetweenZeroAndOne) {
 
 /// Constant pictures pass every filter unchanged and have no features, so that the error is the colour error alone.
 /// The values were worked out from the paper's formulas outside of this program, with the matrix of IEC 61966-2-1.
-TEST(Flip, uniformPicturesAlwaysHaveTheErrorWorkedOutByHand) {
+TEST(Flip, uniformPicturesHaveTheErrorWorkedOutByHand) {
     struct Known {
         Code a, b;
         double flip;
@@ -80,7 +80,7 @@ TEST(Flip, aLargerDifferenceOfOneColourNeverHasASmallerError) {
     }
 }
 
-TEST(Flip, aThinLineIsAlwaysSeenBetterFromNearby) {
+TEST(Flip, aThinLineIsSeenBetterFromNearby) {
     const DisplayImage plain = uniform({128, 128, 128}, 64, 33);
     DisplayImage lined = plain;
     for (std::size_t y = 0; y < 33; ++y) lined.rgb[3 * (64 * y + 32)] = 255;
@@ -95,7 +95,7 @@ TEST(Flip, aThinLineIsAlwaysSeenBetterFromNearby) {
 }
 
 /// A feature counts: the same sum of colour differences, once as a smooth ramp and once as an edge.
-TEST(Flip, anEdgeThatIsMissingAlwaysCountsMoreThanItsColourAlone) {
+TEST(Flip, anEdgeThatIsMissingCountsMoreThanItsColourAlone) {
     const DisplayImage plain = uniform({120, 120, 120}, 64, 33), shifted = uniform({140, 140, 140}, 64, 33);
     DisplayImage edge = plain;
     for (std::size_t i = 0; i < edge.pixelCount(); ++i)
@@ -104,7 +104,7 @@ TEST(Flip, anEdgeThatIsMissingAlwaysCountsMoreThanItsColourAlone) {
     EXPECT_GT(withEdge[16 * 64 + 33], withoutEdge[16 * 64 + 33]);
 }
 
-TEST(FlipFilters, aConstantPlaneIsAlwaysSeenUnchangedAndWithoutFeatures) {
+TEST(FlipFilters, aConstantPlaneIsSeenUnchangedAndWithoutFeatures) {
     Plane plane(31, 19);
     std::fill(plane.values.begin(), plane.values.end(), 37.5f);
     for (const ContrastSensitivity& eye : {kAchromatic, kRedGreen, kBlueYellow})
@@ -114,7 +114,7 @@ TEST(FlipFilters, aConstantPlaneIsAlwaysSeenUnchangedAndWithoutFeatures) {
     for (const float value : features.points.values) EXPECT_NEAR(value, 0.0f, 2e-4f);
 }
 
-TEST(FlipFilters, aStepOfHeightOneAlwaysIsAnEdgeOfHeightOne) {
+TEST(FlipFilters, aStepOfHeightOneIsAnEdgeOfHeightOne) {
     Plane plane(41, 41);
     for (std::size_t i = 0; i < plane.values.size(); ++i) plane.values[i] = i % 41 > 20 ? 1.0f : 0.0f;
     const Features features = featuresOf(plane, kFlipPixelsPerDegree);
@@ -122,7 +122,7 @@ TEST(FlipFilters, aStepOfHeightOneAlwaysIsAnEdgeOfHeightOne) {
     EXPECT_NEAR(*std::max_element(features.edges.values.begin(), features.edges.values.end()), 1.0f, 1e-5f);
 }
 
-TEST(FlipFilters, aSinglePixelIsAlwaysSpreadEvenlyAndKeepsItsSum) {
+TEST(FlipFilters, aSinglePixelIsSpreadEvenlyAndKeepsItsSum) {
     Plane plane(61, 61);
     plane.values[30 * 61 + 30] = 1.0f;
     for (const ContrastSensitivity& eye : {kAchromatic, kRedGreen, kBlueYellow}) {
@@ -139,7 +139,7 @@ TEST(FlipFilters, aSinglePixelIsAlwaysSpreadEvenlyAndKeepsItsSum) {
     EXPECT_GT(peak(kRedGreen), peak(kBlueYellow));
 }
 
-TEST(FlipColour, opponentColoursAlwaysGoThereAndBack) {
+TEST(FlipColour, opponentColoursGoThereAndBack) {
     test::Random random(6);
     for (int i = 0; i < 100; ++i) {
         const glm::dvec3 rgb(random.unit(), random.unit(), random.unit());

@@ -23,7 +23,7 @@ Rgb8 pictureColour(const DisplayImage& image, const HeatMapLayout& layout, int x
               layout.pictureY + layout.scale * y + layout.scale / 2);
 }
 
-TEST(ErrorScale, lightnessAlwaysRisesAlongTheScale) {
+TEST(ErrorScale, lightnessRisesAlongTheScale) {
     double before = -1.0;
     for (int step = 0; step <= 256; ++step) {
         const Rgb8 colour = scaleColour(step / 256.0);
@@ -39,7 +39,7 @@ TEST(ErrorScale, lightnessAlwaysRisesAlongTheScale) {
     EXPECT_EQ(scaleColour(2.0), scaleColour(1.0));
 }
 
-TEST(ErrorScale, aDecadeIsAlwaysASeventhOfTheScale) {
+TEST(ErrorScale, aDecadeIsASeventhOfTheScale) {
     EXPECT_EQ(scalePosition(0.0), 0.0);
     EXPECT_EQ(scalePosition(1e-9), 0.0);
     EXPECT_EQ(scalePosition(1e9), 1.0);
@@ -47,7 +47,7 @@ TEST(ErrorScale, aDecadeIsAlwaysASeventhOfTheScale) {
         EXPECT_NEAR(scalePosition(std::pow(10.0, exponent)), (exponent + 7) / 7.0, 1e-12);
 }
 
-TEST(HeatMap, everyPixelAlwaysHasTheColourOfItsErrorOrItsState) {
+TEST(HeatMap, everyPixelHasTheColourOfItsErrorOrItsState) {
     Picture b = greyPicture(3, 2, 1.f);
     Picture a = b;
     setPixel(a, 1, {1.f, 2.f, 1.f});
@@ -67,7 +67,7 @@ TEST(HeatMap, everyPixelAlwaysHasTheColourOfItsErrorOrItsState) {
     EXPECT_EQ(pictureColour(image, layout, 2, 1), kColourExcluded);
 }
 
-TEST(HeatMap, theLegendIsAlwaysTheScaleFromEndToEnd) {
+TEST(HeatMap, theLegendIsTheScaleFromEndToEnd) {
     const Picture picture = greyPicture(640, 4, 1.f);
     const DisplayImage image = errorHeatMap(picture, picture, "title");
     const HeatMapLayout layout = heatMapLayout(640, 4);
@@ -85,7 +85,7 @@ std::vector<bool> inkBelow(const DisplayImage& image, int firstRow, int endRow) 
     return hasInk;
 }
 
-TEST(HeatMap, theLegendsWordsAreNeverCutOffAndItsLabelsAlwaysStandApart) {
+TEST(HeatMap, theLegendsWordsAreNotCutOffAndItsLabelsStandApart) {
     for (const auto& [width, height] : {std::pair{64, 64}, {560, 4}, {541, 300}, {1, 1}, {1280, 2}}) {
         SCOPED_TRACE(width);
         const Picture picture = greyPicture(width, height, 1.f);
@@ -109,7 +109,7 @@ TEST(HeatMap, theLegendsWordsAreNeverCutOffAndItsLabelsAlwaysStandApart) {
     }
 }
 
-TEST(HeatMap, aPictureIsNeverShrunkAndItsLayoutAlwaysHoldsIt) {
+TEST(HeatMap, aPictureIsNotShrunkAndItsLayoutHoldsIt) {
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 700}, {700, 1}, {64, 36}, {641, 359}, {1920, 1080}}) {
         const HeatMapLayout layout = heatMapLayout(width, height);
         EXPECT_GE(layout.scale, 1);
@@ -127,7 +127,7 @@ TEST(HeatMap, aTitleOfAnyLengthNeverLeavesTheImage) {
     EXPECT_TRUE(errorHeatMap(picture, picture, "").isConsistent());
 }
 
-TEST(BitmapFont, textIsAlwaysDrawnInItsCellsAndCutOffAtTheEdge) {
+TEST(BitmapFont, textIsDrawnInItsCellsAndCutOffAtTheEdge) {
     DisplayImage image{8, 10, std::vector<std::uint8_t>(240, 0)};
     drawText(image, 1, 0, "-", {9, 9, 9});
     std::vector<int> lit;
@@ -144,7 +144,7 @@ TEST(BitmapFont, textIsAlwaysDrawnInItsCellsAndCutOffAtTheEdge) {
     EXPECT_EQ(unknown.rgb, question.rgb);
 }
 
-TEST(HeatMap, aFlipMapAlwaysShowsThePixelsErrorOnAScaleFromNothingToOne) {
+TEST(HeatMap, aFlipMapShowsThePixelsErrorOnAScaleFromNothingToOne) {
     const DisplayImage black{5, 4, std::vector<std::uint8_t>(60, 0)}, white{5, 4, std::vector<std::uint8_t>(60, 255)};
     const HeatMapLayout layout = heatMapLayout(5, 4);
     const DisplayImage same = flipHeatMap(black, black, "same"), different = flipHeatMap(black, white, "different");

@@ -129,7 +129,7 @@ TEST_F(LightOracle, aLightOfABCIsNeededExactlyWhereItsBrightestChannelIsAboveThe
     EXPECT_EQ(needed(fallingOffByABC({0.0, 0.0, -5.0 + 10.0 / 3.0 + 1e-9}, 41.0f, {1.0f, 2.0f, 3.0f})), 0u);
 }
 
-TEST_F(LightOracle, aLightOfABCThatIsNowhereAboveTheToleranceIsNeverNeeded) {
+TEST_F(LightOracle, aLightOfABCThatIsNowhereAboveTheToleranceIsNotNeeded) {
     settings_.rangeTolerance = 0.5;
     const glm::dvec3 onTheSurfaceWS(0.0, 0.0, -5.0);
     EXPECT_EQ(needed(fallingOffByABC(onTheSurfaceWS, 3.0f, {6.0f, 1.0f, 1.0f})), 0u) << "0.5 at the light itself";
@@ -176,7 +176,7 @@ TEST_F(LightOracle, aLightIsNeededLitExactlyInFrontOfTheSurface) {
     EXPECT_FALSE(judge().litTightness());
 }
 
-TEST_F(LightOracle, lightsThatShineOnNothingAreNeverNeeded) {
+TEST_F(LightOracle, lightsThatShineOnNothingAreNotNeeded) {
     const scenes::Light shining = lightAt({0.0, 0.0, -4.0}, 2.0f);
     scenes::Light off = shining, black = shining, weak = shining;
     off.enabled = false;
@@ -193,7 +193,7 @@ TEST_F(LightOracle, lightsThatShineOnNothingAreNeverNeeded) {
     EXPECT_EQ(judge().needed, 1u);
 }
 
-TEST_F(LightOracle, aMovingLightIsAlwaysWhereItIsAtTheFramesTime) {
+TEST_F(LightOracle, aMovingLightIsWhereItIsAtTheFramesTime) {
     scenes::Light moving = lightAt({0.0, 0.0, 0.0}, 1.0f);
     moving.animation = scenes::LightAnimation{};
     moving.animation->kind = scenes::LightAnimationKind::Keyframes;
@@ -217,7 +217,7 @@ TEST_F(LightOracle, aSpotWithoutARangeIsLitInItsConeAlone) {
     }
 }
 
-TEST_F(LightOracle, lightsThatReachEverywhereAreAlwaysNeededAndCountedApart) {
+TEST_F(LightOracle, lightsThatReachEverywhereAreNeededAndCountedApart) {
     scenes::Light sun;
     sun.type = scenes::LightType::Directional;
     const scenes::Light endless = lightAt({1e6, 0.0, 0.0}, scenes::kInfinity);
@@ -238,7 +238,7 @@ TEST_F(LightOracle, lightsThatReachEverywhereAreAlwaysNeededAndCountedApart) {
     EXPECT_EQ(lacking.firstMissing->light, 2);
 }
 
-TEST_F(LightOracle, pixelsWithoutASurfaceAreNeverCounted) {
+TEST_F(LightOracle, pixelsWithoutASurfaceAreNotCounted) {
     scene_.lights = {lightAt({0.0, 0.0, -4.0}, 2.0f)};
     settings_.sizePixels = {2, 1};
     depth_ = {0.0f, 0.5f};
@@ -253,7 +253,7 @@ TEST_F(LightOracle, pixelsWithoutASurfaceAreNeverCounted) {
     EXPECT_EQ(judge().perPixel(judge().needed), 0.0);
 }
 
-TEST_F(LightOracle, aPixelsSurfaceIsAlwaysWhereItsPerspectiveDepthSays) {
+TEST_F(LightOracle, aPixelsSurfaceIsWhereItsPerspectiveDepthSays) {
     scenes::Camera& camera = scene_.cameras[0];
     camera.projection = scenes::Projection::Perspective;
     camera.fovYRadians = pi / 2.0;
@@ -281,7 +281,7 @@ TEST_F(LightOracle, aPixelsSurfaceIsAlwaysWhereItsPerspectiveDepthSays) {
     EXPECT_EQ(needed(lightAt({14.0, 3.0, 4.0}, 1e-5f)), 1u) << "the eye is moved by a metre, and the surface with it";
 }
 
-TEST_F(LightOracle, theMissingPairIsAlwaysNamedByItsPixelFromTheTopLeft) {
+TEST_F(LightOracle, theMissingPairIsNamedByItsPixelFromTheTopLeft) {
     settings_.sizePixels = {2, 3};
     depth_ = {0.0f, 0.5f, 0.0f, 0.0f, 0.0f, 0.0f}; // the lower right pixel
     normalWS_.clear();
@@ -298,9 +298,11 @@ TEST_F(LightOracle, theMissingPairIsAlwaysNamedByItsPixelFromTheTopLeft) {
 // such that fp32 holds them exactly.
 
 TEST(LightTouch, aTileIsExactlyTheCentresOfItsPixels) {
-    const glm::vec4 lensVS(0.25f, 0.5f, 3.0f, 2.0f);
+    const glm::vec4 rayFromPixel(0.25f, 0.5f, 3.0f, 2.0f);
     const glm::uvec2 size(13u, 9u);
-    const auto rays = [&](unsigned column, unsigned row) { return shared::tileRays(lensVS, column, row, 4u, size); };
+    const auto rays = [&](unsigned column, unsigned row) {
+        return shared::tileRays(rayFromPixel, column, row, 4u, size);
+    };
     // Tile (1, 0) has the columns 4 to 7 and the rows 5 to 8 from below.
     EXPECT_EQ(rays(1, 0),
               glm::vec4(0.25f * (4.5f - 3.0f), 0.25f * (7.5f - 3.0f), 0.5f * (5.5f - 2.0f), 0.5f * (8.5f - 2.0f)));
@@ -349,7 +351,7 @@ TEST(LightTouch, theDistanceOfAPointFromABoxIsThatOfTheNearestPoint) {
     EXPECT_EQ(shared::squaredDistance(0.0f, 8.0f, 10.0f, box), 9.0f);
 }
 
-TEST(LightTouch, aConeTouchesWhatLiesInItOrWithinABoxsHalfDiagonalOfIt) {
+TEST(LightTouch, aConeTouchesBoxesWithinHalfADiagonal) {
     // Travels ahead from the origin, 45 degrees to each side.
     const float root = std::sqrt(0.5f);
     const shared::CullLight light{glm::vec4(0, 0, 0, 100), glm::vec4(0, 0, 0, root), glm::vec4(0, 0, 1, root)};
@@ -385,13 +387,13 @@ TEST(LightTouch, theMarginForRoundingIsThatOfPositionsAndThatOfEvenDepthsTogethe
     EXPECT_EQ(shared::roundingMargin(2.0f, {3.0f, 0x1p21f, 5.0f, 7.0f}), 2e-5f + 1.0f);
 }
 
-TEST(TileGrid, theFinestSlicesOfDepthAreAlwaysAsDeepAsATileOfSixteenPixelsIsWide) {
+TEST(TileGrid, theFinestSlicesOfDepthAreAsDeepAsATileOfSixteenPixelsIsWide) {
     // Of keys, 2^23 cover a factor of two in distance, or an even interval; a slice covers 2^shift. All numbers are
     // powers of two, so the slice is exactly as deep, not only the nearest power of two.
     const auto finestShift = [](float pixelMetres, bool orthographic, float originMetres, float evenMetres) {
         shared::ViewConstants view{};
         view.sizePixels = {640, 360, 0, 0};
-        view.lensVS.y = pixelMetres;
+        view.rayFromPixel.y = pixelMetres;
         view.forwardLS.w = orthographic ? 1.0f : 0.0f;
         view.eyeLS.w = originMetres;
         view.depthKey.y = evenMetres;

@@ -42,7 +42,7 @@ Picture extremes() {
     return picture;
 }
 
-TEST(PictureFile, exrAlwaysKeepsEveryBitAndTheCoverage) {
+TEST(PictureFile, exrKeepsEveryBitAndTheCoverage) {
     const TemporaryFolder folder;
     const Picture written = extremes();
     writeExr(folder.file("a.exr"), written);
@@ -54,7 +54,7 @@ TEST(PictureFile, exrAlwaysKeepsEveryBitAndTheCoverage) {
     EXPECT_EQ(folder.entries(), 1u);
 }
 
-TEST(PictureFile, exrOfAPictureWithoutGeometryIsAlwaysReadBackUncovered) {
+TEST(PictureFile, exrOfAPictureWithoutGeometryIsReadBackUncovered) {
     const TemporaryFolder folder;
     Picture picture = greyPicture(2, 1, 1.f);
     picture.covered = {0, 0};
@@ -62,7 +62,7 @@ TEST(PictureFile, exrOfAPictureWithoutGeometryIsAlwaysReadBackUncovered) {
     EXPECT_THAT(underLedger(readPicture, folder.file("a.exr")).covered, ElementsAre(0, 0));
 }
 
-TEST(PictureFile, exrOfOnePictureIsAlwaysTheSameFile) {
+TEST(PictureFile, exrOfOnePictureIsTheSameFile) {
     const TemporaryFolder folder;
     writeExr(folder.file("a.exr"), extremes());
     writeExr(folder.file("b.exr"), extremes());
@@ -72,7 +72,7 @@ TEST(PictureFile, exrOfOnePictureIsAlwaysTheSameFile) {
     EXPECT_THAT(readText(folder.file("a.exr")), Not(HasSubstr(fmt::format("{:%Y:%m}", *std::gmtime(&now)))));
 }
 
-TEST(PictureFile, pngIsAlwaysDecodedFromSrgbToLinear) {
+TEST(PictureFile, pngIsDecodedFromSrgbToLinear) {
     const TemporaryFolder folder;
     writePng(folder.file("a.png"), {2, 1, {0, 255, 188, 10, 11, 128}});
     const Picture picture = underLedger(readPicture, folder.file("a.png"));
@@ -86,7 +86,7 @@ TEST(PictureFile, pngIsAlwaysDecodedFromSrgbToLinear) {
     EXPECT_NEAR(picture.pixel(1)[2], 0.215860500, 1e-6);
 }
 
-TEST(PictureFile, pfmIsAlwaysReadLinearAndFromTheTop) {
+TEST(PictureFile, pfmIsReadLinearAndFromTheTop) {
     const TemporaryFolder folder;
     // PFM stores its rows from the bottom; a negative scale says little-endian.
     const float rows[2][3] = {{1.f, 2.f, 3.f}, {4.f, 5.f, 1e-20f}};
@@ -99,7 +99,7 @@ TEST(PictureFile, pfmIsAlwaysReadLinearAndFromTheTop) {
     EXPECT_THAT(underLedger(readPicture, folder.file("b.pfm")).rgba, ElementsAre(2.f, 2.f, 2.f, 1.f));
 }
 
-TEST(PictureFile, aBrokenInputIsAlwaysAnInputErrorThatNamesTheFile) {
+TEST(PictureFile, aBrokenInputIsAnInputErrorThatNamesTheFile) {
     const TemporaryFolder folder;
     writeExr(folder.file("whole.exr"), greyPicture(64, 64, 0.25f));
     const std::string whole = readText(folder.file("whole.exr"));
@@ -125,7 +125,7 @@ std::string refusalOf(const TemporaryFolder& folder, const std::string& name, co
     return message.substr(std::min(message.size(), folder.file(name).size() + 2));
 }
 
-TEST(PictureFile, noReaderButThoseOfTexturesIsEverAsked) {
+TEST(PictureFile, onlyReadersOfTexturesAreUsed) {
     const TemporaryFolder folder;
     // "null" makes pictures of nothing at all, "mp4" opens films, and those of IFF and DPX crash on what is broken.
     for (const char* extension : {"null", "mp4", "raw", "vdb", "iff", "dpx", "psd"})
@@ -138,7 +138,7 @@ TEST(PictureFile, noReaderButThoseOfTexturesIsEverAsked) {
     EXPECT_EQ(underLedger(readPicture, folder.file("a.null")).width, 2);
 }
 
-TEST(PictureFile, whatIsReadIsAlwaysChargedBeforeItIsDecoded) {
+TEST(PictureFile, picturesAreChargedBeforeTheyAreDecoded) {
     const TemporaryFolder folder;
     writeExr(folder.file("a.exr"), greyPicture(512, 512, 1.f));
     const std::uint64_t kept = 512 * 512 * 17; // four floats a pixel, and whether it is covered
@@ -150,7 +150,7 @@ TEST(PictureFile, whatIsReadIsAlwaysChargedBeforeItIsDecoded) {
                 HasSubstr("a.exr: the picture of 512x512 texels: asks for 4.0 MiB of memory"));
 }
 
-TEST(PictureFile, whatCannotBeLaidOverAPictureIsAlwaysRefusedWithTheRemedy) {
+TEST(PictureFile, picturesThatCannotBeOverlaidAreRefusedWithTheRemedy) {
     const TemporaryFolder folder;
     writeExr(folder.file("a.exr"), greyPicture(2, 2, 1.f));
     std::string cropped = readText(folder.file("a.exr"));
@@ -161,7 +161,7 @@ TEST(PictureFile, whatCannotBeLaidOverAPictureIsAlwaysRefusedWithTheRemedy) {
     EXPECT_EQ(refusalOf(folder, "b.exr", cropped), "its data window is not its display window; save it uncropped");
 }
 
-TEST(PictureFile, anUnwritableOutputIsAlwaysARuntimeErrorAndNeverAnInputError) {
+TEST(PictureFile, anUnwritableOutputIsARuntimeErrorAndNeverAnInputError) {
     const TemporaryFolder folder;
     const std::string path = folder.file("none/a.exr");
     EXPECT_THROW(

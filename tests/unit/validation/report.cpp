@@ -80,14 +80,14 @@ std::string faultOf(const std::string& html) {
     return open.empty() ? "" : "<" + open.back() + "> is never closed";
 }
 
-TEST(Report, theCheckerOfThisTestAlwaysFindsBrokenNesting) {
+TEST(Report, theCheckerOfThisTestFindsBrokenNesting) {
     EXPECT_EQ(faultOf("<html><p>x</p></html>"), "");
     EXPECT_NE(faultOf("<html><p>x</html>"), "");
     EXPECT_NE(faultOf("<html><p a=x>x</p></html>"), "");
     EXPECT_NE(faultOf("<html><p>a < b</p></html>"), "");
 }
 
-TEST(Report, theHtmlIsAlwaysWellFormedAndFullyEscaped) {
+TEST(Report, theHtmlIsWellFormedAndFullyEscaped) {
     const std::string html = reportHtml(sampleReport());
     EXPECT_EQ(faultOf(html), "");
     EXPECT_THAT(html, HasSubstr("<h1>hall &amp; &lt;friends&gt;</h1>"));
@@ -97,7 +97,7 @@ TEST(Report, theHtmlIsAlwaysWellFormedAndFullyEscaped) {
     EXPECT_THAT(html, HasSubstr("./run compare hall --json &#39;x&amp;y.json&#39;"));
 }
 
-TEST(Report, aBenchmarksPageIsAlwaysWellFormedAndFullyEscaped) {
+TEST(Report, aBenchmarksPageIsWellFormedAndFullyEscaped) {
     BenchRecord record;
     record.groups = {madeUpGroup(100, {madeUpResult("forward", 40.0, 1e-9), madeUpResult("deferred", 10.0, 1e-9),
                                        madeUpResult("deferred", 8.0, 1e-6, "packed")}),
@@ -135,7 +135,7 @@ TEST(Report, thePageNeverReachesOutsideItself) {
         EXPECT_TRUE((*found)[2].str().starts_with("data:") || (*found)[2].str().starts_with("#")) << found->str();
 }
 
-TEST(Report, theChoiceOfAFilterIsAlwaysExplainedAndNeverAmongTheErrors) {
+TEST(Report, theChoiceOfAFilterIsExplainedAndNeverAmongTheErrors) {
     BenchGroup group = madeUpGroup(10, {madeUpResult("forward", 2.0, 1e-9)});
     const std::string without = attributionHtml(group);
     group.attribution.push_back({kFilterCause, "smaller levels", "level 0 alone", 0.73, 4.0, 0.1});
@@ -146,7 +146,7 @@ TEST(Report, theChoiceOfAFilterIsAlwaysExplainedAndNeverAmongTheErrors) {
     EXPECT_THAT(with.substr(without.size()), testing::HasSubstr(figureHtml(0.73)));
 }
 
-TEST(Report, whatARangeToleranceDropsIsAlwaysOnThePage) {
+TEST(Report, theErrorOfARangeToleranceIsOnThePage) {
     Report report = sampleReport();
     EXPECT_THAT(reportHtml(report), Not(HasSubstr("range tolerance")));
     const Picture whole = greyPicture(4, 2, 2.f);
@@ -157,7 +157,7 @@ TEST(Report, whatARangeToleranceDropsIsAlwaysOnThePage) {
     EXPECT_EQ(faultOf(html), "");
 }
 
-TEST(Report, everyPictureIsAlwaysEmbeddedExactlyOnce) {
+TEST(Report, everyPictureIsEmbeddedExactlyOnce) {
     const Report report = sampleReport();
     const std::string html = reportHtml(report);
     EXPECT_EQ(occurrences(html, "src=\"data:image/png;base64,"), report.pictures.size() + report.heatMaps.size());
@@ -166,7 +166,7 @@ TEST(Report, everyPictureIsAlwaysEmbeddedExactlyOnce) {
     EXPECT_EQ(occurrences(html, " id=\"picture-2\""), 1u);
 }
 
-TEST(Report, theVerdictAlwaysSaysHowManyPairsMissed) {
+TEST(Report, theVerdictSaysHowManyPairsMissed) {
     Report report = sampleReport();
     EXPECT_THAT(reportHtml(report), HasSubstr("1 of 2 comparisons missed what was asked."));
     EXPECT_THAT(reportHtml(report), HasSubstr("<li>maxRel is 0.5, at most 1e-05 was asked</li>"));
@@ -186,12 +186,12 @@ TEST(Report, aPairWithoutPicturesNeverHasASlider) {
     EXPECT_EQ(faultOf(reportHtml(Report{})), "");
 }
 
-TEST(Report, figuresAreAlwaysSetWithPowersOfTen) {
+TEST(Report, figuresAreSetWithPowersOfTen) {
     EXPECT_THAT(reportHtml(sampleReport()),
                 HasSubstr("max&nbsp;rel &le;&nbsp;1.0&#8239;&times;&#8239;10<sup>&minus;5</sup>"));
 }
 
-TEST(Html, bytesThatAreNotUtf8AndControlCharactersAreAlwaysReplaced) {
+TEST(Html, bytesThatAreNotUtf8AndControlCharactersAreReplaced) {
     EXPECT_EQ(escapedHtml("\xc3\xa4 \xe2\x82\xac \xf0\x9f\x8e\xa8"), "\xc3\xa4 \xe2\x82\xac \xf0\x9f\x8e\xa8");
     const std::string replacement = "\xef\xbf\xbd";
     EXPECT_EQ(escapedHtml("a\xff"
@@ -203,7 +203,7 @@ TEST(Html, bytesThatAreNotUtf8AndControlCharactersAreAlwaysReplaced) {
     EXPECT_EQ(escapedHtml(std::string_view("\0\x1b\n\t", 4)), replacement + replacement + "\n\t");
 }
 
-TEST(Base64, everyLengthIsAlwaysPaddedAsRfc4648Says) {
+TEST(Base64, everyLengthIsPaddedAsRfc4648Says) {
     const std::string text = "foobar"; // the test vectors of RFC 4648 section 10
     const char* encoded[] = {"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
     for (std::size_t length = 0; length <= 6; ++length)

@@ -29,7 +29,7 @@ StressResult goodResult() {
     return result;
 }
 
-TEST(StressCases, everyCaseAlwaysHasAnUnusedNameInAGroupAToleranceAndItsReason) {
+TEST(StressCases, everyCaseHasAnUnusedNameInAGroupAToleranceAndItsReason) {
     std::set<std::string> names;
     for (const StressCase& row : stressCases()) {
         EXPECT_TRUE(names.insert(row.name).second) << row.name;
@@ -42,7 +42,7 @@ TEST(StressCases, everyCaseAlwaysHasAnUnusedNameInAGroupAToleranceAndItsReason) 
     EXPECT_GE(names.size(), 30u);
 }
 
-TEST(StressCases, everyPictureIsAlwaysAValidSceneInBothForms) {
+TEST(StressCases, everyPictureIsAValidSceneInBothForms) {
     for (const StressCase& row : stressCases()) {
         if (!row.pictures) continue;
         const std::vector<StressPicture> quick = row.pictures(StressEffort::Quick);
@@ -56,7 +56,7 @@ TEST(StressCases, everyPictureIsAlwaysAValidSceneInBothForms) {
     }
 }
 
-TEST(StressModels, everyLitModelOfTheReferenceAlwaysHasExactlyOneRow) {
+TEST(StressModels, everyLitModelOfTheReferenceHasExactlyOneRow) {
     for (const reference::Model& model : reference::modelTable()) {
         const auto rows = std::count_if(stressModels().begin(), stressModels().end(),
                                         [&](const StressModel& candidate) { return candidate.model == model.model; });
@@ -64,7 +64,7 @@ TEST(StressModels, everyLitModelOfTheReferenceAlwaysHasExactlyOneRow) {
     }
 }
 
-TEST(StressModels, randomMaterialsAreAlwaysOnesThatScenesMayHave) {
+TEST(StressModels, randomMaterialsAreOnesThatScenesMayHave) {
     StressRandom random(1);
     for (const StressModel& model : stressModels()) {
         scenes::Scene scene;
@@ -80,7 +80,7 @@ TEST(StressModels, randomMaterialsAreAlwaysOnesThatScenesMayHave) {
     }
 }
 
-TEST(StressDirections, everyDirectionIsAlwaysUnitAndTheFirstIsRandom) {
+TEST(StressDirections, everyDirectionIsUnitAndTheFirstIsRandom) {
     StressRandom random(2);
     EXPECT_STREQ(stressDirections().front().name, "random");
     for (const StressDirection& direction : stressDirections()) {
@@ -92,7 +92,7 @@ TEST(StressDirections, everyDirectionIsAlwaysUnitAndTheFirstIsRandom) {
     }
 }
 
-TEST(StressFigures, aSampleAlwaysCountsOnceAKind) {
+TEST(StressFigures, aSampleCountsOnceAKind) {
     StressFigures figures;
     const float nan = std::nanf(""), inf = INFINITY;
     for (const std::vector<float>& sample :
@@ -104,7 +104,7 @@ TEST(StressFigures, aSampleAlwaysCountsOnceAKind) {
     EXPECT_EQ(figures.negative, 2u);
 }
 
-TEST(StressFigures, theWorstErrorAlwaysTellsWhereItIsAndNaNIsTheWorst) {
+TEST(StressFigures, theWorstErrorTellsWhereItIsAndNaNIsTheWorst) {
     StressFigures figures;
     figures.error(0.5, [] { return "a"; });
     figures.error(0.25, [] { return "b"; });
@@ -141,14 +141,14 @@ TEST(StressResult, holdsExactlyWhenNothingIsBadAndItsFigureIsWithinTheTolerance)
                 }).empty());
 }
 
-TEST(StressNames, aGroupIsAlwaysAllItsCasesAndAnUnknownNameAlwaysNamesTheNearest) {
+TEST(StressNames, aGroupIsAllItsCasesAndAnUnknownNameNamesTheNearest) {
     EXPECT_EQ(stressCasesNamed("scene/far").size(), 1u);
     EXPECT_EQ(stressCasesNamed("directions").size(), stressDirections().size());
     EXPECT_THAT(errorOf<InputError>([] { stressCasesNamed("scene/fax"); }), testing::HasSubstr("scene/far"));
     EXPECT_THROW(stressCasesNamed("scen"), InputError);
 }
 
-TEST(StressRecord, jsonAlwaysHasTheAgreedFieldsAndAReasonForEachNull) {
+TEST(StressRecord, jsonHasTheAgreedFieldsAndAReasonForEachNull) {
     StressRecord record{"llvmpipe", StressEffort::Quick, {goodResult(), goodResult()}};
     record.results[1].technique = engine::Technique::Deferred;
     record.results[1].figures.worstRel = INFINITY;
@@ -173,7 +173,7 @@ TEST(StressRecord, jsonAlwaysHasTheAgreedFieldsAndAReasonForEachNull) {
     EXPECT_EQ(json["ok"], false);
 }
 
-TEST(StressRecord, theTableAlwaysSaysWhatWasMissedAndAnEmptyRecordNeverHolds) {
+TEST(StressRecord, theTableSaysWhatWasMissedAndAnEmptyRecordNeverHolds) {
     StressRecord record{"llvmpipe", StressEffort::Full, {goodResult()}};
     EXPECT_THAT(stressTable(record), testing::HasSubstr("all 1 hold over 10 samples\n"));
     record.results[0].figures.negative = 3;

@@ -9,7 +9,7 @@ using engine::Technique;
 
 const frame::GBufferLayout kExact = frame::layoutTable()[0].layout;
 
-TEST(TechniqueCompare, pairsOnSoftwareAreAlwaysHeldToEveryBit) {
+TEST(TechniqueCompare, pairsOnSoftwareAreHeldToEveryBit) {
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         const Tolerance tolerance = pairTolerance(info.technique, kExact, true, 65536);
         EXPECT_EQ(tolerance.bitEqual, 1.0) << info.name;

@@ -9,7 +9,7 @@
 namespace tessera::validation {
 namespace {
 
-TEST(TimeSamples, medianAndP95AreAlwaysMeasuredTimes) {
+TEST(TimeSamples, medianAndP95AreMeasuredTimes) {
     std::vector<double> samples;
     for (int i = 20; i > 0; --i) samples.push_back(i);
     const TimeSpread spread = spreadOf(samples);
@@ -30,7 +30,7 @@ TEST(TimeSamples, theSlopeIsExactlyTheMedianOverRoundsWhateverTheMachinesPace) {
     EXPECT_EQ(slopeSpread(high, low, 4.0).median, -6.0);
 }
 
-TEST(SummarisePasses, passesThatSumToTheirFrameAreAlwaysKept) {
+TEST(SummarisePasses, passesThatSumToTheirFrameAreKept) {
     PointTimes times;
     // 15 % of 10 ms may be missing.
     summarisePasses(times, {"a", "b"}, {{{3.0}, {5.6}}, {{4.0}, {5.5}}, {{3.5}, {5.4}}},
@@ -43,7 +43,7 @@ TEST(SummarisePasses, passesThatSumToTheirFrameAreAlwaysKept) {
     EXPECT_TRUE(times.why.empty());
 }
 
-TEST(SummarisePasses, passesThatDoNotSumToTheirFrameAreAlwaysNullWithAReason) {
+TEST(SummarisePasses, passesThatDoNotSumToTheirFrameAreNullWithAReason) {
     PointTimes times;
     summarisePasses(times, {"a", "b"}, {{{3.0}, {5.0}}}, std::vector<double>{10.0});
     ASSERT_EQ(times.passes.size(), 2u);
@@ -54,7 +54,7 @@ TEST(SummarisePasses, passesThatDoNotSumToTheirFrameAreAlwaysNullWithAReason) {
     EXPECT_EQ(times.why.at("gpuMs"), times.why.at("passes.gpuMs"));
 }
 
-TEST(SummarisePasses, aPassWithoutATimeIsAlwaysNamed) {
+TEST(SummarisePasses, aPassWithoutATimeIsNamed) {
     PointTimes times;
     summarisePasses(times, {"a", "b"}, {{{3.0}, {5.0}}, {{3.0}, {}}}, {});
     EXPECT_FALSE(times.passes[0].gpuMs);

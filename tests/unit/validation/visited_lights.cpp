@@ -49,7 +49,7 @@ std::vector<int> visited(const engine::DrawnLists& drawn, int row, float depth) 
 
 using Lights = std::vector<int>;
 
-TEST(VisitedLights, aPixelAlwaysVisitsTheRunOfItsTileAndSlice) {
+TEST(VisitedLights, aPixelVisitsTheRunOfItsTileAndSlice) {
     const engine::DrawnLists drawn = runsByHand();
     EXPECT_EQ(visited(drawn, 15, 0.5f), (Lights{0, 3})) << "tile rows count from the top, pixel rows from the bottom";
     EXPECT_EQ(visited(drawn, 8, 1.0f), (Lights{0, 3}));
@@ -57,7 +57,7 @@ TEST(VisitedLights, aPixelAlwaysVisitsTheRunOfItsTileAndSlice) {
     EXPECT_EQ(visited(drawn, 0, 1.0f), (Lights{0, 2}));
 }
 
-TEST(VisitedLights, aSliceOfTheUpperWordAlwaysFindsItsCell) {
+TEST(VisitedLights, aSliceOfTheUpperWordFindsItsCell) {
     engine::DrawnLists drawn = runsByHand();
     // Depth 1 falls in slice 40; slices 0, 31 and 32 are occupied too.
     const std::uint32_t high = std::bit_cast<std::uint32_t>(2.0f);
@@ -66,7 +66,7 @@ TEST(VisitedLights, aSliceOfTheUpperWordAlwaysFindsItsCell) {
     EXPECT_EQ(visited(drawn, 0, 1.0f), (Lights{0, 2})) << "three occupied slices lie below slice 40";
 }
 
-TEST(VisitedLights, lightsThatReachEverywhereAreAlwaysMergedInOrder) {
+TEST(VisitedLights, lightsThatReachEverywhereAreMergedInOrder) {
     engine::DrawnLists drawn = runsByHand();
     drawn.everywhere = {1, 3};
     drawn.lists.entries = {1, 3, 0, 2, 2};
@@ -75,7 +75,7 @@ TEST(VisitedLights, lightsThatReachEverywhereAreAlwaysMergedInOrder) {
     EXPECT_EQ(visited(drawn, 0, 1.0f), (Lights{2, 4}));
 }
 
-TEST(VisitedLights, aPixelAlwaysVisitsTheBitsThatItsTileAndBinShare) {
+TEST(VisitedLights, aPixelVisitsTheBitsThatItsTileAndBinShare) {
     engine::DrawnLists drawn = listsByHand(Method::Zbin);
     drawn.sceneIndex.clear();
     for (int light = 0; light < 70; ++light) drawn.sceneIndex.push_back(light);
@@ -93,7 +93,7 @@ TEST(VisitedLights, aPixelAlwaysVisitsTheBitsThatItsTileAndBinShare) {
     EXPECT_EQ(visited(drawn, 0, 1.0f), (Lights{33, 69}));
 }
 
-TEST(VisitedLights, withoutCullingEveryPixelAlwaysVisitsEveryLight) {
+TEST(VisitedLights, withoutCullingEveryPixelVisitsEveryLight) {
     EXPECT_EQ(visited(listsByHand(Method::None), 0, 0.5f), (Lights{0, 2, 3, 4}));
 }
 
@@ -127,7 +127,7 @@ protected:
     std::vector<float> depth_;
 };
 
-TEST_F(SabotagedLists, aRemovedEntryIsAlwaysNoticedAndNamed) {
+TEST_F(SabotagedLists, aRemovedEntryIsNoticedAndNamed) {
     EXPECT_EQ(judge().covered, 1u);
     EXPECT_EQ(judge().needed, 2u);
     EXPECT_EQ(judge().evaluated, 2u);
@@ -141,7 +141,7 @@ TEST_F(SabotagedLists, aRemovedEntryIsAlwaysNoticedAndNamed) {
     EXPECT_EQ(judge().firstMissing->y, 15);
 }
 
-TEST_F(SabotagedLists, anAddedEntryIsAlwaysCountedAsExactlyOneMore) {
+TEST_F(SabotagedLists, anAddedEntryIsCountedAsExactlyOneMore) {
     drawn_.lists.cells.back() = {3, 3};
     drawn_.lists.entries.push_back(3);
     EXPECT_EQ(judge().evaluated, 3u);
@@ -151,7 +151,7 @@ TEST_F(SabotagedLists, anAddedEntryIsAlwaysCountedAsExactlyOneMore) {
     EXPECT_EQ(judge().entries, 6u);
 }
 
-TEST_F(SabotagedLists, aRunThatLeavesTheEntriesIsNeverRead) {
+TEST_F(SabotagedLists, aRunThatLeavesTheEntriesIsNotRead) {
     drawn_.lists.cells.back() = {3, 3};
     EXPECT_THROW(judge(), std::out_of_range);
 }
@@ -171,14 +171,14 @@ TEST(CellLights, everyCellCountsExactlyOnce) {
     EXPECT_EQ(some.figures().max, 10u);
 }
 
-TEST(CellLights, thePercentileIsAlwaysOneOfTheCells) {
+TEST(CellLights, thePercentileIsOneOfTheCells) {
     CellLights lights;
     for (std::uint32_t cell = 1; cell <= 200; ++cell) lights.add({cell, 0}, cell);
     EXPECT_EQ(lights.figures().p99, 198u);
     EXPECT_EQ(lights.figures().max, 200u);
 }
 
-TEST(LightTable, everyRowAlwaysShowsItsFiguresAndNothingThatIsNotKnown) {
+TEST(LightTable, everyRowShowsItsFiguresAndNothingThatIsNotKnown) {
     LightTableRow row;
     row.method = Method::Tile25d;
     row.tilePixels = 32;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-TEST(Bounded, whatIsTypedAlwaysStaysBetweenItsBounds) {
+TEST(Bounded, typedValuesAreClampedToTheirBounds) {
     EXPECT_EQ(bounded(0.5f, 0.1f, 0.0f, 1.0f), 0.5f);
     EXPECT_EQ(bounded(-5.0f, 0.1f, 0.0f, 1.0f), 0.0f);
     EXPECT_EQ(bounded(7.0f, 0.1f, 0.0f, 1.0f), 1.0f);
@@ -21,7 +21,7 @@ TEST(Bounded, whatIsTypedAlwaysStaysBetweenItsBounds) {
     EXPECT_EQ(bounded(-double(kInfinity), 2.0, -kMostSeconds, kMostSeconds), -kMostSeconds);
 }
 
-TEST(Bounded, whatIsNoNumberAlwaysLeavesTheValueAsItWas) {
+TEST(Bounded, textThatIsNoNumberKeepsTheValue) {
     EXPECT_EQ(bounded(NAN, 0.3f, 0.0f, 1.0f), 0.3f);
 }
 
@@ -67,7 +67,7 @@ scenes::Light lightAtBounds(bool isMost) {
     return light;
 }
 
-TEST(Bounded, aSceneEditedToEveryBoundCanAlwaysBeSaved) {
+TEST(Bounded, aSceneEditedToEveryBoundCanBeSaved) {
     for (const bool isMost : {false, true}) {
         scenes::Scene scene;
         scene.materials.push_back(materialAtBounds(isMost));

@@ -27,7 +27,7 @@ const std::vector<scenes::Camera>& allKinds() {
     return cameras;
 }
 
-TEST(CameraPose, aSceneCameraAlwaysKeepsItsPictureThroughOrbitAndFlyAndBack) {
+TEST(CameraPose, aSceneCameraKeepsItsPictureThroughOrbitAndFlyAndBack) {
     for (const scenes::Camera& camera : allKinds()) {
         SCOPED_TRACE(glm::dvec3(camera.worldFromCamera[3]).x);
         const CameraPose pose = poseOf(camera, kBox);
@@ -49,7 +49,7 @@ TEST(CameraPose, theFocusIsExactlyTheDepthOfTheBoundsCentreWhereThatLiesAhead) {
     EXPECT_DOUBLE_EQ(poseOf(away, scenes::Box3()).focusMetres, 1.0);
 }
 
-TEST(CameraPose, whatIsDrawnIsExactlyTheChangeMadeToTheStartingCamera) {
+TEST(CameraPose, theDrawnCameraIsTheStartCameraWithTheChange) {
     const scenes::Camera start = perspective({1, 2, 8}, {0, 1, 0}, {0.2, 1, 0});
     CameraPose pose = poseOf(start, kBox);
     pose.heading = turned(pose.heading, 0.3, -0.2);
@@ -59,7 +59,7 @@ TEST(CameraPose, whatIsDrawnIsExactlyTheChangeMadeToTheStartingCamera) {
     EXPECT_EQ(drawn.fovYRadians, start.fovYRadians);
 }
 
-TEST(CameraPose, theNearPlaneOfTheSceneAlwaysStaysUntilTheFocusComesNearer) {
+TEST(CameraPose, theNearPlaneOfTheSceneStaysUntilTheFocusComesNearer) {
     scenes::Camera start = perspective({1, 2, 8}, {0, 1, 0});
     start.nearMetres = 3.0; // cuts a wall away
     CameraPose pose = poseOf(start, kBox);
@@ -72,7 +72,7 @@ TEST(CameraPose, theNearPlaneOfTheSceneAlwaysStaysUntilTheFocusComesNearer) {
     EXPECT_DOUBLE_EQ(cameraAt(pose, start).nearMetres, 1.5);
 }
 
-TEST(CameraPose, zoomingInNeverCutsHolesIntoWhatIsInFocus) {
+TEST(CameraPose, zoomingInDoesNotClipTheFocus) {
     for (const double nearMetres : {1e-3, 0.1, 3.0, 20.0}) {
         SCOPED_TRACE(nearMetres);
         scenes::Camera start = perspective({1, 2, 8}, {0, 1, 0});
@@ -88,7 +88,7 @@ TEST(CameraPose, zoomingInNeverCutsHolesIntoWhatIsInFocus) {
     }
 }
 
-TEST(CameraPose, anUprightChangeNeverSaysUpAndOneAtThePoleAlwaysDoes) {
+TEST(CameraPose, anUprightChangeNeverSaysUpAndOneAtThePoleDoes) {
     EXPECT_FALSE(changeOf(poseOf(allKinds()[0], kBox), allKinds()[0]).upWS);
     EXPECT_TRUE(changeOf(poseOf(allKinds()[1], kBox), allKinds()[1]).upWS);
     EXPECT_TRUE(changeOf(poseOf(allKinds()[2], kBox), allKinds()[2]).upWS);
@@ -103,14 +103,14 @@ TEST(Heading, pitchNeverPassesThePoleHoweverFarItIsTurned) {
     EXPECT_LT(heading.pitchRadians, 0.0);
 }
 
-TEST(Heading, aSteeperCameraOfTheSceneIsNeverMovedBeforeItIsTurnedBack) {
+TEST(Heading, aSteeperCameraOfTheSceneIsNotMovedBeforeItIsTurnedBack) {
     const Heading down = headingOf(glm::dmat3(allKinds()[2].worldFromCamera));
     EXPECT_DOUBLE_EQ(down.pitchRadians, -0.5 * std::numbers::pi);
     EXPECT_DOUBLE_EQ(turned(down, 0.0, -0.1).pitchRadians, down.pitchRadians);
     EXPECT_DOUBLE_EQ(turned(down, 0.0, 0.1).pitchRadians, down.pitchRadians + 0.1);
 }
 
-TEST(CameraChange, anEyeAloneAlwaysMovesAndATargetAloneAlwaysTurns) {
+TEST(CameraChange, anEyeAloneMovesAndATargetAloneTurns) {
     const scenes::Camera camera = allKinds()[1];
     scenes::CameraChange moved;
     moved.eyeWS = glm::dvec3(7, 8, 9);
@@ -143,7 +143,7 @@ TEST(CameraChange, upIsADirectionWhateverItsLength) {
         expectSamePicture(changedCamera(camera, plain), changedCamera(camera, change), kRoundingPixels);
 }
 
-TEST(CameraChange, whatNoCameraCanHaveIsAlwaysRefusedByName) {
+TEST(CameraChange, invalidCameraValuesAreRefusedByName) {
     const scenes::Camera camera = allKinds()[0];
     scenes::CameraChange change;
     change.targetWS = glm::dvec3(camera.worldFromCamera[3]);

@@ -27,7 +27,7 @@ void turn(CameraRig& rig, double degrees) {
     }
 }
 
-TEST(CameraRig, whatNothingMovedAlwaysShowsItsCameraToTheLastBit) {
+TEST(CameraRig, anUnmovedCameraIsDrawnToTheLastBit) {
     for (const scenes::Camera& camera : manyCameras()) {
         CameraRig rig = rigOf(camera);
         for (const CameraRig::Mode mode : {CameraRig::Mode::Orbit, CameraRig::Mode::Fly, CameraRig::Mode::Orbit}) {
@@ -41,7 +41,7 @@ TEST(CameraRig, whatNothingMovedAlwaysShowsItsCameraToTheLastBit) {
     }
 }
 
-TEST(CameraRig, homeIsAlwaysTheCameraItStartedAsHoweverFarItTurned) {
+TEST(CameraRig, homeIsTheCameraItStartedAsHoweverFarItTurned) {
     for (const CameraRig::Mode mode : {CameraRig::Mode::Orbit, CameraRig::Mode::Fly})
         for (const double degrees : {20.0, 200.0, 900.0}) {
             SCOPED_TRACE(degrees);

@@ -19,7 +19,7 @@ Json eventsOf(const std::vector<TraceFrame>& frames) {
     return Json::parse(chromeTrace(frames, "llvmpipe"))["traceEvents"];
 }
 
-TEST(ChromeTrace, everyEventAlwaysHasWhatTheTraceEventFormatAsksFor) {
+TEST(ChromeTrace, everyEventHasTheFieldsOfTheTraceEventFormat) {
     const Json document = Json::parse(chromeTrace(twoFrames(), "llvmpipe"));
     EXPECT_EQ(document["displayTimeUnit"], "ms");
     std::set<std::string> rows;
@@ -36,7 +36,7 @@ TEST(ChromeTrace, everyEventAlwaysHasWhatTheTraceEventFormatAsksFor) {
     EXPECT_EQ(rows, (std::set<std::string>{"tessera", "CPU", "GPU: llvmpipe"}));
 }
 
-TEST(ChromeTrace, timesAreAlwaysMicrosecondsAndPassesLieEndToEndInTheirFrame) {
+TEST(ChromeTrace, timesAreMicrosecondsAndPassesLieEndToEndInTheirFrame) {
     std::vector<std::vector<double>> cpu, gpu;
     for (const Json& event : eventsOf(twoFrames())) {
         if (event["ph"] != "X" || event["name"] == "frame") continue;
@@ -64,7 +64,7 @@ TEST(ChromeTrace, stretchesOfARowNeverOverlapWithoutOneContainingTheOther) {
             }
 }
 
-TEST(ChromeTrace, aPassWithoutAGpuTimeIsNeverOnTheGpusRow) {
+TEST(ChromeTrace, aPassWithoutAGpuTimeIsNotOnTheGpusRow) {
     for (const Json& event : eventsOf(twoFrames()))
         EXPECT_FALSE(event.value("cat", "") == "gpu" && event["name"] == "display \"final\"");
 }

@@ -33,7 +33,7 @@ int selectedByPress(State& state) {
     return state.selectedLight;
 }
 
-TEST(Controls, aLightIsAlwaysGrabbedByItsMarkerAndNeverWithoutOne) {
+TEST(Controls, aLightIsGrabbedByItsMarkerAndNeverWithoutOne) {
     State shown = withLightInTheMiddle(kMostMarkers - 1, kMostMarkers + 2);
     EXPECT_EQ(selectedByPress(shown), int(kMostMarkers) - 1);
     State beyond = withLightInTheMiddle(kMostMarkers, kMostMarkers + 2);

@@ -5,7 +5,7 @@
 namespace tessera::viewer {
 namespace {
 
-TEST(EventLog, anEventIsAlwaysOneLineThatNoTerminalObeys) {
+TEST(EventLog, anEventIsOneLineThatNoTerminalObeys) {
     testing::internal::CaptureStdout();
     EventLog(true).line("error a\x1b[2J.obj: broken\nsee there");
     EventLog(false).line("nothing");

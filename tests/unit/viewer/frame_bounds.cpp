@@ -29,7 +29,7 @@ std::vector<Heading> headings() {
     return {{}, {2.1, 0.4, 0.0}, {-0.7, -1.5, 0.3}, {0.2, kMostPitchRadians, 0.0}};
 }
 
-TEST(FrameBounds, everyCornerIsAlwaysInViewForAnyFieldOfViewAspectAndHeading) {
+TEST(FrameBounds, everyCornerIsInViewForAnyFieldOfViewAspectAndHeading) {
     for (const scenes::Box3& box : {kBox, scenes::Box3{{1e4, 0, 0}, {1e4 + 1e-3, 1e-3, 1e-3}},
                                     scenes::Box3{{-1, 2, 0}, {1, 2, 0}}, scenes::Box3{{-1e5, 0, -1e5}, {1e5, 1, 1e5}}})
         for (const Heading& heading : headings())
@@ -48,7 +48,7 @@ TEST(FrameBounds, everyCornerIsAlwaysInViewForAnyFieldOfViewAspectAndHeading) {
             }
 }
 
-TEST(FrameBounds, thePictureIsAlwaysFilledUpToItsMargin) {
+TEST(FrameBounds, thePictureIsFilledUpToItsMargin) {
     const scenes::Camera lens = perspective({0, 0, 1}, {0, 0, 0});
     const scenes::Camera camera = cameraAt(frameBounds(kBox, CameraPose(), lens, 1.5), lens);
     double reach = 0.0;
@@ -59,7 +59,7 @@ TEST(FrameBounds, thePictureIsAlwaysFilledUpToItsMargin) {
     EXPECT_NEAR(reach, 1.0 / 1.05, 1e-9); // a margin of 5 percent
 }
 
-TEST(FrameBounds, anEmptySceneIsAlwaysSeenAsABallAboutTheOrigin) {
+TEST(FrameBounds, anEmptySceneIsSeenAsABallAboutTheOrigin) {
     const scenes::Camera lens = perspective({0, 0, 1}, {0, 0, 0});
     const CameraPose framed = frameBounds(scenes::Box3(), CameraPose(), lens, 1.0);
     EXPECT_LT(glm::distance(framed.eyeWS, glm::dvec3(0.0, 0.0, framed.focusMetres)), 1e-12);

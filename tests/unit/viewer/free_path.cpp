@@ -18,7 +18,7 @@ private:
     tessera::test::TempFolder folder_;
 };
 
-TEST_F(FreePath, aFileThatIsThereIsNeverNamed) {
+TEST_F(FreePath, aFileThatIsThereIsNotNamed) {
     EXPECT_EQ(freePath("hall", ".png"), "tessera-hall-001.png");
     folder().write("tessera-hall-001.png", "");
     EXPECT_EQ(freePath("hall", ".png"), "tessera-hall-002.png");
@@ -27,11 +27,11 @@ TEST_F(FreePath, aFileThatIsThereIsNeverNamed) {
     EXPECT_EQ(freePath("hall", ".png"), "tessera-hall-003.png");
 }
 
-TEST_F(FreePath, aNameIsAlwaysOneWordOfAShell) {
+TEST_F(FreePath, aNameIsOneWordOfAShell) {
     EXPECT_EQ(freePath("my model (v2)/$x", ".json"), "tessera-my-model--v2---x-001.json");
 }
 
-TEST_F(FreePath, aNameIsNeverLongerThanFileSystemsAllow) {
+TEST_F(FreePath, aNameIsNotLongerThanFileSystemsAllow) {
     EXPECT_LT(freePath(std::string(250, 'x'), ".trace.json").string().size(), 200u);
 }
 

@@ -13,7 +13,7 @@ InputEvent at(Kind kind, float x, int code = 0, bool down = true) {
     return event;
 }
 
-TEST(InputQueue, aPressAndItsReleaseAlwaysReachDifferentFrames) {
+TEST(InputQueue, aPressAndItsReleaseReachDifferentFrames) {
     InputQueue queue;
     queue.push(at(Kind::Button, 1.0f, 0, true));
     queue.push(at(Kind::Button, 1.0f, 0, false));
@@ -44,7 +44,7 @@ TEST(InputQueue, ofAPointerOnItsWayExactlyTheEndIsKept) {
     EXPECT_EQ(taken[0].position.x, 99.0f);
 }
 
-TEST(InputQueue, aPathIsAlwaysAsOldAsItsBeginning) {
+TEST(InputQueue, aPathIsAsOldAsItsBeginning) {
     InputQueue queue;
     for (const double seconds : {1.0, 2.0, 3.0}) {
         InputEvent event = at(Kind::Move, float(seconds));
@@ -54,7 +54,7 @@ TEST(InputQueue, aPathIsAlwaysAsOldAsItsBeginning) {
     EXPECT_EQ(queue.takeFrame().front().heardSeconds, 1.0);
 }
 
-TEST(InputQueue, buttonsWheelAndKeysAreAlwaysUrgentButNotAKeyThatIsHeld) {
+TEST(InputQueue, buttonsWheelAndKeysAreUrgentButNotAKeyThatIsHeld) {
     InputQueue queue;
     EXPECT_FALSE(queue.isUrgent());
     queue.push(at(Kind::Move, 1.0f));
@@ -71,7 +71,7 @@ TEST(InputQueue, buttonsWheelAndKeysAreAlwaysUrgentButNotAKeyThatIsHeld) {
     }
 }
 
-TEST(InputQueue, differentKeysAlwaysShareAFrame) {
+TEST(InputQueue, differentKeysShareAFrame) {
     InputQueue queue;
     queue.push(at(Kind::Key, 0.0f, 65));
     queue.push(at(Kind::Key, 0.0f, 66));

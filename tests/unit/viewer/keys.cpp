@@ -14,7 +14,7 @@ TEST(Keys, aKeyNeverStandsForTwoThings) {
         EXPECT_TRUE(seen.insert({binding.key, binding.modifiers}).second) << binding.name << " " << binding.meaning;
 }
 
-TEST(Keys, everyKeyThatHasANameAlwaysSaysWhatItDoes) {
+TEST(Keys, everyNamedKeyHasADescription) {
     for (const KeyBinding& binding : keyBindings()) {
         EXPECT_EQ(*binding.name == '\0', *binding.meaning == '\0') << binding.name;
         ASSERT_NE(binding.act, nullptr);
@@ -23,7 +23,7 @@ TEST(Keys, everyKeyThatHasANameAlwaysSaysWhatItDoes) {
     }
 }
 
-TEST(Keys, digitsAlwaysShowTheViewOfTheirNumber) {
+TEST(Keys, digitsShowTheViewOfTheirNumber) {
     for (const frame::ViewInfo& info : frame::viewTable()) {
         if (info.key == 0) continue;
         State state;
@@ -32,7 +32,7 @@ TEST(Keys, digitsAlwaysShowTheViewOfTheirNumber) {
     }
 }
 
-TEST(Keys, anExposureBeyondTheSliderIsAlwaysSteppedByHalfAStop) {
+TEST(Keys, anExposureBeyondTheSliderIsSteppedByHalfAStop) {
     State state;
     float& exposureEV = state.looks[0].settings.exposureEV;
     exposureEV = -15.0f;

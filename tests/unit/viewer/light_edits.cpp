@@ -17,7 +17,7 @@ State threeLights() {
     return state;
 }
 
-TEST(LightEdits, theSelectedLightIsAlwaysTheOneThatGoesAndNoneIsSelectedThen) {
+TEST(LightEdits, theSelectedLightIsTheOneThatGoesAndNoneIsSelectedThen) {
     State state = threeLights();
     state.selectedLight = 1;
     state.looks[0].settings.soloLight = 2;
@@ -31,7 +31,7 @@ TEST(LightEdits, theSelectedLightIsAlwaysTheOneThatGoesAndNoneIsSelectedThen) {
     EXPECT_TRUE(state.open->isEdited());
 }
 
-TEST(LightEdits, withoutASelectedLightNothingIsEverDeletedOrCountedAsAnEdit) {
+TEST(LightEdits, withoutASelectedLightNothingIsDeletedOrCountedAsAnEdit) {
     State state = threeLights();
     for (const int selected : {scenes::kNone, 3}) {
         state.selectedLight = selected;
@@ -45,7 +45,7 @@ TEST(LightEdits, withoutASelectedLightNothingIsEverDeletedOrCountedAsAnEdit) {
     replaceByScattered(none);
 }
 
-TEST(LightEdits, scatteredLightsAlwaysTakeTheScenesPlaceAndLieElsewhereTheNextTime) {
+TEST(LightEdits, scatteredLightsTakeTheScenesPlaceAndLieElsewhereTheNextTime) {
     State state = threeLights();
     state.selectedLight = 2;
     state.looks[0].settings.soloLight = 2;

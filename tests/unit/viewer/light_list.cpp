@@ -35,7 +35,7 @@ scenes::Light movingLight(int kind) {
     return light;
 }
 
-TEST(LightList, everyNewNameIsAlwaysFreeAndOthersNeverChange) {
+TEST(LightList, everyNewNameIsFreeAndOthersNeverChange) {
     Lights lights = named({"lamp", "sun", "lamp 3"});
     EXPECT_EQ(duplicateLight(lights, 0), 3u);
     EXPECT_EQ(duplicateLight(lights, 0), 4u);
@@ -54,7 +54,7 @@ TEST(LightList, aCopyIsExactlyTheLightButForItsName) {
     EXPECT_TRUE(copy == lights[0]);
 }
 
-TEST(LightList, soloAlwaysStaysWithItsLightWhileOthersAreDeleted) {
+TEST(LightList, soloStaysWithItsLightWhileOthersAreDeleted) {
     Lights lights = named({"a", "b", "c", "d"});
     std::optional<int> solo = toggledSolo({}, 2);
     EXPECT_EQ(solo, 2);
@@ -70,7 +70,7 @@ TEST(LightList, soloAlwaysStaysWithItsLightWhileOthersAreDeleted) {
     EXPECT_EQ(toggledSolo(0, 1), 1);
 }
 
-TEST(LightList, aMovedLightAlwaysFollowsTheDragAtItsOwnDepthAlsoWhereItIsAnimated) {
+TEST(LightList, aMovedLightFollowsTheDragAtItsOwnDepthAlsoWhereItIsAnimated) {
     for (const scenes::Camera& lens : {perspective({1, 2, 8}, {0, 1, 0}), orthographic({1, 2, 8}, {0, 1, 0}, 3.0)}) {
         const CameraPose pose = poseOf(lens, kBox);
         for (int kind = -1; kind < 4; ++kind) {
@@ -86,7 +86,7 @@ TEST(LightList, aMovedLightAlwaysFollowsTheDragAtItsOwnDepthAlsoWhereItIsAnimate
     }
 }
 
-TEST(LightList, aLightBehindTheEyeIsAlwaysMovedAsAtTheFocus) {
+TEST(LightList, aLightBehindTheEyeIsMovedAsAtTheFocus) {
     const scenes::Camera lens = perspective({0, 0, 8}, {0, 0, 0});
     const CameraPose pose = poseOf(lens, kBox);
     scenes::Light light;
@@ -95,7 +95,7 @@ TEST(LightList, aLightBehindTheEyeIsAlwaysMovedAsAtTheFocus) {
     EXPECT_NEAR(light.positionWS.x, 100.0 * metresPerPixel(lens, pose, pose.focusMetres, kHeightPixels), 1e-12);
 }
 
-TEST(LightList, aLightIsAlwaysPutExactlyWhereItIsSaidAtThatTime) {
+TEST(LightList, anAnimatedLightIsPlacedAtAPointAndTime) {
     for (int kind = -1; kind < 4; ++kind) {
         scenes::Light light = movingLight(kind);
         const scenes::Light before = light;
@@ -111,7 +111,7 @@ TEST(LightList, aLightIsAlwaysPutExactlyWhereItIsSaidAtThatTime) {
     }
 }
 
-TEST(LightList, anOrbitAlwaysBeginsAndAStopAlwaysEndsWhereTheLightIs) {
+TEST(LightList, anOrbitBeginsAndAStopEndsWhereTheLightIs) {
     for (const double timeSeconds : {0.0, 0.7, 2.0, 4.0, 6.5, 12345.678, -1.3}) {
         scenes::Light light;
         light.positionWS = {3, 2, 1};
@@ -128,7 +128,7 @@ TEST(LightList, anOrbitAlwaysBeginsAndAStopAlwaysEndsWhereTheLightIs) {
     }
 }
 
-TEST(LightList, aNewLightAlwaysGivesWhatIsLookedAtAsMuchAsTheDefaultLight) {
+TEST(LightList, aNewLightGivesTheFocusTheIlluminanceOfTheDefaultLight) {
     const scenes::Camera lens = perspective({0, 0, 8}, {0, 0, 0});
     const CameraPose pose = poseOf(lens, kBox);
     const scenes::Light light = lightBeforeFocus(pose);

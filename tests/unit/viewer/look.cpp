@@ -8,7 +8,7 @@ namespace {
 
 using engine::Technique;
 
-TEST(Look, whatIsLeftOfALookIsAlwaysWhatItsTechniqueTakes) {
+TEST(Look, aLookHoldsValuesThatItsTechniqueTakes) {
     for (const engine::TechniqueInfo& from : engine::techniqueTable()) {
         for (const engine::TechniqueInfo& to : engine::techniqueTable()) {
             for (const frame::ViewInfo& view : frame::viewTable()) {
@@ -29,7 +29,7 @@ TEST(Look, whatIsLeftOfALookIsAlwaysWhatItsTechniqueTakes) {
     }
 }
 
-TEST(Look, whatATechniqueCannotDoAlwaysComesBackWithOneThatCan) {
+TEST(Look, valuesPutAsideReturnWithATechniqueThatTakesThem) {
     Look look;
     look.technique = Technique::ForwardPlus;
     look.settings.culling.method = culling::Method::Tile25d;
@@ -48,7 +48,7 @@ TEST(Look, whatATechniqueCannotDoAlwaysComesBackWithOneThatCan) {
     EXPECT_EQ(possible(now), look);
 }
 
-TEST(Look, whatIsChosenAlwaysGoesBeforeWhatWasPutAside) {
+TEST(Look, aChoiceReplacesAValuePutAside) {
     Look look;
     look.technique = Technique::ForwardPlus;
     look.settings.culling.tilePixels = 32;
@@ -61,7 +61,7 @@ TEST(Look, whatIsChosenAlwaysGoesBeforeWhatWasPutAside) {
     EXPECT_EQ(asked(look).settings.culling.tilePixels, 8);
 }
 
-TEST(Look, aNextSceneNeverTakesWhatIsPutAsideForAChoice) {
+TEST(Look, valuesPutAsideAreNoChoiceForTheNextScene) {
     Look before;
     before.technique = Technique::ForwardPlus;
     before.settings.samples = 4;
@@ -76,7 +76,7 @@ TEST(Look, aNextSceneNeverTakesWhatIsPutAsideForAChoice) {
     EXPECT_EQ(possible(result).settings.samples, 2);
 }
 
-TEST(Look, whatTheUserChoseAlwaysOutlivesWhatTheNextSceneWishes) {
+TEST(Look, choicesOfTheUserOverrideTheNextScenesOptions) {
     const Look before;
     Look now = before;
     now.technique = Technique::ForwardPlus;
@@ -91,7 +91,7 @@ TEST(Look, whatTheUserChoseAlwaysOutlivesWhatTheNextSceneWishes) {
     EXPECT_EQ(result.settings.toneMap, frame::ToneMap::Aces);
 }
 
-TEST(Look, everySettingThatNamesNothingOfAnotherSceneAlwaysOutlivesIt) {
+TEST(Look, everySettingThatNamesNothingOfAnotherSceneOutlivesIt) {
     const scenes::Scene scene = tessera::test::sceneOfTwoCameras();
     for (const engine::Setting& setting : engine::settingTable()) {
         Look before, now;
@@ -102,7 +102,7 @@ TEST(Look, everySettingThatNamesNothingOfAnotherSceneAlwaysOutlivesIt) {
     }
 }
 
-TEST(Look, theSidesOfAComparisonAlwaysShareWhatTheTableSaysAndNothingElse) {
+TEST(Look, theSidesOfAComparisonShareTheSettingsThatTheTableMarks) {
     const scenes::Scene scene = tessera::test::sceneOfTwoCameras();
     for (const engine::Setting& setting : engine::settingTable()) {
         State state;
@@ -118,7 +118,7 @@ TEST(Look, theSidesOfAComparisonAlwaysShareWhatTheTableSaysAndNothingElse) {
     for (const char* key : {"technique", "layout", "culling", "view", "filter"}) EXPECT_FALSE(isShared(key)) << key;
 }
 
-TEST(Look, theCameraIsAlwaysTheNextScenes) {
+TEST(Look, theCameraIsTheNextScenes) {
     const Look before;
     Look now = before;
     now.settings.camera = 3;

@@ -46,7 +46,7 @@ std::vector<scenes::CameraChange> changes() {
     return list;
 }
 
-TEST(OpenScene, aPlacedCameraIsAlwaysTheChangedOneToTheLastBitAndItsCommandSaysJustThat) {
+TEST(OpenScene, aPlacedCameraEqualsItsCommandToTheLastBit) {
     for (const scenes::CameraChange& change : changes()) {
         Opened opened;
         opened.open.place(change);
@@ -62,7 +62,7 @@ TEST(OpenScene, aPlacedCameraIsAlwaysTheChangedOneToTheLastBitAndItsCommandSaysJ
     }
 }
 
-TEST(OpenScene, theCommandOfAMovedCameraAlwaysMakesWhatIsShownOfTheScenesCamera) {
+TEST(OpenScene, theCommandOfAMovedCameraReproducesIt) {
     for (const scenes::CameraChange& change : changes()) {
         Opened opened;
         opened.open.place(change);
@@ -91,7 +91,7 @@ TEST(OpenScene, theCommandOfAMovedCameraAlwaysMakesWhatIsShownOfTheScenesCamera)
     EXPECT_EQ(parallel.said(), parallel.shown());
 }
 
-TEST(OpenScene, orbitingAlwaysTurnsAboutTheTargetThatWasSaid) {
+TEST(OpenScene, orbitingTurnsAboutTheGivenTarget) {
     Opened opened;
     scenes::CameraChange change;
     change.eyeWS = glm::dvec3(0, 1, 9);
@@ -114,7 +114,7 @@ TEST(OpenScene, aRefusedPlaceNeverChangesAnything) {
     EXPECT_EQ(opened.open.cameraChange(), scenes::CameraChange());
 }
 
-TEST(OpenScene, anotherCameraIsNeverPlacedAsTheOneBefore) {
+TEST(OpenScene, anotherCameraIsNotPlacedAsTheOneBefore) {
     Opened opened;
     opened.open.place(changes()[6]);
     opened.open.useCamera(1);
@@ -125,7 +125,7 @@ TEST(OpenScene, anotherCameraIsNeverPlacedAsTheOneBefore) {
     EXPECT_EQ(opened.open.cameraChange(), scenes::CameraChange());
 }
 
-TEST(OpenScene, theDefaultLightAlwaysFollowsTheViewUntilLightsAreEditedOrSaved) {
+TEST(OpenScene, theDefaultLightFollowsTheViewUntilLightsAreEditedOrSaved) {
     const auto isAlongTheView = [](const Opened& opened) {
         const glm::dvec3 forwardWS = -glm::dvec3(opened.shown().worldFromCamera[2]);
         return opened.open.scene().lights.at(0).directionWS == glm::normalize(forwardWS);
@@ -152,7 +152,7 @@ TEST(OpenScene, theDefaultLightAlwaysFollowsTheViewUntilLightsAreEditedOrSaved) 
     }
 }
 
-TEST(OpenScene, savingNeverMovesThePictureThePivotOrWhatIsStillMoving) {
+TEST(OpenScene, savingMovesNeitherPictureNorPivotNorMovements) {
     Opened opened, other;
     for (Opened* one : {&opened, &other}) {
         one->open.place(changes()[6]);

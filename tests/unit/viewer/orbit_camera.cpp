@@ -28,7 +28,7 @@ glm::dvec3 pointUnder(const OrbitRig& rig, const glm::dvec2& pixels) {
     return rig.orbit.pivotWS() + metres * (pixels.x * pose.heading.rightWS() - pixels.y * pose.heading.upWS());
 }
 
-TEST(OrbitCamera, panningAlwaysKeepsThePointUnderTheCursor) {
+TEST(OrbitCamera, panningKeepsThePointUnderTheCursor) {
     for (const scenes::Camera& lens : lenses()) {
         OrbitRig rig(lens);
         const glm::dvec3 pointWS = pointUnder(rig, {40.0, -70.0});
@@ -40,7 +40,7 @@ TEST(OrbitCamera, panningAlwaysKeepsThePointUnderTheCursor) {
     }
 }
 
-TEST(OrbitCamera, zoomingAlwaysKeepsThePointUnderTheCursorAlsoOnTheWay) {
+TEST(OrbitCamera, zoomingKeepsThePointUnderTheCursorAlsoOnTheWay) {
     for (const scenes::Camera& lens : lenses()) {
         OrbitRig rig(lens);
         const glm::dvec3 pointWS = pointUnder(rig, {300.0, 200.0});
@@ -82,7 +82,7 @@ TEST(OrbitCamera, zoomingFarBeyondTheLimitsNeverReachesThePivotOrInfinity) {
     EXPECT_TRUE(std::isfinite(rig.orbit.pose().focusMetres));
 }
 
-TEST(OrbitCamera, rotatingAlwaysTakesTheFrontOfABallHalfAsHighAsThePictureAlong) {
+TEST(OrbitCamera, rotatingTakesTheFrontOfABallHalfAsHighAsThePictureAlong) {
     for (const scenes::Camera& lens : lenses()) {
         OrbitRig rig(lens);
         const CameraPose pose = rig.orbit.pose();
@@ -102,7 +102,7 @@ TEST(OrbitCamera, rotatingAlwaysTakesTheFrontOfABallHalfAsHighAsThePictureAlong)
     }
 }
 
-TEST(OrbitCamera, twoHalfStepsAreAlwaysOneStep) {
+TEST(OrbitCamera, twoHalfStepsAreOneStep) {
     OrbitRig one(lenses()[1]), two(lenses()[1]);
     for (OrbitRig* rig : {&one, &two}) {
         rig->orbit.rotate({300.0, 100.0}, kHeightPixels);
@@ -116,7 +116,7 @@ TEST(OrbitCamera, twoHalfStepsAreAlwaysOneStep) {
     EXPECT_NEAR(one.orbit.pose().focusMetres, two.orbit.pose().focusMetres, 1e-12);
 }
 
-TEST(OrbitCamera, restIsAlwaysReachedAndTheLastJumpIsNeverVisible) {
+TEST(OrbitCamera, restIsReachedAndTheLastJumpIsNotVisible) {
     OrbitRig rig(lenses()[0]);
     EXPECT_TRUE(rig.orbit.isAtRest());
     rig.orbit.rotate({400.0, 100.0}, kHeightPixels);
@@ -135,7 +135,7 @@ TEST(OrbitCamera, restIsAlwaysReachedAndTheLastJumpIsNeverVisible) {
     EXPECT_EQ(rig.orbit.pose(), rig.orbit.goal());
 }
 
-TEST(OrbitCamera, goingToAPoseAlwaysTakesTheShorterWayRound) {
+TEST(OrbitCamera, goingToAPoseTakesTheShorterWayRound) {
     OrbitRig rig(lenses()[0]);
     CameraPose pose = rig.orbit.pose();
     pose.heading.yawRadians += 6.0;
@@ -146,7 +146,7 @@ TEST(OrbitCamera, goingToAPoseAlwaysTakesTheShorterWayRound) {
     EXPECT_EQ(rig.orbit.pose(), pose) << "and ends there to the last bit";
 }
 
-TEST(OrbitCamera, aPoseIsAlwaysHeldToTheLastBitUntilSomethingMovesIt) {
+TEST(OrbitCamera, aPoseIsHeldToTheLastBitUntilSomethingMovesIt) {
     for (const scenes::Camera& camera : manyCameras()) {
         OrbitRig rig(camera);
         const CameraPose pose = poseOf(camera, kBox);
@@ -160,7 +160,7 @@ TEST(OrbitCamera, aPoseIsAlwaysHeldToTheLastBitUntilSomethingMovesIt) {
     }
 }
 
-TEST(OrbitCamera, theEyeIsAlwaysTheFocusAwayFromThePivot) {
+TEST(OrbitCamera, theEyeIsTheFocusAwayFromThePivot) {
     OrbitRig rig(lenses()[0]);
     const CameraPose pose = rig.orbit.pose();
     rig.orbit.rotate({30.0, 0.0}, kHeightPixels);

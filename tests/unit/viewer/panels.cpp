@@ -74,7 +74,7 @@ State unusualScene() {
     return state;
 }
 
-TEST_F(Panels, whatIsOnlyLookedAtNeverChanges) {
+TEST_F(Panels, drawingThePanelsChangesNoValue) {
     State state = unusualScene();
     const std::vector<scenes::Light> lights = state.open->scene().lights;
     const std::vector<scenes::Material> materials = state.open->scene().materials;
@@ -97,7 +97,7 @@ TEST_F(Panels, whatIsOnlyLookedAtNeverChanges) {
     EXPECT_EQ(state.looks[0], look);
 }
 
-TEST_F(Panels, everySettingOfAPanelAlwaysHasARowWhereTheTechniqueHeedsIt) {
+TEST_F(Panels, everySettingOfAPanelHasARowWhereTheTechniqueHeedsIt) {
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         State state;
         state.looks[0].technique = info.technique;
@@ -124,7 +124,7 @@ TEST_F(Panels, everySettingOfAPanelAlwaysHasARowWhereTheTechniqueHeedsIt) {
     }
 }
 
-TEST_F(Panels, aPlanIsNeverAskedForWhileThePanelsAreHidden) {
+TEST_F(Panels, noPlanIsMadeWhileThePanelsAreHidden) {
     State state;
     state.wantsPlan = true; // the graph was shown the frame before
     state.showsPanel = false;

@@ -31,7 +31,7 @@ scenes::Scene squares(scenes::AlphaMode nearMode = scenes::AlphaMode::Opaque) {
 const scenes::Camera kCamera = orthographic({0, 0, 5}, {0, 0, 0}, 4.0);
 constexpr glm::ivec2 kSizePixels{80, 80}; // ten pixels a metre
 
-TEST(Pick, aPixelIsAlwaysTheNearestTrianglesNodeInstanceAndMaterial) {
+TEST(Pick, aPixelIsTheNearestTrianglesNodeInstanceAndMaterial) {
     const scenes::Scene scene = squares();
     const auto at = [&](int x, int y) { return pickedByRay(scene, kCamera, kSizePixels, {x, y}); };
     const std::optional<Pick> small = at(44, 44);
@@ -50,12 +50,12 @@ TEST(Pick, aPixelIsAlwaysTheNearestTrianglesNodeInstanceAndMaterial) {
     EXPECT_EQ(large->material, 1);
 }
 
-TEST(Pick, aTransparentSurfaceIsAlwaysPickedBeforeWhatLiesBehind) {
+TEST(Pick, aTransparentSurfaceIsPickedBeforeTheSurfaceBehind) {
     const scenes::Scene scene = squares(scenes::AlphaMode::Blend);
     EXPECT_EQ(pickedByRay(scene, kCamera, kSizePixels, {44, 44}).value().node, 1);
 }
 
-TEST(Pick, whereNothingIsNothingIsEverPicked) {
+TEST(Pick, whereNothingIsNothingIsPicked) {
     const scenes::Camera away = orthographic({0, 0, 5}, {0, 0, 10}, 4.0);
     EXPECT_FALSE(pickedByRay(squares(), away, kSizePixels, {40, 40}));
     EXPECT_FALSE(pickedByRay(scenes::Scene(), kCamera, kSizePixels, {40, 40}));

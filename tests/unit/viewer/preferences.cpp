@@ -26,7 +26,7 @@ Preferences everything() {
     return preferences;
 }
 
-TEST(Preferences, whatWasWrittenIsAlwaysReadBack) {
+TEST(Preferences, writtenPreferencesAreReadBack) {
     const tessera::test::TempFolder folder;
     const std::filesystem::path file = folder.path() / "made" / "viewer.json";
     writePreferences(everything(), file);
@@ -35,12 +35,12 @@ TEST(Preferences, whatWasWrittenIsAlwaysReadBack) {
     EXPECT_EQ(readPreferences(file), Preferences());
 }
 
-TEST(Preferences, withoutAFileTheyAreAlwaysTheUsualOnes) {
+TEST(Preferences, withoutAFileTheyAreTheUsualOnes) {
     const tessera::test::TempFolder folder;
     EXPECT_EQ(readPreferences(folder.path() / "viewer.json"), Preferences());
 }
 
-TEST(Preferences, anEntryOfTheWrongKindIsAlwaysLeftOutAlone) {
+TEST(Preferences, anEntryOfTheWrongKindIsLeftOutAlone) {
     const tessera::test::TempFolder folder;
     const std::filesystem::path file = folder.path() / "viewer.json";
     std::ofstream(file) << R"({"technique": 7, "layout": "slim", "window": [1, 1], "recent": "x", "tile": null})";
@@ -49,7 +49,7 @@ TEST(Preferences, anEntryOfTheWrongKindIsAlwaysLeftOutAlone) {
     EXPECT_EQ(readPreferences(file), expected);
 }
 
-TEST(Preferences, aScaleThatCannotBeSetIsNeverTakenFromAFile) {
+TEST(Preferences, aScaleThatCannotBeSetIsNotTakenFromAFile) {
     const tessera::test::TempFolder folder;
     const std::filesystem::path file = folder.path() / "viewer.json";
     for (const char* scale : {"0", "0.05", "-1", "1.5", "1e300"}) {
@@ -58,7 +58,7 @@ TEST(Preferences, aScaleThatCannotBeSetIsNeverTakenFromAFile) {
     }
 }
 
-TEST(Preferences, aFileThatIsNoJsonIsAlwaysAnErrorThatNamesIt) {
+TEST(Preferences, aFileThatIsNoJsonIsAnErrorThatNamesIt) {
     const tessera::test::TempFolder folder;
     const std::filesystem::path file = folder.path() / "viewer.json";
     std::ofstream(file) << "{\"technique\": ";
@@ -71,7 +71,7 @@ TEST(Preferences, aFileThatIsNoJsonIsAlwaysAnErrorThatNamesIt) {
     }
 }
 
-TEST(Preferences, aFolderInTheirPlaceIsAlwaysAnErrorThatNamesIt) {
+TEST(Preferences, aFolderInTheirPlaceIsAnErrorThatNamesIt) {
     const tessera::test::TempFolder folder;
     const std::filesystem::path file = folder.path() / "viewer.json";
     std::filesystem::create_directory(file);

@@ -15,7 +15,7 @@ scenes::Camera cameraOf(scenes::Projection projection) {
     return camera;
 }
 
-TEST(Projection, aPointIsAlwaysWhereTheRendererDrawsIt) {
+TEST(Projection, aPointIsWhereTheRendererDrawsIt) {
     const glm::ivec2 size(640, 360);
     for (const auto projection : {scenes::Projection::Perspective, scenes::Projection::Orthographic}) {
         const scenes::Camera camera = cameraOf(projection);
@@ -32,7 +32,7 @@ TEST(Projection, aPointIsAlwaysWhereTheRendererDrawsIt) {
     }
 }
 
-TEST(Projection, whatLiesBehindTheCameraIsNeverInThePicture) {
+TEST(Projection, pointsBehindTheCameraAreNotInThePicture) {
     const scenes::Camera camera = cameraOf(scenes::Projection::Perspective);
     const glm::dvec3 backWS(camera.worldFromCamera[2]);
     EXPECT_FALSE(projected(camera, 1.0, glm::dvec3(camera.worldFromCamera[3]) + backWS).has_value());

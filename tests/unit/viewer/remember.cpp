@@ -42,7 +42,7 @@ Look ofItsOwn() {
     return look;
 }
 
-TEST(Remember, whatNobodyChangedIsNeverRememberedAndNeverChangesWhatIs) {
+TEST(Remember, unchangedValuesDoNotChangeThePreferences) {
     for (const Look& begun : {Look(), ofItsOwn()}) { // said on the command line, or wished by the scene
         for (const Preferences& before : {Preferences(), remembered()}) {
             Preferences preferences = before;
@@ -54,7 +54,7 @@ TEST(Remember, whatNobodyChangedIsNeverRememberedAndNeverChangesWhatIs) {
     }
 }
 
-TEST(Remember, whatWasChangedIsAlwaysRememberedByName) {
+TEST(Remember, changedValuesAreRememberedByName) {
     for (const Preferences& before : {Preferences(), remembered()}) {
         Preferences preferences = before;
         remember(preferences, showing(ofItsOwn()), {}, {640, 480});
@@ -69,7 +69,7 @@ TEST(Remember, whatWasChangedIsAlwaysRememberedByName) {
     }
 }
 
-TEST(Remember, whatBeganAsRememberedAlwaysFollowsTheLatestChoice) {
+TEST(Remember, rememberedValuesFollowTheLatestChoice) {
     Preferences preferences;
     preferences.settings["technique"] = "forward";
     Look begun;
@@ -88,7 +88,7 @@ TEST(Remember, whatBeganAsRememberedAlwaysFollowsTheLatestChoice) {
     EXPECT_EQ(preferences.settings.at("samples"), "1");
 }
 
-TEST(Remember, whatWasSaidOnTheCommandLineNeverBecomesWhatIsRemembered) {
+TEST(Remember, commandLineValuesAreNotRemembered) {
     Preferences preferences = remembered();
     Look said = ofItsOwn();
     Look now = said;
@@ -101,7 +101,7 @@ TEST(Remember, whatWasSaidOnTheCommandLineNeverBecomesWhatIsRemembered) {
     EXPECT_EQ(preferences, expected);
 }
 
-TEST(Remember, whatATechniqueCannotDoNeverLeavesWhatIsRemembered) {
+TEST(Remember, valuesThatATechniqueDoesNotTakeStayInThePreferences) {
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         Preferences preferences = remembered();
         const Look begun = possible(ofItsOwn());
@@ -114,7 +114,7 @@ TEST(Remember, whatATechniqueCannotDoNeverLeavesWhatIsRemembered) {
     }
 }
 
-TEST(Remember, theWindowAlwaysBeginsAsItWasLeft) {
+TEST(Remember, theWindowBeginsAsItWasLeft) {
     State left = showing({});
     left.recent = {"/a.glb"};
     left.automaticScale = false;

@@ -84,13 +84,13 @@ RenderRequest requestOf(const std::string& source) {
     return request;
 }
 
-TEST(RenderCommand, whatTheProgramDoesByItselfIsNeverSaid) {
+TEST(RenderCommand, defaultsAreNotWritten) {
     const tessera::test::TempFolder folder;
     const RenderRequest request = requestOf("room");
     EXPECT_EQ(renderCommand(request, scenes::loadScene("room"), "picture.exr"), "tessera render room -o picture.exr");
 }
 
-TEST(RenderCommand, everyValueOfEverySettingIsAlwaysReadAsItselfAndSaidByItsOwnOptionAlone) {
+TEST(RenderCommand, everyValueIsReadBackAndWrittenByItsOwnOptionAlone) {
     const tessera::test::TempFolder folder;
     const std::string file = sceneFile(folder);
     const scenes::Scene scene = scenes::loadScene(file);
@@ -125,7 +125,7 @@ RenderRequest everythingSaid(const std::string& file) {
     return request;
 }
 
-TEST(RenderCommand, allSettingsAtOnceAreAlwaysReadBackToTheLastBit) {
+TEST(RenderCommand, allSettingsAtOnceAreReadBackToTheLastBit) {
     const tessera::test::TempFolder folder;
     expectSame(everythingSaid(sceneFile(folder)));
     RenderRequest perspective = everythingSaid(sceneFile(folder));
@@ -135,7 +135,7 @@ TEST(RenderCommand, allSettingsAtOnceAreAlwaysReadBackToTheLastBit) {
     expectSame(perspective);
 }
 
-TEST(RenderCommand, everyOptionOfAFrameIsAlwaysSaidWhereItDiffers) {
+TEST(RenderCommand, everyChangedOptionIsWritten) {
     const tessera::test::TempFolder folder;
     RenderRequest request = everythingSaid(sceneFile(folder));
     const scenes::Scene scene = scenes::loadScene(request.source);
@@ -155,7 +155,7 @@ TEST(RenderCommand, everyOptionOfAFrameIsAlwaysSaidWhereItDiffers) {
     EXPECT_GE(count, 28);
 }
 
-TEST(RenderCommand, whatTheSceneAsksForIsNeverSaidAndTheProgramsOwnChoiceThenAlwaysIs) {
+TEST(RenderCommand, optionsOfTheSceneAreNotWrittenButDefaultsThatOverrideThemAre) {
     const tessera::test::TempFolder folder;
     const std::string file =
         sceneFile(folder, R"({"technique": "forward", "layout": "packed", "camera": "plan of $HOME", "toneMap": "aces",
@@ -173,12 +173,12 @@ TEST(RenderCommand, whatTheSceneAsksForIsNeverSaidAndTheProgramsOwnChoiceThenAlw
     expectSame(requestOf(file));
 }
 
-TEST(RenderCommand, aSceneWhoseNameBeginsWithADashIsNeverTakenForAnOption) {
+TEST(RenderCommand, aSceneWhoseNameBeginsWithADashIsNotTakenForAnOption) {
     EXPECT_EQ(renderCommand(requestOf("-x.json"), scenes::loadScene("room"), "-y.exr"),
               "tessera render ./-x.json -o ./-y.exr");
 }
 
-TEST(FrameOptionText, whatWasGivenIsAlwaysTypedTheSameWayAgain) {
+TEST(FrameOptionText, givenOptionsAreWrittenUnchanged) {
     const tessera::test::TempFolder folder;
     const RenderRequest request = everythingSaid(sceneFile(folder));
     const app::FrameOptions options = parsed(renderCommand(request, scenes::loadScene(request.source), "a")).options;
@@ -189,13 +189,13 @@ TEST(FrameOptionText, whatWasGivenIsAlwaysTypedTheSameWayAgain) {
     EXPECT_TRUE(options.pose == again.pose);
 }
 
-TEST(FrameOptionText, theSameValueIsAlwaysTheSameTextHoweverItWasTyped) {
+TEST(FrameOptionText, theSameValueIsTheSameTextHoweverItWasTyped) {
     app::FrameOptions options;
     options.settings = {{"exposureEV", "1.50"}, {"view", "3"}, {"camera", "a b"}, {"tile", "8"}};
     EXPECT_EQ(app::frameOptionText(options), " --tile 8 --camera 'a b' --view normal --exposure 1.5");
 }
 
-TEST(CameraOptions, whatIsNoPointIsAlwaysNamedWithItsOption) {
+TEST(CameraOptions, malformedPointsAreNamedWithTheirOption) {
     for (const char* point : {"1,2", "1,2,3,4", "1;2;3", "a,b,c", "1,2,inf", "1, 2,3"}) {
         app::FrameOptions options;
         CLI::App command;

@@ -18,7 +18,7 @@ double lastMs(ResolutionScale& scale, double wholeMs, double fixedMs, int frames
     return ms;
 }
 
-TEST(ResolutionScale, aSlowSceneIsAlwaysWithinTheTargetAfterThreeFrames) {
+TEST(ResolutionScale, aSlowSceneIsWithinTheTargetAfterThreeFrames) {
     for (const double wholeMs : {60.0, 200.0, 800.0, 2000.0}) {
         for (const double fixedMs : {0.0, 8.0, 12.0}) {
             ResolutionScale scale(kTargetMs);
@@ -30,7 +30,7 @@ TEST(ResolutionScale, aSlowSceneIsAlwaysWithinTheTargetAfterThreeFrames) {
     }
 }
 
-TEST(ResolutionScale, aQuickSceneIsAlwaysDrawnWholeInTheEnd) {
+TEST(ResolutionScale, aQuickSceneIsDrawnWholeInTheEnd) {
     ResolutionScale scale(kTargetMs);
     scale.restart(kScales.back());
     lastMs(scale, 20.0, 5.0, 60);
@@ -54,7 +54,7 @@ TEST(ResolutionScale, picturesNeverLosePixelsWhereThatGainsNothing) {
     EXPECT_EQ(scale.next(), 1.0);
 }
 
-TEST(ResolutionScale, aSceneThatNothingMakesQuickIsAlwaysDrawnAtTheSmallestStep) {
+TEST(ResolutionScale, aSceneThatNothingMakesQuickIsDrawnAtTheSmallestStep) {
     ResolutionScale scale(kTargetMs);
     lastMs(scale, 1e6, 1e2, 20);
     EXPECT_EQ(scale.next(), kScales.back());

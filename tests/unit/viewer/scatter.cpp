@@ -31,14 +31,14 @@ scenes::Scene floorScene(float ceilingMetres = 0.0f) {
     return scene;
 }
 
-TEST(Scatter, theSameSeedIsAlwaysTheSameLightsAndAnotherNeverIs) {
+TEST(Scatter, theSameSeedIsTheSameLightsAndAnotherNeverIs) {
     const scenes::Scene scene = scenes::loadScene("room");
     const Scatter scatter{.count = 50};
     EXPECT_TRUE(scatterLights(scene, scatter) == scatterLights(scene, scatter));
     EXPECT_FALSE(scatterLights(scene, scatter) == scatterLights(scene, {.count = 50, .seed = 2}));
 }
 
-TEST(Scatter, everyLightIsAlwaysInsideTheBoundsOfEveryBuiltinScene) {
+TEST(Scatter, everyLightIsInsideTheBoundsOfEveryBuiltinScene) {
     for (const char* name : {"hall", "spheres", "models", "lattice", "room"}) {
         scenes::Scene scene = scenes::loadScene(name);
         const scenes::Box3 boundsWS = scenes::worldBounds(scene);
@@ -54,7 +54,7 @@ TEST(Scatter, everyLightIsAlwaysInsideTheBoundsOfEveryBuiltinScene) {
     }
 }
 
-TEST(Scatter, lightsAreAlwaysAboveTheSurfaceAndBelowACeiling) {
+TEST(Scatter, lightsAreAboveTheSurfaceAndBelowACeiling) {
     const scenes::Scene scene = floorScene(0.2f);
     for (const scenes::Light& light : scatterLights(scene, {.count = 200})) {
         EXPECT_GT(light.positionWS.y, 0.0);
@@ -77,7 +77,7 @@ double meanOverFloor(const std::vector<scenes::Light>& lights, Value value) {
     return sum / points;
 }
 
-TEST(Scatter, aboutAsManyLightsAsAskedAlwaysReachAPointWhateverTheirNumber) {
+TEST(Scatter, aboutAsManyLightsAsAskedReachAPointWhateverTheirNumber) {
     scenes::Scene scene = floorScene();
     scenes::Node& above = scene.nodes.emplace_back(scene.nodes.front());
     above.parentFromNode = glm::dmat4(glm::dmat3(1e-3, 0, 0, 0, -1e-3, 0, 0, 0, -1e-3)); // room above, hardly a surface
@@ -100,7 +100,7 @@ TEST(Scatter, aboutAsManyLightsAsAskedAlwaysReachAPointWhateverTheirNumber) {
     }
 }
 
-TEST(Scatter, coloursAreAlwaysOfOneLuminanceAndOfManyHues) {
+TEST(Scatter, coloursAreOfOneLuminanceAndOfManyHues) {
     std::set<int> sixths;
     for (const scenes::Light& light : scatterLights(floorScene(), {.count = 100})) {
         EXPECT_NEAR(luminance(light.color), 1.0, 1e-6);
@@ -113,14 +113,14 @@ TEST(Scatter, coloursAreAlwaysOfOneLuminanceAndOfManyHues) {
     EXPECT_EQ(sixths.size(), 6u);
 }
 
-TEST(Scatter, aSceneOfNothingAlwaysGetsItsLightsAboutTheOrigin) {
+TEST(Scatter, aSceneOfNothingGetsItsLightsAboutTheOrigin) {
     const std::vector<scenes::Light> lights = scatterLights(scenes::Scene(), {.count = 20});
     ASSERT_EQ(lights.size(), 20u);
     for (const scenes::Light& light : lights) EXPECT_LE(glm::length(light.positionWS), std::sqrt(3.0));
     EXPECT_TRUE(scatterLights(scenes::Scene(), {.count = 0}).empty());
 }
 
-TEST(Surfaces, placesAreAlwaysAsLikelyOnAnySquareMetre) {
+TEST(Surfaces, placesAreAsLikelyOnAnySquareMetre) {
     scenes::Scene scene = floorScene();
     scene.meshes[0].positionsOS[1].x = -5.0f; // the first triangle is smaller than the second
     const Surfaces surfaces(scene);

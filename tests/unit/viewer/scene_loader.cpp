@@ -11,7 +11,7 @@
 namespace tessera::viewer {
 namespace {
 
-TEST(SceneLoader, aNewRequestAlwaysTakesThePlaceOfAllBeforeWhichAreNeverLoadedAtOnce) {
+TEST(SceneLoader, aNewRequestTakesThePlaceOfAllBeforeWhichAreNotLoadedAtOnce) {
     const auto threads = [] {
         const std::filesystem::directory_iterator tasks("/proc/self/task");
         return std::distance(begin(tasks), end(tasks));

@@ -23,7 +23,7 @@ private:
     tessera::test::TempFolder folder_;
 };
 
-TEST_F(SceneSource, everyWayToSayAFileIsAlwaysTheSameScene) {
+TEST_F(SceneSource, allPathsToAFileNameTheSameScene) {
     EXPECT_EQ(identityOf("a.gltf"), here("a.gltf"));
     EXPECT_EQ(identityOf("./x/../a.gltf"), here("a.gltf"));
     EXPECT_EQ(identityOf(here("a.gltf")), here("a.gltf"));
@@ -31,7 +31,7 @@ TEST_F(SceneSource, everyWayToSayAFileIsAlwaysTheSameScene) {
     EXPECT_EQ(identityOf("./hall"), here("hall"));
 }
 
-TEST_F(SceneSource, aFileIsAlwaysRecentOnce) {
+TEST_F(SceneSource, aFileIsRecentOnce) {
     folder().write("a.gltf", "");
     folder().write("b.obj", "");
     std::vector<std::string> recent;
@@ -41,7 +41,7 @@ TEST_F(SceneSource, aFileIsAlwaysRecentOnce) {
     EXPECT_THAT(recent, ElementsAre(here("a.gltf"), here("b.obj")));
 }
 
-TEST_F(SceneSource, whatIsNoSceneFileIsNeverRecent) {
+TEST_F(SceneSource, onlySceneFilesAreRecent) {
     folder().write("hall/of/fame.txt", "");
     folder().write("room", "");
     folder().write("folder.glb/x", "");

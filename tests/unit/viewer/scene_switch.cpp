@@ -80,7 +80,7 @@ protected:
     SceneSwitch switch_{options_, state_, log_, [] {}};
 };
 
-TEST_F(SceneSwitchTest, whatWasSaidOfTheFirstSceneNeverCountsForAnotherAlsoWhereTheFirstFailed) {
+TEST_F(SceneSwitchTest, optionsOfTheFirstSceneDoNotApplyToAnotherEvenIfItFailed) {
     saidCamera_ = 7;
     EXPECT_FALSE(open("room"));
     EXPECT_EQ(failure_, "no such camera");
@@ -99,7 +99,7 @@ TEST_F(SceneSwitchTest, aMissingFirstFileNeverPlacesTheCameraOfTheNext) {
     EXPECT_EQ(state_.open->cameraChange(), scenes::CameraChange());
 }
 
-TEST_F(SceneSwitchTest, aSceneAlwaysShowsTheCameraAndThePoseThatItWasLeftWith) {
+TEST_F(SceneSwitchTest, aSceneShowsTheCameraAndThePoseThatItWasLeftWith) {
     const std::string a = sceneFile("a.json"), b = sceneFile("b.json");
     saidPose_.fovYDegrees = 20.0;
     ASSERT_TRUE(open(a));
@@ -125,7 +125,7 @@ TEST_F(SceneSwitchTest, aSceneAlwaysShowsTheCameraAndThePoseThatItWasLeftWith) {
     EXPECT_EQ(state_.open->source(), (folder_.path() / "." / "b.json").string()) << "the user's words";
 }
 
-TEST_F(SceneSwitchTest, aCameraThatWasSavedWhereItIsNeverCountsAsMovedWhenItsFileIsOpenedAgain) {
+TEST_F(SceneSwitchTest, aCameraThatWasSavedWhereItIsNotCountsAsMovedWhenItsFileIsOpenedAgain) {
     ASSERT_TRUE(open("room"));
     moveCamera();
     const std::string file = (folder_.path() / "saved.json").string();
@@ -138,7 +138,7 @@ TEST_F(SceneSwitchTest, aCameraThatWasSavedWhereItIsNeverCountsAsMovedWhenItsFil
     EXPECT_EQ(state_.open->cameraChange(), scenes::CameraChange());
 }
 
-TEST_F(SceneSwitchTest, aCameraThatTheFileHasNoMoreIsNeverComeBackTo) {
+TEST_F(SceneSwitchTest, aCameraThatTheFileLacksIsNotRestored) {
     const std::string file = sceneFile("a.json");
     ASSERT_TRUE(open(file));
     state_.open->useCamera(1);
@@ -166,7 +166,7 @@ TEST_F(SceneSwitchTest, aSceneThatCannotBeShownNeverChangesWhatTheOpenOneLooksLi
     EXPECT_TRUE(open("room"));
 }
 
-TEST_F(SceneSwitchTest, whatWasChosenIsAlwaysRememberedThoughTheNextSceneWishesTheSame) {
+TEST_F(SceneSwitchTest, choicesAreRememberedEvenIfTheNextSceneSetsTheSame) {
     options_.preferencesFile = folder_.path() / "viewer.json";
     ASSERT_TRUE(open("room"));
     for (Look& look : state_.looks) look.technique = engine::Technique::Forward;
@@ -180,7 +180,7 @@ TEST_F(SceneSwitchTest, whatWasChosenIsAlwaysRememberedThoughTheNextSceneWishesT
     EXPECT_EQ(readPreferences(*options_.preferencesFile).settings.at("technique"), "forward");
 }
 
-TEST_F(SceneSwitchTest, aResultThatIsDiscardedNeverComesBack) {
+TEST_F(SceneSwitchTest, aDiscardedResultDoesNotReturn) {
     switch_.open("room");
     for (int i = 0; i < 6000 && !switch_.hasResult(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     EXPECT_TRUE(switch_.hasScene());
@@ -199,7 +199,7 @@ TEST_F(SceneSwitchTest, withoutTheDefaultLightNoSceneEverGetsIt) {
     EXPECT_FALSE(state_.open->load().defaultLight) << "and the command says so";
 }
 
-TEST_F(SceneSwitchTest, settingsThatCannotBeKeptAreAlwaysToldAsAWarning) {
+TEST_F(SceneSwitchTest, settingsThatCannotBeSavedGiveAWarning) {
     options_.preferencesFile = folder_.write("file", "") / "viewer.json";
     std::string told;
     options_.warn = [&told](const std::string& text) { told = text; };

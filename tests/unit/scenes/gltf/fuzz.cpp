@@ -58,12 +58,12 @@ bool isImported(const std::filesystem::path& file) {
     }
 }
 
-TEST(GltfFuzz, unharmedDocumentIsAlwaysImported) {
+TEST(GltfFuzz, unharmedDocumentIsImported) {
     const Folder folder;
     EXPECT_TRUE(isImported(folder.write("model.gltf", richDocument().dump())));
 }
 
-TEST(GltfFuzz, anyOneValueReplacedIsAlwaysImportedOrRefused) {
+TEST(GltfFuzz, anyOneValueReplacedIsImportedOrRefused) {
     const Folder folder;
     const Json document = richDocument();
     const Json leaves = document.flatten();
@@ -105,7 +105,7 @@ TEST(GltfFuzz, anyOneValueReplacedIsAlwaysImportedOrRefused) {
     EXPECT_LT(importedCount, triedCount);
 }
 
-TEST(GltfFuzz, anyOneValueRemovedIsAlwaysImportedOrRefused) {
+TEST(GltfFuzz, anyOneValueRemovedIsImportedOrRefused) {
     const Folder folder;
     const Json document = richDocument();
     const Json leaves = document.flatten();
@@ -122,7 +122,7 @@ TEST(GltfFuzz, anyOneValueRemovedIsAlwaysImportedOrRefused) {
         }
 }
 
-TEST(GltfFuzz, randomBytesChangedAreAlwaysImportedOrRefused) {
+TEST(GltfFuzz, randomBytesChangedAreImportedOrRefused) {
     const Folder folder;
     const std::string text = richDocument().dump();
     std::mt19937 random(1); // the same changes in every run

@@ -24,7 +24,7 @@ Builder withFivePoints(int mode) {
     return builder;
 }
 
-TEST(GltfGeometry, triangleWithoutIndicesAlwaysGetsThem) {
+TEST(GltfGeometry, triangleWithoutIndicesGetsThem) {
     const Scene scene = Builder().import();
     ASSERT_EQ(scene.meshes.size(), 1u);
     EXPECT_EQ(scene.meshes[0].indices, (Indices{0, 1, 2}));
@@ -36,11 +36,11 @@ TEST(GltfGeometry, triangleWithoutIndicesAlwaysGetsThem) {
     EXPECT_TRUE(scene.warnings.empty());
 }
 
-TEST(GltfGeometry, stripAlwaysKeepsItsWinding) {
+TEST(GltfGeometry, stripKeepsItsWinding) {
     EXPECT_EQ(withFivePoints(5).import().meshes.at(0).indices, (Indices{0, 1, 2, 1, 3, 2, 2, 3, 4}));
 }
 
-TEST(GltfGeometry, fanAlwaysTurnsAboutItsFirstPoint) {
+TEST(GltfGeometry, fanTurnsAboutItsFirstPoint) {
     EXPECT_EQ(withFivePoints(6).import().meshes.at(0).indices, (Indices{1, 2, 0, 2, 3, 0, 3, 4, 0}));
 }
 
@@ -51,13 +51,13 @@ TEST(GltfGeometry, stripNeverYieldsTrianglesThatNameACornerTwice) {
     EXPECT_EQ(builder.import().meshes.at(0).indices, (Indices{0, 1, 2, 2, 4, 3}));
 }
 
-TEST(GltfGeometry, incompleteLastTriangleIsAlwaysDroppedWithAWarning) {
+TEST(GltfGeometry, incompleteLastTriangleIsDroppedWithAWarning) {
     const Scene scene = withFivePoints(4).import();
     EXPECT_EQ(scene.meshes.at(0).indices, (Indices{0, 1, 2}));
     EXPECT_TRUE(hasWarning(scene, "has 5 corners, which is no multiple of 3"));
 }
 
-TEST(GltfGeometry, pointsAndLinesAreAlwaysSkippedWithAWarning) {
+TEST(GltfGeometry, pointsAndLinesAreSkippedWithAWarning) {
     for (int mode = 0; mode < 4; ++mode) {
         const Scene scene = withFivePoints(mode).import();
         EXPECT_TRUE(scene.meshes.empty());
@@ -65,7 +65,7 @@ TEST(GltfGeometry, pointsAndLinesAreAlwaysSkippedWithAWarning) {
     }
 }
 
-TEST(GltfGeometry, primitiveWithoutPositionsIsAlwaysSkippedWithAWarning) {
+TEST(GltfGeometry, primitiveWithoutPositionsIsSkippedWithAWarning) {
     Builder builder;
     builder.primitive()["attributes"] = {{"NORMAL", 0}};
     const Scene scene = builder.import();
@@ -88,7 +88,7 @@ TEST(GltfGeometry, indicesOfEveryWidthAreReadExactly) {
     EXPECT_EQ(ints.import().meshes.at(0).indices, expected);
 }
 
-TEST(GltfGeometry, missingNormalsAreAlwaysFlatWithUnsharedVertices) {
+TEST(GltfGeometry, missingNormalsAreFlatWithUnsharedVertices) {
     Builder builder;
     builder.primitive()["attributes"]["POSITION"] =
         builder.add(std::vector<float>{0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 2}, kFloat, "VEC3", 4);
@@ -104,7 +104,7 @@ TEST(GltfGeometry, missingNormalsAreAlwaysFlatWithUnsharedVertices) {
     EXPECT_TRUE(mesh.tangentsOS.empty());
 }
 
-TEST(GltfGeometry, normalsAndTangentsAlwaysEndUnitLength) {
+TEST(GltfGeometry, normalsAndTangentsEndUnitLength) {
     Builder builder;
     builder.primitive()["attributes"]["NORMAL"] =
         builder.add(std::vector<float>{0, 0, 5, 0, 3, 4, 0, 0, 0}, kFloat, "VEC3", 3);
@@ -120,7 +120,7 @@ TEST(GltfGeometry, normalsAndTangentsAlwaysEndUnitLength) {
     EXPECT_EQ(mesh.tangentsOS[2], glm::vec4(0, 1, 0, 1));
 }
 
-TEST(GltfGeometry, tangentsWithoutDirectionAreAlwaysLeftOutWithAWarning) {
+TEST(GltfGeometry, tangentsWithoutDirectionAreLeftOutWithAWarning) {
     Builder builder;
     builder.primitive()["attributes"]["NORMAL"] =
         builder.add(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloat, "VEC3", 3);
@@ -197,7 +197,7 @@ TEST(GltfGeometry, interleavedAttributesAreReadExactly) {
     EXPECT_EQ(mesh.texCoords[0][2], glm::vec2(12, 20));
 }
 
-TEST(GltfGeometry, sparseValuesAlwaysReplaceTheirElements) {
+TEST(GltfGeometry, sparseValuesReplaceTheirElements) {
     for (const bool hasView : {true, false}) {
         Builder builder;
         const int targets = builder.addView(bytesOf(std::vector<std::uint16_t>{1, 2}));
@@ -228,7 +228,7 @@ TEST(GltfGeometry, sparseIndicesWithoutABufferViewAreReadExactly) {
     EXPECT_EQ(builder.import().meshes.at(0).indices, (Indices{0, 2, 1}));
 }
 
-TEST(GltfGeometry, nonFinitePositionsAreAlwaysRefusedByMeshAndAccessor) {
+TEST(GltfGeometry, nonFinitePositionsAreRefusedByMeshAndAccessor) {
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         Builder builder;
         builder.json["meshes"][0]["name"] = "hull";
@@ -242,7 +242,7 @@ TEST(GltfGeometry, nonFinitePositionsAreAlwaysRefusedByMeshAndAccessor) {
     }
 }
 
-TEST(GltfGeometry, attributesOfDifferentLengthAreAlwaysRefused) {
+TEST(GltfGeometry, attributesOfDifferentLengthAreRefused) {
     Builder builder;
     builder.primitive()["attributes"]["NORMAL"] = builder.add(std::vector<float>{0, 0, 1, 0, 0, 1}, kFloat, "VEC3", 2);
     EXPECT_NE(builder.error().find(
@@ -250,7 +250,7 @@ TEST(GltfGeometry, attributesOfDifferentLengthAreAlwaysRefused) {
               std::string::npos);
 }
 
-TEST(GltfGeometry, attributesOfTheWrongTypeAreAlwaysRefused) {
+TEST(GltfGeometry, attributesOfTheWrongTypeAreRefused) {
     Builder builder;
     builder.primitive()["attributes"]["TEXCOORD_0"] = 0;
     EXPECT_NE(builder.error().find(
@@ -262,7 +262,7 @@ TEST(GltfGeometry, attributesOfTheWrongTypeAreAlwaysRefused) {
     EXPECT_NE(matrix.error().find("/accessors/0: is a matrix"), std::string::npos);
 }
 
-TEST(GltfGeometry, indexBeyondTheVerticesIsAlwaysRefused) {
+TEST(GltfGeometry, indexBeyondTheVerticesIsRefused) {
     Builder builder;
     builder.primitive()["indices"] = builder.add(std::vector<std::uint8_t>{0, 1, 3}, kUnsignedByte, "SCALAR", 3);
     EXPECT_NE(builder.error().find(
@@ -274,7 +274,7 @@ TEST(GltfGeometry, indexBeyondTheVerticesIsAlwaysRefused) {
     EXPECT_NE(floats.error().find("/accessors/1: holds indices, so it must be SCALAR of"), std::string::npos);
 }
 
-TEST(GltfGeometry, indexThatRestartsAPrimitiveIsAlwaysRefused) {
+TEST(GltfGeometry, indexThatRestartsAPrimitiveIsRefused) {
     const auto errorOf = [](const auto& indices, int componentType) {
         // As many vertices as bytes can name, so that 255 is refused for its meaning and not for its size.
         constexpr std::size_t kVertices = 256;
@@ -301,7 +301,7 @@ TEST(GltfGeometry, indexThatRestartsAPrimitiveIsAlwaysRefused) {
     EXPECT_NE(ints.find("; split the mesh"), std::string::npos) << ints;
 }
 
-TEST(GltfGeometry, morphTargetsAreAlwaysWarnedOfOnce) {
+TEST(GltfGeometry, morphTargetsAreWarnedOfOnce) {
     Builder builder;
     builder.primitive()["targets"] = Json::parse(R"([{"POSITION": 0}, {"POSITION": 0}])");
     const Scene scene = builder.import();

@@ -65,13 +65,13 @@ std::string decodeError(const Bytes& bytes, const std::string& name) {
     return "";
 }
 
-TEST(Image, greyIsAlwaysReplicatedAndMissingAlphaIsOne) {
+TEST(Image, greyIsReplicatedAndMissingAlphaIsOne) {
     EXPECT_EQ(texelsOf<std::uint8_t>(decoded(bytesOf(kGrey), "grey")), (Texels8{7, 7, 7, 255, 200, 200, 200, 255}));
     EXPECT_EQ(texelsOf<std::uint8_t>(decoded(bytesOf(kGreyAlpha), "grey")), (Texels8{9, 9, 9, 77}));
     EXPECT_EQ(texelsOf<std::uint8_t>(decoded(bytesOf(kRgb), "rgb")), (Texels8{1, 2, 3, 255}));
 }
 
-TEST(Image, colorIsNeverMultipliedByAlpha) {
+TEST(Image, colorIsNotMultipliedByAlpha) {
     const Image image = decoded(pngRedBlue(), "red and blue");
     EXPECT_EQ(image.format, TexelFormat::Rgba8Unorm);
     EXPECT_EQ(image.width, 2);
@@ -79,7 +79,7 @@ TEST(Image, colorIsNeverMultipliedByAlpha) {
     EXPECT_EQ(texelsOf<std::uint8_t>(image), (Texels8{255, 0, 0, 255, 10, 20, 200, 128}));
 }
 
-TEST(Image, sixteenBitsAreAlwaysKept) {
+TEST(Image, sixteenBitsAreKept) {
     const Image image = decoded(bytesOf(kRgb16), "deep");
     EXPECT_EQ(image.format, TexelFormat::Rgba16Unorm);
     EXPECT_EQ(texelsOf<std::uint16_t>(image), (std::vector<std::uint16_t>{1000, 2000, 65535, 65535}));
@@ -97,19 +97,19 @@ TEST(Image, radianceIsReadExactlyAsFloat) {
     EXPECT_EQ(texels[3], 1.0f);
 }
 
-TEST(Image, rowsAlwaysStartAtTheTop) {
+TEST(Image, rowsStartAtTheTop) {
     const Folder folder;
     const Image image = underLedger(readImage, folder.write("two rows.tga", bytesOf(kTga)));
     EXPECT_EQ(texelsOf<std::uint8_t>(image), (Texels8{40, 50, 60, 255, 10, 20, 30, 255}));
 }
 
-TEST(Image, formatIsAlwaysFoundByContentBeforeExtension) {
+TEST(Image, formatIsFoundByContentBeforeExtension) {
     const Folder folder;
     EXPECT_EQ(underLedger(readImage, folder.write("wrong.jpg", bytesOf(kRgb))).width, 1);
     EXPECT_EQ(underLedger(readImage, folder.write("none", bytesOf(kRgb))).width, 1);
 }
 
-TEST(Image, unusablePicturesAreAlwaysRefusedByName) {
+TEST(Image, unusablePicturesAreRefusedByName) {
     EXPECT_EQ(decodeError({}, "a.png"), "a.png: the picture is empty (0 bytes); save it again");
     EXPECT_EQ(decodeError(bytesOf(std::vector<char>{'a', 'b', 'c'}), "thing"),
               "thing: is in no known picture format" + kConvert);
@@ -128,7 +128,7 @@ TEST(Image, unusablePicturesAreAlwaysRefusedByName) {
     EXPECT_THROW(underLedger(readImage, "/nowhere/at/all.png"), InputError);
 }
 
-TEST(Image, paletteIndicesBeyondThePaletteAreNeverReadPastIt) {
+TEST(Image, paletteIndicesBeyondThePaletteAreNotReadPastIt) {
     // Four colours, and texels of four bytes that refer to colours far beyond them.
     std::vector<std::uint8_t> tga{0, 1, 1, 0, 0, 4, 0, 24, 0, 0, 0, 0, 2, 0, 2, 0, 32, 0};
     tga.insert(tga.end(), 12, 7);
@@ -145,7 +145,7 @@ TEST(Image, paletteIndicesBeyondThePaletteAreNeverReadPastIt) {
     EXPECT_EQ(texel[3], 255);
 }
 
-TEST(Image, readersOfOtherFormatsAreNeverAsked) {
+TEST(Image, readersOfOtherFormatsAreNotAsked) {
     const Folder folder;
     // "null" makes pictures of nothing, "mp4" opens films, and those of IFF and DPX crash on what is broken.
     for (const char* extension : {"null", "mp4", "raw", "vdb", "iff", "dpx", "cin", "psd", "jp2", "ptx", "txt"}) {

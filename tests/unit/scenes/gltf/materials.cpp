@@ -25,7 +25,7 @@ TEST(GltfMaterials, factorsAreImportedExactly) {
     EXPECT_TRUE(material.doubleSided);
 }
 
-TEST(GltfMaterials, defaultsAreAlwaysThoseOfTheSpecification) {
+TEST(GltfMaterials, defaultsAreThoseOfTheSpecification) {
     const Material material = importedMaterial("{}");
     EXPECT_EQ(material.baseColor, glm::vec4(1));
     EXPECT_EQ(material.metallic, 1.0f);
@@ -45,7 +45,7 @@ TEST(GltfMaterials, alphaModesAreImportedExactly) {
     EXPECT_EQ(importedMaterial(R"({"alphaMode": "BLEND"})").alphaMode, AlphaMode::Blend);
 }
 
-TEST(GltfMaterials, everyTextureAlwaysLandsInItsSlot) {
+TEST(GltfMaterials, everyTextureLandsInItsSlot) {
     const std::pair<const char*, TextureSlot> places[] = {
         {R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})", TextureSlot::BaseColor},
         {R"({"pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": 0}}})", TextureSlot::MetallicRoughness},
@@ -78,7 +78,7 @@ TEST(GltfMaterials, normalScaleIsImportedExactly) {
     EXPECT_EQ(importedMaterial(R"({"normalTexture": {"index": 0}})").normalScale, 1.0f);
 }
 
-TEST(GltfMaterials, occlusionIsAlwaysWarnedOf) {
+TEST(GltfMaterials, occlusionIsWarnedOf) {
     Builder builder;
     builder.material()["occlusionTexture"]["index"] = 0;
     builder.addTexture();
@@ -87,7 +87,7 @@ TEST(GltfMaterials, occlusionIsAlwaysWarnedOf) {
     EXPECT_TRUE(scene.images.empty());
 }
 
-TEST(GltfMaterials, unlitIsAlwaysASingleColor) {
+TEST(GltfMaterials, unlitIsASingleColor) {
     const Material material = importedMaterial(R"({"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 1],
         "baseColorTexture": {"index": 0}}, "emissiveFactor": [1, 1, 1], "extensions": {"KHR_materials_unlit": {}}})");
     EXPECT_EQ(material.model, MaterialModel::SingleColor);
@@ -96,7 +96,7 @@ TEST(GltfMaterials, unlitIsAlwaysASingleColor) {
     EXPECT_EQ(material.emissive, glm::vec3(0));
 }
 
-TEST(GltfMaterials, emissiveStrengthAlwaysMultipliesTheEmission) {
+TEST(GltfMaterials, emissiveStrengthMultipliesTheEmission) {
     EXPECT_EQ(importedMaterial(R"({"emissiveFactor": [1, 0.5, 0],
         "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 8}}})")
                   .emissive,
@@ -132,7 +132,7 @@ TEST(GltfMaterials, layersAreImportedExactly) {
     EXPECT_EQ(material.sheenPerceptualRoughness, 0.75f);
 }
 
-TEST(GltfMaterials, layersAreAlwaysOffByDefaultAndNeverWarnedOf) {
+TEST(GltfMaterials, layersAreOffByDefaultAndNeverWarnedOf) {
     Builder builder;
     builder.merge(R"({"extensionsUsed": ["KHR_materials_anisotropy", "KHR_materials_clearcoat",
                                          "KHR_materials_sheen"]})");
@@ -146,7 +146,7 @@ TEST(GltfMaterials, layersAreAlwaysOffByDefaultAndNeverWarnedOf) {
     EXPECT_EQ(material.sheenColor, glm::vec3(0));
 }
 
-TEST(GltfMaterials, layersOutOfRangeAreAlwaysRefused) {
+TEST(GltfMaterials, layersOutOfRangeAreRefused) {
     for (const char* patch : {R"({"extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": 1.5}}})",
                               R"({"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": -1}}})",
                               R"({"extensions": {"KHR_materials_clearcoat": {"clearcoatRoughnessFactor": 2}}})",
@@ -182,7 +182,7 @@ TEST(GltfTextures, samplerSettingsAreImportedExactly) {
     }
 }
 
-TEST(GltfTextures, samplerDefaultsAreAlwaysRepeatAndTrilinear) {
+TEST(GltfTextures, samplerDefaultsAreRepeatAndTrilinear) {
     const Sampler trilinear{Filter::Linear, Filter::LinearMipmapLinear, Wrap::Repeat, Wrap::Repeat};
     EXPECT_EQ(importedUse(R"({"index": 0})").sampler, trilinear);
     EXPECT_EQ(importedUse(R"({"index": 0})", "{}").sampler, trilinear);
@@ -204,7 +204,7 @@ TEST(GltfTextures, transformInsideAnExtensionIsImportedExactly) {
     EXPECT_EQ(material.texture(TextureSlot::SpecularFactor).texCoordSet, 1);
 }
 
-TEST(GltfTextures, secondTexCoordSetIsImportedAndAThirdIsAlwaysWarnedOf) {
+TEST(GltfTextures, secondTexCoordSetIsImportedAndAThirdIsWarnedOf) {
     EXPECT_EQ(importedUse(R"({"index": 0, "texCoord": 1})").texCoordSet, 1);
     EXPECT_EQ(importedUse(R"({"index": 0, "texCoord": 2})").image, kNone);
 }
@@ -231,7 +231,7 @@ TEST(GltfTextures, imageIsReadTheSameFromDataUriFileAndBufferView) {
     EXPECT_EQ(inView.name, "in a view");
 }
 
-TEST(GltfTextures, imageUsedTwiceIsAlwaysDecodedOnce) {
+TEST(GltfTextures, imageUsedTwiceIsDecodedOnce) {
     Builder builder;
     builder.material().merge_patch(Json::parse(R"({"normalTexture": {"index": 0}, "emissiveTexture": {"index": 1}})"));
     builder.addTexture();
@@ -239,7 +239,7 @@ TEST(GltfTextures, imageUsedTwiceIsAlwaysDecodedOnce) {
     EXPECT_EQ(builder.import().images.size(), 1u);
 }
 
-TEST(GltfTextures, missingOrBrokenImageIsAlwaysRefusedByName) {
+TEST(GltfTextures, missingOrBrokenImageIsRefusedByName) {
     Builder builder;
     builder.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
     builder.addTexture();

@@ -81,7 +81,7 @@ TEST(GltfMeshopt, trianglesAndIndicesAreDecodedExactly) {
     }
 }
 
-TEST(GltfMeshopt, octahedralFilterIsAlwaysUndone) {
+TEST(GltfMeshopt, octahedralFilterIsUndone) {
     const std::vector<float> normals = {0, 0, 1, 0, 0, 0.6f, 0.8f, 0, -1, 0, 0, 0};
     std::vector<std::int16_t> filtered(12);
     meshopt_encodeFilterOct(filtered.data(), 3, 8, 16, normals.data());
@@ -94,7 +94,7 @@ TEST(GltfMeshopt, octahedralFilterIsAlwaysUndone) {
     EXPECT_LT(glm::length(mesh.normalsOS.at(2) - glm::vec3(-1, 0, 0)), 1e-4f);
 }
 
-TEST(GltfMeshopt, exponentialFilterIsAlwaysUndone) {
+TEST(GltfMeshopt, exponentialFilterIsUndone) {
     std::vector<std::uint32_t> filtered(9);
     meshopt_encodeFilterExp(filtered.data(), 3, 12, 20, kCorners.data());
     Builder builder;
@@ -103,7 +103,7 @@ TEST(GltfMeshopt, exponentialFilterIsAlwaysUndone) {
     EXPECT_EQ(builder.import().meshes.at(0).positionsOS.at(2), glm::vec3(0, 2, 0));
 }
 
-TEST(GltfMeshopt, quaternionFilterIsAlwaysUndone) {
+TEST(GltfMeshopt, quaternionFilterIsUndone) {
     const std::vector<float> rotations = {0, 0, 0, 1, 0.5f, 0.5f, 0.5f, 0.5f, 0, 1, 0, 0};
     std::vector<std::int16_t> filtered(12);
     meshopt_encodeFilterQuat(filtered.data(), 3, 8, 12, rotations.data());
@@ -115,7 +115,7 @@ TEST(GltfMeshopt, quaternionFilterIsAlwaysUndone) {
     EXPECT_LT(glm::length(mesh.colors.at(1) - glm::vec4(0.5f)), 1e-3f);
 }
 
-TEST(GltfMeshopt, brokenDataIsAlwaysRefused) {
+TEST(GltfMeshopt, brokenDataIsRefused) {
     const Bytes good = encodedVertices(kCorners, 12);
     const auto errorOf = [](const Bytes& bytes, std::size_t count, std::size_t stride, const char* mode,
                             const char* filter = nullptr) {

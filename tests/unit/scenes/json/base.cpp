@@ -20,7 +20,7 @@ TEST(SceneJsonBase, aBaseAloneIsExactlyTheSceneItself) {
     EXPECT_EQ(folder.import(basedOnLamps("")).name, "scene") << "named after the file";
 }
 
-TEST(SceneJsonBase, aBuiltinBaseAlwaysMakesAsManyLightsAsAsked) {
+TEST(SceneJsonBase, aBuiltinBaseMakesAsManyLightsAsAsked) {
     const SceneFolder folder;
     LoadOptions seven;
     seven.lights = 7;
@@ -29,7 +29,7 @@ TEST(SceneJsonBase, aBuiltinBaseAlwaysMakesAsManyLightsAsAsked) {
         loadScene("lattice", seven));
 }
 
-TEST(SceneJsonBase, lightsCamerasBackgroundAndOptionsAlwaysReplaceThoseOfTheBase) {
+TEST(SceneJsonBase, lightsCamerasBackgroundAndOptionsReplaceThoseOfTheBase) {
     const SceneFolder folder;
     const Scene scene = folder.import(basedOnLamps(R"(,
         "lights": [], "cameras": [{"name": "a", "position": [0, 0, 1], "target": [0, 0, 0]}],
@@ -43,7 +43,7 @@ TEST(SceneJsonBase, lightsCamerasBackgroundAndOptionsAlwaysReplaceThoseOfTheBase
     EXPECT_FALSE(scene.options.wishes.contains("technique")) << "of the base";
 }
 
-TEST(SceneJsonBase, aMaterialThatReplacesAlwaysTakesThePlaceOfTheBases) {
+TEST(SceneJsonBase, aMaterialThatReplacesTakesThePlaceOfTheBases) {
     const SceneFolder folder;
     folder.write("painted.json", R"({"tessera": 1, "include": [{"file": "models/bust.obj"}],
         "materials": [{"name": "skin", "model": "lambert", "k_d": {"texture": "pictures/albedo.tga"}}],
@@ -70,7 +70,7 @@ TEST(SceneJsonBase, aSceneThatWishesNoDefaultLightNeverGetsOne) {
     EXPECT_EQ(lights(R"(, "options": {"defaultLight": false})"), 0u);
 }
 
-TEST(SceneJsonFields, membersAreAlwaysSetLastAndWhateverTheType) {
+TEST(SceneJsonFields, membersAreSetLastAndWhateverTheType) {
     const SceneFolder folder;
     const Scene scene = folder.import(R"({"tessera": 1,
         "lights": [{"type": "point", "position": [0, 0, 0], "falloff": {"type": "inverse_square", "range": 3},
@@ -85,7 +85,7 @@ TEST(SceneJsonFields, membersAreAlwaysSetLastAndWhateverTheType) {
     EXPECT_EQ(scene.materials[0].masking, Masking::Directional);
 }
 
-TEST(SceneJsonBase, mistakesAreAlwaysNamedWithTheirPlace) {
+TEST(SceneJsonBase, mistakesAreNamedWithTheirPlace) {
     const SceneFolder folder;
     EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "base": {"file": "models/bust.obj", "lights": 3}})"),
               "/base/lights: only a built-in scene makes as many lights as it is asked for; remove it");

@@ -17,7 +17,7 @@ std::string errorOfCamera(const SceneFolder& folder, const std::string& camera) 
     return folder.errorOf(R"({"tessera": 1, "cameras": [)" + camera + "]}");
 }
 
-TEST(SceneJsonCameras, aCameraAlwaysLooksFromItsPositionAtItsTarget) {
+TEST(SceneJsonCameras, aCameraLooksFromItsPositionAtItsTarget) {
     const SceneFolder folder;
     const Camera camera = cameraOf(
         folder,
@@ -36,13 +36,13 @@ TEST(SceneJsonCameras, aCameraAlwaysLooksFromItsPositionAtItsTarget) {
     EXPECT_EQ(plain.farMetres, std::numeric_limits<double>::infinity());
 }
 
-TEST(SceneJsonCameras, upAlwaysTurnsThePicture) {
+TEST(SceneJsonCameras, upTurnsThePicture) {
     const SceneFolder folder;
     const Camera camera = cameraOf(folder, R"({"position": [0, 0, 1], "direction": [0, 0, -1], "up": [3, 0, 0]})");
     EXPECT_EQ(glm::dvec3(camera.worldFromCamera[1]), glm::dvec3(1, 0, 0));
 }
 
-TEST(SceneJsonCameras, anOrthographicCameraAlwaysHasItsHalfHeight) {
+TEST(SceneJsonCameras, anOrthographicCameraHasItsHalfHeight) {
     const SceneFolder folder;
     const Camera camera = cameraOf(
         folder,
@@ -54,7 +54,7 @@ TEST(SceneJsonCameras, anOrthographicCameraAlwaysHasItsHalfHeight) {
               "/cameras/0: lacks the key 'halfHeight'; add it");
 }
 
-TEST(SceneJsonCameras, aMatrixAlwaysPlacesTheCamera) {
+TEST(SceneJsonCameras, aMatrixPlacesTheCamera) {
     const SceneFolder folder;
     const Camera camera = cameraOf(folder, R"({"matrix": [0, 0, -1, 0,  0, 1, 0, 0,  1, 0, 0, 0,  4, 5, 6, 1]})");
     EXPECT_EQ(glm::dvec3(camera.worldFromCamera[2]), glm::dvec3(1, 0, 0));
@@ -69,7 +69,7 @@ TEST(SceneJsonCameras, aMatrixAlwaysPlacesTheCamera) {
               "/cameras/0/matrix: has 3 elements; exactly 16 are needed");
 }
 
-TEST(SceneJsonCameras, impossibleCamerasAreAlwaysRefused) {
+TEST(SceneJsonCameras, impossibleCamerasAreRefused) {
     const SceneFolder folder;
     const std::string start = R"({"position": [0, 0, 1], "target": [0, 0, 0], )";
     EXPECT_EQ(errorOfCamera(folder, start + R"("fovYDegrees": 180})"),
@@ -93,7 +93,7 @@ TEST(SceneJsonCameras, impossibleCamerasAreAlwaysRefused) {
               "/cameras/1: the name 'a' is taken by element 0; give another");
 }
 
-TEST(SceneJsonOptions, optionsAndBackgroundAreAlwaysKept) {
+TEST(SceneJsonOptions, optionsAndBackgroundAreKept) {
     const SceneFolder folder;
     const Scene scene = folder.import(R"({"tessera": 1,
         "cameras": [{"name": "front", "position": [0, 0, 1], "target": [0, 0, 0]}],
@@ -108,7 +108,7 @@ TEST(SceneJsonOptions, optionsAndBackgroundAreAlwaysKept) {
     EXPECT_EQ(folder.import(R"({"tessera": 1})").options, SceneOptions());
 }
 
-TEST(SceneJsonOptions, wrongOptionsAreAlwaysRefused) {
+TEST(SceneJsonOptions, wrongOptionsAreRefused) {
     const SceneFolder folder;
     EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "options": {"size": [0, "1"]}})"),
               "/options/size/1: is text; a number is needed");

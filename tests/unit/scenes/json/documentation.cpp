@@ -23,7 +23,7 @@ TEST(SceneFormat, theEmbeddedSchemaIsExactlyTheShippedFile) {
     EXPECT_EQ(sceneSchema(), textOf(kRepository / "scenes" / "schema" / "scene.schema.json"));
 }
 
-TEST(SceneFormat, theSchemaAlwaysTakesAsManyLightsOfABuiltinSceneAsCanBeDrawn) {
+TEST(SceneFormat, theSchemaTakesAsManyLightsOfABuiltinSceneAsCanBeDrawn) {
     const auto based = [](int lights) {
         return fmt::format(R"({{"tessera": 1, "base": {{"file": "builtin:lattice", "lights": {}}}}})", lights);
     };
@@ -31,7 +31,7 @@ TEST(SceneFormat, theSchemaAlwaysTakesAsManyLightsOfABuiltinSceneAsCanBeDrawn) {
     EXPECT_FALSE(test::schemaAccepts(based(kMostLights + 1)));
 }
 
-TEST(SceneFormat, everyDocumentedExampleAlwaysLoads) {
+TEST(SceneFormat, everyDocumentedExampleLoads) {
     const test::SceneFolder folder;
     const std::string text = textOf(kRepository / "docs" / "scene-format.md");
     constexpr std::string_view kOpening = "```json\n";
@@ -47,7 +47,7 @@ TEST(SceneFormat, everyDocumentedExampleAlwaysLoads) {
     EXPECT_GE(examples, 5);
 }
 
-TEST(SceneFormat, theSchemaAlwaysTakesEveryModelWithTheParametersOfItsRowAlsoInOverrides) {
+TEST(SceneFormat, theSchemaTakesEveryModelWithTheParametersOfItsRowAlsoInOverrides) {
     const auto valueOf = [](const MaterialParameter& parameter) {
         switch (parameter.kind) {
         case MaterialParameter::Kind::Color:
@@ -72,7 +72,7 @@ TEST(SceneFormat, theSchemaAlwaysTakesEveryModelWithTheParametersOfItsRowAlsoInO
     }
 }
 
-TEST(SceneFormat, everyShippedSceneAlwaysPassesTheSchema) {
+TEST(SceneFormat, everyShippedScenePassesTheSchema) {
     int scenes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(kRepository / "scenes" / "files")) {
         if (entry.path().extension() != ".json") continue;

@@ -18,7 +18,7 @@ std::string including(const std::string& include) {
     return R"({"tessera": 1, "include": [)" + include + "]}";
 }
 
-TEST(SceneJsonInclude, anIncludeIsAlwaysANodeAboveTheFilesOwn) {
+TEST(SceneJsonInclude, anIncludeIsANodeAboveTheFilesOwn) {
     const SceneFolder folder;
     const Scene scene = folder.import(including(
         R"({"file": "models/bust.obj"}, {"file": "models/bust.obj", "name": "second"}, {"file": "parts/lamps.json"})"));
@@ -36,7 +36,7 @@ TEST(SceneJsonInclude, anIncludeIsAlwaysANodeAboveTheFilesOwn) {
     EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("no material library defines 'brass'")));
 }
 
-TEST(SceneJsonInclude, picturesOfAnIncludeAlwaysStayWithItsMaterials) {
+TEST(SceneJsonInclude, picturesOfAnIncludeStayWithItsMaterials) {
     const SceneFolder folder;
     folder.write("models/paint.mtl", "newmtl paint\nmap_Kd ../pictures/specular.tga\n");
     folder.write("models/painted.obj", "mtllib paint.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paint\nf 1 2 3\n");
@@ -51,7 +51,7 @@ TEST(SceneJsonInclude, picturesOfAnIncludeAlwaysStayWithItsMaterials) {
     EXPECT_EQ(redOf(1), 40);
 }
 
-TEST(SceneJsonInclude, transformsAlwaysScaleThenRotateThenTranslate) {
+TEST(SceneJsonInclude, transformsScaleThenRotateThenTranslate) {
     const SceneFolder folder;
     const auto placed = [&](const std::string& placement) {
         const Scene scene = folder.import(including(R"({"file": "models/bust.obj", )" + placement + "}"));
@@ -73,7 +73,7 @@ TEST(SceneJsonInclude, transformsAlwaysScaleThenRotateThenTranslate) {
     expectNear(placed(R"("matrix": [0, 1, 0, 0,  -1, 0, 0, 0,  0, 0, 1, 0,  10, 0, 0, 1])"), {8, 1, 3});
 }
 
-TEST(SceneJsonInclude, lightsAndCamerasAlwaysMoveAlong) {
+TEST(SceneJsonInclude, lightsAndCamerasMoveAlong) {
     const SceneFolder folder;
     const Scene scene = folder.import(including(
         R"({"file": "parts/lamps.json", 
@@ -91,7 +91,7 @@ TEST(SceneJsonInclude, lightsAndCamerasAlwaysMoveAlong) {
     expectNear(glm::dvec3(camera[1]), {-1, 0, 0});
 }
 
-TEST(SceneJsonInclude, animationsAlwaysMoveAlong) {
+TEST(SceneJsonInclude, animationsMoveAlong) {
     const SceneFolder folder;
     folder.write("parts/moving.json", R"({"tessera": 1, "lights": [
         {"type": "point", "position": [1, 0, 0], "animation": {"type": "orbit", "periodSeconds": 4}},
@@ -120,12 +120,12 @@ TEST(SceneJsonInclude, backgroundAndOptionsOfAnIncludeNeverCount) {
     EXPECT_TRUE(scene.options.wishes.empty());
 }
 
-TEST(SceneJsonInclude, fileNamesAreAlwaysRelativeToTheirOwnDocument) {
+TEST(SceneJsonInclude, fileNamesAreRelativeToTheirOwnDocument) {
     const SceneFolder folder;
     EXPECT_EQ(folder.import(including(R"({"file": "parts/lamps.json"})")).meshes.size(), 1u);
 }
 
-TEST(SceneJsonInclude, theAssetsFolderIsAlwaysTakenFromTheEnvironment) {
+TEST(SceneJsonInclude, theAssetsFolderIsTakenFromTheEnvironment) {
     const SceneFolder folder;
     const std::string text = including(R"({"file": "${TESSERA_ASSETS}/bust.obj"})");
     {
@@ -140,7 +140,7 @@ TEST(SceneJsonInclude, theAssetsFolderIsAlwaysTakenFromTheEnvironment) {
               "of the third-party models");
 }
 
-TEST(SceneJsonInclude, builtinScenesAreAlwaysIncludedByName) {
+TEST(SceneJsonInclude, builtinScenesAreIncludedByName) {
     const SceneFolder folder;
     const Scene scene = folder.import(including(R"({"file": "builtin:room", "name": "cell"})"));
     EXPECT_EQ(scene.nodes.at(0).name, "cell");
@@ -149,7 +149,7 @@ TEST(SceneJsonInclude, builtinScenesAreAlwaysIncludedByName) {
               "/include/0/file: there is no built-in scene 'rom'; did you mean 'room'?");
 }
 
-TEST(SceneJsonInclude, wrongFilesAreAlwaysRefused) {
+TEST(SceneJsonInclude, wrongFilesAreRefused) {
     const SceneFolder folder;
     EXPECT_EQ(folder.errorBeyondSchemaOf(including(R"({"file": "none.obj"})")),
               "/include/0/file: there is no file '" + folder.path().string() +
@@ -159,7 +159,7 @@ TEST(SceneJsonInclude, wrongFilesAreAlwaysRefused) {
     EXPECT_EQ(folder.errorOf(including(R"({"name": "x"})")), "/include/0: lacks the key 'file'; add it");
 }
 
-TEST(SceneJsonInclude, aCycleIsAlwaysRefusedNamingItsChain) {
+TEST(SceneJsonInclude, aCycleIsRefusedNamingItsChain) {
     const SceneFolder folder;
     folder.write("b.json", R"({"tessera": 1, "include": [{"file": "parts/c.json"}]})");
     const std::filesystem::path last =
@@ -172,7 +172,7 @@ TEST(SceneJsonInclude, aCycleIsAlwaysRefusedNamingItsChain) {
               "/include/0/file: includes itself: scene.json -> scene.json; remove one of the includes");
 }
 
-TEST(SceneJsonInclude, includesWithoutEndAreAlwaysRefused) {
+TEST(SceneJsonInclude, includesWithoutEndAreRefused) {
     const SceneFolder folder;
     folder.write("d12.json", R"({"tessera": 1})");
     for (int level = 11; level >= 0; --level) {
@@ -183,7 +183,7 @@ TEST(SceneJsonInclude, includesWithoutEndAreAlwaysRefused) {
     EXPECT_THAT(error, HasSubstr("is include number 4097 of the scene; at most 4096 are read"));
 }
 
-TEST(SceneJsonInclude, impossibleTransformsAreAlwaysRefused) {
+TEST(SceneJsonInclude, impossibleTransformsAreRefused) {
     const SceneFolder folder;
     const auto errorOf = [&](const std::string& placement) {
         return folder.errorOf(including(R"({"file": "models/bust.obj", )" + placement + "}"));
@@ -202,7 +202,7 @@ TEST(SceneJsonInclude, impossibleTransformsAreAlwaysRefused) {
         "/include/0/transform: a transform has no key 'move'; valid are translation, rotation, eulerDegrees, scale");
 }
 
-TEST(SceneJsonInclude, theLeePerrySmithSceneAlwaysBindsItsMaps) {
+TEST(SceneJsonInclude, theLeePerrySmithSceneBindsItsMaps) {
     const char* assets = std::getenv("TESSERA_ASSETS");
     if (assets == nullptr || !std::filesystem::exists(std::filesystem::path(assets) / "LeePerrySmith" / "head.obj"))
         GTEST_SKIP() << "TESSERA_ASSETS does not hold LeePerrySmith";
@@ -218,7 +218,7 @@ TEST(SceneJsonInclude, theLeePerrySmithSceneAlwaysBindsItsMaps) {
         2048);
 }
 
-TEST(SceneJsonInclude, aChainOfIncludesOrBasesIsNeverFollowedForever) {
+TEST(SceneJsonInclude, aChainOfIncludesOrBasesIsNotFollowedForever) {
     for (const char* link : {R"("include": [{"file": "FILE"}])", R"("base": {"file": "FILE"})"}) {
         const SceneFolder folder;
         const auto documentOf = [&](int next) {
@@ -233,7 +233,7 @@ TEST(SceneJsonInclude, aChainOfIncludesOrBasesIsNeverFollowedForever) {
     }
 }
 
-TEST(SceneJsonInclude, aScaleThatLeavesACameraNoDirectionIsAlwaysTheIncludesFault) {
+TEST(SceneJsonInclude, aScaleThatLeavesACameraNoDirectionIsTheIncludesFault) {
     const SceneFolder folder;
     EXPECT_THAT(
         folder.errorBeyondSchemaOf(including(R"({"file": "parts/lamps.json", "transform": {"scale": [1, 0, 1]}})")),

@@ -23,7 +23,7 @@ std::string point(const std::string& members) {
     return R"({"type": "point", "position": [1, 2, 3])" + (members.empty() ? members : ", " + members) + "}";
 }
 
-TEST(SceneJsonLights, aPointLightAlwaysHasItsStatedValues) {
+TEST(SceneJsonLights, aPointLightHasItsStatedValues) {
     const SceneFolder folder;
     const Light plain = lightOf(folder, point(""));
     EXPECT_EQ(plain.name, "light 0");
@@ -40,7 +40,7 @@ TEST(SceneJsonLights, aPointLightAlwaysHasItsStatedValues) {
     EXPECT_EQ(light.intensity, 40.0f);
 }
 
-TEST(SceneJsonLights, lightsAreAlwaysInDocumentOrderAfterIncludedOnes) {
+TEST(SceneJsonLights, lightsAreInDocumentOrderAfterIncludedOnes) {
     const SceneFolder folder;
     const Scene scene = folder.import(R"({"tessera": 1, "lights": [
         {"name": "b", "type": "point", "position": [0, 0, 0]}, {"name": "a", "type": "point", "position": [0, 0, 0]}],
@@ -51,7 +51,7 @@ TEST(SceneJsonLights, lightsAreAlwaysInDocumentOrderAfterIncludedOnes) {
     EXPECT_EQ(scene.lights[2].name, "a");
 }
 
-TEST(SceneJsonLights, bothFalloffsAreAlwaysKept) {
+TEST(SceneJsonLights, bothFalloffsAreKept) {
     const SceneFolder folder;
     const Light window = lightOf(folder, point(R"("falloff": {"type": "inverse_square", "range": 12})"));
     EXPECT_EQ(window.falloff, Falloff::InverseSquare);
@@ -61,7 +61,7 @@ TEST(SceneJsonLights, bothFalloffsAreAlwaysKept) {
     EXPECT_EQ(coefficients.attenuation, glm::vec3(1, 0, 0.5f));
 }
 
-TEST(SceneJsonLights, attenuationWithoutOrBelowZeroIsAlwaysRefused) {
+TEST(SceneJsonLights, attenuationWithoutOrBelowZeroIsRefused) {
     const SceneFolder folder;
     for (const char* falloff : {R"({"type": "attenuation"})", R"({"type": "attenuation", "A": 0, "B": 0, "C": 0})"})
         EXPECT_EQ(errorOfLight(folder, point(std::string(R"("falloff": )") + falloff)),
@@ -75,7 +75,7 @@ TEST(SceneJsonLights, attenuationWithoutOrBelowZeroIsAlwaysRefused) {
               "/lights/0/falloff/type: there is no falloff 'linear'; valid are inverse_square, attenuation");
 }
 
-TEST(SceneJsonLights, directionsAreAlwaysOfUnitLength) {
+TEST(SceneJsonLights, directionsAreOfUnitLength) {
     const SceneFolder folder;
     const Light sun = lightOf(folder, R"({"type": "directional", "direction": [0, -3, -4]})");
     EXPECT_EQ(sun.type, LightType::Directional);
@@ -89,7 +89,7 @@ TEST(SceneJsonLights, directionsAreAlwaysOfUnitLength) {
     EXPECT_EQ(errorOfLight(folder, R"({"type": "directional"})"), "/lights/0: lacks the key 'direction'; add it");
 }
 
-TEST(SceneJsonLights, aSpotLightAlwaysHasItsConesInRadians) {
+TEST(SceneJsonLights, aSpotLightHasItsConesInRadians) {
     const SceneFolder folder;
     const Light spot = lightOf(folder, R"({"type": "spot", "position": [0, 2, 0], "target": [0, 0, 0],
                                            "innerDegrees": 30, "outerDegrees": 60})");
@@ -103,7 +103,7 @@ TEST(SceneJsonLights, aSpotLightAlwaysHasItsConesInRadians) {
     EXPECT_FLOAT_EQ(plain.outerConeRadians, kPi / 4);
 }
 
-TEST(SceneJsonLights, impossibleSpotsAreAlwaysRefused) {
+TEST(SceneJsonLights, impossibleSpotsAreRefused) {
     const SceneFolder folder;
     const std::string start = R"({"type": "spot", "position": [0, 2, 0], )";
     EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "lights": [)" + start +
@@ -117,7 +117,7 @@ TEST(SceneJsonLights, impossibleSpotsAreAlwaysRefused) {
               "/lights/0/target: is given beside 'direction'; keep one");
 }
 
-TEST(SceneJsonLights, typesThatAreNotShadedYetAreAlwaysRefusedByName) {
+TEST(SceneJsonLights, typesThatAreNotShadedYetAreRefusedByName) {
     const SceneFolder folder;
     for (const char* type : {"area", "environment"})
         EXPECT_EQ(
@@ -128,7 +128,7 @@ TEST(SceneJsonLights, typesThatAreNotShadedYetAreAlwaysRefusedByName) {
               "/lights/0/type: there is no light type 'spott'; did you mean 'spot'?");
 }
 
-TEST(SceneJsonLights, numbersOutOfRangeAreAlwaysRefused) {
+TEST(SceneJsonLights, numbersOutOfRangeAreRefused) {
     const SceneFolder folder;
     EXPECT_EQ(errorOfLight(folder, point(R"("intensity": -1)")), "/lights/0/intensity: is -1; at least 0 is needed");
     EXPECT_EQ(errorOfLight(folder, point(R"("intensity": 1e39)")),
@@ -144,7 +144,7 @@ TEST(SceneJsonLights, numbersOutOfRangeAreAlwaysRefused) {
               "/lights/0/falloff/range: is -2; at least 0 is needed");
 }
 
-TEST(SceneJsonLights, everyAnimationAlwaysMovesTheLight) {
+TEST(SceneJsonLights, everyAnimationMovesTheLight) {
     const SceneFolder folder;
     const auto positionAt = [&](const std::string& animation, double seconds) {
         return lightAtTime(lightOf(folder, point(R"("animation": )" + animation)), seconds).positionWS;
@@ -162,7 +162,7 @@ TEST(SceneJsonLights, everyAnimationAlwaysMovesTheLight) {
                {0.5, 0, 0});
 }
 
-TEST(SceneJsonLights, brokenAnimationsAreAlwaysRefused) {
+TEST(SceneJsonLights, brokenAnimationsAreRefused) {
     const SceneFolder folder;
     const auto animationError = [&](const std::string& animation) {
         return errorOfLight(folder, point(R"("animation": )" + animation));

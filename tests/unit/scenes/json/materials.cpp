@@ -37,14 +37,14 @@ std::uint8_t redOf(const Scene& scene, TextureSlot slot) {
     return std::to_integer<std::uint8_t>(scene.images.at(static_cast<std::size_t>(use.image)).texels.at(0));
 }
 
-TEST(SceneJsonMaterials, singleColorIsAlwaysItsColor) {
+TEST(SceneJsonMaterials, singleColorIsItsColor) {
     const SceneFolder folder;
     const Material material = materialOf(folder, R"("model": "single_color", "color": [0.25, 0.5, 3])");
     EXPECT_EQ(material.model, MaterialModel::SingleColor);
     EXPECT_EQ(material.baseColor, glm::vec4(0.25f, 0.5f, 3, 1));
 }
 
-TEST(SceneJsonMaterials, lambertAlwaysHasItsDiffuseColorAndOpacity) {
+TEST(SceneJsonMaterials, lambertHasItsDiffuseColorAndOpacity) {
     const SceneFolder folder;
     const Material material = materialOf(folder, R"("model": "lambert", "k_d": [0.25, 0.5, 0.75, 0.125])");
     EXPECT_EQ(material.model, MaterialModel::Lambert);
@@ -52,7 +52,7 @@ TEST(SceneJsonMaterials, lambertAlwaysHasItsDiffuseColorAndOpacity) {
     EXPECT_EQ(materialOf(folder, R"("model": "lambert")").baseColor, glm::vec4(1));
 }
 
-TEST(SceneJsonMaterials, microfacetAlwaysHasItsFourParametersAndTheirTextures) {
+TEST(SceneJsonMaterials, microfacetHasItsFourParametersAndTheirTextures) {
     const SceneFolder folder;
     const Material material = materialOf(
         folder, R"("model": "microfacet", "k_d": [0.1, 0, 0], "k_s": [0.2, 0, 0], "ior": 0.75, "alpha": 0.3)");
@@ -81,7 +81,7 @@ TEST(SceneJsonMaterials, microfacetAlwaysHasItsFourParametersAndTheirTextures) {
     EXPECT_EQ(textured.materials[0].ior, 2.0f);
 }
 
-TEST(SceneJsonMaterials, metallicRoughnessAlwaysHasItsParametersAndTheirTextures) {
+TEST(SceneJsonMaterials, metallicRoughnessHasItsParametersAndTheirTextures) {
     const SceneFolder folder;
     const Scene scene = sceneOf(folder, R"("model": "metallic_roughness",
         "baseColor": {"factor": [0.1, 0.2, 0.3, 0.4], "texture": "pictures/albedo.tga"},
@@ -108,7 +108,7 @@ TEST(SceneJsonMaterials, metallicRoughnessAlwaysHasItsParametersAndTheirTextures
     EXPECT_EQ(materialOf(folder, R"("model": "metallic_roughness", "ior": 0)").ior, 0.0f);
 }
 
-TEST(SceneJsonMaterials, tangentsAreAlwaysDerivedAsTheMaterialSays) {
+TEST(SceneJsonMaterials, tangentsAreDerivedAsTheMaterialSays) {
     const SceneFolder folder;
     EXPECT_EQ(materialOf(folder, R"("model": "lambert")").tangents, TangentMethod::MikkTSpace);
     for (const char* model : {"lambert", "blinn_phong", "microfacet", "microfacet_anisotropic", "metallic_roughness"}) {
@@ -120,7 +120,7 @@ TEST(SceneJsonMaterials, tangentsAreAlwaysDerivedAsTheMaterialSays) {
               "/materials/0/tangents: there is no way to derive tangents 'mikk'; did you mean 'mikktspace'?");
 }
 
-TEST(SceneJsonMaterials, normalMapsAlwaysKeepTheirSpaceAndScale) {
+TEST(SceneJsonMaterials, normalMapsKeepTheirSpaceAndScale) {
     const SceneFolder folder;
     const std::string start = R"("model": "lambert", "normalMap": )";
     const Scene brief = sceneOf(folder, start + R"("pictures/normal.tga")");
@@ -139,7 +139,7 @@ TEST(SceneJsonMaterials, normalMapsAlwaysKeepTheirSpaceAndScale) {
               "/materials/0/normalMap/space: there is no normal map space 'world'; valid are tangent, object");
 }
 
-TEST(SceneJsonMaterials, texturesAlwaysKeepTransformAndSampler) {
+TEST(SceneJsonMaterials, texturesKeepTransformAndSampler) {
     const SceneFolder folder;
     const TextureUse use = materialOf(folder, R"("model": "lambert", "k_d": {"texture": {
         "file": "pictures/albedo.tga", "texCoord": 1,
@@ -157,7 +157,7 @@ TEST(SceneJsonMaterials, texturesAlwaysKeepTransformAndSampler) {
     EXPECT_EQ(use.sampler.wrapV, Wrap::ClampToEdge);
 }
 
-TEST(SceneJsonMaterials, alphaModeAndSidesAreAlwaysKept) {
+TEST(SceneJsonMaterials, alphaModeAndSidesAreKept) {
     const SceneFolder folder;
     const Material mask =
         materialOf(folder, R"("model": "lambert", "alphaMode": "mask", "alphaCutoff": 0.25, "doubleSided": true)");
@@ -168,7 +168,7 @@ TEST(SceneJsonMaterials, alphaModeAndSidesAreAlwaysKept) {
     EXPECT_EQ(materialOf(folder, R"("model": "lambert")").alphaMode, AlphaMode::Opaque);
 }
 
-TEST(SceneJsonMaterials, blinnPhongAlwaysHasItsThreeParametersAndTheirTextures) {
+TEST(SceneJsonMaterials, blinnPhongHasItsThreeParametersAndTheirTextures) {
     const SceneFolder folder;
     const Material plain = materialOf(folder, R"("model": "blinn_phong")");
     EXPECT_EQ(plain.model, MaterialModel::BlinnPhong);
@@ -186,7 +186,7 @@ TEST(SceneJsonMaterials, blinnPhongAlwaysHasItsThreeParametersAndTheirTextures) 
               "/materials/0/exponent: is -1; at least 0 is needed");
 }
 
-TEST(SceneJsonMaterials, microfacetAnisotropicAlwaysHasTwoAlphasAndTheirTextures) {
+TEST(SceneJsonMaterials, microfacetAnisotropicHasTwoAlphasAndTheirTextures) {
     const SceneFolder folder;
     const Scene scene = sceneOf(folder, R"("model": "microfacet_anisotropic", "k_d": [0.1, 0, 0], "k_s": [0.2, 0, 0],
         "ior": 2, "alphaX": {"factor": 0.25, "texture": "pictures/normal.tga"},
@@ -202,7 +202,7 @@ TEST(SceneJsonMaterials, microfacetAnisotropicAlwaysHasTwoAlphasAndTheirTextures
     EXPECT_EQ(redOf(scene, TextureSlot::Anisotropy), 40);
 }
 
-TEST(SceneJsonMaterials, maskingIsAlwaysOneThatTheModelHas) {
+TEST(SceneJsonMaterials, maskingIsOneThatTheModelHas) {
     const SceneFolder folder;
     const auto masking = [&](const char* model, const char* name) {
         return materialOf(folder, fmt::format(R"("model": "{}", "masking": "{}")", model, name)).masking;
@@ -217,7 +217,7 @@ TEST(SceneJsonMaterials, maskingIsAlwaysOneThatTheModelHas) {
               "/materials/0/masking: there is no masking 'directional'; valid are walter, half_vector");
 }
 
-TEST(SceneJsonMaterials, layersOfMetallicRoughnessAlwaysHaveTheirParametersAndTextures) {
+TEST(SceneJsonMaterials, layersOfMetallicRoughnessHaveTheirParametersAndTextures) {
     const SceneFolder folder;
     const Scene scene = sceneOf(folder, R"("model": "metallic_roughness", "anisotropyStrength": 0.5,
         "anisotropyRotationDegrees": 90, "anisotropyTexture": "pictures/albedo.tga",
@@ -247,14 +247,14 @@ TEST(SceneJsonMaterials, layersOfMetallicRoughnessAlwaysHaveTheirParametersAndTe
               "/materials/0/clearcoat: is -1; at least 0 is needed");
 }
 
-TEST(SceneJsonMaterials, modelsThatDoNotExistAreAlwaysRefusedByName) {
+TEST(SceneJsonMaterials, modelsThatDoNotExistAreRefusedByName) {
     const SceneFolder folder;
     EXPECT_EQ(errorOfMaterial(folder, R"("model": "lambertian")"),
               "/materials/0/model: there is no material model 'lambertian'; did you mean 'lambert'?");
     EXPECT_EQ(errorOfMaterial(folder, R"("k_d": [1, 1, 1])"), "/materials/0: lacks the key 'model'; add it");
 }
 
-TEST(SceneJsonMaterials, parametersOfAnotherModelAreAlwaysRefused) {
+TEST(SceneJsonMaterials, parametersOfAnotherModelAreRefused) {
     const SceneFolder folder;
     EXPECT_EQ(errorOfMaterial(folder, R"("model": "lambert", "alpha": 0.5)"),
               "/materials/0: a lambert material has no key 'alpha'; did you mean 'alphaMode' or 'alphaCutoff'?");
@@ -267,7 +267,7 @@ TEST(SceneJsonMaterials, parametersOfAnotherModelAreAlwaysRefused) {
               "/materials/0/k_d: a parameter with a texture has no key 'factr'; did you mean 'factor'?");
 }
 
-TEST(SceneJsonMaterials, numbersOutOfRangeAreAlwaysRefused) {
+TEST(SceneJsonMaterials, numbersOutOfRangeAreRefused) {
     const SceneFolder folder;
     const std::string pbr = R"("model": "metallic_roughness", )";
     EXPECT_EQ(errorOfMaterial(folder, R"("model": "lambert", "k_d": [1, 1])"),
@@ -293,7 +293,7 @@ TEST(SceneJsonMaterials, numbersOutOfRangeAreAlwaysRefused) {
               "it");
 }
 
-TEST(SceneJsonMaterials, aMissingOrBrokenPictureIsAlwaysNamed) {
+TEST(SceneJsonMaterials, aMissingOrBrokenPictureIsNamed) {
     const SceneFolder folder;
     folder.write("pictures/broken.png", "no picture");
     const std::string folderName = folder.path().string();
@@ -305,14 +305,14 @@ TEST(SceneJsonMaterials, aMissingOrBrokenPictureIsAlwaysNamed) {
     EXPECT_TRUE(broken.starts_with("/materials/0/normalMap/file: " + folderName + "/pictures/broken.png: ")) << broken;
 }
 
-TEST(SceneJsonMaterials, aNameGivenTwiceIsAlwaysRefused) {
+TEST(SceneJsonMaterials, aNameGivenTwiceIsRefused) {
     const SceneFolder folder;
     EXPECT_EQ(folder.errorBeyondSchemaOfMembers(
                   R"("materials": [{"name": "a", "model": "lambert"}, {"name": "a", "model": "lambert"}])"),
               "/materials/1: the name 'a' is taken by element 0; give another");
 }
 
-TEST(SceneJsonMaterials, aMaterialThatNothingIsDrawnWithAlwaysWarns) {
+TEST(SceneJsonMaterials, aMaterialThatNothingIsDrawnWithWarns) {
     const SceneFolder folder;
     const Scene scene = folder.importMembers(R"("materials": [{"name": "spare", "model": "lambert"}])");
     EXPECT_THAT(scene.warnings,

@@ -24,7 +24,7 @@ std::vector<std::string> materialsDrawn(const Scene& scene) {
     return names;
 }
 
-TEST(SceneJsonOverrides, patternsAlwaysMatchWholeNames) {
+TEST(SceneJsonOverrides, patternsMatchWholeNames) {
     EXPECT_TRUE(matchesPattern("bust", "bust"));
     EXPECT_FALSE(matchesPattern("bust", "busts"));
     EXPECT_FALSE(matchesPattern("bust", "bus"));
@@ -37,7 +37,7 @@ TEST(SceneJsonOverrides, patternsAlwaysMatchWholeNames) {
     EXPECT_FALSE(matchesPattern("", "a"));
 }
 
-TEST(SceneJsonOverrides, aNodesMaterialAlwaysReachesAllBelowIt) {
+TEST(SceneJsonOverrides, aNodesMaterialReachesAllBelowIt) {
     const SceneFolder folder;
     const std::string chalk = R"("materials": [{"name": "chalk", "model": "lambert"}], "overrides": )";
     const auto drawn = [&](const std::string& overrides) {
@@ -52,7 +52,7 @@ TEST(SceneJsonOverrides, aNodesMaterialAlwaysReachesAllBelowIt) {
                 ElementsAre("brass", "chalk", "chalk"));
 }
 
-TEST(SceneJsonOverrides, replacedMaterialsAndTheirPicturesAreAlwaysDropped) {
+TEST(SceneJsonOverrides, replacedMaterialsAndTheirPicturesAreDropped) {
     const SceneFolder folder;
     folder.write("models/paint.mtl", "newmtl paint\nmap_Kd ../pictures/specular.tga\n");
     folder.write("models/painted.obj", "mtllib paint.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paint\nf 1 2 3\n");
@@ -65,7 +65,7 @@ TEST(SceneJsonOverrides, replacedMaterialsAndTheirPicturesAreAlwaysDropped) {
     EXPECT_EQ(std::to_integer<int>(scene.images[0].texels[0]), 10);
 }
 
-TEST(SceneJsonOverrides, theDocumentsOwnMaterialIsAlwaysFoundFirst) {
+TEST(SceneJsonOverrides, theDocumentsOwnMaterialIsFoundFirst) {
     const SceneFolder folder;
     const Scene scene = folder.import(threeParts(
         R"("materials": [{"name": "brass", "model": "lambert"}],
@@ -74,7 +74,7 @@ TEST(SceneJsonOverrides, theDocumentsOwnMaterialIsAlwaysFoundFirst) {
               MaterialModel::Lambert);
 }
 
-TEST(SceneJsonOverrides, aMaterialOverrideAlwaysChangesOnlyWhatItGives) {
+TEST(SceneJsonOverrides, aMaterialOverrideChangesOnlyWhatItGives) {
     const SceneFolder folder;
     const Scene scene = folder.import(
         threeParts(R"("overrides": [{"material": "bra*", "perceptualRoughness": 0.25, "doubleSided": true}])"));
@@ -86,7 +86,7 @@ TEST(SceneJsonOverrides, aMaterialOverrideAlwaysChangesOnlyWhatItGives) {
     EXPECT_EQ(scene.materials[0].perceptualRoughness, 0.5f);
 }
 
-TEST(SceneJsonOverrides, aMaterialOverrideMayAlwaysChangeTheModel) {
+TEST(SceneJsonOverrides, aMaterialOverrideMayChangeTheModel) {
     const SceneFolder folder;
     const Scene scene = folder.import(threeParts(
         R"("overrides": [{"material": "default", "model": "microfacet", "alpha": 0.125},
@@ -99,7 +99,7 @@ TEST(SceneJsonOverrides, aMaterialOverrideMayAlwaysChangeTheModel) {
     }
 }
 
-TEST(SceneJsonOverrides, nullAlwaysRemovesATexture) {
+TEST(SceneJsonOverrides, nullRemovesATexture) {
     const SceneFolder folder;
     folder.write("models/paint.mtl", "newmtl paint\nmap_Kd ../pictures/specular.tga\nnorm ../pictures/normal.tga\n");
     folder.write("models/painted.obj", "mtllib paint.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paint\nf 1 2 3\n");
@@ -109,7 +109,7 @@ TEST(SceneJsonOverrides, nullAlwaysRemovesATexture) {
     EXPECT_EQ(scene.materials[0].texture(TextureSlot::Normal).image, kNone);
 }
 
-TEST(SceneJsonOverrides, anOverrideThatMatchesNothingIsAlwaysRefusedWithTheNearest) {
+TEST(SceneJsonOverrides, anOverrideThatMatchesNothingIsRefusedWithTheNearest) {
     const SceneFolder folder;
     const auto errorOf = [&](const std::string& members) { return folder.errorBeyondSchemaOf(threeParts(members)); };
     EXPECT_EQ(errorOf(R"("overrides": [{"node": "lift", "material": "brass"}])"),

@@ -13,7 +13,7 @@ std::string syntaxErrorOf(std::string_view text) {
     return error.substr(std::min(error.size(), file.string().size() + 1));
 }
 
-TEST(SceneJson, brokenSyntaxIsAlwaysPlacedByLineAndColumn) {
+TEST(SceneJson, brokenSyntaxIsPlacedByLineAndColumn) {
     EXPECT_EQ(syntaxErrorOf("{\n  \"tessera\": 1,\n  \"name\" 3\n}"),
               "3:10: syntax error while parsing object separator - unexpected number literal; expected ':'");
     EXPECT_EQ(syntaxErrorOf("{\"tessera\": NaN}"),
@@ -23,33 +23,33 @@ TEST(SceneJson, brokenSyntaxIsAlwaysPlacedByLineAndColumn) {
     EXPECT_TRUE(syntaxErrorOf("{\"tessera\": 1\n").starts_with("2:1: ")) << syntaxErrorOf("{\"tessera\": 1\n");
 }
 
-TEST(SceneJson, aNumberTooLargeForADoubleIsAlwaysRefused) {
+TEST(SceneJson, aNumberTooLargeForADoubleIsRefused) {
     EXPECT_EQ(syntaxErrorOf("{\"tessera\": 1,\n \"environment\": {\"background\": [1e999, 0, 0]}}"),
               "2:37: number overflow parsing '1e999'");
 }
 
-TEST(SceneJson, aRepeatedKeyIsAlwaysRefused) {
+TEST(SceneJson, aRepeatedKeyIsRefused) {
     EXPECT_EQ(syntaxErrorOf("{\"tessera\": 1, \"tessera\": 1}"), "/: the key 'tessera' is given twice; keep one");
     EXPECT_EQ(syntaxErrorOf("{\"lights\": [{\"a\": {}}, {\"b/c\": {\"x\": 1, \"y\": [{\"x\": 0}], \"x\": 2}}]}"),
               "/lights/1/b~1c: the key 'x' is given twice; keep one");
 }
 
-TEST(SceneJson, anEmptyFileIsAlwaysRefused) {
+TEST(SceneJson, anEmptyFileIsRefused) {
     EXPECT_EQ(syntaxErrorOf(""), " the file is empty; start with {\"tessera\": 1}");
 }
 
-TEST(SceneJson, aMissingFileIsAlwaysNamed) {
+TEST(SceneJson, aMissingFileIsNamed) {
     EXPECT_EQ(test::inputErrorOf([] { underLedger(importSceneJson, "no/such.json"); }),
               "no/such.json: there is no such file; check the name and the folder");
 }
 
-TEST(SceneJson, theSmallestSceneAlwaysHasTheFilesName) {
+TEST(SceneJson, theSmallestSceneHasTheFilesName) {
     const SceneFolder folder;
     EXPECT_EQ(folder.import(R"({"tessera": 1})").name, "scene");
     EXPECT_EQ(folder.import(R"({"tessera": 1, "name": "hall", "$schema": "scene.schema.json"})").name, "hall");
 }
 
-TEST(SceneJson, theVersionIsAlwaysChecked) {
+TEST(SceneJson, theVersionIsChecked) {
     const SceneFolder folder;
     EXPECT_EQ(folder.errorOf("{}"), "/: lacks the key 'tessera'; add it");
     EXPECT_EQ(folder.errorOf(R"({"tessera": 2})"),
@@ -57,7 +57,7 @@ TEST(SceneJson, theVersionIsAlwaysChecked) {
     EXPECT_EQ(folder.errorOf("[1]"), "/: is an array; an object is needed");
 }
 
-TEST(SceneJson, anUnknownKeyIsAlwaysRefusedWithTheNearest) {
+TEST(SceneJson, anUnknownKeyIsRefusedWithTheNearest) {
     const SceneFolder folder;
     EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "lihgts": []})"),
               "/: a scene has no key 'lihgts'; did you mean 'lights'?");
@@ -69,7 +69,7 @@ TEST(SceneJson, anUnknownKeyIsAlwaysRefusedWithTheNearest) {
         "falloff, animation, fields");
 }
 
-TEST(SceneJson, aWrongTypeIsAlwaysRefused) {
+TEST(SceneJson, aWrongTypeIsRefused) {
     const SceneFolder folder;
     EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "lights": {}})"), "/lights: is an object; an array is needed");
     EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "name": 3})"), "/name: is a number; text is needed");

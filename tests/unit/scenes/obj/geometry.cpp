@@ -32,7 +32,7 @@ double areaOf(const Mesh& mesh) {
 
 constexpr std::string_view kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-TEST(Obj, aTriangleAlwaysBecomesANodeNamedAfterTheFile) {
+TEST(Obj, aTriangleBecomesANodeNamedAfterTheFile) {
     const TempFolder folder;
     const Scene scene = importText(folder, kTriangle);
     EXPECT_EQ(scene.name, "model");
@@ -48,7 +48,7 @@ TEST(Obj, aTriangleAlwaysBecomesANodeNamedAfterTheFile) {
     EXPECT_TRUE(scene.lights.empty());
 }
 
-TEST(Obj, polygonsAlwaysKeepTheirAreaWhenCut) {
+TEST(Obj, polygonsKeepTheirAreaWhenCut) {
     const TempFolder folder;
     const Scene quad = importText(folder, "v 0 0 0\nv 2 0 0\nv 2 3 0\nv 0 3 0\nf 1 2 3 4\n");
     EXPECT_EQ(quad.meshes[0].indices.size(), 6u);
@@ -87,7 +87,7 @@ TEST(Obj, concavePolygonsNeverCoverTheirNotch) {
     }
 }
 
-TEST(Obj, aConvexQuadIsAlwaysCutAlongItsShorterDiagonal) {
+TEST(Obj, aConvexQuadIsCutAlongItsShorterDiagonal) {
     const TempFolder folder;
     const Mesh mesh = importText(folder, "v 0 0 0\nv 5 -1 0\nv 10 0 0\nv 5 1 0\nf 1 2 3 4\n").meshes[0];
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -99,13 +99,13 @@ TEST(Obj, aConvexQuadIsAlwaysCutAlongItsShorterDiagonal) {
     }
 }
 
-TEST(Obj, polygonsWithoutAreaAlwaysGiveTrianglesAllTheSame) {
+TEST(Obj, polygonsWithoutAreaGiveTrianglesAllTheSame) {
     const TempFolder folder;
     const Scene scene = importText(folder, "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 2 3 4\nf 1 3 2 4 1\n");
     EXPECT_EQ(scene.meshes[0].indices.size(), 15u);
 }
 
-TEST(Obj, negativeIndicesAlwaysCountBackFromTheFace) {
+TEST(Obj, negativeIndicesCountBackFromTheFace) {
     const TempFolder folder;
     const Scene scene =
         importText(folder, "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 8 8 8\nv 0 0 5\nv 1 0 5\nf -2 -1 4\n");
@@ -113,13 +113,13 @@ TEST(Obj, negativeIndicesAlwaysCountBackFromTheFace) {
                                                          glm::vec3(0, 0, 5), glm::vec3(1, 0, 5), glm::vec3(0, 1, 0)));
 }
 
-TEST(Obj, facesMayAlwaysStandBeforeTheirVertices) {
+TEST(Obj, facesMayStandBeforeTheirVertices) {
     const TempFolder folder;
     const Scene scene = importText(folder, "f 1 2 3 4\nv 0 0 0\nv 2 0 0\nv 2 3 0\nv 0 3 0\n");
     EXPECT_EQ(areaOf(scene.meshes[0]), 6.0);
 }
 
-TEST(Obj, equalCornersAlwaysShareAVertexAndDifferentOnesNever) {
+TEST(Obj, equalCornersShareAVertexAndDifferentOnesNever) {
     const TempFolder folder;
     const std::string positions = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn 0 1 0\nvt 0 0\nvt 1 1\n";
     const auto vertices = [&](const char* faces) {
@@ -131,21 +131,21 @@ TEST(Obj, equalCornersAlwaysShareAVertexAndDifferentOnesNever) {
     EXPECT_EQ(vertices("f 1/1/1 2/1/1 3/1/1\nf 1/1/2 3/2/2 4/1/2\n"), 6u);
 }
 
-TEST(Obj, textureCoordinatesAlwaysCountFromTheTop) {
+TEST(Obj, textureCoordinatesCountFromTheTop) {
     const TempFolder folder;
     const Scene scene = importText(folder, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25 0\nvt 1 0.25\nvt 0 1\nf 1/1 2/2 3/3\n");
     EXPECT_THAT(scene.meshes[0].texCoords[0], ElementsAre(glm::vec2(0.25f, 1), glm::vec2(1, 0.75f), glm::vec2(0, 0)));
     EXPECT_TRUE(scene.meshes[0].texCoords[1].empty());
 }
 
-TEST(Obj, missingTextureCoordinatesBesideOthersAlwaysWarn) {
+TEST(Obj, missingTextureCoordinatesBesideOthersWarn) {
     const TempFolder folder;
     const Scene scene = importText(folder, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.5\nf 1/1 2 3\n");
     EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("corners without texture coordinates")));
     EXPECT_EQ(scene.meshes[0].texCoords[0][1], glm::vec2(0, 1));
 }
 
-TEST(Obj, givenNormalsAreAlwaysKeptAtUnitLength) {
+TEST(Obj, givenNormalsAreKeptAtUnitLength) {
     const TempFolder folder;
     const Scene scene = importText(folder, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 3 4\nf 1//1 2//1 3//1\n");
     for (const glm::vec3& normalOS : scene.meshes[0].normalsOS) {
@@ -158,7 +158,7 @@ TEST(Obj, givenNormalsAreAlwaysKeptAtUnitLength) {
 /// Two triangles that meet at a right angle along the Y axis.
 constexpr std::string_view kFold = "v 0 0 0\nv 0 1 0\nv -1 0 0\nv 0 0 -1\n";
 
-TEST(Obj, facesWithoutNormalsAreAlwaysFlatOutsideSmoothingGroups) {
+TEST(Obj, facesWithoutNormalsAreFlatOutsideSmoothingGroups) {
     const TempFolder folder;
     for (const char* faces : {"f 1 2 3\nf 1 4 2\n", "s off\nf 1 2 3\nf 1 4 2\n", "s 1\ns 0\nf 1 2 3\nf 1 4 2\n"}) {
         const Mesh mesh = importText(folder, std::string(kFold) + faces).meshes[0];
@@ -168,7 +168,7 @@ TEST(Obj, facesWithoutNormalsAreAlwaysFlatOutsideSmoothingGroups) {
     }
 }
 
-TEST(Obj, aSmoothingGroupAlwaysAveragesNormalsAcrossItsFaces) {
+TEST(Obj, aSmoothingGroupAveragesNormalsAcrossItsFaces) {
     const TempFolder folder;
     for (const char* smooth : {"s 1\n", "s on\n", "s 77\n"}) {
         const Mesh mesh = importText(folder, std::string(kFold) + smooth + "f 1 2 3\nf 1 4 2\n").meshes[0];
@@ -201,20 +201,20 @@ TEST(Obj, smoothNormalsNeverDependOnHowAPolygonIsCut) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(normalOS[i], third, 1e-6f); // rounding of single precision
 }
 
-TEST(Obj, zeroNormalsAreAlwaysReplacedWithAWarning) {
+TEST(Obj, zeroNormalsAreReplacedWithAWarning) {
     const TempFolder folder;
     const Scene scene = importText(folder, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 0\nf 1//1 2//1 3//1\n");
     EXPECT_EQ(scene.meshes[0].normalsOS[0], glm::vec3(0, 0, 1));
     EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("normals of zero length")));
 }
 
-TEST(Obj, aTriangleWithoutAreaAlwaysHasAUnitNormal) {
+TEST(Obj, aTriangleWithoutAreaHasAUnitNormal) {
     const TempFolder folder;
     const Scene scene = importText(folder, "v 0 0 0\nv 1 0 0\nf 1 2 2\ns 1\nf 1 2 1\n");
     for (const glm::vec3& normalOS : scene.meshes[0].normalsOS) EXPECT_EQ(normalOS, glm::vec3(0, 1, 0));
 }
 
-TEST(Obj, everyGroupAndObjectIsAlwaysANode) {
+TEST(Obj, everyGroupAndObjectIsANode) {
     const TempFolder folder;
     const Scene scene = importText(folder, "v 0 0 0\nv 1 0 0\nv 0 1 0\no left hand\nf 1 2 3\ng thumb nail\nf 1 2 3\n"
                                            "f 1 3 2\ng empty\n");
@@ -224,7 +224,7 @@ TEST(Obj, everyGroupAndObjectIsAlwaysANode) {
     EXPECT_EQ(scene.meshes[1].indices.size(), 6u);
 }
 
-TEST(Obj, vertexColorsAreAlwaysKeptWhenAllVerticesHaveThem) {
+TEST(Obj, vertexColorsAreKeptWhenAllVerticesHaveThem) {
     const TempFolder folder;
     const Scene all = importText(folder, "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 0.5\nf 1 2 3\n");
     EXPECT_THAT(all.meshes[0].colors,
@@ -233,14 +233,14 @@ TEST(Obj, vertexColorsAreAlwaysKeptWhenAllVerticesHaveThem) {
     EXPECT_TRUE(some.meshes[0].colors.empty());
 }
 
-TEST(Obj, continuedLinesCommentsAndForeignLineEndsAreAlwaysRead) {
+TEST(Obj, continuedLinesCommentsAndForeignLineEndsAreRead) {
     const TempFolder folder;
     const Scene scene = importText(
         folder, "\xef\xbb\xbf# comment\r\nv 0 0 0\r\nv 1 \\\r\n 0 0 \r\nv 0 1e0 +0.0\r\n\r\n\tf 1 2 \\\r\n 3\r\n");
     EXPECT_THAT(scene.meshes[0].positionsOS, ElementsAre(glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)));
 }
 
-TEST(Obj, whatIsNotDrawnIsAlwaysNamedInAWarning) {
+TEST(Obj, skippedElementsAreNamedInAWarning) {
     const TempFolder folder;
     const Scene scene = importText(folder, std::string(kTriangle) + "l 1 2\np 1\nl 2 3\ncurv 0 1 1 2\nhuh\nf 1 2\n");
     const std::string file = (folder.path() / "model.obj").string();
@@ -250,7 +250,7 @@ TEST(Obj, whatIsNotDrawnIsAlwaysNamedInAWarning) {
                             file + ": statements that are not supported are left out: curv, huh"));
 }
 
-TEST(Obj, brokenTextIsAlwaysRefusedWithFileAndLine) {
+TEST(Obj, brokenTextIsRefusedWithFileAndLine) {
     const TempFolder folder;
     const auto errorOf = [&](std::string_view text) {
         const std::filesystem::path file = folder.write("model.obj", text);
@@ -281,7 +281,7 @@ TEST(Obj, brokenTextIsAlwaysRefusedWithFileAndLine) {
     EXPECT_EQ(errorOf("s blue\n"), "1: the smoothing group 'blue' is neither a number from 0 nor on or off");
 }
 
-TEST(Obj, aMissingFileIsAlwaysNamed) {
+TEST(Obj, aMissingFileIsNamed) {
     const TempFolder folder;
     const std::filesystem::path file = folder.path() / "none.obj";
     EXPECT_EQ(test::inputErrorOf([&] { underLedger(importObj, file); }),

@@ -38,7 +38,7 @@ const Image& imageOf(const Scene& scene, TextureSlot slot) {
     return scene.images.at(static_cast<std::size_t>(scene.materials.at(0).texture(slot).image));
 }
 
-TEST(ObjMaterials, facesWithoutAMaterialAlwaysGetTheDefaultOne) {
+TEST(ObjMaterials, facesWithoutAMaterialGetTheDefaultOne) {
     const TempFolder folder;
     const Scene scene = underLedger(importObj, folder.write("model.obj", std::string(kVertices) + "f 1 2 3\n"));
     ASSERT_EQ(scene.materials.size(), 1u);
@@ -47,7 +47,7 @@ TEST(ObjMaterials, facesWithoutAMaterialAlwaysGetTheDefaultOne) {
     EXPECT_EQ(scene.materials[0].metallic, 0.0f);
 }
 
-TEST(ObjMaterials, diffuseColorIsAlwaysTheBaseColor) {
+TEST(ObjMaterials, diffuseColorIsTheBaseColor) {
     const TempFolder folder;
     const Scene scene = painted(folder, "Kd 0.25 0.5 0.75\n");
     EXPECT_EQ(scene.materials[0].name, "paint");
@@ -58,7 +58,7 @@ TEST(ObjMaterials, diffuseColorIsAlwaysTheBaseColor) {
     EXPECT_EQ(painted(folder, "Ns 1\n").materials[0].baseColor, glm::vec4(1.0f));
 }
 
-TEST(ObjMaterials, theSpecularExponentAlwaysSetsTheRoughness) {
+TEST(ObjMaterials, theSpecularExponentSetsTheRoughness) {
     const TempFolder folder;
     // alpha = sqrt(2 / (p + 2)), perceptual roughness its root; 1e-6: rounding of single precision.
     EXPECT_NEAR(painted(folder, "Ns 0\n").materials[0].perceptualRoughness, 1.0f, 1e-6f);
@@ -66,14 +66,14 @@ TEST(ObjMaterials, theSpecularExponentAlwaysSetsTheRoughness) {
     EXPECT_EQ(painted(folder, "Kd 1 1 1\n").materials[0].perceptualRoughness, 0.5f);
 }
 
-TEST(ObjMaterials, thePbrExtensionAlwaysOverridesTheExponent) {
+TEST(ObjMaterials, thePbrExtensionOverridesTheExponent) {
     const TempFolder folder;
     const Material material = painted(folder, "Pr 0.3\nPm 0.7\nNs 30\n").materials[0];
     EXPECT_EQ(material.perceptualRoughness, 0.3f);
     EXPECT_EQ(material.metallic, 0.7f);
 }
 
-TEST(ObjMaterials, specularColorAndIorAlwaysShapeTheReflectance) {
+TEST(ObjMaterials, specularColorAndIorShapeTheReflectance) {
     const TempFolder folder;
     const Material material = painted(folder, "Ks 0.5 0.25 2\nNi 1.8\n").materials[0];
     EXPECT_EQ(material.specularColor, glm::vec3(0.5f, 0.25f, 1.0f));
@@ -82,7 +82,7 @@ TEST(ObjMaterials, specularColorAndIorAlwaysShapeTheReflectance) {
     EXPECT_EQ(painted(folder, "Ni 1.0\n").materials[0].ior, 1.5f);
 }
 
-TEST(ObjMaterials, theIlluminationModelAlwaysDecidesAboutHighlights) {
+TEST(ObjMaterials, theIlluminationModelDecidesAboutHighlights) {
     const TempFolder folder;
     EXPECT_EQ(painted(folder, "illum 0\n").materials[0].model, MaterialModel::SingleColor);
     EXPECT_EQ(painted(folder, "illum 1\n").materials[0].specularFactor, 0.0f);
@@ -90,7 +90,7 @@ TEST(ObjMaterials, theIlluminationModelAlwaysDecidesAboutHighlights) {
     EXPECT_EQ(painted(folder, "illum 1\n").materials[0].model, MaterialModel::MetallicRoughness);
 }
 
-TEST(ObjMaterials, emissionIsAlwaysKept) {
+TEST(ObjMaterials, emissionIsKept) {
     const TempFolder folder;
     EXPECT_EQ(painted(folder, "Ke 1 2 3\n").materials[0].emissive, glm::vec3(1, 2, 3));
     folder.writePicture("glow.tga", 1, 1, {{255, 0, 0, 255}});
@@ -99,7 +99,7 @@ TEST(ObjMaterials, emissionIsAlwaysKept) {
     EXPECT_EQ(texelsOf(imageOf(scene, TextureSlot::Emissive)), (Texels{{255, 0, 0, 255}}));
 }
 
-TEST(ObjMaterials, opacityAlwaysBlends) {
+TEST(ObjMaterials, opacityBlends) {
     const TempFolder folder;
     EXPECT_EQ(painted(folder, "d 1\n").materials[0].alphaMode, AlphaMode::Opaque);
     for (const char* text : {"d 0.25\n", "Tr 0.75\n", "d 0.25\nTr 0.5\n", "d -halo 0.25\n"}) {
@@ -109,7 +109,7 @@ TEST(ObjMaterials, opacityAlwaysBlends) {
     }
 }
 
-TEST(ObjMaterials, picturesAlwaysFillTheirSlots) {
+TEST(ObjMaterials, picturesFillTheirSlots) {
     const TempFolder folder;
     folder.writePicture("colour.tga", 1, 1, {{10, 20, 30, 255}});
     folder.writePicture("maps/normal map.tga", 1, 1, {{128, 128, 255, 255}});
@@ -124,7 +124,7 @@ TEST(ObjMaterials, picturesAlwaysFillTheirSlots) {
     EXPECT_EQ(scene.materials[0].baseColor, glm::vec4(1.0f));
 }
 
-TEST(ObjMaterials, bumpMapsAlwaysServeAsNormalMapsWithAWarning) {
+TEST(ObjMaterials, bumpMapsServeAsNormalMapsWithAWarning) {
     const TempFolder folder;
     folder.writePicture("bump.tga", 1, 1, {{128, 128, 255, 255}});
     for (const std::string keyword : {"map_bump", "bump", "map_Bump"}) {
@@ -135,7 +135,7 @@ TEST(ObjMaterials, bumpMapsAlwaysServeAsNormalMapsWithAWarning) {
     }
 }
 
-TEST(ObjMaterials, opacityMapsAlwaysBecomeTheColorsAlpha) {
+TEST(ObjMaterials, opacityMapsBecomeTheColorsAlpha) {
     const TempFolder folder;
     folder.writePicture("colour.tga", 2, 1, {{10, 20, 30, 255}, {40, 50, 60, 255}});
     folder.writePicture("mask.tga", 1, 1, {{77, 77, 77, 255}});
@@ -152,7 +152,7 @@ TEST(ObjMaterials, opacityMapsAlwaysBecomeTheColorsAlpha) {
     EXPECT_EQ(texelsOf(imageOf(same, TextureSlot::BaseColor)), (Texels{{1, 2, 3, 88}}));
 }
 
-TEST(ObjMaterials, roughnessAndMetalnessMapsAreAlwaysPackedAsGreenAndBlue) {
+TEST(ObjMaterials, roughnessAndMetalnessMapsArePackedAsGreenAndBlue) {
     const TempFolder folder;
     folder.writePicture("rough.tga", 2, 1, {{11, 0, 0, 255}, {22, 0, 0, 255}});
     folder.writePicture("metal.tga", 1, 1, {{33, 0, 0, 255}});
@@ -171,7 +171,7 @@ TEST(ObjMaterials, roughnessAndMetalnessMapsAreAlwaysPackedAsGreenAndBlue) {
     EXPECT_EQ(texelsOf(imageOf(packed, TextureSlot::MetallicRoughness)), (Texels{{1, 2, 3, 255}}));
 }
 
-TEST(ObjMaterials, textureOptionsAlwaysPlaceThePicture) {
+TEST(ObjMaterials, textureOptionsPlaceThePicture) {
     const TempFolder folder;
     folder.writePicture("colour.tga", 1, 1, {{10, 20, 30, 255}});
     const Scene scene = painted(folder, "map_Kd -s 2 4 -o 0.25 0.5 0 -clamp on colour.tga\n");
@@ -186,7 +186,7 @@ TEST(ObjMaterials, textureOptionsAlwaysPlaceThePicture) {
                 ElementsAre(HasSubstr("texture options that are not supported are left out: -blendu, -mm")));
 }
 
-TEST(ObjMaterials, eachMaterialOfAShapeAlwaysHasItsOwnMesh) {
+TEST(ObjMaterials, eachMaterialOfAShapeHasItsOwnMesh) {
     const TempFolder folder;
     folder.write("a.mtl", "newmtl warm red\nKd 1 0 0\nnewmtl unused\nmap_Kd none.png\n");
     folder.write("b.mtl", "newmtl warm blue\nKd 0 0 1\nnewmtl warm red\nKd 0 1 0\n");
@@ -206,7 +206,7 @@ TEST(ObjMaterials, eachMaterialOfAShapeAlwaysHasItsOwnMesh) {
     EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
-TEST(ObjMaterials, aMissingLibraryAlwaysWarnsAndKeepsTheMaterialsNames) {
+TEST(ObjMaterials, aMissingLibraryWarnsAndKeepsTheMaterialsNames) {
     const TempFolder folder;
     const std::filesystem::path file =
         folder.write("model.obj", "mtllib no such.mtl\n" + std::string(kVertices) + "usemtl skin\nf 1 2 3\n");
@@ -219,7 +219,7 @@ TEST(ObjMaterials, aMissingLibraryAlwaysWarnsAndKeepsTheMaterialsNames) {
                     file.string() + ": no material library defines 'skin'; a default material of that name is used"));
 }
 
-TEST(ObjMaterials, aMissingPictureIsAlwaysAnErrorNamingIt) {
+TEST(ObjMaterials, aMissingPictureIsAnErrorNamingIt) {
     const TempFolder folder;
     const std::string error = test::inputErrorOf([&] { painted(folder, "map_Kd no picture.png\n"); });
     EXPECT_EQ(error, (folder.path() / "paint.mtl").string() +
@@ -227,14 +227,14 @@ TEST(ObjMaterials, aMissingPictureIsAlwaysAnErrorNamingIt) {
                          ": there is no such file; check the name and the folder");
 }
 
-TEST(ObjMaterials, unsupportedStatementsAlwaysWarn) {
+TEST(ObjMaterials, unsupportedStatementsWarn) {
     const TempFolder folder;
     EXPECT_THAT(painted(folder, "Ka 1 1 1\nKd 1 1 1\ndisp a.png\nfoo 1\nKs spectral x.rfl\n").warnings,
                 ElementsAre((folder.path() / "paint.mtl").string() +
                             ": statements that are not supported are left out: Ks spectral, disp, foo"));
 }
 
-TEST(ObjMaterials, brokenTextIsAlwaysRefusedWithFileAndLine) {
+TEST(ObjMaterials, brokenTextIsRefusedWithFileAndLine) {
     const TempFolder folder;
     const auto errorOf = [&](const std::string& mtl) {
         const std::string error = test::inputErrorOf([&] { painted(folder, mtl); });

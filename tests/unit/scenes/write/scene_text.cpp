@@ -66,14 +66,14 @@ void expectRoundTrip(const std::string& nameOrPath, const LoadOptions& options =
     expectSameScene(saved(scene, origin, folder.path() / "deep" / "er" / "edited.json"), scene);
 }
 
-TEST(SceneText, everyBuiltinSceneIsAlwaysLoadedBackIdentically) {
+TEST(SceneText, everyBuiltinSceneIsLoadedBackIdentically) {
     for (const BuiltinScene& builtin : builtinScenes()) expectRoundTrip(std::string(builtin.name));
     LoadOptions fewer;
     fewer.lights = 5;
     expectRoundTrip("lattice", fewer);
 }
 
-TEST(SceneText, everyKindOfFileIsAlwaysLoadedBackIdentically) {
+TEST(SceneText, everyKindOfFileIsLoadedBackIdentically) {
     const SceneFolder folder;
     folder.write("models/paint.mtl", "newmtl paint\nKd 0.1 0.2 0.3\nmap_Kd ../pictures/specular.tga\n");
     expectRoundTrip(folder
@@ -114,7 +114,7 @@ struct Bust {
     Scene savedScene() const { return saved(scene, origin, folder.path() / "saved.json"); }
 };
 
-TEST(SceneText, everyLightIsAlwaysLoadedBackIdenticallyWithWhatItsTypeDoesNotUse) {
+TEST(SceneText, everyLightIsLoadedBackIdenticallyWithUnusedFields) {
     Bust bust;
     Edits edits(1);
     bust.scene.lights.clear();
@@ -133,7 +133,7 @@ TEST(SceneText, everyLightIsAlwaysLoadedBackIdenticallyWithWhatItsTypeDoesNotUse
     EXPECT_TRUE(bust.savedScene().lights == bust.scene.lights);
 }
 
-TEST(SceneText, everyMaterialIsAlwaysLoadedBackIdenticallyWithEveryTexture) {
+TEST(SceneText, everyMaterialIsLoadedBackIdenticallyWithEveryTexture) {
     Bust bust;
     Edits edits(2);
     for (const auto& [name, model] : scenejson::kModels)
@@ -158,14 +158,14 @@ TEST(SceneText, aTextureThatIsRemovedNeverComesBack) {
     EXPECT_TRUE(bust.savedScene().materials == bust.scene.materials);
 }
 
-TEST(SceneText, onlyMaterialsThatWereEditedAreEverWritten) {
+TEST(SceneText, onlyMaterialsThatWereEditedAreWritten) {
     Bust bust;
     EXPECT_EQ(sceneText(bust.scene, bust.origin, "a.json").find("replaces"), std::string::npos);
     bust.scene.materials[1].doubleSided = true;
     EXPECT_NE(sceneText(bust.scene, bust.origin, "a.json").find("\"replaces\":1"), std::string::npos);
 }
 
-TEST(SceneText, everyCameraIsAlwaysLoadedBackIdentically) {
+TEST(SceneText, everyCameraIsLoadedBackIdentically) {
     Bust bust;
     Edits edits(3);
     for (int i = 0; i < 100; ++i) {
@@ -181,7 +181,7 @@ TEST(SceneText, everyCameraIsAlwaysLoadedBackIdentically) {
     EXPECT_TRUE(bust.savedScene().cameras == bust.scene.cameras);
 }
 
-TEST(SceneText, aSavedSceneThatIsEditedAndSavedOverItselfIsAlwaysLoadedBackIdentically) {
+TEST(SceneText, aSavedSceneThatIsEditedAndSavedOverItselfIsLoadedBackIdentically) {
     const SceneFolder folder;
     const std::string file = (folder.path() / "edited.json").string();
     Scene scene = loadScene("models");
@@ -201,7 +201,7 @@ TEST(SceneText, aSavedSceneThatIsEditedAndSavedOverItselfIsAlwaysLoadedBackIdent
     expectSameScene(saved(scene, models, file), scene);
 }
 
-TEST(SceneText, whatIsSavedElsewhereNeverNeedsTheEditedFileItCameFrom) {
+TEST(SceneText, aSceneSavedElsewhereDoesNotNeedTheEditedFile) {
     const SceneFolder folder;
     const std::string first = (folder.path() / "first.json").string();
     Scene scene = loadScene((folder.path() / "models" / "bust.obj").string());
@@ -212,7 +212,7 @@ TEST(SceneText, whatIsSavedElsewhereNeverNeedsTheEditedFileItCameFrom) {
     expectSameScene(saved(scene, origin, folder.path() / "other" / "second.json"), scene);
 }
 
-TEST(SceneText, aFileThatTheSceneIsMadeOfIsNeverWrittenOver) {
+TEST(SceneText, aFileThatTheSceneIsMadeOfIsNotWrittenOver) {
     const SceneFolder folder;
     const std::string file = folder
                                  .write("whole.json", R"({"tessera": 1,
@@ -239,7 +239,7 @@ TEST(SceneText, aSceneWhoseLightsWereDeletedNeverGetsOneSupplied) {
     EXPECT_EQ(back.options.defaultLight, false);
 }
 
-TEST(SceneText, namesAreAlwaysRelativeToTheNewFile) {
+TEST(SceneText, namesAreRelativeToTheNewFile) {
     const SceneFolder folder;
     const std::string bust = (folder.path() / "models" / "bust.obj").string();
     const Scene scene = loadScene(bust);
@@ -252,7 +252,7 @@ TEST(SceneText, namesAreAlwaysRelativeToTheNewFile) {
     EXPECT_TRUE(has(folder.path() / "x" / "y" / "a.json", "../../models/bust.obj"));
 }
 
-TEST(SceneText, whatCannotBeWrittenAlwaysSaysWhy) {
+TEST(SceneText, aSceneThatCannotBeWrittenIsRefusedWithTheReason) {
     Bust bust;
     bust.scene.lights.front().name = "caf\xe9";
     EXPECT_EQ(inputErrorOf([&] { sceneText(bust.scene, bust.origin, "a.json"); }),
@@ -263,7 +263,7 @@ TEST(SceneText, whatCannotBeWrittenAlwaysSaysWhy) {
               "scene 'bust': light 0 'lamp': the intensity must be finite and not negative");
 }
 
-TEST(SceneTextNumber, everyFloatIsAlwaysReadBackToTheLastBitFromFewDigits) {
+TEST(SceneTextNumber, everyFloatIsReadBackToTheLastBitFromFewDigits) {
     EXPECT_EQ(write::number(0.1f).dump(), "0.1");
     EXPECT_EQ(write::number(16777216.0f).dump(), "16777216.0");
     EXPECT_TRUE(write::number(kInfinity).is_null());
@@ -275,7 +275,7 @@ TEST(SceneTextNumber, everyFloatIsAlwaysReadBackToTheLastBitFromFewDigits) {
     }
 }
 
-TEST(SceneTextNumber, anglesThatAreNumbersOfDegreesAreAlwaysWrittenAsSuch) {
+TEST(SceneTextNumber, anglesThatAreNumbersOfDegreesAreWrittenAsSuch) {
     EXPECT_EQ(write::degreesOf(glm::radians(25.0f)).dump(), "25.0");
     EXPECT_EQ(write::degreesOf(glm::radians(45.0)).dump(), "45.0");
     EXPECT_EQ(write::degreesOf(glm::radians(62.5)).dump(), "62.5");

@@ -31,7 +31,7 @@ Image ramp(int width) {
 
 constexpr double kMagnified = -std::numeric_limits<double>::infinity();
 
-TEST(ReferencePyramid, aCheckerboardIsAlwaysHalfBrightInLinearLight) {
+TEST(ReferencePyramid, aCheckerboardIsHalfBrightInLinearLight) {
     const Image board = grey(4, 4, [](int x, int y) { return (x + y) % 2 * 255; });
     for (const Transfer transfer : {Transfer::Linear, Transfer::Srgb}) {
         const Pyramid pyramid(board, transfer, true);
@@ -42,7 +42,7 @@ TEST(ReferencePyramid, aCheckerboardIsAlwaysHalfBrightInLinearLight) {
     EXPECT_EQ(Pyramid(board, Transfer::Linear, false).smallestLevel(), 0);
 }
 
-TEST(ReferencePyramid, oddSizesAlwaysWeighTexelsByTheAreaThatIsCovered) {
+TEST(ReferencePyramid, oddSizesWeighTexelsByTheAreaThatIsCovered) {
     const Image image = ramp(5);
     const Pyramid pyramid(image, Transfer::Linear, true);
     ASSERT_EQ(pyramid.smallestLevel(), 2);
@@ -53,7 +53,7 @@ TEST(ReferencePyramid, oddSizesAlwaysWeighTexelsByTheAreaThatIsCovered) {
 }
 
 /// The mean of an even slope over a texel is its value at the centre, at every level.
-TEST(ReferenceFiltering, anEvenSlopeIsAlwaysTheSameAtEveryLevel) {
+TEST(ReferenceFiltering, anEvenSlopeIsTheSameAtEveryLevel) {
     const Image image = ramp(16);
     const Pyramid pyramid(image, Transfer::Linear, true);
     const scenes::Sampler sampler{Filter::Linear, Filter::LinearMipmapLinear, Wrap::ClampToEdge, Wrap::ClampToEdge};
@@ -66,7 +66,7 @@ TEST(ReferenceFiltering, anEvenSlopeIsAlwaysTheSameAtEveryLevel) {
 }
 
 /// OpenGL 4.5 core, equations 8.6 and 8.8.
-TEST(ReferenceFiltering, theLevelIsAlwaysTheLogarithmOfTheLongerSideInTexels) {
+TEST(ReferenceFiltering, theLevelIsTheLogarithmOfTheLongerSideInTexels) {
     const double turn = 0.4;
     const Footprint footprint{
         {0, 0}, 0.25 * glm::dvec2(std::cos(turn), std::sin(turn)), 0.5 * glm::dvec2(-std::sin(turn), std::cos(turn))};
@@ -77,7 +77,7 @@ TEST(ReferenceFiltering, theLevelIsAlwaysTheLogarithmOfTheLongerSideInTexels) {
 }
 
 /// Which levels are read, and with what weight: every level of a checkerboard but its own is even.
-TEST(ReferenceFiltering, everyFilterAlwaysTakesTheLevelsOfTheSpecification) {
+TEST(ReferenceFiltering, everyFilterTakesTheLevelsOfTheSpecification) {
     const Image image = grey(8, 8, [](int x, int y) { return (x + y) % 2 * 200; });
     const Pyramid pyramid(image, Transfer::Linear, true);
     const double nearestTexel = 0.0, mean = 100.0; // level 0 at the centre of texel (0, 0), and every smaller one
@@ -108,7 +108,7 @@ TEST(ReferenceFiltering, everyFilterAlwaysTakesTheLevelsOfTheSpecification) {
     }
 }
 
-TEST(ReferenceFiltering, magnificationAndMinificationAlwaysHaveFiltersOfTheirOwn) {
+TEST(ReferenceFiltering, magnificationAndMinificationHaveFiltersOfTheirOwn) {
     const Image image = ramp(8);
     const Pyramid pyramid(image, Transfer::Linear, false);
     const auto at = [&](Filter magnification, Filter minification, double level) {
@@ -123,7 +123,7 @@ TEST(ReferenceFiltering, magnificationAndMinificationAlwaysHaveFiltersOfTheirOwn
     EXPECT_NEAR(at(Filter::Linear, Filter::NearestMipmapLinear, 3.0), 30.0, 1e-9) << "one level has no other";
 }
 
-TEST(ReferenceFiltering, aCentreIsAlwaysItsTexelAndBetweenTexelsWeightsAreLinear) {
+TEST(ReferenceFiltering, aCentreIsItsTexelAndBetweenTexelsWeightsAreLinear) {
     const Image image = grey(2, 2, [](int x, int y) { return 255 * x + 0 * y; });
     const Pyramid pyramid(image, Transfer::Linear, false);
     scenes::Sampler sampler;

@@ -30,14 +30,14 @@ Light candela(float intensity, const glm::dvec3& positionWS) {
     return light;
 }
 
-TEST(ReferenceLight, aPointLightAlwaysFallsWithTheSquareOfTheDistance) {
+TEST(ReferenceLight, aPointLightFallsWithTheSquareOfTheDistance) {
     const Incident incident = incidentAt(shining(candela(3.0f, {0, 2, 0})), {0, 0.5, 2});
-    EXPECT_DOUBLE_EQ(incident.intensity.g, 3.0 / 6.25);
+    EXPECT_DOUBLE_EQ(incident.irradiance.g, 3.0 / 6.25);
     EXPECT_DOUBLE_EQ(incident.toLight.y, 0.6);
     EXPECT_DOUBLE_EQ(incident.toLight.z, -0.8);
 }
 
-TEST(ReferenceLight, everyLightIsAlwaysTheTextbooks) {
+TEST(ReferenceLight, everyLightIsTheTextbooks) {
     std::mt19937 engine(5);
     std::uniform_real_distribution<double> value(-2.0, 2.0);
     for (int i = 0; i < 3000; ++i) {
@@ -58,8 +58,8 @@ TEST(ReferenceLight, everyLightIsAlwaysTheTextbooks) {
         const Incident found = incidentAt(shining(light), positionWS);
         // The textbook takes the cosines of a cone in single precision, which a closing cone magnifies.
         if (light.type == LightType::Spot) light.type = LightType::Point;
-        const double open = incidentAt(shining(light), positionWS).intensity.r;
-        for (int c = 0; c < 3; ++c) ASSERT_NEAR(found.intensity[c], wanted[c], 1e-6 * open) << i;
+        const double open = incidentAt(shining(light), positionWS).irradiance.r;
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR(found.irradiance[c], wanted[c], 1e-6 * open) << i;
         if (wanted != glm::dvec3(0.0)) {
             ASSERT_LT(glm::distance(found.toLight, toLightWS), 1e-14);
         }
@@ -69,19 +69,19 @@ TEST(ReferenceLight, everyLightIsAlwaysTheTextbooks) {
 TEST(ReferenceLight, atItsRangeAndBeyondALightIsExactlyZero) {
     Light light = candela(3.0f, {0, 0, 0});
     light.rangeMetres = 2.0f;
-    EXPECT_EQ(incidentAt(shining(light), {0, 2, 0}).intensity, glm::dvec3(0.0));
-    EXPECT_EQ(incidentAt(shining(light), {0, 9, 0}).intensity, glm::dvec3(0.0));
+    EXPECT_EQ(incidentAt(shining(light), {0, 2, 0}).irradiance, glm::dvec3(0.0));
+    EXPECT_EQ(incidentAt(shining(light), {0, 9, 0}).irradiance, glm::dvec3(0.0));
     const double open = 1.0 - 1.0 / 16.0;
-    EXPECT_DOUBLE_EQ(incidentAt(shining(light), {0, 1, 0}).intensity.r, 3.0 * open * open);
+    EXPECT_DOUBLE_EQ(incidentAt(shining(light), {0, 1, 0}).irradiance.r, 3.0 * open * open);
 }
 
-TEST(ReferenceLight, aConeAlwaysClosesFromInnerToOuterAndAClosedOneLightsNothing) {
+TEST(ReferenceLight, aConeClosesFromInnerToOuterAndAClosedOneLightsNothing) {
     Light light = candela(1.0f, {0, 0, 0});
     light.type = LightType::Spot;
     light.innerConeRadians = 0.2f;
     light.outerConeRadians = 0.6f;
     const auto at = [&](double angle) {
-        return incidentAt(shining(light), {std::sin(angle), 0.0, -std::cos(angle)}).intensity.r;
+        return incidentAt(shining(light), {std::sin(angle), 0.0, -std::cos(angle)}).irradiance.r;
     };
     EXPECT_DOUBLE_EQ(at(0.1), 1.0);
     const double open = (std::cos(0.4) - std::cos(double(0.6f))) / (std::cos(double(0.2f)) - std::cos(double(0.6f)));
@@ -98,13 +98,13 @@ TEST(ReferenceLight, extremeLightsNeverSendNaNOrInfinity) {
             light.rangeMetres = range;
             for (const double metres : {0.0, 1e-30, 1e-6, 1.0, 1e30}) {
                 const Incident incident = incidentAt(shining(light), {0, metres, 0});
-                EXPECT_TRUE(std::isfinite(incident.intensity.r) && std::isfinite(incident.toLight.y)) << metres;
+                EXPECT_TRUE(std::isfinite(incident.irradiance.r) && std::isfinite(incident.toLight.y)) << metres;
             }
         }
     }
 }
 
-TEST(ReferenceLight, aToleranceAlwaysEndsALightWhereTheProductEndsIt) {
+TEST(ReferenceLight, aToleranceEndsALightWhereTheProductEndsIt) {
     for (const glm::vec3 abc : {glm::vec3(0, 0, 1), glm::vec3(1, 0.5, 0), glm::vec3(0.5, 0.3, 0.6),
                                 glm::vec3(1, 1e-4, 1e-8), glm::vec3(99.99, 0.1, 0.1)}) {
         Light light = candela(1.0f, {0, 0, 0});

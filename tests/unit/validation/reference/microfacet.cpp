@@ -29,7 +29,7 @@ double overPolarAngles(double alpha, int steps, const std::function<double(doubl
     });
 }
 
-TEST(ReferenceMicrofacet, theDistributionAlwaysIntegratesToOne) {
+TEST(ReferenceMicrofacet, theDistributionIntegratesToOne) {
     for (const double alpha : {1e-3, 0.01, 0.1, 0.5, 1.0}) {
         const double whole = 2.0 * pi * overPolarAngles(alpha, 4000, [&](double theta) {
                                  return distributionGgx(alpha, std::cos(theta)) * std::cos(theta);
@@ -52,7 +52,7 @@ double directionalAlbedo(double alpha, double mu, const std::function<double(dou
     });
 }
 
-TEST(ReferenceMicrofacet, theWeakWhiteFurnaceIsAlwaysOne) {
+TEST(ReferenceMicrofacet, theWeakWhiteFurnaceIsOne) {
     for (const double alpha : {0.1, 0.5, 1.0}) {
         for (const double mu : {0.1, 0.5, 1.0}) {
             const double sine = std::sqrt(1.0 - mu * mu);
@@ -79,7 +79,7 @@ TEST(ReferenceMicrofacet, atAlphaOneEnergyIsExactlyItsClosedForm) {
     }
 }
 
-TEST(ReferenceMicrofacet, correlatedEnergyIsAlwaysThatOfTheTable) {
+TEST(ReferenceMicrofacet, correlatedEnergyIsThatOfTheTable) {
     constexpr double kAlpha[] = {0.05, 0.1, 0.25, 0.5, 0.75, 1.0};
     constexpr double kMu[] = {0.1, 0.25, 0.5, 0.75, 1.0};
     constexpr double kEnergy[5][6] = {{.9113, .8834, .8916, .8601, .8107, .7602},
@@ -97,7 +97,7 @@ TEST(ReferenceMicrofacet, correlatedEnergyIsAlwaysThatOfTheTable) {
     }
 }
 
-TEST(ReferenceMicrofacet, fresnelIsAlwaysTheFormOfCookAndTorranceToo) {
+TEST(ReferenceMicrofacet, fresnelIsTheFormOfCookAndTorranceToo) {
     for (const double ior : {0.6, 0.95, 1.0001, 1.33, 1.5, 2.4, 30.0}) {
         for (double c = 0.01; c <= 1.0; c += 0.01) {
             const double g2 = ior * ior - 1.0 + c * c;
@@ -111,7 +111,7 @@ TEST(ReferenceMicrofacet, fresnelIsAlwaysTheFormOfCookAndTorranceToo) {
     }
 }
 
-TEST(ReferenceMicrofacet, fresnelAlwaysMeetsItsClosedForms) {
+TEST(ReferenceMicrofacet, fresnelMeetsItsClosedForms) {
     for (const double ior : {0.7, 1.2, 1.5, 2.0}) {
         const double normal = (ior - 1.0) / (ior + 1.0);
         EXPECT_NEAR(fresnelDielectric(ior, 1.0), normal * normal, 1e-15) << ior;
@@ -125,14 +125,14 @@ TEST(ReferenceMicrofacet, fresnelAlwaysMeetsItsClosedForms) {
     for (const double c : {0.0, 0.3, 1.0}) EXPECT_EQ(fresnelDielectric(1.0, c), 0.0);
 }
 
-TEST(ReferenceMicrofacet, schlickAlwaysMeetsItsEndPointsAndOneBetween) {
+TEST(ReferenceMicrofacet, schlickMeetsItsEndPointsAndOneBetween) {
     EXPECT_EQ(fresnelSchlick(0.04, 0.9, 1.0), 0.04);
     EXPECT_EQ(fresnelSchlick(0.04, 0.9, 0.0), 0.9);
     EXPECT_DOUBLE_EQ(fresnelSchlick(0.04, 1.0, 0.5), 0.04 + 0.96 / 32.0);
 }
 
 /// Both sums of the split-sum approximation, glTF's model: A weighs F0, B is what Schlick adds.
-TEST(ReferenceMicrofacet, splitSumsAreAlwaysThoseOfTheTable) {
+TEST(ReferenceMicrofacet, splitSumsAreThoseOfTheTable) {
     struct Row {
         double mu, roughness, a, b;
     };

@@ -63,7 +63,7 @@ SurfacePoint pointOf(const Material& material, const glm::dvec3& normal) {
 constexpr MaterialModel kLit[] = {MaterialModel::Lambert, MaterialModel::BlinnPhong, MaterialModel::Microfacet,
                                   MaterialModel::MicrofacetAnisotropic, MaterialModel::MetallicRoughness};
 
-TEST(ReferenceReflectance, everyModelIsAlwaysTheTextbooks) {
+TEST(ReferenceReflectance, everyModelIsTheTextbooks) {
     test::Random random(20);
     for (const MaterialModel model : kLit) {
         for (int i = 0; i < 20000; ++i) {
@@ -79,7 +79,7 @@ TEST(ReferenceReflectance, everyModelIsAlwaysTheTextbooks) {
     }
 }
 
-TEST(ReferenceReflectance, layersOfMetallicRoughnessAreAlwaysTheTextbooks) {
+TEST(ReferenceReflectance, layersOfMetallicRoughnessAreTheTextbooks) {
     test::Random random(21);
     for (int i = 0; i < 20000; ++i) {
         Material material = randomMaterial(MaterialModel::MetallicRoughness, random);
@@ -101,7 +101,7 @@ TEST(ReferenceReflectance, layersOfMetallicRoughnessAreAlwaysTheTextbooks) {
     }
 }
 
-TEST(ReferenceReflectance, aSheenOverBlackIsAlwaysTheTextbooksAndWhatLiesBelowIsDarkenedNearlyAsMuch) {
+TEST(ReferenceReflectance, aSheenEqualsTheTextbooksAndDarkensTheBaseNearlyAsMuch) {
     test::Random random(22);
     for (int i = 0; i < 2000; ++i) {
         Material material = randomMaterial(MaterialModel::MetallicRoughness, random);
@@ -128,7 +128,7 @@ TEST(ReferenceReflectance, aSheenOverBlackIsAlwaysTheTextbooksAndWhatLiesBelowIs
     }
 }
 
-TEST(ReferenceReflectance, specularAloneIsAlwaysReciprocal) {
+TEST(ReferenceReflectance, specularAloneIsReciprocal) {
     test::Random random(20);
     for (const MaterialModel model :
          {MaterialModel::Microfacet, MaterialModel::MicrofacetAnisotropic, MaterialModel::MetallicRoughness}) {
@@ -148,7 +148,7 @@ TEST(ReferenceReflectance, specularAloneIsAlwaysReciprocal) {
     }
 }
 
-TEST(ReferenceReflectance, thereIsNeverALobeBelowTheHorizonOrBetweenOppositeDirections) {
+TEST(ReferenceReflectance, thereIsNotALobeBelowTheHorizonOrBetweenOppositeDirections) {
     test::Random random(20);
     const glm::dvec3 n(0, 0, 1), l = glm::normalize(glm::dvec3(0.3, 0.1, 0.5));
     for (const MaterialModel model : kLit) {
@@ -159,7 +159,7 @@ TEST(ReferenceReflectance, thereIsNeverALobeBelowTheHorizonOrBetweenOppositeDire
     }
 }
 
-TEST(ReferenceReflectance, aModelWithoutARowIsAlwaysRefused) {
+TEST(ReferenceReflectance, aModelWithoutARowIsRefused) {
     for (const Model& row : modelTable()) EXPECT_EQ(modelOf(row.model).reflected, row.reflected);
     EXPECT_THROW(modelOf(MaterialModel(250)), std::logic_error);
 }

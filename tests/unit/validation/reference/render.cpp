@@ -17,7 +17,7 @@ namespace {
 
 namespace room = scenes::builtin;
 
-TEST(ReferenceRender, theRoomIsAlwaysItsClosedForm) {
+TEST(ReferenceRender, theRoomIsItsClosedForm) {
     const scenes::Scene scene = scenes::loadScene("room");
     for (const scenes::Camera& camera : scene.cameras) {
         Settings settings;
@@ -75,7 +75,7 @@ Settings settingsOfTwoTriangles(scenes::Scene& scene, double eyeMetres, double g
     return settings;
 }
 
-TEST(ReferenceRender, trianglesACentimetreApartAreNeverInOnePlaceHoweverFarTheEyeIs) {
+TEST(ReferenceRender, trianglesACentimetreApartAreNotInOnePlaceHoweverFarTheEyeIs) {
     for (const auto projection : {scenes::Projection::Perspective, scenes::Projection::Orthographic}) {
         for (const double eyeMetres : {5.0, 1e3, 1e5}) {
             const auto seen = [&](double gapMetres) {
@@ -92,7 +92,7 @@ TEST(ReferenceRender, trianglesACentimetreApartAreNeverInOnePlaceHoweverFarTheEy
     }
 }
 
-TEST(ReferenceRender, whatLiesOutsideThePictureNeverTakesDigitsFromParallelRays) {
+TEST(ReferenceRender, geometryOutsideThePictureCostsParallelRaysNoDigits) {
     for (const double farMetres : {1e4, 1e6, 1e8}) {
         scenes::Scene scene;
         Settings settings = settingsOfTwoTriangles(scene, 5.0, 0.01);
@@ -122,7 +122,7 @@ TEST(ReferenceRender, trianglesAreInOnePlaceWhereRoundingsOfTheirNodesMayExchang
 
 /// Roundings of the product's positions go with their distance from an origin that is its own business: the reference
 /// grants what lies between that and its own.
-TEST(ReferenceRender, fromAFarEyeTheProductsOriginIsNeverFartherFromTheReferencesThanIsGranted) {
+TEST(ReferenceRender, fromAFarEyeTheProductsOriginIsNotFartherFromTheReferencesThanIsGranted) {
     test::Random random(21);
     int far = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -184,7 +184,7 @@ TEST(ReferenceRender, ofTrianglesInOnePlaceEitherIsAllowedAndNoMixOfThem) {
     EXPECT_TRUE(render(scene, settings).alternatives[0].empty());
 }
 
-TEST(ReferenceRender, idsOfTransparentTrianglesAlwaysStayBelowTheirBound) {
+TEST(ReferenceRender, idsOfTransparentTrianglesStayBelowTheirBound) {
     for (std::uint32_t object = 0; object < 300; ++object)
         for (const std::uint32_t triangle : {0u, 1u, 77u, 4000000000u})
             EXPECT_LT(transparentId(object, triangle), 0x10000u);

@@ -24,7 +24,7 @@ scenes::Material mapped(TangentMethod method = TangentMethod::MikkTSpace,
     return material;
 }
 
-TEST(ReferenceTangents, aQuadAlwaysHasTheTangentThatIsFoundByHand) {
+TEST(ReferenceTangents, aQuadHasTheTangentThatIsFoundByHand) {
     for (const TangentMethod method : {TangentMethod::MikkTSpace, TangentMethod::Lengyel}) {
         for (const glm::dvec4& tangent : tangentsOS(quad(), mapped(method))) EXPECT_EQ(tangent, glm::dvec4(1, 0, 0, 1));
         scenes::Mesh mirrored = quad();
@@ -35,7 +35,7 @@ TEST(ReferenceTangents, aQuadAlwaysHasTheTangentThatIsFoundByHand) {
 }
 
 /// The figures have seven decimals; single precision in that program is off by 2e-6 from the formulas.
-TEST(ReferenceTangents, theyAreAlwaysThoseOfAnOutsideProgramWithMikkTSpace) {
+TEST(ReferenceTangents, theyAreThoseOfAnOutsideProgramWithMikkTSpace) {
     for (const bool isIndexed : {true, false}) {
         for (const test::MikkTSpaceTruth& truth : test::mikkTSpaceTruth(isIndexed)) {
             const std::vector<glm::dvec4> own = tangentsOS(truth.mesh, mapped());
@@ -46,7 +46,7 @@ TEST(ReferenceTangents, theyAreAlwaysThoseOfAnOutsideProgramWithMikkTSpace) {
     }
 }
 
-TEST(ReferenceTangents, aMeshesOwnAreAlwaysTurnedAndMirroredAsTheTextureIs) {
+TEST(ReferenceTangents, aMeshesOwnAreTurnedAndMirroredAsTheTextureIs) {
     scenes::Mesh mesh = quad();
     mesh.tangentsOS.assign(4, {1, 0, 0, 1});
     const auto expectAll = [&](glm::vec2 scale, float degrees, const glm::dvec4& expected) {
@@ -62,7 +62,7 @@ TEST(ReferenceTangents, aMeshesOwnAreAlwaysTurnedAndMirroredAsTheTextureIs) {
     expectAll({1, -1}, 90.0f, {0, 1, 0, -1}); // and so are derived ones
 }
 
-TEST(ReferenceTangents, coordinatesWithoutAreaAlwaysGiveAUnitFrameAcrossTheNormal) {
+TEST(ReferenceTangents, coordinatesWithoutAreaGiveAUnitFrameAcrossTheNormal) {
     scenes::Mesh mesh = quad();
     for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::vec3(0, 0, -1), glm::normalize(glm::vec3(1, 2, -3))}) {
         mesh.normalsOS.assign(4, normal);
@@ -89,7 +89,7 @@ double worstDistance(const scenes::Mesh& mesh, const scenes::Material& material)
 }
 
 /// Two programs of one definition, written apart.
-TEST(ReferenceTangents, onBuiltinScenesTheyAreAlwaysTheProducts) {
+TEST(ReferenceTangents, onBuiltinScenesTheyAreTheProducts) {
     std::size_t compared = 0;
     for (const char* name : {"hall", "head"}) {
         const scenes::Scene scene = scenes::loadScene(name);
@@ -106,7 +106,7 @@ TEST(ReferenceTangents, onBuiltinScenesTheyAreAlwaysTheProducts) {
 
 /// Few points, normals and coordinates, so that triangles lie on each other, meet in twos and threes along an edge,
 /// have no area in space or in the texture, and are mirrored against their neighbours.
-TEST(ReferenceTangents, onTangledMeshesTheyAreAlwaysTheProducts) {
+TEST(ReferenceTangents, onTangledMeshesTheyAreTheProducts) {
     test::Random random(7);
     std::size_t split = 0;
     for (int round = 0; round < 300; ++round) {

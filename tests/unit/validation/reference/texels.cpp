@@ -23,7 +23,7 @@ Image fourTexels() {
     return image;
 }
 
-TEST(ReferenceTexels, srgbIsAlwaysThatOfTheStandard) {
+TEST(ReferenceTexels, srgbIsThatOfTheStandard) {
     EXPECT_EQ(linearFromSrgb(0.0), 0.0);
     EXPECT_EQ(linearFromSrgb(1.0), 1.0);
     EXPECT_NEAR(linearFromSrgb(128.0 / 255.0), 0.21586050011389923, 1e-15);
@@ -31,7 +31,7 @@ TEST(ReferenceTexels, srgbIsAlwaysThatOfTheStandard) {
     for (const double code : {0.0, 0.03, 0.05, 0.4, 1.0}) EXPECT_NEAR(srgbFromLinear(linearFromSrgb(code)), code, 1e-8);
 }
 
-TEST(ReferenceTexels, coloursAreAlwaysDecodedAndAlphaAndNumbersNever) {
+TEST(ReferenceTexels, coloursAreDecodedAndAlphaAndNumbersNever) {
     const Image image = fourTexels();
     const glm::dvec4 color = texelAt(image, transferOf(TextureSlot::BaseColor), 1, 0);
     EXPECT_EQ(color.r, 1.0);
@@ -44,7 +44,7 @@ TEST(ReferenceTexels, coloursAreAlwaysDecodedAndAlphaAndNumbersNever) {
         EXPECT_EQ(transferOf(slot), Transfer::Linear);
 }
 
-TEST(ReferenceTexels, everyFormatIsAlwaysReadInFull) {
+TEST(ReferenceTexels, everyFormatIsReadInFull) {
     Image image;
     image.width = image.height = 1;
     image.format = TexelFormat::Rgba16Unorm;
@@ -60,7 +60,7 @@ TEST(ReferenceTexels, everyFormatIsAlwaysReadInFull) {
     for (int c = 0; c < 4; ++c) EXPECT_EQ(texelAt(image, Transfer::Srgb, 0, 0)[c], double(floats[c]));
 }
 
-TEST(ReferenceTexels, wrappingAlwaysRepeatsClampsOrMirrors) {
+TEST(ReferenceTexels, wrappingRepeatsClampsOrMirrors) {
     const int index[] = {-5, -4, -3, -2, -1, 0, 1, 2, 3, 4, 5, 6};
     const int repeated[] = {1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0};
     const int clamped[] = {0, 0, 0, 0, 0, 0, 1, 2, 2, 2, 2, 2};
@@ -72,7 +72,7 @@ TEST(ReferenceTexels, wrappingAlwaysRepeatsClampsOrMirrors) {
     }
 }
 
-TEST(ReferenceTexels, aTransformAlwaysScalesThenTurnsThenMoves) {
+TEST(ReferenceTexels, aTransformScalesThenTurnsThenMoves) {
     scenes::TextureTransform transform;
     transform.scale = {2.0f, 3.0f};
     transform.offset = {0.5f, 0.25f};

@@ -48,7 +48,7 @@ protected:
     mutable int number_ = -1;
 };
 
-TEST_F(ReferenceVisibility, aHitIsAlwaysWhereTheRayMeetsTheTriangle) {
+TEST_F(ReferenceVisibility, aHitIsWhereTheRayMeetsTheTriangle) {
     const std::optional<Hit> hit = middle();
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->depthMetres, 5.0, 1e-14);
@@ -61,7 +61,7 @@ TEST_F(ReferenceVisibility, aHitIsAlwaysWhereTheRayMeetsTheTriangle) {
     EXPECT_NEAR(parallel->depthMetres, 5.0, 1e-14);
 }
 
-TEST_F(ReferenceVisibility, raysOfOddPicturesAlwaysGoThroughThePositionsOfTheirPixels) {
+TEST_F(ReferenceVisibility, raysOfOddPicturesGoThroughThePositionsOfTheirPixels) {
     for (const scenes::Projection projection : {scenes::Projection::Perspective, scenes::Projection::Orthographic}) {
         camera_.projection = projection;
         camera_.farMetres = 50.0;
@@ -79,7 +79,7 @@ TEST_F(ReferenceVisibility, raysOfOddPicturesAlwaysGoThroughThePositionsOfTheirP
     }
 }
 
-TEST_F(ReferenceVisibility, theBackOfASingleSidedSurfaceIsNeverSeen) {
+TEST_F(ReferenceVisibility, theBackOfASingleSidedSurfaceIsNotSeen) {
     camera_.worldFromCamera = scenes::worldFromLookAt({0.5, 1.0, -5.0}, {0.5, 1.0, 0.0});
     EXPECT_FALSE(middle());
     scene_.materials[0].doubleSided = true;
@@ -96,7 +96,7 @@ TEST_F(ReferenceVisibility, aMirroringTransformNeverTurnsAFrontIntoABack) {
 }
 
 /// Against differences of the weights two pixels apart; a picture of 2000 rows leaves them an error of 1e-6.
-TEST_F(ReferenceVisibility, changesToTheNextPixelsAreAlwaysDerivativesOfTheWeights) {
+TEST_F(ReferenceVisibility, changesToTheNextPixelsAreDerivativesOfTheWeights) {
     camera_.worldFromCamera = scenes::worldFromLookAt({3.0, -1.0, 4.0}, {0.5, 1.0, 0.0});
     for (const auto projection : {scenes::Projection::Perspective, scenes::Projection::Orthographic}) {
         camera_.projection = projection;
@@ -113,7 +113,7 @@ TEST_F(ReferenceVisibility, changesToTheNextPixelsAreAlwaysDerivativesOfTheWeigh
     }
 }
 
-TEST_F(ReferenceVisibility, onlyWhatLiesBetweenTheNearAndTheFarPlaneIsEverSeen) {
+TEST_F(ReferenceVisibility, onlySurfacesBetweenNearAndFarPlaneAreVisible) {
     addTriangle(2.0);
     middle();
     EXPECT_EQ(number_, 1);
@@ -124,7 +124,7 @@ TEST_F(ReferenceVisibility, onlyWhatLiesBetweenTheNearAndTheFarPlaneIsEverSeen) 
     EXPECT_FALSE(middle());
 }
 
-TEST_F(ReferenceVisibility, aHoleOfAMaskAlwaysShowsWhatLiesBehind) {
+TEST_F(ReferenceVisibility, aHoleOfAMaskShowsTheSurfaceBehind) {
     addTriangle(2.0, AlphaMode::Mask);
     scene_.materials[1].alphaCutoff = 0.5f;
     scene_.materials[1].baseColor.a = 0.5f; // opacity >= cutoff stays
@@ -135,7 +135,7 @@ TEST_F(ReferenceVisibility, aHoleOfAMaskAlwaysShowsWhatLiesBehind) {
     EXPECT_EQ(number_, 0);
 }
 
-TEST_F(ReferenceVisibility, transparentSurfacesAreAlwaysBlendedFarToNearAndNeverFromBehindAnOpaqueOne) {
+TEST_F(ReferenceVisibility, transparentSurfacesAreBlendedFarToNearAndNeverFromBehindAnOpaqueOne) {
     for (const double z : {1.0, -1.0, 3.0, 2.0}) addTriangle(z, AlphaMode::Blend);
     const CameraRays rays(camera_, {1, 1});
     const Objects objects(scene_, rays);
@@ -150,7 +150,7 @@ TEST_F(ReferenceVisibility, transparentSurfacesAreAlwaysBlendedFarToNearAndNever
     EXPECT_EQ(order, (std::vector<std::uint32_t>{1, 4, 3}));
 }
 
-TEST_F(ReferenceVisibility, aSceneFarFromTheOriginIsAlwaysSeenAsAtTheOrigin) {
+TEST_F(ReferenceVisibility, aSceneFarFromTheOriginIsSeenAsAtTheOrigin) {
     scene_.nodes[0].parentFromNode[3] = glm::dvec4(0x1p20, 0x1p21, -0x1p20, 1.0);
     camera_.worldFromCamera[3] += glm::dvec4(0x1p20, 0x1p21, -0x1p20, 0.0);
     const std::optional<Hit> hit = middle();

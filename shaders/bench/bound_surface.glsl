@@ -1,23 +1,23 @@
-// The surface that the measured lower bound lights (validation/floor/FloorLighting.h). It has the scene's models, is computed
+// The surface that the measured lower bound lights (validation/lower_bound/LowerBoundLighting.h). It has the scene's models, is computed
 // from the pixel coordinates alone and differs at every pixel, so that no compiler moves work out of the light loop.
 #pragma once
 #include "lib/surface/camera.glsl"
 #include "lib/maths/octahedral.glsl"
 #include "lib/surface/surface.glsl"
-#include "bench/floor.h"
+#include "bench/lower_bound.h"
 
 // 0 to 1; neighbouring pixels differ.
-float floorShare(vec2 pixel, vec2 steps)
+float boundFraction(vec2 pixel, vec2 steps)
 {
     precise float share = fract(dot(pixel, steps));
     return share;
 }
 
-// Between the two distances of bench/floor.h.
-float floorDepth(vec2 pixel)
+// Between the two distances of bench/lower_bound.h.
+float boundDepth(vec2 pixel)
 {
-    precise float viewDepth = FLOOR_NEAREST_METRES
-                              + (FLOOR_FARTHEST_METRES - FLOOR_NEAREST_METRES) * floorShare(pixel, vec2(0.00371, 0.00533));
+    precise float viewDepth = BOUND_NEAREST_METRES
+                              + (BOUND_FARTHEST_METRES - BOUND_NEAREST_METRES) * boundFraction(pixel, vec2(0.00371, 0.00533));
     precise float ahead = viewDepth - view.eyeLS.w;
     return depthFromAhead(ahead);
 }
@@ -25,7 +25,7 @@ float floorDepth(vec2 pixel)
 #if HAS_LIT_MODELS
 // Where the scene uses several lit models they take turns in blocks of 64 pixels, so that the pixels that a processor
 // shades side by side share one, as they do on most surfaces of a scene.
-uint floorModel(vec2 pixel)
+uint boundModel(vec2 pixel)
 {
 #ifdef SOLE_MODEL
     return SOLE_MODEL;
@@ -37,10 +37,10 @@ uint floorModel(vec2 pixel)
 }
 
 // What some models and layers have beside; every surface has it where the scene's features include it.
-void setFloorLobes(vec2 pixel, inout Surface surface)
+void setBoundLobes(vec2 pixel, inout Surface surface)
 {
     setNeutralLobes(surface);
-    precise float parameter = 8.0 + 64.0 * floorShare(pixel, vec2(0.0143, 0.0203));
+    precise float parameter = 8.0 + 64.0 * boundFraction(pixel, vec2(0.0143, 0.0203));
     surface.parameter = parameter;
 #if HAS_MASKING_OPTIONS
     surface.masking = surface.model == MODEL_MICROFACET ? MASKING_HALF_VECTOR : MASKING_DIRECTIONAL;
@@ -49,51 +49,51 @@ void setFloorLobes(vec2 pixel, inout Surface surface)
     precise vec3 across = vec3(1.0, 0.0, 0.0) - surface.normalLS * surface.normalLS.x;
     precise vec3 tangent = across / sqrt(dot(across, across)); // the surface's normals lie around the z axis
     surface.tangentLS = tangent;
-    precise float alphaBitangent = 0.1 + 0.8 * floorShare(pixel, vec2(0.0247, 0.0073));
+    precise float alphaBitangent = 0.1 + 0.8 * boundFraction(pixel, vec2(0.0247, 0.0073));
     surface.alphaBitangent = alphaBitangent;
 #endif
 #if HAS_CLEARCOAT
-    precise float factor = 0.5 + 0.5 * floorShare(pixel, vec2(0.0183, 0.0059));
+    precise float factor = 0.5 + 0.5 * boundFraction(pixel, vec2(0.0183, 0.0059));
     surface.coatNormalCode = encodeOctahedral(surface.normalLS);
     surface.coatFactor = surface.model == MODEL_METALLIC_ROUGHNESS ? factor : 0.0;
-    precise float coatAlpha = 0.05 + 0.4 * floorShare(pixel, vec2(0.0067, 0.0287));
+    precise float coatAlpha = 0.05 + 0.4 * boundFraction(pixel, vec2(0.0067, 0.0287));
     surface.coatAlpha = coatAlpha;
 #endif
 #if HAS_SHEEN
-    precise float color = 0.1 + 0.4 * floorShare(pixel, vec2(0.0037, 0.0231));
+    precise float color = 0.1 + 0.4 * boundFraction(pixel, vec2(0.0037, 0.0231));
     surface.sheenColor = surface.model == MODEL_METALLIC_ROUGHNESS ? vec3(color) : vec3(0.0);
-    precise float sheenAlpha = 0.1 + 0.6 * floorShare(pixel, vec2(0.0197, 0.0083));
+    precise float sheenAlpha = 0.1 + 0.6 * boundFraction(pixel, vec2(0.0197, 0.0083));
     surface.sheenAlpha = sheenAlpha;
 #endif
 }
 
-Surface floorSurface(vec2 pixel, Viewpoint viewpoint)
+Surface boundSurface(vec2 pixel, Viewpoint viewpoint)
 {
     Surface surface;
-    surface.model = floorModel(pixel);
-    precise vec3 albedo = 0.2 + 0.6 * vec3(floorShare(pixel, vec2(0.0127, 0.0311)), floorShare(pixel, vec2(0.0213, 0.0171)),
-                                           floorShare(pixel, vec2(0.0299, 0.0087)));
+    surface.model = boundModel(pixel);
+    precise vec3 albedo = 0.2 + 0.6 * vec3(boundFraction(pixel, vec2(0.0127, 0.0311)), boundFraction(pixel, vec2(0.0213, 0.0171)),
+                                           boundFraction(pixel, vec2(0.0299, 0.0087)));
     surface.albedo = albedo;
-    surface.metallic = floorShare(pixel, vec2(0.0153, 0.0191));
-    precise float alpha = 0.1 + 0.8 * floorShare(pixel, vec2(0.0097, 0.0273));
+    surface.metallic = boundFraction(pixel, vec2(0.0153, 0.0191));
+    precise float alpha = 0.1 + 0.8 * boundFraction(pixel, vec2(0.0097, 0.0273));
     surface.alpha = alpha;
     precise float iorOrF90 = 1.0;
     precise vec3 specular = defaultSpecular(surface.model);
-    if (IS_MICROFACET(surface.model)) iorOrF90 = 1.6 - 0.1 * floorShare(pixel, vec2(0.0181, 0.0221));
+    if (IS_MICROFACET(surface.model)) iorOrF90 = 1.6 - 0.1 * boundFraction(pixel, vec2(0.0181, 0.0221));
 #if HAS_SPECULAR
-    if (!IS_MICROFACET(surface.model)) iorOrF90 = 1.0 - 0.1 * floorShare(pixel, vec2(0.0181, 0.0221));
-    specular *= 0.5 + 0.5 * floorShare(pixel, vec2(0.0061, 0.0149));
+    if (!IS_MICROFACET(surface.model)) iorOrF90 = 1.0 - 0.1 * boundFraction(pixel, vec2(0.0181, 0.0221));
+    specular *= 0.5 + 0.5 * boundFraction(pixel, vec2(0.0061, 0.0149));
 #endif
     surface.iorOrF90 = iorOrF90;
     surface.specular = specular;
     surface.emission = vec3(0.0);
     // Tilted by up to 12 degrees from the viewer, so that it faces the lights, which lie around the eye.
-    precise vec3 tilted = viewpoint.toViewerLS + vec3(0.3 * floorShare(pixel, vec2(0.0117, 0.0139)) - 0.15,
-                                                      0.3 * floorShare(pixel, vec2(0.0163, 0.0109)) - 0.15, 0.0);
+    precise vec3 tilted = viewpoint.toViewerLS + vec3(0.3 * boundFraction(pixel, vec2(0.0117, 0.0139)) - 0.15,
+                                                      0.3 * boundFraction(pixel, vec2(0.0163, 0.0109)) - 0.15, 0.0);
     precise vec3 normal = tilted / sqrt(dot(tilted, tilted));
     surface.normalLS = normal;
     surface.normalTexel = vec3(0.5, 0.5, 1.0);
-    setFloorLobes(pixel, surface);
+    setBoundLobes(pixel, surface);
     return surface;
 }
 #endif

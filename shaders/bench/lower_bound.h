@@ -1,9 +1,9 @@
 #pragma once
-// What the measured floor (validation/floor) and its shaders share.
+// What the measured floor (validation/lower_bound) and its shaders share.
 
-// Its surface (bench/floor_surface.glsl) lies between these distances ahead of its eye, in metres.
-#define FLOOR_NEAREST_METRES 4.0
-#define FLOOR_FARTHEST_METRES 6.0
+// Its surface (bench/bound_surface.glsl) lies between these distances ahead of its eye, in metres.
+#define BOUND_NEAREST_METRES 4.0
+#define BOUND_FARTHEST_METRES 6.0
 
 // Where its shader reads lights from (bench/light_store.glsl).
 #define LIGHT_STORE_TEXEL 0 // what every pass of a frame uses

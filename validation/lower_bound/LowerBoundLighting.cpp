@@ -1,4 +1,4 @@
-#include "validation/floor/FloorLighting.h"
+#include "validation/lower_bound/LowerBoundLighting.h"
 
 #include <cassert>
 
@@ -27,17 +27,19 @@ std::span<const LightStoreInfo> lightStores(const gpu::Capabilities& gl) {
     return std::span(kStores).first(std::size(kStores) - (gl.indexesUniformBlocks ? 0 : 1));
 }
 
-shader::ProgramDesc FloorLighting::program(const frame::FrameSpec& spec, const LightStoreInfo& store) {
-    return frame::frameProgram(spec, "floor_lighting", "passes/fullscreen.vert", "bench/floor_lighting.frag",
+shader::ProgramDesc LowerBoundLighting::program(const frame::FrameSpec& spec, const LightStoreInfo& store) {
+    return frame::frameProgram(spec, "bound_lighting", "passes/fullscreen.vert", "bench/bound_lighting.frag",
                                {{"LIGHT_CURSOR", "LIGHT_CURSOR_ALL"}, {"LIGHT_STORE", std::string(store.define)}});
 }
 
-FloorLighting::FloorLighting(shader::ProgramLibrary& programs, const frame::FrameSpec& spec)
-    : programs_(programs), spec_(spec), view_("floor view", sizeof(shared::ViewConstants)),
-      constants_("floor lighting", sizeof(shared::LightingConstants), gpu::BufferUse::Dynamic),
-      lights_("floor lights", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightTexels), gpu::BufferUse::Dynamic),
-      shapes_("floor light shapes", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightShapeTexels), gpu::BufferUse::Dynamic),
-      radiance_("floor radiance", spec.texture(graph::Format::Rgba32Float)), framebuffer_({{&radiance_}, nullptr}) {
+LowerBoundLighting::LowerBoundLighting(shader::ProgramLibrary& programs, const frame::FrameSpec& spec)
+    : programs_(programs), spec_(spec), view_("lower bound view", sizeof(shared::ViewConstants)),
+      constants_("lower bound lighting", sizeof(shared::LightingConstants), gpu::BufferUse::Dynamic),
+      lights_("lower bound lights", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightTexels), gpu::BufferUse::Dynamic),
+      shapes_("lower bound light shapes", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightShapeTexels),
+              gpu::BufferUse::Dynamic),
+      radiance_("lower bound radiance", spec.texture(graph::Format::Rgba32Float)),
+      framebuffer_({{&radiance_}, nullptr}) {
     assert(spec.features.litModels());
     view_.uploadValue(
         frame::makeCameraView(scenes::Camera{}, spec.settings.sizePixels, frame::LightingSpace::World, glm::vec3(0.0f))
@@ -45,7 +47,7 @@ FloorLighting::FloorLighting(shader::ProgramLibrary& programs, const frame::Fram
     setLights({});
 }
 
-void FloorLighting::setLights(const frame::PackedLights& lights) {
+void LowerBoundLighting::setLights(const frame::PackedLights& lights) {
     assert(lights.texels.size() <= LIGHT_UNIFORM_LIGHTS && lights.shapes.size() == lights.texels.size());
     shared::LightingConstants constants{};
     constants.lights.x = unsigned(lights.texels.size());
@@ -54,12 +56,12 @@ void FloorLighting::setLights(const frame::PackedLights& lights) {
     shapes_.upload(lights.shapes);
 }
 
-void FloorLighting::bindConstants() const {
+void LowerBoundLighting::bindConstants() const {
     gpu::bindUniformBuffer(UNIFORM_VIEW, view_);
     gpu::bindUniformBuffer(UNIFORM_LIGHTING, constants_);
 }
 
-void FloorLighting::bindLights(const LightStoreInfo& store) const {
+void LowerBoundLighting::bindLights(const LightStoreInfo& store) const {
     switch (store.store) {
     case LIGHT_STORE_UNIFORM:
         gpu::bindUniformBuffer(UNIFORM_LIGHTS, lights_);
@@ -75,7 +77,7 @@ void FloorLighting::bindLights(const LightStoreInfo& store) const {
     }
 }
 
-void FloorLighting::draw(const LightStoreInfo& store) const {
+void LowerBoundLighting::draw(const LightStoreInfo& store) const {
     gpu::bindFramebuffer(framebuffer_);
     gpu::setState({});
     gpu::useProgram(programs_.get(program(spec_, store)));

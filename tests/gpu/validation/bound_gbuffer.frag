@@ -1,11 +1,11 @@
 // Stores the measured floor's surface in a G-buffer, where the product's passes find it.
 #define GBUFFER_WRITE
-#include "bench/floor_surface.glsl"
+#include "bench/bound_surface.glsl"
 #include "lib/gbuffer/gbuffer.glsl"
 
 void main()
 {
-    float depth = floorDepth(gl_FragCoord.xy);
-    writeGBuffer(floorSurface(gl_FragCoord.xy, viewpointFromDepth(gl_FragCoord.xy, depth)));
+    float depth = boundDepth(gl_FragCoord.xy);
+    writeGBuffer(boundSurface(gl_FragCoord.xy, viewpointFromDepth(gl_FragCoord.xy, depth)));
     gl_FragDepth = depth;
 }

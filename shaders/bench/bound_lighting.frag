@@ -1,13 +1,13 @@
 // Lights a surface that is computed, not stored, at every pixel, by the product's own loop over all lights.
 #include "bench/light_store.glsl"
-#include "bench/floor_surface.glsl"
+#include "bench/bound_surface.glsl"
 #include "lib/lighting/lighting.glsl"
 
 layout(location = 0) out vec4 radiance;
 
 void main()
 {
-    Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, floorDepth(gl_FragCoord.xy));
-    precise vec3 lit = shadeSurface(floorSurface(gl_FragCoord.xy, viewpoint), viewpoint, gl_FragCoord.xy);
+    Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, boundDepth(gl_FragCoord.xy));
+    precise vec3 lit = shadeSurface(boundSurface(gl_FragCoord.xy, viewpoint), viewpoint, gl_FragCoord.xy);
     radiance = vec4(lit, 1.0);
 }

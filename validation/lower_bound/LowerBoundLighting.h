@@ -6,14 +6,14 @@
 #include "engine/Renderer.h"
 #include "renderer/gpu/Capabilities.h"
 #include "renderer/gpu/Framebuffer.h"
-#include "shaders/bench/floor.h"
+#include "shaders/bench/lower_bound.h"
 #include "shaders/shared/light.h"
 
 namespace tessera::validation {
 
 /// Where the bound's shader reads lights from.
 struct LightStoreInfo {
-    int store; ///< LIGHT_STORE_* of shaders/bench/floor.h
+    int store; ///< LIGHT_STORE_* of shaders/bench/lower_bound.h
     std::string_view name;
     std::string_view define;
 };
@@ -25,11 +25,11 @@ std::span<const LightStoreInfo> lightStores(const gpu::Capabilities& gl);
 /// Reads   its lights, from any of three stores
 /// Writes  radiance RGBA32F, linear, before exposure
 /// Space   lighting space of an eye at the origin that looks along -z
-class FloorLighting {
+class LowerBoundLighting {
 public:
     /// `spec`: the models, kinds of lights and settings to light with, and the picture's size. The library must outlive
     /// the object.
-    FloorLighting(shader::ProgramLibrary& programs, const frame::FrameSpec& spec);
+    LowerBoundLighting(shader::ProgramLibrary& programs, const frame::FrameSpec& spec);
 
     /// At most LIGHT_UNIFORM_LIGHTS lights, all of which every pixel evaluates, of kinds that the spec has.
     void setLights(const frame::PackedLights& lights);

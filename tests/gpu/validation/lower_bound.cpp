@@ -10,13 +10,13 @@
 #include "scenes/Load.h"
 #include "shaders/shared/models.h"
 #include "tests/gpu/shaders/ShaderBench.h"
-#include "validation/floor/FloorBench.h"
-#include "validation/floor/FloorLights.h"
+#include "validation/lower_bound/LowerBoundBench.h"
+#include "validation/lower_bound/LowerBoundLights.h"
 
 namespace tessera {
 namespace {
 
-using validation::FloorLighting;
+using validation::LowerBoundLighting;
 
 /// One light of every kind.
 frame::PackedLights everyKind() {
@@ -36,7 +36,7 @@ int differences(const std::vector<float>& a, const std::vector<float>& b) {
     return count;
 }
 
-class FloorTest : public test::GlTest {
+class LowerBoundTest : public test::GlTest {
 protected:
     static constexpr glm::ivec2 kSize{160, 90};
     static constexpr validation::LightStoreInfo kProductsStore{LIGHT_STORE_TEXEL, "texel buffer", "LIGHT_STORE_TEXEL"};
@@ -65,10 +65,10 @@ protected:
     }
     static frame::PackedLights lightsOf(const frame::FrameSpec& spec, int count) {
         if (spec.features[frame::featureOf(scenes::LightType::Spot)])
-            return validation::floorLights(everyKind(), count);
-        return validation::floorLights({}, count);
+            return validation::lowerBoundLights(everyKind(), count);
+        return validation::lowerBoundLights({}, count);
     }
-    static std::vector<float> draw(FloorLighting& lighting, const validation::LightStoreInfo& store) {
+    static std::vector<float> draw(LowerBoundLighting& lighting, const validation::LightStoreInfo& store) {
         lighting.draw(store);
         return lighting.download();
     }
@@ -78,7 +78,7 @@ protected:
         std::vector<std::unique_ptr<gpu::Texture>> channels; ///< as FrameSpec::channels
         std::unique_ptr<gpu::Texture> depth;
     };
-    StoredSurface storeSurface(const frame::FrameSpec& spec, const FloorLighting& lighting) {
+    StoredSurface storeSurface(const frame::FrameSpec& spec, const LowerBoundLighting& lighting) {
         StoredSurface stored;
         gpu::Attachments attachments;
         for (const frame::GBufferTexture& texture : spec.gbufferTextures()) {
@@ -94,7 +94,7 @@ protected:
         state.depthWrite = true;
         gpu::setState(state);
         gpu::useProgram(bench.programs().get(
-            frame::frameProgram(spec, "floor_gbuffer", "passes/fullscreen.vert", "test/floor_gbuffer.frag",
+            frame::frameProgram(spec, "bound_gbuffer", "passes/fullscreen.vert", "test/bound_gbuffer.frag",
                                 frame::channelDefines(spec.settings.layout, spec.channels))));
         lighting.bindConstants();
         gpu::drawFullscreenTriangle();
@@ -102,7 +102,7 @@ protected:
     }
 
     /// That surface lit by the shader of the deferred techniques.
-    std::vector<float> deferredPicture(const frame::FrameSpec& spec, const FloorLighting& lighting) {
+    std::vector<float> deferredPicture(const frame::FrameSpec& spec, const LowerBoundLighting& lighting) {
         const StoredSurface stored = storeSurface(spec, lighting);
         const gpu::Texture radiance("radiance", spec.texture(graph::Format::Rgba32Float));
         const gpu::Framebuffer target({{&radiance}, nullptr});
@@ -121,10 +121,10 @@ protected:
     test::ShaderBench bench;
 };
 
-TEST_F(FloorTest, everyLightStoreAlwaysGivesTheVerySamePicture) {
+TEST_F(LowerBoundTest, everyLightStoreGivesTheVerySamePicture) {
     for (const frame::FrameSpec& spec : specs()) {
-        FloorLighting lighting(bench.programs(), spec);
-        lighting.setLights(lightsOf(spec, validation::FloorBench::kManyLights));
+        LowerBoundLighting lighting(bench.programs(), spec);
+        lighting.setLights(lightsOf(spec, validation::LowerBoundBench::kManyLights));
         const std::vector<float> first = draw(lighting, validation::lightStoreTable()[0]);
         EXPECT_GT(*std::min_element(first.begin(), first.end()), 0.0f);
         for (const validation::LightStoreInfo& store : validation::lightStores(context().capabilities()))
@@ -132,10 +132,11 @@ TEST_F(FloorTest, everyLightStoreAlwaysGivesTheVerySamePicture) {
     }
 }
 
-TEST_F(FloorTest, itsPictureIsExactlyWhatTheDeferredTechniquesGiveForTheSameSurface) {
+TEST_F(LowerBoundTest, itsPictureEqualsThatOfTheDeferredTechniques) {
     for (const frame::FrameSpec& spec : specs()) {
-        FloorLighting lighting(bench.programs(), spec);
-        for (const int count : {0, 1, validation::FloorBench::kFewLights, validation::FloorBench::kManyLights}) {
+        LowerBoundLighting lighting(bench.programs(), spec);
+        for (const int count :
+             {0, 1, validation::LowerBoundBench::kFewLights, validation::LowerBoundBench::kManyLights}) {
             lighting.setLights(lightsOf(spec, count));
             EXPECT_EQ(differences(draw(lighting, validation::lightStoreTable()[0]), deferredPicture(spec, lighting)), 0)
                 << count << " lights";
@@ -143,10 +144,10 @@ TEST_F(FloorTest, itsPictureIsExactlyWhatTheDeferredTechniquesGiveForTheSameSurf
     }
 }
 
-TEST_F(FloorTest, everyLightAlwaysReachesEveryPixelFromTheFront) {
+TEST_F(LowerBoundTest, everyLightReachesEveryPixelFromTheFront) {
     for (const frame::FrameSpec& spec : specs()) {
-        FloorLighting lighting(bench.programs(), spec);
-        const frame::PackedLights lights = lightsOf(spec, validation::FloorBench::kManyLights);
+        LowerBoundLighting lighting(bench.programs(), spec);
+        const frame::PackedLights lights = lightsOf(spec, validation::LowerBoundBench::kManyLights);
         for (std::size_t i = 0; i < lights.texels.size(); ++i) {
             frame::PackedLights one;
             one.texels = {lights.texels[i]};
@@ -158,10 +159,10 @@ TEST_F(FloorTest, everyLightAlwaysReachesEveryPixelFromTheFront) {
     }
 }
 
-TEST_F(FloorTest, neighbouringPixelsNeverShareAPropertyOfTheSurface) {
+TEST_F(LowerBoundTest, neighbouringPixelsNeverShareAPropertyOfTheSurface) {
     constexpr double kMostAlike = 1e-3; // two values may round to the same one
     for (const frame::FrameSpec& spec : specs()) {
-        const StoredSurface stored = storeSurface(spec, FloorLighting(bench.programs(), spec));
+        const StoredSurface stored = storeSurface(spec, LowerBoundLighting(bench.programs(), spec));
         const auto expectVaried = [](const gpu::Texture& texture, std::size_t components, std::size_t component) {
             const std::vector<float> values = texture.downloadAs<float>();
             std::size_t same = 0;
@@ -211,11 +212,11 @@ TEST_F(FloorTest, neighbouringPixelsNeverShareAPropertyOfTheSurface) {
     }
 }
 
-TEST_F(FloorTest, itsGeometryCoversExactlyThePixelsOfTheProduct) {
+TEST_F(LowerBoundTest, itsGeometryCoversExactlyThePixelsOfTheProduct) {
     for (const char* name : {"lattice", "hall"}) {
         const scenes::Scene scene = scenes::loadScene(name);
         engine::Renderer renderer(context(), scene);
-        validation::FloorGeometry geometry(renderer, settings());
+        validation::LowerBoundGeometry geometry(renderer, settings());
         geometry.draw(glm::dvec3(0.0));
         const std::vector<float> drawn = geometry.download();
         const engine::RenderedFrame frame = renderer.render(engine::Technique::Forward, settings());
@@ -232,28 +233,28 @@ TEST_F(FloorTest, itsGeometryCoversExactlyThePixelsOfTheProduct) {
     }
 }
 
-TEST_F(FloorTest, geometryAndEveryLightStoreAlwaysCostSomething) {
+TEST_F(LowerBoundTest, geometryAndEveryLightStoreCostSomething) {
     const scenes::Scene scene = lattice(256);
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings large = settings();
     large.sizePixels = {320, 180};
-    validation::FloorBench floor(renderer, large);
-    const validation::FloorFigures figures = floor.measure({.rounds = 7});
+    validation::LowerBoundBench lowerBound(renderer, large);
+    const validation::LowerBoundFigures figures = lowerBound.measure({.rounds = 7});
     EXPECT_GT(figures.geometryMs, 0.0);
     ASSERT_EQ(figures.stores.size(), validation::lightStores(context().capabilities()).size());
     fmt::print("R {:.2f} ms\n", figures.geometryMs);
-    for (const validation::FloorFigures::Store& store : figures.stores) {
+    for (const validation::LowerBoundFigures::Store& store : figures.stores) {
         fmt::print("r {:.2f} ns, {}\n", store.nsPerPair, store.name);
         EXPECT_GT(store.nsPerPair, 0.0) << store.name;
         EXPECT_GE(store.nsPerPair, figures.fastestStore()->nsPerPair);
     }
 }
 
-TEST_F(FloorTest, aSceneWithoutLightNeverHasAPriceForIt) {
+TEST_F(LowerBoundTest, aSceneWithoutLightHasNoCostPerPair) {
     const scenes::Scene scene = lattice(0);
     engine::Renderer renderer(context(), scene);
-    validation::FloorBench floor(renderer, settings());
-    const validation::FloorFigures figures = floor.measure({.rounds = 1});
+    validation::LowerBoundBench lowerBound(renderer, settings());
+    const validation::LowerBoundFigures figures = lowerBound.measure({.rounds = 1});
     EXPECT_TRUE(figures.stores.empty());
     EXPECT_FALSE(figures.whyNoStores.empty());
     EXPECT_EQ(figures.floorMs(0.0), figures.geometryMs);

@@ -1,28 +1,28 @@
-#include "validation/floor/FloorBench.h"
+#include "validation/lower_bound/LowerBoundBench.h"
 
 #include <algorithm>
 #include <cassert>
 
 #include "engine/PrepareView.h"
-#include "validation/floor/FloorLights.h"
+#include "validation/lower_bound/LowerBoundLights.h"
 #include "validation/timing/TimeSamples.h"
 
 namespace tessera::validation {
 
-std::optional<FloorFigures::Store> FloorFigures::fastestStore() const {
+std::optional<LowerBoundFigures::Store> LowerBoundFigures::fastestStore() const {
     const auto fastest = std::min_element(stores.begin(), stores.end(),
                                           [](const Store& a, const Store& b) { return a.nsPerPair < b.nsPerPair; });
     return fastest == stores.end() ? std::nullopt : std::optional(*fastest);
 }
 
-std::optional<double> FloorFigures::floorMs(double evaluations) const {
+std::optional<double> LowerBoundFigures::floorMs(double evaluations) const {
     if (evaluations == 0.0) return geometryMs;
     const std::optional<Store> store = fastestStore();
     if (!store) return {};
     return geometryMs + evaluations * store->nsPerPair * 1e-6;
 }
 
-FloorBench::FloorBench(engine::Renderer& renderer, const frame::FrameSettings& settings)
+LowerBoundBench::LowerBoundBench(engine::Renderer& renderer, const frame::FrameSettings& settings)
     : sizePixels_(settings.sizePixels), stores_(lightStores(gpu::Context::current()->capabilities())),
       geometry_(renderer, settings) {
     frame::FrameSettings lit = settings;
@@ -31,15 +31,15 @@ FloorBench::FloorBench(engine::Renderer& renderer, const frame::FrameSettings& s
     const frame::PreparedView frame = engine::prepareView(renderer.scene(), engine::Technique::Forward, lit);
     if (!frame.spec.features.litModels() || frame.lights.texels.empty()) return;
     lighting_.emplace(renderer.programs(), frame.spec);
-    few_ = floorLights(frame.lights, kFewLights);
-    many_ = floorLights(frame.lights, kManyLights);
+    few_ = lowerBoundLights(frame.lights, kFewLights);
+    many_ = lowerBoundLights(frame.lights, kManyLights);
 }
 
-std::size_t FloorBench::kindsOf(std::span<const LightStoreInfo> stores) {
+std::size_t LowerBoundBench::kindsOf(std::span<const LightStoreInfo> stores) {
     return 1 + 2 * stores.size();
 }
 
-std::vector<TimedFrame> FloorBench::frames() {
+std::vector<TimedFrame> LowerBoundBench::frames() {
     std::vector<TimedFrame> frames{[this](const glm::dvec3& eyeOffsetWS) { geometry_.draw(eyeOffsetWS); }};
     if (!lighting_) return frames;
     for (const LightStoreInfo& store : stores_) {
@@ -53,8 +53,8 @@ std::vector<TimedFrame> FloorBench::frames() {
     return frames;
 }
 
-FloorFigures FloorBench::figures(std::span<const std::vector<double>> timesMs) const {
-    FloorFigures figures;
+LowerBoundFigures LowerBoundBench::figures(std::span<const std::vector<double>> timesMs) const {
+    LowerBoundFigures figures;
     const TimeSpread geometry = spreadOf(timesMs[0]);
     figures.geometryMs = geometry.median;
     figures.geometryMsP95 = geometry.p95;
@@ -77,7 +77,7 @@ FloorFigures FloorBench::figures(std::span<const std::vector<double>> timesMs) c
     return figures;
 }
 
-FloorFigures FloorBench::figuresOf(std::vector<std::vector<double>> timesMs) {
+LowerBoundFigures LowerBoundBench::figuresOf(std::vector<std::vector<double>> timesMs) {
     InterleaveOptions more;
     more.warmUpRounds = 1; // rounds that were kept from an earlier run have drawn nothing in this one
     more.rounds = kLeastRounds - int(timesMs[0].size());
@@ -89,7 +89,7 @@ FloorFigures FloorBench::figuresOf(std::vector<std::vector<double>> timesMs) {
     return figures(timesMs);
 }
 
-FloorFigures FloorBench::measure(const InterleaveOptions& options) {
+LowerBoundFigures LowerBoundBench::measure(const InterleaveOptions& options) {
     return figures(timeInterleaved(frames(), options));
 }
 

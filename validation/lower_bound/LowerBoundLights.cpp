@@ -1,4 +1,4 @@
-#include "validation/floor/FloorLights.h"
+#include "validation/lower_bound/LowerBoundLights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ constexpr double kRangeMetres = 64.0;
 /// sunflower head".
 const double kGoldenAngleRadians = 3.14159265358979 * (3.0 - std::sqrt(5.0));
 
-shared::LightTexels floorLight(int kind, int index, int count) {
+shared::LightTexels lowerBoundLight(int kind, int index, int count) {
     const double radius = std::sqrt((index + 0.5) / count);
     const double angle = kGoldenAngleRadians * index;
     const glm::dvec3 position(radius * std::cos(angle), radius * std::sin(angle), 0.0);
@@ -29,7 +29,7 @@ shared::LightTexels floorLight(int kind, int index, int count) {
 
 /// A cone of full intensity everywhere ahead (cos inner 0, cos outer -1), or parameters of 1 in that direction; and a
 /// mild falloff.
-shared::LightShapeTexels floorLightShape(scenes::LightType type) {
+shared::LightShapeTexels lowerBoundLightShape(scenes::LightType type) {
     const bool isCone = scenes::infoOf(type).reach == scenes::LightReach::Cone;
     shared::LightShapeTexels shape{};
     shape.axis = isCone ? glm::vec4(0.0f, 0.0f, 1.0f, -0.5f) : glm::vec4(0.0f, 0.0f, -1.0f, 1.0f);
@@ -39,7 +39,7 @@ shared::LightShapeTexels floorLightShape(scenes::LightType type) {
 
 } // namespace
 
-frame::PackedLights floorLights(const frame::PackedLights& like, int count) {
+frame::PackedLights lowerBoundLights(const frame::PackedLights& like, int count) {
     frame::PackedLights lights;
     lights.features = like.features;
     const std::size_t known = like.texels.size();
@@ -49,8 +49,8 @@ frame::PackedLights floorLights(const frame::PackedLights& like, int count) {
         const std::size_t chosen = known < std::size_t(count) ? std::size_t(i) % std::max<std::size_t>(known, 1)
                                                               : std::size_t(i) * known / std::size_t(count);
         const int kind = known == 0 ? int(scenes::LightType::Point) : int(like.texels[chosen].color.w) & ~LIGHT_BROAD;
-        lights.texels.push_back(floorLight(kind, i, count));
-        lights.shapes.push_back(floorLightShape(frame::typeOf(lights.texels.back())));
+        lights.texels.push_back(lowerBoundLight(kind, i, count));
+        lights.shapes.push_back(lowerBoundLightShape(frame::typeOf(lights.texels.back())));
     }
     return lights;
 }

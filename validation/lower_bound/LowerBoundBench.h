@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "validation/floor/FloorGeometry.h"
-#include "validation/floor/FloorLighting.h"
+#include "validation/lower_bound/LowerBoundGeometry.h"
+#include "validation/lower_bound/LowerBoundLighting.h"
 #include "validation/timing/Interleave.h"
 
 namespace tessera::validation {
 
 /// A measured lower bound of the time of a scene's frame: floorMs = R + E r.
-struct FloorFigures {
+struct LowerBoundFigures {
     struct Store {
         std::string_view name;
         double nsPerPair = 0.0;    ///< nanoseconds per pair of a pixel and a light that reaches it, median over rounds
@@ -37,7 +37,7 @@ struct FloorFigures {
 ///
 /// r is the slope of the time between 32 and 96 lights per pixel, so that the rest of the shader's cost cancels:
 /// rounds of both follow each other.
-class FloorBench {
+class LowerBoundBench {
 public:
     static constexpr int kFewLights = 32;
     static constexpr int kManyLights = 96;
@@ -45,7 +45,7 @@ public:
     static constexpr int kLeastRounds = 5;
 
     /// The renderer must outlive the object. Throws InputError as Renderer::draw does.
-    FloorBench(engine::Renderer& renderer, const frame::FrameSettings& settings);
+    LowerBoundBench(engine::Renderer& renderer, const frame::FrameSettings& settings);
 
     /// The number of kinds of frame for the bound of a lit scene: the geometry, and two numbers of lights in each
     /// store.
@@ -55,17 +55,17 @@ public:
     std::vector<TimedFrame> frames();
     /// `timesMs`: one time per round of each of frames(). With fewer than kLeastRounds of them, the others are timed
     /// now.
-    FloorFigures figuresOf(std::vector<std::vector<double>> timesMs);
+    LowerBoundFigures figuresOf(std::vector<std::vector<double>> timesMs);
     /// The same of the times alone.
-    FloorFigures figures(std::span<const std::vector<double>> timesMs) const;
+    LowerBoundFigures figures(std::span<const std::vector<double>> timesMs) const;
 
-    FloorFigures measure(const InterleaveOptions& options = {});
+    LowerBoundFigures measure(const InterleaveOptions& options = {});
 
 private:
     glm::ivec2 sizePixels_;
     std::span<const LightStoreInfo> stores_;
-    FloorGeometry geometry_;
-    std::optional<FloorLighting> lighting_; ///< where anything is lit
+    LowerBoundGeometry geometry_;
+    std::optional<LowerBoundLighting> lighting_; ///< where anything is lit
     frame::PackedLights few_, many_;
 };
 

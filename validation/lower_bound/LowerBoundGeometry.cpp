@@ -1,4 +1,4 @@
-#include "validation/floor/FloorGeometry.h"
+#include "validation/lower_bound/LowerBoundGeometry.h"
 
 #include "engine/PrepareView.h"
 #include "renderer/gpu/Commands.h"
@@ -23,17 +23,17 @@ void fill(std::optional<gpu::Buffer>& buffer, const char* label, const std::vect
 
 } // namespace
 
-shader::ProgramDesc FloorGeometry::program(const frame::FrameSpec& spec) {
+shader::ProgramDesc LowerBoundGeometry::program(const frame::FrameSpec& spec) {
     return frame::frameProgram(spec, "constant", "passes/geometry.vert", "bench/constant.frag", {{"DEPTH_ONLY", "1"}});
 }
 
-FloorGeometry::FloorGeometry(engine::Renderer& renderer, const frame::FrameSettings& settings)
+LowerBoundGeometry::LowerBoundGeometry(engine::Renderer& renderer, const frame::FrameSettings& settings)
     : renderer_(renderer), spec_(specOf(renderer, settings)),
-      constants_("floor view", sizeof(shared::ViewConstants), gpu::BufferUse::Dynamic),
-      value_("floor value", spec_.texture(graph::Format::Rgba32Float)),
-      depth_("floor depth", spec_.texture(graph::Format::Depth32Float)), framebuffer_({{&value_}, &depth_}) {}
+      constants_("lower bound view", sizeof(shared::ViewConstants), gpu::BufferUse::Dynamic),
+      value_("lower bound value", spec_.texture(graph::Format::Rgba32Float)),
+      depth_("lower bound depth", spec_.texture(graph::Format::Depth32Float)), framebuffer_({{&value_}, &depth_}) {}
 
-void FloorGeometry::draw(const glm::dvec3& eyeOffsetWS) {
+void LowerBoundGeometry::draw(const glm::dvec3& eyeOffsetWS) {
     frame::FrameSettings settings = spec_.settings;
     settings.eyeOffsetWS += eyeOffsetWS;
     const frame::CameraView view =
@@ -41,8 +41,8 @@ void FloorGeometry::draw(const glm::dvec3& eyeOffsetWS) {
                               glm::vec3(0.0f), renderer_.bounds());
     const frame::SceneGpu& scene = renderer_.sceneGpu(spec_);
     const frame::ViewDraws draws = frame::makeViewDraws(scene.drawList(), view, spec_.settings.prune);
-    fill(rows_, "floor draw rows", draws.rows);
-    fill(commands_, "floor draw commands", scene.commandsOf(draws));
+    fill(rows_, "lower bound draw rows", draws.rows);
+    fill(commands_, "lower bound draw commands", scene.commandsOf(draws));
     constants_.uploadValue(view.constants);
 
     gpu::bindFramebuffer(framebuffer_);

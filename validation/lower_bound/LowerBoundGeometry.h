@@ -8,10 +8,10 @@ namespace tessera::validation {
 /// Reads   the scene
 /// Writes  one RGBA32F target, 1 where there is geometry; depth D32F
 /// Space   lighting space, through the vertex function that every pass shares
-class FloorGeometry {
+class LowerBoundGeometry {
 public:
     /// The renderer must outlive the object. Throws InputError as Renderer::draw does.
-    FloorGeometry(engine::Renderer& renderer, const frame::FrameSettings& settings);
+    LowerBoundGeometry(engine::Renderer& renderer, const frame::FrameSettings& settings);
 
     /// The view's constants and draws are uploaded anew for every frame.
     void draw(const glm::dvec3& eyeOffsetWS);

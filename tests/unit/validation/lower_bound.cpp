@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "validation/floor/FloorBench.h"
-#include "validation/floor/FloorLights.h"
+#include "validation/lower_bound/LowerBoundBench.h"
+#include "validation/lower_bound/LowerBoundLights.h"
 
 namespace tessera::validation {
 namespace {
@@ -23,25 +23,26 @@ std::map<int, int> countsOf(const frame::PackedLights& lights) {
     return counts;
 }
 
-TEST(FloorLights, kindsAlwaysComeInTheSharesOfTheScene) {
+TEST(LowerBoundLights, kindsComeInTheSharesOfTheScene) {
     using Counts = std::map<int, int>;
-    EXPECT_EQ(countsOf(floorLights({}, 96)), (Counts{{kPoint, 96}}));
-    EXPECT_EQ(countsOf(floorLights(ofKinds({kSpot, kPoint, kDirectional, kPoint}), 96)),
+    EXPECT_EQ(countsOf(lowerBoundLights({}, 96)), (Counts{{kPoint, 96}}));
+    EXPECT_EQ(countsOf(lowerBoundLights(ofKinds({kSpot, kPoint, kDirectional, kPoint}), 96)),
               (Counts{{kPoint, 48}, {kSpot, 24}, {kDirectional, 24}}));
     // Three quarters of a long list.
     frame::PackedLights many;
     many.texels.resize(1000);
     for (std::size_t i = 0; i < 1000; ++i) many.texels[i].color.w = float(i < 750 ? kSpot : kPoint);
-    EXPECT_EQ(countsOf(floorLights(many, 32)), (Counts{{kSpot, 24}, {kPoint, 8}}));
+    EXPECT_EQ(countsOf(lowerBoundLights(many, 32)), (Counts{{kSpot, 24}, {kPoint, 8}}));
 }
 
-TEST(FloorLights, aListIsNeverLongerOrShorterThanAskedFor) {
+TEST(LowerBoundLights, aListHasTheRequestedLength) {
     for (const int count : {0, 1, 31, 256})
-        EXPECT_EQ(floorLights(ofKinds({kSpot}), count).texels.size(), std::size_t(count));
+        EXPECT_EQ(lowerBoundLights(ofKinds({kSpot}), count).texels.size(), std::size_t(count));
 }
 
-TEST(FloorFigures, theFloorIsExactlyGeometryPlusEvaluationsOfTheFastestStore) {
-    const FloorFigures figures{20.0, {{"uniform buffer", 3.0}, {"texel buffer", 2.0}, {"storage buffer", 5.0}}, {}};
+TEST(LowerBoundFigures, theBoundIsGeometryPlusEvaluationsOfTheFastestStore) {
+    const LowerBoundFigures figures{
+        20.0, {{"uniform buffer", 3.0}, {"texel buffer", 2.0}, {"storage buffer", 5.0}}, {}};
     ASSERT_TRUE(figures.fastestStore());
     EXPECT_EQ(figures.fastestStore()->name, "texel buffer");
     // 1e7 evaluations of 2 ns are 20 ms.
