@@ -41,7 +41,7 @@ DisplayPass::Outputs DisplayPass::add(graph::Graph& graph, const frame::FrameSpe
             context.bindTargets();
             gpu::setState({});
             gpu::useProgram(context.program());
-            context.constants(UNIFORM_DISPLAY, constants);
+            context.constants(UNIFORM_PASS, constants);
             gpu::bindTexture(TEXTURE_UNIT_RADIANCE, context.texture(out.radiance));
             gpu::drawFullscreenTriangle();
         });

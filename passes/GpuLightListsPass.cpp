@@ -154,7 +154,7 @@ void Builder::count(const glm::uvec4& round) {
             gpu::bindStorageBuffer(STORAGE_LIGHT_TILES, context.buffer(out.lists.tiles));
             gpu::bindStorageBuffer(STORAGE_TILE_DEPTHS, context.buffer(out.tileDepths));
             gpu::bindStorageBuffer(STORAGE_TILE_COUNTS, context.buffer(out.tileCounts));
-            context.constants(UNIFORM_LIST_ROUND, round);
+            context.constants(UNIFORM_PASS, round);
             step.run(context, items);
         });
 }
@@ -257,7 +257,7 @@ void Builder::size(const glm::uvec4& round) {
             out.bindLists(context);
             gpu::bindStorageBuffer(STORAGE_TILE_DEPTHS, context.buffer(out.tileDepths));
             gpu::bindStorageBuffer(STORAGE_TILE_COUNTS, context.buffer(out.tileCounts));
-            context.constants(UNIFORM_LIST_ROUND, round);
+            context.constants(UNIFORM_PASS, round);
             step.run(context, items);
         });
 }
@@ -282,7 +282,7 @@ void Builder::fill(const glm::uvec4& round) {
             out.bindLists(context);
             gpu::bindStorageBuffer(STORAGE_TILE_DEPTHS, context.buffer(out.tileDepths));
             gpu::bindStorageBuffer(STORAGE_TILE_COUNTS, context.buffer(out.tileCounts));
-            context.constants(UNIFORM_LIST_ROUND, round);
+            context.constants(UNIFORM_PASS, round);
             step.run(context, items);
         });
 }

@@ -3,7 +3,7 @@
 #include "shared/display.h"
 #include "lib/tonemap.glsl"
 
-layout(std140, binding = UNIFORM_DISPLAY) uniform DisplayBlock
+layout(std140, binding = UNIFORM_PASS) uniform DisplayBlock
 {
     DisplayConstants display; // exposure.x: the amplification, exposure included
 };

@@ -5,7 +5,7 @@
 #include "shared/heat.h"
 #include "lib/tonemap.glsl"
 
-layout(std140, binding = UNIFORM_DISPLAY) uniform DisplayBlock
+layout(std140, binding = UNIFORM_PASS) uniform DisplayBlock
 {
     DisplayConstants display;
 };

@@ -17,11 +17,10 @@ SHARED_BEGIN
 // Uniform blocks.
 #define UNIFORM_VIEW 0
 #define UNIFORM_MATERIAL 1
-#define UNIFORM_DISPLAY 2
+#define UNIFORM_PASS 2 // constants of the pass that runs
 #define UNIFORM_LIGHTS 3
 #define UNIFORM_LIGHT_SHAPES 4
-#define UNIFORM_LIST_ROUND 5
-#define UNIFORM_LIGHTING 6
+#define UNIFORM_LIGHTING 5
 
 // Storage blocks. OpenGL 4.5 guarantees 0 to 7 to fragment and compute shaders; shaders that build light
 // lists never read lights from storage blocks.

@@ -29,7 +29,7 @@ void Difference::update(shader::ProgramLibrary& programs, const Target& radiance
     gpu::bindFramebuffer(image_->framebuffer());
     gpu::setState({});
     gpu::useProgram(programs.get(program()));
-    gpu::bindUniformBuffer(UNIFORM_DISPLAY, *constants_);
+    gpu::bindUniformBuffer(UNIFORM_PASS, *constants_);
     gpu::bindTexture(TEXTURE_UNIT_RADIANCE, radianceA.texture());
     gpu::bindTexture(TEXTURE_UNIT_DEPTH, radianceB.texture());
     gpu::drawFullscreenTriangle();

@@ -29,7 +29,7 @@ uint lightCount()
 }
 
 // The lights that this round is about, x the first, y one beyond the last. Where one round takes them all it is the only.
-layout(std140, binding = UNIFORM_LIST_ROUND) uniform ListRound
+layout(std140, binding = UNIFORM_PASS) uniform ListRound
 {
     uvec4 listRound;
 };

@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 layout(std140, binding = UNIFORM_VIEW) uniform ViewBlock { ViewConstants view; };
 layout(std140, binding = UNIFORM_LIGHTING) uniform LightingBlock { LightingConstants lighting; };
 layout(std140, binding = UNIFORM_MATERIAL) uniform MaterialBlock { MaterialConstants material; };
-layout(std140, binding = UNIFORM_DISPLAY) uniform DisplayBlock { DisplayConstants display; };
+layout(std140, binding = UNIFORM_PASS) uniform DisplayBlock { DisplayConstants display; };
 layout(std430, binding = 1) writeonly buffer Outputs { vec4 outputs[]; };
 
 void main()

@@ -90,7 +90,7 @@ TEST_F(LayoutTest, blocksAreBoundWhereTheSharedListSays) {
     EXPECT_EQ(program().blockSlot("ViewBlock", gpu::BlockKind::Uniform), UNIFORM_VIEW);
     EXPECT_EQ(program().blockSlot("LightingBlock", gpu::BlockKind::Uniform), UNIFORM_LIGHTING);
     EXPECT_EQ(program().blockSlot("MaterialBlock", gpu::BlockKind::Uniform), UNIFORM_MATERIAL);
-    EXPECT_EQ(program().blockSlot("DisplayBlock", gpu::BlockKind::Uniform), UNIFORM_DISPLAY);
+    EXPECT_EQ(program().blockSlot("DisplayBlock", gpu::BlockKind::Uniform), UNIFORM_PASS);
 }
 
 TEST_F(LayoutTest, theShaderReadsTheValuesThatCppWrote) {
@@ -118,7 +118,7 @@ TEST_F(LayoutTest, theShaderReadsTheValuesThatCppWrote) {
     gpu::bindUniformBuffer(UNIFORM_VIEW, viewBuffer);
     gpu::bindUniformBuffer(UNIFORM_LIGHTING, lightingBuffer);
     gpu::bindUniformBuffer(UNIFORM_MATERIAL, materialBuffer);
-    gpu::bindUniformBuffer(UNIFORM_DISPLAY, displayBuffer);
+    gpu::bindUniformBuffer(UNIFORM_PASS, displayBuffer);
     const std::vector<glm::vec4> out = bench.run("test/blocks.comp", {}, {glm::vec4(0.0f)}, 1, kOutputs);
     EXPECT_EQ(out[1], view.clipFromLS[3]);
     EXPECT_EQ(out[8], view.aheadFromDepth);
