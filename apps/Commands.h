@@ -18,7 +18,7 @@ void addStressCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 void addViewCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 void addDemoCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 
-/// What takes a technique calls the reference renderer.
+/// The name of the reference renderer where a technique is expected.
 inline constexpr const char* kReferenceName = "reference";
 
 /// Exit codes of the documented command line.

@@ -115,9 +115,8 @@ void writeHeatMaps(const CompareOptions& options, const validation::CompareResul
 void warnOfIntegers(const validation::Truth& truth) {
     const auto* picture = std::get_if<validation::PictureTruth>(&truth);
     if (picture == nullptr || !picture->picture.isInteger) return;
-    spdlog::warn("{}",
-                 oneLine(picture->path + ": holds integers, which are cut off at white and rounded to steps, so it "
-                                         "cannot hold bars for linear radiance; give an .exr"));
+    spdlog::warn("{}", oneLine(picture->path + ": holds integers, which are cut off at white and rounded to steps, so "
+                                               "tolerances for linear radiance do not apply to it; give an .exr"));
 }
 
 int compare(const CompareOptions& options, const GlobalOptions& global) {

@@ -58,7 +58,7 @@ struct ListedName {
 static_assert(std::atomic<int>::is_always_lock_free);
 std::array<ListedName, 8> listedNames; ///< a program rarely writes two files at a time
 
-/// Lists a name as long as it lives. When all places are taken, it does not.
+/// Lists a name for the signal handler while it lives; does nothing if all places are taken.
 class NameListing {
 public:
     explicit NameListing(const std::string& name) {
@@ -171,7 +171,7 @@ void writeFileAtomically(const std::string& path, std::span<const std::uint8_t> 
 
 void requireWritable(const std::string& path) {
     const Place place = placeOf(path);
-    // A file that is made and removed at once is the only question every file system answers truly.
+    // Only creating and removing a file tests this reliably on every file system.
     if (!place.isStream) {
         const Temporary probe(place.folder, path);
         std::fclose(probe.file());

@@ -360,7 +360,7 @@ std::vector<Setting> makeTable() {
          .byItself = "fragment",
          .label = "Light on",
          .heeds = [](Technique technique) { return infoOf(technique).choosesStage; },
-         .refusal = "it lights as it rasterises",
+         .refusal = "it lights in fragment shaders only",
          .takes = takesItsStage,
          .samePicture = true,
          .value = choice("light-on", in(&FrameSettings::lightOn), frame::lightingStageTable(),

@@ -53,7 +53,7 @@ struct Handles {
         gpu::bindTexelBuffer(TEXTURE_UNIT_CULL_LIGHTS, context.buffer(cullLights).texels(graph::Format::Rgba32Float));
         gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHT_REACH, context.buffer(reach).texels(graph::Format::Rg32Uint));
     }
-    /// Of cells and entries the part that the frame's lists take.
+    /// The parts of cells and entries that the frame's lists occupy.
     void bindLists(const graph::PassContext& context) const {
         const auto bind = [&](std::uint32_t slot, graph::BufferHandle handle, std::size_t least) {
             gpu::bindStorageBuffer(slot, context.buffer(handle), 0, std::max(context.bytes(handle), least));

@@ -64,7 +64,7 @@ struct FrameSettings {
     double rangeTolerance = 0.0;  ///< unit of colour x intensity: A B C lights end where they fall to it; 0: nowhere
     std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
     culling::Settings culling;
-    std::optional<LightingStage> lightOn; ///< of the techniques that light in a pass of its own; open: by backend
+    std::optional<LightingStage> lightOn; ///< of the techniques that light in a pass of its own; open: fragment shaders
     bool softwareBackend = true;          ///< decides the choices left open; the renderer sets it to its own backend
     bool display = true; ///< false: display code values are not needed, and the display pass is left out
     float exposureEV = 0.0f;

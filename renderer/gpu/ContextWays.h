@@ -14,7 +14,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// What the ways answered that led to no context.
+/// Messages of the attempts that gave no context.
 struct Answers {
     std::vector<std::string> all; ///< "EGL surfaceless: eglInitialize failed, EGL_NOT_INITIALIZED"
     std::string tooOld;           ///< of a driver that works but is too old; empty where there is none

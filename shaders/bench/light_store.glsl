@@ -1,5 +1,5 @@
-// The stores of lights that the measured floor compares with the product's (validation/lower_bound/LowerBoundLighting.h); to be included
-// before what reads lights. LIGHT_STORE_TEXEL leaves the product's own.
+// The stores of lights that the measured lower bound compares with the product's
+// (validation/lower_bound/LowerBoundLighting.h). Include it before lighting code. LIGHT_STORE_TEXEL leaves the product's.
 #pragma once
 #include "bench/lower_bound.h"
 #include "shared/slots.h"

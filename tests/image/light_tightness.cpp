@@ -79,7 +79,7 @@ protected:
     }
 };
 
-TEST_F(LightTightness, noMethodIsLooserThanItsBar) {
+TEST_F(LightTightness, everyMethodMeetsItsTightnessTolerance) {
     for (const bool ofSpots : {false, true}) {
         const scenes::Scene scene = ofSpots ? latticeOfSpots() : lattice();
         engine::Renderer renderer(context(), scene);

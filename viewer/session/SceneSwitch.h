@@ -15,8 +15,8 @@ public:
     /// `done` is called on another thread when a scene waits.
     SceneSwitch(const ViewerOptions& options, State& state, const EventLog& log, std::function<void()> done);
 
-    /// `load` is asked of this load alone. What the program was told of the first scene counts for the first call only,
-    /// whatever becomes of it; what it was told of any scene, for all.
+    /// `load` applies to this load alone. Options about the first scene apply to the first call only, even if it fails;
+    /// all others to every call.
     void open(const std::string& source, const scenes::LoadOptions& load = {});
     bool hasResult() const { return loader_.hasResult(); }
     /// Whether the load gave a scene and did not fail.

@@ -5,11 +5,11 @@
 
 // Light as it arrives at a point.
 struct Incident {
-    vec3 toLightLS; // unit
-    vec3 irradiance; // irradiance at normal incidence, L of the shading formulas; 0 where the light does not reach
+    vec3 toLightLS;  // unit
+    vec3 irradiance; // at normal incidence, L of the shading formulas; 0 where the light does not reach
 };
 
-// ---- Types: what share of the light of one with a position leaves in a direction, a function each. 0: exactly nothing.
+// ---- One function per type with a position: the share of its light sent in a direction; 0 is exactly none.
 
 #if HAS_SPOT_LIGHTS
 // The cone of KHR_lights_punctual, in the form of LightShapeTexels.

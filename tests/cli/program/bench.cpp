@@ -10,7 +10,7 @@ using testing::HasSubstr;
 
 class Bench : public Cli {};
 
-TEST_F(Bench, everyPointIsMeasuredCountedAndHeldAgainstTheFloor) {
+TEST_F(Bench, everyPointIsMeasuredCountedAndComparedWithTheLowerBound) {
     folder_.write("matrix.json", R"({"technique": ["forward", "tiled_deferred", "clustered_deferred"],
                                      "culling": ["none", "tile_minmax", "cluster"], "tile": [16, 32], "lights": [0, 40]})");
     const std::string said = runGood(

@@ -146,7 +146,7 @@ TEST_F(Compare, aPictureThatRenderWroteEqualsEveryTechniqueBitForBit) {
     }
 }
 
-TEST_F(Compare, againstTheReferencePicturesHoldItsBarAndTheExcludedShareIsTold) {
+TEST_F(Compare, picturesMeetTheReferenceToleranceAndTheExcludedShareIsReported) {
     const std::string table = runGood({"compare", "head", "--size", "96x54", "--against", "reference", "--techniques",
                                        "deferred,forward", "--json", "c.json", "--heatmap", "maps"});
     EXPECT_THAT(table, testing::HasSubstr("deferred vs reference"));
@@ -164,7 +164,7 @@ TEST_F(Compare, againstTheReferencePicturesHoldItsBarAndTheExcludedShareIsTold) 
         EXPECT_GE(picture(name).width, 96) << name;
 }
 
-TEST_F(Compare, thePackedLayoutIsHeldToItsOwnBarAgainstTheReferenceToo) {
+TEST_F(Compare, thePackedLayoutHasItsOwnToleranceAgainstTheReference) {
     runGood(lattice({"--against", "reference", "--techniques", "deferred", "--layout", "packed", "--json", "c.json"}));
     const Json pair = json("c.json")["pairs"][0];
     EXPECT_EQ(pair["tolerance"]["relMse"], 1e-4);

@@ -119,7 +119,7 @@ TEST(Plan, textNeverExceedsAHundredColumns) {
     EXPECT_THAT(planText(plan), HasSubstr("12.35"));
 }
 
-TEST(Plan, emptyFrameIsTold) {
+TEST(Plan, anEmptyFrameIsReported) {
     EXPECT_EQ(planText(Plan{}), "0 passes run, 0 things left out\n0 B of memory, 0 B without aliasing\n");
     EXPECT_EQ(json::parse(planJson(Plan{})).at("passes").size(), 0u);
     EXPECT_THAT(planDot(Plan{}), HasSubstr("digraph frame"));

@@ -106,7 +106,7 @@ TEST(ReferenceTangents, onBuiltinScenesTheyAreTheProducts) {
 
 /// Few points, normals and coordinates, so that triangles lie on each other, meet in twos and threes along an edge,
 /// have no area in space or in the texture, and are mirrored against their neighbours.
-TEST(ReferenceTangents, onTangledMeshesTheyAreTheProducts) {
+TEST(ReferenceTangents, tangentsOfTangledMeshesEqualTheProducts) {
     test::Random random(7);
     std::size_t split = 0;
     for (int round = 0; round < 300; ++round) {

@@ -39,7 +39,7 @@ TEST(LightTypes, namesKeysAndMembersAreNeverTheSame) {
     visitLightFields([&](const auto& field) { EXPECT_TRUE(fields.insert(field.name).second) << field.name; });
 }
 
-TEST(LightTypes, everyTypeIsAlwaysReadWithAllThatItsRowGivesIt) {
+TEST(LightTypes, everyTypeReadsTheKeysOfItsRow) {
     const test::SceneFolder folder;
     for (const LightTypeInfo& type : lightTypes()) {
         SCOPED_TRACE(type.name);
