@@ -75,7 +75,7 @@ void addPlanCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     command->footer(R"(Examples
   tessera plan hall                                     passes, what is left out and why, memory
   tessera plan hall --technique forward --measure       with milliseconds
-  tessera plan hall --also 0                            the passes and memory of a frame of two views
+  tessera plan spheres --also 1                         a frame of two views, and its memory
   tessera plan hall --dot hall.dot; dot -Tsvg -O hall.dot)");
     command->callback([options, &global, &run] { run = [options, &global] { return plan(*options, global); }; });
 }

@@ -27,7 +27,7 @@ void requireOneFrame(std::span<const FrameRequest> views) {
     const frame::FrameSettings& first = views.front().settings;
     for (const FrameRequest& view : views) {
         if (view.settings.prune != first.prune || view.settings.filter != first.filter)
-            throw InputError("the views of a frame need one filter, and are pruned or not together");
+            throw InputError("all views of a frame must have the same filter and the same pruning");
     }
 }
 

@@ -127,6 +127,7 @@ void Builder::findDepths() {
             out.tileDepths = pass.create("tile_depths", twoWordsATile());
         },
         [step = steps.depths, items = tileItems()](const Handles& out, const graph::PassContext& context) {
+            requireWritable("light tiles", context.bytes(out.lists.tiles));
             out.bindConstants(context);
             out.read.depths.bind(context);
             gpu::bindStorageBuffer(STORAGE_LIGHT_TILES, context.buffer(out.lists.tiles));
@@ -226,7 +227,7 @@ void Builder::makeListRoom() {
             const frame::PreparedView& view = used->prepared;
             const glm::uvec4 scanned = context.buffer(out.totals).downloadAs<glm::uvec4>(1).front();
             const Totals totals = totalsOf(frame, scanned, view.lighting);
-            requireWritable("entries", totals.entries * sizeof(std::uint32_t));
+            requireWritable("light entries", totals.entries * sizeof(std::uint32_t));
             const gpu::Buffer& cells =
                 makeBlockRoom(context, out.lists.cells, "light cells", totals.cells * sizeof(glm::uvec2));
             const gpu::Buffer& entries =

@@ -9,7 +9,7 @@ namespace tessera::passes {
 /// many lights light_count, light_sizes and light_lists once for each round over them.
 /// Reads   the depths at which opaque and transparent surfaces are lit (frame::LitDepths)
 /// Writes  light tiles, cells and entries (shaders/shared/light_lists.h)
-/// Space   view space
+/// Space   culling space (shaders/shared/culling.h)
 /// Source  as LightListsPass
 struct GpuLightListsPass {
     struct Inputs {

@@ -6,7 +6,7 @@ namespace tessera::passes {
 /// Builds the light lists of FrameSpec::culling on the CPU from the depths at which surfaces will be lit.
 /// Reads   the depths at which opaque and transparent surfaces are lit (frame::LitDepths)
 /// Writes  light tiles, cells and entries (shaders/shared/light_lists.h)
-/// Space   view space
+/// Space   culling space (shaders/shared/culling.h)
 /// Source  Harada 2012, "A 2.5D Culling for Forward+"; Olsson 2012, "Clustered Deferred and Forward Shading"; Drobot
 /// 2017, "Improved Culling for Tiled and Clustered Rendering"
 struct LightListsPass {

@@ -4,9 +4,11 @@
 namespace tessera::passes {
 
 /// Adds the lights one by one to the picture: draws a proxy volume per light (shaders/lib/light/light_volume.glsl)
-/// wherever a surface lies in front of its back, all in one draw and in document order, which blending keeps. Reads
-/// G-buffer channels, the scene's materials, depth D32F (tested and sampled), the frame's lights Writes  radiance
-/// RGBA32F, linear: added to; alpha stays Space   lighting space Source  Hargreaves and Harris 2004, "Deferred Shading"
+/// wherever a surface lies in front of its back, all in one draw and in document order, which blending keeps.
+/// Reads   G-buffer channels, the scene's materials, depth D32F (tested and sampled), the frame's lights
+/// Writes  radiance RGBA32F, linear: added to; alpha stays
+/// Space   lighting space
+/// Source  Hargreaves and Harris 2004, "Deferred Shading"
 struct LightVolumesPass {
     struct Inputs {
         frame::GBufferHandles gbuffer;

@@ -5,9 +5,8 @@ namespace tessera::passes {
 
 /// Draws the depths between which each sample shades transparent surfaces, so that light lists cover them.
 /// Reads   the scene, depth D32F of opaque surfaces
-/// Writes  transparent_depth RG32F: x nearest depth at which a fragment is lit (shaders/lib/raster/shading_depth.glsl),
-/// y
-///         farthest depth negated; x is 0 where nothing transparent shows. All are of FrameSpec::samples
+/// Writes  transparent_depth RG32F: x nearest depth at which a fragment is lit (shading_depth.glsl), y farthest depth
+///         negated; x is 0 where nothing transparent shows. All are of FrameSpec::samples
 /// Space   lighting space, through the vertex function that every pass shares
 struct TransparentDepthPass {
     struct Inputs {

@@ -1,5 +1,7 @@
 #include "renderer/frame/FrameHandles.h"
 
+#include <algorithm>
+
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/light_lists.h"
 #include "shaders/shared/slots.h"
@@ -78,8 +80,12 @@ LightListHandles LightListHandles::read(graph::PassBuilder& pass) const {
 }
 
 void LightListHandles::bind(const graph::PassContext& context) const {
-    gpu::bindStorageBuffer(STORAGE_LIGHT_TILES, context.buffer(tiles));
-    gpu::bindStorageBuffer(STORAGE_LIGHT_CELLS, context.buffer(cells));
+    // A buffer that grows may be larger than the largest block.
+    const auto bindUsed = [&](std::uint32_t slot, graph::BufferHandle handle, std::size_t least) {
+        gpu::bindStorageBuffer(slot, context.buffer(handle), 0, std::max(context.bytes(handle), least));
+    };
+    bindUsed(STORAGE_LIGHT_TILES, tiles, sizeof(shared::LightTile));
+    bindUsed(STORAGE_LIGHT_CELLS, cells, sizeof(glm::uvec2));
     bindTexels(context, TEXTURE_UNIT_LIGHT_ENTRIES, entries, Format::R32Uint);
 }
 

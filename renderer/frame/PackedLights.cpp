@@ -65,9 +65,7 @@ void packParameters(const scenes::Light& light, const glm::dvec3& travelLS, shar
     shape.attenuation.w = valueOf(1);
 }
 static_assert(std::ranges::all_of(scenes::lightTypes(),
-                                  [](const scenes::LightTypeInfo& info) {
-                                      return info.reach == scenes::LightReach::Cone || info.parameters.size() <= 2;
-                                  }),
+                                  [](const scenes::LightTypeInfo& info) { return info.parameters.size() <= 2; }),
               "more parameters need room in LightShapeTexels (shaders/shared/light.h)");
 
 PackedLight packLight(const scenes::Light& light, double reach, const CameraView& view) {

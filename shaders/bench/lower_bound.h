@@ -1,5 +1,5 @@
 #pragma once
-// What the measured floor (validation/lower_bound) and its shaders share.
+// What the measured lower bound (validation/lower_bound) and its shaders share.
 
 // Its surface (bench/bound_surface.glsl) lies between these distances ahead of its eye, in metres.
 #define BOUND_NEAREST_METRES 4.0

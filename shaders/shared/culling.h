@@ -11,9 +11,9 @@
 // Tile columns that are tested together against the planes between columns; box tests follow.
 #define CULL_BLOCK_COLUMNS 8u
 
-// A spot's angle, and the outer angle it is compared with, are off by 4e-7 in their cosines at most: some roundings of
-// 2^-24, of the directions and of the squares (lib/light/light.glsl, shared/light.h). A cone wider by this in its
-// cosine encloses every lit point.
+// The angle at a cone light, and the outer angle it is compared with, are off by 4e-7 in their cosines at most: some
+// roundings of 2^-24, of the directions and of the squares (lib/light/light.glsl, shared/light.h). A cone wider by this
+// in its cosine encloses every lit point.
 #define CONE_COSINE_MARGIN 1e-6
 
 SHARED_BEGIN
@@ -31,13 +31,13 @@ SHARED_FUNCTION float roundingMargin(float farthestMetres, vec4 depthKey) {
 // culling space.
 struct CullLight {
     vec4 sphere; // xyz centre, w radius: encloses all of it; w < 0: reaches everywhere
-    vec4 apex;   // spot: xyz position, w sine of the outer angle
-    vec4 axis;   // spot: xyz unit direction of travel, w cosine of the outer angle; else w is -2
+    vec4 apex;   // cone: xyz position, w sine of the outer angle
+    vec4 axis;   // cone: xyz unit direction of travel, w cosine of the outer angle; else w is -2
 };
 
 struct CellBox {
-    vec4 low;  // xyz VS
-    vec4 high; // xyz VS
+    vec4 low;  // xyz in culling space
+    vec4 high; // xyz in culling space
 };
 
 // The bounds of the rays through the pixel centres of tile (column, row): x, y least and most to the right, z, w least

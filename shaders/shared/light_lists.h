@@ -7,8 +7,7 @@
 //   tiles    storage block, a LightTile each: first all tiles for opaque surfaces, then all tiles for transparent ones
 //   cells    storage block, uvec2 each: x index of the first entry, y number of entries
 //            (zbin: x first word with a bit, y one past the last)
-//   entries  buffer texture R32UI, indices of lights in ascending order; in front of all runs those of the lights that
-//   reach
+//   entries  buffer texture R32UI, indices of lights in ascending order; before all runs those of the lights that reach
 //            everywhere
 //
 // zbin keeps bitmasks over the lights instead of runs: a tile names its own mask among the entries, all tiles share one

@@ -128,6 +128,8 @@ TEST_F(Invariance, materialsReadByTheirNumberGiveEveryBitOfStoredOnesAndOfForwar
     engine::Renderer renderer(context(), scene);
     for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
         for (const frame::View view : {frame::View::Final, frame::View::Diffuse, frame::View::Distribution}) {
+            // Filters read textures, which debug views of one term use as the picture does.
+            if (filter == frame::TextureFilter::Exact && view != frame::View::Final) continue;
             frame::FrameSettings settings = small();
             settings.sizePixels = {160, 91};
             settings.filter = filter;

@@ -18,10 +18,10 @@ struct DisplayFigures {
     std::string psnrReason, flipReason;
 };
 
-/// `state` has one entry a pixel. The pictures must be of one size.
+/// `state` has one entry per pixel. The pictures must be of one size.
 DisplayFigures displayFigures(const DisplayImage& a, const DisplayImage& b, std::span<const PixelState> state);
 
-/// Pixels that hold a value which radiance cannot have; a pixel counts once a kind, whatever the number of its
+/// Pixels that hold a value which radiance cannot have; a pixel counts once per kind, whatever the number of its
 /// channels.
 struct BadPixels {
     std::size_t nan = 0;

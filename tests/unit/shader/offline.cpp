@@ -59,7 +59,7 @@ std::vector<frame::FrameSettings> settingsThatMatter() {
     return all;
 }
 
-/// Those that the measured floor of a frame would use.
+/// Those that the measured lower bound of a frame would use.
 void addLowerBoundPrograms(std::map<std::string, shader::ProgramDesc>& programs, const frame::FrameSpec& spec) {
     const shader::ProgramDesc geometry = validation::LowerBoundGeometry::program(spec);
     programs.emplace(geometry.key(), geometry);
