@@ -71,7 +71,8 @@ def build(source, cmake, work):
     copy = work / "source"
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
-    shutil.copytree(source, copy, ignore=shutil.ignore_patterns("build", "out", ".git", "shared"))
+    built = {"build", "out", ".git"}
+    shutil.copytree(source, copy, ignore=lambda folder, names: built & set(names) if pathlib.Path(folder) == source else [])
     for name in PATCHES:
         # Patches of two guides may touch neighbouring rows of one table.
         run(["patch", "-p1", "--no-backup-if-mismatch", "-i", str(source / "docs/guides" / f"{name}.patch")], copy)
@@ -92,9 +93,9 @@ def run(command, folder, expect=0):
 
 
 SCENES = {
-    "add-a-material-model.md": {"tessera": 1, "base": "builtin:spheres", "materials": [
-        {"replaces": 1, "name": "clay", "model": "oren_nayar", "baseColor": [0.7, 0.4, 0.3], "sigma": 0.5}]},
-    "add-a-light-type.md": {"tessera": 1, "base": "builtin:spheres", "lights": [
+    "add-a-material-model.md": {"tessera": 1, "base": {"file": "builtin:spheres"}, "materials": [
+        {"replaces": 1, "name": "clay", "model": "oren_nayar", "k_d": [0.7, 0.4, 0.3], "sigma": 0.5}]},
+    "add-a-light-type.md": {"tessera": 1, "base": {"file": "builtin:spheres"}, "lights": [
         {"type": "cosine", "position": [2, 5, 4], "target": [0, 0, 0], "intensity": 90, "spread": 0.2}]},
 }
 
