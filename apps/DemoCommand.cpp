@@ -34,23 +34,13 @@ constexpr int kTimedFrames = 3;
 constexpr Technique kShown[] = {Technique::Forward, Technique::Deferred, Technique::TiledDeferred,
                                 Technique::ForwardPlus};
 
-/// After a technique's name: the pictures of its packed layout.
-constexpr const char* kPacked = " (packed)";
+/// What shows the packed layout: the fastest of kShown that has a G-buffer, for it draws once per channel too.
+constexpr Technique kPacked = Technique::TiledDeferred;
 
 struct DemoOptions {
     FrameOptions frame;
     std::string folder = "out";
 };
-
-/// The pairs of the packed layout under names of their own, joined to those of the exact one.
-void joinPacked(CompareResult& result, CompareResult&& packed) {
-    for (std::size_t i = 0; i < packed.record.pairs.size(); ++i) {
-        packed.record.pairs[i].a += kPacked;
-        packed.pictures[i].name += kPacked;
-        result.record.pairs.push_back(std::move(packed.record.pairs[i]));
-        result.pictures.push_back(std::move(packed.pictures[i]));
-    }
-}
 
 /// What a demonstration found.
 struct DemoResult {
@@ -135,13 +125,21 @@ struct DemoFiles {
     std::string picture(const std::string& name) const { return (folder / pictureFile(name, ".png")).string(); }
 };
 
+validation::CompareRequest comparisonOf(const Request& request, const std::vector<Technique>& techniques) {
+    validation::CompareRequest comparison;
+    comparison.techniques.assign(techniques.begin() + 1, techniques.end());
+    comparison.settings = request.settings;
+    // A G-buffer, and with it a layout to compare, there is only with one sample per pixel.
+    if (request.settings.samples == 1) comparison.layouts = {{kPacked, &frame::layoutTable()[1]}};
+    return comparison;
+}
+
 Outputs outputsOf(const DemoFiles& files, const Request& request, const std::vector<Technique>& techniques) {
     Outputs outputs({files.page(), files.radiance(request)});
-    for (const Technique technique : techniques) outputs.add(files.picture(std::string(infoOf(technique).name)));
-    if (request.settings.samples == 1) {
-        outputs.add(files.picture(std::string(infoOf(Technique::Deferred).name) + kPacked));
-        addBenchFiles(demoBenchFolder(files.folder.string()), outputs);
-    }
+    outputs.add(files.picture(std::string(infoOf(techniques.front()).name)));
+    for (const std::string& name : validation::pictureNames(request.scene, comparisonOf(request, techniques)))
+        outputs.add(files.picture(name));
+    if (request.settings.samples == 1) addBenchFiles(demoBenchFolder(files.folder.string()), outputs);
     outputs.reads(request.files);
     return outputs;
 }
@@ -153,27 +151,6 @@ void writePictures(const DemoFiles& files, const Outputs& outputs, const Request
     writePng(outputs.at(files.picture(result.truth.name)), result.truth.display);
     for (const validation::NamedPicture& picture : result.pictures)
         writePng(outputs.at(files.picture(picture.name)), picture.display);
-}
-
-CompareResult compared(engine::Renderer& renderer, const gpu::Capabilities& gl, const Request& request,
-                       const std::vector<Technique>& techniques, bool quiet) {
-    validation::CompareRequest exact;
-    exact.techniques.assign(techniques.begin() + 1, techniques.end());
-    exact.settings = request.settings;
-    validation::CompareRequest packed = exact;
-    packed.techniques = {Technique::Deferred};
-    packed.rangeTruncation = false; // measured with the exact layout
-    packed.settings.layout = frame::layoutTable()[1].layout;
-    // A G-buffer, and with it a layout to compare, there is only with one sample per pixel.
-    const bool comparesPacked = request.settings.samples == 1;
-    Progress progress("rendering",
-                      validation::stepCount(request.scene, exact) +
-                          (comparesPacked ? validation::stepCount(request.scene, packed) : 0),
-                      quiet);
-    exact.renderedOne = packed.renderedOne = [&progress] { progress.advance(); };
-    CompareResult result = validation::compareTechniques(renderer, gl, exact);
-    if (comparesPacked) joinPacked(result, validation::compareTechniques(renderer, gl, packed));
-    return result;
 }
 
 int demo(const DemoOptions& options, const GlobalOptions& global) {
@@ -191,7 +168,10 @@ int demo(const DemoOptions& options, const GlobalOptions& global) {
     const Outputs outputs = outputsOf(files, request, result.techniques);
     {
         engine::Renderer renderer(*context, request.scene);
-        result.comparison = compared(renderer, context->capabilities(), request, result.techniques, global.quiet);
+        validation::CompareRequest comparison = comparisonOf(request, result.techniques);
+        Progress progress("rendering", validation::stepCount(request.scene, comparison), global.quiet);
+        comparison.renderedOne = [&progress] { progress.advance(); };
+        result.comparison = validation::compareTechniques(renderer, context->capabilities(), comparison);
         if (request.settings.samples > 1)
             result.ms = validation::frameMs(renderer, result.techniques, request.settings, kTimedFrames);
     }

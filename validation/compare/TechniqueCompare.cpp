@@ -19,6 +19,25 @@ namespace {
 
 using engine::Technique;
 
+/// A picture that is compared with the truth.
+struct Asked {
+    Technique technique;
+    std::string name;
+    frame::FrameSettings settings; ///< the request's, but for the layout
+};
+
+std::vector<Asked> askedPictures(const CompareRequest& request) {
+    std::vector<Asked> all;
+    for (const Technique technique : request.techniques)
+        all.push_back({technique, std::string(infoOf(technique).name), request.settings});
+    for (const LayoutPair& pair : request.layouts) {
+        all.push_back(
+            {pair.technique, fmt::format("{} ({})", infoOf(pair.technique).name, pair.layout->name), request.settings});
+        all.back().settings.layout = pair.layout->layout;
+    }
+    return all;
+}
+
 NamedPicture rendered(engine::Renderer& renderer, Technique technique, const frame::FrameSettings& settings) {
     const engine::RenderedFrame frame = renderer.render(technique, settingsTakenBy(technique, settings));
     return {std::string(infoOf(technique).name), toPicture(frame), toDisplayImage(frame)};
@@ -66,7 +85,7 @@ TruthPicture truthPicture(engine::Renderer& renderer, const CompareRequest& requ
 }
 
 bool measuresTruncation(const CompareRequest& request) {
-    return request.rangeTruncation && request.settings.rangeTolerance > 0.0 &&
+    return request.settings.rangeTolerance > 0.0 &&
            (std::holds_alternative<Technique>(request.against) || !request.techniques.empty());
 }
 
@@ -89,23 +108,25 @@ bool isPacked(const frame::GBufferLayout& layout) {
 }
 
 /// The place among the pictures made so far of one from a G-buffer that equals `picture` in every bit.
-std::optional<std::size_t> equalPicture(const CompareResult& result, const CompareRequest& request,
+std::optional<std::size_t> equalPicture(const CompareResult& result, std::span<const Asked> asked, const Asked& one,
                                         const Picture& picture) {
     for (std::size_t i = 0; i < result.pictures.size(); ++i)
-        if (infoOf(request.techniques[i]).usesGBuffer() && result.pictures[i].picture.rgba == picture.rgba) return i;
+        if (infoOf(asked[i].technique).usesGBuffer() && asked[i].settings.layout == one.settings.layout &&
+            result.pictures[i].picture.rgba == picture.rgba)
+            return i;
     return {};
 }
 
 /// The error that each stored channel causes, from the pair's relMse with that channel alone in fp32.
-std::vector<ChannelShare> channelShares(engine::Renderer& renderer, const CompareRequest& request, Technique technique,
-                                        const TruthPicture& truth, double relMse) {
+std::vector<ChannelShare> channelShares(engine::Renderer& renderer, const Asked& asked, const TruthPicture& truth,
+                                        double relMse) {
     std::vector<ChannelShare> shares;
     const frame::FeatureSet features =
-        request.settings.prune ? frame::materialFeatures(renderer.scene()) : frame::allFeatures();
-    for (const frame::Channel channel : frame::neededChannels(features, request.settings.layout, false)) {
-        frame::FrameSettings settings = request.settings;
+        asked.settings.prune ? frame::materialFeatures(renderer.scene()) : frame::allFeatures();
+    for (const frame::Channel channel : frame::neededChannels(features, asked.settings.layout, false)) {
+        frame::FrameSettings settings = asked.settings;
         settings.layout.encoding[std::size_t(channel)] = frame::Encoding::Exact;
-        const Picture picture = toPicture(renderer.render(technique, settingsTakenBy(technique, settings)));
+        const Picture picture = toPicture(renderer.render(asked.technique, settingsTakenBy(asked.technique, settings)));
         const double without = truth.figuresOf(picture).relMse;
         shares.push_back({std::string(frame::channelTable()[std::size_t(channel)].name), without, relMse - without});
     }
@@ -130,11 +151,11 @@ bool showsSigned(const CompareRequest& request) {
 /// A packed layout's tolerance is wide enough to hide a faint light that was skipped. So the same picture with every
 /// channel in fp32 must hold what the exact layout is held to: then quantisation is all that differs.
 void checkWithoutPacking(engine::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
-                         Technique technique, const TruthPicture& truth, Verdict& verdict) {
-    frame::FrameSettings settings = request.settings;
+                         const Asked& asked, const TruthPicture& truth, Verdict& verdict) {
+    frame::FrameSettings settings = asked.settings;
     settings.layout = frame::layoutTable()[0].layout;
-    const Picture picture = toPicture(renderer.render(technique, settingsTakenBy(technique, settings)));
-    Tolerance tolerance = toleranceOf(renderer, gl, request, technique, settings.layout);
+    const Picture picture = toPicture(renderer.render(asked.technique, settingsTakenBy(asked.technique, settings)));
+    Tolerance tolerance = toleranceOf(renderer, gl, request, asked.technique, settings.layout);
     tolerance.isSigned = showsSigned(request);
     for (const std::string& missed : checkTolerance(truth.figuresOf(picture), tolerance).missed)
         verdict.missed.push_back("with every channel in fp32: " + missed);
@@ -204,12 +225,12 @@ std::size_t stepCount(const scenes::Scene& scene, const CompareRequest& request)
     const std::size_t truth = isReference(request) ? references * std::size_t(request.settings.sizePixels.y)
                               : std::holds_alternative<Technique>(request.against) ? 1
                                                                                    : 0;
-    return request.techniques.size() + truth + (measuresTruncation(request) ? 1 : 0);
+    return askedPictures(request).size() + truth + (measuresTruncation(request) ? 1 : 0);
 }
 
 std::vector<std::string> pictureNames(const scenes::Scene& scene, const CompareRequest& request) {
     std::vector<std::string> names;
-    for (const Technique technique : request.techniques) names.emplace_back(infoOf(technique).name);
+    for (Asked& asked : askedPictures(request)) names.push_back(std::move(asked.name));
     if (showsHardwareFilter(scene, request)) names.push_back(hardwareFilterName(names.front()));
     return names;
 }
@@ -272,26 +293,28 @@ CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilit
     result.record.height = request.settings.sizePixels.y;
     result.record.samples = engine::settingsOn(gl, request.settings).samplesGiven.value_or(1);
     result.record.renderer = gl.renderer;
-    for (const Technique technique : request.techniques) {
-        NamedPicture picture = rendered(renderer, technique, request.settings);
+    const std::vector<Asked> all = askedPictures(request);
+    for (const Asked& asked : all) {
+        NamedPicture picture = rendered(renderer, asked.technique, asked.settings);
+        picture.name = asked.name;
         const std::string culling = cullingText(renderer);
         requireSameSize(picture.picture, picture.name, result.truth.picture, result.truth.name);
         Tolerance tolerance = request.tolerance
                                   ? *request.tolerance
-                                  : toleranceOf(renderer, gl, request, technique, request.settings.layout);
+                                  : toleranceOf(renderer, gl, request, asked.technique, asked.settings.layout);
         tolerance.isSigned = showsSigned(request);
         PairTruth own = truth.of(picture.picture);
         ComparePair pair = comparePair(picture.name, picture.picture, truth.own.name, own.picture, tolerance,
                                        own.excluded, shownPair(request, picture, truth.own));
         pair.culling = culling;
-        if (infoOf(technique).usesGBuffer() && isPacked(request.settings.layout)) {
+        if (infoOf(asked.technique).usesGBuffer() && isPacked(asked.settings.layout)) {
             // One G-buffer, one picture: the channels' shares are the same.
-            const std::optional<std::size_t> equal = equalPicture(result, request, picture.picture);
+            const std::optional<std::size_t> equal = equalPicture(result, all, asked, picture.picture);
             pair.channels = equal ? result.record.pairs[*equal].channels
-                                  : channelShares(renderer, request, technique, truth, pair.figures.relMse);
+                                  : channelShares(renderer, asked, truth, pair.figures.relMse);
             // Against a picture file the tolerance is about that picture, which need not come from this renderer.
             if (!request.tolerance && !std::holds_alternative<PictureTruth>(request.against))
-                checkWithoutPacking(renderer, gl, request, technique, truth, pair.verdict);
+                checkWithoutPacking(renderer, gl, request, asked, truth, pair.verdict);
         }
         result.record.pairs.push_back(std::move(pair));
         result.pictures.push_back(std::move(picture));

@@ -20,12 +20,18 @@ struct PictureTruth {
 /// A technique, a picture, or the reference.
 using Truth = std::variant<engine::Technique, PictureTruth, Reference>;
 
+/// A technique with another G-buffer layout than the request's.
+struct LayoutPair {
+    engine::Technique technique;
+    const frame::LayoutInfo* layout; ///< a row of frame::layoutTable()
+};
+
 /// The pictures to compare.
 struct CompareRequest {
     std::vector<engine::Technique> techniques;
+    std::vector<LayoutPair> layouts = {}; ///< further pairs, after those of the techniques
     Truth against = engine::Technique::Forward;
     frame::FrameSettings settings;
-    bool rangeTruncation = true;               ///< whether to measure the light that settings.rangeTolerance drops
     bool hardwareFilter = true;                ///< whether to measure hardware filtering beside the exact one
     std::optional<Tolerance> tolerance;        ///< instead of the one each pair is held to by itself
     std::function<void()> renderedOne = [] {}; ///< called stepCount() times from any thread, for progress
@@ -61,7 +67,7 @@ frame::FrameSettings settingsHeededBy(engine::Technique technique, const frame::
 /// Steps of compareTechniques(), for progress: pictures, each row of the reference's, and what a range tolerance drops.
 std::size_t stepCount(const scenes::Scene& scene, const CompareRequest& request);
 
-/// Names of the pictures that compareTechniques() measures, in its order.
+/// Names of the pictures that compareTechniques() measures, in its order: "deferred", "tiled_deferred (packed)" ...
 std::vector<std::string> pictureNames(const scenes::Scene& scene, const CompareRequest& request);
 
 /// Renders every technique and measures it against the truth. Pairs that must agree to the last bit (no G-buffer, or
