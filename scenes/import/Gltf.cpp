@@ -1,13 +1,12 @@
+#include <cmath>
 #include <map>
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/gtc/quaternion.hpp>
 
-#include "scenes/import/GltfCameras.h"
-#include "scenes/import/GltfContext.h"
+#include "scenes/import/GltfCamerasAndLights.h"
 #include "scenes/import/GltfGeometry.h"
-#include "scenes/import/GltfHierarchy.h"
-#include "scenes/import/GltfLights.h"
 #include "scenes/import/GltfMaterials.h"
 #include "scenes/import/Importers.h"
 
@@ -15,6 +14,135 @@ namespace tessera::scenes {
 namespace {
 
 using namespace gltf;
+
+// ---- Hierarchy -----------------------------------------------------------------------------------------------------
+
+/// A node of the imported scene, before anything is made of it.
+struct PlacedNode {
+    int node = -1;   ///< in the document
+    int parent = -1; ///< in the list of placed nodes
+    glm::dmat4 parentFromNode{1.0};
+    glm::dmat4 worldFromNode{1.0};
+};
+
+std::string placeOf(int node) {
+    return fmt::format("/nodes/{}", node);
+}
+
+/// Every node's parent, or -1.
+std::vector<int> parentsOf(const Document& document) {
+    const std::vector<model::Node>& nodes = document.model.nodes;
+    std::vector<int> parents(nodes.size(), -1);
+    for (std::size_t node = 0; node < nodes.size(); ++node)
+        for (const int child : nodes[node].children) {
+            int& parent = parents[static_cast<std::size_t>(child)];
+            if (parent >= 0)
+                document.fail(
+                    placeOf(child),
+                    fmt::format("is a child of both node {} and node {}; a node may have one parent", parent, node));
+            parent = static_cast<int>(node);
+        }
+    return parents;
+}
+
+/// With one parent each, a cycle is where climbing never ends.
+void refuseCycles(const Document& document, const std::vector<int>& parents) {
+    enum class Mark : char { New, Climbing, Rooted };
+    std::vector<Mark> marks(parents.size(), Mark::New);
+    for (std::size_t start = 0; start < parents.size(); ++start) {
+        std::vector<int> climbed;
+        int node = static_cast<int>(start);
+        while (node >= 0 && marks[static_cast<std::size_t>(node)] == Mark::New) {
+            marks[static_cast<std::size_t>(node)] = Mark::Climbing;
+            climbed.push_back(node);
+            node = parents[static_cast<std::size_t>(node)];
+        }
+        if (node >= 0 && marks[static_cast<std::size_t>(node)] == Mark::Climbing)
+            document.fail(placeOf(node), "is its own ancestor; the node graph must not have cycles");
+        for (const int done : climbed) marks[static_cast<std::size_t>(done)] = Mark::Rooted;
+    }
+}
+
+std::vector<int> rootsOf(const Document& document, const std::vector<int>& parents) {
+    std::vector<int> roots;
+    if (document.model.scenes.empty()) {
+        for (std::size_t node = 0; node < parents.size(); ++node)
+            if (parents[node] < 0) roots.push_back(static_cast<int>(node));
+        return roots;
+    }
+    const int scene = document.model.scene;
+    roots = document.model.scenes[static_cast<std::size_t>(scene)].nodes;
+    std::vector<bool> isListed(parents.size(), false);
+    for (const int root : roots) {
+        if (isListed[static_cast<std::size_t>(root)])
+            document.fail(fmt::format("/scenes/{}/nodes", scene), fmt::format("lists node {} twice", root));
+        if (parents[static_cast<std::size_t>(root)] >= 0)
+            document.fail(fmt::format("/scenes/{}/nodes", scene),
+                          fmt::format("lists node {}, which is no root but a child of node {}", root,
+                                      parents[static_cast<std::size_t>(root)]));
+        isListed[static_cast<std::size_t>(root)] = true;
+    }
+    return roots;
+}
+
+glm::dmat4 transformOf(const Document& document, int index) {
+    const model::Node& node = document.model.nodes[static_cast<std::size_t>(index)];
+    if (node.matrix) {
+        const glm::dmat4& matrix = *node.matrix;
+        if (glm::dvec4(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]) != glm::dvec4(0.0, 0.0, 0.0, 1.0))
+            document.fail(placeOf(index) + "/matrix", "is not affine; its last row must be 0 0 0 1");
+        return matrix;
+    }
+    const glm::dquat rotation(node.rotation.w, node.rotation.x, node.rotation.y, node.rotation.z); // glm takes w first
+    if (glm::dot(rotation, rotation) == 0.0)
+        document.fail(placeOf(index) + "/rotation", "is the zero quaternion, which is no rotation");
+    const glm::dmat3 turned = glm::mat3_cast(glm::normalize(rotation));
+    glm::dmat4 parentFromNode(1.0);
+    for (int column = 0; column < 3; ++column)
+        parentFromNode[column] = glm::dvec4(turned[column] * node.scale[column], 0.0);
+    parentFromNode[3] = glm::dvec4(node.translation, 1.0);
+    return parentFromNode;
+}
+
+bool isFinite(const glm::dmat4& matrix) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!std::isfinite(matrix[column][row])) return false;
+    return true;
+}
+
+/// The nodes of the document's default scene, else of scene 0, else those below every root, depth first, parents before
+/// children. Throws InputError naming the node when the graph is not a forest or a transform is not finite.
+std::vector<PlacedNode> placeNodes(const Document& document) {
+    const std::vector<int> parents = parentsOf(document);
+    refuseCycles(document, parents);
+    std::vector<PlacedNode> placed;
+    std::vector<PlacedNode> waiting; // a stack, so that a deep hierarchy does not overflow the call stack
+    const auto wait = [&](const std::vector<int>& nodes, int parent) {
+        for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
+            PlacedNode next;
+            next.node = *node;
+            next.parent = parent;
+            waiting.push_back(next);
+        }
+    };
+    wait(rootsOf(document, parents), -1);
+    while (!waiting.empty()) {
+        PlacedNode next = waiting.back();
+        waiting.pop_back();
+        next.parentFromNode = transformOf(document, next.node);
+        next.worldFromNode = next.parentFromNode;
+        if (next.parent >= 0)
+            next.worldFromNode = placed[static_cast<std::size_t>(next.parent)].worldFromNode * next.parentFromNode;
+        if (!isFinite(next.worldFromNode))
+            document.fail(placeOf(next.node), "its transform, with its ancestors', is not finite");
+        placed.push_back(next);
+        wait(document.model.nodes[static_cast<std::size_t>(next.node)].children, static_cast<int>(placed.size()) - 1);
+    }
+    return placed;
+}
+
+// ---- Scene ---------------------------------------------------------------------------------------------------------
 
 /// The scene's meshes of each glTF mesh, imported once and shared by all nodes that draw it.
 class Meshes {
@@ -50,17 +178,15 @@ std::string_view drawnInstead(std::string_view extension) {
 
 /// Features of the document that the importer reads past, whether or not the imported scene shows them.
 void warnOfIgnoredFeatures(Context& context) {
-    const nlohmann::json& json = context.document.json;
+    const model::Model& model = context.document.model;
     for (const std::string& extension : ignoredExtensions(context.document))
         context.warn(
             fmt::format("the extension {} is not supported and was ignored{}", extension, drawnInstead(extension)));
-    const auto hasSome = [&](const char* key) { return json.contains(key) && !json[key].empty(); };
-    if (hasSome("skins")) context.warn("skins are not supported; skinned meshes keep their unskinned shape");
-    if (hasSome("animations")) context.warn("animations are not supported; nodes stay where they are");
-    if (!json.contains("meshes")) return;
-    for (const nlohmann::json& mesh : json["meshes"])
-        for (const nlohmann::json& primitive : mesh["primitives"])
-            if (primitive.contains("targets") && !primitive["targets"].empty())
+    if (!model.skins.empty()) context.warn("skins are not supported; skinned meshes keep their unskinned shape");
+    if (!model.animations.empty()) context.warn("animations are not supported; nodes stay where they are");
+    for (const model::Mesh& mesh : model.meshes)
+        for (const model::Primitive& primitive : mesh.primitives)
+            if (!primitive.targets.empty())
                 context.warn("morph targets are not supported; morphed meshes keep their base shape");
 }
 
@@ -76,15 +202,19 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
     Context context{document, buffers, accessors, scene};
     warnOfIgnoredFeatures(context);
 
+    constexpr std::size_t kCopies = 2; // while a vector grows
+    const std::size_t nodeCount = document.model.nodes.size();
+    ledger.charge(kCopies * nodeCount * (sizeof(PlacedNode) + sizeof(Node)),
+                  [&] { return fmt::format("{}: /nodes, {} elements", document.file, nodeCount); });
     Materials materials(context);
     Meshes meshes(context, materials);
     for (const PlacedNode& placed : placeNodes(document)) {
-        const tinygltf::Node& stored = document.model.nodes[static_cast<std::size_t>(placed.node)];
+        const model::Node& stored = document.model.nodes[static_cast<std::size_t>(placed.node)];
         Node node;
         node.name = nameOr(stored.name, "node", placed.node);
         node.parent = placed.parent;
         node.parentFromNode = placed.parentFromNode;
-        if (stored.mesh >= 0) {
+        if (stored.mesh != kNone) {
             const std::vector<MeshInstance>& instances = meshes.instancesOf(stored.mesh);
             document.charge(instances.size() * sizeof(MeshInstance), "nodes", placed.node);
             node.instances = instances;

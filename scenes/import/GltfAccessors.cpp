@@ -1,7 +1,6 @@
 #include "scenes/import/GltfAccessors.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstring>
 #include <limits>
 
@@ -10,14 +9,10 @@
 namespace tessera::scenes::gltf {
 namespace {
 
+using model::ComponentType;
+
 /// An accessor without a buffer view is all zeros whatever the file's size, so its count needs a bound of its own.
 constexpr std::size_t kMaxCountWithoutView = std::size_t{1} << 22;
-
-std::size_t componentBytes(int componentType) {
-    const int bytes = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(componentType));
-    assert(bytes > 0);
-    return static_cast<std::size_t>(bytes);
-}
 
 template <typename T>
 T stored(const std::byte* bytes) {
@@ -34,32 +29,28 @@ float converted(const std::byte* bytes, bool normalized) {
     return static_cast<float>(std::max(value / static_cast<double>(std::numeric_limits<T>::max()), -1.0));
 }
 
-float toFloat(const std::byte* bytes, int componentType, bool normalized) {
-    switch (componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
+float toFloat(const std::byte* bytes, ComponentType type, bool normalized) {
+    switch (type) {
+    case ComponentType::Byte:
         return converted<std::int8_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case ComponentType::UnsignedByte:
         return converted<std::uint8_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case ComponentType::Short:
         return converted<std::int16_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case ComponentType::UnsignedShort:
         return converted<std::uint16_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case ComponentType::UnsignedInt:
         return converted<std::uint32_t>(bytes, normalized);
-    default:
-        return stored<float>(bytes);
+    case ComponentType::Float:
+        break;
     }
+    return stored<float>(bytes);
 }
 
-std::uint32_t toUnsigned(const std::byte* bytes, int componentType) {
-    switch (componentType) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return stored<std::uint8_t>(bytes);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return stored<std::uint16_t>(bytes);
-    default:
-        return stored<std::uint32_t>(bytes);
-    }
+std::uint32_t toUnsigned(const std::byte* bytes, ComponentType type) {
+    if (type == ComponentType::UnsignedByte) return stored<std::uint8_t>(bytes);
+    if (type == ComponentType::UnsignedShort) return stored<std::uint16_t>(bytes);
+    return stored<std::uint32_t>(bytes);
 }
 
 } // namespace
@@ -71,17 +62,22 @@ struct Accessors::Source {
     std::size_t componentBytes = 0;
 };
 
+std::size_t bytesOf(ComponentType type) {
+    if (type == ComponentType::Byte || type == ComponentType::UnsignedByte) return 1;
+    return type == ComponentType::Short || type == ComponentType::UnsignedShort ? 2 : 4;
+}
+
 Accessors::Source Accessors::placed(int accessor, int bufferView, std::size_t byteOffset, std::size_t count,
-                                    int componentType, int components, std::size_t byteStride) {
-    const std::size_t bytesEach = componentBytes(componentType);
-    const std::size_t elementBytes = bytesEach * static_cast<std::size_t>(components);
+                                    ComponentType type, std::size_t components, std::size_t byteStride) {
+    const std::size_t bytesEach = bytesOf(type);
+    const std::size_t elementBytes = bytesEach * components;
     const std::size_t stride = byteStride == 0 ? elementBytes : byteStride;
     const std::string place = fmt::format("/accessors/{}", accessor);
     if (stride < elementBytes)
         document_.fail(place, fmt::format("has elements of {} bytes, but buffer view {} steps only {} bytes",
                                           elementBytes, bufferView, stride));
     const std::span<const std::byte> bytes = buffers_.view(bufferView);
-    // Offset and count are at most 2^53 and the stride at most 256 (GltfShape), so nothing wraps in 64 bits.
+    // Offset and count are at most 2^53 and the stride at most 256 (GltfModel), so nothing wraps in 64 bits.
     const std::size_t end = byteOffset + (count - 1) * stride + elementBytes;
     if (end > bytes.size())
         document_.fail(
@@ -93,10 +89,9 @@ Accessors::Source Accessors::placed(int accessor, int bufferView, std::size_t by
 
 template <typename Value, typename Convert>
 std::vector<Value> Accessors::read(int index, Convert convert) {
-    const tinygltf::Accessor& accessor = document_.model.accessors[static_cast<std::size_t>(index)];
+    const model::Accessor& accessor = accessorAt(index);
     const std::string place = fmt::format("/accessors/{}", index);
-    const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
-    const auto width = static_cast<std::size_t>(components);
+    const auto width = static_cast<std::size_t>(accessor.components);
     std::vector<Value> values;
 
     // Once here, once for the caller's copy.
@@ -110,11 +105,11 @@ std::vector<Value> Accessors::read(int index, Convert convert) {
             values[to * width + c] = convert(element + c * source.componentBytes, accessor.componentType);
     };
 
-    if (accessor.bufferView < document_.bufferViewCount) {
+    if (accessor.bufferView != kNone) {
         const std::size_t stride =
             document_.model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
         const Source source = placed(index, accessor.bufferView, accessor.byteOffset, accessor.count,
-                                     accessor.componentType, components, stride);
+                                     accessor.componentType, width, stride);
         reserve();
         for (std::size_t i = 0; i < accessor.count; ++i) copyElement(source, i, i);
     } else {
@@ -123,20 +118,17 @@ std::vector<Value> Accessors::read(int index, Convert convert) {
                                               accessor.count, kMaxCountWithoutView));
         reserve();
     }
-    if (!accessor.sparse.isSparse) return values;
+    if (!accessor.sparse) return values;
 
-    const auto sparseCount = static_cast<std::size_t>(accessor.sparse.count);
-    if (sparseCount > accessor.count)
-        document_.fail(place, fmt::format("replaces {} elements, but has only {}", sparseCount, accessor.count));
-    const int targetType = accessor.sparse.indices.componentType;
+    const model::Sparse& sparse = *accessor.sparse;
+    if (sparse.count > accessor.count)
+        document_.fail(place, fmt::format("replaces {} elements, but has only {}", sparse.count, accessor.count));
     const Source targets =
-        placed(index, accessor.sparse.indices.bufferView, static_cast<std::size_t>(accessor.sparse.indices.byteOffset),
-               sparseCount, targetType, 1, 0);
+        placed(index, sparse.indicesView, sparse.indicesOffset, sparse.count, sparse.indexType, 1, 0);
     const Source replacements =
-        placed(index, accessor.sparse.values.bufferView, static_cast<std::size_t>(accessor.sparse.values.byteOffset),
-               sparseCount, accessor.componentType, components, 0);
-    for (std::size_t i = 0; i < sparseCount; ++i) {
-        const std::uint32_t target = toUnsigned(targets.first + i * targets.byteStride, targetType);
+        placed(index, sparse.valuesView, sparse.valuesOffset, sparse.count, accessor.componentType, width, 0);
+    for (std::size_t i = 0; i < sparse.count; ++i) {
+        const std::uint32_t target = toUnsigned(targets.first + i * targets.byteStride, sparse.indexType);
         if (target >= accessor.count)
             document_.fail(
                 place, fmt::format("sparse index {} is {}, but there are only {} elements", i, target, accessor.count));
@@ -145,29 +137,26 @@ std::vector<Value> Accessors::read(int index, Convert convert) {
     return values;
 }
 
+const model::Accessor& Accessors::accessorAt(int index) const {
+    return document_.model.accessors[static_cast<std::size_t>(index)];
+}
+
 Elements Accessors::elements(int index) {
-    const tinygltf::Accessor& accessor = document_.model.accessors[static_cast<std::size_t>(index)];
-    if (accessor.type != TINYGLTF_TYPE_SCALAR && accessor.type != TINYGLTF_TYPE_VEC2 &&
-        accessor.type != TINYGLTF_TYPE_VEC3 && accessor.type != TINYGLTF_TYPE_VEC4)
+    const model::Accessor& accessor = accessorAt(index);
+    if (accessor.components == 0)
         document_.fail(fmt::format("/accessors/{}", index), "is a matrix, which no vertex attribute is");
-    Elements elements;
-    elements.count = accessor.count;
-    elements.components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
-    elements.normalized = accessor.normalized;
-    elements.componentType = accessor.componentType;
-    elements.values = read<float>(index, [&accessor](const std::byte* bytes, int componentType) {
-        return toFloat(bytes, componentType, accessor.normalized);
-    });
-    return elements;
+    return {accessor.count, accessor.components, accessor.normalized, accessor.componentType,
+            read<float>(index, [&accessor](const std::byte* bytes, ComponentType type) {
+                return toFloat(bytes, type, accessor.normalized);
+            })};
 }
 
 std::vector<std::uint32_t> Accessors::indices(int index) {
-    const tinygltf::Accessor& accessor = document_.model.accessors[static_cast<std::size_t>(index)];
-    const int type = accessor.componentType;
-    const bool isUnsigned = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                            type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-                            type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    if (accessor.type != TINYGLTF_TYPE_SCALAR || !isUnsigned)
+    const model::Accessor& accessor = accessorAt(index);
+    const ComponentType type = accessor.componentType;
+    const bool isUnsigned = type == ComponentType::UnsignedByte || type == ComponentType::UnsignedShort ||
+                            type == ComponentType::UnsignedInt;
+    if (accessor.components != 1 || !isUnsigned)
         document_.fail(fmt::format("/accessors/{}", index),
                        "holds indices, so it must be SCALAR of UNSIGNED_BYTE, UNSIGNED_SHORT or UNSIGNED_INT");
     return read<std::uint32_t>(index, toUnsigned);

@@ -12,9 +12,12 @@ struct Elements {
     std::size_t count = 0;
     int components = 0; ///< 1..4 an element, 16 at most
     bool normalized = false;
-    int componentType = 0; ///< as in the file, for callers that distinguish integers from floats
+    model::ComponentType componentType{};
     std::vector<float> values;
 };
+
+/// Of one component.
+std::size_t bytesOf(model::ComponentType type);
 
 /// Reads accessors of every form: interleaved, tightly packed, normalised, sparse, sparse without a buffer view. Every
 /// range is checked before it is read or memory is reserved for it; throws InputError naming the accessor.
@@ -27,8 +30,9 @@ public:
 
 private:
     struct Source;
-    Source placed(int accessor, int bufferView, std::size_t byteOffset, std::size_t count, int componentType,
-                  int components, std::size_t byteStride);
+    Source placed(int accessor, int bufferView, std::size_t byteOffset, std::size_t count, model::ComponentType type,
+                  std::size_t components, std::size_t byteStride);
+    const model::Accessor& accessorAt(int index) const;
     template <typename Value, typename Convert>
     std::vector<Value> read(int accessor, Convert convert);
 

@@ -1,32 +1,87 @@
 #include "scenes/import/GltfBuffers.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <meshoptimizer.h>
 
 #include "base/Error.h"
 #include "scenes/import/FileBytes.h"
-#include "scenes/import/GltfMeshopt.h"
 #include "scenes/import/GltfUri.h"
 
 namespace tessera::scenes::gltf {
+namespace {
 
-using Json = nlohmann::json;
+/// The vertex codec's best case is 2 bits for each group of 16 bytes, the index codecs' one byte for a triangle of 12:
+/// no data decodes to more than 64 times its size, plus one block's tail (at most 8 KiB). Larger claims are refused
+/// before memory is reserved for them. Source: EXT_meshopt_compression, appendix A.
+constexpr std::size_t kMaxRatio = 64;
+constexpr std::size_t kBlockBytes = 8192;
+
+/// Throws InputError with the reason when the layout breaks a rule of the extension.
+void checkLayout(const model::Meshopt& layout, std::size_t encodedBytes) {
+    const bool attributes = layout.mode == "ATTRIBUTES";
+    if (attributes && layout.byteStride % 4 != 0)
+        throw InputError(fmt::format("mode ATTRIBUTES needs a byteStride divisible by 4, not {}", layout.byteStride));
+    if (!attributes && layout.byteStride != 2 && layout.byteStride != 4)
+        throw InputError(fmt::format("mode {} needs a byteStride of 2 or 4, not {}", layout.mode, layout.byteStride));
+    if (layout.mode == "TRIANGLES" && layout.count % 3 != 0)
+        throw InputError(fmt::format("mode TRIANGLES needs a count divisible by 3, not {}", layout.count));
+    if (layout.filter != "NONE" && !attributes)
+        throw InputError(fmt::format("filter {} works with mode ATTRIBUTES only", layout.filter));
+    if (layout.filter == "OCTAHEDRAL" && layout.byteStride != 4 && layout.byteStride != 8)
+        throw InputError(fmt::format("filter OCTAHEDRAL needs a byteStride of 4 or 8, not {}", layout.byteStride));
+    if (layout.filter == "QUATERNION" && layout.byteStride != 8)
+        throw InputError(fmt::format("filter QUATERNION needs a byteStride of 8, not {}", layout.byteStride));
+    if (layout.count > (encodedBytes * kMaxRatio + kBlockBytes) / layout.byteStride)
+        throw InputError(
+            fmt::format("{} bytes cannot hold {} elements of {} bytes", encodedBytes, layout.count, layout.byteStride));
+}
+
+/// The bytes that the layout says, as far as `encodedBytes` can hold them.
+std::uint64_t decodedBytes(const model::Meshopt& layout, std::size_t encodedBytes) {
+    return std::min<std::uint64_t>(layout.count * layout.byteStride, encodedBytes * kMaxRatio + kBlockBytes);
+}
+
+/// `layout.count` elements of `layout.byteStride` bytes. Throws InputError with the reason when the data is broken.
+std::vector<std::byte> decodeMeshopt(std::span<const std::byte> encoded, const model::Meshopt& layout) {
+    checkLayout(layout, encoded.size());
+    std::vector<std::byte> decoded(layout.count * layout.byteStride);
+    const auto* data = reinterpret_cast<const unsigned char*>(encoded.data());
+    int result = 0;
+    if (layout.mode == "ATTRIBUTES")
+        result = meshopt_decodeVertexBuffer(decoded.data(), layout.count, layout.byteStride, data, encoded.size());
+    else if (layout.mode == "TRIANGLES")
+        result = meshopt_decodeIndexBuffer(decoded.data(), layout.count, layout.byteStride, data, encoded.size());
+    else
+        result = meshopt_decodeIndexSequence(decoded.data(), layout.count, layout.byteStride, data, encoded.size());
+    if (result != 0)
+        throw InputError(
+            fmt::format("its {} data is broken or of a later version (decoder error {})", layout.mode, result));
+
+    if (layout.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(decoded.data(), layout.count, layout.byteStride);
+    if (layout.filter == "QUATERNION") meshopt_decodeFilterQuat(decoded.data(), layout.count, layout.byteStride);
+    if (layout.filter == "EXPONENTIAL") meshopt_decodeFilterExp(decoded.data(), layout.count, layout.byteStride);
+    return decoded;
+}
+
+} // namespace
 
 std::span<const std::byte> Buffers::buffer(int index) {
     const std::string place = fmt::format("/buffers/{}", index);
-    const Json& buffer = document_.json["buffers"][static_cast<std::size_t>(index)];
-    const auto byteLength = buffer["byteLength"].get<std::size_t>();
+    const model::Buffer& stored = document_.model.buffers[static_cast<std::size_t>(index)];
     std::span<const std::byte> bytes;
-    if (const auto uri = buffer.find("uri"); uri != buffer.end()) {
+    if (stored.uri) {
         auto found = buffers_.find(index);
         if (found == buffers_.end()) {
             const std::uint64_t mark = document_.ledger.usedBytes();
-            const std::string& text = uri->get_ref<const std::string&>();
-            const bool isData = isDataUri(text);
-            if (isData) document_.charge(2 * text.size(), "buffers", index);
+            const std::string& uri = *stored.uri;
+            const bool isData = isDataUri(uri);
+            if (isData) document_.charge(2 * uri.size(), "buffers", index);
             try {
                 found = buffers_
-                            .emplace(index, isData ? decodeDataUri(text)
-                                                   : readFileBytes(fileOfUri(text, document_.folder), document_.ledger))
+                            .emplace(index, isData ? decodeDataUri(uri)
+                                                   : readFileBytes(fileOfUri(uri, document_.folder), document_.ledger))
                             .first;
             } catch (const InputError& error) {
                 document_.fail(place, error.what());
@@ -41,50 +96,41 @@ std::span<const std::byte> Buffers::buffer(int index) {
         document_.fail(place, "has neither a uri nor a binary chunk to be read from");
     }
     // The binary chunk and exporters' files may be padded at the end (glTF 2.0 section 4.4.3.3).
-    if (bytes.size() < byteLength)
-        document_.fail(place, fmt::format("says {} bytes, but its data has only {}", byteLength, bytes.size()));
-    return bytes.first(byteLength);
+    if (bytes.size() < stored.byteLength)
+        document_.fail(place, fmt::format("says {} bytes, but its data has only {}", stored.byteLength, bytes.size()));
+    return bytes.first(stored.byteLength);
 }
 
-std::span<const std::byte> Buffers::slice(int bufferIndex, const Json& range, const std::string& place) {
-    const std::span<const std::byte> bytes = buffer(bufferIndex);
-    const auto offset = range.value("byteOffset", std::size_t{0});
-    const auto length = range["byteLength"].get<std::size_t>();
-    // Both are at most 2^53 (GltfShape), so their sum does not wrap.
-    if (offset + length > bytes.size())
+std::span<const std::byte> Buffers::slice(const model::Slice& slice, const std::string& place) {
+    const std::span<const std::byte> bytes = buffer(slice.buffer);
+    // Both are at most 2^53 (GltfModel), so their sum does not wrap.
+    const std::size_t end = slice.byteOffset + slice.byteLength;
+    if (end > bytes.size())
         document_.fail(place,
                        fmt::format("reads {} bytes past the end of buffer {} (byteOffset {} + byteLength {} > {})",
-                                   offset + length - bytes.size(), bufferIndex, offset, length, bytes.size()));
-    return bytes.subspan(offset, length);
+                                   end - bytes.size(), slice.buffer, slice.byteOffset, slice.byteLength, bytes.size()));
+    return bytes.subspan(slice.byteOffset, slice.byteLength);
 }
 
-std::vector<std::byte> Buffers::decompress(int bufferView, const Json& extension) {
+std::vector<std::byte> Buffers::decompress(int bufferView, const model::Meshopt& meshopt) {
     const std::string place = fmt::format("/bufferViews/{}/extensions/EXT_meshopt_compression", bufferView);
-    const std::string mode = extension["mode"].get<std::string>();
-    const std::string filter = extension.value("filter", std::string("NONE"));
-    const MeshoptLayout layout{extension["count"].get<std::size_t>(), extension["byteStride"].get<std::size_t>(), mode,
-                               filter};
-    const std::span<const std::byte> encoded = slice(extension["buffer"].get<int>(), extension, place);
-    document_.charge(decodedBytes(layout, encoded.size()), "bufferViews", bufferView);
-    heldBytes_ += decodedBytes(layout, encoded.size());
+    const std::span<const std::byte> encoded = slice(meshopt.encoded, place);
+    document_.charge(decodedBytes(meshopt, encoded.size()), "bufferViews", bufferView);
+    heldBytes_ += decodedBytes(meshopt, encoded.size());
     try {
-        return decodeMeshopt(encoded, layout);
+        return decodeMeshopt(encoded, meshopt);
     } catch (const InputError& error) {
         document_.fail(place, error.what());
     }
 }
 
 std::span<const std::byte> Buffers::view(int bufferView) {
-    const Json& view = document_.json["bufferViews"][static_cast<std::size_t>(bufferView)];
-    if (const auto extensions = view.find("extensions"); extensions != view.end()) {
-        if (const auto compressed = extensions->find("EXT_meshopt_compression"); compressed != extensions->end()) {
-            auto found = decompressed_.find(bufferView);
-            if (found == decompressed_.end())
-                found = decompressed_.emplace(bufferView, decompress(bufferView, *compressed)).first;
-            return found->second;
-        }
-    }
-    return slice(view["buffer"].get<int>(), view, fmt::format("/bufferViews/{}", bufferView));
+    const model::BufferView& stored = document_.model.bufferViews[static_cast<std::size_t>(bufferView)];
+    if (!stored.meshopt) return slice(stored.bytes, fmt::format("/bufferViews/{}", bufferView));
+    auto found = decompressed_.find(bufferView);
+    if (found == decompressed_.end())
+        found = decompressed_.emplace(bufferView, decompress(bufferView, *stored.meshopt)).first;
+    return found->second;
 }
 
 } // namespace tessera::scenes::gltf

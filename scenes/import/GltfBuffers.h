@@ -9,7 +9,7 @@
 
 namespace tessera::scenes::gltf {
 
-/// The bytes behind buffer views: buffers are read, and compressed views decoded, on first use.
+/// The bytes behind buffer views: buffers are read, and views that EXT_meshopt_compression packs decoded, on first use.
 class Buffers {
 public:
     explicit Buffers(const Document& document) : document_(document) {}
@@ -22,8 +22,8 @@ public:
 
 private:
     std::span<const std::byte> buffer(int index);
-    std::span<const std::byte> slice(int bufferIndex, const nlohmann::json& range, const std::string& place);
-    std::vector<std::byte> decompress(int bufferView, const nlohmann::json& extension);
+    std::span<const std::byte> slice(const model::Slice& slice, const std::string& place);
+    std::vector<std::byte> decompress(int bufferView, const model::Meshopt& meshopt);
 
     const Document& document_;
     std::map<int, std::vector<std::byte>> buffers_;      ///< those read from URIs

@@ -5,8 +5,6 @@
 
 #include "scenes/Scene.h"
 #include "scenes/import/GltfAccessors.h"
-#include "scenes/import/GltfBuffers.h"
-#include "scenes/import/GltfDocument.h"
 
 namespace tessera::scenes::gltf {
 
@@ -21,10 +19,15 @@ struct Context {
     std::unordered_set<std::string> cameraNames = {};
 
     /// Adds "file: text" to the scene's warnings unless it already stands there.
-    void warn(const std::string& text);
+    void warn(const std::string& text) {
+        std::string line = fmt::format("{}: {}", document.file, text);
+        if (warned.insert(line).second) scene.warnings.push_back(std::move(line));
+    }
 };
 
 /// `name` as the document gives it, else "`kind` `index`".
-std::string nameOr(const std::string& name, const char* kind, int index);
+inline std::string nameOr(const std::string& name, const char* kind, int index) {
+    return name.empty() ? fmt::format("{} {}", kind, index) : name;
+}
 
 } // namespace tessera::scenes::gltf

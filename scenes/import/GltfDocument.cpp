@@ -1,21 +1,98 @@
 #include "scenes/import/GltfDocument.h"
 
 #include <algorithm>
-#include <limits>
+#include <bit>
+#include <cstring>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/Error.h"
-#include "scenes/import/GltfContainer.h"
-#include "scenes/import/GltfHierarchy.h"
-#include "scenes/import/GltfShape.h"
+#include "scenes/import/FileBytes.h"
 #include "scenes/import/JsonText.h"
 
 namespace tessera::scenes::gltf {
 namespace {
 
 using Json = nlohmann::json;
+
+// ---- Container -----------------------------------------------------------------------------------------------------
+
+/// A glTF file cut into its JSON text and, for .glb, its binary chunk.
+struct Container {
+    std::string json;
+    std::optional<std::vector<std::byte>> binary;
+};
+
+constexpr std::uint32_t kMagic = 0x46546c67;       ///< "glTF"
+constexpr std::uint32_t kJsonChunk = 0x4e4f534a;   ///< "JSON"
+constexpr std::uint32_t kBinaryChunk = 0x004e4942; ///< "BIN\0"
+constexpr std::size_t kHeaderBytes = 12;
+constexpr std::size_t kChunkHeaderBytes = 8;
+
+static_assert(std::endian::native == std::endian::little, "glTF numbers are little-endian");
+
+std::uint32_t wordAt(std::span<const std::byte> bytes, std::size_t offset) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, bytes.data() + offset, sizeof(word));
+    return word;
+}
+
+std::string textOf(std::span<const std::byte> bytes) {
+    std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3); // a byte order mark is not JSON, but editors write it
+    return text;
+}
+
+/// Source: glTF 2.0 section 4.4, "Binary glTF Layout".
+Container readBinary(std::span<const std::byte> bytes, const std::string& name) {
+    if (bytes.size() < kHeaderBytes + kChunkHeaderBytes)
+        throw InputError(fmt::format("{}: the glb is cut short: {} bytes do not hold its headers", name, bytes.size()));
+    if (const std::uint32_t version = wordAt(bytes, 4); version != 2)
+        throw InputError(fmt::format("{}: is glb version {}; only version 2 (glTF 2.0) is supported", name, version));
+    const std::size_t length = wordAt(bytes, 8);
+    if (length > bytes.size() || length < kHeaderBytes + kChunkHeaderBytes)
+        throw InputError(fmt::format("{}: the glb is cut short or broken: its header says {} bytes, the file has {}",
+                                     name, length, bytes.size()));
+    Container container;
+    std::size_t at = kHeaderBytes;
+    for (int chunk = 0; at < length; ++chunk) {
+        if (length - at < kChunkHeaderBytes)
+            throw InputError(fmt::format("{}: the glb is broken: chunk {} has no room for its header", name, chunk));
+        const std::size_t chunkBytes = wordAt(bytes, at);
+        const std::uint32_t type = wordAt(bytes, at + 4);
+        at += kChunkHeaderBytes;
+        if (chunkBytes > length - at)
+            throw InputError(fmt::format("{}: the glb is broken: chunk {} says {} bytes, {} are left", name, chunk,
+                                         chunkBytes, length - at));
+        const std::span<const std::byte> content = bytes.subspan(at, chunkBytes);
+        if (chunk == 0) {
+            if (type != kJsonChunk)
+                throw InputError(fmt::format("{}: the glb is broken: its first chunk is not JSON", name));
+            container.json = textOf(content);
+        } else if (type == kBinaryChunk && !container.binary) {
+            container.binary.emplace(content.begin(), content.end());
+        }
+        at += chunkBytes;
+    }
+    return container;
+}
+
+Container readContainer(const std::filesystem::path& file, LoadLedger& ledger) {
+    const std::vector<std::byte> bytes = readFileBytes(file, ledger);
+    const std::string name = file.string();
+    ledger.charge(bytes.size(), [&] { return name; }); // once more, cut into its parts
+    if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty", name));
+    if (bytes.size() >= 4 && wordAt(bytes, 0) == kMagic) return readBinary(bytes, name);
+    Container container{textOf(bytes), std::nullopt};
+    const std::size_t first = container.json.find_first_not_of(" \t\r\n");
+    if (first == std::string::npos || container.json[first] != '{')
+        throw InputError(fmt::format("{}: is neither glTF JSON (begins with '{{') nor glb (begins with 'glTF')", name));
+    return container;
+}
+
+// ---- JSON ----------------------------------------------------------------------------------------------------------
 
 constexpr std::string_view kSupportedExtensions[] = {
     "EXT_meshopt_compression",
@@ -68,80 +145,12 @@ void checkVersion(const Json& json, const std::string& file) {
 
 void checkRequiredExtensions(const Document& document) {
     std::vector<std::string> missing;
-    if (const auto required = document.json.find("extensionsRequired"); required != document.json.end())
-        for (const Json& extension : *required)
-            if (!isSupported(extension.get_ref<const std::string&>())) missing.push_back(extension.get<std::string>());
+    for (const std::string& extension : document.model.extensionsRequired)
+        if (!isSupported(extension)) missing.push_back(extension);
     if (!missing.empty())
         document.fail("/extensionsRequired",
                       fmt::format("the model requires {}, which {} not supported; export it without",
                                   fmt::join(missing, ", "), missing.size() == 1 ? "is" : "are"));
-}
-
-/// What tinygltf, and the importer after it, make of the elements of a document's arrays.
-void chargeElements(const Document& document) {
-    struct Elements {
-        const char* key;
-        std::size_t bytesEach;
-    };
-    constexpr std::size_t kCopies = 2; // while a vector grows
-    constexpr Elements kElements[] = {
-        {"nodes", kCopies * (sizeof(tinygltf::Node) + sizeof(PlacedNode) + sizeof(Node))},
-        {"meshes", kCopies * sizeof(tinygltf::Mesh)},
-        {"materials", kCopies * (sizeof(tinygltf::Material) + sizeof(Material))},
-        {"accessors", kCopies * sizeof(tinygltf::Accessor)},
-        {"bufferViews", kCopies * sizeof(tinygltf::BufferView)},
-        {"textures", kCopies * sizeof(tinygltf::Texture)},
-        {"samplers", kCopies * sizeof(tinygltf::Sampler)},
-        {"scenes", kCopies * sizeof(tinygltf::Scene)},
-        {"cameras", kCopies * sizeof(tinygltf::Camera)},
-    };
-    for (const Elements& elements : kElements)
-        if (const auto found = document.json.find(elements.key); found != document.json.end())
-            document.ledger.charge(found->size() * elements.bytesEach, [&] {
-                return fmt::format("{}: /{}, {} elements", document.file, elements.key, found->size());
-            });
-}
-
-/// Removes what would become values of tinygltf's, which are large, and is never read: extras and unknown extensions.
-void stripUnread(Json& value) {
-    if (value.is_object()) {
-        value.erase("extras");
-        if (const auto extensions = value.find("extensions"); extensions != value.end() && extensions->is_object())
-            for (auto extension = extensions->begin(); extension != extensions->end();)
-                extension = isSupported(extension.key()) ? std::next(extension) : extensions->erase(extension);
-    }
-    if (value.is_structured())
-        for (Json& element : value) stripUnread(element);
-}
-
-/// Values in the extensions at any level, for each of which tinygltf keeps one of its own.
-std::size_t extensionValues(const Json& value, bool isInExtension = false) {
-    std::size_t count = isInExtension ? 1 : 0;
-    if (!value.is_structured()) return count;
-    for (auto element = value.begin(); element != value.end(); ++element)
-        count += extensionValues(*element, isInExtension || (value.is_object() && element.key() == "extensions"));
-    return count;
-}
-
-/// What tinygltf is given: buffers and images are left out, because they are loaded here, checked and only when used;
-/// skins, animations, morph targets, extras and unknown extensions, because nothing reads them; and accessors without a
-/// buffer view point at one past the document's, because tinygltf refuses index accessors that have none.
-Json documentForParser(const Json& json) {
-    Json stripped = json;
-    for (const char* key : {"buffers", "images", "animations", "skins"}) stripped.erase(key);
-    if (const auto meshes = stripped.find("meshes"); meshes != stripped.end())
-        for (Json& mesh : *meshes)
-            for (Json& primitive : mesh["primitives"])
-                for (const char* key : {"targets", "extensions"}) primitive.erase(key);
-    stripUnread(stripped);
-    Json& views = stripped["bufferViews"];
-    if (!views.is_array()) views = Json::array();
-    const std::size_t none = views.size();
-    views.push_back({{"buffer", 0}, {"byteLength", 1}});
-    if (const auto accessors = stripped.find("accessors"); accessors != stripped.end())
-        for (Json& accessor : *accessors)
-            if (!accessor.contains("bufferView")) accessor["bufferView"] = none;
-    return stripped;
 }
 
 } // namespace
@@ -155,36 +164,15 @@ void Document::charge(std::uint64_t bytes, std::string_view kind, int index) con
 }
 
 Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger) {
-    Document document{file.string(), file.parent_path(), {}, {}, {}, ledger};
+    Document document{file.string(), file.parent_path(), ledger};
     Container container = readContainer(file, ledger);
     document.binary = std::move(container.binary);
-    // The document, its copy without what is loaded here, that one's text, and tinygltf's own document of it.
-    ledger.charge(3 * parsedJsonBytes(container.json) + container.json.size(),
-                  [&] { return document.file + ": its JSON"; });
-    document.json = parseDocument(container.json, document.file);
-    checkVersion(document.json, document.file);
-    checkShape(document.json, document.file);
+    ledger.charge(parsedJsonBytes(container.json), [&] { return document.file + ": its JSON"; });
+    Json json = parseDocument(container.json, document.file);
+    checkVersion(json, document.file);
+    const Source source{json, document.file, ledger};
+    Value(source, json, Place()).read(document.model);
     checkRequiredExtensions(document);
-    if (const auto views = document.json.find("bufferViews"); views != document.json.end())
-        document.bufferViewCount = static_cast<int>(views->size());
-
-    chargeElements(document);
-    const Json stripped = documentForParser(document.json);
-    constexpr std::uint64_t kCopies = 3; // while an array of them that doubles is copied
-    ledger.charge(kCopies * sizeof(tinygltf::Value) * extensionValues(stripped),
-                  [&] { return document.file + ": its extensions"; });
-    const std::string text = stripped.dump();
-    if (text.size() > std::numeric_limits<unsigned>::max())
-        throw InputError(fmt::format("{}: the JSON is larger than 4 GiB; move data into .bin files", document.file));
-    tinygltf::TinyGLTF parser;
-    std::string errors;
-    std::string warnings;
-    if (!parser.LoadASCIIFromString(&document.model, &errors, &warnings, text.data(),
-                                    static_cast<unsigned>(text.size()), "")) {
-        while (!errors.empty() && errors.back() == '\n') errors.pop_back();
-        std::ranges::replace(errors, '\n', ' ');
-        throw InputError(fmt::format("{}: {}", document.file, errors.empty() ? "the glTF cannot be parsed" : errors));
-    }
     return document;
 }
 
@@ -194,15 +182,6 @@ std::vector<std::string> ignoredExtensions(const Document& document) {
         if (!isSupported(extension) && std::ranges::find(ignored, extension) == ignored.end())
             ignored.push_back(extension);
     return ignored;
-}
-
-const tinygltf::Value* findExtension(const tinygltf::ExtensionMap& extensions, const std::string& name) {
-    const auto found = extensions.find(name);
-    return found != extensions.end() && found->second.IsObject() ? &found->second : nullptr;
-}
-
-double numberIn(const tinygltf::Value& object, const std::string& name, double otherwise) {
-    return object.Has(name) ? object.Get(name).GetNumberAsDouble() : otherwise;
 }
 
 } // namespace tessera::scenes::gltf

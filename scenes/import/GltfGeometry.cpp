@@ -7,17 +7,17 @@
 
 #include <fmt/format.h>
 
-#include "scenes/import/GltfTriangles.h"
-
 namespace tessera::scenes::gltf {
 namespace {
 
-constexpr int kFirstTriangleMode = TINYGLTF_MODE_TRIANGLES; ///< points and lines come before it
+constexpr int kPoints = 0, kTriangles = 4, kStrip = 5, kFan = 6; ///< modes; lines are 1 to 3
+
+// ---- Vertices ------------------------------------------------------------------------------------------------------
 
 /// One attribute's accessor, read and checked against the specification.
 class PrimitiveReader {
 public:
-    PrimitiveReader(Context& context, const tinygltf::Primitive& primitive, std::string place, std::string meshName)
+    PrimitiveReader(Context& context, const model::Primitive& primitive, std::string place, std::string meshName)
         : context_(context), primitive_(primitive), place_(std::move(place)), meshName_(std::move(meshName)) {}
 
     bool has(const std::string& attribute) const { return primitive_.attributes.contains(attribute); }
@@ -78,9 +78,8 @@ private:
 
     /// The largest value of the index type.
     std::uint32_t restartIndex(int accessor) const {
-        const int type = context_.document.model.accessors[static_cast<std::size_t>(accessor)].componentType;
-        const int bits = 8 * tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type));
-        return kWidestRestart >> (32 - bits);
+        return kWidestRestart >>
+               (32 - 8 * bytesOf(context_.document.model.accessors[static_cast<std::size_t>(accessor)].componentType));
     }
 
     std::string placeInFile() const { return fmt::format("{}: {}", context_.document.file, place_); }
@@ -110,10 +109,8 @@ private:
     /// they were.
     Elements colors() {
         Elements elements = readVertices("COLOR_0", {3, 4});
-        if (!elements.normalized && elements.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
-            const double largest =
-                std::exp2(8.0 * tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(elements.componentType))) -
-                1.0;
+        if (!elements.normalized && elements.componentType != model::ComponentType::Float) {
+            const double largest = std::exp2(8.0 * static_cast<double>(bytesOf(elements.componentType))) - 1.0;
             for (float& value : elements.values) value = static_cast<float>(value / largest);
             context_.warn(
                 fmt::format("{}/attributes/COLOR_0: holds integers that are not marked normalized; read as if they "
@@ -149,11 +146,98 @@ private:
     }
 
     Context& context_;
-    const tinygltf::Primitive& primitive_;
+    const model::Primitive& primitive_;
     std::string place_;
     std::string meshName_;
     std::size_t vertexCount_ = 0;
 };
+
+// ---- Triangles and normals -----------------------------------------------------------------------------------------
+
+/// In double, because squares of a float's extremes overflow or vanish in float.
+std::optional<glm::vec3> unit(const glm::dvec3& direction) {
+    const double length = std::sqrt(glm::dot(direction, direction));
+    if (!std::isfinite(length) || length == 0.0) return std::nullopt;
+    return glm::vec3(direction / length);
+}
+
+glm::vec3 faceNormalOS(const Mesh& mesh, std::size_t firstCorner) {
+    const glm::dvec3 a = mesh.positionsOS[mesh.indices[firstCorner]];
+    const glm::dvec3 b = mesh.positionsOS[mesh.indices[firstCorner + 1]];
+    const glm::dvec3 c = mesh.positionsOS[mesh.indices[firstCorner + 2]];
+    return unit(glm::cross(b - a, c - a)).value_or(glm::vec3(0.0f, 0.0f, 1.0f));
+}
+
+template <typename T>
+void unshare(std::vector<T>& values, const std::vector<std::uint32_t>& indices) {
+    if (values.empty()) return;
+    std::vector<T> own;
+    own.reserve(indices.size());
+    for (const std::uint32_t index : indices) own.push_back(values[index]);
+    values = std::move(own);
+}
+
+/// The corners of the triangles that `corners` draw in a glTF primitive mode (4 list, 5 strip, 6 fan), three a
+/// triangle; a list's incomplete last triangle is dropped, and so are a strip's or a fan's triangles that name one
+/// corner twice. Source: glTF 2.0 section 3.7.2.1.
+std::vector<std::uint32_t> trianglesOf(int mode, std::vector<std::uint32_t> corners) {
+    if (mode != kStrip && mode != kFan) {
+        corners.resize(corners.size() / 3 * 3);
+        return corners;
+    }
+    std::vector<std::uint32_t> triangles;
+    for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
+        const bool isOdd = i % 2 == 1;
+        const std::uint32_t a = mode == kFan ? corners[i + 1] : corners[i];
+        const std::uint32_t b = mode == kFan ? corners[i + 2] : corners[i + (isOdd ? 2 : 1)];
+        const std::uint32_t c = mode == kFan ? corners[0] : corners[i + (isOdd ? 1 : 2)];
+        if (a != b && b != c && c != a) triangles.insert(triangles.end(), {a, b, c});
+    }
+    return triangles;
+}
+
+/// Gives every triangle three vertices of its own and its geometric normal; tangents are dropped, as they belonged to
+/// other normals. A triangle without area gets an arbitrary unit normal.
+void makeFlat(Mesh& mesh) {
+    std::vector<glm::vec3> normalsOS;
+    normalsOS.reserve(mesh.indices.size());
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        normalsOS.insert(normalsOS.end(), 3, faceNormalOS(mesh, i));
+    unshare(mesh.positionsOS, mesh.indices);
+    for (auto& set : mesh.texCoords) unshare(set, mesh.indices);
+    unshare(mesh.colors, mesh.indices);
+    mesh.normalsOS = std::move(normalsOS);
+    mesh.tangentsOS.clear();
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = static_cast<std::uint32_t>(i);
+}
+
+/// Makes normals unit length. Those that cannot be (zero, not finite) become the normal of a triangle at the vertex.
+/// Returns how many these were.
+std::size_t repairNormals(Mesh& mesh) {
+    std::vector<bool> isBroken(mesh.normalsOS.size(), false);
+    std::size_t brokenCount = 0;
+    for (std::size_t i = 0; i < mesh.normalsOS.size(); ++i) {
+        const std::optional<glm::vec3> normalOS = unit(mesh.normalsOS[i]);
+        mesh.normalsOS[i] = normalOS.value_or(glm::vec3(0.0f, 0.0f, 1.0f));
+        isBroken[i] = !normalOS;
+        brokenCount += normalOS ? 0 : 1;
+    }
+    for (std::size_t corner = 0; brokenCount > 0 && corner < mesh.indices.size(); ++corner) {
+        const std::uint32_t vertex = mesh.indices[corner];
+        if (isBroken[vertex]) mesh.normalsOS[vertex] = faceNormalOS(mesh, corner / 3 * 3);
+    }
+    return brokenCount;
+}
+
+/// Makes tangents unit length and their w +1 or -1. False when one cannot be.
+bool normalizeTangents(Mesh& mesh) {
+    for (glm::vec4& tangentOS : mesh.tangentsOS) {
+        const std::optional<glm::vec3> direction = unit(glm::vec3(tangentOS));
+        if (!direction || !(std::abs(tangentOS.w) > 0.0f)) return false;
+        tangentOS = glm::vec4(*direction, tangentOS.w > 0.0f ? 1.0f : -1.0f);
+    }
+    return true;
+}
 
 void finishNormals(Context& context, const std::string& place, Mesh& mesh) {
     if (mesh.normalsOS.empty()) {
@@ -175,8 +259,8 @@ void finishNormals(Context& context, const std::string& place, Mesh& mesh) {
 } // namespace
 
 std::optional<Mesh> importPrimitive(Context& context, int meshIndex, int primitiveIndex) {
-    const tinygltf::Mesh& stored = context.document.model.meshes[static_cast<std::size_t>(meshIndex)];
-    const tinygltf::Primitive& primitive = stored.primitives[static_cast<std::size_t>(primitiveIndex)];
+    const model::Mesh& stored = context.document.model.meshes[static_cast<std::size_t>(meshIndex)];
+    const model::Primitive& primitive = stored.primitives[static_cast<std::size_t>(primitiveIndex)];
     const std::string place = fmt::format("/meshes/{}/primitives/{}", meshIndex, primitiveIndex);
     Mesh mesh;
     mesh.name = nameOr(stored.name, "mesh", meshIndex);
@@ -185,9 +269,9 @@ std::optional<Mesh> importPrimitive(Context& context, int meshIndex, int primiti
     LoadLedger& ledger = context.document.ledger;
     const std::uint64_t mark = ledger.usedBytes() - context.buffers.heldBytes();
     PrimitiveReader reader(context, primitive, place, mesh.name);
-    if (primitive.mode < kFirstTriangleMode) {
+    if (primitive.mode < kTriangles) {
         context.warn(fmt::format("{}: mesh '{}' draws {}, which are left out", place, mesh.name,
-                                 primitive.mode == TINYGLTF_MODE_POINTS ? "points" : "lines"));
+                                 primitive.mode == kPoints ? "points" : "lines"));
         return std::nullopt;
     }
     if (!reader.has("POSITION")) {
@@ -196,11 +280,11 @@ std::optional<Mesh> importPrimitive(Context& context, int meshIndex, int primiti
     }
     reader.fillVertices(mesh);
     std::vector<std::uint32_t> corners = reader.corners();
-    if (primitive.mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3 != 0)
+    if (primitive.mode == kTriangles && corners.size() % 3 != 0)
         context.warn(
             fmt::format("{}: mesh '{}' has {} corners, which is no multiple of 3; the last triangle is left out", place,
                         mesh.name, corners.size()));
-    if (primitive.mode != TINYGLTF_MODE_TRIANGLES) // three corners for every one after the second
+    if (primitive.mode != kTriangles) // three corners for every one after the second
         ledger.charge(2 * 3 * corners.size() * sizeof(std::uint32_t),
                       [&] { return fmt::format("{}: {}", context.document.file, place); });
     mesh.indices = trianglesOf(primitive.mode, std::move(corners));

@@ -1,31 +1,29 @@
 #pragma once
 #include <map>
 
-#include "scenes/import/GltfTextures.h"
+#include "scenes/import/GltfContext.h"
 
 namespace tessera::scenes::gltf {
 
-/// Turns glTF materials into the scene's, the first time each is used.
-/// Source: glTF 2.0 section 3.9; KHR_materials_unlit, _emissive_strength, _ior, _specular, _anisotropy, _clearcoat,
-/// _sheen.
+/// Turns glTF materials into the scene's the first time each is used, and images likewise.
 class Materials {
 public:
-    explicit Materials(Context& context) : context_(context), textures_(context) {}
+    explicit Materials(Context& context) : context_(context) {}
 
     /// The scene's index of glTF material `index`; kNone gives the default material of the specification, named
-    /// "default".
+    /// "default". Throws InputError naming the image's file when one cannot be read.
     int material(int index);
 
 private:
     Material convert(int index);
-    void convertSpecular(const tinygltf::Material& stored, const std::string& place, Material& material);
-    void convertAnisotropy(const tinygltf::Material& stored, const std::string& place, Material& material);
-    void convertClearcoat(const tinygltf::Material& stored, const std::string& place, Material& material);
-    void convertSheen(const tinygltf::Material& stored, const std::string& place, Material& material);
+    /// `place` names the use in messages.
+    TextureUse use(const model::TextureInfo& info, const std::string& place);
+    int image(int index);
+    Image decoded(int index) const;
 
     Context& context_;
-    Textures textures_;
-    std::map<int, int> imported_; ///< scene material by glTF material
+    std::map<int, int> materials_; ///< scene material by glTF material
+    std::map<int, int> images_;    ///< scene image by glTF image
 };
 
 } // namespace tessera::scenes::gltf

@@ -165,6 +165,10 @@ constexpr Fault kShapeFaults[] = {
     {"/materials/0/normalTexture", "{}", "/materials/0/normalTexture: the required property 'index' is missing"},
     {"/materials/0/emissiveTexture", "{\"index\": 0}", "but the document has no textures"},
     {"/materials/0/pbrMetallicRoughness", "{\"metallicFactor\": 2}", "metallicFactor: is 2; it must be at most 1"},
+    {"/materials/0/pbrMetallicRoughness", "[]", "/pbrMetallicRoughness: must be an object, but is array"},
+    {"/materials/0/extensions", "{\"KHR_materials_ior\": 2}", "/KHR_materials_ior: must be an object, but is number"},
+    {"/nodes/0/extensions", "{\"KHR_lights_punctual\": {}}",
+     "/nodes/0/extensions/KHR_lights_punctual: the required property 'light' is missing"},
     {"/materials/0/emissiveFactor", "[-1, 0, 0]", "/materials/0/emissiveFactor/0: is -1; it must be at least 0"},
     {"/samplers", "[{\"wrapS\": 1}]", "/samplers/0/wrapS: is 1; valid are 33071, 33648, 10497"}};
 

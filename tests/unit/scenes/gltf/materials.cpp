@@ -96,6 +96,23 @@ TEST(GltfMaterials, unlitIsASingleColor) {
     EXPECT_EQ(material.emissive, glm::vec3(0));
 }
 
+TEST(GltfMaterials, layersOfAnUnlitMaterialAreCheckedAndLeftOut) {
+    const auto unlitWith = [](const char* coat) {
+        Builder builder;
+        builder.material()["extensions"] = {{"KHR_materials_unlit", Json::object()},
+                                            {"KHR_materials_ior", {{"ior", 2}}},
+                                            {"KHR_materials_clearcoat", Json::parse(coat)}};
+        builder.addTexture();
+        return builder;
+    };
+    const Scene scene = unlitWith(R"({"clearcoatFactor": 1, "clearcoatTexture": {"index": 0}})").import();
+    EXPECT_EQ(scene.materials.at(0).clearcoat, 0.0f);
+    EXPECT_EQ(scene.materials.at(0).ior, 1.5f);
+    EXPECT_TRUE(scene.images.empty());
+    EXPECT_NE(unlitWith(R"({"clearcoatFactor": 2})").error().find("clearcoatFactor: is 2; it must be at most 1"),
+              std::string::npos);
+}
+
 TEST(GltfMaterials, emissiveStrengthMultipliesTheEmission) {
     EXPECT_EQ(importedMaterial(R"({"emissiveFactor": [1, 0.5, 0],
         "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 8}}})")
@@ -106,6 +123,7 @@ TEST(GltfMaterials, emissiveStrengthMultipliesTheEmission) {
 TEST(GltfMaterials, iorIsImportedExactly) {
     EXPECT_EQ(importedMaterial(R"({"extensions": {"KHR_materials_ior": {"ior": 1.25}}})").ior, 1.25f);
     EXPECT_EQ(importedMaterial(R"({"extensions": {"KHR_materials_ior": {}}})").ior, 1.5f);
+    EXPECT_EQ(importedMaterial(R"({"extensions": {"KHR_materials_ior": {"ior": 4294967296}}})").ior, 4294967296.0f);
     EXPECT_EQ(importedMaterial(R"({"extensions": {"KHR_materials_ior": {"ior": 0}}})").ior, 0.0f);
     EXPECT_THROW(importedMaterial(R"({"extensions": {"KHR_materials_ior": {"ior": 0.5}}})"), InputError);
 }

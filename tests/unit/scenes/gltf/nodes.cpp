@@ -41,6 +41,13 @@ TEST(GltfNodes, matrixIsReadExactlyColumnByColumnInDouble) {
     EXPECT_EQ(matrix[3], glm::dvec4(1000000.123456789, 11, 12, 1));
 }
 
+TEST(GltfNodes, matrixIsUsedInsteadOfTheOtherTransforms) {
+    const Scene scene =
+        withNodes(R"([{"matrix": [1,0,0,0, 0,1,0,0, 0,0,1,0, 5,6,7,1], "translation": [9, 9, 9], "scale": [2, 2, 2]}])")
+            .import();
+    EXPECT_EQ(scene.nodes.at(0).parentFromNode, glm::dmat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {5, 6, 7, 1}));
+}
+
 TEST(GltfNodes, orderIsDepthFirst) {
     const Scene scene = withNodes(R"([{"name": "d"}, {"name": "a", "children": [3, 2]}, {"name": "c"},
                                       {"name": "b", "children": [4]}, {}])",
@@ -261,6 +268,8 @@ TEST(GltfLights, impossibleLightIsRefused) {
     EXPECT_NE(withLight(R"({"type": "spot", "spot": {"innerConeAngle": 1, "outerConeAngle": 0.5}})")
                   .error()
                   .find("0 <= inner < outer"),
+              std::string::npos);
+    EXPECT_NE(withLight(R"({"type": "spot"})").error().find("lights/0: the required property 'spot' is missing"),
               std::string::npos);
     Builder builder = withLight(R"({"type": "point"})");
     builder.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 1;

@@ -9,4 +9,8 @@ namespace tessera::scenes::gltf {
 /// names are made unique, as programs choose by name. Throws InputError naming the camera.
 void importCamera(Context& context, int node, const glm::dmat4& worldFromNode);
 
+/// Adds the light that glTF node `node` carries, if any. Of the node's transform only the position and the orientation
+/// count. Source: KHR_lights_punctual. Throws InputError naming the light.
+void importLight(Context& context, int node, const glm::dmat4& worldFromNode);
+
 } // namespace tessera::scenes::gltf

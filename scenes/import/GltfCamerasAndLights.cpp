@@ -1,0 +1,133 @@
+#include "scenes/import/GltfCamerasAndLights.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace tessera::scenes::gltf {
+namespace {
+
+constexpr std::size_t kCopies = 2; ///< while a vector grows
+
+/// Looks where the transform sends -Z, with its +Y as upright as can be, and never mirrored.
+glm::dmat4 rigidOf(const glm::dmat4& worldFromNode, bool& isDegenerate) {
+    const glm::dvec3 backWS(worldFromNode[2]);
+    const glm::dvec3 rightWS = glm::cross(glm::dvec3(worldFromNode[1]), backWS);
+    // Relative to the axes' lengths, so that small scales pass; 1e-12 is far above double's rounding.
+    const double lengths = glm::length(backWS) * glm::length(glm::dvec3(worldFromNode[1]));
+    isDegenerate = !(glm::length(rightWS) > 1e-12 * lengths);
+    glm::dmat4 rigid(1.0);
+    if (!isDegenerate) {
+        rigid[2] = glm::dvec4(glm::normalize(backWS), 0.0);
+        rigid[0] = glm::dvec4(glm::normalize(rightWS), 0.0);
+        rigid[1] = glm::dvec4(glm::cross(glm::dvec3(rigid[2]), glm::dvec3(rigid[0])), 0.0);
+    }
+    rigid[3] = worldFromNode[3];
+    return rigid;
+}
+
+std::string uniqueName(Context& context, const std::string& wanted) {
+    std::string name = wanted;
+    int& number = context.cameraNumbers.try_emplace(wanted, 1).first->second;
+    while (!context.cameraNames.insert(name).second) name = fmt::format("{} {}", wanted, ++number);
+    return name;
+}
+
+void setPerspective(const Document& document, const model::Camera::Perspective& lens, const std::string& place,
+                    Camera& camera) {
+    if (!(lens.yfov > 0.0 && lens.yfov < std::numbers::pi))
+        document.fail(place + "/perspective/yfov",
+                      fmt::format("is {}; it must be between 0 and pi radians", lens.yfov));
+    if (!(lens.znear > 0.0))
+        document.fail(place + "/perspective/znear", fmt::format("is {}; it must be greater than 0", lens.znear));
+    if (!(lens.zfar > lens.znear))
+        document.fail(place + "/perspective/zfar",
+                      fmt::format("is {}; it must be greater than znear {}", lens.zfar, lens.znear));
+    camera.fovYRadians = lens.yfov;
+    camera.nearMetres = lens.znear;
+    camera.farMetres = lens.zfar;
+}
+
+void setOrthographic(const Document& document, const model::Camera::Orthographic& lens, const std::string& place,
+                     Camera& camera) {
+    if (lens.ymag == 0.0 || lens.xmag == 0.0) document.fail(place + "/orthographic", "xmag and ymag must not be 0");
+    if (!(lens.znear >= 0.0 && lens.zfar > lens.znear))
+        document.fail(place + "/orthographic",
+                      fmt::format("has znear {} and zfar {}; needed is 0 <= znear < zfar", lens.znear, lens.zfar));
+    camera.halfHeightMetres = std::abs(lens.ymag);
+    camera.nearMetres = lens.znear;
+    camera.farMetres = lens.zfar;
+}
+
+void setCones(const Document& document, const model::Light& stored, const std::string& place, Light& light) {
+    const double inner = stored.innerConeAngle;
+    const double outer = stored.outerConeAngle;
+    // Exporters round pi/2 up to float; a millionth of a radian is more than that and less than anything visible.
+    constexpr double kRoundingRadians = 1e-6;
+    if (!(inner < outer) || outer > std::numbers::pi / 2.0 + kRoundingRadians)
+        document.fail(place + "/spot",
+                      fmt::format("has innerConeAngle {} and outerConeAngle {}; needed is 0 <= inner < "
+                                  "outer <= pi/2 radians",
+                                  inner, outer));
+    light.innerConeRadians = static_cast<float>(inner);
+    light.outerConeRadians = static_cast<float>(outer);
+}
+
+} // namespace
+
+void importCamera(Context& context, int nodeIndex, const glm::dmat4& worldFromNode) {
+    const Document& document = context.document;
+    const model::Node& node = document.model.nodes[static_cast<std::size_t>(nodeIndex)];
+    if (node.camera == kNone) return;
+    const std::string place = fmt::format("/cameras/{}", node.camera);
+    const model::Camera& stored = document.model.cameras[static_cast<std::size_t>(node.camera)];
+
+    Camera camera;
+    camera.name = uniqueName(context, !stored.name.empty() ? stored.name : nameOr(node.name, "camera", node.camera));
+    document.charge(kCopies * (sizeof(Camera) + camera.name.size()), "nodes", nodeIndex);
+    bool isDegenerate = false;
+    camera.worldFromCamera = rigidOf(worldFromNode, isDegenerate);
+    if (isDegenerate)
+        context.warn(fmt::format("/nodes/{}: its scale of zero leaves camera '{}' no direction; it looks along -Z",
+                                 nodeIndex, camera.name));
+    camera.projection = stored.projection;
+    if (camera.projection == Projection::Perspective)
+        setPerspective(document, stored.perspective, place, camera);
+    else
+        setOrthographic(document, stored.orthographic, place, camera);
+    context.scene.cameras.push_back(std::move(camera));
+}
+
+void importLight(Context& context, int nodeIndex, const glm::dmat4& worldFromNode) {
+    const Document& document = context.document;
+    const int index = document.model.nodes[static_cast<std::size_t>(nodeIndex)].light;
+    if (index == kNone) return;
+    const std::string place = fmt::format("/extensions/KHR_lights_punctual/lights/{}", index);
+    const model::Light& stored = document.model.lights[static_cast<std::size_t>(index)];
+
+    Light light;
+    light.name = nameOr(stored.name, "light", index);
+    document.charge(kCopies * (sizeof(Light) + light.name.size()), "nodes", nodeIndex);
+    light.type = stored.type;
+    light.color = stored.color;
+    light.intensity = stored.intensity;
+    light.falloff = Falloff::InverseSquare;
+    light.positionWS = glm::dvec3(worldFromNode[3]);
+    const glm::dvec3 backwardsWS(worldFromNode[2]);
+    const double length = glm::length(backwardsWS);
+    if (length > 0.0)
+        light.directionWS = -backwardsWS / length;
+    else if (infoOf(light.type).hasDirection)
+        context.warn(fmt::format("/nodes/{}: its scale of zero leaves light '{}' no direction; -Z is used", nodeIndex,
+                                 light.name));
+    if (stored.range && infoOf(light.type).hasPosition()) {
+        light.rangeMetres = *stored.range;
+        if (!(light.rangeMetres > 0.0f))
+            document.fail(place + "/range", "must be greater than 0; leave it out for infinite");
+    }
+    if (light.type == LightType::Spot) setCones(document, stored, place, light);
+    context.scene.lights.push_back(std::move(light));
+}
+
+} // namespace tessera::scenes::gltf

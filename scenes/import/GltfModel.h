@@ -1,0 +1,220 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/Scene.h"
+#include "scenes/import/GltfReader.h"
+
+/// The objects of a glTF document as far as the importer uses them, checked (GltfReader.h). Members are named after the
+/// properties, or after what of a scene they become; read() is the table of the properties. Indices are kNone where the
+/// document has none.
+namespace tessera::scenes::gltf::model {
+
+struct Scene {
+    std::vector<int> nodes;
+
+    void read(Object& object);
+};
+
+struct Node {
+    std::string name;
+    std::vector<int> children;
+    int mesh = kNone;
+    int camera = kNone;
+    int light = kNone;
+    std::optional<glm::dmat4> matrix; ///< instead of the three below
+    glm::dvec3 translation{0.0};
+    glm::dvec4 rotation{0.0, 0.0, 0.0, 1.0}; ///< x, y, z, w of a quaternion
+    glm::dvec3 scale{1.0};
+
+    void read(Object& object);
+};
+
+struct Primitive {
+    std::map<std::string, int> attributes; ///< accessors
+    int indices = kNone;
+    int material = kNone;
+    int mode = 4;
+    std::vector<AnyValue> targets;
+
+    void read(Object& object);
+};
+
+struct Mesh {
+    std::string name;
+    std::vector<Primitive> primitives;
+
+    void read(Object& object);
+};
+
+enum class ComponentType : std::uint8_t { Byte, UnsignedByte, Short, UnsignedShort, UnsignedInt, Float };
+
+struct Sparse {
+    std::size_t count = 0;
+    int indicesView = kNone;
+    std::size_t indicesOffset = 0;
+    ComponentType indexType{};
+    int valuesView = kNone;
+    std::size_t valuesOffset = 0;
+
+    void read(Object& object);
+};
+
+struct Accessor {
+    int bufferView = kNone;
+    std::size_t byteOffset = 0;
+    ComponentType componentType{};
+    std::size_t count = 0;
+    int components = 0; ///< of an element; 0 stands for a matrix
+    bool normalized = false;
+    std::optional<Sparse> sparse;
+
+    void read(Object& object);
+};
+
+struct Buffer {
+    std::size_t byteLength = 0;
+    std::optional<std::string> uri;
+
+    void read(Object& object);
+};
+
+/// A range of a buffer.
+struct Slice {
+    int buffer = kNone;
+    std::size_t byteOffset = 0;
+    std::size_t byteLength = 0;
+
+    void read(Object& object);
+};
+
+/// EXT_meshopt_compression.
+struct Meshopt {
+    Slice encoded;
+    std::size_t count = 0;
+    std::size_t byteStride = 0;
+    std::string_view mode;            ///< ATTRIBUTES, TRIANGLES or INDICES
+    std::string_view filter = "NONE"; ///< or OCTAHEDRAL, QUATERNION, EXPONENTIAL
+
+    void read(Object& object);
+};
+
+struct BufferView {
+    Slice bytes;
+    std::size_t byteStride = 0; ///< 0: the elements follow one another
+    std::optional<Meshopt> meshopt;
+
+    void read(Object& object);
+};
+
+struct Image {
+    std::string name;
+    std::string uri;
+    int bufferView = kNone;
+
+    void read(Object& object);
+};
+
+struct Texture {
+    int source = kNone;
+    int sampler = kNone;
+
+    void read(Object& object);
+};
+
+struct Sampler : scenes::Sampler {
+    void read(Object& object);
+};
+
+/// A use of a texture, with KHR_texture_transform.
+struct TextureInfo {
+    int texture = kNone;
+    int texCoordSet = 0;
+    TextureTransform transform;
+
+    void read(Object& object);
+};
+
+/// The places at which a material uses a texture, in the order in which images are imported.
+struct TexturePlace {
+    std::string_view path;
+    TextureSlot slot; ///< Count: left out
+};
+inline constexpr TexturePlace kTexturePlaces[] = {
+    {"pbrMetallicRoughness/baseColorTexture", TextureSlot::BaseColor},
+    {"pbrMetallicRoughness/metallicRoughnessTexture", TextureSlot::MetallicRoughness},
+    {"normalTexture", TextureSlot::Normal},
+    {"emissiveTexture", TextureSlot::Emissive},
+    {"occlusionTexture", TextureSlot::Count},
+    {"extensions/KHR_materials_specular/specularTexture", TextureSlot::SpecularFactor},
+    {"extensions/KHR_materials_specular/specularColorTexture", TextureSlot::SpecularColor},
+    {"extensions/KHR_materials_anisotropy/anisotropyTexture", TextureSlot::Anisotropy},
+    {"extensions/KHR_materials_clearcoat/clearcoatTexture", TextureSlot::Clearcoat},
+    {"extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture", TextureSlot::ClearcoatRoughness},
+    {"extensions/KHR_materials_clearcoat/clearcoatNormalTexture", TextureSlot::ClearcoatNormal},
+    {"extensions/KHR_materials_sheen/sheenColorTexture", TextureSlot::SheenColor},
+    {"extensions/KHR_materials_sheen/sheenRoughnessTexture", TextureSlot::SheenRoughness},
+};
+
+/// Source: glTF 2.0 section 3.9; KHR_materials_unlit, _emissive_strength, _ior, _specular, _anisotropy, _clearcoat,
+/// _sheen.
+struct Material {
+    scenes::Material surface;                                    ///< but its textures and index of refraction
+    std::array<TextureInfo, std::size(kTexturePlaces)> textures; ///< as kTexturePlaces
+    double ior = 1.5;
+
+    void read(Object& object);
+};
+
+struct Camera {
+    std::string name;
+    Projection projection{};
+    struct Perspective {
+        double yfov = 0.0, znear = 0.0, zfar = std::numeric_limits<double>::infinity();
+    } perspective;
+    struct Orthographic {
+        double xmag = 0.0, ymag = 0.0, znear = 0.0, zfar = 0.0;
+    } orthographic;
+
+    void read(Object& object);
+};
+
+/// KHR_lights_punctual.
+struct Light {
+    std::string name;
+    LightType type{};
+    glm::vec3 color{1.0f};
+    float intensity = 1.0f;
+    std::optional<float> range;
+    double innerConeAngle = 0.0;
+    double outerConeAngle = 0.7853981634; // pi/4
+
+    void read(Object& object);
+};
+
+struct Model {
+    std::vector<std::string> extensionsUsed;
+    std::vector<std::string> extensionsRequired;
+    int scene = 0; ///< the default one
+    std::vector<Scene> scenes;
+    std::vector<Node> nodes;
+    std::vector<Mesh> meshes;
+    std::vector<Accessor> accessors;
+    std::vector<BufferView> bufferViews;
+    std::vector<Buffer> buffers;
+    std::vector<Image> images;
+    std::vector<Texture> textures;
+    std::vector<Sampler> samplers;
+    std::vector<Material> materials;
+    std::vector<Camera> cameras;
+    std::vector<Light> lights;
+    std::vector<AnyObject> skins;
+    std::vector<AnyObject> animations;
+
+    void read(Object& object);
+};
+
+} // namespace tessera::scenes::gltf::model
