@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <ranges>
 
 #include <fmt/ranges.h>
 #include <glm/trigonometric.hpp>
@@ -16,9 +15,11 @@ namespace {
 constexpr std::array<std::string_view, 2> kNotShadedYet = {"area", "environment"};
 
 LightType readType(const JsonValue& value) {
-    if (const std::string name = value.text(); std::ranges::find(kNotShadedYet, name) != kNotShadedYet.end())
-        value.fail(fmt::format("lights of type '{}' are not shaded yet; shaded are {}", name,
-                               fmt::join(kLightTypes | std::views::keys, ", ")));
+    if (const std::string name = value.text(); std::ranges::find(kNotShadedYet, name) != kNotShadedYet.end()) {
+        std::vector<std::string_view> shaded;
+        for (const auto& [typeName, type] : kLightTypes) shaded.push_back(typeName);
+        value.fail(fmt::format("lights of type '{}' are not shaded yet; shaded are {}", name, fmt::join(shaded, ", ")));
+    }
     return value.oneOf<LightType>("light type", kLightTypes);
 }
 
