@@ -1,15 +1,9 @@
-#include <array>
-#include <cassert>
 #include <map>
-#include <sstream>
 #include <unordered_map>
 
 #include <fmt/format.h>
-#include <tiny_obj_loader.h>
 
-#include "base/Error.h"
 #include "scenes/import/Importers.h"
-#include "scenes/import/ObjLines.h"
 #include "scenes/import/ObjMaterials.h"
 #include "scenes/import/ObjNormals.h"
 #include "scenes/import/ObjText.h"
@@ -18,41 +12,6 @@ namespace tessera::scenes {
 namespace {
 
 using namespace obj;
-
-/// Tells tinyobjloader which material a checked text's "usemtl 3" means: the third.
-class NumberedMaterials : public tinyobj::MaterialReader {
-public:
-    explicit NumberedMaterials(std::size_t count) : count_(count) {}
-    bool operator()(const std::string&, std::vector<tinyobj::material_t>* materials,
-                    std::map<std::string, int>* numbers, std::string*, std::string*) override {
-        materials->resize(count_);
-        for (std::size_t i = 0; i < count_; ++i) numbers->emplace(std::to_string(i), static_cast<int>(i));
-        return true;
-    }
-
-private:
-    std::size_t count_;
-};
-
-struct Parsed {
-    tinyobj::attrib_t attributes;
-    std::vector<tinyobj::shape_t> shapes;
-};
-
-Parsed parse(const CheckedText& checked, const std::filesystem::path& file) {
-    Parsed parsed;
-    std::vector<tinyobj::material_t> materials;
-    std::string warning; // what it would say has been said by the check
-    std::string error;
-    std::istringstream stream("mtllib numbered\n" + checked.text);
-    NumberedMaterials reader(checked.materials.size());
-    constexpr bool kTriangulate = false; // the checked text holds triangles only
-    constexpr bool kWhiteWhereNoColor = false;
-    if (!tinyobj::LoadObj(&parsed.attributes, &parsed.shapes, &materials, &warning, &error, &stream, &reader,
-                          kTriangulate, kWhiteWhereNoColor))
-        throw InputError(fmt::format("{}: cannot be read as OBJ: {}", file.string(), error));
-    return parsed;
-}
 
 struct CornerKey {
     int position;
@@ -74,13 +33,12 @@ struct CornerKeyHash {
 /// One mesh as it grows: equal corners share a vertex.
 class MeshBuilder {
 public:
-    MeshBuilder(const tinyobj::attrib_t& attributes, CornerNormals& normals)
-        : attributes_(attributes), normals_(normals) {}
+    MeshBuilder(const ObjFile& obj, CornerNormals& normals) : obj_(obj), normals_(normals) {}
 
-    void addTriangle(const tinyobj::mesh_t& source, std::size_t triangle) {
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-            const tinyobj::index_t& index = source.indices[triangle * 3 + corner];
-            const CornerKey key{index.vertex_index, index.texcoord_index, normals_.indexAt(source, triangle, corner)};
+    void addTriangle(const Triangle& triangle) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Corner& corner = triangle.corners[i];
+            const CornerKey key{corner.position, corner.texCoord, normals_.indexAt(triangle, i)};
             const auto [entry, isNew] =
                 vertices_.try_emplace(key, static_cast<std::uint32_t>(mesh_.positionsOS.size()));
             if (isNew) addVertex(key);
@@ -97,24 +55,17 @@ public:
 
 private:
     void addVertex(const CornerKey& key) {
-        const auto at = [](int index, std::size_t stride) { return static_cast<std::size_t>(index) * stride; };
-        const std::size_t position = at(key.position, 3);
-        const std::vector<tinyobj::real_t>& xyz = attributes_.vertices;
-        mesh_.positionsOS.emplace_back(xyz[position], xyz[position + 1], xyz[position + 2]);
+        const auto position = static_cast<std::size_t>(key.position);
+        mesh_.positionsOS.push_back(obj_.positionsOS[position]);
         mesh_.normalsOS.push_back(normals_[key.normal]);
-        if (const std::vector<tinyobj::real_t>& rgb = attributes_.colors; rgb.size() == xyz.size() && !rgb.empty())
-            mesh_.colors.emplace_back(rgb[position], rgb[position + 1], rgb[position + 2], 1.0f);
-        glm::vec2 uv(0.0f, 1.0f); // (0, 0) in the file
-        if (key.texCoord >= 0) {
-            // The file's origin is the bottom-left corner.
-            const std::size_t texCoord = at(key.texCoord, 2);
-            uv = {attributes_.texcoords[texCoord], 1.0f - attributes_.texcoords[texCoord + 1]};
-        }
-        (key.texCoord >= 0 ? hasTexCoords_ : lacksTexCoords_) = true;
-        mesh_.texCoords[0].push_back(uv);
+        if (!obj_.colors.empty()) mesh_.colors.emplace_back(obj_.colors[position], 1.0f);
+        glm::vec2 uv(0.0f); // of a corner without, beside others that have them
+        if (key.texCoord != kNone) uv = obj_.texCoords[static_cast<std::size_t>(key.texCoord)];
+        (key.texCoord != kNone ? hasTexCoords_ : lacksTexCoords_) = true;
+        mesh_.texCoords[0].emplace_back(uv.x, 1.0f - uv.y); // the file's origin is the bottom-left corner
     }
 
-    const tinyobj::attrib_t& attributes_;
+    const ObjFile& obj_;
     CornerNormals& normals_;
     std::unordered_map<CornerKey, std::uint32_t, CornerKeyHash> vertices_;
     Mesh mesh_;
@@ -125,34 +76,30 @@ private:
 class ObjImporter {
 public:
     ObjImporter(const std::filesystem::path& file, LoadLedger& ledger)
-        : file_(file), ledger_(ledger), checked_(checkText(readText(file, ledger), file, ledger)),
-          parsed_(parse(checked_, file)), normals_(parsed_.attributes, parsed_.shapes), materials_(scene_, ledger) {}
+        : file_(file), ledger_(ledger), obj_(readObj(file, ledger)), normals_(obj_), materials_(scene_, ledger) {}
 
     Scene import() {
         scene_.name = file_.stem().string();
-        scene_.warnings = checked_.warnings;
-        mtl_ = findMaterials(checked_.materials, checked_.libraries, file_, scene_.warnings, ledger_);
-        for (const tinyobj::shape_t& shape : parsed_.shapes) addShape(shape);
+        scene_.warnings = obj_.warnings;
+        mtl_ = findMaterials(obj_.materials, obj_.libraries, file_, scene_.warnings, ledger_);
+        for (const Group& group : obj_.groups) addGroup(group);
         warnOfLosses();
         return std::move(scene_);
     }
 
 private:
-    /// A shape is the part between two 'g' or 'o' statements: one node, with a mesh per material.
-    void addShape(const tinyobj::shape_t& shape) {
+    /// One node, with a mesh per material.
+    void addGroup(const Group& group) {
         std::vector<std::pair<int, MeshBuilder>> builders; // in the order the materials are first used
         std::map<int, std::size_t> builderOfMaterial;
-        const std::size_t triangles = shape.mesh.indices.size() / 3;
-        for (std::size_t triangle = 0; triangle < triangles; ++triangle) {
-            const int material = shape.mesh.material_ids[triangle];
-            const auto [entry, isNew] = builderOfMaterial.try_emplace(material, builders.size());
-            if (isNew) builders.emplace_back(material, MeshBuilder(parsed_.attributes, normals_));
-            builders[entry->second].second.addTriangle(shape.mesh, triangle);
+        for (const Triangle& triangle : group.triangles) {
+            const auto [entry, isNew] = builderOfMaterial.try_emplace(triangle.material, builders.size());
+            if (isNew) builders.emplace_back(triangle.material, MeshBuilder(obj_, normals_));
+            builders[entry->second].second.addTriangle(triangle);
         }
-        if (builders.empty()) return;
 
         Node node;
-        node.name = shape.name.empty() ? scene_.name : shape.name;
+        node.name = group.name.empty() ? scene_.name : group.name;
         for (auto& [number, builder] : builders) {
             const int material = materialOf(number);
             lacksSomeTexCoords_ = lacksSomeTexCoords_ || builder.lacksSomeTexCoords();
@@ -170,7 +117,7 @@ private:
     int materialOf(int number) {
         const auto [entry, isNew] = materialOfNumber_.try_emplace(number, kNone);
         if (!isNew) return entry->second;
-        if (number < 0) return entry->second = materials_.addDefault("default");
+        if (number == kNone) return entry->second = materials_.addDefault("default");
         const MtlMaterial& mtl = mtl_[static_cast<std::size_t>(number)];
         const bool isDefined = !mtl.file.empty();
         return entry->second = isDefined ? materials_.add(mtl) : materials_.addDefault(mtl.name);
@@ -187,12 +134,11 @@ private:
     const std::filesystem::path& file_;
     LoadLedger& ledger_;
     Scene scene_;
-    CheckedText checked_;
-    Parsed parsed_;
+    ObjFile obj_;
     CornerNormals normals_;
     MaterialConverter materials_;
-    std::vector<MtlMaterial> mtl_;
-    std::map<int, int> materialOfNumber_; ///< scene material by number in the checked text; -1 is none
+    std::vector<MtlMaterial> mtl_;        ///< in the order of ObjFile::materials
+    std::map<int, int> materialOfNumber_; ///< scene material by number in ObjFile::materials, or kNone
     bool lacksSomeTexCoords_ = false;
 };
 

@@ -11,6 +11,18 @@
 
 namespace tessera::scenes::obj {
 
+// Bytes that are charged for what a file's statements make.
+/// A vector that doubles has room for twice its elements, and holds them three times while it grows.
+inline constexpr std::size_t kRoom = 2;
+inline constexpr std::size_t kGrown = 3;
+/// An element of a node-based container: its links, the allocator's word and the table's slots beside it.
+template <typename Element>
+constexpr std::size_t kNodeBytes = sizeof(Element) + 56;
+/// A part of the text that is kept, and named in a message.
+constexpr std::size_t keptTextBytes(std::string_view text) {
+    return kNodeBytes<std::string> + kRoom * text.size();
+}
+
 /// One statement of an OBJ or MTL file. The views hold during the call that receives them.
 struct Line {
     int number = 0;                      ///< counted from 1; the first of several joined by a backslash

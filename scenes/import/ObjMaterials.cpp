@@ -13,12 +13,8 @@
 namespace tessera::scenes::obj {
 namespace {
 
-constexpr int kConstantColour = 0; ///< illum 0
-constexpr int kDiffuseOnly = 1;    ///< illum 1
-
-glm::vec3 colourOf(const tinyobj::real_t (&values)[3]) {
-    return {values[0], values[1], values[2]};
-}
+constexpr float kConstantColour = 0.0f; ///< illum 0
+constexpr float kDiffuseOnly = 1.0f;    ///< illum 1
 
 /// The perceptual roughness whose GGX lobe is about as wide as a Blinn-Phong lobe of this exponent.
 /// Source: Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", section 5.4: the Phong
@@ -29,16 +25,16 @@ float perceptualRoughnessOf(float exponent) {
 }
 
 /// MTL's v points up from the bottom-left corner, the scene's down from the top-left one: v = 1 - v'.
-TextureTransform transformOf(const tinyobj::texture_option_t& options) {
+TextureTransform transformOf(const MtlPicture& picture) {
     TextureTransform transform;
-    transform.scale = {options.scale[0], options.scale[1]};
-    transform.offset = {options.origin_offset[0], 1.0f - options.scale[1] - options.origin_offset[1]};
+    transform.scale = picture.scale;
+    transform.offset = {picture.offset.x, 1.0f - picture.scale.y - picture.offset.y};
     return transform;
 }
 
 /// The picture's path, with the separators of other systems where only those lead to a file.
 std::filesystem::path pathOf(const MtlMaterial& mtl, const std::string& name) {
-    const std::filesystem::path folder = mtl.file.parent_path();
+    const std::filesystem::path folder = std::filesystem::path(mtl.file).parent_path();
     std::error_code failure;
     if (std::filesystem::exists(folder / name, failure)) return folder / name;
     std::string slashed = name;
@@ -49,28 +45,24 @@ std::filesystem::path pathOf(const MtlMaterial& mtl, const std::string& name) {
 } // namespace
 
 int MaterialConverter::add(const MtlMaterial& mtl) {
-    const tinyobj::material_t& values = mtl.values;
     Material material;
     material.name = mtl.name;
     material.metallic = 0.0f;
     material.perceptualRoughness = 0.5f;
-    if (mtl.states("Kd")) material.baseColor = glm::vec4(colourOf(values.diffuse), 1.0f);
-    if (mtl.states("map_Kd"))
-        material.texture(TextureSlot::BaseColor) =
-            textureUse(mtl, "map_Kd", values.diffuse_texname, values.diffuse_texopt);
+    if (mtl.diffuse) material.baseColor = glm::vec4(*mtl.diffuse, 1.0f);
+    if (mtl.diffusePicture) material.texture(TextureSlot::BaseColor) = textureUse(mtl, *mtl.diffusePicture);
     setOpacity(mtl, material);
-    if (mtl.states("illum") && values.illum == kConstantColour) {
+    if (mtl.illumination == kConstantColour) {
         material.model = MaterialModel::SingleColor;
     } else {
         setMetallicRoughness(mtl, material);
         setSpecular(mtl, material);
         setNormalMap(mtl, material);
-        if (mtl.states("Ke")) material.emissive = colourOf(values.emission);
-        if (mtl.states("map_Ke")) {
-            if (!mtl.states("Ke")) material.emissive = glm::vec3(1.0f);
-            material.texture(TextureSlot::Emissive) =
-                textureUse(mtl, "map_Ke", values.emissive_texname, values.emissive_texopt);
+        if (mtl.emissionPicture) {
+            material.emissive = glm::vec3(1.0f);
+            material.texture(TextureSlot::Emissive) = textureUse(mtl, *mtl.emissionPicture);
         }
+        if (mtl.emission) material.emissive = *mtl.emission;
     }
     scene_.materials.push_back(std::move(material));
     return static_cast<int>(scene_.materials.size()) - 1;
@@ -86,37 +78,35 @@ int MaterialConverter::addDefault(const std::string& name) {
     return static_cast<int>(scene_.materials.size()) - 1;
 }
 
-TextureUse MaterialConverter::textureUse(const MtlMaterial& mtl, const char* keyword, const std::string& name,
-                                         const tinyobj::texture_option_t& options) {
+TextureUse MaterialConverter::textureUse(const MtlMaterial& mtl, const MtlPicture& picture) {
     TextureUse use;
-    use.image = image(mtl, keyword, name);
-    use.transform = transformOf(options);
-    if (options.clamp) use.sampler.wrapU = use.sampler.wrapV = Wrap::ClampToEdge;
+    use.image = image(mtl, picture);
+    use.transform = transformOf(picture);
+    if (picture.clamp) use.sampler.wrapU = use.sampler.wrapV = Wrap::ClampToEdge;
     return use;
 }
 
-int MaterialConverter::image(const MtlMaterial& mtl, const char* keyword, const std::string& name) {
-    const std::filesystem::path path = pathOf(mtl, name);
+int MaterialConverter::image(const MtlMaterial& mtl, const MtlPicture& picture) {
+    const std::filesystem::path path = pathOf(mtl, picture.name);
     const auto [entry, isNew] = imageOfFile_.try_emplace(path.lexically_normal().string(), kNone);
     if (!isNew) return entry->second;
     try {
         scene_.images.push_back(readImage(path, ledger_));
     } catch (const InputError& error) {
-        throw InputError(fmt::format("{}: material '{}', {}: {}", mtl.file.string(), mtl.name, keyword, error.what()));
+        throw InputError(fmt::format("{}: material '{}', {}: {}", mtl.file, mtl.name, picture.keyword, error.what()));
     }
     return entry->second = static_cast<int>(scene_.images.size()) - 1;
 }
 
 void MaterialConverter::setOpacity(const MtlMaterial& mtl, Material& material) {
-    const tinyobj::material_t& values = mtl.values;
-    material.baseColor.w = values.dissolve;
-    if (!mtl.states("map_d")) {
-        if (values.dissolve < 1.0f) material.alphaMode = AlphaMode::Blend;
+    material.baseColor.w = mtl.opacity.value_or(1.0f - mtl.transparency.value_or(0.0f));
+    if (!mtl.opacityPicture) {
+        if (material.baseColor.w < 1.0f) material.alphaMode = AlphaMode::Blend;
         return;
     }
     material.alphaMode = AlphaMode::Mask;
     TextureUse& colour = material.texture(TextureSlot::BaseColor);
-    const TextureUse opacity = textureUse(mtl, "map_d", values.alpha_texname, values.alpha_texopt);
+    const TextureUse opacity = textureUse(mtl, *mtl.opacityPicture);
     if (opacity.image == colour.image) return; // its alpha is the opacity already
     if (colour.image == kNone) {
         colour = opacity;
@@ -139,27 +129,24 @@ void MaterialConverter::setOpacity(const MtlMaterial& mtl, Material& material) {
 }
 
 void MaterialConverter::setMetallicRoughness(const MtlMaterial& mtl, Material& material) {
-    const tinyobj::material_t& values = mtl.values;
-    const bool hasRoughnessMap = mtl.states("map_Pr");
-    const bool hasMetalnessMap = mtl.states("map_Pm");
-    if (mtl.states("Pr"))
-        material.perceptualRoughness = values.roughness;
-    else if (hasRoughnessMap)
+    if (mtl.perceptualRoughness)
+        material.perceptualRoughness = *mtl.perceptualRoughness;
+    else if (mtl.roughnessPicture)
         material.perceptualRoughness = 1.0f;
-    else if (mtl.states("Ns"))
-        material.perceptualRoughness = perceptualRoughnessOf(values.shininess);
-    if (mtl.states("Pm"))
-        material.metallic = values.metallic;
-    else if (hasMetalnessMap)
+    else if (mtl.exponent)
+        material.perceptualRoughness = perceptualRoughnessOf(*mtl.exponent);
+    if (mtl.metalness)
+        material.metallic = *mtl.metalness;
+    else if (mtl.metalnessPicture)
         material.metallic = 1.0f;
-    if (!hasRoughnessMap && !hasMetalnessMap) return;
+    if (!mtl.roughnessPicture && !mtl.metalnessPicture) return;
 
     TextureUse roughness;
     TextureUse metalness;
-    if (hasRoughnessMap) roughness = textureUse(mtl, "map_Pr", values.roughness_texname, values.roughness_texopt);
-    if (hasMetalnessMap) metalness = textureUse(mtl, "map_Pm", values.metallic_texname, values.metallic_texopt);
-    TextureUse use = hasRoughnessMap ? roughness : metalness;
-    if (hasRoughnessMap && hasMetalnessMap &&
+    if (mtl.roughnessPicture) roughness = textureUse(mtl, *mtl.roughnessPicture);
+    if (mtl.metalnessPicture) metalness = textureUse(mtl, *mtl.metalnessPicture);
+    TextureUse use = mtl.roughnessPicture ? roughness : metalness;
+    if (mtl.roughnessPicture && mtl.metalnessPicture &&
         (roughness.transform != metalness.transform || roughness.sampler != metalness.sampler))
         warn(mtl, "map_Pm is placed as map_Pr is; its own options are left out");
     // One picture for both is packed as in glTF, green and blue; two are packed here.
@@ -182,31 +169,24 @@ void MaterialConverter::setMetallicRoughness(const MtlMaterial& mtl, Material& m
 }
 
 void MaterialConverter::setSpecular(const MtlMaterial& mtl, Material& material) {
-    const tinyobj::material_t& values = mtl.values;
-    if (mtl.states("Ni") && values.ior > 1.0f) material.ior = values.ior;
-    if (mtl.states("illum") && values.illum == kDiffuseOnly) {
+    if (mtl.ior && *mtl.ior > 1.0f) material.ior = *mtl.ior;
+    if (mtl.illumination == kDiffuseOnly) {
         material.specularFactor = 0.0f;
         return;
     }
-    if (mtl.states("Ks")) material.specularColor = glm::min(colourOf(values.specular), glm::vec3(1.0f));
-    if (mtl.states("map_Ks"))
-        material.texture(TextureSlot::SpecularColor) =
-            textureUse(mtl, "map_Ks", values.specular_texname, values.specular_texopt);
+    if (mtl.specular) material.specularColor = glm::min(*mtl.specular, glm::vec3(1.0f));
+    if (mtl.specularPicture) material.texture(TextureSlot::SpecularColor) = textureUse(mtl, *mtl.specularPicture);
 }
 
 void MaterialConverter::setNormalMap(const MtlMaterial& mtl, Material& material) {
-    const tinyobj::material_t& values = mtl.values;
-    if (mtl.states("norm")) {
-        material.texture(TextureSlot::Normal) = textureUse(mtl, "norm", values.normal_texname, values.normal_texopt);
-        material.normalScale = values.normal_texopt.bump_multiplier;
-    } else if (mtl.states("map_bump") || mtl.states("bump")) {
-        const char* keyword = mtl.states("map_bump") ? "map_bump" : "bump";
+    const std::optional<MtlPicture>& picture = mtl.normalPicture ? mtl.normalPicture : mtl.bumpPicture;
+    if (!picture) return;
+    if (!mtl.normalPicture)
         warn(mtl, fmt::format("the picture of {} is taken for a tangent-space normal map; if it holds heights, "
                               "convert it",
-                              keyword));
-        material.texture(TextureSlot::Normal) = textureUse(mtl, keyword, values.bump_texname, values.bump_texopt);
-        material.normalScale = values.bump_texopt.bump_multiplier;
-    }
+                              picture->keyword));
+    material.texture(TextureSlot::Normal) = textureUse(mtl, *picture);
+    material.normalScale = picture->bumpMultiplier;
 }
 
 /// For a picture packed of two: as wide and as high as the larger, in at most the wider format.
@@ -220,12 +200,12 @@ void MaterialConverter::charge(int image, int other, const MtlMaterial& mtl) {
         bytes = std::max<std::uint64_t>(bytes, texelBytes(part.format));
     }
     ledger_.charge(width * height * bytes, [&] {
-        return fmt::format("{}: material '{}', a picture of {}x{} texels", mtl.file.string(), mtl.name, width, height);
+        return fmt::format("{}: material '{}', a picture of {}x{} texels", mtl.file, mtl.name, width, height);
     });
 }
 
 void MaterialConverter::warn(const MtlMaterial& mtl, const std::string& what) {
-    scene_.warnings.push_back(fmt::format("{}: material '{}': {}", mtl.file.string(), mtl.name, what));
+    scene_.warnings.push_back(fmt::format("{}: material '{}': {}", mtl.file, mtl.name, what));
 }
 
 } // namespace tessera::scenes::obj

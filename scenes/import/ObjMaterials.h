@@ -34,9 +34,8 @@ public:
     int addDefault(const std::string& name);
 
 private:
-    TextureUse textureUse(const MtlMaterial& mtl, const char* keyword, const std::string& name,
-                          const tinyobj::texture_option_t& options);
-    int image(const MtlMaterial& mtl, const char* keyword, const std::string& name);
+    TextureUse textureUse(const MtlMaterial& mtl, const MtlPicture& picture);
+    int image(const MtlMaterial& mtl, const MtlPicture& picture);
     void setOpacity(const MtlMaterial& mtl, Material& material);
     void setMetallicRoughness(const MtlMaterial& mtl, Material& material);
     void setSpecular(const MtlMaterial& mtl, Material& material);

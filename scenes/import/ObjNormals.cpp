@@ -17,53 +17,40 @@ double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-glm::dvec3 vectorAt(const std::vector<tinyobj::real_t>& values, int index) {
-    const std::size_t at = static_cast<std::size_t>(index) * 3;
-    return {values[at], values[at + 1], values[at + 2]};
-}
-
 } // namespace
 
-CornerNormals::CornerNormals(const tinyobj::attrib_t& attributes, const std::vector<tinyobj::shape_t>& shapes)
-    : attributes_(attributes) {
-    const std::size_t given = attributes.normals.size() / 3;
-    normals_.reserve(given);
-    for (std::size_t i = 0; i < given; ++i)
-        normals_.push_back(unitOr(vectorAt(attributes.normals, static_cast<int>(i)), glm::vec3(0.0f)));
-    addSmoothNormals(shapes);
+CornerNormals::CornerNormals(const ObjFile& obj) : obj_(obj) {
+    normals_.reserve(obj.normalsOS.size());
+    for (const glm::vec3& normalOS : obj.normalsOS) normals_.push_back(unitOr(normalOS, glm::vec3(0.0f)));
+    addSmoothNormals();
 }
 
-std::size_t CornerNormals::indexAt(const tinyobj::mesh_t& mesh, std::size_t triangle, std::size_t corner) {
-    const tinyobj::index_t& index = mesh.indices[triangle * 3 + corner];
-    if (isGiven(index)) return static_cast<std::size_t>(index.normal_index);
-    if (index.normal_index >= 0) replacedZeroNormals_ = true;
-    const unsigned int group = mesh.smoothing_group_ids[triangle];
-    if (group != 0) return smooth_.at(keyOf(index.vertex_index, group));
-    if (flatMesh_ != &mesh || flatTriangle_ != triangle) {
-        const std::array<glm::dvec3, 3> normals = weightedNormals(mesh, triangle);
+std::size_t CornerNormals::indexAt(const Triangle& triangle, std::size_t corner) {
+    const Corner& index = triangle.corners[corner];
+    if (isGiven(index)) return static_cast<std::size_t>(index.normal);
+    if (index.normal != kNone) replacedZeroNormals_ = true;
+    if (triangle.smoothingGroup != 0) return smooth_.at(keyOf(index.position, triangle.smoothingGroup));
+    if (flatTriangle_ != &triangle) {
+        const std::array<glm::dvec3, 3> normals = weightedNormals(triangle);
         normals_.push_back(unitOr(normals[0] + normals[1] + normals[2], kUp));
-        flatMesh_ = &mesh;
-        flatTriangle_ = triangle;
+        flatTriangle_ = &triangle;
     }
     return normals_.size() - 1;
 }
 
-std::uint64_t CornerNormals::keyOf(int position, unsigned int group) {
-    return static_cast<std::uint64_t>(position) << 32 | group;
+std::uint64_t CornerNormals::keyOf(int position, std::uint32_t smoothingGroup) {
+    return static_cast<std::uint64_t>(position) << 32 | smoothingGroup;
 }
 
-glm::dvec3 CornerNormals::positionOf(const tinyobj::index_t& index) const {
-    return vectorAt(attributes_.vertices, index.vertex_index);
-}
-
-bool CornerNormals::isGiven(const tinyobj::index_t& index) const {
-    return index.normal_index >= 0 && normals_[static_cast<std::size_t>(index.normal_index)] != glm::vec3(0.0f);
+bool CornerNormals::isGiven(const Corner& corner) const {
+    return corner.normal != kNone && normals_[static_cast<std::size_t>(corner.normal)] != glm::vec3(0.0f);
 }
 
 /// The triangle's unit normal times its angle at each corner; zero without area.
-std::array<glm::dvec3, 3> CornerNormals::weightedNormals(const tinyobj::mesh_t& mesh, std::size_t triangle) const {
+std::array<glm::dvec3, 3> CornerNormals::weightedNormals(const Triangle& triangle) const {
     std::array<glm::dvec3, 3> positions;
-    for (std::size_t i = 0; i < 3; ++i) positions[i] = positionOf(mesh.indices[triangle * 3 + i]);
+    for (std::size_t i = 0; i < 3; ++i)
+        positions[i] = obj_.positionsOS[static_cast<std::size_t>(triangle.corners[i].position)];
     std::array<glm::dvec3, 3> normals{};
     const glm::dvec3 areaNormal = glm::cross(positions[1] - positions[0], positions[2] - positions[0]);
     const double length = glm::length(areaNormal);
@@ -76,27 +63,23 @@ std::array<glm::dvec3, 3> CornerNormals::weightedNormals(const tinyobj::mesh_t& 
     return normals;
 }
 
-void CornerNormals::addSmoothNormals(const std::vector<tinyobj::shape_t>& shapes) {
-    std::unordered_map<std::uint64_t, std::size_t> sumOfKey;
-    std::vector<glm::dvec3> sums;
-    for (const tinyobj::shape_t& shape : shapes) {
-        const tinyobj::mesh_t& mesh = shape.mesh;
-        for (std::size_t triangle = 0; triangle < mesh.smoothing_group_ids.size(); ++triangle) {
-            const unsigned int group = mesh.smoothing_group_ids[triangle];
-            const auto corners = mesh.indices.begin() + static_cast<std::ptrdiff_t>(triangle * 3);
+void CornerNormals::addSmoothNormals() {
+    std::vector<glm::dvec3> sums; // of the normals that follow those of the file
+    for (const Group& group : obj_.groups) {
+        for (const Triangle& triangle : group.triangles) {
             // A triangle with all its normals needs none made, and its neighbours in a file have them too.
-            if (group == 0 || std::all_of(corners, corners + 3, [&](const auto& index) { return isGiven(index); }))
-                continue;
-            const std::array<glm::dvec3, 3> normals = weightedNormals(mesh, triangle);
+            const auto hasNormal = [&](const Corner& corner) { return isGiven(corner); };
+            if (triangle.smoothingGroup == 0 || std::ranges::all_of(triangle.corners, hasNormal)) continue;
+            const std::array<glm::dvec3, 3> normals = weightedNormals(triangle);
             for (std::size_t i = 0; i < 3; ++i) {
-                const std::uint64_t key = keyOf(mesh.indices[triangle * 3 + i].vertex_index, group);
-                const auto [entry, isNew] = sumOfKey.try_emplace(key, sums.size());
+                const std::uint64_t key = keyOf(triangle.corners[i].position, triangle.smoothingGroup);
+                const auto [entry, isNew] = smooth_.try_emplace(key, normals_.size() + sums.size());
                 if (isNew) sums.emplace_back(0.0);
-                sums[entry->second] += normals[i];
+                sums[entry->second - normals_.size()] += normals[i];
             }
         }
     }
-    for (const auto& [key, sum] : sumOfKey) smooth_[key] = normals_.size() + sum;
+    normals_.reserve(normals_.size() + sums.size());
     for (const glm::dvec3& sum : sums) normals_.push_back(unitOr(sum, kUp));
 }
 

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include <glm/glm.hpp>
-#include <tiny_obj_loader.h>
+
+#include "scenes/import/ObjText.h"
 
 namespace tessera::scenes::obj {
 
@@ -16,11 +17,11 @@ namespace tessera::scenes::obj {
 /// Vertex Normals from Polygonal Facets".
 class CornerNormals {
 public:
-    /// Both must outlive this object.
-    CornerNormals(const tinyobj::attrib_t& attributes, const std::vector<tinyobj::shape_t>& shapes);
+    /// `obj` must outlive this object.
+    explicit CornerNormals(const ObjFile& obj);
 
-    /// Which normal a corner has: equal numbers are equal normals.
-    std::size_t indexAt(const tinyobj::mesh_t& mesh, std::size_t triangle, std::size_t corner);
+    /// Which normal a corner of one of the file's triangles has: equal numbers are equal normals.
+    std::size_t indexAt(const Triangle& triangle, std::size_t corner);
 
     /// Unit length; +Y where a triangle has no area.
     const glm::vec3& operator[](std::size_t index) const { return normals_[index]; }
@@ -28,17 +29,15 @@ public:
     bool replacedZeroNormals() const { return replacedZeroNormals_; }
 
 private:
-    static std::uint64_t keyOf(int position, unsigned int group);
-    glm::dvec3 positionOf(const tinyobj::index_t& index) const;
-    bool isGiven(const tinyobj::index_t& index) const;
-    std::array<glm::dvec3, 3> weightedNormals(const tinyobj::mesh_t& mesh, std::size_t triangle) const;
-    void addSmoothNormals(const std::vector<tinyobj::shape_t>& shapes);
+    static std::uint64_t keyOf(int position, std::uint32_t smoothingGroup);
+    bool isGiven(const Corner& corner) const;
+    std::array<glm::dvec3, 3> weightedNormals(const Triangle& triangle) const;
+    void addSmoothNormals();
 
-    const tinyobj::attrib_t& attributes_;
+    const ObjFile& obj_;
     std::vector<glm::vec3> normals_;                        ///< those of the file first
     std::unordered_map<std::uint64_t, std::size_t> smooth_; ///< by position and smoothing group
-    const tinyobj::mesh_t* flatMesh_ = nullptr;             ///< the triangle the last normal was made for
-    std::size_t flatTriangle_ = 0;
+    const Triangle* flatTriangle_ = nullptr;                ///< that the last normal was made for
     bool replacedZeroNormals_ = false;
 };
 

@@ -11,8 +11,8 @@ namespace tessera::scenes::obj {
 
 /// Cuts a polygon of n >= 3 corners into n - 2 triangles of its orientation by clipping ears, the one with the shortest
 /// cut first, so that a convex quad gets its shorter diagonal. Where a polygon that crosses itself or has no area has
-/// no ear left, the rest is a fan. Raises `steps` by how often a corner is looked at, up to n^3. tinyobjloader is not
-/// asked to: it cuts concave polygons as if they were convex. Source: Meisters 1975, "Polygons have ears".
+/// no ear left, the rest is a fan. Raises `steps` by how often a corner is looked at, up to n^3. Source: Meisters 1975,
+/// "Polygons have ears".
 std::vector<std::array<std::size_t, 3>> cutPolygon(std::span<const glm::dvec3> corners, std::uint64_t& steps);
 
 } // namespace tessera::scenes::obj

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <optional>
 #include <set>
 #include <unordered_map>
@@ -25,62 +24,65 @@ constexpr std::array<std::string_view, 8> kWithoutEffect = {"lod", "bevel",     
 constexpr std::array<std::string_view, 3> kAttributes = {"position", "texture coordinate", "normal"};
 constexpr std::array<std::string_view, 3> kAttributeKeywords = {"v", "vt", "vn"};
 
-// Three copies of the text are made, and vectors that double hold their elements three times while they are copied.
-constexpr std::size_t kCopies = 3;
-/// A triangle makes three words of text, tinyobjloader's corners, and vertices with their entries in the table of
-/// shared ones.
-constexpr std::size_t kTriangleBytes = kCopies * 3 * 24 + 3 * 96 + 3 * (52 + 64);
-/// An attribute makes text and numbers.
-constexpr std::size_t kAttributeBytes = kCopies * 40 + 64;
-/// A name that usemtl gives makes the parser's material, the library's and the scene's.
-constexpr std::size_t kMaterialBytes = 2 * (sizeof(tinyobj::material_t) + sizeof(MtlMaterial) + sizeof(Material));
-/// A material of a group makes a mesh, and may be the only one: then with the parser's shape and a node.
-constexpr std::size_t kMeshBytes = kCopies * (sizeof(tinyobj::shape_t) + sizeof(Mesh) + sizeof(Node));
+// Bytes that are charged for what the text makes, up to the scene.
+/// Any corner may get a vertex of its own (position, normal, texture coordinate, colour, index), found by three
+/// indices, and a smooth normal, found by position and group. One of the vertices' vectors grows at a time.
+constexpr std::size_t kVertexBytes =
+    2 * sizeof(glm::vec3) + sizeof(glm::vec2) + sizeof(glm::vec4) + sizeof(std::uint32_t);
+constexpr std::size_t kCornerBytes = kRoom * kVertexBytes + sizeof(glm::vec4) + kNodeBytes<std::array<std::size_t, 3>> +
+                                     sizeof(glm::vec3) + kNodeBytes<std::array<std::size_t, 2>>;
+constexpr std::size_t kTriangleBytes = kGrown * sizeof(Triangle) + 3 * kCornerBytes;
+/// A position may have a colour; a normal is brought to unit length in a list of its own.
+constexpr std::size_t kAttributeBytes = kGrown * 2 * sizeof(glm::vec3);
+/// A name that usemtl gives becomes a material of the libraries, or a warning, and one of the scene.
+constexpr std::size_t kMaterialBytes = kGrown * (sizeof(MtlMaterial) + sizeof(Material) + 4 * sizeof(std::string));
+/// A material of a group becomes a mesh, the group a node. Where a group has many, their builders are in the place of
+/// groups and nodes.
+constexpr std::size_t kMeshBytes = kGrown * (sizeof(Group) + sizeof(Mesh) + sizeof(Node) + sizeof(MeshInstance));
 
 /// Corners that are looked at to cut all polygons of a file: a second or so.
 constexpr std::uint64_t kMostSteps = 500'000'000;
 /// Beside them, each corner of the file is granted so many: quads take fewer.
 constexpr std::uint64_t kStepsACorner = 16;
 
-class ObjChecker {
+class ObjReader {
 public:
-    ObjChecker(std::string_view text, const std::filesystem::path& file, LoadLedger& ledger)
-        : source_(text), file_(file), ledger_(ledger) {}
+    ObjReader(const std::filesystem::path& file, LoadLedger& ledger) : file_(file), ledger_(ledger) {}
 
-    CheckedText check() {
-        forEachLine(source_, [&](const Line& line) { readAttribute(line); });
-        defined_ = read_;
-        read_ = {};
-        forEachLine(source_, [&](const Line& line) { readElement(line); });
-        if (faces_ == 0)
+    ObjFile read() {
+        const std::string text = readText(file_, ledger_);
+        // A face may stand before its vertices.
+        forEachLine(text, [&](const Line& line) { readAttribute(line); });
+        if (obj_.colors.size() != obj_.positionsOS.size()) obj_.colors.clear();
+        forEachLine(text, [&](const Line& line) { readElement(line); });
+        if (obj_.groups.empty())
             throw InputError(
                 fmt::format("{}: has no faces ('f' statements); export the model with its polygons", file_.string()));
         addWarnings();
-        checked_.text = std::move(attributes_);
-        checked_.text += elements_;
-        return std::move(checked_);
+        return std::move(obj_);
     }
 
 private:
     void readAttribute(const Line& line) {
-        const auto found = std::ranges::find(kAttributeKeywords, line.keyword);
-        if (found == kAttributeKeywords.end()) return;
-        ++read_[static_cast<std::size_t>(found - kAttributeKeywords.begin())];
+        if (std::ranges::find(kAttributeKeywords, line.keyword) == kAttributeKeywords.end()) return;
         const std::size_t needed = line.keyword == "vt" ? 1 : 3;
         if (line.words.size() < needed)
             failAt(file_, line.number,
                    fmt::format("'{}' has {} of the {} numbers it needs", line.keyword, line.words.size(), needed));
         charge(kAttributeBytes, line);
-        attributes_ += line.keyword;
-        glm::dvec3 first(0.0);
-        glm::length_t count = 0;
-        for (const std::string_view word : line.words) {
-            const float value = finiteNumber(file_, line, word);
-            fmt::format_to(std::back_inserter(attributes_), " {}", value);
-            if (count < 3) first[count++] = static_cast<double>(value);
+        std::array<float, 6> numbers{}; // x y z r g b, or u v
+        for (std::size_t i = 0; i < line.words.size(); ++i) {
+            const float number = finiteNumber(file_, line, line.words[i]);
+            if (i < numbers.size()) numbers[i] = number;
         }
-        attributes_ += '\n';
-        if (line.keyword == "v") positionsOS_.push_back(first);
+        if (line.keyword == "vt") {
+            obj_.texCoords.emplace_back(numbers[0], numbers[1]);
+        } else if (line.keyword == "vn") {
+            obj_.normalsOS.emplace_back(numbers[0], numbers[1], numbers[2]);
+        } else {
+            obj_.positionsOS.emplace_back(numbers[0], numbers[1], numbers[2]);
+            if (line.words.size() >= numbers.size()) obj_.colors.emplace_back(numbers[3], numbers[4], numbers[5]);
+        }
     }
 
     void readElement(const Line& line) {
@@ -89,28 +91,36 @@ private:
             ++read_[static_cast<std::size_t>(found - kAttributeKeywords.begin())];
         } else if (keyword == "f") {
             readFace(line);
-        } else if (keyword == "g" || keyword == "o") {
-            charge(kCopies * (line.rest.size() + 3), line);
-            groupNameBytes_ = line.rest.size();
-            groupMaterials_.clear();
-            elements_.append(keyword).append(" ").append(line.rest).append("\n");
+        } else if (keyword == "g") {
+            beginGroup(fmt::to_string(fmt::join(line.words, " "))); // several names are one
+        } else if (keyword == "o") {
+            beginGroup(std::string(line.rest));
         } else if (keyword == "s") {
             readSmoothing(line);
         } else if (keyword == "usemtl") {
-            const auto [number, isNew] = materialNumbers_.try_emplace(std::string(line.rest), materialNumbers_.size());
-            material_ = number->second;
-            fmt::format_to(std::back_inserter(elements_), "usemtl {}\n", number->second);
-            if (isNew) {
-                charge(kMaterialBytes, line);
-                checked_.materials.emplace_back(line.rest);
-            }
+            useMaterial(line);
         } else if (keyword == "mtllib") {
-            checked_.libraries.emplace_back(line.rest);
+            charge(keptTextBytes(line.rest), line);
+            obj_.libraries.emplace_back(line.rest);
         } else if (keyword == "l" || keyword == "p") {
             ++linesAndPoints_;
         } else if (std::ranges::find(kWithoutEffect, keyword) == kWithoutEffect.end()) {
-            unknown_.emplace(keyword);
+            if (unknown_.emplace(keyword).second) charge(keptTextBytes(keyword), line);
         }
+    }
+
+    void beginGroup(std::string name) {
+        groupName_ = std::move(name);
+        groupMaterials_.clear();
+    }
+
+    void useMaterial(const Line& line) {
+        const auto [entry, isNew] =
+            materialOfName_.try_emplace(std::string(line.rest), static_cast<int>(obj_.materials.size()));
+        material_ = entry->second;
+        if (!isNew) return;
+        charge(kMaterialBytes + kGrown * line.rest.size() + file_.native().size(), line);
+        obj_.materials.emplace_back(line.rest);
     }
 
     void readFace(const Line& line) {
@@ -123,91 +133,84 @@ private:
             failAt(file_, line.number,
                    fmt::format("the face has {} corners, more than {}; cut it into smaller polygons", line.words.size(),
                                kMostCorners));
-        ++faces_;
         corners_ += line.words.size();
-        // The group's name is that of its node and of each mesh.
-        if (groupMaterials_.insert(material_).second) charge(kMeshBytes + kCopies * groupNameBytes_, line);
-        charge((line.words.size() - 2) * kTriangleBytes, line);
-        std::vector<std::array<std::size_t, 3>> corners;
-        std::vector<glm::dvec3> positionsOS;
-        for (const std::string_view word : line.words) {
-            corners.push_back(readCorner(line, word));
-            positionsOS.push_back(positionsOS_[corners.back()[0] - 1]);
+        if (const bool isFirst = groupMaterials_.empty(); groupMaterials_.insert(material_).second) {
+            // Group, node and mesh have the group's name, and one of several meshes that of the material too.
+            const std::size_t materialBytes = material_ == kNone ? 0 : obj_.materials[index(material_)].size();
+            charge(kMeshBytes + kGrown * groupName_.size() + materialBytes, line);
+            if (isFirst) obj_.groups.push_back({groupName_, {}});
         }
-        const std::vector<std::array<std::size_t, 3>> triangles = cutPolygon(positionsOS, steps_);
+        charge((line.words.size() - 2) * kTriangleBytes, line);
+        faceCorners_.clear();
+        facePositionsOS_.clear();
+        for (const std::string_view word : line.words) {
+            faceCorners_.push_back(readCorner(line, word));
+            facePositionsOS_.emplace_back(obj_.positionsOS[index(faceCorners_.back().position)]);
+        }
+        const std::vector<std::array<std::size_t, 3>> triangles = cutPolygon(facePositionsOS_, steps_);
         if (steps_ > kMostSteps + kStepsACorner * corners_)
             failAt(file_, line.number,
                    "the faces up to here take too long to cut into triangles; export the model with triangles");
-        for (const std::array<std::size_t, 3>& triangle : triangles) {
-            elements_ += 'f';
-            for (const std::size_t corner : triangle) appendCorner(corners[corner]);
-            elements_ += '\n';
-        }
+        for (const auto& [a, b, c] : triangles)
+            obj_.groups.back().triangles.push_back(
+                {{faceCorners_[a], faceCorners_[b], faceCorners_[c]}, material_, smoothingGroup_});
     }
+
+    static std::size_t index(int number) { return static_cast<std::size_t>(number); }
 
     void charge(std::uint64_t bytes, const Line& line) const {
         ledger_.charge(bytes, [&] { return fmt::format("{}:{}", file_.string(), line.number); });
     }
 
-    void appendCorner(const std::array<std::size_t, 3>& index) {
-        fmt::format_to(std::back_inserter(elements_), " {}", index[0]);
-        if (index[1] != 0 || index[2] != 0) elements_ += '/';
-        if (index[1] != 0) fmt::format_to(std::back_inserter(elements_), "{}", index[1]);
-        if (index[2] != 0) fmt::format_to(std::back_inserter(elements_), "/{}", index[2]);
-    }
-
-    /// Indices in the order of kAttributes, from 1; 0 is absent.
-    std::array<std::size_t, 3> readCorner(const Line& line, std::string_view word) {
-        std::array<std::size_t, 3> index{};
+    Corner readCorner(const Line& line, std::string_view word) const {
+        std::array<int, 3> indices{kNone, kNone, kNone}; // in the order of kAttributes
         std::string_view left = word;
-        for (std::size_t i = 0; i < index.size(); ++i) {
+        for (std::size_t i = 0; i < indices.size(); ++i) {
             const std::size_t slash = std::min(left.find('/'), left.size());
             const std::string_view part = left.substr(0, slash);
-            if (!part.empty()) index[i] = absoluteIndex(line, part, i);
+            if (!part.empty()) indices[i] = indexFromStart(line, part, i);
             left.remove_prefix(slash);
             if (left.empty()) break;
             left.remove_prefix(1);
-            if (i + 1 == index.size() || word.back() == '/')
+            if (i + 1 == indices.size() || word.back() == '/')
                 failAt(file_, line.number,
                        fmt::format("the face's corner '{}' is not of the form v, v/vt, v//vn or "
                                    "v/vt/vn",
                                    word));
         }
-        if (index[0] == 0) failAt(file_, line.number, fmt::format("the face's corner '{}' has no position", word));
-        return index;
+        if (indices[0] == kNone)
+            failAt(file_, line.number, fmt::format("the face's corner '{}' has no position", word));
+        return {indices[0], indices[1], indices[2]};
     }
 
-    std::size_t absoluteIndex(const Line& line, std::string_view part, std::size_t attribute) {
+    int indexFromStart(const Line& line, std::string_view part, std::size_t attribute) const {
         const std::optional<long long> written = parseInteger(part);
         if (!written) failAt(file_, line.number, fmt::format("the face's index '{}' is not a whole number", part));
         if (*written == 0) failAt(file_, line.number, "a face's index is 0; indices count from 1");
-        const long long defined = static_cast<long long>(defined_[attribute]);
-        const long long before = static_cast<long long>(read_[attribute]);
-        const long long index = *written > 0 ? *written : before + 1 + *written;
-        if (*written > 0 ? index > defined : index < 1)
+        const std::size_t inFile[] = {obj_.positionsOS.size(), obj_.texCoords.size(), obj_.normalsOS.size()};
+        const long long defined = static_cast<long long>(*written > 0 ? inFile[attribute] : read_[attribute]);
+        const long long found = *written > 0 ? *written - 1 : defined + *written;
+        if (found < 0 || found >= defined)
             failAt(file_, line.number,
                    fmt::format("the face refers to {} {}, but {} {} defined {}", kAttributes[attribute], *written,
-                               *written > 0 ? defined : before, (*written > 0 ? defined : before) == 1 ? "is" : "are",
-                               *written > 0 ? "in the file" : "above it"));
-        return static_cast<std::size_t>(index);
+                               defined, defined == 1 ? "is" : "are", *written > 0 ? "in the file" : "above it"));
+        return static_cast<int>(found);
     }
 
     void readSmoothing(const Line& line) {
         const std::string_view word = line.words.empty() ? "off" : line.words.front();
-        long long group = word == "on" ? 1 : 0;
-        if (word != "on" && word != "off") {
-            const std::optional<long long> number = parseInteger(word);
-            if (!number || *number < 0 || *number > 0x7fffffff)
-                failAt(file_, line.number,
-                       fmt::format("the smoothing group '{}' is neither a number from 0 nor on or off", word));
-            group = *number;
-        }
-        fmt::format_to(std::back_inserter(elements_), "s {}\n", group);
+        smoothingGroup_ = word == "on" ? 1 : 0;
+        if (word == "on" || word == "off") return;
+        const std::optional<long long> number = parseInteger(word);
+        if (!number || *number < 0 || *number > 0x7fffffff)
+            failAt(file_, line.number,
+                   fmt::format("the smoothing group '{}' is neither a number from 0 nor on or off", word));
+        smoothingGroup_ = static_cast<std::uint32_t>(*number);
     }
 
     void addWarnings() {
         const auto warn = [&](const std::string& what) {
-            checked_.warnings.push_back(fmt::format("{}: {}", file_.string(), what));
+            obj_.warnings.push_back(fmt::format("{}: {}", file_.string(), what));
         };
         if (degenerateFaces_ > 0)
             warn(fmt::format("{} face(s) with fewer than three corners are left out, the first at line {}",
@@ -218,20 +221,20 @@ private:
             warn(fmt::format("statements that are not supported are left out: {}", fmt::join(unknown_, ", ")));
     }
 
-    std::string_view source_;
     const std::filesystem::path& file_;
     LoadLedger& ledger_;
-    CheckedText checked_;
-    std::vector<glm::dvec3> positionsOS_;
-    std::string attributes_;
-    std::string elements_;
-    std::array<std::size_t, 3> read_{};    ///< attributes read so far, in the order of kAttributes
-    std::array<std::size_t, 3> defined_{}; ///< in the whole file
-    std::unordered_map<std::string, std::size_t> materialNumbers_;
-    std::size_t groupNameBytes_ = 0;                      ///< of the group that faces belong to
-    std::optional<std::size_t> material_;                 ///< in use
-    std::set<std::optional<std::size_t>> groupMaterials_; ///< that faces of the group have
-    std::size_t faces_ = 0, corners_ = 0;
+    ObjFile obj_;
+    std::array<std::size_t, 3> read_{}; ///< attributes above the element being read, in the order of kAttributes
+    std::unordered_map<std::string, int> materialOfName_;
+    // What the next face belongs to.
+    std::string groupName_;
+    std::set<int> groupMaterials_; ///< that faces of the group have
+    int material_ = kNone;
+    std::uint32_t smoothingGroup_ = 0;
+    // One face's, kept for their memory.
+    std::vector<Corner> faceCorners_;
+    std::vector<glm::dvec3> facePositionsOS_;
+    std::size_t corners_ = 0; ///< of all faces
     std::uint64_t steps_ = 0; ///< of cutting polygons
     std::size_t degenerateFaces_ = 0;
     int firstDegenerateLine_ = 0;
@@ -241,8 +244,8 @@ private:
 
 } // namespace
 
-CheckedText checkText(std::string_view text, const std::filesystem::path& file, LoadLedger& ledger) {
-    return ObjChecker(text, file, ledger).check();
+ObjFile readObj(const std::filesystem::path& file, LoadLedger& ledger) {
+    return ObjReader(file, ledger).read();
 }
 
 } // namespace tessera::scenes::obj

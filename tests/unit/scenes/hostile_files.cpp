@@ -313,6 +313,18 @@ TEST(Memory, everyMeshOfAnObjFileIsCharged) {
     EXPECT_THAT(inputErrorOf([&] { underLedger(importObj, file, 32 * kMiB); }), HasSubstr("m.obj:"));
 }
 
+TEST(Memory, statementsThatAreLeftOutAreChargedForTheirWarning) {
+    const TempFolder folder;
+    std::string unknown;
+    for (int i = 0; i < 100'000; ++i) unknown += fmt::format("u{}\n", i);
+    const std::string model = "mtllib m.mtl\nv 0 0 0\nf 1 1 1\n";
+    const std::filesystem::path obj = folder.write("m.obj", model + unknown);
+    EXPECT_THAT(inputErrorOf([&] { underLedger(importObj, obj, 8 * kMiB); }), HasSubstr("m.obj:"));
+    folder.write("m.obj", model);
+    folder.write("m.mtl", unknown);
+    EXPECT_THAT(inputErrorOf([&] { underLedger(importObj, obj, 8 * kMiB); }), HasSubstr("m.mtl:"));
+}
+
 TEST(Memory, jsonAndObjTextsAreCharged) {
     const TempFolder folder;
     const std::filesystem::path json = folder.write(

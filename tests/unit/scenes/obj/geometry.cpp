@@ -216,7 +216,7 @@ TEST(Obj, aTriangleWithoutAreaHasAUnitNormal) {
 
 TEST(Obj, everyGroupAndObjectIsANode) {
     const TempFolder folder;
-    const Scene scene = importText(folder, "v 0 0 0\nv 1 0 0\nv 0 1 0\no left hand\nf 1 2 3\ng thumb nail\nf 1 2 3\n"
+    const Scene scene = importText(folder, "v 0 0 0\nv 1 0 0\nv 0 1 0\no left hand\nf 1 2 3\ng thumb  nail\nf 1 2 3\n"
                                            "f 1 3 2\ng empty\n");
     ASSERT_EQ(scene.nodes.size(), 2u);
     EXPECT_EQ(scene.nodes[0].name, "left hand");
@@ -229,8 +229,11 @@ TEST(Obj, vertexColorsAreKeptWhenAllVerticesHaveThem) {
     const Scene all = importText(folder, "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 0.5\nf 1 2 3\n");
     EXPECT_THAT(all.meshes[0].colors,
                 ElementsAre(glm::vec4(1, 0, 0, 1), glm::vec4(0, 1, 0, 1), glm::vec4(0, 0, 0.5f, 1)));
-    const Scene some = importText(folder, "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    EXPECT_TRUE(some.meshes[0].colors.empty());
+    // Five numbers are a position and no colour.
+    for (const char* last : {"v 0 1 0\n", "v 0 1 0 1 1\n"})
+        EXPECT_TRUE(importText(folder, std::string("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\n") + last + "f 1 2 3\n")
+                        .meshes[0]
+                        .colors.empty());
 }
 
 TEST(Obj, continuedLinesCommentsAndForeignLineEndsAreRead) {

@@ -186,6 +186,27 @@ TEST(ObjMaterials, textureOptionsPlaceThePicture) {
                 ElementsAre(HasSubstr("texture options that are not supported are left out: -blendu, -mm")));
 }
 
+TEST(ObjMaterials, textureOptionsMayGiveFewerNumbersAndHoldUntilTheyAreGivenAgain) {
+    const TempFolder folder;
+    folder.writePicture("first.tga", 1, 1, {{10, 20, 30, 255}});
+    folder.writePicture("second.tga", 1, 1, {{40, 50, 60, 255}});
+    const auto useOf = [&](const char* mtl) {
+        const Scene scene = painted(folder, mtl);
+        EXPECT_EQ(scene.images.size(), 1u);
+        return scene.materials[0].texture(TextureSlot::BaseColor);
+    };
+    const TextureUse fewer = useOf("map_Kd -s 2 -o 0.25 -clamp off first.tga\n");
+    EXPECT_EQ(fewer.transform.scale, glm::vec2(2, 1));
+    EXPECT_EQ(fewer.transform.offset, glm::vec2(0.25f, 0));
+    EXPECT_EQ(fewer.sampler.wrapU, Wrap::Repeat);
+    const TextureUse again = useOf("map_Kd -s 2 4 -clamp on first.tga\nmap_Kd -s 3 second.tga\n");
+    EXPECT_EQ(again.transform.scale, glm::vec2(3, 1));
+    EXPECT_EQ(again.sampler.wrapU, Wrap::ClampToEdge);
+    const Scene bump = painted(folder, "map_bump -bm 0.5 first.tga\nbump second.tga\n");
+    EXPECT_EQ(texelsOf(imageOf(bump, TextureSlot::Normal)), (Texels{{40, 50, 60, 255}}));
+    EXPECT_EQ(bump.materials[0].normalScale, 0.5f);
+}
+
 TEST(ObjMaterials, eachMaterialOfAShapeHasItsOwnMesh) {
     const TempFolder folder;
     folder.write("a.mtl", "newmtl warm red\nKd 1 0 0\nnewmtl unused\nmap_Kd none.png\n");
