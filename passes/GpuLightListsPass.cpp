@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "passes/ListRoom.h"
 #include "passes/ListStep.h"
 #include "passes/ScanTiles.h"
-#include "passes/TexelRoom.h"
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/slots.h"
 
@@ -231,7 +231,7 @@ void Builder::makeListRoom() {
             const gpu::Buffer& cells =
                 makeBlockRoom(context, out.lists.cells, "light cells", totals.cells * sizeof(glm::uvec2));
             const gpu::Buffer& entries =
-                makeRoom(context, out.lists.entries, "light entries", totals.entries, graph::Format::R32Uint);
+                makeTexelRoom(context, out.lists.entries, "light entries", totals.entries, graph::Format::R32Uint);
             if (zbin) return;
             cells.uploadValue(glm::uvec2(0u)); // the empty cell
             entries.upload(lightsEverywhere(view));

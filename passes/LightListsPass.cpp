@@ -3,7 +3,7 @@
 #include <new>
 
 #include "base/Error.h"
-#include "passes/TexelRoom.h"
+#include "passes/ListRoom.h"
 #include "renderer/gpu/Texture.h"
 
 namespace tessera::passes {
@@ -38,7 +38,7 @@ void build(const frame::FrameSpec& spec, const frame::DrawnView& drawn, const Li
                                   hasTransparent ? &transparent : nullptr});
         upload(context, out.lists.tiles, "light tiles", lists.tiles);
         upload(context, out.lists.cells, "light cells", lists.cells);
-        makeRoom(context, out.lists.entries, "light entries", lists.entries.size(), graph::Format::R32Uint)
+        makeTexelRoom(context, out.lists.entries, "light entries", lists.entries.size(), graph::Format::R32Uint)
             .upload(lists.entries);
     } catch (const std::bad_alloc&) {
         throw InputError("light lists do not fit into this machine's memory: larger tiles, another culling method or "

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "passes/TexelRoom.h"
+#include "passes/ListRoom.h"
 #include "renderer/frame/LightBuffers.h"
 
 namespace tessera::passes {

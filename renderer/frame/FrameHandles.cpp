@@ -39,7 +39,8 @@ SurfaceHandles SurfaceHandles::readGeometry(graph::PassBuilder& pass) const {
                           pass.read(commands, Access::IndirectRead),
                           {},
                           pass.read(indices, Access::IndexRead),
-                          materials};
+                          materials,
+                          {}};
     for (const graph::BufferHandle& stream : vertices) result.vertices.push_back(pass.read(stream, Access::VertexRead));
     return result;
 }
@@ -52,19 +53,19 @@ SurfaceHandles SurfaceHandles::read(graph::PassBuilder& pass) const {
 
 SurfaceHandles SurfaceHandles::readDepth(graph::PassBuilder& pass,
                                          const std::vector<shader::ProgramDesc>& programs) const {
-    for (const shader::ProgramDesc& program : programs) pass.program(program);
     SurfaceHandles result = readGeometry(pass);
-    result.hasMasks = programs.size() > 1;
-    if (result.hasMasks) result.materials = pass.read(materials, Access::UniformRead);
+    for (const shader::ProgramDesc& program : programs) result.depthPrograms.push_back(pass.program(program));
+    if (programs.size() > 1) result.materials = pass.read(materials, Access::UniformRead);
     return result;
 }
 
 void SurfaceHandles::drawDepth(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const {
     view.bind(context);
     const ViewDraws& draws = drawn->draws;
-    drawn->scene->drawDepth({context.buffer(rows), context.buffer(commands)},
-                            kind == Kind::Opaque ? draws.opaque : draws.transparent, state,
-                            {context.program(0), hasMasks ? &context.program(1) : nullptr});
+    drawn->scene->drawDepth(
+        {context.buffer(rows), context.buffer(commands)}, kind == Kind::Opaque ? draws.opaque : draws.transparent,
+        state,
+        {context.program(depthPrograms[0]), depthPrograms.size() > 1 ? &context.program(depthPrograms[1]) : nullptr});
 }
 
 void SurfaceHandles::draw(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const {

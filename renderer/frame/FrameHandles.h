@@ -43,8 +43,8 @@ struct SurfaceHandles {
     graph::BufferHandle commands;              ///< gpu::DrawIndexedCommand of the same
     std::vector<graph::BufferHandle> vertices; ///< a stream each
     graph::BufferHandle indices;
-    graph::BufferHandle materials; ///< shared::MaterialConstants of each
-    bool hasMasks = false;         ///< of readDepth(): whether there is a program for materials with holes
+    graph::BufferHandle materials;          ///< shared::MaterialConstants of each
+    std::vector<std::size_t> depthPrograms; ///< of readDepth(), by number: bare, then where there is one, masked
 
     enum class Kind { Opaque, Transparent };
 

@@ -120,8 +120,10 @@ void PassBuilder::expect(TextureHandle handle, const TextureDesc& desc) {
     graph_.passes_[pass_].expectations.push_back({handle.resource, desc});
 }
 
-void PassBuilder::program(ProgramDesc desc) {
-    graph_.passes_[pass_].programs.push_back(std::move(desc));
+std::size_t PassBuilder::program(ProgramDesc desc) {
+    std::vector<ProgramDesc>& programs = graph_.passes_[pass_].programs;
+    programs.push_back(std::move(desc));
+    return programs.size() - 1;
 }
 
 void PassBuilder::keep() {

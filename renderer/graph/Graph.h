@@ -54,9 +54,9 @@ public:
     /// height or sample count of 0 stands for any.
     void expect(TextureHandle handle, const TextureDesc& desc);
 
-    /// States a program that this pass runs; PassContext::program() counts them from 0. So the programs of a frame
-    /// follow from its passes.
-    void program(ProgramDesc desc);
+    /// States a program that this pass runs and returns its number for PassContext::program(), counted from 0. So the
+    /// programs of a frame follow from its passes.
+    std::size_t program(ProgramDesc desc);
 
     /// Keeps the pass although nothing reads its outputs (it reports, downloads, presents).
     void keep();

@@ -25,6 +25,13 @@ layout(std430, binding = STORAGE_LIGHT_CELLS) readonly buffer LightCells
 };
 layout(binding = TEXTURE_UNIT_LIGHT_ENTRIES) uniform usamplerBuffer lightEntries;
 
+// A helper invocation may lie beyond the picture or in a depth slice that nothing occupies, where no list is.
+#if defined(LIGHTING_IN_COMPUTE) && LIGHTING_IN_COMPUTE
+#define WHERE_LISTED(index) (index)
+#else
+#define WHERE_LISTED(index) (gl_HelperInvocation ? 0u : (index))
+#endif
+
 uvec4 lightTile(vec2 pixel)
 {
     uvec2 tile = uvec2(uint(pixel.x), lighting.tileGrid.z - 1u - uint(pixel.y)) >> lighting.tileGrid.w;
@@ -32,7 +39,7 @@ uvec4 lightTile(vec2 pixel)
 #if LIGHT_LAYER == LIGHT_LAYER_TRANSPARENT
     index += lighting.tileGrid.x * lighting.tileGrid.y;
 #endif
-    return lightTiles[index].words;
+    return lightTiles[WHERE_LISTED(index)].words;
 }
 
 uint depthSlice(float depth, uint slices)
@@ -98,7 +105,7 @@ LightCursor lightCursor(vec2 pixel, float depth)
     // The cells of a tile are those of its occupied slices, so a slice's rank among them finds its cell.
     uint below = slice < 32u ? tile.z & ((1u << slice) - 1u) : tile.z;
     uint belowHigh = slice < 32u ? 0u : tile.w & ((1u << (slice & 31u)) - 1u);
-    uvec2 cell = lightCells[int(tile.x) + bitCount(below) + bitCount(belowHigh)];
+    uvec2 cell = lightCells[WHERE_LISTED(tile.x + uint(bitCount(below) + bitCount(belowHigh)))];
 #if HAS_LIGHTS_EVERYWHERE
     LightCursor cursor = LightCursor(int(cell.x), int(cell.x + cell.y), 0, kNoLight, kNoLight);
     if (cell.y > 0u) cursor.headOfList = int(texelFetch(lightEntries, cursor.next).x);

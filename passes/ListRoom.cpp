@@ -1,4 +1,4 @@
-#include "passes/TexelRoom.h"
+#include "passes/ListRoom.h"
 
 #include <stdexcept>
 
@@ -25,8 +25,8 @@ const gpu::Buffer& allocate(const graph::PassContext& context, graph::BufferHand
 
 } // namespace
 
-const gpu::Buffer& makeRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
-                            std::size_t texels, graph::Format format) {
+const gpu::Buffer& makeTexelRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
+                                 std::size_t texels, graph::Format format) {
     const std::size_t most = gpu::Context::current()->capabilities().maxTextureBufferTexels;
     if (texels > most)
         throw InputError(

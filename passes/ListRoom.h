@@ -8,8 +8,8 @@ inline constexpr graph::BufferDesc kGrowing{0, true};
 
 /// Makes room for texels that shaders will read by a buffer texture. Throws InputError with the remedy where the driver
 /// cannot read as many, std::runtime_error with it where memory runs out.
-const gpu::Buffer& makeRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
-                            std::size_t texels, graph::Format format);
+const gpu::Buffer& makeTexelRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
+                                 std::size_t texels, graph::Format format);
 
 /// The same for what shaders will read as a storage block.
 const gpu::Buffer& makeBlockRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
