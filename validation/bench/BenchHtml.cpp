@@ -27,8 +27,8 @@ Json plotPoint(const BenchResult& result, std::optional<bool> pareto, bool isBes
             {"p95", result.times.cpuMs.p95},
             {"relMse", orNull(error.relMse)},
             {"p99Rel", orNull(error.p99Rel)},
-            {"toFloor", orNull(result.ratioToFloor)},
-            {"toLitFloor", orNull(result.ratioToLitFloor)},
+            {"toLowerBound", orNull(result.ratioToFloor)},
+            {"toLitLowerBound", orNull(result.ratioToLitFloor)},
             {"front", pareto.value_or(false)},
             {"best", isBest}};
 }
@@ -102,9 +102,9 @@ std::string answerHtml(const BenchRecord& record, const BenchGroup& group) {
     if (best.error)
         html += tileHtml("Error", figureHtml(best.error->relMse),
                          fmt::format("relMSE against {}", group.truth == "reference" ? "double precision" : "forward"));
-    html +=
-        tileHtml("Time", fmt::format("{:.3g}&#8239;ms", best.times.cpuMs.median),
-                 best.ratioToFloor ? fmt::format("a frame, {:.1f}&times; the floor", *best.ratioToFloor) : "a frame");
+    html += tileHtml("Time", fmt::format("{:.3g}&#8239;ms", best.times.cpuMs.median),
+                     best.ratioToFloor ? fmt::format("a frame, {:.1f}&times; the lower bound", *best.ratioToFloor)
+                                       : "a frame");
     return html + "</dl>\n";
 }
 

@@ -71,8 +71,8 @@ std::string groupTable(const BenchGroup& group) {
     using graph::Table;
     const std::optional<LowerBoundFigures::Store> store = group.lowerBound.fastestStore();
     std::string text =
-        fmt::format("{}; errors against {}; floor, median of {}: {:.1f} ms for the geometry{}\n", groupName(group),
-                    group.truth, group.lowerBound.rounds, group.lowerBound.geometryMs,
+        fmt::format("{}; errors against {}; lower bound, median of {}: {:.1f} ms for the geometry{}\n",
+                    groupName(group), group.truth, group.lowerBound.rounds, group.lowerBound.geometryMs,
                     store ? fmt::format(", {:.2f} ns a light and pixel ({})", store->nsPerPair, store->name) : "");
     Table table(kTableWidth);
     table.addColumn("technique");
@@ -81,7 +81,7 @@ std::string groupTable(const BenchGroup& group) {
     const bool hasRange = std::any_of(group.results.begin(), group.results.end(),
                                       [](const BenchResult& result) { return result.key.rangeTolerance > 0.0; });
     if (hasRange) table.addColumn("range", Table::Align::Right, Table::Cells::Whole);
-    for (const char* title : {"ms", "p95", "to floor", "to lit", "visited", "relMSE", "bias"})
+    for (const char* title : {"ms", "p95", "to lower bound", "to lit", "visited", "relMSE", "bias"})
         table.addColumn(title, Table::Align::Right, Table::Cells::Whole);
     table.addColumn("front", Table::Align::Left, Table::Cells::Whole);
     const std::vector<std::optional<bool>> pareto = paretoFront(group);
@@ -113,9 +113,9 @@ std::string groupTable(const BenchGroup& group) {
 } // namespace
 
 std::string benchJson(const BenchRecord& record) {
-    Json points = Json::array(), floors = Json::array(), skipped = Json::array(), attribution = Json::array();
+    Json points = Json::array(), lowerBounds = Json::array(), skipped = Json::array(), attribution = Json::array();
     for (const BenchGroup& group : record.groups) {
-        floors.push_back(lowerBoundJson(group));
+        lowerBounds.push_back(lowerBoundJson(group));
         const std::vector<std::optional<bool>> pareto = paretoFront(group);
         for (std::size_t i = 0; i < group.results.size(); ++i)
             points.push_back(pointJson(group, group.results[i], pareto[i]));
@@ -129,7 +129,7 @@ std::string benchJson(const BenchRecord& record) {
                        {"command", record.command},
                        {"frames", record.frames},
                        {"complete", record.isComplete},
-                       {"floors", floors},
+                       {"floors", lowerBounds},
                        {"points", points},
                        {"attribution", attribution},
                        {"scaling", scalingJson(record.groups)},

@@ -19,8 +19,8 @@ struct BenchRecord {
     int shards = 1;                ///< that the matrix is divided among
 };
 
-/// Since 2 `error`, `pareto`, `range`, `attribution`, `scaling` and `recommendations` are measured; since 3 the floor
-/// of lit pairs, its 95th percentiles and its rounds.
+/// Since 2 `error`, `pareto`, `range`, `attribution`, `scaling` and `recommendations` are measured; since 3 the lower
+/// bound of lit pairs, its 95th percentiles and its rounds.
 inline constexpr int kBenchSchema = 3;
 
 std::string benchJson(const BenchRecord& record);  ///< the `bench` record of the command line's documentation

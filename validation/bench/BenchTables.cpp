@@ -45,7 +45,7 @@ double barPercent(double relMse) {
 std::string answersHtml(const BenchRecord& record) {
     if (record.groups.size() < 2) return "";
     std::string html = "<section id=\"answers\">\n<h2>What to take</h2>\n" +
-                       headHtml({"Scene", "Take", "ms a frame", "Against forward", "relMSE", "To floor"});
+                       headHtml({"Scene", "Take", "ms a frame", "Against forward", "relMSE", "To lower bound"});
     for (const BenchGroup& group : record.groups) {
         const std::optional<Recommendation> choice = recommendFor(group);
         if (!choice) continue;
@@ -58,7 +58,7 @@ std::string answersHtml(const BenchRecord& record) {
                                                                       speedClass(*choice->speedup), *choice->speedup)
                                                         : "&ndash;");
         html += cellHtml("relMSE", figureHtml(best.error ? best.error->relMse : std::nullopt));
-        html += cellHtml("To floor", orDash(best.ratioToFloor, "{:.2f}")) + "</tr>\n";
+        html += cellHtml("To lower bound", orDash(best.ratioToFloor, "{:.2f}")) + "</tr>\n";
     }
     return html + "</tbody>\n</table>\n</section>\n";
 }
@@ -102,7 +102,8 @@ std::string pointsHtml(const BenchGroup& group) {
     std::string html = headHtml({"Technique", "Culling", "Layout"});
     html.erase(html.rfind("</tr>"));
     if (hasRange) html += "<th scope=\"col\">Range</th>";
-    for (const char* title : {"ms a frame", "p95", "To floor", "To lit floor", "Visited", "relMSE", "p99 rel", "Bias"})
+    for (const char* title :
+         {"ms a frame", "p95", "To lower bound", "To lit lower bound", "Visited", "relMSE", "p99 rel", "Bias"})
         html += fmt::format("<th scope=\"col\">{}</th>", title);
     if (hasFlip) html += "<th scope=\"col\">FLIP</th>";
     html += "<th scope=\"col\">Front</th></tr></thead>\n<tbody>\n";
@@ -126,8 +127,8 @@ std::string pointsHtml(const BenchGroup& group) {
             html += cellHtml("Range", key.rangeTolerance > 0.0 ? fmt::format("{:g}", key.rangeTolerance) : "&ndash;");
         html += cellHtml("ms a frame", fmt::format("{:.1f}", result.times.cpuMs.median)) +
                 cellHtml("p95", fmt::format("{:.1f}", result.times.cpuMs.p95)) +
-                cellHtml("To floor", orDash(result.ratioToFloor, "{:.2f}")) +
-                cellHtml("To lit floor", orDash(result.ratioToLitFloor, "{:.2f}")) +
+                cellHtml("To lower bound", orDash(result.ratioToFloor, "{:.2f}")) +
+                cellHtml("To lit lower bound", orDash(result.ratioToLitFloor, "{:.2f}")) +
                 cellHtml("Visited", orDash(result.counters.evaluatedMean, "{:.1f}")) +
                 cellHtml("relMSE", figureHtml(error.relMse)) + cellHtml("p99 rel", figureHtml(error.p99Rel)) +
                 cellHtml("Bias", figureHtml(error.bias));

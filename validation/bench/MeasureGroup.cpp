@@ -119,7 +119,7 @@ private:
         const auto compare = [&](std::optional<std::uint64_t> evaluations, const char* evaluationsName,
                                  std::optional<double>& floorMs, const char* lowerBoundName,
                                  std::optional<double>& ratio, const char* ratioName) {
-            if (evaluations) floorMs = group_.lowerBound.floorMs(double(*evaluations));
+            if (evaluations) floorMs = group_.lowerBound.lowerBoundMs(double(*evaluations));
             if (floorMs)
                 ratio = result.times.cpuMs.median / *floorMs;
             else

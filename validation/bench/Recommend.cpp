@@ -108,7 +108,7 @@ std::string recommendationText(const BenchGroup& group) {
         text += choice->asFast ? "as fast as any of those measured" : "the fastest of those measured";
     if (relMseOf(best)) text += fmt::format(" at relMSE {}", figureText(*relMseOf(best)));
     text += fmt::format(", {:.3g} ms a frame", timeOf(best));
-    if (best.ratioToFloor) text += fmt::format(", {:.1f} times the floor", *best.ratioToFloor);
+    if (best.ratioToFloor) text += fmt::format(", {:.1f} times the lower bound", *best.ratioToFloor);
     text += ".";
     if (!choice->isAcceptable && relMseOf(best))
         text += fmt::format(" Nothing here stays below relMSE {:g}; this is the most exact.", kAcceptableRelMse);

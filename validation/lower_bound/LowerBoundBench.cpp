@@ -15,7 +15,7 @@ std::optional<LowerBoundFigures::Store> LowerBoundFigures::fastestStore() const 
     return fastest == stores.end() ? std::nullopt : std::optional(*fastest);
 }
 
-std::optional<double> LowerBoundFigures::floorMs(double evaluations) const {
+std::optional<double> LowerBoundFigures::lowerBoundMs(double evaluations) const {
     if (evaluations == 0.0) return geometryMs;
     const std::optional<Store> store = fastestStore();
     if (!store) return {};

@@ -12,7 +12,7 @@
 
 namespace tessera::validation {
 
-/// A measured lower bound of the time of a scene's frame: floorMs = R + E r.
+/// A measured lower bound of the time of a scene's frame: lowerBoundMs = R + E r.
 struct LowerBoundFigures {
     struct Store {
         std::string_view name;
@@ -29,7 +29,7 @@ struct LowerBoundFigures {
     std::optional<Store> fastestStore() const;
     /// `evaluations`: pairs of a covered pixel and a light that reaches it (E), or of those the ones whose light lies
     /// in front of the surface. None where these cannot be priced.
-    std::optional<double> floorMs(double evaluations) const;
+    std::optional<double> lowerBoundMs(double evaluations) const;
 };
 
 /// Measures the lower bound for a scene with a renderer's settings of camera, size, filter, specular and pruning,

@@ -30,8 +30,9 @@ constexpr const char* kBenchToRead =
     "<dt>ms a frame</dt>\n<dd>Wall time from a frame's first call until everything is drawn, culling and uploads "
     "included: the median of the timed frames, and what 95&nbsp;% of them stay within. All points of a group take "
     "turns, so that a machine that changes its pace treats them alike.</dd>\n"
-    "<dt>To floor</dt>\n<dd>Time over what the frame cannot cost less than, measured in the same run: the geometry in "
-    "a constant colour, and each light only at the pixels that it reaches.</dd>\n"
+    "<dt>To lower bound</dt>\n<dd>Time over the lower bound, which the frame cannot go below and which is measured in "
+    "the same run: the geometry in a constant colour, and each light only at the pixels that it reaches; lit, only "
+    "where it also shines on the front of the surface.</dd>\n"
     "<dt>Visited</dt>\n<dd>Lights that a pixel evaluates, on average.</dd>\n"
     "<dt>The front</dt>\n<dd>Points that no other beats in both time and relMSE.</dd>\n";
 

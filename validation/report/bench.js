@@ -187,8 +187,8 @@
                     plain(point.ms) + " ms a frame, p95 " + plain(point.p95),
                     "relMSE " + plain(point.relMse) + ", p99 rel " + (point.p99Rel === null ? "\u2013" : plain(point.p99Rel)),
                 ];
-                if (point.toFloor !== null) lines.push(plain(point.toFloor) + " times the floor");
-                if (point.toLitFloor !== null) lines.push(plain(point.toLitFloor) + " times that of lit pairs");
+                if (point.toLowerBound !== null) lines.push(plain(point.toLowerBound) + " times the lower bound");
+                if (point.toLitLowerBound !== null) lines.push(plain(point.toLitLowerBound) + " times that of lit pairs");
                 return lines;
             },
         });

@@ -28,9 +28,9 @@ TEST_F(Bench, everyPointIsMeasuredCountedAndComparedWithTheLowerBound) {
     EXPECT_THAT(said, HasSubstr("it is the same frame as tiled_deferred, exact"));
     EXPECT_THAT(record["recommendation"].get<std::string>(), HasSubstr("with 40 lights at 96x54 take "));
     EXPECT_THAT(text("out/of/bench/bench.csv"), HasSubstr("\r\nlattice,clustered_deferred,cluster,32,"));
-    for (const Json& floor : record["floors"]) {
-        EXPECT_EQ(floor["rounds"], 5) << "two frames of each point were asked for";
-        EXPECT_GE(floor["geometryMsP95"], floor["geometryMs"]);
+    for (const Json& bound : record["floors"]) {
+        EXPECT_EQ(bound["rounds"], 5) << "two frames of each point were asked for";
+        EXPECT_GE(bound["geometryMsP95"], bound["geometryMs"]);
     }
     for (const Json& point : record["points"]) {
         SCOPED_TRACE(point.dump());
@@ -45,7 +45,7 @@ TEST_F(Bench, everyPointIsMeasuredCountedAndComparedWithTheLowerBound) {
         }
         EXPECT_GT(point["counters"]["lightEvaluations"], point["counters"]["neededEvaluations"]);
         EXPECT_GT(point["floorMs"], 0.0);
-        // Surfaces turn their backs to some of the lights that reach them, so the lit floor is lower.
+        // Surfaces turn their backs to some of the lights that reach them, so the lower bound of lit pairs is less.
         EXPECT_GT(point["counters"]["neededLitEvaluations"], 0);
         EXPECT_LT(point["counters"]["neededLitEvaluations"], point["counters"]["neededEvaluations"]);
         EXPECT_GT(point["floorLitMs"], 0.0);

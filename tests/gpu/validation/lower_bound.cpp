@@ -55,7 +55,7 @@ protected:
     static std::vector<frame::FrameSpec> specs() {
         const scenes::Scene scene = lattice(16);
         std::vector<frame::FrameSpec> result{engine::prepareView(scene, engine::Technique::Forward, settings()).spec};
-        // Of the floor's surface every pixel is another material.
+        // Of the lower bound's surface every pixel is another material.
         result[0].features.add(frame::Feature::VaryingMaterials);
         result[0].channels = frame::neededChannels(result[0].features, settings().layout, false);
         result.emplace_back().settings = settings();
@@ -73,7 +73,7 @@ protected:
         return lighting.download();
     }
 
-    /// The floor's surface in an exact G-buffer.
+    /// The lower bound's surface in an exact G-buffer.
     struct StoredSurface {
         std::vector<std::unique_ptr<gpu::Texture>> channels; ///< as FrameSpec::channels
         std::unique_ptr<gpu::Texture> depth;
@@ -257,8 +257,8 @@ TEST_F(LowerBoundTest, aSceneWithoutLightHasNoCostPerPair) {
     const validation::LowerBoundFigures figures = lowerBound.measure({.rounds = 1});
     EXPECT_TRUE(figures.stores.empty());
     EXPECT_FALSE(figures.whyNoStores.empty());
-    EXPECT_EQ(figures.floorMs(0.0), figures.geometryMs);
-    EXPECT_FALSE(figures.floorMs(1.0).has_value());
+    EXPECT_EQ(figures.lowerBoundMs(0.0), figures.geometryMs);
+    EXPECT_FALSE(figures.lowerBoundMs(1.0).has_value());
 }
 
 } // namespace

@@ -46,8 +46,8 @@ TEST(LowerBoundFigures, theBoundIsGeometryPlusEvaluationsOfTheFastestStore) {
     ASSERT_TRUE(figures.fastestStore());
     EXPECT_EQ(figures.fastestStore()->name, "texel buffer");
     // 1e7 evaluations of 2 ns are 20 ms.
-    EXPECT_DOUBLE_EQ(figures.floorMs(1e7).value(), 40.0);
-    EXPECT_EQ(figures.floorMs(0.0), 20.0);
+    EXPECT_DOUBLE_EQ(figures.lowerBoundMs(1e7).value(), 40.0);
+    EXPECT_EQ(figures.lowerBoundMs(0.0), 20.0);
 }
 
 } // namespace
