@@ -77,8 +77,8 @@ validation::BenchMatrix matrixOf(const BenchCommandOptions& options) {
 
 /// Which technique to take is a question of the lit picture alone.
 void requireLitPicture(const frame::FrameSettings& settings) {
-    if (settings.view == frame::View::Final) return;
-    const std::string_view name = frame::viewInfo(settings.view).name;
+    if (settings.view == frame::DebugView::Final) return;
+    const std::string_view name = frame::debugViewInfo(settings.view).name;
     throw InputError(fmt::format("--view {}: bench recommends a technique for the lit picture, and a view says nothing "
                                  "of it; leave --view out, or look at the view with tessera render --view {}",
                                  name, name));

@@ -134,7 +134,7 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
         picture->picture = readBeside(request.scene, picture->path, options.frame);
     }
     comparison.settings = request.settings;
-    if (const frame::ViewInfo& view = frame::viewInfo(request.settings.view); view.ofTechnique)
+    if (const frame::DebugViewInfo& view = frame::debugViewInfo(request.settings.view); view.ofTechnique)
         throw InputError(fmt::format(
             "--view {} shows what each technique does, which is not meant to be the same; render it", view.name));
     std::vector<validation::LeftOutTechnique> leftOut;

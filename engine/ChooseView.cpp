@@ -9,12 +9,12 @@
 
 namespace tessera::engine {
 
-bool takesView(const TechniqueInfo& info, frame::View view) {
-    return info.usesGBuffer() || !frame::viewInfo(view).needsGBuffer;
+bool takesView(const TechniqueInfo& info, frame::DebugView view) {
+    return info.usesGBuffer() || !frame::debugViewInfo(view).needsGBuffer;
 }
 
 void requireStoredChannel(const frame::FrameSpec& spec) {
-    const frame::View view = spec.settings.view;
+    const frame::DebugView view = spec.settings.view;
     const std::optional<frame::StoredComponents> shown = frame::storedComponents(view);
     if (!shown) return;
     if (std::find(spec.channels.begin(), spec.channels.end(), shown->channel) != spec.channels.end()) return;
@@ -22,7 +22,8 @@ void requireStoredChannel(const frame::FrameSpec& spec) {
     for (const frame::Channel channel : spec.channels)
         stored.push_back(frame::channelTable()[std::size_t(channel)].name);
     throw InputError(fmt::format("view {}: this frame's G-buffer has no such channel, which is for {}; it has {}",
-                                 frame::viewInfo(view).name, frame::channelTable()[std::size_t(shown->channel)].needed,
+                                 frame::debugViewInfo(view).name,
+                                 frame::channelTable()[std::size_t(shown->channel)].needed,
                                  stored.empty() ? "none" : fmt::format("{}", fmt::join(stored, ", "))));
 }
 

@@ -69,7 +69,7 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
     spec.lightOn = chooseLighting(settings);
     spec.culling = chooseCulling(technique, settings, spec.features, prepared.lights);
     // That view lights nothing, and no lists are built for it.
-    if (settings.view == frame::View::Ids) spec.culling = {};
+    if (settings.view == frame::DebugView::Ids) spec.culling = {};
     if (spec.culling.method == culling::Method::None) return prepared;
     spec.lightsEverywhere = !settings.prune || prepared.lights.everywhere > 0;
     culling::setTileGrid(prepared.lighting, prepared.camera.constants, spec.culling.tilePixels);

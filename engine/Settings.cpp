@@ -210,12 +210,12 @@ SettingValue pictureSize() {
 
 /// Views also go by their numbers.
 SettingValue viewChoice() {
-    SettingValue value = choice("view", in(&FrameSettings::view), frame::viewTable(), &frame::ViewInfo::view);
+    SettingValue value = choice("view", in(&FrameSettings::view), frame::debugViewTable(), &frame::DebugViewInfo::view);
     std::vector<ChoiceKind::Entry>& entries = std::get<ChoiceKind>(value.kind).entries;
     for (std::size_t i = 0; i < entries.size(); ++i)
-        if (const int key = frame::viewTable()[i].key; key > 0) entries[i].label += fmt::format("  ({})", key);
+        if (const int key = frame::debugViewTable()[i].key; key > 0) entries[i].label += fmt::format("  ({})", key);
     value.read = [read = value.read](FrameRequest& request, const std::string& text, const TextSource& source) {
-        for (const frame::ViewInfo& info : frame::viewTable())
+        for (const frame::DebugViewInfo& info : frame::debugViewTable())
             if (info.key != 0 && std::to_string(info.key) == text) return read(request, std::string(info.name), source);
         if (!text.empty() && text.find_first_not_of("0123456789") == std::string::npos)
             throw InputError(fmt::format("unknown view '{}': views are numbered 1 to 7", text));
@@ -272,7 +272,7 @@ std::string namesOf(std::span<const Row> table) {
 /// Those of the G-buffer's channels as one pattern.
 std::string viewNames() {
     std::string names;
-    for (const frame::ViewInfo& info : frame::viewTable())
+    for (const frame::DebugViewInfo& info : frame::debugViewTable())
         if (!info.needsGBuffer) names += std::string(info.name) + ", ";
     return names + "or gbuffer.CHANNEL and gbuffer.CHANNEL.w as stored, CHANNEL one of " +
            namesOf(frame::channelTable());

@@ -178,12 +178,12 @@ Shown addLitPicture(Technique technique, Recipe& recipe, const AfterOpaque& afte
 
 /// What stands in for the lit picture in debug views that passes of their own draw; none for all others.
 std::optional<Shown> addDebugView(Technique technique, Recipe& recipe) {
-    const frame::View view = recipe.spec.settings.view;
-    if (view == frame::View::Ids) {
+    const frame::DebugView view = recipe.spec.settings.view;
+    if (view == frame::DebugView::Ids) {
         const IdsPass::Outputs drawn = IdsPass::add(recipe.graph, recipe.spec, {recipe.surfaces});
         return Shown{drawn.ids, drawn.depth};
     }
-    if (view == frame::View::Overdraw) {
+    if (view == frame::DebugView::Overdraw) {
         OverdrawPass::Inputs inputs{recipe.surfaces, {}};
         if (infoOf(technique).geometry == Geometry::DepthFirst)
             inputs.depth = DepthPrepass::add(recipe.graph, recipe.spec, {}, {recipe.surfaces}).depth;

@@ -374,7 +374,7 @@ private:
             const Look& look = wanted_.looks[0];
             log_.line(fmt::format("drawn {} scale {:.4g} size {}x{} ms {:.1f} technique {} view {}", frames_,
                                   drawn.scale, drawn.sizePixels.x, drawn.sizePixels.y, drawn.ms,
-                                  infoOf(look.technique).name, frame::viewInfo(look.settings.view).name));
+                                  infoOf(look.technique).name, frame::debugViewInfo(look.settings.view).name));
             return true;
         } catch (const std::exception& error) {
             drawingFault_ = error.what();

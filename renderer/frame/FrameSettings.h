@@ -7,9 +7,9 @@
 #include <glm/glm.hpp>
 
 #include "renderer/culling/CullingMethod.h"
+#include "renderer/frame/DebugViews.h"
 #include "renderer/frame/GBufferLayout.h"
 #include "renderer/frame/LightingStage.h"
-#include "renderer/frame/Views.h"
 
 /// What a user may ask of a frame besides its technique, by rows of engine/Settings.cpp. Names are those of the
 /// command line; the tables are the only lists.
@@ -48,6 +48,8 @@ inline constexpr int kLargestSidePixels = 16384;
 /// The size that a text such as "1280x720" names; nothing where it names none, or one with a side that cannot be.
 std::optional<glm::ivec2> sizeIn(std::string_view text);
 
+using View = DebugView; ///< its name in passes/ForwardPass.cpp
+
 struct FrameSettings {
     glm::ivec2 sizePixels{1280, 720};
     int samples = 1;                 ///< of a pixel, one of kSampleCounts
@@ -56,7 +58,7 @@ struct FrameSettings {
     double timeSeconds = 0.0;
     glm::dvec3 eyeOffsetWS{0.0}; ///< metres, added to the camera's place: benchmarks move the eye between frames
     GBufferLayout layout;
-    View view = View::Final;
+    DebugView view = DebugView::Final;
     TextureFilter filter = TextureFilter::Hardware;
     LightingSpace space = LightingSpace::World;
     bool prune = true;

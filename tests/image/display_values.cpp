@@ -72,7 +72,7 @@ TEST_F(DisplayValues, acesAndAgxRiseFromBlackToWhite) {
 
 TEST_F(DisplayValues, theNormalViewIsHalfTheNormalPlusAHalf) {
     frame::FrameSettings settings;
-    settings.view = frame::View::Normal;
+    settings.view = frame::DebugView::Normal;
     Material material;
     material.doubleSided = true;
     Scene scene = flatScene(material);

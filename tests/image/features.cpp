@@ -318,7 +318,7 @@ TEST_F(Features, everyFrameSettingChangesItsOwnFeaturesOnly) {
         {"agx", false, [](frame::FrameSettings& s) { s.toneMap = frame::ToneMap::Agx; }},
         {"specular off", true, [](frame::FrameSettings& s) { s.specular = false; }},
         {"solo light", true, [](frame::FrameSettings& s) { s.soloLight = int(kSpot); }},
-        {"view", true, [](frame::FrameSettings& s) { s.view = frame::View::Normal; }},
+        {"view", true, [](frame::FrameSettings& s) { s.view = frame::DebugView::Normal; }},
         {"filter", true, [](frame::FrameSettings& s) { s.filter = frame::TextureFilter::Exact; }},
     };
     for (const Setting& setting : settings) {

@@ -127,9 +127,10 @@ TEST_F(Invariance, materialsReadByTheirNumberGiveEveryBitOfStoredOnesAndOfForwar
     const scenes::Scene scene = test::evenScene();
     engine::Renderer renderer(context(), scene);
     for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
-        for (const frame::View view : {frame::View::Final, frame::View::Diffuse, frame::View::Distribution}) {
+        for (const frame::DebugView view :
+             {frame::DebugView::Final, frame::DebugView::Diffuse, frame::DebugView::Distribution}) {
             // Filters read textures, which debug views of one term use as the picture does.
-            if (filter == frame::TextureFilter::Exact && view != frame::View::Final) continue;
+            if (filter == frame::TextureFilter::Exact && view != frame::DebugView::Final) continue;
             frame::FrameSettings settings = small();
             settings.sizePixels = {160, 91};
             settings.filter = filter;

@@ -346,7 +346,7 @@ TEST_F(LightCulling, theCountOfLightsAddsUpOverLayersWhateverTheirOpacity) {
     for (int i = 0; i < 5; ++i) scene.lights.push_back(test::pointLight({0.0, 0.0, 1.0}, 1.0f));
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings counted = settings({16, 16});
-    counted.view = frame::View::Lights;
+    counted.view = frame::DebugView::Lights;
     for (const Technique technique : {Technique::Forward, Technique::Deferred, Technique::ForwardPlus}) {
         const std::vector<float> shown = renderer.render(technique, counted).radiance;
         EXPECT_EQ(shown[4 * (8 * 16 + 8)], 10.0f);
@@ -367,7 +367,7 @@ TEST_F(LightCulling, sixtyFiveThousandLightsInOneTileAreAllVisited) {
         EXPECT_EQ(renderer.render(deferredWith(method), settings({16, 16}, method, 64)).radiance, truth);
         EXPECT_EQ(renderer.render(forwardWith(method), settings({16, 16}, method, 8)).radiance, truth);
         frame::FrameSettings counted = settings({16, 16}, method, 64);
-        counted.view = frame::View::Lights;
+        counted.view = frame::DebugView::Lights;
         EXPECT_EQ(renderer.render(deferredWith(method), counted).radiance[0], 65536.0f);
     }
 }

@@ -127,7 +127,7 @@ protected:
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings = sized(240, 160);
         const std::vector<float> picture = renderer.render(Technique::Deferred, settings).radiance;
-        settings.view = frame::View::Lights;
+        settings.view = frame::DebugView::Lights;
         const std::vector<float> counts = renderer.render(Technique::DeferredVolumes, settings).radiance;
         Share share;
         for (std::size_t i = 0; i < picture.size(); i += 4) {

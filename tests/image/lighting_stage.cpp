@@ -61,7 +61,7 @@ void LightingInCompute::expectEveryView() {
     engine::Renderer renderer(context(), scene);
     const std::span<const frame::LayoutInfo> layouts = frame::layoutTable();
     std::size_t turn = 0;
-    for (const frame::ViewInfo& view : frame::viewTable()) {
+    for (const frame::DebugViewInfo& view : frame::debugViewTable()) {
         for (const frame::LayoutInfo& layout :
              test::isWholeSweep() ? layouts : layouts.subspan(turn++ % layouts.size(), 1)) {
             SCOPED_TRACE(fmt::format("{} {}", layout.name, view.name));

@@ -115,7 +115,7 @@ TEST_F(MaterialValues, theNormalViewIsInWorldSpace) {
     for (const frame::LightingSpace space : {frame::LightingSpace::World, frame::LightingSpace::View}) {
         frame::FrameSettings settings;
         settings.space = space;
-        settings.view = frame::View::Normal;
+        settings.view = frame::DebugView::Normal;
         const glm::vec4 shown = pixel(frame(scene, settings), kSide / 2, kSide / 2);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], facingWS[c], kRounding) << c;
     }

@@ -189,7 +189,7 @@ TEST_F(Multisampling, aPixelWhoseCentreLiesOnTheHorizonTakesOneTexelOfACornerWit
 TEST_F(Multisampling, everyViewIsExactlyTheSameInTheForwardFamily) {
     const Scene scene = test::everythingScene();
     engine::Renderer renderer(context(), scene);
-    for (const frame::ViewInfo& view : frame::viewTable()) {
+    for (const frame::DebugViewInfo& view : frame::debugViewTable()) {
         SCOPED_TRACE(view.name);
         frame::FrameSettings settings = sampled({161, 90});
         settings.view = view.view;

@@ -122,7 +122,7 @@ TEST_F(Parity, aSceneOfEveryFeatureIsExactlyTheSameWithEveryTechniqueAndOption) 
 TEST_F(Parity, everyViewIsExactlyTheSameInForwardAndDeferred) {
     scenes::Scene scene = test::everythingScene();
     engine::Renderer renderer(context(), scene);
-    for (const frame::ViewInfo& view : frame::viewTable()) {
+    for (const frame::DebugViewInfo& view : frame::debugViewTable()) {
         SCOPED_TRACE(view.name);
         if (view.ofTechnique) continue; // it shows the differences of techniques
         frame::FrameSettings settings;

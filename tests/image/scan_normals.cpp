@@ -41,7 +41,7 @@ protected:
         scene.cameras[0].fovYRadians = glm::radians(30.0);
         frame::FrameSettings settings;
         settings.sizePixels = {400, 400};
-        settings.view = frame::View::Normal;
+        settings.view = frame::DebugView::Normal;
         engine::Renderer renderer(context(), scene);
         return renderer.render(engine::Technique::Deferred, settings).radiance;
     }

@@ -145,7 +145,7 @@ TEST_F(ShadingDepth, aPixelIsLitAtTheDepthThatThePrepassSays) {
     frame::FrameSettings four = settings(4);
     const scenes::Scene scene = endlessFloor();
     const std::vector<Pixel> pixels = prepassed(scene, four);
-    four.view = frame::View::Depth;
+    four.view = frame::DebugView::Depth;
     engine::Renderer renderer(context(), scene);
     const engine::RenderedFrame shown = renderer.render(Technique::ForwardPrepass, four);
     const double nearMetres = scene.cameras[0].nearMetres;

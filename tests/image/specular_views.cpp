@@ -23,7 +23,7 @@ protected:
         options.useAssets = false; // the generated bust, whose alpha and ior no texture changes
         scene_ = scenes::loadScene("head", options);
     }
-    std::vector<float> show(engine::Renderer& renderer, frame::View view, Technique technique, int light) {
+    std::vector<float> show(engine::Renderer& renderer, frame::DebugView view, Technique technique, int light) {
         frame::FrameSettings settings;
         settings.sizePixels = kSize;
         settings.view = view;
@@ -82,10 +82,10 @@ TEST_F(SpecularViews, dGAndFOfHeadEqualTheirFormulasAndFIsExactlyZeroWhereTheLig
     const scenes::Camera& camera = scene_.cameras[0];
     for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
         for (int light = 0; light < int(scene_.lights.size()); ++light) {
-            const auto view = [&](frame::View what) { return show(renderer, what, technique, light); };
-            const std::vector<float> ids = view(frame::View::Ids), depth = view(frame::View::Depth),
-                                     normal = view(frame::View::Normal), d = view(frame::View::Distribution),
-                                     g = view(frame::View::Geometry), f = view(frame::View::Fresnel);
+            const auto view = [&](frame::DebugView what) { return show(renderer, what, technique, light); };
+            const std::vector<float> ids = view(frame::DebugView::Ids), depth = view(frame::DebugView::Depth),
+                                     normal = view(frame::DebugView::Normal), d = view(frame::DebugView::Distribution),
+                                     g = view(frame::DebugView::Geometry), f = view(frame::DebugView::Fresnel);
             std::size_t lit = 0, unlit = 0;
             double worst[3] = {};
             for (std::size_t i = 0; i < std::size_t(kSize.x * kSize.y); ++i) {

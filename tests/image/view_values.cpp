@@ -22,7 +22,7 @@ using scenes::TextureSlot;
 
 class ViewValues : public FlatTest {
 protected:
-    engine::RenderedFrame shown(const Scene& scene, frame::View view, Technique technique,
+    engine::RenderedFrame shown(const Scene& scene, frame::DebugView view, Technique technique,
                                 frame::FrameSettings settings = {}) {
         settings.sizePixels = {kSide, kSide};
         settings.view = view;
@@ -31,7 +31,7 @@ protected:
     }
 };
 
-frame::FrameSettings viewSettings(frame::View view) {
+frame::FrameSettings viewSettings(frame::DebugView view) {
     frame::FrameSettings settings;
     settings.view = view;
     return settings;
@@ -45,7 +45,7 @@ TEST_F(ViewValues, theTexelViewIsExactlyTheMapInBothSpaces) {
         Material material;
         material.normalMapSpace = space;
         const Scene scene = texturedScene(flatScene(material), TextureSlot::Normal, map);
-        const engine::RenderedFrame view = frame(scene, viewSettings(frame::View::NormalTexel));
+        const engine::RenderedFrame view = frame(scene, viewSettings(frame::DebugView::NormalTexel));
         for (std::size_t i = 0; i < std::size_t(kSide * kSide); ++i) {
             for (std::size_t c = 0; c < 3; ++c) {
                 EXPECT_NEAR(view.radiance[4 * i + c], int(map.texels[4 * i + c]) / 255.0, 1.2e-7)
@@ -64,7 +64,7 @@ TEST_F(ViewValues, theDiffuseViewIsExactlyTheBaseColourOfEveryModel) {
         Material material;
         material.model = model;
         material.baseColor = {0.75f, 0.5f, 0.125f, 1.0f};
-        const engine::RenderedFrame view = frame(flatScene(material), viewSettings(frame::View::Diffuse));
+        const engine::RenderedFrame view = frame(flatScene(material), viewSettings(frame::DebugView::Diffuse));
         EXPECT_EQ(pixel(view, 3, 4), material.baseColor);
     }
 }
@@ -83,13 +83,13 @@ TEST_F(ViewValues, oneNormalIsShownInWorldViewAndObjectSpace) {
     scene.materials[0].doubleSided = false;
     const glm::dvec3 normalVS = glm::normalize(normalOS / glm::dvec3(-3.0, 2.0, 0.5));
     const struct {
-        frame::View view;
+        frame::DebugView view;
         glm::dvec3 wanted;
-    } cases[] = {{frame::View::Normal, glm::dmat3(turn) * normalVS},
-                 {frame::View::NormalView, normalVS},
-                 {frame::View::NormalObject, normalOS}};
+    } cases[] = {{frame::DebugView::Normal, glm::dmat3(turn) * normalVS},
+                 {frame::DebugView::NormalView, normalVS},
+                 {frame::DebugView::NormalObject, normalOS}};
     for (const auto& [view, wanted] : cases) {
-        SCOPED_TRACE(frame::viewInfo(view).name);
+        SCOPED_TRACE(frame::debugViewInfo(view).name);
         for (const frame::LightingSpace space : {frame::LightingSpace::World, frame::LightingSpace::View}) {
             for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
                 frame::FrameSettings settings = viewSettings(view);
@@ -108,8 +108,8 @@ TEST_F(ViewValues, anObjectSpaceNormalIsFiniteAndThatOfThePlaneWhereTheNodeFlatt
     material.normalMapSpace = scenes::NormalMapSpace::Object;
     Scene scene = texturedScene(flatScene(material), TextureSlot::Normal, uniformImage({176, 208, 216, 255}));
     scene.nodes[0].parentFromNode = glm::scale(glm::dmat4(1.0), glm::dvec3(1.5, 2.0, 0.0));
-    EXPECT_EQ(glm::vec3(pixel(frame(scene, viewSettings(frame::View::Normal)), 4, 4)), glm::vec3(0, 0, 1));
-    EXPECT_EQ(glm::vec3(pixel(frame(scene, viewSettings(frame::View::NormalObject)), 4, 4)), glm::vec3(0));
+    EXPECT_EQ(glm::vec3(pixel(frame(scene, viewSettings(frame::DebugView::Normal)), 4, 4)), glm::vec3(0, 0, 1));
+    EXPECT_EQ(glm::vec3(pixel(frame(scene, viewSettings(frame::DebugView::NormalObject)), 4, 4)), glm::vec3(0));
 }
 
 /// Three quads behind each other, drawn from back to front.
@@ -127,7 +127,7 @@ TEST_F(ViewValues, overdrawIsExactlyTheSurfacesThatEachTechniqueShades) {
         SCOPED_TRACE(info.name);
         const bool prepass = info.geometry == engine::Geometry::DepthFirst;
         const Scene opaque = layers(Material{});
-        const engine::RenderedFrame drawn = shown(opaque, frame::View::Overdraw, info.technique);
+        const engine::RenderedFrame drawn = shown(opaque, frame::DebugView::Overdraw, info.technique);
         EXPECT_EQ(pixel(drawn, 4, 4), prepass ? glm::vec4(1.0f) : glm::vec4(3, 3, 3, 1));
         Scene mixed = opaque; // a pane of glass before them, another behind
         Material glass;
@@ -138,7 +138,7 @@ TEST_F(ViewValues, overdrawIsExactlyTheSurfacesThatEachTechniqueShades) {
             mixed.nodes.back().instances[0].material = 1;
             mixed.nodes.back().parentFromNode[3].z = z;
         }
-        const engine::RenderedFrame behindGlass = shown(mixed, frame::View::Overdraw, info.technique);
+        const engine::RenderedFrame behindGlass = shown(mixed, frame::DebugView::Overdraw, info.technique);
         EXPECT_EQ(pixel(behindGlass, 4, 4), prepass ? glm::vec4(2, 2, 2, 1) : glm::vec4(4, 4, 4, 1));
     }
 }
@@ -159,7 +159,7 @@ TEST_F(ViewValues, faultsArePaintedAndNothingElseIs) {
         material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
         material.emissive = emission;
         for (const Technique technique : {Technique::Forward, Technique::Deferred, Technique::DeferredVolumes}) {
-            const engine::RenderedFrame view = shown(flatScene(material), frame::View::Faults, technique);
+            const engine::RenderedFrame view = shown(flatScene(material), frame::DebugView::Faults, technique);
             const std::size_t middle = 4 * std::size_t(kSide / 2 * kSide + kSide / 2);
             for (std::size_t c = 0; c < 3; ++c)
                 EXPECT_NEAR(view.display[middle + c], painted[c], painted[0] == 188 ? 1 : 0) << emission.x; // rounding
@@ -184,7 +184,7 @@ TEST_F(ViewValues, storedChannelsShowTheGBufferBitForBit) {
     const auto stored = [&](frame::Channel channel, bool fourth, const frame::GBufferLayout& layout) {
         frame::FrameSettings settings;
         settings.layout = layout;
-        return shown(scene, frame::storedView({channel, fourth}), Technique::Deferred, settings);
+        return shown(scene, frame::storedDebugView({channel, fourth}), Technique::Deferred, settings);
     };
     const frame::GBufferLayout exact = frame::layoutTable()[0].layout, packed = frame::layoutTable()[1].layout;
     EXPECT_EQ(pixel(stored(frame::Channel::Albedo, false, exact), 4, 4), glm::vec4(0.25f, 0.5f, 1.0f, 1.0f));
@@ -213,7 +213,7 @@ TEST_F(ViewValues, aTangentIsStoredBesideTheAxisFarthestFromItsNormal) {
     const Scene upright = flatScene(material);
     frame::FrameSettings settings;
     settings.layout = frame::layoutTable()[1].layout;
-    const frame::View view = frame::storedView({frame::Channel::Tangent, false});
+    const frame::DebugView view = frame::storedDebugView({frame::Channel::Tangent, false});
     std::array<int, 3> order{0, 1, 2}; // of the normal's components by size
     do {
         for (const double sign : {1.0, -1.0}) {
@@ -235,7 +235,7 @@ TEST_F(ViewValues, aTangentIsStoredBesideTheAxisFarthestFromItsNormal) {
 TEST_F(ViewValues, storedChannelsAreNotShownWhereThereAreNone) {
     const Scene scene = flatScene(Material{});
     const auto message = [&](Technique technique, frame::Channel channel) -> std::string {
-        frame::FrameSettings settings = viewSettings(frame::storedView({channel, false}));
+        frame::FrameSettings settings = viewSettings(frame::storedDebugView({channel, false}));
         try {
             engine::prepareView(scene, technique, settings);
         } catch (const InputError& error) {
@@ -260,7 +260,7 @@ TEST_F(ViewValues, theDepthViewIsTheDistanceAheadOfTheEyeHoweverFar) {
         scene.nodes[1].parentFromNode[3] = {0, 0, -1, 1};
         scene.cameras[0].worldFromCamera[3].z = metres;
         scene.cameras[0].fovYRadians = 2.0 * std::atan(1.4 / metres); // 1.4 m up and down at the quad
-        const engine::RenderedFrame view = frame(scene, viewSettings(frame::View::Depth));
+        const engine::RenderedFrame view = frame(scene, viewSettings(frame::DebugView::Depth));
         // Some four roundings of 2^-24 each.
         EXPECT_NEAR(pixel(view, kSide / 2, kSide / 2).r, metres, 3e-7 * metres);
         EXPECT_NEAR(pixel(view, 0, 0).r, metres + 1.0, 3e-7 * (metres + 1.0));
@@ -273,7 +273,7 @@ TEST_F(ViewValues, aLightThatIsDarkHasNoHighlightToShowAndAnotherNeverStandsInFo
     Scene scene = flatScene(material);
     scene.lights = {pointLight({0.0, 0.0, 1.0}, 1.0f), pointLight({0.5, 0.5, 1.0}, 1.0f)};
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings = viewSettings(frame::View::Distribution);
+    frame::FrameSettings settings = viewSettings(frame::DebugView::Distribution);
     settings.sizePixels = {kSide, kSide};
     const auto brightest = [&](Technique technique) {
         const std::vector<float> values = renderer.render(technique, settings).radiance;
@@ -300,7 +300,7 @@ TEST_F(ViewValues, distributionsOfAnySizeFitTheDisplay) {
     int last = 0;
     for (const float alpha : {1.0f, 0.5f, 0.25f, 0.1f}) { // D = 1 / (pi alpha^2): 0.3 to 32
         scene.materials[0].alpha = alpha;
-        const engine::RenderedFrame view = frame(scene, viewSettings(frame::View::Distribution));
+        const engine::RenderedFrame view = frame(scene, viewSettings(frame::DebugView::Distribution));
         const double d = 1.0 / (std::numbers::pi * alpha * alpha);
         EXPECT_NEAR(view.radiance[0], d, 1e-5 * d);
         EXPECT_GT(view.display[0], last);

@@ -27,7 +27,7 @@ std::uint64_t forwardFragments(engine::Renderer& renderer, const frame::FrameSet
 /// How many lights each covered pixel visits by the view that counts them, ascending.
 std::vector<std::uint64_t> visitedByPixel(engine::Renderer& renderer, const BenchPoint& point) {
     frame::FrameSettings settings = point.settings;
-    settings.view = frame::View::Lights;
+    settings.view = frame::DebugView::Lights;
     const engine::RenderedFrame counts = renderer.render(point.technique, settings);
     std::vector<std::uint64_t> visited;
     for (std::size_t i = 0; i < counts.radiance.size(); i += 4) {

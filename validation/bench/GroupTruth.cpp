@@ -29,7 +29,7 @@ BenchTruth chooseTruth(std::optional<BenchTruth> asked, const frame::FrameSettin
         return *asked;
     }
     const double pairs = double(settings.sizePixels.x) * double(settings.sizePixels.y) * double(lights);
-    if (settings.view != frame::View::Final)
+    if (settings.view != frame::DebugView::Final)
         why = "the reference renders the view final only";
     else if (pairs > kAffordablePairs)
         why = fmt::format("the reference would try {:.1e} pairs of a pixel and a light, which takes minutes; it "

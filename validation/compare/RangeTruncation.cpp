@@ -6,7 +6,7 @@ namespace tessera::validation {
 
 RangeTruncation rangeTruncation(engine::Renderer& renderer, engine::Technique technique,
                                 frame::FrameSettings settings) {
-    settings.view = frame::View::Final;
+    settings.view = frame::DebugView::Final;
     const double tolerance = settings.rangeTolerance;
     const Picture truncated = toPicture(renderer.render(technique, settings));
     settings.rangeTolerance = 0.0;

@@ -23,9 +23,9 @@ reference::Settings referenceSettings(const scenes::Scene& scene, const frame::F
 }
 
 void requireReferenceTakes(const frame::FrameSettings& settings) {
-    if (settings.view != frame::View::Final) {
+    if (settings.view != frame::DebugView::Final) {
         throw InputError(
-            fmt::format("the reference renders the view final, not {}", frame::viewInfo(settings.view).name));
+            fmt::format("the reference renders the view final, not {}", frame::debugViewInfo(settings.view).name));
     }
     if (settings.samples != 1) {
         throw InputError(fmt::format("the reference takes one sample a pixel, not {}", settings.samples));

@@ -152,7 +152,7 @@ std::vector<Loss> lossesAt(const Ids& shown, const Layers& truth) {
 
 std::vector<Ids> drawnIds(engine::Renderer& renderer, const frame::FrameSettings& settings) {
     frame::FrameSettings view = settings;
-    view.view = frame::View::Ids;
+    view.view = frame::DebugView::Ids;
     view.display = false;
     view.culling = {};
     view.lightOn.reset();

@@ -234,7 +234,7 @@ std::vector<std::uint8_t> litPixels(const scenes::Scene& scene, const frame::Fra
     everywhere.type = scenes::LightType::Directional;
     opaque.lights = {everywhere};
     frame::FrameSettings counted = settings;
-    counted.view = frame::View::Lights;
+    counted.view = frame::DebugView::Lights;
     counted.culling = {};
     counted.lightOn.reset();
     counted.soloLight.reset();
@@ -282,7 +282,7 @@ LightOracleFigures judgeLights(engine::Renderer& renderer, engine::Technique tec
     const engine::DrawnLists drawn = renderer.downloadLists();
     const std::vector<float> depth = renderer.downloadDepth();
     frame::FrameSettings normals = settings;
-    normals.view = frame::View::Normal;
+    normals.view = frame::DebugView::Normal;
     normals.culling = {};
     const engine::RenderedFrame frame = renderer.render(engine::Technique::Deferred, normals);
     const std::vector<float> normalWS = flippedRows(frame.radiance, frame.width, frame.height);

@@ -27,7 +27,7 @@ LowerBoundBench::LowerBoundBench(engine::Renderer& renderer, const frame::FrameS
       geometry_(renderer, settings) {
     frame::FrameSettings lit = settings;
     lit.culling = {};
-    lit.view = frame::View::Final;
+    lit.view = frame::DebugView::Final;
     const frame::PreparedView frame = engine::prepareView(renderer.scene(), engine::Technique::Forward, lit);
     if (!frame.spec.features.litModels() || frame.lights.texels.empty()) return;
     lighting_.emplace(renderer.programs(), frame.spec);

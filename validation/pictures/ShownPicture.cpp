@@ -26,15 +26,15 @@ std::string countTitle(const std::string& counted, const std::string& of, const 
 } // namespace
 
 DisplayImage shownPicture(const engine::RenderedFrame& frame, const std::string& sceneName, engine::Technique technique,
-                          frame::View view) {
+                          frame::DebugView view) {
     const std::string of = fmt::format("{}, {}", sceneName, infoOf(technique).name);
     const Picture picture = toPicture(frame);
     switch (view) {
-    case frame::View::Lights:
+    case frame::DebugView::Lights:
         return countHeatMap(picture, countTitle("lights", of, picture));
-    case frame::View::Overdraw:
+    case frame::DebugView::Overdraw:
         return countHeatMap(picture, countTitle("surfaces", of, picture));
-    case frame::View::Faults:
+    case frame::DebugView::Faults:
         return faultMap(picture, toDisplayImage(frame), of);
     default:
         return toDisplayImage(frame);

@@ -9,9 +9,9 @@ namespace tessera::viewer {
 
 void cullingPanel(State& state, const Facts& facts) {
     Look& look = state.active();
-    const bool isShown = look.settings.view == frame::View::Lights;
+    const bool isShown = look.settings.view == frame::DebugView::Lights;
     if (ImGui::Button(isShown ? "Show the picture" : "Show the lights a pixel visits"))
-        look.settings.view = isShown ? frame::View::Final : frame::View::Lights;
+        look.settings.view = isShown ? frame::DebugView::Final : frame::DebugView::Lights;
     if (ImGui::Button("Measure tightness")) state.requests.measureLights = true;
     tip("Counts, with every light tried at every pixel, at a quarter of the size");
     if (!facts.lights) return;

@@ -60,7 +60,8 @@ std::vector<std::string> statusParts(const State& state, const Facts& facts) {
     // Beside the divider the sides' names stand in the picture; two of them leave no room here.
     if (state.compare == Compare::Off) {
         const Look& look = state.looks[0];
-        parts.push_back(fmt::format("{} / {}", infoOf(look.technique).name, frame::viewInfo(look.settings.view).name));
+        parts.push_back(
+            fmt::format("{} / {}", infoOf(look.technique).name, frame::debugViewInfo(look.settings.view).name));
     } else if (state.compare == Compare::Difference) {
         parts.push_back(
             fmt::format("{} - {}", infoOf(state.looks[0].technique).name, infoOf(state.looks[1].technique).name));
@@ -139,7 +140,7 @@ void sideNames(const State& state, const PictureArea& area, float scale) {
                           {side == 0 ? dividerX : area.corner.x + area.size.x, area.corner.y + area.size.y});
         const Look& look = state.looks[std::size_t(side)];
         const std::string name =
-            fmt::format("{} / {}", infoOf(look.technique).name, frame::viewInfo(look.settings.view).name);
+            fmt::format("{} / {}", infoOf(look.technique).name, frame::debugViewInfo(look.settings.view).name);
         const ImVec2 size = ImGui::CalcTextSize(name.c_str());
         const float pad = 5.0f * scale;
         const float x = side == 0 ? area.corner.x + 2.0f * pad : area.corner.x + area.size.x - size.x - 2.0f * pad;

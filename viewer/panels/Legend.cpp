@@ -5,7 +5,7 @@
 
 #include <imgui.h>
 
-#include "renderer/frame/Views.h"
+#include "renderer/frame/DebugViews.h"
 #include "shaders/shared/heat.h"
 
 namespace tessera::viewer {

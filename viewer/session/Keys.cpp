@@ -6,7 +6,7 @@
 #include <GLFW/glfw3.h>
 
 #include "engine/ChooseView.h"
-#include "renderer/frame/Views.h"
+#include "renderer/frame/DebugViews.h"
 #include "viewer/session/LightEdits.h"
 
 namespace tessera::viewer {
@@ -15,7 +15,7 @@ namespace {
 constexpr float kExposureStepEV = 0.5f;
 
 void showNumbered(State& state, int number) {
-    for (const frame::ViewInfo& info : frame::viewTable())
+    for (const frame::DebugViewInfo& info : frame::debugViewTable())
         if (info.key == number) state.active().settings.view = info.view;
     state.active() = possible(state.active());
 }

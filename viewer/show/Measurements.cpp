@@ -61,7 +61,7 @@ bool Measurements::updateFigures(Facts& facts, const Screen& screen, const Scree
 void Measurements::judgeLights(Facts& facts, Screen& screen, const Look& look) {
     frame::FrameSettings settings = look.settings;
     settings.sizePixels = glm::max(settings.sizePixels / kJudgedShare, glm::ivec2(1));
-    settings.view = frame::View::Final; // views may build no lists
+    settings.view = frame::DebugView::Final; // views may build no lists
     facts.lights = validation::judgeLights(*screen.renderer(), look.technique, settings);
     facts.lightsOf =
         fmt::format("{}, {}x{}", infoOf(look.technique).name, settings.sizePixels.x, settings.sizePixels.y);

@@ -74,7 +74,7 @@ TEST(Documentation, theTechniquesAreThoseOfTheProgram) {
 
 TEST(Documentation, theDebugViewsAreThoseOfTheProgram) {
     Rows rows;
-    for (const frame::ViewInfo& info : frame::viewTable())
+    for (const frame::DebugViewInfo& info : frame::debugViewTable())
         if (!info.needsGBuffer)
             rows.push_back({info.key ? std::to_string(info.key) : "", code(info.name), std::string(info.meaning)});
     expectTable("docs/command-line.md", {"number", "name", "shows"}, rows);

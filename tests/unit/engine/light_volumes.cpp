@@ -8,7 +8,7 @@
 namespace tessera {
 namespace {
 
-bool drawsVolumes(const scenes::Scene& scene, frame::View view) {
+bool drawsVolumes(const scenes::Scene& scene, frame::DebugView view) {
     frame::FrameSettings settings;
     settings.view = view;
     const auto programs = engine::framePrograms(scene, engine::Technique::DeferredVolumes, settings);
@@ -18,7 +18,7 @@ bool drawsVolumes(const scenes::Scene& scene, frame::View view) {
 
 TEST(LightVolumesPass, isNeverDeclaredForViewsThatDoNotSumOverLights) {
     const scenes::Scene scene = scenes::loadScene("room");
-    for (const frame::ViewInfo& info : frame::viewTable()) {
+    for (const frame::DebugViewInfo& info : frame::debugViewTable()) {
         if (info.needsGBuffer) continue; // scenes do not store every channel
         const bool sums = frame::sumsOverLights(info.view);
         EXPECT_EQ(drawsVolumes(scene, info.view), sums) << info.name;
@@ -30,8 +30,8 @@ TEST(LightVolumesPass, isNotDeclaredWithoutLightsOrLitSurfaces) {
     scenes::Scene dark = unlit;
     for (scenes::Material& material : unlit.materials) material.model = scenes::MaterialModel::SingleColor;
     dark.lights.clear();
-    EXPECT_FALSE(drawsVolumes(unlit, frame::View::Final));
-    EXPECT_FALSE(drawsVolumes(dark, frame::View::Final));
+    EXPECT_FALSE(drawsVolumes(unlit, frame::DebugView::Final));
+    EXPECT_FALSE(drawsVolumes(dark, frame::DebugView::Final));
 }
 
 } // namespace

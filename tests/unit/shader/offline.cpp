@@ -29,7 +29,7 @@ namespace {
 std::vector<frame::FrameSettings> settingsThatMatter() {
     std::vector<frame::FrameSettings> all;
     for (const frame::LayoutInfo& layout : frame::layoutTable()) {
-        for (const frame::ViewInfo& view : frame::viewTable()) {
+        for (const frame::DebugViewInfo& view : frame::debugViewTable()) {
             frame::FrameSettings settings;
             settings.sizePixels = {64, 36};
             settings.layout = layout.layout;
@@ -98,7 +98,7 @@ std::vector<std::pair<engine::Technique, frame::FrameSettings>> listBuildersAndS
 /// Adds the variants that frames of the scene would use, by their key.
 void addPrograms(std::map<std::string, shader::ProgramDesc>& programs, const scenes::Scene& scene) {
     for (const frame::FrameSettings& settings : settingsThatMatter()) {
-        if (settings.view == frame::View::Final && settings.samples == 1)
+        if (settings.view == frame::DebugView::Final && settings.samples == 1)
             addLowerBoundPrograms(programs, engine::prepareView(scene, engine::Technique::Forward, settings).spec);
         for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
             if (!engine::takesSamples(technique, settings.samples)) continue;

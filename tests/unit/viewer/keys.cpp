@@ -24,7 +24,7 @@ TEST(Keys, everyNamedKeyHasADescription) {
 }
 
 TEST(Keys, digitsShowTheViewOfTheirNumber) {
-    for (const frame::ViewInfo& info : frame::viewTable()) {
+    for (const frame::DebugViewInfo& info : frame::debugViewTable()) {
         if (info.key == 0) continue;
         State state;
         ASSERT_TRUE(pressKey(state, '0' + info.key, 0)); // GLFW's keys of digits are their characters

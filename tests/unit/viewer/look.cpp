@@ -11,7 +11,7 @@ using engine::Technique;
 TEST(Look, aLookHoldsValuesThatItsTechniqueTakes) {
     for (const engine::TechniqueInfo& from : engine::techniqueTable()) {
         for (const engine::TechniqueInfo& to : engine::techniqueTable()) {
-            for (const frame::ViewInfo& view : frame::viewTable()) {
+            for (const frame::DebugViewInfo& view : frame::debugViewTable()) {
                 Look look;
                 look.technique = to.technique;
                 look.settings.culling.method = from.methods.front();

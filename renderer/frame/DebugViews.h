@@ -7,12 +7,13 @@
 #include "renderer/frame/GBufferLayout.h"
 
 /// The debug views: quantities that a frame can show in place of the lit picture. One table for the command line, the
-/// viewer and the documentation. A view as a camera with a picture is ViewConstants (shaders/shared/frame.h).
+/// viewer and the documentation. A view, without debug, is a camera with a picture: ViewConstants
+/// (shaders/shared/frame.h).
 namespace tessera::frame {
 
 /// Up to Faults the value is VIEW_* of shaders/shared/views.h. From Stored on a view shows a channel of the G-buffer as
-/// it is stored (storedView).
-enum class View : std::uint8_t {
+/// it is stored (storedDebugView).
+enum class DebugView : std::uint8_t {
     Final,
     Diffuse,
     NormalTexel,
@@ -42,8 +43,8 @@ enum class DisplayMapping : std::uint8_t {
     Faults      ///< the luminance so compressed, in grey; NaN, infinite and negative painted (shaders/shared/faults.h)
 };
 
-struct ViewInfo {
-    View view;
+struct DebugViewInfo {
+    DebugView view;
     int key; ///< 1..7, or 0 for a view without a number
     std::string_view name;
     std::string_view meaning;
@@ -51,32 +52,32 @@ struct ViewInfo {
     bool ofTechnique = false;  ///< shows what the technique does, not the scene: techniques differ in it
     bool needsGBuffer = false; ///< only techniques with a G-buffer have it
 };
-std::span<const ViewInfo> viewTable();
-const ViewInfo& viewInfo(View view);
+std::span<const DebugViewInfo> debugViewTable();
+const DebugViewInfo& debugViewInfo(DebugView view);
 
 /// A channel as it is stored: its first three components, or the fourth.
 struct StoredComponents {
     Channel channel;
     bool fourth;
 };
-View storedView(StoredComponents components);
-std::optional<StoredComponents> storedComponents(View view);
+DebugView storedDebugView(StoredComponents components);
+std::optional<StoredComponents> storedComponents(DebugView view);
 
 /// By the layout where the view shows a stored channel.
-DisplayMapping displayMapping(View view, const GBufferLayout& layout);
+DisplayMapping displayMapping(DebugView view, const GBufferLayout& layout);
 
 /// The lit picture, whatever is painted over it.
-constexpr bool showsLitPicture(View view) {
-    return view == View::Final || view == View::Faults;
+constexpr bool showsLitPicture(DebugView view) {
+    return view == DebugView::Final || view == DebugView::Faults;
 }
 /// Adds something up over the lights.
-constexpr bool sumsOverLights(View view) {
-    return showsLitPicture(view) || view == View::Lights;
+constexpr bool sumsOverLights(DebugView view) {
+    return showsLitPicture(view) || view == DebugView::Lights;
 }
 /// Needs the channel normal_texel, which lighting does not read.
-bool needsNormalTexel(View view);
+bool needsNormalTexel(DebugView view);
 /// VIEW of the shaders that shade or store surfaces: views that another pass makes of their output take the lit
 /// picture's programs.
-int shaderView(View view);
+int shaderView(DebugView view);
 
 } // namespace tessera::frame
