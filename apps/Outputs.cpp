@@ -91,7 +91,9 @@ const std::string& Outputs::at(const std::string& path) const {
     const std::string identity = identityOf(path);
     const bool isTold = identity.empty() || outputs_.contains(identity) ||
                         std::ranges::any_of(folders_, [&](const auto& folder) { return isWithin(identity, folder); });
-    if (!isTold) throw std::logic_error(fmt::format("{}: is written, and was not told among the outputs", path));
+    if (!isTold)
+        throw std::logic_error(
+            fmt::format("{}: is written, but no output is registered for it; call Outputs::add() first", path));
     return path;
 }
 

@@ -113,7 +113,7 @@ int runProgram(int argc, char** argv) {
     GlobalOptions global;
     bool version = false;
     addGlobalOptions(app, global);
-    app.add_flag("--version", version, "The version; with --verbose also what OpenGL says of itself");
+    app.add_flag("--version", version, "The version; with --verbose also that of OpenGL, its renderer and its limits");
     app.fallthrough();
     Run run;
     addRenderCommand(app, global, run);

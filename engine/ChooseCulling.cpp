@@ -53,18 +53,21 @@ culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& s
 std::vector<graph::Plan::Choice> cullingChoices(Technique technique, const frame::FrameSettings& settings,
                                                 const culling::Choice& choice) {
     if (!hasLightLists(technique)) return {};
-    const auto why = [](bool asked, const char* otherwise) { return std::string(asked ? "asked for" : otherwise); };
+    const auto why = [](bool isSet, std::string_view setting, const char* otherwise) {
+        return isSet ? fmt::format("chosen by the setting {}; automatic restores the default", setting)
+                     : std::string(otherwise);
+    };
     const bool nothingToCull = choice.method == Method::None && settings.culling.method != Method::None;
     std::vector<graph::Plan::Choice> choices{
         {"culling", std::string(infoOf(choice.method).name),
          nothingToCull ? "no light ends inside the view, or nothing is lit"
-                       : why(settings.culling.method.has_value(), "the technique's tightest")}};
+                       : why(settings.culling.method.has_value(), "culling", "the technique's tightest")}};
     if (choice.method == Method::None) return choices;
     choices.push_back(
         {"tile", fmt::format("{} pixels", choice.tilePixels),
-         why(settings.culling.tilePixels.has_value(), "measured fastest or nearly so at 64 to 4096 lights")});
+         why(settings.culling.tilePixels.has_value(), "tile", "measured fastest or nearly so at 64 to 4096 lights")});
     choices.push_back({"lists built by", std::string(infoOf(choice.builder).name),
-                       why(settings.culling.builder.has_value(), builderReason(settings.softwareBackend))});
+                       why(settings.culling.builder.has_value(), "cull-on", builderReason(settings.softwareBackend))});
     return choices;
 }
 

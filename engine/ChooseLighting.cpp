@@ -8,7 +8,7 @@ frame::LightingStage chooseLighting(const frame::FrameSettings& settings) {
 
 std::optional<graph::Plan::Choice> lightingChoice(Technique technique, const frame::FrameSettings& settings) {
     if (!infoOf(technique).choosesStage) return std::nullopt;
-    const char* const why = settings.lightOn ? "asked for"
+    const char* const why = settings.lightOn ? "chosen by the setting light-on; automatic restores the default"
                             : settings.softwareBackend
                                 ? "measured 15 to 40 % faster than compute shaders on software rasterisers"
                                 : "not measured on this kind of backend yet; compute shaders are there too";

@@ -39,10 +39,10 @@ std::vector<graph::Plan::Choice> sampleChoices(const frame::FrameSettings& setti
     if (settings.samples == 1) return {};
     if (!settings.samplesGiven) {
         return {{"samples", std::to_string(settings.samples),
-                 "asked for; a driver may give more, and none was asked: measuring does"}};
+                 "chosen by the setting samples; a driver may give more, which only a plan that measures asks it"}};
     }
     return {{"samples", std::to_string(*settings.samplesGiven),
-             fmt::format("{} asked for; {}", settings.samples,
+             fmt::format("the setting samples is {}; {}", settings.samples,
                          *settings.samplesGiven == settings.samples ? "the driver gives as many"
                                                                     : "the driver's next larger number")}};
 }

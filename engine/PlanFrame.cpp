@@ -48,8 +48,8 @@ void addRefinements(graph::Plan& plan, const scenes::Scene& scene, const frame::
 
 void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::PreparedView& prepared) {
     const frame::FrameSettings& settings = prepared.spec.settings;
-    plan.choices.push_back(
-        {"camera", scene.cameras[std::size_t(settings.camera)].name, "asked for, or the scene's first"});
+    plan.choices.push_back({"camera", scene.cameras[std::size_t(settings.camera)].name,
+                            "chosen by the setting camera, or the scene's first"});
     plan.choices.push_back(
         {"light store", "buffer texture, RGBA32F",
          "read fastest of uniform, storage and texture buffers on software rasterisers, and has no 64 KiB limit"});

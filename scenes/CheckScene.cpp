@@ -233,7 +233,8 @@ void checkAnimation(const Element& element, const LightAnimation& animation) {
 void checkLight(const Element& element, const Light& light) {
     visitLightFields([&](const auto& field) {
         if (field.what != nullptr && !isWithin(light.*field.member, field))
-            element.require(false, fmt::format("{} must be {}", field.what, boundsText(field.least, field.most)));
+            element.require(
+                false, fmt::format("{} must be {}{}", field.what, boundsText(field.least, field.most), field.unit));
     });
     element.require(allFinite(light.positionWS), "its position is not finite");
     element.require(isNearEnough(light.positionWS),
@@ -242,7 +243,10 @@ void checkLight(const Element& element, const Light& light) {
     element.require(light.rangeMetres >= 0.0f, "its range must not be negative");
     element.require(light.falloff != Falloff::Attenuation || light.attenuation != glm::vec3(0.0f),
                     "the attenuation coefficients A, B, C are all 0; give at least one");
-    element.require(light.innerConeRadians <= light.outerConeRadians, "its inner cone is wider than the outer one");
+    element.require(
+        light.innerConeRadians <= light.outerConeRadians,
+        fmt::format("its inner cone of {:g} radians is wider than its outer cone of {:g} radians; make it narrower",
+                    light.innerConeRadians, light.outerConeRadians));
     if (light.animation) checkAnimation(element, *light.animation);
 }
 

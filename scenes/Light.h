@@ -84,11 +84,14 @@ struct LightField {
     const char* what = nullptr; ///< null: no bounds, or others than these
     double least = 0.0;         ///< of each component
     double most = 0.0;
+    const char* unit = ""; ///< of the bounds, as messages write it behind them
 };
 template <typename Member>
 LightField(const char*, Member Light::*) -> LightField<Member>;
 template <typename Member>
 LightField(const char*, Member Light::*, const char*, double, double) -> LightField<Member>;
+template <typename Member>
+LightField(const char*, Member Light::*, const char*, double, double, const char*) -> LightField<Member>;
 
 /// All members, in order.
 inline constexpr std::tuple kLightFields{
@@ -102,8 +105,10 @@ inline constexpr std::tuple kLightFields{
     LightField{"falloff", &Light::falloff},
     LightField{"rangeMetres", &Light::rangeMetres},
     LightField{"attenuation", &Light::attenuation, "the attenuation coefficients A, B, C", 0.0, kAnyNumber},
-    LightField{"innerConeRadians", &Light::innerConeRadians, "the inner cone", 0.0, std::numbers::pi_v<float>},
-    LightField{"outerConeRadians", &Light::outerConeRadians, "the outer cone", 0.0, std::numbers::pi_v<float>},
+    LightField{"innerConeRadians", &Light::innerConeRadians, "the half angle of the inner cone", 0.0,
+               std::numbers::pi_v<float>, " radians"},
+    LightField{"outerConeRadians", &Light::outerConeRadians, "the half angle of the outer cone", 0.0,
+               std::numbers::pi_v<float>, " radians"},
     LightField{"animation", &Light::animation},
 };
 static_assert(std::tuple_size_v<decltype(kLightFields)> == detail::memberCount<Light>(),

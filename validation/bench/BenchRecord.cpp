@@ -143,9 +143,11 @@ std::string unfinishedText(const BenchRecord& record) {
     if (record.isComplete) return "";
     std::size_t measured = 0;
     for (const BenchGroup& group : record.groups) measured += group.results.size();
-    return fmt::format(
-        "Unfinished: {} of {} points are measured, and what is said here may change with the others. {}.", measured,
-        record.plannedPoints, record.shards > 1 ? "Finish every shard and merge them" : "Resume it");
+    return fmt::format("Unfinished: {} of {} points are measured, and figures and recommendations may change with the "
+                       "others. {}.",
+                       measured, record.plannedPoints,
+                       record.shards > 1 ? "Finish every shard with --resume, then put them together with --merge"
+                                         : "Finish it with --resume");
 }
 
 std::string benchTable(const BenchRecord& record) {

@@ -85,8 +85,10 @@ private:
         InterleaveOptions interleave;
         interleave.rounds = options_.frames;
         if (!state_.roundsMs.empty() && state_.roundsMs.front().size() != kinds)
-            throw InputError(fmt::format("{}: what is kept of it is of other frames than it has; name another folder",
-                                         groupName(group_)));
+            throw InputError(
+                fmt::format("{}: the output folder keeps rounds of {} frames, and this run has rounds of {}; "
+                            "name another output folder",
+                            groupName(group_), state_.roundsMs.front().size(), kinds));
         interleave.earlierMs = state_.roundsMs;
         interleave.measured = [&](std::span<const double> roundMs) {
             state_.roundsMs.emplace_back(roundMs.begin(), roundMs.end());

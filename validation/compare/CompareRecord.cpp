@@ -93,7 +93,9 @@ Json lostJson(const LostGeometry& lost) {
     Json json = {{"what", lostName(lost.kind)}, {"instance", lost.instance ? Json(*lost.instance) : Json(nullptr)},
                  {"node", lost.node},           {"mesh", lost.mesh},
                  {"pixels", lost.pixels},       {"pixel", {lost.x, lost.y}}};
-    json["why"] = lost.instance ? Json::object() : Json{{"instance", "which transparent surface it is cannot be told"}};
+    json["why"] = lost.instance ? Json::object()
+                                : Json{{"instance", "transparent surfaces of a pixel have one sum in the view ids, "
+                                                    "which names none of them; look at the pixel"}};
     return json;
 }
 

@@ -50,7 +50,9 @@ std::string verdictHtml(const CompareRecord& record) {
     if (all == 0)
         text = "Nothing was compared.";
     else if (missed > 0)
-        text = fmt::format("&#10007; {} of {} comparisons missed what was asked.", missed, all);
+        text = fmt::format("&#10007; {} of {} comparisons missed a tolerance or lost geometry; each one below lists "
+                           "what it missed.",
+                           missed, all);
     else
         text = all == 1 ? "&#10003; The comparison holds." : fmt::format("&#10003; All {} comparisons hold.", all);
     return fmt::format("<p class=\"verdict {}\">{}</p>\n", record.ok() ? "ok" : "missed", text);

@@ -75,7 +75,7 @@ TEST(ChooseSamples, aDriverGivesItsNextLargerNumberAndThePlanSaysBoth) {
     for (const graph::Plan::Choice& choice : plan.choices)
         if (choice.what == "samples") chosen = choice.chosen, why = choice.why;
     EXPECT_EQ(chosen, "4");
-    EXPECT_EQ(why, "2 asked for; the driver's next larger number");
+    EXPECT_EQ(why, "the setting samples is 2; the driver's next larger number");
     for (const graph::Plan::Resource& resource : plan.resources) {
         const bool drawn = resource.name == "depth" || resource.name == "radiance";
         EXPECT_EQ(resource.samples, drawn ? 4 : 1) << resource.name;

@@ -54,6 +54,19 @@ TEST(PlanFrame, aLightThatIsLeftOutSavesJustTheBytesThatALightTakes) {
     }
 }
 
+TEST(PlanFrame, aChoiceThatASettingMadeNamesTheSettingAndItsDefaultGivesAReason) {
+    const scenes::Scene scene = scenes::loadScene("lattice");
+    const auto whyTile = [&](std::optional<int> tilePixels) {
+        frame::FrameSettings settings;
+        settings.culling.tilePixels = tilePixels;
+        const graph::Plan plan = planFrame(scene, Technique::ForwardPlus, settings);
+        const auto tile = std::ranges::find(plan.choices, "tile", &graph::Plan::Choice::what);
+        return tile == plan.choices.end() ? "" : tile->why;
+    };
+    EXPECT_EQ(whyTile(32), "chosen by the setting tile; automatic restores the default");
+    EXPECT_THAT(whyTile({}), testing::HasSubstr("fastest"));
+}
+
 TEST(PlanFrame, everyRoundOverTheLightsIsAPassThatWaitsForTheOneBefore) {
     scenes::LoadOptions options;
     options.lights = 1000;

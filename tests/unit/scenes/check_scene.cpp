@@ -135,9 +135,12 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
          [](Scene& s) {
              s.lights[0].attenuation = {1.0f, -1.0f, 0.0f};
          }},
-        {"inner cone is wider than the outer", [](Scene& s) { s.lights[0].innerConeRadians = 1.0f; }},
-        {"outer cone must be between 0", [](Scene& s) { s.lights[0].outerConeRadians = 3.2f; }},
-        {"inner cone must be between 0", [](Scene& s) { s.lights[0].innerConeRadians = -0.1f; }},
+        {"inner cone of 1 radians is wider than its outer cone of 0.785398 radians; make it narrower",
+         [](Scene& s) { s.lights[0].innerConeRadians = 1.0f; }},
+        {"the half angle of the outer cone must be between 0 and 3.14159 radians",
+         [](Scene& s) { s.lights[0].outerConeRadians = 3.2f; }},
+        {"the half angle of the inner cone must be between 0 and 3.14159 radians",
+         [](Scene& s) { s.lights[0].innerConeRadians = -0.1f; }},
         {"period", [](Scene& s) { s.lights[0].animation.emplace().periodSeconds = 0.0; }},
         {"axis of its orbit", [](Scene& s) { s.lights[0].animation.emplace().axisWS = glm::dvec3(0.0); }},
         {"two points", [](Scene& s) { s.lights[0].animation.emplace().kind = LightAnimationKind::Path; }},

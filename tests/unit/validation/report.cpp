@@ -168,7 +168,9 @@ TEST(Report, everyPictureIsEmbeddedExactlyOnce) {
 
 TEST(Report, theVerdictSaysHowManyPairsMissed) {
     Report report = sampleReport();
-    EXPECT_THAT(reportHtml(report), HasSubstr("1 of 2 comparisons missed what was asked."));
+    EXPECT_THAT(
+        reportHtml(report),
+        HasSubstr("1 of 2 comparisons missed a tolerance or lost geometry; each one below lists what it missed."));
     EXPECT_THAT(reportHtml(report), HasSubstr("<li>maxRel is 0.5, at most 1e-05 was asked</li>"));
     report.record.pairs.pop_back();
     EXPECT_THAT(reportHtml(report), HasSubstr("The comparison holds."));

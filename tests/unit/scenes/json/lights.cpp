@@ -106,9 +106,10 @@ TEST(SceneJsonLights, aSpotLightHasItsConesInRadians) {
 TEST(SceneJsonLights, impossibleSpotsAreRefused) {
     const SceneFolder folder;
     const std::string start = R"({"type": "spot", "position": [0, 2, 0], )";
-    EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "lights": [)" + start +
-                                         R"("direction": [1, 0, 0], "innerDegrees": 50, "outerDegrees": 45}]})"),
-              "/lights/0/innerDegrees: is 50, wider than the outer cone of 45 degrees; make it narrower");
+    EXPECT_EQ(
+        folder.errorBeyondSchemaOf(R"({"tessera": 1, "lights": [)" + start +
+                                   R"("direction": [1, 0, 0], "innerDegrees": 50, "outerDegrees": 45}]})"),
+        "/lights/0/innerDegrees: is 50, wider than the half angle of the outer cone of 45 degrees; make it narrower");
     EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "lights": [)" + start + R"("target": [0, 2, 0]}]})"),
               "/lights/0/target: is the light's own position; give another point");
     EXPECT_EQ(errorOfLight(folder, start + R"("direction": [1, 0, 0], "outerDegrees": 91})"),
