@@ -23,8 +23,8 @@ Ray CameraRays::through(const glm::dvec2& placePixels) const {
     return {aside, forward_, dx, dy, none, none};
 }
 
-glm::dvec3 CameraRays::toViewer(const glm::dvec3& positionRel) const {
-    return isPerspective_ ? -glm::normalize(positionRel) : -forward_;
+glm::dvec3 CameraRays::toViewer(const glm::dvec3& positionRWS) const {
+    return isPerspective_ ? -glm::normalize(positionRWS) : -forward_;
 }
 
 } // namespace tessera::reference

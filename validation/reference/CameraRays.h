@@ -8,14 +8,14 @@ namespace tessera::reference {
 /// A ray with the eye as the origin of its space. Its point at `depthMetres` ahead of the eye, measured along the
 /// camera's forward axis, is origin + depthMetres * direction.
 struct Ray {
-    glm::dvec3 originRel{0.0};
+    glm::dvec3 originRWS{0.0};
     glm::dvec3 direction{0.0}; ///< 1 long along the forward axis
     /// Both changes to the pixel to the right and to the one above.
     glm::dvec3 originDx{0.0}, originDy{0.0}, directionDx{0.0}, directionDy{0.0};
-    glm::dvec3 at(double depthMetres) const { return originRel + depthMetres * direction; }
+    glm::dvec3 at(double depthMetres) const { return originRWS + depthMetres * direction; }
 };
 
-/// The rays of a camera's pixels. Rel: world axes, the eye as the origin.
+/// The rays of a camera's pixels. RWS: world axes, the eye as the origin.
 class CameraRays {
 public:
     CameraRays(const scenes::Camera& camera, glm::ivec2 sizePixels);
@@ -38,7 +38,7 @@ public:
     bool isPerspective() const { return isPerspective_; }
 
     /// Unit direction from a point to the viewer.
-    glm::dvec3 toViewer(const glm::dvec3& positionRel) const;
+    glm::dvec3 toViewer(const glm::dvec3& positionRWS) const;
 
 private:
     glm::dvec3 eyeWS_, right_, up_, forward_;

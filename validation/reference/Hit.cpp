@@ -25,7 +25,7 @@ void setChanges(const Object& object, const Ray& ray, const glm::dvec3& edge1, c
         (std::abs(glm::dot(area, ray.directionDx)) + std::abs(glm::dot(area, ray.directionDy))) / std::abs(slope);
     const double pixelMetres = glm::length(ray.originDx + hit.depthMetres * ray.directionDx);
     const Anchor& anchor = object.anchor;
-    const double pointReach = glm::length(ray.at(hit.depthMetres) - anchor.centreRel) + anchor.otherOriginMetres;
+    const double pointReach = glm::length(ray.at(hit.depthMetres) - anchor.centreRWS) + anchor.otherOriginMetres;
     double cornerReach = 0.0, largestReach = pointReach;
     for (int corner = 0; corner < 3; ++corner) {
         const double own = object.cornerReach(hit.triangle, corner);
@@ -42,12 +42,12 @@ void setChanges(const Object& object, const Ray& ray, const glm::dvec3& edge1, c
 } // namespace
 
 std::optional<Hit> hitOf(const Object& object, std::uint32_t triangle, const Ray& ray) {
-    const glm::dvec3 a = object.cornerRel(triangle, 0);
-    const glm::dvec3 edge1 = object.cornerRel(triangle, 1) - a, edge2 = object.cornerRel(triangle, 2) - a;
+    const glm::dvec3 a = object.cornerRWS(triangle, 0);
+    const glm::dvec3 edge1 = object.cornerRWS(triangle, 1) - a, edge2 = object.cornerRWS(triangle, 2) - a;
     const glm::dvec3 area = glm::cross(edge1, edge2);
     const double slope = glm::dot(area, ray.direction);
     if (slope == 0.0) return {};
-    const glm::dvec3 toCorner = a - ray.originRel;
+    const glm::dvec3 toCorner = a - ray.originRWS;
     Hit hit;
     hit.object = &object;
     hit.triangle = triangle;

@@ -47,9 +47,9 @@ Incident directional(const ShiningLight& shining, const glm::dvec3&) {
 }
 
 /// What one with a position sends by its falloff and range, in any direction.
-Incident point(const ShiningLight& shining, const glm::dvec3& positionRel) {
+Incident point(const ShiningLight& shining, const glm::dvec3& positionRWS) {
     const scenes::Light& light = shining.light;
-    const glm::dvec3 toLight = shining.positionRel - positionRel;
+    const glm::dvec3 toLight = shining.positionRWS - positionRWS;
     const double distance = glm::length(toLight);
     const double window = rangeWindow(distance, shining.rangeMetres);
     if (window == 0.0 || distance == 0.0) return {};
@@ -57,15 +57,15 @@ Incident point(const ShiningLight& shining, const glm::dvec3& positionRel) {
     return {toLight / distance, shining.color * (window / std::max(fading, kSmallestSquaredDistance))};
 }
 
-Incident spot(const ShiningLight& shining, const glm::dvec3& positionRel) {
-    Incident incident = point(shining, positionRel);
+Incident spot(const ShiningLight& shining, const glm::dvec3& positionRWS) {
+    Incident incident = point(shining, positionRWS);
     incident.irradiance *= coneWindow(shining.light, -glm::dot(incident.toLight, shining.light.directionWS));
     return incident;
 }
 
 struct Type {
     LightType type;
-    Incident (*at)(const ShiningLight& shining, const glm::dvec3& positionRel);
+    Incident (*at)(const ShiningLight& shining, const glm::dvec3& positionRWS);
 };
 constexpr std::array kTypes{Type{LightType::Directional, directional}, Type{LightType::Point, point},
                             Type{LightType::Spot, spot}};
@@ -104,7 +104,7 @@ std::vector<ShiningLight> shiningLights(const scenes::Scene& scene, const Settin
         shining.light = scenes::lightAtTime(scene.lights[i], settings.timeSeconds);
         shining.color =
             glm::min(glm::dvec3(shining.light.color) * double(shining.light.intensity), glm::dvec3(kBrightest));
-        shining.positionRel = shining.light.positionWS - eyeWS;
+        shining.positionRWS = shining.light.positionWS - eyeWS;
         const double brightest = std::max({shining.color.r, shining.color.g, shining.color.b});
         shining.rangeMetres = rangeOf(shining.light, brightest, settings.rangeTolerance);
         if (brightest > 0.0 && shining.rangeMetres > 0.0) lights.push_back(shining);
@@ -112,8 +112,8 @@ std::vector<ShiningLight> shiningLights(const scenes::Scene& scene, const Settin
     return lights;
 }
 
-Incident incidentAt(const ShiningLight& shining, const glm::dvec3& positionRel) {
-    return kTypes[std::size_t(shining.light.type)].at(shining, positionRel);
+Incident incidentAt(const ShiningLight& shining, const glm::dvec3& positionRWS) {
+    return kTypes[std::size_t(shining.light.type)].at(shining, positionRWS);
 }
 
 } // namespace tessera::reference

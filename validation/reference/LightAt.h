@@ -6,11 +6,11 @@
 
 namespace tessera::reference {
 
-/// A light that is on, as it is at the settings' time. Rel: world axes, the eye as the origin.
+/// A light that is on, as it is at the settings' time. RWS: world axes, the eye as the origin.
 struct ShiningLight {
     scenes::Light light;
     glm::dvec3 color{0.0}; ///< colour x intensity
-    glm::dvec3 positionRel{0.0};
+    glm::dvec3 positionRWS{0.0};
     double rangeMetres = 0.0; ///< exactly 0 from here on; infinite where it has no end
 };
 
@@ -23,7 +23,7 @@ struct Incident {
 std::vector<ShiningLight> shiningLights(const scenes::Scene& scene, const Settings& settings, const glm::dvec3& eyeWS);
 
 /// The irradiance of a light at a point, by its type, falloff and range window.
-Incident incidentAt(const ShiningLight& shining, const glm::dvec3& positionRel);
+Incident incidentAt(const ShiningLight& shining, const glm::dvec3& positionRWS);
 
 /// Where a light ends. With Falloff::Attenuation a tolerance above 0 ends it where its brightest channel has fallen to
 /// the tolerance; found by bisection, to the last digit.

@@ -16,7 +16,7 @@ glm::dvec3 unitOr(const glm::dvec3& vector, const glm::dvec3& fallback) {
 /// is; only the sums are normalised, and the bitangent is perpendicular to both for any angle between them.
 glm::dvec3 fromTangentSpace(const Hit& hit, const glm::dvec3& texel, const glm::dvec3& vertexNormal) {
     const glm::dvec4 tangentOS = hit.atCorners(*hit.object->tangentsOS);
-    const glm::dvec3 tangent = unitOr(glm::dmat3(hit.object->relFromObject) * glm::dvec3(tangentOS), glm::dvec3(0.0));
+    const glm::dvec3 tangent = unitOr(glm::dmat3(hit.object->rwsFromObject) * glm::dvec3(tangentOS), glm::dvec3(0.0));
     const glm::dvec3 bitangent = glm::cross(vertexNormal, tangent) * (tangentOS.w * hit.object->handedness);
     return texel.x * tangent + texel.y * bitangent + texel.z * vertexNormal;
 }

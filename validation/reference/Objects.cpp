@@ -28,22 +28,22 @@ double depthOfBoxCentre(const Object& object, const glm::dvec3& forward) {
     scenes::Box3 boxOS;
     for (const glm::vec3& position : object.mesh->positionsOS) boxOS.extend(glm::dvec3(position));
     const glm::dvec3 centreOS = 0.5 * (boxOS.min + boxOS.max);
-    return glm::dot(forward, glm::dvec3(object.relFromObject * glm::dvec4(centreOS, 1.0)));
+    return glm::dot(forward, glm::dvec3(object.rwsFromObject * glm::dvec4(centreOS, 1.0)));
 }
 
 /// What triangles of an object use of its mesh.
 struct Bounds {
-    scenes::Box3 boxRel;
+    scenes::Box3 boxRWS;
     double nodeMetres = 0.0; ///< from the node's origin to the box's farthest corner
 };
 
 Bounds boundsOf(const Object& object) {
     Bounds bounds;
     for (const std::uint32_t vertex : object.mesh->indices)
-        bounds.boxRel.extend(
-            glm::dvec3(object.relFromObject * glm::dvec4(glm::dvec3(object.mesh->positionsOS[vertex]), 1.0)));
-    const glm::dvec3 node(object.relFromObject[3]);
-    bounds.nodeMetres = glm::length(glm::max(glm::abs(bounds.boxRel.min - node), glm::abs(bounds.boxRel.max - node)));
+        bounds.boxRWS.extend(
+            glm::dvec3(object.rwsFromObject * glm::dvec4(glm::dvec3(object.mesh->positionsOS[vertex]), 1.0)));
+    const glm::dvec3 node(object.rwsFromObject[3]);
+    bounds.nodeMetres = glm::length(glm::max(glm::abs(bounds.boxRWS.min - node), glm::abs(bounds.boxRWS.max - node)));
     return bounds;
 }
 
@@ -59,8 +59,8 @@ struct Range {
 /// Depths at which a box can meet the picture of parallel rays, not closer than they are; nothing where it cannot.
 /// Places of the picture are x right + y up + depth forward, so that the box's extent along each axis of the world
 /// bounds the depth, once x and y are anything that the picture holds.
-std::optional<Range> depthsInPicture(const scenes::Box3& boxRel, const glm::dvec2& half, const CameraRays& rays) {
-    const glm::dvec3 centre = 0.5 * (boxRel.min + boxRel.max), extent = 0.5 * (boxRel.max - boxRel.min);
+std::optional<Range> depthsInPicture(const scenes::Box3& boxRWS, const glm::dvec2& half, const CameraRays& rays) {
+    const glm::dvec3 centre = 0.5 * (boxRWS.min + boxRWS.max), extent = 0.5 * (boxRWS.max - boxRWS.min);
     const auto along = [&](const glm::dvec3& axis) {
         const double middle = glm::dot(axis, centre), reach = glm::dot(glm::abs(axis), extent);
         return Range{middle - reach, middle + reach};
@@ -73,8 +73,8 @@ std::optional<Range> depthsInPicture(const scenes::Box3& boxRel, const glm::dvec
         const double slope = rays.forward()[axis];
         const double aside = half.x * std::abs(rays.right()[axis]) + half.y * std::abs(rays.up()[axis]);
         if (slope != 0.0)
-            depths.intersect((boxRel.min[axis] - aside) / slope, (boxRel.max[axis] + aside) / slope);
-        else if (boxRel.min[axis] > aside || boxRel.max[axis] < -aside)
+            depths.intersect((boxRWS.min[axis] - aside) / slope, (boxRWS.max[axis] + aside) / slope);
+        else if (boxRWS.min[axis] > aside || boxRWS.max[axis] < -aside)
             return {};
     }
     if (!(depths.least <= depths.most)) return {};
@@ -94,9 +94,9 @@ Anchor parallelAnchor(const std::vector<Bounds>& all, const CameraRays& rays) {
     glm::dvec2 largestHalf(0.0);
     for (const Bounds& bounds : all) {
         // Rounding may move points from just outside the picture into it.
-        const double farthest = glm::length(glm::max(glm::abs(bounds.boxRel.min), glm::abs(bounds.boxRel.max)));
+        const double farthest = glm::length(glm::max(glm::abs(bounds.boxRWS.min), glm::abs(bounds.boxRWS.max)));
         const glm::dvec2 half = 1.001 * rays.halfExtent() + 2e-6 * farthest;
-        const std::optional<Range> depths = depthsInPicture(bounds.boxRel, half, rays);
+        const std::optional<Range> depths = depthsInPicture(bounds.boxRWS, half, rays);
         if (!depths) continue;
         seen = {std::min(seen.least, depths->least), std::max(seen.most, depths->most)};
         nodeMetres = std::max(nodeMetres, bounds.nodeMetres);
@@ -111,21 +111,21 @@ Anchor parallelAnchor(const std::vector<Bounds>& all, const CameraRays& rays) {
 /// The product leaves the eye where the farthest depth of what it sees, with its room, is at most twice the nearest;
 /// here all of the scene must be so.
 Anchor perspectiveAnchor(const std::vector<Bounds>& all, const CameraRays& rays) {
-    scenes::Box3 boundsRel;
+    scenes::Box3 boundsRWS;
     double nodeMetres = 0.0;
     for (const Bounds& bounds : all) {
-        boundsRel.extend(bounds.boxRel.min);
-        boundsRel.extend(bounds.boxRel.max);
+        boundsRWS.extend(bounds.boxRWS.min);
+        boundsRWS.extend(bounds.boxRWS.max);
         nodeMetres = std::max(nodeMetres, bounds.nodeMetres);
     }
-    if (boundsRel.empty()) return {};
-    const glm::dvec3 centreRel = 0.5 * (boundsRel.min + boundsRel.max);
-    const double radius = 0.5 * glm::length(boundsRel.max - boundsRel.min);
-    const double ahead = glm::dot(centreRel, rays.forward());
-    const double beside = glm::length(centreRel - ahead * rays.forward());
+    if (boundsRWS.empty()) return {};
+    const glm::dvec3 centreRWS = 0.5 * (boundsRWS.min + boundsRWS.max);
+    const double radius = 0.5 * glm::length(boundsRWS.max - boundsRWS.min);
+    const double ahead = glm::dot(centreRWS, rays.forward());
+    const double beside = glm::length(centreRWS - ahead * rays.forward());
     const double roomyRadius = radius + roomMetres(2.0 * radius, beside + radius, nodeMetres);
     if (!(ahead > 3.0 * roomyRadius)) return {};
-    return {centreRel, radius, beside + roomyRadius};
+    return {centreRWS, radius, beside + roomyRadius};
 }
 
 } // namespace
@@ -165,8 +165,8 @@ void Objects::add(const scenes::Scene& scene, const scenes::MeshInstance& instan
     object.material = &scene.materials[std::size_t(instance.material)];
     if (object.mesh->indices.empty()) return;
     object.number = number;
-    object.relFromObject = worldFromNode;
-    object.relFromObject[3] -= glm::dvec4(rays.eyeWS(), 0.0);
+    object.rwsFromObject = worldFromNode;
+    object.rwsFromObject[3] -= glm::dvec4(rays.eyeWS(), 0.0);
     object.handedness = glm::determinant(glm::dmat3(worldFromNode)) < 0.0 ? -1.0 : 1.0;
     object.normalFromObject = cofactorMatrix(glm::dmat3(worldFromNode)) * object.handedness;
     if (tangentSlot(*object.material)) object.tangentsOS = &tangentsOf(*object.mesh, *object.material);

@@ -13,7 +13,7 @@ namespace tessera::reference {
 /// Where positions in single precision have their origin: the middle of the scene from a far eye, the middle of what
 /// the picture shows under parallel rays, else the eye. The digits are where the pixels look.
 struct Anchor {
-    glm::dvec3 centreRel{0.0};
+    glm::dvec3 centreRWS{0.0};
     double radiusMetres = 0.0;      ///< around the centre, which holds all that pixels see; 0 at the eye
     double otherOriginMetres = 0.0; ///< the product's origin, on the view axis beside all this, is at most so far away
 };
@@ -21,28 +21,28 @@ struct Anchor {
 /// What rounding leaves of a position: products, sums and a turn of the axes, some eight operations in fp32.
 inline constexpr double kPositionRounding = 8.0 * 0x1p-24;
 
-/// A mesh as it is drawn with a material at a node. Rel: world axes, the eye as the origin.
+/// A mesh as it is drawn with a material at a node. RWS: world axes, the eye as the origin.
 struct Object {
     const scenes::Mesh* mesh = nullptr;
     const scenes::Material* material = nullptr;
     std::uint32_t number = 0; ///< among all mesh instances of the scene, in document order
-    glm::dmat4 relFromObject{1.0};
+    glm::dmat4 rwsFromObject{1.0};
     glm::dmat3 normalFromObject{1.0};                    ///< cofactor matrix times the determinant's sign
     double handedness = 1.0;                             ///< -1 where the transform mirrors
     const std::vector<glm::dvec4>* tangentsOS = nullptr; ///< by index of the mesh, where the material needs them
     Anchor anchor;                                       ///< of all objects
 
-    glm::dvec3 cornerRel(std::uint32_t triangle, int corner) const {
+    glm::dvec3 cornerRWS(std::uint32_t triangle, int corner) const {
         const std::uint32_t vertex = mesh->indices[3 * std::size_t(triangle) + std::size_t(corner)];
-        return glm::dvec3(relFromObject * glm::dvec4(glm::dvec3(mesh->positionsOS[vertex]), 1.0));
+        return glm::dvec3(rwsFromObject * glm::dvec4(glm::dvec3(mesh->positionsOS[vertex]), 1.0));
     }
 
     /// The sum of the magnitudes that a corner's position is added up from, which rounding goes with.
     double cornerReach(std::uint32_t triangle, int corner) const {
         const std::uint32_t vertex = mesh->indices[3 * std::size_t(triangle) + std::size_t(corner)];
-        double reach = glm::length(glm::dvec3(relFromObject[3]) - anchor.centreRel) + anchor.otherOriginMetres;
+        double reach = glm::length(glm::dvec3(rwsFromObject[3]) - anchor.centreRWS) + anchor.otherOriginMetres;
         for (int axis = 0; axis < 3; ++axis)
-            reach += glm::length(glm::dvec3(relFromObject[axis])) * std::abs(double(mesh->positionsOS[vertex][axis]));
+            reach += glm::length(glm::dvec3(rwsFromObject[axis])) * std::abs(double(mesh->positionsOS[vertex][axis]));
         return reach;
     }
 };

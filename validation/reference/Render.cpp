@@ -194,18 +194,18 @@ private:
         return surfaceAt(hit, textures_);
     }
 
-    glm::dvec3 radianceOf(const SurfacePoint& point, const glm::dvec3& positionRel) const {
+    glm::dvec3 radianceOf(const SurfacePoint& point, const glm::dvec3& positionRWS) const {
         if (!scenes::infoOf(point.model).isLit) return point.emission + point.color;
-        const glm::dvec3 toViewer = rays_.toViewer(positionRel);
+        const glm::dvec3 toViewer = rays_.toViewer(positionRWS);
         glm::dvec3 radiance = emitted(point, toViewer);
-        for (const ShiningLight& light : lights_) radiance += lightOn(point, light, positionRel, toViewer);
+        for (const ShiningLight& light : lights_) radiance += lightOn(point, light, positionRWS, toViewer);
         return radiance;
     }
 
     /// What one light gives to a point: radiance towards the viewer. All that a picture knows of a light.
-    glm::dvec3 lightOn(const SurfacePoint& point, const ShiningLight& light, const glm::dvec3& positionRel,
+    glm::dvec3 lightOn(const SurfacePoint& point, const ShiningLight& light, const glm::dvec3& positionRWS,
                        const glm::dvec3& toViewer) const {
-        const Incident incident = incidentAt(light, positionRel);
+        const Incident incident = incidentAt(light, positionRWS);
         if (incident.irradiance == glm::dvec3(0.0)) return glm::dvec3(0.0);
         return reflected(point, incident.toLight, toViewer, settings_.specular) * incident.irradiance;
     }

@@ -35,7 +35,7 @@ void throwIfFailed(RTCDevice device, const char* what) {
 double startOf(const Ray& ray, const Anchor& anchor) {
     if (anchor.radiusMetres == 0.0) return 0.0;
     const double length = glm::length(ray.direction);
-    const double nearest = glm::dot(anchor.centreRel - ray.originRel, ray.direction) / (length * length);
+    const double nearest = glm::dot(anchor.centreRWS - ray.originRWS, ray.direction) / (length * length);
     return std::max(0.0, nearest - 1.01 * anchor.radiusMetres / length);
 }
 
@@ -89,8 +89,8 @@ Tree makeTree(RTCDevice device, const std::vector<Object>& objects, const Anchor
             throwIfFailed(device, "it takes in a mesh");
         }
         for (const glm::vec3& vertexOS : object.mesh->positionsOS) {
-            const glm::dvec4 positionRel = object.relFromObject * glm::dvec4(glm::dvec3(vertexOS), 1.0);
-            for (int axis = 0; axis < 3; ++axis) *position++ = float(positionRel[axis] - anchor.centreRel[axis]);
+            const glm::dvec4 positionRWS = object.rwsFromObject * glm::dvec4(glm::dvec3(vertexOS), 1.0);
+            for (int axis = 0; axis < 3; ++axis) *position++ = float(positionRWS[axis] - anchor.centreRWS[axis]);
         }
         std::copy(object.mesh->indices.begin(), object.mesh->indices.end(), index);
         rtcSetGeometryUserData(geometry, const_cast<Object*>(&object));
@@ -112,7 +112,7 @@ void trace(RTCScene tree, const Objects& objects, Query& query) {
     const Anchor& anchor = objects.anchor();
     RTCRayHit rayHit{};
     const double start = startOf(*query.ray, anchor);
-    const glm::vec3 origin(query.ray->at(start) - anchor.centreRel), direction(query.ray->direction);
+    const glm::vec3 origin(query.ray->at(start) - anchor.centreRWS), direction(query.ray->direction);
     rayHit.ray.org_x = origin.x;
     rayHit.ray.org_y = origin.y;
     rayHit.ray.org_z = origin.z;

@@ -31,7 +31,7 @@ TEST(ReferenceRender, theRoomIsItsClosedForm) {
         for (int row = 0; row < rendered.height; ++row) {
             for (int column = 0; column < rendered.width; ++column) {
                 const Ray ray = rays.through(column, row);
-                const auto seen = room::roomPointAlong(rays.eyeWS() + ray.originRel, ray.direction);
+                const auto seen = room::roomPointAlong(rays.eyeWS() + ray.originRWS, ray.direction);
                 if (!seen) continue;
                 const glm::dvec3 truth = room::roomRadiance(seen->positionWS, seen->normalWS, seen->material);
                 const glm::dvec3& found = rendered.radiance[std::size_t(row * rendered.width + column)];
@@ -163,7 +163,7 @@ TEST(ReferenceRender, fromAFarEyeTheProductsOriginIsNotFartherFromTheReferencesT
         const frame::CameraView view = frame::makeCameraView(camera, settings.sizePixels, frame::LightingSpace::World,
                                                              glm::vec3(0.0f), frame::surfaceBounds(scene));
         ASSERT_TRUE(view.depths.isEven) << "the product stays at the eye, " << eyeMetres << " m away";
-        ASSERT_LE(glm::distance(view.originWS - view.eyeWS, anchor.centreRel), anchor.otherOriginMetres) << eyeMetres;
+        ASSERT_LE(glm::distance(view.originWS - view.eyeWS, anchor.centreRWS), anchor.otherOriginMetres) << eyeMetres;
     }
     EXPECT_GT(far, 1000);
 }
