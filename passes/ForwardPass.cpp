@@ -7,12 +7,12 @@ namespace tessera::passes {
 
 namespace {
 
-gpu::PipelineState pipelineState(const ForwardPass::Params& params, bool prepassed, frame::View view) {
+gpu::PipelineState pipelineState(const ForwardPass::Params& params, bool prepassed, frame::DebugView view) {
     gpu::PipelineState state;
     if (params.surfaces == ForwardPass::Surfaces::Transparent) {
         state.depthTest = gpu::DepthTest::GreaterEqual;
         // Lights that layers visit add up, however much of each is seen.
-        state.blend = view == frame::View::Lights ? gpu::Blend::AdditiveCovering : gpu::Blend::AlphaStraight;
+        state.blend = view == frame::DebugView::Lights ? gpu::Blend::AdditiveCovering : gpu::Blend::AlphaStraight;
     } else {
         state.depthTest = prepassed ? gpu::DepthTest::Equal : gpu::DepthTest::GreaterEqual;
         state.depthWrite = !prepassed;

@@ -48,8 +48,6 @@ inline constexpr int kLargestSidePixels = 16384;
 /// The size that a text such as "1280x720" names; nothing where it names none, or one with a side that cannot be.
 std::optional<glm::ivec2> sizeIn(std::string_view text);
 
-using View = DebugView; ///< its name in passes/ForwardPass.cpp
-
 struct FrameSettings {
     glm::ivec2 sizePixels{1280, 720};
     int samples = 1;                 ///< of a pixel, one of kSampleCounts

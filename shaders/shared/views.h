@@ -1,5 +1,5 @@
 #pragma once
-// What a pixel can show: VIEW of every shader that shades is one of these, and frame::View has the same numbers.
+// What a pixel can show: VIEW of every shader that shades is one of these, and frame::DebugView has the same numbers.
 #include "interop.h"
 
 #define VIEW_FINAL 0

@@ -1,4 +1,4 @@
-// What a pixel shows: the lit surface, or one of the debug views of the table kViews (renderer/frame/Views.h), which gives
+// What a pixel shows: the lit surface, or one of the debug views of the table kViews (renderer/frame/DebugViews.h), which gives
 // VIEW its number. Both families of techniques end here, so a view exists in each of them.
 #pragma once
 #include "shared/views.h"
