@@ -20,7 +20,7 @@ constexpr DebugViewInfo kViews[] = {
      DisplayMapping::Signed},
     {DebugView::NormalObject, 0, "normal_object", "the same in the object's own space; 0 where the node flattens it",
      DisplayMapping::Signed},
-    {DebugView::Distribution, 4, "distribution", "D of one light: --solo N, else the first",
+    {DebugView::Distribution, 4, "distribution", "D of one light: the one that shines alone, else the first",
      DisplayMapping::Compressed},
     {DebugView::Geometry, 5, "geometry", "G of one light", DisplayMapping::Radiance},
     {DebugView::Fresnel, 6, "fresnel", "F of one light", DisplayMapping::Radiance},

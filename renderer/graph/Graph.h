@@ -87,8 +87,8 @@ public:
     /// The same of so many pixels, for a pass that rasterises into nothing because its shaders write buffers.
     virtual void bindNoTargets(int width, int height) const = 0;
     /// Binds a copy of a value as the uniform block at a slot (shaders/shared/slots.h) until the pass ends. Throws
-    /// std::logic_error where a program of the pass has a block of another size there. std140 only ever adds padding to
-    /// what C++ lays out, so that equal sizes are equal offsets.
+    /// std::logic_error where a program of the pass has a block of another size there. Offsets are not compared: of
+    /// members that are vec4, matrices or runs of four 4-byte scalars they are those of std140.
     template <typename T>
     void constants(std::uint32_t slot, const T& value) const {
         static_assert(std::is_trivially_copyable_v<T>);

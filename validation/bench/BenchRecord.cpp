@@ -146,8 +146,8 @@ std::string unfinishedText(const BenchRecord& record) {
     return fmt::format("Unfinished: {} of {} points are measured, and figures and recommendations may change with the "
                        "others. {}.",
                        measured, record.plannedPoints,
-                       record.shards > 1 ? "Finish every shard with --resume, then put them together with --merge"
-                                         : "Finish it with --resume");
+                       record.shards > 1 ? "Resume every shard until it is finished, then merge them"
+                                         : "Resume it to finish");
 }
 
 std::string benchTable(const BenchRecord& record) {

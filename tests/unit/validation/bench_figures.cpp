@@ -88,10 +88,9 @@ TEST(BenchPageHead, anUnfinishedBenchNeverRecommendsWithoutReserve) {
     EXPECT_THAT(benchReport(record, "").bench->answer, testing::StartsWith("<p class=\"unfinished"));
     EXPECT_THAT(benchReport(record, "").bench->answer, HasSubstr(reserve));
     EXPECT_THAT(benchTable(record), HasSubstr(reserve));
-    EXPECT_THAT(unfinishedText(record), HasSubstr("change with the others. Finish it with --resume."));
+    EXPECT_THAT(unfinishedText(record), HasSubstr("change with the others. Resume it to finish."));
     record.shards = 2;
-    EXPECT_THAT(unfinishedText(record),
-                HasSubstr("Finish every shard with --resume, then put them together with --merge."));
+    EXPECT_THAT(unfinishedText(record), HasSubstr("Resume every shard until it is finished, then merge them."));
     EXPECT_THAT(benchReport(BenchRecord{}, "").bench->answer, HasSubstr("Unfinished"));
     record.isComplete = true;
     EXPECT_THAT(benchReport(record, "").bench->answer, Not(HasSubstr("nfinished")));
