@@ -18,11 +18,17 @@ struct Context {
     std::unordered_map<std::string, int> cameraNumbers = {}; ///< the last number behind a name that was taken
     std::unordered_set<std::string> cameraNames = {};
 
-    /// Adds "file: text" to the scene's warnings unless it already stands there.
+    /// Adds "file: text" to the scene's warnings unless it already stands there. Charges the ledger for both copies.
     void warn(const std::string& text) {
         std::string line = fmt::format("{}: {}", document.file, text);
-        if (warned.insert(line).second) scene.warnings.push_back(std::move(line));
+        if (warned.contains(line)) return;
+        document.ledger.charge(2 * (line.size() + kWarningBytes), [&] { return document.file + ": its warnings"; });
+        warned.insert(line);
+        scene.warnings.push_back(std::move(line));
     }
+
+private:
+    static constexpr std::size_t kWarningBytes = 3 * sizeof(std::string); ///< beside its characters: node and table
 };
 
 /// `name` as the document gives it, else "`kind` `index`".

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 #include <span>
+#include <unordered_set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -178,9 +179,9 @@ Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger) {
 
 std::vector<std::string> ignoredExtensions(const Document& document) {
     std::vector<std::string> ignored;
+    std::unordered_set<std::string_view> known;
     for (const std::string& extension : document.model.extensionsUsed)
-        if (!isSupported(extension) && std::ranges::find(ignored, extension) == ignored.end())
-            ignored.push_back(extension);
+        if (!isSupported(extension) && known.insert(extension).second) ignored.push_back(extension);
     return ignored;
 }
 

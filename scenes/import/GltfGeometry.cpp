@@ -33,6 +33,8 @@ public:
             if (has(name)) mesh.texCoords[set] = vectors<glm::vec2>(name, readVertices(name, {2}), true);
         }
         if (has("COLOR_0")) mesh.colors = vectors<glm::vec4>("COLOR_0", colors(), true);
+        // Source: glTF 2.0 specification, 3.7.2.1: each component must be clamped to [0, 1].
+        for (glm::vec4& color : mesh.colors) color = glm::clamp(color, 0.0f, 1.0f);
     }
 
     /// Corner numbers in drawing order: the indices, or 0, 1, 2 ... without.

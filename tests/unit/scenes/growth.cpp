@@ -184,6 +184,14 @@ TEST(Growth, aHundredThousandNodesAndCamerasOfAGltfFileTakeSeconds) {
     EXPECT_LT(secondsOfNodes(100'000), kSeconds);
 }
 
+TEST(Growth, aHundredThousandUnknownExtensionsOfAGltfFileTakeSeconds) {
+    const TempFolder folder;
+    const std::filesystem::path file =
+        folder.write("m.gltf", R"({"asset": {"version": "2.0"}, "extensionsUsed": [)" +
+                                   listOf(100'000, [](int i) { return fmt::format("\"EXT_{}\"", i); }) + "]}");
+    EXPECT_LT(secondsOf([&] { underLedger(importGltf, file); }), kSeconds);
+}
+
 TEST(GrowthSlow, aMillionNodesOfAGltfFileTakeSeconds) {
     EXPECT_LT(secondsOfNodes(1'000'000), kSeconds);
 }

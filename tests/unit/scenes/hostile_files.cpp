@@ -305,6 +305,18 @@ TEST(Memory, aBufferThatIsTooLargeIsNamedOnce) {
                 testing::StartsWith(file.string() + ": /buffers/0: asks for"));
 }
 
+TEST(Memory, everyWarningOfAGltfFileIsCharged) {
+    const TempFolder folder;
+    std::string primitives;
+    for (int i = 0; i < 1000; ++i)
+        primitives += fmt::format(R"({}{{"attributes": {{}}, "mode": 0}})", i == 0 ? "" : ",");
+    const std::filesystem::path file =
+        folder.write("m.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],)"
+                               R"("meshes": [{"name": ")" +
+                                   std::string(100'000, 'a') + R"(", "primitives": [)" + primitives + "]}]}");
+    EXPECT_THAT(inputErrorOf([&] { underLedger(importGltf, file, 32 * kMiB); }), HasSubstr("its warnings"));
+}
+
 TEST(Memory, everyMeshOfAnObjFileIsCharged) {
     const TempFolder folder;
     std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";

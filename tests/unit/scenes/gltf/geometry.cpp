@@ -162,6 +162,13 @@ TEST(GltfGeometry, vertexColorOfEveryFormBecomesLinearRgba) {
     EXPECT_TRUE(hasWarning(scene, "COLOR_0: holds integers that are not marked normalized"));
 }
 
+TEST(GltfGeometry, vertexColorIsClampedToOne) {
+    Builder builder;
+    builder.primitive()["attributes"]["COLOR_0"] =
+        builder.add(std::vector<float>{-5, 50, .5f, 2, 0, 0, 0, 0, 0, 0, 0, 0}, kFloat, "VEC4", 3);
+    EXPECT_EQ(builder.import().meshes.at(0).colors.at(0), glm::vec4(0, 1, .5f, 1));
+}
+
 TEST(GltfGeometry, quantizedAttributesAreConvertedExactly) {
     Builder builder;
     builder.merge(R"({"extensionsUsed": ["KHR_mesh_quantization"], "extensionsRequired": ["KHR_mesh_quantization"]})");
