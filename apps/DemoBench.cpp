@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 constexpr int kFrames = 5;
 /// Of the measured picture. A software rasteriser lights them by 257 lamps in half a second with the slowest technique.
 constexpr double kMostPixels = 240.0 * 135.0;
-constexpr std::size_t kLayouts = 2;    ///< rows of frame::layoutTable(): the exact layout and the packed one
-constexpr int kLightSteps[] = {16, 4}; ///< the lights of the scene, divided by these
+constexpr std::size_t kLayouts = 2; ///< rows of frame::layoutTable(): the exact layout and the packed one
+constexpr int kLightSteps[] = {4};  ///< the lights of the scene, divided by these
 
 glm::ivec2 measuredSize(glm::ivec2 sizePixels) {
     const double pixels = double(sizePixels.x) * double(sizePixels.y);

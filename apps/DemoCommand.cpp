@@ -31,8 +31,8 @@ using validation::CompareResult;
 
 constexpr int kTimedFrames = 3;
 /// One technique of each family, so that the demo stays short; the baseline first.
-constexpr Technique kShown[] = {Technique::Forward, Technique::Deferred, Technique::TiledDeferred,
-                                Technique::ForwardPlus};
+constexpr Technique kShown[] = {Technique::Forward, Technique::TiledDeferred, Technique::ForwardPlus,
+                                Technique::ClusteredDeferred};
 
 /// What shows the packed layout: the fastest of kShown that has a G-buffer, for it draws once per channel too.
 constexpr Technique kPacked = Technique::TiledDeferred;
