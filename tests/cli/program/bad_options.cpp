@@ -210,12 +210,12 @@ TEST_F(BadOptions, aBenchmarkDoesNotOverwriteItsInputs) {
 
 TEST_F(BadOptions, aDemonstrationDoesNotOverwriteItsInputs) {
     folder_.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n");
-    folder_.write("m.mtl", "newmtl m\nmap_Kd deferred.png\n");
+    folder_.write("m.mtl", "newmtl m\nmap_Kd forward.png\n");
     folder_.write("bench/bench.json", R"({"tessera": 1, "include": [{"file": "../m.obj"}]})");
-    ASSERT_EQ(run({"render", "room", "--size", "16x9", "-o", "deferred.png"}).exitCode, 0);
+    ASSERT_EQ(run({"render", "room", "--size", "16x9", "-o", "forward.png"}).exitCode, 0);
     const std::string written = "would be written over";
-    expectError(kBadInput, {"--quiet", "demo", "m.obj", "-o", "."}, {"deferred.png", written});
-    std::filesystem::rename(path("deferred.png"), path("paint.png"));
+    expectError(kBadInput, {"--quiet", "demo", "m.obj", "-o", "."}, {"forward.png", written});
+    std::filesystem::rename(path("forward.png"), path("paint.png"));
     folder_.write("m.mtl", "newmtl m\nmap_Kd paint.png\n");
     expectError(kBadInput, {"--quiet", "demo", "bench/bench.json", "-o", "."}, {"bench/bench.json", written});
 }
