@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -30,26 +31,42 @@ glm::ivec2 measuredSize(glm::ivec2 sizePixels) {
     return glm::max(glm::ivec2(glm::dvec2(sizePixels) * scale + 0.5), glm::ivec2(1));
 }
 
-validation::BenchPlan planOf(const DemoBenchRequest& demo, FrameOptions& frame) {
+/// Loads the demonstration's scene with other numbers of lights. Only the first time: plan and measurement both ask.
+class Scenes {
+public:
+    explicit Scenes(const DemoBenchRequest& demo) : options_(demo.options) {
+        loaded_.emplace(options_.lights, demo.request.scene);
+    }
+
+    const scenes::Scene& with(std::optional<int> lights) {
+        const auto found = loaded_.find(lights);
+        if (found != loaded_.end()) return found->second;
+        options_.lights = lights;
+        return loaded_.emplace(lights, loadFor(options_)).first->second;
+    }
+
+private:
+    FrameOptions options_;
+    std::map<std::optional<int>, scenes::Scene> loaded_; ///< by number of lights
+};
+
+validation::BenchPlan planOf(const DemoBenchRequest& demo, Scenes& scenes) {
     validation::BenchMatrix matrix;
     matrix.techniques = demo.techniques;
     matrix.preferredMethodsOnly = true;
     matrix.layouts.assign(frame::layoutTable().begin(), frame::layoutTable().begin() + kLayouts);
     matrix.sizesPixels = {measuredSize(demo.request.settings.sizePixels)};
-    const auto load = [&frame](std::optional<int> lights) {
-        frame.lights = lights;
-        return loadFor(frame);
-    };
+    const auto load = [&scenes](std::optional<int> count) { return scenes.with(count); };
     const frame::FrameSettings& settings = demo.request.settings;
     const int lights = int(demo.request.scene.lights.size());
     for (const int step : kLightSteps) {
         if (lights / step > 0) matrix.lights.push_back(lights / step);
     }
     validation::BenchPlan plan;
-    const std::optional<int> wholeLights = frame.lights;
-    if (!matrix.lights.empty()) validation::addToPlan(plan, matrix, frame.scene, wholeLights, settings, load);
+    const std::optional<int> wholeLights = demo.options.lights;
+    if (!matrix.lights.empty()) validation::addToPlan(plan, matrix, demo.options.scene, wholeLights, settings, load);
     matrix.lights.clear();
-    validation::addToPlan(plan, matrix, frame.scene, wholeLights, settings, load);
+    validation::addToPlan(plan, matrix, demo.options.scene, wholeLights, settings, load);
     return plan;
 }
 
@@ -60,9 +77,9 @@ std::string demoBenchFolder(const std::string& folder) {
 }
 
 validation::BenchRecord demoBench(gpu::Context& context, const DemoBenchRequest& demo) {
-    FrameOptions frame = demo.options;
+    Scenes scenes(demo);
     BenchRun run;
-    run.plan = planOf(demo, frame);
+    run.plan = planOf(demo, scenes);
     run.options.frames = kFrames;
     const glm::ivec2 sizePixels = run.plan.groups.front().sizePixels;
     FrameOptions shown = demo.options;
@@ -76,15 +93,12 @@ validation::BenchRecord demoBench(gpu::Context& context, const DemoBenchRequest&
                                            1,
                                            1,
                                            fmt::format("tessera bench {} -o bench{} --frames {}",
-                                                       shellWord(frame.scene), frameOptionText(shown), kFrames)};
+                                                       shellWord(demo.options.scene), frameOptionText(shown), kFrames)};
     const std::string folder = demoBenchFolder(demo.folder);
     makeFolder(folder);
     // An older demonstration that was interrupted is of no use.
     const validation::BenchStore store(folder, identity, run.plan, validation::EarlierRun::Replace);
-    run.load = [&frame](const validation::PlannedGroup& group) {
-        frame.lights = group.lightsToLoad;
-        return loadFor(frame);
-    };
+    run.load = [&scenes](const validation::PlannedGroup& group) { return scenes.with(group.lightsToLoad); };
     run.write = [&](const validation::BenchRecord& record) { writeBenchFiles(demo.outputs, folder, record); };
     return runBench(context, store, std::move(run), demo.quiet);
 }

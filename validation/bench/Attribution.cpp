@@ -21,7 +21,7 @@ std::optional<double> finite(double value) {
 }
 
 AttributionLine lineOf(const char* cause, const std::string& what, const std::string& against,
-                       const ErrorFigures& figures) {
+                       const RadianceFigures& figures) {
     return {cause, what, against, finite(figures.relMse), finite(figures.p99Rel), finite(figures.bias)};
 }
 
@@ -29,7 +29,7 @@ void addFilter(const GroupTruth& truth, const std::string& truthName, const Benc
                std::vector<AttributionLine>& lines) {
     const Picture exact = truth.pictureOf(Technique::Forward, exactSettings(any.settings, truth.filter()));
     lines.push_back(lineOf("arithmetic", "fp32 arithmetic of forward", truthName,
-                           errorFigures(exact, truth.pictureFor(exact), truth.excluded())));
+                           radianceFigures(exact, truth.pictureFor(exact), truth.excluded())));
     // Nothing was chosen where the timed frames filter exactly too.
     if (any.settings.filter == frame::TextureFilter::Exact || truth.filter() != frame::TextureFilter::Exact ||
         !frame::materialFeatures(truth.renderer().scene()).textures())
@@ -39,7 +39,7 @@ void addFilter(const GroupTruth& truth, const std::string& truthName, const Benc
     Picture filtered = exact; // the same pixels are covered
     filtered.rgba = frame.radiance;
     lines.push_back(lineOf(kFilterCause, "smaller texture levels, hardware filter", "level 0 alone, exact filter",
-                           errorFigures(filtered, exact)));
+                           radianceFigures(filtered, exact)));
 }
 
 void addRanges(const GroupTruth& truth, std::span<const BenchPoint> points, std::vector<AttributionLine>& lines) {

@@ -56,9 +56,9 @@ struct TruthPicture {
     PairTruth of(const Picture& shown) const {
         return {reference ? reference->nearestTo(shown) : own.picture, triangles.excluded};
     }
-    ErrorFigures figuresOf(const Picture& shown) const {
+    RadianceFigures figuresOf(const Picture& shown) const {
         const PairTruth truth = of(shown);
-        return errorFigures(shown, truth.picture, truth.excluded);
+        return radianceFigures(shown, truth.picture, truth.excluded);
     }
 };
 

@@ -71,7 +71,7 @@ Signal signalOf(const Picture& picture, double litThreshold) {
 }
 
 /// The figures that are sums or maxima over the compared pixels.
-void addDifferences(ErrorFigures& figures, const Picture& a, const Picture& b, const PixelErrors& errors) {
+void addDifferences(RadianceFigures& figures, const Picture& a, const Picture& b, const PixelErrors& errors) {
     const double floorOfSquare = 1e-2 * errors.typicalLuminance * errors.typicalLuminance;
     double squares = 0.0, relSquares = 0.0, luminanceA = 0.0, luminanceB = 0.0, luminanceSquares = 0.0;
     double maxAbs = 0.0, maxRel = 0.0;
@@ -115,12 +115,8 @@ void addDifferences(ErrorFigures& figures, const Picture& a, const Picture& b, c
     figures.biasNoise = luminanceB != 0.0 ? std::sqrt(luminanceSquares) / std::abs(luminanceB) : kNotMeasured;
 }
 
-} // namespace
-
-ErrorFigures errorFigures(const Picture& a, const Picture& b, std::span<const std::uint8_t> excluded,
-                          const ShownPair& shown) {
-    const PixelErrors errors = pixelErrors(a, b, excluded);
-    ErrorFigures figures;
+RadianceFigures figuresOf(const Picture& a, const Picture& b, const PixelErrors& errors) {
+    RadianceFigures figures;
     std::size_t excludedPixels = 0, equalPixels = 0;
     for (std::size_t i = 0; i < a.pixelCount(); ++i) {
         const Kinds kindsA = kindsOf(a.pixel(i)), kindsB = kindsOf(b.pixel(i));
@@ -146,10 +142,21 @@ ErrorFigures errorFigures(const Picture& a, const Picture& b, std::span<const st
     figures.meanLuminance = signalB.meanLuminance;
     figures.litShare = signalB.litShare;
     figures.meanLuminanceA = signalA.meanLuminance;
-    static_cast<DisplayFigures&>(figures) = shown.a && shown.b
-                                                ? displayFigures(*shown.a, *shown.b, errors.state)
-                                                : displayFigures(toDisplayImage(a), toDisplayImage(b), errors.state);
     return figures;
+}
+
+} // namespace
+
+RadianceFigures radianceFigures(const Picture& a, const Picture& b, std::span<const std::uint8_t> excluded) {
+    return figuresOf(a, b, pixelErrors(a, b, excluded));
+}
+
+ErrorFigures errorFigures(const Picture& a, const Picture& b, std::span<const std::uint8_t> excluded,
+                          const ShownPair& shown) {
+    const PixelErrors errors = pixelErrors(a, b, excluded);
+    return {figuresOf(a, b, errors), shown.a && shown.b
+                                         ? displayFigures(*shown.a, *shown.b, errors.state)
+                                         : displayFigures(toDisplayImage(a), toDisplayImage(b), errors.state)};
 }
 
 void requireSameSize(const Picture& a, const std::string& nameA, const Picture& b, const std::string& nameB) {

@@ -30,12 +30,12 @@ struct BadPixels {
     std::size_t sum() const { return nan + infinite + negative; }
 };
 
-/// The error of picture a against the truth b. Pixels are "covered" where geometry was drawn in either picture, minus
-/// the excluded ones; "lit" where luminance exceeds 1e-4 of the 99th percentile of b's. Percentiles are nearest-rank.
-/// A covered pixel with a NaN or an infinity is counted in `bad` and takes part in bitEqual; it is left out of maxAbs,
-/// maxRel, rmse, relMse, the percentiles, bias, psnr and flip, which would otherwise say nothing about the rest; a pair
-/// with such a pixel never passes (checkTolerance). A figure that could not be measured is NaN.
-struct ErrorFigures : DisplayFigures {
+/// The error of picture a's radiance against the truth b's. Pixels are "covered" where geometry was drawn in either
+/// picture, minus the excluded ones; "lit" where luminance exceeds 1e-4 of the 99th percentile of b's. Percentiles are
+/// nearest-rank. A covered pixel with a NaN or an infinity is counted in `bad` and takes part in bitEqual; all other
+/// figures leave it out, DisplayFigures too, for they would say nothing about the rest. A pair with such a pixel never
+/// passes (checkTolerance). A figure that could not be measured is NaN.
+struct RadianceFigures {
     std::size_t covered = 0;  ///< pixels, the not finite ones included
     std::size_t compared = 0; ///< of them, with six finite values
     double maxAbs;            ///< largest |a - b| of a channel
@@ -67,14 +67,20 @@ struct ErrorFigures : DisplayFigures {
     double litCoveredShare() const { return compared > 0 ? double(litCovered) / double(compared) : 0.0; }
 };
 
+/// All that is measured of a pair.
+struct ErrorFigures : RadianceFigures, DisplayFigures {};
+
+/// `excluded` is empty or one entry per pixel, 1 where the pixel is left out. The pictures must be of one size (see
+/// requireSameSize).
+RadianceFigures radianceFigures(const Picture& a, const Picture& b, std::span<const std::uint8_t> excluded = {});
+
 /// A pair as it is shown; without it as a display shows radiance without exposure and tone map: clamped to 0..1, sRGB.
 struct ShownPair {
     const DisplayImage* a = nullptr;
     const DisplayImage* b = nullptr;
 };
 
-/// `excluded` is empty or one entry per pixel, 1 where the pixel is left out. The pictures must be of one size (see
-/// requireSameSize).
+/// radianceFigures() and displayFigures() of a pair. FLIP takes longer than all the others together.
 ErrorFigures errorFigures(const Picture& a, const Picture& b, std::span<const std::uint8_t> excluded = {},
                           const ShownPair& shown = {});
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <tbb/parallel_invoke.h>
+
 #include "base/Srgb.h"
 #include "validation/figures/FlipColour.h"
 #include "validation/figures/FlipFilters.h"
@@ -79,7 +81,9 @@ std::vector<float> flipErrors(const DisplayImage& a, const DisplayImage& b, doub
     assert(a.isConsistent() && b.isConsistent() && a.width == b.width && a.height == b.height);
     std::vector<float> errors(a.pixelCount());
     if (a.rgb == b.rgb) return errors;
-    const Seen seenA = seenPicture(a, pixelsPerDegree), seenB = seenPicture(b, pixelsPerDegree);
+    Seen seenA, seenB;
+    tbb::parallel_invoke([&] { seenA = seenPicture(a, pixelsPerDegree); },
+                         [&] { seenB = seenPicture(b, pixelsPerDegree); });
     for (std::size_t i = 0; i < errors.size(); ++i) {
         const double colour = colourError(seenA.colours[i], seenB.colours[i]);
         errors[i] = float(std::pow(colour, 1.0 - featureError(seenA.features, seenB.features, i)));

@@ -9,7 +9,7 @@ namespace tessera::validation {
 struct Plane {
     int width = 0, height = 0;
     std::vector<float> values;
-    Plane(int w, int h) : width(w), height(h), values(std::size_t(w) * std::size_t(h)) {}
+    explicit Plane(int w = 0, int h = 0) : width(w), height(h), values(std::size_t(w) * std::size_t(h)) {}
 };
 
 /// Weights at -radius .. +radius.

@@ -13,7 +13,7 @@ constexpr double kMostExcludedShare = 0.05; // silhouettes alone stay well under
 /// Pictures that are equal to the last bit need no minimum of lit pixels; for others the minimum keeps a few lit
 /// pixels from hiding behind the percentiles of many dark ones.
 void checkSignal(std::vector<std::string>& missed, const char* name, double meanLuminance, std::size_t lit,
-                 const ErrorFigures& figures) {
+                 const RadianceFigures& figures) {
     if (!(meanLuminance > 0.0)) {
         missed.push_back(fmt::format("no signal: picture {} is black (mean luminance {:.3g})", name, meanLuminance));
     } else if (lit == 0) {
@@ -44,7 +44,7 @@ void checkFigure(std::vector<std::string>& missed, const char* name, double valu
 
 } // namespace
 
-Verdict checkTolerance(const ErrorFigures& figures, const Tolerance& tolerance) {
+Verdict checkTolerance(const RadianceFigures& figures, const Tolerance& tolerance) {
     Verdict verdict;
     std::vector<std::string>& missed = verdict.missed;
     checkSignal(missed, "a", figures.meanLuminanceA, figures.litCoveredA, figures);

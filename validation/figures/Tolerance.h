@@ -32,6 +32,6 @@ struct Verdict {
 /// no covered pixel lit, or under 10 % of them where the pair is not equal to the last bit: two black pictures never
 /// pass), when any pixel is NaN, infinite or (unless isSigned) negative, or when over 5 % of the covered pixels were
 /// excluded. A figure that could not be measured misses its tolerance.
-Verdict checkTolerance(const ErrorFigures& figures, const Tolerance& tolerance);
+Verdict checkTolerance(const RadianceFigures& figures, const Tolerance& tolerance);
 
 } // namespace tessera::validation

@@ -53,7 +53,7 @@ private:
             const Technique technique = request_.techniques[t];
             Picture shown = toPicture(renderer.render(technique, picture.settings));
             const Picture wanted = truth ? truth->nearestTo(shown) : drawn_[*picture.sameAs][t];
-            results_[t].figures.addPicture(errorFigures(measured(shown), wanted, triangles.excluded), picture.what,
+            results_[t].figures.addPicture(radianceFigures(measured(shown), wanted, triangles.excluded), picture.what,
                                            picture.allowed);
             if (!triangles.lost.empty()) results_[t].figures.geometryLost(picture.what, triangles.lost.front());
             if (isTruth(index)) drawn_[index].push_back(std::move(shown));

@@ -35,7 +35,7 @@ void StressFigures::add(const StressFigures& other) {
     if (fault.empty()) fault = other.fault;
 }
 
-void StressFigures::addPicture(const ErrorFigures& picture, const std::string& what, double allowed) {
+void StressFigures::addPicture(const RadianceFigures& picture, const std::string& what, double allowed) {
     samples += picture.covered;
     nan += picture.badA.nan + picture.badOutside.nan;
     infinite += picture.badA.infinite + picture.badOutside.infinite;

@@ -34,7 +34,7 @@ struct StressFigures {
     /// Adds what another run of the same case found.
     void add(const StressFigures& other);
     /// Adds a picture's figures, its errors divided by `allowed`. `what` names the picture.
-    void addPicture(const ErrorFigures& picture, const std::string& what, double allowed = 1.0);
+    void addPicture(const RadianceFigures& picture, const std::string& what, double allowed = 1.0);
     /// Geometry that a picture lacks or has too much.
     void geometryLost(const std::string& what, const LostGeometry& lost);
 };
