@@ -13,5 +13,7 @@ void main()
     Surface surface = surfaceFromGBuffer(pixel);
     if (!takesLight(surface)) discard;
     Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, texelFetch(depthChannel, pixel, 0).r);
-    radiance = vec4(lightOnSurface(light, surface, viewpoint), 0.0);
+    precise vec3 given = vec3(0.0); // the blending adds
+    addLightOnSurface(light, surface, viewpoint, given);
+    radiance = vec4(given, 0.0);
 }

@@ -16,18 +16,21 @@ bool takesLight(Surface surface)
     return !IS_UNLIT(surface.model);
 }
 
-// Radiance towards the viewer that a lit surface reflects of one light; where visits are counted, 1. Passes evaluate
-// lights by this function only. Area lights and shadows belong here and not in a loop; data of the surface that they
-// need besides the shading normal become members of Surface.
-vec3 lightOnSurface(int light, Surface surface, Viewpoint viewpoint)
+// Adds the radiance towards the viewer that a lit surface reflects of one light; where visits are counted, 1. Passes
+// evaluate lights by this function only. Area lights and shadows belong here and not in a loop; data of the surface that
+// they need besides the shading normal become members of Surface. It adds instead of returning: a rasteriser that masks
+// lanes would choose between the result and 0 before it adds (5 % of the time of 1,024 lights).
+void addLightOnSurface(int light, Surface surface, Viewpoint viewpoint, inout vec3 radiance)
 {
 #if VISIT_COUNTS
-    return vec3(1.0);
+    radiance += vec3(1.0);
 #else
     Incident incident;
-    if (!incidentLight(light, viewpoint.positionLS, incident)) return vec3(0.0);
-    precise vec3 given = layeredBrdfCosine(surface, incident.toLightLS, viewpoint.toViewerLS) * incident.irradiance;
-    return given;
+    if (incidentLight(light, viewpoint.positionLS, incident)) {
+        vec3 brdfCosine = layeredBrdfCosine(surface, incident.toLightLS, viewpoint.toViewerLS);
+        precise vec3 sum = radiance + brdfCosine * incident.irradiance;
+        radiance = sum;
+    }
 #endif
 }
 
@@ -42,7 +45,7 @@ vec3 lightsOnSurface(vec3 before, Surface surface, Viewpoint viewpoint, vec2 pix
     if (!nextLight(cursor, light) && !nextBatch(cursor, light)) return radiance;
     // Tested at the end: rasterisers that mask lanes instead of branching would run a loop's body once more than its lights.
     // LIGHTS_PER_ROUND (renderer/frame/LightRounds.h) is spelt out: an inner loop would count towards the same limit.
-#define ADD_LIGHT radiance += lightOnSurface(light, surface, viewpoint);
+#define ADD_LIGHT addLightOnSurface(light, surface, viewpoint, radiance);
 #define ADD_NEXT_LIGHT if (nextLight(cursor, light)) ADD_LIGHT
     do {
         do {
