@@ -75,15 +75,6 @@ validation::BenchMatrix matrixOf(const BenchCommandOptions& options) {
     return validation::parseMatrix(text, options.matrix, ledger);
 }
 
-/// Which technique to take is a question of the lit picture alone.
-void requireLitPicture(const frame::FrameSettings& settings) {
-    if (settings.view == frame::DebugView::Final) return;
-    const std::string_view name = frame::debugViewInfo(settings.view).name;
-    throw InputError(fmt::format("--view {}: bench recommends a technique for the lit picture, and a view says nothing "
-                                 "of it; leave --view out, or look at the view with tessera render --view {}",
-                                 name, name));
-}
-
 /// Everything that will be measured; names, and files against the outputs, are checked for every scene before the first
 /// frame is drawn.
 validation::BenchPlan planOf(const BenchCommandOptions& options, Outputs& outputs) {
@@ -97,7 +88,7 @@ validation::BenchPlan planOf(const BenchCommandOptions& options, Outputs& output
         const Request request = resolve(frame);
         outputs.reads(request.files);
         const frame::FrameSettings& settings = request.settings;
-        requireLitPicture(settings);
+        requireLitPicture(settings, "bench");
         if (settings.samples != 1) throw InputError("bench measures frames of one sample a pixel; give --samples 1");
         if (benchTruthNamed(options.against) == validation::BenchTruth::Reference)
             validation::requireReferenceTakes(settings);
@@ -207,6 +198,7 @@ void addBenchCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     command->add_option("scenes", options->scenes, "Scenes to measure, files or built-in ones (tessera scenes)")
         ->type_name("SCENE");
     addFrameSettings(*command, options->frame);
+    command->get_option("--technique")->description("Measures this technique alone [all]");
     command
         ->add_option("-o,--output", options->folder,
                      "Folder for bench.json, bench.csv and report.html; made where it is missing")

@@ -35,6 +35,14 @@ void writeBenchFiles(const Outputs& outputs, const std::string& folder, const va
     outputs.write(folder + kCsv, validation::benchCsv(record));
 }
 
+void requireLitPicture(const frame::FrameSettings& settings, const char* command) {
+    if (settings.view == frame::DebugView::Final) return;
+    const std::string_view name = frame::debugViewInfo(settings.view).name;
+    throw InputError(fmt::format("--view {}: {} recommends a technique for the lit picture, and a view says nothing "
+                                 "of it; leave --view out, or look at the view with tessera render --view {}",
+                                 name, command, name));
+}
+
 validation::BenchRecord runBench(gpu::Context& context, const validation::BenchStore& store, BenchRun run, bool quiet) {
     const std::vector<validation::PlannedGroup>& groups = run.plan.groups;
     std::vector<GroupState> states(groups.size());

@@ -17,6 +17,9 @@ struct BenchRun {
     std::function<void(const validation::BenchRecord&)> write;
 };
 
+/// Which technique to take is a question of the lit picture alone: throws InputError for a debug view.
+void requireLitPicture(const frame::FrameSettings& settings, const char* command);
+
 /// Measures missing groups, saves them in the store, shows progress, and returns the store's contents. Throws
 /// InputError if a scene has changed since the plan was made.
 validation::BenchRecord runBench(gpu::Context& context, const validation::BenchStore& store, BenchRun run, bool quiet);

@@ -52,8 +52,8 @@ validation::Truth truthNamed(const std::string& name) {
         names.push_back(info.name);
     }
     if (std::filesystem::exists(name)) return validation::PictureTruth{name, {}};
-    throw InputError(
-        fmt::format("--against '{}' is neither a technique nor a picture file: {}", name, suggestNames(name, names)));
+    throw InputError(fmt::format("--against '{}' is neither a technique nor a file that exists: {}", name,
+                                 suggestNames(name, names)));
 }
 
 /// What the scene holds is in use already: one limit for all that a command reads.

@@ -54,9 +54,9 @@ struct DemoResult {
 std::string choiceOf(const std::vector<Technique>& techniques, const std::vector<double>& ms, bool agree) {
     const std::size_t best = std::size_t(std::min_element(ms.begin(), ms.end()) - ms.begin());
     const std::string pace = best == 0 ? "the fastest here"
-                                       : fmt::format("{:.1f}x the speed of {} ({:.0f} ms)", ms[0] / ms[best],
+                                       : fmt::format("{:.1f}x the speed of {} ({:.3g} ms)", ms[0] / ms[best],
                                                      infoOf(techniques[0]).name, ms[0]);
-    return fmt::format("Take {} for this scene on this machine: {:.0f} ms a frame, {}, and {}.",
+    return fmt::format("Take {} for this scene on this machine: {:.3g} ms a frame, {}, and {}.",
                        infoOf(techniques[best]).name, ms[best], pace,
                        agree ? "the same picture" : "beware: the pictures do not agree");
 }
@@ -94,7 +94,7 @@ validation::Report makeReport(const std::string& source, const Request& request,
         report.facts.push_back({"Samples", fmt::format("{} a pixel", comparison.record.samples)});
     for (std::size_t i = 0; i < result.ms.size(); ++i)
         report.facts.push_back(
-            {std::string(infoOf(result.techniques[i]).name), fmt::format("{:.0f} ms a frame", result.ms[i])});
+            {std::string(infoOf(result.techniques[i]).name), fmt::format("{:.3g} ms a frame", result.ms[i])});
     for (const Technique technique : result.techniques) {
         report.plans.push_back(
             {std::string(infoOf(technique).name),
@@ -156,6 +156,7 @@ void writePictures(const DemoFiles& files, const Outputs& outputs, const Request
 int demo(const DemoOptions& options, const GlobalOptions& global) {
     requireFolderPlace(options.folder);
     Request request = resolve(options.frame);
+    requireLitPicture(request.settings, "demo");
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     request.settings = engine::settingsOn(context->capabilities(), request.settings);
     std::vector<validation::LeftOutTechnique> leftOut;
@@ -198,7 +199,11 @@ void addDemoCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
         app.add_subcommand("demo", "Renders a scene four ways, checks that they match, measures, writes a report");
     auto options = std::make_shared<DemoOptions>();
     addFrameOptions(*command, options->frame, "hall");
-    command->add_option("-o,--output", options->folder, "Where pictures and index.html go [out]")->type_name("DIR");
+    command->remove_option(command->get_option("--technique")); // it shows several
+    command
+        ->add_option("-o,--output", options->folder,
+                     "Where index.html, pictures, SCENE.exr and the folder bench go [out]")
+        ->type_name("DIR");
     command->footer(R"(Examples
   tessera demo                          the scene hall; open out/index.html
   tessera demo model.glb -o report      a scene of one's own)");

@@ -50,7 +50,8 @@ CLI::Option* addWholeNumber(CLI::App& command, const std::string& flag, std::opt
                             const std::string& help, const std::string& type) {
     const auto read = [flag, &target](const std::string& text) {
         target = parsed<int>(text);
-        if (!target) throw InputError(fmt::format("{} '{}' is not a whole number, such as 8", flag, text));
+        if (!target)
+            throw InputError(fmt::format("{} '{}' is not a whole number of at most 2147483647, such as 8", flag, text));
     };
     return command.add_option_function<std::string>(flag, read, help)->type_name(type);
 }

@@ -60,19 +60,21 @@ std::vector<std::string> outputsOf(const RenderOptions& options) {
     return outputs;
 }
 
-/// Says why, where a picture (RGBA, A the share of a pixel that is covered) shows nothing of its scene; of a sequence
-/// about the first such picture alone.
-void warnWhereEmpty(const std::string& path, const scenes::Scene& scene, const std::vector<float>& rgba,
-                    bool& hasWarned) {
-    for (std::size_t alpha = 3; alpha < rgba.size(); alpha += 4) {
-        if (rgba[alpha] > 0.0f) return;
+/// Says why, where a picture (RGBA, A the share of a pixel that is covered) shows nothing of its scene, and how many of
+/// its pixels are no numbers; of a sequence about the first such picture alone.
+void warnOfPicture(const std::string& path, const scenes::Scene& scene, const std::vector<float>& rgba,
+                   bool& hasWarned) {
+    std::size_t covered = 0, bad = 0;
+    for (std::size_t pixel = 0; pixel < rgba.size(); pixel += 4) {
+        covered += rgba[pixel + 3] > 0.0f;
+        bad += !(std::isfinite(rgba[pixel]) && std::isfinite(rgba[pixel + 1]) && std::isfinite(rgba[pixel + 2]));
     }
-    if (std::exchange(hasWarned, true)) return;
-    spdlog::warn("{}", oneLine(fmt::format("{}: {}", path,
-                                           scenes::triangleCount(scene) == 0
-                                               ? "the scene has no triangles to draw"
-                                               : "the camera sees nothing of the scene; check --eye, --target, "
-                                                 "--near and --far, or see --help")));
+    if ((covered > 0 && bad == 0) || std::exchange(hasWarned, true)) return;
+    std::string why = "the camera sees nothing of the scene; check --eye, --target, --near and --far, or see --help";
+    if (scenes::triangleCount(scene) == 0) why = "the scene has no triangles to draw";
+    if (bad > 0)
+        why = fmt::format("{} of its pixels are infinite or no numbers; a light is too bright or too near", bad);
+    spdlog::warn("{}", oneLine(path + ": " + why));
 }
 
 /// Makes one picture at a path.
@@ -107,7 +109,7 @@ void renderReference(const RenderOptions& options, const Outputs& outputs, const
         Picture picture = validation::referencePicture(
                               request.scene, one, [&progress] { progress.advance(); }, false)
                               .picture;
-        warnWhereEmpty(path, request.scene, picture.rgba, hasWarned);
+        warnOfPicture(path, request.scene, picture.rgba, hasWarned);
         if (isLinear) return writeExr(path, picture);
         for (float& value : picture.rgba) value *= std::exp2(settings.exposureEV);
         writePng(path, toDisplayImage(picture));
@@ -153,7 +155,7 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     bool hasWarned = false;
     makePictures(options, outputs, request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
         const engine::RenderedFrame picture = renderer.render(request.technique, one);
-        warnWhereEmpty(path, request.scene, picture.radiance, hasWarned);
+        warnOfPicture(path, request.scene, picture.radiance, hasWarned);
         writePicture(path, request, picture);
         progress.advance();
     });

@@ -55,7 +55,11 @@ void addViewCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     CLI::App* command = app.add_subcommand("view", "Opens the interactive viewer");
     auto options = std::make_shared<ViewOptions>();
     addFrameOptions(*command, options->frame, "hall");
-    command->add_option("--window", options->window, "Size of the window [1280x800, or what the screen has]")
+    command->get_option("--technique")
+        ->description("The technique to begin with [the last one, clustered_deferred at first]");
+    command->get_option("--size")->description(
+        "Makes the window large enough for a picture of that size [as --window says]");
+    command->add_option("--window", options->window, "Size of the window [its last size, 1280x800 at first]")
         ->type_name("WxH");
     command->add_flag("--log", options->log, "Prints a line for whatever happens, for programs that drive the viewer");
     command->footer(R"(Examples

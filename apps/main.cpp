@@ -87,7 +87,9 @@ int fail(const std::string& text, int code) {
 /// head -1`) that is no error to speak of.
 int failedOutput(int error) {
     if (error == EPIPE) endAsByClosedPipe();
-    return fail(fmt::format("cannot write the output: {}; free some space", std::strerror(error)), kFailed);
+    return fail(fmt::format("cannot write the output: {}{}", std::strerror(error),
+                            error == ENOSPC || error == EDQUOT ? "; free some space" : ""),
+                kFailed);
 }
 
 /// What was printed may still wait in memory; a full disk shows only when it leaves.

@@ -49,12 +49,13 @@ void addRefinements(graph::Plan& plan, const scenes::Scene& scene, const frame::
 void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::PreparedView& prepared) {
     const frame::FrameSettings& settings = prepared.spec.settings;
     plan.choices.push_back({"camera", scene.cameras[std::size_t(settings.camera)].name,
-                            "chosen by the setting camera, or the scene's first"});
+                            "the one that the setting camera names, else the first"});
     plan.choices.push_back(
         {"light store", "buffer texture, RGBA32F",
          "read fastest of uniform, storage and texture buffers on software rasterisers, and has no 64 KiB limit"});
-    plan.choices.push_back({"lighting space", settings.space == frame::LightingSpace::World ? "world axes" : "view",
-                            "the subtraction happens in double precision, so far scenes keep their digits"});
+    plan.choices.push_back(
+        {"lighting space", settings.space == frame::LightingSpace::World ? "world axes" : "view",
+         "the eye is subtracted in double precision, so scenes far from the origin keep their digits"});
     const frame::TruncatedLights& truncated = prepared.lights.truncated;
     if (settings.rangeTolerance > 0.0 || truncated.sum() > 0) {
         plan.choices.push_back({"range tolerance", fmt::format("{:g}", settings.rangeTolerance),
@@ -118,6 +119,21 @@ graph::Plan planViews(const scenes::Scene& scene, std::span<const FrameRequest> 
     plan.scene = scene.name;
     for (const FrameRequest& view : views)
         plan.technique += (plan.technique.empty() ? "" : ", ") + std::string(infoOf(view.technique).name);
+    plan.leftOut.clear(); // each view's own plan has its share
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        // As the graph calls what later views have of their own.
+        const std::string suffix = i == 0 ? "" : fmt::format(" ({})", i + 1);
+        graph::Plan own = planFrame(scene, views[i].technique, views[i].settings);
+        for (graph::Plan::LeftOut& item : own.leftOut) {
+            item.what += suffix;
+            plan.leftOut.push_back(std::move(item));
+        }
+        for (graph::Plan::Choice& choice : own.choices) {
+            choice.what += suffix;
+            plan.choices.push_back(std::move(choice));
+        }
+        for (const auto& [name, value] : own.counters) plan.counters.emplace_back(name + suffix, value);
+    }
     return plan;
 }
 

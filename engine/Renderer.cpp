@@ -43,7 +43,7 @@ Renderer::~Renderer() = default;
 
 const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     // Light types change from frame to frame and do not concern the scene's buffers.
-    frame::FeatureSet features = spec.settings.prune ? frame::materialFeatures(scene_) : frame::allFeatures();
+    frame::FeatureSet features = frame::surfaceFeatures(scene_, spec.settings.prune);
     const frame::TextureFilter filter = spec.settings.filter;
     if (sceneGpu_ && features == sceneFeatures_ && filter == sceneFilter_) {
         if (materialsChanged_) sceneGpu_->updateMaterials();

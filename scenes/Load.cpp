@@ -115,7 +115,11 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
         options.files->insert(options.files->end(), ledger.files().begin(), ledger.files().end());
     keepFirstWarnings(scene.warnings);
     goOn(options);
-    checkScene(scene);
+    try {
+        checkScene(scene);
+    } catch (const InputError& error) {
+        throw InputError(nameOrPath + ": " + error.what());
+    }
     goOn(options);
     addDefaultCamera(scene);
     // Who asks for no lights gets none.

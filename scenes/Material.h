@@ -99,7 +99,7 @@ template <typename Member>
 MaterialField(const char*, Member Material::*, const char*, double, double) -> MaterialField<Member>;
 
 inline constexpr double kAnyNumber = std::numeric_limits<float>::max(); ///< as a bound: any finite number
-// Beyond any surface, and low enough that no product in a shader leaves fp32.
+// Beyond any surface, and low enough that no product of these alone leaves fp32.
 inline constexpr double kMostColor = 1e6;
 inline constexpr double kMostEmission = 1e30;
 inline constexpr double kMostRoughness = 1e6;

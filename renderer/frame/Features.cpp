@@ -287,6 +287,10 @@ FeatureSet allFeatures() {
     return set;
 }
 
+FeatureSet surfaceFeatures(const scenes::Scene& scene, bool prune) {
+    return prune ? materialFeatures(scene) : allFeatures();
+}
+
 Defines featureDefines(const FeatureSet& features) {
     Defines defines;
     const auto addFlag = [&](std::string name, bool flag) { defines.emplace_back(std::move(name), flag ? "1" : "0"); };

@@ -105,8 +105,11 @@ bool canMask(const scenes::Material& material);
 /// The features of the materials in use. packLights adds those of visible lights, makeFrameSpec those of the camera.
 FeatureSet materialFeatures(const scenes::Scene& scene);
 
-/// Everything there is (prune = off).
+/// Everything there is.
 FeatureSet allFeatures();
+
+/// What surfaces are built for: the first where what the scene does not need is left out, else the second.
+FeatureSet surfaceFeatures(const scenes::Scene& scene, bool prune);
 
 /// The defines of shaders: HAS_* of every feature as 0 or 1, and of groups of features (litModels(), glossyModels() and
 /// so on); the number MODEL_<NAME> of each model, and MODEL_COUNT; SOLE_MODEL if the scene has one model only.

@@ -44,13 +44,11 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     FrameSpec spec;
     spec.settings = settings;
     spec.lights = lights.texels.size();
+    spec.features = surfaceFeatures(scene, settings.prune);
     if (settings.prune) {
-        spec.features = materialFeatures(scene);
         spec.features.has |= lights.features.has;
         const scenes::Camera& camera = scene.cameras[std::size_t(settings.camera)];
         spec.features.add(Feature::OrthographicCamera, camera.projection == scenes::Projection::Orthographic);
-    } else {
-        spec.features = allFeatures();
     }
     // A channel that is looked at is stored.
     if (const std::optional<StoredComponents> shown = storedComponents(settings.view))

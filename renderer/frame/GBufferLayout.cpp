@@ -218,6 +218,10 @@ std::span<const LayoutInfo> layoutTable() {
     return kLayouts;
 }
 
+const LayoutInfo& exactLayout() {
+    return layoutTable().front();
+}
+
 const LayoutPromise& promiseOf(const GBufferLayout& layout) {
     const Encoding coarsest = *std::max_element(layout.encoding.begin(), layout.encoding.end());
     return kLayouts[static_cast<std::size_t>(coarsest)].promise;

@@ -74,6 +74,8 @@ struct LayoutInfo {
 };
 /// The named layouts, `exact` first.
 std::span<const LayoutInfo> layoutTable();
+/// The first row: every channel in fp32.
+const LayoutInfo& exactLayout();
 
 /// What the pictures of a layout, named or mixed, are held to: the promise of its coarsest channel.
 const LayoutPromise& promiseOf(const GBufferLayout& layout);

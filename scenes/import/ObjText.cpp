@@ -56,8 +56,9 @@ public:
         if (obj_.colors.size() != obj_.positionsOS.size()) obj_.colors.clear();
         forEachLine(text, [&](const Line& line) { readElement(line); });
         if (obj_.groups.empty())
-            throw InputError(
-                fmt::format("{}: has no faces ('f' statements); export the model with its polygons", file_.string()));
+            throw InputError(fmt::format(
+                "{}: has no face of three corners or more ('f' statements); export the model with its polygons",
+                file_.string()));
         addWarnings();
         return std::move(obj_);
     }

@@ -83,6 +83,17 @@ TEST_F(SeveralViews, viewsMayDifferInTechniqueSizeSamplesAndWhoBuildsTheirLists)
     expectEqual(scene, {fragment, compute, zbin, volumes});
 }
 
+TEST_F(SeveralViews, aDrawnFrameSharesMemoryAsItsPlanSays) {
+    const scenes::Scene scene = withTwoCameras(scenes::loadScene("hall"));
+    const std::vector<View> views{view(Technique::Deferred, 0, {96, 54}), view(Technique::Deferred, 1, {96, 54})};
+    engine::Renderer renderer(context(), scene);
+    renderer.draw(views);
+    const graph::Plan plan = engine::planViews(scene, views);
+    ASSERT_LT(plan.bytes, plan.bytesWithoutAliasing);
+    EXPECT_GE(renderer.backend().poolBytes(), plan.bytes);
+    EXPECT_LT(renderer.backend().poolBytes(), plan.bytesWithoutAliasing);
+}
+
 TEST_F(SeveralViews, sharedMemoryChangesNoBit) {
     // Without pruning no memory is shared within a frame, and nothing is left out.
     const scenes::Scene scene = withTwoCameras(scenes::loadScene("hall"));

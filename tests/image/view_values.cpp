@@ -186,7 +186,7 @@ TEST_F(ViewValues, storedChannelsShowTheGBufferBitForBit) {
         settings.layout = layout;
         return shown(scene, frame::storedDebugView({channel, fourth}), Technique::Deferred, settings);
     };
-    const frame::GBufferLayout exact = frame::layoutTable()[0].layout, packed = frame::layoutTable()[1].layout;
+    const frame::GBufferLayout exact = frame::exactLayout().layout, packed = frame::layoutTable()[1].layout;
     EXPECT_EQ(pixel(stored(frame::Channel::Albedo, false, exact), 4, 4), glm::vec4(0.25f, 0.5f, 1.0f, 1.0f));
     EXPECT_EQ(pixel(stored(frame::Channel::Albedo, true, exact), 4, 4), glm::vec4(0.375f, 0.375f, 0.375f, 1.0f));
     EXPECT_EQ(pixel(stored(frame::Channel::Normal, false, exact), 4, 4), glm::vec4(0, 0, 1, 1));

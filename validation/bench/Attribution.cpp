@@ -60,7 +60,7 @@ void addLayouts(const gpu::Capabilities& gl, const GroupTruth& truth, std::span<
                 std::vector<AttributionLine>& lines) {
     std::set<std::string> done;
     for (const BenchPoint& point : points) {
-        const bool isPacked = !(point.settings.layout == frame::layoutTable()[0].layout);
+        const bool isPacked = !(point.settings.layout == frame::exactLayout().layout);
         if (!isPacked || !done.insert(point.key.layout).second) continue;
         CompareRequest request;
         request.techniques = {Technique::TiledDeferred}; // draws once per channel: the fastest of one G-buffer

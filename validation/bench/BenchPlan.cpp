@@ -87,10 +87,10 @@ private:
     std::vector<std::optional<frame::LayoutInfo>> layoutsTaken() {
         if (info_.usesGBuffer()) return orDefault(matrix_.layouts);
         for (const frame::LayoutInfo& layout : matrix_.layouts) {
-            if (!(layout.layout == frame::layoutTable()[0].layout))
+            if (!(layout.layout == frame::exactLayout().layout))
                 skip(plan_, fmt::format("{}, {}", info_.name, layout.name), "the technique has no G-buffer to lay out");
         }
-        return {frame::layoutTable()[0]};
+        return {frame::exactLayout()};
     }
 
     void add(Method method, const std::optional<int>& tile, const std::optional<frame::LayoutInfo>& layout,

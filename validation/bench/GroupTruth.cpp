@@ -11,7 +11,7 @@
 namespace tessera::validation {
 
 frame::FrameSettings exactSettings(frame::FrameSettings settings, frame::TextureFilter filter) {
-    settings.layout = frame::layoutTable()[0].layout;
+    settings.layout = frame::exactLayout().layout;
     settings.rangeTolerance = 0.0;
     settings.filter = filter;
     settings.culling = {};

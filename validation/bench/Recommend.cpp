@@ -117,7 +117,7 @@ std::string recommendationText(const BenchGroup& group) {
                             pointName(choice->asFast->key), timeOf(*choice->asFast),
                             figureText(*relMseOf(*choice->asFast)));
     if (choice->exact) {
-        text += fmt::format(" As exact as any is {}", pointName(choice->exact->key));
+        text += fmt::format(" The most exact is {}", pointName(choice->exact->key));
         if (choice->exact != choice->baseline && choice->exactSpeedup)
             text += fmt::format(": {}", speedText(*choice->exactSpeedup));
         text += fmt::format(" at relMSE {}.", figureText(*relMseOf(*choice->exact)));

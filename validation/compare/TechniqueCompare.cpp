@@ -104,7 +104,7 @@ std::string cullingText(const engine::Renderer& renderer) {
 }
 
 bool isPacked(const frame::GBufferLayout& layout) {
-    return !(layout == frame::layoutTable()[0].layout);
+    return !(layout == frame::exactLayout().layout);
 }
 
 /// The place among the pictures made so far of one from a G-buffer that equals `picture` in every bit.
@@ -121,8 +121,7 @@ std::optional<std::size_t> equalPicture(const CompareResult& result, std::span<c
 std::vector<ChannelShare> channelShares(engine::Renderer& renderer, const Asked& asked, const TruthPicture& truth,
                                         double relMse) {
     std::vector<ChannelShare> shares;
-    const frame::FeatureSet features =
-        asked.settings.prune ? frame::materialFeatures(renderer.scene()) : frame::allFeatures();
+    const frame::FeatureSet features = frame::surfaceFeatures(renderer.scene(), asked.settings.prune);
     for (const frame::Channel channel : frame::neededChannels(features, asked.settings.layout, false)) {
         frame::FrameSettings settings = asked.settings;
         settings.layout.encoding[std::size_t(channel)] = frame::Encoding::Exact;
@@ -153,7 +152,7 @@ bool showsSigned(const CompareRequest& request) {
 void checkWithoutPacking(engine::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
                          const Asked& asked, const TruthPicture& truth, Verdict& verdict) {
     frame::FrameSettings settings = asked.settings;
-    settings.layout = frame::layoutTable()[0].layout;
+    settings.layout = frame::exactLayout().layout;
     const Picture picture = toPicture(renderer.render(asked.technique, settingsTakenBy(asked.technique, settings)));
     Tolerance tolerance = toleranceOf(renderer, gl, request, asked.technique, settings.layout);
     tolerance.isSigned = showsSigned(request);
@@ -177,7 +176,7 @@ bool showsHardwareFilter(const scenes::Scene& scene, const CompareRequest& reque
 void addHardwareFilter(engine::Renderer& renderer, const CompareRequest& request, CompareResult& result) {
     frame::FrameSettings settings = request.settings;
     settings.filter = frame::TextureFilter::Hardware;
-    settings.layout = frame::layoutTable()[0].layout;
+    settings.layout = frame::exactLayout().layout;
     NamedPicture picture = rendered(renderer, request.techniques.front(), settings);
     picture.name = hardwareFilterName(picture.name);
     const TruthPicture reference = referenceTruth(renderer, settings, request.renderedOne);

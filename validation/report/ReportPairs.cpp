@@ -58,7 +58,7 @@ std::string allFiguresHtml(const ErrorFigures& figures) {
         {"PSNR", orReason(escapedHtml(decibelText(figures.psnr)), figures.psnrReason)},
         {"FLIP", orReason(figureHtml(figures.flip.value_or(0.0)), figures.flipReason)},
         {"NaN / Inf / negative", countsHtml(figures.bad)},
-        {"the same, uncovered", countsHtml(figures.badOutside)},
+        {"NaN / Inf / negative, uncovered", countsHtml(figures.badOutside)},
         {"Covered pixels", fmt::format("{}", figures.covered)},
         {"Excluded of them", shareHtml(figures.excluded)},
         {"Lit of the compared", shareHtml(figures.litCoveredShare())},
@@ -85,8 +85,8 @@ std::string heatMapHtml(const Report& report, const ComparePair& pair) {
     if (found == report.heatMaps.end()) return "";
     return fmt::format(
         "<figure>\n<img width=\"{}\" height=\"{}\" alt=\"Heat map of the relative error of {}\" src=\"{}\" />\n"
-        "<figcaption>Relative error, logarithmic: black agrees to fp32 rounding, pale yellow is "
-        "off by as much as it shows.</figcaption>\n</figure>\n",
+        "<figcaption>Relative error, logarithmic: black agrees to fp32 rounding, at pale yellow "
+        "the error is as large as the value.</figcaption>\n</figure>\n",
         found->image.width, found->image.height, nameHtml(pair), dataUri(found->image));
 }
 

@@ -99,6 +99,22 @@ TEST(PlanFrame, twoViewsOfAFrameReuseMemory) {
     EXPECT_TRUE(sharing->aliasOf.starts_with("gbuffer.")) << sharing->aliasOf;
 }
 
+TEST(PlanFrame, aFrameOfViewsLeavesOutChoosesAndCountsWhatItsViewsDo) {
+    const scenes::Scene scene = scenes::loadScene("hall");
+    std::vector<FrameRequest> views(2);
+    views[1].technique = Technique::Forward;
+    const graph::Plan first = planFrame(scene, views[0].technique, views[0].settings);
+    const graph::Plan second = planFrame(scene, views[1].technique, views[1].settings);
+    const graph::Plan both = planViews(scene, views);
+    EXPECT_EQ(both.leftOut.size(), first.leftOut.size() + second.leftOut.size());
+    EXPECT_EQ(both.choices.size(), first.choices.size() + second.choices.size());
+    ASSERT_FALSE(first.counters.empty());
+    ASSERT_EQ(both.counters.size(), first.counters.size() + second.counters.size());
+    EXPECT_EQ(both.counters.front(), first.counters.front());
+    EXPECT_EQ(both.counters.back().first, second.counters.back().first + " (2)");
+    EXPECT_EQ(both.leftOut.back().what, second.leftOut.back().what + " (2)");
+}
+
 TEST(PlanFrame, viewsThatCannotBeOneFrameAreAlwaysRefused) {
     const scenes::Scene scene = scenes::loadScene("room");
     std::vector<FrameRequest> views(2);

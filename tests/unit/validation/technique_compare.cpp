@@ -7,7 +7,7 @@ namespace {
 
 using engine::Technique;
 
-const frame::GBufferLayout kExact = frame::layoutTable()[0].layout;
+const frame::GBufferLayout kExact = frame::exactLayout().layout;
 
 TEST(TechniqueCompare, pairsOnSoftwareAreHeldToEveryBit) {
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {

@@ -264,7 +264,7 @@ TEST(Obj, brokenTextIsRefusedWithFileAndLine) {
     EXPECT_EQ(errorOf(""), " the file is empty; export the model again");
     EXPECT_EQ(errorOf("\xff\xfev"), " the text is UTF-16; save it as UTF-8");
     EXPECT_EQ(errorOf("v 0 0 0\nv 1 0 0\nv 0 1 0\n"),
-              " has no faces ('f' statements); export the model with its polygons");
+              " has no face of three corners or more ('f' statements); export the model with its polygons");
     EXPECT_EQ(errorOf("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"),
               "4: the face refers to position 4, but 3 are defined in the file");
     EXPECT_EQ(errorOf("v 0 0 0\nf 1 2 -2\nv 0 0 1\n"), "2: the face refers to position -2, but 1 is defined above it");
