@@ -20,11 +20,8 @@ function(tessera_floor name)
     set_property(GLOBAL APPEND PROPERTY TESSERA_FLOORS tessera_${name})
 endfunction()
 
-# The language level, warnings, sanitizers and precompiled headers that every target of the project is built with.
+# The language level, warnings and sanitizers that every target of the project is built with.
 function(tessera_compile_options target)
-    if(NOT target STREQUAL tessera_base)
-        target_precompile_headers(${target} REUSE_FROM tessera_base)
-    endif()
     target_compile_features(${target} PUBLIC cxx_std_20)
     # Without contraction the CPU's sums do not depend on which multiply-adds a compiler happens to fuse.
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off)
