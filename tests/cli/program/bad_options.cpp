@@ -220,6 +220,12 @@ TEST_F(BadOptions, aDemonstrationDoesNotOverwriteItsInputs) {
     expectError(kBadInput, {"--quiet", "demo", "bench/bench.json", "-o", "."}, {"bench/bench.json", written});
 }
 
+TEST_F(BadOptions, debugViewsAreRefusedWhereATechniqueIsRecommended) {
+    for (const char* command : {"bench", "demo"})
+        expectError(kBadInput, {command, "room", "--view", "normal", "-o", "out"},
+                    {"--view normal", std::string(command) + " recommends a technique"});
+}
+
 TEST_F(BadOptions, heatMapsDoNotOverwriteInputsOrOtherOutputs) {
     ASSERT_EQ(run({"render", "room", "--size", "16x9", "-o", "deferred_flip.png"}).exitCode, 0);
     std::filesystem::create_directory(path("maps"));
