@@ -134,6 +134,23 @@ TEST_F(Render, aPictureOfNothingSaysWhy) {
     }
 }
 
+TEST_F(Render, pixelsThatAreNoNumbersAreCounted) {
+    folder_.write("floor.obj", "mtllib floor.mtl\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nvn 0 1 0\nusemtl mirror\n"
+                               "f 4//1 3//1 2//1 1//1\n");
+    folder_.write("floor.mtl", "newmtl mirror\nPm 1\nPr 0\nKd 1 1 1\n");
+    const auto said = [&](const char* intensity) { // of a light 1 cm above a mirror
+        folder_.write(
+            "s.json",
+            std::string(R"({"tessera": 1, "include": [{"file": "floor.obj"}], "cameras": [{"position": [0, 1, 0],
+                                      "target": [0, 0, 0], "up": [0, 0, -1]}], "lights": [{"type": "point",
+                                      "position": [0, 0.01, 0], "intensity": )") +
+                intensity + "}]}");
+        return run({"render", "s.json", "--size", "65x37", "-o", "a.exr"}).err;
+    };
+    EXPECT_THAT(said("1e30"), testing::HasSubstr("warning: a.exr: 1 of its pixels are infinite or no numbers"));
+    EXPECT_THAT(said("1e20"), testing::Not(testing::HasSubstr("pixels are infinite")));
+}
+
 TEST_F(Render, warningsNeverComeBeforeAnError) {
     folder_.write("tri.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
     expectError(2, {"render", "tri.obj", "--camera", "nix", "-o", "a.png"}, {"unknown camera 'nix'"});
