@@ -9,6 +9,7 @@
 #include "apps/OutputFolder.h"
 #include "apps/Outputs.h"
 #include "apps/Progress.h"
+#include "base/AtomicFile.h"
 #include "base/PictureFile.h"
 #include "engine/ChooseSamples.h"
 #include "engine/Renderer.h"
@@ -49,6 +50,8 @@ struct DemoResult {
     std::optional<validation::BenchRecord> bench; ///< of frames with one sample per pixel
     std::vector<double> ms;                       ///< by technique, where there is no bench
     std::string choice;
+    std::vector<Png> pictures; ///< of the comparison: the truth, then its pictures
+    std::vector<Png> heatMaps; ///< of its pictures
 };
 
 std::string choiceOf(const std::vector<Technique>& techniques, const std::vector<double>& ms, bool agree) {
@@ -101,13 +104,12 @@ validation::Report makeReport(const std::string& source, const Request& request,
              graph::planText(engine::planFrame(request.scene, technique,
                                                validation::settingsTakenBy(technique, request.settings)))});
     }
-    const validation::NamedPicture& truth = comparison.truth;
-    report.pictures.push_back({truth.name, "the truth of every pair", truth.display});
-    for (const validation::NamedPicture& picture : comparison.pictures) {
-        report.pictures.push_back({picture.name, "", picture.display});
-        report.heatMaps.push_back(
-            {picture.name, truth.name,
-             validation::errorHeatMap(picture.picture, truth.picture, picture.name + " vs " + truth.name)});
+    const std::string& truth = comparison.truth.name;
+    report.pictures.push_back({truth, "the truth of every pair", result.pictures[0]});
+    for (std::size_t i = 0; i < comparison.pictures.size(); ++i) {
+        const std::string& name = comparison.pictures[i].name;
+        report.pictures.push_back({name, "", result.pictures[i + 1]});
+        report.heatMaps.push_back({name, truth, result.heatMaps[i]});
     }
     report.commands = commandsOf(source, request.settings);
     if (result.bench) addBench(report, result);
@@ -144,13 +146,28 @@ Outputs outputsOf(const DemoFiles& files, const Request& request, const std::vec
     return outputs;
 }
 
-void writePictures(const DemoFiles& files, const Outputs& outputs, const Request& request,
-                   const CompareResult& result) {
+void encodePictures(DemoResult& result) {
+    const validation::NamedPicture& truth = result.comparison.truth;
+    std::vector<DisplayImage> shown = {truth.display}, heatMaps;
+    for (const validation::NamedPicture& picture : result.comparison.pictures) {
+        shown.push_back(picture.display);
+        heatMaps.push_back(
+            validation::errorHeatMap(picture.picture, truth.picture, picture.name + " vs " + truth.name));
+    }
+    result.pictures = encodePngs(shown);
+    result.heatMaps = encodePngs(heatMaps);
+}
+
+void writePictures(const DemoFiles& files, const Outputs& outputs, const Request& request, const DemoResult& result) {
     makeFolder(files.folder.string());
-    writeExr(outputs.at(files.radiance(request)), result.truth.picture);
-    writePng(outputs.at(files.picture(result.truth.name)), result.truth.display);
-    for (const validation::NamedPicture& picture : result.pictures)
-        writePng(outputs.at(files.picture(picture.name)), picture.display);
+    const validation::NamedPicture& truth = result.comparison.truth;
+    writeExr(outputs.at(files.radiance(request)), truth.picture);
+    const auto write = [&](const std::string& name, const Png& png) {
+        writeFileAtomically(outputs.at(files.picture(name)), png.bytes);
+    };
+    write(truth.name, result.pictures[0]);
+    for (std::size_t i = 0; i < result.comparison.pictures.size(); ++i)
+        write(result.comparison.pictures[i].name, result.pictures[i + 1]);
 }
 
 int demo(const DemoOptions& options, const GlobalOptions& global) {
@@ -178,7 +195,8 @@ int demo(const DemoOptions& options, const GlobalOptions& global) {
     }
     validation::CompareRecord& record = result.comparison.record;
     record.leftOut = std::move(leftOut);
-    writePictures(files, outputs, request, result.comparison);
+    encodePictures(result);
+    writePictures(files, outputs, request, result);
     if (request.settings.samples > 1) {
         result.choice = choiceOf(result.techniques, result.ms, record.ok());
     } else {

@@ -1,6 +1,7 @@
 #include "base/PictureFile.h"
 
 #include <cassert>
+#include <future>
 #include <memory>
 #include <stdexcept>
 
@@ -47,16 +48,25 @@ void writeExr(const std::string& path, const Picture& picture) {
     writeFileAtomically(path, encode("exr", spec, values.data()));
 }
 
-std::vector<std::uint8_t> encodePng(const DisplayImage& image) {
+Png encodePng(const DisplayImage& image) {
     assert(image.isConsistent());
     OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("Software", kPictureSoftware);
-    return encode("png", spec, image.rgb.data());
+    return {image.width, image.height, encode("png", spec, image.rgb.data())};
+}
+
+std::vector<Png> encodePngs(std::span<const DisplayImage> images) {
+    std::vector<std::future<Png>> encoding;
+    for (const DisplayImage& image : images)
+        encoding.push_back(std::async(std::launch::async, [&image] { return encodePng(image); }));
+    std::vector<Png> pngs;
+    for (std::future<Png>& png : encoding) pngs.push_back(png.get());
+    return pngs;
 }
 
 void writePng(const std::string& path, const DisplayImage& image) {
-    writeFileAtomically(path, encodePng(image));
+    writeFileAtomically(path, encodePng(image).bytes);
 }
 
 } // namespace tessera

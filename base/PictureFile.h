@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,15 @@ void writeExr(const std::string& path, const Picture& picture);
 /// Writes a display image as PNG of 8 bits per channel. Written whole or not at all; throws as writeExr does.
 void writePng(const std::string& path, const DisplayImage& image);
 
-/// The bytes of that PNG. Throws std::runtime_error when they cannot be made.
-std::vector<std::uint8_t> encodePng(const DisplayImage& image);
+/// A PNG file in memory.
+struct Png {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> bytes; ///< of the file
+};
+
+/// Encodes what writePng() writes. Throws std::runtime_error when the bytes cannot be made.
+Png encodePng(const DisplayImage& image);
+/// Encodes several at a time, on all cores. Throws as encodePng() does.
+std::vector<Png> encodePngs(std::span<const DisplayImage> images);
 
 } // namespace tessera

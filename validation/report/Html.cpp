@@ -1,6 +1,5 @@
 #include "validation/report/Html.h"
 
-#include "base/PictureFile.h"
 #include "base/Utf8.h"
 
 namespace tessera::validation {
@@ -30,10 +29,6 @@ std::string escapedHtml(std::string_view text) {
         text.remove_prefix(length == 0 ? 1 : length);
     }
     return html;
-}
-
-std::string dataUri(const DisplayImage& image) {
-    return pngDataUri(encodePng(image));
 }
 
 std::string pngDataUri(std::span<const std::uint8_t> bytes) {

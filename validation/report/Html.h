@@ -4,8 +4,6 @@
 #include <string>
 #include <string_view>
 
-#include "base/Picture.h"
-
 namespace tessera::validation {
 
 /// Text as it may stand in HTML between tags and in quoted attributes. Bytes that are not UTF-8, and control characters
@@ -15,8 +13,6 @@ std::string escapedHtml(std::string_view text);
 /// Base64 with padding (RFC 4648 section 4), on one line.
 std::string base64(std::span<const std::uint8_t> bytes);
 
-/// The image as a PNG data URI. Throws std::runtime_error when it cannot be encoded.
-std::string dataUri(const DisplayImage& image);
 /// The bytes of a PNG as a data URI.
 std::string pngDataUri(std::span<const std::uint8_t> bytes);
 

@@ -94,7 +94,7 @@ std::string galleryHtml(const Report& report) {
         html += fmt::format("<figure>\n<img id=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\" />\n"
                             "<figcaption><strong>{}</strong> {}</figcaption>\n</figure>\n",
                             pictureId(report, picture.name), picture.image.width, picture.image.height,
-                            escapedHtml("The scene as rendered by " + picture.name), dataUri(picture.image),
+                            escapedHtml("The scene as rendered by " + picture.name), pngDataUri(picture.image.bytes),
                             escapedHtml(picture.name), escapedHtml(picture.caption));
     return html + "</div>\n</section>\n";
 }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "base/Picture.h"
+#include "base/PictureFile.h"
 #include "validation/compare/CompareRecord.h"
 
 namespace tessera::validation {
@@ -11,13 +11,13 @@ namespace tessera::validation {
 struct ReportPicture {
     std::string name;    ///< what the pairs call it, such as "forward"
     std::string caption; ///< one line below it; may be empty
-    DisplayImage image;
+    Png image;
 };
 
 /// The heat map of one pair; names as in ComparePair.
 struct ReportHeatMap {
     std::string a, b;
-    DisplayImage image;
+    Png image;
 };
 
 struct ReportFact {
@@ -50,7 +50,7 @@ struct Report {
 
 /// One page of HTML that needs nothing else: pictures, style and script are inside, and nothing is fetched. A pair
 /// whose two pictures are both given gets a before/after slider; without script the pictures still show. Write it with
-/// writeFileAtomically(). Throws std::runtime_error when a picture cannot be encoded.
+/// writeFileAtomically().
 std::string reportHtml(const Report& report);
 
 } // namespace tessera::validation

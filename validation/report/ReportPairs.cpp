@@ -87,7 +87,7 @@ std::string heatMapHtml(const Report& report, const ComparePair& pair) {
         "<figure>\n<img width=\"{}\" height=\"{}\" alt=\"Heat map of the relative error of {}\" src=\"{}\" />\n"
         "<figcaption>Relative error, logarithmic: black agrees to fp32 rounding, at pale yellow "
         "the error is as large as the value.</figcaption>\n</figure>\n",
-        found->image.width, found->image.height, nameHtml(pair), dataUri(found->image));
+        found->image.width, found->image.height, nameHtml(pair), pngDataUri(found->image.bytes));
 }
 
 std::string channelsHtml(const ComparePair& pair) {

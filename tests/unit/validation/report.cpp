@@ -35,10 +35,11 @@ Report sampleReport() {
     report.record.pairs.push_back(comparePair("packed", a, "forward", b, {.maxRel = 1e-5}));
     report.choice = "Take deferred: it costs a third of forward here.";
     report.facts = {{"Triangles", "212,480"}};
-    report.pictures = {
-        {"forward", "the truth", plainImage(10)}, {"deferred", "", plainImage(10)}, {"packed", "", plainImage(12)}};
+    report.pictures = {{"forward", "the truth", encodePng(plainImage(10))},
+                       {"deferred", "", encodePng(plainImage(10))},
+                       {"packed", "", encodePng(plainImage(12))}};
     for (const ComparePair& pair : report.record.pairs)
-        report.heatMaps.push_back({pair.a, pair.b, errorHeatMap(a, b, pair.a)});
+        report.heatMaps.push_back({pair.a, pair.b, encodePng(errorHeatMap(a, b, pair.a))});
     report.plans = {{"deferred", "gbuffer -> deferred_lighting\n  left out: <shadows>"}};
     report.commands = {"./run compare hall --json 'x&y.json'"};
     return report;
@@ -161,7 +162,7 @@ TEST(Report, everyPictureIsEmbeddedExactlyOnce) {
     const Report report = sampleReport();
     const std::string html = reportHtml(report);
     EXPECT_EQ(occurrences(html, "src=\"data:image/png;base64,"), report.pictures.size() + report.heatMaps.size());
-    EXPECT_THAT(html, HasSubstr(dataUri(report.pictures[2].image)));
+    EXPECT_THAT(html, HasSubstr(pngDataUri(report.pictures[2].image.bytes)));
     EXPECT_THAT(html, HasSubstr("data-left=\"picture-0\" data-right=\"picture-2\""));
     EXPECT_EQ(occurrences(html, " id=\"picture-2\""), 1u);
 }
