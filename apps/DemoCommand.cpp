@@ -80,6 +80,8 @@ std::vector<std::string> commandsOf(const std::string& source, const frame::Fram
 void addBench(validation::Report& report, const DemoResult& result) {
     const validation::BenchGroup* headline = validation::headlineGroup(*result.bench);
     report.bench = validation::benchHtml(*result.bench, *headline, {});
+    report.facts.push_back(
+        {"Measured at", fmt::format("{} \u00d7 {}", headline->sizePixels.x, headline->sizePixels.y)});
     report.facts.push_back({"Machine", result.bench->machine});
     report.commands.insert(report.commands.begin(), result.bench->command);
 }

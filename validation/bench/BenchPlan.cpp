@@ -119,7 +119,7 @@ private:
         std::string what = fmt::format("{}, {}", info_.name, infoOf(method).name);
         if (tile) what += fmt::format(" {}", *tile);
         if (range && *range > 0.0) what += fmt::format(", range {:g}", *range);
-        skip(plan_, fmt::format("{} in {} with {} lights", what, group_.scene, group_.lights),
+        skip(plan_, fmt::format("{} in {} with {}", what, group_.scene, lightsText(group_.lights)),
              "it is the same frame as " + pointName(point.key));
     }
 
@@ -174,7 +174,7 @@ void addToPlan(BenchPlan& plan, const BenchMatrix& matrix, const std::string& sc
             });
             if (isKnown) {
                 skip(plan,
-                     fmt::format("{} with {} lights at {}x{}, again", sceneName, group.lights, group.sizePixels.x,
+                     fmt::format("{} with {} at {}x{}, again", sceneName, lightsText(group.lights), group.sizePixels.x,
                                  group.sizePixels.y),
                      "it is measured already");
                 continue;

@@ -12,9 +12,13 @@ std::string pointName(const PointKey& key) {
     return name;
 }
 
+std::string lightsText(int lights) {
+    return fmt::format("{} light{}", lights, lights == 1 ? "" : "s");
+}
+
 std::string groupName(const BenchGroup& group) {
-    return fmt::format("{} with {} light{} at {}x{}", group.scene, group.lights, group.lights == 1 ? "" : "s",
-                       group.sizePixels.x, group.sizePixels.y);
+    return fmt::format("{} with {} at {}x{}", group.scene, lightsText(group.lights), group.sizePixels.x,
+                       group.sizePixels.y);
 }
 
 } // namespace tessera::validation

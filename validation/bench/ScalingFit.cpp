@@ -31,7 +31,7 @@ const std::vector<Quantity>& quantities() {
          [](const BenchGroup& group, const BenchResult&) {
              return std::optional(double(group.sizePixels.x) * double(group.sizePixels.y));
          },
-         [](const BenchGroup& group) { return fmt::format("{} lights", group.lights); }},
+         [](const BenchGroup& group) { return lightsText(group.lights); }},
         {"evaluations",
          [](const BenchGroup&, const BenchResult& result) {
              const std::optional<std::uint64_t>& evaluations = result.counters.lightEvaluations;

@@ -73,8 +73,8 @@ std::string mastheadHtml(const Report& report) {
     if (!report.choice.empty()) html += fmt::format("<p class=\"choice\">{}</p>\n", escapedHtml(report.choice));
     html += "<dl class=\"facts\">\n";
     if (compares)
-        html += factHtml("Scene", record.scene) +
-                factHtml("Size", fmt::format("{} \u00d7 {}", record.width, record.height));
+        html += factHtml("Scene", record.scene) + factHtml(report.bench ? "Compared at" : "Size",
+                                                           fmt::format("{} \u00d7 {}", record.width, record.height));
     for (const ReportFact& fact : report.facts) html += factHtml(fact.label, fact.value);
     return html + factHtml("Renderer", record.renderer) + "</dl>\n</header>\n";
 }

@@ -127,13 +127,18 @@ std::vector<StressResult> runStress(gpu::Context& context, const StressRequest& 
 
 std::vector<const StressCase*> stressCasesNamed(const std::string& name) {
     std::vector<const StressCase*> found;
-    std::vector<std::string_view> names;
+    const std::string group = name.substr(0, name.find('/'));
+    std::vector<std::string_view> groups, inGroup;
     for (const StressCase& row : stressCases()) {
         if (row.name == name || row.name.starts_with(name + "/")) found.push_back(&row);
-        names.push_back(row.name);
+        const std::string_view rowGroup = std::string_view(row.name).substr(0, row.name.find('/'));
+        if (rowGroup == group) inGroup.push_back(row.name);
+        if (groups.empty() || groups.back() != rowGroup) groups.push_back(rowGroup);
     }
+    // All names would fill a screen.
     if (found.empty())
-        throw InputError(fmt::format("case '{}': no case is called that; {}", name, suggestNames(name, names)));
+        throw InputError(fmt::format("case '{}': no case or group of cases is called that; {}", name,
+                                     inGroup.empty() ? suggestNames(group, groups) : suggestNames(name, inGroup)));
     return found;
 }
 

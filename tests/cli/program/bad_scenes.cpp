@@ -32,12 +32,14 @@ protected:
     }
 };
 
-TEST_F(BadScenes, missingAndEmptyFilesAreRefused) {
+TEST_F(BadScenes, missingEmptyAndFarAwayFilesAreRefused) {
     for (const char* name : {"m.gltf", "m.glb", "m.obj", "m.json"}) {
         expectRefused(name, {"no such file"});
         folder_.write(name, "");
         expectRefused(name, {"empty"});
     }
+    folder_.write("far.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n");
+    expectRefused("far.obj", {"far.obj: scene 'far': node 0 'far'", "make the scene smaller"});
     folder_.write("m.txt", "text");
     expectRefused("m.txt", {"not a scene file", ".gltf, .glb, .obj or .json"});
     expectError(kBadInput, {"render", ".", "-o", "a.png"}, {".: is a folder; give"});

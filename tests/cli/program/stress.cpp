@@ -53,6 +53,8 @@ TEST_F(StressCommand, aShaderWithAFaultEndsWithExitCodeThree) {
 
 TEST_F(StressCommand, anUnknownNameIsRefusedWithTheNearest) {
     expectError(kBadInput, {"stress", "--case", "terms/fresnal"}, {"terms/fresnal", "terms/fresnel"});
+    expectError(kBadInput, {"stress", "--case", "directons/peak"}, {"did you mean 'directions'?"});
+    expectError(kBadInput, {"stress", "--case", "nosuch"}, {"valid are brdf, directions, roughness"});
     expectError(kBadInput, {"stress", "--technique", "forwart"}, {"forwart", "forward"});
     expectError(app::kFailed, {"stress", "--quick", "--case", "terms", "--json", "/proc/nix/s.json"}, {"/proc/nix"});
 }

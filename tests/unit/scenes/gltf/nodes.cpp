@@ -245,6 +245,21 @@ TEST(GltfLights, directionIsMinusZOfTheNode) {
     expectNear(withLight(R"({"type": "directional"})", tilted).import().lights.at(0).directionWS, {0, 1, 0});
 }
 
+TEST(GltfLights, hugeAndTinyNestedScalesLeaveTheDirection) {
+    for (const char* scale : {"[1e38, 1e38, 1e38]", "[1e-38, 1e-38, 1e-38]"}) {
+        Builder builder = withLight(R"({"type": "spot", "spot": {}})");
+        Json& nodes = builder.json["nodes"];
+        Json lamp = nodes[0];
+        lamp["rotation"] = Json::parse("[0, 0.7071067811865476, 0, 0.7071067811865476]");
+        nodes = Json::array();
+        for (int i = 0; i < 6; ++i) nodes.push_back({{"scale", Json::parse(scale)}, {"children", {i + 1}}});
+        nodes.push_back(lamp);
+        const Scene scene = builder.import();
+        expectNear(scene.lights.at(0).directionWS, {-1, 0, 0});
+        EXPECT_TRUE(scene.warnings.empty()) << scale;
+    }
+}
+
 TEST(GltfLights, spotConesAreImportedExactly) {
     const Light spot =
         withLight(R"({"type": "spot", "spot": {"innerConeAngle": 0.25, "outerConeAngle": 0.5}})").import().lights.at(0);
