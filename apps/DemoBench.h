@@ -17,9 +17,8 @@ struct DemoBenchRequest {
     bool quiet = false;
 };
 
-/// Error against run time of the demonstration's scene: the techniques in two layouts, in a small picture,
-/// so that it stays short. What is measured lies in the folder's own folder `bench`,
-/// demoBenchFolder().
+/// Measures error against run time of the demonstration's scene: the techniques in two layouts, in a small picture, so
+/// that it stays short. Writes into demoBenchFolder().
 validation::BenchRecord demoBench(gpu::Context& context, const DemoBenchRequest& demo);
 
 std::string demoBenchFolder(const std::string& folder);

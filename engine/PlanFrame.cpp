@@ -15,22 +15,19 @@ namespace tessera::engine {
 
 namespace {
 
-std::string lightCount(std::size_t count) {
-    return fmt::format("{} light{}", count, count == 1 ? "" : "s");
-}
-
 std::string truncationWords(const frame::TruncatedLights& lights, double tolerance) {
     if (lights.sum() == 0) return "no light that is on falls off by A B C, so it ends none";
     if (tolerance == 0.0)
         return fmt::format("falloff by A B C of {} never ends; a tolerance above 0 gives it a radius",
-                           lightCount(lights.sum()));
+                           frame::lightsText(lights.sum()));
     std::string words;
     const auto add = [&](const std::string& part) { words += (words.empty() ? "" : "; ") + part; };
     if (lights.ended > 0)
-        add(fmt::format("{} with falloff by A B C made finite, radii {:.4g} m to {:.4g} m", lightCount(lights.ended),
-                        lights.shortestMetres, lights.longestMetres));
-    if (lights.belowAlready > 0) add(fmt::format("{} nowhere above it, so dark", lightCount(lights.belowAlready)));
-    if (lights.endless > 0) add(fmt::format("{} without end, B = C = 0", lightCount(lights.endless)));
+        add(fmt::format("{} with falloff by A B C made finite, radii {:.4g} m to {:.4g} m",
+                        frame::lightsText(lights.ended), lights.shortestMetres, lights.longestMetres));
+    if (lights.belowAlready > 0)
+        add(fmt::format("{} nowhere above it, so dark", frame::lightsText(lights.belowAlready)));
+    if (lights.endless > 0) add(fmt::format("{} without end, B = C = 0", frame::lightsText(lights.endless)));
     return words;
 }
 
@@ -109,11 +106,11 @@ graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const fra
     return plan;
 }
 
-graph::Plan planViews(const scenes::Scene& scene, std::span<const FrameRequest> views) {
+graph::Plan planViews(const scenes::Scene& scene, std::span<const FrameRequest> views, const AfterOpaque& after) {
     requireOneFrame(views);
     graph::Graph graph;
     for (const FrameRequest& view : views)
-        declareView(graph, view.technique, prepareView(scene, view.technique, view.settings).spec, nullptr);
+        declareView(graph, view.technique, prepareView(scene, view.technique, view.settings).spec, nullptr, after);
     const bool prune = views.front().settings.prune;
     graph::Plan plan = graph::makePlan(graph, graph::compile(graph, {.cull = prune, .alias = prune}));
     plan.scene = scene.name;

@@ -29,6 +29,8 @@ std::vector<T> flipped(const std::vector<T>& rows, int width, int height) {
 } // namespace
 
 struct Renderer::Drawn {
+    explicit Drawn(graph::Graph::Keeps keeps) : graph(std::move(keeps)) {}
+
     std::vector<frame::DrawnView> views;
     std::vector<DeclaredView> declared; ///< parallel to views
     graph::Graph graph;
@@ -57,9 +59,11 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     return *sceneGpu_;
 }
 
-void Renderer::draw(std::span<const FrameRequest> views) {
+void Renderer::draw(std::span<const FrameRequest> views, const AfterOpaque& after) {
     requireOneFrame(views);
-    auto drawn = std::make_unique<Drawn>();
+    auto drawn =
+        std::make_unique<Drawn>([this](const std::string& name, const graph::ResourceDesc& desc,
+                                       std::uint64_t revision) { return backend_.holds(name, desc, revision); });
     for (const FrameRequest& view : views) {
         frame::DrawnView& added = drawn->views.emplace_back();
         const frame::FrameSettings settings = settingsOn(context_.capabilities(), view.settings);
@@ -71,7 +75,7 @@ void Renderer::draw(std::span<const FrameRequest> views) {
         view.scene = &sceneGpu(spec);
         view.draws = frame::makeViewDraws(view.scene->drawList(), view.prepared.camera, spec.settings.prune);
         view.listMemory = &listMemory_;
-        drawn->declared.push_back(declareView(drawn->graph, views[i].technique, spec, &view));
+        drawn->declared.push_back(declareView(drawn->graph, views[i].technique, spec, &view, after));
     }
     const bool prune = drawn->views.front().prepared.spec.settings.prune;
     drawn_ = std::move(drawn);
@@ -87,6 +91,10 @@ const gpu::Texture& Renderer::radianceTexture(std::size_t view) const {
 
 const gpu::Texture& Renderer::displayTexture(std::size_t view) const {
     return drawn_->execution->texture(drawn_->declared.at(view).display);
+}
+
+const gpu::Texture& Renderer::texture(graph::TextureHandle output) const {
+    return drawn_->execution->texture(output);
 }
 
 RenderedFrame Renderer::download(std::size_t view) const {

@@ -45,8 +45,9 @@ public:
 
     /// Draws one frame of one or more views and does not wait; download() reads it, passTimings() times it. The views
     /// share the scene's data on the GPU, so their settings of filter and pruning must be equal. Throws InputError if
-    /// they are not, or if settings name things that the scene lacks; std::runtime_error when GL fails.
-    void draw(std::span<const FrameRequest> views);
+    /// they are not, or if settings name things that the scene lacks; std::runtime_error when GL fails. `after` adds
+    /// passes to each view; what they declare as outputs of the graph, texture() gives.
+    void draw(std::span<const FrameRequest> views, const AfterOpaque& after = {});
     void draw(Technique technique, const frame::FrameSettings& settings) {
         const FrameRequest view{technique, settings};
         draw({&view, 1});
@@ -58,6 +59,9 @@ public:
     /// it.
     const gpu::Texture& radianceTexture(std::size_t view = 0) const;
     const gpu::Texture& displayTexture(std::size_t view = 0) const;
+
+    /// An output of the latest draw() that its AfterOpaque declared.
+    const gpu::Texture& texture(graph::TextureHandle output) const;
 
     /// Depth of a view of the latest draw(): reverse-Z, rows from the bottom, 0 where nothing opaque was drawn.
     std::vector<float> downloadDepth(std::size_t view = 0) const;
@@ -99,8 +103,8 @@ private:
 
 /// What a frame of one view would run, leave out and need, without a context.
 graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings);
-/// The passes and resources of a frame of several views. Throws InputError as Renderer::draw() does.
-graph::Plan planViews(const scenes::Scene& scene, std::span<const FrameRequest> views);
+/// The passes and resources of a frame of several views, as Renderer::draw() draws it. Throws InputError as that does.
+graph::Plan planViews(const scenes::Scene& scene, std::span<const FrameRequest> views, const AfterOpaque& after = {});
 
 /// The programs a frame would use, without a context.
 std::vector<shader::ProgramDesc> framePrograms(const scenes::Scene& scene, Technique technique,

@@ -89,7 +89,7 @@ struct Setting {
     bool isWishable = true;   ///< scene files may ask for it
     bool isShared = false;    ///< by the two sides of the viewer's comparisons
     bool isRemembered = false; ///< by the viewer from one run to the next
-    bool comesBack = true;     ///< in the viewer, with a technique that takes it, after one that did not
+    bool comesBack = true;     ///< the viewer restores its value when a technique takes it again
 
     SettingValue value;
 

@@ -136,7 +136,7 @@ constexpr Row kRows[] = {
       kAllLights, true},
      opaqueDeferred},
     {{Technique::DeferredVolumes, "deferred_volumes", Geometry::GBuffer,
-      "one proxy volume a light, depth tested, added by blending", kAllLights},
+      "one proxy volume a light, depth tested, added by blending", kAllLights, false, true},
      opaqueDeferredVolumes},
     {{Technique::TiledDeferred, "tiled_deferred", Geometry::GBuffer,
       "full screen, each covered pixel once, its tile's lights", kTiled, true},

@@ -33,6 +33,8 @@ struct TechniqueInfo {
     std::span<const culling::Method> methods; ///< of light culling that it takes, the one it prefers first
     bool choosesStage = false; ///< lights in a pass of its own, which may be of fragment or of compute shaders
 
+    bool addsByBlending = false; ///< adds light after light to the picture, in an order that it does not choose
+
     bool usesGBuffer() const { return geometry == Geometry::GBuffer; }
     bool multisamples() const { return geometry != Geometry::GBuffer; } ///< takes more than one sample per pixel
 };

@@ -2,8 +2,8 @@
 #include "renderer/culling/TileGrid.h"
 #include "renderer/gpu/Buffer.h"
 
-/// What shaders/lib/lists/list_scan.glsl does, on the CPU: for fragment shaders, of which one alone would have to go
-/// over all tiles. Both return the totals as that shader writes them.
+/// The scan of shaders/lib/lists/list_scan.glsl on the CPU, for light lists built in fragment shaders: there, a single
+/// invocation would have to loop over all tiles. Both functions return the totals as that shader writes them.
 namespace tessera::passes {
 
 /// Turns cells and entries of each tile (uvec2) into the index of its first of each.

@@ -102,8 +102,7 @@ std::optional<StoredComponents> storedComponents(DebugView view) {
 DisplayMapping displayMapping(DebugView view, const GBufferLayout& layout) {
     const std::optional<StoredComponents> stored = storedComponents(view);
     if (!stored) return debugViewInfo(view).mapping;
-    const bool direction = stored->channel == Channel::Normal || stored->channel == Channel::Tangent ||
-                           stored->channel == Channel::Clearcoat;
+    const bool direction = channelTable()[std::size_t(stored->channel)].isDirection;
     const bool exact = layout[stored->channel] == Encoding::Exact;
     return direction && exact && !stored->fourth ? DisplayMapping::Signed : DisplayMapping::Raw;
 }

@@ -35,7 +35,7 @@ std::size_t bytesWithout(Feature feature, const FeatureSet& features) {
 
 void addLights(std::vector<graph::Plan::LeftOut>& out, const FeatureSet& features, std::size_t count, const char* why) {
     if (count == 0) return;
-    out.push_back({fmt::format("{} light{}", count, count == 1 ? "" : "s"), why, lightBytes(features, count), {}});
+    out.push_back({lightsText(count), why, lightBytes(features, count), {}});
 }
 
 } // namespace

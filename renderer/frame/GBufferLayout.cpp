@@ -23,7 +23,9 @@ constexpr ChannelInfo kChannels[] = {
      {10, 10, 10},
      {8, 8, 8},
      "scenes with a lit model",
-     true},
+     true,
+     false,
+     [](const FeatureSet& f, bool) { return f.litModels(); }},
     {Channel::Normal,
      "normal",
      "NORMAL",
@@ -32,7 +34,9 @@ constexpr ChannelInfo kChannels[] = {
      {15, 15},
      {10, 10},
      "scenes with a lit model",
-     false},
+     false,
+     true,
+     [](const FeatureSet& f, bool) { return f.litModels(); }},
     {Channel::Microsurface,
      "microsurface",
      "MICROSURFACE",
@@ -42,7 +46,9 @@ constexpr ChannelInfo kChannels[] = {
      {4, 9, 4, 8},
      {4, 7, 2, 6},
      "scenes with several models, another ior, or no room beside albedo and normal",
-     true},
+     true,
+     false,
+     [](const FeatureSet& f, bool) { return f.microsurfaces() || !f.soleModel; }},
     {Channel::Specular,
      "specular",
      "SPECULAR",
@@ -51,7 +57,9 @@ constexpr ChannelInfo kChannels[] = {
      {6, 6, 6},
      {4, 4, 4},
      "scenes that change k_s or the dielectric F0",
-     true},
+     true,
+     false,
+     [](const FeatureSet& f, bool) { return f.glossyModels() && f[Feature::Specular]; }},
     {Channel::Emission,
      "emission",
      "EMISSION",
@@ -60,7 +68,9 @@ constexpr ChannelInfo kChannels[] = {
      {7, 6, 6, 6},
      {6, 5, 5, 5},
      "scenes with emissive or unlit materials",
-     true},
+     true,
+     false,
+     [](const FeatureSet& f, bool) { return f[Feature::Emission]; }},
     {Channel::Tangent,
      "tangent",
      "TANGENT",
@@ -69,7 +79,9 @@ constexpr ChannelInfo kChannels[] = {
      {2, 13, 9},
      {2, 9, 7},
      "scenes with anisotropic materials",
-     false},
+     false,
+     true,
+     [](const FeatureSet& f, bool normalTexel) { return f.tangentFrame() && !normalTexel; }},
     {Channel::Clearcoat,
      "clearcoat",
      "CLEARCOAT",
@@ -78,7 +90,9 @@ constexpr ChannelInfo kChannels[] = {
      {12, 12, 8, 9},
      {10, 10, 6, 7},
      "scenes with coated materials",
-     false},
+     false,
+     true,
+     [](const FeatureSet& f, bool normalTexel) { return f[Feature::Clearcoat] && !normalTexel; }},
     {Channel::Sheen,
      "sheen",
      "SHEEN",
@@ -87,7 +101,9 @@ constexpr ChannelInfo kChannels[] = {
      {8, 8, 8, 8},
      {6, 6, 6, 6},
      "scenes with cloth",
-     true},
+     true,
+     false,
+     [](const FeatureSet& f, bool normalTexel) { return f[Feature::Sheen] && !normalTexel; }},
     {Channel::NormalTexel,
      "normal_texel",
      "NORMAL_TEXEL",
@@ -96,7 +112,9 @@ constexpr ChannelInfo kChannels[] = {
      {8, 8, 8},
      {8, 8, 8},
      "the view that shows it",
-     false},
+     false,
+     false,
+     [](const FeatureSet&, bool normalTexel) { return normalTexel; }},
 };
 static_assert(std::size(kChannels) == kChannelCount);
 // One exponent serves three colours of one width; with more bits than 7 it would leave fp32's range.
@@ -184,28 +202,17 @@ bool canHoldMaterialNumber(const GBufferLayout& layout) {
 
 /// Where every pixel holds all of its surface.
 std::vector<Channel> channelsOfSurfaces(const FeatureSet& features, const GBufferLayout& layout, bool normalTexel) {
-    const bool glossy = features.glossyModels();
-    std::vector<Channel> channels;
-    if (features.litModels()) {
-        channels.push_back(Channel::Albedo);
-        channels.push_back(Channel::Normal);
-    }
     const bool alphaAndMetallicOnly =
         features.soleModel &&
         scenes::infoOf(*features.soleModel).microsurface == scenes::Microsurface::MetallicRoughness &&
         !features[Feature::Specular];
     const bool spare =
         alphaAndMetallicOnly && haveSpareComponents(layout) && layout[Channel::Microsurface] == Encoding::Exact;
-    if ((features.microsurfaces() || !features.soleModel) && !spare) channels.push_back(Channel::Microsurface);
-    if (glossy && features[Feature::Specular]) channels.push_back(Channel::Specular);
-    if (features[Feature::Emission]) channels.push_back(Channel::Emission);
-    if (normalTexel) {
-        channels.push_back(Channel::NormalTexel);
-        return channels;
+    std::vector<Channel> channels;
+    for (const ChannelInfo& row : kChannels) {
+        if (row.channel == Channel::Microsurface && spare) continue;
+        if (row.isNeeded(features, normalTexel)) channels.push_back(row.channel);
     }
-    if (features.tangentFrame()) channels.push_back(Channel::Tangent);
-    if (features[Feature::Clearcoat]) channels.push_back(Channel::Clearcoat);
-    if (features[Feature::Sheen]) channels.push_back(Channel::Sheen);
     return channels;
 }
 

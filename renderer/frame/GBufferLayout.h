@@ -41,8 +41,11 @@ struct ChannelInfo {
     std::string_view fields; ///< what the widths are of
     FieldWidths packed;
     FieldWidths slim;
-    std::string_view needed; ///< which scenes need it
+    std::string_view needed; ///< which scenes need it, in words
     bool ofMaterial;         ///< is constant over a surface unless its material varies
+    bool isDirection;        ///< its first three exact components are a unit vector
+    /// Whether scenes of these features need it, in frames that show the texels of normal maps or not.
+    bool (*isNeeded)(const FeatureSet& features, bool normalTexel);
 };
 std::span<const ChannelInfo> channelTable();
 

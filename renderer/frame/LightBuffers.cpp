@@ -1,5 +1,7 @@
 #include "renderer/frame/LightBuffers.h"
 
+#include <fmt/format.h>
+
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/slots.h"
 
@@ -7,6 +9,10 @@ namespace tessera::frame {
 
 std::size_t lightBytes(const FeatureSet& features, std::size_t count) {
     return count * (sizeof(shared::LightTexels) + (features.lightShapes() ? sizeof(shared::LightShapeTexels) : 0));
+}
+
+std::string lightsText(std::size_t count) {
+    return fmt::format("{} light{}", count, count == 1 ? "" : "s");
 }
 
 LightBuffers::LightBuffers(const PackedLights& lights)

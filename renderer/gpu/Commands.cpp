@@ -132,11 +132,6 @@ void clearColor(int attachment, const glm::vec4& color) {
     glClearBufferfv(GL_COLOR, attachment, glm::value_ptr(color));
 }
 
-void clearColorUint(int attachment, const glm::uvec4& value) {
-    const OpenWriteMasks masks;
-    glClearBufferuiv(GL_COLOR, attachment, glm::value_ptr(value));
-}
-
 void clearDepth(float depth) {
     const OpenWriteMasks masks;
     glClearBufferfv(GL_DEPTH, 0, &depth);

@@ -39,7 +39,6 @@ void setScissor(int x, int y, int width, int height);
 
 /// Clears of the bound framebuffer, whatever the pipeline state's write masks say; the scissor holds.
 void clearColor(int attachment, const glm::vec4& color);
-void clearColorUint(int attachment, const glm::uvec4& value);
 void clearDepth(float depth); ///< reverse-Z: 0 is infinitely far
 
 /// Copies (or resolves samples) between framebuffers of equal size: colour attachment 0 and/or depth. Scissoring is

@@ -55,7 +55,6 @@ protected:
     /// To be called by the derived constructor once its context is current: loads OpenGL, reads capabilities, sets
     /// state.
     void initialise(bool debug);
-    void forgetCurrent();
 
 private:
     virtual void makeCurrentImpl() = 0;

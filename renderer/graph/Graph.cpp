@@ -130,7 +130,7 @@ void PassBuilder::keep() {
     graph_.passes_[pass_].keep = true;
 }
 
-Graph::Graph() = default;
+Graph::Graph(Keeps keeps) : keeps_(std::move(keeps)) {}
 Graph::~Graph() = default;
 Graph::Graph(Graph&&) noexcept = default;
 Graph& Graph::operator=(Graph&&) noexcept = default;
@@ -143,11 +143,13 @@ BufferHandle Graph::import(std::string name, const BufferDesc& desc, const gpu::
     return {addResource(imported(std::move(name), desc, buffer)), 0};
 }
 
-TextureHandle Graph::persist(std::string name, const TextureDesc& desc, std::uint64_t revision, bool holds) {
+TextureHandle Graph::persist(std::string name, const TextureDesc& desc, std::uint64_t revision) {
+    const bool holds = keeps_ && keeps_(name, desc, revision);
     return {addResource(kept(std::move(name), desc, revision, holds)), 0};
 }
 
-BufferHandle Graph::persist(std::string name, const BufferDesc& desc, std::uint64_t revision, bool holds) {
+BufferHandle Graph::persist(std::string name, const BufferDesc& desc, std::uint64_t revision) {
+    const bool holds = keeps_ && keeps_(name, desc, revision);
     return {addResource(kept(std::move(name), desc, revision, holds)), 0};
 }
 

@@ -133,7 +133,10 @@ public:
         bool hasContents = false;              ///< may be read before any pass has written it
     };
 
-    Graph();
+    /// Whether a resource of this name, shape and revision is left from an earlier frame.
+    using Keeps = std::function<bool(const std::string& name, const ResourceDesc& desc, std::uint64_t revision)>;
+    /// `keeps` asks the backend (gpu::GraphBackend::holds()). Without it nothing is left, as in a plan.
+    explicit Graph(Keeps keeps = {});
     ~Graph();
     Graph(Graph&&) noexcept;
     Graph& operator=(Graph&&) noexcept;
@@ -158,10 +161,13 @@ public:
     BufferHandle import(std::string name, const BufferDesc& desc, const gpu::Buffer* buffer = nullptr);
 
     /// A resource that the backend keeps from frame to frame under its name: a cache, a history. `revision` identifies
-    /// the input that its contents are computed from; `holds` says whether they exist already (Backend::holds()). If
-    /// not, a pass of the frame must write it before another reads it.
-    TextureHandle persist(std::string name, const TextureDesc& desc, std::uint64_t revision, bool holds);
-    BufferHandle persist(std::string name, const BufferDesc& desc, std::uint64_t revision, bool holds);
+    /// the input that its contents are computed from. Where holds() is false, a pass of the frame must write it before
+    /// another reads it.
+    TextureHandle persist(std::string name, const TextureDesc& desc, std::uint64_t revision);
+    BufferHandle persist(std::string name, const BufferDesc& desc, std::uint64_t revision);
+    /// Whether an earlier frame left a persistent resource in this revision.
+    bool holds(TextureHandle handle) const { return resources_.at(handle.resource).hasContents; }
+    bool holds(BufferHandle handle) const { return resources_.at(handle.resource).hasContents; }
 
     /// Declares a result of the frame: passes that contribute to no result are culled.
     void output(TextureHandle handle);
@@ -176,6 +182,7 @@ private:
     friend class PassBuilder;
     std::uint32_t beginPass(std::string name);
     std::uint32_t addResource(Resource resource);
+    Keeps keeps_;
     std::vector<Pass> passes_;
     std::vector<Resource> resources_;
     std::vector<Use> outputs_;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kCopies = 2; ///< while a vector grows
 
-/// The axis by a power of two, so that its largest component is from 1 to 2: the squares of what nested scales make
+/// Scales the axis by a power of two, so that its largest component is from 1 to 2. Nested scales can make squares
 /// overflow. Zero stays zero.
 glm::dvec3 aboutOne(const glm::dvec4& axis) {
     const glm::dvec3 size = glm::abs(glm::dvec3(axis));

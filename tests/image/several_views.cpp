@@ -9,8 +9,7 @@
 #include "engine/PrepareView.h"
 #include "engine/Renderer.h"
 #include "passes/StoredChannelPass.h"
-#include "renderer/graph/Compile.h"
-#include "renderer/graph/Execute.h"
+#include "renderer/gpu/Commands.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
@@ -117,14 +116,6 @@ protected:
         settings.sizePixels = {97, 55};
         settings.samples = samples;
         engine::Renderer renderer(context(), scene);
-        frame::DrawnView view;
-        view.prepared = engine::prepareView(scene, technique, engine::settingsOn(context().capabilities(), settings));
-        const frame::FrameSpec& spec = view.prepared.spec;
-        view.scene = &renderer.sceneGpu(spec);
-        view.draws = frame::makeViewDraws(view.scene->drawList(), view.prepared.camera, true);
-        frame::LightListMemory memory;
-        view.listMemory = &memory;
-        graph::Graph graph;
         graph::TextureHandle shown;
         const auto show = [&](graph::Graph& in, const frame::FrameSpec& of, const engine::OpaquePicture& opaque) {
             const frame::StoredComponents normal{frame::Channel::Normal, false};
@@ -132,13 +123,46 @@ protected:
             in.output(shown);
             return opaque.radiance;
         };
-        engine::declareView(graph, technique, spec, &view, {true, show});
-        const graph::CompiledGraph compiled = graph::compile(graph);
-        graph::Execution execution(graph, compiled, renderer.backend(), &renderer.programs());
-        execution.run();
-        return execution.texture(shown).downloadAs<float>();
+        const View view{technique, settings};
+        renderer.draw({&view, 1}, {true, show});
+        return renderer.texture(shown).downloadAs<float>();
     }
 };
+
+TEST_F(BetweenOpaqueAndTransparent, aPersistentTextureIsWrittenInTheFirstFrameOnly) {
+    const scenes::Scene scene = scenes::loadScene("room");
+    engine::Renderer renderer(context(), scene);
+    const graph::TextureDesc desc{graph::Format::Rgba32Float, 4, 4};
+    struct Written {
+        graph::TextureHandle history;
+    };
+    int writes = 0;
+    graph::TextureHandle shown;
+    const auto add = [&](graph::Graph& in, const frame::FrameSpec&, const engine::OpaquePicture& opaque) {
+        shown = in.persist("history", desc, 1);
+        if (!in.holds(shown)) {
+            const auto setup = [&](graph::PassBuilder& pass, Written& out) { out.history = pass.write(shown); };
+            const auto clear = [](const Written&, const graph::PassContext& drawing) {
+                drawing.bindTargets();
+                gpu::clearColor(0, glm::vec4(5.0f));
+            };
+            shown = in.addPass<Written>("history", setup, clear).history;
+            ++writes;
+        }
+        in.output(shown);
+        return opaque.radiance;
+    };
+    frame::FrameSettings settings;
+    settings.sizePixels = {16, 9};
+    const View view{Technique::Deferred, settings};
+    for (int frame = 0; frame < 3; ++frame) {
+        renderer.draw({&view, 1}, {false, add});
+        EXPECT_EQ(renderer.texture(shown).downloadAs<float>().front(), 5.0f);
+    }
+    EXPECT_EQ(writes, 1);
+    EXPECT_EQ(engine::planViews(scene, {&view, 1}, {false, add}).passes.size(),
+              engine::planViews(scene, {&view, 1}).passes.size() + 1);
+}
 
 TEST_F(BetweenOpaqueAndTransparent, everyTechniqueHandsOnTheSameNormalsToTheLastBit) {
     const scenes::Scene scene = test::everythingScene();

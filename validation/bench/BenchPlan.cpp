@@ -6,6 +6,7 @@
 
 #include "engine/ChooseCulling.h"
 #include "engine/PrepareView.h"
+#include "renderer/frame/LightBuffers.h"
 #include "scenes/Fingerprint.h"
 
 namespace tessera::validation {
@@ -119,7 +120,7 @@ private:
         std::string what = fmt::format("{}, {}", info_.name, infoOf(method).name);
         if (tile) what += fmt::format(" {}", *tile);
         if (range && *range > 0.0) what += fmt::format(", range {:g}", *range);
-        skip(plan_, fmt::format("{} in {} with {}", what, group_.scene, lightsText(group_.lights)),
+        skip(plan_, fmt::format("{} in {} with {}", what, group_.scene, frame::lightsText(std::size_t(group_.lights))),
              "it is the same frame as " + pointName(point.key));
     }
 
@@ -174,8 +175,8 @@ void addToPlan(BenchPlan& plan, const BenchMatrix& matrix, const std::string& sc
             });
             if (isKnown) {
                 skip(plan,
-                     fmt::format("{} with {} at {}x{}, again", sceneName, lightsText(group.lights), group.sizePixels.x,
-                                 group.sizePixels.y),
+                     fmt::format("{} with {} at {}x{}, again", sceneName, frame::lightsText(std::size_t(group.lights)),
+                                 group.sizePixels.x, group.sizePixels.y),
                      "it is measured already");
                 continue;
             }

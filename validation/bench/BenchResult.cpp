@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "renderer/frame/LightBuffers.h"
+
 namespace tessera::validation {
 
 std::string pointName(const PointKey& key) {
@@ -12,13 +14,9 @@ std::string pointName(const PointKey& key) {
     return name;
 }
 
-std::string lightsText(int lights) {
-    return fmt::format("{} light{}", lights, lights == 1 ? "" : "s");
-}
-
 std::string groupName(const BenchGroup& group) {
-    return fmt::format("{} with {} at {}x{}", group.scene, lightsText(group.lights), group.sizePixels.x,
-                       group.sizePixels.y);
+    return fmt::format("{} with {} at {}x{}", group.scene, frame::lightsText(std::size_t(group.lights)),
+                       group.sizePixels.x, group.sizePixels.y);
 }
 
 } // namespace tessera::validation

@@ -93,8 +93,6 @@ struct BenchGroup {
 
 /// "hall with 257 lights at 1280x720".
 std::string groupName(const BenchGroup& group);
-/// Such as "1 light" or "257 lights".
-std::string lightsText(int lights);
 
 struct SkippedPoint {
     std::string what;

@@ -61,12 +61,12 @@ void countPoint(engine::Renderer& renderer, const BenchPoint& point, BenchResult
     BenchCounters& counters = result.counters;
     counters.fragments = oracle.covered;
     counters.lightEvaluations = oracle.evaluated + oracle.everywhere;
-    if (point.technique == Technique::Forward) {
+    if (infoOf(point.technique).geometry == engine::Geometry::Shaded) {
         // Hidden fragments are lit before something nearer covers them.
         counters.fragments = forwardFragments(renderer, point.settings);
         counters.lightEvaluations = *counters.fragments * prepared.lights.texels.size();
     }
-    if (point.technique == Technique::DeferredVolumes) {
+    if (infoOf(point.technique).addsByBlending) {
         // Its pixels visit the lights whose volumes cover them, which only the rasteriser knows.
         const std::vector<std::uint64_t> visited = visitedByPixel(renderer, point);
         counters.lightEvaluations = std::accumulate(visited.begin(), visited.end(), std::uint64_t(0));

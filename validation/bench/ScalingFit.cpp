@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "renderer/frame/LightBuffers.h"
+
 namespace tessera::validation {
 
 namespace {
@@ -31,7 +33,7 @@ const std::vector<Quantity>& quantities() {
          [](const BenchGroup& group, const BenchResult&) {
              return std::optional(double(group.sizePixels.x) * double(group.sizePixels.y));
          },
-         [](const BenchGroup& group) { return lightsText(group.lights); }},
+         [](const BenchGroup& group) { return frame::lightsText(std::size_t(group.lights)); }},
         {"evaluations",
          [](const BenchGroup&, const BenchResult& result) {
              const std::optional<std::uint64_t>& evaluations = result.counters.lightEvaluations;

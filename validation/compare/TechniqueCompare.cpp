@@ -272,7 +272,7 @@ Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout,
         tolerance.maxRel = 1e-5;
         tolerance.reason = "a hardware compiler may contract two programs differently: some 100 roundings of 2^-24";
         const double sumBound = double(lightCount) * 0x1p-24;
-        if (technique == Technique::DeferredVolumes && sumBound > tolerance.maxRel) {
+        if (infoOf(technique).addsByBlending && sumBound > tolerance.maxRel) {
             tolerance.maxRel = sumBound;
             tolerance.reason = "lights are summed by blending: N positive terms in fp32 differ by up to N 2^-24";
         }

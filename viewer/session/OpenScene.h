@@ -20,7 +20,7 @@ public:
     bool isEdited() const { return edits_ != savedEdits_; }
     /// Counts edits of lights and materials.
     std::uint64_t edits() const { return edits_; }
-    /// What is open is a file from now on that holds every edit, and the camera where it is. The picture stays.
+    /// Continues as the scene of a file that was just saved with all edits and the current camera. The picture stays.
     void becomes(const std::string& file);
     const scenes::LoadOptions& load() const { return load_; }
     const scenes::Scene& scene() const { return scene_; }

@@ -225,9 +225,11 @@ TEST_F(GraphBackendTest, constantsOfAnotherSizeThanTheProgramsBlockAreRefused) {
 TEST_F(GraphBackendTest, persistentResourcesKeepTheirContentsUntilTheirShapeChanges) {
     graph::TextureDesc desc{graph::Format::Rgba32Float, 4, 4};
     const auto runFrame = [&](std::uint64_t revision) {
-        graph::Graph graph;
-        const bool holds = backend.holds("history", desc, revision);
-        graph::TextureHandle history = graph.persist("history", desc, revision, holds);
+        graph::Graph graph([&](const std::string& name, const graph::ResourceDesc& shape, std::uint64_t wanted) {
+            return backend.holds(name, shape, wanted);
+        });
+        graph::TextureHandle history = graph.persist("history", desc, revision);
+        const bool holds = graph.holds(history);
         struct Written {
             graph::TextureHandle history;
         };

@@ -435,9 +435,9 @@ TEST(Execution, constantsGoWithTheProgramsOfTheirPass) {
 
 /// A frame that shades with a shadow map, and draws that first where it is not held.
 Graph shadowedFrame(bool holds) {
-    Graph graph;
-    TextureHandle shadows = graph.persist("shadows", kDepth, 7, holds);
-    if (!holds)
+    Graph graph([holds](const std::string&, const ResourceDesc&, std::uint64_t) { return holds; });
+    TextureHandle shadows = graph.persist("shadows", kDepth, 7);
+    if (!graph.holds(shadows))
         declare(graph, "draw shadows",
                 [&](PassBuilder& builder) { shadows = builder.write(shadows, Access::DepthAttachment); });
     graph.output(draw(graph, "shade", "image", {shadows}));
@@ -464,8 +464,8 @@ TEST(Execution, aPersistentResourceGetsItsRevisionAtTheEndOfTheFrame) {
 
 TEST(Execution, aHeldOutputIsAvailableWithoutAWriter) {
     Recorder backend;
-    Graph graph;
-    const TextureHandle shadows = graph.persist("shadows", kDepth, 7, true);
+    Graph graph([](const std::string&, const ResourceDesc&, std::uint64_t) { return true; });
+    const TextureHandle shadows = graph.persist("shadows", kDepth, 7);
     graph.output(shadows);
     const CompiledGraph compiled = compile(graph);
     Execution execution(graph, compiled, backend);
@@ -475,7 +475,7 @@ TEST(Execution, aHeldOutputIsAvailableWithoutAWriter) {
 
 TEST(Execution, aPersistentResourceIsNotReadBeforeItsFirstWrite) {
     Graph graph;
-    const TextureHandle shadows = graph.persist("shadows", kDepth, 7, false);
+    const TextureHandle shadows = graph.persist("shadows", kDepth, 7);
     graph.output(draw(graph, "shade", "image", {shadows}));
     EXPECT_THAT(faultsOf(graph), ElementsAre("pass 'shade' reads version 0 of 'shadows', which no pass produces"));
 }

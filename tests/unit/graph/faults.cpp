@@ -200,8 +200,8 @@ TEST(Faults, twoLayersOfOneDepthArrayInAPassAreReported) {
 TEST(Faults, resourcesOutsideTheFrameHaveUniqueNamesAndDoNotGrow) {
     Graph graph;
     graph.import("lights", BufferDesc{16, true});
-    graph.persist("history", kColor, 1, true);
-    graph.persist("history", kDepth, 1, true);
+    graph.persist("history", kColor, 1);
+    graph.persist("history", kDepth, 1);
     EXPECT_THAT(faultsOf(graph),
                 ElementsAre("buffer 'lights', imported, cannot grow: only a buffer that the frame creates does",
                             "two resources that live across frames are named 'history'"));
