@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <cstddef>
 #include <functional>
 
 #include "Frames.h"
@@ -12,9 +13,12 @@ namespace {
 
 using testing::ElementsAre;
 
+/// Where a texture or a buffer could lie.
+struct alignas(std::max_align_t) Place {};
+
 /// Stands for textures and buffers, of which only the address matters here.
 template <typename Resource>
-const Resource& standIn(const int& place) {
+const Resource& standIn(const Place& place) {
     return reinterpret_cast<const Resource&>(place);
 }
 
@@ -58,7 +62,7 @@ public:
     }
 
     std::vector<std::string> calls;
-    std::array<int, 8> places{};
+    std::array<Place, 8> places{};
     bool failsAtEnd = false;
 };
 
@@ -119,8 +123,8 @@ TEST(Execution, frameWithoutStoresNeverEndsInABarrier) {
 TEST(Execution, handlesResolveToTheirAllocationOrImport) {
     Recorder backend;
     Graph graph;
-    const int windowPlace = 0;
-    const int lightsPlace = 0;
+    const Place windowPlace;
+    const Place lightsPlace;
     const TextureHandle window = graph.import("window", kColor, &standIn<gpu::Texture>(windowPlace));
     const BufferHandle lights = graph.import("lights", kBytes, &standIn<gpu::Buffer>(lightsPlace));
     const TextureHandle image = draw(graph, "shade", "image");
@@ -284,7 +288,7 @@ TEST(Execution, firstOfTwoFailuresIsTheOneReported) {
 
 TEST(Execution, importThatTheFrameUsesIsNotMissing) {
     Recorder backend;
-    const int place = 0;
+    const Place place;
     const auto errorOf = [&](const gpu::Texture* history, const gpu::Buffer* lights) {
         Graph graph;
         const TextureHandle shown = graph.import("history", kColor, history);
@@ -337,7 +341,7 @@ public:
         return standIn<gpu::Program>(place);
     }
     std::vector<std::string> asked;
-    int place = 0;
+    Place place;
 };
 
 ProgramDesc programNamed(const std::string& name) {
