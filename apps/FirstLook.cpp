@@ -18,7 +18,7 @@ FrameOptions withRemembered(FrameOptions options, const viewer::Preferences& rem
         const bool isAsked = options.said(setting.key) || wish.wishes.contains(setting.key);
         if (!setting.isRemembered || isAsked || known == remembered.settings.end()) continue;
         try {
-            engine::FrameRequest tried;
+            engine::ViewRequest tried;
             setting.read(tried, known->second);
             options.settings.insert(*known);
         } catch (const InputError& error) {

@@ -9,7 +9,7 @@ std::string frameOptionText(const FrameOptions& options) {
     for (const engine::Setting& setting : engine::settingTable()) {
         const auto said = options.said(setting.key);
         if (!said) continue;
-        engine::FrameRequest request;
+        engine::ViewRequest request;
         if (!setting.isOfScene) setting.read(request, *said); // so that 1.0 and 1 are the same command
         text += fmt::format(" {} {}", setting.flag, shellWord(setting.isOfScene ? *said : setting.text(request)));
     }

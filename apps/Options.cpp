@@ -62,7 +62,7 @@ void addSettings(CLI::App& command, FrameOptions& options, std::string_view grou
     for (const engine::Setting& setting : engine::settingTable()) {
         if (setting.group != group) continue;
         const std::string byItself =
-            setting.byItself.empty() ? setting.text(engine::FrameRequest()) : std::string(setting.byItself);
+            setting.byItself.empty() ? setting.text(engine::ViewRequest()) : std::string(setting.byItself);
         const auto say = [&options, &setting](const std::string& text) {
             options.settings.insert_or_assign(std::string(setting.key), text);
         };
@@ -165,7 +165,7 @@ void placeCamera(const FrameOptions& options, scenes::Scene& scene) {
     const std::optional<std::string> said = options.said("camera");
     if (!said && options.pose == scenes::CameraChange()) return;
     const std::optional<std::string>& name = said ? said : scene.options.camera;
-    engine::FrameRequest request;
+    engine::ViewRequest request;
     if (name) engine::settingOf("camera").read(request, *name, {{}, &scene});
     scenes::Camera& camera = scene.cameras[std::size_t(request.settings.camera)];
     camera = scenes::changedCamera(camera, options.pose);
@@ -198,13 +198,13 @@ Request resolve(const FrameOptions& options) {
 }
 
 engine::Technique techniqueNamed(const std::string& name) {
-    engine::FrameRequest request;
+    engine::ViewRequest request;
     engine::settingOf("technique").read(request, name);
     return request.technique;
 }
 
 glm::ivec2 sizeNamed(const std::string& flag, const std::string& text) {
-    engine::FrameRequest request;
+    engine::ViewRequest request;
     engine::settingOf("size").read(request, text, {flag, nullptr});
     return request.settings.sizePixels;
 }

@@ -46,7 +46,7 @@ void addFrameSettings(CLI::App& command, FrameOptions& options);
 void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string& defaultScene);
 
 /// A scene and how to look at it.
-struct Request : engine::FrameRequest {
+struct Request : engine::ViewRequest {
     scenes::Scene scene;
     std::vector<std::string> files; ///< that the scene was read from
 };

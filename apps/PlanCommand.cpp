@@ -33,7 +33,7 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
     Request request = resolve(options.frame);
     outputs.reads(request.files);
     engine::requireTaken(request);
-    std::vector<engine::FrameRequest> views{request};
+    std::vector<engine::ViewRequest> views{request};
     for (const std::string& camera : options.also) {
         views.push_back(request);
         engine::settingOf("camera").read(views.back(), camera, {"--also", &request.scene});

@@ -31,7 +31,7 @@ void readPreferences(viewer::ViewerOptions& viewing) {
 int view(const ViewOptions& options, const GlobalOptions& global) {
     if (contextKind(global.context) == gpu::ContextKind::Egl)
         throw InputError("--context egl makes no window, and the viewer is one; give window or auto");
-    const engine::FrameRequest said =
+    const engine::ViewRequest said =
         resolveWithoutScene(options.frame); // mistakes end the program before there is a window
     viewer::ViewerOptions viewing;
     readPreferences(viewing);

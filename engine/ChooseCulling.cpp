@@ -43,7 +43,7 @@ culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& s
     culling::Choice choice;
     choice.method = settings.culling.method.value_or(info.methods.front());
     if (settings.prune && !canCull(features, lights)) choice.method = Method::None;
-    choice.tilePixels = settings.culling.tilePixels.value_or(16);
+    choice.tilePixels = settings.culling.tilePixels.value_or(culling::kUsualTilePixels);
     choice.builder =
         settings.culling.builder.value_or(settings.softwareBackend ? culling::Builder::Cpu : culling::Builder::Compute);
     choice.lanes = settings.culling.lanes.value_or(settings.softwareBackend ? kSoftwareLanes : kLanes);

@@ -81,14 +81,18 @@ void addCounters(graph::Plan& plan, const scenes::Scene& scene, Technique techni
                                     std::uint64_t(prepared.spec.settings.sizePixels.y)}};
 }
 
+graph::Plan planOf(const graph::Graph& graph, bool prune) {
+    return graph::makePlan(graph, graph::compile(graph, {.cull = prune, .alias = prune}));
+}
+
 } // namespace
 
 graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings) {
     const frame::PreparedView prepared = prepareView(scene, technique, settings);
     graph::Graph graph;
-    declareView(graph, technique, prepared.spec, nullptr);
-    const graph::CompiledGraph compiled = graph::compile(graph, {.cull = settings.prune, .alias = settings.prune});
-    graph::Plan plan = graph::makePlan(graph, compiled);
+    const ViewSource view{technique, prepared.spec};
+    declareFrame(graph, {&view, 1});
+    graph::Plan plan = planOf(graph, settings.prune);
     plan.scene = scene.name;
     plan.technique = std::string(infoOf(technique).name);
     for (graph::Plan::LeftOut& item :
@@ -106,15 +110,17 @@ graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const fra
     return plan;
 }
 
-graph::Plan planViews(const scenes::Scene& scene, std::span<const FrameRequest> views, const AfterOpaque& after) {
+graph::Plan planViews(const scenes::Scene& scene, std::span<const ViewRequest> views, const AfterOpaque& after) {
     requireOneFrame(views);
+    std::vector<frame::PreparedView> prepared;
+    for (const ViewRequest& view : views) prepared.push_back(prepareView(scene, view.technique, view.settings));
+    std::vector<ViewSource> sources;
+    for (std::size_t i = 0; i < views.size(); ++i) sources.push_back({views[i].technique, prepared[i].spec});
     graph::Graph graph;
-    for (const FrameRequest& view : views)
-        declareView(graph, view.technique, prepareView(scene, view.technique, view.settings).spec, nullptr, after);
-    const bool prune = views.front().settings.prune;
-    graph::Plan plan = graph::makePlan(graph, graph::compile(graph, {.cull = prune, .alias = prune}));
+    declareFrame(graph, sources, after);
+    graph::Plan plan = planOf(graph, views.front().settings.prune);
     plan.scene = scene.name;
-    for (const FrameRequest& view : views)
+    for (const ViewRequest& view : views)
         plan.technique += (plan.technique.empty() ? "" : ", ") + std::string(infoOf(view.technique).name);
     plan.leftOut.clear(); // each view's own plan has its share
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -136,8 +142,10 @@ graph::Plan planViews(const scenes::Scene& scene, std::span<const FrameRequest> 
 
 std::vector<shader::ProgramDesc> framePrograms(const scenes::Scene& scene, Technique technique,
                                                const frame::FrameSettings& settings) {
+    const frame::PreparedView prepared = prepareView(scene, technique, settings);
+    const ViewSource view{technique, prepared.spec};
     graph::Graph graph;
-    declareView(graph, technique, prepareView(scene, technique, settings).spec, nullptr);
+    declareFrame(graph, {&view, 1});
     return graph::compile(graph, {.cull = false}).programs;
 }
 

@@ -22,12 +22,14 @@ scenes::Camera frameCamera(const scenes::Scene& scene, const frame::FrameSetting
     return camera;
 }
 
-void requireOneFrame(std::span<const FrameRequest> views) {
+void requireOneFrame(std::span<const ViewRequest> views) {
     if (views.empty()) throw std::logic_error("a frame needs a view");
-    const frame::FrameSettings& first = views.front().settings;
-    for (const FrameRequest& view : views) {
-        if (view.settings.prune != first.prune || view.settings.filter != first.filter)
-            throw InputError("all views of a frame must have the same filter and the same pruning");
+    for (const ViewRequest& view : views) {
+        for (const Setting& setting : settingTable())
+            if (setting.isOfFrame && !setting.value.equal(view, views.front()))
+                throw InputError(fmt::format("views of a frame have {} {} and {} {}; give all of them the same",
+                                             setting.name, setting.text(views.front()), setting.name,
+                                             setting.text(view)));
     }
 }
 

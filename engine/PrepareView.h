@@ -11,9 +11,9 @@ namespace tessera::engine {
 frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings,
                                 std::span<const frame::SurfaceBounds> bounds = {});
 
-/// Throws InputError where views cannot be one frame: they share what is on the GPU of the scene, so they have one
-/// filter and one answer to pruning. std::logic_error where there is none.
-void requireOneFrame(std::span<const FrameRequest> views);
+/// Throws InputError where views differ in a setting that all views of a frame share (Setting::isOfFrame), and
+/// std::logic_error where there is no view.
+void requireOneFrame(std::span<const ViewRequest> views);
 
 /// The camera that the settings ask for, where they put it.
 scenes::Camera frameCamera(const scenes::Scene& scene, const frame::FrameSettings& settings);

@@ -59,24 +59,26 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     return *sceneGpu_;
 }
 
-void Renderer::draw(std::span<const FrameRequest> views, const AfterOpaque& after) {
+void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after) {
     requireOneFrame(views);
     auto drawn =
         std::make_unique<Drawn>([this](const std::string& name, const graph::ResourceDesc& desc,
                                        std::uint64_t revision) { return backend_.holds(name, desc, revision); });
-    for (const FrameRequest& view : views) {
+    for (const ViewRequest& view : views) {
         frame::DrawnView& added = drawn->views.emplace_back();
         const frame::FrameSettings settings = settingsOn(context_.capabilities(), view.settings);
         added.prepared = prepareView(scene_, view.technique, settings, bounds_);
     }
+    std::vector<ViewSource> sources;
     for (std::size_t i = 0; i < views.size(); ++i) {
         frame::DrawnView& view = drawn->views[i];
         const frame::FrameSpec& spec = view.prepared.spec;
         view.scene = &sceneGpu(spec);
         view.draws = frame::makeViewDraws(view.scene->drawList(), view.prepared.camera, spec.settings.prune);
         view.listMemory = &listMemory_;
-        drawn->declared.push_back(declareView(drawn->graph, views[i].technique, spec, &view, after));
+        sources.push_back({views[i].technique, spec, &view});
     }
+    drawn->declared = declareFrame(drawn->graph, sources, after);
     const bool prune = drawn->views.front().prepared.spec.settings.prune;
     drawn_ = std::move(drawn);
     drawn_->compiled = graph::compile(drawn_->graph, {.cull = prune, .alias = prune});

@@ -47,9 +47,9 @@ public:
     /// share the scene's data on the GPU, so their settings of filter and pruning must be equal. Throws InputError if
     /// they are not, or if settings name things that the scene lacks; std::runtime_error when GL fails. `after` adds
     /// passes to each view; what they declare as outputs of the graph, texture() gives.
-    void draw(std::span<const FrameRequest> views, const AfterOpaque& after = {});
+    void draw(std::span<const ViewRequest> views, const AfterOpaque& after = {});
     void draw(Technique technique, const frame::FrameSettings& settings) {
-        const FrameRequest view{technique, settings};
+        const ViewRequest view{technique, settings};
         draw({&view, 1});
     }
 
@@ -104,7 +104,7 @@ private:
 /// What a frame of one view would run, leave out and need, without a context.
 graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings);
 /// The passes and resources of a frame of several views, as Renderer::draw() draws it. Throws InputError as that does.
-graph::Plan planViews(const scenes::Scene& scene, std::span<const FrameRequest> views, const AfterOpaque& after = {});
+graph::Plan planViews(const scenes::Scene& scene, std::span<const ViewRequest> views, const AfterOpaque& after = {});
 
 /// The programs a frame would use, without a context.
 std::vector<shader::ProgramDesc> framePrograms(const scenes::Scene& scene, Technique technique,

@@ -17,10 +17,10 @@
 namespace tessera::engine {
 
 /// A request for a view of a scene: a technique, and the settings of its pictures.
-struct FrameRequest {
+struct ViewRequest {
     Technique technique = Technique::Deferred;
     frame::FrameSettings settings;
-    bool operator==(const FrameRequest&) const = default;
+    bool operator==(const ViewRequest&) const = default;
 };
 
 /// One of some names, or of some whole numbers.
@@ -46,9 +46,10 @@ using SettingKind = std::variant<ChoiceKind, NumberKind, SwitchKind, SizeKind, C
 
 /// Where a text comes from.
 struct TextSource {
-    std::string_view called{}; ///< the setting's name in messages, such as "--exposure"; empty: Setting::name
-    const scenes::Scene* scene =
-        nullptr; ///< the scene whose cameras and lights a text may name; null: not looked up yet
+    std::string_view called{}; ///< the setting in messages, such as "--exposure"; empty: Setting::name
+    /// The scene whose cameras and lights a text may name; null: not looked up yet.
+    const scenes::Scene* scene = nullptr;
+    std::string_view name{}; ///< Setting::name, which Setting::read() sets
 };
 
 /// A setting's value in a request, whatever its type. Texts are those of the command line: read() restores the value
@@ -56,10 +57,10 @@ struct TextSource {
 struct SettingValue {
     SettingKind kind;
     std::string_view open{}; ///< the text that leaves it open; empty: it is never open
-    std::function<std::string(const FrameRequest& request, const scenes::Scene* scene)> text;
-    std::function<void(FrameRequest& request, const std::string& text, const TextSource& source)> read;
-    std::function<bool(const FrameRequest& a, const FrameRequest& b)> equal;
-    std::function<void(FrameRequest& to, const FrameRequest& from)> copy;
+    std::function<std::string(const ViewRequest& request, const scenes::Scene* scene)> text;
+    std::function<void(ViewRequest& request, const std::string& text, const TextSource& source)> read;
+    std::function<bool(const ViewRequest& a, const ViewRequest& b)> equal;
+    std::function<void(ViewRequest& to, const ViewRequest& from)> copy;
 };
 
 enum class SettingPanel : std::uint8_t { None, Frame, View };
@@ -71,7 +72,7 @@ struct Setting {
     std::string_view key{};           ///< of scene files and of the viewer's preferences: "rangeTolerance"
     std::string_view type{};          ///< behind the flag in --help: "METRES"
     std::string help{};               ///< its line in --help, without the default
-    std::string_view byItself{};      ///< the default in words, where its text says too little
+    std::string byItself{};           ///< the default as --help words it, where the value alone is unclear
     std::string_view group = "Frame"; ///< in --help
 
     SettingPanel panel = SettingPanel::Frame; ///< of the viewer that shows it; None: it has a widget elsewhere, or none
@@ -80,7 +81,7 @@ struct Setting {
     bool (*heeds)(Technique technique) = nullptr; ///< whether it changes anything of that technique's frames; null: all
     /// Why the other techniques refuse it: "it has no light lists"; empty: they ignore it.
     std::string_view refusal{};
-    bool (*takes)(const FrameRequest& request) = nullptr; ///< whether the technique can draw it; null: always
+    bool (*takes)(const ViewRequest& request) = nullptr; ///< whether the technique can draw it; null: always
 
     bool samePicture = false; ///< changes how a picture is made and how fast, not the picture: comparisons drop a value
                               ///< that a technique refuses
@@ -88,22 +89,23 @@ struct Setting {
     bool isOfScene = false;   ///< names things of one scene
     bool isWishable = true;   ///< scene files may ask for it
     bool isShared = false;    ///< by the two sides of the viewer's comparisons
+    bool isOfFrame = false;   ///< all views of a frame have the same value, since they share what is made by it
     bool isRemembered = false; ///< by the viewer from one run to the next
     bool comesBack = true;     ///< the viewer restores its value when a technique takes it again
 
     SettingValue value;
 
-    std::string text(const FrameRequest& request, const scenes::Scene* scene = nullptr) const {
+    std::string text(const ViewRequest& request, const scenes::Scene* scene = nullptr) const {
         return value.text(request, scene);
     }
     /// Throws InputError that names the setting and its valid values.
-    void read(FrameRequest& request, const std::string& text, const TextSource& source = {}) const;
+    void read(ViewRequest& request, const std::string& text, const TextSource& source = {}) const;
     std::string panelLabel() const;
-    bool isDefault(const FrameRequest& request) const { return value.equal(request, FrameRequest()); }
-    void reset(FrameRequest& request) const { value.copy(request, FrameRequest()); }
+    bool isDefault(const ViewRequest& request) const { return value.equal(request, ViewRequest()); }
+    void reset(ViewRequest& request) const { value.copy(request, ViewRequest()); }
     bool isHeededBy(Technique technique) const { return heeds == nullptr || heeds(technique); }
     /// Whether the request's technique takes the requested value of this setting.
-    bool isTaken(const FrameRequest& request) const;
+    bool isTaken(const ViewRequest& request) const;
 };
 
 /// In the order of --help.
@@ -112,14 +114,14 @@ std::span<const Setting> settingTable();
 const Setting& settingOf(std::string_view key);
 
 /// Throws InputError for the first setting that the request's technique does not take, with those that do.
-void requireTaken(const FrameRequest& request);
+void requireTaken(const ViewRequest& request);
 /// The same for values that it cannot draw; settings that it ignores change nothing.
-void requireDrawable(const FrameRequest& request);
+void requireDrawable(const ViewRequest& request);
 
 /// Applies the options of the scene itself, except settings that the user gave (`isSaid`). Throws InputError
 /// "FILE:/options/KEY: what"; `file` is the scene's file.
 void takeWishes(
-    const scenes::Scene& scene, const std::string& file, FrameRequest& request,
+    const scenes::Scene& scene, const std::string& file, ViewRequest& request,
     const std::function<bool(const Setting& setting)>& isSaid = [](const Setting&) { return false; });
 
 } // namespace tessera::engine

@@ -32,27 +32,30 @@ constexpr Method kAllLights[] = {Method::None};
 constexpr Method kTiled[] = {Method::Tile25d, Method::TileMinmax, Method::None};
 constexpr Method kClustered[] = {Method::Cluster, Method::Zbin, Method::None};
 
-/// What a recipe wires passes with.
-struct Recipe {
+/// What all views of a frame share. Passes and resources that belong to no view, such as a cache, are declared where it
+/// is made.
+struct FrameHandles {
+    frame::SceneHandles scene;
+};
+
+FrameHandles declareShared(graph::Graph& graph, const ViewSource& anyView) {
+    return {frame::importScene(graph, anyView.spec.features, anyView.drawn ? anyView.drawn->scene : nullptr)};
+}
+
+/// What a recipe wires a view's passes with.
+struct ViewWiring {
     graph::Graph& graph;
     const frame::FrameSpec& spec;
     const frame::DrawnView* drawn;
     frame::SurfaceHandles surfaces; ///< the scene, as the view draws it
     frame::LightingInputs lighting; ///< with the lists, once there are some
 
-    Recipe(graph::Graph& ofGraph, const frame::FrameSpec& ofSpec, const frame::DrawnView* ofView)
-        : graph(ofGraph), spec(ofSpec), drawn(ofView), surfaces(frame::importSurfaces(graph, spec, drawn)) {
-        const UploadViewPass::Outputs view = UploadViewPass::add(graph, drawn);
-        surfaces.view = {view.constants};
-        surfaces.rows = view.rows;
-        surfaces.commands = view.commands;
+    ViewWiring(graph::Graph& ofGraph, const FrameHandles& frame, const ViewSource& view)
+        : graph(ofGraph), spec(view.spec), drawn(view.drawn) {
+        const UploadViewPass::Outputs uploaded = UploadViewPass::add(graph, drawn);
+        surfaces = {drawn, frame.scene, {uploaded.constants}, uploaded.rows, uploaded.commands, {}};
         const UploadLightsPass::Outputs lights = UploadLightsPass::add(graph, spec, drawn);
-        lighting = {surfaces.view,
-                    lights.constants,
-                    lights.lights,
-                    lights.shapes,
-                    frame::importMaterialTable(graph, spec, drawn),
-                    {}};
+        lighting = {surfaces.view, lights.constants, lights.lights, lights.shapes, frame.scene.materialTable, {}};
     }
 
     bool hasLightLists() const { return spec.culling.method != Method::None; }
@@ -88,42 +91,42 @@ struct Recipe {
     }
 };
 
-OpaquePicture opaqueForward(Recipe& recipe) {
-    const ForwardPass::Inputs inputs{recipe.surfaces, recipe.lighting, {}, {}};
-    const ForwardPass::Outputs lit = ForwardPass::add(recipe.graph, recipe.spec, {}, inputs);
+OpaquePicture opaqueForward(ViewWiring& wiring) {
+    const ForwardPass::Inputs inputs{wiring.surfaces, wiring.lighting, {}, {}};
+    const ForwardPass::Outputs lit = ForwardPass::add(wiring.graph, wiring.spec, {}, inputs);
     return {lit.radiance, lit.depth};
 }
 
-OpaquePicture opaqueForwardPrepass(Recipe& recipe) {
-    const DepthPrepass::Params params{recipe.hasLightLists() && recipe.spec.samples > 1};
-    const DepthPrepass::Outputs drawn = DepthPrepass::add(recipe.graph, recipe.spec, params, {recipe.surfaces});
-    recipe.addLightLists(drawn.depth, drawn.shadingDepth.value_or(drawn.depth));
-    const ForwardPass::Inputs inputs{recipe.surfaces, recipe.lighting, drawn.depth, {}};
-    return {ForwardPass::add(recipe.graph, recipe.spec, {}, inputs).radiance, drawn.depth};
+OpaquePicture opaqueForwardPrepass(ViewWiring& wiring) {
+    const DepthPrepass::Params params{wiring.hasLightLists() && wiring.spec.samples > 1};
+    const DepthPrepass::Outputs drawn = DepthPrepass::add(wiring.graph, wiring.spec, params, {wiring.surfaces});
+    wiring.addLightLists(drawn.depth, drawn.shadingDepth.value_or(drawn.depth));
+    const ForwardPass::Inputs inputs{wiring.surfaces, wiring.lighting, drawn.depth, {}};
+    return {ForwardPass::add(wiring.graph, wiring.spec, {}, inputs).radiance, drawn.depth};
 }
 
-OpaquePicture opaqueDeferred(Recipe& recipe) {
-    const frame::GBufferHandles gbuffer = GBufferPass::add(recipe.graph, recipe.spec, {recipe.surfaces}).gbuffer;
-    recipe.addLightLists(gbuffer.depth, gbuffer.depth);
+OpaquePicture opaqueDeferred(ViewWiring& wiring) {
+    const frame::GBufferHandles gbuffer = GBufferPass::add(wiring.graph, wiring.spec, {wiring.surfaces}).gbuffer;
+    wiring.addLightLists(gbuffer.depth, gbuffer.depth);
     const DeferredLightingPass::Outputs lit =
-        DeferredLightingPass::add(recipe.graph, recipe.spec, {}, {gbuffer, recipe.lighting});
+        DeferredLightingPass::add(wiring.graph, wiring.spec, {}, {gbuffer, wiring.lighting});
     return {lit.radiance, gbuffer.depth, gbuffer};
 }
 
-OpaquePicture opaqueDeferredVolumes(Recipe& recipe) {
-    const frame::GBufferHandles gbuffer = GBufferPass::add(recipe.graph, recipe.spec, {recipe.surfaces}).gbuffer;
+OpaquePicture opaqueDeferredVolumes(ViewWiring& wiring) {
+    const frame::GBufferHandles gbuffer = GBufferPass::add(wiring.graph, wiring.spec, {wiring.surfaces}).gbuffer;
     const DeferredLightingPass::Params params{.visitsLights = false};
     const TextureHandle unlit =
-        DeferredLightingPass::add(recipe.graph, recipe.spec, params, {gbuffer, recipe.lighting}).radiance;
-    if (!LightVolumesPass::isNeeded(recipe.spec)) return {unlit, gbuffer.depth, gbuffer};
-    const LightVolumesPass::Inputs inputs{gbuffer, recipe.lighting, unlit};
-    return {LightVolumesPass::add(recipe.graph, recipe.spec, inputs).radiance, gbuffer.depth, gbuffer};
+        DeferredLightingPass::add(wiring.graph, wiring.spec, params, {gbuffer, wiring.lighting}).radiance;
+    if (!LightVolumesPass::isNeeded(wiring.spec)) return {unlit, gbuffer.depth, gbuffer};
+    const LightVolumesPass::Inputs inputs{gbuffer, wiring.lighting, unlit};
+    return {LightVolumesPass::add(wiring.graph, wiring.spec, inputs).radiance, gbuffer.depth, gbuffer};
 }
 
 /// A technique, and how it draws opaque surfaces.
 struct Row {
     TechniqueInfo info;
-    OpaquePicture (*drawOpaque)(Recipe& recipe);
+    OpaquePicture (*addOpaque)(ViewWiring& wiring);
 };
 constexpr Row kRows[] = {
     {{Technique::Forward, "forward", Geometry::Shaded, "every fragment loops over all lights; the baseline",
@@ -165,36 +168,58 @@ struct Shown {
 };
 
 /// The lit picture, transparent surfaces included.
-Shown addLitPicture(Technique technique, Recipe& recipe, const AfterOpaque& after) {
-    OpaquePicture opaque = kRows[std::size_t(technique)].drawOpaque(recipe);
+Shown addLitPicture(Technique technique, std::size_t view, ViewWiring& wiring, const AfterOpaque& after) {
+    OpaquePicture opaque = kRows[std::size_t(technique)].addOpaque(wiring);
     // Add passes here that read the opaque picture and draw below transparent surfaces.
-    if (after.readsSurfaces && !opaque.gbuffer) opaque.gbuffer = recipe.storeSurfaces(opaque.depth);
-    if (after.add) opaque.radiance = after.add(recipe.graph, recipe.spec, opaque);
-    if (!recipe.blends()) return {opaque.radiance, opaque.depth};
+    if (after.readsSurfaces && !opaque.gbuffer) opaque.gbuffer = wiring.storeSurfaces(opaque.depth);
+    if (after.add) opaque.radiance = after.add(wiring.graph, view, wiring.spec, opaque);
+    if (!wiring.blends()) return {opaque.radiance, opaque.depth};
     const ForwardPass::Params params{ForwardPass::Surfaces::Transparent};
-    const ForwardPass::Inputs inputs{recipe.surfaces, recipe.lighting, opaque.depth, opaque.radiance};
-    return {ForwardPass::add(recipe.graph, recipe.spec, params, inputs).radiance, opaque.depth};
+    const ForwardPass::Inputs inputs{wiring.surfaces, wiring.lighting, opaque.depth, opaque.radiance};
+    return {ForwardPass::add(wiring.graph, wiring.spec, params, inputs).radiance, opaque.depth};
 }
 
 /// What stands in for the lit picture in debug views that passes of their own draw; none for all others.
-std::optional<Shown> addDebugView(Technique technique, Recipe& recipe) {
-    const frame::DebugView view = recipe.spec.settings.view;
+std::optional<Shown> addDebugView(Technique technique, ViewWiring& wiring) {
+    const frame::DebugView view = wiring.spec.settings.view;
     if (view == frame::DebugView::Ids) {
-        const IdsPass::Outputs drawn = IdsPass::add(recipe.graph, recipe.spec, {recipe.surfaces});
+        const IdsPass::Outputs drawn = IdsPass::add(wiring.graph, wiring.spec, {wiring.surfaces});
         return Shown{drawn.ids, drawn.depth};
     }
     if (view == frame::DebugView::Overdraw) {
-        OverdrawPass::Inputs inputs{recipe.surfaces, {}};
+        OverdrawPass::Inputs inputs{wiring.surfaces, {}};
         if (infoOf(technique).geometry == Geometry::DepthFirst)
-            inputs.depth = DepthPrepass::add(recipe.graph, recipe.spec, {}, {recipe.surfaces}).depth;
-        const OverdrawPass::Outputs drawn = OverdrawPass::add(recipe.graph, recipe.spec, inputs);
+            inputs.depth = DepthPrepass::add(wiring.graph, wiring.spec, {}, {wiring.surfaces}).depth;
+        const OverdrawPass::Outputs drawn = OverdrawPass::add(wiring.graph, wiring.spec, inputs);
         return Shown{drawn.overdraw, drawn.depth};
     }
     if (const std::optional<frame::StoredComponents> shown = frame::storedComponents(view)) {
-        const frame::GBufferHandles gbuffer = GBufferPass::add(recipe.graph, recipe.spec, {recipe.surfaces}).gbuffer;
-        return Shown{StoredChannelPass::add(recipe.graph, recipe.spec, {*shown}, {gbuffer}).radiance, gbuffer.depth};
+        const frame::GBufferHandles gbuffer = GBufferPass::add(wiring.graph, wiring.spec, {wiring.surfaces}).gbuffer;
+        return Shown{StoredChannelPass::add(wiring.graph, wiring.spec, {*shown}, {gbuffer}).radiance, gbuffer.depth};
     }
     return {};
+}
+
+DeclaredView declareView(graph::Graph& graph, const FrameHandles& frame, const ViewSource& source, std::size_t index,
+                         const AfterOpaque& after) {
+    const frame::FrameSpec& spec = source.spec;
+    ViewWiring wiring(graph, frame, source);
+    std::optional<Shown> shown = addDebugView(source.technique, wiring);
+    if (!shown) shown = addLitPicture(source.technique, index, wiring, after);
+    DeclaredView view;
+    view.radiance = wiring.resolve(shown->radiance, ResolvePass::Kind::Radiance);
+    view.depth = shown->depth;
+    view.display = DisplayPass::add(graph, spec, {view.radiance}).display;
+    view.lists = wiring.lighting.lists;
+    graph.output(view.radiance);
+    graph.output(view.depth);
+    if (spec.settings.display) graph.output(view.display);
+    if (view.lists) {
+        graph.output(view.lists->tiles);
+        graph.output(view.lists->cells);
+        graph.output(view.lists->entries);
+    }
+    return view;
 }
 
 } // namespace
@@ -219,25 +244,12 @@ const TechniqueInfo& infoOf(Technique technique) {
     return kTechniques[std::size_t(technique)];
 }
 
-DeclaredView declareView(graph::Graph& graph, Technique technique, const frame::FrameSpec& spec,
-                         const frame::DrawnView* drawn, const AfterOpaque& after) {
-    Recipe recipe(graph, spec, drawn);
-    std::optional<Shown> shown = addDebugView(technique, recipe);
-    if (!shown) shown = addLitPicture(technique, recipe, after);
-    DeclaredView view;
-    view.radiance = recipe.resolve(shown->radiance, ResolvePass::Kind::Radiance);
-    view.depth = shown->depth;
-    view.display = DisplayPass::add(graph, spec, {view.radiance}).display;
-    view.lists = recipe.lighting.lists;
-    graph.output(view.radiance);
-    graph.output(view.depth);
-    if (spec.settings.display) graph.output(view.display);
-    if (view.lists) {
-        graph.output(view.lists->tiles);
-        graph.output(view.lists->cells);
-        graph.output(view.lists->entries);
-    }
-    return view;
+std::vector<DeclaredView> declareFrame(graph::Graph& graph, std::span<const ViewSource> views,
+                                       const AfterOpaque& after) {
+    const FrameHandles frame = declareShared(graph, views.front());
+    std::vector<DeclaredView> declared;
+    for (std::size_t i = 0; i < views.size(); ++i) declared.push_back(declareView(graph, frame, views[i], i, after));
+    return declared;
 }
 
 } // namespace tessera::engine

@@ -33,7 +33,8 @@ struct TechniqueInfo {
     std::span<const culling::Method> methods; ///< of light culling that it takes, the one it prefers first
     bool choosesStage = false; ///< lights in a pass of its own, which may be of fragment or of compute shaders
 
-    bool addsByBlending = false; ///< adds light after light to the picture, in an order that it does not choose
+    bool addsByBlending =
+        false; ///< adds light after light to the picture, in the document's order; the driver chooses the rounding
 
     bool usesGBuffer() const { return geometry == Geometry::GBuffer; }
     bool multisamples() const { return geometry != Geometry::GBuffer; } ///< takes more than one sample per pixel
@@ -63,14 +64,22 @@ struct OpaquePicture {
 /// Passes between opaque and transparent surfaces: reflections, say, or what an application adds.
 struct AfterOpaque {
     bool readsSurfaces = false; ///< OpaquePicture::gbuffer is there whatever the technique
-    /// Declares them. Returns the radiance, of FrameSpec::samples, that transparent surfaces are drawn over.
-    std::function<graph::TextureHandle(graph::Graph& graph, const frame::FrameSpec& spec, const OpaquePicture& opaque)>
+    /// Declares them for a view, counted from 0. Returns the radiance, of FrameSpec::samples, that transparent surfaces
+    /// are drawn over.
+    std::function<graph::TextureHandle(graph::Graph& graph, std::size_t view, const frame::FrameSpec& spec,
+                                       const OpaquePicture& opaque)>
         add;
 };
 
-/// Declares a technique's passes for a view of the frame; a frame may have several views. `drawn` is null where the
-/// frame is only planned; else it must live while the graph runs.
-DeclaredView declareView(graph::Graph& graph, Technique technique, const frame::FrameSpec& spec,
-                         const frame::DrawnView* drawn, const AfterOpaque& after = {});
+/// What a view is declared from.
+struct ViewSource {
+    Technique technique;
+    const frame::FrameSpec& spec;
+    const frame::DrawnView* drawn = nullptr; ///< null if the frame is only planned; else it must outlive the graph
+};
+
+/// Declares the passes of a frame: what its views share, then each view in order. There is at least one.
+std::vector<DeclaredView> declareFrame(graph::Graph& graph, std::span<const ViewSource> views,
+                                       const AfterOpaque& after = {});
 
 } // namespace tessera::engine

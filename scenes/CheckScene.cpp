@@ -118,7 +118,7 @@ void checkMaterial(const Element& element, const Material& material, std::size_t
         if (!isWithin(material.*field.member, field))
             element.require(false, fmt::format("{} must be {}", field.what, boundsText(field.least, field.most)));
     });
-    element.require(material.masking != Masking::Directional || material.model != MaterialModel::Microfacet,
+    element.require(takesMasking(material.model, material.masking),
                     "masking by direction needs the model microfacet_anisotropic");
     for (const TextureUse& use : material.textures) {
         if (use.image == kNone) continue;

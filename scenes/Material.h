@@ -33,7 +33,7 @@ enum class MaterialModel : std::uint8_t {
 /// The masking-shadowing term G of the microfacet models.
 enum class Masking : std::uint8_t {
     Walter,      ///< by the angle to the normal; alpha along the microfacet normal where anisotropic (Walter 2007)
-    Directional, ///< microfacet_anisotropic: alpha along the direction itself (Heitz 2014)
+    Directional, ///< of models with two alphas: alpha along the direction itself (Heitz 2014)
     HalfVector,  ///< by the angle to the half vector; gains energy
     Count
 };
@@ -212,6 +212,13 @@ enum class Microsurface : std::uint8_t {
     MetallicRoughness ///< GGX alpha, F90 and metallic
 };
 
+/// Where a model's lobe gets an alpha along the bitangent that differs from the one along the tangent.
+enum class Anisotropy : std::uint8_t {
+    None,
+    Alphas,  ///< from alphaY, which the R of TextureSlot::Anisotropy scales; masking may be by direction
+    Strength ///< from anisotropyStrength and the texture's direction and B (KHR_materials_anisotropy)
+};
+
 struct MaterialModelInfo {
     MaterialModel model;
     std::string_view
@@ -222,7 +229,8 @@ struct MaterialModelInfo {
     Microsurface microsurface = Microsurface::None;
     float Material::*roughness = nullptr; ///< the member that the G of TextureSlot::MetallicRoughness scales
     std::span<const MaterialParameter> parameters{};
-    bool hasLayers = false; ///< emission, anisotropy, clearcoat and sheen, which scene files and the viewer spell out
+    Anisotropy anisotropy = Anisotropy::None;
+    bool hasLayers = false; ///< emission, clearcoat and sheen, with what scene files and the viewer spell out
 };
 
 namespace detail {
@@ -259,9 +267,10 @@ inline constexpr std::array kMaterialModels{
     Info{MaterialModel::Microfacet, "microfacet", true, "k_d", Highlight::Tinted, Microsurface::Dielectric,
          &Material::alpha, kMicrofacet},
     Info{MaterialModel::MicrofacetAnisotropic, "microfacet_anisotropic", true, "k_d", Highlight::Tinted,
-         Microsurface::Dielectric, &Material::alpha, kMicrofacetAnisotropic},
+         Microsurface::Dielectric, &Material::alpha, kMicrofacetAnisotropic, Anisotropy::Alphas},
     Info{MaterialModel::MetallicRoughness, "metallic_roughness", true, "baseColor", Highlight::Dielectric,
-         Microsurface::MetallicRoughness, &Material::perceptualRoughness, kMetallicRoughness, true},
+         Microsurface::MetallicRoughness, &Material::perceptualRoughness, kMetallicRoughness, Anisotropy::Strength,
+         true},
 };
 consteval bool isInOrder() {
     for (std::size_t i = 0; i < kMaterialModels.size(); ++i)
@@ -279,6 +288,20 @@ constexpr std::span<const MaterialModelInfo> materialModels() {
 }
 constexpr const MaterialModelInfo& infoOf(MaterialModel model) {
     return detail::kMaterialModels[std::size_t(model)];
+}
+
+/// Whether a model has a masking-shadowing option. Models without the choice ignore it and take all.
+constexpr bool takesMasking(MaterialModel model, Masking masking) {
+    const MaterialModelInfo& info = infoOf(model);
+    return masking != Masking::Directional || info.microsurface != Microsurface::Dielectric ||
+           info.anisotropy == Anisotropy::Alphas;
+}
+
+/// Whether a material's lobe turns with the tangent.
+constexpr bool isAnisotropic(const Material& material) {
+    const Anisotropy anisotropy = infoOf(material.model).anisotropy;
+    return anisotropy == Anisotropy::Alphas ||
+           (anisotropy == Anisotropy::Strength && material.anisotropyStrength > 0.0f);
 }
 
 } // namespace tessera::scenes

@@ -28,6 +28,7 @@ const BuilderInfo& infoOf(Builder builder);
 
 /// Tile sides, in pixels.
 inline constexpr int kTileSides[] = {8, 16, 32, 64};
+inline constexpr int kUsualTilePixels = 16;
 
 /// The requested light culling; values left open follow from technique and backend (chooseCulling).
 struct Settings {
@@ -41,7 +42,7 @@ struct Settings {
 /// What a frame does.
 struct Choice {
     Method method = Method::None;
-    int tilePixels = 16;
+    int tilePixels = kUsualTilePixels;
     Builder builder = Builder::Cpu;
     int lanes = 1;
     bool operator==(const Choice&) const = default;

@@ -67,7 +67,7 @@ std::vector<FeatureInfo> makeTable() {
             {Feature::Specular, "SPECULAR", "specular colour and strength",
              "every material keeps k_s = 1 or F0 = 0.04"},
             {Feature::MaskingOptions, "MASKING_OPTIONS", "options of masking", "every material keeps masking = walter"},
-            {Feature::Anisotropy, "ANISOTROPY", "anisotropy of metallic_roughness", "no material has any"},
+            {Feature::Anisotropy, "ANISOTROPY", "anisotropy by strength", "no material has any"},
             {Feature::Clearcoat, "CLEARCOAT", "clearcoat", "no material has any"},
             {Feature::Sheen, "SHEEN", "sheen", "no material has any"},
             {Feature::AlphaMask, "ALPHA_MASK", "alpha masks", "no material is alpha-masked"},
@@ -104,19 +104,17 @@ bool varies(const scenes::Material& material) {
         const bool bends = slot == scenes::TextureSlot::Normal || slot == scenes::TextureSlot::ClearcoatNormal;
         if (!bends && material.textures[i].image != scenes::kNone) return true;
     }
-    return material.model == scenes::MaterialModel::MicrofacetAnisotropic ||
-           (material.model == scenes::MaterialModel::MetallicRoughness && material.anisotropyStrength > 0.0f);
+    return scenes::isAnisotropic(material);
 }
 
 void addMaterial(FeatureSet& set, const scenes::Material& material) {
-    using scenes::MaterialModel;
+    const scenes::MaterialModelInfo& model = scenes::infoOf(material.model);
     set.add(featureOf(material.model));
     set.add(Feature::MaskingOptions, canMask(material) && material.masking != scenes::Masking::Walter);
-    if (material.model == MaterialModel::MetallicRoughness) {
-        set.add(Feature::Anisotropy, material.anisotropyStrength > 0.0f);
-        set.add(Feature::Clearcoat, material.clearcoat > 0.0f);
-        set.add(Feature::Sheen, material.sheenColor != glm::vec3(0.0f));
-    }
+    set.add(Feature::Anisotropy,
+            model.anisotropy == scenes::Anisotropy::Strength && material.anisotropyStrength > 0.0f);
+    set.add(Feature::Clearcoat, model.hasLayers && material.clearcoat > 0.0f);
+    set.add(Feature::Sheen, model.hasLayers && material.sheenColor != glm::vec3(0.0f));
     for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
         const scenes::TextureUse& use = material.textures[slot];
         if (use.image == scenes::kNone) continue;
@@ -130,7 +128,7 @@ void addMaterial(FeatureSet& set, const scenes::Material& material) {
     const bool objectSpace = material.normalMapSpace == scenes::NormalMapSpace::Object;
     set.add(Feature::TangentSpaceNormals, normalMap && !objectSpace);
     set.add(Feature::ObjectSpaceNormals, normalMap && objectSpace);
-    set.add(Feature::Emission, material.emissive != glm::vec3(0.0f) || !scenes::infoOf(material.model).isLit);
+    set.add(Feature::Emission, material.emissive != glm::vec3(0.0f) || !model.isLit);
     set.add(Feature::Specular, changesSpecular(material));
     set.add(Feature::AlphaMask, material.alphaMode == scenes::AlphaMode::Mask);
     set.add(Feature::Blend, material.alphaMode == scenes::AlphaMode::Blend);
@@ -156,7 +154,7 @@ std::string numberOf(scenes::MaterialModel model) {
 }
 
 void addModels(const FeatureSet& features, Defines& defines) {
-    using scenes::Highlight, scenes::Microsurface, scenes::MaterialModelInfo;
+    using scenes::Anisotropy, scenes::Highlight, scenes::Microsurface, scenes::MaterialModelInfo;
     for (const MaterialModelInfo& model : scenes::materialModels())
         defines.emplace_back("MODEL_" + inCapitals(model.name), numberOf(model.model));
     defines.emplace_back("MODEL_COUNT", fmt::format("{}u", scenes::kMaterialModelCount));
@@ -180,9 +178,18 @@ void addModels(const FeatureSet& features, Defines& defines) {
     };
     addQuestion("IS_UNLIT(model)", [](const MaterialModelInfo& model) { return !model.isLit; });
     addQuestion("IS_GLOSSY(model)", [](const MaterialModelInfo& model) { return model.highlight != Highlight::None; });
+    addQuestion("HAS_DIELECTRIC_F0(model)",
+                [](const MaterialModelInfo& model) { return model.highlight == Highlight::Dielectric; });
     addQuestion("HAS_PARAMETER(model)",
                 [](const MaterialModelInfo& model) { return model.microsurface == Microsurface::Parameter; });
     addQuestion("IS_MICROFACET(model)", isMicrofacet);
+    addQuestion("HAS_METALLIC(model)",
+                [](const MaterialModelInfo& model) { return model.microsurface == Microsurface::MetallicRoughness; });
+    addQuestion("HAS_TWO_ALPHAS(model)",
+                [](const MaterialModelInfo& model) { return model.anisotropy == Anisotropy::Alphas; });
+    addQuestion("HAS_ANISOTROPY_STRENGTH(model)",
+                [](const MaterialModelInfo& model) { return model.anisotropy == Anisotropy::Strength; });
+    addQuestion("HAS_LAYERS(model)", [](const MaterialModelInfo& model) { return model.hasLayers; });
 }
 
 void addLightTypes(const FeatureSet& features, Defines& defines) {
@@ -228,8 +235,15 @@ bool FeatureSet::microsurfaces() const {
     return any([](const scenes::MaterialModelInfo& model) { return model.microsurface != scenes::Microsurface::None; });
 }
 
+bool FeatureSet::ggxModels() const {
+    return any([](const scenes::MaterialModelInfo& model) {
+        return isMicrofacet(model) || model.microsurface == scenes::Microsurface::MetallicRoughness;
+    });
+}
+
 bool FeatureSet::tangentFrame() const {
-    return (*this)[scenes::MaterialModel::MicrofacetAnisotropic] || (*this)[Feature::Anisotropy];
+    return (*this)[Feature::Anisotropy] ||
+           any([](const scenes::MaterialModelInfo& model) { return model.anisotropy == scenes::Anisotropy::Alphas; });
 }
 
 bool FeatureSet::tangents() const {
@@ -298,6 +312,7 @@ Defines featureDefines(const FeatureSet& features) {
     addFlag("HAS_LIT_MODELS", features.litModels());
     addFlag("HAS_GLOSSY_MODELS", features.glossyModels());
     addFlag("HAS_MICROSURFACES", features.microsurfaces());
+    addFlag("HAS_GGX_MODELS", features.ggxModels());
     addFlag("HAS_TANGENT_FRAME", features.tangentFrame());
     addFlag("HAS_TANGENTS", features.tangents());
     addFlag("HAS_TEXTURES", features.textures());

@@ -85,6 +85,7 @@ struct FeatureSet {
     bool litModels() const;
     bool glossyModels() const;  ///< models with a highlight
     bool microsurfaces() const; ///< models with more parameters than colours
+    bool ggxModels() const;     ///< models with a GGX lobe
     bool tangentFrame() const;  ///< surfaces keep a tangent
     bool tangents() const;      ///< meshes bring tangents
     bool textures() const;

@@ -33,21 +33,17 @@ void ViewHandles::bind(const graph::PassContext& context) const {
 }
 
 SurfaceHandles SurfaceHandles::readGeometry(graph::PassBuilder& pass) const {
-    SurfaceHandles result{drawn,
-                          view.read(pass),
-                          pass.read(rows, Access::VertexRead),
-                          pass.read(commands, Access::IndirectRead),
-                          {},
-                          pass.read(indices, Access::IndexRead),
-                          materials,
-                          {}};
-    for (const graph::BufferHandle& stream : vertices) result.vertices.push_back(pass.read(stream, Access::VertexRead));
+    SurfaceHandles result{
+        drawn, scene, view.read(pass), pass.read(rows, Access::VertexRead), pass.read(commands, Access::IndirectRead),
+        {}};
+    for (graph::BufferHandle& stream : result.scene.vertices) stream = pass.read(stream, Access::VertexRead);
+    result.scene.indices = pass.read(scene.indices, Access::IndexRead);
     return result;
 }
 
 SurfaceHandles SurfaceHandles::read(graph::PassBuilder& pass) const {
     SurfaceHandles result = readGeometry(pass);
-    result.materials = pass.read(materials, Access::UniformRead);
+    result.scene.materials = pass.read(scene.materials, Access::UniformRead);
     return result;
 }
 
@@ -55,7 +51,7 @@ SurfaceHandles SurfaceHandles::readDepth(graph::PassBuilder& pass,
                                          const std::vector<shader::ProgramDesc>& programs) const {
     SurfaceHandles result = readGeometry(pass);
     for (const shader::ProgramDesc& program : programs) result.depthPrograms.push_back(pass.program(program));
-    if (programs.size() > 1) result.materials = pass.read(materials, Access::UniformRead);
+    if (programs.size() > 1) result.scene.materials = pass.read(scene.materials, Access::UniformRead);
     return result;
 }
 
@@ -139,30 +135,22 @@ void LitDepths::bind(const graph::PassContext& context) const {
     if (transparent) gpu::bindTexture(TEXTURE_UNIT_TRANSPARENT_DEPTH, context.texture(*transparent));
 }
 
-SurfaceHandles importSurfaces(graph::Graph& graph, const FrameSpec& spec, const DrawnView* drawn) {
+SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const SceneGpu* scene) {
     const auto import = [&](std::string name, const gpu::Buffer* buffer) {
         return graph.import(std::move(name), graph::BufferDesc{buffer ? buffer->bytes() : 0}, buffer);
     };
-    SurfaceHandles surfaces;
-    surfaces.drawn = drawn;
-    const SceneGpu* const scene = drawn ? drawn->scene : nullptr;
+    SceneHandles handles;
     if (scene) {
-        for (const gpu::Buffer* stream : scene->vertices())
-            surfaces.vertices.push_back(import(stream->label(), stream));
+        for (const gpu::Buffer* stream : scene->vertices()) handles.vertices.push_back(import(stream->label(), stream));
     } else {
-        for (const std::string& name : streamNames(spec.features)) surfaces.vertices.push_back(import(name, nullptr));
+        for (const std::string& name : streamNames(features)) handles.vertices.push_back(import(name, nullptr));
     }
-    surfaces.indices = import("indices", scene ? &scene->indices() : nullptr);
-    surfaces.materials = import("materials", scene ? &scene->materials() : nullptr);
-    return surfaces;
-}
-
-std::optional<graph::BufferHandle> importMaterialTable(graph::Graph& graph, const FrameSpec& spec,
-                                                       const DrawnView* drawn) {
-    if (spec.features[Feature::VaryingMaterials]) return {};
-    const gpu::Buffer* const table = drawn ? drawn->scene->materialTable() : nullptr;
-    if (drawn && table == nullptr) return {};
-    return graph.import("material_table", graph::BufferDesc{table ? table->bytes() : 0}, table);
+    handles.indices = import("indices", scene ? &scene->indices() : nullptr);
+    handles.materials = import("materials", scene ? &scene->materials() : nullptr);
+    const gpu::Buffer* const table = scene ? scene->materialTable() : nullptr;
+    if (!features[Feature::VaryingMaterials] && (!scene || table))
+        handles.materialTable = import("material_table", table);
+    return handles;
 }
 
 } // namespace tessera::frame

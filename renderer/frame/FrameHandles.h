@@ -35,15 +35,21 @@ struct ViewHandles {
     void bind(const graph::PassContext& context) const;
 };
 
+/// The scene's own buffers, which all views of a frame share.
+struct SceneHandles {
+    std::vector<graph::BufferHandle> vertices; ///< a stream each
+    graph::BufferHandle indices;
+    graph::BufferHandle materials;                    ///< shared::MaterialConstants of each
+    std::optional<graph::BufferHandle> materialTable; ///< where surfaces hold their material's number
+};
+
 /// The scene as a view draws it.
 struct SurfaceHandles {
     const DrawnView* drawn = nullptr;
+    SceneHandles scene;
     ViewHandles view;
-    graph::BufferHandle rows;                  ///< DrawRows of each draw of the view
-    graph::BufferHandle commands;              ///< gpu::DrawIndexedCommand of the same
-    std::vector<graph::BufferHandle> vertices; ///< a stream each
-    graph::BufferHandle indices;
-    graph::BufferHandle materials;          ///< shared::MaterialConstants of each
+    graph::BufferHandle rows;               ///< DrawRows of each draw of the view
+    graph::BufferHandle commands;           ///< gpu::DrawIndexedCommand of the same
     std::vector<std::size_t> depthPrograms; ///< of readDepth(), by number: bare, then where there is one, masked
 
     enum class Kind { Opaque, Transparent };
@@ -111,10 +117,8 @@ struct LitDepths {
     void bind(const graph::PassContext& context) const;
 };
 
-/// Makes the scene's own buffers known to a graph.
-SurfaceHandles importSurfaces(graph::Graph& graph, const FrameSpec& spec, const DrawnView* drawn);
-/// The table of materials, where pixels hold their material's number.
-std::optional<graph::BufferHandle> importMaterialTable(graph::Graph& graph, const FrameSpec& spec,
-                                                       const DrawnView* drawn);
+/// Makes the scene's own buffers known to a graph. `scene` is null if the frame is only planned; features are those of
+/// the scene, so any of the frame's views has them.
+SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const SceneGpu* scene);
 
 } // namespace tessera::frame

@@ -77,10 +77,10 @@ float sideOf(const glm::dmat2& turn) {
 
 glm::vec4 packAnisotropy(const scenes::Material& material) {
     const glm::dmat2 turn = tangentsFromTexture(material, TextureSlot::Anisotropy);
-    const bool isMicrofacet = material.model == MaterialModel::MicrofacetAnisotropic;
-    const double rotation = isMicrofacet ? 0.0 : double(material.anisotropyRotationRadians);
+    const bool hasAlphas = scenes::infoOf(material.model).anisotropy == scenes::Anisotropy::Alphas;
+    const double rotation = hasAlphas ? 0.0 : double(material.anisotropyRotationRadians);
     const glm::vec2 axis(turn * glm::dvec2(std::cos(rotation), std::sin(rotation)));
-    return {isMicrofacet ? material.alphaY : material.anisotropyStrength, axis, sideOf(turn)};
+    return {hasAlphas ? material.alphaY : material.anisotropyStrength, axis, sideOf(turn)};
 }
 
 glm::vec4 packClearcoatTurn(const scenes::Material& material) {

@@ -16,11 +16,11 @@ namespace {
 using scenes::TextureSlot;
 
 bool hasAnisotropyMap(const scenes::Material& material) {
-    return material.model == scenes::MaterialModel::MetallicRoughness &&
+    return scenes::infoOf(material.model).anisotropy == scenes::Anisotropy::Strength &&
            material.texture(TextureSlot::Anisotropy).image != scenes::kNone;
 }
 
-/// Whether the slot's texture holds vectors. That of microfacet_anisotropic holds a number.
+/// Whether the slot's texture holds vectors. That of an alpha along the bitangent holds a number.
 bool holdsVectors(const scenes::Material& material, TextureSlot slot) {
     return slot == TextureSlot::Anisotropy ? hasAnisotropyMap(material) : material.texture(slot).image != scenes::kNone;
 }
@@ -29,12 +29,10 @@ bool holdsVectors(const scenes::Material& material, TextureSlot slot) {
 std::optional<TextureSlot> followedSlot(const scenes::Material& material) {
     const bool normalMap = material.texture(TextureSlot::Normal).image != scenes::kNone;
     if (normalMap && material.normalMapSpace == scenes::NormalMapSpace::Tangent) return TextureSlot::Normal;
-    const bool metallicRoughness = material.model == scenes::MaterialModel::MetallicRoughness;
-    if (material.model == scenes::MaterialModel::MicrofacetAnisotropic ||
-        (metallicRoughness && material.anisotropyStrength > 0.0f))
-        return TextureSlot::Anisotropy;
+    if (scenes::isAnisotropic(material)) return TextureSlot::Anisotropy;
     const bool coatMap = material.texture(TextureSlot::ClearcoatNormal).image != scenes::kNone;
-    if (metallicRoughness && material.clearcoat > 0.0f && coatMap) return TextureSlot::ClearcoatNormal;
+    if (scenes::infoOf(material.model).hasLayers && material.clearcoat > 0.0f && coatMap)
+        return TextureSlot::ClearcoatNormal;
     return std::nullopt;
 }
 

@@ -1,6 +1,7 @@
 #include "scenes/import/SceneJsonMaterials.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "scenes/import/SceneJsonFields.h"
 #include "scenes/import/SceneJsonNames.h"
@@ -57,6 +58,11 @@ public:
             const std::vector<JsonValue> channels = value.elements(3, 3);
             for (glm::length_t i = 0; i < 3; ++i) factor[i] = channels[static_cast<std::size_t>(i)].single(0.0, 1.0);
         });
+    }
+
+    void metallicRoughnessTexture() {
+        if (const auto texture = object_.find("metallicRoughnessTexture"))
+            setTexture(*texture, TextureSlot::MetallicRoughness);
     }
 
     void anisotropy() {
@@ -133,12 +139,8 @@ public:
         }
     }
 
-    /// What only metallic_roughness has.
     void layers() {
-        if (const auto texture = object_.find("metallicRoughnessTexture"))
-            setTexture(*texture, TextureSlot::MetallicRoughness);
         emission();
-        anisotropy();
         clearcoat();
         sheen();
     }
@@ -157,9 +159,11 @@ private:
         material_.*member = value.color();
     }
     void setFactor(const JsonValue& value, MaterialParameter::Kind, Masking Material::*member) {
-        const std::span<const Named<Masking>> all = kMaskings;
-        material_.*member = value.oneOf<Masking>(
-            "masking", material_.model == MaterialModel::MicrofacetAnisotropic ? all : all.first<2>());
+        std::vector<Named<Masking>> taken;
+        std::ranges::copy_if(kMaskings, std::back_inserter(taken), [&](const Named<Masking>& masking) {
+            return takesMasking(material_.model, masking.second);
+        });
+        material_.*member = value.oneOf<Masking>("masking", taken);
     }
 
     JsonObject& object_;
@@ -172,6 +176,8 @@ void readModelParameters(JsonObject& object, Material& material, Images& images)
     const MaterialModelInfo& model = infoOf(material.model);
     parameters.baseColor(model.colorKey);
     for (const MaterialParameter& parameter : model.parameters) parameters.parameter(parameter);
+    if (model.microsurface == Microsurface::MetallicRoughness) parameters.metallicRoughnessTexture();
+    if (model.anisotropy == Anisotropy::Strength) parameters.anisotropy();
     if (model.hasLayers) parameters.layers();
     if (!model.isLit) return;
     parameters.normalMap();
@@ -193,9 +199,8 @@ Material readMaterial(const JsonValue& value, Images& images) {
 void changeMaterial(JsonObject& object, Material& material, Images& images) {
     if (const auto model = object.find("model")) {
         material.model = model->oneOf<MaterialModel>("material model", kModels);
-        // Overrides may change the model, and only one model has every masking-shadowing option.
-        if (material.model != MaterialModel::MicrofacetAnisotropic && material.masking == Masking::Directional)
-            material.masking = Masking::Walter;
+        // Overrides may change the model, and not every model has every masking-shadowing option.
+        if (!takesMasking(material.model, material.masking)) material.masking = Masking::Walter;
     }
     readModelParameters(object, material, images);
     if (const auto mode = object.find("alphaMode"))

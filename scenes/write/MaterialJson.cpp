@@ -64,15 +64,15 @@ public:
         if (material_.normalMapSpace == NormalMapSpace::Tangent) map["scale"] = number(material_.normalScale);
     }
 
-    /// What only metallic_roughness has.
+    void anisotropy() {
+        if (material_.anisotropyStrength == 0.0f) return;
+        factor("anisotropyStrength", material_.anisotropyStrength);
+        json_["anisotropyRotationDegrees"] = degreesOf(material_.anisotropyRotationRadians);
+        texture("anisotropyTexture", TextureSlot::Anisotropy);
+    }
+
     void layers() {
-        texture("metallicRoughnessTexture", TextureSlot::MetallicRoughness);
         parameter("emissive", numbers(material_.emissive), TextureSlot::Emissive);
-        if (material_.anisotropyStrength != 0.0f) {
-            factor("anisotropyStrength", material_.anisotropyStrength);
-            json_["anisotropyRotationDegrees"] = degreesOf(material_.anisotropyRotationRadians);
-            texture("anisotropyTexture", TextureSlot::Anisotropy);
-        }
         if (material_.clearcoat != 0.0f) {
             parameter("clearcoat", material_.clearcoat, TextureSlot::Clearcoat);
             parameter("clearcoatPerceptualRoughness", material_.clearcoatPerceptualRoughness,
@@ -105,6 +105,9 @@ Json byKeys(const Material& material) {
     const MaterialModelInfo& model = infoOf(material.model);
     keys.baseColor(model.colorKey);
     for (const MaterialParameter& parameter : model.parameters) keys.parameter(parameter);
+    if (model.microsurface == Microsurface::MetallicRoughness)
+        keys.texture("metallicRoughnessTexture", TextureSlot::MetallicRoughness);
+    if (model.anisotropy == Anisotropy::Strength) keys.anisotropy();
     if (model.hasLayers) keys.layers();
     if (model.isLit) keys.normalMap();
     if (model.isLit && material.tangents != TangentMethod::MikkTSpace)

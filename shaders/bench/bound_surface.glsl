@@ -43,7 +43,7 @@ void setBoundLobes(vec2 pixel, inout Surface surface)
     precise float parameter = 8.0 + 64.0 * boundFraction(pixel, vec2(0.0143, 0.0203));
     surface.parameter = parameter;
 #if HAS_MASKING_OPTIONS
-    surface.masking = surface.model == MODEL_MICROFACET ? MASKING_HALF_VECTOR : MASKING_DIRECTIONAL;
+    surface.masking = HAS_TWO_ALPHAS(surface.model) ? MASKING_DIRECTIONAL : MASKING_HALF_VECTOR;
 #endif
 #if HAS_TANGENT_FRAME
     precise vec3 across = vec3(1.0, 0.0, 0.0) - surface.normalLS * surface.normalLS.x;
@@ -55,13 +55,13 @@ void setBoundLobes(vec2 pixel, inout Surface surface)
 #if HAS_CLEARCOAT
     precise float factor = 0.5 + 0.5 * boundFraction(pixel, vec2(0.0183, 0.0059));
     surface.coatNormalCode = encodeOctahedral(surface.normalLS);
-    surface.coatFactor = surface.model == MODEL_METALLIC_ROUGHNESS ? factor : 0.0;
+    surface.coatFactor = HAS_LAYERS(surface.model) ? factor : 0.0;
     precise float coatAlpha = 0.05 + 0.4 * boundFraction(pixel, vec2(0.0067, 0.0287));
     surface.coatAlpha = coatAlpha;
 #endif
 #if HAS_SHEEN
     precise float color = 0.1 + 0.4 * boundFraction(pixel, vec2(0.0037, 0.0231));
-    surface.sheenColor = surface.model == MODEL_METALLIC_ROUGHNESS ? vec3(color) : vec3(0.0);
+    surface.sheenColor = HAS_LAYERS(surface.model) ? vec3(color) : vec3(0.0);
     precise float sheenAlpha = 0.1 + 0.6 * boundFraction(pixel, vec2(0.0197, 0.0083));
     surface.sheenAlpha = sheenAlpha;
 #endif

@@ -17,7 +17,7 @@
 namespace tessera {
 namespace {
 
-using View = engine::FrameRequest;
+using View = engine::ViewRequest;
 using engine::Technique;
 
 class SeveralViews : public test::GlTest {
@@ -117,7 +117,8 @@ protected:
         settings.samples = samples;
         engine::Renderer renderer(context(), scene);
         graph::TextureHandle shown;
-        const auto show = [&](graph::Graph& in, const frame::FrameSpec& of, const engine::OpaquePicture& opaque) {
+        const auto show = [&](graph::Graph& in, std::size_t, const frame::FrameSpec& of,
+                              const engine::OpaquePicture& opaque) {
             const frame::StoredComponents normal{frame::Channel::Normal, false};
             shown = passes::StoredChannelPass::add(in, of, {normal}, {opaque.gbuffer.value()}).radiance;
             in.output(shown);
@@ -138,7 +139,9 @@ TEST_F(BetweenOpaqueAndTransparent, aPersistentTextureIsWrittenInTheFirstFrameOn
     };
     int writes = 0;
     graph::TextureHandle shown;
-    const auto add = [&](graph::Graph& in, const frame::FrameSpec&, const engine::OpaquePicture& opaque) {
+    const auto add = [&](graph::Graph& in, std::size_t index, const frame::FrameSpec&,
+                         const engine::OpaquePicture& opaque) {
+        EXPECT_EQ(index, std::size_t(0));
         shown = in.persist("history", desc, 1);
         if (!in.holds(shown)) {
             const auto setup = [&](graph::PassBuilder& pass, Written& out) { out.history = pass.write(shown); };

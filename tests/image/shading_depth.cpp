@@ -46,11 +46,13 @@ protected:
         shader::ProgramLibrary programs;
         gpu::GraphBackend backend;
         graph::Graph graph;
-        frame::SurfaceHandles surfaces = frame::importSurfaces(graph, spec, &view);
         const passes::UploadViewPass::Outputs uploaded = passes::UploadViewPass::add(graph, &view);
-        surfaces.view = {uploaded.constants};
-        surfaces.rows = uploaded.rows;
-        surfaces.commands = uploaded.commands;
+        const frame::SurfaceHandles surfaces{&view,
+                                             frame::importScene(graph, spec.features, &sceneGpu),
+                                             {uploaded.constants},
+                                             uploaded.rows,
+                                             uploaded.commands,
+                                             {}};
         const passes::DepthPrepass::Outputs drawn = passes::DepthPrepass::add(graph, spec, {true}, {surfaces});
         const graph::BufferHandle read = readBack(graph, drawn, spec.samples);
         graph.output(read);

@@ -12,7 +12,7 @@ namespace tessera::test {
 /// Values that a setting takes, as texts, its default and the open one among them; all names of a choice. Those of the
 /// scene are of one with two cameras and a light.
 inline std::vector<std::string> textsOf(const engine::Setting& setting) {
-    std::vector<std::string> texts{setting.text(engine::FrameRequest())};
+    std::vector<std::string> texts{setting.text(engine::ViewRequest())};
     if (!setting.value.open.empty()) texts.emplace_back(setting.value.open);
     const engine::SettingKind& kind = setting.value.kind;
     if (const auto* choice = std::get_if<engine::ChoiceKind>(&kind)) {
@@ -34,8 +34,8 @@ inline std::vector<std::string> textsOf(const engine::Setting& setting) {
 }
 
 /// A request that differs from the default in this setting.
-inline engine::FrameRequest changedIn(const engine::Setting& setting, const scenes::Scene& scene) {
-    engine::FrameRequest request;
+inline engine::ViewRequest changedIn(const engine::Setting& setting, const scenes::Scene& scene) {
+    engine::ViewRequest request;
     for (const std::string& text : textsOf(setting)) {
         setting.read(request, text, {{}, &scene});
         if (!setting.isDefault(request)) return request;

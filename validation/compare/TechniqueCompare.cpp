@@ -195,7 +195,7 @@ void addHardwareFilter(engine::Renderer& renderer, const CompareRequest& request
 
 template <typename Drops>
 frame::FrameSettings resetWhere(Technique technique, const frame::FrameSettings& settings, const Drops& drops) {
-    engine::FrameRequest request{technique, settings};
+    engine::ViewRequest request{technique, settings};
     for (const engine::Setting& setting : engine::settingTable())
         if (drops(setting, request)) setting.reset(request);
     return request.settings;
@@ -204,13 +204,13 @@ frame::FrameSettings resetWhere(Technique technique, const frame::FrameSettings&
 } // namespace
 
 frame::FrameSettings settingsTakenBy(engine::Technique technique, const frame::FrameSettings& settings) {
-    return resetWhere(technique, settings, [](const engine::Setting& setting, const engine::FrameRequest& request) {
+    return resetWhere(technique, settings, [](const engine::Setting& setting, const engine::ViewRequest& request) {
         return setting.samePicture && !setting.isTaken(request);
     });
 }
 
 frame::FrameSettings settingsHeededBy(engine::Technique technique, const frame::FrameSettings& settings) {
-    return resetWhere(technique, settings, [](const engine::Setting& setting, const engine::FrameRequest& request) {
+    return resetWhere(technique, settings, [](const engine::Setting& setting, const engine::ViewRequest& request) {
         return setting.samePicture && !setting.isHeededBy(request.technique);
     });
 }
@@ -237,7 +237,7 @@ std::vector<std::string> pictureNames(const scenes::Scene& scene, const CompareR
 std::vector<Technique> techniquesTaking(const frame::FrameSettings& settings, std::vector<LeftOutTechnique>& leftOut) {
     std::vector<Technique> techniques;
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
-        const engine::FrameRequest request{info.technique, settingsHeededBy(info.technique, settings)};
+        const engine::ViewRequest request{info.technique, settingsHeededBy(info.technique, settings)};
         const auto table = engine::settingTable();
         const auto refused =
             std::ranges::find_if(table, [&](const engine::Setting& setting) { return !setting.isTaken(request); });

@@ -11,7 +11,6 @@ namespace tessera::reference {
 
 namespace {
 
-using scenes::MaterialModel;
 using scenes::TextureSlot;
 
 glm::dvec4 baseColorAt(const Hit& hit, const Textures& textures) {
@@ -24,15 +23,16 @@ double squaredRoughness(double perceptual) {
     return std::max(perceptual * perceptual, kSmallestAlpha);
 }
 
-/// KHR_materials_anisotropy, and the second alpha of microfacet_anisotropic.
+/// KHR_materials_anisotropy, and the alpha along the bitangent of models that have two.
 void setDirection(const Hit& hit, const Textures& textures, SurfacePoint& point) {
     const scenes::Material& material = *hit.object->material;
     const glm::dvec4 texel = texelOf(TextureSlot::Anisotropy, hit, textures);
     point.alphaAcross = point.alpha;
     glm::dvec2 direction(1.0, 0.0);
-    if (material.model == MaterialModel::MicrofacetAnisotropic) {
+    const scenes::Anisotropy anisotropy = scenes::infoOf(material.model).anisotropy;
+    if (anisotropy == scenes::Anisotropy::Alphas) {
         point.alphaAcross = std::max(double(material.alphaY) * texel.r, kSmallestAlpha);
-    } else if (material.model == MaterialModel::MetallicRoughness && material.anisotropyStrength > 0.0f) {
+    } else if (anisotropy == scenes::Anisotropy::Strength && material.anisotropyStrength > 0.0f) {
         const double strength = double(material.anisotropyStrength) * texel.b;
         point.alpha = std::lerp(point.alpha, 1.0, strength * strength);
         // Shorter than a hundredth a texel has no direction, by the product's definition.
@@ -51,7 +51,7 @@ void setDirection(const Hit& hit, const Textures& textures, SurfacePoint& point)
 void setLayers(const Hit& hit, const Textures& textures, SurfacePoint& point) {
     const scenes::Material& material = *hit.object->material;
     const auto texel = [&](TextureSlot slot) { return texelOf(slot, hit, textures); };
-    if (material.model != MaterialModel::MetallicRoughness) return;
+    if (!scenes::infoOf(material.model).hasLayers) return;
     point.coat = double(material.clearcoat) * texel(TextureSlot::Clearcoat).r;
     point.coatAlpha =
         squaredRoughness(double(material.clearcoatPerceptualRoughness) * texel(TextureSlot::ClearcoatRoughness).g);
@@ -73,11 +73,13 @@ SurfacePoint surfaceAt(const Hit& hit, const Textures& textures) {
     point.color = glm::dvec3(base);
     point.opacity = std::clamp(base.a, 0.0, 1.0);
     point.metallic = double(material.metallic) * roughnessMetallic.b;
-    if (float scenes::Material::*const roughness = scenes::infoOf(material.model).roughness) {
-        point.roughness = double(material.*roughness) * roughnessMetallic.g;
+    const scenes::MaterialModelInfo& model = scenes::infoOf(material.model);
+    if (model.roughness) {
+        point.roughness = double(material.*model.roughness) * roughnessMetallic.g;
         // metallic_roughness squares its perceptual roughness; microfacet takes alpha as it is.
-        point.alpha = material.model == MaterialModel::MetallicRoughness ? squaredRoughness(point.roughness)
-                                                                         : std::max(point.roughness, kSmallestAlpha);
+        point.alpha = model.microsurface == scenes::Microsurface::MetallicRoughness
+                          ? squaredRoughness(point.roughness)
+                          : std::max(point.roughness, kSmallestAlpha);
     }
     point.ior = double(material.ior) * texel(TextureSlot::Ior).r;
     point.specularFactor = double(material.specularFactor) * texel(TextureSlot::SpecularFactor).a;

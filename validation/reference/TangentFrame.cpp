@@ -10,17 +10,19 @@ std::optional<TextureSlot> tangentSlot(const scenes::Material& material) {
     const auto hasImage = [&](TextureSlot slot) { return material.texture(slot).image != scenes::kNone; };
     if (hasImage(TextureSlot::Normal) && material.normalMapSpace == scenes::NormalMapSpace::Tangent)
         return TextureSlot::Normal;
-    if (material.model == scenes::MaterialModel::MicrofacetAnisotropic) return TextureSlot::Anisotropy;
-    if (material.model != scenes::MaterialModel::MetallicRoughness) return std::nullopt;
-    if (material.anisotropyStrength > 0.0f) return TextureSlot::Anisotropy;
-    if (material.clearcoat > 0.0f && hasImage(TextureSlot::ClearcoatNormal)) return TextureSlot::ClearcoatNormal;
+    const scenes::MaterialModelInfo& model = scenes::infoOf(material.model);
+    if (model.anisotropy == scenes::Anisotropy::Alphas) return TextureSlot::Anisotropy;
+    if (model.anisotropy == scenes::Anisotropy::Strength && material.anisotropyStrength > 0.0f)
+        return TextureSlot::Anisotropy;
+    if (model.hasLayers && material.clearcoat > 0.0f && hasImage(TextureSlot::ClearcoatNormal))
+        return TextureSlot::ClearcoatNormal;
     return std::nullopt;
 }
 
 glm::dmat2 textureFromUv(const scenes::Material& material, TextureSlot slot) {
     const scenes::TextureUse& use = material.texture(slot);
     const bool isNumber =
-        slot == TextureSlot::Anisotropy && material.model == scenes::MaterialModel::MicrofacetAnisotropic;
+        slot == TextureSlot::Anisotropy && scenes::infoOf(material.model).anisotropy == scenes::Anisotropy::Alphas;
     if (use.image == scenes::kNone || isNumber) return glm::dmat2(1.0);
     const double angle = double(use.transform.rotationRadians);
     const glm::dmat2 rotation(std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle));

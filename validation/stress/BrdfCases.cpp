@@ -59,7 +59,8 @@ struct Surfaces {
 /// The same for masking by the alpha along the projection of h (Walter), which turns with the azimuth of h: rounding
 /// turns that the more, the closer h is to n, and the visibility changes with it by twice the ratio of the alphas.
 double azimuthWeight(const scenes::Material& material, const reference::Directions& directions) {
-    if (material.model != scenes::MaterialModel::MicrofacetAnisotropic || material.masking != scenes::Masking::Walter)
+    if (scenes::infoOf(material.model).anisotropy != scenes::Anisotropy::Alphas ||
+        material.masking != scenes::Masking::Walter)
         return 1.0;
     constexpr double kRounding = 1.2e-7; // of a sum of two unit vectors
     const double x = std::max(double(material.alpha), double(ALPHA_MIN));

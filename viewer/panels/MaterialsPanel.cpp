@@ -15,11 +15,15 @@ namespace {
 using scenes::Material;
 using scenes::MaterialModel;
 
-bool layerRows(Material& material) {
+bool anisotropyRows(Material& material) {
     bool changed = slider("Anisotropy", material.anisotropyStrength, 0.0f, 1.0f);
     if (material.anisotropyStrength > 0.0f)
         changed |= angleSlider("Turned by", material.anisotropyRotationRadians, -180.0f, 180.0f);
-    changed |= slider("Clearcoat", material.clearcoat, 0.0f, 1.0f);
+    return changed;
+}
+
+bool layerRows(Material& material) {
+    bool changed = slider("Clearcoat", material.clearcoat, 0.0f, 1.0f);
     if (material.clearcoat > 0.0f) changed |= slider("Coat rough", material.clearcoatPerceptualRoughness, 0.0f, 1.0f);
     changed |= colorRow("Sheen", material.sheenColor);
     if (material.sheenColor != glm::vec3(0.0f))
@@ -36,9 +40,8 @@ bool parameterRow(Material& material, const scenes::MaterialParameter& parameter
 }
 
 bool parameterRow(Material& material, const scenes::MaterialParameter& parameter, scenes::Masking Material::*member) {
-    return chooseNamed(parameter.label, material.*member, [&material](scenes::Masking masking) {
-        return material.model == MaterialModel::MicrofacetAnisotropic || masking != scenes::Masking::Directional;
-    });
+    return chooseNamed(parameter.label, material.*member,
+                       [&](scenes::Masking masking) { return scenes::takesMasking(material.model, masking); });
 }
 
 bool modelRows(Material& material) {
@@ -46,7 +49,9 @@ bool modelRows(Material& material) {
     bool changed = false;
     for (const scenes::MaterialParameter& parameter : model.parameters)
         changed |= std::visit([&](auto member) { return parameterRow(material, parameter, member); }, parameter.member);
-    return model.hasLayers && layerRows(material) ? true : changed;
+    if (model.anisotropy == scenes::Anisotropy::Strength) changed |= anisotropyRows(material);
+    if (model.hasLayers) changed |= layerRows(material);
+    return changed;
 }
 
 bool surfaceRows(Material& material) {

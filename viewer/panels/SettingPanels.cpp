@@ -23,7 +23,7 @@ bool show(const Setting& setting, const engine::ChoiceKind& kind, Look& look) {
     if (!open.empty()) entries.insert(entries.begin(), {open, open, setting.byItself});
     std::vector<Choice> choices;
     for (const Entry& entry : entries) {
-        engine::FrameRequest tried = look;
+        engine::ViewRequest tried = look;
         setting.read(tried, entry.name);
         choices.push_back({entry.label, entry.meaning, setting.isTaken(tried)});
     }

@@ -10,7 +10,7 @@ namespace {
 /// The settings that differ from the program's defaults and from the scene's options.
 std::string options(const RenderRequest& request, const scenes::Scene& scene) {
     std::string text;
-    engine::FrameRequest byItself;
+    engine::ViewRequest byItself;
     engine::takeWishes(scene, request.source, byItself);
     for (const engine::Setting& setting : engine::settingTable())
         if (!setting.value.equal(request, byItself))

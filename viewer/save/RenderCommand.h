@@ -8,7 +8,7 @@
 namespace tessera::viewer {
 
 /// The arguments of `tessera render`: a scene and its frame options.
-struct RenderRequest : engine::FrameRequest {
+struct RenderRequest : engine::ViewRequest {
     std::string source;        ///< the scene's file or name
     std::optional<int> lights; ///< number requested of the load
     bool defaultLight = true;  ///< the same

@@ -10,7 +10,7 @@ Look possible(Look look) {
         }
         const auto aside = look.aside.find(setting.key);
         if (aside == look.aside.end() || !setting.isDefault(look)) continue;
-        engine::FrameRequest tried = look;
+        engine::ViewRequest tried = look;
         setting.read(tried, aside->second);
         if (!setting.isTaken(tried)) continue;
         setting.value.copy(look, tried);

@@ -8,7 +8,7 @@
 namespace tessera::viewer {
 
 /// How a scene is looked at: the technique and all that a command line can ask of a frame.
-struct Look : engine::FrameRequest {
+struct Look : engine::ViewRequest {
     /// Requested values that the technique does not take, kept for another one that does: texts, by the settings' keys.
     std::map<std::string, std::string, std::less<>> aside;
     bool operator==(const Look&) const = default;

@@ -81,7 +81,7 @@ std::optional<std::string> settingText(const engine::Setting& setting, const jso
     if (!entry.is_string() && !entry.is_number()) return std::nullopt;
     const std::string text = entry.is_string() ? entry.get<std::string>() : entry.dump();
     try {
-        engine::FrameRequest request;
+        engine::ViewRequest request;
         setting.read(request, text);
         return text;
     } catch (const InputError&) {

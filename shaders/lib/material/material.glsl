@@ -32,8 +32,7 @@ void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
     ior *= sampleSlot(iorTexture, TEXTURE_SLOT_IOR, fragment).r;
 #endif
     surface.specular = defaultSpecular(surface.model);
-#if HAS_METALLIC_ROUGHNESS
-    if (surface.model == MODEL_METALLIC_ROUGHNESS) {
+    if (HAS_METALLIC(surface.model)) {
         precise float alpha = max(roughnessMetallic.x * roughnessMetallic.x, ALPHA_MIN);
         surface.alpha = alpha;
         surface.metallic = roughnessMetallic.y;
@@ -51,7 +50,6 @@ void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
         surface.specular = f0;
 #endif
     }
-#endif
     if (IS_MICROFACET(surface.model)) {
         surface.alpha = max(roughnessMetallic.x, ALPHA_MIN);
         surface.iorOrF90 = ior;

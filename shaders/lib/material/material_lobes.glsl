@@ -25,14 +25,12 @@ void setAnisotropy(Fragment fragment, inout Surface surface)
 #endif
     vec2 direction = vec2(1.0, 0.0);
     surface.alphaBitangent = surface.alpha;
-#if HAS_MICROFACET_ANISOTROPIC
-    if (surface.model == MODEL_MICROFACET_ANISOTROPIC) {
+    if (HAS_TWO_ALPHAS(surface.model)) {
         precise float alpha = max(material.anisotropy.x * texel.r, ALPHA_MIN);
         surface.alphaBitangent = alpha;
     }
-#endif
 #if HAS_ANISOTROPY
-    if (surface.model == MODEL_METALLIC_ROUGHNESS) {
+    if (HAS_ANISOTROPY_STRENGTH(surface.model)) {
         if (materialFlag(MATERIAL_FLAG_ANISOTROPY_TEXTURE)) {
             precise vec2 mapped = texel.rg * 2.0 - 1.0;
             // A texel of 8 bits cannot say 0; less than its step has no direction.
@@ -67,7 +65,7 @@ void setClearcoat(Fragment fragment, inout Surface surface)
         normalLS = tangentSpaceNormal(fragment, normalLS, texel, material.clearcoat.z, material.clearcoatTurn.xyz);
 #endif
     surface.coatNormalCode = encodeOctahedral(facing(fragment, normalLS));
-    surface.coatFactor = surface.model == MODEL_METALLIC_ROUGHNESS ? factor : 0.0;
+    surface.coatFactor = HAS_LAYERS(surface.model) ? factor : 0.0;
     precise float alpha = max(roughness * roughness, ALPHA_MIN);
     surface.coatAlpha = alpha;
 }
@@ -85,7 +83,7 @@ void setSheen(Fragment fragment, inout Surface surface)
 #if HAS_SHEEN_ROUGHNESS_TEXTURE
     roughness *= sampleSlot(sheenRoughnessTexture, TEXTURE_SLOT_SHEEN_ROUGHNESS, fragment).a;
 #endif
-    surface.sheenColor = surface.model == MODEL_METALLIC_ROUGHNESS ? color : vec3(0.0);
+    surface.sheenColor = HAS_LAYERS(surface.model) ? color : vec3(0.0);
     precise float alpha = max(roughness * roughness, ALPHA_MIN);
     surface.sheenAlpha = alpha;
 }

@@ -51,12 +51,10 @@ Directions directionsOn(Surface surface, vec3 toLight, vec3 toViewer, float nl)
 #if HAS_TANGENT_FRAME
 bool isAnisotropic(Surface surface)
 {
-#if HAS_MICROFACET_ANISOTROPIC
-    if (surface.model == MODEL_MICROFACET_ANISOTROPIC) return true;
-#endif
+    if (HAS_TWO_ALPHAS(surface.model)) return true;
 #if HAS_ANISOTROPY
     // Equal alphas take the isotropic functions, so that other materials keep their bits in a scene with anisotropic ones.
-    return surface.model == MODEL_METALLIC_ROUGHNESS && surface.alphaBitangent != surface.alpha;
+    return HAS_ANISOTROPY_STRENGTH(surface.model) && surface.alphaBitangent != surface.alpha;
 #else
     return false;
 #endif
@@ -91,8 +89,8 @@ float visibilityOfMetallicRoughness(Surface surface, Directions directions)
 float visibilityOfMicrofacet(Surface surface, Directions directions)
 {
     precise float alpha = surface.alpha;
-#if HAS_MICROFACET_ANISOTROPIC
-    if (surface.model == MODEL_MICROFACET_ANISOTROPIC) {
+#if HAS_TANGENT_FRAME
+    if (HAS_TWO_ALPHAS(surface.model)) {
         vec2 alphas = vec2(surface.alpha, surface.alphaBitangent);
 #if HAS_MASKING_OPTIONS
         if (surface.masking == MASKING_DIRECTIONAL) {
@@ -186,18 +184,16 @@ Reflection metallicRoughness(Surface surface, Directions directions, float d)
 
 Reflection reflection(Surface surface, Directions directions)
 {
-#if HAS_MICROFACET || HAS_MICROFACET_ANISOTROPIC || HAS_METALLIC_ROUGHNESS
-    // Once for both, since rasterisers that mask lanes take every branch.
+#if HAS_GGX_MODELS
+    // Once for all, since rasterisers that mask lanes take every branch.
     float d = directions.hasLobe ? lobeDistribution(surface, directions.h) : 0.0;
 #endif
 #if HAS_BLINN_PHONG
     if (surface.model == MODEL_BLINN_PHONG) return blinnPhong(surface, directions);
 #endif
-#if HAS_MICROFACET || HAS_MICROFACET_ANISOTROPIC
+#if HAS_GGX_MODELS
     if (IS_MICROFACET(surface.model)) return microfacet(surface, directions, d);
-#endif
-#if HAS_METALLIC_ROUGHNESS
-    if (surface.model == MODEL_METALLIC_ROUGHNESS) return metallicRoughness(surface, directions, d);
+    if (HAS_METALLIC(surface.model)) return metallicRoughness(surface, directions, d);
 #endif
     return lambert(surface, directions);
 }

@@ -56,8 +56,8 @@ uint surfaceModel(uint stored)
 // The dielectric lobe where no material changes it: k_s = 1, or F0 of ior 1.5.
 vec3 defaultSpecular(uint model)
 {
-#if HAS_METALLIC_ROUGHNESS
-    if (model == MODEL_METALLIC_ROUGHNESS) return vec3(0.04);
+#if HAS_GLOSSY_MODELS
+    if (HAS_DIELECTRIC_F0(model)) return vec3(0.04);
 #endif
     return vec3(1.0);
 }

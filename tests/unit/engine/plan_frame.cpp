@@ -88,7 +88,7 @@ TEST(PlanFrame, everyRoundOverTheLightsIsAPassThatWaitsForTheOneBefore) {
 
 TEST(PlanFrame, twoViewsOfAFrameReuseMemory) {
     const scenes::Scene scene = scenes::loadScene("hall");
-    const std::vector<FrameRequest> views(2);
+    const std::vector<ViewRequest> views(2);
     const graph::Plan one = planViews(scene, std::span(views).first(1)), two = planViews(scene, views);
     EXPECT_LT(two.bytes, two.bytesWithoutAliasing);
     EXPECT_EQ(one.bytes, one.bytesWithoutAliasing) << "of one view all lives at once";
@@ -99,9 +99,35 @@ TEST(PlanFrame, twoViewsOfAFrameReuseMemory) {
     EXPECT_TRUE(sharing->aliasOf.starts_with("gbuffer.")) << sharing->aliasOf;
 }
 
+TEST(PlanFrame, theViewsOfAFrameShareTheScenesBuffersAndWhatAnApplicationKeeps) {
+    const scenes::Scene scene = scenes::loadScene("hall");
+    const std::vector<ViewRequest> views(2);
+    std::vector<std::size_t> asked;
+    graph::TextureHandle kept;
+    const auto add = [&](graph::Graph& graph, std::size_t view, const frame::FrameSpec&, const OpaquePicture& opaque) {
+        asked.push_back(view);
+        if (view > 0) return opaque.radiance;
+        struct Written {
+            graph::TextureHandle texture;
+        };
+        kept = graph.persist("kept", graph::TextureDesc{graph::Format::Rgba32Float, 4, 4}, 1);
+        const auto setup = [&](graph::PassBuilder& pass, Written& out) { out.texture = pass.write(kept); };
+        kept = graph.addPass<Written>("keep", setup, [](const Written&, const graph::PassContext&) {}).texture;
+        graph.output(kept);
+        return opaque.radiance;
+    };
+    const AfterOpaque after{false, add};
+    const graph::Plan plan = planViews(scene, views, after);
+    EXPECT_THAT(asked, testing::ElementsAre(0u, 1u));
+    for (const char* name : {"indices", "materials", "kept"}) {
+        EXPECT_EQ(std::ranges::count(plan.resources, name, &graph::Plan::Resource::name), 1) << name;
+        EXPECT_EQ(std::ranges::count(plan.resources, name + std::string(" (2)"), &graph::Plan::Resource::name), 0);
+    }
+}
+
 TEST(PlanFrame, aFrameOfViewsLeavesOutChoosesAndCountsWhatItsViewsDo) {
     const scenes::Scene scene = scenes::loadScene("hall");
-    std::vector<FrameRequest> views(2);
+    std::vector<ViewRequest> views(2);
     views[1].technique = Technique::Forward;
     const graph::Plan first = planFrame(scene, views[0].technique, views[0].settings);
     const graph::Plan second = planFrame(scene, views[1].technique, views[1].settings);
@@ -117,9 +143,14 @@ TEST(PlanFrame, aFrameOfViewsLeavesOutChoosesAndCountsWhatItsViewsDo) {
 
 TEST(PlanFrame, viewsThatCannotBeOneFrameAreAlwaysRefused) {
     const scenes::Scene scene = scenes::loadScene("room");
-    std::vector<FrameRequest> views(2);
+    std::vector<ViewRequest> views(2);
     views[1].settings.prune = false;
-    EXPECT_THROW(planViews(scene, views), InputError);
+    try {
+        planViews(scene, views);
+        FAIL() << "one view of the frame is pruned, the other is not";
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(), "views of a frame have prune on and prune off; give all of them the same");
+    }
     views[1] = views[0];
     views[1].settings.filter = frame::TextureFilter::Exact;
     EXPECT_THROW(planViews(scene, views), InputError);

@@ -33,8 +33,8 @@ std::string refusal(const std::function<void()>& work) {
 struct Differences {
     std::vector<bool> ofUsers, ofOthers;
 };
-Differences differences(const FrameRequest& a, const FrameRequest& b) {
-    const auto members = [](const FrameRequest& request) {
+Differences differences(const ViewRequest& a, const ViewRequest& b) {
+    const auto members = [](const ViewRequest& request) {
         const auto& [technique, settings] = request;
         const auto& [sizePixels, samples, samplesGiven, camera, timeSeconds, eyeOffsetWS, layout, view, filter, space,
                      prune, specular, rangeTolerance, soloLight, culling, lightOn, softwareBackend, display, exposureEV,
@@ -56,7 +56,7 @@ Differences differences(const FrameRequest& a, const FrameRequest& b) {
 }
 
 TEST(Settings, everyMemberThatUsersSetIsChangedByExactlyOneRowAndNoOtherMemberIs) {
-    const FrameRequest standard;
+    const ViewRequest standard;
     std::vector<int> changes(differences(standard, standard).ofUsers.size(), 0);
     for (const Setting& setting : settingTable()) {
         const Differences changed = differences(changedIn(setting, sceneOfTwoCameras()), standard);
@@ -70,10 +70,10 @@ TEST(Settings, everyMemberThatUsersSetIsChangedByExactlyOneRowAndNoOtherMemberIs
 TEST(Settings, theTextOfAValueIsReadAsTheSameOne) {
     const scenes::Scene scene = sceneOfTwoCameras();
     for (const Setting& setting : settingTable()) {
-        const FrameRequest changed = changedIn(setting, scene);
+        const ViewRequest changed = changedIn(setting, scene);
         for (const std::string& text : textsOf(setting)) {
             SCOPED_TRACE(fmt::format("{} {}", setting.flag, text));
-            FrameRequest first, second = changed;
+            ViewRequest first, second = changed;
             setting.read(first, text, {{}, &scene});
             for (const scenes::Scene* names : {static_cast<const scenes::Scene*>(nullptr), &scene}) {
                 setting.read(second, setting.text(first, names), {{}, &scene});
@@ -87,13 +87,13 @@ TEST(Settings, theDefaultIsThatOfTheStructAndIsTakenByEveryTechnique) {
     const scenes::Scene scene = sceneOfTwoCameras();
     for (const Setting& setting : settingTable()) {
         SCOPED_TRACE(setting.name);
-        FrameRequest request = changedIn(setting, scene);
+        ViewRequest request = changedIn(setting, scene);
         EXPECT_FALSE(setting.isDefault(request));
-        setting.read(request, setting.text(FrameRequest()), {{}, &scene});
-        EXPECT_EQ(request, FrameRequest());
+        setting.read(request, setting.text(ViewRequest()), {{}, &scene});
+        EXPECT_EQ(request, ViewRequest());
         request = changedIn(setting, scene);
         setting.reset(request);
-        EXPECT_EQ(request, FrameRequest());
+        EXPECT_EQ(request, ViewRequest());
         for (const TechniqueInfo& info : techniqueTable()) EXPECT_TRUE(setting.isTaken({info.technique, {}}));
     }
 }
@@ -118,7 +118,7 @@ TEST(Settings, everyRowHasNamesOfItsOwnAndWordsForHelp) {
 TEST(Settings, invalidValuesAreRefusedByTheNameThatTheUserWrote) {
     for (const Setting& setting : settingTable()) {
         const scenes::Scene scene = sceneOfTwoCameras();
-        FrameRequest request;
+        ViewRequest request;
         for (const char* text : {"", "nix", "on|off", "-1e999"}) {
             const std::string fault = refusal([&] { setting.read(request, text, {setting.flag, &scene}); });
             EXPECT_THAT(fault, HasSubstr(fmt::format("'{}'", text))) << setting.name;
@@ -133,9 +133,9 @@ TEST(Settings, invalidValuesAreRefusedByTheNameThatTheUserWrote) {
                         }),
                         HasSubstr(fmt::format("{} {} is ", setting.flag, text)));
         }
-        EXPECT_EQ(request, FrameRequest());
+        EXPECT_EQ(request, ViewRequest());
     }
-    FrameRequest request;
+    ViewRequest request;
     EXPECT_EQ(refusal([&] { settingOf("tile").read(request, "7"); }), "tile 7: give one of 8, 16, 32, 64");
     EXPECT_EQ(refusal([&] {
                   settingOf("exposureEV").read(request, "121", {"--exposure", nullptr});
@@ -146,7 +146,7 @@ TEST(Settings, invalidValuesAreRefusedByTheNameThatTheUserWrote) {
 }
 
 TEST(Settings, aTechniqueRefusesUnsupportedValuesAndNamesThoseThatSupportThem) {
-    FrameRequest request{Technique::Forward, {}};
+    ViewRequest request{Technique::Forward, {}};
     request.settings.culling.tilePixels = 32;
     EXPECT_EQ(refusal([&] { requireTaken(request); }),
               "technique forward does not take tile 32, since it has no light lists; tiled_deferred, forward_plus, "
@@ -171,8 +171,8 @@ scenes::Wish wishOf(const Setting& setting, const std::string& text) {
     return std::vector<double>{size.x, size.y};
 }
 
-FrameRequest wished(const scenes::Scene& scene) {
-    FrameRequest request;
+ViewRequest wished(const scenes::Scene& scene) {
+    ViewRequest request;
     takeWishes(scene, "s.json", request);
     return request;
 }
@@ -190,7 +190,7 @@ TEST(Settings, optionsOfASceneApplyAlsoAfterSavingAndFingerprinting) {
     for (const Setting& setting : settingTable()) {
         if (!setting.isWishable) continue;
         scene.options = {};
-        const FrameRequest asked = changedIn(setting, scene);
+        const ViewRequest asked = changedIn(setting, scene);
         const std::string text = setting.text(asked, &scene);
         SCOPED_TRACE(fmt::format("{} {}", setting.key, text));
         if (setting.key == "camera")
@@ -204,9 +204,9 @@ TEST(Settings, optionsOfASceneApplyAlsoAfterSavingAndFingerprinting) {
         const scenes::Scene saved = scenes::loadScene(file.string());
         EXPECT_EQ(saved.options, scene.options);
         EXPECT_EQ(wished(saved), asked);
-        FrameRequest said;
+        ViewRequest said;
         takeWishes(saved, "s.json", said, [&](const Setting& other) { return &other == &setting; });
-        EXPECT_EQ(said, FrameRequest()) << "what the user said goes before";
+        EXPECT_EQ(said, ViewRequest()) << "what the user said goes before";
     }
 }
 

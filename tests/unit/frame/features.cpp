@@ -257,8 +257,8 @@ TEST(Features, everyFeatureBecomesADefineOfZeroOrOne) {
         EXPECT_EQ(&info, &featureTable()[std::size_t(info.feature)]) << "the table follows the enumeration";
         EXPECT_FALSE(info.what.empty() || info.absent.empty());
     }
-    for (const char* sum : {"HAS_LIT_MODELS", "HAS_GLOSSY_MODELS", "HAS_MICROSURFACES", "HAS_TANGENT_FRAME",
-                            "HAS_TANGENTS", "HAS_TEXTURES"}) {
+    for (const char* sum : {"HAS_LIT_MODELS", "HAS_GLOSSY_MODELS", "HAS_MICROSURFACES", "HAS_GGX_MODELS",
+                            "HAS_TANGENT_FRAME", "HAS_TANGENTS", "HAS_TEXTURES"}) {
         EXPECT_THAT(none, Contains(Pair(sum, "0")));
         EXPECT_THAT(all, Contains(Pair(sum, "1")));
     }

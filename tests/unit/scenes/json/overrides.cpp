@@ -118,12 +118,13 @@ TEST(SceneJsonOverrides, anOverrideThatMatchesNothingIsRefusedWithTheNearest) {
               "/overrides/0/material: there is no material 'bras'; did you mean 'brass'?");
     EXPECT_EQ(errorOf(R"("overrides": [{"material": "gold", "metallic": 1}])"),
               "/overrides/0/material: there is no included material 'gold'; valid are default, brass");
-    EXPECT_EQ(errorOf(R"("overrides": [{"material": "brass", "k_d": [1, 1, 1]}])"),
-              "/overrides/0: a metallic_roughness material has no key 'k_d'; valid are material, model, baseColor, "
-              "metallic, perceptualRoughness, ior, specularFactor, specularColor, metallicRoughnessTexture, emissive, "
-              "emissiveStrength, anisotropyStrength, anisotropyRotationDegrees, anisotropyTexture, clearcoat, "
-              "clearcoatPerceptualRoughness, clearcoatNormalMap, sheenColor, sheenPerceptualRoughness, normalMap, "
-              "tangents, alphaMode, alphaCutoff, doubleSided, fields");
+    EXPECT_EQ(
+        errorOf(R"("overrides": [{"material": "brass", "k_d": [1, 1, 1]}])"),
+        "/overrides/0: a metallic_roughness material has no key 'k_d'; valid are material, model, baseColor, "
+        "metallic, perceptualRoughness, ior, specularFactor, specularColor, metallicRoughnessTexture, "
+        "anisotropyStrength, anisotropyRotationDegrees, anisotropyTexture, emissive, emissiveStrength, clearcoat, "
+        "clearcoatPerceptualRoughness, clearcoatNormalMap, sheenColor, sheenPerceptualRoughness, normalMap, "
+        "tangents, alphaMode, alphaCutoff, doubleSided, fields");
     EXPECT_EQ(folder.errorOf(threeParts(R"("overrides": [{"k_d": [1, 1, 1]}])")),
               "/overrides/0: names neither a 'node' nor a 'material' to override");
     EXPECT_EQ(folder.errorOf(threeParts(R"("overrides": [{"node": "left", "material": "brass", "metallic": 1}])")),

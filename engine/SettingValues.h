@@ -1,0 +1,172 @@
+#pragma once
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/Error.h"
+#include "base/Names.h"
+#include "engine/Settings.h"
+
+/// What the rows of the settings table make their values of: where a value is, and of which kind.
+namespace tessera::engine {
+
+// ---- Where a value is ----------------------------------------------------------------------------------------------
+
+inline auto in(Technique ViewRequest::*member) {
+    return [member](auto& request) -> auto& {
+        return request.*member;
+    };
+}
+template <typename Value>
+auto in(Value frame::FrameSettings::*member) {
+    return [member](auto& request) -> auto& {
+        return request.settings.*member;
+    };
+}
+template <typename Value>
+auto in(Value culling::Settings::*member) {
+    return [member](auto& request) -> auto& {
+        return request.settings.culling.*member;
+    };
+}
+
+// Values that may be left open are optional.
+template <typename Value>
+const Value* given(const Value& value) {
+    return &value;
+}
+template <typename Value>
+const Value* given(const std::optional<Value>& value) {
+    return value ? &*value : nullptr;
+}
+template <typename Value>
+constexpr bool kIsOptional = false;
+template <typename Value>
+constexpr bool kIsOptional<std::optional<Value>> = true;
+
+// ---- Numbers as text ------------------------------------------------------------------------------------------------
+
+/// The whole text as a number; none: it is something else.
+template <typename Number>
+std::optional<Number> parsed(const std::string& text) {
+    Number value{};
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || rest != end) return std::nullopt;
+    return value;
+}
+
+/// The number with the fewest digits that is read as the same one, to the last bit.
+std::string numberText(double value);
+std::string numberText(int value);
+std::string numberText(float value);
+
+/// Throws InputError that says what the number should be.
+int wholeNumber(const std::string& text, const TextSource& source);
+void requireBounds(const NumberKind& kind, double value, const TextSource& source);
+
+// ---- Kinds of values -----------------------------------------------------------------------------------------------
+
+inline constexpr std::string_view kOpen = "automatic";
+
+/// What every kind has in common. `textOf` and `valueOf` are of a value that is given.
+template <typename Get, typename TextOf, typename ValueOf>
+SettingValue valueIn(Get get, SettingKind kind, TextOf textOf, ValueOf valueOf, std::string_view open = kOpen) {
+    using Value = std::remove_reference_t<decltype(get(std::declval<ViewRequest&>()))>;
+    SettingValue value{std::move(kind), kIsOptional<Value> ? open : "", {}, {}, {}, {}};
+    value.text = [get, textOf, open](const ViewRequest& request, const scenes::Scene*) {
+        const auto* const now = given(get(request));
+        return now ? textOf(*now) : std::string(open);
+    };
+    value.read = [get, valueOf, open](ViewRequest& request, const std::string& text, const TextSource& source) {
+        if constexpr (kIsOptional<Value>) {
+            if (text == open) {
+                get(request).reset();
+                return;
+            }
+        }
+        get(request) = valueOf(text, source);
+    };
+    value.equal = [get](const ViewRequest& a, const ViewRequest& b) { return get(a) == get(b); };
+    value.copy = [get](ViewRequest& to, const ViewRequest& from) { get(to) = get(from); };
+    return value;
+}
+
+/// What a row of a table says of itself beside its name.
+template <typename Row>
+std::string_view meaningOf(const Row& row) {
+    if constexpr (requires { row.summary; })
+        return row.summary;
+    else if constexpr (requires { row.meaning; })
+        return row.meaning;
+    else if constexpr (requires { row.lighting; })
+        return row.lighting;
+    else
+        return "";
+}
+
+/// One of a table's rows; `key` is the row's value.
+template <typename Get, typename Row, typename Key>
+SettingValue choice(Get get, std::span<const Row> table, Key Row::*key) {
+    ChoiceKind kind;
+    for (const Row& row : table) kind.entries.push_back({std::string(row.name), std::string(row.name), meaningOf(row)});
+    const auto textOf = [table, key](const Key& value) {
+        const auto row = std::ranges::find(table, value, key);
+        return row == table.end() ? std::string() : std::string(row->name);
+    };
+    const auto valueOf = [table, key](const std::string& text, const TextSource& source) {
+        std::vector<std::string_view> names;
+        for (const Row& row : table) {
+            if (row.name == text) return row.*key;
+            names.push_back(row.name);
+        }
+        throw InputError(fmt::format("unknown {} '{}': {}", source.name, text, suggestNames(text, names)));
+    };
+    return valueIn(get, std::move(kind), textOf, valueOf);
+}
+
+/// One of some whole numbers.
+template <typename Get>
+SettingValue choice(Get get, std::span<const int> numbers, std::string_view unit = "") {
+    ChoiceKind kind{{}, true};
+    for (const int number : numbers)
+        kind.entries.push_back({numberText(number), numberText(number) + std::string(unit), ""});
+    const auto valueOf = [numbers](const std::string& text, const TextSource& source) {
+        const int value = wholeNumber(text, source);
+        if (std::ranges::find(numbers, value) == numbers.end())
+            throw InputError(fmt::format("{} {}: give one of {}", source.called, value, fmt::join(numbers, ", ")));
+        return value;
+    };
+    return valueIn(
+        get, std::move(kind), [](int value) { return numberText(value); }, valueOf);
+}
+
+/// A float or a double.
+template <typename Get>
+SettingValue number(Get get, const NumberKind& kind) {
+    using Value = std::remove_reference_t<decltype(get(std::declval<ViewRequest&>()))>;
+    const auto valueOf = [kind](const std::string& text, const TextSource& source) {
+        const std::optional<double> value = parsed<double>(text);
+        if (!value || !std::isfinite(*value))
+            throw InputError(fmt::format("{} '{}' is not a finite number, such as 1.5", source.called, text));
+        requireBounds(kind, *value, source);
+        return static_cast<Value>(*value);
+    };
+    return valueIn(
+        get, kind, [](Value value) { return numberText(value); }, valueOf);
+}
+
+SettingValue onOff(bool frame::FrameSettings::*member);
+SettingValue pictureSize();
+
+} // namespace tessera::engine
