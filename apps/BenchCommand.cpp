@@ -1,6 +1,4 @@
 #include <charconv>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 
@@ -15,6 +13,7 @@
 #include "base/Error.h"
 #include "base/Names.h"
 #include "engine/ChooseSamples.h"
+#include "scenes/import/FileBytes.h"
 #include "validation/bench/BenchReport.h"
 #include "validation/bench/MachineName.h"
 #include "validation/compare/ReferencePicture.h"
@@ -54,13 +53,13 @@ std::optional<validation::BenchTruth> benchTruthNamed(const std::string& name) {
 /// "2/5" as 2 and 5; 1 and 1 where nothing was said.
 std::pair<int, int> shardNamed(const std::string& text) {
     if (text.empty()) return {1, 1};
-    constexpr int kMostShards = 10000;
     int index = 0, count = 0;
     const char* const end = text.data() + text.size();
     const auto first = std::from_chars(text.data(), end, index);
     if (first.ec == std::errc() && first.ptr != end && *first.ptr == '/') {
         const auto second = std::from_chars(first.ptr + 1, end, count);
-        if (second.ec == std::errc() && second.ptr == end && index >= 1 && index <= count && count <= kMostShards)
+        if (second.ec == std::errc() && second.ptr == end && index >= 1 && index <= count &&
+            count <= validation::kMostShards)
             return {index, count};
     }
     throw InputError(fmt::format("--shard {}: give a shard and how many there are, such as 1/4, counted from 1", text));
@@ -68,11 +67,9 @@ std::pair<int, int> shardNamed(const std::string& text) {
 
 validation::BenchMatrix matrixOf(const BenchCommandOptions& options) {
     if (options.matrix.empty()) return {};
-    std::ifstream file(options.matrix);
-    if (!file) throw InputError(fmt::format("{}: cannot be read; --matrix names a JSON file", options.matrix));
-    const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
     scenes::LoadLedger ledger(loadOptionsOf(options.frame).memoryLimitBytes);
-    return validation::parseMatrix(text, options.matrix, ledger);
+    const std::vector<std::byte> bytes = scenes::readFileBytes(options.matrix, ledger);
+    return validation::parseMatrix({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, options.matrix, ledger);
 }
 
 /// Everything that will be measured; names, and files against the outputs, are checked for every scene before the first

@@ -70,6 +70,7 @@ void addPlanCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
                      "Plans a frame of several views: one more, from that camera of the scene; may be repeated")
         ->type_name("CAMERA")
         ->expected(1)
+        ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_flag("--measure", options->measure, "Draws frames to fill in milliseconds");
     command->footer(R"(Examples

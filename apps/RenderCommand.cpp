@@ -60,18 +60,24 @@ std::vector<std::string> outputsOf(const RenderOptions& options) {
     return outputs;
 }
 
-/// Says why, where a picture (RGBA, A the share of a pixel that is covered) shows nothing of its scene, and how many of
-/// its pixels are no numbers; of a sequence about the first such picture alone.
-void warnOfPicture(const std::string& path, const scenes::Scene& scene, const std::vector<float>& rgba,
-                   bool& hasWarned) {
+/// Says why, where a picture (RGBA, A the share of a pixel that is covered) shows nothing of its scene or is black, and
+/// how many of its pixels are no numbers; of a sequence about the first such picture alone.
+void warnOfPicture(const std::string& path, const scenes::Scene& scene, frame::DebugView view,
+                   const std::vector<float>& rgba, bool& hasWarned) {
     std::size_t covered = 0, bad = 0;
+    bool isBlack = view == frame::DebugView::Final;
     for (std::size_t pixel = 0; pixel < rgba.size(); pixel += 4) {
         covered += rgba[pixel + 3] > 0.0f;
         bad += !(std::isfinite(rgba[pixel]) && std::isfinite(rgba[pixel + 1]) && std::isfinite(rgba[pixel + 2]));
+        isBlack = isBlack && rgba[pixel] == 0.0f && rgba[pixel + 1] == 0.0f && rgba[pixel + 2] == 0.0f;
     }
-    if ((covered > 0 && bad == 0) || std::exchange(hasWarned, true)) return;
-    std::string why = "the camera sees nothing of the scene; check --eye, --target, --near and --far, or see --help";
+    if ((covered > 0 && bad == 0 && !isBlack) || std::exchange(hasWarned, true)) return;
+    std::string why = "the camera sees nothing of the scene; check --eye, --target, --near and --far; backs of "
+                      "one-sided surfaces and triangles without area do not show";
     if (scenes::triangleCount(scene) == 0) why = "the scene has no triangles to draw";
+    if (covered > 0)
+        why = "is black: no light reaches the surfaces in view; --view diffuse shows them without light, and lights "
+              "may be out of range, behind the surfaces or off";
     if (bad > 0)
         why = fmt::format("{} of its pixels are infinite or no numbers; a light is too bright or too near", bad);
     spdlog::warn("{}", oneLine(path + ": " + why));
@@ -109,7 +115,7 @@ void renderReference(const RenderOptions& options, const Outputs& outputs, const
         Picture picture = validation::referencePicture(
                               request.scene, one, [&progress] { progress.advance(); }, false)
                               .picture;
-        warnOfPicture(path, request.scene, picture.rgba, hasWarned);
+        warnOfPicture(path, request.scene, one.view, picture.rgba, hasWarned);
         if (isLinear) return writeExr(path, picture);
         for (float& value : picture.rgba) value *= std::exp2(settings.exposureEV);
         writePng(path, toDisplayImage(picture));
@@ -155,7 +161,7 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     bool hasWarned = false;
     makePictures(options, outputs, request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
         const engine::RenderedFrame picture = renderer.render(request.technique, one);
-        warnOfPicture(path, request.scene, picture.radiance, hasWarned);
+        warnOfPicture(path, request.scene, one.view, picture.radiance, hasWarned);
         writePicture(path, request, picture);
         progress.advance();
     });

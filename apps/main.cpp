@@ -107,6 +107,15 @@ std::vector<const char*> withoutHelpCommand(std::vector<const char*> words) {
     return words;
 }
 
+/// Where a shell's variable is not set, an option gets an empty text. Then it must not be as if it had not been given.
+void refuseEmptyValues(CLI::App& app) {
+    const CLI::Validator notEmpty([](const std::string& text) { return text.empty() ? "is empty; give a value" : ""; },
+                                  "");
+    for (CLI::Option* option : app.get_options())
+        if (option->get_items_expected_max() > 0) option->check(notEmpty);
+    for (CLI::App* command : app.get_subcommands({})) refuseEmptyValues(*command);
+}
+
 int runProgram(int argc, char** argv) {
     CLI::App app("Tessera renders scenes with very many lights, by several techniques that must agree, and proves it.",
                  "tessera");
@@ -127,6 +136,7 @@ int runProgram(int argc, char** argv) {
     addViewCommand(app, global, run);
     addDemoCommand(app, global, run);
     app.footer(kFooter);
+    refuseEmptyValues(app);
     const std::vector<const char*> words = withoutHelpCommand({argv, argv + argc});
     try {
         app.parse(int(words.size()), words.data());

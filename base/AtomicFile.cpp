@@ -132,14 +132,19 @@ Place placeOf(const std::string& path) {
     const fs::file_status status = fs::status(path, ignored);
     if (fs::is_directory(status)) fail(path, "it is a folder; name a file in it");
 
-    const bool isStream = fs::exists(status) && !fs::is_regular_file(status);
-    if (isStream || path.starts_with("/dev/")) return {status, true, path, {}};
+    // /dev/stdout may be a regular file, which must not be replaced.
+    if (fs::exists(status) && (!fs::is_regular_file(status) || path.starts_with("/dev/")))
+        return {status, true, path, {}};
 
+    // Through links, also to a file that is not there yet.
+    constexpr int kMostLinks = 40; // as Linux allows
     fs::path target = path;
-    if (fs::is_symlink(fs::symlink_status(target, ignored))) {
+    for (int links = 0; fs::is_symlink(fs::symlink_status(target, ignored)); ++links) {
         std::error_code error;
-        target = fs::weakly_canonical(target, error);
+        const fs::path next = fs::read_symlink(target, error);
         if (error) fail(path, error.message());
+        if (links == kMostLinks) fail(path, "it is a link that leads in a circle; name another file");
+        target = next.is_absolute() ? next : target.parent_path() / next;
     }
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, ignored))

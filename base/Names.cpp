@@ -51,7 +51,7 @@ std::string quotedAlternatives(const std::vector<std::string_view>& names) {
 
 } // namespace
 
-std::string suggestNames(std::string_view name, std::span<const std::string_view> candidates) {
+std::vector<std::string_view> nearestNames(std::string_view name, std::span<const std::string_view> candidates) {
     constexpr std::size_t kMostSuggestions = 3;   // more would be a list, not a suggestion
     constexpr std::size_t kLongestCompared = 128; // comparing takes the product of both lengths
     std::vector<std::string_view> nearest;
@@ -75,6 +75,11 @@ std::string suggestNames(std::string_view name, std::span<const std::string_view
         for (const std::string_view candidate : candidates)
             if (nearest.size() < kMostSuggestions && startsWith(candidate, name)) nearest.push_back(candidate);
     }
+    return nearest;
+}
+
+std::string suggestNames(std::string_view name, std::span<const std::string_view> candidates) {
+    const std::vector<std::string_view> nearest = nearestNames(name, candidates);
     if (!nearest.empty()) return "did you mean " + quotedAlternatives(nearest) + "?";
     if (candidates.empty()) return "there are none";
 

@@ -2,11 +2,16 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tessera {
 
-/// The end of an error message about an unknown name: "did you mean 'a' or 'b'?" with the candidates nearest to `name`
-/// by edit distance, or "valid are a, b, c" when none is near. Names of more than 128 bytes are near none.
+/// At most three of the candidates: those nearest to `name` by edit distance, none that is far from it. Names of more
+/// than 128 bytes are near none.
+std::vector<std::string_view> nearestNames(std::string_view name, std::span<const std::string_view> candidates);
+
+/// The end of an error message about an unknown name: "did you mean 'a' or 'b'?" of nearestNames(), or "valid are a, b,
+/// c" when none is near.
 std::string suggestNames(std::string_view name, std::span<const std::string_view> candidates);
 
 } // namespace tessera

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -61,54 +62,50 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::Prep
     for (const std::string& warning : scene.warnings) plan.choices.push_back({"scene", scene.name, warning});
 }
 
-void addCounters(graph::Plan& plan, const scenes::Scene& scene, Technique technique,
-                 const frame::PreparedView& prepared) {
+std::vector<std::pair<std::string, std::uint64_t>>
+countersOf(const scenes::Scene& scene, const frame::PreparedView& prepared, bool storesSurfaces) {
     std::size_t draws = 0;
     for (const scenes::Node& node : scene.nodes)
         draws += std::size_t(
             std::count_if(node.instances.begin(), node.instances.end(),
                           [&](const scenes::MeshInstance& instance) { return scenes::isDrawn(scene, instance); }));
     const frame::FrameSpec& spec = prepared.spec;
-    const int gbufferBytes =
-        infoOf(technique).usesGBuffer() ? frame::bytesPerPixel(spec.settings.layout, spec.channels) : 0;
-    plan.counters = {{"triangles", scenes::triangleCount(scene)},
-                     {"draws", draws},
-                     {"lights", scene.lights.size()},
-                     {"lightsEvaluated", prepared.lights.texels.size()},
-                     {"lightBytes", frame::lightBytes(prepared.lights.features, prepared.lights.texels.size())},
-                     {"gbufferBytesPerPixel", std::uint64_t(gbufferBytes)},
-                     {"pixels", std::uint64_t(prepared.spec.settings.sizePixels.x) *
-                                    std::uint64_t(prepared.spec.settings.sizePixels.y)}};
+    const glm::ivec2 size = spec.settings.sizePixels;
+    const int gbufferBytes = storesSurfaces ? frame::bytesPerPixel(spec.settings.layout, spec.channels) : 0;
+    return {{"triangles", scenes::triangleCount(scene)},
+            {"draws", draws},
+            {"lights", scene.lights.size()},
+            {"lightsEvaluated", prepared.lights.texels.size()},
+            {"lightBytes", frame::lightBytes(prepared.lights.features, prepared.lights.texels.size())},
+            {"gbufferBytesPerPixel", std::uint64_t(gbufferBytes)},
+            {"pixels", std::uint64_t(size.x) * std::uint64_t(size.y)}};
 }
 
-graph::Plan planOf(const graph::Graph& graph, bool prune) {
-    return graph::makePlan(graph, graph::compile(graph, {.cull = prune, .alias = prune}));
-}
-
-} // namespace
-
-graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings) {
-    const frame::PreparedView prepared = prepareView(scene, technique, settings);
-    graph::Graph graph;
-    const ViewSource view{technique, prepared.spec};
-    declareFrame(graph, {&view, 1});
-    graph::Plan plan = planOf(graph, settings.prune);
-    plan.scene = scene.name;
-    plan.technique = std::string(infoOf(technique).name);
-    for (graph::Plan::LeftOut& item :
-         frame::leftOut(scene, prepared.spec, prepared.lights, infoOf(technique).usesGBuffer())) {
+/// What is left out, chosen and counted for a view, under names that end in `suffix`.
+void addView(graph::Plan& plan, const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings,
+             const frame::PreparedView& prepared, const std::string& suffix) {
+    const bool storesSurfaces =
+        std::ranges::find(plan.passes, "gbuffer" + suffix, &graph::Plan::Pass::name) != plan.passes.end();
+    const std::size_t choicesBefore = plan.choices.size();
+    for (graph::Plan::LeftOut& item : frame::leftOut(scene, prepared.spec, prepared.lights, storesSurfaces)) {
+        item.what += suffix;
         plan.leftOut.push_back(std::move(item));
     }
     addChoices(plan, scene, prepared);
-    for (graph::Plan::Choice& choice : cullingChoices(technique, settings, prepared.spec.culling))
-        plan.choices.push_back(std::move(choice));
-    for (graph::Plan::Choice& choice : sampleChoices(settings)) plan.choices.push_back(std::move(choice));
+    const auto append = [&](std::vector<graph::Plan::Choice> choices) {
+        std::ranges::move(choices, std::back_inserter(plan.choices));
+    };
+    append(cullingChoices(technique, settings, prepared.spec.culling));
+    append(sampleChoices(settings));
     if (std::optional<graph::Plan::Choice> choice = lightingChoice(technique, settings))
         plan.choices.push_back(std::move(*choice));
-    if (infoOf(technique).usesGBuffer()) addRefinements(plan, scene, settings.layout, prepared.spec);
-    addCounters(plan, scene, technique, prepared);
-    return plan;
+    if (storesSurfaces) addRefinements(plan, scene, settings.layout, prepared.spec);
+    for (std::size_t i = choicesBefore; i < plan.choices.size(); ++i) plan.choices[i].what += suffix;
+    for (auto& [name, value] : countersOf(scene, prepared, storesSurfaces))
+        plan.counters.emplace_back(name + suffix, value);
 }
+
+} // namespace
 
 graph::Plan planViews(const scenes::Scene& scene, std::span<const ViewRequest> views, const AfterOpaque& after) {
     requireOneFrame(views);
@@ -118,26 +115,21 @@ graph::Plan planViews(const scenes::Scene& scene, std::span<const ViewRequest> v
     for (std::size_t i = 0; i < views.size(); ++i) sources.push_back({views[i].technique, prepared[i].spec});
     graph::Graph graph;
     declareFrame(graph, sources, after);
-    graph::Plan plan = planOf(graph, views.front().settings.prune);
+    const bool prune = views.front().settings.prune;
+    graph::Plan plan = graph::makePlan(graph, graph::compile(graph, {.cull = prune, .alias = prune}));
     plan.scene = scene.name;
-    for (const ViewRequest& view : views)
-        plan.technique += (plan.technique.empty() ? "" : ", ") + std::string(infoOf(view.technique).name);
-    plan.leftOut.clear(); // each view's own plan has its share
     for (std::size_t i = 0; i < views.size(); ++i) {
+        const ViewRequest& view = views[i];
+        plan.technique += (i == 0 ? "" : ", ") + std::string(infoOf(view.technique).name);
         // As the graph calls what later views have of their own.
-        const std::string suffix = i == 0 ? "" : fmt::format(" ({})", i + 1);
-        graph::Plan own = planFrame(scene, views[i].technique, views[i].settings);
-        for (graph::Plan::LeftOut& item : own.leftOut) {
-            item.what += suffix;
-            plan.leftOut.push_back(std::move(item));
-        }
-        for (graph::Plan::Choice& choice : own.choices) {
-            choice.what += suffix;
-            plan.choices.push_back(std::move(choice));
-        }
-        for (const auto& [name, value] : own.counters) plan.counters.emplace_back(name + suffix, value);
+        addView(plan, scene, view.technique, view.settings, prepared[i], i == 0 ? "" : fmt::format(" ({})", i + 1));
     }
     return plan;
+}
+
+graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings) {
+    const ViewRequest view{technique, settings};
+    return planViews(scene, {&view, 1});
 }
 
 std::vector<shader::ProgramDesc> framePrograms(const scenes::Scene& scene, Technique technique,

@@ -1,6 +1,7 @@
 #include "engine/Renderer.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -80,27 +81,34 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
     }
     drawn->declared = declareFrame(drawn->graph, sources, after);
     const bool prune = drawn->views.front().prepared.spec.settings.prune;
+    drawn->compiled = graph::compile(drawn->graph, {.cull = prune, .alias = prune});
+    programs_.warm(drawn->compiled.programs);
+    drawn_.reset(); // its pictures go back to the pool
+    auto execution = std::make_unique<graph::Execution>(drawn->graph, drawn->compiled, backend_, &programs_);
+    execution->run();
+    drawn->execution = std::move(execution);
     drawn_ = std::move(drawn);
-    drawn_->compiled = graph::compile(drawn_->graph, {.cull = prune, .alias = prune});
-    programs_.warm(drawn_->compiled.programs);
-    drawn_->execution = std::make_unique<graph::Execution>(drawn_->graph, drawn_->compiled, backend_, &programs_);
-    drawn_->execution->run();
+}
+
+const Renderer::Drawn& Renderer::latest() const {
+    if (!drawn_) throw std::logic_error("no frame is drawn: draw() was not called or has failed");
+    return *drawn_;
 }
 
 const gpu::Texture& Renderer::radianceTexture(std::size_t view) const {
-    return drawn_->execution->texture(drawn_->declared.at(view).radiance);
+    return latest().execution->texture(latest().declared.at(view).radiance);
 }
 
 const gpu::Texture& Renderer::displayTexture(std::size_t view) const {
-    return drawn_->execution->texture(drawn_->declared.at(view).display);
+    return latest().execution->texture(latest().declared.at(view).display);
 }
 
 const gpu::Texture& Renderer::texture(graph::TextureHandle output) const {
-    return drawn_->execution->texture(output);
+    return latest().execution->texture(output);
 }
 
 RenderedFrame Renderer::download(std::size_t view) const {
-    const bool display = drawn_->views.at(view).prepared.spec.settings.display;
+    const bool display = latest().views.at(view).prepared.spec.settings.display;
     return readBack(radianceTexture(view), display ? &displayTexture(view) : nullptr);
 }
 
@@ -114,11 +122,11 @@ RenderedFrame readBack(const gpu::Texture& radiance, const gpu::Texture* display
 }
 
 std::vector<float> Renderer::downloadDepth(std::size_t view) const {
-    return drawn_->execution->texture(drawn_->declared.at(view).depth).downloadAs<float>();
+    return latest().execution->texture(latest().declared.at(view).depth).downloadAs<float>();
 }
 
 DrawnLists Renderer::downloadLists(std::size_t view) const {
-    const frame::PreparedView& prepared = drawn_->views.at(view).prepared;
+    const frame::PreparedView& prepared = latest().views.at(view).prepared;
     DrawnLists drawn;
     drawn.culling = prepared.spec.culling;
     drawn.view = prepared.camera.constants;
@@ -128,10 +136,10 @@ DrawnLists Renderer::downloadLists(std::size_t view) const {
     for (std::size_t i = 0; i < prepared.lights.texels.size(); ++i) {
         if (prepared.lights.texels[i].position.w == 0.0f) drawn.everywhere.push_back(std::uint32_t(i));
     }
-    if (const std::optional<frame::LightListHandles>& lists = drawn_->declared[view].lists) {
+    if (const std::optional<frame::LightListHandles>& lists = latest().declared[view].lists) {
         const auto all = [&](graph::BufferHandle from, auto& values) {
             using Value = typename std::decay_t<decltype(values)>::value_type;
-            const graph::Execution& execution = *drawn_->execution;
+            const graph::Execution& execution = *latest().execution;
             values = execution.buffer(from).downloadAs<Value>(execution.bytes(from) / sizeof(Value));
         };
         all(lists->tiles, drawn.lists.tiles);

@@ -46,7 +46,8 @@ public:
     /// Draws one frame of one or more views and does not wait; download() reads it, passTimings() times it. The views
     /// share the scene's data on the GPU, so their settings of filter and pruning must be equal. Throws InputError if
     /// they are not, or if settings name things that the scene lacks; std::runtime_error when GL fails. `after` adds
-    /// passes to each view; what they declare as outputs of the graph, texture() gives.
+    /// passes to each view; what they declare as outputs of the graph, texture() gives. After a throw no frame is there
+    /// to be read.
     void draw(std::span<const ViewRequest> views, const AfterOpaque& after = {});
     void draw(Technique technique, const frame::FrameSettings& settings) {
         const ViewRequest view{technique, settings};
@@ -87,6 +88,7 @@ public:
 
 private:
     struct Drawn;
+    const Drawn& latest() const;
 
     gpu::Context& context_;
     const scenes::Scene& scene_;
@@ -98,7 +100,7 @@ private:
     frame::FeatureSet sceneFeatures_;                                   ///< features that sceneGpu_ was made with
     frame::TextureFilter sceneFilter_ = frame::TextureFilter::Hardware; ///< the same
     bool materialsChanged_ = false;
-    std::unique_ptr<Drawn> drawn_; ///< the latest frame
+    std::unique_ptr<Drawn> drawn_; ///< the latest frame; null before the first and after one that failed
 };
 
 /// What a frame of one view would run, leave out and need, without a context.

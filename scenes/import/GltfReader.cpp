@@ -62,7 +62,9 @@ void Value::read(int& index, IndexOf elements) const {
     if (!array->is_array())
         source_.fail(Place(Place(), elements.array), fmt::format("must be an array, but is {}", array->type_name()));
     if (static_cast<std::size_t>(number) >= array->size())
-        fail(fmt::format("points at /{}/{}, but there are only {}", elements.array, number, array->size()));
+        fail(array->empty()
+                 ? fmt::format("points at /{}/{}, but /{} is empty", elements.array, number, elements.array)
+                 : fmt::format("points at /{}/{}, but there are only {}", elements.array, number, array->size()));
     index = static_cast<int>(number);
 }
 

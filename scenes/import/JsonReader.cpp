@@ -132,6 +132,13 @@ std::vector<std::string> JsonObject::keys() const {
 
 JsonValue JsonObject::require(std::string_view key) {
     if (std::optional<JsonValue> found = find(key)) return *std::move(found);
+    // The key may be there under a misspelt name.
+    const std::vector<std::string> there = keys();
+    std::vector<std::string_view> others;
+    for (const std::string& other : there)
+        if (std::ranges::find(known_, other) == known_.end()) others.push_back(other);
+    if (const std::vector<std::string_view> nearest = nearestNames(key, others); !nearest.empty())
+        value_.fail(fmt::format("has the unknown key '{}'; did you mean '{}'?", nearest.front(), key));
     value_.fail(fmt::format("lacks the key '{}'; add it", key));
 }
 

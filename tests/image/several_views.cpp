@@ -167,6 +167,23 @@ TEST_F(BetweenOpaqueAndTransparent, aPersistentTextureIsWrittenInTheFirstFrameOn
               engine::planViews(scene, {&view, 1}).passes.size() + 1);
 }
 
+TEST_F(BetweenOpaqueAndTransparent, afterAFrameThatFailedThereIsNoneToRead) {
+    const scenes::Scene scene = scenes::loadScene("room");
+    engine::Renderer renderer(context(), scene);
+    EXPECT_THROW(renderer.download(), std::logic_error);
+    frame::FrameSettings settings;
+    settings.sizePixels = {16, 9};
+    const engine::RenderedFrame good = renderer.render(Technique::Deferred, settings);
+    const auto fail = [](graph::Graph& in, std::size_t, const frame::FrameSpec&, const engine::OpaquePicture& opaque) {
+        in.output(graph::TextureHandle{});
+        return opaque.radiance;
+    };
+    const View view{Technique::Deferred, settings};
+    EXPECT_ANY_THROW(renderer.draw({&view, 1}, {false, fail}));
+    EXPECT_TRUE(renderer.download().radiance == good.radiance) << "a frame that is refused before it is drawn";
+    EXPECT_TRUE(renderer.render(Technique::Deferred, settings).radiance == good.radiance);
+}
+
 TEST_F(BetweenOpaqueAndTransparent, everyTechniqueHandsOnTheSameNormalsToTheLastBit) {
     const scenes::Scene scene = test::everythingScene();
     const std::vector<float> truth = normals(scene, Technique::Deferred, 1);

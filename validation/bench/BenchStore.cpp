@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -12,6 +12,8 @@
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/PictureFile.h"
+#include "scenes/import/FileBytes.h"
+#include "scenes/import/JsonText.h"
 #include "validation/bench/BenchJson.h"
 #include "validation/bench/BenchJsonTerms.h"
 
@@ -40,19 +42,20 @@ fs::path groupFile(const std::string& folder, std::size_t group) {
     return partsOf(folder) / (groupStem(group) + ".json");
 }
 
-std::string bytesOf(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream)
-        throw InputError(fmt::format("{}: cannot be read; measure its points again, or bring it back", file.string()));
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+std::string bytesOf(const fs::path& file, scenes::LoadLedger& ledger) {
+    const std::vector<std::byte> bytes = scenes::readFileBytes(file, ledger);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 /// What `read` makes of the file's JSON; a damaged file is the user's to decide about, and `remedy` says how.
 template <typename Read>
 auto readJson(const fs::path& file, const std::string& remedy, Read&& read) {
-    const std::string text = bytesOf(file);
+    scenes::LoadLedger ledger;
+    const std::string text = bytesOf(file, ledger);
+    ledger.charge(scenes::parsedJsonBytes(text), [&] { return file.string() + ": its JSON"; });
     std::string what;
     try {
+        scenes::requireJsonDepth(text, file);
         return read(Json::parse(text));
     } catch (const Json::parse_error&) {
         what = "it is no whole JSON document";
@@ -101,13 +104,20 @@ std::string shardText(const Json& run) {
     return fmt::format("{}/{}", run.at("shard").at(0).get<int>(), run.at("shard").at(1).get<int>());
 }
 
+/// A whole number of a range. A plain conversion would wrap numbers that leave int.
+int wholeNumber(const Json& json, int least, int most) {
+    if (!json.is_number_integer() || json.get<double>() < least || json.get<double>() > most)
+        throw InputError(fmt::format("{} is no whole number from {} to {}", json.dump(), least, most));
+    return json.get<int>();
+}
+
 /// Throws the JSON reader's exception if a field that is read later is missing, or InputError.
 void requireRunFields(const Json& run) {
     for (const char* name : {"machine", "renderer", "commit", "settings", "against", "command"})
         static_cast<void>(run.at(name).get_ref<const std::string&>());
-    static_cast<void>(run.at("frames").get<int>());
-    const int shard = run.at("shard").at(0).get<int>(), shards = run.at("shard").at(1).get<int>();
-    if (shard < 1 || shard > shards) throw InputError(fmt::format("there is no shard {}", shardText(run)));
+    static_cast<void>(wholeNumber(run.at("frames"), 1, std::numeric_limits<int>::max()));
+    const int shards = wholeNumber(run.at("shard").at(1), 1, kMostShards);
+    static_cast<void>(wholeNumber(run.at("shard").at(0), 1, shards));
     for (const Json& skipped : run.at("skipped"))
         for (const char* name : {"what", "why"}) static_cast<void>(skipped.at(name).get_ref<const std::string&>());
     for (const Json& group : run.at("groups")) {
@@ -162,6 +172,14 @@ bool isOfShard(std::size_t group, int shard, int shards) {
     return int(group % std::size_t(shards)) == shard - 1;
 }
 
+std::vector<std::string> picturesOf(const GroupState& state) {
+    std::vector<std::string> files;
+    for (const BenchPicture& picture : state.group.pictures)
+        for (const std::string& file : {picture.file, picture.heatMapFile})
+            if (!file.empty()) files.push_back(file);
+    return files;
+}
+
 GroupState stateIn(const std::string& folder, std::size_t group) {
     const fs::path file = groupFile(folder, group);
     if (!fs::exists(file)) return {};
@@ -172,8 +190,26 @@ GroupState stateIn(const std::string& folder, std::size_t group) {
         state.group = groupFromJson(json.at("group"));
         for (const std::vector<double>& round : state.roundsMs)
             if (round.size() != state.roundsMs.front().size()) throw InputError("its rounds differ in length");
+        for (const std::string& picture : picturesOf(state))
+            if (picture.empty() || fs::path(picture).filename() != picture)
+                throw InputError(fmt::format("'{}' is no name of a picture beside it", picture));
         return state;
     });
+}
+
+/// The files of a shard but for run.json. Throws InputError where one is missing.
+std::vector<fs::path> filesOf(const std::string& folder, const Json& run) {
+    std::vector<fs::path> files;
+    const int shard = run.at("shard").at(0), shards = run.at("shard").at(1);
+    for (std::size_t i = 0; i < run.at("groups").size(); ++i) {
+        if (!isOfShard(i, shard, shards)) continue;
+        files.push_back(groupFile(folder, i));
+        for (const std::string& picture : picturesOf(stateIn(folder, i))) files.push_back(partsOf(folder) / picture);
+    }
+    for (const fs::path& file : files)
+        if (!fs::is_regular_file(file))
+            throw InputError(fmt::format("{}: is missing; bring it back, or measure the shard again", file.string()));
+    return files;
 }
 
 bool isFinished(const std::string& folder, const Json& run) {
@@ -262,13 +298,15 @@ BenchRecord recordIn(const std::string& folder) {
 }
 
 std::vector<std::uint8_t> keptPicture(const std::string& folder, const std::string& file) {
-    const std::string bytes = bytesOf(partsOf(folder) / file);
+    scenes::LoadLedger ledger;
+    const std::string bytes = bytesOf(partsOf(folder) / file, ledger);
     return {bytes.begin(), bytes.end()};
 }
 
 FolderLock mergeRuns(const std::vector<std::string>& shards, const std::string& folder) {
     const Json first = runIn(shards.front());
     const int count = first.at("shard").at(1).get<int>();
+    std::vector<fs::path> files;
     std::vector<std::string> folderOf(static_cast<std::size_t>(count));
     for (const std::string& shard : shards) {
         const Json run = runIn(shard);
@@ -281,6 +319,7 @@ FolderLock mergeRuns(const std::vector<std::string>& shards, const std::string& 
             throw InputError(fmt::format("{} and {} are both shard {}; leave one out", place, shard, shardText(run)));
         if (!isFinished(shard, run)) throw InputError(fmt::format("{} is not finished; resume it first", shard));
         place = shard;
+        std::ranges::move(filesOf(shard, run), std::back_inserter(files));
     }
     for (std::size_t i = 0; i < folderOf.size(); ++i) {
         if (folderOf[i].empty())
@@ -296,11 +335,9 @@ FolderLock mergeRuns(const std::vector<std::string>& shards, const std::string& 
     FolderLock lock(folder);
     requireNoUnfinishedRun(folder);
     clearParts(folder);
-    for (const std::string& shard : folderOf) {
-        for (const fs::directory_entry& entry : fs::directory_iterator(partsOf(shard))) {
-            if (entry.path().filename() != "run.json")
-                writeFileAtomically((partsOf(folder) / entry.path().filename()).string(), bytesOf(entry.path()));
-        }
+    for (const fs::path& file : files) {
+        scenes::LoadLedger ledger;
+        writeFileAtomically((partsOf(folder) / file.filename()).string(), bytesOf(file, ledger));
     }
     Json run = first;
     run["shard"] = {1, 1};

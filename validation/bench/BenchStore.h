@@ -10,6 +10,9 @@
 
 namespace tessera::validation {
 
+/// A run may be cut into so many shards.
+inline constexpr int kMostShards = 10000;
+
 /// What a run is. Points may be put beside each other only where all of this but the shard and the command is the same.
 struct RunIdentity {
     std::string machine, renderer, commit;

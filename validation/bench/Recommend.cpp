@@ -40,11 +40,20 @@ const BenchResult* forwardOf(const BenchGroup& group) {
     return found;
 }
 
-/// The fastest of the most exact ones that the times do not tell from `fast`, among those with an acceptable error.
+bool isAcceptable(const BenchResult& result) {
+    const std::optional<double> relMse = relMseOf(result);
+    return relMse && *relMse <= kAcceptableRelMse;
+}
+
+/// The fastest of the most exact ones that the times do not tell from `fast`, among those with an acceptable error. A
+/// point that is faster than one of these belongs to them, however little its own times spread.
 const BenchResult* mostExactAsFast(const BenchGroup& group, const BenchResult& fast) {
+    double slowestMs = timeOf(fast);
+    for (const BenchResult& result : group.results)
+        if (isAcceptable(result) && isAsFast(result.times.cpuMs, fast.times.cpuMs))
+            slowestMs = std::max(slowestMs, timeOf(result));
     const auto isCandidate = [&](const BenchResult& result) {
-        const std::optional<double> relMse = relMseOf(result);
-        return relMse && *relMse <= kAcceptableRelMse && isAsFast(result.times.cpuMs, fast.times.cpuMs);
+        return isAcceptable(result) && timeOf(result) <= slowestMs;
     };
     double least = *relMseOf(fast);
     for (const BenchResult& result : group.results)
@@ -71,8 +80,7 @@ std::optional<Recommendation> recommendFor(const BenchGroup& group) {
     const auto isExact = [&](const BenchResult& result) {
         return least && relMseOf(result) && *relMseOf(result) <= kAsExact * *least;
     };
-    choice.best = fastest(
-        group, [](const BenchResult& result) { return relMseOf(result) && *relMseOf(result) <= kAcceptableRelMse; });
+    choice.best = fastest(group, isAcceptable);
     choice.isAcceptable = choice.best != nullptr;
     if (const BenchResult* fast = choice.best) {
         choice.best = mostExactAsFast(group, *fast);
@@ -95,6 +103,21 @@ std::string speedText(double speedup) {
     return "as fast as forward";
 }
 
+namespace {
+
+/// Whether single frames took far longer than most, as on a machine that is busy with something else.
+bool isDisturbed(const BenchResult& result) {
+    constexpr double kSteady = 2.0; // p95 over median; of frames alone on a machine it is below 1.3
+    return result.times.cpuMs.p95 > kSteady * timeOf(result);
+}
+
+std::string againstForward(const BenchResult& result, const BenchResult& baseline) {
+    if (isAsFast(result.times.cpuMs, baseline.times.cpuMs)) return "as fast as forward within the spread of the times";
+    return speedText(timeOf(baseline) / timeOf(result));
+}
+
+} // namespace
+
 std::string recommendationText(const BenchGroup& group) {
     const std::optional<Recommendation> choice = recommendFor(group);
     if (!choice) return "";
@@ -103,7 +126,7 @@ std::string recommendationText(const BenchGroup& group) {
     if (choice->baseline == &best)
         text += choice->asFast ? "as fast as any" : "the fastest here";
     else if (choice->speedup)
-        text += speedText(*choice->speedup);
+        text += againstForward(best, *choice->baseline);
     else
         text += choice->asFast ? "as fast as any of those measured" : "the fastest of those measured";
     if (relMseOf(best)) text += fmt::format(" at relMSE {}", figureText(*relMseOf(best)));
@@ -119,9 +142,13 @@ std::string recommendationText(const BenchGroup& group) {
     if (choice->exact) {
         text += fmt::format(" The most exact is {}", pointName(choice->exact->key));
         if (choice->exact != choice->baseline && choice->exactSpeedup)
-            text += fmt::format(": {}", speedText(*choice->exactSpeedup));
+            text += fmt::format(": {}", againstForward(*choice->exact, *choice->baseline));
         text += fmt::format(" at relMSE {}.", figureText(*relMseOf(*choice->exact)));
     }
+    if (best.ratioToFloor && *best.ratioToFloor < 1.0)
+        text += " No frame can be faster than its lower bound: something disturbed the times; measure again.";
+    else if (isDisturbed(best) || (choice->baseline && isDisturbed(*choice->baseline)))
+        text += " Some frames took more than twice the median: the machine was busy; measure again.";
     return text;
 }
 

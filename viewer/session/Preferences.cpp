@@ -22,6 +22,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kMostRecent = 10;
+constexpr std::uintmax_t kMostBytes = 1 << 20; ///< hundreds of times what the viewer writes
 
 std::optional<std::filesystem::path> folderNamed(const char* variable) {
     const char* value = std::getenv(variable);
@@ -124,6 +125,9 @@ Preferences readPreferences(const std::filesystem::path& file) {
     if (!std::filesystem::is_regular_file(file, error))
         throw InputError(
             fmt::format("{}: is not a regular file, so settings cannot be kept; rename or remove it", file.string()));
+    if (std::filesystem::file_size(file, error) > kMostBytes)
+        throw InputError(
+            fmt::format("{}: is larger than the viewer's settings can be; correct or delete the file", file.string()));
     std::ifstream stream(file, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
     if (!stream) throw InputError(fmt::format("{}: the settings cannot be read; check the permissions", file.string()));
@@ -143,6 +147,7 @@ Preferences readPreferences(const std::filesystem::path& file) {
         if (!setting.isRemembered || entry == document.end()) continue;
         if (auto known = settingText(setting, *entry)) preferences.settings.emplace(setting.key, *std::move(known));
     }
+    if (preferences.recent.size() > kMostRecent) preferences.recent.resize(kMostRecent);
     if (!(preferences.fixedScale >= kLeastScale && preferences.fixedScale <= 1.0f))
         preferences.fixedScale = Preferences().fixedScale;
     return preferences;

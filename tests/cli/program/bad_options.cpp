@@ -259,5 +259,18 @@ TEST_F(BadOptions, aDriverWithoutOpenGl45IsNamedWithWhatItOffers) {
                 {{"GALLIUM_DRIVER", "softpipe"}, {"LIBGL_ALWAYS_SOFTWARE", "1"}});
 }
 
+TEST_F(BadOptions, anEmptyValueIsRefused) {
+    for (const char* option : {"--technique", "--size", "--camera", "--output"})
+        expectRefused({option, ""}, {option, "is empty; give a value"});
+    expectError(kBadInput, {"plan", "room", "--json", ""}, {"--json", "is empty; give a value"});
+    expectError(kBadInput, {"compare", "room", "--heatmap", ""}, {"--heatmap", "is empty; give a value"});
+    expectError(kBadInput, {"bench", "room", "-o", "out", "--matrix", ""}, {"--matrix", "is empty; give a value"});
+}
+
+TEST_F(BadOptions, aMatrixThatIsNoRegularFileIsRefusedBeforeItIsRead) {
+    for (const char* file : {"/dev/zero", "."})
+        expectError(kBadInput, {"bench", "room", "-o", "out", "--matrix", file}, {file, "is not a regular file"});
+}
+
 } // namespace
 } // namespace tessera::test

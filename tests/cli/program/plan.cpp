@@ -104,6 +104,7 @@ TEST_F(Plan, furtherCamerasAreAlwaysViewsOfTheSameFrame) {
     EXPECT_EQ(two["passes"].size(), 2 * one["passes"].size());
     EXPECT_LT(two["bytes"], two["bytesWithoutAliasing"]);
     EXPECT_EQ(two["bytesWithoutAliasing"], 2 * one["bytesWithoutAliasing"].get<std::size_t>());
+    expectError(2, {"plan", "hall", "--also", "0", "0"}, {"'0'"});
     expectError(2, {"plan", "hall", "--also", "nowhere"}, {"unknown camera 'nowhere'"});
     expectError(2, {"plan", "hall", "--also", "0", "--measure"}, {"--measure", "one view", "--also"});
 }

@@ -134,6 +134,20 @@ TEST_F(Render, aPictureOfNothingSaysWhy) {
     }
 }
 
+TEST_F(Render, aBlackPictureIsToldSoButNotABlackDebugView) {
+    folder_.write("dark.json", R"({"tessera": 1, "include": [{"file": "tri.obj"}],
+        "lights": [{"type": "point", "position": [0, 0, 50], "range": 1, "intensity": 1, "color": [1, 1, 1]}]})");
+    const auto said = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"render", "dark.json", "--size", "16x9", "-o", "a.png"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProcessResult result = run(arguments);
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        return result.err;
+    };
+    EXPECT_THAT(said({}), testing::HasSubstr("warning: a.png: is black: no light reaches the surfaces in view"));
+    EXPECT_THAT(said({"--view", "diffuse"}), testing::Not(testing::HasSubstr("black")));
+}
+
 TEST_F(Render, pixelsThatAreNoNumbersAreCounted) {
     folder_.write("floor.obj", "mtllib floor.mtl\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nvn 0 1 0\nusemtl mirror\n"
                                "f 4//1 3//1 2//1 1//1\n");

@@ -112,6 +112,19 @@ TEST(AtomicFile, aLinkStaysALinkAndItsTargetIsWritten) {
     EXPECT_EQ(readText(folder.file("target")), "new");
 }
 
+TEST(AtomicFile, aLinkToAFileThatIsNotThereYetMakesThatFile) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder.file("deep"));
+    fs::create_symlink("deep/second", folder.file("first"));
+    fs::create_symlink("target", folder.file("deep/second"));
+    writeFileAtomically(folder.file("first"), "new");
+    EXPECT_TRUE(fs::is_symlink(folder.file("first")));
+    EXPECT_TRUE(fs::is_symlink(folder.file("deep/second")));
+    EXPECT_EQ(readText(folder.file("deep/target")), "new");
+    fs::create_symlink("circle", folder.file("circle"));
+    EXPECT_ANY_THROW(writeFileAtomically(folder.file("circle"), "new"));
+}
+
 TEST(AtomicFile, permissionsOfTheOldFileAreKept) {
     const TemporaryFolder folder;
     writeFileAtomically(folder.file("a"), "old");

@@ -125,6 +125,29 @@ TEST(PlanFrame, theViewsOfAFrameShareTheScenesBuffersAndWhatAnApplicationKeeps) 
     }
 }
 
+TEST(PlanFrame, aPlanWithPassesOfAnApplicationTellsWhatTheyStoreAndWhichAreLeftOut) {
+    const scenes::Scene scene = scenes::loadScene("hall");
+    const ViewRequest view{Technique::Forward, {}};
+    const auto add = [](graph::Graph& graph, std::size_t, const frame::FrameSpec& spec, const OpaquePicture& opaque) {
+        struct Data {
+            graph::TextureHandle texture;
+        };
+        const auto setup = [&](graph::PassBuilder& pass, Data& data) {
+            data.texture = pass.create("unread", spec.texture(graph::Format::Rgba32Float));
+        };
+        graph.addPass<Data>("nobody_reads_it", setup, [](const Data&, const graph::PassContext&) {});
+        graph.output(opaque.gbuffer.value().textures.front());
+        return opaque.radiance;
+    };
+    const graph::Plan plan = planViews(scene, {&view, 1}, {true, add});
+    const auto bytes = std::ranges::find(plan.counters, std::string("gbufferBytesPerPixel"),
+                                         &std::pair<std::string, std::uint64_t>::first);
+    ASSERT_NE(bytes, plan.counters.end());
+    EXPECT_GT(bytes->second, 0u);
+    EXPECT_THAT(plan.leftOut,
+                testing::Contains(testing::Field(&graph::Plan::LeftOut::what, testing::HasSubstr("nobody_reads_it"))));
+}
+
 TEST(PlanFrame, aFrameOfViewsLeavesOutChoosesAndCountsWhatItsViewsDo) {
     const scenes::Scene scene = scenes::loadScene("hall");
     std::vector<ViewRequest> views(2);

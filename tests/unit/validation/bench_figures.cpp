@@ -147,6 +147,31 @@ TEST(Recommend, ofTimesThatTheSpreadDoesNotTellApartTheSmallerErrorIsTaken) {
     EXPECT_TRUE(isAsFast({30.0, 45.0}, {40.0, 90.0}));
 }
 
+TEST(Recommend, noSpeedIsClaimedThatTheSpreadDoesNotShow) {
+    // Made-up spreads are a tenth: 30 and 32 ms lie within each other's.
+    const BenchGroup near = madeUpGroup(10, {madeUpResult("forward", 32, 1e-9), madeUpResult("deferred", 30, 1e-9)});
+    EXPECT_THAT(recommendationText(near), HasSubstr("take deferred, exact: as fast as forward within the spread"));
+    // Forward's wide spread makes it as fast as the packed one; the steady and exact point between them is as fast,
+    // too.
+    BenchGroup mixed = madeUpGroup(10, {madeUpResult("forward", 34, 1e-9), madeUpResult("forward_plus", 32, 1e-9),
+                                        madeUpResult("deferred", 30, 2e-5, "packed")});
+    mixed.results[0].times.cpuMs.p95 = 60.0;
+    mixed.results[1].times.cpuMs.p95 = 32.1;
+    mixed.results[2].times.cpuMs.p95 = 36.0;
+    const std::optional<Recommendation> choice = recommendFor(mixed);
+    EXPECT_EQ(choice->best, &mixed.results[1]);
+    EXPECT_EQ(choice->exact, nullptr);
+}
+
+TEST(Recommend, disturbedTimesAreToldSo) {
+    BenchGroup group = madeUpGroup(10, {madeUpResult("forward", 40, 1e-9), madeUpResult("deferred", 10, 1e-9)});
+    EXPECT_THAT(recommendationText(group), testing::Not(HasSubstr("measure again")));
+    group.results[1].times.cpuMs.p95 = 21.0;
+    EXPECT_THAT(recommendationText(group), HasSubstr("Some frames took more than twice the median"));
+    group.results[1].ratioToFloor = 0.5;
+    EXPECT_THAT(recommendationText(group), HasSubstr("No frame can be faster than its lower bound"));
+}
+
 TEST(Recommend, aGroupWithoutAnAcceptablePointIsToldSo) {
     const BenchGroup group = madeUpGroup(10, {madeUpResult("forward", 10, 0.2), madeUpResult("deferred", 5, 0.9)});
     EXPECT_EQ(recommendFor(group)->best, &group.results[0]);

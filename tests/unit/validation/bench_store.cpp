@@ -192,9 +192,43 @@ TEST_F(BenchStoring, damagedFilesAreNamedWithARemedyInWordsOfOurOwn) {
     EXPECT_THAT(read("run.json", changed("\"abc\"", "3")), field);
     EXPECT_THAT(read("run.json", changed("\"hall\"", "null")), field);
     EXPECT_THAT(read("run.json", changed("\"shard\": [\n  1", "\"shard\": [\n  0")),
-                HasSubstr("there is no shard 0/1"));
+                HasSubstr("0 is no whole number from 1 to 1"));
+    EXPECT_THAT(read("run.json", changed("\"shard\": [\n  1,\n  1", "\"shard\": [\n  1,\n  2147483647")),
+                HasSubstr("2147483647 is no whole number from 1 to 10000"));
+    EXPECT_THAT(read("run.json", changed("\"frames\": ", "\"frames\": 1e300, \"more\": ")),
+                HasSubstr("1e+300 is no whole"));
+    const std::string deep(100'000, '[');
+    EXPECT_THAT(read("run.json", changed("{", "{\"x\": " + deep + std::string(deep.size(), ']') + ",")),
+                HasSubstr("nests"));
     EXPECT_THAT(read("run.json", changed("\"schema\": 3", "\"schema\": 2")), HasSubstr("another version of tessera"));
     EXPECT_THAT(read("run.json", "{"), testing::AllOf(whole, HasSubstr("to measure all of it again")));
+}
+
+TEST_F(BenchStoring, picturesAreFilesOfTheirRunAndAreThereBeforeShardsAreMerged) {
+    const auto shardWith = [&](const std::string& name, const std::string& picture) {
+        const BenchStore store(folder(name), madeUpIdentity(1, 1), madeUpPlan(1), EarlierRun::Keep);
+        GroupState state = finished(0);
+        state.group.pictures.emplace_back().file = picture;
+        store.keep(0, state);
+        return folder(name);
+    };
+    std::ofstream(folder("secret") + "/notes.txt") << "private";
+    const std::string outside = shardWith("outside", "../../secret/notes.txt");
+    EXPECT_THAT(refusal([&] { recordIn(outside); }), HasSubstr("is no name of a picture beside it"));
+    EXPECT_THAT(refusal([&] { mergeRuns({outside}, folder("all")); }), HasSubstr("is no name of a picture beside it"));
+    const std::string incomplete = shardWith("incomplete", "group-000-truth.png");
+    EXPECT_THAT(refusal([&] { mergeRuns({incomplete}, folder("all")); }),
+                testing::AllOf(HasSubstr(incomplete), HasSubstr("group-000-truth.png"), HasSubstr("is missing")));
+    EXPECT_TRUE(fs::is_empty(folder("all")));
+}
+
+TEST_F(BenchStoring, otherFilesAndFoldersInAShardAreNotMerged) {
+    const std::string shard = finishedShard("shard", 1, 1, 1);
+    fs::create_directory(shard + "/parts/folder");
+    std::ofstream(shard + "/parts/notes.txt") << "private";
+    mergeRuns({shard}, folder("all"));
+    EXPECT_FALSE(fs::exists(folder("all") + "/parts/folder"));
+    EXPECT_FALSE(fs::exists(folder("all") + "/parts/notes.txt"));
 }
 
 } // namespace
