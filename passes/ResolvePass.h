@@ -4,7 +4,7 @@
 
 namespace tessera::passes {
 
-/// Makes one value of a pixel's samples: of radiance the mean, linear, before exposure and tone map; of depths the
+/// Reduces a pixel's samples to one value: of radiance the mean, linear, before exposure and tone map; of depths the
 /// range. A shader of its own rather than a blit, whose filter and order OpenGL leaves to the driver: the sum runs over
 /// ascending samples everywhere.
 /// Reads   samples, of FrameSpec::samples: radiance RGBA32F, or depths RG32F, nearest and negated farthest

@@ -167,7 +167,7 @@ struct LightTypeInfo {
 
     /// A position, and with it a falloff, perhaps a range, and perhaps an animation.
     constexpr bool hasPosition() const { return reach != LightReach::Everywhere; }
-    /// More on the GPU than a colour and a position, or else a direction (shaders/shared/light.h).
+    /// Whether shaders read LightShapeTexels for this type (shaders/shared/light.h).
     constexpr bool hasShape() const { return (hasPosition() && hasDirection) || !parameters.empty(); }
 };
 

@@ -81,7 +81,8 @@ showProgress() {
     local line said=
     while IFS= read -r line; do
         case $line in
-        *'Re-checking globbed directories'*) ;;
+        # Steps of every build, also of one that has nothing to do.
+        *'Re-checking globbed directories'* | *write_commit.cmake*) ;;
         '['*/*']'*)
             if [ -t 2 ]; then
                 printf '\rBuilding Tessera %s ' "${line%%]*}]" >&2

@@ -7,8 +7,8 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/culling/Candidates.h"
-#include "renderer/culling/LightReach.h"
 #include "renderer/culling/TileDepths.h"
+#include "renderer/culling/TileSpans.h"
 #include "renderer/culling/ZBins.h"
 
 namespace tessera::culling {
@@ -27,7 +27,7 @@ struct RowLists {
 
 struct LightListBuilder::Scratch {
     LightLists lists;
-    LightReach reach;
+    TileSpans spans;
     std::vector<TileDepths> depths; ///< parallel to LightLists::tiles
     std::vector<RowLists> rows;     ///< layer-major
 };
@@ -85,15 +85,15 @@ struct Build {
         return {{cell, depths.slicing, std::uint32_t(depths.slices), std::uint32_t(depths.slices >> 32)}};
     }
 
-    void row(const LightReach& reach, const TileDepths* depths, std::uint32_t tileRow, RowLists& row,
+    void row(const TileSpans& spans, const TileDepths* depths, std::uint32_t tileRow, RowLists& row,
              shared::LightTile* tiles) const {
         row.cells.clear();
         row.entries.clear();
-        reach.ofRow(tileRow, row.rowLights);
+        spans.ofRow(tileRow, row.rowLights);
         for (std::uint32_t column = 0; column < grid.columns; ++column) {
             if (column % CULL_BLOCK_COLUMNS == 0) {
                 const std::uint32_t last = std::min(column + CULL_BLOCK_COLUMNS, grid.columns) - 1;
-                reach.ofColumns(row.rowLights, column, last, row.blockLights);
+                spans.ofColumns(row.rowLights, column, last, row.blockLights);
                 row.block.assign(row.blockLights, input.lights);
             }
             if (!depths[column].isEmpty()) tiles[column] = tile(depths[column], grid.rays(column, tileRow), row);
@@ -139,7 +139,7 @@ const LightLists& LightListBuilder::build(const BuildInput& input) {
     lists.tiles.assign(tiles * layers, shared::LightTile{{0u, ONE_LIGHT_SLICE, 0u, 0u}});
     scratch_->depths.resize(tiles * layers);
     scratch_->rows.resize(std::size_t(build.grid.rows) * layers);
-    scratch_->reach.set(input.lights, build.grid);
+    scratch_->spans.set(input.lights, build.grid);
 
     tbb::parallel_for(std::size_t(0), scratch_->rows.size(), [&](std::size_t i) {
         const DepthPicture& picture = i < build.grid.rows ? input.opaque : *input.transparent;
@@ -149,12 +149,12 @@ const LightLists& LightListBuilder::build(const BuildInput& input) {
             depths[column] = tileDepths(picture, input.frame, int(column), int(tileRow));
         }
         if (input.method == Method::Zbin) return;
-        build.row(scratch_->reach, depths, tileRow, scratch_->rows[i], lists.tiles.data() + i * build.grid.columns);
+        build.row(scratch_->spans, depths, tileRow, scratch_->rows[i], lists.tiles.data() + i * build.grid.columns);
     });
     if (input.method == Method::Zbin)
-        buildZBins(input, scratch_->reach, scratch_->depths, lists);
+        buildZBins(input, scratch_->spans, scratch_->depths, lists);
     else
-        joinRows(build, scratch_->reach.everywhere(), scratch_->rows, lists);
+        joinRows(build, scratch_->spans.everywhere(), scratch_->rows, lists);
     return lists;
 }
 

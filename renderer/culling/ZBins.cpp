@@ -44,7 +44,7 @@ DepthRun binDepths(const Bins& bins, std::uint32_t index, const FrameConstants& 
 
 } // namespace
 
-void buildZBins(const BuildInput& input, const LightReach& reach, std::span<const TileDepths> depths,
+void buildZBins(const BuildInput& input, const TileSpans& spans, std::span<const TileDepths> depths,
                 LightLists& lists) {
     const TileGrid grid = tileGrid(input.frame);
     const Bins bins = binsOf(depths, input.frame);
@@ -71,15 +71,15 @@ void buildZBins(const BuildInput& input, const LightReach& reach, std::span<cons
     });
     tbb::parallel_for(0u, grid.rows, [&](std::uint32_t row) {
         std::vector<std::uint32_t> rowLights, tileLights;
-        reach.ofRow(row, rowLights);
+        spans.ofRow(row, rowLights);
         for (std::uint32_t column = 0; column < grid.columns; ++column) {
             const std::size_t tile = std::size_t(row) * grid.columns + column;
             const std::size_t first = (bins.count + tile) * words;
             for (std::size_t at = tile; at < lists.tiles.size(); at += tiles)
                 lists.tiles[at].words = glm::uvec4(std::uint32_t(first), bins.slicing, 1u, 0u);
             std::uint32_t* mask = lists.entries.data() + first;
-            for (const std::uint32_t light : reach.everywhere()) setBit(mask, light);
-            reach.ofColumns(rowLights, column, column, tileLights);
+            for (const std::uint32_t light : spans.everywhere()) setBit(mask, light);
+            spans.ofColumns(rowLights, column, column, tileLights);
             for (const std::uint32_t light : tileLights) setBit(mask, light);
         }
     });

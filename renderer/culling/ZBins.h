@@ -2,8 +2,8 @@
 #include <span>
 
 #include "renderer/culling/LightLists.h"
-#include "renderer/culling/LightReach.h"
 #include "renderer/culling/TileDepths.h"
+#include "renderer/culling/TileSpans.h"
 
 namespace tessera::culling {
 
@@ -12,7 +12,6 @@ namespace tessera::culling {
 /// is parallel to lists.tiles. Source: Drobot 2017, "Improved Culling for Tiled and Clustered Rendering"; a bin keeps a
 /// bitmask instead of a range of indices, because lights stay in document order and a range of those says nothing of
 /// depth.
-void buildZBins(const BuildInput& input, const LightReach& reach, std::span<const TileDepths> depths,
-                LightLists& lists);
+void buildZBins(const BuildInput& input, const TileSpans& spans, std::span<const TileDepths> depths, LightLists& lists);
 
 } // namespace tessera::culling

@@ -34,9 +34,9 @@ struct DepthBatch {
     int count = 0;
     bool mirrored = false;
     bool doubleSided = false;
-    std::optional<int> maskedBy; ///< the material whose holes the depth has; none: all of the triangles leave theirs
+    std::optional<int> maskedBy; ///< the alpha-masked material to sample; none: opaque
 };
-/// What batches are drawn as then, in their order: one where neighbours differ in nothing but a material without holes.
+/// Merges neighbouring batches that differ only in an unmasked material. The order stays.
 std::vector<DepthBatch> depthBatches(const scenes::Scene& scene, std::span<const Batch> batches);
 
 /// Everything the scene draws. Opaque and masked draws come first, gathered by material so that binds are few; the

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <unordered_map>
 
@@ -128,6 +130,19 @@ private:
             scene_.warnings.push_back(fmt::format("{}: {}", file_.string(), what));
         };
         if (normals_.replacedZeroNormals()) warn("normals of zero length are replaced by the faces' own");
+        const auto largest = [](const glm::vec3& v) { return std::max({v.x, v.y, v.z}); };
+        glm::vec3 least(std::numeric_limits<float>::max()), most(std::numeric_limits<float>::lowest());
+        for (const glm::vec3& position : obj_.positionsOS) {
+            least = glm::min(least, position);
+            most = glm::max(most, position);
+        }
+        const float farthest = largest(glm::max(glm::abs(least), glm::abs(most)));
+        const float step = farthest * std::numeric_limits<float>::epsilon();
+        constexpr float kVisibleShare = 1e-4f; // of the model's size
+        if (step > kVisibleShare * largest(most - least))
+            warn(fmt::format("lies {:.3g} from its origin, where single precision has steps of {:.2g}; move it to the "
+                             "origin before exporting it",
+                             farthest, step));
         if (lacksSomeTexCoords_) warn("corners without texture coordinates, beside others that have them, get (0, 0)");
     }
 

@@ -48,6 +48,15 @@ TEST(Obj, aTriangleBecomesANodeNamedAfterTheFile) {
     EXPECT_TRUE(scene.lights.empty());
 }
 
+TEST(Obj, aModelThatSinglePrecisionCannotHoldIsWarnedAbout) {
+    const TempFolder folder;
+    const auto warningsAt = [&](double x) {
+        return importText(folder, fmt::format("v {} 0 0\nv {} 0 0\nv {} 1 0\nf 1 2 3\n", x, x + 1, x)).warnings;
+    };
+    EXPECT_TRUE(warningsAt(500).empty());
+    EXPECT_THAT(warningsAt(500'000), ElementsAre(HasSubstr("lies 5e+05 from its origin")));
+}
+
 TEST(Obj, polygonsKeepTheirAreaWhenCut) {
     const TempFolder folder;
     const Scene quad = importText(folder, "v 0 0 0\nv 2 0 0\nv 2 3 0\nv 0 3 0\nf 1 2 3 4\n");

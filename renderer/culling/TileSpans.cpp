@@ -1,12 +1,12 @@
-#include "renderer/culling/LightReach.h"
+#include "renderer/culling/TileSpans.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 namespace tessera::culling {
 
-LightReach::Range LightReach::rangeOf(float across, const shared::CullLight& light, std::span<const glm::vec2> slabs,
-                                      const glm::vec2& spread) {
+TileSpans::Range TileSpans::rangeOf(float across, const shared::CullLight& light, std::span<const glm::vec2> slabs,
+                                    const glm::vec2& spread) {
     Range range;
     for (std::size_t i = 0; i < slabs.size(); ++i) {
         if (!shared::sphereTouchesSlab(across, light.sphere.z, light.sphere.w, slabs[i], spread)) continue;
@@ -16,7 +16,7 @@ LightReach::Range LightReach::rangeOf(float across, const shared::CullLight& lig
     return range;
 }
 
-void LightReach::set(std::span<const shared::CullLight> lights, const TileGrid& grid) {
+void TileSpans::set(std::span<const shared::CullLight> lights, const TileGrid& grid) {
     columnSlabs_.clear();
     rowSlabs_.clear();
     for (std::uint32_t i = 0; i < grid.columns; ++i) columnSlabs_.emplace_back(glm::vec2(grid.rays(i, 0)));
@@ -39,15 +39,15 @@ void LightReach::set(std::span<const shared::CullLight> lights, const TileGrid& 
     });
 }
 
-void LightReach::ofRow(std::uint32_t row, std::vector<std::uint32_t>& lights) const {
+void TileSpans::ofRow(std::uint32_t row, std::vector<std::uint32_t>& lights) const {
     lights.clear();
     for (std::size_t i = 0; i < rows_.size(); ++i) {
         if (rows_[i].overlaps(row, row)) lights.push_back(std::uint32_t(i));
     }
 }
 
-void LightReach::ofColumns(const std::vector<std::uint32_t>& from, std::uint32_t first, std::uint32_t last,
-                           std::vector<std::uint32_t>& lights) const {
+void TileSpans::ofColumns(const std::vector<std::uint32_t>& from, std::uint32_t first, std::uint32_t last,
+                          std::vector<std::uint32_t>& lights) const {
     // Every light is written, and kept by moving on: which ones stay is too irregular for branches.
     lights.resize(from.size());
     std::uint32_t* to = lights.data();

@@ -10,7 +10,7 @@ namespace tessera::culling {
 
 /// Which rows and columns of tiles each light may touch, by the planes between them. The planes of a tile are those of
 /// its row and column, so each is looked at once a light and not once a tile.
-class LightReach {
+class TileSpans {
 public:
     void set(std::span<const shared::CullLight> lights, const TileGrid& grid);
 
