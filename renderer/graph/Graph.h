@@ -75,7 +75,8 @@ public:
     virtual const gpu::Texture& texture(TextureHandle handle) const = 0;
     virtual const gpu::Buffer& buffer(BufferHandle handle) const = 0;
     /// Makes room in a buffer that grows and was created with 0 bytes, once a frame and before anything else is asked
-    /// of it. So a buffer that was resolved is never replaced while the frame runs. The buffer may be larger than asked.
+    /// of it. So a buffer that was resolved is never replaced while the frame runs. The buffer may be larger than
+    /// asked.
     virtual const gpu::Buffer& allocate(BufferHandle handle, std::size_t bytes) const = 0;
     /// The size of a buffer in bytes: that of its description, or that of allocate().
     virtual std::size_t bytes(BufferHandle handle) const = 0;

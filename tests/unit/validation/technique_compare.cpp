@@ -25,5 +25,22 @@ TEST(TechniqueCompare, onHardwareSumsByBlendingAreHeldToExactlyTheBoundOfTheirNu
               pairTolerance(Technique::Deferred, kExact, false, 4096).reason);
 }
 
+TEST(TechniqueCompare, settingsOfHowAPictureIsMadeGoToTheTechniquesThatTakeThem) {
+    frame::FrameSettings asked;
+    asked.lightOn = frame::LightingStage::Compute;
+    asked.culling = {culling::Method::Cluster, 32, culling::Builder::Compute, {}};
+    asked.exposureEV = 2.0f;
+    const frame::FrameSettings forward = settingsTakenBy(Technique::Forward, asked);
+    EXPECT_EQ(forward.lightOn, frame::FrameSettings().lightOn);
+    EXPECT_EQ(forward.culling, culling::Settings());
+    EXPECT_EQ(forward.exposureEV, 2.0f) << "which is no setting of how the picture is made";
+    EXPECT_EQ(settingsTakenBy(Technique::ClusteredDeferred, asked), asked);
+    for (const engine::Setting& setting : engine::settingTable()) {
+        const bool isHow =
+            setting.key == "culling" || setting.key == "tile" || setting.key == "cullOn" || setting.key == "lightOn";
+        EXPECT_EQ(setting.samePicture, isHow) << setting.name;
+    }
+}
+
 } // namespace
 } // namespace tessera::validation
