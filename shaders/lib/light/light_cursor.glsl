@@ -192,8 +192,8 @@ void leaveTwoEmptyWords(inout LightCursor cursor)
     skipEmptyWord(cursor);
 }
 
-// A batch is the lights of one 32-bit word of the mask. Where lights are so many that iterations are short, a step leaves twice as many words as a
-// round visits lights (renderer/frame/LightRounds.h).
+// A batch is the lights of one 32-bit word of the mask. Where lights are so many that iterations are short, a step leaves
+// twice as many words as a round visits lights (renderer/frame/LightRounds.h).
 bool nextBatch(inout LightCursor cursor, out int light)
 {
     do {

@@ -17,9 +17,10 @@ bool takesLight(Surface surface)
 }
 
 // Adds the radiance towards the viewer that a lit surface reflects of one light; where visits are counted, 1. Every pass
-// that adds light calls this function; only the debug views of D, G and F read a light directly. Area lights and shadows belong here and not in a loop; data of the surface that
-// they need besides the shading normal become members of Surface. It adds instead of returning: a rasteriser that masks
-// lanes would choose between the result and 0 before it adds (5 % of the time of 1,024 lights).
+// that adds light calls this function; only the debug views of D, G and F read a light directly. Area lights and shadows
+// belong here and not in a loop; data of the surface that they need besides the shading normal become members of Surface.
+// It adds instead of returning: a rasteriser that masks lanes would choose between the result and 0 before it adds (5 % of
+// the time of 1,024 lights).
 void addLightOnSurface(int light, Surface surface, Viewpoint viewpoint, inout vec3 radiance)
 {
 #if VISIT_COUNTS
