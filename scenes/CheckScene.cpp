@@ -114,7 +114,7 @@ bool isWithin(const glm::vec<Length, float>& vector, const Field& field) {
 }
 
 void checkMaterial(const Element& element, const Material& material, std::size_t imageCount) {
-    visitMaterialFields([&](const auto& field) {
+    visitFields(kMaterialFields, [&](const auto& field) {
         if (!isWithin(material.*field.member, field))
             element.require(false, fmt::format("{} must be {}", field.what, boundsText(field.least, field.most)));
     });
@@ -231,7 +231,7 @@ void checkAnimation(const Element& element, const LightAnimation& animation) {
 }
 
 void checkLight(const Element& element, const Light& light) {
-    visitLightFields([&](const auto& field) {
+    visitFields(kLightFields, [&](const auto& field) {
         if (field.what != nullptr && !isWithin(light.*field.member, field))
             element.require(
                 false, fmt::format("{} must be {}{}", field.what, boundsText(field.least, field.most), field.unit));

@@ -69,7 +69,7 @@ public:
         addAll(image, sampler, texCoordSet, transform);
     }
     void add(const Material& material) {
-        visitMaterialFields([&](const auto& field) { add(material.*field.member); });
+        visitFields(kMaterialFields, [&](const auto& field) { add(material.*field.member); });
         add(material.textures);
     }
     void add(const Mesh& mesh) {
@@ -89,7 +89,7 @@ public:
         addAll(kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, timesSeconds, pointsWS);
     }
     void add(const Light& light) {
-        visitLightFields([&](const auto& field) { add(light.*field.member); });
+        visitFields(kLightFields, [&](const auto& field) { add(light.*field.member); });
     }
     void add(const Camera& camera) {
         const auto& [name, projection, worldFromCamera, fovYRadians, halfHeightMetres, nearMetres, farMetres] = camera;

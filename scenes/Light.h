@@ -9,7 +9,6 @@
 #include <string>
 #include <string_view>
 #include <tuple>
-#include <type_traits>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -76,61 +75,26 @@ struct Light {
 
 // ---- Members -------------------------------------------------------------------------------------------------------
 
-/// A member of Light: its name, and of numbers what messages call them and between what they must lie (checkScene).
-template <typename Member>
-struct LightField {
-    const char* name;
-    Member Light::*member;
-    const char* what = nullptr; ///< null: no bounds, or others than these
-    double least = 0.0;         ///< of each component
-    double most = 0.0;
-    const char* unit = ""; ///< of the bounds, as messages write it behind them
-};
-template <typename Member>
-LightField(const char*, Member Light::*) -> LightField<Member>;
-template <typename Member>
-LightField(const char*, Member Light::*, const char*, double, double) -> LightField<Member>;
-template <typename Member>
-LightField(const char*, Member Light::*, const char*, double, double, const char*) -> LightField<Member>;
-
 /// All members, in order.
 inline constexpr std::tuple kLightFields{
-    LightField{"name", &Light::name},
-    LightField{"type", &Light::type},
-    LightField{"enabled", &Light::enabled},
-    LightField{"color", &Light::color, "the colour", 0.0, kAnyNumber},
-    LightField{"intensity", &Light::intensity, "the intensity", 0.0, kAnyNumber},
-    LightField{"positionWS", &Light::positionWS},
-    LightField{"directionWS", &Light::directionWS},
-    LightField{"falloff", &Light::falloff},
-    LightField{"rangeMetres", &Light::rangeMetres},
-    LightField{"attenuation", &Light::attenuation, "the attenuation coefficients A, B, C", 0.0, kAnyNumber},
-    LightField{"innerConeRadians", &Light::innerConeRadians, "the half angle of the inner cone", 0.0,
-               std::numbers::pi_v<float>, " radians"},
-    LightField{"outerConeRadians", &Light::outerConeRadians, "the half angle of the outer cone", 0.0,
-               std::numbers::pi_v<float>, " radians"},
-    LightField{"animation", &Light::animation},
+    Field{"name", &Light::name},
+    Field{"type", &Light::type},
+    Field{"enabled", &Light::enabled},
+    Field{"color", &Light::color, "the colour", 0.0, kAnyNumber},
+    Field{"intensity", &Light::intensity, "the intensity", 0.0, kAnyNumber},
+    Field{"positionWS", &Light::positionWS},
+    Field{"directionWS", &Light::directionWS},
+    Field{"falloff", &Light::falloff},
+    Field{"rangeMetres", &Light::rangeMetres},
+    Field{"attenuation", &Light::attenuation, "the attenuation coefficients A, B, C", 0.0, kAnyNumber},
+    Field{"innerConeRadians", &Light::innerConeRadians, "the half angle of the inner cone", 0.0,
+          std::numbers::pi_v<float>, " radians"},
+    Field{"outerConeRadians", &Light::outerConeRadians, "the half angle of the outer cone", 0.0,
+          std::numbers::pi_v<float>, " radians"},
+    Field{"animation", &Light::animation},
 };
 static_assert(std::tuple_size_v<decltype(kLightFields)> == detail::memberCount<Light>(),
               "kLightFields lacks a member of Light");
-
-/// Calls `visit` with every row of kLightFields.
-template <typename Visitor>
-constexpr void visitLightFields(Visitor&& visit) {
-    std::apply([&](const auto&... field) { (visit(field), ...); }, kLightFields);
-}
-
-/// The row of a member.
-template <typename Member>
-constexpr LightField<Member> lightField(Member Light::*member) {
-    LightField<Member> found{"", member};
-    visitLightFields([&](const auto& field) {
-        if constexpr (std::is_same_v<decltype(field.member), Member Light::*>) {
-            if (field.member == member) found = field;
-        }
-    });
-    return found;
-}
 
 // ---- Types ---------------------------------------------------------------------------------------------------------
 

@@ -2,16 +2,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
-#include <type_traits>
 #include <variant>
 
 #include <glm/glm.hpp>
 
+#include "scenes/Fields.h"
 #include "scenes/Texture.h"
 
 /// Materials as plain data, their members as a table, and their models as a table. Everything that names a model or one
@@ -84,21 +83,6 @@ struct Material {
 
 // ---- Members -------------------------------------------------------------------------------------------------------
 
-/// A member of Material: its name, and for numbers their name in messages and their bounds (checkScene).
-template <typename Member>
-struct MaterialField {
-    const char* name;
-    Member Material::*member;
-    const char* what = nullptr; ///< null: any value will do
-    double least = 0.0;         ///< of each component
-    double most = 0.0;
-};
-template <typename Member>
-MaterialField(const char*, Member Material::*) -> MaterialField<Member>;
-template <typename Member>
-MaterialField(const char*, Member Material::*, const char*, double, double) -> MaterialField<Member>;
-
-inline constexpr double kAnyNumber = std::numeric_limits<float>::max(); ///< as a bound: any finite number
 // Beyond any surface, and low enough that no product of these alone leaves fp32.
 inline constexpr double kMostColor = 1e6;
 inline constexpr double kMostEmission = 1e30;
@@ -107,69 +91,37 @@ inline constexpr double kMostIor = 1e6;
 
 /// All members but `textures`, in order.
 inline constexpr std::tuple kMaterialFields{
-    MaterialField{"name", &Material::name},
-    MaterialField{"model", &Material::model},
-    MaterialField{"baseColor", &Material::baseColor, "the base colour", 0.0, kMostColor},
-    MaterialField{"emissive", &Material::emissive, "the emission", 0.0, kMostEmission},
-    MaterialField{"metallic", &Material::metallic, "metalness", 0.0, 1.0},
-    MaterialField{"perceptualRoughness", &Material::perceptualRoughness, "roughness", 0.0, 1.0},
-    MaterialField{"alpha", &Material::alpha, "alpha", 0.0, kMostRoughness},
-    MaterialField{"alphaY", &Material::alphaY, "alphaY", 0.0, kMostRoughness},
-    MaterialField{"masking", &Material::masking},
-    MaterialField{"exponent", &Material::exponent, "the exponent", 0.0, kAnyNumber},
-    MaterialField{"ior", &Material::ior, "the index of refraction", 0.0, kMostIor},
-    MaterialField{"specularFactor", &Material::specularFactor, "the specular factor", 0.0, 1.0},
-    MaterialField{"specularColor", &Material::specularColor, "the specular colour", 0.0, kMostColor},
-    MaterialField{"anisotropyStrength", &Material::anisotropyStrength, "the anisotropy", 0.0, 1.0},
-    MaterialField{"anisotropyRotationRadians", &Material::anisotropyRotationRadians, "the anisotropy's rotation",
-                  -kAnyNumber, kAnyNumber},
-    MaterialField{"clearcoat", &Material::clearcoat, "the clearcoat", 0.0, 1.0},
-    MaterialField{"clearcoatPerceptualRoughness", &Material::clearcoatPerceptualRoughness, "the clearcoat's roughness",
-                  0.0, 1.0},
-    MaterialField{"clearcoatNormalScale", &Material::clearcoatNormalScale, "the clearcoat normal map's scale",
-                  -kAnyNumber, kAnyNumber},
-    MaterialField{"sheenColor", &Material::sheenColor, "the sheen's colour", 0.0, 1.0},
-    MaterialField{"sheenPerceptualRoughness", &Material::sheenPerceptualRoughness, "the sheen's roughness", 0.0, 1.0},
-    MaterialField{"normalScale", &Material::normalScale, "the normal map's scale", -kAnyNumber, kAnyNumber},
-    MaterialField{"normalMapSpace", &Material::normalMapSpace},
-    MaterialField{"tangents", &Material::tangents},
-    MaterialField{"alphaMode", &Material::alphaMode},
-    MaterialField{"alphaCutoff", &Material::alphaCutoff, "the alpha cutoff", -kAnyNumber, kAnyNumber},
-    MaterialField{"doubleSided", &Material::doubleSided},
+    Field{"name", &Material::name},
+    Field{"model", &Material::model},
+    Field{"baseColor", &Material::baseColor, "the base colour", 0.0, kMostColor},
+    Field{"emissive", &Material::emissive, "the emission", 0.0, kMostEmission},
+    Field{"metallic", &Material::metallic, "metalness", 0.0, 1.0},
+    Field{"perceptualRoughness", &Material::perceptualRoughness, "roughness", 0.0, 1.0},
+    Field{"alpha", &Material::alpha, "alpha", 0.0, kMostRoughness},
+    Field{"alphaY", &Material::alphaY, "alphaY", 0.0, kMostRoughness},
+    Field{"masking", &Material::masking},
+    Field{"exponent", &Material::exponent, "the exponent", 0.0, kAnyNumber},
+    Field{"ior", &Material::ior, "the index of refraction", 0.0, kMostIor},
+    Field{"specularFactor", &Material::specularFactor, "the specular factor", 0.0, 1.0},
+    Field{"specularColor", &Material::specularColor, "the specular colour", 0.0, kMostColor},
+    Field{"anisotropyStrength", &Material::anisotropyStrength, "the anisotropy", 0.0, 1.0},
+    Field{"anisotropyRotationRadians", &Material::anisotropyRotationRadians, "the anisotropy's rotation", -kAnyNumber,
+          kAnyNumber},
+    Field{"clearcoat", &Material::clearcoat, "the clearcoat", 0.0, 1.0},
+    Field{"clearcoatPerceptualRoughness", &Material::clearcoatPerceptualRoughness, "the clearcoat's roughness", 0.0,
+          1.0},
+    Field{"clearcoatNormalScale", &Material::clearcoatNormalScale, "the clearcoat normal map's scale", -kAnyNumber,
+          kAnyNumber},
+    Field{"sheenColor", &Material::sheenColor, "the sheen's colour", 0.0, 1.0},
+    Field{"sheenPerceptualRoughness", &Material::sheenPerceptualRoughness, "the sheen's roughness", 0.0, 1.0},
+    Field{"normalScale", &Material::normalScale, "the normal map's scale", -kAnyNumber, kAnyNumber},
+    Field{"normalMapSpace", &Material::normalMapSpace},
+    Field{"tangents", &Material::tangents},
+    Field{"alphaMode", &Material::alphaMode},
+    Field{"alphaCutoff", &Material::alphaCutoff, "the alpha cutoff", -kAnyNumber, kAnyNumber},
+    Field{"doubleSided", &Material::doubleSided},
 };
 
-/// Calls `visit` with every row of kMaterialFields.
-template <typename Visitor>
-constexpr void visitMaterialFields(Visitor&& visit) {
-    std::apply([&](const auto&... field) { (visit(field), ...); }, kMaterialFields);
-}
-
-/// The row of a member.
-template <typename Member>
-constexpr MaterialField<Member> materialField(Member Material::*member) {
-    MaterialField<Member> found{"", member};
-    visitMaterialFields([&](const auto& field) {
-        if constexpr (std::is_same_v<decltype(field.member), Member Material::*>) {
-            if (field.member == member) found = field;
-        }
-    });
-    return found;
-}
-
-namespace detail {
-struct AnyValue {
-    template <typename Type>
-    operator Type() const;
-};
-/// How many members a struct has: how many values it can be made of.
-template <typename Struct, typename... Values>
-consteval std::size_t memberCount() {
-    if constexpr (requires { Struct{Values{}..., AnyValue{}}; })
-        return memberCount<Struct, Values..., AnyValue>();
-    else
-        return sizeof...(Values);
-}
-} // namespace detail
 static_assert(std::tuple_size_v<decltype(kMaterialFields)> + 1 == detail::memberCount<Material>(),
               "kMaterialFields lacks a member of Material");
 

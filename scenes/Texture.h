@@ -1,8 +1,12 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include <glm/glm.hpp>
+
+#include "base/EnumTable.h"
 
 /// How a material uses pictures.
 namespace tessera::scenes {
@@ -66,5 +70,34 @@ enum class TextureSlot : std::uint8_t {
     Count
 };
 inline constexpr std::size_t kTextureSlotCount = static_cast<std::size_t>(TextureSlot::Count);
+
+struct TextureSlotInfo {
+    TextureSlot slot;
+    std::string_view
+        name; ///< in capitals that of shaders: TEXTURE_SLOT_<NAME> is its number, HAS_<NAME>_TEXTURE 0 or 1
+    std::string_view what; ///< in plans
+    bool isSrgb = false;   ///< its texels are sRGB-encoded colours
+    bool isNormal = false; ///< it changes nothing of a surface but a direction
+};
+
+inline constexpr std::array kTextureSlots{
+    TextureSlotInfo{TextureSlot::BaseColor, "base_color", "base-colour texture", true},
+    TextureSlotInfo{TextureSlot::Normal, "normal", "normal maps", false, true},
+    TextureSlotInfo{TextureSlot::MetallicRoughness, "metallic_roughness", "roughness texture"},
+    TextureSlotInfo{TextureSlot::Emissive, "emissive", "emissive texture", true},
+    TextureSlotInfo{TextureSlot::SpecularFactor, "specular_factor", "specular-strength texture"},
+    TextureSlotInfo{TextureSlot::SpecularColor, "specular_color", "specular-colour texture", true},
+    TextureSlotInfo{TextureSlot::Ior, "ior", "index-of-refraction texture"},
+    TextureSlotInfo{TextureSlot::Anisotropy, "anisotropy", "anisotropy texture"},
+    TextureSlotInfo{TextureSlot::Clearcoat, "clearcoat", "clearcoat texture"},
+    TextureSlotInfo{TextureSlot::ClearcoatRoughness, "clearcoat_roughness", "clearcoat-roughness texture"},
+    TextureSlotInfo{TextureSlot::ClearcoatNormal, "clearcoat_normal", "clearcoat normal maps", false, true},
+    TextureSlotInfo{TextureSlot::SheenColor, "sheen_color", "sheen-colour texture", true},
+    TextureSlotInfo{TextureSlot::SheenRoughness, "sheen_roughness", "sheen-roughness texture"},
+};
+static_assert(isInOrder(kTextureSlots, &TextureSlotInfo::slot, kTextureSlotCount));
+constexpr const TextureSlotInfo& infoOf(TextureSlot slot) {
+    return kTextureSlots[std::size_t(slot)];
+}
 
 } // namespace tessera::scenes

@@ -31,29 +31,14 @@ std::vector<FeatureInfo> makeTable() {
         table.push_back({featureOf(type.type), inCapitals(type.name) + "_LIGHTS", fmt::format("{} lights", type.name),
                          fmt::format("no {} light is on{}", type.name, type.hasPosition() ? " and in view" : "")});
     }
+    table.push_back(
+        {Feature::AttenuationLights, "ATTENUATION_LIGHTS", "A B C falloff", "no light falls off by A + B d + C d^2"});
+    for (const scenes::TextureSlotInfo& slot : scenes::kTextureSlots)
+        table.push_back(
+            {featureOf(slot.slot), inCapitals(slot.name) + "_TEXTURE", std::string(slot.what), "no material has one"});
     table.insert(
         table.end(),
         {
-            {Feature::AttenuationLights, "ATTENUATION_LIGHTS", "A B C falloff",
-             "no light falls off by A + B d + C d^2"},
-            {Feature::BaseColorTexture, "BASE_COLOR_TEXTURE", "base-colour texture", "no material has one"},
-            {Feature::NormalTexture, "NORMAL_TEXTURE", "normal maps", "no material has one"},
-            {Feature::MetallicRoughnessTexture, "METALLIC_ROUGHNESS_TEXTURE", "roughness texture",
-             "no material has one"},
-            {Feature::EmissiveTexture, "EMISSIVE_TEXTURE", "emissive texture", "no material has one"},
-            {Feature::SpecularFactorTexture, "SPECULAR_FACTOR_TEXTURE", "specular-strength texture",
-             "no material has one"},
-            {Feature::SpecularColorTexture, "SPECULAR_COLOR_TEXTURE", "specular-colour texture", "no material has one"},
-            {Feature::IorTexture, "IOR_TEXTURE", "index-of-refraction texture", "no material has one"},
-            {Feature::AnisotropyTexture, "ANISOTROPY_TEXTURE", "anisotropy texture", "no material has one"},
-            {Feature::ClearcoatTexture, "CLEARCOAT_TEXTURE", "clearcoat texture", "no material has one"},
-            {Feature::ClearcoatRoughnessTexture, "CLEARCOAT_ROUGHNESS_TEXTURE", "clearcoat-roughness texture",
-             "no material has one"},
-            {Feature::ClearcoatNormalTexture, "CLEARCOAT_NORMAL_TEXTURE", "clearcoat normal maps",
-             "no material has one"},
-            {Feature::SheenColorTexture, "SHEEN_COLOR_TEXTURE", "sheen-colour texture", "no material has one"},
-            {Feature::SheenRoughnessTexture, "SHEEN_ROUGHNESS_TEXTURE", "sheen-roughness texture",
-             "no material has one"},
             {Feature::TextureTransform, "TEXTURE_TRANSFORM", "texture transforms",
              "every texture lies as its coordinates say"},
             {Feature::MixedFilters, "MIXED_FILTERS", "choice between magnifying and minifying filters",
@@ -81,10 +66,6 @@ std::vector<FeatureInfo> makeTable() {
     return table;
 }
 
-Feature textureFeature(std::size_t slot) {
-    return static_cast<Feature>(static_cast<std::size_t>(Feature::BaseColorTexture) + slot);
-}
-
 bool changesSpecular(const scenes::Material& material) {
     const bool tinted = material.specularColor != glm::vec3(1.0f) ||
                         material.texture(scenes::TextureSlot::SpecularColor).image != scenes::kNone;
@@ -99,11 +80,8 @@ bool changesSpecular(const scenes::Material& material) {
 /// Whether pixels of a material may differ in more than directions: by any texture that is no normal map, whether its
 /// model uses it or not, and by anisotropy, which turns its alphas with the tangent.
 bool varies(const scenes::Material& material) {
-    for (std::size_t i = 0; i < scenes::kTextureSlotCount; ++i) {
-        const auto slot = static_cast<scenes::TextureSlot>(i);
-        const bool bends = slot == scenes::TextureSlot::Normal || slot == scenes::TextureSlot::ClearcoatNormal;
-        if (!bends && material.textures[i].image != scenes::kNone) return true;
-    }
+    for (const scenes::TextureSlotInfo& slot : scenes::kTextureSlots)
+        if (!slot.isNormal && material.texture(slot.slot).image != scenes::kNone) return true;
     return scenes::isAnisotropic(material);
 }
 
@@ -118,7 +96,7 @@ void addMaterial(FeatureSet& set, const scenes::Material& material) {
     for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
         const scenes::TextureUse& use = material.textures[slot];
         if (use.image == scenes::kNone) continue;
-        set.add(textureFeature(slot));
+        set.add(featureOf(scenes::TextureSlot(slot)));
         set.add(Feature::TexCoord1, use.texCoordSet == 1);
         set.add(Feature::MixedFilters,
                 gpu::takesNearest(use.sampler.magnification) != gpu::takesNearest(use.sampler.minification));
@@ -247,14 +225,12 @@ bool FeatureSet::tangentFrame() const {
 }
 
 bool FeatureSet::tangents() const {
-    return (*this)[Feature::TangentSpaceNormals] || tangentFrame() || (*this)[Feature::ClearcoatNormalTexture];
+    return (*this)[Feature::TangentSpaceNormals] || tangentFrame() || (*this)[scenes::TextureSlot::ClearcoatNormal];
 }
 
 bool FeatureSet::textures() const {
-    for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
-        if ((*this)[textureFeature(slot)]) return true;
-    }
-    return false;
+    return std::ranges::any_of(scenes::kTextureSlots,
+                               [&](const scenes::TextureSlotInfo& slot) { return (*this)[slot.slot]; });
 }
 
 bool FeatureSet::anyLights() const {
@@ -319,6 +295,8 @@ Defines featureDefines(const FeatureSet& features) {
     addFlag("HAS_PLACED_LIGHTS", features.placedLights());
     addFlag("HAS_CONE_LIGHTS", features.coneLights());
     addFlag("HAS_LIGHT_SHAPES", features.lightShapes());
+    for (const scenes::TextureSlotInfo& slot : scenes::kTextureSlots)
+        defines.emplace_back("TEXTURE_SLOT_" + inCapitals(slot.name), fmt::format("{}", int(slot.slot)));
     addLightTypes(features, defines);
     addModels(features, defines);
     return defines;

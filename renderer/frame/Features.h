@@ -18,19 +18,8 @@ enum class Feature : std::uint8_t {
     FirstLightType, // those of light types follow scenes::LightType
     LastLightType = FirstLightType + scenes::kLightTypeCount - 1,
     AttenuationLights,
-    BaseColorTexture, // the texture features follow scenes::TextureSlot
-    NormalTexture,
-    MetallicRoughnessTexture,
-    EmissiveTexture,
-    SpecularFactorTexture,
-    SpecularColorTexture,
-    IorTexture,
-    AnisotropyTexture,
-    ClearcoatTexture,
-    ClearcoatRoughnessTexture,
-    ClearcoatNormalTexture,
-    SheenColorTexture,
-    SheenRoughnessTexture,
+    FirstTexture, // those of textures follow scenes::TextureSlot
+    LastTexture = FirstTexture + scenes::kTextureSlotCount - 1,
     TextureTransform,
     MixedFilters, // samplers that take single texels on one side of the choice between magnifying and minifying
     TexCoord1,
@@ -62,6 +51,11 @@ constexpr Feature featureOf(scenes::LightType type) {
     return static_cast<Feature>(static_cast<std::size_t>(Feature::FirstLightType) + static_cast<std::size_t>(type));
 }
 
+/// That some material has a texture there.
+constexpr Feature featureOf(scenes::TextureSlot slot) {
+    return static_cast<Feature>(static_cast<std::size_t>(Feature::FirstTexture) + static_cast<std::size_t>(slot));
+}
+
 struct FeatureInfo {
     Feature feature;
     std::string define; ///< HAS_<define> is 0 or 1 in every shader
@@ -79,6 +73,7 @@ struct FeatureSet {
     bool operator[](Feature feature) const { return has[static_cast<std::size_t>(feature)]; }
     bool operator[](scenes::MaterialModel model) const { return (*this)[featureOf(model)]; }
     bool operator[](scenes::LightType type) const { return (*this)[featureOf(type)]; }
+    bool operator[](scenes::TextureSlot slot) const { return (*this)[featureOf(slot)]; }
     void add(Feature feature, bool present = true) {
         if (present) has.set(static_cast<std::size_t>(feature));
     }

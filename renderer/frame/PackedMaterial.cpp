@@ -14,20 +14,7 @@ namespace {
 using scenes::MaterialModel;
 using scenes::TextureSlot;
 
-static_assert(int(TextureSlot::BaseColor) == TEXTURE_SLOT_BASE_COLOR &&
-              int(TextureSlot::Normal) == TEXTURE_SLOT_NORMAL);
-static_assert(int(TextureSlot::MetallicRoughness) == TEXTURE_SLOT_METALLIC_ROUGHNESS);
-static_assert(int(TextureSlot::Emissive) == TEXTURE_SLOT_EMISSIVE && int(TextureSlot::Ior) == TEXTURE_SLOT_IOR);
-static_assert(int(TextureSlot::SpecularFactor) == TEXTURE_SLOT_SPECULAR_FACTOR);
-static_assert(int(TextureSlot::SpecularColor) == TEXTURE_SLOT_SPECULAR_COLOR &&
-              int(TextureSlot::Count) == TEXTURE_SLOT_COUNT);
-
-static_assert(int(TextureSlot::Anisotropy) == TEXTURE_SLOT_ANISOTROPY &&
-              int(TextureSlot::Clearcoat) == TEXTURE_SLOT_CLEARCOAT);
-static_assert(int(TextureSlot::ClearcoatRoughness) == TEXTURE_SLOT_CLEARCOAT_ROUGHNESS &&
-              int(TextureSlot::ClearcoatNormal) == TEXTURE_SLOT_CLEARCOAT_NORMAL);
-static_assert(int(TextureSlot::SheenColor) == TEXTURE_SLOT_SHEEN_COLOR &&
-              int(TextureSlot::SheenRoughness) == TEXTURE_SLOT_SHEEN_ROUGHNESS);
+static_assert(scenes::kTextureSlotCount == TEXTURE_SLOT_COUNT);
 static_assert(unsigned(scenes::Masking::Walter) == MASKING_WALTER &&
               unsigned(scenes::Masking::Directional) == MASKING_DIRECTIONAL &&
               unsigned(scenes::Masking::HalfVector) == MASKING_HALF_VECTOR);
@@ -115,11 +102,6 @@ shared::MaterialConstants packMaterial(const scenes::Material& material) {
     }
     packed.clearcoatTurn = packClearcoatTurn(material);
     return packed;
-}
-
-bool slotIsSrgb(TextureSlot slot) {
-    return slot == TextureSlot::BaseColor || slot == TextureSlot::Emissive || slot == TextureSlot::SpecularColor ||
-           slot == TextureSlot::SheenColor;
 }
 
 } // namespace tessera::frame

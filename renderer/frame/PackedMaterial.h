@@ -10,7 +10,4 @@ shared::MaterialConstants packMaterial(const scenes::Material& material);
 /// KHR_texture_transform without its offset: rotation x scale.
 glm::dmat2 linearPart(const scenes::TextureTransform& transform);
 
-/// True where the slot's texels are sRGB-encoded colours.
-bool slotIsSrgb(scenes::TextureSlot slot);
-
 } // namespace tessera::frame

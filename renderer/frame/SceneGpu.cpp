@@ -150,7 +150,8 @@ void SceneGpu::updateMaterials() {
 
 bool SceneGpu::shadersDecode(const scenes::Material& material, std::size_t slot) const {
     const int image = material.textures[slot].image;
-    return filter_ == TextureFilter::Exact && image != scenes::kNone && slotIsSrgb(scenes::TextureSlot(slot)) &&
+    return filter_ == TextureFilter::Exact && image != scenes::kNone &&
+           scenes::infoOf(scenes::TextureSlot(slot)).isSrgb &&
            scene_.images[std::size_t(image)].format == scenes::TexelFormat::Rgba8Unorm;
 }
 
@@ -164,7 +165,7 @@ void SceneGpu::uploadTextures() {
             if (!materialsInUse_[i] || use.image == scenes::kNone) {
                 bound_.push_back({white_.get(), nullptr});
             } else {
-                const bool srgb = slotIsSrgb(scenes::TextureSlot(slot)) && !shadersDecode(material, slot);
+                const bool srgb = scenes::infoOf(scenes::TextureSlot(slot)).isSrgb && !shadersDecode(material, slot);
                 // Exact filtering fetches texels. A sampler would change nothing there but the number of programs that
                 // a driver compiles: llvmpipe compiles one for each.
                 const bool fetches = filter_ == TextureFilter::Exact;

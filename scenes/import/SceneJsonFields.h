@@ -22,7 +22,7 @@ void visitAnimation(Visitor&& visit, Animations&... animation) {
 
 template <typename Visitor, typename... Lights>
 void visitLight(Visitor&& visit, Lights&... light) {
-    visitLightFields([&](const auto& field) { visit(field.name, light.*field.member...); });
+    visitFields(kLightFields, [&](const auto& field) { visit(field.name, light.*field.member...); });
 }
 
 template <typename Visitor, typename... Cameras>
@@ -66,7 +66,7 @@ inline constexpr std::array<const char*, kTextureSlotCount> kTextureFields = {"b
 
 template <typename Visitor, typename... Materials>
 void visitMaterial(Visitor&& visit, Materials&... material) {
-    visitMaterialFields([&](const auto& field) { visit(field.name, material.*field.member...); });
+    visitFields(kMaterialFields, [&](const auto& field) { visit(field.name, material.*field.member...); });
     for (std::size_t slot = 0; slot < kTextureSlotCount; ++slot)
         visit(kTextureFields[slot], material.textures[slot]...);
 }

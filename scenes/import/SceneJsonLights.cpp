@@ -115,7 +115,8 @@ void readParameters(JsonObject& object, Light& light) {
         if (parameter.within == nullptr || !(light.*parameter.member > light.*parameter.within)) continue;
         if (const auto value = object.find(parameter.key))
             value->fail(fmt::format("is {}, wider than {} of {} degrees; make it narrower", value->number(),
-                                    lightField(parameter.within).what, glm::degrees(light.*parameter.within)));
+                                    fieldOf(kLightFields, parameter.within).what,
+                                    glm::degrees(light.*parameter.within)));
     }
 }
 

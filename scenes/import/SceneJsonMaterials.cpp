@@ -150,8 +150,8 @@ private:
         using Kind = MaterialParameter::Kind;
         if (kind == Kind::Ior) value.positive();
         float& factor = material_.*member =
-                            value.single(materialField(member).least,
-                                         kind == Kind::Number ? materialField(member).most : kAnyNumber);
+                            value.single(fieldOf(kMaterialFields, member).least,
+                                         kind == Kind::Number ? fieldOf(kMaterialFields, member).most : kAnyNumber);
         if (kind == Kind::IorOrPerfect && factor > 0.0f && factor < 1.0f)
             value.fail(fmt::format("is {}; 0 or at least 1 is needed", factor));
     }

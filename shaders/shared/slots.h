@@ -44,20 +44,8 @@ SHARED_BEGIN
 #define TEXTURE_UNIT_LIGHT_SHAPES 14
 #define TEXTURE_UNIT_LIGHT_ENTRIES 15
 
-// What draws surfaces: the slots of scenes::TextureSlot in that order.
-#define TEXTURE_SLOT_BASE_COLOR 0
-#define TEXTURE_SLOT_NORMAL 1
-#define TEXTURE_SLOT_METALLIC_ROUGHNESS 2
-#define TEXTURE_SLOT_EMISSIVE 3
-#define TEXTURE_SLOT_SPECULAR_FACTOR 4
-#define TEXTURE_SLOT_SPECULAR_COLOR 5
-#define TEXTURE_SLOT_IOR 6
-#define TEXTURE_SLOT_ANISOTROPY 7
-#define TEXTURE_SLOT_CLEARCOAT 8
-#define TEXTURE_SLOT_CLEARCOAT_ROUGHNESS 9
-#define TEXTURE_SLOT_CLEARCOAT_NORMAL 10
-#define TEXTURE_SLOT_SHEEN_COLOR 11
-#define TEXTURE_SLOT_SHEEN_ROUGHNESS 12
+// What draws surfaces: the slots of scenes::TextureSlot, whose numbers TEXTURE_SLOT_<NAME> follow from its table
+// (renderer/frame/Features.cpp).
 #define TEXTURE_SLOT_COUNT 13
 
 // What reads stored surfaces and pictures.

@@ -45,19 +45,19 @@ std::vector<Change> changes() {
         {featureOf(MaterialModel::Microfacet), model(MaterialModel::Microfacet)},
         {featureOf(MaterialModel::MicrofacetAnisotropic), model(MaterialModel::MicrofacetAnisotropic)},
         {featureOf(MaterialModel::MetallicRoughness), model(MaterialModel::MetallicRoughness)},
-        {Feature::BaseColorTexture, texture(TextureSlot::BaseColor)},
-        {Feature::NormalTexture, texture(TextureSlot::Normal)},
-        {Feature::MetallicRoughnessTexture, texture(TextureSlot::MetallicRoughness)},
-        {Feature::EmissiveTexture, texture(TextureSlot::Emissive)},
-        {Feature::SpecularFactorTexture, texture(TextureSlot::SpecularFactor)},
-        {Feature::SpecularColorTexture, texture(TextureSlot::SpecularColor)},
-        {Feature::IorTexture, texture(TextureSlot::Ior)},
-        {Feature::AnisotropyTexture, texture(TextureSlot::Anisotropy)},
-        {Feature::ClearcoatTexture, texture(TextureSlot::Clearcoat)},
-        {Feature::ClearcoatRoughnessTexture, texture(TextureSlot::ClearcoatRoughness)},
-        {Feature::ClearcoatNormalTexture, texture(TextureSlot::ClearcoatNormal)},
-        {Feature::SheenColorTexture, texture(TextureSlot::SheenColor)},
-        {Feature::SheenRoughnessTexture, texture(TextureSlot::SheenRoughness)},
+        {featureOf(TextureSlot::BaseColor), texture(TextureSlot::BaseColor)},
+        {featureOf(TextureSlot::Normal), texture(TextureSlot::Normal)},
+        {featureOf(TextureSlot::MetallicRoughness), texture(TextureSlot::MetallicRoughness)},
+        {featureOf(TextureSlot::Emissive), texture(TextureSlot::Emissive)},
+        {featureOf(TextureSlot::SpecularFactor), texture(TextureSlot::SpecularFactor)},
+        {featureOf(TextureSlot::SpecularColor), texture(TextureSlot::SpecularColor)},
+        {featureOf(TextureSlot::Ior), texture(TextureSlot::Ior)},
+        {featureOf(TextureSlot::Anisotropy), texture(TextureSlot::Anisotropy)},
+        {featureOf(TextureSlot::Clearcoat), texture(TextureSlot::Clearcoat)},
+        {featureOf(TextureSlot::ClearcoatRoughness), texture(TextureSlot::ClearcoatRoughness)},
+        {featureOf(TextureSlot::ClearcoatNormal), texture(TextureSlot::ClearcoatNormal)},
+        {featureOf(TextureSlot::SheenColor), texture(TextureSlot::SheenColor)},
+        {featureOf(TextureSlot::SheenRoughness), texture(TextureSlot::SheenRoughness)},
         {Feature::TextureTransform, material([](Material& m) {
              addTexture(m, TextureSlot::BaseColor);
              m.texture(TextureSlot::BaseColor).transform.rotationRadians = 1.0f;
@@ -215,7 +215,7 @@ TEST(Features, tangentsAreNeededExactlyByMapsInTangentSpaceAndByAnisotropy) {
         const bool frame =
             info.feature == featureOf(MaterialModel::MicrofacetAnisotropic) || info.feature == Feature::Anisotropy;
         const bool map =
-            info.feature == Feature::TangentSpaceNormals || info.feature == Feature::ClearcoatNormalTexture;
+            info.feature == Feature::TangentSpaceNormals || info.feature == featureOf(TextureSlot::ClearcoatNormal);
         EXPECT_EQ(set.tangentFrame(), frame) << info.define;
         EXPECT_EQ(set.tangents(), frame || map) << info.define;
     }

@@ -120,7 +120,8 @@ TEST(PackedMaterial, textureCoordinatesAreScaledThenTurnedThenMoved) {
     scenes::TextureUse& use = material.texture(TextureSlot::Emissive);
     use.transform = {.offset = {0.25f, -0.5f}, .scale = {2.0f, 3.0f}, .rotationRadians = 0.7f};
     const shared::MaterialConstants packed = packMaterial(material);
-    const glm::vec4 row0 = packed.uvRow0[TEXTURE_SLOT_EMISSIVE], row1 = packed.uvRow1[TEXTURE_SLOT_EMISSIVE];
+    const glm::vec4 row0 = packed.uvRow0[std::size_t(TextureSlot::Emissive)],
+                    row1 = packed.uvRow1[std::size_t(TextureSlot::Emissive)];
     const double c = std::cos(0.7f), s = std::sin(0.7f);
     for (const glm::dvec2 uv : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(0.3, 0.9)}) {
         // KHR_texture_transform with v down: a positive angle turns u towards -v.
@@ -128,8 +129,9 @@ TEST(PackedMaterial, textureCoordinatesAreScaledThenTurnedThenMoved) {
         EXPECT_NEAR(row0.x * uv.x + row0.y * uv.y + row0.z, expected.x, 1e-6); // fp32 rows of order one
         EXPECT_NEAR(row1.x * uv.x + row1.y * uv.y + row1.z, expected.y, 1e-6);
     }
-    EXPECT_EQ(glm::vec3(packed.uvRow0[TEXTURE_SLOT_NORMAL]), glm::vec3(1, 0, 0)) << "other slots lie as they are";
-    EXPECT_EQ(glm::vec3(packed.uvRow1[TEXTURE_SLOT_NORMAL]), glm::vec3(0, 1, 0));
+    EXPECT_EQ(glm::vec3(packed.uvRow0[std::size_t(TextureSlot::Normal)]), glm::vec3(1, 0, 0))
+        << "other slots lie as they are";
+    EXPECT_EQ(glm::vec3(packed.uvRow1[std::size_t(TextureSlot::Normal)]), glm::vec3(0, 1, 0));
 }
 
 TEST(PackedMaterial, setsAndWrapModesGoToTheirSlot) {
@@ -166,12 +168,12 @@ TEST(PackedMaterial, filtersGoToTheModesOfTheirSlot) {
 TEST(PackedMaterial, exactlyTheColourSlotsAreSrgb) {
     for (const TextureSlot slot :
          {TextureSlot::BaseColor, TextureSlot::Emissive, TextureSlot::SpecularColor, TextureSlot::SheenColor})
-        EXPECT_TRUE(slotIsSrgb(slot));
+        EXPECT_TRUE(scenes::infoOf(slot).isSrgb);
     for (const TextureSlot slot :
          {TextureSlot::Normal, TextureSlot::MetallicRoughness, TextureSlot::SpecularFactor, TextureSlot::Ior,
           TextureSlot::Anisotropy, TextureSlot::Clearcoat, TextureSlot::ClearcoatRoughness,
           TextureSlot::ClearcoatNormal, TextureSlot::SheenRoughness})
-        EXPECT_FALSE(slotIsSrgb(slot));
+        EXPECT_FALSE(scenes::infoOf(slot).isSrgb);
 }
 
 } // namespace

@@ -70,7 +70,7 @@ TEST(VertexStreams, streamsThatNothingNeedsAreEmpty) {
     EXPECT_TRUE(streams.tangentsOS.empty() && streams.texCoords[0].empty() && streams.texCoords[1].empty() &&
                 streams.colors.empty());
     FeatureSet textured;
-    textured.add(Feature::BaseColorTexture);
+    textured.add(featureOf(scenes::TextureSlot::BaseColor));
     EXPECT_EQ(makeVertexStreams(twoMeshes(), textured).texCoords[0].size(), 6u);
     EXPECT_TRUE(makeVertexStreams(twoMeshes(), textured).texCoords[1].empty());
 }

@@ -36,7 +36,7 @@ TEST(LightTypes, namesKeysAndMembersAreNeverTheSame) {
         for (const LightParameter& parameter : type.parameters)
             EXPECT_TRUE(keys.insert(parameter.key).second) << type.name << " " << parameter.key;
     }
-    visitLightFields([&](const auto& field) { EXPECT_TRUE(fields.insert(field.name).second) << field.name; });
+    visitFields(kLightFields, [&](const auto& field) { EXPECT_TRUE(fields.insert(field.name).second) << field.name; });
 }
 
 TEST(LightTypes, everyTypeReadsTheKeysOfItsRow) {
@@ -104,7 +104,7 @@ TEST(LightTypes, aNumberOfALightOutsideTheBoundsOfItsRowIsAlwaysRefused) {
     Scene scene;
     scene.lights.emplace_back();
     EXPECT_NO_THROW(checkScene(scene));
-    visitLightFields([&](const auto& field) {
+    visitFields(kLightFields, [&](const auto& field) {
         if constexpr (std::is_same_v<decltype(field.member), float Light::*const>) {
             if (field.what == nullptr) return;
             const float above = field.most < kAnyNumber ? float(field.most) + 1.0f : kInfinity;

@@ -1,0 +1,62 @@
+#pragma once
+#include <cstddef>
+#include <limits>
+#include <tuple>
+#include <type_traits>
+
+/// Members of a struct as a table, which everything that handles all of them goes through.
+namespace tessera::scenes {
+
+inline constexpr double kAnyNumber = std::numeric_limits<float>::max(); ///< as a bound: any finite number
+
+/// A member: its name, and for numbers their name in messages and their bounds (checkScene).
+template <typename Owner, typename Member>
+struct Field {
+    const char* name;
+    Member Owner::*member;
+    const char* what = nullptr; ///< null: no bounds, or others than these
+    double least = 0.0;         ///< of each component
+    double most = 0.0;
+    const char* unit = ""; ///< of the bounds, as messages write it behind them
+};
+template <typename Owner, typename Member>
+Field(const char*, Member Owner::*) -> Field<Owner, Member>;
+template <typename Owner, typename Member>
+Field(const char*, Member Owner::*, const char*, double, double) -> Field<Owner, Member>;
+template <typename Owner, typename Member>
+Field(const char*, Member Owner::*, const char*, double, double, const char*) -> Field<Owner, Member>;
+
+/// Calls `visit` with every row of a tuple of fields.
+template <typename Fields, typename Visitor>
+constexpr void visitFields(const Fields& fields, Visitor&& visit) {
+    std::apply([&](const auto&... field) { (visit(field), ...); }, fields);
+}
+
+/// The row of a member.
+template <typename Fields, typename Owner, typename Member>
+constexpr Field<Owner, Member> fieldOf(const Fields& fields, Member Owner::*member) {
+    Field<Owner, Member> found{"", member};
+    visitFields(fields, [&](const auto& field) {
+        if constexpr (std::is_same_v<decltype(field.member), Member Owner::*>) {
+            if (field.member == member) found = field;
+        }
+    });
+    return found;
+}
+
+namespace detail {
+struct AnyValue {
+    template <typename Type>
+    operator Type() const;
+};
+/// How many members a struct has: how many values it can be made of.
+template <typename Struct, typename... Values>
+consteval std::size_t memberCount() {
+    if constexpr (requires { Struct{Values{}..., AnyValue{}}; })
+        return memberCount<Struct, Values..., AnyValue>();
+    else
+        return sizeof...(Values);
+}
+} // namespace detail
+
+} // namespace tessera::scenes
