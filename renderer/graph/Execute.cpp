@@ -180,10 +180,26 @@ void Execution::run() {
     backend_.allocate(compiled_.allocations);
     findGrowing();
     setRevisions(false); // a frame that fails leaves nothing to rely on
-    for (const CompiledPass& pass : compiled_.order) runPass(pass);
+    std::size_t position = 0;
+    try {
+        for (; position < compiled_.order.size(); ++position) runPass(compiled_.order[position]);
+    } catch (...) {
+        endFailedFrame(position);
+        throw;
+    }
     backend_.endFrame(compiled_.after);
     setRevisions(true);
     hasRun_ = true;
+}
+
+void Execution::endFailedFrame(std::size_t position) {
+    // The next frame relies on every store being visible, and finds this one's in memory that both share.
+    Barrier owed = compiled_.after;
+    for (; position < compiled_.order.size(); ++position) owed = owed | compiled_.order[position].before;
+    try {
+        backend_.endFrame(owed);
+    } catch (...) { // what the pass threw is the cause, and says more
+    }
 }
 
 void Execution::setRevisions(bool areWritten) {

@@ -34,8 +34,8 @@ public:
     /// Opens debug group and timers of a pass, after the barrier; `endPass` closes them, also when the pass throws.
     virtual void beginPass(std::string_view name, Barrier barrier) = 0;
     virtual void endPass(std::string_view name) = 0;
-    /// Issues CompiledGraph::after when every pass has run. By default a pass of its own, "end of frame", where there
-    /// is a barrier to issue.
+    /// Issues CompiledGraph::after when every pass has run. Where one threw, the barriers of those that did not run are
+    /// issued too. By default a pass of its own, "end of frame", where there is a barrier to issue.
     virtual void endFrame(Barrier barrier);
 };
 
@@ -61,7 +61,7 @@ public:
     Execution(const Graph& graph, const CompiledGraph& compiled, Backend& backend, ProgramSource* programs = nullptr);
     /// Runs every pass of the plan in order. What a pass throws is thrown on with the pass's name in front: as
     /// InputError or std::logic_error where it was one, else as std::runtime_error, the original nested inside;
-    /// Interrupted as it is.
+    /// Interrupted as it is. The next frame runs as after one that ended well.
     void run();
     /// A resource after run(): an output or an imported one, since only these still hold what was written; any other is
     /// a std::logic_error.
@@ -76,6 +76,8 @@ private:
     const gpu::Buffer& resolve(BufferHandle handle) const;
     void requireKept(std::uint32_t resource, std::uint32_t version, bool isTexture) const;
     void runPass(const CompiledPass& compiledPass);
+    /// Ends a frame that threw in the pass at this position.
+    void endFailedFrame(std::size_t position);
     void setRevisions(bool areWritten);
 
     const Graph& graph_;

@@ -55,6 +55,7 @@ public:
     }
     void beginPass(std::string_view name, Barrier barrier) override {
         calls.push_back("begin " + std::string(name) + (barrier == Barrier::None ? "" : " after a barrier"));
+        issued = barrier;
     }
     void endPass(std::string_view name) override {
         calls.push_back("end " + std::string(name));
@@ -63,6 +64,7 @@ public:
 
     std::vector<std::string> calls;
     std::array<Place, 8> places{};
+    Barrier issued = Barrier::None; ///< before the latest pass
     bool failsAtEnd = false;
 };
 
@@ -273,6 +275,43 @@ TEST(Execution, passThatThrowsIsEndedAndNothingRunsAfterIt) {
     consume(graph, "never", {});
     EXPECT_EQ(errorOfRun<std::runtime_error>(graph, backend), "pass 'broken': no");
     EXPECT_THAT(backend.calls, ElementsAre("allocate 0", "begin broken", "end broken"));
+}
+
+/// A frame that stores an image and writes a history, then fails before it samples the image.
+Graph failingAfterAStore(TextureHandle& image) {
+    Graph graph;
+    const TextureHandle history = graph.persist("history", kColor, 7);
+    declare(graph, "store", [&](PassBuilder& builder) {
+        image = builder.create("image", kColor, Access::ImageWrite);
+        graph.output(builder.write(history, Access::ImageWrite));
+    });
+    failingPass(graph, [](const PassContext&) { throw InputError("no"); });
+    consume(graph, "show", {image});
+    graph.output(image);
+    return graph;
+}
+
+TEST(Execution, aFrameThatThrowsIsEndedWithTheBarriersOfThePassesThatDidNotRun) {
+    Recorder backend;
+    TextureHandle image;
+    const Graph graph = failingAfterAStore(image);
+    const CompiledGraph compiled = compile(graph);
+    ASSERT_EQ(compiled.after & Barrier::TextureFetch, Barrier::None) << "'show' would have issued it";
+    Execution execution(graph, compiled, backend);
+    EXPECT_THROW(execution.run(), InputError);
+    EXPECT_THAT(backend.calls, ElementsAre("persistent history", "allocate 1", "history holds nothing",
+                                           "begin store after a barrier", "end store", "begin broken", "end broken",
+                                           "begin end of frame after a barrier", "end end of frame"));
+    EXPECT_EQ(backend.issued, compiled.after | Barrier::TextureFetch);
+    EXPECT_THROW(execution.texture(image), std::logic_error) << "its contents are unknown";
+}
+
+TEST(Execution, aFailureAtTheEndOfTheFrameNeverHidesThatOfAPass) {
+    Recorder backend;
+    backend.failsAtEnd = true;
+    TextureHandle image;
+    EXPECT_EQ(errorOfRun<std::runtime_error>(failingAfterAStore(image), backend), "pass 'store': GL_INVALID_OPERATION");
+    EXPECT_EQ(backend.calls.back(), "end end of frame");
 }
 
 TEST(Execution, firstOfTwoFailuresIsTheOneReported) {
