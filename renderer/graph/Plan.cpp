@@ -41,12 +41,12 @@ std::vector<std::string> writesOf(const Graph::Pass& pass, const std::vector<std
     return writes;
 }
 
-/// The transients that a culled pass would have made, and that no pass that runs uses.
-std::size_t bytesSaved(const Graph::Pass& pass, const CompiledGraph& compiled) {
+/// The transients that a culled pass would have made. No pass that runs uses them: it would need their maker.
+std::size_t bytesSaved(const Graph& graph, const Graph::Pass& pass) {
     std::size_t bytes = 0;
     for (const Graph::Use& use : pass.uses) {
-        const bool created = use.isWrite && use.version == 1 && use.handed == 0;
-        if (created && compiled.resources[use.resource].first < 0) bytes += compiled.resources[use.resource].bytes;
+        const Graph::Resource& resource = graph.resources()[use.resource];
+        if (use.isWrite && use.version == 1 && !resource.imported) bytes += descBytes(resource.desc);
     }
     return bytes;
 }
@@ -87,7 +87,7 @@ Plan makePlan(const Graph& graph, const CompiledGraph& compiled) {
         const Graph::Pass& pass = graph.passes()[culled.pass];
         plan.leftOut.push_back({.what = "pass " + pass.name,
                                 .why = culled.why,
-                                .bytes = bytesSaved(pass, compiled),
+                                .bytes = bytesSaved(graph, pass),
                                 .ms = std::nullopt,
                                 .reads = readsOf(pass, names),
                                 .writes = writesOf(pass, names),

@@ -202,6 +202,24 @@ TEST(Plan, aPassesOwnOutputIsNoInput) {
     EXPECT_THAT(plan.passes[0].writes, ElementsAre("counts"));
 }
 
+TEST(Plan, aCulledPassSavesTheMemoryOfItsTransientsAlone) {
+    Graph graph;
+    const TextureHandle window = graph.import("window", kColor);
+    const TextureHandle unread = graph.import("unread", kColor);
+    const TextureHandle history = graph.persist("history", kColor, 1);
+    consume(graph, "show", {window});
+    declare(graph, "overlay", [&](PassBuilder& builder) {
+        builder.write(window);
+        builder.write(unread);
+        builder.write(history);
+        builder.write(builder.create("marks", kDepth, Access::DepthAttachment), Access::Upload);
+    });
+    const Plan plan = makePlan(graph, compile(graph));
+    ASSERT_EQ(plan.leftOut.size(), 1u);
+    EXPECT_EQ(plan.leftOut[0].what, "pass overlay");
+    EXPECT_EQ(plan.leftOut[0].bytes, descBytes(kDepth)) << "what exists outside the frame takes no memory of it";
+}
+
 TEST(Plan, drawingShowsEachVersionOnceAndNeverRunsBackwards) {
     const std::string dot = planDot(examplePlan());
     // The numbers follow the order of drawing: normal, depth, lists, ao, radiance, radiance after fog, bright, window.
