@@ -29,6 +29,7 @@ public:
             }
             checkExpectations(subject, pass);
             checkAttachments(subject, pass);
+            checkStores(subject, pass);
         }
         for (const Graph::Use& output : graph_.outputs()) checkOutput(output);
         return std::move(faults_);
@@ -168,8 +169,8 @@ private:
 
     static std::string anyOr(int size) { return size == 0 ? "any" : std::to_string(size); }
 
-    /// One framebuffer: equal size and samples, one depth texture, nothing attached twice, nothing sampled that is
-    /// drawn into (a feedback loop, undefined by the OpenGL 4.5 core specification, section 9.3.1).
+    /// One framebuffer: equal size and samples, one depth texture, nothing attached twice, nothing sampled, loaded or
+    /// stored that is drawn into (a feedback loop, undefined by the OpenGL 4.5 core specification, section 9.3.1).
     void checkAttachments(const std::string& subject, const Graph::Pass& pass) {
         const Graph::Use* first = nullptr;
         const Graph::Use* depth = nullptr;
@@ -205,12 +206,40 @@ private:
                 report(fmt::format("{} attaches '{}' twice", subject, nameOf(attached)));
             if (other.access == Access::Sampled)
                 report(fmt::format("{} samples '{}' while it draws into it", subject, nameOf(attached)));
+            const bool isImage = other.access == Access::ImageRead || other.access == Access::ImageWrite;
+            if (isImage && other.part == attached.part && isFit(other))
+                report(fmt::format("{} uses '{}' as {} while it draws into that part of it", subject, nameOf(attached),
+                                   accessInfo(other.access).name));
+        }
+    }
+
+    /// What a shader stores is read in the same pass by accesses of the store's own kind alone, which a shader can
+    /// order itself. For any other GL needs a barrier in between (OpenGL 4.5 core specification, section 7.13.2), and
+    /// those stand between passes.
+    void checkStores(const std::string& subject, const Graph::Pass& pass) {
+        for (const Graph::Use& store : pass.uses) {
+            const AccessInfo& stored = accessInfo(store.access);
+            if (!stored.incoherent) continue;
+            for (const Graph::Use& other : pass.uses) {
+                const AccessInfo& read = accessInfo(other.access);
+                if (other.resource != store.resource || !read.readsInShader || read.barrier == stored.barrier) continue;
+                if (!isFit(store) || !isFit(other)) continue;
+                report(fmt::format("{} reads '{}' as {} and writes it as {}, and nothing orders the two within a pass; "
+                                   "read it as {} or in a pass of its own",
+                                   subject, nameOf(store), read.name, stored.name,
+                                   store.access == Access::ImageWrite ? "ImageRead" : "StorageRead"));
+            }
         }
     }
 
     bool isUsableTexture(const Graph::Use& use) const {
         return use.resource < graph_.resources().size() &&
                std::holds_alternative<TextureDesc>(resource(use.resource).desc);
+    }
+
+    /// Whether a resource of the graph allows the access; if not, that is a fault already.
+    bool isFit(const Graph::Use& use) const {
+        return use.resource < graph_.resources().size() && unfitReason(resource(use.resource).desc, use.access).empty();
     }
 
     void checkOutput(const Graph::Use& output) {

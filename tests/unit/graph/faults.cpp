@@ -269,6 +269,61 @@ TEST(Faults, samplingARenderTargetIsReported) {
     EXPECT_THAT(faultsOf(graph), ElementsAre("pass 'fog' samples 'image' while it draws into it"));
 }
 
+TEST(Faults, anImageOfAnAttachedPartIsReported) {
+    Graph graph;
+    const TextureHandle atlas = draw(graph, "opaque", "atlas", {}, kAtlas);
+    declare(graph, "load", [&](PassBuilder& builder) {
+        builder.read(atlas, Access::ImageRead, {1, 0});
+        builder.read(atlas, Access::ImageRead, {1, 2});
+        builder.write(atlas, Access::ColorAttachment, {1, 2});
+        builder.keep();
+    });
+    declare(graph, "store", [&](PassBuilder& builder) {
+        const TextureHandle image = builder.create("image", kColor, Access::ImageWrite);
+        builder.write(image, Access::ColorAttachment);
+        builder.keep();
+    });
+    EXPECT_THAT(faultsOf(graph),
+                ElementsAre("pass 'load' uses 'atlas' as ImageRead while it draws into that part of it",
+                            "pass 'store' uses 'image' as ImageWrite while it draws into that part of it"));
+}
+
+TEST(Faults, aStoreBesideAReadOfAnotherKindIsReported) {
+    Graph graph;
+    const TextureHandle atlas = draw(graph, "opaque", "atlas", {}, kAtlas);
+    declare(graph, "mips", [&](PassBuilder& builder) {
+        builder.read(atlas, Access::Sampled);
+        builder.write(atlas, Access::ImageWrite, {1, 0});
+        builder.keep();
+    });
+    const BufferHandle lists = graph.import("lists", kBytes);
+    declare(graph, "sort", [&](PassBuilder& builder) {
+        builder.read(lists, Access::TexelRead);
+        builder.read(lists, Access::IndirectRead);
+        builder.write(lists, Access::StorageWrite);
+        builder.keep();
+    });
+    EXPECT_THAT(faultsOf(graph),
+                ElementsAre("pass 'mips' reads 'atlas' as Sampled and writes it as ImageWrite, and nothing orders the "
+                            "two within a pass; read it as ImageRead or in a pass of its own",
+                            "pass 'sort' reads 'lists' as TexelRead and writes it as StorageWrite, and nothing orders "
+                            "the two within a pass; read it as StorageRead or in a pass of its own",
+                            "pass 'sort' reads 'lists' as IndirectRead and writes it as StorageWrite, and nothing "
+                            "orders the two within a pass; read it as StorageRead or in a pass of its own"));
+}
+
+TEST(Faults, aStoreBesideAReadOfItsOwnKindIsNone) {
+    Graph graph;
+    declare(graph, "accumulate", [](PassBuilder& builder) {
+        builder.read(builder.create("sum", kColor, Access::ImageWrite), Access::ImageRead);
+        builder.read(builder.create("counts", kBytes), Access::StorageRead);
+        builder.read(builder.create("lights", kBytes, Access::Upload), Access::TexelRead);
+        builder.create("drawn", kColor);
+        builder.keep();
+    });
+    EXPECT_THAT(faultsOf(graph), IsEmpty());
+}
+
 TEST(Faults, depthThatIsTestedMayBeSampledToo) {
     Graph graph;
     const TextureHandle depth = draw(graph, "prepass", "depth", {}, kDepth);
