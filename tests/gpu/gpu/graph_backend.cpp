@@ -1,5 +1,6 @@
 #include "renderer/gpu/GraphBackend.h"
 
+#include <algorithm>
 #include <array>
 
 #include <gmock/gmock.h>
@@ -166,6 +167,54 @@ TEST_F(GraphBackendTest, allocationsAreKeptAcrossFramesOfEqualShape) {
     EXPECT_EQ(backend.texture(0).desc().width, 4);
 }
 
+TEST_F(GraphBackendTest, framesIdleAreCountedFromTheLastUseOfAnAllocation) {
+    const std::vector<graph::ResourceDesc> often{graph::BufferDesc{16}}, seldom{graph::BufferDesc{32}};
+    backend.allocate(often);
+    backend.buffer(0).uploadValue(7u); // a new buffer holds 0
+    for (int frame = 0; frame < 10; ++frame) backend.allocate(often);
+    backend.allocate(seldom);
+    backend.allocate(often);
+    EXPECT_THAT(backend.buffer(0).downloadAs<std::uint32_t>(1), ElementsAre(7u));
+}
+
+TEST_F(GraphBackendTest, anAllocationIsFreedOneFrameAfterTheMostThatItMayBeIdle) {
+    const std::vector<graph::ResourceDesc> shape{graph::BufferDesc{16}};
+    for (const int most : {0, 1, 5}) {
+        backend.setMostIdleFrames(most);
+        backend.allocate(shape);
+        for (int frame = 0; frame < most; ++frame) backend.allocate({});
+        EXPECT_EQ(backend.poolBytes(), 16u) << most << " frames";
+        backend.allocate({});
+        EXPECT_EQ(backend.poolBytes(), 0u) << most << " frames and one more";
+    }
+}
+
+TEST_F(GraphBackendTest, aGrowingBufferIsReplacedSeldomAndOnlyWhereItIsTooSmall) {
+    const auto marked = [&](std::size_t bytes) {
+        return backend.growingBuffer("list", 1, bytes).downloadAs<std::uint32_t>(1).front() == 7u;
+    };
+    const std::size_t first = backend.growingBuffer("list", 1, 1000).bytes();
+    backend.growingBuffer("list", 1, 1000).uploadValue(7u); // a new buffer holds 0
+    EXPECT_GE(first, 1000u);
+    EXPECT_EQ(backend.poolBytes(), first);
+    EXPECT_TRUE(marked(first));
+    EXPECT_TRUE(marked(4)) << "it never shrinks";
+    EXPECT_EQ(backend.growingBuffer("list", 1, 4).bytes(), first);
+    EXPECT_FALSE(marked(first + 1));
+    std::size_t held = backend.growingBuffer("list", 1, 4).bytes(), bytes = 1000;
+    int replaced = 0;
+    for (; bytes < 100000; bytes += bytes / 100) {
+        const std::size_t now = backend.growingBuffer("list", 1, bytes).bytes();
+        ASSERT_GE(now, bytes);
+        ASSERT_LE(now, std::max(held, bytes + bytes / 4));
+        replaced += now != held;
+        held = now;
+    }
+    EXPECT_LE(replaced, 21) << "a hundredfold by quarters: log 100 / log 1.25";
+    const std::size_t second = backend.growingBuffer("list", 2, 16).bytes();
+    EXPECT_EQ(backend.poolBytes(), held + second) << "buffers of one name are told apart by their number";
+}
+
 TEST_F(GraphBackendTest, profiledPassesHaveATimeThatHoldsTheirWork) {
     backend.setProfiling(true);
     run(twoPasses());
@@ -181,6 +230,17 @@ TEST_F(GraphBackendTest, profiledPassesHaveATimeThatHoldsTheirWork) {
 }
 
 TEST_F(GraphBackendTest, unprofiledPassesOfASoftwareRasteriserNeverClaimAGpuTime) {
+    for (int frame = 0; frame < 3; ++frame) run(twoPasses());
+    finish();
+    for (const PassTiming& timing : backend.passTimings())
+        EXPECT_EQ(timing.gpuMs.has_value(), !context().capabilities().isSoftware) << timing.name;
+}
+
+TEST_F(GraphBackendTest, aTimeByProfilingIsGoneWithTheNextFrameWithout) {
+    backend.setProfiling(true);
+    run(twoPasses());
+    for (const PassTiming& timing : backend.passTimings()) EXPECT_TRUE(timing.gpuMs) << timing.name;
+    backend.setProfiling(false);
     for (int frame = 0; frame < 3; ++frame) run(twoPasses());
     finish();
     for (const PassTiming& timing : backend.passTimings())
