@@ -271,26 +271,32 @@ scenes::Scene evenScene() {
 
 Scene withUnusedOfEverything(Scene scene) {
     const Scene spare = everythingScene();
-    const int firstImage = int(scene.images.size()), firstMaterial = int(scene.materials.size());
-    scene.images.insert(scene.images.end(), spare.images.begin(), spare.images.end());
-    scene.materials.insert(scene.materials.end(), spare.materials.begin(), spare.materials.end());
+    const int images = int(spare.images.size()), materials = int(spare.materials.size()),
+              meshes = int(spare.meshes.size());
+    for (Material& material : scene.materials)
+        for (scenes::TextureUse& use : material.textures)
+            if (use.image != scenes::kNone) use.image += images;
+    for (scenes::Node& node : scene.nodes)
+        for (scenes::MeshInstance& instance : node.instances) {
+            instance.mesh += meshes;
+            instance.material += materials;
+        }
+    scene.images.insert(scene.images.begin(), spare.images.begin(), spare.images.end());
+    scene.materials.insert(scene.materials.begin(), spare.materials.begin(), spare.materials.end());
+    scene.meshes.insert(scene.meshes.begin(), spare.meshes.begin(), spare.meshes.end());
     Material& bright = scene.materials.emplace_back();
     bright.model = scenes::MaterialModel::Microfacet;
     bright.masking = scenes::Masking::HalfVector;
     bright.baseColor = glm::vec4(4.0f);
     bright.specularColor = glm::vec3(4.0f);
-    for (std::size_t i = std::size_t(firstMaterial); i < scene.materials.size(); ++i) {
-        for (scenes::TextureUse& use : scene.materials[i].textures)
-            if (use.image != scenes::kNone) use.image += firstImage;
-    }
-    scene.meshes.insert(scene.meshes.end(), spare.meshes.begin(), spare.meshes.end());
     scenes::Mesh painted = quad();
     painted.colors.assign(painted.positionsOS.size(), glm::vec4(4.0f));
     scene.meshes.push_back(painted);
     scene.meshes.emplace_back().name = "no triangles";
     scenes::Node& node = scene.nodes.emplace_back();
-    for (int material = firstMaterial; material < int(scene.materials.size()); ++material)
+    for (int material = 0; material < materials; ++material)
         node.instances.push_back({int(scene.meshes.size()) - 1, material});
+    node.instances.push_back({int(scene.meshes.size()) - 1, int(scene.materials.size()) - 1});
     scene.cameras.insert(scene.cameras.end(), spare.cameras.begin(), spare.cameras.end());
     return scene;
 }

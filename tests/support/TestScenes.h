@@ -13,8 +13,9 @@ scenes::Scene everythingScene();
 /// colours and no anisotropy.
 scenes::Scene evenScene();
 
-/// The scene with one of everything that nothing draws: materials, pictures and meshes of everythingScene(), colours
-/// above 1, masking by the half vector, more materials on a mesh without triangles, and cameras.
+/// The scene with one of everything that nothing draws: materials, pictures and meshes of everythingScene() in front of
+/// its own, so that those have other numbers; behind them colours above 1, masking by the half vector, these materials
+/// on a mesh without triangles, and cameras.
 scenes::Scene withUnusedOfEverything(scenes::Scene scene);
 
 /// 2 x 2 m in the plane z = 0 facing +z, its picture upright: u grows along x, v (down) along -y.
