@@ -155,6 +155,105 @@ TEST(ViewDraws, drawsThatRoundingMayMoveIntoTheViewAreKept) {
     }
 }
 
+/// Whether a vertex is inside the four sides of the view where passes/geometry.vert puts it, in single precision.
+bool isShownInside(const DrawRows& rows, const glm::vec3& positionOS, const CameraView& view) {
+    const glm::vec4 object(positionOS, 1.0f);
+    const glm::vec3 positionRWS(glm::dot(rows.position[0], object), glm::dot(rows.position[1], object),
+                                glm::dot(rows.position[2], object));
+    const glm::vec4 clip = view.constants.clipFromRWS * glm::vec4(positionRWS, 1.0f);
+    return clip.w > 0.0f && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w;
+}
+
+glm::dmat4 randomPlace(test::Random& random, double farthestMetres) {
+    return glm::translate(glm::dmat4(1.0), random.logarithmic(1.0, farthestMetres) * random.direction()) *
+           glm::rotate(glm::dmat4(1.0), random.between(0.0, 6.0), random.direction());
+}
+
+/// Objects of one vertex each, at a view depth between these, on the sides of the view and a little beyond: at most by
+/// the share that single precision has of the distances on the way there.
+struct SideScene {
+    scenes::Scene scene = scenes::tinyScene();
+    SideScene(test::Random& random, const scenes::Camera& camera, const CameraView& view, double nearestMetres,
+              double farthestMetres) {
+        scene.nodes.clear();
+        scene.meshes.resize(40, scene.meshes[0]);
+        for (int i = 0; i < int(scene.meshes.size()); ++i) {
+            const glm::vec3 positionOS(random.logarithmic(1e-2, 1e6) * random.direction());
+            scene.meshes[std::size_t(i)].positionsOS.assign(3, positionOS);
+            const double depthMetres = random.logarithmic(nearestMetres, farthestMetres);
+            const double half = depthMetres * std::tan(0.5 * camera.fovYRadians);
+            const int axis = random.index(2);
+            glm::dvec3 placeVS(random.between(-0.9, 0.9) * half, random.between(-0.9, 0.9) * half, -depthMetres);
+            placeVS[axis] = random.index(2) == 0 ? half : -half;
+            const glm::dvec3 onSideWS(camera.worldFromCamera * glm::dvec4(placeVS, 1.0));
+            const double summedMetres = double(glm::length(positionOS)) + glm::distance(onSideWS, view.originWS);
+            placeVS[axis] *= 1.0 + random.between(-1e-7, 3e-7) * summedMetres / half;
+            const glm::dvec3 placeWS(camera.worldFromCamera * glm::dvec4(placeVS, 1.0));
+            const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), random.between(0.0, 6.0), random.direction());
+            scenes::Node& node = scene.nodes.emplace_back();
+            node.parentFromNode =
+                glm::translate(glm::dmat4(1.0), placeWS - glm::dvec3(turn * glm::dvec4(positionOS, 1.0))) * turn;
+            node.instances = {{i, 0}};
+        }
+    }
+};
+
+/// Expects the draws whose vertex shows inside to be kept. Returns how many of them lie outside without rounding.
+int expectShownDrawsKept(const scenes::Scene& scene, const CameraView& view) {
+    const DrawList list = makeDrawList(scene);
+    const ViewDraws whole = makeViewDraws(list, view, false), culled = makeViewDraws(list, view, true);
+    int moved = 0;
+    for (std::size_t i = 0; i < whole.seen.size(); ++i) {
+        const Draw& draw = list.draws[std::size_t(whole.seen[i])];
+        const glm::vec3& positionOS = scene.meshes[std::size_t(draw.mesh)].positionsOS[0];
+        if (!isShownInside(whole.rows[i], positionOS, view)) continue;
+        moved += !someOfItIsInside(draw.boxWS, view);
+        EXPECT_TRUE(std::binary_search(culled.seen.begin(), culled.seen.end(), whole.seen[i])) << "draw " << i;
+    }
+    return moved;
+}
+
+TEST(ViewDraws, aVertexThatRoundingShowsInTheViewIsNeverCulled) {
+    test::Random random(7);
+    int moved = 0;
+    for (int round = 0; round < 100; ++round) {
+        scenes::Camera camera;
+        camera.worldFromCamera = randomPlace(random, 1e6);
+        camera.fovYRadians = random.logarithmic(0.01, 2.0);
+        const LightingSpace space = round % 2 == 0 ? LightingSpace::World : LightingSpace::View;
+        const CameraView view = makeCameraView(camera, {64, 64}, space, glm::vec3(0.0f));
+        EXPECT_EQ(view.originWS, view.eyeWS);
+        moved += expectShownDrawsKept(SideScene(random, camera, view, 1.0, 1e6).scene, view);
+    }
+    EXPECT_GT(moved, 100) << "otherwise nothing is tested";
+}
+
+TEST(ViewDraws, aVertexThatRoundingShowsInAViewFromAfarIsNeverCulled) {
+    test::Random random(8);
+    int moved = 0;
+    for (int round = 0; round < 100; ++round) {
+        scenes::Camera camera;
+        camera.worldFromCamera = randomPlace(random, 1e6);
+        camera.fovYRadians = random.logarithmic(1e-4, 0.1);
+        const double distanceMetres = random.logarithmic(1e2, 1e6), radiusMetres = 0.1 * distanceMetres;
+        const glm::dvec3 middleWS(camera.worldFromCamera * glm::dvec4(0.0, 0.0, -distanceMetres, 1.0));
+        const SurfaceBounds bounds{{middleWS - radiusMetres, middleWS + radiusMetres}, radiusMetres};
+        const LightingSpace space = round % 2 == 0 ? LightingSpace::World : LightingSpace::View;
+        const CameraView view = makeCameraView(camera, {64, 64}, space, glm::vec3(0.0f), std::span(&bounds, 1));
+        EXPECT_GT(glm::distance(view.originWS, view.eyeWS), 0.5 * distanceMetres) << "lighting space is at the eye";
+        const SideScene sides(random, camera, view, distanceMetres - radiusMetres, distanceMetres + radiusMetres);
+        moved += expectShownDrawsKept(sides.scene, view);
+        // Twice as far across the view lies outside by more than rounding moves anything.
+        scenes::Scene outside = scenes::tinyScene();
+        outside.nodes[0].parentFromNode = glm::translate(
+            glm::dmat4(1.0), glm::dvec3(camera.worldFromCamera *
+                                        glm::dvec4(2.0 * distanceMetres * std::tan(0.5 * camera.fovYRadians) + 10.0,
+                                                   0.0, -distanceMetres, 1.0)));
+        EXPECT_TRUE(makeViewDraws(makeDrawList(outside), view, true).seen.empty());
+    }
+    EXPECT_GT(moved, 100) << "otherwise nothing is tested";
+}
+
 TEST(ViewDraws, visibleDrawsKeepOrderAndRowsAndTheRestIsCulled) {
     test::Random random(5);
     std::size_t left = 0, all = 0;
