@@ -64,6 +64,20 @@ TEST_F(ViewerEdits, aLightSwitchedOffIsSavedAndOnAgainBringsThePictureBackExactl
     EXPECT_TRUE(pictureIn(again, again.waitForWhole(0)) == dark) << "the saved scene does not load back identically";
 }
 
+TEST_F(ViewerEdits, aClickRightAfterASaveIsHeard) {
+    DrivenViewer viewer = open({"hall"});
+    viewer.waitForWhole(0);
+    const int view = barOf(viewer, Section::View);
+    const glm::ivec2 technique(200, barOf(viewer, Section::Technique));
+    const std::size_t mark = viewer.mark();
+    viewer.key("F12");
+    viewer.click(technique); // while the picture is drawn and written
+    viewer.waitFor("saved ", mark);
+    viewer.moveTo(kMiddle);
+    viewer.pause(1.0);
+    EXPECT_LT(barOf(viewer, Section::View), view) << "the section above was not closed";
+}
+
 TEST_F(ViewerEdits, editsDuringALoadAreNotDiscardedWithoutRequest) {
     const std::string room = R"({"tessera": 1, "base": {"file": "builtin:room"}})";
     folder_.write("slow.json", room);

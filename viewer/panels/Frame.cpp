@@ -17,7 +17,8 @@ constexpr float kPanelWidth = 300.0f;
 constexpr float kStatusHeight = 22.0f;
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                                    ImGuiWindowFlags_NoBringToFrontOnFocus;
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                    ImGuiWindowFlags_NoFocusOnAppearing; // which would let go what the user holds
 
 float panelWidth(const State& state, float scale) {
     return state.showsPanel ? kPanelWidth * scale : 0.0f;

@@ -15,6 +15,20 @@ void text(std::string_view words) {
     ImGui::TextUnformatted(words.data(), words.data() + words.size());
 }
 
+/// Whether the hovered latest item was clicked since the pointer came to it: its box would hide what that brings.
+bool isUsed() {
+    static struct {
+        ImVec2 corner{};
+        int frame = 0; ///< in which the pointer was still there
+        bool isClicked = false;
+    } latest;
+    const ImVec2 corner = ImGui::GetItemRectMin();
+    const int frame = ImGui::GetFrameCount();
+    const bool isSame = corner.x == latest.corner.x && corner.y == latest.corner.y && frame <= latest.frame + 1;
+    latest = {corner, frame, (isSame && latest.isClicked) || ImGui::IsMouseClicked(ImGuiMouseButton_Left)};
+    return latest.isClicked;
+}
+
 /// Of a widget whose label stands beside it.
 std::string idOf(const char* label) {
     return std::string("##") + label;
@@ -99,7 +113,7 @@ void errorParagraph(std::string_view words) {
 }
 
 void tip(std::string_view words) {
-    if (words.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    if (words.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || isUsed()) return;
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * kTipWidthEm);
     text(words);

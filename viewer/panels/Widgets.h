@@ -51,7 +51,7 @@ void closeOnEscape();
 void paragraph(std::string_view text);
 /// The same in the colour of errors.
 void errorParagraph(std::string_view text);
-/// A box beside the pointer while it rests on the latest item.
+/// A box beside the pointer while it rests on the latest item, until that is clicked.
 void tip(std::string_view text);
 /// A name and a value in one row.
 void fact(const char* label, const std::string& value);
