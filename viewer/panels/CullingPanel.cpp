@@ -16,14 +16,27 @@ void cullingPanel(State& state, const Facts& facts) {
     tip("Counts, with every light tried at every pixel, at a quarter of the size");
     if (!facts.lights) return;
     const validation::LightOracleFigures& figures = *facts.lights;
-    const std::optional<double> tightness = figures.tightness();
     fact("Measured", facts.lightsOf);
-    fact("Visited", fmt::format("{:.2f} a pixel", figures.perPixel(figures.evaluated + figures.everywhere)));
+    const auto perPixel = [&](std::uint64_t pairs) { return fmt::format("{:.4g} a pixel", figures.perPixel(pairs)); };
+    fact("All lights", perPixel(figures.evaluated + figures.everywhere));
+    tip("Lights that a pixel visits");
     fact("at most", fmt::format("{}, p99 {}", figures.evaluatedMax, figures.evaluatedP99));
-    fact("Needed", fmt::format("{:.2f} a pixel, {:.2f} lit", figures.perPixel(figures.needed),
-                               figures.perPixel(figures.neededLit)));
-    fact("Tightness", tightness ? fmt::format("{:.3f}", *tightness) : "no light ends");
-    tip("Visited / needed of the lights that end somewhere: 1 is perfect");
+    fact("Endless", perPixel(figures.everywhere));
+    tip("Lights that reach everywhere: every pixel needs them, so that none can be culled");
+    if (figures.evaluated + figures.needed == 0) {
+        fact("Tightness", "no light to cull");
+        tip("Visited / needed of the lights that end somewhere: no pixel visits or needs one");
+    } else {
+        const std::optional<double> tightness = figures.tightness();
+        fact("Visited", perPixel(figures.evaluated));
+        tip("Of the lights that end somewhere");
+        fact("Needed", perPixel(figures.needed));
+        tip("Of the lights that end somewhere: those that reach the surface");
+        fact("and lit", perPixel(figures.neededLit));
+        tip("Those that also shine on the surface's front");
+        fact("Tightness", tightness ? fmt::format("{:.3g}", *tightness) : "none is needed");
+        tip("Visited / needed: 1 is perfect");
+    }
     fact("Lists", fmt::format("{} entries, {}", figures.entries, graph::readableBytes(figures.listBytes)));
     fact("Missed", fmt::format("{}", figures.falseNegatives));
     tip("Lights that a pixel needed and did not visit: must be 0");
