@@ -186,10 +186,15 @@ bool listButtons(State& state, scenes::Scene& scene) {
 /// Replaces the lights by many.
 void scatterRows(State& state) {
     row("Scatter");
-    ImGui::SliderInt("##Scatter", &state.scatter.count, 1, kMostScattered, "%d lights",
+    ImGui::SliderInt("##Scatter", &state.scatter.count, 1, kMostScattered,
+                     state.scatter.count == 1 ? "%d light" : "%d lights",
                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     row("");
     if (ImGui::Button("Replace all by these")) state.requests.scatter = true;
+    if (!state.replaced) return;
+    row("");
+    if (ImGui::Button("Bring the old ones back")) bringBackReplaced(state);
+    tip("The lights from before the scattered ones, which go with their edits");
 }
 
 void timeRow(double& timeSeconds) {

@@ -1,8 +1,20 @@
 #include "viewer/session/LightEdits.h"
 
+#include <utility>
+
 #include "viewer/edit/LightList.h"
 
 namespace tessera::viewer {
+namespace {
+
+void replaceLights(State& state, Lights lights) {
+    state.open->edit().lights = std::move(lights);
+    state.selectedLight = scenes::kNone;
+    state.active().settings.soloLight.reset();
+    state.open->touch();
+}
+
+} // namespace
 
 void deleteSelectedLight(State& state) {
     if (!state.open) return;
@@ -15,12 +27,18 @@ void deleteSelectedLight(State& state) {
 
 void replaceByScattered(State& state) {
     if (!state.open) return;
-    scenes::Scene& scene = state.open->edit();
-    scene.lights = scatterLights(scene, state.scatter);
+    const scenes::Scene& scene = state.open->scene();
+    Lights scattered = scatterLights(scene, state.scatter);
+    // What was scattered just before is nobody's work.
+    if (!state.replaced || state.replaced->edits != state.open->edits()) state.replaced = Replaced{scene.lights, 0};
     ++state.scatter.seed;
-    state.selectedLight = scenes::kNone;
-    state.active().settings.soloLight.reset();
-    state.open->touch();
+    replaceLights(state, std::move(scattered));
+    state.replaced->edits = state.open->edits();
+}
+
+void bringBackReplaced(State& state) {
+    if (!state.open || !state.replaced) return;
+    replaceLights(state, std::move(std::exchange(state.replaced, std::nullopt)->lights));
 }
 
 } // namespace tessera::viewer

@@ -61,5 +61,28 @@ TEST(LightEdits, scatteredLightsTakeTheScenesPlaceAndLieElsewhereTheNextTime) {
     EXPECT_FALSE(state.open->scene().lights == first);
 }
 
+TEST(LightEdits, theLightsThatScatteredOnesReplacedComeBack) {
+    State state = threeLights();
+    const std::vector<scenes::Light> own = state.open->scene().lights;
+    state.scatter.count = 5;
+    bringBackReplaced(state);
+    EXPECT_FALSE(state.open->isEdited()) << "nothing was replaced";
+    replaceByScattered(state);
+    replaceByScattered(state);
+    state.selectedLight = 4;
+    state.looks[0].settings.soloLight = 4;
+    bringBackReplaced(state);
+    EXPECT_TRUE(state.open->scene().lights == own);
+    EXPECT_EQ(state.selectedLight, scenes::kNone);
+    EXPECT_FALSE(state.looks[0].settings.soloLight);
+    // Scattered lights that were edited are worth bringing back too.
+    replaceByScattered(state);
+    state.open->edit().lights[0].name = "mine";
+    state.open->touch();
+    replaceByScattered(state);
+    bringBackReplaced(state);
+    EXPECT_EQ(state.open->scene().lights.at(0).name, "mine");
+}
+
 } // namespace
 } // namespace tessera::viewer
