@@ -201,6 +201,7 @@ private:
             if (!heardAt_) heardAt_ = event.heardSeconds;
         gui_.beginFrame(events);
         controls_.handle(events, state_, area_, {gui_.wantsMouse(), gui_.wantsKeyboard()});
+        for (int side = 0; side < 2; ++side) facts_.shown[std::size_t(side)] = screen_.shownLook(side);
         drawInterface(state_, facts_, area_, uiScale());
         gui_.endFrame();
         screen_.takeEdits();
@@ -217,6 +218,7 @@ private:
                 settleFrames_ = std::max(settleFrames_, 1);
         });
         show();
+        isDescribed_ = !drew;
         if (facts_.isPreparing || givenUp_ > givenUp) return; // the picture that answers is yet to come
         const std::optional<double> heardAt = std::exchange(heardAt_, std::nullopt);
         if (heardAt && drew) log_.line(fmt::format("answered ms {:.1f}", 1000.0 * (shownAt_ - *heardAt)));
@@ -324,6 +326,7 @@ private:
         if (have >= restScale() || (have > 0.0 && have >= movingScale() && isMoving())) return false;
         const bool isAtRest = !isMoving() && now() >= restAt_ && have > 0.0;
         if (have > 0.0 && !isAtRest) return false;
+        if (isAtRest && !isDescribed_) return false; // the whole picture may take long: say first what this one is
         if (have == 0.0) restAt_ = now() + kRestSeconds;
         if (isToBeAnnounced()) return false;
         return drawAt(isAtRest ? restScale() : movingScale(), isAtRest);
@@ -409,6 +412,7 @@ private:
     Screen::Wanted wanted_;
     int settleFrames_ = kSettleFrames;
     double restAt_ = 0.0;
+    bool isDescribed_ = true; ///< the window has shown the figures of the latest picture with it
     double lastFrame_ = 0.0;
     double shownAt_ = 0.0;
     std::optional<double> heardAt_; ///< of the oldest input of which nothing was shown yet

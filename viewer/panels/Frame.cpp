@@ -8,6 +8,7 @@
 
 #include "viewer/panels/Legend.h"
 #include "viewer/panels/Markers.h"
+#include "viewer/panels/Overlays.h"
 #include "viewer/panels/Widgets.h"
 
 namespace tessera::viewer {
@@ -37,6 +38,8 @@ void sidePanel(State& state, const Facts& facts, float height, float scale) {
     ImGui::SetNextWindowSize({panelWidth(state, scale), height});
     if (ImGui::Begin("Panels", nullptr, kFixed)) {
         section("Scene", true, [&] { scenePanel(state); });
+    }
+    if (state.open) { // until then nobody knows how its picture begins
         section("Technique", true, [&] { framePanel(state); });
         section("View", true, [&] { viewPanel(state); });
         section("Camera", false, [&] { cameraPanel(state); });
@@ -59,14 +62,11 @@ std::vector<std::string> statusParts(const State& state, const Facts& facts) {
     else if (facts.isPreparing)
         parts.emplace_back("preparing shaders ...");
     // Beside the divider the sides' names stand in the picture; two of them leave no room here.
-    if (state.compare == Compare::Off) {
-        const Look& look = state.looks[0];
-        parts.push_back(
-            fmt::format("{} / {}", infoOf(look.technique).name, frame::debugViewInfo(look.settings.view).name));
-    } else if (state.compare == Compare::Difference) {
-        parts.push_back(
-            fmt::format("{} - {}", infoOf(state.looks[0].technique).name, infoOf(state.looks[1].technique).name));
-    }
+    const auto& [left, right] = facts.shown;
+    if (state.compare == Compare::Off && left)
+        parts.push_back(lookName(*left));
+    else if (state.compare == Compare::Difference && left && right)
+        parts.push_back(fmt::format("{} - {}", infoOf(left->technique).name, infoOf(right->technique).name));
     if (facts.scale > 0.0) {
         parts.push_back(fmt::format("{:.0f} ms", facts.ms));
         parts.push_back(fmt::format("scale {:.3g}", facts.scale));
@@ -122,37 +122,6 @@ void notices(State& state, const PictureArea& area, float scale) {
     ImGui::End();
 }
 
-void divider(const State& state, const PictureArea& area, float scale) {
-    if (state.compare != Compare::Split) return;
-    const float x = area.corner.x + state.divider * area.size.x;
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    list.AddLine({x, area.corner.y}, {x, area.corner.y + area.size.y}, IM_COL32(235, 240, 250, 200), 1.5f * scale);
-    list.AddCircleFilled({x, area.corner.y + 0.5f * area.size.y}, 6.0f * scale, IM_COL32(235, 240, 250, 230));
-}
-
-/// Which side is which, in the picture's upper corners.
-void sideNames(const State& state, const PictureArea& area, float scale) {
-    if (state.compare != Compare::Split) return;
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    const float dividerX = area.corner.x + state.divider * area.size.x;
-    for (int side = 0; side < 2; ++side) {
-        // No name reaches into the other side.
-        list.PushClipRect({side == 0 ? area.corner.x : dividerX, area.corner.y},
-                          {side == 0 ? dividerX : area.corner.x + area.size.x, area.corner.y + area.size.y});
-        const Look& look = state.looks[std::size_t(side)];
-        const std::string name =
-            fmt::format("{} / {}", infoOf(look.technique).name, frame::debugViewInfo(look.settings.view).name);
-        const ImVec2 size = ImGui::CalcTextSize(name.c_str());
-        const float pad = 5.0f * scale;
-        const float x = side == 0 ? area.corner.x + 2.0f * pad : area.corner.x + area.size.x - size.x - 2.0f * pad;
-        const float y = area.corner.y + 2.0f * pad;
-        list.AddRectFilled({x - pad, y - pad}, {x + size.x + pad, y + size.y + pad}, IM_COL32(20, 21, 24, 200), pad);
-        list.AddText({x, y}, side == state.activeSide ? IM_COL32(140, 195, 255, 255) : IM_COL32(220, 222, 228, 255),
-                     name.c_str());
-        list.PopClipRect();
-    }
-}
-
 } // namespace
 
 PictureArea pictureArea(const State& state, glm::vec2 windowSize, float scale) {
@@ -173,10 +142,10 @@ void drawInterface(State& state, const Facts& facts, const PictureArea& area, fl
     if (state.showsPanel) sidePanel(state, facts, height, scale);
     if (area.size.x > 0.0f) {
         statusLine(state, facts, area, scale);
-        divider(state, area, scale);
-        sideNames(state, area, scale);
-        drawLegend(state, area, scale);
         drawMarkers(state, area, scale);
+        drawDivider(state, area, scale);
+        drawLegend(state, facts, area, scale);
+        drawNames(state, facts, area, scale);
         notices(state, area, scale);
     }
     if (state.showsHelp) helpOverlay(state, scale);

@@ -20,11 +20,7 @@ ImU32 colorAt(float position) {
     return IM_COL32(int(code.r), int(code.g), int(code.b), 255);
 }
 
-} // namespace
-
-void drawLegend(const State& state, const PictureArea& area, float scale) {
-    if (state.compare == Compare::Difference) return;
-    if (std::none_of(state.looks.begin(), state.looks.begin() + state.sides(), showsCounts)) return;
+void drawBar(const PictureArea& area, float scale) {
     constexpr int kSteps = 48;
     const float pad = 8.0f * scale, line = ImGui::GetFontSize(), barWidth = 14.0f * scale;
     const float height = std::min(14.0f * line, area.size.y - 4.0f * pad - line);
@@ -49,6 +45,16 @@ void drawLegend(const State& state, const PictureArea& area, float scale) {
     };
     label(0.0f);
     for (float count = 1.0f; shared::heatPositionOfCount(count, HEAT_COUNT_LOG2) < 1.0f; count *= 2.0f) label(count);
+}
+
+} // namespace
+
+void drawLegend(const State& state, const Facts& facts, const PictureArea& area, float scale) {
+    if (state.compare == Compare::Difference) return;
+    for (int side = 0; side < state.sides(); ++side) {
+        const std::optional<Look>& look = facts.shown[std::size_t(side)];
+        if (look && showsCounts(*look)) drawBar(partOf(state, area, side), scale);
+    }
 }
 
 } // namespace tessera::viewer

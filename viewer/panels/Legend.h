@@ -1,10 +1,12 @@
 #pragma once
 #include "viewer/session/Controls.h"
+#include "viewer/session/Facts.h"
 #include "viewer/session/State.h"
 
 namespace tessera::viewer {
 
-/// The scale of a picture of counts (lights or surfaces a pixel), at the picture's lower right.
-void drawLegend(const State& state, const PictureArea& area, float scale);
+/// The scale of each picture that shows counts (lights or surfaces a pixel), at its lower right: beside the divider
+/// where it is the left one.
+void drawLegend(const State& state, const Facts& facts, const PictureArea& area, float scale);
 
 } // namespace tessera::viewer

@@ -72,6 +72,13 @@ bool PictureArea::contains(const glm::vec2& point) const {
     return inside.x >= 0.0f && inside.y >= 0.0f && inside.x < size.x && inside.y < size.y;
 }
 
+PictureArea partOf(const State& state, const PictureArea& area, int side) {
+    if (state.compare != Compare::Split) return area;
+    const float left = state.divider * area.size.x;
+    if (side == 0) return {area.corner, {left, area.size.y}};
+    return {area.corner + glm::vec2(left, 0.0f), {area.size.x - left, area.size.y}};
+}
+
 void Controls::handle(std::span<const InputEvent> events, State& state, const PictureArea& area, const Claims& claims) {
     for (const InputEvent& event : events) {
         switch (event.kind) {

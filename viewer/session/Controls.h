@@ -17,6 +17,9 @@ struct PictureArea {
     bool contains(const glm::vec2& point) const;
 };
 
+/// The part of the picture's place that shows a side: what lies left or right of the divider, or all.
+PictureArea partOf(const State& state, const PictureArea& area, int side);
+
 /// Turns the user's input on the picture into movements of the camera and changes of the state.
 class Controls {
 public:

@@ -73,6 +73,11 @@ public:
     /// Shows the pictures in a part of the window, whose framebuffer stays bound; the rest of it is cleared.
     void show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare compare, float divider);
     const gpu::Capabilities& capabilities() const { return context_.capabilities(); }
+    /// How the picture of a side that the window shows was drawn; none where it shows none.
+    std::optional<Look> shownLook(int side) const {
+        const DrawnPicture& shown = picture(side);
+        return shown.isThere() ? std::optional(shown.look()) : std::nullopt;
+    }
     const DrawnPicture& picture(int side) const { return pictures_[std::size_t(side)]; }
 
 private:

@@ -1,9 +1,18 @@
 // The panels, laid out without a window.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "viewer/panels/Frame.h"
+#include "viewer/panels/Legend.h"
+#include "viewer/panels/Overlays.h"
+#include "viewer/panels/Widgets.h"
 
 namespace tessera::viewer {
 namespace {
@@ -38,7 +47,56 @@ protected:
             });
         }
     }
+    /// What a panel says, as the window could copy it.
+    template <typename Panel>
+    std::string textOf(const Panel& panel) {
+        std::string text;
+        show([&] { text = logged(panel); });
+        return text;
+    }
+    /// What the first window of the interface says.
+    std::string firstWindowText(State& state, const Facts& facts) {
+        std::string text;
+        for (int i = 0; i < 3; ++i)
+            frame([&] { text = logged([&] { drawInterface(state, facts, area(state), 1.0f); }); });
+        return text;
+    }
+    static PictureArea area(const State& state) { return pictureArea(state, {1280.0f, 2000.0f}, 1.0f); }
+    template <typename Draw>
+    static std::string logged(const Draw& draw) {
+        ImGui::LogToClipboard();
+        draw();
+        ImGui::LogFinish(); // at the end of the first window
+        return std::string("\n") + ImGui::GetClipboardText();
+    }
+    /// Left and right end of what is drawn over the picture; empty where nothing is.
+    template <typename Draw>
+    std::optional<std::pair<float, float>> overlaySpan(const Draw& draw) {
+        std::optional<std::pair<float, float>> span;
+        frame([&] {
+            draw();
+            for (const ImDrawVert& vertex : ImGui::GetBackgroundDrawList()->VtxBuffer) {
+                if (!span) span = {vertex.pos.x, vertex.pos.x};
+                span = {std::min(span->first, vertex.pos.x), std::max(span->second, vertex.pos.x)};
+            }
+        });
+        return span;
+    }
 };
+
+/// The number behind a label at the start of a line.
+double numberBehind(const std::string& text, const std::string& label) {
+    const std::size_t found = text.find("\n" + label);
+    if (found == std::string::npos) return std::nan("");
+    return std::stod(text.substr(found + 1 + label.size()));
+}
+
+/// A look at a view.
+Look lookAt(frame::DebugView view) {
+    Look look;
+    look.settings.view = view;
+    return look;
+}
 
 /// A scene of all kinds of lights and materials, some of them beyond what the panels would set.
 State unusualScene() {
@@ -101,16 +159,7 @@ TEST_F(Panels, everySettingOfAPanelHasARowWhereTheTechniqueHeedsIt) {
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         State state;
         state.looks[0].technique = info.technique;
-        std::array<std::string, 2> texts; // of the panels, as the window could copy them
-        show([&] {
-            const auto panelText = [](const auto& panel) {
-                ImGui::LogToClipboard();
-                panel();
-                ImGui::LogFinish();
-                return std::string("\n") + ImGui::GetClipboardText();
-            };
-            texts = {panelText([&] { framePanel(state); }), panelText([&] { viewPanel(state); })};
-        });
+        const std::array<std::string, 2> texts{textOf([&] { framePanel(state); }), textOf([&] { viewPanel(state); })};
         for (const engine::Setting& setting : engine::settingTable()) {
             const bool isShown[] = {setting.panel == engine::SettingPanel::Frame,
                                     setting.panel == engine::SettingPanel::View};
@@ -130,6 +179,140 @@ TEST_F(Panels, noPlanIsMadeWhileThePanelsAreHidden) {
     state.showsPanel = false;
     frame([&] { drawInterface(state, {}, pictureArea(state, {1280.0f, 2000.0f}, 1.0f), 1.0f); });
     EXPECT_FALSE(state.wantsPlan);
+}
+
+TEST_F(Panels, aNoticeThatAppearsDoesNotReleaseAPressedButton) {
+    State state;
+    bool isClicked = false;
+    const auto next = [&](bool isDown) {
+        ImGui::GetIO().MouseDown[0] = isDown;
+        frame([&] {
+            ImGui::SetNextWindowPos({400.0f, 10.0f});
+            ImGui::SetNextWindowSize({300.0f, 200.0f});
+            ImGui::Begin("aside");
+            isClicked = ImGui::Button("do", {100.0f, 40.0f}) || isClicked;
+            const ImVec2 corner = ImGui::GetItemRectMin();
+            ImGui::GetIO().MousePos = {corner.x + 50.0f, corner.y + 20.0f};
+            ImGui::End();
+            drawInterface(state, {}, area(state), 1.0f);
+        });
+    };
+    for (const bool isDown : {false, false, false, true}) next(isDown);
+    state.notice.text = "Saved elsewhere.png";
+    for (const bool isDown : {true, true, false}) next(isDown);
+    EXPECT_TRUE(isClicked);
+}
+
+TEST_F(Panels, aTipGoesWithTheClick) {
+    ImVec2 place{-1.0f, -1.0f};
+    const auto next = [&](bool isDown) {
+        ImGui::GetIO().MouseDown[0] = isDown;
+        ImGui::GetIO().MousePos = place;
+        bool isShown = false;
+        frame([&] {
+            ImGui::Begin("aside");
+            ImGui::Button("do");
+            const ImVec2 corner = ImGui::GetItemRectMin();
+            tip("what it does");
+            ImGui::End();
+            place = {corner.x + 3.0f, corner.y + 3.0f};
+            for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
+                isShown = isShown || ((window->Flags & ImGuiWindowFlags_Tooltip) != 0 && window->Active);
+        });
+        return isShown;
+    };
+    next(false);
+    next(false);
+    EXPECT_TRUE(next(false));
+    EXPECT_FALSE(next(true));
+    EXPECT_FALSE(next(false)) << "it comes back over what the click brought";
+    place = {-1.0f, -1.0f};
+    next(false);
+    next(false);
+    EXPECT_TRUE(next(false)) << "it never comes back";
+}
+
+TEST_F(Panels, theFiguresOfLightCullingDivideToTheTightness) {
+    State state;
+    Facts facts;
+    validation::LightOracleFigures& figures = facts.lights.emplace();
+    figures.covered = 1000;
+    figures.everywhere = 12000;
+    figures.evaluated = 3700;
+    figures.needed = 1100;
+    const std::string text = textOf([&] { cullingPanel(state, facts); });
+    EXPECT_DOUBLE_EQ(numberBehind(text, "All lights"), 15.7) << text;
+    EXPECT_DOUBLE_EQ(numberBehind(text, "Endless"), 12.0) << text;
+    EXPECT_NEAR(numberBehind(text, "Visited") / numberBehind(text, "Needed"), numberBehind(text, "Tightness"), 0.005)
+        << text;
+}
+
+TEST_F(Panels, lightCullingSaysWhereThereIsNoLightToCull) {
+    State state;
+    Facts facts;
+    validation::LightOracleFigures& figures = facts.lights.emplace();
+    figures.covered = 1000;
+    figures.everywhere = 12000;
+    const std::string text = textOf([&] { cullingPanel(state, facts); });
+    EXPECT_DOUBLE_EQ(numberBehind(text, "Endless"), 12.0) << text;
+    EXPECT_NE(text.find("no light to cull"), std::string::npos) << text;
+    EXPECT_EQ(text.find("Needed"), std::string::npos) << text;
+}
+
+TEST_F(Panels, theScaleOfCountsStandsOnTheSideThatShowsThem) {
+    State state;
+    state.compare = Compare::Split;
+    state.divider = 0.6f;
+    const PictureArea place = area(state);
+    const float dividerX = place.corner.x + 0.6f * place.size.x, endX = place.corner.x + place.size.x;
+    Facts facts;
+    const auto span = [&] { return overlaySpan([&] { drawLegend(state, facts, place, 1.0f); }); };
+    facts.shown = {lookAt(frame::DebugView::Lights), lookAt(frame::DebugView::Final)};
+    ASSERT_TRUE(span());
+    EXPECT_GT(span()->first, place.corner.x);
+    EXPECT_LT(span()->second, dividerX);
+    std::swap(facts.shown[0], facts.shown[1]);
+    ASSERT_TRUE(span());
+    EXPECT_GT(span()->first, dividerX);
+    EXPECT_LT(span()->second, endX);
+}
+
+TEST_F(Panels, whatNamesThePictureFollowsTheShownOneAndNotTheChosenOne) {
+    State state;
+    state.showsPanel = false;
+    state.looks[0] = lookAt(frame::DebugView::Lights); // chosen, and its shaders compile
+    Facts facts;
+    facts.shown[0] = lookAt(frame::DebugView::Normal);
+    facts.isPreparing = true;
+    const std::string status = firstWindowText(state, facts);
+    EXPECT_NE(status.find(lookName(*facts.shown[0])), std::string::npos) << status;
+    EXPECT_EQ(status.find(lookName(state.looks[0])), std::string::npos) << status;
+    EXPECT_FALSE(overlaySpan([&] { drawLegend(state, facts, area(state), 1.0f); }));
+    std::swap(state.looks[0], *facts.shown[0]);
+    EXPECT_TRUE(overlaySpan([&] { drawLegend(state, facts, area(state), 1.0f); }));
+}
+
+TEST_F(Panels, settingsAppearWithTheSceneThatDecidesThem) {
+    State none;
+    none.loading = "room";
+    EXPECT_EQ(firstWindowText(none, {}).find("Technique"), std::string::npos);
+    State state = unusualScene();
+    EXPECT_NE(firstWindowText(state, {}).find("Technique"), std::string::npos);
+}
+
+TEST_F(Panels, aDifferenceOfNothingIsSaidOnItsBlackPicture) {
+    State state;
+    state.compare = Compare::Difference;
+    Facts facts;
+    const auto isSaid = [&] { return overlaySpan([&] { drawNames(state, facts, area(state), 1.0f); }).has_value(); };
+    EXPECT_FALSE(isSaid());
+    facts.figures.emplace().bitEqual = 1.0;
+    EXPECT_TRUE(isSaid());
+    facts.figuresAreOld = true;
+    EXPECT_FALSE(isSaid());
+    facts.figuresAreOld = false;
+    facts.figures->bitEqual = 0.999;
+    EXPECT_FALSE(isSaid());
 }
 
 } // namespace
