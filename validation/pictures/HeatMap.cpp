@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,13 +21,15 @@ std::uint8_t codeValue(float value) {
     return std::uint8_t(std::lround(255.0f * value));
 }
 
-constexpr int kTextScale = 2;
-constexpr int kTextHeight = kTextScale * kGlyphHeight;
-constexpr int kMargin = 12;
-constexpr int kLeastWidth = 640; // the width of the swatches with their words, and of labels that do not overlap
-constexpr int kBarHeight = 16;
-constexpr int kTickHeight = 5;
-constexpr int kSwatch = 14;
+// Lengths in pixels of the font, of which textScale of the image are one.
+constexpr int kMargin = 6;
+constexpr int kBarHeight = 8;
+constexpr int kTickHeight = 3;
+constexpr int kTickGap = 1; // to the label
+constexpr int kSwatch = 7;
+constexpr int kLeastWidth = 320; // the swatches with their words, and labels that do not overlap
+constexpr int kLeastTextScale = 2;
+constexpr std::size_t kMostTitleLines = 2;
 constexpr Rgb8 kBackground = {24, 24, 26};
 constexpr Rgb8 kInk = {232, 230, 224};
 constexpr Rgb8 kFaintInk = {168, 166, 160};
@@ -43,13 +46,6 @@ Rgb8 colourOf(PixelState state, double rel) {
         break;
     }
     return scaleColour(scalePosition(rel));
-}
-
-/// Shortens text to the available width, its end replaced by dots.
-std::string fitted(const std::string& text, int width) {
-    const std::size_t fits = std::size_t(std::max(width, 0) / (kTextScale * kGlyphAdvance));
-    if (text.size() <= fits) return text;
-    return fits < 3 ? std::string() : text.substr(0, fits - 2) + "..";
 }
 
 /// A position on the scale, 0..1, and its label.
@@ -86,12 +82,23 @@ float scaleEnd(const Picture& counts) {
 }
 
 /// An empty heat map with its title.
-DisplayImage framed(const HeatMapLayout& layout, const std::string& title) {
+struct Framed {
+    HeatMapLayout layout;
+    DisplayImage image;
+};
+
+Framed framed(int pictureWidth, int pictureHeight, const std::string& title) {
+    HeatMapLayout layout = heatMapLayout(pictureWidth, pictureHeight);
+    const int unit = layout.textScale;
+    const int room = (layout.width / unit - 2 * kMargin) / kGlyphAdvance;
+    const std::vector<std::string> lines = titleLines(title, std::size_t(room));
+    layout = heatMapLayout(pictureWidth, pictureHeight, std::max(int(lines.size()), 1));
     DisplayImage image{layout.width, layout.height, {}};
     image.rgb.resize(3 * image.pixelCount());
     fillRectangle(image, 0, 0, image.width, image.height, kBackground);
-    drawText(image, kMargin, kMargin, fitted(title, image.width - 2 * kMargin), kInk, kTextScale);
-    return image;
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        drawText(image, unit * kMargin, unit * (kMargin + int(i) * kGlyphHeight), lines[i], kInk, unit);
+    return {layout, std::move(image)};
 }
 
 void drawPixel(DisplayImage& image, const HeatMapLayout& layout, std::size_t pixel, int width, Rgb8 colour) {
@@ -101,18 +108,18 @@ void drawPixel(DisplayImage& image, const HeatMapLayout& layout, std::size_t pix
 }
 
 void drawBar(DisplayImage& image, const HeatMapLayout& layout, const std::vector<Tick>& ticks) {
-    const int span = layout.legendWidth - 1;
+    const int span = layout.legendWidth - 1, unit = layout.textScale;
     for (int x = 0; x <= span; ++x)
         fillRectangle(image, layout.legendX + x, layout.legendY, 1, layout.legendHeight,
                       scaleColour(double(x) / double(span)));
     const int tickY = layout.legendY + layout.legendHeight;
     for (const Tick& tick : ticks) {
         const int x = layout.legendX + int(std::lround(span * tick.position));
-        fillRectangle(image, x, tickY, 1, kTickHeight, kFaintInk);
-        const int labelWidth = textWidth(tick.label, kTextScale);
+        fillRectangle(image, x, tickY, 1, unit * kTickHeight, kFaintInk);
+        const int labelWidth = textWidth(tick.label, unit);
         const int left =
             std::clamp(x - labelWidth / 2, layout.legendX, layout.legendX + layout.legendWidth - labelWidth);
-        drawText(image, left, tickY + kTickHeight + 3, tick.label, kInk, kTextScale);
+        drawText(image, left, tickY + unit * (kTickHeight + kTickGap), tick.label, kInk, unit);
     }
 }
 
@@ -122,14 +129,15 @@ struct Swatch {
 };
 
 void drawSwatches(DisplayImage& image, const HeatMapLayout& layout, std::span<const Swatch> swatches) {
+    const int unit = layout.textScale, side = unit * kSwatch;
     int x = layout.legendX;
-    const int y = layout.legendY + kBarHeight + kTickHeight + 3 + kTextHeight + kMargin / 2;
+    const int y = layout.legendY + unit * (kBarHeight + kTickHeight + kTickGap + kGlyphHeight + kMargin / 2);
     for (const Swatch& swatch : swatches) {
-        fillRectangle(image, x, y, kSwatch, kSwatch, kFaintInk);
-        fillRectangle(image, x + 1, y + 1, kSwatch - 2, kSwatch - 2, swatch.colour);
-        x += kSwatch + 6;
-        drawText(image, x, y, swatch.meaning, kFaintInk, kTextScale);
-        x += textWidth(swatch.meaning, kTextScale) + 16;
+        fillRectangle(image, x, y, side, side, kFaintInk);
+        fillRectangle(image, x + 1, y + 1, side - 2, side - 2, swatch.colour);
+        x += side + 3 * unit;
+        drawText(image, x, y, swatch.meaning, kFaintInk, unit);
+        x += textWidth(swatch.meaning, unit) + 8 * unit;
     }
 }
 
@@ -145,27 +153,50 @@ double scalePosition(double rel) {
     return std::clamp(1.0 - std::log10(rel) / double(kErrorScaleLowExponent), 0.0, 1.0);
 }
 
-HeatMapLayout heatMapLayout(int pictureWidth, int pictureHeight) {
+HeatMapLayout heatMapLayout(int pictureWidth, int pictureHeight, int lines) {
     HeatMapLayout layout;
     // A picture of a few pixels is enlarged, but never to more than the height that the legend's width suggests.
-    const int fits = (kLeastWidth - 2 * kMargin) / std::max(pictureWidth, pictureHeight);
+    const int fits = kLeastTextScale * (kLeastWidth - 2 * kMargin) / std::max(pictureWidth, pictureHeight);
     layout.scale = std::max(1, fits);
-    layout.width = std::max(kLeastWidth, layout.scale * pictureWidth + 2 * kMargin);
+    layout.textScale = std::max(kLeastTextScale, layout.scale * pictureWidth / (kLeastWidth - 2 * kMargin));
+    const int unit = layout.textScale;
+    layout.width = std::max(unit * kLeastWidth, layout.scale * pictureWidth + 2 * unit * kMargin);
     layout.pictureX = (layout.width - layout.scale * pictureWidth) / 2;
-    layout.pictureY = kMargin + kTextHeight + kMargin / 2;
-    layout.legendX = kMargin;
-    layout.legendY = layout.pictureY + layout.scale * pictureHeight + kMargin;
-    layout.legendWidth = layout.width - 2 * kMargin;
-    layout.legendHeight = kBarHeight;
-    layout.height = layout.legendY + kBarHeight + kTickHeight + 3 + kTextHeight + kMargin / 2 + kTextHeight + kMargin;
+    layout.pictureY = unit * (kMargin + lines * kGlyphHeight + kMargin / 2);
+    layout.legendX = unit * kMargin;
+    layout.legendY = layout.pictureY + layout.scale * pictureHeight + unit * kMargin;
+    layout.legendWidth = layout.width - 2 * unit * kMargin;
+    layout.legendHeight = unit * kBarHeight;
+    layout.height = layout.legendY + layout.legendHeight +
+                    unit * (kTickHeight + kTickGap + kGlyphHeight + kMargin / 2 + kGlyphHeight + kMargin);
     return layout;
+}
+
+std::vector<std::string> titleLines(const std::string& title, std::size_t most) {
+    std::vector<std::string> lines;
+    std::string rest = title;
+    while (!rest.empty()) {
+        std::string line = rest.substr(0, most);
+        if (rest.size() > most && lines.size() + 1 == kMostTitleLines) { // the rest is lost
+            line = most < 3 ? std::string() : line.substr(0, most - 2) + "..";
+            rest.clear();
+        } else if (rest.size() > most) {
+            const std::size_t gap = rest.rfind(' ', most);
+            line = rest.substr(0, gap == std::string::npos || gap == 0 ? most : gap);
+            rest.erase(0, line.size());
+            rest.erase(0, rest.find_first_not_of(' '));
+        } else {
+            rest.clear();
+        }
+        lines.push_back(line);
+    }
+    return lines;
 }
 
 DisplayImage errorHeatMap(const Picture& a, const Picture& b, const std::string& title,
                           std::span<const std::uint8_t> excluded) {
     const PixelErrors errors = pixelErrors(a, b, excluded);
-    const HeatMapLayout layout = heatMapLayout(a.width, a.height);
-    DisplayImage image = framed(layout, title);
+    auto [layout, image] = framed(a.width, a.height, title);
     for (std::size_t i = 0; i < errors.state.size(); ++i)
         drawPixel(image, layout, i, a.width, colourOf(errors.state[i], errors.rel[i]));
     drawBar(image, layout, errorTicks());
@@ -174,25 +205,23 @@ DisplayImage errorHeatMap(const Picture& a, const Picture& b, const std::string&
                                {kColourUncovered, "not drawn"},
                                {kColourExcluded, "excluded"}};
     drawSwatches(image, layout, swatches);
-    return image;
+    return std::move(image);
 }
 
 DisplayImage flipHeatMap(const DisplayImage& a, const DisplayImage& b, const std::string& title) {
     const std::vector<float> errors = flipErrors(a, b);
-    const HeatMapLayout layout = heatMapLayout(a.width, a.height);
-    DisplayImage image = framed(layout, title);
+    auto [layout, image] = framed(a.width, a.height, title);
     for (std::size_t i = 0; i < errors.size(); ++i)
         drawPixel(image, layout, i, a.width, scaleColour(double(errors[i])));
     drawBar(image, layout, shareTicks());
     const Swatch swatches[] = {{scaleColour(0.0), "looks the same"},
                                {scaleColour(1.0), "could not look more different"}};
     drawSwatches(image, layout, swatches);
-    return image;
+    return std::move(image);
 }
 
 DisplayImage countHeatMap(const Picture& counts, const std::string& title) {
-    const HeatMapLayout layout = heatMapLayout(counts.width, counts.height);
-    DisplayImage image = framed(layout, title);
+    auto [layout, image] = framed(counts.width, counts.height, title);
     const float log2Most = scaleEnd(counts);
     for (std::size_t i = 0; i < counts.pixelCount(); ++i) {
         const float position = shared::heatPositionOfCount(counts.pixel(i)[0], log2Most);
@@ -201,7 +230,7 @@ DisplayImage countHeatMap(const Picture& counts, const std::string& title) {
     drawBar(image, layout, countTicks(log2Most));
     const Swatch swatches[] = {{kColourUncovered, "not drawn"}};
     drawSwatches(image, layout, swatches);
-    return image;
+    return std::move(image);
 }
 
 DisplayImage faultMap(const Picture& radiance, const DisplayImage& painted, const std::string& title) {
@@ -212,9 +241,9 @@ DisplayImage faultMap(const Picture& radiance, const DisplayImage& painted, cons
             worst = std::max(worst, shared::faultOfBits(std::bit_cast<std::uint32_t>(radiance.pixel(i)[c])));
         ++pixels[std::size_t(worst)];
     }
-    const HeatMapLayout layout = heatMapLayout(painted.width, painted.height);
-    DisplayImage image = framed(layout, fmt::format("{} NaN, {} infinite, {} negative: {}", pixels[FAULT_NAN],
-                                                    pixels[FAULT_INFINITE], pixels[FAULT_NEGATIVE], title));
+    auto [layout, image] = framed(painted.width, painted.height,
+                                  fmt::format("{} NaN, {} infinite, {} negative: {}", pixels[FAULT_NAN],
+                                              pixels[FAULT_INFINITE], pixels[FAULT_NEGATIVE], title));
     for (std::size_t i = 0; i < painted.pixelCount(); ++i) {
         const std::uint8_t* rgb = &painted.rgb[3 * i];
         drawPixel(image, layout, i, painted.width, {rgb[0], rgb[1], rgb[2]});
@@ -227,7 +256,7 @@ DisplayImage faultMap(const Picture& radiance, const DisplayImage& painted, cons
                                {colourOfFault(FAULT_INFINITE), "infinite"},
                                {colourOfFault(FAULT_NEGATIVE), "negative"}};
     drawSwatches(image, layout, swatches);
-    return image;
+    return std::move(image);
 }
 
 } // namespace tessera::validation

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/Picture.h"
 #include "validation/pictures/BitmapFont.h"
@@ -19,16 +20,22 @@ Rgb8 scaleColour(double position);
 /// Where a relative error lies on the scale: 0 at 1e-7 and below (0 included), 1 at 1 and above, logarithmic between.
 double scalePosition(double rel);
 
-/// Where the picture sits in a heat map, which is enlarged by whole numbers when it is small.
+/// Where the picture sits in a heat map, which is enlarged by whole numbers when it is small. The letters grow with the
+/// image, so that they can be read where it is shown smaller.
 struct HeatMapLayout {
     int width = 0, height = 0;      ///< of the whole image
     int pictureX = 0, pictureY = 0; ///< upper left corner of the picture
     int scale = 1;                  ///< size of one of its pixels
     int legendX = 0, legendY = 0;   ///< upper left corner of the colour bar
     int legendWidth = 0, legendHeight = 0;
+    int textScale = 2; ///< of the font; lengths of the frame grow with it
 };
 
-HeatMapLayout heatMapLayout(int pictureWidth, int pictureHeight);
+HeatMapLayout heatMapLayout(int pictureWidth, int pictureHeight, int titleLines = 1);
+
+/// A title in lines of so many characters, broken between words where they have room; two at most, and what is left
+/// over is replaced by dots.
+std::vector<std::string> titleLines(const std::string& title, std::size_t most);
 
 /// The relative error (PixelErrors::rel) of picture a against the truth b as colours on a logarithmic scale from 1e-7
 /// to 1, with the title above and the legend below. Pixels that are not finite are magenta, uncovered ones dark grey,

@@ -97,12 +97,12 @@ TEST(HeatMap, theLegendsWordsAreNotCutOffAndItsLabelsStandApart) {
             EXPECT_EQ(std::find(ink.begin() + layout.legendX + layout.legendWidth, ink.end(), true), ink.end());
         }
         // The labels are all between ticks and swatches; a gap of a letter's width is between two of them.
-        constexpr int kTextScale = 2, kTickRows = 5 + 3;
-        const std::vector<bool> ink = inkBelow(errorHeatMap(picture, picture, "t"), bottom + kTickRows,
-                                               bottom + kTickRows + kTextScale * kGlyphHeight);
-        int labels = 0, gap = kTextScale * kGlyphAdvance;
+        const int unit = layout.textScale, tickRows = unit * (3 + 1);
+        const std::vector<bool> ink =
+            inkBelow(errorHeatMap(picture, picture, "t"), bottom + tickRows, bottom + tickRows + unit * kGlyphHeight);
+        int labels = 0, gap = unit * kGlyphAdvance;
         for (const bool hasInk : ink) {
-            if (hasInk && gap >= kTextScale * kGlyphAdvance) ++labels;
+            if (hasInk && gap >= unit * kGlyphAdvance) ++labels;
             gap = hasInk ? 0 : gap + 1;
         }
         EXPECT_EQ(labels, 8);
@@ -125,6 +125,30 @@ TEST(HeatMap, aTitleOfAnyLengthNeverLeavesTheImage) {
     const DisplayImage image = errorHeatMap(picture, picture, std::string(1000, 'W'));
     EXPECT_EQ(at(image, image.width - 1, 18), at(image, 0, 0));
     EXPECT_TRUE(errorHeatMap(picture, picture, "").isConsistent());
+}
+
+TEST(HeatMap, aTitleIsBrokenBetweenWordsAndCutOnlyAfterTheSecondLine) {
+    using testing::ElementsAre;
+    EXPECT_THAT(titleLines("", 9), ElementsAre());
+    EXPECT_THAT(titleLines("a vs forward", 12), ElementsAre("a vs forward"));
+    EXPECT_THAT(titleLines("deferred vs forward", 12), ElementsAre("deferred vs", "forward"));
+    EXPECT_THAT(titleLines("clustered_deferred", 12), ElementsAre("clustered_de", "ferred"));
+    EXPECT_THAT(titleLines("one two three four", 8), ElementsAre("one two", "three .."));
+    const Picture picture = greyPicture(2, 2, 1.f);
+    const DisplayImage one = errorHeatMap(picture, picture, "short"),
+                       two = errorHeatMap(picture, picture,
+                                          "clustered_deferred, cluster 16, packed, range 0.004 vs "
+                                          "the reference of a scene with a long name");
+    EXPECT_EQ(two.width, one.width);
+    EXPECT_EQ(two.height, one.height + heatMapLayout(2, 2).textScale * kGlyphHeight);
+}
+
+TEST(HeatMap, theLettersGrowWithTheImageThatIsShownSmaller) {
+    EXPECT_EQ(heatMapLayout(160, 90).textScale, 2);
+    const HeatMapLayout large = heatMapLayout(1280, 720);
+    EXPECT_EQ(large.textScale, 4);
+    EXPECT_EQ(heatMapLayout(3840, 2160).textScale, 12);
+    EXPECT_GE(large.legendX, 4 * 6);
 }
 
 TEST(BitmapFont, textIsDrawnInItsCellsAndCutOffAtTheEdge) {
