@@ -40,7 +40,8 @@
                 if (value >= axis.min * 0.999 && value <= axis.max * 1.001) ticks.push({ value });
             }
         }
-        axis.ticks = ticks;
+        // Where everything that was measured is the same, that alone: its padded range is a tenth of a decade.
+        axis.ticks = ticks.length && decades > 0.11 ? ticks : [{ value: Math.sqrt(axis.min * axis.max) }];
     }
 
     /** A number that was counted: exact, with its thousands apart, as long as it stays short. */
@@ -96,7 +97,7 @@
     }
 
     /** Draws a plot now and whenever `draw` is asked to; tells on the canvas what it shows. */
-    function plot(canvasId, configure) {
+    function plot(canvasId, configure, drawn = () => {}) {
         const canvas = document.getElementById(canvasId);
         let chart = null;
         const draw = () => {
@@ -106,6 +107,7 @@
             chart = new Chart(canvas, configure());
             const shown = chart.data.datasets.map((set, i) => (set.marks ? chart.getDatasetMeta(i).data.length : 0));
             canvas.dataset.points = shown.reduce((sum, count) => sum + count, 0);
+            drawn(chart);
         };
         draw();
         redraws.push(draw);
@@ -120,14 +122,35 @@
             context.save();
             context.font = "600 " + Chart.defaults.font.size + "px " + Chart.defaults.font.family;
             context.fillStyle = variable("--ink");
+            context.strokeStyle = variable("--card"); // around the letters, on lines and marks that they cross
+            context.lineWidth = 4;
+            context.lineJoin = "round";
+            context.textBaseline = "middle";
+            const marks = chart.data.datasets.flatMap((set, i) =>
+                set.marks && chart.isDatasetVisible(i) ? chart.getDatasetMeta(i).data : []);
             chart.data.datasets.forEach((set, i) => {
                 if (!chart.isDatasetVisible(i)) return;
                 chart.getDatasetMeta(i).data.forEach((mark, j) => {
                     const label = set.data[j].label;
                     if (!label) return;
-                    const isRight = mark.x + 14 + context.measureText(label).width < area.right;
-                    context.textAlign = isRight ? "left" : "right";
-                    context.fillText(label, mark.x + (isRight ? 12 : -12), mark.y - 9);
+                    // Of the places around the mark, the first that crosses the fewest marks and no edge.
+                    const width = context.measureText(label).width, reach = 18, half = Chart.defaults.font.size / 2 + 2;
+                    const places = [
+                        { x: mark.x - width / 2, y: mark.y - reach - half },
+                        { x: mark.x - width / 2, y: mark.y + reach + half },
+                        { x: mark.x + 12, y: mark.y - reach - half },
+                        { x: mark.x + 12, y: mark.y + reach + half },
+                        { x: mark.x - 12 - width, y: mark.y - reach - half },
+                        { x: mark.x + reach, y: mark.y },
+                        { x: mark.x - reach - width, y: mark.y },
+                    ];
+                    const cost = ({ x, y }) =>
+                        marks.filter((other) => other.x > x - 8 && other.x < x + width + 8 && Math.abs(other.y - y) < half + 7)
+                            .length +
+                        1000 * (x < area.left || x + width > area.right || y - half < area.top || y + half > area.bottom);
+                    const place = places.reduce((best, tried) => (cost(tried) < cost(best) ? tried : best));
+                    context.strokeText(label, place.x, place.y);
+                    context.fillText(label, place.x, place.y);
                 });
             });
             context.restore();
@@ -157,18 +180,20 @@
                 };
             });
         const front = measured.filter((point) => point.front).sort((a, b) => a.ms - b.ms || b.relMse - a.relMse);
-        datasets.push({
-            label: "front",
-            type: "line",
-            data: front.map(place),
-            borderColor: variable("--soft"),
-            borderWidth: 1.5,
-            borderDash: [5, 4],
-            pointRadius: 0,
-            pointHitRadius: 0,
-            pointStyle: "line",
-            order: 1,
-        });
+        if (front.length > 1) {
+            datasets.push({
+                label: "front",
+                type: "line",
+                data: front.map(place),
+                borderColor: variable("--soft"),
+                borderWidth: 1.5,
+                borderDash: [5, 4],
+                pointRadius: 0,
+                pointHitRadius: 0,
+                pointStyle: "line",
+                order: 1,
+            });
+        }
         datasets.push({
             label: "take",
             data: measured.filter((point) => point.best).map((point) => ({ ...place(point), label: point.technique })),
@@ -179,6 +204,20 @@
             pointHitRadius: 0,
             pointStyle: "circle",
         });
+        // What the shapes mean stands in the legend without marks of its own.
+        const shown = layouts.filter((layout) => measured.some((point) => point.layout === layout));
+        if (shown.length > 1) {
+            for (const layout of shown) {
+                datasets.push({
+                    label: layout + " layout",
+                    isKey: true,
+                    data: [],
+                    backgroundColor: "transparent",
+                    borderColor: variable("--soft"),
+                    pointStyle: shapeOf(layout),
+                });
+            }
+        }
         const options = commonOptions({
             title: (items) => items[0].raw.point.name,
             label: (item) => {
@@ -193,6 +232,9 @@
             },
         });
         options.plugins.tooltip.filter = (item, i) => i === 0;
+        options.plugins.legend.onClick = (event, item, legend) => {
+            if (!datasets[item.datasetIndex].isKey) Chart.defaults.plugins.legend.onClick.call(legend, event, item, legend);
+        };
         const heights = measured.map((point) => place(point).y);
         const vertical = heights.length ? padded(heights, 0.12) : {};
         options.scales = {
@@ -207,6 +249,87 @@
     const drawFront = plot("front-plot", () => frontConfiguration(data.groups[groupChoice.value]));
     groupChoice.addEventListener("change", drawFront);
 
+    const kManyCurves = 16; // of which those of one layout are shown at first
+    const dashes = [[], [9, 4], [3, 3], [12, 3, 3, 3], [1.5, 2.5], [6, 2, 1.5, 2, 1.5, 2]];
+    /** How far a technique's colour goes to the ink's, or below 0 to the card's, by the culling method. */
+    const shades = [0, 0.35, -0.35, 0.55, -0.55, 0.2];
+
+    function mixed(colour, other, share) {
+        const channels = (code) => [1, 3, 5].map((i) => parseInt(code.slice(i, i + 2), 16));
+        const to = channels(other);
+        return "rgb(" + channels(colour).map((value, i) => Math.round(value + (to[i] - value) * share)).join(" ") + ")";
+    }
+
+    const cullingOf = (curve) => curve.name.split(", ").slice(1).filter((part) => part !== curve.layout).join(", ");
+
+    /** A colour for each technique, and a shade and dashes for each of its culling methods. */
+    function curveStyles(curves) {
+        return curves.map((curve) => {
+            const same = curves.filter((other) => other.technique === curve.technique);
+            const i = [...new Set(same.map(cullingOf))].indexOf(cullingOf(curve)) % shades.length;
+            const towards = variable(shades[i] < 0 ? "--card" : "--ink");
+            return { colour: mixed(colourOf(curve.technique), towards, Math.abs(shades[i])), dash: dashes[i] };
+        });
+    }
+
+    const marks = {
+        circle: '<circle r="4" />',
+        triangle: '<path d="M0-5 4.5 3.5H-4.5Z" />',
+        rect: '<path d="M-3.5-3.5h7v7h-7z" />',
+        rectRot: '<path d="M0-5 5 0 0 5-5 0Z" />',
+        star: '<path d="M-5 0H5M0-5V5M-3.5-3.5 3.5 3.5M-3.5 3.5 3.5-3.5" />',
+    };
+
+    /** A button for each curve, under one for all of its technique: a canvas has no room for so many names. */
+    function buildLegend(chart, legend) {
+        const sets = chart.data.datasets.map((set, i) => ({ ...set, i }));
+        const buttons = [];
+        const update = () => {
+            chart.update();
+            for (const { button, of } of buttons)
+                button.setAttribute("aria-pressed", of.some((set) => chart.isDatasetVisible(set.i)));
+        };
+        const add = (place, of, className, text, swatch = "") => {
+            const button = document.createElement("button");
+            button.type = "button";
+            button.className = className;
+            button.innerHTML = swatch;
+            button.append(text);
+            button.addEventListener("click", () => {
+                const isVisible = of.every((set) => chart.isDatasetVisible(set.i));
+                for (const set of of) chart.setDatasetVisibility(set.i, !isVisible);
+                update();
+            });
+            place.append(button);
+            buttons.push({ button, of });
+        };
+        const swatchOf = (set) =>
+            `<svg viewBox="-24 -8 48 16" stroke="${set.borderColor}" stroke-width="2" fill="${set.borderColor}">` +
+            `<path d="M-24 0H24" stroke-dasharray="${set.borderDash.join(" ")}" />${marks[set.pointStyle]}</svg>`;
+        const note = document.createElement("p");
+        note.append("Colour tells the technique, shade and dashes its culling method, and the mark the layout. ");
+        const shown = layouts.filter((layout) => sets.some((set) => set.curve.layout === layout));
+        if (shown.length > 1) {
+            note.append("Show or hide all of ");
+            for (const layout of shown) {
+                add(note, sets.filter((set) => set.curve.layout === layout), "", layout);
+                note.append(" ");
+            }
+        }
+        const columns = document.createElement("div");
+        columns.className = "techniques";
+        for (const technique of new Set(sets.map((set) => set.curve.technique))) {
+            const own = sets.filter((set) => set.curve.technique === technique);
+            const column = document.createElement("div");
+            if (own.length > 1) add(column, own, "whole-technique", technique);
+            const nameOf = (set) => (own.length > 1 ? set.label.slice(technique.length + 2) : set.label);
+            for (const set of own) add(column, [set], "curve", nameOf(set), swatchOf(set));
+            columns.append(column);
+        }
+        legend.replaceChildren(note, columns);
+        update();
+    }
+
     const scalingChoice = document.getElementById("scaling-curves");
     if (scalingChoice) {
         const titleOf = (curve) =>
@@ -214,17 +337,19 @@
         const titles = [...new Set(data.curves.map(titleOf))];
         for (const title of titles) scalingChoice.add(new Option(title, title));
         scalingChoice.closest(".controls").hidden = titles.length < 2;
-        const dashes = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
         const configure = () => {
             const curves = data.curves.filter((curve) => titleOf(curve) === scalingChoice.value);
-            const datasets = curves.map((curve) => ({
+            const styles = curveStyles(curves);
+            const datasets = curves.map((curve, i) => ({
                 label: curve.name + (curve.growth ? " (" + curve.growth + ")" : ""),
+                curve,
+                hidden: curves.length > kManyCurves && curve.layout !== curves[0].layout,
                 marks: true,
                 data: curve.x.map((x, i) => ({ x, y: curve.ms[i] })),
-                borderColor: colourOf(curve.technique),
-                backgroundColor: colourOf(curve.technique),
+                borderColor: styles[i].colour,
+                backgroundColor: styles[i].colour,
                 borderWidth: 2,
-                borderDash: dashes[Math.max(0, layouts.indexOf(curve.layout)) % dashes.length],
+                borderDash: styles[i].dash,
                 pointStyle: shapeOf(curve.layout),
                 pointRadius: 4,
                 pointHoverRadius: 7,
@@ -234,6 +359,7 @@
                 label: (item) => counted(item.raw.x) + " " + curves[0].quantity + ": " + plain(item.raw.y) + " ms",
             });
             options.plugins.tooltip.filter = (item, i) => i === 0;
+            options.plugins.legend.display = false;
             const measured = curves.flatMap((curve) => curve.x);
             options.scales = {
                 x: logAxis(curves[0].quantity, { ...padded(measured, 0.04), afterBuildTicks: measuredTicks(measured) }),
@@ -242,7 +368,10 @@
             options.scales.x.ticks.callback = counted;
             return { type: "line", data: { datasets }, options };
         };
-        const drawScaling = plot("scaling-plot", configure);
+        const legend = document.createElement("div");
+        legend.className = "legend";
+        document.getElementById("scaling-plot").parentElement.after(legend);
+        const drawScaling = plot("scaling-plot", configure, (chart) => buildLegend(chart, legend));
         scalingChoice.addEventListener("change", drawScaling);
     }
 

@@ -25,6 +25,11 @@ addEventListener("load", () => {
         document.querySelectorAll(".viewer .stage").length, Math.max(0, root.scrollWidth - innerWidth)].join(" ");
     const scaling = Chart.getChart("scaling-plot");
     root.dataset.ticks = scaling.scales.x.ticks.map((tick) => tick.label).join(" ");
+    const names = [...document.querySelectorAll("#scaling .legend .curve")];
+    const last = names[names.length - 1].getBoundingClientRect();
+    names[0].click();
+    root.dataset.legend = [names.length, last.bottom <= document.getElementById("points").getBoundingClientRect().top,
+        names[0].getAttribute("aria-pressed"), scaling.isDatasetVisible(0), scaling.isDatasetVisible(1)].join(" ");
     root.dataset.curves = scaling.data.datasets.map((set) => set.label).join("; ");
 });
 </script>)";
@@ -71,6 +76,8 @@ TEST_F(BenchPage, everyPlotShowsItsPointsInABrowserWithoutAComplaint) {
         EXPECT_EQ(group(seen.out, probe, 3), "1") << "sliders";
         EXPECT_EQ(group(seen.out, probe, 4), "0") << "pixels beyond the window";
         EXPECT_EQ(group(seen.out, "data-ticks=\"([^\"]*)\""), "4 17 1,025");
+        // A name of every curve, below the plot and above what follows; a click hides its curve.
+        EXPECT_EQ(group(seen.out, "data-legend=\"([^\"]*)\""), "3 true false false true");
         const std::string slope = "exact \\((no trend|-?[0-9]\\.[0-9]{2})\\)";
         EXPECT_NE(group(seen.out, "data-curves=\"(forward, " + slope + "; deferred, " + slope + ")"), "");
     }
