@@ -20,6 +20,7 @@
 #include "validation/compare/Measure.h"
 #include "validation/compare/TechniqueCompare.h"
 #include "validation/pictures/HeatMap.h"
+#include "validation/report/FigureHtml.h"
 #include "validation/report/Report.h"
 
 namespace tessera::app {
@@ -92,7 +93,7 @@ validation::Report makeReport(const std::string& source, const Request& request,
     report.title = fmt::format("{}, rendered {} ways", request.scene.name, result.techniques.size());
     report.record = comparison.record;
     report.choice = result.choice;
-    report.facts = {{"Triangles", fmt::format("{}", scenes::triangleCount(request.scene))},
+    report.facts = {{"Triangles", validation::countText(scenes::triangleCount(request.scene))},
                     {"Lights", fmt::format("{}", request.scene.lights.size())},
                     {"Materials", fmt::format("{}", request.scene.materials.size())}};
     if (comparison.record.samples > 1)

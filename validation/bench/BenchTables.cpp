@@ -66,13 +66,13 @@ std::string answersHtml(const BenchRecord& record) {
 /// Stands apart from the errors: it is none.
 std::string filterHtml(const AttributionLine& line) {
     return fmt::format(
-        "<p class=\"lede\">A choice and no error: the timed frames filter textures as OpenGL does, with smaller levels "
-        "where a pixel covers many texels, and errors are measured on the finest level alone, exactly filtered. The "
-        "two "
-        "pictures differ by relMSE {}, p99 rel {}, bias {}. How well the driver filters is another question: "
-        "<code>tessera compare SCENE --against reference</code> answers it with the pair (hardware filter), whose "
-        "reference filters with the same levels.</p>\n",
-        figureHtml(line.relMse), figureHtml(line.p99Rel), figureHtml(line.bias));
+        "<p class=\"lede\">Not an error: timed frames use mipmaps; errors are measured on the finest level only, "
+        "exactly "
+        "filtered. The two pictures differ by relMSE {}, p99 rel {}, bias {}. How well the driver filters is another "
+        "question: <code>{}</code> answers it with the pair (hardware filter), whose reference filters with the same "
+        "levels.</p>\n",
+        figureHtml(line.relMse), figureHtml(line.p99Rel), figureHtml(line.bias),
+        escapedWhole("tessera compare SCENE --against reference"));
 }
 
 std::string attributionHtml(const BenchGroup& group) {
@@ -82,7 +82,7 @@ std::string attributionHtml(const BenchGroup& group) {
     for (const AttributionLine& line : group.attribution) {
         if (line.cause == kFilterCause) continue;
         html += fmt::format("<tr><th scope=\"row\">{}</th>\n<td data-label=\"Against\">{}</td>\n",
-                            escapedHtml(line.what), escapedHtml(line.against));
+                            escapedWhole(line.what), escapedWhole(line.against));
         html += cellHtml("relMSE", figureHtml(line.relMse));
         html += fmt::format("<td class=\"bar\"><span class=\"{}\" style=\"width:{:.1f}%\"></span></td>\n", line.cause,
                             barPercent(line.relMse.value_or(0.0)));

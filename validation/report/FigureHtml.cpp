@@ -29,4 +29,10 @@ std::string shareHtml(double share) {
     return std::isnan(share) ? "&ndash;" : escapedHtml(shareText(share));
 }
 
+std::string countText(std::uint64_t count) {
+    std::string text = std::to_string(count);
+    for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
+    return text;
+}
+
 } // namespace tessera::validation

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -9,5 +10,7 @@ std::string figureHtml(double value);
 std::string figureHtml(const std::optional<double>& value);
 /// A share 0..1 as a percentage; a dash for NaN.
 std::string shareHtml(double share);
+/// A whole number with its thousands apart: 389,128.
+std::string countText(std::uint64_t count);
 
 } // namespace tessera::validation

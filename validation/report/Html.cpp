@@ -1,5 +1,7 @@
 #include "validation/report/Html.h"
 
+#include <algorithm>
+
 #include "base/Utf8.h"
 
 namespace tessera::validation {
@@ -27,6 +29,22 @@ std::string escapedHtml(std::string_view text) {
         else
             html += text.substr(0, length);
         text.remove_prefix(length == 0 ? 1 : length);
+    }
+    return html;
+}
+
+std::string escapedWhole(std::string_view text) {
+    constexpr std::size_t kMostBytes = 24; // what is longer has no room in a narrow window
+    constexpr std::string_view kGaps = " \n\t";
+    std::string html;
+    while (!text.empty()) {
+        const std::size_t gap = std::min(text.find_first_not_of(kGaps), text.size());
+        html += text.substr(0, gap);
+        text.remove_prefix(gap);
+        const std::string_view word = text.substr(0, text.find_first_of(kGaps));
+        const bool isWhole = word.find('-') != std::string_view::npos && word.size() <= kMostBytes;
+        html += isWhole ? "<span class=\"whole\">" + escapedHtml(word) + "</span>" : escapedHtml(word);
+        text.remove_prefix(word.size());
     }
     return html;
 }

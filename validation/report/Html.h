@@ -10,6 +10,9 @@ namespace tessera::validation {
 /// that HTML does not allow, become U+FFFD.
 std::string escapedHtml(std::string_view text);
 
+/// The same, with words that have a hyphen, such as options and 3.1e-11, never broken there.
+std::string escapedWhole(std::string_view text);
+
 /// Base64 with padding (RFC 4648 section 4), on one line.
 std::string base64(std::span<const std::uint8_t> bytes);
 

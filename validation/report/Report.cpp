@@ -21,6 +21,8 @@ constexpr const char* kFiguresToRead =
     "within.</dd>\n"
     "<dt>relMSE</dt>\n<dd>Mean of squared error over squared true value plus a hundredth of the squared typical "
     "luminance.</dd>\n"
+    "<dt>FLIP</dt>\n<dd>How different two pictures look when one flips between them, mean over the pixels: 0 is the "
+    "same, 1 could not differ more (Andersson et al. 2020).</dd>\n"
     "<dt>Bias</dt>\n<dd>How much brighter the picture is on average, as a share of the truth.</dd>\n";
 constexpr const char* kPairsToRead =
     "<dt>Equal bits</dt>\n<dd>Share of those pixels whose red, green and blue are the same to the last bit.</dd>\n"
@@ -62,6 +64,15 @@ std::string factHtml(const std::string& label, const std::string& value) {
     return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", escapedHtml(label), escapedHtml(value));
 }
 
+std::string pictureHtml(const Report& report, const ReportPicture& picture) {
+    return fmt::format("<figure>\n<img id=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\" />\n"
+                       "<figcaption><strong>{}</strong> {}</figcaption>\n</figure>\n",
+                       pictureId(report, picture.name), picture.image.width, picture.image.height,
+                       escapedHtml("The scene as rendered by " + picture.name), pngDataUri(picture.image.bytes),
+                       escapedHtml(picture.name), escapedHtml(picture.caption));
+}
+
+/// What the page is about; the first picture is here, and the others follow below.
 std::string mastheadHtml(const Report& report) {
     const CompareRecord& record = report.record;
     std::string html =
@@ -70,13 +81,16 @@ std::string mastheadHtml(const Report& report) {
     const bool compares = !record.pairs.empty() || !report.bench;
     if (compares) html += verdictHtml(record);
     if (report.bench) html += report.bench->answer;
-    if (!report.choice.empty()) html += fmt::format("<p class=\"choice\">{}</p>\n", escapedHtml(report.choice));
+    html += "<div class=\"opening\">\n<div>\n";
+    if (!report.choice.empty()) html += fmt::format("<p class=\"choice\">{}</p>\n", escapedWhole(report.choice));
     html += "<dl class=\"facts\">\n";
     if (compares)
         html += factHtml("Scene", record.scene) + factHtml(report.bench ? "Compared at" : "Size",
                                                            fmt::format("{} \u00d7 {}", record.width, record.height));
     for (const ReportFact& fact : report.facts) html += factHtml(fact.label, fact.value);
-    return html + factHtml("Renderer", record.renderer) + "</dl>\n</header>\n";
+    html += factHtml("Renderer", record.renderer) + "</dl>\n</div>\n";
+    if (!report.pictures.empty()) html += pictureHtml(report, report.pictures.front());
+    return html + "</div>\n</header>\n";
 }
 
 std::string pairsHtml(const Report& report) {
@@ -88,14 +102,9 @@ std::string pairsHtml(const Report& report) {
 }
 
 std::string galleryHtml(const Report& report) {
-    if (report.pictures.empty()) return "";
-    std::string html = "<section id=\"pictures\">\n<h2>The pictures</h2>\n<div class=\"gallery\">\n";
-    for (const ReportPicture& picture : report.pictures)
-        html += fmt::format("<figure>\n<img id=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\" />\n"
-                            "<figcaption><strong>{}</strong> {}</figcaption>\n</figure>\n",
-                            pictureId(report, picture.name), picture.image.width, picture.image.height,
-                            escapedHtml("The scene as rendered by " + picture.name), pngDataUri(picture.image.bytes),
-                            escapedHtml(picture.name), escapedHtml(picture.caption));
+    if (report.pictures.size() < 2) return "";
+    std::string html = "<section id=\"pictures\">\n<h2>The other pictures</h2>\n<div class=\"gallery\">\n";
+    for (std::size_t i = 1; i < report.pictures.size(); ++i) html += pictureHtml(report, report.pictures[i]);
     return html + "</div>\n</section>\n";
 }
 
@@ -112,7 +121,7 @@ std::string commandsHtml(const Report& report) {
     if (report.commands.empty()) return "";
     std::string html = "<section id=\"commands\">\n<h2>Do it again</h2>\n";
     for (const std::string& command : report.commands)
-        html += fmt::format("<div class=\"command\"><pre><code>{}</code></pre></div>\n", escapedHtml(command));
+        html += fmt::format("<div class=\"command\"><pre><code>{}</code></pre></div>\n", escapedWhole(command));
     return html + "</section>\n";
 }
 

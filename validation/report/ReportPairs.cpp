@@ -23,7 +23,7 @@ std::string askedHtml(const Tolerance& tolerance) {
     if (tolerance.bias) add("|bias| &le;&nbsp;" + figureHtml(*tolerance.bias));
     if (html.empty()) html = "signal and sound values only";
     if (!tolerance.reason.empty())
-        html += fmt::format("<span class=\"reason\">{}</span>", escapedHtml(tolerance.reason));
+        html += fmt::format("<span class=\"reason\">{}</span>", escapedWhole(tolerance.reason));
     return html;
 }
 
@@ -42,7 +42,7 @@ std::string countsHtml(const BadPixels& bad) {
 
 std::string allFiguresHtml(const ErrorFigures& figures) {
     const auto orReason = [](const std::string& text, const std::string& reason) {
-        return reason.empty() ? text : fmt::format("&ndash; <span class=\"reason\">{}</span>", escapedHtml(reason));
+        return reason.empty() ? text : fmt::format("&ndash; <span class=\"reason\">{}</span>", escapedWhole(reason));
     };
     const std::pair<const char*, std::string> entries[] = {
         {"Equal bits", shareHtml(figures.bitEqual)},
@@ -59,7 +59,7 @@ std::string allFiguresHtml(const ErrorFigures& figures) {
         {"FLIP", orReason(figureHtml(figures.flip.value_or(0.0)), figures.flipReason)},
         {"NaN / Inf / negative", countsHtml(figures.bad)},
         {"NaN / Inf / negative, uncovered", countsHtml(figures.badOutside)},
-        {"Covered pixels", fmt::format("{}", figures.covered)},
+        {"Covered pixels", countText(figures.covered)},
         {"Excluded of them", shareHtml(figures.excluded)},
         {"Lit of the compared", shareHtml(figures.litCoveredShare())},
         {"Mean luminance", figureHtml(figures.meanLuminance)}};
@@ -150,7 +150,8 @@ std::string pairHtml(const Report& report, std::size_t index) {
                                    nameHtml(pair), badgeHtml(pair.verdict));
     if (!pair.verdict.missed.empty()) {
         html += "<ul>\n";
-        for (const std::string& missed : pair.verdict.missed) html += fmt::format("<li>{}</li>\n", escapedHtml(missed));
+        for (const std::string& missed : pair.verdict.missed)
+            html += fmt::format("<li>{}</li>\n", escapedWhole(missed));
         html += "</ul>\n";
     }
     html += channelsHtml(pair);

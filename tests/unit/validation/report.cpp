@@ -95,7 +95,7 @@ TEST(Report, theHtmlIsWellFormedAndFullyEscaped) {
     EXPECT_THAT(html, HasSubstr("llvmpipe &quot;quoted&quot;"));
     EXPECT_THAT(html, HasSubstr("same &lt; maths"));
     EXPECT_THAT(html, HasSubstr("left out: &lt;shadows&gt;"));
-    EXPECT_THAT(html, HasSubstr("./run compare hall --json &#39;x&amp;y.json&#39;"));
+    EXPECT_THAT(html, HasSubstr("./run compare hall <span class=\"whole\">--json</span> &#39;x&amp;y.json&#39;"));
 }
 
 TEST(Report, aBenchmarksPageIsWellFormedAndFullyEscaped) {
@@ -124,6 +124,28 @@ TEST(Report, aBenchmarksPageIsWellFormedAndFullyEscaped) {
     EXPECT_EQ(faultOf(reportHtml(report)), "");
 }
 
+TEST(Report, theFirstPictureStandsAboveTheFirstSection) {
+    const std::string html = reportHtml(sampleReport());
+    EXPECT_LT(html.find("id=\"picture-0\""), html.find("<section"));
+    EXPECT_GT(html.find("id=\"picture-1\""), html.find("<section"));
+}
+
+TEST(Html, wordsWithAHyphenAreNeverBroken) {
+    EXPECT_EQ(escapedWhole("relMSE 3.1e-11, a&b"), "relMSE <span class=\"whole\">3.1e-11,</span> a&amp;b");
+    EXPECT_EQ(escapedWhole(" x --against \n"), " x <span class=\"whole\">--against</span> \n");
+    EXPECT_EQ(escapedWhole(""), "");
+    const std::string path = "a-path/that/fills/more/than/a/line";
+    EXPECT_EQ(escapedWhole(path), path) << "it would make a narrow page wider than its window";
+}
+
+TEST(Html, countsHaveTheirThousandsApart) {
+    EXPECT_EQ(countText(0), "0");
+    EXPECT_EQ(countText(999), "999");
+    EXPECT_EQ(countText(1000), "1,000");
+    EXPECT_EQ(countText(389128), "389,128");
+    EXPECT_EQ(countText(1234567), "1,234,567");
+}
+
 TEST(Report, thePageNeverReachesOutsideItself) {
     const std::string html = reportHtml(sampleReport());
     EXPECT_THAT(html, Not(HasSubstr("http:")));
@@ -143,7 +165,7 @@ TEST(Report, theChoiceOfAFilterIsExplainedAndNeverAmongTheErrors) {
     const std::string with = attributionHtml(group);
     EXPECT_EQ(with.substr(0, without.size()), without) << "the table of the errors stays";
     EXPECT_THAT(without, testing::HasSubstr("packed: albedo"));
-    EXPECT_THAT(with.substr(without.size()), testing::HasSubstr("A choice and no error"));
+    EXPECT_THAT(with.substr(without.size()), testing::HasSubstr("Not an error: timed frames use mipmaps"));
     EXPECT_THAT(with.substr(without.size()), testing::HasSubstr(figureHtml(0.73)));
 }
 
@@ -172,7 +194,8 @@ TEST(Report, theVerdictSaysHowManyPairsMissed) {
     EXPECT_THAT(
         reportHtml(report),
         HasSubstr("1 of 2 comparisons missed a tolerance or lost geometry; each one below lists what it missed."));
-    EXPECT_THAT(reportHtml(report), HasSubstr("<li>maxRel is 0.5, at most 1e-05 was asked</li>"));
+    EXPECT_THAT(reportHtml(report),
+                HasSubstr("<li>maxRel is 0.5, at most <span class=\"whole\">1e-05</span> was asked</li>"));
     report.record.pairs.pop_back();
     EXPECT_THAT(reportHtml(report), HasSubstr("The comparison holds."));
     report.record.pairs.clear();
