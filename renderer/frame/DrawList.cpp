@@ -93,7 +93,7 @@ bool isOutside(const scenes::Box3& boxWS, const glm::dvec3& objectWS, const Came
         const glm::dvec3 innermost(normal.x > 0.0 ? high.x : low.x, normal.y > 0.0 ? high.y : low.y,
                                    normal.z > 0.0 ? high.z : low.z);
         const double insideMetres = glm::dot(normal, innermost) + plane.w;
-        return insideMetres < -kRoundingShare * (summedMetres + std::abs(plane.w));
+        return insideMetres < -kRoundingShare * summedMetres;
     });
 }
 

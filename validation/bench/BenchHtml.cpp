@@ -96,15 +96,19 @@ std::string answerHtml(const BenchRecord& record, const BenchGroup& group) {
         html +=
             tileHtml("Speed", fmt::format("{:.1f}&times;", speedup >= 1.0 ? speedup : 1.0 / speedup),
                      &best == choice->baseline ? (choice->asFast ? "forward, as fast as any" : "forward is the fastest")
-                     : speedup >= 1.0          ? "faster than forward"
-                                               : "slower than forward");
+                     : isAsFast(best.times.cpuMs, choice->baseline->times.cpuMs)
+                         ? "as fast as forward within the spread of the times"
+                     : speedup >= 1.0 ? "faster than forward"
+                                      : "slower than forward");
     }
     if (best.error)
         html += tileHtml("Error", figureHtml(best.error->relMse),
                          fmt::format("relMSE against {}", group.truth == "reference" ? "double precision" : "forward"));
     html += tileHtml("Time", fmt::format("{:.3g}&#8239;ms", best.times.cpuMs.median),
-                     best.ratioToFloor ? fmt::format("a frame, {:.1f}&times; the lower bound", *best.ratioToFloor)
-                                       : "a frame");
+                     !best.ratioToFloor ? "a frame"
+                     : *best.ratioToFloor < 1.0
+                         ? "a frame, below its lower bound: measure again"
+                         : fmt::format("a frame, {:.1f}&times; the lower bound", *best.ratioToFloor));
     return html + "</dl>\n";
 }
 
