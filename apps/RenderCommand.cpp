@@ -65,7 +65,7 @@ std::vector<std::string> outputsOf(const RenderOptions& options) {
 void warnOfPicture(const std::string& path, const scenes::Scene& scene, frame::DebugView view,
                    const std::vector<float>& rgba, bool& hasWarned) {
     std::size_t covered = 0, bad = 0;
-    bool isBlack = view == frame::DebugView::Final;
+    bool isBlack = view == frame::DebugView::Final && !scene.lights.empty(); // without lights that is no surprise
     for (std::size_t pixel = 0; pixel < rgba.size(); pixel += 4) {
         covered += rgba[pixel + 3] > 0.0f;
         bad += !(std::isfinite(rgba[pixel]) && std::isfinite(rgba[pixel + 1]) && std::isfinite(rgba[pixel + 2]));

@@ -60,7 +60,7 @@ TEST_F(BadOptions, lightingShadersOfATechniqueWithoutALightingPassAreRefused) {
 }
 
 TEST_F(BadOptions, sizesThatNoPictureHasAreRefused) {
-    for (const char* size : {"0x0", "-1x5", "16385x9", "9x999999999999", "12", "16x", "16x9x3", "+16x9", ""})
+    for (const char* size : {"0x0", "-1x5", "16385x9", "9x999999999999", "12", "16x", "16x9x3", "+16x9"})
         expectRefused({"--size", size}, {std::string("--size '") + size + "'", "1 to 16384"});
 }
 
@@ -78,12 +78,12 @@ TEST_F(BadOptions, samplesThatCannotBeDrawnAreRefused) {
 
 TEST_F(BadOptions, malformedNumbersAreRefused) {
     for (const char* option : {"--exposure", "--time", "--range-tolerance"})
-        for (const char* value : {"nan", "-inf", "1e999", "1,5", ""})
+        for (const char* value : {"nan", "-inf", "1e999", "1,5"})
             expectRefused({option, value}, {std::string(option) + " '" + value + "' is not a finite number"});
     expectRefused({"--exposure", "1000"}, {"--exposure 1000", "-120 to 120"});
     expectRefused({"--range-tolerance", "-0.1"}, {"--range-tolerance -0.1 is below 0"});
     for (const char* option : {"--lights", "--solo", "--frames"})
-        for (const char* value : {"1.5", "99999999999", ""})
+        for (const char* value : {"1.5", "99999999999"})
             expectRefused({option, value}, {std::string(option) + " '" + value + "' is not a whole number"});
 }
 
@@ -141,7 +141,7 @@ TEST_F(BadOptions, aViewerWithoutADisplaySaysThatItIsMissing) {
 }
 
 TEST_F(BadOptions, picturesOfOtherKindsAreRefused) {
-    for (const char* name : {"b.jpg", "b", ".png", ""})
+    for (const char* name : {"b.jpg", "b", ".png"})
         expectError(kBadInput, {"render", "room", "-o", name}, {".exr", ".png"});
 }
 
@@ -168,7 +168,7 @@ TEST_F(BadOptions, comparisonsThatCannotBeMadeAreRefused) {
 }
 
 TEST_F(BadOptions, aMalformedMemoryLimitIsRefused) {
-    for (const char* size : {"0", "-1", "4T", "4 G", "G", "1e9", "99999999999999999999", "17179869184G", ""})
+    for (const char* size : {"0", "-1", "4T", "4 G", "G", "1e9", "99999999999999999999", "17179869184G"})
         expectRefused({"--memory-limit", size}, {std::string("--memory-limit '") + size + "' is no size", "as in 4G"});
     folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     expectError(kBadInput, {"plan", "m.obj", "--memory-limit", "512"},
@@ -260,7 +260,7 @@ TEST_F(BadOptions, aDriverWithoutOpenGl45IsNamedWithWhatItOffers) {
 }
 
 TEST_F(BadOptions, anEmptyValueIsRefused) {
-    for (const char* option : {"--technique", "--size", "--camera", "--output"})
+    for (const char* option : {"--technique", "--size", "--camera", "--output", "--time", "--lights", "--memory-limit"})
         expectRefused({option, ""}, {option, "is empty; give a value"});
     expectError(kBadInput, {"plan", "room", "--json", ""}, {"--json", "is empty; give a value"});
     expectError(kBadInput, {"compare", "room", "--heatmap", ""}, {"--heatmap", "is empty; give a value"});

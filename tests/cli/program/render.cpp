@@ -135,8 +135,9 @@ TEST_F(Render, aPictureOfNothingSaysWhy) {
 }
 
 TEST_F(Render, aBlackPictureIsToldSoButNotABlackDebugView) {
+    folder_.write("tri.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     folder_.write("dark.json", R"({"tessera": 1, "include": [{"file": "tri.obj"}],
-        "lights": [{"type": "point", "position": [0, 0, 50], "range": 1, "intensity": 1, "color": [1, 1, 1]}]})");
+        "lights": [{"type": "point", "position": [0, 0, 50], "falloff": {"type": "inverse_square", "range": 1}, "intensity": 1, "color": [1, 1, 1]}]})");
     const auto said = [&](std::vector<std::string> more) {
         std::vector<std::string> arguments = {"render", "dark.json", "--size", "16x9", "-o", "a.png"};
         arguments.insert(arguments.end(), more.begin(), more.end());
