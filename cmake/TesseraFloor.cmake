@@ -42,3 +42,11 @@ function(tessera_compile_options target)
         target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
     endif()
 endfunction()
+
+# (With -Og GCC 12 takes members of std::stop_callback for uninitialised.)
+set(TESSERA_LIGHT_FLAGS "" CACHE STRING "Compiler flags of what never computes for long: viewer, program and tests")
+
+# For targets that never compute for long.
+function(tessera_light_options target)
+    target_compile_options(${target} PRIVATE ${TESSERA_LIGHT_FLAGS})
+endfunction()

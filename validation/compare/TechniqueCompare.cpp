@@ -307,10 +307,12 @@ CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilit
                                        own.excluded, shownPair(request, picture, truth.own));
         pair.culling = culling;
         if (infoOf(asked.technique).usesGBuffer() && isPacked(asked.settings.layout)) {
-            // One G-buffer, one picture: the channels' shares are the same.
-            const std::optional<std::size_t> equal = equalPicture(result, all, asked, picture.picture);
-            pair.channels = equal ? result.record.pairs[*equal].channels
-                                  : channelShares(renderer, asked, truth, pair.figures.relMse);
+            if (request.channelShares) {
+                // One G-buffer, one picture: the channels' shares are the same.
+                const std::optional<std::size_t> equal = equalPicture(result, all, asked, picture.picture);
+                pair.channels = equal ? result.record.pairs[*equal].channels
+                                      : channelShares(renderer, asked, truth, pair.figures.relMse);
+            }
             // Against a picture file the tolerance is about that picture, which need not come from this renderer.
             if (!request.tolerance && !std::holds_alternative<PictureTruth>(request.against))
                 checkWithoutPacking(renderer, gl, request, asked, truth, pair.verdict);

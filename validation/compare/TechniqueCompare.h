@@ -33,6 +33,7 @@ struct CompareRequest {
     Truth against = engine::Technique::Forward;
     frame::FrameSettings settings;
     bool hardwareFilter = true;                ///< whether to measure hardware filtering beside the exact one
+    bool channelShares = true;                 ///< whether to measure what each packed channel adds to the error
     std::optional<Tolerance> tolerance;        ///< instead of the one each pair is held to by itself
     std::function<void()> renderedOne = [] {}; ///< called stepCount() times from any thread, for progress
 };
