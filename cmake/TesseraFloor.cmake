@@ -43,7 +43,7 @@ function(tessera_compile_options target)
     endif()
 endfunction()
 
-# (With -Og GCC 12 takes members of std::stop_callback for uninitialised.)
+# The preset release has -Og here, with which GCC 12 takes members of std::stop_callback for uninitialised.
 set(TESSERA_LIGHT_FLAGS "" CACHE STRING "Compiler flags of what never computes for long: viewer, program and tests")
 
 # For targets that never compute for long.
