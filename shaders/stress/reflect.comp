@@ -13,6 +13,6 @@ void main()
     fragment.tangentLS = inputs[record * 4 + 1];
     Surface surface = surfaceFromMaterial(fragment, materialBaseColor(fragment));
     vec3 toLight = inputs[record * 4 + 2].xyz;
-    vec3 brdfCosine = layeredBrdfCosine(surface, toLight, inputs[record * 4 + 3].xyz);
+    vec3 brdfCosine = layeredBrdfCosine(seenSurface(surface, inputs[record * 4 + 3].xyz), toLight);
     outputs[record] = vec4(brdfCosine, dot(surface.normalLS, toLight));
 }

@@ -10,7 +10,11 @@ void main()
     vec4 a = inputs[record * 3];
     vec4 b = inputs[record * 3 + 1];
     vec4 c = inputs[record * 3 + 2];
-    outputs[record * 2] = vec4(distributionGgx(a.w, a.xyz, b.xyz), visibilitySeparable(a.w, b.w, c.x),
-                               visibilityCorrelated(a.w, b.w, c.x), fresnelDielectric(c.y, c.z));
-    outputs[record * 2 + 1] = vec4(fresnelSchlick(vec3(c.w), 1.0, c.z), 0.0);
+    HalfSum h = halfSumAlong(a.xyz, b.xyz);
+    precise float alpha2 = a.w * a.w;
+    float lengthLight = smithLength(alpha2, b.w), lengthView = smithLength(alpha2, c.x);
+    outputs[record * 2] =
+        vec4(distributionGgx(alpha2, h), visibilitySeparable(b.w, lengthLight, c.x, lengthView),
+             visibilityCorrelated(b.w, lengthLight, c.x, lengthView), fresnelDielectric(c.y, c.z));
+    outputs[record * 2 + 1] = vec4(fresnelSchlick(vec3(c.w), vec3(1.0 - c.w), c.z), 0.0);
 }

@@ -52,9 +52,11 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
     precise vec3 toLight = place.xyz - positionLS;
     precise float distance2 = dot(toLight, toLight);
     precise float reach = distance2 * place.w;
-    if (!(reach < 1.0)) return false;
+    bool reaches = reach < 1.0;
     precise float window = 1.0 - reach * reach;
-    precise float falloff = (window * window) / max(distance2, 1e-4);
+    // At the light itself no direction is better than another; the least distance gives none, and no NaN.
+    precise float inverseDistance = 1.0 / sqrt(max(distance2, 1e-37));
+    precise float falloff = (window * window) * min(inverseDistance * inverseDistance, 1e4);
 #if HAS_LIGHT_SHAPES
     vec4 attenuation = vec4(0.0);
     if (kind != LIGHT_POINT) attenuation = lightShapeTexel(index, 1);
@@ -66,17 +68,16 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
         falloff = (window * window) / max(denominator, 1e-4);
     }
 #endif
-    // At the light itself no direction is better than another; this one gives no NaN.
-    precise vec3 direction = distance2 > 0.0 ? toLight / sqrt(distance2) : vec3(0.0);
+    precise vec3 direction = toLight * inverseDistance;
 #if HAS_LIGHT_SHAPES
     precise float share = shareTowards(index, kind, direction, attenuation);
-    if (!(share > 0.0)) return false;
+    reaches = reaches && share > 0.0;
     falloff *= share;
 #endif
     precise vec3 irradiance = color.rgb * falloff;
     incident.toLightLS = direction;
     incident.irradiance = irradiance;
-    return true;
+    return reaches;
 #else
     return false;
 #endif

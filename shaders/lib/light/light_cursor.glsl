@@ -80,23 +80,32 @@ bool nextBatch(inout LightCursor cursor, out int light)
 
 #elif LIGHT_CURSOR == LIGHT_CURSOR_LIST
 
-#if HAS_LIGHTS_EVERYWHERE
-// Two ascending runs merged; the heads are what either offers next.
-struct LightCursor {
-    int next;
-    int end;
-    int nextEverywhere;
-    int headOfList;
-    int headEverywhere;
-};
+// A run of entries; the head is the light that it offers next.
 const int kNoLight = 0x7fffffff;
-#else
-struct LightCursor {
+struct LightRun {
     int next;
     int end;
     int head;
 };
+
+LightRun lightRun(uvec2 cell)
+{
+    return LightRun(int(cell.x), int(cell.x + cell.y), cell.y > 0u ? int(texelFetch(lightEntries, int(cell.x)).x) : kNoLight);
+}
+
+void advance(inout LightRun run)
+{
+    run.next += 1;
+    int head = int(texelFetch(lightEntries, run.next).x);
+    run.head = run.next < run.end ? head : kNoLight;
+}
+
+struct LightCursor {
+    LightRun cell;
+#if HAS_LIGHTS_EVERYWHERE
+    LightRun everywhere;
 #endif
+};
 
 LightCursor lightCursor(vec2 pixel, float depth)
 {
@@ -105,43 +114,26 @@ LightCursor lightCursor(vec2 pixel, float depth)
     // The cells of a tile are those of its occupied slices, so a slice's rank among them finds its cell.
     uint below = slice < 32u ? tile.z & ((1u << slice) - 1u) : tile.z;
     uint belowHigh = slice < 32u ? 0u : tile.w & ((1u << (slice & 31u)) - 1u);
-    uvec2 cell = lightCells[WHERE_LISTED(tile.x + uint(bitCount(below) + bitCount(belowHigh)))];
+    LightRun cell = lightRun(lightCells[WHERE_LISTED(tile.x + uint(bitCount(below) + bitCount(belowHigh)))]);
 #if HAS_LIGHTS_EVERYWHERE
-    LightCursor cursor = LightCursor(int(cell.x), int(cell.x + cell.y), 0, kNoLight, kNoLight);
-    if (cell.y > 0u) cursor.headOfList = int(texelFetch(lightEntries, cursor.next).x);
-    if (lighting.lights.z > 0u) cursor.headEverywhere = int(texelFetch(lightEntries, 0).x);
-    return cursor;
+    return LightCursor(cell, lightRun(uvec2(0u, lighting.lights.z)));
 #else
-    return LightCursor(int(cell.x), int(cell.x + cell.y), int(texelFetch(lightEntries, int(cell.x)).x));
+    return LightCursor(cell);
 #endif
 }
 
+// Without an early return: rasterisers that mask lanes run what follows one all the same, and keep both results.
 bool nextLight(inout LightCursor cursor, out int light)
 {
 #if HAS_LIGHTS_EVERYWHERE
-    bool fromList = cursor.headOfList < cursor.headEverywhere;
-    light = fromList ? cursor.headOfList : cursor.headEverywhere;
-    if (fromList) {
-        cursor.next += 1;
-    } else {
-        cursor.nextEverywhere += 1;
-    }
-    int at = fromList ? cursor.next : cursor.nextEverywhere;
-    int end = fromList ? cursor.end : int(lighting.lights.z);
-    int head = at < end ? int(texelFetch(lightEntries, at).x) : kNoLight;
-    if (fromList) {
-        cursor.headOfList = head;
-    } else {
-        cursor.headEverywhere = head;
-    }
-    return light != kNoLight;
+    light = min(cursor.cell.head, cursor.everywhere.head);
+    if (cursor.cell.head == light) advance(cursor.cell);
+    if (cursor.everywhere.head == light) advance(cursor.everywhere);
 #else
-    if (cursor.next >= cursor.end) return false;
-    light = cursor.head;
-    cursor.next += 1;
-    cursor.head = int(texelFetch(lightEntries, cursor.next).x);
-    return true;
+    light = cursor.cell.head;
+    advance(cursor.cell);
 #endif
+    return light != kNoLight;
 }
 
 bool nextBatch(inout LightCursor cursor, out int light)

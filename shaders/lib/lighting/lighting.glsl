@@ -21,14 +21,14 @@ bool takesLight(Surface surface)
 // belong here and not in a loop; data of the surface that they need besides the shading normal become members of Surface.
 // It adds instead of returning: a rasteriser that masks lanes would choose between the result and 0 before it adds (5 % of
 // the time of 1,024 lights).
-void addLightOnSurface(int light, Surface surface, Viewpoint viewpoint, inout vec3 radiance)
+void addLightOnSurface(int light, SeenSurface seen, vec3 positionLS, inout vec3 radiance)
 {
 #if VISIT_COUNTS
     radiance += vec3(1.0);
 #else
     Incident incident;
-    if (incidentLight(light, viewpoint.positionLS, incident)) {
-        vec3 brdfCosine = layeredBrdfCosine(surface, incident.toLightLS, viewpoint.toViewerLS);
+    if (incidentLight(light, positionLS, incident)) {
+        vec3 brdfCosine = layeredBrdfCosine(seen, incident.toLightLS);
         precise vec3 sum = radiance + brdfCosine * incident.irradiance;
         radiance = sum;
     }
@@ -36,17 +36,17 @@ void addLightOnSurface(int light, Surface surface, Viewpoint viewpoint, inout ve
 }
 
 // Adds every light that the surface's cursor visits, in ascending order.
-vec3 lightsOnSurface(vec3 before, Surface surface, Viewpoint viewpoint, vec2 pixel)
+vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pixel)
 {
     precise vec3 radiance = before;
 #if HAS_LIT_MODELS
-    if (!takesLight(surface)) return radiance;
+    if (!takesLight(seen.surface)) return radiance;
     LightCursor cursor = lightCursor(pixel, viewpoint.depth);
     int light;
     if (!nextLight(cursor, light) && !nextBatch(cursor, light)) return radiance;
     // Tested at the end: rasterisers that mask lanes instead of branching would run a loop's body once more than its lights.
     // LIGHTS_PER_ROUND (renderer/frame/LightRounds.h) is spelt out: an inner loop would count towards the same limit.
-#define ADD_LIGHT addLightOnSurface(light, surface, viewpoint, radiance);
+#define ADD_LIGHT addLightOnSurface(light, seen, viewpoint.positionLS, radiance);
 #define ADD_NEXT_LIGHT if (nextLight(cursor, light)) ADD_LIGHT
     do {
         do {
@@ -69,5 +69,6 @@ vec3 lightsOnSurface(vec3 before, Surface surface, Viewpoint viewpoint, vec2 pix
 // Radiance of the surface towards the viewer: its emission and its lights.
 vec3 shadeSurface(Surface surface, Viewpoint viewpoint, vec2 pixel)
 {
-    return lightsOnSurface(emittedRadiance(surface, viewpoint.toViewerLS), surface, viewpoint, pixel);
+    SeenSurface seen = seenSurface(surface, viewpoint.toViewerLS);
+    return lightsOnSurface(emittedRadiance(seen), seen, viewpoint, pixel);
 }

@@ -20,7 +20,8 @@ vec3 specularFactorView(Surface surface, Viewpoint viewpoint)
     if (!incidentLight(int(lighting.lights.y), viewpoint.positionLS, incident)) return shown;
     precise float nl = dot(surface.normalLS, incident.toLightLS);
     if (!(nl > 0.0)) return shown;
-    SpecularTerms terms = reflection(surface, directionsOn(surface, incident.toLightLS, viewpoint.toViewerLS, nl)).terms;
+    SeenSurface seen = seenSurface(surface, viewpoint.toViewerLS);
+    SpecularTerms terms = reflection(seen, directionsOn(seen, incident.toLightLS, nl)).terms;
 #if VIEW == VIEW_DISTRIBUTION
     shown = vec3(terms.d);
 #elif VIEW == VIEW_GEOMETRY
@@ -51,7 +52,7 @@ vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
 #elif VIEW == VIEW_NORMAL_OBJECT
     return surface.normalTexel * 2.0 - 1.0; // put there as it was rasterised (lib/material/material.glsl)
 #elif VIEW == VIEW_LIGHTS
-    return lightsOnSurface(vec3(0.0), surface, viewpoint, pixel); // counted
+    return lightsOnSurface(vec3(0.0), seenSurface(surface, viewpoint.toViewerLS), viewpoint, pixel); // counted
 #elif VIEW == VIEW_DEPTH
     return vec3(view.eyeLS.w + dot(viewpoint.positionLS, view.forwardLS.xyz));
 #else

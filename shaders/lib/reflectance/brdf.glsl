@@ -3,37 +3,63 @@
 #pragma once
 #include "lib/maths/math.glsl"
 
-// GGX distribution of normals. Source: Walter 2007, "Microfacet Models for Refraction through Rough Surfaces", eq. 33,
-// rewritten as alpha^2 / (pi t^2) with t = alpha^2 (n.h)^2 + |n x h|^2: 1 - (n.h)^2 would cancel near the peak.
-float distributionGgx(float alpha, vec3 n, vec3 h)
+// The sum l + v of the unit vectors to a light and to a viewer, taken apart along the unit normal n. Its direction is the half
+// vector h; terms divide by its squared length where they need h.
+struct HalfSum {
+    vec3 across;   // what is left without its part along n; as good as n x h: both err by the last digit of the sum
+    float across2; // |across|^2 = |n x h|^2 length2
+    float along;   // n.l + n.v, which cancel nothing where there is a lobe
+    float length2; // 0 where l = -v
+};
+
+HalfSum halfSum(vec3 n, vec3 toLight, vec3 toViewer, float nl, float nv)
+{
+    precise vec3 sum = toLight + toViewer;
+    precise float along = nl + nv;
+    precise vec3 across = sum - n * along;
+    precise float across2 = dot(across, across);
+    precise float length2 = across2 + along * along;
+    return HalfSum(across, across2, along, length2);
+}
+
+// The same of two directions along a half vector.
+HalfSum halfSumAlong(vec3 n, vec3 h)
 {
     precise float cosine = dot(n, h);
-    if (!(cosine > 0.0)) return 0.0;
-    precise vec3 across = cross(n, h);
-    precise float alpha2 = alpha * alpha;
-    precise float t = alpha2 * (cosine * cosine) + dot(across, across);
-    precise float d = alpha2 / (kPi * (t * t));
+    return halfSum(n, h, h, cosine, cosine);
+}
+
+// l.h = v.h, half the sum's length; 1 at most.
+float halfCosine(HalfSum h)
+{
+    precise float cosine = min(0.5 * sqrt(h.length2), 1.0);
+    return cosine;
+}
+
+// GGX distribution of normals, of alpha squared. Source: Walter 2007, "Microfacet Models for Refraction through Rough Surfaces", eq. 33,
+// rewritten as alpha^2 / (pi t^2) with t = alpha^2 (n.h)^2 + |n x h|^2: 1 - (n.h)^2 would cancel near the peak.
+float distributionGgx(float alpha2, HalfSum h)
+{
+    if (!(h.along > 0.0)) return 0.0;
+    precise float inverse = h.length2 / (alpha2 * (h.along * h.along) + h.across2); // 1 / t
+    precise float d = (alpha2 / kPi) * (inverse * inverse);
     return d;
 }
 
 // The same with alpha x along the unit tangent and alpha y along the bitangent. Source: Burley 2012, "Physically-Based
-// Shading at Disney", appendix B.1; Heitz 2014, eq. 84. The components of h across n are taken from n x h, which has the
-// digits that t.h and b.h would lose near the peak, so that equal alphas give distributionGgx to rounding.
-float distributionGgxAnisotropic(vec2 alpha, vec3 n, vec3 tangent, vec3 h)
+// Shading at Disney", appendix B.1; Heitz 2014, eq. 84. Equal alphas give distributionGgx to rounding.
+float distributionGgxAnisotropic(vec2 alpha, vec3 n, vec3 tangent, HalfSum h)
 {
-    precise float cosine = dot(n, h);
-    if (!(cosine > 0.0)) return 0.0;
-    precise vec3 across = cross(n, h);
-    precise vec2 slope = vec2(dot(across, cross(n, tangent)), dot(across, tangent)) / alpha;
-    precise float t = cosine * cosine + dot(slope, slope);
-    precise float d = 1.0 / (kPi * (alpha.x * alpha.y) * (t * t));
+    if (!(h.along > 0.0)) return 0.0;
+    precise vec2 slope = vec2(dot(h.across, tangent), dot(h.across, cross(n, tangent))) / alpha;
+    precise float inverse = h.length2 / (h.along * h.along + dot(slope, slope));
+    precise float d = (inverse * inverse) / (kPi * (alpha.x * alpha.y));
     return d;
 }
 
 // sqrt(alpha^2 + (1 - alpha^2) c^2), the length that Smith's masking-shadowing compares with the cosine c.
-float smithLength(float alpha, float cosine)
+float smithLength(float alpha2, float cosine)
 {
-    precise float alpha2 = alpha * alpha;
     precise float q = sqrt(alpha2 + (1.0 - alpha2) * (cosine * cosine));
     return q;
 }
@@ -48,58 +74,45 @@ float smithLengthAnisotropic(vec2 alpha, vec3 n, vec3 tangent, vec3 direction)
     return q;
 }
 
-// alpha along the projection of the microfacet normal h, as Walter's masking-shadowing uses for the anisotropic lobe.
-// Where h = n the projection has no direction, and the result is the root of the mean of both squares.
-float alphaAlong(vec2 alpha, vec3 n, vec3 tangent, vec3 h)
+// alpha^2 along the projection of the microfacet normal h, as Walter's masking-shadowing uses for the anisotropic lobe.
+// Where h = n the projection has no direction, and the result is the mean of both squares.
+float alpha2Along(vec2 alpha, vec3 n, vec3 tangent, HalfSum h)
 {
     // An angle of 1e-15 is far below the rounding of h, and its square still far above the least number of fp32.
     const float kNoDirection = 1e-30;
-    precise vec3 across = cross(n, h);
-    precise vec2 parts = vec2(dot(across, cross(n, tangent)), dot(across, tangent));
+    precise vec2 parts = vec2(dot(h.across, tangent), dot(h.across, cross(n, tangent)));
     precise float length2 = dot(parts, parts);
-    precise vec2 share = length2 > kNoDirection ? (parts * parts) / length2 : vec2(0.5);
-    precise float along = sqrt(dot(alpha * alpha, share));
-    return along;
+    precise vec2 share = length2 > kNoDirection * h.length2 ? (parts * parts) / length2 : vec2(0.5);
+    precise float alpha2 = dot(alpha * alpha, share);
+    return alpha2;
 }
 
 // G / (4 n.l n.v) for separable Smith masking-shadowing, G = G1(l) G1(v), from the lengths of both directions. Source:
 // Walter 2007, eq. 23 and 34; the cosines of G1's numerator cancel against the denominator, so grazing directions
 // divide by nothing small. Needs both cosines > 0.
-float visibilitySeparableOfLengths(float cosineLight, float lengthLight, float cosineView, float lengthView)
+float visibilitySeparable(float cosineLight, float lengthLight, float cosineView, float lengthView)
 {
     precise float v = 1.0 / ((cosineLight + lengthLight) * (cosineView + lengthView));
     return v;
 }
 
-// The same of one alpha.
-float visibilitySeparable(float alpha, float cosineLight, float cosineView)
-{
-    return visibilitySeparableOfLengths(cosineLight, smithLength(alpha, cosineLight), cosineView, smithLength(alpha, cosineView));
-}
-
 // G / (4 n.l n.v) where G1 depends on the angle to the half vector instead of the normal, as one well-known course handout has
 // it. Gains energy at grazing angles. Nothing cancels the cosines here; n.v is held to 1e-6 as in the handout, n.l to a value
 // that only keeps D G / (4 n.l n.v) finite. cosineHalf is l.h = v.h.
-float visibilityHalfVector(float alpha, float cosineLight, float cosineView, float cosineHalf)
+float visibilityHalfVector(float alpha2, float cosineLight, float cosineView, float cosineHalf)
 {
     if (!(cosineHalf > 0.0)) return 0.0;
-    precise float g1 = 2.0 * cosineHalf / (cosineHalf + smithLength(alpha, cosineHalf));
+    precise float g1 = 2.0 * cosineHalf / (cosineHalf + smithLength(alpha2, cosineHalf));
     precise float v = g1 * g1 / (4.0 * max(cosineLight, 1e-20) * max(cosineView, 1e-6));
     return v;
 }
 
-// As visibilitySeparableOfLengths, for height-correlated Smith masking-shadowing. Source: Heitz 2014, "Understanding
+// As visibilitySeparable, for height-correlated Smith masking-shadowing. Source: Heitz 2014, "Understanding
 // the Masking-Shadowing Function in Microfacet-Based BRDFs", eq. 99. Needs both cosines > 0.
-float visibilityCorrelatedOfLengths(float cosineLight, float lengthLight, float cosineView, float lengthView)
+float visibilityCorrelated(float cosineLight, float lengthLight, float cosineView, float lengthView)
 {
     precise float v = 0.5 / (cosineLight * lengthView + cosineView * lengthLight);
     return v;
-}
-
-// The same of one alpha.
-float visibilityCorrelated(float alpha, float cosineLight, float cosineView)
-{
-    return visibilityCorrelatedOfLengths(cosineLight, smithLength(alpha, cosineLight), cosineView, smithLength(alpha, cosineView));
 }
 
 // The rounding error of x * x, exactly. Source: Dekker 1971, "A Floating-Point Technique for Extending the Available
@@ -138,13 +151,14 @@ float fresnelDielectric(float ior, float cosine)
     return f;
 }
 
-// Schlick's approximation between f0 and f90. Source: Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering".
-vec3 fresnelSchlick(vec3 f0, float f90, float cosine)
+// Schlick's approximation from f0 to f90 = f0 + rise. Source: Schlick 1994, "An Inexpensive BRDF Model for Physically-based
+// Rendering".
+vec3 fresnelSchlick(vec3 f0, vec3 rise, float cosine)
 {
     precise float m = clamp(1.0 - cosine, 0.0, 1.0);
     precise float m2 = m * m;
     precise float m5 = m2 * m2 * m;
-    precise vec3 f = f0 + (vec3(f90) - f0) * m5;
+    precise vec3 f = f0 + rise * m5;
     return f;
 }
 
@@ -164,9 +178,9 @@ float powerNearOne(float x, float oneMinusX2, float exponent)
 
 // The highlight of Blinn-Phong, (n.h)^p. Source: Blinn 1977, "Models of Light Reflection for Computer Synthesized Pictures".
 // 1 - (n.h)^2 = |n x h|^2 keeps the digits that a large exponent multiplies.
-float blinnPhongLobe(float exponent, vec3 n, vec3 h)
+float blinnPhongLobe(float exponent, HalfSum h)
 {
-    precise vec3 across = cross(n, h);
-    precise float lobe = powerNearOne(clamp(dot(n, h), 0.0, 1.0), min(dot(across, across), 1.0), exponent);
+    precise float cosine = clamp(h.along / sqrt(h.length2), 0.0, 1.0);
+    precise float lobe = powerNearOne(cosine, min(h.across2 / h.length2, 1.0), exponent);
     return lobe;
 }

@@ -18,36 +18,6 @@ struct SpecularTerms {
 };
 const SpecularTerms kNoTerms = SpecularTerms(0.0, 0.0, vec3(0.0));
 
-// The half vector of two unit vectors. Where they are opposite there is none: false, and h is 0.
-bool halfVector(vec3 toLight, vec3 toViewer, out vec3 h)
-{
-    precise vec3 sum = toLight + toViewer;
-    precise float length2 = dot(sum, sum);
-    precise vec3 unit = length2 > 0.0 ? sum / sqrt(length2) : vec3(0.0);
-    h = unit;
-    return length2 > 0.0;
-}
-
-// A light and a viewer seen from a surface; all unit.
-struct Directions {
-    vec3 toLight;
-    vec3 toViewer;
-    vec3 h;       // halfway between them; 0 where they are opposite
-    float nl;     // cosines
-    float nv;
-    float lh;     // takes its grazing value where l = -v, so that the diffuse weight 1 - F stays continuous
-    bool hasLobe; // both above the horizon, and not opposite
-};
-
-Directions directionsOn(Surface surface, vec3 toLight, vec3 toViewer, float nl)
-{
-    vec3 h;
-    bool hasHalf = halfVector(toLight, toViewer, h);
-    precise float lh = dot(toLight, h);
-    precise float nv = dot(surface.normalLS, toViewer);
-    return Directions(toLight, toViewer, h, nl, nv, lh, nl > 0.0 && nv > 0.0 && hasHalf);
-}
-
 #if HAS_TANGENT_FRAME
 bool isAnisotropic(Surface surface)
 {
@@ -61,53 +31,127 @@ bool isAnisotropic(Surface surface)
 }
 #endif
 
-float lobeDistribution(Surface surface, vec3 h)
+// A surface as its viewer sees it: what is the same for every light. It is prepared before the loop over lights, because
+// not every driver's compiler moves work out of a loop.
+struct SeenSurface {
+    Surface surface;
+    vec3 toViewer; // unit
+    float nv;
+#if HAS_GGX_MODELS
+    float alpha2;
+    float viewerLength; // Smith's, of models whose masking-shadowing is directional or has one alpha
+    vec3 f0;            // of models that are metallic
+    vec3 fresnelRise;   // from f0 to f90
+    vec3 diffuse;       // what they reflect where F is 0, BRDF in 1/sr
+#endif
+#if HAS_CLEARCOAT
+    vec3 coatNormalLS;
+    float coatNv;
+    float coatWeight; // of the coat's lobe; the layers below have the rest
+#endif
+};
+
+// The Smith length of a direction with the cosine to the normal.
+float lobeLength(Surface surface, vec3 direction, float cosine)
 {
 #if HAS_TANGENT_FRAME
+    if (isAnisotropic(surface)) {
+        vec2 alpha = vec2(surface.alpha, surface.alphaBitangent);
+        return smithLengthAnisotropic(alpha, surface.normalLS, surface.tangentLS, direction);
+    }
+#endif
+    return smithLength(surface.alpha * surface.alpha, cosine);
+}
+
+SeenSurface seenSurface(Surface surface, vec3 toViewer)
+{
+    SeenSurface seen;
+    seen.surface = surface;
+    seen.toViewer = toViewer;
+    precise float nv = dot(surface.normalLS, toViewer);
+    seen.nv = nv;
+#if HAS_GGX_MODELS
+    precise float alpha2 = surface.alpha * surface.alpha;
+    seen.alpha2 = alpha2;
+    seen.viewerLength = lobeLength(surface, toViewer, nv);
+    precise vec3 f0 = surface.specular + (surface.albedo - surface.specular) * surface.metallic;
+    precise vec3 rise = (surface.iorOrF90 + (1.0 - surface.iorOrF90) * surface.metallic) - f0;
+    precise vec3 diffuse = surface.albedo * ((1.0 - surface.metallic) / kPi);
+    seen.f0 = f0;
+    seen.fresnelRise = rise;
+    seen.diffuse = diffuse;
+#endif
+#if HAS_CLEARCOAT
+    // Source: KHR_materials_clearcoat, "Layering": by the angle to the coat's normal, not to the half vector.
+    seen.coatNormalLS = decodeOctahedral(surface.coatNormalCode);
+    precise float coatNv = dot(seen.coatNormalLS, toViewer);
+    seen.coatNv = coatNv;
+    precise float weight = surface.coatFactor * fresnelSchlick(vec3(0.04), vec3(0.96), abs(coatNv)).x;
+    seen.coatWeight = weight;
+#endif
+    return seen;
+}
+
+// A light and a viewer seen from a surface.
+struct Directions {
+    vec3 toLight; // unit
+    HalfSum h;
+    float nl; // cosines
+    float nv;
+    float lh;     // takes its grazing value where l = -v, so that the diffuse weight 1 - F stays continuous
+    bool hasLobe; // both above the horizon, and not opposite
+};
+
+Directions directionsOn(SeenSurface seen, vec3 toLight, float nl)
+{
+    HalfSum h = halfSum(seen.surface.normalLS, toLight, seen.toViewer, nl, seen.nv);
+    return Directions(toLight, h, nl, seen.nv, halfCosine(h), nl > 0.0 && seen.nv > 0.0 && h.length2 > 0.0);
+}
+
+#if HAS_GGX_MODELS
+float lobeDistribution(SeenSurface seen, HalfSum h)
+{
+#if HAS_TANGENT_FRAME
+    Surface surface = seen.surface;
     if (isAnisotropic(surface)) {
         return distributionGgxAnisotropic(vec2(surface.alpha, surface.alphaBitangent), surface.normalLS, surface.tangentLS, h);
     }
 #endif
-    return distributionGgx(surface.alpha, surface.normalLS, h);
+    return distributionGgx(seen.alpha2, h);
 }
 
 // Of metallic_roughness: height-correlated, directional where anisotropic (KHR_materials_anisotropy).
-float visibilityOfMetallicRoughness(Surface surface, Directions directions)
+float visibilityOfMetallicRoughness(SeenSurface seen, Directions directions)
 {
-#if HAS_ANISOTROPY
-    if (isAnisotropic(surface)) {
-        vec2 alpha = vec2(surface.alpha, surface.alphaBitangent);
-        return visibilityCorrelatedOfLengths(
-            directions.nl, smithLengthAnisotropic(alpha, surface.normalLS, surface.tangentLS, directions.toLight), directions.nv,
-            smithLengthAnisotropic(alpha, surface.normalLS, surface.tangentLS, directions.toViewer));
-    }
-#endif
-    return visibilityCorrelated(surface.alpha, directions.nl, directions.nv);
+    float lightLength = lobeLength(seen.surface, directions.toLight, directions.nl);
+    return visibilityCorrelated(directions.nl, lightLength, directions.nv, seen.viewerLength);
 }
 
 // Of the teaching models: separable, by the surface's masking-shadowing option.
-float visibilityOfMicrofacet(Surface surface, Directions directions)
+float visibilityOfMicrofacet(SeenSurface seen, Directions directions)
 {
-    precise float alpha = surface.alpha;
+    Surface surface = seen.surface;
+    float alpha2 = seen.alpha2;
+    float viewerLength = seen.viewerLength;
 #if HAS_TANGENT_FRAME
     if (HAS_TWO_ALPHAS(surface.model)) {
-        vec2 alphas = vec2(surface.alpha, surface.alphaBitangent);
 #if HAS_MASKING_OPTIONS
         if (surface.masking == MASKING_DIRECTIONAL) {
-            return visibilitySeparableOfLengths(
-                directions.nl, smithLengthAnisotropic(alphas, surface.normalLS, surface.tangentLS, directions.toLight),
-                directions.nv, smithLengthAnisotropic(alphas, surface.normalLS, surface.tangentLS, directions.toViewer));
+            float lightLength = lobeLength(surface, directions.toLight, directions.nl);
+            return visibilitySeparable(directions.nl, lightLength, directions.nv, viewerLength);
         }
 #endif
-        alpha = alphaAlong(alphas, surface.normalLS, surface.tangentLS, directions.h);
+        alpha2 = alpha2Along(vec2(surface.alpha, surface.alphaBitangent), surface.normalLS, surface.tangentLS, directions.h);
+        viewerLength = smithLength(alpha2, directions.nv);
     }
 #endif
 #if HAS_MASKING_OPTIONS
     if (surface.masking == MASKING_HALF_VECTOR)
-        return visibilityHalfVector(alpha, directions.nl, directions.nv, directions.lh);
+        return visibilityHalfVector(alpha2, directions.nl, directions.nv, directions.lh);
 #endif
-    return visibilitySeparable(alpha, directions.nl, directions.nv);
+    return visibilitySeparable(directions.nl, smithLength(alpha2, directions.nl), directions.nv, viewerLength);
 }
+#endif
 
 #if HAS_SHEEN
 // Puts the sheen over the layers below, and scales these by 1 minus the directional albedo of a white sheen times the
@@ -121,7 +165,7 @@ vec3 underSheen(Surface surface, vec3 brdf, Directions directions)
     precise vec3 layered = brdf * max(1.0 - strongest * albedo, 0.0);
 #if !SPECULAR_OFF
     if (directions.hasLobe) {
-        precise float lobe = distributionCharlie(surface.sheenAlpha, surface.normalLS, directions.h)
+        precise float lobe = distributionCharlie(surface.sheenAlpha, directions.h)
                              * visibilityCharlie(surface.sheenAlpha, directions.nl, directions.nv);
         layered += surface.sheenColor * lobe;
     }
@@ -147,88 +191,77 @@ Reflection lambert(Surface surface, Directions directions)
 Reflection blinnPhong(Surface surface, Directions directions)
 {
     SpecularTerms terms = kNoTerms;
-    if (directions.hasLobe) terms.d = blinnPhongLobe(surface.parameter, surface.normalLS, directions.h);
+    if (directions.hasLobe) terms.d = blinnPhongLobe(surface.parameter, directions.h);
     precise float highlight = SPECULAR_OFF != 0 ? 0.0 : terms.d;
     precise vec3 brdfCosine = surface.albedo * directions.nl + surface.specular * highlight; // which takes no cosine
     return Reflection(brdfCosine, terms);
 }
 
+#if HAS_GGX_MODELS
 // microfacet and microfacet_anisotropic; `d` is lobeDistribution(). Source: Cook and Torrance 1982 with the D, G and F of
 // Walter et al. 2007.
-Reflection microfacet(Surface surface, Directions directions, float d)
+Reflection microfacet(SeenSurface seen, Directions directions, float d)
 {
+    Surface surface = seen.surface;
     SpecularTerms terms = SpecularTerms(d, 0.0, vec3(fresnelDielectric(surface.iorOrF90, directions.lh)));
-    if (directions.hasLobe) terms.v = visibilityOfMicrofacet(surface, directions);
+    if (directions.hasLobe) terms.v = visibilityOfMicrofacet(seen, directions);
     precise float dv = SPECULAR_OFF != 0 ? 0.0 : terms.d * terms.v;
     precise vec3 brdfCosine = (surface.albedo + surface.specular * (terms.f * dv)) * directions.nl;
     return Reflection(brdfCosine, terms);
 }
 
 // Source: glTF 2.0, appendix B, with KHR_materials_ior, _specular, _anisotropy and _sheen.
-Reflection metallicRoughness(Surface surface, Directions directions, float d)
+Reflection metallicRoughness(SeenSurface seen, Directions directions, float d)
 {
-    precise vec3 f0 = surface.specular + (surface.albedo - surface.specular) * surface.metallic;
-    precise float f90 = surface.iorOrF90 + (1.0 - surface.iorOrF90) * surface.metallic;
-    SpecularTerms terms = SpecularTerms(d, 0.0, fresnelSchlick(f0, f90, directions.lh));
-    if (directions.hasLobe) terms.v = visibilityOfMetallicRoughness(surface, directions);
+    SpecularTerms terms = SpecularTerms(d, 0.0, fresnelSchlick(seen.f0, seen.fresnelRise, directions.lh));
+    if (directions.hasLobe) terms.v = visibilityOfMetallicRoughness(seen, directions);
     precise float dv = SPECULAR_OFF != 0 ? 0.0 : terms.d * terms.v;
-    precise vec3 transmitted = vec3(1.0) - terms.f;
-    precise vec3 diffuse = transmitted * ((1.0 - surface.metallic) / kPi) * surface.albedo;
-    precise vec3 brdf = diffuse + terms.f * dv;
+    precise vec3 brdf = seen.diffuse + terms.f * (vec3(dv) - seen.diffuse); // diffuse (1 - F) + F D V
 #if HAS_SHEEN
-    brdf = underSheen(surface, brdf, directions);
+    brdf = underSheen(seen.surface, brdf, directions);
 #endif
     precise vec3 reflected = brdf * directions.nl;
     return Reflection(reflected, terms);
 }
+#endif
 
-Reflection reflection(Surface surface, Directions directions)
+Reflection reflection(SeenSurface seen, Directions directions)
 {
 #if HAS_GGX_MODELS
     // Once for all, since rasterisers that mask lanes take every branch.
-    float d = directions.hasLobe ? lobeDistribution(surface, directions.h) : 0.0;
+    float d = directions.hasLobe ? lobeDistribution(seen, directions.h) : 0.0;
 #endif
 #if HAS_BLINN_PHONG
-    if (surface.model == MODEL_BLINN_PHONG) return blinnPhong(surface, directions);
+    if (seen.surface.model == MODEL_BLINN_PHONG) return blinnPhong(seen.surface, directions);
 #endif
 #if HAS_GGX_MODELS
-    if (IS_MICROFACET(surface.model)) return microfacet(surface, directions, d);
-    if (HAS_METALLIC(surface.model)) return metallicRoughness(surface, directions, d);
+    if (IS_MICROFACET(seen.surface.model)) return microfacet(seen, directions, d);
+    if (HAS_METALLIC(seen.surface.model)) return metallicRoughness(seen, directions, d);
 #endif
-    return lambert(surface, directions);
+    return lambert(seen.surface, directions);
 }
 
 // BRDF times cosine of the layers below the coat.
-vec3 baseBrdfCosine(Surface surface, vec3 toLight, vec3 toViewer)
+vec3 baseBrdfCosine(SeenSurface seen, vec3 toLight)
 {
-    precise float nl = dot(surface.normalLS, toLight);
-    if (!(nl > 0.0)) return vec3(0.0);
-    return reflection(surface, directionsOn(surface, toLight, toViewer, nl)).brdfCosine;
+    precise float nl = max(dot(seen.surface.normalLS, toLight), 0.0);
+    return reflection(seen, directionsOn(seen, toLight, nl)).brdfCosine;
 }
 
 #if HAS_CLEARCOAT
-// The weight of the coat's lobe; the layers below have the rest. Source: KHR_materials_clearcoat, "Layering": by
-// the angle to the coat's normal, not to the half vector.
-float coatWeight(Surface surface, vec3 coatNormalLS, vec3 toViewer)
+vec3 underCoat(SeenSurface seen, vec3 base, vec3 toLight)
 {
-    precise float weight = surface.coatFactor * fresnelSchlick(vec3(0.04), 1.0, abs(dot(coatNormalLS, toViewer))).x;
-    return weight;
-}
-
-vec3 underCoat(Surface surface, vec3 base, vec3 toLight, vec3 toViewer)
-{
-    if (!(surface.coatFactor > 0.0)) return base;
-    vec3 normalLS = decodeOctahedral(surface.coatNormalCode);
-    precise float weight = coatWeight(surface, normalLS, toViewer);
-    precise vec3 coated = base * (1.0 - weight);
+    if (!(seen.surface.coatFactor > 0.0)) return base;
+    precise vec3 coated = base * (1.0 - seen.coatWeight);
 #if !SPECULAR_OFF
-    precise float nl = dot(normalLS, toLight);
-    precise float nv = dot(normalLS, toViewer);
-    vec3 h;
-    if (nl > 0.0 && nv > 0.0 && halfVector(toLight, toViewer, h)) {
+    precise float nl = dot(seen.coatNormalLS, toLight);
+    HalfSum h = halfSum(seen.coatNormalLS, toLight, seen.toViewer, nl, seen.coatNv);
+    if (nl > 0.0 && seen.coatNv > 0.0 && h.length2 > 0.0) {
+        precise float alpha2 = seen.surface.coatAlpha * seen.surface.coatAlpha;
         precise float lobe =
-            distributionGgx(surface.coatAlpha, normalLS, h) * visibilityCorrelated(surface.coatAlpha, nl, nv) * nl;
-        coated += vec3(weight * lobe);
+            distributionGgx(alpha2, h)
+            * visibilityCorrelated(nl, smithLength(alpha2, nl), seen.coatNv, smithLength(alpha2, seen.coatNv)) * nl;
+        coated += vec3(seen.coatWeight * lobe);
     }
 #endif
     return coated;
@@ -236,22 +269,22 @@ vec3 underCoat(Surface surface, vec3 base, vec3 toLight, vec3 toViewer)
 #endif
 
 // BRDF times cosine of all layers: radiance towards the viewer per irradiance at normal incidence.
-vec3 layeredBrdfCosine(Surface surface, vec3 toLight, vec3 toViewer)
+vec3 layeredBrdfCosine(SeenSurface seen, vec3 toLight)
 {
-    precise vec3 brdfCosine = baseBrdfCosine(surface, toLight, toViewer);
+    precise vec3 brdfCosine = baseBrdfCosine(seen, toLight);
 #if HAS_CLEARCOAT
-    brdfCosine = underCoat(surface, brdfCosine, toLight, toViewer);
+    brdfCosine = underCoat(seen, brdfCosine, toLight);
 #endif
     return brdfCosine;
 }
 
 // Radiance towards the viewer without any light. Source: KHR_materials_clearcoat, "Emission": it lies below the coat.
-vec3 emittedRadiance(Surface surface, vec3 toViewer)
+vec3 emittedRadiance(SeenSurface seen)
 {
-    precise vec3 emitted = surface.emission;
+    precise vec3 emitted = seen.surface.emission;
 #if HAS_CLEARCOAT && HAS_EMISSION
-    if (surface.coatFactor > 0.0) {
-        precise vec3 dimmed = emitted * (1.0 - coatWeight(surface, decodeOctahedral(surface.coatNormalCode), toViewer));
+    if (seen.surface.coatFactor > 0.0) {
+        precise vec3 dimmed = emitted * (1.0 - seen.coatWeight);
         emitted = dimmed;
     }
 #endif

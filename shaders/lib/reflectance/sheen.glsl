@@ -5,13 +5,12 @@
 #include "lib/reflectance/brdf.glsl"
 
 // (2 + 1/alpha) sin^(1/alpha) / 2 pi of the angle between n and h, 1/sr.
-float distributionCharlie(float alpha, vec3 n, vec3 h)
+float distributionCharlie(float alpha, HalfSum h)
 {
-    precise vec3 across = cross(n, h);
-    precise float sine = min(sqrt(dot(across, across)), 1.0);
-    precise float cosine = dot(n, h);
+    precise float sine = min(sqrt(h.across2 / h.length2), 1.0);
+    precise float cosine2 = min((h.along * h.along) / h.length2, 1.0);
     precise float inverse = 1.0 / alpha;
-    precise float d = (2.0 + inverse) * powerNearOne(sine, min(cosine * cosine, 1.0), inverse) / (2.0 * kPi);
+    precise float d = (2.0 + inverse) * powerNearOne(sine, cosine2, inverse) / (2.0 * kPi);
     return d;
 }
 

@@ -28,13 +28,15 @@ TEST_F(LimitsTest, aBlackMicrofacetSurfaceReflectsExactlyItsSpecularTerms) {
 
 TEST_F(LimitsTest, specularIsExactlyZeroWhereItsDirectionsHaveNoLobe) {
     const glm::vec3 up(0, 0, 1), side(1, 0, 0), slant(0.6f, 0.0f, 0.8f), below(0.6f, 0.0f, -0.8f);
+    // Both above the horizon, by less than fp32 can square.
+    const glm::vec3 hair(1.0f, 0.0f, 1e-25f), hairOpposite(-1.0f, 0.0f, 1e-25f);
     for (const unsigned model :
          {unsigned(scenes::MaterialModel::Microfacet), unsigned(scenes::MaterialModel::MetallicRoughness)}) {
         for (const float alpha : {float(ALPHA_MIN), 0.1f, 1.0f}) {
             std::vector<LobeCase> cases;
-            for (const auto& [l, v] :
-                 {std::pair(side, up), std::pair(up, side), std::pair(side, side), std::pair(slant, -slant),
-                  std::pair(below, up), std::pair(slant, below), std::pair(side, -side), std::pair(up, -up)}) {
+            for (const auto& [l, v] : {std::pair(side, up), std::pair(up, side), std::pair(side, side),
+                                       std::pair(slant, -slant), std::pair(below, up), std::pair(slant, below),
+                                       std::pair(side, -side), std::pair(up, -up), std::pair(hair, hairOpposite)}) {
                 LobeCase c;
                 c.model = model;
                 c.alpha = alpha;

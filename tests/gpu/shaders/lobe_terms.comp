@@ -17,9 +17,10 @@ void main()
     vec4 c = inputs[i * 4u + 2u];
     vec4 d = inputs[i * 4u + 3u];
     vec2 alpha = vec2(a.w, b.w);
+    HalfSum h = halfSumAlong(a.xyz, b.xyz);
     outputs[i * 2u] =
-        vec4(distributionGgxAnisotropic(alpha, a.xyz, c.xyz, b.xyz), distributionGgx(a.w, a.xyz, b.xyz),
-             smithLengthAnisotropic(alpha, a.xyz, c.xyz, d.xyz), alphaAlong(alpha, a.xyz, c.xyz, b.xyz));
-    outputs[i * 2u + 1u] = vec4(blinnPhongLobe(c.w, a.xyz, b.xyz), distributionCharlie(a.w, a.xyz, b.xyz),
+        vec4(distributionGgxAnisotropic(alpha, a.xyz, c.xyz, h), distributionGgx(a.w * a.w, h),
+             smithLengthAnisotropic(alpha, a.xyz, c.xyz, d.xyz), sqrt(alpha2Along(alpha, a.xyz, c.xyz, h)));
+    outputs[i * 2u + 1u] = vec4(blinnPhongLobe(c.w, h), distributionCharlie(a.w, h),
                                 visibilityCharlie(a.w, d.w, d.w), sheenAlbedo(a.w, d.w));
 }

@@ -34,7 +34,8 @@ void main()
     vec3 l = inputs[i * 9u + 3u].xyz;
     vec3 v = inputs[i * 9u + 4u].xyz;
     precise float nl = dot(surface.normalLS, l);
-    SpecularTerms terms = reflection(surface, directionsOn(surface, l, v, nl)).terms;
-    outputs[i * 2u] = vec4(layeredBrdfCosine(surface, l, v), nl);
+    SeenSurface seen = seenSurface(surface, v);
+    SpecularTerms terms = reflection(seen, directionsOn(seen, l, nl)).terms;
+    outputs[i * 2u] = vec4(layeredBrdfCosine(seen, l), nl);
     outputs[i * 2u + 1u] = vec4(terms.d, terms.v, terms.f.g, 0.0);
 }

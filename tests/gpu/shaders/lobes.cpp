@@ -154,8 +154,10 @@ TEST_F(Lobes, theHalfVectorMaskingIsThatOfTheHandout) {
     }
     const std::vector<LobeResult> results = run(cases);
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        const glm::dvec3 l(cases[i].l), v(cases[i].v), h = glm::normalize(l + v);
-        const double c = glm::dot(l, h), tan2 = (1.0 - c * c) / (c * c), alpha = double(cases[i].alpha);
+        // Of unit length to the last digit: near l = -v, l.h and v.h of fp32 vectors differ from each other.
+        const glm::dvec3 l = glm::normalize(glm::dvec3(cases[i].l)), v = glm::normalize(glm::dvec3(cases[i].v));
+        const double c = glm::dot(l, glm::normalize(l + v)), tan2 = (1.0 - c * c) / (c * c),
+                     alpha = double(cases[i].alpha);
         const double g1 = 2.0 / (1.0 + std::sqrt(1.0 + alpha * alpha * tan2));
         const double expected = g1 * g1 / (4.0 * l.z * v.z);
         ASSERT_NEAR(results[i].v, expected, 3e-6 * expected); // a dozen roundings
