@@ -96,7 +96,7 @@ SeenSurface seenSurface(Surface surface, vec3 toViewer)
 struct Directions {
     vec3 toLight; // unit
     HalfSum h;
-    float nl; // cosines
+    float nl; // cosines; n.l is 0 for a light below the horizon, where a model's functions must be finite all the same
     float nv;
     float lh;     // takes its grazing value where l = -v, so that the diffuse weight 1 - F stays continuous
     bool hasLobe; // both above the horizon, and not opposite
