@@ -1,0 +1,100 @@
+#pragma once
+// Pictures as bytes: seeds of the fuzzers' corpus, TIFFs made entry by entry, and what reading them costs.
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scenes/import/PictureCodecs.h"
+#include "tests/support/UnderLedger.h"
+#include "tests/unit/scenes/TempFolder.h"
+
+namespace tessera::scenes::test {
+
+inline const std::filesystem::path kSeeds = std::filesystem::path(TESSERA_SOURCE_DIR) / "tests/fuzz/corpus";
+
+inline std::string bytesOfSeed(const char* name) {
+    std::ifstream stream(kSeeds / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline Image decoded(const std::string& bytes, const std::string& name, std::optional<std::uint64_t> limitBytes = {}) {
+    LoadLedger ledger(limitBytes);
+    return decodeImage(std::as_bytes(std::span(bytes)), name, ledger);
+}
+
+inline std::string refusalOf(const std::string& bytes, const std::string& name,
+                             std::optional<std::uint64_t> limitBytes = {}) {
+    return inputErrorOf([&] { decoded(bytes, name, limitBytes); });
+}
+
+/// A line of /proc/self/status, or 0.
+inline std::uint64_t statusBytes(std::string_view key) {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with(key)) return 1024 * std::stoull(line.substr(key.size()));
+    return 0;
+}
+
+/// By how much the process grows at most while this runs. Source: Linux, proc(5): 5 sets the peak to what is in use.
+inline std::uint64_t growthOf(const std::function<void()>& action) {
+    std::ofstream clear("/proc/self/clear_refs");
+    EXPECT_TRUE(clear << 5 << std::flush) << "the peak stays what it was, and nothing can be measured";
+    const std::uint64_t before = statusBytes("VmHWM:");
+    EXPECT_GT(before, 0u);
+    action();
+    return statusBytes("VmHWM:") - before;
+}
+
+/// An entry of a TIFF's directory. `isPlace`: its value is a place in what follows the directory.
+struct TiffEntry {
+    int tag, type;
+    std::uint32_t count, value;
+    bool isPlace = false;
+};
+inline constexpr int kByte = 1, kAscii = 2, kShort = 3, kLong = 4, kLong8 = 16;
+
+enum class ByteOrder { Little, Big };
+
+inline std::string numberText(std::uint32_t number, int bytes, ByteOrder order) {
+    std::string text;
+    for (int i = 0; i < bytes; ++i) text += char(number >> (8 * (order == ByteOrder::Big ? bytes - 1 - i : i)));
+    return text;
+}
+
+inline std::string tiffOf(const std::vector<TiffEntry>& entries, const std::string& rest,
+                          ByteOrder order = ByteOrder::Little) {
+    const auto number = [&](std::uint32_t value, int bytes) { return numberText(value, bytes, order); };
+    const auto places = std::uint32_t(8 + 2 + 12 * entries.size() + 4);
+    std::string tiff = (order == ByteOrder::Big ? "MM" : "II") + number(42, 2) + number(8, 4);
+    tiff += number(std::uint32_t(entries.size()), 2);
+    for (const TiffEntry& entry : entries) {
+        tiff += number(std::uint32_t(entry.tag), 2) + number(std::uint32_t(entry.type), 2) + number(entry.count, 4);
+        const int bytes = entry.type == kByte ? 1 : entry.type == kShort ? 2 : 4;
+        if (bytes < 4 && entry.count == 1 && !entry.isPlace)
+            tiff += number(entry.value, bytes) + std::string(std::size_t(4 - bytes), '\0');
+        else
+            tiff += number(entry.value + (entry.isPlace ? places : 0), 4);
+    }
+    return tiff + number(0, 4) + rest;
+}
+
+/// One grey texel, 0x7f, the first of what follows the directory.
+inline std::vector<TiffEntry> oneTexel() {
+    return {{256, kShort, 1, 1},      {257, kShort, 1, 1}, {258, kShort, 1, 8}, {262, kShort, 1, 1},
+            {273, kLong, 1, 0, true}, {278, kShort, 1, 1}, {279, kLong, 1, 1}};
+}
+
+/// A texel with one more entry, of type `type`, that has this value.
+inline std::string tiffWith(int tag, const std::string& value, int type = kByte) {
+    std::vector<TiffEntry> entries = oneTexel();
+    const std::size_t size = type == kShort ? 2 : 1;
+    entries.push_back({tag, type, std::uint32_t(value.size() / size), 1, true});
+    return tiffOf(entries, '\x7f' + value);
+}
+
+} // namespace tessera::scenes::test
