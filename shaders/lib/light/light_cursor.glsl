@@ -126,9 +126,17 @@ LightCursor lightCursor(vec2 pixel, float depth)
 bool nextLight(inout LightCursor cursor, out int light)
 {
 #if HAS_LIGHTS_EVERYWHERE
-    light = min(cursor.cell.head, cursor.everywhere.head);
-    if (cursor.cell.head == light) advance(cursor.cell);
-    if (cursor.everywhere.head == light) advance(cursor.everywhere);
+    // One fetch for the run whose head is next; no light is in both.
+    bool isOfCell = cursor.cell.head < cursor.everywhere.head;
+    LightRun run = cursor.everywhere;
+    if (isOfCell) run = cursor.cell;
+    light = run.head;
+    advance(run);
+    if (isOfCell) {
+        cursor.cell = run;
+    } else {
+        cursor.everywhere = run;
+    }
 #else
     light = cursor.cell.head;
     advance(cursor.cell);
