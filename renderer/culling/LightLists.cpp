@@ -145,9 +145,7 @@ const LightLists& LightListBuilder::build(const BuildInput& input) {
         const DepthPicture& picture = i < build.grid.rows ? input.opaque : *input.transparent;
         const auto tileRow = std::uint32_t(i % build.grid.rows);
         TileDepths* depths = scratch_->depths.data() + i * build.grid.columns;
-        for (std::uint32_t column = 0; column < build.grid.columns; ++column) {
-            depths[column] = tileDepths(picture, input.frame, int(column), int(tileRow));
-        }
+        findTileDepths(picture, input.frame, int(tileRow), {depths, build.grid.columns});
         if (input.method == Method::Zbin) return;
         build.row(scratch_->spans, depths, tileRow, scratch_->rows[i], lists.tiles.data() + i * build.grid.columns);
     });

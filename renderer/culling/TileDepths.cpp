@@ -19,61 +19,93 @@ PixelDepths pixelDepths(const float* depth, std::size_t i) {
         return {depth[i], depth[i]};
 }
 
-struct PixelRows {
-    int left, right, bottom, top; ///< right and top are one beyond
+/// The pixels of a row of tiles: lines from the bottom.
+struct PixelLines {
+    const float* depth;
+    std::size_t widthPixels;
+    int bottom, top; ///< top is one beyond
 };
 
-PixelRows pixelsOf(const FrameConstants& frame, int column, int row) {
-    const int widthPixels = int(frame.view.sizePixels.x);
-    const int side = 1 << frame.lighting.tileGrid.w;
-    const int height = int(frame.lighting.tileGrid.z);
-    return {column * side, std::min((column + 1) * side, widthPixels), std::max(0, height - (row + 1) * side),
-            height - row * side};
+/// As many columns of pixels as are looked at together: a whole number of tiles of every size.
+constexpr int kBlockColumns = 64;
+
+/// By column of a block, over the pixels of a row of tiles. The loops run along a line of pixels, so that the compiler
+/// takes several columns at once; a loop over the pixels of one tile would wait for its own result at each.
+struct ColumnDepths {
+    float nearest[kBlockColumns];
+    float farthest[kBlockColumns];
+};
+
+template <bool kIsRange>
+void findColumnDepths(const PixelLines& pixels, std::size_t left, int columns, ColumnDepths& found) {
+    std::fill_n(found.nearest, columns, 0.0f);
+    std::fill_n(found.farthest, columns, 2.0f);
+    for (int y = pixels.bottom; y < pixels.top; ++y) {
+        const std::size_t start = std::size_t(y) * pixels.widthPixels + left;
+        for (int i = 0; i < columns; ++i) {
+            const PixelDepths d = pixelDepths<kIsRange>(pixels.depth, start + std::size_t(i));
+            const float farthest = d.nearest > 0.0f ? d.farthest : 2.0f;
+            found.nearest[i] = std::max(found.nearest[i], d.nearest);
+            found.farthest[i] = std::min(found.farthest[i], farthest);
+        }
+    }
 }
 
 std::uint64_t bitsFromTo(std::uint32_t first, std::uint32_t last) {
     return (~std::uint64_t(0) >> (63 - (last - first))) << first;
 }
 
+/// Bit s: a surface of these columns lies in slice s.
 template <bool kIsRange>
-TileDepths tileDepthsOf(const float* depth, const FrameConstants& frame, const PixelRows& pixels) {
-    const std::size_t widthPixels = frame.view.sizePixels.x;
-    TileDepths tile;
-    tile.farthest = 2.0f;
+std::uint64_t occupiedSlices(const PixelLines& pixels, std::size_t left, int columns, float bias,
+                             std::uint32_t slicing) {
+    const auto sliceOf = [&](float depth) {
+        return shared::sliceOfKey(std::bit_cast<std::uint32_t>(bias + depth), slicing);
+    };
+    std::uint64_t slices = 0;
+    std::uint32_t nearest[kBlockColumns];
     for (int y = pixels.bottom; y < pixels.top; ++y) {
-        const std::size_t start = std::size_t(y) * widthPixels;
-        for (int x = pixels.left; x < pixels.right; ++x) {
-            const PixelDepths d = pixelDepths<kIsRange>(depth, start + std::size_t(x));
-            tile.nearest = std::max(tile.nearest, d.nearest);
-            if (d.nearest > 0.0f) tile.farthest = std::min(tile.farthest, d.farthest);
-        }
-    }
-    if (!(tile.nearest > 0.0f)) return {};
-
-    const float bias = frame.view.depthKey.x;
-    const std::uint32_t low = std::bit_cast<std::uint32_t>(bias + tile.farthest);
-    const std::uint32_t high = std::bit_cast<std::uint32_t>(bias + tile.nearest);
-    tile.slicing = shared::slicingOf(low, high, frame.lighting.slices.x, LIGHT_TILE_SLICES);
-    if (shared::sliceOfKey(high, tile.slicing) == 0) {
-        tile.slices = 1;
-        return tile;
-    }
-    for (int y = pixels.bottom; y < pixels.top; ++y) {
-        const std::size_t start = std::size_t(y) * widthPixels;
-        for (int x = pixels.left; x < pixels.right; ++x) {
-            const PixelDepths d = pixelDepths<kIsRange>(depth, start + std::size_t(x));
-            if (!(d.nearest > 0.0f)) continue;
-            const std::uint32_t last = shared::sliceOfKey(std::bit_cast<std::uint32_t>(bias + d.nearest), tile.slicing);
+        const std::size_t start = std::size_t(y) * pixels.widthPixels + left;
+        for (int i = 0; i < columns; ++i)
+            nearest[i] = sliceOf(pixelDepths<kIsRange>(pixels.depth, start + std::size_t(i)).nearest);
+        for (int i = 0; i < columns; ++i) {
+            const PixelDepths d = pixelDepths<kIsRange>(pixels.depth, start + std::size_t(i));
             if constexpr (kIsRange) {
-                const std::uint32_t first =
-                    shared::sliceOfKey(std::bit_cast<std::uint32_t>(bias + d.farthest), tile.slicing);
-                tile.slices |= bitsFromTo(first, last);
+                if (d.nearest > 0.0f) slices |= bitsFromTo(sliceOf(d.farthest), nearest[i]);
             } else {
-                tile.slices |= std::uint64_t(1) << last;
+                slices |= std::uint64_t(d.nearest > 0.0f) << (nearest[i] & 63u);
             }
         }
     }
-    return tile;
+    return slices;
+}
+
+template <bool kIsRange>
+void findTileDepths(const PixelLines& pixels, const FrameConstants& frame, std::span<TileDepths> tiles) {
+    const int side = 1 << frame.lighting.tileGrid.w;
+    const float bias = frame.view.depthKey.x;
+    ColumnDepths found;
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+        const std::size_t left = t * std::size_t(side);
+        const int inBlock = int(left % kBlockColumns);
+        if (inBlock == 0) {
+            const std::size_t columns = std::min<std::size_t>(kBlockColumns, pixels.widthPixels - left);
+            findColumnDepths<kIsRange>(pixels, left, int(columns), found);
+        }
+        const int columns = int(std::min<std::size_t>(std::size_t(side), pixels.widthPixels - left));
+        TileDepths tile;
+        tile.nearest = *std::max_element(found.nearest + inBlock, found.nearest + inBlock + columns);
+        tile.farthest = *std::min_element(found.farthest + inBlock, found.farthest + inBlock + columns);
+        tiles[t] = {};
+        if (!(tile.nearest > 0.0f)) continue;
+        const std::uint32_t low = std::bit_cast<std::uint32_t>(bias + tile.farthest);
+        const std::uint32_t high = std::bit_cast<std::uint32_t>(bias + tile.nearest);
+        tile.slicing = shared::slicingOf(low, high, frame.lighting.slices.x, LIGHT_TILE_SLICES);
+        tile.slices = shared::sliceOfKey(high, tile.slicing) == 0
+                          ? 1
+                          : occupiedSlices<kIsRange>(pixels, left, columns, bias, tile.slicing);
+        tiles[t] = tile;
+    }
 }
 
 DepthRun runBetween(float nearest, float farthest, const FrameConstants& frame) {
@@ -83,10 +115,15 @@ DepthRun runBetween(float nearest, float farthest, const FrameConstants& frame) 
 
 } // namespace
 
-TileDepths tileDepths(const DepthPicture& picture, const FrameConstants& frame, int column, int row) {
-    const PixelRows pixels = pixelsOf(frame, column, row);
-    return picture.isRange ? tileDepthsOf<true>(picture.depth.data(), frame, pixels)
-                           : tileDepthsOf<false>(picture.depth.data(), frame, pixels);
+void findTileDepths(const DepthPicture& picture, const FrameConstants& frame, int row, std::span<TileDepths> tiles) {
+    const int side = 1 << frame.lighting.tileGrid.w;
+    const int height = int(frame.lighting.tileGrid.z);
+    const PixelLines pixels{picture.depth.data(), frame.view.sizePixels.x, std::max(0, height - (row + 1) * side),
+                            height - row * side};
+    if (picture.isRange)
+        findTileDepths<true>(pixels, frame, tiles);
+    else
+        findTileDepths<false>(pixels, frame, tiles);
 }
 
 DepthRun depthRun(const TileDepths& tile, const FrameConstants& frame) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 
 #include "renderer/culling/LightLists.h"
 
@@ -14,8 +15,8 @@ struct TileDepths {
     bool isEmpty() const { return slices == 0; }
 };
 
-/// The depths of tile (column, row).
-TileDepths tileDepths(const DepthPicture& picture, const FrameConstants& frame, int column, int row);
+/// The depths of a row of tiles, by column.
+void findTileDepths(const DepthPicture& picture, const FrameConstants& frame, int row, std::span<TileDepths> tiles);
 
 /// A run of depths in a tile, as metres ahead of the origin of lighting space.
 struct DepthRun {
