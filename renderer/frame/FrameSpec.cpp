@@ -50,9 +50,8 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
         const scenes::Camera& camera = scene.cameras[std::size_t(settings.camera)];
         spec.features.add(Feature::OrthographicCamera, camera.projection == scenes::Projection::Orthographic);
     }
-    // A channel that is looked at is stored.
-    if (const std::optional<StoredComponents> shown = storedComponents(settings.view))
-        spec.features.add(Feature::VaryingMaterials, channelTable()[std::size_t(shown->channel)].ofMaterial);
+    // A channel that is looked at is stored, and not as a number or beside one.
+    spec.features.add(Feature::VaryingMaterials, storedComponents(settings.view).has_value());
     spec.settings.layout = refined(settings.layout, scene);
     spec.channels = neededChannels(spec.features, spec.settings.layout, needsNormalTexel(settings.view));
     return spec;

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "shaders/shared/material.h"
+
 namespace tessera::frame {
 
 namespace {
@@ -182,15 +184,28 @@ bool haveSpareComponents(const GBufferLayout& layout) {
     return layout[Channel::Albedo] == Encoding::Exact && layout[Channel::Normal] == Encoding::Exact;
 }
 
-int wordsOf(const GBufferLayout& layout, std::span<const Channel> channels) {
-    int bits = 0;
-    for (const Channel channel : channels)
-        if (layout[channel] != Encoding::Exact) bits += layout.bits(channel);
-    return (bits + 31) / 32;
-}
-
 bool contain(std::span<const Channel> channels, Channel channel) {
     return std::find(channels.begin(), channels.end(), channel) != channels.end();
+}
+
+/// Of the normal where pixels hold the number of their material: the code that all techniques light, and the number.
+constexpr FieldWidths kNormalAndNumber{25, 25, 3, 11}; // shaders/lib/maths/normal_code.glsl
+static_assert(MATERIAL_TABLE_MOST <= 1 << kNormalAndNumber[3]);
+
+/// The fields of a channel in words; all 0 if it has a texture of its own.
+FieldWidths fieldsOf(const GBufferLayout& layout, std::span<const Channel> channels, Channel channel) {
+    if (layout[channel] != Encoding::Exact) return layout.widths(channel);
+    return channel == Channel::Normal && holdMaterialNumber(layout, channels) ? kNormalAndNumber : FieldWidths{};
+}
+
+int bitsOf(const FieldWidths& fields) {
+    return std::accumulate(fields.begin(), fields.end(), 0);
+}
+
+int wordsOf(const GBufferLayout& layout, std::span<const Channel> channels) {
+    int bits = 0;
+    for (const Channel channel : channels) bits += bitsOf(fieldsOf(layout, channels, channel));
+    return (bits + 31) / 32;
 }
 
 bool canHoldMaterialNumber(const GBufferLayout& layout) {
@@ -241,8 +256,7 @@ const FieldWidths& GBufferLayout::widths(Channel channel) const {
 
 int GBufferLayout::bits(Channel channel) const {
     if ((*this)[channel] == Encoding::Exact) return 8 * graph::formatInfo(Format::Rgba32Float).bytes;
-    const FieldWidths& fields = widths(channel);
-    return std::accumulate(fields.begin(), fields.end(), 0);
+    return bitsOf(widths(channel));
 }
 
 std::vector<Channel> neededChannels(const FeatureSet& features, const GBufferLayout& layout, bool normalTexel) {
@@ -260,7 +274,7 @@ bool holdMaterialNumber(const GBufferLayout& layout, std::span<const Channel> ch
 std::vector<GBufferTexture> gbufferTextures(const GBufferLayout& layout, std::span<const Channel> channels) {
     std::vector<GBufferTexture> textures;
     for (const Channel channel : channels)
-        if (layout[channel] == Encoding::Exact)
+        if (bitsOf(fieldsOf(layout, channels, channel)) == 0)
             textures.push_back({std::string(infoOf(channel).name), Format::Rgba32Float});
     const int words = wordsOf(layout, channels);
     for (int word = 0; word < words;) {
@@ -291,9 +305,9 @@ Defines channelDefines(const GBufferLayout& layout, std::span<const Channel> cha
     int attachment = 0, bit = 0;
     for (const Channel channel : channels) {
         const std::string name = "GBUFFER_" + std::string(infoOf(channel).define);
-        const bool isPacked = layout[channel] != Encoding::Exact;
-        const FieldWidths w = isPacked ? layout.widths(channel) : FieldWidths{};
-        const int at = isPacked ? std::exchange(bit, bit + layout.bits(channel)) : attachment++;
+        const FieldWidths w = fieldsOf(layout, channels, channel);
+        const bool isPacked = bitsOf(w) > 0;
+        const int at = isPacked ? std::exchange(bit, bit + bitsOf(w)) : attachment++;
         const std::string widths = fmt::format("{}, {}, {}, {}", w[0], w[1], w[2], w[3]);
         defines.emplace_back(name, std::to_string(at));
         if (isPacked) defines.emplace_back(name + "_WIDTHS", widths);

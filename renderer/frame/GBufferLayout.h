@@ -49,9 +49,9 @@ struct ChannelInfo {
 };
 std::span<const ChannelInfo> channelTable();
 
-/// The encoding of each channel. Channels that are `Exact` have an RGBA32F texture of their own; the fields of the
-/// others lie end to end in 32-bit words, in table order. How a channel is encoded never depends on which others there
-/// are, so that leaving one out changes no bit of the picture.
+/// The encoding of each channel. Channels that are `Exact` have an RGBA32F texture of their own, unless pixels hold the
+/// number of their material; the fields of the others lie end to end in 32-bit words, in table order. How a channel is
+/// encoded never depends on which others there are, so that leaving one out changes no bit of the picture.
 struct GBufferLayout {
     std::array<Encoding, kChannelCount> encoding{};
 
@@ -84,11 +84,11 @@ const LayoutInfo& exactLayout();
 const LayoutPromise& promiseOf(const GBufferLayout& layout);
 
 /// The channels that surfaces of these features need, in table order. `normalTexel` is for the view that shows it, and
-/// shows nothing of tangents, coats and sheens. In fp32 the fourth components of albedo and normal are free:
-///  - Where no material varies and every channel of materials would be exact, these are left out: the normal's fourth
-///    component is the material's number, and lighting reads its values from the table of all materials.
-///  - Else alpha and metallic go there, and the microsurface channel is left out, where all surfaces are
-///    metallic_roughness with the usual specular lobe.
+/// shows nothing of tangents, coats and sheens.
+///  - Where no material varies and every channel of materials would be exact, these are left out: two words hold the
+///    normal's code and the material's number, and lighting reads its values from the table of all materials.
+///  - Else alpha and metallic go into the fourth components of albedo and normal, which are free in fp32, and the
+///    microsurface channel is left out, where all surfaces are metallic_roughness with the usual specular lobe.
 std::vector<Channel> neededChannels(const FeatureSet& features, const GBufferLayout& layout, bool normalTexel);
 
 /// Whether these channels leave a pixel's material to the table of all materials.
@@ -108,7 +108,7 @@ int bytesPerPixel(const GBufferLayout& layout, std::span<const Channel> channels
 /// its place. Of an exact one GBUFFER_<NAME> is its attachment, of others the bit where its fields begin and
 /// GBUFFER_<NAME>_WIDTHS their widths. GBUFFER_EXACT_CHANNELS is the number of exact ones, GBUFFER_WORDS of words and
 /// GBUFFER_WORD_TEXTURE the attachment of the first. GBUFFER_SPARE_COMPONENTS where alpha and metallic lie in the
-/// fourth components of others, GBUFFER_MATERIAL_NUMBER where the material's number lies in the normal's.
+/// fourth components of others, GBUFFER_MATERIAL_NUMBER where the material's number follows the normal's code.
 Defines channelDefines(const GBufferLayout& layout, std::span<const Channel> channels);
 
 } // namespace tessera::frame

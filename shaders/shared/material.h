@@ -12,9 +12,10 @@
 #define MATERIAL_FLAG_CLEARCOAT_NORMAL_MAP 64u
 
 // RGBA32UI texels of a material in the table of all of them, which lighting reads where pixels hold only their
-// material's number: what lies before uvRow0. OpenGL 4.5 guarantees 65536 texels.
+// material's number: what lies before uvRow0. As many materials as a pixel's 11 bits can name, a third of the 65536
+// texels that OpenGL 4.5 guarantees.
 #define MATERIAL_TEXELS 9
-#define MATERIAL_TABLE_MOST (65536 / MATERIAL_TEXELS)
+#define MATERIAL_TABLE_MOST 2048
 
 // Added to a slot's wrap modes for --filter exact: its texture holds sRGB code values, which the shader decodes; its
 // sampler takes the nearest texel where it magnifies, and where it minifies; it magnifies up to half a level, not 0.

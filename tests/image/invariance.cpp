@@ -158,7 +158,7 @@ TEST_F(Invariance, materialsReadByTheirNumberGiveEveryBitOfStoredOnesAndOfForwar
         return std::pair(frame::holdMaterialNumber(spec.settings.layout, spec.channels),
                          frame::bytesPerPixel(spec.settings.layout, spec.channels));
     };
-    EXPECT_EQ(bytes(true), std::pair(true, 32)) << "normal and number, and the coat";
+    EXPECT_EQ(bytes(true), std::pair(true, 24)) << "normal and number, and the coat";
     EXPECT_EQ(bytes(false), std::pair(false, 128));
 }
 

@@ -187,7 +187,8 @@ TEST_F(BetweenOpaqueAndTransparent, afterAFrameThatFailedThereIsNoneToRead) {
 TEST_F(BetweenOpaqueAndTransparent, everyTechniqueHandsOnTheSameNormalsToTheLastBit) {
     const scenes::Scene scene = test::everythingScene();
     const std::vector<float> truth = normals(scene, Technique::Deferred, 1);
-    EXPECT_GT(std::ranges::count_if(truth, [](float v) { return v != 0.0f; }), std::ptrdiff_t(truth.size() / 2));
+    // Normals along an axis have zeros.
+    EXPECT_GT(std::ranges::count_if(truth, [](float v) { return v != 0.0f; }), std::ptrdiff_t(truth.size() / 3));
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         EXPECT_TRUE(normals(scene, info.technique, 1) == truth) << info.name;
         if (info.multisamples()) {

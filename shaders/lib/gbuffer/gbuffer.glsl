@@ -4,7 +4,7 @@
 // of GBUFFER_EXACT_CHANNELS. The fields of the others lie end to end in GBUFFER_WORDS words, from the bit
 // GBUFFER_<NAME> on, GBUFFER_<NAME>_WIDTHS bits wide; the words are in attachments from GBUFFER_WORD_TEXTURE on, four,
 // then two, then one of them in each. GBUFFER_SPARE_COMPONENTS: metallic and alpha are the fourth components of albedo
-// and normal. GBUFFER_MATERIAL_NUMBER: the fourth component of the normal is the number of the material, whose values
+// and normal. GBUFFER_MATERIAL_NUMBER: the fields of the normal are its code and the number of the material, whose values
 // are read from the table of all materials. GBUFFER_WRITE declares the channels as outputs, otherwise they are
 // textures.
 #pragma once

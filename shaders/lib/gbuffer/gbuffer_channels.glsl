@@ -34,18 +34,33 @@ void takeAlbedo(Encoding encoding, vec4 texel, inout Surface surface)
 #endif
 }
 
-// In fp32 the fourth component is the number of the material or alpha.
+#ifdef GBUFFER_MATERIAL_NUMBER
+// The code of the normal, then the number of the material.
 void putNormal(Encoding encoding, Surface surface, inout vec4 texel)
 {
-#ifdef GBUFFER_MATERIAL_NUMBER
-    float fourth = float(surface.material);
+    putField(surface.normalCode.shares.x, encoding.widths.x);
+    putField(surface.normalCode.shares.y, encoding.widths.y);
+    putField(surface.normalCode.axis, encoding.widths.z);
+    putField(surface.material, encoding.widths.w);
+}
+
+void takeNormal(Encoding encoding, vec4 texel, inout Surface surface)
+{
+    NormalCode code;
+    code.shares.x = takeField(encoding.widths.x);
+    code.shares.y = takeField(encoding.widths.y);
+    code.axis = takeField(encoding.widths.z);
+    surface.normalLS = decodeNormal(code);
+    surface.material = takeField(encoding.widths.w);
+}
 #else
-    float fourth = surface.alpha;
-#endif
+// In fp32 the fourth component is alpha, which counts where there are GBUFFER_SPARE_COMPONENTS.
+void putNormal(Encoding encoding, Surface surface, inout vec4 texel)
+{
     if (encoding.isPacked)
         putOctahedral(encodeOctahedral(surface.normalLS), encoding.widths, DITHER_NORMAL);
     else
-        texel = vec4(surface.normalLS, fourth);
+        texel = vec4(surface.normalLS, surface.alpha);
 }
 
 void takeNormal(Encoding encoding, vec4 texel, inout Surface surface)
@@ -55,13 +70,11 @@ void takeNormal(Encoding encoding, vec4 texel, inout Surface surface)
         return;
     }
     surface.normalLS = texel.xyz;
-#ifdef GBUFFER_MATERIAL_NUMBER
-    surface.material = uint(texel.w);
-#endif
 #ifdef GBUFFER_SPARE_COMPONENTS
     surface.alpha = texel.w;
 #endif
 }
+#endif
 
 // In fp32: alpha, model, ior or F90, metallic. A model with one parameter stores it as ior; a microfacet model stores
 // its masking-shadowing option as metallic. Packed: model and masking-shadowing option, then alpha, F90 and metallic. A

@@ -93,7 +93,8 @@ Surface surfaceFromMaterial(Fragment fragment, vec4 baseColor)
     vec3 normalTexel = sampleSlot(normalTexture, TEXTURE_SLOT_NORMAL, fragment).rgb;
     if ((material.kind.y & MATERIAL_FLAG_NORMAL_MAP) != 0u) surface.normalTexel = normalTexel;
 #endif
-    surface.normalLS = materialNormal(fragment, surface.normalTexel);
+    surface.normalCode = encodeNormal(materialNormal(fragment, surface.normalTexel));
+    surface.normalLS = decodeNormal(surface.normalCode);
 #if VIEW == VIEW_NORMAL_OBJECT
     surface.normalTexel = objectNormal(fragment, surface.normalLS) * 0.5 + 0.5;
 #endif

@@ -45,11 +45,12 @@ vec3 tangentSpaceNormal(Fragment fragment, vec3 vertexNormal, vec3 texel, float 
 }
 #endif
 
+// Not always unit; 0 where there is no direction.
 vec3 materialNormal(Fragment fragment, vec3 texel)
 {
-    vec3 vertexNormal = safeNormalize(fragment.normalLS, vec3(0.0, 0.0, 1.0));
-    vec3 normal = vertexNormal;
+    vec3 normal = fragment.normalLS;
 #if HAS_NORMAL_TEXTURE
+    vec3 vertexNormal = safeNormalize(fragment.normalLS, vec3(0.0, 0.0, 1.0));
     if (materialFlag(MATERIAL_FLAG_NORMAL_MAP)) {
         if (materialFlag(MATERIAL_FLAG_OBJECT_SPACE_NORMAL)) {
 #if HAS_OBJECT_SPACE_NORMALS

@@ -169,6 +169,34 @@ TEST_F(PrecisionTest, aVectorOfAnyLengthIsNormalisedAndOnlyThatOfNoLengthIsNot) 
     }
 }
 
+TEST_F(PrecisionTest, aNormalKeepsItsDirectionAtAnyLength) {
+    test::Random random(6);
+    std::vector<glm::vec4> inputs;
+    for (int i = 0; i < 200000; ++i)
+        inputs.emplace_back(glm::vec3(random.direction() * random.logarithmic(1e-30, 1e30)), 0.0f);
+    const std::vector<glm::vec4> out = bench.run("test/normals.comp", {}, inputs, inputs.size(), 1);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const glm::dvec3 wanted = glm::normalize(glm::dvec3(inputs[i]));
+        const double error = glm::distance(glm::dvec3(out[i]), wanted);
+        // Half a step of 2^-24 in two shares, and five roundings.
+        ASSERT_LE(error, 2e-7) << wanted.x << " " << wanted.y << " " << wanted.z;
+        sum += error;
+    }
+    EXPECT_LE(sum / double(inputs.size()), 5e-8);
+}
+
+TEST_F(PrecisionTest, normalsAlongAnAxisAreExactAndThoseOfNoLengthPointUp) {
+    std::vector<glm::vec4> inputs{glm::vec4(0.0f)}, wanted{{0, 0, 1, 0}};
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float length : {1e-30f, -1e-30f, 0.3f, -0.3f, 1.0f, -1.0f, 1e30f, -1e30f}) {
+            inputs.emplace_back(0.0f)[axis] = length;
+            wanted.emplace_back(0.0f)[axis] = length > 0.0f ? 1.0f : -1.0f;
+        }
+    const std::vector<glm::vec4> out = bench.run("test/normals.comp", {}, inputs, inputs.size(), 1);
+    EXPECT_EQ(out, wanted);
+}
+
 // What a surface without tangents gets in their place.
 TEST_F(PrecisionTest, anyPerpendicularIsUnitAndAtRightAngles) {
     test::Random random(5);

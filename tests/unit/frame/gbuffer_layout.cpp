@@ -49,8 +49,8 @@ TEST(GBufferLayout, theTableFollowsTheEnumeration) {
 
 TEST(GBufferLayout, theExactLayoutIsFp32) {
     for (const ChannelInfo& info : channelTable())
-        EXPECT_EQ(gbufferTextures(namedLayout("exact"), std::array{info.channel}),
-                  (std::vector<GBufferTexture>{{std::string(info.name), graph::Format::Rgba32Float}}));
+        EXPECT_EQ(gbufferTextures(namedLayout("exact"), std::array{Channel::Albedo, info.channel}).back(),
+                  (GBufferTexture{std::string(info.name), graph::Format::Rgba32Float}));
 }
 
 TEST(GBufferLayout, alphaAndMetallicFillSpareComponentsWhereNothingElseIsStoredOfTheMicrosurface) {
@@ -82,7 +82,12 @@ TEST(GBufferLayout, pixelsHoldTheNumberOfTheirMaterialWhereNoneVariesAndNothingO
     EXPECT_TRUE(holdMaterialNumber(exact, channels));
     EXPECT_EQ(channelDefines(exact, channels).back(),
               std::make_pair(std::string("GBUFFER_MATERIAL_NUMBER"), std::string("1")));
-    EXPECT_EQ(bytesPerPixel(exact, channels), 32);
+    // The normal's code and the number in two words, the coat in fp32.
+    EXPECT_EQ(gbufferTextures(exact, channels), (std::vector<GBufferTexture>{{"clearcoat", graph::Format::Rgba32Float},
+                                                                             {"words", graph::Format::Rg32Uint}}));
+    EXPECT_EQ(bytesPerPixel(exact, channels), 24);
+    EXPECT_THAT(channelDefines(exact, channels),
+                testing::Contains(std::make_pair(std::string("GBUFFER_NORMAL_WIDTHS"), std::string("25, 25, 3, 11"))));
 
     EXPECT_FALSE(holdMaterialNumber(exact, neededChannels(varying(features), exact, false)));
     EXPECT_FALSE(holdMaterialNumber(exact, neededChannels(featuresOf(MaterialModel::SingleColor), exact, false)));
