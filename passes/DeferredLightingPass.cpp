@@ -37,6 +37,7 @@ shader::ProgramDesc DeferredLightingPass::program(const frame::FrameSpec& spec, 
     }
     constexpr const char* kSource = "passes/deferred_lighting.glsl";
     defines.emplace_back("LIGHTING_IN_COMPUTE", inCompute(spec) ? "1" : "0");
+    if (!inCompute(spec) && spec.settings.softwareBackend) defines.emplace_back("FLAT_CONSTANTS", "1");
     if (!inCompute(spec))
         return frame::frameProgram(spec, "deferred_lighting", "passes/fullscreen.vert", kSource, defines);
     defines.emplace_back("LIGHTING_GROUP_SIDE", std::to_string(kGroupSidePixels));

@@ -28,11 +28,17 @@ struct ViewConstants {
     uvec4 sizePixels;    // x width, y height of the picture
 };
 
+#define VIEW_CONSTANT_ROWS 21 // vec4 that ViewConstants takes
+
 struct LightingConstants {
     uvec4 lights;   // x number of lights, y index of the one that the D, G and F views show, z those that reach
                     // everywhere, w words of a bitmask over the lights
     uvec4 tileGrid; // x columns, y rows of tiles; z height of the picture in pixels; w log2 of a tile's side in pixels
     uvec4 slices;   // x shift of the finest depth slices (light_lists.h)
 };
+
+#ifdef __cplusplus
+static_assert(sizeof(ViewConstants) == VIEW_CONSTANT_ROWS * sizeof(vec4));
+#endif
 
 SHARED_END

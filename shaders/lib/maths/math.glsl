@@ -2,6 +2,7 @@
 #pragma once
 
 const float kPi = 3.14159265358979323846;
+const float kInversePi = 1.0 / kPi;
 
 // Unit vector along v, or `fallback` where v is too short to have a direction (a zero-length normal texel, a singular node).
 // Vectors outside about 1e-19 .. 1e19 would leave fp32's range when squared, so the length is taken after scaling.

@@ -42,7 +42,7 @@ float distributionGgx(float alpha2, HalfSum h)
 {
     if (!(h.along > 0.0)) return 0.0;
     precise float inverse = h.length2 / (alpha2 * (h.along * h.along) + h.across2); // 1 / t
-    precise float d = (alpha2 / kPi) * (inverse * inverse);
+    precise float d = (alpha2 * kInversePi) * (inverse * inverse);
     return d;
 }
 
@@ -155,7 +155,7 @@ float fresnelDielectric(float ior, float cosine)
 // Rendering".
 vec3 fresnelSchlick(vec3 f0, vec3 rise, float cosine)
 {
-    precise float m = clamp(1.0 - cosine, 0.0, 1.0);
+    precise float m = max(1.0 - cosine, 0.0);
     precise float m2 = m * m;
     precise float m5 = m2 * m2 * m;
     precise vec3 f = f0 + rise * m5;

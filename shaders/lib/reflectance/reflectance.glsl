@@ -76,7 +76,7 @@ SeenSurface seenSurface(Surface surface, vec3 toViewer)
     seen.viewerLength = lobeLength(surface, toViewer, nv);
     precise vec3 f0 = surface.specular + (surface.albedo - surface.specular) * surface.metallic;
     precise vec3 rise = (surface.iorOrF90 + (1.0 - surface.iorOrF90) * surface.metallic) - f0;
-    precise vec3 diffuse = surface.albedo * ((1.0 - surface.metallic) / kPi);
+    precise vec3 diffuse = surface.albedo * ((1.0 - surface.metallic) * kInversePi);
     seen.f0 = f0;
     seen.fresnelRise = rise;
     seen.diffuse = diffuse;

@@ -5,6 +5,12 @@
 #include "shared/frame.h"
 #include "lib/surface/surface.glsl"
 
+#ifdef FLAT_CONSTANTS
+// Handed over by passes/fullscreen.vert: a broadcast each, where Mesa's software rasteriser gathers every number of a uniform
+// block for each lane.
+layout(location = 0) flat in ViewConstants view;
+layout(location = VIEW_CONSTANT_ROWS) flat in LightingConstants lighting;
+#else
 layout(std140, binding = UNIFORM_VIEW) uniform ViewBlock
 {
     ViewConstants view;
@@ -14,6 +20,7 @@ layout(std140, binding = UNIFORM_LIGHTING) uniform LightingBlock
 {
     LightingConstants lighting;
 };
+#endif
 
 // The depth-buffer value at a distance ahead of the origin of lighting space.
 float depthFromAhead(float ahead)
@@ -61,7 +68,8 @@ Viewpoint viewpointFromDepth(vec2 pixel, float depth)
     precise float viewDepth = view.eyeLS.w + ahead;
     precise vec3 position = viewDepth * across + ahead * view.forwardLS.xyz;
     precise vec3 ray = across + view.forwardLS.xyz;
-    precise vec3 toViewer = -ray / sqrt(dot(ray, ray));
+    precise float perLength = 1.0 / sqrt(dot(ray, ray));
+    precise vec3 toViewer = -ray * perLength;
     viewpoint.positionLS = position;
     viewpoint.toViewerLS = toViewer;
     return viewpoint;
