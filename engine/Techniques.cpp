@@ -109,7 +109,7 @@ OpaquePicture opaqueDeferred(ViewWiring& wiring) {
     const frame::GBufferHandles gbuffer = GBufferPass::add(wiring.graph, wiring.spec, {wiring.surfaces}).gbuffer;
     wiring.addLightLists(gbuffer.depth, gbuffer.depth);
     const DeferredLightingPass::Outputs lit =
-        DeferredLightingPass::add(wiring.graph, wiring.spec, {}, {gbuffer, wiring.lighting});
+        DeferredLightingPass::add(wiring.graph, wiring.spec, {}, {gbuffer, wiring.lighting}, wiring.drawn);
     return {lit.radiance, gbuffer.depth, gbuffer};
 }
 
@@ -117,7 +117,7 @@ OpaquePicture opaqueDeferredVolumes(ViewWiring& wiring) {
     const frame::GBufferHandles gbuffer = GBufferPass::add(wiring.graph, wiring.spec, {wiring.surfaces}).gbuffer;
     const DeferredLightingPass::Params params{.visitsLights = false};
     const TextureHandle unlit =
-        DeferredLightingPass::add(wiring.graph, wiring.spec, params, {gbuffer, wiring.lighting}).radiance;
+        DeferredLightingPass::add(wiring.graph, wiring.spec, params, {gbuffer, wiring.lighting}, wiring.drawn).radiance;
     if (!LightVolumesPass::isNeeded(wiring.spec)) return {unlit, gbuffer.depth, gbuffer};
     const LightVolumesPass::Inputs inputs{gbuffer, wiring.lighting, unlit};
     return {LightVolumesPass::add(wiring.graph, wiring.spec, inputs).radiance, gbuffer.depth, gbuffer};

@@ -13,10 +13,23 @@ bool inCompute(const frame::FrameSpec& spec) {
     return spec.lightOn == frame::LightingStage::Compute;
 }
 
-void drawPicture(const graph::PassContext& context, const glm::vec4& background) {
-    context.bindTargets();
+void clearBetween(const glm::ivec2& low, const glm::ivec2& high, const glm::vec4& background) {
+    if (low.x >= high.x || low.y >= high.y) return;
+    gpu::setScissor({low.x, low.y, high.x - low.x, high.y - low.y});
     gpu::clearColor(0, background);
+}
+
+/// Lights the pixels that may show a surface and clears those below, above and beside them.
+void drawPicture(const graph::PassContext& context, const glm::ivec2& size, const frame::PixelArea& lit,
+                 const glm::vec4& background) {
+    context.bindTargets();
+    clearBetween({0, 0}, {size.x, lit.low.y}, background);
+    clearBetween({0, lit.high.y}, size, background);
+    clearBetween({0, lit.low.y}, {lit.low.x, lit.high.y}, background);
+    clearBetween({lit.high.x, lit.low.y}, {size.x, lit.high.y}, background);
+    if (lit.empty()) return;
     gpu::setState({});
+    gpu::setScissor({lit.low.x, lit.low.y, lit.high.x - lit.low.x, lit.high.y - lit.low.y});
     gpu::drawFullscreenTriangle();
 }
 
@@ -47,7 +60,8 @@ shader::ProgramDesc DeferredLightingPass::program(const frame::FrameSpec& spec, 
 }
 
 DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
-                                                        const Params& params, const Inputs& inputs) {
+                                                        const Params& params, const Inputs& inputs,
+                                                        const frame::DrawnView* drawn) {
     return graph.addPass<Outputs>(
         "deferred_lighting",
         [&](graph::PassBuilder& pass, Outputs& out) {
@@ -56,15 +70,14 @@ DeferredLightingPass::Outputs DeferredLightingPass::add(graph::Graph& graph, con
             out.radiance = pass.create("radiance", spec.texture(graph::Format::Rgba32Float),
                                        inCompute(spec) ? graph::Access::ImageWrite : graph::Access::ColorAttachment);
         },
-        [background = spec.background, compute = inCompute(spec)](const Outputs& out,
-                                                                  const graph::PassContext& context) {
+        [spec, drawn](const Outputs& out, const graph::PassContext& context) {
             gpu::useProgram(context.program());
             out.read.lighting.bind(context);
             out.read.gbuffer.bind(context);
-            if (compute)
+            if (inCompute(spec))
                 dispatchPicture(context.texture(out.radiance));
             else
-                drawPicture(context, background);
+                drawPicture(context, spec.settings.sizePixels, drawn->draws.opaquePixels, spec.background);
         });
 }
 

@@ -22,7 +22,9 @@ struct DeferredLightingPass {
         graph::TextureHandle radiance;
     };
     static shader::ProgramDesc program(const frame::FrameSpec& spec, const Params& params);
-    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params, const Inputs& inputs);
+    /// `drawn` is null in graphs that are only planned.
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params, const Inputs& inputs,
+                       const frame::DrawnView* drawn);
 };
 
 } // namespace tessera::passes

@@ -80,21 +80,52 @@ namespace {
 /// origin, and from there to the origin of lighting space. Some 2^-24 each; this is far more.
 constexpr double kRoundingShare = 1e-5;
 
-/// Whether some plane of the view's frustum has all of a draw's box behind it.
-bool isOutside(const scenes::Box3& boxWS, const glm::dvec3& objectWS, const CameraView& view) {
-    if (boxWS.empty()) return false;
+double summedMetres(const scenes::Box3& boxWS, const glm::dvec3& objectWS, const CameraView& view) {
     const auto farthest = [&](const glm::dvec3& fromWS) {
         return glm::length(glm::max(glm::abs(boxWS.min - fromWS), glm::abs(boxWS.max - fromWS)));
     };
+    return farthest(view.originWS) + farthest(objectWS) + glm::distance(objectWS, view.originWS);
+}
+
+/// Whether some plane of the view's frustum has all of a draw's box behind it.
+bool isOutside(const scenes::Box3& boxWS, const glm::dvec3& objectWS, const CameraView& view) {
+    if (boxWS.empty()) return false;
     const glm::dvec3 low = boxWS.min - view.originWS, high = boxWS.max - view.originWS;
-    const double summedMetres = farthest(view.originWS) + farthest(objectWS) + glm::distance(objectWS, view.originWS);
+    const double errorMetres = kRoundingShare * summedMetres(boxWS, objectWS, view);
     return std::any_of(view.frustumPlanesLS.begin(), view.frustumPlanesLS.end(), [&](const glm::dvec4& plane) {
         const glm::dvec3 normal = glm::dvec3(plane) * view.lsFromWorld; // by the transpose, into world axes
         const glm::dvec3 innermost(normal.x > 0.0 ? high.x : low.x, normal.y > 0.0 ? high.y : low.y,
                                    normal.z > 0.0 ? high.z : low.z);
         const double insideMetres = glm::dot(normal, innermost) + plane.w;
-        return insideMetres < -kRoundingShare * summedMetres;
+        return insideMetres < -errorMetres;
     });
+}
+
+/// Extends `area` by the pixels in which a draw's box may be seen.
+void extend(PixelArea& area, const scenes::Box3& boxWS, const glm::dvec3& objectWS, const CameraView& view) {
+    const glm::ivec2 size(view.constants.sizePixels);
+    const PixelArea whole{{0, 0}, size};
+    if (boxWS.empty() || area == whole) return;
+    const glm::dvec3 margin(kRoundingShare * summedMetres(boxWS, objectWS, view));
+    const glm::dvec3 low = boxWS.min - margin, high = boxWS.max + margin;
+    glm::dvec2 lowest(1.0), highest(-1.0); // of clip space
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 positionWS(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
+                                    corner & 4 ? high.z : low.z);
+        const glm::dvec4 clip = view.clipFromLS * glm::dvec4(view.positionLS(positionWS), 1.0);
+        if (!(clip.w > 0.0)) { // behind the eye: what lies between may be seen anywhere
+            area = whole;
+            return;
+        }
+        lowest = glm::min(lowest, glm::dvec2(clip) / clip.w);
+        highest = glm::max(highest, glm::dvec2(clip) / clip.w);
+    }
+    const auto pixel = [&](const glm::dvec2& place, double more) {
+        return glm::ivec2(glm::clamp((place * 0.5 + 0.5) * glm::dvec2(size) + more, glm::dvec2(0.0), glm::dvec2(size)));
+    };
+    const PixelArea own{pixel(lowest, -1.0), pixel(highest, 2.0)};
+    if (own.empty()) return;
+    area = area.empty() ? own : PixelArea{glm::min(area.low, own.low), glm::max(area.high, own.high)};
 }
 
 DrawRows rowsOf(const Draw& draw, const glm::dmat4& worldFromObject, const CameraView& view) {
@@ -151,6 +182,7 @@ ViewDraws makeViewDraws(const DrawList& list, const CameraView& view, bool culls
             result.transparent.push_back({place, 1, draw.material, draw.mirrored});
             continue;
         }
+        extend(result.opaquePixels, draw.boxWS, glm::dvec3(worldFromObject[3]), view);
         if (result.opaque.empty() || result.opaque.back().material != draw.material ||
             result.opaque.back().mirrored != draw.mirrored)
             result.opaque.push_back({place, 0, draw.material, draw.mirrored});

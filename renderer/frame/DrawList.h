@@ -58,13 +58,22 @@ struct DrawRows {
     glm::vec4 normal[3];
 };
 
+/// Pixels [low, high) of a picture, lower-left origin.
+struct PixelArea {
+    glm::ivec2 low{0};
+    glm::ivec2 high{0};
+    bool empty() const { return low.x >= high.x || low.y >= high.y; }
+    bool operator==(const PixelArea&) const = default;
+};
+
 /// What a view draws of a list. Rows and batches speak of the list's draws that may be seen, in its order.
 struct ViewDraws {
     std::vector<int> seen;      ///< index into DrawList::draws
     std::vector<DrawRows> rows; ///< parallel to seen
     std::vector<Batch> opaque;
     std::vector<Batch>
-        transparent; ///< one per draw, far to near by the view depth of their boxes' centres, ties by index
+        transparent;        ///< one per draw, far to near by the view depth of their boxes' centres, ties by index
+    PixelArea opaquePixels; ///< none beside it shows an opaque surface; by the draws' boxes
 };
 /// With `culls` draws whose boxes lie outside the view are left out.
 ViewDraws makeViewDraws(const DrawList& list, const CameraView& view, bool culls);

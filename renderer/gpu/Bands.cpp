@@ -24,8 +24,7 @@ constexpr int kSlowStep = 16;
 struct State {
     std::function<bool()> givesUp; ///< empty: draws are whole; also once it said yes, while the frame is left
     BandPace pace;
-    int width = 0;
-    int height = 0;
+    BandedArea area;
 };
 thread_local State state;
 
@@ -57,26 +56,27 @@ void askToGoOn() {
     throw graph::Interrupted();
 }
 
-void setBandedTarget(int width, int height) {
-    state.width = width;
-    state.height = height;
+void setBandedArea(const BandedArea& area) {
+    state.area = area;
 }
 
 void drawInBands(const std::function<void()>& draw, BandCost cost) {
-    if (!state.givesUp || state.width == 0 || (state.height <= kRowStep && !state.pace.beginsSlow)) return draw();
-    const int quarter = (state.height / kGeometryBands + kRowStep - 1) / kRowStep * kRowStep;
+    const BandedArea area = state.area;
+    if (!state.givesUp || area.width == 0 || (area.height <= kRowStep && !state.pace.beginsSlow)) return draw();
+    const int quarter = (area.height / kGeometryBands + kRowStep - 1) / kRowStep * kRowStep;
     const int usualRows = cost == BandCost::Geometry ? quarter : kRowStep;
-    int rows = state.pace.beginsSlow ? kSlowStep : usualRows, columns = state.width;
-    for (int row = 0; row < state.height;) {
+    int rows = state.pace.beginsSlow ? kSlowStep : usualRows, columns = area.width;
+    for (int row = 0; row < area.height;) {
         double slowestMs = 0.0; // of the band's pieces
-        for (int column = 0; column < state.width;) {
+        for (int column = 0; column < area.width;) {
             if (row + column > 0) askToGoOn();
             const CpuTimer clock;
             glEnable(GL_SCISSOR_TEST);
-            const int width = std::min(columns, state.width - column);
-            glScissor(column, row, width, std::min(rows, state.height - row));
+            const int width = std::min(columns, area.width - column);
+            glScissor(area.x + column, area.y + row, width, std::min(rows, area.height - row));
             draw();
-            glDisable(GL_SCISSOR_TEST);
+            glScissor(area.x, area.y, area.width, area.height);
+            if (!area.isScissored) glDisable(GL_SCISSOR_TEST);
             glFinish();
             const double ms = clock.elapsedMs();
             slowestMs = std::max(slowestMs, ms);
@@ -85,14 +85,14 @@ void drawInBands(const std::function<void()>& draw, BandCost cost) {
             if (ms > state.pace.longestMs && rows == kSlowStep)
                 columns = std::max(columns / 4, kSlowStep);
             else if (2.0 * ms < state.pace.longestMs && width == columns) // not of one that the edge cut
-                columns = std::min(columns * 2, state.width);
+                columns = std::min(columns * 2, area.width);
         }
         row += rows;
         if (slowestMs > state.pace.longestMs)
             rows = std::max(rows / 4 / kSlowStep * kSlowStep, kSlowStep);
-        else if (columns == state.width && rows >= usualRows)
+        else if (columns == area.width && rows >= usualRows)
             rows = std::max(nextRows(rows, slowestMs), usualRows);
-        else if (columns == state.width && 2.0 * slowestMs < state.pace.longestMs)
+        else if (columns == area.width && 2.0 * slowestMs < state.pace.longestMs)
             rows = std::min(rows * 2, usualRows);
     }
 }

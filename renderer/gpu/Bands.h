@@ -29,15 +29,22 @@ enum class BandCost {
     Geometry ///< each band repeats it: a few bands, as long as they are not slow
 };
 
-/// Issues `draw` once, or under BandedDrawing once per band of the bound framebuffer's rows, scissored to the band. The
-/// draw must write pixels only, and each on its own. Where setScissor() holds it is issued once.
+/// Issues `draw` once, or under BandedDrawing once per band of rows, scissored to the band: of the bound framebuffer,
+/// or of the rectangle that setScissor() restricts draws to. The draw must write pixels only, and each on its own.
 void drawInBands(const std::function<void()>& draw, BandCost cost = BandCost::Nothing);
 
 /// Under BandedDrawing: waits for the issued draws and calls `givesUp`. Called after every pass.
 void askToGoOn();
 
-/// The size of the bound framebuffer, for drawInBands(); 0 disables scissoring. Called with every binding of a
-/// framebuffer.
-void setBandedTarget(int width, int height);
+/// Pixels that drawInBands() divides.
+struct BandedArea {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+    bool isScissored = false; ///< not the whole framebuffer
+};
+/// Called with every binding of a framebuffer and every scissor.
+void setBandedArea(const BandedArea& area);
 
 } // namespace tessera::gpu

@@ -101,7 +101,7 @@ constexpr std::pair<graph::Barrier, GLbitfield> kBarrierBits[] = {
 } // namespace
 
 void bindFramebuffer(const Framebuffer& framebuffer) {
-    setBandedTarget(framebuffer.width(), framebuffer.height());
+    setBandedArea({0, 0, framebuffer.width(), framebuffer.height()});
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     glViewport(0, 0, framebuffer.width(), framebuffer.height());
     glDisable(GL_SCISSOR_TEST);
@@ -109,7 +109,7 @@ void bindFramebuffer(const Framebuffer& framebuffer) {
 }
 
 void bindWindowFramebuffer(int width, int height) {
-    setBandedTarget(width, height);
+    setBandedArea({0, 0, width, height});
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, width, height);
     glDisable(GL_SCISSOR_TEST);
@@ -121,10 +121,10 @@ void setViewport(int x, int y, int width, int height) {
     glViewport(x, y, width, height);
 }
 
-void setScissor(int x, int y, int width, int height) {
-    setBandedTarget(0, 0); // bands need the scissor for themselves
+void setScissor(const Rectangle& pixels) {
+    setBandedArea({pixels.x, pixels.y, pixels.width, pixels.height, true});
     glEnable(GL_SCISSOR_TEST);
-    glScissor(x, y, width, height);
+    glScissor(pixels.x, pixels.y, pixels.width, pixels.height);
 }
 
 void clearColor(int attachment, const glm::vec4& color) {

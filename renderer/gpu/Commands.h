@@ -35,7 +35,7 @@ void bindFramebuffer(const Framebuffer& framebuffer);
 void bindWindowFramebuffer(int width, int height);
 void setViewport(int x, int y, int width, int height);
 /// Restricts draws and clears to a rectangle of pixels (an atlas tile); off with the next bindFramebuffer().
-void setScissor(int x, int y, int width, int height);
+void setScissor(const Rectangle& pixels);
 
 /// Clears of the bound framebuffer, whatever the pipeline state's write masks say; the scissor holds.
 void clearColor(int attachment, const glm::vec4& color);

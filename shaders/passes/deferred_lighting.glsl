@@ -40,8 +40,8 @@ void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float depth = depthOfPixel(pixel);
-    // The background stays as it was cleared: software rasterisers leave a block early when all its pixels are discarded.
-    if (depth == 0.0) discard;
-    radiance = deferredRadiance(pixel, depth);
+    // Without discard: a software rasteriser reads and masks the pixels of a target whose shader may discard.
+    radiance = view.background;
+    if (depth != 0.0) radiance = deferredRadiance(pixel, depth);
 }
 #endif

@@ -118,7 +118,7 @@ void Screen::show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare c
         if (left >= right) return;
         const glm::ivec2 size = from.sizePixels();
         const bool isScaled = size != glm::ivec2(area.width, area.height);
-        gpu::setScissor(area.x + left, area.y, right - left, area.height);
+        gpu::setScissor({area.x + left, area.y, right - left, area.height});
         gpu::blitToWindow(from.framebuffer(), {0, 0, size.x, size.y}, area, isScaled);
     };
     if (compare == Compare::Split && pictures_[1].isThere()) {

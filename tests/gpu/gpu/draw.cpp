@@ -198,7 +198,7 @@ TEST_F(GeometryTest, counterClockwiseIsTheFrontUnlessMirrored) {
 
 TEST_F(GeometryTest, theScissorHoldsUntilTheNextFramebuffer) {
     begin();
-    setScissor(1, 0, 2, 2);
+    setScissor({1, 0, 2, 2});
     clearColor(0, glm::vec4(5.0f));
     EXPECT_THAT(firstRowIds(), ElementsAre(-1, 5, 5, -1));
     begin();

@@ -282,6 +282,62 @@ TEST(ViewDraws, visibleDrawsKeepOrderAndRowsAndTheRestIsCulled) {
     EXPECT_GT(double(left), 0.5 * double(all)) << "most of a sphere of 20 m around lies outside a view of 45 degrees";
 }
 
+/// The pixels of a view of boxes of half a metre at these places in view space.
+PixelArea pixelsOfBoxes(const std::vector<glm::dvec3>& placesVS, const scenes::Camera& camera, const CameraView& view) {
+    scenes::Scene scene = scenes::tinyScene();
+    scene.meshes[0].positionsOS = {glm::vec3(-0.25f), glm::vec3(0.25f), glm::vec3(-0.25f, 0.25f, -0.25f)};
+    scene.nodes.clear();
+    for (const glm::dvec3& place : placesVS) {
+        scenes::Node& node = scene.nodes.emplace_back();
+        node.parentFromNode = camera.worldFromCamera * glm::translate(glm::dmat4(1.0), place);
+        node.instances = {{0, 0}};
+    }
+    return makeViewDraws(makeDrawList(scene), view, true).opaquePixels;
+}
+
+TEST(ViewDraws, opaquePixelsEncloseTheDrawsThatAreSeenClosely) {
+    scenes::Camera camera; // of 45 degrees, so 100 pixels are 2 tan 22.5 degrees at a metre
+    const CameraView view = makeCameraView(camera, {200, 100}, LightingSpace::World, glm::vec3(0.0f));
+    const double pixelsAMetre = 50.0 / std::tan(0.5 * camera.fovYRadians);
+    test::Random random(11);
+    for (int i = 0; i < 1000; ++i) {
+        const double ahead = random.between(2.0, 50.0);
+        const glm::dvec3 place(random.between(-1.0, 1.0) * ahead, random.between(-0.5, 0.5) * ahead, -ahead);
+        const PixelArea area = pixelsOfBoxes({place}, camera, view);
+        // The box is nearest and farthest at 0.25 m before and behind its middle.
+        for (const int axis : {0, 1}) {
+            const double middle = axis == 0 ? 100.0 : 50.0;
+            double low = 1e9, high = -1e9;
+            for (const double side : {-0.25, 0.25})
+                for (const double depth : {ahead - 0.25, ahead + 0.25}) {
+                    low = std::min(low, middle + pixelsAMetre * (place[axis] + side) / depth);
+                    high = std::max(high, middle + pixelsAMetre * (place[axis] + side) / depth);
+                }
+            if (area.empty()) continue;
+            EXPECT_LE(area.low[axis], std::max(0.0, std::floor(low)));
+            EXPECT_GE(area.high[axis], std::min(2.0 * middle, std::ceil(high)));
+            EXPECT_GE(area.low[axis], std::clamp(low - 3.0, 0.0, 2.0 * middle));
+            EXPECT_LE(area.high[axis], std::clamp(high + 3.0, 0.0, 2.0 * middle));
+        }
+    }
+    const PixelArea left = pixelsOfBoxes({{-5.0, 0.0, -10.0}}, camera, view),
+                    right = pixelsOfBoxes({{5.0, 2.0, -10.0}}, camera, view);
+    const PixelArea both = pixelsOfBoxes({{-5.0, 0.0, -10.0}, {5.0, 2.0, -10.0}}, camera, view);
+    EXPECT_LT(left.high.x, 100);
+    EXPECT_GT(right.low.x, 100);
+    EXPECT_EQ(both, (PixelArea{glm::min(left.low, right.low), glm::max(left.high, right.high)}));
+}
+
+TEST(ViewDraws, opaquePixelsAreAllWhereABoxReachesBehindTheEyeAndNoneWhereNothingIsDrawn) {
+    const scenes::Camera camera;
+    const CameraView view = makeCameraView(camera, {200, 100}, LightingSpace::World, glm::vec3(0.0f));
+    const PixelArea whole{{0, 0}, {200, 100}};
+    EXPECT_EQ(pixelsOfBoxes({{0.1, 0.0, -0.2}}, camera, view), whole);
+    EXPECT_EQ(pixelsOfBoxes({{0.0, 0.0, -10.0}, {0.1, 0.0, -0.2}, {1.0, 0.0, -10.0}}, camera, view), whole);
+    EXPECT_TRUE(pixelsOfBoxes({}, camera, view).empty());
+    EXPECT_TRUE(pixelsOfBoxes({{0.0, 0.0, 10.0}}, camera, view).empty()) << "behind the eye";
+}
+
 /// The one draw's rows for a node with this transform.
 DrawRows rowsOf(const glm::dmat4& worldFromObject, const CameraView& view) {
     scenes::Scene scene = scenes::tinyScene();
