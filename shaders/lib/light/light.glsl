@@ -55,7 +55,8 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
     bool reaches = reach < 1.0;
     precise float window = 1.0 - reach * reach;
     // At the light itself no direction is better than another; the least distance gives none, and no NaN.
-    precise float inverse2 = 1.0 / max(distance2, 1e-37);
+    precise float held2 = max(distance2, 1e-37);
+    precise float inverse2 = 1.0 / held2;
     precise float falloff = (window * window) * min(inverse2, 1e4);
 #if HAS_LIGHT_SHAPES
     vec4 attenuation = vec4(0.0);
@@ -68,7 +69,7 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
         falloff = (window * window) / max(denominator, 1e-4);
     }
 #endif
-    precise vec3 direction = toLight * sqrt(inverse2);
+    precise vec3 direction = toLight * (sqrt(held2) * inverse2);
 #if HAS_LIGHT_SHAPES
     precise float share = shareTowards(index, kind, direction, attenuation);
     reaches = reaches && share > 0.0;

@@ -80,20 +80,33 @@ bool nextBatch(inout LightCursor cursor, out int light)
 
 #elif LIGHT_CURSOR == LIGHT_CURSOR_LIST
 
-// A run of entries; the head is the light that it offers next.
+// The entries of the pixel's cell.
+uvec2 lightRun(vec2 pixel, float depth)
+{
+    uvec4 tile = lightTile(pixel);
+    uint slice = depthSlice(depth, tile.y);
+    // The cells of a tile are those of its occupied slices, so a slice's rank among them finds its cell.
+    uint below = slice < 32u ? tile.z & ((1u << slice) - 1u) : tile.z;
+    uint belowHigh = slice < 32u ? 0u : tile.w & ((1u << (slice & 31u)) - 1u);
+    return lightCells[WHERE_LISTED(tile.x + uint(bitCount(below) + bitCount(belowHigh)))];
+}
+
+#if HAS_LIGHTS_EVERYWHERE
+
+// A run of entries to be merged with another; the head is the light that it offers next.
 const int kNoLight = 0x7fffffff;
-struct LightRun {
+struct HeadedRun {
     int next;
     int end;
     int head;
 };
 
-LightRun lightRun(uvec2 cell)
+HeadedRun headedRun(uvec2 run)
 {
-    return LightRun(int(cell.x), int(cell.x + cell.y), cell.y > 0u ? int(texelFetch(lightEntries, int(cell.x)).x) : kNoLight);
+    return HeadedRun(int(run.x), int(run.x + run.y), run.y > 0u ? int(texelFetch(lightEntries, int(run.x)).x) : kNoLight);
 }
 
-void advance(inout LightRun run)
+void advance(inout HeadedRun run)
 {
     run.next += 1;
     int head = int(texelFetch(lightEntries, run.next).x);
@@ -101,34 +114,21 @@ void advance(inout LightRun run)
 }
 
 struct LightCursor {
-    LightRun cell;
-#if HAS_LIGHTS_EVERYWHERE
-    LightRun everywhere;
-#endif
+    HeadedRun cell;
+    HeadedRun everywhere;
 };
 
 LightCursor lightCursor(vec2 pixel, float depth)
 {
-    uvec4 tile = lightTile(pixel);
-    uint slice = depthSlice(depth, tile.y);
-    // The cells of a tile are those of its occupied slices, so a slice's rank among them finds its cell.
-    uint below = slice < 32u ? tile.z & ((1u << slice) - 1u) : tile.z;
-    uint belowHigh = slice < 32u ? 0u : tile.w & ((1u << (slice & 31u)) - 1u);
-    LightRun cell = lightRun(lightCells[WHERE_LISTED(tile.x + uint(bitCount(below) + bitCount(belowHigh)))]);
-#if HAS_LIGHTS_EVERYWHERE
-    return LightCursor(cell, lightRun(uvec2(0u, lighting.lights.z)));
-#else
-    return LightCursor(cell);
-#endif
+    return LightCursor(headedRun(lightRun(pixel, depth)), headedRun(uvec2(0u, lighting.lights.z)));
 }
 
 // Without an early return: rasterisers that mask lanes run what follows one all the same, and keep both results.
 bool nextLight(inout LightCursor cursor, out int light)
 {
-#if HAS_LIGHTS_EVERYWHERE
     // One fetch for the run whose head is next; no light is in both.
     bool isOfCell = cursor.cell.head < cursor.everywhere.head;
-    LightRun run = cursor.everywhere;
+    HeadedRun run = cursor.everywhere;
     if (isOfCell) run = cursor.cell;
     light = run.head;
     advance(run);
@@ -137,12 +137,31 @@ bool nextLight(inout LightCursor cursor, out int light)
     } else {
         cursor.everywhere = run;
     }
-#else
-    light = cursor.cell.head;
-    advance(cursor.cell);
-#endif
     return light != kNoLight;
 }
+
+#else
+
+struct LightCursor {
+    int next;
+    int end;
+};
+
+LightCursor lightCursor(vec2 pixel, float depth)
+{
+    uvec2 run = lightRun(pixel, depth);
+    return LightCursor(int(run.x), int(run.x + run.y));
+}
+
+bool nextLight(inout LightCursor cursor, out int light)
+{
+    light = int(texelFetch(lightEntries, cursor.next).x); // of no meaning at the end
+    bool found = cursor.next < cursor.end;
+    cursor.next += 1;
+    return found;
+}
+
+#endif
 
 bool nextBatch(inout LightCursor cursor, out int light)
 {

@@ -29,21 +29,29 @@ HalfSum halfSumAlong(vec3 n, vec3 h)
     return halfSum(n, h, h, cosine, cosine);
 }
 
-// l.h = v.h, half the sum's length; 1 at most.
+// l.h = v.h, half the sum's length; more than 1 by its rounding at most.
 float halfCosine(HalfSum h)
 {
-    precise float cosine = min(0.5 * sqrt(h.length2), 1.0);
+    precise float cosine = 0.5 * sqrt(h.length2);
     return cosine;
 }
 
 // GGX distribution of normals, of alpha squared. Source: Walter 2007, "Microfacet Models for Refraction through Rough Surfaces", eq. 33,
 // rewritten as alpha^2 / (pi t^2) with t = alpha^2 (n.h)^2 + |n x h|^2: 1 - (n.h)^2 would cancel near the peak.
-float distributionGgx(float alpha2, HalfSum h)
+// `peak` is ggxPeak().
+float distributionGgx(float alpha2, float peak, HalfSum h)
 {
     if (!(h.along > 0.0)) return 0.0;
     precise float inverse = h.length2 / (alpha2 * (h.along * h.along) + h.across2); // 1 / t
-    precise float d = (alpha2 * kInversePi) * (inverse * inverse);
+    precise float d = peak * (inverse * inverse);
     return d;
+}
+
+// alpha^2 / pi, for alpha below 1 the inverse of D's peak.
+float ggxPeak(float alpha2)
+{
+    precise float peak = alpha2 * kInversePi;
+    return peak;
 }
 
 // The same with alpha x along the unit tangent and alpha y along the bitangent. Source: Burley 2012, "Physically-Based
@@ -155,7 +163,7 @@ float fresnelDielectric(float ior, float cosine)
 // Rendering".
 vec3 fresnelSchlick(vec3 f0, vec3 rise, float cosine)
 {
-    precise float m = max(1.0 - cosine, 0.0);
+    precise float m = 1.0 - cosine;
     precise float m2 = m * m;
     precise float m5 = m2 * m2 * m;
     precise vec3 f = f0 + rise * m5;
