@@ -1,6 +1,9 @@
 #include "passes/DisplayPass.h"
 
 #include <cmath>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/display.h"
@@ -13,18 +16,19 @@ namespace {
 shared::DisplayConstants displayConstants(const frame::FrameSettings& settings) {
     shared::DisplayConstants constants{};
     constants.exposure = glm::vec4(std::exp2(settings.exposureEV));
-    const frame::DisplayMapping mapping = frame::displayMapping(settings.view, settings.layout);
-    constants.mapping = glm::uvec4(unsigned(mapping), unsigned(settings.toneMap), 0u, 0u);
     return constants;
 }
 
 } // namespace
 
-shader::ProgramDesc DisplayPass::program() {
+shader::ProgramDesc DisplayPass::program(const frame::FrameSpec& spec) {
+    const frame::DisplayMapping mapping = frame::displayMapping(spec.settings.view, spec.settings.layout);
     shader::ProgramDesc program;
     program.name = "display";
     program.vertex = "passes/fullscreen.vert";
     program.fragment = "passes/display.frag";
+    program.defines = {{"DISPLAY_MAPPING", std::to_string(unsigned(mapping))},
+                       {"TONE_MAP", fmt::format("{}u", unsigned(spec.settings.toneMap))}};
     return program;
 }
 
@@ -32,7 +36,7 @@ DisplayPass::Outputs DisplayPass::add(graph::Graph& graph, const frame::FrameSpe
     return graph.addPass<Outputs>(
         "display",
         [&](graph::PassBuilder& pass, Outputs& out) {
-            pass.program(program());
+            pass.program(program(spec));
             pass.expect(inputs.radiance, spec.texture(graph::Format::Rgba32Float));
             out.radiance = pass.read(inputs.radiance);
             out.display = pass.create("display", spec.texture(graph::Format::Rgba8Unorm));

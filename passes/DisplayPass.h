@@ -16,7 +16,7 @@ struct DisplayPass {
         graph::TextureHandle radiance; ///< as read
         graph::TextureHandle display;
     };
-    static shader::ProgramDesc program();
+    static shader::ProgramDesc program(const frame::FrameSpec& spec);
     static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs);
 };
 

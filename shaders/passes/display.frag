@@ -1,4 +1,5 @@
-// Linear radiance to display code values: exposure, tone map, sRGB transfer function.
+// Linear radiance to display code values: exposure, tone map, sRGB transfer function. DISPLAY_MAPPING is one of DISPLAY_*,
+// TONE_MAP one of TONEMAP_*: a rasteriser that masks lanes would run all of them.
 #include "shared/slots.h"
 #include "shared/display.h"
 #include "shared/faults.h"
@@ -38,16 +39,23 @@ vec3 faultsOf(vec3 value)
 
 vec3 codeValues(vec3 value)
 {
-    switch (display.mapping.x) {
-    case DISPLAY_RAW: return value;
-    case DISPLAY_SIGNED: return value * 0.5 + 0.5;
-    case DISPLAY_DISTANCE: return vec3(10.0 / (10.0 + max(value, 0.0)));
-    case DISPLAY_COUNT: return heatColor(heatPositionOfCount(value.r, HEAT_COUNT_LOG2));
-    case DISPLAY_IDS: return colorOfIds(value);
-    case DISPLAY_COMPRESSED: return compressed(value * display.exposure.x);
-    case DISPLAY_FAULTS: return faultsOf(value);
-    default: return encodeSrgb(toneMapped(value * display.exposure.x, display.mapping.y));
-    }
+#if DISPLAY_MAPPING == DISPLAY_RAW
+    return value;
+#elif DISPLAY_MAPPING == DISPLAY_SIGNED
+    return value * 0.5 + 0.5;
+#elif DISPLAY_MAPPING == DISPLAY_DISTANCE
+    return vec3(10.0 / (10.0 + max(value, 0.0)));
+#elif DISPLAY_MAPPING == DISPLAY_COUNT
+    return heatColor(heatPositionOfCount(value.r, HEAT_COUNT_LOG2));
+#elif DISPLAY_MAPPING == DISPLAY_IDS
+    return colorOfIds(value);
+#elif DISPLAY_MAPPING == DISPLAY_COMPRESSED
+    return compressed(value * display.exposure.x);
+#elif DISPLAY_MAPPING == DISPLAY_FAULTS
+    return faultsOf(value);
+#else
+    return encodeSrgb(toneMapped(value * display.exposure.x, TONE_MAP));
+#endif
 }
 
 void main()

@@ -8,20 +8,19 @@
 #define TONEMAP_AGX 3u
 
 // How the values of a view are shown (frame::DisplayMapping).
-#define DISPLAY_RADIANCE 0u
-#define DISPLAY_RAW 1u
-#define DISPLAY_SIGNED 2u
-#define DISPLAY_DISTANCE 3u
-#define DISPLAY_COUNT 4u
-#define DISPLAY_IDS 5u
-#define DISPLAY_COMPRESSED 6u
-#define DISPLAY_FAULTS 7u
+#define DISPLAY_RADIANCE 0
+#define DISPLAY_RAW 1
+#define DISPLAY_SIGNED 2
+#define DISPLAY_DISTANCE 3
+#define DISPLAY_COUNT 4
+#define DISPLAY_IDS 5
+#define DISPLAY_COMPRESSED 6
+#define DISPLAY_FAULTS 7
 
 SHARED_BEGIN
 
 struct DisplayConstants {
     vec4 exposure; // x factor 2^EV
-    uvec4 mapping; // x one of DISPLAY_*, y one of TONEMAP_*
 };
 
 SHARED_END

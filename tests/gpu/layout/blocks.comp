@@ -34,10 +34,9 @@ void main()
         outputs[16 + TEXTURE_SLOT_COUNT + slot] = material.uvRow1[slot];
     }
     outputs[16 + 2 * TEXTURE_SLOT_COUNT] = display.exposure;
-    outputs[17 + 2 * TEXTURE_SLOT_COUNT] = vec4(display.mapping);
-    outputs[18 + 2 * TEXTURE_SLOT_COUNT] = view.rayFromPixel;
-    outputs[19 + 2 * TEXTURE_SLOT_COUNT] = vec4(lighting.tileGrid);
-    outputs[20 + 2 * TEXTURE_SLOT_COUNT] = view.depthKey;
-    outputs[21 + 2 * TEXTURE_SLOT_COUNT] = vec4(view.sizePixels);
-    outputs[22 + 2 * TEXTURE_SLOT_COUNT] = vec4(lighting.slices);
+    outputs[17 + 2 * TEXTURE_SLOT_COUNT] = view.rayFromPixel;
+    outputs[18 + 2 * TEXTURE_SLOT_COUNT] = vec4(lighting.tileGrid);
+    outputs[19 + 2 * TEXTURE_SLOT_COUNT] = view.depthKey;
+    outputs[20 + 2 * TEXTURE_SLOT_COUNT] = vec4(view.sizePixels);
+    outputs[21 + 2 * TEXTURE_SLOT_COUNT] = vec4(lighting.slices);
 }
