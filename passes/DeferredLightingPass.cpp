@@ -48,6 +48,7 @@ shader::ProgramDesc DeferredLightingPass::program(const frame::FrameSpec& spec, 
     } else {
         defines.emplace_back("LIGHT_CURSOR", "LIGHT_CURSOR_NONE");
     }
+    defines.emplace_back("LIGHT_TILES_IN_TEXELS", "1");
     constexpr const char* kSource = "passes/deferred_lighting.glsl";
     defines.emplace_back("LIGHTING_IN_COMPUTE", inCompute(spec) ? "1" : "0");
     if (!inCompute(spec) && spec.settings.softwareBackend) defines.emplace_back("FLAT_CONSTANTS", "1");

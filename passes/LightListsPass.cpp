@@ -36,6 +36,7 @@ void build(const frame::FrameSpec& spec, const frame::DrawnView& drawn, const Li
         const culling::LightLists& lists =
             memory.builder.build({drawn.prepared.constants(), drawn.prepared.cullLights, spec.culling.method, opaque,
                                   hasTransparent ? &transparent : nullptr});
+        requireReadable("light tiles", 2 * lists.tiles.size()); // two texels each
         upload(context, out.lists.tiles, "light tiles", lists.tiles);
         upload(context, out.lists.cells, "light cells", lists.cells);
         makeTexelRoom(context, out.lists.entries, "light entries", lists.entries.size(), graph::Format::R32Uint)

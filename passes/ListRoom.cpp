@@ -25,12 +25,16 @@ const gpu::Buffer& allocate(const graph::PassContext& context, graph::BufferHand
 
 } // namespace
 
-const gpu::Buffer& makeTexelRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
-                                 std::size_t texels, graph::Format format) {
+void requireReadable(const char* what, std::size_t texels) {
     const std::size_t most = gpu::Context::current()->capabilities().maxTextureBufferTexels;
     if (texels > most)
         throw InputError(
             fmt::format("{} would take {} entries, and this driver reads {}: {}", what, texels, most, kRemedy));
+}
+
+const gpu::Buffer& makeTexelRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
+                                 std::size_t texels, graph::Format format) {
+    requireReadable(what, texels);
     return allocate(context, handle, texels * std::size_t(graph::formatInfo(format).bytes));
 }
 

@@ -15,6 +15,9 @@ const gpu::Buffer& makeTexelRoom(const graph::PassContext& context, graph::Buffe
 const gpu::Buffer& makeBlockRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
                                  std::size_t bytes);
 
+/// Throws InputError with the remedy where shaders of this driver cannot read as many texels of a buffer.
+void requireReadable(const char* what, std::size_t texels);
+
 /// Throws InputError with the remedy where shaders of this driver cannot write as many bytes.
 void requireWritable(const char* what, std::size_t bytes);
 

@@ -5,11 +5,11 @@ namespace tessera::culling {
 namespace {
 
 constexpr MethodInfo kMethods[] = {
-    {Method::None, "none", "no lists: every pixel visits every light"},
-    {Method::TileMinmax, "tile_minmax", "one list a tile: its frustum between the nearest and farthest surface"},
-    {Method::Tile25d, "tile_2.5d", "one list a tile: only the slices of depth that hold a surface"},
-    {Method::Cluster, "cluster", "one list for each slice of a tile's depth that holds a surface"},
-    {Method::Zbin, "zbin", "a bitmask a tile and one a depth bin; a pixel visits what is in both"},
+    {Method::None, "none", "no lists: every pixel visits every light", false},
+    {Method::TileMinmax, "tile_minmax", "one list a tile: its frustum between the nearest and farthest surface", true},
+    {Method::Tile25d, "tile_2.5d", "one list a tile: only the slices of depth that hold a surface", true},
+    {Method::Cluster, "cluster", "one list for each slice of a tile's depth that holds a surface", false},
+    {Method::Zbin, "zbin", "a bitmask a tile and one a depth bin; a pixel visits what is in both", false},
 };
 
 constexpr BuilderInfo kBuilders[] = {

@@ -12,6 +12,7 @@ struct MethodInfo {
     Method method;
     std::string_view name;
     std::string_view summary;
+    bool oneListATile; ///< whatever the depth
 };
 std::span<const MethodInfo> methodTable();
 const MethodInfo& infoOf(Method method);

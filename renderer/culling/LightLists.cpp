@@ -121,7 +121,11 @@ void joinRows(const Build& build, std::span<const std::uint32_t> everywhere, std
             lists.cells[firstCell[i] + c] = row.cells[c] + glm::uvec2(std::uint32_t(firstEntry[i]), 0u);
         for (std::uint32_t column = 0; column < build.grid.columns; ++column) {
             shared::LightTile& tile = lists.tiles[i * build.grid.columns + column];
-            if (tile.words.z != 0) tile.words.x += std::uint32_t(firstCell[i]);
+            if (tile.words.z == 0) continue; // shows nothing
+            tile.words.x += std::uint32_t(firstCell[i]);
+            if (!infoOf(build.input.method).oneListATile) continue;
+            const glm::uvec2& run = lists.cells[tile.words.x];
+            tile.words = {tile.words.x, tile.words.y, run.x, run.y};
         }
     });
 }

@@ -72,6 +72,7 @@ void SurfaceHandles::draw(const graph::PassContext& context, Kind kind, const gp
 }
 
 LightListHandles LightListHandles::read(graph::PassBuilder& pass) const {
+    pass.read(tiles, Access::TexelRead);
     return {pass.read(tiles, Access::StorageRead), pass.read(cells, Access::StorageRead),
             pass.read(entries, Access::TexelRead)};
 }
@@ -83,6 +84,7 @@ void LightListHandles::bind(const graph::PassContext& context) const {
     };
     bindUsed(STORAGE_LIGHT_TILES, tiles, sizeof(shared::LightTile));
     bindUsed(STORAGE_LIGHT_CELLS, cells, sizeof(glm::uvec2));
+    bindTexels(context, TEXTURE_UNIT_LIGHT_TILES, tiles, Format::Rg32Uint);
     bindTexels(context, TEXTURE_UNIT_LIGHT_ENTRIES, entries, Format::R32Uint);
 }
 

@@ -73,6 +73,7 @@ void addCursorDefines(const FrameSpec& spec, bool transparent, Defines& defines)
                                : spec.culling.method == Method::Zbin ? "LIGHT_CURSOR_BITS"
                                                                      : "LIGHT_CURSOR_LIST";
     defines.emplace_back("LIGHT_CURSOR", cursor);
+    defines.emplace_back("ONE_LIST_A_TILE", culling::infoOf(spec.culling.method).oneListATile ? "1" : "0");
     if (spec.culling.method == Method::None) return;
     defines.emplace_back("LIGHT_LAYER", transparent ? "LIGHT_LAYER_TRANSPARENT" : "LIGHT_LAYER_OPAQUE");
     defines.emplace_back("HAS_LIGHTS_EVERYWHERE", spec.lightsEverywhere ? "1" : "0");

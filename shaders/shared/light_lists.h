@@ -64,7 +64,7 @@ SHARED_FUNCTION uint slicingOf(uint low, uint high, uint finestShift, uint most)
 
 struct LightTile {
     uvec4 words; // x first cell (zbin: first word of the mask); y packSlices(); z, w bits 0 to 31, 32 to 63: occupied
-                 // slices
+                 // slices, or where every tile has one list what its cell says
 };
 
 SHARED_END

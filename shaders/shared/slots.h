@@ -39,7 +39,7 @@ SHARED_BEGIN
 #define TEXTURE_UNITS_A_STAGE 16
 
 // What lights, in forward and deferred alike. Tiles and cells of light lists are storage blocks: a pixel reads one of
-// each, where it reads lights and entries in its loop.
+// each, where it reads lights and entries in its loop. Deferred has a unit left for the tiles.
 #define TEXTURE_UNIT_LIGHTS 13
 #define TEXTURE_UNIT_LIGHT_SHAPES 14
 #define TEXTURE_UNIT_LIGHT_ENTRIES 15
@@ -54,6 +54,7 @@ SHARED_BEGIN
 #define TEXTURE_UNIT_MATERIALS 9
 #define TEXTURE_UNIT_RADIANCE 10
 #define TEXTURE_UNIT_SAMPLES 11
+#define TEXTURE_UNIT_LIGHT_TILES 12
 
 // What builds light lists, beside the depths.
 #define TEXTURE_UNIT_TRANSPARENT_DEPTH 9
@@ -65,7 +66,7 @@ SHARED_BEGIN
 
 #ifdef __cplusplus
 static_assert(TEXTURE_SLOT_COUNT <= TEXTURE_UNIT_LIGHTS, "lights would hide a material's texture");
-static_assert(TEXTURE_UNIT_GBUFFER + 8 <= TEXTURE_UNIT_DEPTH && TEXTURE_UNIT_SAMPLES < TEXTURE_UNIT_LIGHTS,
+static_assert(TEXTURE_UNIT_GBUFFER + 8 <= TEXTURE_UNIT_DEPTH && TEXTURE_UNIT_LIGHT_TILES < TEXTURE_UNIT_LIGHTS,
               "a pass that lights stored surfaces samples them and lights");
 static_assert(TEXTURE_UNIT_LIGHT_ENTRIES < TEXTURE_UNITS_A_STAGE, "more units than OpenGL 4.5 guarantees a stage");
 #endif

@@ -15,10 +15,15 @@
 #endif
 
 #if LIGHT_CURSOR == LIGHT_CURSOR_LIST || LIGHT_CURSOR == LIGHT_CURSOR_BITS
+#ifdef LIGHT_TILES_IN_TEXELS
+// Two texels a tile. Mesa's software rasteriser reads storage blocks lane by lane.
+layout(binding = TEXTURE_UNIT_LIGHT_TILES) uniform usamplerBuffer lightTileTexels;
+#else
 layout(std430, binding = STORAGE_LIGHT_TILES) readonly buffer LightTiles
 {
     LightTile lightTiles[];
 };
+#endif
 layout(std430, binding = STORAGE_LIGHT_CELLS) readonly buffer LightCells
 {
     uvec2 lightCells[];
@@ -32,14 +37,35 @@ layout(binding = TEXTURE_UNIT_LIGHT_ENTRIES) uniform usamplerBuffer lightEntries
 #define WHERE_LISTED(index) (gl_HelperInvocation ? 0u : (index))
 #endif
 
-uvec4 lightTile(vec2 pixel)
+uint lightTileIndex(vec2 pixel)
 {
     uvec2 tile = uvec2(uint(pixel.x), lighting.tileGrid.z - 1u - uint(pixel.y)) >> lighting.tileGrid.w;
     uint index = tile.y * lighting.tileGrid.x + tile.x;
 #if LIGHT_LAYER == LIGHT_LAYER_TRANSPARENT
     index += lighting.tileGrid.x * lighting.tileGrid.y;
 #endif
-    return lightTiles[WHERE_LISTED(index)].words;
+    return WHERE_LISTED(index);
+}
+
+// The words z and w of the pixel's tile.
+uvec2 lastTileWords(vec2 pixel)
+{
+    uint index = lightTileIndex(pixel);
+#ifdef LIGHT_TILES_IN_TEXELS
+    return texelFetch(lightTileTexels, int(2u * index + 1u)).xy;
+#else
+    return lightTiles[index].words.zw;
+#endif
+}
+
+uvec4 lightTile(vec2 pixel)
+{
+    uint index = lightTileIndex(pixel);
+#ifdef LIGHT_TILES_IN_TEXELS
+    return uvec4(texelFetch(lightTileTexels, int(2u * index)).xy, texelFetch(lightTileTexels, int(2u * index + 1u)).xy);
+#else
+    return lightTiles[index].words;
+#endif
 }
 
 uint depthSlice(float depth, uint slices)
@@ -83,12 +109,16 @@ bool nextBatch(inout LightCursor cursor, out int light)
 // The entries of the pixel's cell.
 uvec2 lightRun(vec2 pixel, float depth)
 {
+#if ONE_LIST_A_TILE
+    return lastTileWords(pixel);
+#else
     uvec4 tile = lightTile(pixel);
     uint slice = depthSlice(depth, tile.y);
     // The cells of a tile are those of its occupied slices, so a slice's rank among them finds its cell.
     uint below = slice < 32u ? tile.z & ((1u << slice) - 1u) : tile.z;
     uint belowHigh = slice < 32u ? 0u : tile.w & ((1u << (slice & 31u)) - 1u);
     return lightCells[WHERE_LISTED(tile.x + uint(bitCount(below) + bitCount(belowHigh)))];
+#endif
 }
 
 #if HAS_LIGHTS_EVERYWHERE

@@ -148,7 +148,11 @@ void fillTile(uvec2 item)
         lightCells[firsts.x + cell].y += laneEntries[placeOf(cell, uint(LIST_THREADS) - 1u)];
 #endif
     if (LIST_LANE != 0u || !isLastRound()) return;
+#if LIST_METHOD == LIST_METHOD_CLUSTER
     bool oneCell = tile.cells == 1u;
     lightTiles[tileIndex(item)].words =
         uvec4(firsts.x, oneCell ? ONE_LIGHT_SLICE : tile.slicing, oneCell ? uvec2(1u, 0u) : tile.slices);
+#else
+    lightTiles[tileIndex(item)].words = uvec4(firsts.x, ONE_LIGHT_SLICE, lightCells[firsts.x]);
+#endif
 }
