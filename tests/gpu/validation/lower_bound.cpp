@@ -144,6 +144,18 @@ TEST_F(LowerBoundTest, itsPictureEqualsThatOfTheDeferredTechniques) {
     }
 }
 
+TEST_F(LowerBoundTest, hardwareThatReadsConstantsFromBlocksGivesTheVerySamePicture) {
+    for (const frame::FrameSpec& spec : specs()) {
+        LowerBoundLighting lighting(bench.programs(), spec);
+        lighting.setLights(lightsOf(spec, validation::LowerBoundBench::kManyLights));
+        frame::FrameSpec onHardware = spec;
+        onHardware.settings.softwareBackend = !spec.settings.softwareBackend;
+        ASSERT_NE(passes::DeferredLightingPass::program(spec, {}).defines,
+                  passes::DeferredLightingPass::program(onHardware, {}).defines);
+        EXPECT_EQ(differences(deferredPicture(onHardware, lighting), deferredPicture(spec, lighting)), 0);
+    }
+}
+
 TEST_F(LowerBoundTest, everyLightReachesEveryPixelFromTheFront) {
     for (const frame::FrameSpec& spec : specs()) {
         LowerBoundLighting lighting(bench.programs(), spec);
