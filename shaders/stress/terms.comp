@@ -14,7 +14,7 @@ void main()
     precise float alpha2 = a.w * a.w;
     float lengthLight = smithLength(alpha2, b.w), lengthView = smithLength(alpha2, c.x);
     outputs[record * 2] =
-        vec4(distributionGgx(alpha2, ggxPeak(alpha2), h), visibilitySeparable(b.w, lengthLight, c.x, lengthView),
+        vec4(distributionGgx(alpha2, ggxScale(alpha2), h), visibilitySeparable(b.w, lengthLight, c.x, lengthView),
              visibilityCorrelated(b.w, lengthLight, c.x, lengthView), fresnelDielectric(c.y, c.z));
     outputs[record * 2 + 1] = vec4(fresnelSchlick(vec3(c.w), vec3(1.0 - c.w), c.z), 0.0);
 }

@@ -1,8 +1,8 @@
 // Normals in 53 bits, as every technique lights them: what a G-buffer of 8 bytes a pixel holds, forward lights as well.
 #pragma once
 
-// The axis of the largest component and its sign, and the others as shares of it, in steps that fp32 holds exactly. Those
-// of at least half the largest lose nothing, and an axis is exact.
+// The axis of the largest component and its sign, and the others as shares of it, in steps that fp32 holds exactly: half
+// a step is 3e-8, and an axis is exact.
 struct NormalCode {
     uvec2 shares; // NORMAL_SHARE_BITS each
     uint axis;    // 0 to 2, and 4 where the component is negative

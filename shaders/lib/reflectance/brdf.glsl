@@ -38,20 +38,20 @@ float halfCosine(HalfSum h)
 
 // GGX distribution of normals, of alpha squared. Source: Walter 2007, "Microfacet Models for Refraction through Rough Surfaces", eq. 33,
 // rewritten as alpha^2 / (pi t^2) with t = alpha^2 (n.h)^2 + |n x h|^2: 1 - (n.h)^2 would cancel near the peak.
-// `peak` is ggxPeak().
-float distributionGgx(float alpha2, float peak, HalfSum h)
+// `scale` is ggxScale().
+float distributionGgx(float alpha2, float scale, HalfSum h)
 {
     if (!(h.along > 0.0)) return 0.0;
     precise float inverse = h.length2 / (alpha2 * (h.along * h.along) + h.across2); // 1 / t
-    precise float d = peak * (inverse * inverse);
+    precise float d = scale * (inverse * inverse);
     return d;
 }
 
-// alpha^2 / pi, for alpha below 1 the inverse of D's peak.
-float ggxPeak(float alpha2)
+// The alpha^2 / pi of the distribution, which is the same for every light.
+float ggxScale(float alpha2)
 {
-    precise float peak = alpha2 * kInversePi;
-    return peak;
+    precise float scale = alpha2 * kInversePi;
+    return scale;
 }
 
 // The same with alpha x along the unit tangent and alpha y along the bitangent. Source: Burley 2012, "Physically-Based

@@ -39,7 +39,7 @@ struct SeenSurface {
     float nv;
 #if HAS_GGX_MODELS
     float alpha2;
-    float peak;         // ggxPeak()
+    float scale;        // ggxScale()
     float viewerLength; // Smith's, of models whose masking-shadowing is directional or has one alpha
     vec3 f0;            // of models that are metallic
     vec3 fresnelRise;   // from f0 to f90
@@ -74,7 +74,7 @@ SeenSurface seenSurface(Surface surface, vec3 toViewer)
 #if HAS_GGX_MODELS
     precise float alpha2 = surface.alpha * surface.alpha;
     seen.alpha2 = alpha2;
-    seen.peak = ggxPeak(alpha2);
+    seen.scale = ggxScale(alpha2);
     seen.viewerLength = lobeLength(surface, toViewer, nv);
     precise vec3 f0 = surface.specular + (surface.albedo - surface.specular) * surface.metallic;
     precise vec3 rise = (surface.iorOrF90 + (1.0 - surface.iorOrF90) * surface.metallic) - f0;
@@ -119,7 +119,7 @@ float lobeDistribution(SeenSurface seen, HalfSum h)
         return distributionGgxAnisotropic(vec2(surface.alpha, surface.alphaBitangent), surface.normalLS, surface.tangentLS, h);
     }
 #endif
-    return distributionGgx(seen.alpha2, seen.peak, h);
+    return distributionGgx(seen.alpha2, seen.scale, h);
 }
 
 // Of metallic_roughness: height-correlated, directional where anisotropic (KHR_materials_anisotropy).
@@ -261,7 +261,7 @@ vec3 underCoat(SeenSurface seen, vec3 base, vec3 toLight)
     if (nl > 0.0 && seen.coatNv > 0.0 && h.length2 > 0.0) {
         precise float alpha2 = seen.surface.coatAlpha * seen.surface.coatAlpha;
         precise float lobe =
-            distributionGgx(alpha2, ggxPeak(alpha2), h)
+            distributionGgx(alpha2, ggxScale(alpha2), h)
             * visibilityCorrelated(nl, smithLength(alpha2, nl), seen.coatNv, smithLength(alpha2, seen.coatNv)) * nl;
         coated += vec3(seen.coatWeight * lobe);
     }

@@ -19,7 +19,7 @@ void main()
     vec2 alpha = vec2(a.w, b.w);
     HalfSum h = halfSumAlong(a.xyz, b.xyz);
     outputs[i * 2u] =
-        vec4(distributionGgxAnisotropic(alpha, a.xyz, c.xyz, h), distributionGgx(a.w * a.w, ggxPeak(a.w * a.w), h),
+        vec4(distributionGgxAnisotropic(alpha, a.xyz, c.xyz, h), distributionGgx(a.w * a.w, ggxScale(a.w * a.w), h),
              smithLengthAnisotropic(alpha, a.xyz, c.xyz, d.xyz), sqrt(alpha2Along(alpha, a.xyz, c.xyz, h)));
     outputs[i * 2u + 1u] = vec4(blinnPhongLobe(c.w, h), distributionCharlie(a.w, h),
                                 visibilityCharlie(a.w, d.w, d.w), sheenAlbedo(a.w, d.w));
