@@ -59,14 +59,18 @@ void Candidates::copyMarkedTo(Candidates& other) const {
     other.resize(index_.size());
     std::size_t count = 0;
     for (std::size_t i = 0; i < index_.size(); ++i) {
-        other.index_[count] = index_[i];
-        other.x_[count] = x_[i];
-        other.y_[count] = y_[i];
-        other.z_[count] = z_[i];
-        other.squaredRadius_[count] = squaredRadius_[i];
+        other.mark_[count] = std::uint32_t(i);
         count += mark_[i];
     }
     other.resize(count);
+    const auto copy = [&](const auto& from, auto& to) {
+        for (std::size_t i = 0; i < count; ++i) to[i] = from[other.mark_[i]];
+    };
+    copy(index_, other.index_);
+    copy(x_, other.x_);
+    copy(y_, other.y_);
+    copy(z_, other.z_);
+    copy(squaredRadius_, other.squaredRadius_);
 }
 
 } // namespace tessera::culling

@@ -17,7 +17,7 @@ namespace {
 
 /// What one row of tiles contributes; cells and entries count from the row's first until rows are joined.
 struct RowLists {
-    std::vector<std::uint32_t> rowLights, blockLights;
+    std::vector<std::uint32_t> blockLights;
     Candidates block, tile;
     std::vector<glm::uvec2> cells;
     std::vector<std::uint32_t> entries;
@@ -89,11 +89,11 @@ struct Build {
              shared::LightTile* tiles) const {
         row.cells.clear();
         row.entries.clear();
-        spans.ofRow(tileRow, row.rowLights);
+        const std::span<const std::uint32_t> rowLights = spans.ofRow(tileRow);
         for (std::uint32_t column = 0; column < grid.columns; ++column) {
             if (column % CULL_BLOCK_COLUMNS == 0) {
                 const std::uint32_t last = std::min(column + CULL_BLOCK_COLUMNS, grid.columns) - 1;
-                spans.ofColumns(row.rowLights, column, last, row.blockLights);
+                spans.ofColumns(rowLights, column, last, row.blockLights);
                 row.block.assign(row.blockLights, input.lights);
             }
             if (!depths[column].isEmpty()) tiles[column] = tile(depths[column], grid.rays(column, tileRow), row);

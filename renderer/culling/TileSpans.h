@@ -17,9 +17,11 @@ public:
     /// Lights that reach everywhere, ascending.
     std::span<const std::uint32_t> everywhere() const { return everywhere_; }
     /// The others that touch a row, ascending.
-    void ofRow(std::uint32_t row, std::vector<std::uint32_t>& lights) const;
+    std::span<const std::uint32_t> ofRow(std::uint32_t row) const {
+        return std::span(rowLights_).subspan(rowStarts_[row], rowStarts_[row + 1] - rowStarts_[row]);
+    }
     /// Those of `from` that touch any of the columns first..last.
-    void ofColumns(const std::vector<std::uint32_t>& from, std::uint32_t first, std::uint32_t last,
+    void ofColumns(std::span<const std::uint32_t> from, std::uint32_t first, std::uint32_t last,
                    std::vector<std::uint32_t>& lights) const;
 
 private:
@@ -27,12 +29,14 @@ private:
         std::uint16_t first = 1, last = 0; ///< first > last: none
         bool overlaps(std::uint32_t from, std::uint32_t to) const { return (first <= to) & (last >= from); }
     };
-    static Range rangeOf(float across, const shared::CullLight& light, std::span<const glm::vec2> slabs,
-                         const glm::vec2& spread);
+    class Block;
+    void sortIntoRows(std::uint32_t rows);
 
     std::vector<std::uint32_t> everywhere_;
     std::vector<Range> columns_, rows_; ///< by light
-    std::vector<glm::vec2> columnSlabs_, rowSlabs_;
+    std::vector<glm::vec4> columnSlabs_, rowSlabs_;
+    std::vector<std::uint32_t> rowLights_; ///< all rows' lights behind one another
+    std::vector<std::size_t> rowStarts_;   ///< by row, and one beyond the last
 };
 
 } // namespace tessera::culling

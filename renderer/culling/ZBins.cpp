@@ -70,8 +70,7 @@ void buildZBins(const BuildInput& input, const TileSpans& spans, std::span<const
         lists.cells[bin] = glm::uvec2(std::uint32_t(first - mask), std::uint32_t(last - mask));
     });
     tbb::parallel_for(0u, grid.rows, [&](std::uint32_t row) {
-        std::vector<std::uint32_t> rowLights, tileLights;
-        spans.ofRow(row, rowLights);
+        std::vector<std::uint32_t> tileLights;
         for (std::uint32_t column = 0; column < grid.columns; ++column) {
             const std::size_t tile = std::size_t(row) * grid.columns + column;
             const std::size_t first = (bins.count + tile) * words;
@@ -79,7 +78,7 @@ void buildZBins(const BuildInput& input, const TileSpans& spans, std::span<const
                 lists.tiles[at].words = glm::uvec4(std::uint32_t(first), bins.slicing, 1u, 0u);
             std::uint32_t* mask = lists.entries.data() + first;
             for (const std::uint32_t light : spans.everywhere()) setBit(mask, light);
-            spans.ofColumns(rowLights, column, column, tileLights);
+            spans.ofColumns(spans.ofRow(row), column, column, tileLights);
             for (const std::uint32_t light : tileLights) setBit(mask, light);
         }
     });

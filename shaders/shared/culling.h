@@ -54,19 +54,28 @@ SHARED_FUNCTION vec4 tileRays(vec4 rayFromPixel, uint column, uint row, uint sid
     return rays;
 }
 
-// Whether a sphere reaches between the two planes through the camera (orthographic: parallel to its axis) that a row or
-// a column of tiles lies between; `across` is the centre's coordinate to the right or up.
-SHARED_FUNCTION bool sphereTouchesSlab(float across, float ahead, float radius, vec2 rays, vec2 spread) {
+// How far rays spread at a distance ahead.
+SHARED_FUNCTION float spreadAt(float ahead, vec2 spread) {
     SHARED_PRECISE float width = spread.x + spread.y * ahead;
-    SHARED_PRECISE float low = rays.x * width;
-    SHARED_PRECISE float high = rays.y * width;
+    return width;
+}
+
+// The two planes through the camera (orthographic: parallel to its axis) that a row or a column of tiles lies between:
+// x, y their rays, z, w the lengths of their normals.
+SHARED_FUNCTION vec4 slabBetween(vec2 rays, vec2 spread) {
     SHARED_PRECISE float lowLength = sqrt(1.0f + spread.y * rays.x * rays.x);
     SHARED_PRECISE float highLength = sqrt(1.0f + spread.y * rays.y * rays.y);
-    SHARED_PRECISE float lowGap = across - low;
-    SHARED_PRECISE float highGap = across - high;
-    SHARED_PRECISE float lowReach = -radius * lowLength;
-    SHARED_PRECISE float highReach = radius * highLength;
-    return lowGap >= lowReach && highGap <= highReach;
+    return vec4(rays, lowLength, highLength);
+}
+
+// Whether a sphere reaches between the planes of a slab. `across` is its centre's coordinate to the right or up, and
+// `width` is spreadAt() its centre.
+SHARED_FUNCTION bool sphereTouchesSlab(float across, float width, float radius, vec4 slab) {
+    SHARED_PRECISE float lowGap = across - slab.x * width;
+    SHARED_PRECISE float highGap = across - slab.y * width;
+    SHARED_PRECISE float lowReach = -radius * slab.z;
+    SHARED_PRECISE float highReach = radius * slab.w;
+    return min(lowGap - lowReach, highReach - highGap) >= 0.0f;
 }
 
 // The box around a tile's frustum between two distances ahead in metres, near < far.

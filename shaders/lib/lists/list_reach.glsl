@@ -11,12 +11,14 @@ layout(std430, binding = STORAGE_LIGHT_REACH) writeonly buffer LightReach
 
 bool touchesColumn(vec4 sphere, uint column)
 {
-    return sphereTouchesSlab(sphere.x, sphere.z, sphere.w, raysOfTile(column, 0u).xy, raySpread());
+    vec4 slab = slabBetween(raysOfTile(column, 0u).xy, raySpread());
+    return sphereTouchesSlab(sphere.x, spreadAt(sphere.z, raySpread()), sphere.w, slab);
 }
 
 bool touchesRow(vec4 sphere, uint row)
 {
-    return sphereTouchesSlab(sphere.y, sphere.z, sphere.w, raysOfTile(0u, row).zw, raySpread());
+    vec4 slab = slabBetween(raysOfTile(0u, row).zw, raySpread());
+    return sphereTouchesSlab(sphere.y, spreadAt(sphere.z, raySpread()), sphere.w, slab);
 }
 
 void findReach(uvec2 item)

@@ -314,7 +314,8 @@ TEST(LightTouch, aSphereThatJustMeetsAPlaneOfASlabTouchesIt) {
     // Planes through the eye with slopes -3/4 and 3/4: a point so far aside is 4/5 of that away.
     const glm::vec2 rays(-0.75f, 0.75f), eyeAtOrigin(0.0f, 1.0f), orthographic(1.0f, 0.0f);
     const auto touches = [&](float across, const glm::vec2& spread) {
-        return shared::sphereTouchesSlab(across, 4.0f, 1.0f, rays, spread);
+        return shared::sphereTouchesSlab(across, shared::spreadAt(4.0f, spread), 1.0f,
+                                         shared::slabBetween(rays, spread));
     };
     EXPECT_TRUE(touches(-4.25f, eyeAtOrigin));
     EXPECT_TRUE(touches(4.25f, eyeAtOrigin));
