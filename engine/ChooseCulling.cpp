@@ -21,6 +21,16 @@ const char* builderReason(bool softwareBackend) {
                            : "the lists stay on the GPU: only their size is read back, not the depth buffer";
 }
 
+/// Why the lists of a frame hold lights behind their surfaces as well; empty where they need not.
+std::string_view whyNotByNormals(Technique technique, const frame::FeatureSet& features,
+                                 const culling::Choice& choice) {
+    if (choice.method == Method::Zbin) return "the bitmasks of zbin are of all a tile or a bin shows";
+    if (!infoOf(technique).usesGBuffer()) return "the technique stores no normals before it lights";
+    if (choice.builder != culling::Builder::Cpu) return "only the builder cpu reads normals";
+    if (features[frame::Feature::Clearcoat]) return "a coat has a normal of its own";
+    return "";
+}
+
 /// Whether lists would leave anything out: some light must end somewhere, and some surface must be lit.
 bool canCull(const frame::FeatureSet& features, const frame::PackedLights& lights) {
     return features.litModels() && lights.everywhere < lights.texels.size();
@@ -46,12 +56,14 @@ culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& s
     choice.tilePixels = settings.culling.tilePixels.value_or(culling::kUsualTilePixels);
     choice.builder =
         settings.culling.builder.value_or(settings.softwareBackend ? culling::Builder::Cpu : culling::Builder::Compute);
+    if (choice.method != Method::None && whyNotByNormals(technique, features, choice).empty())
+        choice.normals = settings.culling.normals.value_or(culling::NormalTest::WhereWorth);
     choice.lanes = settings.culling.lanes.value_or(settings.softwareBackend ? kSoftwareLanes : kLanes);
     return choice;
 }
 
 std::vector<graph::Plan::Choice> cullingChoices(Technique technique, const frame::FrameSettings& settings,
-                                                const culling::Choice& choice) {
+                                                const frame::FeatureSet& features, const culling::Choice& choice) {
     if (!hasLightLists(technique)) return {};
     const auto why = [](bool isSet, std::string_view setting, const char* otherwise) {
         return isSet ? fmt::format("chosen by the setting {}; automatic restores the default", setting)
@@ -68,6 +80,14 @@ std::vector<graph::Plan::Choice> cullingChoices(Technique technique, const frame
          why(settings.culling.tilePixels.has_value(), "tile", "measured fastest or nearly so at 64 to 4096 lights")});
     choices.push_back({"lists built by", std::string(infoOf(choice.builder).name),
                        why(settings.culling.builder.has_value(), "cull-on", builderReason(settings.softwareBackend))});
+    const std::string_view whyNot = whyNotByNormals(technique, features, choice);
+    choices.push_back(
+        {"cull by normals",
+         std::string(
+             std::ranges::find(culling::normalTestTable(), choice.normals, &culling::NormalTestInfo::test)->name),
+         whyNot.empty() ? why(settings.culling.normals.has_value(), "cull-normals",
+                              "short lists are visited sooner than normals are read back")
+                        : std::string(whyNot)});
     return choices;
 }
 

@@ -20,6 +20,6 @@ culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& s
 
 /// The same in words, for a plan; empty for techniques without lists.
 std::vector<graph::Plan::Choice> cullingChoices(Technique technique, const frame::FrameSettings& settings,
-                                                const culling::Choice& choice);
+                                                const frame::FeatureSet& features, const culling::Choice& choice);
 
 } // namespace tessera::engine

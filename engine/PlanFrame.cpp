@@ -95,7 +95,7 @@ void addView(graph::Plan& plan, const scenes::Scene& scene, Technique technique,
     const auto append = [&](std::vector<graph::Plan::Choice> choices) {
         std::ranges::move(choices, std::back_inserter(plan.choices));
     };
-    append(cullingChoices(technique, settings, prepared.spec.culling));
+    append(cullingChoices(technique, settings, prepared.spec.features, prepared.spec.culling));
     append(sampleChoices(settings));
     if (std::optional<graph::Plan::Choice> choice = lightingChoice(technique, settings))
         plan.choices.push_back(std::move(*choice));

@@ -80,13 +80,18 @@ struct ViewWiring {
         if (spec.samples == 1) inputs.depth = depth;
         return GBufferPass::add(graph, spec, inputs).gbuffer;
     }
-    /// Light lists for the visible surfaces, if the frame culls lights.
-    void addLightLists(TextureHandle depth, TextureHandle opaque) {
+    /// Where light culling looks at them.
+    std::optional<TextureHandle> normalsOf(const frame::GBufferHandles& gbuffer) const {
+        if (spec.culling.normals == culling::NormalTest::Off) return {};
+        return gbuffer.textures[frame::storedNormals(spec.settings.layout, spec.channels)->texture];
+    }
+    /// Light lists for the visible surfaces, if the frame culls lights. `normals` are those of opaque ones.
+    void addLightLists(TextureHandle depth, TextureHandle opaque, std::optional<TextureHandle> normals = {}) {
         if (!hasLightLists()) return;
         const frame::LitDepths depths = litDepths(depth, opaque);
         lighting.lists =
             spec.culling.builder == culling::Builder::Cpu
-                ? LightListsPass::add(graph, spec, {depths}, drawn).lists
+                ? LightListsPass::add(graph, spec, {depths, normals}, drawn).lists
                 : GpuLightListsPass::add(graph, spec, {depths, lighting.view, lighting.constants}, drawn).lists;
     }
 };
@@ -107,7 +112,7 @@ OpaquePicture opaqueForwardPrepass(ViewWiring& wiring) {
 
 OpaquePicture opaqueDeferred(ViewWiring& wiring) {
     const frame::GBufferHandles gbuffer = GBufferPass::add(wiring.graph, wiring.spec, {wiring.surfaces}).gbuffer;
-    wiring.addLightLists(gbuffer.depth, gbuffer.depth);
+    wiring.addLightLists(gbuffer.depth, gbuffer.depth, wiring.normalsOf(gbuffer));
     const DeferredLightingPass::Outputs lit =
         DeferredLightingPass::add(wiring.graph, wiring.spec, {}, {gbuffer, wiring.lighting}, wiring.drawn);
     return {lit.radiance, gbuffer.depth, gbuffer};

@@ -4,7 +4,7 @@
 namespace tessera::passes {
 
 /// Builds the light lists of FrameSpec::culling on the CPU from the depths at which surfaces will be lit.
-/// Reads   the depths at which opaque and transparent surfaces are lit (frame::LitDepths)
+/// Reads   the depths at which opaque and transparent surfaces are lit (frame::LitDepths); normals of opaque ones
 /// Writes  light tiles, cells and entries (shaders/shared/light_lists.h)
 /// Space   culling space (shaders/shared/culling.h)
 /// Source  Harada 2012, "A 2.5D Culling for Forward+"; Olsson 2012, "Clustered Deferred and Forward Shading"; Drobot
@@ -12,6 +12,7 @@ namespace tessera::passes {
 struct LightListsPass {
     struct Inputs {
         frame::LitDepths depths;
+        std::optional<graph::TextureHandle> normals; ///< the G-buffer's, where FrameSpec::culling looks at them
     };
     struct Outputs {
         Inputs read;

@@ -12,6 +12,12 @@ constexpr MethodInfo kMethods[] = {
     {Method::Zbin, "zbin", "a bitmask a tile and one a depth bin; a pixel visits what is in both", false},
 };
 
+constexpr NormalTestInfo kNormalTests[] = {
+    {NormalTest::Off, "off", "lists hold every light that reaches a cell"},
+    {NormalTest::Everywhere, "on", "cells leave out the lights behind all their surfaces"},
+    {NormalTest::WhereWorth, "where_worth", "only where lists are long enough to gain from it"},
+};
+
 constexpr BuilderInfo kBuilders[] = {
     {Builder::Cpu, "cpu", "all cores, from the depth buffer read back"},
     {Builder::Compute, "compute", "compute shaders"},
@@ -26,6 +32,10 @@ std::span<const MethodInfo> methodTable() {
 
 const MethodInfo& infoOf(Method method) {
     return kMethods[std::size_t(method)];
+}
+
+std::span<const NormalTestInfo> normalTestTable() {
+    return kNormalTests;
 }
 
 std::span<const BuilderInfo> builderTable() {

@@ -27,6 +27,15 @@ struct BuilderInfo {
 std::span<const BuilderInfo> builderTable();
 const BuilderInfo& infoOf(Builder builder);
 
+/// Which cells leave out the lights behind all their opaque surfaces, where normals are stored.
+enum class NormalTest : std::uint8_t { Off, Everywhere, WhereWorth };
+struct NormalTestInfo {
+    NormalTest test;
+    std::string_view name;
+    std::string_view summary;
+};
+std::span<const NormalTestInfo> normalTestTable();
+
 /// Tile sides, in pixels.
 inline constexpr int kTileSides[] = {8, 16, 32, 64};
 inline constexpr int kUsualTilePixels = 16;
@@ -36,6 +45,7 @@ struct Settings {
     std::optional<Method> method;
     std::optional<int> tilePixels; ///< one of kTileSides
     std::optional<Builder> builder;
+    std::optional<NormalTest> normals;
     std::optional<int> lanes; ///< invocations that build a tile's lists together, 1 or 64; of the compute builder
     bool operator==(const Settings&) const = default;
 };
@@ -45,6 +55,7 @@ struct Choice {
     Method method = Method::None;
     int tilePixels = kUsualTilePixels;
     Builder builder = Builder::Cpu;
+    NormalTest normals = NormalTest::Off;
     int lanes = 1;
     bool operator==(const Choice&) const = default;
 };

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -19,6 +20,22 @@ struct DepthPicture {
     bool isRange = false;
 };
 
+/// How stored normals are written in words.
+enum class NormalForm : std::uint8_t {
+    Cube,       ///< lib/maths/normal_code.glsl, from bit 0
+    Octahedral, ///< two coordinates
+    Vector      ///< x, y, z in fp32
+};
+
+/// The normals with which a picture's pixels are lit, rows from the bottom.
+struct NormalPicture {
+    std::span<const std::uint32_t> words;
+    std::size_t wordsAPixel = 2;
+    NormalForm form = NormalForm::Cube;
+    unsigned bit = 0, width = 0;         ///< octahedral: of the first coordinate, and of both
+    glm::mat3 cullingFromLighting{1.0f}; ///< rotation
+};
+
 /// Light lists in CPU memory, as shaders/shared/light_lists.h lays them out.
 struct LightLists {
     std::vector<shared::LightTile> tiles;
@@ -30,12 +47,18 @@ struct LightLists {
     }
 };
 
+/// Reads normals back; those of the opaque surfaces, which have one depth a pixel each.
+using ReadNormals = std::function<NormalPicture()>;
+
 struct BuildInput {
     FrameConstants frame;
     std::span<const shared::CullLight> lights;
     Method method = Method::Cluster;
     DepthPicture opaque;
     const DepthPicture* transparent = nullptr; ///< null: the lists have no transparent layer
+    /// Off, or method zbin: normals are not read.
+    NormalTest normalTest = NormalTest::Off;
+    ReadNormals readNormals;
 };
 
 /// Builds light lists on all cores. Keeps its scratch memory from frame to frame, and nothing else.

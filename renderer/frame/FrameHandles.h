@@ -16,6 +16,7 @@ namespace tessera::frame {
 struct LightListMemory {
     culling::LightListBuilder builder;
     std::vector<float> depth, transparentDepth;
+    std::vector<std::uint32_t> normals; ///< words of the G-buffer's texture that holds them
 };
 
 /// The CPU's data of a view while its frame runs. Passes get a pointer to it, which is null if the frame is only

@@ -119,6 +119,8 @@ constexpr ChannelInfo kChannels[] = {
      [](const FeatureSet&, bool normalTexel) { return normalTexel; }},
 };
 static_assert(std::size(kChannels) == kChannelCount);
+// Light culling reads normals back from the first texture of words, which has two or more unless it holds the last.
+static_assert(kChannels[0].channel == Channel::Albedo && kChannels[1].channel == Channel::Normal);
 // One exponent serves three colours of one width; with more bits than 7 it would leave fp32's range.
 static_assert(std::ranges::all_of(kChannels, [](const ChannelInfo& row) {
     const auto isGood = [](const FieldWidths& widths) {
@@ -296,6 +298,25 @@ int bytesPerPixel(const GBufferLayout& layout, std::span<const Channel> channels
     for (const GBufferTexture& texture : gbufferTextures(layout, channels))
         bytes += graph::formatInfo(texture.format).bytes;
     return bytes;
+}
+
+std::optional<StoredNormals> storedNormals(const GBufferLayout& layout, std::span<const Channel> channels) {
+    const auto isExact = [&](Channel channel) { return bitsOf(fieldsOf(layout, channels, channel)) == 0; };
+    const auto normal = std::find(channels.begin(), channels.end(), Channel::Normal);
+    if (normal == channels.end()) return {};
+    const std::span<const Channel> before(channels.begin(), normal);
+    StoredNormals stored;
+    if (isExact(Channel::Normal)) {
+        stored.texture = std::size_t(std::count_if(before.begin(), before.end(), isExact));
+        stored.picture.form = culling::NormalForm::Vector;
+        return stored;
+    }
+    stored.texture = std::size_t(std::count_if(channels.begin(), channels.end(), isExact)); // the first with words
+    if (holdMaterialNumber(layout, channels)) return stored;
+    for (const Channel channel : before) stored.picture.bit += unsigned(bitsOf(fieldsOf(layout, channels, channel)));
+    stored.picture.form = culling::NormalForm::Octahedral;
+    stored.picture.width = layout.widths(Channel::Normal)[0];
+    return stored;
 }
 
 Defines channelDefines(const GBufferLayout& layout, std::span<const Channel> channels) {

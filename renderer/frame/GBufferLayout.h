@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/culling/LightLists.h"
 #include "renderer/frame/Features.h"
 #include "renderer/graph/Format.h"
 
@@ -103,6 +104,13 @@ struct GBufferTexture {
 /// texture.
 std::vector<GBufferTexture> gbufferTextures(const GBufferLayout& layout, std::span<const Channel> channels);
 int bytesPerPixel(const GBufferLayout& layout, std::span<const Channel> channels); ///< without depth
+
+/// Where the normals of surfaces are stored, if they are.
+struct StoredNormals {
+    std::size_t texture = 0;        ///< by attachment
+    culling::NormalPicture picture; ///< form and place of a pixel's normal; the words are not set
+};
+std::optional<StoredNormals> storedNormals(const GBufferLayout& layout, std::span<const Channel> channels);
 
 /// GBUFFER_CHANNELS lists the channels for shaders/lib/gbuffer/gbuffer_channels.glsl, each with its two functions and
 /// its place. Of an exact one GBUFFER_<NAME> is its attachment, of others the bit where its fields begin and

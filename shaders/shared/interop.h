@@ -7,6 +7,8 @@
 #include <glm/glm.hpp>
 namespace tessera::shared {
 using glm::abs;
+using glm::dot;
+using glm::length;
 using glm::log2;
 using glm::mat4;
 using glm::max;

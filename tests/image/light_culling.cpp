@@ -125,7 +125,8 @@ TEST_F(LightCulling, depthSlicesPayWhereDepthHasDeepGaps) {
 TEST_F(LightCulling, theOracleNoticesALightThatAListLacksOrHasTooMuch) {
     const scenes::Scene scene = lattice(64);
     engine::Renderer renderer(context(), scene);
-    const frame::FrameSettings asked = settings({160, 90}, Method::TileMinmax);
+    frame::FrameSettings asked = settings({160, 90}, Method::TileMinmax);
+    asked.culling.normals = culling::NormalTest::Off; // judged without normals
     renderer.draw(Technique::TiledDeferred, asked);
     engine::DrawnLists drawn = renderer.downloadLists();
     const std::vector<float> depth = renderer.downloadDepth();
@@ -159,6 +160,7 @@ LightCulling::Seen LightCulling::expectSoundScene(const scenes::Scene& scene, st
         SCOPED_TRACE(fmt::format("seed {} {} tile {} {}x{}", seed, infoOf(method).name, tile, size.x, size.y));
         frame::FrameSettings asked = settings(size, method, tile);
         asked.prune = truthSettings.prune;
+        asked.culling.normals = culling::NormalTest::Off; // LightNormals tries them
         asked.culling.builder = culling::builderTable()[std::size_t(random.index(3))].builder;
         const Technique technique = random.unit() < 0.5 ? deferredWith(method) : forwardWith(method);
         EXPECT_EQ(renderer.render(technique, asked).radiance, truth);

@@ -63,6 +63,7 @@ protected:
             for (const int tile : tiles) {
                 settings.culling.tilePixels = tile;
                 settings.culling.builder = Builder::Cpu;
+                settings.culling.normals = culling::NormalTest::Off;
                 const culling::LightLists truth = lists(renderer, settings);
                 // The first light of the lattice is out of view; a tile's box, wider than its view, may still touch it.
                 EXPECT_TRUE(scene.lights.size() == 1 || !truth.entries.empty());

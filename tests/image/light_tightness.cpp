@@ -71,6 +71,7 @@ protected:
         settings.culling.method = method;
         settings.culling.tilePixels = 16;
         settings.culling.builder = builder;
+        settings.culling.normals = culling::NormalTest::Off;
         const bool tiled = method == Method::TileMinmax || method == Method::Tile25d;
         const validation::LightOracleFigures figures = validation::judgeLights(
             renderer, tiled ? Technique::TiledDeferred : Technique::ClusteredDeferred, settings);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <stdexcept>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -112,6 +113,7 @@ class Judge {
 public:
     explicit Judge(const OracleInput& input)
         : input_(input), lights_(trueLights(input.scene, input.settings)), visited_(input.drawn),
+          byNormals_(input.drawn.culling.normals != culling::NormalTest::Off && input.layer == SurfaceLayer::Opaque),
           positions_(input.scene.cameras[std::size_t(input.settings.camera)], input.settings, input.drawn.depths) {}
 
     void row(int row, RowCounts& counts) const {
@@ -153,7 +155,9 @@ private:
             const double squaredDistance = glm::dot(toLight, toLight);
             if (!reaches(light, positionWS, squaredDistance)) continue;
             ++figures.needed;
-            if (glm::dot(normal, toLight) > 0.0) ++figures.neededLit;
+            const bool isLit = glm::dot(normal, toLight) > 0.0;
+            if (isLit) ++figures.neededLit;
+            if (byNormals_ && !isLit) continue;
             next = std::lower_bound(next, visited.end(), light.sceneLight);
             if (next == visited.end() || *next != light.sceneLight) miss(light.sceneLight, pixel, figures);
         }
@@ -178,6 +182,7 @@ private:
     const OracleInput& input_;
     TrueLights lights_;
     VisitedLights visited_;
+    bool byNormals_; ///< lights behind a surface need not be visited
     PixelPositions positions_;
 };
 
@@ -221,29 +226,36 @@ std::vector<float> flippedRows(const std::vector<float>& rgba, int width, int he
     return flipped;
 }
 
+/// Opaque surfaces alone, as a view shows them; RGBA, rows from the bottom.
+std::vector<float> opaquePicture(scenes::Scene scene, const frame::FrameSettings& settings, frame::DebugView view,
+                                 engine::Technique technique) {
+    // Blended surfaces become holes; without them the scene's bounds, and by them depths and edges, would change.
+    for (scenes::Material& material : scene.materials) {
+        if (material.alphaMode != scenes::AlphaMode::Blend) continue;
+        material.alphaMode = scenes::AlphaMode::Mask;
+        material.alphaCutoff = 2.0f;
+    }
+    frame::FrameSettings viewed = settings;
+    viewed.view = view;
+    viewed.culling = {};
+    viewed.lightOn.reset();
+    viewed.soloLight.reset();
+    engine::Renderer renderer(*gpu::Context::current(), scene);
+    const engine::RenderedFrame frame = renderer.render(technique, viewed);
+    return flippedRows(frame.radiance, frame.width, frame.height);
+}
+
 /// 1 where the opaque surface that shows takes light; empty where no material is unlit, so that all do.
 std::vector<std::uint8_t> litPixels(const scenes::Scene& scene, const frame::FrameSettings& settings) {
     if (!frame::materialFeatures(scene)[scenes::MaterialModel::SingleColor]) return {};
-    scenes::Scene opaque = scene;
-    for (scenes::Node& node : opaque.nodes) {
-        std::erase_if(node.instances, [&](const scenes::MeshInstance& instance) {
-            return scene.materials[std::size_t(instance.material)].alphaMode == scenes::AlphaMode::Blend;
-        });
-    }
-    scenes::Light everywhere;
-    everywhere.type = scenes::LightType::Directional;
-    opaque.lights = {everywhere};
-    frame::FrameSettings counted = settings;
-    counted.view = frame::DebugView::Lights;
-    counted.culling = {};
-    counted.lightOn.reset();
-    counted.soloLight.reset();
-    engine::Renderer renderer(*gpu::Context::current(), opaque);
-    const engine::RenderedFrame frame = renderer.render(engine::Technique::Forward, counted);
-    const std::vector<float> counts = flippedRows(frame.radiance, frame.width, frame.height);
-    std::vector<std::uint8_t> lit(counts.size() / 4);
-    for (std::size_t i = 0; i < lit.size(); ++i) lit[i] = counts[4 * i] > 0.0f ? 1 : 0;
-    return lit;
+    scenes::Scene lit = scene;
+    lit.lights.assign(1, {});
+    lit.lights[0].type = scenes::LightType::Directional;
+    const std::vector<float> counts =
+        opaquePicture(std::move(lit), settings, frame::DebugView::Lights, engine::Technique::Forward);
+    std::vector<std::uint8_t> isLit(counts.size() / 4);
+    for (std::size_t i = 0; i < isLit.size(); ++i) isLit[i] = counts[4 * i] > 0.0f ? 1 : 0;
+    return isLit;
 }
 
 } // namespace
@@ -257,6 +269,9 @@ std::optional<double> LightOracleFigures::litTightness() const {
 }
 
 LightOracleFigures judgeLights(const OracleInput& input) {
+    if (input.drawn.culling.normals != culling::NormalTest::Off && input.layer == SurfaceLayer::Opaque &&
+        input.normalWS.empty())
+        throw std::invalid_argument("lists without the lights behind surfaces are judged by normals");
     const Judge judge(input);
     RowCounts sum;
     std::mutex mutex;
@@ -281,11 +296,8 @@ LightOracleFigures judgeLights(engine::Renderer& renderer, engine::Technique tec
     renderer.draw(technique, settings);
     const engine::DrawnLists drawn = renderer.downloadLists();
     const std::vector<float> depth = renderer.downloadDepth();
-    frame::FrameSettings normals = settings;
-    normals.view = frame::DebugView::Normal;
-    normals.culling = {};
-    const engine::RenderedFrame frame = renderer.render(engine::Technique::Deferred, normals);
-    const std::vector<float> normalWS = flippedRows(frame.radiance, frame.width, frame.height);
+    const std::vector<float> normalWS =
+        opaquePicture(renderer.scene(), settings, frame::DebugView::Normal, engine::Technique::Deferred);
     const std::vector<std::uint8_t> lit = litPixels(renderer.scene(), settings);
     return judgeLights({renderer.scene(), settings, drawn, depth, normalWS, SurfaceLayer::Opaque, lit});
 }

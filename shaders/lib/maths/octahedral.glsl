@@ -1,6 +1,7 @@
 // Unit vectors on the octahedral square -1..1. Source: Cigolle et al. 2014, "A Survey of Efficient Representations for
 // Independent Unit Vectors".
 #pragma once
+#include "shared/normals.h"
 
 float signNotZero(float x) { return x >= 0.0 ? 1.0 : -1.0; }
 
@@ -13,8 +14,7 @@ vec2 encodeOctahedral(vec3 n)
 
 vec3 decodeOctahedral(vec2 p)
 {
-    precise vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-    if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * vec2(signNotZero(n.x), signNotZero(n.y));
+    vec3 n = directionOfOctahedral(p);
     precise vec3 unit = n / sqrt(dot(n, n));
     return unit;
 }

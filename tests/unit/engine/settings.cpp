@@ -39,10 +39,10 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
         const auto& [sizePixels, samples, samplesGiven, camera, timeSeconds, eyeOffsetWS, layout, view, filter, space,
                      prune, specular, rangeTolerance, soloLight, culling, lightOn, softwareBackend, display, exposureEV,
                      toneMap] = settings;
-        const auto& [method, tilePixels, builder, lanes] = culling;
+        const auto& [method, tilePixels, builder, normals, lanes] = culling;
         return std::pair(std::tuple(technique, sizePixels, samples, camera, timeSeconds, layout, view, filter, space,
-                                    prune, specular, rangeTolerance, soloLight, method, tilePixels, builder, lightOn,
-                                    exposureEV, toneMap),
+                                    prune, specular, rangeTolerance, soloLight, method, tilePixels, builder, normals,
+                                    lightOn, exposureEV, toneMap),
                          std::tuple(samplesGiven, eyeOffsetWS, softwareBackend, display, lanes));
     };
     const auto differ = []<std::size_t... kIndex>(const auto& x, const auto& y, std::index_sequence<kIndex...>) {
@@ -151,7 +151,7 @@ TEST(Settings, aTechniqueRefusesUnsupportedValuesAndNamesThoseThatSupportThem) {
     EXPECT_EQ(refusal([&] { requireTaken(request); }),
               "technique forward does not take tile 32, since it has no light lists; tiled_deferred, forward_plus, "
               "clustered_deferred, clustered_forward do");
-    request.settings.culling = {culling::Method::Zbin, {}, {}, {}};
+    request.settings.culling = {culling::Method::Zbin, {}, {}, {}, {}};
     EXPECT_EQ(refusal([&] { requireTaken(request); }),
               "technique forward does not take culling zbin; clustered_deferred, clustered_forward do");
     request.technique = Technique::ClusteredForward;

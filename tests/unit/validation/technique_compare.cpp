@@ -28,7 +28,7 @@ TEST(TechniqueCompare, onHardwareSumsByBlendingAreHeldToExactlyTheBoundOfTheirNu
 TEST(TechniqueCompare, settingsOfHowAPictureIsMadeGoToTheTechniquesThatTakeThem) {
     frame::FrameSettings asked;
     asked.lightOn = frame::LightingStage::Compute;
-    asked.culling = {culling::Method::Cluster, 32, culling::Builder::Compute, {}};
+    asked.culling = {culling::Method::Cluster, 32, culling::Builder::Compute, {}, {}};
     asked.exposureEV = 2.0f;
     const frame::FrameSettings forward = settingsTakenBy(Technique::Forward, asked);
     EXPECT_EQ(forward.lightOn, frame::FrameSettings().lightOn);
@@ -36,8 +36,8 @@ TEST(TechniqueCompare, settingsOfHowAPictureIsMadeGoToTheTechniquesThatTakeThem)
     EXPECT_EQ(forward.exposureEV, 2.0f) << "which is no setting of how the picture is made";
     EXPECT_EQ(settingsTakenBy(Technique::ClusteredDeferred, asked), asked);
     for (const engine::Setting& setting : engine::settingTable()) {
-        const bool isHow =
-            setting.key == "culling" || setting.key == "tile" || setting.key == "cullOn" || setting.key == "lightOn";
+        const bool isHow = setting.key == "culling" || setting.key == "tile" || setting.key == "cullOn" ||
+                           setting.key == "cullNormals" || setting.key == "lightOn";
         EXPECT_EQ(setting.samePicture, isHow) << setting.name;
     }
 }

@@ -1,0 +1,125 @@
+#include "renderer/culling/TileNormals.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <iterator>
+
+#include "shaders/shared/normals.h"
+
+namespace tessera::culling {
+
+namespace {
+
+/// x, y, z in culling space; the fourth only lets the compiler take all at once.
+using Direction = std::array<float, 4>;
+
+/// A picture's words and the place of a normal's among a pixel's.
+struct Words {
+    const std::uint32_t* pixel;
+    unsigned bit;
+    unsigned width;
+
+    std::uint32_t field(unsigned first) const {
+        const std::uint32_t* const word = pixel + first / 32;
+        const unsigned low = first % 32;
+        const std::uint64_t both = low + width > 32 ? word[0] | std::uint64_t(word[1]) << 32 : word[0];
+        return std::uint32_t(both >> low) & ((1u << width) - 1u);
+    }
+};
+
+/// In lighting space, no component larger than 1.
+glm::vec3 decodeCube(const std::uint32_t* pixel) {
+    constexpr std::uint32_t kMask = (1u << NORMAL_SHARE_BITS) - 1u;
+    const std::uint32_t second = pixel[0] >> NORMAL_SHARE_BITS | pixel[1] << (32 - NORMAL_SHARE_BITS);
+    const std::uint32_t axis = pixel[1] >> (2 * NORMAL_SHARE_BITS - 32) & 7u;
+    return shared::directionOfShares(glm::uvec2(pixel[0] & kMask, second & kMask), axis) * (1.0f / NORMAL_SHARE_STEPS);
+}
+glm::vec3 decodeOctahedral(const Words& words) {
+    const int middle = int((1u << words.width) - 1u) / 2;
+    const auto coordinate = [&](unsigned bit) { return float(int(words.field(bit)) - middle) / float(middle); };
+    return shared::directionOfOctahedral({coordinate(words.bit), coordinate(words.bit + words.width)});
+}
+glm::vec3 decodeVector(const std::uint32_t* pixel) {
+    return {std::bit_cast<float>(pixel[0]), std::bit_cast<float>(pixel[1]), std::bit_cast<float>(pixel[2])};
+}
+
+template <typename Decode>
+void decodeLine(const NormalPicture& normals, std::size_t first, std::size_t count, Direction* to, Decode&& decode) {
+    const glm::mat3 turn = normals.cullingFromLighting;
+    const std::uint32_t* const words = normals.words.data() + first * normals.wordsAPixel;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3 n = decode(words + i * normals.wordsAPixel);
+        to[i] = {turn[0][0] * n.x + turn[1][0] * n.y + turn[2][0] * n.z,
+                 turn[0][1] * n.x + turn[1][1] * n.y + turn[2][1] * n.z,
+                 turn[0][2] * n.x + turn[1][2] * n.y + turn[2][2] * n.z, n.x};
+    }
+}
+
+void decodeLine(const NormalPicture& normals, std::size_t first, std::size_t count, Direction* to) {
+    switch (normals.form) {
+    case NormalForm::Cube:
+        return decodeLine(normals, first, count, to, [](const std::uint32_t* pixel) { return decodeCube(pixel); });
+    case NormalForm::Octahedral:
+        return decodeLine(normals, first, count, to, [&](const std::uint32_t* pixel) {
+            return decodeOctahedral({pixel, normals.bit, normals.width});
+        });
+    case NormalForm::Vector:
+        return decodeLine(normals, first, count, to, [](const std::uint32_t* pixel) { return decodeVector(pixel); });
+    }
+}
+
+struct Bounds {
+    Direction low, high;
+
+    void clear() {
+        low.fill(2.0f);
+        high.fill(-2.0f);
+    }
+    void add(const Direction& n) {
+        for (std::size_t k = 0; k < n.size(); ++k) {
+            low[k] = std::min(low[k], n[k]);
+            high[k] = std::max(high[k], n[k]);
+        }
+    }
+    shared::NormalBox box() const { return {{low[0], low[1], low[2], 0.0f}, {high[0], high[1], high[2], 0.0f}}; }
+};
+
+/// Calls add(depth, normal) for each pixel of the tile that shows a surface.
+template <typename Add>
+void eachSurface(const SurfacePictures& pictures, const PixelRect& tile, Add&& add) {
+    std::array<Direction, std::size_t(kTileSides[std::size(kTileSides) - 1])> line;
+    const std::size_t columns = tile.right - tile.left;
+    for (std::size_t y = tile.bottom; y < tile.top; ++y) {
+        const std::size_t first = y * pictures.widthPixels + tile.left;
+        decodeLine(pictures.normals, first, columns, line.data());
+        for (std::size_t x = 0; x < columns; ++x)
+            if (const float depth = pictures.depth[first + x]; depth > 0.0f) add(depth, line[x]);
+    }
+}
+
+} // namespace
+
+void findNormals(const SurfacePictures& pictures, const PixelRect& tile, std::vector<shared::NormalBox>& boxes) {
+    Bounds bounds;
+    bounds.clear();
+    eachSurface(pictures, tile, [&](float, const Direction& n) { bounds.add(n); });
+    boxes.assign(1, bounds.box());
+}
+
+void findNormalsBySlice(const SurfacePictures& pictures, const PixelRect& tile, const TileDepths& depths,
+                        float depthBias, std::vector<shared::NormalBox>& boxes) {
+    std::array<Bounds, LIGHT_TILE_SLICES> bounds;
+    const auto eachSlice = [&](auto&& visit) {
+        for (std::uint64_t rest = depths.slices; rest != 0; rest &= rest - 1)
+            visit(bounds[std::size_t(std::countr_zero(rest))]);
+    };
+    eachSlice([](Bounds& slice) { slice.clear(); });
+    eachSurface(pictures, tile, [&](float depth, const Direction& n) {
+        bounds[shared::sliceOfKey(std::bit_cast<std::uint32_t>(depthBias + depth), depths.slicing)].add(n);
+    });
+    boxes.clear();
+    eachSlice([&](const Bounds& slice) { boxes.push_back(slice.box()); });
+}
+
+} // namespace tessera::culling

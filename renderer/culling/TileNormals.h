@@ -1,0 +1,29 @@
+#pragma once
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "renderer/culling/TileDepths.h"
+
+namespace tessera::culling {
+
+/// One depth and one normal a pixel.
+struct SurfacePictures {
+    std::span<const float> depth; ///< reverse-Z; 0: no surface
+    const NormalPicture& normals;
+    std::size_t widthPixels;
+};
+
+/// Columns and lines of pixels, lines from the bottom; right and top are one beyond.
+struct PixelRect {
+    std::size_t left, right, bottom, top;
+};
+
+/// A box around the normals of what a tile shows, in place of `boxes`.
+void findNormals(const SurfacePictures& pictures, const PixelRect& tile, std::vector<shared::NormalBox>& boxes);
+
+/// The same for each of a tile's occupied slices, the farthest first. `depthBias` is that of depth keys.
+void findNormalsBySlice(const SurfacePictures& pictures, const PixelRect& tile, const TileDepths& depths,
+                        float depthBias, std::vector<shared::NormalBox>& boxes);
+
+} // namespace tessera::culling

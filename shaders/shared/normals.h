@@ -1,0 +1,34 @@
+#pragma once
+// Directions of stored normals, for C++ and GLSL. Theirs is the direction alone: who shades makes them unit vectors.
+#include "interop.h"
+
+// Steps of a component from none to all of the largest one: fp32 holds each exactly.
+#define NORMAL_SHARE_BITS 25
+#define NORMAL_SHARE_STEPS 16777215.0f
+#define NORMAL_NO_SHARE 16777216
+
+SHARED_BEGIN
+
+// Of a NormalCode (lib/maths/normal_code.glsl), NORMAL_SHARE_STEPS long along its largest component.
+SHARED_FUNCTION vec3 directionOfShares(uvec2 shares, uint axis) {
+    float first = float(int(shares.x) - NORMAL_NO_SHARE);
+    float second = float(int(shares.y) - NORMAL_NO_SHARE);
+    float along = (axis & 4u) != 0u ? -NORMAL_SHARE_STEPS : NORMAL_SHARE_STEPS;
+    uint largest = axis & 3u;
+    return vec3(largest == 0u ? along : first,
+                largest == 2u   ? second
+                : largest == 0u ? first
+                                : along,
+                largest == 2u ? along : second);
+}
+
+// Of a point on the octahedral square -1..1, on the octahedron. Source: Cigolle et al. 2014, "A Survey of Efficient
+// Representations for Independent Unit Vectors".
+SHARED_FUNCTION vec3 directionOfOctahedral(vec2 p) {
+    SHARED_PRECISE float z = 1.0f - abs(p.x) - abs(p.y);
+    SHARED_PRECISE float x = z < 0.0f ? (p.x >= 0.0f ? 1.0f - abs(p.y) : abs(p.y) - 1.0f) : p.x;
+    SHARED_PRECISE float y = z < 0.0f ? (p.y >= 0.0f ? 1.0f - abs(p.x) : abs(p.x) - 1.0f) : p.y;
+    return vec3(x, y, z);
+}
+
+SHARED_END

@@ -1,0 +1,154 @@
+// Light culling by normals: lights behind all surfaces of a cell are left out, and the picture stays the same.
+#include <fmt/format.h>
+
+#include "scenes/Load.h"
+#include "tests/support/CullingScenes.h"
+#include "tests/support/GlContext.h"
+#include "tests/support/Random.h"
+#include "tests/support/Sweep.h"
+#include "tests/support/TestScenes.h"
+#include "validation/culling/LightOracle.h"
+
+namespace tessera {
+namespace {
+
+using culling::Method;
+using engine::Technique;
+using frame::Channel;
+using frame::Encoding;
+
+scenes::Scene latticeLitBy(int lights) {
+    scenes::LoadOptions options;
+    options.lights = lights;
+    return scenes::loadScene("lattice", options);
+}
+
+struct NormalMethod {
+    Method method;
+    Technique technique;
+};
+constexpr NormalMethod kByNormals[] = {{Method::TileMinmax, Technique::TiledDeferred},
+                                       {Method::Tile25d, Technique::TiledDeferred},
+                                       {Method::Cluster, Technique::ClusteredDeferred}};
+
+frame::FrameSettings normalSettings(glm::ivec2 sizePixels, Method method, int tilePixels) {
+    frame::FrameSettings settings;
+    settings.sizePixels = sizePixels;
+    settings.culling.method = method;
+    settings.culling.tilePixels = tilePixels;
+    settings.culling.builder = culling::Builder::Cpu;
+    return settings;
+}
+
+class LightNormals : public test::GlTest {
+protected:
+    struct Visited {
+        double byReach, byNormals; ///< pairs
+    };
+    /// Expects the same picture with normals and without, and no pair missing.
+    Visited expectSame(engine::Renderer& renderer, Technique technique, frame::FrameSettings settings) {
+        settings.culling.normals = culling::NormalTest::Off;
+        const std::vector<float> truth = renderer.render(technique, settings).radiance;
+        const double byReach = double(validation::judgeLights(renderer, technique, settings).evaluated);
+        settings.culling.normals = culling::NormalTest::Everywhere;
+        EXPECT_TRUE(renderer.render(technique, settings).radiance == truth);
+        const validation::LightOracleFigures figures = validation::judgeLights(renderer, technique, settings);
+        EXPECT_EQ(figures.falseNegatives, 0u);
+        return {byReach, double(figures.evaluated)};
+    }
+    void expectSoundScenes();
+};
+using LightNormalsSlow = LightNormals;
+
+TEST_F(LightNormals, listsAreTighterAroundLitPairs) {
+    /// Visited over lit pairs of the lattice: the measured value (Mesa 22.3.6) plus 2 %; 1.15 where that is the aim and
+    /// 1.146 was measured.
+    struct Bar {
+        NormalMethod of;
+        double tile8, tile16;
+    };
+    constexpr Bar kBars[] = {{kByNormals[0], 1.384 * 1.02, 1.735 * 1.02},
+                             {kByNormals[1], 1.353 * 1.02, 1.674 * 1.02},
+                             {kByNormals[2], 1.15, 1.308 * 1.02}};
+    const scenes::Scene scene = latticeLitBy(1024);
+    engine::Renderer renderer(context(), scene);
+    for (const Bar& bar : kBars) {
+        for (const int tile : {8, 16}) {
+            frame::FrameSettings settings = normalSettings({1280, 720}, bar.of.method, tile);
+            settings.culling.normals = culling::NormalTest::Everywhere;
+            const validation::LightOracleFigures figures =
+                validation::judgeLights(renderer, bar.of.technique, settings);
+            fmt::print("{}, tile {}: {:.3f} of the lit pairs, {:.3f} of the needed ones\n", infoOf(bar.of.method).name,
+                       tile, *figures.litTightness(), *figures.tightness());
+            EXPECT_LE(*figures.litTightness(), tile == 8 ? bar.tile8 : bar.tile16);
+        }
+    }
+}
+
+TEST_F(LightNormals, everyFormOfStoredNormalsGivesTheSamePicture) {
+    std::vector<frame::GBufferLayout> layouts;
+    for (const frame::LayoutInfo& info : frame::layoutTable()) layouts.push_back(info.layout);
+    frame::GBufferLayout mixed = layouts[1];
+    mixed.encoding[std::size_t(Channel::Albedo)] = Encoding::Exact; // words begin with the normal
+    layouts.push_back(mixed);
+    mixed = layouts[2];
+    mixed.encoding[std::size_t(Channel::Normal)] = Encoding::Exact; // and end without it
+    layouts.push_back(mixed);
+    for (const scenes::Scene& scene : {latticeLitBy(200), test::litFromWithin(scenes::loadScene("hall"), 200, 4.0f)}) {
+        engine::Renderer renderer(context(), scene);
+        for (const NormalMethod& of : kByNormals) {
+            double exact = 0.0;
+            for (std::size_t layout = 0; layout < layouts.size(); ++layout) {
+                SCOPED_TRACE(fmt::format("{}, layout {}, {}", scene.name, layout, infoOf(of.method).name));
+                frame::FrameSettings settings = normalSettings({321, 179}, of.method, 8);
+                settings.layout = layouts[layout];
+                const Visited visited = expectSame(renderer, of.technique, settings);
+                if (layout == 0) exact = visited.byNormals;
+                // Ten bits a coordinate turn normals by 1e-3 or 2e-3, and their boxes by as much.
+                EXPECT_NEAR(visited.byNormals, exact, 0.01 * exact);
+                EXPECT_LT(visited.byNormals, visited.byReach);
+            }
+        }
+    }
+}
+
+TEST_F(LightNormals, everyTileGivesTheSamePicture) {
+    const scenes::Scene scene = latticeLitBy(257);
+    engine::Renderer renderer(context(), scene);
+    for (const NormalMethod& of : kByNormals) {
+        for (const int tile : culling::kTileSides) {
+            SCOPED_TRACE(fmt::format("{}, tile {}", infoOf(of.method).name, tile));
+            const Visited visited = expectSame(renderer, of.technique, normalSettings({641, 359}, of.method, tile));
+            EXPECT_LT(visited.byNormals, tile < 64 ? visited.byReach : visited.byReach + 1.0);
+        }
+    }
+}
+
+void LightNormals::expectSoundScenes() {
+    const std::uint64_t scenes = test::isWholeSweep() ? 100 : 30;
+    double byReach = 0.0, byNormals = 0.0;
+    for (std::uint64_t seed = 1; seed <= scenes && !HasFailure(); ++seed) {
+        const scenes::Scene scene = test::randomLitScene(seed);
+        engine::Renderer renderer(context(), scene);
+        test::Random random(seed + 9000);
+        for (const NormalMethod& of : kByNormals) {
+            const int tile = culling::kTileSides[random.index(4)];
+            SCOPED_TRACE(fmt::format("seed {}, {}, tile {}", seed, infoOf(of.method).name, tile));
+            const Visited visited = expectSame(renderer, of.technique, normalSettings({97, 61}, of.method, tile));
+            byReach += visited.byReach;
+            byNormals += visited.byNormals;
+        }
+    }
+    fmt::print("{} scenes: {:g} pairs visited by reach, {:g} by normals as well\n", scenes, byReach, byNormals);
+    EXPECT_LT(byNormals, 0.9 * byReach) << "scenes in which nothing is left out prove nothing";
+}
+
+TEST_F(LightNormals, randomScenesKeepTheirPicture) {
+    expectSoundScenes();
+}
+TEST_F(LightNormalsSlow, aHundredRandomScenesKeepTheirPicture) {
+    expectSoundScenes();
+}
+
+} // namespace
+} // namespace tessera
