@@ -24,10 +24,11 @@ const char* builderReason(bool softwareBackend) {
 /// Why the lists of a frame hold lights behind their surfaces as well; empty where they need not.
 std::string_view whyNotByNormals(Technique technique, const frame::FeatureSet& features,
                                  const culling::Choice& choice) {
-    if (choice.method == Method::Zbin) return "the bitmasks of zbin are of all a tile or a bin shows";
-    if (!infoOf(technique).usesGBuffer()) return "the technique stores no normals before it lights";
+    if (!infoOf(choice.method).listsCells) return "the bitmasks of zbin are of all a tile or a bin shows";
+    if (!listsFromGBuffer(technique)) return "the technique stores no normals before it builds lists";
     if (choice.builder != culling::Builder::Cpu) return "only the builder cpu reads normals";
-    if (features[frame::Feature::Clearcoat]) return "a coat has a normal of its own";
+    if (features.litFromBehind())
+        return "light from behind the shading normal may change a surface, as that of a clear coat";
     return "";
 }
 
@@ -47,6 +48,10 @@ bool hasLightLists(Technique technique) {
     return infoOf(technique).methods.front() != Method::None;
 }
 
+bool listsFromGBuffer(Technique technique) {
+    return hasLightLists(technique) && infoOf(technique).usesGBuffer();
+}
+
 culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& settings,
                               const frame::FeatureSet& features, const frame::PackedLights& lights) {
     const TechniqueInfo& info = infoOf(technique);
@@ -56,7 +61,7 @@ culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& s
     choice.tilePixels = settings.culling.tilePixels.value_or(culling::kUsualTilePixels);
     choice.builder =
         settings.culling.builder.value_or(settings.softwareBackend ? culling::Builder::Cpu : culling::Builder::Compute);
-    if (choice.method != Method::None && whyNotByNormals(technique, features, choice).empty())
+    if (whyNotByNormals(technique, features, choice).empty())
         choice.normals = settings.culling.normals.value_or(culling::NormalTest::WhereWorth);
     choice.lanes = settings.culling.lanes.value_or(settings.softwareBackend ? kSoftwareLanes : kLanes);
     return choice;
@@ -81,13 +86,10 @@ std::vector<graph::Plan::Choice> cullingChoices(Technique technique, const frame
     choices.push_back({"lists built by", std::string(infoOf(choice.builder).name),
                        why(settings.culling.builder.has_value(), "cull-on", builderReason(settings.softwareBackend))});
     const std::string_view whyNot = whyNotByNormals(technique, features, choice);
-    choices.push_back(
-        {"cull by normals",
-         std::string(
-             std::ranges::find(culling::normalTestTable(), choice.normals, &culling::NormalTestInfo::test)->name),
-         whyNot.empty() ? why(settings.culling.normals.has_value(), "cull-normals",
-                              "short lists are visited sooner than normals are read back")
-                        : std::string(whyNot)});
+    choices.push_back({"cull by normals", std::string(infoOf(choice.normals).name),
+                       whyNot.empty() ? why(settings.culling.normals.has_value(), "cull-normals",
+                                            "read back where lists hold 12 lights or more on average")
+                                      : std::string(whyNot)});
     return choices;
 }
 

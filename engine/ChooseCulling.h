@@ -12,6 +12,8 @@ bool takesMethod(Technique technique, culling::Method method);
 
 /// Whether a technique lights from light lists at all.
 bool hasLightLists(Technique technique);
+/// Whether it builds them once a G-buffer tells the surfaces' normals.
+bool listsFromGBuffer(Technique technique);
 
 /// How a frame culls lights: the requested method, which the technique must take, else the fastest one measured on the
 /// backend; none where nothing can be culled (settings.prune).

@@ -80,14 +80,13 @@ struct ViewWiring {
         if (spec.samples == 1) inputs.depth = depth;
         return GBufferPass::add(graph, spec, inputs).gbuffer;
     }
-    /// Where light culling looks at them.
-    std::optional<TextureHandle> normalsOf(const frame::GBufferHandles& gbuffer) const {
-        if (spec.culling.normals == culling::NormalTest::Off) return {};
-        return gbuffer.textures[frame::storedNormals(spec.settings.layout, spec.channels)->texture];
-    }
-    /// Light lists for the visible surfaces, if the frame culls lights. `normals` are those of opaque ones.
-    void addLightLists(TextureHandle depth, TextureHandle opaque, std::optional<TextureHandle> normals = {}) {
+    /// Light lists for the visible surfaces, if the frame culls lights. `gbuffer` is of the opaque ones; null: they are
+    /// stored nowhere before they are lit.
+    void addLightLists(TextureHandle depth, TextureHandle opaque, const frame::GBufferHandles* gbuffer) {
         if (!hasLightLists()) return;
+        std::optional<TextureHandle> normals;
+        if (spec.culling.normals != culling::NormalTest::Off)
+            normals = gbuffer->textures[frame::storedNormals(spec.settings.layout, spec.channels)->texture];
         const frame::LitDepths depths = litDepths(depth, opaque);
         lighting.lists =
             spec.culling.builder == culling::Builder::Cpu
@@ -105,14 +104,14 @@ OpaquePicture opaqueForward(ViewWiring& wiring) {
 OpaquePicture opaqueForwardPrepass(ViewWiring& wiring) {
     const DepthPrepass::Params params{wiring.hasLightLists() && wiring.spec.samples > 1};
     const DepthPrepass::Outputs drawn = DepthPrepass::add(wiring.graph, wiring.spec, params, {wiring.surfaces});
-    wiring.addLightLists(drawn.depth, drawn.shadingDepth.value_or(drawn.depth));
+    wiring.addLightLists(drawn.depth, drawn.shadingDepth.value_or(drawn.depth), nullptr);
     const ForwardPass::Inputs inputs{wiring.surfaces, wiring.lighting, drawn.depth, {}};
     return {ForwardPass::add(wiring.graph, wiring.spec, {}, inputs).radiance, drawn.depth};
 }
 
 OpaquePicture opaqueDeferred(ViewWiring& wiring) {
     const frame::GBufferHandles gbuffer = GBufferPass::add(wiring.graph, wiring.spec, {wiring.surfaces}).gbuffer;
-    wiring.addLightLists(gbuffer.depth, gbuffer.depth, wiring.normalsOf(gbuffer));
+    wiring.addLightLists(gbuffer.depth, gbuffer.depth, &gbuffer);
     const DeferredLightingPass::Outputs lit =
         DeferredLightingPass::add(wiring.graph, wiring.spec, {}, {gbuffer, wiring.lighting}, wiring.drawn);
     return {lit.radiance, gbuffer.depth, gbuffer};

@@ -182,7 +182,8 @@ struct MaterialModelInfo {
     float Material::*roughness = nullptr; ///< the member that the G of TextureSlot::MetallicRoughness scales
     std::span<const MaterialParameter> parameters{};
     Anisotropy anisotropy = Anisotropy::None;
-    bool hasLayers = false; ///< emission, clearcoat and sheen, with what scene files and the viewer spell out
+    bool hasLayers = false;       ///< emission, clearcoat and sheen, with what scene files and the viewer spell out
+    bool isLitFromBehind = false; ///< light from behind the shading normal changes it, as in translucency
 };
 
 namespace detail {

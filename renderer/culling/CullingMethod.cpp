@@ -1,15 +1,20 @@
 #include "renderer/culling/CullingMethod.h"
 
+#include <iterator>
+
+#include "base/EnumTable.h"
+
 namespace tessera::culling {
 
 namespace {
 
 constexpr MethodInfo kMethods[] = {
-    {Method::None, "none", "no lists: every pixel visits every light", false},
-    {Method::TileMinmax, "tile_minmax", "one list a tile: its frustum between the nearest and farthest surface", true},
-    {Method::Tile25d, "tile_2.5d", "one list a tile: only the slices of depth that hold a surface", true},
-    {Method::Cluster, "cluster", "one list for each slice of a tile's depth that holds a surface", false},
-    {Method::Zbin, "zbin", "a bitmask a tile and one a depth bin; a pixel visits what is in both", false},
+    {Method::None, "none", "no lists: every pixel visits every light", false, false},
+    {Method::TileMinmax, "tile_minmax", "one list a tile: its frustum between the nearest and farthest surface", true,
+     true},
+    {Method::Tile25d, "tile_2.5d", "one list a tile: only the slices of depth that hold a surface", true, true},
+    {Method::Cluster, "cluster", "one list for each slice of a tile's depth that holds a surface", false, true},
+    {Method::Zbin, "zbin", "a bitmask a tile and one a depth bin; a pixel visits what is in both", false, false},
 };
 
 constexpr NormalTestInfo kNormalTests[] = {
@@ -17,6 +22,8 @@ constexpr NormalTestInfo kNormalTests[] = {
     {NormalTest::Everywhere, "on", "cells leave out the lights behind all their surfaces"},
     {NormalTest::WhereWorth, "where_worth", "only where lists are long enough to gain from it"},
 };
+
+static_assert(isInOrder(kNormalTests, &NormalTestInfo::test, std::size(kNormalTests)));
 
 constexpr BuilderInfo kBuilders[] = {
     {Builder::Cpu, "cpu", "all cores, from the depth buffer read back"},
@@ -36,6 +43,10 @@ const MethodInfo& infoOf(Method method) {
 
 std::span<const NormalTestInfo> normalTestTable() {
     return kNormalTests;
+}
+
+const NormalTestInfo& infoOf(NormalTest test) {
+    return kNormalTests[std::size_t(test)];
 }
 
 std::span<const BuilderInfo> builderTable() {

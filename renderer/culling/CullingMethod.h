@@ -13,6 +13,7 @@ struct MethodInfo {
     std::string_view name;
     std::string_view summary;
     bool oneListATile; ///< whatever the depth
+    bool listsCells;   ///< a list is of the surfaces of one cell, and may leave out what is behind all of them
 };
 std::span<const MethodInfo> methodTable();
 const MethodInfo& infoOf(Method method);
@@ -35,6 +36,7 @@ struct NormalTestInfo {
     std::string_view summary;
 };
 std::span<const NormalTestInfo> normalTestTable();
+const NormalTestInfo& infoOf(NormalTest test);
 
 /// Tile sides, in pixels.
 inline constexpr int kTileSides[] = {8, 16, 32, 64};

@@ -17,7 +17,7 @@ namespace tessera::culling {
 
 namespace {
 
-/// The lights of a cell from which on it pays to look at its normals: fewer are visited sooner than those are decoded.
+/// Shorter lists cost less to visit than the normals of their cells to decode.
 constexpr std::size_t kLightsWorthNormals = 12;
 
 /// The part of a cell that lights must lie in front of to change it.
@@ -128,7 +128,7 @@ struct Build {
     // ---- By normals: what lies behind all surfaces of a cell is taken from its lists.
 
     std::size_t cellsOf(const TileDepths& depths) const {
-        return input.method == Method::Cluster ? std::size_t(std::popcount(depths.slices)) : 1;
+        return infoOf(input.method).oneListATile ? 1 : std::size_t(std::popcount(depths.slices));
     }
 
     PixelRect pixels(const glm::uvec2& place) const {
@@ -191,7 +191,7 @@ struct Build {
                                 row);
                 } else {
                     const auto first = row.entries.begin() + run.x;
-                    std::copy(first, first + run.y, row.entries.begin() + std::ptrdiff_t(kept));
+                    if (kept != run.x) std::copy(first, first + run.y, row.entries.begin() + std::ptrdiff_t(kept));
                     kept += run.y;
                 }
                 cells[i].y = std::uint32_t(kept) - cells[i].x;
@@ -247,11 +247,7 @@ LightListBuilder::LightListBuilder() : scratch_(std::make_unique<Scratch>()) {}
 LightListBuilder::~LightListBuilder() = default;
 
 const LightLists& LightListBuilder::build(const BuildInput& input) {
-    scratch_->places.clear();
-    if (input.normalTest != NormalTest::Off)
-        for (const shared::CullLight& light : input.lights)
-            scratch_->places.push_back(shared::placeOfLight(light, input.frame.view.depthKey));
-    const Build build{input, tileGrid(input.frame), scratch_->places};
+    Build build{input, tileGrid(input.frame), {}};
     const std::uint32_t layers = input.transparent ? 2u : 1u;
     const std::size_t tiles = std::size_t(build.grid.columns) * build.grid.rows;
     LightLists& lists = scratch_->lists;
@@ -274,6 +270,10 @@ const LightLists& LightListBuilder::build(const BuildInput& input) {
     }
     const std::span<RowLists> opaque(scratch_->rows.data(), build.grid.rows);
     if (build.isWorthNormals(opaque)) {
+        scratch_->places.clear();
+        for (const shared::CullLight& light : input.lights)
+            scratch_->places.push_back(shared::placeOfLight(light, input.frame.view.depthKey));
+        build.places = scratch_->places;
         const NormalPicture normals = input.readNormals();
         const SurfacePictures pictures{input.opaque.depth, normals, build.grid.sizePixels.x};
         tbb::parallel_for(0u, build.grid.rows, [&](std::uint32_t row) {

@@ -47,7 +47,7 @@ struct LightLists {
     }
 };
 
-/// Reads normals back; those of the opaque surfaces, which have one depth a pixel each.
+/// Downloads the normals of opaque surfaces, which have one depth a pixel; called at most once a build.
 using ReadNormals = std::function<NormalPicture()>;
 
 struct BuildInput {

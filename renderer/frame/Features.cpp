@@ -201,6 +201,12 @@ bool FeatureSet::any(bool (*isOne)(const scenes::LightTypeInfo&)) const {
                        [&](const scenes::LightTypeInfo& type) { return (*this)[type.type] && isOne(type); });
 }
 
+bool FeatureSet::litFromBehind() const {
+    // A clear coat has a normal of its own.
+    return (*this)[Feature::Clearcoat] ||
+           any([](const scenes::MaterialModelInfo& model) { return model.isLitFromBehind; });
+}
+
 bool FeatureSet::litModels() const {
     return any([](const scenes::MaterialModelInfo& model) { return model.isLit; });
 }

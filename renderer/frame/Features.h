@@ -78,6 +78,8 @@ struct FeatureSet {
         if (present) has.set(static_cast<std::size_t>(feature));
     }
     bool litModels() const;
+    /// Whether light from behind the shading normal may change a surface.
+    bool litFromBehind() const;
     bool glossyModels() const;  ///< models with a highlight
     bool microsurfaces() const; ///< models with more parameters than colours
     bool ggxModels() const;     ///< models with a GGX lobe

@@ -85,6 +85,63 @@ TEST_F(LightNormals, listsAreTighterAroundLitPairs) {
     }
 }
 
+TEST_F(LightNormals, byDefaultOnlyLongListsAreCulledByNormals) {
+    for (const auto& [lights, isWorth] : {std::pair(128, false), std::pair(1024, true)}) {
+        const scenes::Scene scene = latticeLitBy(lights);
+        engine::Renderer renderer(context(), scene);
+        const auto entries = [&](std::optional<culling::NormalTest> test) {
+            frame::FrameSettings settings = normalSettings({641, 359}, Method::Cluster, 8);
+            settings.culling.normals = test;
+            renderer.draw(Technique::ClusteredDeferred, settings);
+            return renderer.downloadLists().lists.entries.size();
+        };
+        const std::size_t byReach = entries(culling::NormalTest::Off), byDefault = entries({});
+        EXPECT_EQ(byDefault < byReach, isWorth) << lights;
+        EXPECT_GE(byDefault, entries(culling::NormalTest::Everywhere)) << "which culls short lists as well";
+    }
+}
+
+TEST_F(LightNormals, aCoatIsLitFromBehindTheSurfaceBelowIt) {
+    scenes::Scene scene = latticeLitBy(64);
+    for (scenes::Material& material : scene.materials) {
+        if (material.model == scenes::MaterialModel::MetallicRoughness) material.clearcoat = 1.0f;
+    }
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings = normalSettings({160, 90}, Method::Cluster, 8);
+    settings.culling.normals = culling::NormalTest::Everywhere;
+    renderer.draw(Technique::ClusteredDeferred, settings);
+    EXPECT_EQ(renderer.downloadLists().culling.normals, culling::NormalTest::Off);
+}
+
+TEST_F(LightNormals, theOracleNoticesALitLightThatAListLacks) {
+    const scenes::Scene scene = latticeLitBy(64);
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings = normalSettings({160, 90}, Method::TileMinmax, 16);
+    settings.culling.normals = culling::NormalTest::Everywhere;
+    renderer.draw(Technique::TiledDeferred, settings);
+    engine::DrawnLists drawn = renderer.downloadLists();
+    const std::vector<float> depth = renderer.downloadDepth();
+    EXPECT_THROW(validation::judgeLights({scene, settings, drawn, depth, {}}), std::invalid_argument);
+    // Normals that face the viewer are near enough to the true ones that some light must be lit.
+    const glm::dvec3 towardsViewer(scene.cameras[0].worldFromCamera[2]);
+    std::vector<float> normalWS;
+    for (std::size_t i = 0; i < depth.size(); ++i)
+        for (const double value : {towardsViewer.x, towardsViewer.y, towardsViewer.z, 0.0})
+            normalWS.push_back(float(value));
+    for (glm::uvec2& cell : drawn.lists.cells) cell.y = 0;
+    for (shared::LightTile& tile : drawn.lists.tiles) tile.words.w = 0; // where every tile has one list
+    const auto missed = [&] {
+        return validation::judgeLights({scene, settings, drawn, depth, normalWS}).falseNegatives;
+    };
+    const std::uint64_t lit = missed();
+    EXPECT_GT(lit, 0u);
+    // Broken normals excuse nothing, and neither does a list that says to hold every light in reach.
+    std::fill(normalWS.begin(), normalWS.end(), 0.0f);
+    EXPECT_GT(missed(), lit);
+    drawn.culling.normals = culling::NormalTest::Off;
+    EXPECT_GT(missed(), lit);
+}
+
 TEST_F(LightNormals, everyFormOfStoredNormalsGivesTheSamePicture) {
     std::vector<frame::GBufferLayout> layouts;
     for (const frame::LayoutInfo& info : frame::layoutTable()) layouts.push_back(info.layout);

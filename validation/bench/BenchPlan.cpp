@@ -102,7 +102,7 @@ private:
         point.settings.culling.method = method;
         if (method == Method::None) point.settings.culling.tilePixels.reset();
         if (!engine::hasLightLists(technique_)) point.settings.culling.builder.reset();
-        if (!engine::hasLightLists(technique_) || !info_.usesGBuffer()) point.settings.culling.normals.reset();
+        if (!engine::listsFromGBuffer(technique_)) point.settings.culling.normals.reset();
         if (tile) point.settings.culling.tilePixels = *tile;
         if (layout) point.settings.layout = layout->layout;
         if (range) point.settings.rangeTolerance = *range;

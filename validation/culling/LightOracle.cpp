@@ -109,11 +109,16 @@ struct RowCounts {
     CellLights cells;
 };
 
+/// Whether lists may lack lights behind the surfaces to judge.
+bool leavesOutBehind(const OracleInput& input) {
+    return input.drawn.culling.normals != culling::NormalTest::Off && input.layer == SurfaceLayer::Opaque;
+}
+
 class Judge {
 public:
     explicit Judge(const OracleInput& input)
         : input_(input), lights_(trueLights(input.scene, input.settings)), visited_(input.drawn),
-          byNormals_(input.drawn.culling.normals != culling::NormalTest::Off && input.layer == SurfaceLayer::Opaque),
+          byNormals_(leavesOutBehind(input) && !frame::materialFeatures(input.scene).litFromBehind()),
           positions_(input.scene.cameras[std::size_t(input.settings.camera)], input.settings, input.drawn.depths) {}
 
     void row(int row, RowCounts& counts) const {
@@ -149,15 +154,16 @@ public:
 private:
     void judgePixel(const glm::dvec3& positionWS, const glm::dvec3& normal, const std::vector<int>& visited,
                     glm::ivec2 pixel, LightOracleFigures& figures) const {
+        const bool isUnit = std::abs(glm::dot(normal, normal) - 1.0) < 1e-3; // a broken normal excuses nothing
         auto next = visited.begin();
         for (const TrueLight& light : lights_.finite) {
             const glm::dvec3 toLight = light.positionWS - positionWS;
             const double squaredDistance = glm::dot(toLight, toLight);
             if (!reaches(light, positionWS, squaredDistance)) continue;
             ++figures.needed;
-            const bool isLit = glm::dot(normal, toLight) > 0.0;
-            if (isLit) ++figures.neededLit;
-            if (byNormals_ && !isLit) continue;
+            const double cosine = glm::dot(normal, toLight);
+            if (cosine > 0.0) ++figures.neededLit;
+            if (byNormals_ && isUnit && cosine <= 0.0) continue;
             next = std::lower_bound(next, visited.end(), light.sceneLight);
             if (next == visited.end() || *next != light.sceneLight) miss(light.sceneLight, pixel, figures);
         }
@@ -269,8 +275,7 @@ std::optional<double> LightOracleFigures::litTightness() const {
 }
 
 LightOracleFigures judgeLights(const OracleInput& input) {
-    if (input.drawn.culling.normals != culling::NormalTest::Off && input.layer == SurfaceLayer::Opaque &&
-        input.normalWS.empty())
+    if (leavesOutBehind(input) && input.normalWS.empty())
         throw std::invalid_argument("lists without the lights behind surfaces are judged by normals");
     const Judge judge(input);
     RowCounts sum;

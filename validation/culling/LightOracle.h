@@ -21,7 +21,7 @@ struct LightOracleFigures {
     std::uint64_t evaluated = 0;      ///< pairs that the frame's pixels visited
     std::uint64_t everywhere = 0;     ///< pairs of a covered pixel and a light that reaches everywhere, all visited
     std::uint64_t everywhereLit = 0;  ///< those whose light lies in front of the surface, which its cone holds
-    std::uint64_t falseNegatives = 0; ///< pairs missed, see below; must be 0
+    std::uint64_t falseNegatives = 0; ///< pairs missed, see above; must be 0
     std::uint64_t evaluatedP99 = 0, evaluatedMax = 0; ///< lights visited by a covered pixel, those everywhere included
     std::size_t entries = 0, cells = 0, listBytes = 0;
     CellFigures occupied; ///< the cells that a surface lies in, and the lights that each holds

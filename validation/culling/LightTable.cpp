@@ -47,6 +47,7 @@ std::vector<LightTableRow> judgeCulling(engine::Renderer& renderer, const frame:
         const bool hasTiles = info.method != Method::None;
         const Technique technique = deferredTechnique(info.method);
         asked.culling = {};
+        asked.culling.normals = settings.culling.normals;
         if (hasTiles) asked.culling.method = info.method;
         for (const int tilePixels : hasTiles ? tileSides : std::span<const int>(&tileSides.front(), 1)) {
             if (hasTiles) asked.culling.tilePixels = tilePixels;
