@@ -58,7 +58,7 @@ scenes::Light lightJustInFront(const glm::dvec3& surfaceWS, const glm::dvec3& no
     light.intensity = float(random.logarithmic(1.0, 1e3));
     const double metres = random.logarithmic(0.05, 50.0);
     const double hair = random.logarithmic(1e-7, 1e-2);
-    const glm::dvec3 toLightWS = random.around(normalWS, hair, hair);
+    const glm::dvec3 toLightWS = random.around(glm::normalize(normalWS), hair, hair);
     light.positionWS = surfaceWS + metres * toLightWS;
     light.rangeMetres = float(metres * random.between(1.1, 3.0));
     if (random.unit() < 0.3) {
@@ -77,7 +77,7 @@ int towardsTilesEdge(int pixel, int size, test::Random& random) {
 }
 
 /// What a frame shows: the view depths of its depth values, these from the bottom row on, and its normals from the top
-/// one on, RGBA.
+/// one on, RGBA. Where surfaces are transparent the normals are mixed, and shorter than 1.
 struct Seen {
     frame::DepthInterval depths;
     std::vector<float> depth, normalWS;
