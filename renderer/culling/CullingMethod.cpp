@@ -19,7 +19,7 @@ constexpr MethodInfo kMethods[] = {
 
 constexpr NormalTestInfo kNormalTests[] = {
     {NormalTest::Off, "off", "lists hold every light that reaches a cell"},
-    {NormalTest::Everywhere, "on", "cells leave out the lights behind all their surfaces"},
+    {NormalTest::On, "on", "cells leave out the lights behind all their surfaces"},
     {NormalTest::WhereWorth, "where_worth", "only where lists are long enough to gain from it"},
 };
 

@@ -29,7 +29,7 @@ std::span<const BuilderInfo> builderTable();
 const BuilderInfo& infoOf(Builder builder);
 
 /// Which cells leave out the lights behind all their opaque surfaces, where normals are stored.
-enum class NormalTest : std::uint8_t { Off, Everywhere, WhereWorth };
+enum class NormalTest : std::uint8_t { Off, On, WhereWorth };
 struct NormalTestInfo {
     NormalTest test;
     std::string_view name;

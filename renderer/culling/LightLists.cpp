@@ -1,15 +1,14 @@
 #include "renderer/culling/LightLists.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <utility>
+#include <span>
+#include <vector>
 
 #include <tbb/parallel_for.h>
 
 #include "renderer/culling/Candidates.h"
+#include "renderer/culling/NormalCulling.h"
 #include "renderer/culling/TileDepths.h"
-#include "renderer/culling/TileNormals.h"
 #include "renderer/culling/TileSpans.h"
 #include "renderer/culling/ZBins.h"
 
@@ -17,33 +16,11 @@ namespace tessera::culling {
 
 namespace {
 
-/// Shorter lists cost less to visit than the normals of their cells to decode.
-constexpr std::size_t kLightsWorthNormals = 12;
-
-/// The part of a cell that lights must lie in front of to change it.
-struct Front {
-    shared::NormalBox normals;
-    glm::vec3 middle;
-    float reach; ///< shared::normalReach()
-
-    Front(const shared::CellBox& ofBox, const shared::NormalBox& ofNormals)
-        : normals(ofNormals), middle(0.5f * (glm::vec3(ofBox.low) + glm::vec3(ofBox.high))),
-          reach(shared::normalReach(ofBox, ofNormals)) {}
-    /// `place` is shared::placeOfLight().
-    bool sees(const glm::vec4& place) const {
-        return shared::mostAlong(place.x - middle.x, place.y - middle.y, place.z - middle.z, normals) >=
-               -(reach + place.w);
-    }
-};
-
-/// What one row of tiles contributes; cells and entries count from the row's first until rows are joined.
-struct RowLists {
+/// A row of tiles and what building its lists takes.
+struct Row {
     std::vector<std::uint32_t> blockLights;
     Candidates block, tile;
-    std::vector<shared::NormalBox> normals; ///< of a tile's cells
-    std::vector<Front> fronts;              ///< of a tile's cells, in their order, or of its only one
-    std::vector<glm::uvec2> cells;
-    std::vector<std::uint32_t> entries;
+    RowLists lists;
 };
 
 } // namespace
@@ -51,69 +28,44 @@ struct RowLists {
 struct LightListBuilder::Scratch {
     LightLists lists;
     TileSpans spans;
-    std::vector<glm::vec4> places;  ///< shared::placeOfLight() of each, where normals are looked at
     std::vector<TileDepths> depths; ///< parallel to LightLists::tiles
-    std::vector<RowLists> rows;     ///< layer-major
+    std::vector<Row> rows;          ///< layer-major
 };
 
 namespace {
 
-using Boxes = std::array<shared::CellBox, LIGHT_TILE_SLICES>;
-
 struct Build {
     const BuildInput& input;
     TileGrid grid;
-    std::span<const glm::vec4> places; ///< of the lights, where normals may be looked at
 
-    shared::CellBox box(const glm::vec4& rays, const DepthRun& run) const {
-        return shared::cellBox(rays, run.nearMetres, run.farMetres, grid.spread);
-    }
-
-    /// Boxes around a tile's occupied slices: one per slice for clusters, else one per run of neighbours.
-    std::size_t occupiedBoxes(const glm::vec4& rays, const TileDepths& depths, Boxes& boxes) const {
-        std::size_t count = 0;
-        for (std::uint64_t rest = depths.slices; rest != 0;) {
-            const int first = std::countr_zero(rest);
-            const int length = input.method == Method::Cluster ? 1 : std::countr_one(rest >> first);
-            boxes[count++] = box(rays, depthRun(depths, first, first + length - 1, input.frame));
-            rest &= length == 64 ? 0 : ~(((std::uint64_t(1) << length) - 1) << first);
-        }
-        return count;
-    }
-
-    static void appendCell(Candidates& candidates, std::span<const shared::CellBox> boxes, RowLists& row) {
-        const auto first = std::uint32_t(row.entries.size());
+    static void appendCell(Candidates& candidates, std::span<const shared::CellBox> boxes, RowLists& lists) {
+        const auto first = std::uint32_t(lists.entries.size());
         candidates.mark(boxes);
-        candidates.appendMarked(row.entries);
-        row.cells.emplace_back(first, std::uint32_t(row.entries.size()) - first);
+        candidates.appendMarked(lists.entries);
+        lists.cells.emplace_back(first, std::uint32_t(lists.entries.size()) - first);
     }
 
     /// Appends the tile's cells; row.block holds the lights to choose from.
-    shared::LightTile tile(const TileDepths& depths, const glm::vec4& rays, RowLists& row) const {
-        const auto cell = std::uint32_t(row.cells.size());
-        const shared::LightTile oneCell{{cell, ONE_LIGHT_SLICE, 1u, 0u}};
-        const shared::CellBox whole = box(rays, depthRun(depths, input.frame));
-        if (input.method == Method::TileMinmax || std::has_single_bit(depths.slices)) {
-            appendCell(row.block, {&whole, 1}, row);
-            return oneCell;
-        }
-        Boxes boxes;
-        const std::size_t count = occupiedBoxes(rays, depths, boxes);
-        if (input.method == Method::Tile25d) {
-            appendCell(row.block, {boxes.data(), count}, row);
-            return oneCell;
+    shared::LightTile tile(const TileDepths& depths, const glm::vec4& rays, Row& row) const {
+        const auto cell = std::uint32_t(row.lists.cells.size());
+        CellBoxes memory;
+        const std::span<const shared::CellBox> boxes = cellBoxes(input.method, depths, rays, input.frame, grid, memory);
+        if (infoOf(input.method).oneListATile || boxes.size() == 1) {
+            appendCell(row.block, boxes, row.lists);
+            return {{cell, ONE_LIGHT_SLICE, 1u, 0u}};
         }
         // What misses the tile as a whole misses each of its slices.
+        const shared::CellBox whole = tileBox(depths, rays, input.frame, grid);
         row.block.mark({&whole, 1});
         row.block.copyMarkedTo(row.tile);
-        for (std::size_t i = 0; i < count; ++i) appendCell(row.tile, {&boxes[i], 1}, row);
+        for (const shared::CellBox& box : boxes) appendCell(row.tile, {&box, 1}, row.lists);
         return {{cell, depths.slicing, std::uint32_t(depths.slices), std::uint32_t(depths.slices >> 32)}};
     }
 
-    void row(const TileSpans& spans, const TileDepths* depths, std::uint32_t tileRow, RowLists& row,
+    void row(const TileSpans& spans, const TileDepths* depths, std::uint32_t tileRow, Row& row,
              shared::LightTile* tiles) const {
-        row.cells.clear();
-        row.entries.clear();
+        row.lists.cells.clear();
+        row.lists.entries.clear();
         const std::span<const std::uint32_t> rowLights = spans.ofRow(tileRow);
         for (std::uint32_t column = 0; column < grid.columns; ++column) {
             if (column % CULL_BLOCK_COLUMNS == 0) {
@@ -124,109 +76,23 @@ struct Build {
             if (!depths[column].isEmpty()) tiles[column] = tile(depths[column], grid.rays(column, tileRow), row);
         }
     }
-
-    // ---- By normals: what lies behind all surfaces of a cell is taken from its lists.
-
-    std::size_t cellsOf(const TileDepths& depths) const {
-        return infoOf(input.method).oneListATile ? 1 : std::size_t(std::popcount(depths.slices));
-    }
-
-    PixelRect pixels(const glm::uvec2& place) const {
-        const std::size_t side = grid.sidePixels, width = grid.sizePixels.x, height = grid.sizePixels.y;
-        const std::size_t left = place.x * side, below = std::min(height, (place.y + 1) * side);
-        return {left, std::min(width, left + side), height - below, height - place.y * side};
-    }
-
-    /// Sets row.fronts of a tile: one for each of its cells, or several of its only one.
-    void findFronts(const SurfacePictures& pictures, const TileDepths& depths, const glm::uvec2& place,
-                    RowLists& row) const {
-        const bool bySlice = cellsOf(depths) > 1;
-        if (bySlice)
-            findNormalsBySlice(pictures, pixels(place), depths, input.frame.view.depthKey.x, row.normals);
-        else
-            findNormals(pictures, pixels(place), row.normals);
-        Boxes boxes;
-        const glm::vec4 rays = grid.rays(place.x, place.y);
-        std::size_t count = 1;
-        if (input.method == Method::TileMinmax)
-            boxes[0] = box(rays, depthRun(depths, input.frame));
-        else
-            count = occupiedBoxes(rays, depths, boxes);
-        row.fronts.clear();
-        for (std::size_t i = 0; i < count; ++i) row.fronts.emplace_back(boxes[i], row.normals[bySlice ? i : 0]);
-    }
-
-    /// Moves the lights of `run` that are in front to row.entries[kept] and following ones.
-    void keepInFront(const glm::uvec2& run, std::span<const Front> fronts, std::size_t& kept, RowLists& row) const {
-        const auto keep = [&](const auto& isInFront) {
-            for (std::uint32_t entry = run.x; entry < run.x + run.y; ++entry) {
-                const std::uint32_t light = row.entries[entry];
-                row.entries[kept] = light;
-                kept += isInFront(places[light]) ? 1 : 0;
-            }
-        };
-        if (fronts.size() == 1)
-            keep([front = fronts[0]](const glm::vec4& place) { return front.sees(place); });
-        else
-            keep([&](const glm::vec4& place) {
-                return std::ranges::any_of(fronts, [&](const Front& front) { return front.sees(place); });
-            });
-    }
-
-    void cullByNormals(const SurfacePictures& pictures, const TileDepths* depths, std::uint32_t tileRow,
-                       RowLists& row) const {
-        std::size_t kept = 0, cell = 0;
-        for (std::uint32_t column = 0; column < grid.columns; ++column) {
-            if (depths[column].isEmpty()) continue;
-            const std::span<glm::uvec2> cells(row.cells.data() + cell, cellsOf(depths[column]));
-            cell += cells.size();
-            const std::size_t entries = cells.back().x + cells.back().y - cells.front().x;
-            const bool isWorth =
-                input.normalTest == NormalTest::Everywhere || entries >= kLightsWorthNormals * cells.size();
-            if (isWorth) findFronts(pictures, depths[column], {column, tileRow}, row);
-            for (std::size_t i = 0; i < cells.size(); ++i) {
-                const glm::uvec2 run = std::exchange(cells[i], glm::uvec2(std::uint32_t(kept), 0u));
-                if (isWorth) {
-                    keepInFront(run, cells.size() > 1 ? std::span<const Front>(&row.fronts[i], 1) : row.fronts, kept,
-                                row);
-                } else {
-                    const auto first = row.entries.begin() + run.x;
-                    if (kept != run.x) std::copy(first, first + run.y, row.entries.begin() + std::ptrdiff_t(kept));
-                    kept += run.y;
-                }
-                cells[i].y = std::uint32_t(kept) - cells[i].x;
-            }
-        }
-        row.entries.resize(kept);
-    }
-
-    /// Whether the lists of opaque surfaces are long enough.
-    bool isWorthNormals(std::span<const RowLists> rows) const {
-        if (input.normalTest != NormalTest::WhereWorth) return input.normalTest == NormalTest::Everywhere;
-        std::size_t entries = 0, cells = 0;
-        for (const RowLists& row : rows) {
-            entries += row.entries.size();
-            cells += row.cells.size();
-        }
-        return entries > 0 && entries >= kLightsWorthNormals * cells;
-    }
 };
 
 /// Puts the rows' cells and entries behind one another, after the lights that reach everywhere. Cell 0 is empty, for
 /// tiles that show nothing.
-void joinRows(const Build& build, std::span<const std::uint32_t> everywhere, std::span<RowLists> rows,
+void joinRows(const Build& build, std::span<const std::uint32_t> everywhere, std::span<const Row> rows,
               LightLists& lists) {
     std::vector<std::size_t> firstCell{1}, firstEntry{everywhere.size()};
-    for (const RowLists& row : rows) {
-        firstCell.push_back(firstCell.back() + row.cells.size());
-        firstEntry.push_back(firstEntry.back() + row.entries.size());
+    for (const Row& row : rows) {
+        firstCell.push_back(firstCell.back() + row.lists.cells.size());
+        firstEntry.push_back(firstEntry.back() + row.lists.entries.size());
     }
     lists.cells.resize(firstCell.back());
     lists.entries.resize(firstEntry.back());
     lists.cells[0] = glm::uvec2(0u);
     std::copy(everywhere.begin(), everywhere.end(), lists.entries.begin());
     tbb::parallel_for(std::size_t(0), rows.size(), [&](std::size_t i) {
-        const RowLists& row = rows[i];
+        const RowLists& row = rows[i].lists;
         std::copy(row.entries.begin(), row.entries.end(), lists.entries.begin() + std::ptrdiff_t(firstEntry[i]));
         for (std::size_t c = 0; c < row.cells.size(); ++c)
             lists.cells[firstCell[i] + c] = row.cells[c] + glm::uvec2(std::uint32_t(firstEntry[i]), 0u);
@@ -247,7 +113,7 @@ LightListBuilder::LightListBuilder() : scratch_(std::make_unique<Scratch>()) {}
 LightListBuilder::~LightListBuilder() = default;
 
 const LightLists& LightListBuilder::build(const BuildInput& input) {
-    Build build{input, tileGrid(input.frame), {}};
+    const Build build{input, tileGrid(input.frame)};
     const std::uint32_t layers = input.transparent ? 2u : 1u;
     const std::size_t tiles = std::size_t(build.grid.columns) * build.grid.rows;
     LightLists& lists = scratch_->lists;
@@ -268,16 +134,17 @@ const LightLists& LightListBuilder::build(const BuildInput& input) {
         buildZBins(input, scratch_->spans, scratch_->depths, lists);
         return lists;
     }
-    const std::span<RowLists> opaque(scratch_->rows.data(), build.grid.rows);
-    if (build.isWorthNormals(opaque)) {
-        scratch_->places.clear();
-        for (const shared::CullLight& light : input.lights)
-            scratch_->places.push_back(shared::placeOfLight(light, input.frame.view.depthKey));
-        build.places = scratch_->places;
+    std::size_t entries = 0, cells = 0;
+    for (std::uint32_t row = 0; row < build.grid.rows; ++row) {
+        entries += scratch_->rows[row].lists.entries.size();
+        cells += scratch_->rows[row].lists.cells.size();
+    }
+    if (isLongEnough(input.normalTest, entries, cells)) {
         const NormalPicture normals = input.readNormals();
-        const SurfacePictures pictures{input.opaque.depth, normals, build.grid.sizePixels.x};
+        const NormalCulling culling(input, build.grid, normals);
         tbb::parallel_for(0u, build.grid.rows, [&](std::uint32_t row) {
-            build.cullByNormals(pictures, scratch_->depths.data() + row * build.grid.columns, row, opaque[row]);
+            culling.cull(row, {scratch_->depths.data() + std::size_t(row) * build.grid.columns, build.grid.columns},
+                         scratch_->rows[row].lists);
         });
     }
     joinRows(build, scratch_->spans.everywhere(), scratch_->rows, lists);

@@ -22,7 +22,7 @@ struct DepthPicture {
 
 /// How stored normals are written in words.
 enum class NormalForm : std::uint8_t {
-    Cube,       ///< lib/maths/normal_code.glsl, from bit 0
+    Code,       ///< lib/maths/normal_code.glsl, from bit 0
     Octahedral, ///< two coordinates
     Vector      ///< x, y, z in fp32
 };
@@ -31,7 +31,7 @@ enum class NormalForm : std::uint8_t {
 struct NormalPicture {
     std::span<const std::uint32_t> words;
     std::size_t wordsAPixel = 2;
-    NormalForm form = NormalForm::Cube;
+    NormalForm form = NormalForm::Code;
     unsigned bit = 0, width = 0;         ///< octahedral: of the first coordinate, and of both
     glm::mat3 cullingFromLighting{1.0f}; ///< rotation
 };

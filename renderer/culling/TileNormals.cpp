@@ -32,12 +32,11 @@ struct Words {
 glm::vec3 decodeCube(const std::uint32_t* pixel) {
     constexpr std::uint32_t kMask = (1u << NORMAL_SHARE_BITS) - 1u;
     const std::uint32_t second = pixel[0] >> NORMAL_SHARE_BITS | pixel[1] << (32 - NORMAL_SHARE_BITS);
-    const std::uint32_t axis = pixel[1] >> (2 * NORMAL_SHARE_BITS - 32) & 7u;
+    const std::uint32_t axis = pixel[1] >> (2 * NORMAL_SHARE_BITS - 32) & ((1u << NORMAL_AXIS_BITS) - 1u);
     return shared::directionOfShares(glm::uvec2(pixel[0] & kMask, second & kMask), axis) * (1.0f / NORMAL_SHARE_STEPS);
 }
 glm::vec3 decodeOctahedral(const Words& words) {
-    const int middle = int((1u << words.width) - 1u) / 2;
-    const auto coordinate = [&](unsigned bit) { return float(int(words.field(bit)) - middle) / float(middle); };
+    const auto coordinate = [&](unsigned bit) { return shared::decodeSigned(words.field(bit), int(words.width)); };
     return shared::directionOfOctahedral({coordinate(words.bit), coordinate(words.bit + words.width)});
 }
 glm::vec3 decodeVector(const std::uint32_t* pixel) {
@@ -58,7 +57,7 @@ void decodeLine(const NormalPicture& normals, std::size_t first, std::size_t cou
 
 void decodeLine(const NormalPicture& normals, std::size_t first, std::size_t count, Direction* to) {
     switch (normals.form) {
-    case NormalForm::Cube:
+    case NormalForm::Code:
         return decodeLine(normals, first, count, to, [](const std::uint32_t* pixel) { return decodeCube(pixel); });
     case NormalForm::Octahedral:
         return decodeLine(normals, first, count, to, [&](const std::uint32_t* pixel) {
@@ -69,7 +68,7 @@ void decodeLine(const NormalPicture& normals, std::size_t first, std::size_t cou
     }
 }
 
-struct Bounds {
+struct Extremes {
     Direction low, high;
 
     void clear() {
@@ -82,7 +81,7 @@ struct Bounds {
             high[k] = std::max(high[k], n[k]);
         }
     }
-    shared::NormalBox box() const { return {{low[0], low[1], low[2], 0.0f}, {high[0], high[1], high[2], 0.0f}}; }
+    NormalBounds bounds() const { return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}; }
 };
 
 /// Calls add(depth, normal) for each pixel of the tile that shows a surface.
@@ -100,26 +99,26 @@ void eachSurface(const SurfacePictures& pictures, const PixelRect& tile, Add&& a
 
 } // namespace
 
-void findNormals(const SurfacePictures& pictures, const PixelRect& tile, std::vector<shared::NormalBox>& boxes) {
-    Bounds bounds;
-    bounds.clear();
-    eachSurface(pictures, tile, [&](float, const Direction& n) { bounds.add(n); });
-    boxes.assign(1, bounds.box());
+void findNormals(const SurfacePictures& pictures, const PixelRect& tile, std::vector<NormalBounds>& bounds) {
+    Extremes all;
+    all.clear();
+    eachSurface(pictures, tile, [&](float, const Direction& n) { all.add(n); });
+    bounds.assign(1, all.bounds());
 }
 
 void findNormalsBySlice(const SurfacePictures& pictures, const PixelRect& tile, const TileDepths& depths,
-                        float depthBias, std::vector<shared::NormalBox>& boxes) {
-    std::array<Bounds, LIGHT_TILE_SLICES> bounds;
+                        float depthBias, std::vector<NormalBounds>& bounds) {
+    std::array<Extremes, LIGHT_TILE_SLICES> slices;
     const auto eachSlice = [&](auto&& visit) {
         for (std::uint64_t rest = depths.slices; rest != 0; rest &= rest - 1)
-            visit(bounds[std::size_t(std::countr_zero(rest))]);
+            visit(slices[std::size_t(std::countr_zero(rest))]);
     };
-    eachSlice([](Bounds& slice) { slice.clear(); });
+    eachSlice([](Extremes& slice) { slice.clear(); });
     eachSurface(pictures, tile, [&](float depth, const Direction& n) {
-        bounds[shared::sliceOfKey(std::bit_cast<std::uint32_t>(depthBias + depth), depths.slicing)].add(n);
+        slices[shared::sliceOfKey(std::bit_cast<std::uint32_t>(depthBias + depth), depths.slicing)].add(n);
     });
-    boxes.clear();
-    eachSlice([&](const Bounds& slice) { boxes.push_back(slice.box()); });
+    bounds.clear();
+    eachSlice([&](const Extremes& slice) { bounds.push_back(slice.bounds()); });
 }
 
 } // namespace tessera::culling

@@ -35,7 +35,11 @@ void setBit(std::uint32_t* mask, std::size_t bit) {
     mask[bit / kBits] |= 1u << (bit % kBits);
 }
 
-/// Metres ahead of the origin of lighting space between which bin `index` lies.
+struct DepthRun {
+    float nearMetres, farMetres; ///< ahead of the origin of lighting space
+};
+
+/// Between which bin `index` lies.
 DepthRun binDepths(const Bins& bins, std::uint32_t index, const FrameConstants& frame) {
     const glm::vec2 depths = shared::depthsOfSlices(bins.slicing, index, index, frame.view.depthKey.x);
     return {shared::aheadMetres(frame.view.aheadFromDepth, depths.y),

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "shaders/shared/material.h"
+#include "shaders/shared/normals.h"
 
 namespace tessera::frame {
 
@@ -119,8 +120,19 @@ constexpr ChannelInfo kChannels[] = {
      [](const FeatureSet&, bool normalTexel) { return normalTexel; }},
 };
 static_assert(std::size(kChannels) == kChannelCount);
-// Light culling reads normals back from the first texture of words, which has two or more unless it holds the last.
-static_assert(kChannels[0].channel == Channel::Albedo && kChannels[1].channel == Channel::Normal);
+
+/// Bits of the words up to the end of the normal.
+constexpr int bitsUpToNormal(FieldWidths ChannelInfo::*widths) {
+    int bits = 0;
+    for (const ChannelInfo& row : kChannels) {
+        for (const int width : row.*widths) bits += width;
+        if (row.channel == Channel::Normal) break;
+    }
+    return bits;
+}
+// Light culling reads normals back from the first texture of words: of one, if there are no more, of two, or of four.
+static_assert(std::max(bitsUpToNormal(&ChannelInfo::packed), bitsUpToNormal(&ChannelInfo::slim)) <= 64);
+
 // One exponent serves three colours of one width; with more bits than 7 it would leave fp32's range.
 static_assert(std::ranges::all_of(kChannels, [](const ChannelInfo& row) {
     const auto isGood = [](const FieldWidths& widths) {
@@ -191,7 +203,7 @@ bool contain(std::span<const Channel> channels, Channel channel) {
 }
 
 /// Of the normal where pixels hold the number of their material: the code that all techniques light, and the number.
-constexpr FieldWidths kNormalAndNumber{25, 25, 3, 11}; // shaders/lib/maths/normal_code.glsl
+constexpr FieldWidths kNormalAndNumber{NORMAL_SHARE_BITS, NORMAL_SHARE_BITS, NORMAL_AXIS_BITS, 11};
 static_assert(MATERIAL_TABLE_MOST <= 1 << kNormalAndNumber[3]);
 
 /// The fields of a channel in words; all 0 if it has a texture of its own.

@@ -124,42 +124,6 @@ SHARED_FUNCTION bool lightTouchesBox(CullLight light, CellBox box) {
     return !hasCone(light) || coneTouchesBox(light, box);
 }
 
-// The bounds of the normals of some surfaces, which may be of any length up to that of a cube's half diagonal.
-struct NormalBox {
-    vec4 low;  // xyz in culling space
-    vec4 high; // xyz in culling space
-};
-
-// How far normals of a cell may see behind the plane through the cell's middle, as a length along them: with m its
-// middle and h half its size, n.(l - p) = n.(l - m) - n.(p - m), of which the last is at most |n|.h. The rest is for
-// rounding, 1e-7 of each coordinate a few times over.
-SHARED_FUNCTION float normalReach(CellBox box, NormalBox normals) {
-    SHARED_PRECISE vec3 halfSize = 0.5f * (vec3(box.high) - vec3(box.low));
-    SHARED_PRECISE vec3 farthest = max(abs(vec3(box.low)), abs(vec3(box.high)));
-    SHARED_PRECISE vec3 longest = max(abs(vec3(normals.low)), abs(vec3(normals.high)));
-    SHARED_PRECISE float reach = dot(longest, halfSize) + 4e-6f * (farthest.x + farthest.y + farthest.z);
-    return reach;
-}
-
-// The most that n.(l - m) is for any of the normals, by the three components of l - m.
-SHARED_FUNCTION float mostAlong(float x, float y, float z, NormalBox normals) {
-    SHARED_PRECISE float alongX = max(normals.low.x * x, normals.high.x * x);
-    SHARED_PRECISE float alongY = max(normals.low.y * y, normals.high.y * y);
-    SHARED_PRECISE float alongZ = max(normals.low.z * z, normals.high.z * z);
-    SHARED_PRECISE float along = alongX + alongY + alongZ;
-    return along;
-}
-
-// Where a light that ends somewhere is, xyz, and w how far off that and the surfaces that it reaches may be, times the
-// length of the longest normal. A light and all that it reaches lie within three radii of its sphere's centre. The apex
-// of a cone stands back by its share of the error (CullLights.cpp).
-SHARED_FUNCTION vec4 placeOfLight(CullLight light, vec4 depthKey) {
-    SHARED_PRECISE float error = roundingMargin(3.0f * light.sphere.w + length(vec3(light.sphere)), depthKey);
-    if (!hasCone(light)) return vec4(vec3(light.sphere), 2.0f * error);
-    if (light.apex.w > 0.0f) error += roundingMargin(0.0f, depthKey) / light.apex.w;
-    return vec4(vec3(light.apex), 2.0f * error);
-}
-
 // Metres ahead at a depth-buffer value, by ViewConstants::aheadFromDepth.
 SHARED_FUNCTION float aheadMetres(vec4 aheadFromDepth, float depth) {
     SHARED_PRECISE float metres =

@@ -4,6 +4,7 @@
 
 // Steps of a component from none to all of the largest one: fp32 holds each exactly.
 #define NORMAL_SHARE_BITS 25
+#define NORMAL_AXIS_BITS 3
 #define NORMAL_SHARE_STEPS 16777215.0f
 #define NORMAL_NO_SHARE 16777216
 
@@ -29,6 +30,13 @@ SHARED_FUNCTION vec3 directionOfOctahedral(vec2 p) {
     SHARED_PRECISE float x = z < 0.0f ? (p.x >= 0.0f ? 1.0f - abs(p.y) : abs(p.y) - 1.0f) : p.x;
     SHARED_PRECISE float y = z < 0.0f ? (p.y >= 0.0f ? 1.0f - abs(p.x) : abs(p.x) - 1.0f) : p.y;
     return vec3(x, y, z);
+}
+
+// -1..1 in equal steps, 0 and both ends exactly; of `width` bits.
+SHARED_FUNCTION float decodeSigned(uint code, int width) {
+    int middle = int((1u << width) - 1u) / 2;
+    SHARED_PRECISE float x = float(int(code) - middle) / float(middle);
+    return x;
 }
 
 SHARED_END

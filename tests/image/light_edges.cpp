@@ -146,12 +146,12 @@ void LightEdges::expectSound(std::uint64_t seeds, const std::function<double(std
             SCOPED_TRACE(fmt::format("seed {}, {}, tile {}, {}x{}", seed, infoOf(method.method).name,
                                      *asked.culling.tilePixels, asked.sizePixels.x, asked.sizePixels.y));
             if (ofHorizon) {
-                asked.culling.normals = culling::NormalTest::Everywhere;
+                asked.culling.normals = culling::NormalTest::On;
                 asked.culling.builder = Builder::Cpu;
             }
             const Technique technique = method.techniques[ofHorizon ? 0 : random.index(2)];
             EXPECT_TRUE(renderer.render(technique, asked).radiance == truth);
-            EXPECT_EQ(renderer.downloadLists().culling.normals == culling::NormalTest::Everywhere,
+            EXPECT_EQ(renderer.downloadLists().culling.normals == culling::NormalTest::On,
                       ofHorizon && method.method != Method::Zbin);
             const validation::LightOracleFigures figures = validation::judgeLights(renderer, technique, asked);
             const validation::LightOracleFigures::Pair first =
@@ -224,13 +224,13 @@ TEST_F(LightEdges, lightsInThePlaneOfAWallAreNotMissingFromAnyDistance) {
         settings.sizePixels = {64, 64};
         const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
         lit += std::size_t(std::ranges::count_if(truth, [](float value) { return value > 0.0f && value != 1.0f; }));
-        settings.culling.normals = culling::NormalTest::Everywhere;
+        settings.culling.normals = culling::NormalTest::On;
         settings.culling.builder = Builder::Cpu;
         settings.culling.tilePixels = 8;
         for (const Technique technique : {Technique::TiledDeferred, Technique::ClusteredDeferred}) {
             SCOPED_TRACE(fmt::format("seed {}, {}", seed, infoOf(technique).name));
             EXPECT_TRUE(renderer.render(technique, settings).radiance == truth);
-            EXPECT_EQ(renderer.downloadLists().culling.normals, culling::NormalTest::Everywhere);
+            EXPECT_EQ(renderer.downloadLists().culling.normals, culling::NormalTest::On);
         }
     }
     EXPECT_GT(lit, 50000u) << "lights that light nothing prove nothing";

@@ -50,7 +50,7 @@ protected:
         settings.culling.normals = culling::NormalTest::Off;
         const std::vector<float> truth = renderer.render(technique, settings).radiance;
         const double byReach = double(validation::judgeLights(renderer, technique, settings).evaluated);
-        settings.culling.normals = culling::NormalTest::Everywhere;
+        settings.culling.normals = culling::NormalTest::On;
         EXPECT_TRUE(renderer.render(technique, settings).radiance == truth);
         const validation::LightOracleFigures figures = validation::judgeLights(renderer, technique, settings);
         EXPECT_EQ(figures.falseNegatives, 0u);
@@ -75,7 +75,7 @@ TEST_F(LightNormals, listsAreTighterAroundLitPairs) {
     for (const Bar& bar : kBars) {
         for (const int tile : {8, 16}) {
             frame::FrameSettings settings = normalSettings({1280, 720}, bar.of.method, tile);
-            settings.culling.normals = culling::NormalTest::Everywhere;
+            settings.culling.normals = culling::NormalTest::On;
             const validation::LightOracleFigures figures =
                 validation::judgeLights(renderer, bar.of.technique, settings);
             fmt::print("{}, tile {}: {:.3f} of the lit pairs, {:.3f} of the needed ones\n", infoOf(bar.of.method).name,
@@ -97,7 +97,7 @@ TEST_F(LightNormals, byDefaultOnlyLongListsAreCulledByNormals) {
         };
         const std::size_t byReach = entries(culling::NormalTest::Off), byDefault = entries({});
         EXPECT_EQ(byDefault < byReach, isWorth) << lights;
-        EXPECT_GE(byDefault, entries(culling::NormalTest::Everywhere)) << "which culls short lists as well";
+        EXPECT_GE(byDefault, entries(culling::NormalTest::On)) << "which culls short lists as well";
     }
 }
 
@@ -108,7 +108,7 @@ TEST_F(LightNormals, aCoatIsLitFromBehindTheSurfaceBelowIt) {
     }
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings = normalSettings({160, 90}, Method::Cluster, 8);
-    settings.culling.normals = culling::NormalTest::Everywhere;
+    settings.culling.normals = culling::NormalTest::On;
     renderer.draw(Technique::ClusteredDeferred, settings);
     EXPECT_EQ(renderer.downloadLists().culling.normals, culling::NormalTest::Off);
 }
@@ -117,7 +117,7 @@ TEST_F(LightNormals, theOracleNoticesALitLightThatAListLacks) {
     const scenes::Scene scene = latticeLitBy(64);
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings = normalSettings({160, 90}, Method::TileMinmax, 16);
-    settings.culling.normals = culling::NormalTest::Everywhere;
+    settings.culling.normals = culling::NormalTest::On;
     renderer.draw(Technique::TiledDeferred, settings);
     engine::DrawnLists drawn = renderer.downloadLists();
     const std::vector<float> depth = renderer.downloadDepth();
@@ -179,6 +179,66 @@ TEST_F(LightNormals, everyTileGivesTheSamePicture) {
             EXPECT_LT(visited.byNormals, tile < 64 ? visited.byReach : visited.byReach + 1.0);
         }
     }
+}
+
+/// Without coats, and lit by many lights besides its own.
+scenes::Scene amongLights(scenes::Scene scene, int lights, float rangeMetres) {
+    const scenes::Scene lit = test::litFromWithin(scene, lights, rangeMetres);
+    scene.lights.insert(scene.lights.end(), lit.lights.begin(), lit.lights.end());
+    for (scenes::Material& material : scene.materials) material.clearcoat = 0.0f;
+    return scene;
+}
+
+// Normal maps, directions of gloss, cloth, Phong lobes, surfaces that are not lit and those that let light through.
+TEST_F(LightNormals, everyModelWithoutACoatKeepsItsPicture) {
+    for (const scenes::Scene& scene :
+         {amongLights(test::everythingScene(), 150, 3.0f), amongLights(scenes::loadScene("models"), 150, 3.0f),
+          amongLights(scenes::loadScene("head"), 100, 1.0f)}) {
+        engine::Renderer renderer(context(), scene);
+        for (const NormalMethod& of : kByNormals) {
+            SCOPED_TRACE(fmt::format("{}, {}", scene.name, infoOf(of.method).name));
+            frame::FrameSettings settings = normalSettings({161, 89}, of.method, 8);
+            if (of.method == Method::Tile25d) settings.space = frame::LightingSpace::View;
+            const Visited visited = expectSame(renderer, of.technique, settings);
+            EXPECT_LT(visited.byNormals, 0.99 * visited.byReach);
+        }
+    }
+}
+
+TEST_F(LightNormals, aFrameThatIsNotPrunedExpectsCoatsAndCullsByReach) {
+    const scenes::Scene scene = latticeLitBy(64);
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings = normalSettings({160, 90}, Method::Cluster, 8);
+    settings.culling.normals = culling::NormalTest::On;
+    settings.prune = false;
+    renderer.draw(Technique::ClusteredDeferred, settings);
+    EXPECT_EQ(renderer.downloadLists().culling.normals, culling::NormalTest::Off);
+}
+
+TEST_F(LightNormals, thePlanTellsWhetherNormalsAreLookedAtAndWhy) {
+    const scenes::Scene scene = latticeLitBy(64);
+    const auto told = [&](Technique technique, Method method, std::optional<culling::NormalTest> test,
+                          culling::Builder builder = culling::Builder::Cpu) {
+        frame::FrameSettings settings = normalSettings({160, 90}, method, 8);
+        settings.softwareBackend = true;
+        settings.culling.normals = test;
+        settings.culling.builder = builder;
+        for (const graph::Plan::Choice& choice : engine::planFrame(scene, technique, settings).choices)
+            if (choice.what == "cull by normals") return choice.chosen + ": " + choice.why;
+        return std::string("nothing");
+    };
+    using culling::NormalTest;
+    EXPECT_EQ(told(Technique::TiledDeferred, Method::TileMinmax, {}),
+              "where_worth: read back where lists hold 12 lights or more on average");
+    EXPECT_EQ(told(Technique::TiledDeferred, Method::TileMinmax, NormalTest::On),
+              "on: chosen by the setting cull-normals; automatic restores the default");
+    EXPECT_EQ(told(Technique::ClusteredDeferred, Method::Zbin, NormalTest::On),
+              "off: the bitmasks of zbin are of all a tile or a bin shows");
+    EXPECT_EQ(told(Technique::ForwardPlus, Method::TileMinmax, {}),
+              "off: the technique stores no normals before it builds lists");
+    EXPECT_EQ(told(Technique::TiledDeferred, Method::TileMinmax, NormalTest::On, culling::Builder::Compute),
+              "off: only the builder cpu reads normals");
+    EXPECT_EQ(told(Technique::TiledDeferred, Method::None, NormalTest::On), "nothing");
 }
 
 void LightNormals::expectSoundScenes() {

@@ -82,6 +82,21 @@ TEST_F(SeveralViews, viewsMayDifferInTechniqueSizeSamplesAndWhoBuildsTheirLists)
     expectEqual(scene, {fragment, compute, zbin, volumes});
 }
 
+TEST_F(SeveralViews, eachViewsListsAreCulledByItsOwnNormals) {
+    scenes::LoadOptions options;
+    options.lights = 200;
+    const scenes::Scene scene = withTwoCameras(scenes::loadScene("lattice", options));
+    std::vector<View> views{view(Technique::ClusteredDeferred, 0, {97, 55}),
+                            view(Technique::ClusteredDeferred, 1, {64, 48}),
+                            view(Technique::TiledDeferred, 1, {97, 55})};
+    for (View& each : views) {
+        each.settings.culling.builder = culling::Builder::Cpu;
+        each.settings.culling.normals = culling::NormalTest::On;
+    }
+    views[1].settings.culling.normals = culling::NormalTest::Off;
+    expectEqual(scene, views);
+}
+
 TEST_F(SeveralViews, aDrawnFrameSharesMemoryAsItsPlanSays) {
     const scenes::Scene scene = withTwoCameras(scenes::loadScene("hall"));
     const std::vector<View> views{view(Technique::Deferred, 0, {96, 54}), view(Technique::Deferred, 1, {96, 54})};

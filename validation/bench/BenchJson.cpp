@@ -99,7 +99,8 @@ BenchResult resultFrom(const Json& json) {
     read(json, "tile", result.key.tilePixels);
     read(json, "layout", result.key.layout);
     read(json, "range", result.key.rangeTolerance);
-    if (!json.at("cullOn").is_null()) read(json, "cullOn", result.builder);
+    read(json, "cullOn", result.builder);
+    read(json, "cullNormals", result.normalTest);
     result.times.cpuMs = spreadFrom(json.at("cpuMs")).value();
     result.times.gpuMs = spreadFrom(json.at("gpuMs"));
     for (const Json& pass : json.at("passes")) {
@@ -155,14 +156,15 @@ Json pointJson(const BenchGroup& group, const BenchResult& result, std::optional
     for (const PassTime& pass : result.times.passes)
         passes.push_back({{"name", pass.name}, {"gpuMs", orNull(pass.gpuMs)}});
     std::map<std::string, std::string> why = result.why;
-    if (!result.key.tilePixels) why["tile"] = why["cullOn"] = "no light lists";
+    if (!result.key.tilePixels) why["tile"] = why["cullOn"] = why["cullNormals"] = "no light lists";
     if (!result.error && !why.contains("error")) why["error"] = "not measured yet";
     if (!pareto) why["pareto"] = result.error ? "the error could not be measured" : why["error"];
     return {{"scene", group.scene},
             {"technique", result.key.technique},
             {"culling", result.key.culling},
             {"tile", orNull(result.key.tilePixels)},
-            {"cullOn", result.builder.empty() ? Json(nullptr) : Json(result.builder)},
+            {"cullOn", orNull(result.builder)},
+            {"cullNormals", orNull(result.normalTest)},
             {"layout", result.key.layout},
             {"range", result.key.rangeTolerance},
             {"lights", group.lights},

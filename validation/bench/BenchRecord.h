@@ -21,7 +21,7 @@ struct BenchRecord {
 
 /// Since 2 `error`, `pareto`, `range`, `attribution`, `scaling` and `recommendations` are measured; since 3 the lower
 /// bound of lit pairs, its 95th percentiles and its rounds.
-inline constexpr int kBenchSchema = 3;
+inline constexpr int kBenchSchema = 4;
 
 std::string benchJson(const BenchRecord& record);  ///< the `bench` record of the command line's documentation
 std::string benchCsv(const BenchRecord& record);   ///< its points, one per line; RFC 4180

@@ -49,7 +49,7 @@ struct BenchError {
 
 struct BenchResult {
     PointKey key;
-    std::string builder; ///< of the light lists; empty without
+    std::optional<std::string> builder, normalTest; ///< of light lists
     PointTimes times;
     BenchCounters counters;
     std::optional<double> floorMs, ratioToFloor;       ///< of all needed evaluations

@@ -55,8 +55,10 @@ void countPoint(engine::Renderer& renderer, const BenchPoint& point, BenchResult
     LightOracleFigures oracle = judgeLights(renderer, point.technique, point.settings);
     const frame::PreparedView prepared = engine::prepareView(renderer.scene(), point.technique, point.settings);
     const graph::Plan plan = engine::planFrame(renderer.scene(), point.technique, point.settings);
-    if (prepared.spec.culling.method != culling::Method::None)
+    if (prepared.spec.culling.method != culling::Method::None) {
         result.builder = infoOf(prepared.spec.culling.builder).name;
+        result.normalTest = infoOf(prepared.spec.culling.normals).name;
+    }
 
     BenchCounters& counters = result.counters;
     counters.fragments = oracle.covered;

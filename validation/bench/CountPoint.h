@@ -5,7 +5,8 @@
 
 namespace tessera::validation {
 
-/// Fills the counters and the builder of a point's result, by the oracle and by drawing. Throws what drawing throws.
+/// Fills the counters of a point's result and how its lists are built, by the oracle and by drawing. Throws what
+/// drawing throws.
 void countPoint(engine::Renderer& renderer, const BenchPoint& point, BenchResult& result);
 
 } // namespace tessera::validation

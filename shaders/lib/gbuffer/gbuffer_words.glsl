@@ -3,6 +3,7 @@
 // a whole step off.
 #pragma once
 #include "lib/gbuffer/gbuffer_dither.glsl"
+#include "shared/normals.h"
 
 uint gbufferWords[GBUFFER_WORDS > 0 ? GBUFFER_WORDS : 1];
 int gbufferBit; // where the next field begins
@@ -43,17 +44,10 @@ float decodeShare(uint code, uint steps)
     return x;
 }
 
-// -1..1 in equal steps, 0 and both ends exactly.
+// Of shared/normals.h's decodeSigned().
 uint encodeSigned(float x, int width, int field)
 {
     return encodeShare(0.5 * x + 0.5, largestCode(width) - 1u, field);
-}
-
-float decodeSigned(uint code, int width)
-{
-    int middle = int(largestCode(width) >> 1);
-    precise float x = float(int(code) - middle) / float(middle);
-    return x;
 }
 
 // A float >= 0 by the topmost bits below its sign: 8 of exponent, then mantissa.

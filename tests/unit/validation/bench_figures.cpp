@@ -193,12 +193,14 @@ TEST(BenchJson, aGroupComesBackFromItsJsonDigitForDigit) {
     group.results[1].key.tilePixels = 16;
     group.results[1].key.rangeTolerance = 0.1;
     group.results[1].builder = "cpu";
+    group.results[1].normalTest = "where_worth";
     group.pictures = {{"forward, exact", {"forward, exact"}, "a.png", "b.png", 0xfedcba9876543210ull}};
     const nlohmann::ordered_json json = groupJson(group);
     const BenchGroup back = groupFromJson(nlohmann::ordered_json::parse(json.dump()));
     EXPECT_EQ(groupJson(back), json);
     EXPECT_EQ(back.results[1].key, group.results[1].key);
     EXPECT_EQ(back.results[1].builder, "cpu");
+    EXPECT_EQ(back.results[1].normalTest, "where_worth");
     EXPECT_EQ(back.results[0].times.cpuMs.median, 100.0 / 3.0);
     EXPECT_EQ(back.pictures[0].hash, 0xfedcba9876543210ull);
     EXPECT_EQ(back.lowerBound.stores[0].nsPerPair, 1.0 / 7.0);
@@ -222,7 +224,7 @@ TEST(BenchCsv, everyPointIsOneLineOfAsManyFields) {
     record.groups = {madeUpGroup(10, {madeUpResult("forward", 10, {}), madeUpResult("deferred", 5, 1e-9)})};
     record.groups[0].scene = "my \"own\", scene.json";
     const std::string csv = benchCsv(record);
-    EXPECT_THAT(csv, HasSubstr("\r\n\"my \"\"own\"\", scene.json\",forward,none,,,exact,0,10,64,32,10,"));
+    EXPECT_THAT(csv, HasSubstr("\r\n\"my \"\"own\"\", scene.json\",forward,none,,,,exact,0,10,64,32,10,"));
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
     const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
     EXPECT_EQ(commas(csv.substr(0, csv.find('\r'))) + 1, // one within the quoted name

@@ -1,0 +1,35 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "renderer/culling/TileDepths.h"
+
+namespace tessera::culling {
+
+/// The lists of a row of tiles: of each cell the first entry, counted from the row's first, and how many.
+struct RowLists {
+    std::vector<glm::uvec2> cells;
+    std::vector<std::uint32_t> entries; ///< numbers of lights
+};
+
+/// Whether the lists of all cells together have so many entries that looking at normals pays, or is asked for.
+bool isLongEnough(NormalTest test, std::size_t entries, std::size_t cells);
+
+/// Takes lights from the lists of cells of which they stand behind all surfaces, and so change none.
+class NormalCulling {
+public:
+    /// Of lists that isLongEnough(). All of the arguments must outlive it.
+    NormalCulling(const BuildInput& input, const TileGrid& grid, const NormalPicture& normals);
+
+    /// Of a row of tiles, whose depths are given by column. Rows may be culled at the same time.
+    void cull(std::uint32_t tileRow, std::span<const TileDepths> tiles, RowLists& lists) const;
+
+private:
+    const BuildInput& input_;
+    const TileGrid& grid_;
+    const NormalPicture& normals_;
+    std::vector<glm::vec4> lights_; ///< position in culling space, and how far off it and what it lights may be
+};
+
+} // namespace tessera::culling
