@@ -8,7 +8,7 @@
 #include "engine/ChooseSamples.h"
 #include "engine/PrepareView.h"
 #include "engine/Renderer.h"
-#include "renderer/frame/LightBuffers.h"
+#include "renderer/frame/LightBuffer.h"
 #include "renderer/frame/RefineLayout.h"
 #include "scenes/InUse.h"
 

@@ -55,7 +55,7 @@ struct ViewWiring {
         const UploadViewPass::Outputs uploaded = UploadViewPass::add(graph, drawn);
         surfaces = {drawn, frame.scene, {uploaded.constants}, uploaded.rows, uploaded.commands, {}};
         const UploadLightsPass::Outputs lights = UploadLightsPass::add(graph, spec, drawn);
-        lighting = {surfaces.view, lights.constants, lights.lights, lights.shapes, frame.scene.materialTable, {}};
+        lighting = {surfaces.view, lights.constants, lights.lights, frame.scene.materialTable, {}};
     }
 
     bool hasLightLists() const { return spec.culling.method != Method::None; }

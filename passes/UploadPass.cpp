@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "passes/ListRoom.h"
-#include "renderer/frame/LightBuffers.h"
+#include "renderer/frame/LightBuffer.h"
 
 namespace tessera::passes {
 
@@ -14,12 +14,6 @@ namespace {
 template <typename Value>
 void upload(const graph::PassContext& context, graph::BufferHandle handle, const std::vector<Value>& values) {
     context.allocate(handle, values.size() * sizeof(Value)).upload(values);
-}
-
-/// A buffer of so many values; the number changes with the view's visible draws.
-template <typename Value>
-graph::BufferDesc growing(std::size_t count) {
-    return {std::max<std::size_t>(count, 1) * sizeof(Value), true};
 }
 
 } // namespace
@@ -45,16 +39,14 @@ UploadLightsPass::Outputs UploadLightsPass::add(graph::Graph& graph, const frame
         "lights",
         [&](graph::PassBuilder& pass, Outputs& out) {
             out.constants = pass.create("lighting", {sizeof(shared::LightingConstants)}, Access::Upload);
-            out.lights = pass.create("lights", growing<shared::LightTexels>(spec.lights), Access::Upload);
-            if (spec.features.lightShapes())
-                out.shapes =
-                    pass.create("light_shapes", growing<shared::LightShapeTexels>(spec.lights), Access::Upload);
+            out.lights =
+                pass.create("lights", {frame::lightBytes(spec.features, std::max<std::size_t>(spec.lights, 1)), true},
+                            Access::Upload);
         },
         [drawn](const Outputs& out, const graph::PassContext& context) {
             const frame::PreparedView& view = drawn->prepared;
             context.buffer(out.constants).uploadValue(view.lighting);
-            context.buffer(out.lights).upload(view.lights.texels);
-            if (out.shapes) context.buffer(*out.shapes).upload(view.lights.shapes);
+            context.buffer(out.lights).upload(frame::texelsOf(view.lights, view.spec.features));
         });
 }
 

@@ -14,12 +14,11 @@ struct UploadViewPass {
 };
 
 /// Puts a view's lights on the GPU.
-/// Writes  light texels and shapes (shaders/shared/light.h), and the constants of lighting
+/// Writes  light texels (shaders/shared/light.h), and the constants of lighting
 /// Space   lighting space
 struct UploadLightsPass {
     struct Outputs {
         graph::BufferHandle constants, lights;
-        std::optional<graph::BufferHandle> shapes; ///< where a light has a shape
     };
     static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const frame::DrawnView* drawn);
 };

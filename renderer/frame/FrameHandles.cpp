@@ -92,7 +92,6 @@ LightingInputs LightingInputs::read(graph::PassBuilder& pass) const {
     LightingInputs result{view.read(pass),
                           pass.read(constants, Access::UniformRead),
                           pass.read(lights, Access::TexelRead),
-                          readWhereThere(pass, shapes, Access::TexelRead),
                           readWhereThere(pass, materialTable, Access::TexelRead),
                           {}};
     if (lists) result.lists = lists->read(pass);
@@ -103,7 +102,6 @@ void LightingInputs::bind(const graph::PassContext& context) const {
     view.bind(context);
     gpu::bindUniformBuffer(UNIFORM_LIGHTING, context.buffer(constants), 0, sizeof(shared::LightingConstants));
     bindTexels(context, TEXTURE_UNIT_LIGHTS, lights, Format::Rgba32Float);
-    if (shapes) bindTexels(context, TEXTURE_UNIT_LIGHT_SHAPES, *shapes, Format::Rgba32Float);
     if (materialTable) bindTexels(context, TEXTURE_UNIT_MATERIALS, *materialTable, Format::Rgba32Uint);
     if (lists) lists->bind(context);
 }

@@ -85,8 +85,7 @@ inline constexpr const char* kLightEntriesName = "light_entries";
 struct LightingInputs {
     ViewHandles view;
     graph::BufferHandle constants;                    ///< shared::LightingConstants
-    graph::BufferHandle lights;                       ///< shared::LightTexels each
-    std::optional<graph::BufferHandle> shapes;        ///< shared::LightShapeTexels each, where a light has a shape
+    graph::BufferHandle lights;                       ///< texels (shaders/shared/light.h)
     std::optional<graph::BufferHandle> materialTable; ///< where surfaces hold their material's number
     std::optional<LightListHandles> lists;            ///< where FrameSpec::culling asks for them
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "renderer/frame/LightBuffers.h"
+#include "renderer/frame/LightBuffer.h"
 #include "renderer/frame/LightRounds.h"
 #include "renderer/frame/RefineLayout.h"
 #include "scenes/InUse.h"

@@ -1,7 +1,7 @@
 #pragma once
-// A light as RGBA32F texels of two buffer textures. Buffer textures, because they are the fastest store
-// measured on software rasterisers (2 to 3 times faster per pair of light and pixel than a storage buffer) and have no
-// 64 KiB limit.
+// A light as RGBA32F texels of a buffer texture: its LightTexels and, where any light has a shape, its LightShapeTexels
+// behind them. A buffer texture, because it is the fastest store measured on software rasterisers (2 to 3 times faster
+// per pair of light and pixel than a storage buffer) and has no 64 KiB limit.
 #include "interop.h"
 
 // Kinds, stored as plain numbers: small integers stored as float bits would be denormals, which hardware may flush. The
@@ -15,7 +15,7 @@
 
 SHARED_BEGIN
 
-// The data of every kind of light. Kept apart from data of few kinds, so that twice as many lights fit a cache.
+// The data of every kind of light.
 struct LightTexels {
     vec4 position; // xyz position LS in metres (types without one: unit direction to the light); w 1/range^2, 0 when
                    // infinite

@@ -41,7 +41,6 @@ SHARED_BEGIN
 // What lights, in forward and deferred alike. Tiles and cells of light lists are storage blocks: a pixel reads one of
 // each, where it reads lights and entries in its loop. Deferred has a unit left for the tiles.
 #define TEXTURE_UNIT_LIGHTS 13
-#define TEXTURE_UNIT_LIGHT_SHAPES 14
 #define TEXTURE_UNIT_LIGHT_ENTRIES 15
 
 // What draws surfaces: the slots of scenes::TextureSlot, whose numbers TEXTURE_SLOT_<NAME> follow from its table

@@ -6,7 +6,7 @@
 
 #include "engine/ChooseCulling.h"
 #include "engine/PrepareView.h"
-#include "renderer/frame/LightBuffers.h"
+#include "renderer/frame/LightBuffer.h"
 #include "scenes/Fingerprint.h"
 
 namespace tessera::validation {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "renderer/frame/LightBuffers.h"
+#include "renderer/frame/LightBuffer.h"
 
 namespace tessera::validation {
 

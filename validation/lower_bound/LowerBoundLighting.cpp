@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "renderer/frame/CameraView.h"
+#include "renderer/frame/LightBuffer.h"
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/slots.h"
 
@@ -38,6 +39,8 @@ LowerBoundLighting::LowerBoundLighting(shader::ProgramLibrary& programs, const f
       lights_("lower bound lights", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightTexels), gpu::BufferUse::Dynamic),
       shapes_("lower bound light shapes", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightShapeTexels),
               gpu::BufferUse::Dynamic),
+      texels_("lower bound light texels", frame::lightBytes(spec.features, LIGHT_UNIFORM_LIGHTS),
+              gpu::BufferUse::Dynamic),
       radiance_("lower bound radiance", spec.texture(graph::Format::Rgba32Float)),
       framebuffer_({{&radiance_}, nullptr}) {
     assert(spec.features.litModels());
@@ -54,6 +57,7 @@ void LowerBoundLighting::setLights(const frame::PackedLights& lights) {
     constants_.uploadValue(constants);
     lights_.upload(lights.texels);
     shapes_.upload(lights.shapes);
+    texels_.upload(frame::texelsOf(lights, spec_.features));
 }
 
 void LowerBoundLighting::bindConstants() const {
@@ -72,8 +76,7 @@ void LowerBoundLighting::bindLights(const LightStoreInfo& store) const {
         gpu::bindStorageBuffer(STORAGE_LIGHT_SHAPES, shapes_);
         break;
     default:
-        gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, lights_.texels(graph::Format::Rgba32Float));
-        gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHT_SHAPES, shapes_.texels(graph::Format::Rgba32Float));
+        gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHTS, texels_.texels(graph::Format::Rgba32Float));
     }
 }
 

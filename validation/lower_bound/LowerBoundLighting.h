@@ -45,7 +45,8 @@ private:
     shader::ProgramLibrary& programs_;
     frame::FrameSpec spec_;
     gpu::Buffer view_, constants_;
-    gpu::Buffer lights_, shapes_; ///< the same buffers for every store
+    gpu::Buffer lights_, shapes_,
+        texels_; ///< the same lights for every store; those of the product's are in one buffer
     gpu::Texture radiance_;
     gpu::Framebuffer framebuffer_;
 };

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "renderer/frame/LightBuffers.h"
+#include "renderer/frame/LightBuffer.h"
 #include "validation/reference/LightAt.h"
 #include "validation/stress/StressCase.h"
 #include "validation/stress/StressRandom.h"
@@ -87,8 +87,8 @@ void measure(StressBench& bench, const std::vector<Light>& lights, const std::ve
     // The eye is the world's origin, so that world and lighting space are one.
     const frame::CameraView view =
         frame::makeCameraView(scenes::Camera{}, {64, 64}, frame::LightingSpace::World, glm::vec3(0.0f));
-    const frame::LightBuffers buffers(frame::packLights(scene, view, settings));
-    buffers.bind();
+    const frame::LightBuffer buffer(frame::packLights(scene, view, settings), frame::allFeatures());
+    buffer.bind();
     std::vector<glm::vec4> inputs;
     for (const Probe& probe : probes) inputs.emplace_back(probe.positionWS, float(probe.light));
     const std::vector<glm::vec4> out =

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "renderer/frame/LightBuffers.h"
+#include "renderer/frame/LightBuffer.h"
 #include "shaders/bench/lower_bound.h"
 #include "shaders/shared/display.h"
 #include "shaders/shared/frame.h"
@@ -145,8 +145,8 @@ TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexelOfEveryStore) {
                                   &lights.shapes[i].attenuation})
             for (int k = 0; k < 4; ++k) (*member)[k] = next++;
     lights.features.add(frame::featureOf(scenes::LightType::Spot));
-    const frame::LightBuffers buffers(lights);
-    buffers.bind();
+    const frame::LightBuffer buffer(lights, lights.features);
+    buffer.bind();
     const gpu::Buffer texels = gpu::Buffer::of("lights", lights.texels);
     const gpu::Buffer shapes = gpu::Buffer::of("light shapes", lights.shapes);
     gpu::bindUniformBuffer(UNIFORM_LIGHTS, texels);

@@ -2,7 +2,7 @@
 // double.
 #include <gtest/gtest.h>
 
-#include "renderer/frame/LightBuffers.h"
+#include "renderer/frame/LightBuffer.h"
 #include "tests/gpu/shaders/ShaderBench.h"
 #include "tests/support/Random.h"
 
@@ -36,8 +36,8 @@ protected:
         const frame::CameraView view =
             frame::makeCameraView(scenes::Camera{}, {64, 64}, frame::LightingSpace::World, glm::vec3(0.0f));
         const frame::PackedLights packed = frame::packLights(scene, view, settings);
-        const frame::LightBuffers lightBuffers(packed);
-        lightBuffers.bind();
+        const frame::LightBuffer lightBuffer(packed, frame::allFeatures());
+        lightBuffer.bind();
         std::vector<glm::vec4> inputs;
         for (const Probe& probe : probes) inputs.emplace_back(probe.position, float(probe.light));
         const std::vector<glm::vec4> out =

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "renderer/frame/PackedLights.h"
 #include "renderer/gpu/Buffer.h"
@@ -12,14 +13,17 @@ std::size_t lightBytes(const FeatureSet& features, std::size_t count);
 /// Such as "1 light" or "257 lights".
 std::string lightsText(std::size_t count);
 
-/// Lights on the GPU, as shaders/lib/light/light.glsl reads them, for lighting without a render graph.
-class LightBuffers {
+/// What the buffer texture of shaders/lib/light/light_store.glsl holds, where shaders have those features.
+std::vector<glm::vec4> texelsOf(const PackedLights& lights, const FeatureSet& features);
+
+/// The same on the GPU, for lighting without a render graph.
+class LightBuffer {
 public:
-    explicit LightBuffers(const PackedLights& lights);
+    LightBuffer(const PackedLights& lights, const FeatureSet& features);
     void bind() const;
 
 private:
-    gpu::Buffer lights_, shapes_;
+    gpu::Buffer texels_;
 };
 
 } // namespace tessera::frame
