@@ -24,7 +24,7 @@ const char* builderReason(bool softwareBackend) {
 /// Why the lists of a frame hold lights behind their surfaces as well; empty where they need not.
 std::string_view whyNotByNormals(Technique technique, const frame::FeatureSet& features,
                                  const culling::Choice& choice) {
-    if (!infoOf(choice.method).listsCells) return "the bitmasks of zbin are of all a tile or a bin shows";
+    if (!infoOf(choice.method).mayCullByNormals) return "the bitmasks of zbin are of all a tile or a bin shows";
     if (!listsFromGBuffer(technique)) return "the technique stores no normals before it builds lists";
     if (choice.builder != culling::Builder::Cpu) return "only the builder cpu reads normals";
     if (features.litFromBehind())
@@ -70,9 +70,8 @@ culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& s
 std::vector<graph::Plan::Choice> cullingChoices(Technique technique, const frame::FrameSettings& settings,
                                                 const frame::FeatureSet& features, const culling::Choice& choice) {
     if (!hasLightLists(technique)) return {};
-    const auto why = [](bool isSet, std::string_view setting, const char* otherwise) {
-        return isSet ? fmt::format("chosen by the setting {}; automatic restores the default", setting)
-                     : std::string(otherwise);
+    const auto why = [](bool isSet, std::string_view setting, const std::string& otherwise) {
+        return isSet ? fmt::format("chosen by the setting {}; automatic restores the default", setting) : otherwise;
     };
     const bool nothingToCull = choice.method == Method::None && settings.culling.method != Method::None;
     std::vector<graph::Plan::Choice> choices{
@@ -88,7 +87,8 @@ std::vector<graph::Plan::Choice> cullingChoices(Technique technique, const frame
     const std::string_view whyNot = whyNotByNormals(technique, features, choice);
     choices.push_back({"cull by normals", std::string(infoOf(choice.normals).name),
                        whyNot.empty() ? why(settings.culling.normals.has_value(), "cull-normals",
-                                            "read back where lists hold 12 lights or more on average")
+                                            fmt::format("read back where lists hold {} lights or more on average",
+                                                        culling::kLightsWorthNormals))
                                       : std::string(whyNot)});
     return choices;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <iterator>
 
 #include "base/EnumTable.h"
@@ -84,9 +85,12 @@ struct ViewWiring {
     /// stored nowhere before they are lit.
     void addLightLists(TextureHandle depth, TextureHandle opaque, const frame::GBufferHandles* gbuffer) {
         if (!hasLightLists()) return;
-        std::optional<TextureHandle> normals;
-        if (spec.culling.normals != culling::NormalTest::Off)
-            normals = gbuffer->textures[frame::storedNormals(spec.settings.layout, spec.channels)->texture];
+        std::optional<LightListsPass::Normals> normals;
+        if (spec.culling.normals != culling::NormalTest::Off) {
+            assert(gbuffer);
+            const frame::StoredNormals stored = frame::storedNormals(spec.settings.layout, spec.channels).value();
+            normals = {gbuffer->textures[stored.attachment], stored.encoding};
+        }
         const frame::LitDepths depths = litDepths(depth, opaque);
         lighting.lists =
             spec.culling.builder == culling::Builder::Cpu

@@ -129,7 +129,7 @@ void Builder::findDepths() {
         [step = steps.depths, items = tileItems()](const Handles& out, const graph::PassContext& context) {
             requireWritable("light tiles", context.bytes(out.lists.tiles));
             requireReadable("light tiles",
-                            2 * context.bytes(out.lists.tiles) / sizeof(shared::LightTile)); // two texels each
+                            LIGHT_TILE_TEXELS * context.bytes(out.lists.tiles) / sizeof(shared::LightTile));
             out.bindConstants(context);
             out.read.depths.bind(context);
             gpu::bindStorageBuffer(STORAGE_LIGHT_TILES, context.buffer(out.lists.tiles));

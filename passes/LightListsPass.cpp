@@ -1,5 +1,6 @@
 #include "passes/LightListsPass.h"
 
+#include <cassert>
 #include <new>
 
 #include "base/Error.h"
@@ -26,19 +27,16 @@ void upload(const graph::PassContext& context, graph::BufferHandle handle, const
 }
 
 /// The normals of the texture, in `memory`.
-culling::NormalPicture downloadNormals(const frame::FrameSpec& spec, const shared::ViewConstants& view,
-                                       const gpu::Texture& texture, std::vector<std::uint32_t>& memory) {
+culling::NormalPicture downloadNormals(const gpu::Texture& texture, const culling::NormalEncoding& encoding,
+                                       const shared::ViewConstants& view, std::vector<std::uint32_t>& memory) {
     const graph::TextureDesc& desc = texture.desc();
     memory.resize(std::size_t(desc.width) * std::size_t(desc.height) *
                   std::size_t(graph::formatInfo(desc.format).bytes) / sizeof(std::uint32_t));
     texture.downloadInto(0, std::as_writable_bytes(std::span(memory)));
-    culling::NormalPicture normals = frame::storedNormals(spec.settings.layout, spec.channels)->picture;
-    normals.words = memory;
-    normals.wordsAPixel = memory.size() / (std::size_t(desc.width) * std::size_t(desc.height));
     const glm::mat3 lightingFromCulling(glm::normalize(glm::dvec3(view.rayDxLS)),
                                         glm::normalize(glm::dvec3(view.rayDyLS)), glm::dvec3(view.forwardLS));
-    normals.cullingFromLighting = glm::transpose(lightingFromCulling);
-    return normals;
+    return {memory, memory.size() / (std::size_t(desc.width) * std::size_t(desc.height)), encoding,
+            glm::transpose(lightingFromCulling)};
 }
 
 void build(const frame::FrameSpec& spec, const frame::DrawnView& drawn, const LightListsPass::Outputs& out,
@@ -49,14 +47,14 @@ void build(const frame::FrameSpec& spec, const frame::DrawnView& drawn, const Li
     const bool hasTransparent = out.read.depths.transparent.has_value();
     if (hasTransparent) transparent = download(context.texture(*out.read.depths.transparent), memory.transparentDepth);
     const auto readNormals = [&] {
-        return downloadNormals(spec, drawn.prepared.camera.constants, context.texture(*out.read.normals),
-                               memory.normals);
+        return downloadNormals(context.texture(out.read.normals->texture), out.read.normals->encoding,
+                               drawn.prepared.camera.constants, memory.normals);
     };
     try {
         const culling::LightLists& lists =
             memory.builder.build({drawn.prepared.constants(), drawn.prepared.cullLights, spec.culling.method, opaque,
                                   hasTransparent ? &transparent : nullptr, spec.culling.normals, readNormals});
-        requireReadable("light tiles", 2 * lists.tiles.size()); // two texels each
+        requireReadable("light tiles", LIGHT_TILE_TEXELS * lists.tiles.size());
         upload(context, out.lists.tiles, "light tiles", lists.tiles);
         upload(context, out.lists.cells, "light cells", lists.cells);
         makeTexelRoom(context, out.lists.entries, "light entries", lists.entries.size(), graph::Format::R32Uint)
@@ -75,7 +73,10 @@ LightListsPass::Outputs LightListsPass::add(graph::Graph& graph, const frame::Fr
         "light_lists",
         [&](graph::PassBuilder& pass, Outputs& out) {
             out.read.depths = inputs.depths.read(pass, spec, graph::Access::Download);
-            if (inputs.normals) out.read.normals = pass.read(*inputs.normals, graph::Access::Download);
+            assert(inputs.normals.has_value() == (spec.culling.normals != culling::NormalTest::Off));
+            if (inputs.normals)
+                out.read.normals = {pass.read(inputs.normals->texture, graph::Access::Download),
+                                    inputs.normals->encoding};
             out.lists.tiles = pass.create("light_tiles", kGrowing, graph::Access::Upload);
             out.lists.cells = pass.create(frame::kLightCellsName, kGrowing, graph::Access::Upload);
             out.lists.entries = pass.create(frame::kLightEntriesName, kGrowing, graph::Access::Upload);

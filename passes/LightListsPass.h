@@ -10,9 +10,14 @@ namespace tessera::passes {
 /// Source  Harada 2012, "A 2.5D Culling for Forward+"; Olsson 2012, "Clustered Deferred and Forward Shading"; Drobot
 /// 2017, "Improved Culling for Tiled and Clustered Rendering"
 struct LightListsPass {
+    /// The G-buffer's texture with normals.
+    struct Normals {
+        graph::TextureHandle texture;
+        culling::NormalEncoding encoding;
+    };
     struct Inputs {
         frame::LitDepths depths;
-        std::optional<graph::TextureHandle> normals; ///< the G-buffer's, where FrameSpec::culling looks at them
+        std::optional<Normals> normals; ///< where FrameSpec::culling looks at them, and only there
     };
     struct Outputs {
         Inputs read;

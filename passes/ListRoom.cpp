@@ -29,7 +29,7 @@ void requireReadable(const char* what, std::size_t texels) {
     const std::size_t most = gpu::Context::current()->capabilities().maxTextureBufferTexels;
     if (texels > most)
         throw InputError(
-            fmt::format("{} would take {} entries, and this driver reads {}: {}", what, texels, most, kRemedy));
+            fmt::format("{} would take {} texels, and this driver reads {}: {}", what, texels, most, kRemedy));
 }
 
 const gpu::Buffer& makeTexelRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,

@@ -23,13 +23,15 @@ constexpr NormalTestInfo kNormalTests[] = {
     {NormalTest::WhereWorth, "where_worth", "only where lists are long enough to gain from it"},
 };
 
-static_assert(isInOrder(kNormalTests, &NormalTestInfo::test, std::size(kNormalTests)));
-
 constexpr BuilderInfo kBuilders[] = {
     {Builder::Cpu, "cpu", "all cores, from the depth buffer read back"},
     {Builder::Compute, "compute", "compute shaders"},
     {Builder::Fragment, "fragment", "fragment shaders, one fragment a tile"},
 };
+
+static_assert(isInOrder(kMethods, &MethodInfo::method, std::size(kMethods)));
+static_assert(isInOrder(kNormalTests, &NormalTestInfo::test, std::size(kNormalTests)));
+static_assert(isInOrder(kBuilders, &BuilderInfo::builder, std::size(kBuilders)));
 
 } // namespace
 

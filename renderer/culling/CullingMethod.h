@@ -12,8 +12,8 @@ struct MethodInfo {
     Method method;
     std::string_view name;
     std::string_view summary;
-    bool oneListATile; ///< whatever the depth
-    bool listsCells;   ///< a list is of the surfaces of one cell, and may leave out what is behind all of them
+    bool oneListATile;     ///< whatever the depth
+    bool mayCullByNormals; ///< a list is of the surfaces of one cell
 };
 std::span<const MethodInfo> methodTable();
 const MethodInfo& infoOf(Method method);
@@ -37,6 +37,10 @@ struct NormalTestInfo {
 };
 std::span<const NormalTestInfo> normalTestTable();
 const NormalTestInfo& infoOf(NormalTest test);
+
+/// Entries of a list, on average, from which on NormalTest::WhereWorth looks at normals: with fewer, decoding the
+/// normals of a cell takes longer than visiting the lights (lattice, 128 to 4096 lights).
+inline constexpr int kLightsWorthNormals = 12;
 
 /// Tile sides, in pixels.
 inline constexpr int kTileSides[] = {8, 16, 32, 64};

@@ -6,35 +6,12 @@
 #include <vector>
 
 #include "renderer/culling/CullingMethod.h"
+#include "renderer/culling/SurfacePictures.h"
 #include "renderer/culling/TileGrid.h"
 #include "shaders/shared/culling.h"
 #include "shaders/shared/light_lists.h"
 
 namespace tessera::culling {
-
-/// The depths at which a picture's pixels are shaded, rows from the bottom as OpenGL reads them: one value per pixel,
-/// or two when a pixel shades several surfaces (transparent ones, samples). Reverse-Z; a pixel whose nearest depth is 0
-/// has no surface.
-struct DepthPicture {
-    std::span<const float> depth; ///< one per pixel; or two: the nearest, and the farthest negated
-    bool isRange = false;
-};
-
-/// How stored normals are written in words.
-enum class NormalForm : std::uint8_t {
-    Code,       ///< lib/maths/normal_code.glsl, from bit 0
-    Octahedral, ///< two coordinates
-    Vector      ///< x, y, z in fp32
-};
-
-/// The normals with which a picture's pixels are lit, rows from the bottom.
-struct NormalPicture {
-    std::span<const std::uint32_t> words;
-    std::size_t wordsAPixel = 2;
-    NormalForm form = NormalForm::Code;
-    unsigned bit = 0, width = 0;         ///< octahedral: of the first coordinate, and of both
-    glm::mat3 cullingFromLighting{1.0f}; ///< rotation
-};
 
 /// Light lists in CPU memory, as shaders/shared/light_lists.h lays them out.
 struct LightLists {

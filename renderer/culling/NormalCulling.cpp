@@ -1,7 +1,7 @@
 #include "renderer/culling/NormalCulling.h"
 
 #include <algorithm>
-#include <bit>
+#include <cassert>
 #include <utility>
 
 #include "renderer/culling/TileNormals.h"
@@ -10,17 +10,16 @@ namespace tessera::culling {
 
 namespace {
 
-/// Shorter lists cost less to visit than the normals of their cells to decode.
-constexpr std::size_t kLightsWorthNormals = 12;
+constexpr float kLongestNormal = 1.7320509f; ///< a cube's half diagonal, rounded up
 
 /// Where a light that ends somewhere is; w is how far off that and the surfaces that it reaches may be by rounding,
 /// times the length of the longest normal. A light and all that it reaches lie within three radii of its sphere's
 /// centre. The apex of a cone stands back by its share of the error (CullLights.cpp).
 glm::vec4 positionAndError(const shared::CullLight& light, const glm::vec4& depthKey) {
     float error = shared::roundingMargin(3.0f * light.sphere.w + glm::length(glm::vec3(light.sphere)), depthKey);
-    if (!shared::hasCone(light)) return {glm::vec3(light.sphere), 2.0f * error};
+    if (!shared::hasCone(light)) return {glm::vec3(light.sphere), kLongestNormal * error};
     if (light.apex.w > 0.0f) error += shared::roundingMargin(0.0f, depthKey) / light.apex.w;
-    return {glm::vec3(light.apex), 2.0f * error};
+    return {glm::vec3(light.apex), kLongestNormal * error};
 }
 
 /// What lies in front of the surfaces of a cell. With m its middle, h half its size and p a surface, a normal n sees a
@@ -83,11 +82,12 @@ void keepInFront(const glm::uvec2& run, std::span<const Front> fronts, std::span
 
 bool isLongEnough(NormalTest test, std::size_t entries, std::size_t cells) {
     if (test == NormalTest::Off || entries == 0) return false;
-    return test == NormalTest::On || entries >= kLightsWorthNormals * cells;
+    return test == NormalTest::On || entries >= std::size_t(kLightsWorthNormals) * cells;
 }
 
 NormalCulling::NormalCulling(const BuildInput& input, const TileGrid& grid, const NormalPicture& normals)
     : input_(input), grid_(grid), normals_(normals) {
+    assert(!input.opaque.isRange);
     lights_.reserve(input.lights.size());
     for (const shared::CullLight& light : input.lights)
         lights_.push_back(positionAndError(light, input.frame.view.depthKey));

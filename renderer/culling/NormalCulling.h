@@ -3,15 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "renderer/culling/TileDepths.h"
+#include "renderer/culling/CellBoxes.h"
 
 namespace tessera::culling {
-
-/// The lists of a row of tiles: of each cell the first entry, counted from the row's first, and how many.
-struct RowLists {
-    std::vector<glm::uvec2> cells;
-    std::vector<std::uint32_t> entries; ///< numbers of lights
-};
 
 /// Whether the lists of all cells together have so many entries that looking at normals pays, or is asked for.
 bool isLongEnough(NormalTest test, std::size_t entries, std::size_t cells);

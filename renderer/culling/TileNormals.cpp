@@ -14,30 +14,25 @@ namespace {
 /// x, y, z in culling space; the fourth only lets the compiler take all at once.
 using Direction = std::array<float, 4>;
 
-/// A picture's words and the place of a normal's among a pixel's.
-struct Words {
-    const std::uint32_t* pixel;
-    unsigned bit;
-    unsigned width;
-
-    std::uint32_t field(unsigned first) const {
-        const std::uint32_t* const word = pixel + first / 32;
-        const unsigned low = first % 32;
-        const std::uint64_t both = low + width > 32 ? word[0] | std::uint64_t(word[1]) << 32 : word[0];
-        return std::uint32_t(both >> low) & ((1u << width) - 1u);
-    }
-};
-
-/// In lighting space, no component larger than 1.
-glm::vec3 decodeCube(const std::uint32_t* pixel) {
-    constexpr std::uint32_t kMask = (1u << NORMAL_SHARE_BITS) - 1u;
-    const std::uint32_t second = pixel[0] >> NORMAL_SHARE_BITS | pixel[1] << (32 - NORMAL_SHARE_BITS);
-    const std::uint32_t axis = pixel[1] >> (2 * NORMAL_SHARE_BITS - 32) & ((1u << NORMAL_AXIS_BITS) - 1u);
-    return shared::directionOfShares(glm::uvec2(pixel[0] & kMask, second & kMask), axis) * (1.0f / NORMAL_SHARE_STEPS);
+/// `width` bits of a pixel's words from bit `first` on, in one word or two.
+std::uint32_t field(const std::uint32_t* pixel, unsigned first, unsigned width) {
+    const std::uint32_t* const word = pixel + first / 32;
+    const unsigned low = first % 32;
+    const std::uint64_t both = low + width > 32 ? word[0] | std::uint64_t(word[1]) << 32 : word[0];
+    return std::uint32_t(both >> low) & ((1u << width) - 1u);
 }
-glm::vec3 decodeOctahedral(const Words& words) {
-    const auto coordinate = [&](unsigned bit) { return shared::decodeSigned(words.field(bit), int(words.width)); };
-    return shared::directionOfOctahedral({coordinate(words.bit), coordinate(words.bit + words.width)});
+
+// In lighting space, no component larger than 1.
+glm::vec3 decodeNormalCode(const std::uint32_t* pixel) {
+    const glm::uvec2 shares(field(pixel, 0, NORMAL_SHARE_BITS), field(pixel, NORMAL_SHARE_BITS, NORMAL_SHARE_BITS));
+    const std::uint32_t axis = field(pixel, 2 * NORMAL_SHARE_BITS, NORMAL_AXIS_BITS);
+    return shared::directionOfShares(shares, axis) * (1.0f / NORMAL_SHARE_STEPS);
+}
+glm::vec3 decodeOctahedral(const std::uint32_t* pixel, const NormalEncoding& encoding) {
+    const auto coordinate = [&](unsigned bit) {
+        return shared::decodeSigned(field(pixel, bit, encoding.width), int(encoding.width));
+    };
+    return shared::directionOfOctahedral({coordinate(encoding.bit), coordinate(encoding.bit + encoding.width)});
 }
 glm::vec3 decodeVector(const std::uint32_t* pixel) {
     return {std::bit_cast<float>(pixel[0]), std::bit_cast<float>(pixel[1]), std::bit_cast<float>(pixel[2])};
@@ -56,13 +51,13 @@ void decodeLine(const NormalPicture& normals, std::size_t first, std::size_t cou
 }
 
 void decodeLine(const NormalPicture& normals, std::size_t first, std::size_t count, Direction* to) {
-    switch (normals.form) {
+    switch (normals.encoding.form) {
     case NormalForm::Code:
-        return decodeLine(normals, first, count, to, [](const std::uint32_t* pixel) { return decodeCube(pixel); });
+        return decodeLine(normals, first, count, to,
+                          [](const std::uint32_t* pixel) { return decodeNormalCode(pixel); });
     case NormalForm::Octahedral:
-        return decodeLine(normals, first, count, to, [&](const std::uint32_t* pixel) {
-            return decodeOctahedral({pixel, normals.bit, normals.width});
-        });
+        return decodeLine(normals, first, count, to,
+                          [&](const std::uint32_t* pixel) { return decodeOctahedral(pixel, normals.encoding); });
     case NormalForm::Vector:
         return decodeLine(normals, first, count, to, [](const std::uint32_t* pixel) { return decodeVector(pixel); });
     }

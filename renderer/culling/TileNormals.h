@@ -7,13 +7,6 @@
 
 namespace tessera::culling {
 
-/// One depth and one normal a pixel.
-struct SurfacePictures {
-    std::span<const float> depth; ///< reverse-Z; 0: no surface
-    const NormalPicture& normals;
-    std::size_t widthPixels;
-};
-
 /// Columns and lines of pixels, lines from the bottom; right and top are one beyond.
 struct PixelRect {
     std::size_t left, right, bottom, top;

@@ -123,6 +123,7 @@ void extend(PixelArea& area, const scenes::Box3& boxWS, const glm::dvec3& object
     const auto pixel = [&](const glm::dvec2& place, double more) {
         return glm::ivec2(glm::clamp((place * 0.5 + 0.5) * glm::dvec2(size) + more, glm::dvec2(0.0), glm::dvec2(size)));
     };
+    // A pixel of margin each way, since rasterisers round vertices to parts of one; and `high` is one beyond.
     const PixelArea own{pixel(lowest, -1.0), pixel(highest, 2.0)};
     if (own.empty()) return;
     area = area.empty() ? own : PixelArea{glm::min(area.low, own.low), glm::max(area.high, own.high)};

@@ -73,7 +73,7 @@ struct ViewDraws {
     std::vector<Batch> opaque;
     std::vector<Batch>
         transparent;        ///< one per draw, far to near by the view depth of their boxes' centres, ties by index
-    PixelArea opaquePixels; ///< none beside it shows an opaque surface; by the draws' boxes
+    PixelArea opaquePixels; ///< no pixel outside shows an opaque surface; by the draws' boxes
 };
 /// With `culls` draws whose boxes lie outside the view are left out.
 ViewDraws makeViewDraws(const DrawList& list, const CameraView& view, bool culls);

@@ -180,10 +180,7 @@ constexpr GBufferLayout uniformLayout(Encoding encoding) {
 // derivative is 3/alpha^4, and the variance of a dithered value is at most a quarter of the step's square. At alpha
 // 0.01.
 constexpr LayoutInfo kLayouts[] = {
-    {"exact",
-     "fp32 everywhere; deferred equals forward to the last bit",
-     uniformLayout(Encoding::Exact),
-     {0.0, 0.0, 0.0}},
+    {"exact", "what forward lights, to the last bit", uniformLayout(Encoding::Exact), {0.0, 0.0, 0.0}},
     {"packed",
      "8 to 16 bytes a pixel and depth for isotropic scenes; relMse below 1e-4",
      uniformLayout(Encoding::Packed),
@@ -216,10 +213,34 @@ int bitsOf(const FieldWidths& fields) {
     return std::accumulate(fields.begin(), fields.end(), 0);
 }
 
-int wordsOf(const GBufferLayout& layout, std::span<const Channel> channels) {
+/// Where pixels hold a channel: in a texture of its own, or from a bit of the words on.
+struct Place {
+    Channel channel;
+    FieldWidths fields; ///< in words
+    bool hasOwnTexture;
+    int at; ///< attachment of its own texture, or bit
+};
+struct Places {
+    std::vector<Place> channels;
+    int textures = 0; ///< of channels; those of words follow
+    int words = 0;
+
+    const Place* find(Channel channel) const {
+        const auto found = std::ranges::find(channels, channel, &Place::channel);
+        return found == channels.end() ? nullptr : &*found;
+    }
+};
+Places placesOf(const GBufferLayout& layout, std::span<const Channel> channels) {
+    Places places;
     int bits = 0;
-    for (const Channel channel : channels) bits += bitsOf(fieldsOf(layout, channels, channel));
-    return (bits + 31) / 32;
+    for (const Channel channel : channels) {
+        const FieldWidths fields = fieldsOf(layout, channels, channel);
+        const int width = bitsOf(fields);
+        places.channels.push_back({channel, fields, width == 0, width == 0 ? places.textures++ : bits});
+        bits += width;
+    }
+    places.words = (bits + 31) / 32;
+    return places;
 }
 
 bool canHoldMaterialNumber(const GBufferLayout& layout) {
@@ -268,11 +289,6 @@ const FieldWidths& GBufferLayout::widths(Channel channel) const {
     return (*this)[channel] == Encoding::Packed ? infoOf(channel).packed : infoOf(channel).slim;
 }
 
-int GBufferLayout::bits(Channel channel) const {
-    if ((*this)[channel] == Encoding::Exact) return 8 * graph::formatInfo(Format::Rgba32Float).bytes;
-    return bitsOf(widths(channel));
-}
-
 std::vector<Channel> neededChannels(const FeatureSet& features, const GBufferLayout& layout, bool normalTexel) {
     std::vector<Channel> channels = channelsOfSurfaces(features, layout, normalTexel);
     if (features.litModels() && !features[Feature::VaryingMaterials] && canHoldMaterialNumber(layout))
@@ -286,13 +302,12 @@ bool holdMaterialNumber(const GBufferLayout& layout, std::span<const Channel> ch
 }
 
 std::vector<GBufferTexture> gbufferTextures(const GBufferLayout& layout, std::span<const Channel> channels) {
+    const Places places = placesOf(layout, channels);
     std::vector<GBufferTexture> textures;
-    for (const Channel channel : channels)
-        if (bitsOf(fieldsOf(layout, channels, channel)) == 0)
-            textures.push_back({std::string(infoOf(channel).name), Format::Rgba32Float});
-    const int words = wordsOf(layout, channels);
-    for (int word = 0; word < words;) {
-        const int left = words - word;
+    for (const Place& place : places.channels)
+        if (place.hasOwnTexture) textures.push_back({std::string(infoOf(place.channel).name), Format::Rgba32Float});
+    for (int word = 0; word < places.words;) {
+        const int left = places.words - word;
         const int held = left >= 4 ? 4 : left >= 2 ? 2 : 1;
         textures.push_back({word == 0   ? std::string("words")
                             : held == 1 ? fmt::format("words {}", word)
@@ -313,21 +328,13 @@ int bytesPerPixel(const GBufferLayout& layout, std::span<const Channel> channels
 }
 
 std::optional<StoredNormals> storedNormals(const GBufferLayout& layout, std::span<const Channel> channels) {
-    const auto isExact = [&](Channel channel) { return bitsOf(fieldsOf(layout, channels, channel)) == 0; };
-    const auto normal = std::find(channels.begin(), channels.end(), Channel::Normal);
-    if (normal == channels.end()) return {};
-    const std::span<const Channel> before(channels.begin(), normal);
-    StoredNormals stored;
-    if (isExact(Channel::Normal)) {
-        stored.texture = std::size_t(std::count_if(before.begin(), before.end(), isExact));
-        stored.picture.form = culling::NormalForm::Vector;
-        return stored;
-    }
-    stored.texture = std::size_t(std::count_if(channels.begin(), channels.end(), isExact)); // the first with words
+    const Places places = placesOf(layout, channels);
+    const Place* const normal = places.find(Channel::Normal);
+    if (!normal) return {};
+    if (normal->hasOwnTexture) return StoredNormals{std::size_t(normal->at), {culling::NormalForm::Vector}};
+    StoredNormals stored{std::size_t(places.textures), {}}; // the first with words
     if (holdMaterialNumber(layout, channels)) return stored;
-    for (const Channel channel : before) stored.picture.bit += unsigned(bitsOf(fieldsOf(layout, channels, channel)));
-    stored.picture.form = culling::NormalForm::Octahedral;
-    stored.picture.width = layout.widths(Channel::Normal)[0];
+    stored.encoding = {culling::NormalForm::Octahedral, unsigned(normal->at), normal->fields[0]};
     return stored;
 }
 
@@ -335,24 +342,23 @@ Defines channelDefines(const GBufferLayout& layout, std::span<const Channel> cha
     if (channels.empty()) return {};
     Defines defines;
     std::string list;
-    int attachment = 0, bit = 0;
-    for (const Channel channel : channels) {
-        const std::string name = "GBUFFER_" + std::string(infoOf(channel).define);
-        const FieldWidths w = fieldsOf(layout, channels, channel);
-        const bool isPacked = bitsOf(w) > 0;
-        const int at = isPacked ? std::exchange(bit, bit + bitsOf(w)) : attachment++;
+    const Places places = placesOf(layout, channels);
+    for (const Place& place : places.channels) {
+        const ChannelInfo& info = infoOf(place.channel);
+        const FieldWidths& w = place.fields;
+        const std::string name = "GBUFFER_" + std::string(info.define);
         const std::string widths = fmt::format("{}, {}, {}, {}", w[0], w[1], w[2], w[3]);
-        defines.emplace_back(name, std::to_string(at));
-        if (isPacked) defines.emplace_back(name + "_WIDTHS", widths);
-        const std::string functions = fmt::format("put{0}, take{0}", capitalised(infoOf(channel).name));
+        defines.emplace_back(name, std::to_string(place.at));
+        if (!place.hasOwnTexture) defines.emplace_back(name + "_WIDTHS", widths);
+        const std::string functions = fmt::format("put{0}, take{0}", capitalised(info.name));
         list += list.empty() ? "" : " ";
-        list += isPacked ? fmt::format("PACKED_CHANNEL({}, {}, ivec4({}))", functions, at, widths)
-                         : fmt::format("EXACT_CHANNEL({}, {})", functions, at);
+        list += place.hasOwnTexture ? fmt::format("EXACT_CHANNEL({}, {})", functions, place.at)
+                                    : fmt::format("PACKED_CHANNEL({}, {}, ivec4({}))", functions, place.at, widths);
     }
     defines.emplace_back("GBUFFER_CHANNELS", list);
-    defines.emplace_back("GBUFFER_EXACT_CHANNELS", std::to_string(attachment));
-    defines.emplace_back("GBUFFER_WORDS", std::to_string((bit + 31) / 32));
-    if (bit > 0) defines.emplace_back("GBUFFER_WORD_TEXTURE", std::to_string(attachment));
+    defines.emplace_back("GBUFFER_EXACT_CHANNELS", std::to_string(places.textures));
+    defines.emplace_back("GBUFFER_WORDS", std::to_string(places.words));
+    if (places.words > 0) defines.emplace_back("GBUFFER_WORD_TEXTURE", std::to_string(places.textures));
     if (holdMaterialNumber(layout, channels))
         defines.emplace_back("GBUFFER_MATERIAL_NUMBER", "1");
     else if (contain(channels, Channel::Albedo) && !contain(channels, Channel::Microsurface) &&

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "renderer/culling/LightLists.h"
+#include "renderer/culling/SurfacePictures.h"
 #include "renderer/frame/Features.h"
 #include "renderer/graph/Format.h"
 
@@ -58,7 +58,6 @@ struct GBufferLayout {
 
     Encoding operator[](Channel channel) const { return encoding[static_cast<std::size_t>(channel)]; }
     const FieldWidths& widths(Channel channel) const; ///< of a channel that is not exact
-    int bits(Channel channel) const;                  ///< 128 of an exact one
     bool operator==(const GBufferLayout&) const = default;
 };
 
@@ -78,7 +77,7 @@ struct LayoutInfo {
 };
 /// The named layouts, `exact` first.
 std::span<const LayoutInfo> layoutTable();
-/// The first row: every channel in fp32.
+/// The first row: deferred lights what forward does, to the last bit.
 const LayoutInfo& exactLayout();
 
 /// What the pictures of a layout, named or mixed, are held to: the promise of its coarsest channel.
@@ -107,8 +106,8 @@ int bytesPerPixel(const GBufferLayout& layout, std::span<const Channel> channels
 
 /// Where the normals of surfaces are stored, if they are.
 struct StoredNormals {
-    std::size_t texture = 0;        ///< by attachment
-    culling::NormalPicture picture; ///< form and place of a pixel's normal; the words are not set
+    std::size_t attachment = 0;
+    culling::NormalEncoding encoding;
 };
 std::optional<StoredNormals> storedNormals(const GBufferLayout& layout, std::span<const Channel> channels);
 

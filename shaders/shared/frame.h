@@ -28,7 +28,10 @@ struct ViewConstants {
     uvec4 sizePixels;    // x width, y height of the picture
 };
 
-#define VIEW_CONSTANT_ROWS 21 // vec4 that ViewConstants takes
+// vec4 that the structs take. passes/fullscreen.vert hands all of them to the fragments where the driver is one of
+// Mesa's software rasterisers, which let a vertex shader write 32; OpenGL 4.5 guarantees 16.
+#define VIEW_CONSTANT_ROWS 21
+#define LIGHTING_CONSTANT_ROWS 3
 
 struct LightingConstants {
     uvec4 lights;   // x number of lights, y index of the one that the D, G and F views show, z those that reach
@@ -39,6 +42,8 @@ struct LightingConstants {
 
 #ifdef __cplusplus
 static_assert(sizeof(ViewConstants) == VIEW_CONSTANT_ROWS * sizeof(vec4));
+static_assert(sizeof(LightingConstants) == LIGHTING_CONSTANT_ROWS * sizeof(vec4));
+static_assert(VIEW_CONSTANT_ROWS + LIGHTING_CONSTANT_ROWS < 32, "a place is gl_Position's");
 #endif
 
 SHARED_END

@@ -2,9 +2,10 @@
 // Light lists: which lights a pixel visits. Every culling method builds this one structure, and the light cursor
 // (lib/light/light_cursor.glsl) reads it. The picture is divided into square tiles, tile (0, 0) at its top left; a
 // tile's depth range into at most 64 slices, of which those that hold a surface have a cell each; a cell names a run of
-// entries.
+// entries. A tile of a method with one list a tile names it itself.
 //
-//   tiles    storage block, a LightTile each: first all tiles for opaque surfaces, then all tiles for transparent ones
+//   tiles    a LightTile each: first all tiles for opaque surfaces, then all tiles for transparent ones; a storage
+//            block, and in deferred lighting a buffer texture RG32UI, where a tile of one list takes one fetch
 //   cells    storage block, uvec2 each: x index of the first entry, y number of entries
 //            (zbin: x first word with a bit, y one past the last)
 //   entries  buffer texture R32UI, indices of lights in ascending order; before all runs those of the lights that reach
@@ -17,6 +18,9 @@
 
 #define LIGHT_LAYER_OPAQUE 0
 #define LIGHT_LAYER_TRANSPARENT 1
+
+// Texels of RG32UI that a LightTile is.
+#define LIGHT_TILE_TEXELS 2
 
 // Most depth slices of a tile: its bits fit a LightTile. Most depth bins of a frame.
 #define LIGHT_TILE_SLICES 64u

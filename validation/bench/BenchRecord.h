@@ -20,7 +20,7 @@ struct BenchRecord {
 };
 
 /// Since 2 `error`, `pareto`, `range`, `attribution`, `scaling` and `recommendations` are measured; since 3 the lower
-/// bound of lit pairs, its 95th percentiles and its rounds.
+/// bound of lit pairs, its 95th percentiles and its rounds; since 4 `cullNormals`.
 inline constexpr int kBenchSchema = 4;
 
 std::string benchJson(const BenchRecord& record);  ///< the `bench` record of the command line's documentation

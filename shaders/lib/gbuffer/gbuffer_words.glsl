@@ -44,7 +44,7 @@ float decodeShare(uint code, uint steps)
     return x;
 }
 
-// Of shared/normals.h's decodeSigned().
+// Inverse of decodeSigned() (shared/normals.h).
 uint encodeSigned(float x, int width, int field)
 {
     return encodeShare(0.5 * x + 0.5, largestCode(width) - 1u, field);

@@ -16,7 +16,7 @@
 
 #if LIGHT_CURSOR == LIGHT_CURSOR_LIST || LIGHT_CURSOR == LIGHT_CURSOR_BITS
 #ifdef LIGHT_TILES_IN_TEXELS
-// Two texels a tile. Mesa's software rasteriser reads storage blocks lane by lane.
+// Mesa's software rasteriser reads storage blocks lane by lane.
 layout(binding = TEXTURE_UNIT_LIGHT_TILES) uniform usamplerBuffer lightTileTexels;
 #else
 layout(std430, binding = STORAGE_LIGHT_TILES) readonly buffer LightTiles
@@ -47,12 +47,12 @@ uint lightTileIndex(vec2 pixel)
     return WHERE_LISTED(index);
 }
 
-// The words z and w of the pixel's tile.
-uvec2 lastTileWords(vec2 pixel)
+// The entries of the pixel's tile, where every tile has one list.
+uvec2 runOfTile(vec2 pixel)
 {
     uint index = lightTileIndex(pixel);
 #ifdef LIGHT_TILES_IN_TEXELS
-    return texelFetch(lightTileTexels, int(2u * index + 1u)).xy;
+    return texelFetch(lightTileTexels, int(index) * LIGHT_TILE_TEXELS + 1).xy;
 #else
     return lightTiles[index].words.zw;
 #endif
@@ -62,7 +62,8 @@ uvec4 lightTile(vec2 pixel)
 {
     uint index = lightTileIndex(pixel);
 #ifdef LIGHT_TILES_IN_TEXELS
-    return uvec4(texelFetch(lightTileTexels, int(2u * index)).xy, texelFetch(lightTileTexels, int(2u * index + 1u)).xy);
+    int texel = int(index) * LIGHT_TILE_TEXELS;
+    return uvec4(texelFetch(lightTileTexels, texel).xy, texelFetch(lightTileTexels, texel + 1).xy);
 #else
     return lightTiles[index].words;
 #endif
@@ -110,7 +111,7 @@ bool nextBatch(inout LightCursor cursor, out int light)
 uvec2 lightRun(vec2 pixel, float depth)
 {
 #if ONE_LIST_A_TILE
-    return lastTileWords(pixel);
+    return runOfTile(pixel);
 #else
     uvec4 tile = lightTile(pixel);
     uint slice = depthSlice(depth, tile.y);

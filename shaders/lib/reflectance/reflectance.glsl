@@ -176,7 +176,7 @@ vec3 underSheen(Surface surface, vec3 brdf, Directions directions)
 }
 #endif
 
-// The reflection of light from above the horizon by a model.
+// The reflection of light by a model; from below the horizon with n.l = 0.
 struct Reflection {
     vec3 brdfCosine;     // BRDF times cosine, 1/sr: reflected radiance per irradiance at normal incidence
     SpecularTerms terms; // 0 where it has no lobe there

@@ -16,7 +16,7 @@ struct Surface {
     float iorOrF90;    // index of refraction of microfacet, or the dielectric F90 of metallic_roughness
     vec3 emission;     // radiance that needs no light; all of single_color
     NormalCode normalCode; // of surfaces that are rasterised
-    vec3 normalLS;     // unit, what the code says
+    vec3 normalLS;     // unit; of a drawn surface what the code says, of a stored one what its channel does
     vec3 normalTexel;  // the normal map's texel as stored, for the view that shows it; for the view
                        // normal_object that normal, coded the same way
     float parameter;   // the one of models that HAS_PARAMETER, >= 0: p of blinn_phong
@@ -99,7 +99,7 @@ void setNeutralValues(inout Surface surface)
     surface.iorOrF90 = 1.0;
     surface.parameter = 0.0;
     surface.emission = vec3(0.0);
-    surface.normalCode = NormalCode(uvec2(0u), 0u);
+    surface.normalCode = NormalCode(uvec2(NORMAL_NO_SHARE), 2u);
     surface.normalLS = vec3(0.0, 0.0, 1.0);
     surface.normalTexel = vec3(0.5, 0.5, 1.0);
     setNeutralLobes(surface);
