@@ -30,6 +30,15 @@ scenes::Box3 transformed(const scenes::Box3& box, const glm::dmat4& transform) {
     return result;
 }
 
+/// Draw::reachMetres of a mesh with this box.
+double reachOf(const scenes::Box3& boxOS, const glm::dmat4& worldFromObject) {
+    if (boxOS.empty()) return 0.0;
+    const glm::dvec3 farthestOS = glm::max(glm::abs(boxOS.min), glm::abs(boxOS.max));
+    double metres = 0.0;
+    for (int axis = 0; axis < 3; ++axis) metres += glm::length(glm::dvec3(worldFromObject[axis])) * farthestOS[axis];
+    return metres;
+}
+
 /// Draw::largestColor of a mesh.
 float largestColor(const scenes::Mesh& mesh) {
     float largest = mesh.colors.empty() ? 0.0f : 1.0f;
@@ -62,6 +71,7 @@ DrawList makeDrawList(const scenes::Scene& scene) {
             const glm::dvec3 centerOS = boxOS.empty() ? glm::dvec3(0.0) : 0.5 * (boxOS.min + boxOS.max);
             list.draws.push_back({instance.mesh, instance.material, int(node), own, mirrored,
                                   largestColors[std::size_t(instance.mesh)], transformed(boxOS, worldFromObject),
+                                  reachOf(boxOS, worldFromObject),
                                   glm::dvec3(worldFromObject * glm::dvec4(centerOS, 1.0))});
         }
     }
@@ -76,22 +86,24 @@ DrawList makeDrawList(const scenes::Scene& scene) {
 
 namespace {
 
-/// What rounding to fp32 may move a vertex, as a share of the distances that its place is the sum of: from its object's
-/// origin, and from there to the origin of lighting space. Some 2^-24 each; this is far more.
-constexpr double kRoundingShare = 1e-5;
-
-double summedMetres(const scenes::Box3& boxWS, const glm::dvec3& objectWS, const CameraView& view) {
-    const auto farthest = [&](const glm::dvec3& fromWS) {
-        return glm::length(glm::max(glm::abs(boxWS.min - fromWS), glm::abs(boxWS.max - fromWS)));
-    };
-    return farthest(view.originWS) + farthest(objectWS) + glm::distance(objectWS, view.originWS);
+/// By how much a draw's vertices may lie outside its box by rounding. To fp32: some 2^-24 of all that they are added up
+/// from, within their object, from there to the origin of lighting space, and where they end; this is far more. The box
+/// is in the coordinates of the world in double precision, of which four roundings are 2^-51.
+double roundingMetres(const Draw& draw, const glm::dvec3& objectWS, const CameraView& view) {
+    constexpr double kSingleShare = 1e-5, kDoubleShare = 0x1p-50;
+    const glm::dvec3 fromOrigin =
+        glm::max(glm::abs(draw.boxWS.min - view.originWS), glm::abs(draw.boxWS.max - view.originWS));
+    const glm::dvec3 fromWorld = glm::max(glm::abs(draw.boxWS.min), glm::abs(draw.boxWS.max));
+    return kSingleShare * (draw.reachMetres + glm::distance(objectWS, view.originWS) + glm::length(fromOrigin)) +
+           kDoubleShare * (glm::length(fromWorld) + glm::length(objectWS) + draw.reachMetres);
 }
 
 /// Whether some plane of the view's frustum has all of a draw's box behind it.
-bool isOutside(const scenes::Box3& boxWS, const glm::dvec3& objectWS, const CameraView& view) {
+bool isOutside(const Draw& draw, const glm::dvec3& objectWS, const CameraView& view) {
+    const scenes::Box3& boxWS = draw.boxWS;
     if (boxWS.empty()) return false;
     const glm::dvec3 low = boxWS.min - view.originWS, high = boxWS.max - view.originWS;
-    const double errorMetres = kRoundingShare * summedMetres(boxWS, objectWS, view);
+    const double errorMetres = roundingMetres(draw, objectWS, view);
     return std::any_of(view.frustumPlanesLS.begin(), view.frustumPlanesLS.end(), [&](const glm::dvec4& plane) {
         const glm::dvec3 normal = glm::dvec3(plane) * view.lsFromWorld; // by the transpose, into world axes
         const glm::dvec3 innermost(normal.x > 0.0 ? high.x : low.x, normal.y > 0.0 ? high.y : low.y,
@@ -102,11 +114,12 @@ bool isOutside(const scenes::Box3& boxWS, const glm::dvec3& objectWS, const Came
 }
 
 /// Extends `area` by the pixels in which a draw's box may be seen.
-void extend(PixelArea& area, const scenes::Box3& boxWS, const glm::dvec3& objectWS, const CameraView& view) {
+void extend(PixelArea& area, const Draw& draw, const glm::dvec3& objectWS, const CameraView& view) {
+    const scenes::Box3& boxWS = draw.boxWS;
     const glm::ivec2 size(view.constants.sizePixels);
     const PixelArea whole{{0, 0}, size};
     if (boxWS.empty() || area == whole) return;
-    const glm::dvec3 margin(kRoundingShare * summedMetres(boxWS, objectWS, view));
+    const glm::dvec3 margin(roundingMetres(draw, objectWS, view));
     const glm::dvec3 low = boxWS.min - margin, high = boxWS.max + margin;
     glm::dvec2 lowest(1.0), highest(-1.0); // of clip space
     for (int corner = 0; corner < 8; ++corner) {
@@ -174,7 +187,7 @@ ViewDraws makeViewDraws(const DrawList& list, const CameraView& view, bool culls
     for (int i = 0; i < int(list.draws.size()); ++i) {
         const Draw& draw = list.draws[std::size_t(i)];
         const glm::dmat4& worldFromObject = list.worldFromObject[std::size_t(draw.node)];
-        if (culls && isOutside(draw.boxWS, glm::dvec3(worldFromObject[3]), view)) continue;
+        if (culls && isOutside(draw, glm::dvec3(worldFromObject[3]), view)) continue;
         const int place = int(result.seen.size());
         result.seen.push_back(i);
         result.rows.push_back(rowsOf(draw, worldFromObject, view));
@@ -183,7 +196,7 @@ ViewDraws makeViewDraws(const DrawList& list, const CameraView& view, bool culls
             result.transparent.push_back({place, 1, draw.material, draw.mirrored});
             continue;
         }
-        extend(result.opaquePixels, draw.boxWS, glm::dvec3(worldFromObject[3]), view);
+        extend(result.opaquePixels, draw, glm::dvec3(worldFromObject[3]), view);
         if (result.opaque.empty() || result.opaque.back().material != draw.material ||
             result.opaque.back().mirrored != draw.mirrored)
             result.opaque.push_back({place, 0, draw.material, draw.mirrored});

@@ -1,5 +1,6 @@
 // An eye far away with a narrow lens, and a light close to a surface: positions must keep their digits.
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -112,6 +113,47 @@ TEST_F(FarEye, parallelRaysSeeAFloorAsInTheReferenceFromAnyDistance) {
         scene.cameras[0].projection = scenes::Projection::Orthographic;
         scene.cameras[0].halfHeightMetres = 0.45;
         expectAgreement(fmt::format("parallel rays, {:g} m", eyeMetres), scene, kBar);
+    }
+}
+
+/// Deferred lighting covers only the pixels of the draws' boxes, and rounding may move what is drawn beyond them.
+TEST_F(FarEye, deferredLightsEveryPixelOfWhatRoundingMoves) {
+    // Half of the picture is the quad's left half; a digit of its place in the world is an eighth of its side.
+    scenes::Scene farOff = test::quadScene({});
+    const double side = 1e-3, placeMetres = -1e12;
+    farOff.nodes[0].parentFromNode =
+        glm::translate(glm::dmat4(1.0), {placeMetres, 0.0, 0.0}) * glm::scale(glm::dmat4(1.0), glm::dvec3(side));
+    farOff.cameras[0].worldFromCamera = glm::translate(glm::dmat4(1.0), {placeMetres + side, 0.0, 4.0 * side});
+    farOff.cameras[0].nearMetres = 1e-4;
+    farOff.cameras[0].fovYRadians = glm::radians(1.0);
+    // Columns of the matrix that cancel: x is 0.3 (a - b) of coordinates a and b near 1e6.
+    scenes::Scene sheared = test::quadScene({});
+    for (glm::vec3& position : sheared.meshes[0].positionsOS)
+        position = {1e6f + 0.0625f * (position.x > 0.0f ? 1.0f : 0.0f), 1e6f, 0.01f * position.y};
+    sheared.nodes[0].parentFromNode = {
+        {0.3, 0.0, 1e-6, 0.0}, {-0.3, 0.0, 1e-6, 0.0}, {0.0, 1.0, 0.0, 0.0}, {0, 0, 0, 1}};
+    sheared.cameras[0].worldFromCamera = glm::translate(glm::dmat4(1.0), {0.0, 0.0, 2.3});
+    sheared.cameras[0].nearMetres = 0.01;
+    sheared.cameras[0].fovYRadians = glm::radians(30.0);
+    for (scenes::Scene& scene : {std::ref(farOff), std::ref(sheared)}) {
+        for (scenes::Material& material : scene.materials) material.doubleSided = true;
+        scene.background = {0.0f, 0.0f, 0.4f};
+        scenes::Light light;
+        light.type = scenes::LightType::Directional;
+        scene.lights = {light};
+        engine::Renderer renderer(context(), scene);
+        for (const scenes::Projection projection :
+             {scenes::Projection::Perspective, scenes::Projection::Orthographic}) {
+            SCOPED_TRACE(&scene == &farOff ? "far off" : "sheared");
+            scene.cameras[0].projection = projection;
+            scene.cameras[0].halfHeightMetres = &scene == &farOff ? 3e-5 : 0.6;
+            const std::vector<float> truth = renderer.render(Technique::Forward, settings_).radiance;
+            const std::ptrdiff_t background = std::ranges::count(truth, 0.4f);
+            EXPECT_TRUE(background > 0 && background < std::ssize(truth) / 4) << "both are seen, quad and background";
+            for (const Technique technique :
+                 {Technique::Deferred, Technique::TiledDeferred, Technique::DeferredVolumes})
+                EXPECT_TRUE(renderer.render(technique, settings_).radiance == truth) << infoOf(technique).name;
+        }
     }
 }
 

@@ -8,14 +8,14 @@
 struct HalfSum {
     vec3 across;   // what is left without its part along n; as good as n x h: both err by the last digit of the sum
     float across2; // |across|^2 = |n x h|^2 length2
-    float along;   // n.l + n.v, which cancel nothing where there is a lobe
+    float along;   // n.(l + v); n.l + n.v would bring their rounding into |l + v|, which is small where l is near -v
     float length2; // 0 where l = -v
 };
 
-HalfSum halfSum(vec3 n, vec3 toLight, vec3 toViewer, float nl, float nv)
+HalfSum halfSum(vec3 n, vec3 toLight, vec3 toViewer)
 {
     precise vec3 sum = toLight + toViewer;
-    precise float along = nl + nv;
+    precise float along = dot(n, sum);
     precise vec3 across = sum - n * along;
     precise float across2 = dot(across, across);
     precise float length2 = across2 + along * along;
@@ -25,8 +25,7 @@ HalfSum halfSum(vec3 n, vec3 toLight, vec3 toViewer, float nl, float nv)
 // The same of two directions along a half vector.
 HalfSum halfSumAlong(vec3 n, vec3 h)
 {
-    precise float cosine = dot(n, h);
-    return halfSum(n, h, h, cosine, cosine);
+    return halfSum(n, h, h);
 }
 
 // l.h = v.h, half the sum's length; more than 1 by its rounding at most.

@@ -106,7 +106,7 @@ struct Directions {
 
 Directions directionsOn(SeenSurface seen, vec3 toLight, float nl)
 {
-    HalfSum h = halfSum(seen.surface.normalLS, toLight, seen.toViewer, nl, seen.nv);
+    HalfSum h = halfSum(seen.surface.normalLS, toLight, seen.toViewer);
     return Directions(toLight, h, nl, seen.nv, halfCosine(h), nl > 0.0 && seen.nv > 0.0 && h.length2 > 0.0);
 }
 
@@ -257,7 +257,7 @@ vec3 underCoat(SeenSurface seen, vec3 base, vec3 toLight)
     precise vec3 coated = base * (1.0 - seen.coatWeight);
 #if !SPECULAR_OFF
     precise float nl = dot(seen.coatNormalLS, toLight);
-    HalfSum h = halfSum(seen.coatNormalLS, toLight, seen.toViewer, nl, seen.coatNv);
+    HalfSum h = halfSum(seen.coatNormalLS, toLight, seen.toViewer);
     if (nl > 0.0 && seen.coatNv > 0.0 && h.length2 > 0.0) {
         precise float alpha2 = seen.surface.coatAlpha * seen.surface.coatAlpha;
         precise float lobe =
