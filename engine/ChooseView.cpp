@@ -13,11 +13,15 @@ bool takesView(const TechniqueInfo& info, frame::DebugView view) {
     return info.usesGBuffer() || !frame::debugViewInfo(view).needsGBuffer;
 }
 
+bool storesShown(const frame::FrameSpec& spec) {
+    const std::optional<frame::StoredComponents> shown = frame::storedComponents(spec.settings.view);
+    return !shown || std::find(spec.channels.begin(), spec.channels.end(), shown->channel) != spec.channels.end();
+}
+
 void requireStoredChannel(const frame::FrameSpec& spec) {
+    if (storesShown(spec)) return;
     const frame::DebugView view = spec.settings.view;
     const std::optional<frame::StoredComponents> shown = frame::storedComponents(view);
-    if (!shown) return;
-    if (std::find(spec.channels.begin(), spec.channels.end(), shown->channel) != spec.channels.end()) return;
     std::vector<std::string_view> stored;
     for (const frame::Channel channel : spec.channels)
         stored.push_back(frame::channelTable()[std::size_t(channel)].name);

@@ -7,6 +7,9 @@ namespace tessera::engine {
 
 bool takesView(const TechniqueInfo& info, frame::DebugView view);
 
+/// Whether the frame stores the channel that the view shows, if it shows one.
+bool storesShown(const frame::FrameSpec& spec);
+
 /// Throws InputError naming the channels that there are where the view shows one that the frame does not store.
 void requireStoredChannel(const frame::FrameSpec& spec);
 

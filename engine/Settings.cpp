@@ -176,7 +176,7 @@ std::vector<Setting> makeTable() {
          .help = "Whether lists leave out lights behind all surfaces of their cell, one of " +
                  namesOf(culling::normalTestTable()) + "; with the builder cpu only",
          .byItself = "where_worth, if normals are stored",
-         .label = "Cull by normals",
+         .label = "By normals",
          .heeds = listsFromGBuffer,
          .refusal = "it does not build light lists from a G-buffer",
          .samePicture = true,

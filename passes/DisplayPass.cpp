@@ -28,6 +28,7 @@ shader::ProgramDesc DisplayPass::program(const frame::FrameSpec& spec) {
     program.vertex = "passes/fullscreen.vert";
     program.fragment = "passes/display.frag";
     program.defines = {{"DISPLAY_MAPPING", std::to_string(unsigned(mapping))},
+                       {"HEAT_LOG2", std::to_string(frame::countScaleLog2(spec.settings.view))},
                        {"TONE_MAP", fmt::format("{}u", unsigned(spec.settings.toneMap))}};
     return program;
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "shaders/shared/display.h"
+#include "shaders/shared/heat.h"
 #include "shaders/shared/views.h"
 
 namespace tessera::frame {
@@ -97,6 +98,10 @@ std::optional<StoredComponents> storedComponents(DebugView view) {
     if (view < DebugView::Stored) return std::nullopt;
     const std::size_t place = std::size_t(view) - std::size_t(DebugView::Stored);
     return StoredComponents{Channel(place / 2), place % 2 == 1};
+}
+
+int countScaleLog2(DebugView view) {
+    return view == DebugView::Overdraw ? HEAT_SURFACES_LOG2 : HEAT_LIGHTS_LOG2;
 }
 
 DisplayMapping displayMapping(DebugView view, const GBufferLayout& layout) {

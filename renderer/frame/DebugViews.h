@@ -66,6 +66,9 @@ std::optional<StoredComponents> storedComponents(DebugView view);
 /// By the layout where the view shows a stored channel.
 DisplayMapping displayMapping(DebugView view, const GBufferLayout& layout);
 
+/// The end of the display picture's scale where the view shows counts, as a power of two.
+int countScaleLog2(DebugView view);
+
 /// The lit picture, whatever is painted over it.
 constexpr bool showsLitPicture(DebugView view) {
     return view == DebugView::Final || view == DebugView::Faults;

@@ -2,8 +2,9 @@
 // Colours of heat maps, for C++ and GLSL alike.
 #include "interop.h"
 
-// The end of the scale of counts if the largest count is unknown, as a power of two.
-#define HEAT_COUNT_LOG2 9.0f
+// The end of the scale of counts if the largest count is unknown, as a power of two: of lights, and of surfaces.
+#define HEAT_LIGHTS_LOG2 9
+#define HEAT_SURFACES_LOG2 4
 
 SHARED_BEGIN
 

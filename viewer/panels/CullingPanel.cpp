@@ -16,7 +16,10 @@ void cullingPanel(State& state, const Facts& facts) {
     tip("Counts, with every light tried at every pixel, at a quarter of the size");
     if (!facts.lights) return;
     const validation::LightOracleFigures& figures = *facts.lights;
-    fact("Measured", facts.lightsOf);
+    Look now = look;
+    now.settings.sizePixels = facts.lightsLook->settings.sizePixels;
+    now.settings.view = facts.lightsLook->settings.view;
+    fact("Measured", now == *facts.lightsLook ? facts.lightsOf : "before settings changed: " + facts.lightsOf);
     const auto perPixel = [&](std::uint64_t pairs) { return fmt::format("{:.4g} a pixel", figures.perPixel(pairs)); };
     fact("All lights", perPixel(figures.evaluated + figures.everywhere));
     tip("Lights that a pixel visits");

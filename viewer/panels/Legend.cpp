@@ -20,7 +20,7 @@ ImU32 colorAt(float position) {
     return IM_COL32(int(code.r), int(code.g), int(code.b), 255);
 }
 
-void drawBar(const PictureArea& area, float scale) {
+void drawBar(const PictureArea& area, float log2Most, float scale) {
     constexpr int kSteps = 48;
     const float pad = 8.0f * scale, line = ImGui::GetFontSize(), barWidth = 14.0f * scale;
     const float height = std::min(14.0f * line, area.size.y - 4.0f * pad - line);
@@ -38,13 +38,13 @@ void drawBar(const PictureArea& area, float scale) {
     }
     const auto label = [&](float count) {
         const std::string text = std::to_string(int(count));
-        const float y = yAt(std::min(shared::heatPositionOfCount(count, HEAT_COUNT_LOG2), 1.0f));
+        const float y = yAt(std::min(shared::heatPositionOfCount(count, log2Most), 1.0f));
         const float x = barX - 0.75f * pad - ImGui::CalcTextSize(text.c_str()).x;
         list.AddText({x, y - 0.5f * line}, IM_COL32(220, 222, 228, 255), text.c_str());
         list.AddLine({barX - 0.5f * pad, y}, {barX, y}, IM_COL32(220, 222, 228, 255));
     };
     label(0.0f);
-    for (float count = 1.0f; shared::heatPositionOfCount(count, HEAT_COUNT_LOG2) < 1.0f; count *= 2.0f) label(count);
+    for (float count = 1.0f; shared::heatPositionOfCount(count, log2Most) < 1.0f; count *= 2.0f) label(count);
 }
 
 } // namespace
@@ -53,7 +53,8 @@ void drawLegend(const State& state, const Facts& facts, const PictureArea& area,
     if (state.compare == Compare::Difference) return;
     for (int side = 0; side < state.sides(); ++side) {
         const std::optional<Look>& look = facts.shown[std::size_t(side)];
-        if (look && showsCounts(*look)) drawBar(partOf(state, area, side), scale);
+        if (look && showsCounts(*look))
+            drawBar(partOf(state, area, side), float(frame::countScaleLog2(look->settings.view)), scale);
     }
 }
 

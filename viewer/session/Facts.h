@@ -21,7 +21,8 @@ struct Facts {
     std::size_t targetBytes = 0; ///< of the frames' render targets
     std::optional<graph::Plan> plan;
     std::optional<validation::LightOracleFigures> lights; ///< measured on request,
-    std::string lightsOf;                                 ///< of this technique at this size
+    std::string lightsOf;                                 ///< of this technique, culling and size,
+    std::optional<Look> lightsLook;                       ///< with this look
     std::optional<validation::ErrorFigures> figures;      ///< of the left picture against the right
     bool figuresAreOld = false;                           ///< newer ones are on their way
 };

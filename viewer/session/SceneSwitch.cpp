@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/ChooseView.h"
 #include "viewer/session/Remember.h"
 #include "viewer/session/SceneSource.h"
 
@@ -50,6 +51,11 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
         state_.looks[1].technique = infoOf(first.look.technique).usesGBuffer() ? engine::Technique::ClusteredForward
                                                                                : engine::Technique::ClusteredDeferred;
     state_.looks[1] = possible(state_.looks[1]);
+    // The next scene may lack the channel that the last one was looked at by.
+    if (hadScene_)
+        for (Look& look : state_.looks)
+            if (!engine::storesShown(frame::makeFrameSpec(scene->scene(), {}, look.settings)))
+                look.settings.view = frame::DebugView::Final;
     base_ = first.look;
     hadScene_ = true;
     if (state_.open) {

@@ -4,6 +4,7 @@
 
 #include "base/Error.h"
 #include "engine/ChooseSamples.h"
+#include "engine/PrepareView.h"
 #include "engine/Rendering.h"
 
 namespace tessera::viewer {
@@ -63,8 +64,11 @@ void Measurements::judgeLights(Facts& facts, Screen& screen, const Look& look) {
     settings.sizePixels = glm::max(settings.sizePixels / kJudgedShare, glm::ivec2(1));
     settings.view = frame::DebugView::Final; // views may build no lists
     facts.lights = validation::judgeLights(*screen.renderer(), look.technique, settings);
-    facts.lightsOf =
-        fmt::format("{}, {}x{}", infoOf(look.technique).name, settings.sizePixels.x, settings.sizePixels.y);
+    const culling::Choice culling =
+        engine::prepareView(screen.renderer()->scene(), look.technique, settings).spec.culling;
+    facts.lightsOf = fmt::format("{}, {}, tile {}, {}x{}", infoOf(look.technique).name, infoOf(culling.method).name,
+                                 culling.tilePixels, settings.sizePixels.x, settings.sizePixels.y);
+    facts.lightsLook = look;
 }
 
 void Measurements::clear(Facts& facts) {

@@ -59,11 +59,10 @@ TEST_F(ListRoomTest, asManyTexelsAsTheDriverReadsAreTakenAndOneMoreIsRefused) {
     EXPECT_EQ(pass.allocated, most * 4);
     makeTexelRoom(pass, {}, "lights", most, graph::Format::Rgba32Float);
     EXPECT_EQ(pass.allocated, most * 16);
-    EXPECT_EQ(
-        errorOf<InputError>([&] { makeTexelRoom(pass, {}, "light entries", most + 1, graph::Format::R32Uint); }),
-        fmt::format("light entries would take {} texels, and this driver reads {}: larger tiles, another culling "
-                    "method or fewer lights need less",
-                    most + 1, most));
+    EXPECT_EQ(errorOf<InputError>([&] { makeTexelRoom(pass, {}, "light entries", most + 1, graph::Format::R32Uint); }),
+              fmt::format("light entries would take {} texels, and this driver reads {}: larger tiles, another culling "
+                          "method or fewer lights need less",
+                          most + 1, most));
     EXPECT_EQ(pass.allocated, most * 16) << "nothing is taken for what is refused";
 }
 
