@@ -22,11 +22,12 @@ const char* builderReason(bool softwareBackend) {
 }
 
 /// Why the lists of a frame hold lights behind their surfaces as well; empty where they need not.
-std::string_view whyNotByNormals(Technique technique, const frame::FeatureSet& features,
+std::string_view whyNotByNormals(Technique technique, bool prune, const frame::FeatureSet& features,
                                  const culling::Choice& choice) {
     if (!infoOf(choice.method).mayCullByNormals) return "the bitmasks of zbin are of all a tile or a bin shows";
     if (!listsFromGBuffer(technique)) return "the technique stores no normals before it builds lists";
     if (choice.builder != culling::Builder::Cpu) return "only the builder cpu reads normals";
+    if (!prune) return "a frame that is not pruned expects clear coats, which light from behind the surface changes";
     if (features.litFromBehind())
         return "light from behind the shading normal may change a surface, as that of a clear coat";
     return "";
@@ -61,7 +62,7 @@ culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& s
     choice.tilePixels = settings.culling.tilePixels.value_or(culling::kUsualTilePixels);
     choice.builder =
         settings.culling.builder.value_or(settings.softwareBackend ? culling::Builder::Cpu : culling::Builder::Compute);
-    if (whyNotByNormals(technique, features, choice).empty())
+    if (whyNotByNormals(technique, settings.prune, features, choice).empty())
         choice.normals = settings.culling.normals.value_or(culling::NormalTest::WhereWorth);
     choice.lanes = settings.culling.lanes.value_or(settings.softwareBackend ? kSoftwareLanes : kLanes);
     return choice;
@@ -84,7 +85,7 @@ std::vector<graph::Plan::Choice> cullingChoices(Technique technique, const frame
          why(settings.culling.tilePixels.has_value(), "tile", "measured fastest or nearly so at 64 to 4096 lights")});
     choices.push_back({"lists built by", std::string(infoOf(choice.builder).name),
                        why(settings.culling.builder.has_value(), "cull-on", builderReason(settings.softwareBackend))});
-    const std::string_view whyNot = whyNotByNormals(technique, features, choice);
+    const std::string_view whyNot = whyNotByNormals(technique, settings.prune, features, choice);
     choices.push_back({"cull by normals", std::string(infoOf(choice.normals).name),
                        whyNot.empty() ? why(settings.culling.normals.has_value(), "cull-normals",
                                             fmt::format("read back where lists hold {} lights or more on average",

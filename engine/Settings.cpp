@@ -173,9 +173,10 @@ std::vector<Setting> makeTable() {
          .flag = "--cull-normals",
          .key = "cullNormals",
          .type = "NAME",
-         .help = "Whether lists leave out lights behind all surfaces of their cell, one of " +
-                 namesOf(culling::normalTestTable()) + "; with the builder cpu only",
-         .byItself = "where_worth, if normals are stored",
+         .help = fmt::format("Whether light lists leave out lights behind all surfaces that they are for: {}; "
+                             "where_worth is on for lists of {} lights or more. Only with --cull-on cpu",
+                             namesOf(culling::normalTestTable()), culling::kLightsWorthNormals),
+         .byItself = "where_worth",
          .label = "By normals",
          .heeds = listsFromGBuffer,
          .refusal = "it does not build light lists from a G-buffer",

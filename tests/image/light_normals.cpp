@@ -218,8 +218,9 @@ TEST_F(LightNormals, aFrameThatIsNotPrunedExpectsCoatsAndCullsByReach) {
 TEST_F(LightNormals, thePlanTellsWhetherNormalsAreLookedAtAndWhy) {
     const scenes::Scene scene = latticeLitBy(64);
     const auto told = [&](Technique technique, Method method, std::optional<culling::NormalTest> test,
-                          culling::Builder builder = culling::Builder::Cpu) {
+                          culling::Builder builder = culling::Builder::Cpu, bool prune = true) {
         frame::FrameSettings settings = normalSettings({160, 90}, method, 8);
+        settings.prune = prune;
         settings.softwareBackend = true;
         settings.culling.normals = test;
         settings.culling.builder = builder;
@@ -238,6 +239,8 @@ TEST_F(LightNormals, thePlanTellsWhetherNormalsAreLookedAtAndWhy) {
               "off: the technique stores no normals before it builds lists");
     EXPECT_EQ(told(Technique::TiledDeferred, Method::TileMinmax, NormalTest::On, culling::Builder::Compute),
               "off: only the builder cpu reads normals");
+    EXPECT_EQ(told(Technique::TiledDeferred, Method::TileMinmax, NormalTest::On, culling::Builder::Cpu, false),
+              "off: a frame that is not pruned expects clear coats, which light from behind the surface changes");
     EXPECT_EQ(told(Technique::TiledDeferred, Method::None, NormalTest::On), "nothing");
 }
 

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
@@ -58,6 +59,27 @@ TEST_F(Parity, everyBuiltinSceneIsExactlyTheSameWithEveryTechnique) {
             settings.sizePixels = size;
             expectAgreement(renderer, settings);
         }
+    }
+}
+
+TEST_F(Parity, picturesPackedAlikeAreHeldToEveryBitAndOthersToThePromise) {
+    const scenes::Scene scene = scenes::loadScene("models");
+    engine::Renderer renderer(context(), scene);
+    validation::CompareRequest request;
+    request.techniques = {Technique::TiledDeferred, Technique::Forward};
+    request.layouts = {{Technique::TiledDeferred, &frame::layoutTable()[2]}};
+    request.against = Technique::Deferred;
+    request.settings.sizePixels = {160, 90};
+    request.settings.layout = frame::layoutTable()[1].layout;
+    const std::vector<validation::ComparePair> pairs =
+        validation::compareTechniques(renderer, context().capabilities(), request).record.pairs;
+    ASSERT_EQ(pairs.size(), 3u);
+    EXPECT_EQ(pairs[0].tolerance.maxRel, 0.0) << "both from the same G-buffer";
+    EXPECT_EQ(pairs[1].tolerance.relMse, frame::layoutTable()[1].promise.relMse) << "the truth alone is packed";
+    EXPECT_EQ(pairs[2].tolerance.relMse, frame::layoutTable()[2].promise.relMse) << "the coarser of both";
+    for (const validation::ComparePair& pair : pairs) {
+        EXPECT_TRUE(pair.verdict.ok) << pair.a << ": " << fmt::format("{}", fmt::join(pair.verdict.missed, "; "));
+        EXPECT_TRUE(pair.channels.empty()) << pair.a;
     }
 }
 

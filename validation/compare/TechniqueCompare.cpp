@@ -107,6 +107,25 @@ bool isPacked(const frame::GBufferLayout& layout) {
     return !(layout == frame::exactLayout().layout);
 }
 
+/// How a picture of the technique is packed: one that has no G-buffer is not.
+const frame::GBufferLayout& packingOf(Technique technique, const frame::GBufferLayout& layout) {
+    return infoOf(technique).usesGBuffer() ? layout : frame::exactLayout().layout;
+}
+
+/// The same of the truth.
+const frame::GBufferLayout& packingOfTruth(const CompareRequest& request) {
+    const auto* const truth = std::get_if<Technique>(&request.against);
+    return truth ? packingOf(*truth, request.settings.layout) : frame::exactLayout().layout;
+}
+
+/// The packing that sets a picture apart from the truth, the coarser of both; exact where both are packed alike.
+const frame::GBufferLayout& packingApart(const CompareRequest& request, Technique technique,
+                                         const frame::GBufferLayout& layout) {
+    const frame::GBufferLayout &own = packingOf(technique, layout), &truth = packingOfTruth(request);
+    if (own == truth) return frame::exactLayout().layout;
+    return frame::promiseOf(own).relMse < frame::promiseOf(truth).relMse ? truth : own;
+}
+
 /// The place among the pictures made so far of one from a G-buffer that equals `picture` in every bit.
 std::optional<std::size_t> equalPicture(const CompareResult& result, std::span<const Asked> asked, const Asked& one,
                                         const Picture& picture) {
@@ -135,12 +154,13 @@ std::vector<ChannelShare> channelShares(engine::Renderer& renderer, const Asked&
 /// The tolerance of a technique with a layout against the requested truth.
 Tolerance toleranceOf(const engine::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
                       Technique technique, const frame::GBufferLayout& layout) {
-    const bool quantises = infoOf(technique).usesGBuffer() && isPacked(layout);
-    if (isReference(request) && !quantises) return referenceTolerance(renderer.scene(), request.settings.filter);
+    const frame::GBufferLayout& packing = packingApart(request, technique, layout);
+    if (isReference(request) && !isPacked(packing))
+        return referenceTolerance(renderer.scene(), request.settings.filter);
     const std::vector<scenes::Light>& lights = renderer.scene().lights;
     const auto on =
         std::count_if(lights.begin(), lights.end(), [](const scenes::Light& light) { return light.enabled; });
-    return pairTolerance(technique, layout, gl.isSoftware, std::size_t(on));
+    return pairTolerance(technique, packing, gl.isSoftware, std::size_t(on));
 }
 
 bool showsSigned(const CompareRequest& request) {
@@ -250,11 +270,11 @@ std::vector<Technique> techniquesTaking(const frame::FrameSettings& settings, st
     return techniques;
 }
 
-Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& layout, bool isSoftware,
+Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& packing, bool isSoftware,
                         std::size_t lightCount) {
     Tolerance tolerance;
-    if (infoOf(technique).usesGBuffer() && isPacked(layout)) {
-        const frame::LayoutPromise& promise = frame::promiseOf(layout);
+    if (isPacked(packing)) {
+        const frame::LayoutPromise& promise = frame::promiseOf(packing);
         tolerance.relMse = promise.relMse;
         tolerance.p999Rel = promise.p999Rel;
         tolerance.bias = promise.bias;
@@ -306,7 +326,8 @@ CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilit
         ComparePair pair = comparePair(picture.name, picture.picture, truth.own.name, own.picture, tolerance,
                                        own.excluded, shownPair(request, picture, truth.own));
         pair.culling = culling;
-        if (infoOf(asked.technique).usesGBuffer() && isPacked(asked.settings.layout)) {
+        // Against a truth that is packed too, fp32 would tell of the truth's packing alone.
+        if (isPacked(packingOf(asked.technique, asked.settings.layout)) && !isPacked(packingOfTruth(request))) {
             if (request.channelShares) {
                 // One G-buffer, one picture: the channels' shares are the same.
                 const std::optional<std::size_t> equal = equalPicture(result, all, asked, picture.picture);

@@ -72,12 +72,13 @@ std::size_t stepCount(const scenes::Scene& scene, const CompareRequest& request)
 std::vector<std::string> pictureNames(const scenes::Scene& scene, const CompareRequest& request);
 
 /// Renders every technique and measures it against the truth. Pairs that must agree to the last bit (no G-buffer, or
-/// the exact layout, on a software rasteriser) are held to that; see pairTolerance(). Where the G-buffer is packed,
+/// the truth's layout, on a software rasteriser) are held to that; see pairTolerance(). Where the G-buffer is packed,
 /// each channel's share of the error is found by storing that channel alone in fp32, once for techniques whose pictures
-/// are equal in every bit; and unless the truth is a file, the picture with all of them in fp32 must hold the exact
-/// layout's tolerance. What a range tolerance drops is measured on the technique that is the truth, or the first one
-/// where that is none. Against the reference, pixels that show other triangles are excluded; textures filtered by
-/// hardware are one pair of their own there (hardwareFilterName()), against the reference's picture with that filter.
+/// are equal in every bit; and unless the truth is a file or packed itself, the picture with all of them in fp32 must
+/// hold the exact layout's tolerance. What a range tolerance drops is measured on the technique that is the truth, or
+/// the first one where that is none. Against the reference, pixels that show other triangles are excluded; textures
+/// filtered by hardware are one pair of their own there (hardwareFilterName()), against the reference's picture with
+/// that filter.
 CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request);
 
 /// What the pair that shows hardware filtering beside the exact one calls a technique.
@@ -88,7 +89,8 @@ std::vector<engine::Technique> techniquesTaking(const frame::FrameSettings& sett
                                                 std::vector<LeftOutTechnique>& leftOut);
 
 /// What a technique is held to against another in a scene of so many lights, with the reason in Tolerance::reason.
-Tolerance pairTolerance(engine::Technique technique, const frame::GBufferLayout& layout, bool isSoftware,
+/// `packing` is what sets the two apart: exact where both are packed alike.
+Tolerance pairTolerance(engine::Technique technique, const frame::GBufferLayout& packing, bool isSoftware,
                         std::size_t lightCount);
 
 } // namespace tessera::validation
