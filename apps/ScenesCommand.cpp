@@ -31,7 +31,9 @@ Json schemaOf(const engine::ChoiceKind& kind) {
         else
             names.push_back(entry.name);
     }
-    return {{"enum", std::move(names)}};
+    Json named{{"enum", std::move(names)}};
+    if (!kind.orCount) return named;
+    return {{"anyOf", Json::array({std::move(named), Json{{"type", "integer"}, {"minimum", 0}}})}};
 }
 
 Json schemaOf(const engine::NumberKind& kind) {

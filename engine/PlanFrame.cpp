@@ -11,6 +11,7 @@
 #include "renderer/frame/LightBuffer.h"
 #include "renderer/frame/RefineLayout.h"
 #include "scenes/InUse.h"
+#include "scenes/Shadows.h"
 
 namespace tessera::engine {
 
@@ -58,6 +59,17 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::Prep
     if (settings.rangeTolerance > 0.0 || truncated.sum() > 0) {
         plan.choices.push_back({"range tolerance", fmt::format("{:g}", settings.rangeTolerance),
                                 truncationWords(truncated, settings.rangeTolerance)});
+    }
+    if (prepared.lights.shadowed > 0) {
+        const scenes::CasterCounts casters = scenes::casterCounts(scene);
+        std::string why = fmt::format("{} triangles hide light", casters.triangles);
+        if (casters.transparent > 0)
+            why += fmt::format("; {} transparent surface{} cast none", casters.transparent,
+                               casters.transparent == 1 ? "" : "s");
+        plan.choices.push_back({"shadows",
+                                fmt::format("of {} of {}, traced", prepared.lights.shadowed,
+                                            frame::lightsText(prepared.lights.texels.size())),
+                                std::move(why)});
     }
     for (const std::string& warning : scene.warnings) plan.choices.push_back({"scene", scene.name, warning});
 }

@@ -75,6 +75,7 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
         frame::DrawnView& view = drawn->views[i];
         const frame::FrameSpec& spec = view.prepared.spec;
         view.scene = &sceneGpu(spec);
+        if (spec.features[frame::Feature::Shadows]) sceneGpu_->makeCasters();
         view.draws = frame::makeViewDraws(view.scene->drawList(), view.prepared.camera, spec.settings.prune);
         view.listMemory = &listMemory_;
         sources.push_back({views[i].technique, spec, &view});

@@ -166,6 +166,18 @@ SettingValue number(Get get, const NumberKind& kind) {
         get, kind, [](Value value) { return numberText(value); }, valueOf);
 }
 
+/// An int.
+template <typename Get>
+SettingValue wholeNumber(Get get, const NumberKind& kind) {
+    const auto valueOf = [kind](const std::string& text, const TextSource& source) {
+        const int value = wholeNumber(text, source);
+        requireBounds(kind, value, source);
+        return value;
+    };
+    return valueIn(
+        get, kind, [](int value) { return numberText(value); }, valueOf);
+}
+
 SettingValue onOff(bool frame::FrameSettings::*member);
 SettingValue pictureSize();
 

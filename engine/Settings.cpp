@@ -76,6 +76,41 @@ SettingValue soloLight() {
         [](int light) { return numberText(light); }, valueOf, "all");
 }
 
+struct ShadowChoice {
+    scenes::ShadowRequest request;
+    std::string_view name, summary;
+};
+constexpr ShadowChoice kShadowChoices[] = {
+    {{scenes::ShadowRequest::Kind::None}, "none", "no light casts shadows"},
+    {{scenes::ShadowRequest::Kind::Asked}, "asked", "those lights cast shadows of which the scene says so"},
+    {{scenes::ShadowRequest::Kind::All}, "all", "every light casts shadows"},
+};
+
+SettingValue shadowChoice() {
+    ChoiceKind kind;
+    std::vector<std::string_view> names;
+    for (const ShadowChoice& row : kShadowChoices) {
+        kind.entries.push_back({std::string(row.name), std::string(row.name), row.summary});
+        names.push_back(row.name);
+    }
+    kind.orCount = true;
+    const auto textOf = [](const scenes::ShadowRequest& request) {
+        const auto* const row = std::ranges::find(kShadowChoices, request, &ShadowChoice::request);
+        return row == std::end(kShadowChoices) ? numberText(request.lights) : std::string(row->name);
+    };
+    const auto valueOf = [names](const std::string& text, const TextSource& source) {
+        for (const ShadowChoice& row : kShadowChoices)
+            if (row.name == text) return row.request;
+        const std::optional<int> lights = parsed<int>(text);
+        if (!lights)
+            throw InputError(fmt::format("unknown {} '{}': {}; or give a number N, and the first N lights cast some",
+                                         source.called, text, suggestNames(text, names)));
+        requireBounds({.least = 0.0, .isWhole = true}, *lights, source);
+        return scenes::ShadowRequest{scenes::ShadowRequest::Kind::First, *lights};
+    };
+    return valueIn(in(&FrameSettings::shadows), std::move(kind), textOf, valueOf);
+}
+
 template <typename Row>
 std::string namesOf(std::span<const Row> table) {
     std::string names;
@@ -260,6 +295,19 @@ std::vector<Setting> makeTable() {
          .isWishable = false, // lights may be deleted
          .isShared = true,
          .value = soloLight()},
+        {.name = "shadows",
+         .flag = "--shadows",
+         .key = "shadows",
+         .type = "WHICH",
+         .help = "Which lights cast shadows: none, those that the scene asks for (asked), all, or the first N",
+         .value = shadowChoice()},
+        {.name = "shadow samples",
+         .flag = "--shadow-samples",
+         .key = "shadowSamples",
+         .type = "N",
+         .help = "Shadow rays of a pixel towards a light with a size, whose shadows are soft",
+         .value = wholeNumber(in(&FrameSettings::shadowSamples),
+                              {.least = 1, .most = frame::kMostShadowSamples, .isWhole = true})},
         {.name = "specular",
          .flag = "--specular",
          .key = "specular",
@@ -354,7 +402,9 @@ std::string_view typeOf(const Setting& setting) {
 std::string textOf(const Setting& setting, const scenes::Wish& wish) {
     const std::string* const word = std::get_if<std::string>(&wish);
     const bool isOpen = word != nullptr && !setting.value.open.empty() && *word == setting.value.open;
-    if (!isOpen && typeOf(wish) != typeOf(setting))
+    const auto* const choice = std::get_if<ChoiceKind>(&setting.value.kind);
+    const bool isCount = choice != nullptr && choice->orCount && std::holds_alternative<double>(wish);
+    if (!isOpen && !isCount && typeOf(wish) != typeOf(setting))
         throw InputError(fmt::format("is {}; {} is needed", typeOf(wish), typeOf(setting)));
     if (word != nullptr) return *word;
     if (const auto* list = std::get_if<std::vector<double>>(&wish)) return fmt::format("{}", fmt::join(*list, "x"));

@@ -32,6 +32,7 @@ struct ChoiceKind {
     };
     std::vector<Entry> entries;
     bool ofNumbers = false;
+    bool orCount = false; ///< or any whole number, 0 or more
 };
 struct NumberKind {
     double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();

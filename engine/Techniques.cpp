@@ -39,8 +39,12 @@ struct FrameHandles {
     frame::SceneHandles scene;
 };
 
-FrameHandles declareShared(graph::Graph& graph, const ViewSource& anyView) {
-    return {frame::importScene(graph, anyView.spec.features, anyView.drawn ? anyView.drawn->scene : nullptr)};
+FrameHandles declareShared(graph::Graph& graph, std::span<const ViewSource> views) {
+    const bool hasShadows =
+        std::ranges::any_of(views, [](const ViewSource& view) { return view.spec.features[frame::Feature::Shadows]; });
+    const ViewSource& anyView = views.front();
+    return {
+        frame::importScene(graph, anyView.spec.features, anyView.drawn ? anyView.drawn->scene : nullptr, hasShadows)};
 }
 
 /// What a recipe wires a view's passes with.
@@ -56,7 +60,8 @@ struct ViewWiring {
         const UploadViewPass::Outputs uploaded = UploadViewPass::add(graph, drawn);
         surfaces = {drawn, frame.scene, {uploaded.constants}, uploaded.rows, uploaded.commands, {}};
         const UploadLightsPass::Outputs lights = UploadLightsPass::add(graph, spec, drawn);
-        lighting = {surfaces.view, lights.constants, lights.lights, frame.scene.materialTable, {}};
+        lighting = {surfaces.view, lights.constants, lights.lights, frame.scene.materialTable, {}, {}};
+        if (lights.shadows) lighting.shadows = {*lights.shadows, frame.scene.casters.value()};
     }
 
     bool hasLightLists() const { return spec.culling.method != Method::None; }
@@ -254,7 +259,7 @@ const TechniqueInfo& infoOf(Technique technique) {
 
 std::vector<DeclaredView> declareFrame(graph::Graph& graph, std::span<const ViewSource> views,
                                        const AfterOpaque& after) {
-    const FrameHandles frame = declareShared(graph, views.front());
+    const FrameHandles frame = declareShared(graph, views);
     std::vector<DeclaredView> declared;
     for (std::size_t i = 0; i < views.size(); ++i) declared.push_back(declareView(graph, frame, views[i], i, after));
     return declared;

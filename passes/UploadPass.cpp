@@ -42,9 +42,14 @@ UploadLightsPass::Outputs UploadLightsPass::add(graph::Graph& graph, const frame
             out.lights =
                 pass.create("lights", {frame::lightBytes(spec.features, std::max<std::size_t>(spec.lights, 1)), true},
                             Access::Upload);
+            if (spec.features[frame::Feature::Shadows])
+                out.shadows = pass.create("shadows", {sizeof(shared::CasterTreeConstants)}, Access::Upload);
         },
         [drawn](const Outputs& out, const graph::PassContext& context) {
             const frame::PreparedView& view = drawn->prepared;
+            if (out.shadows)
+                context.buffer(*out.shadows)
+                    .uploadValue(frame::casterTreeConstants(drawn->scene->casters()->space, view.camera));
             context.buffer(out.constants).uploadValue(view.lighting);
             context.buffer(out.lights).upload(frame::texelsOf(view.lights, view.spec.features));
         });

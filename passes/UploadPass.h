@@ -14,11 +14,12 @@ struct UploadViewPass {
 };
 
 /// Puts a view's lights on the GPU.
-/// Writes  light texels (shaders/shared/light.h), and the constants of lighting
-/// Space   lighting space
+/// Writes  light texels (shaders/shared/light.h), the constants of lighting and, where the view has shadows,
+/// shared::CasterTreeConstants Space   lighting space
 struct UploadLightsPass {
     struct Outputs {
         graph::BufferHandle constants, lights;
+        std::optional<graph::BufferHandle> shadows;
     };
     static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const frame::DrawnView* drawn);
 };

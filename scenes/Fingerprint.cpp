@@ -77,8 +77,8 @@ public:
         addAll(name, positionsOS, normalsOS, tangentsOS, texCoords, colors, indices);
     }
     void add(const MeshInstance& instance) {
-        const auto& [mesh, material] = instance;
-        addAll(mesh, material);
+        const auto& [mesh, material, castsShadow] = instance;
+        addAll(mesh, material, castsShadow);
     }
     void add(const Node& node) {
         const auto& [name, parent, parentFromNode, instances] = node;

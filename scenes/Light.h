@@ -20,6 +20,11 @@
 /// culling.
 namespace tessera::scenes {
 
+/// Bounds of a light's size, far beyond any sun: 80 degrees, whose tangent keeps its digits, and 1000 km.
+inline constexpr double kMostAngularRadiusDegrees = 80.0;
+inline constexpr double kMostAngularRadiusRadians = 1.3962635;
+inline constexpr double kMostRadiusMetres = 1e6;
+
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// lightTypes() says what each of them has.
@@ -60,8 +65,11 @@ struct Light {
     std::string name;
     LightType type = LightType::Point;
     bool enabled = true;
-    glm::vec3 color{1.0f};  ///< linear RGB
-    float intensity = 1.0f; ///< in the unit of its type; a plain factor with Falloff::Attenuation
+    bool castsShadow = false;          ///< casters hide it from surfaces (scenes/Shadows.h)
+    float radiusMetres = 0.0f;         ///< with a position: of the disk that its shadows see (scenes/Shadows.h)
+    float angularRadiusRadians = 0.0f; ///< without one: the same as seen from anywhere
+    glm::vec3 color{1.0f};             ///< linear RGB
+    float intensity = 1.0f;            ///< in the unit of its type; a plain factor with Falloff::Attenuation
     glm::dvec3 positionWS{0.0};
     glm::dvec3 directionWS{0.0, 0.0, -1.0}; ///< unit, the way the light travels
     Falloff falloff = Falloff::InverseSquare;
@@ -80,6 +88,10 @@ inline constexpr std::tuple kLightFields{
     Field{"name", &Light::name},
     Field{"type", &Light::type},
     Field{"enabled", &Light::enabled},
+    Field{"castsShadow", &Light::castsShadow},
+    Field{"radiusMetres", &Light::radiusMetres, "the radius", 0.0, kMostRadiusMetres, " m"},
+    Field{"angularRadiusRadians", &Light::angularRadiusRadians, "the angular radius", 0.0, kMostAngularRadiusRadians,
+          " radians"},
     Field{"color", &Light::color, "the colour", 0.0, kAnyNumber},
     Field{"intensity", &Light::intensity, "the intensity", 0.0, kAnyNumber},
     Field{"positionWS", &Light::positionWS},
@@ -142,6 +154,12 @@ inline constexpr LightParameter kCones[] = {
     // 90 degrees is KHR_lights_punctual's limit.
     {LightParameter::Kind::Angle, "outerDegrees", "Outer cone", &Light::outerConeRadians, 0.0f, 90.0f}};
 
+inline constexpr LightParameter kRadius{LightParameter::Kind::Number, "radius", "Radius",
+                                        &Light::radiusMetres,         0.0f,     float(kMostRadiusMetres)};
+inline constexpr LightParameter kAngularRadius{
+    LightParameter::Kind::Angle,     "angularRadiusDegrees", "Angular radius", &Light::angularRadiusRadians, 0.0f,
+    float(kMostAngularRadiusDegrees)};
+
 inline constexpr std::array kLightTypes{
     LightTypeInfo{LightType::Directional, "directional", "lx", LightReach::Everywhere, true},
     LightTypeInfo{LightType::Point, "point", "cd", LightReach::Sphere, false},
@@ -166,6 +184,11 @@ constexpr std::span<const LightTypeInfo> lightTypes() {
 }
 constexpr const LightTypeInfo& infoOf(LightType type) {
     return detail::kLightTypes[std::size_t(type)];
+}
+
+/// What makes a type's shadows soft: every type has such a parameter beside those of its row.
+constexpr const LightParameter& sizeParameter(const LightTypeInfo& type) {
+    return type.hasPosition() ? detail::kRadius : detail::kAngularRadius;
 }
 
 } // namespace tessera::scenes

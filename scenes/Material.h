@@ -74,6 +74,7 @@ struct Material {
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f; ///< Mask: a fragment stays when opacity >= cutoff
     bool doubleSided = false;
+    bool castsShadow = true; ///< from both sides; blended surfaces cast none (scenes/Shadows.h)
     std::array<TextureUse, kTextureSlotCount> textures;
 
     TextureUse& texture(TextureSlot slot) { return textures[static_cast<std::size_t>(slot)]; }
@@ -120,6 +121,7 @@ inline constexpr std::tuple kMaterialFields{
     Field{"alphaMode", &Material::alphaMode},
     Field{"alphaCutoff", &Material::alphaCutoff, "the alpha cutoff", -kAnyNumber, kAnyNumber},
     Field{"doubleSided", &Material::doubleSided},
+    Field{"castsShadow", &Material::castsShadow},
 };
 
 static_assert(std::tuple_size_v<decltype(kMaterialFields)> + 1 == detail::memberCount<Material>(),

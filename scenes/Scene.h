@@ -63,6 +63,7 @@ struct Mesh {
 struct MeshInstance {
     int mesh = kNone;
     int material = kNone;
+    bool castsShadow = true; ///< as long as its material does too
 };
 
 /// Transform hierarchy; a parent always stands before its children.

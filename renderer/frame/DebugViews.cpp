@@ -25,6 +25,8 @@ constexpr DebugViewInfo kViews[] = {
      DisplayMapping::Compressed},
     {DebugView::Geometry, 5, "geometry", "G of one light", DisplayMapping::Radiance},
     {DebugView::Fresnel, 6, "fresnel", "F of one light", DisplayMapping::Radiance},
+    {DebugView::Shadow, 0, "shadow", "what casters let through of one light: 1 where nothing hides it",
+     DisplayMapping::Raw},
     {DebugView::Depth, 0, "depth", "distance along the view axis in metres", DisplayMapping::Distance},
     {DebugView::Overdraw, 0, "overdraw",
      "how many surfaces the technique shades or stores, as heat colours with a legend", DisplayMapping::Count, true},
@@ -41,6 +43,7 @@ static_assert(int(DebugView::Distribution) == VIEW_DISTRIBUTION && int(DebugView
 static_assert(int(DebugView::Fresnel) == VIEW_FRESNEL && int(DebugView::Depth) == VIEW_DEPTH);
 static_assert(int(DebugView::Lights) == VIEW_LIGHTS && int(DebugView::Ids) == VIEW_IDS);
 static_assert(int(DebugView::NormalView) == VIEW_NORMAL_VIEW && int(DebugView::NormalObject) == VIEW_NORMAL_OBJECT);
+static_assert(int(DebugView::Shadow) == VIEW_SHADOW);
 static_assert(int(DebugView::Overdraw) == VIEW_OVERDRAW && int(DebugView::Faults) == VIEW_FAULTS);
 static_assert(int(DebugView::Stored) == VIEW_STORED);
 

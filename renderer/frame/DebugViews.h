@@ -26,6 +26,7 @@ enum class DebugView : std::uint8_t {
     Ids,
     NormalView,
     NormalObject,
+    Shadow,
     Overdraw,
     Faults,
     Stored

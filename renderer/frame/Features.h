@@ -37,6 +37,8 @@ enum class Feature : std::uint8_t {
     DoubleSided,
     VaryingMaterials, // values of a material change over a surface, so each pixel must hold its own
     OrthographicCamera,
+    Shadows,     // of lights in view that casters may hide
+    SoftShadows, // of such lights with a size
     Count
 };
 inline constexpr std::size_t kFeatureCount = static_cast<std::size_t>(Feature::Count);
@@ -100,7 +102,8 @@ private:
 /// Whether its model has options of masking.
 bool canMask(const scenes::Material& material);
 
-/// The features of the materials in use. packLights adds those of visible lights, makeFrameSpec those of the camera.
+/// The features of the materials in use. packLights adds those of visible lights and their shadows, makeFrameSpec those
+/// of the camera.
 FeatureSet materialFeatures(const scenes::Scene& scene);
 
 /// Everything there is.

@@ -88,13 +88,24 @@ void LightListHandles::bind(const graph::PassContext& context) const {
     bindTexels(context, TEXTURE_UNIT_LIGHT_ENTRIES, entries, Format::R32Uint);
 }
 
+CasterTreeHandles CasterTreeHandles::read(graph::PassBuilder& pass) const {
+    return {pass.read(constants, Access::UniformRead), pass.read(casters, Access::TexelRead)};
+}
+
+void CasterTreeHandles::bind(const graph::PassContext& context) const {
+    gpu::bindUniformBuffer(UNIFORM_CASTER_TREE, context.buffer(constants), 0, sizeof(shared::CasterTreeConstants));
+    bindTexels(context, TEXTURE_UNIT_SHADOWS, casters, Format::Rgba32Uint);
+}
+
 LightingInputs LightingInputs::read(graph::PassBuilder& pass) const {
     LightingInputs result{view.read(pass),
                           pass.read(constants, Access::UniformRead),
                           pass.read(lights, Access::TexelRead),
                           readWhereThere(pass, materialTable, Access::TexelRead),
+                          {},
                           {}};
     if (lists) result.lists = lists->read(pass);
+    if (shadows) result.shadows = shadows->read(pass);
     return result;
 }
 
@@ -104,6 +115,7 @@ void LightingInputs::bind(const graph::PassContext& context) const {
     bindTexels(context, TEXTURE_UNIT_LIGHTS, lights, Format::Rgba32Float);
     if (materialTable) bindTexels(context, TEXTURE_UNIT_MATERIALS, *materialTable, Format::Rgba32Uint);
     if (lists) lists->bind(context);
+    if (shadows) shadows->bind(context);
 }
 
 GBufferHandles GBufferHandles::read(graph::PassBuilder& pass, const FrameSpec& spec, Access depthAccess) const {
@@ -135,7 +147,7 @@ void LitDepths::bind(const graph::PassContext& context) const {
     if (transparent) gpu::bindTexture(TEXTURE_UNIT_TRANSPARENT_DEPTH, context.texture(*transparent));
 }
 
-SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const SceneGpu* scene) {
+SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const SceneGpu* scene, bool hasShadows) {
     const auto import = [&](std::string name, const gpu::Buffer* buffer) {
         return graph.import(std::move(name), graph::BufferDesc{buffer ? buffer->bytes() : 0}, buffer);
     };
@@ -150,6 +162,7 @@ SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const 
     const gpu::Buffer* const table = scene ? scene->materialTable() : nullptr;
     if (!features[Feature::VaryingMaterials] && (!scene || table))
         handles.materialTable = import("material_table", table);
+    if (hasShadows) handles.casters = import("casters", scene ? scene->casters()->texels.get() : nullptr);
     return handles;
 }
 

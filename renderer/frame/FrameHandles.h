@@ -42,6 +42,7 @@ struct SceneHandles {
     graph::BufferHandle indices;
     graph::BufferHandle materials;                    ///< shared::MaterialConstants of each
     std::optional<graph::BufferHandle> materialTable; ///< where surfaces hold their material's number
+    std::optional<graph::BufferHandle> casters;       ///< where lights cast shadows: shaders/shared/caster_tree.h
 };
 
 /// The scene as a view draws it.
@@ -81,6 +82,15 @@ struct LightListHandles {
 inline constexpr const char* kLightCellsName = "light_cells";
 inline constexpr const char* kLightEntriesName = "light_entries";
 
+/// What hides lights.
+struct CasterTreeHandles {
+    graph::BufferHandle constants; ///< shared::CasterTreeConstants
+    graph::BufferHandle casters;   ///< texels (shaders/shared/caster_tree.h)
+
+    CasterTreeHandles read(graph::PassBuilder& pass) const;
+    void bind(const graph::PassContext& context) const;
+};
+
 /// What a pass lights with.
 struct LightingInputs {
     ViewHandles view;
@@ -88,6 +98,7 @@ struct LightingInputs {
     graph::BufferHandle lights;                       ///< texels (shaders/shared/light.h)
     std::optional<graph::BufferHandle> materialTable; ///< where surfaces hold their material's number
     std::optional<LightListHandles> lists;            ///< where FrameSpec::culling asks for them
+    std::optional<CasterTreeHandles> shadows;         ///< where the view has them
 
     LightingInputs read(graph::PassBuilder& pass) const;
     void bind(const graph::PassContext& context) const;
@@ -119,6 +130,7 @@ struct LitDepths {
 
 /// Makes the scene's own buffers known to a graph. `scene` is null if the frame is only planned; features are those of
 /// the scene, so any of the frame's views has them.
-SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const SceneGpu* scene);
+/// `hasShadows`: those of some view; then `scene` has its casters.
+SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const SceneGpu* scene, bool hasShadows);
 
 } // namespace tessera::frame

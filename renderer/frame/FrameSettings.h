@@ -10,6 +10,7 @@
 #include "renderer/frame/DebugViews.h"
 #include "renderer/frame/GBufferLayout.h"
 #include "renderer/frame/LightingStage.h"
+#include "scenes/Shadows.h"
 
 /// What a user may ask of a frame besides its technique, by rows of engine/Settings.cpp. Names are those of the
 /// command line; the tables are the only lists.
@@ -48,6 +49,8 @@ inline constexpr int kLargestSidePixels = 16384;
 /// The size that a text such as "1280x720" names; nothing where it names none, or one with a side that cannot be.
 std::optional<glm::ivec2> sizeIn(std::string_view text);
 
+inline constexpr int kMostShadowSamples = 1024;
+
 struct FrameSettings {
     glm::ivec2 sizePixels{1280, 720};
     int samples = 1;                 ///< of a pixel, one of kSampleCounts
@@ -61,8 +64,10 @@ struct FrameSettings {
     LightingSpace space = LightingSpace::World;
     bool prune = true;
     bool specular = true;
-    double rangeTolerance = 0.0;  ///< unit of colour x intensity: A B C lights end where they fall to it; 0: nowhere
-    std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
+    double rangeTolerance = 0.0;   ///< unit of colour x intensity: A B C lights end where they fall to it; 0: nowhere
+    std::optional<int> soloLight;  ///< index into Scene::lights: only this one shines
+    scenes::ShadowRequest shadows; ///< which lights cast shadows
+    int shadowSamples = 16;        ///< shadow rays of a pixel towards a light with a size, 1 to kMostShadowSamples
     culling::Settings culling;
     std::optional<LightingStage> lightOn; ///< of the techniques that light in a pass of its own; open: fragment shaders
     bool softwareBackend = true;          ///< decides the choices left open; the renderer sets it to its own backend

@@ -20,6 +20,7 @@ struct FrameSpec {
     culling::Choice culling;
     LightingStage lightOn = LightingStage::Fragment; ///< where the technique has a lighting pass
     std::size_t lights = 0;                          ///< that the frame's pixels may visit
+    std::size_t shadowedLights = 0;                  ///< those among them that casters may hide
     bool lightsEverywhere = false;                   ///< some lights reach everywhere, while others do not
     int samples = 1;                                 ///< that the pixels of render targets have
     glm::vec4 background{0.0f};                      ///< radiance where nothing is drawn; a is 0, the coverage

@@ -8,7 +8,8 @@
 namespace tessera::frame {
 
 std::size_t lightBytes(const FeatureSet& features, std::size_t count) {
-    return count * (sizeof(shared::LightTexels) + (features.lightShapes() ? sizeof(shared::LightShapeTexels) : 0));
+    return count * (sizeof(shared::LightTexels) + (features.lightShapes() ? sizeof(shared::LightShapeTexels) : 0) +
+                    (features[Feature::SoftShadows] ? sizeof(shared::LightSizeTexels) : 0));
 }
 
 std::string lightsText(std::size_t count) {
@@ -21,6 +22,7 @@ std::vector<glm::vec4> texelsOf(const PackedLights& lights, const FeatureSet& fe
     for (std::size_t i = 0; i < lights.texels.size(); ++i) {
         texels.insert(texels.end(), {lights.texels[i].position, lights.texels[i].color});
         if (features.lightShapes()) texels.insert(texels.end(), {lights.shapes[i].axis, lights.shapes[i].attenuation});
+        if (features[Feature::SoftShadows]) texels.push_back(lights.sizes[i].size);
     }
     return texels;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/Shadows.h"
 #include "shaders/shared/culling.h"
 
 namespace tessera::frame {
@@ -32,10 +33,11 @@ float inverseSquaredRange(double rangeMetres) {
     return float((1.0 + 0x1p-20) / (rangeMetres * rangeMetres));
 }
 
-/// A light in the form of both buffers.
+/// A light in all its forms.
 struct PackedLight {
     shared::LightTexels texels{};
     shared::LightShapeTexels shape{};
+    shared::LightSizeTexels size{};
 };
 
 /// The cone of a type of LightReach::Cone, which is KHR_lights_punctual's: clamp((cos angle - cos outer) / max(0.001,
@@ -83,6 +85,7 @@ PackedLight packLight(const scenes::Light& light, double reach, const CameraView
             result.shape.attenuation = glm::vec4(light.attenuation, 0.0f);
         }
     }
+    result.size.size.x = info.hasPosition() ? light.radiusMetres : float(std::tan(double(light.angularRadiusRadians)));
     if (info.reach == scenes::LightReach::Cone)
         kind |= packCone(light, travelLS, result.shape);
     else if (info.hasShape())
@@ -107,6 +110,7 @@ scenes::LightType typeOf(const shared::LightTexels& light) {
 
 PackedLights packLights(const scenes::Scene& scene, const CameraView& view, const FrameSettings& settings) {
     PackedLights lights;
+    std::optional<bool> hasCasters; // looked for where a light casts shadows
     int firstOn = -1;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const bool solo = settings.soloLight == int(i);
@@ -123,9 +127,20 @@ PackedLights packLights(const scenes::Scene& scene, const CameraView& view, cons
         } else if (settings.prune && isUnseen(light, reach, view)) {
             ++lights.unseen;
         } else {
-            const PackedLight packed = packLight(light, reach, view);
+            PackedLight packed = packLight(light, reach, view);
+            if (scenes::castsShadow(scene, i, settings.shadows)) {
+                if (!hasCasters) hasCasters = scenes::hasCasters(scene);
+                if (*hasCasters) {
+                    packed.texels.color.w += float(LIGHT_SHADOWED);
+                    lights.features.add(Feature::Shadows);
+                    lights.features.add(Feature::SoftShadows, scenes::hasSize(light));
+                    ++lights.shadowed;
+                }
+            }
             lights.texels.push_back(packed.texels);
             lights.shapes.push_back(packed.shape);
+            packed.size.size.y = float(i);
+            lights.sizes.push_back(packed.size);
             // Directional lights and infinite ranges.
             if (packed.texels.position.w == 0.0f) ++lights.everywhere;
             lights.sceneIndex.push_back(int(i));

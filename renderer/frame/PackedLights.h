@@ -18,11 +18,13 @@ scenes::LightType typeOf(const shared::LightTexels& light);
 struct PackedLights {
     std::vector<shared::LightTexels> texels;
     std::vector<shared::LightShapeTexels> shapes; ///< parallel to texels
+    std::vector<shared::LightSizeTexels> sizes;   ///< parallel to texels
     std::vector<int> sceneIndex;                  ///< parallel to texels: index into Scene::lights
     FeatureSet features;                          ///< the light types and falloffs among them
     int shown = 0;              ///< index into texels of the first light that is on, which the D, G and F views show;
                                 ///< texels.size() when it is left out, since it then reaches nothing in view
     std::size_t everywhere = 0; ///< those among texels without a range
+    std::size_t shadowed = 0;   ///< those among texels that casters may hide
     std::size_t off = 0;        ///< left out: disabled, or not the solo light
     std::size_t dark = 0;       ///< left out: no intensity, no range or no cone
     std::size_t unseen = 0;     ///< left out: the range ends outside the view

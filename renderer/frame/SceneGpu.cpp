@@ -8,6 +8,7 @@
 
 #include "renderer/frame/PackedMaterial.h"
 #include "renderer/frame/TextureLevels.h"
+#include "renderer/gpu/TexelBuffer.h"
 #include "scenes/InUse.h"
 #include "shaders/shared/slots.h"
 
@@ -146,6 +147,26 @@ void SceneGpu::updateMaterials() {
     materials_ = std::move(materials);
     if (geometry) geometry_ = std::move(*geometry);
     if (draws) draws_ = std::move(*draws);
+}
+
+std::vector<SceneGpu::CasterMaterial> SceneGpu::casterMaterials() const {
+    std::vector<CasterMaterial> materials;
+    for (const scenes::Material& material : scene_.materials)
+        materials.emplace_back(material.castsShadow, material.alphaMode, material.alphaCutoff, material.baseColor.w);
+    return materials;
+}
+
+void SceneGpu::makeCasters() {
+    std::vector<CasterMaterial> materials = casterMaterials();
+    if (casters_ && materials == casterMaterials_) return;
+    const CasterTree tree = makeCasterTree(scene_, draws_.list);
+    Casters casters{tree.space, std::make_unique<gpu::Buffer>(gpu::Buffer::of("casters", tree.texels))};
+    if (const std::size_t read = casters.texels->texels(graph::Format::Rgba32Uint).texels(); read < tree.texels.size())
+        throw std::runtime_error(fmt::format("the casters of shadows take {} texels of a buffer, of which the driver "
+                                             "reads {}; give --shadows none",
+                                             tree.texels.size(), read));
+    casters_ = std::move(casters);
+    casterMaterials_ = std::move(materials);
 }
 
 bool SceneGpu::shadersDecode(const scenes::Material& material, std::size_t slot) const {

@@ -3,8 +3,10 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
+#include "renderer/frame/CasterTree.h"
 #include "renderer/frame/DrawList.h"
 #include "renderer/frame/Features.h"
 #include "renderer/frame/Tangents.h"
@@ -59,6 +61,17 @@ public:
     /// the features do not need them.
     const gpu::Buffer* materialTable() const { return materials_.tabled.get(); }
 
+    /// What hides lights.
+    struct Casters {
+        CasterSpace space;
+        std::unique_ptr<gpu::Buffer> texels;
+    };
+    /// Sorts the casters anew where materials have changed which there are. Throws as makeCasterTree(), and
+    /// std::runtime_error where the driver cannot read so large a buffer.
+    void makeCasters();
+    /// Those that were made last; null before.
+    const Casters* casters() const { return casters_ ? &*casters_ : nullptr; }
+
 private:
     struct BoundTexture {
         const gpu::Texture* texture = nullptr;
@@ -81,6 +94,9 @@ private:
         std::unique_ptr<gpu::Buffer> constants; ///< of each, 256 bytes or a multiple apart
         std::unique_ptr<gpu::Buffer> tabled;    ///< the first MATERIAL_TEXELS of each, without gaps
     };
+    /// What of a material decides which of its surfaces hide light: its casting, its alpha mode, cutoff and opacity.
+    using CasterMaterial = std::tuple<bool, scenes::AlphaMode, float, float>;
+    std::vector<CasterMaterial> casterMaterials() const;
     Geometry makeGeometry() const;
     Draws makeDraws(const VertexStreams::Ranges& ranges) const;
     Materials makeMaterials() const;
@@ -100,6 +116,8 @@ private:
     Geometry geometry_;
     Draws draws_;
     Materials materials_;
+    std::optional<Casters> casters_;
+    std::vector<CasterMaterial> casterMaterials_; ///< by material, that casters_ were made with
     std::map<std::pair<int, bool>, std::unique_ptr<gpu::Texture>>
         textures_; ///< by image and whether it is decoded from sRGB
     std::vector<std::pair<scenes::Sampler, std::unique_ptr<gpu::Sampler>>> samplers_;

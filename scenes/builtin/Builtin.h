@@ -17,6 +17,8 @@ Scene makeLattice(const LoadOptions& options, LoadLedger& ledger);
 /// A closed room whose radiance is known in closed form (Room.h); `lights` lights share the position and intensity of
 /// the one lamp.
 Scene makeRoom(const LoadOptions& options, LoadLedger& ledger);
+/// Soft shadows whose shares of light are known in closed form (ShadowTruth.h).
+Scene makeShadowTruth(const LoadOptions& options, LoadLedger& ledger);
 /// A bust with an object-space normal map; a scanned head where TESSERA_ASSETS holds one and `useAssets` is set.
 Scene makeHead(const LoadOptions& options, LoadLedger& ledger);
 

@@ -17,6 +17,8 @@ std::span<const BuiltinScene> builtinScenes() {
                      builtin::makeLattice, kMiB},
         BuiltinScene{"room", "closed room with radiances known in closed form: for correctness", builtin::makeRoom,
                      kMiB},
+        BuiltinScene{"shadow_truth", "soft shadows of shares known in closed form: for correctness",
+                     builtin::makeShadowTruth, kMiB},
         BuiltinScene{"head", "bust with an object-space normal map, wall and floor", builtin::makeHead, 80 * kMiB},
     };
     return kScenes;

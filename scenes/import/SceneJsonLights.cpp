@@ -103,14 +103,16 @@ void readDirection(JsonObject& object, Light& light) {
     }
 }
 
+void readParameter(JsonObject& object, const LightParameter& parameter, Light& light) {
+    const auto value = object.find(parameter.key);
+    if (!value) return;
+    const float number = value->single(parameter.least, parameter.most);
+    light.*parameter.member = parameter.kind == LightParameter::Kind::Angle ? glm::radians(number) : number;
+}
+
 void readParameters(JsonObject& object, Light& light) {
     const std::span<const LightParameter> parameters = infoOf(light.type).parameters;
-    for (const LightParameter& parameter : parameters) {
-        const auto value = object.find(parameter.key);
-        if (!value) continue;
-        const float number = value->single(parameter.least, parameter.most);
-        light.*parameter.member = parameter.kind == LightParameter::Kind::Angle ? glm::radians(number) : number;
-    }
+    for (const LightParameter& parameter : parameters) readParameter(object, parameter, light);
     for (const LightParameter& parameter : parameters) {
         if (parameter.within == nullptr || !(light.*parameter.member > light.*parameter.within)) continue;
         if (const auto value = object.find(parameter.key))
@@ -139,6 +141,8 @@ Light readLight(const JsonValue& value, std::size_t index) {
     }
     if (infoOf(light.type).hasDirection) readDirection(object, light);
     readParameters(object, light);
+    if (const auto casts = object.find("castsShadow")) light.castsShadow = casts->boolean();
+    readParameter(object, sizeParameter(infoOf(light.type)), light);
     readFields(object, light);
     object.done(fmt::format("a {} light", type.text()));
     return light;

@@ -207,6 +207,7 @@ void changeMaterial(JsonObject& object, Material& material, Images& images) {
         material.alphaMode = mode->oneOf<AlphaMode>("alpha mode", kAlphaModes);
     if (const auto cutoff = object.find("alphaCutoff")) material.alphaCutoff = cutoff->single(0.0);
     if (const auto sides = object.find("doubleSided")) material.doubleSided = sides->boolean();
+    if (const auto casts = object.find("castsShadow")) material.castsShadow = casts->boolean();
     const std::string_view model = nameOf(material.model);
     readFields(object, material);
     object.done(fmt::format("a {} material", model));

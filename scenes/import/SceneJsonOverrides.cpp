@@ -47,8 +47,8 @@ class Overrides {
 public:
     Overrides(Scene& scene, std::size_t ownMaterials, Images& images)
         : scene_(scene), images_(images), nodes_(scene.nodes), materials_(scene.materials),
-          included_(std::span(scene.materials).first(ownMaterials)), binding_(scene.nodes.size(), kNone),
-          isDrawn_(scene.nodes.size(), false) {
+          included_(std::span(scene.materials).first(ownMaterials)), materialBinding_(scene.nodes.size(), kNone),
+          shadowBinding_(scene.nodes.size(), kNone), isDrawn_(scene.nodes.size(), false) {
         for (std::size_t i = scene.nodes.size(); i-- > 0;) {
             if (!scene.nodes[i].instances.empty()) isDrawn_[i] = true;
             if (isDrawn_[i] && scene.nodes[i].parent != kNone)
@@ -58,36 +58,54 @@ public:
 
     void apply(const JsonValue& value) {
         JsonObject object = value.object();
-        if (const auto node = object.find("node")) return bindMaterial(object, *node);
+        if (const auto node = object.find("node")) return bindNodes(object, *node);
         const std::optional<JsonValue> material = object.find("material");
         if (!material) value.fail("names neither a 'node' nor a 'material' to override");
         changeMaterials(value, *material);
     }
 
-    /// Gives the nodes the materials that are bound to them or to a node above: the last override counts.
+    /// Gives the nodes what is bound to them or to a node above: the last override counts.
     void bind() {
         for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
             Node& node = scene_.nodes[i];
-            // A parent stands before its children, so it has its own already.
-            if (node.parent != kNone)
-                binding_[i] = std::max(binding_[i], binding_[static_cast<std::size_t>(node.parent)]);
-            if (binding_[i] == kNone) continue;
-            for (MeshInstance& instance : node.instances)
-                instance.material = boundMaterials_[static_cast<std::size_t>(binding_[i])];
+            for (std::vector<int>* binding : {&materialBinding_, &shadowBinding_}) {
+                // A parent stands before its children, so it has its own already.
+                if (node.parent != kNone)
+                    (*binding)[i] = std::max((*binding)[i], (*binding)[static_cast<std::size_t>(node.parent)]);
+            }
+            for (MeshInstance& instance : node.instances) {
+                if (materialBinding_[i] != kNone)
+                    instance.material = *bound_[static_cast<std::size_t>(materialBinding_[i])].material;
+                if (shadowBinding_[i] != kNone)
+                    instance.castsShadow = *bound_[static_cast<std::size_t>(shadowBinding_[i])].castsShadow;
+            }
         }
     }
 
 private:
-    void bindMaterial(JsonObject& object, const JsonValue& pattern) {
-        const int material = materialCalled(object.require("material"));
+    /// What an override of nodes gives them.
+    struct Bound {
+        std::optional<int> material;
+        std::optional<bool> castsShadow;
+    };
+
+    void bindNodes(JsonObject& object, const JsonValue& pattern) {
+        Bound bound;
+        if (const auto material = object.find("material")) bound.material = materialCalled(*material);
+        if (const auto casts = object.find("castsShadow")) bound.castsShadow = casts->boolean();
         object.done("an override of a node");
+        if (!bound.material && !bound.castsShadow)
+            pattern.fail("is overridden by nothing; add a 'material' or 'castsShadow'");
         const std::vector<std::size_t> matches = matching(nodes_, pattern);
         if (matches.empty()) pattern.failUnknown("node", pattern.text(), nodes_.names());
         if (std::ranges::none_of(matches, [&](std::size_t node) { return isDrawn_[node]; }))
             pattern.fail(
                 fmt::format("nothing is drawn at or below the nodes '{}'; name one that has a mesh", pattern.text()));
-        for (const std::size_t node : matches) binding_[node] = static_cast<int>(boundMaterials_.size());
-        boundMaterials_.push_back(material);
+        for (const std::size_t node : matches) {
+            if (bound.material) materialBinding_[node] = static_cast<int>(bound_.size());
+            if (bound.castsShadow) shadowBinding_[node] = static_cast<int>(bound_.size());
+        }
+        bound_.push_back(bound);
     }
 
     /// A material to bind: the document's own of that name, else the first included one.
@@ -143,9 +161,9 @@ private:
     Images& images_;
     ByName<Node> nodes_;
     ByName<Material> materials_, included_;
-    std::vector<int> boundMaterials_; ///< of the overrides of nodes, in their order
-    std::vector<int> binding_;        ///< index in boundMaterials_ by node; kNone is none
-    std::vector<bool> isDrawn_;       ///< whether a mesh is drawn at or below a node
+    std::vector<Bound> bound_;                         ///< by the overrides of nodes, in their order
+    std::vector<int> materialBinding_, shadowBinding_; ///< index in bound_ by node; kNone is none
+    std::vector<bool> isDrawn_;                        ///< whether a mesh is drawn at or below a node
     std::size_t steps_ = 0;
 };
 

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "scenes/Shadows.h"
 #include "scenes/import/SceneJsonLights.h"
 #include "scenes/import/SceneJsonNames.h"
 #include "scenes/write/ElementJson.h"
@@ -66,10 +67,13 @@ Json byKeys(const Light& light) {
         if (light.animation) json["animation"] = animationJson(*light.animation);
     }
     if (info.hasDirection) json["direction"] = numbers(light.directionWS);
-    for (const LightParameter& parameter : info.parameters) {
+    const auto write = [&](const LightParameter& parameter) {
         const float value = light.*parameter.member;
         json[parameter.key] = parameter.kind == LightParameter::Kind::Angle ? degreesOf(value) : number(value);
-    }
+    };
+    for (const LightParameter& parameter : info.parameters) write(parameter);
+    if (light.castsShadow) json["castsShadow"] = true;
+    if (hasSize(light)) write(sizeParameter(info));
     return json;
 }
 

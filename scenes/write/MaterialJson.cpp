@@ -115,6 +115,7 @@ Json byKeys(const Material& material) {
     json["alphaMode"] = scenejson::nameOf(material.alphaMode);
     json["alphaCutoff"] = number(material.alphaCutoff);
     json["doubleSided"] = material.doubleSided;
+    if (!material.castsShadow) json["castsShadow"] = false;
     return json;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
-// A light as RGBA32F texels of a buffer texture: its LightTexels and, where any light has a shape, its LightShapeTexels
-// behind them. A buffer texture, because it is the fastest store measured on software rasterisers (2 to 3 times faster
-// per pair of light and pixel than a storage buffer) and has no 64 KiB limit.
+// A light as RGBA32F texels of a buffer texture: its LightTexels and behind them, where any light has a shape, its
+// LightShapeTexels, and where any has soft shadows, its LightSizeTexels. A buffer texture, because it is the fastest
+// store measured on software rasterisers (2 to 3 times faster per pair of light and pixel than a storage buffer) and
+// has no 64 KiB limit.
 #include "interop.h"
 
 // Kinds, stored as plain numbers: small integers stored as float bits would be denormals, which hardware may flush. The
@@ -9,9 +10,11 @@
 #define LIGHT_TYPE_MASK 15
 #define LIGHT_ATTENUATION 16 // added where there is a position: falloff by A + B d + C d^2
 #define LIGHT_BROAD 32       // added to a cone: the outer angle is between 60 and 120 degrees
+#define LIGHT_SHADOWED 64    // added where casters hide it
 
 #define LIGHT_TEXELS 2
 #define LIGHT_SHAPE_TEXELS 2
+#define LIGHT_SIZE_TEXELS 1
 
 SHARED_BEGIN
 
@@ -33,6 +36,11 @@ struct LightShapeTexels {
                       // broad: scale
     vec4 attenuation; // xyz A, B, C; w second parameter; cone: offset: (1 - cos outer) x scale, -(1 + cos outer) x
                       // scale, broad: -cos outer x scale
+};
+
+struct LightSizeTexels {
+    vec4 size; // x radius in metres of the disk that shadows see; of a light without a position the tangent of its
+               // angular radius; y index into Scene::lights
 };
 
 // The unit direction in which the light of a cone travels.

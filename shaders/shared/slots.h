@@ -21,6 +21,7 @@ SHARED_BEGIN
 #define UNIFORM_LIGHTS 3
 #define UNIFORM_LIGHT_SHAPES 4
 #define UNIFORM_LIGHTING 5
+#define UNIFORM_CASTER_TREE 6
 
 // Storage blocks. OpenGL 4.5 guarantees 0 to 7 to fragment and compute shaders; shaders that build light
 // lists never read lights from storage blocks.
@@ -41,6 +42,7 @@ SHARED_BEGIN
 // What lights, in forward and deferred alike. Tiles and cells of light lists are storage blocks: a pixel reads one of
 // each, where it reads lights and entries in its loop. Deferred has a unit left for the tiles.
 #define TEXTURE_UNIT_LIGHTS 13
+#define TEXTURE_UNIT_SHADOWS 14
 #define TEXTURE_UNIT_LIGHT_ENTRIES 15
 
 // What draws surfaces: the slots of scenes::TextureSlot, whose numbers TEXTURE_SLOT_<NAME> follow from its table

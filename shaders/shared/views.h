@@ -14,6 +14,7 @@
 #define VIEW_IDS 9
 #define VIEW_NORMAL_VIEW 10
 #define VIEW_NORMAL_OBJECT 11
-#define VIEW_OVERDRAW 12
-#define VIEW_FAULTS 13
-#define VIEW_STORED 14 // the first of the debug views of stored G-buffer channels
+#define VIEW_SHADOW 12
+#define VIEW_OVERDRAW 13
+#define VIEW_FAULTS 14
+#define VIEW_STORED 15 // the first of the debug views of stored G-buffer channels

@@ -48,7 +48,7 @@ protected:
         graph::Graph graph;
         const passes::UploadViewPass::Outputs uploaded = passes::UploadViewPass::add(graph, &view);
         const frame::SurfaceHandles surfaces{&view,
-                                             frame::importScene(graph, spec.features, &sceneGpu),
+                                             frame::importScene(graph, spec.features, &sceneGpu, false),
                                              {uploaded.constants},
                                              uploaded.rows,
                                              uploaded.commands,

@@ -133,8 +133,7 @@ protected:
         result.plainBias = validation::errorFigures(shown, truth.picture).bias;
         result.figures = validation::errorFigures(shown, truth.nearestTo(shown),
                                                   validation::shownTriangles(renderer, settings, truth.ids).excluded);
-        result.verdict =
-            validation::checkTolerance(result.figures, validation::referenceTolerance(scene, settings.filter));
+        result.verdict = validation::checkTolerance(result.figures, validation::referenceTolerance(scene, settings));
         return result;
     }
     static std::string tileAt(const validation::ErrorFigures& figures) {

@@ -23,7 +23,8 @@ using ParsedJson = nlohmann::json;
 using culling::Method;
 using engine::Technique;
 
-constexpr const char* kNoShadows = "this version draws no shadows, so there is nothing to vary; leave the key out";
+constexpr const char* kNoShadows =
+    "benchmarks do not vary shadows yet; give --shadows, which holds for all points, and leave the key out";
 constexpr const char* kNoSubsurface =
     "this version has no subsurface scattering, so there is nothing to vary; leave the key out";
 

@@ -15,6 +15,8 @@ reference::Settings referenceSettings(const scenes::Scene& scene, const frame::F
     result.camera = engine::frameCamera(scene, settings);
     result.timeSeconds = settings.timeSeconds;
     result.soloLight = settings.soloLight;
+    result.shadows = settings.shadows;
+    result.shadowSamples = settings.shadowSamples;
     result.specular = settings.specular;
     result.rangeTolerance = settings.rangeTolerance;
     result.filtering =
@@ -69,7 +71,20 @@ Picture ReferencePicture::nearestTo(const Picture& shown) const {
     return nearest;
 }
 
-Tolerance referenceTolerance(const scenes::Scene& scene, frame::TextureFilter filter) {
+namespace {
+
+bool hasSoftShadows(const scenes::Scene& scene, const frame::FrameSettings& settings) {
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        if (scene.lights[i].enabled && scenes::hasSize(scene.lights[i]) &&
+            scenes::castsShadow(scene, i, settings.shadows) && (!settings.soloLight || *settings.soloLight == int(i)))
+            return scenes::hasCasters(scene);
+    return false;
+}
+
+} // namespace
+
+Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSettings& settings) {
+    const frame::TextureFilter filter = settings.filter;
     Tolerance tolerance;
     if (!frame::materialFeatures(scene).textures()) {
         tolerance.p999Rel = 3e-4;
@@ -90,6 +105,14 @@ Tolerance referenceTolerance(const scenes::Scene& scene, frame::TextureFilter fi
             "the reference takes the nearest of the values that OpenGL allows a filter, but a highlight may "
             "peak between them, and each level stored in 8 bits rounds once more. Set by measurement: "
             "in built-in scenes the error is at most 0.11 in 99.9 % of the pixels, and relMse 7.0e-5";
+    }
+    if (hasSoftShadows(scene, settings)) {
+        tolerance.relMse = 1e-5;
+        tolerance.bias = 1e-3;
+        tolerance.biasNoises = kBiasNoises;
+        tolerance.reason +=
+            "; the noise of a few rays to each light with a size is allowed within five standard deviations "
+            "and two rays, but where the reference's 1024 rays all agree";
     }
     return tolerance;
 }

@@ -34,6 +34,6 @@ ReferencePicture referencePicture(
     bool leeway = true);
 
 /// What a technique with every G-buffer channel in fp32 is held to against the reference, with the reason.
-Tolerance referenceTolerance(const scenes::Scene& scene, frame::TextureFilter filter);
+Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSettings& settings);
 
 } // namespace tessera::validation

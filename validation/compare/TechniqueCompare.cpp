@@ -155,8 +155,7 @@ std::vector<ChannelShare> channelShares(engine::Renderer& renderer, const Asked&
 Tolerance toleranceOf(const engine::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
                       Technique technique, const frame::GBufferLayout& layout) {
     const frame::GBufferLayout& packing = packingApart(request, technique, layout);
-    if (isReference(request) && !isPacked(packing))
-        return referenceTolerance(renderer.scene(), request.settings.filter);
+    if (isReference(request) && !isPacked(packing)) return referenceTolerance(renderer.scene(), request.settings);
     const std::vector<scenes::Light>& lights = renderer.scene().lights;
     const auto on =
         std::count_if(lights.begin(), lights.end(), [](const scenes::Light& light) { return light.enabled; });
@@ -202,7 +201,7 @@ void addHardwareFilter(engine::Renderer& renderer, const CompareRequest& request
     const TruthPicture reference = referenceTruth(renderer, settings, request.renderedOne);
     PairTruth truth = reference.of(picture.picture);
     result.record.pairs.push_back(comparePair(picture.name, picture.picture, result.truth.name, truth.picture,
-                                              referenceTolerance(renderer.scene(), settings.filter), truth.excluded));
+                                              referenceTolerance(renderer.scene(), settings), truth.excluded));
     missLostGeometry(result.record.pairs.back().verdict, reference.triangles.lost);
     result.record.excludesPixels |= !reference.triangles.excluded.empty();
     std::vector<LostGeometry>& all = result.record.lost;

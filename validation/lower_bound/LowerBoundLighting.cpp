@@ -28,18 +28,30 @@ std::span<const LightStoreInfo> lightStores(const gpu::Capabilities& gl) {
     return std::span(kStores).first(std::size(kStores) - (gl.indexesUniformBlocks ? 0 : 1));
 }
 
+namespace {
+
+/// The bound's pairs of light and pixel are lit ones. A frame that is not pruned has shadows all the same.
+frame::FrameSpec withoutShadows(frame::FrameSpec spec) {
+    for (const frame::Feature feature : {frame::Feature::Shadows, frame::Feature::SoftShadows})
+        spec.features.has.reset(std::size_t(feature));
+    return spec;
+}
+
+} // namespace
+
 shader::ProgramDesc LowerBoundLighting::program(const frame::FrameSpec& spec, const LightStoreInfo& store) {
-    return frame::frameProgram(spec, "bound_lighting", "passes/fullscreen.vert", "bench/bound_lighting.frag",
+    return frame::frameProgram(withoutShadows(spec), "bound_lighting", "passes/fullscreen.vert",
+                               "bench/bound_lighting.frag",
                                {{"LIGHT_CURSOR", "LIGHT_CURSOR_ALL"}, {"LIGHT_STORE", std::string(store.define)}});
 }
 
 LowerBoundLighting::LowerBoundLighting(shader::ProgramLibrary& programs, const frame::FrameSpec& spec)
-    : programs_(programs), spec_(spec), view_("lower bound view", sizeof(shared::ViewConstants)),
+    : programs_(programs), spec_(withoutShadows(spec)), view_("lower bound view", sizeof(shared::ViewConstants)),
       constants_("lower bound lighting", sizeof(shared::LightingConstants), gpu::BufferUse::Dynamic),
       lights_("lower bound lights", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightTexels), gpu::BufferUse::Dynamic),
       shapes_("lower bound light shapes", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightShapeTexels),
               gpu::BufferUse::Dynamic),
-      texels_("lower bound light texels", frame::lightBytes(spec.features, LIGHT_UNIFORM_LIGHTS),
+      texels_("lower bound light texels", frame::lightBytes(spec_.features, LIGHT_UNIFORM_LIGHTS),
               gpu::BufferUse::Dynamic),
       radiance_("lower bound radiance", spec.texture(graph::Format::Rgba32Float)),
       framebuffer_({{&radiance_}, nullptr}) {

@@ -38,6 +38,9 @@ public:
     std::vector<float> download() const { return radiance_.downloadAs<float>(); }
 
     static shader::ProgramDesc program(const frame::FrameSpec& spec, const LightStoreInfo& store);
+
+    /// What is lit: the spec that it was made with, without shadows.
+    const frame::FrameSpec& spec() const { return spec_; }
     void bindConstants() const;
     void bindLights(const LightStoreInfo& store) const;
 

@@ -107,6 +107,7 @@ std::vector<ShiningLight> shiningLights(const scenes::Scene& scene, const Settin
         shining.positionRWS = shining.light.positionWS - eyeWS;
         const double brightest = std::max({shining.color.r, shining.color.g, shining.color.b});
         shining.rangeMetres = rangeOf(shining.light, brightest, settings.rangeTolerance);
+        shining.castsShadow = scenes::castsShadow(scene, i, settings.shadows);
         if (brightest > 0.0 && shining.rangeMetres > 0.0) lights.push_back(shining);
     }
     return lights;

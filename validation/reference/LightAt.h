@@ -12,6 +12,7 @@ struct ShiningLight {
     glm::dvec3 color{0.0}; ///< colour x intensity
     glm::dvec3 positionRWS{0.0};
     double rangeMetres = 0.0; ///< exactly 0 from here on; infinite where it has no end
+    bool castsShadow = false;
 };
 
 /// Light as it arrives at a point.

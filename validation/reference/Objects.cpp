@@ -164,6 +164,7 @@ void Objects::add(const scenes::Scene& scene, const scenes::MeshInstance& instan
     object.mesh = &scene.meshes[std::size_t(instance.mesh)];
     object.material = &scene.materials[std::size_t(instance.material)];
     if (object.mesh->indices.empty()) return;
+    object.castsShadow = instance.castsShadow && object.material->castsShadow;
     object.number = number;
     object.rwsFromObject = worldFromNode;
     object.rwsFromObject[3] -= glm::dvec4(rays.eyeWS(), 0.0);

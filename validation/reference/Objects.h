@@ -25,6 +25,7 @@ inline constexpr double kPositionRounding = 8.0 * 0x1p-24;
 struct Object {
     const scenes::Mesh* mesh = nullptr;
     const scenes::Material* material = nullptr;
+    bool castsShadow = true;
     std::uint32_t number = 0; ///< among all mesh instances of the scene, in document order
     glm::dmat4 rwsFromObject{1.0};
     glm::dmat3 normalFromObject{1.0};                    ///< cofactor matrix times the determinant's sign

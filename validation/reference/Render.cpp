@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 
 #include "validation/reference/LightAt.h"
+#include "validation/reference/Occlusion.h"
 #include "validation/reference/Reflectance.h"
 #include "validation/reference/Slots.h"
 #include "validation/reference/Visibility.h"
@@ -20,7 +21,7 @@ public:
     Pixels(const scenes::Scene& scene, const Settings& settings)
         : scene_(scene), settings_(settings), rays_(settings.camera, settings.sizePixels), objects_(scene, rays_),
           textures_(scene, settings.filtering), visibility_(objects_, rays_, textures_),
-          lights_(shiningLights(scene, settings, rays_.eyeWS())) {}
+          lights_(shiningLights(scene, settings, rays_.eyeWS())), occlusion_(scene, objects_) {}
 
     void row(int row, Rendered& rendered) const {
         for (int column = 0; column < rendered.width; ++column) {
@@ -114,11 +115,13 @@ private:
         if (!settings_.leeway) return;
         std::vector<Span>& alternatives = rendered.alternatives[at];
         addLeeway(ray, seen, radiance, alternatives);
+        addShadowLeeway(ray, seen, radiance, alternatives);
         for (const Hit& hit : coincidentWith(ray, seen)) {
-            const Seen other{hit, seen.transparent};
+            const Seen other{hit, seen.transparent, {}};
             const glm::dvec3 otherRadiance = radianceOf(ray, other, Nudge());
             alternatives.push_back({otherRadiance, otherRadiance});
             addLeeway(ray, other, otherRadiance, alternatives);
+            addShadowLeeway(ray, other, otherRadiance, alternatives);
         }
     }
 
@@ -126,6 +129,8 @@ private:
     struct Seen {
         std::optional<Hit> opaque;
         std::vector<Hit> transparent; ///< in the order in which they are blended
+        /// By surface, the opaque one first, and by light: what Occlusion said, once it was asked.
+        mutable std::vector<std::vector<std::optional<Occlusion::Answer>>> shadows{};
     };
 
     std::vector<Hit> coincidentWith(const Ray& ray, const Seen& seen) const {
@@ -161,6 +166,15 @@ private:
         if (settings_.filtering == Filtering::Hardware) alternatives.push_back(span);
     }
 
+    /// What the surfaces may show where rounding decides whether a light is hidden: anything from all such lights
+    /// hidden to none of them.
+    void addShadowLeeway(const Ray& ray, const Seen& seen, const glm::dvec3& radiance,
+                         std::vector<Span>& alternatives) const {
+        const Span span{radianceOf(ray, seen, Nudge(), Shadows::Most), radianceOf(ray, seen, Nudge(), Shadows::Least)};
+        if (span.least == radiance && span.most == radiance) return;
+        alternatives.push_back({glm::min(span.least, radiance), glm::max(span.most, radiance)});
+    }
+
     /// The ends of every leeway: all surfaces of a pixel go the same way, as they share the ray.
     static const std::vector<Nudge>& nudges() {
         static const std::vector<Nudge> all = [] {
@@ -178,13 +192,16 @@ private:
         return all;
     }
 
-    glm::dvec3 radianceOf(const Ray& ray, const Seen& seen, const Nudge& nudge) const {
+    /// What is shown of shadows: the definition's, or where rounding decides all or none of them.
+    enum class Shadows { Exact, Most, Least };
+
+    glm::dvec3 radianceOf(const Ray& ray, const Seen& seen, const Nudge& nudge,
+                          Shadows shadows = Shadows::Exact) const {
         glm::dvec3 radiance(scene_.background);
-        if (seen.opaque) radiance = radianceOf(nudged(*seen.opaque, nudge), ray.at(seen.opaque->depthMetres));
-        for (const Hit& hit : seen.transparent) {
-            const SurfacePoint point = nudged(hit, nudge);
-            const glm::dvec3 own = radianceOf(point, ray.at(hit.depthMetres));
-            radiance = point.opacity * own + (1.0 - point.opacity) * radiance;
+        if (seen.opaque) radiance = radianceOf(seen, 0, nudge, ray, shadows).radiance;
+        for (std::size_t i = 0; i < seen.transparent.size(); ++i) {
+            const Lit own = radianceOf(seen, 1 + i, nudge, ray, shadows);
+            radiance = own.opacity * own.radiance + (1.0 - own.opacity) * radiance;
         }
         return radiance;
     }
@@ -194,15 +211,42 @@ private:
         return surfaceAt(hit, textures_);
     }
 
-    glm::dvec3 radianceOf(const SurfacePoint& point, const glm::dvec3& positionRWS) const {
-        if (!scenes::infoOf(point.model).isLit) return point.emission + point.color;
+    struct Lit {
+        glm::dvec3 radiance{0.0};
+        double opacity = 1.0;
+    };
+
+    /// One of the surfaces, numbered as in Seen::shadows.
+    Lit radianceOf(const Seen& seen, std::size_t surface, const Nudge& nudge, const Ray& ray, Shadows shadows) const {
+        const Hit& hit = surface == 0 ? *seen.opaque : seen.transparent[surface - 1];
+        const SurfacePoint point = nudged(hit, nudge);
+        if (!scenes::infoOf(point.model).isLit) return {point.emission + point.color, point.opacity};
+        const glm::dvec3 positionRWS = ray.at(hit.depthMetres);
         const glm::dvec3 toViewer = rays_.toViewer(positionRWS);
-        glm::dvec3 radiance = emitted(point, toViewer);
-        for (const ShiningLight& light : lights_) radiance += lightOn(point, light, positionRWS, toViewer);
-        return radiance;
+        Lit lit{emitted(point, toViewer), point.opacity};
+        for (std::size_t light = 0; light < lights_.size(); ++light) {
+            const glm::dvec3 unhidden = lightOn(point, lights_[light], positionRWS, toViewer);
+            if (unhidden == glm::dvec3(0.0)) continue;
+            const Occlusion::Answer answer = shadowOf(seen, surface, hit, positionRWS, light);
+            const double share = shadows == Shadows::Exact  ? answer.share
+                                 : shadows == Shadows::Most ? answer.least
+                                                            : answer.most;
+            lit.radiance += share * unhidden;
+        }
+        return lit;
     }
 
-    /// What one light gives to a point: radiance towards the viewer. All that a picture knows of a light.
+    Occlusion::Answer shadowOf(const Seen& seen, std::size_t surface, const Hit& hit, const glm::dvec3& positionRWS,
+                               std::size_t light) const {
+        if (!lights_[light].castsShadow) return {};
+        if (seen.shadows.size() <= surface) seen.shadows.resize(surface + 1);
+        std::vector<std::optional<Occlusion::Answer>>& known = seen.shadows[surface];
+        known.resize(lights_.size());
+        if (!known[light]) known[light] = occlusion_.of(lights_[light], hit, positionRWS, settings_);
+        return *known[light];
+    }
+
+    /// What one light gives to a point that nothing hides from it: radiance towards the viewer.
     glm::dvec3 lightOn(const SurfacePoint& point, const ShiningLight& light, const glm::dvec3& positionRWS,
                        const glm::dvec3& toViewer) const {
         const Incident incident = incidentAt(light, positionRWS);
@@ -217,6 +261,7 @@ private:
     Textures textures_;
     Visibility visibility_;
     std::vector<ShiningLight> lights_;
+    Occlusion occlusion_;
 };
 
 std::uint32_t transparentId(std::uint32_t objectNumber, std::uint32_t triangle) {

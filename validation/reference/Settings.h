@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "scenes/Scene.h"
+#include "scenes/Shadows.h"
 
 namespace tessera::reference {
 
@@ -16,7 +17,10 @@ struct Settings {
     scenes::Camera camera;
     double timeSeconds = 0.0;     ///< of animated lights
     std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
-    bool specular = true;         ///< false leaves the specular lobe out
+    scenes::ShadowRequest shadows;
+    int shadowRings = 16;  ///< of a light with a size, four times as many rays each
+    int shadowSamples = 0; ///< rays that a program tries: their noise is allowed it too; 0: none is
+    bool specular = true;  ///< false leaves the specular lobe out
     Filtering filtering = Filtering::Exact;
     bool leeway = true;          ///< whether to find other values that the definition allows (Rendered::alternatives)
     double rangeTolerance = 0.0; ///< unit of colour x intensity: A B C lights end where they fall to it; 0: nowhere

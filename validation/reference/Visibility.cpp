@@ -2,34 +2,14 @@
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 #include <tuple>
 
-#include <embree3/rtcore.h>
-#include <fmt/format.h>
-
 #include "validation/reference/MaterialAt.h"
+#include "validation/reference/Trees.h"
 
 namespace tessera::reference {
 
-struct ReleaseDevice {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using Device = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
-using Tree = std::unique_ptr<RTCSceneTy, ReleaseScene>;
-
 namespace {
-
-void throwIfFailed(RTCDevice device, const char* what) {
-    const RTCError error = rtcGetDeviceError(device);
-    if (error == RTC_ERROR_NONE) return;
-    throw std::runtime_error(error == RTC_ERROR_OUT_OF_MEMORY
-                                 ? fmt::format("the reference renderer is out of memory while {}", what)
-                                 : fmt::format("Embree failed while {} (error {})", what, int(error)));
-}
 
 /// Where along the ray everything still lies ahead.
 double startOf(const Ray& ray, const Anchor& anchor) {
@@ -70,38 +50,6 @@ void judgeCandidate(const RTCFilterFunctionNArguments* arguments) {
         query.all->push_back(*hit);
     else if (!query.nearest || hit->depthMetres < query.nearest->depthMetres)
         query.nearest = hit;
-}
-
-/// Positions in single precision are relative to the anchor.
-Tree makeTree(RTCDevice device, const std::vector<Object>& objects, const Anchor& anchor) {
-    Tree tree(rtcNewScene(device));
-    throwIfFailed(device, "it makes a scene");
-    rtcSetSceneFlags(tree.get(), RTC_SCENE_FLAG_ROBUST); // rays along shared edges slip through neither triangle
-    for (const Object& object : objects) {
-        const std::size_t vertices = object.mesh->positionsOS.size(), triangles = object.mesh->indices.size() / 3;
-        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* position = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                                     RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertices));
-        auto* index = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles));
-        if (!position || !index) {
-            rtcReleaseGeometry(geometry);
-            throwIfFailed(device, "it takes in a mesh");
-        }
-        for (const glm::vec3& vertexOS : object.mesh->positionsOS) {
-            const glm::dvec4 positionRWS = object.rwsFromObject * glm::dvec4(glm::dvec3(vertexOS), 1.0);
-            for (int axis = 0; axis < 3; ++axis) *position++ = float(positionRWS[axis] - anchor.centreRWS[axis]);
-        }
-        std::copy(object.mesh->indices.begin(), object.mesh->indices.end(), index);
-        rtcSetGeometryUserData(geometry, const_cast<Object*>(&object));
-        rtcSetGeometryIntersectFilterFunction(geometry, judgeCandidate);
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(tree.get(), geometry);
-        rtcReleaseGeometry(geometry);
-    }
-    rtcCommitScene(tree.get());
-    throwIfFailed(device, "it sorts the scene's triangles");
-    return tree;
 }
 
 /// Relative error in depth of a hit by Embree's single precision, besides the rounding of positions; the
@@ -153,11 +101,14 @@ struct Visibility::Trees {
 };
 
 Visibility::Visibility(const Objects& objects, const CameraRays& rays, const Textures& textures)
-    : trees_(new Trees{objects, rays, textures, Device(rtcNewDevice(nullptr)), {}, {}}) {
-    if (!trees_->device) throw std::runtime_error("Embree, which traces the reference renderer's rays, does not start");
-    trees_->opaque = makeTree(trees_->device.get(), objects.opaque(), trees_->objects.anchor());
-    if (!objects.transparent().empty())
-        trees_->transparent = makeTree(trees_->device.get(), objects.transparent(), trees_->objects.anchor());
+    : trees_(new Trees{objects, rays, textures, makeDevice(), {}, {}}) {
+    const auto treeOf = [&](const std::vector<Object>& list) {
+        std::vector<const Object*> pointers;
+        for (const Object& object : list) pointers.push_back(&object);
+        return makeTree(trees_->device.get(), pointers, objects.anchor().centreRWS, judgeCandidate);
+    };
+    trees_->opaque = treeOf(objects.opaque());
+    if (!objects.transparent().empty()) trees_->transparent = treeOf(objects.transparent());
 }
 
 Visibility::~Visibility() = default;

@@ -12,6 +12,7 @@ const std::vector<StressCase>& stressCases() {
         addPlaceCases(cases);
         addGeometryCases(cases);
         addTargetCases(cases);
+        addShadowCases(cases);
         return cases;
     }();
     return kCases;

@@ -49,5 +49,6 @@ void addManyLightCases(std::vector<StressCase>& cases);
 void addPlaceCases(std::vector<StressCase>& cases);
 void addGeometryCases(std::vector<StressCase>& cases);
 void addTargetCases(std::vector<StressCase>& cases);
+void addShadowCases(std::vector<StressCase>& cases);
 
 } // namespace tessera::validation

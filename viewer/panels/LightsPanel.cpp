@@ -158,6 +158,15 @@ bool lightRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres)
     if (scenes::infoOf(light.type).hasPosition()) changed |= isAttenuated ? attenuationRow(light) : rangeRow(light);
     changed |= parameterRows(light);
     changed |= placeRows(light, timeSeconds, sceneSizeMetres);
+    row("Shadow");
+    changed |= ImGui::Checkbox("casts##light", &light.castsShadow);
+    const scenes::LightParameter& size = scenes::sizeParameter(scenes::infoOf(light.type));
+    float& value = light.*size.member;
+    if (size.kind == scenes::LightParameter::Kind::Angle)
+        changed |= angleSlider(size.label, value, size.least, size.most);
+    else
+        changed |= slider(size.label, value, size.least, std::min(size.most, float(0.1 * sceneSizeMetres)), "%.3g m");
+    tip("Softens the light's shadows");
     return changed;
 }
 

@@ -62,6 +62,9 @@ bool surfaceRows(Material& material) {
         changed |= slider("Normal map", material.normalScale, 0.0f, kMostNormalScale, "x %.2f");
     row("Two sides");
     changed |= ImGui::Checkbox("##doubleSided", &material.doubleSided);
+    if (material.alphaMode == scenes::AlphaMode::Blend) return changed;
+    row("Shadow");
+    changed |= ImGui::Checkbox("casts##material", &material.castsShadow);
     return changed;
 }
 

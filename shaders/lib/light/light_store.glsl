@@ -8,9 +8,14 @@
 layout(binding = TEXTURE_UNIT_LIGHTS) uniform samplerBuffer lightTexels;
 
 #if HAS_LIGHT_SHAPES
-#define TEXELS_A_LIGHT (LIGHT_TEXELS + LIGHT_SHAPE_TEXELS)
+#define TEXELS_BEFORE_SIZE (LIGHT_TEXELS + LIGHT_SHAPE_TEXELS)
 #else
-#define TEXELS_A_LIGHT LIGHT_TEXELS
+#define TEXELS_BEFORE_SIZE LIGHT_TEXELS
+#endif
+#if HAS_SOFT_SHADOWS
+#define TEXELS_A_LIGHT (TEXELS_BEFORE_SIZE + LIGHT_SIZE_TEXELS)
+#else
+#define TEXELS_A_LIGHT TEXELS_BEFORE_SIZE
 #endif
 
 // A texel of a light, in the order of LightTexels.
@@ -24,6 +29,14 @@ vec4 lightTexel(int index, int texel)
 vec4 lightShapeTexel(int index, int texel)
 {
     return texelFetch(lightTexels, index * TEXELS_A_LIGHT + LIGHT_TEXELS + texel);
+}
+#endif
+
+#if HAS_SOFT_SHADOWS
+// LightSizeTexels::size.
+vec4 lightSizeTexel(int index)
+{
+    return texelFetch(lightTexels, index * TEXELS_A_LIGHT + TEXELS_BEFORE_SIZE);
 }
 #endif
 #endif

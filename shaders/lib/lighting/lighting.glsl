@@ -4,6 +4,9 @@
 #include "lib/reflectance/reflectance.glsl"
 #include "lib/light/light.glsl"
 #include "lib/light/light_cursor.glsl"
+#if HAS_SHADOWS
+#include "lib/shadow/shadow.glsl"
+#endif
 
 // 1 where lights are counted instead of added (lib/lighting/views.glsl).
 #ifndef VISIT_COUNTS
@@ -16,20 +19,27 @@ bool takesLight(Surface surface)
     return !IS_UNLIT(surface.model);
 }
 
-// Adds the radiance towards the viewer that a lit surface reflects of one light; where visits are counted, 1. Every pass
-// that adds light calls this function; only the debug views of D, G and F read a light directly. Area lights and shadows
-// belong here and not in a loop; data of the surface that they need besides the shading normal become members of Surface.
-// It adds instead of returning: a rasteriser that masks lanes would choose between the result and 0 before it adds (5 % of
-// the time of 1,024 lights).
-void addLightOnSurface(int light, SeenSurface seen, vec3 positionLS, inout vec3 radiance)
+// Adds the radiance towards the viewer that a lit surface reflects of one light; where visits are counted, 1. Every
+// pass that adds light calls this function; only the debug views of D, G and F read a light directly. Shadows are asked
+// for here, and area lights belong here, not in a loop; data of the surface that they need besides the shading normal
+// become members of Surface. It adds instead of returning: a rasteriser that masks lanes would choose between the
+// result and 0 before it adds (5 % of the time of 1,024 lights).
+void addLightOnSurface(int light, SeenSurface seen, Viewpoint viewpoint, inout vec3 radiance)
 {
 #if VISIT_COUNTS
     radiance += vec3(1.0);
 #else
     Incident incident;
-    if (incidentLight(light, positionLS, incident)) {
+    if (incidentLight(light, viewpoint.positionLS, incident)) {
         vec3 brdfCosine = layeredBrdfCosine(seen, incident.toLightLS);
+#if HAS_SHADOWS
+        precise vec3 unshadowed = brdfCosine * incident.irradiance;
+        // A shadow costs far more than what it would hide.
+        if (unshadowed != vec3(0.0)) unshadowed *= shadowFactor(light, viewpoint);
+        precise vec3 sum = radiance + unshadowed;
+#else
         precise vec3 sum = radiance + brdfCosine * incident.irradiance;
+#endif
         radiance = sum;
     }
 #endif
@@ -44,10 +54,12 @@ vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pi
     LightCursor cursor = lightCursor(pixel, viewpoint.depth);
     int light;
     if (!nextLight(cursor, light) && !nextBatch(cursor, light)) return radiance;
-    // Tested at the end: rasterisers that mask lanes instead of branching would run a loop's body once more than its lights.
-    // LIGHTS_PER_ROUND (renderer/frame/LightRounds.h) is spelt out: an inner loop would count towards the same limit.
-#define ADD_LIGHT addLightOnSurface(light, seen, viewpoint.positionLS, radiance);
+    // Tested at the end: rasterisers that mask lanes instead of branching would run a loop's body once more than its
+    // lights. LIGHTS_PER_ROUND (renderer/frame/LightRounds.h) is spelt out: an inner loop would count towards the same
+    // limit.
+#define ADD_LIGHT addLightOnSurface(light, seen, viewpoint, radiance);
 #define ADD_NEXT_LIGHT if (nextLight(cursor, light)) ADD_LIGHT
+    bool more = true;
     do {
         do {
             ADD_LIGHT
@@ -60,8 +72,14 @@ vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pi
 #if LIGHTS_PER_ROUND > 4
             ADD_NEXT_LIGHT ADD_NEXT_LIGHT ADD_NEXT_LIGHT ADD_NEXT_LIGHT
 #endif
-        } while (nextLight(cursor, light));
-    } while (nextBatch(cursor, light));
+            more = nextLight(cursor, light);
+        } while (more);
+        more = nextBatch(cursor, light);
+    } while (more);
+#if HAS_SHADOWS
+    // Walks through casters count towards the iterations after which Mesa ends loops (lib/shadow/caster_walk.glsl).
+    if (more) radiance = vec3(uintBitsToFloat(0x7FC00000u));
+#endif
 #endif
     return radiance;
 }

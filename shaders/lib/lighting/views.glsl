@@ -35,6 +35,15 @@ vec3 specularFactorView(Surface surface, Viewpoint viewpoint)
     return shown;
 }
 
+// How much of the light that lighting.lights.y names casters let through.
+vec3 shadowView(Viewpoint viewpoint)
+{
+#if HAS_SHADOWS
+    if (lighting.lights.y < lighting.lights.x) return vec3(shadowFactor(int(lighting.lights.y), viewpoint));
+#endif
+    return vec3(1.0);
+}
+
 vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
 {
 #if VIEW == VIEW_FINAL
@@ -53,6 +62,8 @@ vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
     return surface.normalTexel * 2.0 - 1.0; // put there as it was rasterised (lib/material/material.glsl)
 #elif VIEW == VIEW_LIGHTS
     return lightsOnSurface(vec3(0.0), seenSurface(surface, viewpoint.toViewerLS), viewpoint, pixel); // counted
+#elif VIEW == VIEW_SHADOW
+    return shadowView(viewpoint);
 #elif VIEW == VIEW_DEPTH
     return vec3(view.eyeLS.w + dot(viewpoint.positionLS, view.forwardLS.xyz));
 #else

@@ -56,6 +56,7 @@ Viewpoint viewpointFromDepth(vec2 pixel, float depth)
     precise vec3 across = acrossOfPixel(pixel);
     Viewpoint viewpoint;
     viewpoint.depth = depth;
+    viewpoint.pixel = pixel;
 #if HAS_ORTHOGRAPHIC_CAMERA
     if (view.forwardLS.w != 0.0) {
         precise vec3 position = across + ahead * view.forwardLS.xyz;

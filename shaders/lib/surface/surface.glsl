@@ -43,6 +43,7 @@ struct Viewpoint {
     vec3 positionLS;
     vec3 toViewerLS; // unit
     float depth;     // as stored in the depth buffer
+    vec2 pixel;      // window coordinates of its centre
 };
 
 // The model of every surface when the scene uses only one, else the stored one.

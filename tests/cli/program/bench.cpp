@@ -127,7 +127,7 @@ TEST_F(Bench, aBadMatrixIsRefusedInOneLineThatNamesIt) {
     EXPECT_THAT(refused(R"({"size": ["0x10"]})"), HasSubstr("1280x720"));
     EXPECT_THAT(refused(R"({"technique": []})"), HasSubstr("at least one"));
     EXPECT_THAT(refused(R"({"range": [-1]})"), HasSubstr("range tolerance"));
-    EXPECT_THAT(refused(R"({"shadow": [1024]})"), HasSubstr("draws no shadows"));
+    EXPECT_THAT(refused(R"({"shadow": [1024]})"), HasSubstr("do not vary shadows yet"));
     EXPECT_THAT(refused(R"({"subsurface": ["blur"]})"), HasSubstr("no subsurface scattering"));
 }
 

@@ -138,7 +138,9 @@ TEST_F(LowerBoundTest, itsPictureEqualsThatOfTheDeferredTechniques) {
         for (const int count :
              {0, 1, validation::LowerBoundBench::kFewLights, validation::LowerBoundBench::kManyLights}) {
             lighting.setLights(lightsOf(spec, count));
-            EXPECT_EQ(differences(draw(lighting, validation::lightStoreTable()[0]), deferredPicture(spec, lighting)), 0)
+            EXPECT_EQ(differences(draw(lighting, validation::lightStoreTable()[0]),
+                                  deferredPicture(lighting.spec(), lighting)),
+                      0)
                 << count << " lights";
         }
     }
@@ -148,11 +150,11 @@ TEST_F(LowerBoundTest, hardwareThatReadsConstantsFromBlocksGivesTheVerySamePictu
     for (const frame::FrameSpec& spec : specs()) {
         LowerBoundLighting lighting(bench.programs(), spec);
         lighting.setLights(lightsOf(spec, validation::LowerBoundBench::kManyLights));
-        frame::FrameSpec onHardware = spec;
+        frame::FrameSpec onHardware = lighting.spec();
         onHardware.settings.softwareBackend = !spec.settings.softwareBackend;
         ASSERT_NE(passes::DeferredLightingPass::program(spec, {}).defines,
                   passes::DeferredLightingPass::program(onHardware, {}).defines);
-        EXPECT_EQ(differences(deferredPicture(onHardware, lighting), deferredPicture(spec, lighting)), 0);
+        EXPECT_EQ(differences(deferredPicture(onHardware, lighting), deferredPicture(lighting.spec(), lighting)), 0);
     }
 }
 

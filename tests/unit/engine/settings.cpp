@@ -37,12 +37,12 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
     const auto members = [](const ViewRequest& request) {
         const auto& [technique, settings] = request;
         const auto& [sizePixels, samples, samplesGiven, camera, timeSeconds, eyeOffsetWS, layout, view, filter, space,
-                     prune, specular, rangeTolerance, soloLight, culling, lightOn, softwareBackend, display, exposureEV,
-                     toneMap] = settings;
+                     prune, specular, rangeTolerance, soloLight, shadows, shadowSamples, culling, lightOn,
+                     softwareBackend, display, exposureEV, toneMap] = settings;
         const auto& [method, tilePixels, builder, normals, lanes] = culling;
         return std::pair(std::tuple(technique, sizePixels, samples, camera, timeSeconds, layout, view, filter, space,
-                                    prune, specular, rangeTolerance, soloLight, method, tilePixels, builder, normals,
-                                    lightOn, exposureEV, toneMap),
+                                    prune, specular, rangeTolerance, soloLight, shadows, shadowSamples, method,
+                                    tilePixels, builder, normals, lightOn, exposureEV, toneMap),
                          std::tuple(samplesGiven, eyeOffsetWS, softwareBackend, display, lanes));
     };
     const auto differ = []<std::size_t... kIndex>(const auto& x, const auto& y, std::index_sequence<kIndex...>) {
@@ -143,6 +143,26 @@ TEST(Settings, invalidValuesAreRefusedByTheNameThatTheUserWrote) {
               "--exposure 121 is above 120; give -120 to 120");
     EXPECT_EQ(refusal([&] { settingOf("rangeTolerance").read(request, "-1"); }),
               "range tolerance -1 is below 0; give 0 or more");
+}
+
+TEST(Settings, shadowsAreThoseOfSomeLightsOrOfTheFirstFew) {
+    const Setting& shadows = settingOf("shadows");
+    using Kind = scenes::ShadowRequest::Kind;
+    ViewRequest request;
+    EXPECT_EQ(shadows.text(request), "asked");
+    for (const auto& [text, value] : std::initializer_list<std::pair<const char*, scenes::ShadowRequest>>{
+             {"none", {Kind::None}}, {"all", {Kind::All}}, {"0", {Kind::First, 0}}, {"16", {Kind::First, 16}}}) {
+        shadows.read(request, text);
+        EXPECT_EQ(request.settings.shadows, value);
+        EXPECT_EQ(shadows.text(request), text);
+    }
+    EXPECT_EQ(refusal([&] { shadows.read(request, "-1"); }), "shadows -1 is below 0; give 0 or more");
+    EXPECT_EQ(refusal([&] { shadows.read(request, "al"); }),
+              "unknown shadows 'al': did you mean 'all'?; or give a number N, and the first N lights cast some");
+    scenes::Scene scene;
+    scene.options.wishes["shadows"] = 3.0;
+    takeWishes(scene, "s.json", request);
+    EXPECT_EQ(request.settings.shadows, (scenes::ShadowRequest{Kind::First, 3}));
 }
 
 TEST(Settings, aTechniqueRefusesUnsupportedValuesAndNamesThoseThatSupportThem) {

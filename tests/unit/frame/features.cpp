@@ -119,8 +119,8 @@ TEST(Features, aFeatureIsInTheSetExactlyWhenAMaterialInUseNeedsIt) {
 
 TEST(Features, everyFeatureOfMaterialsHasASceneWithItAndOneWithout) {
     std::set<Feature> tested{featureOf(MaterialModel::Lambert),
-                             Feature::AttenuationLights, // the lights' are packLights' business
-                             Feature::OrthographicCamera};
+                             Feature::AttenuationLights, // the lights' are packLights' business, and so are shadows
+                             Feature::OrthographicCamera, Feature::Shadows, Feature::SoftShadows};
     for (const scenes::LightTypeInfo& type : scenes::lightTypes()) tested.insert(featureOf(type.type));
     for (const Change& change : changes()) tested.insert(change.feature);
     EXPECT_EQ(tested.size(), kFeatureCount);

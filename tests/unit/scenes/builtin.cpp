@@ -62,7 +62,7 @@ std::uint64_t digest(const Scene& scene) {
     }
     for (const Node& node : scene.nodes) {
         digest.add(node.parentFromNode);
-        digest.add(node.instances);
+        for (const MeshInstance& instance : node.instances) digest.add(glm::ivec2(instance.mesh, instance.material));
     }
     for (const Material& material : scene.materials) {
         digest.add(material.baseColor);

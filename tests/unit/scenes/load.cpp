@@ -23,9 +23,9 @@ std::string complaint(const std::string& nameOrPath, const LoadOptions& options 
 
 TEST(LoadScene, unknownNamesBringTheNearest) {
     EXPECT_EQ(complaint("latice"), "no built-in scene or file is called 'latice'; did you mean 'lattice'?");
-    EXPECT_EQ(
-        complaint("quetzalcoatl"),
-        "no built-in scene or file is called 'quetzalcoatl'; valid are hall, spheres, models, lattice, room, head");
+    EXPECT_EQ(complaint("quetzalcoatl"),
+              "no built-in scene or file is called 'quetzalcoatl'; valid are hall, spheres, models, lattice, room, "
+              "shadow_truth, head");
 }
 
 TEST(LoadScene, missingAndForeignFilesAreNamed) {

@@ -203,8 +203,8 @@ TEST(Offline, everyProgramOfEveryBuiltinSceneAlwaysSatisfiesTheReferenceCompiler
         EXPECT_LE(verdicts[i].sampledTextures, TEXTURE_UNITS_A_STAGE) << work[i]->key();
         mostSampled = std::max(mostSampled, verdicts[i].sampledTextures);
     }
-    // Every texture of a material, lights and the entries of light lists are in one of them.
-    EXPECT_EQ(mostSampled, TEXTURE_SLOT_COUNT + 2);
+    // Every texture of a material, lights, the entries of light lists and casters are in one of them.
+    EXPECT_EQ(mostSampled, TEXTURE_SLOT_COUNT + 3);
 }
 
 TEST(Offline, aFaultyProgramIsSeenByTheReferenceCompiler) {

@@ -36,6 +36,10 @@ TEST(SceneJsonLights, aPointLightHasItsStatedValues) {
         lightOf(folder, point(R"("name": "lamp", "enabled": false, "color": [0.5, 0.25, 0], "intensity": 40)"));
     EXPECT_EQ(light.name, "lamp");
     EXPECT_FALSE(light.enabled);
+    EXPECT_FALSE(light.castsShadow);
+    EXPECT_TRUE(lightOf(folder, point(R"("castsShadow": true)")).castsShadow);
+    EXPECT_EQ(light.radiusMetres, 0.0f);
+    EXPECT_EQ(lightOf(folder, point(R"("radius": 0.25)")).radiusMetres, 0.25f);
     EXPECT_EQ(light.color, glm::vec3(0.5f, 0.25f, 0));
     EXPECT_EQ(light.intensity, 40.0f);
 }
@@ -191,7 +195,7 @@ TEST(SceneJsonLights, brokenAnimationsAreRefused) {
     EXPECT_EQ(
         errorOfLight(folder, R"({"type": "directional", "direction": [1, 0, 0], "animation": {"type": "orbit"}})"),
         "/lights/0: a directional light has no key 'animation'; valid are type, name, enabled, color, intensity, "
-        "direction, fields");
+        "direction, castsShadow, angularRadiusDegrees, fields");
 }
 
 } // namespace

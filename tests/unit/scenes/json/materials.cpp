@@ -164,6 +164,8 @@ TEST(SceneJsonMaterials, alphaModeAndSidesAreKept) {
     EXPECT_EQ(mask.alphaMode, AlphaMode::Mask);
     EXPECT_EQ(mask.alphaCutoff, 0.25f);
     EXPECT_TRUE(mask.doubleSided);
+    EXPECT_TRUE(mask.castsShadow);
+    EXPECT_FALSE(materialOf(folder, R"("model": "lambert", "castsShadow": false)").castsShadow);
     EXPECT_EQ(materialOf(folder, R"("model": "lambert", "alphaMode": "blend")").alphaMode, AlphaMode::Blend);
     EXPECT_EQ(materialOf(folder, R"("model": "lambert")").alphaMode, AlphaMode::Opaque);
 }
@@ -262,7 +264,7 @@ TEST(SceneJsonMaterials, parametersOfAnotherModelAreRefused) {
               "/materials/0: a metallic_roughness material has no key 'metalic'; did you mean 'metallic'?");
     EXPECT_EQ(errorOfMaterial(folder, R"("model": "single_color", "normalMap": "pictures/normal.tga")"),
               "/materials/0: a single_color material has no key 'normalMap'; valid are name, model, replaces, color, "
-              "alphaMode, alphaCutoff, doubleSided, fields");
+              "alphaMode, alphaCutoff, doubleSided, castsShadow, fields");
     EXPECT_EQ(errorOfMaterial(folder, R"("model": "lambert", "k_d": {"factr": [1, 1, 1]})"),
               "/materials/0/k_d: a parameter with a texture has no key 'factr'; did you mean 'factor'?");
 }

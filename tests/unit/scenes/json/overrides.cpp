@@ -74,6 +74,25 @@ TEST(SceneJsonOverrides, theDocumentsOwnMaterialIsFoundFirst) {
               MaterialModel::Lambert);
 }
 
+TEST(SceneJsonOverrides, nodesAndThoseBelowCastShadowsAsTheLastOverrideSays) {
+    const SceneFolder folder;
+    const Scene scene = folder.import(threeParts(
+        R"("overrides": [{"node": "*", "castsShadow": false}, {"node": "left", "castsShadow": true},
+                         {"node": "left", "material": "brass"}])"));
+    int casting = 0, drawn = 0;
+    for (const Node& node : scene.nodes) {
+        for (const MeshInstance& instance : node.instances) {
+            ++drawn;
+            casting += instance.castsShadow;
+            EXPECT_EQ(instance.castsShadow, &node == &scene.nodes[1]);
+        }
+    }
+    EXPECT_EQ(casting, 1);
+    EXPECT_GT(drawn, 1);
+    EXPECT_TRUE(test::schemaAccepts(threeParts(R"("overrides": [{"node": "left", "castsShadow": true}])")));
+    EXPECT_FALSE(test::schemaAccepts(threeParts(R"("overrides": [{"node": "left"}])")));
+}
+
 TEST(SceneJsonOverrides, aMaterialOverrideChangesOnlyWhatItGives) {
     const SceneFolder folder;
     const Scene scene = folder.import(
@@ -124,11 +143,14 @@ TEST(SceneJsonOverrides, anOverrideThatMatchesNothingIsRefusedWithTheNearest) {
         "metallic, perceptualRoughness, ior, specularFactor, specularColor, metallicRoughnessTexture, "
         "anisotropyStrength, anisotropyRotationDegrees, anisotropyTexture, emissive, emissiveStrength, clearcoat, "
         "clearcoatPerceptualRoughness, clearcoatNormalMap, sheenColor, sheenPerceptualRoughness, normalMap, "
-        "tangents, alphaMode, alphaCutoff, doubleSided, fields");
+        "tangents, alphaMode, alphaCutoff, doubleSided, castsShadow, fields");
+    EXPECT_EQ(folder.errorOf(threeParts(R"("overrides": [{"node": "left"}])")),
+              "/overrides/0/node: is overridden by nothing; add a 'material' or 'castsShadow'");
     EXPECT_EQ(folder.errorOf(threeParts(R"("overrides": [{"k_d": [1, 1, 1]}])")),
               "/overrides/0: names neither a 'node' nor a 'material' to override");
     EXPECT_EQ(folder.errorOf(threeParts(R"("overrides": [{"node": "left", "material": "brass", "metallic": 1}])")),
-              "/overrides/0: an override of a node has no key 'metallic'; valid are node, material");
+              "/overrides/0: an override of a node has no key 'metallic'; valid are node, material, "
+              "castsShadow");
     folder.write("parts/empty.json", R"({"tessera": 1})");
     EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "include": [{"file": "parts/empty.json"}],
                   "materials": [{"name": "m", "model": "lambert"}],

@@ -66,7 +66,7 @@ TEST(SceneJson, anUnknownKeyIsRefusedWithTheNearest) {
     EXPECT_EQ(
         folder.errorOfMembers(R"("lights": [{"type": "point", "position": [0, 0, 0], "target": [1, 0, 0]}])"),
         "/lights/0: a point light has no key 'target'; valid are type, name, enabled, color, intensity, position, "
-        "falloff, animation, fields");
+        "falloff, animation, castsShadow, radius, fields");
 }
 
 TEST(SceneJson, aWrongTypeIsRefused) {

@@ -1,0 +1,53 @@
+#include "scenes/Shadows.h"
+
+#include <algorithm>
+
+#include "scenes/InUse.h"
+
+namespace tessera::scenes {
+
+bool castsShadow(const Scene& scene, std::size_t light, const ShadowRequest& request) {
+    switch (request.kind) {
+    case ShadowRequest::Kind::None:
+        return false;
+    case ShadowRequest::Kind::Asked:
+        return scene.lights[light].castsShadow;
+    case ShadowRequest::Kind::All:
+        return true;
+    case ShadowRequest::Kind::First:
+        return light < std::size_t(request.lights);
+    }
+    return false;
+}
+
+bool hasSize(const Light& light) {
+    return light.*sizeParameter(infoOf(light.type)).member > 0.0f;
+}
+
+bool isCaster(const Scene& scene, const MeshInstance& instance) {
+    if (!isDrawn(scene, instance) || !instance.castsShadow) return false;
+    const Material& material = scene.materials[std::size_t(instance.material)];
+    return material.castsShadow && material.alphaMode != AlphaMode::Blend;
+}
+
+CasterCounts casterCounts(const Scene& scene) {
+    CasterCounts counts;
+    for (const Node& node : scene.nodes) {
+        for (const MeshInstance& instance : node.instances) {
+            if (isCaster(scene, instance))
+                counts.triangles += scene.meshes[std::size_t(instance.mesh)].indices.size() / 3;
+            else if (isDrawn(scene, instance))
+                counts.transparent += scene.materials[std::size_t(instance.material)].alphaMode == AlphaMode::Blend;
+        }
+    }
+    return counts;
+}
+
+bool hasCasters(const Scene& scene) {
+    return std::ranges::any_of(scene.nodes, [&](const Node& node) {
+        return std::ranges::any_of(node.instances,
+                                   [&](const MeshInstance& instance) { return isCaster(scene, instance); });
+    });
+}
+
+} // namespace tessera::scenes

@@ -1,0 +1,46 @@
+#pragma once
+#include <cstddef>
+
+#include "scenes/Scene.h"
+
+/// Which lights cast shadows, and what hides them. A caster is opaque where it is there at all, and hides light from
+/// either of its sides. Transparent surfaces hide none.
+///
+/// What reaches a point of a light that casts shadows is the share, by area, of a disk that casters leave in sight: the
+/// disk around the light's position that faces the point, of Light::radiusMetres; or around the direction to the light,
+/// of Light::angularRadiusRadians. Where that is 0, all or nothing. The light that it shares out is that of the light
+/// without a size.
+namespace tessera::scenes {
+
+/// Which of a scene's lights are to cast shadows.
+struct ShadowRequest {
+    enum class Kind : std::uint8_t {
+        None,
+        Asked, ///< those with Light::castsShadow
+        All,
+        First ///< the first `lights` of Scene::lights
+    };
+    Kind kind = Kind::Asked;
+    int lights = 0; ///< 0 but for First
+    bool operator==(const ShadowRequest&) const = default;
+};
+
+/// Whether light `light` of the scene casts shadows.
+bool castsShadow(const Scene& scene, std::size_t light, const ShadowRequest& request);
+
+/// Whether a light's shadows are soft.
+bool hasSize(const Light& light);
+
+/// Whether the instance hides light: it is drawn, both it and its material may, and it is not transparent.
+bool isCaster(const Scene& scene, const MeshInstance& instance);
+
+bool hasCasters(const Scene& scene);
+
+/// What a scene draws, by whether it hides light.
+struct CasterCounts {
+    std::size_t triangles = 0;   ///< of casters
+    std::size_t transparent = 0; ///< instances that cast no shadow for being transparent
+};
+CasterCounts casterCounts(const Scene& scene);
+
+} // namespace tessera::scenes

@@ -1,0 +1,236 @@
+// Shadow rays: walks the tree of casters (shared/caster_tree.h) from a point to a light.
+//
+// A triangle hides the light where it crosses the ray between the two ends. One whose plane holds an end within
+// rounding hides nothing: the point's own triangle must not, and fp32 cannot tell on which side of such a plane the end
+// lies. Edges are decided in two coordinates across the ray, so that no ray slips through between two triangles that
+// share one (Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection"). Sides do not count.
+#pragma once
+#include "shared/slots.h"
+#include "shared/caster_tree.h"
+#include "lib/surface/camera.glsl"
+
+layout(std140, binding = UNIFORM_CASTER_TREE) uniform CasterTreeBlock
+{
+    CasterTreeConstants casterTree;
+};
+layout(binding = TEXTURE_UNIT_SHADOWS) uniform usamplerBuffer casterTexels;
+
+// In casters' space (CS).
+struct ShadowRay {
+    vec3 originCS;
+    vec3 toLightCS;        // all the way
+    vec3 inverseToLightCS; // 1 / toLightCS, never infinite
+    int longestAxis;       // of toLightCS
+    vec2 shear;            // how far it goes across that axis for a step along it
+    float originRounding;  // by how much rounding may move each end, in units of CS
+    float lightRounding;
+};
+
+vec4 casterTexel(uint texel)
+{
+    return uintBitsToFloat(texelFetch(casterTexels, int(texel)));
+}
+
+// Turns the axes so that the longest one of the ray becomes z; they stay right-handed.
+vec3 turned(vec3 v, int longestAxis)
+{
+    return longestAxis == 0 ? v.yzx : longestAxis == 1 ? v.zxy : v;
+}
+
+vec3 positionCS(vec3 positionLS)
+{
+    precise vec3 metres = mat3(view.worldFromLS) * positionLS;
+    precise vec3 position = metres * casterTree.rwsOriginCS.w + casterTree.rwsOriginCS.xyz;
+    return position;
+}
+
+// By how much fp32 may move a surface or a light against the casters, in units of CS.
+float roundingAt(vec3 positionLS)
+{
+    precise float metres = casterTree.rounding.x + casterTree.rounding.y * length(positionLS);
+    return metres * casterTree.rwsOriginCS.w;
+}
+
+ShadowRay shadowRay(vec3 originLS, vec3 toLightCS, float lightRounding)
+{
+    ShadowRay ray;
+    ray.originCS = positionCS(originLS);
+    ray.toLightCS = toLightCS;
+    ray.originRounding = roundingAt(originLS);
+    ray.lightRounding = lightRounding;
+    vec3 size = abs(toLightCS);
+    ray.longestAxis = size.x >= max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
+    vec3 ahead = turned(toLightCS, ray.longestAxis);
+    precise vec2 shear = ahead.xy * (1.0 / ahead.z);
+    ray.shear = shear;
+    // A ray across an axis misses the boxes beside it by far.
+    vec3 least = vec3(1e-18 * max(size.x, max(size.y, size.z)));
+    precise vec3 inverse = 1.0 / mix(max(toLightCS, least), min(toLightCS, -least), lessThan(toLightCS, vec3(0.0)));
+    ray.inverseToLightCS = inverse;
+    return ray;
+}
+
+// Whether the ray may pass through a box. Rounding moves a plane's share of the ray by less than 2^-20 of itself, also
+// where a division is off by 2.5 of its last digits, as GLSL allows (Ize 2013, "Robust BVH Ray Traversal").
+bool meetsBox(ShadowRay ray, vec3 lowCS, vec3 highCS)
+{
+    precise vec3 toLow = (lowCS - ray.originCS) * ray.inverseToLightCS;
+    precise vec3 toHigh = (highCS - ray.originCS) * ray.inverseToLightCS;
+    vec3 nearest = min(toLow, toHigh);
+    vec3 farthest = max(toLow, toHigh);
+    float enters = max(max(nearest.x, nearest.y), max(nearest.z, 0.0));
+    precise float leaves = min(min(farthest.x, farthest.y), min(farthest.z, 1.0)) * 1.000001;
+    return enters <= leaves;
+}
+
+#if HAS_ALPHA_MASK
+// A coordinate of texels brought inside 0 .. size - 1.
+int wrappedTexel(int at, int size, uint wrap)
+{
+    if (wrap == CASTER_WRAP_CLAMP) return clamp(at, 0, size - 1);
+    int period = wrap == CASTER_WRAP_MIRROR ? 2 * size : size;
+    int inside = at - period * int(floor(float(at) / float(period)));
+    inside = inside < 0 ? inside + period : inside >= period ? inside - period : inside;
+    return inside < size ? inside : 2 * size - 1 - inside;
+}
+
+float maskTexel(uvec4 mask, ivec2 at)
+{
+    ivec2 size = ivec2(mask.yz);
+    int column = wrappedTexel(at.x, size.x, (mask.w >> CASTER_MASK_WRAP_U_SHIFT) & 3u);
+    int row = wrappedTexel(at.y, size.y, (mask.w >> CASTER_MASK_WRAP_V_SHIFT) & 3u);
+    uint texel = uint(row) * mask.y + uint(column);
+    return casterTexel(mask.x + (texel >> 2))[texel & 3u];
+}
+
+// Whether a caster with a mask is there, by the magnification filter of its texture: a ray has no size in texels.
+// `weights` are those of the corners.
+bool isSolid(uint triangle, vec3 weights, vec3 opacities)
+{
+    vec4 texCoord01 = casterTexel(triangle + 3u);
+    uvec4 last = texelFetch(casterTexels, int(triangle + 4u));
+    uvec4 mask = texelFetch(casterTexels, int(last.z));
+    float cutoff = casterTexel(last.z + 1u).x;
+    precise vec2 texCoord =
+        weights.x * texCoord01.xy + weights.y * texCoord01.zw + weights.z * uintBitsToFloat(last.xy);
+    precise vec2 place = texCoord * vec2(mask.yz);
+    // Beyond, fp32 has no digits of a texel left.
+    place = clamp(place, vec2(-1e9), vec2(1e9));
+    precise float texel;
+    if ((mask.w & CASTER_MASK_NEAREST) != 0u) {
+        texel = maskTexel(mask, ivec2(floor(place)));
+    } else {
+        precise vec2 between = place - 0.5;
+        vec2 corner = floor(between);
+        precise vec2 share = between - corner;
+        ivec2 at = ivec2(corner);
+        precise float top = mix(maskTexel(mask, at), maskTexel(mask, at + ivec2(1, 0)), share.x);
+        precise float bottom = mix(maskTexel(mask, at + ivec2(0, 1)), maskTexel(mask, at + ivec2(1, 1)), share.x);
+        texel = mix(top, bottom, share.y);
+    }
+    precise float opacity = dot(weights, opacities) * texel;
+    return opacity >= cutoff;
+}
+#endif
+
+// Whether a triangle hides the light, by its first texel.
+bool triangleHides(ShadowRay ray, uint triangle, bool isMasked)
+{
+    vec4 corner0 = casterTexel(triangle);
+    vec4 corner1 = casterTexel(triangle + 1u);
+    vec4 corner2 = casterTexel(triangle + 2u);
+    precise vec3 a = turned(corner0.xyz - ray.originCS, ray.longestAxis);
+    precise vec3 b = turned(corner1.xyz - ray.originCS, ray.longestAxis);
+    precise vec3 c = turned(corner2.xyz - ray.originCS, ray.longestAxis);
+    precise vec2 aAcross = a.xy - ray.shear * a.z;
+    precise vec2 bAcross = b.xy - ray.shear * b.z;
+    precise vec2 cAcross = c.xy - ray.shear * c.z;
+    precise float u = cAcross.x * bAcross.y - cAcross.y * bAcross.x;
+    precise float v = aAcross.x * cAcross.y - aAcross.y * cAcross.x;
+    precise float w = bAcross.x * aAcross.y - bAcross.y * aAcross.x;
+    if (min(u, min(v, w)) < 0.0 && max(u, max(v, w)) > 0.0) return false;
+    // On which side of the plane each end is, and how far from it, times the normal's length. Corner 0 lies between the
+    // shorter edges, so that their product keeps the normal's digits in thin triangles too.
+    precise vec3 edge1 = corner1.xyz - corner0.xyz;
+    precise vec3 edge2 = corner2.xyz - corner0.xyz;
+    precise vec3 fromCorner = ray.originCS - corner0.xyz;
+    precise vec3 normal = cross(edge1, edge2);
+    precise float area = length(normal);
+    precise float originSide = dot(normal, fromCorner);
+    precise float lightSide = originSide + dot(normal, ray.toLightCS);
+    // A component of the normal is off by some 2^-23 of the edges' product, and what it is multiplied with by 2^-24 of
+    // itself; three of each are summed.
+    precise float digits = 4.8e-7 * length(edge1) * length(edge2);
+    precise float originError = ray.originRounding * area + digits * length(fromCorner);
+    precise float lightError = ray.lightRounding * area + digits * (length(fromCorner) + length(ray.toLightCS));
+    bool isBetween = abs(originSide) > originError && abs(lightSide) > lightError &&
+                     (originSide > 0.0) != (lightSide > 0.0);
+    if (!isBetween) return false;
+#if HAS_ALPHA_MASK
+    precise float sum = u + v + w;
+    if (isMasked && sum != 0.0)
+        return isSolid(triangle, vec3(u, v, w) / sum, vec3(corner0.w, corner1.w, corner2.w));
+#endif
+    return true;
+}
+
+// Where a walk is.
+struct CasterWalk {
+    uint node;      // the next one; past the last: the walk ends when no triangles are left
+    uint triangle;  // the next one of the leaf that it has come to
+    uint triangles; // left of that leaf
+    bool isMasked;  // they are
+    bool isHidden;  // the light is
+};
+
+bool goesOn(CasterWalk walk)
+{
+    return walk.node < casterTree.size.x || walk.triangles > 0u;
+}
+
+// A step is a triangle, or a node where no triangles are left.
+void takeStep(ShadowRay ray, inout CasterWalk walk)
+{
+    if (walk.triangles > 0u) {
+        walk.isHidden = triangleHides(ray, walk.triangle, walk.isMasked);
+        walk.triangle += walk.isMasked ? CASTER_MASKED_TRIANGLE_TEXELS : CASTER_TRIANGLE_TEXELS;
+        --walk.triangles;
+        if (walk.isHidden) {
+            walk.node = casterTree.size.x;
+            walk.triangles = 0u;
+        }
+    } else {
+        int texel = int(walk.node * CASTER_NODE_TEXELS);
+        uvec4 low = texelFetch(casterTexels, texel);
+        uvec4 high = texelFetch(casterTexels, texel + 1);
+        bool meets = meetsBox(ray, uintBitsToFloat(low.xyz), uintBitsToFloat(high.xyz));
+        walk.node = meets ? walk.node + 1u : low.w;
+        if (meets && high.w != 0u) {
+            walk.triangle = casterLeafTexel(high.w);
+            walk.triangles = casterLeafTriangles(high.w);
+            walk.isMasked = isCasterLeafMasked(high.w);
+        }
+    }
+}
+
+// 0 where casters hide the light, else 1.
+float visibilityAlong(ShadowRay ray)
+{
+    CasterWalk walk = CasterWalk(0u, 0u, 0u, false, false);
+    // CASTER_STEPS (renderer/frame/FrameSpec.cpp) are spelt out: Mesa counts the iterations of all loops of a shader
+    // together and ends the loops when there are too many.
+#define NEXT_STEP if (goesOn(walk)) takeStep(ray, walk);
+    while (goesOn(walk)) {
+        takeStep(ray, walk);
+#if CASTER_STEPS > 1
+        NEXT_STEP NEXT_STEP NEXT_STEP
+#endif
+#if CASTER_STEPS > 4
+        NEXT_STEP NEXT_STEP NEXT_STEP NEXT_STEP NEXT_STEP NEXT_STEP
+        NEXT_STEP NEXT_STEP NEXT_STEP NEXT_STEP NEXT_STEP NEXT_STEP
+#endif
+    }
+    // A loop that was ended all the same: NaN, which shows, instead of light that is not known.
+    if (goesOn(walk)) return uintBitsToFloat(0x7FC00000u);
+    return walk.isHidden ? 0.0 : 1.0;
+}

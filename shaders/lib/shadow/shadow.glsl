@@ -1,0 +1,19 @@
+// Shadows: how much of a light reaches a point past the casters (scenes/Shadows.h). Every technique, transparent
+// surfaces and light volumes ask shadowFactor() and nothing else.
+#pragma once
+#include "lib/light/light_store.glsl"
+#include "lib/shadow/traced_shadow.glsl"
+
+// The share of light `index` that casters let through to a point: 0 where they hide all of it, 1 where they hide
+// nothing or the light casts no shadows.
+float shadowFactor(int index, Viewpoint viewpoint)
+{
+    int kind = int(lightTexel(index, 1).w);
+    if ((kind & LIGHT_SHADOWED) == 0) return 1.0;
+#if HAS_DIRECTIONAL_LIGHTS
+    bool isFar = (kind & LIGHT_TYPE_MASK) == LIGHT_DIRECTIONAL;
+#else
+    bool isFar = false;
+#endif
+    return tracedShadow(index, lightTexel(index, 0).xyz, isFar, viewpoint);
+}

@@ -1,0 +1,55 @@
+#pragma once
+// What hides lights from surfaces: the triangles of all casters in a bounding volume hierarchy, as RGBA32UI texels of a
+// buffer texture. Casters' space (CS) has the axes of the world, its origin in the middle of the casters, and their
+// radius as its unit, so that fp32 keeps the digits of positions, and the squares of their differences, at any size.
+//
+//   nodes      CASTER_NODE_TEXELS each, in the order of a walk that goes down first. Texel 0: xyz of the box's low
+//              corner; w the node to go on with where the box is missed. Texel 1: xyz of its high corner; w 0, or in
+//              a leaf packCasterLeaf()
+//   triangles  three corners, xyz each. Where the material has a mask, w is the opacity that its factor and the vertex
+//              colour give, and two texels follow: the coordinates of the first two corners; those of the third, and
+//              the first texel of the mask
+//   masks      one texel: the first texel of opacities, width and height in texels, CASTER_MASK_*; one more: x the
+//              cutoff as a float; then the opacities as floats, four a texel, row after row
+#include "interop.h"
+
+#define CASTER_NODE_TEXELS 2u
+#define CASTER_TRIANGLE_TEXELS 3u
+#define CASTER_MASKED_TRIANGLE_TEXELS 5u
+#define CASTER_MASK_TEXELS 2u
+
+// Triangles of a leaf at most.
+#define CASTER_LEAF_MOST 4u
+#define CASTER_LEAF_TEXEL_BITS 29
+
+// How a mask's texels are read: scenes::Wrap of u and v, and whether the nearest one is taken.
+#define CASTER_MASK_WRAP_U_SHIFT 0u
+#define CASTER_MASK_WRAP_V_SHIFT 2u
+#define CASTER_MASK_NEAREST 16u
+#define CASTER_WRAP_CLAMP 1u
+#define CASTER_WRAP_MIRROR 2u
+
+SHARED_BEGIN
+
+// What a leaf holds: 1 to CASTER_LEAF_MOST triangles from a texel on, all of them with masks or none.
+SHARED_FUNCTION uint packCasterLeaf(uint firstTexel, uint triangles, bool isMasked) {
+    return (firstTexel << (32 - CASTER_LEAF_TEXEL_BITS)) | (isMasked ? 4u : 0u) | (triangles - 1u);
+}
+SHARED_FUNCTION uint casterLeafTexel(uint leaf) {
+    return leaf >> (32 - CASTER_LEAF_TEXEL_BITS);
+}
+SHARED_FUNCTION uint casterLeafTriangles(uint leaf) {
+    return (leaf & 3u) + 1u;
+}
+SHARED_FUNCTION bool isCasterLeafMasked(uint leaf) {
+    return (leaf & 4u) != 0u;
+}
+
+struct CasterTreeConstants {
+    vec4 rwsOriginCS; // xyz the origin of lighting space (frame.h) in casters' space; w that space's units in a metre
+    vec4 rounding; // x metres, y share of the distance from that origin: by how much fp32 may move a surface or a light
+                   // against the casters
+    uvec4 size;    // x number of nodes
+};
+
+SHARED_END

@@ -1,0 +1,203 @@
+#include "validation/reference/Occlusion.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "validation/reference/MaterialAt.h"
+#include "validation/reference/Slots.h"
+#include "validation/reference/Trees.h"
+
+namespace tessera::reference {
+
+namespace {
+
+/// From a point to where the light is, or past all casters. Relative to the casters' centre.
+struct Segment {
+    glm::dvec3 from{0.0}, along{0.0};
+};
+
+/// The conditions for a candidate to count.
+struct ShadowQuery : RTCIntersectContext {
+    Segment segment;
+    glm::dvec3 centreRWS{0.0};
+    const Object* ownObject = nullptr; ///< of the surface that is lit, with its triangle
+    std::uint32_t ownTriangle = 0;
+    const Textures* textures = nullptr;
+    bool isHidden = false;
+    bool isUndecided = false; ///< a mask may have another texel there
+};
+
+/// Where the segment crosses a triangle, between its ends; by the signed volumes of the tetrahedra over the triangle's
+/// edges.
+std::optional<Hit> crossingOf(const Object& object, std::uint32_t triangle, const ShadowQuery& query) {
+    const auto& [from, along] = query.segment;
+    glm::dvec3 corners[3];
+    for (int i = 0; i < 3; ++i) corners[i] = object.cornerRWS(triangle, i) - query.centreRWS - from;
+    const double volumes[3] = {glm::dot(along, glm::cross(corners[2], corners[1])),
+                               glm::dot(along, glm::cross(corners[0], corners[2])),
+                               glm::dot(along, glm::cross(corners[1], corners[0]))};
+    const bool isInside = (volumes[0] >= 0.0 && volumes[1] >= 0.0 && volumes[2] >= 0.0) ||
+                          (volumes[0] <= 0.0 && volumes[1] <= 0.0 && volumes[2] <= 0.0);
+    const double sum = volumes[0] + volumes[1] + volumes[2];
+    if (!isInside || sum == 0.0) return {};
+    Hit hit;
+    hit.object = &object;
+    hit.triangle = triangle;
+    for (int i = 0; i < 3; ++i) hit.weights[i] = volumes[i] / sum;
+    const glm::dvec3 place = hit.weights.x * corners[0] + hit.weights.y * corners[1] + hit.weights.z * corners[2];
+    const double share = glm::dot(place, along) / glm::dot(along, along);
+    if (!(share > 0.0 && share < 1.0)) return {};
+    return hit;
+}
+
+void judgeCrossing(const RTCFilterFunctionNArguments* arguments) {
+    auto& query = *static_cast<ShadowQuery*>(arguments->context);
+    const auto& object = *static_cast<const Object*>(arguments->geometryUserPtr);
+    const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
+    arguments->valid[0] = 0; // it goes on until the answer is known
+    if (query.isHidden || (&object == query.ownObject && triangle == query.ownTriangle)) return;
+    const std::optional<Hit> hit = crossingOf(object, triangle, query);
+    if (!hit) return;
+    if (object.material->alphaMode == scenes::AlphaMode::Mask) {
+        if (reference::isUndecided(*hit, *query.textures)) query.isUndecided = true;
+        const double cutoff = double(object.material->alphaCutoff);
+        const double opacity = opacityAt(*hit, *query.textures);
+        // Three weights, two blends and a product, each rounded to 2^-24 of at most 1.
+        if (std::abs(opacity - cutoff) < 16.0 * 0x1p-24 * std::max(1.0, cutoff)) query.isUndecided = true;
+        if (opacity < cutoff) return;
+    }
+    query.isHidden = true;
+    arguments->valid[0] = -1;
+}
+
+} // namespace
+
+struct Occlusion::Casters {
+    Textures textures; ///< a shadow has no size in pixels, so level 0 counts
+    glm::dvec3 centreRWS{0.0};
+    double radiusMetres = 0.0;        ///< around it, all casters
+    double drawnRoundingMetres = 0.0; ///< by how much rounding may move what is drawn of any object
+    Anchor anchor;
+    Device device;
+    Tree tree; ///< null without casters
+
+    ShadowQuery ask(const Segment& segment, const Hit& surface) const {
+        ShadowQuery query{};
+        rtcInitIntersectContext(&query);
+        query.segment = segment;
+        query.centreRWS = centreRWS;
+        query.ownObject = surface.object;
+        query.ownTriangle = surface.triangle;
+        query.textures = &textures;
+        RTCRay ray{};
+        ray.org_x = float(segment.from.x);
+        ray.org_y = float(segment.from.y);
+        ray.org_z = float(segment.from.z);
+        ray.dir_x = float(segment.along.x);
+        ray.dir_y = float(segment.along.y);
+        ray.dir_z = float(segment.along.z);
+        ray.tnear = 0.0f;
+        ray.tfar = 1.00001f; // the judge knows the end in double
+        ray.mask = ~0u;
+        rtcOccluded1(tree.get(), &query, &ray);
+        return query;
+    }
+
+    /// All or nothing of the light at one end of a segment.
+    Answer decide(const Segment& segment, bool isPlaced, const ShiningLight& light, const Hit& surface,
+                  const glm::dvec3& pointRWS, bool leeway) const {
+        const ShadowQuery exact = ask(segment, surface);
+        const double share = exact.isHidden ? 0.0 : 1.0;
+        if (!leeway) return {share, share, share};
+        const Answer undecided{share, 0.0, 1.0};
+        if (exact.isUndecided) return undecided;
+        // A program holds the point and the light to single precision relative to an origin of its own, and the casters
+        // to another: twice eight roundings of both. It may call a triangle's plane the point's own within as much
+        // again. The ends move across the way, which decides edges, and along it, which decides contacts.
+        const auto& [from, along] = segment;
+        const double between = glm::length(centreRWS - anchor.centreRWS) + anchor.otherOriginMetres;
+        const double common = kPositionRounding * (radiusMetres + between) + drawnRoundingMetres;
+        const auto leewayAt = [&](const glm::dvec3& placeRWS) {
+            const double reach = glm::length(placeRWS - anchor.centreRWS) + anchor.otherOriginMetres;
+            return 4.0 * (common + 2.0 * kPositionRounding * reach);
+        };
+        const double pointMetres = leewayAt(pointRWS);
+        const double lightMetres = isPlaced ? leewayAt(light.positionRWS) : pointMetres;
+        const glm::dvec3 ahead = glm::normalize(along);
+        const glm::dvec3 aside = glm::normalize(
+            glm::cross(ahead, std::abs(ahead.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
+        const glm::dvec3 up = glm::cross(aside, ahead);
+        const auto differs = [&](const glm::dvec3& pointStep, const glm::dvec3& lightStep) {
+            const ShadowQuery other = ask({from + pointStep, along + lightStep - pointStep}, surface);
+            return other.isHidden != exact.isHidden || other.isUndecided;
+        };
+        for (const glm::dvec3& way : {aside, -aside, up, -up})
+            if (differs(pointMetres * way, lightMetres * way)) return undecided;
+        if (differs(-pointMetres * ahead, lightMetres * ahead) || differs(pointMetres * ahead, -lightMetres * ahead))
+            return undecided;
+        return {share, share, share};
+    }
+};
+
+Occlusion::Occlusion(const scenes::Scene& scene, const Objects& objects)
+    : casters_(new Casters{
+          Textures(scene, Filtering::Exact), {}, 0.0, objects.roundingMetres(), objects.anchor(), makeDevice(), {}}) {
+    std::vector<const Object*> casting;
+    scenes::Box3 boundsRWS;
+    for (const Object& object : objects.opaque()) {
+        if (!object.castsShadow) continue;
+        casting.push_back(&object);
+        for (std::uint32_t triangle = 0; triangle < object.mesh->indices.size() / 3; ++triangle)
+            for (int corner = 0; corner < 3; ++corner) boundsRWS.extend(object.cornerRWS(triangle, corner));
+    }
+    if (casting.empty()) return;
+    casters_->centreRWS = 0.5 * (boundsRWS.min + boundsRWS.max);
+    casters_->radiusMetres = 0.5 * glm::length(boundsRWS.max - boundsRWS.min);
+    casters_->tree = makeTree(casters_->device.get(), casting, casters_->centreRWS, judgeCrossing);
+}
+
+Occlusion::~Occlusion() = default;
+
+Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& surface, const glm::dvec3& pointRWS,
+                                const Settings& settings) const {
+    const Casters& casters = *casters_;
+    if (!light.castsShadow || !casters.tree) return {};
+    const bool isPlaced = scenes::infoOf(light.light.type).hasPosition();
+    const glm::dvec3 from = pointRWS - casters.centreRWS;
+    const glm::dvec3 toLight = isPlaced ? light.positionRWS - pointRWS : -light.light.directionWS;
+    const double distance = glm::length(toLight);
+    if (distance == 0.0) return {};
+    const double radius =
+        isPlaced ? double(light.light.radiusMetres) : std::tan(double(light.light.angularRadiusRadians));
+    // Past all casters, where the light has no place.
+    const double reach = isPlaced ? 1.0 : 2.0 * (casters.radiusMetres + glm::length(from)) + 1.0;
+    const glm::dvec3 ahead = toLight / distance;
+    const glm::dvec3 aside = glm::normalize(
+        glm::cross(ahead, std::abs(ahead.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
+    const glm::dvec3 up = glm::cross(aside, ahead);
+    if (radius == 0.0)
+        return casters.decide({from, toLight * reach}, isPlaced, light, surface, pointRWS, settings.leeway);
+    Answer sum{0.0, 0.0, 0.0};
+    const int rings = settings.shadowRings;
+    const int sectors = 4 * rings;
+    for (int ring = 0; ring < rings; ++ring) {
+        const double share = std::sqrt((ring + 0.5) / rings);
+        for (int sector = 0; sector < sectors; ++sector) {
+            // Rings are turned against each other, so that no straight edge meets many samples at once.
+            const double angle = 2.0 * std::numbers::pi * (sector + 0.6180339887498949 * ring) / sectors;
+            const glm::dvec3 place = toLight + radius * share * (std::cos(angle) * aside + std::sin(angle) * up);
+            sum.share += casters.decide({from, place * reach}, isPlaced, light, surface, pointRWS, false).share;
+        }
+    }
+    sum.share /= double(rings * sectors);
+    // Independent rays would stray by five of these in one case of 10^6; two rays are for distributions far from normal
+    // ones. Where all agree, a program's must too.
+    const double rays = double(settings.shadowSamples);
+    const bool isNoisy = settings.leeway && settings.shadowSamples > 0 && sum.share > 0.0 && sum.share < 1.0;
+    const double stray = isNoisy ? 5.0 * std::sqrt(sum.share * (1.0 - sum.share) / rays) + 2.0 / rays : 0.0;
+    sum.least = std::max(0.0, sum.share - stray);
+    sum.most = std::min(1.0, sum.share + stray);
+    return sum;
+}
+
+} // namespace tessera::reference

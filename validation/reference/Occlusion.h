@@ -1,0 +1,35 @@
+#pragma once
+#include <memory>
+
+#include "validation/reference/Hit.h"
+#include "validation/reference/LightAt.h"
+#include "validation/reference/Textures.h"
+
+namespace tessera::reference {
+
+/// Whether casters (scenes/Shadows.h) hide lights from points. Embree finds the candidates in single precision; each is
+/// met again in double. May be used by several threads.
+class Occlusion {
+public:
+    /// The objects must outlive it. Throws as makeTree().
+    Occlusion(const scenes::Scene& scene, const Objects& objects);
+    ~Occlusion();
+
+    /// The share of a light that reaches a point (scenes/Shadows.h), and what rounding to fp32 allows a program
+    /// besides: it may move a point, its light and the casters by some roundings, and what a mask's texture holds by
+    /// those of lookups.
+    struct Answer {
+        double share = 1.0;
+        double least = 1.0, most = 1.0;
+    };
+    /// From a point of a surface, whose own triangle hides nothing from it. `leeway`: whether to find out what rounding
+    /// allows; else that is the share itself.
+    Answer of(const ShiningLight& light, const Hit& surface, const glm::dvec3& pointRWS,
+              const Settings& settings) const;
+
+private:
+    struct Casters;
+    std::unique_ptr<Casters> casters_;
+};
+
+} // namespace tessera::reference

@@ -1,0 +1,30 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include <embree3/rtcore.h>
+
+#include "validation/reference/Objects.h"
+
+/// Embree's trees of the reference's triangles, in single precision. They find candidates; who asks judges them in
+/// double precision.
+namespace tessera::reference {
+
+struct ReleaseDevice {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseTree {
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using Device = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
+using Tree = std::unique_ptr<RTCSceneTy, ReleaseTree>;
+
+/// Throws std::runtime_error when Embree does not start.
+Device makeDevice();
+
+/// The objects' triangles relative to `centreRWS`. `judge` is called with each candidate and its object as the
+/// geometry's user pointer. Throws std::runtime_error when Embree fails, as for lack of memory.
+Tree makeTree(RTCDevice device, const std::vector<const Object*>& objects, const glm::dvec3& centreRWS,
+              RTCFilterFunctionN judge);
+
+} // namespace tessera::reference
