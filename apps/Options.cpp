@@ -125,6 +125,7 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     addSettings(command, options, "Frame");
     command.add_flag("--no-default-light", options.noDefaultLight, "Leaves a scene without lights dark")
         ->group("Frame");
+    addSettings(command, options, "Shadows");
     command
         .add_option("--memory-limit", options.memoryLimit,
                     "The most memory that reading a scene may take [half of the machine's]")

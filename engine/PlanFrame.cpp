@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <iterator>
+#include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "engine/ChooseCulling.h"
 #include "engine/ChooseLighting.h"
@@ -45,6 +47,24 @@ void addRefinements(graph::Plan& plan, const scenes::Scene& scene, const frame::
     }
 }
 
+graph::Plan::Choice atlasChoice(const frame::ShadowMaps& maps, const frame::FrameSettings& settings) {
+    const auto bytes = double(graph::descBytes(maps.atlas()));
+    std::map<int, std::size_t> sides;
+    for (const frame::ShadowedLight& light : maps.lights)
+        if (light.sideTexels > 0) sides[light.sideTexels] += std::size_t(light.faces);
+    std::vector<std::string> words;
+    for (const auto& [side, faces] : sides) words.push_back(fmt::format("{} of {}x{}", faces, side, side));
+    std::string why = words.empty() ? "no faces" : fmt::format("faces: {}", fmt::join(words, ", "));
+    if (maps.reduced() > 0)
+        why += fmt::format("; the budget of {:g} MiB leaves {} fewer texels than wanted", settings.shadowMaps.budgetMiB,
+                           frame::lightsText(maps.reduced()));
+    if (maps.unmapped() > 0)
+        why += fmt::format("; it has no room for {}, which cast no shadows", frame::lightsText(maps.unmapped()));
+    return {"shadow atlas",
+            fmt::format("{}x{} texels, {:.4g} MiB", maps.atlasTexels.x, maps.atlasTexels.y, bytes / 1048576.0),
+            std::move(why)};
+}
+
 void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::PreparedView& prepared) {
     const frame::FrameSettings& settings = prepared.spec.settings;
     plan.choices.push_back({"camera", scene.cameras[std::size_t(settings.camera)].name,
@@ -66,10 +86,13 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::Prep
         if (casters.transparent > 0)
             why += fmt::format("; {} transparent surface{} cast none", casters.transparent,
                                casters.transparent == 1 ? "" : "s");
-        plan.choices.push_back({"shadows",
-                                fmt::format("of {} of {}, traced", prepared.lights.shadowed,
-                                            frame::lightsText(prepared.lights.texels.size())),
-                                std::move(why)});
+        const bool hasMaps = prepared.spec.features[frame::Feature::ShadowMaps];
+        plan.choices.push_back(
+            {"shadows",
+             fmt::format("of {} of {}, {}", prepared.lights.shadowed, frame::lightsText(prepared.lights.texels.size()),
+                         hasMaps ? fmt::format("in maps ({})", infoOf(settings.shadowFilter).name) : "traced"),
+             std::move(why)});
+        if (hasMaps) plan.choices.push_back(atlasChoice(prepared.shadowMaps, settings));
     }
     for (const std::string& warning : scene.warnings) plan.choices.push_back({"scene", scene.name, warning});
 }
@@ -83,7 +106,7 @@ countersOf(const scenes::Scene& scene, const frame::PreparedView& prepared, bool
                           [&](const scenes::MeshInstance& instance) { return scenes::isDrawn(scene, instance); }));
     const frame::FrameSpec& spec = prepared.spec;
     const glm::ivec2 size = spec.settings.sizePixels;
-    const int gbufferBytes = storesSurfaces ? frame::bytesPerPixel(spec.settings.layout, spec.channels) : 0;
+    const int gbufferBytes = storesSurfaces ? spec.gbufferBytesPerPixel() : 0;
     return {{"triangles", scenes::triangleCount(scene)},
             {"draws", draws},
             {"lights", scene.lights.size()},

@@ -12,6 +12,7 @@
 #include "engine/ChooseView.h"
 #include "engine/Settings.h"
 #include "renderer/culling/TileGrid.h"
+#include "renderer/frame/LightBuffer.h"
 #include "scenes/Limits.h"
 
 namespace tessera::engine {
@@ -32,6 +33,22 @@ void requireOneFrame(std::span<const ViewRequest> views) {
                                              setting.text(view)));
     }
 }
+
+namespace {
+
+void addShadowMaps(const scenes::Scene& scene, std::span<const frame::SurfaceBounds> bounds,
+                   frame::PreparedView& prepared) {
+    std::vector<frame::SurfaceBounds> own;
+    if (bounds.empty()) bounds = own = frame::surfaceBounds(scene); // a plan
+    frame::FrameSpec& spec = prepared.spec;
+    prepared.shadowMaps = frame::makeShadowMaps(scene, prepared.lights, prepared.camera, spec.settings, bounds);
+    const std::size_t lightTexels = frame::lightBytes(spec.features, prepared.lights.texels.size()) / sizeof(glm::vec4);
+    prepared.shadowFaces = frame::packFaces(prepared.shadowMaps, prepared.camera, lightTexels, bounds, prepared.lights);
+    spec.shadowAtlasTexels = prepared.shadowMaps.atlasTexels;
+    spec.shadowFaces = prepared.shadowMaps.faces.size();
+}
+
+} // namespace
 
 frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings,
                                 std::span<const frame::SurfaceBounds> bounds) {
@@ -63,11 +80,13 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
     const std::size_t lightCount = prepared.lights.texels.size();
     prepared.lighting.lights =
         glm::uvec4(lightCount, prepared.lights.shown, prepared.lights.everywhere, (lightCount + 31) / 32);
+    prepared.lighting.slices.y = glm::uint(prepared.lights.shadowed);
     prepared.spec = frame::makeFrameSpec(scene, prepared.lights, settings);
     frame::FrameSpec& spec = prepared.spec;
     spec.samples = samples;
     spec.background = prepared.camera.constants.background;
     requireStoredChannel(spec);
+    if (spec.features[frame::Feature::ShadowMaps]) addShadowMaps(scene, bounds, prepared);
     spec.lightOn = chooseLighting(settings);
     spec.culling = chooseCulling(technique, settings, spec.features, prepared.lights);
     // That view lights nothing, and no lists are built for it.

@@ -54,6 +54,7 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
         return *sceneGpu_;
     }
     sceneGpu_ = std::make_unique<frame::SceneGpu>(scene_, features, filter);
+    shadowMemories_.clear();
     materialsChanged_ = false;
     sceneFeatures_ = features;
     sceneFilter_ = filter;
@@ -72,12 +73,15 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
     }
     std::vector<ViewSource> sources;
     for (std::size_t i = 0; i < views.size(); ++i) {
+        const frame::SceneGpu& sceneGpuOfAll = sceneGpu(drawn->views[i].prepared.spec); // may forget what atlases hold
+        shadowMemories_.resize(std::max(shadowMemories_.size(), views.size()));
         frame::DrawnView& view = drawn->views[i];
         const frame::FrameSpec& spec = view.prepared.spec;
-        view.scene = &sceneGpu(spec);
-        if (spec.features[frame::Feature::Shadows]) sceneGpu_->makeCasters();
+        view.scene = &sceneGpuOfAll;
+        if (spec.tracesShadows()) sceneGpu_->makeCasters();
         view.draws = frame::makeViewDraws(view.scene->drawList(), view.prepared.camera, spec.settings.prune);
         view.listMemory = &listMemory_;
+        view.shadowMemory = &shadowMemories_[i];
         sources.push_back({views[i].technique, spec, &view});
     }
     drawn->declared = declareFrame(drawn->graph, sources, after);

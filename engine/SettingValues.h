@@ -22,6 +22,12 @@ namespace tessera::engine {
 
 // ---- Where a value is ----------------------------------------------------------------------------------------------
 
+template <typename Value>
+auto in(Value frame::ShadowMapSettings::*member) {
+    return [member](auto& request) -> auto& {
+        return request.settings.shadowMaps.*member;
+    };
+}
 inline auto in(Technique ViewRequest::*member) {
     return [member](auto& request) -> auto& {
         return request.*member;

@@ -14,7 +14,7 @@ namespace tessera::engine {
 
 namespace {
 
-using frame::FrameSettings;
+using frame::FrameSettings, frame::ShadowMapSettings;
 
 // ---- Settings that are more than a value of a kind -----------------------------------------------------------------
 
@@ -116,6 +116,14 @@ std::string namesOf(std::span<const Row> table) {
     std::string names;
     for (const Row& row : table) names += (names.empty() ? "" : ", ") + std::string(row.name);
     return names;
+}
+
+/// "none (what it does), ..."
+template <typename Row>
+std::string listed(std::span<const Row> table) {
+    std::string text;
+    for (const Row& row : table) text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", row.name, row.summary);
+    return text;
 }
 
 /// "1, 2 or 4".
@@ -300,14 +308,68 @@ std::vector<Setting> makeTable() {
          .key = "shadows",
          .type = "WHICH",
          .help = "Which lights cast shadows: none, those that the scene asks for (asked), all, or the first N",
+         .group = "Shadows",
+         .panel = SettingPanel::Shadows,
          .value = shadowChoice()},
+        {.name = "shadow filter",
+         .flag = "--shadow-filter",
+         .key = "shadowFilter",
+         .type = "NAME",
+         .help = "How shadows are found: " + listed(frame::shadowFilterTable()),
+         .group = "Shadows",
+         .panel = SettingPanel::Shadows,
+         .value =
+             choice(in(&FrameSettings::shadowFilter), frame::shadowFilterTable(), &frame::ShadowFilterInfo::filter)},
         {.name = "shadow samples",
          .flag = "--shadow-samples",
          .key = "shadowSamples",
          .type = "N",
-         .help = "Shadow rays of a pixel towards a light with a size, whose shadows are soft",
+         .help = "Rays or look-ups of a pixel for a light with a size, whose shadows are soft with traced and pcss",
+         .group = "Shadows",
+         .panel = SettingPanel::Shadows,
          .value = wholeNumber(in(&FrameSettings::shadowSamples),
                               {.least = 1, .most = frame::kMostShadowSamples, .isWhole = true})},
+        {.name = "shadow width",
+         .flag = "--shadow-width",
+         .key = "shadowWidth",
+         .type = "TEXELS",
+         .help = fmt::format("Of pcf: side of the square that it averages, {}", listOf(frame::kShadowWidths)),
+         .group = "Shadows",
+         .panel = SettingPanel::Shadows,
+         .label = "PCF width",
+         .value = choice(in(&ShadowMapSettings::widthTexels), frame::kShadowWidths, " texels")},
+        {.name = "shadow resolution",
+         .flag = "--shadow-resolution",
+         .key = "shadowResolution",
+         .type = "TEXELS",
+         .help = fmt::format("Of maps: side of every face, {}", listOf(frame::kShadowResolutions)),
+         .byItself = "by what a light reaches in the picture",
+         .group = "Shadows",
+         .panel = SettingPanel::Shadows,
+         .label = "Face texels",
+         .value = choice(in(&ShadowMapSettings::resolutionTexels), frame::kShadowResolutions, " texels")},
+        {.name = "shadow budget",
+         .flag = "--shadow-budget",
+         .key = "shadowBudget",
+         .type = "MIB",
+         .help = "Of maps: memory of all of a view; those that exceed it are made smaller, which plan tells",
+         .group = "Shadows",
+         .panel = SettingPanel::Shadows,
+         .label = "Map budget",
+         .value =
+             number(in(&ShadowMapSettings::budgetMiB),
+                    {.least = 0.001, .most = 1024.0, .sliderLeast = 1.0f, .sliderMost = 256.0f, .format = "%.4g MiB"})},
+        {.name = "shadow cascades",
+         .flag = "--shadow-cascades",
+         .key = "shadowCascades",
+         .type = "N",
+         .help = fmt::format("Of maps: how many a directional light has, 1 to {}, each of a part of the depths",
+                             frame::kMostShadowCascades),
+         .group = "Shadows",
+         .panel = SettingPanel::Shadows,
+         .label = "Cascades",
+         .value = wholeNumber(in(&ShadowMapSettings::cascades),
+                              {.least = 1, .most = frame::kMostShadowCascades, .isWhole = true})},
         {.name = "specular",
          .flag = "--specular",
          .key = "specular",

@@ -17,6 +17,7 @@
 #include "passes/LightVolumesPass.h"
 #include "passes/OverdrawPass.h"
 #include "passes/ResolvePass.h"
+#include "passes/ShadowMapsPass.h"
 #include "passes/StoredChannelPass.h"
 #include "passes/TransparentDepthPass.h"
 #include "passes/UploadPass.h"
@@ -40,11 +41,11 @@ struct FrameHandles {
 };
 
 FrameHandles declareShared(graph::Graph& graph, std::span<const ViewSource> views) {
-    const bool hasShadows =
-        std::ranges::any_of(views, [](const ViewSource& view) { return view.spec.features[frame::Feature::Shadows]; });
+    const bool tracesShadows =
+        std::ranges::any_of(views, [](const ViewSource& view) { return view.spec.tracesShadows(); });
     const ViewSource& anyView = views.front();
-    return {
-        frame::importScene(graph, anyView.spec.features, anyView.drawn ? anyView.drawn->scene : nullptr, hasShadows)};
+    return {frame::importScene(graph, anyView.spec.features, anyView.drawn ? anyView.drawn->scene : nullptr,
+                               tracesShadows)};
 }
 
 /// What a recipe wires a view's passes with.
@@ -55,13 +56,15 @@ struct ViewWiring {
     frame::SurfaceHandles surfaces; ///< the scene, as the view draws it
     frame::LightingInputs lighting; ///< with the lists, once there are some
 
-    ViewWiring(graph::Graph& ofGraph, const FrameHandles& frame, const ViewSource& view)
+    ViewWiring(graph::Graph& ofGraph, const FrameHandles& frame, const ViewSource& view, std::size_t index)
         : graph(ofGraph), spec(view.spec), drawn(view.drawn) {
         const UploadViewPass::Outputs uploaded = UploadViewPass::add(graph, drawn);
         surfaces = {drawn, frame.scene, {uploaded.constants}, uploaded.rows, uploaded.commands, {}};
         const UploadLightsPass::Outputs lights = UploadLightsPass::add(graph, spec, drawn);
-        lighting = {surfaces.view, lights.constants, lights.lights, frame.scene.materialTable, {}, {}};
-        if (lights.shadows) lighting.shadows = {*lights.shadows, frame.scene.casters.value()};
+        lighting = {surfaces.view, lights.constants, lights.lights, frame.scene.materialTable, {}, {}, {}};
+        if (lights.casterTree) lighting.casterTree = {*lights.casterTree, frame.scene.casters.value()};
+        if (spec.features[frame::Feature::ShadowMaps])
+            lighting.shadowAtlas = ShadowMapsPass::add(graph, spec, {frame.scene, drawn, index}).atlas;
     }
 
     bool hasLightLists() const { return spec.culling.method != Method::None; }
@@ -216,7 +219,7 @@ std::optional<Shown> addDebugView(Technique technique, ViewWiring& wiring) {
 DeclaredView declareView(graph::Graph& graph, const FrameHandles& frame, const ViewSource& source, std::size_t index,
                          const AfterOpaque& after) {
     const frame::FrameSpec& spec = source.spec;
-    ViewWiring wiring(graph, frame, source);
+    ViewWiring wiring(graph, frame, source, index);
     std::optional<Shown> shown = addDebugView(source.technique, wiring);
     if (!shown) shown = addLitPicture(source.technique, index, wiring, after);
     DeclaredView view;

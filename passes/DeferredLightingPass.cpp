@@ -42,7 +42,7 @@ void dispatchPicture(const gpu::Texture& radiance) {
 } // namespace
 
 shader::ProgramDesc DeferredLightingPass::program(const frame::FrameSpec& spec, const Params& params) {
-    frame::Defines defines = frame::channelDefines(spec.settings.layout, spec.channels);
+    frame::Defines defines = spec.gbufferDefines();
     if (params.visitsLights) {
         frame::addCursorDefines(spec, false, defines);
     } else {

@@ -6,7 +6,7 @@
 namespace tessera::passes {
 
 shader::ProgramDesc GBufferPass::program(const frame::FrameSpec& spec) {
-    frame::Defines defines = frame::channelDefines(spec.settings.layout, spec.channels);
+    frame::Defines defines = spec.gbufferDefines();
     defines.emplace_back("DEPTH_ONLY", "0");
     return frame::frameProgram(spec, "gbuffer", "passes/geometry.vert", "passes/gbuffer.frag", defines);
 }

@@ -13,7 +13,7 @@ bool LightVolumesPass::isNeeded(const frame::FrameSpec& spec) {
 }
 
 shader::ProgramDesc LightVolumesPass::program(const frame::FrameSpec& spec) {
-    frame::Defines defines = frame::channelDefines(spec.settings.layout, spec.channels);
+    frame::Defines defines = spec.gbufferDefines();
     defines.emplace_back("LIGHT_CURSOR", "LIGHT_CURSOR_NONE");
     return frame::frameProgram(spec, "light_volumes", "passes/light_volumes.vert", "passes/light_volumes.frag",
                                defines);

@@ -9,7 +9,7 @@ namespace tessera::passes {
 shader::ProgramDesc StoredChannelPass::program(const frame::FrameSpec& spec, const Params& params) {
     const std::string name = "GBUFFER_" + std::string(frame::channelTable()[std::size_t(params.shown.channel)].define);
     const bool packed = spec.settings.layout[params.shown.channel] != frame::Encoding::Exact;
-    frame::Defines defines = frame::channelDefines(spec.settings.layout, spec.channels);
+    frame::Defines defines = spec.gbufferDefines();
     defines.emplace_back("STORED_CHANNEL", name);
     defines.emplace_back("STORED_PACKED", packed ? "1" : "0");
     if (packed) defines.emplace_back("STORED_WIDTHS", name + "_WIDTHS");

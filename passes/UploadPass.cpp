@@ -39,19 +39,24 @@ UploadLightsPass::Outputs UploadLightsPass::add(graph::Graph& graph, const frame
         "lights",
         [&](graph::PassBuilder& pass, Outputs& out) {
             out.constants = pass.create("lighting", {sizeof(shared::LightingConstants)}, Access::Upload);
-            out.lights =
-                pass.create("lights", {frame::lightBytes(spec.features, std::max<std::size_t>(spec.lights, 1)), true},
-                            Access::Upload);
-            if (spec.features[frame::Feature::Shadows])
-                out.shadows = pass.create("shadows", {sizeof(shared::CasterTreeConstants)}, Access::Upload);
+            out.lights = pass.create("lights",
+                                     {frame::lightBytes(spec.features, std::max<std::size_t>(spec.lights, 1)) +
+                                          spec.shadowFaces * sizeof(shared::ShadowFaceTexels),
+                                      true},
+                                     Access::Upload);
+            if (spec.tracesShadows())
+                out.casterTree = pass.create("shadows", {sizeof(shared::CasterTreeConstants)}, Access::Upload);
         },
         [drawn](const Outputs& out, const graph::PassContext& context) {
             const frame::PreparedView& view = drawn->prepared;
-            if (out.shadows)
-                context.buffer(*out.shadows)
+            if (out.casterTree)
+                context.buffer(*out.casterTree)
                     .uploadValue(frame::casterTreeConstants(drawn->scene->casters()->space, view.camera));
             context.buffer(out.constants).uploadValue(view.lighting);
-            context.buffer(out.lights).upload(frame::texelsOf(view.lights, view.spec.features));
+            std::vector<glm::vec4> texels = frame::texelsOf(view.lights, view.spec.features);
+            for (const shared::ShadowFaceTexels& face : view.shadowFaces)
+                texels.insert(texels.end(), {face.right, face.up, face.forward, face.place});
+            context.buffer(out.lights).upload(texels);
         });
 }
 

@@ -14,12 +14,14 @@ struct UploadViewPass {
 };
 
 /// Puts a view's lights on the GPU.
-/// Writes  light texels (shaders/shared/light.h), the constants of lighting and, where the view has shadows,
-/// shared::CasterTreeConstants Space   lighting space
+/// Writes  light texels (shaders/shared/light.h), faces of shadow maps behind them, the constants of lighting and,
+/// where
+///         shadows are traced, shared::CasterTreeConstants
+/// Space   lighting space
 struct UploadLightsPass {
     struct Outputs {
         graph::BufferHandle constants, lights;
-        std::optional<graph::BufferHandle> shadows;
+        std::optional<graph::BufferHandle> casterTree;
     };
     static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const frame::DrawnView* drawn);
 };

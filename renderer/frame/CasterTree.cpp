@@ -22,9 +22,6 @@ namespace {
 using scenes::Material;
 using scenes::Mesh;
 
-/// What rounding leaves of a position in fp32: products, sums and a turn of the axes, some eight operations.
-constexpr double kPositionRounding = 8.0 * 0x1p-24;
-
 // ---- Triangles -----------------------------------------------------------------------------------------------------
 
 struct CasterCorner {

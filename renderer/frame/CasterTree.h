@@ -11,6 +11,9 @@
 
 namespace tessera::frame {
 
+/// What rounding leaves of a position in fp32: products, sums and a turn of the axes, some eight operations.
+inline constexpr double kPositionRounding = 8.0 * 0x1p-24;
+
 /// Where the casters of a scene are, and how exactly.
 struct CasterSpace {
     glm::dvec3 centreWS{0.0};         ///< the origin of casters' space

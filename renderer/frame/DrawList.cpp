@@ -69,7 +69,7 @@ DrawList makeDrawList(const scenes::Scene& scene) {
             if (!scenes::isDrawn(scene, instance)) continue;
             const scenes::Box3& boxOS = boxesOS[std::size_t(instance.mesh)];
             const glm::dvec3 centerOS = boxOS.empty() ? glm::dvec3(0.0) : 0.5 * (boxOS.min + boxOS.max);
-            list.draws.push_back({instance.mesh, instance.material, int(node), own, mirrored,
+            list.draws.push_back({instance.mesh, instance.material, int(node), own, mirrored, instance.castsShadow,
                                   largestColors[std::size_t(instance.mesh)], transformed(boxOS, worldFromObject),
                                   reachOf(boxOS, worldFromObject),
                                   glm::dvec3(worldFromObject * glm::dvec4(centerOS, 1.0))});
@@ -181,12 +181,14 @@ std::vector<DepthBatch> depthBatches(const scenes::Scene& scene, std::span<const
     return result;
 }
 
-ViewDraws makeViewDraws(const DrawList& list, const CameraView& view, bool culls) {
+ViewDraws makeViewDraws(const DrawList& list, const CameraView& view, bool culls,
+                        const std::function<bool(const Draw&)>& isWanted) {
     ViewDraws result;
     std::vector<double> depths; ///< parallel to seen
     for (int i = 0; i < int(list.draws.size()); ++i) {
         const Draw& draw = list.draws[std::size_t(i)];
         const glm::dmat4& worldFromObject = list.worldFromObject[std::size_t(draw.node)];
+        if (isWanted && !isWanted(draw)) continue;
         if (culls && isOutside(draw, glm::dvec3(worldFromObject[3]), view)) continue;
         const int place = int(result.seen.size());
         result.seen.push_back(i);

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,10 +14,11 @@ struct Draw {
     int mesh = 0;
     int material = 0;
     int node = 0;
-    int instance = 0;       ///< place among the mesh instances of all nodes, in document order
-    bool mirrored = false;  ///< the node's transform turns the winding round
-    float largestColor = 0; ///< of the mesh's vertex colours, any channel, 1 or more; 0 without vertex colours
-    scenes::Box3 boxWS{};   ///< around the mesh's own box; empty without vertices
+    int instance = 0;        ///< place among the mesh instances of all nodes, in document order
+    bool mirrored = false;   ///< the node's transform turns the winding round
+    bool castsShadow = true; ///< MeshInstance::castsShadow; the material must cast some too
+    float largestColor = 0;  ///< of the mesh's vertex colours, any channel, 1 or more; 0 without vertex colours
+    scenes::Box3 boxWS{};    ///< around the mesh's own box; empty without vertices
     double reachMetres = 0; ///< the largest sum of magnitudes that fp32 adds a vertex up from, without the node's place
     glm::dvec3 centerWS{0}; ///< of the mesh's box, for the order of transparent draws
 };
@@ -77,6 +79,8 @@ struct ViewDraws {
     PixelArea opaquePixels; ///< no pixel outside shows an opaque surface; by the draws' boxes
 };
 /// With `culls` draws whose boxes lie outside the view are left out.
-ViewDraws makeViewDraws(const DrawList& list, const CameraView& view, bool culls);
+/// With `isWanted` only those of which it is true are drawn.
+ViewDraws makeViewDraws(const DrawList& list, const CameraView& view, bool culls,
+                        const std::function<bool(const Draw&)>& isWanted = {});
 
 } // namespace tessera::frame

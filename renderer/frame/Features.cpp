@@ -62,7 +62,9 @@ std::vector<FeatureInfo> makeTable() {
              "no texture but normal maps, no vertex colour and no anisotropy changes one"},
             {Feature::OrthographicCamera, "ORTHOGRAPHIC_CAMERA", "parallel rays", "the camera is perspective"},
             {Feature::Shadows, "SHADOWS", "shadows", "no light in view is to cast any, or nothing hides it"},
-            {Feature::SoftShadows, "SOFT_SHADOWS", "soft shadows", "no light in view that casts shadows has a size"},
+            {Feature::SoftShadows, "SOFT_SHADOWS", "soft shadows",
+             "no light in view that casts shadows has a size, or the filter heeds none"},
+            {Feature::ShadowMaps, "SHADOW_MAPS", "shadow maps", "no shadow is looked up in a map"},
         });
     assert(table.size() == kFeatureCount);
     return table;
@@ -258,6 +260,10 @@ bool FeatureSet::lightShapes() const {
            any([](const scenes::LightTypeInfo& type) { return type.hasShape(); });
 }
 
+bool FeatureSet::lightShadowTexels() const {
+    return (*this)[Feature::SoftShadows] || (*this)[Feature::ShadowMaps];
+}
+
 bool canMask(const scenes::Material& material) {
     return isMicrofacet(scenes::infoOf(material.model));
 }
@@ -303,6 +309,7 @@ Defines featureDefines(const FeatureSet& features) {
     addFlag("HAS_PLACED_LIGHTS", features.placedLights());
     addFlag("HAS_CONE_LIGHTS", features.coneLights());
     addFlag("HAS_LIGHT_SHAPES", features.lightShapes());
+    addFlag("HAS_LIGHT_SHADOW_TEXELS", features.lightShadowTexels());
     for (const scenes::TextureSlotInfo& slot : scenes::kTextureSlots)
         defines.emplace_back("TEXTURE_SLOT_" + inCapitals(slot.name), fmt::format("{}", int(slot.slot)));
     addLightTypes(features, defines);

@@ -39,6 +39,7 @@ enum class Feature : std::uint8_t {
     OrthographicCamera,
     Shadows,     // of lights in view that casters may hide
     SoftShadows, // of such lights with a size
+    ShadowMaps,  // the shadows are looked up in maps, not traced
     Count
 };
 inline constexpr std::size_t kFeatureCount = static_cast<std::size_t>(Feature::Count);
@@ -89,9 +90,10 @@ struct FeatureSet {
     bool tangents() const;      ///< meshes bring tangents
     bool textures() const;
     bool anyLights() const;
-    bool placedLights() const; ///< lights with a position
-    bool coneLights() const;   ///< lights of LightReach::Cone
-    bool lightShapes() const;  ///< lights of which shaders read LightShapeTexels
+    bool placedLights() const;      ///< lights with a position
+    bool coneLights() const;        ///< lights of LightReach::Cone
+    bool lightShapes() const;       ///< lights of which shaders read LightShapeTexels
+    bool lightShadowTexels() const; ///< lights of which shaders read LightShadowTexels
     bool operator==(const FeatureSet&) const = default;
 
 private:

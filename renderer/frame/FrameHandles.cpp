@@ -33,9 +33,12 @@ void ViewHandles::bind(const graph::PassContext& context) const {
 }
 
 SurfaceHandles SurfaceHandles::readGeometry(graph::PassBuilder& pass) const {
-    SurfaceHandles result{
-        drawn, scene, view.read(pass), pass.read(rows, Access::VertexRead), pass.read(commands, Access::IndirectRead),
-        {}};
+    SurfaceHandles result{drawn,
+                          scene,
+                          view.constants ? view.read(pass) : view,
+                          pass.read(rows, Access::VertexRead),
+                          pass.read(commands, Access::IndirectRead),
+                          {}};
     for (graph::BufferHandle& stream : result.scene.vertices) stream = pass.read(stream, Access::VertexRead);
     result.scene.indices = pass.read(scene.indices, Access::IndexRead);
     return result;
@@ -57,10 +60,13 @@ SurfaceHandles SurfaceHandles::readDepth(graph::PassBuilder& pass,
 
 void SurfaceHandles::drawDepth(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const {
     view.bind(context);
-    const ViewDraws& draws = drawn->draws;
+    drawDepth(context, kind == Kind::Opaque ? drawn->draws.opaque : drawn->draws.transparent, state);
+}
+
+void SurfaceHandles::drawDepth(const graph::PassContext& context, std::span<const Batch> batches,
+                               const gpu::PipelineState& state) const {
     drawn->scene->drawDepth(
-        {context.buffer(rows), context.buffer(commands)}, kind == Kind::Opaque ? draws.opaque : draws.transparent,
-        state,
+        {context.buffer(rows), context.buffer(commands)}, batches, state,
         {context.program(depthPrograms[0]), depthPrograms.size() > 1 ? &context.program(depthPrograms[1]) : nullptr});
 }
 
@@ -103,9 +109,10 @@ LightingInputs LightingInputs::read(graph::PassBuilder& pass) const {
                           pass.read(lights, Access::TexelRead),
                           readWhereThere(pass, materialTable, Access::TexelRead),
                           {},
-                          {}};
+                          {},
+                          readWhereThere(pass, shadowAtlas, Access::Sampled)};
     if (lists) result.lists = lists->read(pass);
-    if (shadows) result.shadows = shadows->read(pass);
+    if (casterTree) result.casterTree = casterTree->read(pass);
     return result;
 }
 
@@ -115,7 +122,8 @@ void LightingInputs::bind(const graph::PassContext& context) const {
     bindTexels(context, TEXTURE_UNIT_LIGHTS, lights, Format::Rgba32Float);
     if (materialTable) bindTexels(context, TEXTURE_UNIT_MATERIALS, *materialTable, Format::Rgba32Uint);
     if (lists) lists->bind(context);
-    if (shadows) shadows->bind(context);
+    if (casterTree) casterTree->bind(context);
+    if (shadowAtlas) gpu::bindTexture(TEXTURE_UNIT_SHADOWS, context.texture(*shadowAtlas));
 }
 
 GBufferHandles GBufferHandles::read(graph::PassBuilder& pass, const FrameSpec& spec, Access depthAccess) const {
@@ -147,7 +155,7 @@ void LitDepths::bind(const graph::PassContext& context) const {
     if (transparent) gpu::bindTexture(TEXTURE_UNIT_TRANSPARENT_DEPTH, context.texture(*transparent));
 }
 
-SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const SceneGpu* scene, bool hasShadows) {
+SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const SceneGpu* scene, bool tracesShadows) {
     const auto import = [&](std::string name, const gpu::Buffer* buffer) {
         return graph.import(std::move(name), graph::BufferDesc{buffer ? buffer->bytes() : 0}, buffer);
     };
@@ -162,7 +170,7 @@ SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const 
     const gpu::Buffer* const table = scene ? scene->materialTable() : nullptr;
     if (!features[Feature::VaryingMaterials] && (!scene || table))
         handles.materialTable = import("material_table", table);
-    if (hasShadows) handles.casters = import("casters", scene ? scene->casters()->texels.get() : nullptr);
+    if (tracesShadows) handles.casters = import("casters", scene ? scene->casters()->texels.get() : nullptr);
     return handles;
 }
 

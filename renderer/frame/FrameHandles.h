@@ -6,6 +6,7 @@
 #include "renderer/culling/LightLists.h"
 #include "renderer/frame/PreparedView.h"
 #include "renderer/frame/SceneGpu.h"
+#include "renderer/frame/ShadowMemory.h"
 #include "renderer/graph/Graph.h"
 
 /// Inputs that several passes have in common, as typed handles. `read` declares in a pass's setup that the pass reads
@@ -26,6 +27,7 @@ struct DrawnView {
     const SceneGpu* scene = nullptr;
     ViewDraws draws;
     LightListMemory* listMemory = nullptr;
+    ShadowMemory* shadowMemory = nullptr; ///< where the view has shadow maps
 };
 
 /// The camera of a view.
@@ -42,14 +44,14 @@ struct SceneHandles {
     graph::BufferHandle indices;
     graph::BufferHandle materials;                    ///< shared::MaterialConstants of each
     std::optional<graph::BufferHandle> materialTable; ///< where surfaces hold their material's number
-    std::optional<graph::BufferHandle> casters;       ///< where lights cast shadows: shaders/shared/caster_tree.h
+    std::optional<graph::BufferHandle> casters;       ///< where shadows are traced: shaders/shared/caster_tree.h
 };
 
 /// The scene as a view draws it.
 struct SurfaceHandles {
     const DrawnView* drawn = nullptr;
     SceneHandles scene;
-    ViewHandles view;
+    ViewHandles view;                       ///< empty where a pass draws with cameras of its own
     graph::BufferHandle rows;               ///< DrawRows of each draw of the view
     graph::BufferHandle commands;           ///< gpu::DrawIndexedCommand of the same
     std::vector<std::size_t> depthPrograms; ///< of readDepth(), by number: bare, then where there is one, masked
@@ -64,6 +66,9 @@ struct SurfaceHandles {
     /// where some have holes.
     SurfaceHandles readDepth(graph::PassBuilder& pass, const std::vector<shader::ProgramDesc>& programs) const;
     void drawDepth(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const;
+    /// The same of any batches, for a pass that binds a camera itself.
+    void drawDepth(const graph::PassContext& context, std::span<const Batch> batches,
+                   const gpu::PipelineState& state) const;
 
 private:
     SurfaceHandles readGeometry(graph::PassBuilder& pass) const;
@@ -98,7 +103,8 @@ struct LightingInputs {
     graph::BufferHandle lights;                       ///< texels (shaders/shared/light.h)
     std::optional<graph::BufferHandle> materialTable; ///< where surfaces hold their material's number
     std::optional<LightListHandles> lists;            ///< where FrameSpec::culling asks for them
-    std::optional<CasterTreeHandles> shadows;         ///< where the view has them
+    std::optional<CasterTreeHandles> casterTree;      ///< where the view has shadows that are traced
+    std::optional<graph::TextureHandle> shadowAtlas;  ///< where it has shadow maps
 
     LightingInputs read(graph::PassBuilder& pass) const;
     void bind(const graph::PassContext& context) const;
@@ -130,7 +136,7 @@ struct LitDepths {
 
 /// Makes the scene's own buffers known to a graph. `scene` is null if the frame is only planned; features are those of
 /// the scene, so any of the frame's views has them.
-/// `hasShadows`: those of some view; then `scene` has its casters.
-SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const SceneGpu* scene, bool hasShadows);
+/// `tracesShadows`: some view does; then `scene` has its casters.
+SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const SceneGpu* scene, bool tracesShadows);
 
 } // namespace tessera::frame

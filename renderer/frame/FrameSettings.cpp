@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/EnumTable.h"
 #include "shaders/shared/display.h"
+#include "shaders/shared/shadow_maps.h"
 
 namespace tessera::frame {
 
@@ -23,7 +25,25 @@ constexpr TextureFilterInfo kTextureFilters[] = {{TextureFilter::Hardware, "hard
                                                  {TextureFilter::Exact, "exact"}};
 constexpr LightingSpaceInfo kLightingSpaces[] = {{LightingSpace::World, "world"}, {LightingSpace::View, "view"}};
 
+constexpr ShadowFilterInfo kShadowFilters[] = {
+    {ShadowFilter::Traced, "traced", "rays through the triangles themselves: no bias, no resolution", true},
+    {ShadowFilter::Hard, "hard", "one texel of a depth map", false},
+    {ShadowFilter::Pcf, "pcf", "the mean over a square of texels of a depth map", false},
+    {ShadowFilter::Pcss, "pcss", "the mean over as many texels as the penumbra of the light's size is wide", true},
+};
+static_assert(isInOrder(kShadowFilters, &ShadowFilterInfo::filter, std::size(kShadowFilters)));
+static_assert(int(ShadowFilter::Hard) == SHADOW_FILTER_HARD && int(ShadowFilter::Pcf) == SHADOW_FILTER_PCF &&
+              int(ShadowFilter::Pcss) == SHADOW_FILTER_PCSS);
+
 } // namespace
+
+std::span<const ShadowFilterInfo> shadowFilterTable() {
+    return kShadowFilters;
+}
+
+const ShadowFilterInfo& infoOf(ShadowFilter filter) {
+    return kShadowFilters[std::size_t(filter)];
+}
 
 std::span<const ToneMapInfo> toneMapTable() {
     return kToneMaps;

@@ -38,6 +38,30 @@ struct LightingSpaceInfo {
 };
 std::span<const LightingSpaceInfo> lightingSpaceTable();
 
+/// How a point is asked whether casters hide a light from it.
+enum class ShadowFilter : std::uint8_t { Traced, Hard, Pcf, Pcss };
+struct ShadowFilterInfo {
+    ShadowFilter filter; ///< of a map its value is SHADOW_FILTER_* of shaders/shared/shadow_maps.h
+    std::string_view name;
+    std::string_view summary;
+    bool heedsSizes; ///< lights with a size have soft shadows
+};
+std::span<const ShadowFilterInfo> shadowFilterTable();
+const ShadowFilterInfo& infoOf(ShadowFilter filter);
+
+/// Of the depth maps that filters other than traced look up.
+struct ShadowMapSettings {
+    int widthTexels = 3;                 ///< side of the square that pcf averages, one of kShadowWidths
+    std::optional<int> resolutionTexels; ///< side of every face, one of kShadowResolutions; open: by what the light
+                                         ///< reaches in the picture
+    double budgetMiB = 64.0;             ///< of all faces together; those that exceed it are made smaller
+    int cascades = 4;                    ///< faces of a directional light, 1 to kMostShadowCascades
+    bool operator==(const ShadowMapSettings&) const = default;
+};
+inline constexpr int kShadowWidths[] = {1, 3, 5, 7};
+inline constexpr int kShadowResolutions[] = {64, 128, 256, 512, 1024, 2048, 4096, 8192};
+inline constexpr int kMostShadowCascades = 4;
+
 /// 2^EV must be a number that a picture can be multiplied by: fp32 spans 2^-126 to 2^128.
 inline constexpr float kMostExposureEV = 120.0f; ///< either way
 
@@ -67,7 +91,9 @@ struct FrameSettings {
     double rangeTolerance = 0.0;   ///< unit of colour x intensity: A B C lights end where they fall to it; 0: nowhere
     std::optional<int> soloLight;  ///< index into Scene::lights: only this one shines
     scenes::ShadowRequest shadows; ///< which lights cast shadows
-    int shadowSamples = 16;        ///< shadow rays of a pixel towards a light with a size, 1 to kMostShadowSamples
+    ShadowFilter shadowFilter = ShadowFilter::Traced;
+    int shadowSamples = 16; ///< rays or look-ups of a pixel for a light with a size, 1 to kMostShadowSamples
+    ShadowMapSettings shadowMaps;
     culling::Settings culling;
     std::optional<LightingStage> lightOn; ///< of the techniques that light in a pass of its own; open: fragment shaders
     bool softwareBackend = true;          ///< decides the choices left open; the renderer sets it to its own backend

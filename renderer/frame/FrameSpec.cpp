@@ -7,6 +7,7 @@
 #include "renderer/frame/LightBuffer.h"
 #include "renderer/frame/LightRounds.h"
 #include "renderer/frame/RefineLayout.h"
+#include "renderer/frame/ShadowMaps.h"
 #include "scenes/InUse.h"
 
 namespace tessera::frame {
@@ -59,6 +60,8 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
         const scenes::Camera& camera = scene.cameras[std::size_t(settings.camera)];
         spec.features.add(Feature::OrthographicCamera, camera.projection == scenes::Projection::Orthographic);
     }
+    // It says how shadows are found, so it is not kept where it is not asked for.
+    if (settings.shadowFilter == ShadowFilter::Traced) spec.features.has.reset(std::size_t(Feature::ShadowMaps));
     // A channel that is looked at is stored, and not as a number or beside one.
     spec.features.add(Feature::VaryingMaterials, storedComponents(settings.view).has_value());
     spec.settings.layout = refined(settings.layout, scene);
@@ -73,10 +76,47 @@ Defines frameDefines(const FrameSpec& spec) {
     defines.emplace_back("LIGHTS_PER_ROUND", std::to_string(lightsPerRound(spec.lights)));
     defines.emplace_back("SPECULAR_OFF", spec.settings.specular ? "0" : "1");
     defines.emplace_back("SAMPLES", std::to_string(spec.samples));
-    if (spec.features[Feature::Shadows]) defines.emplace_back("CASTER_STEPS", std::to_string(casterSteps(spec)));
+    if (spec.features[Feature::ShadowMaps]) {
+        defines.emplace_back("SHADOW_FILTER", std::to_string(int(spec.settings.shadowFilter)));
+        defines.emplace_back("SHADOW_CASCADES", std::to_string(spec.settings.shadowMaps.cascades));
+        defines.emplace_back("SHADOW_BORDER", std::to_string(shadowBorderTexels(spec.settings, kLargestSidePixels)));
+        defines.emplace_back("SHADOW_WIDTH", std::to_string(spec.settings.shadowMaps.widthTexels));
+    }
+    if (spec.tracesShadows()) defines.emplace_back("CASTER_STEPS", std::to_string(casterSteps(spec)));
     if (spec.features[Feature::SoftShadows])
         defines.emplace_back("SHADOW_SAMPLES", std::to_string(spec.settings.shadowSamples));
     return defines;
+}
+
+namespace {
+
+/// Attachments that OpenGL guarantees to draw into at once.
+constexpr std::size_t kMostAttachments = 8;
+
+} // namespace
+
+std::vector<GBufferTexture> FrameSpec::gbufferTextures() const {
+    std::vector<GBufferTexture> textures = frame::gbufferTextures(settings.layout, channels);
+    if (features[Feature::ShadowMaps] && textures.size() < kMostAttachments)
+        textures.push_back({"facets", graph::Format::R32Uint});
+    return textures;
+}
+
+Defines FrameSpec::gbufferDefines() const {
+    Defines defines = channelDefines(settings.layout, channels);
+    if (!features[Feature::ShadowMaps]) return defines;
+    const std::size_t ofChannels = frame::gbufferTextures(settings.layout, channels).size();
+    if (ofChannels < kMostAttachments)
+        defines.emplace_back("GBUFFER_FACETS", std::to_string(ofChannels));
+    else
+        defines.emplace_back("GBUFFER_FACETS_IN_SPECULAR", "1");
+    return defines;
+}
+
+int FrameSpec::gbufferBytesPerPixel() const {
+    int bytes = 0;
+    for (const GBufferTexture& texture : gbufferTextures()) bytes += graph::formatInfo(texture.format).bytes;
+    return bytes;
 }
 
 void addCursorDefines(const FrameSpec& spec, bool transparent, Defines& defines) {

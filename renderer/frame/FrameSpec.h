@@ -21,12 +21,22 @@ struct FrameSpec {
     LightingStage lightOn = LightingStage::Fragment; ///< where the technique has a lighting pass
     std::size_t lights = 0;                          ///< that the frame's pixels may visit
     std::size_t shadowedLights = 0;                  ///< those among them that casters may hide
+    glm::ivec2 shadowAtlasTexels{0};                 ///< where there are shadow maps
+    std::size_t shadowFaces = 0;                     ///< in the atlas
     bool lightsEverywhere = false;                   ///< some lights reach everywhere, while others do not
     int samples = 1;                                 ///< that the pixels of render targets have
     glm::vec4 background{0.0f};                      ///< radiance where nothing is drawn; a is 0, the coverage
 
-    /// Of the G-buffer, by attachment.
-    std::vector<GBufferTexture> gbufferTextures() const { return frame::gbufferTextures(settings.layout, channels); }
+    /// Whether shadows follow rays through the casters.
+    bool tracesShadows() const { return features[Feature::Shadows] && !features[Feature::ShadowMaps]; }
+
+    /// Of the G-buffer, by attachment: its channels, and behind them, where shadows are in maps, the facet normals
+    /// (shaders/lib/surface/facet.glsl) of all layouts. Where the channels take all attachments, these lie beside the
+    /// specular colour.
+    std::vector<GBufferTexture> gbufferTextures() const;
+    /// What shaders that write or read the G-buffer are compiled with.
+    Defines gbufferDefines() const;
+    int gbufferBytesPerPixel() const; ///< without depth
     /// A texture of the picture's size.
     graph::TextureDesc texture(graph::Format format) const {
         return {format, settings.sizePixels.x, settings.sizePixels.y, 1};

@@ -9,7 +9,7 @@ namespace tessera::frame {
 
 std::size_t lightBytes(const FeatureSet& features, std::size_t count) {
     return count * (sizeof(shared::LightTexels) + (features.lightShapes() ? sizeof(shared::LightShapeTexels) : 0) +
-                    (features[Feature::SoftShadows] ? sizeof(shared::LightSizeTexels) : 0));
+                    (features.lightShadowTexels() ? sizeof(shared::LightShadowTexels) : 0));
 }
 
 std::string lightsText(std::size_t count) {
@@ -22,7 +22,7 @@ std::vector<glm::vec4> texelsOf(const PackedLights& lights, const FeatureSet& fe
     for (std::size_t i = 0; i < lights.texels.size(); ++i) {
         texels.insert(texels.end(), {lights.texels[i].position, lights.texels[i].color});
         if (features.lightShapes()) texels.insert(texels.end(), {lights.shapes[i].axis, lights.shapes[i].attenuation});
-        if (features[Feature::SoftShadows]) texels.push_back(lights.sizes[i].size);
+        if (features.lightShadowTexels()) texels.push_back(lights.shadows[i].shadow);
     }
     return texels;
 }

@@ -35,9 +35,10 @@ float inverseSquaredRange(double rangeMetres) {
 
 /// A light in all its forms.
 struct PackedLight {
+    int sceneIndex = 0;
     shared::LightTexels texels{};
     shared::LightShapeTexels shape{};
-    shared::LightSizeTexels size{};
+    shared::LightShadowTexels shadow{};
 };
 
 /// The cone of a type of LightReach::Cone, which is KHR_lights_punctual's: clamp((cos angle - cos outer) / max(0.001,
@@ -85,7 +86,8 @@ PackedLight packLight(const scenes::Light& light, double reach, const CameraView
             result.shape.attenuation = glm::vec4(light.attenuation, 0.0f);
         }
     }
-    result.size.size.x = info.hasPosition() ? light.radiusMetres : float(std::tan(double(light.angularRadiusRadians)));
+    result.shadow.shadow.x =
+        info.hasPosition() ? light.radiusMetres : float(std::tan(double(light.angularRadiusRadians)));
     if (info.reach == scenes::LightReach::Cone)
         kind |= packCone(light, travelLS, result.shape);
     else if (info.hasShape())
@@ -100,6 +102,13 @@ void addFeatures(FeatureSet& features, const scenes::Light& light) {
                  scenes::infoOf(light.type).hasPosition() && light.falloff == scenes::Falloff::Attenuation);
 }
 
+void addShadow(const scenes::Light& light, const FrameSettings& settings, PackedLight& packed, FeatureSet& features) {
+    packed.texels.color.w += float(LIGHT_SHADOWED);
+    features.add(Feature::Shadows);
+    features.add(Feature::ShadowMaps, settings.shadowFilter != ShadowFilter::Traced);
+    features.add(Feature::SoftShadows, scenes::hasSize(light) && infoOf(settings.shadowFilter).heedsSizes);
+}
+
 } // namespace
 
 static_assert(scenes::kLightTypeCount <= LIGHT_TYPE_MASK + 1);
@@ -110,6 +119,7 @@ scenes::LightType typeOf(const shared::LightTexels& light) {
 
 PackedLights packLights(const scenes::Scene& scene, const CameraView& view, const FrameSettings& settings) {
     PackedLights lights;
+    std::vector<PackedLight> all;
     std::optional<bool> hasCasters; // looked for where a light casts shadows
     int firstOn = -1;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
@@ -128,24 +138,28 @@ PackedLights packLights(const scenes::Scene& scene, const CameraView& view, cons
             ++lights.unseen;
         } else {
             PackedLight packed = packLight(light, reach, view);
+            packed.sceneIndex = int(i);
+            packed.shadow.shadow.y = float(i);
             if (scenes::castsShadow(scene, i, settings.shadows)) {
                 if (!hasCasters) hasCasters = scenes::hasCasters(scene);
-                if (*hasCasters) {
-                    packed.texels.color.w += float(LIGHT_SHADOWED);
-                    lights.features.add(Feature::Shadows);
-                    lights.features.add(Feature::SoftShadows, scenes::hasSize(light));
-                    ++lights.shadowed;
-                }
+                if (*hasCasters) addShadow(light, settings, packed, lights.features);
             }
-            lights.texels.push_back(packed.texels);
-            lights.shapes.push_back(packed.shape);
-            packed.size.size.y = float(i);
-            lights.sizes.push_back(packed.size);
-            // Directional lights and infinite ranges.
-            if (packed.texels.position.w == 0.0f) ++lights.everywhere;
-            lights.sceneIndex.push_back(int(i));
+            all.push_back(packed);
             addFeatures(lights.features, light);
         }
+    }
+    // Lighting runs code for shadows for the first lights alone.
+    const auto isShadowed = [](const PackedLight& packed) {
+        return (int(packed.texels.color.w) & LIGHT_SHADOWED) != 0;
+    };
+    lights.shadowed = std::size_t(std::stable_partition(all.begin(), all.end(), isShadowed) - all.begin());
+    for (const PackedLight& packed : all) {
+        lights.texels.push_back(packed.texels);
+        lights.shapes.push_back(packed.shape);
+        lights.shadows.push_back(packed.shadow);
+        lights.sceneIndex.push_back(packed.sceneIndex);
+        // Directional lights and infinite ranges.
+        if (packed.texels.position.w == 0.0f) ++lights.everywhere;
     }
     const auto shown = std::find(lights.sceneIndex.begin(), lights.sceneIndex.end(), firstOn);
     lights.shown = int(shown - lights.sceneIndex.begin());

@@ -13,14 +13,14 @@ namespace tessera::frame {
 /// The type of a packed light.
 scenes::LightType typeOf(const shared::LightTexels& light);
 
-/// The lights of one frame as the GPU reads them, in document order. Lights that cannot change the picture are left
-/// out.
+/// The lights of one frame as the GPU reads them: those that casters may hide, then the others, each in document order.
+/// Lights that cannot change the picture are left out.
 struct PackedLights {
     std::vector<shared::LightTexels> texels;
-    std::vector<shared::LightShapeTexels> shapes; ///< parallel to texels
-    std::vector<shared::LightSizeTexels> sizes;   ///< parallel to texels
-    std::vector<int> sceneIndex;                  ///< parallel to texels: index into Scene::lights
-    FeatureSet features;                          ///< the light types and falloffs among them
+    std::vector<shared::LightShapeTexels> shapes;   ///< parallel to texels
+    std::vector<shared::LightShadowTexels> shadows; ///< parallel to texels
+    std::vector<int> sceneIndex;                    ///< parallel to texels: index into Scene::lights
+    FeatureSet features;                            ///< the light types and falloffs among them
     int shown = 0;              ///< index into texels of the first light that is on, which the D, G and F views show;
                                 ///< texels.size() when it is left out, since it then reaches nothing in view
     std::size_t everywhere = 0; ///< those among texels without a range

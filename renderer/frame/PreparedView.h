@@ -6,6 +6,7 @@
 #include "renderer/frame/CullLights.h"
 #include "renderer/frame/FrameSpec.h"
 #include "renderer/frame/PackedLights.h"
+#include "renderer/frame/ShadowMaps.h"
 
 namespace tessera::frame {
 
@@ -15,7 +16,9 @@ struct PreparedView {
     PackedLights lights;
     shared::LightingConstants lighting{};
     FrameSpec spec;
-    std::vector<shared::CullLight> cullLights; ///< parallel to lights.texels; empty where no lists are built
+    ShadowMaps shadowMaps;                             ///< empty where the view has none
+    std::vector<shared::ShadowFaceTexels> shadowFaces; ///< of those
+    std::vector<shared::CullLight> cullLights;         ///< parallel to lights.texels; empty where no lists are built
 
     culling::FrameConstants constants() const { return {camera.constants, lighting}; }
 };

@@ -68,7 +68,7 @@ const std::array<gpu::VertexAttribute, 6>& drawAttributes() {
 }
 
 gpu::PipelineState stateOf(gpu::PipelineState state, bool doubleSided, bool mirrored) {
-    state.cullFace = doubleSided ? gpu::CullFace::None : gpu::CullFace::Back;
+    state.cullFace = doubleSided || state.bothSides ? gpu::CullFace::None : gpu::CullFace::Back;
     state.frontFaceClockwise = mirrored;
     return state;
 }
@@ -79,6 +79,7 @@ SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features, Textu
     : scene_(scene), features_(features), filter_(filter), materialsInUse_(scenes::inUse(scene).materials),
       geometry_(makeGeometry()), draws_(makeDraws(geometry_.ranges)), materials_(makeMaterials()) {
     uploadTextures();
+    revisedMaterials_ = casterMaterials();
 }
 
 SceneGpu::Geometry SceneGpu::makeGeometry() const {
@@ -147,6 +148,15 @@ void SceneGpu::updateMaterials() {
     materials_ = std::move(materials);
     if (geometry) geometry_ = std::move(*geometry);
     if (draws) draws_ = std::move(*draws);
+    if (std::vector<CasterMaterial> now = casterMaterials(); now != revisedMaterials_) {
+        revisedMaterials_ = std::move(now);
+        ++casterRevision_;
+    }
+}
+
+bool SceneGpu::isCaster(const Draw& draw) const {
+    const scenes::Material& material = scene_.materials[std::size_t(draw.material)];
+    return draw.castsShadow && material.castsShadow && material.alphaMode != scenes::AlphaMode::Blend;
 }
 
 std::vector<SceneGpu::CasterMaterial> SceneGpu::casterMaterials() const {
@@ -158,15 +168,15 @@ std::vector<SceneGpu::CasterMaterial> SceneGpu::casterMaterials() const {
 
 void SceneGpu::makeCasters() {
     std::vector<CasterMaterial> materials = casterMaterials();
-    if (casters_ && materials == casterMaterials_) return;
+    if (casters_ && materials == treeMaterials_) return;
     const CasterTree tree = makeCasterTree(scene_, draws_.list);
     Casters casters{tree.space, std::make_unique<gpu::Buffer>(gpu::Buffer::of("casters", tree.texels))};
     if (const std::size_t read = casters.texels->texels(graph::Format::Rgba32Uint).texels(); read < tree.texels.size())
         throw std::runtime_error(fmt::format("the casters of shadows take {} texels of a buffer, of which the driver "
-                                             "reads {}; give --shadows none",
+                                             "reads {}; give --shadow-filter hard",
                                              tree.texels.size(), read));
     casters_ = std::move(casters);
-    casterMaterials_ = std::move(materials);
+    treeMaterials_ = std::move(materials);
 }
 
 bool SceneGpu::shadersDecode(const scenes::Material& material, std::size_t slot) const {

@@ -61,6 +61,11 @@ public:
     /// the features do not need them.
     const gpu::Buffer* materialTable() const { return materials_.tabled.get(); }
 
+    /// Whether what is drawn hides light (scenes/Shadows.h).
+    bool isCaster(const Draw& draw) const;
+    /// Changes where materials change what hides light.
+    std::uint64_t casterRevision() const { return casterRevision_; }
+
     /// What hides lights.
     struct Casters {
         CasterSpace space;
@@ -117,7 +122,9 @@ private:
     Draws draws_;
     Materials materials_;
     std::optional<Casters> casters_;
-    std::vector<CasterMaterial> casterMaterials_; ///< by material, that casters_ were made with
+    std::vector<CasterMaterial> treeMaterials_;    ///< by material, that casters_ were made with
+    std::vector<CasterMaterial> revisedMaterials_; ///< by material, of casterRevision_
+    std::uint64_t casterRevision_ = 0;
     std::map<std::pair<int, bool>, std::unique_ptr<gpu::Texture>>
         textures_; ///< by image and whether it is decoded from sRGB
     std::vector<std::pair<scenes::Sampler, std::unique_ptr<gpu::Sampler>>> samplers_;

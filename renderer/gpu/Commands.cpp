@@ -166,6 +166,8 @@ void setState(const PipelineState& state) {
     glDepthFunc(depthFunction(state.depthTest));
     glDepthMask(state.depthWrite);
     setEnabled(GL_DEPTH_CLAMP, state.depthClamp);
+    setEnabled(GL_POLYGON_OFFSET_FILL, state.slopeBias != 0.0f);
+    glPolygonOffset(state.slopeBias, 0.0f);
     setEnabled(GL_CULL_FACE, state.cullFace != CullFace::None);
     glCullFace(state.cullFace == CullFace::Front ? GL_FRONT : GL_BACK);
     glFrontFace(state.frontFaceClockwise ? GL_CW : GL_CCW);

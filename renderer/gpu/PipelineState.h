@@ -26,6 +26,8 @@ struct PipelineState {
     bool alphaToCoverage = false;
     bool depthClamp =
         false; ///< nothing is clipped at the near and far plane (shadow casters behind the light's near plane)
+    bool bothSides = false; ///< SceneGpu draws single-sided surfaces too without culling
+    float slopeBias = 0.0f; ///< times the larger change of depth to the next pixel is added to a triangle's depth
     bool operator==(const PipelineState&) const = default;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 // A light as RGBA32F texels of a buffer texture: its LightTexels and behind them, where any light has a shape, its
-// LightShapeTexels, and where any has soft shadows, its LightSizeTexels. A buffer texture, because it is the fastest
+// LightShapeTexels, and where shadows are soft or in maps, its LightShadowTexels. Behind all lights lie the faces of
+// shadow maps (shadow_maps.h). A buffer texture, because it is the fastest
 // store measured on software rasterisers (2 to 3 times faster per pair of light and pixel than a storage buffer) and
 // has no 64 KiB limit.
 #include "interop.h"
@@ -11,10 +12,11 @@
 #define LIGHT_ATTENUATION 16 // added where there is a position: falloff by A + B d + C d^2
 #define LIGHT_BROAD 32       // added to a cone: the outer angle is between 60 and 120 degrees
 #define LIGHT_SHADOWED 64    // added where casters hide it
+#define LIGHT_SIX_FACES 128  // added where its shadow map has a face for each direction of the axes
 
 #define LIGHT_TEXELS 2
 #define LIGHT_SHAPE_TEXELS 2
-#define LIGHT_SIZE_TEXELS 1
+#define LIGHT_SHADOW_TEXELS 1
 
 SHARED_BEGIN
 
@@ -38,9 +40,10 @@ struct LightShapeTexels {
                       // scale, broad: -cos outer x scale
 };
 
-struct LightSizeTexels {
-    vec4 size; // x radius in metres of the disk that shadows see; of a light without a position the tangent of its
-               // angular radius; y index into Scene::lights
+struct LightShadowTexels {
+    vec4 shadow; // x radius in metres of the disk that shadows see; of a light without a position the tangent of its
+                 // angular radius; y index into Scene::lights; z the texel where its first face (shadow_maps.h) begins,
+                 // 0 without one; w metres by which rounding may move a surface against its faces
 };
 
 // The unit direction in which the light of a cone travels.

@@ -11,6 +11,7 @@
 #include "scenes/builtin/ShadowTruth.h"
 #include "scenes/builtin/Shapes.h"
 #include "tests/image/FlatTest.h"
+#include "tests/image/ShadowTest.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
 #include "validation/compare/ReferencePicture.h"
@@ -22,82 +23,9 @@ namespace {
 
 using engine::Technique;
 using scenes::ShadowRequest;
+using test::kAllLightsCast, test::kShadowCases, test::ShadowCase, test::WrongPixels, test::wrongPixels;
 
-constexpr ShadowRequest kAllLightsCast{ShadowRequest::Kind::All};
-
-class Shadows : public test::GlTest {
-protected:
-    void expectParity(engine::Renderer& renderer, const frame::FrameSettings& settings) {
-        validation::CompareRequest request;
-        for (const engine::TechniqueInfo& info : engine::techniqueTable())
-            if (info.technique != Technique::Forward && (settings.samples == 1 || info.multisamples()))
-                request.techniques.push_back(info.technique);
-        request.settings = settings;
-        const validation::CompareRecord record =
-            validation::compareTechniques(renderer, context().capabilities(), request).record;
-        EXPECT_TRUE(record.ok()) << validation::compareTable(record);
-    }
-};
-
-/// Of a picture against the reference: those that are lit where they should be hidden or the reverse.
-struct WrongPixels {
-    std::size_t wrong = 0;        ///< farther from the definition than a hundredth, whatever rounding allows
-    std::size_t undecided = 0;    ///< rounding decides whether some light is hidden
-    std::size_t hidden = 0;       ///< shadows change them
-    std::size_t wrongWithout = 0; ///< differ without shadows already, and are not counted as wrong
-    std::size_t covered = 0;
-};
-
-WrongPixels wrongPixels(engine::Renderer& renderer, const frame::FrameSettings& settings) {
-    const engine::RenderedFrame frame = renderer.render(Technique::ClusteredDeferred, settings);
-    const Picture shown{frame.width, frame.height, frame.radiance, {}};
-    const validation::ReferencePicture truth = validation::referencePicture(renderer.scene(), settings);
-    frame::FrameSettings unshadowed = settings;
-    unshadowed.shadows = {ShadowRequest::Kind::None};
-    const validation::ReferencePicture lit = validation::referencePicture(
-        renderer.scene(), unshadowed, [] {}, false);
-    const engine::RenderedFrame shownLit = renderer.render(Technique::ClusteredDeferred, unshadowed);
-    const engine::RenderedFrame ids = [&] {
-        frame::FrameSettings asIds = settings;
-        asIds.view = frame::DebugView::Ids;
-        return renderer.render(Technique::ClusteredDeferred, asIds);
-    }();
-    const Picture nearest = truth.nearestTo(shown);
-    WrongPixels count;
-    for (std::size_t i = 0; i < shown.pixelCount(); ++i) {
-        // The same triangle, or an edge that rounding moves.
-        if (!truth.picture.covered[i] || ids.radiance[4 * i] != float(truth.ids[i].object) ||
-            ids.radiance[4 * i + 1] != float(truth.ids[i].triangle))
-            continue;
-        ++count.covered;
-        double largest = 0.0, farthest = 0.0, changed = 0.0, wrongWithout = 0.0, largestLit = 0.0;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double expected = double(nearest.rgba[4 * i + c]);
-            largest = std::max(largest, std::abs(expected));
-            farthest = std::max(farthest, std::abs(double(shown.rgba[4 * i + c]) - expected));
-            largestLit = std::max(largestLit, double(lit.picture.rgba[4 * i + c]));
-            wrongWithout = std::max(
-                wrongWithout, std::abs(double(shownLit.radiance[4 * i + c]) - double(lit.picture.rgba[4 * i + c])));
-            changed = std::max(changed,
-                               std::abs(double(lit.picture.rgba[4 * i + c]) - double(truth.picture.rgba[4 * i + c])));
-        }
-        // Not by shadows, but where rounding chooses another texel.
-        const bool isWrongWithout = wrongWithout > 0.01 * std::max(largestLit, 1e-4);
-        count.wrongWithout += isWrongWithout;
-        count.wrong += !isWrongWithout && farthest > 0.01 * std::max(largest, 1e-4);
-        count.undecided += !truth.alternatives[i].empty();
-        count.hidden += changed > 0.01 * std::max(largest, 1e-4);
-    }
-    return count;
-}
-
-struct ShadowCase {
-    const char* scene;
-    std::optional<int> lights;
-    ShadowRequest shadows;
-};
-constexpr ShadowCase kShadowCases[] = {
-    {"lattice", 16, kAllLightsCast}, {"head", {}, kAllLightsCast}, {"hall", {}, {ShadowRequest::Kind::First, 17}}};
+class Shadows : public test::ShadowTest {};
 
 TEST_F(Shadows, everyTechniqueCastsTheSameToTheLastBit) {
     for (const ShadowCase& tried : kShadowCases) {

@@ -21,6 +21,7 @@ protected:
         Scene,
         Technique,
         View,
+        Shadows,
         Camera,
         Compare,
         Lights,

@@ -32,7 +32,8 @@ namespace {
 
 /// The bound's pairs of light and pixel are lit ones. A frame that is not pruned has shadows all the same.
 frame::FrameSpec withoutShadows(frame::FrameSpec spec) {
-    for (const frame::Feature feature : {frame::Feature::Shadows, frame::Feature::SoftShadows})
+    for (const frame::Feature feature :
+         {frame::Feature::Shadows, frame::Feature::SoftShadows, frame::Feature::ShadowMaps})
         spec.features.has.reset(std::size_t(feature));
     return spec;
 }

@@ -48,11 +48,12 @@ frame::PackedLights lowerBoundLights(const frame::PackedLights& like, int count)
         // When there are fewer than `count`, the same ones in turn; else evenly spaced ones.
         const std::size_t chosen = known < std::size_t(count) ? std::size_t(i) % std::max<std::size_t>(known, 1)
                                                               : std::size_t(i) * known / std::size_t(count);
-        const int kind = known == 0 ? int(scenes::LightType::Point)
-                                    : int(like.texels[chosen].color.w) & ~(LIGHT_BROAD | LIGHT_SHADOWED);
+        const int kind = known == 0
+                             ? int(scenes::LightType::Point)
+                             : int(like.texels[chosen].color.w) & ~(LIGHT_BROAD | LIGHT_SHADOWED | LIGHT_SIX_FACES);
         lights.texels.push_back(lowerBoundLight(kind, i, count));
         lights.shapes.push_back(lowerBoundLightShape(frame::typeOf(lights.texels.back())));
-        lights.sizes.emplace_back();
+        lights.shadows.emplace_back();
     }
     return lights;
 }

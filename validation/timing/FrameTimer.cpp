@@ -105,8 +105,7 @@ void profilePoint(PointTimes& times, const TimedPoint& point, int frames) {
     gpu::GraphBackend& backend = point.renderer->backend();
     const BackendSettings settings(backend, 1);
     const bool byClock = gpu::Context::current()->capabilities().isSoftware;
-    std::vector<std::string> names;
-    std::vector<std::vector<std::optional<double>>> passesMs;
+    std::vector<std::vector<gpu::PassTiming>> profiled;
     std::vector<double> frameMs;
     backend.setProfiling(byClock);
     for (int i = 0; i < frames; ++i) {
@@ -115,11 +114,22 @@ void profilePoint(PointTimes& times, const TimedPoint& point, int frames) {
         drawPoint(point, eyeOffsetOfFrame(i));
         gpu::finish(); // after which the timers' results are there
         if (byClock) frameMs.push_back(clock.elapsedMs());
+        profiled.push_back(backend.passTimings());
+    }
+    // Passes that write what is kept, such as shadow maps, do not run in every frame.
+    std::vector<std::string> names;
+    for (const std::vector<gpu::PassTiming>& frame : profiled) {
+        if (frame.size() <= names.size()) continue;
         names.clear();
-        std::vector<std::optional<double>>& frame = passesMs.emplace_back();
-        for (const gpu::PassTiming& timing : backend.passTimings()) {
-            names.push_back(timing.name);
-            frame.push_back(timing.gpuMs);
+        for (const gpu::PassTiming& timing : frame) names.push_back(timing.name);
+    }
+    std::vector<std::vector<std::optional<double>>> passesMs;
+    for (const std::vector<gpu::PassTiming>& frame : profiled) {
+        std::vector<std::optional<double>>& timesMs = passesMs.emplace_back();
+        auto next = frame.begin();
+        for (const std::string& name : names) {
+            const bool ran = next != frame.end() && next->name == name;
+            timesMs.push_back(ran ? next++->gpuMs : std::optional<double>(0.0));
         }
     }
     summarisePasses(times, names, passesMs, frameMs);

@@ -111,6 +111,10 @@ void framePanel(State& state) {
     settingRows(state.active(), engine::SettingPanel::Frame);
 }
 
+void shadowsPanel(State& state) {
+    settingRows(state.active(), engine::SettingPanel::Shadows);
+}
+
 void viewPanel(State& state) {
     settingRows(state.active(), engine::SettingPanel::View);
     scaleRows(state);

@@ -159,12 +159,19 @@ void putSpecular(Encoding encoding, Surface surface, inout vec4 texel)
     if (encoding.isPacked)
         putRoots(surface.specular, encoding.widths, DITHER_SPECULAR);
     else
+#ifdef GBUFFER_FACETS_IN_SPECULAR
+        texel = vec4(surface.specular, float(surface.facetCode)); // of 24 bits, which fp32 holds
+#else
         texel = vec4(surface.specular, 0.0);
+#endif
 }
 
 void takeSpecular(Encoding encoding, vec4 texel, inout Surface surface)
 {
     surface.specular = encoding.isPacked ? takeRoots(encoding.widths) : texel.rgb;
+#ifdef GBUFFER_FACETS_IN_SPECULAR
+    surface.facetNormalLS = decodeFacet(uint(texel.w));
+#endif
 }
 
 void putEmission(Encoding encoding, Surface surface, inout vec4 texel)

@@ -20,6 +20,10 @@ layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_WORD_TEXTURE + GBUFFER_WORDS / 4
 layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_WORD_TEXTURE + GBUFFER_WORDS / 4 + (GBUFFER_WORDS & 2) / 2) uniform usampler2D lastWord;
 #endif
 
+#ifdef GBUFFER_FACETS
+layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_FACETS) uniform usampler2D facets;
+#endif
+
 void fetchWords(ivec2 pixel)
 {
 #if GBUFFER_WORDS >= 4
@@ -49,6 +53,9 @@ Surface surfaceFromGBuffer(ivec2 pixel)
 #define EXACT_CHANNEL(put, take, attachment) take(kExact, texelFetch(exactChannels[attachment], pixel, 0), surface);
 #define PACKED_CHANNEL(put, take, bit, widths) gbufferBit = bit; take(Encoding(true, widths), vec4(0.0), surface);
     GBUFFER_CHANNELS
+#ifdef GBUFFER_FACETS
+    surface.facetNormalLS = decodeFacet(texelFetch(facets, pixel, 0).r);
+#endif
 #ifdef GBUFFER_MATERIAL_NUMBER
     setTabledValues(int(surface.material), surface);
 #endif

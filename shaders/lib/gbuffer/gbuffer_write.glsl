@@ -17,6 +17,10 @@ layout(location = GBUFFER_WORD_TEXTURE + GBUFFER_WORDS / 4) out uvec2 pairOfWord
 layout(location = GBUFFER_WORD_TEXTURE + GBUFFER_WORDS / 4 + (GBUFFER_WORDS & 2) / 2) out uint lastWord;
 #endif
 
+#ifdef GBUFFER_FACETS
+layout(location = GBUFFER_FACETS) out uint facets;
+#endif
+
 void storeWords()
 {
 #if GBUFFER_WORDS >= 4
@@ -42,4 +46,7 @@ void writeGBuffer(Surface surface)
 #define PACKED_CHANNEL(put, take, bit, widths) gbufferBit = bit; put(Encoding(true, widths), surface, noTexel);
     GBUFFER_CHANNELS
     storeWords();
+#ifdef GBUFFER_FACETS
+    facets = surface.facetCode;
+#endif
 }

@@ -8,14 +8,14 @@
 layout(binding = TEXTURE_UNIT_LIGHTS) uniform samplerBuffer lightTexels;
 
 #if HAS_LIGHT_SHAPES
-#define TEXELS_BEFORE_SIZE (LIGHT_TEXELS + LIGHT_SHAPE_TEXELS)
+#define TEXELS_BEFORE_SHADOW (LIGHT_TEXELS + LIGHT_SHAPE_TEXELS)
 #else
-#define TEXELS_BEFORE_SIZE LIGHT_TEXELS
+#define TEXELS_BEFORE_SHADOW LIGHT_TEXELS
 #endif
-#if HAS_SOFT_SHADOWS
-#define TEXELS_A_LIGHT (TEXELS_BEFORE_SIZE + LIGHT_SIZE_TEXELS)
+#if HAS_LIGHT_SHADOW_TEXELS
+#define TEXELS_A_LIGHT (TEXELS_BEFORE_SHADOW + LIGHT_SHADOW_TEXELS)
 #else
-#define TEXELS_A_LIGHT TEXELS_BEFORE_SIZE
+#define TEXELS_A_LIGHT TEXELS_BEFORE_SHADOW
 #endif
 
 // A texel of a light, in the order of LightTexels.
@@ -32,11 +32,11 @@ vec4 lightShapeTexel(int index, int texel)
 }
 #endif
 
-#if HAS_SOFT_SHADOWS
-// LightSizeTexels::size.
-vec4 lightSizeTexel(int index)
+#if HAS_LIGHT_SHADOW_TEXELS
+// LightShadowTexels::shadow.
+vec4 lightShadowTexel(int index)
 {
-    return texelFetch(lightTexels, index * TEXELS_A_LIGHT + TEXELS_BEFORE_SIZE);
+    return texelFetch(lightTexels, index * TEXELS_A_LIGHT + TEXELS_BEFORE_SHADOW);
 }
 #endif
 #endif

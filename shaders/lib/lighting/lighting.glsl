@@ -23,8 +23,9 @@ bool takesLight(Surface surface)
 // pass that adds light calls this function; only the debug views of D, G and F read a light directly. Shadows are asked
 // for here, and area lights belong here, not in a loop; data of the surface that they need besides the shading normal
 // become members of Surface. It adds instead of returning: a rasteriser that masks lanes would choose between the
-// result and 0 before it adds (5 % of the time of 1,024 lights).
-void addLightOnSurface(int light, SeenSurface seen, Viewpoint viewpoint, inout vec3 radiance)
+// result and 0 before it adds (5 % of the time of 1,024 lights). It also runs the code of shadows for all lights, so
+// callers say where none can be `shadowed`.
+void addLightOnSurface(int light, const bool shadowed, SeenSurface seen, Viewpoint viewpoint, inout vec3 radiance)
 {
 #if VISIT_COUNTS
     radiance += vec3(1.0);
@@ -35,7 +36,7 @@ void addLightOnSurface(int light, SeenSurface seen, Viewpoint viewpoint, inout v
 #if HAS_SHADOWS
         precise vec3 unshadowed = brdfCosine * incident.irradiance;
         // A shadow costs far more than what it would hide.
-        if (unshadowed != vec3(0.0)) unshadowed *= shadowFactor(light, viewpoint);
+        if (shadowed && unshadowed != vec3(0.0)) unshadowed *= shadowFactor(light, seen.surface, viewpoint);
         precise vec3 sum = radiance + unshadowed;
 #else
         precise vec3 sum = radiance + brdfCosine * incident.irradiance;
@@ -57,9 +58,20 @@ vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pi
     // Tested at the end: rasterisers that mask lanes instead of branching would run a loop's body once more than its
     // lights. LIGHTS_PER_ROUND (renderer/frame/LightRounds.h) is spelt out: an inner loop would count towards the same
     // limit.
-#define ADD_LIGHT addLightOnSurface(light, seen, viewpoint, radiance);
+#define ADD_LIGHT addLightOnSurface(light, false, seen, viewpoint, radiance);
 #define ADD_NEXT_LIGHT if (nextLight(cursor, light)) ADD_LIGHT
     bool more = true;
+#if HAS_SHADOWS
+    // Lights that casters may hide come first (renderer/frame/PackedLights.h).
+    do {
+        if (light >= int(lighting.slices.y)) break;
+        addLightOnSurface(light, true, seen, viewpoint, radiance);
+        more = nextLight(cursor, light);
+        if (!more) more = nextBatch(cursor, light);
+    } while (more);
+    if (more && light < int(lighting.slices.y)) return vec3(uintBitsToFloat(0x7FC00000u));
+    if (!more) return radiance;
+#endif
     do {
         do {
             ADD_LIGHT

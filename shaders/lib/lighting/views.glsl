@@ -36,10 +36,10 @@ vec3 specularFactorView(Surface surface, Viewpoint viewpoint)
 }
 
 // How much of the light that lighting.lights.y names casters let through.
-vec3 shadowView(Viewpoint viewpoint)
+vec3 shadowView(Surface surface, Viewpoint viewpoint)
 {
 #if HAS_SHADOWS
-    if (lighting.lights.y < lighting.lights.x) return vec3(shadowFactor(int(lighting.lights.y), viewpoint));
+    if (lighting.lights.y < lighting.lights.x) return vec3(shadowFactor(int(lighting.lights.y), surface, viewpoint));
 #endif
     return vec3(1.0);
 }
@@ -63,7 +63,7 @@ vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
 #elif VIEW == VIEW_LIGHTS
     return lightsOnSurface(vec3(0.0), seenSurface(surface, viewpoint.toViewerLS), viewpoint, pixel); // counted
 #elif VIEW == VIEW_SHADOW
-    return shadowView(viewpoint);
+    return shadowView(surface, viewpoint);
 #elif VIEW == VIEW_DEPTH
     return vec3(view.eyeLS.w + dot(viewpoint.positionLS, view.forwardLS.xyz));
 #else

@@ -95,6 +95,10 @@ Surface surfaceFromMaterial(Fragment fragment, vec4 baseColor)
 #endif
     surface.normalCode = encodeNormal(materialNormal(fragment, surface.normalTexel));
     surface.normalLS = decodeNormal(surface.normalCode);
+#if HAS_SHADOW_MAPS
+    surface.facetCode = encodeFacet(fragment.facetNormalLS);
+    surface.facetNormalLS = decodeFacet(surface.facetCode);
+#endif
 #if VIEW == VIEW_NORMAL_OBJECT
     surface.normalTexel = objectNormal(fragment, surface.normalLS) * 0.5 + 0.5;
 #endif

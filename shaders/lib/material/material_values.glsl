@@ -41,6 +41,9 @@ struct Fragment {
     vec4 color;
     mat3 normalFromObject; // cofactor matrix of the node, with its mirroring
     bool frontFacing;
+#if HAS_SHADOW_MAPS
+    vec3 facetNormalLS; // of the triangle; unit, away from the viewer
+#endif
 #if VIEW == VIEW_NORMAL_OBJECT
     mat3 objectFromNormal; // transposed LS-from-object: takes normals back, up to their length
 #endif
@@ -51,6 +54,9 @@ Fragment plainFragment()
 {
     Fragment fragment;
     fragment.normalLS = vec3(0.0, 0.0, 1.0);
+#if HAS_SHADOW_MAPS
+    fragment.facetNormalLS = vec3(0.0, 0.0, 1.0);
+#endif
     fragment.tangentLS = vec4(0.0);
     fragment.texCoord[0] = TexCoord(0.0);
     fragment.texCoord[1] = TexCoord(0.0);

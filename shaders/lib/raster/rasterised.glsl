@@ -5,6 +5,9 @@
 #if FILTER_EXACT
 #include "lib/surface/triangle.glsl"
 #endif
+#if HAS_SHADOW_MAPS && !DEPTH_ONLY
+#include "lib/raster/facet_normal.glsl"
+#endif
 
 #if !DEPTH_ONLY
 #if !FILTER_EXACT
@@ -51,6 +54,9 @@ Fragment rasterisedFragment()
     fragment.normalLS = triangleNormal(weights);
 #else
     fragment.normalLS = normalLS;
+#endif
+#if HAS_SHADOW_MAPS
+    fragment.facetNormalLS = rasterisedFacetNormal();
 #endif
 #if HAS_TANGENTS
     fragment.tangentLS = tangentLS;

@@ -2,11 +2,15 @@
 // surfaces and light volumes ask shadowFactor() and nothing else.
 #pragma once
 #include "lib/light/light_store.glsl"
+#if HAS_SHADOW_MAPS
+#include "lib/shadow/shadow_map.glsl"
+#else
 #include "lib/shadow/traced_shadow.glsl"
+#endif
 
-// The share of light `index` that casters let through to a point: 0 where they hide all of it, 1 where they hide
+// The share of light `index` that casters let through to a point of a surface: 0 where they hide all of it, 1 where they hide
 // nothing or the light casts no shadows.
-float shadowFactor(int index, Viewpoint viewpoint)
+float shadowFactor(int index, Surface surface, Viewpoint viewpoint)
 {
     int kind = int(lightTexel(index, 1).w);
     if ((kind & LIGHT_SHADOWED) == 0) return 1.0;
@@ -15,5 +19,9 @@ float shadowFactor(int index, Viewpoint viewpoint)
 #else
     bool isFar = false;
 #endif
+#if HAS_SHADOW_MAPS
+    return mappedShadow(index, kind, lightTexel(index, 0).xyz, isFar, surface.facetNormalLS, viewpoint);
+#else
     return tracedShadow(index, lightTexel(index, 0).xyz, isFar, viewpoint);
+#endif
 }

@@ -4,19 +4,7 @@
 #include "lib/shadow/caster_walk.glsl"
 
 #if HAS_SOFT_SHADOWS
-// Two numbers of [0, 1), the same for a pixel and a light of the scene in every frame and technique. Source: pcg3d of
-// Jarzynski and Olano 2020, "Hash Functions for GPU Rendering".
-vec2 shadowRandom(vec2 pixel, float sceneIndex)
-{
-    uvec3 v = uvec3(uvec2(pixel), uint(sceneIndex)) * 1664525u + 1013904223u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    v ^= v >> 16;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    return vec2(v.xy >> 8) * (1.0 / 16777216.0);
-}
+#include "lib/shadow/disk_samples.glsl"
 #endif
 
 // What casters let through of light `index`: one in a place, or (isFar) one from far away in that direction, to which
@@ -30,10 +18,8 @@ float tracedShadow(int index, vec3 placeLS, bool isFar, Viewpoint viewpoint)
     float reach = isFar ? farAway : casterTree.rwsOriginCS.w;
     float lightRounding = isFar ? 0.0 : roundingAt(placeLS);
 #if HAS_SOFT_SHADOWS
-    // A light without a size takes one ray. Else ray i goes to ring i of SHADOW_SAMPLES of equal area, each a golden
-    // angle from the one before (Vogel 1979, "A better way to construct the sunflower head"); one random turn and one
-    // random share of the rings, the same for all, make the mean over pixels exact.
-    vec4 size = lightSizeTexel(index);
+    // A light without a size takes one ray.
+    vec4 size = lightShadowTexel(index);
     int rays = size.x > 0.0 ? SHADOW_SAMPLES : 1;
     precise float perRay = 1.0 / float(rays);
     precise vec3 ahead = toLight * (1.0 / sqrt(max(dot(toLight, toLight), 1e-37)));
@@ -44,9 +30,8 @@ float tracedShadow(int index, vec3 placeLS, bool isFar, Viewpoint viewpoint)
     precise float seen = 0.0;
     int i = 0;
     for (; i < rays; ++i) {
-        precise float angle = 6.2831853 * random.x + 2.3999632 * float(i);
-        precise float radius = sqrt((float(i) + random.y) * perRay);
-        precise vec3 toDisk = toLight + (radius * cos(angle)) * across + (radius * sin(angle)) * up;
+        vec2 place = diskPlace(i, random);
+        precise vec3 toDisk = toLight + place.x * across + place.y * up;
         seen += visibilityAlong(shadowRay(viewpoint.positionLS, reach * toDisk, lightRounding));
     }
     if (i < rays) return uintBitsToFloat(0x7FC00000u); // a loop that was ended, as in visibilityAlong()

@@ -3,6 +3,7 @@
 #pragma once
 #include "shared/models.h"
 #include "lib/maths/normal_code.glsl"
+#include "lib/surface/facet.glsl"
 
 struct Surface {
     uint model;        // MODEL_*
@@ -17,6 +18,10 @@ struct Surface {
     vec3 emission;     // radiance that needs no light; all of single_color
     NormalCode normalCode; // of surfaces that are rasterised
     vec3 normalLS;     // unit; of a drawn surface what the code says, of a stored one what its channel does
+#if HAS_SHADOW_MAPS
+    uint facetCode;    // of surfaces that are rasterised
+    vec3 facetNormalLS; // what it says: the normal of the triangle, unit, away from the viewer
+#endif
     vec3 normalTexel;  // the normal map's texel as stored, for the view that shows it; for the view
                        // normal_object that normal, coded the same way
     float parameter;   // the one of models that HAS_PARAMETER, >= 0: p of blinn_phong
@@ -103,5 +108,9 @@ void setNeutralValues(inout Surface surface)
     surface.normalCode = NormalCode(uvec2(NORMAL_NO_SHARE), 2u);
     surface.normalLS = vec3(0.0, 0.0, 1.0);
     surface.normalTexel = vec3(0.5, 0.5, 1.0);
+#if HAS_SHADOW_MAPS
+    surface.facetCode = 0u;
+    surface.facetNormalLS = vec3(0.0, 0.0, 1.0);
+#endif
     setNeutralLobes(surface);
 }

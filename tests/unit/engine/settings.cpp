@@ -37,12 +37,14 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
     const auto members = [](const ViewRequest& request) {
         const auto& [technique, settings] = request;
         const auto& [sizePixels, samples, samplesGiven, camera, timeSeconds, eyeOffsetWS, layout, view, filter, space,
-                     prune, specular, rangeTolerance, soloLight, shadows, shadowSamples, culling, lightOn,
-                     softwareBackend, display, exposureEV, toneMap] = settings;
+                     prune, specular, rangeTolerance, soloLight, shadows, shadowFilter, shadowSamples, shadowMaps,
+                     culling, lightOn, softwareBackend, display, exposureEV, toneMap] = settings;
         const auto& [method, tilePixels, builder, normals, lanes] = culling;
+        const auto& [widthTexels, resolutionTexels, budgetMiB, cascades] = shadowMaps;
         return std::pair(std::tuple(technique, sizePixels, samples, camera, timeSeconds, layout, view, filter, space,
-                                    prune, specular, rangeTolerance, soloLight, shadows, shadowSamples, method,
-                                    tilePixels, builder, normals, lightOn, exposureEV, toneMap),
+                                    prune, specular, rangeTolerance, soloLight, shadows, shadowFilter, shadowSamples,
+                                    widthTexels, resolutionTexels, budgetMiB, cascades, method, tilePixels, builder,
+                                    normals, lightOn, exposureEV, toneMap),
                          std::tuple(samplesGiven, eyeOffsetWS, softwareBackend, display, lanes));
     };
     const auto differ = []<std::size_t... kIndex>(const auto& x, const auto& y, std::index_sequence<kIndex...>) {
@@ -106,7 +108,8 @@ TEST(Settings, everyRowHasNamesOfItsOwnAndWordsForHelp) {
         EXPECT_TRUE(keys.insert(setting.key).second) << setting.key;
         EXPECT_EQ(&settingOf(setting.key), &setting);
         EXPECT_FALSE(setting.type.empty() || setting.help.empty()) << setting.name;
-        EXPECT_TRUE(setting.group == "Frame" || setting.group == "Display") << setting.name;
+        EXPECT_TRUE(setting.group == "Frame" || setting.group == "Shadows" || setting.group == "Display")
+            << setting.name;
         const bool isRefused = setting.takes != nullptr || !setting.refusal.empty();
         EXPECT_FALSE(isRefused && setting.heeds == nullptr && setting.takes == nullptr) << setting.name;
         const bool hasWidget = std::holds_alternative<ChoiceKind>(setting.value.kind) || setting.value.open.empty();

@@ -118,9 +118,10 @@ TEST(Features, aFeatureIsInTheSetExactlyWhenAMaterialInUseNeedsIt) {
 }
 
 TEST(Features, everyFeatureOfMaterialsHasASceneWithItAndOneWithout) {
-    std::set<Feature> tested{featureOf(MaterialModel::Lambert),
-                             Feature::AttenuationLights, // the lights' are packLights' business, and so are shadows
-                             Feature::OrthographicCamera, Feature::Shadows, Feature::SoftShadows};
+    std::set<Feature> tested{
+        featureOf(MaterialModel::Lambert),
+        Feature::AttenuationLights, // the lights' are packLights' business, and so are shadows
+        Feature::OrthographicCamera,       Feature::Shadows, Feature::SoftShadows, Feature::ShadowMaps};
     for (const scenes::LightTypeInfo& type : scenes::lightTypes()) tested.insert(featureOf(type.type));
     for (const Change& change : changes()) tested.insert(change.feature);
     EXPECT_EQ(tested.size(), kFeatureCount);

@@ -1,0 +1,26 @@
+#pragma once
+#include "renderer/frame/FrameHandles.h"
+
+namespace tessera::passes {
+
+/// Draws the casters as lights see them, into the faces of an atlas (renderer/frame/ShadowMaps.h). The atlas lives
+/// across frames: faces that it holds already are not drawn again, and where it holds all, there is no pass.
+/// Reads   the scene
+/// Writes  the atlas D32F, reverse-Z, 0 where there is no caster; both sides of casters, each triangle moved away from
+///         the light by how much its depth changes over half a texel or more, so that no triangle hides itself within
+///         a texel
+/// Space   of each face
+struct ShadowMapsPass {
+    struct Inputs {
+        frame::SceneHandles scene;
+        const frame::DrawnView* drawn = nullptr; ///< null for a plan
+        std::size_t view = 0;                    ///< counted from 0; each view has an atlas
+    };
+    struct Outputs {
+        graph::TextureHandle atlas;
+    };
+    static std::vector<shader::ProgramDesc> programs(const frame::FrameSpec& spec);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs);
+};
+
+} // namespace tessera::passes

@@ -1,0 +1,71 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "renderer/frame/CameraView.h"
+#include "renderer/frame/DrawList.h"
+#include "renderer/frame/PackedLights.h"
+#include "renderer/graph/Resource.h"
+#include "shaders/shared/shadow_maps.h"
+
+/// Which shadow maps a view has, how large, and where in the atlas. Made without OpenGL.
+namespace tessera::frame {
+
+/// A square picture of the casters as a light sees them.
+struct ShadowFace {
+    scenes::Camera camera;
+    glm::ivec2 cornerTexels{0}; ///< lower-left, in the atlas
+    int sideTexels = 0;         ///< a power of two
+    bool operator==(const ShadowFace&) const = default;
+};
+
+/// Faces of a light: one per cascade of a directional light, one around the cone of a spot light or around all that is
+/// drawn where that is seen from beside it, else six.
+struct ShadowedLight {
+    std::size_t light = 0; ///< index into PackedLights::texels
+    std::size_t firstFace = 0;
+    int faces = 0;
+    int wantedTexels = 0; ///< side of a face where the budget is no matter
+    int sideTexels = 0;   ///< what it got; 0: the budget has no room for it, and it casts no shadows
+};
+
+struct ShadowMaps {
+    std::vector<ShadowFace> faces;
+    std::vector<ShadowedLight> lights; ///< in the order of PackedLights
+    glm::ivec2 atlasTexels{0};
+
+    graph::TextureDesc atlas() const { return {graph::Format::Depth32Float, atlasTexels.x, atlasTexels.y}; }
+    std::size_t reduced() const;  ///< lights with fewer texels than wanted, but some
+    std::size_t unmapped() const; ///< lights without any
+};
+
+/// Bytes of a texel of the atlas.
+inline constexpr std::size_t kShadowTexelBytes = 4;
+
+/// The smallest side of a face that a budget reduces one to.
+inline constexpr int kLeastFaceTexels = 8;
+
+/// Texels around the part of a face that points are looked up in, for taps of a filter beyond it.
+int shadowBorderTexels(const FrameSettings& settings, int sideTexels);
+
+/// Places faces of the sides, powers of two, so that none overlap; the corners are parallel to them. Returns the
+/// size of the atlas, 0 x 0 where there are none.
+glm::ivec2 placeFaces(std::span<const int> sidesTexels, std::vector<glm::ivec2>& cornersTexels);
+
+/// The maps of all lights that cast shadows. A face's side follows from what its light reaches in the picture, or is
+/// ShadowMapSettings::resolutionTexels. While the atlas exceeds the budget, a light with the largest faces has them
+/// halved, the one that reaches least first; where all are of kLeastFaceTexels, the last light gets none.
+/// `bounds` are of everything drawn.
+ShadowMaps makeShadowMaps(const scenes::Scene& scene, const PackedLights& lights, const CameraView& view,
+                          const FrameSettings& settings, std::span<const SurfaceBounds> bounds);
+
+/// The camera of a face, as its map is drawn.
+CameraView faceView(const ShadowFace& face);
+
+/// Tells the lights' texels where their faces lie, and returns the records of the faces. `firstTexel` is the texel
+/// behind all lights.
+std::vector<shared::ShadowFaceTexels> packFaces(const ShadowMaps& maps, const CameraView& view, std::size_t firstTexel,
+                                                std::span<const SurfaceBounds> bounds, PackedLights& lights);
+
+} // namespace tessera::frame

@@ -1,0 +1,42 @@
+#include "renderer/frame/ShadowMemory.h"
+
+#include <algorithm>
+
+namespace tessera::frame {
+
+namespace {
+
+bool haveOnePlace(const ShadowFace& a, const ShadowFace& b) {
+    return a.cornerTexels == b.cornerTexels && a.sideTexels == b.sideTexels;
+}
+
+} // namespace
+
+bool ShadowMemory::begin(const ShadowMaps& maps, const SceneGpu& scene, bool holdsAtlas, bool culls) {
+    const std::uint64_t casters = scene.casterRevision();
+    // Where one face has moved, others may lie over it.
+    const bool keeps =
+        holdsAtlas && casters == held_.casters && std::ranges::equal(maps.faces, held_.faces, haveOnePlace);
+    if (!keeps) held_ = {};
+    draws_ = {};
+    for (std::size_t i = 0; i < maps.faces.size(); ++i) {
+        const ShadowFace& face = maps.faces[i];
+        if (keeps && face == held_.faces[i]) continue;
+        const CameraView view = faceView(face);
+        const ViewDraws drawn =
+            makeViewDraws(scene.drawList(), view, culls, [&](const Draw& draw) { return scene.isCaster(draw); });
+        ShadowDraws::Face& added =
+            draws_.faces.emplace_back(face.cornerTexels, face.sideTexels, view.constants, drawn.opaque);
+        const int first = int(draws_.rows.size());
+        for (Batch& batch : added.batches) batch.first += first;
+        for (gpu::DrawIndexedCommand command : scene.commandsOf(drawn)) {
+            command.baseInstance += std::uint32_t(first);
+            draws_.commands.push_back(command);
+        }
+        draws_.rows.insert(draws_.rows.end(), drawn.rows.begin(), drawn.rows.end());
+    }
+    begun_ = {casters, maps.faces};
+    return !draws_.faces.empty() || !holdsAtlas;
+}
+
+} // namespace tessera::frame

@@ -1,0 +1,42 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "renderer/frame/SceneGpu.h"
+#include "renderer/frame/ShadowMaps.h"
+
+namespace tessera::frame {
+
+/// What the faces of an atlas are drawn from, all of them behind one another.
+struct ShadowDraws {
+    struct Face {
+        glm::ivec2 corner{0}; ///< texels of the atlas
+        int side = 0;
+        shared::ViewConstants view{};
+        std::vector<Batch> batches; ///< of `commands`
+    };
+    std::vector<DrawRows> rows;
+    std::vector<gpu::DrawIndexedCommand> commands;
+    std::vector<Face> faces;
+};
+
+/// Which faces the atlas of a view holds from earlier frames. A face holds as long as its camera, its place and the
+/// casters are the same.
+class ShadowMemory {
+public:
+    /// Finds the faces that are to be drawn; whether there are any. Where the atlas is not held, those are all faces.
+    bool begin(const ShadowMaps& maps, const SceneGpu& scene, bool holdsAtlas, bool culls);
+    const ShadowDraws& draws() const { return draws_; }
+    /// They are drawn.
+    void end() { held_ = std::move(begun_); }
+
+private:
+    struct Held {
+        std::uint64_t casters = 0; ///< SceneGpu::casterRevision()
+        std::vector<ShadowFace> faces;
+    };
+    Held held_, begun_;
+    ShadowDraws draws_;
+};
+
+} // namespace tessera::frame

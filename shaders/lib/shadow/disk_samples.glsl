@@ -1,0 +1,26 @@
+// Places on a disk that stand for all of it: place i lies in ring i of so many of equal area, each a golden angle from
+// the one before (Vogel 1979, "A better way to construct the sunflower head"); one random turn and one random share of
+// the rings, the same for all places, make the mean over pixels exact.
+#pragma once
+
+// Two numbers of [0, 1), the same for a pixel and a light of the scene in every frame and technique. Source: pcg3d of
+// Jarzynski and Olano 2020, "Hash Functions for GPU Rendering".
+vec2 shadowRandom(vec2 pixel, float sceneIndex)
+{
+    uvec3 v = uvec3(uvec2(pixel), uint(sceneIndex)) * 1664525u + 1013904223u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v ^= v >> 16;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    return vec2(v.xy >> 8) * (1.0 / 16777216.0);
+}
+
+// Place i of SHADOW_SAMPLES on the unit disk.
+vec2 diskPlace(int i, vec2 random)
+{
+    precise float angle = 6.2831853 * random.x + 2.3999632 * float(i);
+    precise float radius = sqrt((float(i) + random.y) * (1.0 / float(SHADOW_SAMPLES)));
+    return radius * vec2(cos(angle), sin(angle));
+}

@@ -1,0 +1,227 @@
+// Shadows by maps (shared/shadow_maps.h): compares a point's depth, as a light sees it, with those of the nearest
+// casters.
+//
+// No surface hides itself within a texel. Let e be where, on the way from a texel's middle c to the point p in it, one
+// triangle passes into the next, with slopes a (at c) and b (at p) of depth by texels. The map holds the depth at c,
+// moved away by at least half the sum of |a|'s components (passes/ShadowMapsPass.cpp); here the plane of the point's
+// triangle is followed to c and moved nearer by half the sum of |b|'s. What is between the two depths is (b - a)(c - e),
+// of which no component of c - e is more than half a texel. Further away, taps of wide filters may find a surface that
+// bends towards the light before the plane.
+#pragma once
+#include "shared/slots.h"
+#include "shared/shadow_maps.h"
+#include "lib/light/light_store.glsl"
+#include "lib/surface/camera.glsl"
+
+#if HAS_SOFT_SHADOWS
+#include "lib/shadow/disk_samples.glsl"
+#endif
+
+layout(binding = TEXTURE_UNIT_SHADOWS) uniform sampler2D shadowAtlas;
+
+// A point as a face sees it.
+struct FacePoint {
+    vec2 texel;    // where in the atlas, in texels
+    float depth;   // reverse-Z, as stored
+    vec2 slope;    // change of depth with a texel, along the plane of the point's triangle
+    float bias;    // by how much a caster must be nearer
+    vec2 doubt;    // by how much the slope may be off
+    vec4 face;     // xy its middle and z half its side, in texels
+    float perSize; // texels from the point to the rim of what may hide part of a light of size 1, by depth
+    bool isSeen;   // not edge-on, which would be of any depth
+};
+
+// NaN, of loops that Mesa ends early (lib/shadow/caster_walk.glsl): it shows, where light that is not known would not.
+const float kCutLoop = uintBitsToFloat(0x7FC00000u);
+
+// By how much the stored facet normal may be off (lib/surface/facet.glsl).
+const float kFacetError = 1.1e-3;
+
+FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float roundingMetres)
+{
+    vec4 right = texelFetch(lightTexels, firstTexel);
+    vec4 up = texelFetch(lightTexels, firstTexel + 1);
+    vec4 forward = texelFetch(lightTexels, firstTexel + 2);
+    vec4 place = texelFetch(lightTexels, firstTexel + 3);
+    precise vec3 position = vec3(dot(right.xyz, positionRWS) + right.w, dot(up.xyz, positionRWS) + up.w,
+                                 dot(forward.xyz, positionRWS) + forward.w);
+    // Halves of the width, in metres or as tangents.
+    precise vec2 width2 = 1.0 / vec2(dot(right.xyz, right.xyz), dot(up.xyz, up.xyz));
+    precise vec2 width = sqrt(width2);
+    precise vec3 normal = vec3(dot(right.xyz, facetNormalRWS) * width2.x, dot(up.xyz, facetNormalRWS) * width2.y,
+                               dot(forward.xyz, facetNormalRWS));
+    bool isParallel = place.w < 0.0;
+    precise FacePoint point;
+    point.face = place;
+    // Depth is linear in the texel: scale times the plane's normal by its distance from the light, or (parallel) by the
+    // normal's part along the light.
+    precise float scale, distance, atOne;
+    if (isParallel) {
+        scale = -place.w;
+        distance = normal.z;
+        atOne = 1.0;
+        point.depth = 1.0 + place.w * position.z;
+        point.texel = place.xy + place.z * position.xy;
+    } else {
+        precise float perMetre = 1.0 / max(position.z, 1e-30);
+        scale = place.w;
+        distance = dot(normal, position);
+        atOne = length(vec3(position.xy * width, position.z));
+        point.depth = place.w * perMetre;
+        point.texel = place.xy + (place.z * perMetre) * position.xy;
+    }
+    precise float leastDistance = abs(distance) - kFacetError * atOne;
+    point.isSeen = leastDistance > 0.0 && (isParallel || position.z > 0.0);
+    precise float perDistance = scale / max(leastDistance, 1e-30);
+    precise vec2 slope = normal.xy * (scale / (distance * place.z));
+    precise vec2 steepest = (abs(normal.xy) + kFacetError * width) * (perDistance / place.z);
+    precise float rounding = isParallel ? perDistance * roundingMetres + 4.8e-7
+                                        : point.depth * (roundingMetres / max(leastDistance, 1e-30) + 4.8e-7);
+    point.slope = slope;
+    point.doubt = width * (kFacetError * perDistance / place.z);
+    point.bias = 0.5 * (steepest.x + steepest.y) + rounding;
+    point.perSize = place.z / (width.x * scale);
+    return point;
+}
+
+ivec2 withinFace(FacePoint point, ivec2 texel)
+{
+    return clamp(texel, ivec2(point.face.xy - point.face.z), ivec2(point.face.xy + point.face.z) - 1);
+}
+
+// Texels at the rim of a face that only taps of a filter reach.
+float borderTexels(FacePoint point)
+{
+#if SHADOW_FILTER == SHADOW_FILTER_PCSS
+    return max(point.face.z * (2.0 / float(SHADOW_PENUMBRA_PARTS)), 1.0);
+#else
+    return min(float(SHADOW_BORDER), 0.5 * point.face.z);
+#endif
+}
+
+// Whether casters leave the point in sight at a texel of the face.
+float seenAt(FacePoint point, ivec2 texel)
+{
+    ivec2 within = withinFace(point, texel);
+    precise vec2 away = vec2(within) + 0.5 - point.texel;
+    precise float depth = point.depth + dot(point.slope, away) + dot(point.doubt, abs(away)) + point.bias;
+    // 0 is no caster.
+    return texelFetch(shadowAtlas, within, 0).r > max(depth, 0.0) ? 0.0 : 1.0;
+}
+
+#if SHADOW_FILTER == SHADOW_FILTER_PCF
+// The mean over a square of SHADOW_WIDTH texels around the point, which cuts the texels at its rim.
+float meanSeen(FacePoint point)
+{
+    precise vec2 corner = point.texel - 0.5 * float(SHADOW_WIDTH);
+    ivec2 first = ivec2(floor(corner));
+    precise vec2 cut = corner - floor(corner);
+    precise float sum = 0.0;
+    int y = 0, x = 0;
+    for (; y <= SHADOW_WIDTH; ++y) {
+        precise float row = 0.0;
+        for (x = 0; x <= SHADOW_WIDTH; ++x) {
+            float share = x == 0 ? 1.0 - cut.x : x == SHADOW_WIDTH ? cut.x : 1.0;
+            row += share * seenAt(point, first + ivec2(x, y));
+        }
+        sum += (y == 0 ? 1.0 - cut.y : y == SHADOW_WIDTH ? cut.y : 1.0) * row;
+    }
+    if (y <= SHADOW_WIDTH || x <= SHADOW_WIDTH) return kCutLoop;
+    return clamp(sum * (1.0 / float(SHADOW_WIDTH * SHADOW_WIDTH)), 0.0, 1.0);
+}
+#endif
+
+#if SHADOW_FILTER == SHADOW_FILTER_PCSS && HAS_SOFT_SHADOWS
+// As wide as the penumbra of casters at the mean depth of those around (Fernando 2005, "Percentage-Closer Soft
+// Shadows"). Casters are looked for where they hide part of the light as long as they are not nearer to it than to the
+// point, or (parallel) wherever they are.
+float penumbraSeen(FacePoint point, float size, vec2 random)
+{
+    precise float perDepth = size * point.perSize;
+    precise float range = point.face.w < 0.0 ? 1.0 - point.depth : point.depth;
+    float widest = borderTexels(point);
+    precise float reach = clamp(perDepth * range, 1.0, widest);
+    precise float depths = 0.0;
+    precise float hidden = 0.0;
+    int i = 0;
+    for (; i < SHADOW_SAMPLES; ++i) {
+        ivec2 texel = withinFace(point, ivec2(floor(point.texel + reach * diskPlace(i, random))));
+        if (seenAt(point, texel) == 0.0) {
+            hidden += 1.0;
+            depths += texelFetch(shadowAtlas, texel, 0).r;
+        }
+    }
+    if (i < SHADOW_SAMPLES) return kCutLoop;
+    // Decided before anything is divided by their number.
+    if (hidden == 0.0) return 1.0;
+    if (hidden == float(SHADOW_SAMPLES)) return 0.0;
+    precise float penumbra = clamp(perDepth * (depths / hidden - point.depth), 1.0, widest);
+    precise float seen = 0.0;
+    for (i = 0; i < SHADOW_SAMPLES; ++i)
+        seen += seenAt(point, ivec2(floor(point.texel + penumbra * diskPlace(i, random))));
+    if (i < SHADOW_SAMPLES) return kCutLoop;
+    return clamp(seen * (1.0 / float(SHADOW_SAMPLES)), 0.0, 1.0);
+}
+#endif
+
+float filtered(FacePoint point, vec4 shadow, Viewpoint viewpoint)
+{
+    if (!point.isSeen) return 1.0;
+#if SHADOW_FILTER == SHADOW_FILTER_PCF
+    return meanSeen(point);
+#elif SHADOW_FILTER == SHADOW_FILTER_PCSS && HAS_SOFT_SHADOWS
+    if (shadow.x > 0.0) return penumbraSeen(point, shadow.x, shadowRandom(viewpoint.pixel, shadow.y));
+#endif
+    return seenAt(point, ivec2(floor(point.texel)));
+}
+
+// By how much of its half side a cascade passes over into the next; hard shadows change at once.
+const float kBlendShare = SHADOW_FILTER == SHADOW_FILTER_HARD ? 0.0 : 0.1;
+
+// The share of light `index` that its maps let through; isFar: of a directional one, with cascades.
+//
+// One loop over the faces that may hold the point: of cascades the finest, and where it ends the next one. It runs no
+// time for lights without shadows: rasterisers that mask lanes skip loops, but run whatever else is not asked for.
+float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNormalLS, Viewpoint viewpoint)
+{
+    precise float hidden = 0.0;
+    precise float share = 1.0;
+    int left = (kind & LIGHT_SHADOWED) == 0 ? 0 : isFar ? SHADOW_CASCADES : 1;
+    for (int i = 0; left > 0; ++i, --left) {
+        vec4 shadow = lightShadowTexel(index);
+        int face = int(shadow.z) + SHADOW_FACE_TEXELS * i;
+        mat3 rwsFromLS = mat3(view.worldFromLS);
+        precise vec3 toLight = isFar ? placeLS : placeLS - viewpoint.positionLS;
+        if ((kind & LIGHT_SIX_FACES) != 0) {
+            precise vec3 fromLight = rwsFromLS * -toLight;
+            vec3 size = abs(fromLight);
+            int axis = size.x >= max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
+            face += SHADOW_FACE_TEXELS * (2 * axis + (fromLight[axis] < 0.0 ? 1 : 0));
+        }
+        precise vec3 positionRWS = rwsFromLS * viewpoint.positionLS;
+        precise vec3 facetNormalRWS = rwsFromLS * facetNormalLS;
+        precise float rounding = shadow.w + 9.6e-7 * length(viewpoint.positionLS);
+        FacePoint point = facePoint(face, positionRWS, facetNormalRWS, rounding);
+        vec2 fromMiddle = abs(point.texel - point.face.xy);
+        precise float room = point.face.z - max(fromMiddle.x, fromMiddle.y);
+        precise float ownShare = 1.0;
+        if (isFar) {
+            room -= borderTexels(point);
+            if (kBlendShare > 0.0 && left > 1) ownShare = min(room / (kBlendShare * point.face.z), 1.0);
+        }
+        // Beside a cascade, or the cone of a spot light; or the budget has no room for the light.
+        if (room <= 0.0 || shadow.z == 0.0) ownShare = 0.0;
+        // A surface hides a light behind it, whatever normal it is lit with. Its depth would not tell: the more a
+        // triangle is turned away, the less deep it lies behind the body's lit side, and the steeper it is.
+        precise float behind = dot(facetNormalLS, toLight);
+        bool isBehind = behind > kFacetError * length(toLight);
+        if (ownShare > 0.0) hidden += share * ownShare * (1.0 - (isBehind ? 0.0 : filtered(point, shadow, viewpoint)));
+        share *= 1.0 - ownShare;
+        if (share <= 0.0) left = 1;
+    }
+    if (left > 0) return kCutLoop;
+    // Of what no cascade holds nothing is known.
+    if (share >= 1.0) return 1.0;
+    precise float seen = 1.0 - hidden / (1.0 - share);
+    return isnan(seen) ? kCutLoop : clamp(seen, 0.0, 1.0);
+}

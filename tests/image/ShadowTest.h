@@ -1,0 +1,51 @@
+#pragma once
+#include <optional>
+
+#include "engine/Renderer.h"
+#include "scenes/Shadows.h"
+#include "tests/support/GlContext.h"
+#include "validation/compare/ReferencePicture.h"
+
+/// What tests of shadows have in common, traced or in maps.
+namespace tessera::test {
+
+inline constexpr scenes::ShadowRequest kAllLightsCast{scenes::ShadowRequest::Kind::All};
+
+struct ShadowCase {
+    const char* scene;
+    std::optional<int> lights;
+    scenes::ShadowRequest shadows;
+};
+inline constexpr ShadowCase kShadowCases[] = {{"lattice", 16, kAllLightsCast},
+                                              {"head", {}, kAllLightsCast},
+                                              {"hall", {}, {scenes::ShadowRequest::Kind::First, 17}}};
+
+class ShadowTest : public GlTest {
+protected:
+    /// Expects that all techniques draw what forward does.
+    void expectParity(engine::Renderer& renderer, const frame::FrameSettings& settings);
+};
+
+/// Of a picture against the reference: those that are lit where they should be hidden or the reverse.
+struct WrongPixels {
+    std::size_t wrong = 0; ///< farther from the definition than a hundredth, whatever rounding allows
+    std::size_t dark = 0;  ///< those among them that are too dark, while the pixels beside them are of the same object
+                           ///< and no shadow changes them
+    std::size_t undecided = 0;    ///< rounding decides whether some light is hidden
+    std::size_t hidden = 0;       ///< shadows change them
+    std::size_t wrongWithout = 0; ///< differ without shadows already, and are not counted as wrong
+    std::size_t covered = 0;
+};
+
+/// What pictures with shadows are compared with.
+struct ShadowReference {
+    validation::ReferencePicture shadowed, lit;
+};
+ShadowReference shadowReference(const scenes::Scene& scene, const frame::FrameSettings& settings);
+
+WrongPixels wrongPixels(engine::Renderer& renderer, const frame::FrameSettings& settings, const ShadowReference& truth);
+inline WrongPixels wrongPixels(engine::Renderer& renderer, const frame::FrameSettings& settings) {
+    return wrongPixels(renderer, settings, shadowReference(renderer.scene(), settings));
+}
+
+} // namespace tessera::test
