@@ -24,10 +24,13 @@ bool hasSize(const Light& light) {
     return light.*sizeParameter(infoOf(light.type)).member > 0.0f;
 }
 
-bool isCaster(const Scene& scene, const MeshInstance& instance) {
-    if (!isDrawn(scene, instance) || !instance.castsShadow) return false;
-    const Material& material = scene.materials[std::size_t(instance.material)];
+bool castsShadow(const Material& material) {
     return material.castsShadow && material.alphaMode != AlphaMode::Blend;
+}
+
+bool isCaster(const Scene& scene, const MeshInstance& instance) {
+    return isDrawn(scene, instance) && instance.castsShadow &&
+           castsShadow(scene.materials[std::size_t(instance.material)]);
 }
 
 CasterCounts casterCounts(const Scene& scene) {

@@ -31,6 +31,9 @@ bool castsShadow(const Scene& scene, std::size_t light, const ShadowRequest& req
 /// Whether a light's shadows are soft.
 bool hasSize(const Light& light);
 
+/// Whether surfaces of the material hide light.
+bool castsShadow(const Material& material);
+
 /// Whether the instance hides light: it is drawn, both it and its material may, and it is not transparent.
 bool isCaster(const Scene& scene, const MeshInstance& instance);
 

@@ -10,6 +10,7 @@
 #include "renderer/frame/TextureLevels.h"
 #include "renderer/gpu/TexelBuffer.h"
 #include "scenes/InUse.h"
+#include "scenes/Shadows.h"
 #include "shaders/shared/slots.h"
 
 namespace tessera::frame {
@@ -155,8 +156,7 @@ void SceneGpu::updateMaterials() {
 }
 
 bool SceneGpu::isCaster(const Draw& draw) const {
-    const scenes::Material& material = scene_.materials[std::size_t(draw.material)];
-    return draw.castsShadow && material.castsShadow && material.alphaMode != scenes::AlphaMode::Blend;
+    return draw.castsShadow && scenes::castsShadow(scene_.materials[std::size_t(draw.material)]);
 }
 
 std::vector<SceneGpu::CasterMaterial> SceneGpu::casterMaterials() const {

@@ -4,9 +4,39 @@
 #include <cmath>
 #include <vector>
 
+#include "scenes/Load.h"
+#include "scenes/LookAt.h"
+#include "scenes/builtin/Shapes.h"
+#include "tests/support/TestScenes.h"
 #include "validation/compare/TechniqueCompare.h"
 
 namespace tessera::test {
+
+scenes::Scene sceneOf(const ShadowCase& tried) {
+    scenes::LoadOptions options;
+    options.lights = tried.lights;
+    return scenes::loadScene(tried.scene, options);
+}
+
+scenes::Scene ballUnderSun() {
+    scenes::Scene scene = scenes::loadScene("room");
+    scenes::Mesh ball, floor;
+    scenes::builtin::appendSphere(ball, glm::dvec3(0.0, 0.6, 0.0), 0.6, 64, 32);
+    scenes::builtin::appendFloor(floor, glm::dvec3(0.0), glm::dvec2(4.0), glm::ivec2(4));
+    scene.meshes = {ball, floor};
+    scene.nodes.resize(1);
+    scene.nodes[0] = {};
+    scene.nodes[0].instances = {{0, 0}, {1, 0}};
+    scene.cameras[0].worldFromCamera = scenes::worldFromLookAt({0.0, 2.2, 3.6}, {0.0, 0.4, 0.0});
+    scene.lights = {pointLight({}, 3.0f)};
+    scene.lights[0].type = scenes::LightType::Directional;
+    return scene;
+}
+
+glm::dvec3 sunDirection(int i, int count) {
+    const double tilt = glm::radians(89.0) * (i + 0.5) / count, turn = 2.399963229728653 * i;
+    return {std::sin(tilt) * std::cos(turn), -std::cos(tilt), std::sin(tilt) * std::sin(turn)};
+}
 
 void ShadowTest::expectParity(engine::Renderer& renderer, const frame::FrameSettings& settings) {
     using engine::Technique;

@@ -20,6 +20,14 @@ inline constexpr ShadowCase kShadowCases[] = {{"lattice", 16, kAllLightsCast},
                                               {"head", {}, kAllLightsCast},
                                               {"hall", {}, {scenes::ShadowRequest::Kind::First, 17}}};
 
+scenes::Scene sceneOf(const ShadowCase& tried);
+
+/// A ball on a floor under one sun.
+scenes::Scene ballUnderSun();
+/// Where the light of sun i of so many travels: even in the angle from straight above, to 89 degrees, a golden angle
+/// apart.
+glm::dvec3 sunDirection(int i, int count);
+
 class ShadowTest : public GlTest {
 protected:
     /// Expects that all techniques draw what forward does.

@@ -23,15 +23,13 @@ namespace {
 
 using engine::Technique;
 using scenes::ShadowRequest;
-using test::kAllLightsCast, test::kShadowCases, test::ShadowCase, test::WrongPixels, test::wrongPixels;
+using test::kAllLightsCast, test::kShadowCases, test::sceneOf, test::ShadowCase, test::WrongPixels, test::wrongPixels;
 
 class Shadows : public test::ShadowTest {};
 
 TEST_F(Shadows, everyTechniqueCastsTheSameToTheLastBit) {
     for (const ShadowCase& tried : kShadowCases) {
-        scenes::LoadOptions options;
-        options.lights = tried.lights;
-        const scenes::Scene scene = scenes::loadScene(tried.scene, options);
+        const scenes::Scene scene = sceneOf(tried);
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings;
         settings.sizePixels = {201, 113};
@@ -55,9 +53,7 @@ TEST_F(Shadows, everyTechniqueCastsTheSameOnMaskedAndTransparentSurfacesAndWithS
 
 TEST_F(Shadows, noPixelIsWrongBeyondRounding) {
     for (const ShadowCase& tried : kShadowCases) {
-        scenes::LoadOptions options;
-        options.lights = tried.lights;
-        const scenes::Scene scene = scenes::loadScene(tried.scene, options);
+        const scenes::Scene scene = sceneOf(tried);
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings;
         settings.sizePixels = {240, 135};
@@ -91,20 +87,7 @@ TEST_F(Shadows, noPixelOfMaskedMirroredAndTexturedSurfacesIsWrong) {
 }
 
 TEST_F(Shadows, noSunPutsAcneOnASphereAndAPlane) {
-    scenes::Scene scene = scenes::loadScene("room");
-    scene.nodes.clear();
-    scene.meshes.clear();
-    scenes::Mesh ball, floor;
-    scenes::builtin::appendSphere(ball, glm::dvec3(0.0, 0.6, 0.0), 0.6, 64, 32);
-    scenes::builtin::appendFloor(floor, glm::dvec3(0.0), glm::dvec2(4.0), glm::ivec2(4));
-    scene.meshes = {ball, floor};
-    scenes::Node& node = scene.nodes.emplace_back();
-    node.instances = {{0, 0}, {1, 0}};
-    scene.cameras[0].worldFromCamera = scenes::worldFromLookAt({0.0, 2.2, 3.6}, {0.0, 0.4, 0.0});
-    scene.lights.resize(1);
-    scenes::Light& sun = scene.lights[0];
-    sun = test::pointLight({}, 3.0f);
-    sun.type = scenes::LightType::Directional;
+    scenes::Scene scene = test::ballUnderSun();
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings;
     settings.sizePixels = {64, 36};
@@ -112,9 +95,7 @@ TEST_F(Shadows, noSunPutsAcneOnASphereAndAPlane) {
     constexpr int kDirections = 1000;
     std::size_t wrong = 0, undecided = 0, covered = 0;
     for (int i = 0; i < kDirections; ++i) {
-        // Even in the angle from straight above, to 89 degrees, a golden angle apart.
-        const double tilt = glm::radians(89.0) * (i + 0.5) / kDirections, turn = 2.399963229728653 * i;
-        sun.directionWS = {std::sin(tilt) * std::cos(turn), -std::cos(tilt), std::sin(tilt) * std::sin(turn)};
+        scene.lights[0].directionWS = test::sunDirection(i, kDirections);
         const WrongPixels count = wrongPixels(renderer, settings);
         wrong += count.wrong;
         undecided += count.undecided;
