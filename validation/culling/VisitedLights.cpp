@@ -41,6 +41,8 @@ void VisitedLights::at(const VisitedCell& cell, std::vector<int>& sceneLights) c
         ofMasks(cell, sceneLights);
     else
         ofList(cell, sceneLights);
+    // Lights that cast shadows are visited first (frame::packLights).
+    std::ranges::sort(sceneLights);
 }
 
 void VisitedLights::ofList(const VisitedCell& visited, std::vector<int>& sceneLights) const {

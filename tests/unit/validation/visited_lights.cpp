@@ -57,6 +57,14 @@ TEST(VisitedLights, aPixelVisitsTheRunOfItsTileAndSlice) {
     EXPECT_EQ(visited(drawn, 0, 1.0f), (Lights{0, 2}));
 }
 
+TEST(VisitedLights, areInTheOrderOfTheSceneWhateverThatOfTheLists) {
+    engine::DrawnLists drawn = runsByHand();
+    drawn.sceneIndex = {4, 0, 2, 3}; // as where light 4 alone casts shadows
+    EXPECT_EQ(visited(drawn, 15, 0.5f), (Lights{2, 4}));
+    drawn.culling.method = Method::None;
+    EXPECT_EQ(visited(drawn, 15, 0.5f), (Lights{0, 2, 3, 4}));
+}
+
 TEST(VisitedLights, aSliceOfTheUpperWordFindsItsCell) {
     engine::DrawnLists drawn = runsByHand();
     // Depth 1 falls in slice 40; slices 0, 31 and 32 are occupied too.
