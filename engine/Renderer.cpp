@@ -72,16 +72,16 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
         added.prepared = prepareView(scene_, view.technique, settings, bounds_);
     }
     std::vector<ViewSource> sources;
+    shadowMemories_.beginFrame();
     for (std::size_t i = 0; i < views.size(); ++i) {
         const frame::SceneGpu& sceneGpuOfAll = sceneGpu(drawn->views[i].prepared.spec); // may forget what atlases hold
-        shadowMemories_.resize(std::max(shadowMemories_.size(), views.size()));
         frame::DrawnView& view = drawn->views[i];
         const frame::FrameSpec& spec = view.prepared.spec;
         view.scene = &sceneGpuOfAll;
         if (spec.tracesShadows()) sceneGpu_->makeCasters();
         view.draws = frame::makeViewDraws(view.scene->drawList(), view.prepared.camera, spec.settings.prune);
         view.listMemory = &listMemory_;
-        view.shadowMemory = &shadowMemories_[i];
+        if (spec.features[frame::Feature::ShadowMaps]) view.shadowMemory = &shadowMemories_.of(i, spec.settings);
         sources.push_back({views[i].technique, spec, &view});
     }
     drawn->declared = declareFrame(drawn->graph, sources, after);

@@ -96,7 +96,7 @@ private:
     shader::ProgramLibrary programs_;
     gpu::GraphBackend backend_;
     frame::LightListMemory listMemory_;
-    std::vector<frame::ShadowMemory> shadowMemories_; ///< by view
+    frame::ShadowMemories shadowMemories_;
     std::unique_ptr<frame::SceneGpu> sceneGpu_;
     frame::FeatureSet sceneFeatures_;                                   ///< features that sceneGpu_ was made with
     frame::TextureFilter sceneFilter_ = frame::TextureFilter::Hardware; ///< the same

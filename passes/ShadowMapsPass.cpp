@@ -42,10 +42,11 @@ std::vector<shader::ProgramDesc> ShadowMapsPass::programs(const frame::FrameSpec
 ShadowMapsPass::Outputs ShadowMapsPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs) {
     // What is in the atlas is known face by face, not by a revision of the whole.
     constexpr std::uint64_t kRevision = 1;
-    const std::string name = inputs.view == 0 ? "shadow_atlas" : fmt::format("shadow_atlas ({})", inputs.view + 1);
+    const frame::DrawnView* const drawn = inputs.drawn;
+    const std::size_t number = drawn == nullptr ? inputs.view : drawn->shadowMemory->number();
+    const std::string name = number == 0 ? "shadow_atlas" : fmt::format("shadow_atlas ({})", number + 1);
     const graph::TextureDesc desc{graph::Format::Depth32Float, spec.shadowAtlasTexels.x, spec.shadowAtlasTexels.y};
     graph::TextureHandle atlas = graph.persist(name, desc, kRevision);
-    const frame::DrawnView* const drawn = inputs.drawn;
     if (drawn != nullptr &&
         !drawn->shadowMemory->begin(drawn->prepared.shadowMaps, *drawn->scene, graph.holds(atlas), spec.settings.prune))
         return {atlas};

@@ -14,7 +14,7 @@ struct ShadowMapsPass {
     struct Inputs {
         frame::SceneHandles scene;
         const frame::DrawnView* drawn = nullptr; ///< null for a plan
-        std::size_t view = 0;                    ///< counted from 0; each view has an atlas
+        std::size_t view = 0;                    ///< counted from 0; numbers the atlas of a plan
     };
     struct Outputs {
         graph::TextureHandle atlas;

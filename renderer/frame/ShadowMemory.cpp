@@ -39,4 +39,22 @@ bool ShadowMemory::begin(const ShadowMaps& maps, const SceneGpu& scene, bool hol
     return !draws_.faces.empty() || !holdsAtlas;
 }
 
+ShadowMemory& ShadowMemories::of(std::size_t view, const FrameSettings& settings) {
+    for (Way& way : ways_) {
+        if (way.view != view || way.filter != settings.shadowFilter || way.maps != settings.shadowMaps) continue;
+        way.idleFrames = 0;
+        return *way.memory;
+    }
+    const auto isTaken = [&](std::size_t number) {
+        return std::ranges::any_of(ways_, [&](const Way& way) { return way.memory->number_ == number; });
+    };
+    auto memory = std::make_unique<ShadowMemory>();
+    while (isTaken(memory->number_)) ++memory->number_;
+    return *ways_.emplace_back(view, settings.shadowFilter, settings.shadowMaps, std::move(memory)).memory;
+}
+
+void ShadowMemories::beginFrame() {
+    std::erase_if(ways_, [](Way& way) { return ++way.idleFrames > kMostIdleFrames; });
+}
+
 } // namespace tessera::frame

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "renderer/frame/SceneGpu.h"
@@ -29,14 +30,41 @@ public:
     const ShadowDraws& draws() const { return draws_; }
     /// They are drawn.
     void end() { held_ = std::move(begun_); }
+    /// Of its atlas, among those of all memories that live. 0 is the first.
+    std::size_t number() const { return number_; }
 
 private:
+    friend class ShadowMemories;
+
     struct Held {
         std::uint64_t casters = 0; ///< SceneGpu::casterRevision()
         std::vector<ShadowFace> faces;
     };
     Held held_, begun_;
     ShadowDraws draws_;
+    std::size_t number_ = 0;
+};
+
+/// A memory for each view of a frame and each way to make maps, so that settings whose frames run in turn keep their
+/// faces.
+class ShadowMemories {
+public:
+    /// Valid until clear(), or until it was not asked for in kMostIdleFrames frames.
+    ShadowMemory& of(std::size_t view, const FrameSettings& settings);
+    void beginFrame();
+    void clear() { ways_.clear(); }
+
+    static constexpr int kMostIdleFrames = 16;
+
+private:
+    struct Way {
+        std::size_t view = 0;
+        ShadowFilter filter = ShadowFilter::Hard;
+        ShadowMapSettings maps;
+        std::unique_ptr<ShadowMemory> memory;
+        int idleFrames = 0;
+    };
+    std::vector<Way> ways_;
 };
 
 } // namespace tessera::frame

@@ -76,7 +76,10 @@ const Buffer& GraphBackend::growingBuffer(const std::string& name, int number, s
 
 GraphBackend::Resource& GraphBackend::persistent(const std::string& name, const graph::ResourceDesc& desc) {
     const auto known = persistent_.find(name);
-    if (known != persistent_.end() && known->second.desc == desc) return known->second.resource;
+    if (known != persistent_.end() && known->second.desc == desc) {
+        known->second.idleFrames = 0;
+        return known->second.resource;
+    }
     forget(name);
     return persistent_.emplace(name, Persistent{desc, made<Resource>(name, desc), {}}).first->second.resource;
 }
@@ -152,6 +155,11 @@ void GraphBackend::endPass(std::string_view name) {
 void GraphBackend::endFrame(graph::Barrier barrier) {
     memoryBarrier(barrier);
     throwIfFailed("at the end of the frame");
+    // Only now: the frame may have been declared with what they hold.
+    for (auto& [name, kept] : persistent_) ++kept.idleFrames;
+    const auto dropped =
+        std::erase_if(persistent_, [this](const auto& named) { return named.second.idleFrames > mostIdleFrames_ + 1; });
+    if (dropped > 0) framebuffers_.collect();
 }
 
 std::vector<PassTiming> GraphBackend::passTimings() {

@@ -37,7 +37,7 @@ public:
     void setProfiling(bool on) { profiling_ = on; }
     bool profiling() const { return profiling_; }
 
-    /// Frames after which an unused allocation is freed. Frames that run in turn keep theirs if this is at least their
+    /// Frames after which an unused allocation or persistent resource is freed. Frames that run in turn keep theirs if this is at least their
     /// number.
     void setMostIdleFrames(int frames) { mostIdleFrames_ = frames; }
     int mostIdleFrames() const { return mostIdleFrames_; }
@@ -78,6 +78,7 @@ private:
         graph::ResourceDesc desc;
         Resource resource;
         std::optional<std::uint64_t> revision; ///< none: no frame has ended well that wrote it
+        int idleFrames = 0;
     };
     struct PassRecord {
         std::optional<GpuTimer> gpuTimer; ///< absent on software rasterisers

@@ -333,6 +333,22 @@ TEST_F(ShadowCache, mapsAreDrawnAgainWhereLightsOrCastersChangeAndNowhereElse) {
     EXPECT_FALSE(drawsMapsRightly(renderer));
 }
 
+TEST_F(ShadowCache, settingsThatAreDrawnInTurnKeepAnAtlasEachAndGiveItBack) {
+    engine::Renderer renderer(context(), scene);
+    const auto draw = [&](ShadowFilter filter, int side) {
+        settings.shadowFilter = filter;
+        settings.shadowMaps.resolutionTexels = side;
+        return drawsMapsRightly(renderer);
+    };
+    EXPECT_TRUE(draw(ShadowFilter::Hard, 128));
+    EXPECT_TRUE(draw(ShadowFilter::Pcf, 256));
+    EXPECT_FALSE(draw(ShadowFilter::Hard, 128));
+    EXPECT_FALSE(draw(ShadowFilter::Pcf, 256));
+    const std::size_t withMaps = renderer.backend().poolBytes();
+    for (int i = 0; i <= renderer.backend().mostIdleFrames(); ++i) draw(ShadowFilter::Traced, 256);
+    EXPECT_LT(renderer.backend().poolBytes(), withMaps - 256 * 256 * 4 * 6);
+}
+
 TEST_F(ShadowCache, ofALightThatMovesOnlyItsOwnFacesAreDrawn) {
     settings.shadowMaps.resolutionTexels = 64;
     engine::Renderer renderer(context(), scene);

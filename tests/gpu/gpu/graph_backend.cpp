@@ -327,6 +327,11 @@ TEST_F(GraphBackendTest, persistentResourcesKeepTheirContentsUntilTheirShapeChan
     EXPECT_EQ(backend.poolBytes(), bytes + 4 * 4 * 16);
     backend.forget("history");
     EXPECT_FALSE(backend.holds("history", desc, 4));
+    runFrame(4);
+    for (int i = 0; i < backend.mostIdleFrames(); ++i) backend.endFrame({});
+    EXPECT_TRUE(backend.holds("history", desc, 4));
+    backend.endFrame({});
+    EXPECT_FALSE(backend.holds("history", desc, 4)) << "no frame has used it for long";
 }
 
 } // namespace
