@@ -94,6 +94,7 @@ Scene makeHead(const LoadOptions& options, LoadLedger& ledger) {
     }
     addSurroundings(scene);
     addStudioLights(scene);
+    for (Light& light : scene.lights) light.castsShadow = true;
     keepFirstLights(scene, options);
     addCamera(scene, "portrait", {0.33, 0.56, 1.5}, {0.0, 0.41, 0.0}, 29.0);
     addCamera(scene, "three-quarter", {1.2, 0.6, 1.0}, {0.0, 0.43, 0.0}, 32.0);

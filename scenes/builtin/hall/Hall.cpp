@@ -108,12 +108,13 @@ Scene makeHall(const LoadOptions& options, LoadLedger&) {
     const Finishes finishes = addFinishes(scene);
     addArchitecture(scene, finishes);
     addFurnishings(scene, finishes);
-    constexpr int kMostPointLights = kMostLights - 1; // and the sky
+    constexpr int kMostPointLights = kMostLights - 2; // and the sky and the sun
     addPointLights(scene, std::min(options.lights.value_or(kDefaultHallLights), kMostPointLights));
-    addSkyLight(scene);
+    addOutdoorLights(scene);
     addCamera(scene, "nave", {0.9, 1.75, 17.6}, {-0.25, 4.35, 0.0}, 62.0);
     addCamera(scene, "aisle", {-5.6, 1.7, 13.0}, {-6.4, 2.4, 6.0}, 60.0);
     addCamera(scene, "gallery", {-1.4, 8.6, -17.4}, {0.7, 4.6, 0.0}, 62.0);
+    castShadowsOfNearest(scene, glm::dvec3(scene.cameras.front().worldFromCamera[3]));
     return scene;
 }
 

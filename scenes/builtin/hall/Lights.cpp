@@ -137,8 +137,19 @@ void addPointLights(Scene& scene, int count) {
     }
 }
 
-void addSkyLight(Scene& scene) {
+void addOutdoorLights(Scene& scene) {
     addDirectionalLight(scene, "evening sky", {0.62, -0.72, -0.3}, {0.62f, 0.76f, 1.0f}, 0.7f);
+    addDirectionalLight(scene, "evening sun", {0.62, -0.72, -0.12}, {1.0f, 0.74f, 0.44f}, 6.0f);
+    scene.lights.back().castsShadow = true;
+}
+
+void castShadowsOfNearest(Scene& scene, const glm::dvec3& eyeWS) {
+    constexpr std::size_t kShadowedLamps = 16;
+    std::vector<Light*> lamps;
+    for (Light& light : scene.lights)
+        if (light.type == LightType::Point) lamps.push_back(&light);
+    std::ranges::stable_sort(lamps, {}, [&](const Light* lamp) { return glm::distance(lamp->positionWS, eyeWS); });
+    for (std::size_t i = 0; i < std::min(lamps.size(), kShadowedLamps); ++i) lamps[i]->castsShadow = true;
 }
 
 } // namespace tessera::scenes::builtin::hall

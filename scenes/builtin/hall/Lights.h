@@ -7,7 +7,10 @@ namespace tessera::scenes::builtin::hall {
 /// that the picture stays as bright.
 void addPointLights(Scene& scene, int count);
 
-/// The evening sky through the windows.
-void addSkyLight(Scene& scene);
+/// The evening sky, which brightens all of the hall, and the sun, which casts shadows and enters through the windows.
+void addOutdoorLights(Scene& scene);
+
+/// Makes the 16 lamps nearest to `eyeWS` cast shadows.
+void castShadowsOfNearest(Scene& scene, const glm::dvec3& eyeWS);
 
 } // namespace tessera::scenes::builtin::hall
