@@ -28,7 +28,12 @@ public:
     bool begin(const ShadowMaps& maps, const SceneGpu& scene, bool holdsAtlas, bool culls);
     const ShadowDraws& draws() const { return draws_; }
     /// They are drawn.
-    void end() { held_ = std::move(begun_); }
+    void end() {
+        held_ = std::move(begun_);
+        drawnFaces_ = draws_.faces.size();
+    }
+    /// Faces drawn since begin().
+    std::size_t drawnFaces() const { return drawnFaces_; }
 
 private:
     struct Held {
@@ -37,6 +42,7 @@ private:
     };
     Held held_, begun_;
     ShadowDraws draws_;
+    std::size_t drawnFaces_ = 0;
 };
 
 } // namespace tessera::frame
