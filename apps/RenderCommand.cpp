@@ -36,11 +36,13 @@ struct RenderOptions {
 };
 
 /// `path` is one of the outputs.
-void writePicture(const std::string& path, const Request& request, const engine::RenderedFrame& frame) {
+void writePicture(const std::string& path, const Request& request, const engine::Renderer& renderer,
+                  const engine::RenderedFrame& frame) {
     if (extensionOf(path) == ".exr") {
         writeExr(path, engine::toPicture(frame));
     } else {
-        writePng(path, validation::shownPicture(frame, request.scene.name, request.technique, request.settings.view));
+        writePng(path, validation::shownPicture(frame, renderer.shadows(), request.scene.name, request.technique,
+                                                request.settings.view));
     }
 }
 
@@ -162,7 +164,7 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     makePictures(options, outputs, request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
         const engine::RenderedFrame picture = renderer.render(request.technique, one);
         warnOfPicture(path, request.scene, one.view, picture.radiance, hasWarned);
-        writePicture(path, request, picture);
+        writePicture(path, request, renderer, picture);
         progress.advance();
     });
     return kGood;

@@ -89,8 +89,8 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
     if (spec.features[frame::Feature::ShadowMaps]) addShadowMaps(scene, bounds, prepared);
     spec.lightOn = chooseLighting(settings);
     spec.culling = chooseCulling(technique, settings, spec.features, prepared.lights);
-    // That view lights nothing, and no lists are built for it.
-    if (settings.view == frame::DebugView::Ids) spec.culling = {};
+    // These views light nothing, and no lists are built for them.
+    if (settings.view == frame::DebugView::Ids || settings.view == frame::DebugView::ShadowAtlas) spec.culling = {};
     if (spec.culling.method == culling::Method::None) return prepared;
     spec.lightsEverywhere = !settings.prune || prepared.lights.everywhere > 0;
     culling::setTileGrid(prepared.lighting, prepared.camera.constants, spec.culling.tilePixels);

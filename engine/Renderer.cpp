@@ -154,4 +154,27 @@ DrawnLists Renderer::downloadLists(std::size_t view) const {
     return drawn;
 }
 
+DrawnShadows Renderer::shadows(std::size_t view) const {
+    const frame::DrawnView& drawnView = latest().views.at(view);
+    const frame::PreparedView& prepared = drawnView.prepared;
+    DrawnShadows drawn;
+    drawn.hasMaps = prepared.spec.features[frame::Feature::ShadowMaps];
+    // Lights that casters may hide come first.
+    for (std::size_t i = 0; i < prepared.lights.shadowed; ++i) drawn.lights.push_back({prepared.lights.sceneIndex[i]});
+    if (const auto shown = std::size_t(prepared.lights.shown); shown < drawn.lights.size()) drawn.shown = shown;
+    if (!drawn.hasMaps) return drawn;
+    const frame::ShadowMaps& maps = prepared.shadowMaps;
+    for (const frame::ShadowedLight& light : maps.lights) {
+        DrawnShadows::Light& own = drawn.lights[light.light];
+        own.faces = light.faces;
+        own.wantedTexels = light.wantedTexels;
+        own.sideTexels = light.sideTexels;
+    }
+    drawn.atlasTexels = maps.atlasTexels;
+    drawn.budgetMiB = prepared.spec.settings.shadowMaps.budgetMiB;
+    drawn.faces = maps.faces.size();
+    drawn.drawnFaces = drawnView.shadowMemory->drawnFaces();
+    return drawn;
+}
+
 } // namespace tessera::engine

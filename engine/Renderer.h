@@ -35,6 +35,23 @@ struct DrawnLists {
     std::vector<std::uint32_t> everywhere; ///< lights of the lists that reach everywhere, ascending
 };
 
+/// How the lights of a drawn view cast shadows.
+struct DrawnShadows {
+    struct Light {
+        int sceneIndex = 0;   ///< into Scene::lights
+        int faces = 0;        ///< of its shadow maps
+        int wantedTexels = 0; ///< side of a face where the budget is no matter
+        int sideTexels = 0;   ///< what it got; 0: the budget has no room for it, and it casts no shadows
+    };
+    bool hasMaps = false;             ///< else shadows are traced, and numbers of maps are 0
+    std::vector<Light> lights;        ///< that reach what is in view and cast shadows
+    std::optional<std::size_t> shown; ///< the one among them that views of one light show
+    glm::ivec2 atlasTexels{0};        ///< of frame::kShadowTexelBytes each
+    double budgetMiB = 0.0;           ///< that the atlas keeps within
+    std::size_t faces = 0;            ///< in the atlas
+    std::size_t drawnFaces = 0;       ///< those that this frame drew; the atlas held the others
+};
+
 /// Renders pictures of one scene, with any technique and settings, on the context that is current. Everything derived
 /// from the scene is made once and kept.
 class Renderer {
@@ -68,6 +85,8 @@ public:
     std::vector<float> downloadDepth(std::size_t view = 0) const;
     /// The light lists that a view of the latest draw() really used.
     DrawnLists downloadLists(std::size_t view = 0) const;
+    /// How the lights of a view of the latest draw() cast shadows; waits for nothing.
+    DrawnShadows shadows(std::size_t view = 0) const;
 
     RenderedFrame render(Technique technique, const frame::FrameSettings& settings) {
         draw(technique, settings);

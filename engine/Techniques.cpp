@@ -17,6 +17,7 @@
 #include "passes/LightVolumesPass.h"
 #include "passes/OverdrawPass.h"
 #include "passes/ResolvePass.h"
+#include "passes/ShadowAtlasPass.h"
 #include "passes/ShadowMapsPass.h"
 #include "passes/StoredChannelPass.h"
 #include "passes/TransparentDepthPass.h"
@@ -208,6 +209,11 @@ std::optional<Shown> addDebugView(Technique technique, ViewWiring& wiring) {
             inputs.depth = DepthPrepass::add(wiring.graph, wiring.spec, {}, {wiring.surfaces}).depth;
         const OverdrawPass::Outputs drawn = OverdrawPass::add(wiring.graph, wiring.spec, inputs);
         return Shown{drawn.overdraw, drawn.depth};
+    }
+    if (view == frame::DebugView::ShadowAtlas) {
+        const ShadowAtlasPass::Inputs inputs{wiring.lighting.shadowAtlas, wiring.drawn};
+        const ShadowAtlasPass::Outputs drawn = ShadowAtlasPass::add(wiring.graph, wiring.spec, inputs);
+        return Shown{drawn.radiance, drawn.depth};
     }
     if (const std::optional<frame::StoredComponents> shown = frame::storedComponents(view)) {
         const frame::GBufferHandles gbuffer = GBufferPass::add(wiring.graph, wiring.spec, {wiring.surfaces}).gbuffer;

@@ -135,6 +135,7 @@ private:
         std::unique_ptr<OpenScene> scene = scenes_.take([this](const OpenScene& loaded) { screen_.open(loaded); });
         if (!scene) return;
         measurements_.clear(facts_);
+        facts_.shadows = {};
         state_.timings.clear();
         state_.open = std::move(scene);
     }
@@ -356,8 +357,7 @@ private:
         const auto givesUp = [this, isAtRest] { return isInterrupted(isAtRest); };
         const double startedAt = now();
         try {
-            const Screen::Drawn drawn =
-                screen_.draw(wanted_, scale, mayGiveUp ? std::function<bool()>(givesUp) : nullptr);
+            Screen::Drawn drawn = screen_.draw(wanted_, scale, mayGiveUp ? std::function<bool()>(givesUp) : nullptr);
             if (drawn.gaveUp) {
                 ++givenUp_;
                 log_.line(fmt::format("gave up scale {:.4g}", scale));
@@ -367,6 +367,7 @@ private:
             facts_.ms = drawn.ms;
             facts_.scale = drawn.scale;
             facts_.sizePixels = drawn.sizePixels;
+            facts_.shadows = std::move(drawn.shadows);
             facts_.targetBytes = screen_.renderer()->backend().poolBytes();
             ++frames_;
             for (int side = 0; side < wanted_.sides; ++side)

@@ -27,6 +27,12 @@ constexpr DebugViewInfo kViews[] = {
     {DebugView::Fresnel, 6, "fresnel", "F of one light", DisplayMapping::Radiance},
     {DebugView::Shadow, 0, "shadow", "what casters let through of one light: 1 where nothing hides it",
      DisplayMapping::Raw},
+    {DebugView::Cascades, 0, "cascades",
+     "which shadow map answers for one light: cascades or faces in colours with a legend, grey where none does",
+     DisplayMapping::Raw},
+    {DebugView::ShadowAtlas, 0, "shadow_atlas",
+     "all shadow maps: casters brighter the nearer to their light, rims in the colours of `cascades`",
+     DisplayMapping::ShadowAtlas},
     {DebugView::Depth, 0, "depth", "distance along the view axis in metres", DisplayMapping::Distance},
     {DebugView::Overdraw, 0, "overdraw",
      "how many surfaces the technique shades or stores, as heat colours with a legend", DisplayMapping::Count, true},
@@ -43,9 +49,9 @@ static_assert(int(DebugView::Distribution) == VIEW_DISTRIBUTION && int(DebugView
 static_assert(int(DebugView::Fresnel) == VIEW_FRESNEL && int(DebugView::Depth) == VIEW_DEPTH);
 static_assert(int(DebugView::Lights) == VIEW_LIGHTS && int(DebugView::Ids) == VIEW_IDS);
 static_assert(int(DebugView::NormalView) == VIEW_NORMAL_VIEW && int(DebugView::NormalObject) == VIEW_NORMAL_OBJECT);
-static_assert(int(DebugView::Shadow) == VIEW_SHADOW);
+static_assert(int(DebugView::Shadow) == VIEW_SHADOW && int(DebugView::Cascades) == VIEW_CASCADES);
 static_assert(int(DebugView::Overdraw) == VIEW_OVERDRAW && int(DebugView::Faults) == VIEW_FAULTS);
-static_assert(int(DebugView::Stored) == VIEW_STORED);
+static_assert(int(DebugView::ShadowAtlas) == VIEW_SHADOW_ATLAS && int(DebugView::Stored) == VIEW_STORED);
 
 static_assert(static_cast<unsigned>(DisplayMapping::Raw) == DISPLAY_RAW);
 static_assert(static_cast<unsigned>(DisplayMapping::Signed) == DISPLAY_SIGNED);
@@ -54,6 +60,7 @@ static_assert(static_cast<unsigned>(DisplayMapping::Count) == DISPLAY_COUNT);
 static_assert(static_cast<unsigned>(DisplayMapping::Ids) == DISPLAY_IDS);
 static_assert(static_cast<unsigned>(DisplayMapping::Compressed) == DISPLAY_COMPRESSED);
 static_assert(static_cast<unsigned>(DisplayMapping::Faults) == DISPLAY_FAULTS);
+static_assert(static_cast<unsigned>(DisplayMapping::ShadowAtlas) == DISPLAY_SHADOW_ATLAS);
 
 constexpr std::size_t kStoredViews = 2 * kChannelCount;
 

@@ -11,8 +11,8 @@
 /// (shaders/shared/frame.h).
 namespace tessera::frame {
 
-/// Up to Faults the value is VIEW_* of shaders/shared/views.h. From Stored on a view shows a channel of the G-buffer as
-/// it is stored (storedDebugView).
+/// Up to ShadowAtlas the value is VIEW_* of shaders/shared/views.h. From Stored on a view shows a channel of the
+/// G-buffer as it is stored (storedDebugView).
 enum class DebugView : std::uint8_t {
     Final,
     Diffuse,
@@ -27,8 +27,10 @@ enum class DebugView : std::uint8_t {
     NormalView,
     NormalObject,
     Shadow,
+    Cascades,
     Overdraw,
     Faults,
+    ShadowAtlas,
     Stored
 };
 
@@ -41,7 +43,8 @@ enum class DisplayMapping : std::uint8_t {
     Count,      ///< the heat colours of shaders/shared/heat.h, logarithmic
     Ids,        ///< a colour of its own for every triangle
     Compressed, ///< x / (1 + x), then sRGB: for values without an upper bound
-    Faults      ///< the luminance so compressed, in grey; NaN, infinite and negative painted (shaders/shared/faults.h)
+    Faults,     ///< the luminance so compressed, in grey; NaN, infinite and negative painted (shaders/shared/faults.h)
+    ShadowAtlas ///< y in grey, or the colour of face |z| (shaders/shared/face_colors.h): darker where x is 0
 };
 
 struct DebugViewInfo {

@@ -21,8 +21,6 @@ constexpr int kMostFaceTexels = 2048;
 constexpr double kMostSpotRadians = 1.22;
 /// By how much the ball around all that is drawn is enlarged for rounding.
 constexpr double kSceneRoom = 1.001;
-/// The near end of a face as a share of the light's reach. Reverse-Z keeps the digits of any distance.
-constexpr double kNearShare = 0x1p-30;
 /// Between even cascades (0) and ones that grow by equal ratios (1): Zhang et al. 2006, "Parallel-split shadow maps".
 constexpr double kSplitByRatio = 0.8;
 /// The first cascade begins no nearer than this share of the farthest depth: it would be of millimetres.
@@ -139,7 +137,7 @@ void addCameras(const Wanted& wanted, int sideTexels, int borderTexels, std::vec
     const scenes::Light& light = wanted.light;
     const auto add = [&](const glm::dvec3& forwardWS, const glm::dvec3& upWS, double tangent) {
         scenes::Camera camera = lookingAlong(light.positionWS, forwardWS, upWS);
-        camera.nearMetres = kNearShare * wanted.reachMetres;
+        camera.nearMetres = kFaceNearShare * wanted.reachMetres;
         setLens(camera, tangent, sideTexels, borderTexels);
         cameras.push_back(camera);
     };
@@ -292,6 +290,12 @@ std::size_t ShadowMaps::reduced() const {
 
 std::size_t ShadowMaps::unmapped() const {
     return std::size_t(std::ranges::count(lights, 0, &ShadowedLight::sideTexels));
+}
+
+std::string shadowFaceName(int i, int faces) {
+    constexpr const char* kAxes[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
+    if (faces == 1) return "its map";
+    return faces == 6 ? kAxes[i] : std::to_string(i + 1) + (i == 0 ? " (nearest)" : "");
 }
 
 int shadowBorderTexels(const FrameSettings& settings, int sideTexels) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "renderer/frame/CameraView.h"
@@ -40,11 +41,17 @@ struct ShadowMaps {
     std::size_t unmapped() const; ///< lights without any
 };
 
+/// The near end of a perspective face as a share of what its light reaches. Reverse-Z keeps the digits of any distance.
+inline constexpr double kFaceNearShare = 0x1p-30;
+
 /// Bytes of a texel of the atlas.
 inline constexpr std::size_t kShadowTexelBytes = 4;
 
 /// The smallest side of a face that a budget reduces one to.
 inline constexpr int kLeastFaceTexels = 8;
+
+/// What face i of a light with so many is called: its cascade, or the direction that it sees.
+std::string shadowFaceName(int i, int faces);
 
 /// Texels around the part of a face that points are looked up in, for taps of a filter beyond it.
 int shadowBorderTexels(const FrameSettings& settings, int sideTexels);

@@ -19,6 +19,7 @@ bool ShadowMemory::begin(const ShadowMaps& maps, const SceneGpu& scene, bool hol
         holdsAtlas && casters == held_.casters && std::ranges::equal(maps.faces, held_.faces, haveOnePlace);
     if (!keeps) held_ = {};
     draws_ = {};
+    drawnFaces_ = 0;
     for (std::size_t i = 0; i < maps.faces.size(); ++i) {
         const ShadowFace& face = maps.faces[i];
         if (keeps && face == held_.faces[i]) continue;

@@ -29,7 +29,12 @@ public:
     bool begin(const ShadowMaps& maps, const SceneGpu& scene, bool holdsAtlas, bool culls);
     const ShadowDraws& draws() const { return draws_; }
     /// They are drawn.
-    void end() { held_ = std::move(begun_); }
+    void end() {
+        held_ = std::move(begun_);
+        drawnFaces_ = draws_.faces.size();
+    }
+    /// Faces drawn since begin().
+    std::size_t drawnFaces() const { return drawnFaces_; }
     /// Of its atlas, among those of all memories that live. 0 is the first.
     std::size_t number() const { return number_; }
 
@@ -43,6 +48,7 @@ private:
     Held held_, begun_;
     ShadowDraws draws_;
     std::size_t number_ = 0;
+    std::size_t drawnFaces_ = 0;
 };
 
 /// A memory for each view of a frame and each way to make maps, so that settings whose frames run in turn keep their

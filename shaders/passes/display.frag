@@ -2,6 +2,7 @@
 // TONE_MAP one of TONEMAP_*: a rasteriser that masks lanes would run all of them.
 #include "shared/slots.h"
 #include "shared/display.h"
+#include "shared/face_colors.h"
 #include "shared/faults.h"
 #include "shared/heat.h"
 #include "lib/tonemap.glsl"
@@ -37,8 +38,19 @@ vec3 faultsOf(vec3 value)
                                : faultColor(fault);
 }
 
-vec3 codeValues(vec3 value)
+// Of a texel of the atlas as passes/shadow_atlas.frag writes it.
+vec3 atlasColor(vec4 value)
 {
+    if (value.a == 0.0) return vec3(0.0);
+    if (value.b == 0.0) return vec3(0.12);
+    vec3 color = faceColor(int(abs(value.b)) - 1);
+    if (value.b < 0.0) return color;
+    return value.r == 0.0 ? 0.2 * color : vec3(value.g);
+}
+
+vec3 codeValues(vec4 shown)
+{
+    vec3 value = shown.rgb;
 #if DISPLAY_MAPPING == DISPLAY_RAW
     return value;
 #elif DISPLAY_MAPPING == DISPLAY_SIGNED
@@ -53,6 +65,8 @@ vec3 codeValues(vec3 value)
     return compressed(value * display.exposure.x);
 #elif DISPLAY_MAPPING == DISPLAY_FAULTS
     return faultsOf(value);
+#elif DISPLAY_MAPPING == DISPLAY_SHADOW_ATLAS
+    return atlasColor(shown);
 #else
     return encodeSrgb(toneMapped(value * display.exposure.x, TONE_MAP));
 #endif
@@ -61,5 +75,5 @@ vec3 codeValues(vec3 value)
 void main()
 {
     vec4 value = texelFetch(radianceImage, ivec2(gl_FragCoord.xy), 0);
-    code = vec4(codeValues(value.rgb), 1.0);
+    code = vec4(codeValues(value), 1.0);
 }

@@ -29,4 +29,12 @@ struct ShadowFaceTexels {
                   // metres, or (directional) minus the reciprocal of the depths' range
 };
 
+// A face as the view `shadow_atlas` shows it.
+struct ShownFaceConstants {
+    vec4 picture; // xy the lower-left corner of the face's strip in pixels of the picture; z texels for a pixel; w the
+                  // strip's first column of texels
+    vec4 face;    // xy its lower-left corner and z its side, in texels of the atlas; w its number in its light, from 1
+    vec4 depths;  // x the near end as a share of the light's reach, or (directional) 0
+};
+
 SHARED_END

@@ -123,11 +123,6 @@ void drawBar(DisplayImage& image, const HeatMapLayout& layout, const std::vector
     }
 }
 
-struct Swatch {
-    Rgb8 colour;
-    const char* meaning;
-};
-
 void drawSwatches(DisplayImage& image, const HeatMapLayout& layout, std::span<const Swatch> swatches) {
     const int unit = layout.textScale, side = unit * kSwatch;
     int x = layout.legendX;
@@ -143,9 +138,12 @@ void drawSwatches(DisplayImage& image, const HeatMapLayout& layout, std::span<co
 
 } // namespace
 
+Rgb8 codeColour(const glm::vec3& code) {
+    return {codeValue(code.r), codeValue(code.g), codeValue(code.b)};
+}
+
 Rgb8 scaleColour(double position) {
-    const glm::vec3 color = shared::heatColor(float(position));
-    return {codeValue(color.r), codeValue(color.g), codeValue(color.b)};
+    return codeColour(shared::heatColor(float(position)));
 }
 
 double scalePosition(double rel) {
@@ -241,20 +239,21 @@ DisplayImage faultMap(const Picture& radiance, const DisplayImage& painted, cons
             worst = std::max(worst, shared::faultOfBits(std::bit_cast<std::uint32_t>(radiance.pixel(i)[c])));
         ++pixels[std::size_t(worst)];
     }
-    auto [layout, image] = framed(painted.width, painted.height,
-                                  fmt::format("{} NaN, {} infinite, {} negative: {}", pixels[FAULT_NAN],
-                                              pixels[FAULT_INFINITE], pixels[FAULT_NEGATIVE], title));
+    const Swatch swatches[] = {{codeColour(shared::faultColor(FAULT_NAN)), "NaN"},
+                               {codeColour(shared::faultColor(FAULT_INFINITE)), "infinite"},
+                               {codeColour(shared::faultColor(FAULT_NEGATIVE)), "negative"}};
+    return paintedMap(painted,
+                      fmt::format("{} NaN, {} infinite, {} negative: {}", pixels[FAULT_NAN], pixels[FAULT_INFINITE],
+                                  pixels[FAULT_NEGATIVE], title),
+                      swatches);
+}
+
+DisplayImage paintedMap(const DisplayImage& painted, const std::string& title, std::span<const Swatch> swatches) {
+    auto [layout, image] = framed(painted.width, painted.height, title);
     for (std::size_t i = 0; i < painted.pixelCount(); ++i) {
         const std::uint8_t* rgb = &painted.rgb[3 * i];
         drawPixel(image, layout, i, painted.width, {rgb[0], rgb[1], rgb[2]});
     }
-    const auto colourOfFault = [](int fault) {
-        const glm::vec3 code = shared::faultColor(fault) * 255.0f;
-        return Rgb8{std::uint8_t(code.r), std::uint8_t(code.g), std::uint8_t(code.b)};
-    };
-    const Swatch swatches[] = {{colourOfFault(FAULT_NAN), "NaN"},
-                               {colourOfFault(FAULT_INFINITE), "infinite"},
-                               {colourOfFault(FAULT_NEGATIVE), "negative"}};
     drawSwatches(image, layout, swatches);
     return std::move(image);
 }

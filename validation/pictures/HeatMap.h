@@ -14,6 +14,9 @@ constexpr Rgb8 kColourNotFinite = {255, 0, 255};
 constexpr Rgb8 kColourUncovered = {56, 56, 58};
 constexpr Rgb8 kColourExcluded = {78, 106, 124};
 
+/// Of sRGB code values 0..1.
+Rgb8 codeColour(const glm::vec3& code);
+
 /// Colour of the scale at 0..1 (clamped): heatColor() of shaders/shared/heat.h.
 Rgb8 scaleColour(double position);
 
@@ -54,5 +57,14 @@ DisplayImage countHeatMap(const Picture& counts, const std::string& title);
 /// A picture of the view `faults`, as the display pass painted it, with a legend; the title gets in front how many
 /// pixels of `radiance` are NaN, infinite and negative, each counted once, by the worst of its components.
 DisplayImage faultMap(const Picture& radiance, const DisplayImage& painted, const std::string& title);
+
+/// A colour and what it means.
+struct Swatch {
+    Rgb8 colour;
+    std::string meaning;
+};
+
+/// A picture as its display pass painted it, with the title above and the swatches below.
+DisplayImage paintedMap(const DisplayImage& painted, const std::string& title, std::span<const Swatch> swatches);
 
 } // namespace tessera::validation

@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include "engine/Rendering.h"
-#include "validation/pictures/HeatMap.h"
+#include "renderer/frame/LightBuffer.h"
+#include "renderer/frame/ShadowMaps.h"
+#include "shaders/shared/face_colors.h"
 
 namespace tessera::validation {
 namespace {
@@ -23,10 +25,56 @@ std::string countTitle(const std::string& counted, const std::string& of, const 
     return fmt::format("{:.1f} {} a pixel, at most {:.0f}: {}", sum / std::max(covered, 1.0), counted, most, of);
 }
 
+/// The light that views of one light show; null where it casts no shadows.
+const engine::DrawnShadows::Light* shownLight(const engine::DrawnShadows& shadows) {
+    return shadows.shown ? &shadows.lights[*shadows.shown] : nullptr;
+}
+
+int facesOfShown(const engine::DrawnShadows& shadows) {
+    const engine::DrawnShadows::Light* const light = shownLight(shadows);
+    return light != nullptr && light->sideTexels > 0 ? light->faces : 0;
+}
+
+std::string whatHasNoMap(const engine::DrawnShadows& shadows) {
+    if (shadows.lights.empty()) return "no light in view casts shadows";
+    if (!shadows.hasMaps) return "no maps: shadows are traced";
+    if (shownLight(shadows) == nullptr) return "the light has no shadows in view";
+    return facesOfShown(shadows) == 0 ? "the budget has no room for its maps" : "no map";
+}
+
+std::string cascadesTitle(const engine::DrawnShadows& shadows) {
+    const int faces = facesOfShown(shadows);
+    if (faces == 0) return whatHasNoMap(shadows);
+    const engine::DrawnShadows::Light& light = *shownLight(shadows);
+    return fmt::format("light {}, {} map{} of {}x{} texels", light.sceneIndex, faces, faces == 1 ? "" : "s",
+                       light.sideTexels, light.sideTexels);
+}
+
+std::string atlasTitle(const engine::DrawnShadows& shadows) {
+    if (!shadows.hasMaps) return whatHasNoMap(shadows);
+    return fmt::format("{}x{} texels, {} maps of {}", shadows.atlasTexels.x, shadows.atlasTexels.y, shadows.faces,
+                       frame::lightsText(shadows.lights.size()));
+}
+
 } // namespace
 
-DisplayImage shownPicture(const engine::RenderedFrame& frame, const std::string& sceneName, engine::Technique technique,
-                          frame::DebugView view) {
+std::vector<Swatch> shadowSwatches(frame::DebugView view, const engine::DrawnShadows& shadows) {
+    std::vector<Swatch> swatches;
+    const auto add = [&](int face, std::string meaning) {
+        swatches.push_back({codeColour(shared::faceColor(face)), std::move(meaning)});
+    };
+    if (view == frame::DebugView::Cascades) {
+        const int faces = facesOfShown(shadows);
+        for (int i = 0; i < faces; ++i) add(i, frame::shadowFaceName(i, faces));
+        swatches.push_back({codeColour(shared::noFaceColor()), whatHasNoMap(shadows)});
+    }
+    if (view == frame::DebugView::ShadowAtlas && shadows.hasMaps)
+        for (int i = 0; i < 6; ++i) add(i, fmt::format("{} {}", i + 1, frame::shadowFaceName(i, 6)));
+    return swatches;
+}
+
+DisplayImage shownPicture(const engine::RenderedFrame& frame, const engine::DrawnShadows& shadows,
+                          const std::string& sceneName, engine::Technique technique, frame::DebugView view) {
     const std::string of = fmt::format("{}, {}", sceneName, infoOf(technique).name);
     const Picture picture = toPicture(frame);
     switch (view) {
@@ -36,6 +84,12 @@ DisplayImage shownPicture(const engine::RenderedFrame& frame, const std::string&
         return countHeatMap(picture, countTitle("surfaces", of, picture));
     case frame::DebugView::Faults:
         return faultMap(picture, toDisplayImage(frame), of);
+    case frame::DebugView::Cascades:
+        return paintedMap(toDisplayImage(frame), fmt::format("{}: {}", cascadesTitle(shadows), of),
+                          shadowSwatches(view, shadows));
+    case frame::DebugView::ShadowAtlas:
+        return paintedMap(toDisplayImage(frame), fmt::format("{}: {}", atlasTitle(shadows), of),
+                          shadowSwatches(view, shadows));
     default:
         return toDisplayImage(frame);
     }

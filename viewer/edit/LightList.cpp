@@ -21,6 +21,10 @@ std::string withoutNumber(const std::string& name) {
 
 } // namespace
 
+std::string lightLabel(const Lights& lights, std::size_t index) {
+    return lights[index].name.empty() ? fmt::format("light {}", index) : lights[index].name;
+}
+
 std::string freeLightName(const Lights& lights, const std::string& wanted) {
     std::unordered_set<std::string_view> taken;
     for (const scenes::Light& light : lights) taken.insert(light.name);

@@ -10,6 +10,9 @@ namespace tessera::viewer {
 
 using Lights = std::vector<scenes::Light>;
 
+/// What a list calls a light: by its name, else by its number.
+std::string lightLabel(const Lights& lights, std::size_t index);
+
 /// `wanted` if no light has that name, else with the least number from 2 on behind it ("lamp 2").
 std::string freeLightName(const Lights& lights, const std::string& wanted);
 

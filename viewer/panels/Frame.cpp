@@ -42,7 +42,7 @@ void sidePanel(State& state, const Facts& facts, float height, float scale) {
     if (state.open) { // until then nobody knows how its picture begins
         section("Technique", true, [&] { framePanel(state); });
         section("View", true, [&] { viewPanel(state); });
-        section("Shadows", false, [&] { shadowsPanel(state); });
+        section("Shadows", false, [&] { shadowsPanel(state, facts); });
         section("Camera", false, [&] { cameraPanel(state); });
         section("Compare", false, [&] { comparePanel(state, facts); });
         section("Lights", false, [&] { lightsPanel(state); });

@@ -7,9 +7,12 @@
 
 #include "renderer/frame/DebugViews.h"
 #include "shaders/shared/heat.h"
+#include "validation/pictures/ShownPicture.h"
 
 namespace tessera::viewer {
 namespace {
+
+constexpr ImU32 kBehind = IM_COL32(20, 21, 24, 215), kInk = IM_COL32(220, 222, 228, 255);
 
 bool showsCounts(const Look& look) {
     return frame::displayMapping(look.settings.view, look.settings.layout) == frame::DisplayMapping::Count;
@@ -29,8 +32,8 @@ void drawBar(const PictureArea& area, float log2Most, float scale) {
     const ImVec2 end(area.corner.x + area.size.x - 2.0f * pad, area.corner.y + area.size.y - 2.0f * pad);
     const float barX = end.x - barWidth, top = end.y - height;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    list.AddRectFilled({barX - labelWidth - 2.0f * pad, top - pad - 0.5f * line}, {end.x + pad, end.y + pad},
-                       IM_COL32(20, 21, 24, 215), pad);
+    list.AddRectFilled({barX - labelWidth - 2.0f * pad, top - pad - 0.5f * line}, {end.x + pad, end.y + pad}, kBehind,
+                       pad);
     const auto yAt = [&](float position) { return end.y - position * height; };
     for (int step = 0; step < kSteps; ++step) {
         const float from = float(step) / kSteps, to = float(step + 1) / kSteps;
@@ -40,11 +43,33 @@ void drawBar(const PictureArea& area, float log2Most, float scale) {
         const std::string text = std::to_string(int(count));
         const float y = yAt(std::min(shared::heatPositionOfCount(count, log2Most), 1.0f));
         const float x = barX - 0.75f * pad - ImGui::CalcTextSize(text.c_str()).x;
-        list.AddText({x, y - 0.5f * line}, IM_COL32(220, 222, 228, 255), text.c_str());
-        list.AddLine({barX - 0.5f * pad, y}, {barX, y}, IM_COL32(220, 222, 228, 255));
+        list.AddText({x, y - 0.5f * line}, kInk, text.c_str());
+        list.AddLine({barX - 0.5f * pad, y}, {barX, y}, kInk);
     };
     label(0.0f);
     for (float count = 1.0f; shared::heatPositionOfCount(count, log2Most) < 1.0f; count *= 2.0f) label(count);
+}
+
+/// Colours with their meanings, below one another.
+void drawSwatches(const PictureArea& area, std::span<const validation::Swatch> swatches, float scale) {
+    const float pad = 8.0f * scale, line = ImGui::GetTextLineHeightWithSpacing(), side = ImGui::GetFontSize();
+    float width = 0.0f;
+    for (const validation::Swatch& swatch : swatches)
+        width = std::max(width, ImGui::CalcTextSize(swatch.meaning.c_str()).x);
+    const ImVec2 size(width + side + 3.0f * pad, float(swatches.size()) * line + 1.5f * pad);
+    if (area.size.x < size.x + 2.0f * pad || area.size.y < size.y + 2.0f * pad) return; // no room to read it
+    const ImVec2 end(area.corner.x + area.size.x - pad, area.corner.y + area.size.y - pad);
+    const ImVec2 corner(end.x - size.x, end.y - size.y);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddRectFilled(corner, end, kBehind, pad);
+    float y = corner.y + pad;
+    for (const validation::Swatch& swatch : swatches) {
+        const float x = corner.x + pad;
+        list.AddRectFilled({x, y}, {x + side, y + side},
+                           IM_COL32(swatch.colour.r, swatch.colour.g, swatch.colour.b, 255));
+        list.AddText({x + side + pad, y}, kInk, swatch.meaning.c_str());
+        y += line;
+    }
 }
 
 } // namespace
@@ -53,8 +78,13 @@ void drawLegend(const State& state, const Facts& facts, const PictureArea& area,
     if (state.compare == Compare::Difference) return;
     for (int side = 0; side < state.sides(); ++side) {
         const std::optional<Look>& look = facts.shown[std::size_t(side)];
-        if (look && showsCounts(*look))
-            drawBar(partOf(state, area, side), float(frame::countScaleLog2(look->settings.view)), scale);
+        if (!look) continue;
+        const PictureArea part = partOf(state, area, side);
+        if (showsCounts(*look)) drawBar(part, float(frame::countScaleLog2(look->settings.view)), scale);
+        const std::optional<engine::DrawnShadows>& shadows = facts.shadows[std::size_t(side)];
+        if (!shadows) continue;
+        const std::vector<validation::Swatch> swatches = validation::shadowSwatches(look->settings.view, *shadows);
+        if (!swatches.empty()) drawSwatches(part, swatches, scale);
     }
 }
 

@@ -35,7 +35,7 @@ bool tableRow(State& state, scenes::Scene& scene, int index) {
     ImGui::SameLine();
     ImGui::SetCursorPosY(top); // the name's line is the switches', not the swatch's
     ImGui::AlignTextToFramePadding();
-    const std::string name = light.name.empty() ? fmt::format("light {}", index) : light.name;
+    const std::string name = lightLabel(scene.lights, std::size_t(index));
     if (ImGui::Selectable(name.c_str(), index == state.selectedLight)) state.selectedLight = index;
     ImGui::TableNextColumn();
     std::optional<int>& solo = state.active().settings.soloLight;

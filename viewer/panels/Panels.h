@@ -9,7 +9,7 @@ namespace tessera::viewer {
 void scenePanel(State& state);
 void framePanel(State& state);
 void viewPanel(State& state);
-void shadowsPanel(State& state);
+void shadowsPanel(State& state, const Facts& facts);
 void cameraPanel(State& state);
 void lightsPanel(State& state);
 void materialsPanel(State& state);

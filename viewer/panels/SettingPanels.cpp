@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "viewer/panels/Panels.h"
+#include "viewer/panels/ShadowRows.h"
 #include "viewer/panels/Widgets.h"
 #include "viewer/session/Preferences.h"
 
@@ -111,8 +112,10 @@ void framePanel(State& state) {
     settingRows(state.active(), engine::SettingPanel::Frame);
 }
 
-void shadowsPanel(State& state) {
+void shadowsPanel(State& state, const Facts& facts) {
     settingRows(state.active(), engine::SettingPanel::Shadows);
+    const std::optional<engine::DrawnShadows>& shadows = facts.shadows[std::size_t(state.activeSide)];
+    if (shadows && state.open) shadowRows(state, *shadows);
 }
 
 void viewPanel(State& state) {

@@ -49,10 +49,12 @@ void Saver::picture(glm::ivec2 sizePixels, const char* ending) {
     Look look = state_.active();
     look.settings.sizePixels = sizePixels;
     look.settings.display = std::string_view(ending) != ".exr";
-    const engine::RenderedFrame frame = screen_.renderer()->render(look.technique, look.settings);
+    engine::Renderer& renderer = *screen_.renderer();
+    const engine::RenderedFrame frame = renderer.render(look.technique, look.settings);
     const std::string path = freePath(stem(), ending).string();
     if (look.settings.display) {
-        writePng(path, validation::shownPicture(frame, state_.open->scene().name, look.technique, look.settings.view));
+        writePng(path, validation::shownPicture(frame, renderer.shadows(), state_.open->scene().name, look.technique,
+                                                look.settings.view));
     } else {
         writeExr(path, engine::toPicture(frame));
     }

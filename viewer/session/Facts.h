@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/Renderer.h"
 #include "renderer/graph/Plan.h"
 #include "validation/culling/LightOracle.h"
 #include "validation/figures/ErrorFigures.h"
@@ -13,6 +14,7 @@ namespace tessera::viewer {
 /// What panels show of the frames that were drawn.
 struct Facts {
     std::array<std::optional<Look>, 2> shown; ///< looks of the pictures in the window, by side; none: no picture
+    std::array<std::optional<engine::DrawnShadows>, 2> shadows; ///< of the same
     bool isPreparing = false; ///< the next frame is the first of its kind, whose shaders may have to be compiled
     double ms = 0.0;          ///< of the latest frame, all sides
     double scale = 0.0;       ///< its sides' share of the window's pixels

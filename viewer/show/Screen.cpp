@@ -78,6 +78,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::functi
             result.sideMs[std::size_t(side)] = clock.elapsedMs();
             result.ms += clock.elapsedMs();
             result.passes[std::size_t(side)] = renderer_->backend().passTimings();
+            result.shadows[std::size_t(side)] = renderer_->shadows();
             banded.reset(); // copying must not be given up half way
             pictures_[std::size_t(side)].take(*renderer_, look, wanted.comparesRadiance);
             if (givesUp) banded.emplace(givesUp, gpu::BandPace{isSlowKind});

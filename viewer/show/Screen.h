@@ -31,6 +31,7 @@ public:
         double ms = 0.0;                                    ///< of all sides, the waiting for the GPU included
         std::array<std::vector<gpu::PassTiming>, 2> passes; ///< by side
         std::array<double, 2> sideMs{};
+        std::array<std::optional<engine::DrawnShadows>, 2> shadows;
     };
 
     explicit Screen(gpu::Context& context);

@@ -1,10 +1,14 @@
 // What a pixel shows: the lit surface, or one of the debug views of the table kViews (renderer/frame/DebugViews.h), which gives
 // VIEW its number. Both families of techniques end here, so a view exists in each of them.
 #pragma once
+#include "shared/face_colors.h"
 #include "shared/views.h"
 
 #if VIEW == VIEW_LIGHTS
 #define VISIT_COUNTS 1
+#endif
+#if VIEW == VIEW_CASCADES
+#define SHOWS_FACES 1
 #endif
 #include "lib/lighting/lighting.glsl"
 
@@ -44,6 +48,20 @@ vec3 shadowView(Surface surface, Viewpoint viewpoint)
     return vec3(1.0);
 }
 
+#if VIEW == VIEW_CASCADES
+// Which faces of that light's maps answer, by colours: darker in its shadow, and the less a surface faces the eye.
+vec3 cascadesView(Surface surface, Viewpoint viewpoint)
+{
+    precise float facing = abs(dot(surface.normalLS, viewpoint.toViewerLS));
+    precise vec3 brightness = (0.4 + 0.6 * shadowView(surface, viewpoint)) * (0.4 + 0.6 * facing);
+    precise vec3 color = noFaceColor();
+#if HAS_SHADOW_MAPS
+    color = answeringFaces.rgb + (1.0 - answeringFaces.a) * noFaceColor();
+#endif
+    return brightness * color;
+}
+#endif
+
 vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
 {
 #if VIEW == VIEW_FINAL
@@ -64,6 +82,8 @@ vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
     return lightsOnSurface(vec3(0.0), seenSurface(surface, viewpoint.toViewerLS), viewpoint, pixel); // counted
 #elif VIEW == VIEW_SHADOW
     return shadowView(surface, viewpoint);
+#elif VIEW == VIEW_CASCADES
+    return cascadesView(surface, viewpoint);
 #elif VIEW == VIEW_DEPTH
     return vec3(view.eyeLS.w + dot(viewpoint.positionLS, view.forwardLS.xyz));
 #else

@@ -8,6 +8,7 @@
 // of which no component of c - e is more than half a texel. Further away, taps of wide filters may find a surface that
 // bends towards the light before the plane.
 #pragma once
+#include "shared/face_colors.h"
 #include "shared/slots.h"
 #include "shared/shadow_maps.h"
 #include "lib/light/light_store.glsl"
@@ -18,6 +19,15 @@
 #endif
 
 layout(binding = TEXTURE_UNIT_SHADOWS) uniform sampler2D shadowAtlas;
+
+// 1 where a view shows which faces answer (lib/lighting/views.glsl).
+#ifndef SHOWS_FACES
+#define SHOWS_FACES 0
+#endif
+#if SHOWS_FACES
+// Of the faces that answered the latest mappedShadow(): rgb the sum of their colours, each by its share; a of the shares.
+vec4 answeringFaces = vec4(0.0);
+#endif
 
 // A point as a face sees it.
 struct FacePoint {
@@ -216,6 +226,10 @@ float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNorm
         precise float behind = dot(facetNormalLS, toLight);
         bool isBehind = behind > kFacetError * length(toLight);
         if (ownShare > 0.0) hidden += share * ownShare * (1.0 - (isBehind ? 0.0 : filtered(point, shadow, viewpoint)));
+#if SHOWS_FACES
+        precise vec4 answer = (share * ownShare) * vec4(faceColor((face - int(shadow.z)) / SHADOW_FACE_TEXELS), 1.0);
+        answeringFaces += answer;
+#endif
         share *= 1.0 - ownShare;
         if (share <= 0.0) left = 1;
     }

@@ -159,7 +159,8 @@ TEST_F(Panels, everySettingOfAPanelHasARowWhereTheTechniqueHeedsIt) {
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         State state;
         state.looks[0].technique = info.technique;
-        const std::array<std::string, 3> texts{textOf([&] { framePanel(state); }), textOf([&] { shadowsPanel(state); }),
+        const std::array<std::string, 3> texts{textOf([&] { framePanel(state); }),
+                                               textOf([&] { shadowsPanel(state, {}); }),
                                                textOf([&] { viewPanel(state); })};
         for (const engine::Setting& setting : engine::settingTable()) {
             const bool isShown[] = {setting.panel == engine::SettingPanel::Frame,
@@ -259,6 +260,79 @@ TEST_F(Panels, lightCullingSaysWhereThereIsNoLightToCull) {
     EXPECT_DOUBLE_EQ(numberBehind(text, "Endless"), 12.0) << text;
     EXPECT_NE(text.find("no light to cull"), std::string::npos) << text;
     EXPECT_EQ(text.find("Needed"), std::string::npos) << text;
+}
+
+/// Shadow maps of so many lights, which are those of the scene.
+engine::DrawnShadows mapsOf(std::size_t lights) {
+    engine::DrawnShadows shadows;
+    shadows.hasMaps = true;
+    for (std::size_t i = 0; i < lights; ++i) shadows.lights.push_back({int(i), 6, 1024, 512});
+    shadows.lights.front().wantedTexels = 512;
+    shadows.lights.back().sideTexels = 0;
+    shadows.atlasTexels = {4096, 1024};
+    shadows.budgetMiB = 20.0;
+    shadows.faces = 6 * (lights - 1);
+    shadows.drawnFaces = 4;
+    return shadows;
+}
+
+TEST_F(Panels, theShadowsPanelTellsWhatHoldsTheShadowsOfWhichLight) {
+    State state = unusualScene();
+    Facts facts;
+    const auto text = [&] { return textOf([&] { shadowsPanel(state, facts); }); };
+    EXPECT_EQ(text().find("Atlas"), std::string::npos) << "nothing is drawn yet";
+    facts.shadows[0] = mapsOf(3);
+    state.open->edit().lights[1].name = "lamp";
+    const std::string maps = text();
+    for (const char* part :
+         {"4096x1024 texels", "16 of 20 MiB", "12: 4 drawn, 8 kept", "512 of 1024", "no room", "lamp"})
+        EXPECT_NE(maps.find(part), std::string::npos) << part << " in" << maps;
+    facts.shadows[0]->hasMaps = false;
+    const std::string traced = text();
+    EXPECT_NE(traced.find("traced"), std::string::npos) << traced;
+    EXPECT_EQ(traced.find("Atlas"), std::string::npos) << traced;
+    facts.shadows[0]->lights.clear();
+    EXPECT_NE(text().find("No light in view casts shadows"), std::string::npos);
+    // Lights that were deleted since the frame have no row.
+    facts.shadows[0] = mapsOf(3);
+    state.open->edit().lights.resize(1);
+    EXPECT_EQ(text().find("no room"), std::string::npos);
+}
+
+TEST_F(Panels, ofManyLightsTheShadowsPanelLaysOutThoseInViewAndAClickSelectsOne) {
+    State state = unusualScene();
+    state.open->edit().lights.resize(256);
+    for (scenes::Light& light : state.open->edit().lights) light.name = "lamp";
+    Facts facts;
+    facts.shadows[0] = mapsOf(256);
+    const std::string text = textOf([&] { shadowsPanel(state, facts); });
+    std::size_t rows = 0;
+    for (std::size_t at = text.find("lamp"); at != std::string::npos; at = text.find("lamp", at + 1)) ++rows;
+    EXPECT_GE(rows, 8u) << text;
+    EXPECT_LE(rows, 16u) << text;
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+        if (std::string(window->Name).find("shadowed lights") == std::string::npos) continue;
+        const float row = ImGui::GetTextLineHeightWithSpacing();
+        ImGui::GetIO().MousePos = {window->Pos.x + 20.0f, window->Pos.y + 3.5f * row}; // below the header
+    }
+    for (const bool isDown : {false, true, false}) {
+        ImGui::GetIO().MouseDown[0] = isDown;
+        show([&] { shadowsPanel(state, facts); });
+    }
+    EXPECT_EQ(state.selectedLight, 2);
+}
+
+TEST_F(Panels, theColoursOfShadowMapsStandOnThePictureThatShowsThem) {
+    State state;
+    Facts facts;
+    const auto isThere = [&] { return overlaySpan([&] { drawLegend(state, facts, area(state), 1.0f); }).has_value(); };
+    facts.shown[0] = lookAt(frame::DebugView::Cascades);
+    facts.shadows[0] = mapsOf(3);
+    EXPECT_TRUE(isThere());
+    facts.shown[0] = lookAt(frame::DebugView::Shadow);
+    EXPECT_FALSE(isThere());
+    facts.shown[0] = lookAt(frame::DebugView::ShadowAtlas);
+    EXPECT_TRUE(isThere());
 }
 
 TEST_F(Panels, theScaleOfCountsStandsOnTheSideThatShowsThem) {

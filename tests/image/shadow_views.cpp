@@ -1,0 +1,214 @@
+// The debug views of shadow maps: which face answers a pixel, and the atlas itself.
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "scenes/Load.h"
+#include "scenes/LookAt.h"
+#include "scenes/builtin/Shapes.h"
+#include "shaders/shared/face_colors.h"
+#include "tests/image/ShadowTest.h"
+#include "tests/support/TestScenes.h"
+
+namespace tessera {
+namespace {
+
+using engine::Technique;
+using frame::DebugView;
+using frame::ShadowFilter;
+
+/// Face of the colour that a pixel of the view `cascades` has, however dark; none where it is grey.
+std::optional<int> faceOf(const glm::vec3& shown) {
+    const glm::vec3 direction = glm::normalize(shown);
+    float most = glm::dot(direction, glm::normalize(shared::noFaceColor()));
+    std::optional<int> face;
+    for (int i = 0; i < 6; ++i) {
+        const float likeness = glm::dot(direction, glm::normalize(shared::faceColor(i)));
+        if (likeness > most) face = i;
+        most = std::max(most, likeness);
+    }
+    return face;
+}
+
+class ShadowViews : public test::ShadowTest {
+protected:
+    ShadowViews() {
+        settings.sizePixels = {161, 91};
+        settings.shadows = test::kAllLightsCast;
+        settings.shadowFilter = ShadowFilter::Pcf;
+        settings.shadowMaps.resolutionTexels = 256;
+    }
+    /// Point lights and, as the last light, a sun.
+    static scenes::Scene pointsAndSun() {
+        scenes::LoadOptions options;
+        options.lights = 3;
+        scenes::Scene scene = scenes::loadScene("lattice", options);
+        scenes::Light sun = scene.lights[0];
+        sun.type = scenes::LightType::Directional;
+        sun.directionWS = glm::normalize(glm::dvec3(-0.5, -1.0, -0.3));
+        sun.intensity = 1.0f;
+        scene.lights.push_back(sun);
+        return scene;
+    }
+    /// A ball around the eye and a lamp.
+    static scenes::Scene aroundALamp() {
+        scenes::Scene scene = test::ballUnderSun();
+        scene.meshes.resize(1);
+        scene.meshes[0] = {};
+        scenes::builtin::appendSphere(scene.meshes[0], glm::dvec3(0.0), 5.0, 64, 32);
+        scene.nodes[0].instances = {{0, 0}};
+        for (scenes::Material& material : scene.materials) material.doubleSided = true;
+        scene.lights = {test::pointLight({}, 10.0f)};
+        return scene;
+    }
+    std::vector<float> shown(engine::Renderer& renderer, DebugView view, Technique technique = Technique::Deferred) {
+        settings.view = view;
+        return renderer.render(technique, settings).radiance;
+    }
+    glm::vec4 pixel(const std::vector<float>& rgba, int x, int y) const {
+        const float* p = &rgba[std::size_t(4 * (y * settings.sizePixels.x + x))];
+        return {p[0], p[1], p[2], p[3]};
+    }
+    frame::FrameSettings settings;
+};
+
+TEST_F(ShadowViews, areTheSameInEveryTechniqueToTheLastBit) {
+    const scenes::Scene scene = pointsAndSun();
+    engine::Renderer renderer(context(), scene);
+    for (const DebugView view : {DebugView::Cascades, DebugView::ShadowAtlas}) {
+        for (const int light : {0, int(scene.lights.size()) - 1}) {
+            settings.soloLight = light;
+            const std::vector<float> truth = shown(renderer, view, Technique::Forward);
+            for (const engine::TechniqueInfo& info : engine::techniqueTable())
+                EXPECT_TRUE(shown(renderer, view, info.technique) == truth)
+                    << frame::debugViewInfo(view).name << " of light " << light << " with " << info.name;
+        }
+    }
+}
+
+TEST_F(ShadowViews, theNearestPixelShowsTheFirstCascadeAndTheFarthestTheLast) {
+    const scenes::Scene scene = pointsAndSun();
+    engine::Renderer renderer(context(), scene);
+    settings.soloLight = int(scene.lights.size()) - 1;
+    const std::vector<float> depths = shown(renderer, DebugView::Depth);
+    for (const int cascades : {4, 3, 2, 1}) {
+        settings.shadowMaps.cascades = cascades;
+        const std::vector<float> colors = shown(renderer, DebugView::Cascades);
+        std::size_t nearest = 0, farthest = 0;
+        float least = std::numeric_limits<float>::infinity(), most = 0.0f;
+        for (std::size_t i = 0; i < depths.size(); i += 4) {
+            if (depths[i + 3] == 0.0f) continue;
+            if (depths[i] < least) nearest = i;
+            if (depths[i] > most) farthest = i;
+            least = std::min(least, depths[i]);
+            most = std::max(most, depths[i]);
+        }
+        EXPECT_EQ(faceOf({colors[nearest], colors[nearest + 1], colors[nearest + 2]}), 0);
+        EXPECT_EQ(faceOf({colors[farthest], colors[farthest + 1], colors[farthest + 2]}), cascades - 1);
+    }
+}
+
+TEST_F(ShadowViews, ofAPointLightEachAxisHasTheColourOfItsFace) {
+    scenes::Scene scene = aroundALamp();
+    for (const ShadowFilter filter : {ShadowFilter::Hard, ShadowFilter::Pcf, ShadowFilter::Pcss}) {
+        settings.shadowFilter = filter;
+        for (int face = 0; face < 6; ++face) {
+            glm::dvec3 forwardWS(0.0), upWS(0.0);
+            forwardWS[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
+            upWS[(face / 2 + 1) % 3] = 1.0;
+            // Narrower than a face, so that none of its neighbours is in the picture.
+            scene.cameras[0].worldFromCamera = scenes::worldFromLookAt({}, forwardWS, upWS);
+            scene.cameras[0].fovYRadians = 0.6;
+            engine::Renderer renderer(context(), scene);
+            const std::vector<float> colors = shown(renderer, DebugView::Cascades);
+            for (std::size_t i = 0; i < colors.size(); i += 4)
+                ASSERT_EQ(faceOf({colors[i], colors[i + 1], colors[i + 2]}), face) << "pixel " << i / 4;
+        }
+    }
+}
+
+TEST_F(ShadowViews, areGreyWhereNoMapAnswers) {
+    const scenes::Scene scene = aroundALamp();
+    engine::Renderer renderer(context(), scene);
+    const auto countColored = [&] {
+        const std::vector<float> colors = shown(renderer, DebugView::Cascades);
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < colors.size(); i += 4) count += colors[i] != colors[i + 1];
+        return count;
+    };
+    EXPECT_GT(countColored(), 0u);
+    settings.shadowMaps.budgetMiB = 1e-5;
+    EXPECT_EQ(countColored(), 0u) << "no room";
+    settings.shadowMaps.budgetMiB = 64.0;
+    settings.shadowFilter = ShadowFilter::Traced;
+    EXPECT_EQ(countColored(), 0u) << "traced";
+    for (const float x : shown(renderer, DebugView::ShadowAtlas)) EXPECT_TRUE(x == 0.0f || x == 1.0f);
+    settings.shadowFilter = ShadowFilter::Pcf;
+    settings.shadows = {scenes::ShadowRequest::Kind::None};
+    EXPECT_EQ(countColored(), 0u) << "no shadows";
+}
+
+/// A lamp a metre above a floor, whose face -y sees the floor straight on and whose face +y sees nothing.
+TEST_F(ShadowViews, theAtlasShowsTheDepthsThatItStores) {
+    scenes::Scene scene = test::ballUnderSun();
+    scene.nodes[0].instances = {{1, 0}};
+    scene.lights = {test::pointLight({0.0, 1.0, 0.0}, 10.0f)};
+    scene.lights[0].rangeMetres = 3.0f;
+    settings.shadowFilter = ShadowFilter::Hard;
+    settings.shadowMaps.resolutionTexels = 64;
+    settings.sizePixels = {6 * 64, 64}; // a pixel a texel
+    engine::Renderer renderer(context(), scene);
+    const std::vector<float> atlas = shown(renderer, DebugView::ShadowAtlas);
+    const engine::DrawnShadows shadows = renderer.shadows();
+    ASSERT_EQ(shadows.atlasTexels, settings.sizePixels);
+    const double nearMetres = 3.0 * frame::kFaceNearShare;
+    for (const int x : {3 * 64 + 1, 3 * 64 + 31, 3 * 64 + 62}) {
+        const glm::vec4 texel = pixel(atlas, x, 32);
+        EXPECT_NEAR(texel.x / nearMetres, 1.0, 1e-6) << x;
+        EXPECT_NEAR(texel.y, 0.5, 1e-6) << "a third of the range";
+        EXPECT_EQ(texel.z, 4.0f);
+        EXPECT_EQ(texel.w, 1.0f);
+    }
+    EXPECT_EQ(pixel(atlas, 2 * 64 + 31, 32), glm::vec4(0, 0, 3, 1)) << "nothing above the lamp";
+    EXPECT_EQ(pixel(atlas, 3 * 64, 32).z, -4.0f) << "the rim";
+    // Twice as wide as high: half of the faces below the others.
+    settings.sizePixels = {3 * 32, 2 * 32};
+    const std::vector<float> strips = shown(renderer, DebugView::ShadowAtlas);
+    EXPECT_EQ(pixel(strips, 16, 48).z, 4.0f);
+    EXPECT_EQ(pixel(strips, 80, 16), glm::vec4(0, 0, 3, 1));
+    EXPECT_NEAR(pixel(strips, 16, 48).x / nearMetres, 1.0, 1e-6);
+    // Beside the atlas.
+    settings.sizePixels = {100, 6};
+    EXPECT_EQ(pixel(shown(renderer, DebugView::ShadowAtlas), 0, 3), glm::vec4(0.0f));
+}
+
+TEST_F(ShadowViews, aFrameTellsWhatItsLightsGotAndWhichFacesItDrew) {
+    scenes::Scene scene = pointsAndSun();
+    scene.lights[1].castsShadow = true;
+    engine::Renderer renderer(context(), scene);
+    shown(renderer, DebugView::Final);
+    engine::DrawnShadows shadows = renderer.shadows();
+    ASSERT_EQ(shadows.lights.size(), scene.lights.size());
+    EXPECT_TRUE(shadows.hasMaps);
+    EXPECT_EQ(shadows.lights.back().faces, 4);
+    EXPECT_EQ(shadows.lights.back().sideTexels, 256);
+    EXPECT_EQ(shadows.faces, 3u * 6u + 4u);
+    EXPECT_EQ(shadows.drawnFaces, shadows.faces);
+    shown(renderer, DebugView::Final);
+    EXPECT_EQ(renderer.shadows().drawnFaces, 0u) << "all are kept";
+    scene.lights[0].positionWS.x += 0.01;
+    shown(renderer, DebugView::Final);
+    EXPECT_EQ(renderer.shadows().drawnFaces, 6u) << "one light has moved";
+    settings.shadows = {scenes::ShadowRequest::Kind::Asked};
+    settings.shadowFilter = ShadowFilter::Traced;
+    shown(renderer, DebugView::Final);
+    shadows = renderer.shadows();
+    EXPECT_FALSE(shadows.hasMaps);
+    ASSERT_EQ(shadows.lights.size(), 1u);
+    EXPECT_EQ(shadows.lights[0].sceneIndex, 1);
+    EXPECT_FALSE(shadows.shown) << "the first light casts none";
+    EXPECT_EQ(shadows.drawnFaces, 0u);
+}
+
+} // namespace
+} // namespace tessera

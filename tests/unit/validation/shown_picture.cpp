@@ -1,0 +1,52 @@
+// The legends of views of shadow maps.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "shaders/shared/face_colors.h"
+#include "validation/pictures/ShownPicture.h"
+
+namespace tessera::validation {
+namespace {
+
+using frame::DebugView;
+
+std::vector<std::string> meanings(DebugView view, const engine::DrawnShadows& shadows) {
+    std::vector<std::string> result;
+    for (const Swatch& swatch : shadowSwatches(view, shadows)) result.push_back(swatch.meaning);
+    return result;
+}
+
+/// Of one light.
+engine::DrawnShadows shadowsOf(int faces, int sideTexels) {
+    engine::DrawnShadows shadows;
+    shadows.hasMaps = faces > 0;
+    shadows.lights = {{7, faces, 512, sideTexels}};
+    shadows.shown = 0;
+    return shadows;
+}
+
+TEST(ShadowLegend, namesEachMapOfTheLightOrWhyThereIsNone) {
+    using testing::ElementsAre;
+    EXPECT_THAT(meanings(DebugView::Cascades, shadowsOf(6, 512)),
+                ElementsAre("+x", "-x", "+y", "-y", "+z", "-z", "no map"));
+    EXPECT_THAT(meanings(DebugView::Cascades, shadowsOf(3, 512)), ElementsAre("1 (nearest)", "2", "3", "no map"));
+    EXPECT_THAT(meanings(DebugView::Cascades, shadowsOf(1, 512)), ElementsAre("its map", "no map"));
+    EXPECT_THAT(meanings(DebugView::Cascades, shadowsOf(6, 0)), ElementsAre("the budget has no room for its maps"));
+    EXPECT_THAT(meanings(DebugView::Cascades, shadowsOf(0, 0)), ElementsAre("no maps: shadows are traced"));
+    EXPECT_THAT(meanings(DebugView::Cascades, {}), ElementsAre("no light in view casts shadows"));
+    engine::DrawnShadows other = shadowsOf(6, 512);
+    other.shown.reset();
+    EXPECT_THAT(meanings(DebugView::Cascades, other), ElementsAre("the light has no shadows in view"));
+    EXPECT_THAT(meanings(DebugView::ShadowAtlas, shadowsOf(6, 512)), testing::SizeIs(6));
+    EXPECT_THAT(meanings(DebugView::Shadow, shadowsOf(6, 512)), ElementsAre());
+}
+
+TEST(ShadowLegend, hasTheColoursOfThePictures) {
+    const std::vector<Swatch> swatches = shadowSwatches(DebugView::Cascades, shadowsOf(6, 512));
+    ASSERT_EQ(swatches.size(), 7u);
+    for (int i = 0; i < 6; ++i) EXPECT_EQ(swatches[std::size_t(i)].colour, codeColour(shared::faceColor(i)));
+    EXPECT_EQ(swatches[6].colour, codeColour(shared::noFaceColor()));
+}
+
+} // namespace
+} // namespace tessera::validation
