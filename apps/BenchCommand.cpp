@@ -161,9 +161,11 @@ int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
     run.plan = planOf(options, outputs);
     if (options.frame.said("filter")) run.options.errorFilter = run.plan.groups.front().points.front().settings.filter;
     const std::unique_ptr<gpu::Context> context = makeContext(global);
-    for (validation::PlannedGroup& group : run.plan.groups)
+    for (validation::PlannedGroup& group : run.plan.groups) {
+        group.settings = engine::settingsOn(context->capabilities(), group.settings);
         for (validation::BenchPoint& point : group.points)
             point.settings = engine::settingsOn(context->capabilities(), point.settings);
+    }
     const validation::RunIdentity identity{validation::machineName(),
                                            context->capabilities().renderer,
                                            kCommit,
@@ -203,8 +205,7 @@ void addBenchCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
         ->required();
     command
         ->add_option("--matrix", options->matrix,
-                     "JSON object of arrays: technique, culling, tile, layout, lights, size, range; every combination "
-                     "is measured")
+                     "JSON object of arrays: " + validation::matrixKeys() + "; every combination is measured")
         ->type_name("FILE");
     command
         ->add_option("--against", options->against,
@@ -220,6 +221,7 @@ void addBenchCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
   tessera bench hall -o out                             every technique and culling method
   tessera bench lattice -o out --lights 1024 --frames 5 a quick look at many lights
   tessera bench lattice -o out --matrix matrix.json     with {"tile": [8, 16, 32], "lights": [256, 1024]}
+  tessera bench head -o out --shadows all --matrix m.json with {"shadow": ["traced", "pcf"], "shadowWidth": [3, 5]}
   tessera bench hall -o out --resume                    after an interruption: nothing is measured twice
   tessera bench -o all --merge part1 part2              shards 1/2 and 2/2 put together
 

@@ -115,7 +115,7 @@ void renderReference(const RenderOptions& options, const Outputs& outputs, const
     bool hasWarned = false;
     makePictures(options, outputs, settings, [&](const std::string& path, const frame::FrameSettings& one) {
         Picture picture = validation::referencePicture(
-                              request.scene, one, [&progress] { progress.advance(); }, false)
+                              request.scene, one, [&progress] { progress.advance(); }, validation::Leeway::None)
                               .picture;
         warnOfPicture(path, request.scene, one.view, picture.rgba, hasWarned);
         if (isLinear) return writeExr(path, picture);

@@ -54,7 +54,7 @@ ShadowReference shadowReference(const scenes::Scene& scene, const frame::FrameSe
     frame::FrameSettings unshadowed = settings;
     unshadowed.shadows = {scenes::ShadowRequest::Kind::None};
     return {validation::referencePicture(scene, settings), validation::referencePicture(
-                                                               scene, unshadowed, [] {}, false)};
+                                                               scene, unshadowed, [] {}, validation::Leeway::None)};
 }
 
 WrongPixels wrongPixels(engine::Renderer& renderer, const frame::FrameSettings& settings,

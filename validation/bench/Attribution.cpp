@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/PrepareView.h"
 #include "validation/compare/RangeTruncation.h"
 #include "validation/compare/TechniqueCompare.h"
 #include "validation/figures/ErrorFigures.h"
@@ -25,16 +26,21 @@ AttributionLine lineOf(const char* cause, const std::string& what, const std::st
     return {cause, what, against, finite(figures.relMse), finite(figures.p99Rel), finite(figures.bias)};
 }
 
-void addFilter(const GroupTruth& truth, const std::string& truthName, const BenchPoint& any,
+void addFilter(const GroupTruth& truth, const std::string& truthName, const Picture& exact, const BenchPoint& any,
                std::vector<AttributionLine>& lines) {
-    const Picture exact = truth.pictureOf(Technique::Forward, exactSettings(any.settings, truth.filter()));
-    lines.push_back(lineOf("arithmetic", "fp32 arithmetic of forward", truthName,
+    const bool isSoft =
+        any.key.shadow && engine::prepareView(truth.renderer().scene(), Technique::Forward, truth.settings())
+                              .lights.features[frame::Feature::SoftShadows];
+    const std::string noise =
+        isSoft ? fmt::format(" and the noise of {} rays", truth.settings().shadowSamples) : std::string();
+    lines.push_back(lineOf("arithmetic", "fp32 arithmetic of forward" + noise, truthName,
                            radianceFigures(exact, truth.pictureFor(exact), truth.excluded())));
     // Nothing was chosen where the timed frames filter exactly too.
     if (any.settings.filter == frame::TextureFilter::Exact || truth.filter() != frame::TextureFilter::Exact ||
         !frame::materialFeatures(truth.renderer().scene()).textures())
         return;
-    frame::FrameSettings hardware = exactSettings(any.settings, frame::TextureFilter::Hardware);
+    frame::FrameSettings hardware = truth.settings();
+    hardware.filter = frame::TextureFilter::Hardware;
     const engine::RenderedFrame frame = truth.renderer().render(Technique::Forward, hardware);
     Picture filtered = exact; // the same pixels are covered
     filtered.rgba = frame.radiance;
@@ -42,12 +48,33 @@ void addFilter(const GroupTruth& truth, const std::string& truthName, const Benc
                            radianceFigures(filtered, exact)));
 }
 
+/// What goes away where shadows are traced, with rays enough.
+void addShadows(const GroupTruth& truth, const Picture& exact, std::span<const BenchPoint> points,
+                std::vector<AttributionLine>& lines) {
+    std::set<std::string> done;
+    for (const BenchPoint& point : points) {
+        if (!point.key.shadow || !done.insert(shadowText(*point.key.shadow)).second) continue;
+        frame::FrameSettings settings = truth.settings();
+        settings.shadows = point.settings.shadows;
+        settings.shadowFilter = point.settings.shadowFilter;
+        settings.shadowSamples = point.settings.shadowSamples;
+        settings.shadowMaps = point.settings.shadowMaps;
+        const bool isExact =
+            point.key.shadow->filter != kNoShadows && !point.key.shadow->usesMaps() && point.key.shadow->values.empty();
+        if (isExact) continue;
+        const std::string text = shadowText(*point.key.shadow);
+        const Picture shown = truth.pictureOf(Technique::Forward, settings);
+        lines.push_back(lineOf("shadow", point.key.shadow->filter == kNoShadows ? text : "shadow filter " + text,
+                               "traced", radianceFigures(shown, exact, truth.excluded())));
+    }
+}
+
 void addRanges(const GroupTruth& truth, std::span<const BenchPoint> points, std::vector<AttributionLine>& lines) {
     std::set<double> tolerances;
     for (const BenchPoint& point : points) tolerances.insert(point.settings.rangeTolerance);
     for (const double tolerance : tolerances) {
         if (tolerance == 0.0) continue;
-        frame::FrameSettings settings = exactSettings(points.front().settings, truth.filter());
+        frame::FrameSettings settings = truth.settings();
         settings.rangeTolerance = tolerance;
         const RangeTruncation dropped = rangeTruncation(truth.renderer(), Technique::Forward, settings);
         lines.push_back(
@@ -64,7 +91,8 @@ void addLayouts(const gpu::Capabilities& gl, const GroupTruth& truth, std::span<
         if (!isPacked || !done.insert(point.key.layout).second) continue;
         CompareRequest request;
         request.techniques = {Technique::TiledDeferred}; // draws once per channel: the fastest of one G-buffer
-        request.settings = exactSettings(point.settings, truth.filter());
+        request.settings = truth.settings();
+        request.settings.shadowSamples = point.settings.shadowSamples; // both sides have the same noise
         request.settings.layout = point.settings.layout;
         request.settings.display = true; // the comparison shows its pictures too
         const ComparePair pair = compareTechniques(truth.renderer(), gl, request).record.pairs.front();
@@ -84,7 +112,9 @@ void addLayouts(const gpu::Capabilities& gl, const GroupTruth& truth, std::span<
 std::vector<AttributionLine> attributeErrors(const gpu::Capabilities& gl, const GroupTruth& truth,
                                              const std::string& truthName, std::span<const BenchPoint> points) {
     std::vector<AttributionLine> lines;
-    addFilter(truth, truthName, points.front(), lines);
+    const Picture exact = truth.pictureOf(Technique::Forward, truth.settings());
+    addFilter(truth, truthName, exact, points.front(), lines);
+    addShadows(truth, exact, points, lines);
     addRanges(truth, points, lines);
     addLayouts(gl, truth, points, lines);
     return lines;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <functional>
 
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ std::string orEmpty(const std::optional<T>& value) {
 }
 
 struct Column {
-    const char* name;
+    std::string_view name;
     std::function<std::string(const BenchGroup&, const BenchResult&, std::optional<bool> pareto)> text;
 };
 
@@ -51,11 +52,18 @@ Column counterColumn(const char* name, std::uint64_t BenchCounters::*figure) {
             }};
 }
 
-const std::vector<Column>& columns() {
+Column shadowColumn(const ShadowSetting& row) {
+    return {row.key, [&row](const BenchGroup&, const BenchResult& result, std::optional<bool>) {
+                const std::string* const text = result.key.shadow ? result.key.shadow->text(row.key) : nullptr;
+                return text ? *text : "";
+            }};
+}
+
+std::vector<Column> makeColumns() {
     using G = BenchGroup;
     using R = BenchResult;
     using P = std::optional<bool>;
-    static const std::vector<Column> table{
+    std::vector<Column> table{
         {"scene", [](const G& g, const R&, P) { return quoted(g.scene); }},
         {"technique", [](const G&, const R& r, P) { return r.key.technique; }},
         {"culling", [](const G&, const R& r, P) { return r.key.culling; }},
@@ -64,6 +72,7 @@ const std::vector<Column>& columns() {
         {"cullNormals", [](const G&, const R& r, P) { return r.normalTest.value_or(""); }},
         {"layout", [](const G&, const R& r, P) { return r.key.layout; }},
         {"range", [](const G&, const R& r, P) { return fmt::format("{}", r.key.rangeTolerance); }},
+        {kShadowFilterKey, [](const G&, const R& r, P) { return r.key.shadow ? r.key.shadow->filter : ""; }},
         {"lights", [](const G& g, const R&, P) { return fmt::format("{}", g.lights); }},
         {"width", [](const G& g, const R&, P) { return fmt::format("{}", g.sizePixels.x); }},
         {"height", [](const G& g, const R&, P) { return fmt::format("{}", g.sizePixels.y); }},
@@ -94,6 +103,13 @@ const std::vector<Column>& columns() {
         counterColumn("triangles", &BenchCounters::triangles),
         counterColumn("draws", &BenchCounters::draws),
     };
+    for (const ShadowSetting& row : shadowSettingTable())
+        table.insert(std::ranges::find(table, std::string_view("lights"), &Column::name), shadowColumn(row));
+    return table;
+}
+
+const std::vector<Column>& columns() {
+    static const std::vector<Column> table = makeColumns();
     return table;
 }
 

@@ -18,11 +18,31 @@ namespace tessera::validation {
 
 namespace {
 
-Json plotPoint(const BenchResult& result, std::optional<bool> pareto, bool isBest) {
+/// What shapes of marks tell in plots: the filter of shadows where several were measured, else the G-buffer layout.
+struct MarkKind {
+    const char* name;
+    std::string (*of)(const PointKey& key);
+};
+constexpr MarkKind kByLayout{"layout", [](const PointKey& key) { return key.layout; }};
+constexpr MarkKind kByShadow{
+    "shadow filter", [](const PointKey& key) { return key.shadow ? key.shadow->filter : std::string(kNoShadows); }};
+
+std::set<std::string> marksOf(const BenchRecord& record, const MarkKind& kind) {
+    std::set<std::string> marks;
+    for (const BenchGroup& group : record.groups)
+        for (const BenchResult& result : group.results) marks.insert(kind.of(result.key));
+    return marks;
+}
+
+const MarkKind& markKindOf(const BenchRecord& record) {
+    return marksOf(record, kByShadow).size() > 1 ? kByShadow : kByLayout;
+}
+
+Json plotPoint(const BenchResult& result, const MarkKind& kind, std::optional<bool> pareto, bool isBest) {
     const BenchError error = result.error.value_or(BenchError{});
     return {{"name", pointName(result.key)},
             {"technique", result.key.technique},
-            {"layout", result.key.layout},
+            {"mark", kind.of(result.key)},
             {"ms", result.times.cpuMs.median},
             {"p95", result.times.cpuMs.p95},
             {"relMse", orNull(error.relMse)},
@@ -41,21 +61,23 @@ std::string growthText(const ScalingCurve& curve) {
 
 /// What bench.js draws.
 Json plotData(const BenchRecord& record) {
-    Json data = {{"techniques", Json::array()}, {"groups", Json::array()}, {"curves", Json::array()}};
+    const MarkKind& kind = markKindOf(record);
+    Json data = {
+        {"techniques", Json::array()}, {"markKind", kind.name}, {"groups", Json::array()}, {"curves", Json::array()}};
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) data["techniques"].push_back(info.name);
     for (const BenchGroup& group : record.groups) {
         const std::vector<std::optional<bool>> pareto = paretoFront(group);
         const std::optional<Recommendation> choice = recommendFor(group);
         Json points = Json::array();
         for (std::size_t i = 0; i < group.results.size(); ++i)
-            points.push_back(plotPoint(group.results[i], pareto[i], choice && choice->best == &group.results[i]));
+            points.push_back(plotPoint(group.results[i], kind, pareto[i], choice && choice->best == &group.results[i]));
         data["groups"].push_back({{"name", groupName(group)}, {"truth", group.truth}, {"points", points}});
     }
     for (const ScalingCurve& curve : scalingCurves(record.groups)) {
         data["curves"].push_back({{"scene", curve.scene},
                                   {"name", pointName(curve.key)},
                                   {"technique", curve.key.technique},
-                                  {"layout", curve.key.layout},
+                                  {"mark", kind.of(curve.key)},
                                   {"quantity", curve.quantity},
                                   {"held", curve.held},
                                   {"x", curve.x},
@@ -88,6 +110,7 @@ std::string answerHtml(const BenchRecord& record, const BenchGroup& group) {
     const BenchResult& best = *choice->best;
     std::string how = best.key.tilePixels ? fmt::format("{} {}, ", best.key.culling, *best.key.tilePixels) : "";
     how += best.key.layout;
+    if (best.key.shadow) how += ", " + shadowText(*best.key.shadow);
     if (best.key.rangeTolerance > 0.0) how += fmt::format(", range {:g}", best.key.rangeTolerance);
     std::string html =
         unfinished + "<dl class=\"answer\">\n" + tileHtml("Take", escapedHtml(best.key.technique), escapedHtml(how));
@@ -118,11 +141,11 @@ std::string paretoHtml(const BenchRecord& record, const BenchGroup& headline) {
         choices += fmt::format("<option value=\"{}\"{}>{}</option>", i,
                                &record.groups[i] == &headline ? " selected=\"selected\"" : "",
                                escapedHtml(groupName(record.groups[i])));
-    std::set<std::string> layouts;
-    for (const BenchGroup& group : record.groups)
-        for (const BenchResult& result : group.results) layouts.insert(result.key.layout);
-    const char* shapes =
-        layouts.size() > 1 ? " Circles store every G-buffer channel in fp32, the other shapes pack it." : "";
+    const MarkKind& kind = markKindOf(record);
+    const char* shapes = marksOf(record, kind).size() < 2 ? ""
+                         : &kind == &kByShadow
+                             ? " Shapes tell how shadows are found."
+                             : " Circles store every G-buffer channel in fp32, the other shapes pack it.";
     return fmt::format(
         "<section id=\"front\">\n<h2>Error against run time</h2>\n"
         "<p class=\"lede\">Every mark is one way to draw the same picture: faster to the left, closer to the truth "

@@ -92,6 +92,28 @@ std::optional<BenchError> errorFrom(const Json& json) {
     return error;
 }
 
+std::optional<ShadowKey> shadowFrom(const Json& json) {
+    const Json& filter = json.at(std::string(kShadowFilterKey));
+    if (filter.is_null()) return {};
+    ShadowKey key{filter.get<std::string>(), {}};
+    for (const ShadowSetting& row : shadowSettingTable()) {
+        const Json& value = json.at(std::string(row.key));
+        if (!value.is_null()) key.values.push_back({row.key, fmt::format("{}", value.get<double>())});
+    }
+    return key;
+}
+
+/// Why fields of shadows are null.
+void explainShadows(const PointKey& key, std::map<std::string, std::string>& why) {
+    if (!key.shadow) why[std::string(kShadowFilterKey)] = "no light casts shadows";
+    for (const ShadowSetting& row : shadowSettingTable()) {
+        if (!key.shadow || key.shadow->filter == kNoShadows)
+            why[std::string(row.key)] = "no light casts shadows";
+        else if (!key.shadow->text(row.key))
+            why[std::string(row.key)] = row.absent;
+    }
+}
+
 BenchResult resultFrom(const Json& json) {
     BenchResult result;
     read(json, "technique", result.key.technique);
@@ -99,6 +121,7 @@ BenchResult resultFrom(const Json& json) {
     read(json, "tile", result.key.tilePixels);
     read(json, "layout", result.key.layout);
     read(json, "range", result.key.rangeTolerance);
+    result.key.shadow = shadowFrom(json);
     read(json, "cullOn", result.builder);
     read(json, "cullNormals", result.normalTest);
     result.times.cpuMs = spreadFrom(json.at("cpuMs")).value();
@@ -151,36 +174,48 @@ Json picturesJson(const BenchGroup& group) {
 
 } // namespace
 
+Json shadowJson(const PointKey& key) {
+    Json json = {{kShadowFilterKey, key.shadow ? Json(key.shadow->filter) : Json(nullptr)}};
+    for (const ShadowSetting& row : shadowSettingTable()) {
+        const std::string* const text = key.shadow ? key.shadow->text(row.key) : nullptr;
+        json[std::string(row.key)] = text ? Json::parse(*text) : Json(nullptr);
+    }
+    return json;
+}
+
 Json pointJson(const BenchGroup& group, const BenchResult& result, std::optional<bool> pareto) {
     Json passes = Json::array();
     for (const PassTime& pass : result.times.passes)
         passes.push_back({{"name", pass.name}, {"gpuMs", orNull(pass.gpuMs)}});
     std::map<std::string, std::string> why = result.why;
     if (!result.key.tilePixels) why["tile"] = why["cullOn"] = why["cullNormals"] = "no light lists";
+    explainShadows(result.key, why);
     if (!result.error && !why.contains("error")) why["error"] = "not measured yet";
     if (!pareto) why["pareto"] = result.error ? "the error could not be measured" : why["error"];
-    return {{"scene", group.scene},
-            {"technique", result.key.technique},
-            {"culling", result.key.culling},
-            {"tile", orNull(result.key.tilePixels)},
-            {"cullOn", orNull(result.builder)},
-            {"cullNormals", orNull(result.normalTest)},
-            {"layout", result.key.layout},
-            {"range", result.key.rangeTolerance},
-            {"lights", group.lights},
-            {"size", {group.sizePixels.x, group.sizePixels.y}},
-            {"gpuMs", spreadJson(result.times.gpuMs)},
-            {"cpuMs", spreadJson(result.times.cpuMs)},
-            {"passes", passes},
-            {"counters", countersJson(result.counters)},
-            {"floorMs", orNull(result.floorMs)},
-            {"ratioToFloor", orNull(result.ratioToFloor)},
-            {"floorLitMs", orNull(result.floorLitMs)},
-            {"ratioToLitFloor", orNull(result.ratioToLitFloor)},
-            {"error", errorJson(result.error)},
-            {"against", group.truth},
-            {"pareto", orNull(pareto)},
-            {"why", why}};
+    Json json = {{"scene", group.scene},
+                 {"technique", result.key.technique},
+                 {"culling", result.key.culling},
+                 {"tile", orNull(result.key.tilePixels)},
+                 {"cullOn", orNull(result.builder)},
+                 {"cullNormals", orNull(result.normalTest)},
+                 {"layout", result.key.layout},
+                 {"range", result.key.rangeTolerance}};
+    json.update(shadowJson(result.key));
+    json.update({{"lights", group.lights},
+                 {"size", {group.sizePixels.x, group.sizePixels.y}},
+                 {"gpuMs", spreadJson(result.times.gpuMs)},
+                 {"cpuMs", spreadJson(result.times.cpuMs)},
+                 {"passes", passes},
+                 {"counters", countersJson(result.counters)},
+                 {"floorMs", orNull(result.floorMs)},
+                 {"ratioToFloor", orNull(result.ratioToFloor)},
+                 {"floorLitMs", orNull(result.floorLitMs)},
+                 {"ratioToLitFloor", orNull(result.ratioToLitFloor)},
+                 {"error", errorJson(result.error)},
+                 {"against", group.truth},
+                 {"pareto", orNull(pareto)},
+                 {"why", why}});
+    return json;
 }
 
 Json lowerBoundJson(const BenchGroup& group) {

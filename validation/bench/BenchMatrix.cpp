@@ -14,6 +14,7 @@
 #include "base/Names.h"
 #include "scenes/Limits.h"
 #include "scenes/import/JsonText.h"
+#include "validation/bench/ShadowKey.h"
 
 namespace tessera::validation {
 
@@ -23,8 +24,6 @@ using ParsedJson = nlohmann::json;
 using culling::Method;
 using engine::Technique;
 
-constexpr const char* kNoShadows =
-    "benchmarks do not vary shadows yet; give --shadows, which holds for all points, and leave the key out";
 constexpr const char* kNoSubsurface =
     "this version has no subsurface scattering, so there is nothing to vary; leave the key out";
 
@@ -58,14 +57,49 @@ glm::ivec2 sizeIn(const ParsedJson& value, const std::string& source, const std:
         fmt::format("{} is no size such as \"1280x720\", each side 1 to {}", value.dump(), frame::kLargestSidePixels));
 }
 
+struct ShadowName {
+    std::string_view name;
+};
+
+const std::vector<ShadowName>& shadowNames() {
+    static const std::vector<ShadowName> names = [] {
+        std::vector<ShadowName> all{{kNoShadows}};
+        for (const frame::ShadowFilterInfo& info : frame::shadowFilterTable()) all.push_back({info.name});
+        return all;
+    }();
+    return names;
+}
+
+/// The text of a setting whose values are numbers, or of one that is left open.
+std::string numberTextIn(const engine::Setting& setting, const ParsedJson& value, const std::string& source) {
+    const std::string key(setting.key);
+    const bool isOpen = value.is_string() && !setting.value.open.empty() && value == setting.value.open;
+    if (!isOpen && !value.is_number()) refuse(source, key, fmt::format("{} is no number", value.dump()));
+    try {
+        engine::ViewRequest request;
+        setting.read(request, isOpen ? std::string(setting.value.open) : value.dump());
+        return setting.text(request);
+    } catch (const InputError& error) {
+        refuse(source, key, error.what());
+    }
+}
+
+void addShadowValue(BenchMatrix& matrix, std::string_view key, std::string text) {
+    auto values = std::ranges::find(matrix.shadows, key, &BenchMatrix::ShadowValues::key);
+    if (values == matrix.shadows.end()) values = matrix.shadows.insert(values, {key, {}});
+    values->texts.push_back(std::move(text));
+}
+
+constexpr std::string_view kRefusedKey = "subsurface";
+
 /// Keys of the matrix and what reads a value of each.
 struct Key {
     std::string_view name;
     std::function<void(BenchMatrix&, const ParsedJson&, const std::string& source)> add;
 };
 
-const std::vector<Key>& keys() {
-    static const std::vector<Key> table{
+std::vector<Key> makeKeys() {
+    std::vector<Key> table{
         {"technique",
          [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
              m.techniques.push_back(rowNamed(engine::techniqueTable(), v, s, "technique").technique);
@@ -94,16 +128,37 @@ const std::vector<Key>& keys() {
                         fmt::format("{} is no range tolerance; give 0, which ends no light, or more", v.dump()));
              m.rangeTolerances.push_back(v.get<double>());
          }},
-        {"shadow", [](BenchMatrix&, const ParsedJson&, const std::string& s) { refuse(s, "shadow", kNoShadows); }},
-        {"subsurface",
-         [](BenchMatrix&, const ParsedJson&, const std::string& s) { refuse(s, "subsurface", kNoSubsurface); }},
         {"size", [](BenchMatrix& m, const ParsedJson& v,
                     const std::string& s) { m.sizesPixels.push_back(sizeIn(v, s, "size")); }},
+        {kShadowFilterKey,
+         [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
+             const std::string key(kShadowFilterKey);
+             addShadowValue(m, kShadowFilterKey, std::string(rowNamed(shadowNames(), v, s, key).name));
+         }},
     };
+    for (const ShadowSetting& row : shadowSettingTable())
+        table.push_back({row.key, [&row](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
+                             addShadowValue(m, row.key, numberTextIn(engine::settingOf(row.key), v, s));
+                         }});
+    table.push_back({kRefusedKey, [](BenchMatrix&, const ParsedJson&, const std::string& s) {
+                         refuse(s, std::string(kRefusedKey), kNoSubsurface);
+                     }});
+    return table;
+}
+
+const std::vector<Key>& keys() {
+    static const std::vector<Key> table = makeKeys();
     return table;
 }
 
 } // namespace
+
+std::string matrixKeys() {
+    std::string names;
+    for (const Key& key : keys())
+        if (key.name != kRefusedKey) names += (names.empty() ? "" : ", ") + std::string(key.name);
+    return names;
+}
 
 BenchMatrix parseMatrix(std::string_view json, const std::string& source, scenes::LoadLedger& ledger) {
     const ParsedJson root = scenes::parseJson(json, source, ledger);

@@ -12,6 +12,11 @@ namespace tessera::validation {
 /// What `tessera bench` runs through: the Cartesian product of these lists. An empty list stands for one entry, what
 /// the settings of the command line say.
 struct BenchMatrix {
+    /// A setting of shadows: its key and the texts of its values (validation/bench/ShadowKey.h).
+    struct ShadowValues {
+        std::string_view key;
+        std::vector<std::string> texts;
+    };
     std::vector<engine::Technique> techniques; ///< empty: all
     std::vector<culling::Method> methods;      ///< empty: every method that the technique takes
     bool preferredMethodsOnly = false;         ///< without methods: the one alone that the technique prefers
@@ -20,12 +25,15 @@ struct BenchMatrix {
     std::vector<int> lights;
     std::vector<glm::ivec2> sizesPixels;
     std::vector<double> rangeTolerances;
+    std::vector<ShadowValues> shadows; ///< of each key that varies; not empty
 };
 
-/// Reads the matrix of a JSON object of arrays with the keys technique, culling, tile, layout, lights, size and range.
-/// `source` names it in messages. Throws InputError that names the line and column of broken syntax, a key that is
-/// given twice, or the key or value and the nearest valid ones; keys of what this version cannot vary (shadow,
-/// subsurface) are refused as such. The ledger is charged for it.
+/// "technique, culling, ...": all keys.
+std::string matrixKeys();
+
+/// Reads the matrix of a JSON object of arrays with these keys. `source` names it in messages. Throws InputError that
+/// names the line and column of broken syntax, a key that is given twice, or the key or value and the nearest valid
+/// ones; what this version cannot vary, subsurface, is refused as such. The ledger is charged for it.
 BenchMatrix parseMatrix(std::string_view json, const std::string& source, scenes::LoadLedger& ledger);
 
 } // namespace tessera::validation

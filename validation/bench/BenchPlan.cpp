@@ -1,6 +1,7 @@
 #include "validation/bench/BenchPlan.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -44,12 +45,90 @@ void skip(BenchPlan& plan, const std::string& what, const std::string& why) {
     if (!isKnown) plan.skipped.push_back({what, why});
 }
 
+/// What the points of a group have in common with every technique: a range tolerance and how shadows are found.
+struct Variant {
+    std::optional<double> range; ///< as the matrix has it
+    frame::FrameSettings settings;
+    std::optional<ShadowKey> shadow;
+    std::vector<frame::ShadowFace> faces; ///< of its maps
+};
+
+/// Other settings of maps are no other frame where the faces are the same.
+bool isSameFrame(const Variant& a, const Variant& b) {
+    if (!a.shadow || !b.shadow) return a.shadow == b.shadow;
+    const auto isSame = [&](const ShadowSetting& row) {
+        const std::string *const textA = a.shadow->text(row.key), *const textB = b.shadow->text(row.key);
+        return row.isOfMaps || (textA && textB ? *textA == *textB : textA == textB);
+    };
+    return a.shadow->filter == b.shadow->filter && a.faces == b.faces &&
+           std::ranges::all_of(shadowSettingTable(), isSame);
+}
+
+struct ShadowChoice {
+    std::string asked; ///< in words of the matrix; empty where it has none
+    frame::FrameSettings settings;
+};
+
+std::vector<ShadowChoice> shadowChoices(const BenchMatrix& matrix, const frame::FrameSettings& settings) {
+    std::vector<ShadowChoice> choices{{"", settings}};
+    for (const auto& [key, texts] : matrix.shadows) {
+        std::vector<ShadowChoice> longer;
+        for (const ShadowChoice& choice : choices) {
+            for (const std::string& text : texts) {
+                engine::ViewRequest request{.settings = choice.settings};
+                readShadowSetting(request, key, text);
+                longer.push_back({fmt::format("{}{}{} {}", choice.asked, choice.asked.empty() ? "" : ", ", key, text),
+                                  request.settings});
+            }
+        }
+        choices = std::move(longer);
+    }
+    return choices;
+}
+
+/// The lights and maps of a frame, which are the same for all techniques.
+frame::PreparedView preparedFor(const scenes::Scene& scene, frame::FrameSettings settings) {
+    settings.culling = {};
+    settings.lightOn.reset();
+    return engine::prepareView(scene, Technique::Forward, settings);
+}
+
+std::string placeOf(const PlannedGroup& group) {
+    return fmt::format("{} with {}", group.scene, frame::lightsText(std::size_t(group.lights)));
+}
+
+std::vector<Variant> variantsOf(BenchPlan& plan, const PlannedGroup& group, const BenchMatrix& matrix,
+                                const scenes::Scene& scene) {
+    std::vector<Variant> variants;
+    for (const std::optional<double>& range : orDefault(matrix.rangeTolerances)) {
+        frame::FrameSettings settings = group.settings;
+        if (range) settings.rangeTolerance = *range;
+        if (!rangesMatter(scene)) settings.rangeTolerance = 0.0;
+        const bool hasShadows = preparedFor(scene, settings).lights.shadowed > 0;
+        std::vector<Variant> ofRange;
+        for (ShadowChoice& choice : shadowChoices(matrix, settings)) {
+            const frame::PreparedView prepared = preparedFor(scene, choice.settings);
+            Variant variant{range, std::move(choice.settings), {}, prepared.shadowMaps.faces};
+            if (hasShadows) variant.shadow = shadowKeyOf(prepared.lights, variant.settings);
+            const auto same =
+                std::ranges::find_if(ofRange, [&](const Variant& other) { return isSameFrame(other, variant); });
+            if (same == ofRange.end())
+                ofRange.push_back(std::move(variant));
+            else
+                skip(plan, fmt::format("{} in {}", choice.asked, placeOf(group)),
+                     same->shadow ? "it is the same frame as " + shadowText(*same->shadow) : "no light casts shadows");
+        }
+        std::ranges::move(ofRange, std::back_inserter(variants));
+    }
+    return variants;
+}
+
 /// The points of one technique, and what it does not take, in the order of the matrix.
 class TechniquePoints {
 public:
     TechniquePoints(BenchPlan& plan, PlannedGroup& group, const BenchMatrix& matrix, const scenes::Scene& scene,
-                    const frame::FrameSettings& settings, Technique technique)
-        : plan_(plan), group_(group), matrix_(matrix), scene_(scene), settings_(settings), technique_(technique),
+                    std::span<const Variant> variants, Technique technique)
+        : plan_(plan), group_(group), matrix_(matrix), scene_(scene), variants_(variants), technique_(technique),
           info_(infoOf(technique)) {}
 
     void add() {
@@ -58,8 +137,7 @@ public:
             const bool hasTiles = method != Method::None;
             for (const std::optional<int>& tile : hasTiles ? orDefault(matrix_.tilesPixels) : orDefault<int>({})) {
                 for (const std::optional<frame::LayoutInfo>& layout : layouts) {
-                    for (const std::optional<double>& range : orDefault(matrix_.rangeTolerances))
-                        add(method, tile, layout, range);
+                    for (const Variant& variant : variants_) add(method, tile, layout, variant);
                 }
             }
         }
@@ -68,8 +146,8 @@ public:
 private:
     std::vector<Method> methods() {
         if (matrix_.methods.empty()) {
-            if (settings_.culling.method && engine::takesMethod(technique_, *settings_.culling.method))
-                return {*settings_.culling.method};
+            const std::optional<Method>& asked = group_.settings.culling.method;
+            if (asked && engine::takesMethod(technique_, *asked)) return {*asked};
             if (matrix_.preferredMethodsOnly) return {info_.methods.front()};
             return {info_.methods.begin(), info_.methods.end()};
         }
@@ -95,41 +173,35 @@ private:
     }
 
     void add(Method method, const std::optional<int>& tile, const std::optional<frame::LayoutInfo>& layout,
-             const std::optional<double>& range) {
+             const Variant& variant) {
         BenchPoint point;
         point.technique = technique_;
-        point.settings = settings_;
+        point.settings = variant.settings;
         point.settings.culling.method = method;
         if (method == Method::None) point.settings.culling.tilePixels.reset();
         if (!engine::hasLightLists(technique_)) point.settings.culling.builder.reset();
         if (!engine::listsFromGBuffer(technique_)) point.settings.culling.normals.reset();
         if (tile) point.settings.culling.tilePixels = *tile;
         if (layout) point.settings.layout = layout->layout;
-        if (range) point.settings.rangeTolerance = *range;
-        if (!rangesMatter(scene_)) point.settings.rangeTolerance = 0.0;
         const culling::Choice choice =
             engine::prepareView(scene_, technique_, point.settings).spec.culling; // the culling that this scene needs
-        point.key = {std::string(info_.name),
-                     std::string(infoOf(choice.method).name),
-                     {},
-                     layoutName(point.settings.layout),
-                     point.settings.rangeTolerance};
+        point.key = {std::string(info_.name),           std::string(infoOf(choice.method).name), {},
+                     layoutName(point.settings.layout), point.settings.rangeTolerance,           variant.shadow};
         if (choice.method != Method::None) point.key.tilePixels = choice.tilePixels;
         const bool isKnown = std::any_of(group_.points.begin(), group_.points.end(),
                                          [&](const BenchPoint& other) { return other.key == point.key; });
         if (!isKnown) return group_.points.push_back(std::move(point));
         std::string what = fmt::format("{}, {}", info_.name, infoOf(method).name);
         if (tile) what += fmt::format(" {}", *tile);
-        if (range && *range > 0.0) what += fmt::format(", range {:g}", *range);
-        skip(plan_, fmt::format("{} in {} with {}", what, group_.scene, frame::lightsText(std::size_t(group_.lights))),
-             "it is the same frame as " + pointName(point.key));
+        if (variant.range && *variant.range > 0.0) what += fmt::format(", range {:g}", *variant.range);
+        skip(plan_, fmt::format("{} in {}", what, placeOf(group_)), "it is the same frame as " + pointName(point.key));
     }
 
     BenchPlan& plan_;
     PlannedGroup& group_;
     const BenchMatrix& matrix_;
     const scenes::Scene& scene_;
-    const frame::FrameSettings& settings_;
+    std::span<const Variant> variants_;
     Technique technique_;
     const engine::TechniqueInfo& info_;
 };
@@ -170,7 +242,8 @@ void addToPlan(BenchPlan& plan, const BenchMatrix& matrix, const std::string& sc
                                fingerprint,
                                common.sizePixels,
                                {},
-                               false};
+                               false,
+                               common};
             const bool isKnown = std::any_of(plan.groups.begin(), plan.groups.end(), [&](const PlannedGroup& other) {
                 return other.scene == sceneName && other.lights == group.lights && other.sizePixels == group.sizePixels;
             });
@@ -181,8 +254,9 @@ void addToPlan(BenchPlan& plan, const BenchMatrix& matrix, const std::string& sc
                      "it is measured already");
                 continue;
             }
+            const std::vector<Variant> variants = variantsOf(plan, group, matrix, scene);
             for (const Technique technique : techniques)
-                TechniquePoints(plan, group, matrix, scene, common, technique).add();
+                TechniquePoints(plan, group, matrix, scene, variants, technique).add();
             if (!group.points.empty()) plan.groups.push_back(std::move(group));
         }
     }

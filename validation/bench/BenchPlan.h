@@ -27,7 +27,8 @@ struct PlannedGroup {
     std::uint64_t fingerprint = 0; ///< of the scene so loaded (scenes/Fingerprint.h)
     glm::ivec2 sizePixels{0};
     std::vector<BenchPoint> points;
-    bool keepsPictures = false; ///< the group with most work of its scene
+    bool keepsPictures = false;      ///< the group with most work of its scene
+    frame::FrameSettings settings{}; ///< of the command line, with the group's size: what the truth shows
 };
 
 struct BenchPlan {

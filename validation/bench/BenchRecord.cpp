@@ -23,11 +23,13 @@ std::string figure(const std::optional<double>& value, const char* format) {
 }
 
 Json keyJson(const PointKey& key) {
-    return {{"technique", key.technique},
-            {"culling", key.culling},
-            {"tile", orNull(key.tilePixels)},
-            {"layout", key.layout},
-            {"range", key.rangeTolerance}};
+    Json json = {{"technique", key.technique},
+                 {"culling", key.culling},
+                 {"tile", orNull(key.tilePixels)},
+                 {"layout", key.layout},
+                 {"range", key.rangeTolerance}};
+    json.update(shadowJson(key));
+    return json;
 }
 
 Json scalingJson(std::span<const BenchGroup> groups) {
@@ -75,13 +77,20 @@ std::string groupTable(const BenchGroup& group) {
                     groupName(group), group.truth, group.lowerBound.rounds, group.lowerBound.geometryMs,
                     store ? fmt::format(", {:.2f} ns a light and pixel ({})", store->nsPerPair, store->name) : "");
     Table table(kTableWidth);
-    table.addColumn("technique");
+    const auto any = [&](auto&& holds) {
+        return std::ranges::any_of(group.results, [&](const BenchResult& result) { return holds(result.key); });
+    };
+    const bool hasRange = any([](const PointKey& key) { return key.rangeTolerance > 0.0; });
+    const bool hasShadows = any([](const PointKey& key) { return key.shadow.has_value(); });
+    // Their column needs room: names of techniques stay whole, and a long title breaks.
+    table.addColumn("technique", Table::Align::Left, hasShadows ? Table::Cells::Whole : Table::Cells::Break);
     table.addColumn("culling", Table::Align::Left, Table::Cells::Whole);
     table.addColumn("layout");
-    const bool hasRange = std::any_of(group.results.begin(), group.results.end(),
-                                      [](const BenchResult& result) { return result.key.rangeTolerance > 0.0; });
     if (hasRange) table.addColumn("range", Table::Align::Right, Table::Cells::Whole);
-    for (const char* title : {"ms", "p95", "to lower bound", "to lit", "visited", "relMSE", "bias"})
+    if (hasShadows) table.addColumn("shadows");
+    for (const char* title : {"ms", "p95"}) table.addColumn(title, Table::Align::Right, Table::Cells::Whole);
+    table.addColumn("to lower bound", Table::Align::Right, hasShadows ? Table::Cells::Break : Table::Cells::Whole);
+    for (const char* title : {"to lit", "visited", "relMSE", "bias"})
         table.addColumn(title, Table::Align::Right, Table::Cells::Whole);
     table.addColumn("front", Table::Align::Left, Table::Cells::Whole);
     const std::vector<std::optional<bool>> pareto = paretoFront(group);
@@ -92,6 +101,7 @@ std::string groupTable(const BenchGroup& group) {
         std::vector<std::string> row{
             key.technique, key.tilePixels ? fmt::format("{}, {}", key.culling, *key.tilePixels) : "none", key.layout};
         if (hasRange) row.push_back(key.rangeTolerance > 0.0 ? fmt::format("{:g}", key.rangeTolerance) : "-");
+        if (hasShadows) row.push_back(key.shadow ? shadowText(*key.shadow) : "-");
         for (const std::string& cell :
              {fmt::format("{:.1f}", result.times.cpuMs.median), fmt::format("{:.1f}", result.times.cpuMs.p95),
               figure(result.ratioToFloor, "{:.2f}"), figure(result.ratioToLitFloor, "{:.2f}"),

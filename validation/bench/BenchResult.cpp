@@ -11,6 +11,7 @@ std::string pointName(const PointKey& key) {
     if (key.tilePixels) name += fmt::format(", {} {}", key.culling, *key.tilePixels);
     name += ", " + key.layout;
     if (key.rangeTolerance > 0.0) name += fmt::format(", range {:g}", key.rangeTolerance);
+    if (key.shadow) name += ", " + shadowText(*key.shadow);
     return name;
 }
 

@@ -101,7 +101,10 @@ std::string pointsHtml(const BenchGroup& group) {
                                      [](const BenchResult& result) { return result.error && result.error->flip; });
     std::string html = headHtml({"Technique", "Culling", "Layout"});
     html.erase(html.rfind("</tr>"));
+    const bool hasShadows = std::any_of(group.results.begin(), group.results.end(),
+                                        [](const BenchResult& result) { return result.key.shadow.has_value(); });
     if (hasRange) html += "<th scope=\"col\">Range</th>";
+    if (hasShadows) html += "<th scope=\"col\">Shadows</th>";
     for (const char* title :
          {"ms a frame", "p95", "To lower bound", "To lit lower bound", "Visited", "relMSE", "p99 rel", "Bias"})
         html += fmt::format("<th scope=\"col\">{}</th>", title);
@@ -125,6 +128,9 @@ std::string pointsHtml(const BenchGroup& group) {
                             escapedHtml(key.layout));
         if (hasRange)
             html += cellHtml("Range", key.rangeTolerance > 0.0 ? fmt::format("{:g}", key.rangeTolerance) : "&ndash;");
+        if (hasShadows)
+            html += fmt::format("<td data-label=\"Shadows\">{}</td>\n",
+                                key.shadow ? escapedHtml(shadowText(*key.shadow)) : "&ndash;");
         html += cellHtml("ms a frame", fmt::format("{:.1f}", result.times.cpuMs.median)) +
                 cellHtml("p95", fmt::format("{:.1f}", result.times.cpuMs.p95)) +
                 cellHtml("To lower bound", orDash(result.ratioToFloor, "{:.2f}")) +

@@ -1,5 +1,6 @@
 #include "validation/bench/GroupTruth.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@ frame::FrameSettings exactSettings(frame::FrameSettings settings, frame::Texture
     settings.filter = filter;
     settings.culling = {};
     settings.lightOn.reset();
+    settings.shadowFilter = frame::ShadowFilter::Traced;
     settings.display = false;
     return settings;
 }
@@ -40,14 +42,14 @@ BenchTruth chooseTruth(std::optional<BenchTruth> asked, const frame::FrameSettin
 
 GroupTruth::GroupTruth(engine::Renderer& renderer, BenchTruth truth, const frame::FrameSettings& settings,
                        frame::TextureFilter filter, const std::function<void()>& rowDone)
-    : renderer_(renderer), filter_(filter) {
-    const frame::FrameSettings exact = exactSettings(settings, filter);
+    : renderer_(renderer), filter_(filter), settings_(exactSettings(settings, filter)) {
+    settings_.shadowSamples = std::max(settings_.shadowSamples, kTruthShadowSamples);
     if (truth == BenchTruth::Forward) {
-        picture_ = toPicture(renderer.render(engine::Technique::Forward, exact));
+        picture_ = toPicture(renderer.render(engine::Technique::Forward, settings_));
         return;
     }
-    reference_ = referencePicture(renderer.scene(), exact, rowDone);
-    excluded_ = shownTriangles(renderer, exact, reference_->ids).excluded;
+    reference_ = referencePicture(renderer.scene(), settings_, rowDone, Leeway::Definition);
+    excluded_ = shownTriangles(renderer, settings_, reference_->ids).excluded;
     picture_ = reference_->picture;
 }
 

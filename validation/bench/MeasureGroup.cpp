@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -53,12 +55,13 @@ public:
         group_.lights = planned.lights;
         group_.sizePixels = planned.sizePixels;
         group_.triangles = planned.triangles;
-        for (const BenchPoint& point : planned.points) timed_.push_back({&renderer_, point.technique, point.settings});
+        for (const BenchPoint& point : planned.points)
+            timed_.push_back({&rendererOf(point, scene), point.technique, point.settings});
     }
 
     void run() {
         timeRounds();
-        const frame::FrameSettings& settings = planned_.points.front().settings;
+        const frame::FrameSettings& settings = planned_.settings;
         const BenchTruth kind = chooseTruth(options_.against, settings, planned_.lights, group_.whyTruth);
         group_.truth = kind == BenchTruth::Reference ? "reference" : "forward";
         const GroupTruth truth(renderer_, kind, settings, options_.errorFilter.value_or(frame::TextureFilter::Exact),
@@ -79,6 +82,15 @@ public:
     }
 
 private:
+    /// A renderer keeps one atlas of shadow maps from frame to frame. Points with other maps would draw over its faces,
+    /// and their times would depend on which others there are, so each kind of map has a renderer.
+    engine::Renderer& rendererOf(const BenchPoint& point, const scenes::Scene& scene) {
+        if (!point.key.shadow || !point.key.shadow->usesMaps()) return renderer_;
+        std::unique_ptr<engine::Renderer>& renderer = mapRenderers_[shadowText(*point.key.shadow)];
+        if (!renderer) renderer = std::make_unique<engine::Renderer>(context_, scene);
+        return *renderer;
+    }
+
     void timeRounds() {
         const std::vector<TimedFrame> lowerBoundFrames = lowerBound_.frames();
         const std::size_t kinds = timed_.size() + lowerBoundFrames.size();
@@ -108,7 +120,7 @@ private:
         result.key = point.key;
         result.times.cpuMs = spreadOf(timesMs_[index]);
         profilePoint(result.times, timed_[index]);
-        countPoint(renderer_, point, result);
+        countPoint(*timed_[index].renderer, point, result);
         compareWithLowerBound(result);
         result.why.insert(result.times.why.begin(), result.times.why.end());
         const Picture picture = truth.pictureOf(point.technique, point.settings);
@@ -161,6 +173,7 @@ private:
     GroupState& state_;
     BenchGroup& group_;
     engine::Renderer renderer_;
+    std::map<std::string, std::unique_ptr<engine::Renderer>> mapRenderers_; ///< by shadowText()
     LowerBoundBench lowerBound_;
     std::vector<TimedPoint> timed_;
     std::vector<std::vector<double>> timesMs_; ///< by kind of frame

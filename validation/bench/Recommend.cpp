@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -30,12 +32,16 @@ const BenchResult* fastest(const BenchGroup& group, Condition&& holds) {
     return best;
 }
 
-/// Forward without a range tolerance, else with the one that it was measured with.
+/// Forward without a range tolerance, else with the smallest that it was measured with; of several ways to find shadows
+/// with the most exact one.
 const BenchResult* forwardOf(const BenchGroup& group) {
     const BenchResult* found = nullptr;
     for (const BenchResult& result : group.results) {
         if (result.key.technique != "forward") continue;
-        if (!found || result.key.rangeTolerance < found->key.rangeTolerance) found = &result;
+        const auto rank = [](const BenchResult& one) {
+            return std::pair(one.key.rangeTolerance, relMseOf(one).value_or(std::numeric_limits<double>::infinity()));
+        };
+        if (!found || rank(result) < rank(*found)) found = &result;
     }
     return found;
 }
@@ -111,9 +117,13 @@ bool isDisturbed(const BenchResult& result) {
     return result.times.cpuMs.p95 > kSteady * timeOf(result);
 }
 
+/// Says also how forward found its shadows, where the result found them in another way.
 std::string againstForward(const BenchResult& result, const BenchResult& baseline) {
-    if (isAsFast(result.times.cpuMs, baseline.times.cpuMs)) return "as fast as forward within the spread of the times";
-    return speedText(timeOf(baseline) / timeOf(result));
+    const bool isOtherwise = baseline.key.shadow && baseline.key.shadow != result.key.shadow;
+    const std::string how = isOtherwise ? fmt::format(" ({})", shadowText(*baseline.key.shadow)) : "";
+    if (isAsFast(result.times.cpuMs, baseline.times.cpuMs))
+        return fmt::format("as fast as forward{} within the spread of the times", how);
+    return speedText(timeOf(baseline) / timeOf(result)) + how;
 }
 
 } // namespace

@@ -20,7 +20,8 @@ struct Recommendation {
         nullptr; ///< the fastest, where the times do not tell it from best and best is more exact
     /// The fastest that is as exact as any, where that is another point.
     const BenchResult* exact = nullptr;
-    const BenchResult* baseline = nullptr; ///< forward, where it was measured
+    /// Forward, where it was measured: with the smallest range tolerance, and with the shadows of the smallest error.
+    const BenchResult* baseline = nullptr;
     bool isAcceptable = false;
     std::optional<double> speedup;      ///< of best over forward
     std::optional<double> exactSpeedup; ///< of exact over forward

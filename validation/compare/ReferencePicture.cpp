@@ -37,11 +37,12 @@ void requireReferenceTakes(const frame::FrameSettings& settings) {
 }
 
 ReferencePicture referencePicture(const scenes::Scene& scene, const frame::FrameSettings& settings,
-                                  const std::function<void()>& rowDone, bool leeway) {
+                                  const std::function<void()>& rowDone, Leeway leeway) {
     requireReferenceTakes(settings);
     engine::prepareView(scene, engine::Technique::Forward, settings); // throws for names that the scene lacks
     reference::Settings wanted = referenceSettings(scene, settings);
-    wanted.leeway = leeway;
+    wanted.leeway = leeway != Leeway::None;
+    if (leeway != Leeway::DefinitionAndNoise) wanted.shadowSamples = 0;
     reference::Rendered rendered = reference::render(scene, wanted, rowDone);
     ReferencePicture result;
     result.picture.width = rendered.width;

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -26,12 +27,15 @@ struct ReferencePicture {
     Picture nearestTo(const Picture& shown) const;
 };
 
+/// What else than the picture is found: nothing; the alternatives, which take up to fifteen times as long; or among
+/// these also what the noise of traced rays to lights with a size may show.
+enum class Leeway : std::uint8_t { None, Definition, DefinitionAndNoise };
+
 /// What a frame shows by definition, with the filter of the settings. `rowDone` is called once a row, from any thread.
-/// Without `leeway` there are no alternatives, which take up to fifteen times as long. Throws InputError when
-/// the settings name what the scene lacks or requireReferenceTakes() does.
+/// Throws InputError when the settings name what the scene lacks or requireReferenceTakes() does.
 ReferencePicture referencePicture(
     const scenes::Scene& scene, const frame::FrameSettings& settings, const std::function<void()>& rowDone = [] {},
-    bool leeway = true);
+    Leeway leeway = Leeway::DefinitionAndNoise);
 
 /// What a technique with every G-buffer channel in fp32 is held to against the reference, with the reason.
 Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSettings& settings);

@@ -6,13 +6,14 @@
     if (!source || typeof Chart === "undefined") return;
     const data = JSON.parse(source.textContent);
     const shapes = ["circle", "triangle", "rect", "rectRot", "star"];
-    const layouts = [...new Set(data.groups.flatMap((group) => group.points.map((point) => point.layout)))];
-    layouts.sort((a, b) => (b === "exact") - (a === "exact"));
+    const kinds = [...new Set(data.groups.flatMap((group) => group.points.map((point) => point.mark)))];
+    const isExact = (kind) => kind === "exact" || kind === "traced"; // a circle
+    kinds.sort((a, b) => isExact(b) - isExact(a));
     const redraws = [];
 
     const variable = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
     const colourOf = (technique) => variable("--technique-" + data.techniques.indexOf(technique));
-    const shapeOf = (layout) => shapes[Math.max(0, layouts.indexOf(layout)) % shapes.length];
+    const shapeOf = (kind) => shapes[Math.max(0, kinds.indexOf(kind)) % shapes.length];
     const isNarrow = () => window.innerWidth < 600;
 
     const superscript = (number) =>
@@ -176,7 +177,7 @@
                     borderWidth: 1,
                     pointRadius: own.map((point) => (point.front ? 8 : 6)),
                     pointHoverRadius: 9,
-                    pointStyle: own.map((point) => shapeOf(point.layout)),
+                    pointStyle: own.map((point) => shapeOf(point.mark)),
                 };
             });
         const front = measured.filter((point) => point.front).sort((a, b) => a.ms - b.ms || b.relMse - a.relMse);
@@ -205,16 +206,16 @@
             pointStyle: "circle",
         });
         // What the shapes mean stands in the legend without marks of its own.
-        const shown = layouts.filter((layout) => measured.some((point) => point.layout === layout));
+        const shown = kinds.filter((kind) => measured.some((point) => point.mark === kind));
         if (shown.length > 1) {
-            for (const layout of shown) {
+            for (const kind of shown) {
                 datasets.push({
-                    label: layout + " layout",
+                    label: data.markKind === "layout" ? kind + " layout" : "shadows " + kind,
                     isKey: true,
                     data: [],
                     backgroundColor: "transparent",
                     borderColor: variable("--soft"),
-                    pointStyle: shapeOf(layout),
+                    pointStyle: shapeOf(kind),
                 });
             }
         }
@@ -249,7 +250,7 @@
     const drawFront = plot("front-plot", () => frontConfiguration(data.groups[groupChoice.value]));
     groupChoice.addEventListener("change", drawFront);
 
-    const kManyCurves = 16; // of which those of one layout are shown at first
+    const kManyCurves = 16; // of which those of one mark are shown at first
     const dashes = [[], [9, 4], [3, 3], [12, 3, 3, 3], [1.5, 2.5], [6, 2, 1.5, 2, 1.5, 2]];
     /** How far a technique's colour goes to the ink's, or below 0 to the card's, by the culling method. */
     const shades = [0, 0.35, -0.35, 0.55, -0.55, 0.2];
@@ -260,7 +261,7 @@
         return "rgb(" + channels(colour).map((value, i) => Math.round(value + (to[i] - value) * share)).join(" ") + ")";
     }
 
-    const cullingOf = (curve) => curve.name.split(", ").slice(1).filter((part) => part !== curve.layout).join(", ");
+    const cullingOf = (curve) => curve.name.split(", ").slice(1).filter((part) => part !== curve.mark).join(", ");
 
     /** A colour for each technique, and a shade and dashes for each of its culling methods. */
     function curveStyles(curves) {
@@ -307,12 +308,12 @@
             `<svg viewBox="-24 -8 48 16" stroke="${set.borderColor}" stroke-width="2" fill="${set.borderColor}">` +
             `<path d="M-24 0H24" stroke-dasharray="${set.borderDash.join(" ")}" />${marks[set.pointStyle]}</svg>`;
         const note = document.createElement("p");
-        note.append("Colour tells the technique, shade and dashes its culling method, and the mark the layout. ");
-        const shown = layouts.filter((layout) => sets.some((set) => set.curve.layout === layout));
+        note.append("Colour tells the technique, shade and dashes its culling method, and the mark the " + data.markKind + ". ");
+        const shown = kinds.filter((kind) => sets.some((set) => set.curve.mark === kind));
         if (shown.length > 1) {
             note.append("Show or hide all of ");
-            for (const layout of shown) {
-                add(note, sets.filter((set) => set.curve.layout === layout), "", layout);
+            for (const kind of shown) {
+                add(note, sets.filter((set) => set.curve.mark === kind), "", kind);
                 note.append(" ");
             }
         }
@@ -343,14 +344,14 @@
             const datasets = curves.map((curve, i) => ({
                 label: curve.name + (curve.growth ? " (" + curve.growth + ")" : ""),
                 curve,
-                hidden: curves.length > kManyCurves && curve.layout !== curves[0].layout,
+                hidden: curves.length > kManyCurves && curve.mark !== curves[0].mark,
                 marks: true,
                 data: curve.x.map((x, i) => ({ x, y: curve.ms[i] })),
                 borderColor: styles[i].colour,
                 backgroundColor: styles[i].colour,
                 borderWidth: 2,
                 borderDash: styles[i].dash,
-                pointStyle: shapeOf(curve.layout),
+                pointStyle: shapeOf(curve.mark),
                 pointRadius: 4,
                 pointHoverRadius: 7,
             }));

@@ -18,7 +18,7 @@ TEST_F(Bench, everyPointIsMeasuredCountedAndComparedWithTheLowerBound) {
     EXPECT_THAT(said, HasSubstr("tile_minmax, 16"));
     EXPECT_THAT(said, HasSubstr("skipped forward, cluster"));
     const Json record = json("out/of/bench/bench.json");
-    EXPECT_EQ(record["schema"], 4);
+    EXPECT_EQ(record["schema"], 5);
     EXPECT_EQ(record["complete"], true);
     EXPECT_FALSE(record["machine"].get<std::string>().empty());
     EXPECT_FALSE(record["commit"].get<std::string>().empty());
@@ -81,6 +81,50 @@ TEST_F(Bench, everyCauseOfErrorIsReported) {
     EXPECT_THAT(ended["attribution"].dump(), HasSubstr("range tolerance 0.05"));
 }
 
+TEST_F(Bench, shadowFiltersAreMeasuredAgainstTracedShadows) {
+    folder_.write("m.json", R"({"technique": ["forward"], "shadow": ["none", "traced", "hard"]})");
+    const auto points = [&](const Words& more) {
+        Words words{"bench", "head", "--size", "64x36", "--frames", "1", "--matrix", "m.json", "-o", "out"};
+        words.insert(words.end(), more.begin(), more.end());
+        runGood(words);
+        return json("out/bench.json");
+    };
+    for (const char* truth : {"reference", "forward"}) {
+        SCOPED_TRACE(truth);
+        const Json record = points({"--shadows", "all", "--against", truth});
+        ASSERT_EQ(record["points"].size(), 3u);
+        const double none = record["points"][0]["error"]["relMse"], traced = record["points"][1]["error"]["relMse"],
+                     hard = record["points"][2]["error"]["relMse"];
+        EXPECT_EQ(record["points"][0]["shadow"], "none");
+        // Outlines of hard shadows are a texel off, and without shadows half of the bust is wrong.
+        EXPECT_LT(traced, 1e-5);
+        EXPECT_GT(hard, 10.0 * traced);
+        EXPECT_GT(none, hard);
+        std::map<std::string, double> causes;
+        for (const Json& line : record["attribution"])
+            if (line["cause"] == "shadow") causes[line["what"]] = line["relMse"];
+        ASSERT_EQ(causes.size(), 2u) << "traced shadows of lights without a size are exact";
+        // The error of a filter is all that hard has beside rounding.
+        EXPECT_NEAR(causes["shadow filter hard"] / hard, 1.0, 0.1);
+        EXPECT_NEAR(causes["no shadows"] / none, 1.0, 0.1);
+    }
+    const Json unshadowed = points({"--shadows", "none"});
+    ASSERT_EQ(unshadowed["points"].size(), 1u) << "then the truth has none either";
+    EXPECT_TRUE(unshadowed["points"][0]["shadow"].is_null());
+    EXPECT_LT(unshadowed["points"][0]["error"]["relMse"], 1e-5);
+}
+
+TEST_F(Bench, theNoiseOfSoftShadowsIsAnError) {
+    folder_.write("m.json", R"({"technique": ["forward"], "shadowSamples": [1, 64]})");
+    runGood({"bench", "shadow_truth", "--size", "64x36", "--frames", "1", "--matrix", "m.json", "-o", "out"});
+    const Json record = json("out/bench.json");
+    ASSERT_EQ(record["points"].size(), 2u);
+    EXPECT_EQ(record["points"][0]["shadowSamples"], 1);
+    // The error of a share is 30 times as large (docs/shadows.md).
+    EXPECT_GT(record["points"][0]["error"]["relMse"], 100.0 * record["points"][1]["error"]["relMse"].get<double>());
+    EXPECT_THAT(record["attribution"].dump(), HasSubstr("shadow filter traced, samples 1"));
+}
+
 TEST_F(Bench, unlitAndTransparentSurfacesAreCountedAsSuch) {
     folder_.write("m.json", R"({"technique": ["deferred_volumes", "tiled_deferred"]})");
     const auto counters = [&](const std::string& material) {
@@ -127,7 +171,8 @@ TEST_F(Bench, aBadMatrixIsRefusedInOneLineThatNamesIt) {
     EXPECT_THAT(refused(R"({"size": ["0x10"]})"), HasSubstr("1280x720"));
     EXPECT_THAT(refused(R"({"technique": []})"), HasSubstr("at least one"));
     EXPECT_THAT(refused(R"({"range": [-1]})"), HasSubstr("range tolerance"));
-    EXPECT_THAT(refused(R"({"shadow": [1024]})"), HasSubstr("do not vary shadows yet"));
+    EXPECT_THAT(refused(R"({"shadow": ["pfc"]})"), HasSubstr("did you mean 'pcf'"));
+    EXPECT_THAT(refused(R"({"shadowWidth": [2]})"), HasSubstr("1, 3, 5, 7"));
     EXPECT_THAT(refused(R"({"subsurface": ["blur"]})"), HasSubstr("no subsurface scattering"));
 }
 

@@ -192,6 +192,7 @@ TEST(BenchJson, aGroupComesBackFromItsJsonDigitForDigit) {
     group.results[1].key.culling = "tile_2.5d";
     group.results[1].key.tilePixels = 16;
     group.results[1].key.rangeTolerance = 0.1;
+    group.results[1].key.shadow = {"pcf", {{"shadowWidth", "5"}, {"shadowBudget", "0.1"}}};
     group.results[1].builder = "cpu";
     group.results[1].normalTest = "where_worth";
     group.pictures = {{"forward, exact", {"forward, exact"}, "a.png", "b.png", 0xfedcba9876543210ull}};
@@ -224,7 +225,7 @@ TEST(BenchCsv, everyPointIsOneLineOfAsManyFields) {
     record.groups = {madeUpGroup(10, {madeUpResult("forward", 10, {}), madeUpResult("deferred", 5, 1e-9)})};
     record.groups[0].scene = "my \"own\", scene.json";
     const std::string csv = benchCsv(record);
-    EXPECT_THAT(csv, HasSubstr("\r\n\"my \"\"own\"\", scene.json\",forward,none,,,,exact,0,10,64,32,10,"));
+    EXPECT_THAT(csv, HasSubstr("\r\n\"my \"\"own\"\", scene.json\",forward,none,,,,exact,0,,,,,,,10,64,32,10,"));
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
     const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
     EXPECT_EQ(commas(csv.substr(0, csv.find('\r'))) + 1, // one within the quoted name

@@ -1,0 +1,198 @@
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "base/Error.h"
+#include "scenes/Load.h"
+#include "tests/unit/validation/Benches.h"
+#include "validation/bench/BenchHtml.h"
+#include "validation/bench/BenchJson.h"
+#include "validation/bench/BenchMatrix.h"
+#include "validation/bench/Recommend.h"
+#include "validation/bench/ScalingFit.h"
+
+namespace tessera::validation {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+BenchMatrix matrixOf(const std::string& json) {
+    scenes::LoadLedger ledger;
+    return parseMatrix(json, "m.json", ledger);
+}
+
+std::string refusal(const std::string& json) {
+    try {
+        matrixOf(json);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "nothing was refused";
+}
+
+/// The plan of one technique over a scene, in a picture of 64x36 pixels.
+BenchPlan planOf(const std::string& scene, const std::string& json, frame::FrameSettings settings = {}) {
+    settings.sizePixels = {64, 36};
+    BenchMatrix matrix = matrixOf(json);
+    matrix.techniques = {engine::Technique::Forward};
+    BenchPlan plan;
+    addToPlan(plan, matrix, scene, {}, settings, [&](std::optional<int>) { return scenes::loadScene(scene); });
+    return plan;
+}
+
+std::vector<std::string> namesOf(const BenchPlan& plan) {
+    std::vector<std::string> names;
+    for (const BenchPoint& point : plan.groups.front().points) names.push_back(pointName(point.key));
+    return names;
+}
+
+std::vector<std::string> reasonsOf(const BenchPlan& plan) {
+    std::vector<std::string> reasons;
+    for (const SkippedPoint& point : plan.skipped) reasons.push_back(point.what + ": " + point.why);
+    return reasons;
+}
+
+TEST(ShadowMatrix, valuesHaveTheBoundsOfTheSettings) {
+    EXPECT_EQ(refusal(R"({"shadow": ["pfc"]})"), "m.json: \"shadow\": unknown 'pfc': did you mean 'pcf'?");
+    EXPECT_EQ(refusal(R"({"shadow": [1024]})"),
+              "m.json: \"shadow\": 1024 is no name; valid are none, traced, hard, pcf, pcss");
+    EXPECT_EQ(refusal(R"({"shadowWidth": [4]})"), "m.json: \"shadowWidth\": shadow width 4: give one of 1, 3, 5, 7");
+    EXPECT_EQ(refusal(R"({"shadowResolution": [100]})"),
+              "m.json: \"shadowResolution\": shadow resolution 100: give one of 64, 128, 256, 512, 1024, 2048, 4096, "
+              "8192");
+    EXPECT_EQ(refusal(R"({"shadowResolution": ["large"]})"), "m.json: \"shadowResolution\": \"large\" is no number");
+    EXPECT_EQ(refusal(R"({"shadowBudget": [2048]})"),
+              "m.json: \"shadowBudget\": shadow budget 2048 is above 1024; give 0.001 to 1024");
+    EXPECT_EQ(refusal(R"({"shadowSamples": [0]})"),
+              "m.json: \"shadowSamples\": shadow samples 0 is below 1; give 1 to 1024");
+    EXPECT_EQ(refusal(R"({"shadowCascades": [2.5]})"),
+              "m.json: \"shadowCascades\": shadow cascades '2.5' is not a whole number, such as 8");
+    EXPECT_THAT(refusal(R"({"shadowWidht": [3]})"), HasSubstr("did you mean 'shadowWidth'"));
+    EXPECT_EQ(refusal(R"({"shadowResolution": ["automatic", 64], "shadowBudget": [0.5]})"), "nothing was refused");
+}
+
+TEST(ShadowMatrix, everySettingIsVariedByItsFilterAndDrawnOnceWithTheOthers) {
+    // A lamp with a size and a sun: all settings of shadows are heeded by some filter.
+    const auto names = [](const std::string& more) {
+        return namesOf(planOf("shadow_truth", R"({"shadow": ["traced", "hard", "pcf", "pcss", "none"])" + more + "}"));
+    };
+    EXPECT_THAT(names(R"(, "shadowSamples": [16, 4])"),
+                ElementsAre("forward, exact, traced", "forward, exact, traced, samples 4", "forward, exact, hard",
+                            "forward, exact, pcf", "forward, exact, pcss", "forward, exact, pcss, samples 4",
+                            "forward, exact, no shadows"));
+    EXPECT_THAT(names(R"(, "shadowWidth": [3, 5])"),
+                ElementsAre("forward, exact, traced", "forward, exact, hard", "forward, exact, pcf",
+                            "forward, exact, pcf, 5x5", "forward, exact, pcss", "forward, exact, no shadows"));
+    EXPECT_THAT(names(R"(, "shadowResolution": [64, 128])"),
+                ElementsAre("forward, exact, traced", "forward, exact, hard, 64 texels",
+                            "forward, exact, hard, 128 texels", "forward, exact, pcf, 64 texels",
+                            "forward, exact, pcf, 128 texels", "forward, exact, pcss, 64 texels",
+                            "forward, exact, pcss, 128 texels", "forward, exact, no shadows"));
+}
+
+TEST(ShadowMatrix, mapsWithTheSameFacesAreMeasuredOnce) {
+    frame::FrameSettings all;
+    all.shadows = {scenes::ShadowRequest::Kind::All};
+    // head has no directional light; 64 MiB hold its faces, as 128 do, and 1 does not.
+    const BenchPlan plan = planOf("head", R"({"shadow": ["hard"], "shadowCascades": [4, 1],
+                                              "shadowBudget": [64, 128, 1], "shadowResolution": [512]})",
+                                  all);
+    EXPECT_THAT(namesOf(plan),
+                ElementsAre("forward, exact, hard, 512 texels", "forward, exact, hard, 512 texels, 1 MiB"));
+    EXPECT_THAT(
+        reasonsOf(plan),
+        testing::Contains("shadow hard, shadowBudget 128, shadowCascades 4, shadowResolution 512 in head with 4 "
+                          "lights: it is the same frame as hard, 512 texels"));
+    EXPECT_EQ(plan.skipped.size(), 4u);
+}
+
+TEST(ShadowMatrix, aSceneWithoutShadowsIsOnePoint) {
+    const std::string matrix = R"({"shadow": ["traced", "hard", "none"], "shadowResolution": [64, 128]})";
+    const BenchPlan room = planOf("room", matrix); // none of its lights asks for shadows
+    EXPECT_THAT(namesOf(room), ElementsAre("forward, exact"));
+    EXPECT_THAT(reasonsOf(room), testing::Each(HasSubstr("no light casts shadows")));
+    EXPECT_EQ(room.skipped.size(), 5u);
+    frame::FrameSettings none;
+    none.shadows = {scenes::ShadowRequest::Kind::None};
+    EXPECT_THAT(namesOf(planOf("shadow_truth", matrix, none)), ElementsAre("forward, exact"));
+}
+
+TEST(ShadowMatrix, theTruthHasTheShadowsOfTheCommandLineWhateverThePointsHave) {
+    const PlannedGroup group = planOf("shadow_truth", R"({"shadow": ["none", "hard"]})").groups.front();
+    EXPECT_EQ(group.points.front().settings.shadows.kind, scenes::ShadowRequest::Kind::None);
+    EXPECT_EQ(group.settings.shadows.kind, scenes::ShadowRequest::Kind::Asked);
+    const frame::FrameSettings exact = exactSettings(group.points[1].settings, frame::TextureFilter::Exact);
+    EXPECT_EQ(exact.shadowFilter, frame::ShadowFilter::Traced);
+}
+
+/// Points with traced shadows, with maps, and with none.
+BenchGroup shadowedGroup() {
+    BenchGroup group = madeUpGroup(4, {madeUpResult("forward", 100, 1e-9), madeUpResult("forward", 20, 2e-3),
+                                       madeUpResult("deferred", 10, 5e-5), madeUpResult("deferred", 8, 0.4)});
+    group.results[0].key.shadow = {"traced", {}};
+    group.results[1].key.shadow = {"hard", {{"shadowResolution", "1024"}, {"shadowBudget", "64"}}};
+    group.results[2].key.shadow = {"pcf",
+                                   {{"shadowWidth", "5"}, {"shadowResolution", "1024"}, {"shadowBudget", "0.5"}}};
+    group.results[3].key.shadow = ShadowKey{};
+    return group;
+}
+
+TEST(ShadowPoints, theRecordHasEverySettingThatCountsAndAReasonForTheOthers) {
+    const nlohmann::ordered_json points = groupJson(shadowedGroup())["points"];
+    EXPECT_EQ(points[0]["shadow"], "traced");
+    EXPECT_EQ(points[2]["shadow"], "pcf");
+    EXPECT_EQ(points[2]["shadowWidth"], 5);
+    EXPECT_EQ(points[2]["shadowBudget"], 0.5);
+    EXPECT_EQ(points[2]["why"]["shadowSamples"],
+              "no shadow is soft: no light with a size casts one, or the filter heeds no sizes");
+    EXPECT_EQ(points[3]["shadow"], "none");
+    EXPECT_EQ(points[3]["why"]["shadowResolution"], "no light casts shadows");
+    for (const nlohmann::ordered_json& point : points)
+        for (const auto& [name, value] : point.items())
+            EXPECT_TRUE(!value.is_null() || point["why"].contains(name)) << name;
+    BenchRecord record;
+    record.groups = {shadowedGroup()};
+    const std::string csv = benchCsv(record);
+    EXPECT_THAT(csv, HasSubstr(",range,shadow,shadowSamples,shadowWidth,shadowResolution,shadowBudget,shadowCascades,"
+                               "lights,"));
+    EXPECT_THAT(csv, HasSubstr(",exact,0,pcf,,5,1024,0.5,,4,64,32,"));
+    EXPECT_THAT(csv, HasSubstr(",exact,0,none,,,,,,4,64,32,"));
+}
+
+TEST(ShadowPoints, tablesAndThePageNameThem) {
+    BenchRecord record;
+    record.groups = {shadowedGroup()};
+    const std::string table = benchTable(record);
+    for (const char* text : {"shadows", "traced", "no shadows"}) EXPECT_THAT(table, HasSubstr(text));
+    const std::string page = benchHtml(record, record.groups[0], {}).sections;
+    EXPECT_THAT(page, HasSubstr("<th scope=\"col\">Shadows</th>"));
+    EXPECT_THAT(page, HasSubstr("<td data-label=\"Shadows\">pcf, 5x5, 1024 texels, 0.5 MiB</td>"));
+    EXPECT_THAT(page, HasSubstr(R"("markKind":"shadow filter")"));
+    EXPECT_THAT(page, HasSubstr(R"("mark":"pcf")"));
+    for (BenchResult& result : record.groups[0].results) result.key.shadow.reset();
+    EXPECT_THAT(benchHtml(record, record.groups[0], {}).sections, HasSubstr(R"("markKind":"layout")"));
+    EXPECT_THAT(benchTable(record), Not(HasSubstr("shadows")));
+}
+
+TEST(ShadowPoints, theRecommendationNamesTheFilterAndThatOfTheForwardItIsComparedWith) {
+    const BenchGroup group = shadowedGroup();
+    const std::optional<Recommendation> choice = recommendFor(group);
+    EXPECT_EQ(choice->best, &group.results[2]);
+    EXPECT_EQ(choice->baseline, &group.results[0]); // of forward's pictures the exact one
+    EXPECT_THAT(recommendationText(group),
+                HasSubstr("take deferred, exact, pcf, 5x5, 1024 texels, 0.5 MiB: 10.0x faster than forward (traced) at "
+                          "relMSE 5.0e-05"));
+    EXPECT_THAT(recommendationText(group), HasSubstr("The most exact is forward, exact, traced at relMSE 1.0e-09."));
+}
+
+TEST(ShadowPoints, curvesJoinPointsThatFindShadowsAlike) {
+    BenchGroup few = shadowedGroup(), many = shadowedGroup();
+    many.lights = 16;
+    EXPECT_EQ(scalingCurves(std::vector<BenchGroup>{few, many}).size(), 4u);
+    many.results[1].key.shadow->values[0].text = "512";
+    EXPECT_EQ(scalingCurves(std::vector<BenchGroup>{few, many}).size(), 3u);
+}
+
+} // namespace
+} // namespace tessera::validation

@@ -1,0 +1,52 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/Settings.h"
+#include "renderer/frame/PackedLights.h"
+
+namespace tessera::validation {
+
+/// The key of a matrix and the field of a record that name the filter.
+inline constexpr std::string_view kShadowFilterKey = "shadow";
+/// Of no filter: no light casts shadows.
+inline constexpr std::string_view kNoShadows = "none";
+
+/// A setting of shadows that a matrix varies beside the filter: a row of engine::settingTable().
+struct ShadowSetting {
+    std::string_view key;    ///< of the settings, the matrix and the record
+    std::string_view format; ///< of a value in a point's name
+    bool isOfMaps;           ///< it decides faces of shadow maps, and nothing else
+    bool (*matters)(const frame::FeatureSet& features, frame::ShadowFilter filter);
+    std::string_view absent; ///< why a point has no value
+};
+std::span<const ShadowSetting> shadowSettingTable();
+
+/// How a point finds shadows: the filter, and what may change its frame among the settings of shadows.
+struct ShadowKey {
+    struct Value {
+        std::string_view key; ///< ShadowSetting::key
+        std::string text;     ///< as the setting reads it
+        bool operator==(const Value&) const = default;
+    };
+    std::string filter{kNoShadows}; ///< a name of frame::shadowFilterTable(), or kNoShadows
+    std::vector<Value> values;      ///< in the order of the table; none that is open
+
+    const std::string* text(std::string_view key) const; ///< null: no value
+    bool usesMaps() const;
+    bool operator==(const ShadowKey&) const = default;
+};
+
+/// Of a frame with these lights.
+ShadowKey shadowKeyOf(const frame::PackedLights& lights, const frame::FrameSettings& settings);
+
+/// "pcf, 5x5, 1024 texels", without values that are the default; "no shadows".
+std::string shadowText(const ShadowKey& key);
+
+/// Sets a key of a matrix, the filter or a row of the table, to one of its texts. Throws InputError as the setting
+/// does.
+void readShadowSetting(engine::ViewRequest& request, std::string_view key, const std::string& text);
+
+} // namespace tessera::validation
