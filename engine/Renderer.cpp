@@ -54,7 +54,7 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
         return *sceneGpu_;
     }
     sceneGpu_ = std::make_unique<frame::SceneGpu>(scene_, features, filter);
-    shadowMemories_.clear();
+    shadowMemories_.forget();
     materialsChanged_ = false;
     sceneFeatures_ = features;
     sceneFilter_ = filter;

@@ -55,10 +55,11 @@ private:
 /// faces.
 class ShadowMemories {
 public:
-    /// Valid until clear(), or until it was not asked for in kMostIdleFrames frames.
+    /// Valid until it was not asked for in kMostIdleFrames frames.
     ShadowMemory& of(std::size_t view, const FrameSettings& settings);
     void beginFrame();
-    void clear() { ways_.clear(); }
+    /// Nothing is held any more.
+    void forget();
 
     static constexpr int kMostIdleFrames = 16;
 

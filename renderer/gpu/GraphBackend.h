@@ -37,8 +37,8 @@ public:
     void setProfiling(bool on) { profiling_ = on; }
     bool profiling() const { return profiling_; }
 
-    /// Frames after which an unused allocation or persistent resource is freed. Frames that run in turn keep theirs if this is at least their
-    /// number.
+    /// Frames after which an unused allocation or persistent resource is freed. Frames that run in turn keep theirs if
+    /// this is at least their number.
     void setMostIdleFrames(int frames) { mostIdleFrames_ = frames; }
     int mostIdleFrames() const { return mostIdleFrames_; }
 
