@@ -23,10 +23,7 @@ std::vector<StressPicture> farPictures(StressEffort) {
     for (int exponent = 3; exponent <= 7; ++exponent) {
         const double metres = std::pow(10.0, exponent);
         scenes::Scene scene = stressScene();
-        const glm::dvec3 offsetWS(metres, -metres, metres);
-        for (scenes::Node& node : scene.nodes) node.parentFromNode[3] += glm::dvec4(offsetWS, 0.0);
-        for (scenes::Light& light : scene.lights) light.positionWS += offsetWS;
-        for (scenes::Camera& camera : scene.cameras) camera.worldFromCamera[3] += glm::dvec4(offsetWS, 0.0);
+        moveScene(scene, 1.0, glm::dvec3(metres, -metres, metres));
         pictures.push_back({fmt::format("at 1e{} m", exponent), std::move(scene), settingsOf(), 0});
     }
     return pictures;
@@ -35,18 +32,8 @@ std::vector<StressPicture> farPictures(StressEffort) {
 std::vector<StressPicture> scaledPictures(StressEffort) {
     std::vector<StressPicture> pictures;
     for (int exponent = -4; exponent <= 4; ++exponent) {
-        const double scale = std::pow(10.0, exponent);
         scenes::Scene scene = stressScene();
-        const glm::dmat4 larger = glm::scale(glm::dmat4(1.0), glm::dvec3(scale));
-        for (scenes::Node& node : scene.nodes) node.parentFromNode = larger * node.parentFromNode;
-        for (scenes::Light& light : scene.lights) {
-            light.positionWS *= scale;
-            light.intensity *= float(scale * scale);
-        }
-        for (scenes::Camera& camera : scene.cameras) {
-            camera.worldFromCamera[3] = glm::dvec4(glm::dvec3(camera.worldFromCamera[3]) * scale, 1.0);
-            camera.nearMetres *= scale;
-        }
+        moveScene(scene, std::pow(10.0, exponent), glm::dvec3(0.0));
         pictures.push_back({fmt::format("1e{} times as large", exponent), std::move(scene), settingsOf()});
     }
     return pictures;

@@ -21,20 +21,6 @@ frame::FrameSettings shadowedSettings(glm::ivec2 sizePixels = {64, 45}) {
     return settings;
 }
 
-void moveScene(scenes::Scene& scene, double scale, const glm::dvec3& offsetWS) {
-    const glm::dmat4 moved = glm::translate(glm::dmat4(1.0), offsetWS) * glm::scale(glm::dmat4(1.0), glm::dvec3(scale));
-    for (scenes::Node& node : scene.nodes)
-        if (node.parent == scenes::kNone) node.parentFromNode = moved * node.parentFromNode;
-    for (scenes::Light& light : scene.lights) {
-        light.positionWS = offsetWS + scale * light.positionWS;
-        light.intensity *= float(scale * scale);
-    }
-    for (scenes::Camera& camera : scene.cameras) {
-        camera.worldFromCamera[3] = glm::dvec4(offsetWS + scale * glm::dvec3(camera.worldFromCamera[3]), 1.0);
-        camera.nearMetres *= scale;
-    }
-}
-
 std::vector<StressPicture> shadowPlaces(StressEffort) {
     std::vector<StressPicture> pictures;
     for (int exponent = -4; exponent <= 4; exponent += 2) {

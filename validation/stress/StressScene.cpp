@@ -20,6 +20,22 @@ scenes::Light stressLight(const glm::dvec3& positionWS, float candela) {
     return light;
 }
 
+void moveScene(scenes::Scene& scene, double scale, const glm::dvec3& offsetWS) {
+    const glm::dmat4 moved = glm::translate(glm::dmat4(1.0), offsetWS) * glm::scale(glm::dmat4(1.0), glm::dvec3(scale));
+    for (scenes::Node& node : scene.nodes)
+        if (node.parent == scenes::kNone) node.parentFromNode = moved * node.parentFromNode;
+    for (scenes::Light& light : scene.lights) {
+        light.positionWS = offsetWS + scale * light.positionWS;
+        light.intensity *= float(scale * scale);
+    }
+    for (scenes::Camera& camera : scene.cameras) {
+        camera.worldFromCamera[3] = glm::dvec4(offsetWS + scale * glm::dvec3(camera.worldFromCamera[3]), 1.0);
+        camera.nearMetres *= scale;
+        camera.farMetres *= scale;
+        camera.halfHeightMetres *= scale;
+    }
+}
+
 int addUniformImage(scenes::Scene& scene, const glm::ivec4& texel) {
     constexpr int kSide = 8;
     scenes::Image image;

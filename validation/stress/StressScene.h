@@ -23,6 +23,9 @@ scenes::Scene stressFarFloor(double eyeMetres);
 /// A glossy ball of 1 m about the world's origin, seen from as far, with that many lights of 0.4 m around it.
 scenes::Scene stressFarBall(double eyeMetres, int lights);
 
+/// The scene so many times as large, and then moved: its picture is what it was, to rounding.
+void moveScene(scenes::Scene& scene, double scale, const glm::dvec3& offsetWS);
+
 scenes::Light stressLight(const glm::dvec3& positionWS, float candela);
 
 /// An image of 8 x 8 texels, all alike.

@@ -1,0 +1,218 @@
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "tests/image/FlatTest.h"
+#include "tests/image/ShadowTest.h"
+#include "tests/support/TestScenes.h"
+#include "validation/stress/StressScene.h"
+
+namespace tessera {
+namespace {
+
+using engine::Technique;
+using scenes::ShadowRequest;
+using test::kAllLightsCast;
+
+constexpr int kOutlinePixels = 64;
+
+/// A square of 2 m in the plane z = 0, seen from above by parallel rays that it fills, and a square of 0.4 m above it
+/// at height 0.5. Nothing else is known of the shadow than where the light is.
+class ShadowOutline : public test::FlatTest {
+protected:
+    static constexpr glm::dvec3 kCasterWS{-0.4, 0.1, 0.5};
+    static constexpr double kHalfSide = 0.2;
+
+    static scenes::Scene plateUnder(const scenes::Light& light) {
+        scenes::Material ground;
+        ground.name = "ground";
+        ground.model = scenes::MaterialModel::Lambert;
+        scenes::Scene scene = flatScene(ground);
+        ground.name = "plate";
+        scene.materials.push_back(ground);
+        scenes::Node& plate = scene.nodes.emplace_back();
+        plate.name = "plate";
+        plate.parentFromNode =
+            glm::translate(glm::dmat4(1.0), kCasterWS) * glm::scale(glm::dmat4(1.0), glm::dvec3(kHalfSide));
+        plate.instances = {{0, 1}};
+        scene.lights = {light};
+        scene.lights[0].castsShadow = true;
+        return scene;
+    }
+    static scenes::Light sun() {
+        scenes::Light light = test::pointLight({}, 3.0f);
+        light.type = scenes::LightType::Directional;
+        light.directionWS = glm::normalize(glm::dvec3(1.0, 0.2, -1.0));
+        return light;
+    }
+    static scenes::Light lamp() { return test::pointLight({-1.2, 0.0, 1.5}, 3.0f); }
+
+    /// Where the way from a point of the ground to the light crosses the plane of the plate, in the plate's coordinates
+    /// -1 .. 1.
+    static glm::dvec2 onPlate(const scenes::Light& light, const glm::dvec3& pointWS) {
+        const bool isFar = light.type == scenes::LightType::Directional;
+        const glm::dvec3 toLight = isFar ? -light.directionWS : light.positionWS - pointWS;
+        const glm::dvec3 crossing = pointWS + toLight * (kCasterWS.z / toLight.z);
+        return (glm::dvec2(crossing) - glm::dvec2(kCasterWS)) / kHalfSide;
+    }
+
+    /// How many pixels of the ground are dark in the picture, and how many of them or of the others should not be so.
+    struct Outline {
+        int dark = 0, wrong = 0;
+    };
+    template <typename IsHidden>
+    Outline outline(const scenes::Scene& scene, const IsHidden& isHidden, frame::FrameSettings settings = {}) {
+        return outlineOf(scene, scene.lights[0], isHidden, settings);
+    }
+    Outline outlineOf(const scenes::Scene& scene, const scenes::Light& light) {
+        return outlineOf(scene, light, isInSquare, {});
+    }
+    template <typename IsHidden>
+    Outline outlineOf(const scenes::Scene& scene, const scenes::Light& light, const IsHidden& isHidden,
+                      frame::FrameSettings settings) {
+        settings.sizePixels = glm::ivec2(kOutlinePixels);
+        engine::Renderer renderer(context(), scene);
+        const engine::RenderedFrame picture = renderer.render(Technique::Deferred, settings);
+        Outline found;
+        for (int y = 0; y < kOutlinePixels; ++y) {
+            for (int x = 0; x < kOutlinePixels; ++x) {
+                const glm::dvec3 pointWS((x + 0.5) * 2.0 / kOutlinePixels - 1.0, 1.0 - (y + 0.5) * 2.0 / kOutlinePixels,
+                                         0.0);
+                const glm::dvec2 apart = glm::abs(glm::dvec2(pointWS) - glm::dvec2(kCasterWS));
+                if (std::max(apart.x, apart.y) < kHalfSide) continue; // the plate itself
+                const bool isDark = picture.radiance[4 * std::size_t(y * kOutlinePixels + x)] == 0.0f;
+                found.dark += isDark;
+                found.wrong += isDark != isHidden(onPlate(light, pointWS));
+            }
+        }
+        return found;
+    }
+    static bool isInSquare(const glm::dvec2& place) { return std::max(std::abs(place.x), std::abs(place.y)) < 1.0; }
+    static bool isNever(const glm::dvec2&) { return false; }
+    void expectShadow(const scenes::Scene& scene, frame::FrameSettings settings = {}) {
+        const Outline found = outline(scene, isInSquare, settings);
+        EXPECT_EQ(found.wrong, 0);
+        EXPECT_GT(found.dark, 50);
+    }
+    void expectNone(const scenes::Scene& scene, frame::FrameSettings settings = {}) {
+        EXPECT_EQ(outline(scene, isNever, settings).wrong, 0);
+    }
+};
+
+TEST_F(ShadowOutline, isWhereStraightLinesToTheLightCrossTheCaster) {
+    scenes::Light spot = lamp();
+    spot.type = scenes::LightType::Spot;
+    spot.directionWS = glm::normalize(glm::dvec3(1.0, 0.0, -1.5));
+    spot.outerConeRadians = spot.innerConeRadians = 1.4f;
+    for (const scenes::Light& light : {sun(), lamp(), spot}) expectShadow(plateUnder(light));
+}
+
+TEST_F(ShadowOutline, isTheSameOfMirroredAndTurnedAndTwoSidedCasters) {
+    const glm::dmat4 mirror = glm::scale(glm::dmat4(1.0), glm::dvec3(-1.0, 1.0, 1.0));
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), std::numbers::pi, glm::dvec3(0.0, 1.0, 0.0));
+    for (const glm::dmat4& change : {mirror, turn, turn * mirror}) {
+        scenes::Scene scene = plateUnder(lamp());
+        scene.nodes[1].parentFromNode *= change;
+        // Turned away its single side is not drawn: what is below it shows, and it casts all the same.
+        expectShadow(scene);
+        scene.materials[1].doubleSided = true;
+        expectShadow(scene);
+    }
+}
+
+TEST_F(ShadowOutline, hasTheHolesOfAMask) {
+    scenes::Scene scene = plateUnder(sun());
+    scene.images = {test::image8([](int x, int y) { return std::array{255, 255, 255, (x + y) % 2 == 0 ? 255 : 0}; })};
+    scene.materials[1].alphaMode = scenes::AlphaMode::Mask;
+    scenes::TextureUse& use = scene.materials[1].texture(scenes::TextureSlot::BaseColor);
+    use.image = 0;
+    use.sampler.magnification = scenes::Filter::Nearest;
+    for (const scenes::Wrap wrap : {scenes::Wrap::Repeat, scenes::Wrap::MirroredRepeat, scenes::Wrap::ClampToEdge}) {
+        use.sampler.wrapU = use.sampler.wrapV = wrap;
+        use.transform.offset = {1.0f, 0.0f}; // another copy of the picture
+        const auto isHidden = [&](const glm::dvec2& place) {
+            if (!isInSquare(place)) return false;
+            const int row = int(4.0 * (1.0 - place.y));
+            int column = int(4.0 * (place.x + 1.0));
+            if (wrap == scenes::Wrap::MirroredRepeat) column = 7 - column;
+            if (wrap == scenes::Wrap::ClampToEdge) column = 7;
+            return (column + row) % 2 == 0;
+        };
+        const Outline found = outline(scene, isHidden);
+        EXPECT_EQ(found.wrong, 0) << int(wrap);
+        EXPECT_GT(found.dark, 50);
+    }
+    // All of a mask's own opacity is below the cutoff.
+    scene.materials[1].baseColor.w = 0.25f;
+    expectNone(scene);
+}
+
+TEST_F(ShadowOutline, isThereOnlyWhereLightMaterialAndNodeCastOne) {
+    const auto with = [&](const auto& change) {
+        scenes::Scene scene = plateUnder(lamp());
+        change(scene);
+        return scene;
+    };
+    expectNone(with([](scenes::Scene& scene) { scene.lights[0].castsShadow = false; }));
+    expectNone(with([](scenes::Scene& scene) { scene.materials[1].castsShadow = false; }));
+    expectNone(with([](scenes::Scene& scene) { scene.nodes[1].instances[0].castsShadow = false; }));
+    expectNone(with([](scenes::Scene& scene) { scene.materials[1].alphaMode = scenes::AlphaMode::Blend; }));
+    frame::FrameSettings settings;
+    settings.shadows = {ShadowRequest::Kind::None};
+    expectNone(plateUnder(lamp()), settings);
+    settings.shadows = {ShadowRequest::Kind::First, 0};
+    expectNone(plateUnder(lamp()), settings);
+    const scenes::Scene unasked = with([](scenes::Scene& scene) { scene.lights[0].castsShadow = false; });
+    settings.shadows = {ShadowRequest::Kind::First, 1};
+    expectShadow(unasked, settings);
+    settings.shadows = kAllLightsCast;
+    expectShadow(unasked, settings);
+}
+
+TEST_F(ShadowOutline, isPlannedOnlyWhereThereIsOne) {
+    const auto mentions = [](const scenes::Scene& scene) {
+        const graph::Plan plan = engine::planFrame(scene, Technique::ClusteredDeferred, {});
+        int count = 0;
+        for (const graph::Plan::Resource& resource : plan.resources)
+            count += resource.name == "shadows" || resource.name == "casters";
+        for (const graph::Plan::Choice& choice : plan.choices) count += choice.what == "shadows";
+        for (const shader::ProgramDesc& program : engine::framePrograms(scene, Technique::ClusteredDeferred, {}))
+            for (const auto& [name, value] : program.defines) count += name == "HAS_SHADOWS" && value == "1";
+        return count;
+    };
+    scenes::Scene scene = plateUnder(lamp());
+    EXPECT_GE(mentions(scene), 4);
+    for (scenes::Material& material : scene.materials) material.castsShadow = false;
+    EXPECT_EQ(mentions(scene), 0) << "nothing casts";
+    scene = plateUnder(lamp());
+    scene.lights[0].castsShadow = false;
+    EXPECT_EQ(mentions(scene), 0) << "no light casts";
+}
+
+TEST_F(ShadowOutline, fallsOnTransparentSurfaces) {
+    scenes::Scene scene = plateUnder(lamp());
+    scene.materials[0].alphaMode = scenes::AlphaMode::Blend;
+    expectShadow(scene);
+}
+
+TEST_F(ShadowOutline, staysWhereItIsFarFromTheOriginAndAtAnySize) {
+    for (const double scale : {1e-4, 1.0, 1e4}) {
+        for (const glm::dvec3& placeWS : {glm::dvec3(0.0), glm::dvec3(1e6, -1e6, 1e6)}) {
+            scenes::Scene scene = plateUnder(lamp());
+            if (glm::length(placeWS) > 0.0 && scale < 1.0) continue; // doubles have no digits for 0.1 mm there
+            validation::moveScene(scene, scale, placeWS);
+            SCOPED_TRACE(fmt::format("{} times as large at {}", scale, placeWS.x));
+            // In the coordinates of the scene as it was.
+            scenes::Light here = lamp();
+            const Outline found = outlineOf(scene, here);
+            EXPECT_EQ(found.wrong, 0);
+            EXPECT_GT(found.dark, 50);
+        }
+    }
+}
+
+} // namespace
+} // namespace tessera

@@ -1,0 +1,204 @@
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "scenes/Load.h"
+#include "scenes/LookAt.h"
+#include "scenes/builtin/ShadowTruth.h"
+#include "tests/image/ShadowTest.h"
+#include "tests/support/GlContext.h"
+#include "validation/compare/TechniqueCompare.h"
+#include "validation/reference/CameraRays.h"
+
+namespace tessera {
+namespace {
+
+using engine::Technique;
+using scenes::ShadowRequest;
+
+/// The ground of the scene `shadow_truth` as a frame of the view `shadow` shows it: the shares of one light that are
+/// seen there, beside the true ones.
+class SoftShadows : public test::ShadowTest {
+protected:
+    using TruthLight = scenes::builtin::ShadowTruthLight;
+    struct Share {
+        double seen, truth;
+    };
+
+    static scenes::Scene truthScene() {
+        scenes::Scene scene = scenes::loadScene("shadow_truth");
+        // Below the plate, and above the ground in the disk's shadow.
+        scenes::Camera& camera = scene.cameras[0];
+        camera.projection = scenes::Projection::Orthographic;
+        camera.halfHeightMetres = 0.4;
+        return scene;
+    }
+    /// Looks where the light's shadow is.
+    static void aimAt(scenes::Scene& scene, TruthLight light) {
+        const glm::dvec3 targetWS =
+            light == TruthLight::Lamp ? glm::dvec3(-2.55, 0.0, 0.0) : glm::dvec3(2.56, 0.0, 0.24);
+        scene.cameras[0].worldFromCamera = scenes::worldFromLookAt(targetWS + glm::dvec3(0.4, 0.9, 3.0), targetWS);
+    }
+
+    static std::vector<Share> sharesOf(const scenes::Scene& scene, TruthLight light, const glm::ivec2& sizePixels,
+                                       const auto& seenAt) {
+        const reference::CameraRays rays(scene.cameras[0], sizePixels);
+        reference::Settings settings;
+        settings.sizePixels = sizePixels;
+        settings.camera = scene.cameras[0];
+        const reference::Probe probe(scene, settings);
+        std::vector<Share> shares;
+        for (int y = 0; y < sizePixels.y; ++y) {
+            for (int x = 0; x < sizePixels.x; ++x) {
+                if (probe.at(glm::dvec2(x + 0.5, y + 0.5)).ids.object != 1) continue; // not the ground
+                const reference::Ray ray = rays.through(x, y);
+                const double depth = -(rays.eyeWS().y + ray.originRWS.y) / ray.direction.y;
+                const glm::dvec3 groundWS = rays.eyeWS() + ray.at(depth);
+                const bool isKnown =
+                    light == TruthLight::Lamp ? std::abs(groundWS.z) < 1.5 && groundWS.x > -4.0 : groundWS.x > 0.5;
+                if (isKnown) shares.push_back({seenAt(x, y), shadowTruthShare(light, groundWS)});
+            }
+        }
+        return shares;
+    }
+
+    std::vector<Share> rendered(engine::Renderer& renderer, TruthLight light, int samples) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {256, 144};
+        settings.view = frame::DebugView::Shadow;
+        settings.soloLight = int(light);
+        settings.shadowSamples = samples;
+        const engine::RenderedFrame frame = renderer.render(Technique::Deferred, settings);
+        return sharesOf(renderer.scene(), light, settings.sizePixels, [&](int x, int y) {
+            return double(frame.radiance[4 * (std::size_t(y) * 256 + std::size_t(x))]);
+        });
+    }
+};
+
+double rootMeanSquare(const auto& shares) {
+    double sum = 0.0;
+    for (const auto& [seen, truth] : shares) sum += (seen - truth) * (seen - truth);
+    return std::sqrt(sum / double(shares.size()));
+}
+
+TEST_F(SoftShadows, haveTheSharesOfTheirClosedFormsWithinThreeStandardErrors) {
+    for (const TruthLight light : {TruthLight::Lamp, TruthLight::Sun}) {
+        scenes::Scene scene = truthScene();
+        aimAt(scene, light);
+        engine::Renderer renderer(context(), scene);
+        for (const int samples : {1, 16, 64}) {
+            const std::vector<Share> shares = rendered(renderer, light, samples);
+            constexpr int kBins = 8;
+            int checked = 0;
+            for (int bin = 0; bin < kBins; ++bin) {
+                double sum = 0.0, squares = 0.0;
+                int count = 0;
+                for (const auto& [seen, truth] : shares) {
+                    if (truth <= 0.0 || truth >= 1.0 || int(truth * kBins) != bin) continue;
+                    sum += seen - truth;
+                    squares += (seen - truth) * (seen - truth);
+                    ++count;
+                }
+                if (count < 100) continue;
+                ++checked;
+                const double mean = sum / count, standardError = std::sqrt((squares / count - mean * mean) / count);
+                EXPECT_LE(std::abs(mean), 3.0 * standardError)
+                    << int(light) << ", " << samples << " samples, shares from " << double(bin) / kBins;
+            }
+            EXPECT_GE(checked, 6);
+            fmt::print("light {}, {} samples: RMS {:.5f} of {} pixels\n", int(light), samples, rootMeanSquare(shares),
+                       shares.size());
+        }
+    }
+}
+
+TEST_F(SoftShadows, getBetterWithSamplesAndAreAllOrNothingOutsidePenumbrae) {
+    scenes::Scene scene = truthScene();
+    aimAt(scene, TruthLight::Lamp);
+    engine::Renderer renderer(context(), scene);
+    double before = 1.0;
+    for (const int samples : {1, 4, 16, 64}) {
+        const std::vector<Share> shares = rendered(renderer, TruthLight::Lamp, samples);
+        const double error = rootMeanSquare(shares);
+        EXPECT_LT(error, before / 2.0) << samples; // of random samples half, of these less
+        before = error;
+        int wrong = 0;
+        for (const auto& [seen, truth] : shares) wrong += (truth == 0.0 || truth == 1.0) && seen != truth;
+        EXPECT_LE(wrong, int(shares.size() / 1000)) << "the edges of penumbrae, to rounding";
+    }
+}
+
+TEST_F(SoftShadows, ofTheReferenceHaveTheirClosedForms) {
+    for (const TruthLight light : {TruthLight::Lamp, TruthLight::Sun}) {
+        scenes::Scene scene = truthScene();
+        aimAt(scene, light);
+        double before = 0.0;
+        for (const int rings : {8, 16}) {
+            reference::Settings settings;
+            settings.sizePixels = {96, 54};
+            settings.camera = scene.cameras[0];
+            settings.soloLight = int(light);
+            settings.leeway = false;
+            settings.shadowRings = rings;
+            const reference::Rendered shadowed = reference::render(scene, settings);
+            settings.shadows = {ShadowRequest::Kind::None};
+            const reference::Rendered lit = reference::render(scene, settings);
+            const std::vector<Share> shares = sharesOf(scene, light, settings.sizePixels, [&](int x, int y) {
+                const std::size_t at = std::size_t(y) * 96 + std::size_t(x);
+                return shadowed.radiance[at].r / lit.radiance[at].r;
+            });
+            const double error = rootMeanSquare(shares);
+            fmt::print("reference, light {}, {} rings: RMS {:.6f}\n", int(light), rings, error);
+            EXPECT_LT(error, 4e-3);
+            if (before > 0.0) {
+                EXPECT_LT(error, 0.6 * before);
+            }
+            before = error;
+        }
+    }
+}
+
+TEST_F(SoftShadows, areTheSameWhateverElseIsLeftOut) {
+    scenes::Scene scene = scenes::loadScene("shadow_truth");
+    // One that gives nothing, which only frames that are not pruned evaluate, before the others.
+    scenes::Light dark = scene.lights[0];
+    dark.intensity = 0.0f;
+    scene.lights.insert(scene.lights.begin(), dark);
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {161, 91};
+    settings.shadowSamples = 3;
+    const std::vector<float> pruned = renderer.render(Technique::Deferred, settings).radiance;
+    settings.prune = false;
+    EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, pruned);
+}
+
+TEST_F(SoftShadows, areTheSameWithEveryTechniqueToTheLastBit) {
+    const scenes::Scene scene = scenes::loadScene("shadow_truth");
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {161, 91};
+    settings.shadowSamples = 5;
+    expectParity(renderer, settings);
+}
+
+TEST_F(SoftShadows, ofAPictureAreWithinTheirNoiseOfTheReference) {
+    const scenes::Scene scene = scenes::loadScene("shadow_truth");
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {160, 90};
+    for (const int samples : {4, 16}) {
+        settings.shadowSamples = samples;
+        validation::CompareRequest request;
+        request.techniques = {Technique::Forward};
+        request.against = validation::Reference{};
+        request.settings = settings;
+        const validation::CompareRecord record =
+            validation::compareTechniques(renderer, context().capabilities(), request).record;
+        EXPECT_TRUE(record.ok()) << validation::compareTable(record);
+    }
+}
+
+} // namespace
+} // namespace tessera
