@@ -1,6 +1,7 @@
 // The debug views of shadow maps: which face answers a pixel, and the atlas itself.
 #include <algorithm>
-#include <limits>
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "scenes/Load.h"
@@ -86,25 +87,35 @@ TEST_F(ShadowViews, areTheSameInEveryTechniqueToTheLastBit) {
     }
 }
 
-TEST_F(ShadowViews, theNearestPixelShowsTheFirstCascadeAndTheFarthestTheLast) {
+TEST_F(ShadowViews, theFartherACascadeTheFartherItsPixelsAndTheLastHoldsTheFarthest) {
     const scenes::Scene scene = pointsAndSun();
     engine::Renderer renderer(context(), scene);
     settings.soloLight = int(scene.lights.size()) - 1;
     const std::vector<float> depths = shown(renderer, DebugView::Depth);
-    for (const int cascades : {4, 3, 2, 1}) {
-        settings.shadowMaps.cascades = cascades;
+    for (const std::size_t cascades : {4, 3, 2, 1}) {
+        SCOPED_TRACE(cascades);
+        settings.shadowMaps.cascades = int(cascades);
         const std::vector<float> colors = shown(renderer, DebugView::Cascades);
-        std::size_t nearest = 0, farthest = 0;
-        float least = std::numeric_limits<float>::infinity(), most = 0.0f;
+        std::array<double, 6> sums{}, counts{};
+        float most = 0.0f;
+        std::optional<int> ofFarthest;
         for (std::size_t i = 0; i < depths.size(); i += 4) {
             if (depths[i + 3] == 0.0f) continue;
-            if (depths[i] < least) nearest = i;
-            if (depths[i] > most) farthest = i;
-            least = std::min(least, depths[i]);
+            const std::optional<int> face = faceOf({colors[i], colors[i + 1], colors[i + 2]});
+            ASSERT_TRUE(face) << "pixel " << i / 4;
+            sums[std::size_t(*face)] += double(depths[i]);
+            counts[std::size_t(*face)] += 1.0;
+            if (depths[i] > most) ofFarthest = face;
             most = std::max(most, depths[i]);
         }
-        EXPECT_EQ(faceOf({colors[nearest], colors[nearest + 1], colors[nearest + 2]}), 0);
-        EXPECT_EQ(faceOf({colors[farthest], colors[farthest + 1], colors[farthest + 2]}), cascades - 1);
+        EXPECT_EQ(ofFarthest, int(cascades) - 1);
+        double before = 0.0;
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            EXPECT_EQ(counts[i] > 0.0, i < cascades) << i;
+            if (counts[i] == 0.0) continue;
+            EXPECT_GT(sums[i] / counts[i], before) << i;
+            before = sums[i] / counts[i];
+        }
     }
 }
 
