@@ -57,6 +57,34 @@ ShadowReference shadowReference(const scenes::Scene& scene, const frame::FrameSe
                                                                scene, unshadowed, [] {}, validation::Leeway::None)};
 }
 
+WrongPixels& WrongPixels::operator+=(const WrongPixels& other) {
+    for (const auto member :
+         {&WrongPixels::wrong, &WrongPixels::dark, &WrongPixels::leaks, &WrongPixels::leaksAtContacts,
+          &WrongPixels::darkAtContacts, &WrongPixels::undecided, &WrongPixels::hidden, &WrongPixels::wrongWithout,
+          &WrongPixels::reached, &WrongPixels::covered})
+        this->*member += other.*member;
+    return *this;
+}
+
+namespace {
+
+/// Whether a pixel lies beside one of another object, hardly further away: as far as a surface that is seen under 80
+/// degrees goes in two pixels of a picture of 60 degrees.
+bool isAtContact(const std::vector<reference::Ids>& ids, const std::vector<float>& depths, int width, int height,
+                 std::size_t pixel) {
+    const int x = int(pixel) % width, y = int(pixel) / width;
+    for (int v = std::max(y - 2, 0); v <= std::min(y + 2, height - 1); ++v)
+        for (int u = std::max(x - 2, 0); u <= std::min(x + 2, width - 1); ++u) {
+            const auto other = std::size_t(v * width + u);
+            if (ids[other].object == 0 || ids[other].object == ids[pixel].object) continue;
+            const float apart = std::abs(depths[4 * other] - depths[4 * pixel]);
+            if (apart < 12.0f / float(height) * depths[4 * pixel]) return true;
+        }
+    return false;
+}
+
+} // namespace
+
 WrongPixels wrongPixels(engine::Renderer& renderer, const frame::FrameSettings& settings,
                         const ShadowReference& truths) {
     using engine::Technique;
@@ -70,6 +98,11 @@ WrongPixels wrongPixels(engine::Renderer& renderer, const frame::FrameSettings& 
         frame::FrameSettings asIds = settings;
         asIds.view = frame::DebugView::Ids;
         return renderer.render(Technique::ClusteredDeferred, asIds);
+    }();
+    const engine::RenderedFrame depths = [&] {
+        frame::FrameSettings asDepth = settings;
+        asDepth.view = frame::DebugView::Depth;
+        return renderer.render(Technique::ClusteredDeferred, asDepth);
     }();
     const Picture nearest = truth.nearestTo(shown);
     WrongPixels count;
@@ -95,8 +128,14 @@ WrongPixels wrongPixels(engine::Renderer& renderer, const frame::FrameSettings& 
         // Not by shadows, but where rounding chooses another texel.
         const bool isWrongWithout = wrongWithout > 0.01 * std::max(largestLit, 1e-4);
         count.wrongWithout += isWrongWithout;
-        count.wrong += !isWrongWithout && farthest > 0.01 * std::max(largest, 1e-4);
         isDark[i] = !isWrongWithout && darkest > 0.01 * std::max(largest, 1e-4);
+        const bool isWrong = !isWrongWithout && farthest > 0.01 * std::max(largest, 1e-4);
+        const bool isContact = isWrong && isAtContact(truth.ids, depths.radiance, shown.width, shown.height, i);
+        count.wrong += isWrong;
+        count.leaks += isWrong && !isDark[i];
+        count.leaksAtContacts += isContact && !isDark[i];
+        count.darkAtContacts += isContact && isDark[i];
+        count.reached += largestLit > 0.0;
         isHidden[i] = changed > 0.0 || !truth.alternatives[i].empty();
         count.undecided += !truth.alternatives[i].empty();
         count.hidden += changed > 0.01 * std::max(largest, 1e-4);

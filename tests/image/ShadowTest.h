@@ -39,10 +39,14 @@ struct WrongPixels {
     std::size_t wrong = 0; ///< farther from the definition than a hundredth, whatever rounding allows
     std::size_t dark = 0;  ///< those among them that are too dark, while the pixels beside them are of the same object
                            ///< and no shadow changes them
-    std::size_t undecided = 0;    ///< rounding decides whether some light is hidden
-    std::size_t hidden = 0;       ///< shadows change them
+    std::size_t leaks = 0; ///< those among them that are too light
+    std::size_t leaksAtContacts = 0, darkAtContacts = 0; ///< those too light and too dark where two objects meet
+    std::size_t undecided = 0;                           ///< rounding decides whether some light is hidden
+    std::size_t hidden = 0;                              ///< shadows change them
     std::size_t wrongWithout = 0; ///< differ without shadows already, and are not counted as wrong
+    std::size_t reached = 0;      ///< some light would give them something if nothing hid it
     std::size_t covered = 0;
+    WrongPixels& operator+=(const WrongPixels& other);
 };
 
 /// What pictures with shadows are compared with.

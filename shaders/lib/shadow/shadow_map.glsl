@@ -4,9 +4,9 @@
 // No surface hides itself within a texel. Let e be where, on the way from a texel's middle c to the point p in it, one
 // triangle passes into the next, with slopes a (at c) and b (at p) of depth by texels. The map holds the depth at c,
 // moved away by at least half the sum of |a|'s components (passes/ShadowMapsPass.cpp); here the plane of the point's
-// triangle is followed to c and moved nearer by half the sum of |b|'s. What is between the two depths is (b - a)(c - e),
-// of which no component of c - e is more than half a texel. Further away, taps of wide filters may find a surface that
-// bends towards the light before the plane.
+// triangle is followed to c and moved nearer by |b| |c - p|. What is between the two depths is (b - a)(c - e), and
+// since e lies between c and p, no component of c - e is more than that of c - p, nor half a texel. Further away, taps
+// of wide filters may find a surface that bends towards the light before the plane.
 #pragma once
 #include "shared/face_colors.h"
 #include "shared/slots.h"
@@ -34,7 +34,8 @@ struct FacePoint {
     vec2 texel;    // where in the atlas, in texels
     float depth;   // reverse-Z, as stored
     vec2 slope;    // change of depth with a texel, along the plane of the point's triangle
-    float bias;    // by how much a caster must be nearer
+    float bias;    // by how much a caster must be nearer, for rounding,
+    vec2 steepest; // and for each texel to its middle, up to half of one
     vec2 doubt;    // by how much the slope may be off
     vec4 face;     // xy its middle and z half its side, in texels
     float perSize; // texels from the point to the rim of what may hide part of a light of size 1, by depth
@@ -89,7 +90,8 @@ FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float
                                         : point.depth * (roundingMetres / max(leastDistance, 1e-30) + 4.8e-7);
     point.slope = slope;
     point.doubt = width * (kFacetError * perDistance / place.z);
-    point.bias = 0.5 * (steepest.x + steepest.y) + rounding;
+    point.bias = rounding;
+    point.steepest = steepest;
     point.perSize = place.z / (width.x * scale);
     return point;
 }
@@ -114,7 +116,8 @@ float seenAt(FacePoint point, ivec2 texel)
 {
     ivec2 within = withinFace(point, texel);
     precise vec2 away = vec2(within) + 0.5 - point.texel;
-    precise float depth = point.depth + dot(point.slope, away) + dot(point.doubt, abs(away)) + point.bias;
+    precise float bias = dot(point.steepest, min(abs(away), 0.5)) + dot(point.doubt, abs(away)) + point.bias;
+    precise float depth = point.depth + dot(point.slope, away) + bias;
     // 0 is no caster.
     return texelFetch(shadowAtlas, within, 0).r > max(depth, 0.0) ? 0.0 : 1.0;
 }
