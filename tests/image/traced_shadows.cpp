@@ -1,7 +1,10 @@
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "tests/image/ShadowTest.h"
 #include "tests/support/GlContext.h"
+#include "tests/support/ShaderMutant.h"
 #include "tests/support/TestScenes.h"
 
 namespace tessera {
@@ -33,6 +36,28 @@ TEST_F(Shadows, everyTechniqueCastsTheSameOnMaskedAndTransparentSurfacesAndWithS
         settings.shadows = kAllLightsCast;
         expectParity(renderer, settings);
     }
+}
+
+// Beside a triangle of one pixel, the rasteriser runs invocations whose rays meet all boxes of the tree.
+TEST_F(Shadows, aPixelIsLitByAllItsLightsWhateverIsRunBesideIt) {
+    const scenes::Scene scene = scenes::loadScene("hall");
+    frame::FrameSettings settings;
+    settings.sizePixels = {980, 778};
+    engine::Renderer renderer(context(), scene);
+    const auto radiance = renderer.render(engine::Technique::ClusteredForward, settings).radiance;
+    EXPECT_EQ(radiance, renderer.render(engine::Technique::ClusteredDeferred, settings).radiance);
+    // Where such rays are walked after all, Mesa ends the pixel's loops: it is NaN, and not dark.
+    const test::ShaderMutant shaders;
+    shaders.replace("lib/shadow/caster_walk.glsl", "IS_HELPER ? casterTree.size.x : 0u", "0u");
+    engine::Renderer faulty(context(), scene, shaders.tree());
+    const auto ended = faulty.render(engine::Technique::ClusteredForward, settings).radiance;
+    std::size_t unlike = 0;
+    for (std::size_t i = 0; i < ended.size(); ++i) {
+        if (ended[i] == radiance[i]) continue;
+        EXPECT_TRUE(std::isnan(ended[i]));
+        ++unlike;
+    }
+    EXPECT_GT(unlike, 0u) << "nothing was run beside a pixel";
 }
 
 TEST_F(Shadows, noPixelIsWrongBeyondRounding) {

@@ -31,11 +31,7 @@ layout(std430, binding = STORAGE_LIGHT_CELLS) readonly buffer LightCells
 layout(binding = TEXTURE_UNIT_LIGHT_ENTRIES) uniform usamplerBuffer lightEntries;
 
 // A helper invocation may lie beyond the picture or in a depth slice that nothing occupies, where no list is.
-#if defined(LIGHTING_IN_COMPUTE) && LIGHTING_IN_COMPUTE
-#define WHERE_LISTED(index) (index)
-#else
-#define WHERE_LISTED(index) (gl_HelperInvocation ? 0u : (index))
-#endif
+#define WHERE_LISTED(index) (IS_HELPER ? 0u : (index))
 
 uint lightTileIndex(vec2 pixel)
 {

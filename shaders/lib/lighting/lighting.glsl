@@ -86,6 +86,9 @@ vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pi
 #endif
             more = nextLight(cursor, light);
         } while (more);
+#if HAS_SHADOWS
+        if (more) break; // the inner loop was ended
+#endif
         more = nextBatch(cursor, light);
     } while (more);
 #if HAS_SHADOWS

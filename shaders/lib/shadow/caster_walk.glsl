@@ -216,7 +216,8 @@ void takeStep(ShadowRay ray, inout CasterWalk walk)
 // 0 where casters hide the light, else 1.
 float visibilityAlong(ShadowRay ray)
 {
-    CasterWalk walk = CasterWalk(0u, 0u, 0u, false, false);
+    // The ray of a helper invocation may meet every box, and the pixels beside it would wait for it.
+    CasterWalk walk = CasterWalk(IS_HELPER ? casterTree.size.x : 0u, 0u, 0u, false, false);
     // CASTER_STEPS (renderer/frame/FrameSpec.cpp) are spelt out: Mesa counts the iterations of all loops of a shader
     // together and ends the loops when there are too many.
 #define NEXT_STEP if (goesOn(walk)) takeStep(ray, walk);

@@ -22,6 +22,13 @@ layout(std140, binding = UNIFORM_LIGHTING) uniform LightingBlock
 };
 #endif
 
+// Whether a fragment is run for derivatives alone. It may lie beyond the picture, or anywhere behind its triangle's rim.
+#if defined(LIGHTING_IN_COMPUTE) && LIGHTING_IN_COMPUTE
+#define IS_HELPER false
+#else
+#define IS_HELPER gl_HelperInvocation
+#endif
+
 // The depth-buffer value at a distance ahead of the origin of lighting space.
 float depthFromAhead(float ahead)
 {

@@ -181,8 +181,12 @@ TEST(Hall, hasItsStatedSizeAndLights) {
     EXPECT_NEAR(boundsWS.min.z, -23.0, 1e-5) << "20 m to the end wall, an apse of 3 m";
     EXPECT_NEAR(boundsWS.max.x - boundsWS.min.x, 17.6, 1e-5) << "16 m from wall to wall, a niche of 0.8 m on each side";
     EXPECT_EQ(boundsWS.min.y, 0.0);
-    ASSERT_EQ(scene.lights.size(), 257u);
-    EXPECT_EQ(scene.lights.back().type, LightType::Directional);
+    ASSERT_EQ(scene.lights.size(), 258u) << "lamps, the sky and the sun";
+    EXPECT_EQ(scene.lights[256].type, LightType::Directional);
+    EXPECT_FALSE(scene.lights[256].castsShadow) << "the sky is everywhere";
+    EXPECT_EQ(scene.lights[257].type, LightType::Directional);
+    EXPECT_TRUE(scene.lights[257].castsShadow);
+    EXPECT_EQ(std::ranges::count(scene.lights, true, &Light::castsShadow), 17) << "the sun and 16 lamps";
     for (std::size_t i = 0; i < 256; ++i) {
         const Light& light = scene.lights[i];
         EXPECT_EQ(light.type, LightType::Point);
@@ -209,7 +213,7 @@ TEST(Hall, askedForNumberOfLightsIsExactlyMade) {
         EXPECT_EQ(scene.lights.size(), static_cast<std::size_t>(count));
         EXPECT_NO_THROW(checkScene(scene));
     }
-    EXPECT_EQ(underLedger(builtin::makeHall, withLights(3)).lights.size(), 4u) << "and the sky";
+    EXPECT_EQ(underLedger(builtin::makeHall, withLights(3)).lights.size(), 5u) << "and the sky and the sun";
 }
 
 TEST(Spheres, spanRoughnessAndMetalness) {
