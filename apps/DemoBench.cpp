@@ -18,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kFrames = 5;
-/// Of the measured picture. A software rasteriser lights them by 258 lights in half a second with the slowest technique.
+/// Of the measured picture. A software rasteriser lights them by 258 lights in half a second with the slowest
+/// technique.
 constexpr double kMostPixels = 240.0 * 135.0;
 constexpr std::size_t kLayouts = 2; ///< rows of frame::layoutTable(): the exact layout and the packed one
 

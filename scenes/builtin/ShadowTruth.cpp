@@ -31,23 +31,23 @@ double overlap(double a, double b, double distance) {
 }
 
 /// The plane through the point and the plate's edge meets the disk, which faces the point, in a chord.
-double lampShare(const glm::dvec3& groundWS) {
+double lampShare(const glm::dvec3& groundWS, double radiusMetres) {
     const glm::dvec3 toLamp = kTruthLampWS - groundWS;
     const glm::dvec3 toEdge = glm::dvec3(kTruthPlateEdgeX, kTruthPlateY, groundWS.z) - groundWS;
     // Away from the plate, on the side of larger x.
     const glm::dvec3 normal = glm::cross(glm::dvec3(0.0, 0.0, 1.0), toEdge) * (toEdge.y > 0.0 ? -1.0 : 1.0);
     const glm::dvec3 ahead = glm::normalize(toLamp);
     const double across = glm::length(normal - glm::dot(normal, ahead) * ahead);
-    return segmentShare(-glm::dot(normal, toLamp) / (across * kTruthLampRadiusMetres));
+    return segmentShare(-glm::dot(normal, toLamp) / (across * radiusMetres));
 }
 
-double sunShare(const glm::dvec3& groundWS) {
+double sunShare(const glm::dvec3& groundWS, double tangent) {
     const glm::dvec3 toSun = -glm::normalize(kTruthSunTravelWS);
     const glm::dvec3 toDisk = kTruthDiskWS - groundWS;
     const double ahead = glm::dot(toDisk, toSun);
     const double aside = glm::length(toDisk - ahead * toSun);
-    const double sun = std::tan(glm::radians(kTruthSunAngularRadiusDegrees));
-    return 1.0 - overlap(sun, kTruthDiskRadiusMetres / ahead, aside / ahead) / (std::numbers::pi * sun * sun);
+    return 1.0 -
+           overlap(tangent, kTruthDiskRadiusMetres / ahead, aside / ahead) / (std::numbers::pi * tangent * tangent);
 }
 
 /// A disk of so many corners that its area is that of a circle to 7e-6.
@@ -67,8 +67,10 @@ Mesh disk(double radiusMetres) {
 
 } // namespace
 
-double shadowTruthShare(ShadowTruthLight light, const glm::dvec3& groundWS) {
-    return light == ShadowTruthLight::Lamp ? lampShare(groundWS) : sunShare(groundWS);
+double shadowTruthShare(ShadowTruthLight light, const glm::dvec3& groundWS, double sizes) {
+    return light == ShadowTruthLight::Lamp
+               ? lampShare(groundWS, sizes * kTruthLampRadiusMetres)
+               : sunShare(groundWS, sizes * std::tan(glm::radians(kTruthSunAngularRadiusDegrees)));
 }
 
 Scene makeShadowTruth(const LoadOptions& options, LoadLedger&) {

@@ -22,7 +22,8 @@ inline constexpr glm::dvec3 kTruthDiskWS{2.2, 1.2, 0.0};
 inline constexpr double kTruthDiskRadiusMetres = 0.5;
 
 /// The share of the light's disk that is in sight of a point of the ground, y = 0; the lamp's where |z| <= 1.5 and x >
-/// -4, the sun's where x > 0.5.
-double shadowTruthShare(ShadowTruthLight light, const glm::dvec3& groundWS);
+/// -4, the sun's where x > 0.5. `sizes`: the light's radius, or the tangent of its angular radius, in those of the
+/// scene.
+double shadowTruthShare(ShadowTruthLight light, const glm::dvec3& groundWS, double sizes = 1.0);
 
 } // namespace tessera::scenes::builtin

@@ -16,9 +16,8 @@ struct ShadowCase {
     std::optional<int> lights;
     scenes::ShadowRequest shadows;
 };
-inline constexpr ShadowCase kShadowCases[] = {{"lattice", 16, kAllLightsCast},
-                                              {"head", {}, kAllLightsCast},
-                                              {"hall", {}, {scenes::ShadowRequest::Kind::First, 17}}};
+inline constexpr ShadowCase kShadowCases[] = {
+    {"lattice", 16, kAllLightsCast}, {"head", {}, kAllLightsCast}, {"hall", {}, {scenes::ShadowRequest::Kind::Asked}}};
 
 scenes::Scene sceneOf(const ShadowCase& tried);
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -209,14 +210,33 @@ TEST_F(ShadowMapsTest, extremeScenesStayFiniteAndNoShadowIsOutsideZeroToOne) {
         pictures.back().what = fmt::format("a budget of {:g} MiB", mebibytes);
         pictures.back().settings.shadowMaps.budgetMiB = mebibytes;
     }
-    ASSERT_GE(pictures.size(), 30u);
+    // Cascades without a caster: nothing in view but the sky, and one surface all alone.
+    for (const double y : {1e3, 0.5}) {
+        validation::StressPicture& picture = pictures.emplace_back(pictures.front());
+        picture.what = fmt::format("cascades without casters, seen from {:g} m", y);
+        scenes::Light& sun = picture.scene.lights[0];
+        sun.type = scenes::LightType::Directional;
+        sun.directionWS = {0.0, -1.0, 0.0};
+        if (y < 1e3) picture.scene.nodes.resize(1);
+        picture.scene.cameras[0].worldFromCamera = scenes::worldFromLookAt({0.0, y, 0.0}, {1.0, 2.0 * y, 0.0});
+    }
+    ASSERT_GE(pictures.size(), 32u);
     std::size_t count = 0;
     for (validation::StressPicture& picture : pictures) {
         frame::FrameSettings& settings = picture.settings;
-        settings.shadowFilter = kMapFilters[count++ % std::size(kMapFilters)];
         settings.shadowSamples = 16;
         SCOPED_TRACE(picture.what);
         engine::Renderer renderer(context(), picture.scene);
+        const ShadowFilter turn = kMapFilters[count++ % std::size(kMapFilters)];
+        for (const ShadowFilter filter : kMapFilters) {
+            settings.shadowFilter = filter;
+            settings.view = frame::DebugView::Final;
+            const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+            EXPECT_TRUE(std::ranges::all_of(seen, [](float x) { return x >= 0.0f && std::isfinite(x); }))
+                << infoOf(filter).name;
+        }
+        // The shares themselves, and another technique, for one filter of each picture in turn.
+        settings.shadowFilter = turn;
         const std::vector<float> radiance = renderer.render(Technique::ClusteredDeferred, settings).radiance;
         EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, radiance);
         EXPECT_TRUE(std::ranges::all_of(radiance, [](float x) { return x >= 0.0f && std::isfinite(x); }));
@@ -313,6 +333,48 @@ protected:
     frame::FrameSettings settings;
     std::optional<ShadowReference> truth;
 };
+
+// Held to the traced shares of a lamp before a plate: what no mean of casters' depths may be divided by.
+TEST_F(ShadowFaults, meansOfNoCasterOrOfCastersEverywhereAreDetected) {
+    const scenes::Scene plate = scenes::loadScene("shadow_truth");
+    frame::FrameSettings shares;
+    shares.sizePixels = {160, 90};
+    shares.view = frame::DebugView::Shadow;
+    shares.soloLight = 0;
+    shares.shadowSamples = 16;
+    shares.shadowMaps.resolutionTexels = 512;
+    const auto sharesOf = [&](ShadowFilter filter, const shader::SourceTree& shaders) {
+        engine::Renderer renderer(context(), plate, shaders);
+        shares.shadowFilter = filter;
+        return renderer.render(Technique::Deferred, shares).radiance;
+    };
+    const std::vector<float> traced = sharesOf(ShadowFilter::Traced, test::ShaderMutant().tree());
+    const auto wrongShares = [&](const shader::SourceTree& shaders) {
+        const std::vector<float> looked = sharesOf(ShadowFilter::Pcss, shaders);
+        std::size_t wrong = 0;
+        // A quarter is five deviations of 16 samples.
+        for (std::size_t i = 0; i < looked.size(); i += 4) wrong += !(std::abs(looked[i] - traced[i]) < 0.25f);
+        return wrong;
+    };
+    const std::size_t right = wrongShares(test::ShaderMutant().tree());
+    fmt::print("without a fault {} shares wrong\n", right);
+    const char* const kNone = "if (hidden == 0.0) return 1.0;";
+    const char* const kAll = "if (hidden == float(SHADOW_SAMPLES)) return 0.0;";
+    const std::tuple<const char*, const char*, const char*> faults[] = {
+        {"no caster hides the light", kNone, "if (hidden == 0.0) return 0.0;"},
+        {"no caster lies at depth 1", kNone, "if (hidden == 0.0) { hidden = 1.0; depths = 1.0; point.depth = 1.0; }"},
+        {"a mean of no casters", kNone, "if (hidden == 0.0) return depths / hidden;"},
+        {"casters everywhere hide nothing", kAll, "if (hidden == float(SHADOW_SAMPLES)) return 1.0;"},
+        {"a mean of one caster too few", "depths / hidden", "depths / (hidden - 1.0)"},
+    };
+    for (const auto& [fault, from, to] : faults) {
+        const test::ShaderMutant shaders;
+        shaders.replace("lib/shadow/shadow_map.glsl", from, to);
+        const std::size_t wrong = wrongShares(shaders.tree());
+        fmt::print("{:<45} {} shares wrong\n", fault, wrong);
+        EXPECT_GT(wrong, 2 * right + 15) << fault;
+    }
+}
 
 TEST_F(ShadowFaults, eachIsDetectedByTheReference) {
     const std::size_t right = wrongIn(test::ShaderMutant().tree());

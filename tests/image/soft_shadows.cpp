@@ -42,7 +42,7 @@ protected:
     }
 
     static std::vector<Share> sharesOf(const scenes::Scene& scene, TruthLight light, const glm::ivec2& sizePixels,
-                                       const auto& seenAt) {
+                                       const auto& seenAt, double sizes = 1.0) {
         const reference::CameraRays rays(scene.cameras[0], sizePixels);
         reference::Settings settings;
         settings.sizePixels = sizePixels;
@@ -57,22 +57,24 @@ protected:
                 const glm::dvec3 groundWS = rays.eyeWS() + ray.at(depth);
                 const bool isKnown =
                     light == TruthLight::Lamp ? std::abs(groundWS.z) < 1.5 && groundWS.x > -4.0 : groundWS.x > 0.5;
-                if (isKnown) shares.push_back({seenAt(x, y), shadowTruthShare(light, groundWS)});
+                if (isKnown) shares.push_back({seenAt(x, y), shadowTruthShare(light, groundWS, sizes)});
             }
         }
         return shares;
     }
 
-    std::vector<Share> rendered(engine::Renderer& renderer, TruthLight light, int samples) {
+    std::vector<Share> rendered(engine::Renderer& renderer, TruthLight light, int samples,
+                                frame::ShadowFilter filter = frame::ShadowFilter::Traced, double sizes = 1.0) {
         frame::FrameSettings settings;
+        settings.shadowFilter = filter;
         settings.sizePixels = {256, 144};
         settings.view = frame::DebugView::Shadow;
         settings.soloLight = int(light);
         settings.shadowSamples = samples;
         const engine::RenderedFrame frame = renderer.render(Technique::Deferred, settings);
-        return sharesOf(renderer.scene(), light, settings.sizePixels, [&](int x, int y) {
-            return double(frame.radiance[4 * (std::size_t(y) * 256 + std::size_t(x))]);
-        });
+        return sharesOf(
+            renderer.scene(), light, settings.sizePixels,
+            [&](int x, int y) { return double(frame.radiance[4 * (std::size_t(y) * 256 + std::size_t(x))]); }, sizes);
     }
 };
 
@@ -109,6 +111,34 @@ TEST_F(SoftShadows, haveTheSharesOfTheirClosedFormsWithinThreeStandardErrors) {
             EXPECT_GE(checked, 6);
             fmt::print("light {}, {} samples: RMS {:.5f} of {} pixels\n", int(light), samples, rootMeanSquare(shares),
                        shares.size());
+        }
+    }
+}
+
+// The plate and the disk are flat and lie across the way to the light, as pcss takes all casters to.
+TEST_F(SoftShadows, ofPcssHaveTheWidthsOfTheirClosedForms) {
+    for (const TruthLight light : {TruthLight::Lamp, TruthLight::Sun}) {
+        for (const double sizes : {0.25, 0.5, 1.0, 2.0}) {
+            scenes::Scene scene = truthScene();
+            aimAt(scene, light);
+            scenes::Light& changed = scene.lights[std::size_t(light)];
+            changed.radiusMetres *= float(sizes);
+            changed.angularRadiusRadians = float(std::atan(sizes * std::tan(double(changed.angularRadiusRadians))));
+            engine::Renderer renderer(context(), scene);
+            for (const int samples : {4, 16, 64}) {
+                const auto shares = rendered(renderer, light, samples, frame::ShadowFilter::Pcss, sizes);
+                std::size_t wide = 0, wideTruth = 0;
+                for (const auto& [seen, truth] : shares) {
+                    wide += seen > 0.1 && seen < 0.9;
+                    wideTruth += truth > 0.1 && truth < 0.9;
+                }
+                const double width = double(wide) / double(wideTruth);
+                fmt::print("pcss, light {}, {} of its size, {} samples: RMS {:.4f}, {:.2f} as wide\n", int(light),
+                           sizes, samples, rootMeanSquare(shares), width);
+                if (samples < 64) continue;
+                EXPECT_NEAR(width, 1.0, 0.15) << int(light) << ", " << sizes;
+                EXPECT_LT(rootMeanSquare(shares), 0.03) << int(light) << ", " << sizes;
+            }
         }
     }
 }
