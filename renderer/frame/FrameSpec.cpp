@@ -97,14 +97,14 @@ constexpr std::size_t kMostAttachments = 8;
 
 std::vector<GBufferTexture> FrameSpec::gbufferTextures() const {
     std::vector<GBufferTexture> textures = frame::gbufferTextures(settings.layout, channels);
-    if (features[Feature::ShadowMaps] && textures.size() < kMostAttachments)
+    if (features[Feature::Shadows] && textures.size() < kMostAttachments)
         textures.push_back({"facets", graph::Format::R32Uint});
     return textures;
 }
 
 Defines FrameSpec::gbufferDefines() const {
     Defines defines = channelDefines(settings.layout, channels);
-    if (!features[Feature::ShadowMaps]) return defines;
+    if (!features[Feature::Shadows]) return defines;
     const std::size_t ofChannels = frame::gbufferTextures(settings.layout, channels).size();
     if (ofChannels < kMostAttachments)
         defines.emplace_back("GBUFFER_FACETS", std::to_string(ofChannels));

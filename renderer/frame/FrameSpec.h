@@ -30,7 +30,7 @@ struct FrameSpec {
     /// Whether shadows follow rays through the casters.
     bool tracesShadows() const { return features[Feature::Shadows] && !features[Feature::ShadowMaps]; }
 
-    /// Of the G-buffer, by attachment: its channels, and behind them, where shadows are in maps, the facet normals
+    /// Of the G-buffer, by attachment: its channels, and behind them, where lights cast shadows, the facet normals
     /// (shaders/lib/surface/facet.glsl) of all layouts. Where the channels take all attachments, these lie beside the
     /// specular colour.
     std::vector<GBufferTexture> gbufferTextures() const;

@@ -362,7 +362,6 @@ TEST_F(ShadowFaults, meansOfNoCasterOrOfCastersEverywhereAreDetected) {
     const char* const kAll = "if (hidden == float(SHADOW_SAMPLES)) return 0.0;";
     const std::tuple<const char*, const char*, const char*> faults[] = {
         {"no caster hides the light", kNone, "if (hidden == 0.0) return 0.0;"},
-        {"no caster lies at depth 1", kNone, "if (hidden == 0.0) { hidden = 1.0; depths = 1.0; point.depth = 1.0; }"},
         {"a mean of no casters", kNone, "if (hidden == 0.0) return depths / hidden;"},
         {"casters everywhere hide nothing", kAll, "if (hidden == float(SHADOW_SAMPLES)) return 1.0;"},
         {"a mean of one caster too few", "depths / hidden", "depths / (hidden - 1.0)"},

@@ -27,6 +27,30 @@ struct ShadowQuery : RTCIntersectContext {
     bool isUndecided = false; ///< a mask may have another texel there
 };
 
+/// The triangle that a point of a surface lies on. It hides what lies on the other side of it than the viewer.
+struct OwnTriangle {
+    glm::dvec3 normal{0.0};     ///< unit, towards the viewer; 0 of a triangle without area
+    double leewayRadians = 0.0; ///< a program stores the normal in 24 bits, and finds it from rounded corners
+
+    OwnTriangle(const Hit& surface, const glm::dvec3& toViewer) {
+        constexpr double kStored = 2.0 * 1.1e-3;
+        glm::dvec3 corners[3];
+        for (int i = 0; i < 3; ++i) corners[i] = surface.object->cornerRWS(surface.triangle, i);
+        const glm::dvec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const double area = glm::length(across);
+        if (area == 0.0) return;
+        normal = across / (glm::dot(across, toViewer) < 0.0 ? -area : area);
+        double longest = 0.0;
+        for (int i = 0; i < 3; ++i) longest = std::max(longest, glm::length(corners[(i + 1) % 3] - corners[i]));
+        leewayRadians = kStored + 4.0 * surface.roundingMetres * longest / area;
+    }
+    bool hides(const glm::dvec3& toPlace) const { return glm::dot(normal, toPlace) < 0.0; }
+    /// Whether a program may say otherwise of a place, if it also moves the way there by so many metres.
+    bool isUndecided(const glm::dvec3& toPlace, double metres) const {
+        return std::abs(glm::dot(normal, toPlace)) <= leewayRadians * glm::length(toPlace) + metres;
+    }
+};
+
 /// Where the segment crosses a triangle, between its ends; by the signed volumes of the tetrahedra over the triangle's
 /// edges.
 std::optional<Hit> crossingOf(const Object& object, std::uint32_t triangle, const ShadowQuery& query) {
@@ -105,9 +129,11 @@ struct Occlusion::Casters {
 
     /// All or nothing of the light at one end of a segment.
     Answer decide(const Segment& segment, bool isPlaced, const ShiningLight& light, const Hit& surface,
-                  const glm::dvec3& pointRWS, bool leeway) const {
+                  const OwnTriangle& own, const glm::dvec3& pointRWS, bool leeway) const {
+        const bool isBehind = own.hides(segment.along);
+        if (isBehind && !leeway) return {0.0, 0.0, 0.0};
         const ShadowQuery exact = ask(segment, surface);
-        const double share = exact.isHidden ? 0.0 : 1.0;
+        const double share = exact.isHidden || isBehind ? 0.0 : 1.0;
         if (!leeway) return {share, share, share};
         const Answer undecided{share, 0.0, 1.0};
         if (exact.isUndecided) return undecided;
@@ -123,6 +149,10 @@ struct Occlusion::Casters {
         };
         const double pointMetres = leewayAt(pointRWS);
         const double lightMetres = isPlaced ? leewayAt(light.positionRWS) : pointMetres;
+        // Where casters hide the light, the own triangle does not matter.
+        const bool isOwnUndecided = own.isUndecided(along, pointMetres + lightMetres);
+        if (isBehind && !isOwnUndecided) return {0.0, 0.0, 0.0};
+        if (isOwnUndecided && !exact.isHidden) return undecided;
         const glm::dvec3 ahead = glm::normalize(along);
         const glm::dvec3 aside = glm::normalize(
             glm::cross(ahead, std::abs(ahead.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
@@ -159,7 +189,7 @@ Occlusion::Occlusion(const scenes::Scene& scene, const Objects& objects)
 Occlusion::~Occlusion() = default;
 
 Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& surface, const glm::dvec3& pointRWS,
-                                const Settings& settings) const {
+                                const glm::dvec3& toViewer, const Settings& settings) const {
     const Casters& casters = *casters_;
     if (!light.castsShadow || !casters.tree) return {};
     const bool isPlaced = scenes::infoOf(light.light.type).hasPosition();
@@ -175,8 +205,9 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& surface, c
     const glm::dvec3 aside = glm::normalize(
         glm::cross(ahead, std::abs(ahead.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
     const glm::dvec3 up = glm::cross(aside, ahead);
+    const OwnTriangle own(surface, toViewer);
     if (radius == 0.0)
-        return casters.decide({from, toLight * reach}, isPlaced, light, surface, pointRWS, settings.leeway);
+        return casters.decide({from, toLight * reach}, isPlaced, light, surface, own, pointRWS, settings.leeway);
     Answer sum{0.0, 0.0, 0.0};
     const int rings = settings.shadowRings;
     const int sectors = 4 * rings;
@@ -186,7 +217,7 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& surface, c
             // Rings are turned against each other, so that no straight edge meets many samples at once.
             const double angle = 2.0 * std::numbers::pi * (sector + 0.6180339887498949 * ring) / sectors;
             const glm::dvec3 place = toLight + radius * share * (std::cos(angle) * aside + std::sin(angle) * up);
-            sum.share += casters.decide({from, place * reach}, isPlaced, light, surface, pointRWS, false).share;
+            sum.share += casters.decide({from, place * reach}, isPlaced, light, surface, own, pointRWS, false).share;
         }
     }
     sum.share /= double(rings * sectors);
@@ -194,7 +225,11 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& surface, c
     // ones. Where all agree, a program's must too.
     const double rays = double(settings.shadowSamples);
     const bool isNoisy = settings.leeway && settings.shadowSamples > 0 && sum.share > 0.0 && sum.share < 1.0;
-    const double stray = isNoisy ? 5.0 * std::sqrt(sum.share * (1.0 - sum.share) / rays) + 2.0 / rays : 0.0;
+    double stray = isNoisy ? 5.0 * std::sqrt(sum.share * (1.0 - sum.share) / rays) + 2.0 / rays : 0.0;
+    // The own triangle's plane may cut the disk elsewhere: by the length of the chord there, at most its diameter.
+    const double cut = own.leewayRadians * distance;
+    if (settings.leeway && std::abs(glm::dot(own.normal, toLight)) <= radius + cut)
+        stray += 2.0 * cut / (std::numbers::pi * radius);
     sum.least = std::max(0.0, sum.share - stray);
     sum.most = std::min(1.0, sum.share + stray);
     return sum;

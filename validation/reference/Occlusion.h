@@ -22,9 +22,8 @@ public:
         double share = 1.0;
         double least = 1.0, most = 1.0;
     };
-    /// From a point of a surface, whose own triangle hides nothing from it. `leeway`: whether to find out what rounding
-    /// allows; else that is the share itself.
-    Answer of(const ShiningLight& light, const Hit& surface, const glm::dvec3& pointRWS,
+    /// From a point of a surface. Its own triangle hides what lies on the other side of it than the viewer.
+    Answer of(const ShiningLight& light, const Hit& surface, const glm::dvec3& pointRWS, const glm::dvec3& toViewer,
               const Settings& settings) const;
 
 private:

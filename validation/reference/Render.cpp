@@ -227,7 +227,7 @@ private:
         for (std::size_t light = 0; light < lights_.size(); ++light) {
             const glm::dvec3 unhidden = lightOn(point, lights_[light], positionRWS, toViewer);
             if (unhidden == glm::dvec3(0.0)) continue;
-            const Occlusion::Answer answer = shadowOf(seen, surface, hit, positionRWS, light);
+            const Occlusion::Answer answer = shadowOf(seen, surface, hit, positionRWS, toViewer, light);
             const double share = shadows == Shadows::Exact  ? answer.share
                                  : shadows == Shadows::Most ? answer.least
                                                             : answer.most;
@@ -237,12 +237,12 @@ private:
     }
 
     Occlusion::Answer shadowOf(const Seen& seen, std::size_t surface, const Hit& hit, const glm::dvec3& positionRWS,
-                               std::size_t light) const {
+                               const glm::dvec3& toViewer, std::size_t light) const {
         if (!lights_[light].castsShadow) return {};
         if (seen.shadows.size() <= surface) seen.shadows.resize(surface + 1);
         std::vector<std::optional<Occlusion::Answer>>& known = seen.shadows[surface];
         known.resize(lights_.size());
-        if (!known[light]) known[light] = occlusion_.of(lights_[light], hit, positionRWS, settings_);
+        if (!known[light]) known[light] = occlusion_.of(lights_[light], hit, positionRWS, toViewer, settings_);
         return *known[light];
     }
 

@@ -95,7 +95,7 @@ Surface surfaceFromMaterial(Fragment fragment, vec4 baseColor)
 #endif
     surface.normalCode = encodeNormal(materialNormal(fragment, surface.normalTexel));
     surface.normalLS = decodeNormal(surface.normalCode);
-#if HAS_SHADOW_MAPS
+#if HAS_SHADOWS
     surface.facetCode = encodeFacet(fragment.facetNormalLS);
     surface.facetNormalLS = decodeFacet(surface.facetCode);
 #endif

@@ -41,7 +41,7 @@ struct Fragment {
     vec4 color;
     mat3 normalFromObject; // cofactor matrix of the node, with its mirroring
     bool frontFacing;
-#if HAS_SHADOW_MAPS
+#if HAS_SHADOWS
     vec3 facetNormalLS; // of the triangle; unit, away from the viewer
 #endif
 #if VIEW == VIEW_NORMAL_OBJECT
@@ -54,7 +54,7 @@ Fragment plainFragment()
 {
     Fragment fragment;
     fragment.normalLS = vec3(0.0, 0.0, 1.0);
-#if HAS_SHADOW_MAPS
+#if HAS_SHADOWS
     fragment.facetNormalLS = vec3(0.0, 0.0, 1.0);
 #endif
     fragment.tangentLS = vec4(0.0);

@@ -5,7 +5,7 @@
 #if FILTER_EXACT
 #include "lib/surface/triangle.glsl"
 #endif
-#if HAS_SHADOW_MAPS && !DEPTH_ONLY
+#if HAS_SHADOWS && !DEPTH_ONLY
 #include "lib/raster/facet_normal.glsl"
 #endif
 
@@ -55,7 +55,7 @@ Fragment rasterisedFragment()
 #else
     fragment.normalLS = normalLS;
 #endif
-#if HAS_SHADOW_MAPS
+#if HAS_SHADOWS
     fragment.facetNormalLS = rasterisedFacetNormal();
 #endif
 #if HAS_TANGENTS

@@ -2,7 +2,7 @@
 //
 // A triangle hides the light where it crosses the ray between the two ends. One whose plane holds an end within
 // rounding hides nothing: the point's own triangle must not, and fp32 cannot tell on which side of such a plane the end
-// lies. Edges are decided in two coordinates across the ray, so that no ray slips through between two triangles that
+// lies; so whether the point's own triangle hides the light is for the caller to say. Edges are decided in two coordinates across the ray, so that no ray slips through between two triangles that
 // share one (Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection"). Sides do not count.
 #pragma once
 #include "shared/slots.h"
@@ -213,11 +213,11 @@ void takeStep(ShadowRay ray, inout CasterWalk walk)
     }
 }
 
-// 0 where casters hide the light, else 1.
-float visibilityAlong(ShadowRay ray)
+// 0 where casters hide the light, or (isBehind) the point's own triangle does, else 1.
+float visibilityAlong(ShadowRay ray, bool isBehind)
 {
     // The ray of a helper invocation may meet every box, and the pixels beside it would wait for it.
-    CasterWalk walk = CasterWalk(IS_HELPER ? casterTree.size.x : 0u, 0u, 0u, false, false);
+    CasterWalk walk = CasterWalk(isBehind || IS_HELPER ? casterTree.size.x : 0u, 0u, 0u, false, isBehind);
     // CASTER_STEPS (renderer/frame/FrameSpec.cpp) are spelt out: Mesa counts the iterations of all loops of a shader
     // together and ends the loops when there are too many.
 #define NEXT_STEP if (goesOn(walk)) takeStep(ray, walk);

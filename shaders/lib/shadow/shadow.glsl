@@ -8,8 +8,8 @@
 #include "lib/shadow/traced_shadow.glsl"
 #endif
 
-// The share of light `index` that casters let through to a point of a surface: 0 where they hide all of it, 1 where they hide
-// nothing or the light casts no shadows.
+// The share of light `index` that casters let through to a point of a surface: 0 where they hide all of it, 1 where they
+// hide nothing or the light casts no shadows. A surface hides lights behind its triangle, whatever normal it is lit with.
 float shadowFactor(int index, Surface surface, Viewpoint viewpoint)
 {
     int kind = int(lightTexel(index, 1).w);
@@ -22,6 +22,6 @@ float shadowFactor(int index, Surface surface, Viewpoint viewpoint)
 #if HAS_SHADOW_MAPS
     return mappedShadow(index, kind, lightTexel(index, 0).xyz, isFar, surface.facetNormalLS, viewpoint);
 #else
-    return tracedShadow(index, lightTexel(index, 0).xyz, isFar, viewpoint);
+    return tracedShadow(index, lightTexel(index, 0).xyz, isFar, surface.facetNormalLS, viewpoint);
 #endif
 }

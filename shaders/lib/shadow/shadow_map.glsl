@@ -39,14 +39,12 @@ struct FacePoint {
     vec2 doubt;    // by how much the slope may be off
     vec4 face;     // xy its middle and z half its side, in texels
     float perSize; // texels from the point to the rim of what may hide part of a light of size 1, by depth
+    vec2 aside;    // tangents of the way from the light's axis to the point; 0 where lights are parallel
     bool isSeen;   // not edge-on, which would be of any depth
 };
 
 // NaN, of loops that Mesa ends early (lib/shadow/caster_walk.glsl): it shows, where light that is not known would not.
 const float kCutLoop = uintBitsToFloat(0x7FC00000u);
-
-// By how much the stored facet normal may be off (lib/surface/facet.glsl).
-const float kFacetError = 1.1e-3;
 
 FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float roundingMetres)
 {
@@ -71,6 +69,7 @@ FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float
         scale = -place.w;
         distance = normal.z;
         atOne = 1.0;
+        point.aside = vec2(0.0);
         point.depth = 1.0 + place.w * position.z;
         point.texel = place.xy + place.z * position.xy;
     } else {
@@ -78,6 +77,7 @@ FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float
         scale = place.w;
         distance = dot(normal, position);
         atOne = length(vec3(position.xy * width, position.z));
+        point.aside = position.xy * width * perMetre;
         point.depth = place.w * perMetre;
         point.texel = place.xy + (place.z * perMetre) * position.xy;
     }
@@ -145,6 +145,15 @@ float meanSeen(FacePoint point)
 #endif
 
 #if SHADOW_FILTER == SHADOW_FILTER_PCSS && HAS_SOFT_SHADOWS
+// An offset over a disk across the light's axis, as one over the disk that faces the point: from aside of the axis it
+// covers 1/cos as many texels in that direction.
+vec2 acrossDisk(FacePoint point, vec2 offset)
+{
+    precise vec2 turned = offset + point.aside * (dot(offset, point.aside) /
+                                                  (1.0 + sqrt(1.0 + dot(point.aside, point.aside))));
+    return turned;
+}
+
 // As wide as the penumbra of casters at the mean depth of those around (Fernando 2005, "Percentage-Closer Soft
 // Shadows"). Casters are looked for where they hide part of the light as long as they are not nearer to it than to the
 // point, or (parallel) wherever they are.
@@ -158,7 +167,7 @@ float penumbraSeen(FacePoint point, float size, vec2 random)
     precise float hidden = 0.0;
     int i = 0;
     for (; i < SHADOW_SAMPLES; ++i) {
-        ivec2 texel = withinFace(point, ivec2(floor(point.texel + reach * diskPlace(i, random))));
+        ivec2 texel = withinFace(point, ivec2(floor(point.texel + acrossDisk(point, reach * diskPlace(i, random)))));
         if (seenAt(point, texel) == 0.0) {
             hidden += 1.0;
             depths += texelFetch(shadowAtlas, texel, 0).r;
@@ -171,7 +180,7 @@ float penumbraSeen(FacePoint point, float size, vec2 random)
     precise float penumbra = clamp(perDepth * (depths / hidden - point.depth), 1.0, widest);
     precise float seen = 0.0;
     for (i = 0; i < SHADOW_SAMPLES; ++i)
-        seen += seenAt(point, ivec2(floor(point.texel + penumbra * diskPlace(i, random))));
+        seen += seenAt(point, ivec2(floor(point.texel + acrossDisk(point, penumbra * diskPlace(i, random)))));
     if (i < SHADOW_SAMPLES) return kCutLoop;
     return clamp(seen * (1.0 / float(SHADOW_SAMPLES)), 0.0, 1.0);
 }
@@ -224,10 +233,9 @@ float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNorm
         }
         // Beside a cascade, or the cone of a spot light; or the budget has no room for the light.
         if (room <= 0.0 || shadow.z == 0.0) ownShare = 0.0;
-        // A surface hides a light behind it, whatever normal it is lit with. Its depth would not tell: the more a
-        // triangle is turned away, the less deep it lies behind the body's lit side, and the steeper it is.
-        precise float behind = dot(facetNormalLS, toLight);
-        bool isBehind = behind > kFacetError * length(toLight);
+        // Depth would not tell: the more a triangle is turned away, the less deep it lies behind the body's lit side,
+        // and the steeper it is.
+        bool isBehind = isBehindFacet(facetNormalLS, toLight, rounding);
         if (ownShare > 0.0) hidden += share * ownShare * (1.0 - (isBehind ? 0.0 : filtered(point, shadow, viewpoint)));
 #if SHOWS_FACES
         precise vec4 answer = (share * ownShare) * vec4(faceColor((face - int(shadow.z)) / SHADOW_FACE_TEXELS), 1.0);

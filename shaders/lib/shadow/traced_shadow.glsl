@@ -7,10 +7,18 @@
 #include "lib/shadow/disk_samples.glsl"
 #endif
 
+// 0 where something hides what is at that place, else 1.
+float visibilityOf(vec3 toPlaceCS, float placeRounding, vec3 facetNormal, vec3 originLS)
+{
+    ShadowRay ray = shadowRay(originLS, toPlaceCS, placeRounding);
+    return visibilityAlong(ray, isBehindFacet(facetNormal, toPlaceCS, ray.originRounding + placeRounding));
+}
+
 // What casters let through of light `index`: one in a place, or (isFar) one from far away in that direction, to which
 // rays end behind all casters. In world axes, whose numbers do not depend on those of lighting space.
-float tracedShadow(int index, vec3 placeLS, bool isFar, Viewpoint viewpoint)
+float tracedShadow(int index, vec3 placeLS, bool isFar, vec3 facetNormalLS, Viewpoint viewpoint)
 {
+    precise vec3 facetNormal = mat3(view.worldFromLS) * facetNormalLS;
     precise vec3 fromPoint = isFar ? placeLS : placeLS - viewpoint.positionLS;
     precise vec3 toLight = mat3(view.worldFromLS) * fromPoint;
     // In units of CS all casters lie within 1 of its origin.
@@ -32,11 +40,11 @@ float tracedShadow(int index, vec3 placeLS, bool isFar, Viewpoint viewpoint)
     for (; i < rays; ++i) {
         vec2 place = diskPlace(i, random);
         precise vec3 toDisk = toLight + place.x * across + place.y * up;
-        seen += visibilityAlong(shadowRay(viewpoint.positionLS, reach * toDisk, lightRounding));
+        seen += visibilityOf(reach * toDisk, lightRounding, facetNormal, viewpoint.positionLS);
     }
     if (i < rays) return uintBitsToFloat(0x7FC00000u); // a loop that was ended, as in visibilityAlong()
     return seen * perRay;
 #else
-    return visibilityAlong(shadowRay(viewpoint.positionLS, reach * toLight, lightRounding));
+    return visibilityOf(reach * toLight, lightRounding, facetNormal, viewpoint.positionLS);
 #endif
 }

@@ -1,10 +1,20 @@
-// The normal of the triangle that a surface lies on, unlike the one that it is lit with; it points away from
-// the viewer. Shadow maps need it to know how
-// depth changes around a point. Stored in 24 bits; all techniques light with the stored one.
+// The normal of the triangle that a surface lies on, unlike the one that it is lit with; it points away from the viewer.
+// Shadows need it: the triangle hides lights behind it, and maps are followed along its plane. Stored in 24 bits; all
+// techniques light with the stored one.
 #pragma once
 #include "lib/maths/octahedral.glsl"
 
 #define FACET_BITS 12
+
+// By how much the stored normal may be off, in radians.
+const float kFacetError = 1.1e-3;
+
+// Whether the triangle lies between the viewer and the light, `rounding` being that of the way to the light.
+bool isBehindFacet(vec3 facetNormal, vec3 toLight, float rounding)
+{
+    precise float behind = dot(facetNormal, toLight);
+    return behind > kFacetError * length(toLight) + rounding;
+}
 
 uint encodeFacet(vec3 normal)
 {

@@ -18,7 +18,7 @@ struct Surface {
     vec3 emission;     // radiance that needs no light; all of single_color
     NormalCode normalCode; // of surfaces that are rasterised
     vec3 normalLS;     // unit; of a drawn surface what the code says, of a stored one what its channel does
-#if HAS_SHADOW_MAPS
+#if HAS_SHADOWS
     uint facetCode;    // of surfaces that are rasterised
     vec3 facetNormalLS; // what it says: the normal of the triangle, unit, away from the viewer
 #endif
@@ -108,7 +108,7 @@ void setNeutralValues(inout Surface surface)
     surface.normalCode = NormalCode(uvec2(NORMAL_NO_SHARE), 2u);
     surface.normalLS = vec3(0.0, 0.0, 1.0);
     surface.normalTexel = vec3(0.5, 0.5, 1.0);
-#if HAS_SHADOW_MAPS
+#if HAS_SHADOWS
     surface.facetCode = 0u;
     surface.facetNormalLS = vec3(0.0, 0.0, 1.0);
 #endif
