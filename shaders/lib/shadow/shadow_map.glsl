@@ -7,6 +7,12 @@
 // triangle is followed to c and moved nearer by |b| |c - p|. What is between the two depths is (b - a)(c - e), and
 // since e lies between c and p, no component of c - e is more than that of c - p, nor half a texel. Further away, taps
 // of wide filters may find a surface that bends towards the light before the plane.
+//
+// That leaves out casters less far towards the light than half a texel is wide, times the slope in metres for a metre.
+// Where a triangle is steep, the next texel on the viewer's side of it is asked as well. It lies up to 1.5 texels aside,
+// where the triangle is behind the point; a triangle beside it that rises by 45 degrees is 1.5 texels nearer at most,
+// half a texel of which the map has moved away. So casters nearer by a texel count, and this is worth it from slopes of 5
+// on: half of that is 1.5 texels aside and one ahead.
 #pragma once
 #include "shared/face_colors.h"
 #include "shared/slots.h"
@@ -40,6 +46,8 @@ struct FacePoint {
     vec4 face;     // xy its middle and z half its side, in texels
     float perSize; // texels from the point to the rim of what may hide part of a light of size 1, by depth
     vec2 aside;    // tangents of the way from the light's axis to the point; 0 where lights are parallel
+    float rise;    // by how much a caster must be nearer beside the triangle
+    ivec2 beside;  // the next texel on the viewer's side of a triangle that is steep, else 0
     bool isSeen;   // not edge-on, which would be of any depth
 };
 
@@ -82,12 +90,18 @@ FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float
         point.texel = place.xy + (place.z * perMetre) * position.xy;
     }
     precise float leastDistance = abs(distance) - kFacetError * atOne;
-    point.isSeen = leastDistance > 0.0 && (isParallel || position.z > 0.0);
+    point.isSeen = leastDistance > 0.0;
     precise float perDistance = scale / max(leastDistance, 1e-30);
     precise vec2 slope = normal.xy * (scale / (distance * place.z));
     precise vec2 steepest = (abs(normal.xy) + kFacetError * width) * (perDistance / place.z);
     precise float rounding = isParallel ? perDistance * roundingMetres + 4.8e-7
                                         : point.depth * (roundingMetres / max(leastDistance, 1e-30) + 4.8e-7);
+    precise vec2 across = abs(normal.xy) / width * (isParallel ? 1.0 : position.z);
+    ivec2 toViewer = ivec2(-sign(normal.xy)) * (across.x > across.y ? ivec2(1, 0) : ivec2(0, 1));
+    point.beside = max(across.x, across.y) > 5.0 * leastDistance ? toViewer : ivec2(0);
+    precise float texelDepth = (isParallel ? scale : point.depth) * width.x / place.z;
+    point.rise = texelDepth + (isParallel ? scale * roundingMetres + 4.8e-7
+                                          : point.depth * (roundingMetres / max(position.z, 1e-30) + 4.8e-7));
     point.slope = slope;
     point.doubt = width * (kFacetError * perDistance / place.z);
     point.bias = rounding;
@@ -116,10 +130,17 @@ float seenAt(FacePoint point, ivec2 texel)
 {
     ivec2 within = withinFace(point, texel);
     precise vec2 away = vec2(within) + 0.5 - point.texel;
-    precise float bias = dot(point.steepest, min(abs(away), 0.5)) + dot(point.doubt, abs(away)) + point.bias;
-    precise float depth = point.depth + dot(point.slope, away) + bias;
+    precise float onPlane = point.depth + dot(point.slope, away) + dot(point.doubt, abs(away)) + point.bias;
+    precise float depth = onPlane + dot(point.steepest, min(abs(away), 0.5));
     // 0 is no caster.
-    return texelFetch(shadowAtlas, within, 0).r > max(depth, 0.0) ? 0.0 : 1.0;
+    float caster = texelFetch(shadowAtlas, within, 0).r;
+    bool isHidden = point.isSeen && caster > max(depth, 0.0);
+    if (point.beside != ivec2(0)) {
+        precise float nearer = max((point.isSeen ? max(onPlane, point.depth) : point.depth) + point.rise, 0.0);
+        float casterBeside = texelFetch(shadowAtlas, withinFace(point, within + point.beside), 0).r;
+        isHidden = isHidden || min(caster, casterBeside) > nearer;
+    }
+    return isHidden ? 0.0 : 1.0;
 }
 
 #if SHADOW_FILTER == SHADOW_FILTER_PCF
@@ -188,7 +209,6 @@ float penumbraSeen(FacePoint point, float size, vec2 random)
 
 float filtered(FacePoint point, vec4 shadow, Viewpoint viewpoint)
 {
-    if (!point.isSeen) return 1.0;
 #if SHADOW_FILTER == SHADOW_FILTER_PCF
     return meanSeen(point);
 #elif SHADOW_FILTER == SHADOW_FILTER_PCSS && HAS_SOFT_SHADOWS
