@@ -82,7 +82,7 @@ struct ShadowChoice {
 };
 constexpr ShadowChoice kShadowChoices[] = {
     {{scenes::ShadowRequest::Kind::None}, "none", "no light casts shadows"},
-    {{scenes::ShadowRequest::Kind::Asked}, "asked", "those lights cast shadows of which the scene says so"},
+    {{scenes::ShadowRequest::Kind::Asked}, "asked", "lights with castsShadow cast shadows"},
     {{scenes::ShadowRequest::Kind::All}, "all", "every light casts shadows"},
 };
 

@@ -45,7 +45,7 @@ UploadLightsPass::Outputs UploadLightsPass::add(graph::Graph& graph, const frame
                                       true},
                                      Access::Upload);
             if (spec.tracesShadows())
-                out.casterTree = pass.create("shadows", {sizeof(shared::CasterTreeConstants)}, Access::Upload);
+                out.casterTree = pass.create("caster_tree", {sizeof(shared::CasterTreeConstants)}, Access::Upload);
         },
         [drawn](const Outputs& out, const graph::PassContext& context) {
             const frame::PreparedView& view = drawn->prepared;

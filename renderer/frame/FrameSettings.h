@@ -44,6 +44,7 @@ struct ShadowFilterInfo {
     ShadowFilter filter; ///< of a map its value is SHADOW_FILTER_* of shaders/shared/shadow_maps.h
     std::string_view name;
     std::string_view summary;
+    bool usesMaps;   ///< it looks depth maps up; else it follows rays
     bool heedsSizes; ///< lights with a size have soft shadows
 };
 std::span<const ShadowFilterInfo> shadowFilterTable();

@@ -61,7 +61,7 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
         spec.features.add(Feature::OrthographicCamera, camera.projection == scenes::Projection::Orthographic);
     }
     // It says how shadows are found, so it is not kept where it is not asked for.
-    if (settings.shadowFilter == ShadowFilter::Traced) spec.features.has.reset(std::size_t(Feature::ShadowMaps));
+    if (!infoOf(settings.shadowFilter).usesMaps) spec.features.has.reset(std::size_t(Feature::ShadowMaps));
     // A channel that is looked at is stored, and not as a number or beside one.
     spec.features.add(Feature::VaryingMaterials, storedComponents(settings.view).has_value());
     spec.settings.layout = refined(settings.layout, scene);

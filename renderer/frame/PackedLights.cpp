@@ -105,7 +105,7 @@ void addFeatures(FeatureSet& features, const scenes::Light& light) {
 void addShadow(const scenes::Light& light, const FrameSettings& settings, PackedLight& packed, FeatureSet& features) {
     packed.texels.color.w += float(LIGHT_SHADOWED);
     features.add(Feature::Shadows);
-    features.add(Feature::ShadowMaps, settings.shadowFilter != ShadowFilter::Traced);
+    features.add(Feature::ShadowMaps, infoOf(settings.shadowFilter).usesMaps);
     features.add(Feature::SoftShadows, scenes::hasSize(light) && infoOf(settings.shadowFilter).heedsSizes);
 }
 

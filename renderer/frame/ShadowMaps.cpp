@@ -68,7 +68,7 @@ glm::dvec3 axisAcross(const glm::dvec3& directionWS) {
                                                 : glm::dvec3(0.0, 0.0, 1.0);
 }
 
-int largerPowerOfTwo(double texels) {
+int automaticSideTexels(double texels) {
     const double held = std::clamp(texels, double(kLeastFaceTexels), double(kMostFaceTexels));
     return int(std::bit_ceil(unsigned(std::ceil(held))));
 }
@@ -123,8 +123,7 @@ double wantedTexels(const Wanted& wanted, const CameraView& view, const glm::ive
     return pixelMetres > 0.0 ? std::min(widthMetres / pixelMetres, side) : side;
 }
 
-// ---- Cameras of faces
-// ------------------------------------------------------------------------------------------------
+// ---- Cameras of faces ----
 
 /// A perspective camera whose picture ends `borderTexels` behind what it is looked up for, which is as wide as twice
 /// the tangent.
@@ -223,8 +222,7 @@ void addCascades(const Wanted& wanted, int sideTexels, int borderTexels, const C
     }
 }
 
-// ---- The atlas
-// -------------------------------------------------------------------------------------------------------
+// ---- The atlas ----
 
 /// Every other bit of a Morton number.
 int everyOtherBit(std::uint64_t bits) {
@@ -346,7 +344,7 @@ ShadowMaps makeShadowMaps(const scenes::Scene& scene, const PackedLights& lights
             own.cone = coneOf(own.light, all);
         }
         own.texels = wantedTexels(own, view, settings.sizePixels, all);
-        const int side = settings.shadowMaps.resolutionTexels.value_or(largerPowerOfTwo(own.texels));
+        const int side = settings.shadowMaps.resolutionTexels.value_or(automaticSideTexels(own.texels));
         maps.lights.push_back({i, 0, faceCount(own, settings), side, side});
         wanted.push_back(own);
     }

@@ -25,7 +25,7 @@ struct ShadowDraws {
 /// casters are the same.
 class ShadowMemory {
 public:
-    /// Finds the faces that are to be drawn; whether there are any. Where the atlas is not held, those are all faces.
+    /// Collects the faces to draw, all of them where the atlas is not held. Returns whether there are any.
     bool begin(const ShadowMaps& maps, const SceneGpu& scene, bool holdsAtlas, bool culls);
     const ShadowDraws& draws() const { return draws_; }
     /// They are drawn.
@@ -35,7 +35,7 @@ public:
     }
     /// Faces drawn since begin().
     std::size_t drawnFaces() const { return drawnFaces_; }
-    /// Of its atlas, among those of all memories that live. 0 is the first.
+    /// Of its atlas, unique among living memories; the first is 0.
     std::size_t number() const { return number_; }
 
 private:

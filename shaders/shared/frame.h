@@ -34,7 +34,7 @@ struct ViewConstants {
 #define LIGHTING_CONSTANT_ROWS 3
 
 struct LightingConstants {
-    uvec4 lights;   // x number of lights, y index of the one that the D, G and F views show, z those that reach
+    uvec4 lights;   // x number of lights, y index of the one that views of one light show, z those that reach
                     // everywhere, w words of a bitmask over the lights
     uvec4 tileGrid; // x columns, y rows of tiles; z height of the picture in pixels; w log2 of a tile's side in pixels
     uvec4 slices; // x shift of the finest depth slices (light_lists.h); y number of lights that casters may hide, which

@@ -278,8 +278,7 @@ TEST_F(ShadowMapsTest, penumbraeOfPcssAreThoseOfTracedShadows) {
     }
 }
 
-// ---- Faults
-// ----------------------------------------------------------------------------------------------------------
+// ---- Faults ----
 
 struct MapFault {
     const char* fault;
@@ -385,8 +384,7 @@ TEST_F(ShadowFaults, eachIsDetectedByTheReference) {
     }
 }
 
-// ---- What lives across frames
-// ----------------------------------------------------------------------------------------
+// ---- What lives across frames ----
 
 class ShadowCache : public test::ShadowTest {
 protected:

@@ -89,7 +89,7 @@ bool hasShadows(const scenes::Scene& scene, const frame::FrameSettings& settings
 Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSettings& settings) {
     const frame::TextureFilter filter = settings.filter;
     Tolerance tolerance;
-    if (settings.shadowFilter != frame::ShadowFilter::Traced && hasShadows(scene, settings, false)) {
+    if (frame::infoOf(settings.shadowFilter).usesMaps && hasShadows(scene, settings, false)) {
         tolerance.reason = "shadow maps are an approximation: their error is reported, and held to nothing";
         return tolerance;
     }

@@ -4,6 +4,7 @@
 #include "lib/reflectance/reflectance.glsl"
 #include "lib/light/light.glsl"
 #include "lib/light/light_cursor.glsl"
+#include "lib/maths/cut_loop.glsl"
 #if HAS_SHADOWS
 #include "lib/shadow/shadow.glsl"
 #endif
@@ -69,7 +70,7 @@ vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pi
         more = nextLight(cursor, light);
         if (!more) more = nextBatch(cursor, light);
     } while (more);
-    if (more && light < int(lighting.slices.y)) return vec3(uintBitsToFloat(0x7FC00000u));
+    if (more && light < int(lighting.slices.y)) return vec3(kCutLoop);
     if (!more) return radiance;
 #endif
     do {
@@ -93,7 +94,7 @@ vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pi
     } while (more);
 #if HAS_SHADOWS
     // Walks through casters count towards the iterations after which Mesa ends loops (lib/shadow/caster_walk.glsl).
-    if (more) radiance = vec3(uintBitsToFloat(0x7FC00000u));
+    if (more) radiance = vec3(kCutLoop);
 #endif
 #endif
     return radiance;

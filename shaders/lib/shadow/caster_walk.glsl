@@ -1,13 +1,15 @@
 // Shadow rays: walks the tree of casters (shared/caster_tree.h) from a point to a light.
 //
-// A triangle hides the light where it crosses the ray between the two ends. One whose plane holds an end within
-// rounding hides nothing: the point's own triangle must not, and fp32 cannot tell on which side of such a plane the end
-// lies; so whether the point's own triangle hides the light is for the caller to say. Edges are decided in two coordinates across the ray, so that no ray slips through between two triangles that
-// share one (Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection"). Sides do not count.
+// A triangle hides the light where it crosses the ray between the two ends. One whose plane holds an end within rounding
+// hides nothing: fp32 cannot tell on which side of such a plane the end lies. The point's own triangle is one of them, so
+// the caller says whether that hides the light. Edges are decided in two coordinates across the ray, so that no ray slips
+// through between two triangles that share one (Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection"). Sides
+// do not count.
 #pragma once
 #include "shared/slots.h"
 #include "shared/caster_tree.h"
 #include "lib/surface/camera.glsl"
+#include "lib/maths/cut_loop.glsl"
 
 layout(std140, binding = UNIFORM_CASTER_TREE) uniform CasterTreeBlock
 {
@@ -232,6 +234,6 @@ float visibilityAlong(ShadowRay ray, bool isBehind)
 #endif
     }
     // A loop that was ended all the same: NaN, which shows, instead of light that is not known.
-    if (goesOn(walk)) return uintBitsToFloat(0x7FC00000u);
+    if (goesOn(walk)) return kCutLoop;
     return walk.isHidden ? 0.0 : 1.0;
 }

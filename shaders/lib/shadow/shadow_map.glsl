@@ -11,12 +11,13 @@
 // That leaves out casters less far towards the light than half a texel is wide, times the slope in metres for a metre.
 // Where a triangle is steep, the next texel on the viewer's side of it is asked as well. It lies up to 1.5 texels aside,
 // where the triangle is behind the point; a triangle beside it that rises by 45 degrees is 1.5 texels nearer at most,
-// half a texel of which the map has moved away. So casters nearer by a texel count, and this is worth it from slopes of 5
-// on: half of that is 1.5 texels aside and one ahead.
+// half a texel of which the map has moved away. So casters nearer by a texel count. It is worth 1.5 texels aside and one
+// ahead where half a slope is as much: from 5 on.
 #pragma once
 #include "shared/face_colors.h"
 #include "shared/slots.h"
 #include "shared/shadow_maps.h"
+#include "lib/maths/cut_loop.glsl"
 #include "lib/light/light_store.glsl"
 #include "lib/surface/camera.glsl"
 
@@ -40,19 +41,17 @@ struct FacePoint {
     vec2 texel;    // where in the atlas, in texels
     float depth;   // reverse-Z, as stored
     vec2 slope;    // change of depth with a texel, along the plane of the point's triangle
-    float bias;    // by how much a caster must be nearer, for rounding,
-    vec2 steepest; // and for each texel to its middle, up to half of one
+    float bias;    // of rounding, in depth
+    vec2 steepest; // the largest |slope| that the stored normal allows
     vec2 doubt;    // by how much the slope may be off
-    vec4 face;     // xy its middle and z half its side, in texels
+    vec3 face;     // xy its middle and z half its side, in texels
+    bool isParallel; // the light is directional
     float perSize; // texels from the point to the rim of what may hide part of a light of size 1, by depth
     vec2 aside;    // tangents of the way from the light's axis to the point; 0 where lights are parallel
     float rise;    // by how much a caster must be nearer beside the triangle
     ivec2 beside;  // the next texel on the viewer's side of a triangle that is steep, else 0
     bool isSeen;   // not edge-on, which would be of any depth
 };
-
-// NaN, of loops that Mesa ends early (lib/shadow/caster_walk.glsl): it shows, where light that is not known would not.
-const float kCutLoop = uintBitsToFloat(0x7FC00000u);
 
 FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float roundingMetres)
 {
@@ -69,7 +68,8 @@ FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float
                                dot(forward.xyz, facetNormalRWS));
     bool isParallel = place.w < 0.0;
     precise FacePoint point;
-    point.face = place;
+    point.face = place.xyz;
+    point.isParallel = isParallel;
     // Depth is linear in the texel: scale times the plane's normal by its distance from the light, or (parallel) by the
     // normal's part along the light.
     precise float scale, distance, atOne;
@@ -89,11 +89,11 @@ FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float
         point.depth = place.w * perMetre;
         point.texel = place.xy + (place.z * perMetre) * position.xy;
     }
-    precise float leastDistance = abs(distance) - kFacetError * atOne;
+    precise float leastDistance = abs(distance) - FACET_ERROR_RADIANS * atOne;
     point.isSeen = leastDistance > 0.0;
     precise float perDistance = scale / max(leastDistance, 1e-30);
     precise vec2 slope = normal.xy * (scale / (distance * place.z));
-    precise vec2 steepest = (abs(normal.xy) + kFacetError * width) * (perDistance / place.z);
+    precise vec2 steepest = (abs(normal.xy) + FACET_ERROR_RADIANS * width) * (perDistance / place.z);
     precise float rounding = isParallel ? perDistance * roundingMetres + 4.8e-7
                                         : point.depth * (roundingMetres / max(leastDistance, 1e-30) + 4.8e-7);
     precise vec2 across = abs(normal.xy) / width * (isParallel ? 1.0 : position.z);
@@ -103,7 +103,7 @@ FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float
     point.rise = texelDepth + (isParallel ? scale * roundingMetres + 4.8e-7
                                           : point.depth * (roundingMetres / max(position.z, 1e-30) + 4.8e-7));
     point.slope = slope;
-    point.doubt = width * (kFacetError * perDistance / place.z);
+    point.doubt = width * (FACET_ERROR_RADIANS * perDistance / place.z);
     point.bias = rounding;
     point.steepest = steepest;
     point.perSize = place.z / (width.x * scale);
@@ -181,7 +181,7 @@ vec2 acrossDisk(FacePoint point, vec2 offset)
 float penumbraSeen(FacePoint point, float size, vec2 random)
 {
     precise float perDepth = size * point.perSize;
-    precise float range = point.face.w < 0.0 ? 1.0 - point.depth : point.depth;
+    precise float range = point.isParallel ? 1.0 - point.depth : point.depth;
     float widest = borderTexels(point);
     precise float reach = clamp(perDepth * range, 1.0, widest);
     precise float depths = 0.0;
@@ -211,6 +211,8 @@ float filtered(FacePoint point, vec4 shadow, Viewpoint viewpoint)
 {
 #if SHADOW_FILTER == SHADOW_FILTER_PCF
     return meanSeen(point);
+#elif SHADOW_FILTER != SHADOW_FILTER_HARD && SHADOW_FILTER != SHADOW_FILTER_PCSS
+#error "a filter without a way to look maps up"
 #elif SHADOW_FILTER == SHADOW_FILTER_PCSS && HAS_SOFT_SHADOWS
     if (shadow.x > 0.0) return penumbraSeen(point, shadow.x, shadowRandom(viewpoint.pixel, shadow.y));
 #endif
@@ -251,7 +253,7 @@ float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNorm
             room -= borderTexels(point);
             if (kBlendShare > 0.0 && left > 1) ownShare = min(room / (kBlendShare * point.face.z), 1.0);
         }
-        // Beside a cascade, or the cone of a spot light; or the budget has no room for the light.
+        // Outside a cascade, or the cone of a spot light; or the budget has no room for the light.
         if (room <= 0.0 || shadow.z == 0.0) ownShare = 0.0;
         // Depth would not tell: the more a triangle is turned away, the less deep it lies behind the body's lit side,
         // and the steeper it is.

@@ -2,18 +2,14 @@
 // Shadows need it: the triangle hides lights behind it, and maps are followed along its plane. Stored in 24 bits; all
 // techniques light with the stored one.
 #pragma once
+#include "shared/facet.h"
 #include "lib/maths/octahedral.glsl"
-
-#define FACET_BITS 12
-
-// By how much the stored normal may be off, in radians.
-const float kFacetError = 1.1e-3;
 
 // Whether the triangle lies between the viewer and the light, `rounding` being that of the way to the light.
 bool isBehindFacet(vec3 facetNormal, vec3 toLight, float rounding)
 {
     precise float behind = dot(facetNormal, toLight);
-    return behind > kFacetError * length(toLight) + rounding;
+    return behind > FACET_ERROR_RADIANS * length(toLight) + rounding;
 }
 
 uint encodeFacet(vec3 normal)

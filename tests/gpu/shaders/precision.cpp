@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "shaders/shared/facet.h"
 #include "tests/gpu/shaders/ShaderBench.h"
 #include "tests/support/Random.h"
 
@@ -228,6 +229,18 @@ TEST_F(PrecisionTest, normalsAlongAnAxisAreExactAndThoseOfNoLengthPointUp) {
         }
     const std::vector<glm::vec4> out = bench.run("test/normals.comp", {}, inputs, inputs.size(), 1);
     EXPECT_EQ(out, wanted);
+}
+
+TEST_F(PrecisionTest, normalsOfTrianglesAreStoredWithinTheirBound) {
+    test::Random random(6);
+    std::vector<glm::vec4> inputs;
+    for (int i = 0; i < 200000; ++i) inputs.push_back({glm::vec3(random.direction()), 0});
+    const std::vector<glm::vec4> out = bench.run("test/facets.comp", {}, inputs, inputs.size(), 1);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+        worst = std::max(worst, glm::distance(glm::dvec3(out[i]), glm::normalize(glm::dvec3(inputs[i]))));
+    EXPECT_LE(worst, FACET_ERROR_RADIANS);
+    EXPECT_GE(worst, 0.5 * FACET_ERROR_RADIANS) << "the bound is not tight";
 }
 
 // What a surface without tangents gets in their place.
