@@ -4,7 +4,8 @@
 #include "scenes/Scene.h"
 
 /// Which lights cast shadows, and what hides them. A caster is opaque where it is there at all, and hides light from
-/// either of its sides. Transparent surfaces hide none.
+/// either of its sides. Transparent surfaces hide none from others. The triangle that a point lies on hides what lies
+/// on the other side of it than the viewer, whatever normal the point is lit with.
 ///
 /// What reaches a point of a light that casts shadows is the share, by area, of a disk that casters leave in sight: the
 /// disk around the light's position that faces the point, of Light::radiusMetres; or around the direction to the light,

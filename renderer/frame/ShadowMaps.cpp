@@ -388,9 +388,11 @@ std::vector<shared::ShadowFaceTexels> packFaces(const ShadowMaps& maps, const Ca
     for (const ShadowedLight& light : maps.lights) {
         glm::vec4& texel = lights.shadows[light.light].shadow;
         if (light.sideTexels == 0) continue;
-        const glm::dmat4& worldFromFace = maps.faces[light.firstFace].camera.worldFromCamera;
-        const double metres = objectMetres + glm::distance(glm::dvec3(worldFromFace[3]), view.originWS) +
-                              double(view.constants.depthKey.y);
+        double faceMetres = 0.0; // the faces of a directional light begin at different places
+        for (std::size_t i = light.firstFace; i < light.firstFace + std::size_t(light.faces); ++i)
+            faceMetres =
+                std::max(faceMetres, glm::distance(glm::dvec3(maps.faces[i].camera.worldFromCamera[3]), view.originWS));
+        const double metres = objectMetres + faceMetres + double(view.constants.depthKey.y);
         texel.z = float(firstTexel + light.firstFace * SHADOW_FACE_TEXELS);
         texel.w = float(kPositionRounding * metres);
         if (light.faces == 6) lights.texels[light.light].color.w += float(LIGHT_SIX_FACES);

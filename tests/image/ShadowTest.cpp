@@ -117,7 +117,9 @@ WrongPixels wrongPixels(engine::Renderer& renderer, const frame::FrameSettings& 
         for (std::size_t c = 0; c < 3; ++c) {
             const double expected = double(nearest.rgba[4 * i + c]);
             largest = std::max(largest, std::abs(expected));
-            farthest = std::max(farthest, std::abs(double(shown.rgba[4 * i + c]) - expected));
+            // What is no number is as far as can be.
+            const double off = std::abs(double(shown.rgba[4 * i + c]) - expected);
+            farthest = std::isnan(off) ? HUGE_VAL : std::max(farthest, off);
             darkest = std::max(darkest, expected - double(shown.rgba[4 * i + c]));
             largestLit = std::max(largestLit, double(lit.picture.rgba[4 * i + c]));
             wrongWithout = std::max(

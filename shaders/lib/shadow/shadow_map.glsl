@@ -103,7 +103,9 @@ FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float
     point.rise = texelDepth + (isParallel ? scale * roundingMetres + 4.8e-7
                                           : point.depth * (roundingMetres / max(position.z, 1e-30) + 4.8e-7));
     point.slope = slope;
-    point.doubt = width * (FACET_ERROR_RADIANS * perDistance / place.z);
+    // The stored normal's error in what is divided, and in what it is divided by.
+    point.doubt = (width + abs(normal.xy) * (atOne / max(leastDistance, 1e-30))) *
+                  (FACET_ERROR_RADIANS * perDistance / place.z);
     point.bias = rounding;
     point.steepest = steepest;
     point.perSize = place.z / (width.x * scale);
