@@ -70,7 +70,7 @@ vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pi
         more = nextLight(cursor, light);
         if (!more) more = nextBatch(cursor, light);
     } while (more);
-    if (more && light < int(lighting.slices.y)) return vec3(kCutLoop);
+    if (more && light < int(lighting.slices.y)) return vec3(CUT_LOOP);
     if (!more) return radiance;
 #endif
     do {
@@ -94,7 +94,7 @@ vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pi
     } while (more);
 #if HAS_SHADOWS
     // Walks through casters count towards the iterations after which Mesa ends loops (lib/shadow/caster_walk.glsl).
-    if (more) radiance = vec3(kCutLoop);
+    if (more) radiance = vec3(CUT_LOOP);
 #endif
 #endif
     return radiance;

@@ -234,6 +234,6 @@ float visibilityAlong(ShadowRay ray, bool isBehind)
 #endif
     }
     // A loop that was ended all the same: NaN, which shows, instead of light that is not known.
-    if (goesOn(walk)) return kCutLoop;
+    if (goesOn(walk)) return CUT_LOOP;
     return walk.isHidden ? 0.0 : 1.0;
 }

@@ -162,7 +162,7 @@ float meanSeen(FacePoint point)
         }
         sum += (y == 0 ? 1.0 - cut.y : y == SHADOW_WIDTH ? cut.y : 1.0) * row;
     }
-    if (y <= SHADOW_WIDTH || x <= SHADOW_WIDTH) return kCutLoop;
+    if (y <= SHADOW_WIDTH || x <= SHADOW_WIDTH) return CUT_LOOP;
     return clamp(sum * (1.0 / float(SHADOW_WIDTH * SHADOW_WIDTH)), 0.0, 1.0);
 }
 #endif
@@ -196,7 +196,7 @@ float penumbraSeen(FacePoint point, float size, vec2 random)
             depths += texelFetch(shadowAtlas, texel, 0).r;
         }
     }
-    if (i < SHADOW_SAMPLES) return kCutLoop;
+    if (i < SHADOW_SAMPLES) return CUT_LOOP;
     // Decided before anything is divided by their number.
     if (hidden == 0.0) return 1.0;
     if (hidden == float(SHADOW_SAMPLES)) return 0.0;
@@ -204,7 +204,7 @@ float penumbraSeen(FacePoint point, float size, vec2 random)
     precise float seen = 0.0;
     for (i = 0; i < SHADOW_SAMPLES; ++i)
         seen += seenAt(point, ivec2(floor(point.texel + acrossDisk(point, penumbra * diskPlace(i, random)))));
-    if (i < SHADOW_SAMPLES) return kCutLoop;
+    if (i < SHADOW_SAMPLES) return CUT_LOOP;
     return clamp(seen * (1.0 / float(SHADOW_SAMPLES)), 0.0, 1.0);
 }
 #endif
@@ -268,9 +268,9 @@ float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNorm
         share *= 1.0 - ownShare;
         if (share <= 0.0) left = 1;
     }
-    if (left > 0) return kCutLoop;
+    if (left > 0) return CUT_LOOP;
     // Of what no cascade holds nothing is known.
     if (share >= 1.0) return 1.0;
     precise float seen = 1.0 - hidden / (1.0 - share);
-    return isnan(seen) ? kCutLoop : clamp(seen, 0.0, 1.0);
+    return isnan(seen) ? CUT_LOOP : clamp(seen, 0.0, 1.0);
 }

@@ -42,7 +42,7 @@ float tracedShadow(int index, vec3 placeLS, bool isFar, vec3 facetNormalLS, View
         precise vec3 toDisk = toLight + place.x * across + place.y * up;
         seen += visibilityOf(reach * toDisk, lightRounding, facetNormal, viewpoint.positionLS);
     }
-    if (i < rays) return kCutLoop; // a loop that was ended, as in visibilityAlong()
+    if (i < rays) return CUT_LOOP; // a loop that was ended, as in visibilityAlong()
     return seen * perRay;
 #else
     return visibilityOf(reach * toLight, lightRounding, facetNormal, viewpoint.positionLS);
