@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "shaders/shared/facet.h"
 #include "validation/reference/MaterialAt.h"
 #include "validation/reference/Slots.h"
 #include "validation/reference/Trees.h"
@@ -34,7 +33,8 @@ struct OwnTriangle {
     double leewayRadians = 0.0; ///< a program stores the normal in 24 bits, and finds it from rounded corners
 
     OwnTriangle(const Hit& surface, const glm::dvec3& toViewer) {
-        constexpr double kStored = 2.0 * FACET_ERROR_RADIANS;
+        // Twice what two octahedral coordinates of 12 bits move a direction by.
+        constexpr double kStored = 2.2e-3;
         glm::dvec3 corners[3];
         for (int i = 0; i < 3; ++i) corners[i] = surface.object->cornerRWS(surface.triangle, i);
         const glm::dvec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
