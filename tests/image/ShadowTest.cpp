@@ -12,6 +12,14 @@
 
 namespace tessera::test {
 
+frame::FrameSettings settingsOf(const ShadowCase& tried) {
+    frame::FrameSettings settings;
+    settings.sizePixels = {240, 135};
+    settings.filter = frame::TextureFilter::Exact;
+    settings.shadows = tried.shadows;
+    return settings;
+}
+
 scenes::Scene sceneOf(const ShadowCase& tried) {
     scenes::LoadOptions options;
     options.lights = tried.lights;

@@ -20,6 +20,8 @@ inline constexpr ShadowCase kShadowCases[] = {
     {"lattice", 16, kAllLightsCast}, {"head", {}, kAllLightsCast}, {"hall", {}, {scenes::ShadowRequest::Kind::Asked}}};
 
 scenes::Scene sceneOf(const ShadowCase& tried);
+/// As its wrong pixels are counted: 240x135, with textures that the reference has to the last digits.
+frame::FrameSettings settingsOf(const ShadowCase& tried);
 
 /// A ball on a floor under one sun.
 scenes::Scene ballUnderSun();

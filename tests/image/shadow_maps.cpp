@@ -62,10 +62,7 @@ TEST_F(ShadowMapsTest, fewPixelsAreWrongAndFewerWithMoreTexels) {
     for (const ShadowCase& tried : kShadowCases) {
         const scenes::Scene scene = sceneOf(tried);
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = {240, 135};
-        settings.filter = frame::TextureFilter::Exact;
-        settings.shadows = tried.shadows;
+        frame::FrameSettings settings = test::settingsOf(tried);
         const ShadowReference truth = shadowReference(scene, settings);
         settings.shadowFilter = ShadowFilter::Hard;
         settings.shadowMaps.budgetMiB = 1024.0;
@@ -93,10 +90,7 @@ TEST_F(ShadowMapsSlow, ofEveryLightFewerPixelsAreWrongTheFinerItsTexels) {
     for (const ShadowCase& tried : kShadowCases) {
         const scenes::Scene scene = sceneOf(tried);
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = {240, 135};
-        settings.filter = frame::TextureFilter::Exact;
-        settings.shadows = tried.shadows;
+        frame::FrameSettings settings = test::settingsOf(tried);
         settings.shadowMaps.budgetMiB = 1024.0;
         WrongPixels counts[std::size(kResolutions)];
         for (std::size_t light = 0; light < scene.lights.size(); ++light) {

@@ -64,10 +64,7 @@ TEST_F(Shadows, noPixelIsWrongBeyondRounding) {
     for (const ShadowCase& tried : kShadowCases) {
         const scenes::Scene scene = sceneOf(tried);
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = {240, 135};
-        settings.filter = frame::TextureFilter::Exact;
-        settings.shadows = tried.shadows;
+        frame::FrameSettings settings = test::settingsOf(tried);
         const WrongPixels count = wrongPixels(renderer, settings);
         fmt::print("{}: {} pixels wrong, {} undecided, {} changed by shadows of {}\n", tried.scene, count.wrong,
                    count.undecided, count.hidden, count.covered);
