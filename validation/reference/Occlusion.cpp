@@ -29,8 +29,9 @@ struct ShadowQuery : RTCIntersectContext {
 
 /// The triangle that a point of a surface lies on. It hides what lies on the other side of it than the viewer.
 struct OwnTriangle {
-    glm::dvec3 normal{0.0};     ///< unit, towards the viewer; 0 of a triangle without area
-    double leewayRadians = 0.0; ///< a program stores the normal in 24 bits, and finds it from rounded corners
+    glm::dvec3 normal{0.0}; ///< unit, towards the viewer; 0 of a triangle without area
+    /// A program stores the normal in 24 bits, and finds it from rounded corners or from rounded points of pixels.
+    double leewayRadians = 0.0;
 
     OwnTriangle(const Hit& surface, const glm::dvec3& toViewer) {
         // Twice what two octahedral coordinates of 12 bits move a direction by.
@@ -43,7 +44,7 @@ struct OwnTriangle {
         normal = across / (glm::dot(across, toViewer) < 0.0 ? -area : area);
         double longest = 0.0;
         for (int i = 0; i < 3; ++i) longest = std::max(longest, glm::length(corners[(i + 1) % 3] - corners[i]));
-        leewayRadians = kStored + 4.0 * surface.roundingMetres * longest / area;
+        leewayRadians = kStored + 4.0 * surface.roundingMetres * longest / area + surface.roundingPixels;
     }
     bool hides(const glm::dvec3& toPlace) const { return glm::dot(normal, toPlace) < 0.0; }
     /// Whether a program may say otherwise of a place, if it also moves the way there by so many metres.

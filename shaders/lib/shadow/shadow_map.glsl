@@ -19,6 +19,7 @@
 #include "shared/shadow_maps.h"
 #include "lib/maths/cut_loop.glsl"
 #include "lib/light/light_store.glsl"
+#include "lib/shadow/own_triangle.glsl"
 #include "lib/surface/camera.glsl"
 
 #if HAS_SOFT_SHADOWS
@@ -66,6 +67,7 @@ FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float
     precise vec2 width = sqrt(width2);
     precise vec3 normal = vec3(dot(right.xyz, facetNormalRWS) * width2.x, dot(up.xyz, facetNormalRWS) * width2.y,
                                dot(forward.xyz, facetNormalRWS));
+    float facetError = facetErrorRadians();
     bool isParallel = place.w < 0.0;
     precise FacePoint point;
     point.face = place.xyz;
@@ -89,11 +91,11 @@ FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float
         point.depth = place.w * perMetre;
         point.texel = place.xy + (place.z * perMetre) * position.xy;
     }
-    precise float leastDistance = abs(distance) - FACET_ERROR_RADIANS * atOne;
+    precise float leastDistance = abs(distance) - facetError * atOne;
     point.isSeen = leastDistance > 0.0;
     precise float perDistance = scale / max(leastDistance, 1e-30);
     precise vec2 slope = normal.xy * (scale / (distance * place.z));
-    precise vec2 steepest = (abs(normal.xy) + FACET_ERROR_RADIANS * width) * (perDistance / place.z);
+    precise vec2 steepest = (abs(normal.xy) + facetError * width) * (perDistance / place.z);
     precise float rounding = isParallel ? perDistance * roundingMetres + 4.8e-7
                                         : point.depth * (roundingMetres / max(leastDistance, 1e-30) + 4.8e-7);
     precise vec2 across = abs(normal.xy) / width * (isParallel ? 1.0 : position.z);
@@ -105,7 +107,7 @@ FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float
     point.slope = slope;
     // The stored normal's error in what is divided, and in what it is divided by.
     point.doubt = (width + abs(normal.xy) * (atOne / max(leastDistance, 1e-30))) *
-                  (FACET_ERROR_RADIANS * perDistance / place.z);
+                  (facetError * perDistance / place.z);
     point.bias = rounding;
     point.steepest = steepest;
     point.perSize = place.z / (width.x * scale);
