@@ -327,6 +327,7 @@ std::vector<Setting> makeTable() {
          .help = "Rays or look-ups of a pixel for a light with a size, whose shadows are soft with traced and pcss",
          .group = "Shadows",
          .panel = SettingPanel::Shadows,
+         .ofFilters = &frame::ShadowFilterInfo::heedsSizes,
          .value = wholeNumber(in(&FrameSettings::shadowSamples),
                               {.least = 1, .most = frame::kMostShadowSamples, .isWhole = true})},
         {.name = "shadow width",
@@ -337,6 +338,7 @@ std::vector<Setting> makeTable() {
          .group = "Shadows",
          .panel = SettingPanel::Shadows,
          .label = "PCF width",
+         .ofFilters = &frame::ShadowFilterInfo::heedsWidth,
          .value = choice(in(&ShadowMapSettings::widthTexels), frame::kShadowWidths, " texels")},
         {.name = "shadow resolution",
          .flag = "--shadow-resolution",
@@ -347,15 +349,17 @@ std::vector<Setting> makeTable() {
          .group = "Shadows",
          .panel = SettingPanel::Shadows,
          .label = "Face texels",
+         .ofFilters = &frame::ShadowFilterInfo::usesMaps,
          .value = choice(in(&ShadowMapSettings::resolutionTexels), frame::kShadowResolutions, " texels")},
         {.name = "shadow budget",
          .flag = "--shadow-budget",
          .key = "shadowBudget",
          .type = "MIB",
-         .help = "Of maps: memory of all of a view; those that exceed it are made smaller, which plan tells",
+         .help = "Of maps: memory of all of a view together; where it is too little, lights get fewer texels",
          .group = "Shadows",
          .panel = SettingPanel::Shadows,
          .label = "Map budget",
+         .ofFilters = &frame::ShadowFilterInfo::usesMaps,
          .value =
              number(in(&ShadowMapSettings::budgetMiB),
                     {.least = 0.001, .most = 1024.0, .sliderLeast = 1.0f, .sliderMost = 256.0f, .format = "%.4g MiB"})},
@@ -368,6 +372,7 @@ std::vector<Setting> makeTable() {
          .group = "Shadows",
          .panel = SettingPanel::Shadows,
          .label = "Cascades",
+         .ofFilters = &frame::ShadowFilterInfo::usesMaps,
          .value = wholeNumber(in(&ShadowMapSettings::cascades),
                               {.least = 1, .most = frame::kMostShadowCascades, .isWhole = true})},
         {.name = "specular",
@@ -484,6 +489,15 @@ std::string Setting::panelLabel() const {
     std::string text(label.empty() ? name : label);
     if (label.empty()) text.front() = char(std::toupper(static_cast<unsigned char>(text.front())));
     return text;
+}
+
+std::string Setting::whyIdle(const ViewRequest& request) const {
+    const frame::ShadowFilterInfo& filter = infoOf(request.settings.shadowFilter);
+    if (ofFilters == nullptr || filter.*ofFilters) return {};
+    std::vector<std::string_view> able;
+    for (const frame::ShadowFilterInfo& info : frame::shadowFilterTable())
+        if (info.*ofFilters) able.push_back(info.name);
+    return fmt::format("It changes nothing with the shadow filter {}, but with {}", filter.name, fmt::join(able, ", "));
 }
 
 bool Setting::isTaken(const ViewRequest& request) const {

@@ -168,6 +168,16 @@ TEST(Settings, shadowsAreThoseOfSomeLightsOrOfTheFirstFew) {
     EXPECT_EQ(request.settings.shadows, (scenes::ShadowRequest{Kind::First, 3}));
 }
 
+TEST(Settings, ofShadowsSayWithWhichFiltersTheyChangeSomething) {
+    ViewRequest request;
+    EXPECT_EQ(settingOf("shadowWidth").whyIdle(request),
+              "It changes nothing with the shadow filter traced, but with pcf");
+    EXPECT_EQ(settingOf("shadowBudget").whyIdle(request),
+              "It changes nothing with the shadow filter traced, but with hard, pcf, pcss");
+    EXPECT_EQ(settingOf("shadowSamples").whyIdle(request), "");
+    EXPECT_EQ(settingOf("exposureEV").whyIdle(request), "");
+}
+
 TEST(Settings, aTechniqueRefusesUnsupportedValuesAndNamesThoseThatSupportThem) {
     ViewRequest request{Technique::Forward, {}};
     request.settings.culling.tilePixels = 32;
