@@ -497,7 +497,7 @@ std::string Setting::whyIdle(const ViewRequest& request) const {
     std::vector<std::string_view> able;
     for (const frame::ShadowFilterInfo& info : frame::shadowFilterTable())
         if (info.*ofFilters) able.push_back(info.name);
-    return fmt::format("It changes nothing with the shadow filter {}, but with {}", filter.name, fmt::join(able, ", "));
+    return fmt::format("Only {} heeds it; the shadow filter is {}", fmt::join(able, " or "), filter.name);
 }
 
 bool Setting::isTaken(const ViewRequest& request) const {

@@ -170,10 +170,9 @@ TEST(Settings, shadowsAreThoseOfSomeLightsOrOfTheFirstFew) {
 
 TEST(Settings, ofShadowsSayWithWhichFiltersTheyChangeSomething) {
     ViewRequest request;
-    EXPECT_EQ(settingOf("shadowWidth").whyIdle(request),
-              "It changes nothing with the shadow filter traced, but with pcf");
+    EXPECT_EQ(settingOf("shadowWidth").whyIdle(request), "Only pcf heeds it; the shadow filter is traced");
     EXPECT_EQ(settingOf("shadowBudget").whyIdle(request),
-              "It changes nothing with the shadow filter traced, but with hard, pcf, pcss");
+              "Only hard or pcf or pcss heeds it; the shadow filter is traced");
     EXPECT_EQ(settingOf("shadowSamples").whyIdle(request), "");
     EXPECT_EQ(settingOf("exposureEV").whyIdle(request), "");
 }
