@@ -325,6 +325,7 @@ std::vector<Setting> makeTable() {
          .help = "Rays or look-ups of a pixel for a light with a size, whose shadows are soft with traced and pcss",
          .group = "Shadows",
          .panel = SettingPanel::Shadows,
+         .ofFilters = &frame::ShadowFilterInfo::heedsSizes,
          .value = wholeNumber(in(&FrameSettings::shadowSamples),
                               {.least = 1, .most = frame::kMostShadowSamples, .isWhole = true})},
         {.name = "shadow width",
@@ -335,6 +336,7 @@ std::vector<Setting> makeTable() {
          .group = "Shadows",
          .panel = SettingPanel::Shadows,
          .label = "PCF width",
+         .ofFilters = &frame::ShadowFilterInfo::heedsWidth,
          .value = choice(in(&ShadowMapSettings::widthTexels), frame::kShadowWidths, " texels")},
         {.name = "shadow resolution",
          .flag = "--shadow-resolution",
@@ -345,16 +347,18 @@ std::vector<Setting> makeTable() {
          .group = "Shadows",
          .panel = SettingPanel::Shadows,
          .label = "Face texels",
+         .ofFilters = &frame::ShadowFilterInfo::usesMaps,
          .value = choice(in(&ShadowMapSettings::resolutionTexels), frame::kShadowResolutions, " texels")},
         {.name = "shadow budget",
          .flag = "--shadow-budget",
          .key = "shadowBudget",
          .type = "MIB",
-         .help = "Of maps: memory of all of a view; those that exceed it are made smaller or left out, which plan "
-                 "tells",
+         .help = "Of maps: memory of all of a view together; where it is too little, lights get fewer texels or lose "
+                 "their shadows",
          .group = "Shadows",
          .panel = SettingPanel::Shadows,
          .label = "Map budget",
+         .ofFilters = &frame::ShadowFilterInfo::usesMaps,
          .value =
              number(in(&ShadowMapSettings::budgetMiB),
                     {.least = 0.001, .most = 1024.0, .sliderLeast = 1.0f, .sliderMost = 256.0f, .format = "%.4g MiB"})},
@@ -366,6 +370,7 @@ std::vector<Setting> makeTable() {
          .group = "Shadows",
          .panel = SettingPanel::Shadows,
          .label = "Cascades",
+         .ofFilters = &frame::ShadowFilterInfo::usesMaps,
          .value = wholeNumber(in(&ShadowMapSettings::cascades),
                               {.least = 1, .most = frame::kMostShadowCascades, .isWhole = true})},
         {.name = "specular",
@@ -482,6 +487,15 @@ std::string Setting::panelLabel() const {
     std::string text(label.empty() ? name : label);
     if (label.empty()) text.front() = char(std::toupper(static_cast<unsigned char>(text.front())));
     return text;
+}
+
+std::string Setting::whyIdle(const ViewRequest& request) const {
+    const frame::ShadowFilterInfo& filter = infoOf(request.settings.shadowFilter);
+    if (ofFilters == nullptr || filter.*ofFilters) return {};
+    std::vector<std::string_view> able;
+    for (const frame::ShadowFilterInfo& info : frame::shadowFilterTable())
+        if (info.*ofFilters) able.push_back(info.name);
+    return fmt::format("Only {} heeds it; the shadow filter is {}", fmt::join(able, " or "), filter.name);
 }
 
 bool Setting::isTaken(const ViewRequest& request) const {

@@ -82,6 +82,8 @@ struct Setting {
     bool (*heeds)(Technique technique) = nullptr; ///< whether it changes anything of that technique's frames; null: all
     /// Why the other techniques refuse it: "it has no light lists"; empty: they ignore it.
     std::string_view refusal{};
+    /// What of a shadow filter heeds it; null: it is heeded with any.
+    bool frame::ShadowFilterInfo::*ofFilters = nullptr;
     bool (*takes)(const ViewRequest& request) = nullptr; ///< whether the technique can draw it; null: always
 
     bool samePicture = false; ///< changes how a picture is made and how fast, not the picture: comparisons drop a value
@@ -107,6 +109,8 @@ struct Setting {
     bool isDefault(const ViewRequest& request) const { return value.equal(request, ViewRequest()); }
     void reset(ViewRequest& request) const { value.copy(request, ViewRequest()); }
     bool isHeededBy(Technique technique) const { return heeds == nullptr || heeds(technique); }
+    /// Why it changes nothing with the request's shadow filter, with those that heed it; empty: it may.
+    std::string whyIdle(const ViewRequest& request) const;
     /// Whether the request's technique takes the requested value of this setting.
     bool isTaken(const ViewRequest& request) const;
 };

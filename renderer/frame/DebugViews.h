@@ -77,6 +77,10 @@ int countScaleLog2(DebugView view);
 constexpr bool showsLitPicture(DebugView view) {
     return view == DebugView::Final || view == DebugView::Faults;
 }
+/// Shows the shadows of one light.
+constexpr bool showsShadows(DebugView view) {
+    return view == DebugView::Shadow || view == DebugView::Cascades;
+}
 /// Adds something up over the lights.
 constexpr bool sumsOverLights(DebugView view) {
     return showsLitPicture(view) || view == DebugView::Lights;

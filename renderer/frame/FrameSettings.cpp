@@ -26,11 +26,12 @@ constexpr TextureFilterInfo kTextureFilters[] = {{TextureFilter::Hardware, "hard
 constexpr LightingSpaceInfo kLightingSpaces[] = {{LightingSpace::World, "world"}, {LightingSpace::View, "view"}};
 
 constexpr ShadowFilterInfo kShadowFilters[] = {
-    {ShadowFilter::Traced, "traced", "rays through the triangles themselves: no bias, no resolution", false, true},
-    {ShadowFilter::Hard, "hard", "one texel of a depth map", true, false},
-    {ShadowFilter::Pcf, "pcf", "the mean over a square of texels of a depth map", true, false},
-    {ShadowFilter::Pcss, "pcss", "the mean over as many texels as the penumbra of the light's size is wide", true,
-     true},
+    {ShadowFilter::Traced, "traced", "rays through the triangles themselves: no bias, no resolution", false, true,
+     false},
+    {ShadowFilter::Hard, "hard", "one texel of a depth map", true, false, false},
+    {ShadowFilter::Pcf, "pcf", "the mean over a square of texels of a depth map", true, false, true},
+    {ShadowFilter::Pcss, "pcss", "the mean over as many texels as the penumbra of the light's size is wide", true, true,
+     false},
 };
 static_assert(isInOrder(kShadowFilters, &ShadowFilterInfo::filter, std::size(kShadowFilters)));
 static_assert(int(ShadowFilter::Hard) == SHADOW_FILTER_HARD && int(ShadowFilter::Pcf) == SHADOW_FILTER_PCF &&

@@ -46,6 +46,7 @@ struct ShadowFilterInfo {
     std::string_view summary;
     bool usesMaps;   ///< it looks depth maps up; else it follows rays
     bool heedsSizes; ///< lights with a size have soft shadows
+    bool heedsWidth; ///< it averages over ShadowMapSettings::widthTexels
 };
 std::span<const ShadowFilterInfo> shadowFilterTable();
 const ShadowFilterInfo& infoOf(ShadowFilter filter);

@@ -121,7 +121,7 @@ PackedLights packLights(const scenes::Scene& scene, const CameraView& view, cons
     PackedLights lights;
     std::vector<PackedLight> all;
     std::optional<bool> hasCasters; // looked for where a light casts shadows
-    int firstOn = -1;
+    int firstOn = -1, firstShadowed = -1;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const bool solo = settings.soloLight == int(i);
         const scenes::Light light = lightAtTime(scene.lights[i], settings.timeSeconds);
@@ -132,15 +132,18 @@ PackedLights packLights(const scenes::Scene& scene, const CameraView& view, cons
         if (firstOn < 0) firstOn = int(i);
         lights.truncated.add(light, settings.rangeTolerance);
         const double reach = reachMetres(light, settings.rangeTolerance);
-        if (settings.prune && isDark(light, reach)) {
+        const bool casts = scenes::castsShadow(scene, i, settings.shadows);
+        const bool dark = isDark(light, reach), unseen = isUnseen(light, reach, view);
+        if (firstShadowed < 0 && casts && !dark && !unseen) firstShadowed = int(i);
+        if (settings.prune && dark) {
             ++lights.dark;
-        } else if (settings.prune && isUnseen(light, reach, view)) {
+        } else if (settings.prune && unseen) {
             ++lights.unseen;
         } else {
             PackedLight packed = packLight(light, reach, view);
             packed.sceneIndex = int(i);
             packed.shadow.shadow.y = float(i);
-            if (scenes::castsShadow(scene, i, settings.shadows)) {
+            if (casts) {
                 if (!hasCasters) hasCasters = scenes::hasCasters(scene);
                 if (*hasCasters) addShadow(light, settings, packed, lights.features);
             }
@@ -161,7 +164,8 @@ PackedLights packLights(const scenes::Scene& scene, const CameraView& view, cons
         // Directional lights and infinite ranges.
         if (packed.texels.position.w == 0.0f) ++lights.everywhere;
     }
-    const auto shown = std::find(lights.sceneIndex.begin(), lights.sceneIndex.end(), firstOn);
+    const int wanted = showsShadows(settings.view) && firstShadowed >= 0 ? firstShadowed : firstOn;
+    const auto shown = std::find(lights.sceneIndex.begin(), lights.sceneIndex.end(), wanted);
     lights.shown = int(shown - lights.sceneIndex.begin());
     return lights;
 }

@@ -21,8 +21,9 @@ struct PackedLights {
     std::vector<shared::LightShadowTexels> shadows; ///< parallel to texels
     std::vector<int> sceneIndex;                    ///< parallel to texels: index into Scene::lights
     FeatureSet features;                            ///< the light types and falloffs among them
-    int shown = 0;              ///< index into texels of the first light that is on, which the D, G and F views show;
-                                ///< texels.size() when it is left out, since it then reaches nothing in view
+    int shown = 0; ///< index into texels of the light that views of one light show: the first that is on,
+                   ///< or with showsShadows() the first of them that also casts shadows and reaches what
+                   ///< is in view, if any; texels.size() when it is left out, since it then reaches nothing
     std::size_t everywhere = 0; ///< those among texels without a range
     std::size_t shadowed = 0;   ///< those among texels that casters may hide
     std::size_t off = 0;        ///< left out: disabled, or not the solo light

@@ -318,8 +318,8 @@ std::size_t ShadowMaps::unmapped() const {
 
 std::string shadowFaceName(int i, int faces) {
     constexpr const char* kAxes[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
-    if (faces == 1) return "its map";
-    return faces == 6 ? kAxes[i] : std::to_string(i + 1) + (i == 0 ? " (nearest)" : "");
+    if (faces == 1) return "only map";
+    return faces == 6 ? kAxes[i] : "cascade " + std::to_string(i + 1) + (i == 0 ? " (nearest)" : "");
 }
 
 int shadowBorderTexels(const FrameSettings& settings, int sideTexels) {

@@ -1,9 +1,11 @@
-// The debug views of shadow maps: which face answers a pixel, and the atlas itself.
+// The debug views of shadow maps: which face answers a pixel, and the atlas itself. And which settings change shadows.
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "engine/Settings.h"
 #include "scenes/Load.h"
 #include "scenes/LookAt.h"
 #include "scenes/builtin/Shapes.h"
@@ -84,6 +86,24 @@ TEST_F(ShadowViews, areTheSameInEveryTechniqueToTheLastBit) {
                 EXPECT_TRUE(shown(renderer, view, info.technique) == truth)
                     << frame::debugViewInfo(view).name << " of light " << light << " with " << info.name;
         }
+    }
+}
+
+TEST_F(ShadowViews, areOfTheFirstLightThatCastsShadows) {
+    scenes::Scene scene = pointsAndSun();
+    const int sun = int(scene.lights.size()) - 1;
+    scene.lights.back().castsShadow = true;
+    settings.shadows = {scenes::ShadowRequest::Kind::Asked};
+    engine::Renderer renderer(context(), scene);
+    for (const DebugView view : {DebugView::Cascades, DebugView::Shadow}) {
+        settings.soloLight.reset();
+        const std::vector<float> first = shown(renderer, view);
+        ASSERT_TRUE(renderer.shadows().shown);
+        EXPECT_EQ(renderer.shadows().lights[*renderer.shadows().shown].sceneIndex, sun);
+        settings.soloLight = sun;
+        EXPECT_TRUE(first == shown(renderer, view)) << frame::debugViewInfo(view).name;
+        settings.soloLight = 0;
+        EXPECT_FALSE(first == shown(renderer, view)) << frame::debugViewInfo(view).name;
     }
 }
 
@@ -191,6 +211,29 @@ TEST_F(ShadowViews, theAtlasShowsTheDepthsThatItStores) {
     // Beside the atlas.
     settings.sizePixels = {100, 6};
     EXPECT_EQ(pixel(shown(renderer, DebugView::ShadowAtlas), 0, 3), glm::vec4(0.0f));
+}
+
+TEST_F(ShadowViews, andSettingsOfShadowsChangeAPictureExactlyWithTheFiltersThatHeedThem) {
+    constexpr std::pair<const char*, const char*> kOthers[] = {{"shadowSamples", "3"},
+                                                               {"shadowWidth", "7"},
+                                                               {"shadowResolution", "64"},
+                                                               {"shadowBudget", "0.05"},
+                                                               {"shadowCascades", "1"}};
+    scenes::Scene scene = pointsAndSun();
+    scene.lights[0].radiusMetres = 0.3f;
+    engine::Renderer renderer(context(), scene);
+    for (const frame::ShadowFilterInfo& filter : frame::shadowFilterTable()) {
+        settings.shadowFilter = filter.filter;
+        const engine::ViewRequest plain{Technique::Deferred, settings};
+        const std::vector<float> before = renderer.render(plain.technique, plain.settings).radiance;
+        for (const auto& [key, value] : kOthers) {
+            engine::ViewRequest other = plain;
+            engine::settingOf(key).read(other, value);
+            EXPECT_EQ(renderer.render(other.technique, other.settings).radiance == before,
+                      !engine::settingOf(key).whyIdle(plain).empty())
+                << key << " with " << filter.name;
+        }
+    }
 }
 
 TEST_F(ShadowViews, aFrameTellsWhatItsLightsGotAndWhichFacesItDrew) {

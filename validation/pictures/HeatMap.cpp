@@ -27,7 +27,11 @@ constexpr int kBarHeight = 8;
 constexpr int kTickHeight = 3;
 constexpr int kTickGap = 1; // to the label
 constexpr int kSwatch = 7;
-constexpr int kLeastWidth = 320; // the swatches with their words, and labels that do not overlap
+constexpr int kWordsGap = 3;  // from a swatch to its words
+constexpr int kSwatchGap = 8; // from the words to the next swatch
+constexpr int kSwatchRow = kGlyphHeight + kMargin / 2;
+constexpr int kLeastWidth = 320;        // the swatches with their words, and labels that do not overlap
+constexpr int kLeastPaintedWidth = 160; // a title of two lines
 constexpr int kLeastTextScale = 2;
 constexpr std::size_t kMostTitleLines = 2;
 constexpr Rgb8 kBackground = {24, 24, 26};
@@ -87,18 +91,24 @@ struct Framed {
     DisplayImage image;
 };
 
-Framed framed(int pictureWidth, int pictureHeight, const std::string& title) {
-    HeatMapLayout layout = heatMapLayout(pictureWidth, pictureHeight);
+/// `layoutFor` gives the layout with so many lines of the title.
+template <typename LayoutFor>
+Framed framed(const LayoutFor& layoutFor, const std::string& title) {
+    HeatMapLayout layout = layoutFor(1);
     const int unit = layout.textScale;
     const int room = (layout.width / unit - 2 * kMargin) / kGlyphAdvance;
     const std::vector<std::string> lines = titleLines(title, std::size_t(room));
-    layout = heatMapLayout(pictureWidth, pictureHeight, std::max(int(lines.size()), 1));
+    layout = layoutFor(std::max(int(lines.size()), 1));
     DisplayImage image{layout.width, layout.height, {}};
     image.rgb.resize(3 * image.pixelCount());
     fillRectangle(image, 0, 0, image.width, image.height, kBackground);
     for (std::size_t i = 0; i < lines.size(); ++i)
         drawText(image, unit * kMargin, unit * (kMargin + int(i) * kGlyphHeight), lines[i], kInk, unit);
     return {layout, std::move(image)};
+}
+
+Framed framedWithBar(int pictureWidth, int pictureHeight, const std::string& title) {
+    return framed([&](int lines) { return heatMapLayout(pictureWidth, pictureHeight, lines); }, title);
 }
 
 void drawPixel(DisplayImage& image, const HeatMapLayout& layout, std::size_t pixel, int width, Rgb8 colour) {
@@ -123,16 +133,30 @@ void drawBar(DisplayImage& image, const HeatMapLayout& layout, const std::vector
     }
 }
 
+int swatchWidth(const Swatch& swatch) {
+    return kSwatch + kWordsGap + textWidth(swatch.meaning);
+}
+
+/// Upper left corners, in pixels of the font, in rows of a width of `room`.
+std::vector<glm::ivec2> swatchPlaces(std::span<const Swatch> swatches, int room) {
+    std::vector<glm::ivec2> places;
+    glm::ivec2 next(0);
+    for (const Swatch& swatch : swatches) {
+        if (next.x > 0 && next.x + swatchWidth(swatch) > room) next = {0, next.y + kSwatchRow};
+        places.push_back(next);
+        next.x += swatchWidth(swatch) + kSwatchGap;
+    }
+    return places;
+}
+
 void drawSwatches(DisplayImage& image, const HeatMapLayout& layout, std::span<const Swatch> swatches) {
     const int unit = layout.textScale, side = unit * kSwatch;
-    int x = layout.legendX;
-    const int y = layout.legendY + unit * (kBarHeight + kTickHeight + kTickGap + kGlyphHeight + kMargin / 2);
-    for (const Swatch& swatch : swatches) {
+    const std::vector<glm::ivec2> places = swatchPlaces(swatches, layout.legendWidth / unit);
+    for (std::size_t i = 0; i < swatches.size(); ++i) {
+        const int x = layout.legendX + unit * places[i].x, y = layout.swatchY + unit * places[i].y;
         fillRectangle(image, x, y, side, side, kFaintInk);
-        fillRectangle(image, x + 1, y + 1, side - 2, side - 2, swatch.colour);
-        x += side + 3 * unit;
-        drawText(image, x, y, swatch.meaning, kFaintInk, unit);
-        x += textWidth(swatch.meaning, unit) + 8 * unit;
+        fillRectangle(image, x + 1, y + 1, side - 2, side - 2, swatches[i].colour);
+        drawText(image, x + side + unit * kWordsGap, y, swatches[i].meaning, kFaintInk, unit);
     }
 }
 
@@ -165,8 +189,25 @@ HeatMapLayout heatMapLayout(int pictureWidth, int pictureHeight, int lines) {
     layout.legendY = layout.pictureY + layout.scale * pictureHeight + unit * kMargin;
     layout.legendWidth = layout.width - 2 * unit * kMargin;
     layout.legendHeight = unit * kBarHeight;
-    layout.height = layout.legendY + layout.legendHeight +
-                    unit * (kTickHeight + kTickGap + kGlyphHeight + kMargin / 2 + kGlyphHeight + kMargin);
+    layout.swatchY =
+        layout.legendY + layout.legendHeight + unit * (kTickHeight + kTickGap + kGlyphHeight + kMargin / 2);
+    layout.height = layout.swatchY + unit * (kGlyphHeight + kMargin);
+    return layout;
+}
+
+HeatMapLayout paintedMapLayout(int pictureWidth, int pictureHeight, std::span<const Swatch> swatches, int lines) {
+    HeatMapLayout layout = heatMapLayout(pictureWidth, pictureHeight, lines);
+    const int unit = layout.textScale;
+    int least = kLeastPaintedWidth - 2 * kMargin;
+    for (const Swatch& swatch : swatches) least = std::max(least, swatchWidth(swatch));
+    layout.legendWidth = std::max(layout.scale * pictureWidth, unit * least);
+    layout.width = layout.legendWidth + 2 * unit * kMargin;
+    layout.pictureX = (layout.width - layout.scale * pictureWidth) / 2;
+    layout.legendHeight = 0;
+    layout.swatchY = layout.height = layout.legendY;
+    if (swatches.empty()) return layout;
+    const int lastRow = swatchPlaces(swatches, layout.legendWidth / unit).back().y;
+    layout.height = layout.swatchY + unit * (lastRow + kGlyphHeight + kMargin);
     return layout;
 }
 
@@ -194,7 +235,7 @@ std::vector<std::string> titleLines(const std::string& title, std::size_t most) 
 DisplayImage errorHeatMap(const Picture& a, const Picture& b, const std::string& title,
                           std::span<const std::uint8_t> excluded) {
     const PixelErrors errors = pixelErrors(a, b, excluded);
-    auto [layout, image] = framed(a.width, a.height, title);
+    auto [layout, image] = framedWithBar(a.width, a.height, title);
     for (std::size_t i = 0; i < errors.state.size(); ++i)
         drawPixel(image, layout, i, a.width, colourOf(errors.state[i], errors.rel[i]));
     drawBar(image, layout, errorTicks());
@@ -208,7 +249,7 @@ DisplayImage errorHeatMap(const Picture& a, const Picture& b, const std::string&
 
 DisplayImage flipHeatMap(const DisplayImage& a, const DisplayImage& b, const std::string& title) {
     const std::vector<float> errors = flipErrors(a, b);
-    auto [layout, image] = framed(a.width, a.height, title);
+    auto [layout, image] = framedWithBar(a.width, a.height, title);
     for (std::size_t i = 0; i < errors.size(); ++i)
         drawPixel(image, layout, i, a.width, scaleColour(double(errors[i])));
     drawBar(image, layout, shareTicks());
@@ -219,7 +260,7 @@ DisplayImage flipHeatMap(const DisplayImage& a, const DisplayImage& b, const std
 }
 
 DisplayImage countHeatMap(const Picture& counts, const std::string& title) {
-    auto [layout, image] = framed(counts.width, counts.height, title);
+    auto [layout, image] = framedWithBar(counts.width, counts.height, title);
     const float log2Most = scaleEnd(counts);
     for (std::size_t i = 0; i < counts.pixelCount(); ++i) {
         const float position = shared::heatPositionOfCount(counts.pixel(i)[0], log2Most);
@@ -249,7 +290,8 @@ DisplayImage faultMap(const Picture& radiance, const DisplayImage& painted, cons
 }
 
 DisplayImage paintedMap(const DisplayImage& painted, const std::string& title, std::span<const Swatch> swatches) {
-    auto [layout, image] = framed(painted.width, painted.height, title);
+    auto [layout, image] =
+        framed([&](int lines) { return paintedMapLayout(painted.width, painted.height, swatches, lines); }, title);
     for (std::size_t i = 0; i < painted.pixelCount(); ++i) {
         const std::uint8_t* rgb = &painted.rgb[3 * i];
         drawPixel(image, layout, i, painted.width, {rgb[0], rgb[1], rgb[2]});

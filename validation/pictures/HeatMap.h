@@ -31,10 +31,22 @@ struct HeatMapLayout {
     int scale = 1;                  ///< size of one of its pixels
     int legendX = 0, legendY = 0;   ///< upper left corner of the colour bar
     int legendWidth = 0, legendHeight = 0;
+    int swatchY = 0;   ///< top of the first row of swatches, which starts at legendX
     int textScale = 2; ///< of the font; lengths of the frame grow with it
 };
 
 HeatMapLayout heatMapLayout(int pictureWidth, int pictureHeight, int titleLines = 1);
+
+/// A colour and what it means.
+struct Swatch {
+    Rgb8 colour;
+    std::string meaning;
+};
+
+/// The same without a colour bar: no wider than the picture, a short title or the widest swatch needs, and as high as
+/// the rows of swatches.
+HeatMapLayout paintedMapLayout(int pictureWidth, int pictureHeight, std::span<const Swatch> swatches,
+                               int titleLines = 1);
 
 /// A title in lines of so many characters, broken between words where they have room; two at most, and what is left
 /// over is replaced by dots.
@@ -58,13 +70,7 @@ DisplayImage countHeatMap(const Picture& counts, const std::string& title);
 /// pixels of `radiance` are NaN, infinite and negative, each counted once, by the worst of its components.
 DisplayImage faultMap(const Picture& radiance, const DisplayImage& painted, const std::string& title);
 
-/// A colour and what it means.
-struct Swatch {
-    Rgb8 colour;
-    std::string meaning;
-};
-
-/// A picture as its display pass painted it, with the title above and the swatches below.
+/// A picture as its display pass painted it, with the title above and the swatches below, in rows.
 DisplayImage paintedMap(const DisplayImage& painted, const std::string& title, std::span<const Swatch> swatches);
 
 } // namespace tessera::validation

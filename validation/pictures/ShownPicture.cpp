@@ -1,8 +1,10 @@
 #include "validation/pictures/ShownPicture.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "engine/Rendering.h"
 #include "renderer/frame/LightBuffer.h"
@@ -36,9 +38,8 @@ int facesOfShown(const engine::DrawnShadows& shadows) {
 }
 
 std::string whatHasNoMap(const engine::DrawnShadows& shadows) {
-    if (shadows.lights.empty()) return "no light in view casts shadows";
-    if (!shadows.hasMaps) return "no maps: shadows are traced";
-    if (shownLight(shadows) == nullptr) return "the light has no shadows in view";
+    if (!shadows.hasMaps && !shadows.lights.empty()) return "no maps: shadows are traced";
+    if (shownLight(shadows) == nullptr) return "no light in view casts shadows";
     return facesOfShown(shadows) == 0 ? "the budget has no room for its maps" : "no map";
 }
 
@@ -48,6 +49,14 @@ std::string cascadesTitle(const engine::DrawnShadows& shadows) {
     const engine::DrawnShadows::Light& light = *shownLight(shadows);
     return fmt::format("light {}, {} map{} of {}x{} texels", light.sceneIndex, faces, faces == 1 ? "" : "s",
                        light.sideTexels, light.sideTexels);
+}
+
+/// What face i is called, of each kind of light that has one in the atlas.
+std::set<std::string> namesInAtlas(const engine::DrawnShadows& shadows, int i) {
+    std::set<std::string> names;
+    for (const engine::DrawnShadows::Light& light : shadows.lights)
+        if (i < light.faces && light.sideTexels > 0) names.insert(frame::shadowFaceName(i, light.faces));
+    return names;
 }
 
 std::string atlasTitle(const engine::DrawnShadows& shadows) {
@@ -68,8 +77,11 @@ std::vector<Swatch> shadowSwatches(frame::DebugView view, const engine::DrawnSha
         for (int i = 0; i < faces; ++i) add(i, frame::shadowFaceName(i, faces));
         swatches.push_back({codeColour(shared::noFaceColor()), whatHasNoMap(shadows)});
     }
-    if (view == frame::DebugView::ShadowAtlas && shadows.hasMaps)
-        for (int i = 0; i < 6; ++i) add(i, fmt::format("{} {}", i + 1, frame::shadowFaceName(i, 6)));
+    if (view == frame::DebugView::ShadowAtlas) {
+        for (int i = 0; i < 6; ++i)
+            if (const std::set<std::string> names = namesInAtlas(shadows, i); !names.empty())
+                add(i, fmt::format("{}", fmt::join(names, " or ")));
+    }
     return swatches;
 }
 

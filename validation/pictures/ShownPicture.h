@@ -13,8 +13,8 @@ namespace tessera::validation {
 DisplayImage shownPicture(const engine::RenderedFrame& frame, const engine::DrawnShadows& shadows,
                           const std::string& sceneName, engine::Technique technique, frame::DebugView view);
 
-/// The legend of a view of shadow maps, by colours: which map each stands for, and why there is none. Empty for other
-/// views, and where there are no maps to tell apart.
+/// The legend of a view of shadow maps, by colours: which maps each stands for, and why there is none. Empty for other
+/// views, and of an atlas without maps.
 std::vector<Swatch> shadowSwatches(frame::DebugView view, const engine::DrawnShadows& shadows);
 
 } // namespace tessera::validation

@@ -90,8 +90,12 @@ bool show(const Setting&, const engine::CameraKind&, Look&) {
 void settingRows(Look& look, engine::SettingPanel panel) {
     for (const Setting& setting : engine::settingTable()) {
         if (setting.panel != panel || !setting.isHeededBy(look.technique)) continue;
+        const std::string idle = setting.whyIdle(look);
+        ImGui::BeginDisabled(!idle.empty());
         const bool isChosen =
             std::visit([&](const auto& kind) { return show(setting, kind, look); }, setting.value.kind);
+        ImGui::EndDisabled();
+        tip(idle);
         if (const auto aside = look.aside.find(setting.key); isChosen && aside != look.aside.end())
             look.aside.erase(aside); // another choice was made in its place
     }

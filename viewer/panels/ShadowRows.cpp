@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include "renderer/frame/ShadowMaps.h"
+#include "scenes/Shadows.h"
 #include "viewer/edit/LightList.h"
 #include "viewer/panels/Widgets.h"
 
@@ -43,8 +44,8 @@ void tableRow(State& state, const engine::DrawnShadows& shadows, std::size_t row
 }
 
 void lightTable(State& state, const engine::DrawnShadows& shadows) {
-    const float height =
-        float(std::min(shadows.lights.size(), kMostLightRows) + 1) * ImGui::GetTextLineHeightWithSpacing();
+    const float rowHeight = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;
+    const float height = float(std::min(shadows.lights.size(), kMostLightRows) + 1) * rowHeight;
     const ImGuiTableFlags flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg;
     if (!ImGui::BeginTable("shadowed lights", shadows.hasMaps ? 3 : 2, flags, {0.0f, height})) return;
     ImGui::TableSetupScrollFreeze(0, 1);
@@ -58,6 +59,17 @@ void lightTable(State& state, const engine::DrawnShadows& shadows) {
         for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row)
             tableRow(state, shadows, std::size_t(row));
     ImGui::EndTable();
+}
+
+/// Where the filter finds nothing that one without sizes would not.
+bool hasNoSizeToHeed(State& state, const engine::DrawnShadows& shadows) {
+    const frame::ShadowFilterInfo& filter = infoOf(state.active().settings.shadowFilter);
+    const std::vector<scenes::Light>& lights = state.open->scene().lights;
+    return filter.usesMaps && filter.heedsSizes &&
+           std::ranges::none_of(shadows.lights, [&](const engine::DrawnShadows::Light& light) {
+               return std::size_t(light.sceneIndex) < lights.size() &&
+                      scenes::hasSize(lights[std::size_t(light.sceneIndex)]);
+           });
 }
 
 } // namespace
@@ -75,6 +87,10 @@ void shadowRows(State& state, const engine::DrawnShadows& shadows) {
                                  shadows.faces - shadows.drawnFaces));
         tip("In the latest frame; what has not changed is kept");
     }
+    if (hasNoSizeToHeed(state, shadows))
+        paragraph(fmt::format("None of these lights has a size, so {} looks up one texel, as {} does.",
+                              infoOf(state.active().settings.shadowFilter).name,
+                              infoOf(frame::ShadowFilter::Hard).name));
     lightTable(state, shadows);
 }
 

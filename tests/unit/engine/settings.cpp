@@ -196,6 +196,15 @@ TEST(Settings, shadowsAreThoseOfSomeLightsOrOfTheFirstFew) {
     EXPECT_EQ(request.settings.shadows, (scenes::ShadowRequest{Kind::First, 3}));
 }
 
+TEST(Settings, ofShadowsSayWithWhichFiltersTheyChangeSomething) {
+    ViewRequest request;
+    EXPECT_EQ(settingOf("shadowWidth").whyIdle(request), "Only pcf heeds it; the shadow filter is traced");
+    EXPECT_EQ(settingOf("shadowBudget").whyIdle(request),
+              "Only hard or pcf or pcss heeds it; the shadow filter is traced");
+    EXPECT_EQ(settingOf("shadowSamples").whyIdle(request), "");
+    EXPECT_EQ(settingOf("exposureEV").whyIdle(request), "");
+}
+
 TEST(Settings, aTechniqueRefusesUnsupportedValuesAndNamesThoseThatSupportThem) {
     ViewRequest request{Technique::Forward, {}};
     request.settings.culling.tilePixels = 32;

@@ -247,6 +247,29 @@ TEST(PackedLights, theShownLightIsTheFirstThatIsOnOrNoneWhenItIsLeftOut) {
     EXPECT_THAT(pack({}).texels, IsEmpty());
 }
 
+TEST(PackedLights, viewsOfShadowsShowTheFirstLightInViewThatCastsSome) {
+    Light behind = light(LightType::Point, {0, 0, 10}), dark = light(LightType::Point), lit = light(LightType::Spot);
+    behind.rangeMetres = 1.0f;
+    dark.intensity = 0.0f;
+    behind.castsShadow = dark.castsShadow = lit.castsShadow = true;
+    const std::vector<Light> lights{light(LightType::Point), behind, dark, lit, lit};
+    FrameSettings settings;
+    for (const bool prune : {true, false}) {
+        settings.prune = prune;
+        const auto shown = [&](DebugView view) {
+            settings.view = view;
+            const PackedLights packed = pack(lights, settings);
+            return packed.sceneIndex.at(std::size_t(packed.shown));
+        };
+        settings.shadows = {};
+        EXPECT_EQ(shown(DebugView::Shadow), 3) << prune;
+        EXPECT_EQ(shown(DebugView::Cascades), 3) << prune;
+        EXPECT_EQ(shown(DebugView::Distribution), 0) << prune;
+        settings.shadows = {scenes::ShadowRequest::Kind::None};
+        EXPECT_EQ(shown(DebugView::Shadow), 0) << "none casts any";
+    }
+}
+
 TEST(PackedLights, extremeIntensitiesStayFinite) {
     Light bright = light(LightType::Point);
     bright.color = glm::vec3(1e20f);

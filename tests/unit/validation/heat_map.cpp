@@ -151,6 +151,31 @@ TEST(HeatMap, theLettersGrowWithTheImageThatIsShownSmaller) {
     EXPECT_GE(large.legendX, 4 * 6);
 }
 
+TEST(HeatMap, aPaintedPictureIsFramedNoWiderAndNoHigherThanItsSwatchesNeed) {
+    const std::vector<Swatch> swatches(6, {{1, 200, 3}, std::string(21, 'W')});
+    for (const auto& [width, height] : {std::pair{320, 180}, {960, 540}, {1, 700}, {64, 36}}) {
+        SCOPED_TRACE(width);
+        const DisplayImage painted{width, height, std::vector<std::uint8_t>(std::size_t(3 * width * height), 7)};
+        const DisplayImage image = paintedMap(painted, "title", swatches);
+        const HeatMapLayout layout = paintedMapLayout(width, height, swatches);
+        ASSERT_TRUE(image.isConsistent());
+        EXPECT_EQ(image.width, layout.width);
+        EXPECT_EQ(image.height, layout.height);
+        EXPECT_GE(layout.swatchY, layout.pictureY + layout.scale * height);
+        EXPECT_LE(layout.swatchY, layout.pictureY + layout.scale * height + 6 * layout.textScale) << "an empty band";
+        EXPECT_TRUE(width < 300 || image.width == width + 2 * 6 * layout.textScale) << image.width;
+        int swatchPixels = 0;
+        for (int y = layout.swatchY; y < image.height; ++y)
+            for (int x = 0; x < layout.legendX + layout.legendWidth; ++x)
+                swatchPixels += at(image, x, y) == swatches[0].colour ? 1 : 0;
+        const int side = 7 * layout.textScale - 2;
+        EXPECT_EQ(swatchPixels, 6 * side * side);
+        for (int y = 0; y < image.height; ++y)
+            ASSERT_EQ(at(image, image.width - 1, y), at(image, 0, 0)) << "words reach the edge";
+    }
+    EXPECT_LT(paintedMapLayout(960, 540, {}).height, paintedMapLayout(960, 540, {{swatches[0]}}).height);
+}
+
 TEST(BitmapFont, textIsDrawnInItsCellsAndCutOffAtTheEdge) {
     DisplayImage image{8, 10, std::vector<std::uint8_t>(240, 0)};
     drawText(image, 1, 0, "-", {9, 9, 9});

@@ -29,16 +29,30 @@ TEST(ShadowLegend, namesEachMapOfTheLightOrWhyThereIsNone) {
     using testing::ElementsAre;
     EXPECT_THAT(meanings(DebugView::Cascades, shadowsOf(6, 512)),
                 ElementsAre("+x", "-x", "+y", "-y", "+z", "-z", "no map"));
-    EXPECT_THAT(meanings(DebugView::Cascades, shadowsOf(3, 512)), ElementsAre("1 (nearest)", "2", "3", "no map"));
-    EXPECT_THAT(meanings(DebugView::Cascades, shadowsOf(1, 512)), ElementsAre("its map", "no map"));
+    EXPECT_THAT(meanings(DebugView::Cascades, shadowsOf(3, 512)),
+                ElementsAre("cascade 1 (nearest)", "cascade 2", "cascade 3", "no map"));
+    EXPECT_THAT(meanings(DebugView::Cascades, shadowsOf(1, 512)), ElementsAre("only map", "no map"));
     EXPECT_THAT(meanings(DebugView::Cascades, shadowsOf(6, 0)), ElementsAre("the budget has no room for its maps"));
     EXPECT_THAT(meanings(DebugView::Cascades, shadowsOf(0, 0)), ElementsAre("no maps: shadows are traced"));
     EXPECT_THAT(meanings(DebugView::Cascades, {}), ElementsAre("no light in view casts shadows"));
     engine::DrawnShadows other = shadowsOf(6, 512);
     other.shown.reset();
-    EXPECT_THAT(meanings(DebugView::Cascades, other), ElementsAre("the light has no shadows in view"));
-    EXPECT_THAT(meanings(DebugView::ShadowAtlas, shadowsOf(6, 512)), testing::SizeIs(6));
+    EXPECT_THAT(meanings(DebugView::Cascades, other), ElementsAre("no light in view casts shadows"));
     EXPECT_THAT(meanings(DebugView::Shadow, shadowsOf(6, 512)), ElementsAre());
+}
+
+TEST(ShadowLegend, ofAnAtlasNamesWhatTheLightsInItHave) {
+    using testing::ElementsAre;
+    engine::DrawnShadows shadows = shadowsOf(6, 512);
+    EXPECT_THAT(meanings(DebugView::ShadowAtlas, shadows), ElementsAre("+x", "-x", "+y", "-y", "+z", "-z"));
+    shadows.lights.push_back({8, 2, 512, 512});
+    EXPECT_THAT(meanings(DebugView::ShadowAtlas, shadows),
+                ElementsAre("+x or cascade 1 (nearest)", "-x or cascade 2", "+y", "-y", "+z", "-z"));
+    shadows.lights.front().sideTexels = 0;
+    EXPECT_THAT(meanings(DebugView::ShadowAtlas, shadows), ElementsAre("cascade 1 (nearest)", "cascade 2"));
+    shadows.lights.back().faces = 1;
+    EXPECT_THAT(meanings(DebugView::ShadowAtlas, shadows), ElementsAre("only map"));
+    EXPECT_THAT(meanings(DebugView::ShadowAtlas, shadowsOf(0, 0)), ElementsAre());
 }
 
 TEST(ShadowLegend, hasTheColoursOfThePictures) {

@@ -299,11 +299,47 @@ TEST_F(Panels, theShadowsPanelTellsWhatHoldsTheShadowsOfWhichLight) {
     EXPECT_EQ(text().find("no room"), std::string::npos);
 }
 
+TEST_F(Panels, theShadowsPanelTakesNoValueThatTheFilterDoesNotHeed) {
+    for (const frame::ShadowFilterInfo& filter : frame::shadowFilterTable()) {
+        State state;
+        state.looks[0].settings.shadowFilter = filter.filter;
+        const Look before = state.looks[0];
+        for (float y = 20.0f; y < 250.0f; y += 10.0f) { // across all sliders, near their right ends
+            ImGui::GetIO().MousePos = {280.0f, y};
+            for (const bool isDown : {false, true, false}) {
+                ImGui::GetIO().MouseDown[0] = isDown;
+                show([&] { shadowsPanel(state, {}); });
+            }
+            ImGui::ClosePopupsOverWindow(nullptr, false); // of a list that the click opened
+        }
+        for (const engine::Setting& setting : engine::settingTable()) {
+            if (!std::holds_alternative<engine::NumberKind>(setting.value.kind)) continue;
+            const bool isSlid = setting.panel == engine::SettingPanel::Shadows && setting.whyIdle(before).empty();
+            EXPECT_EQ(!setting.value.equal(state.looks[0], before), isSlid) << setting.name << " with " << filter.name;
+        }
+    }
+}
+
+TEST_F(Panels, theShadowsPanelSaysWhereNoLightHasTheSizeThatItsFilterHeeds) {
+    State state = unusualScene();
+    Facts facts;
+    facts.shadows[0] = mapsOf(3);
+    const auto saysSo = [&](frame::ShadowFilter filter) {
+        state.looks[0].settings.shadowFilter = filter;
+        return textOf([&] { shadowsPanel(state, facts); }).find("has a size") != std::string::npos;
+    };
+    EXPECT_TRUE(saysSo(frame::ShadowFilter::Pcss));
+    EXPECT_FALSE(saysSo(frame::ShadowFilter::Pcf));
+    state.open->edit().lights[2].radiusMetres = 0.1f;
+    EXPECT_FALSE(saysSo(frame::ShadowFilter::Pcss));
+}
+
 TEST_F(Panels, ofManyLightsTheShadowsPanelLaysOutThoseInViewAndAClickSelectsOne) {
     State state = unusualScene();
     state.open->edit().lights.resize(256);
     for (scenes::Light& light : state.open->edit().lights) light.name = "lamp";
     Facts facts;
+    ImGui::GetStyle().ItemSpacing.y += 3.0f; // cells have a padding of their own
     const ImGuiWindow* table = nullptr;
     const auto verticesOf = [&](std::size_t lights) {
         facts.shadows[0] = mapsOf(lights);
@@ -316,7 +352,8 @@ TEST_F(Panels, ofManyLightsTheShadowsPanelLaysOutThoseInViewAndAClickSelectsOne)
     EXPECT_GT(few, 0);
     EXPECT_EQ(verticesOf(256), few);
     ASSERT_NE(table, nullptr);
-    const float row = ImGui::GetTextLineHeightWithSpacing();
+    const float row = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;
+    EXPECT_EQ(std::fmod(table->Size.y, row), 0.0f) << "a row is cut";
     ImGui::GetIO().MousePos = {table->Pos.x + 20.0f, table->Pos.y + 3.5f * row}; // below the header
     for (const bool isDown : {false, true, false}) {
         ImGui::GetIO().MouseDown[0] = isDown;
