@@ -78,7 +78,7 @@ constexpr bool showsLitPicture(DebugView view) {
     return view == DebugView::Final || view == DebugView::Faults;
 }
 /// Shows the shadows of one light.
-constexpr bool showsShadows(DebugView view) {
+constexpr bool showsShadowsOfOne(DebugView view) {
     return view == DebugView::Shadow || view == DebugView::Cascades;
 }
 /// Adds something up over the lights.
@@ -87,8 +87,7 @@ constexpr bool sumsOverLights(DebugView view) {
 }
 /// Its values depend on shadows.
 constexpr bool showsShadows(DebugView view) {
-    return showsLitPicture(view) || view == DebugView::Shadow || view == DebugView::Cascades ||
-           view == DebugView::ShadowAtlas;
+    return showsLitPicture(view) || showsShadowsOfOne(view) || view == DebugView::ShadowAtlas;
 }
 /// Needs the channel normal_texel, which lighting does not read.
 bool needsNormalTexel(DebugView view);

@@ -164,7 +164,7 @@ PackedLights packLights(const scenes::Scene& scene, const CameraView& view, cons
         // Directional lights and infinite ranges.
         if (packed.texels.position.w == 0.0f) ++lights.everywhere;
     }
-    const int wanted = showsShadows(settings.view) && firstShadowed >= 0 ? firstShadowed : firstOn;
+    const int wanted = showsShadowsOfOne(settings.view) && firstShadowed >= 0 ? firstShadowed : firstOn;
     const auto shown = std::find(lights.sceneIndex.begin(), lights.sceneIndex.end(), wanted);
     lights.shown = int(shown - lights.sceneIndex.begin());
     return lights;

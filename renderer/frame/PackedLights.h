@@ -22,7 +22,7 @@ struct PackedLights {
     std::vector<int> sceneIndex;                    ///< parallel to texels: index into Scene::lights
     FeatureSet features;                            ///< the light types and falloffs among them
     int shown = 0; ///< index into texels of the light that views of one light show: the first that is on,
-                   ///< or with showsShadows() the first of them that also casts shadows and reaches what
+                   ///< or with showsShadowsOfOne() the first of them that also casts shadows and reaches what
                    ///< is in view, if any; texels.size() when it is left out, since it then reaches nothing
     std::size_t everywhere = 0; ///< those among texels without a range
     std::size_t shadowed = 0;   ///< those among texels that casters may hide
