@@ -63,12 +63,13 @@ void addSettings(CLI::App& command, FrameOptions& options, std::string_view grou
         if (setting.group != group) continue;
         const std::string byItself =
             setting.byItself.empty() ? setting.text(engine::ViewRequest()) : std::string(setting.byItself);
+        const std::string range = setting.range().empty() ? "" : fmt::format(" ({})", setting.range());
         const auto say = [&options, &setting](const std::string& text) {
             options.settings.insert_or_assign(std::string(setting.key), text);
         };
         command
             .add_option_function<std::string>(std::string(setting.flag), say,
-                                              fmt::format("{} [{}]", setting.help, byItself))
+                                              fmt::format("{}{} [{}]", setting.help, range, byItself))
             ->type_name(std::string(setting.type))
             ->group(std::string(group));
         if (setting.key == "time") // beside the other options of lights

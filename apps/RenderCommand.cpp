@@ -63,14 +63,17 @@ std::vector<std::string> outputsOf(const RenderOptions& options) {
 }
 
 /// Says why, where a picture (RGBA, A the share of a pixel that is covered) shows nothing of its scene or is black, and
-/// how many of its pixels are no numbers; of a sequence about the first such picture alone.
+/// how many of its pixels are no numbers; of a sequence about the first such picture alone. `cut` says how shadows may
+/// have made pixels NaN, or nothing.
 void warnOfPicture(const std::string& path, const scenes::Scene& scene, frame::DebugView view,
-                   const std::vector<float>& rgba, bool& hasWarned) {
+                   const std::vector<float>& rgba, const std::string& cut, bool& hasWarned) {
     std::size_t covered = 0, bad = 0;
+    bool hasNaN = false;
     bool isBlack = view == frame::DebugView::Final && !scene.lights.empty(); // without lights that is no surprise
     for (std::size_t pixel = 0; pixel < rgba.size(); pixel += 4) {
         covered += rgba[pixel + 3] > 0.0f;
         bad += !(std::isfinite(rgba[pixel]) && std::isfinite(rgba[pixel + 1]) && std::isfinite(rgba[pixel + 2]));
+        hasNaN = hasNaN || std::isnan(rgba[pixel]);
         isBlack = isBlack && rgba[pixel] == 0.0f && rgba[pixel + 1] == 0.0f && rgba[pixel + 2] == 0.0f;
     }
     if ((covered > 0 && bad == 0 && !isBlack) || std::exchange(hasWarned, true)) return;
@@ -81,7 +84,8 @@ void warnOfPicture(const std::string& path, const scenes::Scene& scene, frame::D
         why = "is black: no light reaches the surfaces in view; --view diffuse shows them without light, and lights "
               "may be out of range, behind the surfaces or off";
     if (bad > 0)
-        why = fmt::format("{} of its pixels are infinite or no numbers; a light is too bright or too near", bad);
+        why = fmt::format("{} of its pixels are infinite or no numbers; {}", bad,
+                          hasNaN && !cut.empty() ? cut : "a light is too bright or too near");
     spdlog::warn("{}", oneLine(path + ": " + why));
 }
 
@@ -117,7 +121,7 @@ void renderReference(const RenderOptions& options, const Outputs& outputs, const
         Picture picture = validation::referencePicture(
                               request.scene, one, [&progress] { progress.advance(); }, validation::Leeway::None)
                               .picture;
-        warnOfPicture(path, request.scene, one.view, picture.rgba, hasWarned);
+        warnOfPicture(path, request.scene, one.view, picture.rgba, "", hasWarned);
         if (isLinear) return writeExr(path, picture);
         for (float& value : picture.rgba) value *= std::exp2(settings.exposureEV);
         writePng(path, toDisplayImage(picture));
@@ -160,10 +164,13 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     request.settings.display = extensionOf(options.output) != ".exr";
     // One picture is soon made.
     Progress progress("rendering", std::size_t(options.frames.value_or(1)), global.quiet || !options.frames);
-    bool hasWarned = false;
+    bool hasWarned = false, hasWarnedOfShadows = false;
     makePictures(options, outputs, request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
         const engine::RenderedFrame picture = renderer.render(request.technique, one);
-        warnOfPicture(path, request.scene, one.view, picture.radiance, hasWarned);
+        const engine::DrawnShadows shadows = renderer.shadows();
+        warnOfPicture(path, request.scene, one.view, picture.radiance, shadows.cut, hasWarned);
+        if (!shadows.lost.empty() && !std::exchange(hasWarnedOfShadows, true))
+            spdlog::warn("{}", oneLine(path + ": " + shadows.lost));
         writePicture(path, request, renderer, picture);
         progress.advance();
     });

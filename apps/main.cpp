@@ -107,13 +107,23 @@ std::vector<const char*> withoutHelpCommand(std::vector<const char*> words) {
     return words;
 }
 
+constexpr const char* kEmptyValue = "is empty; give a value";
+
 /// Where a shell's variable is not set, an option gets an empty text. Then it must not be as if it had not been given.
 void refuseEmptyValues(CLI::App& app) {
-    const CLI::Validator notEmpty([](const std::string& text) { return text.empty() ? "is empty; give a value" : ""; },
-                                  "");
+    const CLI::Validator notEmpty([](const std::string& text) { return text.empty() ? kEmptyValue : ""; }, "");
     for (CLI::Option* option : app.get_options())
         if (option->get_items_expected_max() > 0) option->check(notEmpty);
     for (CLI::App* command : app.get_subcommands({})) refuseEmptyValues(*command);
+}
+
+/// The parser would take the next word for the value of "--name=".
+void refuseEmptyAssignments(const std::vector<const char*>& words) {
+    for (const std::string_view word : words) {
+        if (word == "--") return;
+        if (word.starts_with("--") && word.find('=') == word.size() - 1)
+            throw CLI::ValidationError(std::string(word.substr(0, word.size() - 1)), kEmptyValue);
+    }
 }
 
 int runProgram(int argc, char** argv) {
@@ -139,6 +149,7 @@ int runProgram(int argc, char** argv) {
     refuseEmptyValues(app);
     const std::vector<const char*> words = withoutHelpCommand({argv, argv + argc});
     try {
+        refuseEmptyAssignments(words);
         app.parse(int(words.size()), words.data());
     } catch (const CLI::Success& wanted) { // --help
         return app.exit(wanted);

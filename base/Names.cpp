@@ -71,11 +71,12 @@ std::vector<std::string_view> nearestNames(std::string_view name, std::span<cons
     }
     // A word that was cut short.
     constexpr std::size_t kShortestCut = 3;
-    if (nearest.empty() && name.size() >= kShortestCut) {
-        for (const std::string_view candidate : candidates)
-            if (nearest.size() < kMostSuggestions && startsWith(candidate, name)) nearest.push_back(candidate);
-    }
-    return nearest;
+    if (nearestDistance <= 1 && !nearest.empty()) return nearest;
+    std::vector<std::string_view> longer;
+    for (const std::string_view candidate : candidates)
+        if (name.size() >= kShortestCut && longer.size() < kMostSuggestions && startsWith(candidate, name))
+            longer.push_back(candidate);
+    return longer.empty() ? nearest : longer;
 }
 
 std::string suggestNames(std::string_view name, std::span<const std::string_view> candidates) {

@@ -9,7 +9,7 @@ if(NOT EXISTS ${glad_dir}/src/gl.c)
         set(glad_command ${TESSERA_GLAD})
     endif()
     execute_process(
-        COMMAND ${glad_command} --api gl:core=4.5 --extensions GL_KHR_debug,GL_KHR_parallel_shader_compile --reproducible
+        COMMAND ${glad_command} --api gl:core=4.5 --extensions GL_ARB_polygon_offset_clamp,GL_KHR_debug,GL_KHR_parallel_shader_compile --reproducible
                 --out-path ${glad_dir} c
         RESULT_VARIABLE glad_result OUTPUT_VARIABLE glad_output ERROR_VARIABLE glad_output)
     if(NOT glad_result EQUAL 0)

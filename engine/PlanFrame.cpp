@@ -58,8 +58,7 @@ graph::Plan::Choice atlasChoice(const frame::ShadowMaps& maps, const frame::Fram
     if (maps.reduced() > 0)
         why += fmt::format("; the budget of {:g} MiB leaves {} fewer texels than wanted", settings.shadowMaps.budgetMiB,
                            frame::lightsText(maps.reduced()));
-    if (maps.unmapped() > 0)
-        why += fmt::format("; it has no room for {}, which cast no shadows", frame::lightsText(maps.unmapped()));
+    if (const std::string lost = lostShadows(maps, settings); !lost.empty()) why += "; " + lost;
     return {"shadow atlas",
             fmt::format("{}x{} texels, {:.4g} MiB", maps.atlasTexels.x, maps.atlasTexels.y, bytes / 1048576.0),
             std::move(why)};
@@ -83,9 +82,7 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::Prep
     if (prepared.lights.shadowed > 0) {
         const scenes::CasterCounts casters = scenes::casterCounts(scene);
         std::string why = fmt::format("{} triangles hide light", casters.triangles);
-        if (casters.transparent > 0)
-            why += fmt::format("; {} transparent surface{} cast none", casters.transparent,
-                               casters.transparent == 1 ? "" : "s");
+        if (casters.transparent > 0) why += "; " + frame::transparentText(casters.transparent);
         const bool hasMaps = prepared.spec.features[frame::Feature::ShadowMaps];
         plan.choices.push_back(
             {"shadows",
@@ -93,6 +90,9 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::Prep
                          hasMaps ? fmt::format("in maps ({})", infoOf(settings.shadowFilter).name) : "traced"),
              std::move(why)});
         if (hasMaps) plan.choices.push_back(atlasChoice(prepared.shadowMaps, settings));
+        if (std::string cut = cutShadows(prepared.spec); !cut.empty())
+            plan.choices.push_back(
+                {"loops of shadows", fmt::format("up to {} iterations", prepared.spec.iterations), std::move(cut)});
     }
     for (const std::string& warning : scene.warnings) plan.choices.push_back({"scene", scene.name, warning});
 }

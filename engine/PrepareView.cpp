@@ -13,6 +13,7 @@
 #include "engine/Settings.h"
 #include "renderer/culling/TileGrid.h"
 #include "renderer/frame/LightBuffer.h"
+#include "renderer/frame/LightRounds.h"
 #include "scenes/Limits.h"
 
 namespace tessera::engine {
@@ -32,6 +33,27 @@ void requireOneFrame(std::span<const ViewRequest> views) {
                                              setting.name, setting.text(views.front()), setting.name,
                                              setting.text(view)));
     }
+}
+
+std::string lostShadows(const frame::ShadowMaps& maps, const frame::FrameSettings& settings) {
+    if (maps.unmapped() == 0) return "";
+    return fmt::format("the budget of {:g} MiB has no room for the maps of {}, which cast no shadows; give more {}",
+                       settings.shadowMaps.budgetMiB, frame::lightsText(maps.unmapped()),
+                       settingOf("shadowBudget").flag);
+}
+
+std::string cutShadows(const frame::FrameSpec& spec) {
+    if (!spec.mayCutShadows()) return "";
+    const bool isPcf = spec.settings.shadowFilter == frame::ShadowFilter::Pcf;
+    const std::string fewer = isPcf ? fmt::format("a smaller {} or ", settingOf("shadowWidth").flag)
+                              : spec.features[frame::Feature::SoftShadows]
+                                  ? fmt::format("fewer {} or ", settingOf("shadowSamples").flag)
+                                  : "";
+    return fmt::format("shadows of {} take up to {} iterations of a shader's loops where all reach a pixel, and Mesa "
+                       "ends those after {}, which "
+                       "gives NaN; give {}shadows to fewer lights ({} N)",
+                       frame::lightsText(spec.shadowedLights), spec.iterations, frame::kMostLoopIterations, fewer,
+                       settingOf("shadows").flag);
 }
 
 namespace {

@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "engine/Settings.h"
 #include "engine/Techniques.h"
 #include "renderer/frame/PreparedView.h"
@@ -14,6 +16,11 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
 /// Throws InputError where views differ in a setting that all views of a frame share (Setting::isOfFrame), and
 /// std::logic_error where there is no view.
 void requireOneFrame(std::span<const ViewRequest> views);
+
+/// Which lights cast no shadows, since the budget has no room for their maps, and what to do; empty: none.
+std::string lostShadows(const frame::ShadowMaps& maps, const frame::FrameSettings& settings);
+/// How shadows may take more iterations than Mesa lets loops make, and what to do; empty: they do not.
+std::string cutShadows(const frame::FrameSpec& spec);
 
 /// The camera that the settings ask for, where they put it.
 scenes::Camera frameCamera(const scenes::Scene& scene, const frame::FrameSettings& settings);

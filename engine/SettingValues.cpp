@@ -17,19 +17,34 @@ std::string numberText(float value) {
                                                                            : numberText(static_cast<double>(value));
 }
 
-int wholeNumber(const std::string& text, const TextSource& source) {
-    if (const std::optional<int> value = parsed<int>(text)) return *value;
+std::optional<double> wholeNumberIn(const std::string& text) {
+    const bool isNegative = text.starts_with('-');
+    const std::string_view digits = std::string_view(text).substr(isNegative ? 1 : 0);
+    if (digits.empty() || digits.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
+    constexpr double kMost = std::numeric_limits<double>::max();
+    return parsed<double>(text).value_or(isNegative ? -kMost : kMost);
+}
+
+double wholeNumber(const std::string& text, const TextSource& source) {
+    if (const std::optional<double> value = wholeNumberIn(text)) return *value;
     throw InputError(fmt::format("{} '{}' is not a whole number, such as 8", source.called, text));
 }
 
+std::string boundsText(const NumberKind& kind) {
+    return std::isinf(kind.most)    ? fmt::format("{} or more", kind.least)
+           : std::isinf(kind.least) ? fmt::format("{} or less", kind.most)
+                                    : fmt::format("{} to {}", kind.least, kind.most);
+}
+
 void requireBounds(const NumberKind& kind, double value, const TextSource& source) {
-    if (value >= kind.least && value <= kind.most) return;
-    const std::string bounds = std::isinf(kind.most)    ? fmt::format("{} or more", kind.least)
-                               : std::isinf(kind.least) ? fmt::format("{} or less", kind.most)
-                                                        : fmt::format("{} to {}", kind.least, kind.most);
+    NumberKind held = kind;
+    using Whole = std::numeric_limits<int>;
+    if (kind.isWhole && value < double(Whole::min())) held.least = std::max(kind.least, double(Whole::min()));
+    if (kind.isWhole && value > double(Whole::max())) held.most = std::min(kind.most, double(Whole::max()));
+    if (value >= held.least && value <= held.most) return;
     throw InputError(fmt::format("{} {} is {} {}; give {}", source.called, value,
-                                 value < kind.least ? "below" : "above", value < kind.least ? kind.least : kind.most,
-                                 bounds));
+                                 value < held.least ? "below" : "above", value < held.least ? held.least : held.most,
+                                 boundsText(held)));
 }
 
 SettingValue onOff(bool FrameSettings::*member) {

@@ -77,8 +77,14 @@ std::string numberText(double value);
 std::string numberText(int value);
 std::string numberText(float value);
 
-/// Throws InputError that says what the number should be.
-int wholeNumber(const std::string& text, const TextSource& source);
+/// "1 to 1024", "0 or more".
+std::string boundsText(const NumberKind& kind);
+
+/// The text as a whole number of any size; none: it is something else.
+std::optional<double> wholeNumberIn(const std::string& text);
+/// The same. Throws InputError where it is something else.
+double wholeNumber(const std::string& text, const TextSource& source);
+/// Throws InputError that says what the number should be. Whole ones are also held to those of an int.
 void requireBounds(const NumberKind& kind, double value, const TextSource& source);
 
 // ---- Kinds of values -----------------------------------------------------------------------------------------------
@@ -148,10 +154,11 @@ SettingValue choice(Get get, std::span<const int> numbers, std::string_view unit
     for (const int number : numbers)
         kind.entries.push_back({numberText(number), numberText(number) + std::string(unit), ""});
     const auto valueOf = [numbers](const std::string& text, const TextSource& source) {
-        const int value = wholeNumber(text, source);
-        if (std::ranges::find(numbers, value) == numbers.end())
+        const double value = wholeNumber(text, source);
+        const auto found = std::ranges::find(numbers, value);
+        if (found == numbers.end())
             throw InputError(fmt::format("{} {}: give one of {}", source.called, value, fmt::join(numbers, ", ")));
-        return value;
+        return *found;
     };
     return valueIn(
         get, std::move(kind), [](int value) { return numberText(value); }, valueOf);
@@ -176,9 +183,9 @@ SettingValue number(Get get, const NumberKind& kind) {
 template <typename Get>
 SettingValue wholeNumber(Get get, const NumberKind& kind) {
     const auto valueOf = [kind](const std::string& text, const TextSource& source) {
-        const int value = wholeNumber(text, source);
+        const double value = wholeNumber(text, source);
         requireBounds(kind, value, source);
-        return value;
+        return int(value);
     };
     return valueIn(
         get, kind, [](int value) { return numberText(value); }, valueOf);

@@ -9,6 +9,7 @@
 #include "engine/ChooseSamples.h"
 #include "engine/ChooseView.h"
 #include "engine/SettingValues.h"
+#include "scenes/Limits.h"
 
 namespace tessera::engine {
 
@@ -64,12 +65,12 @@ SettingValue sceneCamera() {
 
 SettingValue soloLight() {
     const auto valueOf = [](const std::string& text, const TextSource& source) {
-        const int light = wholeNumber(text, source);
+        const double light = wholeNumber(text, source);
         const std::size_t count = source.scene ? source.scene->lights.size() : 0;
-        if (source.scene && (light < 0 || std::size_t(light) >= count))
+        if (source.scene && (light < 0.0 || light >= double(count)))
             throw InputError(fmt::format("{} {}: {} has {} light{}, counted from 0", source.called, light,
                                          source.scene->name, count, count == 1 ? "" : "s"));
-        return light;
+        return int(std::clamp(light, -1.0, double(scenes::kMostLights))); // which no scene has
     };
     return valueIn(
         in(&FrameSettings::soloLight), NumberKind{.least = 0.0, .isWhole = true},
@@ -101,12 +102,15 @@ SettingValue shadowChoice() {
     const auto valueOf = [names](const std::string& text, const TextSource& source) {
         for (const ShadowChoice& row : kShadowChoices)
             if (row.name == text) return row.request;
-        const std::optional<int> lights = parsed<int>(text);
-        if (!lights)
-            throw InputError(fmt::format("unknown {} '{}': {}; or give a number N, and the first N lights cast some",
-                                         source.called, text, suggestNames(text, names)));
+        const std::optional<double> lights = wholeNumberIn(text);
+        if (!lights) {
+            const bool isNear = !nearestNames(text, names).empty();
+            throw InputError(fmt::format("unknown {} '{}': give {} or a number N, for the first N lights{}",
+                                         source.called, text, fmt::join(names, ", "),
+                                         isNear ? "; " + suggestNames(text, names) : ""));
+        }
         requireBounds({.least = 0.0, .isWhole = true}, *lights, source);
-        return scenes::ShadowRequest{scenes::ShadowRequest::Kind::First, *lights};
+        return scenes::ShadowRequest{scenes::ShadowRequest::Kind::First, int(*lights)};
     };
     return valueIn(in(&FrameSettings::shadows), std::move(kind), textOf, valueOf);
 }
@@ -124,11 +128,6 @@ std::string listed(std::span<const Row> table) {
     std::string text;
     for (const Row& row : table) text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", row.name, row.summary);
     return text;
-}
-
-/// "1, 2 or 4".
-std::string listOf(std::span<const int> numbers) {
-    return fmt::format("{} or {}", fmt::join(numbers.first(numbers.size() - 1), ", "), numbers.back());
 }
 
 /// Those of the G-buffer's channels as one pattern.
@@ -194,7 +193,7 @@ std::vector<Setting> makeTable() {
          .flag = "--tile",
          .key = "tile",
          .type = "PIXELS",
-         .help = fmt::format("Side of a light-culling tile, {}", listOf(culling::kTileSides)),
+         .help = "Side of a light-culling tile",
          .byItself = numberText(culling::kUsualTilePixels),
          .heeds = hasLightLists,
          .refusal = "it has no light lists",
@@ -249,8 +248,7 @@ std::vector<Setting> makeTable() {
          .flag = "--samples",
          .key = "samples",
          .type = "N",
-         .help =
-             fmt::format("Samples of a pixel, {}; more than 1 without a G-buffer only", listOf(frame::kSampleCounts)),
+         .help = "Samples of a pixel; more than 1 without a G-buffer only",
          .heeds = hasSeveralSamples,
          .refusal = "it has a G-buffer",
          .takes = takesItsSamples,
@@ -333,7 +331,7 @@ std::vector<Setting> makeTable() {
          .flag = "--shadow-width",
          .key = "shadowWidth",
          .type = "TEXELS",
-         .help = fmt::format("Of pcf: side of the square that it averages, {}", listOf(frame::kShadowWidths)),
+         .help = "Of pcf: side of the square that it averages",
          .group = "Shadows",
          .panel = SettingPanel::Shadows,
          .label = "PCF width",
@@ -342,7 +340,7 @@ std::vector<Setting> makeTable() {
          .flag = "--shadow-resolution",
          .key = "shadowResolution",
          .type = "TEXELS",
-         .help = fmt::format("Of maps: side of every face, {}", listOf(frame::kShadowResolutions)),
+         .help = "Of maps: side of every face",
          .byItself = "by what a light reaches in the picture",
          .group = "Shadows",
          .panel = SettingPanel::Shadows,
@@ -352,7 +350,8 @@ std::vector<Setting> makeTable() {
          .flag = "--shadow-budget",
          .key = "shadowBudget",
          .type = "MIB",
-         .help = "Of maps: memory of all of a view; those that exceed it are made smaller, which plan tells",
+         .help = "Of maps: memory of all of a view; those that exceed it are made smaller or left out, which plan "
+                 "tells",
          .group = "Shadows",
          .panel = SettingPanel::Shadows,
          .label = "Map budget",
@@ -363,8 +362,7 @@ std::vector<Setting> makeTable() {
          .flag = "--shadow-cascades",
          .key = "shadowCascades",
          .type = "N",
-         .help = fmt::format("Of maps: how many a directional light has, 1 to {}, each of a part of the depths",
-                             frame::kMostShadowCascades),
+         .help = "Of maps: how many a directional light has, each of a part of the depths",
          .group = "Shadows",
          .panel = SettingPanel::Shadows,
          .label = "Cascades",
@@ -489,6 +487,19 @@ std::string Setting::panelLabel() const {
 bool Setting::isTaken(const ViewRequest& request) const {
     if (isDefault(request)) return true;
     return isDrawable(*this, request) && (refusal.empty() || isHeededBy(request.technique));
+}
+
+std::string Setting::range() const {
+    if (const auto* number = std::get_if<NumberKind>(&value.kind)) {
+        const bool isBounded = std::isfinite(number->least) && std::isfinite(number->most);
+        return isBounded ? boundsText(*number) : "";
+    }
+    const auto* choice = std::get_if<ChoiceKind>(&value.kind);
+    if (choice == nullptr || !choice->ofNumbers) return "";
+    std::string text;
+    for (const ChoiceKind::Entry& entry : choice->entries)
+        text += (text.empty() ? "" : &entry == &choice->entries.back() ? " or " : ", ") + entry.name;
+    return text;
 }
 
 std::span<const Setting> settingTable() {

@@ -72,7 +72,7 @@ struct Setting {
     std::string_view flag{};          ///< of the command line: "--range-tolerance"
     std::string_view key{};           ///< of scene files and of the viewer's preferences: "rangeTolerance"
     std::string_view type{};          ///< behind the flag in --help: "METRES"
-    std::string help{};               ///< its line in --help, without the default
+    std::string help{};               ///< its line in --help, without range() and the default
     std::string byItself{};           ///< the default as --help words it, where the value alone is unclear
     std::string_view group = "Frame"; ///< in --help
 
@@ -102,6 +102,8 @@ struct Setting {
     /// Throws InputError that names the setting and its valid values.
     void read(ViewRequest& request, const std::string& text, const TextSource& source = {}) const;
     std::string panelLabel() const;
+    /// "1 to 1024", "1, 2 or 4": the numbers that it takes; empty where they have no two ends, and of other kinds.
+    std::string range() const;
     bool isDefault(const ViewRequest& request) const { return value.equal(request, ViewRequest()); }
     void reset(ViewRequest& request) const { value.copy(request, ViewRequest()); }
     bool isHeededBy(Technique technique) const { return heeds == nullptr || heeds(technique); }

@@ -31,6 +31,14 @@ Draws addUpload(graph::Graph& graph, const frame::DrawnView* drawn) {
         });
 }
 
+/// In a cascade, casters are moved away by the width of a texel at most: one that rises more steeply over another
+/// within a texel hides it there, and moved farther it would let light through. Depths of other faces are not even, so
+/// that one number says nothing of all of them.
+float mostSlopeBias(const shared::ViewConstants& face) {
+    const bool isParallel = face.forwardLS.w != 0.0f;
+    return isParallel ? -face.rayFromPixel.x / face.depthKey.y : 0.0f;
+}
+
 } // namespace
 
 std::vector<shader::ProgramDesc> ShadowMapsPass::programs(const frame::FrameSpec& spec) {
@@ -80,6 +88,7 @@ ShadowMapsPass::Outputs ShadowMapsPass::add(graph::Graph& graph, const frame::Fr
                             gpu::clearDepth(0.0f);
                             if (face.batches.empty()) continue;
                             context.constants(UNIFORM_VIEW, face.view);
+                            state.mostSlopeBias = mostSlopeBias(face.view);
                             out.surfaces.drawDepth(context, face.batches, state);
                         }
                         drawnView.shadowMemory->end();

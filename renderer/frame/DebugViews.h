@@ -81,6 +81,11 @@ constexpr bool showsLitPicture(DebugView view) {
 constexpr bool sumsOverLights(DebugView view) {
     return showsLitPicture(view) || view == DebugView::Lights;
 }
+/// Its values depend on shadows.
+constexpr bool showsShadows(DebugView view) {
+    return showsLitPicture(view) || view == DebugView::Shadow || view == DebugView::Cascades ||
+           view == DebugView::ShadowAtlas;
+}
 /// Needs the channel normal_texel, which lighting does not read.
 bool needsNormalTexel(DebugView view);
 /// VIEW of the shaders that shade or store surfaces: views that another pass makes of their output take the lit

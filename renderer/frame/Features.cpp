@@ -61,9 +61,8 @@ std::vector<FeatureInfo> makeTable() {
             {Feature::VaryingMaterials, "VARYING_MATERIALS", "materials that vary over a surface",
              "no texture but normal maps, no vertex colour and no anisotropy changes one"},
             {Feature::OrthographicCamera, "ORTHOGRAPHIC_CAMERA", "parallel rays", "the camera is perspective"},
-            {Feature::Shadows, "SHADOWS", "shadows", "no light in view is to cast any, or nothing hides it"},
-            {Feature::SoftShadows, "SOFT_SHADOWS", "soft shadows",
-             "no light in view that casts shadows has a size, or the filter heeds none"},
+            {Feature::Shadows, "SHADOWS", "shadows", "no light in view casts any"},
+            {Feature::SoftShadows, "SOFT_SHADOWS", "soft shadows", "no shadow in view is soft"},
             {Feature::ShadowMaps, "SHADOW_MAPS", "shadow maps", "no shadow is looked up in a map"},
         });
     assert(table.size() == kFeatureCount);

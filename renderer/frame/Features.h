@@ -63,7 +63,7 @@ struct FeatureInfo {
     Feature feature;
     std::string define; ///< HAS_<define> is 0 or 1 in every shader
     std::string what;   ///< what is left out without it
-    std::string absent; ///< why it is left out
+    std::string absent; ///< why it is left out; of shadows leftOut() (FrameSpec.h) says more
 };
 std::span<const FeatureInfo> featureTable();
 

@@ -9,6 +9,7 @@
 #include "renderer/frame/RefineLayout.h"
 #include "renderer/frame/ShadowMaps.h"
 #include "scenes/InUse.h"
+#include "scenes/Shadows.h"
 
 namespace tessera::frame {
 
@@ -34,12 +35,55 @@ std::size_t bytesWithout(Feature feature, const FeatureSet& features) {
     }
 }
 
-/// Steps of a walk through the casters that shaders spell out. Mesa ends the loops of a shader after 65,535 iterations
-/// together; walks of detailed scenes take some 150 steps. Four at a time cost 1.2 to 1.7 times as much as single ones.
-int casterSteps(const FrameSpec& spec) {
-    const std::size_t walks =
-        spec.shadowedLights * std::size_t(spec.features[Feature::SoftShadows] ? spec.settings.shadowSamples : 1);
-    return walks <= 256 ? 1 : walks <= 1024 ? 4 : 16;
+std::size_t casterStepsOf(const FrameSpec& spec) {
+    return casterSteps(spec.shadowedLights *
+                       std::size_t(spec.features[Feature::SoftShadows] ? spec.settings.shadowSamples : 1));
+}
+
+/// Those of the loops that find a light's shadow, at most: all its cascades may answer pixels that run together.
+std::size_t shadowIterations(const FrameSpec& spec, const scenes::Light& light) {
+    const FrameSettings& settings = spec.settings;
+    const bool isSoft = scenes::hasSize(light) && infoOf(settings.shadowFilter).heedsSizes;
+    const std::size_t samples = isSoft ? std::size_t(settings.shadowSamples) : 1;
+    if (spec.tracesShadows()) return samples * rayIterations(casterStepsOf(spec));
+    const std::size_t faces = scenes::infoOf(light.type).hasPosition() ? 1 : std::size_t(settings.shadowMaps.cascades);
+    const std::size_t ofFilter = settings.shadowFilter == ShadowFilter::Pcf
+                                     ? pcfIterations(std::size_t(settings.shadowMaps.widthTexels))
+                                 : isSoft ? pcssIterations(samples)
+                                          : 0;
+    return faces * (1 + ofFilter);
+}
+
+/// Why no light casts shadows.
+std::string whyNoShadows(const scenes::Scene& scene, const PackedLights& lights, const scenes::ShadowRequest& request) {
+    using Kind = scenes::ShadowRequest::Kind;
+    if (lights.texels.empty()) return "no light is on and in view";
+    const bool isAsked = std::ranges::any_of(
+        lights.sceneIndex, [&](int light) { return scenes::castsShadow(scene, std::size_t(light), request); });
+    if (isAsked) {
+        const std::size_t transparent = scenes::casterCounts(scene).transparent;
+        return transparent == 0 ? "no surface casts any" : "no surface casts any; " + transparentText(transparent);
+    }
+    if (request.kind == Kind::None || (request.kind == Kind::First && request.lights == 0))
+        return "no light is to cast any";
+    if (request.kind == Kind::Asked) return "no light in view has castsShadow";
+    return fmt::format("none of the first {} is on and in view", lightsText(std::size_t(request.lights)));
+}
+
+/// Why no shadow is soft.
+std::string whyNotSoft(const FrameSpec& spec) {
+    if (spec.shadowedLights == 0) return "no light casts shadows";
+    const ShadowFilterInfo& filter = infoOf(spec.settings.shadowFilter);
+    if (!filter.heedsSizes) return fmt::format("the shadow filter {} heeds no sizes of lights", filter.name);
+    return "no light in view that casts shadows has a size";
+}
+
+/// Why a feature is left out.
+std::string whyAbsent(const FeatureInfo& info, const scenes::Scene& scene, const FrameSpec& spec,
+                      const PackedLights& lights) {
+    if (info.feature == Feature::Shadows) return whyNoShadows(scene, lights, spec.settings.shadows);
+    if (info.feature == Feature::SoftShadows) return whyNotSoft(spec);
+    return info.absent;
 }
 
 void addLights(std::vector<graph::Plan::LeftOut>& out, const FeatureSet& features, std::size_t count, const char* why) {
@@ -66,6 +110,9 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     spec.features.add(Feature::VaryingMaterials, storedComponents(settings.view).has_value());
     spec.settings.layout = refined(settings.layout, scene);
     spec.channels = neededChannels(spec.features, spec.settings.layout, needsNormalTexel(settings.view));
+    spec.iterations = loopIterations(spec.lights, lightsPerRound(spec.lights));
+    for (std::size_t i = 0; i < lights.shadowed; ++i)
+        spec.iterations += 1 + shadowIterations(spec, scene.lights[std::size_t(lights.sceneIndex[i])]);
     return spec;
 }
 
@@ -82,7 +129,7 @@ Defines frameDefines(const FrameSpec& spec) {
         defines.emplace_back("SHADOW_BORDER", std::to_string(shadowBorderTexels(spec.settings, kLargestSidePixels)));
         defines.emplace_back("SHADOW_WIDTH", std::to_string(spec.settings.shadowMaps.widthTexels));
     }
-    if (spec.tracesShadows()) defines.emplace_back("CASTER_STEPS", std::to_string(casterSteps(spec)));
+    if (spec.tracesShadows()) defines.emplace_back("CASTER_STEPS", std::to_string(casterStepsOf(spec)));
     if (spec.features[Feature::SoftShadows])
         defines.emplace_back("SHADOW_SAMPLES", std::to_string(spec.settings.shadowSamples));
     return defines;
@@ -111,6 +158,11 @@ Defines FrameSpec::gbufferDefines() const {
     else
         defines.emplace_back("GBUFFER_FACETS_IN_SPECULAR", "1");
     return defines;
+}
+
+bool FrameSpec::mayCutShadows() const {
+    return settings.softwareBackend && shadowedLights > 0 && showsLitPicture(settings.view) &&
+           iterations > kMostLoopIterations - kOtherLoopIterations;
 }
 
 int FrameSpec::gbufferBytesPerPixel() const {
@@ -194,7 +246,7 @@ std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const Fram
     for (const FeatureInfo& info : featureTable()) {
         if (spec.features[info.feature]) continue;
         out.push_back({std::string(info.what),
-                       std::string(info.absent),
+                       whyAbsent(info, scene, spec, lights),
                        vertexCount(scene) * bytesWithout(info.feature, spec.features),
                        {}});
     }

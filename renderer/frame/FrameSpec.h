@@ -21,6 +21,7 @@ struct FrameSpec {
     LightingStage lightOn = LightingStage::Fragment; ///< where the technique has a lighting pass
     std::size_t lights = 0;                          ///< that the frame's pixels may visit
     std::size_t shadowedLights = 0;                  ///< those among them that casters may hide
+    std::size_t iterations = 0;                      ///< of loops, to light a pixel that all lights reach
     glm::ivec2 shadowAtlasTexels{0};                 ///< where there are shadow maps
     std::size_t shadowFaces = 0;                     ///< in the atlas
     bool lightsEverywhere = false;                   ///< some lights reach everywhere, while others do not
@@ -29,6 +30,8 @@ struct FrameSpec {
 
     /// Whether shadows follow rays through the casters.
     bool tracesShadows() const { return features[Feature::Shadows] && !features[Feature::ShadowMaps]; }
+    /// Whether shadows may take more iterations than Mesa lets loops make, so that pixels are NaN (LightRounds.h).
+    bool mayCutShadows() const;
 
     /// Of the G-buffer, by attachment: its channels, and behind them, where lights cast shadows, the facet normals
     /// (shaders/lib/surface/facet.glsl) of all layouts. Where the channels take all attachments, these lie beside the

@@ -16,6 +16,10 @@ std::string lightsText(std::size_t count) {
     return fmt::format("{} light{}", count, count == 1 ? "" : "s");
 }
 
+std::string transparentText(std::size_t surfaces) {
+    return fmt::format("{} transparent {} none", surfaces, surfaces == 1 ? "surface casts" : "surfaces cast");
+}
+
 std::vector<glm::vec4> texelsOf(const PackedLights& lights, const FeatureSet& features) {
     std::vector<glm::vec4> texels;
     texels.reserve(lightBytes(features, lights.texels.size()) / sizeof(glm::vec4));

@@ -13,6 +13,9 @@ std::size_t lightBytes(const FeatureSet& features, std::size_t count);
 /// Such as "1 light" or "257 lights".
 std::string lightsText(std::size_t count);
 
+/// Such as "2 transparent surfaces cast none", of shadows.
+std::string transparentText(std::size_t surfaces);
+
 /// What the buffer texture of shaders/lib/light/light_store.glsl holds, where shaders have those features.
 std::vector<glm::vec4> texelsOf(const PackedLights& lights, const FeatureSet& features);
 

@@ -4,8 +4,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <numeric>
 #include <optional>
+#include <queue>
 
 #include "renderer/frame/CasterTree.h"
 #include "renderer/frame/LightRange.h"
@@ -85,6 +88,7 @@ struct Wanted {
     double reachMetres = 0.0;
     std::optional<Cone> cone; ///< without one it takes a face for each direction of the axes
     double texels = 0.0;      ///< side of a face that its pixels in the picture want
+    double pixels = 0.0;      ///< of the picture that it may reach
 };
 
 /// The cone of a spot light, or the narrower one around all that is drawn, seen from beside it.
@@ -107,20 +111,28 @@ int faceCount(const Wanted& wanted, const FrameSettings& settings) {
     return wanted.cone ? 1 : 6;
 }
 
-/// A face is as wide as what it sees halfway to the light's end is in the picture, from the nearest place that the
-/// light reaches, but from no nearer than a quarter of its reach; and no wider than all that is drawn.
-double wantedTexels(const Wanted& wanted, const CameraView& view, const glm::ivec2& sizePixels, const Ball& scene) {
+/// How much of the picture a light may reach, and how wide a face's end is there at most: as seen from the nearest
+/// place that the light reaches, but from no nearer than a quarter of its reach.
+void setInfluence(Wanted& wanted, const CameraView& view, const glm::ivec2& sizePixels, const Ball& scene) {
     const double side = double(std::max(sizePixels.x, sizePixels.y));
-    if (!scenes::infoOf(wanted.light.type).hasPosition()) return side;
+    const double all = double(sizePixels.x) * double(sizePixels.y);
+    wanted.texels = side;
+    wanted.pixels = all;
+    if (!scenes::infoOf(wanted.light.type).hasPosition()) return;
     const double reach = std::min(wanted.reachMetres, 2.0 * scene.radiusMetres);
-    const double fromEye = std::min(glm::distance(wanted.light.positionWS, view.eyeWS) - wanted.reachMetres,
-                                    glm::distance(scene.centreWS, view.eyeWS) - scene.radiusMetres);
+    const double distance = glm::distance(wanted.light.positionWS, view.eyeWS);
+    const double fromEye =
+        std::max(distance - wanted.reachMetres, glm::distance(scene.centreWS, view.eyeWS) - scene.radiusMetres);
+    const double metresPerPixel = double(view.constants.rayFromPixel.x); // a metre ahead, or anywhere
     const bool isParallel = view.constants.forwardLS.w != 0.0f;
-    const double nearestMetres = isParallel ? 1.0 : std::max(fromEye, 0.25 * reach);
-    const double pixelMetres = nearestMetres * double(view.constants.rayFromPixel.x);
+    const double pixelMetres = isParallel ? metresPerPixel : std::max(fromEye, 0.25 * reach) * metresPerPixel;
     const double widthMetres =
-        wanted.cone ? std::min(wanted.reachMetres * wanted.cone->tangent, 2.0 * scene.radiusMetres) : reach;
-    return pixelMetres > 0.0 ? std::min(widthMetres / pixelMetres, side) : side;
+        std::min(2.0 * wanted.reachMetres * (wanted.cone ? wanted.cone->tangent : 1.0), 2.0 * scene.radiusMetres);
+    if (pixelMetres > 0.0) wanted.texels = std::min(widthMetres / pixelMetres, side);
+    // The disk that a ball fills in the middle of the picture.
+    const double ahead = isParallel ? 1.0 : std::sqrt(std::max((distance - reach) * (distance + reach), 0.0));
+    const double radiusPixels = reach / std::max(ahead * metresPerPixel, 1e-30);
+    wanted.pixels = std::min(std::numbers::pi * radiusPixels * radiusPixels, all);
 }
 
 // ---- Cameras of faces ----
@@ -243,39 +255,53 @@ glm::ivec2 atlasOf(std::uint64_t texels, int largestSide) {
     return {(blocks + rows - 1) / rows * largestSide, rows * largestSide};
 }
 
-/// Reduces what lights got until the atlas is within the budget.
+/// Reduces what lights got until the atlas is within the budget. An outline is off by a part of a texel, and so by as
+/// many pixels as a face wants texels for each that it has. So the sum of that over the pixels which lights reach grows
+/// least for each texel that is saved. Pixels and texels are taken to a power of two, so that it changes seldom as the
+/// camera moves.
 void fitBudget(std::vector<ShadowedLight>& lights, std::span<const Wanted> wanted, double budgetBytes) {
+    struct Halving {
+        double cost;
+        std::size_t light;
+        bool operator<(const Halving& other) const { // the one with the least cost is on top; of equal ones the last
+            return cost != other.cost ? cost > other.cost : light < other.light;
+        }
+    };
     std::uint64_t texels = 0;
-    const auto areaOf = [](const ShadowedLight& light) {
-        return std::uint64_t(light.faces) * std::uint64_t(light.sideTexels) * std::uint64_t(light.sideTexels);
+    std::map<int, int> sides; // how many lights have it
+    const auto count = [&](const ShadowedLight& light, int sign) {
+        const auto side = std::uint64_t(light.sideTexels);
+        texels += std::uint64_t(sign) * std::uint64_t(light.faces) * side * side;
+        if ((sides[light.sideTexels] += sign) == 0) sides.erase(light.sideTexels);
     };
-    for (const ShadowedLight& light : lights) texels += areaOf(light);
-    const auto largest = [&] {
-        int side = 0;
-        for (const ShadowedLight& light : lights) side = std::max(side, light.sideTexels);
-        return side;
-    };
-    const auto fits = [&](int largestSide) {
-        const glm::ivec2 atlas = atlasOf(texels, largestSide);
+    const auto fits = [&] {
+        const glm::ivec2 atlas = atlasOf(texels, sides.empty() ? 1 : std::max(sides.rbegin()->first, 1));
         return double(bytesOf(atlas)) <= budgetBytes && atlas.y <= kLargestSidePixels;
     };
-    for (int side = largest(); side > kLeastFaceTexels; side /= 2) {
-        std::vector<std::size_t> order;
-        for (std::size_t i = 0; i < lights.size(); ++i)
-            if (lights[i].sideTexels == side) order.push_back(i);
-        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-            return wanted[a].texels != wanted[b].texels ? wanted[a].texels < wanted[b].texels : a > b;
-        });
-        for (const std::size_t i : order) {
-            if (fits(side)) return;
-            texels -= areaOf(lights[i]);
-            lights[i].sideTexels /= 2;
-            texels += areaOf(lights[i]);
-        }
+    std::priority_queue<Halving> halvings;
+    const auto offer = [&](std::size_t i) {
+        const double side = double(lights[i].sideTexels);
+        if (lights[i].sideTexels <= kLeastFaceTexels) return;
+        const double pixels = std::exp2(std::ceil(std::log2(std::max(wanted[i].pixels, 1.0))));
+        const double pixelsPerTexel = double(automaticSideTexels(wanted[i].texels)) / side;
+        halvings.push({pixels * pixelsPerTexel / (side * side * double(lights[i].faces)), i});
+    };
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        count(lights[i], 1);
+        offer(i);
     }
-    for (std::size_t i = lights.size(); i-- > 0 && !fits(kLeastFaceTexels);) {
-        texels -= areaOf(lights[i]);
+    while (!halvings.empty() && !fits()) {
+        const std::size_t i = halvings.top().light;
+        halvings.pop();
+        count(lights[i], -1);
+        lights[i].sideTexels /= 2;
+        count(lights[i], 1);
+        offer(i);
+    }
+    for (std::size_t i = lights.size(); i-- > 0 && !fits();) {
+        count(lights[i], -1);
         lights[i].sideTexels = 0;
+        count(lights[i], 1);
     }
 }
 
@@ -343,7 +369,7 @@ ShadowMaps makeShadowMaps(const scenes::Scene& scene, const PackedLights& lights
             own.reachMetres = std::max(std::min(reachMetres(own.light, settings.rangeTolerance), farthestMetres), 1e-9);
             own.cone = coneOf(own.light, all);
         }
-        own.texels = wantedTexels(own, view, settings.sizePixels, all);
+        setInfluence(own, view, settings.sizePixels, all);
         const int side = settings.shadowMaps.resolutionTexels.value_or(automaticSideTexels(own.texels));
         maps.lights.push_back({i, 0, faceCount(own, settings), side, side});
         wanted.push_back(own);

@@ -167,7 +167,10 @@ void setState(const PipelineState& state) {
     glDepthMask(state.depthWrite);
     setEnabled(GL_DEPTH_CLAMP, state.depthClamp);
     setEnabled(GL_POLYGON_OFFSET_FILL, state.slopeBias != 0.0f);
-    glPolygonOffset(state.slopeBias, 0.0f);
+    if (GLAD_GL_ARB_polygon_offset_clamp)
+        glPolygonOffsetClamp(state.slopeBias, 0.0f, state.mostSlopeBias);
+    else
+        glPolygonOffset(state.slopeBias, 0.0f);
     setEnabled(GL_CULL_FACE, state.cullFace != CullFace::None);
     glCullFace(state.cullFace == CullFace::Front ? GL_FRONT : GL_BACK);
     glFrontFace(state.frontFaceClockwise ? GL_CW : GL_CCW);

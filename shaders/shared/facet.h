@@ -1,5 +1,6 @@
 #pragma once
-// The normal of a triangle in an octahedral code of two coordinates (lib/surface/facet.glsl).
+// The normal of a triangle, by its depths in the picture (lib/raster/facet_normal.glsl), in an octahedral code of two
+// coordinates (lib/surface/facet.glsl).
 
 #define FACET_BITS 12 // a coordinate
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "scenes/LookAt.h"
 #include "tests/image/ShadowTest.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/ShaderMutant.h"
@@ -137,6 +140,46 @@ TEST_F(Shadows, noSunPutsAcneOnASphereAndAPlane) {
     EXPECT_EQ(wrong, 0u);
     // Measured: 0.08 %.
     EXPECT_LE(double(undecided), 0.0012 * double(covered));
+}
+
+// Depths of neighbours differ by few roundings there, so that a triangle's normal is known to some degrees only.
+TEST_F(Shadows, aSurfaceDoesNotHideLightsBeforeItHoweverCloselyItIsSeen) {
+    scenes::Scene scene = test::ballUnderSun();
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.2, 0.9, 0.3)), aside = {0.8, 0.0, -0.6};
+    scene.nodes[0].instances = {{1, 0}};
+    scene.nodes[0].parentFromNode =
+        glm::rotate(glm::dmat4(1.0), std::acos(normal.y), glm::normalize(glm::dvec3(normal.z, 0.0, -normal.x)));
+    scenes::Node& below = scene.nodes.emplace_back(scene.nodes[0]); // makes the range of depths long
+    below.name = "below";
+    below.parentFromNode =
+        glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -100.0, 0.0)) * glm::scale(glm::dmat4(1.0), glm::dvec3(25.0));
+    scenes::Camera& camera = scene.cameras[0];
+    const glm::dvec3 along = glm::normalize(aside - glm::dot(aside, normal) * normal);
+    for (const auto projection : {scenes::Projection::Orthographic, scenes::Projection::Perspective}) {
+        const double distance = projection == scenes::Projection::Orthographic ? 1.0 : 1000.0;
+        camera.projection = projection;
+        camera.halfHeightMetres = 0.02;
+        camera.fovYRadians = 2.0 * std::atan(0.02 / distance);
+        camera.worldFromCamera = scenes::worldFromLookAt(distance * glm::dvec3(0.1, 1.0, 0.1), {0.0, 0.0, 0.0});
+        engine::Renderer renderer(context(), scene);
+        for (const double degrees : {0.3, 1.0, 3.0}) {
+            const double up = glm::radians(degrees);
+            for (const double side : {-1.0, 1.0}) {
+                scene.lights[0].directionWS = -std::cos(up) * side * along - std::sin(up) * normal;
+                for (const auto filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
+                    frame::FrameSettings settings;
+                    settings.sizePixels = {640, 360};
+                    settings.shadows = kAllLightsCast;
+                    settings.shadowFilter = filter;
+                    settings.view = frame::DebugView::Shadow;
+                    const std::vector<float> seen = renderer.render(engine::Technique::Deferred, settings).radiance;
+                    std::size_t dark = 0;
+                    for (std::size_t i = 0; i < seen.size(); i += 4) dark += !(seen[i] == 1.0f);
+                    EXPECT_EQ(dark, 0u) << distance << " m away, " << degrees << " degrees, filter " << int(filter);
+                }
+            }
+        }
+    }
 }
 
 } // namespace

@@ -172,7 +172,12 @@ BenchMatrix parseMatrix(std::string_view json, const std::string& source, scenes
             if (key.name == name) found = &key;
         }
         if (!found) throw InputError(fmt::format("{}: unknown key '{}': {}", source, name, suggestNames(name, names)));
-        if (!values.is_array() || values.empty()) refuse(source, name, "must be an array with at least one entry");
+        if (!values.is_array() || values.empty()) {
+            const bool isEntry = values.is_primitive() && !values.is_null();
+            refuse(source, name,
+                   fmt::format("must be an array with at least one entry{}",
+                               isEntry ? fmt::format(", as in {{\"{}\": [{}]}}", name, values.dump()) : ""));
+        }
         for (const ParsedJson& value : values) found->add(matrix, value, source);
     }
     return matrix;

@@ -38,6 +38,12 @@ Json reasons(const Json& record, const ErrorFigures& figures) {
     return why;
 }
 
+Json shadowJson(const ShadowFigures& figures) {
+    return {{"undecided", figures.undecided}, {"noisyPixels", figures.noisyPixels}, {"noise", figures.noise},
+            {"mostNoise", figures.mostNoise}, {"ofReference", figures.ofReference}, {"bias", figures.bias},
+            {"biasNoise", figures.biasNoise}};
+}
+
 Json pairJson(const ComparePair& pair) {
     const ErrorFigures& figures = pair.figures;
     Json json = {{"a", pair.a},
@@ -67,6 +73,7 @@ Json pairJson(const ComparePair& pair) {
     json["ok"] = pair.verdict.ok;
     json["missed"] = pair.verdict.missed;
     json["culling"] = pair.culling.empty() ? Json(nullptr) : Json(pair.culling);
+    if (pair.shadows) json["shadows"] = shadowJson(*pair.shadows);
     json["why"] = why;
     if (pair.channels.empty()) return json;
     for (const ChannelShare& channel : pair.channels) {
@@ -176,6 +183,8 @@ std::string compareTable(const CompareRecord& record) {
     if (record.excludesPixels && !record.pairs.empty())
         text += fmt::format("excluded: {} of the covered pixels, where rounding moves an edge\n",
                             shareText(record.pairs.front().figures.excluded));
+    for (const ComparePair& pair : record.pairs)
+        if (pair.shadows) text += fmt::format("shadows: {}: {}\n", pair.a, shadowText(*pair.shadows));
     for (const LostGeometry& lost : record.lost) text += "geometry: " + lostText(lost) + "\n";
     for (const ComparePair& pair : record.pairs)
         for (const std::string& missed : pair.verdict.missed)

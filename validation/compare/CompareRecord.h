@@ -6,6 +6,7 @@
 
 #include "validation/figures/ErrorFigures.h"
 #include "validation/figures/LostGeometry.h"
+#include "validation/figures/ShadowFigures.h"
 #include "validation/figures/Tolerance.h"
 
 namespace tessera::validation {
@@ -23,8 +24,9 @@ struct ComparePair {
     ErrorFigures figures;
     Tolerance tolerance;
     Verdict verdict;
-    std::vector<ChannelShare> channels = {}; ///< empty where no channel is packed
-    std::string culling = {};                ///< how a found its lights; empty where it visits all
+    std::vector<ChannelShare> channels = {};   ///< empty where no channel is packed
+    std::string culling = {};                  ///< how a found its lights; empty where it visits all
+    std::optional<ShadowFigures> shadows = {}; ///< against the reference, of a picture with shadows
 };
 
 /// A technique that was not compared.

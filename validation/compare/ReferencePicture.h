@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "base/Picture.h"
 #include "engine/Renderer.h"
+#include "validation/figures/ShadowFigures.h"
 #include "validation/figures/Tolerance.h"
 #include "validation/reference/Render.h"
 
@@ -25,6 +27,12 @@ struct ReferencePicture {
 
     /// Of the pictures that the definition allows the one nearest to `shown`, which is of the same size.
     Picture nearestTo(const Picture& shown) const;
+
+    std::vector<std::uint8_t> undecidedShadows; ///< as in reference::Rendered
+    std::vector<reference::Noise> shadowNoise;  ///< as in reference::Rendered
+
+    /// What is known of the shadows of `shown` against the picture. `excluded` as errorFigures() takes it.
+    ShadowFigures shadowFigures(const Picture& shown, std::span<const std::uint8_t> excluded) const;
 };
 
 /// What else than the picture is found: nothing; the alternatives, which take up to fifteen times as long; or among
@@ -36,6 +44,9 @@ enum class Leeway : std::uint8_t { None, Definition, DefinitionAndNoise };
 ReferencePicture referencePicture(
     const scenes::Scene& scene, const frame::FrameSettings& settings, const std::function<void()>& rowDone = [] {},
     Leeway leeway = Leeway::DefinitionAndNoise);
+
+/// Whether a frame has shadows, and those traced, so that ReferencePicture::shadowFigures() tells something.
+bool hasTracedShadows(const scenes::Scene& scene, const frame::FrameSettings& settings);
 
 /// What a technique with every G-buffer channel in fp32 is held to against the reference, with the reason.
 Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSettings& settings);

@@ -325,6 +325,14 @@ CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilit
         ComparePair pair = comparePair(picture.name, picture.picture, truth.own.name, own.picture, tolerance,
                                        own.excluded, shownPair(request, picture, truth.own));
         pair.culling = culling;
+        if (truth.reference && hasTracedShadows(renderer.scene(), asked.settings) &&
+            !isPacked(packingOf(asked.technique, asked.settings.layout))) {
+            pair.shadows = truth.reference->shadowFigures(picture.picture, own.excluded);
+            if (!request.tolerance)
+                for (std::string& missed : missedByShadows(*pair.shadows))
+                    pair.verdict.missed.push_back(std::move(missed));
+            pair.verdict.ok = pair.verdict.missed.empty();
+        }
         // Against a truth that is packed too, fp32 would tell of the truth's packing alone.
         if (isPacked(packingOf(asked.technique, asked.settings.layout)) && !isPacked(packingOfTruth(request))) {
             if (request.channelShares) {

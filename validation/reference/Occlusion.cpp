@@ -29,8 +29,9 @@ struct ShadowQuery : RTCIntersectContext {
 
 /// The triangle that a point of a surface lies on. It hides what lies on the other side of it than the viewer.
 struct OwnTriangle {
-    glm::dvec3 normal{0.0};     ///< unit, towards the viewer; 0 of a triangle without area
-    double leewayRadians = 0.0; ///< a program stores the normal in 24 bits, and finds it from rounded corners
+    glm::dvec3 normal{0.0}; ///< unit, towards the viewer; 0 of a triangle without area
+    /// A program stores the normal in 24 bits, and finds it from rounded corners or from rounded points of pixels.
+    double leewayRadians = 0.0;
 
     OwnTriangle(const Hit& surface, const glm::dvec3& toViewer) {
         // Twice what two octahedral coordinates of 12 bits move a direction by.
@@ -43,7 +44,7 @@ struct OwnTriangle {
         normal = across / (glm::dot(across, toViewer) < 0.0 ? -area : area);
         double longest = 0.0;
         for (int i = 0; i < 3; ++i) longest = std::max(longest, glm::length(corners[(i + 1) % 3] - corners[i]));
-        leewayRadians = kStored + 4.0 * surface.roundingMetres * longest / area;
+        leewayRadians = kStored + 4.0 * surface.roundingMetres * longest / area + surface.roundingPixels;
     }
     bool hides(const glm::dvec3& toPlace) const { return glm::dot(normal, toPlace) < 0.0; }
     /// Whether a program may say otherwise of a place, if it also moves the way there by so many metres.
@@ -128,15 +129,16 @@ struct Occlusion::Casters {
         return query;
     }
 
+    static Answer decided(double share) { return {share, share, share}; }
     /// All or nothing of the light at one end of a segment.
     Answer decide(const Segment& segment, bool isPlaced, const ShiningLight& light, const Hit& surface,
                   const OwnTriangle& own, const glm::dvec3& pointRWS, bool leeway) const {
         const bool isBehind = own.hides(segment.along);
-        if (isBehind && !leeway) return {0.0, 0.0, 0.0};
+        if (isBehind && !leeway) return decided(0.0);
         const ShadowQuery exact = ask(segment, surface);
         const double share = exact.isHidden || isBehind ? 0.0 : 1.0;
-        if (!leeway) return {share, share, share};
-        const Answer undecided{share, 0.0, 1.0};
+        if (!leeway) return decided(share);
+        const Answer undecided{share, 0.0, 1.0, true};
         if (exact.isUndecided) return undecided;
         // A program holds the point and the light to single precision relative to an origin of its own, and the casters
         // to another: twice eight roundings of both. It may call a triangle's plane the point's own within as much
@@ -152,7 +154,7 @@ struct Occlusion::Casters {
         const double lightMetres = isPlaced ? leewayAt(light.positionRWS) : pointMetres;
         // Where casters hide the light, the own triangle does not matter.
         const bool isOwnUndecided = own.isUndecided(along, pointMetres + lightMetres);
-        if (isBehind && !isOwnUndecided) return {0.0, 0.0, 0.0};
+        if (isBehind && !isOwnUndecided) return decided(0.0);
         if (isOwnUndecided && !exact.isHidden) return undecided;
         const glm::dvec3 ahead = glm::normalize(along);
         const glm::dvec3 aside = glm::normalize(
@@ -166,7 +168,7 @@ struct Occlusion::Casters {
             if (differs(pointMetres * way, lightMetres * way)) return undecided;
         if (differs(-pointMetres * ahead, lightMetres * ahead) || differs(pointMetres * ahead, -lightMetres * ahead))
             return undecided;
-        return {share, share, share};
+        return decided(share);
     }
 };
 
@@ -210,27 +212,44 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& surface, c
     if (radius == 0.0)
         return casters.decide({from, toLight * reach}, isPlaced, light, surface, own, pointRWS, settings.leeway);
     Answer sum{0.0, 0.0, 0.0};
-    const int rings = settings.shadowRings;
-    const int sectors = 4 * rings;
-    for (int ring = 0; ring < rings; ++ring) {
-        const double share = std::sqrt((ring + 0.5) / rings);
-        for (int sector = 0; sector < sectors; ++sector) {
-            // Rings are turned against each other, so that no straight edge meets many samples at once.
-            const double angle = 2.0 * std::numbers::pi * (sector + 0.6180339887498949 * ring) / sectors;
-            const glm::dvec3 place = toLight + radius * share * (std::cos(angle) * aside + std::sin(angle) * up);
-            sum.share += casters.decide({from, place * reach}, isPlaced, light, surface, own, pointRWS, false).share;
+    double halves[2] = {0.0, 0.0}; // of every other ray
+    const auto trace = [&](int rings) {
+        halves[0] = halves[1] = 0.0;
+        const int sectors = 4 * rings;
+        for (int ring = 0; ring < rings; ++ring) {
+            const double share = std::sqrt((ring + 0.5) / rings);
+            for (int sector = 0; sector < sectors; ++sector) {
+                // Rings are turned against each other, so that no straight edge meets many samples at once.
+                const double angle = 2.0 * std::numbers::pi * (sector + 0.6180339887498949 * ring) / sectors;
+                const glm::dvec3 place = toLight + radius * share * (std::cos(angle) * aside + std::sin(angle) * up);
+                halves[(ring + sector) % 2] +=
+                    casters.decide({from, place * reach}, isPlaced, light, surface, own, pointRWS, false).share;
+            }
         }
+        sum.share = (halves[0] + halves[1]) / double(rings * sectors);
+    };
+    trace(settings.shadowRings);
+    if (sum.share > 0.0 && sum.share < 1.0 && settings.penumbraRings > settings.shadowRings) {
+        trace(settings.penumbraRings);
+        const double error = (halves[0] - halves[1]) / double(4 * settings.penumbraRings * settings.penumbraRings);
+        sum.noise.ofReference = error * error;
     }
-    sum.share /= double(rings * sectors);
     // Independent rays would stray by five of these in one case of 10^6; two rays are for distributions far from normal
     // ones. Where all agree, a program's must too.
     const double rays = double(settings.shadowSamples);
     const bool isNoisy = settings.leeway && settings.shadowSamples > 0 && sum.share > 0.0 && sum.share < 1.0;
-    double stray = isNoisy ? 5.0 * std::sqrt(sum.share * (1.0 - sum.share) / rays) + 2.0 / rays : 0.0;
+    const double spread = sum.share * (1.0 - sum.share);
+    if (isNoisy) {
+        sum.noise.variance = spread / rays;
+        sum.noise.fourth = spread * (1.0 - 6.0 * spread) / (rays * rays * rays);
+    }
+    double stray = isNoisy ? 5.0 * std::sqrt(sum.noise.variance) + 2.0 / rays : 0.0;
     // The own triangle's plane may cut the disk elsewhere: by the length of the chord there, at most its diameter.
     const double cut = own.leewayRadians * distance;
-    if (settings.leeway && std::abs(glm::dot(own.normal, toLight)) <= radius + cut)
+    if (settings.leeway && std::abs(glm::dot(own.normal, toLight)) <= radius + cut) {
         stray += 2.0 * cut / (std::numbers::pi * radius);
+        sum.isUndecided = true;
+    }
     sum.least = std::max(0.0, sum.share - stray);
     sum.most = std::min(1.0, sum.share + stray);
     return sum;

@@ -3,6 +3,7 @@
 
 #include "validation/reference/Hit.h"
 #include "validation/reference/LightAt.h"
+#include "validation/reference/Settings.h"
 #include "validation/reference/Textures.h"
 
 namespace tessera::reference {
@@ -21,6 +22,8 @@ public:
     struct Answer {
         double share = 1.0;
         double least = 1.0, most = 1.0;
+        bool isUndecided = false; ///< rounding decides, not the noise of rays alone
+        Noise noise = {};         ///< of the share that Settings::shadowSamples independent rays find
     };
     /// From a point of a surface. Its own triangle hides what lies on the other side of it than the viewer.
     Answer of(const ShiningLight& light, const Hit& surface, const glm::dvec3& pointRWS, const glm::dvec3& toViewer,

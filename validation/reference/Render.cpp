@@ -110,11 +110,14 @@ private:
             rendered.ids[at].transparent += transparentId(hit.object->number, hit.triangle);
             if (surfaceAt(hit, textures_).opacity > 0.0) rendered.covered[at] = 1;
         }
-        const glm::dvec3 radiance = radianceOf(ray, seen, Nudge());
+        const Lit lit = litBy(ray, seen, Nudge());
+        const glm::dvec3 radiance = lit.radiance;
         rendered.radiance[at] = radiance;
         if (!settings_.leeway) return;
         std::vector<Span>& alternatives = rendered.alternatives[at];
+        rendered.undecidedShadows[at] = seen.hasUndecidedShadows() ? 1 : 0;
         addLeeway(ray, seen, radiance, alternatives);
+        const bool isNoiseAlone = alternatives.empty() && rendered.undecidedShadows[at] == 0;
         addShadowLeeway(ray, seen, radiance, alternatives);
         for (const Hit& hit : coincidentWith(ray, seen)) {
             const Seen other{hit, seen.transparent, {}};
@@ -123,6 +126,7 @@ private:
             addLeeway(ray, other, otherRadiance, alternatives);
             addShadowLeeway(ray, other, otherRadiance, alternatives);
         }
+        if (isNoiseAlone && alternatives.size() == 1) rendered.shadowNoise[at] = lit.noise;
     }
 
     /// The surfaces that a pixel shows.
@@ -131,6 +135,13 @@ private:
         std::vector<Hit> transparent; ///< in the order in which they are blended
         /// By surface, the opaque one first, and by light: what Occlusion said, once it was asked.
         mutable std::vector<std::vector<std::optional<Occlusion::Answer>>> shadows{};
+
+        bool hasUndecidedShadows() const {
+            for (const auto& ofSurface : shadows)
+                for (const std::optional<Occlusion::Answer>& answer : ofSurface)
+                    if (answer && answer->isUndecided) return true;
+            return false;
+        }
     };
 
     std::vector<Hit> coincidentWith(const Ray& ray, const Seen& seen) const {
@@ -195,15 +206,27 @@ private:
     /// What is shown of shadows: the definition's, or where rounding decides all or none of them.
     enum class Shadows { Exact, Most, Least };
 
+    struct Lit {
+        glm::dvec3 radiance{0.0};
+        double opacity = 1.0;
+        Noise noise = {}; ///< as Rendered::shadowNoise
+    };
+
+    Lit litBy(const Ray& ray, const Seen& seen, const Nudge& nudge, Shadows shadows = Shadows::Exact) const {
+        Lit all{glm::dvec3(scene_.background)};
+        if (seen.opaque) all = litSurface(seen, 0, nudge, ray, shadows);
+        for (std::size_t i = 0; i < seen.transparent.size(); ++i) {
+            const Lit own = litSurface(seen, 1 + i, nudge, ray, shadows);
+            const double before = 1.0 - own.opacity;
+            all.radiance = own.opacity * own.radiance + before * all.radiance;
+            all.noise = all.noise.times(before);
+            all.noise += own.noise.times(own.opacity);
+        }
+        return all;
+    }
     glm::dvec3 radianceOf(const Ray& ray, const Seen& seen, const Nudge& nudge,
                           Shadows shadows = Shadows::Exact) const {
-        glm::dvec3 radiance(scene_.background);
-        if (seen.opaque) radiance = radianceOf(seen, 0, nudge, ray, shadows).radiance;
-        for (std::size_t i = 0; i < seen.transparent.size(); ++i) {
-            const Lit own = radianceOf(seen, 1 + i, nudge, ray, shadows);
-            radiance = own.opacity * own.radiance + (1.0 - own.opacity) * radiance;
-        }
-        return radiance;
+        return litBy(ray, seen, nudge, shadows).radiance;
     }
 
     SurfacePoint nudged(Hit hit, const Nudge& nudge) const {
@@ -211,13 +234,8 @@ private:
         return surfaceAt(hit, textures_);
     }
 
-    struct Lit {
-        glm::dvec3 radiance{0.0};
-        double opacity = 1.0;
-    };
-
     /// One of the surfaces, numbered as in Seen::shadows.
-    Lit radianceOf(const Seen& seen, std::size_t surface, const Nudge& nudge, const Ray& ray, Shadows shadows) const {
+    Lit litSurface(const Seen& seen, std::size_t surface, const Nudge& nudge, const Ray& ray, Shadows shadows) const {
         const Hit& hit = surface == 0 ? *seen.opaque : seen.transparent[surface - 1];
         const SurfacePoint point = nudged(hit, nudge);
         if (!scenes::infoOf(point.model).isLit) return {point.emission + point.color, point.opacity};
@@ -232,6 +250,7 @@ private:
                                  : shadows == Shadows::Most ? answer.least
                                                             : answer.most;
             lit.radiance += share * unhidden;
+            lit.noise += answer.noise.times(unhidden.r + unhidden.g + unhidden.b);
         }
         return lit;
     }
@@ -279,6 +298,8 @@ Rendered render(const scenes::Scene& scene, const Settings& settings, const std:
     rendered.covered.resize(pixels);
     rendered.ids.resize(pixels);
     rendered.alternatives.resize(pixels);
+    rendered.undecidedShadows.resize(pixels);
+    rendered.shadowNoise.resize(pixels);
     const Pixels picture(scene, settings);
     tbb::parallel_for(0, rendered.height, [&](int row) {
         picture.row(row, rendered);

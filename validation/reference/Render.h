@@ -57,6 +57,10 @@ struct Rendered {
     /// rounding of an edge, or another filter where the level does; what Filtering::Hardware leaves to a driver;
     /// another of several triangles in one place.
     std::vector<std::vector<Span>> alternatives;
+    std::vector<std::uint8_t> undecidedShadows; ///< 1 where rounding decides whether a light is hidden
+    /// Of the sum of the channels, by Settings::shadowSamples rays to each light with a size; none where there is
+    /// another alternative than their noise.
+    std::vector<Noise> shadowNoise;
 };
 
 /// Renders on all cores. `rowDone` is called once a row of the picture, from any thread. The scene must have passed

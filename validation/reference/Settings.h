@@ -11,6 +11,25 @@ namespace tessera::reference {
 /// How textures are read: the picture alone, or with smaller levels as a driver's hardware does (see Filtering.h).
 enum class Filtering { Exact, Hardware };
 
+/// The spread of what a few independent rays find of a light or a pixel, as cumulants, which add up over lights.
+struct Noise {
+    double variance = 0.0;
+    double fourth = 0.0;      ///< cumulant; the mean fourth power of the error is this and 3 variance^2
+    double ofReference = 0.0; ///< variance that is left of the reference's own rays, by how far their halves differ
+
+    /// Of so many times as much light.
+    Noise times(double factor) const {
+        const double square = factor * factor;
+        return {square * variance, square * square * fourth, square * ofReference};
+    }
+    Noise& operator+=(const Noise& other) {
+        variance += other.variance;
+        fourth += other.fourth;
+        ofReference += other.ofReference;
+        return *this;
+    }
+};
+
 /// What is rendered of a scene.
 struct Settings {
     glm::ivec2 sizePixels{1280, 720};
@@ -18,9 +37,10 @@ struct Settings {
     double timeSeconds = 0.0;     ///< of animated lights
     std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
     scenes::ShadowRequest shadows;
-    int shadowRings = 16;  ///< of a light with a size, four times as many rays each
-    int shadowSamples = 0; ///< rays that a program tries: their noise is allowed it too; 0: none is
-    bool specular = true;  ///< false leaves the specular lobe out
+    int shadowRings = 16;   ///< on the disk of a light with a size, four times as many rays each
+    int penumbraRings = 64; ///< of points that those find to see part of it
+    int shadowSamples = 0;  ///< rays that a program tries: their noise is allowed it too; 0: none is
+    bool specular = true;   ///< false leaves the specular lobe out
     Filtering filtering = Filtering::Exact;
     bool leeway = true;          ///< whether to find other values that the definition allows (Rendered::alternatives)
     double rangeTolerance = 0.0; ///< unit of colour x intensity: A B C lights end where they fall to it; 0: nowhere

@@ -3,8 +3,8 @@
 //
 // No surface hides itself within a texel. Let e be where, on the way from a texel's middle c to the point p in it, one
 // triangle passes into the next, with slopes a (at c) and b (at p) of depth by texels. The map holds the depth at c,
-// moved away by at least half the sum of |a|'s components (passes/ShadowMapsPass.cpp); here the plane of the point's
-// triangle is followed to c and moved nearer by |b| |c - p|. What is between the two depths is (b - a)(c - e), and
+// moved away by at least half the sum of |a|'s components, in cascades by a texel's width at most
+// (passes/ShadowMapsPass.cpp); here the plane of the point's triangle is followed to c and moved nearer by |b| |c - p|. What is between the two depths is (b - a)(c - e), and
 // since e lies between c and p, no component of c - e is more than that of c - p, nor half a texel. Further away, taps
 // of wide filters may find a surface that bends towards the light before the plane.
 //
@@ -19,6 +19,7 @@
 #include "shared/shadow_maps.h"
 #include "lib/maths/cut_loop.glsl"
 #include "lib/light/light_store.glsl"
+#include "lib/shadow/own_triangle.glsl"
 #include "lib/surface/camera.glsl"
 
 #if HAS_SOFT_SHADOWS
@@ -49,6 +50,7 @@ struct FacePoint {
     float perSize; // texels from the point to the rim of what may hide part of a light of size 1, by depth
     vec2 aside;    // tangents of the way from the light's axis to the point; 0 where lights are parallel
     float rise;    // by how much a caster must be nearer beside the triangle
+    vec2 ascent;   // slope of its triangle in metres for a metre across the light's direction
     ivec2 beside;  // the next texel on the viewer's side of a triangle that is steep, else 0
     bool isSeen;   // not edge-on, which would be of any depth
 };
@@ -66,6 +68,7 @@ FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float
     precise vec2 width = sqrt(width2);
     precise vec3 normal = vec3(dot(right.xyz, facetNormalRWS) * width2.x, dot(up.xyz, facetNormalRWS) * width2.y,
                                dot(forward.xyz, facetNormalRWS));
+    float facetError = facetErrorRadians();
     bool isParallel = place.w < 0.0;
     precise FacePoint point;
     point.face = place.xyz;
@@ -89,14 +92,16 @@ FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float
         point.depth = place.w * perMetre;
         point.texel = place.xy + (place.z * perMetre) * position.xy;
     }
-    precise float leastDistance = abs(distance) - FACET_ERROR_RADIANS * atOne;
+    precise float leastDistance = abs(distance) - facetError * atOne;
     point.isSeen = leastDistance > 0.0;
     precise float perDistance = scale / max(leastDistance, 1e-30);
     precise vec2 slope = normal.xy * (scale / (distance * place.z));
-    precise vec2 steepest = (abs(normal.xy) + FACET_ERROR_RADIANS * width) * (perDistance / place.z);
+    precise vec2 steepest = (abs(normal.xy) + facetError * width) * (perDistance / place.z);
     precise float rounding = isParallel ? perDistance * roundingMetres + 4.8e-7
                                         : point.depth * (roundingMetres / max(leastDistance, 1e-30) + 4.8e-7);
-    precise vec2 across = abs(normal.xy) / width * (isParallel ? 1.0 : position.z);
+    precise vec2 rising = normal.xy / width * (isParallel ? 1.0 : position.z);
+    vec2 across = abs(rising);
+    point.ascent = rising / max(abs(distance), 1e-3 * max(max(across.x, across.y), 1e-30));
     ivec2 toViewer = ivec2(-sign(normal.xy)) * (across.x > across.y ? ivec2(1, 0) : ivec2(0, 1));
     point.beside = max(across.x, across.y) > 5.0 * leastDistance ? toViewer : ivec2(0);
     precise float texelDepth = (isParallel ? scale : point.depth) * width.x / place.z;
@@ -105,7 +110,7 @@ FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float
     point.slope = slope;
     // The stored normal's error in what is divided, and in what it is divided by.
     point.doubt = (width + abs(normal.xy) * (atOne / max(leastDistance, 1e-30))) *
-                  (FACET_ERROR_RADIANS * perDistance / place.z);
+                  (facetError * perDistance / place.z);
     point.bias = rounding;
     point.steepest = steepest;
     point.perSize = place.z / (width.x * scale);
@@ -127,10 +132,10 @@ float borderTexels(FacePoint point)
 #endif
 }
 
-// Whether casters leave the point in sight at a texel of the face.
-float seenAt(FacePoint point, ivec2 texel)
+// Whether casters leave a place of the face in sight, in texels, where the point or another of its triangle's plane is.
+float seenAt(FacePoint point, vec2 place)
 {
-    ivec2 within = withinFace(point, texel);
+    ivec2 within = withinFace(point, ivec2(floor(place)));
     precise vec2 away = vec2(within) + 0.5 - point.texel;
     precise float onPlane = point.depth + dot(point.slope, away) + dot(point.doubt, abs(away)) + point.bias;
     precise float depth = onPlane + dot(point.steepest, min(abs(away), 0.5));
@@ -138,7 +143,9 @@ float seenAt(FacePoint point, ivec2 texel)
     float caster = texelFetch(shadowAtlas, within, 0).r;
     bool isHidden = point.isSeen && caster > max(depth, 0.0);
     if (point.beside != ivec2(0)) {
-        precise float nearer = max((point.isSeen ? max(onPlane, point.depth) : point.depth) + point.rise, 0.0);
+        precise vec2 aside = place - point.texel;
+        precise float own = point.depth + (point.isSeen ? dot(point.slope, aside) + dot(point.doubt, abs(aside)) : 0.0);
+        precise float nearer = max(own + point.rise, 0.0);
         float casterBeside = texelFetch(shadowAtlas, withinFace(point, within + point.beside), 0).r;
         isHidden = isHidden || min(caster, casterBeside) > nearer;
     }
@@ -146,9 +153,13 @@ float seenAt(FacePoint point, ivec2 texel)
 }
 
 #if SHADOW_FILTER == SHADOW_FILTER_PCF
-// The mean over a square of SHADOW_WIDTH texels around the point, which cuts the texels at its rim.
+// The mean over a square of SHADOW_WIDTH texels around the point, which cuts the texels at its rim. The square lies on the
+// triangle: where that is steep, it is narrow along the slope. Else taps would follow the plane far beyond where the
+// surface ends, past the casters there.
 float meanSeen(FacePoint point)
 {
+    precise float stretch2 = 1.0 + dot(point.ascent, point.ascent);
+    precise vec2 foreshortened = point.ascent / (stretch2 + sqrt(stretch2));
     precise vec2 corner = point.texel - 0.5 * float(SHADOW_WIDTH);
     ivec2 first = ivec2(floor(corner));
     precise vec2 cut = corner - floor(corner);
@@ -158,7 +169,9 @@ float meanSeen(FacePoint point)
         precise float row = 0.0;
         for (x = 0; x <= SHADOW_WIDTH; ++x) {
             float share = x == 0 ? 1.0 - cut.x : x == SHADOW_WIDTH ? cut.x : 1.0;
-            row += share * seenAt(point, first + ivec2(x, y));
+            precise vec2 away = vec2(first + ivec2(x, y)) + 0.5 - point.texel;
+            precise vec2 onTriangle = away - foreshortened * dot(point.ascent, away);
+            row += share * seenAt(point, point.texel + onTriangle);
         }
         sum += (y == 0 ? 1.0 - cut.y : y == SHADOW_WIDTH ? cut.y : 1.0) * row;
     }
@@ -190,10 +203,10 @@ float penumbraSeen(FacePoint point, float size, vec2 random)
     precise float hidden = 0.0;
     int i = 0;
     for (; i < SHADOW_SAMPLES; ++i) {
-        ivec2 texel = withinFace(point, ivec2(floor(point.texel + acrossDisk(point, reach * diskPlace(i, random)))));
-        if (seenAt(point, texel) == 0.0) {
+        precise vec2 place = point.texel + acrossDisk(point, reach * diskPlace(i, random));
+        if (seenAt(point, place) == 0.0) {
             hidden += 1.0;
-            depths += texelFetch(shadowAtlas, texel, 0).r;
+            depths += texelFetch(shadowAtlas, withinFace(point, ivec2(floor(place))), 0).r;
         }
     }
     if (i < SHADOW_SAMPLES) return CUT_LOOP;
@@ -203,7 +216,7 @@ float penumbraSeen(FacePoint point, float size, vec2 random)
     precise float penumbra = clamp(perDepth * (depths / hidden - point.depth), 1.0, widest);
     precise float seen = 0.0;
     for (i = 0; i < SHADOW_SAMPLES; ++i)
-        seen += seenAt(point, ivec2(floor(point.texel + acrossDisk(point, penumbra * diskPlace(i, random)))));
+        seen += seenAt(point, point.texel + acrossDisk(point, penumbra * diskPlace(i, random)));
     if (i < SHADOW_SAMPLES) return CUT_LOOP;
     return clamp(seen * (1.0 / float(SHADOW_SAMPLES)), 0.0, 1.0);
 }
@@ -218,7 +231,7 @@ float filtered(FacePoint point, vec4 shadow, Viewpoint viewpoint)
 #elif SHADOW_FILTER == SHADOW_FILTER_PCSS && HAS_SOFT_SHADOWS
     if (shadow.x > 0.0) return penumbraSeen(point, shadow.x, shadowRandom(viewpoint.pixel, shadow.y));
 #endif
-    return seenAt(point, ivec2(floor(point.texel)));
+    return seenAt(point, point.texel);
 }
 
 // By how much of its half side a cascade passes over into the next; hard shadows change at once.

@@ -2,6 +2,7 @@
 #pragma once
 #include "lib/light/light_store.glsl"
 #include "lib/shadow/caster_walk.glsl"
+#include "lib/shadow/own_triangle.glsl"
 
 #if HAS_SOFT_SHADOWS
 #include "lib/shadow/disk_samples.glsl"

@@ -1,16 +1,8 @@
 // The normal of the triangle that a surface lies on, unlike the one that it is lit with; it points away from the viewer.
-// Shadows need it: the triangle hides lights behind it, and maps are followed along its plane. Stored in 24 bits; all
-// techniques light with the stored one.
+// Shadows need it (lib/shadow/own_triangle.glsl). Stored in 24 bits; all techniques light with the stored one.
 #pragma once
 #include "shared/facet.h"
 #include "lib/maths/octahedral.glsl"
-
-// Whether the triangle lies between the viewer and the light, `rounding` being that of the way to the light.
-bool isBehindFacet(vec3 facetNormal, vec3 toLight, float rounding)
-{
-    precise float behind = dot(facetNormal, toLight);
-    return behind > FACET_ERROR_RADIANS * length(toLight) + rounding;
-}
 
 uint encodeFacet(vec3 normal)
 {

@@ -82,9 +82,12 @@ TEST_F(BadOptions, malformedNumbersAreRefused) {
             expectRefused({option, value}, {std::string(option) + " '" + value + "' is not a finite number"});
     expectRefused({"--exposure", "1000"}, {"--exposure 1000", "-120 to 120"});
     expectRefused({"--range-tolerance", "-0.1"}, {"--range-tolerance -0.1 is below 0"});
-    for (const char* option : {"--lights", "--solo", "--frames"})
+    for (const char* option : {"--lights", "--frames"})
         for (const char* value : {"1.5", "99999999999"})
             expectRefused({option, value}, {std::string(option) + " '" + value + "' is not a whole number"});
+    expectRefused({"--solo", "1.5"}, {"--solo '1.5' is not a whole number"});
+    expectRefused({"--solo", "99999999999"}, {"--solo 99999999999: room has 1 light, counted from 0"});
+    expectRefused({"--shadow-samples", "2147483648"}, {"--shadow-samples 2147483648 is above 1024; give 1 to 1024"});
 }
 
 TEST_F(BadOptions, lengthsBeyondThoseOfSinglePrecisionAreRefused) {
@@ -265,6 +268,15 @@ TEST_F(BadOptions, anEmptyValueIsRefused) {
     expectError(kBadInput, {"plan", "room", "--json", ""}, {"--json", "is empty; give a value"});
     expectError(kBadInput, {"compare", "room", "--heatmap", ""}, {"--heatmap", "is empty; give a value"});
     expectError(kBadInput, {"bench", "room", "-o", "out", "--matrix", ""}, {"--matrix", "is empty; give a value"});
+}
+
+TEST_F(BadOptions, nothingBehindAnEqualsSignIsRefusedWhereverItStands) {
+    const std::string said = "render: --shadow-samples: is empty; give a value";
+    expectError(kBadInput, {"render", "--shadow-samples=", "room", "-o", "a.png"}, {said});
+    expectError(kBadInput, {"render", "room", "--shadow-samples=", "-o", "a.png"}, {said});
+    expectRefused({"--shadow-samples="}, {said});
+    expectRefused({"--quiet="}, {"--quiet: is empty; give a value"});
+    expectRefused({"--sise="}, {"unknown option '--sise'", "did you mean '--size'?"});
 }
 
 TEST_F(BadOptions, aMatrixThatIsNoRegularFileIsRefusedBeforeItIsRead) {

@@ -45,6 +45,21 @@ TEST_F(Help, everyCommandExplainsItselfWithExamples) {
     EXPECT_THAT(runGood({"scenes", "--help"}), HasSubstr("Usage: tessera scenes"));
 }
 
+TEST_F(Help, everyOptionWithARangeTellsIt) {
+    std::string text = runGood({"render", "--help"});
+    text.resize(std::size_t(
+        std::unique(text.begin(), text.end(), [](char a, char b) { return std::isspace(a) && std::isspace(b); }) -
+        text.begin()));
+    std::ranges::replace(text, '\n', ' '); // lines are broken anywhere
+    int told = 0;
+    for (const engine::Setting& setting : engine::settingTable()) {
+        if (setting.range().empty()) continue;
+        EXPECT_THAT(text, HasSubstr(setting.help + " (" + setting.range() + ") [")) << setting.flag;
+        ++told;
+    }
+    EXPECT_GE(told, 8);
+}
+
 TEST_F(Help, noArgumentPrintsTheHelp) {
     const std::string text = runGood({});
     expectReadable(text);

@@ -166,6 +166,44 @@ TEST_F(Render, pixelsThatAreNoNumbersAreCounted) {
     EXPECT_THAT(said("1e20"), testing::Not(testing::HasSubstr("pixels are infinite")));
 }
 
+TEST_F(Render, lightsThatTheBudgetLeavesWithoutShadowsAreToldOnce) {
+    const auto said = [&](const Words& more) {
+        Words words{"render", "lattice", "--lights", "64",      "--shadows", "all", "--shadow-filter", "hard",
+                    "--size", "16x9",    "-o",       "f%d.png", "--frames",  "2",   "--shadow-budget"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ProcessResult result = run(words);
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        return result.err;
+    };
+    EXPECT_THAT(said({"0.01"}),
+                testing::MatchesRegex("tessera: warning: f0.png: the budget of 0.01 MiB has no room for the maps of "
+                                      "[0-9]+ lights, which cast no shadows; give more --shadow-budget\n"));
+    EXPECT_THAT(said({"0.01", "--view", "shadow"}), testing::HasSubstr("cast no shadows"));
+    EXPECT_EQ(said({"0.01", "--view", "normal"}), "") << "it shows no shadows";
+    EXPECT_EQ(said({"1"}), "") << "smaller maps alone are told by plan";
+}
+
+TEST_F(Render, whereShadowsTakeTooManyIterationsTheyAreNamedAsTheCause) {
+    std::string lights;
+    for (int i = 0; i < 128; ++i)
+        lights += (i == 0 ? "[" : ", ") +
+                  std::string(R"({"type": "point", "position": [0, 0, 1], "intensity": 0.1, "radius": 0.1,
+                                  "castsShadow": true})");
+    writeQuad(R"({"name": "paint", "model": "lambert"})", lights + "]");
+    const auto said = [&](const Words& more) {
+        Words words{"render", "quad.json", "--size", "8x8", "-o", "a.exr"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words).err;
+    };
+    for (const char* filter : {"pcss", "traced"}) {
+        SCOPED_TRACE(filter);
+        EXPECT_THAT(said({"--shadow-filter", filter, "--shadow-samples", "1024"}),
+                    testing::ContainsRegex("a.exr: [0-9]+ of its pixels are infinite or no numbers; shadows of 128 "
+                                           "lights take up to [0-9]+ iterations .*; give fewer --shadow-samples or"));
+        EXPECT_EQ(said({"--shadow-filter", filter, "--shadow-samples", "16"}), "");
+    }
+}
+
 TEST_F(Render, warningsNeverComeBeforeAnError) {
     folder_.write("tri.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
     expectError(2, {"render", "tri.obj", "--camera", "nix", "-o", "a.png"}, {"unknown camera 'nix'"});

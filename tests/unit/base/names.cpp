@@ -36,6 +36,13 @@ TEST(Names, aWordCutShortBringsThoseThatBeginWithIt) {
     EXPECT_EQ(suggestNames("--", kOptions), "valid are --output, --tile, --clustered-a, --clustered-b");
 }
 
+TEST(Names, aWordThatIsCutShortGoesBeforeOneThatIsFartherThanAnEdit) {
+    constexpr std::array<std::string_view, 4> kKeys = {"shadow", "shadows", "shadowSamples", "shadowResolution"};
+    EXPECT_EQ(suggestNames("shadowRes", kKeys), "did you mean 'shadowResolution'?"); // three edits from 'shadow'
+    EXPECT_EQ(suggestNames("shadowSam", kKeys), "did you mean 'shadowSamples'?");
+    EXPECT_EQ(suggestNames("shado", kKeys), "did you mean 'shadow'?") << "one edit, although all begin so";
+}
+
 TEST(Names, namesOfMoreThan128BytesAreNotCompared) {
     const std::string most(128, 'a'), more(129, 'a');
     const std::array<std::string_view, 2> names = {most, more};

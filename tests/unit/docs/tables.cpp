@@ -1,11 +1,15 @@
 // Tables of the documentation that repeat tables of the program.
 #include "tests/unit/docs/Tables.h"
 
+#include <algorithm>
+#include <map>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "engine/Settings.h"
 #include "renderer/frame/GBufferBounds.h"
+#include "scenes/Light.h"
 
 namespace tessera {
 namespace {
@@ -93,6 +97,21 @@ TEST(Documentation, everySettingHasARow) {
         EXPECT_TRUE(text.find(fmt::format("| `{}` |", setting.flag)) != text.npos ||
                     text.find(fmt::format("| `{} ", setting.flag)) != text.npos)
             << "docs/command-line.md should have a row of " << setting.flag;
+}
+
+TEST(Documentation, theNumbersThatOptionsAndSizesOfLightsTakeAreThoseOfTheProgram) {
+    std::istringstream lines(test::textOf(test::kRepository / "docs" / "command-line.md"));
+    std::map<std::string, std::string> rows;
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with("| `--")) rows[line.substr(3, line.find_first_of(" `", 3) - 3)] = line;
+    for (const engine::Setting& setting : engine::settingTable())
+        EXPECT_NE(rows[std::string(setting.flag)].find(setting.range()), std::string::npos)
+            << "the row of " << setting.flag << " should hold " << setting.range();
+    std::string text = test::textOf(test::kRepository / "docs" / "scene-format.md");
+    std::ranges::replace(text, '\n', ' ');
+    static_assert(scenes::kMostRadiusMetres == 1e6 && scenes::kMostAngularRadiusDegrees == 80.0);
+    EXPECT_NE(text.find("`radius` in metres (`point`, `spot`, at most 1,000,000)"), std::string::npos);
+    EXPECT_NE(text.find("to the edge, at most 80)"), std::string::npos);
 }
 
 TEST(Documentation, theNamesThatOptionsTakeAreThoseOfTheProgram) {

@@ -67,6 +67,103 @@ TEST(PlanFrame, aChoiceThatASettingMadeNamesTheSettingAndItsDefaultGivesAReason)
     EXPECT_THAT(whyTile({}), testing::HasSubstr("fastest"));
 }
 
+/// A floor, and so many lights above it that are soft and cast shadows.
+scenes::Scene softLights(std::size_t count) {
+    scenes::Scene scene = scenes::loadScene("room");
+    scene.lights.assign(count, scene.lights.front());
+    for (scenes::Light& light : scene.lights) {
+        light.castsShadow = true;
+        light.radiusMetres = 0.1f;
+    }
+    return scene;
+}
+
+std::string whyLeftOut(const scenes::Scene& scene, std::string_view what, const frame::FrameSettings& settings = {}) {
+    const graph::Plan plan = planFrame(scene, Technique::Deferred, settings);
+    const auto left = std::ranges::find(plan.leftOut, what, &graph::Plan::LeftOut::what);
+    return left == plan.leftOut.end() ? "not left out" : left->why;
+}
+
+TEST(PlanFrame, theOneReasonIsGivenWhyThereAreNoShadows) {
+    scenes::Scene scene = scenes::loadScene("room");
+    frame::FrameSettings settings;
+    EXPECT_EQ(whyLeftOut(scene, "shadows"), "no light in view has castsShadow");
+    using Kind = scenes::ShadowRequest::Kind;
+    for (const scenes::ShadowRequest none : {scenes::ShadowRequest{Kind::None}, {Kind::First, 0}}) {
+        settings.shadows = none;
+        EXPECT_EQ(whyLeftOut(scene, "shadows", settings), "no light is to cast any");
+    }
+    settings.shadows = {Kind::All};
+    EXPECT_EQ(whyLeftOut(scene, "shadows", settings), "not left out");
+    scene.lights.insert(scene.lights.begin(), scene.lights.front());
+    scene.lights.front().enabled = false;
+    settings.shadows = {Kind::First, 1};
+    EXPECT_EQ(whyLeftOut(scene, "shadows", settings), "none of the first 1 light is on and in view");
+    settings.shadows = {Kind::All};
+    for (scenes::Material& material : scene.materials) material.castsShadow = false;
+    EXPECT_EQ(whyLeftOut(scene, "shadows", settings), "no surface casts any");
+    for (scenes::Material& material : scene.materials) {
+        material.castsShadow = true;
+        material.alphaMode = scenes::AlphaMode::Blend;
+    }
+    EXPECT_THAT(whyLeftOut(scene, "shadows", settings),
+                testing::MatchesRegex("no surface casts any; [0-9]+ transparent surfaces cast none"));
+    scene.lights.clear();
+    EXPECT_EQ(whyLeftOut(scene, "shadows", settings), "no light is on and in view");
+}
+
+TEST(PlanFrame, theOneReasonIsGivenWhyNoShadowIsSoft) {
+    scenes::Scene scene = softLights(1);
+    frame::FrameSettings settings;
+    EXPECT_EQ(whyLeftOut(scene, "soft shadows", settings), "not left out");
+    settings.shadowFilter = frame::ShadowFilter::Pcf;
+    EXPECT_EQ(whyLeftOut(scene, "soft shadows", settings), "the shadow filter pcf heeds no sizes of lights");
+    settings.shadowFilter = frame::ShadowFilter::Pcss;
+    scene.lights.front().radiusMetres = 0.0f;
+    EXPECT_EQ(whyLeftOut(scene, "soft shadows", settings), "no light in view that casts shadows has a size");
+    settings.shadows = {scenes::ShadowRequest::Kind::None};
+    EXPECT_EQ(whyLeftOut(scene, "soft shadows", settings), "no light casts shadows");
+}
+
+TEST(PlanFrame, shadowsThatLoopsOfMesaMayEndAreToldWithTheRemedy) {
+    frame::FrameSettings settings;
+    const auto told = [&](const scenes::Scene& scene) {
+        const graph::Plan plan = planFrame(scene, Technique::Deferred, settings);
+        const auto found = std::ranges::find(plan.choices, "loops of shadows", &graph::Plan::Choice::what);
+        return found == plan.choices.end() ? std::pair<std::string, std::string>()
+                                           : std::pair(found->chosen, found->why);
+    };
+    // 64 lights of two times 1024 texels, a face and themselves; 82 for lights without shadows: lists of two words.
+    settings.shadowFilter = frame::ShadowFilter::Pcss;
+    settings.shadowSamples = 1024;
+    EXPECT_EQ(told(softLights(64)),
+              std::pair(std::string("up to 131316 iterations"),
+                        std::string("shadows of 64 lights take up to 131316 iterations of a shader's loops where all "
+                                    "reach a pixel, and Mesa ends those after 65535, which gives NaN; give fewer "
+                                    "--shadow-samples or shadows to fewer lights (--shadows N)")));
+    settings.softwareBackend = false;
+    EXPECT_EQ(told(softLights(64)).first, "");
+    settings.softwareBackend = true;
+    settings.view = frame::DebugView::Normal;
+    EXPECT_EQ(told(softLights(64)).first, "");
+    settings.view = frame::DebugView::Final;
+    settings.shadowSamples = 16;
+    EXPECT_EQ(told(softLights(64)).first, "");
+    settings.shadowFilter = frame::ShadowFilter::Traced;
+    settings.shadowSamples = 1024;
+    EXPECT_THAT(told(softLights(64)).second, testing::HasSubstr("give fewer --shadow-samples or"));
+    settings.shadowFilter = frame::ShadowFilter::Pcf;
+    EXPECT_EQ(told(softLights(1000)).first, "") << "21 iterations a light with 3 texels";
+    settings.shadowMaps.widthTexels = 7;
+    EXPECT_THAT(told(softLights(1000)).second, testing::HasSubstr("give a smaller --shadow-width or"));
+    // Cascades count each.
+    scenes::Scene suns = softLights(300);
+    for (scenes::Light& light : suns.lights) light.type = scenes::LightType::Directional;
+    EXPECT_NE(told(suns).first, "");
+    settings.shadowMaps.cascades = 1;
+    EXPECT_EQ(told(suns).first, "");
+}
+
 TEST(PlanFrame, everyRoundOverTheLightsIsAPassThatWaitsForTheOneBefore) {
     scenes::LoadOptions options;
     options.lights = 1000;

@@ -148,6 +148,32 @@ TEST(Settings, invalidValuesAreRefusedByTheNameThatTheUserWrote) {
               "range tolerance -1 is below 0; give 0 or more");
 }
 
+TEST(Settings, wholeNumbersOfAnySizeAreAnsweredWithTheRange) {
+    ViewRequest request;
+    const std::string digits(400, '9'); // more than a double holds
+    const auto refused = [&](const char* key, const std::string& text, const scenes::Scene* scene = nullptr) {
+        return refusal([&] { settingOf(key).read(request, text, {{}, scene}); });
+    };
+    EXPECT_EQ(refused("shadowSamples", "2147483648"), "shadow samples 2147483648 is above 1024; give 1 to 1024");
+    EXPECT_EQ(refused("shadowSamples", "-99999999999"), "shadow samples -99999999999 is below 1; give 1 to 1024");
+    EXPECT_THAT(refused("shadowSamples", digits), HasSubstr("is above 1024; give 1 to 1024"));
+    EXPECT_EQ(refused("tile", "99999999999"), "tile 99999999999: give one of 8, 16, 32, 64");
+    EXPECT_EQ(refused("shadows", "2147483648"), "shadows 2147483648 is above 2147483647; give 0 to 2147483647");
+    const scenes::Scene scene = sceneOfTwoCameras();
+    EXPECT_THAT(refused("solo", "99999999999", &scene), HasSubstr("counted from 0"));
+    EXPECT_THAT(refused("solo", "-" + digits, &scene), HasSubstr("counted from 0"));
+    EXPECT_EQ(refused("solo", digits), "") << "not known without the scene";
+    EXPECT_GE(*request.settings.soloLight, int(scene.lights.size()));
+}
+
+TEST(Settings, theRangeIsThatOfTheKind) {
+    EXPECT_EQ(settingOf("shadowSamples").range(), "1 to 1024");
+    EXPECT_EQ(settingOf("shadowBudget").range(), "0.001 to 1024");
+    EXPECT_EQ(settingOf("samples").range(), "1, 2 or 4");
+    for (const char* key : {"rangeTolerance", "solo", "time", "technique", "shadows", "size", "prune"})
+        EXPECT_EQ(settingOf(key).range(), "") << key;
+}
+
 TEST(Settings, shadowsAreThoseOfSomeLightsOrOfTheFirstFew) {
     const Setting& shadows = settingOf("shadows");
     using Kind = scenes::ShadowRequest::Kind;
@@ -161,7 +187,9 @@ TEST(Settings, shadowsAreThoseOfSomeLightsOrOfTheFirstFew) {
     }
     EXPECT_EQ(refusal([&] { shadows.read(request, "-1"); }), "shadows -1 is below 0; give 0 or more");
     EXPECT_EQ(refusal([&] { shadows.read(request, "al"); }),
-              "unknown shadows 'al': did you mean 'all'?; or give a number N, and the first N lights cast some");
+              "unknown shadows 'al': give none, asked, all or a number N, for the first N lights; did you mean 'all'?");
+    EXPECT_EQ(refusal([&] { shadows.read(request, "1.5"); }),
+              "unknown shadows '1.5': give none, asked, all or a number N, for the first N lights");
     scenes::Scene scene;
     scene.options.wishes["shadows"] = 3.0;
     takeWishes(scene, "s.json", request);

@@ -67,24 +67,43 @@ TEST_F(MapsTest, facesNeverOverlapAndNeverExceedTheBudget) {
     }
 }
 
-TEST_F(MapsTest, aSmallerBudgetTakesTexelsFromTheLargestFacesFirstAndDropsNoLight) {
+TEST_F(MapsTest, aSmallerBudgetLeavesNearerLightsMoreTexelsAndDropsNone) {
     const scenes::Scene scene = latticeOf(256);
     settings.shadowMaps.budgetMiB = 1024.0;
     const ShadowMaps all = mapsOf(scene);
+    const auto distanceOf = [&](const ShadowedLight& light) {
+        const std::size_t index = std::size_t(lights.sceneIndex[light.light]);
+        return glm::distance(scene.lights[index].positionWS, view.eyeWS);
+    };
     for (const double mebibytes : {64.0, 16.0, 4.0}) {
         settings.shadowMaps.budgetMiB = mebibytes;
         const ShadowMaps maps = mapsOf(scene);
         EXPECT_EQ(maps.unmapped(), 0u) << mebibytes;
-        int largest = 0;
-        for (const ShadowedLight& light : maps.lights) largest = std::max(largest, light.sideTexels);
         for (std::size_t i = 0; i < maps.lights.size(); ++i) {
             EXPECT_EQ(maps.lights[i].wantedTexels, all.lights[i].wantedTexels);
-            // Those that were reduced are of the largest that are left, or half of them.
-            if (maps.lights[i].sideTexels < maps.lights[i].wantedTexels) {
-                EXPECT_GE(2 * maps.lights[i].sideTexels, largest);
-            }
+            // All reach as far. Those of one rank may differ by a halving.
+            for (std::size_t k = 0; k < maps.lights.size(); ++k)
+                if (distanceOf(maps.lights[i]) < distanceOf(maps.lights[k])) {
+                    EXPECT_GE(2 * maps.lights[i].sideTexels, maps.lights[k].sideTexels) << mebibytes;
+                }
         }
         EXPECT_GT(2 * bytesOf(maps), std::size_t(mebibytes * 1048576.0)) << "half of the budget is left";
+    }
+}
+
+TEST_F(MapsTest, aSunThatReachesThePictureKeepsNoFewerTexelsThanLampsThatReachPartsOfIt) {
+    const scenes::Scene scene = scenes::loadScene("hall");
+    for (const double mebibytes : {64.0, 16.0, 4.0}) {
+        settings.shadowMaps.budgetMiB = mebibytes;
+        const ShadowMaps maps = mapsOf(scene);
+        int ofSun = 0, mostOfLamps = 0;
+        for (const ShadowedLight& light : maps.lights) {
+            const bool isSun =
+                scene.lights[std::size_t(lights.sceneIndex[light.light])].type == scenes::LightType::Directional;
+            (isSun ? ofSun : mostOfLamps) = std::max(isSun ? ofSun : mostOfLamps, light.sideTexels);
+        }
+        EXPECT_GE(ofSun, mostOfLamps) << mebibytes;
+        EXPECT_GT(mostOfLamps, 0);
     }
 }
 

@@ -57,6 +57,12 @@ TEST(ShadowMatrix, valuesHaveTheBoundsOfTheSettings) {
     EXPECT_EQ(refusal(R"({"shadow": ["pfc"]})"), "m.json: \"shadow\": unknown 'pfc': did you mean 'pcf'?");
     EXPECT_EQ(refusal(R"({"shadow": [1024]})"),
               "m.json: \"shadow\": 1024 is no name; valid are none, traced, hard, pcf, pcss");
+    EXPECT_EQ(refusal(R"({"shadowRes": [64]})"), "m.json: unknown key 'shadowRes': did you mean 'shadowResolution'?");
+    EXPECT_EQ(refusal(R"({"shadow": "hard"})"),
+              "m.json: \"shadow\": must be an array with at least one entry, as in {\"shadow\": [\"hard\"]}");
+    for (const char* none : {"[]", "{}", "null"})
+        EXPECT_EQ(refusal(fmt::format(R"({{"shadow": {}}})", none)),
+                  "m.json: \"shadow\": must be an array with at least one entry");
     EXPECT_EQ(refusal(R"({"shadowWidth": [4]})"), "m.json: \"shadowWidth\": shadow width 4: give one of 1, 3, 5, 7");
     EXPECT_EQ(refusal(R"({"shadowResolution": [100]})"),
               "m.json: \"shadowResolution\": shadow resolution 100: give one of 64, 128, 256, 512, 1024, 2048, 4096, "

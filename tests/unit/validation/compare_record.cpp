@@ -192,5 +192,32 @@ TEST(FigureText, aShareReadsHundredPercentExactlyWhenItIs) {
     EXPECT_EQ(decibelText(40.04), "40.0 dB");
 }
 
+TEST(CompareRecord, tellsOfNoiseAndOfUndecidedPixelsOfShadows) {
+    const Picture a = greyPicture(2, 1, 1.f);
+    CompareRecord record{"hall", 2, 1, "llvmpipe", {comparePair("forward", a, "reference", a, {})}};
+    EXPECT_EQ(compareTable(record).find("shadows:"), std::string::npos);
+    EXPECT_FALSE(Json::parse(compareJson(record))["pairs"][0].contains("shadows"));
+    ShadowFigures right;
+    right.undecided = 0.049;
+    right.noisyPixels = 100;
+    right.noise = 1.05;
+    right.mostNoise = 1.1;
+    right.bias = 2e-3;
+    right.biasNoise = 3e-4;
+    record.pairs[0].shadows = right;
+    EXPECT_THAT(compareTable(record), HasSubstr("shadows: forward: 4.9"));
+    EXPECT_EQ(Json::parse(compareJson(record))["pairs"][0]["shadows"]["noisyPixels"], 100);
+    EXPECT_THAT(missedByShadows(right), IsEmpty());
+    const auto missedWith = [&](double ShadowFigures::*figure, double value) {
+        ShadowFigures wrong = right;
+        wrong.*figure = value;
+        return missedByShadows(wrong).size();
+    };
+    EXPECT_EQ(missedWith(&ShadowFigures::undecided, 0.051), 1u);
+    EXPECT_EQ(missedWith(&ShadowFigures::noise, 1.11), 1u);
+    EXPECT_EQ(missedWith(&ShadowFigures::noise, std::nan("")), 1u);
+    EXPECT_EQ(missedWith(&ShadowFigures::bias, -2.6e-3), 1u);
+}
+
 } // namespace
 } // namespace tessera::validation
