@@ -26,6 +26,13 @@ scenes::Scene sceneOf(const ShadowCase& tried) {
     return scenes::loadScene(tried.scene, options);
 }
 
+std::vector<frame::ShadowFilter> mapFilters() {
+    std::vector<frame::ShadowFilter> filters;
+    for (const frame::ShadowFilterInfo& info : frame::shadowFilterTable())
+        if (info.usesMaps) filters.push_back(info.filter);
+    return filters;
+}
+
 scenes::Scene ballUnderSun() {
     scenes::Scene scene = scenes::loadScene("room");
     scenes::Mesh ball, floor;

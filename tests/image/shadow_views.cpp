@@ -5,13 +5,18 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "engine/Settings.h"
+#include "renderer/frame/ShadowMaps.h"
 #include "scenes/Load.h"
 #include "scenes/LookAt.h"
 #include "scenes/builtin/Shapes.h"
 #include "shaders/shared/face_colors.h"
 #include "tests/image/ShadowTest.h"
 #include "tests/support/TestScenes.h"
+#include "validation/reference/CameraRays.h"
 
 namespace tessera {
 namespace {
@@ -139,9 +144,64 @@ TEST_F(ShadowViews, theFartherACascadeTheFartherItsPixelsAndTheLastHoldsTheFarth
     }
 }
 
+// A pixel is asked of the finest cascade in which all taps of its filter lie.
+TEST_F(ShadowViews, aCascadePassesOverIntoTheNextInItsOuterTenthWithinTheRoomOfTaps) {
+    scenes::Scene scene = test::ballUnderSun();
+    scene.nodes[0].instances = {{1, 0}};
+    scene.nodes[0].parentFromNode = glm::scale(glm::dmat4(1.0), glm::dvec3(10.0));
+    scene.lights[0].directionWS = glm::normalize(glm::dvec3(0.3, -1.0, 0.2));
+    engine::Renderer renderer(context(), scene);
+    const std::vector<frame::SurfaceBounds> bounds = frame::surfaceBounds(scene);
+    for (const ShadowFilter filter : test::mapFilters()) {
+        SCOPED_TRACE(infoOf(filter).name);
+        settings.shadowFilter = filter;
+        settings.shadowMaps.widthTexels = 7;
+        const std::vector<float> colors = shown(renderer, DebugView::Cascades);
+        const frame::CameraView view =
+            frame::makeCameraView(scene.cameras[0], settings.sizePixels, settings.space, glm::vec3(0.0f), bounds);
+        const frame::ShadowMaps maps =
+            frame::makeShadowMaps(scene, frame::packLights(scene, view, settings), view, settings, bounds);
+        ASSERT_EQ(maps.faces.size(), 4u);
+        const bool passesAtOnce = filter == ShadowFilter::Hard;
+        const reference::CameraRays rays(scene.cameras[0], settings.sizePixels);
+        std::size_t wrong = 0, mixed = 0, checked = 0;
+        for (int y = 0; y < settings.sizePixels.y; ++y) {
+            for (int x = 0; x < settings.sizePixels.x; ++x) {
+                const reference::Ray ray = rays.through(x, y);
+                const double metres = -(rays.eyeWS().y + ray.originRWS.y) / ray.direction.y;
+                const glm::dvec3 groundWS = rays.eyeWS() + ray.at(metres);
+                if (!(metres > 0.0) || std::max(std::abs(groundWS.x), std::abs(groundWS.z)) > 19.0) continue;
+                glm::dvec3 expected(0.0);
+                double left = 1.0;
+                for (int i = 0; i < 4; ++i) {
+                    const frame::ShadowFace& face = maps.faces[std::size_t(i)];
+                    const frame::CameraView seen = frame::faceView(face);
+                    const glm::dvec4 clip = seen.clipFromLS * glm::dvec4(seen.positionLS(groundWS), 1.0);
+                    const double border = 2.0 * frame::shadowBorderTexels(settings, face.sideTexels) / face.sideTexels;
+                    const double room = 1.0 - border - std::max(std::abs(clip.x), std::abs(clip.y));
+                    const double share = i == 3 || passesAtOnce ? double(room > 0.0) : glm::clamp(room / 0.1, 0.0, 1.0);
+                    expected += left * share * glm::dvec3(shared::faceColor(i));
+                    left *= 1.0 - share;
+                }
+                EXPECT_EQ(left, 0.0) << "no cascade";
+                const glm::dvec3 color(glm::vec3(pixel(colors, x, y)));
+                wrong += !(glm::distance(glm::normalize(color), glm::normalize(expected)) < 0.02);
+                const glm::vec3 expectedColor(expected);
+                const auto face = faceOf(expectedColor);
+                mixed += face && glm::distance(expectedColor, shared::faceColor(*face)) > 0.05f;
+                ++checked;
+            }
+        }
+        fmt::print("{}: {} pixels wrong, {} mixed of {}\n", infoOf(filter).name, wrong, mixed, checked);
+        EXPECT_LE(wrong, passesAtOnce ? checked / 500 : 0u);
+        EXPECT_EQ(mixed > checked / 50, !passesAtOnce);
+        EXPECT_GT(checked, 5000u);
+    }
+}
+
 TEST_F(ShadowViews, ofAPointLightEachAxisHasTheColourOfItsFace) {
     scenes::Scene scene = aroundALamp();
-    for (const ShadowFilter filter : {ShadowFilter::Hard, ShadowFilter::Pcf, ShadowFilter::Pcss}) {
+    for (const ShadowFilter filter : test::mapFilters()) {
         settings.shadowFilter = filter;
         for (int face = 0; face < 6; ++face) {
             glm::dvec3 forwardWS(0.0), upWS(0.0);

@@ -137,7 +137,7 @@ TEST_F(SoftShadows, ofPcssHaveTheWidthsOfTheirClosedForms) {
                 fmt::print("pcss, light {}, {} of its size, {} samples: RMS {:.4f}, {:.2f} as wide\n", int(light),
                            sizes, samples, rootMeanSquare(shares), width);
                 if (samples < 64) continue;
-                EXPECT_NEAR(width, 1.0, 0.15) << int(light) << ", " << sizes;
+                EXPECT_NEAR(width, 1.0, 0.03) << int(light) << ", " << sizes;
                 EXPECT_LT(rootMeanSquare(shares), 0.03) << int(light) << ", " << sizes;
             }
         }

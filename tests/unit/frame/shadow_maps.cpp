@@ -199,6 +199,23 @@ TEST_F(MapsTest, cascadesMoveByWholeTexelsAndKeepTheirSizeAsTheCameraMoves) {
     EXPECT_GT(moved, 0) << "the camera did not move a cascade";
 }
 
+TEST_F(MapsTest, everyCascadeHoldsTheDepthsOfAllCasters) {
+    scenes::Scene scene = latticeOf(1);
+    scene.lights[0].type = scenes::LightType::Directional;
+    scene.lights[0].directionWS = glm::normalize(glm::dvec3(-0.4, -1.0, 0.3));
+    const ShadowMaps maps = mapsOf(scene);
+    ASSERT_EQ(maps.faces.size(), 4u);
+    for (const ShadowFace& face : maps.faces) {
+        const CameraView camera = faceView(face);
+        for (const SurfaceBounds& bounds : surfaceBounds(scene))
+            for (const glm::dvec3& cornerWS : {bounds.boxWS.min, bounds.boxWS.max}) {
+                const double depth = (camera.clipFromLS * glm::dvec4(camera.positionLS(cornerWS), 1.0)).z;
+                EXPECT_GT(depth, 0.0); // which stands for no caster
+                EXPECT_LT(depth, 1.0);
+            }
+    }
+}
+
 TEST_F(MapsTest, cascadesHoldAllThatIsSeen) {
     scenes::Scene scene = scenes::loadScene("hall");
     for (scenes::Light& light : scene.lights) light.enabled = light.name == "evening sun";
