@@ -21,8 +21,8 @@ struct ShadowCase {
     double wrongShare;     ///< with `hard` and 1024 texels
 };
 inline constexpr ShadowCase kShadowCases[] = {{"lattice", 16, kAllLightsCast, 0.0058, 0.00015},
-                                              {"head", {}, kAllLightsCast, 0.0231, 0.0042},
-                                              {"hall", {}, {scenes::ShadowRequest::Kind::Asked}, 0.0042, 0.0062}};
+                                              {"head", {}, kAllLightsCast, 0.0231, 0.0040},
+                                              {"hall", {}, {scenes::ShadowRequest::Kind::Asked}, 0.0042, 0.0036}};
 
 scenes::Scene sceneOf(const ShadowCase& tried);
 /// As its wrong pixels are counted: 240x135, with textures that the reference has to the last digits.

@@ -3,11 +3,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "scenes/Load.h"
 #include "scenes/LookAt.h"
-#include "scenes/builtin/Shapes.h"
 #include "tests/image/ShadowTest.h"
 #include "tests/support/TestScenes.h"
 #include "validation/stress/Stress.h"
@@ -135,151 +133,6 @@ TEST_F(ShadowMapsTest, areAsRightInViewSpace) {
     EXPECT_GE(looked.hidden, looked.covered / 100) << "nothing to see";
 }
 
-TEST_F(ShadowMapsTest, noSunPutsAcneOnASphereAndAPlane) {
-    scenes::Scene scene = test::ballUnderSun();
-    scenes::Light& sun = scene.lights[0];
-    engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {64, 36};
-    settings.shadows = kAllLightsCast;
-    settings.shadowFilter = ShadowFilter::Hard;
-    settings.shadowMaps.resolutionTexels = 512;
-    settings.shadowMaps.cascades = 1;
-    constexpr int kDirections = 1000;
-    std::size_t wrong = 0, acne = 0, all = 0;
-    for (int i = 0; i < kDirections; ++i) {
-        sun.directionWS = test::sunDirection(i, kDirections);
-        const WrongPixels count = wrongPixels(renderer, settings);
-        wrong += count.wrong;
-        acne += count.dark;
-        all += count.covered;
-    }
-    fmt::print("{} suns: {} pixels wrong, {} of them dark beside no shadow, of {}\n", kDirections, wrong, acne, all);
-    EXPECT_EQ(acne, 0u);
-    // Measured: 0.06 %.
-    EXPECT_LE(double(wrong), 0.0009 * double(all));
-}
-
-// At 512 texels, of which one is a third of a pixel, more are wrong, since no penumbra is narrower than a texel.
-TEST_F(ShadowMapsTest, noSunWithASizePutsAcneOnASphereAndAPlane) {
-    scenes::Scene scene = test::ballUnderSun();
-    scenes::Light& sun = scene.lights[0];
-    sun.angularRadiusRadians = float(glm::radians(0.25));
-    engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {64, 36};
-    settings.shadows = kAllLightsCast;
-    settings.shadowMaps.resolutionTexels = 2048;
-    settings.shadowMaps.cascades = 1;
-    constexpr int kDirections = 100;
-    WrongPixels count;
-    for (int i = 0; i < kDirections; ++i) {
-        sun.directionWS = test::sunDirection(i, kDirections);
-        settings.shadowFilter = ShadowFilter::Traced; // of which the reference knows the noise
-        const ShadowReference truth = shadowReference(scene, settings);
-        settings.shadowFilter = ShadowFilter::Pcss;
-        count += wrongPixels(renderer, settings, truth);
-    }
-    fmt::print("{} suns, pcss: {} pixels wrong, {} of them dark beside no shadow, of {}\n", kDirections, count.wrong,
-               count.dark, count.covered);
-    EXPECT_EQ(count.dark, 0u);
-    // Measured: 0.035 %.
-    EXPECT_LE(double(count.wrong), 0.0005 * double(count.covered));
-}
-
-// Taps of wide filters follow the triangle's plane. The code of this floor's normal is off by 1.03e-3, nearly all of
-// FACET_ERROR_RADIANS; on a floor much larger than its first cascade pcss taps a thousand texels along it.
-TEST_F(ShadowMapsTest, noFilterPutsAcneOnAPlane) {
-    scenes::Scene scene = test::ballUnderSun();
-    scene.nodes[0].instances = {{1, 0}};
-    scenes::Light& sun = scene.lights[0];
-    sun.angularRadiusRadians = float(glm::radians(3.0));
-    frame::FrameSettings settings;
-    settings.sizePixels = {64, 36};
-    settings.shadows = kAllLightsCast;
-    settings.shadowMaps.resolutionTexels = 2048;
-    settings.shadowMaps.widthTexels = 7;
-    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.57834, 0.57749, 0.57622));
-    const glm::dvec3 axis = glm::normalize(glm::dvec3(normal.z, 0.0, -normal.x)), across = glm::cross(normal, axis);
-    const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), std::acos(normal.y), axis);
-    for (const double scale : {1.0, 10.0}) {
-        scene.nodes[0].parentFromNode = glm::scale(turned, glm::dvec3(scale));
-        settings.shadowMaps.cascades = scale > 1.0 ? 4 : 1;
-        engine::Renderer renderer(context(), scene);
-        settings.view = frame::DebugView::Depth;
-        const std::vector<float> covered = renderer.render(Technique::Deferred, settings).radiance;
-        settings.view = frame::DebugView::Shadow;
-        for (const ShadowFilter filter : test::mapFilters()) {
-            settings.shadowFilter = filter;
-            std::size_t dark = 0;
-            // Half of them stand lower than 7.6 degrees above the floor, none lower than 1.
-            for (int i = 0; i < 60; ++i) {
-                const double tilt = std::acos(std::pow(0.0175, (i + 0.5) / 60.0)), turn = 2.399963229728653 * i;
-                sun.directionWS =
-                    -std::cos(tilt) * normal + std::sin(tilt) * (std::cos(turn) * axis + std::sin(turn) * across);
-                const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
-                for (std::size_t k = 0; k < seen.size(); k += 4) dark += covered[k + 3] > 0.0f && !(seen[k] == 1.0f);
-            }
-            EXPECT_EQ(dark, 0u) << infoOf(filter).name << ", " << scale << " times as large";
-        }
-    }
-}
-
-// Neither side of a groove hides a sun that is in front of both. But where a texel's middle lies on the steep side,
-// that hides the other one within the texel, since cascades move it away by a texel's width only.
-TEST_F(ShadowMapsTest, aSideOfAGrooveDarkensTheOtherNoFartherThanATexel) {
-    const double rise = glm::radians(65.0);
-    scenes::Material material;
-    material.model = scenes::MaterialModel::Lambert;
-    scenes::Scene scene = test::quadScene(material);
-    scenes::Camera& camera = scene.cameras[0];
-    camera.projection = scenes::Projection::Orthographic;
-    camera.halfHeightMetres = 0.2;
-    const auto side = [&](double sign) {
-        const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), -sign * rise, glm::dvec3(0.0, 1.0, 0.0));
-        return glm::translate(turn, glm::dvec3(sign, 0.0, 0.0));
-    };
-    scene.nodes.push_back(scene.nodes[0]);
-    scene.nodes[0].parentFromNode = side(1.0);
-    scene.nodes[1].parentFromNode = side(-1.0);
-    scene.lights = {test::pointLight({}, 3.0f)};
-    scenes::Light& sun = scene.lights[0];
-    sun.type = scenes::LightType::Directional;
-    engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {96, 54};
-    settings.shadows = kAllLightsCast;
-    settings.shadowFilter = ShadowFilter::Hard;
-    settings.shadowMaps.cascades = 1;
-    settings.view = frame::DebugView::Shadow;
-    for (const int resolution : {64, 256}) {
-        settings.shadowMaps.resolutionTexels = resolution;
-        // Both squares lie in a ball of 1.6 m, which cascades take in steps of 1.19.
-        const double texelMetres = 1.19 * 2.0 * 1.6 / double(resolution - 4);
-        int suns = 0;
-        for (int i = 0; i < 200; ++i) {
-            const double z = 1.0 - (i + 0.5) / 200.0, turn = 2.399963229728653 * i, aside = std::sqrt(1.0 - z * z);
-            const glm::dvec3 toSun(aside * std::cos(turn), aside * std::sin(turn), z);
-            // In front of the sides by 0.6 degrees.
-            if (toSun.z * std::cos(rise) - std::abs(toSun.x) * std::sin(rise) < 0.01) continue;
-            ++suns;
-            sun.directionWS = -toSun;
-            const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
-            // The way from the crease, the axis y, as the sun sees it.
-            const glm::dvec3 across = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), toSun));
-            std::size_t dark = 0;
-            for (std::size_t k = 0; k < seen.size(); k += 4) {
-                if (seen[k] == 1.0f) continue;
-                const double x = (double(k / 4 % 96) + 0.5 - 48.0) * 0.4 / 54.0;
-                const glm::dvec3 pointWS(x, 0.0, std::abs(x) * std::tan(rise));
-                dark += !(std::abs(glm::dot(across, pointWS)) <= texelMetres);
-            }
-            EXPECT_EQ(dark, 0u) << resolution << " texels, sun " << i;
-        }
-        EXPECT_GE(suns, 40);
-    }
-}
-
 TEST_F(ShadowMapsTest, aBudgetLeavesEveryLightItsShadow) {
     scenes::LoadOptions options;
     options.lights = 256;
@@ -291,8 +144,8 @@ TEST_F(ShadowMapsTest, aBudgetLeavesEveryLightItsShadow) {
     settings.filter = frame::TextureFilter::Exact;
     const ShadowReference truth = shadowReference(scene, settings);
     settings.shadowFilter = ShadowFilter::Hard;
-    // MiB, and a share of the pixels; measured 2.5, 4.8 and 9.6 %, where each asks for the shadows of some nine lights.
-    const std::pair<double, double> budgets[] = {{64.0, 0.038}, {16.0, 0.072}, {4.0, 0.125}};
+    // MiB, and a share of the pixels; measured 2.4, 5.1 and 9.7 %, where each asks for the shadows of some nine lights.
+    const std::pair<double, double> budgets[] = {{64.0, 0.036}, {16.0, 0.076}, {4.0, 0.125}};
     for (const auto& [mebibytes, mostWrong] : budgets) {
         settings.shadowMaps.budgetMiB = mebibytes;
         const WrongPixels count = wrongPixels(renderer, settings, truth);
