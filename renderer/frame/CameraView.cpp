@@ -51,12 +51,12 @@ DepthCoding depthCoding(const DepthInterval& depths, bool isPerspective) {
 /// By how much rounding of depth may turn the normal that facet_normal.glsl finds. Depth and its planes' sums are
 /// rounded to fp32, so that depths of neighbours differ by four roundings of 2^-24 more or less. Across a pixel that
 /// turns each of two components of the normal by as much: (orthographic) of the metres from depth 0 to 1; (perspective)
-/// of the depth itself, which is at most what the component ahead is, times the length of the ray.
+/// of the depth itself, which is at most what the component ahead is, times the square of the ray's length.
 double facetTurnRadians(const Lens& lens, bool isPerspective, const DepthInterval& depths,
                         const glm::dvec2& pixelStep) {
     constexpr double kRounding = 4.0 * 0x1p-24;
-    const double metres =
-        isPerspective ? glm::length(glm::dvec3(lens.halfExtent, 1.0)) : depths.farMetres - depths.nearMetres;
+    const double metres = isPerspective ? glm::dot(glm::dvec3(lens.halfExtent, 1.0), glm::dvec3(lens.halfExtent, 1.0))
+                                        : depths.farMetres - depths.nearMetres;
     return std::numbers::sqrt2 * kRounding * metres / std::min(pixelStep.x, pixelStep.y);
 }
 

@@ -129,10 +129,14 @@ void setInfluence(Wanted& wanted, const CameraView& view, const glm::ivec2& size
     const double widthMetres =
         std::min(2.0 * wanted.reachMetres * (wanted.cone ? wanted.cone->tangent : 1.0), 2.0 * scene.radiusMetres);
     if (pixelMetres > 0.0) wanted.texels = std::min(widthMetres / pixelMetres, side);
-    // The disk that a ball fills in the middle of the picture.
-    const double ahead = isParallel ? 1.0 : std::sqrt(std::max((distance - reach) * (distance + reach), 0.0));
-    const double radiusPixels = reach / std::max(ahead * metresPerPixel, 1e-30);
-    wanted.pixels = std::min(std::numbers::pi * radiusPixels * radiusPixels, all);
+    // What lies both within its reach and in the scene is seen within the smaller disk of the two balls.
+    const auto diskPixels = [&](double metres, double radius) {
+        const double ahead = isParallel ? 1.0 : std::sqrt(std::max((metres - radius) * (metres + radius), 0.0));
+        const double radiusPixels = radius / std::max(ahead * metresPerPixel, 1e-30);
+        return std::numbers::pi * radiusPixels * radiusPixels;
+    };
+    wanted.pixels = std::min({diskPixels(distance, wanted.reachMetres),
+                              diskPixels(glm::distance(scene.centreWS, view.eyeWS), scene.radiusMetres), all});
 }
 
 // ---- Cameras of faces ----
@@ -250,15 +254,21 @@ std::size_t bytesOf(const glm::ivec2& atlasTexels) {
 glm::ivec2 atlasOf(std::uint64_t texels, int largestSide) {
     if (texels == 0) return {0, 0};
     const std::uint64_t block = std::uint64_t(largestSide) * std::uint64_t(largestSide);
-    const int blocks = int((texels + block - 1) / block), mostInRow = kLargestSidePixels / largestSide;
-    const int rows = (blocks + mostInRow - 1) / mostInRow;
-    return {(blocks + rows - 1) / rows * largestSide, rows * largestSide};
+    const std::uint64_t blocks = (texels + block - 1) / block;
+    const auto mostInRow = std::uint64_t(kLargestSidePixels / largestSide);
+    const std::uint64_t rows = (blocks + mostInRow - 1) / mostInRow;
+    const std::uint64_t inRow = (blocks + rows - 1) / rows;
+    // Beyond what an int holds it fits no budget either way.
+    const auto side = [&](std::uint64_t count) {
+        return int(std::min(count * std::uint64_t(largestSide), std::uint64_t(1) << 30));
+    };
+    return {side(inRow), side(rows)};
 }
 
-/// Reduces what lights got until the atlas is within the budget. An outline is off by a part of a texel, and so by as
-/// many pixels as a face wants texels for each that it has. So the sum of that over the pixels which lights reach grows
-/// least for each texel that is saved. Pixels and texels are taken to a power of two, so that it changes seldom as the
-/// camera moves.
+/// Reduces what lights got until the atlas is within the budget. An outline is off by part of a texel, which is as many
+/// pixels as a face wants texels for each that it has. The cost of halving a light's faces is that error, times the
+/// pixels that the light may reach, for each texel saved; the cheapest halving comes first. Pixels and texels are
+/// rounded to powers of two, so that the order seldom changes as the camera moves.
 void fitBudget(std::vector<ShadowedLight>& lights, std::span<const Wanted> wanted, double budgetBytes) {
     struct Halving {
         double cost;
@@ -413,7 +423,10 @@ std::vector<shared::ShadowFaceTexels> packFaces(const ShadowMaps& maps, const Ca
     for (const SurfaceBounds& one : bounds) objectMetres = std::max(objectMetres, one.reachMetres);
     for (const ShadowedLight& light : maps.lights) {
         glm::vec4& texel = lights.shadows[light.light].shadow;
-        if (light.sideTexels == 0) continue;
+        if (light.sideTexels == 0) {
+            lights.texels[light.light].color.w -= float(LIGHT_SHADOWED);
+            continue;
+        }
         double faceMetres = 0.0; // the faces of a directional light begin at different places
         for (std::size_t i = light.firstFace; i < light.firstFace + std::size_t(light.faces); ++i)
             faceMetres =

@@ -21,8 +21,8 @@ struct ShadowFace {
     bool operator==(const ShadowFace&) const = default;
 };
 
-/// Faces of a light: one per cascade of a directional light, one around the cone of a spot light or around all that is
-/// drawn where that is seen from beside it, else six.
+/// Faces of a light: one per cascade of a directional light; one around the cone of a spot light of up to 70 degrees to
+/// a side, or around all that is drawn where that is seen from beside it; else six.
 struct ShadowedLight {
     std::size_t light = 0; ///< index into PackedLights::texels
     std::size_t firstFace = 0;
@@ -60,9 +60,10 @@ int shadowBorderTexels(const FrameSettings& settings, int sideTexels);
 /// size of the atlas, 0 x 0 where there are none.
 glm::ivec2 placeFaces(std::span<const int> sidesTexels, std::vector<glm::ivec2>& cornersTexels);
 
-/// The maps of all lights that cast shadows. A face's side follows from what its light reaches in the picture, or is
-/// ShadowMapSettings::resolutionTexels. While the atlas exceeds the budget, a light with the largest faces has them
-/// halved, the one that reaches least first; where all are of kLeastFaceTexels, the last light gets none.
+/// The maps of all lights that cast shadows. A face's side follows from how wide it is in the picture where its light
+/// ends, or is ShadowMapSettings::resolutionTexels. While the atlas exceeds the budget, the light has its faces halved
+/// that saves most texels for the pixels whose outlines get coarser; where all are of kLeastFaceTexels, the last light
+/// gets none.
 /// `bounds` are of everything drawn.
 ShadowMaps makeShadowMaps(const scenes::Scene& scene, const PackedLights& lights, const CameraView& view,
                           const FrameSettings& settings, std::span<const SurfaceBounds> bounds);

@@ -113,6 +113,10 @@ std::string psnrText(const ErrorFigures& figures) {
     return figures.flip == 0.0 && !figures.psnr ? "equal" : decibelText(figures.psnr);
 }
 
+bool isJudged(const Tolerance& tolerance) {
+    return tolerance.maxRel || tolerance.bitEqual || tolerance.relMse || tolerance.p999Rel || tolerance.bias;
+}
+
 Row rowOf(const ComparePair& pair) {
     const ErrorFigures& figures = pair.figures;
     return {pair.a + " vs " + pair.b,
@@ -124,7 +128,9 @@ Row rowOf(const ComparePair& pair) {
             figureText(figures.flip.value_or(std::nan(""))),
             psnrText(figures),
             shareText(figures.litCoveredShare()),
-            pair.verdict.ok ? "ok" : "MISSED"};
+            !pair.verdict.ok           ? "MISSED"
+            : isJudged(pair.tolerance) ? "ok"
+                                       : "not judged"};
 }
 
 } // namespace
@@ -186,6 +192,9 @@ std::string compareTable(const CompareRecord& record) {
     for (const ComparePair& pair : record.pairs)
         if (pair.shadows) text += fmt::format("shadows: {}: {}\n", pair.a, shadowText(*pair.shadows));
     for (const LostGeometry& lost : record.lost) text += "geometry: " + lostText(lost) + "\n";
+    for (const ComparePair& pair : record.pairs)
+        if (!isJudged(pair.tolerance) && pair.verdict.ok && !pair.tolerance.reason.empty())
+            text += fmt::format("not judged: {} vs {}: {}\n", pair.a, pair.b, pair.tolerance.reason);
     for (const ComparePair& pair : record.pairs)
         for (const std::string& missed : pair.verdict.missed)
             text += fmt::format("missed: {} vs {}: {}\n", pair.a, pair.b, missed);

@@ -94,7 +94,7 @@ ShadowFigures ReferencePicture::shadowFigures(const Picture& shown, std::span<co
     figures.mostNoise = std::sqrt(1.0 + kShadowNoises * std::sqrt(squaresSpread) / variances);
     figures.ofReference = std::sqrt(ofReference / squares);
     figures.bias = errors / light;
-    figures.biasNoise = std::sqrt(squares) / light;
+    figures.biasNoise = std::sqrt(variances) / light;
     return figures;
 }
 

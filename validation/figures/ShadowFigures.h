@@ -15,7 +15,7 @@ struct ShadowFigures {
     double mostNoise = 1.0;   ///< 1, and five standard errors of its square
     double ofReference = 0.0; ///< the reference's own root mean square error by theirs, as its halves differ
     double bias = 0.0;        ///< (mean a - mean b) / mean b of the sum of channels
-    double biasNoise = 0.0;   ///< standard error of bias
+    double biasNoise = 0.0;   ///< standard error of bias that independent rays would leave
 };
 
 /// By how many standard errors noise may stray: one picture in 10^6 does by five.

@@ -39,7 +39,8 @@ int facesOfShown(const engine::DrawnShadows& shadows) {
 
 std::string whatHasNoMap(const engine::DrawnShadows& shadows) {
     if (!shadows.hasMaps && !shadows.lights.empty()) return "no maps: shadows are traced";
-    if (shownLight(shadows) == nullptr) return "no light in view casts shadows";
+    if (shownLight(shadows) == nullptr)
+        return shadows.lights.empty() ? "no light in view casts shadows" : "the light that is shown casts no shadows";
     return facesOfShown(shadows) == 0 ? "the budget has no room for its maps" : "no map";
 }
 

@@ -3,10 +3,11 @@
 //
 // No surface hides itself within a texel. Let e be where, on the way from a texel's middle c to the point p in it, one
 // triangle passes into the next, with slopes a (at c) and b (at p) of depth by texels. The map holds the depth at c,
-// moved away by at least half the sum of |a|'s components, in cascades by a texel's width at most
-// (passes/ShadowMapsPass.cpp); here the plane of the point's triangle is followed to c and moved nearer by |b| |c - p|. What is between the two depths is (b - a)(c - e), and
-// since e lies between c and p, no component of c - e is more than that of c - p, nor half a texel. Further away, taps
-// of wide filters may find a surface that bends towards the light before the plane.
+// moved away by at least half the sum of |a|'s components, but in cascades by a texel's width at most
+// (passes/ShadowMapsPass.cpp). Here the plane of the point's triangle is followed to c and moved nearer by |b| |c - p|.
+// What is between the two depths is (b - a)(c - e), and since e lies between c and p, no component of c - e is more
+// than that of c - p, nor half a texel. Further away, taps of wide filters may find a surface that bends towards the
+// light before the plane.
 //
 // That leaves out casters less far towards the light than half a texel is wide, times the slope in metres for a metre.
 // Where a triangle is steep, the next texel on the viewer's side of it is asked as well. It lies up to 1.5 texels aside,
@@ -138,14 +139,15 @@ float seenAt(FacePoint point, vec2 place)
     ivec2 within = withinFace(point, ivec2(floor(place)));
     precise vec2 away = vec2(within) + 0.5 - point.texel;
     precise float onPlane = point.depth + dot(point.slope, away) + dot(point.doubt, abs(away)) + point.bias;
-    precise float depth = onPlane + dot(point.steepest, min(abs(away), 0.5));
+    // What is farther from the light than the point does not hide it, also where the plane passes below other surfaces.
+    precise float depth = max(onPlane + dot(point.steepest, min(abs(away), 0.5)), point.depth);
     // 0 is no caster.
     float caster = texelFetch(shadowAtlas, within, 0).r;
     bool isHidden = point.isSeen && caster > max(depth, 0.0);
     if (point.beside != ivec2(0)) {
         precise vec2 aside = place - point.texel;
         precise float own = point.depth + (point.isSeen ? dot(point.slope, aside) + dot(point.doubt, abs(aside)) : 0.0);
-        precise float nearer = max(own + point.rise, 0.0);
+        precise float nearer = max(max(own, point.depth) + point.rise, 0.0);
         float casterBeside = texelFetch(shadowAtlas, withinFace(point, within + point.beside), 0).r;
         isHidden = isHidden || min(caster, casterBeside) > nearer;
     }
@@ -153,30 +155,35 @@ float seenAt(FacePoint point, vec2 place)
 }
 
 #if SHADOW_FILTER == SHADOW_FILTER_PCF
-// The mean over a square of SHADOW_WIDTH texels around the point, which cuts the texels at its rim. The square lies on the
-// triangle: where that is steep, it is narrow along the slope. Else taps would follow the plane far beyond where the
-// surface ends, past the casters there.
+// The mean over a rectangle around the point, SHADOW_WIDTH texels wide, which cuts the texels at its rim. Where the
+// triangle is steep along a row or a column, the rectangle is as narrow there as a square on the triangle would look. Else
+// taps would follow the plane far beyond where the surface ends, past the casters there.
 float meanSeen(FacePoint point)
 {
-    precise float stretch2 = 1.0 + dot(point.ascent, point.ascent);
-    precise vec2 foreshortened = point.ascent / (stretch2 + sqrt(stretch2));
-    precise vec2 corner = point.texel - 0.5 * float(SHADOW_WIDTH);
-    ivec2 first = ivec2(floor(corner));
-    precise vec2 cut = corner - floor(corner);
-    precise float sum = 0.0;
+    precise vec2 width = float(SHADOW_WIDTH) * inversesqrt(1.0 + point.ascent * point.ascent);
+    precise vec2 low = point.texel - 0.5 * width;
+    precise vec2 high = low + width;
+    ivec2 first = ivec2(floor(low));
+    ivec2 count = min(ivec2(floor(high)) - first, SHADOW_WIDTH) + 1;
+    precise float sum = 0.0, all = 0.0;
     int y = 0, x = 0;
-    for (; y <= SHADOW_WIDTH; ++y) {
-        precise float row = 0.0;
-        for (x = 0; x <= SHADOW_WIDTH; ++x) {
-            float share = x == 0 ? 1.0 - cut.x : x == SHADOW_WIDTH ? cut.x : 1.0;
-            precise vec2 away = vec2(first + ivec2(x, y)) + 0.5 - point.texel;
-            precise vec2 onTriangle = away - foreshortened * dot(point.ascent, away);
-            row += share * seenAt(point, point.texel + onTriangle);
+    for (; y < count.y; ++y) {
+        precise float row = 0.0, allOfRow = 0.0;
+        for (x = 0; x < count.x; ++x) {
+            precise vec2 corner = vec2(first + ivec2(x, y));
+            precise vec2 from = max(corner, low);
+            precise vec2 to = min(corner + 1.0, high);
+            precise float share = max(to.x - from.x, 0.0);
+            row += share * seenAt(point, clamp(corner + 0.5, from, to));
+            allOfRow += share;
         }
-        sum += (y == 0 ? 1.0 - cut.y : y == SHADOW_WIDTH ? cut.y : 1.0) * row;
+        precise float share = max(min(float(first.y + y) + 1.0, high.y) - max(float(first.y + y), low.y), 0.0);
+        sum += share * row;
+        all += share * allOfRow;
     }
-    if (y <= SHADOW_WIDTH || x <= SHADOW_WIDTH) return CUT_LOOP;
-    return clamp(sum * (1.0 / float(SHADOW_WIDTH * SHADOW_WIDTH)), 0.0, 1.0);
+    if (y < count.y || x < count.x) return CUT_LOOP;
+    // As they are added up: 1 where all of it is seen.
+    return clamp(sum / all, 0.0, 1.0);
 }
 #endif
 
@@ -268,8 +275,8 @@ float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNorm
             room -= borderTexels(point);
             if (kBlendShare > 0.0 && left > 1) ownShare = min(room / (kBlendShare * point.face.z), 1.0);
         }
-        // Outside a cascade, or the cone of a spot light; or the budget has no room for the light.
-        if (room <= 0.0 || shadow.z == 0.0) ownShare = 0.0;
+        // Outside a cascade, or the cone of a spot light.
+        if (room <= 0.0) ownShare = 0.0;
         // Depth would not tell: the more a triangle is turned away, the less deep it lies behind the body's lit side,
         // and the steeper it is.
         bool isBehind = isBehindFacet(facetNormalLS, toLight, rounding);
