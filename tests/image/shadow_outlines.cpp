@@ -252,5 +252,38 @@ TEST_F(ShadowOutline, staysWhereItIsFarFromTheOriginAndAtAnySize) {
     }
 }
 
+// Of seven texels of 5 cm, a pixel of 8 mm is a fiftieth.
+TEST_F(ShadowOutline, ofPcfIsGradualOnASlopeToo) {
+    for (const double height : {2.0, 1.0, 0.5}) {
+        scenes::Light light = sun();
+        light.directionWS = glm::normalize(glm::dvec3(1.0, 0.2, -height));
+        const scenes::Scene scene = plateUnder(light);
+        engine::Renderer renderer(context(), scene);
+        frame::FrameSettings settings;
+        settings.sizePixels = {256, 256};
+        settings.view = frame::DebugView::Shadow;
+        settings.shadowFilter = frame::ShadowFilter::Pcf;
+        settings.shadowMaps.widthTexels = 7;
+        settings.shadowMaps.resolutionTexels = 64;
+        settings.shadowMaps.cascades = 1;
+        const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+        float largest = 0.0f;
+        int partly = 0;
+        for (std::size_t y = 0; y < 256; ++y) {
+            for (std::size_t x = 0; x + 1 < 256; ++x) {
+                const glm::dvec3 placeWS((double(x) + 0.5) / 128.0 - 1.0, 1.0 - (double(y) + 0.5) / 128.0, 0.0);
+                const glm::dvec2 toPlate = glm::abs(glm::dvec2(placeWS - kCasterWS));
+                if (std::max(toPlate.x, toPlate.y) < kHalfSide + 0.02) continue; // the plate itself
+                const float here = seen[4 * (256 * y + x)], beside = seen[4 * (256 * y + x + 1)];
+                partly += here > 0.0f && here < 1.0f;
+                largest = std::max(largest, std::abs(here - beside));
+            }
+        }
+        fmt::print("pcf at {} of 45 degrees: largest step {:.3f} among {} pixels\n", height, largest, partly);
+        EXPECT_GT(partly, 500);
+        EXPECT_LT(largest, 0.1f) << height;
+    }
+}
+
 } // namespace
 } // namespace tessera

@@ -107,6 +107,33 @@ TEST_F(MapsTest, aSunThatReachesThePictureKeepsNoFewerTexelsThanLampsThatReachPa
     }
 }
 
+TEST_F(MapsTest, aFarLampThatReachesTheSceneKeepsNoFewerTexelsThanOnesThatReachPartsOfIt) {
+    scenes::Scene scene = latticeOf(16);
+    scenes::Light far = test::pointLight({0.0, 1000.0, 0.0}, 1e6f);
+    far.rangeMetres = 2000.0f;
+    scene.lights.push_back(far);
+    for (const double mebibytes : {16.0, 4.0}) {
+        settings.shadowMaps.budgetMiB = mebibytes;
+        const ShadowMaps maps = mapsOf(scene);
+        int ofFar = 0, mostOfOthers = 0;
+        for (const ShadowedLight& light : maps.lights)
+            (lights.sceneIndex[light.light] == 16 ? ofFar : mostOfOthers) = light.sideTexels;
+        EXPECT_GE(ofFar, mostOfOthers) << mebibytes;
+        EXPECT_GT(ofFar, 0);
+    }
+}
+
+TEST_F(MapsTest, atlasesBeyondWhatAnIntHoldsAreReducedToo) {
+    const scenes::Scene scene = latticeOf(200000);
+    settings.shadowMaps.resolutionTexels = 8192;
+    settings.shadowMaps.budgetMiB = 64.0;
+    const ShadowMaps maps = mapsOf(scene);
+    EXPECT_LE(double(bytesOf(maps)), 64.0 * 1048576.0);
+    std::size_t texels = 0;
+    for (const ShadowFace& face : maps.faces) texels += std::size_t(face.sideTexels) * std::size_t(face.sideTexels);
+    EXPECT_LE(4 * texels, bytesOf(maps));
+}
+
 TEST_F(MapsTest, aLightWithoutRoomHasNoFaceAndIsCounted) {
     const scenes::Scene scene = latticeOf(64);
     settings.shadowMaps.budgetMiB = 0.01;
@@ -115,8 +142,11 @@ TEST_F(MapsTest, aLightWithoutRoomHasNoFaceAndIsCounted) {
     EXPECT_LT(maps.unmapped(), maps.lights.size());
     const std::size_t firstTexel = lightBytes(lights.features, lights.texels.size()) / sizeof(glm::vec4);
     packFaces(maps, view, firstTexel, surfaceBounds(scene), lights);
-    for (const ShadowedLight& light : maps.lights)
+    for (const ShadowedLight& light : maps.lights) {
         EXPECT_EQ(lights.shadows[light.light].shadow.z == 0.0f, light.sideTexels == 0);
+        // Shaders do not ask for shadows of a light that has none.
+        EXPECT_EQ((int(lights.texels[light.light].color.w) & LIGHT_SHADOWED) == 0, light.sideTexels == 0);
+    }
 }
 
 TEST_F(MapsTest, everyDirectionFromAPointLightFallsIntoTheFaceThatShadersChoose) {
