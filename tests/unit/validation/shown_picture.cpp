@@ -37,7 +37,7 @@ TEST(ShadowLegend, namesEachMapOfTheLightOrWhyThereIsNone) {
     EXPECT_THAT(meanings(DebugView::Cascades, {}), ElementsAre("no light in view casts shadows"));
     engine::DrawnShadows other = shadowsOf(6, 512);
     other.shown.reset();
-    EXPECT_THAT(meanings(DebugView::Cascades, other), ElementsAre("no light in view casts shadows"));
+    EXPECT_THAT(meanings(DebugView::Cascades, other), ElementsAre("the light that is shown casts no shadows"));
     EXPECT_THAT(meanings(DebugView::Shadow, shadowsOf(6, 512)), ElementsAre());
 }
 
