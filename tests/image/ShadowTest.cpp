@@ -174,4 +174,14 @@ WrongPixels wrongPixels(engine::Renderer& renderer, const frame::FrameSettings& 
     return count;
 }
 
+WrongPixels wrongUnderSuns(engine::Renderer& renderer, scenes::Scene& scene, const frame::FrameSettings& settings,
+                           int directions) {
+    WrongPixels sum;
+    for (int i = 0; i < directions; ++i) {
+        scene.lights[0].directionWS = sunDirection(i, directions);
+        sum += wrongPixels(renderer, settings);
+    }
+    return sum;
+}
+
 } // namespace tessera::test

@@ -69,4 +69,8 @@ inline WrongPixels wrongPixels(engine::Renderer& renderer, const frame::FrameSet
     return wrongPixels(renderer, settings, shadowReference(renderer.scene(), settings));
 }
 
+/// Sums them over so many directions of the first light of the renderer's scene, which is `scene`.
+WrongPixels wrongUnderSuns(engine::Renderer& renderer, scenes::Scene& scene, const frame::FrameSettings& settings,
+                           int directions);
+
 } // namespace tessera::test

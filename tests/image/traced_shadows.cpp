@@ -127,19 +127,11 @@ TEST_F(Shadows, noSunPutsAcneOnASphereAndAPlane) {
     frame::FrameSettings settings;
     settings.sizePixels = {64, 36};
     settings.shadows = kAllLightsCast;
-    constexpr int kDirections = 1000;
-    std::size_t wrong = 0, undecided = 0, covered = 0;
-    for (int i = 0; i < kDirections; ++i) {
-        scene.lights[0].directionWS = test::sunDirection(i, kDirections);
-        const WrongPixels count = wrongPixels(renderer, settings);
-        wrong += count.wrong;
-        undecided += count.undecided;
-        covered += count.covered;
-    }
-    fmt::print("{} suns: {} pixels wrong, {} undecided of {}\n", kDirections, wrong, undecided, covered);
-    EXPECT_EQ(wrong, 0u);
+    const WrongPixels count = test::wrongUnderSuns(renderer, scene, settings, 1000);
+    fmt::print("1000 suns: {} pixels wrong, {} undecided of {}\n", count.wrong, count.undecided, count.covered);
+    EXPECT_EQ(count.wrong, 0u);
     // Measured: 0.08 %.
-    EXPECT_LE(double(undecided), 0.0012 * double(covered));
+    EXPECT_LE(double(count.undecided), 0.0012 * double(count.covered));
 }
 
 // Depths of neighbours differ by few roundings there, so that a triangle's normal is known to some degrees only.
