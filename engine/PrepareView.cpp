@@ -44,8 +44,9 @@ std::string lostShadows(const frame::ShadowMaps& maps, const frame::FrameSetting
 
 std::string cutShadows(const frame::FrameSpec& spec) {
     if (!spec.mayCutShadows()) return "";
-    const bool isPcf = spec.settings.shadowFilter == frame::ShadowFilter::Pcf;
-    const std::string fewer = isPcf ? fmt::format("a smaller {} or ", settingOf("shadowWidth").flag)
+    const bool mayNarrow =
+        infoOf(spec.settings.shadowFilter).heedsWidth && spec.settings.shadowMaps.widthTexels > frame::kShadowWidths[0];
+    const std::string fewer = mayNarrow ? fmt::format("a smaller {} or ", settingOf("shadowWidth").flag)
                               : spec.features[frame::Feature::SoftShadows]
                                   ? fmt::format("fewer {} or ", settingOf("shadowSamples").flag)
                                   : "";

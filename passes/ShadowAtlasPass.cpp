@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "renderer/frame/ShadowCameras.h"
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/shadow_maps.h"
 #include "shaders/shared/slots.h"

@@ -87,6 +87,70 @@ glm::dvec3 placeOf(const glm::dmat4& worldFromNode, const glm::vec3& positionOS)
     return glm::dvec3(worldFromNode * glm::dvec4(glm::dvec3(positionOS), 1.0));
 }
 
+/// The median of numbers, 0 of none.
+double medianOf(std::vector<double> numbers) {
+    if (numbers.empty()) return 0.0;
+    const auto middle = numbers.begin() + std::ptrdiff_t(numbers.size() / 2);
+    std::nth_element(numbers.begin(), middle, numbers.end());
+    return *middle;
+}
+
+/// By how much rounding moves a mesh's triangles beyond kPositionRounding of their distance from `centreWS`: a vertex
+/// is added up from its coordinates in the mesh, and moves all of its triangle.
+double roundingMetresOf(const Mesh& mesh, const glm::dmat4& worldFromNode, const glm::dvec3& centreWS) {
+    double metres = 0.0;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        glm::dvec3 corners[3];
+        double reach = 0.0, farthest = 0.0, longest = 0.0;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const glm::dvec3 positionOS(mesh.positionsOS[mesh.indices[i + corner]]);
+            corners[corner] = placeOf(worldFromNode, positionOS) - centreWS;
+            farthest = std::max(farthest, glm::length(corners[corner]));
+            glm::dvec3 products;
+            for (int axis = 0; axis < 3; ++axis)
+                products[axis] = glm::length(glm::dvec3(worldFromNode[axis])) * positionOS[axis];
+            reach = std::max({reach, glm::length(products), glm::length(corners[corner])});
+        }
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            longest = std::max(longest, glm::distance(corners[corner], corners[(corner + 1) % 3]));
+        metres = std::max(metres, kPositionRounding * (reach - std::max(farthest - longest, 0.0)));
+    }
+    return metres;
+}
+
+/// Without its nodes; a unit of 0 where no two corners of casters differ.
+CasterSpace spaceOf(const scenes::Scene& scene) {
+    std::array<std::vector<double>, 3> coordinates;
+    visitCasters(scene, [&](const Mesh& mesh, const Material&, const glm::dmat4& worldFromNode) {
+        for (const glm::vec3& positionOS : mesh.positionsOS) {
+            const glm::dvec3 placeWS = placeOf(worldFromNode, positionOS);
+            for (int axis = 0; axis < 3; ++axis) coordinates[std::size_t(axis)].push_back(placeWS[axis]);
+        }
+    });
+    CasterSpace space;
+    for (int axis = 0; axis < 3; ++axis) space.centreWS[axis] = medianOf(coordinates[std::size_t(axis)]);
+    std::vector<double> distances(coordinates[0].size());
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+        distances[i] =
+            glm::distance(glm::dvec3(coordinates[0][i], coordinates[1][i], coordinates[2][i]), space.centreWS);
+        farthest = std::max(farthest, distances[i]);
+    }
+    // Between the casters' usual size and that of all: fp32 holds the fourth powers of both in this unit.
+    const double usual = medianOf(std::move(distances));
+    space.unitMetres = usual > 0.0 ? std::sqrt(usual) * std::sqrt(farthest) : farthest;
+    if (space.unitMetres == 0.0) return space;
+    space.radius = farthest / space.unitMetres;
+    // Surfaces that cast no shadow receive some.
+    const std::vector<glm::dmat4> worldFromNode = scenes::worldFromNodes(scene);
+    for (std::size_t node = 0; node < scene.nodes.size(); ++node)
+        for (const scenes::MeshInstance& instance : scene.nodes[node].instances)
+            space.roundingMetres =
+                std::max(space.roundingMetres, roundingMetresOf(scene.meshes[std::size_t(instance.mesh)],
+                                                                worldFromNode[node], space.centreWS));
+    return space;
+}
+
 /// The casters' triangles: the opaque ones, and those with masks.
 std::array<std::vector<CasterTriangle>, 2> trianglesOf(const scenes::Scene& scene, const CasterSpace& space) {
     std::array<std::vector<CasterTriangle>, 2> triangles;
@@ -98,7 +162,7 @@ std::array<std::vector<CasterTriangle>, 2> trianglesOf(const scenes::Scene& scen
                 const std::uint32_t vertex = mesh.indices[i + corner];
                 triangle.corners[corner] =
                     cornerOf(mesh, material, vertex,
-                             (placeOf(worldFromNode, mesh.positionsOS[vertex]) - space.centreWS) / space.radiusMetres);
+                             (placeOf(worldFromNode, mesh.positionsOS[vertex]) - space.centreWS) / space.unitMetres);
             }
             if (!hasArea(triangle)) continue;
             turnToShortEdges(triangle);
@@ -334,19 +398,10 @@ static_assert(int(scenes::Wrap::ClampToEdge) == CASTER_WRAP_CLAMP &&
 
 } // namespace
 
-CasterTree makeCasterTree(const scenes::Scene& scene, const DrawList& drawn) {
+CasterTree makeCasterTree(const scenes::Scene& scene) {
     CasterTree tree;
-    scenes::Box3 boundsWS;
-    visitCasters(scene, [&](const Mesh& mesh, const Material&, const glm::dmat4& worldFromNode) {
-        for (const glm::vec3& positionOS : mesh.positionsOS) boundsWS.extend(placeOf(worldFromNode, positionOS));
-    });
-    if (boundsWS.empty()) return tree;
-    tree.space.centreWS = 0.5 * (boundsWS.min + boundsWS.max);
-    tree.space.radiusMetres = 0.5 * glm::length(boundsWS.max - boundsWS.min);
-    if (tree.space.radiusMetres == 0.0) return tree;
-    // Surfaces that cast no shadow receive some.
-    for (const Draw& draw : drawn.draws)
-        tree.space.drawnRoundingMetres = std::max(tree.space.drawnRoundingMetres, kPositionRounding * draw.reachMetres);
+    tree.space = spaceOf(scene);
+    if (tree.space.unitMetres == 0.0) return tree;
     const std::array<std::vector<CasterTriangle>, 2> triangles = trianglesOf(scene, tree.space);
     if (triangles[0].empty() && triangles[1].empty()) return tree;
     TreeWriter(scene, tree).write(triangles);
@@ -359,11 +414,12 @@ shared::CasterTreeConstants casterTreeConstants(const CasterSpace& casters, cons
     if (casters.nodes == 0) return constants;
     const glm::dvec3 fromCentreMetres = view.originWS - casters.centreWS;
     constants.rwsOriginCS =
-        glm::vec4(glm::vec3(fromCentreMetres / casters.radiusMetres), float(1.0 / casters.radiusMetres));
-    // Positions of a view and of casters, the way between their origins, and the steps of even depths.
-    const double metres = kPositionRounding * (casters.radiusMetres + glm::length(fromCentreMetres)) +
-                          casters.drawnRoundingMetres + kPositionRounding * double(view.constants.depthKey.y);
-    constants.rounding = glm::vec4(float(metres), float(2.0 * kPositionRounding), 0.0f, 0.0f);
+        glm::vec4(glm::vec3(fromCentreMetres / casters.unitMetres), float(1.0 / casters.unitMetres));
+    // Positions of a view and the way to the casters' origin, and the steps of even depths. A caster's corner lies no
+    // farther from that origin than the point and the way between the two, whose digits the walk counts.
+    const double metres = kPositionRounding * (glm::length(fromCentreMetres) + double(view.constants.depthKey.y)) +
+                          casters.roundingMetres;
+    constants.rounding = glm::vec4(float(metres), float(2.0 * kPositionRounding), float(casters.radius), 0.0f);
     return constants;
 }
 

@@ -35,22 +35,25 @@ std::size_t bytesWithout(Feature feature, const FeatureSet& features) {
     }
 }
 
-std::size_t casterStepsOf(const FrameSpec& spec) {
-    return casterSteps(spec.shadowedLights *
-                       std::size_t(spec.features[Feature::SoftShadows] ? spec.settings.shadowSamples : 1));
+bool isSoft(const scenes::Light& light, const FrameSettings& settings) {
+    return scenes::hasSize(light) && infoOf(settings.shadowFilter).heedsSizes;
+}
+
+/// Rays, or places on its disk, that a light's shadow is found by.
+std::size_t shadowSamples(const scenes::Light& light, const FrameSettings& settings) {
+    return isSoft(light, settings) ? std::size_t(settings.shadowSamples) : 1;
 }
 
 /// Those of the loops that find a light's shadow, at most: all its cascades may answer pixels that run together.
 std::size_t shadowIterations(const FrameSpec& spec, const scenes::Light& light) {
     const FrameSettings& settings = spec.settings;
-    const bool isSoft = scenes::hasSize(light) && infoOf(settings.shadowFilter).heedsSizes;
-    const std::size_t samples = isSoft ? std::size_t(settings.shadowSamples) : 1;
-    if (spec.tracesShadows()) return samples * rayIterations(casterStepsOf(spec));
+    const std::size_t samples = shadowSamples(light, settings);
+    if (spec.tracesShadows()) return samples * rayIterations(casterSteps(spec.shadowRays));
     const std::size_t faces = scenes::infoOf(light.type).hasPosition() ? 1 : std::size_t(settings.shadowMaps.cascades);
-    const std::size_t ofFilter = settings.shadowFilter == ShadowFilter::Pcf
+    const std::size_t ofFilter = infoOf(settings.shadowFilter).heedsWidth
                                      ? pcfIterations(std::size_t(settings.shadowMaps.widthTexels))
-                                 : isSoft ? pcssIterations(samples)
-                                          : 0;
+                                 : isSoft(light, settings) ? pcssIterations(samples)
+                                                           : 0;
     return faces * (1 + ofFilter);
 }
 
@@ -111,8 +114,11 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     spec.settings.layout = refined(settings.layout, scene);
     spec.channels = neededChannels(spec.features, spec.settings.layout, needsNormalTexel(settings.view));
     spec.iterations = loopIterations(spec.lights, lightsPerRound(spec.lights));
-    for (std::size_t i = 0; i < lights.shadowed; ++i)
-        spec.iterations += 1 + shadowIterations(spec, scene.lights[std::size_t(lights.sceneIndex[i])]);
+    const auto shadowed = [&](std::size_t i) -> const scenes::Light& {
+        return scene.lights[std::size_t(lights.sceneIndex[i])];
+    };
+    for (std::size_t i = 0; i < lights.shadowed; ++i) spec.shadowRays += shadowSamples(shadowed(i), spec.settings);
+    for (std::size_t i = 0; i < lights.shadowed; ++i) spec.iterations += 1 + shadowIterations(spec, shadowed(i));
     return spec;
 }
 
@@ -126,10 +132,10 @@ Defines frameDefines(const FrameSpec& spec) {
     if (spec.features[Feature::ShadowMaps]) {
         defines.emplace_back("SHADOW_FILTER", std::to_string(int(spec.settings.shadowFilter)));
         defines.emplace_back("SHADOW_CASCADES", std::to_string(spec.settings.shadowMaps.cascades));
-        defines.emplace_back("SHADOW_BORDER", std::to_string(shadowBorderTexels(spec.settings, kLargestSidePixels)));
+        defines.emplace_back("SHADOW_TAP_TEXELS", std::to_string(shadowTapTexels(spec.settings)));
         defines.emplace_back("SHADOW_WIDTH", std::to_string(spec.settings.shadowMaps.widthTexels));
     }
-    if (spec.tracesShadows()) defines.emplace_back("CASTER_STEPS", std::to_string(casterStepsOf(spec)));
+    if (spec.tracesShadows()) defines.emplace_back("CASTER_STEPS", std::to_string(casterSteps(spec.shadowRays)));
     if (spec.features[Feature::SoftShadows])
         defines.emplace_back("SHADOW_SAMPLES", std::to_string(spec.settings.shadowSamples));
     return defines;

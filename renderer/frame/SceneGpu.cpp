@@ -169,7 +169,7 @@ std::vector<SceneGpu::CasterMaterial> SceneGpu::casterMaterials() const {
 void SceneGpu::makeCasters() {
     std::vector<CasterMaterial> materials = casterMaterials();
     if (casters_ && materials == treeMaterials_) return;
-    const CasterTree tree = makeCasterTree(scene_, draws_.list);
+    const CasterTree tree = makeCasterTree(scene_);
     Casters casters{tree.space, std::make_unique<gpu::Buffer>(gpu::Buffer::of("casters", tree.texels))};
     if (const std::size_t read = casters.texels->texels(graph::Format::Rgba32Uint).texels(); read < tree.texels.size())
         throw std::runtime_error(fmt::format("the casters of shadows take {} texels of a buffer, of which the driver "

@@ -7,6 +7,7 @@
 #include "renderer/frame/CameraView.h"
 #include "renderer/frame/DrawList.h"
 #include "renderer/frame/PackedLights.h"
+#include "renderer/frame/ShadowAtlas.h"
 #include "renderer/graph/Resource.h"
 #include "shaders/shared/shadow_maps.h"
 
@@ -20,6 +21,10 @@ struct ShadowFace {
     int sideTexels = 0;         ///< a power of two
     bool operator==(const ShadowFace&) const = default;
 };
+
+/// Faces of a light for each direction of the axes. Cascades are fewer.
+inline constexpr int kAxisFaces = 6;
+static_assert(kMostShadowCascades < kAxisFaces);
 
 /// Faces of a light: one per cascade of a directional light; one around the cone of a spot light of up to 70 degrees to
 /// a side, or around all that is drawn where that is seen from beside it; else six.
@@ -41,30 +46,16 @@ struct ShadowMaps {
     std::size_t unmapped() const; ///< lights without any
 };
 
-/// The near end of a perspective face as a share of what its light reaches. Reverse-Z keeps the digits of any distance.
-inline constexpr double kFaceNearShare = 0x1p-30;
-
-/// Bytes of a texel of the atlas.
-inline constexpr std::size_t kShadowTexelBytes = 4;
-
-/// The smallest side of a face that a budget reduces one to.
-inline constexpr int kLeastFaceTexels = 8;
-
 /// What face i of a light with so many is called: its cascade, or the direction that it sees.
 std::string shadowFaceName(int i, int faces);
 
-/// Texels around the part of a face that points are looked up in, for taps of a filter beyond it.
+/// How far taps of a map's filter reach, but for those of penumbrae.
+int shadowTapTexels(const FrameSettings& settings);
+/// Texels around the part of a face that points are looked up in, for such taps.
 int shadowBorderTexels(const FrameSettings& settings, int sideTexels);
 
-/// Places faces of the sides, powers of two, so that none overlap; the corners are parallel to them. Returns the
-/// size of the atlas, 0 x 0 where there are none.
-glm::ivec2 placeFaces(std::span<const int> sidesTexels, std::vector<glm::ivec2>& cornersTexels);
-
 /// The maps of all lights that cast shadows. A face's side follows from how wide it is in the picture where its light
-/// ends, or is ShadowMapSettings::resolutionTexels. While the atlas exceeds the budget, the light has its faces halved
-/// that saves most texels for the pixels whose outlines get coarser; where all are of kLeastFaceTexels, the last light
-/// gets none.
-/// `bounds` are of everything drawn.
+/// ends, or is ShadowMapSettings::resolutionTexels, within the budget (fitBudget()). `bounds` are of everything drawn.
 ShadowMaps makeShadowMaps(const scenes::Scene& scene, const PackedLights& lights, const CameraView& view,
                           const FrameSettings& settings, std::span<const SurfaceBounds> bounds);
 

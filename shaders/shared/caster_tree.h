@@ -1,7 +1,8 @@
 #pragma once
 // What hides lights from surfaces: the triangles of all casters in a bounding volume hierarchy, as RGBA32UI texels of a
-// buffer texture. Casters' space (CS) has the axes of the world, its origin in the middle of the casters, and their
-// radius as its unit, so that fp32 keeps the digits of positions, and the squares of their differences, at any size.
+// buffer texture. Casters' space (CS) has the axes of the world, its origin amid most of the casters' corners,
+// and about their distance from it as its unit, so that fp32 keeps the digits of positions, and the squares of their
+// differences, at any size.
 //
 //   nodes      CASTER_NODE_TEXELS each, in the order of a walk that goes down first. Texel 0: xyz of the box's low
 //              corner; w the node to go on with where the box is missed. Texel 1: xyz of its high corner; w 0, or in
@@ -47,9 +48,10 @@ SHARED_FUNCTION bool isCasterLeafMasked(uint leaf) {
 
 struct CasterTreeConstants {
     vec4 rwsOriginCS; // xyz the origin of lighting space (frame.h) in casters' space; w that space's units in a metre
-    vec4 rounding; // x metres, y share of the distance from that origin: by how much fp32 may move a surface or a light
-                   // against the casters
-    uvec4 size;    // x number of nodes
+    vec4
+        rounding; // x metres, y share of the distance from that origin: by how much fp32 may move a surface or a light
+                  // against the casters; z the radius around the origin of casters' space that holds them, in its units
+    uvec4 size;   // x number of nodes
 };
 
 SHARED_END

@@ -16,6 +16,12 @@
 
 SHARED_BEGIN
 
+// Texels around the part of a face that points are looked up in: for taps that reach so far, or (isPenumbra) as far as
+// the widest penumbra, but at most a quarter of the side.
+SHARED_FUNCTION float shadowBorderTexels(float sideTexels, float tapTexels, bool isPenumbra) {
+    return isPenumbra ? sideTexels / float(SHADOW_PENUMBRA_PARTS) : min(tapTexels, 0.25f * sideTexels);
+}
+
 // With P a position in world axes from the origin of lighting space (frame.h), and x, y, z the scalar products of
 // (P, 1) with the three rows, z is the distance ahead of the light in metres. A point light sees P at the texel
 // place.xy + place.z (x, y) / z of the atlas, with depth place.w / z. A directional light sees it at place.xy + place.z

@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/Settings.h"
+#include "renderer/frame/ShadowCameras.h"
 #include "renderer/frame/ShadowMaps.h"
 #include "scenes/Load.h"
 #include "scenes/LookAt.h"

@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scenes/LookAt.h"
+#include "scenes/builtin/Shapes.h"
 #include "tests/image/ShadowTest.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/ShaderMutant.h"
@@ -132,6 +133,64 @@ TEST_F(Shadows, noSunPutsAcneOnASphereAndAPlane) {
     EXPECT_EQ(count.wrong, 0u);
     // Measured: 0.08 %.
     EXPECT_LE(double(count.undecided), 0.0012 * double(count.covered));
+}
+
+// A model may hold a stray triangle. It must not take the digits of all others, and the reference must not lose with
+// us.
+TEST_F(Shadows, aStrayTriangleFarAwayHidesAndRevealsNothing) {
+    scenes::Scene scene = test::ballUnderSun();
+    scene.lights[0].directionWS = {-0.4, -0.8, -0.3};
+    frame::FrameSettings settings;
+    settings.sizePixels = {128, 72};
+    settings.shadows = kAllLightsCast;
+    settings.soloLight = 0;
+    for (const float angle : {0.0f, 0.05f}) {
+        scene.lights[0].angularRadiusRadians = angle;
+        scene.meshes.resize(2);
+        scene.nodes[0].instances.resize(2);
+        WrongPixels without;
+        for (const float farMetres : {0.0f, 1e4f, 1e7f, 1e10f}) {
+            if (farMetres > 0.0f) {
+                scenes::Mesh stray = scene.meshes[1];
+                for (glm::vec3& positionOS : stray.positionsOS) positionOS += glm::vec3(farMetres, 0.0f, -farMetres);
+                scene.meshes.resize(2);
+                scene.meshes.push_back(stray);
+                scene.nodes[0].instances.resize(2);
+                scene.nodes[0].instances.push_back({2, 0});
+            }
+            engine::Renderer renderer(context(), scene);
+            const WrongPixels count = wrongPixels(renderer, settings);
+            fmt::print("angle {}, a stray {} m away: {} pixels wrong, {} undecided, {} changed by shadows of {}\n",
+                       angle, farMetres, count.wrong, count.undecided, count.hidden, count.covered);
+            if (farMetres == 0.0f) without = count;
+            EXPECT_EQ(count.wrong, 0u);
+            EXPECT_EQ(count.hidden, without.hidden);
+            EXPECT_LE(count.undecided, without.undecided + count.covered / 500);
+        }
+    }
+}
+
+// The corners of a huge triangle are rounded by metres, and all of it with them.
+TEST_F(Shadows, whereRoundingDecidesTheReferenceSaysSoWhateverTheLightsSize) {
+    scenes::Scene scene = test::ballUnderSun();
+    scene.lights[0].directionWS = {-0.4, -0.8, -0.3};
+    scenes::Mesh huge;
+    scenes::builtin::appendFloor(huge, glm::dvec3(0.0, -1e7, 0.0), glm::dvec2(4e8), glm::ivec2(1));
+    scene.meshes.push_back(huge);
+    scene.nodes[0].instances.push_back({2, 0});
+    frame::FrameSettings settings;
+    settings.sizePixels = {128, 72};
+    settings.shadows = kAllLightsCast;
+    settings.soloLight = 0;
+    for (const float angle : {0.0f, 0.05f}) {
+        scene.lights[0].angularRadiusRadians = angle;
+        engine::Renderer renderer(context(), scene);
+        const WrongPixels count = wrongPixels(renderer, settings);
+        fmt::print("angle {}: {} pixels wrong, {} undecided of {}\n", angle, count.wrong, count.undecided,
+                   count.covered);
+        EXPECT_EQ(count.wrong, 0u);
+        EXPECT_GE(count.undecided, count.covered / 10);
+    }
 }
 
 // Depths of neighbours differ by few roundings there, so that a triangle's normal is known to some degrees only.

@@ -18,7 +18,8 @@ std::span<const ShadowSetting> shadowSettingTable() {
          [](const FeatureSet& features, ShadowFilter) { return features[Feature::SoftShadows]; },
          "no shadow is soft: no light with a size casts one, or the filter heeds no sizes"},
         {"shadowWidth", "{0}x{0}", false,
-         [](const FeatureSet&, ShadowFilter filter) { return filter == ShadowFilter::Pcf; }, "the filter is not pcf"},
+         [](const FeatureSet&, ShadowFilter filter) { return frame::infoOf(filter).heedsWidth; },
+         "the filter averages no square"},
         {"shadowResolution", "{} texels", true, hasMaps,
          "no shadow is looked up in a map, or the sides of faces follow from what lights reach in the picture"},
         {"shadowBudget", "{} MiB", true, hasMaps, kNoMaps},
@@ -37,7 +38,9 @@ const std::string* ShadowKey::text(std::string_view key) const {
 }
 
 bool ShadowKey::usesMaps() const {
-    return filter != kNoShadows && filter != frame::infoOf(ShadowFilter::Traced).name;
+    const auto filters = frame::shadowFilterTable();
+    const auto row = std::ranges::find(filters, filter, &frame::ShadowFilterInfo::name);
+    return row != filters.end() && row->usesMaps;
 }
 
 ShadowKey shadowKeyOf(const frame::PackedLights& lights, const frame::FrameSettings& settings) {

@@ -17,7 +17,7 @@ reference::Settings referenceSettings(const scenes::Scene& scene, const frame::F
     result.soloLight = settings.soloLight;
     result.shadows = settings.shadows;
     // The noise of rays; maps are allowed none.
-    result.shadowSamples = settings.shadowFilter == frame::ShadowFilter::Traced ? settings.shadowSamples : 0;
+    result.shadowSamples = infoOf(settings.shadowFilter).usesMaps ? 0 : settings.shadowSamples;
     result.specular = settings.specular;
     result.rangeTolerance = settings.rangeTolerance;
     result.filtering =

@@ -158,6 +158,26 @@ Objects::Objects(const scenes::Scene& scene, const CameraRays& rays) {
     }
 }
 
+double Objects::roundingBeyondMetres(const glm::dvec3& placeRWS) const {
+    double metres = 0.0;
+    const auto extend = [&](const Object& object) {
+        for (std::uint32_t triangle = 0; triangle < object.mesh->indices.size() / 3; ++triangle) {
+            double reach = 0.0, farthest = 0.0, longest = 0.0;
+            for (int corner = 0; corner < 3; ++corner) {
+                const glm::dvec3 cornerRWS = object.cornerRWS(triangle, corner);
+                reach = std::max(reach, object.cornerReach(triangle, corner));
+                farthest = std::max(farthest, glm::length(cornerRWS - placeRWS));
+                longest = std::max(longest, glm::length(object.cornerRWS(triangle, (corner + 1) % 3) - cornerRWS));
+            }
+            // All of the triangle moves with its corners, and lies at least so far away.
+            metres = std::max(metres, kPositionRounding * (reach - std::max(farthest - longest, 0.0)));
+        }
+    };
+    std::for_each(opaque_.begin(), opaque_.end(), extend);
+    std::for_each(transparent_.begin(), transparent_.end(), extend);
+    return metres;
+}
+
 void Objects::add(const scenes::Scene& scene, const scenes::MeshInstance& instance, const glm::dmat4& worldFromNode,
                   const CameraRays& rays, std::uint32_t number) {
     Object object;

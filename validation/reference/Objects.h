@@ -18,7 +18,8 @@ struct Anchor {
     double otherOriginMetres = 0.0; ///< the product's origin, on the view axis beside all this, is at most so far away
 };
 
-/// What rounding leaves of a position: products, sums and a turn of the axes, some eight operations in fp32.
+/// What rounding leaves of a position: four operations in fp32 of sqrt(3) times what it is added up from, and a turn of
+/// the axes, some eight roundings.
 inline constexpr double kPositionRounding = 8.0 * 0x1p-24;
 
 /// A mesh as it is drawn with a material at a node. RWS: world axes, the eye as the origin.
@@ -38,13 +39,15 @@ struct Object {
         return glm::dvec3(rwsFromObject * glm::dvec4(glm::dvec3(mesh->positionsOS[vertex]), 1.0));
     }
 
-    /// The sum of the magnitudes that a corner's position is added up from, which rounding goes with.
+    /// The magnitudes that a corner's position is added up from, which rounding goes with: of the way to the object,
+    /// and of the three products within it, whose sum is at most sqrt(3) times the root of their squares' sum.
     double cornerReach(std::uint32_t triangle, int corner) const {
         const std::uint32_t vertex = mesh->indices[3 * std::size_t(triangle) + std::size_t(corner)];
-        double reach = glm::length(glm::dvec3(rwsFromObject[3]) - anchor.centreRWS) + anchor.otherOriginMetres;
+        glm::dvec3 products;
         for (int axis = 0; axis < 3; ++axis)
-            reach += glm::length(glm::dvec3(rwsFromObject[axis])) * std::abs(double(mesh->positionsOS[vertex][axis]));
-        return reach;
+            products[axis] = glm::length(glm::dvec3(rwsFromObject[axis])) * double(mesh->positionsOS[vertex][axis]);
+        return glm::length(glm::dvec3(rwsFromObject[3]) - anchor.centreRWS) + anchor.otherOriginMetres +
+               glm::length(products);
     }
 };
 
@@ -59,6 +62,8 @@ public:
     const Anchor& anchor() const { return anchor_; }
     /// By how much rounding to fp32 moves any corner at most.
     double roundingMetres() const { return roundingMetres_; }
+    /// The same beyond kPositionRounding of the distance of what is moved from a place.
+    double roundingBeyondMetres(const glm::dvec3& placeRWS) const;
 
 private:
     void add(const scenes::Scene& scene, const scenes::MeshInstance& instance, const glm::dmat4& worldFromNode,

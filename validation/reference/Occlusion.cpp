@@ -99,11 +99,11 @@ void judgeCrossing(const RTCFilterFunctionNArguments* arguments) {
 } // namespace
 
 struct Occlusion::Casters {
-    Textures textures; ///< a shadow has no size in pixels, so level 0 counts
-    glm::dvec3 centreRWS{0.0};
-    double radiusMetres = 0.0;        ///< around it, all casters
-    double drawnRoundingMetres = 0.0; ///< by how much rounding may move what is drawn of any object
-    Anchor anchor;
+    Textures textures;           ///< a shadow has no size in pixels, so level 0 counts
+    Anchor anchor;               ///< Embree's origin: the digits are where the pixels look
+    double radiusMetres = 0.0;   ///< around it, all casters
+    double originMetres = 0.0;   ///< from it to the product's origin of casters, their corners' median on each axis
+    double roundingMetres = 0.0; ///< by how much rounding may move what is drawn, beyond that of its distance from both
     Device device;
     Tree tree; ///< null without casters
 
@@ -111,7 +111,7 @@ struct Occlusion::Casters {
         ShadowQuery query{};
         rtcInitIntersectContext(&query);
         query.segment = segment;
-        query.centreRWS = centreRWS;
+        query.centreRWS = anchor.centreRWS;
         query.ownObject = surface.object;
         query.ownTriangle = surface.triangle;
         query.textures = &textures;
@@ -130,10 +130,11 @@ struct Occlusion::Casters {
     }
 
     static Answer decided(double share) { return {share, share, share}; }
-    /// All or nothing of the light at one end of a segment.
+    /// All or nothing of the light at one end of a segment. `own` is null where the point's own triangle does not
+    /// count.
     Answer decide(const Segment& segment, bool isPlaced, const ShiningLight& light, const Hit& surface,
-                  const OwnTriangle& own, const glm::dvec3& pointRWS, bool leeway) const {
-        const bool isBehind = own.hides(segment.along);
+                  const OwnTriangle* own, const glm::dvec3& pointRWS, bool leeway) const {
+        const bool isBehind = own && own->hides(segment.along);
         if (isBehind && !leeway) return decided(0.0);
         const ShadowQuery exact = ask(segment, surface);
         const double share = exact.isHidden || isBehind ? 0.0 : 1.0;
@@ -144,8 +145,7 @@ struct Occlusion::Casters {
         // to another: twice eight roundings of both. It may call a triangle's plane the point's own within as much
         // again. The ends move across the way, which decides edges, and along it, which decides contacts.
         const auto& [from, along] = segment;
-        const double between = glm::length(centreRWS - anchor.centreRWS) + anchor.otherOriginMetres;
-        const double common = kPositionRounding * (radiusMetres + between) + drawnRoundingMetres;
+        const double common = kPositionRounding * (originMetres + anchor.otherOriginMetres) + roundingMetres;
         const auto leewayAt = [&](const glm::dvec3& placeRWS) {
             const double reach = glm::length(placeRWS - anchor.centreRWS) + anchor.otherOriginMetres;
             return 4.0 * (common + 2.0 * kPositionRounding * reach);
@@ -153,7 +153,7 @@ struct Occlusion::Casters {
         const double pointMetres = leewayAt(pointRWS);
         const double lightMetres = isPlaced ? leewayAt(light.positionRWS) : pointMetres;
         // Where casters hide the light, the own triangle does not matter.
-        const bool isOwnUndecided = own.isUndecided(along, pointMetres + lightMetres);
+        const bool isOwnUndecided = own && own->isUndecided(along, pointMetres + lightMetres);
         if (isBehind && !isOwnUndecided) return decided(0.0);
         if (isOwnUndecided && !exact.isHidden) return undecided;
         const glm::dvec3 ahead = glm::normalize(along);
@@ -173,20 +173,29 @@ struct Occlusion::Casters {
 };
 
 Occlusion::Occlusion(const scenes::Scene& scene, const Objects& objects)
-    : casters_(new Casters{
-          Textures(scene, Filtering::Exact), {}, 0.0, objects.roundingMetres(), objects.anchor(), makeDevice(), {}}) {
+    : casters_(new Casters{Textures(scene, Filtering::Exact), objects.anchor(), 0.0, 0.0, 0.0, makeDevice(), {}}) {
     std::vector<const Object*> casting;
-    scenes::Box3 boundsRWS;
+    std::vector<double> places[3]; // of casters' corners from the anchor
     for (const Object& object : objects.opaque()) {
         if (!object.castsShadow) continue;
         casting.push_back(&object);
         for (std::uint32_t triangle = 0; triangle < object.mesh->indices.size() / 3; ++triangle)
-            for (int corner = 0; corner < 3; ++corner) boundsRWS.extend(object.cornerRWS(triangle, corner));
+            for (int corner = 0; corner < 3; ++corner) {
+                const glm::dvec3 place = object.cornerRWS(triangle, corner) - casters_->anchor.centreRWS;
+                casters_->radiusMetres = std::max(casters_->radiusMetres, glm::length(place));
+                for (int axis = 0; axis < 3; ++axis) places[axis].push_back(place[axis]);
+            }
     }
     if (casting.empty()) return;
-    casters_->centreRWS = 0.5 * (boundsRWS.min + boundsRWS.max);
-    casters_->radiusMetres = 0.5 * glm::length(boundsRWS.max - boundsRWS.min);
-    casters_->tree = makeTree(casters_->device.get(), casting, casters_->centreRWS, judgeCrossing);
+    glm::dvec3 origin;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto middle = places[axis].begin() + std::ptrdiff_t(places[axis].size() / 2);
+        std::nth_element(places[axis].begin(), middle, places[axis].end());
+        origin[axis] = *middle;
+    }
+    casters_->originMetres = glm::length(origin);
+    casters_->roundingMetres = objects.roundingBeyondMetres(casters_->anchor.centreRWS + origin);
+    casters_->tree = makeTree(casters_->device.get(), casting, casters_->anchor.centreRWS, judgeCrossing);
 }
 
 Occlusion::~Occlusion() = default;
@@ -196,7 +205,7 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& surface, c
     const Casters& casters = *casters_;
     if (!light.castsShadow || !casters.tree) return {};
     const bool isPlaced = scenes::infoOf(light.light.type).hasPosition();
-    const glm::dvec3 from = pointRWS - casters.centreRWS;
+    const glm::dvec3 from = pointRWS - casters.anchor.centreRWS;
     const glm::dvec3 toLight = isPlaced ? light.positionRWS - pointRWS : -light.light.directionWS;
     const double distance = glm::length(toLight);
     if (distance == 0.0) return {};
@@ -209,8 +218,8 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& surface, c
         glm::cross(ahead, std::abs(ahead.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
     const glm::dvec3 up = glm::cross(aside, ahead);
     const OwnTriangle own(surface, toViewer);
-    if (radius == 0.0)
-        return casters.decide({from, toLight * reach}, isPlaced, light, surface, own, pointRWS, settings.leeway);
+    const Segment toCentre{from, toLight * reach};
+    if (radius == 0.0) return casters.decide(toCentre, isPlaced, light, surface, &own, pointRWS, settings.leeway);
     Answer sum{0.0, 0.0, 0.0};
     double halves[2] = {0.0, 0.0}; // of every other ray
     const auto trace = [&](int rings) {
@@ -223,7 +232,7 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& surface, c
                 const double angle = 2.0 * std::numbers::pi * (sector + 0.6180339887498949 * ring) / sectors;
                 const glm::dvec3 place = toLight + radius * share * (std::cos(angle) * aside + std::sin(angle) * up);
                 halves[(ring + sector) % 2] +=
-                    casters.decide({from, place * reach}, isPlaced, light, surface, own, pointRWS, false).share;
+                    casters.decide({from, place * reach}, isPlaced, light, surface, &own, pointRWS, false).share;
             }
         }
         sum.share = (halves[0] + halves[1]) / double(rings * sectors);
@@ -244,6 +253,11 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& surface, c
         sum.noise.fourth = spread * (1.0 - 6.0 * spread) / (rays * rays * rays);
     }
     double stray = isNoisy ? 5.0 * std::sqrt(sum.noise.variance) + 2.0 / rays : 0.0;
+    // Where rounding decides whether casters hide the middle of a light, it may decide the rest.
+    if (settings.leeway && casters.decide(toCentre, isPlaced, light, surface, nullptr, pointRWS, true).isUndecided) {
+        stray = 1.0;
+        sum.isUndecided = true;
+    }
     // The own triangle's plane may cut the disk elsewhere: by the length of the chord there, at most its diameter.
     const double cut = own.leewayRadians * distance;
     if (settings.leeway && std::abs(glm::dot(own.normal, toLight)) <= radius + cut) {

@@ -47,6 +47,14 @@ void addLightOnSurface(int light, const bool shadowed, SeenSurface seen, Viewpoi
 #endif
 }
 
+#if HAS_SHADOWS
+// Lights that casters may hide come first (renderer/frame/PackedLights.h): so many.
+int shadowedLights()
+{
+    return int(lighting.slices.y);
+}
+#endif
+
 // Adds every light that the surface's cursor visits, in ascending order.
 vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pixel)
 {
@@ -63,14 +71,13 @@ vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pi
 #define ADD_NEXT_LIGHT if (nextLight(cursor, light)) ADD_LIGHT
     bool more = true;
 #if HAS_SHADOWS
-    // Lights that casters may hide come first (renderer/frame/PackedLights.h).
     do {
-        if (light >= int(lighting.slices.y)) break;
+        if (light >= shadowedLights()) break;
         addLightOnSurface(light, true, seen, viewpoint, radiance);
         more = nextLight(cursor, light);
         if (!more) more = nextBatch(cursor, light);
     } while (more);
-    if (more && light < int(lighting.slices.y)) return vec3(CUT_LOOP);
+    if (more && light < shadowedLights()) return vec3(CUT_LOOP);
     if (!more) return radiance;
 #endif
     do {

@@ -161,8 +161,9 @@ bool triangleHides(ShadowRay ray, uint triangle, bool isMasked)
     precise float originSide = dot(normal, fromCorner);
     precise float lightSide = originSide + dot(normal, ray.toLightCS);
     // A component of the normal is off by some 2^-23 of the edges' product, and what it is multiplied with by 2^-24 of
-    // itself; three of each are summed.
-    precise float digits = 4.8e-7 * length(edge1) * length(edge2);
+    // itself; three of each are summed. Rounding has moved the corner by 2^-24 of its distance from the origin of
+    // casters' space, which is at most the point's, as in originRounding, and the way between them.
+    precise float digits = 6.0e-7 * length(edge1) * length(edge2);
     precise float originError = ray.originRounding * area + digits * length(fromCorner);
     precise float lightError = ray.lightRounding * area + digits * (length(fromCorner) + length(ray.toLightCS));
     bool isBetween = abs(originSide) > originError && abs(lightSide) > lightError &&

@@ -123,14 +123,9 @@ ivec2 withinFace(FacePoint point, ivec2 texel)
     return clamp(texel, ivec2(point.face.xy - point.face.z), ivec2(point.face.xy + point.face.z) - 1);
 }
 
-// Texels at the rim of a face that only taps of a filter reach.
 float borderTexels(FacePoint point)
 {
-#if SHADOW_FILTER == SHADOW_FILTER_PCSS
-    return max(point.face.z * (2.0 / float(SHADOW_PENUMBRA_PARTS)), 1.0);
-#else
-    return min(float(SHADOW_BORDER), 0.5 * point.face.z);
-#endif
+    return shadowBorderTexels(2.0 * point.face.z, float(SHADOW_TAP_TEXELS), SHADOW_FILTER == SHADOW_FILTER_PCSS);
 }
 
 // Whether casters leave a place of the face in sight, in texels, where the point or another of its triangle's plane is.

@@ -22,20 +22,19 @@ float tracedShadow(int index, vec3 placeLS, bool isFar, vec3 facetNormalLS, View
     precise vec3 facetNormal = mat3(view.worldFromLS) * facetNormalLS;
     precise vec3 fromPoint = isFar ? placeLS : placeLS - viewpoint.positionLS;
     precise vec3 toLight = mat3(view.worldFromLS) * fromPoint;
-    // In units of CS all casters lie within 1 of its origin.
-    precise float farAway = 2.0 * (1.0 + length(positionCS(viewpoint.positionLS)));
+    precise float farAway = 2.0 * (casterTree.rounding.z + length(positionCS(viewpoint.positionLS)));
     float reach = isFar ? farAway : casterTree.rwsOriginCS.w;
     float lightRounding = isFar ? 0.0 : roundingAt(placeLS);
 #if HAS_SOFT_SHADOWS
     // A light without a size takes one ray.
-    vec4 size = lightShadowTexel(index);
-    int rays = size.x > 0.0 ? SHADOW_SAMPLES : 1;
+    vec4 shadow = lightShadowTexel(index);
+    int rays = shadow.x > 0.0 ? SHADOW_SAMPLES : 1;
     precise float perRay = 1.0 / float(rays);
     precise vec3 ahead = toLight * (1.0 / sqrt(max(dot(toLight, toLight), 1e-37)));
     precise vec3 aside = abs(ahead.x) < 0.6 ? vec3(0.0, ahead.z, -ahead.y) : vec3(-ahead.z, 0.0, ahead.x);
-    precise vec3 across = aside * (size.x / max(length(aside), 1e-18));
+    precise vec3 across = aside * (shadow.x / max(length(aside), 1e-18));
     precise vec3 up = cross(ahead, across);
-    vec2 random = shadowRandom(viewpoint.pixel, size.y);
+    vec2 random = shadowRandom(viewpoint.pixel, shadow.y);
     precise float seen = 0.0;
     int i = 0;
     for (; i < rays; ++i) {

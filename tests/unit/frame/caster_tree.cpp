@@ -10,7 +10,7 @@ namespace tessera::frame {
 namespace {
 
 CasterTree treeOf(const scenes::Scene& scene) {
-    return makeCasterTree(scene, makeDrawList(scene));
+    return makeCasterTree(scene);
 }
 
 glm::vec3 place(const glm::uvec4& texel) {
