@@ -114,7 +114,8 @@ ShadowMaps makeShadowMaps(const scenes::Scene& scene, const PackedLights& lights
                 : cascadeCameras(shining.directionWS, light.faces, all, view, settings.sizePixels, cameraNear,
                                  light.sideTexels, border);
         for (scenes::Camera& camera : cameras) {
-            maps.faces.push_back({std::move(camera), {}, light.sideTexels});
+            ShadowFace& face = maps.faces.emplace_back(std::move(camera), glm::ivec2(0), light.sideTexels);
+            if (scenes::infoOf(shining.type).hasPosition()) face.reachMetres = wanted[i].reachMetres;
             sides.push_back(light.sideTexels);
         }
     }

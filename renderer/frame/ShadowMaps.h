@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +20,8 @@ struct ShadowFace {
     scenes::Camera camera;
     glm::ivec2 cornerTexels{0}; ///< lower-left, in the atlas
     int sideTexels = 0;         ///< a power of two
+    /// Along the camera: all that the light reaches lies nearer, and casters farther away hide nothing of it.
+    double reachMetres = std::numeric_limits<double>::infinity();
     bool operator==(const ShadowFace&) const = default;
 };
 

@@ -1,6 +1,7 @@
 #include "renderer/frame/ShadowMemory.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tessera::frame {
 
@@ -8,6 +9,18 @@ namespace {
 
 bool haveOnePlace(const ShadowFace& a, const ShadowFace& b) {
     return a.cornerTexels == b.cornerTexels && a.sideTexels == b.sideTexels;
+}
+
+/// Whether all of a draw lies farther along a face's camera than its light reaches.
+bool isBeyond(const Draw& draw, const ShadowFace& face) {
+    if (std::isinf(face.reachMetres) || draw.boxWS.empty()) return false;
+    const glm::dmat4& world = face.camera.worldFromCamera;
+    const glm::dvec3 forwardWS = -glm::dvec3(world[2]), eyeWS = glm::dvec3(world[3]);
+    const glm::dvec3 low = draw.boxWS.min - eyeWS, high = draw.boxWS.max - eyeWS;
+    const double nearest = glm::dot(glm::min(low * forwardWS, high * forwardWS), glm::dvec3(1.0));
+    // Far more than rounding moves vertices, as where draws are culled by planes.
+    const double errorMetres = 1e-5 * (glm::length(glm::max(glm::abs(low), glm::abs(high))) + 2.0 * draw.reachMetres);
+    return nearest > 1.001 * face.reachMetres + errorMetres;
 }
 
 } // namespace
@@ -24,8 +37,9 @@ bool ShadowMemory::begin(const ShadowMaps& maps, const SceneGpu& scene, bool hol
         const ShadowFace& face = maps.faces[i];
         if (keeps && face == held_.faces[i]) continue;
         const CameraView view = faceView(face);
-        const ViewDraws drawn =
-            makeViewDraws(scene.drawList(), view, culls, [&](const Draw& draw) { return scene.isCaster(draw); });
+        const ViewDraws drawn = makeViewDraws(scene.drawList(), view, culls, [&](const Draw& draw) {
+            return scene.isCaster(draw) && !(culls && isBeyond(draw, face));
+        });
         ShadowDraws::Face& added =
             draws_.faces.emplace_back(face.cornerTexels, face.sideTexels, view.constants, drawn.opaque);
         const int first = int(draws_.rows.size());
