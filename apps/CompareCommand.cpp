@@ -12,6 +12,7 @@
 #include "base/Names.h"
 #include "base/OneLine.h"
 #include "base/PictureFile.h"
+#include "engine/PrepareView.h"
 #include "engine/Renderer.h"
 #include "validation/compare/ReferencePicture.h"
 #include "validation/compare/TechniqueCompare.h"
@@ -145,6 +146,12 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
         if (!options.frame.said("filter")) comparison.settings.filter = frame::TextureFilter::Exact;
     }
     if (!options.heatMaps.empty()) addHeatMaps(options, validation::pictureNames(request.scene, comparison), outputs);
+    const frame::PreparedView prepared =
+        engine::prepareView(request.scene, engine::Technique::Forward,
+                            validation::settingsHeededBy(engine::Technique::Forward, comparison.settings));
+    warnOfUnheeded(options.frame, request, prepared);
+    if (const std::string missing = engine::missingShadows(prepared); !missing.empty())
+        spdlog::warn("{}", oneLine(request.scene.name + ": " + missing));
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     engine::Renderer renderer(*context, request.scene);
     Progress progress("comparing", validation::stepCount(request.scene, comparison), global.quiet);

@@ -11,6 +11,7 @@
 #include "base/Names.h"
 #include "base/OneLine.h"
 #include "scenes/Defaults.h"
+#include "validation/bench/ShadowKey.h"
 
 namespace tessera::app {
 
@@ -197,6 +198,14 @@ Request resolve(const FrameOptions& options) {
     for (const std::string& warning : request.scene.warnings)
         spdlog::warn("{}", oneLine(request.scene.name + ": " + warning));
     return request;
+}
+
+void warnOfUnheeded(const FrameOptions& options, const Request& request, const frame::PreparedView& prepared) {
+    for (const engine::Setting& setting : engine::settingTable()) {
+        if (!options.said(setting.key)) continue;
+        const std::string why = validation::whyUnheeded(setting.key, prepared.lights, request.settings);
+        if (!why.empty()) spdlog::warn("{}", oneLine(fmt::format("{} changes nothing: {}", setting.flag, why)));
+    }
 }
 
 engine::Technique techniqueNamed(const std::string& name) {

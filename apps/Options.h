@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "engine/Settings.h"
+#include "renderer/frame/PreparedView.h"
 #include "renderer/gpu/Context.h"
 #include "scenes/CameraChange.h"
 #include "scenes/Load.h"
@@ -66,6 +67,8 @@ Request resolve(const FrameOptions& options);
 /// How loadScene() is asked for the scene. Throws InputError.
 scenes::LoadOptions loadOptionsOf(const FrameOptions& options);
 
+/// Warns of settings of shadows that were said and change nothing of a picture.
+void warnOfUnheeded(const FrameOptions& options, const Request& request, const frame::PreparedView& prepared);
 engine::Technique techniqueNamed(const std::string& name);
 glm::ivec2 sizeNamed(const std::string& flag, const std::string& text);
 

@@ -16,6 +16,7 @@
 #include "base/Extension.h"
 #include "base/OneLine.h"
 #include "base/PictureFile.h"
+#include "engine/PrepareView.h"
 #include "engine/Renderer.h"
 #include "engine/Rendering.h"
 #include "validation/compare/ReferencePicture.h"
@@ -162,6 +163,7 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     engine::Renderer renderer(*context, request.scene);
     request.settings.display = extensionOf(options.output) != ".exr";
+    warnOfUnheeded(frame, request, engine::prepareView(request.scene, request.technique, request.settings));
     // One picture is soon made.
     Progress progress("rendering", std::size_t(options.frames.value_or(1)), global.quiet || !options.frames);
     bool hasWarned = false, hasWarnedOfShadows = false;
@@ -169,8 +171,8 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
         const engine::RenderedFrame picture = renderer.render(request.technique, one);
         const engine::DrawnShadows shadows = renderer.shadows();
         warnOfPicture(path, request.scene, one.view, picture.radiance, shadows.cut, hasWarned);
-        if (!shadows.lost.empty() && !std::exchange(hasWarnedOfShadows, true))
-            spdlog::warn("{}", oneLine(path + ": " + shadows.lost));
+        if (!shadows.missing.empty() && !std::exchange(hasWarnedOfShadows, true))
+            spdlog::warn("{}", oneLine(path + ": " + shadows.missing));
         writePicture(path, request, renderer, picture);
         progress.advance();
     });

@@ -86,7 +86,8 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::Prep
         const bool hasMaps = prepared.spec.features[frame::Feature::ShadowMaps];
         plan.choices.push_back(
             {"shadows",
-             fmt::format("of {} of {}, {}", prepared.lights.shadowed, frame::lightsText(prepared.lights.texels.size()),
+             fmt::format("of {} of {}, {}", prepared.lights.shadowed - prepared.shadowMaps.unmapped(),
+                         frame::lightsText(prepared.lights.texels.size()),
                          hasMaps ? fmt::format("in maps ({})", infoOf(settings.shadowFilter).name) : "traced"),
              std::move(why)});
         if (hasMaps) plan.choices.push_back(atlasChoice(prepared.shadowMaps, settings));

@@ -42,6 +42,24 @@ std::string lostShadows(const frame::ShadowMaps& maps, const frame::FrameSetting
                        settingOf("shadowBudget").flag);
 }
 
+std::string missingShadows(const frame::PreparedView& prepared) {
+    const frame::FrameSettings& settings = prepared.spec.settings;
+    if (!frame::showsShadows(settings.view)) return "";
+    const frame::DebugViewInfo& view = frame::debugViewInfo(settings.view);
+    const bool showsMaps =
+        settings.view == frame::DebugView::Cascades || settings.view == frame::DebugView::ShadowAtlas;
+    if (frame::showsShadowsOfOne(settings.view) || showsMaps) {
+        if (prepared.lights.shadowed == 0)
+            return fmt::format("no light in view casts shadows on anything, so the view {} has none to show; {} says "
+                               "which lights do",
+                               view.name, settingOf("shadows").flag);
+        if (showsMaps && !infoOf(settings.shadowFilter).usesMaps)
+            return fmt::format("the shadow filter {} uses no maps, so the view {} has none to show; give {} hard",
+                               infoOf(settings.shadowFilter).name, view.name, settingOf("shadowFilter").flag);
+    }
+    return lostShadows(prepared.shadowMaps, settings);
+}
+
 std::string cutShadows(const frame::FrameSpec& spec) {
     if (!spec.mayCutShadows()) return "";
     const bool mayNarrow =

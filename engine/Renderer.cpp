@@ -163,6 +163,7 @@ DrawnShadows Renderer::shadows(std::size_t view) const {
     for (std::size_t i = 0; i < prepared.lights.shadowed; ++i) drawn.lights.push_back({prepared.lights.sceneIndex[i]});
     if (const auto shown = std::size_t(prepared.lights.shown); shown < drawn.lights.size()) drawn.shown = shown;
     drawn.cut = cutShadows(prepared.spec);
+    drawn.missing = missingShadows(prepared);
     if (!drawn.hasMaps) return drawn;
     const frame::ShadowMaps& maps = prepared.shadowMaps;
     for (const frame::ShadowedLight& light : maps.lights) {
@@ -175,7 +176,6 @@ DrawnShadows Renderer::shadows(std::size_t view) const {
     drawn.budgetMiB = prepared.spec.settings.shadowMaps.budgetMiB;
     drawn.faces = maps.faces.size();
     drawn.drawnFaces = drawnView.shadowMemory->drawnFaces();
-    if (frame::showsShadows(prepared.spec.settings.view)) drawn.lost = lostShadows(maps, prepared.spec.settings);
     return drawn;
 }
 

@@ -12,6 +12,7 @@
 
 #include "base/Error.h"
 #include "base/Names.h"
+#include "engine/SettingValues.h"
 #include "scenes/Limits.h"
 #include "scenes/import/JsonText.h"
 #include "validation/bench/ShadowKey.h"
@@ -77,7 +78,8 @@ std::string numberTextIn(const engine::Setting& setting, const ParsedJson& value
     if (!isOpen && !value.is_number()) refuse(source, key, fmt::format("{} is no number", value.dump()));
     try {
         engine::ViewRequest request;
-        setting.read(request, isOpen ? std::string(setting.value.open) : value.dump());
+        // 2.0 is a whole number too.
+        setting.read(request, isOpen ? std::string(setting.value.open) : engine::numberText(value.get<double>()));
         return setting.text(request);
     } catch (const InputError& error) {
         refuse(source, key, error.what());

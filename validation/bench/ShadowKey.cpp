@@ -56,6 +56,15 @@ ShadowKey shadowKeyOf(const frame::PackedLights& lights, const frame::FrameSetti
     return key;
 }
 
+std::string whyUnheeded(std::string_view key, const frame::PackedLights& lights, const frame::FrameSettings& settings) {
+    const auto table = shadowSettingTable();
+    const auto row = std::ranges::find(table, key, &ShadowSetting::key);
+    if (key != "shadowFilter" && row == table.end()) return "";
+    if (lights.shadowed == 0) return "no light in view casts shadows";
+    if (row == table.end() || row->matters(lights.features, settings.shadowFilter)) return "";
+    return std::string(row->absent);
+}
+
 std::string shadowText(const ShadowKey& key) {
     if (key.filter == kNoShadows) return "no shadows";
     std::string text = key.filter;

@@ -42,6 +42,9 @@ struct ShadowKey {
 /// Of a frame with these lights.
 ShadowKey shadowKeyOf(const frame::PackedLights& lights, const frame::FrameSettings& settings);
 
+/// Why a setting of shadows changes nothing of a frame with these lights; empty where it may, and of other settings.
+std::string whyUnheeded(std::string_view key, const frame::PackedLights& lights, const frame::FrameSettings& settings);
+
 /// "pcf, 5x5, 1024 texels", without values that are the default; "no shadows".
 std::string shadowText(const ShadowKey& key);
 

@@ -187,6 +187,18 @@ TEST_F(Compare, settingsThatTheReferenceDoesNotRenderAreRefused) {
     expectError(kBadInput, {"compare", "room", "--against", "referense"}, {"referense", "reference"});
 }
 
+TEST_F(Compare, shadowsOfMapsAreNotJudgedByTheReferenceAndThatIsSaid) {
+    const Words words =
+        lattice({"--shadows", "4", "--shadow-filter", "hard", "--technique", "forward", "--against", "reference"});
+    const ProcessResult result = run(words);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_THAT(result.out, testing::HasSubstr("not judged: forward"));
+    // Lost ones are warned of.
+    Words few = words;
+    few.insert(few.end(), {"--shadow-budget", "0.001"});
+    EXPECT_THAT(run(few).err, testing::HasSubstr("cast no shadows; give more --shadow-budget"));
+}
+
 TEST_F(Compare, aPictureOfAnotherSizeIsRefused) {
     runGood({"render", "room", "--size", "32x18", "-o", "small.exr"});
     expectError(kBadInput, {"compare", "room", "--size", "160x90", "--against", "small.exr", "--json", "c.json"},

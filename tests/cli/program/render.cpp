@@ -1,5 +1,7 @@
 #include <OpenImageIO/imageio.h>
 
+#include <fmt/format.h>
+
 #include "tests/cli/program/Cli.h"
 #include "validation/figures/ErrorFigures.h"
 
@@ -181,6 +183,42 @@ TEST_F(Render, lightsThatTheBudgetLeavesWithoutShadowsAreToldOnce) {
     EXPECT_THAT(said({"0.01", "--view", "shadow"}), testing::HasSubstr("cast no shadows"));
     EXPECT_EQ(said({"0.01", "--view", "normal"}), "") << "it shows no shadows";
     EXPECT_EQ(said({"1"}), "") << "smaller maps alone are told by plan";
+}
+
+TEST_F(Render, aViewOfShadowsWithoutAnySaysWhy) {
+    const auto said = [&](const Words& more) {
+        Words words{"render", "lattice", "--lights", "64", "--size", "16x9", "-o", "a.png"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ProcessResult result = run(words);
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        return result.err;
+    };
+    for (const char* view : {"shadow", "cascades", "shadow_atlas"})
+        EXPECT_EQ(said({"--view", view}),
+                  fmt::format("tessera: warning: a.png: no light in view casts shadows on anything, so the view {} has "
+                              "none to show; --shadows says which lights do\n",
+                              view));
+    EXPECT_THAT(said({"--view", "shadow", "--shadows", "2", "--solo", "5"}),
+                testing::HasSubstr("no light in view casts shadows"));
+    EXPECT_THAT(said({"--view", "shadow_atlas", "--shadows", "2"}),
+                testing::HasSubstr("the shadow filter traced uses no maps"));
+    EXPECT_EQ(said({"--view", "shadow_atlas", "--shadows", "2", "--shadow-filter", "hard"}), "");
+    EXPECT_EQ(said({"--view", "shadow", "--shadows", "2"}), "");
+}
+
+TEST_F(Render, settingsOfShadowsThatChangeNothingAreTold) {
+    const auto said = [&](const Words& more) {
+        Words words{"render", "lattice", "--lights", "64", "--size", "16x9", "-o", "a.png"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words).err;
+    };
+    EXPECT_EQ(said({"--shadow-width", "5"}),
+              "tessera: warning: --shadow-width changes nothing: no light in view casts shadows\n");
+    EXPECT_EQ(said({"--shadows", "all", "--shadow-filter", "hard", "--shadow-width", "5"}),
+              "tessera: warning: --shadow-width changes nothing: the filter averages no square\n");
+    EXPECT_THAT(said({"--shadows", "all", "--shadow-budget", "2"}),
+                testing::HasSubstr("--shadow-budget changes nothing: no shadow is looked up in a map"));
+    EXPECT_EQ(said({"--shadows", "all", "--shadow-filter", "pcf", "--shadow-width", "5", "--shadow-budget", "2"}), "");
 }
 
 TEST_F(Render, whereShadowsTakeTooManyIterationsTheyAreNamedAsTheCause) {

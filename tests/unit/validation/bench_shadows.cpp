@@ -75,6 +75,7 @@ TEST(ShadowMatrix, valuesHaveTheBoundsOfTheSettings) {
     EXPECT_EQ(refusal(R"({"shadowCascades": [2.5]})"),
               "m.json: \"shadowCascades\": shadow cascades '2.5' is not a whole number, such as 8");
     EXPECT_THAT(refusal(R"({"shadowWidht": [3]})"), HasSubstr("did you mean 'shadowWidth'"));
+    EXPECT_EQ(refusal(R"({"shadowCascades": [2.0]})"), "nothing was refused");
     EXPECT_EQ(refusal(R"({"shadowResolution": ["automatic", 64], "shadowBudget": [0.5]})"), "nothing was refused");
 }
 
