@@ -149,7 +149,7 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
     const frame::PreparedView prepared =
         engine::prepareView(request.scene, engine::Technique::Forward,
                             validation::settingsHeededBy(engine::Technique::Forward, comparison.settings));
-    warnOfUnheeded(options.frame, request, prepared);
+    for (const std::string& unheeded : unheededShadows(options.frame, request, prepared)) spdlog::warn("{}", unheeded);
     if (const std::string missing = engine::missingShadows(prepared); !missing.empty())
         spdlog::warn("{}", oneLine(request.scene.name + ": " + missing));
     const std::unique_ptr<gpu::Context> context = makeContext(global);

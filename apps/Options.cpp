@@ -11,7 +11,6 @@
 #include "base/Names.h"
 #include "base/OneLine.h"
 #include "scenes/Defaults.h"
-#include "validation/bench/ShadowKey.h"
 
 namespace tessera::app {
 
@@ -200,12 +199,18 @@ Request resolve(const FrameOptions& options) {
     return request;
 }
 
-void warnOfUnheeded(const FrameOptions& options, const Request& request, const frame::PreparedView& prepared) {
+std::vector<std::string> unheededShadows(const FrameOptions& options, const engine::ViewRequest& request,
+                                         const frame::PreparedView& prepared) {
+    std::vector<std::string> messages;
+    if (!frame::showsShadows(request.settings.view)) return messages; // the same options serve all views
     for (const engine::Setting& setting : engine::settingTable()) {
-        if (!options.said(setting.key)) continue;
-        const std::string why = validation::whyUnheeded(setting.key, prepared.lights, request.settings);
-        if (!why.empty()) spdlog::warn("{}", oneLine(fmt::format("{} changes nothing: {}", setting.flag, why)));
+        if (setting.panel != engine::SettingPanel::Shadows || setting.key == "shadows" || !options.said(setting.key))
+            continue;
+        const std::string why =
+            prepared.lights.shadowed == 0 ? "No light in view casts shadows on anything" : setting.whyIdle(request);
+        if (!why.empty()) messages.push_back(fmt::format("{} changes nothing. {}", setting.flag, why));
     }
+    return messages;
 }
 
 engine::Technique techniqueNamed(const std::string& name) {

@@ -67,8 +67,9 @@ Request resolve(const FrameOptions& options);
 /// How loadScene() is asked for the scene. Throws InputError.
 scenes::LoadOptions loadOptionsOf(const FrameOptions& options);
 
-/// Warns of settings of shadows that were said and change nothing of a picture.
-void warnOfUnheeded(const FrameOptions& options, const Request& request, const frame::PreparedView& prepared);
+/// Which settings of shadows were said and change nothing of a picture, and why: a sentence or two each.
+std::vector<std::string> unheededShadows(const FrameOptions& options, const engine::ViewRequest& request,
+                                         const frame::PreparedView& prepared);
 engine::Technique techniqueNamed(const std::string& name);
 glm::ivec2 sizeNamed(const std::string& flag, const std::string& text);
 

@@ -163,19 +163,24 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     engine::Renderer renderer(*context, request.scene);
     request.settings.display = extensionOf(options.output) != ".exr";
-    warnOfUnheeded(frame, request, engine::prepareView(request.scene, request.technique, request.settings));
     // One picture is soon made.
     Progress progress("rendering", std::size_t(options.frames.value_or(1)), global.quiet || !options.frames);
     bool hasWarned = false, hasWarnedOfShadows = false;
+    std::optional<std::vector<std::string>> unheeded; // in all pictures
     makePictures(options, outputs, request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
         const engine::RenderedFrame picture = renderer.render(request.technique, one);
         const engine::DrawnShadows shadows = renderer.shadows();
         warnOfPicture(path, request.scene, one.view, picture.radiance, shadows.cut, hasWarned);
         if (!shadows.missing.empty() && !std::exchange(hasWarnedOfShadows, true))
             spdlog::warn("{}", oneLine(path + ": " + shadows.missing));
+        const std::vector<std::string> own = unheededShadows(
+            frame, {request.technique, one}, engine::prepareView(request.scene, request.technique, one));
+        if (!unheeded) unheeded = own;
+        std::erase_if(*unheeded, [&](const std::string& text) { return std::ranges::find(own, text) == own.end(); });
         writePicture(path, request, renderer, picture);
         progress.advance();
     });
+    for (const std::string& text : unheeded.value_or(std::vector<std::string>())) spdlog::warn("{}", text);
     return kGood;
 }
 

@@ -46,14 +46,12 @@ std::string missingShadows(const frame::PreparedView& prepared) {
     const frame::FrameSettings& settings = prepared.spec.settings;
     if (!frame::showsShadows(settings.view)) return "";
     const frame::DebugViewInfo& view = frame::debugViewInfo(settings.view);
-    const bool showsMaps =
-        settings.view == frame::DebugView::Cascades || settings.view == frame::DebugView::ShadowAtlas;
-    if (frame::showsShadowsOfOne(settings.view) || showsMaps) {
+    if (frame::showsShadowsOfOne(settings.view) || frame::showsMaps(settings.view)) {
         if (prepared.lights.shadowed == 0)
             return fmt::format("no light in view casts shadows on anything, so the view {} has none to show; {} says "
                                "which lights do",
                                view.name, settingOf("shadows").flag);
-        if (showsMaps && !infoOf(settings.shadowFilter).usesMaps)
+        if (frame::showsMaps(settings.view) && !infoOf(settings.shadowFilter).usesMaps)
             return fmt::format("the shadow filter {} uses no maps, so the view {} has none to show; give {} hard",
                                infoOf(settings.shadowFilter).name, view.name, settingOf("shadowFilter").flag);
     }

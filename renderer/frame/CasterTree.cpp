@@ -122,8 +122,8 @@ double roundingMetresOf(const Mesh& mesh, const glm::dmat4& worldFromNode, const
 CasterSpace spaceOf(const scenes::Scene& scene) {
     std::array<std::vector<double>, 3> coordinates;
     visitCasters(scene, [&](const Mesh& mesh, const Material&, const glm::dmat4& worldFromNode) {
-        for (const glm::vec3& positionOS : mesh.positionsOS) {
-            const glm::dvec3 placeWS = placeOf(worldFromNode, positionOS);
+        for (const std::uint32_t vertex : mesh.indices) {
+            const glm::dvec3 placeWS = placeOf(worldFromNode, mesh.positionsOS[vertex]);
             for (int axis = 0; axis < 3; ++axis) coordinates[std::size_t(axis)].push_back(placeWS[axis]);
         }
     });

@@ -5,7 +5,6 @@
 #include <glm/glm.hpp>
 
 #include "renderer/frame/CameraView.h"
-#include "renderer/frame/DrawList.h"
 #include "scenes/Scene.h"
 #include "shaders/shared/caster_tree.h"
 
@@ -17,8 +16,8 @@ inline constexpr double kPositionRounding = 8.0 * 0x1p-24;
 
 /// Where the casters of a scene are, and how exactly.
 struct CasterSpace {
-    /// The origin of casters' space: the median of the casters' corners on each axis. A stray far away does not take
-    /// the digits of all others.
+    /// The origin of casters' space: the median, on each axis, of the corners of their triangles. A stray far away does
+    /// not take the digits of all others.
     glm::dvec3 centreWS{0.0};
     double unitMetres = 0.0;     ///< of casters' space
     double radius = 0.0;         ///< in units, around the origin: all casters

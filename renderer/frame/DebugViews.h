@@ -85,9 +85,13 @@ constexpr bool showsShadowsOfOne(DebugView view) {
 constexpr bool sumsOverLights(DebugView view) {
     return showsLitPicture(view) || view == DebugView::Lights;
 }
+/// Shows shadow maps.
+constexpr bool showsMaps(DebugView view) {
+    return view == DebugView::Cascades || view == DebugView::ShadowAtlas;
+}
 /// Its values depend on shadows.
 constexpr bool showsShadows(DebugView view) {
-    return showsLitPicture(view) || showsShadowsOfOne(view) || view == DebugView::ShadowAtlas;
+    return showsLitPicture(view) || showsShadowsOfOne(view) || showsMaps(view);
 }
 /// Needs the channel normal_texel, which lighting does not read.
 bool needsNormalTexel(DebugView view);

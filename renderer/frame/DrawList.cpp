@@ -86,18 +86,6 @@ DrawList makeDrawList(const scenes::Scene& scene) {
 
 namespace {
 
-/// By how much a draw's vertices may lie outside its box by rounding. To fp32: some 2^-24 of all that they are added up
-/// from, within their object, from there to the origin of lighting space, and where they end; this is far more. The box
-/// is in the coordinates of the world in double precision, of which four roundings are 2^-51.
-double roundingMetres(const Draw& draw, const glm::dvec3& objectWS, const CameraView& view) {
-    constexpr double kSingleShare = 1e-5, kDoubleShare = 0x1p-50;
-    const glm::dvec3 fromOrigin =
-        glm::max(glm::abs(draw.boxWS.min - view.originWS), glm::abs(draw.boxWS.max - view.originWS));
-    const glm::dvec3 fromWorld = glm::max(glm::abs(draw.boxWS.min), glm::abs(draw.boxWS.max));
-    return kSingleShare * (draw.reachMetres + glm::distance(objectWS, view.originWS) + glm::length(fromOrigin)) +
-           kDoubleShare * (glm::length(fromWorld) + glm::length(objectWS) + draw.reachMetres);
-}
-
 /// Whether some plane of the view's frustum has all of a draw's box behind it.
 bool isOutside(const Draw& draw, const glm::dvec3& objectWS, const CameraView& view) {
     const scenes::Box3& boxWS = draw.boxWS;
@@ -162,6 +150,15 @@ DrawRows rowsOf(const Draw& draw, const glm::dmat4& worldFromObject, const Camer
 }
 
 } // namespace
+
+double roundingMetres(const Draw& draw, const glm::dvec3& objectWS, const CameraView& view) {
+    constexpr double kSingleShare = 1e-5, kDoubleShare = 0x1p-50;
+    const glm::dvec3 fromOrigin =
+        glm::max(glm::abs(draw.boxWS.min - view.originWS), glm::abs(draw.boxWS.max - view.originWS));
+    const glm::dvec3 fromWorld = glm::max(glm::abs(draw.boxWS.min), glm::abs(draw.boxWS.max));
+    return kSingleShare * (draw.reachMetres + glm::distance(objectWS, view.originWS) + glm::length(fromOrigin)) +
+           kDoubleShare * (glm::length(fromWorld) + glm::length(objectWS) + draw.reachMetres);
+}
 
 std::vector<DepthBatch> depthBatches(const scenes::Scene& scene, std::span<const Batch> batches) {
     std::vector<DepthBatch> result;

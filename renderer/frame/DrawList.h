@@ -51,6 +51,11 @@ struct DrawList {
 };
 DrawList makeDrawList(const scenes::Scene& scene);
 
+/// By how much a draw's vertices may lie outside its box by rounding. To fp32: some 2^-24 of all that they are added up
+/// from, within their object, from there to the origin of lighting space, and where they end; this is far more. The box
+/// is in the coordinates of the world in double precision, of which four roundings are 2^-51.
+double roundingMetres(const Draw& draw, const glm::dvec3& objectWS, const CameraView& view);
+
 /// Per-draw vertex attributes (shaders/passes/geometry.vert): rows of RWS-from-object (world axes at the origin of
 /// lighting space, as shaders/shared/frame.h says) and of the cofactor matrix of LS-from-object, which carries normals
 /// through any transform, singular ones too; times the determinant's sign, which row 0's w holds. Row 1's w is

@@ -48,7 +48,7 @@ std::size_t shadowSamples(const scenes::Light& light, const FrameSettings& setti
 std::size_t shadowIterations(const FrameSpec& spec, const scenes::Light& light) {
     const FrameSettings& settings = spec.settings;
     const std::size_t samples = shadowSamples(light, settings);
-    if (spec.tracesShadows()) return samples * rayIterations(casterSteps(spec.shadowRays));
+    if (spec.tracesShadows()) return samples * rayIterations(casterSteps(spec.shadowSamples));
     const std::size_t faces = scenes::infoOf(light.type).hasPosition() ? 1 : std::size_t(settings.shadowMaps.cascades);
     const std::size_t ofFilter = infoOf(settings.shadowFilter).heedsWidth
                                      ? pcfIterations(std::size_t(settings.shadowMaps.widthTexels))
@@ -117,7 +117,7 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     const auto shadowed = [&](std::size_t i) -> const scenes::Light& {
         return scene.lights[std::size_t(lights.sceneIndex[i])];
     };
-    for (std::size_t i = 0; i < lights.shadowed; ++i) spec.shadowRays += shadowSamples(shadowed(i), spec.settings);
+    for (std::size_t i = 0; i < lights.shadowed; ++i) spec.shadowSamples += shadowSamples(shadowed(i), spec.settings);
     for (std::size_t i = 0; i < lights.shadowed; ++i) spec.iterations += 1 + shadowIterations(spec, shadowed(i));
     return spec;
 }
@@ -135,7 +135,7 @@ Defines frameDefines(const FrameSpec& spec) {
         defines.emplace_back("SHADOW_TAP_TEXELS", std::to_string(shadowTapTexels(spec.settings)));
         defines.emplace_back("SHADOW_WIDTH", std::to_string(spec.settings.shadowMaps.widthTexels));
     }
-    if (spec.tracesShadows()) defines.emplace_back("CASTER_STEPS", std::to_string(casterSteps(spec.shadowRays)));
+    if (spec.tracesShadows()) defines.emplace_back("CASTER_STEPS", std::to_string(casterSteps(spec.shadowSamples)));
     if (spec.features[Feature::SoftShadows])
         defines.emplace_back("SHADOW_SAMPLES", std::to_string(spec.settings.shadowSamples));
     return defines;

@@ -21,7 +21,7 @@ struct FrameSpec {
     LightingStage lightOn = LightingStage::Fragment; ///< where the technique has a lighting pass
     std::size_t lights = 0;                          ///< that the frame's pixels may visit
     std::size_t shadowedLights = 0;                  ///< those among them that casters may hide
-    std::size_t shadowRays = 0;                      ///< that a pixel sends to all of those, where shadows are traced
+    std::size_t shadowSamples = 0;                   ///< rays, or places of their disks, for all of those
     std::size_t iterations = 0;                      ///< of loops, to light a pixel that all lights reach
     glm::ivec2 shadowAtlasTexels{0};                 ///< where there are shadow maps
     std::size_t shadowFaces = 0;                     ///< in the atlas

@@ -50,7 +50,7 @@ int automaticSideTexels(double texels) {
 
 std::vector<int> fitBudget(std::span<const ShadowDemand> lights, double budgetBytes) {
     std::vector<int> sidesTexels;
-    for (const ShadowDemand& light : lights) sidesTexels.push_back(light.sideTexels);
+    for (const ShadowDemand& light : lights) sidesTexels.push_back(light.wantedTexels);
     struct Halving {
         double cost;
         std::size_t light;
@@ -79,7 +79,7 @@ std::vector<int> fitBudget(std::span<const ShadowDemand> lights, double budgetBy
         const double side = double(sidesTexels[i]);
         if (sidesTexels[i] <= kLeastFaceTexels) return;
         const double pixels = std::exp2(std::ceil(std::log2(std::max(lights[i].pixels, 1.0))));
-        const double pixelsPerTexel = double(automaticSideTexels(lights[i].texels)) / side;
+        const double pixelsPerTexel = double(automaticSideTexels(lights[i].pictureTexels)) / side;
         halvings.push({pixels * pixelsPerTexel / (side * side * double(lights[i].faces)), i});
     };
     for (std::size_t i = 0; i < lights.size(); ++i) {

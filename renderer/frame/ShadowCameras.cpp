@@ -131,7 +131,7 @@ std::vector<scenes::Camera> placedCameras(const glm::dvec3& lightWS, const std::
         return cameras;
     }
     // +x, -x, +y, -y, +z, -z, as lib/shadow/shadow_map.glsl numbers them.
-    for (int face = 0; face < 6; ++face) {
+    for (int face = 0; face < kAxisFaces; ++face) {
         glm::dvec3 forwardWS(0.0);
         forwardWS[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
         glm::dvec3 upWS(0.0);

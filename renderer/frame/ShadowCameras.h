@@ -5,6 +5,7 @@
 
 #include "renderer/frame/CameraView.h"
 #include "renderer/frame/DepthInterval.h"
+#include "renderer/frame/FrameSettings.h"
 
 /// Where the faces of a light's shadow map look from, and how far to each side. A face's picture is `sideTexels` wide;
 /// points are looked up in it but for `borderTexels` at its rim.
@@ -25,6 +26,10 @@ struct ShadowCone {
 /// The cone of a spot light, or the narrower one around all that is drawn, seen from beside it. Without one, the light
 /// takes six faces.
 std::optional<ShadowCone> shadowConeOf(const scenes::Light& light, const Ball& scene);
+
+/// Faces of a light for each direction of the axes. Cascades are fewer.
+inline constexpr int kAxisFaces = 6;
+static_assert(kMostShadowCascades < kAxisFaces);
 
 /// The near end of a perspective face as a share of what its light reaches. Reverse-Z keeps the digits of any distance.
 inline constexpr double kFaceNearShare = 0x1p-30;

@@ -6,7 +6,6 @@
 
 #include "renderer/frame/CasterTree.h"
 #include "renderer/frame/LightRange.h"
-#include "renderer/frame/ShadowCameras.h"
 
 namespace tessera::frame {
 
@@ -27,7 +26,7 @@ ShadowDemand demandOf(const Wanted& wanted, const CameraView& view, const FrameS
     const bool isPlaced = scenes::infoOf(wanted.light.type).hasPosition();
     ShadowDemand demand{isPlaced ? wanted.cone ? 1 : kAxisFaces : settings.shadowMaps.cascades, 0, side, all};
     const auto sized = [&] {
-        demand.sideTexels = settings.shadowMaps.resolutionTexels.value_or(automaticSideTexels(demand.texels));
+        demand.wantedTexels = settings.shadowMaps.resolutionTexels.value_or(automaticSideTexels(demand.pictureTexels));
         return demand;
     };
     if (!isPlaced) return sized();
@@ -40,7 +39,7 @@ ShadowDemand demandOf(const Wanted& wanted, const CameraView& view, const FrameS
     const double pixelMetres = isParallel ? metresPerPixel : std::max(fromEye, 0.25 * reach) * metresPerPixel;
     const double widthMetres =
         std::min(2.0 * wanted.reachMetres * (wanted.cone ? wanted.cone->tangent : 1.0), 2.0 * scene.radiusMetres);
-    if (pixelMetres > 0.0) demand.texels = std::min(widthMetres / pixelMetres, side);
+    if (pixelMetres > 0.0) demand.pictureTexels = std::min(widthMetres / pixelMetres, side);
     // What lies both within its reach and in the scene is seen within the smaller disk of the two balls.
     const auto diskPixels = [&](double metres, double radius) {
         const double ahead = isParallel ? 1.0 : std::sqrt(std::max((metres - radius) * (metres + radius), 0.0));
@@ -95,7 +94,7 @@ ShadowMaps makeShadowMaps(const scenes::Scene& scene, const PackedLights& lights
             own.cone = shadowConeOf(own.light, all);
         }
         const ShadowDemand& demand = demands.emplace_back(demandOf(own, view, settings, all));
-        maps.lights.push_back({i, 0, demand.faces, demand.sideTexels, 0});
+        maps.lights.push_back({i, 0, demand.faces, demand.wantedTexels, 0});
         wanted.push_back(own);
     }
     const std::vector<int> gotTexels = fitBudget(demands, settings.shadowMaps.budgetMiB * 1024.0 * 1024.0);

@@ -1,5 +1,4 @@
 #pragma once
-#include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
@@ -9,6 +8,7 @@
 #include "renderer/frame/DrawList.h"
 #include "renderer/frame/PackedLights.h"
 #include "renderer/frame/ShadowAtlas.h"
+#include "renderer/frame/ShadowCameras.h"
 #include "renderer/graph/Resource.h"
 #include "shaders/shared/shadow_maps.h"
 
@@ -24,10 +24,6 @@ struct ShadowFace {
     double reachMetres = std::numeric_limits<double>::infinity();
     bool operator==(const ShadowFace&) const = default;
 };
-
-/// Faces of a light for each direction of the axes. Cascades are fewer.
-inline constexpr int kAxisFaces = 6;
-static_assert(kMostShadowCascades < kAxisFaces);
 
 /// Faces of a light: one per cascade of a directional light; one around the cone of a spot light of up to 70 degrees to
 /// a side, or around all that is drawn where that is seen from beside it; else six.

@@ -12,15 +12,13 @@ bool haveOnePlace(const ShadowFace& a, const ShadowFace& b) {
 }
 
 /// Whether all of a draw lies farther along a face's camera than its light reaches.
-bool isBeyond(const Draw& draw, const ShadowFace& face) {
+bool isBeyond(const Draw& draw, const glm::dvec3& objectWS, const ShadowFace& face, const CameraView& view) {
     if (std::isinf(face.reachMetres) || draw.boxWS.empty()) return false;
-    const glm::dmat4& world = face.camera.worldFromCamera;
-    const glm::dvec3 forwardWS = -glm::dvec3(world[2]), eyeWS = glm::dvec3(world[3]);
-    const glm::dvec3 low = draw.boxWS.min - eyeWS, high = draw.boxWS.max - eyeWS;
+    constexpr double kRangeRounding = 1e-5; // of the light's range in fp32, whose reciprocal shaders square
+    const glm::dvec3 forwardWS = view.forwardLS * view.lsFromWorld;
+    const glm::dvec3 low = draw.boxWS.min - view.eyeWS, high = draw.boxWS.max - view.eyeWS;
     const double nearest = glm::dot(glm::min(low * forwardWS, high * forwardWS), glm::dvec3(1.0));
-    // Far more than rounding moves vertices, as where draws are culled by planes.
-    const double errorMetres = 1e-5 * (glm::length(glm::max(glm::abs(low), glm::abs(high))) + 2.0 * draw.reachMetres);
-    return nearest > 1.001 * face.reachMetres + errorMetres;
+    return nearest > (1.0 + kRangeRounding) * face.reachMetres + roundingMetres(draw, objectWS, view);
 }
 
 } // namespace
@@ -38,7 +36,8 @@ bool ShadowMemory::begin(const ShadowMaps& maps, const SceneGpu& scene, bool hol
         if (keeps && face == held_.faces[i]) continue;
         const CameraView view = faceView(face);
         const ViewDraws drawn = makeViewDraws(scene.drawList(), view, culls, [&](const Draw& draw) {
-            return scene.isCaster(draw) && !(culls && isBeyond(draw, face));
+            const glm::dvec3 objectWS(scene.drawList().worldFromObject[std::size_t(draw.node)][3]);
+            return scene.isCaster(draw) && !(culls && isBeyond(draw, objectWS, face, view));
         });
         ShadowDraws::Face& added =
             draws_.faces.emplace_back(face.cornerTexels, face.sideTexels, view.constants, drawn.opaque);

@@ -1,6 +1,6 @@
 #pragma once
 // What hides lights from surfaces: the triangles of all casters in a bounding volume hierarchy, as RGBA32UI texels of a
-// buffer texture. Casters' space (CS) has the axes of the world, its origin amid most of the casters' corners,
+// buffer texture. Casters' space (CS) has the axes of the world, its origin at the median of the corners on each axis,
 // and about their distance from it as its unit, so that fp32 keeps the digits of positions, and the squares of their
 // differences, at any size.
 //

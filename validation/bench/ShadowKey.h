@@ -19,7 +19,7 @@ struct ShadowSetting {
     std::string_view key;    ///< of the settings, the matrix and the record
     std::string_view format; ///< of a value in a point's name
     bool isOfMaps;           ///< it decides faces of shadow maps, and nothing else
-    bool (*matters)(const frame::FeatureSet& features, frame::ShadowFilter filter);
+    bool (*matters)(const frame::PackedLights& lights, frame::ShadowFilter filter);
     std::string_view absent; ///< why a point has no value
 };
 std::span<const ShadowSetting> shadowSettingTable();
@@ -41,9 +41,6 @@ struct ShadowKey {
 
 /// Of a frame with these lights.
 ShadowKey shadowKeyOf(const frame::PackedLights& lights, const frame::FrameSettings& settings);
-
-/// Why a setting of shadows changes nothing of a frame with these lights; empty where it may, and of other settings.
-std::string whyUnheeded(std::string_view key, const frame::PackedLights& lights, const frame::FrameSettings& settings);
 
 /// "pcf, 5x5, 1024 texels", without values that are the default; "no shadows".
 std::string shadowText(const ShadowKey& key);

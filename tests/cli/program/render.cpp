@@ -213,11 +213,13 @@ TEST_F(Render, settingsOfShadowsThatChangeNothingAreTold) {
         return run(words).err;
     };
     EXPECT_EQ(said({"--shadow-width", "5"}),
-              "tessera: warning: --shadow-width changes nothing: no light in view casts shadows\n");
+              "tessera: warning: --shadow-width changes nothing. No light in view casts shadows on anything\n");
     EXPECT_EQ(said({"--shadows", "all", "--shadow-filter", "hard", "--shadow-width", "5"}),
-              "tessera: warning: --shadow-width changes nothing: the filter averages no square\n");
+              "tessera: warning: --shadow-width changes nothing. Only pcf heeds it; the shadow filter is hard\n");
     EXPECT_THAT(said({"--shadows", "all", "--shadow-budget", "2"}),
-                testing::HasSubstr("--shadow-budget changes nothing: no shadow is looked up in a map"));
+                testing::HasSubstr(
+                    "--shadow-budget changes nothing. Only hard or pcf or pcss heeds it; the shadow filter is traced"));
+    EXPECT_EQ(said({"--shadow-width", "5", "--view", "normal"}), "") << "the same options serve all views";
     EXPECT_EQ(said({"--shadows", "all", "--shadow-filter", "pcf", "--shadow-width", "5", "--shadow-budget", "2"}), "");
 }
 
