@@ -136,7 +136,8 @@ CasterSpace spaceOf(const scenes::Scene& scene) {
             glm::distance(glm::dvec3(coordinates[0][i], coordinates[1][i], coordinates[2][i]), space.centreWS);
         farthest = std::max(farthest, distances[i]);
     }
-    // Between the casters' usual size and that of all: fp32 holds the fourth powers of both in this unit.
+    // Between the casters' usual size and that of all: fp32 holds the fourth powers of both, where they differ by up to
+    // 10^18.
     const double usual = medianOf(std::move(distances));
     space.unitMetres = usual > 0.0 ? std::sqrt(usual) * std::sqrt(farthest) : farthest;
     if (space.unitMetres == 0.0) return space;

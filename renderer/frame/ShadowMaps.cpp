@@ -114,7 +114,10 @@ ShadowMaps makeShadowMaps(const scenes::Scene& scene, const PackedLights& lights
                                  light.sideTexels, border);
         for (scenes::Camera& camera : cameras) {
             ShadowFace& face = maps.faces.emplace_back(std::move(camera), glm::ivec2(0), light.sideTexels);
-            if (scenes::infoOf(shining.type).hasPosition()) face.reachMetres = wanted[i].reachMetres;
+            // Views of shadows show them beyond the light's reach too.
+            const bool isCut = scenes::infoOf(shining.type).hasPosition() && !showsShadowsOfOne(settings.view) &&
+                               !showsMaps(settings.view);
+            if (isCut) face.reachMetres = wanted[i].reachMetres;
             sides.push_back(light.sideTexels);
         }
     }

@@ -95,6 +95,23 @@ TEST_F(ShadowViews, areTheSameInEveryTechniqueToTheLastBit) {
     }
 }
 
+TEST_F(ShadowViews, areTheSameWhateverElseIsLeftOut) {
+    scenes::LoadOptions options;
+    options.lights = 64;
+    const scenes::Scene scene = scenes::loadScene("lattice", options);
+    engine::Renderer renderer(context(), scene);
+    settings.shadows = {scenes::ShadowRequest::Kind::First, 16};
+    settings.shadowFilter = ShadowFilter::Hard;
+    settings.soloLight = 0; // it reaches part of what is in view
+    for (const DebugView view : {DebugView::Shadow, DebugView::Cascades, DebugView::ShadowAtlas}) {
+        settings.view = view;
+        settings.prune = true;
+        const std::vector<float> pruned = renderer.render(engine::Technique::Deferred, settings).radiance;
+        settings.prune = false;
+        EXPECT_EQ(pruned, renderer.render(engine::Technique::Deferred, settings).radiance) << int(view);
+    }
+}
+
 TEST_F(ShadowViews, areOfTheFirstLightThatCastsShadows) {
     scenes::Scene scene = pointsAndSun();
     const int sun = int(scene.lights.size()) - 1;

@@ -11,6 +11,9 @@ namespace tessera::reference {
 
 namespace {
 
+/// Of a light with a size: where rounding moves less, it decides nothing.
+constexpr double kDecisiveShare = 0.01;
+
 /// From a point to where the light is, or past all casters. Relative to the casters' centre.
 struct Segment {
     glm::dvec3 from{0.0}, along{0.0};
@@ -129,6 +132,20 @@ struct Occlusion::Casters {
         return query;
     }
 
+    /// A program holds the point and the light to single precision relative to an origin of its own, and the casters to
+    /// another: twice eight roundings of both. It may call a triangle's plane the point's own within as much again.
+    double leewayMetres(const glm::dvec3& placeRWS) const {
+        const double common = kPositionRounding * (originMetres + anchor.otherOriginMetres) + roundingMetres;
+        const double reach = glm::length(placeRWS - anchor.centreRWS) + anchor.otherOriginMetres;
+        return 4.0 * (common + 2.0 * kPositionRounding * reach);
+    }
+
+    /// The same of the other end of a way to a light: its place, or (not placed) what the way there is turned by. A
+    /// direction is rounded as a position is.
+    double leewayMetres(bool isPlaced, const ShiningLight& light, const glm::dvec3& pointRWS, double wayMetres) const {
+        return isPlaced ? leewayMetres(light.positionRWS) : leewayMetres(pointRWS) + kPositionRounding * wayMetres;
+    }
+
     static Answer decided(double share) { return {share, share, share}; }
     /// All or nothing of the light at one end of a segment. `own` is null where the point's own triangle does not
     /// count.
@@ -141,17 +158,10 @@ struct Occlusion::Casters {
         if (!leeway) return decided(share);
         const Answer undecided{share, 0.0, 1.0, true};
         if (exact.isUndecided) return undecided;
-        // A program holds the point and the light to single precision relative to an origin of its own, and the casters
-        // to another: twice eight roundings of both. It may call a triangle's plane the point's own within as much
-        // again. The ends move across the way, which decides edges, and along it, which decides contacts.
+        // The ends move across the way, which decides edges, and along it, which decides contacts.
         const auto& [from, along] = segment;
-        const double common = kPositionRounding * (originMetres + anchor.otherOriginMetres) + roundingMetres;
-        const auto leewayAt = [&](const glm::dvec3& placeRWS) {
-            const double reach = glm::length(placeRWS - anchor.centreRWS) + anchor.otherOriginMetres;
-            return 4.0 * (common + 2.0 * kPositionRounding * reach);
-        };
-        const double pointMetres = leewayAt(pointRWS);
-        const double lightMetres = isPlaced ? leewayAt(light.positionRWS) : pointMetres;
+        const double pointMetres = leewayMetres(pointRWS);
+        const double lightMetres = leewayMetres(isPlaced, light, pointRWS, glm::length(along));
         // Where casters hide the light, the own triangle does not matter.
         const bool isOwnUndecided = own && own->isUndecided(along, pointMetres + lightMetres);
         if (isBehind && !isOwnUndecided) return decided(0.0);
@@ -259,10 +269,13 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& surface, c
         sum.isUndecided = true;
     }
     // The own triangle's plane may cut the disk elsewhere: by the length of the chord there, at most its diameter.
-    const double cut = own.leewayRadians * distance;
+    const double metres =
+        casters.leewayMetres(pointRWS) + casters.leewayMetres(isPlaced, light, pointRWS, distance * reach);
+    const double cut = own.leewayRadians * distance + metres / reach;
     if (settings.leeway && std::abs(glm::dot(own.normal, toLight)) <= radius + cut) {
-        stray += 2.0 * cut / (std::numbers::pi * radius);
-        sum.isUndecided = true;
+        const double share = 2.0 * cut / (std::numbers::pi * radius);
+        stray += share;
+        sum.isUndecided = sum.isUndecided || share > kDecisiveShare;
     }
     sum.least = std::max(0.0, sum.share - stray);
     sum.most = std::min(1.0, sum.share + stray);

@@ -157,13 +157,16 @@ bool triangleHides(ShadowRay ray, uint triangle, bool isMasked)
     precise vec3 edge2 = corner2.xyz - corner0.xyz;
     precise vec3 fromCorner = ray.originCS - corner0.xyz;
     precise vec3 normal = cross(edge1, edge2);
-    precise float area = length(normal);
+    // Squares of small triangles' areas are below what fp32 holds.
+    vec3 components = abs(normal);
+    float largest = max(max(components.x, components.y), max(components.z, 1e-37));
+    precise float area = largest * length(normal / largest);
     precise float originSide = dot(normal, fromCorner);
     precise float lightSide = originSide + dot(normal, ray.toLightCS);
     // A component of the normal is off by some 2^-23 of the edges' product, and what it is multiplied with by 2^-24 of
     // itself; three of each are summed. Rounding has moved the corner by 2^-24 of its distance from the origin of
     // casters' space, which is at most the point's, as in originRounding, and the way between them.
-    precise float digits = 6.0e-7 * length(edge1) * length(edge2);
+    precise float digits = 7.0e-7 * length(edge1) * length(edge2);
     precise float originError = ray.originRounding * area + digits * length(fromCorner);
     precise float lightError = ray.lightRounding * area + digits * (length(fromCorner) + length(ray.toLightCS));
     bool isBetween = abs(originSide) > originError && abs(lightSide) > lightError &&
