@@ -150,7 +150,9 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
         engine::prepareView(request.scene, engine::Technique::Forward,
                             validation::settingsHeededBy(engine::Technique::Forward, comparison.settings));
     for (const std::string& unheeded : unheededShadows(options.frame, request, prepared)) spdlog::warn("{}", unheeded);
-    if (const std::string missing = engine::missingShadows(prepared); !missing.empty())
+    if (const std::string missing =
+            engine::missingShadows(request.scene, frame::surfaceBounds(request.scene), prepared);
+        !missing.empty())
         spdlog::warn("{}", oneLine(request.scene.name + ": " + missing));
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     engine::Renderer renderer(*context, request.scene);

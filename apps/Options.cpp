@@ -1,5 +1,6 @@
 #include "apps/Options.h"
 
+#include <cctype>
 #include <charconv>
 #include <limits>
 
@@ -11,6 +12,7 @@
 #include "base/Names.h"
 #include "base/OneLine.h"
 #include "scenes/Defaults.h"
+#include "validation/bench/ShadowKey.h"
 
 namespace tessera::app {
 
@@ -199,16 +201,24 @@ Request resolve(const FrameOptions& options) {
     return request;
 }
 
-std::vector<std::string> unheededShadows(const FrameOptions& options, const engine::ViewRequest& request,
+std::vector<std::string> unheededShadows(const FrameOptions& options, const Request& request,
                                          const frame::PreparedView& prepared) {
     std::vector<std::string> messages;
     if (!frame::showsShadows(request.settings.view)) return messages; // the same options serve all views
     for (const engine::Setting& setting : engine::settingTable()) {
         if (setting.panel != engine::SettingPanel::Shadows || setting.key == "shadows" || !options.said(setting.key))
             continue;
-        const std::string why =
-            prepared.lights.shadowed == 0 ? "No light in view casts shadows on anything" : setting.whyIdle(request);
-        if (!why.empty()) messages.push_back(fmt::format("{} changes nothing. {}", setting.flag, why));
+        std::string why = setting.whyIdle(request);
+        const auto rows = validation::shadowSettingTable();
+        const auto row = std::ranges::find(rows, setting.key, &validation::ShadowSetting::key);
+        if (prepared.lights.shadowed == 0)
+            why = "There are no shadows: " +
+                  frame::whyNoShadows(request.scene, prepared.lights, request.settings.shadows);
+        else if (why.empty() && row != rows.end() && !row->matters(prepared.lights, request.settings.shadowFilter))
+            why = std::string(row->absent);
+        if (why.empty()) continue;
+        why.front() = char(std::toupper(static_cast<unsigned char>(why.front())));
+        messages.push_back(fmt::format("{} changes nothing. {}", setting.flag, why));
     }
     return messages;
 }

@@ -68,7 +68,7 @@ Request resolve(const FrameOptions& options);
 scenes::LoadOptions loadOptionsOf(const FrameOptions& options);
 
 /// Which settings of shadows were said and change nothing of a picture, and why: a sentence or two each.
-std::vector<std::string> unheededShadows(const FrameOptions& options, const engine::ViewRequest& request,
+std::vector<std::string> unheededShadows(const FrameOptions& options, const Request& request,
                                          const frame::PreparedView& prepared);
 engine::Technique techniqueNamed(const std::string& name);
 glm::ivec2 sizeNamed(const std::string& flag, const std::string& text);

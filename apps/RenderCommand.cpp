@@ -117,6 +117,10 @@ void renderReference(const RenderOptions& options, const Outputs& outputs, const
         throw InputError("--technique reference has no tone maps; give --tonemap none, or write .exr");
     Progress progress("rendering", std::size_t(options.frames.value_or(1)) * std::size_t(settings.sizePixels.y),
                       global.quiet);
+    for (const engine::Setting& setting : engine::settingTable())
+        if (setting.panel == engine::SettingPanel::Shadows && setting.key != "shadows" &&
+            options.frame.said(setting.key))
+            spdlog::warn("{} changes nothing. The reference follows rays of its own", setting.flag);
     bool hasWarned = false;
     makePictures(options, outputs, settings, [&](const std::string& path, const frame::FrameSettings& one) {
         Picture picture = validation::referencePicture(
@@ -173,8 +177,8 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
         warnOfPicture(path, request.scene, one.view, picture.radiance, shadows.cut, hasWarned);
         if (!shadows.missing.empty() && !std::exchange(hasWarnedOfShadows, true))
             spdlog::warn("{}", oneLine(path + ": " + shadows.missing));
-        const std::vector<std::string> own = unheededShadows(
-            frame, {request.technique, one}, engine::prepareView(request.scene, request.technique, one));
+        const std::vector<std::string> own =
+            unheededShadows(frame, request, engine::prepareView(request.scene, request.technique, one));
         if (!unheeded) unheeded = own;
         std::erase_if(*unheeded, [&](const std::string& text) { return std::ranges::find(own, text) == own.end(); });
         writePicture(path, request, renderer, picture);

@@ -1,5 +1,6 @@
 #include "engine/PrepareView.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -12,6 +13,7 @@
 #include "engine/ChooseView.h"
 #include "engine/Settings.h"
 #include "renderer/culling/TileGrid.h"
+#include "renderer/frame/CasterTree.h"
 #include "renderer/frame/LightBuffer.h"
 #include "renderer/frame/LightRounds.h"
 #include "scenes/Limits.h"
@@ -42,20 +44,34 @@ std::string lostShadows(const frame::ShadowMaps& maps, const frame::FrameSetting
                        settingOf("shadowBudget").flag);
 }
 
-std::string missingShadows(const frame::PreparedView& prepared) {
+std::string missingShadows(const scenes::Scene& scene, std::span<const frame::SurfaceBounds> bounds,
+                           const frame::PreparedView& prepared) {
     const frame::FrameSettings& settings = prepared.spec.settings;
     if (!frame::showsShadows(settings.view)) return "";
     const frame::DebugViewInfo& view = frame::debugViewInfo(settings.view);
     if (frame::showsShadowsOfOne(settings.view) || frame::showsMaps(settings.view)) {
         if (prepared.lights.shadowed == 0)
-            return fmt::format("no light in view casts shadows on anything, so the view {} has none to show; {} says "
-                               "which lights do",
-                               view.name, settingOf("shadows").flag);
+            return fmt::format("the view {} has no shadow to show: {}", view.name,
+                               frame::whyNoShadows(scene, prepared.lights, settings.shadows));
         if (frame::showsMaps(settings.view) && !infoOf(settings.shadowFilter).usesMaps)
-            return fmt::format("the shadow filter {} uses no maps, so the view {} has none to show; give {} hard",
-                               infoOf(settings.shadowFilter).name, view.name, settingOf("shadowFilter").flag);
+            return fmt::format("the view {} has no map to show: the shadow filter {} uses none; give {} hard",
+                               view.name, infoOf(settings.shadowFilter).name, settingOf("shadowFilter").flag);
     }
-    return lostShadows(prepared.shadowMaps, settings);
+    const frame::ShadowMaps& maps = prepared.shadowMaps;
+    if (std::string lost = lostShadows(maps, settings); !lost.empty()) return lost;
+    const auto longest = std::ranges::max_element(bounds, {}, &frame::SurfaceBounds::longestMetres);
+    const auto most = std::ranges::max_element(bounds, {}, &frame::SurfaceBounds::triangles);
+    if (prepared.lights.shadowed == 0 || most == bounds.end()) return "";
+    if (const double errorMetres = frame::kPositionRounding * longest->longestMetres; errorMetres > most->usualMetres)
+        return fmt::format(
+            "a triangle {:.2g} m long is rounded by {:.2g} m, more than most triangles are apart, so that "
+            "shadows are lost; take it out",
+            longest->longestMetres, errorMetres);
+    if (maps.useless() == 0) return "";
+    return fmt::format("the maps of {} err by more than the {:.2g} m that most triangles lie within, so that shadows "
+                       "are lost; take out what is drawn far away, or give {} traced or more {}",
+                       frame::lightsText(maps.useless()), maps.usualMetres, settingOf("shadowFilter").flag,
+                       settingOf("shadowBudget").flag);
 }
 
 std::string cutShadows(const frame::FrameSpec& spec) {

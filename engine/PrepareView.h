@@ -20,7 +20,9 @@ void requireOneFrame(std::span<const ViewRequest> views);
 /// Which lights cast no shadows, since the budget has no room for their maps, and what to do; empty: none.
 std::string lostShadows(const frame::ShadowMaps& maps, const frame::FrameSettings& settings);
 /// Why the view shows fewer shadows than were asked for; empty: it shows them all.
-std::string missingShadows(const frame::PreparedView& prepared);
+/// `bounds` are of everything drawn.
+std::string missingShadows(const scenes::Scene& scene, std::span<const frame::SurfaceBounds> bounds,
+                           const frame::PreparedView& prepared);
 /// How shadows may take more iterations than Mesa lets loops make, and what to do; empty: they do not.
 std::string cutShadows(const frame::FrameSpec& spec);
 

@@ -163,7 +163,7 @@ DrawnShadows Renderer::shadows(std::size_t view) const {
     for (std::size_t i = 0; i < prepared.lights.shadowed; ++i) drawn.lights.push_back({prepared.lights.sceneIndex[i]});
     if (const auto shown = std::size_t(prepared.lights.shown); shown < drawn.lights.size()) drawn.shown = shown;
     drawn.cut = cutShadows(prepared.spec);
-    drawn.missing = missingShadows(prepared);
+    drawn.missing = missingShadows(scene_, bounds_, prepared);
     if (!drawn.hasMaps) return drawn;
     const frame::ShadowMaps& maps = prepared.shadowMaps;
     for (const frame::ShadowedLight& light : maps.lights) {

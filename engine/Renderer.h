@@ -50,8 +50,8 @@ struct DrawnShadows {
     double budgetMiB = 0.0;           ///< that the atlas keeps within
     std::size_t faces = 0;            ///< in the atlas
     std::size_t drawnFaces = 0;       ///< those that this frame drew; the atlas held the others
-    std::string missing; ///< which shadows the view lacks, and what to do; empty: none
-    std::string cut;     ///< how shadows may have made pixels NaN, and what to do; empty: they have not
+    std::string missing;              ///< which shadows the view lacks, and what to do; empty: none
+    std::string cut;                  ///< how shadows may have made pixels NaN, and what to do; empty: they have not
 };
 
 /// Renders pictures of one scene, with any technique and settings, on the context that is current. Everything derived

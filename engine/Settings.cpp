@@ -495,7 +495,11 @@ std::string Setting::whyIdle(const ViewRequest& request) const {
     std::vector<std::string_view> able;
     for (const frame::ShadowFilterInfo& info : frame::shadowFilterTable())
         if (info.*ofFilters) able.push_back(info.name);
-    return fmt::format("Only {} heeds it; the shadow filter is {}", fmt::join(able, " or "), filter.name);
+    std::string names(able.front());
+    for (std::size_t i = 1; i < able.size(); ++i)
+        names += fmt::format("{}{}", i + 1 < able.size() ? ", " : " and ", able[i]);
+    return fmt::format("Only {} {} it; the shadow filter is {}", names, able.size() == 1 ? "heeds" : "heed",
+                       filter.name);
 }
 
 bool Setting::isTaken(const ViewRequest& request) const {

@@ -120,22 +120,21 @@ double roundingMetresOf(const Mesh& mesh, const glm::dmat4& worldFromNode, const
 
 /// Without its nodes; a unit of 0 where no two corners of casters differ.
 CasterSpace spaceOf(const scenes::Scene& scene) {
-    std::array<std::vector<double>, 3> coordinates;
-    visitCasters(scene, [&](const Mesh& mesh, const Material&, const glm::dmat4& worldFromNode) {
-        for (const std::uint32_t vertex : mesh.indices) {
-            const glm::dvec3 placeWS = placeOf(worldFromNode, mesh.positionsOS[vertex]);
-            for (int axis = 0; axis < 3; ++axis) coordinates[std::size_t(axis)].push_back(placeWS[axis]);
-        }
-    });
+    // One number of each corner at a time: scenes may have many.
+    const auto ofCorners = [&](auto number) {
+        std::vector<double> numbers;
+        visitCasters(scene, [&](const Mesh& mesh, const Material&, const glm::dmat4& worldFromNode) {
+            for (const std::uint32_t vertex : mesh.indices)
+                numbers.push_back(number(placeOf(worldFromNode, mesh.positionsOS[vertex])));
+        });
+        return numbers;
+    };
     CasterSpace space;
-    for (int axis = 0; axis < 3; ++axis) space.centreWS[axis] = medianOf(coordinates[std::size_t(axis)]);
-    std::vector<double> distances(coordinates[0].size());
-    double farthest = 0.0;
-    for (std::size_t i = 0; i < distances.size(); ++i) {
-        distances[i] =
-            glm::distance(glm::dvec3(coordinates[0][i], coordinates[1][i], coordinates[2][i]), space.centreWS);
-        farthest = std::max(farthest, distances[i]);
-    }
+    for (int axis = 0; axis < 3; ++axis)
+        space.centreWS[axis] = medianOf(ofCorners([axis](const glm::dvec3& placeWS) { return placeWS[axis]; }));
+    std::vector<double> distances =
+        ofCorners([&](const glm::dvec3& placeWS) { return glm::distance(placeWS, space.centreWS); });
+    const double farthest = distances.empty() ? 0.0 : *std::ranges::max_element(distances);
     // Between the casters' usual size and that of all: fp32 holds the fourth powers of both, where they differ by up to
     // 10^18.
     const double usual = medianOf(std::move(distances));

@@ -32,8 +32,8 @@ struct CasterTree {
     std::vector<glm::uvec4> texels; ///< shaders/shared/caster_tree.h; triangles without area are left out
 };
 
-/// Throws std::runtime_error when Embree, which sorts the triangles, fails, or when the tree is
-/// too large to be addressed.
+/// Throws std::runtime_error when Embree, which sorts the triangles, fails, or when the tree is too large to be
+/// addressed.
 CasterTree makeCasterTree(const scenes::Scene& scene);
 
 /// How a view's surfaces find their place in the tree.

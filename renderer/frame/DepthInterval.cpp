@@ -121,6 +121,21 @@ DepthInterval ownInterval(const scenes::Camera& camera) {
     return own;
 }
 
+/// SurfaceBounds::usualMetres.
+double usualMetres(const std::vector<glm::dvec3>& cornersWS) {
+    std::vector<double> numbers(cornersWS.size());
+    const auto medianOf = [&](auto number) {
+        std::ranges::transform(cornersWS, numbers.begin(), number);
+        const auto middle = numbers.begin() + std::ptrdiff_t(numbers.size() / 2);
+        std::nth_element(numbers.begin(), middle, numbers.end());
+        return *middle;
+    };
+    glm::dvec3 medianWS;
+    for (int axis = 0; axis < 3; ++axis)
+        medianWS[axis] = medianOf([axis](const glm::dvec3& cornerWS) { return cornerWS[axis]; });
+    return medianOf([&](const glm::dvec3& cornerWS) { return glm::distance(cornerWS, medianWS); });
+}
+
 } // namespace
 
 std::vector<SurfaceBounds> surfaceBounds(const scenes::Scene& scene) {
@@ -130,10 +145,19 @@ std::vector<SurfaceBounds> surfaceBounds(const scenes::Scene& scene) {
         for (const scenes::MeshInstance& instance : scene.nodes[node].instances) {
             const scenes::Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
             SurfaceBounds bounds;
-            for (const std::uint32_t index : mesh.indices)
-                bounds.boxWS.extend(
-                    glm::dvec3(worldFromNode[node] * glm::dvec4(glm::dvec3(mesh.positionsOS[index]), 1.0)));
+            std::vector<glm::dvec3> cornersWS;
+            for (const std::uint32_t index : mesh.indices) {
+                cornersWS.emplace_back(worldFromNode[node] * glm::dvec4(glm::dvec3(mesh.positionsOS[index]), 1.0));
+                bounds.boxWS.extend(cornersWS.back());
+            }
             if (bounds.boxWS.empty()) continue;
+            bounds.nodeWS = glm::dvec3(worldFromNode[node][3]);
+            bounds.triangles = cornersWS.size() / 3;
+            for (std::size_t i = 0; i < cornersWS.size(); ++i) {
+                const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
+                bounds.longestMetres = std::max(bounds.longestMetres, glm::distance(cornersWS[i], cornersWS[next]));
+            }
+            bounds.usualMetres = usualMetres(cornersWS);
             for (const glm::dvec3& corner : cornersOf(bounds.boxWS))
                 bounds.reachMetres =
                     std::max(bounds.reachMetres, glm::distance(corner, glm::dvec3(worldFromNode[node][3])));

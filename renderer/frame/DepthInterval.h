@@ -10,8 +10,12 @@ namespace tessera::frame {
 
 /// Where the vertices of one mesh instance lie.
 struct SurfaceBounds {
-    scenes::Box3 boxWS;       ///< of the vertices that triangles use
-    double reachMetres = 0.0; ///< of the box's farthest corner from the node's origin
+    scenes::Box3 boxWS;         ///< of the vertices that triangles use
+    double reachMetres = 0.0;   ///< of the box's farthest corner from the node's origin
+    glm::dvec3 nodeWS{0.0};     ///< the node's origin
+    double longestMetres = 0.0; ///< of the edges
+    std::size_t triangles = 0;
+    double usualMetres = 0.0; ///< the median of the corners' distances from their median: without strays
 };
 
 /// Bounds of everything drawn, one per mesh instance with triangles.

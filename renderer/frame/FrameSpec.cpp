@@ -57,25 +57,9 @@ std::size_t shadowIterations(const FrameSpec& spec, const scenes::Light& light) 
     return faces * (1 + ofFilter);
 }
 
-/// Why no light casts shadows.
-std::string whyNoShadows(const scenes::Scene& scene, const PackedLights& lights, const scenes::ShadowRequest& request) {
-    using Kind = scenes::ShadowRequest::Kind;
-    if (lights.texels.empty()) return "no light is on and in view";
-    const bool isAsked = std::ranges::any_of(
-        lights.sceneIndex, [&](int light) { return scenes::castsShadow(scene, std::size_t(light), request); });
-    if (isAsked) {
-        const std::size_t transparent = scenes::casterCounts(scene).transparent;
-        return transparent == 0 ? "no surface casts any" : "no surface casts any; " + transparentText(transparent);
-    }
-    if (request.kind == Kind::None || (request.kind == Kind::First && request.lights == 0))
-        return "no light is to cast any";
-    if (request.kind == Kind::Asked) return "no light in view has castsShadow";
-    return fmt::format("none of the first {} is on and in view", lightsText(std::size_t(request.lights)));
-}
-
 /// Why no shadow is soft.
 std::string whyNotSoft(const FrameSpec& spec) {
-    if (spec.shadowedLights == 0) return "no light casts shadows";
+    if (spec.shadowedLights == 0) return "there are no shadows";
     const ShadowFilterInfo& filter = infoOf(spec.settings.shadowFilter);
     if (!filter.heedsSizes) return fmt::format("the shadow filter {} heeds no sizes of lights", filter.name);
     return "no light in view that casts shadows has a size";
@@ -95,6 +79,21 @@ void addLights(std::vector<graph::Plan::LeftOut>& out, const FeatureSet& feature
 }
 
 } // namespace
+
+std::string whyNoShadows(const scenes::Scene& scene, const PackedLights& lights, const scenes::ShadowRequest& request) {
+    using Kind = scenes::ShadowRequest::Kind;
+    if (lights.texels.empty()) return "no light is on and in view";
+    const bool isAsked = std::ranges::any_of(
+        lights.sceneIndex, [&](int light) { return scenes::castsShadow(scene, std::size_t(light), request); });
+    if (isAsked) {
+        const std::size_t transparent = scenes::casterCounts(scene).transparent;
+        return transparent == 0 ? "no surface casts any" : "no surface casts any; " + transparentText(transparent);
+    }
+    if (request.kind == Kind::None || (request.kind == Kind::First && request.lights == 0))
+        return "no light is to cast any";
+    if (request.kind == Kind::Asked) return "no light in view has castsShadow";
+    return fmt::format("none of the first {} is on and in view", lightsText(std::size_t(request.lights)));
+}
 
 FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings) {
     FrameSpec spec;

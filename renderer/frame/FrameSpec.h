@@ -52,6 +52,9 @@ struct FrameSpec {
 };
 FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings);
 
+/// Why there are no shadows, where there are none.
+std::string whyNoShadows(const scenes::Scene& scene, const PackedLights& lights, const scenes::ShadowRequest& request);
+
 /// What every geometry and lighting shader of the frame is compiled with.
 Defines frameDefines(const FrameSpec& spec);
 

@@ -32,7 +32,7 @@ inline constexpr int kAxisFaces = 6;
 static_assert(kMostShadowCascades < kAxisFaces);
 
 /// The near end of a perspective face as a share of what its light reaches. Reverse-Z keeps the digits of any distance.
-inline constexpr double kFaceNearShare = 0x1p-30;
+inline constexpr double kFaceNearShare = 0x1p-40;
 
 /// Of a light with a place: one along the cone, or six along the axes: +x, -x, +y, -y, +z, -z.
 std::vector<scenes::Camera> placedCameras(const glm::dvec3& lightWS, const std::optional<ShadowCone>& cone,

@@ -51,11 +51,33 @@ ShadowDemand demandOf(const Wanted& wanted, const CameraView& view, const FrameS
     return sized();
 }
 
+/// By how much rounding moves a surface against the faces of a light, beside what grows with its own distance from the
+/// origin of lighting space. A vertex is added up from the way to its node and from there. Either the node is near, or
+/// all of its mesh is as far away as the node, less its own extent.
+double roundingMetres(const ShadowMaps& maps, const ShadowedLight& light, const CameraView& view,
+                      std::span<const SurfaceBounds> bounds) {
+    double objectMetres = 0.0;
+    for (const SurfaceBounds& one : bounds) {
+        const double nodeMetres = std::min(glm::distance(one.nodeWS, view.originWS), one.reachMetres);
+        objectMetres = std::max(objectMetres, 2.0 * nodeMetres + one.longestMetres);
+    }
+    double faceMetres = 0.0; // the faces of a directional light begin at different places
+    for (std::size_t i = light.firstFace; i < light.firstFace + std::size_t(light.faces); ++i)
+        faceMetres =
+            std::max(faceMetres, glm::distance(glm::dvec3(maps.faces[i].camera.worldFromCamera[3]), view.originWS));
+    return kPositionRounding * (objectMetres + faceMetres + double(view.constants.depthKey.y));
+}
+
 } // namespace
 
 std::size_t ShadowMaps::reduced() const {
     return std::size_t(std::ranges::count_if(
         lights, [](const ShadowedLight& l) { return l.sideTexels > 0 && l.sideTexels < l.wantedTexels; }));
+}
+
+std::size_t ShadowMaps::useless() const {
+    return std::size_t(std::ranges::count_if(
+        lights, [&](const ShadowedLight& l) { return l.sideTexels > 0 && l.errorMetres > usualMetres; }));
 }
 
 std::size_t ShadowMaps::unmapped() const {
@@ -120,7 +142,13 @@ ShadowMaps makeShadowMaps(const scenes::Scene& scene, const PackedLights& lights
             if (isCut) face.reachMetres = wanted[i].reachMetres;
             sides.push_back(light.sideTexels);
         }
+        const scenes::Camera& nearest = maps.faces[light.firstFace].camera;
+        light.errorMetres = roundingMetres(maps, light, view, bounds);
+        if (nearest.projection == scenes::Projection::Orthographic)
+            light.errorMetres = std::max(light.errorMetres, 2.0 * nearest.halfHeightMetres / double(light.sideTexels));
     }
+    const auto most = std::ranges::max_element(bounds, {}, &SurfaceBounds::triangles);
+    if (most != bounds.end()) maps.usualMetres = most->usualMetres;
     std::vector<glm::ivec2> corners;
     // A texture has a texel, also where no light is left to have a face.
     maps.atlasTexels = glm::max(placeFaces(sides, corners), glm::ivec2(1));
@@ -138,21 +166,14 @@ CameraView faceView(const ShadowFace& face) {
 
 std::vector<shared::ShadowFaceTexels> packFaces(const ShadowMaps& maps, const CameraView& view, std::size_t firstTexel,
                                                 std::span<const SurfaceBounds> bounds, PackedLights& lights) {
-    double objectMetres = 0.0; // of which vertices are added up
-    for (const SurfaceBounds& one : bounds) objectMetres = std::max(objectMetres, one.reachMetres);
     for (const ShadowedLight& light : maps.lights) {
         glm::vec4& texel = lights.shadows[light.light].shadow;
         if (light.sideTexels == 0) {
             lights.texels[light.light].color.w -= float(LIGHT_SHADOWED);
             continue;
         }
-        double faceMetres = 0.0; // the faces of a directional light begin at different places
-        for (std::size_t i = light.firstFace; i < light.firstFace + std::size_t(light.faces); ++i)
-            faceMetres =
-                std::max(faceMetres, glm::distance(glm::dvec3(maps.faces[i].camera.worldFromCamera[3]), view.originWS));
-        const double metres = objectMetres + faceMetres + double(view.constants.depthKey.y);
         texel.z = float(firstTexel + light.firstFace * SHADOW_FACE_TEXELS);
-        texel.w = float(kPositionRounding * metres);
+        texel.w = float(roundingMetres(maps, light, view, bounds));
         if (light.faces == kAxisFaces) lights.texels[light.light].color.w += float(LIGHT_SIX_FACES);
     }
     std::vector<shared::ShadowFaceTexels> packed;

@@ -33,6 +33,9 @@ struct ShadowedLight {
     int faces = 0;
     int wantedTexels = 0; ///< side of a face where the budget is no matter
     int sideTexels = 0;   ///< what it got; 0: the budget has no room for it, and it casts no shadows
+    /// By how much rounding moves a surface against the faces, or the width of a texel of the nearest cascade where
+    /// that is more.
+    double errorMetres = 0.0;
 };
 
 struct ShadowMaps {
@@ -43,6 +46,9 @@ struct ShadowMaps {
     graph::TextureDesc atlas() const { return {graph::Format::Depth32Float, atlasTexels.x, atlasTexels.y}; }
     std::size_t reduced() const;  ///< lights with fewer texels than wanted, but some
     std::size_t unmapped() const; ///< lights without any
+    /// Lights with maps that err by more than what most triangles are around is large.
+    std::size_t useless() const;
+    double usualMetres = 0.0; ///< of the mesh instance with the most triangles
 };
 
 /// What face i of a light with so many is called: its cascade, or the direction that it sees.

@@ -128,6 +128,45 @@ TEST_F(ShadowMapsTest, tracedOnesAreAsRightInViewSpace) {
     }
 }
 
+// Of a lamp: cascades of a sun reach to the farthest of all that is drawn.
+TEST_F(ShadowMapsTest, aStrayTriangleFarAwayTakesNoShadowOfALampAndThoseOfASunAreSaidToBeLost) {
+    scenes::Scene scene = test::ballUnderSun();
+    scene.lights[0].type = scenes::LightType::Point;
+    scene.lights[0].positionWS = {0.8, 3.0, 0.6};
+    frame::FrameSettings settings;
+    settings.sizePixels = {128, 72};
+    settings.shadows = kAllLightsCast;
+    settings.soloLight = 0;
+    settings.shadowFilter = ShadowFilter::Hard;
+    settings.shadowMaps.resolutionTexels = 1024;
+    WrongPixels without;
+    for (const float farMetres : {0.0f, 1e7f, 1e9f}) {
+        if (farMetres > 0.0f) {
+            scene.meshes.resize(2);
+            scene.meshes[1].positionsOS.insert(scene.meshes[1].positionsOS.end(),
+                                               {glm::vec3(farMetres, 0, 0), glm::vec3(farMetres * 1.001f, 0, 0),
+                                                glm::vec3(farMetres, farMetres * 0.001f, 0)});
+            scene.meshes[1].normalsOS.resize(scene.meshes[1].positionsOS.size(), glm::vec3(0, 1, 0));
+            for (std::uint32_t i = 3; i > 0; --i)
+                scene.meshes[1].indices.push_back(std::uint32_t(scene.meshes[1].positionsOS.size()) - i);
+            scene.meshes[1].texCoords = {};
+        }
+        engine::Renderer renderer(context(), scene);
+        const WrongPixels count = wrongPixels(renderer, settings);
+        fmt::print("a stray {} m away: {} pixels wrong, {} changed by shadows\n", farMetres, count.wrong, count.hidden);
+        EXPECT_EQ(renderer.shadows().missing, "");
+        if (farMetres == 0.0f) without = count;
+        EXPECT_GT(count.hidden, 50u);
+        EXPECT_LE(count.wrong, without.wrong + count.covered / 500);
+    }
+    scene.lights[0].type = scenes::LightType::Directional;
+    scene.lights[0].directionWS = {-0.4, -0.8, -0.3};
+    engine::Renderer renderer(context(), scene);
+    renderer.render(Technique::Deferred, settings);
+    EXPECT_NE(renderer.shadows().missing.find("the maps of 1 light err by more than the"), std::string::npos)
+        << renderer.shadows().missing;
+}
+
 TEST_F(ShadowMapsTest, areAsRightInViewSpace) {
     const scenes::Scene scene = sceneOf(kShadowCases[0]);
     engine::Renderer renderer(context(), scene);

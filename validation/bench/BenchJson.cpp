@@ -105,10 +105,10 @@ std::optional<ShadowKey> shadowFrom(const Json& json) {
 
 /// Why fields of shadows are null.
 void explainShadows(const PointKey& key, std::map<std::string, std::string>& why) {
-    if (!key.shadow) why[std::string(kShadowFilterKey)] = "no light casts shadows";
+    if (!key.shadow) why[std::string(kShadowFilterKey)] = "there are no shadows";
     for (const ShadowSetting& row : shadowSettingTable()) {
         if (!key.shadow || key.shadow->filter == kNoShadows)
-            why[std::string(row.key)] = "no light casts shadows";
+            why[std::string(row.key)] = "there are no shadows";
         else if (!key.shadow->text(row.key))
             why[std::string(row.key)] = row.absent;
     }

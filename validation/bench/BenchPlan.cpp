@@ -116,7 +116,7 @@ std::vector<Variant> variantsOf(BenchPlan& plan, const PlannedGroup& group, cons
                 ofRange.push_back(std::move(variant));
             else
                 skip(plan, fmt::format("{} in {}", choice.asked, placeOf(group)),
-                     same->shadow ? "it is the same frame as " + shadowText(*same->shadow) : "no light casts shadows");
+                     same->shadow ? "it is the same frame as " + shadowText(*same->shadow) : "there are no shadows");
         }
         std::ranges::move(ofRange, std::back_inserter(variants));
     }

@@ -261,7 +261,7 @@ float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNorm
         }
         precise vec3 positionRWS = rwsFromLS * viewpoint.positionLS;
         precise vec3 facetNormalRWS = rwsFromLS * facetNormalLS;
-        precise float rounding = shadow.w + 9.6e-7 * length(viewpoint.positionLS);
+        precise float rounding = shadow.w + 1.9e-6 * length(viewpoint.positionLS);
         FacePoint point = facePoint(face, positionRWS, facetNormalRWS, rounding);
         vec2 fromMiddle = abs(point.texel - point.face.xy);
         precise float room = point.face.z - max(fromMiddle.x, fromMiddle.y);

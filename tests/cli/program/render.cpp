@@ -195,13 +195,13 @@ TEST_F(Render, aViewOfShadowsWithoutAnySaysWhy) {
     };
     for (const char* view : {"shadow", "cascades", "shadow_atlas"})
         EXPECT_EQ(said({"--view", view}),
-                  fmt::format("tessera: warning: a.png: no light in view casts shadows on anything, so the view {} has "
-                              "none to show; --shadows says which lights do\n",
+                  fmt::format("tessera: warning: a.png: the view {} has no shadow to show: no light in view has "
+                              "castsShadow\n",
                               view));
     EXPECT_THAT(said({"--view", "shadow", "--shadows", "2", "--solo", "5"}),
-                testing::HasSubstr("no light in view casts shadows"));
+                testing::HasSubstr("none of the first 2 lights is on and in view"));
     EXPECT_THAT(said({"--view", "shadow_atlas", "--shadows", "2"}),
-                testing::HasSubstr("the shadow filter traced uses no maps"));
+                testing::HasSubstr("the shadow filter traced uses none; give --shadow-filter hard"));
     EXPECT_EQ(said({"--view", "shadow_atlas", "--shadows", "2", "--shadow-filter", "hard"}), "");
     EXPECT_EQ(said({"--view", "shadow", "--shadows", "2"}), "");
 }
@@ -212,13 +212,20 @@ TEST_F(Render, settingsOfShadowsThatChangeNothingAreTold) {
         words.insert(words.end(), more.begin(), more.end());
         return run(words).err;
     };
-    EXPECT_EQ(said({"--shadow-width", "5"}),
-              "tessera: warning: --shadow-width changes nothing. No light in view casts shadows on anything\n");
+    EXPECT_EQ(
+        said({"--shadow-width", "5"}),
+        "tessera: warning: --shadow-width changes nothing. There are no shadows: no light in view has castsShadow\n");
     EXPECT_EQ(said({"--shadows", "all", "--shadow-filter", "hard", "--shadow-width", "5"}),
               "tessera: warning: --shadow-width changes nothing. Only pcf heeds it; the shadow filter is hard\n");
     EXPECT_THAT(said({"--shadows", "all", "--shadow-budget", "2"}),
                 testing::HasSubstr(
-                    "--shadow-budget changes nothing. Only hard or pcf or pcss heeds it; the shadow filter is traced"));
+                    "--shadow-budget changes nothing. Only hard, pcf and pcss heed it; the shadow filter is traced"));
+    EXPECT_THAT(said({"--shadows", "all", "--shadow-samples", "4"}),
+                testing::HasSubstr("no light with a size casts one"));
+    EXPECT_THAT(said({"--shadows", "all", "--shadow-filter", "pcf", "--shadow-cascades", "2"}),
+                testing::HasSubstr("No shadow of a directional light is looked up"));
+    EXPECT_EQ(said({"--shadow-filter", "pcf", "--technique", "reference"}),
+              "tessera: warning: --shadow-filter changes nothing. The reference follows rays of its own\n");
     EXPECT_EQ(said({"--shadow-width", "5", "--view", "normal"}), "") << "the same options serve all views";
     EXPECT_EQ(said({"--shadows", "all", "--shadow-filter", "pcf", "--shadow-width", "5", "--shadow-budget", "2"}), "");
 }

@@ -122,7 +122,7 @@ TEST(PlanFrame, theOneReasonIsGivenWhyNoShadowIsSoft) {
     scene.lights.front().radiusMetres = 0.0f;
     EXPECT_EQ(whyLeftOut(scene, "soft shadows", settings), "no light in view that casts shadows has a size");
     settings.shadows = {scenes::ShadowRequest::Kind::None};
-    EXPECT_EQ(whyLeftOut(scene, "soft shadows", settings), "no light casts shadows");
+    EXPECT_EQ(whyLeftOut(scene, "soft shadows", settings), "there are no shadows");
 }
 
 TEST(PlanFrame, shadowsThatLoopsOfMesaMayEndAreToldWithTheRemedy) {

@@ -200,7 +200,7 @@ TEST(Settings, ofShadowsSayWithWhichFiltersTheyChangeSomething) {
     ViewRequest request;
     EXPECT_EQ(settingOf("shadowWidth").whyIdle(request), "Only pcf heeds it; the shadow filter is traced");
     EXPECT_EQ(settingOf("shadowBudget").whyIdle(request),
-              "Only hard or pcf or pcss heeds it; the shadow filter is traced");
+              "Only hard, pcf and pcss heed it; the shadow filter is traced");
     EXPECT_EQ(settingOf("shadowSamples").whyIdle(request), "");
     EXPECT_EQ(settingOf("exposureEV").whyIdle(request), "");
 }

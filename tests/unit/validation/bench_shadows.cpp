@@ -118,7 +118,7 @@ TEST(ShadowMatrix, aSceneWithoutShadowsIsOnePoint) {
     const std::string matrix = R"({"shadow": ["traced", "hard", "none"], "shadowResolution": [64, 128]})";
     const BenchPlan room = planOf("room", matrix); // none of its lights asks for shadows
     EXPECT_THAT(namesOf(room), ElementsAre("forward, exact"));
-    EXPECT_THAT(reasonsOf(room), testing::Each(HasSubstr("no light casts shadows")));
+    EXPECT_THAT(reasonsOf(room), testing::Each(HasSubstr("there are no shadows")));
     EXPECT_EQ(room.skipped.size(), 5u);
     frame::FrameSettings none;
     none.shadows = {scenes::ShadowRequest::Kind::None};
@@ -154,7 +154,7 @@ TEST(ShadowPoints, theRecordHasEverySettingThatCountsAndAReasonForTheOthers) {
     EXPECT_EQ(points[2]["why"]["shadowSamples"],
               "no shadow is soft: no light with a size casts one, or the filter heeds no sizes");
     EXPECT_EQ(points[3]["shadow"], "none");
-    EXPECT_EQ(points[3]["why"]["shadowResolution"], "no light casts shadows");
+    EXPECT_EQ(points[3]["why"]["shadowResolution"], "there are no shadows");
     for (const nlohmann::ordered_json& point : points)
         for (const auto& [name, value] : point.items())
             EXPECT_TRUE(!value.is_null() || point["why"].contains(name)) << name;
