@@ -13,6 +13,7 @@
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 
+#include "base/Median.h"
 #include "scenes/Shadows.h"
 
 namespace tessera::frame {
@@ -85,14 +86,6 @@ void visitCasters(const scenes::Scene& scene, Visit visit) {
 
 glm::dvec3 placeOf(const glm::dmat4& worldFromNode, const glm::vec3& positionOS) {
     return glm::dvec3(worldFromNode * glm::dvec4(glm::dvec3(positionOS), 1.0));
-}
-
-/// The median of numbers, 0 of none.
-double medianOf(std::vector<double> numbers) {
-    if (numbers.empty()) return 0.0;
-    const auto middle = numbers.begin() + std::ptrdiff_t(numbers.size() / 2);
-    std::nth_element(numbers.begin(), middle, numbers.end());
-    return *middle;
 }
 
 /// By how much rounding moves a mesh's triangles beyond kPositionRounding of their distance from `centreWS`: a vertex

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+
+#include "base/Median.h"
 
 namespace tessera::frame {
 
@@ -123,17 +126,15 @@ DepthInterval ownInterval(const scenes::Camera& camera) {
 
 /// SurfaceBounds::usualMetres.
 double usualMetres(const std::vector<glm::dvec3>& cornersWS) {
-    std::vector<double> numbers(cornersWS.size());
-    const auto medianOf = [&](auto number) {
+    const auto medianBy = [&](auto number) {
+        std::vector<double> numbers(cornersWS.size());
         std::ranges::transform(cornersWS, numbers.begin(), number);
-        const auto middle = numbers.begin() + std::ptrdiff_t(numbers.size() / 2);
-        std::nth_element(numbers.begin(), middle, numbers.end());
-        return *middle;
+        return medianOf(std::move(numbers));
     };
     glm::dvec3 medianWS;
     for (int axis = 0; axis < 3; ++axis)
-        medianWS[axis] = medianOf([axis](const glm::dvec3& cornerWS) { return cornerWS[axis]; });
-    return medianOf([&](const glm::dvec3& cornerWS) { return glm::distance(cornerWS, medianWS); });
+        medianWS[axis] = medianBy([axis](const glm::dvec3& cornerWS) { return cornerWS[axis]; });
+    return medianBy([&](const glm::dvec3& cornerWS) { return glm::distance(cornerWS, medianWS); });
 }
 
 } // namespace

@@ -1,0 +1,16 @@
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace tessera {
+
+/// The upper median of numbers, 0 of none.
+inline double medianOf(std::vector<double> numbers) {
+    if (numbers.empty()) return 0.0;
+    const auto middle = numbers.begin() + std::ptrdiff_t(numbers.size() / 2);
+    std::nth_element(numbers.begin(), middle, numbers.end());
+    return *middle;
+}
+
+} // namespace tessera
