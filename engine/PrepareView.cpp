@@ -60,9 +60,9 @@ std::string missingShadows(const scenes::Scene& scene, std::span<const frame::Su
     const frame::ShadowMaps& maps = prepared.shadowMaps;
     if (std::string lost = lostShadows(maps, settings); !lost.empty()) return lost;
     const auto longest = std::ranges::max_element(bounds, {}, &frame::SurfaceBounds::longestMetres);
-    const auto most = std::ranges::max_element(bounds, {}, &frame::SurfaceBounds::triangles);
-    if (prepared.lights.shadowed == 0 || most == bounds.end()) return "";
-    if (const double errorMetres = frame::kPositionRounding * longest->longestMetres; errorMetres > most->usualMetres)
+    if (prepared.lights.shadowed == 0 || longest == bounds.end()) return "";
+    if (const double errorMetres = frame::kPositionRounding * longest->longestMetres;
+        errorMetres > frame::usualMetres(bounds))
         return fmt::format(
             "a triangle {:.2g} m long is rounded by {:.2g} m, more than most triangles are apart, so that "
             "shadows are lost; take it out",

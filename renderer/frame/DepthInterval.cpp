@@ -125,7 +125,7 @@ DepthInterval ownInterval(const scenes::Camera& camera) {
 }
 
 /// SurfaceBounds::usualMetres.
-double usualMetres(const std::vector<glm::dvec3>& cornersWS) {
+double usualMetresOf(const std::vector<glm::dvec3>& cornersWS) {
     const auto medianBy = [&](auto number) {
         std::vector<double> numbers(cornersWS.size());
         std::ranges::transform(cornersWS, numbers.begin(), number);
@@ -158,7 +158,7 @@ std::vector<SurfaceBounds> surfaceBounds(const scenes::Scene& scene) {
                 const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
                 bounds.longestMetres = std::max(bounds.longestMetres, glm::distance(cornersWS[i], cornersWS[next]));
             }
-            bounds.usualMetres = usualMetres(cornersWS);
+            bounds.usualMetres = usualMetresOf(cornersWS);
             for (const glm::dvec3& corner : cornersOf(bounds.boxWS))
                 bounds.reachMetres =
                     std::max(bounds.reachMetres, glm::distance(corner, glm::dvec3(worldFromNode[node][3])));
@@ -166,6 +166,11 @@ std::vector<SurfaceBounds> surfaceBounds(const scenes::Scene& scene) {
         }
     }
     return all;
+}
+
+double usualMetres(std::span<const SurfaceBounds> bounds) {
+    const auto most = std::ranges::max_element(bounds, {}, &SurfaceBounds::triangles);
+    return most == bounds.end() ? 0.0 : most->usualMetres;
 }
 
 DepthInterval depthInterval(const scenes::Camera& camera, const glm::dvec2& halfExtent,

@@ -21,6 +21,9 @@ struct SurfaceBounds {
 /// Bounds of everything drawn, one per mesh instance with triangles.
 std::vector<SurfaceBounds> surfaceBounds(const scenes::Scene& scene);
 
+/// SurfaceBounds::usualMetres of the mesh instance with the most triangles; 0 where nothing is drawn.
+double usualMetres(std::span<const SurfaceBounds> bounds);
+
 /// The view depths that depth values stand for, 1 at the near end and 0 at the far one, and where on the view axis
 /// lighting space has its origin. fp32 has steps of 6e-8 of a number, so depth and positions keep the more digits the
 /// shorter the interval and the nearer the origin. Nothing visible lies outside the interval.

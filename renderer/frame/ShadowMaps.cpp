@@ -147,8 +147,7 @@ ShadowMaps makeShadowMaps(const scenes::Scene& scene, const PackedLights& lights
         if (nearest.projection == scenes::Projection::Orthographic)
             light.errorMetres = std::max(light.errorMetres, 2.0 * nearest.halfHeightMetres / double(light.sideTexels));
     }
-    const auto most = std::ranges::max_element(bounds, {}, &SurfaceBounds::triangles);
-    if (most != bounds.end()) maps.usualMetres = most->usualMetres;
+    maps.usualMetres = usualMetres(bounds);
     std::vector<glm::ivec2> corners;
     // A texture has a texel, also where no light is left to have a face.
     maps.atlasTexels = glm::max(placeFaces(sides, corners), glm::ivec2(1));

@@ -18,6 +18,23 @@ using test::kAllLightsCast, test::kShadowCases, test::sceneOf, test::ShadowCase,
 
 class Shadows : public test::ShadowTest {};
 
+/// Adds a square of two triangles.
+void addFloor(scenes::Scene& scene, const glm::dvec3& middleOS, double sideMetres) {
+    scenes::Mesh floor;
+    scenes::builtin::appendFloor(floor, middleOS, glm::dvec2(sideMetres), glm::ivec2(1));
+    scene.meshes.push_back(std::move(floor));
+    scene.nodes[0].instances.push_back({std::int32_t(scene.meshes.size()) - 1, 0});
+}
+
+/// A small picture of the first light alone.
+frame::FrameSettings shadowsOfTheFirstLight() {
+    frame::FrameSettings settings;
+    settings.sizePixels = {128, 72};
+    settings.shadows = kAllLightsCast;
+    settings.soloLight = 0;
+    return settings;
+}
+
 TEST_F(Shadows, everyTechniqueCastsTheSameToTheLastBit) {
     for (const ShadowCase& tried : kShadowCases) {
         const scenes::Scene scene = sceneOf(tried);
@@ -140,10 +157,7 @@ TEST_F(Shadows, noSunPutsAcneOnASphereAndAPlane) {
 TEST_F(Shadows, aStrayTriangleFarAwayHidesAndRevealsNothing) {
     scenes::Scene scene = test::ballUnderSun();
     scene.lights[0].directionWS = {-0.4, -0.8, -0.3};
-    frame::FrameSettings settings;
-    settings.sizePixels = {128, 72};
-    settings.shadows = kAllLightsCast;
-    settings.soloLight = 0;
+    const frame::FrameSettings settings = shadowsOfTheFirstLight();
     const auto expectTheSame = [&](float angle, std::initializer_list<float> strays) {
         scene.lights[0].angularRadiusRadians = angle;
         scene.meshes.resize(2);
@@ -184,15 +198,9 @@ TEST_F(Shadows, aCasterFarAwayTowardsTheSunHidesIt) {
     scenes::Scene scene = test::ballUnderSun();
     const glm::dvec3 toSun = glm::normalize(glm::dvec3(0.4, 0.8, 0.3));
     scene.lights[0].directionWS = -toSun;
-    scenes::Mesh plate;
-    scenes::builtin::appendFloor(plate, glm::dvec3(0.0), glm::dvec2(3.0), glm::ivec2(1));
-    for (glm::vec3& positionOS : plate.positionsOS) positionOS += glm::vec3(1e4 * toSun);
-    scene.meshes.push_back(plate);
-    scene.nodes[0].instances.push_back({2, 0});
-    frame::FrameSettings settings;
-    settings.sizePixels = {128, 72};
-    settings.shadows = kAllLightsCast;
-    settings.soloLight = 0;
+    addFloor(scene, glm::dvec3(0.0), 3.0);
+    for (glm::vec3& positionOS : scene.meshes.back().positionsOS) positionOS += glm::vec3(1e4 * toSun);
+    const frame::FrameSettings settings = shadowsOfTheFirstLight();
     engine::Renderer renderer(context(), scene);
     const WrongPixels count = wrongPixels(renderer, settings);
     fmt::print("a plate 10 km away: {} pixels wrong, {} undecided, {} changed by shadows of {}\n", count.wrong,
@@ -206,14 +214,8 @@ TEST_F(Shadows, aCasterFarAwayTowardsTheSunHidesIt) {
 TEST_F(Shadows, whereRoundingDecidesTheReferenceSaysSoWhateverTheLightsSize) {
     scenes::Scene scene = test::ballUnderSun();
     scene.lights[0].directionWS = {-0.4, -0.8, -0.3};
-    scenes::Mesh huge;
-    scenes::builtin::appendFloor(huge, glm::dvec3(0.0, -1e7, 0.0), glm::dvec2(4e8), glm::ivec2(1));
-    scene.meshes.push_back(huge);
-    scene.nodes[0].instances.push_back({2, 0});
-    frame::FrameSettings settings;
-    settings.sizePixels = {128, 72};
-    settings.shadows = kAllLightsCast;
-    settings.soloLight = 0;
+    addFloor(scene, {0.0, -1e7, 0.0}, 4e8);
+    const frame::FrameSettings settings = shadowsOfTheFirstLight();
     for (const float angle : {0.0f, 0.05f}) {
         scene.lights[0].angularRadiusRadians = angle;
         engine::Renderer renderer(context(), scene);
