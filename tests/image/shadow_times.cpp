@@ -42,11 +42,14 @@ protected:
         scene.materials.push_back(scene.materials.front());
         return scene;
     }
-    /// The same with a camera for each face, and without lights.
+    /// The same with a camera for each face that sees as far as its light reaches, and without lights.
     static scenes::Scene withFaceCameras(const scenes::Scene& scene, const frame::ShadowMaps& maps) {
         scenes::Scene seen = scene;
         seen.cameras.clear();
-        for (const frame::ShadowFace& face : maps.faces) seen.cameras.push_back(face.camera);
+        for (const frame::ShadowFace& face : maps.faces) {
+            seen.cameras.push_back(face.camera);
+            seen.cameras.back().farMetres = std::min(face.camera.farMetres, face.reachMetres);
+        }
         seen.lights.clear();
         return seen;
     }
