@@ -79,9 +79,11 @@ inline constexpr int kMostShadowSamples = 1024;
 
 struct FrameSettings {
     glm::ivec2 sizePixels{1280, 720};
-    int samples = 1;                 ///< of a pixel, one of kSampleCounts
-    std::optional<int> samplesGiven; ///< the driver's own number for them, where one was asked; never fewer
-    int camera = 0;                  ///< index into Scene::cameras
+    std::optional<glm::ivec2> wholePixels; ///< of the picture that this one stands in for while something moves; shadow
+                                           ///< maps are as fine as for that one; open: it is whole itself
+    int samples = 1;                       ///< of a pixel, one of kSampleCounts
+    std::optional<int> samplesGiven;       ///< the driver's own number for them, where one was asked; never fewer
+    int camera = 0;                        ///< index into Scene::cameras
     double timeSeconds = 0.0;
     glm::dvec3 eyeOffsetWS{0.0}; ///< metres, added to the camera's place: benchmarks move the eye between frames
     GBufferLayout layout;

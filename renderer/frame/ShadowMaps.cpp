@@ -21,8 +21,9 @@ struct Wanted {
 /// How much of the picture a light may reach, and how wide a face's end is there at most: as seen from the nearest
 /// place that the light reaches, but from no nearer than a quarter of its reach.
 ShadowDemand demandOf(const Wanted& wanted, const CameraView& view, const FrameSettings& settings, const Ball& scene) {
-    const double side = double(std::max(settings.sizePixels.x, settings.sizePixels.y));
-    const double all = double(settings.sizePixels.x) * double(settings.sizePixels.y);
+    const glm::ivec2 whole = settings.wholePixels.value_or(settings.sizePixels);
+    const double side = double(std::max(whole.x, whole.y));
+    const double all = double(whole.x) * double(whole.y);
     const bool isPlaced = scenes::infoOf(wanted.light.type).hasPosition();
     ShadowDemand demand{isPlaced ? wanted.cone ? 1 : kAxisFaces : settings.shadowMaps.cascades, 0, side, all};
     const auto sized = [&] {
@@ -34,7 +35,9 @@ ShadowDemand demandOf(const Wanted& wanted, const CameraView& view, const FrameS
     const double distance = glm::distance(wanted.light.positionWS, view.eyeWS);
     const double fromEye =
         std::max(distance - wanted.reachMetres, glm::distance(scene.centreWS, view.eyeWS) - scene.radiusMetres);
-    const double metresPerPixel = double(view.constants.rayFromPixel.x); // a metre ahead, or anywhere
+    // A metre ahead, or anywhere.
+    const double metresPerPixel =
+        double(view.constants.rayFromPixel.y) * double(settings.sizePixels.y) / double(whole.y);
     const bool isParallel = view.constants.forwardLS.w != 0.0f;
     const double pixelMetres = isParallel ? metresPerPixel : std::max(fromEye, 0.25 * reach) * metresPerPixel;
     const double widthMetres =
@@ -95,9 +98,9 @@ int shadowTapTexels(const FrameSettings& settings) {
     return infoOf(settings.shadowFilter).heedsWidth ? settings.shadowMaps.widthTexels / 2 + 2 : 1;
 }
 
-int shadowBorderTexels(const FrameSettings& settings, int sideTexels) {
+int shadowBorderTexels(const FrameSettings& settings, const scenes::Light& light, int sideTexels) {
     return int(shared::shadowBorderTexels(float(sideTexels), float(shadowTapTexels(settings)),
-                                          infoOf(settings.shadowFilter).heedsSizes));
+                                          infoOf(settings.shadowFilter).heedsSizes && scenes::hasSize(light)));
 }
 
 ShadowMaps makeShadowMaps(const scenes::Scene& scene, const PackedLights& lights, const CameraView& view,
@@ -128,12 +131,13 @@ ShadowMaps makeShadowMaps(const scenes::Scene& scene, const PackedLights& lights
         light.sideTexels = gotTexels[i];
         if (light.sideTexels == 0) continue;
         const scenes::Light& shining = wanted[i].light;
-        const int border = shadowBorderTexels(settings, light.sideTexels);
+        const int border = shadowBorderTexels(settings, shining, light.sideTexels);
         std::vector<scenes::Camera> cameras =
             scenes::infoOf(shining.type).hasPosition()
                 ? placedCameras(shining.positionWS, wanted[i].cone, wanted[i].reachMetres, light.sideTexels, border)
-                : cascadeCameras(shining.directionWS, light.faces, all, view, settings.sizePixels, cameraNear,
-                                 light.sideTexels, border);
+                : cascadeCameras(shining.directionWS, light.faces, all, view,
+                                 settings.wholePixels.value_or(settings.sizePixels), cameraNear, light.sideTexels,
+                                 border);
         for (scenes::Camera& camera : cameras) {
             ShadowFace& face = maps.faces.emplace_back(std::move(camera), glm::ivec2(0), light.sideTexels);
             // Views of shadows show them beyond the light's reach too.

@@ -56,8 +56,8 @@ std::string shadowFaceName(int i, int faces);
 
 /// How far taps of a map's filter reach, but for those of penumbrae.
 int shadowTapTexels(const FrameSettings& settings);
-/// Texels around the part of a face that points are looked up in, for such taps.
-int shadowBorderTexels(const FrameSettings& settings, int sideTexels);
+/// Texels around the part of a light's face that points are looked up in, for such taps or its penumbrae.
+int shadowBorderTexels(const FrameSettings& settings, const scenes::Light& light, int sideTexels);
 
 /// The maps of all lights that cast shadows. A face's side follows from how wide it is in the picture where its light
 /// ends, or is ShadowMapSettings::resolutionTexels, within the budget (fitBudget()). `bounds` are of everything drawn.

@@ -195,7 +195,8 @@ TEST_F(ShadowViews, aCascadePassesOverIntoTheNextInItsOuterTenthWithinTheRoomOfT
                     const frame::ShadowFace& face = maps.faces[std::size_t(i)];
                     const frame::CameraView seen = frame::faceView(face);
                     const glm::dvec4 clip = seen.clipFromLS * glm::dvec4(seen.positionLS(groundWS), 1.0);
-                    const double border = 2.0 * frame::shadowBorderTexels(settings, face.sideTexels) / face.sideTexels;
+                    const double border =
+                        2.0 * frame::shadowBorderTexels(settings, scene.lights[0], face.sideTexels) / face.sideTexels;
                     const double room = 1.0 - border - std::max(std::abs(clip.x), std::abs(clip.y));
                     const double share = i == 3 || passesAtOnce ? double(room > 0.0) : glm::clamp(room / 0.1, 0.0, 1.0);
                     expected += left * share * glm::dvec3(shared::faceColor(i));

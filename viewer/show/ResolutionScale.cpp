@@ -15,6 +15,7 @@ constexpr double kWorthwhile = 1.15;
 /// Pictures after which the time of a picture at another scale is forgotten, because the scene and the machine's load
 /// change.
 constexpr int kOldest = 30;
+constexpr int kPicturesBelieved = 2;
 
 std::size_t stepOf(double scale) {
     std::size_t step = 0;
@@ -59,11 +60,17 @@ void ResolutionScale::drew(double scale, double ms) {
     for (std::optional<Sample>& sample : samples_)
         if (sample && ++sample->age > kOldest) sample.reset();
     std::optional<Sample>& taken = samples_[stepOf(scale)];
-    taken = Sample{taken ? kFreshShare * ms + (1.0 - kFreshShare) * taken->ms : ms, 0};
+    if (!taken)
+        taken = Sample{ms, ms, 1, 0};
+    else
+        taken = Sample{kFreshShare * ms + (1.0 - kFreshShare) * taken->ms, std::min(ms, taken->leastMs),
+                       taken->count + 1, 0};
     const std::size_t now = stepOf(scale_);
     const std::size_t last = kScales.size() - 1;
-    // That smaller pictures gain nothing is believed only once the smallest was seen.
-    const double enoughMs = samples_[last] ? kWorthwhile * samples_[last]->ms : 0.0;
+    // That smaller pictures gain nothing is believed only once the smallest was seen, and not on the word of one: it
+    // may have filled what later ones find, such as shadow maps.
+    const bool isKnown = samples_[last] && samples_[last]->count >= kPicturesBelieved;
+    const double enoughMs = isKnown ? kWorthwhile * samples_[last]->leastMs : 0.0;
     std::size_t step = 0;
     const auto isTooSlow = [&](std::size_t tried) {
         return predictedMs(tried) > std::max(tried < now ? kRoom * targetMs_ : targetMs_, enoughMs);

@@ -35,8 +35,10 @@ private:
     double targetMs_;
     double scale_ = kScales.front();
     struct Sample {
-        double ms = 0.0; ///< smoothed
-        int age = 0;     ///< pictures since
+        double ms = 0.0;      ///< smoothed
+        double leastMs = 0.0; ///< of any
+        int count = 0;        ///< pictures that were so large
+        int age = 0;          ///< pictures since
     };
     std::array<std::optional<Sample>, kScales.size()> samples_; ///< by scale
 };

@@ -72,6 +72,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::functi
         for (int side = 0; side < wanted.sides; ++side) {
             const gpu::CpuTimer clock;
             Look look = wanted.looks[std::size_t(side)];
+            look.settings.wholePixels = look.settings.sizePixels;
             look.settings.sizePixels = result.sizePixels;
             renderer_->draw(look.technique, look.settings);
             gpu::finish();

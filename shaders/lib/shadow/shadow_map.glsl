@@ -48,6 +48,7 @@ struct FacePoint {
     vec2 doubt;    // by how much the slope may be off
     vec3 face;     // xy its middle and z half its side, in texels
     bool isParallel; // the light is directional
+    bool isSoft;   // the light has a size that the filter heeds
     float perSize; // texels from the point to the rim of what may hide part of a light of size 1, by depth
     vec2 aside;    // tangents of the way from the light's axis to the point; 0 where lights are parallel
     float rise;    // by how much a caster must be nearer beside the triangle
@@ -56,7 +57,8 @@ struct FacePoint {
     bool isSeen;   // not edge-on, which would be of any depth
 };
 
-FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float roundingMetres)
+// `shadow` are the texels of the light (LightShadowTexels).
+FacePoint facePoint(int firstTexel, vec4 shadow, vec3 positionRWS, vec3 facetNormalRWS, float roundingMetres)
 {
     vec4 right = texelFetch(lightTexels, firstTexel);
     vec4 up = texelFetch(lightTexels, firstTexel + 1);
@@ -72,6 +74,7 @@ FacePoint facePoint(int firstTexel, vec3 positionRWS, vec3 facetNormalRWS, float
     float facetError = facetErrorRadians();
     bool isParallel = place.w < 0.0;
     precise FacePoint point;
+    point.isSoft = SHADOW_FILTER == SHADOW_FILTER_PCSS && shadow.x > 0.0;
     point.face = place.xyz;
     point.isParallel = isParallel;
     // Depth is linear in the texel: scale times the plane's normal by its distance from the light, or (parallel) by the
@@ -125,7 +128,7 @@ ivec2 withinFace(FacePoint point, ivec2 texel)
 
 float borderTexels(FacePoint point)
 {
-    return shadowBorderTexels(2.0 * point.face.z, float(SHADOW_TAP_TEXELS), SHADOW_FILTER == SHADOW_FILTER_PCSS);
+    return shadowBorderTexels(2.0 * point.face.z, float(SHADOW_TAP_TEXELS), point.isSoft);
 }
 
 // Whether casters leave a place of the face in sight, in texels, where the point or another of its triangle's plane is.
@@ -262,7 +265,7 @@ float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNorm
         precise vec3 positionRWS = rwsFromLS * viewpoint.positionLS;
         precise vec3 facetNormalRWS = rwsFromLS * facetNormalLS;
         precise float rounding = shadow.w + 1.9e-6 * length(viewpoint.positionLS);
-        FacePoint point = facePoint(face, positionRWS, facetNormalRWS, rounding);
+        FacePoint point = facePoint(face, shadow, positionRWS, facetNormalRWS, rounding);
         vec2 fromMiddle = abs(point.texel - point.face.xy);
         precise float room = point.face.z - max(fromMiddle.x, fromMiddle.y);
         precise float ownShare = 1.0;

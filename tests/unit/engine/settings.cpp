@@ -36,16 +36,16 @@ struct Differences {
 Differences differences(const ViewRequest& a, const ViewRequest& b) {
     const auto members = [](const ViewRequest& request) {
         const auto& [technique, settings] = request;
-        const auto& [sizePixels, samples, samplesGiven, camera, timeSeconds, eyeOffsetWS, layout, view, filter, space,
-                     prune, specular, rangeTolerance, soloLight, shadows, shadowFilter, shadowSamples, shadowMaps,
-                     culling, lightOn, softwareBackend, display, exposureEV, toneMap] = settings;
+        const auto& [sizePixels, wholePixels, samples, samplesGiven, camera, timeSeconds, eyeOffsetWS, layout, view,
+                     filter, space, prune, specular, rangeTolerance, soloLight, shadows, shadowFilter, shadowSamples,
+                     shadowMaps, culling, lightOn, softwareBackend, display, exposureEV, toneMap] = settings;
         const auto& [method, tilePixels, builder, normals, lanes] = culling;
         const auto& [widthTexels, resolutionTexels, budgetMiB, cascades] = shadowMaps;
         return std::pair(std::tuple(technique, sizePixels, samples, camera, timeSeconds, layout, view, filter, space,
                                     prune, specular, rangeTolerance, soloLight, shadows, shadowFilter, shadowSamples,
                                     widthTexels, resolutionTexels, budgetMiB, cascades, method, tilePixels, builder,
                                     normals, lightOn, exposureEV, toneMap),
-                         std::tuple(samplesGiven, eyeOffsetWS, softwareBackend, display, lanes));
+                         std::tuple(wholePixels, samplesGiven, eyeOffsetWS, softwareBackend, display, lanes));
     };
     const auto differ = []<std::size_t... kIndex>(const auto& x, const auto& y, std::index_sequence<kIndex...>) {
         return std::vector<bool>{!(std::get<kIndex>(x) == std::get<kIndex>(y))...};
