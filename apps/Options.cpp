@@ -208,6 +208,14 @@ std::vector<std::string> unheededShadows(const FrameOptions& options, const Requ
     for (const engine::Setting& setting : engine::settingTable()) {
         if (setting.panel != engine::SettingPanel::Shadows || setting.key == "shadows" || !options.said(setting.key))
             continue;
+        const frame::ShadowFilterInfo& filter = infoOf(request.settings.shadowFilter);
+        if (setting.key == "shadowFilter" && filter.usesMaps && filter.heedsSizes && prepared.lights.shadowed > 0 &&
+            !prepared.lights.features[frame::Feature::SoftShadows]) {
+            messages.push_back(fmt::format("{} {} looks up one texel, as {} does: no light in view that casts shadows "
+                                           "has a size",
+                                           setting.flag, filter.name, infoOf(frame::ShadowFilter::Hard).name));
+            continue;
+        }
         std::string why = setting.whyIdle(request);
         const auto rows = validation::shadowSettingTable();
         const auto row = std::ranges::find(rows, setting.key, &validation::ShadowSetting::key);

@@ -8,6 +8,7 @@
 #include "renderer/frame/DebugViews.h"
 #include "shaders/shared/heat.h"
 #include "validation/pictures/ShownPicture.h"
+#include "viewer/edit/LightList.h"
 
 namespace tessera::viewer {
 namespace {
@@ -72,6 +73,24 @@ void drawSwatches(const PictureArea& area, std::span<const validation::Swatch> s
     }
 }
 
+/// Words in the lower left corner.
+void drawCaption(const PictureArea& area, const std::string& text, float scale) {
+    const float pad = 8.0f * scale;
+    const ImVec2 words = ImGui::CalcTextSize(text.c_str());
+    const ImVec2 corner(area.corner.x + pad, area.corner.y + area.size.y - 2.0f * pad - words.y);
+    if (text.empty() || area.size.x < words.x + 4.0f * pad) return; // no room to read it
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddRectFilled(corner, {corner.x + words.x + 2.0f * pad, corner.y + words.y + pad}, kBehind, pad);
+    list.AddText({corner.x + pad, corner.y + 0.5f * pad}, kInk, text.c_str());
+}
+
+/// Of views that show the shadow of one light.
+std::string shownLightText(const engine::DrawnShadows& shadows, const std::vector<scenes::Light>& lights) {
+    const std::size_t index = std::size_t(shadows.lights[*shadows.shown].sceneIndex);
+    if (index >= lights.size()) return ""; // deleted since
+    return "Shadow of " + lightLabel(lights, index) + " (L: of the selected light)";
+}
+
 } // namespace
 
 void drawLegend(const State& state, const Facts& facts, const PictureArea& area, float scale) {
@@ -85,6 +104,8 @@ void drawLegend(const State& state, const Facts& facts, const PictureArea& area,
         if (!shadows) continue;
         const std::vector<validation::Swatch> swatches = validation::shadowSwatches(look->settings.view, *shadows);
         if (!swatches.empty()) drawSwatches(part, swatches, scale);
+        if (frame::showsShadowsOfOne(look->settings.view) && shadows->shown && state.open)
+            drawCaption(part, shownLightText(*shadows, state.open->scene().lights), scale);
     }
 }
 

@@ -88,7 +88,7 @@ void shadowRows(State& state, const engine::DrawnShadows& shadows) {
         tip("In the latest frame; what has not changed is kept");
     }
     if (hasNoSizeToHeed(state, shadows))
-        paragraph(fmt::format("None of these lights has a size, so {} looks up one texel, as {} does.",
+        paragraph(fmt::format("None of these lights has a size, so that {} looks up one texel, as {} does.",
                               infoOf(state.active().settings.shadowFilter).name,
                               infoOf(frame::ShadowFilter::Hard).name));
     lightTable(state, shadows);

@@ -224,6 +224,9 @@ TEST_F(Render, settingsOfShadowsThatChangeNothingAreTold) {
                 testing::HasSubstr("no light with a size casts one"));
     EXPECT_THAT(said({"--shadows", "all", "--shadow-filter", "pcf", "--shadow-cascades", "2"}),
                 testing::HasSubstr("No shadow of a directional light is looked up"));
+    EXPECT_EQ(said({"--shadows", "all", "--shadow-filter", "pcss"}),
+              "tessera: warning: --shadow-filter pcss looks up one texel, as hard does: no light in view that casts "
+              "shadows has a size\n");
     EXPECT_EQ(said({"--shadow-filter", "pcf", "--technique", "reference"}),
               "tessera: warning: --shadow-filter changes nothing. The reference follows rays of its own\n");
     EXPECT_EQ(said({"--shadow-width", "5", "--view", "normal"}), "") << "the same options serve all views";
