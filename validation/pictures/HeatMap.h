@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 #include "base/Picture.h"
 #include "validation/pictures/BitmapFont.h"
 
