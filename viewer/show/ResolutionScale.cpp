@@ -65,6 +65,9 @@ void ResolutionScale::drew(double scale, double ms) {
     else
         taken = Sample{kFreshShare * ms + (1.0 - kFreshShare) * taken->ms, std::min(ms, taken->leastMs),
                        taken->count + 1, 0};
+    // A smaller picture takes no longer: what is remembered of it was of another load, such as shadow maps.
+    for (std::size_t smaller = stepOf(scale) + 1; smaller < kScales.size(); ++smaller)
+        if (samples_[smaller] && samples_[smaller]->leastMs > kWorthwhile * ms) samples_[smaller].reset();
     const std::size_t now = stepOf(scale_);
     const std::size_t last = kScales.size() - 1;
     // That smaller pictures gain nothing is believed only once the smallest was seen, and not on the word of one: it

@@ -63,6 +63,15 @@ TEST(ResolutionScale, onePictureThatFillsWhatLaterOnesFindNeverKeepsThemWhole) {
     EXPECT_LE(lastMs(scale, 580.0, 5.0, 1), kTargetMs);
 }
 
+TEST(ResolutionScale, aLargerPictureThatTakesLessPutsOutWhatIsKnownOfSmallerOnes) {
+    ResolutionScale scale(kTargetMs);
+    scale.restart(kScales.back());
+    for (int i = 0; i < 3; ++i) scale.drew(kScales.back(), 375.0); // each draws shadow maps too
+    scale.drew(1.0, 160.0);
+    lastMs(scale, 155.0, 5.0, 8);
+    EXPECT_LE(lastMs(scale, 155.0, 5.0, 1), kTargetMs);
+}
+
 TEST(ResolutionScale, aSceneThatNothingMakesQuickIsDrawnAtTheSmallestStep) {
     ResolutionScale scale(kTargetMs);
     lastMs(scale, 1e6, 1e2, 20);
