@@ -46,18 +46,20 @@ Renderer::~Renderer() = default;
 
 const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     // Light types change from frame to frame and do not concern the scene's buffers.
-    frame::FeatureSet features = frame::surfaceFeatures(scene_, spec.settings.prune);
+    frame::FeatureSet features = frame::surfaceFeatures(scene_, spec.settings.prune, spec.settings.subsurface);
     const frame::TextureFilter filter = spec.settings.filter;
-    if (sceneGpu_ && features == sceneFeatures_ && filter == sceneFilter_) {
+    const scenes::SubsurfaceRequest subsurface = spec.settings.subsurface;
+    if (sceneGpu_ && features == sceneFeatures_ && filter == sceneFilter_ && subsurface == sceneSubsurface_) {
         if (materialsChanged_) sceneGpu_->updateMaterials();
         materialsChanged_ = false;
         return *sceneGpu_;
     }
-    sceneGpu_ = std::make_unique<frame::SceneGpu>(scene_, features, filter);
+    sceneGpu_ = std::make_unique<frame::SceneGpu>(scene_, features, filter, subsurface);
     shadowMemories_.forget();
     materialsChanged_ = false;
     sceneFeatures_ = features;
     sceneFilter_ = filter;
+    sceneSubsurface_ = subsurface;
     return *sceneGpu_;
 }
 

@@ -121,6 +121,7 @@ private:
     std::unique_ptr<frame::SceneGpu> sceneGpu_;
     frame::FeatureSet sceneFeatures_;                                   ///< features that sceneGpu_ was made with
     frame::TextureFilter sceneFilter_ = frame::TextureFilter::Hardware; ///< the same
+    scenes::SubsurfaceRequest sceneSubsurface_;                         ///< the same
     bool materialsChanged_ = false;
     std::unique_ptr<Drawn> drawn_; ///< the latest frame; null before the first and after one that failed
 };

@@ -127,9 +127,9 @@ std::string_view meaningOf(const Row& row) {
         return "";
 }
 
-/// One of a table's rows; `key` is the row's value.
+/// One of a table's rows; `key` is the row's value, and `open` what is said of a value that may be left open.
 template <typename Get, typename Row, typename Key>
-SettingValue choice(Get get, std::span<const Row> table, Key Row::*key) {
+SettingValue choice(Get get, std::span<const Row> table, Key Row::*key, std::string_view open = kOpen) {
     ChoiceKind kind;
     for (const Row& row : table) kind.entries.push_back({std::string(row.name), std::string(row.name), meaningOf(row)});
     const auto textOf = [table, key](const Key& value) {
@@ -144,7 +144,7 @@ SettingValue choice(Get get, std::span<const Row> table, Key Row::*key) {
         }
         throw InputError(fmt::format("unknown {} '{}': {}", source.name, text, suggestNames(text, names)));
     };
-    return valueIn(get, std::move(kind), textOf, valueOf);
+    return valueIn(get, std::move(kind), textOf, valueOf, open);
 }
 
 /// One of some whole numbers.

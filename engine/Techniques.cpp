@@ -62,7 +62,8 @@ struct ViewWiring {
         const UploadViewPass::Outputs uploaded = UploadViewPass::add(graph, drawn);
         surfaces = {drawn, frame.scene, {uploaded.constants}, uploaded.rows, uploaded.commands, {}};
         const UploadLightsPass::Outputs lights = UploadLightsPass::add(graph, spec, drawn);
-        lighting = {surfaces.view, lights.constants, lights.lights, frame.scene.materialTable, {}, {}, {}};
+        lighting = {surfaces.view, lights.constants, lights.lights, frame.scene.materialTable, frame.scene.subsurfaces,
+                    {},            {},               {}};
         if (lights.casterTree) lighting.casterTree = {*lights.casterTree, frame.scene.casters.value()};
         if (spec.features[frame::Feature::ShadowMaps])
             lighting.shadowAtlas = ShadowMapsPass::add(graph, spec, {frame.scene, drawn, index}).atlas;

@@ -118,6 +118,12 @@ void checkMaterial(const Element& element, const Material& material, std::size_t
         if (!isWithin(material.*field.member, field))
             element.require(false, fmt::format("{} must be {}", field.what, boundsText(field.least, field.most)));
     });
+    visitFields(kSubsurfaceFields, [&](const auto& field) {
+        if (!isWithin(material.subsurface.*field.member, field))
+            element.require(false, fmt::format("{} must be {}", field.what, boundsText(field.least, field.most)));
+    });
+    const std::string profile = profileProblem(material.subsurface.profile);
+    element.require(profile.empty(), profile);
     element.require(takesMasking(material.model, material.masking),
                     "masking by direction needs the model microfacet_anisotropic");
     for (const TextureUse& use : material.textures) {
@@ -278,6 +284,11 @@ void checkSceneWide(const Scene& scene) {
         if (!holds) throw InputError(fmt::format("scene '{}': {}", scene.name, problem));
     };
     require(allFiniteAndNotNegative(scene.background), "the background must be finite and not negative");
+    const auto subsurfaces = std::ranges::count_if(
+        scene.materials, [](const Material& material) { return material.subsurface.method != SubsurfaceMethod::None; });
+    require(subsurfaces <= kMostSubsurfaces, fmt::format("{} materials have a subsurface, and at most {} can; share "
+                                                         "materials, or set the method of some to none",
+                                                         subsurfaces, kMostSubsurfaces));
     const SceneOptions& options = scene.options;
     for (const auto& [key, wish] : options.wishes) {
         const auto* const number = std::get_if<double>(&wish);

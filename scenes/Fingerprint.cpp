@@ -68,6 +68,13 @@ public:
         const auto& [image, sampler, texCoordSet, transform] = use;
         addAll(image, sampler, texCoordSet, transform);
     }
+    void add(const DiffusionGaussian& gaussian) {
+        const auto& [varianceSquareMillimetres, weight] = gaussian;
+        addAll(varianceSquareMillimetres, weight);
+    }
+    void add(const Subsurface& subsurface) {
+        visitFields(kSubsurfaceFields, [&](const auto& field) { add(subsurface.*field.member); });
+    }
     void add(const Material& material) {
         visitFields(kMaterialFields, [&](const auto& field) { add(material.*field.member); });
         add(material.textures);

@@ -14,6 +14,9 @@ inline constexpr int kMostLights = 262144;
 /// Throws InputError when these lights are more than kMostLights; `source` is the file that gives them, or the scene.
 void requireDrawableLights(const std::string& source, std::size_t lights);
 
+/// The most materials with a subsurface that a scene can have: pixels name theirs in 8 bits.
+inline constexpr int kMostSubsurfaces = 255;
+
 inline constexpr std::size_t kMostNameBytes = 4096; ///< of a scene or anything in it; messages and tables show names
 
 // Beyond these, squares of distances or depths leave fp32, and techniques would disagree.

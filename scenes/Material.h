@@ -11,6 +11,7 @@
 #include <glm/glm.hpp>
 
 #include "scenes/Fields.h"
+#include "scenes/Subsurface.h"
 #include "scenes/Texture.h"
 
 /// Materials as plain data, their members as a table, and their models as a table. Everything that names a model or one
@@ -75,6 +76,7 @@ struct Material {
     float alphaCutoff = 0.5f; ///< Mask: a fragment stays when opacity >= cutoff
     bool doubleSided = false;
     bool castsShadow = true; ///< from both sides; blended surfaces cast none (scenes/Shadows.h)
+    Subsurface subsurface;   ///< of lit models
     std::array<TextureUse, kTextureSlotCount> textures;
 
     TextureUse& texture(TextureSlot slot) { return textures[static_cast<std::size_t>(slot)]; }
@@ -122,6 +124,7 @@ inline constexpr std::tuple kMaterialFields{
     Field{"alphaCutoff", &Material::alphaCutoff, "the alpha cutoff", -kAnyNumber, kAnyNumber},
     Field{"doubleSided", &Material::doubleSided},
     Field{"castsShadow", &Material::castsShadow},
+    Field{"subsurface", &Material::subsurface},
 };
 
 static_assert(std::tuple_size_v<decltype(kMaterialFields)> + 1 == detail::memberCount<Material>(),
@@ -250,6 +253,15 @@ constexpr bool takesMasking(MaterialModel model, Masking masking) {
     const MaterialModelInfo& info = infoOf(model);
     return masking != Masking::Directional || info.microsurface != Microsurface::Dielectric ||
            info.anisotropy == Anisotropy::Alphas;
+}
+
+/// How light that enters a surface with the material leaves it elsewhere. A method that would change nothing is none.
+inline SubsurfaceMethod subsurfaceOf(const Material& material, SubsurfaceRequest request) {
+    const Subsurface& subsurface = material.subsurface;
+    if (!infoOf(material.model).isLit || subsurface.method == SubsurfaceMethod::None) return SubsurfaceMethod::None;
+    const SubsurfaceMethod method = request.value_or(subsurface.method);
+    const bool wraps = subsurface.wrap > 0.0f && subsurface.wrapTint != glm::vec3(0.0f);
+    return method == SubsurfaceMethod::Wrap && !wraps ? SubsurfaceMethod::None : method;
 }
 
 /// Whether a material's lobe turns with the tangent.

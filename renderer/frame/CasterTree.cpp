@@ -34,6 +34,7 @@ struct CasterCorner {
 struct CasterTriangle {
     std::array<CasterCorner, 3> corners;
     const Material* mask; ///< null: opaque all over
+    std::uint32_t mark;   ///< CASTER_PASSED and CASTER_MIRRORED
 };
 
 /// offset + rotation(scale uv), after KHR_texture_transform.
@@ -145,12 +146,17 @@ CasterSpace spaceOf(const scenes::Scene& scene) {
 }
 
 /// The casters' triangles: the opaque ones, and those with masks.
-std::array<std::vector<CasterTriangle>, 2> trianglesOf(const scenes::Scene& scene, const CasterSpace& space) {
+std::array<std::vector<CasterTriangle>, 2> trianglesOf(const scenes::Scene& scene, const CasterSpace& space,
+                                                       std::span<const std::size_t> passedRows) {
     std::array<std::vector<CasterTriangle>, 2> triangles;
     visitCasters(scene, [&](const Mesh& mesh, const Material& material, const glm::dmat4& worldFromNode) {
         const bool isMasked = material.alphaMode == scenes::AlphaMode::Mask;
+        const std::size_t number = std::size_t(&material - scene.materials.data());
+        const bool isMirrored = glm::determinant(glm::dmat3(worldFromNode)) < 0.0;
+        const std::uint32_t mark = (number < passedRows.size() ? std::uint32_t(passedRows[number]) : 0u) |
+                                   (isMirrored ? CASTER_MIRRORED : 0u);
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-            CasterTriangle triangle{{}, isMasked ? &material : nullptr};
+            CasterTriangle triangle{{}, isMasked ? &material : nullptr, mark};
             for (std::size_t corner = 0; corner < 3; ++corner) {
                 const std::uint32_t vertex = mesh.indices[i + corner];
                 triangle.corners[corner] =
@@ -315,12 +321,16 @@ private:
             shared::packCasterLeaf(glm::uint(tree_.texels.size()), glm::uint(leaf.triangles.size()), isMasked);
         for (const CasterTriangle* triangle : leaf.triangles) {
             const std::array<CasterCorner, 3>& corners = triangle->corners;
+            const std::size_t first = tree_.texels.size();
             for (const CasterCorner& corner : corners)
                 tree_.texels.push_back(glm::floatBitsToUint(glm::vec4(corner.positionCS, corner.opacity)));
-            if (!isMasked) continue;
+            if (!isMasked) {
+                tree_.texels[first].w = triangle->mark;
+                continue;
+            }
             tree_.texels.push_back(glm::floatBitsToUint(glm::vec4(corners[0].texCoord, corners[1].texCoord)));
             pending_.push_back({tree_.texels.size(), triangle->mask});
-            tree_.texels.emplace_back(glm::floatBitsToUint(corners[2].texCoord), 0u, 0u);
+            tree_.texels.emplace_back(glm::floatBitsToUint(corners[2].texCoord), 0u, triangle->mark);
         }
     }
 
@@ -391,11 +401,11 @@ static_assert(int(scenes::Wrap::ClampToEdge) == CASTER_WRAP_CLAMP &&
 
 } // namespace
 
-CasterTree makeCasterTree(const scenes::Scene& scene) {
+CasterTree makeCasterTree(const scenes::Scene& scene, std::span<const std::size_t> passedRows) {
     CasterTree tree;
     tree.space = spaceOf(scene);
     if (tree.space.unitMetres == 0.0) return tree;
-    const std::array<std::vector<CasterTriangle>, 2> triangles = trianglesOf(scene, tree.space);
+    const std::array<std::vector<CasterTriangle>, 2> triangles = trianglesOf(scene, tree.space, passedRows);
     if (triangles[0].empty() && triangles[1].empty()) return tree;
     TreeWriter(scene, tree).write(triangles);
     return tree;

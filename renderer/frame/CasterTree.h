@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -32,9 +33,10 @@ struct CasterTree {
     std::vector<glm::uvec4> texels; ///< shaders/shared/caster_tree.h; triangles without area are left out
 };
 
-/// Throws std::runtime_error when Embree, which sorts the triangles, fails, or when the tree is too large to be
-/// addressed.
-CasterTree makeCasterTree(const scenes::Scene& scene);
+/// `passedRows` is by material the row of SubsurfaceConstants that lets light through, 0 for none; materials beyond it
+/// have none. Throws std::runtime_error when Embree, which sorts the triangles, fails, or when the tree is too large to
+/// be addressed.
+CasterTree makeCasterTree(const scenes::Scene& scene, std::span<const std::size_t> passedRows = {});
 
 /// How a view's surfaces find their place in the tree.
 shared::CasterTreeConstants casterTreeConstants(const CasterSpace& casters, const CameraView& view);

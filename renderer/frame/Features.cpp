@@ -64,6 +64,8 @@ std::vector<FeatureInfo> makeTable() {
             {Feature::Shadows, "SHADOWS", "shadows", "no light in view casts any"},
             {Feature::SoftShadows, "SOFT_SHADOWS", "soft shadows", "no shadow in view is soft"},
             {Feature::ShadowMaps, "SHADOW_MAPS", "shadow maps", "no shadow is looked up in a map"},
+            {Feature::SubsurfaceWrap, "SUBSURFACE_WRAP", "wrapped light", "no material wraps any"},
+            {Feature::SubsurfaceDepthMap, "SUBSURFACE_DEPTH_MAP", "light through thin parts", "no material lets any through"},
         });
     assert(table.size() == kFeatureCount);
     return table;
@@ -88,7 +90,7 @@ bool varies(const scenes::Material& material) {
     return scenes::isAnisotropic(material);
 }
 
-void addMaterial(FeatureSet& set, const scenes::Material& material) {
+void addMaterial(FeatureSet& set, const scenes::Material& material, scenes::SubsurfaceRequest subsurface) {
     const scenes::MaterialModelInfo& model = scenes::infoOf(material.model);
     set.add(featureOf(material.model));
     set.add(Feature::MaskingOptions, canMask(material) && material.masking != scenes::Masking::Walter);
@@ -115,6 +117,9 @@ void addMaterial(FeatureSet& set, const scenes::Material& material) {
     set.add(Feature::Blend, material.alphaMode == scenes::AlphaMode::Blend);
     set.add(Feature::DoubleSided, material.doubleSided);
     set.add(Feature::VaryingMaterials, varies(material));
+    const scenes::SubsurfaceMethod method = scenes::subsurfaceOf(material, subsurface);
+    set.add(Feature::SubsurfaceWrap, method == scenes::SubsurfaceMethod::Wrap);
+    set.add(Feature::SubsurfaceDepthMap, method == scenes::SubsurfaceMethod::DepthMap);
 }
 
 constexpr bool isMicrofacet(const scenes::MaterialModelInfo& model) {
@@ -206,7 +211,7 @@ bool FeatureSet::any(bool (*isOne)(const scenes::LightTypeInfo&)) const {
 
 bool FeatureSet::litFromBehind() const {
     // A clear coat has a normal of its own.
-    return (*this)[Feature::Clearcoat] ||
+    return (*this)[Feature::Clearcoat] || subsurfaceRows() ||
            any([](const scenes::MaterialModelInfo& model) { return model.isLitFromBehind; });
 }
 
@@ -242,6 +247,10 @@ bool FeatureSet::textures() const {
                                [&](const scenes::TextureSlotInfo& slot) { return (*this)[slot.slot]; });
 }
 
+bool FeatureSet::subsurfaceRows() const {
+    return (*this)[Feature::SubsurfaceWrap] || (*this)[Feature::SubsurfaceDepthMap];
+}
+
 bool FeatureSet::anyLights() const {
     return any([](const scenes::LightTypeInfo&) { return true; });
 }
@@ -267,13 +276,13 @@ bool canMask(const scenes::Material& material) {
     return isMicrofacet(scenes::infoOf(material.model));
 }
 
-FeatureSet materialFeatures(const scenes::Scene& scene) {
+FeatureSet materialFeatures(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface) {
     FeatureSet set;
     std::optional<scenes::MaterialModel> model;
     bool several = false;
     const std::vector<const scenes::Material*> materials = scenes::materialsInUse(scene);
     for (const scenes::Material* material : materials) {
-        addMaterial(set, *material);
+        addMaterial(set, *material, subsurface);
         several = several || (model && *model != material->model);
         model = material->model;
     }
@@ -290,8 +299,8 @@ FeatureSet allFeatures() {
     return set;
 }
 
-FeatureSet surfaceFeatures(const scenes::Scene& scene, bool prune) {
-    return prune ? materialFeatures(scene) : allFeatures();
+FeatureSet surfaceFeatures(const scenes::Scene& scene, bool prune, scenes::SubsurfaceRequest subsurface) {
+    return prune ? materialFeatures(scene, subsurface) : allFeatures();
 }
 
 Defines featureDefines(const FeatureSet& features) {
@@ -305,6 +314,7 @@ Defines featureDefines(const FeatureSet& features) {
     addFlag("HAS_TANGENT_FRAME", features.tangentFrame());
     addFlag("HAS_TANGENTS", features.tangents());
     addFlag("HAS_TEXTURES", features.textures());
+    addFlag("HAS_SUBSURFACE_ROWS", features.subsurfaceRows());
     addFlag("HAS_PLACED_LIGHTS", features.placedLights());
     addFlag("HAS_CONE_LIGHTS", features.coneLights());
     addFlag("HAS_LIGHT_SHAPES", features.lightShapes());

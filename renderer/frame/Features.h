@@ -40,6 +40,8 @@ enum class Feature : std::uint8_t {
     Shadows,     // of lights in view that casters may hide
     SoftShadows, // of such lights with a size
     ShadowMaps,  // the shadows are looked up in maps, not traced
+    SubsurfaceWrap,
+    SubsurfaceDepthMap, // light passes through surfaces; only where some light casts shadows
     Count
 };
 inline constexpr std::size_t kFeatureCount = static_cast<std::size_t>(Feature::Count);
@@ -89,6 +91,7 @@ struct FeatureSet {
     bool tangentFrame() const;  ///< surfaces keep a tangent
     bool tangents() const;      ///< meshes bring tangents
     bool textures() const;
+    bool subsurfaceRows() const; ///< surfaces of which lighting reads SubsurfaceConstants
     bool anyLights() const;
     bool placedLights() const;      ///< lights with a position
     bool coneLights() const;        ///< lights of LightReach::Cone
@@ -106,13 +109,13 @@ bool canMask(const scenes::Material& material);
 
 /// The features of the materials in use. packLights adds those of visible lights and their shadows, makeFrameSpec those
 /// of the camera.
-FeatureSet materialFeatures(const scenes::Scene& scene);
+FeatureSet materialFeatures(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface = {});
 
 /// Everything there is.
 FeatureSet allFeatures();
 
 /// What surfaces are built for: the first where what the scene does not need is left out, else the second.
-FeatureSet surfaceFeatures(const scenes::Scene& scene, bool prune);
+FeatureSet surfaceFeatures(const scenes::Scene& scene, bool prune, scenes::SubsurfaceRequest subsurface);
 
 /// The defines of shaders: HAS_* of every feature as 0 or 1, and of groups of features (litModels(), glossyModels() and
 /// so on); the number MODEL_<NAME> of each model, and MODEL_COUNT; SOLE_MODEL if the scene has one model only.

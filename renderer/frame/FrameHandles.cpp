@@ -5,6 +5,7 @@
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/light_lists.h"
 #include "shaders/shared/slots.h"
+#include "shaders/shared/subsurface.h"
 
 namespace tessera::frame {
 
@@ -108,6 +109,7 @@ LightingInputs LightingInputs::read(graph::PassBuilder& pass) const {
                           pass.read(constants, Access::UniformRead),
                           pass.read(lights, Access::TexelRead),
                           readWhereThere(pass, materialTable, Access::TexelRead),
+                          readWhereThere(pass, subsurfaces, Access::UniformRead),
                           {},
                           {},
                           readWhereThere(pass, shadowAtlas, Access::Sampled)};
@@ -121,6 +123,9 @@ void LightingInputs::bind(const graph::PassContext& context) const {
     gpu::bindUniformBuffer(UNIFORM_LIGHTING, context.buffer(constants), 0, sizeof(shared::LightingConstants));
     bindTexels(context, TEXTURE_UNIT_LIGHTS, lights, Format::Rgba32Float);
     if (materialTable) bindTexels(context, TEXTURE_UNIT_MATERIALS, *materialTable, Format::Rgba32Uint);
+    if (subsurfaces)
+        gpu::bindUniformBuffer(UNIFORM_SUBSURFACE, context.buffer(*subsurfaces), 0,
+                               SUBSURFACE_MOST * sizeof(shared::SubsurfaceConstants));
     if (lists) lists->bind(context);
     if (casterTree) casterTree->bind(context);
     if (shadowAtlas) gpu::bindTexture(TEXTURE_UNIT_SHADOWS, context.texture(*shadowAtlas));
@@ -170,6 +175,8 @@ SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const 
     const gpu::Buffer* const table = scene ? scene->materialTable() : nullptr;
     if (!features[Feature::VaryingMaterials] && (!scene || table))
         handles.materialTable = import("material_table", table);
+    if (features.subsurfaceRows())
+        handles.subsurfaces = import("subsurfaces", scene ? scene->subsurfaces() : nullptr);
     if (tracesShadows) handles.casters = import("casters", scene ? scene->casters()->texels.get() : nullptr);
     return handles;
 }

@@ -44,6 +44,7 @@ struct SceneHandles {
     graph::BufferHandle indices;
     graph::BufferHandle materials;                    ///< shared::MaterialConstants of each
     std::optional<graph::BufferHandle> materialTable; ///< where surfaces hold their material's number
+    std::optional<graph::BufferHandle> subsurfaces;   ///< where lighting reads them: shared::SubsurfaceConstants
     std::optional<graph::BufferHandle> casters;       ///< where shadows are traced: shaders/shared/caster_tree.h
 };
 
@@ -102,6 +103,7 @@ struct LightingInputs {
     graph::BufferHandle constants;                    ///< shared::LightingConstants
     graph::BufferHandle lights;                       ///< texels (shaders/shared/light.h)
     std::optional<graph::BufferHandle> materialTable; ///< where surfaces hold their material's number
+    std::optional<graph::BufferHandle> subsurfaces;   ///< where surfaces have any: shared::SubsurfaceConstants
     std::optional<LightListHandles> lists;            ///< where FrameSpec::culling asks for them
     std::optional<CasterTreeHandles> casterTree;      ///< where the view has shadows that are traced
     std::optional<graph::TextureHandle> shadowAtlas;  ///< where it has shadow maps

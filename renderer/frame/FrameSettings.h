@@ -98,6 +98,7 @@ struct FrameSettings {
     ShadowFilter shadowFilter = ShadowFilter::Traced;
     int shadowSamples = 16; ///< rays or look-ups of a pixel for a light with a size, 1 to kMostShadowSamples
     ShadowMapSettings shadowMaps;
+    scenes::SubsurfaceRequest subsurface;
     culling::Settings culling;
     std::optional<LightingStage> lightOn; ///< of the techniques that light in a pass of its own; open: fragment shaders
     bool softwareBackend = true;          ///< decides the choices left open; the renderer sets it to its own backend

@@ -44,11 +44,16 @@ std::size_t shadowSamples(const scenes::Light& light, const FrameSettings& setti
     return isSoft(light, settings) ? std::size_t(settings.shadowSamples) : 1;
 }
 
+/// Rays of a light with shadows that find how far it goes inside what lets it through.
+std::size_t passingRays(const FrameSpec& spec) {
+    return spec.features[Feature::SubsurfaceDepthMap] ? 1 : 0;
+}
+
 /// Those of the loops that find a light's shadow, at most: all its cascades may answer pixels that run together.
 std::size_t shadowIterations(const FrameSpec& spec, const scenes::Light& light) {
     const FrameSettings& settings = spec.settings;
     const std::size_t samples = shadowSamples(light, settings);
-    if (spec.tracesShadows()) return samples * rayIterations(casterSteps(spec.shadowSamples));
+    if (spec.tracesShadows()) return (samples + passingRays(spec)) * rayIterations(casterSteps(spec.shadowSamples));
     const std::size_t faces = scenes::infoOf(light.type).hasPosition() ? 1 : std::size_t(settings.shadowMaps.cascades);
     const std::size_t ofFilter = infoOf(settings.shadowFilter).heedsWidth
                                      ? pcfIterations(std::size_t(settings.shadowMaps.widthTexels))
@@ -70,6 +75,8 @@ std::string whyAbsent(const FeatureInfo& info, const scenes::Scene& scene, const
                       const PackedLights& lights) {
     if (info.feature == Feature::Shadows) return whyNoShadows(scene, lights, spec.settings.shadows);
     if (info.feature == Feature::SoftShadows) return whyNotSoft(spec);
+    if (info.feature == Feature::SubsurfaceDepthMap && materialFeatures(scene, spec.settings.subsurface)[info.feature])
+        return "no light casts shadows, by which the way inside is found";
     return info.absent;
 }
 
@@ -100,12 +107,14 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     spec.settings = settings;
     spec.lights = lights.texels.size();
     spec.shadowedLights = lights.shadowed;
-    spec.features = surfaceFeatures(scene, settings.prune);
+    spec.features = surfaceFeatures(scene, settings.prune, settings.subsurface);
     if (settings.prune) {
         spec.features.has |= lights.features.has;
         const scenes::Camera& camera = scene.cameras[std::size_t(settings.camera)];
         spec.features.add(Feature::OrthographicCamera, camera.projection == scenes::Projection::Orthographic);
     }
+    if (settings.prune && !spec.features[Feature::Shadows])
+        spec.features.has.reset(std::size_t(Feature::SubsurfaceDepthMap));
     // It says how shadows are found, so it is not kept where it is not asked for.
     if (!infoOf(settings.shadowFilter).usesMaps) spec.features.has.reset(std::size_t(Feature::ShadowMaps));
     // A channel that is looked at is stored, and not as a number or beside one.
@@ -116,7 +125,8 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     const auto shadowed = [&](std::size_t i) -> const scenes::Light& {
         return scene.lights[std::size_t(lights.sceneIndex[i])];
     };
-    for (std::size_t i = 0; i < lights.shadowed; ++i) spec.shadowSamples += shadowSamples(shadowed(i), spec.settings);
+    for (std::size_t i = 0; i < lights.shadowed; ++i)
+        spec.shadowSamples += shadowSamples(shadowed(i), spec.settings) + passingRays(spec);
     for (std::size_t i = 0; i < lights.shadowed; ++i) spec.iterations += 1 + shadowIterations(spec, shadowed(i));
     return spec;
 }
@@ -147,21 +157,31 @@ constexpr std::size_t kMostAttachments = 8;
 
 } // namespace
 
+bool FrameSpec::storesSubsurface() const {
+    return features.subsurfaceRows() && !channels.empty() && !holdMaterialNumber(settings.layout, channels);
+}
+
 std::vector<GBufferTexture> FrameSpec::gbufferTextures() const {
     std::vector<GBufferTexture> textures = frame::gbufferTextures(settings.layout, channels);
-    if (features[Feature::Shadows] && textures.size() < kMostAttachments)
-        textures.push_back({"facets", graph::Format::R32Uint});
+    const bool facets = features[Feature::Shadows], subsurface = storesSubsurface();
+    if ((facets || subsurface) && textures.size() < kMostAttachments)
+        textures.push_back({!facets      ? "subsurface"
+                            : subsurface ? "facets and subsurface"
+                                         : "facets",
+                            graph::Format::R32Uint});
     return textures;
 }
 
 Defines FrameSpec::gbufferDefines() const {
     Defines defines = channelDefines(settings.layout, channels);
-    if (!features[Feature::Shadows]) return defines;
     const std::size_t ofChannels = frame::gbufferTextures(settings.layout, channels).size();
-    if (ofChannels < kMostAttachments)
-        defines.emplace_back("GBUFFER_FACETS", std::to_string(ofChannels));
-    else
-        defines.emplace_back("GBUFFER_FACETS_IN_SPECULAR", "1");
+    const bool haveRoom = ofChannels < kMostAttachments;
+    if (features[Feature::Shadows])
+        defines.emplace_back(haveRoom ? "GBUFFER_FACETS" : "GBUFFER_FACETS_IN_SPECULAR", "1");
+    if (storesSubsurface())
+        defines.emplace_back(haveRoom ? "GBUFFER_SUBSURFACE" : "GBUFFER_SUBSURFACE_IN_EMISSION", "1");
+    if (haveRoom && (features[Feature::Shadows] || storesSubsurface()))
+        defines.emplace_back("GBUFFER_MARKS", std::to_string(ofChannels));
     return defines;
 }
 

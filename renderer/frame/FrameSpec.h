@@ -34,9 +34,11 @@ struct FrameSpec {
     /// Whether shadows may take more iterations than Mesa lets loops make, so that pixels are NaN (LightRounds.h).
     bool mayCutShadows() const;
 
-    /// Of the G-buffer, by attachment: its channels, and behind them, where lights cast shadows, the facet normals
-    /// (shaders/lib/surface/facet.glsl) of all layouts. Where the channels take all attachments, these lie beside the
-    /// specular colour.
+    /// Whether pixels hold which row of SubsurfaceConstants theirs is, not by their material's number.
+    bool storesSubsurface() const;
+    /// Of the G-buffer, by attachment: its channels, and behind them for all layouts, where lights cast shadows, the
+    /// facet normals (shaders/lib/surface/facet.glsl), and storesSubsurface(). Where the channels take all attachments,
+    /// these lie beside the specular colour and the emission.
     std::vector<GBufferTexture> gbufferTextures() const;
     /// What shaders that write or read the G-buffer are compiled with.
     Defines gbufferDefines() const;

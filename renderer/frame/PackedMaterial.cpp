@@ -1,9 +1,12 @@
 #include "renderer/frame/PackedMaterial.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "renderer/frame/Tangents.h"
 #include "renderer/gpu/Sampler.h"
+#include "scenes/InUse.h"
+#include "scenes/Limits.h"
 #include "shaders/shared/material.h"
 #include "shaders/shared/models.h"
 
@@ -15,6 +18,7 @@ using scenes::MaterialModel;
 using scenes::TextureSlot;
 
 static_assert(scenes::kTextureSlotCount == TEXTURE_SLOT_COUNT);
+static_assert(scenes::kMostSubsurfaces < SUBSURFACE_MOST, "the first row is that of none");
 static_assert(unsigned(scenes::Masking::Walter) == MASKING_WALTER &&
               unsigned(scenes::Masking::Directional) == MASKING_DIRECTIONAL &&
               unsigned(scenes::Masking::HalfVector) == MASKING_HALF_VECTOR);
@@ -75,6 +79,21 @@ glm::vec4 packClearcoatTurn(const scenes::Material& material) {
     return {glm::vec2(turn[0]), sideOf(turn), 0.0f};
 }
 
+/// Half the smallest side of the box around what has the material.
+double bodyRadiusMetres(const scenes::Scene& scene, int material) {
+    const std::vector<glm::dmat4> worldFromNode = scenes::worldFromNodes(scene);
+    scenes::Box3 boxWS;
+    for (std::size_t node = 0; node < scene.nodes.size(); ++node)
+        for (const scenes::MeshInstance& instance : scene.nodes[node].instances) {
+            if (instance.material != material) continue;
+            const scenes::Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+            for (const std::uint32_t index : mesh.indices)
+                boxWS.extend(glm::dvec3(worldFromNode[node] * glm::dvec4(mesh.positionsOS[index], 1.0)));
+        }
+    const glm::dvec3 size = boxWS.max - boxWS.min;
+    return 0.5 * std::min({size.x, size.y, size.z});
+}
+
 } // namespace
 
 glm::dmat2 linearPart(const scenes::TextureTransform& transform) {
@@ -83,7 +102,32 @@ glm::dmat2 linearPart(const scenes::TextureTransform& transform) {
     return {c * scale.x, -s * scale.x, s * scale.y, c * scale.y};
 }
 
-shared::MaterialConstants packMaterial(const scenes::Material& material) {
+PackedSubsurfaces packSubsurfaces(const scenes::Scene& scene, scenes::SubsurfaceRequest request) {
+    const std::vector<std::size_t> none(scene.materials.size(), 0);
+    PackedSubsurfaces packed{{{}}, none, none};
+    const std::vector<bool> inUse = scenes::inUse(scene).materials;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const scenes::Subsurface& subsurface = scene.materials[i].subsurface;
+        const scenes::SubsurfaceMethod method = scenes::subsurfaceOf(scene.materials[i], request);
+        const bool wraps = method == scenes::SubsurfaceMethod::Wrap;
+        const bool passes = method == scenes::SubsurfaceMethod::DepthMap;
+        if (!inUse[i] || !(wraps || passes)) continue;
+        packed.rowOf[i] = packed.rows.size();
+        shared::SubsurfaceConstants& row = packed.rows.emplace_back();
+        if (wraps) {
+            const double radius = subsurface.bodyRadiusMetres > 0.0f ? double(subsurface.bodyRadiusMetres)
+                                                                     : bodyRadiusMetres(scene, int(i));
+            row.wrap = glm::vec4(subsurface.wrap * subsurface.wrapTint, float(radius));
+        } else {
+            packed.passed[i] = packed.rowOf[i];
+            const double millimetres = 1e3 * double(subsurface.scaleMetres); // for each metre of the scene
+            row.absorption = glm::vec4(millimetres * glm::dvec3(subsurface.absorptionPerMillimetre), 1.0f);
+        }
+    }
+    return packed;
+}
+
+shared::MaterialConstants packMaterial(const scenes::Material& material, std::size_t subsurfaceRow) {
     shared::MaterialConstants packed{};
     packed.baseColor = material.baseColor;
     packed.emissive = glm::vec4(material.emissive, material.alphaCutoff);
@@ -91,7 +135,7 @@ shared::MaterialConstants packMaterial(const scenes::Material& material) {
         glm::vec4(material.metallic, roughnessParameter(material), material.ior, material.normalScale);
     packed.specular = glm::vec4(material.specularColor, material.specularFactor);
     const double contrast = (double(material.ior) - 1.0) / (double(material.ior) + 1.0);
-    packed.dielectric = glm::vec4(float(contrast * contrast), 0.0f, 0.0f, 0.0f);
+    packed.dielectric = glm::vec4(float(contrast * contrast), float(subsurfaceRow), 0.0f, 0.0f);
     packed.anisotropy = packAnisotropy(material);
     packed.clearcoat =
         glm::vec4(material.clearcoat, material.clearcoatPerceptualRoughness, material.clearcoatNormalScale, 0.0f);

@@ -1,11 +1,22 @@
 #pragma once
+#include <vector>
+
 #include "scenes/Scene.h"
 #include "shaders/shared/material.h"
+#include "shaders/shared/subsurface.h"
 
 namespace tessera::frame {
 
-/// A material as the shaders read it.
-shared::MaterialConstants packMaterial(const scenes::Material& material);
+/// A material as the shaders read it; `subsurfaceRow` is that of its SubsurfaceConstants.
+shared::MaterialConstants packMaterial(const scenes::Material& material, std::size_t subsurfaceRow = 0);
+
+/// What lighting reads of materials with a subsurface.
+struct PackedSubsurfaces {
+    std::vector<shared::SubsurfaceConstants> rows; ///< the first is that of surfaces without one
+    std::vector<std::size_t> rowOf;                ///< by material
+    std::vector<std::size_t> passed;               ///< the same of materials that let light through, else 0
+};
+PackedSubsurfaces packSubsurfaces(const scenes::Scene& scene, scenes::SubsurfaceRequest request);
 
 /// KHR_texture_transform without its offset: rotation x scale.
 glm::dmat2 linearPart(const scenes::TextureTransform& transform);

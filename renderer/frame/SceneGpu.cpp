@@ -76,8 +76,9 @@ gpu::PipelineState stateOf(gpu::PipelineState state, bool doubleSided, bool mirr
 
 } // namespace
 
-SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter)
-    : scene_(scene), features_(features), filter_(filter), materialsInUse_(scenes::inUse(scene).materials),
+SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter,
+                   scenes::SubsurfaceRequest subsurface)
+    : scene_(scene), features_(features), filter_(filter), subsurface_(subsurface), materialsInUse_(scenes::inUse(scene).materials),
       geometry_(makeGeometry()), draws_(makeDraws(geometry_.ranges)), materials_(makeMaterials()) {
     uploadTextures();
     revisedMaterials_ = casterMaterials();
@@ -119,8 +120,9 @@ SceneGpu::Materials SceneGpu::makeMaterials() const {
     static_assert(kTabledBytes == offsetof(shared::MaterialConstants, uvRow0));
     std::vector<std::byte> bytes(kMaterialStride * scene_.materials.size());
     std::vector<std::byte> tabled;
+    PackedSubsurfaces subsurfaces = packSubsurfaces(scene_, subsurface_);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
-        shared::MaterialConstants constants = packMaterial(scene_.materials[i]);
+        shared::MaterialConstants constants = packMaterial(scene_.materials[i], subsurfaces.rowOf[i]);
         for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
             if (shadersDecode(scene_.materials[i], slot)) constants.uvRow1[slot].w += float(TEXTURE_MODE_SRGB);
         }
@@ -134,6 +136,10 @@ SceneGpu::Materials SceneGpu::makeMaterials() const {
     materials.constants = std::make_unique<gpu::Buffer>(gpu::Buffer::of("materials", bytes));
     if (!features_[Feature::VaryingMaterials] && !tabled.empty())
         materials.tabled = std::make_unique<gpu::Buffer>(gpu::Buffer::of("material table", tabled));
+    if (features_.subsurfaceRows()) {
+        subsurfaces.rows.resize(SUBSURFACE_MOST); // as large as the block
+        materials.subsurfaces = std::make_unique<gpu::Buffer>(gpu::Buffer::of("subsurfaces", subsurfaces.rows));
+    }
     return materials;
 }
 
@@ -160,16 +166,20 @@ bool SceneGpu::isCaster(const Draw& draw) const {
 }
 
 std::vector<SceneGpu::CasterMaterial> SceneGpu::casterMaterials() const {
+    const std::vector<std::size_t> passed = packSubsurfaces(scene_, subsurface_).passed;
     std::vector<CasterMaterial> materials;
-    for (const scenes::Material& material : scene_.materials)
-        materials.emplace_back(material.castsShadow, material.alphaMode, material.alphaCutoff, material.baseColor.w);
+    for (std::size_t i = 0; i < passed.size(); ++i) {
+        const scenes::Material& material = scene_.materials[i];
+        materials.emplace_back(material.castsShadow, material.alphaMode, material.alphaCutoff, material.baseColor.w,
+                               passed[i]);
+    }
     return materials;
 }
 
 void SceneGpu::makeCasters() {
     std::vector<CasterMaterial> materials = casterMaterials();
     if (casters_ && materials == treeMaterials_) return;
-    const CasterTree tree = makeCasterTree(scene_);
+    const CasterTree tree = makeCasterTree(scene_, packSubsurfaces(scene_, subsurface_).passed);
     Casters casters{tree.space, std::make_unique<gpu::Buffer>(gpu::Buffer::of("casters", tree.texels))};
     if (const std::size_t read = casters.texels->texels(graph::Format::Rgba32Uint).texels(); read < tree.texels.size())
         throw std::runtime_error(fmt::format("the casters of shadows take {} texels of a buffer, of which the driver "

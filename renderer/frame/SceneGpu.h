@@ -26,7 +26,8 @@ namespace tessera::frame {
 /// approximately, and no levels beyond the first, which the filter does not read. The scene must outlive the object.
 class SceneGpu {
 public:
-    SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter = TextureFilter::Hardware);
+    SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter = TextureFilter::Hardware,
+             scenes::SubsurfaceRequest subsurface = {});
 
     /// Uploads the scene's current materials; their textures and features must be unchanged. Derives tangents anew
     /// where a material follows others than before. Throws as makeVertexStreams() does, and std::runtime_error when
@@ -60,6 +61,9 @@ public:
     /// The constants of all materials by their numbers (shaders/lib/material/material_table.glsl); null where frames of
     /// the features do not need them.
     const gpu::Buffer* materialTable() const { return materials_.tabled.get(); }
+
+    /// SubsurfaceConstants of all materials; null where frames of the features do not need them.
+    const gpu::Buffer* subsurfaces() const { return materials_.subsurfaces.get(); }
 
     /// Whether what is drawn hides light (scenes/Shadows.h).
     bool isCaster(const Draw& draw) const;
@@ -98,9 +102,11 @@ private:
     struct Materials {
         std::unique_ptr<gpu::Buffer> constants; ///< of each, 256 bytes or a multiple apart
         std::unique_ptr<gpu::Buffer> tabled;    ///< the first MATERIAL_TEXELS of each, without gaps
+        std::unique_ptr<gpu::Buffer> subsurfaces;
     };
-    /// What of a material decides which of its surfaces hide light: its casting, its alpha mode, cutoff and opacity.
-    using CasterMaterial = std::tuple<bool, scenes::AlphaMode, float, float>;
+    /// What of a material decides which of its surfaces hide light: its casting, its alpha mode, cutoff and opacity, and
+    /// the row of SubsurfaceConstants that lets it through.
+    using CasterMaterial = std::tuple<bool, scenes::AlphaMode, float, float, std::size_t>;
     std::vector<CasterMaterial> casterMaterials() const;
     Geometry makeGeometry() const;
     Draws makeDraws(const VertexStreams::Ranges& ranges) const;
@@ -117,6 +123,7 @@ private:
     const scenes::Scene& scene_;
     FeatureSet features_;
     TextureFilter filter_;
+    scenes::SubsurfaceRequest subsurface_;
     std::vector<bool> materialsInUse_; ///< by material; the table holds those in use, in their order
     Geometry geometry_;
     Draws draws_;

@@ -10,6 +10,8 @@ namespace {
 
 void read(const JsonValue& value, LightAnimation& animation);
 void read(const JsonValue& value, TextureUse& use);
+void read(const JsonValue& value, DiffusionGaussian& gaussian);
+void read(const JsonValue& value, Subsurface& subsurface);
 
 void read(const JsonValue& value, std::string& text) {
     text = value.isText() ? value.textOrEmpty() : value.text();
@@ -77,6 +79,18 @@ void read(const JsonValue& value, TextureUse& use) {
     JsonObject object = value.object();
     visitTextureUse(readerOf(object), use);
     object.done("a texture's fields");
+}
+
+void read(const JsonValue& value, DiffusionGaussian& gaussian) {
+    JsonObject object = value.object();
+    visitGaussian(readerOf(object), gaussian);
+    object.done("a Gaussian's fields");
+}
+
+void read(const JsonValue& value, Subsurface& subsurface) {
+    JsonObject object = value.object();
+    visitSubsurface(readerOf(object), subsurface);
+    object.done("a subsurface's fields");
 }
 
 } // namespace

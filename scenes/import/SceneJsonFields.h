@@ -36,6 +36,17 @@ void visitCamera(Visitor&& visit, Cameras&... camera) {
     visit("farMetres", camera.farMetres...);
 }
 
+template <typename Visitor, typename... Gaussians>
+void visitGaussian(Visitor&& visit, Gaussians&... gaussian) {
+    visit("varianceSquareMillimetres", gaussian.varianceSquareMillimetres...);
+    visit("weight", gaussian.weight...);
+}
+
+template <typename Visitor, typename... Subsurfaces>
+void visitSubsurface(Visitor&& visit, Subsurfaces&... subsurface) {
+    visitFields(kSubsurfaceFields, [&](const auto& field) { visit(field.name, subsurface.*field.member...); });
+}
+
 template <typename Visitor, typename... Uses>
 void visitTextureUse(Visitor&& visit, Uses&... use) {
     visit("image", use.image...);

@@ -171,6 +171,58 @@ private:
     Images& images_;
 };
 
+DiffusionProfile readProfile(const JsonValue& value) {
+    if (value.isText()) {
+        std::vector<std::string_view> names;
+        for (const NamedProfile& named : namedProfiles()) {
+            if (value.text() == named.name) return named.profile;
+            names.push_back(named.name);
+        }
+        value.failUnknown("profile", value.text(), names);
+    }
+    DiffusionProfile profile;
+    for (const JsonValue& element : value.elements(1, kMostGaussians)) {
+        JsonObject object = element.object();
+        DiffusionGaussian& gaussian = profile.emplace_back();
+        gaussian.varianceSquareMillimetres =
+            object.require("varianceSquareMillimetres").single(0.0, kMostVariance);
+        gaussian.weight = object.require("weight").color();
+        object.done("a Gaussian of a profile");
+    }
+    if (const std::string problem = profileProblem(profile); !problem.empty()) value.fail(problem);
+    return profile;
+}
+
+/// A method alone, or an object with what the methods are to use.
+void readSubsurface(const JsonValue& value, Subsurface& subsurface) {
+    const auto readMethod = [&](const JsonValue& method) {
+        subsurface.method = method.oneOf<SubsurfaceMethod>("subsurface method", kSubsurfaceMethodNames);
+    };
+    if (value.isText()) return readMethod(value);
+    JsonObject object = value.object();
+    if (const auto method = object.find("method")) readMethod(*method);
+    const auto number = [&](auto member) {
+        const auto field = fieldOf(kSubsurfaceFields, member);
+        if (const auto factor = object.find(field.name)) subsurface.*member = factor->single(field.least, field.most);
+    };
+    const auto channels = [&](glm::vec3 Subsurface::*member) {
+        const auto field = fieldOf(kSubsurfaceFields, member);
+        const auto factors = object.find(field.name);
+        if (!factors) return;
+        const std::vector<JsonValue> elements = factors->elements(3, 3);
+        for (glm::length_t c = 0; c < 3; ++c)
+            (subsurface.*member)[c] = elements[std::size_t(c)].single(field.least, field.most);
+    };
+    number(&Subsurface::scaleMetres);
+    number(&Subsurface::wrap);
+    channels(&Subsurface::wrapTint);
+    number(&Subsurface::bodyRadiusMetres);
+    channels(&Subsurface::absorptionPerMillimetre);
+    number(&Subsurface::preScatterShare);
+    if (const auto profile = object.find("profile")) subsurface.profile = readProfile(*profile);
+    object.done("a subsurface");
+}
+
 void readModelParameters(JsonObject& object, Material& material, Images& images) {
     Parameters parameters(object, material, images);
     const MaterialModelInfo& model = infoOf(material.model);
@@ -182,6 +234,7 @@ void readModelParameters(JsonObject& object, Material& material, Images& images)
     if (!model.isLit) return;
     parameters.normalMap();
     parameters.tangents();
+    if (const auto subsurface = object.find("subsurface")) readSubsurface(*subsurface, material.subsurface);
 }
 
 } // namespace

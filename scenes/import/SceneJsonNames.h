@@ -38,6 +38,11 @@ inline constexpr std::array kNormalMapSpaces = {Named<NormalMapSpace>{"tangent",
                                                 Named<NormalMapSpace>{"object", NormalMapSpace::Object}};
 inline constexpr std::array kTangentMethods = {Named<TangentMethod>{"mikktspace", TangentMethod::MikkTSpace},
                                                Named<TangentMethod>{"lengyel", TangentMethod::Lengyel}};
+inline constexpr auto kSubsurfaceMethodNames = [] {
+    std::array<Named<SubsurfaceMethod>, kSubsurfaceMethods.size()> names;
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = {kSubsurfaceMethods[i].name, kSubsurfaceMethods[i].method};
+    return names;
+}();
 inline constexpr auto kLightTypes = [] {
     std::array<Named<LightType>, kLightTypeCount> names;
     for (std::size_t i = 0; i < names.size(); ++i) names[i] = {lightTypes()[i].name, lightTypes()[i].type};
@@ -73,6 +78,9 @@ inline std::span<const Named<NormalMapSpace>> choicesOf(NormalMapSpace) {
 }
 inline std::span<const Named<TangentMethod>> choicesOf(TangentMethod) {
     return kTangentMethods;
+}
+inline std::span<const Named<SubsurfaceMethod>> choicesOf(SubsurfaceMethod) {
+    return kSubsurfaceMethodNames;
 }
 inline std::span<const Named<LightType>> choicesOf(LightType) {
     return kLightTypes;

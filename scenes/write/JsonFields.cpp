@@ -13,6 +13,8 @@ namespace {
 
 Json fieldOf(const LightAnimation& animation);
 Json fieldOf(const TextureUse& use);
+Json fieldOf(const DiffusionGaussian& gaussian);
+Json fieldOf(const Subsurface& subsurface);
 
 Json fieldOf(const std::string& text) {
     return text;
@@ -78,6 +80,20 @@ Json fieldOf(const TextureUse& use) {
     Json json = Json::object();
     // All members: the existing object is changed, not recreated.
     scenejson::visitTextureUse([&json](const char* key, const auto& member) { json[key] = fieldOf(member); }, use);
+    return json;
+}
+
+// All members, as of textures.
+Json fieldOf(const DiffusionGaussian& gaussian) {
+    Json json = Json::object();
+    scenejson::visitGaussian([&json](const char* key, const auto& member) { json[key] = fieldOf(member); }, gaussian);
+    return json;
+}
+
+Json fieldOf(const Subsurface& subsurface) {
+    Json json = Json::object();
+    scenejson::visitSubsurface([&json](const char* key, const auto& member) { json[key] = fieldOf(member); },
+                               subsurface);
     return json;
 }
 

@@ -97,6 +97,37 @@ private:
     Json& json_;
 };
 
+Json profileJson(const DiffusionProfile& profile) {
+    for (const NamedProfile& named : namedProfiles())
+        if (named.profile == profile) return named.name;
+    Json list = Json::array();
+    for (const DiffusionGaussian& gaussian : profile)
+        list.push_back({{"varianceSquareMillimetres", number(gaussian.varianceSquareMillimetres)},
+                        {"weight", numbers(gaussian.weight)}});
+    return list;
+}
+
+/// What differs from a material of which nothing is said, and the method.
+Json subsurfaceJson(const Subsurface& subsurface) {
+    const Subsurface none;
+    Json json;
+    json["method"] = scenejson::nameOf(subsurface.method);
+    const auto add = [&](const auto& field, auto toJson) {
+        const auto& value = subsurface.*field.member;
+        if (!(value == none.*field.member)) json[field.name] = toJson(value);
+    };
+    visitFields(kSubsurfaceFields, [&](const auto& field) {
+        using Value = std::remove_cvref_t<decltype(subsurface.*field.member)>;
+        if constexpr (std::is_same_v<Value, float>)
+            add(field, [](float value) { return number(value); });
+        else if constexpr (std::is_same_v<Value, glm::vec3>)
+            add(field, [](const glm::vec3& value) { return numbers(value); });
+        else if constexpr (std::is_same_v<Value, DiffusionProfile>)
+            add(field, profileJson);
+    });
+    return json;
+}
+
 Json byKeys(const Material& material) {
     Json json;
     json["name"] = material.name;
@@ -112,6 +143,7 @@ Json byKeys(const Material& material) {
     if (model.isLit) keys.normalMap();
     if (model.isLit && material.tangents != TangentMethod::MikkTSpace)
         json["tangents"] = scenejson::nameOf(material.tangents);
+    if (model.isLit && material.subsurface != Subsurface()) json["subsurface"] = subsurfaceJson(material.subsurface);
     json["alphaMode"] = scenejson::nameOf(material.alphaMode);
     json["alphaCutoff"] = number(material.alphaCutoff);
     json["doubleSided"] = material.doubleSided;

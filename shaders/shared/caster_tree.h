@@ -7,9 +7,10 @@
 //   nodes      CASTER_NODE_TEXELS each, in the order of a walk that goes down first. Texel 0: xyz of the box's low
 //              corner; w the node to go on with where the box is missed. Texel 1: xyz of its high corner; w 0, or in
 //              a leaf packCasterLeaf()
-//   triangles  three corners, xyz each. Where the material has a mask, w is the opacity that its factor and the vertex
-//              colour give, and two texels follow: the coordinates of the first two corners; those of the third, and
-//              the first texel of the mask
+//   triangles  three corners, xyz each; the first one's w is the triangle's mark, CASTER_PASSED and CASTER_MIRRORED.
+//              Where the material has a mask, each w is the opacity that its factor and the vertex colour give, and
+//              two texels follow: the coordinates of the first two corners; those of the third, the first texel of
+//              the mask, and the mark
 //   masks      one texel: the first texel of opacities, width and height in texels, CASTER_MASK_*; one more: x the
 //              cutoff as a float; then the opacities as floats, four a texel, row after row
 #include "interop.h"
@@ -18,6 +19,11 @@
 #define CASTER_TRIANGLE_TEXELS 3u
 #define CASTER_MASKED_TRIANGLE_TEXELS 5u
 #define CASTER_MASK_TEXELS 2u
+
+// Of a mark: the row of SubsurfaceConstants that lets light through the material, 0 for none; that the corners run
+// clockwise as seen from the front.
+#define CASTER_PASSED 255u
+#define CASTER_MIRRORED 256u
 
 // Triangles of a leaf at most.
 #define CASTER_LEAF_MOST 4u

@@ -22,6 +22,7 @@ SHARED_BEGIN
 #define UNIFORM_LIGHT_SHAPES 4
 #define UNIFORM_LIGHTING 5
 #define UNIFORM_CASTER_TREE 6
+#define UNIFORM_SUBSURFACE 7
 
 // Storage blocks. OpenGL 4.5 guarantees 0 to 7 to fragment and compute shaders; shaders that build light
 // lists never read lights from storage blocks.

@@ -136,10 +136,9 @@ inline double gltfLobe(double alphaT, double alphaB, const glm::dvec3& l, const 
     return distribution(alphaT, alphaB, h) / (1.0 + lambda(l) + lambda(v)) / (4.0 * l.z * v.z);
 }
 
-/// The model's outgoing radiance for unit incident intensity, for materials without textures. `tangent` is that of the
-/// surface before the material turns it.
-inline glm::dvec3 reflected(const scenes::Material& m, const glm::dvec3& n, const glm::dvec3& l, const glm::dvec3& v,
-                            const glm::dvec3& tangent = {1, 0, 0}) {
+/// What reflected() is of a material without a subsurface.
+inline glm::dvec3 reflectedAtOnce(const scenes::Material& m, const glm::dvec3& n, const glm::dvec3& l,
+                                  const glm::dvec3& v, const glm::dvec3& tangent) {
     const double nl = glm::dot(n, l), nv = glm::dot(n, v);
     if (nl <= 0.0) return glm::dvec3(0.0);
     const glm::dvec3 base(m.baseColor), tint(m.specularColor), h = glm::normalize(l + v);
@@ -186,6 +185,35 @@ inline glm::dvec3 reflected(const scenes::Material& m, const glm::dvec3& n, cons
     const double coat =
         nv > 0.0 ? distribution(coatAlpha, nh) * correlatedMasking(coatAlpha, nl, nv) / (4.0 * nl * nv) : 0.0;
     return glm::mix(share, glm::dvec3(coat), coatWeight(m, nv)) * nl;
+}
+
+/// Of a cosine of 1, the share of the light that enters a surface and leaves it to the viewer, for each solid angle.
+inline glm::dvec3 entering(const scenes::Material& m, double nl, double nv, double lh) {
+    const glm::dvec3 base(m.baseColor);
+    if (m.model != scenes::MaterialModel::MetallicRoughness) return base;
+    const double dielectric = squared((double(m.ior) - 1.0) / (double(m.ior) + 1.0)), metallic = m.metallic;
+    const glm::dvec3 f0 = glm::mix(
+        glm::min(dielectric * glm::dvec3(m.specularColor), glm::dvec3(1.0)) * double(m.specularFactor), base, metallic);
+    const double f90 = m.specularFactor + (1.0 - m.specularFactor) * metallic;
+    const glm::dvec3 f = f0 + (glm::dvec3(f90) - f0) * std::pow(1.0 - lh, 5);
+    const glm::dvec3 share = (glm::dvec3(1.0) - f) * (1.0 - metallic) * base / std::numbers::pi;
+    const double strongest = std::max({m.sheenColor.x, m.sheenColor.y, m.sheenColor.z});
+    if (strongest == 0.0) return share;
+    const double hairAlpha = std::max(squared(m.sheenPerceptualRoughness), 1e-3);
+    return share * (1.0 - strongest * std::max(tabledSheenEnergy(hairAlpha, nl), tabledSheenEnergy(hairAlpha, nv)));
+}
+
+/// The model's outgoing radiance for unit incident intensity, for materials without textures. `tangent` is that of the
+/// surface before the material turns it.
+inline glm::dvec3 reflected(const scenes::Material& m, const glm::dvec3& n, const glm::dvec3& l, const glm::dvec3& v,
+                            const glm::dvec3& tangent = {1, 0, 0}) {
+    const glm::dvec3 atOnce = reflectedAtOnce(m, n, l, v, tangent);
+    if (m.subsurface.method != scenes::SubsurfaceMethod::Wrap) return atOnce;
+    const double nl = glm::dot(n, l), nv = glm::dot(n, v), lit = std::max(nl, 0.0);
+    const glm::dvec3 below = entering(m, lit, std::max(nv, 0.0), glm::dot(l, glm::normalize(l + v)));
+    const glm::dvec3 wrap = double(m.subsurface.wrap) * glm::dvec3(m.subsurface.wrapTint);
+    const glm::dvec3 wrapped = glm::max((nl + wrap) / (1.0 + wrap), glm::dvec3(0.0));
+    return atOnce + (1.0 - coatWeight(m, nv)) * below * (wrapped - lit);
 }
 
 /// The light's intensity at a point, and the unit direction to it.

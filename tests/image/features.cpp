@@ -191,6 +191,9 @@ TEST_F(Features, everyMaterialParameterChangesThePicture) {
         material("opacity of a blended surface", kGlass, [](Material& m) { m.baseColor.a = 0.9f; }),
         material("blend off", kGlass, [](Material& m) { m.alphaMode = scenes::AlphaMode::Opaque; }),
         material("double-sided, seen from behind", kDielectric, [](Material& m) { m.doubleSided = false; }),
+        material("wrap", kGloss, [](Material& m) { m.subsurface.wrap = 0.2f; }),
+        material("tint of the wrap", kCloth, [](Material& m) { m.subsurface.wrapTint.r = 1.0f; }),
+        material("no subsurface", kCloth, [](Material& m) { m.subsurface.method = scenes::SubsurfaceMethod::None; }),
         material("unlit", kDielectric, [](Material& m) { m.model = MaterialModel::SingleColor; }),
         material("lambert", kDielectric, [](Material& m) { m.model = MaterialModel::Lambert; }),
         material("microfacet", kDielectric, [](Material& m) { m.model = MaterialModel::Microfacet; }),
@@ -319,6 +322,7 @@ TEST_F(Features, everyFrameSettingChangesItsOwnFeaturesOnly) {
         {"specular off", true, [](frame::FrameSettings& s) { s.specular = false; }},
         {"solo light", true, [](frame::FrameSettings& s) { s.soloLight = int(kSpot); }},
         {"view", true, [](frame::FrameSettings& s) { s.view = frame::DebugView::Normal; }},
+        {"subsurface none", true, [](frame::FrameSettings& s) { s.subsurface = scenes::SubsurfaceMethod::None; }},
         {"filter", true, [](frame::FrameSettings& s) { s.filter = frame::TextureFilter::Exact; }},
     };
     for (const Setting& setting : settings) {

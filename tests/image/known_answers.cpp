@@ -258,6 +258,42 @@ TEST_F(KnownAnswers, layersOfMetallicRoughnessAreTheExtensions) {
     expectAnswer("sheen over black", cloth, light, 2e-5);
 }
 
+TEST_F(KnownAnswers, wrappedLightIsTheTextbooks) {
+    std::vector<std::pair<const char*, Material>> materials{{"lambert", lambert()}, {"chalk", chalk()}};
+    Material phong = lambert();
+    phong.model = MaterialModel::BlinnPhong;
+    phong.exponent = 20.0f;
+    materials.emplace_back("blinn_phong", phong);
+    Material glossy = lambert();
+    glossy.model = MaterialModel::Microfacet;
+    glossy.alpha = 0.3f;
+    materials.emplace_back("microfacet", glossy);
+    Material coated;
+    coated.baseColor = {0.9f, 0.6f, 0.3f, 1.0f};
+    coated.perceptualRoughness = 0.6f;
+    coated.metallic = 0.3f;
+    coated.clearcoat = 0.8f;
+    coated.clearcoatPerceptualRoughness = 0.5f;
+    materials.emplace_back("metallic_roughness, coated", coated);
+    Material cloth = chalk();
+    cloth.sheenColor = {0.2f, 0.5f, 1.0f};
+    cloth.sheenPerceptualRoughness = 0.6f;
+    materials.emplace_back("cloth", cloth);
+    // The last one stands behind the quad.
+    const Light lights[] = {test::pointLight({0.3, -0.2, 0.8}, 2.5f), test::pointLight({2.5, 0.6, -0.4}, 9.0f)};
+    for (auto& [name, material] : materials) {
+        material.subsurface.method = scenes::SubsurfaceMethod::Wrap;
+        material.subsurface.wrap = 0.7f;
+        material.subsurface.wrapTint = {1.0f, 0.6f, 0.4f};
+        for (const Light& light : lights) {
+            // As above; from behind the sheen leaves 0.34 of what lies below, so that 0.035 are a tenth.
+            const double sheen = material.sheenColor.z == 0.0f ? 0.0 : light.positionWS.z > 0.0 ? 0.06 : 0.12;
+            expectAnswer(fmt::format("wrap, {}, light at z = {}", name, light.positionWS.z).c_str(), material, light,
+                         std::max(sheen, 2e-6));
+        }
+    }
+}
+
 TEST_F(KnownAnswers, emissionIsDimmedByItsCoat) {
     Material material;
     material.emissive = {1.0f, 0.5f, 0.25f};

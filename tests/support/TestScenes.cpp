@@ -114,6 +114,9 @@ void addLobes(std::vector<Material>& materials) {
     cloth.sheenPerceptualRoughness = 0.8f;
     cloth.texture(TextureSlot::SheenColor) = textured(kColors);
     cloth.texture(TextureSlot::SheenRoughness) = textured(kColors);
+    cloth.subsurface.method = SubsurfaceMethod::Wrap;
+    cloth.subsurface.wrap = 0.8f;
+    cloth.subsurface.wrapTint = {0.2f, 1.0f, 0.6f};
 }
 
 std::vector<Material> everyMaterial() {
@@ -141,6 +144,7 @@ std::vector<Material> everyMaterial() {
     microfacet.texture(TextureSlot::SpecularColor) = textured(kColors);
     microfacet.texture(TextureSlot::MetallicRoughness) = textured(kColors);
     microfacet.texture(TextureSlot::Ior) = textured(kNormals);
+    microfacet.subsurface.method = SubsurfaceMethod::Wrap;
     Material& metal = add(MaterialModel::MetallicRoughness, "metallic-roughness, tangent-space normals");
     metal.baseColor = {0.9f, 0.8f, 0.5f, 1.0f};
     metal.perceptualRoughness = 0.8f;

@@ -140,7 +140,8 @@ std::optional<std::size_t> equalPicture(const CompareResult& result, std::span<c
 std::vector<ChannelShare> channelShares(engine::Renderer& renderer, const Asked& asked, const TruthPicture& truth,
                                         double relMse) {
     std::vector<ChannelShare> shares;
-    const frame::FeatureSet features = frame::surfaceFeatures(renderer.scene(), asked.settings.prune);
+    const frame::FeatureSet features =
+        frame::surfaceFeatures(renderer.scene(), asked.settings.prune, asked.settings.subsurface);
     for (const frame::Channel channel : frame::neededChannels(features, asked.settings.layout, false)) {
         frame::FrameSettings settings = asked.settings;
         settings.layout.encoding[std::size_t(channel)] = frame::Encoding::Exact;

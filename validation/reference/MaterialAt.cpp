@@ -89,6 +89,15 @@ SurfacePoint surfaceAt(const Hit& hit, const Textures& textures) {
     point.normal = normalAt(hit, textures);
     setDirection(hit, textures, point);
     setLayers(hit, textures, point);
+    if (hit.object->subsurface == scenes::SubsurfaceMethod::Wrap) {
+        point.wrap = double(material.subsurface.wrap) * glm::dvec3(material.subsurface.wrapTint);
+        point.bodyRadiusMetres = hit.object->bodyRadiusMetres;
+    }
+    if (hit.object->subsurface == scenes::SubsurfaceMethod::DepthMap) {
+        point.passes = true;
+        const double perMillimetre = 1000.0 * double(material.subsurface.scaleMetres);
+        point.absorptionPerMetre = perMillimetre * glm::dvec3(material.subsurface.absorptionPerMillimetre);
+    }
     return point;
 }
 

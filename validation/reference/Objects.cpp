@@ -130,13 +130,14 @@ Anchor perspectiveAnchor(const std::vector<Bounds>& all, const CameraRays& rays)
 
 } // namespace
 
-Objects::Objects(const scenes::Scene& scene, const CameraRays& rays) {
+Objects::Objects(const scenes::Scene& scene, const CameraRays& rays, scenes::SubsurfaceRequest subsurface) {
     const std::vector<glm::dmat4> worldFromNode = scenes::worldFromNodes(scene);
     std::uint32_t number = 0;
     for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
         for (const scenes::MeshInstance& instance : scene.nodes[node].instances)
-            add(scene, instance, worldFromNode[node], rays, number++);
+            add(scene, instance, worldFromNode[node], rays, subsurface, number++);
     }
+    setBodyRadii();
     std::vector<std::pair<double, Object>> byDepth;
     for (const Object& object : transparent_) byDepth.emplace_back(depthOfBoxCentre(object, rays.forward()), object);
     std::stable_sort(byDepth.begin(), byDepth.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -179,12 +180,13 @@ double Objects::roundingBeyondMetres(const glm::dvec3& placeRWS) const {
 }
 
 void Objects::add(const scenes::Scene& scene, const scenes::MeshInstance& instance, const glm::dmat4& worldFromNode,
-                  const CameraRays& rays, std::uint32_t number) {
+                  const CameraRays& rays, scenes::SubsurfaceRequest subsurface, std::uint32_t number) {
     Object object;
     object.mesh = &scene.meshes[std::size_t(instance.mesh)];
     object.material = &scene.materials[std::size_t(instance.material)];
     if (object.mesh->indices.empty()) return;
     object.castsShadow = instance.castsShadow && object.material->castsShadow;
+    object.subsurface = scenes::subsurfaceOf(*object.material, subsurface);
     object.number = number;
     object.rwsFromObject = worldFromNode;
     object.rwsFromObject[3] -= glm::dvec4(rays.eyeWS(), 0.0);
@@ -193,6 +195,20 @@ void Objects::add(const scenes::Scene& scene, const scenes::MeshInstance& instan
     if (tangentSlot(*object.material)) object.tangentsOS = &tangentsOf(*object.mesh, *object.material);
     const bool isTransparent = object.material->alphaMode == scenes::AlphaMode::Blend;
     (isTransparent ? transparent_ : opaque_).push_back(object);
+}
+
+void Objects::setBodyRadii() {
+    std::map<const scenes::Material*, scenes::Box3> boxes;
+    for (const std::vector<Object>* list : {&opaque_, &transparent_})
+        for (const Object& object : *list)
+            for (std::uint32_t corner = 0; corner < object.mesh->indices.size(); ++corner)
+                boxes[object.material].extend(object.cornerRWS(corner / 3, int(corner % 3)));
+    for (std::vector<Object>* list : {&opaque_, &transparent_})
+        for (Object& object : *list) {
+            const double given = double(object.material->subsurface.bodyRadiusMetres);
+            const glm::dvec3 half = 0.5 * (boxes[object.material].max - boxes[object.material].min);
+            object.bodyRadiusMetres = given > 0.0 ? given : std::min({half.x, half.y, half.z});
+        }
 }
 
 const std::vector<glm::dvec4>& Objects::tangentsOf(const scenes::Mesh& mesh, const scenes::Material& material) {

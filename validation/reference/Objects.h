@@ -27,7 +27,9 @@ struct Object {
     const scenes::Mesh* mesh = nullptr;
     const scenes::Material* material = nullptr;
     bool castsShadow = true;
-    std::uint32_t number = 0; ///< among all mesh instances of the scene, in document order
+    scenes::SubsurfaceMethod subsurface = scenes::SubsurfaceMethod::None;
+    double bodyRadiusMetres = 0.0; ///< scenes::Subsurface::bodyRadiusMetres, or what it stands for
+    std::uint32_t number = 0;      ///< among all mesh instances of the scene, in document order
     glm::dmat4 rwsFromObject{1.0};
     glm::dmat3 normalFromObject{1.0};                    ///< cofactor matrix times the determinant's sign
     double handedness = 1.0;                             ///< -1 where the transform mirrors
@@ -54,7 +56,7 @@ struct Object {
 /// All that a scene draws, seen from an eye. The scene must outlive the object.
 class Objects {
 public:
-    Objects(const scenes::Scene& scene, const CameraRays& rays);
+    Objects(const scenes::Scene& scene, const CameraRays& rays, scenes::SubsurfaceRequest subsurface = {});
 
     const std::vector<Object>& opaque() const { return opaque_; } ///< alpha-masked ones too
     /// In the order in which they are blended: far to near by the depth of their mesh's box centre, ties by number.
@@ -67,7 +69,8 @@ public:
 
 private:
     void add(const scenes::Scene& scene, const scenes::MeshInstance& instance, const glm::dmat4& worldFromNode,
-             const CameraRays& rays, std::uint32_t number);
+             const CameraRays& rays, scenes::SubsurfaceRequest subsurface, std::uint32_t number);
+    void setBodyRadii();
     const std::vector<glm::dvec4>& tangentsOf(const scenes::Mesh& mesh, const scenes::Material& material);
 
     Anchor anchor_;

@@ -1,7 +1,9 @@
 #include "validation/reference/Occlusion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "validation/reference/MaterialAt.h"
 #include "validation/reference/Slots.h"
@@ -14,6 +16,17 @@ namespace {
 /// Of a light with a size: where rounding moves less, it decides nothing.
 constexpr double kDecisiveShare = 0.01;
 
+/// Wrapped light is asked for from above the surface: (this - n.l) radii of the body, where n.l is less.
+constexpr double kLiftCosine = 0.1;
+/// How far a program's normals are off, beside their texture.
+constexpr double kNormalRounding = 4e-6;
+
+double liftMetres(const SurfacePoint& surface, const glm::dvec3& toLight) {
+    if (surface.wrap == glm::dvec3(0.0)) return 0.0;
+    const double cosine = glm::dot(surface.normal, toLight) / glm::length(toLight);
+    return std::max(kLiftCosine - cosine, 0.0) * surface.bodyRadiusMetres;
+}
+
 /// From a point to where the light is, or past all casters. Relative to the casters' centre.
 struct Segment {
     glm::dvec3 from{0.0}, along{0.0};
@@ -23,9 +36,11 @@ struct Segment {
 struct ShadowQuery : RTCIntersectContext {
     Segment segment;
     glm::dvec3 centreRWS{0.0};
-    const Object* ownObject = nullptr; ///< of the surface that is lit, with its triangle
+    const Object* ownObject = nullptr; ///< of the surface that the segment begins on, with its triangle
     std::uint32_t ownTriangle = 0;
     const Textures* textures = nullptr;
+    const scenes::Material* passed = nullptr; ///< what has it hides nothing, and its crossings are kept
+    std::vector<double> crossings;            ///< shares of the segment; minus those where it goes in
     bool isHidden = false;
     bool isUndecided = false; ///< a mask may have another texel there
 };
@@ -79,6 +94,26 @@ std::optional<Hit> crossingOf(const Object& object, std::uint32_t triangle, cons
     return hit;
 }
 
+/// The share of the segment up to a crossing; minus that where it goes in, past the side from which the corners run
+/// counter-clockwise.
+double signedShare(const Object& object, std::uint32_t triangle, const Hit& hit, const ShadowQuery& query) {
+    glm::dvec3 corners[3];
+    for (int i = 0; i < 3; ++i) corners[i] = object.cornerRWS(triangle, i) - query.centreRWS - query.segment.from;
+    const glm::dvec3& along = query.segment.along;
+    const glm::dvec3 place = hit.weights.x * corners[0] + hit.weights.y * corners[1] + hit.weights.z * corners[2];
+    const double share = glm::dot(place, along) / glm::dot(along, along);
+    const glm::dvec3 front = object.handedness * glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    return glm::dot(front, along) < 0.0 ? -share : share;
+}
+
+/// The share of a segment that lies inside. Triangles that meet in an edge are crossed once.
+double shareInside(std::vector<double> crossings) {
+    std::ranges::sort(crossings, {}, [](double crossing) { return std::abs(crossing); });
+    const auto isSame = [](double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(a); };
+    crossings.erase(std::unique(crossings.begin(), crossings.end(), isSame), crossings.end());
+    return std::max(std::accumulate(crossings.begin(), crossings.end(), 0.0), 0.0);
+}
+
 void judgeCrossing(const RTCFilterFunctionNArguments* arguments) {
     auto& query = *static_cast<ShadowQuery*>(arguments->context);
     const auto& object = *static_cast<const Object*>(arguments->geometryUserPtr);
@@ -95,6 +130,10 @@ void judgeCrossing(const RTCFilterFunctionNArguments* arguments) {
         if (std::abs(opacity - cutoff) < 16.0 * 0x1p-24 * std::max(1.0, cutoff)) query.isUndecided = true;
         if (opacity < cutoff) return;
     }
+    if (object.material == query.passed) {
+        query.crossings.push_back(signedShare(object, triangle, *hit, query));
+        return;
+    }
     query.isHidden = true;
     arguments->valid[0] = -1;
 }
@@ -110,14 +149,16 @@ struct Occlusion::Casters {
     Device device;
     Tree tree; ///< null without casters
 
-    ShadowQuery ask(const Segment& segment, const Hit& surface) const {
+    /// `own` is null where the segment begins above the surface.
+    ShadowQuery ask(const Segment& segment, const Hit* own, const scenes::Material* passed = nullptr) const {
         ShadowQuery query{};
         rtcInitIntersectContext(&query);
         query.segment = segment;
         query.centreRWS = anchor.centreRWS;
-        query.ownObject = surface.object;
-        query.ownTriangle = surface.triangle;
+        query.ownObject = own ? own->object : nullptr;
+        query.ownTriangle = own ? own->triangle : 0;
         query.textures = &textures;
+        query.passed = passed;
         RTCRay ray{};
         ray.org_x = float(segment.from.x);
         ray.org_y = float(segment.from.y);
@@ -142,15 +183,15 @@ struct Occlusion::Casters {
 
     /// The same of the other end of a way to a light: its place, or (not placed) what the way there is turned by. A
     /// direction is rounded as a position is.
-    double leewayMetres(bool isPlaced, const ShiningLight& light, const glm::dvec3& pointRWS, double wayMetres) const {
-        return isPlaced ? leewayMetres(light.positionRWS) : leewayMetres(pointRWS) + kPositionRounding * wayMetres;
+    double leewayMetres(bool isPlaced, const ShiningLight& light, double pointMetres, double wayMetres) const {
+        return isPlaced ? leewayMetres(light.positionRWS) : pointMetres + kPositionRounding * wayMetres;
     }
 
     static Answer decided(double share) { return {share, share, share}; }
     /// All or nothing of the light at one end of a segment. `own` is null where the point's own triangle does not
-    /// count.
-    Answer decide(const Segment& segment, bool isPlaced, const ShiningLight& light, const Hit& surface,
-                  const OwnTriangle* own, const glm::dvec3& pointRWS, bool leeway) const {
+    /// count, and `pointMetres` what rounding leaves open of the point.
+    Answer decide(const Segment& segment, bool isPlaced, const ShiningLight& light, const Hit* surface,
+                  const OwnTriangle* own, double pointMetres, bool leeway) const {
         const bool isBehind = own && own->hides(segment.along);
         if (isBehind && !leeway) return decided(0.0);
         const ShadowQuery exact = ask(segment, surface);
@@ -160,8 +201,7 @@ struct Occlusion::Casters {
         if (exact.isUndecided) return undecided;
         // The ends move across the way, which decides edges, and along it, which decides contacts.
         const auto& [from, along] = segment;
-        const double pointMetres = leewayMetres(pointRWS);
-        const double lightMetres = leewayMetres(isPlaced, light, pointRWS, glm::length(along));
+        const double lightMetres = leewayMetres(isPlaced, light, pointMetres, glm::length(along));
         // Where casters hide the light, the own triangle does not matter.
         const bool isOwnUndecided = own && own->isUndecided(along, pointMetres + lightMetres);
         if (isBehind && !isOwnUndecided) return decided(0.0);
@@ -179,6 +219,14 @@ struct Occlusion::Casters {
         if (differs(-pointMetres * ahead, lightMetres * ahead) || differs(pointMetres * ahead, -lightMetres * ahead))
             return undecided;
         return decided(share);
+    }
+
+    /// Of a segment that begins on the surface, by channel.
+    glm::dvec3 passage(const Segment& segment, const Hit& hit, const SurfacePoint& surface) const {
+        ShadowQuery query = ask(segment, &hit, hit.object->material);
+        if (query.isHidden) return glm::dvec3(0.0);
+        const double metres = shareInside(std::move(query.crossings)) * glm::length(segment.along);
+        return glm::exp(-metres * surface.absorptionPerMetre);
     }
 };
 
@@ -210,13 +258,20 @@ Occlusion::Occlusion(const scenes::Scene& scene, const Objects& objects)
 
 Occlusion::~Occlusion() = default;
 
-Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& surface, const glm::dvec3& pointRWS,
-                                const glm::dvec3& toViewer, const Settings& settings) const {
+Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const SurfacePoint& surface,
+                                const glm::dvec3& pointRWS, const glm::dvec3& toViewer,
+                                const Settings& settings) const {
     const Casters& casters = *casters_;
     if (!light.castsShadow || !casters.tree) return {};
     const bool isPlaced = scenes::infoOf(light.light.type).hasPosition();
-    const glm::dvec3 from = pointRWS - casters.anchor.centreRWS;
-    const glm::dvec3 toLight = isPlaced ? light.positionRWS - pointRWS : -light.light.directionWS;
+    const auto wayFrom = [&](const glm::dvec3& placeRWS) {
+        return isPlaced ? light.positionRWS - placeRWS : -light.light.directionWS;
+    };
+    if (wayFrom(pointRWS) == glm::dvec3(0.0)) return {};
+    const double lift = liftMetres(surface, wayFrom(pointRWS));
+    const glm::dvec3 fromRWS = pointRWS + lift * surface.normal;
+    const glm::dvec3 from = fromRWS - casters.anchor.centreRWS;
+    const glm::dvec3 toLight = wayFrom(fromRWS);
     const double distance = glm::length(toLight);
     if (distance == 0.0) return {};
     const double radius =
@@ -227,9 +282,14 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& surface, c
     const glm::dvec3 aside = glm::normalize(
         glm::cross(ahead, std::abs(ahead.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
     const glm::dvec3 up = glm::cross(aside, ahead);
-    const OwnTriangle own(surface, toViewer);
+    const OwnTriangle ownTriangle(hit, toViewer);
+    const bool wraps = surface.wrap != glm::dvec3(0.0);
+    const OwnTriangle* const own = wraps ? nullptr : &ownTriangle;
+    const Hit* const start = lift > 0.0 ? nullptr : &hit;
+    const double pointMetres =
+        casters.leewayMetres(fromRWS) + (wraps ? kNormalRounding * surface.bodyRadiusMetres : 0.0);
     const Segment toCentre{from, toLight * reach};
-    if (radius == 0.0) return casters.decide(toCentre, isPlaced, light, surface, &own, pointRWS, settings.leeway);
+    if (radius == 0.0) return casters.decide(toCentre, isPlaced, light, start, own, pointMetres, settings.leeway);
     Answer sum{0.0, 0.0, 0.0};
     double halves[2] = {0.0, 0.0}; // of every other ray
     const auto trace = [&](int rings) {
@@ -242,7 +302,7 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& surface, c
                 const double angle = 2.0 * std::numbers::pi * (sector + 0.6180339887498949 * ring) / sectors;
                 const glm::dvec3 place = toLight + radius * share * (std::cos(angle) * aside + std::sin(angle) * up);
                 halves[(ring + sector) % 2] +=
-                    casters.decide({from, place * reach}, isPlaced, light, surface, &own, pointRWS, false).share;
+                    casters.decide({from, place * reach}, isPlaced, light, start, own, pointMetres, false).share;
             }
         }
         sum.share = (halves[0] + halves[1]) / double(rings * sectors);
@@ -264,15 +324,14 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& surface, c
     }
     double stray = isNoisy ? 5.0 * std::sqrt(sum.noise.variance) + 2.0 / rays : 0.0;
     // Where rounding decides whether casters hide the middle of a light, it may decide the rest.
-    if (settings.leeway && casters.decide(toCentre, isPlaced, light, surface, nullptr, pointRWS, true).isUndecided) {
+    if (settings.leeway && casters.decide(toCentre, isPlaced, light, start, nullptr, pointMetres, true).isUndecided) {
         stray = 1.0;
         sum.isUndecided = true;
     }
     // The own triangle's plane may cut the disk elsewhere: by the length of the chord there, at most its diameter.
-    const double metres =
-        casters.leewayMetres(pointRWS) + casters.leewayMetres(isPlaced, light, pointRWS, distance * reach);
-    const double cut = own.leewayRadians * distance + metres / reach;
-    if (settings.leeway && std::abs(glm::dot(own.normal, toLight)) <= radius + cut) {
+    const double metres = pointMetres + casters.leewayMetres(isPlaced, light, pointMetres, distance * reach);
+    const double cut = ownTriangle.leewayRadians * distance + metres / reach;
+    if (settings.leeway && own && std::abs(glm::dot(own->normal, toLight)) <= radius + cut) {
         const double share = 2.0 * cut / (std::numbers::pi * radius);
         stray += share;
         sum.isUndecided = sum.isUndecided || share > kDecisiveShare;
@@ -280,6 +339,38 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& surface, c
     sum.least = std::max(0.0, sum.share - stray);
     sum.most = std::min(1.0, sum.share + stray);
     return sum;
+}
+
+Occlusion::Passage Occlusion::passageOf(const ShiningLight& light, const Hit& hit, const SurfacePoint& surface,
+                                        const glm::dvec3& pointRWS, bool leeway) const {
+    const Casters& casters = *casters_;
+    if (!light.castsShadow || !casters.tree) return {};
+    const bool isPlaced = scenes::infoOf(light.light.type).hasPosition();
+    const glm::dvec3 from = pointRWS - casters.anchor.centreRWS;
+    const glm::dvec3 toLight = isPlaced ? light.positionRWS - pointRWS : -light.light.directionWS;
+    if (toLight == glm::dvec3(0.0)) return {};
+    const glm::dvec3 along = toLight * (isPlaced ? 1.0 : 2.0 * (casters.radiusMetres + glm::length(from)) + 1.0);
+    Passage passage;
+    passage.share = passage.least = passage.most = casters.passage({from, along}, hit, surface);
+    if (!leeway) return passage;
+    const double pointMetres = casters.leewayMetres(pointRWS);
+    const double lightMetres = casters.leewayMetres(isPlaced, light, pointMetres, glm::length(along));
+    const glm::dvec3 ahead = glm::normalize(along);
+    const glm::dvec3 aside = glm::normalize(
+        glm::cross(ahead, std::abs(ahead.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
+    const glm::dvec3 up = glm::cross(aside, ahead);
+    const auto extend = [&](const glm::dvec3& pointStep, const glm::dvec3& lightStep) {
+        const glm::dvec3 other = casters.passage({from + pointStep, along + lightStep - pointStep}, hit, surface);
+        passage.least = glm::min(passage.least, other);
+        passage.most = glm::max(passage.most, other);
+    };
+    for (const glm::dvec3& way : {aside, -aside, up, -up}) extend(pointMetres * way, lightMetres * way);
+    extend(-pointMetres * ahead, lightMetres * ahead);
+    extend(pointMetres * ahead, -lightMetres * ahead);
+    // Of what light from straight behind would give.
+    const glm::dvec3 open = std::abs(glm::dot(surface.normal, ahead)) * (passage.most - passage.least);
+    passage.isUndecided = std::max({open.r, open.g, open.b}) > kDecisiveShare;
+    return passage;
 }
 
 } // namespace tessera::reference

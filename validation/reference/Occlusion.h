@@ -3,6 +3,7 @@
 
 #include "validation/reference/Hit.h"
 #include "validation/reference/LightAt.h"
+#include "validation/reference/MaterialAt.h"
 #include "validation/reference/Settings.h"
 #include "validation/reference/Textures.h"
 
@@ -25,9 +26,19 @@ public:
         bool isUndecided = false; ///< rounding decides, not the noise of rays alone
         Noise noise = {};         ///< of the share that Settings::shadowSamples independent rays find
     };
-    /// From a point of a surface. Its own triangle hides what lies on the other side of it than the viewer.
-    Answer of(const ShiningLight& light, const Hit& surface, const glm::dvec3& pointRWS, const glm::dvec3& toViewer,
-              const Settings& settings) const;
+    /// From a point of a surface. Its own triangle hides what lies on the other side of it than the viewer, unless the
+    /// surface wraps light: then the light is asked for from a point above the surface.
+    Answer of(const ShiningLight& light, const Hit& hit, const SurfacePoint& surface, const glm::dvec3& pointRWS,
+              const glm::dvec3& toViewer, const Settings& settings) const;
+
+    /// The share, by channel, of a light below the horizon that passes through what has the surface's material; with
+    /// what rounding allows a program besides.
+    struct Passage {
+        glm::dvec3 share{0.0}, least{0.0}, most{0.0};
+        bool isUndecided = false;
+    };
+    Passage passageOf(const ShiningLight& light, const Hit& hit, const SurfacePoint& surface,
+                      const glm::dvec3& pointRWS, bool leeway) const;
 
 private:
     struct Casters;

@@ -135,13 +135,43 @@ glm::dvec3 metallicRoughness(const SurfacePoint& point, const Directions& direct
     return underSheen(point, directions, brdf, specular) * directions.cosLight;
 }
 
+/// Of models whose diffuse reflection is the same in all directions.
+glm::dvec3 colorOf(const SurfacePoint& point, const Directions&) {
+    return point.color;
+}
+
+/// What neither the metal, the Fresnel factor nor the sheen keeps out of metallic_roughness.
+glm::dvec3 belowGloss(const SurfacePoint& point, const Directions& directions) {
+    Directions lit = directions;
+    lit.cosLight = std::max(directions.cosLight, 0.0);
+    const double contrast = (point.ior - 1.0) / (point.ior + 1.0);
+    const double grazing = std::lerp(point.specularFactor, 1.0, point.metallic);
+    glm::dvec3 brdf(0.0);
+    for (int c = 0; c < 3; ++c) {
+        const double dielectric = std::min(contrast * contrast * point.specularColor[c], 1.0) * point.specularFactor;
+        const double reflected =
+            fresnelSchlick(std::lerp(dielectric, point.color[c], point.metallic), grazing, lit.cosIncidence);
+        brdf[c] = (1.0 - reflected) * (1.0 - point.metallic) * point.color[c] / std::numbers::pi;
+    }
+    return underSheen(point, lit, brdf, false);
+}
+
+/// (n.l + w) / (1 + w) instead of n.l where light enters, by channel. Source: Green 2004, "Real-Time Approximations to
+/// Subsurface Scattering", GPU Gems, chapter 16.
+glm::dvec3 wrapped(const SurfacePoint& point, const Directions& directions, const glm::dvec3& highlight) {
+    glm::dvec3 cosine;
+    for (int c = 0; c < 3; ++c)
+        cosine[c] = std::clamp((directions.cosLight + point.wrap[c]) / (1.0 + point.wrap[c]), 0.0, 1.0);
+    return modelOf(point.model).entering(point, directions) * cosine + highlight;
+}
+
 constexpr Model kModels[] = {
-    {MaterialModel::SingleColor, unlit},
-    {MaterialModel::Lambert, lambert},
-    {MaterialModel::BlinnPhong, blinnPhong},
-    {MaterialModel::Microfacet, microfacet},
-    {MaterialModel::MicrofacetAnisotropic, microfacetAnisotropic},
-    {MaterialModel::MetallicRoughness, metallicRoughness},
+    {MaterialModel::SingleColor, unlit, colorOf},
+    {MaterialModel::Lambert, lambert, colorOf},
+    {MaterialModel::BlinnPhong, blinnPhong, colorOf},
+    {MaterialModel::Microfacet, microfacet, colorOf},
+    {MaterialModel::MicrofacetAnisotropic, microfacetAnisotropic, colorOf},
+    {MaterialModel::MetallicRoughness, metallicRoughness, belowGloss},
 };
 static_assert(std::size(kModels) == scenes::kMaterialModelCount);
 
@@ -169,8 +199,21 @@ const Model& modelOf(MaterialModel model) {
 glm::dvec3 reflected(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer, bool specular) {
     const Directions directions(point.normal, toLight, toViewer);
     glm::dvec3 brdfCosine(0.0);
-    if (directions.cosLight > 0.0) brdfCosine = modelOf(point.model).reflected(point, directions, specular);
+    const Model& model = modelOf(point.model);
+    if (directions.cosLight > 0.0) brdfCosine = model.reflected(point, directions, specular);
+    if (point.wrap != glm::dvec3(0.0)) {
+        glm::dvec3 highlight(0.0);
+        if (specular && directions.cosLight > 0.0) highlight = brdfCosine - model.reflected(point, directions, false);
+        brdfCosine = wrapped(point, directions, highlight);
+    }
     return point.coat > 0.0 ? underCoat(point, brdfCosine, toLight, toViewer, specular) : brdfCosine;
+}
+
+glm::dvec3 passedOn(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer) {
+    const Directions directions(point.normal, toLight, toViewer);
+    if (!point.passes || directions.cosLight >= 0.0) return glm::dvec3(0.0);
+    const double uncoated = point.coat > 0.0 ? 1.0 - coatWeight(point, toViewer) : 1.0;
+    return modelOf(point.model).entering(point, directions) * (-directions.cosLight * uncoated);
 }
 
 glm::dvec3 emitted(const SurfacePoint& point, const glm::dvec3& toViewer) {

@@ -21,6 +21,8 @@ struct Model {
     scenes::MaterialModel model;
     /// BRDF times max(0, n.l) for a light above the horizon; `specular` false leaves the specular lobe out.
     glm::dvec3 (*reflected)(const SurfacePoint& point, const Directions& directions, bool specular);
+    /// BRDF of the light that enters the surface, for a light anywhere.
+    glm::dvec3 (*entering)(const SurfacePoint& point, const Directions& directions);
 };
 std::span<const Model> modelTable();
 
@@ -30,6 +32,10 @@ const Model& modelOf(scenes::MaterialModel model);
 /// BRDF times cosine: radiance towards the viewer per irradiance at normal incidence; 0 for light from below the
 /// horizon of each layer.
 glm::dvec3 reflected(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer, bool specular);
+
+/// The same of light from below the horizon that passes through the surface and leaves it at the angle to the normal at
+/// which it meets it from below.
+glm::dvec3 passedOn(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer);
 
 /// Emitted radiance towards the viewer, attenuated by the coat.
 glm::dvec3 emitted(const SurfacePoint& point, const glm::dvec3& toViewer);

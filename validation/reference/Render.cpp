@@ -19,9 +19,10 @@ namespace tessera::reference {
 class Pixels {
 public:
     Pixels(const scenes::Scene& scene, const Settings& settings)
-        : scene_(scene), settings_(settings), rays_(settings.camera, settings.sizePixels), objects_(scene, rays_),
-          textures_(scene, settings.filtering), visibility_(objects_, rays_, textures_),
-          lights_(shiningLights(scene, settings, rays_.eyeWS())), occlusion_(scene, objects_) {}
+        : scene_(scene), settings_(settings), rays_(settings.camera, settings.sizePixels),
+          objects_(scene, rays_, settings.subsurface), textures_(scene, settings.filtering),
+          visibility_(objects_, rays_, textures_), lights_(shiningLights(scene, settings, rays_.eyeWS())),
+          occlusion_(scene, objects_) {}
 
     void row(int row, Rendered& rendered) const {
         for (int column = 0; column < rendered.width; ++column) {
@@ -135,11 +136,15 @@ private:
         std::vector<Hit> transparent; ///< in the order in which they are blended
         /// By surface, the opaque one first, and by light: what Occlusion said, once it was asked.
         mutable std::vector<std::vector<std::optional<Occlusion::Answer>>> shadows{};
+        mutable std::vector<std::vector<std::optional<Occlusion::Passage>>> passages{}; ///< the same
 
         bool hasUndecidedShadows() const {
             for (const auto& ofSurface : shadows)
                 for (const std::optional<Occlusion::Answer>& answer : ofSurface)
                     if (answer && answer->isUndecided) return true;
+            for (const auto& ofSurface : passages)
+                for (const std::optional<Occlusion::Passage>& passage : ofSurface)
+                    if (passage && passage->isUndecided) return true;
             return false;
         }
     };
@@ -245,23 +250,46 @@ private:
         for (std::size_t light = 0; light < lights_.size(); ++light) {
             const glm::dvec3 unhidden = lightOn(point, lights_[light], positionRWS, toViewer);
             if (unhidden == glm::dvec3(0.0)) continue;
-            const Occlusion::Answer answer = shadowOf(seen, surface, hit, positionRWS, toViewer, light);
+            const Occlusion::Answer answer = shadowOf(seen, surface, hit, point, positionRWS, toViewer, light);
             const double share = shadows == Shadows::Exact  ? answer.share
                                  : shadows == Shadows::Most ? answer.least
                                                             : answer.most;
             lit.radiance += share * unhidden;
             lit.noise += answer.noise.times(unhidden.r + unhidden.g + unhidden.b);
         }
+        if (point.passes) lit.radiance += passedOnBy(seen, surface, hit, point, positionRWS, toViewer, shadows);
         return lit;
     }
 
-    Occlusion::Answer shadowOf(const Seen& seen, std::size_t surface, const Hit& hit, const glm::dvec3& positionRWS,
-                               const glm::dvec3& toViewer, std::size_t light) const {
+    /// What all lights below the horizon give.
+    glm::dvec3 passedOnBy(const Seen& seen, std::size_t surface, const Hit& hit, const SurfacePoint& point,
+                          const glm::dvec3& positionRWS, const glm::dvec3& toViewer, Shadows shadows) const {
+        glm::dvec3 radiance(0.0);
+        for (std::size_t light = 0; light < lights_.size(); ++light) {
+            const Incident incident = incidentAt(lights_[light], positionRWS);
+            if (!lights_[light].castsShadow || incident.irradiance == glm::dvec3(0.0)) continue;
+            const glm::dvec3 whole = passedOn(point, incident.toLight, toViewer) * incident.irradiance;
+            if (whole == glm::dvec3(0.0)) continue;
+            if (seen.passages.size() <= surface) seen.passages.resize(surface + 1);
+            auto& known = seen.passages[surface];
+            known.resize(lights_.size());
+            if (!known[light])
+                known[light] = occlusion_.passageOf(lights_[light], hit, point, positionRWS, settings_.leeway);
+            const Occlusion::Passage& passage = *known[light];
+            radiance += whole * (shadows == Shadows::Exact  ? passage.share
+                                 : shadows == Shadows::Most ? passage.least
+                                                            : passage.most);
+        }
+        return radiance;
+    }
+
+    Occlusion::Answer shadowOf(const Seen& seen, std::size_t surface, const Hit& hit, const SurfacePoint& point,
+                               const glm::dvec3& positionRWS, const glm::dvec3& toViewer, std::size_t light) const {
         if (!lights_[light].castsShadow) return {};
         if (seen.shadows.size() <= surface) seen.shadows.resize(surface + 1);
         std::vector<std::optional<Occlusion::Answer>>& known = seen.shadows[surface];
         known.resize(lights_.size());
-        if (!known[light]) known[light] = occlusion_.of(lights_[light], hit, positionRWS, toViewer, settings_);
+        if (!known[light]) known[light] = occlusion_.of(lights_[light], hit, point, positionRWS, toViewer, settings_);
         return *known[light];
     }
 

@@ -37,6 +37,7 @@ struct Settings {
     double timeSeconds = 0.0;     ///< of animated lights
     std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
     scenes::ShadowRequest shadows;
+    scenes::SubsurfaceRequest subsurface;
     int shadowRings = 16;   ///< on the disk of a light with a size, four times as many rays each
     int penumbraRings = 64; ///< of points that those find to see part of it
     int shadowSamples = 0;  ///< rays that a program tries: their noise is allowed it too; 0: none is

@@ -54,6 +54,19 @@ bool modelRows(Material& material) {
     return changed;
 }
 
+constexpr float kMostAbsorptionShown = 10.0f; // a tenth of a millimetre deep
+
+bool subsurfaceRows(scenes::Subsurface& subsurface) {
+    bool changed = chooseNamed("Subsurface", subsurface.method);
+    if (subsurface.method == scenes::SubsurfaceMethod::Wrap) {
+        changed |= slider("Wrap", subsurface.wrap, 0.0f, 1.0f);
+        changed |= colorRow("Wrap tint", subsurface.wrapTint);
+    } else if (subsurface.method == scenes::SubsurfaceMethod::DepthMap) {
+        changed |= colorRow("Absorbs / mm", subsurface.absorptionPerMillimetre, kMostAbsorptionShown);
+    }
+    return changed;
+}
+
 bool surfaceRows(Material& material) {
     bool changed = chooseNamed("Alpha mode", material.alphaMode);
     if (material.alphaMode != scenes::AlphaMode::Opaque) changed |= slider("Opacity", material.baseColor.w, 0.0f, 1.0f);
@@ -78,6 +91,7 @@ bool materialRows(Material& material) {
         changed = true;
     }
     changed |= modelRows(material);
+    if (scenes::infoOf(material.model).isLit) changed |= subsurfaceRows(material.subsurface);
     changed |= colorRow("Emission", material.emissive, kMostRadiance);
     changed |= surfaceRows(material);
     const auto textured = std::count_if(material.textures.begin(), material.textures.end(),

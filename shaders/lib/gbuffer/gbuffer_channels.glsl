@@ -179,12 +179,19 @@ void putEmission(Encoding encoding, Surface surface, inout vec4 texel)
     if (encoding.isPacked)
         putRadiance(surface.emission, encoding.widths);
     else
+#ifdef GBUFFER_SUBSURFACE_IN_EMISSION
+        texel = vec4(surface.emission, float(surface.subsurface));
+#else
         texel = vec4(surface.emission, 0.0);
+#endif
 }
 
 void takeEmission(Encoding encoding, vec4 texel, inout Surface surface)
 {
     surface.emission = encoding.isPacked ? takeRadiance(encoding.widths) : texel.rgb;
+#ifdef GBUFFER_SUBSURFACE_IN_EMISSION
+    surface.subsurface = uint(texel.w);
+#endif
 }
 
 void putNormalTexel(Encoding encoding, Surface surface, inout vec4 texel)

@@ -20,8 +20,8 @@ layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_WORD_TEXTURE + GBUFFER_WORDS / 4
 layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_WORD_TEXTURE + GBUFFER_WORDS / 4 + (GBUFFER_WORDS & 2) / 2) uniform usampler2D lastWord;
 #endif
 
-#ifdef GBUFFER_FACETS
-layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_FACETS) uniform usampler2D facets;
+#ifdef GBUFFER_MARKS
+layout(binding = TEXTURE_UNIT_GBUFFER + GBUFFER_MARKS) uniform usampler2D marks;
 #endif
 
 void fetchWords(ivec2 pixel)
@@ -53,8 +53,15 @@ Surface surfaceFromGBuffer(ivec2 pixel)
 #define EXACT_CHANNEL(put, take, attachment) take(kExact, texelFetch(exactChannels[attachment], pixel, 0), surface);
 #define PACKED_CHANNEL(put, take, bit, widths) gbufferBit = bit; take(Encoding(true, widths), vec4(0.0), surface);
     GBUFFER_CHANNELS
+#ifdef GBUFFER_MARKS
+    uint mark = texelFetch(marks, pixel, 0).r;
+#ifdef GBUFFER_SUBSURFACE
+    surface.subsurface = mark & uint(SUBSURFACE_MOST - 1);
+    mark >>= SUBSURFACE_BITS;
+#endif
 #ifdef GBUFFER_FACETS
-    surface.facetNormalLS = decodeFacet(texelFetch(facets, pixel, 0).r);
+    surface.facetNormalLS = decodeFacet(mark);
+#endif
 #endif
 #ifdef GBUFFER_MATERIAL_NUMBER
     setTabledValues(int(surface.material), surface);

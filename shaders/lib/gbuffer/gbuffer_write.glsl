@@ -17,8 +17,8 @@ layout(location = GBUFFER_WORD_TEXTURE + GBUFFER_WORDS / 4) out uvec2 pairOfWord
 layout(location = GBUFFER_WORD_TEXTURE + GBUFFER_WORDS / 4 + (GBUFFER_WORDS & 2) / 2) out uint lastWord;
 #endif
 
-#ifdef GBUFFER_FACETS
-layout(location = GBUFFER_FACETS) out uint facets;
+#ifdef GBUFFER_MARKS
+layout(location = GBUFFER_MARKS) out uint marks;
 #endif
 
 void storeWords()
@@ -46,7 +46,13 @@ void writeGBuffer(Surface surface)
 #define PACKED_CHANNEL(put, take, bit, widths) gbufferBit = bit; put(Encoding(true, widths), surface, noTexel);
     GBUFFER_CHANNELS
     storeWords();
+#ifdef GBUFFER_MARKS
+    marks = 0u;
 #ifdef GBUFFER_FACETS
-    facets = surface.facetCode;
+    marks = surface.facetCode;
+#endif
+#ifdef GBUFFER_SUBSURFACE
+    marks = (marks << SUBSURFACE_BITS) | surface.subsurface;
+#endif
 #endif
 }

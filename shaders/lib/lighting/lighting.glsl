@@ -38,6 +38,12 @@ void addLightOnSurface(int light, const bool shadowed, SeenSurface seen, Viewpoi
         precise vec3 unshadowed = brdfCosine * incident.irradiance;
         // A shadow costs far more than what it would hide.
         if (shadowed && unshadowed != vec3(0.0)) unshadowed *= shadowFactor(light, seen.surface, viewpoint);
+#if HAS_SUBSURFACE_DEPTH_MAP
+        if (shadowed) {
+            precise vec3 passing = passingBrdfCosine(seen, incident.toLightLS) * incident.irradiance;
+            if (passing != vec3(0.0)) unshadowed += passing * passingShare(light, seen.surface, viewpoint);
+        }
+#endif
         precise vec3 sum = radiance + unshadowed;
 #else
         precise vec3 sum = radiance + brdfCosine * incident.irradiance;

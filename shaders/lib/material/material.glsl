@@ -13,6 +13,9 @@ void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
 #if !HAS_VARYING_MATERIALS
     surface.material = material.kind.w;
 #endif
+#if HAS_SUBSURFACE_ROWS
+    surface.subsurface = uint(material.dielectric.y);
+#endif
     surface.albedo = baseColor.rgb;
 #if HAS_MICROSURFACES
     precise vec2 roughnessMetallic = material.microsurface.yx;

@@ -4,6 +4,7 @@
 #include "lib/reflectance/brdf.glsl"
 #include "lib/maths/octahedral.glsl"
 #include "lib/reflectance/sheen.glsl"
+#include "lib/reflectance/subsurface.glsl"
 #include "lib/surface/surface.glsl"
 
 #ifndef SPECULAR_OFF
@@ -156,15 +157,25 @@ float visibilityOfMicrofacet(SeenSurface seen, Directions directions)
 #endif
 
 #if HAS_SHEEN
-// Puts the sheen over the layers below, and scales these by 1 minus the directional albedo of a white sheen times the
-// sheen's brightest channel. Source: KHR_materials_sheen, "Albedo-scaling technique".
-vec3 underSheen(Surface surface, vec3 brdf, Directions directions)
+float strongestSheen(Surface surface)
 {
-    precise float strongest = max(max(surface.sheenColor.r, surface.sheenColor.g), surface.sheenColor.b);
-    if (!(strongest > 0.0)) return brdf;
+    return max(max(surface.sheenColor.r, surface.sheenColor.g), surface.sheenColor.b);
+}
+
+// What a sheen leaves of the layers below: 1 minus the directional albedo of a white sheen times the sheen's brightest
+// channel. Source: KHR_materials_sheen, "Albedo-scaling technique".
+float shareUnderSheen(Surface surface, Directions directions)
+{
     precise float albedo =
         max(sheenAlbedo(surface.sheenAlpha, directions.nl), sheenAlbedo(surface.sheenAlpha, max(directions.nv, 0.0)));
-    precise vec3 layered = brdf * max(1.0 - strongest * albedo, 0.0);
+    precise float share = max(1.0 - strongestSheen(surface) * albedo, 0.0);
+    return share;
+}
+
+vec3 underSheen(Surface surface, vec3 brdf, Directions directions)
+{
+    if (!(strongestSheen(surface) > 0.0)) return brdf;
+    precise vec3 layered = brdf * shareUnderSheen(surface, directions);
 #if !SPECULAR_OFF
     if (directions.hasLobe) {
         precise float lobe = distributionCharlie(surface.sheenAlpha, directions.h)
@@ -180,13 +191,21 @@ vec3 underSheen(Surface surface, vec3 brdf, Directions directions)
 struct Reflection {
     vec3 brdfCosine;     // BRDF times cosine, 1/sr: reflected radiance per irradiance at normal incidence
     SpecularTerms terms; // 0 where it has no lobe there
+#if HAS_SUBSURFACE_ROWS
+    vec3 diffuse; // BRDF of the light that enters the surface, 1/sr
+#endif
 };
+#if HAS_SUBSURFACE_ROWS
+#define REFLECTION(brdfCosine, terms, diffuse) Reflection(brdfCosine, terms, diffuse)
+#else
+#define REFLECTION(brdfCosine, terms, diffuse) Reflection(brdfCosine, terms)
+#endif
 
 // Source: Lambert 1760, "Photometria". k_d without 1/pi, as the teaching models have it.
 Reflection lambert(Surface surface, Directions directions)
 {
     precise vec3 brdfCosine = surface.albedo * directions.nl;
-    return Reflection(brdfCosine, kNoTerms);
+    return REFLECTION(brdfCosine, kNoTerms, surface.albedo);
 }
 
 // Source: Blinn 1977, "Models of Light Reflection for Computer Synthesized Pictures".
@@ -196,7 +215,7 @@ Reflection blinnPhong(Surface surface, Directions directions)
     if (directions.hasLobe) terms.d = blinnPhongLobe(surface.parameter, directions.h);
     precise float highlight = SPECULAR_OFF != 0 ? 0.0 : terms.d;
     precise vec3 brdfCosine = surface.albedo * directions.nl + surface.specular * highlight; // which takes no cosine
-    return Reflection(brdfCosine, terms);
+    return REFLECTION(brdfCosine, terms, surface.albedo);
 }
 
 #if HAS_GGX_MODELS
@@ -209,7 +228,7 @@ Reflection microfacet(SeenSurface seen, Directions directions, float d)
     if (directions.hasLobe) terms.v = visibilityOfMicrofacet(seen, directions);
     precise float dv = SPECULAR_OFF != 0 ? 0.0 : terms.d * terms.v;
     precise vec3 brdfCosine = (surface.albedo + surface.specular * (terms.f * dv)) * directions.nl;
-    return Reflection(brdfCosine, terms);
+    return REFLECTION(brdfCosine, terms, surface.albedo);
 }
 
 // Source: glTF 2.0, appendix B, with KHR_materials_ior, _specular, _anisotropy and _sheen.
@@ -222,8 +241,14 @@ Reflection metallicRoughness(SeenSurface seen, Directions directions, float d)
 #if HAS_SHEEN
     brdf = underSheen(seen.surface, brdf, directions);
 #endif
+#if HAS_SUBSURFACE_ROWS
+    precise vec3 entering = seen.diffuse * (vec3(1.0) - terms.f);
+#if HAS_SHEEN
+    entering *= shareUnderSheen(seen.surface, directions);
+#endif
+#endif
     precise vec3 reflected = brdf * directions.nl;
-    return Reflection(reflected, terms);
+    return REFLECTION(reflected, terms, entering);
 }
 #endif
 
@@ -246,8 +271,18 @@ Reflection reflection(SeenSurface seen, Directions directions)
 // BRDF times cosine of the layers below the coat.
 vec3 baseBrdfCosine(SeenSurface seen, vec3 toLight)
 {
+#if HAS_SUBSURFACE_ROWS
+    precise float cosine = dot(seen.surface.normalLS, toLight);
+    Reflection reflected = reflection(seen, directionsOn(seen, toLight, max(cosine, 0.0)));
+    precise vec3 brdfCosine = reflected.brdfCosine;
+#if HAS_SUBSURFACE_WRAP
+    brdfCosine += reflected.diffuse * wrappedExcess(seen.surface, cosine);
+#endif
+    return brdfCosine;
+#else
     precise float nl = max(dot(seen.surface.normalLS, toLight), 0.0);
     return reflection(seen, directionsOn(seen, toLight, nl)).brdfCosine;
+#endif
 }
 
 #if HAS_CLEARCOAT
@@ -279,6 +314,21 @@ vec3 layeredBrdfCosine(SeenSurface seen, vec3 toLight)
 #endif
     return brdfCosine;
 }
+
+#if HAS_SUBSURFACE_DEPTH_MAP
+// The same of light from below the horizon that has passed through, as through a plate: it leaves at the angle at which
+// it entered on the other side.
+vec3 passingBrdfCosine(SeenSurface seen, vec3 toLight)
+{
+    precise float cosine = dot(seen.surface.normalLS, toLight);
+    if (cosine >= 0.0 || !letsLightThrough(seen.surface)) return vec3(0.0);
+    precise vec3 brdfCosine = reflection(seen, directionsOn(seen, toLight, 0.0)).diffuse * -cosine;
+#if HAS_CLEARCOAT
+    if (seen.surface.coatFactor > 0.0) brdfCosine *= 1.0 - seen.coatWeight;
+#endif
+    return brdfCosine;
+}
+#endif
 
 // Radiance towards the viewer without any light. Source: KHR_materials_clearcoat, "Emission": it lies below the coat.
 vec3 emittedRadiance(SeenSurface seen)

@@ -135,8 +135,31 @@ bool isSolid(uint triangle, vec3 weights, vec3 opacities)
 }
 #endif
 
-// Whether a triangle hides the light, by its first texel.
-bool triangleHides(ShadowRay ray, uint triangle, bool isMasked)
+// Where a ray crosses a triangle, if it does between its ends.
+struct Crossing {
+    bool isThere;
+#if HAS_SUBSURFACE_DEPTH_MAP
+    bool isOnce;  // of two triangles with a common edge that the ray meets, true of one alone
+    float share;  // of the ray up to there; minus that where the ray goes in, past the front
+    uint passed;  // the row of SubsurfaceConstants that lets light through there, 0 for none
+#endif
+};
+
+#if HAS_SUBSURFACE_DEPTH_MAP
+#define NO_CROSSING Crossing(false, false, 0.0, 0u)
+
+// Whether an edge that a ray meets belongs to a triangle on this side of it, and not to one on the other.
+bool ownsEdge(vec2 along, float orientation)
+{
+    vec2 turnedAlong = orientation > 0.0 ? along : -along;
+    return turnedAlong.y > 0.0 || (turnedAlong.y == 0.0 && turnedAlong.x < 0.0);
+}
+#else
+#define NO_CROSSING Crossing(false)
+#endif
+
+// By the triangle's first texel.
+Crossing crossingOf(ShadowRay ray, uint triangle, bool isMasked)
 {
     vec4 corner0 = casterTexel(triangle);
     vec4 corner1 = casterTexel(triangle + 1u);
@@ -150,7 +173,7 @@ bool triangleHides(ShadowRay ray, uint triangle, bool isMasked)
     precise float u = cAcross.x * bAcross.y - cAcross.y * bAcross.x;
     precise float v = aAcross.x * cAcross.y - aAcross.y * cAcross.x;
     precise float w = bAcross.x * aAcross.y - bAcross.y * aAcross.x;
-    if (min(u, min(v, w)) < 0.0 && max(u, max(v, w)) > 0.0) return false;
+    if (min(u, min(v, w)) < 0.0 && max(u, max(v, w)) > 0.0) return NO_CROSSING;
     // On which side of the plane each end is, and how far from it, times the normal's length. Corner 0 lies between the
     // shorter edges, so that their product keeps the normal's digits in thin triangles too.
     precise vec3 edge1 = corner1.xyz - corner0.xyz;
@@ -171,13 +194,26 @@ bool triangleHides(ShadowRay ray, uint triangle, bool isMasked)
     precise float lightError = ray.lightRounding * area + digits * (length(fromCorner) + length(ray.toLightCS));
     bool isBetween = abs(originSide) > originError && abs(lightSide) > lightError &&
                      (originSide > 0.0) != (lightSide > 0.0);
-    if (!isBetween) return false;
-#if HAS_ALPHA_MASK
+    if (!isBetween) return NO_CROSSING;
+    Crossing crossing = NO_CROSSING;
+    crossing.isThere = true;
+#if HAS_ALPHA_MASK || HAS_SUBSURFACE_DEPTH_MAP
     precise float sum = u + v + w;
-    if (isMasked && sum != 0.0)
-        return isSolid(triangle, vec3(u, v, w) / sum, vec3(corner0.w, corner1.w, corner2.w));
 #endif
-    return true;
+#if HAS_ALPHA_MASK
+    if (isMasked && sum != 0.0)
+        crossing.isThere = isSolid(triangle, vec3(u, v, w) / sum, vec3(corner0.w, corner1.w, corner2.w));
+#endif
+#if HAS_SUBSURFACE_DEPTH_MAP
+    uint mark = isMasked ? texelFetch(casterTexels, int(triangle + 4u)).w : floatBitsToUint(corner0.w);
+    crossing.passed = mark & CASTER_PASSED;
+    crossing.isOnce = (u != 0.0 || ownsEdge(cAcross - bAcross, sum)) && (v != 0.0 || ownsEdge(aAcross - cAcross, sum)) &&
+                      (w != 0.0 || ownsEdge(bAcross - aAcross, sum));
+    precise float share = originSide / (originSide - lightSide);
+    bool goesIn = (originSide > 0.0) != ((mark & CASTER_MIRRORED) != 0u);
+    crossing.share = goesIn ? -share : share;
+#endif
+    return crossing;
 }
 
 // Where a walk is.
@@ -187,7 +223,17 @@ struct CasterWalk {
     uint triangles; // left of that leaf
     bool isMasked;  // they are
     bool isHidden;  // the light is
+#if HAS_SUBSURFACE_DEPTH_MAP
+    uint passed;    // what lets the light through: a row of SubsurfaceConstants; 0: nothing does
+    float inside;   // share of the ray inside that
+#endif
 };
+
+#if HAS_SUBSURFACE_DEPTH_MAP
+#define CASTER_WALK(node, isHidden) CasterWalk(node, 0u, 0u, false, isHidden, 0u, 0.0)
+#else
+#define CASTER_WALK(node, isHidden) CasterWalk(node, 0u, 0u, false, isHidden)
+#endif
 
 bool goesOn(CasterWalk walk)
 {
@@ -198,7 +244,15 @@ bool goesOn(CasterWalk walk)
 void takeStep(ShadowRay ray, inout CasterWalk walk)
 {
     if (walk.triangles > 0u) {
-        walk.isHidden = triangleHides(ray, walk.triangle, walk.isMasked);
+        Crossing crossing = crossingOf(ray, walk.triangle, walk.isMasked);
+#if HAS_SUBSURFACE_DEPTH_MAP
+        bool passes = walk.passed != 0u && crossing.passed == walk.passed;
+        precise float inside = walk.inside + (crossing.isThere && passes && crossing.isOnce ? crossing.share : 0.0);
+        walk.inside = inside;
+        walk.isHidden = crossing.isThere && !passes;
+#else
+        walk.isHidden = crossing.isThere;
+#endif
         walk.triangle += walk.isMasked ? CASTER_MASKED_TRIANGLE_TEXELS : CASTER_TRIANGLE_TEXELS;
         --walk.triangles;
         if (walk.isHidden) {
@@ -219,11 +273,9 @@ void takeStep(ShadowRay ray, inout CasterWalk walk)
     }
 }
 
-// 0 where casters hide the light, or (isBehind) the point's own triangle does, else 1.
-float visibilityAlong(ShadowRay ray, bool isBehind)
+// Goes all the way, or until the light is hidden. A walk that could go on after that was ended by Mesa.
+void walkOn(ShadowRay ray, inout CasterWalk walk)
 {
-    // The ray of a helper invocation may meet every box, and the pixels beside it would wait for it.
-    CasterWalk walk = CasterWalk(isBehind || IS_HELPER ? casterTree.size.x : 0u, 0u, 0u, false, isBehind);
     // CASTER_STEPS (renderer/frame/FrameSpec.cpp) are spelt out: Mesa counts the iterations of all loops of a shader
     // together and ends the loops when there are too many.
 #define NEXT_STEP if (goesOn(walk)) takeStep(ray, walk);
@@ -237,7 +289,30 @@ float visibilityAlong(ShadowRay ray, bool isBehind)
         NEXT_STEP NEXT_STEP NEXT_STEP NEXT_STEP NEXT_STEP NEXT_STEP
 #endif
     }
+}
+
+// 0 where casters hide the light, or (isBehind) the point's own triangle does, else 1.
+float visibilityAlong(ShadowRay ray, bool isBehind)
+{
+    // The ray of a helper invocation may meet every box, and the pixels beside it would wait for it.
+    CasterWalk walk = CASTER_WALK(isBehind || IS_HELPER ? casterTree.size.x : 0u, isBehind);
+    walkOn(ray, walk);
     // A loop that was ended all the same: NaN, which shows, instead of light that is not known.
     if (goesOn(walk)) return CUT_LOOP;
     return walk.isHidden ? 0.0 : 1.0;
 }
+
+#if HAS_SUBSURFACE_DEPTH_MAP
+const float PASSAGE_HIDDEN = -1e30;
+
+// The share of the ray inside what has a row of SubsurfaceConstants, by where it goes in and out; PASSAGE_HIDDEN where
+// something else hides the light.
+float passageAlong(ShadowRay ray, uint subsurface)
+{
+    CasterWalk walk = CASTER_WALK(IS_HELPER ? casterTree.size.x : 0u, false);
+    walk.passed = subsurface;
+    walkOn(ray, walk);
+    if (goesOn(walk)) return CUT_LOOP;
+    return walk.isHidden ? PASSAGE_HIDDEN : walk.inside;
+}
+#endif

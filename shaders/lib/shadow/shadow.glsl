@@ -2,6 +2,7 @@
 // surfaces and light volumes ask shadowFactor() and nothing else.
 #pragma once
 #include "lib/light/light_store.glsl"
+#include "lib/reflectance/subsurface.glsl"
 #if HAS_SHADOW_MAPS
 #include "lib/shadow/shadow_map.glsl"
 #else
@@ -9,7 +10,8 @@
 #endif
 
 // The share of light `index` that casters let through to a point of a surface: 0 where they hide all of it, 1 where they
-// hide nothing or the light casts no shadows. A surface hides lights behind its triangle, whatever normal it is lit with.
+// hide nothing or the light casts no shadows. A surface hides lights behind its triangle, whatever normal it is lit with,
+// unless it wraps light.
 float shadowFactor(int index, Surface surface, Viewpoint viewpoint)
 {
     int kind = int(lightTexel(index, 1).w);
@@ -19,9 +21,43 @@ float shadowFactor(int index, Surface surface, Viewpoint viewpoint)
 #else
     bool isFar = false;
 #endif
+    vec3 placeLS = lightTexel(index, 0).xyz;
+    bool triangleHides = true;
+#if HAS_SUBSURFACE_WRAP
+    if (wrapsLight(surface)) {
+        precise vec3 toLight = isFar ? placeLS : placeLS - viewpoint.positionLS;
+        precise float cosine = dot(surface.normalLS, toLight) / sqrt(max(dot(toLight, toLight), 1e-37));
+        precise vec3 liftedLS = viewpoint.positionLS + surface.normalLS * liftMetres(surface, cosine);
+        viewpoint.positionLS = liftedLS;
+        triangleHides = false;
+    }
+#endif
 #if HAS_SHADOW_MAPS
-    return mappedShadow(index, kind, lightTexel(index, 0).xyz, isFar, surface.facetNormalLS, viewpoint);
+    return mappedShadow(index, kind, placeLS, isFar, surface.facetNormalLS, triangleHides, viewpoint);
 #else
-    return tracedShadow(index, lightTexel(index, 0).xyz, isFar, surface.facetNormalLS, viewpoint);
+    return tracedShadow(index, placeLS, isFar, surface.facetNormalLS, triangleHides, viewpoint);
 #endif
 }
+
+#if HAS_SUBSURFACE_DEPTH_MAP
+// The share of light `index`, by channel, that reaches a point of a surface through what has the surface's material, as
+// far as that absorbs it (docs/skin.md). Traced, other casters hide it; maps tell how far behind the first one the
+// point lies. Of a light with a size it is that of its middle. None of lights that cast no shadows passes through.
+vec3 passingShare(int index, Surface surface, Viewpoint viewpoint)
+{
+    int kind = int(lightTexel(index, 1).w);
+    if ((kind & LIGHT_SHADOWED) == 0) return vec3(0.0);
+#if HAS_DIRECTIONAL_LIGHTS
+    bool isFar = (kind & LIGHT_TYPE_MASK) == LIGHT_DIRECTIONAL;
+#else
+    bool isFar = false;
+#endif
+    vec3 placeLS = lightTexel(index, 0).xyz;
+#if HAS_SHADOW_MAPS
+    float metres = mappedPassage(index, kind, placeLS, isFar, surface.facetNormalLS, viewpoint);
+#else
+    float metres = tracedPassage(placeLS, isFar, surface.subsurface, viewpoint);
+#endif
+    return metres < 0.0 ? vec3(0.0) : isnan(metres) ? vec3(CUT_LOOP) : shareAfter(surface, metres);
+}
+#endif

@@ -242,11 +242,13 @@ float filtered(FacePoint point, vec4 shadow, Viewpoint viewpoint)
 // By how much of its half side a cascade passes over into the next; hard shadows change at once.
 const float kBlendShare = SHADOW_FILTER == SHADOW_FILTER_HARD ? 0.0 : 0.1;
 
-// The share of light `index` that its maps let through; isFar: of a directional one, with cascades.
+// The share of light `index` that its maps let through; isFar: of a directional one, with cascades; triangleHides: the
+// point's own triangle hides lights behind it.
 //
 // One loop over the faces that may hold the point: of cascades the finest, and where it ends the next one. It runs no
 // time for lights without shadows: rasterisers that mask lanes skip loops, but run whatever else is not asked for.
-float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNormalLS, Viewpoint viewpoint)
+float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNormalLS, bool triangleHides,
+                   Viewpoint viewpoint)
 {
     precise float hidden = 0.0;
     precise float share = 1.0;
@@ -277,7 +279,7 @@ float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNorm
         if (room <= 0.0) ownShare = 0.0;
         // Depth would not tell: the more a triangle is turned away, the less deep it lies behind the body's lit side,
         // and the steeper it is.
-        bool isBehind = isBehindFacet(facetNormalLS, toLight, rounding);
+        bool isBehind = triangleHides && isBehindFacet(facetNormalLS, toLight, rounding);
         if (ownShare > 0.0) hidden += share * ownShare * (1.0 - (isBehind ? 0.0 : filtered(point, shadow, viewpoint)));
 #if SHOWS_FACES
         precise vec4 answer = (share * ownShare) * vec4(faceColor((face - int(shadow.z)) / SHADOW_FACE_TEXELS), 1.0);
@@ -292,3 +294,50 @@ float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNorm
     precise float seen = 1.0 - hidden / (1.0 - share);
     return isnan(seen) ? CUT_LOOP : clamp(seen, 0.0, 1.0);
 }
+
+#if HAS_SUBSURFACE_DEPTH_MAP
+// Metres from the first caster that a face holds on the way from the light to the point, at least 0: the mean of the four
+// texels around it.
+float passageBehind(FacePoint point, vec4 place, float wayMetres)
+{
+    precise vec2 between = point.texel - 0.5;
+    vec2 corner = floor(between);
+    precise vec2 share = between - corner;
+    precise float metres = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 step = ivec2(i & 1, i >> 1);
+        float caster = texelFetch(shadowAtlas, withinFace(point, ivec2(corner) + step), 0).r;
+        precise float behind = point.isParallel ? (caster - point.depth) / -place.w
+                                                : wayMetres * (1.0 - point.depth / max(caster, 1e-37));
+        vec2 weight = mix(1.0 - share, share, vec2(step));
+        metres += weight.x * weight.y * (caster > 0.0 ? max(behind, 0.0) : 0.0);
+    }
+    return metres;
+}
+
+// The same in the face that shows the point best; below 0 where none does. The arguments are those of mappedShadow().
+float mappedPassage(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNormalLS, Viewpoint viewpoint)
+{
+    vec4 shadow = lightShadowTexel(index);
+    mat3 rwsFromLS = mat3(view.worldFromLS);
+    precise vec3 toLight = isFar ? placeLS : placeLS - viewpoint.positionLS;
+    precise vec3 positionRWS = rwsFromLS * viewpoint.positionLS;
+    int face = int(shadow.z);
+    if ((kind & LIGHT_SIX_FACES) != 0) {
+        precise vec3 fromLight = rwsFromLS * -toLight;
+        vec3 size = abs(fromLight);
+        int axis = size.x >= max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
+        face += SHADOW_FACE_TEXELS * (2 * axis + (fromLight[axis] < 0.0 ? 1 : 0));
+    }
+    precise float rounding = shadow.w + 1.9e-6 * length(viewpoint.positionLS);
+    int faces = isFar ? SHADOW_CASCADES : 1;
+    int i = 0;
+    for (; i < faces; ++i, face += SHADOW_FACE_TEXELS) {
+        FacePoint point = facePoint(face, shadow, positionRWS, rwsFromLS * facetNormalLS, rounding);
+        vec2 fromMiddle = abs(point.texel - point.face.xy);
+        precise float room = point.face.z - max(fromMiddle.x, fromMiddle.y) - (isFar ? borderTexels(point) : 0.0);
+        if (room > 0.0) return passageBehind(point, texelFetch(lightTexels, face + 3), length(toLight));
+    }
+    return i < faces ? CUT_LOOP : -1.0;
+}
+#endif

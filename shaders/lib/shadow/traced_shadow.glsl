@@ -9,15 +9,33 @@
 #endif
 
 // 0 where something hides what is at that place, else 1.
-float visibilityOf(vec3 toPlaceCS, float placeRounding, vec3 facetNormal, vec3 originLS)
+float visibilityOf(vec3 toPlaceCS, float placeRounding, vec3 facetNormal, bool triangleHides, vec3 originLS)
 {
     ShadowRay ray = shadowRay(originLS, toPlaceCS, placeRounding);
-    return visibilityAlong(ray, isBehindFacet(facetNormal, toPlaceCS, ray.originRounding + placeRounding));
+    bool isBehind = triangleHides && isBehindFacet(facetNormal, toPlaceCS, ray.originRounding + placeRounding);
+    return visibilityAlong(ray, isBehind);
 }
 
+#if HAS_SUBSURFACE_DEPTH_MAP
+// Metres that the way to a light goes inside what has a row of SubsurfaceConstants; below 0 where something else hides
+// the light. The arguments are those of tracedShadow().
+float tracedPassage(vec3 placeLS, bool isFar, uint subsurface, Viewpoint viewpoint)
+{
+    precise vec3 fromPoint = isFar ? placeLS : placeLS - viewpoint.positionLS;
+    precise vec3 toLight = mat3(view.worldFromLS) * fromPoint;
+    precise float farAway = 2.0 * (casterTree.rounding.z + length(positionCS(viewpoint.positionLS)));
+    precise vec3 toPlace = (isFar ? farAway : casterTree.rwsOriginCS.w) * toLight;
+    ShadowRay ray = shadowRay(viewpoint.positionLS, toPlace, isFar ? 0.0 : roundingAt(placeLS));
+    float share = passageAlong(ray, subsurface);
+    precise float metres = max(share, 0.0) * length(toPlace) / casterTree.rwsOriginCS.w;
+    return share == PASSAGE_HIDDEN ? -1.0 : isnan(share) ? CUT_LOOP : metres;
+}
+#endif
+
 // What casters let through of light `index`: one in a place, or (isFar) one from far away in that direction, to which
-// rays end behind all casters. In world axes, whose numbers do not depend on those of lighting space.
-float tracedShadow(int index, vec3 placeLS, bool isFar, vec3 facetNormalLS, Viewpoint viewpoint)
+// rays end behind all casters. In world axes, whose numbers do not depend on those of lighting space. `triangleHides`:
+// the point's own triangle hides lights behind it.
+float tracedShadow(int index, vec3 placeLS, bool isFar, vec3 facetNormalLS, bool triangleHides, Viewpoint viewpoint)
 {
     precise vec3 facetNormal = mat3(view.worldFromLS) * facetNormalLS;
     precise vec3 fromPoint = isFar ? placeLS : placeLS - viewpoint.positionLS;
@@ -40,11 +58,11 @@ float tracedShadow(int index, vec3 placeLS, bool isFar, vec3 facetNormalLS, View
     for (; i < rays; ++i) {
         vec2 place = diskPlace(i, random);
         precise vec3 toDisk = toLight + place.x * across + place.y * up;
-        seen += visibilityOf(reach * toDisk, lightRounding, facetNormal, viewpoint.positionLS);
+        seen += visibilityOf(reach * toDisk, lightRounding, facetNormal, triangleHides, viewpoint.positionLS);
     }
     if (i < rays) return CUT_LOOP; // a loop that was ended, as in visibilityAlong()
     return seen * perRay;
 #else
-    return visibilityOf(reach * toLight, lightRounding, facetNormal, viewpoint.positionLS);
+    return visibilityOf(reach * toLight, lightRounding, facetNormal, triangleHides, viewpoint.positionLS);
 #endif
 }

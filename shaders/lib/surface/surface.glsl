@@ -2,6 +2,7 @@
 // G-buffer (lib/gbuffer/gbuffer.glsl).
 #pragma once
 #include "shared/models.h"
+#include "shared/subsurface.h"
 #include "lib/maths/normal_code.glsl"
 #include "lib/surface/facet.glsl"
 
@@ -18,6 +19,9 @@ struct Surface {
     vec3 emission;     // radiance that needs no light; all of single_color
     NormalCode normalCode; // of surfaces that are rasterised
     vec3 normalLS;     // unit; of a drawn surface what the code says, of a stored one what its channel does
+#if HAS_SUBSURFACE_ROWS
+    uint subsurface;   // row of its constants (shared/subsurface.h); 0 where it has none
+#endif
 #if HAS_SHADOWS
     uint facetCode;    // of surfaces that are rasterised
     vec3 facetNormalLS; // what it says: the normal of the triangle, unit, away from the viewer
@@ -75,6 +79,9 @@ void setNeutralLobes(inout Surface surface)
 {
 #if !HAS_VARYING_MATERIALS
     surface.material = 0u;
+#endif
+#if HAS_SUBSURFACE_ROWS
+    surface.subsurface = 0u;
 #endif
 #if HAS_MASKING_OPTIONS
     surface.masking = MASKING_WALTER;

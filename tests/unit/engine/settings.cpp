@@ -38,13 +38,14 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
         const auto& [technique, settings] = request;
         const auto& [sizePixels, wholePixels, samples, samplesGiven, camera, timeSeconds, eyeOffsetWS, layout, view,
                      filter, space, prune, specular, rangeTolerance, soloLight, shadows, shadowFilter, shadowSamples,
-                     shadowMaps, culling, lightOn, softwareBackend, display, exposureEV, toneMap] = settings;
+                     shadowMaps, subsurface, culling, lightOn, softwareBackend, display, exposureEV, toneMap] =
+            settings;
         const auto& [method, tilePixels, builder, normals, lanes] = culling;
         const auto& [widthTexels, resolutionTexels, budgetMiB, cascades] = shadowMaps;
         return std::pair(std::tuple(technique, sizePixels, samples, camera, timeSeconds, layout, view, filter, space,
                                     prune, specular, rangeTolerance, soloLight, shadows, shadowFilter, shadowSamples,
-                                    widthTexels, resolutionTexels, budgetMiB, cascades, method, tilePixels, builder,
-                                    normals, lightOn, exposureEV, toneMap),
+                                    widthTexels, resolutionTexels, budgetMiB, cascades, subsurface, method, tilePixels,
+                                    builder, normals, lightOn, exposureEV, toneMap),
                          std::tuple(wholePixels, samplesGiven, eyeOffsetWS, softwareBackend, display, lanes));
     };
     const auto differ = []<std::size_t... kIndex>(const auto& x, const auto& y, std::index_sequence<kIndex...>) {

@@ -103,6 +103,9 @@ std::vector<Change> changes() {
         {Feature::Blend, material([](Material& m) { m.alphaMode = scenes::AlphaMode::Blend; })},
         {Feature::DoubleSided, material([](Material& m) { m.doubleSided = true; })},
         {Feature::VaryingMaterials, texture(TextureSlot::BaseColor)},
+        {Feature::SubsurfaceWrap, material([](Material& m) { m.subsurface.method = scenes::SubsurfaceMethod::Wrap; })},
+        {Feature::SubsurfaceDepthMap,
+         material([](Material& m) { m.subsurface.method = scenes::SubsurfaceMethod::DepthMap; })},
     };
 }
 
@@ -125,6 +128,25 @@ TEST(Features, everyFeatureOfMaterialsHasASceneWithItAndOneWithout) {
     for (const scenes::LightTypeInfo& type : scenes::lightTypes()) tested.insert(featureOf(type.type));
     for (const Change& change : changes()) tested.insert(change.feature);
     EXPECT_EQ(tested.size(), kFeatureCount);
+}
+
+TEST(Features, aRequestGivesItsMethodToMaterialsWithASubsurfaceAlone) {
+    using Method = scenes::SubsurfaceMethod;
+    const auto wraps = [](Method method, scenes::SubsurfaceRequest request, const std::function<void(Material&)>& set) {
+        scenes::Scene scene = plainScene();
+        scene.materials[0].subsurface.method = method;
+        set(scene.materials[0]);
+        return materialFeatures(scene, request)[Feature::SubsurfaceWrap];
+    };
+    const auto nothing = [](Material&) {};
+    EXPECT_TRUE(wraps(Method::Wrap, {}, nothing));
+    EXPECT_TRUE(wraps(Method::DepthMap, Method::Wrap, nothing));
+    EXPECT_FALSE(wraps(Method::Wrap, Method::None, nothing));
+    EXPECT_FALSE(wraps(Method::None, Method::Wrap, nothing));
+    // What changes nothing.
+    EXPECT_FALSE(wraps(Method::Wrap, {}, [](Material& m) { m.subsurface.wrap = 0.0f; }));
+    EXPECT_FALSE(wraps(Method::Wrap, {}, [](Material& m) { m.subsurface.wrapTint = glm::vec3(0.0f); }));
+    EXPECT_FALSE(wraps(Method::Wrap, {}, [](Material& m) { m.model = MaterialModel::SingleColor; }));
 }
 
 TEST(Features, materialsThatNothingUsesNeverCount) {

@@ -102,6 +102,32 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
         {"specular factor", [](Scene& s) { s.materials[0].specularFactor = 2.0f; }},
         {"normal map's scale", [](Scene& s) { s.materials[0].normalScale = kNaN; }},
         {"cutoff", [](Scene& s) { s.materials[0].alphaCutoff = kNaN; }},
+        {"scale of its subsurface must", [](Scene& s) { s.materials[0].subsurface.scaleMetres = 0.0f; }},
+        {"wrap of its subsurface must", [](Scene& s) { s.materials[0].subsurface.wrap = 1.5f; }},
+        {"tint of its subsurface's wrap", [](Scene& s) { s.materials[0].subsurface.wrapTint.y = kNaN; }},
+        {"body's radius", [](Scene& s) { s.materials[0].subsurface.bodyRadiusMetres = -1.0f; }},
+        {"absorption of its subsurface",
+         [](Scene& s) { s.materials[0].subsurface.absorptionPerMillimetre.x = kInfinity; }},
+        {"share of albedo before", [](Scene& s) { s.materials[0].subsurface.preScatterShare = -0.5f; }},
+        {"has 9 Gaussians; give 1 to 8", [](Scene& s) { s.materials[0].subsurface.profile.resize(9); }},
+        {"a variance of its profile",
+         [](Scene& s) {
+             s.materials[0].subsurface.profile = {{-1.0f, glm::vec3(1.0f)}};
+         }},
+        {"a weight of its profile",
+         [](Scene& s) {
+             s.materials[0].subsurface.profile = {{1.0f, glm::vec3(kNaN)}};
+         }},
+        {"sum to 1.267, 1 and 1 in red, green and blue; divide",
+         [](Scene& s) {
+             s.materials[0].subsurface.profile = namedProfiles()[0].profile;
+             s.materials[0].subsurface.profile[0].weight.x = 0.5f;
+         }},
+        {"256 materials have a subsurface, and at most 255 can",
+         [](Scene& s) {
+             s.materials[0].subsurface.method = SubsurfaceMethod::Wrap;
+             s.materials.resize(256, s.materials[0]);
+         }},
         {"image 0, but the scene has 0", [](Scene& s) { s.materials[0].texture(TextureSlot::Normal).image = 0; }},
         {"tangents", [](Scene& s) { s.meshes[0].tangentsOS.resize(2); }},
         {"colours", [](Scene& s) { s.meshes[0].colors.resize(4, glm::vec4(1.0f)); }},

@@ -81,6 +81,22 @@ const std::vector<Change>& changes() {
         {"material.alphaCutoff", [](Scene& s) { s.materials[0].alphaCutoff = 0.25f; }},
         {"material.doubleSided", [](Scene& s) { s.materials[0].doubleSided = true; }},
         {"material.castsShadow", [](Scene& s) { s.materials[0].castsShadow = false; }},
+        {"subsurface.method", [](Scene& s) { s.materials[0].subsurface.method = SubsurfaceMethod::Wrap; }},
+        {"subsurface.scale", [](Scene& s) { s.materials[0].subsurface.scaleMetres = 2.0f; }},
+        {"subsurface.wrap", [](Scene& s) { s.materials[0].subsurface.wrap = 0.25f; }},
+        {"subsurface.wrapTint", [](Scene& s) { s.materials[0].subsurface.wrapTint.y = 0.0f; }},
+        {"subsurface.bodyRadius", [](Scene& s) { s.materials[0].subsurface.bodyRadiusMetres = 1.0f; }},
+        {"subsurface.absorption", [](Scene& s) { s.materials[0].subsurface.absorptionPerMillimetre.z = 0.0f; }},
+        {"subsurface.preScatterShare", [](Scene& s) { s.materials[0].subsurface.preScatterShare = 0.0f; }},
+        {"subsurface.profile", [](Scene& s) { s.materials[0].subsurface.profile.resize(1); }},
+        {"subsurface.weight",
+         [](Scene& s) {
+             s.materials[0].subsurface.profile.resize(1, {1.0f, {1.0f, 1.0f, 0.0f}});
+         }},
+        {"subsurface.variance",
+         [](Scene& s) {
+             s.materials[0].subsurface.profile.resize(1, {9.0f, glm::vec3(1.0f)});
+         }},
         {"another material", [](Scene& s) { s.materials.emplace_back(); }},
         {"mesh.name", [](Scene& s) { s.meshes[0].name += 'x'; }},
         {"mesh.positions", [](Scene& s) { s.meshes[0].positionsOS[2].y = 5.0f; }},

@@ -249,6 +249,48 @@ TEST(SceneJsonMaterials, layersOfMetallicRoughnessHaveTheirParametersAndTextures
               "/materials/0/clearcoat: is -1; at least 0 is needed");
 }
 
+TEST(SceneJsonMaterials, aSubsurfaceIsAMethodOrAnObjectWithWhatMethodsUse) {
+    const SceneFolder folder;
+    const auto subsurfaceOf = [&](const std::string& json) {
+        return sceneOf(folder, R"("model": "lambert", "subsurface": )" + json).materials[0].subsurface;
+    };
+    Subsurface wrap;
+    wrap.method = SubsurfaceMethod::Wrap;
+    EXPECT_EQ(subsurfaceOf(R"("wrap")"), wrap);
+    Subsurface all;
+    all.method = SubsurfaceMethod::DepthMap;
+    all.scaleMetres = 0.125f;
+    all.wrap = 0.25f;
+    all.wrapTint = {1.0f, 0.5f, 0.0f};
+    all.bodyRadiusMetres = 2.0f;
+    all.absorptionPerMillimetre = {1.0f, 2.0f, 3.0f};
+    all.preScatterShare = 1.0f;
+    all.profile = {{0.5f, {1.0f, 0.25f, 0.0f}}, {2.0f, {0.0f, 0.75f, 1.0f}}};
+    EXPECT_EQ(subsurfaceOf(R"({"method": "depth_map", "scaleMetres": 0.125, "wrap": 0.25, "wrapTint": [1, 0.5, 0],
+        "bodyRadiusMetres": 2, "absorptionPerMillimetre": [1, 2, 3], "preScatterShare": 1,
+        "profile": [{"varianceSquareMillimetres": 0.5, "weight": [1, 0.25, 0]},
+                    {"varianceSquareMillimetres": 2, "weight": [0, 0.75, 1]}]})"),
+              all);
+    const DiffusionProfile marble = subsurfaceOf(R"({"profile": "marble"})").profile;
+    EXPECT_EQ(marble, namedProfiles()[1].profile);
+    const auto errorOf = [&](const std::string& json) {
+        return errorOfMaterial(folder, R"("model": "lambert", "subsurface": )" + json);
+    };
+    EXPECT_EQ(errorOf(R"("warp")"),
+              "/materials/0/subsurface: there is no subsurface method 'warp'; did you mean 'wrap'?");
+    EXPECT_EQ(errorOf(R"({"profile": "skim"})"),
+              "/materials/0/subsurface/profile: there is no profile 'skim'; did you mean 'skin'?");
+    EXPECT_EQ(errorOf(R"({"wrap": 2})"), "/materials/0/subsurface/wrap: is 2; at most 1 is allowed");
+    EXPECT_EQ(errorOf(R"({"wrapTint": [0, 2, 0]})"), "/materials/0/subsurface/wrapTint/1: is 2; at most 1 is allowed");
+    EXPECT_EQ(folder.errorBeyondSchemaOf(
+                  R"({"tessera": 1, "materials": [{"name": "m", "model": "lambert", "subsurface":
+                     {"profile": [{"varianceSquareMillimetres": 1, "weight": [1, 0.5, 1]}]}}]})"),
+              "/materials/0/subsurface/profile: the weights of its profile sum to 1, 0.5 and 1 in red, green and "
+              "blue; divide them by their sums");
+    EXPECT_EQ(errorOf(R"({"wraptint": [1, 1, 1]})"),
+              "/materials/0/subsurface: a subsurface has no key 'wraptint'; did you mean 'wrapTint'?");
+}
+
 TEST(SceneJsonMaterials, modelsThatDoNotExistAreRefusedByName) {
     const SceneFolder folder;
     EXPECT_EQ(errorOfMaterial(folder, R"("model": "lambertian")"),

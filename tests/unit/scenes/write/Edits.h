@@ -65,6 +65,14 @@ public:
         material.ior = 1.0f + share();
         material.specularColor = color();
         material.sheenColor = color();
+        material.subsurface.method = SubsurfaceMethod(random_.index(int(SubsurfaceMethod::Count)));
+        for (float* member : {&material.subsurface.scaleMetres, &material.subsurface.wrap,
+                              &material.subsurface.bodyRadiusMetres, &material.subsurface.preScatterShare})
+            *member = share();
+        material.subsurface.wrapTint = color();
+        material.subsurface.absorptionPerMillimetre = 3.0f * color();
+        if (share() < 0.5f) material.subsurface.profile = namedProfiles()[1].profile;
+        if (share() < 0.5f) material.subsurface.profile = {{share(), glm::vec3(1.0f)}};
         material.alphaMode = AlphaMode::Mask;
         material.doubleSided = true;
         for (TextureUse& use : material.textures) {

@@ -128,6 +128,42 @@ TEST(ReferenceReflectance, aSheenEqualsTheTextbooksAndDarkensTheBaseNearlyAsMuch
     }
 }
 
+TEST(ReferenceReflectance, wrappedLightIsTheTextbooks) {
+    test::Random random(23);
+    for (const MaterialModel model : kLit) {
+        for (int i = 0; i < 5000; ++i) {
+            Material material = randomMaterial(model, random);
+            material.subsurface.method = scenes::SubsurfaceMethod::Wrap;
+            material.subsurface.wrap = float(random.unit());
+            const glm::dvec3 n = random.direction(), l = random.direction(), v = random.direction();
+            if (glm::dot(l, v) > 1.0 - 1e-9) continue;
+            SurfacePoint point = pointOf(material, n);
+            point.wrap = double(material.subsurface.wrap) * glm::dvec3(material.subsurface.wrapTint);
+            const glm::dvec3 wanted = test::textbook::reflected(material, n, l, v, tangentOf(n));
+            const glm::dvec3 found = reflected(point, l, v, true);
+            // The highlight is what the lobe adds to the rest: a difference.
+            const double brightest = std::max({wanted.r, wanted.g, wanted.b, 1e-6});
+            for (int c = 0; c < 3; ++c) ASSERT_NEAR(found[c], wanted[c], 1e-9 * brightest) << int(model) << ' ' << i;
+        }
+    }
+}
+
+// What is stated of its energy (docs/skin.md).
+TEST(ReferenceReflectance, wrappedLightGivesOneAndItsWrapTimesTheLightOfACosine) {
+    SurfacePoint point;
+    point.color = glm::dvec3(1.0);
+    point.normal = {0.0, 0.0, 1.0};
+    point.wrap = {0.0, 0.3, 1.0};
+    glm::dvec3 sum(0.0);
+    constexpr int kSteps = 20000;
+    for (int i = 0; i < kSteps; ++i) { // even in the cosine, and so over the sphere
+        const double cosine = 2.0 * (i + 0.5) / kSteps - 1.0;
+        const glm::dvec3 toLight(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
+        sum += reflected(point, toLight, point.normal, true) * (4.0 * std::numbers::pi / kSteps);
+    }
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], std::numbers::pi * (1.0 + point.wrap[c]), 1e-6);
+}
+
 TEST(ReferenceReflectance, specularAloneIsReciprocal) {
     test::Random random(20);
     for (const MaterialModel model :

@@ -1,0 +1,55 @@
+// Light that enters a surface and leaves it elsewhere (scenes/Subsurface.h, docs/skin.md), as far as each light does so
+// by itself.
+#pragma once
+#include "shared/slots.h"
+#include "shared/subsurface.h"
+#include "lib/surface/surface.glsl"
+
+#if HAS_SUBSURFACE_ROWS
+layout(std140, binding = UNIFORM_SUBSURFACE) uniform SubsurfaceBlock
+{
+    SubsurfaceConstants subsurfaces[SUBSURFACE_MOST];
+};
+#endif
+
+#if HAS_SUBSURFACE_DEPTH_MAP
+bool letsLightThrough(Surface surface)
+{
+    return subsurfaces[surface.subsurface].absorption.a != 0.0;
+}
+
+// The share of light, by channel, that is left of it after so many metres inside.
+vec3 shareAfter(Surface surface, float metres)
+{
+    precise vec3 share = exp(-subsurfaces[surface.subsurface].absorption.rgb * metres);
+    return share;
+}
+#endif
+
+#if HAS_SUBSURFACE_WRAP
+// By how much (n.l + w) / (1 + w), at least 0, exceeds n.l, at least 0. Over all directions of light that is w pi more
+// than the pi of a cosine. Source: Green 2004, "Real-Time Approximations to Subsurface Scattering", GPU Gems, chapter
+// 16; with a w for each channel, the tint shows where n.l is low.
+vec3 wrappedExcess(Surface surface, float cosine)
+{
+    vec3 wrap = subsurfaces[surface.subsurface].wrap.rgb;
+    precise float lit = clamp(cosine, 0.0, 1.0);
+    precise vec3 excess = (cosine < 0.0 ? max(cosine + wrap, vec3(0.0)) : wrap * (1.0 - lit)) / (1.0 + wrap);
+    return excess;
+}
+
+// Shadows of wrapped light: how far above the surface a light is asked for, in metres. On a body of that radius the way
+// to a light below the horizon does not meet the body then, as far as a wrap of 0.85; what else is in the way hides it.
+float liftMetres(Surface surface, float cosine)
+{
+    vec4 wrap = subsurfaces[surface.subsurface].wrap;
+    if (wrap.rgb == vec3(0.0)) return 0.0;
+    precise float metres = wrap.a * max(SUBSURFACE_LIFT_COSINE - cosine, 0.0);
+    return metres;
+}
+
+bool wrapsLight(Surface surface)
+{
+    return subsurfaces[surface.subsurface].wrap.rgb != vec3(0.0);
+}
+#endif

@@ -1,0 +1,220 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/Rendering.h"
+#include "scenes/Load.h"
+#include "scenes/LookAt.h"
+#include "scenes/builtin/Shapes.h"
+#include "tests/image/ShadowTest.h"
+#include "tests/support/TestScenes.h"
+
+namespace tessera {
+namespace {
+
+using engine::Technique;
+using scenes::SubsurfaceMethod;
+
+class Subsurface : public test::ShadowTest {
+protected:
+    /// A head of which all materials that vary have the method.
+    static scenes::Scene headWith(SubsurfaceMethod method) {
+        scenes::Scene scene = scenes::loadScene("head");
+        scene.materials[0].subsurface.method = method;
+        return scene;
+    }
+};
+
+TEST_F(Subsurface, everyTechniqueGivesTheSamePictureToTheLastBit) {
+    const scenes::Scene head = headWith(SubsurfaceMethod::Wrap), even = test::evenScene(),
+                        everything = test::everythingScene();
+    for (const scenes::Scene* scene : {&head, &even, &everything}) {
+        SCOPED_TRACE(scene->name);
+        engine::Renderer renderer(context(), *scene);
+        for (const SubsurfaceMethod method : {SubsurfaceMethod::Wrap, SubsurfaceMethod::DepthMap}) {
+            for (const frame::ShadowFilter filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Pcf}) {
+                frame::FrameSettings settings;
+                settings.sizePixels = {160, 90};
+                settings.shadowFilter = filter;
+                settings.shadows = test::kAllLightsCast;
+                settings.subsurface = method;
+                for (const int samples : {1, 4}) {
+                    settings.samples = samples;
+                    expectParity(renderer, settings);
+                }
+            }
+        }
+    }
+}
+
+// Its shadow side is where the light wraps.
+TEST_F(Subsurface, aBallThatWrapsLightDoesNotShadowItself) {
+    scenes::Scene scene = test::ballUnderSun();
+    scene.nodes[0].instances.resize(1);
+    scenes::Material& material = scene.materials[std::size_t(scene.nodes[0].instances[0].material)];
+    material.subsurface.method = SubsurfaceMethod::Wrap;
+    material.subsurface.wrap = 0.85f;
+    scene.lights[0].directionWS = glm::normalize(glm::dvec3(-0.9, -0.3, 0.1));
+    engine::Renderer renderer(context(), scene);
+    for (const frame::ShadowFilter filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {320, 180};
+        settings.shadowFilter = filter;
+        settings.shadows = {scenes::ShadowRequest::Kind::None};
+        const std::vector<float> lit = renderer.render(Technique::Deferred, settings).radiance;
+        settings.shadows = test::kAllLightsCast;
+        EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, lit) << infoOf(filter).name;
+        settings.subsurface = SubsurfaceMethod::None;
+        EXPECT_NE(renderer.render(Technique::Deferred, settings).radiance, lit) << infoOf(filter).name;
+    }
+}
+
+TEST_F(Subsurface, whatIsInTheWayHidesWrappedLightAsTheReferenceSays) {
+    scenes::Scene scene = headWith(SubsurfaceMethod::Wrap);
+    frame::FrameSettings settings;
+    settings.sizePixels = {240, 135};
+    settings.filter = frame::TextureFilter::Exact;
+    engine::Renderer renderer(context(), scene);
+    const test::WrongPixels count = test::wrongPixels(renderer, settings);
+    fmt::print("head: {} pixels wrong, {} undecided, {} changed by shadows of {}\n", count.wrong, count.undecided,
+               count.hidden, count.covered);
+    EXPECT_EQ(count.wrong, 0u);
+    EXPECT_LE(count.undecided, count.covered / 50);
+}
+
+// ---- Light that passes through -------------------------------------------------------------------------------------
+
+/// What the picture is where the middle of it is, red.
+double middleOf(const Picture& picture) {
+    return picture.pixel((std::size_t(picture.height) / 2) * std::size_t(picture.width) +
+                         std::size_t(picture.width) / 2)[0];
+}
+
+/// Seen from +z by parallel rays, with lights behind.
+scenes::Scene bodyBeforeLights(scenes::Mesh body, double halfHeightMetres) {
+    scenes::Scene scene = test::ballUnderSun();
+    scene.meshes = {std::move(body)};
+    scene.nodes[0].instances = {{0, 0}};
+    scenes::Material material;
+    material.model = scenes::MaterialModel::Lambert;
+    material.baseColor = glm::vec4(1.0f);
+    material.subsurface.method = SubsurfaceMethod::DepthMap;
+    material.subsurface.absorptionPerMillimetre = {0.02f, 0.04f, 0.08f};
+    scene.materials = {material};
+    scenes::Camera& camera = scene.cameras[0];
+    camera.worldFromCamera = scenes::worldFromLookAt({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
+    camera.projection = scenes::Projection::Orthographic;
+    camera.halfHeightMetres = halfHeightMetres;
+    camera.nearMetres = 0.01;
+    camera.farMetres = 10.0;
+    scenes::Light sun = scene.lights[0], lamp = test::pointLight({0.0, 0.0, -2.0}, 12.0f), spot = lamp;
+    sun.directionWS = {0.0, 0.0, 1.0};
+    spot.type = scenes::LightType::Spot;
+    spot.directionWS = {0.0, 0.0, 1.0};
+    spot.innerConeRadians = 0.2f;
+    spot.outerConeRadians = 0.4f;
+    scene.lights = {sun, lamp, spot};
+    return scene;
+}
+
+/// How far each filter may be off, relatively.
+struct PassageBar {
+    frame::ShadowFilter filter;
+    double ofSlab, ofBall;
+};
+constexpr PassageBar kPassageBars[] = {{frame::ShadowFilter::Traced, 1e-4, 0.003},
+                                       {frame::ShadowFilter::Hard, 0.02, 0.05},
+                                       {frame::ShadowFilter::Pcf, 0.02, 0.05},
+                                       {frame::ShadowFilter::Pcss, 0.02, 0.05}};
+
+TEST_F(Subsurface, aSlabLetsThroughAnExponentialOfItsThickness) {
+    for (const double thickness : {0.003, 0.03}) {
+        scenes::Mesh slab;
+        scenes::builtin::appendBox(slab, {-0.5, -0.5, -thickness}, {0.5, 0.5, 0.0});
+        const scenes::Scene scene = bodyBeforeLights(slab, 0.1);
+        engine::Renderer renderer(context(), scene);
+        for (const PassageBar& bar : kPassageBars) {
+            frame::FrameSettings settings;
+            settings.sizePixels = {65, 65};
+            settings.shadows = test::kAllLightsCast;
+            settings.shadowFilter = bar.filter;
+            double sum = 0.0;
+            for (int light = 0; light < 3; ++light) {
+                settings.soloLight = light;
+                const double found = middleOf(engine::toPicture(renderer.render(Technique::Deferred, settings)));
+                const double full = light == 0 ? 3.0 : 12.0 / 4.0; // of the light on the picture's side
+                const double wanted = full * std::exp(-0.02 * 1e3 * thickness);
+                EXPECT_NEAR(found, wanted, bar.ofSlab * wanted) << infoOf(bar.filter).name << " light " << light;
+                sum += found;
+            }
+            settings.soloLight.reset();
+            const double all = middleOf(engine::toPicture(renderer.render(Technique::Deferred, settings)));
+            EXPECT_NEAR(all, sum, 1e-5 * sum) << "several lights at once";
+        }
+    }
+}
+
+TEST_F(Subsurface, aBallLetsThroughAnExponentialOfItsChords) {
+    constexpr double kRadius = 0.02;
+    scenes::Mesh ball;
+    scenes::builtin::appendSphere(ball, glm::dvec3(0.0), kRadius, 256, 128);
+    const scenes::Scene scene = bodyBeforeLights(ball, 1.1 * kRadius);
+    engine::Renderer renderer(context(), scene);
+    for (const PassageBar& bar : kPassageBars) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {128, 128};
+        settings.shadows = test::kAllLightsCast;
+        settings.shadowFilter = bar.filter;
+        settings.shadowMaps.resolutionTexels = 512; // 1/200 of the radius: a map is off by a texel where it is steep
+        settings.soloLight = 0;
+        const Picture picture = engine::toPicture(renderer.render(Technique::Deferred, settings));
+        double worst = 0.0;
+        for (int y = 0; y < 128; ++y) {
+            for (int x = 0; x < 128; ++x) {
+                const glm::dvec2 place = (glm::dvec2(x, y) + 0.5 - 64.0) * (1.1 / 64.0); // of the radius
+                const double cosine = std::sqrt(std::max(1.0 - glm::dot(place, place), 0.0));
+                if (cosine < 0.3) continue; // the rim
+                for (int c = 0; c < 3; ++c) {
+                    const double absorption = 1e3 * double(scene.materials[0].subsurface.absorptionPerMillimetre[c]);
+                    const double wanted = 3.0 * cosine * std::exp(-absorption * 2.0 * kRadius * cosine);
+                    const double found = picture.pixel(std::size_t(y * 128 + x))[c];
+                    worst = std::max(worst, std::abs(found - wanted) / wanted);
+                }
+            }
+        }
+        fmt::print("ball, {}: off by {:.2} at most\n", infoOf(bar.filter).name, worst);
+        EXPECT_LE(worst, bar.ofBall) << infoOf(bar.filter).name;
+    }
+}
+
+TEST_F(Subsurface, whatIsInTheWayHidesLightThatPassesThroughAsTheReferenceSays) {
+    scenes::Scene scene = headWith(SubsurfaceMethod::DepthMap);
+    scene.materials[0].subsurface.scaleMetres = 0.1f;
+    frame::FrameSettings settings;
+    settings.sizePixels = {240, 135};
+    settings.filter = frame::TextureFilter::Exact;
+    engine::Renderer renderer(context(), scene);
+    const test::ShadowReference truth = test::shadowReference(scene, settings);
+    const test::WrongPixels count = test::wrongPixels(renderer, settings, truth);
+    // Rounding moves every way inside by a little, and some by more than a hundredth of the light.
+    const auto undecided = std::ranges::count(truth.shadowed.undecidedShadows, 1);
+    fmt::print("head: {} pixels wrong, {} undecided, {} changed by shadows of {}\n", count.wrong, undecided,
+               count.hidden, count.covered);
+    EXPECT_EQ(count.wrong, 0u);
+    EXPECT_LE(undecided, std::ptrdiff_t(count.covered / 50));
+}
+
+TEST_F(Subsurface, lightThatCastsNoShadowsPassesThroughNothing) {
+    scenes::Mesh slab;
+    scenes::builtin::appendBox(slab, {-0.5, -0.5, -0.003}, {0.5, 0.5, 0.0});
+    const scenes::Scene scene = bodyBeforeLights(slab, 0.1);
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {65, 65};
+    settings.shadows = {scenes::ShadowRequest::Kind::None};
+    EXPECT_EQ(middleOf(engine::toPicture(renderer.render(Technique::Deferred, settings))), 0.0);
+}
+
+} // namespace
+} // namespace tessera
