@@ -38,7 +38,7 @@ std::string truncationWords(const frame::TruncatedLights& lights, double toleran
 /// Channels that are stored finer than the layout that was asked for says.
 void addRefinements(graph::Plan& plan, const scenes::Scene& scene, const frame::GBufferLayout& asked,
                     const frame::FrameSpec& spec) {
-    for (const frame::Refinement& refinement : frame::refinements(asked, scene, spec.settings.subsurface)) {
+    for (const frame::Refinement& refinement : frame::refinements(asked, scene)) {
         if (std::find(spec.channels.begin(), spec.channels.end(), refinement.channel) == spec.channels.end()) continue;
         plan.choices.push_back(
             {fmt::format("G-buffer channel {}", frame::channelTable()[std::size_t(refinement.channel)].name),
@@ -91,9 +91,9 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::Prep
                          hasMaps ? fmt::format("in maps ({})", infoOf(settings.shadowFilter).name) : "traced"),
              std::move(why)});
         if (hasMaps) plan.choices.push_back(atlasChoice(prepared.shadowMaps, settings));
-        if (CutShadows cut = cutShadows(prepared); !cut.why.empty())
+        if (std::string cut = cutShadows(prepared.spec); !cut.empty())
             plan.choices.push_back(
-                {"loops of shadows", fmt::format("up to {} iterations", cut.iterations), std::move(cut.why)});
+                {"loops of shadows", fmt::format("up to {} iterations", prepared.spec.iterations), std::move(cut)});
     }
     for (const std::string& warning : scene.warnings) plan.choices.push_back({"scene", scene.name, warning});
 }

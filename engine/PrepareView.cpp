@@ -44,12 +44,21 @@ std::string lostShadows(const frame::ShadowMaps& maps, const frame::FrameSetting
                        settingOf("shadowBudget").flag);
 }
 
-namespace {
-
-/// Why maps, or the rounding of casters, lose shadows of a view; empty: they do not.
-std::string shadowsLostByRounding(std::span<const frame::SurfaceBounds> bounds, const frame::PreparedView& prepared) {
+std::string missingShadows(const scenes::Scene& scene, std::span<const frame::SurfaceBounds> bounds,
+                           const frame::PreparedView& prepared) {
+    const frame::FrameSettings& settings = prepared.spec.settings;
+    if (!frame::showsShadows(settings.view)) return "";
+    const frame::DebugViewInfo& view = frame::debugViewInfo(settings.view);
+    if (frame::showsShadowsOfOne(settings.view) || frame::showsMaps(settings.view)) {
+        if (prepared.lights.shadowed == 0)
+            return fmt::format("the view {} has no shadow to show: {}", view.name,
+                               frame::whyNoShadows(scene, prepared.lights, settings.shadows));
+        if (frame::showsMaps(settings.view) && !infoOf(settings.shadowFilter).usesMaps)
+            return fmt::format("the view {} has no map to show: the shadow filter {} uses none; give {} hard",
+                               view.name, infoOf(settings.shadowFilter).name, settingOf("shadowFilter").flag);
+    }
     const frame::ShadowMaps& maps = prepared.shadowMaps;
-    if (std::string lost = lostShadows(maps, prepared.spec.settings); !lost.empty()) return lost;
+    if (std::string lost = lostShadows(maps, settings); !lost.empty()) return lost;
     const auto longest = std::ranges::max_element(bounds, {}, &frame::SurfaceBounds::longestMetres);
     if (prepared.lights.shadowed == 0 || longest == bounds.end()) return "";
     if (const double errorMetres = frame::kPositionRounding * longest->longestMetres;
@@ -65,55 +74,19 @@ std::string shadowsLostByRounding(std::span<const frame::SurfaceBounds> bounds, 
                        settingOf("shadowBudget").flag);
 }
 
-/// What is said of an object that light spreads over, which has lights and maps of its own.
-std::string ofObject(const frame::DiffusedObject& object, const std::string& said) {
-    return said.empty() ? "" : fmt::format("when lighting {} for diffusion: {}", object.name, said);
-}
-
-} // namespace
-
-std::string missingShadows(const scenes::Scene& scene, std::span<const frame::SurfaceBounds> bounds,
-                           const frame::PreparedView& prepared) {
-    const frame::FrameSettings& settings = prepared.spec.settings;
-    if (!frame::showsShadows(settings.view)) return "";
-    const frame::DebugViewInfo& view = frame::debugViewInfo(settings.view);
-    if (frame::showsShadowsOfOne(settings.view) || frame::showsMaps(settings.view)) {
-        if (prepared.lights.shadowed == 0)
-            return fmt::format("the view {} has no shadow to show: {}", view.name,
-                               frame::whyNoShadows(scene, prepared.lights, settings.shadows));
-        if (frame::showsMaps(settings.view) && !infoOf(settings.shadowFilter).usesMaps)
-            return fmt::format("the view {} has no map to show: the shadow filter {} uses none; give {} hard",
-                               view.name, infoOf(settings.shadowFilter).name, settingOf("shadowFilter").flag);
-    }
-    if (std::string lost = shadowsLostByRounding(bounds, prepared); !lost.empty()) return lost;
-    for (std::size_t i = 0; i < prepared.diffused.size(); ++i)
-        if (std::string lost =
-                ofObject(prepared.diffusedObjects[i], shadowsLostByRounding(bounds, prepared.diffused[i]));
-            !lost.empty())
-            return lost;
-    return "";
-}
-
-CutShadows cutShadows(const frame::PreparedView& prepared) {
-    const frame::FrameSpec& spec = prepared.spec;
-    if (!spec.mayCutShadows()) {
-        for (std::size_t i = 0; i < prepared.diffused.size(); ++i)
-            if (const CutShadows cut = cutShadows(prepared.diffused[i]); !cut.why.empty())
-                return {ofObject(prepared.diffusedObjects[i], cut.why), cut.iterations};
-        return {};
-    }
+std::string cutShadows(const frame::FrameSpec& spec) {
+    if (!spec.mayCutShadows()) return "";
     const bool mayNarrow =
         infoOf(spec.settings.shadowFilter).heedsWidth && spec.settings.shadowMaps.widthTexels > frame::kShadowWidths[0];
     const std::string fewer = mayNarrow ? fmt::format("a smaller {} or ", settingOf("shadowWidth").flag)
                               : spec.features[frame::Feature::SoftShadows]
                                   ? fmt::format("fewer {} or ", settingOf("shadowSamples").flag)
                                   : "";
-    return {fmt::format("shadows of {} take up to {} iterations of a shader's loops where all reach a pixel, and Mesa "
-                        "ends those after {}, which "
-                        "gives NaN; give {}shadows to fewer lights ({} N)",
-                        frame::lightsText(spec.shadowedLights), spec.iterations, frame::kMostLoopIterations, fewer,
-                        settingOf("shadows").flag),
-            spec.iterations};
+    return fmt::format("shadows of {} take up to {} iterations of a shader's loops where all reach a pixel, and Mesa "
+                       "ends those after {}, which "
+                       "gives NaN; give {}shadows to fewer lights ({} N)",
+                       frame::lightsText(spec.shadowedLights), spec.iterations, frame::kMostLoopIterations, fewer,
+                       settingOf("shadows").flag);
 }
 
 namespace {
@@ -128,63 +101,6 @@ void addShadowMaps(const scenes::Scene& scene, std::span<const frame::SurfaceBou
     prepared.shadowFaces = frame::packFaces(prepared.shadowMaps, prepared.camera, lightTexels, bounds, prepared.lights);
     spec.shadowAtlasTexels = prepared.shadowMaps.atlasTexels;
     spec.shadowFaces = prepared.shadowMaps.faces.size();
-}
-
-/// The lights of an object's texels: a view of the whole of it, so that what reaches it nowhere is left out, whatever
-/// the camera sees.
-frame::PreparedView prepareDiffused(const scenes::Scene& scene, const frame::DiffusedObject& object,
-                                    frame::FrameSettings settings, std::span<const frame::SurfaceBounds> bounds) {
-    settings.sizePixels = glm::ivec2(settings.diffusion.sideTexels);
-    settings.wholePixels.reset();
-    settings.samples = 1;
-    settings.samplesGiven.reset();
-    settings.eyeOffsetWS = glm::dvec3(0.0);
-    settings.view = frame::DebugView::Final;
-    settings.space = frame::LightingSpace::World;
-    settings.display = false;
-    settings.culling = {};
-
-    const glm::dvec3 center = 0.5 * (object.boxWS.min + object.boxWS.max);
-    const double radius =
-        std::max(0.51 * glm::distance(object.boxWS.min, object.boxWS.max), 1e-9 * (1.0 + glm::length(center)));
-    scenes::Camera camera;
-    camera.projection = scenes::Projection::Orthographic;
-    camera.worldFromCamera[3] = glm::dvec4(center + glm::dvec3(0.0, 0.0, 2.0 * radius), 1.0);
-    camera.halfHeightMetres = radius;
-    camera.nearMetres = 0.5 * radius;
-    const frame::SurfaceBounds own{.boxWS = object.boxWS, .reachMetres = radius, .nodeWS = center};
-
-    frame::PreparedView prepared;
-    prepared.camera = frame::makeCameraView(camera, settings.sizePixels, settings.space, glm::vec3(0.0f), {&own, 1});
-    prepared.lights = frame::packLights(scene, prepared.camera, settings);
-    const std::size_t count = prepared.lights.texels.size();
-    prepared.lighting.lights = glm::uvec4(count, prepared.lights.shown, prepared.lights.everywhere, (count + 31) / 32);
-    prepared.lighting.slices.y = glm::uint(prepared.lights.shadowed);
-    prepared.spec = frame::makeDiffusedSpec(scene, object, prepared.lights, settings);
-    if (prepared.spec.features[frame::Feature::ShadowMaps]) addShadowMaps(scene, bounds, prepared);
-    return prepared;
-}
-
-void addDiffused(const scenes::Scene& scene, std::span<const frame::SurfaceBounds> bounds,
-                 frame::PreparedView& prepared) {
-    std::vector<frame::SurfaceBounds> own;
-    if (bounds.empty()) bounds = own = frame::surfaceBounds(scene); // a plan
-    frame::FrameSpec& spec = prepared.spec;
-    prepared.diffusedObjects = frame::diffusedObjects(scene, spec.settings.subsurface, bounds);
-    if (prepared.diffusedObjects.size() > kMostDiffusedObjects)
-        throw InputError(fmt::format("{}: light spreads over {} objects, {} is the most; give some of their materials "
-                                     "another subsurface method",
-                                     scene.name, prepared.diffusedObjects.size(), kMostDiffusedObjects));
-    for (const frame::DiffusedObject& object : prepared.diffusedObjects) {
-        prepared.diffused.push_back(prepareDiffused(scene, object, spec.settings, bounds));
-        spec.diffused.push_back(prepared.diffused.back().spec);
-    }
-    const glm::ivec2 texels = spec.diffusedCells().texels();
-    if (std::max(texels.x, texels.y) > frame::kLargestSidePixels)
-        throw InputError(
-            fmt::format("{}: light spreads over {} objects, whose atlases of {} texels a side together exceed the "
-                        "largest texture; give a smaller {}",
-                        scene.name, spec.diffused.size(), spec.spreadTexels(), settingOf("diffusionTexels").flag));
 }
 
 } // namespace
@@ -226,7 +142,6 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
     spec.background = prepared.camera.constants.background;
     requireStoredChannel(spec);
     if (spec.features[frame::Feature::ShadowMaps]) addShadowMaps(scene, bounds, prepared);
-    if (spec.features[frame::Feature::SubsurfaceDiffusion]) addDiffused(scene, bounds, prepared);
     spec.lightOn = chooseLighting(settings);
     spec.culling = chooseCulling(technique, settings, spec.features, prepared.lights);
     // These views light nothing, and no lists are built for them.

@@ -15,7 +15,7 @@ namespace tessera::engine {
 
 namespace {
 
-using frame::DiffusionSettings, frame::FrameSettings, frame::ShadowMapSettings;
+using frame::FrameSettings, frame::ShadowMapSettings;
 
 // ---- Settings that are more than a value of a kind -----------------------------------------------------------------
 
@@ -377,45 +377,12 @@ std::vector<Setting> makeTable() {
          .flag = "--subsurface",
          .key = "subsurface",
          .type = "METHOD",
-         .help = "Subsurface scattering of all materials that have any: " + listed(scenes::subsurfaceMethods()),
+         .help = "How light that enters surfaces leaves them, where their materials have a subsurface: " +
+                 listed(scenes::subsurfaceMethods()),
          .byItself = "asked: as each material says",
-         .group = "Subsurface scattering",
-         .panel = SettingPanel::Skin,
-         .label = "Method",
          .isOfFrame = true,
          .value = choice(in(&FrameSettings::subsurface), scenes::subsurfaceMethods(),
                          &scenes::SubsurfaceMethodInfo::method, "asked")},
-        {.name = "diffusion texels",
-         .flag = "--diffusion-texels",
-         .key = "diffusionTexels",
-         .type = "TEXELS",
-         .help = "Of texture_space_diffusion: side of an object's atlas",
-         .group = "Subsurface scattering",
-         .panel = SettingPanel::Skin,
-         .label = "Atlas",
-         .isOfFrame = true,
-         .value = choice(in(&DiffusionSettings::sideTexels), frame::kDiffusionSides, " texels")},
-        {.name = "diffusion gaussians",
-         .flag = "--diffusion-gaussians",
-         .key = "diffusionGaussians",
-         .type = "N",
-         .help = "Of texture_space_diffusion: Gaussians of a profile at most; of more, neighbours are merged",
-         .group = "Subsurface scattering",
-         .panel = SettingPanel::Skin,
-         .label = "Gaussians",
-         .isOfFrame = true,
-         .value = wholeNumber(in(&DiffusionSettings::gaussians),
-                              {.least = 1, .most = double(scenes::kMostGaussians), .isWhole = true})},
-        {.name = "diffusion half",
-         .flag = "--diffusion-half",
-         .key = "diffusionHalf",
-         .type = "on|off",
-         .help = "Of texture_space_diffusion: on spreads light at half the resolution that it is lit at",
-         .group = "Subsurface scattering",
-         .panel = SettingPanel::Skin,
-         .label = "Half resolution",
-         .isOfFrame = true,
-         .value = onOff(&DiffusionSettings::half)},
         {.name = "specular",
          .flag = "--specular",
          .key = "specular",

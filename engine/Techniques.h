@@ -71,13 +71,6 @@ struct AfterOpaque {
         add;
 };
 
-/// Objects that light spreads over are lit as views of their own (frame::DrawnView::Diffused), which are numbered
-/// behind those of the frame, of which there are fewer.
-constexpr std::size_t kMostDiffusedObjects = 4096; ///< of a view
-constexpr std::size_t numberOfObject(std::size_t view, std::size_t cell) {
-    return kMostDiffusedObjects * (view + 1) + cell;
-}
-
 /// What a view is declared from.
 struct ViewSource {
     Technique technique;

@@ -69,7 +69,7 @@ DrawList makeDrawList(const scenes::Scene& scene) {
             if (!scenes::isDrawn(scene, instance)) continue;
             const scenes::Box3& boxOS = boxesOS[std::size_t(instance.mesh)];
             const glm::dvec3 centerOS = boxOS.empty() ? glm::dvec3(0.0) : 0.5 * (boxOS.min + boxOS.max);
-            list.draws.push_back({instance.mesh, instance.material, int(node), own, mirrored, instance.castsShadow, 0,
+            list.draws.push_back({instance.mesh, instance.material, int(node), own, mirrored, instance.castsShadow,
                                   largestColors[std::size_t(instance.mesh)], transformed(boxOS, worldFromObject),
                                   reachOf(boxOS, worldFromObject),
                                   glm::dvec3(worldFromObject * glm::dvec4(centerOS, 1.0))});
@@ -85,6 +85,21 @@ DrawList makeDrawList(const scenes::Scene& scene) {
 }
 
 namespace {
+
+/// Whether some plane of the view's frustum has all of a draw's box behind it.
+bool isOutside(const Draw& draw, const glm::dvec3& objectWS, const CameraView& view) {
+    const scenes::Box3& boxWS = draw.boxWS;
+    if (boxWS.empty()) return false;
+    const glm::dvec3 low = boxWS.min - view.originWS, high = boxWS.max - view.originWS;
+    const double errorMetres = roundingMetres(draw, objectWS, view);
+    return std::any_of(view.frustumPlanesLS.begin(), view.frustumPlanesLS.end(), [&](const glm::dvec4& plane) {
+        const glm::dvec3 normal = glm::dvec3(plane) * view.lsFromWorld; // by the transpose, into world axes
+        const glm::dvec3 innermost(normal.x > 0.0 ? high.x : low.x, normal.y > 0.0 ? high.y : low.y,
+                                   normal.z > 0.0 ? high.z : low.z);
+        const double insideMetres = glm::dot(normal, innermost) + plane.w;
+        return insideMetres < -errorMetres;
+    });
+}
 
 /// Extends `area` by the pixels in which a draw's box may be seen.
 void extend(PixelArea& area, const Draw& draw, const glm::dvec3& objectWS, const CameraView& view) {
@@ -125,7 +140,7 @@ DrawRows rowsOf(const Draw& draw, const glm::dmat4& worldFromObject, const Camer
     for (int c = 0; c < 3; ++c)
         largest = std::max({largest, std::abs(normal[c].x), std::abs(normal[c].y), std::abs(normal[c].z)});
     if (largest > 0.0) normal /= largest;
-    const double extra[3] = {sign * (1.0 + draw.diffusedNumber), double(draw.largestColor), 1.0 + draw.instance};
+    const double extra[3] = {sign, double(draw.largestColor), 1.0 + draw.instance};
     DrawRows rows;
     for (int r = 0; r < 3; ++r) {
         rows.position[r] = glm::vec4(linear[0][r], linear[1][r], linear[2][r], originRWS[r]);
@@ -171,7 +186,7 @@ ViewDraws makeViewDraws(const DrawList& list, const CameraView& view, bool culls
         const Draw& draw = list.draws[std::size_t(i)];
         const glm::dmat4& worldFromObject = list.worldFromObject[std::size_t(draw.node)];
         if (isWanted && !isWanted(draw)) continue;
-        if (culls && isOutside(draw.boxWS, roundingMetres(draw, glm::dvec3(worldFromObject[3]), view), view)) continue;
+        if (culls && isOutside(draw, glm::dvec3(worldFromObject[3]), view)) continue;
         const int place = int(result.seen.size());
         result.seen.push_back(i);
         result.rows.push_back(rowsOf(draw, worldFromObject, view));

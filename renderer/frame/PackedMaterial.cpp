@@ -7,7 +7,6 @@
 #include "renderer/gpu/Sampler.h"
 #include "scenes/InUse.h"
 #include "scenes/Limits.h"
-#include "shaders/shared/caster_tree.h"
 #include "shaders/shared/material.h"
 #include "shaders/shared/models.h"
 
@@ -19,7 +18,6 @@ using scenes::MaterialModel;
 using scenes::TextureSlot;
 
 static_assert(scenes::kTextureSlotCount == TEXTURE_SLOT_COUNT);
-static_assert(CASTER_PASSED == SUBSURFACE_MOST - 1 && CASTER_MIRRORED > CASTER_PASSED, "marks hold every row");
 static_assert(scenes::kMostSubsurfaces < SUBSURFACE_MOST, "the first row is that of none");
 static_assert(unsigned(scenes::Masking::Walter) == MASKING_WALTER &&
               unsigned(scenes::Masking::Directional) == MASKING_DIRECTIONAL &&
@@ -112,9 +110,7 @@ PackedSubsurfaces packSubsurfaces(const scenes::Scene& scene, scenes::Subsurface
         const scenes::Subsurface& subsurface = scene.materials[i].subsurface;
         const scenes::SubsurfaceMethod method = scenes::subsurfaceOf(scene.materials[i], request);
         const bool wraps = method == scenes::SubsurfaceMethod::Wrap;
-        // Light that passes through spreads over the other side too.
-        const bool passes =
-            method == scenes::SubsurfaceMethod::DepthMap || method == scenes::SubsurfaceMethod::TextureSpaceDiffusion;
+        const bool passes = method == scenes::SubsurfaceMethod::DepthMap;
         if (!inUse[i] || !(wraps || passes)) continue;
         packed.rowOf[i] = packed.rows.size();
         shared::SubsurfaceConstants& row = packed.rows.emplace_back();
@@ -139,8 +135,7 @@ shared::MaterialConstants packMaterial(const scenes::Material& material, std::si
         glm::vec4(material.metallic, roughnessParameter(material), material.ior, material.normalScale);
     packed.specular = glm::vec4(material.specularColor, material.specularFactor);
     const double contrast = (double(material.ior) - 1.0) / (double(material.ior) + 1.0);
-    packed.dielectric =
-        glm::vec4(float(contrast * contrast), float(subsurfaceRow), material.subsurface.preScatterShare, 0.0f);
+    packed.dielectric = glm::vec4(float(contrast * contrast), float(subsurfaceRow), 0.0f, 0.0f);
     packed.anisotropy = packAnisotropy(material);
     packed.clearcoat =
         glm::vec4(material.clearcoat, material.clearcoatPerceptualRoughness, material.clearcoatNormalScale, 0.0f);

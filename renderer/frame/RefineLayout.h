@@ -19,11 +19,9 @@ struct Refinement {
 ///   packed fields are roots of 0 to 1. Pictures of floats count as brighter than 1.
 /// - The normal of `slim` has the bits of `packed` if a material has masking-shadowing by the half vector, which
 /// divides by n·v.
-/// - Emission is exact where light spreads over a surface: it fades by many powers of ten.
-std::vector<Refinement> refinements(const GBufferLayout& layout, const scenes::Scene& scene,
-                                    scenes::SubsurfaceRequest subsurface = {});
+std::vector<Refinement> refinements(const GBufferLayout& layout, const scenes::Scene& scene);
 
 /// The layout with its refinements.
-GBufferLayout refined(GBufferLayout layout, const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface = {});
+GBufferLayout refined(GBufferLayout layout, const scenes::Scene& scene);
 
 } // namespace tessera::frame

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "renderer/frame/Diffusion.h"
 #include "renderer/frame/PackedMaterial.h"
 #include "renderer/frame/TextureLevels.h"
 #include "renderer/gpu/TexelBuffer.h"
@@ -79,9 +78,8 @@ gpu::PipelineState stateOf(gpu::PipelineState state, bool doubleSided, bool mirr
 
 SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter,
                    scenes::SubsurfaceRequest subsurface)
-    : scene_(scene), features_(features), filter_(filter), subsurface_(subsurface),
-      materialsInUse_(scenes::inUse(scene).materials), geometry_(makeGeometry()), draws_(makeDraws(geometry_.ranges)),
-      materials_(makeMaterials()) {
+    : scene_(scene), features_(features), filter_(filter), subsurface_(subsurface), materialsInUse_(scenes::inUse(scene).materials),
+      geometry_(makeGeometry()), draws_(makeDraws(geometry_.ranges)), materials_(makeMaterials()) {
     uploadTextures();
     revisedMaterials_ = casterMaterials();
 }
@@ -113,12 +111,7 @@ SceneGpu::Geometry SceneGpu::makeGeometry() const {
 
 SceneGpu::Draws SceneGpu::makeDraws(const VertexStreams::Ranges& ranges) const {
     Draws draws{alphaModes(scene_), makeDrawList(scene_), {}};
-    const std::vector<DiffusedObject> diffused = diffusedObjects(scene_, subsurface_, {});
-    for (Draw& draw : draws.list.draws) {
-        draws.ranges.push_back(ranges.at({draw.mesh, draw.material}));
-        const auto own = std::ranges::find(diffused, draw.instance, &DiffusedObject::instance);
-        if (own != diffused.end()) draw.diffusedNumber = 1 + int(own - diffused.begin());
-    }
+    for (const Draw& draw : draws.list.draws) draws.ranges.push_back(ranges.at({draw.mesh, draw.material}));
     return draws;
 }
 
@@ -143,7 +136,7 @@ SceneGpu::Materials SceneGpu::makeMaterials() const {
     materials.constants = std::make_unique<gpu::Buffer>(gpu::Buffer::of("materials", bytes));
     if (!features_[Feature::VaryingMaterials] && !tabled.empty())
         materials.tabled = std::make_unique<gpu::Buffer>(gpu::Buffer::of("material table", tabled));
-    if (features_.enteringLight()) {
+    if (features_.subsurfaceRows()) {
         subsurfaces.rows.resize(SUBSURFACE_MOST); // as large as the block
         materials.subsurfaces = std::make_unique<gpu::Buffer>(gpu::Buffer::of("subsurfaces", subsurfaces.rows));
     }

@@ -18,8 +18,8 @@ std::optional<std::filesystem::path> headScanFolder() {
     return folder;
 }
 
-int addHeadScan(Scene& scene, const std::filesystem::path& folder, double bottomY, double heightMetres,
-                LoadLedger& ledger) {
+void addHeadScan(Scene& scene, const std::filesystem::path& folder, double bottomY, double heightMetres,
+                 LoadLedger& ledger) {
     Scene scan = importObj(folder / "head.obj", ledger);
     const Box3 boundsWS = worldBounds(scan);
     if (boundsWS.empty() || boundsWS.max.y <= boundsWS.min.y) {
@@ -47,7 +47,6 @@ int addHeadScan(Scene& scene, const std::filesystem::path& folder, double bottom
         if (!instances.empty()) addNode(scene, scan.nodes[n].name, fitted * scanFromNode[n], std::move(instances));
     }
     scene.warnings.insert(scene.warnings.end(), scan.warnings.begin(), scan.warnings.end());
-    return material;
 }
 
 } // namespace tessera::scenes::builtin

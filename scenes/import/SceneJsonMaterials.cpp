@@ -184,7 +184,8 @@ DiffusionProfile readProfile(const JsonValue& value) {
     for (const JsonValue& element : value.elements(1, kMostGaussians)) {
         JsonObject object = element.object();
         DiffusionGaussian& gaussian = profile.emplace_back();
-        gaussian.varianceSquareMillimetres = object.require("varianceSquareMillimetres").single(0.0, kMostVariance);
+        gaussian.varianceSquareMillimetres =
+            object.require("varianceSquareMillimetres").single(0.0, kMostVariance);
         gaussian.weight = object.require("weight").color();
         object.done("a Gaussian of a profile");
     }
@@ -194,30 +195,31 @@ DiffusionProfile readProfile(const JsonValue& value) {
 
 /// A method alone, or an object with what the methods are to use.
 void readSubsurface(const JsonValue& value, Subsurface& subsurface) {
-    const auto methodOf = [](const JsonValue& method) {
-        return method.oneOf<SubsurfaceMethod>("subsurface method", kSubsurfaceMethodNames);
+    const auto readMethod = [&](const JsonValue& method) {
+        subsurface.method = method.oneOf<SubsurfaceMethod>("subsurface method", kSubsurfaceMethodNames);
     };
-    if (value.isText()) {
-        subsurface.method = methodOf(value);
-        return;
-    }
+    if (value.isText()) return readMethod(value);
     JsonObject object = value.object();
-    visitFields(kSubsurfaceFields, [&](const auto& field) {
-        const auto found = object.find(field.name);
-        if (!found) return;
-        auto& member = subsurface.*field.member;
-        using Member = std::remove_reference_t<decltype(member)>;
-        if constexpr (std::is_same_v<Member, SubsurfaceMethod>) {
-            member = methodOf(*found);
-        } else if constexpr (std::is_same_v<Member, DiffusionProfile>) {
-            member = readProfile(*found);
-        } else if constexpr (std::is_same_v<Member, glm::vec3>) {
-            const std::vector<JsonValue> elements = found->elements(3, 3);
-            for (glm::length_t c = 0; c < 3; ++c) member[c] = elements[std::size_t(c)].single(field.least, field.most);
-        } else {
-            member = found->single(field.least, field.most);
-        }
-    });
+    if (const auto method = object.find("method")) readMethod(*method);
+    const auto number = [&](auto member) {
+        const auto field = fieldOf(kSubsurfaceFields, member);
+        if (const auto factor = object.find(field.name)) subsurface.*member = factor->single(field.least, field.most);
+    };
+    const auto channels = [&](glm::vec3 Subsurface::*member) {
+        const auto field = fieldOf(kSubsurfaceFields, member);
+        const auto factors = object.find(field.name);
+        if (!factors) return;
+        const std::vector<JsonValue> elements = factors->elements(3, 3);
+        for (glm::length_t c = 0; c < 3; ++c)
+            (subsurface.*member)[c] = elements[std::size_t(c)].single(field.least, field.most);
+    };
+    number(&Subsurface::scaleMetres);
+    number(&Subsurface::wrap);
+    channels(&Subsurface::wrapTint);
+    number(&Subsurface::bodyRadiusMetres);
+    channels(&Subsurface::absorptionPerMillimetre);
+    number(&Subsurface::preScatterShare);
+    if (const auto profile = object.find("profile")) subsurface.profile = readProfile(*profile);
     object.done("a subsurface");
 }
 

@@ -4,7 +4,6 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "scenes/Load.h"
 #include "scenes/LookAt.h"
 #include "scenes/builtin/Shapes.h"
 #include "tests/image/ShadowTest.h"

@@ -22,7 +22,6 @@ protected:
         Technique,
         View,
         Shadows,
-        Subsurface,
         Camera,
         Compare,
         Lights,

@@ -58,7 +58,6 @@ ReferencePicture referencePicture(const scenes::Scene& scene, const frame::Frame
     result.alternatives = std::move(rendered.alternatives);
     result.undecidedShadows = std::move(rendered.undecidedShadows);
     result.shadowNoise = std::move(rendered.shadowNoise);
-    result.spread = std::move(rendered.spread);
     return result;
 }
 
@@ -137,11 +136,6 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
     Tolerance tolerance;
     if (frame::infoOf(settings.shadowFilter).usesMaps && hasShadows(scene, settings, false)) {
         tolerance.reason = "shadow maps are an approximation: their error is reported, and held to nothing";
-        return tolerance;
-    }
-    if (frame::diffusesLight(scene, settings.subsurface)) {
-        tolerance.reason =
-            "light spread in texture space is an approximation: its error is reported, and held to nothing";
         return tolerance;
     }
     if (!frame::materialFeatures(scene).textures()) {

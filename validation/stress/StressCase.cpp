@@ -13,7 +13,6 @@ const std::vector<StressCase>& stressCases() {
         addGeometryCases(cases);
         addTargetCases(cases);
         addShadowCases(cases);
-        addSubsurfaceCases(cases);
         return cases;
     }();
     return kCases;

@@ -12,8 +12,7 @@ inline constexpr double kBustTopY = 1.24;
 double bustField(const glm::dvec3& pointBU);
 
 /// Fine relief on the skin at a point, along its normal outwards: hair, brows, lips' and skin's texture. In bust units.
-/// `grain` scales the pits and unevenness of the bare surface: 1 is weathered stone.
-double bustRelief(const glm::dvec3& pointBU, double grain);
+double bustRelief(const glm::dvec3& pointBU);
 
 /// What the skin is made of at a point, each 0..1, for its colour.
 struct BustRegions {
@@ -21,7 +20,6 @@ struct BustRegions {
     double brow = 0.0;
     double lips = 0.0;
     double eye = 0.0;
-    double iris = 0.0; ///< the pupil included
     double irisRim = 0.0;
     double pupil = 0.0;
 };

@@ -2,18 +2,15 @@
 #pragma once
 #include "lib/surface/camera.glsl"
 #include "lib/material/material.glsl"
-#if FILTER_EXACT && !IN_ATLAS
-#define BY_TRIANGLE 1
+#if FILTER_EXACT
 #include "lib/surface/triangle.glsl"
-#else
-#define BY_TRIANGLE 0
 #endif
-#if HAS_SHADOWS && !DEPTH_ONLY && !IN_ATLAS
+#if HAS_SHADOWS && !DEPTH_ONLY
 #include "lib/raster/facet_normal.glsl"
 #endif
 
 #if !DEPTH_ONLY
-#if !BY_TRIANGLE
+#if !FILTER_EXACT
 layout(location = 0) in vec3 normalLS;
 #endif
 #if HAS_TANGENTS
@@ -25,7 +22,7 @@ layout(location = 6) flat in vec3 normalFromObject1;
 layout(location = 7) flat in vec3 normalFromObject2;
 #endif
 #if VIEW == VIEW_NORMAL_OBJECT
-#if BY_TRIANGLE
+#if FILTER_EXACT
 #define OBJECT_ROWS 20 // passes/triangle.geom hands on more than a vertex may
 #else
 #define OBJECT_ROWS 11
@@ -35,7 +32,7 @@ layout(location = OBJECT_ROWS + 1) flat in vec3 objectRow1;
 layout(location = OBJECT_ROWS + 2) flat in vec3 objectRow2;
 #endif
 #endif
-#if (HAS_TEXCOORDS || IN_ATLAS) && !BY_TRIANGLE
+#if HAS_TEXTURES && !FILTER_EXACT
 layout(location = 2) in vec2 texCoord0;
 #if HAS_TEXCOORD1
 layout(location = 3) in vec2 texCoord1;
@@ -45,25 +42,20 @@ layout(location = 3) in vec2 texCoord1;
 layout(location = 4) in vec4 vertexColor;
 layout(location = 8) flat in float largestColor; // 0 without vertex colours
 #endif
-#if IN_ATLAS && HAS_SHADOWS
-layout(binding = TEXTURE_UNIT_TRIANGLE_NORMALS) uniform samplerBuffer triangleNormals; // unit, of the front, in LS
-#endif
 
 Fragment rasterisedFragment()
 {
     Fragment fragment = plainFragment();
-#if BY_TRIANGLE
+#if FILTER_EXACT
     dvec3 weights = triangleWeights(gl_FragCoord.xy);
 #endif
 #if !DEPTH_ONLY
-#if BY_TRIANGLE
+#if FILTER_EXACT
     fragment.normalLS = triangleNormal(weights);
 #else
     fragment.normalLS = normalLS;
 #endif
-#if HAS_SHADOWS && IN_ATLAS
-    fragment.facetNormalLS = -texelFetch(triangleNormals, gl_PrimitiveID).xyz; // texels are of the front
-#elif HAS_SHADOWS
+#if HAS_SHADOWS
     fragment.facetNormalLS = rasterisedFacetNormal();
 #endif
 #if HAS_TANGENTS
@@ -77,7 +69,7 @@ Fragment rasterisedFragment()
     fragment.objectFromNormal = mat3(objectRow0, objectRow1, objectRow2) * mat3(view.worldFromLS);
 #endif
 #endif
-#if HAS_TEXCOORDS && BY_TRIANGLE
+#if HAS_TEXTURES && FILTER_EXACT
     dvec4 texCoord = triangleTexCoord(weights);
     fragment.texCoord[0] = texCoord.xy;
     fragment.texCoord[1] = texCoord.zw;
@@ -87,16 +79,10 @@ Fragment rasterisedFragment()
     fragment.texCoordChange[0] = dmat2(texCoordDx.xy, texCoordDy.xy);
     fragment.texCoordChange[1] = dmat2(texCoordDx.zw, texCoordDy.zw);
 #endif
-#elif HAS_TEXCOORDS || IN_ATLAS
+#elif HAS_TEXTURES
     fragment.texCoord[0] = texCoord0;
 #if HAS_TEXCOORD1
     fragment.texCoord[1] = texCoord1;
-#endif
-#if FILTER_EXACT && HAS_MIXED_FILTERS
-    fragment.texCoordChange[0] = dmat2(dFdx(texCoord0), dFdy(texCoord0));
-#if HAS_TEXCOORD1
-    fragment.texCoordChange[1] = dmat2(dFdx(texCoord1), dFdy(texCoord1));
-#endif
 #endif
 #endif
 #if HAS_VERTEX_COLOR
@@ -107,6 +93,6 @@ Fragment rasterisedFragment()
     fragment.color = clamp(fragment.color, 0.0, max(largestColor, 1.0));
 #endif
 #endif
-    fragment.frontFacing = IN_ATLAS != 0 || gl_FrontFacing;
+    fragment.frontFacing = gl_FrontFacing;
     return fragment;
 }
