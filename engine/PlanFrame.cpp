@@ -38,7 +38,7 @@ std::string truncationWords(const frame::TruncatedLights& lights, double toleran
 /// Channels that are stored finer than the layout that was asked for says.
 void addRefinements(graph::Plan& plan, const scenes::Scene& scene, const frame::GBufferLayout& asked,
                     const frame::FrameSpec& spec) {
-    for (const frame::Refinement& refinement : frame::refinements(asked, scene)) {
+    for (const frame::Refinement& refinement : frame::refinements(asked, scene, spec.settings.subsurface)) {
         if (std::find(spec.channels.begin(), spec.channels.end(), refinement.channel) == spec.channels.end()) continue;
         plan.choices.push_back(
             {fmt::format("G-buffer channel {}", frame::channelTable()[std::size_t(refinement.channel)].name),

@@ -103,6 +103,57 @@ void addShadowMaps(const scenes::Scene& scene, std::span<const frame::SurfaceBou
     spec.shadowFaces = prepared.shadowMaps.faces.size();
 }
 
+/// The lights of an object's texels: a view of the whole of it, so that what reaches it nowhere is left out, whatever
+/// the camera sees.
+frame::PreparedView prepareDiffused(const scenes::Scene& scene, const frame::DiffusedObject& object,
+                                    frame::FrameSettings settings, std::span<const frame::SurfaceBounds> bounds) {
+    settings.sizePixels = glm::ivec2(settings.diffusion.sideTexels);
+    settings.wholePixels.reset();
+    settings.samples = 1;
+    settings.samplesGiven.reset();
+    settings.eyeOffsetWS = glm::dvec3(0.0);
+    settings.view = frame::DebugView::Final;
+    settings.space = frame::LightingSpace::World;
+    settings.display = false;
+    settings.culling = {};
+
+    const glm::dvec3 center = 0.5 * (object.boxWS.min + object.boxWS.max);
+    const double radius =
+        std::max(0.51 * glm::distance(object.boxWS.min, object.boxWS.max), 1e-9 * (1.0 + glm::length(center)));
+    scenes::Camera camera;
+    camera.projection = scenes::Projection::Orthographic;
+    camera.worldFromCamera[3] = glm::dvec4(center + glm::dvec3(0.0, 0.0, 2.0 * radius), 1.0);
+    camera.halfHeightMetres = radius;
+    camera.nearMetres = 0.5 * radius;
+    const frame::SurfaceBounds own{.boxWS = object.boxWS, .reachMetres = radius, .nodeWS = center};
+
+    frame::PreparedView prepared;
+    prepared.camera = frame::makeCameraView(camera, settings.sizePixels, settings.space, glm::vec3(0.0f), {&own, 1});
+    prepared.lights = frame::packLights(scene, prepared.camera, settings);
+    const std::size_t count = prepared.lights.texels.size();
+    prepared.lighting.lights = glm::uvec4(count, prepared.lights.shown, prepared.lights.everywhere, (count + 31) / 32);
+    prepared.lighting.slices.y = glm::uint(prepared.lights.shadowed);
+    prepared.spec = frame::makeDiffusedSpec(scene, object, prepared.lights, settings);
+    if (prepared.spec.features[frame::Feature::ShadowMaps]) addShadowMaps(scene, bounds, prepared);
+    return prepared;
+}
+
+void addDiffused(const scenes::Scene& scene, std::span<const frame::SurfaceBounds> bounds,
+                 frame::PreparedView& prepared) {
+    frame::FrameSpec& spec = prepared.spec;
+    prepared.diffusedObjects = frame::diffusedObjects(scene, spec.settings.subsurface);
+    for (const frame::DiffusedObject& object : prepared.diffusedObjects) {
+        prepared.diffused.push_back(prepareDiffused(scene, object, spec.settings, bounds));
+        spec.diffused.push_back(prepared.diffused.back().spec);
+    }
+    const glm::ivec2 texels = spec.diffusedCells().texels;
+    if (std::max(texels.x, texels.y) > frame::kLargestSidePixels)
+        throw InputError(fmt::format("{}: light spreads over {} objects, whose atlases of {} texels a side do not fit a "
+                                     "texture; give {} a smaller one",
+                                     scene.name, spec.diffused.size(), spec.spreadTexels(),
+                                     settingOf("diffusionTexels").flag));
+}
+
 } // namespace
 
 frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings,
@@ -142,6 +193,7 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
     spec.background = prepared.camera.constants.background;
     requireStoredChannel(spec);
     if (spec.features[frame::Feature::ShadowMaps]) addShadowMaps(scene, bounds, prepared);
+    if (spec.features[frame::Feature::SubsurfaceDiffusion]) addDiffused(scene, bounds, prepared);
     spec.lightOn = chooseLighting(settings);
     spec.culling = chooseCulling(technique, settings, spec.features, prepared.lights);
     // These views light nothing, and no lists are built for them.

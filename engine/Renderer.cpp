@@ -40,7 +40,8 @@ struct Renderer::Drawn {
 };
 
 Renderer::Renderer(gpu::Context& context, const scenes::Scene& scene, shader::SourceTree shaders)
-    : context_(context), scene_(scene), bounds_(frame::surfaceBounds(scene)), programs_(std::move(shaders)) {}
+    : context_(context), scene_(scene), bounds_(frame::surfaceBounds(scene)), programs_(std::move(shaders)),
+      diffusionAtlases_(scene) {}
 
 Renderer::~Renderer() = default;
 
@@ -61,6 +62,28 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     sceneFilter_ = filter;
     sceneSubsurface_ = subsurface;
     return *sceneGpu_;
+}
+
+void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
+    const frame::PreparedView& prepared = view.prepared;
+    if (prepared.diffused.empty()) return;
+    view.diffusionMemory = &diffusionMemories_[number];
+    const frame::DrawList& list = view.scene->drawList();
+    for (std::size_t cell = 0; cell < prepared.diffused.size(); ++cell) {
+        const frame::DiffusedObject& object = prepared.diffusedObjects[cell];
+        frame::DrawnView::Diffused& own = view.diffused.emplace_back();
+        own.drawn.prepared = prepared.diffused[cell];
+        own.drawn.scene = view.scene;
+        const frame::FrameSpec& spec = own.drawn.prepared.spec;
+        if (spec.tracesShadows()) sceneGpu_->makeCasters();
+        const auto isOwn = [&](const frame::Draw& draw) { return draw.instance == object.instance; };
+        own.drawn.draws = frame::makeViewDraws(list, own.drawn.prepared.camera, false, isOwn);
+        own.isSeen = std::ranges::any_of(view.draws.seen, [&](int i) { return isOwn(list.draws[std::size_t(i)]); });
+        if (spec.features[frame::Feature::ShadowMaps])
+            own.drawn.shadowMemory = &shadowMemories_.of(numberOfObject(number, cell), spec.settings);
+        own.atlas = &diffusionAtlases_.of(object, spec.spreadTexels(), spec.gutterTexels);
+        own.key = frame::diffusionKey(scene_, object, own.drawn.prepared, view.scene->casterRevision());
+    }
 }
 
 void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after) {
@@ -84,6 +107,7 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
         view.draws = frame::makeViewDraws(view.scene->drawList(), view.prepared.camera, spec.settings.prune);
         view.listMemory = &listMemory_;
         if (spec.features[frame::Feature::ShadowMaps]) view.shadowMemory = &shadowMemories_.of(i, spec.settings);
+        addDiffused(i, view);
         sources.push_back({views[i].technique, spec, &view});
     }
     drawn->declared = declareFrame(drawn->graph, sources, after);

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -110,6 +111,8 @@ public:
 private:
     struct Drawn;
     const Drawn& latest() const;
+    /// The objects of a view that light spreads over.
+    void addDiffused(std::size_t number, frame::DrawnView& view);
 
     gpu::Context& context_;
     const scenes::Scene& scene_;
@@ -118,6 +121,8 @@ private:
     gpu::GraphBackend backend_;
     frame::LightListMemory listMemory_;
     frame::ShadowMemories shadowMemories_;
+    frame::DiffusionAtlases diffusionAtlases_;
+    std::map<std::size_t, frame::DiffusionMemory> diffusionMemories_; ///< by view
     std::unique_ptr<frame::SceneGpu> sceneGpu_;
     frame::FeatureSet sceneFeatures_;                                   ///< features that sceneGpu_ was made with
     frame::TextureFilter sceneFilter_ = frame::TextureFilter::Hardware; ///< the same

@@ -47,14 +47,25 @@ void requireBounds(const NumberKind& kind, double value, const TextSource& sourc
                                  boundsText(held)));
 }
 
-SettingValue onOff(bool FrameSettings::*member) {
+namespace {
+
+SettingValue onOffIn(auto place) {
     const auto valueOf = [](const std::string& text, const TextSource& source) {
         if (text == "on" || text == "off") return text == "on";
         constexpr std::string_view kNames[] = {"on", "off"};
         throw InputError(fmt::format("unknown {} '{}': {}", source.called, text, suggestNames(text, kNames)));
     };
     return valueIn(
-        in(member), SwitchKind{}, [](bool isOn) { return std::string(isOn ? "on" : "off"); }, valueOf);
+        place, SwitchKind{}, [](bool isOn) { return std::string(isOn ? "on" : "off"); }, valueOf);
+}
+
+} // namespace
+
+SettingValue onOff(bool FrameSettings::*member) {
+    return onOffIn(in(member));
+}
+SettingValue onOff(bool frame::DiffusionSettings::*member) {
+    return onOffIn(in(member));
 }
 
 SettingValue pictureSize() {

@@ -28,6 +28,12 @@ auto in(Value frame::ShadowMapSettings::*member) {
         return request.settings.shadowMaps.*member;
     };
 }
+template <typename Value>
+auto in(Value frame::DiffusionSettings::*member) {
+    return [member](auto& request) -> auto& {
+        return request.settings.diffusion.*member;
+    };
+}
 inline auto in(Technique ViewRequest::*member) {
     return [member](auto& request) -> auto& {
         return request.*member;
@@ -192,6 +198,7 @@ SettingValue wholeNumber(Get get, const NumberKind& kind) {
 }
 
 SettingValue onOff(bool frame::FrameSettings::*member);
+SettingValue onOff(bool frame::DiffusionSettings::*member);
 SettingValue pictureSize();
 
 } // namespace tessera::engine

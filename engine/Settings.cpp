@@ -15,7 +15,7 @@ namespace tessera::engine {
 
 namespace {
 
-using frame::FrameSettings, frame::ShadowMapSettings;
+using frame::DiffusionSettings, frame::FrameSettings, frame::ShadowMapSettings;
 
 // ---- Settings that are more than a value of a kind -----------------------------------------------------------------
 
@@ -380,9 +380,43 @@ std::vector<Setting> makeTable() {
          .help = "How light that enters surfaces leaves them, where their materials have a subsurface: " +
                  listed(scenes::subsurfaceMethods()),
          .byItself = "asked: as each material says",
+         .group = "Skin",
+         .panel = SettingPanel::Skin,
+         .label = "Method",
          .isOfFrame = true,
          .value = choice(in(&FrameSettings::subsurface), scenes::subsurfaceMethods(),
                          &scenes::SubsurfaceMethodInfo::method, "asked")},
+        {.name = "diffusion texels",
+         .flag = "--diffusion-texels",
+         .key = "diffusionTexels",
+         .type = "TEXELS",
+         .help = "Of texture_space_diffusion: side of an object's atlas",
+         .group = "Skin",
+         .panel = SettingPanel::Skin,
+         .label = "Atlas",
+         .isOfFrame = true,
+         .value = choice(in(&DiffusionSettings::sideTexels), frame::kDiffusionSides, " texels")},
+        {.name = "diffusion gaussians",
+         .flag = "--diffusion-gaussians",
+         .key = "diffusionGaussians",
+         .type = "N",
+         .help = "Of texture_space_diffusion: how many at most; neighbours of a profile that has more become one",
+         .group = "Skin",
+         .panel = SettingPanel::Skin,
+         .label = "Gaussians",
+         .isOfFrame = true,
+         .value = wholeNumber(in(&DiffusionSettings::gaussians),
+                              {.least = 1, .most = double(scenes::kMostGaussians), .isWhole = true})},
+        {.name = "diffusion half",
+         .flag = "--diffusion-half",
+         .key = "diffusionHalf",
+         .type = "on|off",
+         .help = "on spreads light at half the resolution that it is computed at",
+         .group = "Skin",
+         .panel = SettingPanel::Skin,
+         .label = "Half resolution",
+         .isOfFrame = true,
+         .value = onOff(&DiffusionSettings::half)},
         {.name = "specular",
          .flag = "--specular",
          .key = "specular",

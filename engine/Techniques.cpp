@@ -5,9 +5,12 @@
 #include <cassert>
 #include <iterator>
 
+#include <fmt/format.h>
+
 #include "base/EnumTable.h"
 #include "passes/DeferredLightingPass.h"
 #include "passes/DepthPrepass.h"
+#include "passes/DiffusionPasses.h"
 #include "passes/DisplayPass.h"
 #include "passes/ForwardPass.h"
 #include "passes/GBufferPass.h"
@@ -43,7 +46,10 @@ struct FrameHandles {
 
 FrameHandles declareShared(graph::Graph& graph, std::span<const ViewSource> views) {
     const bool tracesShadows =
-        std::ranges::any_of(views, [](const ViewSource& view) { return view.spec.tracesShadows(); });
+        std::ranges::any_of(views, [](const ViewSource& view) {
+            return view.spec.tracesShadows() ||
+                   std::ranges::any_of(view.spec.diffused, &frame::FrameSpec::tracesShadows);
+        });
     const ViewSource& anyView = views.front();
     return {frame::importScene(graph, anyView.spec.features, anyView.drawn ? anyView.drawn->scene : nullptr,
                                tracesShadows)};
@@ -60,13 +66,38 @@ struct ViewWiring {
     ViewWiring(graph::Graph& ofGraph, const FrameHandles& frame, const ViewSource& view, std::size_t index)
         : graph(ofGraph), spec(view.spec), drawn(view.drawn) {
         const UploadViewPass::Outputs uploaded = UploadViewPass::add(graph, drawn);
-        surfaces = {drawn, frame.scene, {uploaded.constants}, uploaded.rows, uploaded.commands, {}};
+        surfaces = {drawn, frame.scene, {uploaded.constants}, uploaded.rows, uploaded.commands, {}, {}};
         const UploadLightsPass::Outputs lights = UploadLightsPass::add(graph, spec, drawn);
-        lighting = {surfaces.view, lights.constants, lights.lights, frame.scene.materialTable, frame.scene.subsurfaces,
+        lighting = {surfaces.view, lights.constants, lights.lights, frame.scene.materialTable,
+                    spec.features.subsurfaceRows() ? frame.scene.subsurfaces : std::nullopt,
                     {},            {},               {}};
         if (lights.casterTree) lighting.casterTree = {*lights.casterTree, frame.scene.casters.value()};
         if (spec.features[frame::Feature::ShadowMaps])
             lighting.shadowAtlas = ShadowMapsPass::add(graph, spec, {frame.scene, drawn, index}).atlas;
+        if (spec.features[frame::Feature::SubsurfaceDiffusion]) surfaces.diffused = addDiffused(frame, view, index);
+    }
+
+    /// Spreads light over objects, each lit as a view of its own; those that are not seen or whose light is known from
+    /// an earlier frame are left as they are.
+    TextureHandle addDiffused(const FrameHandles& frame, const ViewSource& view, std::size_t index) {
+        // What is in the atlas is known cell by cell, not by a revision of the whole.
+        constexpr std::uint64_t kRevision = 1;
+        const std::string name = index == 0 ? "diffused_light" : fmt::format("diffused_light ({})", index + 1);
+        TextureHandle atlas = graph.persist(name, DiffusionPasses::atlas(spec), kRevision);
+        const bool holdsAtlas = graph.holds(atlas);
+        if (drawn != nullptr) drawn->diffusionMemory->begin(spec.diffused.size(), holdsAtlas);
+        bool writes = false;
+        for (std::size_t cell = 0; cell < spec.diffused.size(); ++cell) {
+            const frame::DrawnView::Diffused* const own = drawn ? &drawn->diffused[cell] : nullptr;
+            // An atlas must be written before it is read.
+            const bool isIdle = own && (!own->isSeen || drawn->diffusionMemory->holds(cell, own->key));
+            if (isIdle && (holdsAtlas || writes || cell + 1 < spec.diffused.size())) continue;
+            const ViewSource object{view.technique, spec.diffused[cell], own ? &own->drawn : nullptr};
+            const ViewWiring wiring(graph, frame, object, numberOfObject(index, cell));
+            atlas = DiffusionPasses::add(graph, spec, cell, {wiring.surfaces, wiring.lighting, atlas, drawn}).atlas;
+            writes = true;
+        }
+        return atlas;
     }
 
     bool hasLightLists() const { return spec.culling.method != Method::None; }

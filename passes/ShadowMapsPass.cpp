@@ -44,6 +44,7 @@ float mostSlopeBias(const shared::ViewConstants& face) {
 std::vector<shader::ProgramDesc> ShadowMapsPass::programs(const frame::FrameSpec& spec) {
     frame::FrameSpec ofMaps = spec;
     ofMaps.samples = 1;
+    ofMaps.spread.clear(); // lights see an object as it stands, not in its texels
     return frame::depthPrograms(ofMaps, "shadow_maps", "passes/depth_prepass.frag", true, {{"SHADING_DEPTH", "0"}});
 }
 
@@ -64,7 +65,7 @@ ShadowMapsPass::Outputs ShadowMapsPass::add(graph::Graph& graph, const frame::Fr
         graph::TextureHandle atlas;
     };
     const Draws draws = addUpload(graph, drawn);
-    const frame::SurfaceHandles surfaces{drawn, inputs.scene, {}, draws.rows, draws.commands, {}};
+    const frame::SurfaceHandles surfaces{drawn, inputs.scene, {}, draws.rows, draws.commands, {}, {}};
     return {graph
                 .addPass<Data>(
                     "shadow_maps",

@@ -70,7 +70,7 @@ DrawList makeDrawList(const scenes::Scene& scene) {
             const scenes::Box3& boxOS = boxesOS[std::size_t(instance.mesh)];
             const glm::dvec3 centerOS = boxOS.empty() ? glm::dvec3(0.0) : 0.5 * (boxOS.min + boxOS.max);
             list.draws.push_back({instance.mesh, instance.material, int(node), own, mirrored, instance.castsShadow,
-                                  largestColors[std::size_t(instance.mesh)], transformed(boxOS, worldFromObject),
+                                  0, largestColors[std::size_t(instance.mesh)], transformed(boxOS, worldFromObject),
                                   reachOf(boxOS, worldFromObject),
                                   glm::dvec3(worldFromObject * glm::dvec4(centerOS, 1.0))});
         }
@@ -140,7 +140,7 @@ DrawRows rowsOf(const Draw& draw, const glm::dmat4& worldFromObject, const Camer
     for (int c = 0; c < 3; ++c)
         largest = std::max({largest, std::abs(normal[c].x), std::abs(normal[c].y), std::abs(normal[c].z)});
     if (largest > 0.0) normal /= largest;
-    const double extra[3] = {sign, double(draw.largestColor), 1.0 + draw.instance};
+    const double extra[3] = {sign * (1.0 + draw.diffusedCell), double(draw.largestColor), 1.0 + draw.instance};
     DrawRows rows;
     for (int r = 0; r < 3; ++r) {
         rows.position[r] = glm::vec4(linear[0][r], linear[1][r], linear[2][r], originRWS[r]);

@@ -65,7 +65,10 @@ std::vector<FeatureInfo> makeTable() {
             {Feature::SoftShadows, "SOFT_SHADOWS", "soft shadows", "no shadow in view is soft"},
             {Feature::ShadowMaps, "SHADOW_MAPS", "shadow maps", "no shadow is looked up in a map"},
             {Feature::SubsurfaceWrap, "SUBSURFACE_WRAP", "wrapped light", "no material wraps any"},
-            {Feature::SubsurfaceDepthMap, "SUBSURFACE_DEPTH_MAP", "light through thin parts", "no material lets any through"},
+            {Feature::SubsurfaceDepthMap, "SUBSURFACE_DEPTH_MAP", "light through thin parts",
+             "no material lets any through"},
+            {Feature::SubsurfaceDiffusion, "SUBSURFACE_DIFFUSION", "light spread over surfaces",
+             "no material spreads any"},
         });
     assert(table.size() == kFeatureCount);
     return table;
@@ -120,6 +123,14 @@ void addMaterial(FeatureSet& set, const scenes::Material& material, scenes::Subs
     const scenes::SubsurfaceMethod method = scenes::subsurfaceOf(material, subsurface);
     set.add(Feature::SubsurfaceWrap, method == scenes::SubsurfaceMethod::Wrap);
     set.add(Feature::SubsurfaceDepthMap, method == scenes::SubsurfaceMethod::DepthMap);
+    if (method != scenes::SubsurfaceMethod::TextureSpaceDiffusion) return;
+    set.add(Feature::SubsurfaceDiffusion);
+    // Surfaces hold the light that has spread over them as emission, and their own f0 as that of a dielectric.
+    set.add(Feature::Emission);
+    set.add(Feature::VaryingMaterials);
+    set.add(Feature::Specular, model.microsurface == scenes::Microsurface::MetallicRoughness &&
+                                   (material.metallic != 0.0f ||
+                                    material.texture(scenes::TextureSlot::MetallicRoughness).image != scenes::kNone));
 }
 
 constexpr bool isMicrofacet(const scenes::MaterialModelInfo& model) {
@@ -247,6 +258,14 @@ bool FeatureSet::textures() const {
                                [&](const scenes::TextureSlotInfo& slot) { return (*this)[slot.slot]; });
 }
 
+bool FeatureSet::texCoords() const {
+    return textures() || (*this)[Feature::SubsurfaceDiffusion];
+}
+
+bool FeatureSet::enteringLight() const {
+    return subsurfaceRows() || (*this)[Feature::SubsurfaceDiffusion];
+}
+
 bool FeatureSet::subsurfaceRows() const {
     return (*this)[Feature::SubsurfaceWrap] || (*this)[Feature::SubsurfaceDepthMap];
 }
@@ -293,6 +312,22 @@ FeatureSet materialFeatures(const scenes::Scene& scene, scenes::SubsurfaceReques
     return set;
 }
 
+FeatureSet enteringFeatures(const scenes::Scene& scene, int material, int mesh) {
+    scenes::Material entered = scene.materials[std::size_t(material)];
+    entered.model = scenes::MaterialModel::Lambert;
+    entered.emissive = glm::vec3(0.0f);
+    entered.alphaMode = scenes::AlphaMode::Opaque;
+    entered.subsurface.method = scenes::SubsurfaceMethod::DepthMap;
+    for (const scenes::TextureSlot slot : {scenes::TextureSlot::MetallicRoughness, scenes::TextureSlot::Emissive})
+        entered.textures[std::size_t(slot)] = {};
+    FeatureSet set;
+    addMaterial(set, entered, {});
+    set.soleModel = entered.model;
+    set.add(Feature::VertexColor, !scene.meshes[std::size_t(mesh)].colors.empty());
+    set.add(Feature::VaryingMaterials);
+    return set;
+}
+
 FeatureSet allFeatures() {
     FeatureSet set;
     set.has.set();
@@ -314,7 +349,9 @@ Defines featureDefines(const FeatureSet& features) {
     addFlag("HAS_TANGENT_FRAME", features.tangentFrame());
     addFlag("HAS_TANGENTS", features.tangents());
     addFlag("HAS_TEXTURES", features.textures());
+    addFlag("HAS_TEXCOORDS", features.texCoords());
     addFlag("HAS_SUBSURFACE_ROWS", features.subsurfaceRows());
+    addFlag("HAS_ENTERING_LIGHT", features.enteringLight());
     addFlag("HAS_PLACED_LIGHTS", features.placedLights());
     addFlag("HAS_CONE_LIGHTS", features.coneLights());
     addFlag("HAS_LIGHT_SHAPES", features.lightShapes());

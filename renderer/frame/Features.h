@@ -42,6 +42,7 @@ enum class Feature : std::uint8_t {
     ShadowMaps,  // the shadows are looked up in maps, not traced
     SubsurfaceWrap,
     SubsurfaceDepthMap, // light passes through surfaces; only where some light casts shadows
+    SubsurfaceDiffusion, // light has spread over surfaces before they are drawn; only of lit pictures
     Count
 };
 inline constexpr std::size_t kFeatureCount = static_cast<std::size_t>(Feature::Count);
@@ -91,7 +92,9 @@ struct FeatureSet {
     bool tangentFrame() const;  ///< surfaces keep a tangent
     bool tangents() const;      ///< meshes bring tangents
     bool textures() const;
+    bool texCoords() const;      ///< meshes bring texture coordinates
     bool subsurfaceRows() const; ///< surfaces of which lighting reads SubsurfaceConstants
+    bool enteringLight() const;  ///< surfaces that light enters
     bool anyLights() const;
     bool placedLights() const;      ///< lights with a position
     bool coneLights() const;        ///< lights of LightReach::Cone
@@ -110,6 +113,10 @@ bool canMask(const scenes::Material& material);
 /// The features of the materials in use. packLights adds those of visible lights and their shadows, makeFrameSpec those
 /// of the camera.
 FeatureSet materialFeatures(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface = {});
+
+/// What decides the light that enters a mesh with a material (Feature::SubsurfaceDiffusion), as the features of one that
+/// reflects it alike to all sides.
+FeatureSet enteringFeatures(const scenes::Scene& scene, int material, int mesh);
 
 /// Everything there is.
 FeatureSet allFeatures();

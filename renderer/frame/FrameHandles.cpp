@@ -39,6 +39,7 @@ SurfaceHandles SurfaceHandles::readGeometry(graph::PassBuilder& pass) const {
                           view.constants ? view.read(pass) : view,
                           pass.read(rows, Access::VertexRead),
                           pass.read(commands, Access::IndirectRead),
+                          {},
                           {}};
     for (graph::BufferHandle& stream : result.scene.vertices) stream = pass.read(stream, Access::VertexRead);
     result.scene.indices = pass.read(scene.indices, Access::IndexRead);
@@ -48,6 +49,7 @@ SurfaceHandles SurfaceHandles::readGeometry(graph::PassBuilder& pass) const {
 SurfaceHandles SurfaceHandles::read(graph::PassBuilder& pass) const {
     SurfaceHandles result = readGeometry(pass);
     result.scene.materials = pass.read(scene.materials, Access::UniformRead);
+    result.diffused = readWhereThere(pass, diffused, Access::ImageRead);
     return result;
 }
 
@@ -73,6 +75,7 @@ void SurfaceHandles::drawDepth(const graph::PassContext& context, std::span<cons
 
 void SurfaceHandles::draw(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const {
     view.bind(context);
+    if (diffused) gpu::bindImage(IMAGE_UNIT_DIFFUSED, context.texture(*diffused), gpu::ImageAccess::Read);
     const ViewDraws& draws = drawn->draws;
     drawn->scene->draw({context.buffer(rows), context.buffer(commands)},
                        kind == Kind::Opaque ? draws.opaque : draws.transparent, state);
@@ -175,7 +178,7 @@ SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const 
     const gpu::Buffer* const table = scene ? scene->materialTable() : nullptr;
     if (!features[Feature::VaryingMaterials] && (!scene || table))
         handles.materialTable = import("material_table", table);
-    if (features.subsurfaceRows())
+    if (features.enteringLight())
         handles.subsurfaces = import("subsurfaces", scene ? scene->subsurfaces() : nullptr);
     if (tracesShadows) handles.casters = import("casters", scene ? scene->casters()->texels.get() : nullptr);
     return handles;

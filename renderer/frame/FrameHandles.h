@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "renderer/culling/LightLists.h"
+#include "renderer/frame/Diffusion.h"
 #include "renderer/frame/PreparedView.h"
 #include "renderer/frame/SceneGpu.h"
 #include "renderer/frame/ShadowMemory.h"
@@ -28,6 +29,17 @@ struct DrawnView {
     ViewDraws draws;
     LightListMemory* listMemory = nullptr;
     ShadowMemory* shadowMemory = nullptr; ///< where the view has shadow maps
+
+    /// An object that light spreads over, drawn into its texels.
+    struct Diffused;
+    std::vector<Diffused> diffused = {};        ///< by cell of the view's atlas
+    DiffusionMemory* diffusionMemory = nullptr; ///< where the view has any
+};
+struct DrawnView::Diffused {
+    DrawnView drawn;
+    const DiffusionAtlas* atlas = nullptr;
+    std::uint64_t key = 0; ///< of all that its light is computed from
+    bool isSeen = false;   ///< in the view
 };
 
 /// The camera of a view.
@@ -55,7 +67,8 @@ struct SurfaceHandles {
     ViewHandles view;                       ///< empty where a pass draws with cameras of its own
     graph::BufferHandle rows;               ///< DrawRows of each draw of the view
     graph::BufferHandle commands;           ///< gpu::DrawIndexedCommand of the same
-    std::vector<std::size_t> depthPrograms; ///< of readDepth(), by number: bare, then where there is one, masked
+    std::optional<graph::TextureHandle> diffused = {}; ///< where light has spread over some: the view's atlas
+    std::vector<std::size_t> depthPrograms = {}; ///< of readDepth(), by number: bare, then where there is one, masked
 
     enum class Kind { Opaque, Transparent };
 

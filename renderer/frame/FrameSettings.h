@@ -64,6 +64,15 @@ inline constexpr int kShadowWidths[] = {1, 3, 5, 7};
 inline constexpr int kShadowResolutions[] = {64, 128, 256, 512, 1024, 2048, 4096, 8192};
 inline constexpr int kMostShadowCascades = 4;
 
+/// Of light that spreads over surfaces (docs/skin.md).
+struct DiffusionSettings {
+    int sideTexels = 1024; ///< of an object's atlas, one of kDiffusionSides
+    int gaussians = 8;     ///< at most; neighbours of a profile that has more become one
+    bool half = false;     ///< light is spread at half the resolution that it is computed at
+    bool operator==(const DiffusionSettings&) const = default;
+};
+inline constexpr int kDiffusionSides[] = {1, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096};
+
 /// 2^EV must be a number that a picture can be multiplied by: fp32 spans 2^-126 to 2^128.
 inline constexpr float kMostExposureEV = 120.0f; ///< either way
 
@@ -99,6 +108,7 @@ struct FrameSettings {
     int shadowSamples = 16; ///< rays or look-ups of a pixel for a light with a size, 1 to kMostShadowSamples
     ShadowMapSettings shadowMaps;
     scenes::SubsurfaceRequest subsurface;
+    DiffusionSettings diffusion;
     culling::Settings culling;
     std::optional<LightingStage> lightOn; ///< of the techniques that light in a pass of its own; open: fragment shaders
     bool softwareBackend = true;          ///< decides the choices left open; the renderer sets it to its own backend

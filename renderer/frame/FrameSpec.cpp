@@ -102,12 +102,15 @@ std::string whyNoShadows(const scenes::Scene& scene, const PackedLights& lights,
     return fmt::format("none of the first {} is on and in view", lightsText(std::size_t(request.lights)));
 }
 
-FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings) {
+namespace {
+
+FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings,
+                   const FeatureSet& surfaces) {
     FrameSpec spec;
     spec.settings = settings;
     spec.lights = lights.texels.size();
     spec.shadowedLights = lights.shadowed;
-    spec.features = surfaceFeatures(scene, settings.prune, settings.subsurface);
+    spec.features = surfaces;
     if (settings.prune) {
         spec.features.has |= lights.features.has;
         const scenes::Camera& camera = scene.cameras[std::size_t(settings.camera)];
@@ -119,7 +122,7 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     if (!infoOf(settings.shadowFilter).usesMaps) spec.features.has.reset(std::size_t(Feature::ShadowMaps));
     // A channel that is looked at is stored, and not as a number or beside one.
     spec.features.add(Feature::VaryingMaterials, storedComponents(settings.view).has_value());
-    spec.settings.layout = refined(settings.layout, scene);
+    spec.settings.layout = refined(settings.layout, scene, settings.subsurface);
     spec.channels = neededChannels(spec.features, spec.settings.layout, needsNormalTexel(settings.view));
     spec.iterations = loopIterations(spec.lights, lightsPerRound(spec.lights));
     const auto shadowed = [&](std::size_t i) -> const scenes::Light& {
@@ -128,6 +131,30 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     for (std::size_t i = 0; i < lights.shadowed; ++i)
         spec.shadowSamples += shadowSamples(shadowed(i), spec.settings) + passingRays(spec);
     for (std::size_t i = 0; i < lights.shadowed; ++i) spec.iterations += 1 + shadowIterations(spec, shadowed(i));
+    return spec;
+}
+
+} // namespace
+
+FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings) {
+    FeatureSet surfaces = surfaceFeatures(scene, settings.prune, settings.subsurface);
+    // Not kept where nothing asks for it, since there is no atlas then.
+    if (!showsLitPicture(settings.view) || !diffusesLight(scene, settings.subsurface))
+        surfaces.has.reset(std::size_t(Feature::SubsurfaceDiffusion));
+    return makeSpec(scene, lights, settings, surfaces);
+}
+
+FrameSpec makeDiffusedSpec(const scenes::Scene& scene, const DiffusedObject& object, const PackedLights& lights,
+                           const FrameSettings& settings) {
+    FeatureSet surfaces = settings.prune ? enteringFeatures(scene, object.material, object.mesh) : allFeatures();
+    surfaces.has.reset(std::size_t(Feature::SubsurfaceDiffusion));
+    FrameSpec spec = makeSpec(scene, lights, settings, surfaces);
+    spec.features.add(Feature::OrthographicCamera); // nothing of it is asked; the constants are those of one
+    spec.channels.clear();
+    const double texelMetres = object.sideMetres / double(spec.spreadTexels());
+    spec.spread = diffusionLevels(scene.materials[std::size_t(object.material)].subsurface,
+                                  settings.diffusion.gaussians, texelMetres);
+    spec.gutterTexels = frame::gutterTexels(spec.spread, texelMetres);
     return spec;
 }
 
@@ -143,6 +170,18 @@ Defines frameDefines(const FrameSpec& spec) {
         defines.emplace_back("SHADOW_CASCADES", std::to_string(spec.settings.shadowMaps.cascades));
         defines.emplace_back("SHADOW_TAP_TEXELS", std::to_string(shadowTapTexels(spec.settings)));
         defines.emplace_back("SHADOW_WIDTH", std::to_string(spec.settings.shadowMaps.widthTexels));
+    }
+    defines.emplace_back("IN_ATLAS", spec.isInAtlas() ? "1" : "0");
+    if (spec.isInAtlas()) {
+        const int side = spec.settings.sizePixels.x;
+        defines.emplace_back("ATLAS_TEXELS", std::to_string(side));
+        const int border = borderTexels(spec.gutterTexels, spec.spreadTexels()) * (side / spec.spreadTexels());
+        defines.emplace_back("ATLAS_BORDER", std::to_string(border));
+    }
+    if (spec.features[Feature::SubsurfaceDiffusion]) {
+        const DiffusedCells cells = spec.diffusedCells();
+        defines.emplace_back("DIFFUSED_TEXELS", std::to_string(cells.sideTexels));
+        defines.emplace_back("DIFFUSED_COLUMNS", std::to_string(cells.columns));
     }
     if (spec.tracesShadows()) defines.emplace_back("CASTER_STEPS", std::to_string(casterSteps(spec.shadowSamples)));
     if (spec.features[Feature::SoftShadows])
@@ -224,7 +263,7 @@ shader::ProgramDesc frameProgram(const FrameSpec& spec, std::string name, std::s
     program.fragment = std::move(fragment);
     // A lighting or display pass draws no triangles of the scene.
     const bool drawsScene = program.vertex == "passes/geometry.vert";
-    if (drawsScene && spec.settings.filter == TextureFilter::Exact) program.geometry = "passes/triangle.geom";
+    if (drawsScene && spec.settings.filter == TextureFilter::Exact && !spec.isInAtlas()) program.geometry = "passes/triangle.geom";
     program.defines = frameDefines(spec);
     program.defines.insert(program.defines.end(), extra.begin(), extra.end());
     return program;

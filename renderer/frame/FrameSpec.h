@@ -1,7 +1,9 @@
 #pragma once
+#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "renderer/frame/Diffusion.h"
 #include "renderer/frame/Features.h"
 #include "renderer/frame/FrameSettings.h"
 #include "renderer/frame/GBufferLayout.h"
@@ -29,6 +31,16 @@ struct FrameSpec {
     int samples = 1;                                 ///< that the pixels of render targets have
     glm::vec4 background{0.0f};                      ///< radiance where nothing is drawn; a is 0, the coverage
 
+    /// By cell of the view's atlas, what the texels of an object that light spreads over are lit with.
+    std::vector<FrameSpec> diffused;
+    std::vector<DiffusionLevel> spread; ///< of such an object's own spec, else empty
+    int gutterTexels = 0;               ///< of its atlas (Diffusion.h)
+
+    bool isInAtlas() const { return !spread.empty(); }
+    /// Texels along the side of an object's atlas that light is spread in.
+    int spreadTexels() const { return std::max(1, settings.diffusion.sideTexels / (settings.diffusion.half ? 2 : 1)); }
+    DiffusedCells diffusedCells() const { return frame::diffusedCells(diffused.size(), spreadTexels()); }
+
     /// Whether shadows follow rays through the casters.
     bool tracesShadows() const { return features[Feature::Shadows] && !features[Feature::ShadowMaps]; }
     /// Whether shadows may take more iterations than Mesa lets loops make, so that pixels are NaN (LightRounds.h).
@@ -53,6 +65,10 @@ struct FrameSpec {
     }
 };
 FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings);
+
+/// That of an object that light spreads over, as the view of `settings` needs it; the lights are those that reach it.
+FrameSpec makeDiffusedSpec(const scenes::Scene& scene, const DiffusedObject& object, const PackedLights& lights,
+                           const FrameSettings& settings);
 
 /// Why there are no shadows, where there are none.
 std::string whyNoShadows(const scenes::Scene& scene, const PackedLights& lights, const scenes::ShadowRequest& request);

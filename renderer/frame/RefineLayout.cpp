@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "renderer/frame/Diffusion.h"
 #include "renderer/frame/Features.h"
 #include "scenes/InUse.h"
 
@@ -15,6 +16,9 @@ using scenes::TextureSlot;
 constexpr std::string_view kBright = "a colour of the scene may exceed 1, which its packed field cannot hold";
 constexpr std::string_view kGrazing = "a material masks by the half vector, which magnifies what n.v is off at grazing "
                                       "angles";
+
+constexpr std::string_view kSpread = "light that has spread over a surface is stored as emission, and fades by more "
+                                     "than half floats hold";
 
 bool exceedsOne(const scenes::Scene& scene, const glm::vec3& factor, const scenes::TextureUse& texture) {
     const bool isFloat = texture.image != scenes::kNone &&
@@ -62,7 +66,8 @@ bool masksByHalfVector(const scenes::Scene& scene) {
 
 } // namespace
 
-std::vector<Refinement> refinements(const GBufferLayout& layout, const scenes::Scene& scene) {
+std::vector<Refinement> refinements(const GBufferLayout& layout, const scenes::Scene& scene,
+                                    scenes::SubsurfaceRequest subsurface) {
     std::vector<Refinement> found;
     if (layout[Channel::Albedo] != Encoding::Exact && hasBrightAlbedo(scene))
         found.push_back({Channel::Albedo, Encoding::Exact, kBright});
@@ -70,11 +75,13 @@ std::vector<Refinement> refinements(const GBufferLayout& layout, const scenes::S
         found.push_back({Channel::Normal, Encoding::Packed, kGrazing});
     if (layout[Channel::Specular] != Encoding::Exact && hasBrightSpecular(scene))
         found.push_back({Channel::Specular, Encoding::Exact, kBright});
+    if (layout[Channel::Emission] != Encoding::Exact && diffusesLight(scene, subsurface))
+        found.push_back({Channel::Emission, Encoding::Exact, kSpread});
     return found;
 }
 
-GBufferLayout refined(GBufferLayout layout, const scenes::Scene& scene) {
-    for (const Refinement& refinement : refinements(layout, scene))
+GBufferLayout refined(GBufferLayout layout, const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface) {
+    for (const Refinement& refinement : refinements(layout, scene, subsurface))
         layout.encoding[std::size_t(refinement.channel)] = refinement.encoding;
     return layout;
 }

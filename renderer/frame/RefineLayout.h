@@ -19,9 +19,11 @@ struct Refinement {
 ///   packed fields are roots of 0 to 1. Pictures of floats count as brighter than 1.
 /// - The normal of `slim` has the bits of `packed` if a material has masking-shadowing by the half vector, which
 /// divides by n·v.
-std::vector<Refinement> refinements(const GBufferLayout& layout, const scenes::Scene& scene);
+/// - Emission is exact where light spreads over a surface: it fades by many powers of ten.
+std::vector<Refinement> refinements(const GBufferLayout& layout, const scenes::Scene& scene,
+                                    scenes::SubsurfaceRequest subsurface = {});
 
 /// The layout with its refinements.
-GBufferLayout refined(GBufferLayout layout, const scenes::Scene& scene);
+GBufferLayout refined(GBufferLayout layout, const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface = {});
 
 } // namespace tessera::frame

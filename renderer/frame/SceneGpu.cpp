@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/frame/Diffusion.h"
 #include "renderer/frame/PackedMaterial.h"
 #include "renderer/frame/TextureLevels.h"
 #include "renderer/gpu/TexelBuffer.h"
@@ -111,7 +112,12 @@ SceneGpu::Geometry SceneGpu::makeGeometry() const {
 
 SceneGpu::Draws SceneGpu::makeDraws(const VertexStreams::Ranges& ranges) const {
     Draws draws{alphaModes(scene_), makeDrawList(scene_), {}};
-    for (const Draw& draw : draws.list.draws) draws.ranges.push_back(ranges.at({draw.mesh, draw.material}));
+    const std::vector<DiffusedObject> diffused = diffusedObjects(scene_, subsurface_);
+    for (Draw& draw : draws.list.draws) {
+        draws.ranges.push_back(ranges.at({draw.mesh, draw.material}));
+        const auto own = std::ranges::find(diffused, draw.instance, &DiffusedObject::instance);
+        if (own != diffused.end()) draw.diffusedCell = 1 + int(own - diffused.begin());
+    }
     return draws;
 }
 
@@ -136,7 +142,7 @@ SceneGpu::Materials SceneGpu::makeMaterials() const {
     materials.constants = std::make_unique<gpu::Buffer>(gpu::Buffer::of("materials", bytes));
     if (!features_[Feature::VaryingMaterials] && !tabled.empty())
         materials.tabled = std::make_unique<gpu::Buffer>(gpu::Buffer::of("material table", tabled));
-    if (features_.subsurfaceRows()) {
+    if (features_.enteringLight()) {
         subsurfaces.rows.resize(SUBSURFACE_MOST); // as large as the block
         materials.subsurfaces = std::make_unique<gpu::Buffer>(gpu::Buffer::of("subsurfaces", subsurfaces.rows));
     }

@@ -16,6 +16,7 @@ namespace {
 
 /// A texel may lie in two triangles along their common edge; more of them are an overlap.
 constexpr double kMostOverlapping = 0.01;
+constexpr float kMostOutside = 1e-4f; ///< of texture coordinates: rounding
 constexpr int kOverlapSideTexels = 1024;
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) {
@@ -78,8 +79,8 @@ struct Edge {
 };
 
 /// A vertex by its place on the surface: vertices that texture coordinates keep apart are one there.
-using Place = std::tuple<float, float, float>;
-Place placeOf(const glm::vec3& positionOS) {
+using PlaceOS = std::tuple<float, float, float>;
+PlaceOS placeOSOf(const glm::vec3& positionOS) {
     return {positionOS.x, positionOS.y, positionOS.z};
 }
 
@@ -92,15 +93,15 @@ struct Neighbour {
 };
 
 std::vector<Neighbour> neighboursOf(const scenes::Mesh& mesh, const std::vector<Triangle>& triangles) {
-    std::map<std::pair<Place, Place>, std::vector<Edge>> edges;
+    std::map<std::pair<PlaceOS, PlaceOS>, std::vector<Edge>> edges;
     const auto vertexOf = [&](std::size_t triangle, int corner) {
         return mesh.indices[3 * triangle + std::size_t(corner % 3)];
     };
     for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle) {
         if (!triangles[triangle].hasArea) continue;
         for (int edge = 0; edge < 3; ++edge) {
-            const Place a = placeOf(mesh.positionsOS[vertexOf(triangle, edge)]);
-            const Place b = placeOf(mesh.positionsOS[vertexOf(triangle, edge + 1)]);
+            const PlaceOS a = placeOSOf(mesh.positionsOS[vertexOf(triangle, edge)]);
+            const PlaceOS b = placeOSOf(mesh.positionsOS[vertexOf(triangle, edge + 1)]);
             edges[std::minmax(a, b)].push_back({triangle, edge});
         }
     }
@@ -113,8 +114,8 @@ std::vector<Neighbour> neighboursOf(const scenes::Mesh& mesh, const std::vector<
             const auto texCoord = [&](const Edge& edge, int corner) {
                 return mesh.texCoords[0][vertexOf(edge.triangle, edge.edge + corner)];
             };
-            const bool isSameWay = placeOf(mesh.positionsOS[vertexOf(own.triangle, own.edge)]) ==
-                                   placeOf(mesh.positionsOS[vertexOf(other.triangle, other.edge)]);
+            const bool isSameWay = placeOSOf(mesh.positionsOS[vertexOf(own.triangle, own.edge)]) ==
+                                   placeOSOf(mesh.positionsOS[vertexOf(other.triangle, other.edge)]);
             const bool isInChart = texCoord(own, 0) == texCoord(other, isSameWay ? 0 : 1) &&
                                    texCoord(own, 1) == texCoord(other, isSameWay ? 1 : 0);
             neighbours[3 * own.triangle + std::size_t(own.edge)] = {std::int32_t(other.triangle), other.edge,
@@ -235,7 +236,11 @@ UvAtlas makeUvAtlas(const scenes::Mesh& mesh, const glm::dmat4& worldFromObject,
     const auto shared = std::ranges::count(isShared, true);
     atlas.overlapping = covered > 0 ? double(shared) / double(covered) : 0.0;
 
-    // Past the rims of charts, by the nearest edge.
+    // Past the rims of charts, by the nearest edge; what stands in where the surface is not known there.
+    struct Instead {
+        glm::dvec2 mirrored{0.0}, nearest{0.0};
+    };
+    std::vector<Instead> instead(atlas.texels.size());
     std::vector<double> nearest(atlas.texels.size(), double(reachTexels));
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         if (!triangles[i].hasArea) continue;
@@ -262,8 +267,31 @@ UvAtlas makeUvAtlas(const scenes::Mesh& mesh, const glm::dmat4& worldFromObject,
                                 neighbour.triangle >= 0 ? &triangles[std::size_t(neighbour.triangle)] : nullptr;
                             texel = {std::int32_t(i), charts[i], false,
                                      continuedAt(middle, triangles[i], edge, other, neighbour.edge)};
+                            instead[std::size_t(&texel - atlas.texels.data())] = {
+                                continuedAt(middle, triangles[i], edge, nullptr, 0), a + share * (b - a)};
                         });
         }
+    }
+    // Near corners of charts an edge's other triangle may end before.
+    const auto isKnown = [&](const glm::dvec2& place) {
+        const glm::dvec2 low = glm::floor(place - 0.5);
+        for (int i = 0; i < 4; ++i) {
+            const glm::dvec2 near = low + glm::dvec2(i & 1, i >> 1);
+            if (near.x >= 0.0 && near.y >= 0.0 && near.x < double(sideTexels) && near.y < double(sideTexels) &&
+                texelAt(int(near.x), int(near.y)).isCovered)
+                return true;
+        }
+        return false;
+    };
+    for (std::size_t i = 0; i < atlas.texels.size(); ++i) {
+        UvTexel& texel = atlas.texels[i];
+        if (texel.isCovered || texel.chart == 0 || isKnown(texel.continued)) continue;
+        if (isKnown(instead[i].mirrored))
+            texel.continued = instead[i].mirrored;
+        else if (isKnown(instead[i].nearest))
+            texel.continued = instead[i].nearest;
+        else
+            texel = {};
     }
     return atlas;
 }
@@ -272,7 +300,8 @@ std::string unwrapProblem(const scenes::Mesh& mesh) {
     if (mesh.texCoords[0].empty()) return "it has no texture coordinates; unwrap it";
     for (const std::uint32_t vertex : mesh.indices) {
         const glm::vec2 texCoord = mesh.texCoords[0][vertex];
-        if (!(texCoord.x >= 0.0f && texCoord.x <= 1.0f && texCoord.y >= 0.0f && texCoord.y <= 1.0f))
+        const glm::vec2 outside = glm::abs(texCoord - 0.5f) - 0.5f;
+        if (!(outside.x <= kMostOutside && outside.y <= kMostOutside))
             return fmt::format("its texture coordinates go to {:.4g}, {:.4g}; unwrap it into 0 to 1", texCoord.x,
                                texCoord.y);
     }

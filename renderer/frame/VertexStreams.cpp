@@ -40,7 +40,7 @@ VertexStreams::Range appendMesh(VertexStreams& streams, const scenes::Mesh& mesh
     copy(streams.normalsOS, mesh.normalsOS, glm::vec3(0.0f));
     if (features.tangents())
         append(streams.tangentsOS, split.tangentsOS, mesh.positionsOS.size(), {}, glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
-    if (features.textures()) copy(streams.texCoords[0], mesh.texCoords[0], glm::vec2(0.0f));
+    if (features.texCoords()) copy(streams.texCoords[0], mesh.texCoords[0], glm::vec2(0.0f));
     if (features[Feature::TexCoord1]) copy(streams.texCoords[1], mesh.texCoords[1], glm::vec2(0.0f));
     if (features[Feature::VertexColor]) copy(streams.colors, mesh.colors, glm::vec4(1.0f));
     return range;

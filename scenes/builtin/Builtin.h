@@ -19,6 +19,9 @@ Scene makeLattice(const LoadOptions& options, LoadLedger& ledger);
 Scene makeRoom(const LoadOptions& options, LoadLedger& ledger);
 /// Soft shadows whose shares of light are known in closed form (ShadowTruth.h).
 Scene makeShadowTruth(const LoadOptions& options, LoadLedger& ledger);
+Scene makeHeadSkin(const LoadOptions& options, LoadLedger& ledger);
+Scene makeHeadMarble(const LoadOptions& options, LoadLedger& ledger);
+Scene makeDiffusionTruth(const LoadOptions& options, LoadLedger& ledger);
 /// A bust with an object-space normal map; a scanned head where TESSERA_ASSETS holds one and `useAssets` is set.
 Scene makeHead(const LoadOptions& options, LoadLedger& ledger);
 

@@ -15,9 +15,17 @@ namespace {
 constexpr double kPlinthTopY = 0.12;
 constexpr double kBustHeightMetres = 0.6;
 
-void addBust(Scene& scene) {
-    Bust bust = makeBust(168, 112, kBustHeightMetres, 1024);
-    Material skin = microfacet("marble", glm::vec3(1.0f), 1.4f, 0.35f);
+/// A bust, and how finely it is made.
+struct BustKind {
+    const char* material;
+    BustPaint paint = BustPaint::WeatheredMarble;
+    int columns = 168, rows = 112, mapTexels = 1024;
+};
+
+/// Returns its material.
+int addBust(Scene& scene, const BustKind& kind) {
+    Bust bust = makeBust(kind.columns, kind.rows, kBustHeightMetres, kind.mapTexels, kind.paint);
+    Material skin = microfacet(kind.material, glm::vec3(1.0f), 1.4f, 0.35f);
     skin.normalMapSpace = NormalMapSpace::Object;
     skin.texture(TextureSlot::BaseColor).image = addImage(scene, std::move(bust.albedoMap));
     skin.texture(TextureSlot::Normal).image = addImage(scene, std::move(bust.normalMap));
@@ -25,8 +33,15 @@ void addBust(Scene& scene) {
     skin.texture(TextureSlot::BaseColor).sampler.wrapV = Wrap::ClampToEdge;
     skin.texture(TextureSlot::Normal).sampler.wrapV = Wrap::ClampToEdge;
     const int mesh = addMesh(scene, "bust", std::move(bust.mesh));
-    addNode(scene, "bust", glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, kPlinthTopY, 0.0)),
-            {{mesh, addMaterial(scene, skin)}});
+    const int material = addMaterial(scene, skin);
+    addNode(scene, "bust", glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, kPlinthTopY, 0.0)), {{mesh, material}});
+    return material;
+}
+
+/// The scan of TESSERA_ASSETS, or else the bust. Returns its material.
+int addHead(Scene& scene, const BustKind& kind, const LoadOptions& options, LoadLedger& ledger) {
+    const std::optional<std::filesystem::path> scan = options.useAssets ? headScanFolder() : std::nullopt;
+    return scan ? addHeadScan(scene, *scan, kPlinthTopY, kBustHeightMetres, ledger) : addBust(scene, kind);
 }
 
 void addSurroundings(Scene& scene) {
@@ -81,17 +96,30 @@ void addStudioLights(Scene& scene) {
     addSpot(scene, "backdrop", {-0.2, 2.3, 0.0}, {-0.25, 0.75, -1.4}, {1.0f, 0.72f, 0.5f}, 9.0f, 8.0f, 56.0f);
 }
 
+constexpr int kFineColumns = 252, kFineRows = 168, kFineMapTexels = 1536;
+
+/// Portraits of a surface that light enters, with a strong light behind it.
+void addSkinSurroundings(Scene& scene, const LoadOptions& options) {
+    addSurroundings(scene);
+    const glm::dvec3 faceWS(0.0, 0.56, 0.0);
+    addSpot(scene, "key", {-0.95, 1.05, 1.1}, faceWS, {1.0f, 0.9f, 0.78f}, 3.4f, 12.0f, 26.0f);
+    addSpot(scene, "back", {0.62, 0.78, -0.8}, faceWS, {1.0f, 0.84f, 0.66f}, 4.5f, 12.0f, 24.0f);
+    addPointLight(scene, "fill", {1.4, 0.75, 1.5}, {0.5f, 0.66f, 1.0f}, 0.55f);
+    addSpot(scene, "backdrop", {-0.2, 2.3, 0.0}, {-0.25, 0.75, -1.4}, {0.55f, 0.66f, 0.8f}, 3.0f, 8.0f, 56.0f);
+    for (Light& light : scene.lights) light.castsShadow = true;
+    keepFirstLights(scene, options);
+    addCamera(scene, "portrait", {0.26, 0.57, 0.98}, {0.0, 0.52, 0.0}, 30.0);
+    addCamera(scene, "close", {0.42, 0.6, 0.32}, {0.02, 0.56, 0.02}, 34.0);
+    addCamera(scene, "whole", {0.33, 0.56, 1.5}, {0.0, 0.41, 0.0}, 29.0);
+    for (Camera& camera : scene.cameras) camera.nearMetres = 0.02;
+}
+
 } // namespace
 
 Scene makeHead(const LoadOptions& options, LoadLedger& ledger) {
     Scene scene;
     scene.name = "head";
-    const std::optional<std::filesystem::path> scan = options.useAssets ? headScanFolder() : std::nullopt;
-    if (scan) {
-        addHeadScan(scene, *scan, kPlinthTopY, kBustHeightMetres, ledger);
-    } else {
-        addBust(scene);
-    }
+    addHead(scene, {"marble"}, options, ledger);
     addSurroundings(scene);
     addStudioLights(scene);
     for (Light& light : scene.lights) light.castsShadow = true;
@@ -100,6 +128,32 @@ Scene makeHead(const LoadOptions& options, LoadLedger& ledger) {
     addCamera(scene, "three-quarter", {1.2, 0.6, 1.0}, {0.0, 0.43, 0.0}, 32.0);
     addCamera(scene, "close", {-0.22, 0.6, 0.75}, {0.0, 0.53, 0.0}, 32.0);
     for (Camera& camera : scene.cameras) camera.nearMetres = 0.02;
+    return scene;
+}
+
+Scene makeHeadSkin(const LoadOptions& options, LoadLedger& ledger) {
+    Scene scene;
+    scene.name = "head_skin";
+    Material& skin = scene.materials[std::size_t(
+        addHead(scene, {"skin", BustPaint::Skin, kFineColumns, kFineRows, kFineMapTexels}, options, ledger))];
+    skin.subsurface.method = SubsurfaceMethod::TextureSpaceDiffusion;
+    // Less than that of a life-sized head: the bust's ears are thick.
+    skin.subsurface.absorptionPerMillimetre = {0.16f, 0.6f, 1.1f};
+    addSkinSurroundings(scene, options);
+    return scene;
+}
+
+Scene makeHeadMarble(const LoadOptions& options, LoadLedger& ledger) {
+    Scene scene;
+    scene.name = "head_marble";
+    Material& marble = scene.materials[std::size_t(
+        addHead(scene, {"marble", BustPaint::PolishedMarble, kFineColumns, kFineRows, kFineMapTexels}, options, ledger))];
+    marble.alpha = 0.2f;
+    marble.ior = 1.5f;
+    marble.subsurface.method = SubsurfaceMethod::TextureSpaceDiffusion;
+    marble.subsurface.profile = namedProfiles()[1].profile;
+    marble.subsurface.absorptionPerMillimetre = {0.06f, 0.075f, 0.1f};
+    addSkinSurroundings(scene, options);
     return scene;
 }
 

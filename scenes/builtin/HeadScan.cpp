@@ -18,7 +18,7 @@ std::optional<std::filesystem::path> headScanFolder() {
     return folder;
 }
 
-void addHeadScan(Scene& scene, const std::filesystem::path& folder, double bottomY, double heightMetres,
+int addHeadScan(Scene& scene, const std::filesystem::path& folder, double bottomY, double heightMetres,
                  LoadLedger& ledger) {
     Scene scan = importObj(folder / "head.obj", ledger);
     const Box3 boundsWS = worldBounds(scan);
@@ -47,6 +47,7 @@ void addHeadScan(Scene& scene, const std::filesystem::path& folder, double botto
         if (!instances.empty()) addNode(scene, scan.nodes[n].name, fitted * scanFromNode[n], std::move(instances));
     }
     scene.warnings.insert(scene.warnings.end(), scan.warnings.begin(), scan.warnings.end());
+    return material;
 }
 
 } // namespace tessera::scenes::builtin

@@ -20,6 +20,12 @@ std::span<const BuiltinScene> builtinScenes() {
         BuiltinScene{"shadow_truth", "soft shadows of shares known in closed form: for correctness",
                      builtin::makeShadowTruth, kMiB},
         BuiltinScene{"head", "bust with an object-space normal map, wall and floor", builtin::makeHead, 80 * kMiB},
+        BuiltinScene{"head_skin", "bust of skin, over which light spreads, with a light behind its ears",
+                     builtin::makeHeadSkin, 160 * kMiB},
+        BuiltinScene{"head_marble", "the same of veined marble, which light passes through", builtin::makeHeadMarble,
+                     160 * kMiB},
+        BuiltinScene{"diffusion_truth", "spread light known in closed form: for correctness",
+                     builtin::makeDiffusionTruth, kMiB},
     };
     return kScenes;
 }

@@ -1,5 +1,6 @@
 // Shades surfaces as they are rasterised.
 #include "lib/raster/rasterised.glsl"
+#include "lib/raster/diffused.glsl"
 #include "lib/raster/coverage.glsl"
 #include "lib/raster/shading_depth.glsl"
 #include "lib/lighting/views.glsl"
@@ -11,6 +12,7 @@ void main()
     Fragment fragment = rasterisedFragment();
     vec4 baseColor = materialBaseColor(fragment);
     Surface surface = surfaceFromMaterial(fragment, baseColor);
+    takeDiffusedLight(fragment, surface);
     float depth = shadingDepth();
     if (coversNothing(baseColor)) discard;
     Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, depth);

@@ -1,6 +1,7 @@
 // Stores the surface seen through each pixel.
 #define GBUFFER_WRITE
 #include "lib/raster/rasterised.glsl"
+#include "lib/raster/diffused.glsl"
 #include "lib/gbuffer/gbuffer.glsl"
 
 void main()
@@ -8,6 +9,7 @@ void main()
     Fragment fragment = rasterisedFragment();
     vec4 baseColor = materialBaseColor(fragment);
     Surface surface = surfaceFromMaterial(fragment, baseColor);
+    takeDiffusedLight(fragment, surface);
     if (materialCutOut(baseColor)) discard;
     writeGBuffer(surface);
 }

@@ -11,8 +11,9 @@ layout(location = ATTRIBUTE_TEXCOORD1) in vec2 inTexCoord1;
 layout(location = ATTRIBUTE_COLOR) in vec4 inColor;
 
 // Per draw: rows of RWS-from-object, and of the cofactors of LS-from-object times the sign of its determinant (xyz; w of the first row is
-// that sign, w of the second the largest of the mesh's vertex colours, 0 when it has none; w of the third 1 + the place of
-// the mesh instance in the scene).
+// that sign, times 1 + the cell of the object's light that has spread, times 1 where it has none; w of the second the
+// largest of the mesh's vertex colours, 0 when it has none; w of the third 1 + the place of the mesh instance in the
+// scene).
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0) in vec4 drawRow0;
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0 + 1) in vec4 drawRow1;
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0 + 2) in vec4 drawRow2;
@@ -27,7 +28,7 @@ layout(location = 0) out vec3 normalLS;
 #if HAS_TANGENTS && !DEPTH_ONLY
 layout(location = 1) out vec4 tangentLS;
 #endif
-#if HAS_TEXTURES
+#if HAS_TEXCOORDS || IN_ATLAS
 layout(location = 2) out vec2 texCoord0;
 #if HAS_TEXCOORD1
 layout(location = 3) out vec2 texCoord1;
@@ -47,14 +48,20 @@ layout(location = 11) flat out vec3 objectRow0;
 layout(location = 12) flat out vec3 objectRow1;
 layout(location = 13) flat out vec3 objectRow2;
 #endif
-#if FILTER_EXACT
+#if FILTER_EXACT && !IN_ATLAS
 layout(location = 10) out vec3 vertexLS; // for passes/triangle.geom
+#endif
+#if HAS_SUBSURFACE_DIFFUSION && !DEPTH_ONLY
+layout(location = 14) flat out int diffusedCell;
+#endif
+#if IN_ATLAS
+layout(location = 15) out vec3 positionLS;
 #endif
 #ifdef DRAW_IDS
 layout(location = 9) flat out float drawnObject;
 #endif
 
-#if FILTER_EXACT || HAS_TANGENTS
+#if FILTER_EXACT || HAS_TANGENTS || IN_ATLAS
 // Turned by the transpose; exact where both are one space.
 vec3 lsFromRWS(vec3 directionRWS)
 {
@@ -67,16 +74,26 @@ void main()
 {
     precise vec4 object = vec4(positionOS, 1.0);
     precise vec3 positionRWS = vec3(dot(drawRow0, object), dot(drawRow1, object), dot(drawRow2, object));
+#if IN_ATLAS
+    // Where its texture coordinates lie.
+    precise vec2 place = (vec2(ATLAS_BORDER) + inTexCoord0 * float(ATLAS_TEXELS - 2 * ATLAS_BORDER)) / float(ATLAS_TEXELS);
+    gl_Position = vec4(place * 2.0 - 1.0, 0.5, 1.0);
+    positionLS = lsFromRWS(positionRWS);
+#else
     precise vec4 clip = view.clipFromRWS * vec4(positionRWS, 1.0);
     gl_Position = clip;
 #if FILTER_EXACT
     vertexLS = lsFromRWS(positionRWS);
 #endif
+#endif
+#if HAS_SUBSURFACE_DIFFUSION && !DEPTH_ONLY
+    diffusedCell = int(abs(drawNormal0.w)) - 1;
+#endif
 #if !DEPTH_ONLY
     normalLS = vec3(dot(drawNormal0.xyz, normalOS), dot(drawNormal1.xyz, normalOS), dot(drawNormal2.xyz, normalOS));
 #if HAS_TANGENTS
     vec3 tangentRWS = vec3(dot(drawRow0.xyz, tangentOS.xyz), dot(drawRow1.xyz, tangentOS.xyz), dot(drawRow2.xyz, tangentOS.xyz));
-    tangentLS = vec4(lsFromRWS(tangentRWS), tangentOS.w * drawNormal0.w);
+    tangentLS = vec4(lsFromRWS(tangentRWS), tangentOS.w * sign(drawNormal0.w));
 #endif
 #if HAS_OBJECT_SPACE_NORMALS
     normalFromObject0 = drawNormal0.xyz;
@@ -89,7 +106,7 @@ void main()
     objectRow2 = drawRow2.xyz;
 #endif
 #endif
-#if HAS_TEXTURES
+#if HAS_TEXCOORDS || IN_ATLAS
     texCoord0 = inTexCoord0;
 #if HAS_TEXCOORD1
     texCoord1 = inTexCoord1;

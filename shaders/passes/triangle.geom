@@ -9,7 +9,7 @@ invariant gl_Position;
 
 layout(location = 10) in vec3 vertexLS[];
 layout(location = 10) flat out vec3 triangleLS[3];
-#if HAS_TEXTURES
+#if HAS_TEXCOORDS
 layout(location = 2) in vec2 vertexTexCoord0[];
 #if HAS_TEXCOORD1
 layout(location = 3) in vec2 vertexTexCoord1[];
@@ -47,6 +47,10 @@ layout(location = 8) flat in float vertexLargestColor[];
 layout(location = 4) out vec4 vertexColor;
 layout(location = 8) flat out float largestColor;
 #endif
+#if HAS_SUBSURFACE_DIFFUSION && !DEPTH_ONLY
+layout(location = 14) flat in int vertexDiffusedCell[];
+layout(location = 19) flat out int diffusedCell;
+#endif
 #ifdef DRAW_IDS
 layout(location = 9) flat in float vertexDrawnObject[];
 layout(location = 9) flat out float drawnObject;
@@ -59,9 +63,9 @@ void main()
         gl_PrimitiveID = gl_PrimitiveIDIn;
         for (int i = 0; i < 3; ++i) {
             triangleLS[i] = vertexLS[i];
-#if HAS_TEXCOORD1 && HAS_TEXTURES
+#if HAS_TEXCOORD1 && HAS_TEXCOORDS
             triangleTexCoords[i] = vec4(vertexTexCoord0[i], vertexTexCoord1[i]);
-#elif HAS_TEXTURES
+#elif HAS_TEXCOORDS
             triangleTexCoords[i] = vec4(vertexTexCoord0[i], 0.0, 0.0);
 #endif
 #if !DEPTH_ONLY
@@ -86,6 +90,9 @@ void main()
 #if HAS_VERTEX_COLOR
         vertexColor = cornerColor[corner];
         largestColor = vertexLargestColor[corner];
+#endif
+#if HAS_SUBSURFACE_DIFFUSION && !DEPTH_ONLY
+        diffusedCell = vertexDiffusedCell[corner];
 #endif
 #ifdef DRAW_IDS
         drawnObject = vertexDrawnObject[corner];

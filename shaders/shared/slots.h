@@ -50,6 +50,9 @@ SHARED_BEGIN
 // (renderer/frame/Features.cpp).
 #define TEXTURE_SLOT_COUNT 13
 
+// What lights the texels of an object (passes/diffusion_light.frag): it reads no light lists.
+#define TEXTURE_UNIT_TRIANGLE_NORMALS 15
+
 // What reads stored surfaces and pictures.
 #define TEXTURE_UNIT_GBUFFER 0 // to 7
 #define TEXTURE_UNIT_DEPTH 8
@@ -65,6 +68,7 @@ SHARED_BEGIN
 
 // Image units.
 #define IMAGE_UNIT_RADIANCE 0
+#define IMAGE_UNIT_DIFFUSED 1
 
 #ifdef __cplusplus
 static_assert(TEXTURE_SLOT_COUNT <= TEXTURE_UNIT_LIGHTS, "lights would hide a material's texture");

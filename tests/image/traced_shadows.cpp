@@ -4,6 +4,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scenes/Load.h"
 #include "scenes/LookAt.h"
 #include "scenes/builtin/Shapes.h"
 #include "tests/image/ShadowTest.h"

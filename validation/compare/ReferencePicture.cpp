@@ -138,6 +138,10 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
         tolerance.reason = "shadow maps are an approximation: their error is reported, and held to nothing";
         return tolerance;
     }
+    if (frame::diffusesLight(scene, settings.subsurface)) {
+        tolerance.reason = "light spread in texture space is an approximation: its error is reported, and held to nothing";
+        return tolerance;
+    }
     if (!frame::materialFeatures(scene).textures()) {
         tolerance.p999Rel = 3e-4;
         tolerance.relMse = 1e-8;

@@ -93,7 +93,8 @@ SurfacePoint surfaceAt(const Hit& hit, const Textures& textures) {
         point.wrap = double(material.subsurface.wrap) * glm::dvec3(material.subsurface.wrapTint);
         point.bodyRadiusMetres = hit.object->bodyRadiusMetres;
     }
-    if (hit.object->subsurface == scenes::SubsurfaceMethod::DepthMap) {
+    point.spreads = hit.object->subsurface == scenes::SubsurfaceMethod::TextureSpaceDiffusion;
+    if (point.spreads || hit.object->subsurface == scenes::SubsurfaceMethod::DepthMap) {
         point.passes = true;
         const double perMillimetre = 1000.0 * double(material.subsurface.scaleMetres);
         point.absorptionPerMetre = perMillimetre * glm::dvec3(material.subsurface.absorptionPerMillimetre);

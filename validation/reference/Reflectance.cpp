@@ -216,6 +216,16 @@ glm::dvec3 passedOn(const SurfacePoint& point, const glm::dvec3& toLight, const 
     return modelOf(point.model).entering(point, directions) * (-directions.cosLight * uncoated);
 }
 
+glm::dvec3 leaving(const SurfacePoint& point, const glm::dvec3& toViewer, double preScatterShare) {
+    // By reciprocity as much as would enter from the viewer's mirror image.
+    const glm::dvec3 mirrored = 2.0 * glm::dot(point.normal, toViewer) * point.normal - toViewer;
+    glm::dvec3 brdf = modelOf(point.model).entering(point, Directions(point.normal, mirrored, toViewer));
+    for (int c = 0; c < 3; ++c)
+        brdf[c] = point.color[c] > 0.0 ? brdf[c] * std::pow(point.color[c], -preScatterShare) : 0.0;
+    const double uncoated = point.coat > 0.0 ? 1.0 - coatWeight(point, toViewer) : 1.0;
+    return brdf * uncoated;
+}
+
 glm::dvec3 emitted(const SurfacePoint& point, const glm::dvec3& toViewer) {
     return point.coat > 0.0 ? point.emission * (1.0 - coatWeight(point, toViewer)) : point.emission;
 }

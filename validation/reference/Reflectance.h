@@ -37,6 +37,9 @@ glm::dvec3 reflected(const SurfacePoint& point, const glm::dvec3& toLight, const
 /// which it meets it from below.
 glm::dvec3 passedOn(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer);
 
+/// What leaves towards the viewer of light that has spread below the surface.
+glm::dvec3 leaving(const SurfacePoint& point, const glm::dvec3& toViewer, double preScatterShare);
+
 /// Emitted radiance towards the viewer, attenuated by the coat.
 glm::dvec3 emitted(const SurfacePoint& point, const glm::dvec3& toViewer);
 

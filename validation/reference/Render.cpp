@@ -7,6 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "validation/reference/Diffusion.h"
 #include "validation/reference/LightAt.h"
 #include "validation/reference/Occlusion.h"
 #include "validation/reference/Reflectance.h"
@@ -22,7 +23,7 @@ public:
         : scene_(scene), settings_(settings), rays_(settings.camera, settings.sizePixels),
           objects_(scene, rays_, settings.subsurface), textures_(scene, settings.filtering),
           visibility_(objects_, rays_, textures_), lights_(shiningLights(scene, settings, rays_.eyeWS())),
-          occlusion_(scene, objects_) {}
+          occlusion_(scene, objects_), diffusion_(objects_, textures_, lights_, occlusion_, settings) {}
 
     void row(int row, Rendered& rendered) const {
         for (int column = 0; column < rendered.width; ++column) {
@@ -107,6 +108,7 @@ private:
             rendered.covered[at] = 1;
         }
         seen.transparent = visibility_.transparentBefore(ray, depthMetres);
+        seen.seed = std::uint32_t(at);
         for (const Hit& hit : seen.transparent) {
             rendered.ids[at].transparent += transparentId(hit.object->number, hit.triangle);
             if (surfaceAt(hit, textures_).opacity > 0.0) rendered.covered[at] = 1;
@@ -114,6 +116,7 @@ private:
         const Lit lit = litBy(ray, seen, Nudge());
         const glm::dvec3 radiance = lit.radiance;
         rendered.radiance[at] = radiance;
+        if (seen.opaque && !seen.spread.empty() && seen.spread[0]) rendered.spread[at] = *seen.spread[0];
         if (!settings_.leeway) return;
         std::vector<Span>& alternatives = rendered.alternatives[at];
         rendered.undecidedShadows[at] = seen.hasUndecidedShadows() ? 1 : 0;
@@ -137,6 +140,8 @@ private:
         /// By surface, the opaque one first, and by light: what Occlusion said, once it was asked.
         mutable std::vector<std::vector<std::optional<Occlusion::Answer>>> shadows{};
         mutable std::vector<std::vector<std::optional<Occlusion::Passage>>> passages{}; ///< the same
+        mutable std::vector<std::optional<Diffusion::Answer>> spread{};                 ///< the same, by surface
+        std::uint32_t seed = 0;                                                         ///< of Diffusion
 
         bool hasUndecidedShadows() const {
             for (const auto& ofSurface : shadows)
@@ -248,7 +253,9 @@ private:
         const glm::dvec3 toViewer = rays_.toViewer(positionRWS);
         Lit lit{emitted(point, toViewer), point.opacity};
         for (std::size_t light = 0; light < lights_.size(); ++light) {
-            const glm::dvec3 unhidden = lightOn(point, lights_[light], positionRWS, toViewer);
+            glm::dvec3 unhidden = lightOn(point, lights_[light], positionRWS, toViewer, settings_.specular);
+            // Of light that spreads only the highlight leaves where it is met.
+            if (point.spreads) unhidden -= lightOn(point, lights_[light], positionRWS, toViewer, false);
             if (unhidden == glm::dvec3(0.0)) continue;
             const Occlusion::Answer answer = shadowOf(seen, surface, hit, point, positionRWS, toViewer, light);
             const double share = shadows == Shadows::Exact  ? answer.share
@@ -257,7 +264,14 @@ private:
             lit.radiance += share * unhidden;
             lit.noise += answer.noise.times(unhidden.r + unhidden.g + unhidden.b);
         }
-        if (point.passes) lit.radiance += passedOnBy(seen, surface, hit, point, positionRWS, toViewer, shadows);
+        if (point.spreads) {
+            if (seen.spread.size() <= surface) seen.spread.resize(surface + 1);
+            if (!seen.spread[surface]) seen.spread[surface] = diffusion_.at(hit, positionRWS, seen.seed);
+            lit.radiance += seen.spread[surface]->light *
+                            leaving(point, toViewer, double(hit.object->material->subsurface.preScatterShare));
+        } else if (point.passes) {
+            lit.radiance += passedOnBy(seen, surface, hit, point, positionRWS, toViewer, shadows);
+        }
         return lit;
     }
 
@@ -295,10 +309,10 @@ private:
 
     /// What one light gives to a point that nothing hides from it: radiance towards the viewer.
     glm::dvec3 lightOn(const SurfacePoint& point, const ShiningLight& light, const glm::dvec3& positionRWS,
-                       const glm::dvec3& toViewer) const {
+                       const glm::dvec3& toViewer, bool specular) const {
         const Incident incident = incidentAt(light, positionRWS);
         if (incident.irradiance == glm::dvec3(0.0)) return glm::dvec3(0.0);
-        return reflected(point, incident.toLight, toViewer, settings_.specular) * incident.irradiance;
+        return reflected(point, incident.toLight, toViewer, specular) * incident.irradiance;
     }
 
     const scenes::Scene& scene_;
@@ -309,6 +323,7 @@ private:
     Visibility visibility_;
     std::vector<ShiningLight> lights_;
     Occlusion occlusion_;
+    Diffusion diffusion_;
 };
 
 std::uint32_t transparentId(std::uint32_t objectNumber, std::uint32_t triangle) {
@@ -328,6 +343,7 @@ Rendered render(const scenes::Scene& scene, const Settings& settings, const std:
     rendered.alternatives.resize(pixels);
     rendered.undecidedShadows.resize(pixels);
     rendered.shadowNoise.resize(pixels);
+    rendered.spread.resize(pixels);
     const Pixels picture(scene, settings);
     tbb::parallel_for(0, rendered.height, [&](int row) {
         picture.row(row, rendered);

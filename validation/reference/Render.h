@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scenes/Scene.h"
+#include "validation/reference/Diffusion.h"
 #include "validation/reference/Settings.h"
 
 /// The reference renderer: the definition of a picture, in double precision on the CPU, by the formulas of the
@@ -61,6 +62,7 @@ struct Rendered {
     /// Of the sum of the channels, by Settings::shadowSamples rays to each light with a size; none where there is
     /// another alternative than their noise.
     std::vector<Noise> shadowNoise;
+    std::vector<Diffusion::Answer> spread; ///< of opaque surfaces that light spreads over; all 0 elsewhere
 };
 
 /// Renders on all cores. `rowDone` is called once a row of the picture, from any thread. The scene must have passed

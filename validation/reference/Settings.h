@@ -38,6 +38,7 @@ struct Settings {
     std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
     scenes::ShadowRequest shadows;
     scenes::SubsurfaceRequest subsurface;
+    int diffusionPoints = 256; ///< of the surface around a point that light spreads to
     int shadowRings = 16;   ///< on the disk of a light with a size, four times as many rays each
     int penumbraRings = 64; ///< of points that those find to see part of it
     int shadowSamples = 0;  ///< rays that a program tries: their noise is allowed it too; 0: none is

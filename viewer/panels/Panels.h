@@ -10,6 +10,7 @@ void scenePanel(State& state);
 void framePanel(State& state);
 void viewPanel(State& state);
 void shadowsPanel(State& state, const Facts& facts);
+void skinPanel(State& state);
 void cameraPanel(State& state);
 void lightsPanel(State& state);
 void materialsPanel(State& state);

@@ -122,6 +122,10 @@ void shadowsPanel(State& state, const Facts& facts) {
     if (shadows && state.open) shadowRows(state, *shadows);
 }
 
+void skinPanel(State& state) {
+    settingRows(state.active(), engine::SettingPanel::Skin);
+}
+
 void viewPanel(State& state) {
     settingRows(state.active(), engine::SettingPanel::View);
     scaleRows(state);

@@ -257,13 +257,63 @@ glm::dvec3 marble(const glm::dvec3& pointBU, double heightBU) {
     return glm::mix(color, kDust, 0.7 * hollow);
 }
 
+/// White stone with grey veins, as it comes from the quarry.
+glm::dvec3 polishedMarble(const glm::dvec3& pointBU) {
+    constexpr glm::dvec3 kStone(0.80, 0.785, 0.755);
+    constexpr glm::dvec3 kVein(0.30, 0.315, 0.34);
+    const double cloud = fractalNoise(1.3 * pointBU, 4, 23);
+    const double broad = std::exp(-std::pow(9.0 * fractalNoise(0.8 * pointBU + 0.5 * cloud, 4, 29), 2.0));
+    const double thin = std::exp(-std::pow(22.0 * fractalNoise(1.9 * pointBU + 0.4 * cloud, 3, 31), 2.0));
+    glm::dvec3 color = kStone * (1.0 + 0.08 * cloud);
+    color = glm::mix(color, kVein, 0.55 * broad);
+    return glm::mix(color, kVein, 0.35 * thin);
+}
+
+/// Linear colour of skin: redder where blood is near, with brown hair and eyes.
+glm::dvec3 skinColor(const glm::dvec3& pointBU, double heightBU) {
+    constexpr glm::dvec3 kSkin(0.60, 0.36, 0.255), kBlood(0.56, 0.21, 0.155);
+    constexpr glm::dvec3 kHair(0.075, 0.042, 0.024), kLips(0.46, 0.16, 0.135);
+    constexpr glm::dvec3 kEye(0.66, 0.62, 0.57), kIris(0.11, 0.065, 0.035), kPupil(0.012);
+    const BustRegions regions = bustRegions(pointBU);
+    // Cheeks, tip of the nose and ears.
+    const auto around = [&](const glm::dvec3& middle, double radius) {
+        const glm::dvec3 offset = (pointBU - middle) / radius;
+        return std::exp(-glm::dot(offset, offset));
+    };
+    const double blood = std::min(1.0, around({0.48, -0.35, 0.85}, 0.3) + around({-0.48, -0.35, 0.85}, 0.3) +
+                                           around({0.0, -0.3, 1.25}, 0.2) + around({0.85, -0.1, 0.0}, 0.3) +
+                                           around({-0.85, -0.1, 0.0}, 0.3));
+    glm::dvec3 color = kSkin * (1.0 + 0.1 * fractalNoise(3.0 * pointBU, 4, 37));
+    color = glm::mix(color, kBlood, std::clamp(0.42 * blood + 0.12 * fractalNoise(9.0 * pointBU, 3, 41), 0.0, 1.0));
+    color = glm::mix(color, kLips, 0.7 * regions.lips);
+    color = glm::mix(color, kHair, 0.9 * regions.brow);
+    color = glm::mix(color, kHair, regions.hair);
+    color = glm::mix(color, kEye, regions.eye);
+    color = glm::mix(color, kIris, std::max(regions.iris, 0.6 * regions.irisRim));
+    color = glm::mix(color, kPupil, regions.pupil);
+    const double hollow = std::clamp(-heightBU / 0.02, 0.0, 1.0);
+    return color * (1.0 - 0.25 * hollow);
+}
+
+glm::dvec3 painted(BustPaint paint, const glm::dvec3& pointBU, double heightBU) {
+    switch (paint) {
+    case BustPaint::PolishedMarble:
+        return polishedMarble(pointBU);
+    case BustPaint::Skin:
+        return skinColor(pointBU, heightBU);
+    case BustPaint::WeatheredMarble:
+        break;
+    }
+    return marble(pointBU, heightBU);
+}
+
 } // namespace
 
 Mesh bustMesh(int columns, int rows, double heightMetres) {
     return meshOf(Skin(columns, rows), 1, heightMetres);
 }
 
-Bust makeBust(int columns, int rows, double heightMetres, int mapTexels) {
+Bust makeBust(int columns, int rows, double heightMetres, int mapTexels, BustPaint paint) {
     constexpr int kMapStride = 2; // the maps see the sculpture twice as finely as the mesh
     const Skin skin(kMapStride * columns, kMapStride * rows);
     const SkinMap map(skin, mapTexels);
@@ -272,7 +322,7 @@ Bust makeBust(int columns, int rows, double heightMetres, int mapTexels) {
     bust.normalMap =
         drawNormals("bust normals", mapTexels, mapTexels, [&](int x, int y) { return map.reliefNormal(x, y); });
     bust.albedoMap = drawColors("bust albedo", mapTexels, mapTexels, [&](int x, int y) {
-        return marble(map.pointsBU[map.at(x, y)], map.heightsBU[map.at(x, y)]);
+        return painted(paint, map.pointsBU[map.at(x, y)], map.heightsBU[map.at(x, y)]);
     });
     return bust;
 }

@@ -8,11 +8,14 @@ namespace tessera::scenes::builtin {
 struct Bust {
     Mesh mesh;       ///< smooth: vertex normals without the fine relief
     Image normalMap; ///< object-space normals (2 texel - 1) with the fine relief, 16 bits per channel
-    Image albedoMap; ///< weathered marble, sRGB
+    Image albedoMap; ///< sRGB
 };
 
+/// What the bust is made of.
+enum class BustPaint { WeatheredMarble, PolishedMarble, Skin };
+
 /// The bust standing on y = 0, `heightMetres` high, its front towards +Z, with maps of `mapTexels` squared.
-Bust makeBust(int columns, int rows, double heightMetres, int mapTexels);
+Bust makeBust(int columns, int rows, double heightMetres, int mapTexels, BustPaint paint);
 
 /// The bust without maps, for places where it is small.
 Mesh bustMesh(int columns, int rows, double heightMetres);

@@ -180,6 +180,7 @@ BustRegions bustRegions(const glm::dvec3& pointBU) {
     const dvec3 gaze = p - dvec3(0.275, 0.015, 0.615);
     regions.eye = smoothBetween(0.188, 0.178, glm::length(gaze)) * smoothBetween(0.05, 0.1, gaze.z);
     const double fromPupil = std::hypot(gaze.x + 0.01, gaze.y - 0.006);
+    regions.iris = regions.eye * smoothBetween(0.074, 0.064, fromPupil);
     regions.irisRim = regions.eye * smoothBetween(0.013, 0.004, std::abs(fromPupil - 0.072));
     regions.pupil = regions.eye * smoothBetween(0.034, 0.02, fromPupil);
     return regions;

@@ -20,6 +20,7 @@ struct BustRegions {
     double brow = 0.0;
     double lips = 0.0;
     double eye = 0.0;
+    double iris = 0.0; ///< the pupil included
     double irisRim = 0.0;
     double pupil = 0.0;
 };

@@ -2,15 +2,18 @@
 #pragma once
 #include "lib/surface/camera.glsl"
 #include "lib/material/material.glsl"
-#if FILTER_EXACT
+#if FILTER_EXACT && !IN_ATLAS
+#define BY_TRIANGLE 1
 #include "lib/surface/triangle.glsl"
+#else
+#define BY_TRIANGLE 0
 #endif
-#if HAS_SHADOWS && !DEPTH_ONLY
+#if HAS_SHADOWS && !DEPTH_ONLY && !IN_ATLAS
 #include "lib/raster/facet_normal.glsl"
 #endif
 
 #if !DEPTH_ONLY
-#if !FILTER_EXACT
+#if !BY_TRIANGLE
 layout(location = 0) in vec3 normalLS;
 #endif
 #if HAS_TANGENTS
@@ -22,7 +25,7 @@ layout(location = 6) flat in vec3 normalFromObject1;
 layout(location = 7) flat in vec3 normalFromObject2;
 #endif
 #if VIEW == VIEW_NORMAL_OBJECT
-#if FILTER_EXACT
+#if BY_TRIANGLE
 #define OBJECT_ROWS 20 // passes/triangle.geom hands on more than a vertex may
 #else
 #define OBJECT_ROWS 11
@@ -32,7 +35,7 @@ layout(location = OBJECT_ROWS + 1) flat in vec3 objectRow1;
 layout(location = OBJECT_ROWS + 2) flat in vec3 objectRow2;
 #endif
 #endif
-#if HAS_TEXTURES && !FILTER_EXACT
+#if (HAS_TEXCOORDS || IN_ATLAS) && !BY_TRIANGLE
 layout(location = 2) in vec2 texCoord0;
 #if HAS_TEXCOORD1
 layout(location = 3) in vec2 texCoord1;
@@ -42,20 +45,25 @@ layout(location = 3) in vec2 texCoord1;
 layout(location = 4) in vec4 vertexColor;
 layout(location = 8) flat in float largestColor; // 0 without vertex colours
 #endif
+#if IN_ATLAS && HAS_SHADOWS
+layout(binding = TEXTURE_UNIT_TRIANGLE_NORMALS) uniform samplerBuffer triangleNormals; // unit, of the front, in LS
+#endif
 
 Fragment rasterisedFragment()
 {
     Fragment fragment = plainFragment();
-#if FILTER_EXACT
+#if BY_TRIANGLE
     dvec3 weights = triangleWeights(gl_FragCoord.xy);
 #endif
 #if !DEPTH_ONLY
-#if FILTER_EXACT
+#if BY_TRIANGLE
     fragment.normalLS = triangleNormal(weights);
 #else
     fragment.normalLS = normalLS;
 #endif
-#if HAS_SHADOWS
+#if HAS_SHADOWS && IN_ATLAS
+    fragment.facetNormalLS = -texelFetch(triangleNormals, gl_PrimitiveID).xyz; // texels are of the front
+#elif HAS_SHADOWS
     fragment.facetNormalLS = rasterisedFacetNormal();
 #endif
 #if HAS_TANGENTS
@@ -69,7 +77,7 @@ Fragment rasterisedFragment()
     fragment.objectFromNormal = mat3(objectRow0, objectRow1, objectRow2) * mat3(view.worldFromLS);
 #endif
 #endif
-#if HAS_TEXTURES && FILTER_EXACT
+#if HAS_TEXCOORDS && BY_TRIANGLE
     dvec4 texCoord = triangleTexCoord(weights);
     fragment.texCoord[0] = texCoord.xy;
     fragment.texCoord[1] = texCoord.zw;
@@ -79,10 +87,16 @@ Fragment rasterisedFragment()
     fragment.texCoordChange[0] = dmat2(texCoordDx.xy, texCoordDy.xy);
     fragment.texCoordChange[1] = dmat2(texCoordDx.zw, texCoordDy.zw);
 #endif
-#elif HAS_TEXTURES
+#elif HAS_TEXCOORDS || IN_ATLAS
     fragment.texCoord[0] = texCoord0;
 #if HAS_TEXCOORD1
     fragment.texCoord[1] = texCoord1;
+#endif
+#if FILTER_EXACT && HAS_MIXED_FILTERS
+    fragment.texCoordChange[0] = dmat2(dFdx(texCoord0), dFdy(texCoord0));
+#if HAS_TEXCOORD1
+    fragment.texCoordChange[1] = dmat2(dFdx(texCoord1), dFdy(texCoord1));
+#endif
 #endif
 #endif
 #if HAS_VERTEX_COLOR
@@ -93,6 +107,6 @@ Fragment rasterisedFragment()
     fragment.color = clamp(fragment.color, 0.0, max(largestColor, 1.0));
 #endif
 #endif
-    fragment.frontFacing = gl_FrontFacing;
+    fragment.frontFacing = IN_ATLAS != 0 || gl_FrontFacing;
     return fragment;
 }

@@ -191,11 +191,11 @@ vec3 underSheen(Surface surface, vec3 brdf, Directions directions)
 struct Reflection {
     vec3 brdfCosine;     // BRDF times cosine, 1/sr: reflected radiance per irradiance at normal incidence
     SpecularTerms terms; // 0 where it has no lobe there
-#if HAS_SUBSURFACE_ROWS
+#if HAS_ENTERING_LIGHT
     vec3 diffuse; // BRDF of the light that enters the surface, 1/sr
 #endif
 };
-#if HAS_SUBSURFACE_ROWS
+#if HAS_ENTERING_LIGHT
 #define REFLECTION(brdfCosine, terms, diffuse) Reflection(brdfCosine, terms, diffuse)
 #else
 #define REFLECTION(brdfCosine, terms, diffuse) Reflection(brdfCosine, terms)
@@ -241,7 +241,7 @@ Reflection metallicRoughness(SeenSurface seen, Directions directions, float d)
 #if HAS_SHEEN
     brdf = underSheen(seen.surface, brdf, directions);
 #endif
-#if HAS_SUBSURFACE_ROWS
+#if HAS_ENTERING_LIGHT
     precise vec3 entering = seen.diffuse * (vec3(1.0) - terms.f);
 #if HAS_SHEEN
     entering *= shareUnderSheen(seen.surface, directions);

@@ -6,7 +6,7 @@
 #include "lib/surface/camera.glsl"
 
 layout(location = 10) flat in vec3 triangleLS[3];
-#if HAS_TEXTURES
+#if HAS_TEXCOORDS
 layout(location = 13) flat in vec4 triangleTexCoords[3]; // xy the first set, zw the second
 #endif
 #if !DEPTH_ONLY
@@ -62,7 +62,7 @@ dvec3 triangleWeightsChange(vec2 pixel, dvec3 weights, dvec3 acrossChange)
 }
 #endif
 
-#if HAS_TEXTURES
+#if HAS_TEXCOORDS
 // Both sets.
 dvec4 triangleTexCoord(dvec3 weights)
 {

@@ -106,6 +106,8 @@ std::vector<Change> changes() {
         {Feature::SubsurfaceWrap, material([](Material& m) { m.subsurface.method = scenes::SubsurfaceMethod::Wrap; })},
         {Feature::SubsurfaceDepthMap,
          material([](Material& m) { m.subsurface.method = scenes::SubsurfaceMethod::DepthMap; })},
+        {Feature::SubsurfaceDiffusion,
+         material([](Material& m) { m.subsurface.method = scenes::SubsurfaceMethod::TextureSpaceDiffusion; })},
     };
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/frame/Diffusion.h"
 #include "scenes/Load.h"
 #include "tests/support/TestScenes.h"
 
@@ -61,14 +62,20 @@ TEST(RefineLayout, theNormalOfSlimIsThatOfPackedExactlyWhereAMaterialMasksByTheH
     EXPECT_EQ(refined(slim, scene), slim);
 }
 
-TEST(RefineLayout, builtinScenesNeverNeedMoreThanTheirLayoutButTheHalfVectorOfModels) {
+TEST(RefineLayout, builtinScenesNeedMoreThanTheirLayoutForTheHalfVectorOfModelsAndSpreadLightAlone) {
     scenes::LoadOptions options;
     options.useAssets = false; // never a scan that this machine may have
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
         SCOPED_TRACE(builtin.name);
         const Scene scene = scenes::loadScene(std::string(builtin.name), options);
-        EXPECT_TRUE(refinements(layoutTable()[1].layout, scene).empty());
-        EXPECT_EQ(refinements(layoutTable()[2].layout, scene).size(), builtin.name == "models" ? 1u : 0u);
+        const std::size_t ofSpreadLight = diffusesLight(scene, {}) ? 1 : 0;
+        for (const Refinement& refinement : refinements(layoutTable()[1].layout, scene))
+            EXPECT_EQ(refinement.channel, Channel::Emission);
+        EXPECT_EQ(refinements(layoutTable()[1].layout, scene).size(), ofSpreadLight);
+        EXPECT_EQ(refinements(layoutTable()[2].layout, scene).size(),
+                  ofSpreadLight + (builtin.name == "models" ? 1u : 0u));
+        // Nothing spreads where another method is asked for.
+        EXPECT_TRUE(refinements(layoutTable()[1].layout, scene, scenes::SubsurfaceMethod::Wrap).empty());
     }
 }
 

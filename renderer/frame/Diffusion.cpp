@@ -1,0 +1,214 @@
+#include "renderer/frame/Diffusion.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/Error.h"
+#include "scenes/InUse.h"
+#include "shaders/shared/diffusion.h"
+
+namespace tessera::frame {
+
+namespace {
+
+constexpr int kMostGutterTexels = 64;
+constexpr std::size_t kMostLevels = 32;
+
+bool diffuses(const scenes::Scene& scene, const scenes::MeshInstance& instance, scenes::SubsurfaceRequest subsurface) {
+    return scenes::isDrawn(scene, instance) &&
+           scenes::subsurfaceOf(scene.materials[std::size_t(instance.material)], subsurface) ==
+               scenes::SubsurfaceMethod::TextureSpaceDiffusion;
+}
+
+std::string nameOf(const scenes::Scene& scene, const scenes::Node& node, int mesh) {
+    const std::string& name = scene.meshes[std::size_t(mesh)].name;
+    if (!name.empty()) return fmt::format("mesh '{}'", name);
+    if (!node.name.empty()) return fmt::format("the mesh of node '{}'", node.name);
+    return fmt::format("mesh {}", mesh);
+}
+
+double meanOf(const glm::dvec3& weight) {
+    return (weight.r + weight.g + weight.b) / 3.0;
+}
+
+/// DiffusedObject::sideMetres.
+double metresASide(const scenes::Mesh& mesh, const glm::dmat4& worldFromObject) {
+    if (mesh.texCoords[0].empty()) return 0.0;
+    double square = 0.0, covered = 0.0;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        glm::dvec3 corners[3];
+        glm::dvec2 places[3];
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::uint32_t vertex = mesh.indices[i + c];
+            corners[c] = glm::dvec3(worldFromObject * glm::dvec4(glm::dvec3(mesh.positionsOS[vertex]), 1.0));
+            places[c] = glm::dvec2(mesh.texCoords[0][vertex]);
+        }
+        const glm::dvec2 a = places[1] - places[0], b = places[2] - places[0];
+        covered += std::abs(a.x * b.y - a.y * b.x);
+        square += glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+    }
+    return covered > 0.0 ? std::sqrt(square / covered) : 0.0;
+}
+
+} // namespace
+
+bool diffusesLight(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface) {
+    return std::ranges::any_of(scene.nodes, [&](const scenes::Node& node) {
+        return std::ranges::any_of(node.instances, [&](const scenes::MeshInstance& instance) {
+            return diffuses(scene, instance, subsurface);
+        });
+    });
+}
+
+std::vector<DiffusedObject> diffusedObjects(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface) {
+    std::vector<DiffusedObject> objects;
+    if (!diffusesLight(scene, subsurface)) return objects;
+    const std::vector<glm::dmat4> worldFromObject = scenes::worldFromNodes(scene);
+    int number = 0;
+    for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
+        for (const scenes::MeshInstance& instance : scene.nodes[node].instances) {
+            const int own = number++;
+            if (!diffuses(scene, instance, subsurface)) continue;
+            DiffusedObject& object = objects.emplace_back();
+            object = {int(node), instance.mesh, instance.material, own, {},
+                      metresASide(scene.meshes[std::size_t(instance.mesh)], worldFromObject[node]), nameOf(scene, scene.nodes[node], instance.mesh)};
+            for (const glm::vec3& positionOS : scene.meshes[std::size_t(instance.mesh)].positionsOS)
+                object.boxWS.extend(glm::dvec3(worldFromObject[node] * glm::dvec4(glm::dvec3(positionOS), 1.0)));
+        }
+    }
+    return objects;
+}
+
+std::vector<DiffusionLevel> diffusionLevels(const scenes::Subsurface& subsurface, int mostGaussians,
+                                            double texelMetres) {
+    // Variances, not yet those that each level adds.
+    std::vector<DiffusionLevel> levels;
+    const scenes::DiffusionProfile& profile =
+        subsurface.profile.empty() ? scenes::namedProfiles().front().profile : subsurface.profile;
+    glm::dvec3 sum(0.0);
+    for (const scenes::DiffusionGaussian& gaussian : profile) {
+        const double metres = 1e-3 / double(subsurface.scaleMetres); // of the scene, for a millimetre
+        levels.push_back({double(gaussian.varianceSquareMillimetres) * metres * metres, glm::dvec3(gaussian.weight)});
+        sum += levels.back().weight;
+    }
+    for (DiffusionLevel& level : levels) level.weight /= sum;
+    std::ranges::stable_sort(levels, {}, &DiffusionLevel::varianceSquareMetres);
+    while (levels.size() > std::size_t(std::max(mostGaussians, 1))) {
+        // The two whose merging moves the logarithm of their widths least.
+        std::size_t best = 0;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
+            const double a = meanOf(levels[i].weight), b = meanOf(levels[i + 1].weight);
+            const double apart = std::log(levels[i + 1].varianceSquareMetres / levels[i].varianceSquareMetres);
+            const double cost = a + b > 0.0 ? a * b / (a + b) * apart * apart : 0.0;
+            if (cost < least) {
+                least = cost;
+                best = i;
+            }
+        }
+        DiffusionLevel& merged = levels[best];
+        const DiffusionLevel& other = levels[best + 1];
+        const double a = meanOf(merged.weight), b = meanOf(other.weight);
+        if (a + b > 0.0)
+            merged.varianceSquareMetres = (a * merged.varianceSquareMetres + b * other.varianceSquareMetres) / (a + b);
+        merged.weight += other.weight;
+        levels.erase(levels.begin() + std::ptrdiff_t(best) + 1);
+    }
+    // Taps are 0.7 standard deviations of a level apart, up to kWidening times what light has spread so far, or as far as
+    // every texel is a tap.
+    constexpr double kWidening = 2.0;
+    std::vector<DiffusionLevel> added;
+    double spreadMetres = texelMetres * double(DIFFUSION_MOST_FINE_TAPS) / 3.5 / kWidening;
+    double before = 0.0;
+    const auto add = [&](double variance, const glm::dvec3& weight) {
+        added.push_back({variance - before, weight});
+        before = variance;
+        spreadMetres = std::max(spreadMetres, std::sqrt(variance));
+    };
+    for (const DiffusionLevel& level : levels) {
+        const double metres = std::sqrt(level.varianceSquareMetres);
+        while (texelMetres > 0.0 && metres > kWidening * spreadMetres && added.size() < kMostLevels)
+            add(kWidening * kWidening * spreadMetres * spreadMetres, glm::dvec3(0.0));
+        add(level.varianceSquareMetres, level.weight);
+    }
+    return added;
+}
+
+int gutterTexels(const std::vector<DiffusionLevel>& levels, double texelMetres) {
+    double widest = 0.0;
+    for (const DiffusionLevel& level : levels) widest = std::max(widest, level.varianceSquareMetres);
+    const double texels = texelMetres > 0.0 ? std::ceil(3.5 * std::sqrt(widest) / texelMetres) : 1.0;
+    return int(std::bit_ceil(unsigned(std::clamp(texels, 2.0, double(kMostGutterTexels)))));
+}
+
+int borderTexels(int gutter, int sideTexels) {
+    return std::min(gutter, sideTexels / 16);
+}
+
+DiffusedCells diffusedCells(std::size_t objects, int sideTexels) {
+    DiffusedCells cells;
+    cells.sideTexels = sideTexels;
+    cells.columns = std::max(1, int(std::ceil(std::sqrt(double(objects)))));
+    const int rows = std::max(1, (int(objects) + cells.columns - 1) / cells.columns);
+    cells.texels = glm::ivec2(cells.columns, rows) * sideTexels;
+    return cells;
+}
+
+void requireUnwrapped(const scenes::Scene& scene, const DiffusedObject& object) {
+    const std::string problem = unwrapProblem(scene.meshes[std::size_t(object.mesh)]);
+    if (!problem.empty())
+        throw InputError(fmt::format("{}: light cannot spread over {}: {}, or give its material another subsurface "
+                                     "method (--subsurface wrap)",
+                                     scene.name, object.name, problem));
+}
+
+const DiffusionAtlas& DiffusionAtlases::of(const DiffusedObject& object, int sideTexels, int gutter) {
+    std::unique_ptr<DiffusionAtlas>& kept = atlases_[{object.instance, sideTexels, gutter}];
+    if (kept) return *kept;
+    requireUnwrapped(scene_, object);
+    const scenes::Mesh& mesh = scene_.meshes[std::size_t(object.mesh)];
+    const glm::dmat4 worldFromObject = scenes::worldFromNodes(scene_)[std::size_t(object.node)];
+    const int border = borderTexels(gutter, sideTexels);
+    const UvAtlas atlas = makeUvAtlas(mesh, worldFromObject, sideTexels, border, gutter);
+    std::vector<glm::vec4> steps(atlas.texels.size(), glm::vec4(0.0f));
+    std::vector<glm::vec2> continued(atlas.texels.size(), glm::vec2(0.0f));
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const UvTexel& texel = atlas.texels[i];
+        if (texel.chart == 0) continue;
+        const UvStep& step = atlas.steps[std::size_t(texel.triangle)];
+        steps[i] = glm::vec4(glm::dvec3(step.uMetres, step.vMetres, step.shear),
+                             texel.isCovered ? double(texel.chart) : -double(texel.chart));
+        continued[i] = glm::vec2(texel.continued);
+    }
+    std::vector<glm::vec4> normals;
+    const double sign = glm::determinant(glm::dmat3(worldFromObject)) < 0.0 ? -1.0 : 1.0;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const auto corner = [&](std::size_t c) {
+            return glm::dvec3(worldFromObject * glm::dvec4(glm::dvec3(mesh.positionsOS[mesh.indices[i + c]]), 1.0));
+        };
+        const glm::dvec3 normal = sign * glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+        const double length = glm::length(normal);
+        normals.emplace_back(length > 0.0 ? glm::vec3(normal / length) : glm::vec3(0.0f, 0.0f, 1.0f), 0.0f);
+    }
+    const auto texture = [&](const char* label, graph::Format format) {
+        return gpu::Texture(label, graph::TextureDesc{format, sideTexels, sideTexels});
+    };
+    kept = std::make_unique<DiffusionAtlas>(
+        DiffusionAtlas{border, texture("diffusion_steps", graph::Format::Rgba32Float),
+                       texture("diffusion_continued", graph::Format::Rg32Float),
+                       gpu::Buffer::of("triangle_normals", normals)});
+    kept->steps.upload(0, steps);
+    kept->continued.upload(0, continued);
+    return *kept;
+}
+
+void DiffusionMemory::begin(std::size_t cells, bool holdsAtlas) {
+    if (!holdsAtlas) held_.clear();
+    held_.resize(cells);
+}
+
+} // namespace tessera::frame

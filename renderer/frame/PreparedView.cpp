@@ -1,0 +1,62 @@
+#include "renderer/frame/PreparedView.h"
+
+#include <span>
+
+#include "renderer/frame/LightBuffer.h"
+#include "renderer/frame/PackedMaterial.h"
+
+namespace tessera::frame {
+
+namespace {
+
+/// FNV-1a, 64 bits.
+class Hash {
+public:
+    void add(std::span<const std::byte> bytes) {
+        for (const std::byte byte : bytes) value_ = (value_ ^ std::uint64_t(byte)) * 0x100000001b3u;
+    }
+    template <typename Value>
+    void add(const Value& value) {
+        static_assert(std::has_unique_object_representations_v<Value> || std::is_floating_point_v<Value>);
+        add(std::as_bytes(std::span(&value, 1)));
+    }
+    void addFloats(const auto& structs) {
+        add(std::as_bytes(std::span(structs)));
+    }
+    std::uint64_t value() const { return value_; }
+
+private:
+    std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+} // namespace
+
+std::uint64_t diffusionKey(const scenes::Scene& scene, const DiffusedObject& object, const PreparedView& prepared,
+                           std::uint64_t casterRevision) {
+    const FrameSettings& settings = prepared.spec.settings;
+    Hash hash;
+    hash.addFloats(texelsOf(prepared.lights, prepared.spec.features));
+    hash.add(std::uint64_t(prepared.lights.shadowed));
+    hash.addFloats(prepared.shadowFaces);
+    const PackedSubsurfaces subsurfaces = packSubsurfaces(scene, settings.subsurface);
+    const std::size_t row = subsurfaces.rowOf[std::size_t(object.material)];
+    hash.addFloats(std::vector{packMaterial(scene.materials[std::size_t(object.material)], row)});
+    // Light passes through other objects of the same absorption alone.
+    hash.addFloats(subsurfaces.rows);
+    for (const DiffusionLevel& level : prepared.spec.spread) {
+        hash.add(level.varianceSquareMetres);
+        for (int channel = 0; channel < 3; ++channel) hash.add(level.weight[channel]);
+    }
+    hash.add(casterRevision);
+    hash.add(settings.diffusion.sideTexels);
+    hash.add(settings.diffusion.half);
+    hash.add(std::uint8_t(settings.shadowFilter));
+    hash.add(settings.shadowSamples);
+    hash.add(settings.shadowMaps.widthTexels);
+    hash.add(settings.shadowMaps.cascades);
+    hash.add(std::uint8_t(settings.filter));
+    hash.add(settings.prune);
+    return hash.value();
+}
+
+} // namespace tessera::frame

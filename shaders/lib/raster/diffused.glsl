@@ -1,0 +1,79 @@
+// Light that has spread over a surface before it is drawn (docs/skin.md). The surface emits it; of the frame's lights it
+// reflects the highlights alone.
+#pragma once
+#include "lib/surface/camera.glsl"
+#include "lib/surface/surface.glsl"
+#if HAS_SUBSURFACE_DIFFUSION
+#include "lib/material/material.glsl"
+#include "lib/reflectance/reflectance.glsl"
+
+// A cell for each object (renderer/frame/Diffusion.h), a texel of light on all sides of every chart.
+layout(binding = IMAGE_UNIT_DIFFUSED, rgba32f) readonly uniform image2D diffusedLight;
+
+#if FILTER_EXACT
+layout(location = 19) flat in int diffusedCell; // from 1; 0: the object has none
+#else
+layout(location = 14) flat in int diffusedCell;
+#endif
+
+// Bilinear.
+vec3 diffusedAt(vec2 texCoord, int cell)
+{
+    ivec2 corner = ivec2(cell % DIFFUSED_COLUMNS, cell / DIFFUSED_COLUMNS) * DIFFUSED_TEXELS;
+    float border = imageLoad(diffusedLight, corner).a; // every texel tells it
+    precise vec2 place = border + texCoord * (float(DIFFUSED_TEXELS) - 2.0 * border) - 0.5;
+    vec2 low = floor(place);
+    precise vec2 share = place - low;
+    ivec2 most = ivec2(DIFFUSED_TEXELS - 1);
+    ivec2 a = corner + clamp(ivec2(low), ivec2(0), most);
+    ivec2 b = corner + clamp(ivec2(low) + 1, ivec2(0), most);
+    precise vec3 lower = mix(imageLoad(diffusedLight, a).rgb, imageLoad(diffusedLight, ivec2(b.x, a.y)).rgb, share.x);
+    precise vec3 upper = mix(imageLoad(diffusedLight, ivec2(a.x, b.y)).rgb, imageLoad(diffusedLight, b).rgb, share.x);
+    precise vec3 light = mix(lower, upper, share.y);
+    return light;
+}
+
+vec3 albedoAfterSpreading(vec3 albedo)
+{
+    float power = 1.0 - material.dielectric.z;
+    if (power == 1.0) return albedo;
+    if (power == 0.0) return vec3(1.0);
+    return pow(max(albedo, vec3(0.0)), vec3(power));
+}
+
+void takeDiffusedLight(Fragment fragment, inout Surface surface)
+{
+    if (diffusedCell == 0 || IS_UNLIT(surface.model)) return;
+    // Which share of the light that leaves goes to the viewer is the same whatever its way: what a mirror image of the
+    // viewer would lose where it enters, the viewer loses where it leaves.
+    vec3 toViewer = viewpointFromDepth(gl_FragCoord.xy, 0.5).toViewerLS;
+    SeenSurface seen = seenSurface(surface, toViewer);
+    vec3 after = albedoAfterSpreading(surface.albedo);
+    seen.surface.albedo = after;
+#if HAS_GGX_MODELS
+    precise vec3 diffuse = after * ((1.0 - surface.metallic) * kInversePi);
+    seen.diffuse = diffuse;
+#endif
+    precise float nv = max(seen.nv, 0.0);
+    precise vec3 mirrored = 2.0 * seen.nv * surface.normalLS - toViewer;
+    precise vec3 leaving = reflection(seen, directionsOn(seen, mirrored, nv)).diffuse;
+    precise vec3 emission = surface.emission + leaving * diffusedAt(vec2(fragment.texCoord[0]), diffusedCell - 1);
+    surface.emission = emission;
+#if HAS_GGX_MODELS
+    if (HAS_METALLIC(surface.model)) {
+        surface.specular = seen.f0;
+        precise float f90 = surface.iorOrF90 + (1.0 - surface.iorOrF90) * surface.metallic;
+        surface.iorOrF90 = f90;
+        surface.metallic = 0.0;
+    }
+#endif
+    surface.albedo = vec3(0.0);
+#if HAS_SUBSURFACE_ROWS
+    surface.subsurface = 0u;
+#endif
+}
+#else
+void takeDiffusedLight(Fragment fragment, inout Surface surface)
+{
+}
+#endif

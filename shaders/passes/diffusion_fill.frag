@@ -1,0 +1,43 @@
+// Hands on the light of an object's texels, and fills those outside of charts, and where the rasteriser left a hole,
+// with the light of the places where the surface goes on.
+#include "shared/slots.h"
+#include "shared/diffusion.h"
+
+layout(std140, binding = UNIFORM_PASS) uniform DiffusionFillBlock
+{
+    DiffusionFillConstants constants;
+};
+
+layout(binding = TEXTURE_UNIT_DIFFUSION_STEPS) uniform sampler2D steps;
+layout(binding = TEXTURE_UNIT_DIFFUSION_CONTINUED) uniform sampler2D continued;
+layout(binding = TEXTURE_UNIT_DIFFUSION_LIGHT) uniform sampler2D light;
+
+layout(location = 0) out vec4 filled;
+
+void main()
+{
+    ivec2 at = ivec2(gl_FragCoord.xy) - ivec2(constants.fill.xy);
+    float chart = texelFetch(steps, at, 0).w;
+    vec4 own = texelFetch(light, at, 0);
+    filled = vec4(own.rgb, constants.alpha.x);
+    if (chart > 0.0 && own.a > 0.0) return;
+    filled.rgb = vec3(0.0);
+    if (chart == 0.0) return;
+    vec2 place = texelFetch(continued, at, 0).xy - 0.5;
+    vec2 corner = floor(place);
+    vec2 share = place - corner;
+    // Of the four texels around it those in charts; at least the nearest one is near one.
+    precise vec3 sum = vec3(0.0);
+    precise float weights = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 step = ivec2(i & 1, i >> 1);
+        ivec2 texel = clamp(ivec2(corner) + step, ivec2(0), textureSize(steps, 0) - 1);
+        vec4 there = texelFetch(light, texel, 0);
+        if (texelFetch(steps, texel, 0).w <= 0.0 || there.a == 0.0) continue;
+        vec2 weight = mix(1.0 - share, share, vec2(step));
+        precise float product = max(weight.x * weight.y, 1e-6);
+        sum += product * there.rgb;
+        weights += product;
+    }
+    if (weights > 0.0) filled.rgb = sum / weights;
+}

@@ -1,0 +1,36 @@
+// Lights the texels of an object, as a surface that reflects to all sides alike: what enters it.
+#include "lib/raster/rasterised.glsl"
+#include "lib/lighting/lighting.glsl"
+
+layout(location = 15) in vec3 positionLS;
+layout(location = 0) out vec4 entering;
+
+vec3 albedoBeforeSpreading(vec3 albedo)
+{
+    float power = material.dielectric.z;
+    if (power == 0.0) return vec3(1.0);
+    if (power == 1.0) return albedo;
+    return pow(max(albedo, vec3(0.0)), vec3(power));
+}
+
+void main()
+{
+    Fragment fragment = rasterisedFragment();
+    Surface surface = surfaceFromMaterial(fragment, materialBaseColor(fragment));
+    surface.model = MODEL_LAMBERT;
+    surface.albedo = albedoBeforeSpreading(surface.albedo);
+    surface.emission = vec3(0.0);
+#if HAS_CLEARCOAT
+    surface.coatFactor = 0.0;
+#endif
+#if HAS_SHEEN
+    surface.sheenColor = vec3(0.0);
+#endif
+    Viewpoint viewpoint;
+    viewpoint.positionLS = positionLS;
+    viewpoint.toViewerLS = surface.normalLS;
+    viewpoint.depth = 0.5;
+    viewpoint.pixel = gl_FragCoord.xy;
+    precise vec3 light = shadeSurface(surface, viewpoint, gl_FragCoord.xy);
+    entering = vec4(light, 1.0);
+}

@@ -1,0 +1,30 @@
+#pragma once
+// Light that spreads over a surface, in an atlas of its texture coordinates (renderer/frame/UvAtlas.h).
+#include "interop.h"
+
+// Units of the passes that spread light, which sample nothing else.
+#define TEXTURE_UNIT_DIFFUSION_STEPS 0     // xy steps along u and v in metres, z shear, w chart, negative outside of it
+#define TEXTURE_UNIT_DIFFUSION_CONTINUED 1 // xy where the surface goes on, in texels
+#define TEXTURE_UNIT_DIFFUSION_LIGHT 2     // what is spread
+
+// Taps lie this share of a Gaussian's standard deviation apart, so many to either side: its tails beyond 3.5 hold a
+// thousandth. A step of irradiance, narrower Gaussians before it or none, takes every texel (docs/skin.md).
+#define DIFFUSION_TAP_SHARE 0.7
+#define DIFFUSION_TAPS 5
+#define DIFFUSION_MOST_FINE_TAPS 64
+// Where a Gaussian is narrower than this share of a texel's square, three taps have its variance.
+#define DIFFUSION_NARROW 0.4
+
+SHARED_BEGIN
+
+struct DiffusionFillConstants {
+    uvec4 fill; // xy corner of the target, in texels
+    vec4 alpha; // x what texels hold besides their light
+};
+
+struct DiffusionBlurConstants {
+    vec4 blur;   // x variance that is added, m^2 of the scene; y 0 along u, 1 along v; z 1 where every texel is a tap
+    vec4 weight; // rgb of what is spread so far in the sum
+};
+
+SHARED_END

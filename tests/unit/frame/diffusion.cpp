@@ -1,0 +1,77 @@
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "renderer/frame/Diffusion.h"
+
+namespace tessera {
+namespace {
+
+using frame::DiffusionLevel;
+
+glm::dvec3 weightOf(const std::vector<DiffusionLevel>& levels) {
+    glm::dvec3 sum(0.0);
+    for (const DiffusionLevel& level : levels) sum += level.weight;
+    return sum;
+}
+
+/// Of the red light that spreads: the mean square of a coordinate of its way.
+double meanSquare(const std::vector<DiffusionLevel>& levels) {
+    double variance = 0.0, mean = 0.0;
+    for (const DiffusionLevel& level : levels) {
+        variance += level.varianceSquareMetres;
+        mean += level.weight.r * variance;
+    }
+    return mean;
+}
+
+TEST(DiffusionLevels, addTheProfilesGaussiansUp) {
+    scenes::Subsurface skin;
+    const std::vector<DiffusionLevel> levels = frame::diffusionLevels(skin, 8, 1e-3);
+    ASSERT_EQ(levels.size(), 6u);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(weightOf(levels)[c], 1.0, 1e-12);
+    // Published variances in mm^2 and weights of red: d'Eon and Luebke 2007, GPU Gems 3, chapter 14.
+    const double variances[] = {0.0064, 0.0484, 0.187, 0.567, 1.99, 7.41};
+    const double red[] = {0.233, 0.100, 0.118, 0.113, 0.358, 0.078};
+    double variance = 0.0;
+    for (std::size_t i = 0; i < 6; ++i) {
+        variance += levels[i].varianceSquareMetres;
+        EXPECT_NEAR(variance, 1e-6 * variances[i], 1e-12);
+        EXPECT_NEAR(levels[i].weight.r, red[i], 2e-3);
+    }
+    skin.scaleMetres = 0.1f; // a model ten times as large as the real thing
+    EXPECT_NEAR(frame::diffusionLevels(skin, 8, 1e-2)[0].varianceSquareMetres, 6.4e-7, 1e-12);
+}
+
+TEST(DiffusionLevels, fewerKeepTheLightAndNearlyHowFarItSpreads) {
+    const scenes::Subsurface skin;
+    const double whole = meanSquare(frame::diffusionLevels(skin, 8, 1e-3));
+    for (const int most : {5, 4, 3, 2, 1}) {
+        const std::vector<DiffusionLevel> levels = frame::diffusionLevels(skin, most, 1e-3);
+        EXPECT_EQ(levels.size(), std::size_t(most));
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(weightOf(levels)[c], 1.0, 1e-12);
+        // Widths are common to all channels, so that the reddest Gaussian loses some when it is merged.
+        EXPECT_NEAR(meanSquare(levels), whole, (most >= 3 ? 0.3 : 0.7) * whole) << most;
+        for (const DiffusionLevel& level : levels) EXPECT_GT(level.varianceSquareMetres, 0.0);
+    }
+}
+
+TEST(DiffusionLevels, wideJumpsHaveStepsBetween) {
+    scenes::Subsurface wide;
+    wide.profile = {{1e6f, glm::vec3(1.0f)}}; // a metre
+    const double texelMetres = 1e-3;
+    const std::vector<DiffusionLevel> levels = frame::diffusionLevels(wide, 8, texelMetres);
+    EXPECT_GT(levels.size(), 3u);
+    double variance = levels[0].varianceSquareMetres;
+    EXPECT_LE(3.5 * std::sqrt(variance), 64.0 * texelMetres + 1e-12) << "every texel is a tap";
+    for (std::size_t i = 1; i < levels.size(); ++i) {
+        EXPECT_LE(std::sqrt(levels[i].varianceSquareMetres), 2.0 * std::sqrt(variance) + 1e-12) << i;
+        variance += levels[i].varianceSquareMetres;
+    }
+    EXPECT_NEAR(variance, 1.0, 1e-6);
+    EXPECT_EQ(levels.back().weight, glm::dvec3(1.0));
+    EXPECT_EQ(weightOf(levels), glm::dvec3(1.0));
+}
+
+} // namespace
+} // namespace tessera
