@@ -148,10 +148,10 @@ void addDiffused(const scenes::Scene& scene, std::span<const frame::SurfaceBound
     }
     const glm::ivec2 texels = spec.diffusedCells().texels;
     if (std::max(texels.x, texels.y) > frame::kLargestSidePixels)
-        throw InputError(fmt::format("{}: light spreads over {} objects, whose atlases of {} texels a side do not fit a "
-                                     "texture; give {} a smaller one",
-                                     scene.name, spec.diffused.size(), spec.spreadTexels(),
-                                     settingOf("diffusionTexels").flag));
+        throw InputError(
+            fmt::format("{}: light spreads over {} objects, whose atlases of {} texels a side do not fit a "
+                        "texture; give {} a smaller one",
+                        scene.name, spec.diffused.size(), spec.spreadTexels(), settingOf("diffusionTexels").flag));
 }
 
 } // namespace

@@ -45,11 +45,9 @@ struct FrameHandles {
 };
 
 FrameHandles declareShared(graph::Graph& graph, std::span<const ViewSource> views) {
-    const bool tracesShadows =
-        std::ranges::any_of(views, [](const ViewSource& view) {
-            return view.spec.tracesShadows() ||
-                   std::ranges::any_of(view.spec.diffused, &frame::FrameSpec::tracesShadows);
-        });
+    const bool tracesShadows = std::ranges::any_of(views, [](const ViewSource& view) {
+        return view.spec.tracesShadows() || std::ranges::any_of(view.spec.diffused, &frame::FrameSpec::tracesShadows);
+    });
     const ViewSource& anyView = views.front();
     return {frame::importScene(graph, anyView.spec.features, anyView.drawn ? anyView.drawn->scene : nullptr,
                                tracesShadows)};
@@ -68,9 +66,14 @@ struct ViewWiring {
         const UploadViewPass::Outputs uploaded = UploadViewPass::add(graph, drawn);
         surfaces = {drawn, frame.scene, {uploaded.constants}, uploaded.rows, uploaded.commands, {}, {}};
         const UploadLightsPass::Outputs lights = UploadLightsPass::add(graph, spec, drawn);
-        lighting = {surfaces.view, lights.constants, lights.lights, frame.scene.materialTable,
+        lighting = {surfaces.view,
+                    lights.constants,
+                    lights.lights,
+                    frame.scene.materialTable,
                     spec.features.subsurfaceRows() ? frame.scene.subsurfaces : std::nullopt,
-                    {},            {},               {}};
+                    {},
+                    {},
+                    {}};
         if (lights.casterTree) lighting.casterTree = {*lights.casterTree, frame.scene.casters.value()};
         if (spec.features[frame::Feature::ShadowMaps])
             lighting.shadowAtlas = ShadowMapsPass::add(graph, spec, {frame.scene, drawn, index}).atlas;

@@ -71,8 +71,8 @@ struct AfterOpaque {
         add;
 };
 
-/// Objects that light spreads over are lit as views of their own (frame::DrawnView::Diffused), which are numbered behind
-/// those of the frame, of which there are fewer.
+/// Objects that light spreads over are lit as views of their own (frame::DrawnView::Diffused), which are numbered
+/// behind those of the frame, of which there are fewer.
 constexpr std::size_t numberOfObject(std::size_t view, std::size_t cell) {
     return 4096 * (view + 1) + cell;
 }

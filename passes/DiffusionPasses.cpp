@@ -171,21 +171,21 @@ TextureHandle Object::spread(std::size_t number, TextureHandle light, std::optio
         gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LIGHT, context.texture(out.light));
         gpu::drawFullscreenTriangle();
     };
-    const TextureHandle alongU = graph
-                                     .addPass<Data>(
-                                         fmt::format("diffusion_along_u {}{}", number + 1, suffix),
-                                         [&](graph::PassBuilder& pass, Data& out) {
-                                             pass.program(blurProgram(false));
-                                             out.steps = pass.read(steps);
-                                             out.light = pass.read(light);
-                                             out.spread = pass.create("light_along_u", square(spec.spreadTexels()));
-                                         },
-                                         [run, values = constants(false)](const Data& out,
-                                                                          const graph::PassContext& context) {
-                                             context.bindTargets();
-                                             run(out, context, values, {});
-                                         })
-                                     .spread;
+    const TextureHandle alongU =
+        graph
+            .addPass<Data>(
+                fmt::format("diffusion_along_u {}{}", number + 1, suffix),
+                [&](graph::PassBuilder& pass, Data& out) {
+                    pass.program(blurProgram(false));
+                    out.steps = pass.read(steps);
+                    out.light = pass.read(light);
+                    out.spread = pass.create("light_along_u", square(spec.spreadTexels()));
+                },
+                [run, values = constants(false)](const Data& out, const graph::PassContext& context) {
+                    context.bindTargets();
+                    run(out, context, values, {});
+                })
+            .spread;
     const Data done = graph.addPass<Data>(
         fmt::format("diffusion_along_v {}{}", number + 1, suffix),
         [&](graph::PassBuilder& pass, Data& out) {
@@ -232,7 +232,8 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
     if (side != spec.settings.sizePixels.x) light = object.halve(light);
     std::optional<TextureHandle> sum;
     for (std::size_t level = 0; level < spec.spread.size(); ++level) {
-        light = object.fill(fmt::format("diffusion_fill {}", level + 1), light, {glm::uvec4(0), glm::vec4(1.0f)}, {}, {});
+        light =
+            object.fill(fmt::format("diffusion_fill {}", level + 1), light, {glm::uvec4(0), glm::vec4(1.0f)}, {}, {});
         light = object.spread(level, light, sum);
     }
     const glm::uvec2 corner(view.diffusedCells().corner(int(cell)));

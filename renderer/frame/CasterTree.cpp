@@ -153,8 +153,8 @@ std::array<std::vector<CasterTriangle>, 2> trianglesOf(const scenes::Scene& scen
         const bool isMasked = material.alphaMode == scenes::AlphaMode::Mask;
         const std::size_t number = std::size_t(&material - scene.materials.data());
         const bool isMirrored = glm::determinant(glm::dmat3(worldFromNode)) < 0.0;
-        const std::uint32_t mark = (number < passedRows.size() ? std::uint32_t(passedRows[number]) : 0u) |
-                                   (isMirrored ? CASTER_MIRRORED : 0u);
+        const std::uint32_t mark =
+            (number < passedRows.size() ? std::uint32_t(passedRows[number]) : 0u) | (isMirrored ? CASTER_MIRRORED : 0u);
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
             CasterTriangle triangle{{}, isMasked ? &material : nullptr, mark};
             for (std::size_t corner = 0; corner < 3; ++corner) {

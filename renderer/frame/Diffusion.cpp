@@ -74,8 +74,13 @@ std::vector<DiffusedObject> diffusedObjects(const scenes::Scene& scene, scenes::
             const int own = number++;
             if (!diffuses(scene, instance, subsurface)) continue;
             DiffusedObject& object = objects.emplace_back();
-            object = {int(node), instance.mesh, instance.material, own, {},
-                      metresASide(scene.meshes[std::size_t(instance.mesh)], worldFromObject[node]), nameOf(scene, scene.nodes[node], instance.mesh)};
+            object = {int(node),
+                      instance.mesh,
+                      instance.material,
+                      own,
+                      {},
+                      metresASide(scene.meshes[std::size_t(instance.mesh)], worldFromObject[node]),
+                      nameOf(scene, scene.nodes[node], instance.mesh)};
             for (const glm::vec3& positionOS : scene.meshes[std::size_t(instance.mesh)].positionsOS)
                 object.boxWS.extend(glm::dvec3(worldFromObject[node] * glm::dvec4(glm::dvec3(positionOS), 1.0)));
         }
@@ -118,8 +123,8 @@ std::vector<DiffusionLevel> diffusionLevels(const scenes::Subsurface& subsurface
         merged.weight += other.weight;
         levels.erase(levels.begin() + std::ptrdiff_t(best) + 1);
     }
-    // Taps are 0.7 standard deviations of a level apart, up to kWidening times what light has spread so far, or as far as
-    // every texel is a tap.
+    // Taps are 0.7 standard deviations of a level apart, up to kWidening times what light has spread so far, or as far
+    // as every texel is a tap.
     constexpr double kWidening = 2.0;
     std::vector<DiffusionLevel> added;
     double spreadMetres = texelMetres * double(DIFFUSION_MOST_FINE_TAPS) / 3.5 / kWidening;
@@ -197,10 +202,9 @@ const DiffusionAtlas& DiffusionAtlases::of(const DiffusedObject& object, int sid
     const auto texture = [&](const char* label, graph::Format format) {
         return gpu::Texture(label, graph::TextureDesc{format, sideTexels, sideTexels});
     };
-    kept = std::make_unique<DiffusionAtlas>(
-        DiffusionAtlas{border, texture("diffusion_steps", graph::Format::Rgba32Float),
-                       texture("diffusion_continued", graph::Format::Rg32Float),
-                       gpu::Buffer::of("triangle_normals", normals)});
+    kept = std::make_unique<DiffusionAtlas>(DiffusionAtlas{
+        border, texture("diffusion_steps", graph::Format::Rgba32Float),
+        texture("diffusion_continued", graph::Format::Rg32Float), gpu::Buffer::of("triangle_normals", normals)});
     kept->steps.upload(0, steps);
     kept->continued.upload(0, continued);
     return *kept;

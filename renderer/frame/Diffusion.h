@@ -22,10 +22,10 @@ struct DiffusedObject {
     int node = 0;
     int mesh = 0;
     int material = 0;
-    int instance = 0;         ///< place among the mesh instances of all nodes, in document order
-    scenes::Box3 boxWS;       ///< of its vertices
-    double sideMetres = 0.0;  ///< of the world, that a side of its texture covers, by areas; 0: no area
-    std::string name;         ///< of messages
+    int instance = 0;        ///< place among the mesh instances of all nodes, in document order
+    scenes::Box3 boxWS;      ///< of its vertices
+    double sideMetres = 0.0; ///< of the world, that a side of its texture covers, by areas; 0: no area
+    std::string name;        ///< of messages
 };
 
 /// Those that are drawn, in document order. A view's atlas has a cell for each.
@@ -40,8 +40,8 @@ struct DiffusionLevel {
     bool operator==(const DiffusionLevel&) const = default;
 };
 /// From the narrowest Gaussian on; their weights sum to 1 in each channel. With fewer Gaussians than the profile has,
-/// neighbours become one of their mean variance. Where one is so wide that taps of the next would miss what lies between
-/// them, levels without weight stand before it.
+/// neighbours become one of their mean variance. Where one is so wide that taps of the next would miss what lies
+/// between them, levels without weight stand before it.
 std::vector<DiffusionLevel> diffusionLevels(const scenes::Subsurface& subsurface, int mostGaussians,
                                             double texelMetres);
 
@@ -63,9 +63,9 @@ DiffusedCells diffusedCells(std::size_t objects, int sideTexels);
 /// An object's atlas on the GPU.
 struct DiffusionAtlas {
     int borderTexels = 0;
-    gpu::Texture steps;              ///< RGBA32F: shaders/shared/diffusion.h
-    gpu::Texture continued;          ///< RG32F, the same
-    gpu::Buffer triangleNormals;     ///< vec4 each, unit, of the front, axes of the world
+    gpu::Texture steps;          ///< RGBA32F: shaders/shared/diffusion.h
+    gpu::Texture continued;      ///< RG32F, the same
+    gpu::Buffer triangleNormals; ///< vec4 each, unit, of the front, axes of the world
 };
 
 /// The atlases of a scene, made when they are asked for.

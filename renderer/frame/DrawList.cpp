@@ -69,8 +69,8 @@ DrawList makeDrawList(const scenes::Scene& scene) {
             if (!scenes::isDrawn(scene, instance)) continue;
             const scenes::Box3& boxOS = boxesOS[std::size_t(instance.mesh)];
             const glm::dvec3 centerOS = boxOS.empty() ? glm::dvec3(0.0) : 0.5 * (boxOS.min + boxOS.max);
-            list.draws.push_back({instance.mesh, instance.material, int(node), own, mirrored, instance.castsShadow,
-                                  0, largestColors[std::size_t(instance.mesh)], transformed(boxOS, worldFromObject),
+            list.draws.push_back({instance.mesh, instance.material, int(node), own, mirrored, instance.castsShadow, 0,
+                                  largestColors[std::size_t(instance.mesh)], transformed(boxOS, worldFromObject),
                                   reachOf(boxOS, worldFromObject),
                                   glm::dvec3(worldFromObject * glm::dvec4(centerOS, 1.0))});
         }

@@ -59,9 +59,9 @@ double roundingMetres(const Draw& draw, const glm::dvec3& objectWS, const Camera
 
 /// Per-draw vertex attributes (shaders/passes/geometry.vert): rows of RWS-from-object (world axes at the origin of
 /// lighting space, as shaders/shared/frame.h says) and of the cofactor matrix of LS-from-object, which carries normals
-/// through any transform, singular ones too; times the determinant's sign. Row 0's w is that sign, times 1 + Draw::diffusedCell. Row 1's w is
-/// Draw::largestColor. It also tells meshes without vertex colours: white would not do, since interpolating 1 in
-/// perspective does not always give 1. Row 2's w is 1 + Draw::instance.
+/// through any transform, singular ones too; times the determinant's sign. Row 0's w is that sign, times 1 +
+/// Draw::diffusedCell. Row 1's w is Draw::largestColor. It also tells meshes without vertex colours: white would not
+/// do, since interpolating 1 in perspective does not always give 1. Row 2's w is 1 + Draw::instance.
 struct DrawRows {
     glm::vec4 position[3];
     glm::vec4 normal[3];

@@ -41,7 +41,7 @@ enum class Feature : std::uint8_t {
     SoftShadows, // of such lights with a size
     ShadowMaps,  // the shadows are looked up in maps, not traced
     SubsurfaceWrap,
-    SubsurfaceDepthMap, // light passes through surfaces; only where some light casts shadows
+    SubsurfaceDepthMap,  // light passes through surfaces; only where some light casts shadows
     SubsurfaceDiffusion, // light has spread over surfaces before they are drawn; only of lit pictures
     Count
 };
@@ -114,8 +114,8 @@ bool canMask(const scenes::Material& material);
 /// of the camera.
 FeatureSet materialFeatures(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface = {});
 
-/// What decides the light that enters a mesh with a material (Feature::SubsurfaceDiffusion), as the features of one that
-/// reflects it alike to all sides.
+/// What decides the light that enters a mesh with a material (Feature::SubsurfaceDiffusion), as the features of one
+/// that reflects it alike to all sides.
 FeatureSet enteringFeatures(const scenes::Scene& scene, int material, int mesh);
 
 /// Everything there is.

@@ -178,8 +178,7 @@ SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const 
     const gpu::Buffer* const table = scene ? scene->materialTable() : nullptr;
     if (!features[Feature::VaryingMaterials] && (!scene || table))
         handles.materialTable = import("material_table", table);
-    if (features.enteringLight())
-        handles.subsurfaces = import("subsurfaces", scene ? scene->subsurfaces() : nullptr);
+    if (features.enteringLight()) handles.subsurfaces = import("subsurfaces", scene ? scene->subsurfaces() : nullptr);
     if (tracesShadows) handles.casters = import("casters", scene ? scene->casters()->texels.get() : nullptr);
     return handles;
 }

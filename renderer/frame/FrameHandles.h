@@ -64,9 +64,9 @@ struct SceneHandles {
 struct SurfaceHandles {
     const DrawnView* drawn = nullptr;
     SceneHandles scene;
-    ViewHandles view;                       ///< empty where a pass draws with cameras of its own
-    graph::BufferHandle rows;               ///< DrawRows of each draw of the view
-    graph::BufferHandle commands;           ///< gpu::DrawIndexedCommand of the same
+    ViewHandles view;                                  ///< empty where a pass draws with cameras of its own
+    graph::BufferHandle rows;                          ///< DrawRows of each draw of the view
+    graph::BufferHandle commands;                      ///< gpu::DrawIndexedCommand of the same
     std::optional<graph::TextureHandle> diffused = {}; ///< where light has spread over some: the view's atlas
     std::vector<std::size_t> depthPrograms = {}; ///< of readDepth(), by number: bare, then where there is one, masked
 

@@ -263,7 +263,8 @@ shader::ProgramDesc frameProgram(const FrameSpec& spec, std::string name, std::s
     program.fragment = std::move(fragment);
     // A lighting or display pass draws no triangles of the scene.
     const bool drawsScene = program.vertex == "passes/geometry.vert";
-    if (drawsScene && spec.settings.filter == TextureFilter::Exact && !spec.isInAtlas()) program.geometry = "passes/triangle.geom";
+    if (drawsScene && spec.settings.filter == TextureFilter::Exact && !spec.isInAtlas())
+        program.geometry = "passes/triangle.geom";
     program.defines = frameDefines(spec);
     program.defines.insert(program.defines.end(), extra.begin(), extra.end());
     return program;

@@ -111,8 +111,8 @@ PackedSubsurfaces packSubsurfaces(const scenes::Scene& scene, scenes::Subsurface
         const scenes::SubsurfaceMethod method = scenes::subsurfaceOf(scene.materials[i], request);
         const bool wraps = method == scenes::SubsurfaceMethod::Wrap;
         // Light that passes through spreads over the other side too.
-        const bool passes = method == scenes::SubsurfaceMethod::DepthMap ||
-                            method == scenes::SubsurfaceMethod::TextureSpaceDiffusion;
+        const bool passes =
+            method == scenes::SubsurfaceMethod::DepthMap || method == scenes::SubsurfaceMethod::TextureSpaceDiffusion;
         if (!inUse[i] || !(wraps || passes)) continue;
         packed.rowOf[i] = packed.rows.size();
         shared::SubsurfaceConstants& row = packed.rows.emplace_back();
@@ -137,8 +137,8 @@ shared::MaterialConstants packMaterial(const scenes::Material& material, std::si
         glm::vec4(material.metallic, roughnessParameter(material), material.ior, material.normalScale);
     packed.specular = glm::vec4(material.specularColor, material.specularFactor);
     const double contrast = (double(material.ior) - 1.0) / (double(material.ior) + 1.0);
-    packed.dielectric = glm::vec4(float(contrast * contrast), float(subsurfaceRow), material.subsurface.preScatterShare,
-                                  0.0f);
+    packed.dielectric =
+        glm::vec4(float(contrast * contrast), float(subsurfaceRow), material.subsurface.preScatterShare, 0.0f);
     packed.anisotropy = packAnisotropy(material);
     packed.clearcoat =
         glm::vec4(material.clearcoat, material.clearcoatPerceptualRoughness, material.clearcoatNormalScale, 0.0f);

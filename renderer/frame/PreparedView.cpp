@@ -20,9 +20,7 @@ public:
         static_assert(std::has_unique_object_representations_v<Value> || std::is_floating_point_v<Value>);
         add(std::as_bytes(std::span(&value, 1)));
     }
-    void addFloats(const auto& structs) {
-        add(std::as_bytes(std::span(structs)));
-    }
+    void addFloats(const auto& structs) { add(std::as_bytes(std::span(structs))); }
     std::uint64_t value() const { return value_; }
 
 private:

@@ -79,8 +79,9 @@ gpu::PipelineState stateOf(gpu::PipelineState state, bool doubleSided, bool mirr
 
 SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter,
                    scenes::SubsurfaceRequest subsurface)
-    : scene_(scene), features_(features), filter_(filter), subsurface_(subsurface), materialsInUse_(scenes::inUse(scene).materials),
-      geometry_(makeGeometry()), draws_(makeDraws(geometry_.ranges)), materials_(makeMaterials()) {
+    : scene_(scene), features_(features), filter_(filter), subsurface_(subsurface),
+      materialsInUse_(scenes::inUse(scene).materials), geometry_(makeGeometry()), draws_(makeDraws(geometry_.ranges)),
+      materials_(makeMaterials()) {
     uploadTextures();
     revisedMaterials_ = casterMaterials();
 }

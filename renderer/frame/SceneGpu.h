@@ -104,8 +104,8 @@ private:
         std::unique_ptr<gpu::Buffer> tabled;    ///< the first MATERIAL_TEXELS of each, without gaps
         std::unique_ptr<gpu::Buffer> subsurfaces;
     };
-    /// What of a material decides which of its surfaces hide light: its casting, its alpha mode, cutoff and opacity, and
-    /// the row of SubsurfaceConstants that lets it through.
+    /// What of a material decides which of its surfaces hide light: its casting, its alpha mode, cutoff and opacity,
+    /// and the row of SubsurfaceConstants that lets it through.
     using CasterMaterial = std::tuple<bool, scenes::AlphaMode, float, float, std::size_t>;
     std::vector<CasterMaterial> casterMaterials() const;
     Geometry makeGeometry() const;

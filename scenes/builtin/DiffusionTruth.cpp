@@ -93,6 +93,13 @@ Scene makeDiffusionTruth(const LoadOptions& options, LoadLedger&) {
         const char* const name = x < 0.0 ? "half lit" : "dot";
         addNode(scene, name, glm::dmat4(1.0), {{addMesh(scene, name, std::move(square)), spreading}});
     }
+    // The same edge where no light spreads.
+    Mesh strip;
+    appendQuad(strip, {kTruthEdgeX - 0.5, 0.0, 0.72}, {kTruthEdgeX + 0.5, 0.0, 0.72}, {kTruthEdgeX + 0.5, 0.0, 0.56},
+               {kTruthEdgeX - 0.5, 0.0, 0.56});
+    addNode(scene, "half lit, without", glm::dmat4(1.0),
+            {{addMesh(scene, "half lit, without", std::move(strip)),
+              addMaterial(scene, lambert("paper", glm::vec3(0.9f)))}});
     // Above what the camera sees.
     Mesh half;
     appendQuad(half, {kTruthEdgeX - 1.0, kPlatesY, 1.0}, {kTruthEdgeX, kPlatesY, 1.0}, {kTruthEdgeX, kPlatesY, -1.0},

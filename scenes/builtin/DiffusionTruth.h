@@ -1,8 +1,8 @@
 #pragma once
 #include <glm/glm.hpp>
 
-/// The built-in scene `diffusion_truth` in numbers: two squares of skin under a sun, one half in shadow, one lit through
-/// a round hole. On both, light that has spread is known in closed form or as an integral over one distance.
+/// The built-in scene `diffusion_truth` in numbers: two squares of skin under a sun, one half in shadow, one lit
+/// through a round hole. On both, light that has spread is known in closed form or as an integral over one distance.
 namespace tessera::scenes::builtin {
 
 inline constexpr double kTruthScaleMetres = 0.04; ///< of the real thing that a metre, a side of a square, stands for

@@ -146,8 +146,8 @@ Scene makeHeadSkin(const LoadOptions& options, LoadLedger& ledger) {
 Scene makeHeadMarble(const LoadOptions& options, LoadLedger& ledger) {
     Scene scene;
     scene.name = "head_marble";
-    Material& marble = scene.materials[std::size_t(
-        addHead(scene, {"marble", BustPaint::PolishedMarble, kFineColumns, kFineRows, kFineMapTexels}, options, ledger))];
+    Material& marble = scene.materials[std::size_t(addHead(
+        scene, {"marble", BustPaint::PolishedMarble, kFineColumns, kFineRows, kFineMapTexels}, options, ledger))];
     marble.alpha = 0.2f;
     marble.ior = 1.5f;
     marble.subsurface.method = SubsurfaceMethod::TextureSpaceDiffusion;

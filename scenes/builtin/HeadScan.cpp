@@ -19,7 +19,7 @@ std::optional<std::filesystem::path> headScanFolder() {
 }
 
 int addHeadScan(Scene& scene, const std::filesystem::path& folder, double bottomY, double heightMetres,
-                 LoadLedger& ledger) {
+                LoadLedger& ledger) {
     Scene scan = importObj(folder / "head.obj", ledger);
     const Box3 boundsWS = worldBounds(scan);
     if (boundsWS.empty() || boundsWS.max.y <= boundsWS.min.y) {

@@ -13,6 +13,6 @@ std::optional<std::filesystem::path> headScanFolder();
 /// Adds the scanned head (Infinite Realities, CC BY 3.0) with its albedo, specular and object-space normal map,
 /// standing on `bottomY` and `heightMetres` high. Throws InputError naming the file that is missing or broken.
 int addHeadScan(Scene& scene, const std::filesystem::path& folder, double bottomY, double heightMetres,
-                 LoadLedger& ledger);
+                LoadLedger& ledger);
 
 } // namespace tessera::scenes::builtin

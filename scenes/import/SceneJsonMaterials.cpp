@@ -184,8 +184,7 @@ DiffusionProfile readProfile(const JsonValue& value) {
     for (const JsonValue& element : value.elements(1, kMostGaussians)) {
         JsonObject object = element.object();
         DiffusionGaussian& gaussian = profile.emplace_back();
-        gaussian.varianceSquareMillimetres =
-            object.require("varianceSquareMillimetres").single(0.0, kMostVariance);
+        gaussian.varianceSquareMillimetres = object.require("varianceSquareMillimetres").single(0.0, kMostVariance);
         gaussian.weight = object.require("weight").color();
         object.done("a Gaussian of a profile");
     }

@@ -40,7 +40,8 @@ inline constexpr std::array kTangentMethods = {Named<TangentMethod>{"mikktspace"
                                                Named<TangentMethod>{"lengyel", TangentMethod::Lengyel}};
 inline constexpr auto kSubsurfaceMethodNames = [] {
     std::array<Named<SubsurfaceMethod>, kSubsurfaceMethods.size()> names;
-    for (std::size_t i = 0; i < names.size(); ++i) names[i] = {kSubsurfaceMethods[i].name, kSubsurfaceMethods[i].method};
+    for (std::size_t i = 0; i < names.size(); ++i)
+        names[i] = {kSubsurfaceMethods[i].name, kSubsurfaceMethods[i].method};
     return names;
 }();
 inline constexpr auto kLightTypes = [] {

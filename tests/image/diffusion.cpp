@@ -55,8 +55,8 @@ TruthError errorOf(const Picture& picture, const scenes::Camera& camera, Truth t
     const double metres = 2.0 * camera.halfHeightMetres / picture.height;
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
-            const glm::dvec2 place =
-                metres * (glm::dvec2(x, picture.height - 1 - y) + 0.5 - 0.5 * glm::dvec2(picture.width, picture.height));
+            const glm::dvec2 place = metres * (glm::dvec2(x, picture.height - 1 - y) + 0.5 -
+                                               0.5 * glm::dvec2(picture.width, picture.height));
             const glm::dvec3 right = truth(glm::dvec3(camera.worldFromCamera[3]) + glm::dvec3(place.x, -1.0, -place.y));
             for (int c = 0; c < 3; ++c) {
                 const double own = picture.pixel(std::size_t(y) * std::size_t(picture.width) + std::size_t(x))[c];
@@ -135,15 +135,16 @@ void expectConvergence(std::span<const int> sides, const std::function<TruthErro
 }
 
 TEST_F(Diffusion, aStepAndADotSpreadAsTheClosedFormsSay) {
-    expectConvergence(std::array{256, 512}, [&](int side) { return stepError(side); },
-                      [&](int side) { return dotError(side); });
+    expectConvergence(
+        std::array{256, 512}, [&](int side) { return stepError(side); }, [&](int side) { return dotError(side); });
 }
 
 using DiffusionSlow = Diffusion;
 
 TEST_F(DiffusionSlow, aStepAndADotSpreadAsTheClosedFormsSay) {
-    expectConvergence(std::array{512, 1024, 2048}, [&](int side) { return stepError(side); },
-                      [&](int side) { return dotError(side); });
+    expectConvergence(
+        std::array{512, 1024, 2048}, [&](int side) { return stepError(side); },
+        [&](int side) { return dotError(side); });
     const double c = 0.6 * std::cos(0.3), s = 0.6 * std::sin(0.3);
     const double turned = stepError(2048, [&](scenes::Scene& scene) { mapTexture(scene, {{c, s}, {-s, c}}); }).l2;
     fmt::print("2048 texels, turned: {:.2e}\n", turned);
@@ -158,9 +159,10 @@ TEST_F(Diffusion, fewerGaussiansAndHalfTheResolutionAreNearTheClosedForms) {
         frame::FrameSettings settings;
         settings.sizePixels = {896, 8};
         settings.diffusion = {256, gaussians, half};
-        return errorOf(pictureOf(renderer, settings), scene.cameras[0], [](const glm::dvec3& placeWS) {
-                   return builtin::diffusedStep(placeWS.x - builtin::kTruthEdgeX);
-               }).l2;
+        return errorOf(
+                   pictureOf(renderer, settings), scene.cameras[0],
+                   [](const glm::dvec3& placeWS) { return builtin::diffusedStep(placeWS.x - builtin::kTruthEdgeX); })
+            .l2;
     };
     const double all = error(8, false), halved = error(8, true);
     double before = all;
@@ -180,8 +182,7 @@ TEST_F(Diffusion, stretchedAndSlantedTexturesChangeNothing) {
     for (const double stretch : {10.0, 100.0}) {
         // Squares so narrow that both directions have as many texels.
         const double own = stepError(256, [&](scenes::Scene& scene) {
-                               for (glm::vec3& position : scene.meshes[0].positionsOS)
-                                   position.z /= float(stretch);
+                               for (glm::vec3& position : scene.meshes[0].positionsOS) position.z /= float(stretch);
                                mapTexture(scene, {{1.0, 0.0}, {0.0, stretch}});
                            }).l2;
         fmt::print("stretched {}:1: {:.2e}, else {:.2e}\n", stretch, own, plain);
@@ -189,7 +190,9 @@ TEST_F(Diffusion, stretchedAndSlantedTexturesChangeNothing) {
     }
     for (const double stretch : {2.0, 8.0}) {
         // Fewer texels along x.
-        const double own = stepError(256, [&](scenes::Scene& scene) { mapTexture(scene, {{1.0 / stretch, 0.0}, {0.0, 1.0}}); }).l2;
+        const double own = stepError(256, [&](scenes::Scene& scene) {
+                               mapTexture(scene, {{1.0 / stretch, 0.0}, {0.0, 1.0}});
+                           }).l2;
         const double coarse = stepError(int(256.0 / stretch)).l2;
         fmt::print("{} times fewer texels along x: {:.2e}, with as many both ways {:.2e}\n", stretch, own, coarse);
         EXPECT_LE(own, 1.5 * coarse + 1e-5) << stretch;
@@ -197,7 +200,9 @@ TEST_F(Diffusion, stretchedAndSlantedTexturesChangeNothing) {
     for (const double turn : {0.3, 0.7853981633974483}) {
         const double c = 0.6 * std::cos(turn), s = 0.6 * std::sin(turn);
         const double turned = stepError(256, [&](scenes::Scene& scene) { mapTexture(scene, {{c, s}, {-s, c}}); }).l2;
-        const double slanted = stepError(256, [&](scenes::Scene& scene) { mapTexture(scene, {{0.6, 0.0}, {0.3, 0.6}}); }).l2;
+        const double slanted = stepError(256, [&](scenes::Scene& scene) {
+                                   mapTexture(scene, {{0.6, 0.0}, {0.3, 0.6}});
+                               }).l2;
         fmt::print("turned by {:.2f}: {:.2e}, slanted {:.2e}\n", turn, turned, slanted);
         // The edge of the shadow is as straight as texels make it.
         EXPECT_LE(turned, 0.05);
@@ -316,12 +321,12 @@ TEST_F(Diffusion, seamsAreNoWorseThanWhatLiesBetweenThem) {
             const double length2 = glm::dot(place, place);
             if (length2 > 0.9) continue; // the rim
             const glm::dmat4& m = scene.cameras[0].worldFromCamera;
-            glm::dvec3 point =
-                glm::abs(glm::dmat3(m) * glm::dvec3(place.x, place.y, std::sqrt(1.0 - length2)));
+            glm::dvec3 point = glm::abs(glm::dmat3(m) * glm::dvec3(place.x, place.y, std::sqrt(1.0 - length2)));
             double sizes[] = {point.x, point.y, point.z};
             std::ranges::sort(sizes);
             const bool isSeam = sizes[2] - sizes[1] < 0.09; // two pixels
-            const double wrong = glm::distance(truth.radiance[i], glm::dvec3(picture.pixel(i)[0], picture.pixel(i)[1], picture.pixel(i)[2]));
+            const double wrong = glm::distance(
+                truth.radiance[i], glm::dvec3(picture.pixel(i)[0], picture.pixel(i)[1], picture.pixel(i)[2]));
             at[isSeam] += wrong * wrong;
             count[isSeam] += 1.0;
         }
@@ -509,7 +514,8 @@ TEST_F(Diffusion, spreadLightIsKeptWhileOnlyTheCameraMoves) {
             const std::vector<float> fresh =
                 engine::Renderer(context(), ball).render(Technique::Deferred, settings).radiance;
             double most = 0.0;
-            for (std::size_t i = 0; i < seen.size(); ++i) most = std::max(most, std::abs(double(seen[i]) - double(fresh[i])));
+            for (std::size_t i = 0; i < seen.size(); ++i)
+                most = std::max(most, std::abs(double(seen[i]) - double(fresh[i])));
             EXPECT_EQ(most, 0.0) << infoOf(filter).name << ", " << ++step;
         };
         moved([&] { settings.eyeOffsetWS = {0.01, 0.0, 0.002}; }, true);

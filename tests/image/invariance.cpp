@@ -19,6 +19,7 @@ protected:
     static frame::FrameSettings small() {
         frame::FrameSettings settings;
         settings.sizePixels = {320, 181};
+        settings.diffusion = test::coarseDiffusion();
         return settings;
     }
     Picture picture(const scenes::Scene& scene, const frame::FrameSettings& settings,

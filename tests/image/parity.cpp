@@ -57,6 +57,7 @@ TEST_F(Parity, everyBuiltinSceneIsExactlyTheSameWithEveryTechnique) {
             SCOPED_TRACE(fmt::format("{} {}x{}", builtin.name, size.x, size.y));
             frame::FrameSettings settings;
             settings.sizePixels = size;
+            settings.diffusion = test::coarseDiffusion();
             expectAgreement(renderer, settings);
         }
     }
@@ -95,6 +96,7 @@ void Parity::expectPromisesKept() {
             SCOPED_TRACE(fmt::format("{} {}", builtin.name, layout.name));
             frame::FrameSettings settings;
             settings.sizePixels = kSizes[1];
+            settings.diffusion = test::coarseDiffusion();
             settings.layout = layout.layout;
             const validation::CompareRecord record = compare(
                 renderer, settings, test::isWholeSweep() ? std::vector<Technique>{} : std::vector{Technique::Deferred});

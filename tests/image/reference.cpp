@@ -1,4 +1,5 @@
 // The GPU's picture against the reference renderer's, pixel by pixel, with the same filtering on both sides.
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -35,17 +36,19 @@ struct SceneBars {
     double p999Rel, relMse, bias, excluded;
 };
 constexpr SceneBars kSmallBars[] = {
-    {"hall", 160, 90, 1e-3, 1.5e-9, 2e-5, 0.015},    {"spheres", 160, 90, 1e-4, 6e-12, 7e-7, 0.012},
-    {"models", 160, 90, 5e-4, 6e-10, 5e-6, 0.005},   {"lattice", 160, 90, 4e-4, 1.5e-10, 1.2e-5, 0.008},
-    {"room", 160, 90, 6e-6, 5e-13, 1.5e-7, 0.0003},  {"shadow_truth", 160, 90, 1.5e-4, 1e-12, 6e-7, 0.001},
-    {"head", 160, 90, 1.5e-4, 1.5e-11, 1e-6, 0.003},
+    {"hall", 160, 90, 1e-3, 1.5e-9, 2e-5, 0.015},       {"spheres", 160, 90, 1e-4, 6e-12, 7e-7, 0.012},
+    {"models", 160, 90, 5e-4, 6e-10, 5e-6, 0.005},      {"lattice", 160, 90, 4e-4, 1.5e-10, 1.2e-5, 0.008},
+    {"room", 160, 90, 6e-6, 5e-13, 1.5e-7, 0.0003},     {"shadow_truth", 160, 90, 1.5e-4, 1e-12, 6e-7, 0.001},
+    {"head", 160, 90, 1.5e-4, 1.5e-11, 1e-6, 0.003},    {"head_skin", 160, 90, 3e-4, 1.5e-10, 1e-6, 0.005},
+    {"head_marble", 160, 90, 3e-4, 1e-10, 1e-6, 0.005}, {"diffusion_truth", 160, 90, 1e-6, 1e-13, 1e-7, 0.001},
 };
 /// At the size at which the programs render by themselves. One sharp highlight decides the bias of spheres.
 constexpr SceneBars kDefaultBars[] = {
-    {"hall", 1280, 720, 1.2e-3, 3e-9, 3e-6, 0.002},    {"spheres", 1280, 720, 1.2e-4, 5e-11, 1e-4, 0.0015},
-    {"models", 1280, 720, 4e-4, 5e-9, 5e-7, 0.0006},   {"lattice", 1280, 720, 4e-4, 2e-10, 2.5e-6, 0.001},
-    {"room", 1280, 720, 6e-6, 4e-13, 1.2e-7, 0.00005}, {"shadow_truth", 1280, 720, 1.5e-4, 8e-13, 4e-7, 0.0002},
-    {"head", 1280, 720, 1.5e-4, 4e-11, 1e-6, 0.0005},
+    {"hall", 1280, 720, 1.2e-3, 3e-9, 3e-6, 0.002},        {"spheres", 1280, 720, 1.2e-4, 5e-11, 1e-4, 0.0015},
+    {"models", 1280, 720, 4e-4, 5e-9, 5e-7, 0.0006},       {"lattice", 1280, 720, 4e-4, 2e-10, 2.5e-6, 0.001},
+    {"room", 1280, 720, 6e-6, 4e-13, 1.2e-7, 0.00005},     {"shadow_truth", 1280, 720, 1.5e-4, 8e-13, 4e-7, 0.0002},
+    {"head", 1280, 720, 1.5e-4, 4e-11, 1e-6, 0.0005},      {"head_skin", 1280, 720, 2.5e-4, 1e-9, 1e-6, 0.001},
+    {"head_marble", 1280, 720, 2.5e-4, 4e-9, 1e-6, 0.001}, {"diffusion_truth", 1280, 720, 1e-6, 1e-13, 1e-7, 0.001},
 };
 
 class Reference : public test::GlTest {
@@ -87,8 +90,14 @@ protected:
         scenes::Scene scene = scenes::loadScene(bars.scene);
         // Soft shadows are noise, and held to closed forms (SoftShadows).
         for (scenes::Light& light : scene.lights) light.radiusMetres = light.angularRadiusRadians = 0.0f;
-        const validation::ErrorFigures figures =
-            expectAgreement(bars.scene, scene, ofSize(bars.width, bars.height), true);
+        // Light spread over texels is another approximation than the reference's, and judged by Diffusion.
+        frame::FrameSettings settings = ofSize(bars.width, bars.height);
+        const auto spreads = [](const scenes::Material& material) {
+            return material.subsurface.method == scenes::SubsurfaceMethod::TextureSpaceDiffusion;
+        };
+        if (std::any_of(scene.materials.begin(), scene.materials.end(), spreads))
+            settings.subsurface = scenes::SubsurfaceMethod::DepthMap;
+        const validation::ErrorFigures figures = expectAgreement(bars.scene, scene, settings, true);
         if (!context().capabilities().isSoftware) return;
         SCOPED_TRACE(bars.scene);
         EXPECT_LE(figures.p999Rel, bars.p999Rel);
@@ -98,6 +107,8 @@ protected:
         // A tolerance this far above the measured figure is too wide: lower it. Sums of errors with signs and
         // counts of single pixels may be small by chance, and over a million pixels a single one may decide relMse.
         if (bars.width > 160) return;
+        // Surfaces that face the only light get or lose all of it, here to the last bit.
+        if (figures.maxRel == 0.0) return;
         EXPECT_GE(figures.p999Rel, 0.1 * bars.p999Rel);
         EXPECT_GE(figures.relMse, 0.1 * bars.relMse);
     }

@@ -199,6 +199,12 @@ Camera cameraAt(const glm::dvec3& eyeWS, const glm::dvec3& targetWS) {
 
 } // namespace
 
+frame::DiffusionSettings coarseDiffusion() {
+    frame::DiffusionSettings settings;
+    settings.sideTexels = 64;
+    return settings;
+}
+
 Mesh quad() {
     Mesh mesh;
     mesh.name = "quad";

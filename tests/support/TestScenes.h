@@ -1,4 +1,5 @@
 #pragma once
+#include "renderer/frame/FrameSettings.h"
 #include "scenes/Scene.h"
 
 namespace tessera::test {
@@ -17,6 +18,9 @@ scenes::Scene evenScene();
 /// its own, so that those have other numbers; behind them colours above 1, masking by the half vector, these materials
 /// on a mesh without triangles, and cameras.
 scenes::Scene withUnusedOfEverything(scenes::Scene scene);
+
+/// For sweeps over scenes whose subject is not spread light: an atlas of 64 texels a side, for speed.
+frame::DiffusionSettings coarseDiffusion();
 
 /// 2 x 2 m in the plane z = 0 facing +z, its picture upright: u grows along x, v (down) along -y.
 scenes::Mesh quad();

@@ -139,7 +139,8 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
         return tolerance;
     }
     if (frame::diffusesLight(scene, settings.subsurface)) {
-        tolerance.reason = "light spread in texture space is an approximation: its error is reported, and held to nothing";
+        tolerance.reason =
+            "light spread in texture space is an approximation: its error is reported, and held to nothing";
         return tolerance;
     }
     if (!frame::materialFeatures(scene).textures()) {

@@ -111,9 +111,8 @@ struct Diffusion::Surfaces {
             if (incident.irradiance == glm::dvec3(0.0)) continue;
             const double cosine = glm::dot(surface.normal, incident.toLight);
             if (cosine > 0.0) {
-                const double share = light.castsShadow
-                                         ? occlusion.of(light, hit, surface, pointRWS, front, settings).share
-                                         : 1.0;
+                const double share =
+                    light.castsShadow ? occlusion.of(light, hit, surface, pointRWS, front, settings).share : 1.0;
                 sum += cosine * share * incident.irradiance;
             } else if (cosine < 0.0 && light.castsShadow && surface.passes) {
                 sum -= cosine * occlusion.passageOf(light, hit, surface, pointRWS, false).share * incident.irradiance;
@@ -176,8 +175,8 @@ Diffusion::~Diffusion() = default;
 Diffusion::Answer Diffusion::at(const Hit& hit, const glm::dvec3& pointRWS, std::uint32_t seed) const {
     const Profile profile = profileOf(hit.object->material->subsurface);
     const glm::dvec3 front = frontOf(hit);
-    const glm::dvec3 aside =
-        glm::normalize(glm::cross(front, std::abs(front.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
+    const glm::dvec3 aside = glm::normalize(
+        glm::cross(front, std::abs(front.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
     const std::array<glm::dvec3, 3> axes{front, aside, glm::cross(front, aside)};
     constexpr std::array<double, 3> kShares{0.5, 0.25, 0.25};
     const auto pointsOf = [&](std::size_t axis, const Term& term) {

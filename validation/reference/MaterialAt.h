@@ -30,8 +30,8 @@ struct SurfacePoint {
     glm::dvec3 coatNormal{0.0}; ///< unit, where there is a coat
     glm::dvec3 sheenColor{0.0}; ///< 0..1, KHR_materials_sheen
     double sheenAlpha = 1.0;
-    glm::dvec3 wrap{0.0};          ///< by channel, minus the cosine at which wrapped light ends
-    double bodyRadiusMetres = 0.0; ///< of the body that it goes round
+    glm::dvec3 wrap{0.0};             ///< by channel, minus the cosine at which wrapped light ends
+    double bodyRadiusMetres = 0.0;    ///< of the body that it goes round
     bool spreads = false;             ///< light that enters leaves elsewhere (Diffusion.h)
     bool passes = false;              ///< light from behind passes through
     glm::dvec3 absorptionPerMetre{0}; ///< of it, by channel, in the scene's metres
