@@ -146,7 +146,7 @@ void addDiffused(const scenes::Scene& scene, std::span<const frame::SurfaceBound
         prepared.diffused.push_back(prepareDiffused(scene, object, spec.settings, bounds));
         spec.diffused.push_back(prepared.diffused.back().spec);
     }
-    const glm::ivec2 texels = spec.diffusedCells().texels;
+    const glm::ivec2 texels = spec.diffusedCells().texels();
     if (std::max(texels.x, texels.y) > frame::kLargestSidePixels)
         throw InputError(
             fmt::format("{}: light spreads over {} objects, whose atlases of {} texels a side do not fit a "

@@ -53,21 +53,35 @@ struct Object {
     std::string suffix; ///< of the names of its passes
     TextureHandle steps, continued;
 
-    TextureHandle light(const DiffusionPasses::Inputs& inputs, const frame::DiffusionAtlas* atlas) const;
-    TextureHandle halve(TextureHandle light) const;
-    /// With a target: into a cell of it.
-    TextureHandle fill(const std::string& name, TextureHandle light, const shared::DiffusionFillConstants& constants,
-                       std::optional<TextureHandle> target, const std::function<void()>& done) const;
+    /// Light that enters the surface, and the sum of what leaves it.
+    struct Light {
+        TextureHandle entering, sum;
+    };
+    Light light(const DiffusionPasses::Inputs& inputs, const frame::DiffusionAtlas* atlas) const;
+    Light halve(Light light) const;
+    TextureHandle fill(const std::string& name, TextureHandle light) const;
+    /// Fills into the object's cell of a view's atlas, and says there what else pixels ask for.
+    TextureHandle store(TextureHandle light, TextureHandle atlas, const frame::DiffusedCells& cells, std::size_t cell,
+                        const std::function<void()>& done) const;
     /// Light spread by one more level; adds it to the sum.
-    TextureHandle spread(std::size_t level, TextureHandle light, std::optional<TextureHandle>& sum) const;
+    Light spread(std::size_t level, Light light) const;
+
+private:
+    struct FillData {
+        TextureHandle steps, continued, light, filled;
+    };
+    TextureHandle addFill(const std::string& name, TextureHandle light, std::optional<TextureHandle> target,
+                          const std::function<void(const FillData&, const graph::PassContext&)>& run) const;
+    static void drawFilled(const FillData& data, const graph::PassContext& context,
+                           const shared::DiffusionFillConstants& constants);
 };
 
-TextureHandle Object::light(const DiffusionPasses::Inputs& inputs, const frame::DiffusionAtlas* atlas) const {
+Object::Light Object::light(const DiffusionPasses::Inputs& inputs, const frame::DiffusionAtlas* atlas) const {
     struct Data {
         frame::SurfaceHandles surfaces;
         frame::LightingInputs lighting;
         std::optional<graph::BufferHandle> triangleNormals;
-        TextureHandle light;
+        Light light;
     };
     const gpu::Buffer* const normals = atlas ? &atlas->triangleNormals : nullptr;
     const graph::BufferHandle imported =
@@ -81,13 +95,17 @@ TextureHandle Object::light(const DiffusionPasses::Inputs& inputs, const frame::
                 out.lighting = inputs.lighting.read(pass);
                 if (spec.features[frame::Feature::Shadows])
                     out.triangleNormals = pass.read(imported, Access::TexelRead);
-                out.light = pass.create("entering_light", square(spec.settings.sizePixels.x));
+                out.light.entering = pass.create("entering_light", square(spec.settings.sizePixels.x));
+                out.light.sum = pass.create("light_sum", square(spec.settings.sizePixels.x));
             },
-            [](const Data& out, const graph::PassContext& context) {
+            [constants = shared::DiffusionLightConstants{glm::vec4(spec.spread->unspread, 0.0),
+                                                         glm::vec4(spec.spread->unblurred, 0.0)}](
+                const Data& out, const graph::PassContext& context) {
                 context.bindTargets();
-                gpu::clearColor(0, glm::vec4(0.0f));
+                for (int i = 0; i < 2; ++i) gpu::clearColor(i, glm::vec4(0.0f));
                 gpu::useProgram(context.program());
                 out.lighting.bind(context);
+                context.constants(UNIFORM_PASS, constants);
                 if (out.triangleNormals)
                     gpu::bindTexelBuffer(TEXTURE_UNIT_TRIANGLE_NORMALS,
                                          context.buffer(*out.triangleNormals).texels(graph::Format::Rgba32Float));
@@ -99,64 +117,85 @@ TextureHandle Object::light(const DiffusionPasses::Inputs& inputs, const frame::
         .light;
 }
 
-TextureHandle Object::halve(TextureHandle light) const {
+Object::Light Object::halve(Light light) const {
     struct Data {
-        TextureHandle light, halved;
+        Light light, halved;
     };
     return graph
         .addPass<Data>(
             "diffusion_halve" + suffix,
             [&](graph::PassBuilder& pass, Data& out) {
                 pass.program(halveProgram());
-                out.light = pass.read(light);
-                out.halved = pass.create("halved_light", square(spec.spreadTexels()));
+                out.light = {pass.read(light.entering), pass.read(light.sum)};
+                out.halved.entering = pass.create("halved_light", square(spec.spreadTexels()));
+                out.halved.sum = pass.create("halved_sum", square(spec.spreadTexels()));
             },
             [](const Data& out, const graph::PassContext& context) {
                 context.bindTargets();
                 gpu::useProgram(context.program());
                 gpu::setState({});
-                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LIGHT, context.texture(out.light));
+                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LIGHT, context.texture(out.light.entering));
+                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_SUM, context.texture(out.light.sum));
                 gpu::drawFullscreenTriangle();
             })
         .halved;
 }
 
-TextureHandle Object::fill(const std::string& name, TextureHandle light,
-                           const shared::DiffusionFillConstants& constants, std::optional<TextureHandle> target,
-                           const std::function<void()>& done) const {
-    struct Data {
-        TextureHandle steps, continued, light, filled;
-    };
+TextureHandle Object::addFill(const std::string& name, TextureHandle light, std::optional<TextureHandle> target,
+                              const std::function<void(const FillData&, const graph::PassContext&)>& run) const {
     return graph
-        .addPass<Data>(
+        .addPass<FillData>(
             name + suffix,
-            [&](graph::PassBuilder& pass, Data& out) {
+            [&](graph::PassBuilder& pass, FillData& out) {
                 pass.program(fillProgram());
                 out.steps = pass.read(steps);
                 out.continued = pass.read(continued);
                 out.light = pass.read(light);
                 out.filled = target ? pass.write(*target) : pass.create("filled_light", square(spec.spreadTexels()));
             },
-            [constants, done, side = spec.spreadTexels()](const Data& out, const graph::PassContext& context) {
-                context.bindTargets();
-                gpu::useProgram(context.program());
-                gpu::setState({});
-                context.constants(UNIFORM_PASS, constants);
-                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_STEPS, context.texture(out.steps));
-                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_CONTINUED, context.texture(out.continued));
-                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LIGHT, context.texture(out.light));
-                gpu::setScissor({int(constants.fill.x), int(constants.fill.y), side, side});
-                gpu::drawFullscreenTriangle();
-                if (done) done();
-            })
+            run)
         .filled;
 }
 
-TextureHandle Object::spread(std::size_t number, TextureHandle light, std::optional<TextureHandle>& sum) const {
+void Object::drawFilled(const FillData& data, const graph::PassContext& context,
+                        const shared::DiffusionFillConstants& constants) {
+    gpu::useProgram(context.program());
+    gpu::setState({});
+    context.constants(UNIFORM_PASS, constants);
+    gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_STEPS, context.texture(data.steps));
+    gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_CONTINUED, context.texture(data.continued));
+    gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LIGHT, context.texture(data.light));
+    gpu::drawFullscreenTriangle();
+}
+
+TextureHandle Object::fill(const std::string& name, TextureHandle light) const {
+    return addFill(name, light, {}, [](const FillData& data, const graph::PassContext& context) {
+        context.bindTargets();
+        drawFilled(data, context, {glm::uvec4(0)});
+    });
+}
+
+TextureHandle Object::store(TextureHandle light, TextureHandle atlas, const frame::DiffusedCells& cells,
+                            std::size_t cell, const std::function<void()>& done) const {
+    const glm::ivec2 corner = cells.corner(int(cell)), ofCell = cells.ofCell(int(cell));
+    const int side = cells.sideTexels;
+    const glm::vec4 values(glm::vec3(spec.spread->unspread), float(frame::borderTexels(spec.gutterTexels, side)));
+    return addFill("diffusion_store", light, atlas,
+                   [corner, ofCell, side, values, done](const FillData& data, const graph::PassContext& context) {
+                       context.bindTargets();
+                       gpu::setScissor({corner.x, corner.y, side, side});
+                       drawFilled(data, context, {glm::uvec4(corner, 0, 0)});
+                       gpu::setScissor({ofCell.x, ofCell.y, 1, 1});
+                       gpu::clearColor(0, values);
+                       if (done) done();
+                   });
+}
+
+Object::Light Object::spread(std::size_t number, Light light) const {
     struct Data {
         TextureHandle steps, light, spread, sum;
     };
-    const frame::DiffusionLevel& level = spec.spread[number];
+    const frame::DiffusionLevel& level = spec.spread->levels[number];
     const auto constants = [&](bool alongV) {
         return shared::DiffusionBlurConstants{
             glm::vec4(float(level.varianceSquareMetres), alongV ? 1.0f : 0.0f, number == 0 ? 1.0f : 0.0f, 0.0f),
@@ -178,7 +217,7 @@ TextureHandle Object::spread(std::size_t number, TextureHandle light, std::optio
                 [&](graph::PassBuilder& pass, Data& out) {
                     pass.program(blurProgram(false));
                     out.steps = pass.read(steps);
-                    out.light = pass.read(light);
+                    out.light = pass.read(light.entering);
                     out.spread = pass.create("light_along_u", square(spec.spreadTexels()));
                 },
                 [run, values = constants(false)](const Data& out, const graph::PassContext& context) {
@@ -193,24 +232,22 @@ TextureHandle Object::spread(std::size_t number, TextureHandle light, std::optio
             out.steps = pass.read(steps);
             out.light = pass.read(alongU);
             out.spread = pass.create("spread_light", square(spec.spreadTexels()));
-            out.sum = sum ? pass.write(*sum) : pass.create("light_sum", square(spec.spreadTexels()));
+            out.sum = pass.write(light.sum);
         },
-        [run, values = constants(true), isFirst = !sum](const Data& out, const graph::PassContext& context) {
+        [run, values = constants(true)](const Data& out, const graph::PassContext& context) {
             context.bindTargets();
             gpu::clearColor(0, glm::vec4(0.0f));
-            if (isFirst) gpu::clearColor(1, glm::vec4(0.0f));
             gpu::PipelineState state;
             state.blend = gpu::Blend::Additive;
             run(out, context, values, state);
         });
-    sum = done.sum;
-    return done.spread;
+    return {done.spread, done.sum};
 }
 
 } // namespace
 
 graph::TextureDesc DiffusionPasses::atlas(const frame::FrameSpec& view) {
-    const glm::ivec2 texels = view.diffusedCells().texels;
+    const glm::ivec2 texels = view.diffusedCells().texels();
     return {kFormat, texels.x, texels.y};
 }
 
@@ -228,20 +265,14 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
     object.steps = graph.import("diffusion_steps" + object.suffix, square(side), atlas ? &atlas->steps : nullptr);
     object.continued = graph.import("diffusion_continued" + object.suffix, square(side, graph::Format::Rg32Float),
                                     atlas ? &atlas->continued : nullptr);
-    TextureHandle light = object.light(inputs, atlas);
+    Object::Light light = object.light(inputs, atlas);
     if (side != spec.settings.sizePixels.x) light = object.halve(light);
-    std::optional<TextureHandle> sum;
-    for (std::size_t level = 0; level < spec.spread.size(); ++level) {
+    for (std::size_t level = 0; level < spec.spread->levels.size(); ++level)
         light =
-            object.fill(fmt::format("diffusion_fill {}", level + 1), light, {glm::uvec4(0), glm::vec4(1.0f)}, {}, {});
-        light = object.spread(level, light, sum);
-    }
-    const glm::uvec2 corner(view.diffusedCells().corner(int(cell)));
-    const float border = float(frame::borderTexels(spec.gutterTexels, side));
+            object.spread(level, {object.fill(fmt::format("diffusion_fill {}", level + 1), light.entering), light.sum});
     std::function<void()> done;
     if (drawn) done = [memory = inputs.drawn->diffusionMemory, cell, key = drawn->key] { memory->hold(cell, key); };
-    return {object.fill("diffusion_store", sum.value(), {glm::uvec4(corner, 0u, 0u), glm::vec4(border)}, inputs.atlas,
-                        done)};
+    return {object.store(light.sum, inputs.atlas, view.diffusedCells(), cell, done)};
 }
 
 } // namespace tessera::passes

@@ -6,7 +6,7 @@ namespace tessera::passes {
 /// Spreads the light of an object over its surface, in an atlas of its texture coordinates (docs/skin.md).
 /// Reads   the scene, the lights that reach the object
 /// Writes  a cell of the view's atlas, RGBA32F: rgb what enters the surface, spread, times the albedo's power before
-///         spreading; per model as its BRDF takes it (irradiance of Lambert's k_d); a the atlas's border in texels
+///         spreading; per model as its BRDF takes it (irradiance of Lambert's k_d); and what it knows of the cell
 /// Space   of the atlas; lights around the object, in world axes
 struct DiffusionPasses {
     struct Inputs {

@@ -44,7 +44,7 @@ float mostSlopeBias(const shared::ViewConstants& face) {
 std::vector<shader::ProgramDesc> ShadowMapsPass::programs(const frame::FrameSpec& spec) {
     frame::FrameSpec ofMaps = spec;
     ofMaps.samples = 1;
-    ofMaps.spread.clear(); // lights see an object as it stands, not in its texels
+    ofMaps.spread.reset(); // lights see an object as it stands, not in its texels
     return frame::depthPrograms(ofMaps, "shadow_maps", "passes/depth_prepass.frag", true, {{"SHADING_DEPTH", "0"}});
 }
 

@@ -88,8 +88,7 @@ std::vector<DiffusedObject> diffusedObjects(const scenes::Scene& scene, scenes::
     return objects;
 }
 
-std::vector<DiffusionLevel> diffusionLevels(const scenes::Subsurface& subsurface, int mostGaussians,
-                                            double texelMetres) {
+LightSpread lightSpread(const scenes::Subsurface& subsurface, int mostGaussians, double texelMetres, bool isHalved) {
     // Variances, not yet those that each level adds.
     std::vector<DiffusionLevel> levels;
     const scenes::DiffusionProfile& profile =
@@ -123,24 +122,31 @@ std::vector<DiffusionLevel> diffusionLevels(const scenes::Subsurface& subsurface
         merged.weight += other.weight;
         levels.erase(levels.begin() + std::ptrdiff_t(best) + 1);
     }
+    const double shown = texelVariance(texelMetres, isHalved);
     // Taps are 0.7 standard deviations of a level apart, up to kWidening times what light has spread so far, or as far
     // as every texel is a tap.
     constexpr double kWidening = 2.0;
-    std::vector<DiffusionLevel> added;
+    LightSpread spread;
     double spreadMetres = texelMetres * double(DIFFUSION_MOST_FINE_TAPS) / 3.5 / kWidening;
-    double before = 0.0;
+    double before = shown;
     const auto add = [&](double variance, const glm::dvec3& weight) {
-        added.push_back({variance - before, weight});
+        spread.levels.push_back({variance - before, weight});
         before = variance;
         spreadMetres = std::max(spreadMetres, std::sqrt(variance));
     };
     for (const DiffusionLevel& level : levels) {
+        if (level.varianceSquareMetres <= shown) {
+            const double share = shown > 0.0 ? level.varianceSquareMetres / shown : 1.0;
+            spread.unspread += (1.0 - share) * level.weight;
+            spread.unblurred += share * level.weight;
+            continue;
+        }
         const double metres = std::sqrt(level.varianceSquareMetres);
-        while (texelMetres > 0.0 && metres > kWidening * spreadMetres && added.size() < kMostLevels)
+        while (texelMetres > 0.0 && metres > kWidening * spreadMetres && spread.levels.size() < kMostLevels)
             add(kWidening * kWidening * spreadMetres * spreadMetres, glm::dvec3(0.0));
         add(level.varianceSquareMetres, level.weight);
     }
-    return added;
+    return spread;
 }
 
 int gutterTexels(const std::vector<DiffusionLevel>& levels, double texelMetres) {
@@ -158,8 +164,7 @@ DiffusedCells diffusedCells(std::size_t objects, int sideTexels) {
     DiffusedCells cells;
     cells.sideTexels = sideTexels;
     cells.columns = std::max(1, int(std::ceil(std::sqrt(double(objects)))));
-    const int rows = std::max(1, (int(objects) + cells.columns - 1) / cells.columns);
-    cells.texels = glm::ivec2(cells.columns, rows) * sideTexels;
+    cells.rows = std::max(1, (int(objects) + cells.columns - 1) / cells.columns);
     return cells;
 }
 

@@ -39,11 +39,23 @@ struct DiffusionLevel {
     glm::dvec3 weight{0.0};
     bool operator==(const DiffusionLevel&) const = default;
 };
-/// From the narrowest Gaussian on; their weights sum to 1 in each channel. With fewer Gaussians than the profile has,
-/// neighbours become one of their mean variance. Where one is so wide that taps of the next would miss what lies
-/// between them, levels without weight stand before it.
-std::vector<DiffusionLevel> diffusionLevels(const scenes::Subsurface& subsurface, int mostGaussians,
-                                            double texelMetres);
+/// How an object's light spreads. All weights sum to 1 in each channel. Showing texels spreads their light already, by
+/// texelVariance(): levels add what is missing. A narrower Gaussian has its variance from two shares, one that texels
+/// show as they are lit and one that does not spread, which pixels reflect of the frame's lights like other surfaces.
+struct LightSpread {
+    glm::dvec3 unspread{0.0}, unblurred{0.0};
+    std::vector<DiffusionLevel> levels; ///< from the narrowest Gaussian on
+};
+/// By how much light spreads that is sampled at texels and interpolated between them: a tent's, and where four texels
+/// became one, theirs around its middle.
+constexpr double texelVariance(double texelMetres, bool isHalved) {
+    return texelMetres * texelMetres * (1.0 / 6.0 + (isHalved ? 1.0 / 16.0 : 0.0));
+}
+/// With fewer Gaussians than the profile has, neighbours become one of their mean variance. Where one is so wide that
+/// taps of the next would miss what lies between them, levels without weight stand before it. Texels of 0 metres, those
+/// of an object without area, show every Gaussian.
+LightSpread lightSpread(const scenes::Subsurface& subsurface, int mostGaussians, double texelMetres,
+                        bool isHalved = false);
 
 /// Texels outside of charts that know where the surface goes on: 3.5 standard deviations of the widest level, but 64 at
 /// most; a power of two.
@@ -51,12 +63,16 @@ int gutterTexels(const std::vector<DiffusionLevel>& levels, double texelMetres);
 /// Around what the coordinates 0 to 1 cover.
 int borderTexels(int gutterTexels, int sideTexels);
 
-/// Texels of a view's atlas: a square cell for each object.
+/// Texels of a view's atlas: a square cell for each object, and above all cells one texel for each, in rows as they
+/// lie.
 struct DiffusedCells {
-    int columns = 1;
+    int columns = 1, rows = 1;
     int sideTexels = 0;
-    glm::ivec2 texels{0};
-    glm::ivec2 corner(int cell) const { return {(cell % columns) * sideTexels, (cell / columns) * sideTexels}; }
+    glm::ivec2 texels() const { return {columns * sideTexels, rows * (sideTexels + 1)}; }
+    glm::ivec2 place(int cell) const { return {cell % columns, cell / columns}; }
+    glm::ivec2 corner(int cell) const { return place(cell) * sideTexels; }
+    /// rgb LightSpread::unspread, a the border of the object's atlas in texels.
+    glm::ivec2 ofCell(int cell) const { return place(cell) + glm::ivec2(0, rows * sideTexels); }
 };
 DiffusedCells diffusedCells(std::size_t objects, int sideTexels);
 

@@ -152,9 +152,9 @@ FrameSpec makeDiffusedSpec(const scenes::Scene& scene, const DiffusedObject& obj
     spec.features.add(Feature::OrthographicCamera); // nothing of it is asked; the constants are those of one
     spec.channels.clear();
     const double texelMetres = object.sideMetres / double(spec.spreadTexels());
-    spec.spread = diffusionLevels(scene.materials[std::size_t(object.material)].subsurface,
-                                  settings.diffusion.gaussians, texelMetres);
-    spec.gutterTexels = frame::gutterTexels(spec.spread, texelMetres);
+    spec.spread = lightSpread(scene.materials[std::size_t(object.material)].subsurface, settings.diffusion.gaussians,
+                              texelMetres, settings.diffusion.half);
+    spec.gutterTexels = frame::gutterTexels(spec.spread->levels, texelMetres);
     return spec;
 }
 
@@ -182,6 +182,7 @@ Defines frameDefines(const FrameSpec& spec) {
         const DiffusedCells cells = spec.diffusedCells();
         defines.emplace_back("DIFFUSED_TEXELS", std::to_string(cells.sideTexels));
         defines.emplace_back("DIFFUSED_COLUMNS", std::to_string(cells.columns));
+        defines.emplace_back("DIFFUSED_ROWS", std::to_string(cells.rows));
     }
     if (spec.tracesShadows()) defines.emplace_back("CASTER_STEPS", std::to_string(casterSteps(spec.shadowSamples)));
     if (spec.features[Feature::SoftShadows])

@@ -33,10 +33,10 @@ struct FrameSpec {
 
     /// By cell of the view's atlas, what the texels of an object that light spreads over are lit with.
     std::vector<FrameSpec> diffused;
-    std::vector<DiffusionLevel> spread; ///< of such an object's own spec, else empty
-    int gutterTexels = 0;               ///< of its atlas (Diffusion.h)
+    std::optional<LightSpread> spread; ///< of such an object's own spec
+    int gutterTexels = 0;              ///< of its atlas (Diffusion.h)
 
-    bool isInAtlas() const { return !spread.empty(); }
+    bool isInAtlas() const { return spread.has_value(); }
     /// Texels along the side of an object's atlas that light is spread in.
     int spreadTexels() const { return std::max(1, settings.diffusion.sideTexels / (settings.diffusion.half ? 2 : 1)); }
     DiffusedCells diffusedCells() const { return frame::diffusedCells(diffused.size(), spreadTexels()); }

@@ -41,9 +41,15 @@ std::uint64_t diffusionKey(const scenes::Scene& scene, const DiffusedObject& obj
     hash.addFloats(std::vector{packMaterial(scene.materials[std::size_t(object.material)], row)});
     // Light passes through other objects of the same absorption alone.
     hash.addFloats(subsurfaces.rows);
-    for (const DiffusionLevel& level : prepared.spec.spread) {
+    const LightSpread& spread = prepared.spec.spread.value();
+    const auto addWeight = [&](const glm::dvec3& weight) {
+        for (int channel = 0; channel < 3; ++channel) hash.add(weight[channel]);
+    };
+    addWeight(spread.unspread);
+    addWeight(spread.unblurred);
+    for (const DiffusionLevel& level : spread.levels) {
         hash.add(level.varianceSquareMetres);
-        for (int channel = 0; channel < 3; ++channel) hash.add(level.weight[channel]);
+        addWeight(level.weight);
     }
     hash.add(casterRevision);
     hash.add(settings.diffusion.sideTexels);

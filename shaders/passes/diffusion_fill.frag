@@ -19,7 +19,7 @@ void main()
     ivec2 at = ivec2(gl_FragCoord.xy) - ivec2(constants.fill.xy);
     float chart = texelFetch(steps, at, 0).w;
     vec4 own = texelFetch(light, at, 0);
-    filled = vec4(own.rgb, constants.alpha.x);
+    filled = vec4(own.rgb, 1.0);
     if (chart > 0.0 && own.a > 0.0) return;
     filled.rgb = vec3(0.0);
     if (chart == 0.0) return;

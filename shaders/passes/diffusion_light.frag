@@ -1,9 +1,17 @@
-// Lights the texels of an object, as a surface that reflects to all sides alike: what enters it.
+// Lights the texels of an object, as a surface that reflects to all sides alike: what enters it. Pixels are lit by the
+// frame's lights as far as light does not spread, but not by what passes through the object: that share stays here.
 #include "lib/raster/rasterised.glsl"
 #include "lib/lighting/lighting.glsl"
+#include "shared/diffusion.h"
+
+layout(std140, binding = UNIFORM_PASS) uniform DiffusionLightBlock
+{
+    DiffusionLightConstants constants;
+};
 
 layout(location = 15) in vec3 positionLS;
 layout(location = 0) out vec4 entering;
+layout(location = 1) out vec4 sum;
 
 vec3 albedoBeforeSpreading(vec3 albedo)
 {
@@ -33,4 +41,9 @@ void main()
     viewpoint.pixel = gl_FragCoord.xy;
     precise vec3 light = shadeSurface(surface, viewpoint, gl_FragCoord.xy);
     entering = vec4(light, 1.0);
+    precise vec3 leaving = constants.unblurred.rgb * light;
+#if HAS_SHADOWS && HAS_SUBSURFACE_DEPTH_MAP
+    leaving += constants.unspread.rgb * passedLight;
+#endif
+    sum = vec4(leaving, 1.0);
 }

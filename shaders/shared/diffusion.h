@@ -6,6 +6,7 @@
 #define TEXTURE_UNIT_DIFFUSION_STEPS 0     // xy steps along u and v in metres, z shear, w chart, negative outside of it
 #define TEXTURE_UNIT_DIFFUSION_CONTINUED 1 // xy where the surface goes on, in texels
 #define TEXTURE_UNIT_DIFFUSION_LIGHT 2     // what is spread
+#define TEXTURE_UNIT_DIFFUSION_SUM 3       // what leaves, as far as it is known
 
 // Taps lie this share of a Gaussian's standard deviation apart, so many to either side: its tails beyond 3.5 hold a
 // thousandth. A step of irradiance, narrower Gaussians before it or none, takes every texel (docs/skin.md).
@@ -17,9 +18,13 @@
 
 SHARED_BEGIN
 
+struct DiffusionLightConstants {
+    vec4 unspread;  // rgb the share of light that leaves where it enters
+    vec4 unblurred; // rgb that which texels show as they are lit
+};
+
 struct DiffusionFillConstants {
     uvec4 fill; // xy corner of the target, in texels
-    vec4 alpha; // x what texels hold besides their light
 };
 
 struct DiffusionBlurConstants {

@@ -197,7 +197,7 @@ struct SkinMap {
     std::vector<glm::dvec3> normals;
     std::vector<double> heightsBU;
 
-    SkinMap(const Skin& skin, int sizeTexels) : size(sizeTexels) {
+    SkinMap(const Skin& skin, int sizeTexels, double grain) : size(sizeTexels) {
         pointsBU.resize(at(0, size));
         normals.resize(pointsBU.size());
         heightsBU.resize(pointsBU.size());
@@ -207,7 +207,7 @@ struct SkinMap {
                 const double v = (y + 0.5) / size;
                 pointsBU[at(x, y)] = skin.interpolated(skin.pointsBU, u, v);
                 normals[at(x, y)] = glm::normalize(skin.interpolated(skin.normals, u, v));
-                heightsBU[at(x, y)] = bustRelief(pointsBU[at(x, y)]);
+                heightsBU[at(x, y)] = bustRelief(pointsBU[at(x, y)], grain);
             }
         });
     }
@@ -314,9 +314,10 @@ Mesh bustMesh(int columns, int rows, double heightMetres) {
 }
 
 Bust makeBust(int columns, int rows, double heightMetres, int mapTexels, BustPaint paint) {
-    constexpr int kMapStride = 2; // the maps see the sculpture twice as finely as the mesh
+    constexpr double kPores = 0.35; // of the stone's grain
+    constexpr int kMapStride = 2;   // the maps see the sculpture twice as finely as the mesh
     const Skin skin(kMapStride * columns, kMapStride * rows);
-    const SkinMap map(skin, mapTexels);
+    const SkinMap map(skin, mapTexels, paint == BustPaint::Skin ? kPores : 1.0);
     Bust bust;
     bust.mesh = meshOf(skin, kMapStride, heightMetres);
     bust.normalMap =

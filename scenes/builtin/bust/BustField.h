@@ -12,7 +12,8 @@ inline constexpr double kBustTopY = 1.24;
 double bustField(const glm::dvec3& pointBU);
 
 /// Fine relief on the skin at a point, along its normal outwards: hair, brows, lips' and skin's texture. In bust units.
-double bustRelief(const glm::dvec3& pointBU);
+/// `grain` scales the pits and unevenness of the bare surface: 1 is weathered stone.
+double bustRelief(const glm::dvec3& pointBU, double grain);
 
 /// What the skin is made of at a point, each 0..1, for its colour.
 struct BustRegions {

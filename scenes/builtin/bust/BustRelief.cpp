@@ -37,12 +37,12 @@ double creases(const glm::dvec3& p) {
 
 } // namespace
 
-double bustRelief(const glm::dvec3& pointBU) {
+double bustRelief(const glm::dvec3& pointBU, double grain) {
     const glm::dvec3& p = pointBU;
     const BustRegions regions = bustRegions(p);
     if (regions.hair >= 1.0) return hairRelief(p);
     const double x = std::abs(p.x);
-    double height = (1.0 - regions.eye) * (stoneRelief(p) + creases(p));
+    double height = (1.0 - regions.eye) * (grain * stoneRelief(p) + creases(p));
     if (regions.hair > 0.0) height = glm::mix(height, hairRelief(p), regions.hair);
     if (regions.brow > 0.0) { // hairs that lie outwards and a little up
         const double phase = 75.0 * (p.y - 0.9 * x) + 2.0 * gradientNoise(9.0 * p, kReliefSeed + 4);

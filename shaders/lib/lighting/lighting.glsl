@@ -20,6 +20,10 @@ bool takesLight(Surface surface)
     return !IS_UNLIT(surface.model);
 }
 
+#if HAS_SHADOWS && HAS_SUBSURFACE_DEPTH_MAP && IN_ATLAS
+vec3 passedLight = vec3(0.0); // of it, what the lights added so far send through the surface's body
+#endif
+
 // Adds the radiance towards the viewer that a lit surface reflects of one light; where visits are counted, 1. Every
 // pass that adds light calls this function; only the debug views of D, G and F read a light directly. Shadows are asked
 // for here, and area lights belong here, not in a loop; data of the surface that they need besides the shading normal
@@ -41,7 +45,14 @@ void addLightOnSurface(int light, const bool shadowed, SeenSurface seen, Viewpoi
 #if HAS_SUBSURFACE_DEPTH_MAP
         if (shadowed) {
             precise vec3 passing = passingBrdfCosine(seen, incident.toLightLS) * incident.irradiance;
-            if (passing != vec3(0.0)) unshadowed += passing * passingShare(light, seen.surface, viewpoint);
+            if (passing != vec3(0.0)) {
+                passing *= passingShare(light, seen.surface, viewpoint);
+                unshadowed += passing;
+#if IN_ATLAS
+                precise vec3 passed = passedLight + passing;
+                passedLight = passed;
+#endif
+            }
         }
 #endif
         precise vec3 sum = radiance + unshadowed;

@@ -1,5 +1,5 @@
-// Light that has spread over a surface before it is drawn (docs/skin.md). The surface emits it; of the frame's lights it
-// reflects the highlights alone.
+// Light that has spread over a surface before it is drawn (docs/skin.md). The surface emits it, and reflects of the
+// frame's lights the highlights and the share of light that does not spread.
 #pragma once
 #include "lib/surface/camera.glsl"
 #include "lib/surface/surface.glsl"
@@ -7,7 +7,8 @@
 #include "lib/material/material.glsl"
 #include "lib/reflectance/reflectance.glsl"
 
-// A cell for each object (renderer/frame/Diffusion.h), a texel of light on all sides of every chart.
+// A cell for each object, with texels of light on all sides of every chart (DiffusedCells of
+// renderer/frame/Diffusion.h).
 layout(binding = IMAGE_UNIT_DIFFUSED, rgba32f) readonly uniform image2D diffusedLight;
 
 #if FILTER_EXACT
@@ -16,11 +17,17 @@ layout(location = 19) flat in int diffusedCell; // from 1; 0: the object has non
 layout(location = 14) flat in int diffusedCell;
 #endif
 
+// rgb the share of light that leaves where it enters, a the texels around what the coordinates 0 to 1 cover.
+vec4 ofDiffusedCell(int cell)
+{
+    return imageLoad(diffusedLight, ivec2(cell % DIFFUSED_COLUMNS,
+                                          DIFFUSED_ROWS * DIFFUSED_TEXELS + cell / DIFFUSED_COLUMNS));
+}
+
 // Bilinear.
-vec3 diffusedAt(vec2 texCoord, int cell)
+vec3 diffusedAt(vec2 texCoord, int cell, float border)
 {
     ivec2 corner = ivec2(cell % DIFFUSED_COLUMNS, cell / DIFFUSED_COLUMNS) * DIFFUSED_TEXELS;
-    float border = imageLoad(diffusedLight, corner).a; // every texel tells it
     precise vec2 place = border + texCoord * (float(DIFFUSED_TEXELS) - 2.0 * border) - 0.5;
     vec2 low = floor(place);
     precise vec2 share = place - low;
@@ -57,17 +64,21 @@ void takeDiffusedLight(Fragment fragment, inout Surface surface)
     precise float nv = max(seen.nv, 0.0);
     precise vec3 mirrored = 2.0 * seen.nv * surface.normalLS - toViewer;
     precise vec3 leaving = reflection(seen, directionsOn(seen, mirrored, nv)).diffuse;
-    precise vec3 emission = surface.emission + leaving * diffusedAt(vec2(fragment.texCoord[0]), diffusedCell - 1);
+    vec4 cell = ofDiffusedCell(diffusedCell - 1);
+    precise vec3 emission =
+        surface.emission + leaving * diffusedAt(vec2(fragment.texCoord[0]), diffusedCell - 1, cell.a);
     surface.emission = emission;
+    precise vec3 unspread = surface.albedo * cell.rgb;
 #if HAS_GGX_MODELS
     if (HAS_METALLIC(surface.model)) {
         surface.specular = seen.f0;
         precise float f90 = surface.iorOrF90 + (1.0 - surface.iorOrF90) * surface.metallic;
         surface.iorOrF90 = f90;
+        unspread *= 1.0 - surface.metallic;
         surface.metallic = 0.0;
     }
 #endif
-    surface.albedo = vec3(0.0);
+    surface.albedo = unspread;
 #if HAS_SUBSURFACE_ROWS
     surface.subsurface = 0u;
 #endif

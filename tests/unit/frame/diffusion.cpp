@@ -15,9 +15,12 @@ glm::dvec3 weightOf(const std::vector<DiffusionLevel>& levels) {
     return sum;
 }
 
+/// Narrow enough to show every Gaussian of skin.
+constexpr double kTexelMetres = 1e-4;
+
 /// Of the red light that spreads: the mean square of a coordinate of its way.
 double meanSquare(const std::vector<DiffusionLevel>& levels) {
-    double variance = 0.0, mean = 0.0;
+    double variance = frame::texelVariance(kTexelMetres, false), mean = 0.0;
     for (const DiffusionLevel& level : levels) {
         variance += level.varianceSquareMetres;
         mean += level.weight.r * variance;
@@ -27,27 +30,27 @@ double meanSquare(const std::vector<DiffusionLevel>& levels) {
 
 TEST(DiffusionLevels, addTheProfilesGaussiansUp) {
     scenes::Subsurface skin;
-    const std::vector<DiffusionLevel> levels = frame::diffusionLevels(skin, 8, 1e-3);
+    const std::vector<DiffusionLevel> levels = frame::lightSpread(skin, 8, 1e-4).levels;
     ASSERT_EQ(levels.size(), 6u);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(weightOf(levels)[c], 1.0, 1e-12);
     // Published variances in mm^2 and weights of red: d'Eon and Luebke 2007, GPU Gems 3, chapter 14.
     const double variances[] = {0.0064, 0.0484, 0.187, 0.567, 1.99, 7.41};
     const double red[] = {0.233, 0.100, 0.118, 0.113, 0.358, 0.078};
-    double variance = 0.0;
+    double variance = frame::texelVariance(1e-4, false);
     for (std::size_t i = 0; i < 6; ++i) {
         variance += levels[i].varianceSquareMetres;
         EXPECT_NEAR(variance, 1e-6 * variances[i], 1e-12);
         EXPECT_NEAR(levels[i].weight.r, red[i], 2e-3);
     }
     skin.scaleMetres = 0.1f; // a model ten times as large as the real thing
-    EXPECT_NEAR(frame::diffusionLevels(skin, 8, 1e-2)[0].varianceSquareMetres, 6.4e-7, 1e-12);
+    EXPECT_NEAR(frame::lightSpread(skin, 8, 1e-4).levels[0].varianceSquareMetres, 6.4e-7 - 1e-8 / 6.0, 1e-12);
 }
 
 TEST(DiffusionLevels, fewerKeepTheLightAndNearlyHowFarItSpreads) {
     const scenes::Subsurface skin;
-    const double whole = meanSquare(frame::diffusionLevels(skin, 8, 1e-3));
+    const double whole = meanSquare(frame::lightSpread(skin, 8, kTexelMetres).levels);
     for (const int most : {5, 4, 3, 2, 1}) {
-        const std::vector<DiffusionLevel> levels = frame::diffusionLevels(skin, most, 1e-3);
+        const std::vector<DiffusionLevel> levels = frame::lightSpread(skin, most, kTexelMetres).levels;
         EXPECT_EQ(levels.size(), std::size_t(most));
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(weightOf(levels)[c], 1.0, 1e-12);
         // Widths are common to all channels, so that the reddest Gaussian loses some when it is merged.
@@ -56,13 +59,32 @@ TEST(DiffusionLevels, fewerKeepTheLightAndNearlyHowFarItSpreads) {
     }
 }
 
+TEST(DiffusionLevels, gaussiansNarrowerThanTexelsKeepTheirVarianceInTwoShares) {
+    scenes::Subsurface narrow;
+    narrow.profile = {{0.05f, glm::vec3(0.25f)}, {0.1f, glm::vec3(0.75f)}}; // square millimetres
+    for (const bool isHalved : {false, true}) {
+        const frame::LightSpread spread = frame::lightSpread(narrow, 8, 1e-3, isHalved);
+        const double shown = frame::texelVariance(1e-3, isHalved);
+        EXPECT_TRUE(spread.levels.empty());
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(spread.unblurred[c] * shown, 0.25 * 0.05e-6 + 0.75 * 0.1e-6, 1e-14);
+            EXPECT_NEAR(spread.unblurred[c] + spread.unspread[c], 1.0, 1e-12);
+        }
+    }
+    const scenes::Subsurface skin;
+    EXPECT_NEAR(frame::lightSpread(skin, 8, 1.0).unspread.r, 1.0, 1e-4) << "texels far wider than all";
+    const frame::LightSpread exact = frame::lightSpread(skin, 8, 0.0);
+    EXPECT_EQ(exact.levels.size(), 6u) << "an object without area";
+    EXPECT_EQ(exact.unspread, glm::dvec3(0.0));
+}
+
 TEST(DiffusionLevels, wideJumpsHaveStepsBetween) {
     scenes::Subsurface wide;
     wide.profile = {{1e6f, glm::vec3(1.0f)}}; // a metre
     const double texelMetres = 1e-3;
-    const std::vector<DiffusionLevel> levels = frame::diffusionLevels(wide, 8, texelMetres);
+    const std::vector<DiffusionLevel> levels = frame::lightSpread(wide, 8, texelMetres).levels;
     EXPECT_GT(levels.size(), 3u);
-    double variance = levels[0].varianceSquareMetres;
+    double variance = frame::texelVariance(texelMetres, false) + levels[0].varianceSquareMetres;
     EXPECT_LE(3.5 * std::sqrt(variance), 64.0 * texelMetres + 1e-12) << "every texel is a tap";
     for (std::size_t i = 1; i < levels.size(); ++i) {
         EXPECT_LE(std::sqrt(levels[i].varianceSquareMetres), 2.0 * std::sqrt(variance) + 1e-12) << i;
