@@ -100,6 +100,10 @@ public:
     /// as they are then. Lights and cameras of the scene may change between draws without notice, nodes and meshes not.
     void materialsChanged() { materialsChanged_ = true; }
 
+    /// Light that has spread over surfaces is kept until something changes that it depends on (docs/skin.md), unless
+    /// this is off: then each frame spreads it anew, as measuring it asks for.
+    void keepSpreadLight(bool keeps) { keepsSpreadLight_ = keeps; }
+
     /// The scene as frames of this spec have it on the GPU.
     const frame::SceneGpu& sceneGpu(const frame::FrameSpec& spec);
 
@@ -111,6 +115,8 @@ public:
 private:
     struct Drawn;
     const Drawn& latest() const;
+    frame::TileSet seenTiles(const frame::DiffusedObject& object, const frame::DiffusionAtlas& atlas,
+                             const frame::DrawnView& view) const;
     /// The objects of a view that light spreads over.
     void addDiffused(std::size_t number, frame::DrawnView& view);
 
@@ -123,6 +129,7 @@ private:
     frame::ShadowMemories shadowMemories_;
     frame::DiffusionAtlases diffusionAtlases_;
     std::map<std::size_t, frame::DiffusionMemory> diffusionMemories_; ///< by view
+    bool keepsSpreadLight_ = true;
     std::unique_ptr<frame::SceneGpu> sceneGpu_;
     frame::FeatureSet sceneFeatures_;                                   ///< features that sceneGpu_ was made with
     frame::TextureFilter sceneFilter_ = frame::TextureFilter::Hardware; ///< the same

@@ -69,6 +69,22 @@ void addShadows(const GroupTruth& truth, const Picture& exact, std::span<const B
     }
 }
 
+/// What goes away where light spreads as over the surface itself: the difference from the truth beside that of
+/// rounding, so it is known against the reference alone.
+void addSubsurfaces(const GroupTruth& truth, const std::string& truthName, std::span<const BenchPoint> points,
+                    std::vector<AttributionLine>& lines) {
+    std::set<std::string> done;
+    for (const BenchPoint& point : points) {
+        if (!point.key.subsurface || !done.insert(subsurfaceText(*point.key.subsurface)).second) continue;
+        frame::FrameSettings settings = truth.settings();
+        settings.subsurface = point.settings.subsurface;
+        settings.diffusion = point.settings.diffusion;
+        const Picture shown = truth.pictureOf(Technique::Forward, settings);
+        lines.push_back(lineOf("subsurface", subsurfaceText(*point.key.subsurface), truthName,
+                               radianceFigures(shown, truth.pictureFor(shown), truth.excluded())));
+    }
+}
+
 void addRanges(const GroupTruth& truth, std::span<const BenchPoint> points, std::vector<AttributionLine>& lines) {
     std::set<double> tolerances;
     for (const BenchPoint& point : points) tolerances.insert(point.settings.rangeTolerance);
@@ -115,6 +131,7 @@ std::vector<AttributionLine> attributeErrors(const gpu::Capabilities& gl, const 
     const Picture exact = truth.pictureOf(Technique::Forward, truth.settings());
     addFilter(truth, truthName, exact, points.front(), lines);
     addShadows(truth, exact, points, lines);
+    addSubsurfaces(truth, truthName, points, lines);
     addRanges(truth, points, lines);
     addLayouts(gl, truth, points, lines);
     return lines;

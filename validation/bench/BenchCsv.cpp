@@ -59,6 +59,13 @@ Column shadowColumn(const ShadowSetting& row) {
             }};
 }
 
+Column subsurfaceColumn(const SubsurfaceSetting& row) {
+    return {row.key, [&row](const BenchGroup&, const BenchResult& result, std::optional<bool>) {
+                const std::string* const text = result.key.subsurface ? result.key.subsurface->text(row.key) : nullptr;
+                return text ? *text : "";
+            }};
+}
+
 std::vector<Column> makeColumns() {
     using G = BenchGroup;
     using R = BenchResult;
@@ -73,6 +80,7 @@ std::vector<Column> makeColumns() {
         {"layout", [](const G&, const R& r, P) { return r.key.layout; }},
         {"range", [](const G&, const R& r, P) { return fmt::format("{}", r.key.rangeTolerance); }},
         {kShadowFilterKey, [](const G&, const R& r, P) { return r.key.shadow ? r.key.shadow->filter : ""; }},
+        {kSubsurfaceKey, [](const G&, const R& r, P) { return r.key.subsurface ? r.key.subsurface->method : ""; }},
         {"lights", [](const G& g, const R&, P) { return fmt::format("{}", g.lights); }},
         {"width", [](const G& g, const R&, P) { return fmt::format("{}", g.sizePixels.x); }},
         {"height", [](const G& g, const R&, P) { return fmt::format("{}", g.sizePixels.y); }},
@@ -104,7 +112,9 @@ std::vector<Column> makeColumns() {
         counterColumn("draws", &BenchCounters::draws),
     };
     for (const ShadowSetting& row : shadowSettingTable())
-        table.insert(std::ranges::find(table, std::string_view("lights"), &Column::name), shadowColumn(row));
+        table.insert(std::ranges::find(table, kSubsurfaceKey, &Column::name), shadowColumn(row));
+    for (const SubsurfaceSetting& row : subsurfaceSettingTable())
+        table.insert(std::ranges::find(table, std::string_view("lights"), &Column::name), subsurfaceColumn(row));
     return table;
 }
 

@@ -18,14 +18,21 @@ namespace tessera::validation {
 
 namespace {
 
-/// What shapes of marks tell in plots: the filter of shadows where several were measured, else the G-buffer layout.
+/// What shapes of marks tell in plots: the method of subsurface scattering or the filter of shadows where several were
+/// measured, else the G-buffer layout.
 struct MarkKind {
     const char* name;
+    const char* words; ///< what shapes tell
     std::string (*of)(const PointKey& key);
 };
-constexpr MarkKind kByLayout{"layout", [](const PointKey& key) { return key.layout; }};
-constexpr MarkKind kByShadow{
-    "shadow filter", [](const PointKey& key) { return key.shadow ? key.shadow->filter : std::string(kNoShadows); }};
+constexpr MarkKind kByLayout{"layout", "Circles store every G-buffer channel in fp32, the other shapes pack it.",
+                             [](const PointKey& key) { return key.layout; }};
+constexpr MarkKind kBySubsurface{"subsurface", "Shapes tell what happens below surfaces.", [](const PointKey& key) {
+                                     return key.subsurface ? key.subsurface->method : std::string("none");
+                                 }};
+constexpr MarkKind kByShadow{"shadow filter", "Shapes tell how shadows are found.", [](const PointKey& key) {
+                                 return key.shadow ? key.shadow->filter : std::string(kNoShadows);
+                             }};
 
 std::set<std::string> marksOf(const BenchRecord& record, const MarkKind& kind) {
     std::set<std::string> marks;
@@ -35,7 +42,9 @@ std::set<std::string> marksOf(const BenchRecord& record, const MarkKind& kind) {
 }
 
 const MarkKind& markKindOf(const BenchRecord& record) {
-    return marksOf(record, kByShadow).size() > 1 ? kByShadow : kByLayout;
+    for (const MarkKind* const kind : {&kBySubsurface, &kByShadow})
+        if (marksOf(record, *kind).size() > 1) return *kind;
+    return kByLayout;
 }
 
 Json plotPoint(const BenchResult& result, const MarkKind& kind, std::optional<bool> pareto, bool isBest) {
@@ -111,6 +120,7 @@ std::string answerHtml(const BenchRecord& record, const BenchGroup& group) {
     std::string how = best.key.tilePixels ? fmt::format("{} {}, ", best.key.culling, *best.key.tilePixels) : "";
     how += best.key.layout;
     if (best.key.shadow) how += ", " + shadowText(*best.key.shadow);
+    if (best.key.subsurface) how += ", " + subsurfaceText(*best.key.subsurface);
     if (best.key.rangeTolerance > 0.0) how += fmt::format(", range {:g}", best.key.rangeTolerance);
     std::string html =
         unfinished + "<dl class=\"answer\">\n" + tileHtml("Take", escapedHtml(best.key.technique), escapedHtml(how));
@@ -142,10 +152,7 @@ std::string paretoHtml(const BenchRecord& record, const BenchGroup& headline) {
                                &record.groups[i] == &headline ? " selected=\"selected\"" : "",
                                escapedHtml(groupName(record.groups[i])));
     const MarkKind& kind = markKindOf(record);
-    const char* shapes = marksOf(record, kind).size() < 2 ? ""
-                         : &kind == &kByShadow
-                             ? " Shapes tell how shadows are found."
-                             : " Circles store every G-buffer channel in fp32, the other shapes pack it.";
+    const std::string shapes = marksOf(record, kind).size() < 2 ? "" : fmt::format(" {}", kind.words);
     return fmt::format(
         "<section id=\"front\">\n<h2>Error against run time</h2>\n"
         "<p class=\"lede\">Every mark is one way to draw the same picture: faster to the left, closer to the truth "

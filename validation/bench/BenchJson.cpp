@@ -114,6 +114,27 @@ void explainShadows(const PointKey& key, std::map<std::string, std::string>& why
     }
 }
 
+std::optional<SubsurfaceKey> subsurfaceFrom(const Json& json) {
+    const Json& method = json.at(std::string(kSubsurfaceKey));
+    if (method.is_null()) return {};
+    SubsurfaceKey key{method.get<std::string>(), {}};
+    for (const SubsurfaceSetting& row : subsurfaceSettingTable()) {
+        const Json& value = json.at(std::string(row.key));
+        if (value.is_boolean())
+            key.values.push_back({row.key, value.get<bool>() ? "on" : "off"});
+        else if (!value.is_null())
+            key.values.push_back({row.key, fmt::format("{}", value.get<double>())});
+    }
+    return key;
+}
+
+/// Why fields of subsurfaces are null.
+void explainSubsurface(const PointKey& key, std::map<std::string, std::string>& why) {
+    if (!key.subsurface) why[std::string(kSubsurfaceKey)] = "no material has a subsurface";
+    for (const SubsurfaceSetting& row : subsurfaceSettingTable())
+        if (!key.subsurface || !key.subsurface->text(row.key)) why[std::string(row.key)] = "no light spreads";
+}
+
 BenchResult resultFrom(const Json& json) {
     BenchResult result;
     read(json, "technique", result.key.technique);
@@ -122,6 +143,7 @@ BenchResult resultFrom(const Json& json) {
     read(json, "layout", result.key.layout);
     read(json, "range", result.key.rangeTolerance);
     result.key.shadow = shadowFrom(json);
+    result.key.subsurface = subsurfaceFrom(json);
     read(json, "cullOn", result.builder);
     read(json, "cullNormals", result.normalTest);
     result.times.cpuMs = spreadFrom(json.at("cpuMs")).value();
@@ -174,11 +196,17 @@ Json picturesJson(const BenchGroup& group) {
 
 } // namespace
 
-Json shadowJson(const PointKey& key) {
+Json choicesJson(const PointKey& key) {
     Json json = {{kShadowFilterKey, key.shadow ? Json(key.shadow->filter) : Json(nullptr)}};
     for (const ShadowSetting& row : shadowSettingTable()) {
         const std::string* const text = key.shadow ? key.shadow->text(row.key) : nullptr;
         json[std::string(row.key)] = text ? Json::parse(*text) : Json(nullptr);
+    }
+    json[std::string(kSubsurfaceKey)] = key.subsurface ? Json(key.subsurface->method) : Json(nullptr);
+    for (const SubsurfaceSetting& row : subsurfaceSettingTable()) {
+        const std::string* const text = key.subsurface ? key.subsurface->text(row.key) : nullptr;
+        const bool isSwitch = text && (*text == "on" || *text == "off");
+        json[std::string(row.key)] = !text ? Json(nullptr) : isSwitch ? Json(*text == "on") : Json::parse(*text);
     }
     return json;
 }
@@ -190,6 +218,7 @@ Json pointJson(const BenchGroup& group, const BenchResult& result, std::optional
     std::map<std::string, std::string> why = result.why;
     if (!result.key.tilePixels) why["tile"] = why["cullOn"] = why["cullNormals"] = "no light lists";
     explainShadows(result.key, why);
+    explainSubsurface(result.key, why);
     if (!result.error && !why.contains("error")) why["error"] = "not measured yet";
     if (!pareto) why["pareto"] = result.error ? "the error could not be measured" : why["error"];
     Json json = {{"scene", group.scene},
@@ -200,7 +229,7 @@ Json pointJson(const BenchGroup& group, const BenchResult& result, std::optional
                  {"cullNormals", orNull(result.normalTest)},
                  {"layout", result.key.layout},
                  {"range", result.key.rangeTolerance}};
-    json.update(shadowJson(result.key));
+    json.update(choicesJson(result.key));
     json.update({{"lights", group.lights},
                  {"size", {group.sizePixels.x, group.sizePixels.y}},
                  {"gpuMs", spreadJson(result.times.gpuMs)},

@@ -8,8 +8,8 @@
 /// Groups as JSON, and back. Points are written as the command line's documentation has them.
 namespace tessera::validation {
 
-/// The fields of a key that say how it finds shadows; null where they say nothing.
-nlohmann::ordered_json shadowJson(const PointKey& key);
+/// The fields of a key that say how it finds shadows and what happens below surfaces; null where they say nothing.
+nlohmann::ordered_json choicesJson(const PointKey& key);
 
 /// `pareto`: whether the point is on its group's front; none where the error is not known.
 nlohmann::ordered_json pointJson(const BenchGroup& group, const BenchResult& result, std::optional<bool> pareto);

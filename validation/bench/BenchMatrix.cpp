@@ -16,6 +16,7 @@
 #include "scenes/Limits.h"
 #include "scenes/import/JsonText.h"
 #include "validation/bench/ShadowKey.h"
+#include "validation/bench/SubsurfaceKey.h"
 
 namespace tessera::validation {
 
@@ -24,9 +25,6 @@ namespace {
 using ParsedJson = nlohmann::json;
 using culling::Method;
 using engine::Technique;
-
-constexpr const char* kNoSubsurface =
-    "this version has no subsurface scattering, so there is nothing to vary; leave the key out";
 
 [[noreturn]] void refuse(const std::string& source, const std::string& key, const std::string& why) {
     throw InputError(fmt::format("{}: \"{}\": {}", source, key, why));
@@ -86,13 +84,18 @@ std::string numberTextIn(const engine::Setting& setting, const ParsedJson& value
     }
 }
 
-void addShadowValue(BenchMatrix& matrix, std::string_view key, std::string text) {
-    auto values = std::ranges::find(matrix.shadows, key, &BenchMatrix::ShadowValues::key);
-    if (values == matrix.shadows.end()) values = matrix.shadows.insert(values, {key, {}});
-    values->texts.push_back(std::move(text));
+/// As numberTextIn(), of a setting that is on or off.
+std::string switchTextIn(const ParsedJson& value, const std::string& source, const std::string& key) {
+    if (value == "on" || value == "off") return value.get<std::string>();
+    if (!value.is_boolean()) refuse(source, key, fmt::format("{} is neither true nor false", value.dump()));
+    return value.get<bool>() ? "on" : "off";
 }
 
-constexpr std::string_view kRefusedKey = "subsurface";
+void addSettingValue(BenchMatrix& matrix, std::string_view key, std::string text) {
+    auto values = std::ranges::find(matrix.settings, key, &BenchMatrix::SettingValues::key);
+    if (values == matrix.settings.end()) values = matrix.settings.insert(values, {key, {}});
+    values->texts.push_back(std::move(text));
+}
 
 /// Keys of the matrix and what reads a value of each.
 struct Key {
@@ -135,16 +138,25 @@ std::vector<Key> makeKeys() {
         {kShadowFilterKey,
          [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
              const std::string key(kShadowFilterKey);
-             addShadowValue(m, kShadowFilterKey, std::string(rowNamed(shadowNames(), v, s, key).name));
+             addSettingValue(m, kShadowFilterKey, std::string(rowNamed(shadowNames(), v, s, key).name));
          }},
     };
     for (const ShadowSetting& row : shadowSettingTable())
         table.push_back({row.key, [&row](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
-                             addShadowValue(m, row.key, numberTextIn(engine::settingOf(row.key), v, s));
+                             addSettingValue(m, row.key, numberTextIn(engine::settingOf(row.key), v, s));
                          }});
-    table.push_back({kRefusedKey, [](BenchMatrix&, const ParsedJson&, const std::string& s) {
-                         refuse(s, std::string(kRefusedKey), kNoSubsurface);
+    table.push_back({kSubsurfaceKey, [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
+                         const auto& row = rowNamed(scenes::subsurfaceMethods(), v, s, std::string(kSubsurfaceKey));
+                         addSettingValue(m, kSubsurfaceKey, std::string(row.name));
                      }});
+    for (const SubsurfaceSetting& row : subsurfaceSettingTable())
+        table.push_back({row.key, [&row](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
+                             const engine::Setting& setting = engine::settingOf(row.key);
+                             const bool isSwitch = setting.type == "on|off";
+                             addSettingValue(m, row.key,
+                                             isSwitch ? switchTextIn(v, s, std::string(row.key))
+                                                      : numberTextIn(setting, v, s));
+                         }});
     return table;
 }
 
@@ -157,8 +169,7 @@ const std::vector<Key>& keys() {
 
 std::string matrixKeys() {
     std::string names;
-    for (const Key& key : keys())
-        if (key.name != kRefusedKey) names += (names.empty() ? "" : ", ") + std::string(key.name);
+    for (const Key& key : keys()) names += (names.empty() ? "" : ", ") + std::string(key.name);
     return names;
 }
 

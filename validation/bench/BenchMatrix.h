@@ -12,8 +12,9 @@ namespace tessera::validation {
 /// What `tessera bench` runs through: the Cartesian product of these lists. An empty list stands for one entry, what
 /// the settings of the command line say.
 struct BenchMatrix {
-    /// A setting of shadows: its key and the texts of its values (validation/bench/ShadowKey.h).
-    struct ShadowValues {
+    /// A setting of shadows or of subsurface scattering: its key and the texts of its values (ShadowKey.h,
+    /// SubsurfaceKey.h).
+    struct SettingValues {
         std::string_view key;
         std::vector<std::string> texts;
     };
@@ -25,7 +26,7 @@ struct BenchMatrix {
     std::vector<int> lights;
     std::vector<glm::ivec2> sizesPixels;
     std::vector<double> rangeTolerances;
-    std::vector<ShadowValues> shadows; ///< of each key that varies; not empty
+    std::vector<SettingValues> settings; ///< of each key that varies; not empty
 };
 
 /// "technique, culling, ...": all keys.
@@ -33,7 +34,7 @@ std::string matrixKeys();
 
 /// Reads the matrix of a JSON object of arrays with these keys. `source` names it in messages. Throws InputError that
 /// names the line and column of broken syntax, a key that is given twice, or the key or value and the nearest valid
-/// ones; what this version cannot vary, subsurface, is refused as such. The ledger is charged for it.
+/// ones. The ledger is charged for it.
 BenchMatrix parseMatrix(std::string_view json, const std::string& source, scenes::LoadLedger& ledger);
 
 } // namespace tessera::validation

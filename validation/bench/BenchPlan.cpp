@@ -45,16 +45,19 @@ void skip(BenchPlan& plan, const std::string& what, const std::string& why) {
     if (!isKnown) plan.skipped.push_back({what, why});
 }
 
-/// What the points of a group have in common with every technique: a range tolerance and how shadows are found.
+/// What the points of a group have in common with every technique: a range tolerance, how shadows are found and what
+/// happens below surfaces.
 struct Variant {
     std::optional<double> range; ///< as the matrix has it
     frame::FrameSettings settings;
     std::optional<ShadowKey> shadow;
     std::vector<frame::ShadowFace> faces; ///< of its maps
+    std::optional<SubsurfaceKey> subsurface;
 };
 
 /// Other settings of maps are no other frame where the faces are the same.
 bool isSameFrame(const Variant& a, const Variant& b) {
+    if (a.subsurface != b.subsurface) return false;
     if (!a.shadow || !b.shadow) return a.shadow == b.shadow;
     const auto isSame = [&](const ShadowSetting& row) {
         const std::string *const textA = a.shadow->text(row.key), *const textB = b.shadow->text(row.key);
@@ -64,19 +67,25 @@ bool isSameFrame(const Variant& a, const Variant& b) {
            std::ranges::all_of(shadowSettingTable(), isSame);
 }
 
-struct ShadowChoice {
+struct Choice {
     std::string asked; ///< in words of the matrix; empty where it has none
     frame::FrameSettings settings;
 };
 
-std::vector<ShadowChoice> shadowChoices(const BenchMatrix& matrix, const frame::FrameSettings& settings) {
-    std::vector<ShadowChoice> choices{{"", settings}};
-    for (const auto& [key, texts] : matrix.shadows) {
-        std::vector<ShadowChoice> longer;
-        for (const ShadowChoice& choice : choices) {
+/// The setting that a key of the matrix sets to a text.
+const engine::Setting& settingFor(std::string_view key, const std::string& text) {
+    if (key != kShadowFilterKey) return engine::settingOf(key);
+    return engine::settingOf(text == kNoShadows ? "shadows" : "shadowFilter");
+}
+
+std::vector<Choice> choicesOf(const BenchMatrix& matrix, const frame::FrameSettings& settings) {
+    std::vector<Choice> choices{{"", settings}};
+    for (const auto& [key, texts] : matrix.settings) {
+        std::vector<Choice> longer;
+        for (const Choice& choice : choices) {
             for (const std::string& text : texts) {
                 engine::ViewRequest request{.settings = choice.settings};
-                readShadowSetting(request, key, text);
+                settingFor(key, text).read(request, text);
                 longer.push_back({fmt::format("{}{}{} {}", choice.asked, choice.asked.empty() ? "" : ", ", key, text),
                                   request.settings});
             }
@@ -84,6 +93,13 @@ std::vector<ShadowChoice> shadowChoices(const BenchMatrix& matrix, const frame::
         choices = std::move(longer);
     }
     return choices;
+}
+
+std::string whySame(const Variant& same) {
+    if (!same.shadow && !same.subsurface) return "there are no shadows, and no material has a subsurface";
+    std::string text = same.shadow ? shadowText(*same.shadow) : "";
+    if (same.subsurface) text += (text.empty() ? "" : ", ") + subsurfaceText(*same.subsurface);
+    return "it is the same frame as " + text;
 }
 
 /// The lights and maps of a frame, which are the same for all techniques.
@@ -106,17 +122,17 @@ std::vector<Variant> variantsOf(BenchPlan& plan, const PlannedGroup& group, cons
         if (!rangesMatter(scene)) settings.rangeTolerance = 0.0;
         const bool hasShadows = preparedFor(scene, settings).lights.shadowed > 0;
         std::vector<Variant> ofRange;
-        for (ShadowChoice& choice : shadowChoices(matrix, settings)) {
+        for (Choice& choice : choicesOf(matrix, settings)) {
             const frame::PreparedView prepared = preparedFor(scene, choice.settings);
-            Variant variant{range, std::move(choice.settings), {}, prepared.shadowMaps.faces};
+            Variant variant{
+                range, choice.settings, {}, prepared.shadowMaps.faces, subsurfaceKeyOf(scene, choice.settings)};
             if (hasShadows) variant.shadow = shadowKeyOf(prepared.lights, variant.settings);
             const auto same =
                 std::ranges::find_if(ofRange, [&](const Variant& other) { return isSameFrame(other, variant); });
             if (same == ofRange.end())
                 ofRange.push_back(std::move(variant));
             else
-                skip(plan, fmt::format("{} in {}", choice.asked, placeOf(group)),
-                     same->shadow ? "it is the same frame as " + shadowText(*same->shadow) : "there are no shadows");
+                skip(plan, fmt::format("{} in {}", choice.asked, placeOf(group)), whySame(*same));
         }
         std::ranges::move(ofRange, std::back_inserter(variants));
     }
@@ -185,8 +201,13 @@ private:
         if (layout) point.settings.layout = layout->layout;
         const culling::Choice choice =
             engine::prepareView(scene_, technique_, point.settings).spec.culling; // the culling that this scene needs
-        point.key = {std::string(info_.name),           std::string(infoOf(choice.method).name), {},
-                     layoutName(point.settings.layout), point.settings.rangeTolerance,           variant.shadow};
+        point.key = {std::string(info_.name),
+                     std::string(infoOf(choice.method).name),
+                     {},
+                     layoutName(point.settings.layout),
+                     point.settings.rangeTolerance,
+                     variant.shadow,
+                     variant.subsurface};
         if (choice.method != Method::None) point.key.tilePixels = choice.tilePixels;
         const bool isKnown = std::any_of(group_.points.begin(), group_.points.end(),
                                          [&](const BenchPoint& other) { return other.key == point.key; });

@@ -28,7 +28,7 @@ Json keyJson(const PointKey& key) {
                  {"tile", orNull(key.tilePixels)},
                  {"layout", key.layout},
                  {"range", key.rangeTolerance}};
-    json.update(shadowJson(key));
+    json.update(choicesJson(key));
     return json;
 }
 
@@ -82,14 +82,17 @@ std::string groupTable(const BenchGroup& group) {
     };
     const bool hasRange = any([](const PointKey& key) { return key.rangeTolerance > 0.0; });
     const bool hasShadows = any([](const PointKey& key) { return key.shadow.has_value(); });
-    // Their column needs room: names of techniques stay whole, and a long title breaks.
-    table.addColumn("technique", Table::Align::Left, hasShadows ? Table::Cells::Whole : Table::Cells::Break);
+    const bool hasSubsurface = any([](const PointKey& key) { return key.subsurface.has_value(); });
+    const bool hasLongColumn = hasShadows || hasSubsurface;
+    // Their columns need room: names of techniques stay whole, and a long title breaks.
+    table.addColumn("technique", Table::Align::Left, hasLongColumn ? Table::Cells::Whole : Table::Cells::Break);
     table.addColumn("culling", Table::Align::Left, Table::Cells::Whole);
     table.addColumn("layout");
     if (hasRange) table.addColumn("range", Table::Align::Right, Table::Cells::Whole);
     if (hasShadows) table.addColumn("shadows");
+    if (hasSubsurface) table.addColumn("subsurface");
     for (const char* title : {"ms", "p95"}) table.addColumn(title, Table::Align::Right, Table::Cells::Whole);
-    table.addColumn("to lower bound", Table::Align::Right, hasShadows ? Table::Cells::Break : Table::Cells::Whole);
+    table.addColumn("to lower bound", Table::Align::Right, hasLongColumn ? Table::Cells::Break : Table::Cells::Whole);
     for (const char* title : {"to lit", "visited", "relMSE", "bias"})
         table.addColumn(title, Table::Align::Right, Table::Cells::Whole);
     table.addColumn("front", Table::Align::Left, Table::Cells::Whole);
@@ -102,6 +105,7 @@ std::string groupTable(const BenchGroup& group) {
             key.technique, key.tilePixels ? fmt::format("{}, {}", key.culling, *key.tilePixels) : "none", key.layout};
         if (hasRange) row.push_back(key.rangeTolerance > 0.0 ? fmt::format("{:g}", key.rangeTolerance) : "-");
         if (hasShadows) row.push_back(key.shadow ? shadowText(*key.shadow) : "-");
+        if (hasSubsurface) row.push_back(key.subsurface ? subsurfaceText(*key.subsurface) : "-");
         for (const std::string& cell :
              {fmt::format("{:.1f}", result.times.cpuMs.median), fmt::format("{:.1f}", result.times.cpuMs.p95),
               figure(result.ratioToFloor, "{:.2f}"), figure(result.ratioToLitFloor, "{:.2f}"),

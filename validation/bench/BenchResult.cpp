@@ -12,6 +12,7 @@ std::string pointName(const PointKey& key) {
     name += ", " + key.layout;
     if (key.rangeTolerance > 0.0) name += fmt::format(", range {:g}", key.rangeTolerance);
     if (key.shadow) name += ", " + shadowText(*key.shadow);
+    if (key.subsurface) name += ", " + subsurfaceText(*key.subsurface);
     return name;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "validation/bench/ShadowKey.h"
+#include "validation/bench/SubsurfaceKey.h"
 #include "validation/lower_bound/LowerBoundBench.h"
 #include "validation/timing/FrameTimer.h"
 
@@ -20,11 +21,12 @@ struct PointKey {
     std::string layout;            ///< of the G-buffer; "exact" for techniques without one
     double rangeTolerance = 0.0;
     std::optional<ShadowKey> shadow{}; ///< none where the settings of the command line leave no light any shadows
+    std::optional<SubsurfaceKey> subsurface{}; ///< none where no material has a subsurface
     bool operator==(const PointKey&) const = default;
 };
 
-/// "tiled_deferred, tile_2.5d 16, packed", with ", range 0.01" behind it where lights are ended, and shadowText() where
-/// there are shadows.
+/// "tiled_deferred, tile_2.5d 16, packed", with ", range 0.01" behind it where lights are ended, shadowText() where
+/// there are shadows, and subsurfaceText() where there are subsurfaces.
 std::string pointName(const PointKey& key);
 
 /// Counters of a frame's work, beside its times. A figure that could not be measured is none, and `why` says why.
@@ -67,7 +69,7 @@ inline constexpr const char* kFilterCause = "filter";
 /// How much one cause adds to the error, with all others absent. "filter" is no error but a choice: how far a picture
 /// whose textures are filtered with their smaller levels is from one of the finest level alone.
 struct AttributionLine {
-    std::string cause; ///< "arithmetic", "filter", "range", "layout" or "shadow"
+    std::string cause; ///< "arithmetic", "filter", "range", "layout", "shadow" or "subsurface"
     std::string what;  ///< "range tolerance 0.01", "packed: albedo", "shadow filter pcf"
     std::string against;
     std::optional<double> relMse, p99Rel, bias;

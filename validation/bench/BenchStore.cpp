@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of the kept files; raised when older ones can no longer be read.
-constexpr int kStoreSchema = 5;
+constexpr int kStoreSchema = 6;
 
 fs::path partsOf(const std::string& folder) {
     return fs::path(folder) / "parts";

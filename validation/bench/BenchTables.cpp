@@ -103,8 +103,11 @@ std::string pointsHtml(const BenchGroup& group) {
     html.erase(html.rfind("</tr>"));
     const bool hasShadows = std::any_of(group.results.begin(), group.results.end(),
                                         [](const BenchResult& result) { return result.key.shadow.has_value(); });
+    const bool hasSubsurface = std::any_of(group.results.begin(), group.results.end(),
+                                           [](const BenchResult& result) { return result.key.subsurface.has_value(); });
     if (hasRange) html += "<th scope=\"col\">Range</th>";
     if (hasShadows) html += "<th scope=\"col\">Shadows</th>";
+    if (hasSubsurface) html += "<th scope=\"col\">Subsurface</th>";
     for (const char* title :
          {"ms a frame", "p95", "To lower bound", "To lit lower bound", "Visited", "relMSE", "p99 rel", "Bias"})
         html += fmt::format("<th scope=\"col\">{}</th>", title);
@@ -131,6 +134,9 @@ std::string pointsHtml(const BenchGroup& group) {
         if (hasShadows)
             html += fmt::format("<td data-label=\"Shadows\">{}</td>\n",
                                 key.shadow ? escapedHtml(shadowText(*key.shadow)) : "&ndash;");
+        if (hasSubsurface)
+            html += fmt::format("<td data-label=\"Subsurface\">{}</td>\n",
+                                key.subsurface ? escapedHtml(subsurfaceText(*key.subsurface)) : "&ndash;");
         html += cellHtml("ms a frame", fmt::format("{:.1f}", result.times.cpuMs.median)) +
                 cellHtml("p95", fmt::format("{:.1f}", result.times.cpuMs.p95)) +
                 cellHtml("To lower bound", orDash(result.ratioToFloor, "{:.2f}")) +

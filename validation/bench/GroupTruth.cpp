@@ -22,7 +22,7 @@ frame::FrameSettings exactSettings(frame::FrameSettings settings, frame::Texture
     return settings;
 }
 
-BenchTruth chooseTruth(std::optional<BenchTruth> asked, const frame::FrameSettings& settings, int lights,
+BenchTruth chooseTruth(std::optional<BenchTruth> asked, const frame::FrameSettings& settings, double lightsAPixel,
                        std::string& why) {
     why.clear();
     if (asked) {
@@ -30,11 +30,11 @@ BenchTruth chooseTruth(std::optional<BenchTruth> asked, const frame::FrameSettin
         if (*asked == BenchTruth::Forward) why = "forward was asked for";
         return *asked;
     }
-    const double pairs = double(settings.sizePixels.x) * double(settings.sizePixels.y) * double(lights);
+    const double pairs = double(settings.sizePixels.x) * double(settings.sizePixels.y) * lightsAPixel;
     if (settings.view != frame::DebugView::Final)
         why = "the reference renders the view final only";
     else if (pairs > kAffordablePairs)
-        why = fmt::format("the reference would try {:.1e} pairs of a pixel and a light, which takes minutes; it "
+        why = fmt::format("the reference would try {:.1e} pairs of a point and a light, which takes minutes; it "
                           "does where it is asked for",
                           pairs);
     return why.empty() ? BenchTruth::Reference : BenchTruth::Forward;

@@ -15,13 +15,13 @@ namespace tessera::validation {
 /// no range tolerance and traced shadows.
 enum class BenchTruth : std::uint8_t { Reference, Forward };
 
-/// Pairs of a pixel and a light beyond which the reference takes minutes, not seconds: on 2 cores it does some 10^7 a
+/// Pairs of a point and a light beyond which the reference takes minutes, not seconds: on 2 cores it does some 10^7 a
 /// second.
 inline constexpr double kAffordablePairs = 1.5e9;
 
 /// What was asked for; else the reference where it takes one sample of the final view and is affordable. `why` says why
 /// it is not, and is empty where it is.
-BenchTruth chooseTruth(std::optional<BenchTruth> asked, const frame::FrameSettings& settings, int lights,
+BenchTruth chooseTruth(std::optional<BenchTruth> asked, const frame::FrameSettings& settings, double lightsAPixel,
                        std::string& why);
 
 /// Settings with every fp32 channel, every light, no range tolerance, traced shadows and this filter: what the truth is

@@ -10,9 +10,11 @@
 
 #include "base/Error.h"
 #include "engine/Rendering.h"
+#include "renderer/frame/Diffusion.h"
 #include "validation/bench/Attribution.h"
 #include "validation/bench/CountPoint.h"
 #include "validation/pictures/HeatMap.h"
+#include "validation/reference/Settings.h"
 
 namespace tessera::validation {
 
@@ -50,7 +52,11 @@ public:
     Measurement(gpu::Context& context, const scenes::Scene& scene, const PlannedGroup& planned,
                 const BenchOptions& options, GroupState& state)
         : context_(context), planned_(planned), options_(options), state_(state), group_(state.group),
-          renderer_(context, scene), lowerBound_(renderer_, planned.points.front().settings) {
+          renderer_(context, scene),
+          variesSubsurface_(std::ranges::any_of(
+              planned.points,
+              [&](const BenchPoint& point) { return point.key.subsurface != planned.points.front().key.subsurface; })),
+          lowerBound_(renderer_, planned.points.front().settings) {
         group_.scene = planned.scene;
         group_.lights = planned.lights;
         group_.sizePixels = planned.sizePixels;
@@ -62,7 +68,7 @@ public:
     void run() {
         timeRounds();
         const frame::FrameSettings& settings = planned_.settings;
-        const BenchTruth kind = chooseTruth(options_.against, settings, planned_.lights, group_.whyTruth);
+        const BenchTruth kind = chooseTruth(options_.against, settings, lightsAPixel(), group_.whyTruth);
         group_.truth = kind == BenchTruth::Reference ? "reference" : "forward";
         const GroupTruth truth(renderer_, kind, settings, options_.errorFilter.value_or(frame::TextureFilter::Exact),
                                [] {});
@@ -83,12 +89,27 @@ public:
 
 private:
     /// A renderer keeps one atlas of shadow maps from frame to frame. Points with other maps would draw over its faces,
-    /// and their times would depend on which others there are, so each kind of map has a renderer.
+    /// and their times would depend on which others there are, so each kind of map has a renderer. So has each way to
+    /// spread light where the points differ in it; that of these spreads it in every frame, else what is compared would
+    /// be done before the first one.
     engine::Renderer& rendererOf(const BenchPoint& point, const scenes::Scene& scene) {
-        if (!point.key.shadow || !point.key.shadow->usesMaps()) return renderer_;
-        std::unique_ptr<engine::Renderer>& renderer = mapRenderers_[shadowText(*point.key.shadow)];
-        if (!renderer) renderer = std::make_unique<engine::Renderer>(context_, scene);
+        const PointKey& key = point.key;
+        const std::string maps = key.shadow && key.shadow->usesMaps() ? shadowText(*key.shadow) : "";
+        const bool spreads = variesSubsurface_ && key.subsurface && !key.subsurface->values.empty();
+        const std::string kept = maps + (spreads ? "; " + subsurfaceText(*key.subsurface) : "");
+        if (kept.empty()) return renderer_;
+        std::unique_ptr<engine::Renderer>& renderer = otherRenderers_[kept];
+        if (!renderer) {
+            renderer = std::make_unique<engine::Renderer>(context_, scene);
+            renderer->keepSpreadLight(!spreads);
+        }
         return *renderer;
+    }
+
+    /// That the reference visits: for light that spreads, those of each of its points on the surface.
+    double lightsAPixel() const {
+        const bool spreads = frame::diffusesLight(renderer_.scene(), planned_.settings.subsurface);
+        return double(planned_.lights) * (spreads ? double(reference::Settings{}.diffusionPoints) : 1.0);
     }
 
     void timeRounds() {
@@ -173,7 +194,8 @@ private:
     GroupState& state_;
     BenchGroup& group_;
     engine::Renderer renderer_;
-    std::map<std::string, std::unique_ptr<engine::Renderer>> mapRenderers_; ///< by shadowText()
+    bool variesSubsurface_ = false;
+    std::map<std::string, std::unique_ptr<engine::Renderer>> otherRenderers_; ///< by what they keep
     LowerBoundBench lowerBound_;
     std::vector<TimedPoint> timed_;
     std::vector<std::vector<double>> timesMs_; ///< by kind of frame

@@ -33,7 +33,7 @@ const BenchResult* fastest(const BenchGroup& group, Condition&& holds) {
 }
 
 /// Forward without a range tolerance, else with the smallest that it was measured with; of several ways to find shadows
-/// with the most exact one.
+/// or to scatter light below surfaces the most exact one.
 const BenchResult* forwardOf(const BenchGroup& group) {
     const BenchResult* found = nullptr;
     for (const BenchResult& result : group.results) {
@@ -117,10 +117,14 @@ bool isDisturbed(const BenchResult& result) {
     return result.times.cpuMs.p95 > kSteady * timeOf(result);
 }
 
-/// Says also how forward found its shadows, where the result found them in another way.
+/// Says also how forward found its shadows and scattered light below surfaces, where the result did otherwise.
 std::string againstForward(const BenchResult& result, const BenchResult& baseline) {
-    const bool isOtherwise = baseline.key.shadow && baseline.key.shadow != result.key.shadow;
-    const std::string how = isOtherwise ? fmt::format(" ({})", shadowText(*baseline.key.shadow)) : "";
+    std::string how;
+    const auto add = [&how](const std::string& text) { how += (how.empty() ? " (" : ", ") + text; };
+    if (baseline.key.shadow && baseline.key.shadow != result.key.shadow) add(shadowText(*baseline.key.shadow));
+    if (baseline.key.subsurface && baseline.key.subsurface != result.key.subsurface)
+        add(subsurfaceText(*baseline.key.subsurface));
+    if (!how.empty()) how += ")";
     if (isAsFast(result.times.cpuMs, baseline.times.cpuMs))
         return fmt::format("as fast as forward{} within the spread of the times", how);
     return speedText(timeOf(baseline) / timeOf(result)) + how;

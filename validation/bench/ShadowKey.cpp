@@ -77,9 +77,4 @@ std::string shadowText(const ShadowKey& key) {
     return text;
 }
 
-void readShadowSetting(engine::ViewRequest& request, std::string_view key, const std::string& text) {
-    if (key == kShadowFilterKey) key = text == kNoShadows ? "shadows" : "shadowFilter";
-    engine::settingOf(key).read(request, text);
-}
-
 } // namespace tessera::validation

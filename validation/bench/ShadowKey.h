@@ -45,8 +45,4 @@ ShadowKey shadowKeyOf(const frame::PackedLights& lights, const frame::FrameSetti
 /// "pcf, 5x5, 1024 texels", without values that are the default; "no shadows".
 std::string shadowText(const ShadowKey& key);
 
-/// Sets a key of a matrix, the filter or a row of the table, to one of its texts. Throws InputError as the setting
-/// does.
-void readShadowSetting(engine::ViewRequest& request, std::string_view key, const std::string& text);
-
 } // namespace tessera::validation

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "tests/cli/program/Cli.h"
 
@@ -18,7 +20,7 @@ TEST_F(Bench, everyPointIsMeasuredCountedAndComparedWithTheLowerBound) {
     EXPECT_THAT(said, HasSubstr("tile_minmax, 16"));
     EXPECT_THAT(said, HasSubstr("skipped forward, cluster"));
     const Json record = json("out/of/bench/bench.json");
-    EXPECT_EQ(record["schema"], 5);
+    EXPECT_EQ(record["schema"], 6);
     EXPECT_EQ(record["complete"], true);
     EXPECT_FALSE(record["machine"].get<std::string>().empty());
     EXPECT_FALSE(record["commit"].get<std::string>().empty());
@@ -114,6 +116,30 @@ TEST_F(Bench, shadowFiltersAreMeasuredAgainstTracedShadows) {
     EXPECT_LT(unshadowed["points"][0]["error"]["relMse"], 1e-5);
 }
 
+TEST_F(Bench, methodsOfSubsurfaceScatteringAreMeasuredAgainstTheSurfaceIntegral) {
+    folder_.write("m.json", R"({"technique": ["forward"], "diffusionTexels": [64, 256],
+                                "subsurface": ["none", "texture_space_diffusion"]})");
+    runGood({"bench", "diffusion_truth", "--size", "64x36", "--frames", "1", "--matrix", "m.json", "--against",
+             "reference", "-o", "out"});
+    const Json record = json("out/bench.json");
+    ASSERT_EQ(record["points"].size(), 3u);
+    const auto relMse = [&](int i) { return record["points"][std::size_t(i)]["error"]["relMse"].get<double>(); };
+    EXPECT_EQ(record["points"][0]["subsurface"], "none");
+    EXPECT_TRUE(record["points"][0]["diffusionTexels"].is_null());
+    EXPECT_EQ(record["points"][1]["diffusionTexels"], 64);
+    EXPECT_EQ(record["points"][1]["diffusionHalf"], false);
+    EXPECT_EQ(record["points"][2]["diffusionTexels"], 256);
+    EXPECT_GT(relMse(0), 5.0 * relMse(2));
+    std::set<std::string> passes; // spread anew in each frame, else the second one would have none of them
+    for (const Json& pass : record["points"][2]["passes"]) passes.insert(pass["name"]);
+    EXPECT_THAT(passes, testing::Contains("diffusion_light"));
+    std::map<std::string, double> causes;
+    for (const Json& line : record["attribution"])
+        if (line["cause"] == "subsurface") causes[line["what"]] = line["relMse"];
+    EXPECT_EQ(causes.size(), 3u);
+    EXPECT_NEAR(causes["no subsurface"] / relMse(0), 1.0, 1e-3);
+}
+
 TEST_F(Bench, theNoiseOfSoftShadowsIsAnError) {
     folder_.write("m.json", R"({"technique": ["forward"], "shadowSamples": [1, 64]})");
     runGood({"bench", "shadow_truth", "--size", "64x36", "--frames", "1", "--matrix", "m.json", "-o", "out"});
@@ -173,7 +199,9 @@ TEST_F(Bench, aBadMatrixIsRefusedInOneLineThatNamesIt) {
     EXPECT_THAT(refused(R"({"range": [-1]})"), HasSubstr("range tolerance"));
     EXPECT_THAT(refused(R"({"shadow": ["pfc"]})"), HasSubstr("did you mean 'pcf'"));
     EXPECT_THAT(refused(R"({"shadowWidth": [2]})"), HasSubstr("1, 3, 5, 7"));
-    EXPECT_THAT(refused(R"({"subsurface": ["blur"]})"), HasSubstr("no subsurface scattering"));
+    EXPECT_THAT(refused(R"({"subsurface": ["depth_maps"]})"), HasSubstr("did you mean 'depth_map'"));
+    EXPECT_THAT(refused(R"({"diffusionTexels": [100]})"), HasSubstr("64, 128"));
+    EXPECT_THAT(refused(R"({"diffusionHalf": [2]})"), HasSubstr("neither true nor false"));
 }
 
 TEST_F(Bench, aViewIsNotTakenForTheLitPicture) {

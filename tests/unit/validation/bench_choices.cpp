@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -162,9 +163,9 @@ TEST(ShadowPoints, theRecordHasEverySettingThatCountsAndAReasonForTheOthers) {
     record.groups = {shadowedGroup()};
     const std::string csv = benchCsv(record);
     EXPECT_THAT(csv, HasSubstr(",range,shadow,shadowSamples,shadowWidth,shadowResolution,shadowBudget,shadowCascades,"
-                               "lights,"));
-    EXPECT_THAT(csv, HasSubstr(",exact,0,pcf,,5,1024,0.5,,4,64,32,"));
-    EXPECT_THAT(csv, HasSubstr(",exact,0,none,,,,,,4,64,32,"));
+                               "subsurface,diffusionTexels,diffusionGaussians,diffusionHalf,lights,"));
+    EXPECT_THAT(csv, HasSubstr(",exact,0,pcf,,5,1024,0.5,,,,,,4,64,32,"));
+    EXPECT_THAT(csv, HasSubstr(",exact,0,none,,,,,,,,,,4,64,32,"));
 }
 
 TEST(ShadowPoints, tablesAndThePageNameThem) {
@@ -199,6 +200,43 @@ TEST(ShadowPoints, curvesJoinPointsThatFindShadowsAlike) {
     EXPECT_EQ(scalingCurves(std::vector<BenchGroup>{few, many}).size(), 4u);
     many.results[1].key.shadow->values[0].text = "512";
     EXPECT_EQ(scalingCurves(std::vector<BenchGroup>{few, many}).size(), 3u);
+}
+
+TEST(SubsurfaceMatrix, methodsAndSettingsOfSpreadLightAreVariedWhereTheyChangeTheFrame) {
+    const BenchPlan plan = planOf("diffusion_truth", R"({"subsurface": ["none", "wrap", "texture_space_diffusion"],
+                                                         "diffusionTexels": [64, 1024], "diffusionHalf": [true]})");
+    EXPECT_THAT(namesOf(plan),
+                ElementsAre("forward, exact, traced, no subsurface", "forward, exact, traced, wrap",
+                            "forward, exact, traced, texture_space_diffusion, 64 texels, half resolution on",
+                            "forward, exact, traced, texture_space_diffusion, half resolution on"));
+    EXPECT_THAT(reasonsOf(plan), testing::Contains(HasSubstr("it is the same frame as traced, wrap")));
+    EXPECT_THAT(namesOf(planOf("room", R"({"subsurface": ["wrap", "none"]})")), ElementsAre("forward, exact"));
+    // By itself, the frame is what the materials ask for.
+    EXPECT_THAT(namesOf(planOf("diffusion_truth", "{}")),
+                ElementsAre("forward, exact, traced, texture_space_diffusion"));
+}
+
+TEST(SubsurfacePoints, theRecordHasThemAndReadsThemAgain) {
+    BenchGroup group = shadowedGroup();
+    group.results[0].key.subsurface = {
+        "texture_space_diffusion", {{"diffusionTexels", "256"}, {"diffusionGaussians", "8"}, {"diffusionHalf", "on"}}};
+    group.results[1].key.subsurface = {"wrap", {}};
+    const nlohmann::ordered_json points = groupJson(group)["points"];
+    EXPECT_EQ(points[0]["subsurface"], "texture_space_diffusion");
+    EXPECT_EQ(points[0]["diffusionTexels"], 256);
+    EXPECT_EQ(points[0]["diffusionHalf"], true);
+    EXPECT_EQ(points[1]["subsurface"], "wrap");
+    EXPECT_EQ(points[1]["why"]["diffusionTexels"], "no light spreads");
+    EXPECT_EQ(points[2]["why"]["subsurface"], "no material has a subsurface");
+    const BenchGroup again = groupFromJson(groupJson(group));
+    for (std::size_t i = 0; i < group.results.size(); ++i) EXPECT_EQ(again.results[i].key, group.results[i].key);
+    BenchRecord record;
+    record.groups = {group};
+    EXPECT_THAT(benchCsv(record), HasSubstr(",texture_space_diffusion,256,8,on,4,64,32,"));
+    const std::string page = benchHtml(record, record.groups[0], {}).sections;
+    EXPECT_THAT(page,
+                HasSubstr("<td data-label=\"Subsurface\">texture_space_diffusion, 256 texels, half resolution on"));
+    EXPECT_THAT(page, HasSubstr(R"("markKind":"subsurface")"));
 }
 
 } // namespace

@@ -1,0 +1,57 @@
+#include "validation/bench/SubsurfaceKey.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "engine/Settings.h"
+#include "renderer/frame/Diffusion.h"
+#include "scenes/InUse.h"
+
+namespace tessera::validation {
+
+using scenes::SubsurfaceMethod;
+
+std::span<const SubsurfaceSetting> subsurfaceSettingTable() {
+    static constexpr SubsurfaceSetting table[] = {{"diffusionTexels", "{} texels"},
+                                                  {"diffusionGaussians", "Gaussians {}"},
+                                                  {"diffusionHalf", "half resolution {}"}};
+    return table;
+}
+
+const std::string* SubsurfaceKey::text(std::string_view key) const {
+    const auto value = std::ranges::find(values, key, &Value::key);
+    return value == values.end() ? nullptr : &value->text;
+}
+
+std::optional<SubsurfaceKey> subsurfaceKeyOf(const scenes::Scene& scene, const frame::FrameSettings& settings) {
+    std::set<SubsurfaceMethod> methods;
+    for (const scenes::Node& node : scene.nodes) {
+        for (const scenes::MeshInstance& instance : node.instances) {
+            const scenes::Material& material = scene.materials[std::size_t(instance.material)];
+            if (!scenes::isDrawn(scene, instance) || material.subsurface.method == SubsurfaceMethod::None) continue;
+            methods.insert(scenes::subsurfaceOf(material, settings.subsurface));
+        }
+    }
+    if (methods.empty()) return {};
+    SubsurfaceKey key;
+    key.method = methods.size() > 1 ? "asked" : std::string(infoOf(*methods.begin()).name);
+    if (!frame::diffusesLight(scene, settings.subsurface)) return key;
+    for (const SubsurfaceSetting& row : subsurfaceSettingTable())
+        key.values.push_back({row.key, engine::settingOf(row.key).text({.settings = settings})});
+    return key;
+}
+
+std::string subsurfaceText(const SubsurfaceKey& key) {
+    if (key.method == infoOf(SubsurfaceMethod::None).name) return "no subsurface";
+    std::string text = key.method;
+    for (const SubsurfaceSetting& row : subsurfaceSettingTable()) {
+        const std::string* const value = key.text(row.key);
+        if (value && *value != engine::settingOf(row.key).text({}))
+            text += ", " + fmt::format(fmt::runtime(row.format), *value);
+    }
+    return text;
+}
+
+} // namespace tessera::validation

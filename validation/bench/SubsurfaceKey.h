@@ -1,0 +1,43 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/frame/FrameSettings.h"
+#include "scenes/Scene.h"
+
+namespace tessera::validation {
+
+/// The key of a matrix and the field of a record that name the method of subsurface scattering.
+inline constexpr std::string_view kSubsurfaceKey = "subsurface";
+
+/// A setting of spread light that a matrix varies beside the method: a row of engine::settingTable().
+struct SubsurfaceSetting {
+    std::string_view key;    ///< of the settings, the matrix and the record
+    std::string_view format; ///< of a value in a point's name
+};
+std::span<const SubsurfaceSetting> subsurfaceSettingTable();
+
+/// What a point's surfaces do with light that enters them: the method, and how light is spread where some spreads.
+struct SubsurfaceKey {
+    struct Value {
+        std::string_view key; ///< SubsurfaceSetting::key
+        std::string text;     ///< as the setting reads it
+        bool operator==(const Value&) const = default;
+    };
+    std::string method;        ///< a name of scenes::subsurfaceMethods(), or "asked" where materials differ
+    std::vector<Value> values; ///< in the order of the table; empty where no light spreads
+
+    const std::string* text(std::string_view key) const; ///< null: no value
+    bool operator==(const SubsurfaceKey&) const = default;
+};
+
+/// Of a frame with these settings; none where no material has a subsurface.
+std::optional<SubsurfaceKey> subsurfaceKeyOf(const scenes::Scene& scene, const frame::FrameSettings& settings);
+
+/// "texture_space_diffusion, 256 texels", without values that are the default; "no subsurface".
+std::string subsurfaceText(const SubsurfaceKey& key);
+
+} // namespace tessera::validation
