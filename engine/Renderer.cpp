@@ -9,7 +9,6 @@
 #include "base/Error.h"
 #include "engine/ChooseSamples.h"
 #include "engine/PrepareView.h"
-#include "passes/DiffusionPasses.h"
 #include "renderer/graph/Execute.h"
 
 namespace tessera::engine {
@@ -57,31 +56,12 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
         return *sceneGpu_;
     }
     sceneGpu_ = std::make_unique<frame::SceneGpu>(scene_, features, filter, subsurface);
-    // The revisions of its casters begin anew.
     shadowMemories_.forget();
-    for (auto& [view, memory] : diffusionMemories_) memory.forget();
     materialsChanged_ = false;
     sceneFeatures_ = features;
     sceneFilter_ = filter;
     sceneSubsurface_ = subsurface;
     return *sceneGpu_;
-}
-
-/// Tiles of an object's atlas that the view may look up. With several samples a pixel coordinates may lie outside of
-/// their triangle, anywhere in the atlas.
-frame::TileSet Renderer::seenTiles(const frame::DiffusedObject& object, const frame::DiffusionAtlas& atlas,
-                                   const frame::DrawnView& view) const {
-    const frame::DrawList& list = view.scene->drawList();
-    const auto drawn = std::ranges::find_if(
-        view.draws.seen, [&](int i) { return list.draws[std::size_t(i)].instance == object.instance; });
-    const frame::FrameSpec& spec = view.prepared.spec;
-    const bool seesAll = !spec.settings.prune || spec.samples > 1;
-    if (drawn == view.draws.seen.end() || seesAll) return frame::usedTiles(atlas.tiles, drawn != view.draws.seen.end());
-    const frame::CameraView& camera = view.prepared.camera;
-    const glm::dvec3 objectWS(list.worldFromObject[std::size_t(object.node)][3]);
-    return frame::seenTiles(atlas.tiles, camera,
-                            frame::roundingMetres(list.draws[std::size_t(*drawn)], objectWS, camera),
-                            scene_.materials[std::size_t(object.material)].doubleSided);
 }
 
 void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
@@ -99,13 +79,11 @@ void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
         if (spec.tracesShadows()) sceneGpu_->makeCasters();
         const auto isOwn = [&](const frame::Draw& draw) { return draw.instance == object.instance; };
         own.drawn.draws = frame::makeViewDraws(list, own.drawn.prepared.camera, false, isOwn);
+        own.isSeen = std::ranges::any_of(view.draws.seen, [&](int i) { return isOwn(list.draws[std::size_t(i)]); });
         if (spec.features[frame::Feature::ShadowMaps])
             own.drawn.shadowMemory = &shadowMemories_.of(numberOfObject(number, cell), spec.settings);
         own.atlas = &diffusionAtlases_.of(object, spec.spreadTexels(), spec.gutterTexels);
         own.key = frame::diffusionKey(scene_, object, own.drawn.prepared, view.scene->casterRevision());
-        own.seen = seenTiles(object, *own.atlas, view);
-        // A frame that sees nothing new does not read it, but the next one may.
-        for (const std::string& name : passes::DiffusionPasses::keptNames(number, cell)) backend_.keep(name);
     }
 }
 
@@ -211,7 +189,7 @@ DrawnShadows Renderer::shadows(std::size_t view) const {
     // Lights that casters may hide come first.
     for (std::size_t i = 0; i < prepared.lights.shadowed; ++i) drawn.lights.push_back({prepared.lights.sceneIndex[i]});
     if (const auto shown = std::size_t(prepared.lights.shown); shown < drawn.lights.size()) drawn.shown = shown;
-    drawn.cut = cutShadows(prepared).why;
+    drawn.cut = cutShadows(prepared.spec);
     drawn.missing = missingShadows(scene_, bounds_, prepared);
     if (!drawn.hasMaps) return drawn;
     const frame::ShadowMaps& maps = prepared.shadowMaps;

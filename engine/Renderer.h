@@ -115,8 +115,6 @@ public:
 private:
     struct Drawn;
     const Drawn& latest() const;
-    frame::TileSet seenTiles(const frame::DiffusedObject& object, const frame::DiffusionAtlas& atlas,
-                             const frame::DrawnView& view) const;
     /// The objects of a view that light spreads over.
     void addDiffused(std::size_t number, frame::DrawnView& view);
 

@@ -3,12 +3,10 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
 
-#include "renderer/frame/DiffusionTiles.h"
 #include "renderer/frame/FrameSettings.h"
 #include "renderer/frame/UvAtlas.h"
 #include "renderer/gpu/Buffer.h"
@@ -25,14 +23,13 @@ struct DiffusedObject {
     int mesh = 0;
     int material = 0;
     int instance = 0;        ///< place among the mesh instances of all nodes, in document order
-    scenes::Box3 boxWS;      ///< SurfaceBounds
-    double sideMetres = 0.0; ///< SurfaceBounds::textureSideMetres
+    scenes::Box3 boxWS;      ///< of its vertices
+    double sideMetres = 0.0; ///< of the world, that a side of its texture covers, by areas; 0: no area
     std::string name;        ///< of messages
 };
 
 /// Those that are drawn, in document order. A view's atlas has a cell for each.
-std::vector<DiffusedObject> diffusedObjects(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface,
-                                            std::span<const SurfaceBounds> bounds);
+std::vector<DiffusedObject> diffusedObjects(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface);
 /// Whether there are any.
 bool diffusesLight(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface);
 
@@ -40,14 +37,13 @@ bool diffusesLight(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurf
 struct DiffusionLevel {
     double varianceSquareMetres = 0.0; ///< that is added, in metres of the scene
     glm::dvec3 weight{0.0};
-    bool isFine = false; ///< every texel is a tap, since light is not yet smooth at this width
     bool operator==(const DiffusionLevel&) const = default;
 };
 /// How an object's light spreads. All weights sum to 1 in each channel. Showing texels spreads their light already, by
 /// texelVariance(): levels add what is missing. A narrower Gaussian has its variance from two shares, one that texels
 /// show as they are lit and one that does not spread, which pixels reflect of the frame's lights like other surfaces.
 struct LightSpread {
-    glm::dvec3 inPixels{0.0}, inTexels{0.0};
+    glm::dvec3 unspread{0.0}, unblurred{0.0};
     std::vector<DiffusionLevel> levels; ///< from the narrowest Gaussian on
 };
 /// By how much light spreads that is sampled at texels and interpolated between them: a tent's, and where four texels
@@ -75,7 +71,7 @@ struct DiffusedCells {
     glm::ivec2 texels() const { return {columns * sideTexels, rows * (sideTexels + 1)}; }
     glm::ivec2 place(int cell) const { return {cell % columns, cell / columns}; }
     glm::ivec2 corner(int cell) const { return place(cell) * sideTexels; }
-    /// rgb LightSpread::inPixels, a the border of the object's atlas in texels.
+    /// rgb LightSpread::unspread, a the border of the object's atlas in texels.
     glm::ivec2 ofCell(int cell) const { return place(cell) + glm::ivec2(0, rows * sideTexels); }
 };
 DiffusedCells diffusedCells(std::size_t objects, int sideTexels);
@@ -86,7 +82,6 @@ struct DiffusionAtlas {
     gpu::Texture steps;          ///< RGBA32F: shaders/shared/diffusion.h
     gpu::Texture continued;      ///< RG32F, the same
     gpu::Buffer triangleNormals; ///< vec4 each, unit, of the front, axes of the world
-    std::vector<DiffusionTile> tiles;
 };
 
 /// The atlases of a scene, made when they are asked for.
@@ -104,26 +99,17 @@ private:
 /// Throws InputError where the object's texture coordinates do not unwrap it.
 void requireUnwrapped(const scenes::Scene& scene, const DiffusedObject& object);
 
-/// What is known of the cells of a view's atlas from earlier frames, tile by tile: the light that enters the surface,
-/// and the light that leaves it, spread. Both hold for the key that they were computed under (diffusionKey()).
+/// What the cells of a view's atlas hold from earlier frames, by what they were computed from.
 class DiffusionMemory {
 public:
-    /// Forgets the light that leaves where the atlas is not held.
+    /// Forgets all where the atlas is not held.
     void begin(std::size_t cells, bool holdsAtlas);
-    void forget() { cells_.assign(cells_.size(), {}); }
-    void forgetLit(std::size_t cell) { cells_[cell].lit = {}; }
-
-    /// Those of the tiles whose light that leaves, or that enters, is not known.
-    TileSet missing(std::size_t cell, std::uint64_t key, const TileSet& tiles) const;
-    TileSet unlit(std::size_t cell, std::uint64_t key, const TileSet& tiles) const;
-    void hold(std::size_t cell, std::uint64_t key, const TileSet& lit, const TileSet& spread);
+    bool holds(std::size_t cell, std::uint64_t key) const { return held_[cell] == key; }
+    void hold(std::size_t cell, std::uint64_t key) { held_[cell] = key; }
+    void forget() { held_.assign(held_.size(), std::nullopt); }
 
 private:
-    struct Cell {
-        std::optional<std::uint64_t> key;
-        TileSet lit, stored;
-    };
-    std::vector<Cell> cells_;
+    std::vector<std::optional<std::uint64_t>> held_;
 };
 
 } // namespace tessera::frame

@@ -1,5 +1,5 @@
 // Hands on the light of an object's texels, and fills those outside of charts, and where the rasteriser left a hole,
-// with the light of the places where the surface goes on.
+// with the light of the places where the surface goes on. Alpha says whether there is any.
 #include "shared/slots.h"
 #include "shared/diffusion.h"
 
@@ -21,7 +21,7 @@ void main()
     vec4 own = texelFetch(light, at, 0);
     filled = vec4(own.rgb, 1.0);
     if (chart > 0.0 && own.a > 0.0) return;
-    filled.rgb = vec3(0.0);
+    filled = vec4(0.0);
     if (chart == 0.0) return;
     vec2 place = texelFetch(continued, at, 0).xy - 0.5;
     vec2 corner = floor(place);
@@ -39,5 +39,5 @@ void main()
         sum += product * there.rgb;
         weights += product;
     }
-    if (weights > 0.0) filled.rgb = sum / weights;
+    if (weights > 0.0) filled = vec4(sum / weights, 1.0);
 }

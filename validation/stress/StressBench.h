@@ -32,6 +32,8 @@ public:
     gpu::Context& context() { return context_; }
     const shader::SourceTree& shaders() const { return shaders_; }
     StressEffort effort() const { return effort_; }
+    /// Factor of all that is measured; run() multiplies by it.
+    float measuredTimes() const { return measuredTimes_; }
     void progress(double share) const { progress_(share); }
 
 private:
@@ -40,7 +42,7 @@ private:
     StressEffort effort_;
     std::function<void(double)> progress_;
     shader::ProgramLibrary programs_;
-    float measuredTimes_; ///< factor of run() on all outputs
+    float measuredTimes_;
 };
 
 } // namespace tessera::validation

@@ -13,6 +13,7 @@ const std::vector<StressCase>& stressCases() {
         addGeometryCases(cases);
         addTargetCases(cases);
         addShadowCases(cases);
+        addSubsurfaceCases(cases);
         return cases;
     }();
     return kCases;

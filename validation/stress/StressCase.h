@@ -50,5 +50,6 @@ void addPlaceCases(std::vector<StressCase>& cases);
 void addGeometryCases(std::vector<StressCase>& cases);
 void addTargetCases(std::vector<StressCase>& cases);
 void addShadowCases(std::vector<StressCase>& cases);
+void addSubsurfaceCases(std::vector<StressCase>& cases);
 
 } // namespace tessera::validation

@@ -24,8 +24,8 @@ vec4 ofDiffusedCell(int cell)
                                           DIFFUSED_ROWS * DIFFUSED_TEXELS + cell / DIFFUSED_COLUMNS));
 }
 
-// Bilinear.
-vec3 diffusedAt(vec2 texCoord, int cell, float border)
+// Bilinear, of the texels that know light; alpha is 0 where none does, as on a chart smaller than a texel.
+vec4 diffusedAt(vec2 texCoord, int cell, float border)
 {
     ivec2 corner = ivec2(cell % DIFFUSED_COLUMNS, cell / DIFFUSED_COLUMNS) * DIFFUSED_TEXELS;
     precise vec2 place = border + texCoord * (float(DIFFUSED_TEXELS) - 2.0 * border) - 0.5;
@@ -34,10 +34,12 @@ vec3 diffusedAt(vec2 texCoord, int cell, float border)
     ivec2 most = ivec2(DIFFUSED_TEXELS - 1);
     ivec2 a = corner + clamp(ivec2(low), ivec2(0), most);
     ivec2 b = corner + clamp(ivec2(low) + 1, ivec2(0), most);
-    precise vec3 lower = mix(imageLoad(diffusedLight, a).rgb, imageLoad(diffusedLight, ivec2(b.x, a.y)).rgb, share.x);
-    precise vec3 upper = mix(imageLoad(diffusedLight, ivec2(a.x, b.y)).rgb, imageLoad(diffusedLight, b).rgb, share.x);
-    precise vec3 light = mix(lower, upper, share.y);
-    return light;
+    precise vec4 lower = mix(imageLoad(diffusedLight, a), imageLoad(diffusedLight, ivec2(b.x, a.y)), share.x);
+    precise vec4 upper = mix(imageLoad(diffusedLight, ivec2(a.x, b.y)), imageLoad(diffusedLight, b), share.x);
+    precise vec4 light = mix(lower, upper, share.y);
+    if (light.a == 0.0) return vec4(0.0);
+    precise vec3 known = light.rgb / light.a;
+    return vec4(known, 1.0);
 }
 
 vec3 albedoAfterSpreading(vec3 albedo)
@@ -65,10 +67,10 @@ void takeDiffusedLight(Fragment fragment, inout Surface surface)
     precise vec3 mirrored = 2.0 * seen.nv * surface.normalLS - toViewer;
     precise vec3 leaving = reflection(seen, directionsOn(seen, mirrored, nv)).diffuse;
     vec4 cell = ofDiffusedCell(diffusedCell - 1);
-    precise vec3 emission =
-        surface.emission + leaving * diffusedAt(vec2(fragment.texCoord[0]), diffusedCell - 1, cell.a);
+    vec4 light = diffusedAt(vec2(fragment.texCoord[0]), diffusedCell - 1, cell.a);
+    precise vec3 emission = surface.emission + leaving * light.rgb;
     surface.emission = emission;
-    precise vec3 unspread = surface.albedo * cell.rgb;
+    precise vec3 unspread = surface.albedo * (light.a == 0.0 ? vec3(1.0) : cell.rgb);
 #if HAS_GGX_MODELS
     if (HAS_METALLIC(surface.model)) {
         surface.specular = seen.f0;
