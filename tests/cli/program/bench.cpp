@@ -199,7 +199,7 @@ TEST_F(Bench, aBadMatrixIsRefusedInOneLineThatNamesIt) {
     EXPECT_THAT(refused(R"({"range": [-1]})"), HasSubstr("range tolerance"));
     EXPECT_THAT(refused(R"({"shadow": ["pfc"]})"), HasSubstr("did you mean 'pcf'"));
     EXPECT_THAT(refused(R"({"shadowWidth": [2]})"), HasSubstr("1, 3, 5, 7"));
-    EXPECT_THAT(refused(R"({"subsurface": ["wrapped"]})"), HasSubstr("did you mean 'wrap'"));
+    EXPECT_THAT(refused(R"({"subsurface": ["depth_maps"]})"), HasSubstr("did you mean 'depth_map'"));
     EXPECT_THAT(refused(R"({"diffusionTexels": [100]})"), HasSubstr("64, 128"));
     EXPECT_THAT(refused(R"({"diffusionHalf": [2]})"), HasSubstr("neither true nor false"));
 }

@@ -67,7 +67,9 @@ void expectRoundTrip(const std::string& nameOrPath, const LoadOptions& options =
 }
 
 TEST(SceneText, everyBuiltinSceneIsLoadedBackIdentically) {
-    for (const BuiltinScene& builtin : builtinScenes()) expectRoundTrip(std::string(builtin.name));
+    for (const BuiltinScene& builtin : builtinScenes())
+        if (builtin.name != "head_marble") // takes seconds to make, and is written as head_skin is
+            expectRoundTrip(std::string(builtin.name));
     LoadOptions fewer;
     fewer.lights = 5;
     expectRoundTrip("lattice", fewer);
