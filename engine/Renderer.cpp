@@ -64,6 +64,23 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     return *sceneGpu_;
 }
 
+/// Tiles of an object's atlas that the view may look up. With several samples a pixel coordinates may lie outside of
+/// their triangle, anywhere in the atlas.
+frame::TileSet Renderer::seenTiles(const frame::DiffusedObject& object, const frame::DiffusionAtlas& atlas,
+                                   const frame::DrawnView& view) const {
+    const frame::DrawList& list = view.scene->drawList();
+    const auto drawn = std::ranges::find_if(
+        view.draws.seen, [&](int i) { return list.draws[std::size_t(i)].instance == object.instance; });
+    const frame::FrameSpec& spec = view.prepared.spec;
+    const bool seesAll = !spec.settings.prune || spec.samples > 1;
+    if (drawn == view.draws.seen.end() || seesAll) return frame::usedTiles(atlas.tiles, drawn != view.draws.seen.end());
+    const frame::CameraView& camera = view.prepared.camera;
+    const glm::dvec3 objectWS(list.worldFromObject[std::size_t(object.node)][3]);
+    return frame::seenTiles(atlas.tiles, camera,
+                            frame::roundingMetres(list.draws[std::size_t(*drawn)], objectWS, camera),
+                            scene_.materials[std::size_t(object.material)].doubleSided);
+}
+
 void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
     const frame::PreparedView& prepared = view.prepared;
     if (prepared.diffused.empty()) return;
@@ -79,11 +96,11 @@ void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
         if (spec.tracesShadows()) sceneGpu_->makeCasters();
         const auto isOwn = [&](const frame::Draw& draw) { return draw.instance == object.instance; };
         own.drawn.draws = frame::makeViewDraws(list, own.drawn.prepared.camera, false, isOwn);
-        own.isSeen = std::ranges::any_of(view.draws.seen, [&](int i) { return isOwn(list.draws[std::size_t(i)]); });
         if (spec.features[frame::Feature::ShadowMaps])
             own.drawn.shadowMemory = &shadowMemories_.of(numberOfObject(number, cell), spec.settings);
         own.atlas = &diffusionAtlases_.of(object, spec.spreadTexels(), spec.gutterTexels);
         own.key = frame::diffusionKey(scene_, object, own.drawn.prepared, view.scene->casterRevision());
+        own.seen = seenTiles(object, *own.atlas, view);
     }
 }
 

@@ -80,24 +80,25 @@ struct ViewWiring {
         if (spec.features[frame::Feature::SubsurfaceDiffusion]) surfaces.diffused = addDiffused(frame, view, index);
     }
 
-    /// Spreads light over objects, each lit as a view of its own; those that are not seen or whose light is known from
-    /// an earlier frame are left as they are.
+    /// Spreads light over objects, each lit as a view of its own; those of which no more is seen than what is known
+    /// from an earlier frame are left as they are.
     TextureHandle addDiffused(const FrameHandles& frame, const ViewSource& view, std::size_t index) {
         // What is in the atlas is known cell by cell, not by a revision of the whole.
         constexpr std::uint64_t kRevision = 1;
-        const std::string name = index == 0 ? "diffused_light" : fmt::format("diffused_light ({})", index + 1);
-        TextureHandle atlas = graph.persist(name, DiffusionPasses::atlas(spec), kRevision);
+        const std::string suffix = index == 0 ? "" : fmt::format(" ({})", index + 1);
+        TextureHandle atlas = graph.persist("diffused_light" + suffix, DiffusionPasses::atlas(spec), kRevision);
         const bool holdsAtlas = graph.holds(atlas);
         if (drawn != nullptr) drawn->diffusionMemory->begin(spec.diffused.size(), holdsAtlas);
         bool writes = false;
         for (std::size_t cell = 0; cell < spec.diffused.size(); ++cell) {
             const frame::DrawnView::Diffused* const own = drawn ? &drawn->diffused[cell] : nullptr;
             // An atlas must be written before it is read.
-            const bool isIdle = own && (!own->isSeen || drawn->diffusionMemory->holds(cell, own->key));
+            const bool isIdle = own && drawn->diffusionMemory->missing(cell, own->key, own->seen).isEmpty();
             if (isIdle && (holdsAtlas || writes || cell + 1 < spec.diffused.size())) continue;
             const ViewSource object{view.technique, spec.diffused[cell], own ? &own->drawn : nullptr};
             const ViewWiring wiring(graph, frame, object, numberOfObject(index, cell));
-            atlas = DiffusionPasses::add(graph, spec, cell, {wiring.surfaces, wiring.lighting, atlas, drawn}).atlas;
+            atlas =
+                DiffusionPasses::add(graph, spec, cell, {wiring.surfaces, wiring.lighting, atlas, drawn, suffix}).atlas;
             writes = true;
         }
         return atlas;

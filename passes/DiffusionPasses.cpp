@@ -38,12 +38,22 @@ shader::ProgramDesc screenProgram(const std::string& name, const std::string& fi
 shader::ProgramDesc halveProgram() {
     return screenProgram("diffusion_halve", "diffusion_halve.frag");
 }
-shader::ProgramDesc fillProgram() {
-    return screenProgram("diffusion_fill", "diffusion_fill.frag");
+shader::ProgramDesc fillProgram(const std::string& name, frame::Defines defines) {
+    return screenProgram(name, "diffusion_fill.frag", std::move(defines));
 }
 shader::ProgramDesc blurProgram(bool alongV) {
     return screenProgram(alongV ? "diffusion_along_v" : "diffusion_along_u", "diffusion_blur.frag",
                          {{"SUMS", alongV ? "1" : "0"}});
+}
+
+/// Rectangles of tiles, in texels.
+using Rectangles = std::vector<gpu::Rectangle>;
+
+void drawWithin(const Rectangles& rectangles) {
+    for (const gpu::Rectangle& rectangle : rectangles) {
+        gpu::setScissor(rectangle);
+        gpu::drawFullscreenTriangle();
+    }
 }
 
 /// What an object's passes have in common.
@@ -53,147 +63,192 @@ struct Object {
     std::string suffix; ///< of the names of its passes
     TextureHandle steps, continued;
 
-    /// Light that enters the surface, and the sum of what leaves it.
+    /// What is known of an object's light as it is lit: what enters its surface, and the share of it that leaves there.
     struct Light {
-        TextureHandle entering, sum;
+        TextureHandle entering, leaving;
     };
-    Light light(const DiffusionPasses::Inputs& inputs, const frame::DiffusionAtlas* atlas) const;
-    Light halve(Light light) const;
-    TextureHandle fill(const std::string& name, TextureHandle light) const;
+    /// Lights some tiles anew.
+    Light light(const DiffusionPasses::Inputs& inputs, const frame::DiffusionAtlas* atlas, Light light,
+                const frame::TileSet& tiles) const;
+
+    /// Light that has spread by some of the levels, and the sum of what leaves for it; none before the first.
+    struct Spread {
+        TextureHandle light;
+        std::optional<TextureHandle> sum;
+    };
+    Spread spread(std::size_t level, const Spread& before, const frame::DiffusionWork::Level& tiles) const;
     /// Fills into the object's cell of a view's atlas, and says there what else pixels ask for.
-    TextureHandle store(TextureHandle light, TextureHandle atlas, const frame::DiffusedCells& cells, std::size_t cell,
+    TextureHandle store(const Spread& spread, TextureHandle leaving, TextureHandle atlas,
+                        const frame::DiffusedCells& cells, std::size_t cell, const frame::TileSet& tiles,
                         const std::function<void()>& done) const;
-    /// Light spread by one more level; adds it to the sum.
-    Light spread(std::size_t level, Light light) const;
 
 private:
-    struct FillData {
-        TextureHandle steps, continued, light, filled;
-    };
-    TextureHandle addFill(const std::string& name, TextureHandle light, std::optional<TextureHandle> target,
-                          const std::function<void(const FillData&, const graph::PassContext&)>& run) const;
-    static void drawFilled(const FillData& data, const graph::PassContext& context,
-                           const shared::DiffusionFillConstants& constants);
+    Rectangles rectanglesOf(const frame::TileSet& tiles) const {
+        return tiles.rectangles(frame::kDiffusionTileTexels, spec.spreadTexels());
+    }
+    Light halve(Light whole, Light halved, const frame::TileSet& tiles) const;
+    TextureHandle fill(const std::string& name, TextureHandle light, const frame::TileSet& tiles) const;
 };
 
-Object::Light Object::light(const DiffusionPasses::Inputs& inputs, const frame::DiffusionAtlas* atlas) const {
+Object::Light Object::light(const DiffusionPasses::Inputs& inputs, const frame::DiffusionAtlas* atlas, Light light,
+                            const frame::TileSet& tiles) const {
     struct Data {
         frame::SurfaceHandles surfaces;
         frame::LightingInputs lighting;
         std::optional<graph::BufferHandle> triangleNormals;
         Light light;
+        TextureHandle mask;
     };
     const gpu::Buffer* const normals = atlas ? &atlas->triangleNormals : nullptr;
     const graph::BufferHandle imported =
         graph.import("triangle_normals" + suffix, graph::BufferDesc{normals ? normals->bytes() : 0}, normals);
-    return graph
-        .addPass<Data>(
-            "diffusion_light" + suffix,
-            [&](graph::PassBuilder& pass, Data& out) {
-                pass.program(lightProgram(spec));
-                out.surfaces = inputs.surfaces.read(pass);
-                out.lighting = inputs.lighting.read(pass);
-                if (spec.features[frame::Feature::Shadows])
-                    out.triangleNormals = pass.read(imported, Access::TexelRead);
-                out.light.entering = pass.create("entering_light", square(spec.settings.sizePixels.x));
-                out.light.sum = pass.create("light_sum", square(spec.settings.sizePixels.x));
-            },
-            [constants = shared::DiffusionLightConstants{glm::vec4(spec.spread->unspread, 0.0),
-                                                         glm::vec4(spec.spread->unblurred, 0.0)}](
-                const Data& out, const graph::PassContext& context) {
-                context.bindTargets();
-                for (int i = 0; i < 2; ++i) gpu::clearColor(i, glm::vec4(0.0f));
-                gpu::useProgram(context.program());
-                out.lighting.bind(context);
-                context.constants(UNIFORM_PASS, constants);
-                if (out.triangleNormals)
-                    gpu::bindTexelBuffer(TEXTURE_UNIT_TRIANGLE_NORMALS,
-                                         context.buffer(*out.triangleNormals).texels(graph::Format::Rgba32Float));
-                gpu::PipelineState state;
-                state.bothSides = true;
-                for (const auto kind : {frame::SurfaceHandles::Kind::Opaque, frame::SurfaceHandles::Kind::Transparent})
-                    gpu::drawInBands([&] { out.surfaces.draw(context, kind, state); });
-            })
-        .light;
+    const int side = spec.settings.sizePixels.x;
+    const bool isHalved = side != spec.spreadTexels();
+    const Light lit =
+        graph
+            .addPass<Data>(
+                "diffusion_light" + suffix,
+                [&](graph::PassBuilder& pass, Data& out) {
+                    pass.program(lightProgram(spec));
+                    out.surfaces = inputs.surfaces.read(pass);
+                    out.lighting = inputs.lighting.read(pass);
+                    if (spec.features[frame::Feature::Shadows])
+                        out.triangleNormals = pass.read(imported, Access::TexelRead);
+                    if (isHalved)
+                        out.light = {pass.create("whole_entering_light", square(side)),
+                                     pass.create("whole_leaving_light", square(side))};
+                    else
+                        out.light = {pass.write(light.entering), pass.write(light.leaving)};
+                    out.mask = pass.create("diffusion_mask", square(side, graph::Format::Depth32Float),
+                                           Access::DepthAttachment);
+                },
+                [side, rectangles = tiles.rectangles(frame::kDiffusionTileTexels * (isHalved ? 2 : 1), side),
+                 constants = shared::DiffusionLightConstants{glm::vec4(spec.spread->unspread, 0.0),
+                                                             glm::vec4(spec.spread->unblurred, 0.0)}](
+                    const Data& out, const graph::PassContext& context) {
+                    context.bindTargets();
+                    // Nothing passes a depth of 1.
+                    gpu::clearDepth(1.0f);
+                    for (const gpu::Rectangle& rectangle : rectangles) {
+                        gpu::setScissor(rectangle);
+                        gpu::clearDepth(0.0f);
+                        for (int i = 0; i < 2; ++i) gpu::clearColor(i, glm::vec4(0.0f));
+                    }
+                    gpu::setScissor({0, 0, side, side});
+                    gpu::useProgram(context.program());
+                    out.lighting.bind(context);
+                    context.constants(UNIFORM_PASS, constants);
+                    if (out.triangleNormals)
+                        gpu::bindTexelBuffer(TEXTURE_UNIT_TRIANGLE_NORMALS,
+                                             context.buffer(*out.triangleNormals).texels(graph::Format::Rgba32Float));
+                    gpu::PipelineState state;
+                    state.bothSides = true;
+                    state.depthTest = gpu::DepthTest::Greater;
+                    for (const auto kind :
+                         {frame::SurfaceHandles::Kind::Opaque, frame::SurfaceHandles::Kind::Transparent})
+                        gpu::drawInBands([&] { out.surfaces.draw(context, kind, state); });
+                })
+            .light;
+    return isHalved ? halve(lit, light, tiles) : lit;
 }
 
-Object::Light Object::halve(Light light) const {
+Object::Light Object::halve(Light whole, Light halved, const frame::TileSet& tiles) const {
     struct Data {
-        Light light, halved;
+        Light whole, halved;
     };
     return graph
         .addPass<Data>(
             "diffusion_halve" + suffix,
             [&](graph::PassBuilder& pass, Data& out) {
                 pass.program(halveProgram());
-                out.light = {pass.read(light.entering), pass.read(light.sum)};
-                out.halved.entering = pass.create("halved_light", square(spec.spreadTexels()));
-                out.halved.sum = pass.create("halved_sum", square(spec.spreadTexels()));
+                out.whole = {pass.read(whole.entering), pass.read(whole.leaving)};
+                out.halved = {pass.write(halved.entering), pass.write(halved.leaving)};
             },
-            [](const Data& out, const graph::PassContext& context) {
+            [rectangles = rectanglesOf(tiles)](const Data& out, const graph::PassContext& context) {
                 context.bindTargets();
                 gpu::useProgram(context.program());
                 gpu::setState({});
-                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LIGHT, context.texture(out.light.entering));
-                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_SUM, context.texture(out.light.sum));
-                gpu::drawFullscreenTriangle();
+                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LIGHT, context.texture(out.whole.entering));
+                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LEAVING, context.texture(out.whole.leaving));
+                drawWithin(rectangles);
             })
         .halved;
 }
 
-TextureHandle Object::addFill(const std::string& name, TextureHandle light, std::optional<TextureHandle> target,
-                              const std::function<void(const FillData&, const graph::PassContext&)>& run) const {
+TextureHandle Object::fill(const std::string& name, TextureHandle light, const frame::TileSet& tiles) const {
+    struct Data {
+        TextureHandle steps, continued, light, filled;
+    };
     return graph
-        .addPass<FillData>(
+        .addPass<Data>(
             name + suffix,
-            [&](graph::PassBuilder& pass, FillData& out) {
-                pass.program(fillProgram());
+            [&](graph::PassBuilder& pass, Data& out) {
+                pass.program(fillProgram("diffusion_fill", {{"STORES", "0"}, {"SUMS", "0"}}));
                 out.steps = pass.read(steps);
                 out.continued = pass.read(continued);
                 out.light = pass.read(light);
-                out.filled = target ? pass.write(*target) : pass.create("filled_light", square(spec.spreadTexels()));
+                out.filled = pass.create("filled_light", square(spec.spreadTexels()));
             },
-            run)
+            [rectangles = rectanglesOf(tiles)](const Data& out, const graph::PassContext& context) {
+                context.bindTargets();
+                gpu::useProgram(context.program());
+                gpu::setState({});
+                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_STEPS, context.texture(out.steps));
+                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_CONTINUED, context.texture(out.continued));
+                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LIGHT, context.texture(out.light));
+                drawWithin(rectangles);
+            })
         .filled;
 }
 
-void Object::drawFilled(const FillData& data, const graph::PassContext& context,
-                        const shared::DiffusionFillConstants& constants) {
-    gpu::useProgram(context.program());
-    gpu::setState({});
-    context.constants(UNIFORM_PASS, constants);
-    gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_STEPS, context.texture(data.steps));
-    gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_CONTINUED, context.texture(data.continued));
-    gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LIGHT, context.texture(data.light));
-    gpu::drawFullscreenTriangle();
-}
-
-TextureHandle Object::fill(const std::string& name, TextureHandle light) const {
-    return addFill(name, light, {}, [](const FillData& data, const graph::PassContext& context) {
-        context.bindTargets();
-        drawFilled(data, context, {glm::uvec4(0)});
-    });
-}
-
-TextureHandle Object::store(TextureHandle light, TextureHandle atlas, const frame::DiffusedCells& cells,
-                            std::size_t cell, const std::function<void()>& done) const {
-    const glm::ivec2 corner = cells.corner(int(cell)), ofCell = cells.ofCell(int(cell));
-    const int side = cells.sideTexels;
-    const glm::vec4 values(glm::vec3(spec.spread->unspread), float(frame::borderTexels(spec.gutterTexels, side)));
-    return addFill("diffusion_store", light, atlas,
-                   [corner, ofCell, side, values, done](const FillData& data, const graph::PassContext& context) {
-                       context.bindTargets();
-                       gpu::setScissor({corner.x, corner.y, side, side});
-                       drawFilled(data, context, {glm::uvec4(corner, 0, 0)});
-                       gpu::setScissor({ofCell.x, ofCell.y, 1, 1});
-                       gpu::clearColor(0, values);
-                       if (done) done();
-                   });
-}
-
-Object::Light Object::spread(std::size_t number, Light light) const {
+TextureHandle Object::store(const Spread& spread, TextureHandle leaving, TextureHandle atlas,
+                            const frame::DiffusedCells& cells, std::size_t cell, const frame::TileSet& tiles,
+                            const std::function<void()>& done) const {
     struct Data {
-        TextureHandle steps, light, spread, sum;
+        TextureHandle steps, continued, leaving, atlas;
+        std::optional<TextureHandle> sum;
+    };
+    const glm::ivec2 corner = cells.corner(int(cell)), ofCell = cells.ofCell(int(cell));
+    const glm::vec4 values(glm::vec3(spec.spread->unspread),
+                           float(frame::borderTexels(spec.gutterTexels, cells.sideTexels)));
+    Rectangles rectangles = rectanglesOf(tiles);
+    for (gpu::Rectangle& rectangle : rectangles) {
+        rectangle.x += corner.x;
+        rectangle.y += corner.y;
+    }
+    return graph
+        .addPass<Data>(
+            "diffusion_store" + suffix,
+            [&](graph::PassBuilder& pass, Data& out) {
+                pass.program(fillProgram("diffusion_store", {{"STORES", "1"}, {"SUMS", spread.sum ? "1" : "0"}}));
+                out.steps = pass.read(steps);
+                out.continued = pass.read(continued);
+                out.leaving = pass.read(leaving);
+                if (spread.sum) out.sum = pass.read(*spread.sum);
+                out.atlas = pass.write(atlas);
+            },
+            [corner, ofCell, rectangles, values, done](const Data& out, const graph::PassContext& context) {
+                context.bindTargets();
+                gpu::useProgram(context.program());
+                gpu::setState({});
+                context.constants(UNIFORM_PASS, shared::DiffusionStoreConstants{glm::uvec4(corner, 0, 0)});
+                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_STEPS, context.texture(out.steps));
+                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_CONTINUED, context.texture(out.continued));
+                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LEAVING, context.texture(out.leaving));
+                if (out.sum) gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LIGHT, context.texture(*out.sum));
+                drawWithin(rectangles);
+                gpu::setScissor({ofCell.x, ofCell.y, 1, 1});
+                gpu::clearColor(0, values);
+                if (done) done();
+            })
+        .atlas;
+}
+
+Object::Spread Object::spread(std::size_t number, const Spread& before,
+                              const frame::DiffusionWork::Level& tiles) const {
+    struct Data {
+        TextureHandle steps, light, spread;
+        std::optional<TextureHandle> sum;
     };
     const frame::DiffusionLevel& level = spec.spread->levels[number];
     const auto constants = [&](bool alongV) {
@@ -201,30 +256,31 @@ Object::Light Object::spread(std::size_t number, Light light) const {
             glm::vec4(float(level.varianceSquareMetres), alongV ? 1.0f : 0.0f, number == 0 ? 1.0f : 0.0f, 0.0f),
             glm::vec4(glm::vec3(level.weight), 0.0f)};
     };
-    const auto run = [](const Data& out, const graph::PassContext& context,
+    const auto run = [](const Data& out, const graph::PassContext& context, const Rectangles& rectangles,
                         const shared::DiffusionBlurConstants& values, const gpu::PipelineState& state) {
         gpu::useProgram(context.program());
         gpu::setState(state);
         context.constants(UNIFORM_PASS, values);
         gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_STEPS, context.texture(out.steps));
         gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LIGHT, context.texture(out.light));
-        gpu::drawFullscreenTriangle();
+        drawWithin(rectangles);
     };
-    const TextureHandle alongU =
-        graph
-            .addPass<Data>(
-                fmt::format("diffusion_along_u {}{}", number + 1, suffix),
-                [&](graph::PassBuilder& pass, Data& out) {
-                    pass.program(blurProgram(false));
-                    out.steps = pass.read(steps);
-                    out.light = pass.read(light.entering);
-                    out.spread = pass.create("light_along_u", square(spec.spreadTexels()));
-                },
-                [run, values = constants(false)](const Data& out, const graph::PassContext& context) {
-                    context.bindTargets();
-                    run(out, context, values, {});
-                })
-            .spread;
+    const TextureHandle filled = fill(fmt::format("diffusion_fill {}", number + 1), before.light, tiles.fill);
+    const TextureHandle alongU = graph
+                                     .addPass<Data>(
+                                         fmt::format("diffusion_along_u {}{}", number + 1, suffix),
+                                         [&](graph::PassBuilder& pass, Data& out) {
+                                             pass.program(blurProgram(false));
+                                             out.steps = pass.read(steps);
+                                             out.light = pass.read(filled);
+                                             out.spread = pass.create("light_along_u", square(spec.spreadTexels()));
+                                         },
+                                         [run, rectangles = rectanglesOf(tiles.alongU), values = constants(false)](
+                                             const Data& out, const graph::PassContext& context) {
+                                             context.bindTargets();
+                                             run(out, context, rectangles, values, {});
+                                         })
+                                     .spread;
     const Data done = graph.addPass<Data>(
         fmt::format("diffusion_along_v {}{}", number + 1, suffix),
         [&](graph::PassBuilder& pass, Data& out) {
@@ -232,14 +288,15 @@ Object::Light Object::spread(std::size_t number, Light light) const {
             out.steps = pass.read(steps);
             out.light = pass.read(alongU);
             out.spread = pass.create("spread_light", square(spec.spreadTexels()));
-            out.sum = pass.write(light.sum);
+            out.sum = before.sum ? pass.write(*before.sum) : pass.create("sum_of_light", square(spec.spreadTexels()));
         },
-        [run, values = constants(true)](const Data& out, const graph::PassContext& context) {
+        [run, isFirst = !before.sum, rectangles = rectanglesOf(tiles.alongV),
+         values = constants(true)](const Data& out, const graph::PassContext& context) {
             context.bindTargets();
-            gpu::clearColor(0, glm::vec4(0.0f));
+            for (int i = 0; i < (isFirst ? 2 : 1); ++i) gpu::clearColor(i, glm::vec4(0.0f));
             gpu::PipelineState state;
             state.blend = gpu::Blend::Additive;
-            run(out, context, values, state);
+            run(out, context, rectangles, values, state);
         });
     return {done.spread, done.sum};
 }
@@ -251,12 +308,10 @@ graph::TextureDesc DiffusionPasses::atlas(const frame::FrameSpec& view) {
     return {kFormat, texels.x, texels.y};
 }
 
-std::vector<shader::ProgramDesc> DiffusionPasses::programs(const frame::FrameSpec& object) {
-    return {lightProgram(object), halveProgram(), fillProgram(), blurProgram(false), blurProgram(true)};
-}
-
 DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::FrameSpec& view, std::size_t cell,
                                               const Inputs& inputs) {
+    // What is in them is known tile by tile, not by a revision of the whole.
+    constexpr std::uint64_t kRevision = 1;
     const frame::FrameSpec& spec = view.diffused[cell];
     const frame::DrawnView::Diffused* const drawn = inputs.drawn ? &inputs.drawn->diffused[cell] : nullptr;
     const frame::DiffusionAtlas* const atlas = drawn ? drawn->atlas : nullptr;
@@ -265,14 +320,32 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
     object.steps = graph.import("diffusion_steps" + object.suffix, square(side), atlas ? &atlas->steps : nullptr);
     object.continued = graph.import("diffusion_continued" + object.suffix, square(side, graph::Format::Rg32Float),
                                     atlas ? &atlas->continued : nullptr);
-    Object::Light light = object.light(inputs, atlas);
-    if (side != spec.settings.sizePixels.x) light = object.halve(light);
-    for (std::size_t level = 0; level < spec.spread->levels.size(); ++level)
-        light =
-            object.spread(level, {object.fill(fmt::format("diffusion_fill {}", level + 1), light.entering), light.sum});
+    const auto kept = [&](const std::string& name) {
+        return graph.persist(name + object.suffix + inputs.viewSuffix, square(side), kRevision);
+    };
+    Object::Light light{kept("entering_light"), kept("leaving_light")};
+
+    frame::DiffusionWork work;
+    work.levels.resize(spec.spread->levels.size());
     std::function<void()> done;
-    if (drawn) done = [memory = inputs.drawn->diffusionMemory, cell, key = drawn->key] { memory->hold(cell, key); };
-    return {object.store(light.sum, inputs.atlas, view.diffusedCells(), cell, done)};
+    bool lights = true;
+    if (drawn) {
+        frame::DiffusionMemory* const memory = inputs.drawn->diffusionMemory;
+        if (!graph.holds(light.entering) || !graph.holds(light.leaving)) memory->forgetEntering(cell);
+        std::vector<double> variances;
+        for (const frame::DiffusionLevel& level : spec.spread->levels) variances.push_back(level.varianceSquareMetres);
+        work = frame::diffusionWork(atlas->tiles, variances, memory->missing(cell, drawn->key, drawn->seen));
+        work.light = memory->unlit(cell, drawn->key, work.light);
+        lights = !work.light.isEmpty() || !graph.holds(light.entering);
+        done = [memory, cell, key = drawn->key, lit = work.light, stored = work.store] {
+            memory->hold(cell, key, lit, stored);
+        };
+    }
+    if (lights) light = object.light(inputs, atlas, light, work.light);
+    Object::Spread spread{light.entering, {}};
+    for (std::size_t level = 0; level < work.levels.size(); ++level)
+        spread = object.spread(level, spread, work.levels[level]);
+    return {object.store(spread, light.leaving, inputs.atlas, view.diffusedCells(), cell, work.store, done)};
 }
 
 } // namespace tessera::passes

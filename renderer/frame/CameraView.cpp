@@ -1,5 +1,6 @@
 #include "renderer/frame/CameraView.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -116,6 +117,18 @@ CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, L
     c.depthKey = glm::vec4(view.depths.isEven ? 1.0f : c.aheadFromDepth.z, float(span),
                            float(facetTurnRadians(lens, !orthographic, view.depths, pixelStep)), 0.0f);
     return view;
+}
+
+bool isOutside(const scenes::Box3& boxWS, double marginMetres, const CameraView& view) {
+    if (boxWS.empty()) return false;
+    const glm::dvec3 low = boxWS.min - view.originWS, high = boxWS.max - view.originWS;
+    return std::ranges::any_of(view.frustumPlanesLS, [&](const glm::dvec4& plane) {
+        const glm::dvec3 normal = glm::dvec3(plane) * view.lsFromWorld; // by the transpose, into world axes
+        const glm::dvec3 innermost(normal.x > 0.0 ? high.x : low.x, normal.y > 0.0 ? high.y : low.y,
+                                   normal.z > 0.0 ? high.z : low.z);
+        const double insideMetres = glm::dot(normal, innermost) + plane.w;
+        return insideMetres < -marginMetres;
+    });
 }
 
 } // namespace tessera::frame

@@ -32,4 +32,7 @@ struct CameraView {
 CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, LightingSpace space,
                           const glm::vec3& background, std::span<const SurfaceBounds> bounds = {});
 
+/// Whether some plane of the view's frustum has all of a box behind it by more than a margin.
+bool isOutside(const scenes::Box3& boxWS, double marginMetres, const CameraView& view);
+
 } // namespace tessera::frame

@@ -207,17 +207,50 @@ const DiffusionAtlas& DiffusionAtlases::of(const DiffusedObject& object, int sid
     const auto texture = [&](const char* label, graph::Format format) {
         return gpu::Texture(label, graph::TextureDesc{format, sideTexels, sideTexels});
     };
-    kept = std::make_unique<DiffusionAtlas>(DiffusionAtlas{
-        border, texture("diffusion_steps", graph::Format::Rgba32Float),
-        texture("diffusion_continued", graph::Format::Rg32Float), gpu::Buffer::of("triangle_normals", normals)});
+    kept = std::make_unique<DiffusionAtlas>(
+        DiffusionAtlas{border, texture("diffusion_steps", graph::Format::Rgba32Float),
+                       texture("diffusion_continued", graph::Format::Rg32Float),
+                       gpu::Buffer::of("triangle_normals", normals), diffusionTiles(atlas, mesh, worldFromObject)});
     kept->steps.upload(0, steps);
     kept->continued.upload(0, continued);
     return *kept;
 }
 
 void DiffusionMemory::begin(std::size_t cells, bool holdsAtlas) {
-    if (!holdsAtlas) held_.clear();
-    held_.resize(cells);
+    cells_.resize(cells);
+    if (holdsAtlas) return;
+    for (Cell& cell : cells_) cell.leaving = {};
+}
+
+namespace {
+
+TileSet without(TileSet tiles, bool isKnown, const TileSet& known) {
+    if (isKnown && known.side() == tiles.side()) tiles.remove(known);
+    return tiles;
+}
+
+void addTo(TileSet& known, const TileSet& more) {
+    if (known.side() == more.side())
+        known.add(more);
+    else if (!more.isEmpty())
+        known = more;
+}
+
+} // namespace
+
+TileSet DiffusionMemory::missing(std::size_t cell, std::uint64_t key, const TileSet& tiles) const {
+    return without(tiles, cells_[cell].key == key, cells_[cell].leaving);
+}
+
+TileSet DiffusionMemory::unlit(std::size_t cell, std::uint64_t key, const TileSet& tiles) const {
+    return without(tiles, cells_[cell].key == key, cells_[cell].entering);
+}
+
+void DiffusionMemory::hold(std::size_t cell, std::uint64_t key, const TileSet& lit, const TileSet& spread) {
+    Cell& own = cells_[cell];
+    if (own.key != key) own = {key, {}, {}};
+    addTo(own.entering, lit);
+    addTo(own.leaving, spread);
 }
 
 } // namespace tessera::frame

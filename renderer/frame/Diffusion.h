@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "renderer/frame/DiffusionTiles.h"
 #include "renderer/frame/FrameSettings.h"
 #include "renderer/frame/UvAtlas.h"
 #include "renderer/gpu/Buffer.h"
@@ -82,6 +83,7 @@ struct DiffusionAtlas {
     gpu::Texture steps;          ///< RGBA32F: shaders/shared/diffusion.h
     gpu::Texture continued;      ///< RG32F, the same
     gpu::Buffer triangleNormals; ///< vec4 each, unit, of the front, axes of the world
+    std::vector<DiffusionTile> tiles;
 };
 
 /// The atlases of a scene, made when they are asked for.
@@ -99,17 +101,26 @@ private:
 /// Throws InputError where the object's texture coordinates do not unwrap it.
 void requireUnwrapped(const scenes::Scene& scene, const DiffusedObject& object);
 
-/// What the cells of a view's atlas hold from earlier frames, by what they were computed from.
+/// What is known of the cells of a view's atlas from earlier frames, tile by tile: the light that enters the surface,
+/// and the light that leaves it, spread. Both hold for the key that they were computed under (diffusionKey()).
 class DiffusionMemory {
 public:
-    /// Forgets all where the atlas is not held.
+    /// Forgets the light that leaves where the atlas is not held.
     void begin(std::size_t cells, bool holdsAtlas);
-    bool holds(std::size_t cell, std::uint64_t key) const { return held_[cell] == key; }
-    void hold(std::size_t cell, std::uint64_t key) { held_[cell] = key; }
-    void forget() { held_.assign(held_.size(), std::nullopt); }
+    void forget() { cells_.assign(cells_.size(), {}); }
+    void forgetEntering(std::size_t cell) { cells_[cell].entering = {}; }
+
+    /// Those of the tiles whose light that leaves, or that enters, is not known.
+    TileSet missing(std::size_t cell, std::uint64_t key, const TileSet& tiles) const;
+    TileSet unlit(std::size_t cell, std::uint64_t key, const TileSet& tiles) const;
+    void hold(std::size_t cell, std::uint64_t key, const TileSet& lit, const TileSet& spread);
 
 private:
-    std::vector<std::optional<std::uint64_t>> held_;
+    struct Cell {
+        std::optional<std::uint64_t> key;
+        TileSet entering, leaving;
+    };
+    std::vector<Cell> cells_;
 };
 
 } // namespace tessera::frame

@@ -86,21 +86,6 @@ DrawList makeDrawList(const scenes::Scene& scene) {
 
 namespace {
 
-/// Whether some plane of the view's frustum has all of a draw's box behind it.
-bool isOutside(const Draw& draw, const glm::dvec3& objectWS, const CameraView& view) {
-    const scenes::Box3& boxWS = draw.boxWS;
-    if (boxWS.empty()) return false;
-    const glm::dvec3 low = boxWS.min - view.originWS, high = boxWS.max - view.originWS;
-    const double errorMetres = roundingMetres(draw, objectWS, view);
-    return std::any_of(view.frustumPlanesLS.begin(), view.frustumPlanesLS.end(), [&](const glm::dvec4& plane) {
-        const glm::dvec3 normal = glm::dvec3(plane) * view.lsFromWorld; // by the transpose, into world axes
-        const glm::dvec3 innermost(normal.x > 0.0 ? high.x : low.x, normal.y > 0.0 ? high.y : low.y,
-                                   normal.z > 0.0 ? high.z : low.z);
-        const double insideMetres = glm::dot(normal, innermost) + plane.w;
-        return insideMetres < -errorMetres;
-    });
-}
-
 /// Extends `area` by the pixels in which a draw's box may be seen.
 void extend(PixelArea& area, const Draw& draw, const glm::dvec3& objectWS, const CameraView& view) {
     const scenes::Box3& boxWS = draw.boxWS;
@@ -186,7 +171,7 @@ ViewDraws makeViewDraws(const DrawList& list, const CameraView& view, bool culls
         const Draw& draw = list.draws[std::size_t(i)];
         const glm::dmat4& worldFromObject = list.worldFromObject[std::size_t(draw.node)];
         if (isWanted && !isWanted(draw)) continue;
-        if (culls && isOutside(draw, glm::dvec3(worldFromObject[3]), view)) continue;
+        if (culls && isOutside(draw.boxWS, roundingMetres(draw, glm::dvec3(worldFromObject[3]), view), view)) continue;
         const int place = int(result.seen.size());
         result.seen.push_back(i);
         result.rows.push_back(rowsOf(draw, worldFromObject, view));

@@ -39,7 +39,7 @@ struct DrawnView::Diffused {
     DrawnView drawn;
     const DiffusionAtlas* atlas = nullptr;
     std::uint64_t key = 0; ///< of all that its light is computed from
-    bool isSeen = false;   ///< in the view
+    TileSet seen;          ///< of the atlas, by the view
 };
 
 /// The camera of a view.

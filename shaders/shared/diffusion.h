@@ -6,7 +6,7 @@
 #define TEXTURE_UNIT_DIFFUSION_STEPS 0     // xy steps along u and v in metres, z shear, w chart, negative outside of it
 #define TEXTURE_UNIT_DIFFUSION_CONTINUED 1 // xy where the surface goes on, in texels
 #define TEXTURE_UNIT_DIFFUSION_LIGHT 2     // what is spread
-#define TEXTURE_UNIT_DIFFUSION_SUM 3       // what leaves, as far as it is known
+#define TEXTURE_UNIT_DIFFUSION_LEAVING 3   // what leaves where it enters
 
 // Taps lie this share of a Gaussian's standard deviation apart, so many to either side: its tails beyond 3.5 hold a
 // thousandth. A step of irradiance, narrower Gaussians before it or none, takes every texel (docs/skin.md).
@@ -16,6 +16,9 @@
 // Where a Gaussian is narrower than this share of a texel's square, three taps have its variance.
 #define DIFFUSION_NARROW 0.4
 
+// Light is computed tile by tile of so many texels a side (renderer/frame/DiffusionTiles.h).
+#define DIFFUSION_TILE_TEXELS 16
+
 SHARED_BEGIN
 
 struct DiffusionLightConstants {
@@ -23,8 +26,8 @@ struct DiffusionLightConstants {
     vec4 unblurred; // rgb that which texels show as they are lit
 };
 
-struct DiffusionFillConstants {
-    uvec4 fill; // xy corner of the target, in texels
+struct DiffusionStoreConstants {
+    uvec4 store; // xy corner of the cell, in texels
 };
 
 struct DiffusionBlurConstants {

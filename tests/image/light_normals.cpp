@@ -181,16 +181,19 @@ TEST_F(LightNormals, everyTileGivesTheSamePicture) {
     }
 }
 
-/// Without coats, and lit by many lights besides its own.
+/// Without what is lit from behind, coats and light that wraps around, and lit by many lights besides its own.
 scenes::Scene amongLights(scenes::Scene scene, int lights, float rangeMetres) {
     const scenes::Scene lit = test::litFromWithin(scene, lights, rangeMetres);
     scene.lights.insert(scene.lights.end(), lit.lights.begin(), lit.lights.end());
-    for (scenes::Material& material : scene.materials) material.clearcoat = 0.0f;
+    for (scenes::Material& material : scene.materials) {
+        material.clearcoat = 0.0f;
+        material.subsurface.method = scenes::SubsurfaceMethod::None;
+    }
     return scene;
 }
 
 // Normal maps, directions of gloss, cloth, Phong lobes, surfaces that are not lit and those that let light through.
-TEST_F(LightNormals, everyModelWithoutACoatKeepsItsPicture) {
+TEST_F(LightNormals, everyModelLitFromTheFrontAloneKeepsItsPicture) {
     for (const scenes::Scene& scene :
          {amongLights(test::everythingScene(), 150, 3.0f), amongLights(scenes::loadScene("models"), 150, 3.0f),
           amongLights(scenes::loadScene("head"), 100, 1.0f)}) {

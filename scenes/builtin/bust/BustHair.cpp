@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "scenes/builtin/Noise.h"
 
@@ -13,6 +14,28 @@ constexpr std::uint32_t kHairSeed = 29;
 constexpr double kCellBU = 0.27;   // about one curl a cell
 constexpr double kDomeBU = 0.05;   // height of a curl's middle
 constexpr double kPitchBU = 0.055; // from one turn of the spiral to the next
+
+/// Where the point of a cell lies within it.
+glm::dvec3 scatterIn(const glm::ivec3& cell) {
+    return {hashUnit(cell.x, cell.y, cell.z, kHairSeed), hashUnit(cell.x, cell.y, cell.z, kHairSeed + 1),
+            hashUnit(cell.x, cell.y, cell.z, kHairSeed + 2)};
+}
+
+/// The same from a table of the cells that the bust lies in: a bust asks for them a hundred million times.
+glm::dvec3 knownScatterIn(const glm::ivec3& cell) {
+    constexpr int kReach = 10, kSide = 2 * kReach; // cells
+    static const std::vector<glm::dvec3> table = [] {
+        std::vector<glm::dvec3> scatters;
+        for (int k = -kReach; k < kReach; ++k)
+            for (int j = -kReach; j < kReach; ++j)
+                for (int i = -kReach; i < kReach; ++i) scatters.push_back(scatterIn({i, j, k}));
+        return scatters;
+    }();
+    const glm::ivec3 place = cell + kReach;
+    const bool isIn =
+        glm::all(glm::greaterThanEqual(place, glm::ivec3(0))) && glm::all(glm::lessThan(place, glm::ivec3(kSide)));
+    return isIn ? table[std::size_t((place.z * kSide + place.y) * kSide + place.x)] : scatterIn(cell);
+}
 
 } // namespace
 
@@ -28,8 +51,7 @@ BustCurl bustCurl(const glm::dvec3& pointBU) {
         for (int j = -1; j <= 1; ++j) {
             for (int i = -1; i <= 1; ++i) {
                 const glm::ivec3 c = cell + glm::ivec3(i, j, k);
-                const glm::dvec3 scatter(hashUnit(c.x, c.y, c.z, kHairSeed), hashUnit(c.x, c.y, c.z, kHairSeed + 1),
-                                         hashUnit(c.x, c.y, c.z, kHairSeed + 2));
+                const glm::dvec3 scatter = knownScatterIn(c);
                 const glm::dvec3 point = glm::dvec3(c) + 0.2 + 0.6 * scatter;
                 const double distance = glm::distance(scaled, point);
                 if (distance < nearest) {
