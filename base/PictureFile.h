@@ -8,9 +8,6 @@
 
 namespace tessera {
 
-/// What the Software field of written files says.
-inline constexpr const char* kPictureSoftware = "tessera";
-
 /// Writes a linear picture as OpenEXR: channels R, G, B, A in fp32, losslessly compressed, Rec.709 primaries, no
 /// transfer function; A holds the coverage (1 or 0) and is no premultiplication. Every bit of R, G and B survives, NaN,
 /// infinities and denormals included. Written whole or not at all; throws std::runtime_error naming the path and the

@@ -1,10 +1,13 @@
-# tessera_floor(NAME [PUBLIC targets...] [PRIVATE targets...])
+# tessera_floor(NAME [WITHOUT folder] [PUBLIC targets...] [PRIVATE targets...])
 #
-# One library for one floor of the house: every .cpp below the calling folder, with its headers as an installable file
-# set. Headers are included by their path from the repository root ("scenes/Scene.h"), installed and not.
+# One library for one floor of the house: every .cpp below the calling folder but those in WITHOUT, with its headers as an
+# installable file set. Headers are included by their path from the repository root ("scenes/Scene.h"), installed and not.
 function(tessera_floor name)
-    cmake_parse_arguments(FLOOR "" "" "PUBLIC;PRIVATE" ${ARGN})
+    cmake_parse_arguments(FLOOR "" "WITHOUT" "PUBLIC;PRIVATE" ${ARGN})
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+    if(FLOOR_WITHOUT)
+        list(FILTER sources EXCLUDE REGEX "^${CMAKE_CURRENT_SOURCE_DIR}/${FLOOR_WITHOUT}/")
+    endif()
     file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
     if(NOT sources) # a floor that so far holds headers only
         file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "")
@@ -38,6 +41,8 @@ function(tessera_compile_options target)
     if(TESSERA_SANITIZE)
         target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
         target_link_options(${target} PRIVATE -fsanitize=address,undefined)
+        # The sanitizer opens modules in the program's name, so that only the program's own kind of run path counts.
+        target_link_options(${target} PRIVATE -Wl,--disable-new-dtags)
         # With sanitizers GCC 12 takes members of std::regex's own states for uninitialised (GCC bug 105562).
         target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
     endif()

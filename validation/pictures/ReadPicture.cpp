@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
-#include "base/PictureFile.h"
+#include "base/PictureLibrary.h"
 #include "base/Srgb.h"
 #include "scenes/import/Importers.h"
 
