@@ -91,7 +91,7 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::Prep
                          hasMaps ? fmt::format("in maps ({})", infoOf(settings.shadowFilter).name) : "traced"),
              std::move(why)});
         if (hasMaps) plan.choices.push_back(atlasChoice(prepared.shadowMaps, settings));
-        if (std::string cut = cutShadows(prepared.spec); !cut.empty())
+        if (std::string cut = cutShadows(prepared); !cut.empty())
             plan.choices.push_back(
                 {"loops of shadows", fmt::format("up to {} iterations", prepared.spec.iterations), std::move(cut)});
     }

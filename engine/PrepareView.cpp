@@ -44,21 +44,12 @@ std::string lostShadows(const frame::ShadowMaps& maps, const frame::FrameSetting
                        settingOf("shadowBudget").flag);
 }
 
-std::string missingShadows(const scenes::Scene& scene, std::span<const frame::SurfaceBounds> bounds,
-                           const frame::PreparedView& prepared) {
-    const frame::FrameSettings& settings = prepared.spec.settings;
-    if (!frame::showsShadows(settings.view)) return "";
-    const frame::DebugViewInfo& view = frame::debugViewInfo(settings.view);
-    if (frame::showsShadowsOfOne(settings.view) || frame::showsMaps(settings.view)) {
-        if (prepared.lights.shadowed == 0)
-            return fmt::format("the view {} has no shadow to show: {}", view.name,
-                               frame::whyNoShadows(scene, prepared.lights, settings.shadows));
-        if (frame::showsMaps(settings.view) && !infoOf(settings.shadowFilter).usesMaps)
-            return fmt::format("the view {} has no map to show: the shadow filter {} uses none; give {} hard",
-                               view.name, infoOf(settings.shadowFilter).name, settingOf("shadowFilter").flag);
-    }
+namespace {
+
+/// Why maps, or the rounding of casters, lose shadows of a view; empty: they do not.
+std::string shadowsLostByRounding(std::span<const frame::SurfaceBounds> bounds, const frame::PreparedView& prepared) {
     const frame::ShadowMaps& maps = prepared.shadowMaps;
-    if (std::string lost = lostShadows(maps, settings); !lost.empty()) return lost;
+    if (std::string lost = lostShadows(maps, prepared.spec.settings); !lost.empty()) return lost;
     const auto longest = std::ranges::max_element(bounds, {}, &frame::SurfaceBounds::longestMetres);
     if (prepared.lights.shadowed == 0 || longest == bounds.end()) return "";
     if (const double errorMetres = frame::kPositionRounding * longest->longestMetres;
@@ -74,8 +65,40 @@ std::string missingShadows(const scenes::Scene& scene, std::span<const frame::Su
                        settingOf("shadowBudget").flag);
 }
 
-std::string cutShadows(const frame::FrameSpec& spec) {
-    if (!spec.mayCutShadows()) return "";
+/// What is said of the first object that light spreads over and of which there is something to say: objects have lights
+/// and maps of their own.
+template <typename Say>
+std::string ofDiffusedObjects(const frame::PreparedView& prepared, Say say) {
+    for (std::size_t i = 0; i < prepared.diffused.size(); ++i)
+        if (const std::string said = say(prepared.diffused[i]); !said.empty())
+            return fmt::format("of the light that spreads over {}, {}", prepared.diffusedObjects[i].name, said);
+    return "";
+}
+
+} // namespace
+
+std::string missingShadows(const scenes::Scene& scene, std::span<const frame::SurfaceBounds> bounds,
+                           const frame::PreparedView& prepared) {
+    const frame::FrameSettings& settings = prepared.spec.settings;
+    if (!frame::showsShadows(settings.view)) return "";
+    const frame::DebugViewInfo& view = frame::debugViewInfo(settings.view);
+    if (frame::showsShadowsOfOne(settings.view) || frame::showsMaps(settings.view)) {
+        if (prepared.lights.shadowed == 0)
+            return fmt::format("the view {} has no shadow to show: {}", view.name,
+                               frame::whyNoShadows(scene, prepared.lights, settings.shadows));
+        if (frame::showsMaps(settings.view) && !infoOf(settings.shadowFilter).usesMaps)
+            return fmt::format("the view {} has no map to show: the shadow filter {} uses none; give {} hard",
+                               view.name, infoOf(settings.shadowFilter).name, settingOf("shadowFilter").flag);
+    }
+    if (std::string lost = shadowsLostByRounding(bounds, prepared); !lost.empty()) return lost;
+    return ofDiffusedObjects(prepared,
+                             [&](const frame::PreparedView& object) { return shadowsLostByRounding(bounds, object); });
+}
+
+std::string cutShadows(const frame::PreparedView& prepared) {
+    const frame::FrameSpec& spec = prepared.spec;
+    if (!spec.mayCutShadows())
+        return ofDiffusedObjects(prepared, [](const frame::PreparedView& object) { return cutShadows(object); });
     const bool mayNarrow =
         infoOf(spec.settings.shadowFilter).heedsWidth && spec.settings.shadowMaps.widthTexels > frame::kShadowWidths[0];
     const std::string fewer = mayNarrow ? fmt::format("a smaller {} or ", settingOf("shadowWidth").flag)

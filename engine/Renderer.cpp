@@ -206,7 +206,7 @@ DrawnShadows Renderer::shadows(std::size_t view) const {
     // Lights that casters may hide come first.
     for (std::size_t i = 0; i < prepared.lights.shadowed; ++i) drawn.lights.push_back({prepared.lights.sceneIndex[i]});
     if (const auto shown = std::size_t(prepared.lights.shown); shown < drawn.lights.size()) drawn.shown = shown;
-    drawn.cut = cutShadows(prepared.spec);
+    drawn.cut = cutShadows(prepared);
     drawn.missing = missingShadows(scene_, bounds_, prepared);
     if (!drawn.hasMaps) return drawn;
     const frame::ShadowMaps& maps = prepared.shadowMaps;

@@ -18,6 +18,14 @@ struct ChannelShare {
     double share;         ///< the pair's relMse minus that
 };
 
+/// What the reference knows of light that spreads, as means over the pixels that see it: a picture that spreads light
+/// along the surface must differ where these do from a plane's.
+struct SpreadLight {
+    std::size_t pixels = 0;
+    double integral = 1.0;   ///< of the profile over the surface; the reference divides by it. 1 on a plane
+    double facingAway = 0.0; ///< share of it where the surface faces away, as across thin parts
+};
+
 /// One comparison: picture a against the truth b.
 struct ComparePair {
     std::string a, b; ///< technique names, "reference", or a picture's file name
@@ -53,6 +61,7 @@ struct CompareRecord {
     std::vector<LostGeometry> lost = {}; ///< the part of it that rounding does not explain, by either filter
     std::vector<LeftOutTechnique> leftOut = {};
     std::optional<RangeTruncation> rangeTruncation = {}; ///< where a tolerance is set
+    std::optional<SpreadLight> spreadLight = {};         ///< against the reference, where light spreads
 
     /// There is a pair, and each holds.
     bool ok() const;

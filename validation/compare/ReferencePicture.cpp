@@ -58,6 +58,7 @@ ReferencePicture referencePicture(const scenes::Scene& scene, const frame::Frame
     result.alternatives = std::move(rendered.alternatives);
     result.undecidedShadows = std::move(rendered.undecidedShadows);
     result.shadowNoise = std::move(rendered.shadowNoise);
+    result.spread = std::move(rendered.spread);
     return result;
 }
 

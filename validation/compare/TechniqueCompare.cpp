@@ -300,12 +300,26 @@ Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& packing
     return tolerance;
 }
 
+/// Means over the pixels where light spreads; none: it spreads nowhere.
+std::optional<SpreadLight> spreadLight(const ReferencePicture& truth) {
+    SpreadLight sum{0, 0.0, 0.0};
+    for (const reference::Diffusion::Answer& answer : truth.spread) {
+        if (answer.whole == glm::dvec3(0.0)) continue;
+        ++sum.pixels;
+        sum.integral += (answer.whole.r + answer.whole.g + answer.whole.b) / 3.0;
+        sum.facingAway += answer.apart;
+    }
+    if (sum.pixels == 0) return {};
+    return SpreadLight{sum.pixels, sum.integral / double(sum.pixels), sum.facingAway / double(sum.pixels)};
+}
+
 CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilities& gl,
                                 const CompareRequest& request) {
     CompareResult result;
     const TruthPicture truth = truthPicture(renderer, request);
     result.truth = truth.own;
     result.record.lost = truth.triangles.lost;
+    if (truth.reference) result.record.spreadLight = spreadLight(*truth.reference);
     result.record.excludesPixels = !truth.triangles.excluded.empty();
     result.record.scene = renderer.scene().name;
     result.record.width = request.settings.sizePixels.x;

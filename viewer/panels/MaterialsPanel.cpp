@@ -56,13 +56,39 @@ bool modelRows(Material& material) {
 
 constexpr float kMostAbsorptionShown = 10.0f; // a tenth of a millimetre deep
 
+constexpr float kLeastScaleShown = 1e-3f, kMostScaleShown = 1e3f;
+
+/// A named profile; one of a scene file's own is shown as such, and kept until another is chosen.
+bool profileRow(scenes::Subsurface& subsurface) {
+    const std::span<const scenes::NamedProfile> named = scenes::namedProfiles();
+    std::vector<Choice> choices;
+    std::size_t now = subsurface.profile.empty() ? 0 : named.size();
+    for (std::size_t i = 0; i < named.size(); ++i) {
+        choices.push_back({named[i].name, ""});
+        if (subsurface.profile == named[i].profile) now = i;
+    }
+    constexpr std::string_view kOwn = "of the scene file";
+    if (now == named.size()) choices.push_back({kOwn, "Gaussians that the scene file gives"});
+    const auto chosen = choose("Profile", choices[now].name, choices, now);
+    if (!chosen || *chosen == named.size()) return false;
+    subsurface.profile = named[*chosen].profile;
+    return true;
+}
+
 bool subsurfaceRows(scenes::Subsurface& subsurface) {
     bool changed = chooseNamed("Subsurface", subsurface.method);
     if (subsurface.method == scenes::SubsurfaceMethod::Wrap) {
         changed |= slider("Wrap", subsurface.wrap, 0.0f, 1.0f);
         changed |= colorRow("Wrap tint", subsurface.wrapTint);
-    } else if (subsurface.method == scenes::SubsurfaceMethod::DepthMap) {
+    } else if (subsurface.method != scenes::SubsurfaceMethod::None) {
         changed |= colorRow("Absorbs / mm", subsurface.absorptionPerMillimetre, kMostAbsorptionShown);
+        changed |=
+            logarithmicSlider("Scale", subsurface.scaleMetres, kLeastScaleShown, kMostScaleShown, "%.3g m a metre");
+    }
+    if (subsurface.method == scenes::SubsurfaceMethod::TextureSpaceDiffusion) {
+        changed |= profileRow(subsurface);
+        changed |= slider("Albedo before", subsurface.preScatterShare, 0.0f, 1.0f);
+        tip("How much of the colour takes part before light spreads, which blurs it; the rest stays sharp");
     }
     return changed;
 }

@@ -82,6 +82,13 @@ bool slider(const char* label, float& value, float least, float most, const char
                 [&](float& edited) { return ImGui::SliderFloat(idOf(label).c_str(), &edited, least, most, format); });
 }
 
+bool logarithmicSlider(const char* label, float& value, float least, float most, const char* format) {
+    row(label);
+    return edit(value, least, most, [&](float& edited) {
+        return ImGui::SliderFloat(idOf(label).c_str(), &edited, least, most, format, ImGuiSliderFlags_Logarithmic);
+    });
+}
+
 bool angleSlider(const char* label, float& radians, float leastDegrees, float mostDegrees) {
     row(label);
     return edit(radians, glm::radians(leastDegrees), glm::radians(mostDegrees), [&](float& edited) {

@@ -39,6 +39,8 @@ bool edit(Value& value, Number least, Number most, const Widget& widget) {
 
 /// A slider in a row of its own. Whether it changed the value.
 bool slider(const char* label, float& value, float least, float most, const char* format = "%.3f");
+/// The same for values over several powers of ten.
+bool logarithmicSlider(const char* label, float& value, float least, float most, const char* format);
 /// The same of an angle, which is shown in degrees.
 bool angleSlider(const char* label, float& radians, float leastDegrees, float mostDegrees);
 /// The channels of a linear colour from 0 to `most`, in a row of its own; above 1 for emitters.

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
+#include "engine/PrepareView.h"
 #include "engine/Renderer.h"
 #include "renderer/frame/RefineLayout.h"
 #include "scenes/Load.h"
@@ -156,6 +157,13 @@ TEST(PlanFrame, shadowsThatLoopsOfMesaMayEndAreToldWithTheRemedy) {
     EXPECT_EQ(told(softLights(1000)).first, "") << "21 iterations a light with 3 texels";
     settings.shadowMaps.widthTexels = 7;
     EXPECT_THAT(told(softLights(1000)).second, testing::HasSubstr("give a smaller --shadow-width or"));
+    // The object that light spreads over has lights of its own.
+    frame::PreparedView whole;
+    whole.diffused = {prepareView(softLights(1000), Technique::Deferred, settings)};
+    whole.diffusedObjects.emplace_back().name = "mesh 'bust'";
+    EXPECT_THAT(cutShadows(whole), testing::StartsWith("of the light that spreads over mesh 'bust', shadows of 1000"));
+    whole.diffused.clear();
+    EXPECT_EQ(cutShadows(whole), "");
     // Cascades count each.
     scenes::Scene suns = softLights(300);
     for (scenes::Light& light : suns.lights) light.type = scenes::LightType::Directional;

@@ -175,6 +175,19 @@ TEST(CompareRecord, theErrorOfARangeToleranceIsReportedWhereOneIsSet) {
     EXPECT_FALSE(nothing["why"]["bias"].get<std::string>().empty());
 }
 
+TEST(CompareRecord, tellsWhatTheReferenceKnowsOfSpreadLight) {
+    CompareRecord record = sampleRecord();
+    EXPECT_FALSE(Json::parse(compareJson(record)).contains("spreadLight"));
+    EXPECT_THAT(compareTable(record), testing::Not(HasSubstr("spread light")));
+    record.spreadLight = {7, 1.25, 0.125};
+    const Json json = Json::parse(compareJson(record))["spreadLight"];
+    EXPECT_THAT(keys(json), ElementsAre("pixels", "integral", "facingAway"));
+    EXPECT_EQ(json["integral"], 1.25);
+    EXPECT_THAT(compareTable(record),
+                HasSubstr("spread light: in 7 pixels; the profile's integral over the surface, by "
+                          "which the reference divides, is 1.25 on average; 12.500 % of it"));
+}
+
 TEST(CompareRecord, picturesOfTwoSizesAreRefused) {
     EXPECT_THROW(comparePair("a", greyPicture(1, 1, 1), "b", greyPicture(2, 1, 1), {}), InputError);
 }
