@@ -129,7 +129,7 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     command.add_flag("--no-default-light", options.noDefaultLight, "Leaves a scene without lights dark")
         ->group("Frame");
     addSettings(command, options, "Shadows");
-    addSettings(command, options, "Skin");
+    addSettings(command, options, "Subsurface scattering");
     command
         .add_option("--memory-limit", options.memoryLimit,
                     "The most memory that reading a scene may take [half of the machine's]")

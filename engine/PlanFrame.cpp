@@ -91,9 +91,9 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::Prep
                          hasMaps ? fmt::format("in maps ({})", infoOf(settings.shadowFilter).name) : "traced"),
              std::move(why)});
         if (hasMaps) plan.choices.push_back(atlasChoice(prepared.shadowMaps, settings));
-        if (std::string cut = cutShadows(prepared); !cut.empty())
+        if (CutShadows cut = cutShadows(prepared); !cut.why.empty())
             plan.choices.push_back(
-                {"loops of shadows", fmt::format("up to {} iterations", prepared.spec.iterations), std::move(cut)});
+                {"loops of shadows", fmt::format("up to {} iterations", cut.iterations), std::move(cut.why)});
     }
     for (const std::string& warning : scene.warnings) plan.choices.push_back({"scene", scene.name, warning});
 }

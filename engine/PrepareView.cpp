@@ -65,14 +65,9 @@ std::string shadowsLostByRounding(std::span<const frame::SurfaceBounds> bounds, 
                        settingOf("shadowBudget").flag);
 }
 
-/// What is said of the first object that light spreads over and of which there is something to say: objects have lights
-/// and maps of their own.
-template <typename Say>
-std::string ofDiffusedObjects(const frame::PreparedView& prepared, Say say) {
-    for (std::size_t i = 0; i < prepared.diffused.size(); ++i)
-        if (const std::string said = say(prepared.diffused[i]); !said.empty())
-            return fmt::format("of the light that spreads over {}, {}", prepared.diffusedObjects[i].name, said);
-    return "";
+/// What is said of an object that light spreads over, which has lights and maps of its own.
+std::string ofObject(const frame::DiffusedObject& object, const std::string& said) {
+    return said.empty() ? "" : fmt::format("when lighting {} for diffusion: {}", object.name, said);
 }
 
 } // namespace
@@ -91,25 +86,34 @@ std::string missingShadows(const scenes::Scene& scene, std::span<const frame::Su
                                view.name, infoOf(settings.shadowFilter).name, settingOf("shadowFilter").flag);
     }
     if (std::string lost = shadowsLostByRounding(bounds, prepared); !lost.empty()) return lost;
-    return ofDiffusedObjects(prepared,
-                             [&](const frame::PreparedView& object) { return shadowsLostByRounding(bounds, object); });
+    for (std::size_t i = 0; i < prepared.diffused.size(); ++i)
+        if (std::string lost =
+                ofObject(prepared.diffusedObjects[i], shadowsLostByRounding(bounds, prepared.diffused[i]));
+            !lost.empty())
+            return lost;
+    return "";
 }
 
-std::string cutShadows(const frame::PreparedView& prepared) {
+CutShadows cutShadows(const frame::PreparedView& prepared) {
     const frame::FrameSpec& spec = prepared.spec;
-    if (!spec.mayCutShadows())
-        return ofDiffusedObjects(prepared, [](const frame::PreparedView& object) { return cutShadows(object); });
+    if (!spec.mayCutShadows()) {
+        for (std::size_t i = 0; i < prepared.diffused.size(); ++i)
+            if (const CutShadows cut = cutShadows(prepared.diffused[i]); !cut.why.empty())
+                return {ofObject(prepared.diffusedObjects[i], cut.why), cut.iterations};
+        return {};
+    }
     const bool mayNarrow =
         infoOf(spec.settings.shadowFilter).heedsWidth && spec.settings.shadowMaps.widthTexels > frame::kShadowWidths[0];
     const std::string fewer = mayNarrow ? fmt::format("a smaller {} or ", settingOf("shadowWidth").flag)
                               : spec.features[frame::Feature::SoftShadows]
                                   ? fmt::format("fewer {} or ", settingOf("shadowSamples").flag)
                                   : "";
-    return fmt::format("shadows of {} take up to {} iterations of a shader's loops where all reach a pixel, and Mesa "
-                       "ends those after {}, which "
-                       "gives NaN; give {}shadows to fewer lights ({} N)",
-                       frame::lightsText(spec.shadowedLights), spec.iterations, frame::kMostLoopIterations, fewer,
-                       settingOf("shadows").flag);
+    return {fmt::format("shadows of {} take up to {} iterations of a shader's loops where all reach a pixel, and Mesa "
+                        "ends those after {}, which "
+                        "gives NaN; give {}shadows to fewer lights ({} N)",
+                        frame::lightsText(spec.shadowedLights), spec.iterations, frame::kMostLoopIterations, fewer,
+                        settingOf("shadows").flag),
+            spec.iterations};
 }
 
 namespace {
@@ -163,8 +167,14 @@ frame::PreparedView prepareDiffused(const scenes::Scene& scene, const frame::Dif
 
 void addDiffused(const scenes::Scene& scene, std::span<const frame::SurfaceBounds> bounds,
                  frame::PreparedView& prepared) {
+    std::vector<frame::SurfaceBounds> own;
+    if (bounds.empty()) bounds = own = frame::surfaceBounds(scene); // a plan
     frame::FrameSpec& spec = prepared.spec;
-    prepared.diffusedObjects = frame::diffusedObjects(scene, spec.settings.subsurface);
+    prepared.diffusedObjects = frame::diffusedObjects(scene, spec.settings.subsurface, bounds);
+    if (prepared.diffusedObjects.size() > kMostDiffusedObjects)
+        throw InputError(fmt::format("{}: light spreads over {} objects, {} is the most; give some of their materials "
+                                     "another subsurface method",
+                                     scene.name, prepared.diffusedObjects.size(), kMostDiffusedObjects));
     for (const frame::DiffusedObject& object : prepared.diffusedObjects) {
         prepared.diffused.push_back(prepareDiffused(scene, object, spec.settings, bounds));
         spec.diffused.push_back(prepared.diffused.back().spec);
@@ -172,8 +182,8 @@ void addDiffused(const scenes::Scene& scene, std::span<const frame::SurfaceBound
     const glm::ivec2 texels = spec.diffusedCells().texels();
     if (std::max(texels.x, texels.y) > frame::kLargestSidePixels)
         throw InputError(
-            fmt::format("{}: light spreads over {} objects, whose atlases of {} texels a side do not fit a "
-                        "texture; give {} a smaller one",
+            fmt::format("{}: light spreads over {} objects, whose atlases of {} texels a side together exceed the "
+                        "largest texture; give a smaller {}",
                         scene.name, spec.diffused.size(), spec.spreadTexels(), settingOf("diffusionTexels").flag));
 }
 

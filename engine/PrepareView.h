@@ -23,8 +23,12 @@ std::string lostShadows(const frame::ShadowMaps& maps, const frame::FrameSetting
 /// `bounds` are of everything drawn.
 std::string missingShadows(const scenes::Scene& scene, std::span<const frame::SurfaceBounds> bounds,
                            const frame::PreparedView& prepared);
-/// How shadows may take more iterations than Mesa lets loops make, and what to do; empty: they do not.
-std::string cutShadows(const frame::PreparedView& prepared);
+/// How shadows may take more iterations than Mesa lets loops make, and what to do; `why` is empty where they do not.
+struct CutShadows {
+    std::string why;
+    std::size_t iterations = 0;
+};
+CutShadows cutShadows(const frame::PreparedView& prepared);
 
 /// The camera that the settings ask for, where they put it.
 scenes::Camera frameCamera(const scenes::Scene& scene, const frame::FrameSettings& settings);

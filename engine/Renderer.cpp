@@ -9,6 +9,7 @@
 #include "base/Error.h"
 #include "engine/ChooseSamples.h"
 #include "engine/PrepareView.h"
+#include "passes/DiffusionPasses.h"
 #include "renderer/graph/Execute.h"
 
 namespace tessera::engine {
@@ -56,7 +57,9 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
         return *sceneGpu_;
     }
     sceneGpu_ = std::make_unique<frame::SceneGpu>(scene_, features, filter, subsurface);
+    // The revisions of its casters begin anew.
     shadowMemories_.forget();
+    for (auto& [view, memory] : diffusionMemories_) memory.forget();
     materialsChanged_ = false;
     sceneFeatures_ = features;
     sceneFilter_ = filter;
@@ -101,6 +104,8 @@ void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
         own.atlas = &diffusionAtlases_.of(object, spec.spreadTexels(), spec.gutterTexels);
         own.key = frame::diffusionKey(scene_, object, own.drawn.prepared, view.scene->casterRevision());
         own.seen = seenTiles(object, *own.atlas, view);
+        // A frame that sees nothing new does not read it, but the next one may.
+        for (const std::string& name : passes::DiffusionPasses::keptNames(number, cell)) backend_.keep(name);
     }
 }
 
@@ -206,7 +211,7 @@ DrawnShadows Renderer::shadows(std::size_t view) const {
     // Lights that casters may hide come first.
     for (std::size_t i = 0; i < prepared.lights.shadowed; ++i) drawn.lights.push_back({prepared.lights.sceneIndex[i]});
     if (const auto shown = std::size_t(prepared.lights.shown); shown < drawn.lights.size()) drawn.shown = shown;
-    drawn.cut = cutShadows(prepared);
+    drawn.cut = cutShadows(prepared).why;
     drawn.missing = missingShadows(scene_, bounds_, prepared);
     if (!drawn.hasMaps) return drawn;
     const frame::ShadowMaps& maps = prepared.shadowMaps;

@@ -115,9 +115,9 @@ public:
 private:
     struct Drawn;
     const Drawn& latest() const;
-    /// The objects of a view that light spreads over.
     frame::TileSet seenTiles(const frame::DiffusedObject& object, const frame::DiffusionAtlas& atlas,
                              const frame::DrawnView& view) const;
+    /// The objects of a view that light spreads over.
     void addDiffused(std::size_t number, frame::DrawnView& view);
 
     gpu::Context& context_;

@@ -85,8 +85,8 @@ struct ViewWiring {
     TextureHandle addDiffused(const FrameHandles& frame, const ViewSource& view, std::size_t index) {
         // What is in the atlas is known cell by cell, not by a revision of the whole.
         constexpr std::uint64_t kRevision = 1;
-        const std::string suffix = index == 0 ? "" : fmt::format(" ({})", index + 1);
-        TextureHandle atlas = graph.persist("diffused_light" + suffix, DiffusionPasses::atlas(spec), kRevision);
+        const std::string name = index == 0 ? "diffused_light" : fmt::format("diffused_light ({})", index + 1);
+        TextureHandle atlas = graph.persist(name, DiffusionPasses::atlas(spec), kRevision);
         const bool holdsAtlas = graph.holds(atlas);
         if (drawn != nullptr) drawn->diffusionMemory->begin(spec.diffused.size(), holdsAtlas);
         bool writes = false;
@@ -98,7 +98,7 @@ struct ViewWiring {
             const ViewSource object{view.technique, spec.diffused[cell], own ? &own->drawn : nullptr};
             const ViewWiring wiring(graph, frame, object, numberOfObject(index, cell));
             atlas =
-                DiffusionPasses::add(graph, spec, cell, {wiring.surfaces, wiring.lighting, atlas, drawn, suffix}).atlas;
+                DiffusionPasses::add(graph, spec, cell, {wiring.surfaces, wiring.lighting, atlas, drawn, index}).atlas;
             writes = true;
         }
         return atlas;

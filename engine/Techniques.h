@@ -73,8 +73,9 @@ struct AfterOpaque {
 
 /// Objects that light spreads over are lit as views of their own (frame::DrawnView::Diffused), which are numbered
 /// behind those of the frame, of which there are fewer.
+constexpr std::size_t kMostDiffusedObjects = 4096; ///< of a view
 constexpr std::size_t numberOfObject(std::size_t view, std::size_t cell) {
-    return 4096 * (view + 1) + cell;
+    return kMostDiffusedObjects * (view + 1) + cell;
 }
 
 /// What a view is declared from.

@@ -46,6 +46,11 @@ shader::ProgramDesc blurProgram(bool alongV) {
                          {{"SUMS", alongV ? "1" : "0"}});
 }
 
+/// Of the names of an object's passes and resources.
+std::string suffixOf(std::size_t cell) {
+    return cell == 0 ? "" : fmt::format(", object {}", cell + 1);
+}
+
 /// Rectangles of tiles, in texels.
 using Rectangles = std::vector<gpu::Rectangle>;
 
@@ -65,7 +70,7 @@ struct Object {
 
     /// What is known of an object's light as it is lit: what enters its surface, and the share of it that leaves there.
     struct Light {
-        TextureHandle entering, leaving;
+        TextureHandle entering, unblurred;
     };
     /// Lights some tiles anew.
     Light light(const DiffusionPasses::Inputs& inputs, const frame::DiffusionAtlas* atlas, Light light,
@@ -78,7 +83,7 @@ struct Object {
     };
     Spread spread(std::size_t level, const Spread& before, const frame::DiffusionWork::Level& tiles) const;
     /// Fills into the object's cell of a view's atlas, and says there what else pixels ask for.
-    TextureHandle store(const Spread& spread, TextureHandle leaving, TextureHandle atlas,
+    TextureHandle store(const Spread& spread, TextureHandle unblurred, TextureHandle atlas,
                         const frame::DiffusedCells& cells, std::size_t cell, const frame::TileSet& tiles,
                         const std::function<void()>& done) const;
 
@@ -116,15 +121,15 @@ Object::Light Object::light(const DiffusionPasses::Inputs& inputs, const frame::
                         out.triangleNormals = pass.read(imported, Access::TexelRead);
                     if (isHalved)
                         out.light = {pass.create("whole_entering_light", square(side)),
-                                     pass.create("whole_leaving_light", square(side))};
+                                     pass.create("whole_unblurred_light", square(side))};
                     else
-                        out.light = {pass.write(light.entering), pass.write(light.leaving)};
+                        out.light = {pass.write(light.entering), pass.write(light.unblurred)};
                     out.mask = pass.create("diffusion_mask", square(side, graph::Format::Depth32Float),
                                            Access::DepthAttachment);
                 },
                 [side, rectangles = tiles.rectangles(frame::kDiffusionTileTexels * (isHalved ? 2 : 1), side),
-                 constants = shared::DiffusionLightConstants{glm::vec4(spec.spread->unspread, 0.0),
-                                                             glm::vec4(spec.spread->unblurred, 0.0)}](
+                 constants = shared::DiffusionLightConstants{glm::vec4(spec.spread->inPixels, 0.0),
+                                                             glm::vec4(spec.spread->inTexels, 0.0)}](
                     const Data& out, const graph::PassContext& context) {
                     context.bindTargets();
                     // Nothing passes a depth of 1.
@@ -161,15 +166,15 @@ Object::Light Object::halve(Light whole, Light halved, const frame::TileSet& til
             "diffusion_halve" + suffix,
             [&](graph::PassBuilder& pass, Data& out) {
                 pass.program(halveProgram());
-                out.whole = {pass.read(whole.entering), pass.read(whole.leaving)};
-                out.halved = {pass.write(halved.entering), pass.write(halved.leaving)};
+                out.whole = {pass.read(whole.entering), pass.read(whole.unblurred)};
+                out.halved = {pass.write(halved.entering), pass.write(halved.unblurred)};
             },
             [rectangles = rectanglesOf(tiles)](const Data& out, const graph::PassContext& context) {
                 context.bindTargets();
                 gpu::useProgram(context.program());
                 gpu::setState({});
                 gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LIGHT, context.texture(out.whole.entering));
-                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LEAVING, context.texture(out.whole.leaving));
+                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_UNBLURRED, context.texture(out.whole.unblurred));
                 drawWithin(rectangles);
             })
         .halved;
@@ -201,15 +206,15 @@ TextureHandle Object::fill(const std::string& name, TextureHandle light, const f
         .filled;
 }
 
-TextureHandle Object::store(const Spread& spread, TextureHandle leaving, TextureHandle atlas,
+TextureHandle Object::store(const Spread& spread, TextureHandle unblurred, TextureHandle atlas,
                             const frame::DiffusedCells& cells, std::size_t cell, const frame::TileSet& tiles,
                             const std::function<void()>& done) const {
     struct Data {
-        TextureHandle steps, continued, leaving, atlas;
+        TextureHandle steps, continued, unblurred, atlas;
         std::optional<TextureHandle> sum;
     };
     const glm::ivec2 corner = cells.corner(int(cell)), ofCell = cells.ofCell(int(cell));
-    const glm::vec4 values(glm::vec3(spec.spread->unspread),
+    const glm::vec4 values(glm::vec3(spec.spread->inPixels),
                            float(frame::borderTexels(spec.gutterTexels, cells.sideTexels)));
     Rectangles rectangles = rectanglesOf(tiles);
     for (gpu::Rectangle& rectangle : rectangles) {
@@ -223,7 +228,7 @@ TextureHandle Object::store(const Spread& spread, TextureHandle leaving, Texture
                 pass.program(fillProgram("diffusion_store", {{"STORES", "1"}, {"SUMS", spread.sum ? "1" : "0"}}));
                 out.steps = pass.read(steps);
                 out.continued = pass.read(continued);
-                out.leaving = pass.read(leaving);
+                out.unblurred = pass.read(unblurred);
                 if (spread.sum) out.sum = pass.read(*spread.sum);
                 out.atlas = pass.write(atlas);
             },
@@ -234,7 +239,7 @@ TextureHandle Object::store(const Spread& spread, TextureHandle leaving, Texture
                 context.constants(UNIFORM_PASS, shared::DiffusionStoreConstants{glm::uvec4(corner, 0, 0)});
                 gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_STEPS, context.texture(out.steps));
                 gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_CONTINUED, context.texture(out.continued));
-                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LEAVING, context.texture(out.leaving));
+                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_UNBLURRED, context.texture(out.unblurred));
                 if (out.sum) gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LIGHT, context.texture(*out.sum));
                 drawWithin(rectangles);
                 gpu::setScissor({ofCell.x, ofCell.y, 1, 1});
@@ -253,7 +258,7 @@ Object::Spread Object::spread(std::size_t number, const Spread& before,
     const frame::DiffusionLevel& level = spec.spread->levels[number];
     const auto constants = [&](bool alongV) {
         return shared::DiffusionBlurConstants{
-            glm::vec4(float(level.varianceSquareMetres), alongV ? 1.0f : 0.0f, number == 0 ? 1.0f : 0.0f, 0.0f),
+            glm::vec4(float(level.varianceSquareMetres), alongV ? 1.0f : 0.0f, level.isFine ? 1.0f : 0.0f, 0.0f),
             glm::vec4(glm::vec3(level.weight), 0.0f)};
     };
     const auto run = [](const Data& out, const graph::PassContext& context, const Rectangles& rectangles,
@@ -308,6 +313,11 @@ graph::TextureDesc DiffusionPasses::atlas(const frame::FrameSpec& view) {
     return {kFormat, texels.x, texels.y};
 }
 
+std::array<std::string, 2> DiffusionPasses::keptNames(std::size_t view, std::size_t cell) {
+    const std::string suffix = suffixOf(cell) + (view == 0 ? "" : fmt::format(" ({})", view + 1));
+    return {"entering_light" + suffix, "unblurred_light" + suffix};
+}
+
 DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::FrameSpec& view, std::size_t cell,
                                               const Inputs& inputs) {
     // What is in them is known tile by tile, not by a revision of the whole.
@@ -316,14 +326,13 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
     const frame::DrawnView::Diffused* const drawn = inputs.drawn ? &inputs.drawn->diffused[cell] : nullptr;
     const frame::DiffusionAtlas* const atlas = drawn ? drawn->atlas : nullptr;
     const int side = spec.spreadTexels();
-    Object object{graph, spec, cell == 0 ? "" : fmt::format(", object {}", cell + 1), {}, {}};
+    Object object{graph, spec, suffixOf(cell), {}, {}};
     object.steps = graph.import("diffusion_steps" + object.suffix, square(side), atlas ? &atlas->steps : nullptr);
     object.continued = graph.import("diffusion_continued" + object.suffix, square(side, graph::Format::Rg32Float),
                                     atlas ? &atlas->continued : nullptr);
-    const auto kept = [&](const std::string& name) {
-        return graph.persist(name + object.suffix + inputs.viewSuffix, square(side), kRevision);
-    };
-    Object::Light light{kept("entering_light"), kept("leaving_light")};
+    const auto [entering, unblurred] = keptNames(inputs.viewNumber, cell);
+    Object::Light light{graph.persist(entering, square(side), kRevision),
+                        graph.persist(unblurred, square(side), kRevision)};
 
     frame::DiffusionWork work;
     work.levels.resize(spec.spread->levels.size());
@@ -331,7 +340,7 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
     bool lights = true;
     if (drawn) {
         frame::DiffusionMemory* const memory = inputs.drawn->diffusionMemory;
-        if (!graph.holds(light.entering) || !graph.holds(light.leaving)) memory->forgetEntering(cell);
+        if (!graph.holds(light.entering) || !graph.holds(light.unblurred)) memory->forgetLit(cell);
         std::vector<double> variances;
         for (const frame::DiffusionLevel& level : spec.spread->levels) variances.push_back(level.varianceSquareMetres);
         work = frame::diffusionWork(atlas->tiles, variances, memory->missing(cell, drawn->key, drawn->seen));
@@ -345,7 +354,7 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
     Object::Spread spread{light.entering, {}};
     for (std::size_t level = 0; level < work.levels.size(); ++level)
         spread = object.spread(level, spread, work.levels[level]);
-    return {object.store(spread, light.leaving, inputs.atlas, view.diffusedCells(), cell, work.store, done)};
+    return {object.store(spread, light.unblurred, inputs.atlas, view.diffusedCells(), cell, work.store, done)};
 }
 
 } // namespace tessera::passes

@@ -1,24 +1,32 @@
 #pragma once
+#include <array>
+#include <string>
+
 #include "renderer/frame/FrameHandles.h"
 
 namespace tessera::passes {
 
 /// Spreads the light of an object over its surface, in an atlas of its texture coordinates (docs/skin.md).
 /// Reads   the scene, the lights that reach the object, and what is known of its light from earlier frames
-/// Writes  a cell of the view's atlas, RGBA32F: rgb what enters the surface, spread, times the albedo's power before
-///         spreading; per model as its BRDF takes it (irradiance of Lambert's k_d); and what it knows of the cell
+/// Writes  a cell of the view's atlas, RGBA32F: rgb irradiance over pi times the albedo to the power of
+/// preScatterShare,
+///         spread, a 1 where it is known; and what pixels ask of the cell. entering_light and unblurred_light, which
+///         are kept for later frames: the same as lit, and the share of it that texels show as they are lit
 /// Space   of the atlas; lights around the object, in world axes
+/// Source  d'Eon and Luebke 2007, GPU Gems 3, chapter 14; Green 2004, GPU Gems, chapter 16
 struct DiffusionPasses {
     struct Inputs {
         frame::SurfaceHandles surfaces; ///< as the object's own view draws it
         frame::LightingInputs lighting;
         graph::TextureHandle atlas;
         const frame::DrawnView* drawn = nullptr; ///< the view; null for a plan
-        std::string viewSuffix;                  ///< of what is kept for the view
+        std::size_t viewNumber = 0;
     };
     struct Outputs {
         graph::TextureHandle atlas;
     };
+    /// Names of what is kept of a cell besides the atlas.
+    static std::array<std::string, 2> keptNames(std::size_t view, std::size_t cell);
     static graph::TextureDesc atlas(const frame::FrameSpec& view);
     static Outputs add(graph::Graph& graph, const frame::FrameSpec& view, std::size_t cell, const Inputs& inputs);
 };

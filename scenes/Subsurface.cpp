@@ -29,6 +29,10 @@ std::span<const NamedProfile> namedProfiles() {
     return profiles;
 }
 
+const DiffusionProfile& profileOf(const Subsurface& subsurface) {
+    return subsurface.profile.empty() ? namedProfiles().front().profile : subsurface.profile;
+}
+
 std::string profileProblem(const DiffusionProfile& profile) {
     if (profile.empty()) return "";
     if (profile.size() > kMostGaussians)

@@ -73,6 +73,9 @@ struct Subsurface {
     bool operator==(const Subsurface&) const = default;
 };
 
+/// Its own, or `skin`.
+const DiffusionProfile& profileOf(const Subsurface& subsurface);
+
 // A millionth of a metre to a thousand kilometres: beyond any model.
 inline constexpr double kLeastScaleMetres = 1e-6, kMostScaleMetres = 1e6;
 inline constexpr double kMostAbsorption = 1e6;

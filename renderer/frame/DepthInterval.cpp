@@ -137,15 +137,30 @@ double usualMetresOf(const std::vector<glm::dvec3>& cornersWS) {
     return medianBy([&](const glm::dvec3& cornerWS) { return glm::distance(cornerWS, medianWS); });
 }
 
+/// SurfaceBounds::textureSideMetres; `cornersWS` are three a triangle.
+double textureSideMetresOf(const scenes::Mesh& mesh, std::span<const glm::dvec3> cornersWS) {
+    if (mesh.texCoords[0].empty()) return 0.0;
+    double square = 0.0, covered = 0.0;
+    for (std::size_t i = 0; i + 2 < cornersWS.size(); i += 3) {
+        const auto place = [&](std::size_t c) { return glm::dvec2(mesh.texCoords[0][mesh.indices[i + c]]); };
+        const glm::dvec2 a = place(1) - place(0), b = place(2) - place(0);
+        covered += std::abs(a.x * b.y - a.y * b.x);
+        square += glm::length(glm::cross(cornersWS[i + 1] - cornersWS[i], cornersWS[i + 2] - cornersWS[i]));
+    }
+    return covered > 0.0 ? std::sqrt(square / covered) : 0.0;
+}
+
 } // namespace
 
 std::vector<SurfaceBounds> surfaceBounds(const scenes::Scene& scene) {
     const std::vector<glm::dmat4> worldFromNode = scenes::worldFromNodes(scene);
     std::vector<SurfaceBounds> all;
+    int number = 0;
     for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
         for (const scenes::MeshInstance& instance : scene.nodes[node].instances) {
             const scenes::Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
             SurfaceBounds bounds;
+            bounds.instance = number++;
             std::vector<glm::dvec3> cornersWS;
             for (const std::uint32_t index : mesh.indices) {
                 cornersWS.emplace_back(worldFromNode[node] * glm::dvec4(glm::dvec3(mesh.positionsOS[index]), 1.0));
@@ -159,6 +174,7 @@ std::vector<SurfaceBounds> surfaceBounds(const scenes::Scene& scene) {
                 bounds.longestMetres = std::max(bounds.longestMetres, glm::distance(cornersWS[i], cornersWS[next]));
             }
             bounds.usualMetres = usualMetresOf(cornersWS);
+            bounds.textureSideMetres = textureSideMetresOf(mesh, cornersWS);
             for (const glm::dvec3& corner : cornersOf(bounds.boxWS))
                 bounds.reachMetres =
                     std::max(bounds.reachMetres, glm::distance(corner, glm::dvec3(worldFromNode[node][3])));

@@ -15,7 +15,9 @@ struct SurfaceBounds {
     glm::dvec3 nodeWS{0.0};     ///< the node's origin
     double longestMetres = 0.0; ///< of the edges
     std::size_t triangles = 0;
-    double usualMetres = 0.0; ///< the median of the corners' distances from their median: without strays
+    double usualMetres = 0.0;       ///< the median of the corners' distances from their median: without strays
+    double textureSideMetres = 0.0; ///< that a side of the first texture coordinates covers, by areas; 0: no area
+    int instance = 0;               ///< place among the mesh instances of all nodes, in document order
 };
 
 /// Bounds of everything drawn, one per mesh instance with triangles.

@@ -35,25 +35,6 @@ double meanOf(const glm::dvec3& weight) {
     return (weight.r + weight.g + weight.b) / 3.0;
 }
 
-/// DiffusedObject::sideMetres.
-double metresASide(const scenes::Mesh& mesh, const glm::dmat4& worldFromObject) {
-    if (mesh.texCoords[0].empty()) return 0.0;
-    double square = 0.0, covered = 0.0;
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        glm::dvec3 corners[3];
-        glm::dvec2 places[3];
-        for (std::size_t c = 0; c < 3; ++c) {
-            const std::uint32_t vertex = mesh.indices[i + c];
-            corners[c] = glm::dvec3(worldFromObject * glm::dvec4(glm::dvec3(mesh.positionsOS[vertex]), 1.0));
-            places[c] = glm::dvec2(mesh.texCoords[0][vertex]);
-        }
-        const glm::dvec2 a = places[1] - places[0], b = places[2] - places[0];
-        covered += std::abs(a.x * b.y - a.y * b.x);
-        square += glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-    }
-    return covered > 0.0 ? std::sqrt(square / covered) : 0.0;
-}
-
 } // namespace
 
 bool diffusesLight(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface) {
@@ -64,10 +45,10 @@ bool diffusesLight(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurf
     });
 }
 
-std::vector<DiffusedObject> diffusedObjects(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface) {
+std::vector<DiffusedObject> diffusedObjects(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface,
+                                            std::span<const SurfaceBounds> bounds) {
     std::vector<DiffusedObject> objects;
     if (!diffusesLight(scene, subsurface)) return objects;
-    const std::vector<glm::dmat4> worldFromObject = scenes::worldFromNodes(scene);
     int number = 0;
     for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
         for (const scenes::MeshInstance& instance : scene.nodes[node].instances) {
@@ -79,10 +60,12 @@ std::vector<DiffusedObject> diffusedObjects(const scenes::Scene& scene, scenes::
                       instance.material,
                       own,
                       {},
-                      metresASide(scene.meshes[std::size_t(instance.mesh)], worldFromObject[node]),
+                      0.0,
                       nameOf(scene, scene.nodes[node], instance.mesh)};
-            for (const glm::vec3& positionOS : scene.meshes[std::size_t(instance.mesh)].positionsOS)
-                object.boxWS.extend(glm::dvec3(worldFromObject[node] * glm::dvec4(glm::dvec3(positionOS), 1.0)));
+            const auto found = std::ranges::find(bounds, own, &SurfaceBounds::instance);
+            if (found == bounds.end()) continue;
+            object.boxWS = found->boxWS;
+            object.sideMetres = found->textureSideMetres;
         }
     }
     return objects;
@@ -91,8 +74,7 @@ std::vector<DiffusedObject> diffusedObjects(const scenes::Scene& scene, scenes::
 LightSpread lightSpread(const scenes::Subsurface& subsurface, int mostGaussians, double texelMetres, bool isHalved) {
     // Variances, not yet those that each level adds.
     std::vector<DiffusionLevel> levels;
-    const scenes::DiffusionProfile& profile =
-        subsurface.profile.empty() ? scenes::namedProfiles().front().profile : subsurface.profile;
+    const scenes::DiffusionProfile& profile = scenes::profileOf(subsurface);
     glm::dvec3 sum(0.0);
     for (const scenes::DiffusionGaussian& gaussian : profile) {
         const double metres = 1e-3 / double(subsurface.scaleMetres); // of the scene, for a millimetre
@@ -123,28 +105,29 @@ LightSpread lightSpread(const scenes::Subsurface& subsurface, int mostGaussians,
         levels.erase(levels.begin() + std::ptrdiff_t(best) + 1);
     }
     const double shown = texelVariance(texelMetres, isHalved);
-    // Taps are 0.7 standard deviations of a level apart, up to kWidening times what light has spread so far, or as far
-    // as every texel is a tap.
+    // Taps that lie apart need light that has spread before: a level up to kWidening times as wide as that, and where a
+    // profile's widths jump more, every texel is a tap. Of these there may be twice as many where texels are smaller.
     constexpr double kWidening = 2.0;
+    const double fineMetres = texelMetres * double(DIFFUSION_MOST_FINE_TAPS) / 2.0 / DIFFUSION_REACH;
     LightSpread spread;
-    double spreadMetres = texelMetres * double(DIFFUSION_MOST_FINE_TAPS) / 3.5 / kWidening;
     double before = shown;
+    const auto jumpsTo = [&](double variance) { return variance > kWidening * kWidening * before; };
     const auto add = [&](double variance, const glm::dvec3& weight) {
-        spread.levels.push_back({variance - before, weight});
+        spread.levels.push_back({variance - before, weight, jumpsTo(variance)});
         before = variance;
-        spreadMetres = std::max(spreadMetres, std::sqrt(variance));
     };
     for (const DiffusionLevel& level : levels) {
         if (level.varianceSquareMetres <= shown) {
             const double share = shown > 0.0 ? level.varianceSquareMetres / shown : 1.0;
-            spread.unspread += (1.0 - share) * level.weight;
-            spread.unblurred += share * level.weight;
+            spread.inPixels += (1.0 - share) * level.weight;
+            spread.inTexels += share * level.weight;
             continue;
         }
-        const double metres = std::sqrt(level.varianceSquareMetres);
-        while (texelMetres > 0.0 && metres > kWidening * spreadMetres && spread.levels.size() < kMostLevels)
-            add(kWidening * kWidening * spreadMetres * spreadMetres, glm::dvec3(0.0));
-        add(level.varianceSquareMetres, level.weight);
+        const double variance = level.varianceSquareMetres;
+        while (texelMetres > 0.0 && jumpsTo(variance) && variance - before > fineMetres * fineMetres &&
+               spread.levels.size() < kMostLevels)
+            add(std::max(before + fineMetres * fineMetres, kWidening * kWidening * before), glm::dvec3(0.0));
+        add(variance, level.weight);
     }
     return spread;
 }
@@ -152,7 +135,7 @@ LightSpread lightSpread(const scenes::Subsurface& subsurface, int mostGaussians,
 int gutterTexels(const std::vector<DiffusionLevel>& levels, double texelMetres) {
     double widest = 0.0;
     for (const DiffusionLevel& level : levels) widest = std::max(widest, level.varianceSquareMetres);
-    const double texels = texelMetres > 0.0 ? std::ceil(3.5 * std::sqrt(widest) / texelMetres) : 1.0;
+    const double texels = texelMetres > 0.0 ? std::ceil(DIFFUSION_REACH * std::sqrt(widest) / texelMetres) : 1.0;
     return int(std::bit_ceil(unsigned(std::clamp(texels, 2.0, double(kMostGutterTexels)))));
 }
 
@@ -219,7 +202,7 @@ const DiffusionAtlas& DiffusionAtlases::of(const DiffusedObject& object, int sid
 void DiffusionMemory::begin(std::size_t cells, bool holdsAtlas) {
     cells_.resize(cells);
     if (holdsAtlas) return;
-    for (Cell& cell : cells_) cell.leaving = {};
+    for (Cell& cell : cells_) cell.stored = {};
 }
 
 namespace {
@@ -239,18 +222,18 @@ void addTo(TileSet& known, const TileSet& more) {
 } // namespace
 
 TileSet DiffusionMemory::missing(std::size_t cell, std::uint64_t key, const TileSet& tiles) const {
-    return without(tiles, cells_[cell].key == key, cells_[cell].leaving);
+    return without(tiles, cells_[cell].key == key, cells_[cell].stored);
 }
 
 TileSet DiffusionMemory::unlit(std::size_t cell, std::uint64_t key, const TileSet& tiles) const {
-    return without(tiles, cells_[cell].key == key, cells_[cell].entering);
+    return without(tiles, cells_[cell].key == key, cells_[cell].lit);
 }
 
 void DiffusionMemory::hold(std::size_t cell, std::uint64_t key, const TileSet& lit, const TileSet& spread) {
     Cell& own = cells_[cell];
     if (own.key != key) own = {key, {}, {}};
-    addTo(own.entering, lit);
-    addTo(own.leaving, spread);
+    addTo(own.lit, lit);
+    addTo(own.stored, spread);
 }
 
 } // namespace tessera::frame

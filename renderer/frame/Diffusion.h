@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -24,13 +25,14 @@ struct DiffusedObject {
     int mesh = 0;
     int material = 0;
     int instance = 0;        ///< place among the mesh instances of all nodes, in document order
-    scenes::Box3 boxWS;      ///< of its vertices
-    double sideMetres = 0.0; ///< of the world, that a side of its texture covers, by areas; 0: no area
+    scenes::Box3 boxWS;      ///< SurfaceBounds
+    double sideMetres = 0.0; ///< SurfaceBounds::textureSideMetres
     std::string name;        ///< of messages
 };
 
 /// Those that are drawn, in document order. A view's atlas has a cell for each.
-std::vector<DiffusedObject> diffusedObjects(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface);
+std::vector<DiffusedObject> diffusedObjects(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface,
+                                            std::span<const SurfaceBounds> bounds);
 /// Whether there are any.
 bool diffusesLight(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface);
 
@@ -38,13 +40,14 @@ bool diffusesLight(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurf
 struct DiffusionLevel {
     double varianceSquareMetres = 0.0; ///< that is added, in metres of the scene
     glm::dvec3 weight{0.0};
+    bool isFine = false; ///< every texel is a tap, since light is not yet smooth at this width
     bool operator==(const DiffusionLevel&) const = default;
 };
 /// How an object's light spreads. All weights sum to 1 in each channel. Showing texels spreads their light already, by
 /// texelVariance(): levels add what is missing. A narrower Gaussian has its variance from two shares, one that texels
 /// show as they are lit and one that does not spread, which pixels reflect of the frame's lights like other surfaces.
 struct LightSpread {
-    glm::dvec3 unspread{0.0}, unblurred{0.0};
+    glm::dvec3 inPixels{0.0}, inTexels{0.0};
     std::vector<DiffusionLevel> levels; ///< from the narrowest Gaussian on
 };
 /// By how much light spreads that is sampled at texels and interpolated between them: a tent's, and where four texels
@@ -72,7 +75,7 @@ struct DiffusedCells {
     glm::ivec2 texels() const { return {columns * sideTexels, rows * (sideTexels + 1)}; }
     glm::ivec2 place(int cell) const { return {cell % columns, cell / columns}; }
     glm::ivec2 corner(int cell) const { return place(cell) * sideTexels; }
-    /// rgb LightSpread::unspread, a the border of the object's atlas in texels.
+    /// rgb LightSpread::inPixels, a the border of the object's atlas in texels.
     glm::ivec2 ofCell(int cell) const { return place(cell) + glm::ivec2(0, rows * sideTexels); }
 };
 DiffusedCells diffusedCells(std::size_t objects, int sideTexels);
@@ -108,7 +111,7 @@ public:
     /// Forgets the light that leaves where the atlas is not held.
     void begin(std::size_t cells, bool holdsAtlas);
     void forget() { cells_.assign(cells_.size(), {}); }
-    void forgetEntering(std::size_t cell) { cells_[cell].entering = {}; }
+    void forgetLit(std::size_t cell) { cells_[cell].lit = {}; }
 
     /// Those of the tiles whose light that leaves, or that enters, is not known.
     TileSet missing(std::size_t cell, std::uint64_t key, const TileSet& tiles) const;
@@ -118,7 +121,7 @@ public:
 private:
     struct Cell {
         std::optional<std::uint64_t> key;
-        TileSet entering, leaving;
+        TileSet lit, stored;
     };
     std::vector<Cell> cells_;
 };

@@ -26,9 +26,11 @@ int sideOf(const std::vector<DiffusionTile>& tiles) {
 /// Visits the texels that a bilinear lookup at a place reads.
 template <typename Visit>
 void visitLookedUp(const glm::dvec2& place, int sideTexels, Visit visit) {
-    const glm::ivec2 low(glm::floor(place - 0.5));
-    for (int i = 0; i < 4; ++i)
-        visit(glm::clamp(low + glm::ivec2(i & 1, i >> 1), glm::ivec2(0), glm::ivec2(sideTexels - 1)));
+    // Shaders round: a place midway between texels may fall to either side.
+    const glm::ivec2 low(glm::floor(place - 0.5 - 1e-3)), high(glm::floor(place + 0.5 + 1e-3));
+    for (int v = low.y; v <= high.y; ++v)
+        for (int u = low.x; u <= high.x; ++u)
+            visit(glm::clamp(glm::ivec2(u, v), glm::ivec2(0), glm::ivec2(sideTexels - 1)));
 }
 
 /// A triangle as it is looked up: its corners in texels and in the world, and how far beside it rounding may look.
@@ -66,7 +68,9 @@ struct Looked {
 /// How many texels to either side the taps of a Gaussian reach (shaders/passes/diffusion_blur.frag).
 int reachTexels(double varianceSquareMetres, double stepMetres, int sideTexels) {
     if (!(stepMetres > 0.0)) return sideTexels;
-    const double reach = std::ceil(3.5 * std::sqrt(varianceSquareMetres) / stepMetres) + 2.0;
+    // The last tap may lie beyond the reach, by as much as taps are apart.
+    const double reach =
+        std::ceil((DIFFUSION_REACH + DIFFUSION_TAP_SHARE) * std::sqrt(varianceSquareMetres) / stepMetres) + 2.0;
     return int(std::min(reach, double(sideTexels)));
 }
 

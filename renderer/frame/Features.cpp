@@ -68,7 +68,7 @@ std::vector<FeatureInfo> makeTable() {
             {Feature::SubsurfaceDepthMap, "SUBSURFACE_DEPTH_MAP", "light through thin parts",
              "no material lets any through"},
             {Feature::SubsurfaceDiffusion, "SUBSURFACE_DIFFUSION", "light spread over surfaces",
-             "no material spreads any"},
+             "no material uses texture_space_diffusion"},
         });
     assert(table.size() == kFeatureCount);
     return table;
@@ -325,6 +325,18 @@ FeatureSet enteringFeatures(const scenes::Scene& scene, int material, int mesh) 
     set.soleModel = entered.model;
     set.add(Feature::VertexColor, !scene.meshes[std::size_t(mesh)].colors.empty());
     set.add(Feature::VaryingMaterials);
+    // Holes of what stands in the light's way.
+    for (const scenes::Material* other : scenes::materialsInUse(scene)) {
+        if (other->alphaMode != scenes::AlphaMode::Mask) continue;
+        scenes::Material masked;
+        masked.model = scenes::MaterialModel::Lambert;
+        masked.alphaMode = scenes::AlphaMode::Mask;
+        masked.alphaCutoff = other->alphaCutoff;
+        masked.texture(scenes::TextureSlot::BaseColor) = other->texture(scenes::TextureSlot::BaseColor);
+        addMaterial(set, masked, {});
+        for (const scenes::Mesh* caster : scenes::meshesInUse(scene))
+            set.add(Feature::VertexColor, !caster->colors.empty());
+    }
     return set;
 }
 

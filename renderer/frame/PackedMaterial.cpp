@@ -7,6 +7,7 @@
 #include "renderer/gpu/Sampler.h"
 #include "scenes/InUse.h"
 #include "scenes/Limits.h"
+#include "shaders/shared/caster_tree.h"
 #include "shaders/shared/material.h"
 #include "shaders/shared/models.h"
 
@@ -18,6 +19,7 @@ using scenes::MaterialModel;
 using scenes::TextureSlot;
 
 static_assert(scenes::kTextureSlotCount == TEXTURE_SLOT_COUNT);
+static_assert(CASTER_PASSED == SUBSURFACE_MOST - 1 && CASTER_MIRRORED > CASTER_PASSED, "marks hold every row");
 static_assert(scenes::kMostSubsurfaces < SUBSURFACE_MOST, "the first row is that of none");
 static_assert(unsigned(scenes::Masking::Walter) == MASKING_WALTER &&
               unsigned(scenes::Masking::Directional) == MASKING_DIRECTIONAL &&

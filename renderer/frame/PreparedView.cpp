@@ -45,8 +45,8 @@ std::uint64_t diffusionKey(const scenes::Scene& scene, const DiffusedObject& obj
     const auto addWeight = [&](const glm::dvec3& weight) {
         for (int channel = 0; channel < 3; ++channel) hash.add(weight[channel]);
     };
-    addWeight(spread.unspread);
-    addWeight(spread.unblurred);
+    addWeight(spread.inPixels);
+    addWeight(spread.inTexels);
     for (const DiffusionLevel& level : spread.levels) {
         hash.add(level.varianceSquareMetres);
         addWeight(level.weight);

@@ -17,8 +17,8 @@ constexpr std::string_view kBright = "a colour of the scene may exceed 1, which 
 constexpr std::string_view kGrazing = "a material masks by the half vector, which magnifies what n.v is off at grazing "
                                       "angles";
 
-constexpr std::string_view kSpread = "light that has spread over a surface is stored as emission, and fades by more "
-                                     "than half floats hold";
+constexpr std::string_view kSpread = "light that has spread over a surface is stored as emission, and spans more "
+                                     "powers of ten than half floats";
 
 bool exceedsOne(const scenes::Scene& scene, const glm::vec3& factor, const scenes::TextureUse& texture) {
     const bool isFloat = texture.image != scenes::kNone &&

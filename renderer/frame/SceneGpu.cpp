@@ -113,11 +113,11 @@ SceneGpu::Geometry SceneGpu::makeGeometry() const {
 
 SceneGpu::Draws SceneGpu::makeDraws(const VertexStreams::Ranges& ranges) const {
     Draws draws{alphaModes(scene_), makeDrawList(scene_), {}};
-    const std::vector<DiffusedObject> diffused = diffusedObjects(scene_, subsurface_);
+    const std::vector<DiffusedObject> diffused = diffusedObjects(scene_, subsurface_, {});
     for (Draw& draw : draws.list.draws) {
         draws.ranges.push_back(ranges.at({draw.mesh, draw.material}));
         const auto own = std::ranges::find(diffused, draw.instance, &DiffusedObject::instance);
-        if (own != diffused.end()) draw.diffusedCell = 1 + int(own - diffused.begin());
+        if (own != diffused.end()) draw.diffusedNumber = 1 + int(own - diffused.begin());
     }
     return draws;
 }

@@ -101,6 +101,10 @@ bool GraphBackend::holds(const std::string& name, const graph::ResourceDesc& des
     return known != persistent_.end() && known->second.desc == desc && known->second.revision == revision;
 }
 
+void GraphBackend::keep(const std::string& name) {
+    if (const auto known = persistent_.find(name); known != persistent_.end()) known->second.idleFrames = 0;
+}
+
 void GraphBackend::forget(const std::string& name) {
     if (persistent_.erase(name) > 0) framebuffers_.collect();
 }

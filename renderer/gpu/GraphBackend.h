@@ -52,6 +52,8 @@ public:
     void setRevision(const std::string& name, std::optional<std::uint64_t> revision) override;
     /// Whether a frame that ended well has left this revision under the name, in that shape.
     bool holds(const std::string& name, const graph::ResourceDesc& desc, std::uint64_t revision) const;
+    /// Keeps the persistent resource of a name, if there is one, as if this frame used it.
+    void keep(const std::string& name);
     /// Frees the persistent resource of a name.
     void forget(const std::string& name);
     void bindTargets(std::span<const graph::Target> colors, const graph::Target& depth, int width, int height) override;

@@ -194,31 +194,30 @@ DiffusionProfile readProfile(const JsonValue& value) {
 
 /// A method alone, or an object with what the methods are to use.
 void readSubsurface(const JsonValue& value, Subsurface& subsurface) {
-    const auto readMethod = [&](const JsonValue& method) {
-        subsurface.method = method.oneOf<SubsurfaceMethod>("subsurface method", kSubsurfaceMethodNames);
+    const auto methodOf = [](const JsonValue& method) {
+        return method.oneOf<SubsurfaceMethod>("subsurface method", kSubsurfaceMethodNames);
     };
-    if (value.isText()) return readMethod(value);
+    if (value.isText()) {
+        subsurface.method = methodOf(value);
+        return;
+    }
     JsonObject object = value.object();
-    if (const auto method = object.find("method")) readMethod(*method);
-    const auto number = [&](auto member) {
-        const auto field = fieldOf(kSubsurfaceFields, member);
-        if (const auto factor = object.find(field.name)) subsurface.*member = factor->single(field.least, field.most);
-    };
-    const auto channels = [&](glm::vec3 Subsurface::*member) {
-        const auto field = fieldOf(kSubsurfaceFields, member);
-        const auto factors = object.find(field.name);
-        if (!factors) return;
-        const std::vector<JsonValue> elements = factors->elements(3, 3);
-        for (glm::length_t c = 0; c < 3; ++c)
-            (subsurface.*member)[c] = elements[std::size_t(c)].single(field.least, field.most);
-    };
-    number(&Subsurface::scaleMetres);
-    number(&Subsurface::wrap);
-    channels(&Subsurface::wrapTint);
-    number(&Subsurface::bodyRadiusMetres);
-    channels(&Subsurface::absorptionPerMillimetre);
-    number(&Subsurface::preScatterShare);
-    if (const auto profile = object.find("profile")) subsurface.profile = readProfile(*profile);
+    visitFields(kSubsurfaceFields, [&](const auto& field) {
+        const auto found = object.find(field.name);
+        if (!found) return;
+        auto& member = subsurface.*field.member;
+        using Member = std::remove_reference_t<decltype(member)>;
+        if constexpr (std::is_same_v<Member, SubsurfaceMethod>) {
+            member = methodOf(*found);
+        } else if constexpr (std::is_same_v<Member, DiffusionProfile>) {
+            member = readProfile(*found);
+        } else if constexpr (std::is_same_v<Member, glm::vec3>) {
+            const std::vector<JsonValue> elements = found->elements(3, 3);
+            for (glm::length_t c = 0; c < 3; ++c) member[c] = elements[std::size_t(c)].single(field.least, field.most);
+        } else {
+            member = found->single(field.least, field.most);
+        }
+    });
     object.done("a subsurface");
 }
 

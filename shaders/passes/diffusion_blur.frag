@@ -68,9 +68,9 @@ void main()
     precise float narrow = variance / max(stepMetres * stepMetres, 1e-37);
     bool isNarrow = narrow < DIFFUSION_NARROW;
     precise float perStep = sqrt(narrow);
-    bool isFine = constants.blur.z != 0.0 && 3.5 * perStep <= float(DIFFUSION_MOST_FINE_TAPS);
-    int apart = isNarrow || isFine ? 1 : int(clamp(DIFFUSION_TAP_SHARE * perStep, 1.0, 16384.0));
-    int taps = isNarrow ? 1 : apart > 1 ? DIFFUSION_TAPS : int(ceil(3.5 * perStep));
+    bool isFine = constants.blur.z != 0.0 && DIFFUSION_REACH * perStep <= float(DIFFUSION_MOST_FINE_TAPS);
+    int apart = isNarrow || isFine ? 1 : int(clamp(DIFFUSION_TAP_SHARE * perStep + 0.5, 1.0, 16384.0));
+    int taps = isNarrow ? 1 : int(ceil(DIFFUSION_REACH * perStep / float(apart)));
     for (int side = -1; side <= 1; side += 2) {
         precise float metres = 0.0;
         float before = stepMetres;

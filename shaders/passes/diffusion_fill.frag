@@ -10,8 +10,8 @@ layout(std140, binding = UNIFORM_PASS) uniform DiffusionStoreBlock
 {
     DiffusionStoreConstants constants;
 };
-// What leaves: the share that leaves where it enters, and the sum of what has spread.
-layout(binding = TEXTURE_UNIT_DIFFUSION_LEAVING) uniform sampler2D leaving;
+// What leaves the surface: the share that texels show as they are lit, and the sum of what has spread.
+layout(binding = TEXTURE_UNIT_DIFFUSION_UNBLURRED) uniform sampler2D unblurred;
 #if SUMS
 layout(binding = TEXTURE_UNIT_DIFFUSION_LIGHT) uniform sampler2D sum;
 #endif
@@ -24,11 +24,11 @@ layout(location = 0) out vec4 filled;
 vec4 lightAt(ivec2 texel)
 {
 #if STORES && SUMS
-    vec4 own = texelFetch(leaving, texel, 0);
+    vec4 own = texelFetch(unblurred, texel, 0);
     precise vec3 both = own.rgb + texelFetch(sum, texel, 0).rgb;
     return vec4(both, own.a);
 #elif STORES
-    return texelFetch(leaving, texel, 0);
+    return texelFetch(unblurred, texel, 0);
 #else
     return texelFetch(light, texel, 0);
 #endif

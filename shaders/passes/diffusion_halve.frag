@@ -2,10 +2,10 @@
 #include "shared/diffusion.h"
 
 layout(binding = TEXTURE_UNIT_DIFFUSION_LIGHT) uniform sampler2D light;
-layout(binding = TEXTURE_UNIT_DIFFUSION_LEAVING) uniform sampler2D leaving;
+layout(binding = TEXTURE_UNIT_DIFFUSION_UNBLURRED) uniform sampler2D unblurred;
 
 layout(location = 0) out vec4 halvedLight;
-layout(location = 1) out vec4 halvedLeaving;
+layout(location = 1) out vec4 halvedUnblurred;
 
 vec4 halvedOf(sampler2D whole)
 {
@@ -20,5 +20,5 @@ vec4 halvedOf(sampler2D whole)
 void main()
 {
     halvedLight = halvedOf(light);
-    halvedLeaving = halvedOf(leaving);
+    halvedUnblurred = halvedOf(unblurred);
 }

@@ -11,7 +11,7 @@ layout(std140, binding = UNIFORM_PASS) uniform DiffusionLightBlock
 
 layout(location = 15) in vec3 positionLS;
 layout(location = 0) out vec4 entering;
-layout(location = 1) out vec4 leaving;
+layout(location = 1) out vec4 unblurred;
 
 vec3 albedoBeforeSpreading(vec3 albedo)
 {
@@ -41,9 +41,9 @@ void main()
     viewpoint.pixel = gl_FragCoord.xy;
     precise vec3 light = shadeSurface(surface, viewpoint, gl_FragCoord.xy);
     entering = vec4(light, 1.0);
-    precise vec3 unblurred = constants.unblurred.rgb * light;
+    precise vec3 kept = constants.inTexels.rgb * light;
 #if HAS_SHADOWS && HAS_SUBSURFACE_DEPTH_MAP
-    unblurred += constants.unspread.rgb * passedLight;
+    kept += constants.inPixels.rgb * passedLight;
 #endif
-    leaving = vec4(unblurred, 1.0);
+    unblurred = vec4(kept, 1.0);
 }

@@ -10,10 +10,9 @@ layout(location = ATTRIBUTE_TEXCOORD0) in vec2 inTexCoord0;
 layout(location = ATTRIBUTE_TEXCOORD1) in vec2 inTexCoord1;
 layout(location = ATTRIBUTE_COLOR) in vec4 inColor;
 
-// Per draw: rows of RWS-from-object, and of the cofactors of LS-from-object times the sign of its determinant (xyz; w of the first row is
-// that sign, times 1 + the cell of the object's light that has spread, times 1 where it has none; w of the second the
-// largest of the mesh's vertex colours, 0 when it has none; w of the third 1 + the place of the mesh instance in the
-// scene).
+// Per draw: rows of RWS-from-object, and of the cofactors of LS-from-object times the sign of its determinant (xyz). w of
+// the first row is that sign, times 1 + diffusedNumber; of the second the largest of the mesh's vertex colours, 0 when
+// it has none; of the third 1 + the place of the mesh instance in the scene.
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0) in vec4 drawRow0;
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0 + 1) in vec4 drawRow1;
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0 + 2) in vec4 drawRow2;
@@ -52,7 +51,7 @@ layout(location = 13) flat out vec3 objectRow2;
 layout(location = 10) out vec3 vertexLS; // for passes/triangle.geom
 #endif
 #if HAS_SUBSURFACE_DIFFUSION && !DEPTH_ONLY
-layout(location = 14) flat out int diffusedCell;
+layout(location = 14) flat out int diffusedNumber;
 #endif
 #if IN_ATLAS
 layout(location = 15) out vec3 positionLS;
@@ -87,7 +86,7 @@ void main()
 #endif
 #endif
 #if HAS_SUBSURFACE_DIFFUSION && !DEPTH_ONLY
-    diffusedCell = int(abs(drawNormal0.w)) - 1;
+    diffusedNumber = int(abs(drawNormal0.w)) - 1;
 #endif
 #if !DEPTH_ONLY
     normalLS = vec3(dot(drawNormal0.xyz, normalOS), dot(drawNormal1.xyz, normalOS), dot(drawNormal2.xyz, normalOS));

@@ -48,8 +48,8 @@ layout(location = 4) out vec4 vertexColor;
 layout(location = 8) flat out float largestColor;
 #endif
 #if HAS_SUBSURFACE_DIFFUSION && !DEPTH_ONLY
-layout(location = 14) flat in int vertexDiffusedCell[];
-layout(location = 19) flat out int diffusedCell;
+layout(location = 14) flat in int vertexDiffusedNumber[];
+layout(location = 19) flat out int diffusedNumber;
 #endif
 #ifdef DRAW_IDS
 layout(location = 9) flat in float vertexDrawnObject[];
@@ -92,7 +92,7 @@ void main()
         largestColor = vertexLargestColor[corner];
 #endif
 #if HAS_SUBSURFACE_DIFFUSION && !DEPTH_ONLY
-        diffusedCell = vertexDiffusedCell[corner];
+        diffusedNumber = vertexDiffusedNumber[corner];
 #endif
 #ifdef DRAW_IDS
         drawnObject = vertexDrawnObject[corner];

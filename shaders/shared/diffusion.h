@@ -6,13 +6,13 @@
 #define TEXTURE_UNIT_DIFFUSION_STEPS 0     // xy steps along u and v in metres, z shear, w chart, negative outside of it
 #define TEXTURE_UNIT_DIFFUSION_CONTINUED 1 // xy where the surface goes on, in texels
 #define TEXTURE_UNIT_DIFFUSION_LIGHT 2     // what is spread
-#define TEXTURE_UNIT_DIFFUSION_LEAVING 3   // what leaves where it enters
+#define TEXTURE_UNIT_DIFFUSION_UNBLURRED 3 // the share of light that texels show as they are lit
 
-// Taps lie this share of a Gaussian's standard deviation apart, so many to either side: its tails beyond 3.5 hold a
-// thousandth. A step of irradiance, narrower Gaussians before it or none, takes every texel (docs/skin.md).
+// Gaussians end at so many standard deviations: their tails beyond hold a thousandth. Taps lie about this share of one
+// apart, or a texel where light is not yet smooth (DiffusionLevel::isFine), so many to either side at most.
+#define DIFFUSION_REACH 3.5
 #define DIFFUSION_TAP_SHARE 0.7
-#define DIFFUSION_TAPS 5
-#define DIFFUSION_MOST_FINE_TAPS 64
+#define DIFFUSION_MOST_FINE_TAPS 128
 // Where a Gaussian is narrower than this share of a texel's square, three taps have its variance.
 #define DIFFUSION_NARROW 0.4
 
@@ -22,8 +22,8 @@
 SHARED_BEGIN
 
 struct DiffusionLightConstants {
-    vec4 unspread;  // rgb the share of light that leaves where it enters
-    vec4 unblurred; // rgb that which texels show as they are lit
+    vec4 inPixels; // rgb the share of light that does not spread: pixels reflect it
+    vec4 inTexels; // rgb the share that texels show as they are lit
 };
 
 struct DiffusionStoreConstants {

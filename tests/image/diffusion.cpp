@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <tuple>
 
@@ -150,6 +151,35 @@ TEST_F(DiffusionSlow, aStepAndADotSpreadAsTheClosedFormsSay) {
     const double turned = stepError(2048, [&](scenes::Scene& scene) { mapTexture(scene, {{c, s}, {-s, c}}); }).l2;
     fmt::print("2048 texels, turned: {:.2e}\n", turned);
     EXPECT_LE(turned, 0.01);
+}
+
+// Widths in texels: after a narrow Gaussian a wide one, neighbours, and those between which taps grow apart.
+TEST_F(Diffusion, anyTwoWidthsSpreadAStepAsTheClosedFormSays) {
+    for (const auto& [narrow, wide] : {std::pair(0.71, 17.9), {0.3, 30.0}, {1.5, 4.5}, {2.6, 5.0}, {5.0, 9.0}}) {
+        scenes::Scene scene = scenes::loadScene("diffusion_truth");
+        scene.cameras = {above({builtin::kTruthEdgeX, 0.0, 0.0}, 2.0 / 1024.0)};
+        constexpr double kNarrowShare = 0.05;
+        const auto metres = [](double texels) { return texels / 256.0; };
+        for (scenes::Material& material : scene.materials) {
+            const auto variance = [&](double texels) {
+                return float(std::pow(1e3 * double(material.subsurface.scaleMetres) * metres(texels), 2));
+            };
+            material.subsurface.profile = {{variance(narrow), glm::vec3(float(kNarrowShare))},
+                                           {variance(wide), glm::vec3(float(1.0 - kNarrowShare))}};
+        }
+        frame::FrameSettings settings;
+        settings.sizePixels = {896, 8};
+        settings.diffusion.sideTexels = 256;
+        const auto truth = [&, ofNarrow = metres(narrow), ofWide = metres(wide)](const glm::dvec3& placeWS) {
+            const auto step = [&](double sigma) {
+                return 0.5 * std::erfc(-(placeWS.x - builtin::kTruthEdgeX) / (std::numbers::sqrt2 * sigma));
+            };
+            return glm::dvec3(kNarrowShare * step(ofNarrow) + (1.0 - kNarrowShare) * step(ofWide));
+        };
+        const double error = errorOf(pictureOf(scene, settings), scene.cameras[0], truth).l2;
+        fmt::print("{} and {} texels: {:.2e}\n", narrow, wide, error);
+        EXPECT_LE(error, 0.01) << narrow << " and " << wide;
+    }
 }
 
 TEST_F(Diffusion, fewerGaussiansAndHalfTheResolutionAreNearTheClosedForms) {
@@ -506,7 +536,7 @@ TEST_F(DiffusionFaults, everyFaultIsSeenByAClosedForm) {
         {"channels of the profile swapped", "passes/diffusion_blur.frag", "constants.weight.rgb * result",
          "constants.weight.bgr * result", &DiffusionFaults::step},
         {"light that texels hold already spread counted as none", "passes/diffusion_light.frag",
-         "constants.unblurred.rgb * light", "0.0 * light", &DiffusionFaults::coarseStep},
+         "constants.inTexels.rgb * light", "0.0 * light", &DiffusionFaults::coarseStep},
     };
     for (const Fault& fault : faults) {
         SCOPED_TRACE(fault.what);
@@ -683,6 +713,45 @@ TEST_F(Diffusion, mapsHideLightFromTexelsAsRaysDo) {
         const double error = errorOf(pictureOf(renderer, settings), scene.cameras[0], truth).l2;
         fmt::print("{}: {:.2e}\n", infoOf(filter).name, error);
         EXPECT_LE(error, 0.03) << infoOf(filter).name;
+    }
+}
+
+// The lit object itself has no holes.
+TEST_F(Diffusion, holesOfCastersLetLightThrough) {
+    for (const frame::ShadowFilter filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
+        scenes::Scene ball = sphereScene(0.03, 12);
+        for (scenes::Light& light : ball.lights) light.castsShadow = true;
+        scenes::Mesh plate = test::quad();
+        for (glm::vec3& position : plate.positionsOS) position = 0.05f * position;
+        ball.meshes.push_back(plate);
+        scenes::Material opaque;
+        opaque.doubleSided = true;
+        opaque.baseColor.a = 0.25f;
+        ball.materials.push_back(opaque);
+        scenes::Node& node = ball.nodes.emplace_back();
+        node.parentFromNode[3] = glm::dvec4(0.08 * glm::normalize(-ball.lights[0].directionWS), 1.0);
+        node.instances = {{1, 1}};
+        frame::FrameSettings settings;
+        settings.sizePixels = {160, 90};
+        settings.diffusion.sideTexels = 128;
+        settings.shadowFilter = filter;
+        engine::Renderer renderer(context(), ball);
+        const std::vector<float> hidden = renderer.render(Technique::Deferred, settings).radiance;
+        // All of it is a hole now, which is the first one of the scene.
+        ball.materials[1].alphaMode = scenes::AlphaMode::Mask;
+        ball.materials[1].alphaCutoff = 0.5f;
+        renderer.materialsChanged();
+        const std::vector<float> lit = renderer.render(Technique::Deferred, settings).radiance;
+        EXPECT_NE(lit, hidden) << infoOf(filter).name;
+        EXPECT_EQ(lit, engine::Renderer(context(), ball).render(Technique::Deferred, settings).radiance);
+        ball.nodes.pop_back();
+        const std::vector<float> without =
+            engine::Renderer(context(), ball).render(Technique::Deferred, settings).radiance;
+        const auto sumOf = [](const std::vector<float>& radiance) {
+            return std::accumulate(radiance.begin(), radiance.end(), 0.0);
+        };
+        EXPECT_NEAR(sumOf(lit), sumOf(without), 0.01 * sumOf(without)) << infoOf(filter).name;
+        EXPECT_LT(sumOf(hidden), 0.9 * sumOf(lit)) << infoOf(filter).name;
     }
 }
 

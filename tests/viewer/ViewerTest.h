@@ -22,6 +22,7 @@ protected:
         Technique,
         View,
         Shadows,
+        Subsurface,
         Camera,
         Compare,
         Lights,

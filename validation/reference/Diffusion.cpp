@@ -35,13 +35,11 @@ struct Profile {
     }
 };
 
-Profile profileOf(const scenes::Subsurface& subsurface) {
+Profile profileInScene(const scenes::Subsurface& subsurface) {
     const double metres = 0.001 / double(subsurface.scaleMetres); // of the scene, in a millimetre
-    const scenes::DiffusionProfile& gaussians =
-        subsurface.profile.empty() ? scenes::namedProfiles()[0].profile : subsurface.profile;
     Profile profile;
     double sum = 0.0;
-    for (const scenes::DiffusionGaussian& gaussian : gaussians) {
+    for (const scenes::DiffusionGaussian& gaussian : scenes::profileOf(subsurface)) {
         const glm::dvec3 weight(gaussian.weight);
         // What is faint in the mean may be all that one channel has.
         const double share = std::max({weight.x, weight.y, weight.z});
@@ -173,7 +171,7 @@ Diffusion::Diffusion(const Objects& objects, const Textures& textures, std::span
 Diffusion::~Diffusion() = default;
 
 Diffusion::Answer Diffusion::at(const Hit& hit, const glm::dvec3& pointRWS, std::uint32_t seed) const {
-    const Profile profile = profileOf(hit.object->material->subsurface);
+    const Profile profile = profileInScene(hit.object->material->subsurface);
     const glm::dvec3 front = frontOf(hit);
     const glm::dvec3 aside = glm::normalize(
         glm::cross(front, std::abs(front.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));

@@ -43,7 +43,7 @@ void sidePanel(State& state, const Facts& facts, float height, float scale) {
         section("Technique", true, [&] { framePanel(state); });
         section("View", true, [&] { viewPanel(state); });
         section("Shadows", false, [&] { shadowsPanel(state, facts); });
-        section("Skin", false, [&] { skinPanel(state); });
+        section("Subsurface scattering", false, [&] { skinPanel(state); });
         section("Camera", false, [&] { cameraPanel(state); });
         section("Compare", false, [&] { comparePanel(state, facts); });
         section("Lights", false, [&] { lightsPanel(state); });

@@ -62,10 +62,10 @@ constexpr float kLeastScaleShown = 1e-3f, kMostScaleShown = 1e3f;
 bool profileRow(scenes::Subsurface& subsurface) {
     const std::span<const scenes::NamedProfile> named = scenes::namedProfiles();
     std::vector<Choice> choices;
-    std::size_t now = subsurface.profile.empty() ? 0 : named.size();
+    std::size_t now = named.size();
     for (std::size_t i = 0; i < named.size(); ++i) {
         choices.push_back({named[i].name, ""});
-        if (subsurface.profile == named[i].profile) now = i;
+        if (scenes::profileOf(subsurface) == named[i].profile) now = i;
     }
     constexpr std::string_view kOwn = "of the scene file";
     if (now == named.size()) choices.push_back({kOwn, "Gaussians that the scene file gives"});
@@ -80,6 +80,9 @@ bool subsurfaceRows(scenes::Subsurface& subsurface) {
     if (subsurface.method == scenes::SubsurfaceMethod::Wrap) {
         changed |= slider("Wrap", subsurface.wrap, 0.0f, 1.0f);
         changed |= colorRow("Wrap tint", subsurface.wrapTint);
+        changed |= logarithmicSlider("Body radius", subsurface.bodyRadiusMetres, 0.0f, kMostScaleShown,
+                                     subsurface.bodyRadiusMetres == 0.0f ? "automatic" : "%.3g m");
+        tip("Of the body that light goes round, so that it does not shadow itself");
     } else if (subsurface.method != scenes::SubsurfaceMethod::None) {
         changed |= colorRow("Absorbs / mm", subsurface.absorptionPerMillimetre, kMostAbsorptionShown);
         changed |=

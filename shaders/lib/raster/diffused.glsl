@@ -12,9 +12,9 @@
 layout(binding = IMAGE_UNIT_DIFFUSED, rgba32f) readonly uniform image2D diffusedLight;
 
 #if FILTER_EXACT
-layout(location = 19) flat in int diffusedCell; // from 1; 0: the object has none
+layout(location = 19) flat in int diffusedNumber; // from 1; 0: the object has none
 #else
-layout(location = 14) flat in int diffusedCell;
+layout(location = 14) flat in int diffusedNumber;
 #endif
 
 // rgb the share of light that leaves where it enters, a the texels around what the coordinates 0 to 1 cover.
@@ -52,7 +52,7 @@ vec3 albedoAfterSpreading(vec3 albedo)
 
 void takeDiffusedLight(Fragment fragment, inout Surface surface)
 {
-    if (diffusedCell == 0 || IS_UNLIT(surface.model)) return;
+    if (diffusedNumber == 0 || IS_UNLIT(surface.model)) return;
     // Which share of the light that leaves goes to the viewer is the same whatever its way: what a mirror image of the
     // viewer would lose where it enters, the viewer loses where it leaves.
     vec3 toViewer = viewpointFromDepth(gl_FragCoord.xy, 0.5).toViewerLS;
@@ -65,22 +65,22 @@ void takeDiffusedLight(Fragment fragment, inout Surface surface)
 #endif
     precise float nv = max(seen.nv, 0.0);
     precise vec3 mirrored = 2.0 * seen.nv * surface.normalLS - toViewer;
-    precise vec3 leaving = reflection(seen, directionsOn(seen, mirrored, nv)).diffuse;
-    vec4 cell = ofDiffusedCell(diffusedCell - 1);
-    vec4 light = diffusedAt(vec2(fragment.texCoord[0]), diffusedCell - 1, cell.a);
-    precise vec3 emission = surface.emission + leaving * light.rgb;
+    precise vec3 diffuseBrdf = reflection(seen, directionsOn(seen, mirrored, nv)).diffuse;
+    vec4 cell = ofDiffusedCell(diffusedNumber - 1);
+    vec4 light = diffusedAt(vec2(fragment.texCoord[0]), diffusedNumber - 1, cell.a);
+    precise vec3 emission = surface.emission + diffuseBrdf * light.rgb;
     surface.emission = emission;
-    precise vec3 unspread = surface.albedo * (light.a == 0.0 ? vec3(1.0) : cell.rgb);
+    precise vec3 inPixels = surface.albedo * (light.a == 0.0 ? vec3(1.0) : cell.rgb);
 #if HAS_GGX_MODELS
     if (HAS_METALLIC(surface.model)) {
         surface.specular = seen.f0;
         precise float f90 = surface.iorOrF90 + (1.0 - surface.iorOrF90) * surface.metallic;
         surface.iorOrF90 = f90;
-        unspread *= 1.0 - surface.metallic;
+        inPixels *= 1.0 - surface.metallic;
         surface.metallic = 0.0;
     }
 #endif
-    surface.albedo = unspread;
+    surface.albedo = inPixels;
 #if HAS_SUBSURFACE_ROWS
     surface.subsurface = 0u;
 #endif

@@ -205,7 +205,8 @@ Crossing crossingOf(ShadowRay ray, uint triangle, bool isMasked)
         crossing.isThere = isSolid(triangle, vec3(u, v, w) / sum, vec3(corner0.w, corner1.w, corner2.w));
 #endif
 #if HAS_SUBSURFACE_DEPTH_MAP
-    uint mark = isMasked ? texelFetch(casterTexels, int(triangle + 4u)).w : floatBitsToUint(corner0.w);
+    // As integers: a small one is a denormal float, which GPUs may flush to 0.
+    uint mark = texelFetch(casterTexels, int(isMasked ? triangle + 4u : triangle)).w;
     crossing.passed = mark & CASTER_PASSED;
     crossing.isOnce = (u != 0.0 || ownsEdge(cAcross - bAcross, sum)) && (v != 0.0 || ownsEdge(aAcross - cAcross, sum)) &&
                       (w != 0.0 || ownsEdge(bAcross - aAcross, sum));

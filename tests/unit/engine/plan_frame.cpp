@@ -161,9 +161,9 @@ TEST(PlanFrame, shadowsThatLoopsOfMesaMayEndAreToldWithTheRemedy) {
     frame::PreparedView whole;
     whole.diffused = {prepareView(softLights(1000), Technique::Deferred, settings)};
     whole.diffusedObjects.emplace_back().name = "mesh 'bust'";
-    EXPECT_THAT(cutShadows(whole), testing::StartsWith("of the light that spreads over mesh 'bust', shadows of 1000"));
+    EXPECT_THAT(cutShadows(whole).why, testing::StartsWith("when lighting mesh 'bust' for diffusion: shadows of 1000"));
     whole.diffused.clear();
-    EXPECT_EQ(cutShadows(whole), "");
+    EXPECT_EQ(cutShadows(whole).why, "");
     // Cascades count each.
     scenes::Scene suns = softLights(300);
     for (scenes::Light& light : suns.lights) light.type = scenes::LightType::Directional;

@@ -111,8 +111,8 @@ TEST(Settings, everyRowHasNamesOfItsOwnAndWordsForHelp) {
         EXPECT_TRUE(keys.insert(setting.key).second) << setting.key;
         EXPECT_EQ(&settingOf(setting.key), &setting);
         EXPECT_FALSE(setting.type.empty() || setting.help.empty()) << setting.name;
-        EXPECT_TRUE(setting.group == "Frame" || setting.group == "Shadows" || setting.group == "Skin" ||
-                    setting.group == "Display")
+        EXPECT_TRUE(setting.group == "Frame" || setting.group == "Shadows" ||
+                    setting.group == "Subsurface scattering" || setting.group == "Display")
             << setting.name;
         const bool isRefused = setting.takes != nullptr || !setting.refusal.empty();
         EXPECT_FALSE(isRefused && setting.heeds == nullptr && setting.takes == nullptr) << setting.name;

@@ -214,7 +214,7 @@ TEST(DiffusionMemory, knowsTilesForTheKeyTheyWereComputedUnder) {
     EXPECT_EQ(memory.missing(1, 7, all).count(), 4u);
     EXPECT_EQ(memory.unlit(1, 7, all).count(), 0u);
     memory.hold(1, 7, {}, a);
-    memory.forgetEntering(1);
+    memory.forgetLit(1);
     EXPECT_EQ(memory.unlit(1, 7, all).count(), 4u);
     EXPECT_EQ(memory.missing(1, 7, all).count(), 3u);
     memory.hold(1, 9, b, b);
