@@ -129,18 +129,8 @@ struct Diffusion::Surfaces {
         line.object = &object;
         line.hits = &hits;
         hits.clear();
-        RTCRayHit rayHit{};
-        const glm::vec3 origin(from - objects.anchor().centreRWS), direction(along);
-        rayHit.ray.org_x = origin.x;
-        rayHit.ray.org_y = origin.y;
-        rayHit.ray.org_z = origin.z;
-        rayHit.ray.dir_x = direction.x;
-        rayHit.ray.dir_y = direction.y;
-        rayHit.ray.dir_z = direction.z;
+        RTCRayHit rayHit = rayFrom(glm::vec3(from - objects.anchor().centreRWS), glm::vec3(along));
         rayHit.ray.tfar = float(lengthMetres);
-        rayHit.ray.mask = ~0u;
-        rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
         rtcIntersect1(tree.get(), &line, &rayHit);
         std::ranges::sort(hits, {}, &Hit::depthMetres);
         // Triangles that meet in an edge are crossed once, and Embree may offer a candidate twice.

@@ -159,16 +159,8 @@ struct Occlusion::Casters {
         query.ownTriangle = own ? own->triangle : 0;
         query.textures = &textures;
         query.passed = passed;
-        RTCRay ray{};
-        ray.org_x = float(segment.from.x);
-        ray.org_y = float(segment.from.y);
-        ray.org_z = float(segment.from.z);
-        ray.dir_x = float(segment.along.x);
-        ray.dir_y = float(segment.along.y);
-        ray.dir_z = float(segment.along.z);
-        ray.tnear = 0.0f;
+        RTCRay ray = rayFrom(glm::vec3(segment.from), glm::vec3(segment.along)).ray;
         ray.tfar = 1.00001f; // the judge knows the end in double
-        ray.mask = ~0u;
         rtcOccluded1(tree.get(), &query, &ray);
         return query;
     }

@@ -1,6 +1,7 @@
 #include "validation/reference/Trees.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -56,6 +57,21 @@ Tree makeTree(RTCDevice device, const std::vector<const Object*>& objects, const
     rtcCommitScene(tree.get());
     throwIfFailed(device, "it sorts the scene's triangles");
     return tree;
+}
+
+RTCRayHit rayFrom(const glm::vec3& origin, const glm::vec3& direction) {
+    RTCRayHit rayHit{};
+    rayHit.ray.org_x = origin.x;
+    rayHit.ray.org_y = origin.y;
+    rayHit.ray.org_z = origin.z;
+    rayHit.ray.dir_x = direction.x;
+    rayHit.ray.dir_y = direction.y;
+    rayHit.ray.dir_z = direction.z;
+    rayHit.ray.tfar = std::numeric_limits<float>::infinity();
+    rayHit.ray.mask = ~0u;
+    rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    return rayHit;
 }
 
 } // namespace tessera::reference

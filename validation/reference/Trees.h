@@ -27,4 +27,7 @@ Device makeDevice();
 Tree makeTree(RTCDevice device, const std::vector<const Object*>& objects, const glm::dvec3& centreRWS,
               RTCFilterFunctionN judge);
 
+/// A ray of any length that meets everything, and has met nothing yet.
+RTCRayHit rayFrom(const glm::vec3& origin, const glm::vec3& direction);
+
 } // namespace tessera::reference

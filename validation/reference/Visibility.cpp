@@ -58,20 +58,10 @@ constexpr double kDepthSlack = 1e-4;
 
 void trace(RTCScene tree, const Objects& objects, Query& query) {
     const Anchor& anchor = objects.anchor();
-    RTCRayHit rayHit{};
     const double start = startOf(*query.ray, anchor);
-    const glm::vec3 origin(query.ray->at(start) - anchor.centreRWS), direction(query.ray->direction);
-    rayHit.ray.org_x = origin.x;
-    rayHit.ray.org_y = origin.y;
-    rayHit.ray.org_z = origin.z;
-    rayHit.ray.dir_x = direction.x;
-    rayHit.ray.dir_y = direction.y;
-    rayHit.ray.dir_z = direction.z;
+    RTCRayHit rayHit = rayFrom(glm::vec3(query.ray->at(start) - anchor.centreRWS), glm::vec3(query.ray->direction));
     rayHit.ray.tnear = float(std::max(0.0, query.nearMetres * (1.0 - kDepthSlack) - objects.roundingMetres() - start));
     rayHit.ray.tfar = float(query.farMetres * (1.0 + kDepthSlack) + objects.roundingMetres() - start);
-    rayHit.ray.mask = ~0u;
-    rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(tree, &query, &rayHit);
 }
 

@@ -1,0 +1,92 @@
+// The integral over the surface, held to what is known of a plane.
+#include "validation/reference/Diffusion.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "scenes/Load.h"
+#include "scenes/builtin/DiffusionTruth.h"
+#include "validation/reference/Render.h"
+
+namespace tessera::reference {
+namespace {
+
+namespace builtin = scenes::builtin;
+
+/// A strip of the scene diffusion_truth from above, around a place; rows differ in their random points alone.
+Rendered strip(const scenes::Scene& scene, const glm::dvec3& middleWS, glm::ivec2 sizePixels, double widthMetres) {
+    Settings settings;
+    settings.sizePixels = sizePixels;
+    settings.diffusionPoints = 1024;
+    settings.leeway = false;
+    settings.camera = scene.cameras[0];
+    settings.camera.projection = scenes::Projection::Orthographic;
+    settings.camera.worldFromCamera = glm::dmat4({1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, -1.0, 0.0}, {0.0, 1.0, 0.0, 0.0},
+                                                 glm::dvec4(middleWS + glm::dvec3(0.0, 1.0, 0.0), 1.0));
+    settings.camera.halfHeightMetres = 0.5 * widthMetres * sizePixels.y / sizePixels.x;
+    settings.camera.nearMetres = 0.01;
+    settings.camera.farMetres = 3.0;
+    return render(scene, settings);
+}
+
+/// RMS of the difference of a channel's mean over the rows, by that of the truth.
+template <typename Truth>
+double errorOf(const Rendered& rendered, int channel, double widthMetres, Truth truth) {
+    double wrong = 0.0, whole = 0.0;
+    for (int x = 0; x < rendered.width; ++x) {
+        double mean = 0.0;
+        for (int y = 0; y < rendered.height; ++y)
+            mean += rendered.radiance[std::size_t(y * rendered.width + x)][channel] / rendered.height;
+        const double right = truth(widthMetres * ((x + 0.5) / rendered.width - 0.5))[channel];
+        wrong += (mean - right) * (mean - right);
+        whole += right * right;
+    }
+    return std::sqrt(wrong / whole);
+}
+
+TEST(ReferenceDiffusion, aStepOfLightIsASumOfErrorFunctions) {
+    const scenes::Scene scene = scenes::loadScene("diffusion_truth");
+    constexpr double kWidth = 0.4;
+    // So low a strip that a column is one distance from the edge.
+    const Rendered rendered = strip(scene, {builtin::kTruthEdgeX, 0.0, 0.0}, {80, 16}, kWidth);
+    for (int channel = 0; channel < 3; ++channel) {
+        const double error =
+            errorOf(rendered, channel, kWidth, [](double beyond) { return builtin::diffusedStep(beyond); });
+        fmt::print("channel {}: {:.2e}\n", channel, error);
+        EXPECT_LE(error, 0.01) << channel;
+    }
+    double whole = 0.0, apart = 0.0;
+    for (const Diffusion::Answer& answer : rendered.spread) {
+        whole += answer.whole.r / double(rendered.spread.size());
+        apart += answer.apart;
+    }
+    EXPECT_NEAR(whole, 1.0, 0.005) << "the profile's integral over a plane";
+    EXPECT_EQ(apart, 0.0);
+}
+
+TEST(ReferenceDiffusion, aDotOfLightIsTheProfile) {
+    const scenes::Scene scene = scenes::loadScene("diffusion_truth");
+    constexpr double kWidth = 0.16;
+    const Rendered rendered = strip(scene, builtin::kTruthDotWS, {80, 16}, kWidth);
+    double wrong = 0.0, whole = 0.0;
+    for (int y = 0; y < rendered.height; ++y) {
+        for (int x = 0; x < rendered.width; ++x) {
+            const double pixel = kWidth / rendered.width;
+            const glm::dvec2 place =
+                pixel * (glm::dvec2(x, y) + 0.5 - 0.5 * glm::dvec2(rendered.width, rendered.height));
+            const glm::dvec3 right = builtin::diffusedDot(glm::length(place));
+            const glm::dvec3 own = rendered.radiance[std::size_t(y * rendered.width + x)];
+            wrong += glm::dot(own - right, own - right);
+            whole += glm::dot(right, right);
+        }
+    }
+    const double error = std::sqrt(wrong / whole);
+    fmt::print("dot: {:.2e}\n", error);
+    // The noise of points that find the dot: measured 0.015.
+    EXPECT_LE(error, 0.03);
+}
+
+} // namespace
+} // namespace tessera::reference
