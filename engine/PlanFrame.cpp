@@ -47,6 +47,28 @@ void addRefinements(graph::Plan& plan, const scenes::Scene& scene, const frame::
     }
 }
 
+/// What spreading light costs: atlases, and of each object how many levels.
+graph::Plan::Choice spreadChoice(const frame::PreparedView& prepared) {
+    constexpr std::size_t kMostNamed = 4;
+    std::vector<std::string> words;
+    for (std::size_t i = 0; i < std::min(prepared.diffused.size(), kMostNamed); ++i) {
+        const std::size_t levels = prepared.diffused[i].spec.spread->levels.size();
+        words.push_back(
+            fmt::format("{}: {} level{}", prepared.diffusedObjects[i].name, levels, levels == 1 ? "" : "s"));
+    }
+    if (prepared.diffused.size() > kMostNamed)
+        words.push_back(fmt::format("{} more", prepared.diffused.size() - kMostNamed));
+    const frame::FrameSpec& spec = prepared.spec;
+    const glm::dvec2 texels(spec.diffusedCells().texels());
+    const double side = double(spec.spreadTexels());
+    // The atlas, and of each object the light that enters and the part of it that leaves at once.
+    const double bytes = 16.0 * (texels.x * texels.y + 2.0 * side * side * double(prepared.diffused.size()));
+    return {"spread light",
+            fmt::format("{} object{}, {} texels a side, {:.4g} MiB kept", prepared.diffused.size(),
+                        prepared.diffused.size() == 1 ? "" : "s", spec.spreadTexels(), bytes / 1048576.0),
+            fmt::format("{}; only tiles that are seen are lit and spread", fmt::join(words, ", "))};
+}
+
 graph::Plan::Choice atlasChoice(const frame::ShadowMaps& maps, const frame::FrameSettings& settings) {
     const auto bytes = double(graph::descBytes(maps.atlas()));
     std::map<int, std::size_t> sides;
@@ -95,6 +117,7 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::Prep
             plan.choices.push_back(
                 {"loops of shadows", fmt::format("up to {} iterations", cut.iterations), std::move(cut.why)});
     }
+    if (!prepared.diffused.empty()) plan.choices.push_back(spreadChoice(prepared));
     for (const std::string& warning : scene.warnings) plan.choices.push_back({"scene", scene.name, warning});
 }
 

@@ -89,8 +89,9 @@ LightSpread lightSpread(const scenes::Subsurface& subsurface, int mostGaussians,
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
             const double a = meanOf(levels[i].weight), b = meanOf(levels[i + 1].weight);
-            const double apart = std::log(levels[i + 1].varianceSquareMetres / levels[i].varianceSquareMetres);
-            const double cost = a + b > 0.0 ? a * b / (a + b) * apart * apart : 0.0;
+            const double narrow = levels[i].varianceSquareMetres, wide = levels[i + 1].varianceSquareMetres;
+            const double apart = narrow == wide ? 0.0 : std::log(wide / narrow);
+            const double cost = a + b > 0.0 && apart > 0.0 ? a * b / (a + b) * apart * apart : 0.0;
             if (cost < least) {
                 least = cost;
                 best = i;

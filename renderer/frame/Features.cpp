@@ -64,9 +64,9 @@ std::vector<FeatureInfo> makeTable() {
             {Feature::Shadows, "SHADOWS", "shadows", "no light in view casts any"},
             {Feature::SoftShadows, "SOFT_SHADOWS", "soft shadows", "no shadow in view is soft"},
             {Feature::ShadowMaps, "SHADOW_MAPS", "shadow maps", "no shadow is looked up in a map"},
-            {Feature::SubsurfaceWrap, "SUBSURFACE_WRAP", "wrapped light", "no material wraps any"},
+            {Feature::SubsurfaceWrap, "SUBSURFACE_WRAP", "wrapped light", "no material uses wrap"},
             {Feature::SubsurfaceDepthMap, "SUBSURFACE_DEPTH_MAP", "light through thin parts",
-             "no material lets any through"},
+             "no material uses depth_map"},
             {Feature::SubsurfaceDiffusion, "SUBSURFACE_DIFFUSION", "light spread over surfaces",
              "no material uses texture_space_diffusion"},
         });

@@ -306,7 +306,8 @@ std::string unwrapProblem(const scenes::Mesh& mesh) {
                                texCoord.y);
     }
     const UvAtlas atlas = makeUvAtlas(mesh, glm::dmat4(1.0), kOverlapSideTexels, 0, 0);
-    if (atlas.chartCount == 0) return "its texture coordinates cover nothing; unwrap it";
+    if (atlas.chartCount == 0)
+        return "its triangles have no area, on the surface or in the texture; give it some, unwrap it";
     if (atlas.overlapping > kMostOverlapping)
         return fmt::format("several of its triangles lie in {:.0f} % of its texture; unwrap it so that none overlap",
                            100.0 * atlas.overlapping);

@@ -126,6 +126,21 @@ TEST(PlanFrame, theOneReasonIsGivenWhyNoShadowIsSoft) {
     EXPECT_EQ(whyLeftOut(scene, "soft shadows", settings), "there are no shadows");
 }
 
+TEST(PlanFrame, tellsWhatSpreadingLightCosts) {
+    frame::FrameSettings settings;
+    settings.diffusion.sideTexels = 128;
+    const auto told = [&](const char* scene) {
+        const graph::Plan plan = planFrame(scenes::loadScene(scene), Technique::Deferred, settings);
+        const auto found = std::ranges::find(plan.choices, "spread light", &graph::Plan::Choice::what);
+        return found == plan.choices.end() ? graph::Plan::Choice() : *found;
+    };
+    const graph::Plan::Choice choice = told("diffusion_truth");
+    // Two cells side by side with a row above, and of each two textures, of 16 bytes a texel.
+    EXPECT_EQ(choice.chosen, "2 objects, 128 texels a side, 1.504 MiB kept");
+    EXPECT_THAT(choice.why, testing::HasSubstr("levels"));
+    EXPECT_EQ(told("room").what, "");
+}
+
 TEST(PlanFrame, shadowsThatLoopsOfMesaMayEndAreToldWithTheRemedy) {
     frame::FrameSettings settings;
     const auto told = [&](const scenes::Scene& scene) {
