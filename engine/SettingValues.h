@@ -157,8 +157,9 @@ SettingValue choice(Get get, std::span<const Row> table, Key Row::*key, std::str
 template <typename Get>
 SettingValue choice(Get get, std::span<const int> numbers, std::string_view unit = "") {
     ChoiceKind kind{{}, true};
+    const std::string_view ofOne = unit.ends_with('s') ? unit.substr(0, unit.size() - 1) : unit;
     for (const int number : numbers)
-        kind.entries.push_back({numberText(number), numberText(number) + std::string(unit), ""});
+        kind.entries.push_back({numberText(number), numberText(number) + std::string(number == 1 ? ofOne : unit), ""});
     const auto valueOf = [numbers](const std::string& text, const TextSource& source) {
         const double value = wholeNumber(text, source);
         const auto found = std::ranges::find(numbers, value);

@@ -220,7 +220,8 @@ private:
         });
         show();
         isDescribed_ = !drew;
-        if (facts_.isPreparing || givenUp_ > givenUp) return; // the picture that answers is yet to come
+        if (facts_.isPreparing || facts_.isSpreading || givenUp_ > givenUp)
+            return; // the picture that answers is yet to come
         const std::optional<double> heardAt = std::exchange(heardAt_, std::nullopt);
         if (heardAt && drew) log_.line(fmt::format("answered ms {:.1f}", 1000.0 * (shownAt_ - *heardAt)));
     }
@@ -315,7 +316,9 @@ private:
     /// it drew.
     bool drawPictures() {
         const gpu::Rectangle place = areaPixels();
-        if (!std::exchange(facts_.isPreparing, false)) announcements_ = 0;
+        const bool wasAnnounced = facts_.isPreparing || facts_.isSpreading;
+        facts_.isPreparing = facts_.isSpreading = false;
+        if (!wasAnnounced) announcements_ = 0;
         if (!state_.open || place.width < 1 || place.height < 1) return false;
         wanted_.looks = state_.looks;
         for (Look& look : wanted_.looks) look.settings.sizePixels = {place.width, place.height};
@@ -323,21 +326,25 @@ private:
         if (wanted_.sides == 1) wanted_.looks[1] = wanted_.looks[0];
         wanted_.comparesRadiance = state_.compare != Compare::Off;
         wanted_.sceneRevision = state_.open->revision();
+        wanted_.sceneEdits = state_.open->edits();
         const double have = screen_.scaleOf(wanted_);
         if (have >= restScale() || (have > 0.0 && have >= movingScale() && isMoving())) return false;
         const bool isAtRest = !isMoving() && now() >= restAt_ && have > 0.0;
         if (have > 0.0 && !isAtRest) return false;
         if (isAtRest && !isDescribed_) return false; // the whole picture may take long: say first what this one is
         if (have == 0.0) restAt_ = now() + kRestSeconds;
-        if (isToBeAnnounced()) return false;
+        if (isToBeAnnounced(isAtRest)) return false;
         return drawAt(isAtRest ? restScale() : movingScale(), isAtRest);
     }
 
-    /// Before the first picture of a kind the window shows for one frame why it will wait.
-    bool isToBeAnnounced() {
+    /// Before the first picture of a kind, and before a whole one for which light is spread anew, the window shows for
+    /// one frame why it will wait.
+    bool isToBeAnnounced(bool isAtRest) {
         constexpr int kFrames = 2; // the interface of this frame is laid out already
-        facts_.isPreparing = screen_.isNewKind(wanted_) && announcements_ < kFrames;
-        if (!facts_.isPreparing) return false;
+        if (announcements_ >= kFrames) return false;
+        facts_.isPreparing = screen_.isNewKind(wanted_);
+        facts_.isSpreading = !facts_.isPreparing && isAtRest && screen_.spreadsAnew(wanted_);
+        if (!facts_.isPreparing && !facts_.isSpreading) return false;
         ++announcements_;
         settleFrames_ = std::max(settleFrames_, 1);
         return true;

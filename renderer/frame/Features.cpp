@@ -312,14 +312,22 @@ FeatureSet materialFeatures(const scenes::Scene& scene, scenes::SubsurfaceReques
     return set;
 }
 
-FeatureSet enteringFeatures(const scenes::Scene& scene, int material, int mesh) {
-    scenes::Material entered = scene.materials[std::size_t(material)];
+scenes::Material enteredMaterial(const scenes::Material& material) {
+    scenes::Material entered;
     entered.model = scenes::MaterialModel::Lambert;
-    entered.emissive = glm::vec3(0.0f);
-    entered.alphaMode = scenes::AlphaMode::Opaque;
+    entered.baseColor = material.baseColor;
+    entered.normalScale = material.normalScale;
+    entered.normalMapSpace = material.normalMapSpace;
+    entered.doubleSided = material.doubleSided;
+    for (const scenes::TextureSlot slot : {scenes::TextureSlot::BaseColor, scenes::TextureSlot::Normal})
+        entered.texture(slot) = material.texture(slot);
+    entered.subsurface = material.subsurface;
     entered.subsurface.method = scenes::SubsurfaceMethod::DepthMap;
-    for (const scenes::TextureSlot slot : {scenes::TextureSlot::MetallicRoughness, scenes::TextureSlot::Emissive})
-        entered.textures[std::size_t(slot)] = {};
+    return entered;
+}
+
+FeatureSet enteringFeatures(const scenes::Scene& scene, int material, int mesh) {
+    const scenes::Material entered = enteredMaterial(scene.materials[std::size_t(material)]);
     FeatureSet set;
     addMaterial(set, entered, {});
     set.soleModel = entered.model;

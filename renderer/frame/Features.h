@@ -114,6 +114,9 @@ bool canMask(const scenes::Material& material);
 /// of the camera.
 FeatureSet materialFeatures(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface = {});
 
+/// What of a material decides the light that enters it, as one that reflects alike to all sides.
+scenes::Material enteredMaterial(const scenes::Material& material);
+
 /// What decides the light that enters a mesh with a material (Feature::SubsurfaceDiffusion), as the features of one
 /// that reflects it alike to all sides.
 FeatureSet enteringFeatures(const scenes::Scene& scene, int material, int mesh);

@@ -38,7 +38,7 @@ std::uint64_t diffusionKey(const scenes::Scene& scene, const DiffusedObject& obj
     hash.addFloats(prepared.shadowFaces);
     const PackedSubsurfaces subsurfaces = packSubsurfaces(scene, settings.subsurface);
     const std::size_t row = subsurfaces.rowOf[std::size_t(object.material)];
-    hash.addFloats(std::vector{packMaterial(scene.materials[std::size_t(object.material)], row)});
+    hash.addFloats(std::vector{packMaterial(enteredMaterial(scene.materials[std::size_t(object.material)]), row)});
     // Light passes through other objects of the same absorption alone.
     hash.addFloats(subsurfaces.rows);
     const LightSpread& spread = prepared.spec.spread.value();

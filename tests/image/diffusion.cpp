@@ -132,6 +132,12 @@ TEST_F(Diffusion, spreadLightIsKeptWhileOnlyTheCameraMoves) {
         ball.materials[0].subsurface.preScatterShare = 1.0f;
         renderer.materialsChanged();
         moved([] {}, false);
+        // Of a highlight, which leaves where it arrives.
+        ball.materials[0].specularColor = glm::vec3(0.5f);
+        ball.materials[0].metallic = 0.0f;
+        ball.materials[0].perceptualRoughness = 0.3f;
+        renderer.materialsChanged();
+        moved([] {}, true);
     }
 }
 

@@ -63,6 +63,8 @@ std::vector<std::string> statusParts(const State& state, const Facts& facts) {
         parts.emplace_back("loading ...");
     else if (facts.isPreparing)
         parts.emplace_back("preparing shaders ...");
+    else if (facts.isSpreading)
+        parts.emplace_back("spreading light over surfaces ...");
     // Beside the divider the sides' names stand in the picture; two of them leave no room here.
     const auto& [left, right] = facts.shown;
     if (state.compare == Compare::Off && left)

@@ -1,6 +1,7 @@
 #include "viewer/session/OpenScene.h"
 
 #include "scenes/Defaults.h"
+#include "viewer/edit/Pick.h"
 
 namespace tessera::viewer {
 
@@ -8,13 +9,22 @@ OpenScene::OpenScene(std::string source, const scenes::LoadOptions& load, scenes
                      scenes::SceneOrigin origin)
     : source_(std::move(source)), load_(load), scene_(std::move(loaded)), origin_(std::move(origin)),
       boundsWS_(scenes::worldBounds(scene_)), cameras_(scene_.cameras),
-      rig_(cameras_.front(), poseOf(cameras_.front(), boundsWS_), boundsWS_) {}
+      rig_(cameras_.front(), poseThrough(cameras_.front()), boundsWS_) {}
+
+CameraPose OpenScene::poseThrough(const scenes::Camera& camera) const {
+    constexpr int kSidePixels = 3; // the middle one looks along the axis
+    const auto seen = pickedByRay(scene_, camera, glm::ivec2(kSidePixels), glm::ivec2(kSidePixels / 2));
+    if (!seen) return poseOf(camera, boundsWS_);
+    const glm::dvec3 forwardWS = -glm::dvec3(camera.worldFromCamera[2]);
+    const double focusMetres = glm::dot(seen->positionWS - glm::dvec3(camera.worldFromCamera[3]), forwardWS);
+    return focusMetres > 0.0 ? poseOf(camera, focusMetres) : poseOf(camera, boundsWS_);
+}
 
 void OpenScene::useCamera(int camera) {
     scene_.cameras[std::size_t(camera_)] = sceneCamera();
     camera_ = camera;
     placed_ = {};
-    begin(sceneCamera(), poseOf(sceneCamera(), boundsWS_));
+    begin(sceneCamera(), poseThrough(sceneCamera()));
 }
 
 void OpenScene::becomes(const std::string& file) {
@@ -31,7 +41,7 @@ void OpenScene::place(const scenes::CameraChange& change) {
     const scenes::Camera camera = scenes::changedCamera(sceneCamera(), change);
     const glm::dvec3 eyeWS(camera.worldFromCamera[3]);
     placed_ = change;
-    begin(camera, change.targetWS ? poseOf(camera, glm::distance(eyeWS, *change.targetWS)) : poseOf(camera, boundsWS_));
+    begin(camera, change.targetWS ? poseOf(camera, glm::distance(eyeWS, *change.targetWS)) : poseThrough(camera));
 }
 
 scenes::CameraChange OpenScene::cameraChange() const {

@@ -64,6 +64,9 @@ private:
         ++edits_;
     }
     const scenes::Camera& sceneCamera() const { return cameras_[std::size_t(camera_)]; }
+    /// Orbits turn about what the camera shows in the middle of its picture; where that is nothing, about the middle of
+    /// the scene.
+    CameraPose poseThrough(const scenes::Camera& camera) const;
     /// Begins anew with a camera and its pose.
     void begin(const scenes::Camera& start, const CameraPose& home);
 

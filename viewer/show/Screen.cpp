@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/frame/Diffusion.h"
 #include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Timer.h"
@@ -27,6 +28,18 @@ bool isOfKind(const Look& a, const Look& b) {
     return like == b;
 }
 
+/// Whether the light that spreads over surfaces in b is that in a.
+bool hasSameSpread(const Look& a, const Look& b) {
+    Look like = a;
+    like.technique = b.technique;
+    for (const engine::Setting& setting : engine::settingTable())
+        if (setting.samePicture || (setting.sameCost && setting.key != "time")) setting.value.copy(like, b);
+    return like == b;
+}
+
+/// Side of the atlases of pictures that move while what light they spread changes.
+constexpr int kMovingDiffusionTexels = 128;
+
 glm::ivec2 scaled(glm::ivec2 size, double scale) {
     return glm::max(glm::ivec2(glm::round(glm::dvec2(size) * scale)), glm::ivec2(1));
 }
@@ -43,6 +56,7 @@ void Screen::open(const OpenScene& scene) {
     materialRevision_ = scene.materialRevision();
     forget();
     kinds_.reset(); // its programs are yet to be compiled
+    whole_.reset();
     latestMs_ = 0.0;
     resolution_.restart(context_.capabilities().isSoftware ? kSoftwareGuess : 1.0);
 }
@@ -50,6 +64,17 @@ void Screen::open(const OpenScene& scene) {
 bool Screen::isNewKind(const Wanted& wanted) const {
     return !kinds_ || !isOfKind((*kinds_)[0], wanted.looks[0]) ||
            (wanted.sides == 2 && !isOfKind((*kinds_)[1], wanted.looks[1]));
+}
+
+bool Screen::spreadsAnew(const Wanted& wanted) const {
+    if (scene_ == nullptr) return false;
+    bool spreads = false, isKnown = whole_ && whole_->sceneEdits == wanted.sceneEdits;
+    for (std::size_t side = 0; side < std::size_t(wanted.sides); ++side) {
+        const Look& look = wanted.looks[side];
+        spreads = spreads || frame::diffusesLight(scene_->scene(), look.settings.subsurface);
+        isKnown = isKnown && whole_->sides >= wanted.sides && hasSameSpread(whole_->looks[side], look);
+    }
+    return spreads && !isKnown;
 }
 
 void Screen::takeEdits() {
@@ -63,6 +88,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::functi
     result.scale = scale;
     result.sizePixels = scaled(wanted.looks[0].settings.sizePixels, scale);
     const bool isNew = isNewKind(wanted), isSlowKind = isSlow(wanted);
+    const bool isCoarse = scale < 1.0 && spreadsAnew(wanted);
     drawn_.reset();
     failed_.reset();
     const std::size_t programs = renderer_->programs().size();
@@ -74,6 +100,8 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::functi
             Look look = wanted.looks[std::size_t(side)];
             look.settings.wholePixels = look.settings.sizePixels;
             look.settings.sizePixels = result.sizePixels;
+            int& atlasTexels = look.settings.diffusion.sideTexels;
+            if (isCoarse) atlasTexels = std::min(atlasTexels, kMovingDiffusionTexels);
             renderer_->draw(look.technique, look.settings);
             gpu::finish();
             result.sideMs[std::size_t(side)] = clock.elapsedMs();
@@ -92,6 +120,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::functi
         throw;
     }
     drawn_ = wanted;
+    if (scale >= 1.0) whole_ = wanted;
     kinds_ = wanted.looks;
     drawnScale_ = scale;
     differenceIsStale_ = true;

@@ -21,6 +21,7 @@ public:
         int sides = 1;
         bool comparesRadiance = false;
         std::uint64_t sceneRevision = 0;
+        std::uint64_t sceneEdits = 0; ///< of lights and materials
         bool operator==(const Wanted&) const = default;
     };
     /// What a call of draw() did.
@@ -55,6 +56,8 @@ public:
     /// Whether what is wanted is of another kind than what was drawn last, so that shaders may have to be compiled
     /// first.
     bool isNewKind(const Wanted& wanted) const;
+    /// Whether light that spreads over surfaces is to be computed anew, which a whole picture takes seconds for.
+    bool spreadsAnew(const Wanted& wanted) const;
     /// Whether it may take so long that it must be given up where somebody waits: it is the first of its kind, or even
     /// the latest picture of moving things took that long.
     bool isSlow(const Wanted& wanted) const { return isNewKind(wanted) || latestMs_ > kSlowMs; }
@@ -95,6 +98,7 @@ private:
     ResolutionScale resolution_;
     std::optional<std::array<Look, 2>> kinds_; ///< kind of the pictures drawn last of this scene
     std::optional<Wanted> drawn_, failed_;
+    std::optional<Wanted> whole_; ///< what was last drawn at full size of this scene
     double drawnScale_ = 0.0;
     double latestMs_ = 0.0; ///< of the latest picture while something moved, without what was spent on compiling
 };

@@ -105,6 +105,29 @@ TEST(OpenScene, orbitingTurnsAboutTheGivenTarget) {
     EXPECT_NEAR(shown.z, glm::distance(*change.eyeWS, *change.targetWS), 1e-12);
 }
 
+TEST(OpenScene, orbitingTurnsAboutWhatIsSeenInTheMiddleAndNotAboutTheMiddleOfTheScene) {
+    scenes::Scene scene = Opened::made();
+    scene.cameras.resize(1);
+    scene.cameras[0] = perspective({0, 0, 9}, {0, 0, 0});
+    // A wall far behind a small plate, which lies two metres before the eye.
+    const auto add = [&](double z, float side) {
+        scenes::Mesh plate;
+        plate.positionsOS = {{-side, -side, 0}, {side, -side, 0}, {side, side, 0}, {-side, side, 0}};
+        plate.normalsOS.assign(4, {0, 0, 1});
+        plate.indices = {0, 1, 2, 0, 2, 3};
+        scenes::Node node;
+        node.parentFromNode[3] = glm::dvec4(0.0, 0.0, z, 1.0);
+        node.instances = {{int(scene.meshes.size()), 0}};
+        scene.meshes.push_back(plate);
+        scene.nodes.push_back(node);
+    };
+    scene.materials.resize(1);
+    add(-40.0, 30.0f);
+    add(7.0, 0.1f);
+    const OpenScene open{"test.json", {}, scene, {}};
+    EXPECT_NEAR(open.rig().pose().focusMetres, 2.0, 1e-9);
+}
+
 TEST(OpenScene, aRefusedPlaceNeverChangesAnything) {
     Opened opened;
     scenes::CameraChange change;
