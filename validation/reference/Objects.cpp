@@ -24,9 +24,14 @@ glm::dmat3 cofactorMatrix(const glm::dmat3& m) {
     return cofactor;
 }
 
-double depthOfBoxCentre(const Object& object, const glm::dvec3& forward) {
+scenes::Box3 boxOf(const scenes::Mesh& mesh) {
     scenes::Box3 boxOS;
-    for (const glm::vec3& position : object.mesh->positionsOS) boxOS.extend(glm::dvec3(position));
+    for (const glm::vec3& position : mesh.positionsOS) boxOS.extend(glm::dvec3(position));
+    return boxOS;
+}
+
+double depthOfBoxCentre(const Object& object, const glm::dvec3& forward) {
+    const scenes::Box3 boxOS = boxOf(*object.mesh);
     const glm::dvec3 centreOS = 0.5 * (boxOS.min + boxOS.max);
     return glm::dot(forward, glm::dvec3(object.rwsFromObject * glm::dvec4(centreOS, 1.0)));
 }
@@ -55,6 +60,29 @@ struct Range {
         most = std::min(most, std::max(a, b));
     }
 };
+
+/// Whether a ray can hit a mesh, by its box and a little around it.
+bool mayHit(const Ray& ray, const scenes::Mesh& mesh, const glm::dmat4& rwsFromObject) {
+    const scenes::Box3 boxOS = boxOf(mesh);
+    if (boxOS.empty()) return false;
+    scenes::Box3 boxRWS;
+    for (int corner = 0; corner < 8; ++corner) {
+        const auto side = [&](int axis) { return (corner >> axis & 1) != 0 ? boxOS.max[axis] : boxOS.min[axis]; };
+        boxRWS.extend(glm::dvec3(rwsFromObject * glm::dvec4(side(0), side(1), side(2), 1.0)));
+    }
+    const glm::dvec3 farthest = glm::max(glm::abs(boxRWS.min), glm::abs(boxRWS.max));
+    const double room = 1e-9 * (glm::length(farthest) + glm::length(ray.originRWS));
+    Range depths{0.0};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double least = boxRWS.min[axis] - room - ray.originRWS[axis];
+        const double most = boxRWS.max[axis] + room - ray.originRWS[axis];
+        if (ray.direction[axis] != 0.0)
+            depths.intersect(least / ray.direction[axis], most / ray.direction[axis]);
+        else if (least > 0.0 || most < 0.0)
+            return false;
+    }
+    return depths.least <= depths.most;
+}
 
 /// Depths at which a box can meet the picture of parallel rays, not closer than they are; nothing where it cannot.
 /// Places of the picture are x right + y up + depth forward, so that the box's extent along each axis of the world
@@ -130,12 +158,19 @@ Anchor perspectiveAnchor(const std::vector<Bounds>& all, const CameraRays& rays)
 
 } // namespace
 
-Objects::Objects(const scenes::Scene& scene, const CameraRays& rays, scenes::SubsurfaceRequest subsurface) {
+Objects::Objects(const scenes::Scene& scene, const CameraRays& rays, scenes::SubsurfaceRequest subsurface)
+    : Objects(scene, rays, subsurface, nullptr) {}
+
+Objects::Objects(const scenes::Scene& scene, const CameraRays& rays, const Ray& only)
+    : Objects(scene, rays, {}, &only) {}
+
+Objects::Objects(const scenes::Scene& scene, const CameraRays& rays, scenes::SubsurfaceRequest subsurface,
+                 const Ray* only) {
     const std::vector<glm::dmat4> worldFromNode = scenes::worldFromNodes(scene);
     std::uint32_t number = 0;
     for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
         for (const scenes::MeshInstance& instance : scene.nodes[node].instances)
-            add(scene, instance, worldFromNode[node], rays, subsurface, number++);
+            add(scene, instance, worldFromNode[node], rays, subsurface, only, number++);
     }
     setBodyRadii();
     std::vector<std::pair<double, Object>> byDepth;
@@ -180,7 +215,7 @@ double Objects::roundingBeyondMetres(const glm::dvec3& placeRWS) const {
 }
 
 void Objects::add(const scenes::Scene& scene, const scenes::MeshInstance& instance, const glm::dmat4& worldFromNode,
-                  const CameraRays& rays, scenes::SubsurfaceRequest subsurface, std::uint32_t number) {
+                  const CameraRays& rays, scenes::SubsurfaceRequest subsurface, const Ray* only, std::uint32_t number) {
     Object object;
     object.mesh = &scene.meshes[std::size_t(instance.mesh)];
     object.material = &scene.materials[std::size_t(instance.material)];
@@ -190,6 +225,7 @@ void Objects::add(const scenes::Scene& scene, const scenes::MeshInstance& instan
     object.number = number;
     object.rwsFromObject = worldFromNode;
     object.rwsFromObject[3] -= glm::dvec4(rays.eyeWS(), 0.0);
+    if (only != nullptr && !mayHit(*only, *object.mesh, object.rwsFromObject)) return;
     object.handedness = glm::determinant(glm::dmat3(worldFromNode)) < 0.0 ? -1.0 : 1.0;
     object.normalFromObject = cofactorMatrix(glm::dmat3(worldFromNode)) * object.handedness;
     if (tangentSlot(*object.material)) object.tangentsOS = &tangentsOf(*object.mesh, *object.material);

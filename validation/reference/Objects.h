@@ -57,6 +57,8 @@ struct Object {
 class Objects {
 public:
     Objects(const scenes::Scene& scene, const CameraRays& rays, scenes::SubsurfaceRequest subsurface = {});
+    /// Only those whose mesh's box the ray meets: all that it can hit, and no more is prepared.
+    Objects(const scenes::Scene& scene, const CameraRays& rays, const Ray& only);
 
     const std::vector<Object>& opaque() const { return opaque_; } ///< alpha-masked ones too
     /// In the order in which they are blended: far to near by the depth of their mesh's box centre, ties by number.
@@ -68,8 +70,9 @@ public:
     double roundingBeyondMetres(const glm::dvec3& placeRWS) const;
 
 private:
+    Objects(const scenes::Scene& scene, const CameraRays& rays, scenes::SubsurfaceRequest subsurface, const Ray* only);
     void add(const scenes::Scene& scene, const scenes::MeshInstance& instance, const glm::dmat4& worldFromNode,
-             const CameraRays& rays, scenes::SubsurfaceRequest subsurface, std::uint32_t number);
+             const CameraRays& rays, scenes::SubsurfaceRequest subsurface, const Ray* only, std::uint32_t number);
     void setBodyRadii();
     const std::vector<glm::dvec4>& tangentsOf(const scenes::Mesh& mesh, const scenes::Material& material);
 

@@ -30,10 +30,10 @@ std::optional<Pick> pickedByRay(const scenes::Scene& scene, const scenes::Camera
                                 glm::ivec2 pixel) {
     assert(pixel.x >= 0 && pixel.y >= 0 && pixel.x < sizePixels.x && pixel.y < sizePixels.y);
     const reference::CameraRays rays(camera, sizePixels);
-    const reference::Objects objects(scene, rays);
     const reference::Textures textures(scene, reference::Filtering::Exact);
-    const reference::Visibility visibility(objects, rays, textures);
     const reference::Ray ray = rays.through(pixel.x, pixel.y);
+    const reference::Objects objects(scene, rays, ray);
+    const reference::Visibility visibility(objects, rays, textures);
     std::optional<reference::Hit> nearest = visibility.nearestOpaque(ray);
     const double behindMetres = nearest ? nearest->depthMetres : rays.farMetres();
     for (const reference::Hit& hit : visibility.transparentBefore(ray, behindMetres))
