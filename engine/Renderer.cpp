@@ -47,24 +47,24 @@ Renderer::Renderer(gpu::Context& context, const scenes::Scene& scene, shader::So
 Renderer::~Renderer() = default;
 
 const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
+    constexpr std::size_t kMostUploaded = 2;
     // Light types change from frame to frame and do not concern the scene's buffers.
-    frame::FeatureSet features = frame::surfaceFeatures(scene_, spec.settings.prune, spec.settings.subsurface);
+    const frame::FeatureSet features = frame::surfaceFeatures(scene_, spec.settings.prune, spec.settings.subsurface);
     const frame::TextureFilter filter = spec.settings.filter;
     const scenes::SubsurfaceRequest subsurface = spec.settings.subsurface;
-    if (sceneGpu_ && features == sceneFeatures_ && filter == sceneFilter_ && subsurface == sceneSubsurface_) {
-        if (materialsChanged_) sceneGpu_->updateMaterials();
-        materialsChanged_ = false;
-        return *sceneGpu_;
+    const auto found = std::ranges::find_if(uploaded_, [&](const Uploaded& uploaded) {
+        return uploaded.features == features && uploaded.filter == filter && uploaded.subsurface == subsurface;
+    });
+    if (found == uploaded_.end()) {
+        auto scene = std::make_unique<frame::SceneGpu>(scene_, features, filter, subsurface);
+        if (uploaded_.size() == kMostUploaded) uploaded_.pop_back();
+        uploaded_.insert(uploaded_.begin(), {features, filter, subsurface, std::move(scene)});
+    } else {
+        if (found->materialsChanged) found->scene->updateMaterials();
+        found->materialsChanged = false;
+        std::rotate(uploaded_.begin(), found, found + 1);
     }
-    sceneGpu_ = std::make_unique<frame::SceneGpu>(scene_, features, filter, subsurface);
-    // The revisions of its casters begin anew.
-    shadowMemories_.forget();
-    for (auto& [view, memory] : diffusionMemories_) memory.forget();
-    materialsChanged_ = false;
-    sceneFeatures_ = features;
-    sceneFilter_ = filter;
-    sceneSubsurface_ = subsurface;
-    return *sceneGpu_;
+    return *uploaded_.front().scene;
 }
 
 /// Tiles of an object's atlas that the view may look up. With several samples a pixel coordinates may lie outside of
@@ -96,7 +96,7 @@ void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
         own.drawn.prepared = prepared.diffused[cell];
         own.drawn.scene = view.scene;
         const frame::FrameSpec& spec = own.drawn.prepared.spec;
-        if (spec.tracesShadows()) sceneGpu_->makeCasters();
+        if (spec.tracesShadows()) uploaded_.front().scene->makeCasters();
         const auto isOwn = [&](const frame::Draw& draw) { return draw.instance == object.instance; };
         own.drawn.draws = frame::makeViewDraws(list, own.drawn.prepared.camera, false, isOwn);
         if (spec.features[frame::Feature::ShadowMaps])
@@ -122,11 +122,11 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
     std::vector<ViewSource> sources;
     shadowMemories_.beginFrame();
     for (std::size_t i = 0; i < views.size(); ++i) {
-        const frame::SceneGpu& sceneGpuOfAll = sceneGpu(drawn->views[i].prepared.spec); // may forget what atlases hold
+        const frame::SceneGpu& sceneGpuOfAll = sceneGpu(drawn->views[i].prepared.spec);
         frame::DrawnView& view = drawn->views[i];
         const frame::FrameSpec& spec = view.prepared.spec;
         view.scene = &sceneGpuOfAll;
-        if (spec.tracesShadows()) sceneGpu_->makeCasters();
+        if (spec.tracesShadows()) uploaded_.front().scene->makeCasters();
         view.draws = frame::makeViewDraws(view.scene->drawList(), view.prepared.camera, spec.settings.prune);
         view.listMemory = &listMemory_;
         if (spec.features[frame::Feature::ShadowMaps]) view.shadowMemory = &shadowMemories_.of(i, spec.settings);

@@ -98,7 +98,9 @@ public:
 
     /// To be called after factors of the scene's materials were changed, not their textures: the next draw() takes them
     /// as they are then. Lights and cameras of the scene may change between draws without notice, nodes and meshes not.
-    void materialsChanged() { materialsChanged_ = true; }
+    void materialsChanged() {
+        for (Uploaded& uploaded : uploaded_) uploaded.materialsChanged = true;
+    }
 
     /// Light that has spread over surfaces is kept until something changes that it depends on (docs/skin.md), unless
     /// this is off: then each frame spreads it anew, as measuring it asks for.
@@ -130,12 +132,16 @@ private:
     frame::DiffusionAtlases diffusionAtlases_;
     std::map<std::size_t, frame::DiffusionMemory> diffusionMemories_; ///< by view
     bool keepsSpreadLight_ = true;
-    std::unique_ptr<frame::SceneGpu> sceneGpu_;
-    frame::FeatureSet sceneFeatures_;                                   ///< features that sceneGpu_ was made with
-    frame::TextureFilter sceneFilter_ = frame::TextureFilter::Hardware; ///< the same
-    scenes::SubsurfaceRequest sceneSubsurface_;                         ///< the same
-    bool materialsChanged_ = false;
-    std::unique_ptr<Drawn> drawn_; ///< the latest frame; null before the first and after one that failed
+    /// The scene as frames of some settings need it.
+    struct Uploaded {
+        frame::FeatureSet features;
+        frame::TextureFilter filter;
+        scenes::SubsurfaceRequest subsurface;
+        std::unique_ptr<frame::SceneGpu> scene;
+        bool materialsChanged = false;
+    };
+    std::vector<Uploaded> uploaded_; ///< the latest first, and the one before: two sides of a comparison alternate
+    std::unique_ptr<Drawn> drawn_;   ///< the latest frame; null before the first and after one that failed
 };
 
 /// What a frame of one view would run, leave out and need, without a context.

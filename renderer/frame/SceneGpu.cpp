@@ -1,6 +1,7 @@
 #include "renderer/frame/SceneGpu.h"
 
 #include <array>
+#include <atomic>
 #include <cassert>
 #include <cstring>
 
@@ -75,6 +76,11 @@ gpu::PipelineState stateOf(gpu::PipelineState state, bool doubleSided, bool mirr
     return state;
 }
 
+std::uint64_t newRevision() {
+    static std::atomic<std::uint64_t> latest = 0;
+    return ++latest;
+}
+
 } // namespace
 
 SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter,
@@ -84,6 +90,7 @@ SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features, Textu
       materials_(makeMaterials()) {
     uploadTextures();
     revisedMaterials_ = casterMaterials();
+    casterRevision_ = newRevision();
 }
 
 SceneGpu::Geometry SceneGpu::makeGeometry() const {
@@ -164,7 +171,7 @@ void SceneGpu::updateMaterials() {
     if (draws) draws_ = std::move(*draws);
     if (std::vector<CasterMaterial> now = casterMaterials(); now != revisedMaterials_) {
         revisedMaterials_ = std::move(now);
-        ++casterRevision_;
+        casterRevision_ = newRevision();
     }
 }
 

@@ -67,7 +67,7 @@ public:
 
     /// Whether what is drawn hides light (scenes/Shadows.h).
     bool isCaster(const Draw& draw) const;
-    /// Changes where materials change what hides light.
+    /// Changes where materials change what hides light; no two scenes share one.
     std::uint64_t casterRevision() const { return casterRevision_; }
 
     /// What hides lights.

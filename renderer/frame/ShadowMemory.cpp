@@ -67,10 +67,6 @@ ShadowMemory& ShadowMemories::of(std::size_t view, const FrameSettings& settings
     return *ways_.emplace_back(view, settings.shadowFilter, settings.shadowMaps, std::move(memory)).memory;
 }
 
-void ShadowMemories::forget() {
-    for (Way& way : ways_) way.memory->held_ = {};
-}
-
 void ShadowMemories::beginFrame() {
     std::erase_if(ways_, [](Way& way) { return ++way.idleFrames > kMostIdleFrames; });
 }

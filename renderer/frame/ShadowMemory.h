@@ -58,8 +58,6 @@ public:
     /// Valid until it was not asked for in kMostIdleFrames frames.
     ShadowMemory& of(std::size_t view, const FrameSettings& settings);
     void beginFrame();
-    /// Nothing is held any more.
-    void forget();
 
     static constexpr int kMostIdleFrames = 16;
 

@@ -101,7 +101,7 @@ std::vector<std::string> passesThatSpread(engine::Renderer& renderer) {
     return names;
 }
 
-TEST_F(Diffusion, spreadLightIsKeptWhileOnlyTheCameraMoves) {
+TEST_F(Diffusion, spreadLightIsKeptWhileWhatEntersIsTheSame) {
     for (const frame::ShadowFilter filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
         scenes::Scene ball = sphereScene(0.03, 12);
         for (scenes::Light& light : ball.lights) light.castsShadow = true;
@@ -109,22 +109,38 @@ TEST_F(Diffusion, spreadLightIsKeptWhileOnlyTheCameraMoves) {
         settings.sizePixels = {160, 90};
         settings.diffusion.sideTexels = 128;
         settings.shadowFilter = filter;
+        Technique technique = Technique::Deferred;
         engine::Renderer renderer(context(), ball);
-        renderer.render(Technique::Deferred, settings);
+        renderer.render(technique, settings);
         EXPECT_FALSE(passesThatSpread(renderer).empty());
         int step = 0;
         const auto moved = [&](auto change, bool keeps) {
             change();
-            const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
-            EXPECT_EQ(passesThatSpread(renderer).empty(), keeps);
-            const std::vector<float> fresh =
-                engine::Renderer(context(), ball).render(Technique::Deferred, settings).radiance;
+            ++step;
+            const std::vector<float> seen = renderer.render(technique, settings).radiance;
+            EXPECT_EQ(passesThatSpread(renderer).empty(), keeps) << infoOf(filter).name << ", " << step;
+            const std::vector<float> fresh = engine::Renderer(context(), ball).render(technique, settings).radiance;
             double most = 0.0;
             for (std::size_t i = 0; i < seen.size(); ++i)
                 most = std::max(most, std::abs(double(seen[i]) - double(fresh[i])));
-            EXPECT_EQ(most, 0.0) << infoOf(filter).name << ", " << ++step;
+            EXPECT_EQ(most, 0.0) << infoOf(filter).name << ", " << step;
         };
         moved([&] { settings.eyeOffsetWS = {0.01, 0.0, 0.002}; }, true);
+        const auto ofPixels = [&](Technique drawnBy, int samples, bool specular, frame::DebugView view) {
+            technique = drawnBy;
+            settings.samples = samples;
+            settings.specular = specular;
+            settings.view = view;
+        };
+        moved([&] { ofPixels(Technique::Forward, 1, false, frame::DebugView::Final); }, true);
+        moved([&] { ofPixels(Technique::Deferred, 1, true, frame::DebugView::Normal); }, true);
+        moved([&] { settings.view = frame::DebugView::Final; }, true);
+        moved([&] { settings.subsurface = scenes::SubsurfaceMethod::None; }, true); // the other side of a comparison
+        moved([&] { settings.subsurface.reset(); }, true);
+        // Pixels of several samples may look up any texel, so that all are lit, once.
+        moved([&] { ofPixels(Technique::Forward, 4, true, frame::DebugView::Final); }, false);
+        moved([&] { ofPixels(Technique::Forward, 1, true, frame::DebugView::Final); }, true);
+        moved([&] { ofPixels(Technique::Forward, 4, true, frame::DebugView::Final); }, true);
         moved([&] { ball.lights[0].intensity *= 2.0f; }, false);
         moved([&] { ball.lights[0].directionWS = glm::dvec3(0.0, -1.0, 0.0); }, false);
         moved([&] { settings.diffusion.gaussians = 2; }, false);
