@@ -307,7 +307,7 @@ std::string unwrapProblem(const scenes::Mesh& mesh) {
     }
     const UvAtlas atlas = makeUvAtlas(mesh, glm::dmat4(1.0), kOverlapSideTexels, 0, 0);
     if (atlas.chartCount == 0)
-        return "its triangles have no area, on the surface or in the texture; give it some, unwrap it";
+        return "no triangle has an area both in space and in its texture; unwrap it, or remove triangles of no size";
     if (atlas.overlapping > kMostOverlapping)
         return fmt::format("several of its triangles lie in {:.0f} % of its texture; unwrap it so that none overlap",
                            100.0 * atlas.overlapping);

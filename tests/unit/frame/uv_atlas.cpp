@@ -136,7 +136,7 @@ TEST(UvAtlas, aMeshThatLightCannotSpreadOverIsRefusedWithAReason) {
     Mesh flat = square();
     for (glm::vec2& texCoord : flat.texCoords[0]) texCoord.y = 0.5f;
     EXPECT_EQ(unwrapProblem(flat),
-              "its triangles have no area, on the surface or in the texture; give it some, unwrap it");
+              "no triangle has an area both in space and in its texture; unwrap it, or remove triangles of no size");
     Mesh mirrored = square();
     addQuad(mirrored, {glm::vec3(0, 0, 0), {-2, 0, 0}, {-2, 1, 0}, {0, 1, 0}},
             {glm::vec2(0.25f, 0.25f), {0.75f, 0.25f}, {0.75f, 0.75f}, {0.25f, 0.75f}});
