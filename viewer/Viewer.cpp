@@ -333,17 +333,19 @@ private:
         if (have > 0.0 && !isAtRest) return false;
         if (isAtRest && !isDescribed_) return false; // the whole picture may take long: say first what this one is
         if (have == 0.0) restAt_ = now() + kRestSeconds;
-        if (isToBeAnnounced(isAtRest)) return false;
-        return drawAt(isAtRest ? restScale() : movingScale(), isAtRest);
+        // A scale that is fixed is that of all pictures: none is better.
+        const Screen::Stay stay = isAtRest || !state_.automaticScale ? Screen::Stay::Stays : Screen::Stay::Passes;
+        if (isToBeAnnounced(stay)) return false;
+        return drawAt(isAtRest ? restScale() : movingScale(), stay, isAtRest);
     }
 
-    /// Before the first picture of a kind, and before a whole one for which light is spread anew, the window shows for
-    /// one frame why it will wait.
-    bool isToBeAnnounced(bool isAtRest) {
+    /// Before the first picture of a kind, and before one that stays for which light is spread anew, the window shows
+    /// for one frame why it will wait.
+    bool isToBeAnnounced(Screen::Stay stay) {
         constexpr int kFrames = 2; // the interface of this frame is laid out already
         if (announcements_ >= kFrames) return false;
         facts_.isPreparing = screen_.isNewKind(wanted_);
-        facts_.isSpreading = !facts_.isPreparing && isAtRest && screen_.spreadsAnew(wanted_);
+        facts_.isSpreading = !facts_.isPreparing && stay == Screen::Stay::Stays && screen_.spreadsAnew(wanted_);
         if (!facts_.isPreparing && !facts_.isSpreading) return false;
         ++announcements_;
         settleFrames_ = std::max(settleFrames_, 1);
@@ -359,12 +361,13 @@ private:
         return isAtRest && window_.hasActivity() && (window_.isButtonHeld() || givenUp_ < kWanderings);
     }
 
-    bool drawAt(double scale, bool isAtRest) {
+    bool drawAt(double scale, Screen::Stay stay, bool isAtRest) {
         const bool mayGiveUp = isAtRest || screen_.isSlow(wanted_);
         const auto givesUp = [this, isAtRest] { return isInterrupted(isAtRest); };
         const double startedAt = now();
         try {
-            Screen::Drawn drawn = screen_.draw(wanted_, scale, mayGiveUp ? std::function<bool()>(givesUp) : nullptr);
+            Screen::Drawn drawn =
+                screen_.draw(wanted_, scale, stay, mayGiveUp ? std::function<bool()>(givesUp) : nullptr);
             if (drawn.gaveUp) {
                 ++givenUp_;
                 log_.line(fmt::format("gave up scale {:.4g}", scale));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/frame/Diffusion.h"
 #include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Timer.h"
@@ -28,17 +27,9 @@ bool isOfKind(const Look& a, const Look& b) {
     return like == b;
 }
 
-/// Whether the light that spreads over surfaces in b is that in a.
-bool hasSameSpread(const Look& a, const Look& b) {
-    Look like = a;
-    like.technique = b.technique;
-    for (const engine::Setting& setting : engine::settingTable())
-        if (setting.samePicture || (setting.sameCost && setting.key != "time")) setting.value.copy(like, b);
-    return like == b;
+std::span<const Look> looksOf(const Screen::Wanted& wanted) {
+    return std::span(wanted.looks).first(std::size_t(wanted.sides));
 }
-
-/// Side of the atlases of pictures that move while what light they spread changes.
-constexpr int kMovingDiffusionTexels = 128;
 
 glm::ivec2 scaled(glm::ivec2 size, double scale) {
     return glm::max(glm::ivec2(glm::round(glm::dvec2(size) * scale)), glm::ivec2(1));
@@ -56,7 +47,7 @@ void Screen::open(const OpenScene& scene) {
     materialRevision_ = scene.materialRevision();
     forget();
     kinds_.reset(); // its programs are yet to be compiled
-    whole_.reset();
+    spreadLight_.forget();
     latestMs_ = 0.0;
     resolution_.restart(context_.capabilities().isSoftware ? kSoftwareGuess : 1.0);
 }
@@ -67,14 +58,11 @@ bool Screen::isNewKind(const Wanted& wanted) const {
 }
 
 bool Screen::spreadsAnew(const Wanted& wanted) const {
-    if (scene_ == nullptr) return false;
-    bool spreads = false, isKnown = whole_ && whole_->sceneEdits == wanted.sceneEdits;
-    for (std::size_t side = 0; side < std::size_t(wanted.sides); ++side) {
-        const Look& look = wanted.looks[side];
-        spreads = spreads || frame::diffusesLight(scene_->scene(), look.settings.subsurface);
-        isKnown = isKnown && whole_->sides >= wanted.sides && hasSameSpread(whole_->looks[side], look);
-    }
-    return spreads && !isKnown;
+    return scene_ != nullptr && spreadLight_.isAnew(scene_->scene(), looksOf(wanted), wanted.sceneEdits);
+}
+
+void Screen::tellSpreadLight(const Wanted& drawn) {
+    spreadLight_.drew(scene_->scene(), looksOf(drawn), drawn.sceneEdits, renderer_->backend().mostIdleFrames());
 }
 
 void Screen::takeEdits() {
@@ -83,14 +71,19 @@ void Screen::takeEdits() {
     materialRevision_ = scene_->materialRevision();
 }
 
-Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::function<bool()>& givesUp) {
+Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const std::function<bool()>& givesUp) {
+    const bool isAnew = spreadsAnew(wanted), isCoarse = isAnew && stay == Stay::Passes;
+    if (isCoarse) scale = std::min(scale, kScales[1]); // so that a whole one follows
     Drawn result;
     result.scale = scale;
     result.sizePixels = scaled(wanted.looks[0].settings.sizePixels, scale);
     const bool isNew = isNewKind(wanted), isSlowKind = isSlow(wanted);
-    const bool isCoarse = scale < 1.0 && spreadsAnew(wanted);
     drawn_.reset();
     failed_.reset();
+    if (isAnew)
+        spreadLight_.forget();
+    else
+        tellSpreadLight(wanted);
     const std::size_t programs = renderer_->programs().size();
     try {
         std::optional<gpu::BandedDrawing> banded;
@@ -101,7 +94,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::functi
             look.settings.wholePixels = look.settings.sizePixels;
             look.settings.sizePixels = result.sizePixels;
             int& atlasTexels = look.settings.diffusion.sideTexels;
-            if (isCoarse) atlasTexels = std::min(atlasTexels, kMovingDiffusionTexels);
+            if (isCoarse) atlasTexels = std::min(atlasTexels, kPassingAtlasTexels);
             renderer_->draw(look.technique, look.settings);
             gpu::finish();
             result.sideMs[std::size_t(side)] = clock.elapsedMs();
@@ -120,12 +113,12 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, const std::functi
         throw;
     }
     drawn_ = wanted;
-    if (scale >= 1.0) whole_ = wanted;
+    if (isAnew && !isCoarse) tellSpreadLight(wanted);
     kinds_ = wanted.looks;
     drawnScale_ = scale;
     differenceIsStale_ = true;
     const bool compiled = renderer_->programs().size() != programs;
-    if (isNew || compiled) return result;
+    if (isNew || compiled || (isAnew && !isCoarse)) return result;
     resolution_.drew(scale, result.ms);
     if (scale < 1.0 || result.ms < kSlowMs) latestMs_ = result.ms;
     return result;

@@ -9,6 +9,7 @@
 #include "viewer/show/Difference.h"
 #include "viewer/show/DrawnPicture.h"
 #include "viewer/show/ResolutionScale.h"
+#include "viewer/show/SpreadLight.h"
 
 namespace tessera::viewer {
 
@@ -24,6 +25,8 @@ public:
         std::uint64_t sceneEdits = 0; ///< of lights and materials
         bool operator==(const Wanted&) const = default;
     };
+    /// Whether a better picture follows once all is at rest.
+    enum class Stay : std::uint8_t { Passes, Stays };
     /// What a call of draw() did.
     struct Drawn {
         bool gaveUp = false;
@@ -61,9 +64,10 @@ public:
     /// Whether it may take so long that it must be given up where somebody waits: it is the first of its kind, or even
     /// the latest picture of moving things took that long.
     bool isSlow(const Wanted& wanted) const { return isNewKind(wanted) || latestMs_ > kSlowMs; }
-    /// Draws the wanted pictures at a scale. `givesUp` may be null; where it ends the frame, or the frame fails, the
-    /// pictures not yet drawn stay as they were. Throws as Renderer::draw does.
-    Drawn draw(const Wanted& wanted, double scale, const std::function<bool()>& givesUp);
+    /// Draws the wanted pictures at a scale; those that pass at a smaller one, with small atlases, where light must be
+    /// spread anew. `givesUp` may be null; where it ends the frame, or the frame fails, the pictures not yet drawn stay
+    /// as they were. Throws as Renderer::draw does.
+    Drawn draw(const Wanted& wanted, double scale, Stay stay, const std::function<bool()>& givesUp);
     /// Redraws the current pictures after a change of shaders.
     void forget() {
         drawn_.reset();
@@ -85,6 +89,8 @@ public:
     const DrawnPicture& picture(int side) const { return pictures_[std::size_t(side)]; }
 
 private:
+    void tellSpreadLight(const Wanted& drawn);
+
     static constexpr double kSlowMs = 250.0;
 
     gpu::Context& context_;
@@ -96,9 +102,9 @@ private:
     bool differenceIsStale_ = true;
     float differenceFactor_ = 0.0f;
     ResolutionScale resolution_;
+    SpreadLight spreadLight_;                  ///< of this scene
     std::optional<std::array<Look, 2>> kinds_; ///< kind of the pictures drawn last of this scene
     std::optional<Wanted> drawn_, failed_;
-    std::optional<Wanted> whole_; ///< what was last drawn at full size of this scene
     double drawnScale_ = 0.0;
     double latestMs_ = 0.0; ///< of the latest picture while something moved, without what was spent on compiling
 };

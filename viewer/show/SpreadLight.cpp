@@ -1,0 +1,54 @@
+#include "viewer/show/SpreadLight.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "renderer/frame/DebugViews.h"
+#include "renderer/frame/Diffusion.h"
+
+namespace tessera::viewer {
+namespace {
+
+/// Settings that change a pixel, but not the light that enters a surface. Pixels of several samples need more of it.
+constexpr std::array<std::string_view, 3> kOfPixels{"layout", "specular", "view"};
+
+bool spreads(const scenes::Scene& scene, const Look& look) {
+    return frame::showsLitPicture(look.settings.view) && frame::diffusesLight(scene, look.settings.subsurface);
+}
+
+/// Whether the light that spreads over surfaces in b is that in a.
+bool hasSameSpread(const Look& a, const Look& b) {
+    Look like = a;
+    like.technique = b.technique;
+    like.aside = b.aside;
+    for (const engine::Setting& setting : engine::settingTable())
+        if (setting.samePicture || (setting.sameCost && setting.key != "time") ||
+            std::ranges::find(kOfPixels, setting.key) != kOfPixels.end())
+            setting.value.copy(like, b);
+    return like == b;
+}
+
+} // namespace
+
+bool SpreadLight::isAnew(const scenes::Scene& scene, std::span<const Look> looks, std::uint64_t edits) const {
+    const Look* kept = kept_ && kept_->edits == edits ? &kept_->look : nullptr;
+    for (const Look& look : looks) {
+        if (!spreads(scene, look)) continue;
+        if (kept == nullptr || !hasSameSpread(*kept, look)) return true;
+        kept = &look;
+    }
+    return false;
+}
+
+void SpreadLight::drew(const scenes::Scene& scene, std::span<const Look> looks, std::uint64_t edits,
+                       int mostIdlePictures) {
+    for (const Look& look : looks) {
+        if (spreads(scene, look))
+            kept_ = {look, edits};
+        else if (kept_ && ++kept_->idlePictures > mostIdlePictures)
+            forget();
+    }
+}
+
+} // namespace tessera::viewer
