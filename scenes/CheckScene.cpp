@@ -279,11 +279,21 @@ void checkCamera(const Element& element, const Camera& camera) {
     element.require(problem.empty(), problem);
 }
 
+void checkEnvironment(const Scene& scene, const Environment& environment) {
+    const Element element{scene, "environment", 0, environment.map.name};
+    checkImage(element, environment.map);
+    element.require(environment.map.format == TexelFormat::Rgba32Float, "its map must hold fp32");
+    element.require(std::isfinite(environment.intensity) && environment.intensity >= 0.0f,
+                    "its intensity must be finite and not negative");
+    element.require(std::isfinite(environment.rotationDegrees), "its rotation must be finite");
+}
+
 void checkSceneWide(const Scene& scene) {
     const auto require = [&](bool holds, const std::string& problem) {
         if (!holds) throw InputError(fmt::format("scene '{}': {}", scene.name, problem));
     };
     require(allFiniteAndNotNegative(scene.background), "the background must be finite and not negative");
+    if (scene.environment) checkEnvironment(scene, *scene.environment);
     const auto subsurfaces = std::ranges::count_if(
         scene.materials, [](const Material& material) { return material.subsurface.method != SubsurfaceMethod::None; });
     require(subsurfaces <= kMostSubsurfaces, fmt::format("{} materials have a subsurface, and at most {} can; share "

@@ -58,7 +58,7 @@ void addDefaultCamera(Scene& scene) {
 }
 
 void addDefaultLight(Scene& scene) {
-    if (!scene.lights.empty() || isAllUnlit(scene)) return;
+    if (!scene.lights.empty() || scene.environment || isAllUnlit(scene)) return;
     Light light;
     light.name = kDefaultName;
     light.type = LightType::Directional;

@@ -110,10 +110,15 @@ public:
             std::visit([this](const auto& value) { add(value); }, wish);
         }
     }
+    void add(const Environment& environment) {
+        const auto& [source, map, intensity, rotationDegrees] = environment;
+        addAll(map, intensity, rotationDegrees);
+        static_cast<void>(source); // where it comes from, not what it is
+    }
     void add(const Scene& scene) {
-        const auto& [name, images, materials, meshes, nodes, lights, cameras, background, options, hasDefaultLight,
-                     warnings] = scene;
-        addAll(name, images, materials, meshes, nodes, lights, cameras, background, options);
+        const auto& [name, images, materials, meshes, nodes, lights, cameras, environment, background, options,
+                     hasDefaultLight, warnings] = scene;
+        addAll(name, images, materials, meshes, nodes, lights, cameras, environment, background, options);
         static_cast<void>(hasDefaultLight); // where a light comes from, not what it is
         static_cast<void>(warnings);        // words about the file, not content
     }

@@ -18,6 +18,8 @@ class LoadLedger;
 struct LoadOptions {
     std::optional<int> lights; ///< built-in scenes generate this many (0 to kMostLights); files keep their first N
     bool defaultLight = true;  ///< give a scene without lights one directional light, unless all is unlit
+    /// Takes the place of the scene's own: a built-in one's name, a picture file, or kNoEnvironment.
+    std::optional<std::string> environment;
     /// The memory that reading files may take (LoadLedger.h); none: half of the machine's.
     std::optional<std::uint64_t> memoryLimitBytes;
     /// Where it is given, the names of the files that are read are added to it.
@@ -27,6 +29,8 @@ struct LoadOptions {
     /// Where a stop is requested, LoadStopped is thrown.
     std::stop_token stop;
 };
+
+inline constexpr std::string_view kNoEnvironment = "none";
 
 /// A load was given up, as its LoadOptions asked.
 class LoadStopped : public std::exception {
@@ -38,6 +42,9 @@ public:
 /// and has at least one camera; a supplied default camera or light is named "default" and reported in `warnings`.
 /// Throws InputError that names the file and its fault, or the nearest names if the name is unknown.
 Scene loadScene(const std::string& nameOrPath, const LoadOptions& options = {});
+
+/// Begins the name of a built-in scene or environment where documents name files.
+inline constexpr std::string_view kBuiltinPrefix = "builtin:";
 
 /// A built-in scene, a line of `tessera scenes`.
 struct BuiltinScene {

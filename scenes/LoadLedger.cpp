@@ -87,6 +87,7 @@ std::uint64_t bytesOf(const Mesh& mesh) {
 std::uint64_t bytesOf(const Scene& scene) {
     std::uint64_t bytes = sizeof(Scene) + bytesOf(scene.materials) + bytesOf(scene.lights) + bytesOf(scene.cameras);
     for (const Image& image : scene.images) bytes += sizeof(Image) + image.name.size() + image.texels.size();
+    if (scene.environment) bytes += scene.environment->source.size() + scene.environment->map.texels.size();
     for (const Material& material : scene.materials) bytes += material.name.size();
     for (const Mesh& mesh : scene.meshes) bytes += bytesOf(mesh);
     for (const Node& node : scene.nodes) bytes += sizeof(Node) + node.name.size() + bytesOf(node.instances);

@@ -11,6 +11,8 @@
 
 #include <glm/glm.hpp>
 
+#include "scenes/Environment.h"
+#include "scenes/Image.h"
 #include "scenes/Light.h"
 #include "scenes/Material.h"
 
@@ -18,22 +20,6 @@
 /// renderer could derive (tangents, culling radii, cone scales). World space is right-handed, Y up, metres; colours are
 /// linear unless a texture slot says otherwise. Indices are -1 where something is absent.
 namespace tessera::scenes {
-
-// ---- Images --------------------------------------------------------------------------------------------------------
-
-enum class TexelFormat : std::uint8_t { Rgba8Unorm, Rgba16Unorm, Rgba32Float };
-
-/// Decoded picture: 4 channels, rows from the top, texels as stored in the file (no transfer function applied).
-struct Image {
-    std::string name;
-    TexelFormat format = TexelFormat::Rgba8Unorm;
-    int width = 0;  ///< texels
-    int height = 0; ///< texels
-    std::vector<std::byte> texels;
-};
-
-/// Bytes of one texel of `format`.
-std::size_t texelBytes(TexelFormat format);
 
 // ---- Geometry ------------------------------------------------------------------------------------------------------
 
@@ -113,7 +99,8 @@ struct Scene {
     std::vector<Node> nodes;
     std::vector<Light> lights; ///< in document order: glTF depth first, then those of the .json
     std::vector<Camera> cameras;
-    glm::vec3 background{0.0f}; ///< radiance where nothing is drawn, linear
+    std::optional<Environment> environment;
+    glm::vec3 background{0.0f}; ///< radiance where nothing is drawn and no environment is shown, linear
     SceneOptions options;
     bool hasDefaultLight = false;      ///< its only light is addDefaultLight()'s, which follows the view that is drawn
     std::vector<std::string> warnings; ///< what the importer left out, each naming the feature

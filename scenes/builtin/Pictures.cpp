@@ -85,6 +85,20 @@ Image drawNormals(const std::string& name, int width, int height, const std::fun
     return image;
 }
 
+Image drawRadiance(const std::string& name, int width, int height,
+                   const std::function<glm::dvec3(int, int)>& radiance) {
+    Image image = blank(name, TexelFormat::Rgba32Float, width, height);
+    const std::size_t rowBytes = static_cast<std::size_t>(width) * sizeof(glm::vec4);
+    parallelFor(height, [&](int y) {
+        std::byte* out = image.texels.data() + static_cast<std::size_t>(y) * rowBytes;
+        for (int x = 0; x < width; ++x, out += sizeof(glm::vec4)) {
+            const glm::vec4 texel(glm::vec3(radiance(x, y)), 1.0f);
+            std::memcpy(out, &texel, sizeof(texel));
+        }
+    });
+    return image;
+}
+
 Image normalsFromHeights(const std::string& name, int size, double texelMetres,
                          const std::function<double(int, int)>& heightMetres) {
     std::vector<double> heights(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));

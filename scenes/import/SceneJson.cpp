@@ -87,8 +87,8 @@ private:
         const std::optional<JsonValue> base = document.find("base");
         const bool replacesLights = document.has("lights"), replacesCameras = document.has("cameras");
         document.done("a scene");
-        std::optional<glm::vec3> background;
-        if (environment) background = readEnvironment(*environment);
+        EnvironmentWish surroundings;
+        if (environment) surroundings = readEnvironment(*environment);
         std::vector<Light> ownLights;
         std::vector<Camera> ownCameras;
         for (std::size_t i = 0; i < lights.size(); ++i) ownLights.push_back(readLight(lights[i], i));
@@ -106,7 +106,8 @@ private:
             if (options) scene.options = SceneOptions();
         }
         const BaseSize baseSize{scene.materials.size(), scene.images.size()};
-        if (background) scene.background = *background;
+        if (surroundings.background) scene.background = *surroundings.background;
+        if (environment) addEnvironment(*environment, surroundings, scene);
         for (const JsonValue& include : includes) addInclude(include, scene);
         scene.lights.insert(scene.lights.end(), ownLights.begin(), ownLights.end());
         scene.cameras.insert(scene.cameras.end(), ownCameras.begin(), ownCameras.end());
@@ -124,14 +125,43 @@ private:
         if (const auto name = document.find("name")) scene.name = name->text();
     }
 
-    static std::optional<glm::vec3> readEnvironment(const JsonValue& value) {
+    /// What a document says of the surroundings; what it does not say is a base's.
+    struct EnvironmentWish {
+        std::optional<glm::vec3> background;
+        std::optional<JsonValue> map;
+        std::optional<float> intensity, rotationDegrees;
+    };
+
+    static EnvironmentWish readEnvironment(const JsonValue& value) {
         JsonObject environment = value.object();
-        for (const char* key : {"map", "file", "texture"})
-            if (environment.has(key)) value.fail("environment maps are not shaded yet; give a 'background' colour");
-        std::optional<glm::vec3> radiance;
-        if (const auto background = environment.find("background")) radiance = background->color();
+        EnvironmentWish wish;
+        if (const auto background = environment.find("background")) wish.background = background->color();
+        wish.map = environment.find("map");
+        if (wish.map && !wish.map->isNull()) wish.map->text();
+        if (const auto intensity = environment.find("intensity")) wish.intensity = intensity->single(0.0);
+        if (const auto rotation = environment.find("rotationDegrees")) wish.rotationDegrees = rotation->single();
         environment.done("an environment");
-        return radiance;
+        return wish;
+    }
+
+    /// A map of null takes away that of the base.
+    void addEnvironment(const JsonValue& value, const EnvironmentWish& wish, Scene& scene) {
+        if (wish.map) scene.environment.reset();
+        if (wish.map && !wish.map->isNull()) scene.environment = loadMap(*wish.map, scene.warnings);
+        if (!wish.intensity && !wish.rotationDegrees) return;
+        if (!scene.environment) value.fail("says how a map lies or shines, and there is none; name a 'map'");
+        if (wish.intensity) scene.environment->intensity = *wish.intensity;
+        if (wish.rotationDegrees) scene.environment->rotationDegrees = *wish.rotationDegrees;
+    }
+
+    Environment loadMap(const JsonValue& map, std::vector<std::string>& warnings) {
+        const std::string text = map.text();
+        const std::string source = text.starts_with(kBuiltinPrefix) ? text : resolveFile(map).string();
+        try {
+            return loadEnvironment(source, ledger_, warnings);
+        } catch (const InputError& error) {
+            map.fail(error.what());
+        }
     }
 
     /// All of a scene as it is alone, under the name of this one.

@@ -10,9 +10,6 @@
 
 namespace tessera::scenes::scenejson {
 
-/// Begins the name of a built-in scene where documents name files.
-inline constexpr std::string_view kBuiltinPrefix = "builtin:";
-
 /// The file that a name in a document means: relative names start at the document's folder, and ${TESSERA_ASSETS}
 /// stands for that environment variable, as nothing else does. Throws InputError when the variable is not set or the
 /// file is missing.

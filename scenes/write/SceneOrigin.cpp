@@ -13,7 +13,6 @@ namespace tessera::scenes {
 namespace {
 
 namespace fs = std::filesystem;
-using scenejson::kBuiltinPrefix;
 
 bool isDocument(const fs::path& file) {
     return extensionOf(file) == ".json";

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
+#include "scenes/Load.h"
 #include "scenes/write/ElementJson.h"
 
 namespace tessera::scenes {
@@ -20,20 +21,20 @@ using write::Json;
     throw InputError(fmt::format("{}: {}", file.string(), what));
 }
 
-/// The base as the new file names it: links in folders are followed, those of the file itself are not, because what the
-/// base names lies beside the name it was opened by.
-std::string baseName(const SceneOrigin& origin, const fs::path& file) {
-    if (origin.base.starts_with("builtin:")) return origin.base;
-    const fs::path base(origin.base);
+/// A file as the new one names it: links in folders are followed, those of the file itself are not, because what a base
+/// names lies beside the name it was opened by.
+std::string nameIn(const std::string& source, const fs::path& file) {
+    if (source.starts_with(kBuiltinPrefix)) return source;
+    const fs::path named(source);
     const fs::path folder = fs::weakly_canonical(fs::absolute(file).parent_path());
-    const fs::path relative = fs::weakly_canonical(base.parent_path()).lexically_relative(folder);
+    const fs::path relative = fs::weakly_canonical(named.parent_path()).lexically_relative(folder);
     // On another drive there is no relative name.
-    const fs::path name = relative.empty() ? base : (relative / base.filename()).lexically_normal();
+    const fs::path name = relative.empty() ? named : (relative / named.filename()).lexically_normal();
     if (name.string().find("${") != std::string::npos)
         fail(file, fmt::format("'{}' cannot be named in a scene file, where ${{…}} stands for a variable; rename it",
-                               origin.base));
+                               source));
     const std::string text = name.generic_string();
-    return text.starts_with("builtin:") ? "./" + text : text;
+    return text.starts_with(kBuiltinPrefix) ? "./" + text : text;
 }
 
 void refuseWritingOver(const SceneOrigin& origin, const fs::path& file) {
@@ -45,7 +46,7 @@ void refuseWritingOver(const SceneOrigin& origin, const fs::path& file) {
 
 Json baseJson(const SceneOrigin& origin, const fs::path& file) {
     Json base;
-    base["file"] = baseName(origin, file);
+    base["file"] = nameIn(origin.base, file);
     if (origin.lights) base["lights"] = *origin.lights;
     return base;
 }
@@ -79,6 +80,16 @@ Json wishJson(const std::vector<double>& list) {
 template <typename Value>
 Json wishJson(const Value& value) {
     return value;
+}
+
+Json environmentJson(const Scene& scene, const fs::path& file) {
+    Json object = {{"background", write::numbers(scene.background)}, {"map", nullptr}};
+    if (!scene.environment) return object;
+    const Environment& environment = *scene.environment;
+    object["map"] = nameIn(environment.source, file);
+    object["intensity"] = write::number(double(environment.intensity));
+    object["rotationDegrees"] = write::number(double(environment.rotationDegrees));
+    return object;
 }
 
 Json optionsJson(const Scene& scene) {
@@ -125,7 +136,7 @@ std::string sceneText(const Scene& scene, const SceneOrigin& origin, const fs::p
     for (const Light& light : scene.lights) lights.push_back(write::lightJson(light));
     Json& cameras = document["cameras"] = Json::array();
     for (const Camera& camera : scene.cameras) cameras.push_back(write::cameraJson(camera));
-    document["environment"]["background"] = write::numbers(scene.background);
+    document["environment"] = environmentJson(scene, file);
     document["options"] = optionsJson(scene);
     try {
         return textOf(document);

@@ -122,8 +122,6 @@ TEST(SceneJsonOptions, wrongOptionsAreRefused) {
               "/options: has 257 members; at most 256 are allowed");
     EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "options": {"camera": "back"}})"),
               "/options/camera: there is no camera 'back'; there are none");
-    EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "environment": {"map": "sky.hdr"}})"),
-              "/environment: environment maps are not shaded yet; give a 'background' colour");
 }
 
 } // namespace

@@ -1,0 +1,158 @@
+#include "scenes/Environment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "base/Error.h"
+#include "base/Names.h"
+#include "base/Srgb.h"
+#include "scenes/Load.h"
+#include "scenes/LoadLedger.h"
+#include "scenes/builtin/Environments.h"
+#include "scenes/import/Importers.h"
+
+namespace tessera::scenes {
+namespace {
+
+constexpr std::array kEnvironments = {
+    BuiltinEnvironment{"studio", "soft boxes in a grey studio: shows what a model is like", builtin::makeStudio},
+    BuiltinEnvironment{"sky", "a clear sky with its sun, over plain ground", builtin::makeSky},
+};
+
+/// What a load may take for a built-in map.
+constexpr std::uint64_t kBuiltinBytes = 64u << 20;
+
+template <typename Code>
+std::vector<float> linearTexels(const Image& image) {
+    std::array<float, std::size_t{std::numeric_limits<Code>::max()} + 1> linear{};
+    constexpr double kWhite = std::numeric_limits<Code>::max();
+    for (std::size_t code = 0; code < linear.size(); ++code)
+        linear[code] = float(linearFromSrgb(double(code) / kWhite));
+    std::vector<float> texels(image.texels.size() / sizeof(Code));
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        Code code;
+        std::memcpy(&code, image.texels.data() + i * sizeof(Code), sizeof(Code));
+        texels[i] = linear[code];
+    }
+    return texels;
+}
+
+/// The same picture in linear fp32. Pictures of whole numbers are taken as sRGB, which they are meant for.
+Image asFloat(Image image, LoadLedger& ledger) {
+    if (image.format == TexelFormat::Rgba32Float) return image;
+    const std::uint64_t texels = std::uint64_t(image.width) * std::uint64_t(image.height);
+    ledger.charge(texels * texelBytes(TexelFormat::Rgba32Float), [&] { return image.name; });
+    const std::vector<float> linear = image.format == TexelFormat::Rgba8Unorm ? linearTexels<std::uint8_t>(image)
+                                                                              : linearTexels<std::uint16_t>(image);
+    image.format = TexelFormat::Rgba32Float;
+    image.texels.resize(linear.size() * sizeof(float));
+    std::memcpy(image.texels.data(), linear.data(), image.texels.size());
+    return image;
+}
+
+struct Replaced {
+    std::size_t nans = 0, negative = 0, infinite = 0;
+};
+
+/// NaN and less than 0 are no light: 0 instead. Infinity becomes the brightest number of the map.
+Replaced replaceNoLight(Image& map) {
+    std::vector<float> texels(map.texels.size() / sizeof(float));
+    std::memcpy(texels.data(), map.texels.data(), map.texels.size());
+    float brightest = 0.0f;
+    for (std::size_t i = 0; i < texels.size(); ++i)
+        if (i % 4 != 3 && std::isfinite(texels[i])) brightest = std::max(brightest, texels[i]);
+    Replaced replaced;
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        float& value = texels[i];
+        if (i % 4 == 3) {
+            value = 1.0f;
+        } else if (std::isnan(value)) {
+            value = 0.0f;
+            ++replaced.nans;
+        } else if (value < 0.0f) {
+            value = 0.0f;
+            ++replaced.negative;
+        } else if (std::isinf(value)) {
+            value = brightest > 0.0f ? brightest : 1.0f;
+            ++replaced.infinite;
+        }
+    }
+    std::memcpy(map.texels.data(), texels.data(), map.texels.size());
+    return replaced;
+}
+
+std::string numbersText(std::size_t count) {
+    return count == 1 ? "1 number" : fmt::format("{} numbers", count);
+}
+
+void warnOfMap(const Image& map, bool hasFewBits, const Replaced& replaced, std::vector<std::string>& warnings) {
+    const auto warn = [&](const std::string& what) {
+        warnings.push_back(fmt::format("the environment '{}' {}", map.name, what));
+    };
+    if (hasFewBits) warn("holds no light brighter than white: lamps and the sun are lost; give an .hdr or .exr file");
+    if (replaced.nans > 0) warn(fmt::format("holds NaN in {}, taken as 0", numbersText(replaced.nans)));
+    if (replaced.negative > 0) warn(fmt::format("is below 0 in {}, taken as 0", numbersText(replaced.negative)));
+    if (replaced.infinite > 0)
+        warn(fmt::format("holds infinity in {}, taken as its brightest", numbersText(replaced.infinite)));
+    // A map of one texel is the same everywhere.
+    if (map.width != 2 * map.height && map.width * map.height > 1)
+        warn(fmt::format("is {}x{} texels, not twice as wide as high, and is stretched around the scene", map.width,
+                         map.height));
+}
+
+Image builtinMap(const std::string& name, LoadLedger& ledger) {
+    std::vector<std::string_view> names;
+    for (const BuiltinEnvironment& builtin : kEnvironments) {
+        names.push_back(builtin.name);
+        if (builtin.name != name) continue;
+        ledger.charge(kBuiltinBytes, [&] { return name; });
+        return builtin.makeMap();
+    }
+    throw InputError(fmt::format("there is no built-in environment '{}'; {}", name, suggestNames(name, names)));
+}
+
+} // namespace
+
+std::span<const BuiltinEnvironment> builtinEnvironments() {
+    return kEnvironments;
+}
+
+glm::dvec2 placeInMap(const glm::dvec3& direction) {
+    const double longitude = std::atan2(direction.x, -direction.z);
+    return {0.5 + longitude / (2.0 * std::numbers::pi),
+            std::acos(std::clamp(direction.y, -1.0, 1.0)) / std::numbers::pi};
+}
+
+glm::dvec3 directionInMap(const glm::dvec2& place) {
+    const double longitude = (place.x - 0.5) * 2.0 * std::numbers::pi, fromTop = place.y * std::numbers::pi;
+    const double sine = std::sin(fromTop);
+    return {sine * std::sin(longitude), std::cos(fromTop), -sine * std::cos(longitude)};
+}
+
+Environment loadEnvironment(const std::string& source, LoadLedger& ledger, std::vector<std::string>& warnings) {
+    Environment environment;
+    environment.source = source;
+    if (source.starts_with(kBuiltinPrefix)) {
+        environment.map = builtinMap(source.substr(kBuiltinPrefix.size()), ledger);
+        return environment;
+    }
+    const std::uint64_t mark = ledger.usedBytes();
+    const std::filesystem::path file = std::filesystem::absolute(source).lexically_normal();
+    environment.source = file.string();
+    Image image = readImage(file, ledger);
+    image.name = file.filename().string();
+    const bool hasFewBits = image.format != TexelFormat::Rgba32Float;
+    environment.map = asFloat(std::move(image), ledger);
+    ledger.settle(mark, environment.map.texels.size());
+    warnOfMap(environment.map, hasFewBits, replaceNoLight(environment.map), warnings);
+    return environment;
+}
+
+} // namespace tessera::scenes

@@ -1,0 +1,42 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scenes/Image.h"
+
+/// Light from everywhere: a picture of all directions around a scene, so far away that its place is no matter
+/// (docs/environment.md).
+namespace tessera::scenes {
+
+class LoadLedger;
+
+/// The radiance of a direction is interpolated bilinearly between the centres of four texels, across the left and right
+/// edge alike; beyond the first and last row it is that row's.
+struct Environment {
+    std::string source;           ///< "builtin:studio", or the absolute path of its file
+    Image map;                    ///< Rgba32Float, RGB finite and not negative, in latitude and longitude
+    float intensity = 1.0f;       ///< >= 0, multiplies the radiance
+    float rotationDegrees = 0.0f; ///< about +Y, counter-clockwise seen from above
+};
+
+/// Where a map holds a unit direction before it is turned: x from the left, y from the top, both 0..1. The middle looks
+/// along -Z, the top is +Y.
+glm::dvec2 placeInMap(const glm::dvec3& direction);
+glm::dvec3 directionInMap(const glm::dvec2& place);
+
+struct BuiltinEnvironment {
+    std::string_view name;
+    std::string_view purpose; ///< one line: what it is for
+    Image (*makeMap)();
+};
+std::span<const BuiltinEnvironment> builtinEnvironments();
+
+/// A map from "builtin:NAME" or a picture file. Numbers that are no light are replaced: `warnings` tells how many.
+/// Throws InputError that names the file and its fault, or the nearest names.
+Environment loadEnvironment(const std::string& source, LoadLedger& ledger, std::vector<std::string>& warnings);
+
+} // namespace tessera::scenes

@@ -1,0 +1,14 @@
+#pragma once
+#include "scenes/Image.h"
+
+/// The built-in environments; their table stands in scenes/Environment.cpp. All are the same on every machine.
+namespace tessera::scenes::builtin {
+
+inline constexpr int kMapWidth = 1024, kMapHeight = 512; ///< texels
+
+/// A grey room with a warm key light, a broad fill and two strips behind, for a camera that looks along -(1, 0.7, 1).
+Image makeStudio();
+/// A clear sky at a solar elevation of 38 degrees.
+Image makeSky();
+
+} // namespace tessera::scenes::builtin

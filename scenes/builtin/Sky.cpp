@@ -1,0 +1,239 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "scenes/Environment.h"
+#include "scenes/builtin/Environments.h"
+#include "scenes/builtin/Parallel.h"
+#include "scenes/builtin/Pictures.h"
+
+/// Light scattered once in the air, by numbers of Bruneton and Neyret 2008, "Precomputed Atmospheric Scattering", and
+/// Hillaire 2020, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique", whose sum of all further
+/// orders is added. Lengths in kilometres.
+namespace tessera::scenes::builtin {
+namespace {
+
+using std::numbers::pi;
+constexpr double kGroundRadius = 6360.0, kAirRadius = 6460.0, kEyeHeight = 0.2;
+const glm::dvec3 kRayleighScattering(5.802e-3, 13.558e-3, 33.1e-3); // 1/km at the ground
+constexpr double kRayleighHeight = 8.0;
+constexpr double kMieScattering = 40.0e-3, kMieExtinction = 44.4e-3, kMieHeight = 1.2, kMieAsymmetry = 0.8;
+const glm::dvec3 kOzoneAbsorption(0.650e-3, 1.881e-3, 0.085e-3); // in the middle of its layer
+constexpr double kOzoneHeight = 25.0, kOzoneHalfWidth = 15.0;
+const glm::dvec3 kGroundAlbedo(0.28, 0.27, 0.25);
+
+constexpr double kSunElevation = 38.0 * pi / 180.0, kSunRadius = 0.004675; // radians
+constexpr double kSunIrradiance = 4.0; // above the air: a white wall in the sun has a radiance near 1
+/// Towards the sun: front left of a camera that looks along -(1, 0.7, 1).
+glm::dvec3 toSun() {
+    const glm::dvec2 level = std::cos(kSunElevation) * glm::normalize(glm::dvec2(0.35, 1.0));
+    return {level.x, std::sin(kSunElevation), level.y};
+}
+
+struct Air {
+    glm::dvec3 rayleigh, scattering, extinction; // 1/km
+    double mie;
+};
+Air airAt(double height) {
+    const double thin = std::exp(-height / kRayleighHeight), haze = std::exp(-height / kMieHeight);
+    const double ozone = std::max(0.0, 1.0 - std::abs(height - kOzoneHeight) / kOzoneHalfWidth);
+    Air air;
+    air.rayleigh = kRayleighScattering * thin;
+    air.mie = kMieScattering * haze;
+    air.scattering = air.rayleigh + air.mie;
+    air.extinction = air.rayleigh + glm::dvec3(kMieExtinction * haze) + kOzoneAbsorption * ozone;
+    return air;
+}
+
+/// From a place at this distance of the planet's centre, in a direction with this cosine to the zenith.
+double toSphere(double radius, double cosine, double sphere) {
+    const double discriminant = radius * radius * (cosine * cosine - 1.0) + sphere * sphere;
+    return std::max(0.0, -radius * cosine + std::sqrt(std::max(discriminant, 0.0)));
+}
+bool meetsGround(double radius, double cosine) {
+    return cosine < 0.0 && radius * radius * (cosine * cosine - 1.0) + kGroundRadius * kGroundRadius >= 0.0;
+}
+double toGround(double radius, double cosine) {
+    const double discriminant = radius * radius * (cosine * cosine - 1.0) + kGroundRadius * kGroundRadius;
+    return std::max(0.0, -radius * cosine - std::sqrt(std::max(discriminant, 0.0)));
+}
+
+/// Share of the sun's light that arrives there; none in the planet's shadow.
+glm::dvec3 sunlight(double radius, double cosine) {
+    if (meetsGround(radius, cosine)) return glm::dvec3(0.0);
+    constexpr int kSteps = 40;
+    const double length = toSphere(radius, cosine, kAirRadius);
+    glm::dvec3 depth(0.0);
+    for (int i = 0; i < kSteps; ++i) {
+        // Finer near the ground, where the air is.
+        const double begin = std::pow(double(i) / kSteps, 2.0), end = std::pow((i + 1.0) / kSteps, 2.0);
+        const double at = 0.5 * (begin + end) * length;
+        const double r = std::sqrt(radius * radius + at * at + 2.0 * radius * at * cosine);
+        depth += airAt(r - kGroundRadius).extinction * ((end - begin) * length);
+    }
+    return glm::exp(-depth);
+}
+
+/// A table over height and the sun's cosine to the zenith, interpolated.
+class Table {
+public:
+    template <typename Function>
+    explicit Table(const Function& value) : values_(std::size_t(kSide) * kSide) {
+        parallelFor(kSide, [&](int row) {
+            for (int column = 0; column < kSide; ++column)
+                values_[std::size_t(row) * kSide + std::size_t(column)] =
+                    value(kGroundRadius + heightOf(row / (kSide - 1.0)), -1.0 + 2.0 * column / (kSide - 1.0));
+        });
+    }
+    glm::dvec3 at(double radius, double cosine) const {
+        const double height = std::clamp((radius - kGroundRadius) / (kAirRadius - kGroundRadius), 0.0, 1.0);
+        const glm::dvec2 place = double(kSide - 1) * glm::dvec2(0.5 * (cosine + 1.0), std::sqrt(height));
+        const glm::dvec2 cell = glm::min(glm::floor(place), glm::dvec2(kSide - 2.0)), share = place - cell;
+        const auto value = [&](int x, int y) {
+            return values_[(std::size_t(cell.y) + std::size_t(y)) * kSide + std::size_t(cell.x) + std::size_t(x)];
+        };
+        return glm::mix(glm::mix(value(0, 0), value(1, 0), share.x), glm::mix(value(0, 1), value(1, 1), share.x),
+                        share.y);
+    }
+
+private:
+    static constexpr int kSide = 64;
+    static double heightOf(double share) { return share * share * (kAirRadius - kGroundRadius); }
+    std::vector<glm::dvec3> values_;
+};
+
+/// Calls `visit(radius, cosine of the sun there, share of light that reaches the eye, length)` along a ray through the
+/// air.
+template <typename Visitor>
+void alongRay(const glm::dvec3& direction, double radius, const glm::dvec3& sun, int steps, const Visitor& visit) {
+    const double cosine = direction.y;
+    const double length = meetsGround(radius, cosine) ? toGround(radius, cosine) : toSphere(radius, cosine, kAirRadius);
+    glm::dvec3 share(1.0);
+    for (int i = 0; i < steps; ++i) {
+        const double begin = std::pow(double(i) / steps, 2.0) * length, end = std::pow((i + 1.0) / steps, 2.0) * length;
+        const glm::dvec3 place = glm::dvec3(0.0, radius, 0.0) + 0.5 * (begin + end) * direction;
+        const double r = glm::length(place);
+        const glm::dvec3 extinction = airAt(r - kGroundRadius).extinction;
+        const glm::dvec3 through = glm::exp(-extinction * (end - begin));
+        visit(r, glm::dot(place, sun) / r, share * (1.0 - through) / extinction);
+        share *= through;
+    }
+}
+
+/// Source: Hillaire 2020, section 5.5: light of a sun of irradiance 1 that was scattered twice or more, as if it came
+/// evenly from everywhere.
+glm::dvec3 scatteredAgain(double radius, double cosine, const Table& sunlit) {
+    constexpr int kSide = 8, kSteps = 20;
+    const glm::dvec3 sun(std::sqrt(std::max(0.0, 1.0 - cosine * cosine)), cosine, 0.0);
+    glm::dvec3 second(0.0), kept(0.0);
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const double up = 1.0 - 2.0 * (i / kSide + 0.5) / kSide, turn = 2.0 * pi * (i % kSide + 0.5) / kSide;
+        const double level = std::sqrt(1.0 - up * up);
+        const glm::dvec3 direction(level * std::cos(turn), up, level * std::sin(turn));
+        glm::dvec3 share(1.0);
+        alongRay(direction, radius, sun, kSteps, [&](double r, double sunCosine, const glm::dvec3& length) {
+            const Air air = airAt(r - kGroundRadius);
+            second += air.scattering * length * sunlit.at(r, sunCosine) / (4.0 * pi);
+            kept += air.scattering * length;
+            share -= air.extinction * length;
+        });
+        if (meetsGround(radius, up)) {
+            const glm::dvec3 place = glm::dvec3(0.0, radius, 0.0) + toGround(radius, up) * direction;
+            const double groundCosine = glm::dot(glm::normalize(place), sun);
+            second += share * kGroundAlbedo / pi * std::max(groundCosine, 0.0) * sunlit.at(kGroundRadius, groundCosine);
+        }
+    }
+    constexpr double kDirections = kSide * kSide;
+    return second / kDirections / (1.0 - kept / kDirections);
+}
+
+class Sky {
+public:
+    Sky()
+        : sun_(toSun()), sunlit_(sunlight),
+          again_([this](double radius, double cosine) { return scatteredAgain(radius, cosine, sunlit_); }) {
+        groundRadiance_ = kGroundAlbedo / pi * groundIrradiance();
+    }
+
+    /// Without the sun's disk.
+    glm::dvec3 radiance(const glm::dvec3& direction) const {
+        glm::dvec3 share;
+        const glm::dvec3 scattered = airlight(direction, share);
+        return meetsGround(kEye, direction.y) ? scattered + share * groundRadiance_ : scattered;
+    }
+    /// Of the sun's disk, seen from the ground.
+    glm::dvec3 sunRadiance() const {
+        const double solidAngle = 2.0 * pi * (1.0 - std::cos(kSunRadius));
+        return kSunIrradiance / solidAngle * sunlight(kEye, sun_.y);
+    }
+    const glm::dvec3& sun() const { return sun_; }
+
+private:
+    static constexpr double kEye = kGroundRadius + kEyeHeight;
+
+    /// Light from the air; `share` is what reaches the eye of what lies behind it.
+    glm::dvec3 airlight(const glm::dvec3& direction, glm::dvec3& share) const {
+        constexpr int kSteps = 48;
+        const double cosine = glm::dot(direction, sun_), g = kMieAsymmetry;
+        const double rayleighPhase = 3.0 / (16.0 * pi) * (1.0 + cosine * cosine);
+        // Source: Cornette and Shanks 1992, "Physically reasonable analytic expression for the single-scattering phase
+        // function".
+        const double miePhase = 3.0 / (8.0 * pi) * ((1.0 - g * g) * (1.0 + cosine * cosine)) /
+                                ((2.0 + g * g) * std::pow(1.0 + g * g - 2.0 * g * cosine, 1.5));
+        glm::dvec3 light(0.0);
+        share = glm::dvec3(1.0);
+        alongRay(direction, kEye, sun_, kSteps, [&](double r, double sunCosine, const glm::dvec3& length) {
+            const Air air = airAt(r - kGroundRadius);
+            light += length * ((air.rayleigh * rayleighPhase + air.mie * miePhase) * sunlit_.at(r, sunCosine) +
+                               air.scattering * again_.at(r, sunCosine));
+            share -= air.extinction * length;
+        });
+        return kSunIrradiance * light;
+    }
+
+    /// Of level ground, by the sun and the sky.
+    glm::dvec3 groundIrradiance() const {
+        glm::dvec3 irradiance = kSunIrradiance * sun_.y * sunlight(kEye, sun_.y), share;
+        constexpr int kRows = 16, kColumns = 32;
+        for (int i = 0; i < kRows * kColumns; ++i) {
+            // Even in the square of the sine: each has the same part in the irradiance.
+            const double sine2 = (i / kColumns + 0.5) / kRows, turn = 2.0 * pi * (i % kColumns + 0.5) / kColumns;
+            const double level = std::sqrt(sine2);
+            irradiance += pi / (kRows * kColumns) *
+                          airlight({level * std::cos(turn), std::sqrt(1.0 - sine2), level * std::sin(turn)}, share);
+        }
+        return irradiance;
+    }
+
+    glm::dvec3 sun_;
+    Table sunlit_, again_;
+    glm::dvec3 groundRadiance_{0.0};
+};
+
+/// Share of a texel that the sun's disk covers.
+double sunShare(int x, int y, const glm::dvec3& sun) {
+    constexpr int kSide = 16;
+    int inside = 0;
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const glm::dvec3 direction =
+            directionInMap({(x + (i % kSide + 0.5) / kSide) / kMapWidth, (y + (i / kSide + 0.5) / kSide) / kMapHeight});
+        if (glm::length(glm::cross(direction, sun)) < std::sin(kSunRadius) && glm::dot(direction, sun) > 0.0) ++inside;
+    }
+    return double(inside) / (kSide * kSide);
+}
+
+} // namespace
+
+Image makeSky() {
+    const Sky sky;
+    const glm::dvec3 sunRadiance = sky.sunRadiance();
+    return drawRadiance("sky", kMapWidth, kMapHeight, [&](int x, int y) {
+        const glm::dvec3 direction = directionInMap({(x + 0.5) / kMapWidth, (y + 0.5) / kMapHeight});
+        const bool isNearSun = glm::dot(direction, sky.sun()) > 0.99;
+        return sky.radiance(direction) + (isNearSun ? sunShare(x, y, sky.sun()) * sunRadiance : glm::dvec3(0.0));
+    });
+}
+
+} // namespace tessera::scenes::builtin

@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/Environment.h"
+#include "scenes/builtin/Environments.h"
+#include "scenes/builtin/Pictures.h"
+
+namespace tessera::scenes::builtin {
+namespace {
+
+/// A soft box: a rectangle in the plane a metre ahead in its direction, brightest in the middle.
+struct Box {
+    glm::dvec3 direction;
+    glm::dvec2 halfSizeMetres;
+    double edgeMetres; ///< over which it fades
+    glm::dvec3 radiance;
+};
+
+// Azimuths are those of a camera that looks along -(1, 0.7, 1): its left is (-1, 0, 1).
+const Box kBoxes[] = {
+    {{-0.25, 0.95, 1.25}, {0.52, 0.40}, 0.05, {5.6, 5.2, 4.7}},    // key, front left above
+    {{1.35, 0.40, -0.25}, {0.70, 0.80}, 0.30, {0.60, 0.64, 0.70}}, // fill, right
+    {{-1.2, 0.45, -0.55}, {0.13, 0.60}, 0.04, {4.6, 4.8, 5.2}},    // rim, behind on the left
+    {{0.35, 0.50, -1.3}, {0.11, 0.52}, 0.04, {3.4, 3.5, 3.7}},     // rim, behind on the right
+    {{0.0, 1.0, 0.0}, {0.42, 0.42}, 0.20, {1.1, 1.1, 1.15}},       // above
+};
+
+double smoothStep(double low, double high, double x) {
+    const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+glm::dvec3 boxRadiance(const Box& box, const glm::dvec3& direction) {
+    const glm::dvec3 ahead = glm::normalize(box.direction);
+    const double along = glm::dot(ahead, direction);
+    if (along <= 0.0) return glm::dvec3(0.0);
+    const glm::dvec3 aside = std::abs(ahead.y) > 0.999 ? glm::dvec3(0.0, 0.0, -1.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 right = glm::normalize(glm::cross(ahead, aside)), up = glm::cross(right, ahead);
+    const glm::dvec2 place = glm::dvec2(glm::dot(right, direction), glm::dot(up, direction)) / along;
+    const glm::dvec2 inside = box.halfSizeMetres - glm::abs(place);
+    const double share = smoothStep(0.0, box.edgeMetres, inside.x) * smoothStep(0.0, box.edgeMetres, inside.y);
+    const glm::dvec2 fromMiddle = place / box.halfSizeMetres;
+    return box.radiance * share * (1.0 - 0.35 * std::min(glm::dot(fromMiddle, fromMiddle), 2.0) / 2.0);
+}
+
+glm::dvec3 studioRadiance(const glm::dvec3& direction) {
+    const double up = direction.y;
+    // Walls that are lit from above, a floor that is lit by them, and between them a sweep without a corner.
+    const glm::dvec3 wall =
+        glm::mix(glm::dvec3(0.20, 0.20, 0.205), glm::dvec3(0.10, 0.10, 0.105), smoothStep(0.0, 1.0, up));
+    const glm::dvec3 floor =
+        glm::mix(glm::dvec3(0.19, 0.187, 0.183), glm::dvec3(0.12, 0.117, 0.113), smoothStep(0.0, 1.0, -up));
+    glm::dvec3 radiance = glm::mix(floor, wall, smoothStep(-0.12, 0.12, up));
+    for (const Box& box : kBoxes) radiance += boxRadiance(box, direction);
+    return radiance;
+}
+
+} // namespace
+
+Image makeStudio() {
+    return drawRadiance("studio", kMapWidth, kMapHeight, [](int x, int y) {
+        return studioRadiance(directionInMap({(x + 0.5) / kMapWidth, (y + 0.5) / kMapHeight}));
+    });
+}
+
+} // namespace tessera::scenes::builtin

@@ -1,0 +1,129 @@
+#include "scenes/Environment.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "base/Error.h"
+#include "scenes/Load.h"
+#include "scenes/LoadLedger.h"
+#include "tests/unit/scenes/TempFolder.h"
+#include "tests/unit/scenes/json/SceneFiles.h"
+
+namespace tessera::scenes {
+namespace {
+
+std::vector<float> numbersOf(const Image& map) {
+    std::vector<float> texels(map.texels.size() / sizeof(float));
+    std::memcpy(texels.data(), map.texels.data(), map.texels.size());
+    return texels;
+}
+
+/// A PFM picture, rows given from the top.
+std::string pfm(int width, int height, const std::vector<float>& rgb) {
+    std::string text = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
+    for (int y = height - 1; y >= 0; --y)
+        text.append(reinterpret_cast<const char*>(rgb.data() + std::size_t(3 * y * width)),
+                    std::size_t(3 * width) * sizeof(float));
+    return text;
+}
+
+TEST(Environment, directionsAndPlacesOfAMapAgreeAndItsMiddleLooksAlongMinusZ) {
+    const auto expectPlace = [](const glm::dvec3& direction, double x, double y) {
+        const glm::dvec2 place = placeInMap(direction);
+        EXPECT_NEAR(place.x, x, 1e-12);
+        EXPECT_NEAR(place.y, y, 1e-12);
+    };
+    expectPlace({0, 0, -1}, 0.5, 0.5);
+    expectPlace({1, 0, 0}, 0.75, 0.5); // to the right of who looks along -z
+    expectPlace({-1, 0, 0}, 0.25, 0.5);
+    EXPECT_EQ(placeInMap({0, 1, 0}).y, 0.0); // the pole lies anywhere along the row
+    for (int i = 1; i < 20; ++i) {
+        const glm::dvec2 place(i / 20.0, std::fmod(i * 0.37, 1.0));
+        expectPlace(directionInMap(place), place.x, place.y);
+    }
+}
+
+TEST(Environment, numbersThatAreNoLightAreReplacedAndCounted) {
+    test::TempFolder folder;
+    const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
+    const auto file = folder.write("bad.pfm", pfm(2, 1, {nan, -1.0f, 3.0f, infinite, 0.5f, -0.0f}));
+    LoadLedger ledger;
+    std::vector<std::string> warnings;
+    const Environment environment = loadEnvironment(file.string(), ledger, warnings);
+    EXPECT_EQ(numbersOf(environment.map), (std::vector<float>{0.0f, 0.0f, 3.0f, 1.0f, 3.0f, 0.5f, 0.0f, 1.0f}));
+    EXPECT_EQ(warnings, (std::vector<std::string>{
+                            "the environment 'bad.pfm' holds NaN in 1 number, taken as 0",
+                            "the environment 'bad.pfm' is below 0 in 1 number, taken as 0",
+                            "the environment 'bad.pfm' holds infinity in 1 number, taken as its brightest"}));
+}
+
+TEST(Environment, aMapIsNamedByASceneAndReplacedOrTakenAwayByWhoLoadsIt) {
+    const test::SceneFolder folder;
+    const auto file = folder.write("sky.pfm", pfm(4, 2, std::vector<float>(24, 2.0f)));
+    const Scene scene =
+        folder.import(R"({"tessera": 1, "environment": {"map": "sky.pfm", "intensity": 0.5, "rotationDegrees": 30}})");
+    ASSERT_TRUE(scene.environment);
+    EXPECT_EQ(scene.environment->map.width, 4);
+    EXPECT_EQ(scene.environment->intensity, 0.5f);
+    EXPECT_EQ(scene.environment->rotationDegrees, 30.0f);
+    EXPECT_TRUE(scene.warnings.empty());
+    const std::string saved = (folder.path() / "scene.json").string();
+    LoadOptions options;
+    options.environment = "studio";
+    EXPECT_EQ(loadScene(saved, options).environment->source, "builtin:studio");
+    options.environment = "none";
+    EXPECT_FALSE(loadScene(saved, options).environment);
+    options.environment = "stdio";
+    try {
+        loadScene(saved, options);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(), "no built-in environment or picture file is called 'stdio'; did you mean 'studio'?");
+    }
+    // Light from everywhere is light: no default one is supplied.
+    options.environment = "sky";
+    EXPECT_TRUE(loadScene(saved, options).lights.empty());
+}
+
+TEST(Environment, wrongOnesAreRefusedByName) {
+    const test::SceneFolder folder;
+    EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "environment": {"map": "builtin:sea"}})"),
+              "/environment/map: there is no built-in environment 'sea'; valid are studio, sky");
+    EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "environment": {"intensity": 2}})"),
+              "/environment: says how a map lies or shines, and there is none; name a 'map'");
+    EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "environment": {"intensity": -1}})"),
+              "/environment/intensity: is -1; at least 0 is needed");
+}
+
+/// Of level ground, divided by pi: the radiance of a white floor.
+glm::dvec3 onGround(const Image& map) {
+    const std::vector<float> texels = numbersOf(map);
+    glm::dvec3 sum(0.0);
+    for (int y = 0; y < map.height / 2; ++y)
+        for (int x = 0; x < map.width; ++x) {
+            const double fromTop = std::numbers::pi * (y + 0.5) / map.height;
+            const double solidAngle =
+                2.0 * std::numbers::pi / map.width * std::numbers::pi / map.height * std::sin(fromTop);
+            const float* const texel = &texels[4 * std::size_t(y * map.width + x)];
+            sum += solidAngle * std::cos(fromTop) * glm::dvec3(texel[0], texel[1], texel[2]);
+        }
+    return sum / std::numbers::pi;
+}
+
+TEST(Environment, builtInOnesLightAWhiteFloorAboutAsBrightAsWhite) {
+    for (const BuiltinEnvironment& builtin : builtinEnvironments()) {
+        const Image map = builtin.makeMap();
+        EXPECT_EQ(map.width, 2 * map.height);
+        const glm::dvec3 white = onGround(map);
+        EXPECT_GT(white.g, 0.5) << builtin.name;
+        EXPECT_LT(white.g, 1.2) << builtin.name;
+        for (const float value : numbersOf(map)) ASSERT_TRUE(std::isfinite(value) && value >= 0.0f) << builtin.name;
+    }
+}
+
+} // namespace
+} // namespace tessera::scenes
