@@ -94,6 +94,7 @@ struct Diffusion::Surfaces {
     const Objects& objects;
     const Textures& textures;
     std::span<const ShiningLight> lights;
+    const Surroundings& surroundings;
     const Occlusion& occlusion;
     Settings settings;
     Device device;
@@ -104,6 +105,7 @@ struct Diffusion::Surfaces {
         const SurfacePoint surface = surfaceAt(hit, textures);
         const glm::dvec3 front = frontOf(hit);
         glm::dvec3 sum(0.0);
+        if (surroundings.lights()) sum += surroundings.irradiance(surface.normal);
         for (const ShiningLight& light : lights) {
             const Incident incident = incidentAt(light, pointRWS);
             if (incident.irradiance == glm::dvec3(0.0)) continue;
@@ -142,8 +144,8 @@ struct Diffusion::Surfaces {
 };
 
 Diffusion::Diffusion(const Objects& objects, const Textures& textures, std::span<const ShiningLight> lights,
-                     const Occlusion& occlusion, const Settings& settings)
-    : surfaces_(new Surfaces{objects, textures, lights, occlusion, settings, {}, {}}) {
+                     const Surroundings& surroundings, const Occlusion& occlusion, const Settings& settings)
+    : surfaces_(new Surfaces{objects, textures, lights, surroundings, occlusion, settings, {}, {}}) {
     // A sum over many points needs fewer rays of each.
     surfaces_->settings.leeway = false;
     surfaces_->settings.shadowSamples = 0;

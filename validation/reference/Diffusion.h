@@ -3,6 +3,7 @@
 #include <span>
 
 #include "validation/reference/Occlusion.h"
+#include "validation/reference/Surroundings.h"
 
 namespace tessera::reference {
 
@@ -15,7 +16,7 @@ class Diffusion {
 public:
     /// All must outlive it. Throws as makeTree().
     Diffusion(const Objects& objects, const Textures& textures, std::span<const ShiningLight> lights,
-              const Occlusion& occlusion, const Settings& settings);
+              const Surroundings& surroundings, const Occlusion& occlusion, const Settings& settings);
     ~Diffusion();
 
     struct Answer {

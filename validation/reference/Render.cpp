@@ -23,7 +23,8 @@ public:
         : scene_(scene), settings_(settings), rays_(settings.camera, settings.sizePixels),
           objects_(scene, rays_, settings.subsurface), textures_(scene, settings.filtering),
           visibility_(objects_, rays_, textures_), lights_(shiningLights(scene, settings, rays_.eyeWS())),
-          occlusion_(scene, objects_), diffusion_(objects_, textures_, lights_, occlusion_, settings) {}
+          surroundings_(scene, settings), occlusion_(scene, objects_),
+          diffusion_(objects_, textures_, lights_, surroundings_, occlusion_, settings) {}
 
     void row(int row, Rendered& rendered) const {
         for (int column = 0; column < rendered.width; ++column) {
@@ -117,6 +118,7 @@ private:
         const glm::dvec3 radiance = lit.radiance;
         rendered.radiance[at] = radiance;
         if (seen.opaque && !seen.spread.empty() && seen.spread[0]) rendered.spread[at] = *seen.spread[0];
+        if (seen.opaque && !seen.surroundings.empty()) rendered.surroundings[at] = *seen.surroundings[0];
         if (!settings_.leeway) return;
         std::vector<Span>& alternatives = rendered.alternatives[at];
         rendered.undecidedShadows[at] = seen.hasUndecidedShadows() ? 1 : 0;
@@ -141,7 +143,8 @@ private:
         mutable std::vector<std::vector<std::optional<Occlusion::Answer>>> shadows{};
         mutable std::vector<std::vector<std::optional<Occlusion::Passage>>> passages{}; ///< the same
         mutable std::vector<std::optional<Diffusion::Answer>> spread{};                 ///< the same, by surface
-        std::uint32_t seed = 0;                                                         ///< of Diffusion
+        mutable std::vector<std::optional<Surroundings::Answer>> surroundings{};        ///< the same
+        std::uint32_t seed = 0; ///< of Diffusion and Surroundings
 
         bool hasUndecidedShadows() const {
             for (const auto& ofSurface : shadows)
@@ -223,7 +226,7 @@ private:
     };
 
     Lit litBy(const Ray& ray, const Seen& seen, const Nudge& nudge, Shadows shadows = Shadows::Exact) const {
-        Lit all{glm::dvec3(scene_.background)};
+        Lit all{surroundings_.isSeen() ? surroundings_.radianceOf(ray.direction) : glm::dvec3(scene_.background)};
         if (seen.opaque) all = litSurface(seen, 0, nudge, ray, shadows);
         for (std::size_t i = 0; i < seen.transparent.size(); ++i) {
             const Lit own = litSurface(seen, 1 + i, nudge, ray, shadows);
@@ -252,6 +255,14 @@ private:
         const glm::dvec3 positionRWS = ray.at(hit.depthMetres);
         const glm::dvec3 toViewer = rays_.toViewer(positionRWS);
         Lit lit{emitted(point, toViewer), point.opacity};
+        if (surroundings_.lights()) {
+            if (seen.surroundings.size() <= surface) seen.surroundings.resize(surface + 1);
+            // The rounding that a nudge stands for changes this light less than its samples do.
+            if (!seen.surroundings[surface])
+                seen.surroundings[surface] =
+                    surroundings_.on(point, toViewer, settings_.specular, point.spreads, seen.seed);
+            lit.radiance += seen.surroundings[surface]->light;
+        }
         for (std::size_t light = 0; light < lights_.size(); ++light) {
             glm::dvec3 unhidden = lightOn(point, lights_[light], positionRWS, toViewer, settings_.specular);
             // Of light that spreads only the highlight leaves where it is met.
@@ -322,6 +333,7 @@ private:
     Textures textures_;
     Visibility visibility_;
     std::vector<ShiningLight> lights_;
+    Surroundings surroundings_;
     Occlusion occlusion_;
     Diffusion diffusion_;
 };
@@ -344,6 +356,7 @@ Rendered render(const scenes::Scene& scene, const Settings& settings, const std:
     rendered.undecidedShadows.resize(pixels);
     rendered.shadowNoise.resize(pixels);
     rendered.spread.resize(pixels);
+    rendered.surroundings.resize(pixels);
     const Pixels picture(scene, settings);
     tbb::parallel_for(0, rendered.height, [&](int row) {
         picture.row(row, rendered);

@@ -38,11 +38,15 @@ struct Settings {
     std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
     scenes::ShadowRequest shadows;
     scenes::SubsurfaceRequest subsurface;
-    int diffusionPoints = 256; ///< of the surface around a point that light spreads to
-    int shadowRings = 16;      ///< on the disk of a light with a size, four times as many rays each
-    int penumbraRings = 64;    ///< of points that those find to see part of it
-    int shadowSamples = 0;     ///< rays that a program tries: their noise is allowed it too; 0: none is
-    bool specular = true;      ///< false leaves the specular lobe out
+    int diffusionPoints = 256;     ///< of the surface around a point that light spreads to
+    bool environmentLights = true; ///< surfaces, where the scene has an environment
+    bool environmentIsSeen = true; ///< where nothing is drawn
+    double environmentIntensity = 1.0, environmentRotationDegrees = 0.0; ///< besides the scene's own
+    int environmentPaths = 1024;                                         ///< of each kind, from every surface
+    int shadowRings = 16;   ///< on the disk of a light with a size, four times as many rays each
+    int penumbraRings = 64; ///< of points that those find to see part of it
+    int shadowSamples = 0;  ///< rays that a program tries: their noise is allowed it too; 0: none is
+    bool specular = true;   ///< false leaves the specular lobe out
     Filtering filtering = Filtering::Exact;
     bool leeway = true;          ///< whether to find other values that the definition allows (Rendered::alternatives)
     double rangeTolerance = 0.0; ///< unit of colour x intensity: A B C lights end where they fall to it; 0: nowhere

@@ -1,0 +1,324 @@
+#include "validation/reference/Surroundings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <random>
+
+#include "validation/reference/Lobes.h"
+#include "validation/reference/Reflectance.h"
+#include "validation/reference/TangentFrame.h"
+
+namespace tessera::reference {
+
+namespace {
+
+using std::numbers::pi;
+constexpr int kParts = 8; ///< independent parts of the samples
+constexpr int kIrradianceRows = 60, kIrradianceColumns = 120;
+
+struct Frame {
+    glm::dvec3 x, y, z;
+    glm::dvec3 out(const glm::dvec3& local) const { return local.x * x + local.y * y + local.z * z; }
+    glm::dvec3 in(const glm::dvec3& world) const {
+        return {glm::dot(world, x), glm::dot(world, y), glm::dot(world, z)};
+    }
+};
+
+Frame frameOf(const glm::dvec3& normal, const glm::dvec3& tangent) {
+    const glm::dvec3 other = std::abs(normal.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
+    const glm::dvec3 x = glm::normalize(tangent == glm::dvec3(0.0) ? glm::cross(other, normal) : tangent);
+    return {x, glm::cross(normal, x), normal};
+}
+
+/// A distribution of directions around a surface.
+class Strategy {
+public:
+    virtual ~Strategy() = default;
+    virtual glm::dvec3 direction(const glm::dvec2& random) const = 0;
+    virtual double density(const glm::dvec3& direction) const = 0; ///< 1/sr
+};
+
+class ByCosine : public Strategy {
+public:
+    explicit ByCosine(const glm::dvec3& normal) : frame_(frameOf(normal, glm::dvec3(0.0))) {}
+    glm::dvec3 direction(const glm::dvec2& random) const override {
+        const double sine = std::sqrt(random.x), angle = 2.0 * pi * random.y;
+        return frame_.out({sine * std::cos(angle), sine * std::sin(angle), std::sqrt(1.0 - random.x)});
+    }
+    double density(const glm::dvec3& direction) const override {
+        return std::max(glm::dot(frame_.z, direction), 0.0) / pi;
+    }
+
+private:
+    Frame frame_;
+};
+
+/// Half vectors by GGX, whether the viewer sees such microfacets or not. Source: Walter et al. 2007, equations 35
+/// to 38.
+class ByMicrofacets : public Strategy {
+public:
+    ByMicrofacets(const glm::dvec2& alpha, const glm::dvec3& normal, const glm::dvec3& tangent,
+                  const glm::dvec3& toViewer)
+        : frame_(frameOf(normal, tangent)), alpha_(alpha), toViewer_(toViewer) {}
+    glm::dvec3 direction(const glm::dvec2& random) const override {
+        const double slope = std::sqrt(random.x / (1.0 - random.x)), angle = 2.0 * pi * random.y;
+        const glm::dvec3 half = frame_.out(
+            glm::normalize(glm::dvec3(alpha_.x * slope * std::cos(angle), alpha_.y * slope * std::sin(angle), 1.0)));
+        return glm::normalize(2.0 * glm::dot(half, toViewer_) * half - toViewer_);
+    }
+    double density(const glm::dvec3& direction) const override {
+        const glm::dvec3 sum = direction + toViewer_;
+        if (sum == glm::dvec3(0.0)) return 0.0;
+        const glm::dvec3 half = glm::normalize(sum), local = frame_.in(half);
+        if (!(local.z > 0.0)) return 0.0;
+        return distributionGgx(alpha_, local) * local.z / (4.0 * std::abs(glm::dot(half, direction)));
+    }
+
+private:
+    Frame frame_;
+    glm::dvec2 alpha_;
+    glm::dvec3 toViewer_;
+};
+
+/// Half vectors by a power of their cosine.
+class ByPower : public Strategy {
+public:
+    ByPower(double exponent, const glm::dvec3& normal, const glm::dvec3& toViewer)
+        : frame_(frameOf(normal, glm::dvec3(0.0))), exponent_(exponent), toViewer_(toViewer) {}
+    glm::dvec3 direction(const glm::dvec2& random) const override {
+        const double cosine = std::pow(1.0 - random.x, 1.0 / (exponent_ + 1.0)), angle = 2.0 * pi * random.y;
+        const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0));
+        const glm::dvec3 half = frame_.out({sine * std::cos(angle), sine * std::sin(angle), cosine});
+        return glm::normalize(2.0 * glm::dot(half, toViewer_) * half - toViewer_);
+    }
+    double density(const glm::dvec3& direction) const override {
+        const glm::dvec3 sum = direction + toViewer_;
+        if (sum == glm::dvec3(0.0)) return 0.0;
+        const glm::dvec3 half = glm::normalize(sum);
+        const double cosine = glm::dot(half, frame_.z);
+        if (!(cosine > 0.0)) return 0.0;
+        return (exponent_ + 1.0) / (2.0 * pi) * std::pow(cosine, exponent_) /
+               (4.0 * std::abs(glm::dot(half, direction)));
+    }
+
+private:
+    Frame frame_;
+    double exponent_;
+    glm::dvec3 toViewer_;
+};
+
+} // namespace
+
+Surroundings::Surroundings(const scenes::Scene& scene, const Settings& settings) : paths_(settings.environmentPaths) {
+    if (!scene.environment) return;
+    map_ = &scene.environment->map;
+    intensity_ = double(scene.environment->intensity) * settings.environmentIntensity;
+    turnRadians_ = glm::radians(double(scene.environment->rotationDegrees) + settings.environmentRotationDegrees);
+    isSeen_ = settings.environmentIsSeen;
+    lights_ = settings.environmentLights && intensity_ > 0.0;
+    if (!lights_) return;
+    makeDensities();
+    for (const scenes::Material& material : scene.materials)
+        if (scenes::subsurfaceOf(material, settings.subsurface) == scenes::SubsurfaceMethod::TextureSpaceDiffusion) {
+            makeIrradiances();
+            break;
+        }
+}
+
+glm::dvec3 Surroundings::texel(int column, int row) const {
+    column = (column + map_->width) % map_->width;
+    row = std::clamp(row, 0, map_->height - 1);
+    glm::vec4 stored;
+    const std::size_t at = std::size_t(row) * std::size_t(map_->width) + std::size_t(column);
+    std::memcpy(&stored, map_->texels.data() + at * sizeof(stored), sizeof(stored));
+    return glm::dvec3(glm::vec3(stored));
+}
+
+glm::dvec2 Surroundings::placeOf(const glm::dvec3& direction) const {
+    // Azimuths grow to the right of -Z; the map was turned the other way round.
+    const double azimuth = std::atan2(direction.x, -direction.z) + turnRadians_;
+    const double turns = azimuth / (2.0 * pi) + 0.5;
+    const double elevation = std::asin(std::clamp(direction.y, -1.0, 1.0));
+    return {(turns - std::floor(turns)) * map_->width, (0.5 - elevation / pi) * map_->height};
+}
+
+glm::dvec3 Surroundings::radianceOf(const glm::dvec3& direction) const {
+    const glm::dvec2 place = placeOf(direction);
+    glm::dvec3 sum(0.0);
+    const int column = int(std::floor(place.x - 0.5)), row = int(std::floor(place.y - 0.5));
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i) {
+            const double away = std::abs(place.x - (column + i + 0.5)), below = std::abs(place.y - (row + j + 0.5));
+            sum += (1.0 - away) * (1.0 - below) * texel(column + i, row + j);
+        }
+    return intensity_ * sum;
+}
+
+void Surroundings::makeDensities() {
+    const std::size_t width = std::size_t(map_->width), height = std::size_t(map_->height);
+    densities_.resize(width * height);
+    columnsSummed_.resize(width * height);
+    rowsSummed_.resize(height);
+    double all = 0.0;
+    for (std::size_t row = 0; row < height; ++row) {
+        const double top = 0.5 * pi - pi * double(row) / double(height);
+        const double solidAngle = 2.0 * pi / double(width) * (std::sin(top) - std::sin(top - pi / double(height)));
+        double ofRow = 0.0;
+        for (std::size_t column = 0; column < width; ++column) {
+            // The brightest around it: interpolation takes light to dark neighbours.
+            double brightest = 0.0;
+            for (int j = -1; j <= 1; ++j)
+                for (int i = -1; i <= 1; ++i) {
+                    const glm::dvec3 color = texel(int(column) + i, int(row) + j);
+                    brightest = std::max(brightest, std::max({color.r, color.g, color.b}));
+                }
+            densities_[row * width + column] = brightest;
+            columnsSummed_[row * width + column] = ofRow += brightest * solidAngle;
+        }
+        rowsSummed_[row] = all += ofRow;
+        if (ofRow > 0.0)
+            for (std::size_t column = 0; column < width; ++column) columnsSummed_[row * width + column] /= ofRow;
+    }
+    if (!(all > 0.0)) {
+        lights_ = false;
+        return;
+    }
+    for (double& density : densities_) density /= all;
+    for (double& row : rowsSummed_) row /= all;
+}
+
+Surroundings::Sample Surroundings::ofMap(const glm::dvec2& random) const {
+    const auto choose = [](const double* begin, const double* end, double& u) {
+        const double* const found = std::min(std::upper_bound(begin, end, u), end - 1);
+        const double before = found == begin ? 0.0 : found[-1];
+        u = std::clamp((u - before) / std::max(*found - before, 1e-300), 0.0, 1.0);
+        return found - begin;
+    };
+    double v = random.y, u = random.x;
+    const auto row = choose(rowsSummed_.data(), rowsSummed_.data() + rowsSummed_.size(), v);
+    const double* const columns = columnsSummed_.data() + row * map_->width;
+    const auto column = choose(columns, columns + map_->width, u);
+    const double top = 0.5 * pi - pi * double(row) / map_->height;
+    const double sine = std::lerp(std::sin(top), std::sin(top - pi / map_->height), v);
+    const double azimuth = 2.0 * pi * ((double(column) + u) / map_->width - 0.5) - turnRadians_;
+    const double level = std::sqrt(std::max(1.0 - sine * sine, 0.0));
+    return {{level * std::sin(azimuth), sine, -level * std::cos(azimuth)},
+            densities_[std::size_t(row) * std::size_t(map_->width) + std::size_t(column)]};
+}
+
+double Surroundings::mapDensity(const glm::dvec3& direction) const {
+    const glm::dvec2 place = placeOf(direction);
+    const int column = std::clamp(int(place.x), 0, map_->width - 1),
+              row = std::clamp(int(place.y), 0, map_->height - 1);
+    return densities_[std::size_t(row) * std::size_t(map_->width) + std::size_t(column)];
+}
+
+Surroundings::Answer Surroundings::on(const SurfacePoint& point, const glm::dvec3& toViewer, bool specular,
+                                      bool onlyLobes, std::uint32_t seed) const {
+    const ByCosine cosine(point.normal);
+    std::vector<std::unique_ptr<Strategy>> lobes;
+    const scenes::MaterialModelInfo& model = scenes::infoOf(point.model);
+    if (specular && model.microsurface == scenes::Microsurface::Parameter)
+        lobes.push_back(std::make_unique<ByPower>(point.roughness, point.normal, toViewer));
+    else if (specular && model.highlight != scenes::Highlight::None)
+        lobes.push_back(std::make_unique<ByMicrofacets>(glm::dvec2(point.alpha, point.alphaAcross), point.normal,
+                                                        point.tangent, toViewer));
+    if (specular && point.coat > 0.0)
+        lobes.push_back(
+            std::make_unique<ByMicrofacets>(glm::dvec2(point.coatAlpha), point.coatNormal, glm::dvec3(0.0), toViewer));
+    std::vector<const Strategy*> strategies{&cosine};
+    for (const auto& lobe : lobes) strategies.push_back(lobe.get());
+
+    const auto side = int(std::ceil(std::sqrt(double(paths_) / kParts)));
+    const auto worth = [&](const glm::dvec3& direction, double ownDensity) {
+        glm::dvec3 share = reflected(point, direction, toViewer, specular);
+        if (onlyLobes) share -= reflected(point, direction, toViewer, false);
+        if (share == glm::dvec3(0.0) || !(ownDensity > 0.0)) return glm::dvec3(0.0);
+        const double ofMap = mapDensity(direction);
+        double squares = ofMap * ofMap;
+        for (const Strategy* strategy : strategies) {
+            const double density = strategy->density(direction);
+            squares += density * density;
+        }
+        return share * radianceOf(direction) * (ownDensity / squares);
+    };
+    std::mt19937 generator(seed * 2654435761u + 12345u);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    glm::dvec3 sum(0.0), squares(0.0);
+    for (int part = 0; part < kParts; ++part) {
+        glm::dvec3 ofPart(0.0);
+        for (int cell = 0; cell < side * side; ++cell) {
+            const auto random = [&] {
+                const double x = uniform(generator), y = uniform(generator);
+                return glm::dvec2(cell % side + x, cell / side + y) / double(side);
+            };
+            const Sample sample = ofMap(random());
+            ofPart += worth(sample.direction, sample.density);
+            for (const Strategy* strategy : strategies) {
+                const glm::dvec3 direction = strategy->direction(random());
+                ofPart += worth(direction, strategy->density(direction));
+            }
+        }
+        ofPart /= double(side * side);
+        sum += ofPart;
+        squares += ofPart * ofPart;
+    }
+    const glm::dvec3 mean = sum / double(kParts);
+    return {mean, glm::max(squares / double(kParts) - mean * mean, glm::dvec3(0.0)) / (kParts - 1.0)};
+}
+
+void Surroundings::makeIrradiances() {
+    // The map in blocks, each as the light of its middle: far finer than irradiance changes.
+    constexpr int kBlocksAcross = 256;
+    const int step = std::max(1, map_->width / kBlocksAcross);
+    struct Part {
+        glm::dvec3 direction, light;
+    };
+    std::vector<Part> parts;
+    for (int row = 0; row < map_->height; row += step)
+        for (int column = 0; column < map_->width; column += step) {
+            Part part{glm::dvec3(0.0), glm::dvec3(0.0)};
+            for (int j = row; j < std::min(row + step, map_->height); ++j) {
+                const double top = 0.5 * pi - pi * j / map_->height, bottom = top - pi / map_->height;
+                const double solidAngle = 2.0 * pi / map_->width * (std::sin(top) - std::sin(bottom));
+                for (int i = column; i < std::min(column + step, map_->width); ++i) {
+                    const glm::dvec3 light = intensity_ * solidAngle * texel(i, j);
+                    const double azimuth = 2.0 * pi * ((i + 0.5) / map_->width - 0.5) - turnRadians_;
+                    const double sine = std::sin(0.5 * (top + bottom)), level = std::cos(0.5 * (top + bottom));
+                    part.light += light;
+                    // Where its light comes from; darkness counts a little, so that there is a direction.
+                    part.direction += (light.r + light.g + light.b + 1e-30) *
+                                      glm::dvec3(level * std::sin(azimuth), sine, -level * std::cos(azimuth));
+                }
+            }
+            if (part.light == glm::dvec3(0.0)) continue;
+            part.direction = glm::normalize(part.direction);
+            parts.push_back(part);
+        }
+    irradiances_.resize(std::size_t(kIrradianceRows + 1) * kIrradianceColumns);
+    for (int row = 0; row <= kIrradianceRows; ++row)
+        for (int column = 0; column < kIrradianceColumns; ++column) {
+            const double polar = pi * row / kIrradianceRows, azimuth = 2.0 * pi * column / kIrradianceColumns;
+            const glm::dvec3 normal(std::sin(polar) * std::cos(azimuth), std::cos(polar),
+                                    std::sin(polar) * std::sin(azimuth));
+            glm::dvec3 sum(0.0);
+            for (const Part& part : parts) sum += std::max(glm::dot(normal, part.direction), 0.0) * part.light;
+            irradiances_[std::size_t(row) * kIrradianceColumns + std::size_t(column)] = sum;
+        }
+}
+
+glm::dvec3 Surroundings::irradiance(const glm::dvec3& normal) const {
+    const double down = std::acos(std::clamp(normal.y, -1.0, 1.0)) / pi * kIrradianceRows;
+    const double turns = std::atan2(normal.z, normal.x) / (2.0 * pi);
+    const double along = (turns - std::floor(turns)) * kIrradianceColumns;
+    const int row = std::min(int(down), kIrradianceRows - 1), column = int(along) % kIrradianceColumns;
+    const auto at = [&](int j, int i) {
+        return irradiances_[std::size_t(row + j) * kIrradianceColumns + std::size_t((column + i) % kIrradianceColumns)];
+    };
+    const double below = down - row, right = along - std::floor(along);
+    return glm::mix(glm::mix(at(0, 0), at(0, 1), right), glm::mix(at(1, 0), at(1, 1), right), below);
+}
+
+} // namespace tessera::reference
