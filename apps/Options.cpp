@@ -60,6 +60,14 @@ engine::TextSource fromCommandLine(const engine::Setting& setting, const scenes:
     return {setting.flag, scene};
 }
 
+/// "none, studio (what it is for), ..."
+std::string environmentNames() {
+    std::string names(scenes::kNoEnvironment);
+    for (const scenes::BuiltinEnvironment& builtin : scenes::builtinEnvironments())
+        names += fmt::format(", {} ({})", builtin.name, builtin.purpose);
+    return names;
+}
+
 void addSettings(CLI::App& command, FrameOptions& options, std::string_view group) {
     for (const engine::Setting& setting : engine::settingTable()) {
         if (setting.group != group) continue;
@@ -128,6 +136,14 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     addSettings(command, options, "Frame");
     command.add_flag("--no-default-light", options.noDefaultLight, "Leaves a scene without lights dark")
         ->group("Frame");
+    command
+        .add_option("--environment", options.environment,
+                    "Lights the scene from everywhere: " + environmentNames() +
+                        " or a picture in latitude and "
+                        "longitude [the scene's own]")
+        ->type_name("NAME")
+        ->group("Environment");
+    addSettings(command, options, "Environment");
     addSettings(command, options, "Shadows");
     addSettings(command, options, "Subsurface scattering");
     command
@@ -154,6 +170,7 @@ scenes::LoadOptions loadOptionsOf(const FrameOptions& options) {
     scenes::LoadOptions load;
     load.lights = options.lights;
     load.defaultLight = !options.noDefaultLight;
+    load.environment = options.environment;
     if (options.memoryLimit) load.memoryLimitBytes = bytesNamed(*options.memoryLimit);
     return load;
 }

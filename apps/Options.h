@@ -36,7 +36,8 @@ struct FrameOptions {
     std::optional<std::string> memoryLimit;
     std::optional<int> lights;
     bool noDefaultLight = false;
-    scenes::CameraChange pose; ///< of the camera that is chosen
+    std::optional<std::string> environment; ///< as scenes::LoadOptions has it
+    scenes::CameraChange pose;              ///< of the camera that is chosen
 
     /// What was said of the setting of that key.
     std::optional<std::string> said(std::string_view key) const;

@@ -130,6 +130,11 @@ void addShadowMaps(const scenes::Scene& scene, std::span<const frame::SurfaceBou
     spec.shadowFaces = prepared.shadowMaps.faces.size();
 }
 
+void addEnvironment(const scenes::Scene& scene, frame::PreparedView& prepared) {
+    if (!prepared.spec.environment) return;
+    prepared.environment = frame::packEnvironment(*scene.environment, prepared.spec.settings, prepared.camera);
+}
+
 /// The lights of an object's texels: a view of the whole of it, so that what reaches it nowhere is left out, whatever
 /// the camera sees.
 frame::PreparedView prepareDiffused(const scenes::Scene& scene, const frame::DiffusedObject& object,
@@ -161,6 +166,7 @@ frame::PreparedView prepareDiffused(const scenes::Scene& scene, const frame::Dif
     prepared.lighting.lights = glm::uvec4(count, prepared.lights.shown, prepared.lights.everywhere, (count + 31) / 32);
     prepared.lighting.slices.y = glm::uint(prepared.lights.shadowed);
     prepared.spec = frame::makeDiffusedSpec(scene, object, prepared.lights, settings);
+    addEnvironment(scene, prepared);
     if (prepared.spec.features[frame::Feature::ShadowMaps]) addShadowMaps(scene, bounds, prepared);
     return prepared;
 }
@@ -221,6 +227,7 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
         glm::uvec4(lightCount, prepared.lights.shown, prepared.lights.everywhere, (lightCount + 31) / 32);
     prepared.lighting.slices.y = glm::uint(prepared.lights.shadowed);
     prepared.spec = frame::makeFrameSpec(scene, prepared.lights, settings);
+    addEnvironment(scene, prepared);
     frame::FrameSpec& spec = prepared.spec;
     spec.samples = samples;
     spec.background = prepared.camera.constants.background;

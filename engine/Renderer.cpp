@@ -95,6 +95,7 @@ void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
         frame::DrawnView::Diffused& own = view.diffused.emplace_back();
         own.drawn.prepared = prepared.diffused[cell];
         own.drawn.scene = view.scene;
+        own.drawn.environment = view.environment;
         const frame::FrameSpec& spec = own.drawn.prepared.spec;
         if (spec.tracesShadows()) uploaded_.front().scene->makeCasters();
         const auto isOwn = [&](const frame::Draw& draw) { return draw.instance == object.instance; };
@@ -126,6 +127,9 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
         frame::DrawnView& view = drawn->views[i];
         const frame::FrameSpec& spec = view.prepared.spec;
         view.scene = &sceneGpuOfAll;
+        if (spec.environment && !environment_)
+            environment_ = std::make_unique<frame::EnvironmentGpu>(*scene_.environment);
+        view.environment = environment_.get();
         if (spec.tracesShadows()) uploaded_.front().scene->makeCasters();
         view.draws = frame::makeViewDraws(view.scene->drawList(), view.prepared.camera, spec.settings.prune);
         view.listMemory = &listMemory_;

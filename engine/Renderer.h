@@ -102,6 +102,13 @@ public:
         for (Uploaded& uploaded : uploaded_) uploaded.materialsChanged = true;
     }
 
+    /// To be called after the scene got another map of its environment; how that lies and shines may change without
+    /// notice.
+    void environmentChanged() {
+        environment_.reset();
+        for (auto& [view, memory] : diffusionMemories_) memory.forget();
+    }
+
     /// Light that has spread over surfaces is kept until something changes that it depends on (docs/skin.md), unless
     /// this is off: then each frame spreads it anew, as measuring it asks for.
     void keepSpreadLight(bool keeps) { keepsSpreadLight_ = keeps; }
@@ -132,6 +139,7 @@ private:
     frame::DiffusionAtlases diffusionAtlases_;
     std::map<std::size_t, frame::DiffusionMemory> diffusionMemories_; ///< by view
     bool keepsSpreadLight_ = true;
+    std::unique_ptr<frame::EnvironmentGpu> environment_; ///< made with the first frame that has use for it
     /// The scene as frames of some settings need it.
     struct Uploaded {
         frame::FeatureSet features;

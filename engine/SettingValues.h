@@ -34,6 +34,12 @@ auto in(Value frame::DiffusionSettings::*member) {
         return request.settings.diffusion.*member;
     };
 }
+template <typename Value>
+auto in(Value frame::EnvironmentSettings::*member) {
+    return [member](auto& request) -> auto& {
+        return request.settings.environment.*member;
+    };
+}
 inline auto in(Technique ViewRequest::*member) {
     return [member](auto& request) -> auto& {
         return request.*member;

@@ -64,7 +64,7 @@ struct SettingValue {
     std::function<void(ViewRequest& to, const ViewRequest& from)> copy;
 };
 
-enum class SettingPanel : std::uint8_t { None, Frame, Shadows, Skin, View };
+enum class SettingPanel : std::uint8_t { None, Frame, Environment, Shadows, Skin, View };
 
 /// A row of the table.
 struct Setting {

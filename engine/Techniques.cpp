@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/EnumTable.h"
+#include "passes/BackdropPass.h"
 #include "passes/DeferredLightingPass.h"
 #include "passes/DepthPrepass.h"
 #include "passes/DiffusionPasses.h"
@@ -49,8 +50,16 @@ FrameHandles declareShared(graph::Graph& graph, std::span<const ViewSource> view
         return view.spec.tracesShadows() || std::ranges::any_of(view.spec.diffused, &frame::FrameSpec::tracesShadows);
     });
     const ViewSource& anyView = views.front();
-    return {frame::importScene(graph, anyView.spec.features, anyView.drawn ? anyView.drawn->scene : nullptr,
-                               tracesShadows)};
+    FrameHandles shared{frame::importScene(graph, anyView.spec.features, anyView.drawn ? anyView.drawn->scene : nullptr,
+                                           tracesShadows)};
+    std::vector<const frame::FrameSpec*> specs;
+    for (const ViewSource& view : views) {
+        specs.push_back(&view.spec);
+        for (const frame::FrameSpec& object : view.spec.diffused) specs.push_back(&object);
+    }
+    shared.scene.environment =
+        frame::importEnvironment(graph, specs, anyView.drawn ? anyView.drawn->environment : nullptr);
+    return shared;
 }
 
 /// What a recipe wires a view's passes with.
@@ -58,8 +67,9 @@ struct ViewWiring {
     graph::Graph& graph;
     const frame::FrameSpec& spec;
     const frame::DrawnView* drawn;
-    frame::SurfaceHandles surfaces; ///< the scene, as the view draws it
-    frame::LightingInputs lighting; ///< with the lists, once there are some
+    frame::SurfaceHandles surfaces;                    ///< the scene, as the view draws it
+    frame::LightingInputs lighting;                    ///< with the lists, once there are some
+    std::optional<frame::EnvironmentHandles> backdrop; ///< where the environment is seen
 
     ViewWiring(graph::Graph& ofGraph, const FrameHandles& frame, const ViewSource& view, std::size_t index)
         : graph(ofGraph), spec(view.spec), drawn(view.drawn) {
@@ -73,11 +83,32 @@ struct ViewWiring {
                     spec.features.subsurfaceRows() ? frame.scene.subsurfaces : std::nullopt,
                     {},
                     {},
+                    {},
                     {}};
+        if (lights.environment) addEnvironment(frame.scene.environment, *lights.environment);
         if (lights.casterTree) lighting.casterTree = {*lights.casterTree, frame.scene.casters.value()};
         if (spec.features[frame::Feature::ShadowMaps])
             lighting.shadowAtlas = ShadowMapsPass::add(graph, spec, {frame.scene, drawn, index}).atlas;
         if (spec.features[frame::Feature::SubsurfaceDiffusion]) surfaces.diffused = addDiffused(frame, view, index);
+    }
+
+    void addEnvironment(const frame::EnvironmentHandles& all, graph::BufferHandle constants) {
+        if (spec.showsEnvironment) {
+            backdrop = frame::EnvironmentHandles{all.environment, constants, {}, {}, {}, {}};
+            if (spec.settings.environment.backdrop == frame::Backdrop::Sharp)
+                backdrop->map = all.map;
+            else
+                backdrop->filtered = all.filtered;
+        }
+        if (!spec.features[frame::Feature::Environment]) return;
+        lighting.environment = frame::EnvironmentHandles{all.environment, constants, {}, {}, {}, {}};
+        if (spec.usesEnvironmentSamples()) {
+            lighting.environment->map = all.map;
+            lighting.environment->samples = all.samples;
+        } else {
+            lighting.environment->filtered = all.filtered;
+            lighting.environment->lobes = all.lobes;
+        }
     }
 
     /// Spreads light over objects, each lit as a view of its own; those of which no more is seen than what is known
@@ -223,6 +254,10 @@ struct Shown {
 /// The lit picture, transparent surfaces included.
 Shown addLitPicture(Technique technique, std::size_t view, ViewWiring& wiring, const AfterOpaque& after) {
     OpaquePicture opaque = kRows[std::size_t(technique)].addOpaque(wiring);
+    if (wiring.backdrop) {
+        const BackdropPass::Inputs inputs{wiring.surfaces.view, *wiring.backdrop, opaque.depth, opaque.radiance};
+        opaque.radiance = BackdropPass::add(wiring.graph, wiring.spec, inputs).radiance;
+    }
     // Add passes here that read the opaque picture and draw below transparent surfaces.
     if (after.readsSurfaces && !opaque.gbuffer) opaque.gbuffer = wiring.storeSurfaces(opaque.depth);
     if (after.add) opaque.radiance = after.add(wiring.graph, view, wiring.spec, opaque);

@@ -44,6 +44,8 @@ UploadLightsPass::Outputs UploadLightsPass::add(graph::Graph& graph, const frame
                                           spec.shadowFaces * sizeof(shared::ShadowFaceTexels),
                                       true},
                                      Access::Upload);
+            if (spec.environment)
+                out.environment = pass.create("environment", {sizeof(shared::EnvironmentConstants)}, Access::Upload);
             if (spec.tracesShadows())
                 out.casterTree = pass.create("caster_tree", {sizeof(shared::CasterTreeConstants)}, Access::Upload);
         },
@@ -52,6 +54,7 @@ UploadLightsPass::Outputs UploadLightsPass::add(graph::Graph& graph, const frame
             if (out.casterTree)
                 context.buffer(*out.casterTree)
                     .uploadValue(frame::casterTreeConstants(drawn->scene->casters()->space, view.camera));
+            if (out.environment) context.buffer(*out.environment).uploadValue(view.environment);
             context.buffer(out.constants).uploadValue(view.lighting);
             std::vector<glm::vec4> texels = frame::texelsOf(view.lights, view.spec.features);
             for (const shared::ShadowFaceTexels& face : view.shadowFaces)

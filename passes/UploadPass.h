@@ -21,6 +21,7 @@ struct UploadViewPass {
 struct UploadLightsPass {
     struct Outputs {
         graph::BufferHandle constants, lights;
+        std::optional<graph::BufferHandle> environment; ///< shared::EnvironmentConstants
         std::optional<graph::BufferHandle> casterTree;
     };
     static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const frame::DrawnView* drawn);

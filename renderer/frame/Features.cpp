@@ -61,6 +61,7 @@ std::vector<FeatureInfo> makeTable() {
             {Feature::VaryingMaterials, "VARYING_MATERIALS", "materials that vary over a surface",
              "no texture but normal maps, no vertex colour and no anisotropy changes one"},
             {Feature::OrthographicCamera, "ORTHOGRAPHIC_CAMERA", "parallel rays", "the camera is perspective"},
+            {Feature::Environment, "ENVIRONMENT", "light of the environment", "the scene has no environment"},
             {Feature::Shadows, "SHADOWS", "shadows", "no light in view casts any"},
             {Feature::SoftShadows, "SOFT_SHADOWS", "soft shadows", "no shadow in view is soft"},
             {Feature::ShadowMaps, "SHADOW_MAPS", "shadow maps", "no shadow is looked up in a map"},

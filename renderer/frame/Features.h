@@ -37,6 +37,7 @@ enum class Feature : std::uint8_t {
     DoubleSided,
     VaryingMaterials, // values of a material change over a surface, so each pixel must hold its own
     OrthographicCamera,
+    Environment, // lights surfaces; of lit pictures with lit models
     Shadows,     // of lights in view that casters may hide
     SoftShadows, // of such lights with a size
     ShadowMaps,  // the shadows are looked up in maps, not traced

@@ -107,6 +107,26 @@ void CasterTreeHandles::bind(const graph::PassContext& context) const {
     bindTexels(context, TEXTURE_UNIT_SHADOWS, casters, Format::Rgba32Uint);
 }
 
+EnvironmentHandles EnvironmentHandles::read(graph::PassBuilder& pass) const {
+    EnvironmentHandles result{environment, pass.read(constants, Access::UniformRead), {}, {}, {}, {}};
+    result.map = readWhereThere(pass, map, Access::Sampled);
+    result.filtered = readWhereThere(pass, filtered, Access::Sampled);
+    result.lobes = readWhereThere(pass, lobes, Access::Sampled);
+    result.samples = readWhereThere(pass, samples, Access::TexelRead);
+    return result;
+}
+
+void EnvironmentHandles::bind(const graph::PassContext& context) const {
+    gpu::bindUniformBuffer(UNIFORM_ENVIRONMENT, context.buffer(constants), 0, sizeof(shared::EnvironmentConstants));
+    if (map) gpu::bindTexture(TEXTURE_UNIT_ENVIRONMENT, context.texture(*map));
+    const auto bindSmooth = [&](std::uint32_t unit, const std::optional<graph::TextureHandle>& texture) {
+        if (texture) gpu::bindTexture(unit, context.texture(*texture), &environment->smooth());
+    };
+    bindSmooth(TEXTURE_UNIT_ENVIRONMENT_FILTERED, filtered);
+    bindSmooth(TEXTURE_UNIT_LOBES, lobes);
+    if (samples) bindTexels(context, TEXTURE_UNIT_ENVIRONMENT_SAMPLES, *samples, Format::Rgba32Float);
+}
+
 LightingInputs LightingInputs::read(graph::PassBuilder& pass) const {
     LightingInputs result{view.read(pass),
                           pass.read(constants, Access::UniformRead),
@@ -115,7 +135,9 @@ LightingInputs LightingInputs::read(graph::PassBuilder& pass) const {
                           readWhereThere(pass, subsurfaces, Access::UniformRead),
                           {},
                           {},
-                          readWhereThere(pass, shadowAtlas, Access::Sampled)};
+                          readWhereThere(pass, shadowAtlas, Access::Sampled),
+                          {}};
+    if (environment) result.environment = environment->read(pass);
     if (lists) result.lists = lists->read(pass);
     if (casterTree) result.casterTree = casterTree->read(pass);
     return result;
@@ -132,6 +154,7 @@ void LightingInputs::bind(const graph::PassContext& context) const {
     if (lists) lists->bind(context);
     if (casterTree) casterTree->bind(context);
     if (shadowAtlas) gpu::bindTexture(TEXTURE_UNIT_SHADOWS, context.texture(*shadowAtlas));
+    if (environment) environment->bind(context);
 }
 
 GBufferHandles GBufferHandles::read(graph::PassBuilder& pass, const FrameSpec& spec, Access depthAccess) const {
@@ -180,6 +203,30 @@ SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const 
         handles.materialTable = import("material_table", table);
     if (features.enteringLight()) handles.subsurfaces = import("subsurfaces", scene ? scene->subsurfaces() : nullptr);
     if (tracesShadows) handles.casters = import("casters", scene ? scene->casters()->texels.get() : nullptr);
+    return handles;
+}
+
+EnvironmentHandles importEnvironment(graph::Graph& graph, std::span<const FrameSpec* const> specs,
+                                     EnvironmentGpu* environment) {
+    EnvironmentHandles handles;
+    handles.environment = environment;
+    const auto some = [&](bool (FrameSpec::*uses)() const) {
+        return std::ranges::any_of(specs, [&](const FrameSpec* spec) { return (spec->*uses)(); });
+    };
+    const auto shaped =
+        std::ranges::find_if(specs, [](const FrameSpec* spec) { return spec->environment.has_value(); });
+    if (shaped == specs.end()) return handles;
+    const EnvironmentShape& shape = *(*shaped)->environment;
+    if (some(&FrameSpec::usesEnvironmentMap))
+        handles.map = graph.import("environment_map", shape.map, environment ? &environment->map() : nullptr);
+    if (some(&FrameSpec::usesEnvironmentSamples))
+        handles.samples = graph.import("environment_samples", graph::BufferDesc{shape.sampleBytes},
+                                       environment ? &environment->samples() : nullptr);
+    if (some(&FrameSpec::usesFilteredEnvironment)) {
+        handles.filtered =
+            graph.import("environment_filtered", shape.filtered, environment ? &environment->filtered() : nullptr);
+        handles.lobes = graph.import("lobe_table", shape.lobes, environment ? &environment->lobes() : nullptr);
+    }
     return handles;
 }
 

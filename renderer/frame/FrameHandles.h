@@ -5,6 +5,7 @@
 
 #include "renderer/culling/LightLists.h"
 #include "renderer/frame/Diffusion.h"
+#include "renderer/frame/EnvironmentMap.h"
 #include "renderer/frame/PreparedView.h"
 #include "renderer/frame/SceneGpu.h"
 #include "renderer/frame/ShadowMemory.h"
@@ -26,6 +27,7 @@ struct LightListMemory {
 struct DrawnView {
     PreparedView prepared;
     const SceneGpu* scene = nullptr;
+    EnvironmentGpu* environment = nullptr; ///< where the view has use for it
     ViewDraws draws;
     LightListMemory* listMemory = nullptr;
     ShadowMemory* shadowMemory = nullptr; ///< where the view has shadow maps
@@ -50,6 +52,16 @@ struct ViewHandles {
     void bind(const graph::PassContext& context) const;
 };
 
+/// Light from everywhere (EnvironmentGpu). A pass reads what it is given.
+struct EnvironmentHandles {
+    EnvironmentGpu* environment = nullptr; ///< null if the frame is only planned
+    graph::BufferHandle constants;         ///< shared::EnvironmentConstants
+    std::optional<graph::TextureHandle> map, filtered, lobes;
+    std::optional<graph::BufferHandle> samples;
+    EnvironmentHandles read(graph::PassBuilder& pass) const;
+    void bind(const graph::PassContext& context) const;
+};
+
 /// The scene's own buffers, which all views of a frame share.
 struct SceneHandles {
     std::vector<graph::BufferHandle> vertices; ///< a stream each
@@ -58,6 +70,7 @@ struct SceneHandles {
     std::optional<graph::BufferHandle> materialTable; ///< where surfaces hold their material's number
     std::optional<graph::BufferHandle> subsurfaces;   ///< where lighting reads them: shared::SubsurfaceConstants
     std::optional<graph::BufferHandle> casters;       ///< where shadows are traced: shaders/shared/caster_tree.h
+    EnvironmentHandles environment;                   ///< without constants; what some view has use for
 };
 
 /// The scene as a view draws it.
@@ -120,6 +133,7 @@ struct LightingInputs {
     std::optional<LightListHandles> lists;            ///< where FrameSpec::culling asks for them
     std::optional<CasterTreeHandles> casterTree;      ///< where the view has shadows that are traced
     std::optional<graph::TextureHandle> shadowAtlas;  ///< where it has shadow maps
+    std::optional<EnvironmentHandles> environment;    ///< where it lights surfaces
 
     LightingInputs read(graph::PassBuilder& pass) const;
     void bind(const graph::PassContext& context) const;
@@ -153,5 +167,8 @@ struct LitDepths {
 /// the scene, so any of the frame's views has them.
 /// `tracesShadows`: some view does; then `scene` has its casters.
 SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const SceneGpu* scene, bool tracesShadows);
+/// The same of what views of these specs use of the environment; null where the frame is only planned.
+EnvironmentHandles importEnvironment(graph::Graph& graph, std::span<const FrameSpec* const> specs,
+                                     EnvironmentGpu* environment);
 
 } // namespace tessera::frame

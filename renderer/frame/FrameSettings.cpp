@@ -5,6 +5,7 @@
 
 #include "base/EnumTable.h"
 #include "shaders/shared/display.h"
+#include "shaders/shared/environment.h"
 #include "shaders/shared/shadow_maps.h"
 
 namespace tessera::frame {
@@ -37,7 +38,35 @@ static_assert(isInOrder(kShadowFilters, &ShadowFilterInfo::filter, std::size(kSh
 static_assert(int(ShadowFilter::Hard) == SHADOW_FILTER_HARD && int(ShadowFilter::Pcf) == SHADOW_FILTER_PCF &&
               int(ShadowFilter::Pcss) == SHADOW_FILTER_PCSS);
 
+constexpr EnvironmentLightInfo kEnvironmentLights[] = {
+    {EnvironmentLight::Off, "off", "it lights nothing"},
+    {EnvironmentLight::SplitSum, "split_sum", "from maps filtered beforehand, one look-up for each lobe"},
+    {EnvironmentLight::Sampled, "sampled", "by samples of each pixel, which converge to the truth"},
+};
+static_assert(isInOrder(kEnvironmentLights, &EnvironmentLightInfo::light, std::size(kEnvironmentLights)));
+static_assert(int(EnvironmentLight::Off) == ENVIRONMENT_OFF &&
+              int(EnvironmentLight::SplitSum) == ENVIRONMENT_SPLIT_SUM &&
+              int(EnvironmentLight::Sampled) == ENVIRONMENT_SAMPLED);
+
+constexpr BackdropInfo kBackdrops[] = {
+    {Backdrop::Sharp, "sharp", "the map as it is"},
+    {Backdrop::Blurred, "blurred", "as a rough mirror would show it"},
+    {Backdrop::Off, "off", "the scene's background colour"},
+};
+
 } // namespace
+
+std::span<const EnvironmentLightInfo> environmentLightTable() {
+    return kEnvironmentLights;
+}
+
+const EnvironmentLightInfo& infoOf(EnvironmentLight light) {
+    return kEnvironmentLights[std::size_t(light)];
+}
+
+std::span<const BackdropInfo> backdropTable() {
+    return kBackdrops;
+}
 
 std::span<const ShadowFilterInfo> shadowFilterTable() {
     return kShadowFilters;

@@ -73,6 +73,37 @@ struct DiffusionSettings {
 };
 inline constexpr int kDiffusionSides[] = {1, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096};
 
+/// How the light of an environment on a surface is found.
+enum class EnvironmentLight : std::uint8_t { Off, SplitSum, Sampled };
+struct EnvironmentLightInfo {
+    EnvironmentLight light; ///< its value is ENVIRONMENT_* of shaders/shared/environment.h
+    std::string_view name;
+    std::string_view summary;
+};
+std::span<const EnvironmentLightInfo> environmentLightTable();
+const EnvironmentLightInfo& infoOf(EnvironmentLight light);
+
+/// What of an environment is seen behind the scene.
+enum class Backdrop : std::uint8_t { Sharp, Blurred, Off };
+struct BackdropInfo {
+    Backdrop backdrop;
+    std::string_view name;
+    std::string_view summary;
+};
+std::span<const BackdropInfo> backdropTable();
+
+/// Of light from everywhere (docs/environment.md).
+struct EnvironmentSettings {
+    EnvironmentLight light = EnvironmentLight::SplitSum;
+    int samples = 64;             ///< of a pixel of each kind, one of kEnvironmentSamples
+    float rotationDegrees = 0.0f; ///< added to the scene's own
+    float intensity = 1.0f;       ///< >= 0, multiplies the scene's own
+    Backdrop backdrop = Backdrop::Sharp;
+    bool operator==(const EnvironmentSettings&) const = default;
+};
+inline constexpr int kEnvironmentSamples[] = {1,   4,    16,  64,
+                                              256, 1024, 4096}; // powers of 2, so that runs of them are even
+
 /// 2^EV must be a number that a picture can be multiplied by: fp32 spans 2^-126 to 2^128.
 inline constexpr float kMostExposureEV = 120.0f; ///< either way
 
@@ -109,6 +140,7 @@ struct FrameSettings {
     ShadowMapSettings shadowMaps;
     scenes::SubsurfaceRequest subsurface;
     DiffusionSettings diffusion;
+    EnvironmentSettings environment;
     culling::Settings culling;
     std::optional<LightingStage> lightOn; ///< of the techniques that light in a pass of its own; open: fragment shaders
     bool softwareBackend = true;          ///< decides the choices left open; the renderer sets it to its own backend

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/frame/EnvironmentMap.h"
 #include "renderer/frame/LightBuffer.h"
 #include "renderer/frame/LightRounds.h"
 #include "renderer/frame/RefineLayout.h"
@@ -70,11 +71,19 @@ std::string whyNotSoft(const FrameSpec& spec) {
     return "no light in view that casts shadows has a size";
 }
 
+/// Why the scene's environment lights nothing.
+std::string whyNoEnvironmentLight(const scenes::Scene& scene, const FrameSpec& spec) {
+    if (spec.settings.environment.light == EnvironmentLight::Off) return "it is switched off";
+    if (!isLitByEnvironment(scene, spec.settings)) return "its intensity is 0";
+    return spec.features.litModels() ? "the view shows no lit surfaces" : "every surface is unlit";
+}
+
 /// Why a feature is left out.
 std::string whyAbsent(const FeatureInfo& info, const scenes::Scene& scene, const FrameSpec& spec,
                       const PackedLights& lights) {
     if (info.feature == Feature::Shadows) return whyNoShadows(scene, lights, spec.settings.shadows);
     if (info.feature == Feature::SoftShadows) return whyNotSoft(spec);
+    if (info.feature == Feature::Environment && scene.environment) return whyNoEnvironmentLight(scene, spec);
     if (info.feature == Feature::SubsurfaceDepthMap && materialFeatures(scene, spec.settings.subsurface)[info.feature])
         return "no light casts shadows, by which the way inside is found";
     return info.absent;
@@ -118,6 +127,14 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
     }
     if (settings.prune && !spec.features[Feature::Shadows])
         spec.features.has.reset(std::size_t(Feature::SubsurfaceDepthMap));
+    // Neither maps nor samples are there where nothing is lit by them.
+    if (isLitByEnvironment(scene, settings) && showsLitPicture(settings.view) && spec.features.litModels())
+        spec.features.add(Feature::Environment);
+    else
+        spec.features.has.reset(std::size_t(Feature::Environment));
+    spec.showsEnvironment = showsEnvironment(scene, settings);
+    if (spec.features[Feature::Environment] || spec.showsEnvironment)
+        spec.environment = environmentShape(scene.environment->map);
     // It says how shadows are found, so it is not kept where it is not asked for.
     if (!infoOf(settings.shadowFilter).usesMaps) spec.features.has.reset(std::size_t(Feature::ShadowMaps));
     // A channel that is looked at is stored, and not as a number or beside one.
@@ -131,6 +148,7 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
     for (std::size_t i = 0; i < lights.shadowed; ++i)
         spec.shadowSamples += shadowSamples(shadowed(i), spec.settings) + passingRays(spec);
     for (std::size_t i = 0; i < lights.shadowed; ++i) spec.iterations += 1 + shadowIterations(spec, shadowed(i));
+    if (spec.usesEnvironmentSamples()) spec.iterations += std::size_t(settings.environment.samples);
     return spec;
 }
 
@@ -151,6 +169,7 @@ FrameSpec makeDiffusedSpec(const scenes::Scene& scene, const DiffusedObject& obj
     FrameSpec spec = makeSpec(scene, lights, settings, surfaces);
     spec.features.add(Feature::OrthographicCamera); // nothing of it is asked; the constants are those of one
     spec.channels.clear();
+    spec.showsEnvironment = false;
     const double texelMetres = object.sideMetres / double(spec.spreadTexels());
     spec.spread = lightSpread(scene.materials[std::size_t(object.material)].subsurface, settings.diffusion.gaussians,
                               texelMetres, settings.diffusion.half);
@@ -184,6 +203,10 @@ Defines frameDefines(const FrameSpec& spec) {
         defines.emplace_back("DIFFUSED_COLUMNS", std::to_string(cells.columns));
         defines.emplace_back("DIFFUSED_ROWS", std::to_string(cells.rows));
     }
+    if (spec.features[Feature::Environment])
+        defines.emplace_back("ENVIRONMENT_LIGHT", std::to_string(int(spec.settings.environment.light)));
+    if (spec.usesEnvironmentSamples())
+        defines.emplace_back("ENVIRONMENT_SAMPLES", std::to_string(spec.settings.environment.samples));
     if (spec.tracesShadows()) defines.emplace_back("CASTER_STEPS", std::to_string(casterSteps(spec.shadowSamples)));
     if (spec.features[Feature::SoftShadows])
         defines.emplace_back("SHADOW_SAMPLES", std::to_string(spec.settings.shadowSamples));
@@ -223,6 +246,19 @@ Defines FrameSpec::gbufferDefines() const {
     if (haveRoom && (features[Feature::Shadows] || storesSubsurface()))
         defines.emplace_back("GBUFFER_MARKS", std::to_string(ofChannels));
     return defines;
+}
+
+bool FrameSpec::usesEnvironmentSamples() const {
+    return features[Feature::Environment] && settings.environment.light == EnvironmentLight::Sampled;
+}
+
+bool FrameSpec::usesEnvironmentMap() const {
+    return usesEnvironmentSamples() || (showsEnvironment && settings.environment.backdrop == Backdrop::Sharp);
+}
+
+bool FrameSpec::usesFilteredEnvironment() const {
+    return (features[Feature::Environment] && !usesEnvironmentSamples()) ||
+           (showsEnvironment && settings.environment.backdrop == Backdrop::Blurred);
 }
 
 bool FrameSpec::mayCutShadows() const {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "renderer/frame/Diffusion.h"
+#include "renderer/frame/EnvironmentMap.h"
 #include "renderer/frame/Features.h"
 #include "renderer/frame/FrameSettings.h"
 #include "renderer/frame/GBufferLayout.h"
@@ -30,6 +31,8 @@ struct FrameSpec {
     bool lightsEverywhere = false;                   ///< some lights reach everywhere, while others do not
     int samples = 1;                                 ///< that the pixels of render targets have
     glm::vec4 background{0.0f};                      ///< radiance where nothing is drawn; a is 0, the coverage
+    std::optional<EnvironmentShape> environment;     ///< where it lights surfaces, or is seen
+    bool showsEnvironment = false;                   ///< behind the scene
 
     /// By cell of the view's atlas, what the texels of an object that light spreads over are lit with.
     std::vector<FrameSpec> diffused;
@@ -40,6 +43,10 @@ struct FrameSpec {
     /// Texels along the side of an object's atlas that light is spread in.
     int spreadTexels() const { return std::max(1, settings.diffusion.sideTexels / (settings.diffusion.half ? 2 : 1)); }
     DiffusedCells diffusedCells() const { return frame::diffusedCells(diffused.size(), spreadTexels()); }
+
+    bool usesEnvironmentMap() const; ///< at full resolution
+    bool usesEnvironmentSamples() const;
+    bool usesFilteredEnvironment() const;
 
     /// Whether shadows follow rays through the casters.
     bool tracesShadows() const { return features[Feature::Shadows] && !features[Feature::ShadowMaps]; }

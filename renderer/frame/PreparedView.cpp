@@ -60,6 +60,10 @@ std::uint64_t diffusionKey(const scenes::Scene& scene, const DiffusedObject& obj
     hash.add(settings.shadowMaps.cascades);
     hash.add(std::uint8_t(settings.filter));
     hash.add(settings.prune);
+    if (prepared.spec.features[Feature::Environment]) {
+        hash.addFloats(std::vector{prepared.environment});
+        hash.add(settings.environment.samples);
+    }
     return hash.value();
 }
 

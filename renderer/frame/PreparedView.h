@@ -4,6 +4,7 @@
 #include "renderer/culling/TileGrid.h"
 #include "renderer/frame/CameraView.h"
 #include "renderer/frame/CullLights.h"
+#include "renderer/frame/EnvironmentMap.h"
 #include "renderer/frame/FrameSpec.h"
 #include "renderer/frame/PackedLights.h"
 #include "renderer/frame/ShadowMaps.h"
@@ -15,6 +16,7 @@ struct PreparedView {
     CameraView camera;
     PackedLights lights;
     shared::LightingConstants lighting{};
+    shared::EnvironmentConstants environment{}; ///< where the spec has a map
     FrameSpec spec;
     ShadowMaps shadowMaps;                             ///< empty where the view has none
     std::vector<shared::ShadowFaceTexels> shadowFaces; ///< of those

@@ -52,7 +52,7 @@ struct BlockMember {
 class Program {
 public:
     /// Compiles and links. Throws ShaderError with the driver's logs, or where a stage samples more textures than
-    /// every driver offers one (TEXTURE_UNITS_A_STAGE of shaders/shared/slots.h).
+    /// the driver offers one.
     Program(std::string label, std::span<const StageSource> stages);
     ~Program();
     Program(Program&&) noexcept = default;

@@ -53,11 +53,14 @@ glm::dvec3 sunDirection(int i, int count) {
     return {std::sin(tilt) * std::cos(turn), -std::cos(tilt), std::sin(tilt) * std::sin(turn)};
 }
 
-void ShadowTest::expectParity(engine::Renderer& renderer, const frame::FrameSettings& settings) {
+void ShadowTest::expectParity(engine::Renderer& renderer, const frame::FrameSettings& settings,
+                              std::vector<engine::Technique> techniques) {
     using engine::Technique;
     validation::CompareRequest request;
+    const bool all = techniques.empty();
+    request.techniques = std::move(techniques);
     for (const engine::TechniqueInfo& info : engine::techniqueTable())
-        if (info.technique != Technique::Forward && (settings.samples == 1 || info.multisamples()))
+        if (all && info.technique != Technique::Forward && (settings.samples == 1 || info.multisamples()))
             request.techniques.push_back(info.technique);
     request.settings = settings;
     const validation::CompareRecord record =

@@ -40,7 +40,8 @@ glm::dvec3 sunDirection(int i, int count);
 class ShadowTest : public GlTest {
 protected:
     /// Expects that all techniques draw what forward does.
-    void expectParity(engine::Renderer& renderer, const frame::FrameSettings& settings);
+    void expectParity(engine::Renderer& renderer, const frame::FrameSettings& settings,
+                      std::vector<engine::Technique> techniques = {});
 };
 
 /// Of a picture against the reference: those that are lit where they should be hidden or the reverse.

@@ -21,6 +21,7 @@ protected:
         Scene,
         Technique,
         View,
+        Environment,
         Shadows,
         Subsurface,
         Camera,

@@ -6,6 +6,7 @@
 
 #include "base/Error.h"
 #include "engine/PrepareView.h"
+#include "renderer/frame/EnvironmentMap.h"
 
 namespace tessera::validation {
 
@@ -19,6 +20,10 @@ reference::Settings referenceSettings(const scenes::Scene& scene, const frame::F
     result.subsurface = settings.subsurface;
     // The noise of rays; maps are allowed none.
     result.shadowSamples = infoOf(settings.shadowFilter).usesMaps ? 0 : settings.shadowSamples;
+    result.environmentLights = settings.environment.light != frame::EnvironmentLight::Off;
+    result.environmentIsSeen = scene.environment && settings.environment.backdrop != frame::Backdrop::Off;
+    result.environmentIntensity = double(settings.environment.intensity);
+    result.environmentRotationDegrees = double(settings.environment.rotationDegrees);
     result.specular = settings.specular;
     result.rangeTolerance = settings.rangeTolerance;
     result.filtering =
@@ -59,6 +64,7 @@ ReferencePicture referencePicture(const scenes::Scene& scene, const frame::Frame
     result.undecidedShadows = std::move(rendered.undecidedShadows);
     result.shadowNoise = std::move(rendered.shadowNoise);
     result.spread = std::move(rendered.spread);
+    result.surroundings = std::move(rendered.surroundings);
     return result;
 }
 
@@ -137,6 +143,10 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
     Tolerance tolerance;
     if (frame::infoOf(settings.shadowFilter).usesMaps && hasShadows(scene, settings, false)) {
         tolerance.reason = "shadow maps are an approximation: their error is reported, and held to nothing";
+        return tolerance;
+    }
+    if (frame::isLitByEnvironment(scene, settings)) {
+        tolerance.reason = "samples of the environment have noise: the error is reported, and held to nothing";
         return tolerance;
     }
     if (frame::diffusesLight(scene, settings.subsurface)) {

@@ -42,6 +42,7 @@ void sidePanel(State& state, const Facts& facts, float height, float scale) {
     if (state.open) { // until then nobody knows how its picture begins
         section("Technique", true, [&] { framePanel(state); });
         section("View", true, [&] { viewPanel(state); });
+        section("Environment", false, [&] { environmentPanel(state); });
         section("Shadows", false, [&] { shadowsPanel(state, facts); });
         section("Subsurface scattering", false, [&] { skinPanel(state); });
         section("Camera", false, [&] { cameraPanel(state); });

@@ -116,6 +116,10 @@ void framePanel(State& state) {
     settingRows(state.active(), engine::SettingPanel::Frame);
 }
 
+void environmentPanel(State& state) {
+    settingRows(state.active(), engine::SettingPanel::Environment);
+}
+
 void shadowsPanel(State& state, const Facts& facts) {
     settingRows(state.active(), engine::SettingPanel::Shadows);
     const std::optional<engine::DrawnShadows>& shadows = facts.shadows[std::size_t(state.activeSide)];

@@ -16,6 +16,7 @@ std::string options(const RenderRequest& request, const scenes::Scene& scene) {
         if (!setting.value.equal(request, byItself))
             text += fmt::format(" {} {}", setting.flag, shellWord(setting.text(request, &scene)));
     if (request.lights) text += fmt::format(" --lights {}", *request.lights);
+    if (request.environment) text += " --environment " + shellWord(*request.environment);
     if (!request.defaultLight) text += " --no-default-light";
     return text + poseText(request.pose);
 }

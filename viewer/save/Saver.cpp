@@ -78,6 +78,7 @@ std::string Saver::command(glm::ivec2 sizePixels) {
     request.source = open.source();
     request.lights = open.load().lights;
     request.defaultLight = open.load().defaultLight;
+    request.environment = open.load().environment;
     request.technique = look.technique;
     request.settings = look.settings;
     request.settings.sizePixels = sizePixels;

@@ -8,6 +8,14 @@
 #if HAS_SHADOWS
 #include "lib/shadow/shadow.glsl"
 #endif
+#if HAS_ENVIRONMENT
+#include "shared/environment.h"
+#if ENVIRONMENT_LIGHT == ENVIRONMENT_SAMPLED
+#include "lib/environment/environment_samples.glsl"
+#else
+#include "lib/environment/environment_filtered.glsl"
+#endif
+#endif
 
 // 1 where lights are counted instead of added (lib/lighting/views.glsl).
 #ifndef VISIT_COUNTS
@@ -124,9 +132,13 @@ vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pi
     return radiance;
 }
 
-// Radiance of the surface towards the viewer: its emission and its lights.
+// Radiance of the surface towards the viewer: its emission, the environment and its lights.
 vec3 shadeSurface(Surface surface, Viewpoint viewpoint, vec2 pixel)
 {
     SeenSurface seen = seenSurface(surface, viewpoint.toViewerLS);
-    return lightsOnSurface(emittedRadiance(seen), seen, viewpoint, pixel);
+    precise vec3 radiance = emittedRadiance(seen);
+#if HAS_ENVIRONMENT
+    if (takesLight(surface)) radiance += environmentOnSurface(seen, pixel);
+#endif
+    return lightsOnSurface(radiance, seen, viewpoint, pixel);
 }

@@ -2,19 +2,12 @@
 // the one before (Vogel 1979, "A better way to construct the sunflower head"); one random turn and one random share of
 // the rings, the same for all places, make the mean over pixels exact.
 #pragma once
+#include "lib/maths/random.glsl"
 
-// Two numbers of [0, 1), the same for a pixel and a light of the scene in every frame and technique. Source: pcg3d of
-// Jarzynski and Olano 2020, "Hash Functions for GPU Rendering".
+// Two numbers of [0, 1), the same for a pixel and a light of the scene in every frame and technique.
 vec2 shadowRandom(vec2 pixel, float sceneIndex)
 {
-    uvec3 v = uvec3(uvec2(pixel), uint(sceneIndex)) * 1664525u + 1013904223u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    v ^= v >> 16;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    return vec2(v.xy >> 8) * (1.0 / 16777216.0);
+    return unitOf(hashOf(uvec3(uvec2(pixel), uint(sceneIndex))).xy);
 }
 
 // Place i of SHADOW_SAMPLES on the unit disk.

@@ -38,16 +38,17 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
         const auto& [technique, settings] = request;
         const auto& [sizePixels, wholePixels, samples, samplesGiven, camera, timeSeconds, eyeOffsetWS, layout, view,
                      filter, space, prune, specular, rangeTolerance, soloLight, shadows, shadowFilter, shadowSamples,
-                     shadowMaps, subsurface, diffusion, culling, lightOn, softwareBackend, display, exposureEV,
-                     toneMap] = settings;
+                     shadowMaps, subsurface, diffusion, environment, culling, lightOn, softwareBackend, display,
+                     exposureEV, toneMap] = settings;
         const auto& [method, tilePixels, builder, normals, lanes] = culling;
         const auto& [sideTexels, gaussians, half] = diffusion;
+        const auto& [light, lightSamples, rotationDegrees, intensity, backdrop] = environment;
         const auto& [widthTexels, resolutionTexels, budgetMiB, cascades] = shadowMaps;
         return std::pair(std::tuple(technique, sizePixels, samples, camera, timeSeconds, layout, view, filter, space,
                                     prune, specular, rangeTolerance, soloLight, shadows, shadowFilter, shadowSamples,
                                     widthTexels, resolutionTexels, budgetMiB, cascades, subsurface, sideTexels,
-                                    gaussians, half, method, tilePixels, builder, normals, lightOn, exposureEV,
-                                    toneMap),
+                                    gaussians, half, light, lightSamples, rotationDegrees, intensity, backdrop, method,
+                                    tilePixels, builder, normals, lightOn, exposureEV, toneMap),
                          std::tuple(wholePixels, samplesGiven, eyeOffsetWS, softwareBackend, display, lanes));
     };
     const auto differ = []<std::size_t... kIndex>(const auto& x, const auto& y, std::index_sequence<kIndex...>) {
@@ -111,7 +112,7 @@ TEST(Settings, everyRowHasNamesOfItsOwnAndWordsForHelp) {
         EXPECT_TRUE(keys.insert(setting.key).second) << setting.key;
         EXPECT_EQ(&settingOf(setting.key), &setting);
         EXPECT_FALSE(setting.type.empty() || setting.help.empty()) << setting.name;
-        EXPECT_TRUE(setting.group == "Frame" || setting.group == "Shadows" ||
+        EXPECT_TRUE(setting.group == "Frame" || setting.group == "Environment" || setting.group == "Shadows" ||
                     setting.group == "Subsurface scattering" || setting.group == "Display")
             << setting.name;
         const bool isRefused = setting.takes != nullptr || !setting.refusal.empty();

@@ -123,10 +123,13 @@ TEST(Features, aFeatureIsInTheSetExactlyWhenAMaterialInUseNeedsIt) {
 }
 
 TEST(Features, everyFeatureOfMaterialsHasASceneWithItAndOneWithout) {
-    std::set<Feature> tested{
-        featureOf(MaterialModel::Lambert),
-        Feature::AttenuationLights, // the lights' are packLights' business, and so are shadows
-        Feature::OrthographicCamera,       Feature::Shadows, Feature::SoftShadows, Feature::ShadowMaps};
+    std::set<Feature> tested{featureOf(MaterialModel::Lambert),
+                             Feature::AttenuationLights, // the lights' are packLights' business, and so are shadows
+                             Feature::OrthographicCamera,
+                             Feature::Shadows,
+                             Feature::SoftShadows,
+                             Feature::ShadowMaps,
+                             Feature::Environment};
     for (const scenes::LightTypeInfo& type : scenes::lightTypes()) tested.insert(featureOf(type.type));
     for (const Change& change : changes()) tested.insert(change.feature);
     EXPECT_EQ(tested.size(), kFeatureCount);

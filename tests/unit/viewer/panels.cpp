@@ -159,14 +159,16 @@ TEST_F(Panels, everySettingOfAPanelHasARowWhereTheTechniqueHeedsIt) {
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         State state;
         state.looks[0].technique = info.technique;
-        const std::array<std::string, 4> texts{textOf([&] { framePanel(state); }),
+        const std::array<std::string, 5> texts{textOf([&] { framePanel(state); }),
                                                textOf([&] { shadowsPanel(state, {}); }),
-                                               textOf([&] { viewPanel(state); }), textOf([&] { skinPanel(state); })};
+                                               textOf([&] { viewPanel(state); }), textOf([&] { skinPanel(state); }),
+                                               textOf([&] { environmentPanel(state); })};
         for (const engine::Setting& setting : engine::settingTable()) {
             const bool isShown[] = {
                 setting.panel == engine::SettingPanel::Frame, setting.panel == engine::SettingPanel::Shadows,
-                setting.panel == engine::SettingPanel::View, setting.panel == engine::SettingPanel::Skin};
-            for (const int panel : {0, 1, 2, 3}) {
+                setting.panel == engine::SettingPanel::View, setting.panel == engine::SettingPanel::Skin,
+                setting.panel == engine::SettingPanel::Environment};
+            for (const int panel : {0, 1, 2, 3, 4}) {
                 const bool hasRow =
                     texts[std::size_t(panel)].find(fmt::format("\n{} ", setting.panelLabel())) != std::string::npos;
                 EXPECT_EQ(hasRow, isShown[panel] && setting.isHeededBy(info.technique))

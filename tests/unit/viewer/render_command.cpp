@@ -64,6 +64,7 @@ void expectSame(const RenderRequest& request) {
     scenes::LoadOptions load;
     load.lights = request.lights;
     load.defaultLight = request.defaultLight;
+    load.environment = request.environment;
     const scenes::Scene scene = scenes::loadScene(request.source, load);
     const std::string line = renderCommand(request, scene, "it's a picture.exr");
     SCOPED_TRACE(line);
@@ -76,6 +77,7 @@ void expectSame(const RenderRequest& request) {
     EXPECT_TRUE(result.request.scene.cameras.at(camera) ==
                 scenes::changedCamera(scene.cameras.at(camera), request.pose));
     EXPECT_TRUE(result.request.scene.lights == scene.lights);
+    EXPECT_EQ(result.request.scene.environment.has_value(), scene.environment.has_value());
 }
 
 RenderRequest requestOf(const std::string& source) {
@@ -111,6 +113,7 @@ RenderRequest everythingSaid(const std::string& file) {
     RenderRequest request = requestOf(file);
     request.lights = 1;
     request.defaultLight = false;
+    request.environment = "sky";
     for (const engine::Setting& setting : engine::settingTable())
         setting.value.copy(request, tessera::test::changedIn(setting, tessera::test::sceneOfTwoCameras()));
     request.settings.timeSeconds = 1.0 / 3.0;

@@ -1,0 +1,30 @@
+#pragma once
+#include "renderer/frame/FrameHandles.h"
+#include "renderer/frame/FrameSpec.h"
+#include "renderer/graph/Graph.h"
+
+namespace tessera::passes {
+
+/// Shows the environment where nothing opaque was drawn.
+///
+/// Reads   depth D32F, reverse-Z, 0 where nothing is
+/// Writes  radiance RGBA32F, linear, before exposure; A stays 0, the coverage
+class BackdropPass {
+public:
+    struct Inputs {
+        frame::ViewHandles view;
+        frame::EnvironmentHandles environment;
+        graph::TextureHandle depth;
+        graph::TextureHandle radiance;
+    };
+    struct Outputs {
+        frame::ViewHandles view;
+        frame::EnvironmentHandles environment;
+        graph::TextureHandle depth;
+        graph::TextureHandle radiance;
+    };
+    static shader::ProgramDesc program(const frame::FrameSpec& spec);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs);
+};
+
+} // namespace tessera::passes

@@ -1,0 +1,69 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scenes/Environment.h"
+
+/// An environment filtered beforehand, on the CPU: what a surface sees of it by roughness, and what falls on a surface
+/// (docs/environment.md).
+namespace tessera::frame {
+
+/// Unit directions on the square of an unfolded octahedron, both coordinates -1..1 (encodeOctahedral() of
+/// shaders/lib/maths/octahedral.glsl).
+glm::dvec3 directionOf(const glm::dvec2& code);
+glm::dvec2 codeOf(const glm::dvec3& direction);
+
+/// All directions on such a square of side x side texels.
+struct Octahedron {
+    int side = 0;
+    std::vector<glm::vec3> texels; ///< row after row
+
+    static glm::dvec2 codeOfTexel(int x, int y, int side);
+    /// Past an edge the square goes on at the mirrored place of the same edge.
+    const glm::vec3& at(int x, int y) const;
+};
+
+struct FilteredEnvironment {
+    /// Level 0 is the map itself; the light of level i is averaged by a GGX lobe of alphaOfLevel(i) around its
+    /// direction, seen from there, weighted by the cosine.
+    std::vector<Octahedron> levels;
+    Octahedron irradiance; ///< on a surface that faces that way, ENVIRONMENT_IRRADIANCE_SIDE
+};
+
+inline constexpr int kMostFilteredSide = 1024, kLeastFilteredSide = 32; ///< of level 0 and of the last one
+inline constexpr int kIrradianceOrder = 32;
+
+/// Side of level 0 for a map, which then has about as many texels, and the number of levels.
+int filteredSideOf(const scenes::Image& map);
+int filteredLevelsOf(int side);
+/// ENVIRONMENT_LEAST_ALPHA (level 1) to 1 (the last), each the same times the one before; 0 of level 0.
+double alphaOfLevel(int level, int levels);
+
+/// Filters a map on all cores: some seconds for 2048 x 1024 texels. `progress` is called with the share that is done,
+/// from any thread.
+FilteredEnvironment filterEnvironment(
+    const scenes::Image& map, const std::function<void(double)>& progress = [](double) {});
+
+/// Irradiance by spherical harmonics up to an order, which tests compare: kIrradianceOrder is what filterEnvironment()
+/// takes. Source: Ramamoorthi and Hanrahan 2001, "An Efficient Representation for Irradiance Environment Maps".
+Octahedron irradianceOf(const scenes::Image& map, int order, int side);
+
+/// All levels and the irradiance in one picture, each with a border of one texel, RGBA; shaders/shared/environment.h
+/// says where they lie.
+std::vector<glm::vec4> atlasOf(const FilteredEnvironment& filtered);
+glm::ivec2 atlasTexels(int side);
+
+/// The same as filterEnvironment(), from a file of this folder where an earlier call left it for a map of the same
+/// texels, else left there. A folder that cannot be written or read is no error.
+FilteredEnvironment cachedEnvironment(
+    const scenes::Image& map, const std::optional<std::filesystem::path>& folder,
+    const std::function<void(double)>& progress = [](double) {});
+/// $XDG_CACHE_HOME/tessera, ~/.cache/tessera; none where neither is known.
+std::optional<std::filesystem::path> cacheFolder();
+
+} // namespace tessera::frame

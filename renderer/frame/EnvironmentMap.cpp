@@ -1,0 +1,192 @@
+#include "renderer/frame/EnvironmentMap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "renderer/frame/EnvironmentFilter.h"
+#include "renderer/frame/LobeTable.h"
+#include "shaders/shared/lobe_table.h"
+
+namespace tessera::frame {
+
+namespace {
+
+using std::numbers::pi;
+constexpr std::size_t kSamples = std::size_t{1} << ENVIRONMENT_SAMPLES_LOG2;
+
+/// The bits of a number in reverse order, as a fraction: the sequence of van der Corput.
+double reversed(std::uint32_t bits) {
+    std::uint32_t turned = 0;
+    for (int i = 0; i < 32; ++i, bits >>= 1) turned = (turned << 1) | (bits & 1u);
+    return double(turned) * 0x1p-32;
+}
+
+/// The second dimension of the sequence of Sobol. Source: Sobol 1967, "On the distribution of points in a cube and the
+/// approximate evaluation of integrals".
+double sobol(std::uint32_t index) {
+    std::uint32_t result = 0;
+    for (std::uint32_t direction = 1u << 31; index != 0; index >>= 1, direction ^= direction >> 1)
+        if ((index & 1u) != 0) result ^= direction;
+    return double(result) * 0x1p-32;
+}
+
+struct MapTexels {
+    const std::vector<glm::vec4>& texels;
+    int width, height;
+    /// Left and right are neighbours; the first and last row go on.
+    const glm::vec4& at(int x, int y) const {
+        const int column = (x % width + width) % width, row = std::clamp(y, 0, height - 1);
+        return texels[std::size_t(row) * std::size_t(width) + std::size_t(column)];
+    }
+};
+
+/// The cosine to the top at the upper edge of a row.
+double cosineOfRow(int row, int height) {
+    return std::cos(pi * row / height);
+}
+
+} // namespace
+
+bool isLitByEnvironment(const scenes::Scene& scene, const FrameSettings& settings) {
+    return scene.environment && settings.environment.light != EnvironmentLight::Off &&
+           scene.environment->intensity * settings.environment.intensity > 0.0f;
+}
+
+bool showsEnvironment(const scenes::Scene& scene, const FrameSettings& settings) {
+    return scene.environment && settings.environment.backdrop != Backdrop::Off && showsLitPicture(settings.view);
+}
+
+shared::EnvironmentConstants packEnvironment(const scenes::Environment& environment, const FrameSettings& settings,
+                                             const CameraView& view) {
+    const double turn =
+        glm::radians(double(environment.rotationDegrees) + double(settings.environment.rotationDegrees));
+    // What is turned counter-clockwise is looked up the other way.
+    const glm::dmat4 mapFromWorld = glm::rotate(glm::dmat4(1.0), -turn, glm::dvec3(0.0, 1.0, 0.0));
+    shared::EnvironmentConstants constants;
+    constants.mapFromLS = glm::mat4(mapFromWorld * glm::dmat4(glm::transpose(view.lsFromWorld)));
+    const int side = filteredSideOf(environment.map), levels = filteredLevelsOf(side);
+    constants.light = glm::vec4(environment.intensity * settings.environment.intensity, float(levels - 1),
+                                float(-(levels - 2) / std::log2(double(ENVIRONMENT_LEAST_ALPHA))), float(side));
+    return constants;
+}
+
+std::vector<glm::vec4> environmentTexels(const scenes::Image& map, std::vector<double>& summed) {
+    std::vector<glm::vec4> texels(std::size_t(map.width) * std::size_t(map.height));
+    std::memcpy(texels.data(), map.texels.data(), texels.size() * sizeof(glm::vec4));
+    const MapTexels of{texels, map.width, map.height};
+    summed.resize(texels.size());
+    double sum = 0.0;
+    std::vector<double> averages(texels.size());
+    for (int y = 0; y < map.height; ++y) {
+        const double solidAngle = 2.0 * pi / map.width * (cosineOfRow(y, map.height) - cosineOfRow(y + 1, map.height));
+        for (int x = 0; x < map.width; ++x) {
+            // Over a texel the interpolated radiance has the average 1/8, 6/8, 1/8 of its row, and so of its column.
+            double average = 0.0;
+            for (int j = -1; j <= 1; ++j)
+                for (int i = -1; i <= 1; ++i) {
+                    const glm::vec4& texel = of.at(x + i, y + j);
+                    const double weight = (i == 0 ? 0.75 : 0.125) * (j == 0 ? 0.75 : 0.125);
+                    average += weight * (double(texel.r) + double(texel.g) + double(texel.b));
+                }
+            const std::size_t at = std::size_t(y) * std::size_t(map.width) + std::size_t(x);
+            averages[at] = average;
+            summed[at] = sum += average * solidAngle;
+        }
+    }
+    if (!(sum > 0.0)) summed.clear();
+    for (double& part : summed) part /= sum;
+    for (std::size_t i = 0; i < texels.size(); ++i) texels[i].a = sum > 0.0 ? float(averages[i] / sum) : 0.0f;
+    return texels;
+}
+
+std::vector<glm::vec4> makeEnvironmentSamples(const scenes::Image& map, const std::vector<glm::vec4>& texels,
+                                              const std::vector<double>& summed) {
+    std::vector<glm::vec4> samples;
+    samples.reserve(kSamples * ENVIRONMENT_SAMPLE_TEXELS);
+    if (summed.empty()) return std::vector<glm::vec4>(kSamples * ENVIRONMENT_SAMPLE_TEXELS, glm::vec4(0.0f));
+    for (std::uint32_t i = 0; i < kSamples; ++i) {
+        const double u = reversed(i), v = sobol(i);
+        const auto found = std::min(std::upper_bound(summed.begin(), summed.end(), u), summed.end() - 1);
+        const std::size_t at = std::size_t(found - summed.begin());
+        const double before = at == 0 ? 0.0 : summed[at - 1], part = *found - before;
+        const int x = int(at % std::size_t(map.width)), y = int(at / std::size_t(map.width));
+        // Within the texel: what is left of u to the right, v by solid angle downwards.
+        const double right = part > 0.0 ? std::clamp((u - before) / part, 0.0, 1.0) : 0.5;
+        const double cosine = std::lerp(cosineOfRow(y, map.height), cosineOfRow(y + 1, map.height), v);
+        const glm::dvec3 direction =
+            scenes::directionInMap({(x + right) / map.width, std::acos(std::clamp(cosine, -1.0, 1.0)) / pi});
+        samples.emplace_back(glm::vec3(direction), texels[at].a);
+        samples.emplace_back(glm::vec3(radianceInMap(texels, map.width, map.height, direction)), 0.0f);
+    }
+    return samples;
+}
+
+glm::dvec3 radianceInMap(const std::vector<glm::vec4>& texels, int width, int height, const glm::dvec3& direction) {
+    const glm::dvec2 place = scenes::placeInMap(direction) * glm::dvec2(width, height) - 0.5;
+    const glm::dvec2 corner = glm::floor(place), share = place - corner;
+    const MapTexels of{texels, width, height};
+    const int x = int(corner.x), y = int(corner.y);
+    const auto color = [&](int i, int j) { return glm::dvec3(glm::vec3(of.at(x + i, y + j))); };
+    return glm::mix(glm::mix(color(0, 0), color(1, 0), share.x), glm::mix(color(0, 1), color(1, 1), share.x), share.y);
+}
+
+EnvironmentShape environmentShape(const scenes::Image& map) {
+    const glm::ivec2 atlas = atlasTexels(filteredSideOf(map));
+    EnvironmentShape shape;
+    shape.map = {graph::Format::Rgba32Float, map.width, map.height};
+    shape.filtered = {graph::Format::Rgba32Float, atlas.x, atlas.y};
+    shape.lobes = {graph::Format::Rgba32Float, LOBE_TABLE_SIDE,    LOBE_TABLE_SIDE, 1, 1,
+                   LOBE_TABLE_LAYERS,          graph::Shape::Array};
+    shape.sampleBytes = kSamples * ENVIRONMENT_SAMPLE_TEXELS * sizeof(glm::vec4);
+    return shape;
+}
+
+EnvironmentGpu::EnvironmentGpu(const scenes::Environment& environment)
+    : environment_(environment), smooth_(gpu::Sampler::linearClamp()) {}
+
+void EnvironmentGpu::makeMap() {
+    if (map_) return;
+    std::vector<double> summed;
+    const std::vector<glm::vec4> texels = environmentTexels(environment_.map, summed);
+    auto map = std::make_unique<gpu::Texture>("environment_map", environmentShape(environment_.map).map);
+    map->upload(0, texels);
+    samples_ = std::make_unique<gpu::Buffer>(
+        gpu::Buffer::of("environment_samples", makeEnvironmentSamples(environment_.map, texels, summed)));
+    map_ = std::move(map);
+}
+
+const gpu::Texture& EnvironmentGpu::map() {
+    makeMap();
+    return *map_;
+}
+
+const gpu::Buffer& EnvironmentGpu::samples() {
+    makeMap();
+    return *samples_;
+}
+
+const gpu::Texture& EnvironmentGpu::filtered() {
+    if (filtered_) return *filtered_;
+    auto filtered = std::make_unique<gpu::Texture>("environment_filtered", environmentShape(environment_.map).filtered);
+    filtered->upload(0, atlasOf(cachedEnvironment(environment_.map, cacheFolder())));
+    filtered_ = std::move(filtered);
+    return *filtered_;
+}
+
+const gpu::Texture& EnvironmentGpu::lobes() {
+    if (lobes_) return *lobes_;
+    const graph::TextureDesc shape = environmentShape(environment_.map).lobes;
+    auto lobes = std::make_unique<gpu::Texture>("lobe_table", shape);
+    const std::vector<glm::vec4> table = makeLobeTable();
+    const std::size_t layer = std::size_t(LOBE_TABLE_SIDE) * LOBE_TABLE_SIDE;
+    for (std::size_t i = 0; i < std::size_t(LOBE_TABLE_LAYERS); ++i)
+        lobes->upload(0, std::span(table).subspan(i * layer, layer), int(i));
+    lobes_ = std::move(lobes);
+    return *lobes_;
+}
+
+} // namespace tessera::frame

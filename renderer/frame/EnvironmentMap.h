@@ -1,0 +1,70 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "renderer/frame/CameraView.h"
+#include "renderer/frame/FrameSettings.h"
+#include "renderer/gpu/Buffer.h"
+#include "renderer/gpu/Sampler.h"
+#include "renderer/gpu/Texture.h"
+#include "scenes/Environment.h"
+#include "shaders/shared/environment.h"
+
+/// Light from everywhere, as the GPU has it (docs/environment.md).
+namespace tessera::frame {
+
+/// Whether a frame's surfaces are lit by the scene's environment.
+bool isLitByEnvironment(const scenes::Scene& scene, const FrameSettings& settings);
+/// Whether it is seen where nothing is drawn.
+bool showsEnvironment(const scenes::Scene& scene, const FrameSettings& settings);
+
+shared::EnvironmentConstants packEnvironment(const scenes::Environment& environment, const FrameSettings& settings,
+                                             const CameraView& view);
+
+/// A map's texels, rows from the top: RGB radiance; A the density in 1/sr with which makeEnvironmentSamples() samples
+/// directions there, the same over the texel. Densities follow the average radiance of the texel, interpolated as it
+/// is, so that no light is missed. `summed` receives the sum of all texels' parts up to each, from 0 to 1; empty: no
+/// texel has any light.
+std::vector<glm::vec4> environmentTexels(const scenes::Image& map, std::vector<double>& summed);
+
+/// 2^ENVIRONMENT_SAMPLES_LOG2 samples of a map by those sums, each of ENVIRONMENT_SAMPLE_TEXELS.
+std::vector<glm::vec4> makeEnvironmentSamples(const scenes::Image& map, const std::vector<glm::vec4>& texels,
+                                              const std::vector<double>& summed);
+
+/// Radiance of a unit direction in a map, interpolated.
+glm::dvec3 radianceInMap(const std::vector<glm::vec4>& texels, int width, int height, const glm::dvec3& direction);
+
+/// The textures and the buffer of a map on the GPU.
+struct EnvironmentShape {
+    graph::TextureDesc map, filtered, lobes;
+    std::size_t sampleBytes = 0;
+    bool operator==(const EnvironmentShape&) const = default;
+};
+EnvironmentShape environmentShape(const scenes::Image& map);
+
+/// An environment on the GPU. Each part is made when it is first asked for; that throws std::runtime_error when memory
+/// runs out or the map is larger than the driver's textures.
+class EnvironmentGpu {
+public:
+    /// The environment must outlive it.
+    explicit EnvironmentGpu(const scenes::Environment& environment);
+    const gpu::Texture& map();                             ///< as environmentTexels()
+    const gpu::Buffer& samples();                          ///< as makeEnvironmentSamples()
+    const gpu::Texture& filtered();                        ///< as atlasOf()
+    const gpu::Texture& lobes();                           ///< as makeLobeTable()
+    const gpu::Sampler& smooth() const { return smooth_; } ///< between texels
+
+private:
+    void makeMap();
+
+    const scenes::Environment& environment_;
+    std::unique_ptr<gpu::Texture> map_, filtered_, lobes_;
+    std::unique_ptr<gpu::Buffer> samples_;
+    gpu::Sampler smooth_;
+};
+
+} // namespace tessera::frame

@@ -1,0 +1,184 @@
+#include "renderer/frame/LobeTable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <tbb/parallel_for.h>
+
+#include "shaders/shared/lobe_table.h"
+
+namespace tessera::frame {
+
+namespace {
+
+using std::numbers::pi;
+constexpr double kSmallestAlpha = 1e-3, kSmallestCosine = 1e-4;
+constexpr int kNodes = 64, kTurns = 16; ///< of the integrals, away from an axis and around it
+
+struct Sample {
+    double cosLight = 0.0, cosIncidence = 0.0;
+    double weight = 0.0; ///< D G / (4 n.v) dl without masking of the light: 1 over all of them
+};
+
+/// Places (i + 1/2) / n of a unit square, mapped to the normals of facets that the viewer sees, and so to lights.
+/// Source: Heitz 2018, "Sampling the GGX Distribution of Visible Normals".
+template <typename Visitor>
+void visitVisible(double alpha, double cosView, const Visitor& visit) {
+    const double sine = std::sqrt(1.0 - cosView * cosView);
+    const glm::dvec3 viewer(sine, 0.0, cosView);
+    const glm::dvec3 stretched = glm::normalize(glm::dvec3(alpha * viewer.x, 0.0, viewer.z));
+    const glm::dvec3 second(-stretched.z, 0.0, stretched.x); // the first is y
+    for (int i = 0; i < kNodes; ++i) {
+        // Finer at the rim, where the facets are that lie far from the normal.
+        const double left = 1.0 - (i + 0.5) / kNodes, within = 1.0 - std::pow(left, 4.0);
+        const double weight = 4.0 * left * left * left / (kNodes * kTurns);
+        for (int j = 0; j < kTurns; ++j) {
+            const double radius = std::sqrt(within), angle = 2.0 * pi * (j + 0.5) / kTurns;
+            const double x = radius * std::cos(angle), share = 0.5 * (1.0 + stretched.z);
+            const double y = (1.0 - share) * std::sqrt(1.0 - x * x) + share * radius * std::sin(angle);
+            const double z = std::sqrt(std::max(0.0, 1.0 - x * x - y * y));
+            const glm::dvec3 facet = x * glm::dvec3(0.0, 1.0, 0.0) + y * second + z * stretched;
+            const glm::dvec3 half =
+                glm::normalize(glm::dvec3(alpha * facet.x, alpha * facet.y, std::max(facet.z, 1e-9)));
+            const double incidence = glm::dot(viewer, half);
+            visit(Sample{2.0 * incidence * half.z - cosView, incidence, weight});
+        }
+    }
+}
+
+/// Smith's lengths, as shaders have them.
+double smithLength(double alpha, double cosine) {
+    return std::sqrt(alpha * alpha + (1.0 - alpha * alpha) * cosine * cosine);
+}
+
+double dielectric(double ior, double cosine) {
+    const double g2 = ior * ior - 1.0 + cosine * cosine;
+    if (g2 < 0.0) return 1.0;
+    const double g = std::sqrt(g2);
+    if (g + cosine == 0.0) return 1.0;
+    const double first = (g - cosine) / (g + cosine);
+    const double second = (cosine * (g + cosine) - 1.0) / (cosine * (g - cosine) + 1.0);
+    return 0.5 * first * first * (1.0 + second * second);
+}
+
+double fifth(double x) {
+    return x * x * x * x * x;
+}
+
+/// Over lights by the cosine: the mean of `value(cosine of the light, of incidence)`.
+template <typename Value>
+double diffuseMean(double cosView, const Value& value) {
+    const double sine = std::sqrt(1.0 - cosView * cosView);
+    double sum = 0.0;
+    for (int i = 0; i < kNodes; ++i)
+        for (int j = 0; j < kTurns; ++j) {
+            const double sine2 = (i + 0.5) / kNodes, angle = 2.0 * pi * (j + 0.5) / kTurns;
+            const double cosLight = std::sqrt(1.0 - sine2);
+            const double ofBoth = cosLight * cosView + std::sqrt(sine2) * sine * std::cos(angle);
+            sum += value(cosLight, std::sqrt(0.5 * (1.0 + ofBoth)));
+        }
+    return sum / (kNodes * kTurns);
+}
+
+/// Of Blinn's highlight (n.h)^p [n.l > 0] over all lights, by half vectors with the density (p + 1) / 2 pi (n.h)^p.
+double blinn(double exponent, double cosView) {
+    const double sine = std::sqrt(1.0 - cosView * cosView);
+    double sum = 0.0;
+    for (int i = 0; i < kNodes; ++i)
+        for (int j = 0; j < kTurns; ++j) {
+            const double cosHalf = std::pow((i + 0.5) / kNodes, 1.0 / (exponent + 1.0));
+            const double angle = 2.0 * pi * (j + 0.5) / kTurns;
+            const double incidence = cosHalf * cosView + std::sqrt(1.0 - cosHalf * cosHalf) * sine * std::cos(angle);
+            if (incidence > 0.0 && 2.0 * incidence * cosHalf - cosView > 0.0) sum += 4.0 * incidence;
+        }
+    return sum / (kNodes * kTurns) * 2.0 * pi / (exponent + 1.0);
+}
+
+// Of sheens, the formulas of shaders/lib/reflectance/sheen.glsl.
+double charlieFit(double x, double alpha) {
+    const double w = (1.0 - alpha) * (1.0 - alpha);
+    return std::lerp(21.5473, 25.3245, w) /
+               (1.0 + std::lerp(3.82987, 3.32435, w) * std::pow(x, std::lerp(0.19823, 0.16801, w))) +
+           std::lerp(-1.97760, -1.27393, w) * x + std::lerp(-4.32054, -4.85967, w);
+}
+double charlieLambda(double alpha, double cosine) {
+    return std::exp(cosine < 0.5 ? charlieFit(cosine, alpha)
+                                 : 2.0 * charlieFit(0.5, alpha) - charlieFit(1.0 - cosine, alpha));
+}
+double sheen(double alpha, double cosView) {
+    const double sine = std::sqrt(1.0 - cosView * cosView);
+    double sum = 0.0;
+    for (int i = 0; i < kNodes; ++i)
+        for (int j = 0; j < kTurns; ++j) {
+            const double cosLight = (i + 0.5) / kNodes, angle = 2.0 * pi * (j + 0.5) / kTurns;
+            const glm::dvec3 light(std::sqrt(1.0 - cosLight * cosLight) * std::cos(angle),
+                                   std::sqrt(1.0 - cosLight * cosLight) * std::sin(angle), cosLight);
+            const glm::dvec3 half = glm::normalize(light + glm::dvec3(sine, 0.0, cosView));
+            const double sineHalf = std::sqrt(std::max(0.0, 1.0 - half.z * half.z));
+            const double d = (2.0 + 1.0 / alpha) * std::pow(sineHalf, 1.0 / alpha) / (2.0 * pi);
+            sum += d / ((1.0 + charlieLambda(alpha, cosLight) + charlieLambda(alpha, cosView)) * 4.0 * cosView);
+        }
+    return sum / (kNodes * kTurns) * 2.0 * pi;
+}
+double sheenAlbedo(double alpha, double cosine) {
+    constexpr double kFit[5][5] = {{0.91988, -5.00894, 6.4925, -1.28465, -1.16741},
+                                   {0.184121, -10.31, 16.0261, -8.39721, -0.622238},
+                                   {-0.138722, -8.60875, 46.7629, -71.9604, 37.6528},
+                                   {-0.227684, 6.143, -19.9518, 30.9158, -21.028},
+                                   {0.0428847, -0.844431, 2.72363, -10.4857, 10.4773}};
+    const double r = std::max(std::sqrt(alpha), 0.05), x = std::min(cosine / r, 5.0);
+    double logarithm = 0.0;
+    for (int row = 4; row >= 0; --row) {
+        double inR = 0.0;
+        for (int column = 4; column >= 0; --column) inR = inR * r + kFit[row][column];
+        logarithm = logarithm * x + inR;
+    }
+    return std::min(std::exp(logarithm), 1.0);
+}
+
+/// The index of refraction at a place of shared::iorPlace().
+double iorAt(int place) {
+    const double contrast = std::clamp(2.0 * place / (LOBE_TABLE_IORS - 1.0) - 1.0, -0.999, 0.999);
+    return (1.0 + contrast) / (1.0 - contrast);
+}
+
+} // namespace
+
+std::vector<glm::vec4> makeLobeTable() {
+    constexpr std::size_t kSide = LOBE_TABLE_SIDE, kLayer = kSide * kSide;
+    std::vector<glm::vec4> table(kLayer * LOBE_TABLE_LAYERS, glm::vec4(0.0f));
+    tbb::parallel_for(std::size_t{0}, kLayer, [&](std::size_t at) {
+        const double right = double(at % kSide) / (kSide - 1.0), up = double(at / kSide) / (kSide - 1.0);
+        const double cosView = std::max(right * right, kSmallestCosine), alpha = std::max(up * up, kSmallestAlpha);
+        const double viewLength = smithLength(alpha, cosView);
+        glm::dvec4 ggx(0.0);
+        double ofIors[LOBE_TABLE_IORS] = {};
+        visitVisible(alpha, cosView, [&](const Sample& sample) {
+            if (!(sample.cosLight > 0.0)) return;
+            const double lightLength = smithLength(alpha, sample.cosLight);
+            // G2 / G1 of the viewer.
+            const double correlated =
+                sample.cosLight * (cosView + viewLength) / (sample.cosLight * viewLength + cosView * lightLength);
+            const double separable = 2.0 * sample.cosLight / (sample.cosLight + lightLength);
+            ggx.x += sample.weight * correlated;
+            ggx.y += sample.weight * correlated * fifth(1.0 - sample.cosIncidence);
+            for (int i = 0; i < LOBE_TABLE_IORS; ++i)
+                ofIors[i] += sample.weight * separable * dielectric(iorAt(i), sample.cosIncidence);
+        });
+        ggx.z = blinn(std::max(2.0 / (alpha * alpha) - 2.0, 0.0), cosView);
+        ggx.w = diffuseMean(cosView, [](double, double incidence) { return fifth(1.0 - incidence); });
+        table[at] = glm::vec4(ggx);
+        const double ofViewer = sheenAlbedo(alpha, cosView);
+        table[LOBE_LAYER_SHEEN * kLayer + at] = glm::vec4(
+            float(sheen(alpha, cosView)),
+            float(diffuseMean(
+                cosView, [&](double cosLight, double) { return std::max(sheenAlbedo(alpha, cosLight), ofViewer); })),
+            0.0f, 0.0f);
+        for (std::size_t i = 0; i < LOBE_TABLE_IORS; ++i)
+            table[(LOBE_LAYER_DIELECTRIC + i / 4) * kLayer + at][int(i % 4)] = float(ofIors[i]);
+    });
+    return table;
+}
+
+} // namespace tessera::frame

@@ -1,0 +1,218 @@
+// The light of the environment on a surface from maps that were filtered beforehand, by the split sum: the light that a
+// lobe sees on average, times what the lobe reflects of even light. Source: Karis 2013, "Real Shading in Unreal
+// Engine 4". Exact for light that is the same everywhere; elsewhere its error is stated in docs/environment.md.
+#pragma once
+#include "shared/lobe_table.h"
+#include "lib/environment/filtered_map.glsl"
+#include "lib/reflectance/reflectance.glsl"
+
+layout(binding = TEXTURE_UNIT_LOBES) uniform sampler2DArray lobeTable; // renderer/frame/LobeTable.h
+
+vec3 irradianceOn(vec3 normalLS)
+{
+    int level = int(environment.light.y) + 1;
+    return filteredTexel(encodeOctahedral(mapDirection(normalLS)), ENVIRONMENT_IRRADIANCE_SIDE, level);
+}
+
+vec3 filteredLight(vec3 directionLS, float alpha)
+{
+    precise float level = alpha < ENVIRONMENT_LEAST_ALPHA
+                              ? alpha / ENVIRONMENT_LEAST_ALPHA
+                              : 1.0 + log2(alpha / ENVIRONMENT_LEAST_ALPHA) * environment.light.z;
+    int fine = clamp(int(level), 0, int(environment.light.y) - 1);
+    precise float share = min(level - float(fine), 1.0);
+    vec2 code = encodeOctahedral(mapDirection(directionLS));
+    vec3 fineLight = filteredLevel(code, fine), coarseLight = filteredLevel(code, fine + 1);
+    precise vec3 light = fineLight + share * (coarseLight - fineLight);
+    return light;
+}
+
+vec4 lobeTexel(float cosine, float alpha, int layer)
+{
+    precise vec2 place = sqrt(clamp(vec2(cosine, alpha), 0.0, 1.0));
+    precise vec2 texel = (place * float(LOBE_TABLE_SIDE - 1) + 0.5) / float(LOBE_TABLE_SIDE);
+    return textureLod(lobeTable, vec3(texel, float(layer)), 0.0);
+}
+
+// Where most of a lobe's light comes from: the rougher, the nearer to the normal. Source: Lagarde and de Rousiers 2014,
+// "Moving Frostbite to Physically Based Rendering", section 4.9.3.
+vec3 lobeAxis(vec3 normal, vec3 toViewer, float alpha)
+{
+    precise vec3 mirrored = 2.0 * dot(normal, toViewer) * normal - toViewer;
+    precise float smoothness = clamp(1.0 - alpha, 0.0, 1.0);
+    precise float share = smoothness * (sqrt(smoothness) + alpha);
+    precise vec3 axis = normal + share * (mirrored - normal);
+    return safeNormalize(axis, normal);
+}
+
+bool hasFilteredLobe(SeenSurface seen)
+{
+#if HAS_GLOSSY_MODELS
+    return SPECULAR_OFF == 0 && IS_GLOSSY(seen.surface.model) && seen.nv > 0.0;
+#else
+    return false;
+#endif
+}
+
+// Of a lobe that is as wide as the surface's; one alpha in place of two, where the table has no more.
+float lobeAlpha(Surface surface)
+{
+#if HAS_BLINN_PHONG
+    if (surface.model == MODEL_BLINN_PHONG) {
+        precise float alpha = min(sqrt(2.0 / (surface.parameter + 2.0)), 1.0);
+        return alpha;
+    }
+#endif
+#if HAS_TANGENT_FRAME
+    if (isAnisotropic(surface)) {
+        precise float mean = sqrt(surface.alpha * surface.alphaBitangent);
+        return mean;
+    }
+#endif
+    return surface.alpha;
+}
+
+#if HAS_TANGENT_FRAME
+const int kStretchedTaps = 8;
+
+// Of a lobe with two alphas: taps along its longer axis at even shares of the facets' slopes, each as wide as the
+// shorter one. A direction, and its weight.
+vec4 stretchedTap(SeenSurface seen, int tap, out float alpha)
+{
+    Surface surface = seen.surface;
+    precise vec3 across = cross(surface.normalLS, surface.tangentLS);
+    vec3 axis = surface.alpha >= surface.alphaBitangent ? surface.tangentLS : across;
+    float wide = max(surface.alpha, surface.alphaBitangent), narrow = min(surface.alpha, surface.alphaBitangent);
+    precise float share = (2.0 * float(tap) + 1.0) / float(kStretchedTaps) - 1.0;
+    precise float slope = wide * share / sqrt(1.0 - share * share);
+    precise vec3 leaning = surface.normalLS + slope * axis;
+    vec3 facet = safeNormalize(leaning, surface.normalLS);
+    precise vec3 mirrored = 2.0 * dot(facet, seen.toViewer) * facet - seen.toViewer;
+    precise float weight = max(dot(mirrored, surface.normalLS), 0.0);
+    alpha = max(narrow, wide / float(kStretchedTaps));
+    return vec4(mirrored, weight);
+}
+#endif
+
+// What the surface's lobe and its coat's see on average; black where there is none.
+struct LobeLight {
+    vec3 base, coat;
+};
+
+// One loop over all look-ups, so that a program holds their code once.
+LobeLight lightOfLobes(SeenSurface seen)
+{
+    int baseTaps = hasFilteredLobe(seen) ? 1 : 0, coatTaps = 0;
+#if HAS_TANGENT_FRAME
+    if (baseTaps > 0 && isAnisotropic(seen.surface)) baseTaps = kStretchedTaps;
+#endif
+#if HAS_CLEARCOAT && !SPECULAR_OFF
+    if (seen.surface.coatFactor > 0.0 && seen.coatNv > 0.0) coatTaps = 1;
+#endif
+    vec3 coat = vec3(0.0);
+    precise vec3 sum = vec3(0.0);
+    precise float weights = 0.0;
+    for (int tap = 0; tap < baseTaps + coatTaps; ++tap) {
+        vec3 normal = seen.surface.normalLS;
+        float alpha = lobeAlpha(seen.surface);
+#if HAS_CLEARCOAT
+        if (tap >= baseTaps) {
+            normal = seen.coatNormalLS;
+            alpha = seen.surface.coatAlpha;
+        }
+#endif
+        vec4 along = vec4(lobeAxis(normal, seen.toViewer, alpha), 1.0);
+#if HAS_TANGENT_FRAME
+        if (baseTaps > 1 && tap < baseTaps) along = stretchedTap(seen, tap, alpha);
+#endif
+        if (!(along.w > 0.0)) continue;
+        vec3 light = filteredLight(along.xyz, alpha);
+        if (tap < baseTaps) {
+            sum += along.w * light;
+            weights += along.w;
+        } else {
+            coat = light;
+        }
+    }
+    precise vec3 base = sum / max(weights, 1e-6);
+    return LobeLight(base, coat);
+}
+
+// What enters a surface: irradiance, and around the horizon what wraps, as of light that is even front and back.
+vec3 enteringIrradiance(SeenSurface seen, vec3 irradiance)
+{
+    precise vec3 entering = irradiance;
+#if HAS_SUBSURFACE_WRAP
+    if (wrapsLight(seen.surface)) {
+        vec3 wrap = subsurfaces[seen.surface.subsurface].wrap.rgb;
+        entering += wrap * (0.5 * (irradiance + irradianceOn(-seen.surface.normalLS)));
+    }
+#endif
+    return entering;
+}
+
+#if HAS_GGX_MODELS
+// What a dielectric's lobe reflects of even light.
+float reflectedByDielectric(SeenSurface seen)
+{
+    precise float place = clamp(iorPlace(seen.surface.iorOrF90), 0.0, 1.0) * float(LOBE_TABLE_IORS - 1);
+    int before = min(int(place), LOBE_TABLE_IORS - 2), after = before + 1;
+    float alpha = lobeAlpha(seen.surface);
+    float low = lobeTexel(seen.nv, alpha, LOBE_LAYER_DIELECTRIC + before / 4)[before % 4];
+    float high = lobeTexel(seen.nv, alpha, LOBE_LAYER_DIELECTRIC + after / 4)[after % 4];
+    precise float reflected = low + (place - float(before)) * (high - low);
+    return reflected;
+}
+
+vec3 metallicRoughnessLight(SeenSurface seen, vec3 irradiance, vec3 lobeLight)
+{
+    Surface surface = seen.surface;
+    vec4 lobe = lobeTexel(max(seen.nv, 0.0), lobeAlpha(surface), LOBE_LAYER_GGX);
+    precise vec3 diffuse =
+        seen.diffuse * (vec3(1.0) - seen.f0 - seen.fresnelRise * lobe.a) * enteringIrradiance(seen, irradiance);
+    precise vec3 highlight = (seen.f0 * lobe.r + seen.fresnelRise * lobe.g) * lobeLight;
+#if HAS_SHEEN
+    if (strongestSheen(surface) > 0.0) {
+        vec2 sheen = lobeTexel(max(seen.nv, 0.0), surface.sheenAlpha, LOBE_LAYER_SHEEN).rg;
+        diffuse *= max(1.0 - strongestSheen(surface) * sheen.g, 0.0);
+        highlight *= max(1.0 - strongestSheen(surface) * sheenAlbedo(surface.sheenAlpha, max(seen.nv, 0.0)), 0.0);
+        // A sheen is as broad as a diffuse reflection.
+        if (hasFilteredLobe(seen)) highlight += surface.sheenColor * sheen.r * irradiance * kInversePi;
+    }
+#endif
+    precise vec3 light = diffuse + highlight;
+    return light;
+}
+#endif
+
+vec3 lightOfLayersBelow(SeenSurface seen, vec3 lobeLight)
+{
+    vec3 irradiance = irradianceOn(seen.surface.normalLS);
+#if HAS_GGX_MODELS
+    if (HAS_METALLIC(seen.surface.model)) return metallicRoughnessLight(seen, irradiance, lobeLight);
+#endif
+    precise vec3 light = seen.surface.albedo * enteringIrradiance(seen, irradiance);
+#if HAS_BLINN_PHONG
+    if (seen.surface.model == MODEL_BLINN_PHONG)
+        light += seen.surface.specular * lobeTexel(seen.nv, lobeAlpha(seen.surface), LOBE_LAYER_GGX).b * lobeLight;
+#endif
+#if HAS_GGX_MODELS
+    if (IS_MICROFACET(seen.surface.model)) light += seen.surface.specular * reflectedByDielectric(seen) * lobeLight;
+#endif
+    return light;
+}
+
+// Radiance towards the viewer of the environment's light.
+vec3 environmentOnSurface(SeenSurface seen, vec2 pixel)
+{
+    LobeLight lobes = lightOfLobes(seen);
+    precise vec3 light = lightOfLayersBelow(seen, lobes.base);
+#if HAS_CLEARCOAT
+    if (seen.surface.coatFactor > 0.0) {
+        float reflected = lobeTexel(seen.coatNv, seen.surface.coatAlpha, LOBE_LAYER_GGX).r;
+        light = light * (1.0 - seen.coatWeight) + seen.coatWeight * reflected * lobes.coat;
+    }
+#endif
+    precise vec3 scaled = light * environment.light.x;
+    return scaled;
+}

@@ -1,0 +1,187 @@
+// The light of the environment on a surface by samples of each pixel: of the map where it is bright, of the cosine, of
+// the lobe and of the coat. Each counts by how densely all of them sample its direction (multiple importance sampling),
+// so that none is needed for the others to converge to the truth. Source: Veach and Guibas 1995, "Optimally Combining
+// Sampling Techniques for Monte Carlo Rendering", the balance heuristic.
+#pragma once
+#include "lib/environment/environment_map.glsl"
+#include "lib/maths/random.glsl"
+#include "lib/reflectance/reflectance.glsl"
+
+layout(binding = TEXTURE_UNIT_ENVIRONMENT_SAMPLES) uniform samplerBuffer environmentSamples;
+
+// Point k of a sequence that fills the unit square evenly from anywhere. Source: Roberts 2018, "The Unreasonable
+// Effectiveness of Quasirandom Sequences": fractions of the plastic number.
+vec2 evenPoint(uvec2 start, int k)
+{
+    return unitOf(start + uint(k) * uvec2(3242174889u, 2447445414u));
+}
+
+vec3 aroundNormal(vec3 direction, vec3 normal, vec3 tangent)
+{
+    precise vec3 turned = direction.x * tangent + direction.y * cross(normal, tangent) + direction.z * normal;
+    return turned;
+}
+
+vec3 cosineDirection(vec2 point, vec3 normal, vec3 tangent)
+{
+    precise float radius = sqrt(point.x);
+    precise float angle = 2.0 * kPi * point.y;
+    precise vec3 direction = vec3(radius * cos(angle), radius * sin(angle), sqrt(max(1.0 - point.x, 0.0)));
+    return aroundNormal(direction, normal, tangent);
+}
+
+#if HAS_GGX_MODELS || HAS_CLEARCOAT
+// Where a microfacet that the viewer sees sends the viewer's ray. Source: Heitz 2018, "Sampling the GGX Distribution of
+// Visible Normals", listing 1.
+vec3 visibleReflection(vec2 point, vec2 alpha, vec3 toViewer, vec3 normal, vec3 tangent)
+{
+    precise vec3 bitangent = cross(normal, tangent);
+    precise vec3 viewer = vec3(dot(toViewer, tangent), dot(toViewer, bitangent), dot(toViewer, normal));
+    vec3 stretched = safeNormalize(vec3(alpha * viewer.xy, viewer.z), vec3(0.0, 0.0, 1.0));
+    precise float across2 = dot(stretched.xy, stretched.xy);
+    vec3 first = vec3(1.0, 0.0, 0.0);
+    if (across2 > 0.0) first = safeNormalize(vec3(-stretched.y, stretched.x, 0.0), first);
+    precise vec3 second = cross(stretched, first);
+    precise float radius = sqrt(point.x);
+    precise float angle = 2.0 * kPi * point.y;
+    precise float x = radius * cos(angle);
+    precise float rim = sqrt(max(1.0 - x * x, 0.0));
+    precise float share = 0.5 * (1.0 + stretched.z);
+    precise float y = (1.0 - share) * rim + share * (radius * sin(angle));
+    precise vec3 facet = x * first + y * second + sqrt(max(1.0 - x * x - y * y, 0.0)) * stretched;
+    precise vec3 back = vec3(alpha * facet.xy, max(facet.z, 1e-6));
+    vec3 half_ = aroundNormal(safeNormalize(back, vec3(0.0, 0.0, 1.0)), normal, tangent);
+    precise vec3 reflected = 2.0 * dot(toViewer, half_) * half_ - toViewer;
+    return safeNormalize(reflected, normal);
+}
+
+// Its density, 1/sr: G1(v) D / (4 n.v), with the length that Smith's G1 compares with n.v.
+float visibleDensity(float distribution, float nv, float viewerLength)
+{
+    precise float density = distribution / (2.0 * (nv + viewerLength));
+    return density;
+}
+#endif
+
+#if HAS_BLINN_PHONG
+// The half vector's cosine to the normal is a power of a random number; density (p + 2) / 2 pi (n.h)^(p + 1).
+vec3 blinnReflection(vec2 point, float exponent, vec3 toViewer, vec3 normal, vec3 tangent)
+{
+    precise float cosine = pow(max(point.x, 1e-9), 1.0 / (exponent + 2.0));
+    precise float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+    precise float angle = 2.0 * kPi * point.y;
+    precise vec3 local = vec3(sine * cos(angle), sine * sin(angle), cosine);
+    vec3 half_ = aroundNormal(local, normal, tangent);
+    precise vec3 reflected = 2.0 * dot(toViewer, half_) * half_ - toViewer;
+    return safeNormalize(reflected, normal);
+}
+
+float blinnDensity(float exponent, HalfSum h)
+{
+    precise float ofHalf = (exponent + 2.0) * (0.5 * kInversePi) * blinnPhongLobe(exponent + 1.0, h);
+    precise float density = ofHalf / (4.0 * max(halfCosine(h), 1e-6));
+    return density;
+}
+#endif
+
+bool hasSampledLobe(SeenSurface seen)
+{
+#if HAS_GLOSSY_MODELS
+    return SPECULAR_OFF == 0 && IS_GLOSSY(seen.surface.model) && seen.nv > 0.0;
+#else
+    return false;
+#endif
+}
+
+vec3 lobeDirection(vec2 point, SeenSurface seen, vec3 tangent)
+{
+    vec3 normal = seen.surface.normalLS;
+#if HAS_BLINN_PHONG
+    if (seen.surface.model == MODEL_BLINN_PHONG)
+        return blinnReflection(point, seen.surface.parameter, seen.toViewer, normal, tangent);
+#endif
+#if HAS_GGX_MODELS
+    vec2 alpha = vec2(seen.surface.alpha);
+#if HAS_TANGENT_FRAME
+    if (isAnisotropic(seen.surface)) alpha.y = seen.surface.alphaBitangent;
+#endif
+    return visibleReflection(point, alpha, seen.toViewer, normal, tangent);
+#else
+    return normal;
+#endif
+}
+
+// How densely one sample each of the cosine, the lobe and the coat lie around a direction, 1/sr.
+float surfaceDensity(SeenSurface seen, vec3 toLight)
+{
+    precise float density = max(dot(seen.surface.normalLS, toLight), 0.0) * kInversePi;
+    if (hasSampledLobe(seen)) {
+        HalfSum h = halfSum(seen.surface.normalLS, toLight, seen.toViewer);
+        if (h.length2 > 0.0 && h.along > 0.0) {
+#if HAS_BLINN_PHONG
+            if (seen.surface.model == MODEL_BLINN_PHONG) density += blinnDensity(seen.surface.parameter, h);
+#endif
+#if HAS_GGX_MODELS
+            if (IS_MICROFACET(seen.surface.model) || HAS_METALLIC(seen.surface.model))
+                density += visibleDensity(lobeDistribution(seen, h), seen.nv, seen.viewerLength);
+#endif
+        }
+    }
+#if HAS_CLEARCOAT && !SPECULAR_OFF
+    if (seen.surface.coatFactor > 0.0 && seen.coatNv > 0.0) {
+        HalfSum h = halfSum(seen.coatNormalLS, toLight, seen.toViewer);
+        precise float alpha2 = seen.surface.coatAlpha * seen.surface.coatAlpha;
+        if (h.length2 > 0.0)
+            density += visibleDensity(distributionGgx(alpha2, ggxScale(alpha2), h), seen.coatNv,
+                                      smithLength(alpha2, seen.coatNv));
+    }
+#endif
+    return density;
+}
+
+// What a sample of a direction is worth, to be divided by the number of samples of each kind.
+vec3 sampledLight(SeenSurface seen, vec3 toLight, vec3 radiance, float mapDensity)
+{
+    vec3 brdfCosine = layeredBrdfCosine(seen, toLight);
+    if (brdfCosine == vec3(0.0) || radiance == vec3(0.0)) return vec3(0.0);
+    precise float density = mapDensity + surfaceDensity(seen, toLight);
+    precise vec3 light = brdfCosine * (radiance / density);
+    return light;
+}
+
+vec3 sampledDirection(SeenSurface seen, vec3 toLight)
+{
+    vec4 found = mapRadiance(mapDirection(toLight));
+    return sampledLight(seen, toLight, found.rgb, found.a);
+}
+
+// Radiance towards the viewer of the map's light, before its intensity.
+vec3 environmentOnSurface(SeenSurface seen, vec2 pixel)
+{
+    uvec3 random = hashOf(uvec3(uvec2(pixel), 0x9e3779b9u));
+    const int kRuns = (1 << ENVIRONMENT_SAMPLES_LOG2) / ENVIRONMENT_SAMPLES;
+    int first = int(random.z % uint(kRuns)) * ENVIRONMENT_SAMPLES;
+    vec3 normal = seen.surface.normalLS;
+#if HAS_TANGENT_FRAME
+    vec3 tangent = isAnisotropic(seen.surface) ? seen.surface.tangentLS : anyPerpendicular(normal);
+#else
+    vec3 tangent = anyPerpendicular(normal);
+#endif
+    bool hasLobe = hasSampledLobe(seen);
+    precise vec3 sum = vec3(0.0);
+    for (int k = 0; k < ENVIRONMENT_SAMPLES; ++k) {
+        vec4 ofMap = texelFetch(environmentSamples, (first + k) * ENVIRONMENT_SAMPLE_TEXELS);
+        vec4 light = texelFetch(environmentSamples, (first + k) * ENVIRONMENT_SAMPLE_TEXELS + 1);
+        if (ofMap.w > 0.0) sum += sampledLight(seen, fromMapDirection(ofMap.xyz), light.rgb, ofMap.w);
+        vec2 point = evenPoint(random.xy, k);
+        sum += sampledDirection(seen, cosineDirection(point, normal, tangent));
+        if (hasLobe) sum += sampledDirection(seen, lobeDirection(point, seen, tangent));
+#if HAS_CLEARCOAT && !SPECULAR_OFF
+        if (seen.surface.coatFactor > 0.0 && seen.coatNv > 0.0)
+            sum += sampledDirection(seen, visibleReflection(point, vec2(seen.surface.coatAlpha), seen.toViewer,
+                                                            seen.coatNormalLS, anyPerpendicular(seen.coatNormalLS)));
+#endif
+    }
+    precise vec3 mean = sum * (environment.light.x / float(ENVIRONMENT_SAMPLES));
+    return mean;
+}

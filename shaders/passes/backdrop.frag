@@ -1,0 +1,23 @@
+// The environment, seen past everything.
+#include "shared/slots.h"
+#include "lib/surface/camera.glsl"
+#if BACKDROP_BLURRED
+#include "lib/environment/filtered_map.glsl"
+#else
+#include "lib/environment/environment_map.glsl"
+#endif
+
+layout(location = 0) out vec4 radiance;
+
+void main()
+{
+    precise vec3 ray = view.forwardLS.xyz;
+    if (view.forwardLS.w == 0.0) ray += acrossOfPixel(gl_FragCoord.xy);
+    vec3 direction = mapDirection(normalize(ray));
+#if BACKDROP_BLURRED
+    vec3 seen = filteredLevel(encodeOctahedral(direction), min(ENVIRONMENT_BACKDROP_LEVEL, int(environment.light.y)));
+#else
+    vec3 seen = mapRadiance(direction).rgb;
+#endif
+    radiance = vec4(seen * environment.light.x, 0.0);
+}

@@ -1,0 +1,196 @@
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "renderer/frame/EnvironmentFilter.h"
+#include "renderer/frame/EnvironmentMap.h"
+#include "renderer/frame/LobeTable.h"
+#include "shaders/shared/lobe_table.h"
+#include "tests/support/TempFolder.h"
+
+namespace tessera::frame {
+namespace {
+
+using std::numbers::pi;
+
+scenes::Image mapOf(int width, int height, const std::function<double(int, int)>& radiance) {
+    scenes::Image map;
+    map.format = scenes::TexelFormat::Rgba32Float;
+    map.width = width;
+    map.height = height;
+    std::vector<glm::vec4> texels;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) texels.emplace_back(glm::vec3(float(radiance(x, y))), 1.0f);
+    map.texels.resize(texels.size() * sizeof(glm::vec4));
+    std::memcpy(map.texels.data(), texels.data(), map.texels.size());
+    return map;
+}
+
+/// Mean radiance over all directions.
+double meanOf(const Octahedron& level) {
+    double sum = 0.0, weights = 0.0;
+    for (int y = 0; y < level.side; ++y)
+        for (int x = 0; x < level.side; ++x) {
+            // The solid angle of a piece of a plane falls by the cube of its distance.
+            const glm::dvec3 direction = directionOf(Octahedron::codeOfTexel(x, y, level.side));
+            const double inverse = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
+            const double weight = 4.0 / (level.side * level.side) * std::pow(inverse, 3.0);
+            sum += weight * double(level.at(x, y).x);
+            weights += weight;
+        }
+    EXPECT_NEAR(weights, 4.0 * pi, 0.01 * 4.0 * pi);
+    return sum / weights;
+}
+
+TEST(EnvironmentFilter, directionsComeBackFromTheSquareAndEdgesMeet) {
+    for (int i = 0; i < 200; ++i) {
+        const double up = 1.0 - (i + 0.5) / 100.0, turn = 2.4 * i, level = std::sqrt(1.0 - up * up);
+        const glm::dvec3 direction(level * std::cos(turn), up, level * std::sin(turn));
+        EXPECT_LT(glm::distance(directionOf(codeOf(direction)), direction), 1e-12);
+    }
+    // The texel past an edge is the one that lies there on the sphere.
+    Octahedron places{8, std::vector<glm::vec3>(64)};
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x)
+            places.texels[std::size_t(8 * y + x)] = glm::vec3(directionOf(Octahedron::codeOfTexel(x, y, 8)));
+    for (int i = 0; i < 8; ++i)
+        for (const auto& [x, y, inX, inY] :
+             {std::tuple(-1, i, 0, i), std::tuple(8, i, 7, i), std::tuple(i, -1, i, 0), std::tuple(i, 8, i, 7)})
+            EXPECT_LT(glm::distance(places.at(x, y), places.at(inX, inY)), 0.55f) << x << ", " << y;
+}
+
+TEST(EnvironmentMap, samplesLieAsDenselyAsTheirTexelsSayAndMissNoLight) {
+    const scenes::Image map = mapOf(32, 16, [](int x, int y) {
+        return x == 20 && y == 5 ? 100.0 : y > 12 ? 0.0 : 1.0;
+    });
+    std::vector<double> summed;
+    const std::vector<glm::vec4> texels = environmentTexels(map, summed);
+    double densities = 0.0;
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 32; ++x) {
+            const double solidAngle = 2.0 * pi / 32.0 * (std::cos(pi * y / 16.0) - std::cos(pi * (y + 1) / 16.0));
+            densities += solidAngle * double(texels[std::size_t(32 * y + x)].a);
+        }
+    EXPECT_NEAR(densities, 1.0, 1e-6);
+    // Light between a lit texel and a dark one is there, and so are samples of it.
+    EXPECT_GT(texels[32 * 13 + 3].a, 0.0f);
+    EXPECT_EQ(texels[32 * 15 + 3].a, 0.0f);
+    // The mean of radiance over density is the light of the whole map, whatever run of samples is taken.
+    const std::vector<glm::vec4> samples = makeEnvironmentSamples(map, texels, summed);
+    double whole = 0.0;
+    for (int y = 0; y < 16; ++y)
+        for (int i = 0; i < 64; ++i)
+            for (int j = 0; j < 64; ++j) {
+                const glm::dvec2 place((i * 0.5 + 0.25) / 32.0, (y + (j + 0.5) / 64.0) / 16.0);
+                whole += radianceInMap(texels, 32, 16, scenes::directionInMap(place)).x * std::sin(pi * place.y) *
+                         (2.0 * pi / 64.0) * (pi / 16.0 / 64.0);
+            }
+    for (const std::size_t run : {0u, 100u, 255u}) {
+        double sum = 0.0;
+        for (std::size_t i = 256 * run; i < 256 * (run + 1); ++i)
+            sum += double(samples[2 * i + 1].x) / double(samples[2 * i].w) / 256.0;
+        EXPECT_NEAR(sum, whole, 0.05 * whole) << run;
+    }
+}
+
+TEST(EnvironmentFilter, evenLightStaysEvenAndIrradianceIsPiOfIt) {
+    const FilteredEnvironment filtered = filterEnvironment(mapOf(64, 32, [](int, int) { return 2.0; }));
+    for (const Octahedron& level : filtered.levels)
+        for (const glm::vec3& texel : level.texels) ASSERT_NEAR(texel.x, 2.0f, 1e-5f) << level.side;
+    for (const glm::vec3& texel : filtered.irradiance.texels) ASSERT_NEAR(texel.x, 2.0f * float(pi), 1e-3f);
+}
+
+TEST(EnvironmentFilter, everyLevelHoldsTheLightOfABrightTexelWithoutFireflies) {
+    // 1e5 in one texel, near an edge of two faces and of the map.
+    const scenes::Image map = mapOf(512, 256, [](int x, int y) { return x == 511 && y == 120 ? 1e5 : 0.01; });
+    const FilteredEnvironment filtered = filterEnvironment(map);
+    double light = 0.01;
+    light += 1e5 * 2.0 * pi / 512.0 * (std::cos(pi * 120 / 256.0) - std::cos(pi * 121 / 256.0)) / (4.0 * pi);
+    const int levels = int(filtered.levels.size());
+    for (int i = 0; i < levels; ++i) {
+        const Octahedron& level = filtered.levels[std::size_t(i)];
+        // A lobe moves light but keeps its sum, as far as texels of cubes can tell.
+        EXPECT_NEAR(meanOf(level), light, 0.035 * light) << i;
+        if (i == 0) continue;
+        // The lamp seen in the middle of the lobe: by its density D / 4 over the mean of the cosine, which is 1 for
+        // sharp lobes and 1/4 where they are as broad as can be.
+        const double alpha = alphaOfLevel(i, levels);
+        const double most = 1.5 * (light - 0.01) / (alpha * alpha) * (1.0 + 3.0 * alpha) + 0.01;
+        for (const glm::vec3& texel : level.texels) ASSERT_LE(double(texel.x), most) << i;
+    }
+}
+
+/// The error of irradiance by harmonics up to an order, against the sum over all texels: what docs/environment.md
+/// tells. A sun is the worst that there is.
+TEST(EnvironmentFilter, irradianceByHarmonicsFallsWithTheirOrder) {
+    const scenes::Image sun = mapOf(256, 128, [](int x, int y) { return x == 100 && y == 50 ? 1e5 : 0.0; });
+    const double solidAngle = 2.0 * pi / 256.0 * (std::cos(pi * 50 / 128.0) - std::cos(pi * 51 / 128.0));
+    const glm::dvec3 towards = scenes::directionInMap({100.5 / 256.0, 50.5 / 128.0});
+    double before = 1.0;
+    for (const int order : {2, 4, 8, kIrradianceOrder}) {
+        constexpr int kSideTexels = 32;
+        const Octahedron irradiance = irradianceOf(sun, order, kSideTexels);
+        double worst = 0.0;
+        for (int y = 0; y < kSideTexels; ++y)
+            for (int x = 0; x < kSideTexels; ++x) {
+                const glm::dvec3 n = directionOf(Octahedron::codeOfTexel(x, y, kSideTexels));
+                const double truth = std::max(glm::dot(n, towards), 0.0);
+                const double own = double(irradiance.at(x, y).x) / (1e5 * solidAngle);
+                worst = std::max(worst, std::abs(own - truth));
+            }
+        RecordProperty("order" + std::to_string(order), std::to_string(worst));
+        EXPECT_LT(worst, 0.7 * before) << order;
+        before = worst;
+    }
+    EXPECT_LE(before, 1e-2); // where the sun stands at the horizon
+}
+
+TEST(EnvironmentFilter, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
+    test::TempFolder folder;
+    const scenes::Image map = mapOf(32, 16, [](int x, int y) { return x + 0.1 * y; });
+    const FilteredEnvironment fresh = cachedEnvironment(map, folder.path());
+    const auto file = *std::filesystem::directory_iterator(folder.path());
+    bool computed = false;
+    const auto note = [&](double) { computed = true; };
+    const FilteredEnvironment again = cachedEnvironment(map, folder.path(), note);
+    EXPECT_FALSE(computed);
+    ASSERT_EQ(again.levels.size(), fresh.levels.size());
+    for (std::size_t i = 0; i < fresh.levels.size(); ++i) EXPECT_EQ(again.levels[i].texels, fresh.levels[i].texels);
+    EXPECT_EQ(again.irradiance.texels, fresh.irradiance.texels);
+    std::filesystem::resize_file(file.path(), 1000);
+    EXPECT_EQ(cachedEnvironment(map, folder.path(), note).irradiance.texels, fresh.irradiance.texels);
+    EXPECT_TRUE(computed);
+    // Another map of the same shape has another file.
+    computed = false;
+    cachedEnvironment(mapOf(32, 16, [](int x, int) { return x; }), folder.path(), note);
+    EXPECT_TRUE(computed);
+}
+
+/// A and B of the split sum by perceptual roughness and the viewer's cosine, shading.md section 6.
+TEST(LobeTable, holdsThePublishedSplitSum) {
+    const std::vector<glm::vec4> table = makeLobeTable();
+    constexpr double kRoughness[] = {0.25, 0.5, 0.75, 1.0}, kCosines[] = {0.1, 0.5, 1.0};
+    constexpr double kA[4][3] = {
+        {.5051, .9557, .9957}, {.7519, .8349, .9158}, {.7958, .6547, .6268}, {.7363, .4477, .3067}};
+    constexpr double kB[4][3] = {{.3916, .0326, .0}, {.1397, .0223, .0}, {.0526, .0085, .0}, {.0239, .0030, .0}};
+    const auto at = [&](double cosine, double alpha) {
+        const glm::dvec2 place = glm::sqrt(glm::dvec2(cosine, alpha)) * (LOBE_TABLE_SIDE - 1.0);
+        const glm::ivec2 low = glm::min(glm::ivec2(place), glm::ivec2(LOBE_TABLE_SIDE - 2));
+        const glm::vec2 share(place - glm::dvec2(low));
+        const auto texel = [&](int i, int j) { return table[std::size_t((low.y + j) * LOBE_TABLE_SIDE + low.x + i)]; };
+        return glm::mix(glm::mix(texel(0, 0), texel(1, 0), share.x), glm::mix(texel(0, 1), texel(1, 1), share.x),
+                        share.y);
+    };
+    for (int r = 0; r < 4; ++r)
+        for (int m = 0; m < 3; ++m) {
+            const glm::vec4 lobe = at(kCosines[m], kRoughness[r] * kRoughness[r]);
+            EXPECT_NEAR(lobe.x - lobe.y, kA[r][m], 1e-3) << kRoughness[r] << ", " << kCosines[m];
+            EXPECT_NEAR(lobe.y, kB[r][m], 1e-3) << kRoughness[r] << ", " << kCosines[m];
+        }
+}
+
+} // namespace
+} // namespace tessera::frame
