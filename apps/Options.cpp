@@ -11,7 +11,6 @@
 #include "base/Error.h"
 #include "base/Names.h"
 #include "base/OneLine.h"
-#include "scenes/Defaults.h"
 #include "validation/bench/ShadowKey.h"
 
 namespace tessera::app {
@@ -191,7 +190,6 @@ void placeCamera(const FrameOptions& options, scenes::Scene& scene) {
     if (name) engine::settingOf("camera").read(request, *name, {{}, &scene});
     scenes::Camera& camera = scene.cameras[std::size_t(request.settings.camera)];
     camera = scenes::changedCamera(camera, options.pose);
-    scenes::aimDefaultLight(scene, camera);
 }
 
 Request resolveWithoutScene(const FrameOptions& options) {

@@ -5,8 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "base/Error.h"
 #include "scenes/InUse.h"
+#include "scenes/Load.h"
 #include "scenes/LookAt.h"
 
 namespace tessera::scenes {
@@ -18,7 +21,7 @@ constexpr double kDistanceMargin = 1.2;
 /// Near plane as a share of the bounds' radius: small enough to walk close to things; depth is reversed and in floating
 /// point, so a small near plane costs no precision.
 constexpr double kNearShare = 1e-3;
-constexpr float kDefaultLightLux = 3.0f;
+constexpr const char* kDefaultEnvironment = "studio";
 
 const Camera& viewedCamera(const Scene& scene) {
     assert(!scene.cameras.empty());
@@ -57,22 +60,19 @@ void addDefaultCamera(Scene& scene) {
     scene.warnings.push_back("the scene has no camera: looking at its whole through the camera 'default'");
 }
 
-void addDefaultLight(Scene& scene) {
+void addDefaultLight(Scene& scene, LoadLedger& ledger) {
     if (!scene.lights.empty() || scene.environment || isAllUnlit(scene)) return;
-    Light light;
-    light.name = kDefaultName;
-    light.type = LightType::Directional;
-    light.intensity = kDefaultLightLux;
-    scene.lights.push_back(light);
-    scene.hasDefaultLight = true;
-    aimDefaultLight(scene, viewedCamera(scene));
-    scene.warnings.push_back("the scene has no light: lit by the directional light 'default' of 3 lux along the view");
-}
-
-void aimDefaultLight(Scene& scene, const Camera& camera) {
-    if (!scene.hasDefaultLight) return;
-    assert(scene.lights.size() == 1);
-    scene.lights.front().directionWS = glm::normalize(-glm::dvec3(camera.worldFromCamera[2]));
+    scene.environment = loadEnvironment(std::string(kBuiltinPrefix) + kDefaultEnvironment, ledger, scene.warnings);
+    // Stands around the camera as it does around that of a scene without one, which looks along longitude -45 degrees.
+    const glm::dvec3 forwardWS = -glm::dvec3(viewedCamera(scene).worldFromCamera[2]);
+    if (forwardWS.x != 0.0 || forwardWS.z != 0.0) {
+        const double longitude = glm::degrees(std::atan2(forwardWS.x, -forwardWS.z));
+        scene.environment->rotationDegrees = float(std::remainder(-45.0 - longitude, 360.0));
+    }
+    scene.options.wishes.try_emplace("backdrop", "blurred");
+    scene.warnings.push_back(fmt::format("the scene has no light: lit by the built-in environment '{}'; --environment "
+                                         "chooses another, --no-default-light none",
+                                         kDefaultEnvironment));
 }
 
 } // namespace tessera::scenes

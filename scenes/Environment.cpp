@@ -26,8 +26,9 @@ constexpr std::array kEnvironments = {
     BuiltinEnvironment{"sky", "a clear sky with its sun, over plain ground", builtin::makeSky},
 };
 
-/// What a load may take for a built-in map.
-constexpr std::uint64_t kBuiltinBytes = 64u << 20;
+/// What a built-in map takes: its texels, and what it is computed from.
+constexpr std::uint64_t kBuiltinBytes =
+    std::uint64_t(builtin::kMapWidth) * std::uint64_t(builtin::kMapHeight) * sizeof(glm::vec4) + (2u << 20);
 
 template <typename Code>
 std::vector<float> linearTexels(const Image& image) {

@@ -117,10 +117,9 @@ public:
     }
     void add(const Scene& scene) {
         const auto& [name, images, materials, meshes, nodes, lights, cameras, environment, background, options,
-                     hasDefaultLight, warnings] = scene;
+                     warnings] = scene;
         addAll(name, images, materials, meshes, nodes, lights, cameras, environment, background, options);
-        static_cast<void>(hasDefaultLight); // where a light comes from, not what it is
-        static_cast<void>(warnings);        // words about the file, not content
+        static_cast<void>(warnings); // words about the file, not content
     }
 
 private:

@@ -142,9 +142,10 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     }
     goOn(options);
     addDefaultCamera(scene);
-    // Who asks for no lights gets none.
-    if (options.defaultLight && scene.options.defaultLight.value_or(true) && options.lights != 0)
-        addDefaultLight(scene);
+    // Who asks for no lights, or chooses an environment or none, gets what was asked for.
+    if (options.defaultLight && scene.options.defaultLight.value_or(true) && options.lights != 0 &&
+        !options.environment)
+        addDefaultLight(scene, ledger);
     return scene;
 }
 

@@ -102,7 +102,6 @@ struct Scene {
     std::optional<Environment> environment;
     glm::vec3 background{0.0f}; ///< radiance where nothing is drawn and no environment is shown, linear
     SceneOptions options;
-    bool hasDefaultLight = false;      ///< its only light is addDefaultLight()'s, which follows the view that is drawn
     std::vector<std::string> warnings; ///< what the importer left out, each naming the feature
 };
 

@@ -98,8 +98,9 @@ Json optionsJson(const Scene& scene) {
     for (const auto& [key, wish] : options.wishes)
         object[key] = std::visit([](const auto& value) { return wishJson(value); }, wish);
     if (options.camera) object["camera"] = *options.camera;
-    // Who deletes the last light wants the dark.
-    if (options.defaultLight || scene.lights.empty()) object["defaultLight"] = options.defaultLight.value_or(false);
+    // Who takes away the last light wants the dark.
+    const bool isDark = scene.lights.empty() && !scene.environment;
+    if (options.defaultLight || isDark) object["defaultLight"] = options.defaultLight.value_or(false);
     return object;
 }
 

@@ -35,9 +35,6 @@ scenes::Scene fromBehind(scenes::Scene scene) {
     const glm::dvec3 centerWS = 0.5 * (bounds.min + bounds.max);
     const glm::dvec3 eyeWS = 2.0 * centerWS - glm::dvec3(scene.cameras[0].worldFromCamera[3]);
     scene.cameras[0].worldFromCamera = glm::inverse(glm::lookAt(eyeWS, centerWS, glm::dvec3(0, 1, 0)));
-    for (scenes::Light& light : scene.lights) {
-        if (light.name == scenes::kDefaultName) light.directionWS = -light.directionWS;
-    }
     return scene;
 }
 

@@ -9,7 +9,7 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr double kDefaultLux = 3.0; ///< of the light that a scene without lights gets (scenes/Defaults.h)
+constexpr double kLuxAtFocus = 3.0; ///< a matte white surface there looks about white
 
 /// A name without the number that tells copies apart.
 std::string withoutNumber(const std::string& name) {
@@ -46,7 +46,7 @@ scenes::Light lightBeforeFocus(const CameraPose& pose) {
     const double distanceMetres = 0.5 * pose.focusMetres;
     light.positionWS = pose.eyeWS + distanceMetres * pose.heading.forwardWS();
     light.directionWS = pose.heading.forwardWS();
-    light.intensity = float(kDefaultLux * distanceMetres * distanceMetres);
+    light.intensity = float(kLuxAtFocus * distanceMetres * distanceMetres);
     return light;
 }
 

@@ -19,8 +19,8 @@ std::string freeLightName(const Lights& lights, const std::string& wanted);
 /// Adds a light at the end, under a name that is free. Returns its index.
 std::size_t addLight(Lights& lights, scenes::Light light);
 
-/// A white point light halfway to the camera's focus, before the things that are looked at and not inside them: bright
-/// enough to light what is there as the default light would.
+/// A white point light halfway to the camera's focus, before the things that are looked at and not inside them: of 3
+/// lux there.
 scenes::Light lightBeforeFocus(const CameraPose& pose);
 
 /// Adds a copy of a light at the end, the number behind its name counted on ("lamp 2"). Returns the copy's index.

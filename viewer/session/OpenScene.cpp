@@ -1,6 +1,5 @@
 #include "viewer/session/OpenScene.h"
 
-#include "scenes/Defaults.h"
 #include "viewer/edit/Pick.h"
 
 namespace tessera::viewer {
@@ -30,7 +29,6 @@ void OpenScene::useCamera(int camera) {
 void OpenScene::becomes(const std::string& file) {
     source_ = file;
     load_ = {};
-    scene_.hasDefaultLight = false; // the file has it as a light of its own
     savedEdits_ = edits_;
     cameras_ = scene_.cameras;
     placed_ = {};
@@ -63,9 +61,7 @@ void OpenScene::begin(const scenes::Camera& start, const CameraPose& home) {
 }
 
 void OpenScene::applyRig() {
-    scenes::Camera& shown = scene_.cameras[std::size_t(camera_)];
-    shown = rig_.camera();
-    scenes::aimDefaultLight(scene_, shown);
+    scene_.cameras[std::size_t(camera_)] = rig_.camera();
     ++revision_;
 }
 

@@ -26,11 +26,7 @@ public:
     const scenes::Scene& scene() const { return scene_; }
     /// For edits of lights and materials. Whoever edits says touch() or touchMaterials().
     scenes::Scene& edit() { return scene_; }
-    /// Lights were edited: they are the user's from now on, and stay where they shine.
-    void touch() {
-        scene_.hasDefaultLight = false;
-        countEdit();
-    }
+    void touch() { countEdit(); }
     void touchMaterials() {
         countEdit();
         ++materialRevision_;
@@ -55,7 +51,7 @@ public:
     /// What makes the camera that is shown of the scene's, as a command line says it, to the last bit. Empty where they
     /// are the same.
     scenes::CameraChange cameraChange() const;
-    /// Puts the scene's camera to where the rig is, and the default light along it. To be called after the rig moved.
+    /// Puts the scene's camera to where the rig is. To be called after the rig moved.
     void applyRig();
 
 private:

@@ -1,4 +1,5 @@
 #include "scenes/Defaults.h"
+#include "scenes/LoadLedger.h"
 
 #include <cmath>
 #include <numbers>
@@ -52,73 +53,67 @@ TEST(DefaultCamera, neverReplacesTheAuthors) {
     EXPECT_TRUE(scene.warnings.empty());
 }
 
-TEST(DefaultLight, shinesAlongTheViewedCamera) {
-    Scene scene = tinyScene();
-    scene.cameras.emplace_back().name = "front";
-    Camera& side = scene.cameras.emplace_back();
-    side.name = "side"; // looks along -X
-    side.worldFromCamera = {{0, 0, -1, 0}, {0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, 0, 1}};
-    addDefaultLight(scene);
-    ASSERT_EQ(scene.lights.size(), 1u);
-    EXPECT_EQ(scene.lights[0].name, "default");
-    EXPECT_EQ(scene.lights[0].type, LightType::Directional);
-    EXPECT_EQ(scene.lights[0].intensity, 3.0f);
-    EXPECT_EQ(scene.lights[0].color, glm::vec3(1.0f));
-    EXPECT_EQ(scene.lights[0].directionWS, glm::dvec3(0.0, 0.0, -1.0));
+Scene litByDefault(Scene scene) {
+    LoadLedger ledger;
+    if (scene.cameras.empty()) scene.cameras.emplace_back();
+    addDefaultLight(scene, ledger);
+    return scene;
+}
+
+TEST(DefaultLight, isTheStudioBeforeABlurredBackdrop) {
+    const Scene scene = litByDefault(tinyScene());
+    ASSERT_TRUE(scene.environment);
+    EXPECT_EQ(scene.environment->source, "builtin:studio");
+    EXPECT_EQ(scene.options.wishes.at("backdrop"), Wish("blurred"));
     EXPECT_EQ(scene.warnings.size(), 1u);
-
-    scene.lights.clear();
-    scene.options.camera = "side";
-    addDefaultLight(scene);
-    EXPECT_EQ(scene.lights[0].directionWS, glm::dvec3(-1.0, 0.0, 0.0));
-
-    scene.lights.clear();
-    scene.options.camera = "1"; // as it may be asked for too
-    addDefaultLight(scene);
-    EXPECT_EQ(scene.lights[0].directionWS, glm::dvec3(-1.0, 0.0, 0.0));
+    Scene sharp = tinyScene();
+    sharp.options.wishes["backdrop"] = "sharp";
+    EXPECT_EQ(litByDefault(sharp).options.wishes.at("backdrop"), Wish("sharp"));
 }
 
-TEST(DefaultLight, isTurnedAlongTheCameraThatIsDrawnAndAnAuthorsLightNever) {
+TEST(DefaultLight, standsAroundAnyCameraAsAroundTheDefaultOne) {
+    Scene plain = tinyScene();
+    addDefaultCamera(plain);
+    EXPECT_NEAR(litByDefault(plain).environment->rotationDegrees, 0.0, 1e-4);
+
+    // What a camera sees straight ahead lies in the map where the default one sees it.
     Scene scene = tinyScene();
-    scene.cameras.emplace_back();
-    Camera side; // looks along -X
-    side.worldFromCamera = {{0, 0, -1, 0}, {0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, 0, 1}};
-    addDefaultLight(scene);
-    aimDefaultLight(scene, side);
-    EXPECT_EQ(scene.lights.at(0).directionWS, glm::dvec3(-1.0, 0.0, 0.0));
-
-    Scene lit = tinyScene();
-    lit.cameras.emplace_back();
-    lit.lights = {scene.lights[0]}; // the same, but the author's
-    lit.lights[0].directionWS = glm::dvec3(0.0, -1.0, 0.0);
-    addDefaultLight(lit);
-    aimDefaultLight(lit, side);
-    EXPECT_EQ(lit.lights.at(0).directionWS, glm::dvec3(0.0, -1.0, 0.0));
+    scene.cameras.resize(3);
+    scene.cameras[1].name = "side"; // looks along -X
+    scene.cameras[1].worldFromCamera = {{0, 0, -1, 0}, {0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, 0, 1}};
+    scene.cameras[2].worldFromCamera = {{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}; // straight down
+    const auto turnedFor = [&](const char* camera) {
+        scene.options.camera = camera;
+        return litByDefault(scene).environment->rotationDegrees;
+    };
+    EXPECT_NEAR(turnedFor("0"), -45.0, 1e-4);
+    EXPECT_NEAR(turnedFor("side"), 45.0, 1e-4);
+    EXPECT_NEAR(turnedFor("1"), 45.0, 1e-4);
+    EXPECT_EQ(turnedFor("2"), 0.0f);
 }
 
-TEST(DefaultLight, shinesUnlessThereAreLightsOrEverythingInUseIsUnlit) {
-    const auto lightsOf = [](Scene scene) {
-        scene.cameras.emplace_back();
-        addDefaultLight(scene);
-        return scene.lights.size();
-    };
+TEST(DefaultLight, shinesUnlessThereIsLightOrEverythingInUseIsUnlit) {
+    const auto isGiven = [](const Scene& scene) { return litByDefault(scene).environment.has_value(); };
     Scene lit = tinyScene();
     lit.lights.emplace_back().enabled = false;
-    EXPECT_EQ(lightsOf(lit), 1u);
+    EXPECT_FALSE(isGiven(lit)) << "the author's";
+    Scene surrounded = tinyScene();
+    surrounded.environment.emplace().source = "own";
+    EXPECT_EQ(litByDefault(surrounded).environment->source, "own");
     Scene glowing = tinyScene();
     glowing.materials[0].emissive.z = 0.1f;
-    EXPECT_EQ(lightsOf(glowing), 1u) << "it may be black where it does not glow";
+    EXPECT_TRUE(isGiven(glowing)) << "it may be black where it does not glow";
     Scene unlit = tinyScene();
     unlit.materials[0].model = MaterialModel::SingleColor;
-    EXPECT_EQ(lightsOf(unlit), 0u);
+    EXPECT_FALSE(isGiven(unlit));
     Scene partlyUnlit = unlit;
     partlyUnlit.materials.emplace_back().name = "lit";
-    EXPECT_EQ(lightsOf(partlyUnlit), 0u) << "nothing uses it";
+    EXPECT_FALSE(isGiven(partlyUnlit)) << "nothing uses it";
     partlyUnlit.nodes[0].instances.push_back({0, 1});
-    EXPECT_EQ(lightsOf(partlyUnlit), 1u);
+    EXPECT_TRUE(isGiven(partlyUnlit));
     Scene unusedUnlit = tinyScene();
     unusedUnlit.materials.emplace_back().model = MaterialModel::SingleColor;
-    EXPECT_EQ(lightsOf(unusedUnlit), 1u);
+    EXPECT_TRUE(isGiven(unusedUnlit));
 }
 
 } // namespace

@@ -51,7 +51,9 @@ TEST(LoadScene, numberOfLightsIsFrom0ToTheMost) {
     options.lights = 262145;
     EXPECT_EQ(complaint("lattice", options), "cannot use 262145 lights; give a number from 0 to 262144");
     options.lights = 0;
-    EXPECT_TRUE(loadScene("lattice", options).lights.empty()) << "who asks for none gets no default light either";
+    const Scene dark = loadScene("lattice", options);
+    EXPECT_TRUE(dark.lights.empty());
+    EXPECT_FALSE(dark.environment) << "who asks for no lights gets no default either";
 }
 
 TEST(LoadScene, aBuiltinScenesOwnLightsCountAmongThoseThatCanBeDrawn) {
@@ -99,13 +101,14 @@ TEST(LoadScene, filesWithoutViewOrLightGetTheDefaults) {
     const Scene scene = loadScene(file);
     ASSERT_EQ(scene.cameras.size(), 1u);
     EXPECT_EQ(scene.cameras[0].name, "default");
-    ASSERT_EQ(scene.lights.size(), 1u);
-    EXPECT_EQ(scene.lights[0].name, "default");
+    EXPECT_TRUE(scene.lights.empty());
+    ASSERT_TRUE(scene.environment);
+    EXPECT_EQ(scene.environment->source, "builtin:studio");
     EXPECT_GE(scene.warnings.size(), 2u);
 
     LoadOptions options;
     options.defaultLight = false;
-    EXPECT_TRUE(loadScene(file, options).lights.empty());
+    EXPECT_FALSE(loadScene(file, options).environment);
 }
 
 TEST(LoadScene, filesKeepTheirFirstLights) {

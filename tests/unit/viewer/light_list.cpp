@@ -128,7 +128,7 @@ TEST(LightList, anOrbitBeginsAndAStopEndsWhereTheLightIs) {
     }
 }
 
-TEST(LightList, aNewLightGivesTheFocusTheIlluminanceOfTheDefaultLight) {
+TEST(LightList, aNewLightGivesTheFocusThreeLux) {
     const scenes::Camera lens = perspective({0, 0, 8}, {0, 0, 0});
     const CameraPose pose = poseOf(lens, kBox);
     const scenes::Light light = lightBeforeFocus(pose);

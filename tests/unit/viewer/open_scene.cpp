@@ -148,33 +148,6 @@ TEST(OpenScene, anotherCameraIsNotPlacedAsTheOneBefore) {
     EXPECT_EQ(opened.open.cameraChange(), scenes::CameraChange());
 }
 
-TEST(OpenScene, theDefaultLightFollowsTheViewUntilLightsAreEditedOrSaved) {
-    const auto isAlongTheView = [](const Opened& opened) {
-        const glm::dvec3 forwardWS = -glm::dvec3(opened.shown().worldFromCamera[2]);
-        return opened.open.scene().lights.at(0).directionWS == glm::normalize(forwardWS);
-    };
-    Opened edited, saved;
-    for (Opened* one : {&edited, &saved}) {
-        one->open.edit().lights.resize(1);
-        one->open.edit().lights[0].type = scenes::LightType::Directional;
-        one->open.edit().hasDefaultLight = true;
-        one->open.place(changes()[6]);
-        EXPECT_TRUE(isAlongTheView(*one));
-        one->move();
-        EXPECT_TRUE(isAlongTheView(*one));
-        one->open.touchMaterials();
-        one->open.useCamera(1);
-        EXPECT_TRUE(isAlongTheView(*one)) << "materials are no lights";
-    }
-    edited.open.touch();
-    saved.open.becomes("/saved.json");
-    for (Opened* one : {&edited, &saved}) {
-        const scenes::Light light = one->open.scene().lights[0];
-        one->move();
-        EXPECT_TRUE(one->open.scene().lights[0] == light);
-    }
-}
-
 TEST(OpenScene, savingMovesNeitherPictureNorPivotNorMovements) {
     Opened opened, other;
     for (Opened* one : {&opened, &other}) {

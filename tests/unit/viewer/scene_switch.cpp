@@ -195,7 +195,7 @@ TEST_F(SceneSwitchTest, withoutTheDefaultLightNoSceneEverGetsIt) {
     const std::string file = folder_.write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
     ASSERT_TRUE(open("room"));
     ASSERT_TRUE(open(file));
-    EXPECT_TRUE(state_.open->scene().lights.empty());
+    EXPECT_FALSE(state_.open->scene().environment);
     EXPECT_FALSE(state_.open->load().defaultLight) << "and the command says so";
 }
 

@@ -61,13 +61,13 @@ TEST(SceneJsonBase, aMaterialThatReplacesTakesThePlaceOfTheBases) {
 
 TEST(SceneJsonBase, aSceneThatWishesNoDefaultLightNeverGetsOne) {
     const SceneFolder folder;
-    const auto lights = [&](const std::string& members) {
+    const auto isLit = [&](const std::string& members) {
         const std::string text = R"({"tessera": 1, "include": [{"file": "models/bust.obj"}])" + members + "}";
-        return loadScene(folder.write("dark.json", text).string()).lights.size();
+        return loadScene(folder.write("dark.json", text).string()).environment.has_value();
     };
-    EXPECT_EQ(lights(""), 1u);
-    EXPECT_EQ(lights(R"(, "options": {"defaultLight": true})"), 1u);
-    EXPECT_EQ(lights(R"(, "options": {"defaultLight": false})"), 0u);
+    EXPECT_TRUE(isLit(""));
+    EXPECT_TRUE(isLit(R"(, "options": {"defaultLight": true})"));
+    EXPECT_FALSE(isLit(R"(, "options": {"defaultLight": false})"));
 }
 
 TEST(SceneJsonFields, membersAreSetLastAndWhateverTheType) {

@@ -229,15 +229,16 @@ TEST(SceneText, aFileThatTheSceneIsMadeOfIsNotWrittenOver) {
     EXPECT_NO_THROW(saved(scene, origin, folder.path() / "new.json"));
 }
 
-TEST(SceneText, aSceneWhoseLightsWereDeletedNeverGetsOneSupplied) {
+TEST(SceneText, aSceneWhoseLightWasTakenAwayNeverGetsOneSupplied) {
     const SceneFolder folder;
     const std::string bust = (folder.path() / "models" / "bust.obj").string();
     Scene scene = loadScene(bust);
     const SceneOrigin origin = originOf(bust, {}, scene);
-    ASSERT_EQ(scene.lights.size(), 1u) << "the one that was supplied";
-    scene.lights.clear();
+    ASSERT_TRUE(scene.environment) << "the one that was supplied";
+    scene.environment.reset();
     const Scene back = saved(scene, origin, folder.path() / "dark.json");
     EXPECT_TRUE(back.lights.empty());
+    EXPECT_FALSE(back.environment);
     EXPECT_EQ(back.options.defaultLight, false);
 }
 
@@ -256,7 +257,7 @@ TEST(SceneText, namesAreRelativeToTheNewFile) {
 
 TEST(SceneText, aSceneThatCannotBeWrittenIsRefusedWithTheReason) {
     Bust bust;
-    bust.scene.lights.front().name = "caf\xe9";
+    bust.scene.lights.emplace_back().name = "caf\xe9";
     EXPECT_EQ(inputErrorOf([&] { sceneText(bust.scene, bust.origin, "a.json"); }),
               "a.json: a name of the scene or of its file is not UTF-8, which JSON needs; rename it");
     bust.scene.lights.front().name = "lamp";
