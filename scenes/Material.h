@@ -70,6 +70,7 @@ struct Material {
     glm::vec3 sheenColor{0.0f};            ///< 0..1
     float sheenPerceptualRoughness = 0.0f; ///< 0..1
     float normalScale = 1.0f;              ///< scales x and y of a tangent-space normal texel
+    float occlusionStrength = 1.0f;        ///< 0..1, of the occlusion texture: 0 leaves it out
     NormalMapSpace normalMapSpace = NormalMapSpace::Tangent;
     TangentMethod tangents = TangentMethod::MikkTSpace;
     AlphaMode alphaMode = AlphaMode::Opaque;
@@ -118,6 +119,7 @@ inline constexpr std::tuple kMaterialFields{
     Field{"sheenColor", &Material::sheenColor, "the sheen's colour", 0.0, 1.0},
     Field{"sheenPerceptualRoughness", &Material::sheenPerceptualRoughness, "the sheen's roughness", 0.0, 1.0},
     Field{"normalScale", &Material::normalScale, "the normal map's scale", -kAnyNumber, kAnyNumber},
+    Field{"occlusionStrength", &Material::occlusionStrength, "the occlusion's strength", 0.0, 1.0},
     Field{"normalMapSpace", &Material::normalMapSpace},
     Field{"tangents", &Material::tangents},
     Field{"alphaMode", &Material::alphaMode},

@@ -67,6 +67,7 @@ enum class TextureSlot : std::uint8_t {
     ClearcoatNormal,    ///< RGB normal of the coat, tangent space (linear)
     SheenColor,         ///< RGB (sRGB)
     SheenRoughness,     ///< A perceptual roughness of the sheen (linear)
+    Occlusion,          ///< R share of the environment's light that arrives (linear)
     Count
 };
 inline constexpr std::size_t kTextureSlotCount = static_cast<std::size_t>(TextureSlot::Count);
@@ -94,6 +95,7 @@ inline constexpr std::array kTextureSlots{
     TextureSlotInfo{TextureSlot::ClearcoatNormal, "clearcoat_normal", "clearcoat normal maps", false, true},
     TextureSlotInfo{TextureSlot::SheenColor, "sheen_color", "sheen-colour texture", true},
     TextureSlotInfo{TextureSlot::SheenRoughness, "sheen_roughness", "sheen-roughness texture"},
+    TextureSlotInfo{TextureSlot::Occlusion, "occlusion", "occlusion texture"},
 };
 static_assert(isInOrder(kTextureSlots, &TextureSlotInfo::slot, kTextureSlotCount));
 constexpr const TextureSlotInfo& infoOf(TextureSlot slot) {

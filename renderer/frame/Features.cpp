@@ -94,6 +94,12 @@ bool varies(const scenes::Material& material) {
     return scenes::isAnisotropic(material);
 }
 
+/// The material in a scene, which may have no environment: then nothing reads occlusion.
+scenes::Material readMaterial(const scenes::Scene& scene, scenes::Material material) {
+    if (!scene.environment) material.texture(scenes::TextureSlot::Occlusion) = {};
+    return material;
+}
+
 void addMaterial(FeatureSet& set, const scenes::Material& material, scenes::SubsurfaceRequest subsurface) {
     const scenes::MaterialModelInfo& model = scenes::infoOf(material.model);
     set.add(featureOf(material.model));
@@ -302,7 +308,7 @@ FeatureSet materialFeatures(const scenes::Scene& scene, scenes::SubsurfaceReques
     bool several = false;
     const std::vector<const scenes::Material*> materials = scenes::materialsInUse(scene);
     for (const scenes::Material* material : materials) {
-        addMaterial(set, *material, subsurface);
+        addMaterial(set, readMaterial(scene, *material), subsurface);
         several = several || (model && *model != material->model);
         model = material->model;
     }
@@ -318,9 +324,11 @@ scenes::Material enteredMaterial(const scenes::Material& material) {
     entered.model = scenes::MaterialModel::Lambert;
     entered.baseColor = material.baseColor;
     entered.normalScale = material.normalScale;
+    entered.occlusionStrength = material.occlusionStrength;
     entered.normalMapSpace = material.normalMapSpace;
     entered.doubleSided = material.doubleSided;
-    for (const scenes::TextureSlot slot : {scenes::TextureSlot::BaseColor, scenes::TextureSlot::Normal})
+    using scenes::TextureSlot;
+    for (const TextureSlot slot : {TextureSlot::BaseColor, TextureSlot::Normal, TextureSlot::Occlusion})
         entered.texture(slot) = material.texture(slot);
     entered.subsurface = material.subsurface;
     entered.subsurface.method = scenes::SubsurfaceMethod::DepthMap;
@@ -330,7 +338,7 @@ scenes::Material enteredMaterial(const scenes::Material& material) {
 FeatureSet enteringFeatures(const scenes::Scene& scene, int material, int mesh) {
     const scenes::Material entered = enteredMaterial(scene.materials[std::size_t(material)]);
     FeatureSet set;
-    addMaterial(set, entered, {});
+    addMaterial(set, readMaterial(scene, entered), {});
     set.soleModel = entered.model;
     set.add(Feature::VertexColor, !scene.meshes[std::size_t(mesh)].colors.empty());
     set.add(Feature::VaryingMaterials);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "renderer/frame/EnvironmentMap.h"
 #include "renderer/frame/LightBuffer.h"
@@ -132,6 +133,9 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
         spec.features.add(Feature::Environment);
     else
         spec.features.has.reset(std::size_t(Feature::Environment));
+    // It dims that light alone, and needs a texture unit more than every driver has.
+    if (!spec.features[Feature::Environment])
+        spec.features.has.reset(std::size_t(featureOf(scenes::TextureSlot::Occlusion)));
     spec.showsEnvironment = showsEnvironment(scene, settings);
     if (spec.features[Feature::Environment] || spec.showsEnvironment)
         spec.environment = environmentShape(scene.environment->map);
@@ -217,6 +221,8 @@ namespace {
 
 /// Attachments that OpenGL guarantees to draw into at once.
 constexpr std::size_t kMostAttachments = 8;
+/// Beside the channels: facets, subsurface, occlusion.
+constexpr std::size_t kMostMarks = 3;
 
 } // namespace
 
@@ -224,14 +230,20 @@ bool FrameSpec::storesSubsurface() const {
     return features.subsurfaceRows() && !channels.empty() && !holdMaterialNumber(settings.layout, channels);
 }
 
+bool FrameSpec::storesOcclusion() const {
+    return features[scenes::TextureSlot::Occlusion] && features[Feature::Environment] && !channels.empty() &&
+           !holdMaterialNumber(settings.layout, channels);
+}
+
 std::vector<GBufferTexture> FrameSpec::gbufferTextures() const {
     std::vector<GBufferTexture> textures = frame::gbufferTextures(settings.layout, channels);
-    const bool facets = features[Feature::Shadows], subsurface = storesSubsurface();
-    if ((facets || subsurface) && textures.size() < kMostAttachments)
-        textures.push_back({!facets      ? "subsurface"
-                            : subsurface ? "facets and subsurface"
-                                         : "facets",
-                            graph::Format::R32Uint});
+    std::vector<std::string_view> marks;
+    if (features[Feature::Shadows]) marks.emplace_back("facets");
+    if (storesSubsurface()) marks.emplace_back("subsurface");
+    if (storesOcclusion()) marks.emplace_back("occlusion");
+    if (!marks.empty() && textures.size() < kMostAttachments)
+        textures.push_back({fmt::format("{}", fmt::join(marks, " and ")),
+                            marks.size() == kMostMarks ? graph::Format::Rg32Uint : graph::Format::R32Uint});
     return textures;
 }
 
@@ -239,12 +251,17 @@ Defines FrameSpec::gbufferDefines() const {
     Defines defines = channelDefines(settings.layout, channels);
     const std::size_t ofChannels = frame::gbufferTextures(settings.layout, channels).size();
     const bool haveRoom = ofChannels < kMostAttachments;
-    if (features[Feature::Shadows])
-        defines.emplace_back(haveRoom ? "GBUFFER_FACETS" : "GBUFFER_FACETS_IN_SPECULAR", "1");
-    if (storesSubsurface())
-        defines.emplace_back(haveRoom ? "GBUFFER_SUBSURFACE" : "GBUFFER_SUBSURFACE_IN_EMISSION", "1");
-    if (haveRoom && (features[Feature::Shadows] || storesSubsurface()))
-        defines.emplace_back("GBUFFER_MARKS", std::to_string(ofChannels));
+    std::size_t marks = 0;
+    const auto mark = [&](bool isStored, const char* inMarks, const char* inChannel, const char* value) {
+        if (!isStored) return;
+        ++marks;
+        defines.emplace_back(haveRoom ? inMarks : inChannel, value);
+    };
+    mark(features[Feature::Shadows], "GBUFFER_FACETS", "GBUFFER_FACETS_IN_SPECULAR", "1");
+    mark(storesSubsurface(), "GBUFFER_SUBSURFACE", "GBUFFER_SUBSURFACE_IN_EMISSION", "1");
+    // A word holds any two of them.
+    mark(storesOcclusion(), "GBUFFER_OCCLUSION", "GBUFFER_OCCLUSION_IN_ALBEDO", marks + 1 == kMostMarks ? "1" : "0");
+    if (haveRoom && marks > 0) defines.emplace_back("GBUFFER_MARKS", std::to_string(ofChannels));
     return defines;
 }
 

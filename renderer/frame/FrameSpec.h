@@ -55,9 +55,11 @@ struct FrameSpec {
 
     /// Whether pixels hold which row of SubsurfaceConstants theirs is, not by their material's number.
     bool storesSubsurface() const;
+    /// Whether pixels hold how much of the environment's light arrives.
+    bool storesOcclusion() const;
     /// Of the G-buffer, by attachment: its channels, and behind them for all layouts, where lights cast shadows, the
-    /// facet normals (shaders/lib/surface/facet.glsl), and storesSubsurface(). Where the channels take all attachments,
-    /// these lie beside the specular colour and the emission.
+    /// facet normals (shaders/lib/surface/facet.glsl), storesSubsurface() and storesOcclusion(). Where the channels
+    /// take all attachments, these lie beside the specular colour, the emission and the albedo.
     std::vector<GBufferTexture> gbufferTextures() const;
     /// What shaders that write or read the G-buffer are compiled with.
     Defines gbufferDefines() const;

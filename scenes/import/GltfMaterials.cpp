@@ -28,10 +28,7 @@ Material Materials::convert(int index) {
     for (std::size_t i = 0; i < stored.textures.size(); ++i) {
         const auto& [path, slot] = model::kTexturePlaces[i];
         if (isUnlit && slot != TextureSlot::BaseColor) continue;
-        if (slot != TextureSlot::Count)
-            material.texture(slot) = use(stored.textures[i], fmt::format("{}/{}", place, path));
-        else if (stored.textures[i].texture != kNone)
-            context_.warn("occlusion textures are left out (they dim environment light only, which is not shaded)");
+        material.texture(slot) = use(stored.textures[i], fmt::format("{}/{}", place, path));
     }
     if (isUnlit) return material;
     if (stored.ior != 0.0 && stored.ior < 1.0)

@@ -178,7 +178,7 @@ void Material::read(Object& object) {
     object.optional("pbrMetallicRoughness/metallicFactor", surface.metallic, kFraction);
     object.optional("pbrMetallicRoughness/roughnessFactor", surface.perceptualRoughness, kFraction);
     object.optional("normalTexture/scale", surface.normalScale);
-    object.optional("occlusionTexture/strength", unneeded<double>());
+    object.optional("occlusionTexture/strength", surface.occlusionStrength, kFraction);
     object.optional("alphaMode", surface.alphaMode, kAlphaModes);
     object.optional("alphaCutoff", surface.alphaCutoff, kFromZero);
     object.optional("doubleSided", surface.doubleSided);

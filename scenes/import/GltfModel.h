@@ -141,14 +141,14 @@ struct TextureInfo {
 /// The places at which a material uses a texture, in the order in which images are imported.
 struct TexturePlace {
     std::string_view path;
-    TextureSlot slot; ///< Count: left out
+    TextureSlot slot;
 };
 inline constexpr TexturePlace kTexturePlaces[] = {
     {"pbrMetallicRoughness/baseColorTexture", TextureSlot::BaseColor},
     {"pbrMetallicRoughness/metallicRoughnessTexture", TextureSlot::MetallicRoughness},
     {"normalTexture", TextureSlot::Normal},
     {"emissiveTexture", TextureSlot::Emissive},
-    {"occlusionTexture", TextureSlot::Count},
+    {"occlusionTexture", TextureSlot::Occlusion},
     {"extensions/KHR_materials_specular/specularTexture", TextureSlot::SpecularFactor},
     {"extensions/KHR_materials_specular/specularColorTexture", TextureSlot::SpecularColor},
     {"extensions/KHR_materials_anisotropy/anisotropyTexture", TextureSlot::Anisotropy},

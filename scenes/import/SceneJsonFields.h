@@ -73,7 +73,8 @@ inline constexpr std::array<const char*, kTextureSlotCount> kTextureFields = {"b
                                                                               "clearcoatRoughnessTexture",
                                                                               "clearcoatNormalTexture",
                                                                               "sheenColorTexture",
-                                                                              "sheenRoughnessTexture"};
+                                                                              "sheenRoughnessTexture",
+                                                                              "occlusionTexture"};
 
 template <typename Visitor, typename... Materials>
 void visitMaterial(Visitor&& visit, Materials&... material) {

@@ -119,6 +119,17 @@ public:
         map.done("a normal map");
     }
 
+    void occlusionMap() {
+        const std::optional<JsonValue> value = object_.find("occlusionMap");
+        if (!value) return;
+        material_.occlusionStrength = 1.0f;
+        if (!value->isObject()) return setTexture(*value, TextureSlot::Occlusion);
+        JsonObject map = value->object();
+        if (const auto strength = map.find("strength")) material_.occlusionStrength = strength->single();
+        material_.texture(TextureSlot::Occlusion) = readTexture(map, images_);
+        map.done("an occlusion map");
+    }
+
     void tangents() {
         if (const auto value = object_.find("tangents"))
             material_.tangents = value->oneOf<TangentMethod>("way to derive tangents", kTangentMethods);
@@ -231,6 +242,7 @@ void readModelParameters(JsonObject& object, Material& material, Images& images)
     if (model.hasLayers) parameters.layers();
     if (!model.isLit) return;
     parameters.normalMap();
+    parameters.occlusionMap();
     parameters.tangents();
     if (const auto subsurface = object.find("subsurface")) readSubsurface(*subsurface, material.subsurface);
 }

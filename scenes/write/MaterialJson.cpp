@@ -64,6 +64,12 @@ public:
         if (material_.normalMapSpace == NormalMapSpace::Tangent) map["scale"] = number(material_.normalScale);
     }
 
+    void occlusionMap() {
+        if (material_.texture(TextureSlot::Occlusion).image == kNone) return;
+        Json& map = json_["occlusionMap"] = textureJson(material_.texture(TextureSlot::Occlusion));
+        map["strength"] = number(material_.occlusionStrength);
+    }
+
     void anisotropy() {
         if (material_.anisotropyStrength == 0.0f) return;
         factor("anisotropyStrength", material_.anisotropyStrength);
@@ -141,6 +147,7 @@ Json byKeys(const Material& material) {
     if (model.anisotropy == Anisotropy::Strength) keys.anisotropy();
     if (model.hasLayers) keys.layers();
     if (model.isLit) keys.normalMap();
+    if (model.isLit) keys.occlusionMap();
     if (model.isLit && material.tangents != TangentMethod::MikkTSpace)
         json["tangents"] = scenejson::nameOf(material.tangents);
     if (model.isLit && material.subsurface != Subsurface()) json["subsurface"] = subsurfaceJson(material.subsurface);

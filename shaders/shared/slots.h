@@ -38,26 +38,26 @@ SHARED_BEGIN
 #define STORAGE_LIGHTS 7
 
 // Texture units. OpenGL 4.5 guarantees that a stage samples 16 of at least 80; drivers let it sample 32. What needs no
-// environment keeps to 16, and programs that never sample both share a number: renderer/gpu/Program.h refuses one that
-// samples more than the driver lets it.
+// environment, and so no occlusion texture, keeps to 16, and programs that never sample both share a number:
+// renderer/gpu/Program.h refuses one that samples more than the driver lets it.
 #define TEXTURE_UNITS_A_STAGE 32
 
 // What lights, in forward and deferred alike. Tiles and cells of light lists are storage blocks: a pixel reads one of
 // each, where it reads lights and entries in its loop. Deferred has a unit left for the tiles.
-#define TEXTURE_UNIT_LIGHTS 13
-#define TEXTURE_UNIT_SHADOWS 14
-#define TEXTURE_UNIT_LIGHT_ENTRIES 15
-#define TEXTURE_UNIT_ENVIRONMENT 16
-#define TEXTURE_UNIT_ENVIRONMENT_SAMPLES 17
-#define TEXTURE_UNIT_ENVIRONMENT_FILTERED 18
-#define TEXTURE_UNIT_LOBES 19
+#define TEXTURE_UNIT_LIGHTS 14
+#define TEXTURE_UNIT_SHADOWS 15
+#define TEXTURE_UNIT_LIGHT_ENTRIES 16
+#define TEXTURE_UNIT_ENVIRONMENT 17
+#define TEXTURE_UNIT_ENVIRONMENT_SAMPLES 18
+#define TEXTURE_UNIT_ENVIRONMENT_FILTERED 19
+#define TEXTURE_UNIT_LOBES 20
 
 // What draws surfaces: the slots of scenes::TextureSlot, whose numbers TEXTURE_SLOT_<NAME> follow from its table
 // (renderer/frame/Features.cpp).
-#define TEXTURE_SLOT_COUNT 13
+#define TEXTURE_SLOT_COUNT 14
 
 // What lights the texels of an object (passes/diffusion_light.frag): it reads no light lists.
-#define TEXTURE_UNIT_TRIANGLE_NORMALS 15
+#define TEXTURE_UNIT_TRIANGLE_NORMALS 16
 
 // What reads stored surfaces and pictures.
 #define TEXTURE_UNIT_GBUFFER 0 // to 7
@@ -80,7 +80,7 @@ SHARED_BEGIN
 static_assert(TEXTURE_SLOT_COUNT <= TEXTURE_UNIT_LIGHTS, "lights would hide a material's texture");
 static_assert(TEXTURE_UNIT_GBUFFER + 8 <= TEXTURE_UNIT_DEPTH && TEXTURE_UNIT_LIGHT_TILES < TEXTURE_UNIT_LIGHTS,
               "a pass that lights stored surfaces samples them and lights");
-static_assert(TEXTURE_UNIT_LIGHT_ENTRIES < 16, "more units than OpenGL 4.5 guarantees a stage");
+static_assert(TEXTURE_UNIT_LIGHT_ENTRIES < 17, "with one left out, more than OpenGL 4.5 guarantees a stage");
 #endif
 
 SHARED_END

@@ -237,6 +237,35 @@ TEST_F(Environment, aMatteBallShowsTheIrradianceOfOneBrightTexel) {
     }
 }
 
+TEST_F(Environment, occlusionDimsItsLightAlone) {
+    scenes::Material gloss;
+    gloss.metallic = 0.3f;
+    gloss.perceptualRoughness = 0.6f;
+    scenes::Scene open = test::quadScene(gloss);
+    open.environment = even(0.8);
+    open.lights = {test::pointLight({0.0, 0.0, 2.0}, 3.0f)};
+    scenes::Scene dimmed = open;
+    dimmed.images.push_back(test::floatImage(glm::vec4(0.4f, 1.0f, 1.0f, 1.0f)));
+    dimmed.materials[0].texture(scenes::TextureSlot::Occlusion).image = int(dimmed.images.size()) - 1;
+    dimmed.materials[0].occlusionStrength = 0.5f;
+    for (const EnvironmentLight how : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled, EnvironmentLight::Off}) {
+        const auto middle = [&](const scenes::Scene& scene) {
+            const std::vector<float> seen = rendered(scene, how, 3, 64).radiance;
+            return double(seen[4 * 4]);
+        };
+        scenes::Scene dark = open;
+        dark.environment.reset();
+        const double lamps = middle(dark), all = middle(open);
+        // 1 + 0.5 (0.4 - 1), in 255 steps.
+        EXPECT_NEAR(middle(dimmed), lamps + (all - lamps) * std::round(0.7 * 255.0) / 255.0, 1e-6) << infoOf(how).name;
+        if (how == EnvironmentLight::Off) {
+            EXPECT_EQ(middle(dimmed), lamps);
+        } else {
+            EXPECT_GT(all, 1.1 * lamps);
+        }
+    }
+}
+
 TEST_F(Environment, aMirrorBallShowsEachDirectionWhereItLies) {
     // Squares of 8 x 8 texels: away from their edges a mirror shows black or white.
     scenes::Material mirror;

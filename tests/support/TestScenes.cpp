@@ -106,6 +106,8 @@ void addLobes(std::vector<Material>& materials) {
     coated.texture(TextureSlot::Clearcoat) = textured(kColors);
     coated.texture(TextureSlot::ClearcoatRoughness) = textured(kColors);
     coated.texture(TextureSlot::ClearcoatNormal) = textured(kNormals);
+    coated.texture(TextureSlot::Occlusion) = textured(kColors);
+    coated.occlusionStrength = 0.7f;
     coated.texture(TextureSlot::ClearcoatNormal).transform = {{0.2f, 0.1f}, {1.0f, -1.0f}, 0.5f};
     Material& cloth = add(MaterialModel::MetallicRoughness, "cloth", {0.2f, 0.3f, 0.6f});
     cloth.metallic = 0.0f;

@@ -105,7 +105,7 @@ struct Diffusion::Surfaces {
         const SurfacePoint surface = surfaceAt(hit, textures);
         const glm::dvec3 front = frontOf(hit);
         glm::dvec3 sum(0.0);
-        if (surroundings.lights()) sum += surroundings.irradiance(surface.normal);
+        if (surroundings.lights()) sum += surface.openness * surroundings.irradiance(surface.normal);
         for (const ShiningLight& light : lights) {
             const Incident incident = incidentAt(light, pointRWS);
             if (incident.irradiance == glm::dvec3(0.0)) continue;

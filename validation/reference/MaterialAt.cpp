@@ -72,6 +72,7 @@ SurfacePoint surfaceAt(const Hit& hit, const Textures& textures) {
     point.model = material.model;
     point.color = glm::dvec3(base);
     point.opacity = std::clamp(base.a, 0.0, 1.0);
+    point.openness = std::lerp(1.0, texel(TextureSlot::Occlusion).r, double(material.occlusionStrength));
     point.metallic = double(material.metallic) * roughnessMetallic.b;
     const scenes::MaterialModelInfo& model = scenes::infoOf(material.model);
     if (model.roughness) {

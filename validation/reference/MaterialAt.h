@@ -22,6 +22,7 @@ struct SurfacePoint {
     double ior = 1.5;              ///< n2/n1
     double specularFactor = 1.0;   ///< KHR_materials_specular
     glm::dvec3 specularColor{1.0}; ///< k_s, or the tint of the dielectric reflectance
+    double openness = 1.0;         ///< 0..1, the share of the environment's light that arrives
     glm::dvec3 emission{0.0};      ///< radiance that needs no light, without the unlit colour
     glm::dvec3 normal{0.0};        ///< unit, world axes: the one that is lit
     glm::dvec3 tangent{0.0};       ///< unit, at right angles to it, where the lobe has a direction

@@ -266,7 +266,8 @@ Surroundings::Answer Surroundings::on(const SurfacePoint& point, const glm::dvec
         squares += ofPart * ofPart;
     }
     const glm::dvec3 mean = sum / double(kParts);
-    return {mean, glm::max(squares / double(kParts) - mean * mean, glm::dvec3(0.0)) / (kParts - 1.0)};
+    const glm::dvec3 variance = glm::max(squares / double(kParts) - mean * mean, glm::dvec3(0.0)) / (kParts - 1.0);
+    return {point.openness * mean, point.openness * point.openness * variance};
 }
 
 void Surroundings::makeIrradiances() {

@@ -2,6 +2,7 @@
 #pragma once
 #include "shared/slots.h"
 #include "shared/environment.h"
+#include "lib/surface/surface.glsl"
 
 layout(std140, binding = UNIFORM_ENVIRONMENT) uniform EnvironmentBlock
 {
@@ -18,4 +19,14 @@ vec3 fromMapDirection(vec3 direction)
 {
     precise vec3 directionLS = direction * mat3(environment.mapFromLS); // by the transpose
     return directionLS;
+}
+
+// The share of the light that arrives at a surface, by its occlusion texture.
+float openShare(Surface surface)
+{
+#if HAS_OCCLUSION_TEXTURE
+    return decodeOpen(surface.openCode);
+#else
+    return 1.0;
+#endif
 }

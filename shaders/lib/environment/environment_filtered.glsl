@@ -213,6 +213,6 @@ vec3 environmentOnSurface(SeenSurface seen, vec2 pixel)
         light = light * (1.0 - seen.coatWeight) + seen.coatWeight * reflected * lobes.coat;
     }
 #endif
-    precise vec3 scaled = light * environment.light.x;
+    precise vec3 scaled = light * (environment.light.x * openShare(seen.surface));
     return scaled;
 }

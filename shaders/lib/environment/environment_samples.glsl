@@ -182,6 +182,6 @@ vec3 environmentOnSurface(SeenSurface seen, vec2 pixel)
                                                             seen.coatNormalLS, anyPerpendicular(seen.coatNormalLS)));
 #endif
     }
-    precise vec3 mean = sum * (environment.light.x / float(ENVIRONMENT_SAMPLES));
+    precise vec3 mean = sum * (environment.light.x * openShare(seen.surface) / float(ENVIRONMENT_SAMPLES));
     return mean;
 }

@@ -19,7 +19,11 @@ void putAlbedo(Encoding encoding, Surface surface, inout vec4 texel)
     if (encoding.isPacked)
         putRoots(surface.albedo, encoding.widths, DITHER_ALBEDO);
     else
+#ifdef GBUFFER_OCCLUSION_IN_ALBEDO
+        texel = vec4(surface.albedo, float(surface.openCode));
+#else
         texel = vec4(surface.albedo, surface.metallic);
+#endif
 }
 
 void takeAlbedo(Encoding encoding, vec4 texel, inout Surface surface)
@@ -31,6 +35,9 @@ void takeAlbedo(Encoding encoding, vec4 texel, inout Surface surface)
     surface.albedo = texel.rgb;
 #ifdef GBUFFER_SPARE_COMPONENTS
     surface.metallic = texel.a;
+#endif
+#ifdef GBUFFER_OCCLUSION_IN_ALBEDO
+    surface.openCode = uint(texel.a);
 #endif
 }
 

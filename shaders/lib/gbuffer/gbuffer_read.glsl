@@ -54,13 +54,17 @@ Surface surfaceFromGBuffer(ivec2 pixel)
 #define PACKED_CHANNEL(put, take, bit, widths) gbufferBit = bit; take(Encoding(true, widths), vec4(0.0), surface);
     GBUFFER_CHANNELS
 #ifdef GBUFFER_MARKS
-    uint mark = texelFetch(marks, pixel, 0).r;
+    uvec2 mark = texelFetch(marks, pixel, 0).rg;
+#ifdef GBUFFER_OCCLUSION
+    surface.openCode = mark[GBUFFER_OCCLUSION] & OPEN_MOST;
+    mark[GBUFFER_OCCLUSION] >>= OPEN_BITS;
+#endif
 #ifdef GBUFFER_SUBSURFACE
-    surface.subsurface = mark & uint(SUBSURFACE_MOST - 1);
-    mark >>= SUBSURFACE_BITS;
+    surface.subsurface = mark.x & uint(SUBSURFACE_MOST - 1);
+    mark.x >>= SUBSURFACE_BITS;
 #endif
 #ifdef GBUFFER_FACETS
-    surface.facetNormalLS = decodeFacet(mark);
+    surface.facetNormalLS = decodeFacet(mark.x);
 #endif
 #endif
 #ifdef GBUFFER_MATERIAL_NUMBER

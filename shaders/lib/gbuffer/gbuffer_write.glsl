@@ -18,7 +18,7 @@ layout(location = GBUFFER_WORD_TEXTURE + GBUFFER_WORDS / 4 + (GBUFFER_WORDS & 2)
 #endif
 
 #ifdef GBUFFER_MARKS
-layout(location = GBUFFER_MARKS) out uint marks;
+layout(location = GBUFFER_MARKS) out uvec2 marks; // the second where there are so many
 #endif
 
 void storeWords()
@@ -47,12 +47,15 @@ void writeGBuffer(Surface surface)
     GBUFFER_CHANNELS
     storeWords();
 #ifdef GBUFFER_MARKS
-    marks = 0u;
+    marks = uvec2(0u);
 #ifdef GBUFFER_FACETS
-    marks = surface.facetCode;
+    marks.x = surface.facetCode;
 #endif
 #ifdef GBUFFER_SUBSURFACE
-    marks = (marks << SUBSURFACE_BITS) | surface.subsurface;
+    marks.x = (marks.x << SUBSURFACE_BITS) | surface.subsurface;
+#endif
+#ifdef GBUFFER_OCCLUSION
+    marks[GBUFFER_OCCLUSION] = (marks[GBUFFER_OCCLUSION] << OPEN_BITS) | surface.openCode;
 #endif
 #endif
 }

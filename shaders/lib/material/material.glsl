@@ -76,6 +76,12 @@ void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
     surface.specular = vec3(0.0);
 #endif
 
+#if HAS_OCCLUSION_TEXTURE
+    float texel = sampleSlot(occlusionTexture, TEXTURE_SLOT_OCCLUSION, fragment).r;
+    precise float open = 1.0 + material.dielectric.w * (texel - 1.0);
+    surface.openCode = encodeOpen(open);
+#endif
+
 #if HAS_EMISSION
     precise vec3 emission = material.emissive.rgb;
 #if HAS_EMISSIVE_TEXTURE

@@ -29,6 +29,7 @@ layout(binding = TEXTURE_SLOT_CLEARCOAT_ROUGHNESS) uniform sampler2D clearcoatRo
 layout(binding = TEXTURE_SLOT_CLEARCOAT_NORMAL) uniform sampler2D clearcoatNormalTexture;
 layout(binding = TEXTURE_SLOT_SHEEN_COLOR) uniform sampler2D sheenColorTexture;
 layout(binding = TEXTURE_SLOT_SHEEN_ROUGHNESS) uniform sampler2D sheenRoughnessTexture;
+layout(binding = TEXTURE_SLOT_OCCLUSION) uniform sampler2D occlusionTexture;
 
 // What the rasteriser interpolates over a triangle.
 struct Fragment {

@@ -26,6 +26,9 @@ struct Surface {
     uint facetCode;    // of surfaces that are rasterised
     vec3 facetNormalLS; // what it says: the normal of the triangle, unit, away from the viewer
 #endif
+#if HAS_OCCLUSION_TEXTURE
+    uint openCode;     // the share of the environment's light that arrives, of OPEN_BITS
+#endif
     vec3 normalTexel;  // the normal map's texel as stored, for the view that shows it; for the view
                        // normal_object that normal, coded the same way
     float parameter;   // the one of models that HAS_PARAMETER, >= 0: p of blinn_phong
@@ -54,6 +57,22 @@ struct Viewpoint {
     float depth;     // as stored in the depth buffer
     vec2 pixel;      // window coordinates of its centre
 };
+
+// All techniques light the stored code of a share.
+const int OPEN_BITS = 8;
+const uint OPEN_MOST = (1u << OPEN_BITS) - 1u;
+
+uint encodeOpen(float share)
+{
+    precise float code = clamp(share, 0.0, 1.0) * float(OPEN_MOST) + 0.5;
+    return uint(code);
+}
+
+float decodeOpen(uint code)
+{
+    precise float share = float(code) / float(OPEN_MOST);
+    return share;
+}
 
 // The model of every surface when the scene uses only one, else the stored one.
 uint surfaceModel(uint stored)
@@ -85,6 +104,9 @@ void setNeutralLobes(inout Surface surface)
 #endif
 #if HAS_MASKING_OPTIONS
     surface.masking = MASKING_WALTER;
+#endif
+#if HAS_OCCLUSION_TEXTURE
+    surface.openCode = OPEN_MOST;
 #endif
 #if HAS_TANGENT_FRAME
     surface.tangentLS = vec3(1.0, 0.0, 0.0);

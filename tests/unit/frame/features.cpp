@@ -58,6 +58,11 @@ std::vector<Change> changes() {
         {featureOf(TextureSlot::ClearcoatNormal), texture(TextureSlot::ClearcoatNormal)},
         {featureOf(TextureSlot::SheenColor), texture(TextureSlot::SheenColor)},
         {featureOf(TextureSlot::SheenRoughness), texture(TextureSlot::SheenRoughness)},
+        {featureOf(TextureSlot::Occlusion),
+         [](scenes::Scene& scene) {
+             addTexture(scene.materials[0], TextureSlot::Occlusion);
+             scene.environment.emplace(); // which it dims
+         }},
         {Feature::TextureTransform, material([](Material& m) {
              addTexture(m, TextureSlot::BaseColor);
              m.texture(TextureSlot::BaseColor).transform.rotationRadians = 1.0f;
@@ -204,7 +209,11 @@ TEST(Features, materialsVaryByEverythingThatChangesMoreThanNormals) {
     for (std::size_t i = 0; i < scenes::kTextureSlotCount; ++i) {
         const auto slot = static_cast<TextureSlot>(i);
         const bool bends = slot == TextureSlot::Normal || slot == TextureSlot::ClearcoatNormal;
-        EXPECT_EQ(varies([&](scenes::Scene& scene) { addTexture(scene.materials[0], slot); }), !bends) << i;
+        const auto textured = [&](scenes::Scene& scene) {
+            addTexture(scene.materials[0], slot);
+            scene.environment.emplace(); // without one nothing reads occlusion
+        };
+        EXPECT_EQ(varies(textured), !bends) << i;
     }
     EXPECT_TRUE(varies([](scenes::Scene& scene) { scene.meshes[0].colors.assign(3, glm::vec4(1.0f)); }));
     EXPECT_TRUE(varies([](scenes::Scene& scene) { scene.materials[0].model = MaterialModel::MicrofacetAnisotropic; }));

@@ -172,7 +172,7 @@ TEST(PackedMaterial, exactlyTheColourSlotsAreSrgb) {
     for (const TextureSlot slot :
          {TextureSlot::Normal, TextureSlot::MetallicRoughness, TextureSlot::SpecularFactor, TextureSlot::Ior,
           TextureSlot::Anisotropy, TextureSlot::Clearcoat, TextureSlot::ClearcoatRoughness,
-          TextureSlot::ClearcoatNormal, TextureSlot::SheenRoughness})
+          TextureSlot::ClearcoatNormal, TextureSlot::SheenRoughness, TextureSlot::Occlusion})
         EXPECT_FALSE(scenes::infoOf(slot).isSrgb);
 }
 

@@ -75,6 +75,7 @@ const std::vector<Change>& changes() {
         {"material.sheenColor", [](Scene& s) { s.materials[0].sheenColor.x = 0.5f; }},
         {"material.sheenRoughness", [](Scene& s) { s.materials[0].sheenPerceptualRoughness = 0.5f; }},
         {"material.normalScale", [](Scene& s) { s.materials[0].normalScale = 0.5f; }},
+        {"material.occlusionStrength", [](Scene& s) { s.materials[0].occlusionStrength = 0.5f; }},
         {"material.normalMapSpace", [](Scene& s) { s.materials[0].normalMapSpace = NormalMapSpace::Object; }},
         {"material.tangents", [](Scene& s) { s.materials[0].tangents = TangentMethod::Lengyel; }},
         {"material.alphaMode", [](Scene& s) { s.materials[0].alphaMode = AlphaMode::Mask; }},

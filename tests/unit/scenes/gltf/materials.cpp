@@ -65,6 +65,7 @@ TEST(GltfMaterials, everyTextureLandsInItsSlot) {
         {R"({"extensions": {"KHR_materials_sheen": {"sheenColorTexture": {"index": 0}}}})", TextureSlot::SheenColor},
         {R"({"extensions": {"KHR_materials_sheen": {"sheenRoughnessTexture": {"index": 0}}}})",
          TextureSlot::SheenRoughness},
+        {R"({"occlusionTexture": {"index": 0}})", TextureSlot::Occlusion},
     };
     for (const auto& [patch, slot] : places) {
         const Material material = importedMaterial(patch);
@@ -78,13 +79,9 @@ TEST(GltfMaterials, normalScaleIsImportedExactly) {
     EXPECT_EQ(importedMaterial(R"({"normalTexture": {"index": 0}})").normalScale, 1.0f);
 }
 
-TEST(GltfMaterials, occlusionIsWarnedOf) {
-    Builder builder;
-    builder.material()["occlusionTexture"]["index"] = 0;
-    builder.addTexture();
-    const Scene scene = builder.import();
-    EXPECT_TRUE(hasWarning(scene, "occlusion textures are left out"));
-    EXPECT_TRUE(scene.images.empty());
+TEST(GltfMaterials, occlusionStrengthIsImportedExactly) {
+    EXPECT_EQ(importedMaterial(R"({"occlusionTexture": {"index": 0, "strength": 0.25}})").occlusionStrength, 0.25f);
+    EXPECT_EQ(importedMaterial(R"({"occlusionTexture": {"index": 0}})").occlusionStrength, 1.0f);
 }
 
 TEST(GltfMaterials, unlitIsASingleColor) {

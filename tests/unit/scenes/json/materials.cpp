@@ -226,6 +226,7 @@ TEST(SceneJsonMaterials, layersOfMetallicRoughnessHaveTheirParametersAndTextures
         "clearcoat": {"factor": 0.25, "texture": "pictures/specular.tga"},
         "clearcoatPerceptualRoughness": {"factor": 0.75, "texture": "pictures/normal.tga"},
         "clearcoatNormalMap": {"file": "pictures/normal.tga", "scale": 2, "texCoord": 1},
+        "occlusionMap": {"file": "pictures/albedo.tga", "strength": 0.5, "texCoord": 1},
         "sheenColor": {"factor": [0.1, 0.2, 0.3], "texture": "pictures/albedo.tga"},
         "sheenPerceptualRoughness": {"factor": 0.125, "texture": "pictures/specular.tga"})");
     const Material& material = scene.materials[0];
@@ -234,6 +235,8 @@ TEST(SceneJsonMaterials, layersOfMetallicRoughnessHaveTheirParametersAndTextures
     EXPECT_EQ(material.clearcoat, 0.25f);
     EXPECT_EQ(material.clearcoatPerceptualRoughness, 0.75f);
     EXPECT_EQ(material.clearcoatNormalScale, 2.0f);
+    EXPECT_EQ(material.occlusionStrength, 0.5f);
+    EXPECT_EQ(material.texture(TextureSlot::Occlusion).texCoordSet, 1);
     EXPECT_EQ(material.sheenColor, glm::vec3(0.1f, 0.2f, 0.3f));
     EXPECT_EQ(material.sheenPerceptualRoughness, 0.125f);
     EXPECT_EQ(redOf(scene, TextureSlot::Anisotropy), 10);

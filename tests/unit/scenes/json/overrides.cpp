@@ -143,6 +143,7 @@ TEST(SceneJsonOverrides, anOverrideThatMatchesNothingIsRefusedWithTheNearest) {
         "metallic, perceptualRoughness, ior, specularFactor, specularColor, metallicRoughnessTexture, "
         "anisotropyStrength, anisotropyRotationDegrees, anisotropyTexture, emissive, emissiveStrength, clearcoat, "
         "clearcoatPerceptualRoughness, clearcoatNormalMap, sheenColor, sheenPerceptualRoughness, normalMap, "
+        "occlusionMap, "
         "tangents, subsurface, alphaMode, alphaCutoff, doubleSided, castsShadow, fields");
     EXPECT_EQ(folder.errorOf(threeParts(R"("overrides": [{"node": "left"}])")),
               "/overrides/0/node: is overridden by nothing; add a 'material' or 'castsShadow'");
