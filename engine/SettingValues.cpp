@@ -67,6 +67,9 @@ SettingValue onOff(bool FrameSettings::*member) {
 SettingValue onOff(bool frame::DiffusionSettings::*member) {
     return onOffIn(in(member));
 }
+SettingValue onOff(bool frame::EnvironmentSettings::*member) {
+    return onOffIn(in(member));
+}
 
 SettingValue pictureSize() {
     const auto textOf = [](const glm::ivec2& size) { return fmt::format("{}x{}", size.x, size.y); };

@@ -206,6 +206,7 @@ SettingValue wholeNumber(Get get, const NumberKind& kind) {
 
 SettingValue onOff(bool frame::FrameSettings::*member);
 SettingValue onOff(bool frame::DiffusionSettings::*member);
+SettingValue onOff(bool frame::EnvironmentSettings::*member);
 SettingValue pictureSize();
 
 } // namespace tessera::engine

@@ -107,8 +107,8 @@ struct ViewWiring {
             lighting.environment->samples = all.samples;
         } else {
             lighting.environment->filtered = all.filtered;
-            lighting.environment->lobes = all.lobes;
         }
+        if (spec.usesLobeTable()) lighting.environment->lobes = all.lobes;
     }
 
     /// Spreads light over objects, each lit as a view of its own; those of which no more is seen than what is known

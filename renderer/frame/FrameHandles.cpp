@@ -222,11 +222,11 @@ EnvironmentHandles importEnvironment(graph::Graph& graph, std::span<const FrameS
     if (some(&FrameSpec::usesEnvironmentSamples))
         handles.samples = graph.import("environment_samples", graph::BufferDesc{shape.sampleBytes},
                                        environment ? &environment->samples() : nullptr);
-    if (some(&FrameSpec::usesFilteredEnvironment)) {
+    if (some(&FrameSpec::usesFilteredEnvironment))
         handles.filtered =
             graph.import("environment_filtered", shape.filtered, environment ? &environment->filtered() : nullptr);
+    if (some(&FrameSpec::usesLobeTable))
         handles.lobes = graph.import("lobe_table", shape.lobes, environment ? &environment->lobes() : nullptr);
-    }
     return handles;
 }
 

@@ -96,6 +96,7 @@ std::span<const BackdropInfo> backdropTable();
 struct EnvironmentSettings {
     EnvironmentLight light = EnvironmentLight::SplitSum;
     int samples = 64;             ///< of a pixel of each kind, one of kEnvironmentSamples
+    bool compensates = false;     ///< rough lobes of metallic_roughness for light that meets them more than once
     float rotationDegrees = 0.0f; ///< added to the scene's own
     float intensity = 1.0f;       ///< >= 0, multiplies the scene's own
     Backdrop backdrop = Backdrop::Sharp;

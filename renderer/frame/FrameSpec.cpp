@@ -207,8 +207,10 @@ Defines frameDefines(const FrameSpec& spec) {
         defines.emplace_back("DIFFUSED_COLUMNS", std::to_string(cells.columns));
         defines.emplace_back("DIFFUSED_ROWS", std::to_string(cells.rows));
     }
-    if (spec.features[Feature::Environment])
+    if (spec.features[Feature::Environment]) {
         defines.emplace_back("ENVIRONMENT_LIGHT", std::to_string(int(spec.settings.environment.light)));
+        defines.emplace_back("ENVIRONMENT_COMPENSATION", spec.compensatesLobes() ? "1" : "0");
+    }
     if (spec.usesEnvironmentSamples())
         defines.emplace_back("ENVIRONMENT_SAMPLES", std::to_string(spec.settings.environment.samples));
     if (spec.tracesShadows()) defines.emplace_back("CASTER_STEPS", std::to_string(casterSteps(spec.shadowSamples)));
@@ -271,6 +273,15 @@ bool FrameSpec::usesEnvironmentSamples() const {
 
 bool FrameSpec::usesEnvironmentMap() const {
     return usesEnvironmentSamples() || (showsEnvironment && settings.environment.backdrop == Backdrop::Sharp);
+}
+
+bool FrameSpec::usesLobeTable() const {
+    return features[Feature::Environment] && (!usesEnvironmentSamples() || compensatesLobes());
+}
+
+bool FrameSpec::compensatesLobes() const {
+    return features[Feature::Environment] && settings.environment.compensates &&
+           features[scenes::MaterialModel::MetallicRoughness];
 }
 
 bool FrameSpec::usesFilteredEnvironment() const {

@@ -47,6 +47,8 @@ struct FrameSpec {
     bool usesEnvironmentMap() const; ///< at full resolution
     bool usesEnvironmentSamples() const;
     bool usesFilteredEnvironment() const;
+    bool usesLobeTable() const;
+    bool compensatesLobes() const;
 
     /// Whether shadows follow rays through the casters.
     bool tracesShadows() const { return features[Feature::Shadows] && !features[Feature::ShadowMaps]; }

@@ -21,6 +21,7 @@ reference::Settings referenceSettings(const scenes::Scene& scene, const frame::F
     // The noise of rays; maps are allowed none.
     result.shadowSamples = infoOf(settings.shadowFilter).usesMaps ? 0 : settings.shadowSamples;
     result.environmentLights = settings.environment.light != frame::EnvironmentLight::Off;
+    result.environmentCompensates = settings.environment.compensates;
     result.environmentIsSeen = scene.environment && settings.environment.backdrop != frame::Backdrop::Off;
     result.environmentIntensity = double(settings.environment.intensity);
     result.environmentRotationDegrees = double(settings.environment.rotationDegrees);

@@ -38,9 +38,10 @@ struct Settings {
     std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
     scenes::ShadowRequest shadows;
     scenes::SubsurfaceRequest subsurface;
-    int diffusionPoints = 256;     ///< of the surface around a point that light spreads to
-    bool environmentLights = true; ///< surfaces, where the scene has an environment
-    bool environmentIsSeen = true; ///< where nothing is drawn
+    int diffusionPoints = 256;           ///< of the surface around a point that light spreads to
+    bool environmentLights = true;       ///< surfaces, where the scene has an environment
+    bool environmentCompensates = false; ///< rough metallic_roughness for light that meets it more than once
+    bool environmentIsSeen = true;       ///< where nothing is drawn
     double environmentIntensity = 1.0, environmentRotationDegrees = 0.0; ///< besides the scene's own
     int environmentPaths = 1024;                                         ///< of each kind, from every surface
     int shadowRings = 16;   ///< on the disk of a light with a size, four times as many rays each

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "validation/reference/Lobes.h"
+#include "validation/reference/Microfacet.h"
 #include "validation/reference/Reflectance.h"
 #include "validation/reference/TangentFrame.h"
 
@@ -117,6 +118,7 @@ Surroundings::Surroundings(const scenes::Scene& scene, const Settings& settings)
     intensity_ = double(scene.environment->intensity) * settings.environmentIntensity;
     turnRadians_ = glm::radians(double(scene.environment->rotationDegrees) + settings.environmentRotationDegrees);
     isSeen_ = settings.environmentIsSeen;
+    compensates_ = settings.environmentCompensates;
     lights_ = settings.environmentLights && intensity_ > 0.0;
     if (!lights_) return;
     makeDensities();
@@ -215,6 +217,53 @@ double Surroundings::mapDensity(const glm::dvec3& direction) const {
     return densities_[std::size_t(row) * std::size_t(map_->width) + std::size_t(column)];
 }
 
+namespace {
+
+/// What comes out again, in all directions alike, of light that meets a rough lobe more than once: a BRDF. Integrates
+/// the lobe itself, once as it is and once of a metal that absorbs nothing.
+glm::dvec3 bouncesOf(const SurfacePoint& point, const glm::dvec3& toViewer) {
+    if (scenes::infoOf(point.model).microsurface != scenes::Microsurface::MetallicRoughness ||
+        !(glm::dot(point.normal, toViewer) > 0.0))
+        return glm::dvec3(0.0);
+    if (point.tangent != glm::dvec3(0.0) && point.alpha != point.alphaAcross) return glm::dvec3(0.0); // by definition
+    SurfacePoint bare = point, white;
+    bare.coat = 0.0;
+    bare.sheenColor = glm::dvec3(0.0);
+    white = bare;
+    white.color = glm::dvec3(1.0);
+    white.metallic = 1.0;
+    const ByMicrofacets lobe(glm::dvec2(point.alpha, point.alphaAcross), point.normal, point.tangent, toViewer);
+    constexpr int kSide = 48;
+    glm::dvec3 once(0.0), whole(0.0);
+    for (int i = 0; i < kSide; ++i)
+        for (int j = 0; j < kSide; ++j) {
+            const glm::dvec3 direction = lobe.direction({(i + 0.5) / kSide, (j + 0.5) / kSide});
+            const double density = lobe.density(direction) * kSide * kSide;
+            if (!(density > 0.0)) continue;
+            once +=
+                (reflected(bare, direction, toViewer, true) - reflected(bare, direction, toViewer, false)) / density;
+            whole += reflected(white, direction, toViewer, true) / density;
+        }
+    const double contrast = (point.ior - 1.0) / (point.ior + 1.0);
+    const double grazing = std::lerp(point.specularFactor, 1.0, point.metallic);
+    const double lost = std::max(1.0 - whole.r, 0.0);
+    glm::dvec3 bounces(0.0);
+    for (int c = 0; c < 3; ++c) {
+        const double dielectric = std::min(contrast * contrast * point.specularColor[c], 1.0) * point.specularFactor;
+        const double straight = std::lerp(dielectric, point.color[c], point.metallic);
+        const double mean = std::min(straight + (grazing - straight) / 21.0, 1.0); // of Schlick's factor by the cosine
+        bounces[c] = once[c] * mean * lost / (1.0 - mean * lost) / pi;
+    }
+    const double sheen = std::max({point.sheenColor.x, point.sheenColor.y, point.sheenColor.z});
+    const double cosView = glm::dot(point.normal, toViewer);
+    bounces *= std::max(1.0 - sheen * (sheen > 0.0 ? sheenAlbedo(point.sheenAlpha, cosView) : 0.0), 0.0);
+    if (point.coat > 0.0)
+        bounces *= 1.0 - point.coat * fresnelSchlick(0.04, 1.0, std::abs(glm::dot(point.coatNormal, toViewer)));
+    return bounces;
+}
+
+} // namespace
+
 Surroundings::Answer Surroundings::on(const SurfacePoint& point, const glm::dvec3& toViewer, bool specular,
                                       bool onlyLobes, std::uint32_t seed) const {
     const ByCosine cosine(point.normal);
@@ -231,10 +280,12 @@ Surroundings::Answer Surroundings::on(const SurfacePoint& point, const glm::dvec
     std::vector<const Strategy*> strategies{&cosine};
     for (const auto& lobe : lobes) strategies.push_back(lobe.get());
 
+    const glm::dvec3 bounces = compensates_ && specular ? bouncesOf(point, toViewer) : glm::dvec3(0.0);
     const auto side = int(std::ceil(std::sqrt(double(paths_) / kParts)));
     const auto worth = [&](const glm::dvec3& direction, double ownDensity) {
         glm::dvec3 share = reflected(point, direction, toViewer, specular);
         if (onlyLobes) share -= reflected(point, direction, toViewer, false);
+        share += bounces * std::max(glm::dot(point.normal, direction), 0.0);
         if (share == glm::dvec3(0.0) || !(ownDensity > 0.0)) return glm::dvec3(0.0);
         const double ofMap = mapDensity(direction);
         double squares = ofMap * ofMap;

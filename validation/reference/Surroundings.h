@@ -47,7 +47,7 @@ private:
 
     const scenes::Image* map_ = nullptr;
     double intensity_ = 0.0, turnRadians_ = 0.0;
-    bool lights_ = false, isSeen_ = false;
+    bool lights_ = false, isSeen_ = false, compensates_ = false;
     int paths_ = 0;
     std::vector<double> rowsSummed_, columnsSummed_; ///< shares of rows, and of the columns of each row, up to each
     std::vector<double> densities_;                  ///< by texel, 1/sr

@@ -2,11 +2,9 @@
 // lobe sees on average, times what the lobe reflects of even light. Source: Karis 2013, "Real Shading in Unreal
 // Engine 4". Exact for light that is the same everywhere; elsewhere its error is stated in docs/environment.md.
 #pragma once
-#include "shared/lobe_table.h"
 #include "lib/environment/filtered_map.glsl"
+#include "lib/environment/lobes.glsl"
 #include "lib/reflectance/reflectance.glsl"
-
-layout(binding = TEXTURE_UNIT_LOBES) uniform sampler2DArray lobeTable; // renderer/frame/LobeTable.h
 
 vec3 irradianceOn(vec3 normalLS)
 {
@@ -27,13 +25,6 @@ vec3 filteredLight(vec3 directionLS, float alpha)
     return light;
 }
 
-vec4 lobeTexel(float cosine, float alpha, int layer)
-{
-    precise vec2 place = sqrt(clamp(vec2(cosine, alpha), 0.0, 1.0));
-    precise vec2 texel = (place * float(LOBE_TABLE_SIDE - 1) + 0.5) / float(LOBE_TABLE_SIDE);
-    return textureLod(lobeTable, vec3(texel, float(layer)), 0.0);
-}
-
 // Where most of a lobe's light comes from: the rougher, the nearer to the normal. Source: Lagarde and de Rousiers 2014,
 // "Moving Frostbite to Physically Based Rendering", section 4.9.3.
 vec3 lobeAxis(vec3 normal, vec3 toViewer, float alpha)
@@ -52,24 +43,6 @@ bool hasFilteredLobe(SeenSurface seen)
 #else
     return false;
 #endif
-}
-
-// Of a lobe that is as wide as the surface's; one alpha in place of two, where the table has no more.
-float lobeAlpha(Surface surface)
-{
-#if HAS_BLINN_PHONG
-    if (surface.model == MODEL_BLINN_PHONG) {
-        precise float alpha = min(sqrt(2.0 / (surface.parameter + 2.0)), 1.0);
-        return alpha;
-    }
-#endif
-#if HAS_TANGENT_FRAME
-    if (isAnisotropic(surface)) {
-        precise float mean = sqrt(surface.alpha * surface.alphaBitangent);
-        return mean;
-    }
-#endif
-    return surface.alpha;
 }
 
 #if HAS_TANGENT_FRAME
@@ -171,6 +144,9 @@ vec3 metallicRoughnessLight(SeenSurface seen, vec3 irradiance, vec3 lobeLight)
     precise vec3 diffuse =
         seen.diffuse * (vec3(1.0) - seen.f0 - seen.fresnelRise * lobe.a) * enteringIrradiance(seen, irradiance);
     precise vec3 highlight = (seen.f0 * lobe.r + seen.fresnelRise * lobe.g) * lobeLight;
+#if ENVIRONMENT_COMPENSATION
+    highlight += lostToBounces(seen) * (irradiance * kInversePi);
+#endif
 #if HAS_SHEEN
     if (strongestSheen(surface) > 0.0) {
         vec2 sheen = lobeTexel(max(seen.nv, 0.0), surface.sheenAlpha, LOBE_LAYER_SHEEN).rg;

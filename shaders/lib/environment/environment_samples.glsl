@@ -4,6 +4,9 @@
 // Sampling Techniques for Monte Carlo Rendering", the balance heuristic.
 #pragma once
 #include "lib/environment/environment_map.glsl"
+#if ENVIRONMENT_COMPENSATION
+#include "lib/environment/lobes.glsl"
+#endif
 #include "lib/maths/random.glsl"
 #include "lib/reflectance/reflectance.glsl"
 
@@ -139,20 +142,40 @@ float surfaceDensity(SeenSurface seen, vec3 toLight)
     return density;
 }
 
-// What a sample of a direction is worth, to be divided by the number of samples of each kind.
-vec3 sampledLight(SeenSurface seen, vec3 toLight, vec3 radiance, float mapDensity)
+// What layers above leave of lostToBounces(), a BRDF.
+vec3 bouncesBelowLayers(SeenSurface seen)
 {
-    vec3 brdfCosine = layeredBrdfCosine(seen, toLight);
+#if ENVIRONMENT_COMPENSATION && HAS_GGX_MODELS
+    precise vec3 bounces = lostToBounces(seen) * kInversePi;
+#if HAS_SHEEN
+    bounces *= max(1.0 - strongestSheen(seen.surface) * sheenAlbedo(seen.surface.sheenAlpha, max(seen.nv, 0.0)), 0.0);
+#endif
+#if HAS_CLEARCOAT
+    bounces *= 1.0 - seen.coatWeight;
+#endif
+    return bounces;
+#else
+    return vec3(0.0);
+#endif
+}
+
+// What a sample of a direction is worth, to be divided by the number of samples of each kind.
+vec3 sampledLight(SeenSurface seen, vec3 bounces, vec3 toLight, vec3 radiance, float mapDensity)
+{
+    precise vec3 brdfCosine = layeredBrdfCosine(seen, toLight);
+#if ENVIRONMENT_COMPENSATION
+    brdfCosine += bounces * max(dot(seen.surface.normalLS, toLight), 0.0);
+#endif
     if (brdfCosine == vec3(0.0) || radiance == vec3(0.0)) return vec3(0.0);
     precise float density = mapDensity + surfaceDensity(seen, toLight);
     precise vec3 light = brdfCosine * (radiance / density);
     return light;
 }
 
-vec3 sampledDirection(SeenSurface seen, vec3 toLight)
+vec3 sampledDirection(SeenSurface seen, vec3 bounces, vec3 toLight)
 {
     vec4 found = mapRadiance(mapDirection(toLight));
-    return sampledLight(seen, toLight, found.rgb, found.a);
+    return sampledLight(seen, bounces, toLight, found.rgb, found.a);
 }
 
 // Radiance towards the viewer of the map's light, before its intensity.
@@ -168,17 +191,18 @@ vec3 environmentOnSurface(SeenSurface seen, vec2 pixel)
     vec3 tangent = anyPerpendicular(normal);
 #endif
     bool hasLobe = hasSampledLobe(seen);
+    vec3 bounces = bouncesBelowLayers(seen);
     precise vec3 sum = vec3(0.0);
     for (int k = 0; k < ENVIRONMENT_SAMPLES; ++k) {
         vec4 ofMap = texelFetch(environmentSamples, (first + k) * ENVIRONMENT_SAMPLE_TEXELS);
         vec4 light = texelFetch(environmentSamples, (first + k) * ENVIRONMENT_SAMPLE_TEXELS + 1);
-        if (ofMap.w > 0.0) sum += sampledLight(seen, fromMapDirection(ofMap.xyz), light.rgb, ofMap.w);
+        if (ofMap.w > 0.0) sum += sampledLight(seen, bounces, fromMapDirection(ofMap.xyz), light.rgb, ofMap.w);
         vec2 point = evenPoint(random.xy, k);
-        sum += sampledDirection(seen, cosineDirection(point, normal, tangent));
-        if (hasLobe) sum += sampledDirection(seen, lobeDirection(point, seen, tangent));
+        sum += sampledDirection(seen, bounces, cosineDirection(point, normal, tangent));
+        if (hasLobe) sum += sampledDirection(seen, bounces, lobeDirection(point, seen, tangent));
 #if HAS_CLEARCOAT && !SPECULAR_OFF
         if (seen.surface.coatFactor > 0.0 && seen.coatNv > 0.0)
-            sum += sampledDirection(seen, visibleReflection(point, vec2(seen.surface.coatAlpha), seen.toViewer,
+            sum += sampledDirection(seen, bounces, visibleReflection(point, vec2(seen.surface.coatAlpha), seen.toViewer,
                                                             seen.coatNormalLS, anyPerpendicular(seen.coatNormalLS)));
 #endif
     }

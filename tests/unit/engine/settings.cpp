@@ -42,13 +42,13 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
                      exposureEV, toneMap] = settings;
         const auto& [method, tilePixels, builder, normals, lanes] = culling;
         const auto& [sideTexels, gaussians, half] = diffusion;
-        const auto& [light, lightSamples, rotationDegrees, intensity, backdrop] = environment;
+        const auto& [light, lightSamples, compensates, rotationDegrees, intensity, backdrop] = environment;
         const auto& [widthTexels, resolutionTexels, budgetMiB, cascades] = shadowMaps;
         return std::pair(std::tuple(technique, sizePixels, samples, camera, timeSeconds, layout, view, filter, space,
                                     prune, specular, rangeTolerance, soloLight, shadows, shadowFilter, shadowSamples,
                                     widthTexels, resolutionTexels, budgetMiB, cascades, subsurface, sideTexels,
-                                    gaussians, half, light, lightSamples, rotationDegrees, intensity, backdrop, method,
-                                    tilePixels, builder, normals, lightOn, exposureEV, toneMap),
+                                    gaussians, half, light, lightSamples, compensates, rotationDegrees, intensity,
+                                    backdrop, method, tilePixels, builder, normals, lightOn, exposureEV, toneMap),
                          std::tuple(wholePixels, samplesGiven, eyeOffsetWS, softwareBackend, display, lanes));
     };
     const auto differ = []<std::size_t... kIndex>(const auto& x, const auto& y, std::index_sequence<kIndex...>) {
